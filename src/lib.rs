@@ -1,0 +1,7 @@
+//! Implicit second-order Material Point Method for geotechnics.
+
+pub mod error;
+pub mod material;
+pub mod mesh;
+pub mod points;
+pub mod tensor;

@@ -1,0 +1,83 @@
+//! The mesh: nodes, cells of any mixture of kinds, and the named groups of the `.geo`.
+
+pub mod shape;
+
+use shape::CellKind;
+
+/// A mesh in `D` dimensions. Lengths in m.
+#[derive(Clone, Debug, Default)]
+pub struct Mesh<const D: usize> {
+    /// Node coordinates [m].
+    pub nodes: Vec<[f64; D]>,
+    /// Cells of dimension `D`, each in exactly one region.
+    pub cells: Cells,
+    /// Names of the physical groups of dimension `D`; `cells.region` points here.
+    pub regions: Vec<String>,
+    /// Named groups of lower dimension: curves (and surfaces in 3D), and points.
+    pub groups: Vec<Group>,
+}
+
+/// Cells in flat arrays; cell `c` has the nodes `nodes[offset[c]..offset[c + 1]]` in Gmsh's order.
+#[derive(Clone, Debug)]
+pub struct Cells {
+    pub kind: Vec<CellKind>,
+    /// Index into [`Mesh::regions`].
+    pub region: Vec<u16>,
+    pub offset: Vec<u32>,
+    pub nodes: Vec<u32>,
+}
+
+/// A named physical curve, surface (3D) or point: its facets and the nodes on it.
+#[derive(Clone, Debug)]
+pub struct Group {
+    pub name: String,
+    /// 0 for a point, 1 for a curve, 2 for a surface bounding a solid.
+    pub dimension: usize,
+    /// Facets in Gmsh's node order; a point group has `Point1` facets.
+    pub facets: Vec<(CellKind, Vec<u32>)>,
+    /// The nodes of the facets, sorted, each once.
+    pub nodes: Vec<u32>,
+}
+
+impl Default for Cells {
+    fn default() -> Self {
+        Self { kind: Vec::new(), region: Vec::new(), offset: vec![0], nodes: Vec::new() }
+    }
+}
+
+impl Cells {
+    /// Appends a cell.
+    pub fn push(&mut self, kind: CellKind, region: u16, nodes: &[u32]) {
+        debug_assert_eq!(kind.node_count(), nodes.len());
+        self.kind.push(kind);
+        self.region.push(region);
+        self.nodes.extend_from_slice(nodes);
+        self.offset.push(self.nodes.len() as u32);
+    }
+
+    pub fn len(&self) -> usize {
+        self.kind.len()
+    }
+
+    pub fn is_empty(&self) -> bool {
+        self.kind.is_empty()
+    }
+
+    /// The node numbers of cell `c`.
+    pub fn nodes(&self, c: usize) -> &[u32] {
+        &self.nodes[self.offset[c] as usize..self.offset[c + 1] as usize]
+    }
+}
+
+impl<const D: usize> Mesh<D> {
+    /// The group called `name`, if the mesh has one.
+    pub fn group(&self, name: &str) -> Option<&Group> {
+        self.groups.iter().find(|g| g.name == name)
+    }
+
+    /// The coordinates of the nodes of cell `c`, in the cell's order, into `out` (cleared first).
+    pub fn cell_coordinates(&self, c: usize, out: &mut Vec<[f64; D]>) {
+        out.clear();
+        out.extend(self.cells.nodes(c).iter().map(|&n| self.nodes[n as usize]));
+    }
+}

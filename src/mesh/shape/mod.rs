@@ -1,0 +1,250 @@
+//! Shape functions, one cell kind a file, in Gmsh's node order and parametric coordinates.
+
+mod line;
+mod q4;
+mod q8;
+mod q9;
+mod quadrature;
+mod t3;
+mod t6;
+
+pub use quadrature::rule;
+
+/// Upper bound of the nodes of a cell, for buffers on the stack (27: a quadratic brick).
+pub const MAX_NODES: usize = 27;
+
+/// The kinds of cells and facets. Adding one: a file beside this one, a variant, a line in each `match`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum CellKind {
+    Point1,
+    Line2,
+    Line3,
+    T3,
+    T6,
+    Q4,
+    Q8,
+    Q9,
+}
+
+/// One kind of cell.
+pub trait Shape {
+    const NODES: usize;
+    const DIMENSION: usize;
+    /// Shape functions at `xi` (the first `DIMENSION` entries count) into `n[..NODES]`.
+    fn values(xi: &[f64; 3], n: &mut [f64]);
+    /// Their derivatives with respect to `xi` into `dn[..NODES]`.
+    fn derivatives(xi: &[f64; 3], dn: &mut [[f64; 3]]);
+}
+
+/// Runs an expression with `$S` standing for the shape of a kind.
+macro_rules! with_shape {
+    ($kind:expr, $S:ident => $body:expr) => {
+        match $kind {
+            CellKind::Point1 => {
+                type $S = line::Point1;
+                $body
+            }
+            CellKind::Line2 => {
+                type $S = line::Line2;
+                $body
+            }
+            CellKind::Line3 => {
+                type $S = line::Line3;
+                $body
+            }
+            CellKind::T3 => {
+                type $S = t3::T3;
+                $body
+            }
+            CellKind::T6 => {
+                type $S = t6::T6;
+                $body
+            }
+            CellKind::Q4 => {
+                type $S = q4::Q4;
+                $body
+            }
+            CellKind::Q8 => {
+                type $S = q8::Q8;
+                $body
+            }
+            CellKind::Q9 => {
+                type $S = q9::Q9;
+                $body
+            }
+        }
+    };
+}
+
+impl CellKind {
+    pub const ALL: [Self; 8] =
+        [Self::Point1, Self::Line2, Self::Line3, Self::T3, Self::T6, Self::Q4, Self::Q8, Self::Q9];
+
+    pub fn node_count(self) -> usize {
+        with_shape!(self, S => S::NODES)
+    }
+
+    pub fn dimension(self) -> usize {
+        with_shape!(self, S => S::DIMENSION)
+    }
+
+    /// Shape functions at `xi` into `n[..node_count]`.
+    pub fn values(self, xi: &[f64; 3], n: &mut [f64]) {
+        with_shape!(self, S => S::values(xi, n))
+    }
+
+    /// Derivatives with respect to `xi` into `dn[..node_count]`.
+    pub fn derivatives(self, xi: &[f64; 3], dn: &mut [[f64; 3]]) {
+        with_shape!(self, S => S::derivatives(xi, dn))
+    }
+
+    /// Whether the parametric domain is a simplex (triangle) rather than a box.
+    pub fn is_simplex(self) -> bool {
+        matches!(self, Self::T3 | Self::T6)
+    }
+
+    /// Corner nodes, which come first in a cell.
+    pub fn corner_count(self) -> usize {
+        match self {
+            Self::Point1 => 1,
+            Self::Line2 | Self::Line3 => 2,
+            Self::T3 | Self::T6 => 3,
+            Self::Q4 | Self::Q8 | Self::Q9 => 4,
+        }
+    }
+
+    /// Polynomial order of the edges.
+    pub fn order(self) -> usize {
+        match self {
+            Self::Point1 => 0,
+            Self::Line2 | Self::T3 | Self::Q4 => 1,
+            Self::Line3 | Self::T6 | Self::Q8 | Self::Q9 => 2,
+        }
+    }
+
+    /// The facets (edges of a plane cell), as a kind and local node numbers, counter-clockwise.
+    pub fn facets(self) -> (Self, &'static [&'static [usize]]) {
+        match self {
+            Self::T3 => (Self::Line2, &[&[0, 1], &[1, 2], &[2, 0]]),
+            Self::T6 => (Self::Line3, &[&[0, 1, 3], &[1, 2, 4], &[2, 0, 5]]),
+            Self::Q4 => (Self::Line2, &[&[0, 1], &[1, 2], &[2, 3], &[3, 0]]),
+            Self::Q8 | Self::Q9 => (Self::Line3, &[&[0, 1, 4], &[1, 2, 5], &[2, 3, 6], &[3, 0, 7]]),
+            Self::Line2 | Self::Line3 => (Self::Point1, &[&[0], &[1]]),
+            Self::Point1 => (Self::Point1, &[]),
+        }
+    }
+
+    /// Parametric coordinates of the nodes.
+    pub fn node_coordinates(self) -> &'static [[f64; 3]] {
+        const T: [[f64; 3]; 6] =
+            [[0., 0., 0.], [1., 0., 0.], [0., 1., 0.], [0.5, 0., 0.], [0.5, 0.5, 0.], [0., 0.5, 0.]];
+        const Q: [[f64; 3]; 9] = [
+            [-1., -1., 0.],
+            [1., -1., 0.],
+            [1., 1., 0.],
+            [-1., 1., 0.],
+            [0., -1., 0.],
+            [1., 0., 0.],
+            [0., 1., 0.],
+            [-1., 0., 0.],
+            [0., 0., 0.],
+        ];
+        const L: [[f64; 3]; 3] = [[-1., 0., 0.], [1., 0., 0.], [0., 0., 0.]];
+        match self {
+            Self::Point1 => &L[2..],
+            Self::Line2 => &L[..2],
+            Self::Line3 => &L,
+            Self::T3 => &T[..3],
+            Self::T6 => &T,
+            Self::Q4 => &Q[..4],
+            Self::Q8 => &Q[..8],
+            Self::Q9 => &Q,
+        }
+    }
+
+    /// The parametric centre.
+    pub fn centre(self) -> [f64; 3] {
+        if self.is_simplex() { [1.0 / 3.0, 1.0 / 3.0, 0.0] } else { [0.0; 3] }
+    }
+
+    /// How far inside the parametric domain `xi` lies: the least barycentric coordinate of a simplex, half
+    /// the least distance to a side of a box; negative outside. The second value is the facet that limits it.
+    pub fn depth(self, xi: &[f64; 3]) -> (f64, usize) {
+        let sides = match self.dimension() {
+            2 if self.is_simplex() => [xi[1], 1.0 - xi[0] - xi[1], xi[0], f64::INFINITY],
+            2 => [0.5 * (1.0 + xi[1]), 0.5 * (1.0 - xi[0]), 0.5 * (1.0 - xi[1]), 0.5 * (1.0 + xi[0])],
+            1 => [0.5 * (1.0 + xi[0]), 0.5 * (1.0 - xi[0]), f64::INFINITY, f64::INFINITY],
+            _ => [f64::INFINITY; 4],
+        };
+        let mut least = (sides[0], 0);
+        for (i, &s) in sides.iter().enumerate().skip(1) {
+            if s < least.0 {
+                least = (s, i);
+            }
+        }
+        least
+    }
+}
+
+/// Values of the shape functions and their spatial gradients at `xi` of a cell with nodes at `x`:
+/// `n` and `grad` take one entry a node; returns the determinant of the Jacobian `∂x/∂ξ`.
+///
+/// A gradient is meaningless where the determinant is not positive: the caller checks it.
+pub fn map<const D: usize>(kind: CellKind, x: &[[f64; D]], xi: &[f64; 3], n: &mut [f64], grad: &mut [[f64; D]]) -> f64 {
+    let mut dn = [[0.0; 3]; MAX_NODES];
+    kind.values(xi, n);
+    kind.derivatives(xi, &mut dn);
+    let mut jacobian = [[0.0; D]; D];
+    for (x, dn) in x.iter().zip(&dn) {
+        for i in 0..D {
+            for j in 0..D {
+                jacobian[i][j] += x[i] * dn[j];
+            }
+        }
+    }
+    let (inverse, determinant) = invert(&jacobian);
+    for (grad, dn) in grad.iter_mut().zip(&dn).take(x.len()) {
+        for j in 0..D {
+            grad[j] = (0..D).map(|k| dn[k] * inverse[k][j]).sum();
+        }
+    }
+    determinant
+}
+
+/// Inverse and determinant of a small matrix (`D` ≤ 3).
+pub fn invert<const D: usize>(a: &[[f64; D]; D]) -> ([[f64; D]; D], f64) {
+    let mut inverse = [[0.0; D]; D];
+    let determinant;
+    match D {
+        1 => {
+            determinant = a[0][0];
+            inverse[0][0] = 1.0 / a[0][0];
+        }
+        2 => {
+            determinant = a[0][0] * a[1][1] - a[0][1] * a[1][0];
+            let r = 1.0 / determinant;
+            inverse[0][0] = a[1][1] * r;
+            inverse[0][1] = -a[0][1] * r;
+            inverse[1][0] = -a[1][0] * r;
+            inverse[1][1] = a[0][0] * r;
+        }
+        _ => {
+            let cofactor = |i: usize, j: usize| {
+                let (r, s) = ((i + 1) % 3, (i + 2) % 3);
+                let (p, q) = ((j + 1) % 3, (j + 2) % 3);
+                a[r][p] * a[s][q] - a[r][q] * a[s][p]
+            };
+            determinant = (0..3).map(|j| a[0][j] * cofactor(0, j)).sum();
+            let r = 1.0 / determinant;
+            for i in 0..3 {
+                for j in 0..3 {
+                    inverse[i][j] = cofactor(j, i) * r;
+                }
+            }
+        }
+    }
+    (inverse, determinant)
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,43 @@
+//! The material points: a struct of arrays.
+
+use crate::tensor::{Symmetric, Tensor};
+
+/// All material points of a scene. Every column has one entry a point; `velocity` and `acceleration`
+/// are empty in a quasi-static analysis.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Points<const D: usize> {
+    /// Position [m] at the last converged step.
+    pub position: Vec<[f64; D]>,
+    /// Position [m] at which the point was seeded; depth-dependent parameters are taken here.
+    pub origin: Vec<[f64; D]>,
+    /// Velocity [m/s].
+    pub velocity: Vec<[f64; D]>,
+    /// Acceleration [m/s²].
+    pub acceleration: Vec<[f64; D]>,
+    /// Mass [t], per metre in plane strain, per full turn (2π) in axisymmetry.
+    pub mass: Vec<f64>,
+    /// Volume [m³] when seeded, per metre in plane strain, per full turn (2π) in axisymmetry.
+    pub initial_volume: Vec<f64>,
+    /// Deformation gradient [-] since seeding.
+    pub deformation: Vec<Tensor>,
+    /// Elastic left Cauchy–Green tensor [-].
+    pub elastic: Vec<Symmetric>,
+    /// Cauchy stress [kPa], tension positive, at the last converged step.
+    pub stress: Vec<Symmetric>,
+    /// Accumulated equivalent plastic strain [-].
+    pub plastic_strain: Vec<f64>,
+    /// Index into the regions of the mesh.
+    pub region: Vec<u16>,
+    /// The cell that holds the point.
+    pub cell: Vec<u32>,
+}
+
+impl<const D: usize> Points<D> {
+    pub fn len(&self) -> usize {
+        self.position.len()
+    }
+
+    pub fn is_empty(&self) -> bool {
+        self.position.is_empty()
+    }
+}
