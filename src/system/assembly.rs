@@ -1,0 +1,172 @@
+//! Assembly of dense clique matrices and vectors into a system.
+
+use super::Pattern;
+use crate::error::Result;
+use rayon::prelude::*;
+
+/// The values of a matrix with a given [`Pattern`].
+pub struct Matrix {
+    pub values: Vec<f64>,
+}
+
+/// What one clique contributes: a dense matrix (row-major) and a vector over the equations of its blocks.
+pub struct Local<'a> {
+    /// Row-major, `size × size`; empty when only the vector is wanted.
+    pub matrix: &'a mut [f64],
+    pub vector: &'a mut [f64],
+    pub size: usize,
+}
+
+impl Matrix {
+    pub fn new(pattern: &Pattern) -> Self {
+        Self { values: vec![0.0; pattern.row.len()] }
+    }
+
+    pub fn clear(&mut self) {
+        self.values.fill(0.0);
+    }
+
+    /// Adds the dense matrix of clique `k`. Of a symmetric system only the lower triangle is read.
+    pub fn add(&mut self, pattern: &Pattern, k: usize, local: &[f64], size: usize) {
+        let blocks = pattern.cliques.blocks(k);
+        let first_pair = pattern.pairs[k] as usize;
+        let mut column = 0;
+        for (b, &cb) in blocks.iter().enumerate() {
+            let width = (pattern.start[cb as usize + 1] - pattern.start[cb as usize]) as usize;
+            let mut row = 0;
+            for (a, &ra) in blocks.iter().enumerate() {
+                let height = (pattern.start[ra as usize + 1] - pattern.start[ra as usize]) as usize;
+                if !pattern.symmetric || ra >= cb {
+                    let offset = pattern.offset[first_pair + a * blocks.len() + b] as usize;
+                    for j in 0..width {
+                        let begin = pattern.column[pattern.start[cb as usize] as usize + j] as usize;
+                        // In the lower triangle column j of the diagonal block has lost its first j rows.
+                        let (skip, lost) = match (pattern.symmetric, ra == cb) {
+                            (true, true) => (j, j),
+                            (true, false) => (0, j),
+                            _ => (0, 0),
+                        };
+                        for i in skip..height {
+                            self.values[begin + offset + i - lost] += local[(row + i) * size + column + j];
+                        }
+                    }
+                }
+                row += height;
+            }
+            column += width;
+        }
+    }
+
+    /// Takes the equations marked in `fixed` out of the system: their rows and columns vanish but for a
+    /// diagonal entry `scale`. Their known solution `known` moves to the right-hand side.
+    pub fn constrain(&mut self, pattern: &Pattern, fixed: &[bool], known: &[f64], scale: f64, rhs: &mut [f64]) {
+        for j in 0..pattern.len() {
+            for k in pattern.column[j] as usize..pattern.column[j + 1] as usize {
+                let i = pattern.row[k] as usize;
+                if fixed[i] || fixed[j] {
+                    let value = self.values[k];
+                    if i == j {
+                        self.values[k] = scale;
+                        continue;
+                    }
+                    if fixed[j] && !fixed[i] {
+                        rhs[i] -= value * known[j];
+                    } else if pattern.symmetric && fixed[i] && !fixed[j] {
+                        rhs[j] -= value * known[i];
+                    }
+                    self.values[k] = 0.0;
+                }
+            }
+        }
+        for (i, rhs) in rhs.iter_mut().enumerate() {
+            if fixed[i] {
+                *rhs = scale * known[i];
+            }
+        }
+    }
+
+    /// `y = A x`.
+    pub fn multiply(&self, pattern: &Pattern, x: &[f64], y: &mut [f64]) {
+        y.fill(0.0);
+        for j in 0..pattern.len() {
+            for k in pattern.column[j] as usize..pattern.column[j + 1] as usize {
+                let i = pattern.row[k] as usize;
+                y[i] += self.values[k] * x[j];
+                if pattern.symmetric && i != j {
+                    y[j] += self.values[k] * x[i];
+                }
+            }
+        }
+    }
+
+    /// The largest diagonal entry, at least the smallest positive number.
+    pub fn scale(&self, pattern: &Pattern) -> f64 {
+        let mut scale = f64::MIN_POSITIVE;
+        for j in 0..pattern.len() {
+            for k in pattern.column[j] as usize..pattern.column[j + 1] as usize {
+                if pattern.row[k] as usize == j {
+                    scale = scale.max(self.values[k].abs());
+                }
+            }
+        }
+        scale
+    }
+}
+
+/// Items computed side by side before their results are added, one after another, to the system.
+const BATCH: usize = 256;
+
+/// Computes the contributions of `items` (each with its clique) in parallel and adds them to `vector` and,
+/// where wanted, to `matrix`. The order of the additions is that of `items`, so the sums do not depend on
+/// the number of threads.
+///
+/// # Errors
+/// The error of the first item that fails.
+pub fn scatter<I: Sync>(
+    pattern: &Pattern,
+    items: &[I],
+    clique: impl Fn(&I) -> usize + Sync,
+    compute: impl Fn(&I, &mut Local) -> Result<()> + Sync,
+    vector: &mut [f64],
+    mut matrix: Option<&mut Matrix>,
+) -> Result<()> {
+    let size_of = |k: usize| {
+        let blocks = pattern.cliques.blocks(k);
+        blocks.iter().map(|&b| (pattern.start[b as usize + 1] - pattern.start[b as usize]) as usize).sum::<usize>()
+    };
+    let largest = items.iter().map(|i| size_of(clique(i))).max().unwrap_or(0);
+    let matrix_stride = if matrix.is_some() { largest * largest } else { 0 };
+    let stride = largest + matrix_stride;
+    if stride == 0 {
+        return Ok(());
+    }
+    let mut buffer = vec![0.0; stride * BATCH.min(items.len())];
+    for batch in items.chunks(BATCH) {
+        let results: Vec<Result<()>> = batch
+            .par_iter()
+            .zip(buffer.par_chunks_mut(stride))
+            .map(|(item, slot)| {
+                let size = size_of(clique(item));
+                slot.fill(0.0);
+                let (vector, rest) = slot.split_at_mut(largest);
+                let matrix = if matrix_stride > 0 { &mut rest[..size * size] } else { &mut rest[..0] };
+                compute(item, &mut Local { matrix, vector: &mut vector[..size], size })
+            })
+            .collect();
+        for ((item, slot), result) in batch.iter().zip(buffer.chunks(stride)).zip(results) {
+            result?;
+            let k = clique(item);
+            let mut local = 0;
+            for &b in pattern.cliques.blocks(k) {
+                for equation in pattern.start[b as usize]..pattern.start[b as usize + 1] {
+                    vector[equation as usize] += slot[local];
+                    local += 1;
+                }
+            }
+            if let Some(matrix) = matrix.as_deref_mut() {
+                matrix.add(pattern, k, &slot[largest..], local);
+            }
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,16 @@
+//! Linear systems: the pattern of the unknowns, the assembly into it and the sparse solution.
+//!
+//! Unknowns come in *blocks* (the displacement components of a node, say); terms assemble dense matrices
+//! over *cliques* of blocks (the nodes of a cell, say). The pattern is the union of the cliques; it and
+//! its symbolic factorisation stay fixed until the cliques change.
+
+mod assembly;
+mod pattern;
+mod solver;
+
+pub use assembly::{Local, Matrix, scatter};
+pub use pattern::{Cliques, Pattern};
+pub use solver::{Method, Solver};
+
+#[cfg(test)]
+mod tests;

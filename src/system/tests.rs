@@ -1,0 +1,148 @@
+//! Assembly against dense sums, solutions against known ones.
+
+use super::*;
+
+/// A chain of blocks with mixed sizes and three cliques, one of them unordered.
+fn chain(symmetric: bool) -> Pattern {
+    let mut cliques = Cliques::default();
+    cliques.push([2, 0, 1]);
+    cliques.push([1, 3]);
+    cliques.push([3, 4, 2]);
+    Pattern::new(&[2, 1, 2, 3, 2], cliques, symmetric)
+}
+
+/// A reproducible dense matrix of clique `k`, diagonally dominant, with unsymmetric part `skew`.
+fn local(k: usize, size: usize, skew: f64) -> Vec<f64> {
+    let entry = |i: usize, j: usize| {
+        let (a, b) = (i.min(j), i.max(j));
+        let even = ((k * 31 + a * 7 + b * 3) as f64).sin();
+        let odd = skew * ((k + 5 * a + b) as f64).cos();
+        if i == j { 10.0 } else { even + if i < j { odd } else { -odd } }
+    };
+    (0..size * size).map(|n| entry(n / size, n % size)).collect()
+}
+
+fn assemble(pattern: &Pattern, skew: f64) -> (Matrix, Vec<Vec<f64>>, Vec<f64>) {
+    let n = pattern.len();
+    let mut dense = vec![vec![0.0; n]; n];
+    let mut vector_expected = vec![0.0; n];
+    for k in 0..pattern.cliques.len() {
+        let equations: Vec<usize> = pattern
+            .cliques
+            .blocks(k)
+            .iter()
+            .flat_map(|&b| pattern.start[b as usize] as usize..pattern.start[b as usize + 1] as usize)
+            .collect();
+        let values = local(k, equations.len(), skew);
+        for (a, &i) in equations.iter().enumerate() {
+            vector_expected[i] += a as f64 + 1.0;
+            for (b, &j) in equations.iter().enumerate() {
+                dense[i][j] += values[a * equations.len() + b];
+            }
+        }
+    }
+    let mut matrix = Matrix::new(pattern);
+    let mut vector = vec![0.0; n];
+    let items: Vec<usize> = (0..pattern.cliques.len()).collect();
+    scatter(
+        pattern,
+        &items,
+        |&k| k,
+        |&k, out| {
+            out.matrix.copy_from_slice(&local(k, out.size, skew));
+            for (a, v) in out.vector.iter_mut().enumerate() {
+                *v = a as f64 + 1.0;
+            }
+            Ok(())
+        },
+        &mut vector,
+        Some(&mut matrix),
+    )
+    .unwrap();
+    assert_eq!(vector, vector_expected);
+    (matrix, dense, vector)
+}
+
+fn check_solution(symmetric: bool, skew: f64, shift: f64, expected: Method) {
+    let pattern = chain(symmetric);
+    let (mut matrix, mut dense, _) = assemble(&pattern, skew);
+    let n = pattern.len();
+    // Shifting the diagonal makes the matrix indefinite.
+    for j in 0..n {
+        for k in pattern.column[j] as usize..pattern.column[j + 1] as usize {
+            if pattern.row[k] as usize == j {
+                matrix.values[k] += shift * if j % 2 == 0 { 1.0 } else { 0.0 };
+            }
+        }
+        dense[j][j] += shift * if j % 2 == 0 { 1.0 } else { 0.0 };
+    }
+    let exact: Vec<f64> = (0..n).map(|i| (i as f64 + 0.3).sin()).collect();
+    let mut x: Vec<f64> = (0..n).map(|i| (0..n).map(|j| dense[i][j] * exact[j]).sum()).collect();
+    let mut product = vec![0.0; n];
+    matrix.multiply(&pattern, &exact, &mut product);
+    for (a, b) in x.iter().zip(&product) {
+        assert!((a - b).abs() < 1e-12, "multiply: {a} against {b}");
+    }
+    let mut solver = Solver::new(&pattern).unwrap();
+    assert_eq!(solver.solve(&pattern, &matrix, &mut x).unwrap(), expected);
+    for (a, b) in x.iter().zip(&exact) {
+        assert!((a - b).abs() < 1e-10, "{a} against {b}");
+    }
+}
+
+#[test]
+fn definite_systems_by_cholesky() {
+    check_solution(true, 0.0, 0.0, Method::Cholesky);
+}
+
+#[test]
+fn indefinite_systems_by_ldlt() {
+    check_solution(true, 0.0, -40.0, Method::Ldlt);
+}
+
+#[test]
+fn mildly_unsymmetric_systems_by_iteration() {
+    check_solution(false, 0.5, 0.0, Method::Iterative);
+}
+
+#[test]
+fn unsymmetric_indefinite_systems_by_lu() {
+    check_solution(false, 0.5, -40.0, Method::Lu);
+}
+
+#[test]
+fn constraints_move_to_the_right_hand_side() {
+    for symmetric in [true, false] {
+        let pattern = chain(symmetric);
+        let (mut matrix, dense, _) = assemble(&pattern, 0.0);
+        let n = pattern.len();
+        let exact: Vec<f64> = (0..n).map(|i| (i as f64 + 0.3).sin()).collect();
+        let mut x: Vec<f64> = (0..n).map(|i| (0..n).map(|j| dense[i][j] * exact[j]).sum()).collect();
+        let fixed: Vec<bool> = (0..n).map(|i| i % 3 == 0).collect();
+        let scale = matrix.scale(&pattern);
+        matrix.constrain(&pattern, &fixed, &exact, scale, &mut x);
+        Solver::new(&pattern).unwrap().solve(&pattern, &matrix, &mut x).unwrap();
+        for (a, b) in x.iter().zip(&exact) {
+            assert!((a - b).abs() < 1e-11, "{a} against {b}");
+        }
+    }
+}
+
+#[test]
+fn a_singular_system_is_refused() {
+    let pattern = chain(true);
+    let matrix = Matrix::new(&pattern);
+    let mut x = vec![1.0; pattern.len()];
+    assert!(Solver::new(&pattern).unwrap().solve(&pattern, &matrix, &mut x).is_err());
+    let mut x = vec![f64::NAN; pattern.len()];
+    assert!(Solver::new(&pattern).unwrap().solve(&pattern, &matrix, &mut x).is_err());
+}
+
+#[test]
+fn the_number_of_threads_does_not_change_the_sums() {
+    let run = |threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        pool.install(|| assemble(&chain(true), 0.3).0.values)
+    };
+    assert_eq!(run(1), run(3));
+}
