@@ -37,6 +37,11 @@ impl<const D: usize> Points<D> {
         self.position.len()
     }
 
+    /// Current volume [m³] of point `p`, by the measure of `initial_volume`.
+    pub fn volume(&self, p: usize) -> f64 {
+        self.initial_volume[p] * self.deformation[p].determinant()
+    }
+
     pub fn is_empty(&self) -> bool {
         self.position.is_empty()
     }

@@ -116,12 +116,18 @@ impl Matrix {
 /// Items computed side by side before their results are added, one after another, to the system.
 const BATCH: usize = 256;
 
+/// Memory that assembly uses again and again.
+#[derive(Default)]
+pub struct Workspace {
+    buffer: Vec<f64>,
+}
+
 /// Computes the contributions of `items` (each with its clique) in parallel and adds them to `vector` and,
 /// where wanted, to `matrix`. The order of the additions is that of `items`, so the sums do not depend on
 /// the number of threads.
 ///
 /// # Errors
-/// The error of the first item that fails.
+/// The error of the first item that fails; the sums are then incomplete.
 pub fn scatter<I: Sync>(
     pattern: &Pattern,
     items: &[I],
@@ -129,32 +135,32 @@ pub fn scatter<I: Sync>(
     compute: impl Fn(&I, &mut Local) -> Result<()> + Sync,
     vector: &mut [f64],
     mut matrix: Option<&mut Matrix>,
+    workspace: &mut Workspace,
 ) -> Result<()> {
-    let size_of = |k: usize| {
-        let blocks = pattern.cliques.blocks(k);
-        blocks.iter().map(|&b| (pattern.start[b as usize + 1] - pattern.start[b as usize]) as usize).sum::<usize>()
-    };
-    let largest = items.iter().map(|i| size_of(clique(i))).max().unwrap_or(0);
+    let largest = pattern.largest_clique;
     let matrix_stride = if matrix.is_some() { largest * largest } else { 0 };
     let stride = largest + matrix_stride;
     if stride == 0 {
         return Ok(());
     }
-    let mut buffer = vec![0.0; stride * BATCH.min(items.len())];
+    workspace.buffer.resize(stride * BATCH, 0.0);
+    let run = |item: &I, slot: &mut [f64]| {
+        let size = pattern.clique_size(clique(item));
+        slot.fill(0.0);
+        let (vector, rest) = slot.split_at_mut(largest);
+        let matrix = if matrix_stride > 0 { &mut rest[..size * size] } else { &mut rest[..0] };
+        compute(item, &mut Local { matrix, vector: &mut vector[..size], size })
+    };
     for batch in items.chunks(BATCH) {
-        let results: Vec<Result<()>> = batch
-            .par_iter()
-            .zip(buffer.par_chunks_mut(stride))
-            .map(|(item, slot)| {
-                let size = size_of(clique(item));
-                slot.fill(0.0);
-                let (vector, rest) = slot.split_at_mut(largest);
-                let matrix = if matrix_stride > 0 { &mut rest[..size * size] } else { &mut rest[..0] };
-                compute(item, &mut Local { matrix, vector: &mut vector[..size], size })
-            })
-            .collect();
-        for ((item, slot), result) in batch.iter().zip(buffer.chunks(stride)).zip(results) {
-            result?;
+        let slots = &mut workspace.buffer[..stride * batch.len()];
+        let pairs = batch.par_iter().zip(slots.par_chunks_mut(stride));
+        if pairs.try_for_each(|(item, slot)| run(item, slot).map_err(|_| ())).is_err() {
+            // Threads may fail in any order: run again one by one for the error of the first item.
+            for (item, slot) in batch.iter().zip(slots.chunks_mut(stride)) {
+                run(item, slot)?;
+            }
+        }
+        for (item, slot) in batch.iter().zip(slots.chunks(stride)) {
             let k = clique(item);
             let mut local = 0;
             for &b in pattern.cliques.blocks(k) {

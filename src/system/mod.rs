@@ -8,7 +8,7 @@ mod assembly;
 mod pattern;
 mod solver;
 
-pub use assembly::{Local, Matrix, scatter};
+pub use assembly::{Local, Matrix, Workspace, scatter};
 pub use pattern::{Cliques, Pattern};
 pub use solver::{Method, Solver};
 

@@ -52,6 +52,8 @@ pub struct Pattern {
     pub(super) offset: Vec<u32>,
     /// Where the pairs of each clique begin in `offset`.
     pub(super) pairs: Vec<u32>,
+    /// Equations of the largest clique.
+    pub(super) largest_clique: usize,
 }
 
 impl Pattern {
@@ -75,7 +77,9 @@ impl Pattern {
             graph_row,
             offset: Vec::new(),
             pairs: vec![0],
+            largest_clique: 0,
         };
+        pattern.largest_clique = (0..pattern.cliques.len()).map(|k| pattern.clique_size(k)).max().unwrap_or(0);
         pattern.expand();
         pattern.locate_pairs();
         pattern
@@ -88,6 +92,12 @@ impl Pattern {
 
     pub fn is_empty(&self) -> bool {
         self.len() == 0
+    }
+
+    /// Number of equations of clique `k`.
+    pub fn clique_size(&self, k: usize) -> usize {
+        let size = |b: u32| self.start[b as usize + 1] - self.start[b as usize];
+        self.cliques.blocks(k).iter().map(|&b| size(b) as usize).sum()
     }
 
     /// The blocks that block `b` is coupled with, ascending, itself among them.

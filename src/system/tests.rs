@@ -57,6 +57,7 @@ fn assemble(pattern: &Pattern, skew: f64) -> (Matrix, Vec<Vec<f64>>, Vec<f64>) {
         },
         &mut vector,
         Some(&mut matrix),
+        &mut Workspace::default(),
     )
     .unwrap();
     assert_eq!(vector, vector_expected);

@@ -1,0 +1,165 @@
+//! Plane strain and axisymmetry: how nodal displacements strain a point.
+//!
+//! A point sees the gradient `g_I = ∇N_I` of each node and, in axisymmetry, the hoop `h_I = N_I / r`. The
+//! marker types below carry no data; they only decide whether the hoop terms exist, so that plane strain
+//! does not pay for them. Tensors are three-dimensional throughout (see [`crate::tensor`]); a solid is one
+//! more marker with `D = 3`.
+
+use crate::error::Result;
+use crate::material::{Model, State, spectral};
+use crate::tensor::{Symmetric, Tensor};
+use std::f64::consts::TAU;
+
+/// The gradient of a shape function at a point.
+#[derive(Clone, Copy, Debug)]
+pub struct Gradient<const D: usize> {
+    /// `∇N_I` [1/m].
+    pub g: [f64; D],
+    /// `N_I / r` [1/m], zero but in axisymmetry.
+    pub hoop: f64,
+}
+
+/// What a material point answers: stress, new state and the tangent in the form of the kinematics.
+pub struct Answer<T> {
+    /// Kirchhoff stress [kPa], tension positive.
+    pub kirchhoff: Symmetric,
+    /// Elastic left Cauchy–Green tensor after the return [-].
+    pub elastic: Symmetric,
+    pub state: State,
+    pub tangent: T,
+}
+
+/// How nodal displacements strain a point in `D` dimensions.
+pub trait Kinematics<const D: usize>: Copy + Default + Send + Sync + 'static {
+    /// The spatial tangent `a_ijkl = C_ijkl − τ_il δ_jk`.
+    type Tangent;
+    /// The product of the tangent with the gradient of one node, one entry a displacement component.
+    type Column;
+
+    /// Whether the circumferential strain `u_r / r` exists.
+    const HOOP: bool;
+
+    /// The answer of a material point seeded at height `y` to an elastic trial left Cauchy–Green tensor.
+    ///
+    /// # Errors
+    /// When the tensor is not positive definite.
+    fn respond(model: &dyn Model, y: f64, trial: &Symmetric, state: &State) -> Result<Answer<Self::Tangent>>;
+
+    /// `a : (e_k ⊗ ∇N)` for each component `k`.
+    fn column(tangent: &Self::Tangent, gradient: &Gradient<D>) -> Self::Column;
+
+    /// The stiffness of a node against the node of `column`: `K_ik = g_j a_ijkl g'_l` with the hoop terms.
+    fn block(column: &Self::Column, gradient: &Gradient<D>) -> [[f64; D]; D];
+
+    /// What an area (volume in 3D) element at `x` weighs: 1, or `2πr` for a full turn.
+    fn measure(x: &[f64; D]) -> f64 {
+        if Self::HOOP { TAU * x[0] } else { 1.0 }
+    }
+
+    /// Adds `u ⊗ ∇N` to a deformation gradient.
+    fn deform(f: &mut Tensor, u: &[f64; D], gradient: &Gradient<D>) {
+        for i in 0..D {
+            for j in 0..D {
+                f[(i, j)] += u[i] * gradient.g[j];
+            }
+        }
+        if Self::HOOP {
+            f[(2, 2)] += u[0] * gradient.hoop;
+        }
+    }
+
+    /// `∇_x N = ∇_X N · F⁻¹`, given `F⁻¹`.
+    fn push_forward(gradient: &Gradient<D>, inverse: &Tensor) -> Gradient<D> {
+        let mut g = [0.0; D];
+        for j in 0..D {
+            for i in 0..D {
+                g[j] += gradient.g[i] * inverse[(i, j)];
+            }
+        }
+        Gradient { g, hoop: if Self::HOOP { gradient.hoop * inverse[(2, 2)] } else { 0.0 } }
+    }
+
+    /// The internal force on a node for the stress `s`: `s · ∇N`, with the hoop stress on the radius.
+    fn force(s: &Symmetric, gradient: &Gradient<D>) -> [f64; D] {
+        const ENTRY: [[usize; 3]; 3] = [[0, 3, 5], [3, 1, 4], [5, 4, 2]];
+        let mut f = [0.0; D];
+        for i in 0..D {
+            for j in 0..D {
+                f[i] += s[ENTRY[i][j]] * gradient.g[j];
+            }
+        }
+        if Self::HOOP {
+            f[0] += s[2] * gradient.hoop;
+        }
+        f
+    }
+}
+
+/// No strain out of the plane.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct PlaneStrain;
+
+/// `x` is the radius, `y` the axis, the third direction the circumference.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Axisymmetric;
+
+impl Kinematics<2> for PlaneStrain {
+    type Tangent = spectral::PlaneTangent;
+    type Column = [[f64; 4]; 2];
+    const HOOP: bool = false;
+
+    fn respond(model: &dyn Model, y: f64, trial: &Symmetric, state: &State) -> Result<Answer<Self::Tangent>> {
+        plane_answer(model, y, trial, state)
+    }
+
+    fn column(tangent: &Self::Tangent, gradient: &Gradient<2>) -> Self::Column {
+        let (a, g) = (&tangent.a, &gradient.g);
+        std::array::from_fn(|k| std::array::from_fn(|ij| a[ij][2 * k] * g[0] + a[ij][2 * k + 1] * g[1]))
+    }
+
+    fn block(column: &Self::Column, gradient: &Gradient<2>) -> [[f64; 2]; 2] {
+        let g = &gradient.g;
+        std::array::from_fn(|i| std::array::from_fn(|k| g[0] * column[k][2 * i] + g[1] * column[k][2 * i + 1]))
+    }
+}
+
+impl Kinematics<2> for Axisymmetric {
+    type Tangent = spectral::PlaneTangent;
+    type Column = [[f64; 5]; 2];
+    const HOOP: bool = true;
+
+    fn respond(model: &dyn Model, y: f64, trial: &Symmetric, state: &State) -> Result<Answer<Self::Tangent>> {
+        plane_answer(model, y, trial, state)
+    }
+
+    fn column(tangent: &Self::Tangent, gradient: &Gradient<2>) -> Self::Column {
+        let (a, g) = (&tangent.a, &gradient.g);
+        let hoop = [gradient.hoop, 0.0];
+        std::array::from_fn(|k| {
+            std::array::from_fn(|ij| a[ij][2 * k] * g[0] + a[ij][2 * k + 1] * g[1] + a[ij][4] * hoop[k])
+        })
+    }
+
+    fn block(column: &Self::Column, gradient: &Gradient<2>) -> [[f64; 2]; 2] {
+        let g = &gradient.g;
+        let hoop = [gradient.hoop, 0.0];
+        std::array::from_fn(|i| {
+            std::array::from_fn(|k| g[0] * column[k][2 * i] + g[1] * column[k][2 * i + 1] + hoop[i] * column[k][4])
+        })
+    }
+}
+
+fn plane_answer(
+    model: &dyn Model,
+    y: f64,
+    trial: &Symmetric,
+    state: &State,
+) -> Result<Answer<spectral::PlaneTangent>> {
+    let response = spectral::plane(model, y, trial, state)?;
+    Ok(Answer {
+        kirchhoff: response.kirchhoff,
+        elastic: response.elastic,
+        state: response.state,
+        tangent: response.tangent,
+    })
+}

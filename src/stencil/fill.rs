@@ -1,0 +1,72 @@
+//! How full the cells are, and integrals over whole cells.
+
+use super::Stencil;
+use crate::kinematics::Kinematics;
+use crate::mesh::Mesh;
+use crate::mesh::shape::{self, MAX_NODES, rule};
+use crate::points::Points;
+
+/// A cell that takes part in the solution without being full of material points.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SoftCell {
+    pub cell: u32,
+    /// `1 − Σ V_p / V_cell`, in (0, 1].
+    pub emptiness: f64,
+}
+
+/// Emptiness below which a cell counts as full: rounding, and the last percent that compression frees.
+const FULL: f64 = 0.01;
+
+/// The cells among those marked in `taking_part` that are not full.
+pub fn soft_cells<const D: usize, K: Kinematics<D>>(
+    mesh: &Mesh<D>,
+    stencil: &Stencil<D>,
+    points: &Points<D>,
+    taking_part: &[bool],
+) -> Vec<SoftCell> {
+    let mut held = vec![0.0; mesh.cells.len()];
+    for patch in &stencil.patches {
+        for &p in stencil.points(patch) {
+            held[patch.cell as usize] += points.volume(p as usize);
+        }
+    }
+    let soft = |c: usize| {
+        if !taking_part[c] {
+            return None;
+        }
+        let volume = || integrate::<D, K>(mesh, c, |_, _, _| {});
+        let emptiness = if held[c] > 0.0 { 1.0 - held[c] / volume() } else { 1.0 };
+        (emptiness > FULL).then_some(SoftCell { cell: c as u32, emptiness })
+    };
+    (0..mesh.cells.len()).filter_map(soft).collect()
+}
+
+/// Calls `f(weight, N, ∇N)` at the quadrature points of a cell and returns the sum of the weights, its volume.
+pub fn integrate<const D: usize, K: Kinematics<D>>(
+    mesh: &Mesh<D>,
+    cell: usize,
+    mut f: impl FnMut(f64, &[f64], &[[f64; D]]),
+) -> f64 {
+    let kind = mesh.cells.kind[cell];
+    let nodes = mesh.cells.nodes(cell);
+    let mut x = [[0.0; D]; MAX_NODES];
+    for (x, &n) in x.iter_mut().zip(nodes) {
+        *x = mesh.nodes[n as usize];
+    }
+    let (mut n, mut gradient) = ([0.0; MAX_NODES], [[0.0; D]; MAX_NODES]);
+    let count = nodes.len();
+    let mut volume = 0.0;
+    for (xi, weight) in rule(kind, 2 * kind.order()) {
+        let det = shape::map(kind, &x[..count], &xi, &mut n, &mut gradient);
+        let mut centre = [0.0; D];
+        for (n, x) in n.iter().zip(&x).take(count) {
+            for d in 0..D {
+                centre[d] += n * x[d];
+            }
+        }
+        let weight = weight * det * K::measure(&centre);
+        f(weight, &n[..count], &gradient[..count]);
+        volume += weight;
+    }
+    volume
+}

@@ -1,0 +1,54 @@
+//! Body force of the material points: `−Σ_p m_p N_I g`, times a load factor in the phase's time.
+
+use super::{Assembly, Frame, Term, Trial};
+use crate::error::Result;
+use crate::kinematics::Kinematics;
+use crate::system::scatter;
+use crate::time_value::TimeValue;
+use std::marker::PhantomData;
+
+/// Gravity on all material points.
+pub struct BodyForce<K, const D: usize> {
+    /// Acceleration of gravity [m/s²].
+    gravity: [f64; D],
+    /// The factor on it in each phase.
+    factors: Vec<TimeValue>,
+    kinematics: PhantomData<K>,
+}
+
+impl<K, const D: usize> BodyForce<K, D> {
+    /// `factors[i]` scales `gravity` in phase `i`.
+    pub fn new(gravity: [f64; D], factors: Vec<TimeValue>) -> Self {
+        Self { gravity, factors, kinematics: PhantomData }
+    }
+}
+
+impl<const D: usize, K: Kinematics<D>> Term<D> for BodyForce<K, D> {
+    fn name(&self) -> &'static str {
+        "body force"
+    }
+
+    fn assemble(&self, frame: &Frame<D>, trial: &Trial<D>, out: &mut Assembly) -> Result<()> {
+        let factor = trial.weight * self.factors[trial.phase].at(trial.time);
+        let load = self.gravity.map(|g| -factor * g);
+        scatter(
+            frame.pattern,
+            &frame.stencil.patches,
+            |patch| frame.clique[patch.cell as usize] as usize,
+            |patch, local| {
+                for entries in frame.stencil.entries::<K>(patch) {
+                    let mass = frame.points.mass[entries.point];
+                    for (i, n) in entries.value.iter().enumerate() {
+                        for d in 0..D {
+                            local.vector[i * D + d] += mass * n * load[d];
+                        }
+                    }
+                }
+                Ok(())
+            },
+            out.force,
+            None,
+            out.workspace,
+        )
+    }
+}

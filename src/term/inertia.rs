@@ -1,0 +1,69 @@
+//! Inertia with the consistent mass of the material points: `Σ_p m_p N_I N_J a_J`.
+//!
+//! Row-summed masses are out of the question: the corner functions of a six-node triangle integrate to zero.
+
+use super::{Assembly, Frame, Term, Trial};
+use crate::error::Result;
+use crate::kinematics::Kinematics;
+use crate::system::{Local, scatter};
+use std::marker::PhantomData;
+
+/// The inertia of all material points.
+#[derive(Default)]
+pub struct Inertia<K> {
+    kinematics: PhantomData<K>,
+}
+
+impl<const D: usize, K: Kinematics<D>> Term<D> for Inertia<K> {
+    fn name(&self) -> &'static str {
+        "inertia"
+    }
+
+    fn is_inertia(&self) -> bool {
+        true
+    }
+
+    fn assemble(&self, frame: &Frame<D>, trial: &Trial<D>, out: &mut Assembly) -> Result<()> {
+        let wanted = out.tangent.is_some();
+        scatter(
+            frame.pattern,
+            &frame.stencil.patches,
+            |patch| frame.clique[patch.cell as usize] as usize,
+            |patch, local| {
+                let nodes = frame.mesh.cells.nodes(patch.cell as usize);
+                for entries in frame.stencil.entries::<K>(patch) {
+                    let mass = frame.points.mass[entries.point];
+                    let mut a = [0.0; D];
+                    for (n, &node) in entries.value.iter().zip(nodes) {
+                        for d in 0..D {
+                            a[d] += n * trial.acceleration[node as usize][d];
+                        }
+                    }
+                    for (i, n) in entries.value.iter().enumerate() {
+                        for d in 0..D {
+                            local.vector[i * D + d] += mass * n * a[d];
+                        }
+                    }
+                    if wanted {
+                        add_mass::<D>(local, entries.value, mass * trial.acceleration_slope);
+                    }
+                }
+                Ok(())
+            },
+            out.force,
+            out.tangent.as_deref_mut(),
+            out.workspace,
+        )
+    }
+}
+
+/// Adds `m N_I N_J` for each displacement component.
+fn add_mass<const D: usize>(local: &mut Local, n: &[f64], mass: f64) {
+    for (i, ni) in n.iter().enumerate() {
+        for (j, nj) in n.iter().enumerate() {
+            for d in 0..D {
+                local.matrix[(i * D + d) * local.size + j * D + d] += mass * ni * nj;
+            }
+        }
+    }
+}

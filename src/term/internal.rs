@@ -1,0 +1,199 @@
+//! Internal force of the material points: `f_I = Σ_p V⁰_p τ_p · ∇_x N_I`, with its consistent tangent.
+//!
+//! Kinematics: `F = I + Σ u ⊗ ∇N` from the restored grid, the increment since the last converged step
+//! `ΔF = F F_n⁻¹`, the elastic trial `b = ΔF b_n ΔFᵀ` (theory, eq. 3–5). The term keeps no state: the points
+//! carry it, and it is written only on convergence.
+
+use super::{Assembly, Frame, Term, Trial};
+use crate::error::{Error, Result};
+use crate::kinematics::{Answer, Gradient, Kinematics};
+use crate::material::{Model, State};
+use crate::mesh::shape::MAX_NODES;
+use crate::points::Points;
+use crate::stencil::{Entries, Patch};
+use crate::system::{Local, scatter};
+use crate::tensor::{Symmetric, Tensor, full, symmetric};
+use rayon::prelude::*;
+use std::marker::PhantomData;
+use std::sync::Arc;
+
+/// Least ratio of volumes in one step that a trial state may have.
+const LEAST_VOLUME_RATIO: f64 = 0.05;
+
+/// The internal force of all material points.
+pub struct Internal<K> {
+    /// The model of each region of the mesh; `None` where a region holds no points.
+    models: Vec<Option<Arc<dyn Model>>>,
+    kinematics: PhantomData<K>,
+}
+
+/// A point in a trial state.
+struct Strained<T> {
+    /// Deformation since the last converged step.
+    increment: Tensor,
+    /// Inverse of the deformation since the grid was restored.
+    inverse: Tensor,
+    answer: Answer<T>,
+}
+
+impl<K> Internal<K> {
+    /// `models[r]` is the model of the points of region `r`.
+    pub fn new(models: Vec<Option<Arc<dyn Model>>>) -> Self {
+        Self { models, kinematics: PhantomData }
+    }
+
+    fn strain<const D: usize>(
+        &self,
+        points: &Points<D>,
+        entries: &Entries<D>,
+        trial: &[[f64; D]],
+        converged: &[[f64; D]],
+    ) -> Result<Strained<K::Tangent>>
+    where
+        K: Kinematics<D>,
+    {
+        let p = entries.point;
+        let (mut now, mut before) = (Tensor::identity(), Tensor::identity());
+        for i in 0..entries.value.len() {
+            let gradient = entries.gradient(i);
+            K::deform(&mut now, &trial[i], &gradient);
+            K::deform(&mut before, &converged[i], &gradient);
+        }
+        let inverted = |what: &str| {
+            Error::analysis(
+                format!("material point {p}"),
+                format!("{what} (det F of the step {:.3})", now.determinant() / before.determinant()),
+                "take smaller steps or refine the mesh",
+            )
+        };
+        let inverse = now.try_inverse().ok_or_else(|| inverted("is squeezed flat"))?;
+        let increment = now * before.try_inverse().ok_or_else(|| inverted("was squeezed flat"))?;
+        if !(increment.determinant() > LEAST_VOLUME_RATIO && now.determinant() > 0.0) {
+            return Err(inverted("is turned inside out"));
+        }
+        let elastic = symmetric(&(increment * full(&points.elastic[p]) * increment.transpose()));
+        let Some(model) = self.models.get(points.region[p] as usize).and_then(Option::as_ref) else {
+            return Err(Error::analysis(format!("material point {p}"), "its region has no material", ""));
+        };
+        let state = State { plastic_strain: points.plastic_strain[p] };
+        let answer = K::respond(model.as_ref(), points.origin[p][D - 1], &elastic, &state)
+            .map_err(|e| Error { place: format!("material point {p}"), ..e })?;
+        Ok(Strained { increment, inverse, answer })
+    }
+}
+
+/// Copies the nodal vectors of a patch.
+fn gather<const D: usize>(frame: &Frame<D>, patch: &Patch, field: &[[f64; D]]) -> [[f64; D]; MAX_NODES] {
+    let mut local = [[0.0; D]; MAX_NODES];
+    for (local, &n) in local.iter_mut().zip(frame.mesh.cells.nodes(patch.cell as usize)) {
+        *local = field[n as usize];
+    }
+    local
+}
+
+impl<const D: usize, K: Kinematics<D>> Term<D> for Internal<K> {
+    fn name(&self) -> &'static str {
+        "internal force"
+    }
+
+    fn symmetric(&self) -> bool {
+        self.models.iter().flatten().all(|m| m.symmetric())
+    }
+
+    fn assemble(&self, frame: &Frame<D>, trial: &Trial<D>, out: &mut Assembly) -> Result<()> {
+        let wanted = out.tangent.is_some();
+        let symmetric = frame.pattern.symmetric;
+        let compute = |patch: &Patch, local: &mut Local| {
+            let now = gather(frame, patch, trial.displacement);
+            let before = gather(frame, patch, trial.converged);
+            let count = patch.node_count as usize;
+            for entries in frame.stencil.entries::<K>(patch) {
+                let point = self.strain(frame.points, &entries, &now, &before)?;
+                let weight = trial.weight * frame.points.initial_volume[entries.point];
+                let mut spatial = [Gradient { g: [0.0; D], hoop: 0.0 }; MAX_NODES];
+                for i in 0..count {
+                    spatial[i] = K::push_forward(&entries.gradient(i), &point.inverse);
+                    let f = K::force(&point.answer.kirchhoff, &spatial[i]);
+                    for d in 0..D {
+                        local.vector[i * D + d] += weight * f[d];
+                    }
+                }
+                if wanted {
+                    add_stiffness::<D, K>(local, &point.answer.tangent, &spatial[..count], weight, symmetric);
+                }
+            }
+            if wanted && symmetric {
+                mirror::<D>(local, count);
+            }
+            Ok(())
+        };
+        scatter(
+            frame.pattern,
+            &frame.stencil.patches,
+            |patch| frame.clique[patch.cell as usize] as usize,
+            compute,
+            out.force,
+            out.tangent.as_deref_mut(),
+            out.workspace,
+        )
+    }
+
+    fn commit(&self, frame: &Frame<D>, trial: &Trial<D>, next: &mut Points<D>) -> Result<()> {
+        type Update = (usize, Tensor, Symmetric, Symmetric, f64);
+        let updates: Vec<Vec<Update>> = frame
+            .stencil
+            .patches
+            .par_iter()
+            .map(|patch| {
+                let now = gather(frame, patch, trial.displacement);
+                let before = gather(frame, patch, trial.converged);
+                let update = |entries: Entries<D>| {
+                    let point = self.strain(frame.points, &entries, &now, &before)?;
+                    let deformation = point.increment * frame.points.deformation[entries.point];
+                    let volume_ratio = deformation.determinant();
+                    let stress = point.answer.kirchhoff.map(|t| t / volume_ratio);
+                    let plastic_strain = point.answer.state.plastic_strain;
+                    Ok((entries.point, deformation, point.answer.elastic, stress, plastic_strain))
+                };
+                frame.stencil.entries::<K>(patch).map(update).collect::<Result<Vec<Update>>>()
+            })
+            .collect::<Result<_>>()?;
+        for (p, deformation, elastic, stress, plastic_strain) in updates.into_iter().flatten() {
+            next.deformation[p] = deformation;
+            next.elastic[p] = elastic;
+            next.stress[p] = stress;
+            next.plastic_strain[p] = plastic_strain;
+        }
+        Ok(())
+    }
+}
+
+/// Adds the stiffness of one point; of a symmetric one only the lower triangle of blocks.
+fn add_stiffness<const D: usize, K: Kinematics<D>>(
+    local: &mut Local,
+    tangent: &K::Tangent,
+    spatial: &[Gradient<D>],
+    weight: f64,
+    symmetric: bool,
+) {
+    for (b, gb) in spatial.iter().enumerate() {
+        let column = K::column(tangent, gb);
+        for (a, ga) in spatial.iter().enumerate().skip(if symmetric { b } else { 0 }) {
+            let block = K::block(&column, ga);
+            for i in 0..D {
+                for k in 0..D {
+                    local.matrix[(a * D + i) * local.size + b * D + k] += weight * block[i][k];
+                }
+            }
+        }
+    }
+}
+
+/// Copies the lower triangle of blocks to the upper one: cliques are not in the order of equations.
+fn mirror<const D: usize>(local: &mut Local, count: usize) {
+    for a in 0..count * D {
+        for b in a + 1..count * D {
+            local.matrix[a * local.size + b] = local.matrix[b * local.size + a];
+        }
+    }
+}

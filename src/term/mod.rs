@@ -1,0 +1,97 @@
+//! The terms of the equations of motion. A scene resolves into a list of them; what it does not use is not
+//! in the list.
+//!
+//! The system solved in each step is `R(u) = 0` with `R = Σ terms`, internal forces positive. A term adds
+//! its residual and, when asked, its tangent; the ones that carry history commit it after convergence.
+
+mod body_force;
+mod empty_cells;
+mod inertia;
+mod internal;
+mod traction;
+
+pub use body_force::BodyForce;
+pub use empty_cells::EmptyCells;
+pub use inertia::Inertia;
+pub use internal::Internal;
+pub use traction::Traction;
+
+use crate::error::Result;
+use crate::mesh::Mesh;
+use crate::points::Points;
+use crate::stencil::{SoftCell, Stencil};
+use crate::system::{Matrix, Pattern, Workspace};
+
+/// What stays fixed while a step is solved.
+pub struct Frame<'a, const D: usize> {
+    /// The grid as last restored: the reference configuration.
+    pub mesh: &'a Mesh<D>,
+    pub stencil: &'a Stencil<D>,
+    /// Cells that take part and are not full of points.
+    pub soft: &'a [SoftCell],
+    /// The points at the last converged step.
+    pub points: &'a Points<D>,
+    /// One block a node that takes part, one clique a cell that does.
+    pub pattern: &'a Pattern,
+    /// The clique of each cell; `u32::MAX` for cells left out.
+    pub clique: &'a [u32],
+    /// The block of each node; `u32::MAX` for nodes left out.
+    pub block: &'a [u32],
+}
+
+/// A trial state of the step.
+pub struct Trial<'a, const D: usize> {
+    /// Displacement of the nodes [m] since the grid was last restored.
+    pub displacement: &'a [[f64; D]],
+    /// The same at the last converged step.
+    pub converged: &'a [[f64; D]],
+    /// Acceleration of the nodes [m/s²] weighted in time as the inertia needs it; empty without inertia.
+    pub acceleration: &'a [[f64; D]],
+    /// `∂(weighted acceleration)/∂u` [1/s²].
+    pub acceleration_slope: f64,
+    /// Number of the phase, from 0.
+    pub phase: usize,
+    /// Time [s] since the phase began.
+    pub time: f64,
+    /// Weight of everything but inertia: `1 − α_f` of the generalised-α method, 1 in quasi-static analysis.
+    pub weight: f64,
+}
+
+/// Where a term adds its residual and tangent.
+pub struct Assembly<'a> {
+    /// One entry an equation [kN].
+    pub force: &'a mut [f64],
+    /// Present when the tangent is wanted.
+    pub tangent: Option<&'a mut Matrix>,
+    pub workspace: &'a mut Workspace,
+}
+
+/// One term of the equations.
+pub trait Term<const D: usize>: Send + Sync {
+    /// A short name for the log.
+    fn name(&self) -> &'static str;
+
+    /// Adds the residual, and the tangent where wanted, at a trial state.
+    ///
+    /// # Errors
+    /// When the trial state is inadmissible (an inverted material point): the caller takes a smaller step.
+    fn assemble(&self, frame: &Frame<D>, trial: &Trial<D>, out: &mut Assembly) -> Result<()>;
+
+    /// Whether the tangent is symmetric in every state.
+    fn symmetric(&self) -> bool {
+        true
+    }
+
+    /// Writes the converged state into the points.
+    ///
+    /// # Errors
+    /// As [`Term::assemble`].
+    fn commit(&self, _frame: &Frame<D>, _trial: &Trial<D>, _next: &mut Points<D>) -> Result<()> {
+        Ok(())
+    }
+
+    /// Whether the term is an inertia force, which the static residual at the beginning of a step leaves out.
+    fn is_inertia(&self) -> bool {
+        false
+    }
+}

@@ -1,0 +1,96 @@
+//! Dead tractions on named curves: `−∫ N_I t dS` over the grid as it was meshed, `t` in a fixed direction.
+//!
+//! The force does not follow the deformation: it acts per unit of initial area, as PLAXIS's line loads do.
+
+use super::{Assembly, Frame, Term, Trial};
+use crate::error::Result;
+use crate::kinematics::Kinematics;
+use crate::mesh::shape::{CellKind, MAX_NODES, rule};
+use crate::mesh::{Group, Mesh};
+use crate::time_value::TimeValue;
+use std::marker::PhantomData;
+
+/// A traction on one curve in one phase.
+pub struct Traction<K, const D: usize> {
+    phase: usize,
+    /// Traction components [kPa] in time.
+    value: [TimeValue; D],
+    /// `∫ N_I dS` of the nodes of the curve [m²].
+    area: Vec<(u32, f64)>,
+    kinematics: PhantomData<K>,
+}
+
+impl<K, const D: usize> Traction<K, D> {
+    /// The traction `value` on `group` of the undeformed `mesh`, acting in `phase` only.
+    pub fn new(mesh: &Mesh<D>, group: &Group, phase: usize, value: [TimeValue; D]) -> Self
+    where
+        K: Kinematics<D>,
+    {
+        let mut area = vec![0.0; mesh.nodes.len()];
+        for (kind, nodes) in &group.facets {
+            for (xi, weight) in rule(*kind, 2 * kind.order() + 1) {
+                let mut n = [0.0; MAX_NODES];
+                kind.values(&xi, &mut n);
+                let (x, stretch) = facet_point(mesh, *kind, nodes, &xi, &n);
+                for (i, &node) in nodes.iter().enumerate() {
+                    area[node as usize] += weight * stretch * K::measure(&x) * n[i];
+                }
+            }
+        }
+        let area = area.into_iter().enumerate().filter(|(_, a)| *a != 0.0).map(|(n, a)| (n as u32, a)).collect();
+        Self { phase, value, area, kinematics: PhantomData }
+    }
+}
+
+/// Position and length (area) ratio of a facet at `xi`.
+fn facet_point<const D: usize>(
+    mesh: &Mesh<D>,
+    kind: CellKind,
+    nodes: &[u32],
+    xi: &[f64; 3],
+    n: &[f64],
+) -> ([f64; D], f64) {
+    let mut dn = [[0.0; 3]; MAX_NODES];
+    kind.derivatives(xi, &mut dn);
+    let mut x = [0.0; D];
+    let mut tangent = [[0.0; D]; 2];
+    for (i, &node) in nodes.iter().enumerate() {
+        for d in 0..D {
+            let coordinate = mesh.nodes[node as usize][d];
+            x[d] += n[i] * coordinate;
+            tangent[0][d] += dn[i][0] * coordinate;
+            tangent[1][d] += dn[i][1] * coordinate;
+        }
+    }
+    let dot = |a: &[f64; D], b: &[f64; D]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
+    let [a, b] = &tangent;
+    let stretch = if kind.dimension() == 2 {
+        (dot(a, a) * dot(b, b) - dot(a, b).powi(2)).sqrt()
+    } else {
+        dot(a, a).sqrt()
+    };
+    (x, stretch)
+}
+
+impl<const D: usize, K: Kinematics<D>> Term<D> for Traction<K, D> {
+    fn name(&self) -> &'static str {
+        "traction"
+    }
+
+    fn assemble(&self, frame: &Frame<D>, trial: &Trial<D>, out: &mut Assembly) -> Result<()> {
+        if trial.phase != self.phase {
+            return Ok(());
+        }
+        let t: [f64; D] = std::array::from_fn(|d| -trial.weight * self.value[d].at(trial.time));
+        for &(node, area) in &self.area {
+            let block = frame.block[node as usize];
+            if block != u32::MAX {
+                let first = frame.pattern.start[block as usize] as usize;
+                for d in 0..D {
+                    out.force[first + d] += area * t[d];
+                }
+            }
+        }
+        Ok(())
+    }
+}
