@@ -1,5 +1,7 @@
 //! The mesh: nodes, cells of any mixture of kinds, and the named groups of the `.geo`.
 
+pub mod builder;
+pub mod locate;
 pub mod shape;
 
 use shape::CellKind;
