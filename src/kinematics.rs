@@ -5,7 +5,7 @@
 //! does not pay for them. Tensors are three-dimensional throughout (see [`crate::tensor`]); a solid is one
 //! more marker with `D = 3`.
 
-use crate::error::Result;
+use crate::material::spatial::{self, PlaneTangent, Spatial};
 use crate::material::{Model, State, spectral};
 use crate::tensor::{Symmetric, Tensor};
 use std::f64::consts::TAU;
@@ -19,16 +19,6 @@ pub struct Gradient<const D: usize> {
     pub hoop: f64,
 }
 
-/// What a material point answers: stress, new state and the tangent in the form of the kinematics.
-pub struct Answer<T> {
-    /// Kirchhoff stress [kPa], tension positive.
-    pub kirchhoff: Symmetric,
-    /// Elastic left Cauchy–Green tensor after the return [-].
-    pub elastic: Symmetric,
-    pub state: State,
-    pub tangent: T,
-}
-
 /// How nodal displacements strain a point in `D` dimensions.
 pub trait Kinematics<const D: usize>: Copy + Default + Send + Sync + 'static {
     /// The spatial tangent `a_ijkl = C_ijkl − τ_il δ_jk`.
@@ -39,11 +29,12 @@ pub trait Kinematics<const D: usize>: Copy + Default + Send + Sync + 'static {
     /// Whether the circumferential strain `u_r / r` exists.
     const HOOP: bool;
 
-    /// The answer of a material point seeded at height `y` to an elastic trial left Cauchy–Green tensor.
-    ///
-    /// # Errors
-    /// When the tensor is not positive definite.
-    fn respond(model: &dyn Model, y: f64, trial: &Symmetric, state: &State) -> Result<Answer<Self::Tangent>>;
+    /// The response of a point seeded at height `y` [m] to an elastic trial left Cauchy–Green tensor;
+    /// `None` where that is not positive definite.
+    fn respond(model: &dyn Model, y: f64, trial: &Symmetric, state: &State) -> Option<Spatial<Self::Tangent>>;
+
+    /// Principal values of a symmetric tensor.
+    fn roots(t: &Symmetric) -> [f64; 3];
 
     /// `a : (e_k ⊗ ∇N)` for each component `k`.
     fn column(tangent: &Self::Tangent, gradient: &Gradient<D>) -> Self::Column;
@@ -104,16 +95,20 @@ pub struct PlaneStrain;
 pub struct Axisymmetric;
 
 impl Kinematics<2> for PlaneStrain {
-    type Tangent = spectral::PlaneTangent;
+    type Tangent = PlaneTangent;
     type Column = [[f64; 4]; 2];
     const HOOP: bool = false;
 
-    fn respond(model: &dyn Model, y: f64, trial: &Symmetric, state: &State) -> Result<Answer<Self::Tangent>> {
-        plane_answer(model, y, trial, state)
+    fn respond(model: &dyn Model, y: f64, trial: &Symmetric, state: &State) -> Option<Spatial<Self::Tangent>> {
+        spatial::plane(model, y, trial, state)
+    }
+
+    fn roots(t: &Symmetric) -> [f64; 3] {
+        spectral::Plane::of(t).roots()
     }
 
     fn column(tangent: &Self::Tangent, gradient: &Gradient<2>) -> Self::Column {
-        let (a, g) = (&tangent.a, &gradient.g);
+        let (a, g) = (tangent, &gradient.g);
         std::array::from_fn(|k| std::array::from_fn(|ij| a[ij][2 * k] * g[0] + a[ij][2 * k + 1] * g[1]))
     }
 
@@ -124,16 +119,20 @@ impl Kinematics<2> for PlaneStrain {
 }
 
 impl Kinematics<2> for Axisymmetric {
-    type Tangent = spectral::PlaneTangent;
+    type Tangent = PlaneTangent;
     type Column = [[f64; 5]; 2];
     const HOOP: bool = true;
 
-    fn respond(model: &dyn Model, y: f64, trial: &Symmetric, state: &State) -> Result<Answer<Self::Tangent>> {
-        plane_answer(model, y, trial, state)
+    fn respond(model: &dyn Model, y: f64, trial: &Symmetric, state: &State) -> Option<Spatial<Self::Tangent>> {
+        spatial::plane(model, y, trial, state)
+    }
+
+    fn roots(t: &Symmetric) -> [f64; 3] {
+        spectral::Plane::of(t).roots()
     }
 
     fn column(tangent: &Self::Tangent, gradient: &Gradient<2>) -> Self::Column {
-        let (a, g) = (&tangent.a, &gradient.g);
+        let (a, g) = (tangent, &gradient.g);
         let hoop = [gradient.hoop, 0.0];
         std::array::from_fn(|k| {
             std::array::from_fn(|ij| a[ij][2 * k] * g[0] + a[ij][2 * k + 1] * g[1] + a[ij][4] * hoop[k])
@@ -147,19 +146,4 @@ impl Kinematics<2> for Axisymmetric {
             std::array::from_fn(|k| g[0] * column[k][2 * i] + g[1] * column[k][2 * i + 1] + hoop[i] * column[k][4])
         })
     }
-}
-
-fn plane_answer(
-    model: &dyn Model,
-    y: f64,
-    trial: &Symmetric,
-    state: &State,
-) -> Result<Answer<spectral::PlaneTangent>> {
-    let response = spectral::plane(model, y, trial, state)?;
-    Ok(Answer {
-        kirchhoff: response.kirchhoff,
-        elastic: response.elastic,
-        state: response.state,
-        tangent: response.tangent,
-    })
 }

@@ -1,8 +1,14 @@
 //! Implicit second-order Material Point Method for geotechnics.
 
 pub mod error;
+pub mod kinematics;
 pub mod material;
 pub mod mesh;
 pub mod points;
+pub mod stencil;
+pub mod step;
 pub mod system;
 pub mod tensor;
+pub mod term;
+pub mod time_integration;
+pub mod time_value;

@@ -6,7 +6,7 @@
 mod fill;
 mod mpm;
 
-pub use fill::{SoftCell, integrate, soft_cells};
+pub use fill::{SoftCell, cell_size, integrate, soft_cells};
 pub use mpm::fill as fill_mpm;
 
 use crate::kinematics::{Gradient, Kinematics};

@@ -7,12 +7,7 @@ use crate::mesh::shape::{self, MAX_NODES};
 use rayon::prelude::*;
 
 /// Fills `stencil` for points in `cell` at the parametric coordinates `xi`, given per point.
-pub fn fill<const D: usize, K: Kinematics<D>>(
-    stencil: &mut Stencil<D>,
-    mesh: &Mesh<D>,
-    cell: &[u32],
-    xi: &[[f64; 3]],
-) {
+pub fn fill<const D: usize, K: Kinematics<D>>(stencil: &mut Stencil<D>, mesh: &Mesh<D>, cell: &[u32], xi: &[[f64; 3]]) {
     group(stencil, mesh, cell);
     let entries = stencil.patches.last().map_or(0, |p| p.first_entry + (p.point_count * p.node_count) as usize);
     stencil.value.clear();

@@ -5,6 +5,7 @@ use crate::error::Result;
 use rayon::prelude::*;
 
 /// The values of a matrix with a given [`Pattern`].
+#[derive(Default)]
 pub struct Matrix {
     pub values: Vec<f64>,
 }

@@ -1,6 +1,6 @@
 //! Body force of the material points: `−Σ_p m_p N_I g`, times a load factor in the phase's time.
 
-use super::{Assembly, Frame, Term, Trial};
+use super::{Assembly, Frame, Role, Term, Trial};
 use crate::error::Result;
 use crate::kinematics::Kinematics;
 use crate::system::scatter;
@@ -24,8 +24,8 @@ impl<K, const D: usize> BodyForce<K, D> {
 }
 
 impl<const D: usize, K: Kinematics<D>> Term<D> for BodyForce<K, D> {
-    fn name(&self) -> &'static str {
-        "body force"
+    fn role(&self) -> Role {
+        Role::External
     }
 
     fn assemble(&self, frame: &Frame<D>, trial: &Trial<D>, out: &mut Assembly) -> Result<()> {

@@ -27,10 +27,6 @@ impl<K> EmptyCells<K> {
 }
 
 impl<const D: usize, K: Kinematics<D>> Term<D> for EmptyCells<K> {
-    fn name(&self) -> &'static str {
-        "empty cells"
-    }
-
     fn assemble(&self, frame: &Frame<D>, trial: &Trial<D>, out: &mut Assembly) -> Result<()> {
         let wanted = out.tangent.is_some();
         let compute = |soft: &SoftCell, local: &mut Local| {

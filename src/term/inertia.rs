@@ -2,7 +2,7 @@
 //!
 //! Row-summed masses are out of the question: the corner functions of a six-node triangle integrate to zero.
 
-use super::{Assembly, Frame, Term, Trial};
+use super::{Assembly, Frame, Role, Term, Trial};
 use crate::error::Result;
 use crate::kinematics::Kinematics;
 use crate::system::{Local, scatter};
@@ -15,12 +15,8 @@ pub struct Inertia<K> {
 }
 
 impl<const D: usize, K: Kinematics<D>> Term<D> for Inertia<K> {
-    fn name(&self) -> &'static str {
-        "inertia"
-    }
-
-    fn is_inertia(&self) -> bool {
-        true
+    fn role(&self) -> Role {
+        Role::Inertia
     }
 
     fn assemble(&self, frame: &Frame<D>, trial: &Trial<D>, out: &mut Assembly) -> Result<()> {

@@ -4,9 +4,10 @@
 //! `ΔF = F F_n⁻¹`, the elastic trial `b = ΔF b_n ΔFᵀ` (theory, eq. 3–5). The term keeps no state: the points
 //! carry it, and it is written only on convergence.
 
-use super::{Assembly, Frame, Term, Trial};
+use super::{Assembly, Frame, Term, Trial, Update};
 use crate::error::{Error, Result};
-use crate::kinematics::{Answer, Gradient, Kinematics};
+use crate::kinematics::{Gradient, Kinematics};
+use crate::material::spatial::Spatial;
 use crate::material::{Model, State};
 use crate::mesh::shape::MAX_NODES;
 use crate::points::Points;
@@ -33,7 +34,7 @@ struct Strained<T> {
     increment: Tensor,
     /// Inverse of the deformation since the grid was restored.
     inverse: Tensor,
-    answer: Answer<T>,
+    answer: Spatial<T>,
 }
 
 impl<K> Internal<K> {
@@ -76,8 +77,8 @@ impl<K> Internal<K> {
             return Err(Error::analysis(format!("material point {p}"), "its region has no material", ""));
         };
         let state = State { plastic_strain: points.plastic_strain[p] };
-        let answer = K::respond(model.as_ref(), points.origin[p][D - 1], &elastic, &state)
-            .map_err(|e| Error { place: format!("material point {p}"), ..e })?;
+        let answer = K::respond(model.as_ref(), points.origin[p][1], &elastic, &state)
+            .ok_or_else(|| inverted("is strained beyond measure"))?;
         Ok(Strained { increment, inverse, answer })
     }
 }
@@ -92,10 +93,6 @@ fn gather<const D: usize>(frame: &Frame<D>, patch: &Patch, field: &[[f64; D]]) -
 }
 
 impl<const D: usize, K: Kinematics<D>> Term<D> for Internal<K> {
-    fn name(&self) -> &'static str {
-        "internal force"
-    }
-
     fn symmetric(&self) -> bool {
         self.models.iter().flatten().all(|m| m.symmetric())
     }
@@ -138,16 +135,27 @@ impl<const D: usize, K: Kinematics<D>> Term<D> for Internal<K> {
         )
     }
 
-    fn commit(&self, frame: &Frame<D>, trial: &Trial<D>, next: &mut Points<D>) -> Result<()> {
-        type Update = (usize, Tensor, Symmetric, Symmetric, f64);
-        let updates: Vec<Vec<Update>> = frame
+    fn energy(&self, points: &Points<D>) -> f64 {
+        let energy = |p: usize| {
+            let Some(model) = self.models.get(points.region[p] as usize).and_then(Option::as_ref) else { return 0.0 };
+            let strain = K::roots(&points.elastic[p]).map(|b| 0.5 * b.ln());
+            let stress = model.elasticity().at(points.origin[p][1]).stress(&strain);
+            0.5 * points.initial_volume[p] * stress.iter().zip(&strain).map(|(t, e)| t * e).sum::<f64>()
+        };
+        // In order, so that the sum does not depend on the number of threads.
+        (0..points.len()).into_par_iter().map(energy).collect::<Vec<f64>>().iter().sum()
+    }
+
+    fn commit(&self, frame: &Frame<D>, trial: &Trial<D>) -> Result<Option<Update>> {
+        type New = (usize, Tensor, Symmetric, Symmetric, f64);
+        let by_patch: Vec<Vec<New>> = frame
             .stencil
             .patches
             .par_iter()
             .map(|patch| {
                 let now = gather(frame, patch, trial.displacement);
                 let before = gather(frame, patch, trial.converged);
-                let update = |entries: Entries<D>| {
+                let new = |entries: Entries<D>| {
                     let point = self.strain(frame.points, &entries, &now, &before)?;
                     let deformation = point.increment * frame.points.deformation[entries.point];
                     let volume_ratio = deformation.determinant();
@@ -155,16 +163,23 @@ impl<const D: usize, K: Kinematics<D>> Term<D> for Internal<K> {
                     let plastic_strain = point.answer.state.plastic_strain;
                     Ok((entries.point, deformation, point.answer.elastic, stress, plastic_strain))
                 };
-                frame.stencil.entries::<K>(patch).map(update).collect::<Result<Vec<Update>>>()
+                frame.stencil.entries::<K>(patch).map(new).collect::<Result<Vec<New>>>()
             })
             .collect::<Result<_>>()?;
-        for (p, deformation, elastic, stress, plastic_strain) in updates.into_iter().flatten() {
-            next.deformation[p] = deformation;
-            next.elastic[p] = elastic;
-            next.stress[p] = stress;
-            next.plastic_strain[p] = plastic_strain;
+        let points = frame.points;
+        let mut update = Update {
+            deformation: points.deformation.clone(),
+            elastic: points.elastic.clone(),
+            stress: points.stress.clone(),
+            plastic_strain: points.plastic_strain.clone(),
+        };
+        for (p, deformation, elastic, stress, plastic_strain) in by_patch.into_iter().flatten() {
+            update.deformation[p] = deformation;
+            update.elastic[p] = elastic;
+            update.stress[p] = stress;
+            update.plastic_strain[p] = plastic_strain;
         }
-        Ok(())
+        Ok(Some(update))
     }
 }
 

@@ -21,6 +21,7 @@ use crate::mesh::Mesh;
 use crate::points::Points;
 use crate::stencil::{SoftCell, Stencil};
 use crate::system::{Matrix, Pattern, Workspace};
+use crate::tensor::{Symmetric, Tensor};
 
 /// What stays fixed while a step is solved.
 pub struct Frame<'a, const D: usize> {
@@ -66,11 +67,37 @@ pub struct Assembly<'a> {
     pub workspace: &'a mut Workspace,
 }
 
+/// New values of the points' history, one entry a point.
+pub struct Update {
+    pub deformation: Vec<Tensor>,
+    pub elastic: Vec<Symmetric>,
+    pub stress: Vec<Symmetric>,
+    pub plastic_strain: Vec<f64>,
+}
+
+impl Update {
+    /// Writes the new values.
+    pub fn apply<const D: usize>(self, points: &mut Points<D>) {
+        points.deformation = self.deformation;
+        points.elastic = self.elastic;
+        points.stress = self.stress;
+        points.plastic_strain = self.plastic_strain;
+    }
+}
+
+/// What kind of force a term is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Role {
+    /// In balance with itself: its sum over all nodes vanishes.
+    Internal,
+    /// Applied from outside.
+    External,
+    /// Inertia, absent from quasi-static phases.
+    Inertia,
+}
+
 /// One term of the equations.
 pub trait Term<const D: usize>: Send + Sync {
-    /// A short name for the log.
-    fn name(&self) -> &'static str;
-
     /// Adds the residual, and the tangent where wanted, at a trial state.
     ///
     /// # Errors
@@ -82,16 +109,21 @@ pub trait Term<const D: usize>: Send + Sync {
         true
     }
 
-    /// Writes the converged state into the points.
+    /// What the converged trial state makes of the points, if it changes them.
     ///
     /// # Errors
     /// As [`Term::assemble`].
-    fn commit(&self, _frame: &Frame<D>, _trial: &Trial<D>, _next: &mut Points<D>) -> Result<()> {
-        Ok(())
+    fn commit(&self, _frame: &Frame<D>, _trial: &Trial<D>) -> Result<Option<Update>> {
+        Ok(None)
     }
 
-    /// Whether the term is an inertia force, which the static residual at the beginning of a step leaves out.
-    fn is_inertia(&self) -> bool {
-        false
+    /// What kind of force the term is.
+    fn role(&self) -> Role {
+        Role::Internal
+    }
+
+    /// Stored energy [kJ] of the points in their converged state.
+    fn energy(&self, _points: &Points<D>) -> f64 {
+        0.0
     }
 }

@@ -2,7 +2,7 @@
 //!
 //! The force does not follow the deformation: it acts per unit of initial area, as PLAXIS's line loads do.
 
-use super::{Assembly, Frame, Term, Trial};
+use super::{Assembly, Frame, Role, Term, Trial};
 use crate::error::Result;
 use crate::kinematics::Kinematics;
 use crate::mesh::shape::{CellKind, MAX_NODES, rule};
@@ -64,17 +64,14 @@ fn facet_point<const D: usize>(
     }
     let dot = |a: &[f64; D], b: &[f64; D]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
     let [a, b] = &tangent;
-    let stretch = if kind.dimension() == 2 {
-        (dot(a, a) * dot(b, b) - dot(a, b).powi(2)).sqrt()
-    } else {
-        dot(a, a).sqrt()
-    };
+    let stretch =
+        if kind.dimension() == 2 { (dot(a, a) * dot(b, b) - dot(a, b).powi(2)).sqrt() } else { dot(a, a).sqrt() };
     (x, stretch)
 }
 
 impl<const D: usize, K: Kinematics<D>> Term<D> for Traction<K, D> {
-    fn name(&self) -> &'static str {
-        "traction"
+    fn role(&self) -> Role {
+        Role::External
     }
 
     fn assemble(&self, frame: &Frame<D>, trial: &Trial<D>, out: &mut Assembly) -> Result<()> {

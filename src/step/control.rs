@@ -1,0 +1,111 @@
+//! The size of the steps: grown while Newton's method is at ease, halved when it fails.
+
+use super::scene::Stop;
+use crate::error::{Error, Result};
+
+/// Iterations up to which the next step grows.
+const EASY: usize = 6;
+const GROWTH: f64 = 1.5;
+
+/// Bounds of the step size [s] in a phase.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Limits {
+    pub least: f64,
+    pub largest: f64,
+}
+
+/// Step control within one phase.
+#[derive(Clone, Debug)]
+pub struct Controller {
+    limits: Limits,
+    stops: Vec<Stop>,
+    /// The size [s] that the next step should have, before it is fitted to the next stop.
+    pub wanted: f64,
+    /// Halvings since the last accepted step, with the reasons.
+    pub halvings: Vec<String>,
+}
+
+impl Controller {
+    /// `stops` ascend and end with the end of the phase.
+    pub fn new(limits: Limits, stops: Vec<Stop>, wanted: f64) -> Self {
+        Self { limits, stops, wanted, halvings: Vec::new() }
+    }
+
+    /// The next time a step must end at, after `now`.
+    pub fn next_stop(&self, now: f64) -> Option<&Stop> {
+        self.stops.iter().find(|s| s.time > now * (1.0 + 1e-12) + 1e-300)
+    }
+
+    /// The size of the next step: the time to the next stop in equal parts no larger than wanted.
+    pub fn size(&self, now: f64) -> f64 {
+        match self.next_stop(now) {
+            None => self.wanted,
+            Some(stop) => {
+                let left = stop.time - now;
+                left / (left / self.wanted - 1e-9).ceil().max(1.0)
+            }
+        }
+    }
+
+    /// Halves the step after a failure.
+    ///
+    /// # Errors
+    /// The failure itself, once the step would fall below the least one.
+    pub fn halve(&mut self, dt: f64, error: Error) -> Result<()> {
+        if 0.5 * dt < self.limits.least {
+            let tried = self.halvings.len();
+            return Err(Error {
+                problem: format!("{}; the step was halved {tried} times down to {dt:.3e} s", error.problem),
+                ..error
+            });
+        }
+        self.wanted = 0.5 * dt;
+        self.halvings.push(format!("{}: {}", error.place, error.problem));
+        Ok(())
+    }
+
+    /// Takes note of an accepted step: the next one grows where this one was easy.
+    pub fn accept(&mut self, dt: f64, iterations: usize) {
+        let eased = iterations <= EASY && self.halvings.is_empty();
+        // A step shortened to meet a stop says nothing about the size that would have converged.
+        let base = self.wanted.max(dt);
+        self.wanted = if eased { (base * GROWTH).min(self.limits.largest) } else { base.min(self.limits.largest) };
+        self.halvings.clear();
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn controller() -> Controller {
+        let stops = [0.25, 1.0].map(|time| Stop { time, frame: true }).to_vec();
+        Controller::new(Limits { least: 0.01, largest: 0.2 }, stops, 0.1)
+    }
+
+    #[test]
+    fn steps_meet_the_stops_in_equal_parts() {
+        let c = controller();
+        assert!((c.size(0.0) - 0.25 / 3.0).abs() < 1e-15);
+        assert!((c.size(0.25) - 0.75 / 8.0).abs() < 1e-15);
+        assert!(c.next_stop(1.0).is_none());
+    }
+
+    #[test]
+    fn steps_shrink_and_recover() {
+        let mut c = controller();
+        let error = || Error::analysis("Newton", "too many iterations", "");
+        c.halve(0.1, error()).unwrap();
+        assert_eq!(c.wanted, 0.05);
+        c.accept(0.05, 3);
+        assert_eq!(c.wanted, 0.05, "no growth right after a halving");
+        c.accept(0.05, 3);
+        assert!((c.wanted - 0.075).abs() < 1e-15);
+        for _ in 0..5 {
+            c.accept(c.wanted, 3);
+        }
+        assert_eq!(c.wanted, 0.2);
+        c.wanted = 0.015;
+        assert!(c.halve(0.015, error()).unwrap_err().problem.contains("halved"));
+    }
+}

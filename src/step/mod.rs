@@ -1,0 +1,121 @@
+//! The time step: the page to read first.
+//!
+//! Each step has the three phases of the material point method. *Initialise* restores the grid, finds the
+//! points on it and maps their motion to its nodes. *Lagrange* solves the equations of motion on the grid,
+//! implicitly. *Convect* moves the points with the grid and hands them its motion and the converged state.
+
+mod control;
+mod grid;
+mod newton;
+mod report;
+mod scene;
+mod state;
+mod transfer;
+
+pub use control::{Controller, Limits};
+pub use grid::Grid;
+pub use newton::Solution;
+pub use report::Report;
+pub use scene::{Fixed, Numerics, Phase, Prescribed, Scene, Stop};
+pub use state::State;
+
+use crate::error::Result;
+use crate::kinematics::Kinematics;
+use crate::time_integration::GeneralisedAlpha;
+use newton::Problem;
+use std::marker::PhantomData;
+
+/// A scene in motion.
+pub struct Simulation<'a, const D: usize, K> {
+    pub scene: &'a Scene<D>,
+    pub state: State<D>,
+    grid: Grid<D>,
+    kinematics: PhantomData<K>,
+}
+
+impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
+    /// Takes up a state: the first one or one from a checkpoint.
+    ///
+    /// # Errors
+    /// When a point lies outside the grid, or memory does not suffice.
+    pub fn new(scene: &'a Scene<D>, mut state: State<D>) -> Result<Self> {
+        if state.parametric.is_empty() {
+            grid::locate_points(scene, &mut state)?;
+            grid::choose_cells(scene, &mut state);
+        }
+        let grid = Grid::new::<K>(scene, &state)?;
+        Ok(Self { scene, state, grid, kinematics: PhantomData })
+    }
+
+    /// One time step of the size that `controller` wants, halved until it converges.
+    ///
+    /// # Errors
+    /// When a point left the grid, or the step falls below the least one.
+    pub fn advance(&mut self, controller: &mut Controller) -> Result<Report<D>> {
+        self.initialise()?;
+        let (dt, solution) = loop {
+            let dt = controller.size(self.state.phase_time);
+            match self.lagrange(dt) {
+                Ok(solution) => break (dt, solution),
+                Err(error) => controller.halve(dt, error)?,
+            }
+        };
+        let report = self.convect(dt, solution)?;
+        controller.accept(dt, report.iterations());
+        Ok(report)
+    }
+
+    /// Points to grid.
+    fn initialise(&mut self) -> Result<()> {
+        let (scene, state) = (self.scene, &mut self.state);
+        if scene.numerics.restore_every_step {
+            grid::locate_points(scene, state)?;
+            if grid::choose_cells(scene, state) {
+                self.grid = Grid::new::<K>(scene, state)?;
+            } else {
+                self.grid.see_points::<K>(scene, state);
+            }
+            state.displacement.fill([0.0; D]);
+        }
+        if scene.phases[state.phase].dynamic {
+            transfer::motion_to_grid::<D, K>(scene, &mut self.grid, state)?;
+        }
+        Ok(())
+    }
+
+    /// The solution on the grid.
+    fn lagrange(&mut self, dt: f64) -> Result<Solution<D>> {
+        let (scene, state) = (self.scene, &self.state);
+        let phase = &scene.phases[state.phase];
+        let given = grid::given_increments(scene, state, &self.grid, dt);
+        let problem = Problem {
+            scene,
+            points: &state.points,
+            converged: &state.displacement,
+            velocity: &state.velocity,
+            acceleration: &state.acceleration,
+            phase: state.phase,
+            from: state.phase_time,
+            to: state.phase_time + dt,
+            given: &given,
+            integration: phase.dynamic.then(|| GeneralisedAlpha::new(scene.numerics.spectral_radius, dt)),
+        };
+        newton::solve(&problem, &mut self.grid)
+    }
+
+    /// Grid to points.
+    fn convect(&mut self, dt: f64, solution: Solution<D>) -> Result<Report<D>> {
+        let (scene, state) = (self.scene, &mut self.state);
+        let before = report::Motion::of(&state.points);
+        transfer::commit(scene, &self.grid, state, &solution)?;
+        transfer::move_points::<D, K>(scene, &self.grid, state, &solution.displacement);
+        if scene.phases[state.phase].dynamic {
+            transfer::motion_to_points::<D, K>(scene, &self.grid, state, &solution.displacement, dt);
+        }
+        state.displacement.clone_from(&solution.displacement);
+        state.step += 1;
+        state.time += dt;
+        state.phase_time += dt;
+        Ok(Report::new(scene, state, &self.grid, dt, solution, &before))
+    }
+}

@@ -1,0 +1,100 @@
+//! What a step reports: for the log, the history and the progress.
+
+use super::grid::Grid;
+use super::newton::Solution;
+use super::scene::Scene;
+use super::state::State;
+use crate::points::Points;
+use crate::system::Method;
+
+/// Mass and momentum of the points.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Motion<const D: usize> {
+    /// Mass [t].
+    pub mass: f64,
+    /// Linear momentum [t m/s].
+    pub linear: [f64; D],
+    /// Angular momentum [t m²/s] about the origin, in the plane.
+    pub angular: f64,
+    /// Kinetic energy [kJ].
+    pub kinetic: f64,
+}
+
+impl<const D: usize> Motion<D> {
+    pub fn of(points: &Points<D>) -> Self {
+        let mut motion = Self { mass: 0.0, linear: [0.0; D], angular: 0.0, kinetic: 0.0 };
+        for (p, &m) in points.mass.iter().enumerate() {
+            motion.mass += m;
+            if let Some(v) = points.velocity.get(p) {
+                let x = &points.position[p];
+                for d in 0..D {
+                    motion.linear[d] += m * v[d];
+                    motion.kinetic += 0.5 * m * v[d] * v[d];
+                }
+                motion.angular += m * (x[0] * v[1] - x[1] * v[0]);
+            }
+        }
+        motion
+    }
+}
+
+/// A converged step.
+#[derive(Clone, Debug)]
+pub struct Report<const D: usize> {
+    /// Size of the step [s].
+    pub dt: f64,
+    /// Relative residuals, the first before the first iteration.
+    pub residuals: Vec<f64>,
+    pub method: Method,
+    pub motion: Motion<D>,
+    /// Change of linear momentum less the impulse of applied forces and supports [t m/s].
+    pub imbalance: [f64; D],
+    /// Elastic energy [kJ].
+    pub elastic: f64,
+    /// Potential energy [kJ] of gravity at its full factor.
+    pub potential: f64,
+    /// Force of the supports on the nodes [kN]: zero at nodes without.
+    pub reaction: Vec<[f64; D]>,
+}
+
+impl<const D: usize> Report<D> {
+    pub fn new(
+        scene: &Scene<D>,
+        state: &State<D>,
+        grid: &Grid<D>,
+        dt: f64,
+        solution: Solution<D>,
+        before: &Motion<D>,
+    ) -> Self {
+        let motion = Motion::of(&state.points);
+        let mut reaction = vec![[0.0; D]; scene.mesh.nodes.len()];
+        for fixed in scene.fixed(state.phase) {
+            for &n in &fixed.nodes {
+                if grid.block[n as usize] != u32::MAX {
+                    let e = grid.block[n as usize] as usize * D + fixed.component;
+                    reaction[n as usize][fixed.component] = solution.residual[e];
+                }
+            }
+        }
+        let impulse = |d: usize| dt * (solution.applied[d] + reaction.iter().map(|r| r[d]).sum::<f64>());
+        let dynamic = scene.phases[state.phase].dynamic;
+        let imbalance =
+            std::array::from_fn(|d| if dynamic { motion.linear[d] - before.linear[d] - impulse(d) } else { 0.0 });
+        let fall = |(x, m): (&[f64; D], &f64)| -m * (0..D).map(|d| scene.gravity[d] * x[d]).sum::<f64>();
+        Self {
+            dt,
+            residuals: solution.history,
+            method: solution.method,
+            imbalance,
+            elastic: scene.terms.iter().map(|t| t.energy(&state.points)).sum(),
+            potential: state.points.position.iter().zip(&state.points.mass).map(fall).sum(),
+            motion,
+            reaction,
+        }
+    }
+
+    /// Newton iterations of the step.
+    pub fn iterations(&self) -> usize {
+        self.residuals.len() - 1
+    }
+}

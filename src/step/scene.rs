@@ -1,0 +1,91 @@
+//! A scene: everything that does not change while it is solved.
+
+use crate::mesh::Mesh;
+use crate::mesh::locate::Locator;
+use crate::stencil::cell_size;
+use crate::term::Term;
+use crate::time_value::TimeValue;
+
+/// What a case resolves into. Only [`crate::case`] decides which terms it has.
+pub struct Scene<const D: usize> {
+    pub mesh: Mesh<D>,
+    pub locator: Locator<D>,
+    /// The terms of the equations; what the scene does not use is absent.
+    pub terms: Vec<Box<dyn Term<D>>>,
+    /// Degrees of freedom held at their place in every phase.
+    pub supports: Vec<Fixed>,
+    pub phases: Vec<Phase>,
+    pub numerics: Numerics,
+    /// Acceleration of gravity [m/s²], for the energies in the log.
+    pub gravity: [f64; D],
+    /// Largest Young's modulus [kPa] and density [t/m³] of the scene: scales of penalties and tolerances.
+    pub stiffness_scale: f64,
+    pub density_scale: f64,
+}
+
+impl<const D: usize> Scene<D> {
+    /// Where displacements are given in a phase: the supports and what is prescribed.
+    pub fn fixed(&self, phase: usize) -> impl Iterator<Item = &Fixed> {
+        self.supports.iter().chain(self.phases[phase].prescribed.iter().map(|p| &p.fixed))
+    }
+
+    /// Area [m²] of the side of a typical cell.
+    pub fn cell_face(&self) -> f64 {
+        let sum: f64 = (0..self.mesh.cells.len()).map(|c| cell_size(&self.mesh, c)).sum();
+        (sum / self.mesh.cells.len().max(1) as f64).powi(D as i32 - 1)
+    }
+}
+
+/// Nodes held in one direction.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Fixed {
+    pub nodes: Vec<u32>,
+    pub component: usize,
+}
+
+/// Nodes moved in one direction.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Prescribed {
+    pub fixed: Fixed,
+    /// Displacement [m] since the beginning of the phase.
+    pub displacement: TimeValue,
+}
+
+/// A phase of the analysis.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Phase {
+    pub name: String,
+    /// With inertia; quasi-static otherwise.
+    pub dynamic: bool,
+    /// Duration [s].
+    pub duration: f64,
+    /// Time steps [s]: the first, the least and the largest.
+    pub first_step: f64,
+    pub least_step: f64,
+    pub largest_step: f64,
+    pub prescribed: Vec<Prescribed>,
+    /// Times [s] in the phase at which a step must end: outputs, kinks of tables, the end.
+    pub stops: Vec<Stop>,
+}
+
+/// A time at which a step ends.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Stop {
+    /// Time [s] since the beginning of the phase.
+    pub time: f64,
+    /// Whether a frame is written there.
+    pub frame: bool,
+}
+
+/// Settings of the numerical method.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Numerics {
+    /// Restore the grid in every step; never otherwise (updated Lagrangian).
+    pub restore_every_step: bool,
+    /// ρ∞ [-] of the generalised-α method.
+    pub spectral_radius: f64,
+    /// Relative residual [-] at which Newton's iteration ends.
+    pub tolerance: f64,
+    /// Iterations after which a step is halved.
+    pub max_iterations: usize,
+}

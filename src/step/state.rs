@@ -1,0 +1,56 @@
+//! The state of a run: all that a checkpoint holds. Everything else follows from it and the scene.
+
+use crate::points::Points;
+
+/// The state at the last converged step.
+#[derive(Clone, Debug, PartialEq)]
+pub struct State<const D: usize> {
+    /// Number of the phase, from 0; the number of phases when all are done.
+    pub phase: usize,
+    /// Time [s] since the run and since the phase began.
+    pub time: f64,
+    pub phase_time: f64,
+    /// Converged steps so far.
+    pub step: u64,
+    /// Size [s] of the next step that the step control wants.
+    pub step_size: f64,
+    /// Frames written so far.
+    pub frames: u64,
+    /// Rows of the history written so far.
+    pub rows: u64,
+    pub points: Points<D>,
+    /// Whether the velocities and accelerations of the points are those of the motion: false until the first
+    /// dynamic step has computed the accelerations from the forces.
+    pub moving: bool,
+    /// Parametric coordinates of the points in their cells, as of the last restoration.
+    pub parametric: Vec<[f64; 3]>,
+    /// Displacement [m] of the nodes since the last restoration.
+    pub displacement: Vec<[f64; D]>,
+    /// Velocity [m/s] and acceleration [m/s²] of the nodes; empty in quasi-static analysis.
+    pub velocity: Vec<[f64; D]>,
+    pub acceleration: Vec<[f64; D]>,
+    /// Cells that take part in the solution; empty before the first step.
+    pub taking_part: Vec<bool>,
+}
+
+impl<const D: usize> State<D> {
+    /// The state before the first step.
+    pub fn new(points: Points<D>, nodes: usize, first_step: f64) -> Self {
+        Self {
+            phase: 0,
+            time: 0.0,
+            phase_time: 0.0,
+            step: 0,
+            step_size: first_step,
+            frames: 0,
+            rows: 0,
+            points,
+            moving: false,
+            parametric: Vec::new(),
+            displacement: vec![[0.0; D]; nodes],
+            velocity: Vec::new(),
+            acceleration: Vec::new(),
+            taking_part: Vec::new(),
+        }
+    }
+}

@@ -1,0 +1,342 @@
+//! Transfer of the motion between points and grid.
+//!
+//! To the grid by consistent mass, `Σ_p m_p N_I N_J v_J = Σ_p m_p N_I v_p`: it keeps linear momentum, and a
+//! linear velocity field exactly. To the points by increments of velocity (FLIP) and values of acceleration.
+
+use super::grid::{Grid, System};
+use super::newton::{Problem, Solution, static_force};
+use super::scene::Scene;
+use super::state::State;
+use crate::error::{Error, Result};
+use crate::kinematics::Kinematics;
+use crate::points::Points;
+use crate::stencil::{SoftCell, cell_size, integrate};
+use crate::system::scatter;
+use crate::term::Trial;
+use crate::time_integration::GeneralisedAlpha;
+use rayon::prelude::*;
+
+/// Weight of the gradient penalty that spreads the motion smoothly over nodes with little or no mass,
+/// relative to the mass of a full cell: `ε ρ h² (1 − fill) ∫ ∇N_I·∇N_J`. It does not touch uniform motion
+/// and adds no momentum.
+const SPREAD: f64 = 1e-4;
+
+/// The mass of the points on the nodes, factorised.
+struct Mass<'a> {
+    system: &'a mut System,
+    factorised: bool,
+}
+
+impl<'a> Mass<'a> {
+    /// Assembles the mass where the points are.
+    ///
+    /// # Errors
+    /// When the scene has no dynamic phase.
+    fn assemble<const D: usize, K: Kinematics<D>>(
+        scene: &Scene<D>,
+        grid: &'a mut Grid<D>,
+        points: &Points<D>,
+    ) -> Result<Self> {
+        let Some(system) = grid.mass.as_mut() else {
+            return Err(Error::analysis("transfer", "a scene without dynamic phases has no mass system", ""));
+        };
+        system.matrix.clear();
+        let mut unused = vec![0.0; system.pattern.len()];
+        let (stencil, clique) = (&grid.stencil, &grid.clique);
+        scatter(
+            &system.pattern,
+            &stencil.patches,
+            |patch| clique[patch.cell as usize] as usize,
+            |patch, local| {
+                for entries in stencil.entries::<K>(patch) {
+                    let m = points.mass[entries.point];
+                    for (i, ni) in entries.value.iter().enumerate() {
+                        for (j, nj) in entries.value.iter().enumerate() {
+                            local.matrix[i * local.size + j] += m * ni * nj;
+                        }
+                    }
+                }
+                Ok(())
+            },
+            &mut unused,
+            Some(&mut system.matrix),
+            &mut grid.workspace,
+        )?;
+        scatter(
+            &system.pattern,
+            &grid.soft,
+            |soft| clique[soft.cell as usize] as usize,
+            |soft: &SoftCell, local| {
+                let cell = soft.cell as usize;
+                let scale = SPREAD * scene.density_scale * soft.emptiness * cell_size(&scene.mesh, cell).powi(2);
+                integrate::<D, K>(&scene.mesh, cell, |weight, _, g| {
+                    for a in 0..g.len() {
+                        for b in 0..g.len() {
+                            let dot: f64 = (0..D).map(|d| g[a][d] * g[b][d]).sum();
+                            local.matrix[a * local.size + b] += scale * weight * dot;
+                        }
+                    }
+                });
+                Ok(())
+            },
+            &mut unused,
+            Some(&mut system.matrix),
+            &mut grid.workspace,
+        )?;
+        Ok(Self { system, factorised: false })
+    }
+
+    /// Solves `M x = b` for one component, `b` given in `x`, one entry a node that takes part.
+    ///
+    /// # Errors
+    /// An analysis error when the mass is singular.
+    fn solve(&mut self, x: &mut [f64]) -> Result<()> {
+        let System { pattern, matrix, solver } = &mut *self.system;
+        if self.factorised {
+            return solver.solve_again(pattern, matrix, x);
+        }
+        solver.solve(pattern, matrix, x)?;
+        self.factorised = x.iter().any(|&v| v != 0.0);
+        Ok(())
+    }
+
+    /// Solves `M x = b` with `x = 0` at the nodes marked in `fixed`. The mass is spent afterwards.
+    ///
+    /// # Errors
+    /// As [`Mass::solve`].
+    fn solve_held(&mut self, fixed: &[bool], x: &mut [f64]) -> Result<()> {
+        let System { pattern, matrix, solver } = &mut *self.system;
+        let mut held = crate::system::Matrix { values: matrix.values.clone() };
+        let (zero, scale) = (vec![0.0; x.len()], held.scale(pattern));
+        held.constrain(pattern, fixed, &zero, scale, x);
+        self.factorised = false;
+        solver.solve(pattern, &held, x).map(|_| ())
+    }
+}
+
+/// Brings velocity and acceleration to the nodes: from the points after a restoration, from the forces at the
+/// first step of a motion; a grid that moves with the material keeps its own.
+///
+/// # Errors
+/// When the mass on the nodes cannot be inverted.
+pub fn motion_to_grid<const D: usize, K: Kinematics<D>>(
+    scene: &Scene<D>,
+    grid: &mut Grid<D>,
+    state: &mut State<D>,
+) -> Result<()> {
+    let count = state.points.len();
+    if state.moving && !scene.numerics.restore_every_step {
+        return Ok(());
+    }
+    state.points.velocity.resize(count, [0.0; D]);
+    state.points.acceleration.resize(count, [0.0; D]);
+    let points = &state.points;
+    [state.velocity, state.acceleration] =
+        to_nodes::<D, K>(scene, grid, points, [&points.velocity, &points.acceleration])?;
+    hold(scene, state);
+    if !state.moving {
+        state.acceleration = first_acceleration::<D, K>(scene, grid, state)?;
+        state.points.acceleration = to_points::<D, K>(scene, grid, &state.acceleration, count);
+        state.moving = true;
+    }
+    Ok(())
+}
+
+/// Stops the nodes where their displacement is given.
+fn hold<const D: usize>(scene: &Scene<D>, state: &mut State<D>) {
+    for fixed in scene.fixed(state.phase) {
+        for &n in &fixed.nodes {
+            state.velocity[n as usize][fixed.component] = 0.0;
+            state.acceleration[n as usize][fixed.component] = 0.0;
+        }
+    }
+}
+
+/// `M a = −F` at the beginning of a motion, zero where the displacement is given.
+fn first_acceleration<const D: usize, K: Kinematics<D>>(
+    scene: &Scene<D>,
+    grid: &mut Grid<D>,
+    state: &State<D>,
+) -> Result<Vec<[f64; D]>> {
+    let problem = Problem {
+        scene,
+        points: &state.points,
+        converged: &state.displacement,
+        velocity: &state.velocity,
+        acceleration: &state.acceleration,
+        phase: state.phase,
+        from: state.phase_time,
+        to: state.phase_time,
+        given: &[],
+        integration: None,
+    };
+    let (force, _) = static_force(&problem, grid, 1.0)?;
+    let node = grid.node.clone();
+    let mut acceleration = vec![[0.0; D]; scene.mesh.nodes.len()];
+    let mut fixed = vec![[false; D]; scene.mesh.nodes.len()];
+    for f in scene.fixed(state.phase) {
+        for &n in &f.nodes {
+            fixed[n as usize][f.component] = true;
+        }
+    }
+    let mut mass = Mass::assemble::<D, K>(scene, grid, &state.points)?;
+    for d in 0..D {
+        let held: Vec<bool> = node.iter().map(|&n| fixed[n as usize][d]).collect();
+        let mut x: Vec<f64> = (0..node.len()).map(|b| -force[b * D + d]).collect();
+        mass.solve_held(&held, &mut x)?;
+        for (x, &n) in x.iter().zip(&node) {
+            acceleration[n as usize][d] = *x;
+        }
+    }
+    Ok(acceleration)
+}
+
+/// Writes the converged state of the terms into the points.
+///
+/// # Errors
+/// None for a solution that Newton's method has accepted.
+pub fn commit<const D: usize>(
+    scene: &Scene<D>,
+    grid: &Grid<D>,
+    state: &mut State<D>,
+    solution: &Solution<D>,
+) -> Result<()> {
+    let trial = Trial {
+        displacement: &solution.displacement,
+        converged: &state.displacement,
+        acceleration: &[],
+        acceleration_slope: 0.0,
+        phase: state.phase,
+        time: state.phase_time,
+        weight: 1.0,
+    };
+    let updates: Vec<_> = {
+        let frame = grid.frame(&scene.mesh, &state.points);
+        scene.terms.iter().map(|term| term.commit(&frame, &trial)).collect::<Result<_>>()?
+    };
+    for update in updates.into_iter().flatten() {
+        update.apply(&mut state.points);
+    }
+    Ok(())
+}
+
+/// Moves the points with the grid.
+pub fn move_points<const D: usize, K: Kinematics<D>>(
+    scene: &Scene<D>,
+    grid: &Grid<D>,
+    state: &mut State<D>,
+    displacement: &[[f64; D]],
+) {
+    let increment: Vec<[f64; D]> = displacement
+        .iter()
+        .zip(&state.displacement)
+        .map(|(now, before)| std::array::from_fn(|d| now[d] - before[d]))
+        .collect();
+    let moved = to_points::<D, K>(scene, grid, &increment, state.points.len());
+    for (x, u) in state.points.position.iter_mut().zip(&moved) {
+        for d in 0..D {
+            x[d] += u[d];
+        }
+    }
+}
+
+/// Hands the motion at the end of the step to the points.
+pub fn motion_to_points<const D: usize, K: Kinematics<D>>(
+    scene: &Scene<D>,
+    grid: &Grid<D>,
+    state: &mut State<D>,
+    displacement: &[[f64; D]],
+    dt: f64,
+) {
+    let integration = GeneralisedAlpha::new(scene.numerics.spectral_radius, dt);
+    let mut change = vec![[0.0; D]; displacement.len()];
+    for n in 0..displacement.len() {
+        for d in 0..D {
+            let (v, a) = (state.velocity[n][d], state.acceleration[n][d]);
+            let next = integration.acceleration(displacement[n][d] - state.displacement[n][d], v, a);
+            state.velocity[n][d] = integration.velocity(v, a, next);
+            state.acceleration[n][d] = next;
+            change[n][d] = state.velocity[n][d] - v;
+        }
+    }
+    let count = state.points.len();
+    let gained = to_points::<D, K>(scene, grid, &change, count);
+    for (v, gained) in state.points.velocity.iter_mut().zip(&gained) {
+        for d in 0..D {
+            v[d] += gained[d];
+        }
+    }
+    state.points.acceleration = to_points::<D, K>(scene, grid, &state.acceleration, count);
+}
+
+/// Maps a field of the points to the nodes, weighted by mass.
+///
+/// # Errors
+/// As [`Mass::assemble`].
+fn to_nodes<const D: usize, K: Kinematics<D>>(
+    scene: &Scene<D>,
+    grid: &mut Grid<D>,
+    points: &Points<D>,
+    fields: [&[[f64; D]]; 2],
+) -> Result<[Vec<[f64; D]>; 2]> {
+    let mut right: [Vec<[f64; D]>; 2] = [0, 1].map(|_| vec![[0.0; D]; grid.node.len()]);
+    for patch in &grid.stencil.patches {
+        let nodes = scene.mesh.cells.nodes(patch.cell as usize);
+        for entries in grid.stencil.entries::<K>(patch) {
+            for (n, &node) in entries.value.iter().zip(nodes) {
+                let block = grid.block[node as usize] as usize;
+                let weight = points.mass[entries.point] * n;
+                for (right, field) in right.iter_mut().zip(&fields) {
+                    for d in 0..D {
+                        right[block][d] += weight * field[entries.point][d];
+                    }
+                }
+            }
+        }
+    }
+    let node = grid.node.clone();
+    let mut mass = Mass::assemble::<D, K>(scene, grid, points)?;
+    let mut nodal = [0, 1].map(|_| vec![[0.0; D]; scene.mesh.nodes.len()]);
+    for (right, nodal) in right.iter().zip(&mut nodal) {
+        for d in 0..D {
+            let mut x: Vec<f64> = right.iter().map(|v| v[d]).collect();
+            mass.solve(&mut x)?;
+            for (x, &n) in x.iter().zip(&node) {
+                nodal[n as usize][d] = *x;
+            }
+        }
+    }
+    Ok(nodal)
+}
+
+/// Interpolates a nodal field at the points.
+fn to_points<const D: usize, K: Kinematics<D>>(
+    scene: &Scene<D>,
+    grid: &Grid<D>,
+    field: &[[f64; D]],
+    count: usize,
+) -> Vec<[f64; D]> {
+    let stencil = &grid.stencil;
+    let by_patch: Vec<Vec<(usize, [f64; D])>> = stencil
+        .patches
+        .par_iter()
+        .map(|patch| {
+            let nodes = scene.mesh.cells.nodes(patch.cell as usize);
+            let interpolate = |entries: crate::stencil::Entries<'_, D>| {
+                let mut value = [0.0; D];
+                for (n, &node) in entries.value.iter().zip(nodes) {
+                    for d in 0..D {
+                        value[d] += n * field[node as usize][d];
+                    }
+                }
+                (entries.point, value)
+            };
+            stencil.entries::<K>(patch).map(interpolate).collect()
+        })
+        .collect();
+    let mut out = vec![[0.0; D]; count];
+    for (p, value) in by_patch.into_iter().flatten() {
+        out[p] = value;
+    }
+    out
+}
