@@ -1,0 +1,156 @@
+//! Small scenes on structured meshes, built without a case file.
+
+use mpm::kinematics::Kinematics;
+use mpm::material::{Model, Profile};
+use mpm::mesh::Mesh;
+use mpm::mesh::locate::Locator;
+use mpm::mesh::shape::{MAX_NODES, map, rule};
+use mpm::points::Points;
+use mpm::step::{Controller, Fixed, Limits, Numerics, Phase, Prescribed, Report, Scene, Simulation, State, Stop};
+use mpm::tensor::{IDENTITY, Tensor};
+use mpm::term::{BodyForce, EmptyCells, Inertia, Internal, Term};
+use mpm::time_value::TimeValue;
+use std::sync::Arc;
+
+/// Points at the quadrature points of every cell, of the density [t/m³].
+pub fn quadrature_points<K: Kinematics<2>>(mesh: &Mesh<2>, degree: usize, density: f64) -> Points<2> {
+    let mut points = Points::default();
+    let (mut n, mut g) = ([0.0; MAX_NODES], [[0.0; 2]; MAX_NODES]);
+    for c in 0..mesh.cells.len() {
+        let mut x = Vec::new();
+        mesh.cell_coordinates(c, &mut x);
+        for (xi, weight) in rule(mesh.cells.kind[c], degree) {
+            let det = map(mesh.cells.kind[c], &x, &xi, &mut n, &mut g);
+            let place: [f64; 2] = std::array::from_fn(|d| x.iter().zip(&n).map(|(x, n)| x[d] * n).sum());
+            let volume = weight * det * K::measure(&place);
+            points.position.push(place);
+            points.origin.push(place);
+            points.mass.push(density * volume);
+            points.initial_volume.push(volume);
+            points.deformation.push(Tensor::identity());
+            points.elastic.push(IDENTITY);
+            points.stress.push([0.0; 6]);
+            points.plastic_strain.push(0.0);
+            points.region.push(0);
+            points.cell.push(c as u32);
+        }
+    }
+    points
+}
+
+/// A scene under construction.
+pub struct Bench {
+    pub mesh: Mesh<2>,
+    pub model: Arc<dyn Model>,
+    pub density: f64,
+    pub gravity: [f64; 2],
+    pub gravity_factor: TimeValue,
+    pub supports: Vec<Fixed>,
+    pub prescribed: Vec<Prescribed>,
+    pub extra: Vec<Box<dyn Term<2>>>,
+    pub restore_every_step: bool,
+    pub spectral_radius: f64,
+    pub dynamic: bool,
+    pub duration: f64,
+    pub steps: usize,
+    /// Halvings allowed: the least step is `duration / steps / 2^halvings`.
+    pub halvings: i32,
+}
+
+impl Bench {
+    pub fn new(mesh: Mesh<2>, model: Arc<dyn Model>) -> Self {
+        Self {
+            mesh,
+            model,
+            density: 1.0,
+            gravity: [0.0; 2],
+            gravity_factor: TimeValue::Constant(1.0),
+            supports: Vec::new(),
+            prescribed: Vec::new(),
+            extra: Vec::new(),
+            restore_every_step: false,
+            spectral_radius: 1.0,
+            dynamic: false,
+            duration: 1.0,
+            steps: 1,
+            halvings: 6,
+        }
+    }
+
+    /// The nodes of a group of the mesh, held in one direction.
+    pub fn on(&self, group: &str, component: usize) -> Fixed {
+        Fixed { nodes: self.mesh.group(group).expect("a group of the mesh").nodes.clone(), component }
+    }
+
+    pub fn hold(&mut self, group: &str, components: &[usize]) -> &mut Self {
+        for &component in components {
+            let fixed = self.on(group, component);
+            self.supports.push(fixed);
+        }
+        self
+    }
+
+    pub fn scene<K: Kinematics<2>>(self) -> Scene<2> {
+        let stiffness_scale = self.model.young(0.0);
+        let mut terms: Vec<Box<dyn Term<2>>> = vec![Box::new(Internal::<K>::new(vec![Some(self.model.clone())]))];
+        if self.gravity != [0.0; 2] {
+            terms.push(Box::new(BodyForce::<K, 2>::new(self.gravity, vec![self.gravity_factor])));
+        }
+        if self.restore_every_step {
+            terms.push(Box::new(EmptyCells::<K>::new(1e-5 * stiffness_scale)));
+        }
+        if self.dynamic {
+            terms.push(Box::new(Inertia::<K>::default()));
+        }
+        terms.extend(self.extra);
+        let step = self.duration / self.steps as f64;
+        Scene {
+            locator: Locator::new(&self.mesh),
+            mesh: self.mesh,
+            terms,
+            supports: self.supports,
+            phases: vec![Phase {
+                name: "test".into(),
+                dynamic: self.dynamic,
+                duration: self.duration,
+                first_step: step,
+                least_step: step / 2f64.powi(self.halvings),
+                largest_step: step,
+                prescribed: self.prescribed,
+                stops: vec![Stop { time: self.duration, frame: true }],
+            }],
+            numerics: Numerics {
+                restore_every_step: self.restore_every_step,
+                spectral_radius: self.spectral_radius,
+                tolerance: 1e-10,
+                max_iterations: 25,
+            },
+            gravity: self.gravity,
+            stiffness_scale,
+            density_scale: self.density,
+        }
+    }
+}
+
+/// Runs the first phase of a scene to its end, calling `watch` after every step.
+pub fn run<K: Kinematics<2>>(
+    scene: &Scene<2>,
+    points: Points<2>,
+    mut watch: impl FnMut(&State<2>, &Report<2>),
+) -> State<2> {
+    let phase = &scene.phases[0];
+    let state = State::new(points, scene.mesh.nodes.len(), phase.first_step);
+    let mut simulation = Simulation::<2, K>::new(scene, state).unwrap();
+    let limits = Limits { least: phase.least_step, largest: phase.largest_step };
+    let mut controller = Controller::new(limits, phase.stops.clone(), phase.first_step);
+    while controller.next_stop(simulation.state.phase_time).is_some() {
+        let report = simulation.advance(&mut controller).unwrap_or_else(|e| panic!("{e}"));
+        watch(&simulation.state, &report);
+    }
+    simulation.state
+}
+
+/// A constant parameter.
+pub fn constant(value: f64) -> Profile {
+    Profile::constant(value)
+}

@@ -1,0 +1,8 @@
+//! The solver against closed forms, one file a problem.
+
+mod bar;
+mod bench;
+mod cantilever;
+mod column;
+mod patch;
+mod rotation;

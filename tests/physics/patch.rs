@@ -1,0 +1,86 @@
+//! The linear patch test: boundary displacements of a uniform strain give that strain everywhere.
+
+use crate::bench::{Bench, constant, quadrature_points, run};
+use mpm::kinematics::{Axisymmetric, Kinematics, PlaneStrain};
+use mpm::material::{Elasticity, LinearElastic};
+use mpm::mesh::builder::rectangle;
+use mpm::mesh::shape::CellKind;
+use mpm::step::{Fixed, Prescribed};
+use mpm::time_value::TimeValue;
+use std::sync::Arc;
+
+/// Stretches a jittered mesh by a linear displacement field and returns the largest error of the
+/// deformation gradients.
+fn error<K: Kinematics<2>>(kind: CellKind, gradient: [[f64; 2]; 2], restore: bool) -> f64 {
+    let mut mesh = rectangle(kind, 2.0, 1.5, 4, 3, 0.2, 7);
+    if !K::HOOP {
+        // Away from the origin nothing changes in plane strain; in axisymmetry the field must keep u_r ∝ r.
+        for x in &mut mesh.nodes {
+            x[0] += 3.0;
+        }
+    }
+    let elasticity = Elasticity::new(constant(1000.0), 0.3).unwrap();
+    let mut bench = Bench::new(mesh, Arc::new(LinearElastic::new(elasticity)));
+    bench.restore_every_step = restore;
+    bench.steps = 2;
+    let boundary: Vec<u32> = {
+        let mut nodes: Vec<u32> = bench.mesh.groups.iter().flat_map(|g| g.nodes.clone()).collect();
+        nodes.sort_unstable();
+        nodes.dedup();
+        nodes
+    };
+    for n in boundary {
+        let x = bench.mesh.nodes[n as usize];
+        for component in 0..2 {
+            let u = gradient[component][0] * x[0] + gradient[component][1] * x[1];
+            bench
+                .prescribed
+                .push(Prescribed { fixed: Fixed { nodes: vec![n], component }, displacement: TimeValue::Rate(u) });
+        }
+    }
+    let points = quadrature_points::<K>(&bench.mesh, 4, 1.0);
+    let hoop = if K::HOOP { gradient[0][0] } else { 0.0 };
+    let scene = bench.scene::<K>();
+    let state = run::<K>(&scene, points, |_, report| assert!(report.iterations() <= 8));
+    let mut error = 0f64;
+    for f in &state.points.deformation {
+        for i in 0..2 {
+            for j in 0..2 {
+                let exact = f64::from(u8::from(i == j)) + gradient[i][j];
+                error = error.max((f[(i, j)] - exact).abs());
+            }
+        }
+        error = error.max((f[(2, 2)] - 1.0 - hoop).abs());
+    }
+    error
+}
+
+const KINDS: [CellKind; 5] = [CellKind::T3, CellKind::T6, CellKind::Q4, CellKind::Q8, CellKind::Q9];
+
+#[test]
+fn plane_strain_small_and_large() {
+    for kind in KINDS {
+        for gradient in [[[1e-3, 2e-3], [-1e-3, 3e-3]], [[0.2, 0.3], [-0.1, 0.15]]] {
+            let e = error::<PlaneStrain>(kind, gradient, false);
+            assert!(e < 1e-10, "{kind:?}: {e:e}");
+        }
+    }
+}
+
+#[test]
+fn axisymmetry() {
+    for kind in KINDS {
+        // A uniform strain in axisymmetry has no shear that depends on r.
+        let e = error::<Axisymmetric>(kind, [[0.1, 0.0], [0.0, -0.15]], false);
+        assert!(e < 1e-10, "{kind:?}: {e:e}");
+    }
+}
+
+#[test]
+fn with_the_grid_restored() {
+    // The points of a body that fills the grid must not leave it: compress it less than it fits.
+    for kind in KINDS {
+        let e = error::<PlaneStrain>(kind, [[0.0, 0.0], [0.0, 0.0]], true);
+        assert!(e < 1e-12, "{kind:?}: {e:e}");
+    }
+}
