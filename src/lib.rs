@@ -4,4 +4,5 @@ pub mod error;
 pub mod material;
 pub mod mesh;
 pub mod points;
+pub mod seed;
 pub mod tensor;
