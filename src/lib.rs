@@ -5,6 +5,7 @@ pub mod kinematics;
 pub mod material;
 pub mod mesh;
 pub mod points;
+pub mod seed;
 pub mod stencil;
 pub mod step;
 pub mod system;

@@ -3,6 +3,7 @@
 pub mod builder;
 pub mod gmsh;
 pub mod locate;
+pub mod quality;
 pub mod shape;
 
 use shape::CellKind;

@@ -1,0 +1,246 @@
+//! How good the cells of a plane mesh are, and that none is inverted or folded.
+//!
+//! The quality of a triangle is `4√3 A / (l1² + l2² + l3²)` of its corners: 1 if equilateral, 0 if flat. That
+//! of a quadrilateral is the least over its corners of `2 (a × b) / (|a|² + |b|²)` with the edges `a`, `b`
+//! that meet there: 1 for a square. A curved cell is valid where `det J > 0` throughout, for which it is
+//! enough that all Bernstein coefficients of this polynomial are positive (Johnen, Remacle & Geuzaine 2013,
+//! *Geometrical validity of curvilinear finite elements*).
+
+use std::fmt;
+use std::path::Path;
+
+use super::Mesh;
+use super::shape::{self, CellKind, MAX_NODES, rule};
+use crate::error::{Error, Result};
+
+/// Below this ratio of the least to the largest Bernstein coefficient of `det J` a cell counts as folded.
+const FOLDED: f64 = 1e-6;
+
+/// What a mesh is like.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Summary {
+    pub nodes: usize,
+    /// Cells by kind, in the order of [`CellKind::ALL`], kinds that are there only.
+    pub cells: Vec<(CellKind, usize)>,
+    /// Name, number of cells and area [m²] of every region.
+    pub regions: Vec<(String, usize, f64)>,
+    /// Least quality, the cell that has it and the place of its centre [m].
+    pub worst: (f64, usize, [f64; 2]),
+    pub mean: f64,
+    /// Least ratio, over the cells, of the least to the largest Bernstein coefficient of `det J`: 1 where
+    /// every cell is an affine image.
+    pub jacobian: f64,
+}
+
+/// Sums up `mesh`, read from `file`.
+///
+/// # Errors
+/// Input: a cell that is inverted or folded, with its number, region and place.
+pub fn check(mesh: &Mesh<2>, file: &Path) -> Result<Summary> {
+    let mut regions: Vec<_> = mesh.regions.iter().map(|name| (name.clone(), 0, 0.0)).collect();
+    let (mut worst, mut sum, mut jacobian) = ((f64::INFINITY, 0, [0.0; 2]), 0.0, f64::INFINITY);
+    let mut x = Vec::new();
+    for c in 0..mesh.cells.len() {
+        let kind = mesh.cells.kind[c];
+        mesh.cell_coordinates(c, &mut x);
+        let corners = &x[..kind.corner_count()];
+        let centre = [0, 1].map(|d| corners.iter().map(|x| x[d]).sum::<f64>() / corners.len() as f64);
+        let quality = quality(corners);
+        let region = &mut regions[usize::from(mesh.cells.region[c])];
+        let (least, largest) = jacobian_range(kind, &x);
+        let finite = x.iter().flatten().all(|v| v.is_finite());
+        if !finite || quality <= 0.0 || least <= FOLDED * largest {
+            let (problem, remedy) = if quality > 0.0 && kind.order() == 2 {
+                ("its curved edges fold it over", "refine the mesh along the curve there, or use order: 1")
+            } else {
+                ("it is inverted or flat", "mend the geometry there, or refine the mesh")
+            };
+            let place = format!(
+                "{}, cell {c} of region {} near ({:.6}, {:.6})",
+                file.display(),
+                region.0,
+                centre[0],
+                centre[1]
+            );
+            let problem = format!("{problem} (quality {quality:.3}, det J {least:.3e} to {largest:.3e})");
+            return Err(Error::input(place, problem, remedy));
+        }
+        region.1 += 1;
+        region.2 += rule(kind, 4).iter().map(|(xi, w)| w * determinant(kind, &x, xi)).sum::<f64>();
+        sum += quality;
+        jacobian = jacobian.min(least / largest);
+        if quality < worst.0 {
+            worst = (quality, c, centre);
+        }
+    }
+    let count = |kind| mesh.cells.kind.iter().filter(|&&k| k == kind).count();
+    let cells = CellKind::ALL.into_iter().map(|k| (k, count(k))).filter(|(_, n)| *n > 0).collect();
+    let mean = sum / mesh.cells.len() as f64;
+    Ok(Summary { nodes: mesh.nodes.len(), cells, regions, worst, mean, jacobian })
+}
+
+impl fmt::Display for Summary {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let total: usize = self.cells.iter().map(|(_, n)| n).sum();
+        let kinds: Vec<_> = self.cells.iter().map(|(kind, n)| format!("{n} {kind:?}")).collect();
+        writeln!(f, "{total} cells ({}), {} nodes", kinds.join(", "), self.nodes)?;
+        for (name, count, area) in &self.regions {
+            writeln!(f, "region {name}: {count} cells, {area:.6} m²")?;
+        }
+        let (least, cell, [x, y]) = self.worst;
+        writeln!(f, "quality: least {least:.3} (cell {cell} near ({x:.3}, {y:.3})), mean {:.3}", self.mean)?;
+        write!(f, "det J, least to largest in a cell: {:.3}", self.jacobian)
+    }
+}
+
+fn quality(corners: &[[f64; 2]]) -> f64 {
+    let edge = |i: usize, j: usize| {
+        let (a, b) = (corners[i % corners.len()], corners[j % corners.len()]);
+        [b[0] - a[0], b[1] - a[1]]
+    };
+    let cross = |a: [f64; 2], b: [f64; 2]| a[0] * b[1] - a[1] * b[0];
+    let square = |a: [f64; 2]| a[0] * a[0] + a[1] * a[1];
+    if corners.len() == 3 {
+        let squares = square(edge(0, 1)) + square(edge(1, 2)) + square(edge(2, 0));
+        return 2.0 * 3f64.sqrt() * cross(edge(0, 1), edge(0, 2)) / squares;
+    }
+    let corner = |i: usize| {
+        let (a, b) = (edge(i, i + 1), edge(i, i + corners.len() - 1));
+        2.0 * cross(a, b) / (square(a) + square(b))
+    };
+    (0..corners.len()).map(corner).fold(f64::INFINITY, f64::min)
+}
+
+fn determinant(kind: CellKind, x: &[[f64; 2]], xi: &[f64; 3]) -> f64 {
+    let (mut n, mut grad) = ([0.0; MAX_NODES], [[0.0; 2]; MAX_NODES]);
+    shape::map(kind, x, xi, &mut n, &mut grad)
+}
+
+/// Least and largest Bernstein coefficient of `det J`, between which all its values lie.
+fn jacobian_range(kind: CellKind, x: &[[f64; 2]]) -> (f64, f64) {
+    let at = |xi: [f64; 3]| determinant(kind, x, &xi);
+    let coefficients: Vec<f64> = match kind {
+        CellKind::T6 => {
+            // Degree 2 on the triangle, from the values at the six nodes.
+            let value: Vec<f64> = kind.node_coordinates().iter().map(|&xi| at(xi)).collect();
+            let edge = |i: usize| 2.0 * value[3 + i] - 0.5 * (value[i] + value[(i + 1) % 3]);
+            value[..3].iter().copied().chain((0..3).map(edge)).collect()
+        }
+        CellKind::Q8 | CellKind::Q9 => {
+            // Degree 3 in each direction, from values at 4 × 4 equal distances.
+            let third = |i: usize| 2.0 / 3.0 * i as f64 - 1.0;
+            let rows = [0, 1, 2, 3].map(|j| bernstein([0, 1, 2, 3].map(|i| at([third(i), third(j), 0.0]))));
+            (0..4).flat_map(|i| bernstein([0, 1, 2, 3].map(|j: usize| rows[j][i]))).collect()
+        }
+        // Constant on a T3, linear on a Q4: the corners tell.
+        _ => kind.node_coordinates().iter().map(|&xi| at(xi)).collect(),
+    };
+    coefficients.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), &b| (low.min(b), high.max(b)))
+}
+
+/// Bernstein coefficients of the cubic with the values `f` at four equal distances.
+fn bernstein(f: [f64; 4]) -> [f64; 4] {
+    [
+        f[0],
+        (-5.0 * f[0] + 18.0 * f[1] - 9.0 * f[2] + 2.0 * f[3]) / 6.0,
+        (2.0 * f[0] - 9.0 * f[1] + 18.0 * f[2] - 5.0 * f[3]) / 6.0,
+        f[3],
+    ]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mesh::builder::rectangle;
+
+    fn plane_kinds() -> impl Iterator<Item = CellKind> {
+        CellKind::ALL.into_iter().filter(|k| k.dimension() == 2)
+    }
+
+    #[test]
+    fn quality_of_known_shapes() {
+        let height = 3f64.sqrt() / 2.0;
+        assert!((quality(&[[0.0, 0.0], [1.0, 0.0], [0.5, height]]) - 1.0).abs() < 1e-15);
+        // Right isosceles: 4√3 (1/2) / 4.
+        assert!((quality(&[[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]]) - height).abs() < 1e-15);
+        assert_eq!(quality(&[[0.0, 0.0], [2.0, 0.0], [2.0, 2.0], [0.0, 2.0]]), 1.0);
+        // A rectangle 1 × 2: 2·2/(1 + 4).
+        assert!((quality(&[[0.0, 0.0], [1.0, 0.0], [1.0, 2.0], [0.0, 2.0]]) - 0.8).abs() < 1e-15);
+        assert!(quality(&[[0.0, 0.0], [0.0, 1.0], [1.0, 0.0]]) < 0.0);
+    }
+
+    #[test]
+    fn the_summary_counts_and_names_the_worst() {
+        for kind in plane_kinds() {
+            let mut mesh = rectangle(kind, 3.0, 2.0, 6, 4, 0.0, 0);
+            let even = check(&mesh, Path::new("mesh.msh")).unwrap();
+            assert!((even.mean - even.worst.0).abs() < 1e-14 && (even.jacobian - 1.0).abs() < 1e-12);
+            // Move a corner that six or four cells share.
+            let moved = mesh.nodes.iter().position(|x| *x == [1.5, 1.0]).unwrap();
+            mesh.nodes[moved] = [1.53, 1.03];
+            let summary = check(&mesh, Path::new("mesh.msh")).unwrap();
+            let count = if kind.is_simplex() { 48 } else { 24 };
+            assert_eq!(summary.cells, [(kind, count)]);
+            assert!((summary.regions[0].2 - 6.0).abs() < 1e-12);
+            assert!(summary.worst.0 < even.worst.0 && mesh.cells.nodes(summary.worst.1).contains(&(moved as u32)));
+            assert!(summary.to_string().contains(&format!("{count} cells ({count} {kind:?})")), "{summary}");
+        }
+    }
+
+    #[test]
+    fn bernstein_coefficients_bound_the_jacobian() {
+        for kind in plane_kinds() {
+            let mut mesh = rectangle(kind, 1.0, 1.0, 2, 2, 0.2, 9);
+            for x in &mut mesh.nodes {
+                *x = [x[0] + 0.1 * (3.0 * x[1]).sin(), x[1] + 0.1 * x[0] * x[0]];
+            }
+            let mut x = Vec::new();
+            for c in 0..mesh.cells.len() {
+                mesh.cell_coordinates(c, &mut x);
+                let (least, largest) = jacobian_range(kind, &x);
+                let mut seen = (f64::INFINITY, f64::NEG_INFINITY);
+                for i in 0..=20 {
+                    for j in 0..=20 {
+                        let (a, b) = (f64::from(i) / 20.0, f64::from(j) / 20.0);
+                        let xi = if kind.is_simplex() {
+                            [a * (1.0 - b), b, 0.0]
+                        } else {
+                            [2.0 * a - 1.0, 2.0 * b - 1.0, 0.0]
+                        };
+                        let det = determinant(kind, &x, &xi);
+                        seen = (seen.0.min(det), seen.1.max(det));
+                    }
+                }
+                assert!(least <= seen.0 + 1e-14 && seen.1 <= largest + 1e-14, "{kind:?}");
+                // They are sharp to the curvature: no wild bounds.
+                assert!(
+                    seen.0 - least < 0.2 * seen.0 && largest - seen.1 < 0.2 * seen.1,
+                    "{kind:?} {least} {seen:?} {largest}"
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn inverted_flat_and_folded_cells_are_refused_with_their_place() {
+        for kind in plane_kinds() {
+            let whole = rectangle(kind, 3.0, 2.0, 3, 2, 0.0, 0);
+            let refused = |mesh: &Mesh<2>| check(mesh, Path::new("out/mesh.msh")).unwrap_err().to_string();
+            let mut mesh = whole.clone();
+            mesh.nodes[0] = [1.5, 1.5];
+            let message = refused(&mesh);
+            assert!(message.contains("out/mesh.msh, cell 0 of region soil near ("), "{message}");
+            let mut mesh = whole.clone();
+            mesh.nodes[0] = [f64::NAN, 0.0];
+            assert!(refused(&mesh).contains("cell 0"));
+            if kind.order() == 2 {
+                // A mid-side pulled through its cell: the corners alone look right.
+                let mut mesh = whole.clone();
+                let facet = &mesh.group("bottom").unwrap().facets[1].1;
+                let middle = facet[2] as usize;
+                mesh.nodes[middle] = [1.5, 1.2];
+                assert!(refused(&mesh).contains("fold"), "{kind:?}");
+            }
+        }
+    }
+}
