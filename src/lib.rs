@@ -1,6 +1,8 @@
 //! Implicit second-order Material Point Method for geotechnics.
 
+pub mod case;
 pub mod error;
+pub mod io;
 pub mod kinematics;
 pub mod material;
 pub mod mesh;
