@@ -1,6 +1,7 @@
 //! Implicit second-order Material Point Method for geotechnics.
 
 pub mod error;
+pub mod io;
 pub mod material;
 pub mod mesh;
 pub mod points;
