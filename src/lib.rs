@@ -1,7 +1,9 @@
 //! Implicit second-order Material Point Method for geotechnics.
 
+pub mod case;
 pub mod error;
 pub mod material;
 pub mod mesh;
 pub mod points;
 pub mod tensor;
+pub mod time_value;
