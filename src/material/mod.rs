@@ -2,33 +2,29 @@
 //!
 //! All work in principal axes of the elastic trial left Cauchy–Green tensor with Hencky strains
 //! `ε_A = ½ ln b_A` and Kirchhoff stresses `τ_A`: the return maps are those of small strain theory.
+//!
+//! A model is one file and one line in [`MODELS`]; the shared tests find it there.
 
-/// A parameter that may vary with depth: `top + gradient · max(0, datum − y)`.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Profile {
-    /// Value at the height `datum` and above.
-    pub top: f64,
-    /// Growth per metre below `datum`.
-    pub gradient: f64,
-    /// Height y [m] at which the growth begins.
-    pub datum: f64,
-}
+pub mod elasticity;
+pub mod linear_elastic;
+pub mod parameters;
+pub mod von_mises;
 
-impl Profile {
-    pub fn constant(value: f64) -> Self {
-        Self { top: value, gradient: 0.0, datum: 0.0 }
-    }
+pub use elasticity::{Elasticity, Moduli};
+pub use linear_elastic::LinearElastic;
+pub use parameters::{Kind, Parameter, Parameters, Profile};
+pub use von_mises::VonMises;
 
-    /// The value at height `y` [m].
-    pub fn at(&self, y: f64) -> f64 {
-        self.top + self.gradient * (self.datum - y).max(0.0)
-    }
-}
+use crate::error::Result;
+
+/// Every model a case can name.
+pub const MODELS: &[Kind] = &[linear_elastic::KIND, von_mises::KIND];
 
 /// What a model remembers at a point from step to step.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct State {
-    /// Accumulated equivalent plastic strain [-].
+    /// Accumulated equivalent plastic strain [-]: the sum of `√(⅔ Δε_p:Δε_p)` over the steps, `Δε_p` the
+    /// plastic Hencky strain of a step with its volumetric part.
     pub plastic_strain: f64,
 }
 
@@ -46,17 +42,58 @@ pub struct Response {
     pub yielding: bool,
 }
 
+impl Response {
+    /// The response of a point that does not yield.
+    pub fn elastic(moduli: &Moduli, trial: &[f64; 3], state: &State) -> Self {
+        Self {
+            stress: moduli.stress(trial),
+            tangent: moduli.tangent(),
+            elastic_strain: *trial,
+            state: *state,
+            yielding: false,
+        }
+    }
+}
+
 /// A material model.
 pub trait Model: Send + Sync {
     /// The response at a point seeded at height `y` [m] to the elastic trial Hencky strains.
     fn respond(&self, y: f64, trial: &[f64; 3], state: &State) -> Response;
 
-    /// Young's modulus [kPa] at height `y`: the scale of penalties and tolerances.
-    fn young(&self, y: f64) -> f64;
-
-    /// Elastic principal strain of a principal Kirchhoff stress.
-    fn elastic_strain(&self, y: f64, stress: &[f64; 3]) -> [f64; 3];
+    /// The elastic part.
+    fn elasticity(&self) -> &Elasticity;
 
     /// Whether the tangent is symmetric in every state (associated flow).
     fn symmetric(&self) -> bool;
+
+    /// How far principal Kirchhoff stresses, in any order, lie outside the yield surface at height `y`,
+    /// as a stress [kPa]; negative inside.
+    fn yield_excess(&self, y: f64, stress: &[f64; 3]) -> f64;
+
+    /// The strength [kPa] at height `y` that yield is measured by (cohesion, yield stress); infinite
+    /// without yield.
+    fn strength(&self, y: f64) -> f64;
+
+    /// Whether the parameters are in range at height `y`; a profile is linear below its datum, so the
+    /// lowest point of a region answers for the region.
+    ///
+    /// # Errors
+    /// Names the parameter and its value.
+    fn check(&self, y: f64) -> Result<()>;
+
+    /// Young's modulus [kPa] at height `y`: the scale of penalties and tolerances.
+    fn young(&self, y: f64) -> f64 {
+        self.elasticity().young(y)
+    }
+
+    /// Elastic principal strain of a principal Kirchhoff stress.
+    fn elastic_strain(&self, y: f64, stress: &[f64; 3]) -> [f64; 3] {
+        self.elasticity().at(y).strain(stress)
+    }
+}
+
+/// Equivalent `√(⅔ ε:ε)` of a principal plastic strain increment.
+fn equivalent_plastic(increment: &[f64; 3]) -> f64 {
+    let [a, b, c] = increment;
+    (2.0 / 3.0 * (a * a + b * b + c * c)).sqrt()
 }
