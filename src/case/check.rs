@@ -5,8 +5,6 @@ use super::locate::{At, Path};
 use super::raw;
 use super::source::Issue;
 use super::structure::suggest;
-use crate::material::Profile;
-use crate::time_value::TimeValue;
 use std::collections::BTreeMap;
 use std::path::Path as FilePath;
 
@@ -20,7 +18,7 @@ pub fn check(file: &raw::CaseFile, folder: &FilePath) -> Result<Case, Vec<Issue>
     if checker.issues.is_empty() { Ok(case) } else { Err(checker.issues) }
 }
 
-const LATER: &str = "is not available yet";
+pub(super) const LATER: &str = "is not available yet";
 
 #[derive(Default)]
 pub(super) struct Checker {
@@ -29,7 +27,12 @@ pub(super) struct Checker {
 
 impl Checker {
     pub(super) fn issue(&mut self, path: &Path, at: At, problem: impl Into<String>, remedy: impl Into<String>) {
-        self.issues.push(Issue { path: path.clone(), at, problem: problem.into(), remedy: remedy.into() });
+        self.issues.push(Issue::new(path, at, problem, remedy));
+    }
+
+    /// The number of mistakes found so far.
+    pub(super) fn count(&self) -> usize {
+        self.issues.len()
     }
 
     fn case(&mut self, file: &raw::CaseFile, folder: &FilePath) -> Case {
@@ -38,7 +41,7 @@ impl Checker {
         let materials: Vec<_> = file
             .materials
             .iter()
-            .map(|(name, material)| self.material(name, material, &gravity, &root.key("materials").key(name)))
+            .filter_map(|(name, material)| self.material(name, material, &gravity, &root.key("materials").key(name)))
             .collect();
         let names: Vec<&str> = file.materials.keys().map(String::as_str).collect();
         let regions = file
@@ -65,7 +68,7 @@ impl Checker {
             phases,
             output: self.output(&file.output, &root.key("output")),
         };
-        self.together(&case);
+        self.together(&case, file);
         case
     }
 
@@ -139,20 +142,6 @@ impl Checker {
             self.issue(&path.key("material"), At::Value, problem, suggest(name, materials.iter().copied()));
             0
         })
-    }
-
-    /// A parameter that may vary with depth; `least` is its lower bound, itself excluded if `above`.
-    pub(super) fn in_depth(&mut self, value: raw::InDepth, least: f64, above: bool, path: &Path) -> Profile {
-        let (profile, path) = match value {
-            raw::InDepth::Constant(value) => (Profile::constant(value), path.clone()),
-            raw::InDepth::Profile(p) => (Profile { top: p.top, gradient: p.gradient, datum: p.datum }, path.key("top")),
-        };
-        if profile.top < least || (above && profile.top == least) {
-            let wanted = if above { "above" } else { "at least" };
-            let problem = format!("is {}, but must be {wanted} {least}", profile.top);
-            self.issue(&path, At::Value, problem, "give a value in range, in kPa, kN/m³ or t/m³");
-        }
-        profile
     }
 
     fn supports(&mut self, supports: &BTreeMap<String, raw::Components>, path: &Path) -> Vec<Support> {
@@ -229,118 +218,6 @@ impl Checker {
         }
     }
 
-    fn phases(&mut self, file: &raw::CaseFile, numerics: &Numerics, path: &Path) -> Vec<Phase> {
-        let mut checked = Vec::new();
-        for (i, phase) in file.phases.iter().enumerate() {
-            let path = path.index(i);
-            if file.phases[..i].iter().any(|earlier| earlier.name == phase.name) {
-                let problem = format!("two phases are called `{}`", phase.name);
-                self.issue(&path.key("name"), At::Value, problem, "give each phase a name of its own");
-            }
-            checked.push(self.phase(phase, file, numerics, &path));
-        }
-        checked
-    }
-
-    fn phase(&mut self, phase: &raw::Phase, file: &raw::CaseFile, numerics: &Numerics, path: &Path) -> Phase {
-        let analysis = match phase.analysis {
-            raw::Analysis::QuasiStatic => Analysis::QuasiStatic,
-            raw::Analysis::Dynamic => Analysis::Dynamic,
-            raw::Analysis::Consolidation => {
-                let problem = format!("`consolidation` {LATER}");
-                self.issue(&path.key("analysis"), At::Value, problem, "choose quasi_static or dynamic");
-                Analysis::QuasiStatic
-            }
-        };
-        let mut prescribed = Vec::new();
-        for (curve, motion) in &phase.prescribe {
-            let path = path.key("prescribe").key(curve);
-            if motion.ux.is_none() && motion.uy.is_none() {
-                self.issue(&path, At::Key, "nothing is prescribed", "add `ux: …` or `uy: …`");
-            }
-            for (component, key, value) in [(0, "ux", &motion.ux), (1, "uy", &motion.uy)] {
-                let Some(value) = value else { continue };
-                let displacement = self.in_time(value, &path.key(key));
-                let held = file.supports.get(curve).is_some_and(|held| [held.ux, held.uy][component].is_some());
-                if held && displacement != TimeValue::Constant(0.0) {
-                    let problem = format!("`{curve}` is held in this direction under `supports`");
-                    self.issue(&path.key(key), At::Key, problem, format!("take `{key}` out there or here"));
-                }
-                prescribed.push(Prescribed { curve: curve.clone(), component, displacement });
-            }
-        }
-        let tractions = phase
-            .tractions
-            .iter()
-            .enumerate()
-            .map(|(i, traction)| self.traction(traction, numerics, &path.key("tractions").index(i)))
-            .collect();
-        let gravity = match &phase.gravity {
-            Some(factor) => self.in_time(factor, &path.key("gravity")),
-            None => TimeValue::Constant(1.0),
-        };
-        Phase {
-            name: phase.name.clone(),
-            analysis,
-            duration: phase.duration,
-            step: self.step(&phase.step, phase.duration, &path.key("step")),
-            prescribed,
-            tractions,
-            gravity,
-        }
-    }
-
-    fn traction(&mut self, traction: &raw::Traction, numerics: &Numerics, path: &Path) -> Traction {
-        if numerics.restore != Restore::Never {
-            let problem = "a traction on a curve needs a grid that moves with the material";
-            self.issue(&path.key("on"), At::Value, problem, "set `restore: never` under `numerics`");
-        }
-        if traction.tx.is_none() && traction.ty.is_none() {
-            self.issue(path, At::Value, "there is no load", "add `tx: …` or `ty: …`");
-        }
-        let mut component = |key, value: &Option<raw::InTime>| match value {
-            Some(value) => self.in_time(value, &path.key(key)),
-            None => TimeValue::Constant(0.0),
-        };
-        Traction {
-            curve: traction.on.clone(),
-            components: [component("tx", &traction.tx), component("ty", &traction.ty)],
-        }
-    }
-
-    fn step(&mut self, step: &raw::Step, duration: f64, path: &Path) -> StepSize {
-        let min = step.min.unwrap_or(1e-4 * step.initial);
-        let max = step.max.unwrap_or(step.initial);
-        if step.initial > duration {
-            let problem = format!("the first step {} is longer than the phase ({duration})", step.initial);
-            self.issue(&path.key("initial"), At::Value, problem, "shorten `initial` or lengthen `duration`");
-        }
-        if min > step.initial {
-            let problem = format!("`min` ({min}) is above `initial` ({})", step.initial);
-            self.issue(&path.key("min"), At::Value, problem, "lower `min`");
-        }
-        if max < step.initial {
-            let problem = format!("`max` ({max}) is below `initial` ({})", step.initial);
-            self.issue(&path.key("max"), At::Value, problem, "raise `max`");
-        }
-        StepSize { initial: step.initial, min, max }
-    }
-
-    fn in_time(&mut self, value: &raw::InTime, path: &Path) -> TimeValue {
-        match value {
-            raw::InTime::Constant(value) => TimeValue::Constant(*value),
-            raw::InTime::Rate(rate) => TimeValue::Rate(rate.rate),
-            raw::InTime::Table(raw::Table { table }) => {
-                if let Some(i) = table.windows(2).position(|pair| pair[1][0] <= pair[0][0]) {
-                    let problem = format!("the time {} does not come after {}", table[i + 1][0], table[i][0]);
-                    let path = path.key("table").index(i + 1);
-                    self.issue(&path, At::Value, problem, "sort the table by time, each time once");
-                }
-                TimeValue::Table(table.clone())
-            }
-        }
-    }
-
     fn output(&mut self, output: &raw::Output, path: &Path) -> Output {
         let fields = output.fields.clone().unwrap_or(vec![Field::Stress, Field::Displacement]);
         for (i, field) in fields.iter().enumerate() {
@@ -372,14 +249,9 @@ impl Checker {
     }
 
     /// What only shows between blocks.
-    fn together(&mut self, case: &Case) {
+    fn together(&mut self, case: &Case, file: &raw::CaseFile) {
         let root = Path::default();
-        let dynamic = case.phases.iter().any(|phase| phase.analysis == Analysis::Dynamic);
-        let filled = |content: Content| match content {
-            Content::Mpm { material, .. } => Some(material),
-            Content::Buffer => None,
-        };
-        if case.regions.iter().all(|region| filled(region.content).is_none()) && self.issues.is_empty() {
+        if file.regions.values().all(|region| region.kind == raw::RegionKind::Buffer) {
             let remedy = "make at least one region `kind: mpm` with a material";
             self.issue(&root.key("regions"), At::Key, "no region holds material", remedy);
         }
@@ -387,26 +259,21 @@ impl Checker {
             let remedy = "take `x` out, or load gravity in a first quasi_static phase in place of `initial_stress`";
             self.issue(&root.key("gravity").key("x"), At::Value, "k0 needs vertical gravity", remedy);
         }
+        let dynamic = case.phases.iter().any(|phase| phase.analysis == Analysis::Dynamic);
         if !dynamic {
-            if let Some(velocity) = case.initial_velocity.first() {
-                let path = root.key("initial_velocity").key(&case.regions[velocity.region].name);
+            for name in file.initial_velocity.keys() {
                 let remedy = "make a phase dynamic, or take `initial_velocity` out";
-                self.issue(&path, At::Key, "no phase is dynamic, so nothing ever moves by itself", remedy);
+                let path = root.key("initial_velocity").key(name);
+                self.issue(&path, At::Key, "no phase is dynamic, so nothing moves by itself", remedy);
             }
+            return;
         }
-        for (i, material) in case.materials.iter().enumerate() {
-            let used = case.regions.iter().any(|region| filled(region.content) == Some(i));
-            if dynamic && used && material.density.top <= 0.0 && !self.is_about(&material.name) {
+        for material in case.materials.iter().filter(|material| material.density.top == 0.0) {
+            if file.regions.values().any(|region| region.material.as_ref() == Some(&material.name)) {
                 let path = root.key("materials").key(&material.name);
                 let remedy = "give it a `density` above 0, or make the phases quasi_static";
                 self.issue(&path, At::Key, "a dynamic phase needs material with mass", remedy);
             }
         }
-    }
-
-    /// Whether a mistake in a material was found already.
-    fn is_about(&self, material: &str) -> bool {
-        let path = Path::default().key("materials").key(material);
-        self.issues.iter().any(|issue| path.contains(&issue.path))
     }
 }

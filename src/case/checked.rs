@@ -4,10 +4,12 @@
 //! to the mesh once [`super::names::check`] found no fault.
 
 pub use super::raw::{Axis, Encoding, Field, Quantity};
-use crate::material::Profile;
+use crate::material::{Model, Profile};
 use crate::time_value::TimeValue;
 use std::collections::BTreeMap;
+use std::fmt;
 use std::path::PathBuf;
+use std::sync::Arc;
 
 /// A checked case.
 #[derive(Clone, Debug)]
@@ -73,39 +75,19 @@ pub enum Content {
     Buffer,
 }
 
-/// A material and its parameters.
-#[derive(Clone, Debug, PartialEq)]
+/// A material.
+#[derive(Clone)]
 pub struct Material {
     pub name: String,
-    /// Young's modulus [kPa].
-    pub young: Profile,
-    /// Poisson's ratio [-].
-    pub poisson: f64,
     /// Density [t/m³].
     pub density: Profile,
-    pub law: Law,
+    pub model: Arc<dyn Model>,
 }
 
-/// The parameters that are a model's own.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Law {
-    LinearElastic,
-    /// `shear_strength` [kPa] in pure shear: the von Mises stress at yield is √3 times as large.
-    VonMises {
-        shear_strength: Profile,
-    },
-    /// `shear_strength` [kPa] is half the largest difference of principal stresses; `tension` [kPa].
-    Tresca {
-        shear_strength: Profile,
-        tension: Option<Profile>,
-    },
-    /// `cohesion` and `tension` [kPa]; `friction_angle` and `dilation_angle` [rad].
-    MohrCoulomb {
-        cohesion: Profile,
-        friction_angle: f64,
-        dilation_angle: f64,
-        tension: Option<Profile>,
-    },
+impl fmt::Debug for Material {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Material").field("name", &self.name).field("density", &self.density).finish_non_exhaustive()
+    }
 }
 
 /// Components of the displacement held at zero on a curve.

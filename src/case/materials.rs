@@ -1,53 +1,166 @@
-//! The materials of a case: which entries a model needs, and its density from a unit weight.
+//! The materials of a case: the entries a model takes come from the list of models, so that a new model
+//! needs no line here. The density is given, or follows from a unit weight and gravity.
 
 use super::check::Checker;
-use super::checked::{Law, Material};
+use super::checked::Material;
 use super::locate::{At, Path};
-use super::raw;
-use crate::material::Profile;
+use super::raw::{self, InDepth};
+use super::structure::suggest;
+use crate::error::Result;
+use crate::material::{Kind, MODELS, Model, Parameters, Profile};
+use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
+use serde_json::{Map, Value, json};
+use std::borrow::Cow;
+use std::sync::Arc;
 
 impl Checker {
-    /// The checked material `name`; `gravity` [m/s²] turns a unit weight into a density.
+    /// The checked material `name`, if it is without fault; `gravity` [m/s²] turns a unit weight into a density.
     pub(super) fn material(
         &mut self,
         name: &str,
         material: &raw::Material,
         gravity: &[f64; 2],
         path: &Path,
-    ) -> Material {
+    ) -> Option<Material> {
         let density = self.density(material, gravity, path);
-        let young = self.in_depth(material.young, 0.0, true, &path.key("young"));
-        Material { name: name.to_owned(), young, poisson: material.poisson, density, law: self.law(material, path) }
+        let model = self.model(material, path);
+        Some(Material { name: name.to_owned(), density: density?, model: model? })
     }
 
-    fn density(&mut self, material: &raw::Material, gravity: &[f64; 2], path: &Path) -> Profile {
+    fn density(&mut self, material: &raw::Material, gravity: &[f64; 2], path: &Path) -> Option<Profile> {
         match (material.density, material.unit_weight) {
-            (Some(density), None) => self.in_depth(density, 0.0, false, &path.key("density")),
+            (Some(density), None) => self.not_negative(density, &path.key("density")),
             (None, Some(weight)) => {
                 let path = path.key("unit_weight");
-                let weight = self.in_depth(weight, 0.0, false, &path);
+                let weight = self.not_negative(weight, &path)?;
                 let g = gravity[0].hypot(gravity[1]);
-                if g == 0.0 {
-                    let remedy = "set `gravity`, or give `density` in place of `unit_weight`";
-                    self.issue(&path, At::Key, "a unit weight without gravity gives no density", remedy);
-                    return Profile::constant(0.0);
+                if g > 0.0 {
+                    return Some(Profile { top: weight.top / g, gradient: weight.gradient / g, datum: weight.datum });
                 }
-                Profile { top: weight.top / g, gradient: weight.gradient / g, datum: weight.datum }
+                let remedy = "set `gravity`, or give `density` in place of `unit_weight`";
+                self.issue(&path, At::Key, "a unit weight without gravity gives no density", remedy);
+                None
             }
             (Some(_), Some(_)) => {
-                let path = path.key("unit_weight");
-                self.issue(&path, At::Key, "`density` and `unit_weight` are both given", "keep one of them");
-                Profile::constant(0.0)
+                let problem = "`density` and `unit_weight` are both given";
+                self.issue(&path.key("unit_weight"), At::Key, problem, "keep one of them");
+                None
             }
             (None, None) => {
                 let remedy = "add `density: …` [t/m³] or `unit_weight: …` [kN/m³]";
                 self.issue(path, At::Key, "neither `density` nor `unit_weight` is given", remedy);
-                Profile::constant(0.0)
+                None
             }
         }
     }
 
-    fn law(&mut self, _material: &raw::Material, _path: &Path) -> Law {
-        Law::LinearElastic
+    fn not_negative(&mut self, value: InDepth, path: &Path) -> Option<Profile> {
+        let profile = value.profile();
+        if profile.top >= 0.0 {
+            return Some(profile);
+        }
+        let problem = format!("is {}, but must be at least 0", profile.top);
+        self.issue(&value.top(path), At::Value, problem, "give a value in t/m³ for a density, in kN/m³ for a weight");
+        None
+    }
+
+    fn model(&mut self, material: &raw::Material, path: &Path) -> Option<Arc<dyn Model>> {
+        let kind = MODELS.iter().find(|kind| kind.name == material.model)?;
+        let mut parameters = Parameters::default();
+        let before = self.count();
+        for (name, value) in &material.parameters {
+            if kind.parameters.iter().any(|known| known.name == name) {
+                parameters.set(name, value.profile());
+            } else {
+                let known = kind.parameters.iter().map(|known| known.name).filter(|known| !material.has(known));
+                let remedy = format!("take it out, or {}", suggest(name, known));
+                self.issue(&path.key(name), At::Key, format!("the model {} has no `{name}`", kind.name), remedy);
+            }
+        }
+        for known in kind.parameters.iter().filter(|known| known.required && !material.has(known.name)) {
+            let problem = format!("the model {} needs `{}`", kind.name, known.name);
+            self.issue(path, At::Key, problem, format!("add `{}: …`: {} [{}]", known.name, known.meaning, known.unit));
+        }
+        if self.count() > before {
+            return None;
+        }
+        let fault = match build(kind, &parameters) {
+            Ok(model) => return Some(model),
+            Err(fault) => fault,
+        };
+        // A model names the parameter at fault as the place of its error.
+        match material.parameters.get(&fault.place) {
+            Some(value) => self.issue(&value.top(&path.key(&fault.place)), At::Value, fault.problem, fault.remedy),
+            None => self.issue(path, At::Key, format!("{}: {}", fault.place, fault.problem), fault.remedy),
+        }
+        None
+    }
+}
+
+fn build(kind: &Kind, parameters: &Parameters) -> Result<Arc<dyn Model>> {
+    (kind.build)(parameters)
+}
+
+impl raw::Material {
+    fn has(&self, parameter: &str) -> bool {
+        self.parameters.contains_key(parameter)
+    }
+}
+
+impl InDepth {
+    fn profile(self) -> Profile {
+        match self {
+            Self::Constant(value) => Profile::constant(value),
+            Self::Profile(p) => Profile { top: p.top, gradient: p.gradient, datum: p.datum },
+        }
+    }
+
+    /// Where the value at the top is written, for an entry at `path`.
+    fn top(self, path: &Path) -> Path {
+        match self {
+            Self::Constant(_) => path.clone(),
+            Self::Profile(_) => path.key("top"),
+        }
+    }
+}
+
+impl JsonSchema for raw::Material {
+    fn schema_name() -> Cow<'static, str> {
+        "Material".into()
+    }
+
+    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
+        let in_depth = generator.subschema_for::<InDepth>();
+        let varying = |description: String| {
+            let mut schema = in_depth.clone();
+            schema.insert("description".into(), description.into());
+            schema.to_value()
+        };
+        let models: Vec<&str> = MODELS.iter().map(|kind| kind.name).collect();
+        let mut properties = Map::new();
+        properties.insert("model".into(), json!({ "description": "The material model.", "enum": models }));
+        let weight = "Unit weight [kN/m³], 0 or above; with gravity it gives the density.";
+        properties.insert("unit_weight".into(), varying(weight.into()));
+        properties.insert("density".into(), varying("Density [t/m³], 0 or above; or give `unit_weight`.".into()));
+        for kind in MODELS {
+            for parameter in kind.parameters {
+                let takers = MODELS.iter().filter(|k| k.parameters.iter().any(|p| p.name == parameter.name));
+                let takers = takers.map(|k| k.name).collect::<Vec<_>>().join(", ");
+                let description = format!("{} [{}] of {takers}.", parameter.meaning, parameter.unit);
+                let schema = if parameter.varies {
+                    varying(description)
+                } else {
+                    json!({ "description": description, "type": "number" })
+                };
+                properties.entry(parameter.name).or_insert(schema);
+            }
+        }
+        json_schema!({
+            "description": "A material; which entries it needs depends on its model.",
+            "type": "object",
+            "properties": Value::Object(properties),
+            "required": ["model"],
+            "additionalProperties": false,
+        })
     }
 }

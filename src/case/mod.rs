@@ -9,6 +9,7 @@ pub mod checked;
 pub mod locate;
 mod materials;
 pub mod names;
+mod phases;
 pub mod raw;
 pub mod source;
 pub mod structure;
@@ -16,6 +17,9 @@ pub mod structure;
 pub use checked::Case;
 
 use crate::error::Error;
+use locate::Step;
+use serde_json::Value;
+use serde_path_to_error::Segment;
 use source::{Issue, Source};
 use std::path::Path;
 
@@ -48,26 +52,50 @@ impl Loaded {
 }
 
 /// The JSON schema of `case.yaml`.
-pub fn schema() -> serde_json::Value {
+pub fn schema() -> Value {
     schemars::schema_for!(raw::CaseFile).into()
 }
 
 fn resolve(source: &Source) -> Result<Case, Vec<Issue>> {
-    let issues = structure::check(&schema(), source.tree());
-    if !issues.is_empty() {
-        return Err(issues);
+    let mut issues = structure::check(&schema(), source.tree());
+    // What is left without the unknown keys may be read all the same, and have more to say.
+    let mut tree = source.tree().clone();
+    issues.iter().filter(|issue| issue.unknown).for_each(|issue| prune(&mut tree, &issue.path));
+    match read(&tree) {
+        Ok(file) => match check::check(&file, source.folder()) {
+            Ok(case) if issues.is_empty() => return Ok(case),
+            Ok(_) => {}
+            Err(more) => issues.extend(more),
+        },
+        Err(issue) if issues.is_empty() => issues.push(issue),
+        // The walk along the schema has said already, and better, what cannot be read.
+        Err(_) => {}
     }
-    let file = serde_path_to_error::deserialize(source.tree()).map_err(|e| {
+    Err(issues)
+}
+
+fn read(tree: &Value) -> Result<raw::CaseFile, Issue> {
+    serde_path_to_error::deserialize(tree).map_err(|e| {
         let steps = e.path().iter().filter_map(|segment| match segment {
-            serde_path_to_error::Segment::Seq { index } => Some(locate::Step::Index(*index)),
-            serde_path_to_error::Segment::Map { key } => Some(locate::Step::Key(key.clone())),
+            Segment::Seq { index } => Some(Step::Index(*index)),
+            Segment::Map { key } => Some(Step::Key(key.clone())),
             _ => None,
         });
         let path = locate::Path(steps.collect());
-        let remedy = "compare with `mpm schema`".to_owned();
-        vec![Issue { path, at: locate::At::Value, problem: e.inner().to_string(), remedy }]
-    })?;
-    check::check(&file, source.folder())
+        Issue::new(&path, locate::At::Value, e.inner().to_string(), "compare with `mpm schema`")
+    })
+}
+
+/// Takes the entry at `path` out of the tree.
+fn prune(tree: &mut Value, path: &locate::Path) {
+    let Some((Step::Key(last), around)) = path.0.split_last() else { return };
+    let around = around.iter().try_fold(tree, |block, step| match step {
+        Step::Key(key) => block.get_mut(key),
+        Step::Index(index) => block.get_mut(index),
+    });
+    if let Some(block) = around.and_then(Value::as_object_mut) {
+        block.remove(last);
+    }
 }
 
 /// The errors of mistakes, in the order of the file.

@@ -24,7 +24,7 @@ pub fn check(case: &Case, groups: &Groups) -> Vec<Issue> {
         if !case.regions.iter().any(|region| region.name == *surface) {
             let problem = format!("the physical surface `{surface}` of the .geo is not among the regions");
             let remedy = format!("add `{surface}: {{kind: buffer}}`, or fill it with `kind: mpm`");
-            names.issues.push(Issue { path: root.key("regions"), at: At::Key, problem, remedy });
+            names.issues.push(Issue::new(&root.key("regions"), At::Key, problem, remedy));
         }
     }
     for support in &case.supports {
@@ -76,6 +76,6 @@ impl Names<'_> {
         }
         let remedy = suggest(name, known.into_iter().map(String::as_str));
         let problem = format!("the .geo has no {kind} `{name}`");
-        self.issues.push(Issue { path: path.clone(), at, problem, remedy });
+        self.issues.push(Issue::new(path, at, problem, remedy));
     }
 }

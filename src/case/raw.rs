@@ -102,43 +102,18 @@ pub enum RegionKind {
     Structure,
 }
 
-/// A material. Which entries it needs depends on its model.
-#[derive(Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+/// A material; its schema is written in [`super::materials`], from the list of models.
+#[derive(Debug, Deserialize)]
 pub struct Material {
-    /// The model: linear_elastic, von_mises, tresca or mohr_coulomb.
-    pub model: Model,
-    /// Young's modulus [kPa], above 0.
-    pub young: InDepth,
-    /// Poisson's ratio [-], from 0 to below 0.5; take 0.49 to 0.499 for nearly incompressible soil.
-    #[schemars(range(min = 0), extend("exclusiveMaximum" = 0.5))]
-    pub poisson: f64,
-    /// Density [t/m³], 0 or above; or give `unit_weight`.
+    /// The name of a model.
+    pub model: String,
+    /// Density [t/m³].
     pub density: Option<InDepth>,
-    /// Unit weight [kN/m³], 0 or above; with gravity it gives the density.
+    /// Unit weight [kN/m³].
     pub unit_weight: Option<InDepth>,
-    /// Strength in pure shear s_u [kPa], above 0: tresca, von_mises.
-    pub shear_strength: Option<InDepth>,
-    /// Cohesion c [kPa], 0 or above: mohr_coulomb.
-    pub cohesion: Option<InDepth>,
-    /// Friction angle φ [degrees], from 0 to below 90: mohr_coulomb.
-    #[schemars(range(min = 0), extend("exclusiveMaximum" = 90))]
-    pub friction_angle: Option<f64>,
-    /// Dilation angle ψ [degrees], from 0 to the friction angle: mohr_coulomb. Without it 0.
-    #[schemars(range(min = 0), extend("exclusiveMaximum" = 90))]
-    pub dilation_angle: Option<f64>,
-    /// Tension cut-off [kPa], 0 or above: the largest principal stress that tresca and mohr_coulomb bear.
-    pub tension: Option<InDepth>,
-}
-
-/// The material models.
-#[derive(Clone, Copy, Debug, Deserialize, JsonSchema, PartialEq, Eq)]
-#[serde(rename_all = "snake_case")]
-pub enum Model {
-    LinearElastic,
-    VonMises,
-    Tresca,
-    MohrCoulomb,
+    /// The parameters of the model.
+    #[serde(flatten)]
+    pub parameters: BTreeMap<String, InDepth>,
 }
 
 /// A number, or `{top, gradient, datum}`: `top` at the height `datum` and above, growing downwards by `gradient`.

@@ -1,6 +1,6 @@
 //! The text of a case file as a tree, with the overrides of the command line, and the messages that point into it.
 
-use super::locate::{At, Path, Step, locate};
+use super::locate::{At, Path, locate};
 use crate::error::Error;
 use serde_json::{Map, Value};
 use std::fs;
@@ -13,6 +13,14 @@ pub struct Issue {
     pub at: At,
     pub problem: String,
     pub remedy: String,
+    /// Whether the entry is a key that does not belong there: without it the rest can still be read.
+    pub unknown: bool,
+}
+
+impl Issue {
+    pub fn new(path: &Path, at: At, problem: impl Into<String>, remedy: impl Into<String>) -> Self {
+        Self { path: path.clone(), at, problem: problem.into(), remedy: remedy.into(), unknown: false }
+    }
 }
 
 /// A case file that is valid YAML.
@@ -206,9 +214,7 @@ pub fn describe(value: &Value) -> String {
 /// The tree without what a case never needs: tags, keys that are not names, numbers that are not finite.
 fn to_json(yaml: serde_yaml::Value, path: &Path) -> Result<Value, Issue> {
     use serde_yaml::Value as Yaml;
-    let refuse = |problem: String, remedy: &str| {
-        Err(Issue { path: path.clone(), at: At::Value, problem, remedy: remedy.to_owned() })
-    };
+    let refuse = |problem: String, remedy: &str| Err(Issue::new(path, At::Value, problem, remedy));
     Ok(match yaml {
         Yaml::Null => Value::Null,
         Yaml::Bool(b) => b.into(),

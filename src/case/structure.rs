@@ -37,7 +37,7 @@ struct Walk<'a> {
 
 impl<'a> Walk<'a> {
     fn issue(&mut self, path: &Path, at: At, problem: String, remedy: String) {
-        self.issues.push(Issue { path: path.clone(), at, problem, remedy });
+        self.issues.push(Issue::new(path, at, problem, remedy));
     }
 
     /// The schema behind a `$ref`.
@@ -122,7 +122,8 @@ impl<'a> Walk<'a> {
                 }
                 (None, _) => {
                     let known = properties.unwrap_or(&none).keys().map(String::as_str);
-                    self.issue(&entry, At::Key, format!("unknown key `{key}`"), suggest(key, known));
+                    let issue = Issue::new(&entry, At::Key, format!("unknown key `{key}`"), suggest(key, known));
+                    self.issues.push(Issue { unknown: true, ..issue });
                 }
             }
         }
