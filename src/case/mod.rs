@@ -57,7 +57,9 @@ pub fn schema() -> Value {
 }
 
 fn resolve(source: &Source) -> Result<Case, Vec<Issue>> {
-    let mut issues = structure::check(&schema(), source.tree());
+    let mut issues = source.faults().to_vec();
+    let left_out = |issue: &Issue| source.faults().iter().any(|fault| fault.path.contains(&issue.path));
+    issues.extend(structure::check(&schema(), source.tree()).into_iter().filter(|issue| !left_out(issue)));
     // What is left without the unknown keys may be read all the same, and have more to say.
     let mut tree = source.tree().clone();
     issues.iter().filter(|issue| issue.unknown).for_each(|issue| prune(&mut tree, &issue.path));

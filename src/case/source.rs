@@ -30,6 +30,8 @@ pub struct Source {
     text: String,
     overrides: Vec<Override>,
     tree: Value,
+    /// What the tree leaves out.
+    faults: Vec<Issue>,
 }
 
 /// An entry of the case set on the command line.
@@ -64,7 +66,7 @@ impl Source {
     /// # Errors
     /// As [`Source::read`].
     pub fn parse(file: PathBuf, text: String, overrides: &[String]) -> Result<Self, Error> {
-        let mut source = Self { file, text, overrides: Vec::new(), tree: Value::Null };
+        let mut source = Self { file, text, overrides: Vec::new(), tree: Value::Null, faults: Vec::new() };
         source.tree = source.parse_text()?;
         for argument in overrides {
             source.set(argument)?;
@@ -72,7 +74,7 @@ impl Source {
         Ok(source)
     }
 
-    fn parse_text(&self) -> Result<Value, Error> {
+    fn parse_text(&mut self) -> Result<Value, Error> {
         let yaml: serde_yaml::Value = serde_yaml::from_str(&self.text).map_err(|e| {
             let place = e.location().map(|place| (place.line(), place.column()));
             let remedy = "mend the YAML there: check quotes, brackets, colons and indentation";
@@ -82,7 +84,7 @@ impl Source {
             let remedy = "write a case: `mpm schema` describes it, the folder cases/ has examples";
             return Err(Error::input(self.file.display(), "the file is empty", remedy));
         }
-        to_json(yaml, &Path::default()).map_err(|issue| self.error(&issue))
+        Ok(to_json(yaml, &Path::default(), &mut self.faults))
     }
 
     /// Sets the entry `PATH` of the tree to `VALUE` for an argument `PATH=VALUE`.
@@ -91,8 +93,12 @@ impl Source {
         let example = "write it as --set mesh.parameters.h=0.1";
         let (target, text) = argument.split_once('=').ok_or_else(|| refuse("no `=`".into(), example))?;
         let value = serde_yaml::from_str(text)
-            .map_err(|e| refuse(format!("the value is not YAML: {e}"), "put the value in quotes"))
-            .and_then(|yaml| to_json(yaml, &Path::default()).map_err(|issue| refuse(issue.problem, &issue.remedy)))?;
+            .map_err(|e| refuse(format!("the value is not YAML: {e}"), "put the value in quotes"))?;
+        let mut faults = Vec::new();
+        let value = to_json(value, &Path::default(), &mut faults);
+        if let Some(fault) = faults.pop() {
+            return Err(refuse(fault.problem, &fault.remedy));
+        }
         let mut path = Path::default();
         let mut entry = &mut self.tree;
         for name in target.replace('[', ".").replace(']', "").split('.') {
@@ -148,6 +154,11 @@ impl Source {
     /// The whole case with its overrides, as one tree with sorted keys.
     pub fn tree(&self) -> &Value {
         &self.tree
+    }
+
+    /// Numbers that are not finite, tags and keys that are not names: the tree does without them.
+    pub fn faults(&self) -> &[Issue] {
+        &self.faults
     }
 
     /// Line and column of a mistake, or of the nearest block around it that the file has.
@@ -212,10 +223,14 @@ pub fn describe(value: &Value) -> String {
 }
 
 /// The tree without what a case never needs: tags, keys that are not names, numbers that are not finite.
-fn to_json(yaml: serde_yaml::Value, path: &Path) -> Result<Value, Issue> {
+/// Each is left out, and a fault.
+fn to_json(yaml: serde_yaml::Value, path: &Path, faults: &mut Vec<Issue>) -> Value {
     use serde_yaml::Value as Yaml;
-    let refuse = |problem: String, remedy: &str| Err(Issue::new(path, At::Value, problem, remedy));
-    Ok(match yaml {
+    let mut refuse = |problem: String, remedy: &str| {
+        faults.push(Issue::new(path, At::Value, problem, remedy));
+        Value::Null
+    };
+    match yaml {
         Yaml::Null => Value::Null,
         Yaml::Bool(b) => b.into(),
         Yaml::String(s) => s.into(),
@@ -223,23 +238,25 @@ fn to_json(yaml: serde_yaml::Value, path: &Path) -> Result<Value, Issue> {
             (Some(n), _, _) => n.into(),
             (_, Some(n), _) => n.into(),
             (_, _, Some(n)) if n.is_finite() => n.into(),
-            _ => return refuse(format!("{n} is not a finite number"), "write a number"),
+            _ => refuse(format!("{n} is not a finite number"), "write a number"),
         },
         Yaml::Sequence(items) => {
-            let items = items.into_iter().enumerate().map(|(i, item)| to_json(item, &path.index(i)));
-            Value::Array(items.collect::<Result<_, _>>()?)
+            let items = items.into_iter().enumerate();
+            items.map(|(i, item)| to_json(item, &path.index(i), faults)).collect()
         }
         Yaml::Mapping(entries) => {
             let mut map = Map::new();
             for (key, value) in entries {
-                let Yaml::String(key) = key else {
-                    return refuse("a key that is not a name".into(), "put the key in quotes");
-                };
-                let value = to_json(value, &path.key(&key))?;
-                map.insert(key, value);
+                match key {
+                    Yaml::String(key) => {
+                        let value = to_json(value, &path.key(&key), faults);
+                        map.insert(key, value);
+                    }
+                    _ => faults.push(Issue::new(path, At::Key, "a key that is not a name", "put the key in quotes")),
+                }
             }
             Value::Object(map)
         }
-        Yaml::Tagged(tagged) => return refuse(format!("a YAML tag {}", tagged.tag), "write the entry without a tag"),
-    })
+        Yaml::Tagged(tagged) => refuse(format!("a YAML tag {}", tagged.tag), "write the entry without a tag"),
+    }
 }

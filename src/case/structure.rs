@@ -10,19 +10,25 @@ use serde_json::{Map, Value};
 /// Every mistake in the shape of `tree`.
 pub fn check(schema: &Value, tree: &Value) -> Vec<Issue> {
     let mut walk = Walk { root: schema, issues: Vec::new() };
-    walk.value(schema, tree, &Path::default());
+    walk.value(schema, tree, &Path::default(), "");
     walk.issues
 }
 
 /// The name of `known` nearest to `name`, as a question, or all of them.
 pub fn suggest<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> String {
     let known: Vec<&str> = known.into_iter().collect();
-    let near = known.iter().map(|&k| (strsim::jaro_winkler(name, k), k)).filter(|&(likeness, _)| likeness > 0.8);
-    match near.max_by(|a, b| a.0.total_cmp(&b.0)) {
-        Some((_, near)) => format!("did you mean `{near}`?"),
+    match nearest(name, known.iter().copied()) {
+        Some(near) => format!("did you mean `{near}`?"),
         None if known.is_empty() => "there is none to choose from".to_owned(),
         None => format!("choose from {}", list(&known)),
     }
+}
+
+/// The name most like `name`, if one is.
+fn nearest<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+    let likeness =
+        known.into_iter().map(|k| (strsim::jaro_winkler(name, k), k)).filter(|&(likeness, _)| likeness > 0.8);
+    likeness.max_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, k)| k)
 }
 
 /// Names in backquotes with commas between.
@@ -46,10 +52,10 @@ impl<'a> Walk<'a> {
         name.and_then(|pointer| self.root.pointer(pointer)).unwrap_or(schema)
     }
 
-    fn value(&mut self, outer: &'a Value, value: &Value, path: &Path) {
+    fn value(&mut self, outer: &'a Value, value: &Value, path: &Path, around: &str) {
         let schema = self.resolve(outer);
         // The description beside a `$ref` is about the entry, the one behind it about the type.
-        let help = first_sentence(outer).or_else(|| first_sentence(schema)).unwrap_or_default();
+        let help = first_sentence(outer).or_else(|| first_sentence(schema)).unwrap_or(around.to_owned());
         if let Some(branches) = schema.get("anyOf").and_then(Value::as_array) {
             return self.any_of(branches, value, path, &help);
         }
@@ -64,7 +70,7 @@ impl<'a> Walk<'a> {
             return self.issue(path, At::Value, problem, help);
         }
         match value {
-            Value::Object(map) => self.object(schema, map, path),
+            Value::Object(map) => self.object(schema, map, path, &help),
             Value::Array(items) => self.array(schema, items, path, &help),
             Value::Number(number) => self.range(schema, number.as_f64().unwrap_or(f64::NAN), path, &help),
             _ => {}
@@ -78,7 +84,7 @@ impl<'a> Walk<'a> {
         });
         // Of several blocks the one whose keys are most like the ones given.
         match fitting.max_by(|a, b| self.likeness(a, value).total_cmp(&self.likeness(b, value))) {
-            Some(branch) => self.value(branch, value, path),
+            Some(branch) => self.value(branch, value, path, help),
             None => {
                 let kinds = branches.iter().map(|branch| kind(self.resolve(branch))).filter(|kind| kind != "nothing");
                 let kinds = kinds.collect::<Vec<_>>().join(" or ");
@@ -107,17 +113,17 @@ impl<'a> Walk<'a> {
         self.issue(path, At::Value, format!("is {}, which is not known here", describe(value)), join(&remedy, help));
     }
 
-    fn object(&mut self, schema: &'a Value, map: &Map<String, Value>, path: &Path) {
+    fn object(&mut self, schema: &'a Value, map: &Map<String, Value>, path: &Path, help: &str) {
         let none = Map::new();
         let properties = schema.get("properties").and_then(Value::as_object);
         let additional = schema.get("additionalProperties");
         for (key, value) in map {
             let entry = path.key(key);
             match (properties.and_then(|p| p.get(key)), additional) {
-                (Some(property), _) => self.value(property, value, &entry),
+                (Some(property), _) => self.value(property, value, &entry, help),
                 (None, Some(Value::Object(_))) => {
                     if let Some(property) = additional {
-                        self.value(property, value, &entry);
+                        self.value(property, value, &entry, help);
                     }
                 }
                 (None, _) => {
@@ -127,8 +133,13 @@ impl<'a> Walk<'a> {
                 }
             }
         }
+        let strange = |key: &&String| properties.is_none_or(|p| !p.contains_key(*key));
         let required = schema.get("required").and_then(Value::as_array).into_iter().flatten();
         for name in required.filter_map(Value::as_str).filter(|&name| !map.contains_key(name)) {
+            // A key that is nearly this one has been reported.
+            if map.keys().filter(strange).any(|key| nearest(key, [name]).is_some()) {
+                continue;
+            }
             let help = properties.and_then(|p| p.get(name)).and_then(first_sentence).unwrap_or_default();
             self.issue(path, At::Key, format!("`{name}` is missing"), format!("add `{name}: …`: {help}"));
         }
@@ -148,7 +159,7 @@ impl<'a> Walk<'a> {
         }
         if let Some(schema) = schema.get("items") {
             for (i, item) in items.iter().enumerate() {
-                self.value(schema, item, &path.index(i));
+                self.value(schema, item, &path.index(i), help);
             }
         }
     }
