@@ -1,5 +1,8 @@
 //! The mesh: nodes, cells of any mixture of kinds, and the named groups of the `.geo`.
 
+pub mod builder;
+pub mod gmsh;
+pub mod locate;
 pub mod shape;
 
 use shape::CellKind;

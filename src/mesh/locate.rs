@@ -1,0 +1,621 @@
+//! Which cell holds a point, and where in it: the inverse of the cells' maps.
+//!
+//! A query walks from a hint over the facets that separate the point from the cell ([`CellKind::depth`]);
+//! a point well inside a cell is done there. Points on or near a facet, and walks that end at the boundary,
+//! are settled by a uniform grid of bins over the cells' boxes, which names the same cell whatever the hint.
+//! Straight cells (and parallelograms) have an affine map with a stored inverse; curved and bilinear cells
+//! are inverted by Newton's method.
+
+use super::Mesh;
+use super::shape::{CellKind, MAX_NODES, invert};
+
+/// Marks a facet without a neighbour.
+pub const OUTSIDE: u32 = u32::MAX;
+
+/// A point this deep (parametric) in a cell is in no other.
+const INSIDE: f64 = 1e-9;
+/// A point this little outside a cell (parametric) is on its boundary.
+const ON_FACET: f64 = 1e-12;
+/// A point outside the mesh by less than this, relative to the mesh, is taken in.
+const TAKEN_IN: f64 = 1e-10;
+/// Cells a walk visits before the bins take over.
+const WALK: usize = 24;
+/// Newton iterations of the inverse map.
+const ITERATIONS: usize = 30;
+
+/// A search structure over a mesh. Queries do not allocate and can run in parallel.
+#[derive(Clone, Debug)]
+pub struct Locator<const D: usize> {
+    /// The stored inverse of every affine cell.
+    affine: Vec<Option<Affine<D>>>,
+    /// Neighbours over the facets of cell `c`: `neighbour[facet[c]..facet[c + 1]]`.
+    facet: Vec<u32>,
+    neighbour: Vec<u32>,
+    /// Boxes [m] that hold the cells, curved edges included, widened by `reach`.
+    boxes: Vec<Bounds<D>>,
+    bins: Bins<D>,
+    /// Distance [m] up to which a point outside the mesh is taken in.
+    reach: f64,
+}
+
+/// Lowest and highest corner.
+type Bounds<const D: usize> = ([f64; D], [f64; D]);
+
+/// `ξ = ξ_0 + A (x − x_0)` with node 0 of the cell.
+#[derive(Clone, Debug)]
+struct Affine<const D: usize> {
+    origin: [f64; D],
+    inverse: [[f64; D]; D],
+}
+
+/// Cells by the boxes of a uniform grid they touch; each bin's cells in ascending order.
+#[derive(Clone, Debug)]
+struct Bins<const D: usize> {
+    low: [f64; D],
+    /// Bins per metre.
+    scale: [f64; D],
+    count: [usize; D],
+    offset: Vec<u32>,
+    cells: Vec<u32>,
+}
+
+impl<const D: usize> Locator<D> {
+    /// Prepares queries on `mesh`, whose nodes must stay where they are while this is in use.
+    pub fn new(mesh: &Mesh<D>) -> Self {
+        let mut x = Vec::new();
+        let mut boxes = Vec::with_capacity(mesh.cells.len());
+        let mut affine = Vec::with_capacity(mesh.cells.len());
+        for c in 0..mesh.cells.len() {
+            mesh.cell_coordinates(c, &mut x);
+            affine.push(Affine::of(mesh.cells.kind[c], &x));
+            boxes.push(bounds(mesh.cells.kind[c], &x));
+        }
+        let (low, high) = enclose(&boxes);
+        let reach = TAKEN_IN * (0..D).map(|d| high[d] - low[d]).fold(0.0, f64::max);
+        for (low, high) in &mut boxes {
+            *low = low.map(|v| v - 2.0 * reach);
+            *high = high.map(|v| v + 2.0 * reach);
+        }
+        let (facet, neighbour) = neighbours(mesh);
+        let bins = Bins::new(&boxes);
+        Self { affine, facet, neighbour, boxes, bins, reach }
+    }
+
+    /// The neighbours of `cell` over its facets in the order of [`CellKind::facets`], [`OUTSIDE`] at the boundary.
+    pub fn neighbours(&self, cell: u32) -> &[u32] {
+        &self.neighbour[self.facet[cell as usize] as usize..self.facet[cell as usize + 1] as usize]
+    }
+
+    /// The cell that holds `x` [m] and the parametric coordinates there, which are always within the cell.
+    ///
+    /// `hint` is a cell near the point and only saves time. A point shared by several cells belongs to the
+    /// lowest of them; one outside the mesh by about 1e-10 of its size at most belongs to the nearest; for one
+    /// farther out, or not finite, the answer is `None`.
+    pub fn locate(&self, mesh: &Mesh<D>, x: &[f64; D], hint: Option<u32>) -> Option<(u32, [f64; 3])> {
+        let bin = self.bins.at(x)?;
+        let start = hint.filter(|&c| (c as usize) < self.affine.len()).or_else(|| bin.get(bin.len() / 2).copied());
+        if let Some(found) = start.and_then(|start| self.walk(mesh, x, start)) {
+            return Some(found);
+        }
+        for c in self.candidates(bin, x) {
+            if let Some(xi) = self.invert(mesh, c, x, true)
+                && self.kind(mesh, c).depth(&xi).0 >= -ON_FACET
+            {
+                return Some((c, clamp(self.kind(mesh, c), &xi)));
+            }
+        }
+        self.nearest(mesh, x, bin)
+    }
+
+    /// Walks from `start` to a cell that holds `x` well inside; `None` where that is not settled.
+    fn walk(&self, mesh: &Mesh<D>, x: &[f64; D], start: u32) -> Option<(u32, [f64; 3])> {
+        let mut c = start;
+        for _ in 0..WALK {
+            let xi = self.invert(mesh, c, x, false)?;
+            let (depth, facet) = self.kind(mesh, c).depth(&xi);
+            if depth >= -ON_FACET {
+                return (depth > INSIDE).then_some((c, xi));
+            }
+            c = self.neighbours(c).get(facet).copied().filter(|&n| n != OUTSIDE)?;
+        }
+        None
+    }
+
+    /// The cell of `bin` nearest to `x` within reach, the lowest of equals.
+    fn nearest(&self, mesh: &Mesh<D>, x: &[f64; D], bin: &[u32]) -> Option<(u32, [f64; 3])> {
+        let mut best = None;
+        let mut least = self.reach;
+        for c in self.candidates(bin, x) {
+            let Some(xi) = self.invert(mesh, c, x, true) else { continue };
+            let kind = self.kind(mesh, c);
+            let xi = clamp(kind, &xi);
+            let (y, _) = position(mesh, c, &xi);
+            let distance = distance(x, &y);
+            if distance < least || (distance == least && best.is_none()) {
+                least = distance;
+                best = Some((c, xi));
+            }
+        }
+        best
+    }
+
+    /// The cells of `bin` whose boxes hold `x`.
+    fn candidates(&self, bin: &[u32], x: &[f64; D]) -> impl Iterator<Item = u32> {
+        bin.iter().copied().filter(move |&c| {
+            let (low, high) = &self.boxes[c as usize];
+            (0..D).all(|d| low[d] <= x[d] && x[d] <= high[d])
+        })
+    }
+
+    fn kind(&self, mesh: &Mesh<D>, c: u32) -> CellKind {
+        mesh.cells.kind[c as usize]
+    }
+
+    /// Parametric coordinates of `x` in cell `c`, inside or outside it. Newton's method from the centre is
+    /// enough for a point inside or near most cells; with `thorough`, more starting points are tried until
+    /// one leads inside, because a strongly curved map has further solutions outside its cell.
+    fn invert(&self, mesh: &Mesh<D>, c: u32, x: &[f64; D], thorough: bool) -> Option<[f64; 3]> {
+        let kind = self.kind(mesh, c);
+        if let Some(affine) = &self.affine[c as usize] {
+            return Some(affine.apply(kind, x));
+        }
+        let first = newton(mesh, c, x, kind.centre());
+        let inside = |xi: &[f64; 3]| kind.depth(xi).0 >= -ON_FACET;
+        if !thorough || first.is_some_and(|xi| inside(&xi)) {
+            return first;
+        }
+        let centre = kind.centre();
+        kind.node_coordinates()
+            .iter()
+            .filter_map(|node| newton(mesh, c, x, [0, 1, 2].map(|i| 0.8 * node[i] + 0.2 * centre[i])))
+            .find(inside)
+            .or(first)
+    }
+}
+
+impl<const D: usize> Affine<D> {
+    /// The inverse of the cell's map where all its nodes lie on the affine image of their places.
+    fn of(kind: CellKind, x: &[[f64; D]]) -> Option<Self> {
+        let places = kind.node_coordinates();
+        let mut dn = [[0.0; 3]; MAX_NODES];
+        kind.derivatives(&kind.centre(), &mut dn);
+        let jacobian = jacobian(x.iter(), &dn);
+        let (inverse, determinant) = invert(&jacobian);
+        let size = x.iter().map(|y| distance(y, &x[0])).fold(0.0, f64::max);
+        let straight = x.iter().zip(places).all(|(y, p)| {
+            let image =
+                std::array::from_fn(|i| x[0][i] + (0..D).map(|j| jacobian[i][j] * (p[j] - places[0][j])).sum::<f64>());
+            distance(y, &image) <= 1e-12 * size
+        });
+        (straight && determinant > 0.0).then_some(Self { origin: x[0], inverse })
+    }
+
+    fn apply(&self, kind: CellKind, x: &[f64; D]) -> [f64; 3] {
+        let mut xi = kind.node_coordinates()[0];
+        for (i, row) in self.inverse.iter().enumerate() {
+            for (j, a) in row.iter().enumerate() {
+                xi[i] += a * (x[j] - self.origin[j]);
+            }
+        }
+        xi
+    }
+}
+
+impl<const D: usize> Bins<D> {
+    /// About one bin a cell.
+    fn new(boxes: &[Bounds<D>]) -> Self {
+        let (low, high) = enclose(boxes);
+        let extent: [f64; D] = std::array::from_fn(|d| (high[d] - low[d]).max(f64::MIN_POSITIVE));
+        let side = (extent.iter().product::<f64>() / boxes.len().max(1) as f64).powf(1.0 / D as f64);
+        let count = extent.map(|e| ((e / side) as usize).clamp(1, 4096));
+        let scale = std::array::from_fn(|d| count[d] as f64 / extent[d]);
+        let total = count.iter().product::<usize>();
+        let mut bins = Self { low, scale, count, offset: vec![0; total + 1], cells: Vec::new() };
+        // Count, then fill in the order of the cells.
+        for b in boxes {
+            bins.touched(b, |bins, bin| bins.offset[bin + 1] += 1);
+        }
+        for i in 0..total {
+            bins.offset[i + 1] += bins.offset[i];
+        }
+        bins.cells = vec![0; bins.offset[total] as usize];
+        let mut next = bins.offset.clone();
+        for (c, b) in boxes.iter().enumerate() {
+            bins.touched(b, |bins, bin| {
+                bins.cells[next[bin] as usize] = c as u32;
+                next[bin] += 1;
+            });
+        }
+        bins
+    }
+
+    /// Calls `action` for every bin that the box touches.
+    fn touched(&mut self, (low, high): &Bounds<D>, mut action: impl FnMut(&mut Self, usize)) {
+        let first: [usize; D] = std::array::from_fn(|d| self.index(d, low[d]));
+        let last: [usize; D] = std::array::from_fn(|d| self.index(d, high[d]));
+        let mut at = first;
+        loop {
+            let bin = self.flat(&at);
+            action(self, bin);
+            let mut d = 0;
+            loop {
+                if d == D {
+                    return;
+                }
+                if at[d] < last[d] {
+                    at[d] += 1;
+                    break;
+                }
+                at[d] = first[d];
+                d += 1;
+            }
+        }
+    }
+
+    /// The cells that may hold `x`; `None` outside the grid.
+    fn at(&self, x: &[f64; D]) -> Option<&[u32]> {
+        let inside = (0..D).all(|d| {
+            let t = (x[d] - self.low[d]) * self.scale[d];
+            t >= 0.0 && t <= self.count[d] as f64
+        });
+        if !inside {
+            return None;
+        }
+        let bin = self.flat(&std::array::from_fn(|d| self.index(d, x[d])));
+        Some(&self.cells[self.offset[bin] as usize..self.offset[bin + 1] as usize])
+    }
+
+    fn index(&self, d: usize, x: f64) -> usize {
+        // A negative or NaN value casts to zero.
+        (((x - self.low[d]) * self.scale[d]) as usize).min(self.count[d] - 1)
+    }
+
+    fn flat(&self, at: &[usize; D]) -> usize {
+        (0..D).rev().fold(0, |flat, d| flat * self.count[d] + at[d])
+    }
+}
+
+/// Newton's method for `x(ξ) = x` in cell `c`, damped by halving; `None` where it does not converge.
+fn newton<const D: usize>(mesh: &Mesh<D>, c: u32, x: &[f64; D], start: [f64; 3]) -> Option<[f64; 3]> {
+    let mut xi = start;
+    let (mut y, mut jacobian) = position(mesh, c, &xi);
+    let mut residual = distance(x, &y);
+    for _ in 0..ITERATIONS {
+        let (inverse, determinant) = invert(&jacobian);
+        if !determinant.is_normal() {
+            return None;
+        }
+        let step: [f64; D] = std::array::from_fn(|i| (0..D).map(|j| inverse[i][j] * (x[j] - y[j])).sum());
+        let length = step.iter().fold(0.0f64, |a, s| a.max(s.abs()));
+        let mut factor = 1.0;
+        loop {
+            let mut trial = xi;
+            for (t, s) in trial.iter_mut().zip(&step) {
+                *t += factor * s;
+            }
+            let (trial_y, trial_jacobian) = position(mesh, c, &trial);
+            let trial_residual = distance(x, &trial_y);
+            // The last steps are lost in rounding: they need not reduce the residual.
+            if trial_residual < residual || length < 1e-10 {
+                (xi, y, jacobian, residual) = (trial, trial_y, trial_jacobian, trial_residual);
+                break;
+            }
+            factor *= 0.5;
+            if factor < 1e-3 {
+                return None;
+            }
+        }
+        // Convergence is quadratic: the step just taken has reached rounding.
+        if length < 1e-10 {
+            return Some(xi);
+        }
+    }
+    None
+}
+
+/// Position and Jacobian `∂x/∂ξ` at `xi` of cell `c`.
+fn position<const D: usize>(mesh: &Mesh<D>, c: u32, xi: &[f64; 3]) -> ([f64; D], [[f64; D]; D]) {
+    let kind = mesh.cells.kind[c as usize];
+    let (mut n, mut dn) = ([0.0; MAX_NODES], [[0.0; 3]; MAX_NODES]);
+    kind.values(xi, &mut n);
+    kind.derivatives(xi, &mut dn);
+    let nodes = mesh.cells.nodes(c as usize).iter().map(|&node| &mesh.nodes[node as usize]);
+    let mut y = [0.0; D];
+    for (node, n) in nodes.clone().zip(&n) {
+        for d in 0..D {
+            y[d] += n * node[d];
+        }
+    }
+    (y, jacobian(nodes, &dn))
+}
+
+fn jacobian<'a, const D: usize>(nodes: impl Iterator<Item = &'a [f64; D]>, dn: &[[f64; 3]]) -> [[f64; D]; D] {
+    let mut jacobian = [[0.0; D]; D];
+    for (x, dn) in nodes.zip(dn) {
+        for i in 0..D {
+            for j in 0..D {
+                jacobian[i][j] += x[i] * dn[j];
+            }
+        }
+    }
+    jacobian
+}
+
+fn distance<const D: usize>(a: &[f64; D], b: &[f64; D]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| (a - b) * (a - b)).sum::<f64>().sqrt()
+}
+
+/// `xi` moved into the parametric domain.
+fn clamp(kind: CellKind, xi: &[f64; 3]) -> [f64; 3] {
+    if !kind.is_simplex() {
+        return xi.map(|t| t.clamp(-1.0, 1.0));
+    }
+    let mut xi = xi.map(|t| t.max(0.0));
+    let sum: f64 = xi.iter().sum();
+    if sum > 1.0 {
+        xi = xi.map(|t| t / sum);
+    }
+    xi
+}
+
+/// A box that holds the whole cell, curved edges included: that of its Bézier points where the cell is
+/// quadratic. Replacing the middle value `m` of a quadratic between `a` and `b` by `2m − (a + b)/2` along
+/// every parametric direction gives the Bernstein coefficients, whose hull holds the graph.
+fn bounds<const D: usize>(kind: CellKind, x: &[[f64; D]]) -> Bounds<D> {
+    let mut low = [f64::INFINITY; D];
+    let mut high = [f64::NEG_INFINITY; D];
+    let mut take = |y: &[f64; D]| {
+        for d in 0..D {
+            low[d] = low[d].min(y[d]);
+            high[d] = high[d].max(y[d]);
+        }
+    };
+    x.iter().for_each(&mut take);
+    if kind.order() == 2 {
+        let control: Vec<[f64; D]> = kind
+            .facets()
+            .1
+            .iter()
+            .filter_map(|facet| match facet {
+                [a, b, m] => Some(std::array::from_fn(|d| 2.0 * x[*m][d] - 0.5 * (x[*a][d] + x[*b][d]))),
+                _ => None,
+            })
+            .collect();
+        control.iter().for_each(&mut take);
+        if !kind.is_simplex() && D == 2 {
+            // The centre of the box: the node of a Q9, the value of the functions of a Q8.
+            let mut n = [0.0; MAX_NODES];
+            kind.values(&kind.centre(), &mut n);
+            let corners = &x[..kind.corner_count()];
+            take(&std::array::from_fn(|d| {
+                let centre: f64 = x.iter().zip(&n).map(|(y, n)| n * y[d]).sum();
+                let corner: f64 = corners.iter().map(|y| y[d]).sum();
+                let edge: f64 = control.iter().map(|y| y[d]).sum();
+                4.0 * centre - 0.25 * corner - 0.5 * edge
+            }));
+        }
+    }
+    (low, high)
+}
+
+fn enclose<const D: usize>(boxes: &[Bounds<D>]) -> Bounds<D> {
+    let mut all = boxes.first().copied().unwrap_or(([0.0; D], [0.0; D]));
+    for (low, high) in boxes {
+        for d in 0..D {
+            all.0[d] = all.0[d].min(low[d]);
+            all.1[d] = all.1[d].max(high[d]);
+        }
+    }
+    all
+}
+
+/// For every facet the cell on its other side, as offsets and a flat list.
+fn neighbours<const D: usize>(mesh: &Mesh<D>) -> (Vec<u32>, Vec<u32>) {
+    // A facet is known by its sorted corner nodes: two of an edge, up to four of a face.
+    let mut sides: Vec<([u32; 4], u32, u32)> = Vec::new();
+    let mut offset = Vec::with_capacity(mesh.cells.len() + 1);
+    for c in 0..mesh.cells.len() {
+        offset.push(sides.len() as u32);
+        let nodes = mesh.cells.nodes(c);
+        let (kind, facets) = mesh.cells.kind[c].facets();
+        for facet in facets {
+            let mut key = [OUTSIDE; 4];
+            for (k, &i) in key.iter_mut().zip(&facet[..kind.corner_count()]) {
+                *k = nodes[i];
+            }
+            key.sort_unstable();
+            sides.push((key, c as u32, sides.len() as u32));
+        }
+    }
+    offset.push(sides.len() as u32);
+    let mut neighbour = vec![OUTSIDE; sides.len()];
+    sides.sort_unstable();
+    for pair in sides.windows(2) {
+        if pair[0].0 == pair[1].0 {
+            neighbour[pair[0].2 as usize] = pair[1].1;
+            neighbour[pair[1].2 as usize] = pair[0].1;
+        }
+    }
+    (offset, neighbour)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mesh::builder::rectangle;
+
+    fn plane_kinds() -> impl Iterator<Item = CellKind> {
+        CellKind::ALL.into_iter().filter(|k| k.dimension() == 2)
+    }
+
+    /// A reproducible sequence in `[0, 1)`, equidistributed in the plane (Roberts' R2).
+    fn sequence(i: usize) -> [f64; 2] {
+        [0.754_877_666_246_692_8, 0.569_840_290_998_053_3].map(|a| (0.5 + a * (i + 1) as f64).fract())
+    }
+
+    fn inside(kind: CellKind, [a, b]: [f64; 2]) -> [f64; 3] {
+        match kind.is_simplex() {
+            true if a + b > 1.0 => [1.0 - a, 1.0 - b, 0.0],
+            true => [a, b, 0.0],
+            false => [2.0 * a - 1.0, 2.0 * b - 1.0, 0.0],
+        }
+    }
+
+    /// A quarter of a ring of radii 1 and 2: the outer edges of second-order cells are curved.
+    fn ring(kind: CellKind) -> Mesh<2> {
+        let mut mesh = rectangle(kind, 1.0, 1.0, 3, 4, 0.15, 3);
+        for x in &mut mesh.nodes {
+            let (r, t) = (1.0 + x[0], x[1] * std::f64::consts::FRAC_PI_2);
+            *x = [r * t.cos(), r * t.sin()];
+        }
+        mesh
+    }
+
+    #[test]
+    fn cells_and_coordinates_come_back_whatever_the_hint() {
+        for kind in plane_kinds() {
+            for mesh in [rectangle(kind, 3.0, 2.0, 7, 5, 0.25, 1), ring(kind)] {
+                let locator = Locator::new(&mesh);
+                let count = mesh.cells.len() as u32;
+                for i in 0..2000 {
+                    let c = (i * 7) as u32 % count;
+                    let xi = inside(kind, sequence(i));
+                    if kind.depth(&xi).0 < 1e-6 {
+                        continue;
+                    }
+                    let (x, _) = position(&mesh, c, &xi);
+                    for hint in [None, Some(c), Some((i * 13) as u32 % count), Some(u32::MAX)] {
+                        let (found, at) = locator.locate(&mesh, &x, hint).unwrap();
+                        assert_eq!(found, c, "{kind:?} {x:?} {hint:?}");
+                        assert!((0..2).all(|d| (at[d] - xi[d]).abs() < 1e-11), "{kind:?} {xi:?} {at:?}");
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_point_on_an_edge_or_corner_belongs_to_the_lowest_cell() {
+        for kind in plane_kinds() {
+            for mesh in [rectangle(kind, 3.0, 2.0, 7, 5, 0.25, 1), ring(kind)] {
+                let locator = Locator::new(&mesh);
+                let count = mesh.cells.len();
+                let corners = |c: usize| &mesh.cells.nodes(c)[..kind.corner_count()];
+                for c in 0..count {
+                    for facet in kind.facets().1 {
+                        for t in [0.0, 0.17, 0.5, 0.93] {
+                            let place = kind.node_coordinates();
+                            let xi = [0, 1, 2].map(|d| (1.0 - t) * place[facet[0]][d] + t * place[facet[1]][d]);
+                            let (x, _) = position(&mesh, c as u32, &xi);
+                            let ends = facet[..if t == 0.0 { 1 } else { 2 }].iter().map(|&i| mesh.cells.nodes(c)[i]);
+                            let lowest =
+                                (0..count).find(|&k| ends.clone().all(|node| corners(k).contains(&node))).unwrap();
+                            for hint in [None, Some(0), Some(c as u32), Some(count as u32 - 1)] {
+                                let (found, at) = locator.locate(&mesh, &x, hint).unwrap();
+                                assert_eq!(found as usize, lowest, "{kind:?} {x:?} {hint:?}");
+                                assert!(kind.depth(&at).0 >= -1e-15);
+                                assert!(distance(&x, &position(&mesh, found, &at).0) < 1e-11);
+                            }
+                        }
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_point_just_outside_is_taken_in_and_one_farther_out_is_not() {
+        for kind in plane_kinds() {
+            let mesh = rectangle(kind, 3.0, 2.0, 6, 4, 0.2, 5);
+            let locator = Locator::new(&mesh);
+            for i in 0..200 {
+                let [s, _] = sequence(i);
+                for (x, out) in [
+                    ([3.0 * s, 0.0], [0.0, -1.0]),
+                    ([3.0, 2.0 * s], [1.0, 0.0]),
+                    ([3.0 * s, 2.0], [0.0, 1.0]),
+                    ([0.0, 2.0 * s], [-1.0, 0.0]),
+                    ([3.0, 2.0], [0.7, 0.7]),
+                ] {
+                    let at = |d: f64| [x[0] + d * out[0], x[1] + d * out[1]];
+                    for hint in [None, Some(i as u32 % 24)] {
+                        let (c, xi) = locator.locate(&mesh, &at(1e-10), hint).unwrap();
+                        assert!(distance(&x, &position(&mesh, c, &xi).0) < 3e-10);
+                        assert!(kind.depth(&xi).0 >= -1e-15);
+                        assert_eq!(locator.locate(&mesh, &at(7e-10), hint), None);
+                        assert_eq!(locator.locate(&mesh, &at(1e3), hint), None);
+                    }
+                }
+            }
+            assert_eq!(locator.locate(&mesh, &[f64::NAN, 1.0], Some(0)), None);
+            assert_eq!(locator.locate(&mesh, &[1.0, f64::INFINITY], None), None);
+        }
+    }
+
+    #[test]
+    fn the_bulge_of_a_curved_edge_is_inside_and_its_chord_is_not_the_boundary() {
+        let mesh = ring(CellKind::T6);
+        let locator = Locator::new(&mesh);
+        // On the quadratic outer edges: beyond every chord, farther out than the vertices' own polygon.
+        for group in ["right", "left"] {
+            for (_, nodes) in &mesh.group(group).unwrap().facets {
+                let middle = mesh.nodes[nodes[2] as usize];
+                let scaled = |f: f64| middle.map(|v| v * f);
+                let (kept, lost) = if group == "right" { (1.0 - 1e-6, 1.0 + 1e-6) } else { (1.0 + 1e-6, 1.0 - 1e-6) };
+                assert!(locator.locate(&mesh, &scaled(kept), None).is_some());
+                assert!(locator.locate(&mesh, &scaled(lost), None).is_none());
+            }
+        }
+    }
+
+    #[test]
+    fn walks_end_at_a_re_entrant_corner_and_the_bins_take_over() {
+        // An L: the straight way from the hint to the point leaves the mesh.
+        let mut mesh = rectangle(CellKind::T6, 2.0, 2.0, 8, 8, 0.0, 0);
+        let whole = std::mem::take(&mut mesh.cells);
+        for c in 0..whole.len() {
+            let hole = whole.nodes(c)[..3].iter().all(|&n| mesh.nodes[n as usize].iter().all(|&v| v >= 1.0));
+            if !hole {
+                mesh.cells.push(whole.kind[c], 0, whole.nodes(c));
+            }
+        }
+        let locator = Locator::new(&mesh);
+        let last = mesh.cells.len() as u32 - 1;
+        for hint in 0..=last {
+            assert!(locator.locate(&mesh, &[1.93, 0.91], Some(hint)).is_some());
+            assert!(locator.locate(&mesh, &[0.91, 1.93], Some(hint)).is_some());
+            assert_eq!(locator.locate(&mesh, &[1.2, 1.1], Some(hint)), None);
+        }
+    }
+
+    #[test]
+    fn neighbours_are_mutual_and_share_the_facet() {
+        for kind in plane_kinds() {
+            let mesh = rectangle(kind, 1.0, 1.0, 4, 3, 0.1, 2);
+            let locator = Locator::new(&mesh);
+            let mut boundary = 0;
+            for c in 0..mesh.cells.len() as u32 {
+                for (f, &n) in locator.neighbours(c).iter().enumerate() {
+                    if n == OUTSIDE {
+                        boundary += 1;
+                        continue;
+                    }
+                    let facet = kind.facets().1[f];
+                    let nodes = facet.iter().map(|&i| mesh.cells.nodes(c as usize)[i]);
+                    assert!(nodes.clone().all(|node| mesh.cells.nodes(n as usize).contains(&node)));
+                    assert!(locator.neighbours(n).contains(&c));
+                }
+            }
+            assert_eq!(boundary, 14);
+        }
+    }
+
+    #[test]
+    fn queries_run_in_parallel_and_an_empty_mesh_holds_nothing() {
+        fn shared<T: Send + Sync>(_: &T) {}
+        let mesh = Mesh::<2>::default();
+        let locator = Locator::new(&mesh);
+        shared(&locator);
+        assert_eq!(locator.locate(&mesh, &[0.0, 0.0], Some(3)), None);
+    }
+}
