@@ -3,6 +3,7 @@
 pub mod case;
 pub mod cli;
 pub mod error;
+pub mod io;
 pub mod material;
 pub mod mesh;
 pub mod points;

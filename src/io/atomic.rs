@@ -1,0 +1,183 @@
+//! Writes a file as a whole or not at all: beside its name, then renamed into place.
+//!
+//! A process that is killed leaves the earlier file or the new one, never half of it. [`write_durable`] also
+//! waits for the disk, so that a power cut cannot lose a file that was reported as written.
+
+use std::fs::{self, File};
+use std::io::{self, BufWriter, Write};
+use std::path::{Path, PathBuf};
+
+use crate::error::{Error, Result};
+
+/// The marker of unfinished files, `.<name>.tmp-<process>`.
+const MARK: &str = ".tmp-";
+
+/// Writes `path` with what `fill` puts out, replacing an earlier file in one move.
+///
+/// # Errors
+/// `Machine` when the folder cannot be written or the disk is full; the earlier file stays as it was and
+/// nothing half-written remains.
+pub fn write(path: &Path, fill: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<()> {
+    replace(path, false, fill)
+}
+
+/// Like [`write`], and returns only when the file is on the disk.
+pub fn write_durable(path: &Path, fill: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<()> {
+    replace(path, true, fill)
+}
+
+fn replace(path: &Path, durable: bool, fill: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<()> {
+    let beside = beside(path);
+    let written = (|| {
+        let mut out = BufWriter::with_capacity(1 << 18, File::create(&beside)?);
+        fill(&mut out)?;
+        let file = out.into_inner().map_err(io::IntoInnerError::into_error)?;
+        if durable {
+            file.sync_all()?;
+        }
+        drop(file);
+        fs::rename(&beside, path)?;
+        match path.parent() {
+            Some(folder) if durable => sync_folder(folder),
+            _ => Ok(()),
+        }
+    })();
+    written.map_err(|e| {
+        // Only a convenience: the report is about the first error.
+        let _ = fs::remove_file(&beside);
+        unwritable(path, &e)
+    })
+}
+
+fn beside(path: &Path) -> PathBuf {
+    let name = path.file_name().unwrap_or_default().to_string_lossy();
+    path.with_file_name(format!(".{name}{MARK}{}", std::process::id()))
+}
+
+/// The rename itself reaches the disk with its folder.
+fn sync_folder(folder: &Path) -> io::Result<()> {
+    let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
+    File::open(folder)?.sync_all()
+}
+
+/// Makes `folder` with its parents, and removes the unfinished files that killed processes left in it.
+///
+/// # Errors
+/// `Machine` when the folder can neither be made nor read.
+pub fn prepare_folder(folder: &Path) -> Result<()> {
+    fs::create_dir_all(folder).map_err(|e| unwritable(folder, &e))?;
+    for entry in fs::read_dir(folder).map_err(|e| unwritable(folder, &e))? {
+        let path = entry.map_err(|e| unwritable(folder, &e))?.path();
+        if let Some(process) = unfinished(&path)
+            && process != std::process::id()
+            && !Path::new(&format!("/proc/{process}")).exists()
+        {
+            remove(&path)?;
+        }
+    }
+    Ok(())
+}
+
+/// The process that was writing the file, if `path` is an unfinished one.
+fn unfinished(path: &Path) -> Option<u32> {
+    let name = path.file_name()?.to_str()?;
+    let (start, process) = name.rsplit_once(MARK)?;
+    start.starts_with('.').then(|| process.parse().ok())?
+}
+
+/// Removes a file; one that is not there is as good.
+///
+/// # Errors
+/// `Machine` when it is there and stays.
+pub fn remove(path: &Path) -> Result<()> {
+    match fs::remove_file(path) {
+        Err(e) if e.kind() != io::ErrorKind::NotFound => Err(unwritable(path, &e)),
+        _ => Ok(()),
+    }
+}
+
+/// The error of a file or folder that cannot be written.
+pub fn unwritable(path: &Path, e: &io::Error) -> Error {
+    let remedy = match e.kind() {
+        io::ErrorKind::StorageFull | io::ErrorKind::QuotaExceeded => {
+            "free some space, or choose an output folder on another disk with -o"
+        }
+        io::ErrorKind::PermissionDenied | io::ErrorKind::ReadOnlyFilesystem => {
+            "make the folder writable, or choose another with -o"
+        }
+        io::ErrorKind::NotFound => "make the folder, or choose another with -o",
+        io::ErrorKind::NotADirectory | io::ErrorKind::AlreadyExists | io::ErrorKind::IsADirectory => {
+            "something else has this name: move it away, or choose another folder with -o"
+        }
+        _ => "check the disk, or choose another output folder with -o",
+    };
+    Error::machine(path.display(), format!("cannot be written: {e}"), remedy)
+}
+
+/// The error of a file that cannot be read; a missing one is an input error with `remedy`.
+pub fn unreadable(path: &Path, e: &io::Error, remedy: &str) -> Error {
+    match e.kind() {
+        io::ErrorKind::NotFound => Error::input(path.display(), "there is no such file", remedy),
+        io::ErrorKind::PermissionDenied => {
+            Error::machine(path.display(), format!("cannot be read: {e}"), "make it readable")
+        }
+        _ => Error::machine(path.display(), format!("cannot be read: {e}"), "check the path and the disk"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::error::Kind;
+
+    fn names(folder: &Path) -> Vec<String> {
+        fs::read_dir(folder).unwrap().map(|e| e.unwrap().file_name().into_string().unwrap()).collect()
+    }
+
+    #[test]
+    fn a_failed_write_keeps_the_earlier_file_and_leaves_nothing() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a.txt");
+        write(&path, |w| w.write_all(b"earlier")).unwrap();
+        let full = write_durable(&path, |w| {
+            w.write_all(&[0; 1 << 20])?;
+            Err(io::ErrorKind::StorageFull.into())
+        })
+        .unwrap_err();
+        assert_eq!(full.kind, Kind::Machine);
+        assert!(full.to_string().contains("a.txt") && full.remedy.contains("free some space"), "{full}");
+        assert_eq!(fs::read(&path).unwrap(), b"earlier");
+        assert_eq!(names(folder.path()), ["a.txt"]);
+        write_durable(&path, |w| w.write_all(b"later")).unwrap();
+        assert_eq!(fs::read(&path).unwrap(), b"later");
+    }
+
+    #[test]
+    fn a_missing_folder_and_a_file_in_the_way_are_named() {
+        let folder = tempfile::tempdir().unwrap();
+        let missing = write(&folder.path().join("no/a.txt"), |_| Ok(())).unwrap_err();
+        assert_eq!(missing.kind, Kind::Machine);
+        assert!(missing.to_string().contains("no/a.txt"), "{missing}");
+        let file = folder.path().join("file");
+        write(&file, |_| Ok(())).unwrap();
+        assert_eq!(prepare_folder(&file).unwrap_err().kind, Kind::Machine);
+    }
+
+    #[test]
+    fn leftovers_of_dead_processes_are_removed_and_others_kept() {
+        let folder = tempfile::tempdir().unwrap();
+        let mut dead = std::process::Command::new("true").spawn().unwrap();
+        let dead_id = dead.id();
+        dead.wait().unwrap();
+        let own = format!(".frame.tmp-{}", std::process::id());
+        for name in [&format!(".frame.tmp-{dead_id}"), &own, "notes.tmp-3", ".frame.tmp-x"] {
+            fs::write(folder.path().join(name), b"").unwrap();
+        }
+        prepare_folder(folder.path()).unwrap();
+        let mut left = names(folder.path());
+        left.sort();
+        let mut expected = vec![".frame.tmp-x".to_string(), own, "notes.tmp-3".to_string()];
+        expected.sort();
+        assert_eq!(left, expected);
+    }
+}

@@ -1,0 +1,147 @@
+//! Checkpoints: what a run that was cut short continues from.
+//!
+//! The last two are kept, `step-000000456.mpmc`; the newest that is whole is taken. What a checkpoint holds is
+//! the caller's business ([`Store`]); that it belongs to the same case, mesh and points is checked here.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use twox_hash::XxHash64;
+
+use super::atomic;
+use super::container::Store;
+use crate::error::{Error, Result};
+
+const KIND: &str = "checkpoint";
+const KEPT: usize = 2;
+const AGAIN: &str = "start the analysis afresh, without --resume";
+
+/// A number that tells whether a checkpoint belongs to a case: a hash (XXH64) of everything that the result
+/// depends on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Fingerprint(u64);
+
+impl Fingerprint {
+    /// The fingerprint of several parts (the resolved case, the mesh, the points) in this order.
+    pub fn of(parts: &[&[u8]]) -> Self {
+        // The length goes in too, so that what moves from one part to the next is noticed.
+        Self(parts.iter().fold(0, |seed, part| XxHash64::oneshot(seed ^ part.len() as u64, part)))
+    }
+
+    /// The fingerprint of texts and of the contents of files.
+    ///
+    /// # Errors
+    /// `Input` when a file is missing.
+    pub fn of_files(text: &str, files: &[&Path]) -> Result<Self> {
+        let mut parts = vec![text.as_bytes().to_vec()];
+        for path in files {
+            parts.push(fs::read(path).map_err(|e| atomic::unreadable(path, &e, "run the stage that makes it"))?);
+        }
+        Ok(Self::of(&parts.iter().map(Vec::as_slice).collect::<Vec<_>>()))
+    }
+}
+
+/// The checkpoints of a run, in a folder of their own.
+#[derive(Clone, Debug)]
+pub struct Checkpoints {
+    folder: PathBuf,
+    fingerprint: Fingerprint,
+}
+
+/// A checkpoint that was read.
+#[derive(Debug)]
+pub struct Loaded {
+    pub step: u64,
+    pub store: Store,
+    /// What is wrong with newer checkpoints that were passed over.
+    pub warnings: Vec<String>,
+}
+
+impl Checkpoints {
+    pub fn new(folder: impl Into<PathBuf>, fingerprint: Fingerprint) -> Self {
+        Self { folder: folder.into(), fingerprint }
+    }
+
+    /// An empty store to fill for [`Checkpoints::save`].
+    pub fn store() -> Store {
+        Store::new(KIND)
+    }
+
+    /// Writes the checkpoint of `step` to the disk, then removes all but the last two.
+    ///
+    /// # Errors
+    /// `Analysis` when a number is not finite, `Machine` when it cannot be written; earlier ones stay.
+    pub fn save(&self, step: u64, mut store: Store) -> Result<()> {
+        atomic::prepare_folder(&self.folder)?;
+        store.put("checkpoint.fingerprint", 1, vec![self.fingerprint.0]);
+        store.write(&self.path(step), true)?;
+        // Newer ones are of a run whose later part is being done again.
+        let mut steps = self.steps()?;
+        steps.retain(|&s| s <= step);
+        for &old in steps.iter().rev().skip(KEPT) {
+            atomic::remove(&self.path(old))?;
+        }
+        Ok(())
+    }
+
+    /// The newest checkpoint that is whole; `None` when there is none at all.
+    ///
+    /// # Errors
+    /// `Input` when it belongs to another case, or when none of those there can be read.
+    pub fn latest(&self) -> Result<Option<Loaded>> {
+        let mut warnings = Vec::new();
+        for step in self.steps()?.into_iter().rev() {
+            let path = self.path(step);
+            match Store::read(&path, KIND, AGAIN).and_then(|mut store| {
+                let fingerprint = store.take::<u64>("checkpoint.fingerprint", 1)?;
+                Ok((store, fingerprint))
+            }) {
+                Ok((_, fingerprint)) if fingerprint != [self.fingerprint.0] => {
+                    return Err(Error::input(
+                        path.display(),
+                        "this checkpoint belongs to another case, mesh or set of points",
+                        "undo the change of the case, or start the analysis afresh, without --resume",
+                    ));
+                }
+                Ok((store, _)) => return Ok(Some(Loaded { step, store, warnings })),
+                Err(e) => warnings.push(format!("{}: {}", e.place, e.problem)),
+            }
+        }
+        if warnings.is_empty() {
+            return Ok(None);
+        }
+        Err(Error::input(self.folder.display(), format!("no checkpoint can be read: {}", warnings.join("; ")), AGAIN))
+    }
+
+    /// Removes every checkpoint, at the start of a fresh run.
+    ///
+    /// # Errors
+    /// `Machine` when one cannot be removed.
+    pub fn clear(&self) -> Result<()> {
+        self.steps()?.into_iter().try_for_each(|step| atomic::remove(&self.path(step)))
+    }
+
+    fn path(&self, step: u64) -> PathBuf {
+        self.folder.join(format!("step-{step:09}.mpmc"))
+    }
+
+    /// The steps that have a checkpoint, in order.
+    fn steps(&self) -> Result<Vec<u64>> {
+        let entries = match fs::read_dir(&self.folder) {
+            Ok(entries) => entries,
+            Err(e) if e.kind() == std::io::ErrorKind::NotFound => return Ok(Vec::new()),
+            Err(e) => return Err(atomic::unreadable(&self.folder, &e, AGAIN)),
+        };
+        let mut steps: Vec<u64> = entries
+            .filter_map(|entry| {
+                let name = entry.ok()?.file_name();
+                name.to_str()?.strip_prefix("step-")?.strip_suffix(".mpmc")?.parse().ok()
+            })
+            .collect();
+        steps.sort_unstable();
+        Ok(steps)
+    }
+}
+
+#[cfg(test)]
+pub(super) mod tests;

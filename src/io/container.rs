@@ -1,0 +1,476 @@
+//! A compact, self-describing file of named arrays, bit-exact.
+//!
+//! ```text
+//! 0   8  the bytes 89 'M' 'P' 'M' 0d 0a 1a 0a (a transfer in text mode breaks them)
+//! 8   4  version of the format, u32
+//! 12  4  length of the header, u32
+//! 16  8  XXH64 of the header, u64
+//! 24     header: JSON with the kind of the file, its texts and the list of arrays
+//!        the arrays' blocks, one array after the other, to the end of the file
+//! ```
+//!
+//! All numbers are little-endian. An array is cut into blocks of about 256 KiB; in a block the bytes are
+//! sorted by their place in the tuple (all first bytes, all second bytes, …: neighbouring numbers share their
+//! high bytes) and compressed with LZ4. A block is a u32, its stored length, and the stored bytes; the highest
+//! bit of the length says that they are not compressed. The checksum in the header is the XXH64 of the
+//! array's stored bytes.
+//!
+//! A file that is cut, changed or foreign is an error; memory is bounded by the length of the file.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::io::Write;
+use std::path::Path;
+
+use serde::{Deserialize, Serialize};
+use twox_hash::XxHash64;
+
+use super::atomic;
+use crate::error::{Error, Result};
+
+const MAGIC: [u8; 8] = *b"\x89MPM\r\n\x1a\n";
+const VERSION: u32 = 1;
+const START: usize = 24;
+const BLOCK: usize = 1 << 18;
+const UNCOMPRESSED: u32 = 1 << 31;
+/// More components than any tensor here has; a bound for buffers when reading.
+const MAX_COMPONENTS: usize = 1024;
+/// LZ4 cannot compress further than this.
+const MAX_RATIO: usize = 256;
+
+/// The numbers of an array, tuple after tuple.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Data {
+    F64(Vec<f64>),
+    U64(Vec<u64>),
+    I64(Vec<i64>),
+    U32(Vec<u32>),
+    U16(Vec<u16>),
+    U8(Vec<u8>),
+}
+
+/// A number that a [`Data`] can hold.
+pub trait Scalar: Copy + Sized {
+    const NAME: &'static str;
+    const SIZE: usize;
+    fn store(self, bytes: &mut [u8]);
+    fn load(bytes: &[u8]) -> Self;
+    fn to_data(values: Vec<Self>) -> Data;
+    /// The numbers, if `data` holds this type.
+    fn from_data(data: Data) -> Option<Vec<Self>>;
+}
+
+macro_rules! scalar {
+    ($($type:ty, $variant:ident, $name:literal;)*) => {
+        $(impl Scalar for $type {
+            const NAME: &'static str = $name;
+            const SIZE: usize = size_of::<$type>();
+            fn store(self, bytes: &mut [u8]) {
+                bytes.copy_from_slice(&self.to_le_bytes());
+            }
+            fn load(bytes: &[u8]) -> Self {
+                let mut own = [0; size_of::<$type>()];
+                own.copy_from_slice(bytes);
+                Self::from_le_bytes(own)
+            }
+            fn to_data(values: Vec<Self>) -> Data {
+                Data::$variant(values)
+            }
+            fn from_data(data: Data) -> Option<Vec<Self>> {
+                if let Data::$variant(values) = data { Some(values) } else { None }
+            }
+        })*
+    };
+}
+scalar! {
+    f64, F64, "f64";
+    u64, U64, "u64";
+    i64, I64, "i64";
+    u32, U32, "u32";
+    u16, U16, "u16";
+    u8, U8, "u8";
+}
+
+/// Runs an expression for the vector in a [`Data`], whatever its type.
+macro_rules! with_values {
+    ($data:expr, $values:ident => $body:expr) => {
+        match $data {
+            Data::F64($values) => $body,
+            Data::U64($values) => $body,
+            Data::I64($values) => $body,
+            Data::U32($values) => $body,
+            Data::U16($values) => $body,
+            Data::U8($values) => $body,
+        }
+    };
+}
+
+impl Data {
+    pub fn len(&self) -> usize {
+        with_values!(self, v => v.len())
+    }
+
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    fn type_name(&self) -> &'static str {
+        fn name<T: Scalar>(_: &[T]) -> &'static str {
+            T::NAME
+        }
+        with_values!(self, v => name(v))
+    }
+}
+
+/// A named array of tuples.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Array {
+    pub name: String,
+    /// Unit of the values, empty for none.
+    pub unit: String,
+    /// Numbers in a tuple, at least 1.
+    pub components: usize,
+    pub data: Data,
+}
+
+/// What a file holds: its kind, texts, and arrays.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Store {
+    kind: String,
+    texts: BTreeMap<String, String>,
+    arrays: Vec<Array>,
+    /// Where it was read and how to make it again, for messages.
+    place: String,
+    remedy: String,
+}
+
+#[derive(Serialize, Deserialize)]
+struct Header {
+    kind: String,
+    texts: BTreeMap<String, String>,
+    arrays: Vec<Entry>,
+}
+
+#[derive(Serialize, Deserialize)]
+struct Entry {
+    name: String,
+    unit: String,
+    #[serde(rename = "type")]
+    scalar: String,
+    components: usize,
+    /// Numbers, all components counted.
+    count: usize,
+    /// Bytes in the file.
+    stored: usize,
+    checksum: u64,
+}
+
+impl Store {
+    /// An empty store; `kind` tells files of different purposes apart.
+    pub fn new(kind: &str) -> Self {
+        Self {
+            kind: kind.to_string(),
+            texts: BTreeMap::new(),
+            arrays: Vec::new(),
+            place: format!("new {kind}"),
+            remedy: String::new(),
+        }
+    }
+
+    pub fn put_text(&mut self, name: &str, text: impl Into<String>) {
+        self.texts.insert(name.to_string(), text.into());
+    }
+
+    /// Appends tuples of `components` numbers.
+    pub fn put<T: Scalar>(&mut self, name: &str, components: usize, values: Vec<T>) {
+        self.put_array(Array { name: name.to_string(), unit: String::new(), components, data: T::to_data(values) });
+    }
+
+    pub fn put_array(&mut self, array: Array) {
+        debug_assert!((1..=MAX_COMPONENTS).contains(&array.components) && array.data.len() % array.components == 0);
+        self.arrays.push(array);
+    }
+
+    /// Says where the store comes from and how the user makes it again, for messages.
+    pub fn set_origin(&mut self, place: impl Into<String>, remedy: &str) {
+        self.place = place.into();
+        self.remedy = remedy.to_string();
+    }
+
+    /// The error of a store that does not hold what it should.
+    pub(super) fn wrong(&self, problem: String) -> Error {
+        Error::input(&self.place, problem, &self.remedy)
+    }
+
+    /// # Errors
+    /// `Input` when there is no such text.
+    pub fn text(&self, name: &str) -> Result<&str> {
+        self.texts.get(name).map(String::as_str).ok_or_else(|| self.missing("text", name))
+    }
+
+    /// Takes the numbers of an array out of the store.
+    ///
+    /// # Errors
+    /// `Input` when there is no such array, or it has another type or number of components.
+    pub fn take<T: Scalar>(&mut self, name: &str, components: usize) -> Result<Vec<T>> {
+        self.take_if_present(name, components)?.ok_or_else(|| self.missing("array", name))
+    }
+
+    /// Like [`Store::take`] for an array that may be absent.
+    ///
+    /// # Errors
+    /// `Input` when it has another type or number of components.
+    pub fn take_if_present<T: Scalar>(&mut self, name: &str, components: usize) -> Result<Option<Vec<T>>> {
+        let Some(i) = self.arrays.iter().position(|a| a.name == name) else { return Ok(None) };
+        let array = self.arrays.swap_remove(i);
+        let found = format!("{} × {}", array.components, array.data.type_name());
+        match T::from_data(array.data) {
+            Some(values) if array.components == components => Ok(Some(values)),
+            _ => {
+                let expected = T::NAME;
+                Err(self.wrong(format!("array `{name}` is {found} where {components} × {expected} is expected")))
+            }
+        }
+    }
+
+    /// The arrays still in the store, in the order of the file.
+    pub fn into_arrays(self) -> Vec<Array> {
+        self.arrays
+    }
+
+    /// The error of something that the store should have.
+    pub(super) fn missing(&self, what: &str, name: &str) -> Error {
+        self.wrong(format!("{what} `{name}` is missing"))
+    }
+
+    /// Writes the file, atomically; `durable` waits for the disk.
+    ///
+    /// # Errors
+    /// `Analysis` when a number is not finite (then nothing is written), `Machine` when the file cannot be
+    /// written.
+    pub fn write(&self, path: &Path, durable: bool) -> Result<()> {
+        let mut entries = Vec::with_capacity(self.arrays.len());
+        let mut blocks = Vec::new();
+        for array in &self.arrays {
+            check_finite(array, "entry")?;
+            let start = blocks.len();
+            with_values!(&array.data, v => compress(v, array.components, &mut blocks));
+            entries.push(Entry {
+                name: array.name.clone(),
+                unit: array.unit.clone(),
+                scalar: array.data.type_name().to_string(),
+                components: array.components,
+                count: array.data.len(),
+                stored: blocks.len() - start,
+                checksum: XxHash64::oneshot(0, &blocks[start..]),
+            });
+        }
+        let header = Header { kind: self.kind.clone(), texts: self.texts.clone(), arrays: entries };
+        let header = serde_json::to_vec(&header)
+            .map_err(|e| Error::analysis(path.display(), format!("header: {e}"), "report this as a mistake of mpm"))?;
+        let fill = |out: &mut dyn Write| {
+            out.write_all(&MAGIC)?;
+            out.write_all(&VERSION.to_le_bytes())?;
+            out.write_all(&(header.len() as u32).to_le_bytes())?;
+            out.write_all(&XxHash64::oneshot(0, &header).to_le_bytes())?;
+            out.write_all(&header)?;
+            out.write_all(&blocks)
+        };
+        if durable { atomic::write_durable(path, fill) } else { atomic::write(path, fill) }
+    }
+
+    /// Reads a file of the given kind; `remedy` says how the user makes it again.
+    ///
+    /// # Errors
+    /// `Input` when the file is missing, foreign, cut or changed.
+    pub fn read(path: &Path, kind: &str, remedy: &str) -> Result<Self> {
+        let bytes = fs::read(path).map_err(|e| atomic::unreadable(path, &e, remedy))?;
+        let broken = |problem: String| Error::input(path.display(), problem, remedy);
+        let (header, mut rest) = split_header(&bytes, bytes.len() as u64, kind).map_err(broken)?;
+        let mut arrays = Vec::with_capacity(header.arrays.len());
+        for entry in header.arrays {
+            // The lengths were checked to add up to the length of the file.
+            let (stored, after) = rest.split_at(entry.stored);
+            rest = after;
+            arrays.push(decode(entry, stored).map_err(broken)?);
+        }
+        Ok(Self {
+            kind: header.kind,
+            texts: header.texts,
+            arrays,
+            place: path.display().to_string(),
+            remedy: remedy.to_string(),
+        })
+    }
+
+    /// Reads only the header: the texts, and the names and numbers of tuples of the arrays.
+    ///
+    /// # Errors
+    /// `Input` when the file is missing, foreign, cut, or its header changed; the arrays are not read.
+    pub fn peek(path: &Path, kind: &str, remedy: &str) -> Result<Summary> {
+        use std::io::Read;
+        let unreadable = |e| atomic::unreadable(path, &e, remedy);
+        let broken = |problem: String| Error::input(path.display(), problem, remedy);
+        let file = fs::File::open(path).map_err(unreadable)?;
+        let length = file.metadata().map_err(unreadable)?.len();
+        let mut bytes = Vec::new();
+        (&file).take(START as u64).read_to_end(&mut bytes).map_err(unreadable)?;
+        let header = header_length(&bytes).map_err(broken)?;
+        file.take(header as u64).read_to_end(&mut bytes).map_err(unreadable)?;
+        let (header, _) = split_header(&bytes, length, kind).map_err(broken)?;
+        let arrays = header.arrays.into_iter().map(|e| (e.name, e.count / e.components)).collect();
+        Ok(Summary { texts: header.texts, arrays })
+    }
+}
+
+/// The header of a file.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Summary {
+    pub texts: BTreeMap<String, String>,
+    /// Names and numbers of tuples.
+    pub arrays: Vec<(String, usize)>,
+}
+
+/// Checks that an array of floating-point numbers is finite; `item` is what a tuple belongs to, such as
+/// `material point`.
+///
+/// # Errors
+/// `Analysis` naming the item and the array.
+pub fn check_finite(array: &Array, item: &str) -> Result<()> {
+    let Data::F64(values) = &array.data else { return Ok(()) };
+    match values.iter().position(|v| !v.is_finite()) {
+        None => Ok(()),
+        Some(i) => Err(Error::analysis(
+            format!("{item} {}", i / array.components),
+            format!("`{}` is {}: it was not written", array.name, values[i]),
+            "what was written before is kept; reduce the steps or refine the mesh",
+        )),
+    }
+}
+
+/// Appends the blocks of an array to `out`.
+fn compress<T: Scalar>(values: &[T], components: usize, out: &mut Vec<u8>) {
+    let stride = components * T::SIZE;
+    let per_block = (BLOCK / stride).max(1) * components;
+    let (mut plain, mut sorted, mut packed) = (Vec::new(), Vec::new(), Vec::new());
+    for block in values.chunks(per_block) {
+        plain.resize(block.len() * T::SIZE, 0);
+        for (bytes, v) in plain.chunks_exact_mut(T::SIZE).zip(block) {
+            v.store(bytes);
+        }
+        sorted.resize(plain.len(), 0);
+        let tuples = block.len() / components;
+        for (i, tuple) in plain.chunks_exact(stride).enumerate() {
+            for (j, &byte) in tuple.iter().enumerate() {
+                sorted[j * tuples + i] = byte;
+            }
+        }
+        packed.resize(lz4_flex::block::get_maximum_output_size(sorted.len()), 0);
+        match lz4_flex::block::compress_into(&sorted, &mut packed) {
+            Ok(n) if n < sorted.len() => {
+                out.extend_from_slice(&(n as u32).to_le_bytes());
+                out.extend_from_slice(&packed[..n]);
+            }
+            _ => {
+                out.extend_from_slice(&(sorted.len() as u32 | UNCOMPRESSED).to_le_bytes());
+                out.extend_from_slice(&sorted);
+            }
+        }
+    }
+}
+
+/// The numbers of an array from its stored bytes, if they are whole.
+fn decompress<T: Scalar>(stored: &[u8], components: usize, count: usize) -> Option<Vec<T>> {
+    let stride = components * T::SIZE;
+    let per_block = (BLOCK / stride).max(1) * components;
+    if count % components != 0 || count.checked_mul(T::SIZE)? > stored.len().saturating_mul(MAX_RATIO) {
+        return None;
+    }
+    let mut values = Vec::with_capacity(count);
+    let mut rest = stored;
+    let mut sorted = Vec::new();
+    while values.len() < count {
+        let numbers = per_block.min(count - values.len());
+        let (length, after) = rest.split_at_checked(4)?;
+        let length = <u32 as Scalar>::load(length);
+        let (block, after) = after.split_at_checked((length & !UNCOMPRESSED) as usize)?;
+        rest = after;
+        sorted.resize(numbers * T::SIZE, 0);
+        if length & UNCOMPRESSED != 0 {
+            if block.len() != sorted.len() {
+                return None;
+            }
+            sorted.copy_from_slice(block);
+        } else if lz4_flex::block::decompress_into(block, &mut sorted).ok()? != sorted.len() {
+            return None;
+        }
+        let tuples = numbers / components;
+        let mut number = [0; 8];
+        for i in 0..numbers {
+            let (tuple, first) = (i / components, i % components * T::SIZE);
+            for (k, byte) in number[..T::SIZE].iter_mut().enumerate() {
+                *byte = sorted[(first + k) * tuples + tuple];
+            }
+            values.push(T::load(&number[..T::SIZE]));
+        }
+    }
+    rest.is_empty().then_some(values)
+}
+
+fn decode(entry: Entry, stored: &[u8]) -> std::result::Result<Array, String> {
+    let Entry { name, unit, scalar, components, count, checksum, .. } = entry;
+    if XxHash64::oneshot(0, stored) != checksum {
+        return Err(format!("is damaged: array `{name}` does not match its checksum"));
+    }
+    let data = match scalar.as_str() {
+        "f64" => decompress(stored, components, count).map(Data::F64),
+        "u64" => decompress(stored, components, count).map(Data::U64),
+        "i64" => decompress(stored, components, count).map(Data::I64),
+        "u32" => decompress(stored, components, count).map(Data::U32),
+        "u16" => decompress(stored, components, count).map(Data::U16),
+        "u8" => decompress(stored, components, count).map(Data::U8),
+        _ => return Err(format!("array `{name}` has the unknown type `{scalar}`")),
+    };
+    let data = data.ok_or_else(|| format!("is damaged: array `{name}` cannot be decompressed"))?;
+    Ok(Array { name, unit, components, data })
+}
+
+/// The length of the header, from the first [`START`] bytes.
+fn header_length(bytes: &[u8]) -> std::result::Result<usize, String> {
+    let Some((start, _)) = bytes.split_at_checked(START) else {
+        return Err(format!("is cut off after {} bytes", bytes.len()));
+    };
+    if start[..8] != MAGIC {
+        return Err("is not a file of mpm".to_string());
+    }
+    match <u32 as Scalar>::load(&start[8..12]) {
+        VERSION => Ok(<u32 as Scalar>::load(&start[12..16]) as usize),
+        other => Err(format!("has version {other} of the format; this mpm reads version {VERSION}")),
+    }
+}
+
+/// Reads the header of a file that is `length` bytes long; returns it with the bytes after it.
+fn split_header<'a>(bytes: &'a [u8], length: u64, kind: &str) -> std::result::Result<(Header, &'a [u8]), String> {
+    let n = header_length(bytes)?;
+    let Some((header, rest)) = bytes[START..].split_at_checked(n) else {
+        return Err(format!("is cut off after {length} bytes"));
+    };
+    if XxHash64::oneshot(0, header) != <u64 as Scalar>::load(&bytes[16..24]) {
+        return Err("is damaged: its header does not match its checksum".to_string());
+    }
+    let header: Header = serde_json::from_slice(header).map_err(|e| format!("is damaged: header: {e}"))?;
+    if header.kind != kind {
+        return Err(format!("is a {} where a {kind} is expected", header.kind));
+    }
+    if let Some(e) = header.arrays.iter().find(|e| !(1..=MAX_COMPONENTS).contains(&e.components)) {
+        return Err(format!("is damaged: array `{}` has {} components", e.name, e.components));
+    }
+    let expected = header.arrays.iter().fold((START + n) as u64, |sum, e| sum.saturating_add(e.stored as u64));
+    if expected != length {
+        return Err(format!("is cut off or damaged: it has {length} bytes where its header says {expected}"));
+    }
+    Ok((header, rest))
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,21 @@
+//! Files: everything the program writes beside the mesh, and reads again.
+//!
+//! | file | module | for |
+//! |---|---|---|
+//! | `points.vtu` | [`points_vtu`] | the material points with their initial state, bit-exact and viewable |
+//! | `results/frame-000123.mpmf` | `frame` | compact result frames, bit-exact |
+//! | `checkpoints/step-000000456.mpmc` | [`checkpoint`] | what `--resume` continues from |
+//! | `history.csv`, `solve.log` | `history` | one line a step, cut back on a resume |
+//! | `vtu/*.vtu`, `*.pvd` | `export`, [`vtu`], [`pvd`] | the series for ParaView |
+//!
+//! Whole files are written beside their name and renamed into place ([`atomic`]), so that a kill leaves the
+//! old file or the new one. The compact files share one [`container`]; slow writing happens in order on a
+//! `background` thread.
+
+pub mod atomic;
+pub mod checkpoint;
+pub mod columns;
+pub mod container;
+pub mod points_vtu;
+pub mod pvd;
+pub mod vtu;

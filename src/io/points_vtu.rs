@@ -1,0 +1,136 @@
+//! `points.vtu`: every material point with its initial state, bit-exact, viewable as it is.
+//!
+//! A plain `.vtu` whose last line is a comment with the number of points, the names of the regions and a
+//! checksum (XXH64) of all that stands before it: a file that was cut or edited is refused before its numbers
+//! are looked at. Read by vtkio.
+
+use std::fs;
+use std::path::Path;
+
+use serde::{Deserialize, Serialize};
+use twox_hash::XxHash64;
+use vtkio::model::{Attribute, DataSet, IOBuffer, Piece, UnstructuredGridPiece, Vtk};
+
+use super::container::{Array, Data, Store, check_finite};
+use super::vtu::{self, Encoding, Grid, Topology};
+use super::{atomic, columns};
+use crate::error::{Error, Result};
+use crate::points::Points;
+
+const AGAIN: &str = "run `mpm seed` again";
+const POSITION: &str = "position";
+const OPEN: &str = "<!-- mpm points ";
+const CLOSE: &str = " -->\n";
+
+/// The last line of the file.
+#[derive(Debug, Serialize, Deserialize)]
+struct Trailer {
+    points: usize,
+    dimension: usize,
+    regions: Vec<String>,
+    /// XXH64 of everything before this line, begun with that of the entries above.
+    checksum: u64,
+}
+
+/// Writes the points with the names that `points.region` stands for, atomically.
+///
+/// # Errors
+/// `Analysis` when a number is not finite, `Machine` when the file cannot be written.
+pub fn write<const D: usize>(path: &Path, points: &Points<D>, regions: &[String]) -> Result<()> {
+    let arrays = columns::to_arrays(points);
+    for array in &arrays {
+        check_finite(array, "material point")?;
+    }
+    let grid = Grid {
+        points: columns::padded(&points.position),
+        topology: Topology::vertices(points.len()),
+        point_data: arrays.into_iter().filter(|a| a.name != POSITION).map(vtu::Array::from).collect(),
+        ..Grid::default()
+    };
+    atomic::write_durable(path, |out| {
+        let mut bytes = Vec::new();
+        vtu::write_to(&mut bytes, &grid, Encoding::Plain)?;
+        let mut trailer = Trailer { points: points.len(), dimension: D, regions: regions.to_vec(), checksum: 0 };
+        trailer.checksum = trailer_checksum(&trailer, &bytes);
+        // Two hyphens may not stand in a comment.
+        let trailer = serde_json::to_string(&trailer)?.replace("--", "-\\u002d");
+        out.write_all(&bytes)?;
+        write!(out, "{OPEN}{trailer}{CLOSE}")
+    })
+}
+
+/// Reads the points and the names of their regions.
+///
+/// # Errors
+/// `Input` when the file is missing, cut, edited, or not one of [`write`] with this dimension.
+pub fn read<const D: usize>(path: &Path) -> Result<(Points<D>, Vec<String>)> {
+    let bytes = fs::read(path).map_err(|e| atomic::unreadable(path, &e, AGAIN))?;
+    let broken = |problem: String| Error::input(path.display(), problem, AGAIN);
+    let (xml, trailer) = split_trailer(&bytes)
+        .ok_or_else(|| broken("is cut off, edited, or not written by mpm: its last line is not its checksum".into()))?;
+    if trailer.checksum != trailer_checksum(&trailer, xml) {
+        return Err(broken("was changed after it was written: it does not match its checksum".into()));
+    }
+    if trailer.dimension != D {
+        return Err(broken(format!("holds points in {} dimensions where {D} are expected", trailer.dimension)));
+    }
+    let piece = parse(xml).map_err(broken)?;
+    let mut store = Store::new("points.vtu");
+    store.set_origin(path.display().to_string(), AGAIN);
+    store.put_array(to_array(POSITION, 3, piece.points).map_err(broken)?);
+    for attribute in piece.data.point {
+        let Attribute::DataArray(a) = attribute else { continue };
+        let components = a.num_comp();
+        store.put_array(to_array(name_without_unit(&a.name), components, a.data).map_err(broken)?);
+    }
+    let points: Points<D> = columns::take(&mut store, "")?;
+    if points.len() != trailer.points {
+        return Err(broken(format!("holds {} points where {} are expected", points.len(), trailer.points)));
+    }
+    let unnamed = points.region.iter().position(|&r| usize::from(r) >= trailer.regions.len());
+    if let Some(i) = unnamed {
+        return Err(broken(format!("material point {i} is in region {}, which has no name", points.region[i])));
+    }
+    Ok((points, trailer.regions))
+}
+
+fn trailer_checksum(trailer: &Trailer, xml: &[u8]) -> u64 {
+    let Trailer { points, dimension, regions, .. } = trailer;
+    XxHash64::oneshot(XxHash64::oneshot(0, format!("{points} {dimension} {regions:?}").as_bytes()), xml)
+}
+
+/// The XML and the last line.
+fn split_trailer(bytes: &[u8]) -> Option<(&[u8], Trailer)> {
+    let end = bytes.strip_suffix(CLOSE.as_bytes())?;
+    let start = end.iter().rposition(|&b| b == b'\n')? + 1;
+    let trailer = serde_json::from_slice(end[start..].strip_prefix(OPEN.as_bytes())?).ok()?;
+    Some((&bytes[..start], trailer))
+}
+
+fn parse(xml: &[u8]) -> std::result::Result<UnstructuredGridPiece, String> {
+    let foreign = || "is not an unstructured grid of mpm".to_string();
+    // The checksum holds here, so vtkio only sees files of our own writer.
+    let vtk = Vtk::parse_xml(xml).map_err(|e| format!("cannot be read: {e}"))?;
+    let DataSet::UnstructuredGrid { pieces, .. } = vtk.data else { return Err(foreign()) };
+    match pieces.into_iter().next() {
+        Some(Piece::Inline(piece)) => Ok(*piece),
+        _ => Err(foreign()),
+    }
+}
+
+fn to_array(name: &str, components: usize, data: IOBuffer) -> std::result::Result<Array, String> {
+    let data = match data {
+        IOBuffer::F64(v) => Data::F64(v),
+        IOBuffer::U32(v) => Data::U32(v),
+        IOBuffer::U16(v) => Data::U16(v),
+        _ => return Err(format!("`{name}` has an unexpected type")),
+    };
+    Ok(Array { name: name.to_string(), unit: String::new(), components, data })
+}
+
+fn name_without_unit(name: &str) -> &str {
+    name.split_once(" [").map_or(name, |(name, _)| name)
+}
+
+#[cfg(test)]
+mod tests;

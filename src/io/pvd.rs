@@ -1,0 +1,22 @@
+//! Collections (`.pvd`): the files of a series with their times, which ParaView opens as one.
+
+use std::path::Path;
+
+use super::{atomic, vtu};
+use crate::error::Result;
+
+/// Writes `path` with a file for each time [s]; the names are relative to the folder of `path`.
+///
+/// # Errors
+/// `Machine` when it cannot be written.
+pub fn write(path: &Path, files: &[(f64, String)]) -> Result<()> {
+    atomic::write(path, |out| {
+        writeln!(out, "<?xml version=\"1.0\"?>")?;
+        writeln!(out, "<VTKFile type=\"Collection\" version=\"1.0\" byte_order=\"LittleEndian\">")?;
+        writeln!(out, "<Collection>")?;
+        for (time, file) in files {
+            writeln!(out, "<DataSet timestep=\"{time:?}\" part=\"0\" file=\"{}\"/>", vtu::escaped(file))?;
+        }
+        writeln!(out, "</Collection>\n</VTKFile>")
+    })
+}

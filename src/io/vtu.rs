@@ -1,0 +1,244 @@
+//! Unstructured grids in VTK's XML format (`.vtu`), every number bit-exact.
+//!
+//! Format: VTK file formats, "XML file formats", version 1.0 with 64-bit headers. Three encodings: raw
+//! appended data (the fastest), the same compressed with LZ4, and base64 within the elements, which every
+//! reader understands (meshio, vtkio).
+
+use std::io::{self, Write};
+use std::path::Path;
+
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
+
+use super::atomic;
+use super::container::{self, Data, Scalar};
+use crate::error::Result;
+use crate::mesh::shape::CellKind;
+use crate::mesh::{Cells, Mesh};
+
+/// How the numbers are written.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Encoding {
+    /// Appended, as they are in memory.
+    #[default]
+    Raw,
+    /// Appended, compressed with LZ4.
+    Lz4,
+    /// In the elements, in base64.
+    Plain,
+}
+
+/// Bytes of a block of [`Encoding::Lz4`] before compression.
+const BLOCK: usize = 1 << 18;
+
+/// An array with a value at each point or cell.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Array {
+    /// Name, with its unit in brackets.
+    pub name: String,
+    pub components: usize,
+    pub data: Data,
+}
+
+impl From<container::Array> for Array {
+    fn from(array: container::Array) -> Self {
+        let container::Array { name, unit, components, data } = array;
+        Self { name: if unit.is_empty() { name } else { format!("{name} [{unit}]") }, components, data }
+    }
+}
+
+/// What a `.vtu` shows.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Grid {
+    /// Coordinates of the points [m], three each.
+    pub points: Vec<f64>,
+    pub topology: Topology,
+    pub point_data: Vec<Array>,
+    pub cell_data: Vec<Array>,
+    /// Time [s] that ParaView shows.
+    pub time: Option<f64>,
+}
+
+/// Cells in VTK's flat form.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Topology {
+    pub connectivity: Vec<i64>,
+    /// The end of each cell in `connectivity`.
+    pub offsets: Vec<i64>,
+    pub types: Vec<u8>,
+}
+
+impl Topology {
+    /// One vertex a point.
+    pub fn vertices(count: usize) -> Self {
+        let count = count as i64;
+        Self { connectivity: (0..count).collect(), offsets: (1..=count).collect(), types: vec![1; count as usize] }
+    }
+
+    /// The cells of a mesh. VTK numbers the nodes of these kinds as Gmsh does.
+    pub fn of_mesh<const D: usize>(mesh: &Mesh<D>) -> Self {
+        let Cells { kind, offset, nodes, .. } = &mesh.cells;
+        Self {
+            connectivity: nodes.iter().map(|&n| i64::from(n)).collect(),
+            offsets: offset[1..].iter().map(|&o| i64::from(o)).collect(),
+            types: kind.iter().map(|&k| vtk_type(k)).collect(),
+        }
+    }
+}
+
+/// VTK's number of a kind of cell (`vtkCellType.h`).
+fn vtk_type(kind: CellKind) -> u8 {
+    match kind {
+        CellKind::Point1 => 1,
+        CellKind::Line2 => 3,
+        CellKind::Line3 => 21,
+        CellKind::T3 => 5,
+        CellKind::T6 => 22,
+        CellKind::Q4 => 9,
+        CellKind::Q8 => 23,
+        CellKind::Q9 => 28,
+    }
+}
+
+/// Writes `grid` to `path`, atomically.
+///
+/// # Errors
+/// `Machine` when it cannot be written.
+pub fn write(path: &Path, grid: &Grid, encoding: Encoding) -> Result<()> {
+    atomic::write(path, |out| write_to(out, grid, encoding))
+}
+
+/// Writes the XML of `grid`.
+///
+/// # Errors
+/// Those of `out`.
+pub fn write_to(out: &mut dyn Write, grid: &Grid, encoding: Encoding) -> io::Result<()> {
+    let compressor = if encoding == Encoding::Lz4 { " compressor=\"vtkLZ4DataCompressor\"" } else { "" };
+    writeln!(out, "<?xml version=\"1.0\"?>")?;
+    writeln!(
+        out,
+        "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\"{compressor}>"
+    )?;
+    writeln!(out, "<UnstructuredGrid>")?;
+    if let Some(time) = grid.time {
+        writeln!(
+            out,
+            "<FieldData>\n<DataArray type=\"Float64\" Name=\"TimeValue\" NumberOfTuples=\"1\" format=\"ascii\">{time:?}\
+             </DataArray>\n</FieldData>"
+        )?;
+    }
+    let (points, cells) = (grid.points.len() / 3, grid.topology.types.len());
+    writeln!(out, "<Piece NumberOfPoints=\"{points}\" NumberOfCells=\"{cells}\">")?;
+    let mut arrays = Arrays { out, encoding, appended: Vec::new() };
+    for (section, data) in [("PointData", &grid.point_data), ("CellData", &grid.cell_data)] {
+        writeln!(arrays.out, "<{section}>")?;
+        for a in data {
+            arrays.data(&a.name, a.components, &a.data)?;
+        }
+        writeln!(arrays.out, "</{section}>")?;
+    }
+    writeln!(arrays.out, "<Points>")?;
+    arrays.numbers("Points", 3, &grid.points)?;
+    writeln!(arrays.out, "</Points>\n<Cells>")?;
+    arrays.numbers("connectivity", 1, &grid.topology.connectivity)?;
+    arrays.numbers("offsets", 1, &grid.topology.offsets)?;
+    arrays.numbers("types", 1, &grid.topology.types)?;
+    writeln!(arrays.out, "</Cells>\n</Piece>\n</UnstructuredGrid>")?;
+    let Arrays { out, appended, .. } = arrays;
+    if encoding != Encoding::Plain {
+        out.write_all(b"<AppendedData encoding=\"raw\">\n_")?;
+        out.write_all(&appended)?;
+        out.write_all(b"\n</AppendedData>\n")?;
+    }
+    writeln!(out, "</VTKFile>")
+}
+
+struct Arrays<'a> {
+    out: &'a mut dyn Write,
+    encoding: Encoding,
+    /// What follows the elements.
+    appended: Vec<u8>,
+}
+
+impl Arrays<'_> {
+    fn data(&mut self, name: &str, components: usize, data: &Data) -> io::Result<()> {
+        match data {
+            Data::F64(v) => self.numbers(name, components, v),
+            Data::U64(v) => self.numbers(name, components, v),
+            Data::I64(v) => self.numbers(name, components, v),
+            Data::U32(v) => self.numbers(name, components, v),
+            Data::U16(v) => self.numbers(name, components, v),
+            Data::U8(v) => self.numbers(name, components, v),
+        }
+    }
+
+    fn numbers<T: Scalar>(&mut self, name: &str, components: usize, values: &[T]) -> io::Result<()> {
+        let mut bytes = vec![0; 8 + values.len() * T::SIZE];
+        let length = (bytes.len() - 8) as u64;
+        length.store(&mut bytes[..8]);
+        for (bytes, v) in bytes[8..].chunks_exact_mut(T::SIZE).zip(values) {
+            v.store(bytes);
+        }
+        let scalar = vtk_scalar(T::NAME);
+        write!(
+            self.out,
+            "<DataArray type=\"{scalar}\" Name=\"{}\" NumberOfComponents=\"{components}\"",
+            escaped(name)
+        )?;
+        for (i, component) in component_names(components).iter().enumerate() {
+            write!(self.out, " ComponentName{i}=\"{component}\"")?;
+        }
+        match self.encoding {
+            Encoding::Plain => {
+                return writeln!(self.out, " format=\"binary\">{}</DataArray>", STANDARD.encode(&bytes));
+            }
+            Encoding::Raw => {
+                writeln!(self.out, " format=\"appended\" offset=\"{}\"/>", self.appended.len())?;
+                self.appended.append(&mut bytes);
+            }
+            Encoding::Lz4 => {
+                writeln!(self.out, " format=\"appended\" offset=\"{}\"/>", self.appended.len())?;
+                compress(&bytes[8..], &mut self.appended);
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Appends the blocks of an array: their number, the length of a block and of the last one if it is shorter,
+/// their lengths when compressed, and the blocks themselves.
+fn compress(bytes: &[u8], out: &mut Vec<u8>) {
+    let blocks: Vec<_> = bytes.chunks(BLOCK).map(lz4_flex::block::compress).collect();
+    for number in [blocks.len(), BLOCK, bytes.len() % BLOCK].into_iter().chain(blocks.iter().map(Vec::len)) {
+        out.extend_from_slice(&(number as u64).to_le_bytes());
+    }
+    for block in blocks {
+        out.extend(block);
+    }
+}
+
+fn vtk_scalar(name: &str) -> &'static str {
+    match name {
+        "f64" => "Float64",
+        "u64" => "UInt64",
+        "i64" => "Int64",
+        "u32" => "UInt32",
+        "u16" => "UInt16",
+        _ => "UInt8",
+    }
+}
+
+/// What ParaView calls the components: of a vector, a symmetric tensor, a full tensor by rows.
+fn component_names(components: usize) -> &'static [&'static str] {
+    match components {
+        3 => &["X", "Y", "Z"],
+        6 => &["XX", "YY", "ZZ", "XY", "YZ", "XZ"],
+        9 => &["XX", "XY", "XZ", "YX", "YY", "YZ", "ZX", "ZY", "ZZ"],
+        _ => &[],
+    }
+}
+
+/// The name as an attribute of an element.
+pub(super) fn escaped(text: &str) -> String {
+    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
+}
