@@ -8,6 +8,8 @@
 pub mod elasticity;
 pub mod linear_elastic;
 pub mod parameters;
+pub mod spatial;
+pub mod spectral;
 pub mod von_mises;
 
 pub use elasticity::{Elasticity, Moduli};
