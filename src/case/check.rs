@@ -8,14 +8,12 @@ use super::structure::suggest;
 use std::collections::BTreeMap;
 use std::path::Path as FilePath;
 
-/// The checked case of `file`, whose paths are relative to `folder`.
-///
-/// # Errors
-/// Every mistake that shows without the mesh.
-pub fn check(file: &raw::CaseFile, folder: &FilePath) -> Result<Case, Vec<Issue>> {
+/// The case of `file`, whose paths are relative to `folder`, and every mistake that shows without the mesh;
+/// the case is a sound one only if there is none.
+pub(super) fn check(file: &raw::CaseFile, folder: &FilePath) -> (Case, Vec<Issue>) {
     let mut checker = Checker::default();
     let case = checker.case(file, folder);
-    if checker.issues.is_empty() { Ok(case) } else { Err(checker.issues) }
+    (case, checker.issues)
 }
 
 pub(super) const LATER: &str = "is not available yet";

@@ -11,6 +11,7 @@ use crate::material::{Kind, MODELS, Model, Parameters, Profile};
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde_json::{Map, Value, json};
 use std::borrow::Cow;
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 impl Checker {
@@ -66,11 +67,11 @@ impl Checker {
 
     fn model(&mut self, material: &raw::Material, path: &Path) -> Option<Arc<dyn Model>> {
         let kind = MODELS.iter().find(|kind| kind.name == material.model)?;
-        let mut parameters = Parameters::default();
+        let mut values = BTreeMap::new();
         let before = self.count();
         for (name, value) in &material.parameters {
             if kind.parameters.iter().any(|known| known.name == name) {
-                parameters.set(name, value.profile());
+                values.insert(name.as_str(), value.profile());
             } else {
                 let known = kind.parameters.iter().map(|known| known.name).filter(|known| !material.has(known));
                 let remedy = format!("take it out, or {}", suggest(name, known));
@@ -80,25 +81,41 @@ impl Checker {
         for known in kind.parameters.iter().filter(|known| known.required && !material.has(known.name)) {
             let problem = format!("the model {} needs `{}`", kind.name, known.name);
             self.issue(path, At::Key, problem, format!("add `{}: …`: {} [{}]", known.name, known.meaning, known.unit));
+            values.extend(example(kind, known.name));
         }
-        if self.count() > before {
-            return None;
-        }
-        let fault = match build(kind, &parameters) {
-            Ok(model) => return Some(model),
-            Err(fault) => fault,
+        // A model stops at its first fault: with a sound value in its place the next one shows.
+        let model = loop {
+            let fault = match build(kind, &values) {
+                Ok(model) => break model,
+                Err(fault) => fault,
+            };
+            // It names the parameter at fault as the place.
+            let Some(value) = material.parameters.get(&fault.place) else {
+                self.issue(path, At::Key, format!("{}: {}", fault.place, fault.problem), fault.remedy);
+                return None;
+            };
+            self.issue(&value.top(&path.key(&fault.place)), At::Value, fault.problem, fault.remedy);
+            let sound = example(kind, &fault.place)?;
+            if values.insert(sound.0, sound.1) == Some(sound.1) {
+                return None;
+            }
         };
-        // A model names the parameter at fault as the place of its error.
-        match material.parameters.get(&fault.place) {
-            Some(value) => self.issue(&value.top(&path.key(&fault.place)), At::Value, fault.problem, fault.remedy),
-            None => self.issue(path, At::Key, format!("{}: {}", fault.place, fault.problem), fault.remedy),
-        }
-        None
+        (self.count() == before).then_some(model)
     }
 }
 
-fn build(kind: &Kind, parameters: &Parameters) -> Result<Arc<dyn Model>> {
-    (kind.build)(parameters)
+/// A sound value of a parameter.
+fn example(kind: &Kind, name: &str) -> Option<(&'static str, Profile)> {
+    let (name, value) = kind.examples.first()?.iter().find(|(known, _)| *known == name)?;
+    Some((name, Profile::constant(*value)))
+}
+
+fn build(kind: &Kind, values: &BTreeMap<&str, Profile>) -> Result<Arc<dyn Model>> {
+    let mut parameters = Parameters::default();
+    for (&name, &value) in values {
+        parameters.set(name, value);
+    }
+    (kind.build)(&parameters)
 }
 
 impl raw::Material {

@@ -16,8 +16,9 @@ pub mod structure;
 
 pub use checked::Case;
 
-use crate::error::Error;
+use crate::error::{self, Error};
 use locate::Step;
+use names::Groups;
 use serde_json::Value;
 use serde_path_to_error::Segment;
 use source::{Issue, Source};
@@ -35,9 +36,36 @@ pub struct Loaded {
 /// # Errors
 /// Every mistake that shows without the mesh, in the order of the file.
 pub fn load(file: &Path, overrides: &[String]) -> Result<Loaded, Vec<Error>> {
-    let source = Source::read(file, overrides).map_err(|e| vec![e])?;
-    let case = resolve(&source).map_err(|issues| errors(&source, issues))?;
-    Ok(Loaded { source, case })
+    let source = Source::read(file, overrides)?;
+    match resolve(&source) {
+        (Some(case), issues) if issues.is_empty() => Ok(Loaded { source, case }),
+        (_, issues) => Err(errors(&source, &issues)),
+    }
+}
+
+/// Every mistake in a case and, where it can be read at all, in its `.geo`; `groups` names those of the mesh.
+///
+/// # Errors
+/// What cannot be read at all.
+pub fn review(
+    file: &Path,
+    overrides: &[String],
+    groups: impl FnOnce(&checked::Mesh) -> error::Result<Groups>,
+) -> error::Result<Vec<Error>> {
+    let source = Source::read(file, overrides)?;
+    let (case, mut issues) = resolve(&source);
+    let mesh = locate::Path::default().key("mesh");
+    let sound = !issues.iter().any(|issue| mesh.contains(&issue.path));
+    match case.filter(|_| sound).map(|case| (groups(&case.mesh), case)) {
+        Some((Ok(groups), case)) => issues.extend(names::check(&case, &groups)),
+        Some((Err(e), _)) => {
+            let mut errors = errors(&source, &issues);
+            errors.push(e);
+            return Ok(errors);
+        }
+        None => {}
+    }
+    Ok(errors(&source, &issues))
 }
 
 impl Loaded {
@@ -45,9 +73,9 @@ impl Loaded {
     ///
     /// # Errors
     /// Every name that the mesh lacks, and every surface that the case leaves out.
-    pub fn check_names(&self, groups: &names::Groups) -> Result<(), Vec<Error>> {
+    pub fn check_names(&self, groups: &Groups) -> Result<(), Vec<Error>> {
         let issues = names::check(&self.case, groups);
-        if issues.is_empty() { Ok(()) } else { Err(errors(&self.source, issues)) }
+        if issues.is_empty() { Ok(()) } else { Err(errors(&self.source, &issues)) }
     }
 }
 
@@ -56,7 +84,8 @@ pub fn schema() -> Value {
     schemars::schema_for!(raw::CaseFile).into()
 }
 
-fn resolve(source: &Source) -> Result<Case, Vec<Issue>> {
+/// The case if it can be read at all, and its mistakes; only without any is it a sound one.
+fn resolve(source: &Source) -> (Option<Case>, Vec<Issue>) {
     let mut issues = source.faults().to_vec();
     let left_out = |issue: &Issue| source.faults().iter().any(|fault| fault.path.contains(&issue.path));
     issues.extend(structure::check(&schema(), source.tree()).into_iter().filter(|issue| !left_out(issue)));
@@ -64,16 +93,19 @@ fn resolve(source: &Source) -> Result<Case, Vec<Issue>> {
     let mut tree = source.tree().clone();
     issues.iter().filter(|issue| issue.unknown).for_each(|issue| prune(&mut tree, &issue.path));
     match read(&tree) {
-        Ok(file) => match check::check(&file, source.folder()) {
-            Ok(case) if issues.is_empty() => return Ok(case),
-            Ok(_) => {}
-            Err(more) => issues.extend(more),
-        },
-        Err(issue) if issues.is_empty() => issues.push(issue),
-        // The walk along the schema has said already, and better, what cannot be read.
-        Err(_) => {}
+        Ok(file) => {
+            let (case, more) = check::check(&file, source.folder());
+            issues.extend(more);
+            (Some(case), issues)
+        }
+        Err(issue) => {
+            // The walk along the schema has mostly said already, and better, what cannot be read.
+            if issues.is_empty() {
+                issues.push(issue);
+            }
+            (None, issues)
+        }
     }
-    Err(issues)
 }
 
 fn read(tree: &Value) -> Result<raw::CaseFile, Issue> {
@@ -101,7 +133,7 @@ fn prune(tree: &mut Value, path: &locate::Path) {
 }
 
 /// The errors of mistakes, in the order of the file.
-fn errors(source: &Source, issues: Vec<Issue>) -> Vec<Error> {
+fn errors(source: &Source, issues: &[Issue]) -> Vec<Error> {
     let mut errors: Vec<_> = issues.iter().map(|issue| (source.place(issue), source.error(issue))).collect();
     errors.sort_by_key(|(place, _)| *place);
     errors.into_iter().map(|(_, error)| error).collect()

@@ -3,7 +3,7 @@
 use super::checked::Case;
 use super::locate::{At, Path};
 use super::source::Issue;
-use super::structure::suggest;
+use super::structure::{nearest, suggest};
 
 /// The names of the physical groups of a mesh.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -21,7 +21,9 @@ pub fn check(case: &Case, groups: &Groups) -> Vec<Issue> {
         names.surface(&region.name, &root.key("regions").key(&region.name));
     }
     for surface in &groups.surfaces {
-        if !case.regions.iter().any(|region| region.name == *surface) {
+        // A region that is nearly called so has been reported.
+        let meant = |name: &str| name == surface || nearest(name, [surface.as_str()]).is_some() && names.lacks(name);
+        if !case.regions.iter().any(|region| meant(&region.name)) {
             let problem = format!("the physical surface `{surface}` of the .geo is not among the regions");
             let remedy = format!("add `{surface}: {{kind: buffer}}`, or fill it with `kind: mpm`");
             names.issues.push(Issue::new(&root.key("regions"), At::Key, problem, remedy));
@@ -55,6 +57,11 @@ struct Names<'a> {
 }
 
 impl Names<'_> {
+    /// Whether the mesh has no such surface.
+    fn lacks(&self, surface: &str) -> bool {
+        !self.groups.surfaces.iter().any(|known| known == surface)
+    }
+
     fn surface(&mut self, name: &str, path: &Path) {
         self.one_of(name, &self.groups.surfaces, "physical surface", path, At::Key);
     }

@@ -25,7 +25,7 @@ pub fn suggest<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> Stri
 }
 
 /// The name most like `name`, if one is.
-fn nearest<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+pub fn nearest<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let likeness =
         known.into_iter().map(|k| (strsim::jaro_winkler(name, k), k)).filter(|&(likeness, _)| likeness > 0.8);
     likeness.max_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, k)| k)

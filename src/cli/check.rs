@@ -1,9 +1,9 @@
 //! `mpm check`: every mistake of a case in one go.
 
-use super::{CaseArgs, Outcome, print};
+use super::{CaseArgs, Outcome, mesh, print};
 use crate::case;
 
 pub fn run(args: &CaseArgs) -> Outcome {
-    let loaded = case::load(&args.case, &args.overrides)?;
-    print(&format!("{}: no mistakes\n", loaded.source.file().display()))
+    let errors = case::review(&args.case, &args.overrides, mesh::groups)?;
+    if errors.is_empty() { print(&format!("{}: no mistakes\n", args.case.display())) } else { Err(errors) }
 }

@@ -1,7 +1,9 @@
 //! The command line: one file a subcommand. Only [`main`] prints errors and decides the exit status.
 
 mod check;
+mod mesh;
 mod schema;
+mod stage;
 
 use crate::error::Error;
 use clap::{Args, Parser, Subcommand};
@@ -22,6 +24,8 @@ struct Cli {
 
 #[derive(Subcommand)]
 enum Command {
+    /// Mesh the .geo of a case: writes mesh.msh
+    Mesh(StageArgs),
     /// Print every mistake of a case, with file, line and remedy; writes nothing
     Check(CaseArgs),
     /// Print the JSON schema of case.yaml, for editors
@@ -38,12 +42,26 @@ struct CaseArgs {
     overrides: Vec<String>,
 }
 
+/// What every subcommand that writes takes.
+#[derive(Args, Clone)]
+struct StageArgs {
+    #[command(flatten)]
+    case: CaseArgs,
+    /// The output folder [default: out/ beside the case]
+    #[arg(short, long, value_name = "DIR")]
+    output: Option<PathBuf>,
+    /// The number of threads [default: one a core]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    threads: Option<u16>,
+}
+
 /// What went wrong, and all of it.
 type Outcome = Result<(), Vec<Error>>;
 
 /// Runs the program on the arguments of the process.
 pub fn main() -> ExitCode {
     let outcome = match Cli::parse().command {
+        Command::Mesh(args) => mesh::run(&args),
         Command::Check(args) => check::run(&args),
         Command::Schema => schema::run(),
     };
