@@ -5,22 +5,28 @@
 //!
 //! A model is one file and one line in [`MODELS`]; the shared tests find it there.
 
+pub mod driver;
 pub mod elasticity;
 pub mod linear_elastic;
+pub mod mohr_coulomb;
 pub mod parameters;
+pub mod polyhedral;
 pub mod spatial;
 pub mod spectral;
+pub mod tresca;
 pub mod von_mises;
 
 pub use elasticity::{Elasticity, Moduli};
 pub use linear_elastic::LinearElastic;
+pub use mohr_coulomb::{Friction, MohrCoulomb};
 pub use parameters::{Kind, Parameter, Parameters, Profile};
+pub use tresca::Tresca;
 pub use von_mises::VonMises;
 
 use crate::error::Result;
 
 /// Every model a case can name.
-pub const MODELS: &[Kind] = &[linear_elastic::KIND, von_mises::KIND];
+pub const MODELS: &[Kind] = &[linear_elastic::KIND, mohr_coulomb::KIND, tresca::KIND, von_mises::KIND];
 
 /// What a model remembers at a point from step to step.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

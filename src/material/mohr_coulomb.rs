@@ -1,0 +1,180 @@
+//! Perfectly plastic Mohr–Coulomb model with dilation (non-associated flow) and tension cut-off:
+//! `(τ₁ − τ₃) + (τ₁ + τ₃) sin φ ≤ 2 c cos φ` and `τ₁ ≤ σ_t`, tension positive.
+//!
+//! The return, with edges, apex and the cut-off's corners, is that of [`super::polyhedral`]; flow on the cut-off is associated.
+
+use super::polyhedral::Planes;
+use super::{Elasticity, Kind, Model, Parameter, Parameters, Profile, Response, State};
+use crate::error::{Error, Result};
+use std::sync::Arc;
+
+/// Angles of friction and dilation.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Friction {
+    sin_friction: f64,
+    cos_friction: f64,
+    sin_dilation: f64,
+}
+
+impl Friction {
+    /// The angles `friction` φ and `dilation` ψ in degrees.
+    ///
+    /// # Errors
+    /// Unless `0 ≤ friction < 90` and `0 ≤ dilation ≤ friction`.
+    pub fn degrees(friction: f64, dilation: f64) -> Result<Self> {
+        if !(0.0..90.0).contains(&friction) {
+            return Err(Error::input(
+                "friction",
+                format!("{friction} is outside 0 <= friction < 90"),
+                "give the angle of friction in degrees",
+            ));
+        }
+        if !(0.0..=friction).contains(&dilation) {
+            return Err(Error::input(
+                "dilation",
+                format!("{dilation} is outside 0 <= dilation <= friction = {friction}"),
+                "give the angle of dilation in degrees, at most that of friction",
+            ));
+        }
+        let (sin_friction, cos_friction) = friction.to_radians().sin_cos();
+        Ok(Self { sin_friction, cos_friction, sin_dilation: dilation.to_radians().sin() })
+    }
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MohrCoulomb {
+    elasticity: Elasticity,
+    cohesion: Profile,
+    friction: Friction,
+    tension: Option<Profile>,
+}
+
+/// The entry of the model list.
+pub const KIND: Kind = Kind {
+    name: "mohr_coulomb",
+    parameters: &[
+        Parameter::YOUNG,
+        Parameter::POISSON,
+        Parameter { name: "cohesion", unit: "kPa", required: true, varies: true, meaning: "cohesion c" },
+        Parameter { name: "friction", unit: "degrees", required: true, varies: false, meaning: "angle of friction" },
+        Parameter {
+            name: "dilation",
+            unit: "degrees",
+            required: false,
+            varies: false,
+            meaning: "angle of dilation, at most that of friction; 0 if not given",
+        },
+        Parameter {
+            name: "tension",
+            unit: "kPa",
+            required: false,
+            varies: true,
+            meaning: "largest tension, at most c cot(friction); no cut-off if not given",
+        },
+    ],
+    build,
+    examples: &[
+        &[("young", 1000.0), ("poisson", 0.3), ("cohesion", 1.0), ("friction", 30.0), ("dilation", 10.0)],
+        &[("young", 1000.0), ("poisson", 0.3), ("cohesion", 1.0), ("friction", 30.0), ("dilation", 30.0)],
+        &[("young", 5e4), ("poisson", 0.2), ("cohesion", 5.0), ("friction", 45.0)],
+        &[("young", 1e4), ("poisson", 0.3), ("cohesion", 0.1), ("friction", 38.0), ("dilation", 8.0), ("tension", 0.0)],
+        &[("young", 2e4), ("poisson", 0.35), ("cohesion", 10.0), ("friction", 20.0), ("tension", 6.0)],
+        &[
+            ("young", 2e3),
+            ("poisson", 0.0),
+            ("cohesion", 2.0),
+            ("friction", 25.0),
+            ("dilation", 25.0),
+            ("tension", 1.0),
+        ],
+        &[("young", 100.0), ("poisson", 0.495), ("cohesion", 1.0), ("friction", 0.0), ("tension", 0.5)],
+    ],
+};
+
+fn build(parameters: &Parameters) -> Result<Arc<dyn Model>> {
+    let friction = Friction::degrees(parameters.number("friction")?, parameters.number_or("dilation", 0.0)?)?;
+    Ok(Arc::new(MohrCoulomb::new(
+        parameters.elasticity()?,
+        parameters.profile("cohesion")?,
+        friction,
+        parameters.optional("tension"),
+    )?))
+}
+
+impl MohrCoulomb {
+    /// A model with the cohesion [kPa] and, if any, the largest tension [kPa].
+    ///
+    /// # Errors
+    /// As [`Model::check`], at the datum of cohesion.
+    pub fn new(
+        elasticity: Elasticity,
+        cohesion: Profile,
+        friction: Friction,
+        tension: Option<Profile>,
+    ) -> Result<Self> {
+        let model = Self { elasticity, cohesion, friction, tension };
+        model.check(cohesion.datum)?;
+        Ok(model)
+    }
+
+    /// Isotropic tension `c cot φ` at the apex, infinite without friction.
+    fn apex(&self, y: f64) -> f64 {
+        if self.friction.sin_friction > 0.0 {
+            self.cohesion.at(y) * self.friction.cos_friction / self.friction.sin_friction
+        } else {
+            f64::INFINITY
+        }
+    }
+
+    fn planes(&self, y: f64) -> Planes {
+        let apex = self.apex(y);
+        Planes {
+            sin_friction: self.friction.sin_friction,
+            sin_dilation: self.friction.sin_dilation,
+            strength: 2.0 * self.cohesion.at(y) * self.friction.cos_friction,
+            tension: self.tension.map_or(apex, |t| t.at(y).min(apex)),
+        }
+    }
+}
+
+impl Model for MohrCoulomb {
+    fn respond(&self, y: f64, trial: &[f64; 3], state: &State) -> Response {
+        self.planes(y).respond(&self.elasticity.at(y), trial, state)
+    }
+
+    fn elasticity(&self) -> &Elasticity {
+        &self.elasticity
+    }
+
+    fn symmetric(&self) -> bool {
+        self.friction.sin_friction == self.friction.sin_dilation
+    }
+
+    fn yield_excess(&self, y: f64, stress: &[f64; 3]) -> f64 {
+        self.planes(y).excess(stress)
+    }
+
+    fn strength(&self, y: f64) -> f64 {
+        self.cohesion.at(y)
+    }
+
+    fn check(&self, y: f64) -> Result<()> {
+        self.elasticity.check(y)?;
+        if self.friction.sin_friction > 0.0 {
+            self.cohesion.not_negative_at("cohesion", y)?;
+        } else {
+            self.cohesion.positive_at("cohesion", y)?;
+        }
+        let Some(tension) = self.tension else { return Ok(()) };
+        tension.not_negative_at("tension", y)?;
+        let apex = self.apex(y);
+        if tension.at(y) > apex * (1.0 + 1e-12) {
+            return Err(Error::input(
+                "tension",
+                format!("{} is above the apex c cot(friction) = {apex} at y = {y}", tension.at(y)),
+                "lower it, or leave it out for no cut-off",
+            ));
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,85 @@
+//! Perfectly plastic Tresca model with associated flow: `τ₁ − τ₃ ≤ 2 s_u`, undrained clay in total stress.
+//!
+//! The return is that of [`super::polyhedral`] without friction.
+
+use super::polyhedral::Planes;
+use super::{Elasticity, Kind, Model, Parameter, Parameters, Profile, Response, State};
+use crate::error::Result;
+use std::sync::Arc;
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Tresca {
+    elasticity: Elasticity,
+    shear_strength: Profile,
+}
+
+/// The entry of the model list.
+pub const KIND: Kind = Kind {
+    name: "tresca",
+    parameters: &[
+        Parameter::YOUNG,
+        Parameter::POISSON,
+        Parameter {
+            name: "shear_strength",
+            unit: "kPa",
+            required: true,
+            varies: true,
+            meaning: "undrained shear strength s_u, half the largest difference of principal stresses",
+        },
+    ],
+    build,
+    examples: &[
+        &[("young", 100.0), ("poisson", 0.49), ("shear_strength", 0.5)],
+        &[("young", 1000.0), ("poisson", 0.4999), ("shear_strength", 1.0)],
+        &[("young", 50_000.0), ("poisson", 0.0), ("shear_strength", 100.0)],
+    ],
+};
+
+fn build(parameters: &Parameters) -> Result<Arc<dyn Model>> {
+    Ok(Arc::new(Tresca::new(parameters.elasticity()?, parameters.profile("shear_strength")?)?))
+}
+
+impl Tresca {
+    /// # Errors
+    /// Unless `shear_strength` [kPa] is positive at its datum.
+    pub fn new(elasticity: Elasticity, shear_strength: Profile) -> Result<Self> {
+        shear_strength.positive_at("shear_strength", shear_strength.datum)?;
+        Ok(Self { elasticity, shear_strength })
+    }
+
+    fn planes(&self, y: f64) -> Planes {
+        Planes {
+            sin_friction: 0.0,
+            sin_dilation: 0.0,
+            strength: 2.0 * self.shear_strength.at(y),
+            tension: f64::INFINITY,
+        }
+    }
+}
+
+impl Model for Tresca {
+    fn respond(&self, y: f64, trial: &[f64; 3], state: &State) -> Response {
+        self.planes(y).respond(&self.elasticity.at(y), trial, state)
+    }
+
+    fn elasticity(&self) -> &Elasticity {
+        &self.elasticity
+    }
+
+    fn symmetric(&self) -> bool {
+        true
+    }
+
+    fn yield_excess(&self, y: f64, stress: &[f64; 3]) -> f64 {
+        self.planes(y).excess(stress)
+    }
+
+    fn strength(&self, y: f64) -> f64 {
+        self.shear_strength.at(y)
+    }
+
+    fn check(&self, y: f64) -> Result<()> {
+        self.elasticity.check(y)?;
+        self.shear_strength.positive_at("shear_strength", y)
+    }
+}
