@@ -7,5 +7,6 @@ pub mod io;
 pub mod material;
 pub mod mesh;
 pub mod points;
+pub mod seed;
 pub mod tensor;
 pub mod time_value;

@@ -86,12 +86,21 @@ pub fn groups(geo: &Path, options: &Options) -> Result<Groups> {
 /// A session with the geometry in `geo`, its parameters and surfaces checked.
 fn open(geo: &Path, options: &Options) -> Result<Session> {
     check_readable(geo)?;
+    let text = fs::read(geo).map_err(|error| Error::input(geo.display(), error, "check the path"))?;
+    let last = text.rsplit(|&c| c == b'\n').next().unwrap_or_default();
+    if !last.trim_ascii().is_empty() {
+        return Err(Error::input(
+            geo.display(),
+            "the last line has no end, and Gmsh would leave its statement out",
+            "end the file with a line feed",
+        ));
+    }
     let session = Session::start()?;
     for (name, value) in &options.parameters {
         session.set_parameter(geo, name, *value)?;
     }
     session.merge(geo)?;
-    check_parameters(&session, geo, &options.parameters)?;
+    check_parameters(&session, geo, &String::from_utf8_lossy(&text), &options.parameters)?;
     check_surfaces(&session, geo)?;
     Ok(session)
 }
@@ -144,6 +153,7 @@ pub fn read(path: &Path) -> Result<Mesh<2>> {
         let x = nodes.get(tag).ok_or_else(|| Error::input(&place, format!("node {tag} is missing"), AGAIN))?;
         mesh.nodes.push([x[0], x[1]]);
     }
+    straighten(&cells, &number, &mut mesh.nodes);
     check_plane(path, number.keys().filter_map(|tag| nodes.get(tag)))?;
     let mut local = Vec::new();
     for (kind, region, tags) in &cells {
@@ -210,6 +220,8 @@ impl Session {
             return Err(Error::machine("Gmsh", "it does not start", "run `make setup`"));
         }
         session.set_option("General.Terminal", 0.0)?;
+        // Errors are logged, not thrown: thrown ones leave the rest of a file in Gmsh's parser for the next.
+        session.set_option("General.AbortOnError", 1.0)?;
         // One thread, so that the mesh is the same every time.
         session.set_option("General.NumThreads", 1.0)?;
         // SAFETY: as above.
@@ -390,7 +402,11 @@ impl Session {
 
     /// An error if the last call failed or Gmsh has logged one.
     fn checked(&self, path: &Path, status: c_int, remedy: &str) -> Result<()> {
-        let logged = self.log().into_iter().find_map(|line| line.strip_prefix("Error: ").map(str::to_owned));
+        // A group that names a curve that is not there is a warning to Gmsh, and wrong all the same.
+        let logged = self.log().into_iter().find_map(|line| {
+            let skipped = line.strip_prefix("Warning: ").filter(|text| text.starts_with("Skipping unknown"));
+            line.strip_prefix("Error: ").or(skipped).map(str::to_owned)
+        });
         let message = match logged {
             Some(message) => message,
             None if status == 0 => return Ok(()),
@@ -400,6 +416,9 @@ impl Session {
         let split = message.strip_prefix('\'').and_then(|rest| {
             let (file, rest) = rest.split_once("', line ")?;
             let (line, problem) = rest.split_once(": ")?;
+            // The file itself as the user named it; an included one as Gmsh does.
+            let own = absolute(path).to_string_lossy() == file;
+            let file = if own { path.display().to_string() } else { file.to_owned() };
             Some((format!("{file}, line {line}"), problem.to_owned()))
         });
         let (place, problem) = split.unwrap_or((path.display().to_string(), message));
@@ -439,8 +458,14 @@ impl Session {
 impl Drop for Session {
     fn drop(&mut self) {
         let mut status = 0;
-        // SAFETY: the session was started and the lock is still held.
-        unsafe { ffi::finalize(&mut status) };
+        let all = CString::default();
+        // SAFETY: the session was started and the lock is still held. The log and the variables of the
+        // parser outlive `finalize`.
+        unsafe {
+            ffi::logger_stop(&mut status);
+            ffi::parser_clear(all.as_ptr(), &mut status);
+            ffi::finalize(&mut status);
+        }
     }
 }
 
@@ -457,6 +482,31 @@ fn kind_of(element: c_int) -> Option<CellKind> {
         10 => CellKind::Q9,
         _ => return None,
     })
+}
+
+/// Puts the middle nodes of straight edges and cells exactly in the middle, from which Gmsh's own are off by
+/// some 1e-13 of the length: so straight cells are recognised as straight.
+fn straighten(cells: &[(CellKind, u16, Vec<usize>)], number: &BTreeMap<usize, u32>, x: &mut [[f64; 2]]) {
+    let snap = |x: &mut [[f64; 2]], middle: u32, around: &[u32]| {
+        let mean = [0, 1].map(|d| around.iter().map(|&n| x[n as usize][d]).sum::<f64>() / around.len() as f64);
+        let [a, b] = [around[0], around[around.len() / 2]].map(|n| x[n as usize]);
+        let size = (b[0] - a[0]).hypot(b[1] - a[1]);
+        let y = &mut x[middle as usize];
+        if (y[0] - mean[0]).hypot(y[1] - mean[1]) <= 1e-10 * size {
+            *y = mean;
+        }
+    };
+    for (kind, _, tags) in cells {
+        let node = |i: usize| number[&tags[i]];
+        for facet in kind.facets().1 {
+            if let [a, b, middle] = **facet {
+                snap(x, node(middle), &[node(a), node(b)]);
+            }
+        }
+        if *kind == CellKind::Q9 {
+            snap(x, node(8), &[0, 1, 2, 3].map(node));
+        }
+    }
 }
 
 /// Turns a clockwise cell round; its corners decide.
@@ -501,12 +551,11 @@ fn check_surfaces(session: &Session, path: &Path) -> Result<()> {
 }
 
 /// Every parameter must have been taken up by a `DefineConstant` of the file.
-fn check_parameters(session: &Session, geo: &Path, parameters: &[(String, f64)]) -> Result<()> {
+fn check_parameters(session: &Session, geo: &Path, text: &str, parameters: &[(String, f64)]) -> Result<()> {
     if parameters.is_empty() {
         return Ok(());
     }
-    let text = fs::read_to_string(geo).unwrap_or_default();
-    let declared = declared(&text);
+    let declared = declared(text);
     for (name, value) in parameters {
         // An included file may declare it too; a plain assignment after it would have changed the value.
         let used = declared.contains(name) || session.parameter_names().contains(name) && text.contains("Include");
@@ -561,6 +610,18 @@ fn check_readable(path: &Path) -> Result<()> {
     }
 }
 
+/// The sections an MSH file can end with.
+const LAST_SECTIONS: [&str; 8] = [
+    "Elements",
+    "Periodic",
+    "GhostElements",
+    "Parametrizations",
+    "NodeData",
+    "ElementData",
+    "ElementNodeData",
+    "InterpolationScheme",
+];
+
 /// A mesh file that was cut short does not end with the end of a section.
 fn check_complete(path: &Path) -> Result<()> {
     let tail = || -> std::io::Result<Vec<u8>> {
@@ -573,8 +634,12 @@ fn check_complete(path: &Path) -> Result<()> {
     };
     let tail = tail().map_err(|error| Error::input(path.display(), error, AGAIN))?;
     let tail = String::from_utf8_lossy(&tail);
-    let complete = tail.trim_end().lines().last().is_some_and(|line| line.trim().starts_with("$End"));
-    if complete { Ok(()) } else { Err(Error::input(path.display(), "it is cut short or no MSH file", AGAIN)) }
+    let last = tail.trim_end().lines().last().and_then(|line| line.trim().strip_prefix("$End")).unwrap_or_default();
+    if LAST_SECTIONS.contains(&last) {
+        Ok(())
+    } else {
+        Err(Error::input(path.display(), "it is cut short or no MSH file", AGAIN))
+    }
 }
 
 /// The mesh must lie in the plane z = 0, with finite coordinates.
@@ -598,9 +663,12 @@ fn c_string(text: &str) -> Result<CString> {
 }
 
 fn c_path(path: &Path) -> Result<CString> {
-    // An absolute path: Gmsh reads a leading dash or a relative include in its own way.
-    let absolute = std::path::absolute(path).unwrap_or_else(|_| PathBuf::from(path));
-    c_string(&absolute.to_string_lossy())
+    c_string(&absolute(path).to_string_lossy())
+}
+
+/// Gmsh gets absolute paths: it reads a leading dash and a relative include in its own way.
+fn absolute(path: &Path) -> PathBuf {
+    std::path::absolute(path).unwrap_or_else(|_| path.to_path_buf())
 }
 
 /// Copies an array that Gmsh hands out, and frees it.
