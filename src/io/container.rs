@@ -187,7 +187,9 @@ impl Store {
     }
 
     pub fn put_array(&mut self, array: Array) {
-        debug_assert!((1..=MAX_COMPONENTS).contains(&array.components) && array.data.len() % array.components == 0);
+        debug_assert!(
+            (1..=MAX_COMPONENTS).contains(&array.components) && array.data.len().is_multiple_of(array.components)
+        );
         self.arrays.push(array);
     }
 
@@ -383,7 +385,7 @@ fn compress<T: Scalar>(values: &[T], components: usize, out: &mut Vec<u8>) {
 fn decompress<T: Scalar>(stored: &[u8], components: usize, count: usize) -> Option<Vec<T>> {
     let stride = components * T::SIZE;
     let per_block = (BLOCK / stride).max(1) * components;
-    if count % components != 0 || count.checked_mul(T::SIZE)? > stored.len().saturating_mul(MAX_RATIO) {
+    if !count.is_multiple_of(components) || count.checked_mul(T::SIZE)? > stored.len().saturating_mul(MAX_RATIO) {
         return None;
     }
     let mut values = Vec::with_capacity(count);

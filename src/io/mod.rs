@@ -3,19 +3,23 @@
 //! | file | module | for |
 //! |---|---|---|
 //! | `points.vtu` | [`points_vtu`] | the material points with their initial state, bit-exact and viewable |
-//! | `results/frame-000123.mpmf` | `frame` | compact result frames, bit-exact |
+//! | `results/frame-000123.mpmf` | [`frame`] | compact result frames, bit-exact |
 //! | `checkpoints/step-000000456.mpmc` | [`checkpoint`] | what `--resume` continues from |
-//! | `history.csv`, `solve.log` | `history` | one line a step, cut back on a resume |
-//! | `vtu/*.vtu`, `*.pvd` | `export`, [`vtu`], [`pvd`] | the series for ParaView |
+//! | `history.csv`, `solve.log` | [`history`] | one line a step, cut back on a resume |
+//! | `vtu/*.vtu`, `*.pvd` | [`export`], [`vtu`], [`pvd`] | the series for ParaView |
 //!
 //! Whole files are written beside their name and renamed into place ([`atomic`]), so that a kill leaves the
 //! old file or the new one. The compact files share one [`container`]; slow writing happens in order on a
-//! `background` thread.
+//! [`background`] thread.
 
 pub mod atomic;
+pub mod background;
 pub mod checkpoint;
 pub mod columns;
 pub mod container;
+pub mod export;
+pub mod frame;
+pub mod history;
 pub mod points_vtu;
 pub mod pvd;
 pub mod vtu;

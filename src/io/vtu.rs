@@ -180,11 +180,11 @@ impl Arrays<'_> {
             v.store(bytes);
         }
         let scalar = vtk_scalar(T::NAME);
-        write!(
-            self.out,
-            "<DataArray type=\"{scalar}\" Name=\"{}\" NumberOfComponents=\"{components}\"",
-            escaped(name)
-        )?;
+        write!(self.out, "<DataArray type=\"{scalar}\" Name=\"{}\"", escaped(name))?;
+        // meshio makes a column of what is said to have one component.
+        if components > 1 {
+            write!(self.out, " NumberOfComponents=\"{components}\"")?;
+        }
         for (i, component) in component_names(components).iter().enumerate() {
             write!(self.out, " ComponentName{i}=\"{component}\"")?;
         }

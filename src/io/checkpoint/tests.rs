@@ -49,7 +49,7 @@ fn save(checkpoints: &Checkpoints, step: u64) {
     let mut store = Checkpoints::store();
     store.put_text("phase", "push");
     store.put("time", 1, vec![step as f64 * 0.1]);
-    for mut array in columns::to_arrays(&sample_points(50, step % 2 == 0)) {
+    for mut array in columns::to_arrays(&sample_points(50, step.is_multiple_of(2))) {
         array.name = format!("points/{}", array.name);
         store.put_array(array);
     }
@@ -73,7 +73,7 @@ fn the_last_two_are_kept_and_the_newest_comes_back_to_the_bit() {
         let mut loaded = checkpoints.latest().unwrap().unwrap();
         assert_eq!((loaded.step, loaded.warnings.len()), (step, 0));
         let points: Points<2> = columns::take(&mut loaded.store, "points/").unwrap();
-        assert!(same_bits(&points, &sample_points(50, step % 2 == 0)));
+        assert!(same_bits(&points, &sample_points(50, step.is_multiple_of(2))));
         assert_eq!(loaded.store.take::<f64>("time", 1).unwrap(), [step as f64 * 0.1]);
     }
     assert_eq!(files(&checkpoints.folder), ["step-000000003.mpmc", "step-000000011.mpmc"]);

@@ -1,0 +1,161 @@
+//! Result frames to series for ParaView: `vtu/points_000123.vtu` and `vtu/grid_000123.vtu` with `points.pvd`
+//! and `grid.pvd`, with the fields that the case asks for.
+//!
+//! Derived here, from the stress: `mean_stress` (tension positive) and `deviatoric_stress`, √(3/2 s:s).
+
+use std::fs;
+use std::path::Path;
+
+use rayon::prelude::*;
+
+use super::columns::padded;
+use super::container::Data;
+use super::frame::{self, Column, Frame, Part};
+use super::vtu::{self, Array, Encoding, Grid, Topology};
+use super::{atomic, pvd};
+use crate::error::{Error, Result};
+use crate::mesh::Mesh;
+use crate::tensor::Symmetric;
+
+/// The kinds of files, each with a `.pvd`.
+const SERIES: [&str; 2] = ["points", "grid"];
+
+/// What an export wrote.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Summary {
+    pub frames: usize,
+    /// Files of an earlier, longer run that were removed.
+    pub removed: usize,
+}
+
+/// Writes the frames in `results` as series into `out`, with `fields` and nothing else.
+///
+/// # Errors
+/// `Input` when there are no frames, one is damaged, they do not belong to `mesh`, or a field is in none of
+/// them; `Machine` when a file cannot be written. The `.pvd` files are written last.
+pub fn export<const D: usize>(
+    results: &Path,
+    mesh: &Mesh<D>,
+    out: &Path,
+    fields: &[String],
+    encoding: Encoding,
+) -> Result<Summary> {
+    let infos = frame::list(results)?;
+    let folder = out.join("vtu");
+    atomic::prepare_folder(&folder)?;
+    let topology = Topology::of_mesh(mesh);
+    let nodes = padded(&mesh.nodes);
+    infos.par_iter().enumerate().try_for_each(|(i, info)| {
+        let frame = Frame::read(&info.path)?;
+        check_fields(&info.path, &frame, fields)?;
+        let Frame { time, points, grid, .. } = frame;
+        let time = Some(time);
+        let points = Grid {
+            point_data: select(&points, fields),
+            topology: Topology::vertices(points.position.len()),
+            points: points.position.concat(),
+            ..Grid { time, ..Grid::default() }
+        };
+        vtu::write(&folder.join(file_name("points", i)), &points, encoding)?;
+        let count = if grid.position.is_empty() { mesh.nodes.len() } else { grid.position.len() };
+        let fits = count == mesh.nodes.len() && grid.columns.iter().all(|c| c.values.len() == c.components * count);
+        if !fits {
+            return Err(Error::input(
+                info.path.display(),
+                format!("has not the {} nodes of the mesh", mesh.nodes.len()),
+                "the mesh was made again after the run: run `mpm solve` again",
+            ));
+        }
+        let point_data = select(&grid, fields);
+        let points = if grid.position.is_empty() { nodes.clone() } else { grid.position.concat() };
+        let grid = Grid { points, topology: topology.clone(), point_data, cell_data: vec![regions(mesh)], time };
+        vtu::write(&folder.join(file_name("grid", i)), &grid, encoding)
+    })?;
+    for series in SERIES {
+        let files: Vec<_> =
+            infos.iter().enumerate().map(|(i, info)| (info.time, format!("vtu/{}", file_name(series, i)))).collect();
+        pvd::write(&out.join(format!("{series}.pvd")), &files)?;
+    }
+    Ok(Summary { frames: infos.len(), removed: remove_stale(&folder, infos.len())? })
+}
+
+fn file_name(series: &str, index: usize) -> String {
+    format!("{series}_{index:06}.vtu")
+}
+
+/// Removes the files of an earlier run that had more than `count` frames.
+fn remove_stale(folder: &Path, count: usize) -> Result<usize> {
+    let mut removed = 0;
+    for entry in fs::read_dir(folder).map_err(|e| atomic::unwritable(folder, &e))? {
+        let path = entry.map_err(|e| atomic::unwritable(folder, &e))?.path();
+        let name = path.file_name().and_then(|n| n.to_str()).and_then(|n| n.strip_suffix(".vtu"));
+        let stale = name.and_then(|n| n.split_once('_')).is_some_and(|(series, index)| {
+            SERIES.contains(&series) && index.parse::<usize>().is_ok_and(|i| i >= count)
+        });
+        if stale {
+            atomic::remove(&path)?;
+            removed += 1;
+        }
+    }
+    Ok(removed)
+}
+
+/// The region of each cell of the grid.
+fn regions<const D: usize>(mesh: &Mesh<D>) -> Array {
+    Array { name: "region [-]".to_string(), components: 1, data: Data::U16(mesh.cells.region.clone()) }
+}
+
+/// The fields that a part has or that follow from what it has.
+fn select(part: &Part, fields: &[String]) -> Vec<Array> {
+    fields.iter().filter_map(|name| column(part, name)).collect()
+}
+
+fn column(part: &Part, name: &str) -> Option<Array> {
+    let find = |name: &str| part.columns.iter().find(|c| c.name == name);
+    let array = |unit: &str, components, values| Array {
+        name: format!("{name} [{unit}]"),
+        components,
+        data: Data::F64(values),
+    };
+    if let Some(Column { unit, components, values, .. }) = find(name) {
+        return Some(array(unit, *components, values.clone()));
+    }
+    let derive: fn(&Symmetric) -> f64 = match name {
+        "mean_stress" => mean,
+        "deviatoric_stress" => deviatoric,
+        _ => return None,
+    };
+    let Column { unit, components: 6, values, .. } = find("stress")? else { return None };
+    let values = values.chunks_exact(6).map(|s| derive(&[s[0], s[1], s[2], s[3], s[4], s[5]])).collect();
+    Some(array(unit, 1, values))
+}
+
+/// Every field must be somewhere in the frame.
+fn check_fields(path: &Path, frame: &Frame, fields: &[String]) -> Result<()> {
+    let has = |name: &str| column(&frame.points, name).is_some() || column(&frame.grid, name).is_some();
+    let Some(missing) = fields.iter().find(|name| !has(name)) else { return Ok(()) };
+    let names = frame.points.columns.iter().chain(&frame.grid.columns).map(|c| c.name.as_str());
+    let mut names: Vec<_> =
+        names.chain(["mean_stress", "deviatoric_stress"].into_iter().filter(|name| has(name))).collect();
+    names.sort_unstable();
+    names.dedup();
+    Err(Error::input(
+        path.display(),
+        format!("the field `{missing}` of output.fields is not in the results; they have {}", names.join(", ")),
+        "run `mpm solve` again, or ask for another field",
+    ))
+}
+
+/// Mean stress, tension positive.
+fn mean(s: &Symmetric) -> f64 {
+    (s[0] + s[1] + s[2]) / 3.0
+}
+
+/// √(3/2 s:s) of the deviator s: the von Mises stress, q of the triaxial test.
+fn deviatoric(s: &Symmetric) -> f64 {
+    let (a, b, c) = (s[0] - s[1], s[1] - s[2], s[2] - s[0]);
+    (0.5 * (a * a + b * b + c * c) + 3.0 * (s[3] * s[3] + s[4] * s[4] + s[5] * s[5])).sqrt()
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,208 @@
+//! Result frames: what a run shows at one moment, as `frame-000123.mpmf` in the results folder.
+//!
+//! Frames are numbered from 0, the initial state, without gaps. A run that continues from a checkpoint writes
+//! the later ones again, to the same bytes.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use super::atomic;
+use super::container::{Array, Data, Store, Summary, check_finite};
+use crate::error::{Error, Result};
+
+const KIND: &str = "frame";
+const AGAIN: &str = "run `mpm solve` again";
+const POSITION: &str = "position";
+
+/// A quantity at the points or nodes of a [`Part`].
+#[derive(Clone, Debug, PartialEq)]
+pub struct Column {
+    /// Name as the case has it in `output.fields`.
+    pub name: String,
+    /// Unit, `-` for none.
+    pub unit: String,
+    /// 1 (scalar), 3 (vector), 6 (symmetric tensor, `tensor::SYMMETRIC_NAMES`) or 9 (tensor by rows).
+    pub components: usize,
+    /// Tuple after tuple.
+    pub values: Vec<f64>,
+}
+
+/// Points, or the nodes of a mesh, and what is known there.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Part {
+    /// Coordinates [m], padded to three. Empty in the grid: the nodes are where the mesh has them.
+    pub position: Vec<[f64; 3]>,
+    pub columns: Vec<Column>,
+}
+
+/// The state at one moment.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Frame {
+    /// Time [s] since the start of the first phase.
+    pub time: f64,
+    /// Name of the phase.
+    pub phase: String,
+    /// Steps done.
+    pub step: u64,
+    pub points: Part,
+    pub grid: Part,
+}
+
+/// What a listing tells about a frame.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Info {
+    pub path: PathBuf,
+    pub time: f64,
+    pub phase: String,
+    pub step: u64,
+    /// Material points.
+    pub points: usize,
+}
+
+/// The file of frame `index`.
+pub fn path(folder: &Path, index: usize) -> PathBuf {
+    folder.join(format!("frame-{index:06}.mpmf"))
+}
+
+impl Frame {
+    /// Writes the frame as number `index`, atomically.
+    ///
+    /// # Errors
+    /// `Analysis` naming the material point or node whose value is not finite (then nothing is written);
+    /// `Machine` when the file cannot be written.
+    pub fn write(&self, folder: &Path, index: usize) -> Result<()> {
+        let mut store = Store::new(KIND);
+        // Rust prints a float with as many digits as tell it from all others.
+        store.put_text("time", format!("{:?}", self.time));
+        store.put_text("phase", &*self.phase);
+        store.put_text("step", self.step.to_string());
+        for (prefix, item, part) in [("points/", "material point", &self.points), ("grid/", "grid node", &self.grid)] {
+            let position =
+                Column { name: POSITION.into(), unit: "m".into(), components: 3, values: part.position.concat() };
+            for Column { name, unit, components, values } in std::iter::once(&position).chain(&part.columns) {
+                let mut array = Array {
+                    name: name.clone(),
+                    unit: unit.clone(),
+                    components: *components,
+                    data: Data::F64(values.clone()),
+                };
+                check_finite(&array, item)?;
+                array.name.insert_str(0, prefix);
+                store.put_array(array);
+            }
+        }
+        store.write(&path(folder, index), false)
+    }
+
+    /// Reads a frame.
+    ///
+    /// # Errors
+    /// `Input` when the file is missing, cut or damaged.
+    pub fn read(path: &Path) -> Result<Self> {
+        let store = Store::read(path, KIND, AGAIN)?;
+        let (time, phase, step) = read_texts(|name| store.text(name))?;
+        let mut frame = Self { time, phase, step, ..Self::default() };
+        for Array { name, unit, components, data } in store.into_arrays() {
+            let broken = || Error::input(path.display(), format!("is damaged: array `{name}` is unexpected"), AGAIN);
+            let (part, name) = match name.split_once('/') {
+                Some(("points", name)) => (&mut frame.points, name),
+                Some(("grid", name)) => (&mut frame.grid, name),
+                _ => return Err(broken()),
+            };
+            let Data::F64(values) = data else { return Err(broken()) };
+            match (name, components) {
+                (POSITION, 3) => part.position = values.chunks_exact(3).map(|v| [v[0], v[1], v[2]]).collect(),
+                (POSITION, _) => return Err(broken()),
+                _ => part.columns.push(Column { name: name.to_string(), unit, components, values }),
+            }
+        }
+        for (what, part) in [("points", &frame.points), ("grid", &frame.grid)] {
+            let counts = part.columns.iter().map(|c| (c.name.as_str(), c.values.len() / c.components));
+            // A grid without positions of its own takes those of the mesh; its columns still agree.
+            let count = if part.position.is_empty() { None } else { Some((POSITION, part.position.len())) };
+            let mut all = count.into_iter().chain(counts);
+            let Some((_, first)) = all.next() else { continue };
+            if let Some((name, n)) = all.find(|&(_, n)| n != first) {
+                let problem = format!("is damaged: {what} column `{name}` has {n} entries where {first} are expected");
+                return Err(Error::input(path.display(), problem, AGAIN));
+            }
+        }
+        Ok(frame)
+    }
+}
+
+/// The frames of a results folder in order, from their headers alone.
+///
+/// # Errors
+/// `Input` when the folder is missing or empty, a frame is missing, cut or damaged, or the frames do not
+/// belong together: times or steps go back, numbers of points differ.
+pub fn list(folder: &Path) -> Result<Vec<Info>> {
+    let indices = indices(folder)?;
+    if indices.is_empty() {
+        return Err(Error::input(folder.display(), "there are no result frames here", "run `mpm solve` first"));
+    }
+    let mut infos: Vec<Info> = Vec::with_capacity(indices.len());
+    for (expected, index) in indices.into_iter().enumerate() {
+        if index != expected {
+            return Err(Error::input(path(folder, expected).display(), "this frame is missing", AGAIN));
+        }
+        let path = path(folder, index);
+        let Summary { texts, arrays } = Store::peek(&path, KIND, AGAIN)?;
+        let (time, phase, step) = read_texts(|name| {
+            texts
+                .get(name)
+                .map(String::as_str)
+                .ok_or_else(|| Error::input(path.display(), format!("is damaged: text `{name}` is missing"), AGAIN))
+        })?;
+        let points = arrays.iter().find(|(name, _)| name == "points/position").map_or(0, |&(_, n)| n);
+        if let Some(before) = infos.last() {
+            let mixed = |problem: String| {
+                Err(Error::input(path.display(), format!("does not belong to the frame before: {problem}"), AGAIN))
+            };
+            if time < before.time || step < before.step {
+                return mixed(format!("time {time} at step {step} after {} at {}", before.time, before.step));
+            }
+            if points != before.points {
+                return mixed(format!("{points} material points after {}", before.points));
+            }
+        }
+        infos.push(Info { path, time, phase, step, points });
+    }
+    Ok(infos)
+}
+
+/// Makes the folder ready for frames from `first` on: later ones of an earlier run are removed (0: all).
+///
+/// # Errors
+/// `Machine` when the folder cannot be made or a frame cannot be removed.
+pub fn prepare(folder: &Path, first: usize) -> Result<()> {
+    atomic::prepare_folder(folder)?;
+    indices(folder)?.into_iter().filter(|&i| i >= first).try_for_each(|i| atomic::remove(&path(folder, i)))
+}
+
+fn indices(folder: &Path) -> Result<Vec<usize>> {
+    let entries = fs::read_dir(folder).map_err(|e| atomic::unreadable(folder, &e, "run `mpm solve` first"))?;
+    let mut indices: Vec<usize> = entries
+        .filter_map(|entry| {
+            let name = entry.ok()?.file_name();
+            name.to_str()?.strip_prefix("frame-")?.strip_suffix(".mpmf")?.parse().ok()
+        })
+        .collect();
+    indices.sort_unstable();
+    Ok(indices)
+}
+
+fn read_texts<'a>(text: impl Fn(&'static str) -> Result<&'a str>) -> Result<(f64, String, u64)> {
+    let broken =
+        |name: &str, value: &str| Error::input("result frame", format!("{name} `{value}` is not a number"), AGAIN);
+    let (time, step) = (text("time")?, text("step")?);
+    let parsed = time.parse::<f64>().ok().filter(|t| t.is_finite());
+    Ok((
+        parsed.ok_or_else(|| broken("time", time))?,
+        text("phase")?.to_string(),
+        step.parse().map_err(|_| broken("step", step))?,
+    ))
+}
+
+#[cfg(test)]
+pub(super) mod tests;

@@ -1,0 +1,136 @@
+//! Files that grow by a line a step: `history.csv` (numbers) and `solve.log` (text).
+//!
+//! A line is with the operating system when the call returns, so that a kill loses none. A checkpoint
+//! remembers how many lines there were; [`History::resume`] and [`Log::resume`] cut what came after.
+
+use std::fs::{self, File, OpenOptions};
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+use super::atomic;
+use crate::error::{Error, Result};
+
+const AGAIN: &str = "start the analysis afresh, without --resume";
+
+/// A text file that grows by whole lines.
+#[derive(Debug)]
+pub struct Log {
+    file: File,
+    path: PathBuf,
+    lines: u64,
+}
+
+impl Log {
+    /// An empty file, replacing an earlier one.
+    ///
+    /// # Errors
+    /// `Machine` when it cannot be written.
+    pub fn create(path: &Path) -> Result<Self> {
+        let file = File::create(path).map_err(|e| atomic::unwritable(path, &e))?;
+        Ok(Self { file, path: path.to_path_buf(), lines: 0 })
+    }
+
+    /// Opens a file to continue after its first `lines` lines; later ones are cut.
+    ///
+    /// # Errors
+    /// `Input` when it is missing or shorter, `Machine` when it cannot be written.
+    pub fn resume(path: &Path, lines: u64) -> Result<Self> {
+        let bytes = fs::read(path).map_err(|e| atomic::unreadable(path, &e, AGAIN))?;
+        let ends = bytes.iter().enumerate().filter(|&(_, &b)| b == b'\n').map(|(i, _)| i as u64 + 1);
+        // The length of the first `lines` lines; the one before the first is empty.
+        let length = match lines {
+            0 => Some(0),
+            _ => usize::try_from(lines - 1).ok().and_then(|n| ends.clone().nth(n)),
+        };
+        let Some(length) = length else {
+            let problem = format!("has {} whole lines where the checkpoint knows {lines}", ends.count());
+            return Err(Error::input(path.display(), problem, AGAIN));
+        };
+        let file = OpenOptions::new().append(true).open(path).map_err(|e| atomic::unwritable(path, &e))?;
+        file.set_len(length).map_err(|e| atomic::unwritable(path, &e))?;
+        Ok(Self { file, path: path.to_path_buf(), lines })
+    }
+
+    /// Appends a line.
+    ///
+    /// # Errors
+    /// `Machine` when it cannot be written.
+    pub fn line(&mut self, text: &str) -> Result<()> {
+        // One call, so that a kill cannot come in between.
+        let whole = format!("{}\n", text.replace('\n', " "));
+        self.file.write_all(whole.as_bytes()).map_err(|e| atomic::unwritable(&self.path, &e))?;
+        self.lines += 1;
+        Ok(())
+    }
+
+    /// Lines in the file, for a checkpoint.
+    pub fn lines(&self) -> u64 {
+        self.lines
+    }
+}
+
+/// A table of numbers in CSV whose header names the quantities with their units, `head.uy [m]`.
+#[derive(Debug)]
+pub struct History {
+    log: Log,
+    columns: Vec<String>,
+}
+
+impl History {
+    /// A file with only the header, replacing an earlier one.
+    ///
+    /// # Errors
+    /// `Machine` when it cannot be written.
+    pub fn create(path: &Path, columns: &[String]) -> Result<Self> {
+        let mut log = Log::create(path)?;
+        log.line(&header(columns))?;
+        Ok(Self { log, columns: columns.to_vec() })
+    }
+
+    /// Opens a file to continue after its first `rows` rows; later ones are cut.
+    ///
+    /// # Errors
+    /// `Input` when it is missing, shorter, or has another header; `Machine` when it cannot be written.
+    pub fn resume(path: &Path, columns: &[String], rows: u64) -> Result<Self> {
+        let text = fs::read(path).map_err(|e| atomic::unreadable(path, &e, AGAIN))?;
+        let first = text.split(|&b| b == b'\n').next().unwrap_or_default();
+        if first != header(columns).as_bytes() {
+            let problem = format!("has the columns `{}` of another run", String::from_utf8_lossy(first));
+            return Err(Error::input(format!("{}:1", path.display()), problem, AGAIN));
+        }
+        Ok(Self { log: Log::resume(path, rows.saturating_add(1))?, columns: columns.to_vec() })
+    }
+
+    /// Appends a row, one number a column.
+    ///
+    /// # Errors
+    /// `Analysis` naming the column whose number is not finite, `Machine` when the row cannot be written.
+    pub fn row(&mut self, numbers: &[f64]) -> Result<()> {
+        debug_assert_eq!(numbers.len(), self.columns.len());
+        if let Some(i) = numbers.iter().position(|v| !v.is_finite()) {
+            return Err(Error::analysis(
+                format!("{}: column `{}`", self.log.path.display(), self.columns[i]),
+                format!("the value is {}: it was not written", numbers[i]),
+                "what was written before is kept; reduce the steps or refine the mesh",
+            ));
+        }
+        // As many digits as tell the number from all others.
+        let fields: Vec<String> = numbers.iter().map(|v| format!("{v:?}")).collect();
+        self.log.line(&fields.join(","))
+    }
+
+    /// Rows in the file, without the header, for a checkpoint.
+    pub fn rows(&self) -> u64 {
+        self.log.lines() - 1
+    }
+}
+
+fn header(columns: &[String]) -> String {
+    let quoted = |name: &String| {
+        if name.contains([',', '"', '\n']) { format!("\"{}\"", name.replace('"', "\"\"")) } else { name.clone() }
+    };
+    columns.iter().map(quoted).collect::<Vec<_>>().join(",").replace('\n', " ")
+}
+
+#[cfg(test)]
+mod tests;
