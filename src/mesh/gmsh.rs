@@ -42,23 +42,7 @@ pub fn generate(geo: &Path, options: &Options, out: &Path) -> Result<()> {
     if !matches!(options.order, 1 | 2) {
         return Err(Error::input(geo.display(), format!("order {} is not possible", options.order), "use 1 or 2"));
     }
-    check_readable(geo)?;
-    let text = fs::read(geo).map_err(|error| Error::input(geo.display(), error, "check the path"))?;
-    let last = text.rsplit(|&c| c == b'\n').next().unwrap_or_default();
-    if !last.trim_ascii().is_empty() {
-        return Err(Error::input(
-            geo.display(),
-            "the last line has no end, and Gmsh would leave its statement out",
-            "end the file with a line feed",
-        ));
-    }
-    let session = Session::start()?;
-    for (name, value) in &options.parameters {
-        session.set_parameter(geo, name, *value)?;
-    }
-    session.merge(geo)?;
-    check_parameters(&session, geo, &String::from_utf8_lossy(&text), &options.parameters)?;
-    check_surfaces(&session, geo)?;
+    let session = open(geo, options)?;
     for (name, value) in [
         ("Mesh.ElementOrder", 1.0),
         ("Mesh.SecondOrderIncomplete", f64::from(u8::from(options.incomplete))),
@@ -79,6 +63,46 @@ pub fn generate(geo: &Path, options: &Options, out: &Path) -> Result<()> {
     unsafe { ffi::model_mesh_set_order(c_int::from(options.order), &mut status) };
     session.checked(geo, status, "the mesh has no second order; use order: 1 or mend the geometry")?;
     session.write(out)
+}
+
+/// The names of the physical groups of a `.geo`.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Groups {
+    pub surfaces: Vec<String>,
+    pub curves: Vec<String>,
+    pub points: Vec<String>,
+}
+
+/// The names of the physical groups of the geometry in `geo`, which is not meshed.
+///
+/// # Errors
+/// Input: as [`generate`], but for what only shows in meshing.
+pub fn groups(geo: &Path, options: &Options) -> Result<Groups> {
+    let session = open(geo, options)?;
+    let names = |dimension| Ok(session.physical_groups(dimension)?.into_iter().map(|group| group.name).collect());
+    Ok(Groups { surfaces: names(2)?, curves: names(1)?, points: names(0)? })
+}
+
+/// A session with the geometry in `geo`, its parameters and surfaces checked.
+fn open(geo: &Path, options: &Options) -> Result<Session> {
+    check_readable(geo)?;
+    let text = fs::read(geo).map_err(|error| Error::input(geo.display(), error, "check the path"))?;
+    let last = text.rsplit(|&c| c == b'\n').next().unwrap_or_default();
+    if !last.trim_ascii().is_empty() {
+        return Err(Error::input(
+            geo.display(),
+            "the last line has no end, and Gmsh would leave its statement out",
+            "end the file with a line feed",
+        ));
+    }
+    let session = Session::start()?;
+    for (name, value) in &options.parameters {
+        session.set_parameter(geo, name, *value)?;
+    }
+    session.merge(geo)?;
+    check_parameters(&session, geo, &String::from_utf8_lossy(&text), &options.parameters)?;
+    check_surfaces(&session, geo)?;
+    Ok(session)
 }
 
 /// Reads a plane mesh with its named groups from a file Gmsh understands (MSH 4.1 of [`generate`]).

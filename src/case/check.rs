@@ -1,0 +1,277 @@
+//! From the case file as written to a [`Case`] that cannot be wrong; every mistake is kept, none ends the search.
+
+use super::checked::{self, *};
+use super::locate::{At, Path};
+use super::raw;
+use super::source::Issue;
+use super::structure::suggest;
+use std::collections::BTreeMap;
+use std::path::Path as FilePath;
+
+/// The case of `file`, whose paths are relative to `folder`, and every mistake that shows without the mesh;
+/// the case is a sound one only if there is none.
+pub(super) fn check(file: &raw::CaseFile, folder: &FilePath) -> (Case, Vec<Issue>) {
+    let mut checker = Checker::default();
+    let case = checker.case(file, folder);
+    (case, checker.issues)
+}
+
+pub(super) const LATER: &str = "is not available yet";
+
+#[derive(Default)]
+pub(super) struct Checker {
+    issues: Vec<Issue>,
+}
+
+impl Checker {
+    pub(super) fn issue(&mut self, path: &Path, at: At, problem: impl Into<String>, remedy: impl Into<String>) {
+        self.issues.push(Issue::new(path, at, problem, remedy));
+    }
+
+    /// The number of mistakes found so far.
+    pub(super) fn count(&self) -> usize {
+        self.issues.len()
+    }
+
+    fn case(&mut self, file: &raw::CaseFile, folder: &FilePath) -> Case {
+        let root = Path::default();
+        let gravity = [file.gravity.x, file.gravity.y];
+        let materials: Vec<_> = file
+            .materials
+            .iter()
+            .filter_map(|(name, material)| self.material(name, material, &gravity, &root.key("materials").key(name)))
+            .collect();
+        let names: Vec<&str> = file.materials.keys().map(String::as_str).collect();
+        let regions = file
+            .regions
+            .iter()
+            .map(|(name, region)| self.region(name, region, &names, &root.key("regions").key(name)))
+            .collect();
+        if !file.contacts.is_empty() {
+            self.issue(&root.key("contacts"), At::Key, format!("contact {LATER}"), "take the entry out");
+        }
+        let numerics = self.numerics(&file.numerics, &root.key("numerics"));
+        let phases = self.phases(file, &numerics, &root.key("phases"));
+        let case = Case {
+            title: file.title.clone(),
+            geometry: self.geometry(file.geometry, &root.key("geometry")),
+            mesh: self.mesh(&file.mesh, folder, &root.key("mesh")),
+            regions,
+            materials,
+            supports: self.supports(&file.supports, &root.key("supports")),
+            gravity,
+            k0: file.initial_stress.map(|stress| stress.k0),
+            initial_velocity: self.initial_velocity(file, &root.key("initial_velocity")),
+            numerics,
+            phases,
+            output: self.output(&file.output, &root.key("output")),
+        };
+        self.together(&case, file);
+        case
+    }
+
+    fn geometry(&mut self, geometry: raw::Geometry, path: &Path) -> Geometry {
+        match geometry {
+            raw::Geometry::PlaneStrain => Geometry::PlaneStrain,
+            raw::Geometry::Axisymmetric => Geometry::Axisymmetric,
+            raw::Geometry::Solid => {
+                self.issue(path, At::Value, format!("`solid` {LATER}"), "choose plane_strain or axisymmetric");
+                Geometry::PlaneStrain
+            }
+        }
+    }
+
+    fn mesh(&mut self, mesh: &raw::Mesh, folder: &FilePath, path: &Path) -> checked::Mesh {
+        let geo = folder.join(&mesh.geo);
+        if !geo.is_file() {
+            let problem = format!("there is no file {}", geo.display());
+            self.issue(&path.key("geo"), At::Value, problem, "name a .geo file, relative to the case file");
+        }
+        if mesh.incomplete && mesh.order == 1 {
+            let remedy = "take `incomplete` out, or set `order: 2`";
+            self.issue(&path.key("incomplete"), At::Key, "cells of order 1 have no centre node to leave out", remedy);
+        }
+        let order = match (mesh.order, mesh.incomplete) {
+            (1, _) => Order::First,
+            (_, false) => Order::Second,
+            (_, true) => Order::SecondIncomplete,
+        };
+        checked::Mesh { geo, order, parameters: mesh.parameters.clone() }
+    }
+
+    fn region(&mut self, name: &str, region: &raw::Region, materials: &[&str], path: &Path) -> Region {
+        let content = match region.kind {
+            raw::RegionKind::Mpm => {
+                let material = self.material_of(region, materials, path);
+                Content::Mpm { material, points_per_cell: region.points_per_cell.unwrap_or(16) }
+            }
+            raw::RegionKind::Buffer => {
+                if region.material.is_some() {
+                    let remedy = "take `material` out, or make the region `kind: mpm`";
+                    self.issue(&path.key("material"), At::Key, "a buffer region is empty", remedy);
+                }
+                if region.points_per_cell.is_some() {
+                    let remedy = "take `points_per_cell` out, or make the region `kind: mpm`";
+                    self.issue(&path.key("points_per_cell"), At::Key, "a buffer region is empty", remedy);
+                }
+                Content::Buffer
+            }
+            raw::RegionKind::Fem | raw::RegionKind::Structure => {
+                let kind = if region.kind == raw::RegionKind::Fem { "fem" } else { "structure" };
+                let problem = format!("a region of kind `{kind}` {LATER}");
+                self.issue(&path.key("kind"), At::Value, problem, "choose mpm or buffer");
+                return Region { name: name.to_owned(), content: Content::Buffer };
+            }
+        };
+        if region.rigid.is_some() {
+            self.issue(&path.key("rigid"), At::Key, "only a structure can be rigid", "take `rigid` out");
+        }
+        Region { name: name.to_owned(), content }
+    }
+
+    fn material_of(&mut self, region: &raw::Region, materials: &[&str], path: &Path) -> usize {
+        let Some(name) = &region.material else {
+            let remedy = "add `material: …`, the name of an entry of `materials`";
+            self.issue(path, At::Key, "a region of kind mpm has no `material`", remedy);
+            return 0;
+        };
+        materials.iter().position(|material| material == name).unwrap_or_else(|| {
+            let problem = format!("there is no material `{name}`");
+            self.issue(&path.key("material"), At::Value, problem, suggest(name, materials.iter().copied()));
+            0
+        })
+    }
+
+    fn supports(&mut self, supports: &BTreeMap<String, raw::Components>, path: &Path) -> Vec<Support> {
+        let mut checked = Vec::new();
+        for (curve, held) in supports {
+            let path = path.key(curve);
+            for (key, value) in [("ux", held.ux), ("uy", held.uy)] {
+                if value.is_some_and(|value| value != 0.0) {
+                    let remedy = "write 0 here and the motion under `prescribe` of a phase";
+                    self.issue(&path.key(key), At::Value, "a support does not move", remedy);
+                }
+            }
+            if held.ux.is_none() && held.uy.is_none() {
+                self.issue(&path, At::Key, "nothing is held", "add `ux: 0` or `uy: 0`");
+            }
+            checked.push(Support { curve: curve.clone(), fixed: [held.ux.is_some(), held.uy.is_some()] });
+        }
+        checked
+    }
+
+    fn initial_velocity(&mut self, file: &raw::CaseFile, path: &Path) -> Vec<InitialVelocity> {
+        let regions: Vec<&str> = file.regions.keys().map(String::as_str).collect();
+        let mut checked = Vec::new();
+        for (name, v) in &file.initial_velocity {
+            let Some(region) = regions.iter().position(|region| region == name) else {
+                let problem = format!("there is no region `{name}`");
+                self.issue(&path.key(name), At::Key, problem, suggest(name, regions.iter().copied()));
+                continue;
+            };
+            if file.regions.get(name).is_some_and(|region| region.kind == raw::RegionKind::Buffer) {
+                let remedy = "take the entry out, or make the region `kind: mpm`";
+                self.issue(&path.key(name), At::Key, "a buffer region holds nothing that could move", remedy);
+            }
+            checked.push(InitialVelocity {
+                region,
+                velocity: [v.velocity.x, v.velocity.y],
+                gradient: v.gradient,
+                centre: [v.centre.x, v.centre.y],
+                standing_wave: v.standing_wave.as_ref().map(|wave| StandingWave {
+                    component: wave.component as usize,
+                    along: wave.along as usize,
+                    amplitude: wave.amplitude,
+                    wave_number: wave.wave_number,
+                }),
+            });
+        }
+        checked
+    }
+
+    fn numerics(&mut self, numerics: &raw::Numerics, path: &Path) -> Numerics {
+        if numerics.gradient != raw::Gradient::Mpm {
+            let problem = format!("this gradient {LATER}");
+            self.issue(&path.key("gradient"), At::Value, problem, "choose mpm");
+        }
+        if numerics.quadrature != raw::Quadrature::Points {
+            let problem = format!("`fitted` {LATER}");
+            self.issue(&path.key("quadrature"), At::Value, problem, "choose points");
+        }
+        let restore = match numerics.restore {
+            raw::Restore::Named(raw::RestoreName::EveryStep) => Restore::EveryStep,
+            raw::Restore::Named(raw::RestoreName::Never) => Restore::Never,
+            raw::Restore::Quality(_) => {
+                let problem = format!("`min_quality` {LATER}");
+                self.issue(&path.key("restore"), At::Value, problem, "choose every_step or never");
+                Restore::Never
+            }
+        };
+        Numerics {
+            restore,
+            spectral_radius: numerics.spectral_radius,
+            tolerance: numerics.tolerance,
+            max_iterations: numerics.max_iterations,
+            empty_stiffness: numerics.empty_stiffness,
+        }
+    }
+
+    fn output(&mut self, output: &raw::Output, path: &Path) -> Output {
+        let fields = output.fields.clone().unwrap_or(vec![Field::Stress, Field::Displacement]);
+        for (i, field) in fields.iter().enumerate() {
+            let path = path.key("fields").index(i);
+            if *field == Field::PorePressure {
+                self.issue(&path, At::Value, format!("`pore_pressure` {LATER}"), "take it out");
+            }
+            if fields[..i].contains(field) {
+                self.issue(&path, At::Value, "the field is named twice", "take it out");
+            }
+        }
+        for (i, entry) in output.history.iter().enumerate() {
+            let path = path.key("history").index(i);
+            if output.history[..i].iter().any(|earlier| earlier.name == entry.name) {
+                let problem = format!("two entries are called `{}`", entry.name);
+                self.issue(&path.key("name"), At::Value, problem, "give each entry a name of its own");
+            }
+            if entry.name.contains([',', '"', '\n']) {
+                let problem = "the name has a comma, a quote or a line break in it";
+                self.issue(&path.key("name"), At::Value, problem, "it heads a CSV column: choose a plain name");
+            }
+        }
+        let history = output.history.iter().map(|entry| History {
+            name: entry.name.clone(),
+            on: entry.on.clone(),
+            quantities: entry.quantities.clone(),
+        });
+        Output { every: output.every, fields, encoding: output.encoding, history: history.collect() }
+    }
+
+    /// What only shows between blocks.
+    fn together(&mut self, case: &Case, file: &raw::CaseFile) {
+        let root = Path::default();
+        if file.regions.values().all(|region| region.kind == raw::RegionKind::Buffer) {
+            let remedy = "make at least one region `kind: mpm` with a material";
+            self.issue(&root.key("regions"), At::Key, "no region holds material", remedy);
+        }
+        if case.k0.is_some() && case.gravity[0] != 0.0 {
+            let remedy = "take `x` out, or load gravity in a first quasi_static phase in place of `initial_stress`";
+            self.issue(&root.key("gravity").key("x"), At::Value, "k0 needs vertical gravity", remedy);
+        }
+        let dynamic = case.phases.iter().any(|phase| phase.analysis == Analysis::Dynamic);
+        if !dynamic {
+            for name in file.initial_velocity.keys() {
+                let remedy = "make a phase dynamic, or take `initial_velocity` out";
+                let path = root.key("initial_velocity").key(name);
+                self.issue(&path, At::Key, "no phase is dynamic, so nothing moves by itself", remedy);
+            }
+            return;
+        }
+        for material in case.materials.iter().filter(|material| material.density.top == 0.0) {
+            if file.regions.values().any(|region| region.material.as_ref() == Some(&material.name)) {
+                let path = root.key("materials").key(&material.name);
+                let remedy = "give it a `density` above 0, or make the phases quasi_static";
+                self.issue(&path, At::Key, "a dynamic phase needs material with mass", remedy);
+            }
+        }
+    }
+}

@@ -1,0 +1,220 @@
+//! A case that cannot be wrong: what the rest of the program builds a scene from.
+//!
+//! Only [`super::check`] makes one. Units are kN, m, s and t. The names of curves and regions are known
+//! to the mesh once [`super::names::check`] found no fault.
+
+pub use super::raw::{Axis, Encoding, Field, Quantity};
+use crate::material::{Model, Profile};
+use crate::time_value::TimeValue;
+use std::collections::BTreeMap;
+use std::fmt;
+use std::path::PathBuf;
+use std::sync::Arc;
+
+/// A checked case.
+#[derive(Clone, Debug)]
+pub struct Case {
+    pub title: String,
+    pub geometry: Geometry,
+    pub mesh: Mesh,
+    /// The regions, sorted by name.
+    pub regions: Vec<Region>,
+    /// The materials, sorted by name.
+    pub materials: Vec<Material>,
+    pub supports: Vec<Support>,
+    /// Acceleration of gravity [m/s²].
+    pub gravity: [f64; 2],
+    /// Horizontal over vertical stress [-] of the initial stress; `None` for no stress.
+    pub k0: Option<f64>,
+    /// The velocities of the regions that do not start at rest.
+    pub initial_velocity: Vec<InitialVelocity>,
+    pub numerics: Numerics,
+    pub phases: Vec<Phase>,
+    pub output: Output,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Geometry {
+    PlaneStrain,
+    Axisymmetric,
+}
+
+/// The background mesh.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Mesh {
+    /// The `.geo` file, relative to the working directory or absolute.
+    pub geo: PathBuf,
+    pub order: Order,
+    /// Values for the parameters of the `.geo`, by name.
+    pub parameters: BTreeMap<String, f64>,
+}
+
+/// The order of the cells.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Order {
+    /// T3 and Q4.
+    First,
+    /// T6 and Q9.
+    Second,
+    /// T6 and Q8.
+    SecondIncomplete,
+}
+
+/// A physical surface and what fills it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Region {
+    pub name: String,
+    pub content: Content,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Content {
+    /// Material points, of the material with this index in [`Case::materials`].
+    Mpm { material: usize, points_per_cell: usize },
+    /// Cells without points, that material may move into.
+    Buffer,
+}
+
+/// A material.
+#[derive(Clone)]
+pub struct Material {
+    pub name: String,
+    /// Density [t/m³].
+    pub density: Profile,
+    pub model: Arc<dyn Model>,
+}
+
+impl fmt::Debug for Material {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Material").field("name", &self.name).field("density", &self.density).finish_non_exhaustive()
+    }
+}
+
+/// Components of the displacement held at zero on a curve.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Support {
+    pub curve: String,
+    pub fixed: [bool; 2],
+}
+
+/// The velocity of a region before the first phase.
+#[derive(Clone, Debug, PartialEq)]
+pub struct InitialVelocity {
+    /// Index into [`Case::regions`].
+    pub region: usize,
+    /// Velocity at the centre [m/s].
+    pub velocity: [f64; 2],
+    /// Velocity gradient [1/s], in rows.
+    pub gradient: [[f64; 2]; 2],
+    /// The point [m] the gradient is taken about.
+    pub centre: [f64; 2],
+    pub standing_wave: Option<StandingWave>,
+}
+
+/// A velocity `amplitude · sin(wave_number · x[along])` in the direction `component`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct StandingWave {
+    pub component: usize,
+    pub along: usize,
+    /// Largest velocity [m/s].
+    pub amplitude: f64,
+    /// Wave number [rad/m].
+    pub wave_number: f64,
+}
+
+impl InitialVelocity {
+    /// The velocity [m/s] at `x` [m].
+    pub fn at(&self, x: &[f64; 2]) -> [f64; 2] {
+        let from = [x[0] - self.centre[0], x[1] - self.centre[1]];
+        let mut v = [0, 1].map(|i| self.velocity[i] + self.gradient[i][0] * from[0] + self.gradient[i][1] * from[1]);
+        if let Some(wave) = self.standing_wave {
+            v[wave.component] += wave.amplitude * (wave.wave_number * x[wave.along]).sin();
+        }
+        v
+    }
+}
+
+/// The numerical method: plain gradients, points as integration weights.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Numerics {
+    pub restore: Restore,
+    /// ρ∞ [-] of generalised-α.
+    pub spectral_radius: f64,
+    /// Relative residual [-] at which Newton's iteration ends.
+    pub tolerance: f64,
+    /// Iterations after which a step is halved.
+    pub max_iterations: usize,
+    /// Stiffness of empty cells over that of the soil [-].
+    pub empty_stiffness: f64,
+}
+
+/// When the grid goes back to its first shape.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Restore {
+    EveryStep,
+    /// Updated Lagrangian: the grid moves with the material.
+    Never,
+}
+
+/// A phase of the analysis.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Phase {
+    pub name: String,
+    pub analysis: Analysis,
+    /// Duration [s].
+    pub duration: f64,
+    pub step: StepSize,
+    pub prescribed: Vec<Prescribed>,
+    pub tractions: Vec<Traction>,
+    /// Factor [-] on gravity.
+    pub gravity: TimeValue,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Analysis {
+    QuasiStatic,
+    Dynamic,
+}
+
+/// Time steps [s], `min ≤ initial ≤ max`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct StepSize {
+    pub initial: f64,
+    pub min: f64,
+    pub max: f64,
+}
+
+/// A component of the displacement [m] of a curve since the beginning of the phase.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Prescribed {
+    pub curve: String,
+    /// 0 for x, 1 for y.
+    pub component: usize,
+    pub displacement: TimeValue,
+}
+
+/// A dead load [kPa] on a curve, per area of the undeformed curve.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Traction {
+    pub curve: String,
+    pub components: [TimeValue; 2],
+}
+
+/// What is written, and when.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Output {
+    /// Time between frames [s]; `None` for one at the end of each phase.
+    pub every: Option<f64>,
+    pub fields: Vec<Field>,
+    pub encoding: Encoding,
+    pub history: Vec<History>,
+}
+
+/// Columns of `history.csv`.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct History {
+    pub name: String,
+    /// A physical curve, a physical point or a region.
+    pub on: String,
+    pub quantities: Vec<Quantity>,
+}

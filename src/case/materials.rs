@@ -1,0 +1,183 @@
+//! The materials of a case: the entries a model takes come from the list of models, so that a new model
+//! needs no line here. The density is given, or follows from a unit weight and gravity.
+
+use super::check::Checker;
+use super::checked::Material;
+use super::locate::{At, Path};
+use super::raw::{self, InDepth};
+use super::structure::suggest;
+use crate::error::Result;
+use crate::material::{Kind, MODELS, Model, Parameters, Profile};
+use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
+use serde_json::{Map, Value, json};
+use std::borrow::Cow;
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+impl Checker {
+    /// The checked material `name`, if it is without fault; `gravity` [m/s²] turns a unit weight into a density.
+    pub(super) fn material(
+        &mut self,
+        name: &str,
+        material: &raw::Material,
+        gravity: &[f64; 2],
+        path: &Path,
+    ) -> Option<Material> {
+        let density = self.density(material, gravity, path);
+        let model = self.model(material, path);
+        Some(Material { name: name.to_owned(), density: density?, model: model? })
+    }
+
+    fn density(&mut self, material: &raw::Material, gravity: &[f64; 2], path: &Path) -> Option<Profile> {
+        match (material.density, material.unit_weight) {
+            (Some(density), None) => self.not_negative(density, &path.key("density")),
+            (None, Some(weight)) => {
+                let path = path.key("unit_weight");
+                let weight = self.not_negative(weight, &path)?;
+                let g = gravity[0].hypot(gravity[1]);
+                if g > 0.0 {
+                    return Some(Profile { top: weight.top / g, gradient: weight.gradient / g, datum: weight.datum });
+                }
+                let remedy = "set `gravity`, or give `density` in place of `unit_weight`";
+                self.issue(&path, At::Key, "a unit weight without gravity gives no density", remedy);
+                None
+            }
+            (Some(_), Some(_)) => {
+                let problem = "`density` and `unit_weight` are both given";
+                self.issue(&path.key("unit_weight"), At::Key, problem, "keep one of them");
+                None
+            }
+            (None, None) => {
+                let remedy = "add `density: …` [t/m³] or `unit_weight: …` [kN/m³]";
+                self.issue(path, At::Key, "neither `density` nor `unit_weight` is given", remedy);
+                None
+            }
+        }
+    }
+
+    fn not_negative(&mut self, value: InDepth, path: &Path) -> Option<Profile> {
+        let profile = value.profile();
+        if profile.top >= 0.0 {
+            return Some(profile);
+        }
+        let problem = format!("is {}, but must be at least 0", profile.top);
+        self.issue(&value.top(path), At::Value, problem, "give a value in t/m³ for a density, in kN/m³ for a weight");
+        None
+    }
+
+    fn model(&mut self, material: &raw::Material, path: &Path) -> Option<Arc<dyn Model>> {
+        let kind = MODELS.iter().find(|kind| kind.name == material.model)?;
+        let mut values = BTreeMap::new();
+        let before = self.count();
+        for (name, value) in &material.parameters {
+            if kind.parameters.iter().any(|known| known.name == name) {
+                values.insert(name.as_str(), value.profile());
+            } else {
+                let known = kind.parameters.iter().map(|known| known.name).filter(|known| !material.has(known));
+                let remedy = format!("take it out, or {}", suggest(name, known));
+                self.issue(&path.key(name), At::Key, format!("the model {} has no `{name}`", kind.name), remedy);
+            }
+        }
+        for known in kind.parameters.iter().filter(|known| known.required && !material.has(known.name)) {
+            let problem = format!("the model {} needs `{}`", kind.name, known.name);
+            self.issue(path, At::Key, problem, format!("add `{}: …`: {} [{}]", known.name, known.meaning, known.unit));
+            values.extend(example(kind, known.name));
+        }
+        // A model stops at its first fault: with a sound value in its place the next one shows.
+        let model = loop {
+            let fault = match build(kind, &values) {
+                Ok(model) => break model,
+                Err(fault) => fault,
+            };
+            // It names the parameter at fault as the place.
+            let Some(value) = material.parameters.get(&fault.place) else {
+                self.issue(path, At::Key, format!("{}: {}", fault.place, fault.problem), fault.remedy);
+                return None;
+            };
+            self.issue(&value.top(&path.key(&fault.place)), At::Value, fault.problem, fault.remedy);
+            let sound = example(kind, &fault.place)?;
+            if values.insert(sound.0, sound.1) == Some(sound.1) {
+                return None;
+            }
+        };
+        (self.count() == before).then_some(model)
+    }
+}
+
+/// A sound value of a parameter.
+fn example(kind: &Kind, name: &str) -> Option<(&'static str, Profile)> {
+    let (name, value) = kind.examples.first()?.iter().find(|(known, _)| *known == name)?;
+    Some((name, Profile::constant(*value)))
+}
+
+fn build(kind: &Kind, values: &BTreeMap<&str, Profile>) -> Result<Arc<dyn Model>> {
+    let mut parameters = Parameters::default();
+    for (&name, &value) in values {
+        parameters.set(name, value);
+    }
+    (kind.build)(&parameters)
+}
+
+impl raw::Material {
+    fn has(&self, parameter: &str) -> bool {
+        self.parameters.contains_key(parameter)
+    }
+}
+
+impl InDepth {
+    fn profile(self) -> Profile {
+        match self {
+            Self::Constant(value) => Profile::constant(value),
+            Self::Profile(p) => Profile { top: p.top, gradient: p.gradient, datum: p.datum },
+        }
+    }
+
+    /// Where the value at the top is written, for an entry at `path`.
+    fn top(self, path: &Path) -> Path {
+        match self {
+            Self::Constant(_) => path.clone(),
+            Self::Profile(_) => path.key("top"),
+        }
+    }
+}
+
+impl JsonSchema for raw::Material {
+    fn schema_name() -> Cow<'static, str> {
+        "Material".into()
+    }
+
+    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
+        let in_depth = generator.subschema_for::<InDepth>();
+        let varying = |description: String| {
+            let mut schema = in_depth.clone();
+            schema.insert("description".into(), description.into());
+            schema.to_value()
+        };
+        let models: Vec<&str> = MODELS.iter().map(|kind| kind.name).collect();
+        let mut properties = Map::new();
+        properties.insert("model".into(), json!({ "description": "The material model.", "enum": models }));
+        let weight = "Unit weight [kN/m³], 0 or above; with gravity it gives the density.";
+        properties.insert("unit_weight".into(), varying(weight.into()));
+        properties.insert("density".into(), varying("Density [t/m³], 0 or above; or give `unit_weight`.".into()));
+        for kind in MODELS {
+            for parameter in kind.parameters {
+                let takers = MODELS.iter().filter(|k| k.parameters.iter().any(|p| p.name == parameter.name));
+                let takers = takers.map(|k| k.name).collect::<Vec<_>>().join(", ");
+                let description = format!("{} [{}] of {takers}.", parameter.meaning, parameter.unit);
+                let schema = if parameter.varies {
+                    varying(description)
+                } else {
+                    json!({ "description": description, "type": "number" })
+                };
+                properties.entry(parameter.name).or_insert(schema);
+            }
+        }
+        json_schema!({
+            "description": "A material; which entries it needs depends on its model.",
+            "type": "object",
+            "properties": Value::Object(properties),
+            "required": ["model"],
+            "additionalProperties": false,
+        })
+    }
+}

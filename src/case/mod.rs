@@ -1,0 +1,140 @@
+//! The case: from `case.yaml` to a checked [`Case`], and every mistake on the way in one go.
+//!
+//! [`source`] reads the text and applies the overrides of the command line, [`structure`] checks its shape
+//! against the schema of [`raw`], [`check`] resolves that into [`checked`] types, [`names`] holds the result
+//! against the groups of the mesh.
+
+pub mod check;
+pub mod checked;
+pub mod locate;
+mod materials;
+pub mod names;
+mod phases;
+pub mod raw;
+pub mod source;
+pub mod structure;
+
+pub use checked::Case;
+
+use crate::error::{self, Error};
+use locate::Step;
+use names::Groups;
+use serde_json::Value;
+use serde_path_to_error::Segment;
+use source::{Issue, Source};
+use std::path::Path;
+
+/// A case together with the text it is from.
+#[derive(Clone, Debug)]
+pub struct Loaded {
+    pub source: Source,
+    pub case: Case,
+}
+
+/// Reads and checks a `case.yaml`, or the one in a folder, with overrides `PATH=VALUE`.
+///
+/// # Errors
+/// Every mistake that shows without the mesh, in the order of the file.
+pub fn load(file: &Path, overrides: &[String]) -> Result<Loaded, Vec<Error>> {
+    let source = Source::read(file, overrides)?;
+    match resolve(&source) {
+        (Some(case), issues) if issues.is_empty() => Ok(Loaded { source, case }),
+        (_, issues) => Err(errors(&source, &issues)),
+    }
+}
+
+/// Every mistake in a case and, where it can be read at all, in its `.geo`; `groups` names those of the mesh.
+///
+/// # Errors
+/// What cannot be read at all.
+pub fn review(
+    file: &Path,
+    overrides: &[String],
+    groups: impl FnOnce(&checked::Mesh) -> error::Result<Groups>,
+) -> error::Result<Vec<Error>> {
+    let source = Source::read(file, overrides)?;
+    let (case, mut issues) = resolve(&source);
+    let mesh = locate::Path::default().key("mesh");
+    let sound = !issues.iter().any(|issue| mesh.contains(&issue.path));
+    match case.filter(|_| sound).map(|case| (groups(&case.mesh), case)) {
+        Some((Ok(groups), case)) => issues.extend(names::check(&case, &groups)),
+        Some((Err(e), _)) => {
+            let mut errors = errors(&source, &issues);
+            errors.push(e);
+            return Ok(errors);
+        }
+        None => {}
+    }
+    Ok(errors(&source, &issues))
+}
+
+impl Loaded {
+    /// Holds the names in the case against the groups of its mesh.
+    ///
+    /// # Errors
+    /// Every name that the mesh lacks, and every surface that the case leaves out.
+    pub fn check_names(&self, groups: &Groups) -> Result<(), Vec<Error>> {
+        let issues = names::check(&self.case, groups);
+        if issues.is_empty() { Ok(()) } else { Err(errors(&self.source, &issues)) }
+    }
+}
+
+/// The JSON schema of `case.yaml`.
+pub fn schema() -> Value {
+    schemars::schema_for!(raw::CaseFile).into()
+}
+
+/// The case if it can be read at all, and its mistakes; only without any is it a sound one.
+fn resolve(source: &Source) -> (Option<Case>, Vec<Issue>) {
+    let mut issues = source.faults().to_vec();
+    let left_out = |issue: &Issue| source.faults().iter().any(|fault| fault.path.contains(&issue.path));
+    issues.extend(structure::check(&schema(), source.tree()).into_iter().filter(|issue| !left_out(issue)));
+    // What is left without the unknown keys may be read all the same, and have more to say.
+    let mut tree = source.tree().clone();
+    issues.iter().filter(|issue| issue.unknown).for_each(|issue| prune(&mut tree, &issue.path));
+    match read(&tree) {
+        Ok(file) => {
+            let (case, more) = check::check(&file, source.folder());
+            issues.extend(more);
+            (Some(case), issues)
+        }
+        Err(issue) => {
+            // The walk along the schema has mostly said already, and better, what cannot be read.
+            if issues.is_empty() {
+                issues.push(issue);
+            }
+            (None, issues)
+        }
+    }
+}
+
+fn read(tree: &Value) -> Result<raw::CaseFile, Issue> {
+    serde_path_to_error::deserialize(tree).map_err(|e| {
+        let steps = e.path().iter().filter_map(|segment| match segment {
+            Segment::Seq { index } => Some(Step::Index(*index)),
+            Segment::Map { key } => Some(Step::Key(key.clone())),
+            _ => None,
+        });
+        let path = locate::Path(steps.collect());
+        Issue::new(&path, locate::At::Value, e.inner().to_string(), "compare with `mpm schema`")
+    })
+}
+
+/// Takes the entry at `path` out of the tree.
+fn prune(tree: &mut Value, path: &locate::Path) {
+    let Some((Step::Key(last), around)) = path.0.split_last() else { return };
+    let around = around.iter().try_fold(tree, |block, step| match step {
+        Step::Key(key) => block.get_mut(key),
+        Step::Index(index) => block.get_mut(index),
+    });
+    if let Some(block) = around.and_then(Value::as_object_mut) {
+        block.remove(last);
+    }
+}
+
+/// The errors of mistakes, in the order of the file.
+fn errors(source: &Source, issues: &[Issue]) -> Vec<Error> {
+    let mut errors: Vec<_> = issues.iter().map(|issue| (source.place(issue), source.error(issue))).collect();
+    errors.sort_by_key(|(place, _)| *place);
+    errors.into_iter().map(|(_, error)| error).collect()
+}

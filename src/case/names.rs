@@ -1,0 +1,88 @@
+//! The names in a case against the physical groups of its mesh.
+
+use super::checked::Case;
+use super::locate::{At, Path};
+use super::source::Issue;
+use super::structure::{nearest, suggest};
+
+/// The names of the physical groups of a mesh.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Groups {
+    pub surfaces: Vec<String>,
+    pub curves: Vec<String>,
+    pub points: Vec<String>,
+}
+
+/// Every name in `case` that the mesh does not have, and every surface that the case does not fill.
+pub fn check(case: &Case, groups: &Groups) -> Vec<Issue> {
+    let root = Path::default();
+    let mut names = Names { groups, issues: Vec::new() };
+    for region in &case.regions {
+        names.surface(&region.name, &root.key("regions").key(&region.name));
+    }
+    for surface in &groups.surfaces {
+        // A region that is nearly called so has been reported.
+        let meant = |name: &str| name == surface || nearest(name, [surface.as_str()]).is_some() && names.lacks(name);
+        if !case.regions.iter().any(|region| meant(&region.name)) {
+            let problem = format!("the physical surface `{surface}` of the .geo is not among the regions");
+            let remedy = format!("add `{surface}: {{kind: buffer}}`, or fill it with `kind: mpm`");
+            names.issues.push(Issue::new(&root.key("regions"), At::Key, problem, remedy));
+        }
+    }
+    for support in &case.supports {
+        names.curve(&support.curve, &root.key("supports").key(&support.curve), At::Key);
+    }
+    for (i, phase) in case.phases.iter().enumerate() {
+        let path = root.key("phases").index(i);
+        let mut curves: Vec<&str> = phase.prescribed.iter().map(|p| p.curve.as_str()).collect();
+        curves.dedup();
+        for curve in curves {
+            names.curve(curve, &path.key("prescribe").key(curve), At::Key);
+        }
+        for (j, traction) in phase.tractions.iter().enumerate() {
+            names.curve(&traction.curve, &path.key("tractions").index(j).key("on"), At::Value);
+        }
+    }
+    for (i, entry) in case.output.history.iter().enumerate() {
+        let path = root.key("output").key("history").index(i).key("on");
+        let known = groups.curves.iter().chain(&groups.points).chain(&groups.surfaces);
+        names.one_of(&entry.on, known, "physical curve, physical point or region", &path, At::Value);
+    }
+    names.issues
+}
+
+struct Names<'a> {
+    groups: &'a Groups,
+    issues: Vec<Issue>,
+}
+
+impl Names<'_> {
+    /// Whether the mesh has no such surface.
+    fn lacks(&self, surface: &str) -> bool {
+        !self.groups.surfaces.iter().any(|known| known == surface)
+    }
+
+    fn surface(&mut self, name: &str, path: &Path) {
+        self.one_of(name, &self.groups.surfaces, "physical surface", path, At::Key);
+    }
+
+    fn curve(&mut self, name: &str, path: &Path, at: At) {
+        self.one_of(name, &self.groups.curves, "physical curve", path, at);
+    }
+
+    fn one_of<'n>(
+        &mut self,
+        name: &str,
+        known: impl IntoIterator<Item = &'n String> + Clone,
+        kind: &str,
+        path: &Path,
+        at: At,
+    ) {
+        if known.clone().into_iter().any(|k| k == name) {
+            return;
+        }
+        let remedy = suggest(name, known.into_iter().map(String::as_str));
+        let problem = format!("the .geo has no {kind} `{name}`");
+        self.issues.push(Issue::new(path, at, problem, remedy));
+    }
+}

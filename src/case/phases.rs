@@ -1,0 +1,121 @@
+//! The phases of a case: time steps, prescribed displacements and loads.
+
+use super::check::{Checker, LATER};
+use super::checked::{Analysis, Numerics, Phase, Prescribed, Restore, StepSize, Traction};
+use super::locate::{At, Path};
+use super::raw;
+use crate::time_value::TimeValue;
+
+impl Checker {
+    pub(super) fn phases(&mut self, file: &raw::CaseFile, numerics: &Numerics, path: &Path) -> Vec<Phase> {
+        let mut checked = Vec::new();
+        for (i, phase) in file.phases.iter().enumerate() {
+            let path = path.index(i);
+            if file.phases[..i].iter().any(|earlier| earlier.name == phase.name) {
+                let problem = format!("two phases are called `{}`", phase.name);
+                self.issue(&path.key("name"), At::Value, problem, "give each phase a name of its own");
+            }
+            checked.push(self.phase(phase, file, numerics, &path));
+        }
+        checked
+    }
+
+    fn phase(&mut self, phase: &raw::Phase, file: &raw::CaseFile, numerics: &Numerics, path: &Path) -> Phase {
+        let analysis = match phase.analysis {
+            raw::Analysis::QuasiStatic => Analysis::QuasiStatic,
+            raw::Analysis::Dynamic => Analysis::Dynamic,
+            raw::Analysis::Consolidation => {
+                let problem = format!("`consolidation` {LATER}");
+                self.issue(&path.key("analysis"), At::Value, problem, "choose quasi_static or dynamic");
+                Analysis::QuasiStatic
+            }
+        };
+        let mut prescribed = Vec::new();
+        for (curve, motion) in &phase.prescribe {
+            let path = path.key("prescribe").key(curve);
+            if motion.ux.is_none() && motion.uy.is_none() {
+                self.issue(&path, At::Key, "nothing is prescribed", "add `ux: …` or `uy: …`");
+            }
+            for (component, key, value) in [(0, "ux", &motion.ux), (1, "uy", &motion.uy)] {
+                let Some(value) = value else { continue };
+                let displacement = self.in_time(value, &path.key(key));
+                let held = file.supports.get(curve).is_some_and(|held| [held.ux, held.uy][component].is_some());
+                if held && displacement != TimeValue::Constant(0.0) {
+                    let problem = format!("`{curve}` is held in this direction under `supports`");
+                    self.issue(&path.key(key), At::Key, problem, format!("take `{key}` out there or here"));
+                }
+                prescribed.push(Prescribed { curve: curve.clone(), component, displacement });
+            }
+        }
+        let tractions = phase
+            .tractions
+            .iter()
+            .enumerate()
+            .map(|(i, traction)| self.traction(traction, numerics, &path.key("tractions").index(i)))
+            .collect();
+        let gravity = match &phase.gravity {
+            Some(factor) => self.in_time(factor, &path.key("gravity")),
+            None => TimeValue::Constant(1.0),
+        };
+        Phase {
+            name: phase.name.clone(),
+            analysis,
+            duration: phase.duration,
+            step: self.step(&phase.step, phase.duration, &path.key("step")),
+            prescribed,
+            tractions,
+            gravity,
+        }
+    }
+
+    fn traction(&mut self, traction: &raw::Traction, numerics: &Numerics, path: &Path) -> Traction {
+        if numerics.restore != Restore::Never {
+            let problem = "a traction on a curve needs a grid that moves with the material";
+            self.issue(&path.key("on"), At::Value, problem, "set `restore: never` under `numerics`");
+        }
+        if traction.tx.is_none() && traction.ty.is_none() {
+            self.issue(path, At::Value, "there is no load", "add `tx: …` or `ty: …`");
+        }
+        let mut component = |key, value: &Option<raw::InTime>| match value {
+            Some(value) => self.in_time(value, &path.key(key)),
+            None => TimeValue::Constant(0.0),
+        };
+        Traction {
+            curve: traction.on.clone(),
+            components: [component("tx", &traction.tx), component("ty", &traction.ty)],
+        }
+    }
+
+    fn step(&mut self, step: &raw::Step, duration: f64, path: &Path) -> StepSize {
+        let min = step.min.unwrap_or(1e-4 * step.initial);
+        let max = step.max.unwrap_or(step.initial);
+        if step.initial > duration {
+            let problem = format!("the first step {} is longer than the phase ({duration})", step.initial);
+            self.issue(&path.key("initial"), At::Value, problem, "shorten `initial` or lengthen `duration`");
+        }
+        if min > step.initial {
+            let problem = format!("`min` ({min}) is above `initial` ({})", step.initial);
+            self.issue(&path.key("min"), At::Value, problem, "lower `min`");
+        }
+        if max < step.initial {
+            let problem = format!("`max` ({max}) is below `initial` ({})", step.initial);
+            self.issue(&path.key("max"), At::Value, problem, "raise `max`");
+        }
+        StepSize { initial: step.initial, min, max }
+    }
+
+    fn in_time(&mut self, value: &raw::InTime, path: &Path) -> TimeValue {
+        match value {
+            raw::InTime::Constant(value) => TimeValue::Constant(*value),
+            raw::InTime::Rate(rate) => TimeValue::Rate(rate.rate),
+            raw::InTime::Table(raw::Table { table }) => {
+                if let Some(i) = table.windows(2).position(|pair| pair[1][0] <= pair[0][0]) {
+                    let problem = format!("the time {} does not come after {}", table[i + 1][0], table[i][0]);
+                    let path = path.key("table").index(i + 1);
+                    self.issue(&path, At::Value, problem, "sort the table by time, each time once");
+                }
+                TimeValue::Table(table.clone())
+            }
+        }
+    }
+}

@@ -1,0 +1,454 @@
+//! The case file as it is written: one structure a block, names exactly the contract.
+//!
+//! Nothing is checked here beyond shape and simple ranges; [`super::check`] turns these into a
+//! [`super::Case`]. The documentation comments become the descriptions of `mpm schema`, and the first
+//! sentence of each is shown as a remedy, so each says what the entry is and its unit.
+
+use schemars::JsonSchema;
+use serde::Deserialize;
+use std::collections::BTreeMap;
+
+/// A case of mpm. Units are kN, m, s and t throughout; stress and strain are positive in tension; y is up.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct CaseFile {
+    /// A line that names the case in logs and pictures.
+    #[serde(default)]
+    pub title: String,
+    /// The kind of geometry: plane_strain, axisymmetric (x is the radius) or solid.
+    pub geometry: Geometry,
+    /// The background mesh.
+    pub mesh: Mesh,
+    /// What fills each physical surface of the .geo, by its name.
+    #[schemars(extend("minProperties" = 1))]
+    pub regions: BTreeMap<String, Region>,
+    /// The materials, by name.
+    #[serde(default)]
+    pub materials: BTreeMap<String, Material>,
+    /// Contacts between structures and soil.
+    #[serde(default)]
+    pub contacts: Vec<serde_json::Value>,
+    /// Displacements held at zero in every phase, by the name of a physical curve.
+    #[serde(default)]
+    pub supports: BTreeMap<String, Components>,
+    /// Acceleration of gravity [m/s²].
+    #[serde(default)]
+    pub gravity: Vector,
+    /// The stress before the first phase; without it there is none.
+    pub initial_stress: Option<InitialStress>,
+    /// The velocity before the first phase, by the name of a region; without it everything is at rest.
+    #[serde(default)]
+    pub initial_velocity: BTreeMap<String, Velocity>,
+    /// The numerical method.
+    #[serde(default)]
+    pub numerics: Numerics,
+    /// The phases of the analysis, one after the other.
+    #[schemars(extend("minItems" = 1))]
+    pub phases: Vec<Phase>,
+    /// What is written, and when.
+    #[serde(default)]
+    pub output: Output,
+}
+
+/// The kind of geometry.
+#[derive(Clone, Copy, Debug, Deserialize, JsonSchema, PartialEq, Eq)]
+#[serde(rename_all = "snake_case")]
+pub enum Geometry {
+    PlaneStrain,
+    Axisymmetric,
+    Solid,
+}
+
+/// The background mesh.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Mesh {
+    /// The .geo file, relative to the case file.
+    pub geo: String,
+    /// Order of the cells: 2 (T6, Q9) or 1 (T3, Q4).
+    #[serde(default = "two")]
+    #[schemars(range(min = 1, max = 2))]
+    pub order: u8,
+    /// Whether quadrangles of order 2 have no centre node (Q8 in place of Q9).
+    #[serde(default)]
+    pub incomplete: bool,
+    /// Values for the DefineConstant parameters of the .geo, by name.
+    #[serde(default)]
+    pub parameters: BTreeMap<String, f64>,
+}
+
+/// What fills a physical surface.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Region {
+    /// What the region is: mpm (material points), buffer (empty cells), fem or structure.
+    pub kind: RegionKind,
+    /// The name of an entry of `materials`.
+    pub material: Option<String>,
+    /// Material points a cell: 4, 9, 16 or 25 equal points, or 3, 6, 7 or 12 quadrature points of a triangle.
+    #[schemars(extend("enum" = [3, 4, 6, 7, 9, 12, 16, 25]))]
+    pub points_per_cell: Option<usize>,
+    /// Whether a structure keeps its shape.
+    pub rigid: Option<bool>,
+}
+
+/// What a region is.
+#[derive(Clone, Copy, Debug, Deserialize, JsonSchema, PartialEq, Eq)]
+#[serde(rename_all = "snake_case")]
+pub enum RegionKind {
+    Mpm,
+    Buffer,
+    Fem,
+    Structure,
+}
+
+/// A material; its schema is written in [`super::materials`], from the list of models.
+#[derive(Debug, Deserialize)]
+pub struct Material {
+    /// The name of a model.
+    pub model: String,
+    /// Density [t/m³].
+    pub density: Option<InDepth>,
+    /// Unit weight [kN/m³].
+    pub unit_weight: Option<InDepth>,
+    /// The parameters of the model.
+    #[serde(flatten)]
+    pub parameters: BTreeMap<String, InDepth>,
+}
+
+/// A number, or `{top, gradient, datum}`: `top` at the height `datum` and above, growing downwards by `gradient`.
+#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
+#[serde(untagged)]
+pub enum InDepth {
+    Constant(f64),
+    Profile(Profile),
+}
+
+/// A number that grows with depth.
+#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Profile {
+    /// Value at the height `datum` and above.
+    pub top: f64,
+    /// Growth per metre below `datum`, 0 or above.
+    #[schemars(range(min = 0))]
+    pub gradient: f64,
+    /// Height y [m] at which the growth begins.
+    #[serde(default)]
+    pub datum: f64,
+}
+
+/// Displacements held on a curve.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Components {
+    /// Horizontal (in axisymmetry radial) displacement, held at 0.
+    pub ux: Option<f64>,
+    /// Vertical displacement, held at 0.
+    pub uy: Option<f64>,
+}
+
+/// A vector in the plane.
+#[derive(Clone, Copy, Debug, Default, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Vector {
+    /// Horizontal (in axisymmetry radial) component.
+    #[serde(default)]
+    pub x: f64,
+    /// Vertical component, positive upwards.
+    #[serde(default)]
+    pub y: f64,
+}
+
+/// The stress before the first phase.
+#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct InitialStress {
+    /// Horizontal over vertical stress [-], 0 or above; the vertical stress is the weight above the point.
+    #[schemars(range(min = 0))]
+    pub k0: f64,
+}
+
+/// A velocity field: `velocity + gradient · (x − centre)` plus a standing wave.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Velocity {
+    /// Velocity at the centre [m/s].
+    #[serde(default)]
+    pub velocity: Vector,
+    /// Velocity gradient [1/s], in rows: [[0, -w], [w, 0]] is a spin of w radians a second.
+    #[serde(default)]
+    pub gradient: [[f64; 2]; 2],
+    /// The point [m] the gradient is taken about.
+    #[serde(default)]
+    pub centre: Vector,
+    /// A standing wave.
+    pub standing_wave: Option<StandingWave>,
+}
+
+/// A velocity component `amplitude · sin(wave_number · coordinate)`.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct StandingWave {
+    /// The component of the velocity: x or y.
+    pub component: Axis,
+    /// The coordinate it varies along: x or y.
+    pub along: Axis,
+    /// Largest velocity [m/s].
+    pub amplitude: f64,
+    /// Wave number [rad/m].
+    pub wave_number: f64,
+}
+
+/// A coordinate axis.
+#[derive(Clone, Copy, Debug, Deserialize, JsonSchema, PartialEq, Eq)]
+#[serde(rename_all = "snake_case")]
+pub enum Axis {
+    X,
+    Y,
+}
+
+/// The numerical method.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct Numerics {
+    /// How gradients at the points are formed: mpm (plain), ddmp, gimp, cpdi, cpdi2 or bspline.
+    pub gradient: Gradient,
+    /// The integration weights: points (the volumes of the points) or fitted.
+    pub quadrature: Quadrature,
+    /// When the grid goes back to its first shape: every_step, never, or {min_quality: q}.
+    pub restore: Restore,
+    /// Spectral radius ρ∞ [-] of generalised-α at high frequencies, from 0 to 1; 1 damps nothing.
+    #[schemars(range(min = 0, max = 1))]
+    pub spectral_radius: f64,
+    /// Newton's iteration ends when the residual is this small beside the forces [-].
+    #[schemars(extend("exclusiveMinimum" = 0), extend("exclusiveMaximum" = 1))]
+    pub tolerance: f64,
+    /// Iterations after which a step is halved.
+    #[schemars(range(min = 1, max = 1000))]
+    pub max_iterations: usize,
+    /// Stiffness of empty cells over that of the soil [-].
+    #[schemars(extend("exclusiveMinimum" = 0), extend("exclusiveMaximum" = 1))]
+    pub empty_stiffness: f64,
+}
+
+impl Default for Numerics {
+    fn default() -> Self {
+        Self {
+            gradient: Gradient::Mpm,
+            quadrature: Quadrature::Points,
+            restore: Restore::Named(RestoreName::EveryStep),
+            spectral_radius: 0.9,
+            tolerance: 1e-8,
+            max_iterations: 25,
+            empty_stiffness: 1e-5,
+        }
+    }
+}
+
+/// How gradients at the points are formed.
+#[derive(Clone, Copy, Debug, Deserialize, serde::Serialize, JsonSchema, PartialEq, Eq)]
+#[serde(rename_all = "snake_case")]
+pub enum Gradient {
+    Mpm,
+    Ddmp,
+    Gimp,
+    Cpdi,
+    Cpdi2,
+    Bspline,
+}
+
+/// The integration weights.
+#[derive(Clone, Copy, Debug, Deserialize, serde::Serialize, JsonSchema, PartialEq, Eq)]
+#[serde(rename_all = "snake_case")]
+pub enum Quadrature {
+    Points,
+    Fitted,
+}
+
+/// When the grid goes back to its first shape.
+#[derive(Clone, Copy, Debug, Deserialize, serde::Serialize, JsonSchema)]
+#[serde(untagged)]
+pub enum Restore {
+    Named(RestoreName),
+    Quality(RestoreQuality),
+}
+
+/// The restorations that need no number.
+#[derive(Clone, Copy, Debug, Deserialize, serde::Serialize, JsonSchema, PartialEq, Eq)]
+#[serde(rename_all = "snake_case")]
+pub enum RestoreName {
+    EveryStep,
+    Never,
+}
+
+/// Restoration by quality.
+#[derive(Clone, Copy, Debug, Deserialize, serde::Serialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct RestoreQuality {
+    /// The grid is restored when a cell's quality falls below this share of its first one [-].
+    #[schemars(range(min = 0, max = 1))]
+    pub min_quality: f64,
+}
+
+/// A phase of the analysis.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Phase {
+    /// The name of the phase, for logs and errors.
+    pub name: String,
+    /// The kind of analysis: quasi_static (no inertia), dynamic or consolidation.
+    pub analysis: Analysis,
+    /// Duration [s], above 0; in a quasi-static phase a fictitious time that loads vary in.
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub duration: f64,
+    /// Time steps.
+    pub step: Step,
+    /// Displacements since the beginning of the phase, by the name of a physical curve.
+    #[serde(default)]
+    pub prescribe: BTreeMap<String, Motion>,
+    /// Dead loads on named curves.
+    #[serde(default)]
+    pub tractions: Vec<Traction>,
+    /// Factor on gravity in the phase [-]; without it 1.
+    pub gravity: Option<InTime>,
+}
+
+/// The kind of analysis.
+#[derive(Clone, Copy, Debug, Deserialize, JsonSchema, PartialEq, Eq)]
+#[serde(rename_all = "snake_case")]
+pub enum Analysis {
+    QuasiStatic,
+    Dynamic,
+    Consolidation,
+}
+
+/// Time steps: halved when Newton fails, growing again after.
+#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Step {
+    /// First time step [s], above 0.
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub initial: f64,
+    /// Smallest time step [s], at most `initial`; without it a ten-thousandth of `initial`.
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub min: Option<f64>,
+    /// Largest time step [s], at least `initial`; without it `initial`.
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub max: Option<f64>,
+}
+
+/// A number (constant), `{rate: r}` (growing from 0 by r a second) or `{table: [[t, v], …]}`, in the phase's own time.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(untagged)]
+pub enum InTime {
+    Constant(f64),
+    Rate(Rate),
+    Table(Table),
+}
+
+/// A value that grows from 0.
+#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Rate {
+    /// Growth a second.
+    pub rate: f64,
+}
+
+/// A value linear between the entries of a table, and constant before the first and after the last.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Table {
+    /// Pairs [time, value], times growing.
+    #[schemars(extend("minItems" = 1))]
+    pub table: Vec<[f64; 2]>,
+}
+
+/// Displacements prescribed on a curve.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Motion {
+    /// Horizontal (in axisymmetry radial) displacement [m] since the beginning of the phase.
+    pub ux: Option<InTime>,
+    /// Vertical displacement [m] since the beginning of the phase.
+    pub uy: Option<InTime>,
+}
+
+/// A dead load on a named curve, per area of the undeformed curve.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Traction {
+    /// The name of a physical curve.
+    pub on: String,
+    /// Horizontal (in axisymmetry radial) traction [kPa].
+    pub tx: Option<InTime>,
+    /// Vertical traction [kPa], positive upwards.
+    pub ty: Option<InTime>,
+}
+
+/// What is written, and when.
+#[derive(Debug, Default, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct Output {
+    /// Time between frames [s], above 0; without it one frame at the end of each phase.
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub every: Option<f64>,
+    /// The fields of the frames; without it stress and displacement.
+    pub fields: Option<Vec<Field>>,
+    /// How the exported files are packed: compressed, or plain (what meshio reads).
+    pub encoding: Encoding,
+    /// Curves of history.csv, a row each step.
+    pub history: Vec<History>,
+}
+
+/// A field of the frames.
+#[derive(Clone, Copy, Debug, Deserialize, JsonSchema, PartialEq, Eq)]
+#[serde(rename_all = "snake_case")]
+pub enum Field {
+    Displacement,
+    Velocity,
+    Stress,
+    MeanStress,
+    DeviatoricStress,
+    PlasticStrain,
+    DeformationGradient,
+    PorePressure,
+}
+
+/// How the exported files are packed.
+#[derive(Clone, Copy, Debug, Default, Deserialize, JsonSchema, PartialEq, Eq)]
+#[serde(rename_all = "snake_case")]
+pub enum Encoding {
+    #[default]
+    Compressed,
+    Plain,
+}
+
+/// An entry of history.csv.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct History {
+    /// The name of the columns.
+    pub name: String,
+    /// The name of a physical curve, a physical point or a region.
+    pub on: String,
+    /// What is written of it.
+    #[schemars(extend("minItems" = 1))]
+    pub quantities: Vec<Quantity>,
+}
+
+/// A quantity of history.csv: means over the nodes of a curve or the points of a region; reactions are sums.
+#[derive(Clone, Copy, Debug, Deserialize, JsonSchema, PartialEq, Eq)]
+#[serde(rename_all = "snake_case")]
+pub enum Quantity {
+    Ux,
+    Uy,
+    Vx,
+    Vy,
+    ReactionX,
+    ReactionY,
+}
+
+fn two() -> u8 {
+    2
+}

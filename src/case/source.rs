@@ -1,0 +1,262 @@
+//! The text of a case file as a tree, with the overrides of the command line, and the messages that point into it.
+
+use super::locate::{At, Path, locate};
+use crate::error::Error;
+use serde_json::{Map, Value};
+use std::fs;
+use std::path::{Path as FilePath, PathBuf};
+
+/// A mistake in the case, at an entry of it.
+#[derive(Clone, Debug)]
+pub struct Issue {
+    pub path: Path,
+    pub at: At,
+    pub problem: String,
+    pub remedy: String,
+    /// Whether the entry is a key that does not belong there: without it the rest can still be read.
+    pub unknown: bool,
+}
+
+impl Issue {
+    pub fn new(path: &Path, at: At, problem: impl Into<String>, remedy: impl Into<String>) -> Self {
+        Self { path: path.clone(), at, problem: problem.into(), remedy: remedy.into(), unknown: false }
+    }
+}
+
+/// A case file that is valid YAML.
+#[derive(Clone, Debug)]
+pub struct Source {
+    file: PathBuf,
+    text: String,
+    overrides: Vec<Override>,
+    tree: Value,
+    /// What the tree leaves out.
+    faults: Vec<Issue>,
+}
+
+/// An entry of the case set on the command line.
+#[derive(Clone, Debug)]
+struct Override {
+    /// As given: `mesh.parameters.h=0.1`.
+    argument: String,
+    path: Path,
+}
+
+impl Source {
+    /// Reads `case`, a `case.yaml` or the folder that holds one, and applies the overrides `PATH=VALUE`.
+    ///
+    /// # Errors
+    /// A file that is missing, not text or not YAML, and overrides that fit nowhere: kind input.
+    pub fn read(case: &FilePath, overrides: &[String]) -> Result<Self, Error> {
+        let file = if case.is_dir() { case.join("case.yaml") } else { case.to_owned() };
+        let bytes = fs::read(&file).map_err(|e| {
+            let remedy = "name a case.yaml, or a folder that holds one";
+            Error::input(file.display(), format!("cannot be read: {e}"), remedy)
+        })?;
+        let text = String::from_utf8(bytes).map_err(|e| {
+            let line = e.as_bytes().iter().take(e.utf8_error().valid_up_to()).filter(|&&b| b == b'\n').count() + 1;
+            let place = format!("{}:{line}", file.display());
+            Error::input(place, "a byte that is not UTF-8 text", "save the file as UTF-8")
+        })?;
+        Self::parse(file, text, overrides)
+    }
+
+    /// As [`Source::read`] for a text at hand; `file` is for messages and as the root of relative paths.
+    ///
+    /// # Errors
+    /// As [`Source::read`].
+    pub fn parse(file: PathBuf, text: String, overrides: &[String]) -> Result<Self, Error> {
+        let mut source = Self { file, text, overrides: Vec::new(), tree: Value::Null, faults: Vec::new() };
+        source.tree = source.parse_text()?;
+        for argument in overrides {
+            source.set(argument)?;
+        }
+        Ok(source)
+    }
+
+    fn parse_text(&mut self) -> Result<Value, Error> {
+        let yaml: serde_yaml::Value = serde_yaml::from_str(&self.text).map_err(|e| {
+            let place = e.location().map(|place| (place.line(), place.column()));
+            let remedy = "mend the YAML there: check quotes, brackets, colons and indentation";
+            self.message(place, None, &e.to_string(), remedy)
+        })?;
+        if yaml.is_null() {
+            let remedy = "write a case: `mpm schema` describes it, the folder cases/ has examples";
+            return Err(Error::input(self.file.display(), "the file is empty", remedy));
+        }
+        Ok(to_json(yaml, &Path::default(), &mut self.faults))
+    }
+
+    /// Sets the entry `PATH` of the tree to `VALUE` for an argument `PATH=VALUE`.
+    fn set(&mut self, argument: &str) -> Result<(), Error> {
+        let refuse = |problem: String, remedy: &str| Error::input(format!("--set {argument}"), problem, remedy);
+        let example = "write it as --set mesh.parameters.h=0.1";
+        let (target, text) = argument.split_once('=').ok_or_else(|| refuse("no `=`".into(), example))?;
+        let value = serde_yaml::from_str(text)
+            .map_err(|e| refuse(format!("the value is not YAML: {e}"), "put the value in quotes"))?;
+        let mut faults = Vec::new();
+        let value = to_json(value, &Path::default(), &mut faults);
+        if let Some(fault) = faults.pop() {
+            return Err(refuse(fault.problem, &fault.remedy));
+        }
+        let mut path = Path::default();
+        let mut entry = &mut self.tree;
+        for name in target.replace('[', ".").replace(']', "").split('.') {
+            if name.is_empty() {
+                return Err(refuse("an empty name in the path".into(), example));
+            }
+            if entry.is_null() {
+                *entry = Value::Object(Map::new());
+            }
+            let around = if path.0.is_empty() { "the case".to_owned() } else { format!("`{path}`") };
+            entry = match entry {
+                Value::Object(map) => {
+                    path = path.key(name);
+                    map.entry(name).or_insert(Value::Null)
+                }
+                Value::Array(list) => {
+                    let count = list.len();
+                    let index = position(list, name);
+                    let item = index.and_then(|i| list.get_mut(i).map(|item| (i, item)));
+                    let (index, item) = item.ok_or_else(|| {
+                        refuse(
+                            format!("{around} has no item `{name}`"),
+                            &format!("it has the items 0 to {}", count - 1),
+                        )
+                    })?;
+                    path = path.index(index);
+                    item
+                }
+                other => {
+                    let problem = format!("{around} is {}, so it has no entry `{name}`", describe(other));
+                    return Err(refuse(problem, "set the entry itself, or mend the path"));
+                }
+            };
+        }
+        *entry = value;
+        self.overrides.push(Override { argument: argument.to_owned(), path });
+        Ok(())
+    }
+
+    /// The case file.
+    pub fn file(&self) -> &FilePath {
+        &self.file
+    }
+
+    /// The folder of the case file, which paths in it are relative to.
+    pub fn folder(&self) -> &FilePath {
+        match self.file.parent() {
+            Some(folder) if !folder.as_os_str().is_empty() => folder,
+            _ => FilePath::new("."),
+        }
+    }
+
+    /// The whole case with its overrides, as one tree with sorted keys.
+    pub fn tree(&self) -> &Value {
+        &self.tree
+    }
+
+    /// Numbers that are not finite, tags and keys that are not names: the tree does without them.
+    pub fn faults(&self) -> &[Issue] {
+        &self.faults
+    }
+
+    /// Line and column of a mistake, or of the nearest block around it that the file has.
+    pub fn place(&self, issue: &Issue) -> Option<(usize, usize)> {
+        let mut around = issue.path.clone();
+        let mut place = locate(&self.text, &around, issue.at);
+        while place.is_none() && around.0.pop().is_some() {
+            place = locate(&self.text, &around, At::Key);
+        }
+        place
+    }
+
+    /// The error for a mistake: file, line and column, the line itself and a caret under the place.
+    pub fn error(&self, issue: &Issue) -> Error {
+        // An entry set on the command line, or a block that only the command line made.
+        let given = self.overrides.iter().rev().find(|given| {
+            let made = || issue.path.contains(&given.path) && locate(&self.text, &issue.path, issue.at).is_none();
+            given.path.contains(&issue.path) || made()
+        });
+        if let Some(given) = given {
+            let place = format!("--set {} ({})", given.argument, issue.path);
+            return Error::input(place, &issue.problem, &issue.remedy);
+        }
+        self.message(self.place(issue), Some(&issue.path), &issue.problem, &issue.remedy)
+    }
+
+    fn message(&self, place: Option<(usize, usize)>, path: Option<&Path>, problem: &str, remedy: &str) -> Error {
+        let file = self.file.display();
+        let path = path.filter(|path| !path.0.is_empty()).map(|path| format!(" ({path})")).unwrap_or_default();
+        let Some((line, column)) = place.filter(|&(line, _)| line > 0) else {
+            return Error::input(format!("{file}{path}"), problem, remedy);
+        };
+        let excerpt = match self.text.lines().nth(line - 1) {
+            Some(text) if !text.trim().is_empty() => {
+                let margin = " ".repeat(line.to_string().len());
+                format!("\n {line} | {text}\n {margin} | {}^", " ".repeat(column.saturating_sub(1)))
+            }
+            _ => String::new(),
+        };
+        Error::input(format!("{file}:{line}:{column}{path}"), problem, format!("{remedy}{excerpt}"))
+    }
+}
+
+/// The item a name means: its number, or the value of its `name`.
+fn position(list: &[Value], name: &str) -> Option<usize> {
+    match name.parse() {
+        Ok(index) => Some(index),
+        Err(_) => list.iter().position(|item| item.get("name").and_then(Value::as_str) == Some(name)),
+    }
+}
+
+/// What a value is, in words.
+pub fn describe(value: &Value) -> String {
+    match value {
+        Value::Null => "nothing".into(),
+        Value::Bool(b) => b.to_string(),
+        Value::Number(n) => format!("the number {n}"),
+        Value::String(s) => format!("the text `{s}`"),
+        Value::Array(_) => "a list".into(),
+        Value::Object(_) => "a block of entries".into(),
+    }
+}
+
+/// The tree without what a case never needs: tags, keys that are not names, numbers that are not finite.
+/// Each is left out, and a fault.
+fn to_json(yaml: serde_yaml::Value, path: &Path, faults: &mut Vec<Issue>) -> Value {
+    use serde_yaml::Value as Yaml;
+    let mut refuse = |problem: String, remedy: &str| {
+        faults.push(Issue::new(path, At::Value, problem, remedy));
+        Value::Null
+    };
+    match yaml {
+        Yaml::Null => Value::Null,
+        Yaml::Bool(b) => b.into(),
+        Yaml::String(s) => s.into(),
+        Yaml::Number(n) => match (n.as_i64(), n.as_u64(), n.as_f64()) {
+            (Some(n), _, _) => n.into(),
+            (_, Some(n), _) => n.into(),
+            (_, _, Some(n)) if n.is_finite() => n.into(),
+            _ => refuse(format!("{n} is not a finite number"), "write a number"),
+        },
+        Yaml::Sequence(items) => {
+            let items = items.into_iter().enumerate();
+            items.map(|(i, item)| to_json(item, &path.index(i), faults)).collect()
+        }
+        Yaml::Mapping(entries) => {
+            let mut map = Map::new();
+            for (key, value) in entries {
+                match key {
+                    Yaml::String(key) => {
+                        let value = to_json(value, &path.key(&key), faults);
+                        map.insert(key, value);
+                    }
+                    _ => faults.push(Issue::new(path, At::Key, "a key that is not a name", "put the key in quotes")),
+                }
+            }
+            Value::Object(map)
+        }
+        Yaml::Tagged(tagged) => refuse(format!("a YAML tag {}", tagged.tag), "write the entry without a tag"),
+    }
+}

@@ -1,0 +1,68 @@
+//! `mpm mesh`: from the `.geo` to `mesh.msh`.
+
+use super::stage::{Stage, Stamp};
+use super::{Outcome, StageArgs, print};
+use crate::case::checked;
+use crate::case::names::Groups;
+use crate::error::Result;
+use crate::mesh::gmsh::{self, Options};
+use std::collections::BTreeSet;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+pub fn run(args: &StageArgs) -> Outcome {
+    work(&Stage::open(args)?)
+}
+
+/// Whether `mesh.msh` is there and would come out the same.
+pub fn is_current(stage: &Stage) -> Result<bool> {
+    Ok(stamp(stage)?.is_current(&[stage.mesh()]))
+}
+
+/// Meshes, and prints a summary. An earlier mesh stays until the new one has passed every check.
+pub fn work(stage: &Stage) -> Outcome {
+    let case = &stage.loaded.case;
+    stage.loaded.check_names(&groups(&case.mesh)?)?;
+    stage.prepare()?;
+    gmsh::generate(&case.mesh.geo, &options(&case.mesh), &stage.mesh())?;
+    let mesh = gmsh::read(&stage.mesh())?;
+    stamp(stage)?.write(&[stage.mesh()])?;
+    print(&format!("{}: {} nodes, {} cells\n", stage.mesh().display(), mesh.nodes.len(), mesh.cells.len()))
+}
+
+/// The names of the groups of the `.geo`, without meshing it.
+pub fn groups(mesh: &checked::Mesh) -> Result<Groups> {
+    let gmsh::Groups { surfaces, curves, points } = gmsh::groups(&mesh.geo, &options(mesh))?;
+    Ok(Groups { surfaces, curves, points })
+}
+
+fn options(mesh: &checked::Mesh) -> Options {
+    let (order, incomplete) = match mesh.order {
+        checked::Order::First => (1, false),
+        checked::Order::Second => (2, false),
+        checked::Order::SecondIncomplete => (2, true),
+    };
+    Options { order, incomplete, parameters: mesh.parameters.iter().map(|(name, &v)| (name.clone(), v)).collect() }
+}
+
+fn stamp(stage: &Stage) -> Result<Stamp> {
+    let mut files = BTreeSet::new();
+    include(&stage.loaded.case.mesh.geo, &mut files);
+    stage.stamp("mesh", &["mesh"], &files.into_iter().collect::<Vec<_>>())
+}
+
+/// A `.geo` and what it includes or merges.
+fn include(geo: &Path, files: &mut BTreeSet<PathBuf>) {
+    if !files.insert(geo.to_owned()) {
+        return;
+    }
+    // A file that cannot be read is missed when it is hashed, with its name.
+    let text = fs::read(geo).unwrap_or_default();
+    for line in String::from_utf8_lossy(&text).lines() {
+        let line = line.trim_start();
+        let name = line.strip_prefix("Include").or(line.strip_prefix("Merge")).and_then(|rest| rest.split('"').nth(1));
+        if let Some(name) = name {
+            include(&geo.with_file_name("").join(name), files);
+        }
+    }
+}

@@ -1,0 +1,8 @@
+//! `mpm schema`: the JSON schema of `case.yaml`.
+
+use super::{Outcome, print};
+use crate::case;
+
+pub fn run() -> Outcome {
+    print(&format!("{:#}\n", case::schema()))
+}
