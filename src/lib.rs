@@ -1,6 +1,7 @@
 //! Implicit second-order Material Point Method for geotechnics.
 
 pub mod case;
+pub mod cli;
 pub mod error;
 pub mod io;
 pub mod kinematics;
