@@ -49,6 +49,15 @@ impl Stage {
         self.folder.join("points.vtu")
     }
 
+    pub fn results(&self) -> PathBuf {
+        self.folder.join("results")
+    }
+
+    /// The output folder.
+    pub fn folder(&self) -> &Path {
+        &self.folder
+    }
+
     /// The stamp of the stage `name`, which reads the entries `keys` of the case and `files`.
     ///
     /// # Errors
