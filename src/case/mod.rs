@@ -12,6 +12,7 @@ pub mod names;
 mod phases;
 pub mod raw;
 pub mod scene;
+pub mod seeding;
 pub mod source;
 pub mod structure;
 

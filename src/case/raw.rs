@@ -415,6 +415,22 @@ pub enum Field {
     PorePressure,
 }
 
+impl Field {
+    /// The name in the case, in frames and in exported files.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Displacement => "displacement",
+            Self::Velocity => "velocity",
+            Self::Stress => "stress",
+            Self::MeanStress => "mean_stress",
+            Self::DeviatoricStress => "deviatoric_stress",
+            Self::PlasticStrain => "plastic_strain",
+            Self::DeformationGradient => "deformation_gradient",
+            Self::PorePressure => "pore_pressure",
+        }
+    }
+}
+
 /// How the exported files are packed.
 #[derive(Clone, Copy, Debug, Default, Deserialize, JsonSchema, PartialEq, Eq)]
 #[serde(rename_all = "snake_case")]

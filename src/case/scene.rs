@@ -4,58 +4,15 @@ use super::checked::{Analysis, Case, Content, Field, Geometry, Material, Quantit
 use crate::error::{Error, Result};
 use crate::io::checkpoint::Fingerprint;
 use crate::kinematics::{Axisymmetric, Kinematics, PlaneStrain};
-use crate::material::spatial::elastic_from_stress;
 use crate::mesh::Mesh;
 use crate::mesh::locate::Locator;
 use crate::points::Points;
 use crate::run::{self, Ended, Outputs, Progress, Watch, WatchedOn};
-use crate::seed::{self, RegionSeed, RegionWeight};
 use crate::step::{Fixed, Numerics, Phase, Prescribed, Scene, State, Stop};
 use crate::term::{BodyForce, EmptyCells, Inertia, Internal, Term, Traction};
 use crate::time_value::TimeValue;
 use std::path::Path;
 use std::sync::atomic::AtomicBool;
-
-/// The material points of a case in their initial state.
-///
-/// # Errors
-/// `Input` when a rule does not fit a cell, a parameter leaves its range somewhere in a region, or the stress
-/// at rest cannot be had.
-pub fn seed(case: &Case, mesh: &Mesh<2>) -> Result<Points<2>> {
-    let mut seeds = Vec::new();
-    let mut soils = Vec::new();
-    let g = -case.gravity[1];
-    for (region, material, points_per_cell) in filled(case) {
-        let index = region_index(mesh, &region.name)?;
-        check_over_depth(mesh, index, region, material)?;
-        let points_per_cell = points_per_cell as u32;
-        seeds.push(RegionSeed { region: index, points_per_cell, density: material.density });
-        let mut unit_weight = material.density;
-        unit_weight.top *= g;
-        unit_weight.gradient *= g;
-        soils.push(RegionWeight { region: index, unit_weight });
-    }
-    let mut points = seed::seed(mesh, case.geometry == Geometry::Axisymmetric, &seeds)?;
-    let models = models(case, mesh)?;
-    if let Some(k0) = case.k0 {
-        points.stress = seed::k0_stress(mesh, &soils, k0, &points)?;
-        for p in 0..points.len() {
-            if let Some(model) = &models[points.region[p] as usize] {
-                points.elastic[p] = elastic_from_stress(model.as_ref(), points.origin[p][1], &points.stress[p]);
-            }
-        }
-    }
-    if !case.initial_velocity.is_empty() {
-        points.velocity = vec![[0.0; 2]; points.len()];
-        for start in &case.initial_velocity {
-            let index = region_index(mesh, &case.regions[start.region].name)?;
-            for p in (0..points.len()).filter(|&p| points.region[p] == index) {
-                points.velocity[p] = start.at(&points.position[p]);
-            }
-        }
-    }
-    Ok(points)
-}
 
 /// Solves a case in `folder`.
 ///
@@ -102,7 +59,7 @@ fn first(scene: &Scene<2>, points: Points<2>) -> State<2> {
 /// # Errors
 /// `Input` when the mesh lacks a group that the case names.
 pub fn scene<K: Kinematics<2>>(case: &Case, mesh: Mesh<2>) -> Result<Scene<2>> {
-    let materials = || filled(case).map(|(_, material, _)| material);
+    let materials = || filled(case).map(|(_, material)| material);
     let lowest = mesh.nodes.iter().map(|x| x[1]).fold(f64::INFINITY, f64::min);
     let largest = |value: fn(&Material, f64) -> f64| materials().map(|m| value(m, lowest)).fold(0.0, f64::max);
     let stiffness_scale = largest(|m, y| m.model.young(y));
@@ -229,10 +186,10 @@ fn outputs(case: &Case, mesh: &Mesh<2>, folder: &Path, fingerprint: Fingerprint)
     Ok(Outputs { folder: folder.to_path_buf(), fields, watches, fingerprint })
 }
 
-/// The regions with points, their materials and points per cell.
-fn filled(case: &Case) -> impl Iterator<Item = (&Region, &Material, usize)> {
+/// The regions with points and their materials.
+fn filled(case: &Case) -> impl Iterator<Item = (&Region, &Material)> {
     case.regions.iter().filter_map(|region| match region.content {
-        Content::Mpm { material, points_per_cell } => Some((region, &case.materials[material], points_per_cell)),
+        Content::Mpm { material, .. } => Some((region, &case.materials[material])),
         Content::Buffer => None,
     })
 }
@@ -240,31 +197,10 @@ fn filled(case: &Case) -> impl Iterator<Item = (&Region, &Material, usize)> {
 /// The model of each region of the mesh, if it holds points.
 fn models(case: &Case, mesh: &Mesh<2>) -> Result<Vec<Option<std::sync::Arc<dyn crate::material::Model>>>> {
     let mut models = vec![None; mesh.regions.len()];
-    for (region, material, _) in filled(case) {
+    for (region, material) in filled(case) {
         models[region_index(mesh, &region.name)? as usize] = Some(material.model.clone());
     }
     Ok(models)
-}
-
-/// A profile is linear below its datum: in range at the top and the bottom of a region, it is in between.
-fn check_over_depth(mesh: &Mesh<2>, index: u16, region: &Region, material: &Material) -> Result<()> {
-    let cells = (0..mesh.cells.len()).filter(|&c| mesh.cells.region[c] == index);
-    let heights = cells.flat_map(|c| mesh.cells.nodes(c)).map(|&n| mesh.nodes[n as usize][1]);
-    let (low, high) = heights.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), y| (l.min(y), h.max(y)));
-    for y in [low, high] {
-        material.model.check(y).map_err(|e| Error {
-            place: format!("material `{}` in region `{}` at y = {y} m: {}", material.name, region.name, e.place),
-            ..e
-        })?;
-        if material.density.at(y) < 0.0 {
-            return Err(Error::input(
-                format!("material `{}` in region `{}` at y = {y} m", material.name, region.name),
-                format!("the density is {}", material.density.at(y)),
-                "change its top or gradient",
-            ));
-        }
-    }
-    Ok(())
 }
 
 fn region_index(mesh: &Mesh<2>, name: &str) -> Result<u16> {

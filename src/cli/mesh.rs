@@ -4,7 +4,8 @@ use super::stage::{Stage, Stamp};
 use super::{Outcome, StageArgs, print};
 use crate::case::checked;
 use crate::case::names::Groups;
-use crate::error::Result;
+use crate::error::{Error, Result};
+use crate::mesh::Mesh;
 use crate::mesh::gmsh::{self, Options};
 use std::collections::BTreeSet;
 use std::fs;
@@ -28,6 +29,19 @@ pub fn work(stage: &Stage) -> Outcome {
     let mesh = gmsh::read(&stage.mesh())?;
     stamp(stage)?.write(&[stage.mesh()])?;
     print(&format!("{}: {} nodes, {} cells\n", stage.mesh().display(), mesh.nodes.len(), mesh.cells.len()))
+}
+
+/// The mesh of an earlier `mpm mesh`, held against the names in the case.
+pub fn read(stage: &Stage) -> std::result::Result<Mesh<2>, Vec<Error>> {
+    if !stage.mesh().exists() {
+        let place = stage.mesh().display().to_string();
+        return Err(Error::input(place, "there is no mesh yet", "run `mpm mesh` first, or `mpm run` for all").into());
+    }
+    let mesh = gmsh::read(&stage.mesh())?;
+    let named = |dimension| mesh.groups.iter().filter(move |g| g.dimension == dimension).map(|g| g.name.clone());
+    let groups = Groups { surfaces: mesh.regions.clone(), curves: named(1).collect(), points: named(0).collect() };
+    stage.loaded.check_names(&groups)?;
+    Ok(mesh)
 }
 
 /// The names of the groups of the `.geo`, without meshing it.

@@ -1,0 +1,97 @@
+//! The material points a case starts with: the regions filled, at rest or moving, with their stress.
+
+use super::checked::{Case, Content, Geometry, Material, Region};
+use crate::error::{Error, Result};
+use crate::material::{Profile, spatial};
+use crate::mesh::Mesh;
+use crate::points::Points;
+use crate::seed::{RegionSeed, RegionWeight, k0_stress, seed};
+
+/// Fills the regions of `case` in `mesh`, whose groups its names have been held against.
+///
+/// # Errors
+/// Input: a number of points that the cells of a region have no rule for, cells at a negative radius.
+pub fn points(case: &Case, mesh: &Mesh<2>) -> Result<Points<2>> {
+    let filled = filled(case, mesh)?;
+    for f in &filled {
+        check_over_depth(mesh, f.seed.region, &case.regions[f.index], &case.materials[f.material])?;
+    }
+    let seeds: Vec<_> = filled.iter().map(|f| f.seed.clone()).collect();
+    let mut points = seed(mesh, case.geometry == Geometry::Axisymmetric, &seeds)?;
+    if let Some(k0) = case.k0 {
+        rest(case, mesh, &filled, k0, &mut points)?;
+    }
+    if !case.initial_velocity.is_empty() {
+        let mut velocity_of = vec![None; mesh.regions.len()];
+        for f in &filled {
+            velocity_of[f.seed.region as usize] = case.initial_velocity.iter().find(|v| v.region == f.index);
+        }
+        let places = points.position.iter().zip(&points.region);
+        points.velocity = places.map(|(x, &r)| velocity_of[r as usize].map_or([0.0; 2], |v| v.at(x))).collect();
+    }
+    Ok(points)
+}
+
+/// A region with points: its index in the case, its material and how it is seeded.
+struct Filled {
+    index: usize,
+    material: usize,
+    seed: RegionSeed,
+}
+
+fn filled(case: &Case, mesh: &Mesh<2>) -> Result<Vec<Filled>> {
+    let mut filled = Vec::new();
+    for (index, region) in case.regions.iter().enumerate() {
+        let Content::Mpm { material, points_per_cell } = region.content else { continue };
+        let place = mesh.regions.iter().position(|name| *name == region.name).ok_or_else(|| {
+            let place = format!("region {}", region.name);
+            Error::input(place, "the mesh has no physical surface of this name", "mesh the case again: `mpm mesh`")
+        })?;
+        let density = case.materials[material].density;
+        let seed = RegionSeed { region: place as u16, points_per_cell: points_per_cell as u32, density };
+        filled.push(Filled { index, material, seed });
+    }
+    Ok(filled)
+}
+
+/// A profile is linear below its datum: in range at the top and the bottom of a region, it is in between.
+fn check_over_depth(mesh: &Mesh<2>, index: u16, region: &Region, material: &Material) -> Result<()> {
+    let cells = (0..mesh.cells.len()).filter(|&c| mesh.cells.region[c] == index);
+    let heights = cells.flat_map(|c| mesh.cells.nodes(c)).map(|&n| mesh.nodes[n as usize][1]);
+    let (low, high) = heights.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), y| (l.min(y), h.max(y)));
+    for y in [low, high] {
+        material.model.check(y).map_err(|e| Error {
+            place: format!("material `{}` in region `{}` at y = {y} m: {}", material.name, region.name, e.place),
+            ..e
+        })?;
+        if material.density.at(y) < 0.0 {
+            return Err(Error::input(
+                format!("material `{}` in region `{}` at y = {y} m", material.name, region.name),
+                format!("the density is {}", material.density.at(y)),
+                "change its top or gradient",
+            ));
+        }
+    }
+    Ok(())
+}
+
+/// Gives the points the stress of soil at rest, with the elastic strain that carries it; their shape stays
+/// the one they are seeded with, so that Kirchhoff and Cauchy stress are the same.
+fn rest(case: &Case, mesh: &Mesh<2>, filled: &[Filled], k0: f64, points: &mut Points<2>) -> Result<()> {
+    let g = -case.gravity[1];
+    let weights: Vec<_> = filled
+        .iter()
+        .map(|Filled { seed, .. }| {
+            let Profile { top, gradient, datum } = seed.density;
+            RegionWeight { region: seed.region, unit_weight: Profile { top: g * top, gradient: g * gradient, datum } }
+        })
+        .collect();
+    points.stress = k0_stress(mesh, &weights, k0, points)?;
+    for Filled { material, seed, .. } in filled {
+        let model = &*case.materials[*material].model;
+        for p in (0..points.len()).filter(|&p| points.region[p] == seed.region) {
+            points.elastic[p] = spatial::elastic_from_stress(model, points.origin[p][1], &points.stress[p]);
+        }
+    }
+    Ok(())
+}
