@@ -131,6 +131,8 @@ def panels(picture, title, frames, labels, name, columns=1, limits=None, grid=No
     if limits is None:
         # A few extreme points would leave one colour to all others; the largest is said beside the scale.
         limits = np.percentile(everything, [0.5, 99.5])
+        if limits[0] == limits[1]:
+            limits = everything.min(), everything.max()
     x0, x1, y0, y1 = bounds_of(frames)
     rows = -(-len(frames) // columns)
     gap, head, label, bar = 24, 64, 32, 110

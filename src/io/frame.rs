@@ -7,7 +7,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use super::atomic;
-use super::container::{Array, Data, Store, Summary, check_finite};
+use super::container::{Array, Contents, Data, Store, check_finite};
 use crate::error::{Error, Result};
 
 const KIND: &str = "frame";
@@ -147,7 +147,7 @@ pub fn list(folder: &Path) -> Result<Vec<Info>> {
             return Err(Error::input(path(folder, expected).display(), "this frame is missing", AGAIN));
         }
         let path = path(folder, index);
-        let Summary { texts, arrays } = Store::peek(&path, KIND, AGAIN)?;
+        let Contents { texts, arrays } = Store::peek(&path, KIND, AGAIN)?;
         let (time, phase, step) = read_texts(|name| {
             texts
                 .get(name)
