@@ -30,7 +30,7 @@ pub struct Column {
 /// Points, or the nodes of a mesh, and what is known there.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Part {
-    /// Coordinates [m], padded to three. Empty in the grid: the nodes are where the mesh has them.
+    /// Coordinates in m, padded to three. Empty in the grid: the nodes are where the mesh has them.
     pub position: Vec<[f64; 3]>,
     pub columns: Vec<Column>,
 }
@@ -38,7 +38,7 @@ pub struct Part {
 /// The state at one moment.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Frame {
-    /// Time [s] since the start of the first phase.
+    /// Time in s since the start of the first phase.
     pub time: f64,
     /// Name of the phase.
     pub phase: String,
@@ -65,7 +65,7 @@ pub fn path(folder: &Path, index: usize) -> PathBuf {
 }
 
 impl Frame {
-    /// Writes the frame as number `index`, atomically.
+    /// Writes the frame as number `index` to the disk, atomically.
     ///
     /// # Errors
     /// `Analysis` naming the material point or node whose value is not finite (then nothing is written);
@@ -91,7 +91,7 @@ impl Frame {
                 store.put_array(array);
             }
         }
-        store.write(&path(folder, index), false)
+        store.write(&path(folder, index), true)
     }
 
     /// Reads a frame.
