@@ -22,9 +22,9 @@ pub struct Summary {
     pub nodes: usize,
     /// Cells by kind, in the order of [`CellKind::ALL`], kinds that are there only.
     pub cells: Vec<(CellKind, usize)>,
-    /// Name, number of cells and area [m²] of every region.
+    /// Name, number of cells and area in m² of every region.
     pub regions: Vec<(String, usize, f64)>,
-    /// Least quality, the cell that has it and the place of its centre [m].
+    /// Least quality, the cell that has it and the place of its centre.
     pub worst: (f64, usize, [f64; 2]),
     pub mean: f64,
     /// Least ratio, over the cells, of the least to the largest Bernstein coefficient of `det J`: 1 where
