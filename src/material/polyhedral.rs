@@ -10,8 +10,8 @@
 //!
 //! and plastic strain flows along `m_ij = (1 + sin ψ) e_i − (1 − sin ψ) e_j` and `e_i` (Koiter's rule). Since
 //! both law and surface are linear, each set of active planes gives its return in one exact step (Clausen,
-//! Damkilde & Andersen, *Int. J. Numer. Meth. Engng* 66 (2006) 1831–1853; de Souza Neto, Perić & Owen, *Computational Methods for
-//! Plasticity*, 2008, §8.2):
+//! Damkilde & Andersen, *Int. J. Numer. Meth. Engng* 66 (2006) 1831–1853; de Souza Neto, Perić & Owen,
+//! *Computational Methods for Plasticity*, 2008, §8.2):
 //!
 //! ```text
 //! τ = τ_tr − C M λ,   (Nᵀ C M) λ = f(τ_tr),   ∂τ/∂ε = C − C M (Nᵀ C M)⁻¹ Nᵀ C
@@ -44,7 +44,7 @@ const TOLERANCE: f64 = 1e-12;
 /// Rounding of a yield function, a fraction of the stress it is evaluated from.
 const ROUNDING: f64 = 8.0 * f64::EPSILON;
 
-/// A sorted return: stress, elastic strain and tangent, and by how much [kPa] its set of active planes fails
+/// A sorted return: stress, elastic strain and tangent, and by how much (kPa) its set of active planes fails
 /// the conditions of Kuhn and Tucker.
 struct Candidate {
     stress: [f64; 3],
@@ -74,7 +74,7 @@ struct Plane {
 }
 
 impl Planes {
-    /// How far stresses in any order lie outside [kPa]; negative inside.
+    /// How far stresses in any order lie outside (kPa); negative inside.
     pub fn excess(&self, stress: &[f64; 3]) -> f64 {
         let largest = stress[0].max(stress[1]).max(stress[2]);
         let smallest = stress[0].min(stress[1]).min(stress[2]);
