@@ -10,8 +10,8 @@
 //!
 //! and plastic strain flows along `m_ij = (1 + sin ψ) e_i − (1 − sin ψ) e_j` and `e_i` (Koiter's rule). Since
 //! both law and surface are linear, each set of active planes gives its return in one exact step (Clausen,
-//! Damkilde & Andersen, *Int. J. Numer. Meth. Engng* 66 (2006) 1831–1853; de Souza Neto, Perić & Owen,
-//! *Computational Methods for Plasticity*, 2008, §8.2):
+//! Damkilde & Andersen, *Int. J. Numer. Meth. Engng* 66 (2006) 1036–1059, and, non-associated, *Computers
+//! and Structures* 85 (2007) 1795–1807; docs/theory.md, section 3):
 //!
 //! ```text
 //! τ = τ_tr − C M λ,   (Nᵀ C M) λ = f(τ_tr),   ∂τ/∂ε = C − C M (Nᵀ C M)⁻¹ Nᵀ C
