@@ -250,3 +250,57 @@ fn inverse<const K: usize>(a: [[f64; K]; K]) -> [[f64; K]; K] {
     }
     inverse
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use nalgebra::{Matrix3, Vector3};
+
+    /// The cones of flow at the corners, written as inequalities, against a search through all triples of
+    /// the flows that meet there (Carathéodory).
+    #[test]
+    fn cones_of_the_corners() {
+        let moduli = Moduli { lambda: 120.0, shear: 80.0 };
+        let mut seed = 1u64;
+        let mut random = || {
+            seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            (seed >> 11) as f64 / (1u64 << 52) as f64 - 1.0
+        };
+        for (sin_dilation, tension) in [(0.0, 0.5), (0.3, 0.5), (0.5, 0.5), (0.2, f64::INFINITY)] {
+            let cone = Planes { sin_friction: 0.5, sin_dilation, strength: 2.0, tension };
+            let planes = Planes { tension: cone.tension.min(cone.apex()), ..cone };
+            let shear = |ij: &[(usize, usize)]| ij.iter().map(|&(i, j)| planes.shear(i, j).m).collect::<Vec<_>>();
+            let tensile = |n: usize| (0..n).map(|i| planes.tensile(i).m).collect::<Vec<_>>();
+            let flows = [
+                [shear(&[(0, 2), (0, 1)]), tensile(1)].concat(),
+                [shear(&[(0, 2), (1, 2)]), tensile(2)].concat(),
+                if planes.tension < planes.apex() {
+                    tensile(3)
+                } else {
+                    [shear(&[(0, 2), (0, 1), (1, 2)]), tensile(3)].concat()
+                },
+            ];
+            for (corner, flows) in flows.iter().enumerate() {
+                let mut inside = 0;
+                for _ in 0..10_000 {
+                    let mut d = [random(), random(), random()];
+                    d.sort_by(|a, b| b.total_cmp(a));
+                    let in_cone = (0..flows.len()).any(|a| {
+                        (0..a).any(|b| {
+                            (0..b).any(|c| {
+                                let m = Matrix3::from_columns(&[flows[a], flows[b], flows[c]].map(Vector3::from));
+                                m.try_inverse().is_some_and(|m| (m * Vector3::from(d)).min() >= 0.0)
+                            })
+                        })
+                    });
+                    let start = planes.corner(&moduli, &[0.0; 3], corner + 1).elastic_strain;
+                    let trial = std::array::from_fn(|k| start[k] + d[k]);
+                    let violation = planes.corner(&moduli, &trial, corner + 1).violation;
+                    assert_eq!(violation <= 0.0, in_cone, "corner {corner}, {planes:?}: {d:?} {violation}");
+                    inside += usize::from(in_cone);
+                }
+                assert!(inside > 20, "corner {corner}, {planes:?}: {inside}");
+            }
+        }
+    }
+}
