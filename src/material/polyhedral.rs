@@ -209,10 +209,10 @@ impl Planes {
         // lengthening along those before it.
         let k = (1.0 + self.sin_dilation) / (1.0 - self.sin_dilation);
         let least = match tensile {
-            1 => (-d[1]).min(-d[2]).min(d[0] + k * (d[1] + d[2])),
-            2 => (-d[2]).min(d[0]).min(d[1]).min(d[0] + d[1] + k * d[2]),
+            1 => (-d[1]).min(d[0] + k * (d[1] + d[2])),
+            2 => (-d[2]).min(d[1]).min(d[0] + d[1] + k * d[2]),
             _ if tension < apex => d[2],
-            _ => d[0].min(d[0] + k * d[1]).min(d[0] + k * (d[1] + d[2])).min(d[0] + d[1] + k * d[2]),
+            _ => (d[0] + k * (d[1] + d[2])).min(d[0] + d[1] + k * d[2]),
         };
         Candidate { stress, elastic_strain, tangent: [[0.0; 3]; 3], violation: -2.0 * moduli.shear * least }
     }
