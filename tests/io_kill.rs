@@ -13,7 +13,7 @@ use mpm::io::frame::{self, Frame, Part};
 use mpm::io::history::History;
 
 const FOLDER: &str = "MPM_TEST_KILL_FOLDER";
-const STEPS: u64 = 400;
+const STEPS: u64 = 200;
 
 fn checkpoints(folder: &Path) -> Checkpoints {
     Checkpoints::new(folder.join("checkpoints"), Fingerprint::of(&[b"case"]))

@@ -21,7 +21,7 @@ pub fn write(path: &Path, fill: impl FnOnce(&mut dyn Write) -> io::Result<()>) -
     replace(path, false, fill)
 }
 
-/// Like [`write`], and returns only when the file is on the disk.
+/// Like [`write()`], and returns only when the file is on the disk.
 pub fn write_durable(path: &Path, fill: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<()> {
     replace(path, true, fill)
 }

@@ -48,7 +48,15 @@ pub fn to_arrays<const D: usize>(points: &Points<D>) -> Vec<Array> {
     arrays
 }
 
-/// Takes the points out of a store that has the arrays of [`to_arrays`], their names preceded by `prefix`.
+/// Puts all columns into a store, their names preceded by `prefix`.
+pub fn put<const D: usize>(store: &mut Store, prefix: &str, points: &Points<D>) {
+    for mut array in to_arrays(points) {
+        array.name.insert_str(0, prefix);
+        store.put_array(array);
+    }
+}
+
+/// Takes the points out of a store again, with the `prefix` of [`put`].
 ///
 /// # Errors
 /// `Input` when a column is missing, of another type, or not as long as the others.

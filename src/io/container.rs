@@ -9,13 +9,16 @@
 //!        the arrays' blocks, one array after the other, to the end of the file
 //! ```
 //!
-//! All numbers are little-endian. An array is cut into blocks of about 256 KiB; in a block the bytes are
+//! All numbers are little-endian. An array is cut into blocks of as many tuples as fit 256 KiB; in a block the bytes are
 //! sorted by their place in the tuple (all first bytes, all second bytes, …: neighbouring numbers share their
 //! high bytes) and compressed with LZ4. A block is a u32, its stored length, and the stored bytes; the highest
 //! bit of the length says that they are not compressed. The checksum in the header is the XXH64 of the
 //! array's stored bytes.
 //!
 //! A file that is cut, changed or foreign is an error; memory is bounded by the length of the file.
+
+mod blocks;
+mod data;
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -25,102 +28,19 @@ use std::path::Path;
 use serde::{Deserialize, Serialize};
 use twox_hash::XxHash64;
 
+pub use data::{Data, Scalar};
+
+use blocks::{compress, decompress};
+use data::with_values;
+
 use super::atomic;
 use crate::error::{Error, Result};
 
 const MAGIC: [u8; 8] = *b"\x89MPM\r\n\x1a\n";
 const VERSION: u32 = 1;
 const START: usize = 24;
-const BLOCK: usize = 1 << 18;
-const UNCOMPRESSED: u32 = 1 << 31;
 /// More components than any tensor here has; a bound for buffers when reading.
 const MAX_COMPONENTS: usize = 1024;
-/// LZ4 cannot compress further than this.
-const MAX_RATIO: usize = 256;
-
-/// The numbers of an array, tuple after tuple.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Data {
-    F64(Vec<f64>),
-    U64(Vec<u64>),
-    I64(Vec<i64>),
-    U32(Vec<u32>),
-    U16(Vec<u16>),
-    U8(Vec<u8>),
-}
-
-/// A number that a [`Data`] can hold.
-pub trait Scalar: Copy + Sized {
-    const NAME: &'static str;
-    const SIZE: usize;
-    fn store(self, bytes: &mut [u8]);
-    fn load(bytes: &[u8]) -> Self;
-    fn to_data(values: Vec<Self>) -> Data;
-    /// The numbers, if `data` holds this type.
-    fn from_data(data: Data) -> Option<Vec<Self>>;
-}
-
-macro_rules! scalar {
-    ($($type:ty, $variant:ident, $name:literal;)*) => {
-        $(impl Scalar for $type {
-            const NAME: &'static str = $name;
-            const SIZE: usize = size_of::<$type>();
-            fn store(self, bytes: &mut [u8]) {
-                bytes.copy_from_slice(&self.to_le_bytes());
-            }
-            fn load(bytes: &[u8]) -> Self {
-                let mut own = [0; size_of::<$type>()];
-                own.copy_from_slice(bytes);
-                Self::from_le_bytes(own)
-            }
-            fn to_data(values: Vec<Self>) -> Data {
-                Data::$variant(values)
-            }
-            fn from_data(data: Data) -> Option<Vec<Self>> {
-                if let Data::$variant(values) = data { Some(values) } else { None }
-            }
-        })*
-    };
-}
-scalar! {
-    f64, F64, "f64";
-    u64, U64, "u64";
-    i64, I64, "i64";
-    u32, U32, "u32";
-    u16, U16, "u16";
-    u8, U8, "u8";
-}
-
-/// Runs an expression for the vector in a [`Data`], whatever its type.
-macro_rules! with_values {
-    ($data:expr, $values:ident => $body:expr) => {
-        match $data {
-            Data::F64($values) => $body,
-            Data::U64($values) => $body,
-            Data::I64($values) => $body,
-            Data::U32($values) => $body,
-            Data::U16($values) => $body,
-            Data::U8($values) => $body,
-        }
-    };
-}
-
-impl Data {
-    pub fn len(&self) -> usize {
-        with_values!(self, v => v.len())
-    }
-
-    pub fn is_empty(&self) -> bool {
-        self.len() == 0
-    }
-
-    fn type_name(&self) -> &'static str {
-        fn name<T: Scalar>(_: &[T]) -> &'static str {
-            T::NAME
-        }
-        with_values!(self, v => name(v))
-    }
-}
 
 /// A named array of tuples.
 #[derive(Clone, Debug, PartialEq)]
@@ -309,7 +229,7 @@ impl Store {
     ///
     /// # Errors
     /// `Input` when the file is missing, foreign, cut, or its header changed; the arrays are not read.
-    pub fn peek(path: &Path, kind: &str, remedy: &str) -> Result<Summary> {
+    pub fn peek(path: &Path, kind: &str, remedy: &str) -> Result<Contents> {
         use std::io::Read;
         let unreadable = |e| atomic::unreadable(path, &e, remedy);
         let broken = |problem: String| Error::input(path.display(), problem, remedy);
@@ -321,13 +241,13 @@ impl Store {
         file.take(header as u64).read_to_end(&mut bytes).map_err(unreadable)?;
         let (header, _) = split_header(&bytes, length, kind).map_err(broken)?;
         let arrays = header.arrays.into_iter().map(|e| (e.name, e.count / e.components)).collect();
-        Ok(Summary { texts: header.texts, arrays })
+        Ok(Contents { texts: header.texts, arrays })
     }
 }
 
 /// The header of a file.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Summary {
+pub struct Contents {
     pub texts: BTreeMap<String, String>,
     /// Names and numbers of tuples.
     pub arrays: Vec<(String, usize)>,
@@ -348,75 +268,6 @@ pub fn check_finite(array: &Array, item: &str) -> Result<()> {
             "what was written before is kept; reduce the steps or refine the mesh",
         )),
     }
-}
-
-/// Appends the blocks of an array to `out`.
-fn compress<T: Scalar>(values: &[T], components: usize, out: &mut Vec<u8>) {
-    let stride = components * T::SIZE;
-    let per_block = (BLOCK / stride).max(1) * components;
-    let (mut plain, mut sorted, mut packed) = (Vec::new(), Vec::new(), Vec::new());
-    for block in values.chunks(per_block) {
-        plain.resize(block.len() * T::SIZE, 0);
-        for (bytes, v) in plain.chunks_exact_mut(T::SIZE).zip(block) {
-            v.store(bytes);
-        }
-        sorted.resize(plain.len(), 0);
-        let tuples = block.len() / components;
-        for (i, tuple) in plain.chunks_exact(stride).enumerate() {
-            for (j, &byte) in tuple.iter().enumerate() {
-                sorted[j * tuples + i] = byte;
-            }
-        }
-        packed.resize(lz4_flex::block::get_maximum_output_size(sorted.len()), 0);
-        match lz4_flex::block::compress_into(&sorted, &mut packed) {
-            Ok(n) if n < sorted.len() => {
-                out.extend_from_slice(&(n as u32).to_le_bytes());
-                out.extend_from_slice(&packed[..n]);
-            }
-            _ => {
-                out.extend_from_slice(&(sorted.len() as u32 | UNCOMPRESSED).to_le_bytes());
-                out.extend_from_slice(&sorted);
-            }
-        }
-    }
-}
-
-/// The numbers of an array from its stored bytes, if they are whole.
-fn decompress<T: Scalar>(stored: &[u8], components: usize, count: usize) -> Option<Vec<T>> {
-    let stride = components * T::SIZE;
-    let per_block = (BLOCK / stride).max(1) * components;
-    if !count.is_multiple_of(components) || count.checked_mul(T::SIZE)? > stored.len().saturating_mul(MAX_RATIO) {
-        return None;
-    }
-    let mut values = Vec::with_capacity(count);
-    let mut rest = stored;
-    let mut sorted = Vec::new();
-    while values.len() < count {
-        let numbers = per_block.min(count - values.len());
-        let (length, after) = rest.split_at_checked(4)?;
-        let length = <u32 as Scalar>::load(length);
-        let (block, after) = after.split_at_checked((length & !UNCOMPRESSED) as usize)?;
-        rest = after;
-        sorted.resize(numbers * T::SIZE, 0);
-        if length & UNCOMPRESSED != 0 {
-            if block.len() != sorted.len() {
-                return None;
-            }
-            sorted.copy_from_slice(block);
-        } else if lz4_flex::block::decompress_into(block, &mut sorted).ok()? != sorted.len() {
-            return None;
-        }
-        let tuples = numbers / components;
-        let mut number = [0; 8];
-        for i in 0..numbers {
-            let (tuple, first) = (i / components, i % components * T::SIZE);
-            for (k, byte) in number[..T::SIZE].iter_mut().enumerate() {
-                *byte = sorted[(first + k) * tuples + tuple];
-            }
-            values.push(T::load(&number[..T::SIZE]));
-        }
-    }
-    rest.is_empty().then_some(values)
 }
 
 fn decode(entry: Entry, stored: &[u8]) -> std::result::Result<Array, String> {

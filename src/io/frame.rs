@@ -7,7 +7,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use super::atomic;
-use super::container::{Array, Data, Store, Summary, check_finite};
+use super::container::{Array, Contents, Data, Store, check_finite};
 use crate::error::{Error, Result};
 
 const KIND: &str = "frame";
@@ -30,7 +30,7 @@ pub struct Column {
 /// Points, or the nodes of a mesh, and what is known there.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Part {
-    /// Coordinates [m], padded to three. Empty in the grid: the nodes are where the mesh has them.
+    /// Coordinates in m, padded to three. Empty in the grid: the nodes are where the mesh has them.
     pub position: Vec<[f64; 3]>,
     pub columns: Vec<Column>,
 }
@@ -38,7 +38,7 @@ pub struct Part {
 /// The state at one moment.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Frame {
-    /// Time [s] since the start of the first phase.
+    /// Time in s since the start of the first phase.
     pub time: f64,
     /// Name of the phase.
     pub phase: String,
@@ -65,7 +65,7 @@ pub fn path(folder: &Path, index: usize) -> PathBuf {
 }
 
 impl Frame {
-    /// Writes the frame as number `index`, atomically.
+    /// Writes the frame as number `index` to the disk, atomically.
     ///
     /// # Errors
     /// `Analysis` naming the material point or node whose value is not finite (then nothing is written);
@@ -91,7 +91,7 @@ impl Frame {
                 store.put_array(array);
             }
         }
-        store.write(&path(folder, index), false)
+        store.write(&path(folder, index), true)
     }
 
     /// Reads a frame.
@@ -147,7 +147,7 @@ pub fn list(folder: &Path) -> Result<Vec<Info>> {
             return Err(Error::input(path(folder, expected).display(), "this frame is missing", AGAIN));
         }
         let path = path(folder, index);
-        let Summary { texts, arrays } = Store::peek(&path, KIND, AGAIN)?;
+        let Contents { texts, arrays } = Store::peek(&path, KIND, AGAIN)?;
         let (time, phase, step) = read_texts(|name| {
             texts
                 .get(name)

@@ -62,7 +62,7 @@ pub fn write<const D: usize>(path: &Path, points: &Points<D>, regions: &[String]
 /// Reads the points and the names of their regions.
 ///
 /// # Errors
-/// `Input` when the file is missing, cut, edited, or not one of [`write`] with this dimension.
+/// `Input` when the file is missing, cut, edited, or not one of [`write()`] with this dimension.
 pub fn read<const D: usize>(path: &Path) -> Result<(Points<D>, Vec<String>)> {
     let bytes = fs::read(path).map_err(|e| atomic::unreadable(path, &e, AGAIN))?;
     let broken = |problem: String| Error::input(path.display(), problem, AGAIN);

@@ -5,7 +5,7 @@ use std::path::Path;
 use super::{atomic, vtu};
 use crate::error::Result;
 
-/// Writes `path` with a file for each time [s]; the names are relative to the folder of `path`.
+/// Writes `path` with a file for each time in s; the names are relative to the folder of `path`.
 ///
 /// # Errors
 /// `Machine` when it cannot be written.

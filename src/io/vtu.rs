@@ -50,12 +50,12 @@ impl From<container::Array> for Array {
 /// What a `.vtu` shows.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Grid {
-    /// Coordinates of the points [m], three each.
+    /// Coordinates of the points in m, three each.
     pub points: Vec<f64>,
     pub topology: Topology,
     pub point_data: Vec<Array>,
     pub cell_data: Vec<Array>,
-    /// Time [s] that ParaView shows.
+    /// Time in s that ParaView shows.
     pub time: Option<f64>,
 }
 

@@ -49,10 +49,7 @@ fn save(checkpoints: &Checkpoints, step: u64) {
     let mut store = Checkpoints::store();
     store.put_text("phase", "push");
     store.put("time", 1, vec![step as f64 * 0.1]);
-    for mut array in columns::to_arrays(&sample_points(50, step.is_multiple_of(2))) {
-        array.name = format!("points/{}", array.name);
-        store.put_array(array);
-    }
+    columns::put(&mut store, "points/", &sample_points(50, step.is_multiple_of(2)));
     checkpoints.save(step, store).unwrap();
 }
 

@@ -173,3 +173,27 @@ proptest! {
             || Store::read(&path, "frame", "").is_err());
     }
 }
+
+proptest! {
+    #[test]
+    fn any_numbers_come_back(
+        components in 1_usize..10,
+        values in proptest::collection::vec(any::<u64>(), 0..400),
+        repeated in 1_usize..200,
+    ) {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a.mpmf");
+        let count = values.len() / components * components;
+        let values = values[..count].repeat(repeated);
+        // Every pattern of bits but those of infinities and NaN.
+        let floats: Vec<f64> = values.iter().map(|&b| f64::from_bits(b)).map(|x| if x.is_finite() { x } else { -0.0 }).collect();
+        let mut store = Store::new("frame");
+        store.put("f64", components, floats);
+        store.put("u64", components, values.clone());
+        store.put("u32", components, values.iter().map(|&v| v as u32).collect());
+        store.put("u16", components, values.iter().map(|&v| v as u16).collect());
+        store.put("u8", components, values.iter().map(|&v| v as u8).collect());
+        store.write(&path, false).unwrap();
+        prop_assert_eq!(bits(Store::read(&path, "frame", "").unwrap()), bits(store));
+    }
+}
