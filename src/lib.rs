@@ -2,6 +2,7 @@
 
 pub mod case;
 pub mod cli;
+pub mod analytical;
 pub mod error;
 pub mod io;
 pub mod kinematics;

@@ -159,22 +159,27 @@ impl Planes {
 
     /// The return with one or two planes active.
     fn on_planes<const K: usize>(&self, moduli: &Moduli, trial: &[f64; 3], active: [Plane; K]) -> Candidate {
-        let stress = moduli.stress(trial);
         let cm = active.map(|p| moduli.stress(&p.m));
         let cn = active.map(|p| moduli.stress(&p.n));
-        let f = active.map(|p| dot(&p.n, &stress) - p.r);
         let inverse: [[f64; K]; K] =
             inverse(std::array::from_fn(|a| std::array::from_fn(|b| dot(&active[a].n, &cm[b]))));
-        let lambda: [f64; K] = std::array::from_fn(|a| (0..K).map(|b| inverse[a][b] * f[b]).sum());
 
-        let mut stress = stress;
-        let mut elastic_strain = *trial;
+        // The second pass removes the rounding of the first, which is that of the trial stress times the
+        // condition of Nᵀ C M: near incompressibility it would show.
+        let mut stress = moduli.stress(trial);
+        let mut lambda = [0.0; K];
+        for _ in 0..2 {
+            let f = active.map(|p| dot(&p.n, &stress) - p.r);
+            for a in 0..K {
+                let change: f64 = (0..K).map(|b| inverse[a][b] * f[b]).sum();
+                lambda[a] += change;
+                for i in 0..3 {
+                    stress[i] -= cm[a][i] * change;
+                }
+            }
+        }
         let mut tangent = moduli.tangent();
         for a in 0..K {
-            for i in 0..3 {
-                stress[i] -= cm[a][i] * lambda[a];
-                elastic_strain[i] -= active[a].m[i] * lambda[a];
-            }
             for b in 0..K {
                 for i in 0..3 {
                     for j in 0..3 {
@@ -186,6 +191,8 @@ impl Planes {
         // Multipliers in strain, made a stress; order and every plane of the sorted sector.
         let negative = lambda.iter().fold(0.0, |v: f64, l| v.max(-2.0 * moduli.shear * l));
         let outside = self.excess(&stress).max(stress[1] - stress[0]).max(stress[2] - stress[1]);
+        // From the stress, not trial strain less flow: it must give this stress back, however large the trial.
+        let elastic_strain = moduli.strain(&stress);
         Candidate { stress, elastic_strain, tangent, violation: outside.max(negative) }
     }
 
