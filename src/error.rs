@@ -11,6 +11,8 @@ pub enum Kind {
     Input,
     /// Something on the machine is missing: a full disk, an unwritable folder (exit status 3).
     Machine,
+    /// The user stopped the program (exit status 130, as shells have it).
+    Interrupted,
 }
 
 /// An error with the place it concerns, the problem found there and a remedy.
@@ -43,6 +45,11 @@ impl Error {
         Self::new(Kind::Machine, place, problem, remedy)
     }
 
+    /// The user stopped the program.
+    pub fn interrupted(problem: impl fmt::Display, remedy: impl fmt::Display) -> Self {
+        Self::new(Kind::Interrupted, "stopped", problem, remedy)
+    }
+
     fn new(kind: Kind, place: impl fmt::Display, problem: impl fmt::Display, remedy: impl fmt::Display) -> Self {
         Self { kind, place: place.to_string(), problem: problem.to_string(), remedy: remedy.to_string() }
     }
@@ -53,6 +60,7 @@ impl Error {
             Kind::Analysis => 1,
             Kind::Input => 2,
             Kind::Machine => 3,
+            Kind::Interrupted => 130,
         }
     }
 }

@@ -9,6 +9,8 @@ pub mod kinematics;
 pub mod material;
 pub mod mesh;
 pub mod points;
+pub mod profile;
+pub mod run;
 pub mod seed;
 pub mod stencil;
 pub mod step;

@@ -11,6 +11,7 @@ mod materials;
 pub mod names;
 mod phases;
 pub mod raw;
+pub mod scene;
 pub mod seeding;
 pub mod source;
 pub mod structure;

@@ -1,6 +1,6 @@
 //! The material points a case starts with: the regions filled, at rest or moving, with their stress.
 
-use super::checked::{Case, Content, Geometry};
+use super::checked::{Case, Content, Geometry, Material, Region};
 use crate::error::{Error, Result};
 use crate::material::{Profile, spatial};
 use crate::mesh::Mesh;
@@ -13,6 +13,9 @@ use crate::seed::{RegionSeed, RegionWeight, k0_stress, seed};
 /// Input: a number of points that the cells of a region have no rule for, cells at a negative radius.
 pub fn points(case: &Case, mesh: &Mesh<2>) -> Result<Points<2>> {
     let filled = filled(case, mesh)?;
+    for f in &filled {
+        check_over_depth(mesh, f.seed.region, &case.regions[f.index], &case.materials[f.material])?;
+    }
     let seeds: Vec<_> = filled.iter().map(|f| f.seed.clone()).collect();
     let mut points = seed(mesh, case.geometry == Geometry::Axisymmetric, &seeds)?;
     if let Some(k0) = case.k0 {
@@ -49,6 +52,27 @@ fn filled(case: &Case, mesh: &Mesh<2>) -> Result<Vec<Filled>> {
         filled.push(Filled { index, material, seed });
     }
     Ok(filled)
+}
+
+/// A profile is linear below its datum: in range at the top and the bottom of a region, it is in between.
+fn check_over_depth(mesh: &Mesh<2>, index: u16, region: &Region, material: &Material) -> Result<()> {
+    let cells = (0..mesh.cells.len()).filter(|&c| mesh.cells.region[c] == index);
+    let heights = cells.flat_map(|c| mesh.cells.nodes(c)).map(|&n| mesh.nodes[n as usize][1]);
+    let (low, high) = heights.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), y| (l.min(y), h.max(y)));
+    for y in [low, high] {
+        material.model.check(y).map_err(|e| Error {
+            place: format!("material `{}` in region `{}` at y = {y} m: {}", material.name, region.name, e.place),
+            ..e
+        })?;
+        if material.density.at(y) < 0.0 {
+            return Err(Error::input(
+                format!("material `{}` in region `{}` at y = {y} m", material.name, region.name),
+                format!("the density is {}", material.density.at(y)),
+                "change its top or gradient",
+            ));
+        }
+    }
+    Ok(())
 }
 
 /// Gives the points the stress of soil at rest, with the elastic strain that carries it; their shape stays

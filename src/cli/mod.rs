@@ -6,6 +6,7 @@ mod mesh;
 mod run;
 mod schema;
 mod seed;
+mod solve;
 mod stage;
 
 use crate::error::Error;
@@ -31,10 +32,12 @@ enum Command {
     Mesh(StageArgs),
     /// Fill the regions of the mesh with material points: writes points.vtu
     Seed(StageArgs),
+    /// Solve the equations of motion: writes results/, history.csv, solve.log and checkpoints/
+    Solve(solve::Args),
     /// Turn results/ into series for ParaView: writes vtu/ and .pvd
     Export(StageArgs),
     /// All stages in turn, but those whose inputs have not changed
-    Run(StageArgs),
+    Run(solve::Args),
     /// Print every mistake of a case, with file, line and remedy; writes nothing
     Check(CaseArgs),
     /// Print the JSON schema of case.yaml, for editors
@@ -72,6 +75,7 @@ pub fn main() -> ExitCode {
     let outcome = match Cli::parse().command {
         Command::Mesh(args) => mesh::run(&args),
         Command::Seed(args) => seed::run(&args),
+        Command::Solve(args) => solve::run(&args),
         Command::Export(args) => export::run(&args),
         Command::Run(args) => run::run(&args),
         Command::Check(args) => check::run(&args),
@@ -101,4 +105,9 @@ fn print(text: &str) -> Outcome {
         }
         _ => Ok(()),
     }
+}
+
+/// Prints a line on standard error, where progress and notes go; nobody may be listening.
+fn note(text: &str) {
+    let _ = writeln!(io::stderr(), "{text}");
 }

@@ -1,21 +1,21 @@
 //! `mpm run`: all stages in turn, but those whose inputs have not changed.
 
 use super::stage::Stage;
-use super::{Outcome, StageArgs, export, mesh, print, seed};
+use super::{Outcome, export, mesh, print, seed, solve};
 use crate::error::Result;
 
 /// A stage: its name, whether it may be skipped, and its work.
-type Entry = (&'static str, fn(&Stage) -> Result<bool>, fn(&Stage) -> Outcome);
+type Entry<'a> = (&'static str, fn(&Stage) -> Result<bool>, &'a dyn Fn(&Stage) -> Outcome);
 
-const STAGES: [Entry; 3] = [
-    ("mesh", mesh::is_current, mesh::work),
-    ("seed", seed::is_current, seed::work),
-    ("export", export::is_current, export::work),
-];
-
-pub fn run(args: &StageArgs) -> Outcome {
-    let stage = Stage::open(args)?;
-    for (name, is_current, work) in STAGES {
+pub fn run(args: &solve::Args) -> Outcome {
+    let stage = Stage::open(&args.stage)?;
+    let stages: [Entry; 4] = [
+        ("mesh", mesh::is_current, &mesh::work),
+        ("seed", seed::is_current, &seed::work),
+        ("solve", solve::is_current, &|stage| solve::work(stage, args.resume)),
+        ("export", export::is_current, &export::work),
+    ];
+    for (name, is_current, work) in stages {
         if is_current(&stage)? {
             print(&format!("{name}: nothing has changed\n"))?;
         } else {

@@ -28,6 +28,9 @@ impl Stage {
     /// Every mistake of the case.
     pub fn open(args: &StageArgs) -> std::result::Result<Self, Vec<Error>> {
         let CaseArgs { case, overrides } = &args.case;
+        if let Some(threads) = args.threads {
+            use_threads(threads)?;
+        }
         let loaded = case::load(case, overrides)?;
         let folder = args.output.clone().unwrap_or_else(|| loaded.source.folder().join("out"));
         Ok(Self { loaded, folder })
@@ -47,6 +50,10 @@ impl Stage {
 
     pub fn points(&self) -> PathBuf {
         self.folder.join("points.vtu")
+    }
+
+    pub fn history(&self) -> PathBuf {
+        self.folder.join("history.csv")
     }
 
     pub fn results(&self) -> PathBuf {
@@ -74,6 +81,14 @@ impl Stage {
     }
 }
 
+/// Sets the number of threads of the process.
+fn use_threads(threads: u16) -> Result<()> {
+    rayon::ThreadPoolBuilder::new()
+        .num_threads(threads.into())
+        .build_global()
+        .map_err(|e| Error::machine("--threads", format!("{threads} threads cannot be started: {e}"), "ask for fewer"))
+}
+
 /// What a stage's result depends on, as a hash.
 pub struct Stamp {
     file: PathBuf,
@@ -81,6 +96,11 @@ pub struct Stamp {
 }
 
 impl Stamp {
+    /// The hash of the inputs.
+    pub fn inputs(&self) -> &str {
+        &self.hash
+    }
+
     /// Whether the stage ended well with the same inputs and its `results` are as it left them.
     pub fn is_current(&self, results: &[PathBuf]) -> bool {
         let left = fs::read_to_string(&self.file);

@@ -22,7 +22,7 @@ pub struct Controller {
     /// The size [s] that the next step should have, before it is fitted to the next stop.
     pub wanted: f64,
     /// Halvings since the last accepted step, with the reasons.
-    pub halvings: Vec<String>,
+    halvings: Vec<String>,
 }
 
 impl Controller {
@@ -33,7 +33,12 @@ impl Controller {
 
     /// The next time a step must end at, after `now`.
     pub fn next_stop(&self, now: f64) -> Option<&Stop> {
-        self.stops.iter().find(|s| s.time > now * (1.0 + 1e-12) + 1e-300)
+        self.stops.iter().find(|s| s.time > now && !same(s.time, now))
+    }
+
+    /// The stop at `now`, if there is one.
+    pub fn stop_at(&self, now: f64) -> Option<&Stop> {
+        self.stops.iter().find(|s| same(s.time, now))
     }
 
     /// The size of the next step: the time to the next stop in equal parts no larger than wanted.
@@ -64,14 +69,19 @@ impl Controller {
         Ok(())
     }
 
-    /// Takes note of an accepted step: the next one grows where this one was easy.
-    pub fn accept(&mut self, dt: f64, iterations: usize) {
+    /// Takes note of an accepted step: the next one grows where this one was easy. Returns why it was halved.
+    pub fn accept(&mut self, dt: f64, iterations: usize) -> Vec<String> {
         let eased = iterations <= EASY && self.halvings.is_empty();
         // A step shortened to meet a stop says nothing about the size that would have converged.
         let base = self.wanted.max(dt);
         self.wanted = if eased { (base * GROWTH).min(self.limits.largest) } else { base.min(self.limits.largest) };
-        self.halvings.clear();
+        std::mem::take(&mut self.halvings)
     }
+}
+
+/// Whether two times differ by rounding only.
+fn same(a: f64, b: f64) -> bool {
+    (a - b).abs() <= 1e-10 * a.abs().max(b.abs())
 }
 
 #[cfg(test)]

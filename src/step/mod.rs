@@ -21,6 +21,7 @@ pub use state::State;
 
 use crate::error::Result;
 use crate::kinematics::Kinematics;
+use crate::profile::{Activity, timed};
 use crate::time_integration::GeneralisedAlpha;
 use newton::Problem;
 use std::marker::PhantomData;
@@ -52,7 +53,7 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
     /// # Errors
     /// When a point left the grid, or the step falls below the least one.
     pub fn advance(&mut self, controller: &mut Controller) -> Result<Report<D>> {
-        self.initialise()?;
+        timed(Activity::Transfer, || self.initialise())?;
         let (dt, solution) = loop {
             let dt = controller.size(self.state.phase_time);
             match self.lagrange(dt) {
@@ -60,8 +61,8 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
                 Err(error) => controller.halve(dt, error)?,
             }
         };
-        let report = self.convect(dt, solution)?;
-        controller.accept(dt, report.iterations());
+        let mut report = timed(Activity::Transfer, || self.convect(dt, solution))?;
+        report.halvings = controller.accept(dt, report.iterations());
         Ok(report)
     }
 
@@ -111,6 +112,13 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
         transfer::move_points::<D, K>(scene, &self.grid, state, &solution.displacement);
         if scene.phases[state.phase].dynamic {
             transfer::motion_to_points::<D, K>(scene, &self.grid, state, &solution.displacement, dt);
+        }
+        for (travel, (now, before)) in
+            state.travel.iter_mut().zip(solution.displacement.iter().zip(&state.displacement))
+        {
+            for d in 0..D {
+                travel[d] += now[d] - before[d];
+            }
         }
         state.displacement.clone_from(&solution.displacement);
         state.step += 1;

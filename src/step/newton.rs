@@ -4,6 +4,7 @@ use super::grid::Grid;
 use super::scene::Scene;
 use crate::error::{Error, Result};
 use crate::points::Points;
+use crate::profile::{Activity, timed};
 use crate::system::{Matrix, Method};
 use crate::term::{Assembly, Role, Trial};
 use crate::time_integration::GeneralisedAlpha;
@@ -224,6 +225,16 @@ fn sum_terms<const D: usize>(
     trial: &Trial<D>,
     mut tangent: Option<&mut Matrix>,
     wanted: impl Fn(Role) -> bool,
+) -> Result<Evaluation<D>> {
+    timed(Activity::Assembly, || add_terms(problem, grid, trial, &mut tangent, &wanted))
+}
+
+fn add_terms<const D: usize>(
+    problem: &Problem<D>,
+    grid: &mut Grid<D>,
+    trial: &Trial<D>,
+    tangent: &mut Option<&mut Matrix>,
+    wanted: &dyn Fn(Role) -> bool,
 ) -> Result<Evaluation<D>> {
     let mut workspace = std::mem::take(&mut grid.workspace);
     let frame = grid.frame(&problem.scene.mesh, problem.points);

@@ -46,6 +46,8 @@ pub struct Report<const D: usize> {
     /// Relative residuals, the first before the first iteration.
     pub residuals: Vec<f64>,
     pub method: Method,
+    /// Why the step was halved before, each time.
+    pub halvings: Vec<String>,
     pub motion: Motion<D>,
     /// Change of linear momentum less the impulse of applied forces and supports [t m/s].
     pub imbalance: [f64; D],
@@ -85,6 +87,7 @@ impl<const D: usize> Report<D> {
             dt,
             residuals: solution.history,
             method: solution.method,
+            halvings: Vec::new(),
             imbalance,
             elastic: scene.terms.iter().map(|t| t.energy(&state.points)).sum(),
             potential: state.points.position.iter().zip(&state.points.mass).map(fall).sum(),

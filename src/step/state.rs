@@ -18,6 +18,8 @@ pub struct State<const D: usize> {
     pub frames: u64,
     /// Rows of the history written so far.
     pub rows: u64,
+    /// Lines of the log written so far.
+    pub log_lines: u64,
     pub points: Points<D>,
     /// Whether the velocities and accelerations of the points are those of the motion: false until the first
     /// dynamic step has computed the accelerations from the forces.
@@ -26,6 +28,8 @@ pub struct State<const D: usize> {
     pub parametric: Vec<[f64; 3]>,
     /// Displacement [m] of the nodes since the last restoration.
     pub displacement: Vec<[f64; D]>,
+    /// Displacement [m] of the nodes since the run began: what passes a node of a grid that is restored.
+    pub travel: Vec<[f64; D]>,
     /// Velocity [m/s] and acceleration [m/s²] of the nodes; empty in quasi-static analysis.
     pub velocity: Vec<[f64; D]>,
     pub acceleration: Vec<[f64; D]>,
@@ -44,13 +48,24 @@ impl<const D: usize> State<D> {
             step_size: first_step,
             frames: 0,
             rows: 0,
+            log_lines: 0,
             points,
             moving: false,
             parametric: Vec::new(),
             displacement: vec![[0.0; D]; nodes],
+            travel: vec![[0.0; D]; nodes],
             velocity: Vec::new(),
             acceleration: Vec::new(),
             taking_part: Vec::new(),
         }
+    }
+
+    /// Forgets the motion, at the end of a dynamic phase before a quasi-static one.
+    pub fn rest(&mut self) {
+        self.moving = false;
+        self.points.velocity.clear();
+        self.points.acceleration.clear();
+        self.velocity.clear();
+        self.acceleration.clear();
     }
 }

@@ -6,6 +6,7 @@
 
 use super::{Matrix, Pattern};
 use crate::error::{Error, Result};
+use crate::profile::{Activity, timed};
 use faer::dyn_stack::{MemBuffer, MemStack, StackReq};
 use faer::perm::Perm;
 use faer::sparse::linalg::{amd, cholesky, lu};
@@ -64,6 +65,10 @@ impl Solver {
     /// # Errors
     /// A machine error when memory does not suffice.
     pub fn new(pattern: &Pattern) -> Result<Self> {
+        timed(Activity::Analysis, || Self::analyse(pattern))
+    }
+
+    fn analyse(pattern: &Pattern) -> Result<Self> {
         let lower;
         let symmetric_part = if pattern.symmetric { None } else { Some(SymmetricPart::new(pattern)) };
         let (column, row) = match &symmetric_part {
@@ -109,16 +114,19 @@ impl Solver {
             return Ok(Method::Cholesky);
         }
         if pattern.symmetric {
-            if self.factorize(matrix, Side::Lower, pattern, true) && self.refine(pattern, matrix, &b, x, true) {
-                return Ok(Method::Cholesky);
+            for (llt, method) in [(true, Method::Cholesky), (false, Method::Ldlt)] {
+                if timed(Activity::Factorisation, || self.factorize(matrix, pattern, llt))
+                    && timed(Activity::Solution, || self.refine(pattern, matrix, &b, x, llt))
+                {
+                    return Ok(method);
+                }
             }
-            if self.factorize(matrix, Side::Lower, pattern, false) && self.refine(pattern, matrix, &b, x, false) {
-                return Ok(Method::Ldlt);
-            }
-        } else if self.factorize(matrix, Side::Lower, pattern, true) && self.iterate(pattern, matrix, &b, x) {
+        } else if timed(Activity::Factorisation, || self.factorize(matrix, pattern, true))
+            && timed(Activity::Solution, || self.iterate(pattern, matrix, &b, x))
+        {
             return Ok(Method::Iterative);
         }
-        self.solve_lu(pattern, matrix, &b, x)?;
+        timed(Activity::Factorisation, || self.solve_lu(pattern, matrix, &b, x))?;
         Ok(Method::Lu)
     }
 
@@ -132,7 +140,7 @@ impl Solver {
     }
 
     /// Numeric factorisation, LLᵀ or LDLᵀ; false where it breaks down.
-    fn factorize(&mut self, matrix: &Matrix, side: Side, pattern: &Pattern, llt: bool) -> bool {
+    fn factorize(&mut self, matrix: &Matrix, pattern: &Pattern, llt: bool) -> bool {
         let n = pattern.len();
         let a = match &mut self.symmetric_part {
             None => {
@@ -151,7 +159,7 @@ impl Solver {
                 .factorize_numeric_llt(
                     &mut self.values,
                     a,
-                    side,
+                    Side::Lower,
                     Default::default(),
                     Par::Seq,
                     stack,
@@ -163,7 +171,7 @@ impl Solver {
                 .factorize_numeric_ldlt(
                     &mut self.values,
                     a,
-                    side,
+                    Side::Lower,
                     Default::default(),
                     Par::Seq,
                     stack,

@@ -1,0 +1,239 @@
+//! From a checked case to a scene: the only place that decides which terms exist.
+
+use super::checked::{Analysis, Case, Content, Field, Geometry, Material, Quantity, Region, Restore};
+use crate::error::{Error, Result};
+use crate::io::checkpoint::Fingerprint;
+use crate::kinematics::{Axisymmetric, Kinematics, PlaneStrain};
+use crate::mesh::Mesh;
+use crate::mesh::locate::Locator;
+use crate::points::Points;
+use crate::run::{self, Ended, Outputs, Progress, Watch, WatchedOn};
+use crate::step::{Fixed, Numerics, Phase, Prescribed, Scene, State, Stop};
+use crate::term::{BodyForce, EmptyCells, Inertia, Internal, Term, Traction};
+use crate::time_value::TimeValue;
+use std::path::Path;
+use std::sync::atomic::AtomicBool;
+
+/// Solves a case in `folder`.
+///
+/// # Errors
+/// As [`run::run`], and `Input` when the points do not belong to the mesh.
+#[expect(clippy::too_many_arguments, reason = "what a solve stage is made of, each once")]
+pub fn solve(
+    case: &Case,
+    mesh: Mesh<2>,
+    points: Points<2>,
+    folder: &Path,
+    fingerprint: Fingerprint,
+    resume: bool,
+    stop: &AtomicBool,
+    progress: &mut dyn FnMut(Progress),
+) -> Result<Ended> {
+    if points.cell.iter().any(|&c| c as usize >= mesh.cells.len()) {
+        return Err(Error::input(
+            "points.vtu",
+            "its points lie in cells that the mesh has not",
+            "run `mpm seed` again",
+        ));
+    }
+    let outputs = outputs(case, &mesh, folder, fingerprint)?;
+    match case.geometry {
+        Geometry::PlaneStrain => {
+            let scene = scene::<PlaneStrain>(case, mesh)?;
+            run::run::<2, PlaneStrain>(&scene, first(&scene, points), &outputs, resume, stop, progress)
+        }
+        Geometry::Axisymmetric => {
+            let scene = scene::<Axisymmetric>(case, mesh)?;
+            run::run::<2, Axisymmetric>(&scene, first(&scene, points), &outputs, resume, stop, progress)
+        }
+    }
+}
+
+fn first(scene: &Scene<2>, points: Points<2>) -> State<2> {
+    let first_step = scene.phases.first().map_or(0.0, |p| p.first_step);
+    State::new(points, scene.mesh.nodes.len(), first_step)
+}
+
+/// The scene of a case on its mesh.
+///
+/// # Errors
+/// `Input` when the mesh lacks a group that the case names.
+pub fn scene<K: Kinematics<2>>(case: &Case, mesh: Mesh<2>) -> Result<Scene<2>> {
+    let materials = || filled(case).map(|(_, material)| material);
+    let lowest = mesh.nodes.iter().map(|x| x[1]).fold(f64::INFINITY, f64::min);
+    let largest = |value: fn(&Material, f64) -> f64| materials().map(|m| value(m, lowest)).fold(0.0, f64::max);
+    let stiffness_scale = largest(|m, y| m.model.young(y));
+    let density_scale = largest(|m, y| m.density.at(y));
+    let restore_every_step = case.numerics.restore == Restore::EveryStep;
+    let dynamic = |p: &super::checked::Phase| p.analysis == Analysis::Dynamic;
+
+    let mut terms: Vec<Box<dyn Term<2>>> = vec![Box::new(Internal::<K>::new(models(case, &mesh)?))];
+    if case.gravity != [0.0; 2] && density_scale > 0.0 {
+        let factors = case.phases.iter().map(|p| p.gravity.clone()).collect();
+        terms.push(Box::new(BodyForce::<K, 2>::new(case.gravity, factors)));
+    }
+    if restore_every_step {
+        terms.push(Box::new(EmptyCells::<K>::new(case.numerics.empty_stiffness * stiffness_scale)));
+    }
+    if case.phases.iter().any(dynamic) {
+        terms.push(Box::new(Inertia::<K>::default()));
+    }
+    for (phase, traction) in case.phases.iter().enumerate().flat_map(|(i, p)| p.tractions.iter().map(move |t| (i, t))) {
+        let group = group(&mesh, &traction.curve)?;
+        terms.push(Box::new(Traction::<K, 2>::new(&mesh, group, phase, traction.components.clone())));
+    }
+
+    let mut supports = Vec::new();
+    for support in &case.supports {
+        for component in (0..2).filter(|&c| support.fixed[c]) {
+            supports.push(Fixed { nodes: group(&mesh, &support.curve)?.nodes.clone(), component });
+        }
+    }
+    let phases = case.phases.iter().map(|p| phase(case, &mesh, p)).collect::<Result<_>>()?;
+    Ok(Scene {
+        locator: Locator::new(&mesh),
+        mesh,
+        terms,
+        supports,
+        phases,
+        numerics: Numerics {
+            restore_every_step,
+            spectral_radius: case.numerics.spectral_radius,
+            tolerance: case.numerics.tolerance,
+            max_iterations: case.numerics.max_iterations,
+        },
+        gravity: case.gravity,
+        stiffness_scale,
+        density_scale,
+    })
+}
+
+fn phase(case: &Case, mesh: &Mesh<2>, phase: &super::checked::Phase) -> Result<Phase> {
+    let mut prescribed = Vec::new();
+    for p in &phase.prescribed {
+        let fixed = Fixed { nodes: group(mesh, &p.curve)?.nodes.clone(), component: p.component };
+        prescribed.push(Prescribed { fixed, displacement: p.displacement.clone() });
+    }
+    let values = phase
+        .prescribed
+        .iter()
+        .map(|p| &p.displacement)
+        .chain(phase.tractions.iter().flat_map(|t| &t.components))
+        .chain(std::iter::once(&phase.gravity));
+    Ok(Phase {
+        name: phase.name.clone(),
+        dynamic: phase.analysis == Analysis::Dynamic,
+        duration: phase.duration,
+        first_step: phase.step.initial,
+        least_step: phase.step.min,
+        largest_step: phase.step.max,
+        prescribed,
+        stops: stops(phase.duration, case.output.every, values.flat_map(TimeValue::kinks)),
+    })
+}
+
+/// When steps must end: at outputs, where a table bends, and at the end of the phase.
+fn stops(duration: f64, every: Option<f64>, kinks: impl Iterator<Item = f64>) -> Vec<Stop> {
+    let tiny = 1e-9 * duration;
+    let mut stops = vec![Stop { time: duration, frame: true }];
+    if let Some(every) = every {
+        let count = ((duration - tiny) / every).floor() as usize;
+        stops.extend((1..=count).map(|k| Stop { time: k as f64 * every, frame: true }));
+    }
+    for time in kinks.filter(|&t| t > tiny && t < duration - tiny) {
+        if stops.iter().all(|s| (s.time - time).abs() > tiny) {
+            stops.push(Stop { time, frame: false });
+        }
+    }
+    stops.sort_by(|a, b| a.time.total_cmp(&b.time));
+    stops
+}
+
+/// What the case asks to be written.
+fn outputs(case: &Case, mesh: &Mesh<2>, folder: &Path, fingerprint: Fingerprint) -> Result<Outputs> {
+    let mut fields = Vec::new();
+    for field in &case.output.fields {
+        let field = match field {
+            Field::Displacement => run::Field::Displacement,
+            Field::Velocity => run::Field::Velocity,
+            Field::Stress | Field::MeanStress | Field::DeviatoricStress => run::Field::Stress,
+            Field::PlasticStrain => run::Field::PlasticStrain,
+            Field::DeformationGradient => run::Field::DeformationGradient,
+            Field::PorePressure => {
+                return Err(Error::input("output.fields", "pore_pressure is not available yet", "take it out"));
+            }
+        };
+        if !fields.contains(&field) {
+            fields.push(field);
+        }
+    }
+    let watch = |entry: &super::checked::History| {
+        let on = match mesh.group(&entry.on) {
+            Some(group) => WatchedOn::Nodes(group.nodes.clone()),
+            None => WatchedOn::Region(region_index(mesh, &entry.on)?),
+        };
+        let quantities = entry.quantities.iter().map(|q| match q {
+            Quantity::Ux => run::Quantity::Displacement(0),
+            Quantity::Uy => run::Quantity::Displacement(1),
+            Quantity::Vx => run::Quantity::Velocity(0),
+            Quantity::Vy => run::Quantity::Velocity(1),
+            Quantity::ReactionX => run::Quantity::Reaction(0),
+            Quantity::ReactionY => run::Quantity::Reaction(1),
+        });
+        Ok(Watch { name: entry.name.clone(), on, quantities: quantities.collect() })
+    };
+    let watches = case.output.history.iter().map(watch).collect::<Result<_>>()?;
+    Ok(Outputs { folder: folder.to_path_buf(), fields, watches, fingerprint })
+}
+
+/// The regions with points and their materials.
+fn filled(case: &Case) -> impl Iterator<Item = (&Region, &Material)> {
+    case.regions.iter().filter_map(|region| match region.content {
+        Content::Mpm { material, .. } => Some((region, &case.materials[material])),
+        Content::Buffer => None,
+    })
+}
+
+/// The model of each region of the mesh, if it holds points.
+fn models(case: &Case, mesh: &Mesh<2>) -> Result<Vec<Option<std::sync::Arc<dyn crate::material::Model>>>> {
+    let mut models = vec![None; mesh.regions.len()];
+    for (region, material) in filled(case) {
+        models[region_index(mesh, &region.name)? as usize] = Some(material.model.clone());
+    }
+    Ok(models)
+}
+
+fn region_index(mesh: &Mesh<2>, name: &str) -> Result<u16> {
+    mesh.regions.iter().position(|r| r == name).map(|i| i as u16).ok_or_else(|| {
+        Error::input(
+            "mesh.msh",
+            format!("it has no region `{name}`; it has {}", mesh.regions.join(", ")),
+            "run `mpm mesh` again",
+        )
+    })
+}
+
+fn group<'a>(mesh: &'a Mesh<2>, name: &str) -> Result<&'a crate::mesh::Group> {
+    mesh.group(name)
+        .ok_or_else(|| Error::input("mesh.msh", format!("it has no curve `{name}`"), "run `mpm mesh` again"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn steps_stop_at_outputs_kinks_and_the_end() {
+        let stops = stops(1.0, Some(0.3), [0.0, 0.45, 0.6, 1.0].into_iter());
+        let expected = [(0.3, true), (0.45, false), (0.6, true), (0.9, true), (1.0, true)];
+        assert_eq!(stops.len(), expected.len());
+        for (stop, (time, frame)) in stops.iter().zip(expected) {
+            assert!((stop.time - time).abs() < 1e-12 && stop.frame == frame, "{stop:?}");
+        }
+    }
+
+    #[test]
+    fn an_output_interval_that_divides_the_duration_adds_no_sliver() {
+        assert_eq!(stops(1.0, Some(0.1), std::iter::empty()).len(), 10);
+    }
+}

@@ -1,0 +1,147 @@
+//! `mpm solve`: from `mesh.msh` and `points.vtu` to results, history, log and checkpoints.
+
+use super::stage::{Stage, Stamp};
+use super::{Outcome, StageArgs, mesh, print};
+use crate::case::scene;
+use crate::error::{Error, Result};
+use crate::io::checkpoint::Fingerprint;
+use crate::io::points_vtu;
+use crate::profile::{self, Activity};
+use crate::run::{Ended, Progress};
+use indicatif::{ProgressBar, ProgressStyle};
+use std::io::IsTerminal;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::{Duration, Instant};
+
+/// The entries of the case that results depend on, beside those that shaped the points.
+const KEYS: [&str; 8] = ["geometry", "regions", "materials", "supports", "gravity", "numerics", "phases", "output"];
+
+/// Set by Ctrl-C or a polite kill; polled between steps.
+static STOP: AtomicBool = AtomicBool::new(false);
+
+#[derive(clap::Args, Clone)]
+pub struct Args {
+    #[command(flatten)]
+    pub stage: StageArgs,
+    /// Continue from the newest checkpoint, if there is one
+    #[arg(long)]
+    pub resume: bool,
+}
+
+pub fn run(args: &Args) -> Outcome {
+    work(&Stage::open(&args.stage)?, args.resume)
+}
+
+/// Whether the results are there and would come out the same.
+///
+/// # Errors
+/// A `mesh.msh` or `points.vtu` that cannot be read.
+pub fn is_current(stage: &Stage) -> Result<bool> {
+    Ok(stamp(stage)?.is_current(&[stage.history()]))
+}
+
+/// Solves, with progress on a terminal and plain lines elsewhere.
+pub fn work(stage: &Stage, resume: bool) -> Outcome {
+    let case = &stage.loaded.case;
+    let mesh = mesh::read(stage)?;
+    let (points, regions) = points_vtu::read::<2>(&stage.points())?;
+    if regions != mesh.regions {
+        let remedy = "run `mpm seed` again";
+        return Err(vec![Error::input(stage.points().display(), "its regions are not those of mesh.msh", remedy)]);
+    }
+    let stamp = stamp(stage)?;
+    let fingerprint = Fingerprint::of(&[stamp.inputs().as_bytes()]);
+    stage.prepare()?;
+    stamp.remove()?;
+    catch_signals()?;
+    let start = Instant::now();
+    let mut meter = Meter::new();
+    let folder = stage.folder();
+    let ended = scene::solve(case, mesh, points, folder, fingerprint, resume, &STOP, &mut |p| meter.show(&p));
+    meter.finish();
+    match ended? {
+        Ended::Stopped => {
+            Err(vec![Error::interrupted("the run was stopped after the step in hand", "continue it with `--resume`")])
+        }
+        Ended::Done => {
+            stamp.write(&[stage.history()])?;
+            print(&summary(start.elapsed()))
+        }
+    }
+}
+
+fn stamp(stage: &Stage) -> Result<Stamp> {
+    stage.stamp("solve", &KEYS, &[stage.mesh(), stage.points()])
+}
+
+/// The wall time and where it went.
+fn summary(elapsed: Duration) -> String {
+    let all = elapsed.as_secs_f64();
+    let shares: Vec<String> = Activity::ALL
+        .iter()
+        .map(|&a| format!("{} {:.0} %", format!("{a:?}").to_lowercase(), 100.0 * profile::seconds(a) / all))
+        .collect();
+    format!("solved in {all:.2} s: {}\n", shares.join(", "))
+}
+
+/// A first Ctrl-C (or SIGTERM) ends the run after the step in hand, a second one at once.
+fn catch_signals() -> Result<()> {
+    let handler = || {
+        if STOP.swap(true, Ordering::Relaxed) {
+            std::process::exit(130);
+        }
+    };
+    match ctrlc::set_handler(handler) {
+        Ok(()) | Err(ctrlc::Error::MultipleHandlers) => Ok(()),
+        Err(e) => Err(Error::machine("signals", format!("Ctrl-C cannot be caught: {e}"), "run in another terminal")),
+    }
+}
+
+/// Seconds between lines where there is no terminal.
+const INTERVAL: f64 = 10.0;
+
+/// Shows how far a run has come.
+struct Meter {
+    bar: Option<ProgressBar>,
+    start: Instant,
+    /// When a line is due, and the time [s] of the run when it was taken up.
+    due: f64,
+    from: Option<f64>,
+}
+
+impl Meter {
+    fn new() -> Self {
+        let bar = std::io::stderr().is_terminal().then(|| {
+            let style = ProgressStyle::with_template("{bar:40} {percent:>3} % {msg}");
+            ProgressBar::new(1000).with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()))
+        });
+        Self { bar, start: Instant::now(), due: INTERVAL, from: None }
+    }
+
+    fn show(&mut self, p: &Progress) {
+        let from = *self.from.get_or_insert(p.time);
+        let elapsed = self.start.elapsed().as_secs_f64();
+        let left = if p.time > from { elapsed * (p.end - p.time) / (p.time - from) } else { f64::NAN };
+        let left = if left.is_finite() { format!(", about {left:.0} s left") } else { String::new() };
+        let line = format!("step {}, {} t = {:.4} of {} s{left}", p.step, p.phase, p.time, p.end);
+        match (&self.bar, p.note) {
+            (Some(bar), Some(note)) => bar.println(note),
+            (Some(bar), None) => {
+                bar.set_position((1000.0 * p.time / p.end) as u64);
+                bar.set_message(line);
+            }
+            (None, Some(note)) => super::note(note),
+            (None, None) if elapsed >= self.due => {
+                self.due = elapsed + INTERVAL;
+                super::note(&line);
+            }
+            (None, None) => {}
+        }
+    }
+
+    fn finish(&self) {
+        if let Some(bar) = &self.bar {
+            bar.finish_and_clear();
+        }
+    }
+}

@@ -1,0 +1,97 @@
+//! The state as named arrays, for checkpoints, every number bit-exact.
+
+use super::foreign;
+use crate::error::Result;
+use crate::io::checkpoint::Checkpoints;
+use crate::io::columns;
+use crate::io::container::Store;
+use crate::step::State;
+
+const POINTS: &str = "points.";
+
+/// Everything in a state.
+pub fn store<const D: usize>(state: &State<D>) -> Store {
+    // No `..`: a new field of the state must find its place here.
+    let State {
+        phase,
+        time,
+        phase_time,
+        step,
+        step_size,
+        frames,
+        rows,
+        log_lines,
+        points,
+        moving,
+        parametric,
+        displacement,
+        travel,
+        velocity,
+        acceleration,
+        taking_part,
+    } = state;
+    let mut store = Checkpoints::store();
+    store.put("state.counts", 1, vec![*phase as u64, *step, *frames, *rows, *log_lines, u64::from(*moving)]);
+    store.put("state.times", 1, vec![*time, *phase_time, *step_size]);
+    store.put("state.parametric", 3, parametric.concat());
+    for (name, field) in
+        [("displacement", displacement), ("travel", travel), ("velocity", velocity), ("acceleration", acceleration)]
+    {
+        store.put(&format!("state.{name}"), D, field.concat());
+    }
+    store.put("state.taking_part", 1, taking_part.iter().map(|&b| u8::from(b)).collect());
+    for mut array in columns::to_arrays(points) {
+        array.name.insert_str(0, POINTS);
+        store.put_array(array);
+    }
+    store
+}
+
+/// The state in a checkpoint of the run that began with `first`.
+///
+/// # Errors
+/// `Input` when an array is missing or does not fit the scene.
+pub fn take<const D: usize>(mut store: Store, first: &State<D>) -> Result<State<D>> {
+    let counts = store.take::<u64>("state.counts", 1)?;
+    let times = store.take::<f64>("state.times", 1)?;
+    let ([phase, step, frames, rows, log_lines, moving], [time, phase_time, step_size]) = (&counts[..], &times[..])
+    else {
+        return Err(foreign("its list of counts"));
+    };
+    let nodes = first.displacement.len();
+    let mut nodal = |name: &str| {
+        let values = store.take::<f64>(&format!("state.{name}"), D)?;
+        let field: Vec<[f64; D]> = values.chunks_exact(D).map(|v| std::array::from_fn(|d| v[d])).collect();
+        if field.len() == nodes || field.is_empty() { Ok(field) } else { Err(foreign(name)) }
+    };
+    let (displacement, travel) = (nodal("displacement")?, nodal("travel")?);
+    let (velocity, acceleration) = (nodal("velocity")?, nodal("acceleration")?);
+    let parametric = store.take::<f64>("state.parametric", 3)?.chunks_exact(3).map(|v| [v[0], v[1], v[2]]).collect();
+    let taking_part = store.take::<u8>("state.taking_part", 1)?.into_iter().map(|b| b != 0).collect();
+    let points = columns::take(&mut store, POINTS)?;
+    let state = State {
+        phase: *phase as usize,
+        time: *time,
+        phase_time: *phase_time,
+        step: *step,
+        step_size: *step_size,
+        frames: *frames,
+        rows: *rows,
+        log_lines: *log_lines,
+        points,
+        moving: *moving != 0,
+        parametric,
+        displacement,
+        travel,
+        velocity,
+        acceleration,
+        taking_part,
+    };
+    if state.points.len() != first.points.len() || state.parametric.len() != state.points.len() {
+        return Err(foreign("the number of points"));
+    }
+    if state.displacement.len() != nodes || state.travel.len() != nodes {
+        return Err(foreign("the number of nodes"));
+    }
+    Ok(state)
+}

@@ -1,0 +1,231 @@
+//! A run: the phases of a scene from the first state, or a checkpoint, to the end, with everything it writes.
+//!
+//! | in the output folder | what |
+//! |---|---|
+//! | `results/frame-000123.mpmf` | the state at the times of output |
+//! | `history.csv` | a row a step |
+//! | `solve.log` | what every step did |
+//! | `checkpoints/` | what `--resume` continues from, after every step |
+
+mod checkpoint;
+mod record;
+
+pub use record::{Field, Quantity, Watch, WatchedOn};
+
+use crate::error::{Error, Result};
+use crate::io::atomic;
+use crate::io::background::Background;
+use crate::io::checkpoint::{Checkpoints, Fingerprint};
+use crate::io::frame;
+use crate::io::history::{History, Log};
+use crate::kinematics::Kinematics;
+use crate::profile::{Activity, timed};
+use crate::step::{Controller, Limits, Scene, Simulation, State};
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicBool, Ordering};
+
+/// Jobs that may wait for the writer before the solver does.
+const QUEUE: usize = 3;
+
+/// What a run writes, and where.
+#[derive(Clone, Debug)]
+pub struct Outputs {
+    pub folder: PathBuf,
+    pub fields: Vec<Field>,
+    pub watches: Vec<Watch>,
+    /// Tells whether a checkpoint belongs to the case.
+    pub fingerprint: Fingerprint,
+}
+
+impl Outputs {
+    pub fn results(&self) -> PathBuf {
+        self.folder.join("results")
+    }
+}
+
+/// How far a run has come.
+#[derive(Clone, Copy, Debug)]
+pub struct Progress<'a> {
+    pub phase: &'a str,
+    /// Time [s] done and in all, over all phases.
+    pub time: f64,
+    pub end: f64,
+    pub step: u64,
+    /// A message worth a line of its own: a halving, a warning.
+    pub note: Option<&'a str>,
+}
+
+/// How a run ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Ended {
+    Done,
+    /// Stopped from outside; `--resume` continues.
+    Stopped,
+}
+
+/// Runs a scene.
+///
+/// `first` is the state before the first step; with `resume` the newest checkpoint takes its place, if there
+/// is one. `stop` is polled between steps.
+///
+/// # Errors
+/// `Analysis` when the analysis cannot go on (what was written stays), `Input` when a checkpoint does not
+/// belong to the case, `Machine` when something cannot be written.
+pub fn run<const D: usize, K: Kinematics<D>>(
+    scene: &Scene<D>,
+    first: State<D>,
+    outputs: &Outputs,
+    resume: bool,
+    stop: &AtomicBool,
+    progress: &mut dyn FnMut(Progress),
+) -> Result<Ended> {
+    let checkpoints = Checkpoints::new(outputs.folder.join("checkpoints"), outputs.fingerprint);
+    let loaded = if resume { checkpoints.latest()? } else { None };
+    let end: f64 = scene.phases.iter().map(|p| p.duration).sum();
+    let mut tell = |state: &State<D>, note: Option<&str>| {
+        let phase = scene.phases.get(state.phase).map_or("done", |p| p.name.as_str());
+        progress(Progress { phase, time: state.time, end, step: state.step, note });
+    };
+    let state = match loaded {
+        Some(loaded) => {
+            let state = checkpoint::take(loaded.store, &first)?;
+            for warning in &loaded.warnings {
+                tell(&state, Some(warning));
+            }
+            state
+        }
+        None => first,
+    };
+    let mut files = Files::open(scene, outputs, checkpoints, &state)?;
+    let mut simulation = Simulation::<D, K>::new(scene, state)?;
+    if simulation.state.step == 0 && simulation.state.frames == 0 {
+        files.frame(scene, &mut simulation.state)?;
+    }
+    while let Some(phase) = scene.phases.get(simulation.state.phase) {
+        let limits = Limits { least: phase.least_step, largest: phase.largest_step };
+        let mut controller = Controller::new(limits, phase.stops.clone(), simulation.state.step_size);
+        while controller.next_stop(simulation.state.phase_time).is_some() {
+            if stop.load(Ordering::Relaxed) {
+                files.close()?;
+                return Ok(Ended::Stopped);
+            }
+            let report = match simulation.advance(&mut controller) {
+                Ok(report) => report,
+                Err(error) => {
+                    files.log.line(&format!("the analysis ends here: {error}"))?;
+                    files.close()?;
+                    return Err(error);
+                }
+            };
+            let state = &mut simulation.state;
+            state.step_size = controller.wanted;
+            for reason in &report.halvings {
+                tell(state, Some(&format!("step halved: {reason}")));
+            }
+            timed(Activity::Output, || {
+                files.step(scene, state, &report)?;
+                if controller.stop_at(state.phase_time).is_some_and(|s| s.frame) {
+                    files.frame(scene, state)?;
+                }
+                if controller.next_stop(state.phase_time).is_none() {
+                    next_phase(scene, state);
+                }
+                files.checkpoint(state)
+            })?;
+            tell(state, None);
+        }
+    }
+    files.close()?;
+    Ok(Ended::Done)
+}
+
+/// Begins the next phase in the converged state of this one.
+fn next_phase<const D: usize>(scene: &Scene<D>, state: &mut State<D>) {
+    let dynamic = |phase: usize| scene.phases.get(phase).is_some_and(|p| p.dynamic);
+    if dynamic(state.phase) && !dynamic(state.phase + 1) {
+        state.rest();
+    }
+    state.phase += 1;
+    state.phase_time = 0.0;
+    if let Some(next) = scene.phases.get(state.phase) {
+        state.step_size = next.first_step;
+    }
+}
+
+/// The open files of a run.
+struct Files<'a> {
+    outputs: &'a Outputs,
+    checkpoints: Checkpoints,
+    history: History,
+    log: Log,
+    writer: Background,
+}
+
+impl<'a> Files<'a> {
+    fn open<const D: usize>(
+        scene: &Scene<D>,
+        outputs: &'a Outputs,
+        checkpoints: Checkpoints,
+        state: &State<D>,
+    ) -> Result<Self> {
+        let folder: &Path = &outputs.folder;
+        atomic::prepare_folder(folder)?;
+        let columns = record::columns(&outputs.watches);
+        let (history, log) = (folder.join("history.csv"), folder.join("solve.log"));
+        let (history, log) = if state.step > 0 {
+            (History::resume(&history, &columns, state.rows)?, Log::resume(&log, state.log_lines)?)
+        } else {
+            checkpoints.clear()?;
+            let mut log = Log::create(&log)?;
+            for line in record::heading(scene, &state.points) {
+                log.line(&line)?;
+            }
+            (History::create(&history, &columns)?, log)
+        };
+        frame::prepare(&outputs.results(), usize::try_from(state.frames).unwrap_or(usize::MAX))?;
+        Ok(Self { outputs, checkpoints, history, log, writer: Background::start(QUEUE)? })
+    }
+
+    /// Notes a converged step.
+    fn step<const D: usize>(
+        &mut self,
+        scene: &Scene<D>,
+        state: &mut State<D>,
+        report: &crate::step::Report<D>,
+    ) -> Result<()> {
+        for line in record::log_lines(scene, state, report) {
+            self.log.line(&line)?;
+        }
+        self.history.row(&record::row(&self.outputs.watches, state, report))?;
+        (state.rows, state.log_lines) = (self.history.rows(), self.log.lines());
+        Ok(())
+    }
+
+    /// Hands a frame to the writer.
+    fn frame<const D: usize>(&mut self, scene: &Scene<D>, state: &mut State<D>) -> Result<()> {
+        let frame = record::frame(scene, state, &self.outputs.fields);
+        let (folder, index) = (self.outputs.results(), state.frames as usize);
+        state.frames += 1;
+        self.writer.submit(move || frame.write(&folder, index))
+    }
+
+    /// Hands a checkpoint to the writer.
+    fn checkpoint<const D: usize>(&mut self, state: &State<D>) -> Result<()> {
+        let (checkpoints, step, store) = (self.checkpoints.clone(), state.step, checkpoint::store(state));
+        self.writer.submit(move || checkpoints.save(step, store))
+    }
+
+    /// Waits for the writer.
+    fn close(self) -> Result<()> {
+        timed(Activity::Output, || self.writer.close())
+    }
+}
+
+/// The error of a checkpoint whose arrays do not fit the scene.
+fn foreign(what: &str) -> Error {
+    Error::input(
+        "checkpoint",
+        format!("{what} does not fit the mesh and the points"),
+        "start the analysis afresh, without --resume",
+    )
+}

@@ -1,0 +1,203 @@
+//! What a run writes down: frames, rows of the history, lines of the log.
+
+use crate::io::columns::padded;
+use crate::io::frame::{Column, Frame, Part};
+use crate::points::Points;
+use crate::step::{Report, Scene, State};
+
+/// A field of the frames.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Field {
+    Displacement,
+    Velocity,
+    Stress,
+    PlasticStrain,
+    DeformationGradient,
+}
+
+/// A quantity of the history, with its component.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Quantity {
+    /// Displacement [m], the mean over what is watched.
+    Displacement(usize),
+    /// Velocity [m/s], the mean over what is watched.
+    Velocity(usize),
+    /// Force of the supports and prescribed displacements on the nodes [kN], the sum.
+    Reaction(usize),
+}
+
+/// What is watched.
+#[derive(Clone, Debug, PartialEq)]
+pub enum WatchedOn {
+    /// Nodes of the grid: a curve or a point.
+    Nodes(Vec<u32>),
+    /// The points of a region of the mesh.
+    Region(u16),
+}
+
+/// An entry of the history.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Watch {
+    pub name: String,
+    pub on: WatchedOn,
+    pub quantities: Vec<Quantity>,
+}
+
+const AXES: [&str; 3] = ["x", "y", "z"];
+
+/// The header of the history.
+pub fn columns(watches: &[Watch]) -> Vec<String> {
+    let mut columns = vec!["time [s]".to_string()];
+    for watch in watches {
+        for quantity in &watch.quantities {
+            columns.push(match *quantity {
+                Quantity::Displacement(d) => format!("{}.u{} [m]", watch.name, AXES[d]),
+                Quantity::Velocity(d) => format!("{}.v{} [m/s]", watch.name, AXES[d]),
+                Quantity::Reaction(d) => format!("{}.reaction_{} [kN]", watch.name, AXES[d]),
+            });
+        }
+    }
+    columns
+}
+
+/// A row of the history.
+pub fn row<const D: usize>(watches: &[Watch], state: &State<D>, report: &Report<D>) -> Vec<f64> {
+    let mut row = vec![state.time];
+    for watch in watches {
+        row.extend(watch.quantities.iter().map(|quantity| value(&watch.on, *quantity, state, report)));
+    }
+    row
+}
+
+fn value<const D: usize>(on: &WatchedOn, quantity: Quantity, state: &State<D>, report: &Report<D>) -> f64 {
+    match (on, quantity) {
+        (WatchedOn::Nodes(nodes), Quantity::Displacement(d)) => {
+            mean(nodes.iter().map(|&n| state.travel[n as usize][d]))
+        }
+        (WatchedOn::Nodes(nodes), Quantity::Velocity(d)) => {
+            mean(nodes.iter().map(|&n| state.velocity.get(n as usize).map_or(0.0, |v| v[d])))
+        }
+        (WatchedOn::Nodes(nodes), Quantity::Reaction(d)) => nodes.iter().map(|&n| report.reaction[n as usize][d]).sum(),
+        (WatchedOn::Region(region), Quantity::Displacement(d)) => {
+            let points = &state.points;
+            mean(members(points, *region).map(|p| points.position[p][d] - points.origin[p][d]))
+        }
+        (WatchedOn::Region(region), Quantity::Velocity(d)) => {
+            mean(members(&state.points, *region).map(|p| state.points.velocity.get(p).map_or(0.0, |v| v[d])))
+        }
+        // A region has no supports of its own.
+        (WatchedOn::Region(_), Quantity::Reaction(_)) => 0.0,
+    }
+}
+
+fn members<const D: usize>(points: &Points<D>, region: u16) -> impl Iterator<Item = usize> {
+    (0..points.len()).filter(move |&p| points.region[p] == region)
+}
+
+fn mean(values: impl Iterator<Item = f64>) -> f64 {
+    let (count, sum) = values.fold((0usize, 0.0), |(n, s), v| (n + 1, s + v));
+    if count > 0 { sum / count as f64 } else { 0.0 }
+}
+
+/// The state at one moment.
+pub fn frame<const D: usize>(scene: &Scene<D>, state: &State<D>, fields: &[Field]) -> Frame {
+    let points = &state.points;
+    let column = |name: &str, unit: &str, components, values| Column {
+        name: name.into(),
+        unit: unit.into(),
+        components,
+        values,
+    };
+    let at_rest = vec![[0.0; D]; points.len()];
+    let columns = fields.iter().map(|field| match field {
+        Field::Displacement => {
+            let u: Vec<[f64; D]> =
+                points.position.iter().zip(&points.origin).map(|(x, o)| std::array::from_fn(|d| x[d] - o[d])).collect();
+            column("displacement", "m", 3, padded(&u))
+        }
+        Field::Velocity => {
+            let v = if points.velocity.is_empty() { &at_rest } else { &points.velocity };
+            column("velocity", "m/s", 3, padded(v))
+        }
+        Field::Stress => column("stress", "kPa", 6, points.stress.concat()),
+        Field::PlasticStrain => column("plastic_strain", "-", 1, points.plastic_strain.clone()),
+        Field::DeformationGradient => {
+            let rows = points.deformation.iter().flat_map(|f| f.transpose().data.0.into_iter().flatten());
+            column("deformation_gradient", "-", 9, rows.collect())
+        }
+    });
+    // A grid that is restored stays where the mesh has it.
+    let grid = if scene.numerics.restore_every_step {
+        Part::default()
+    } else {
+        let x: Vec<[f64; D]> = scene
+            .mesh
+            .nodes
+            .iter()
+            .zip(&state.displacement)
+            .map(|(x, u)| std::array::from_fn(|d| x[d] + u[d]))
+            .collect();
+        let displacement = fields.contains(&Field::Displacement);
+        let columns = displacement.then(|| column("displacement", "m", 3, padded(&state.displacement)));
+        Part { position: triples(&x), columns: columns.into_iter().collect() }
+    };
+    Frame {
+        time: state.time,
+        phase: scene.phases.get(state.phase).map_or_else(String::new, |p| p.name.clone()),
+        step: state.step,
+        points: Part { position: triples(&points.position), columns: columns.collect() },
+        grid,
+    }
+}
+
+fn triples<const D: usize>(x: &[[f64; D]]) -> Vec<[f64; 3]> {
+    x.iter().map(|x| std::array::from_fn(|d| x.get(d).copied().unwrap_or(0.0))).collect()
+}
+
+/// The first lines of the log.
+pub fn heading<const D: usize>(scene: &Scene<D>, points: &Points<D>) -> Vec<String> {
+    let mass: f64 = points.mass.iter().sum();
+    vec![
+        format!(
+            "{} material points, mass {mass:.12e} t, in {} cells with {} nodes",
+            points.len(),
+            scene.mesh.cells.len(),
+            scene.mesh.nodes.len()
+        ),
+        "energies in kJ, momenta in t m/s, the imbalance is the change of momentum less the impulse of the loads"
+            .to_string(),
+    ]
+}
+
+/// What a step did.
+pub fn log_lines<const D: usize>(scene: &Scene<D>, state: &State<D>, report: &Report<D>) -> Vec<String> {
+    let mut lines: Vec<String> = report.halvings.iter().map(|reason| format!("  halved: {reason}")).collect();
+    let phase = &scene.phases[state.phase];
+    let residuals: Vec<String> = report.residuals.iter().map(|r| format!("{r:.1e}")).collect();
+    let mut line = format!(
+        "step {} {} t {:.9} dt {:.3e} iterations {} residuals {} by {:?}",
+        state.step,
+        phase.name,
+        state.time,
+        report.dt,
+        report.iterations(),
+        residuals.join(" "),
+        report.method
+    );
+    line.push_str(&format!(
+        " mass {:.12e} elastic {:.9e} potential {:.9e}",
+        report.motion.mass, report.elastic, report.potential
+    ));
+    if phase.dynamic {
+        let vector = |v: &[f64; D]| v.map(|x| format!("{x:.6e}")).join(" ");
+        line.push_str(&format!(
+            " kinetic {:.9e} momentum {} angular {:.6e} imbalance {}",
+            report.motion.kinetic,
+            vector(&report.motion.linear),
+            report.motion.angular,
+            vector(&report.imbalance)
+        ));
+    }
+    lines.push(line);
+    lines
+}
