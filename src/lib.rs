@@ -1,8 +1,8 @@
 //! Implicit second-order Material Point Method for geotechnics.
 
+pub mod analytical;
 pub mod case;
 pub mod cli;
-pub mod analytical;
 pub mod error;
 pub mod io;
 pub mod kinematics;
