@@ -67,14 +67,15 @@ impl Checkpoints {
         Store::new(KIND)
     }
 
-    /// Writes the checkpoint of `step` to the disk, then removes all but the last two.
+    /// Writes the checkpoint of `step`, then removes all but the last two.
     ///
     /// # Errors
     /// `Analysis` when a number is not finite, `Machine` when it cannot be written; earlier ones stay.
     pub fn save(&self, step: u64, mut store: Store) -> Result<()> {
         atomic::prepare_folder(&self.folder)?;
         store.put("checkpoint.fingerprint", 1, vec![self.fingerprint.0]);
-        store.write(&self.path(step), true)?;
+        // Renamed, not waited for: a kill loses nothing, and a step of milliseconds must not wait for the disk.
+        store.write(&self.path(step), false)?;
         // Newer ones are of a run whose later part is being done again.
         let mut steps = self.steps()?;
         steps.retain(|&s| s <= step);

@@ -104,7 +104,8 @@ pub fn run<const D: usize, K: Kinematics<D>>(
     while let Some(phase) = scene.phases.get(simulation.state.phase) {
         let limits = Limits { least: phase.least_step, largest: phase.largest_step };
         let mut controller = Controller::new(limits, phase.stops.clone(), simulation.state.step_size);
-        while controller.next_stop(simulation.state.phase_time).is_some() {
+        let number = simulation.state.phase;
+        while simulation.state.phase == number {
             if stop.load(Ordering::Relaxed) {
                 files.close()?;
                 return Ok(Ended::Stopped);
