@@ -18,7 +18,7 @@ pub struct Tip {
     pub deflection: f64,
     /// How far the tip has come towards the clamp, over L.
     pub shortening: f64,
-    /// Slope against the unloaded axis [rad].
+    /// Slope against the unloaded axis (rad).
     pub slope: f64,
 }
 

@@ -9,21 +9,21 @@
 /// The column. Lengths in m, tension positive, heights measured from the base.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Column {
-    /// Modulus M [kPa]: oedometric if confined, Young's if ν = 0.
+    /// Modulus M (kPa): oedometric if confined, Young's if ν = 0.
     pub modulus: f64,
-    /// Weight ρ₀ g [kN/m³] of the unstrained material.
+    /// Weight ρ₀ g (kN/m³) of the unstrained material.
     pub unit_weight: f64,
-    /// Unstrained height H [m].
+    /// Unstrained height H (m).
     pub height: f64,
 }
 
 impl Column {
-    /// Height [m] of the column under its weight.
+    /// Height (m) of the column under its weight.
     pub fn deformed_height(&self) -> f64 {
         self.position(0.0)
     }
 
-    /// Height [m] above the base of what was at `depth` Z [m] below the top.
+    /// Height (m) above the base of what was at `depth` Z (m) below the top.
     pub fn position(&self, depth: f64) -> f64 {
         let scale = self.modulus / self.unit_weight;
         let integral = |z: f64| {
@@ -33,18 +33,18 @@ impl Column {
         scale * (integral(self.height) - integral(depth))
     }
 
-    /// Displacement [m], upwards positive, of what was at `depth` Z [m].
+    /// Displacement (m), upwards positive, of what was at `depth` Z (m).
     pub fn displacement(&self, depth: f64) -> f64 {
         self.position(depth) - (self.height - depth)
     }
 
-    /// Stretch λ [-] of what was at `depth` Z [m].
+    /// Stretch λ (-) of what was at `depth` Z (m).
     pub fn stretch(&self, depth: f64) -> f64 {
         // W(q)/q = exp(−W(q)), which needs no care at q = 0.
         (-lambert(self.unit_weight * depth / self.modulus)).exp()
     }
 
-    /// Vertical Cauchy stress [kPa] of what was at `depth` Z [m].
+    /// Vertical Cauchy stress (kPa) of what was at `depth` Z (m).
     pub fn stress(&self, depth: f64) -> f64 {
         -self.unit_weight * depth
     }

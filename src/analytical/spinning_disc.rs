@@ -6,15 +6,15 @@
 /// The disc. Tension positive.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Disc {
-    /// Young's modulus [kPa].
+    /// Young's modulus (kPa).
     pub young: f64,
-    /// Poisson's ratio [-].
+    /// Poisson's ratio (-).
     pub poisson: f64,
-    /// Density [t/m³].
+    /// Density (t/m³).
     pub density: f64,
-    /// Radius R [m].
+    /// Radius R (m).
     pub radius: f64,
-    /// Angular velocity ω [rad/s].
+    /// Angular velocity ω (rad/s).
     pub spin: f64,
 }
 
@@ -24,25 +24,25 @@ impl Disc {
         self.density * self.spin * self.spin / (8.0 * (1.0 - self.poisson))
     }
 
-    /// Radial stress [kPa] at the radius `r` [m].
+    /// Radial stress (kPa) at the radius `r` (m).
     pub fn radial_stress(&self, r: f64) -> f64 {
         self.scale() * (3.0 - 2.0 * self.poisson) * (self.radius * self.radius - r * r)
     }
 
-    /// Circumferential stress [kPa] at the radius `r` [m].
+    /// Circumferential stress (kPa) at the radius `r` (m).
     pub fn hoop_stress(&self, r: f64) -> f64 {
         let nu = self.poisson;
         self.scale() * ((3.0 - 2.0 * nu) * self.radius * self.radius - (1.0 + 2.0 * nu) * r * r)
     }
 
-    /// Outward displacement [m] at the radius `r` [m].
+    /// Outward displacement (m) at the radius `r` (m).
     pub fn displacement(&self, r: f64) -> f64 {
         let nu = self.poisson;
         let flexibility = (1.0 + nu) * (1.0 - 2.0 * nu) / self.young;
         self.scale() * flexibility * r * ((3.0 - 2.0 * nu) * self.radius * self.radius - r * r)
     }
 
-    /// Angular momentum [t m²/s] a metre, of the unstrained disc.
+    /// Angular momentum (t m²/s) a metre, of the unstrained disc.
     pub fn angular_momentum(&self) -> f64 {
         0.5 * std::f64::consts::PI * self.density * self.radius.powi(4) * self.spin
     }

@@ -8,51 +8,51 @@ use std::f64::consts::PI;
 /// The bar in one mode.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Bar {
-    /// Young's modulus [kPa], or the oedometric one if confined.
+    /// Young's modulus (kPa), or the oedometric one if confined.
     pub modulus: f64,
-    /// Density [t/m³].
+    /// Density (t/m³).
     pub density: f64,
-    /// Length L [m].
+    /// Length L (m).
     pub length: f64,
-    /// Velocity v₀ [m/s] of an antinode at t = 0.
+    /// Velocity v₀ (m/s) of an antinode at t = 0.
     pub velocity: f64,
     /// Mode n, from 1.
     pub mode: u32,
 }
 
 impl Bar {
-    /// Wave number β [1/m].
+    /// Wave number β (1/m).
     pub fn wave_number(&self) -> f64 {
         f64::from(2 * self.mode - 1) * PI / (2.0 * self.length)
     }
 
-    /// Angular frequency ω [1/s].
+    /// Angular frequency ω (1/s).
     pub fn frequency(&self) -> f64 {
         self.wave_number() * (self.modulus / self.density).sqrt()
     }
 
-    /// Period [s].
+    /// Period (s).
     pub fn period(&self) -> f64 {
         2.0 * PI / self.frequency()
     }
 
-    /// Velocity [m/s] at `x` from the fixed end and time `t`.
+    /// Velocity (m/s) at `x` from the fixed end and time `t`.
     pub fn velocity(&self, x: f64, t: f64) -> f64 {
         self.velocity * (self.wave_number() * x).sin() * (self.frequency() * t).cos()
     }
 
-    /// Displacement [m] at `x` from the fixed end and time `t`.
+    /// Displacement (m) at `x` from the fixed end and time `t`.
     pub fn displacement(&self, x: f64, t: f64) -> f64 {
         self.velocity / self.frequency() * (self.wave_number() * x).sin() * (self.frequency() * t).sin()
     }
 
-    /// Axial stress [kPa], tension positive.
+    /// Axial stress (kPa), tension positive.
     pub fn stress(&self, x: f64, t: f64) -> f64 {
         let amplitude = self.modulus * self.velocity * self.wave_number() / self.frequency();
         amplitude * (self.wave_number() * x).cos() * (self.frequency() * t).sin()
     }
 
-    /// Kinetic and strain energy together [kJ], per unit area of the section.
+    /// Kinetic and strain energy together (kJ), per unit area of the section.
     pub fn energy(&self) -> f64 {
         0.25 * self.density * self.velocity * self.velocity * self.length
     }

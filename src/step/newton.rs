@@ -12,9 +12,11 @@ use crate::time_integration::GeneralisedAlpha;
 /// Sufficient decrease of the residual for a step length `s`: by a factor `1 − ARMIJO · s`.
 const ARMIJO: f64 = 1e-4;
 /// Halvings of the step length before the best one is taken.
-const BACKTRACKS: usize = 6;
-/// Iterations that may end without a decrease before the step is given up.
+const BACKTRACKS: i32 = 6;
+/// Line searches that may end without a decrease before the step is given up.
 const STALLED: usize = 4;
+/// Full steps that may raise the residual before the iteration returns to its best state.
+const WATCH: usize = 3;
 /// A residual this small relative to the forces that balance is rounding.
 const ROUNDING: f64 = 1e-14;
 
@@ -62,89 +64,196 @@ struct Evaluation<const D: usize> {
 /// # Errors
 /// An analysis error that says why when the iteration does not converge: the caller takes a smaller step.
 pub fn solve<const D: usize>(problem: &Problem<D>, grid: &mut Grid<D>) -> Result<Solution<D>> {
-    let numerics = &problem.scene.numerics;
-    let equations = grid.motion.pattern.len();
-    let fixed: Vec<bool> = problem.given.iter().map(Option::is_some).collect();
-    let (before, applied_before) = force_before(problem, grid)?;
-    let mut u = problem.converged.to_vec();
-    let mut now = evaluate(problem, grid, &u, &before, true)?;
-    let mut scale = now.scale.max(floor(problem.scene, equations));
-    let mut history = vec![norm_free(&now.force, &fixed) / scale];
-    let mut method = Method::Cholesky;
-    let mut stalled = 0;
-    for iteration in 0..=numerics.max_iterations {
-        let gap: Vec<f64> = gaps(problem, grid, &u);
-        let error = norm_free(&now.force, &fixed) / scale;
-        let closed = gap.iter().all(|g| *g == 0.0);
-        if closed && (error <= ROUNDING || (iteration > 0 && error <= numerics.tolerance)) {
-            let applied = std::array::from_fn(|d| now.applied[d] + applied_before[d]);
-            return Ok(Solution { displacement: u, residual: now.force, history, applied, method });
-        }
-        if iteration == numerics.max_iterations {
-            break;
-        }
-        // K δ = −R with δ given where the displacement is.
-        let mut delta: Vec<f64> = now.force.iter().map(|r| -r).collect();
-        let motion = &mut grid.motion;
-        let diagonal = motion.matrix.scale(&motion.pattern);
-        motion.matrix.constrain(&motion.pattern, &fixed, &gap, diagonal, &mut delta);
-        let wanted = norm_free(&delta, &fixed) / scale;
-        method = motion.solver.solve(&motion.pattern, &motion.matrix, &mut delta)?;
-
-        let mut length = 1.0;
-        let mut best: Option<(f64, f64)> = None;
-        let mut accepted = None;
-        for _ in 0..=BACKTRACKS {
-            let trial = moved(problem, grid, &u, &delta, length);
-            if let Ok(next) = evaluate(problem, grid, &trial, &before, true) {
-                scale = scale.max(next.scale);
-                let size = norm_free(&next.force, &fixed) / scale;
-                if size.is_finite() {
-                    if size <= (1.0 - ARMIJO * length) * wanted || size <= numerics.tolerance {
-                        accepted = Some((trial, next, size));
-                        break;
-                    }
-                    if best.is_none_or(|(b, _)| size < b) {
-                        best = Some((size, length));
-                    }
-                }
-            }
-            length *= 0.5;
-        }
-        let (trial, next, size) = match (accepted, best) {
-            (Some(accepted), _) => {
-                stalled = 0;
-                accepted
-            }
-            (None, Some((size, length))) if stalled < STALLED => {
-                // No decrease along the whole direction: take the least and hope for a better tangent.
-                stalled += 1;
-                let trial = moved(problem, grid, &u, &delta, length);
-                let next = evaluate(problem, grid, &trial, &before, true)?;
-                (trial, next, size)
-            }
-            (None, best) => {
-                let why = match best {
-                    None => "every trial state turns a material point inside out",
-                    Some(_) => "the line search finds no smaller residual",
-                };
-                return Err(not_converged(&history, why));
-            }
-        };
-        u = trial;
-        now = next;
-        history.push(size);
+    let mut newton = Newton::begin(problem, grid)?;
+    while !newton.converged() {
+        let delta = newton.direction()?;
+        newton.search(&delta)?;
     }
-    Err(not_converged(&history, "too many iterations"))
+    Ok(newton.solution())
 }
 
-fn not_converged(history: &[f64], why: &str) -> Error {
-    let last = history.last().copied().unwrap_or(f64::NAN);
-    Error::analysis(
-        "Newton",
-        format!("{why} (residual {last:.1e} after {} iterations)", history.len() - 1),
-        "take smaller steps (step.min) or refine the mesh",
-    )
+/// The iteration.
+struct Newton<'a, const D: usize> {
+    problem: &'a Problem<'a, D>,
+    grid: &'a mut Grid<D>,
+    /// Equations whose displacement is given.
+    fixed: Vec<bool>,
+    /// The part of the residual from the beginning of the step, and what is applied in it.
+    before: Vec<f64>,
+    applied_before: [f64; D],
+    u: Vec<[f64; D]>,
+    now: Evaluation<D>,
+    /// What residuals are measured against [kN].
+    scale: f64,
+    /// Relative residuals so far; the last is that of `u`, or of the system solved next where displacements
+    /// that are still to be given add to it.
+    history: Vec<f64>,
+    method: Method,
+    /// The best state so far, the residual to beat, and how many iterations have not.
+    best: Vec<[f64; D]>,
+    target: f64,
+    relaxed: usize,
+    /// Whether every iteration must lessen the residual: set when full steps have failed to.
+    strict: bool,
+    stalled: usize,
+}
+
+impl<'a, const D: usize> Newton<'a, D> {
+    fn begin(problem: &'a Problem<'a, D>, grid: &'a mut Grid<D>) -> Result<Self> {
+        let (before, applied_before) = force_before(problem, grid)?;
+        let u = problem.converged.to_vec();
+        let now = evaluate(problem, grid, &u, &before)?;
+        let scale = now.scale.max(floor(problem.scene, before.len()));
+        let mut newton = Self {
+            fixed: problem.given.iter().map(Option::is_some).collect(),
+            history: Vec::new(),
+            method: Method::Cholesky,
+            best: u.clone(),
+            target: f64::INFINITY,
+            relaxed: 0,
+            strict: false,
+            stalled: 0,
+            problem,
+            grid,
+            before,
+            applied_before,
+            u,
+            now,
+            scale,
+        };
+        let first = newton.size(&newton.now);
+        newton.history.push(first);
+        Ok(newton)
+    }
+
+    /// The relative residual.
+    fn size(&self, evaluation: &Evaluation<D>) -> f64 {
+        norm_free(&evaluation.force, &self.fixed) / self.scale
+    }
+
+    fn error(&self) -> f64 {
+        self.history.last().copied().unwrap_or(f64::NAN)
+    }
+
+    fn converged(&self) -> bool {
+        let closed = gaps(self.problem, self.grid, &self.u).iter().all(|g| *g == 0.0);
+        let tolerance = if self.history.len() > 1 { self.problem.scene.numerics.tolerance } else { ROUNDING };
+        closed && self.error() <= tolerance
+    }
+
+    fn solution(self) -> Solution<D> {
+        Solution {
+            displacement: self.u,
+            residual: self.now.force,
+            history: self.history,
+            applied: std::array::from_fn(|d| self.now.applied[d] + self.applied_before[d]),
+            method: self.method,
+        }
+    }
+
+    /// `K δ = −R` with δ given where the displacement is.
+    fn direction(&mut self) -> Result<Vec<f64>> {
+        if self.history.len() > self.problem.scene.numerics.max_iterations {
+            return Err(self.failure("too many iterations"));
+        }
+        let gap = gaps(self.problem, self.grid, &self.u);
+        let mut delta: Vec<f64> = self.now.force.iter().map(|r| -r).collect();
+        let motion = &mut self.grid.motion;
+        let diagonal = motion.matrix.scale(&motion.pattern);
+        motion.matrix.constrain(&motion.pattern, &self.fixed, &gap, diagonal, &mut delta);
+        if self.target.is_infinite() {
+            // Displacements still to be given unbalance the system beyond the residual at hand.
+            self.target = norm_free(&delta, &self.fixed) / self.scale;
+        }
+        self.method = motion.solver.solve(&motion.pattern, &motion.matrix, &mut delta)?;
+        Ok(delta)
+    }
+
+    /// Goes along `delta`. A full step is taken even if the residual grows, for a few iterations on trial:
+    /// bending structures converge so, and only so. If that does not pay, the iteration returns to its best
+    /// state and from then on backtracks until the residual falls (a watchdog, Chamberlain et al. 1982).
+    fn search(&mut self, delta: &[f64]) -> Result<()> {
+        let full = self.attempt(delta, 1.0);
+        if let Some((u, now, size)) = full {
+            if self.better(size, 1.0) {
+                self.accept(u, now, size);
+                return Ok(());
+            }
+            if !self.strict && self.relaxed < WATCH {
+                self.relaxed += 1;
+                (self.u, self.now) = (u, now);
+                self.history.push(size);
+                return Ok(());
+            }
+        }
+        if !self.strict && self.relaxed > 0 {
+            self.strict = true;
+            let best = self.best.clone();
+            let now = evaluate(self.problem, self.grid, &best, &self.before)?;
+            let size = self.size(&now);
+            (self.u, self.now) = (best, now);
+            self.history.push(size);
+            return Ok(());
+        }
+        self.backtrack(delta)
+    }
+
+    /// Halves the step length until the residual falls; takes the least one a few times where it never does.
+    fn backtrack(&mut self, delta: &[f64]) -> Result<()> {
+        let mut least: Option<(f64, f64)> = None;
+        for halvings in 1..=BACKTRACKS {
+            let length = 0.5f64.powi(halvings);
+            if let Some((u, now, size)) = self.attempt(delta, length) {
+                if self.better(size, length) {
+                    self.stalled = 0;
+                    self.accept(u, now, size);
+                    return Ok(());
+                }
+                if least.is_none_or(|(other, _)| size < other) {
+                    least = Some((size, length));
+                }
+            }
+        }
+        let Some((_, length)) = least else {
+            return Err(self.failure("every trial state turns a material point inside out"));
+        };
+        self.stalled += 1;
+        match self.attempt(delta, length) {
+            Some((u, now, size)) if self.stalled <= STALLED => {
+                self.accept(u, now, size);
+                Ok(())
+            }
+            _ => Err(self.failure("the line search finds no smaller residual")),
+        }
+    }
+
+    /// The state at a step length, if it is admissible.
+    fn attempt(&mut self, delta: &[f64], length: f64) -> Option<(Vec<[f64; D]>, Evaluation<D>, f64)> {
+        let u = moved(self.problem, self.grid, &self.u, delta, length);
+        let now = evaluate(self.problem, self.grid, &u, &self.before).ok()?;
+        self.scale = self.scale.max(now.scale);
+        let size = self.size(&now);
+        size.is_finite().then_some((u, now, size))
+    }
+
+    fn better(&self, size: f64, length: f64) -> bool {
+        size <= (1.0 - ARMIJO * length) * self.target || size <= self.problem.scene.numerics.tolerance
+    }
+
+    fn accept(&mut self, u: Vec<[f64; D]>, now: Evaluation<D>, size: f64) {
+        self.best.clone_from(&u);
+        (self.u, self.now) = (u, now);
+        (self.target, self.relaxed) = (size, 0);
+        self.history.push(size);
+    }
+
+    fn failure(&self, why: &str) -> Error {
+        Error::analysis(
+            "Newton",
+            format!("{why} (residual {:.1e} after {} iterations)", self.error(), self.history.len() - 1),
+            "take smaller steps (step.min) or refine the mesh",
+        )
+    }
 }
 
 /// A force [kN] below which nothing counts: rounding in stresses of the order of the stiffness.
@@ -189,7 +298,6 @@ fn evaluate<const D: usize>(
     grid: &mut Grid<D>,
     u: &[[f64; D]],
     before: &[f64],
-    tangent: bool,
 ) -> Result<Evaluation<D>> {
     let acceleration = match problem.integration {
         Some(integration) => weighted_acceleration(problem, &integration, u),
@@ -207,8 +315,7 @@ fn evaluate<const D: usize>(
     let dynamic = problem.integration.is_some();
     let mut matrix = std::mem::take(&mut grid.motion.matrix);
     matrix.clear();
-    let tangent = tangent.then_some(&mut matrix);
-    let sum = sum_terms(problem, grid, &trial, tangent, |role| dynamic || role != Role::Inertia);
+    let sum = sum_terms(problem, grid, &trial, Some(&mut matrix), |role| dynamic || role != Role::Inertia);
     grid.motion.matrix = matrix;
     let mut evaluation = sum?;
     evaluation.scale = evaluation.scale.max(norm(before));
