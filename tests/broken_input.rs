@@ -108,6 +108,8 @@ const TEXT: &[Broken] = &[
     check(Case("title: Block", "title: a: b"), &["case.yaml:1", "mend the YAML"]),
     check(Case("geometry: plane_strain", "geometry: plane_strain\ngeometry: plane_strain"), &["geometry", "duplicate"]),
     check(Case("  water:", "  soil:"), &["soil", "duplicate"]),
+    check(Do(|d| fs::write(d.join("case.yaml"), "[".repeat(10_000)).unwrap()), &["case.yaml:1", "mend the YAML"]),
+    check(Do(|d| fs::write(d.join("case.yaml"), laughs()).unwrap()), &["case.yaml", "mend the YAML"]),
     check(Case("title: Block", "title: !text Block"), &["case.yaml:1", "tag", "without a tag"]),
     check(Case("order: 2", "ordr: 2"), &["case.yaml:5:3 (mesh.ordr)", "unknown key", "did you mean `order`?"]),
     check(Case("numerics:", "numeric:"), &["case.yaml:17:1", "unknown key", "did you mean `numerics`?"]),
@@ -214,6 +216,7 @@ const GEOMETRY: &[Broken] = &[
     check(Case("  water: {kind: buffer}\n", ""), &["(regions)", "surface `water`", "add `water: {kind: buffer}`"]),
     check(Case("{surface: {uy", "{surfase: {uy"), &["case.yaml:23", "no physical curve `surfase`", "`surface`?"]),
     check(Case("on: surface", "on: somewhere"), &["case.yaml:28", "`somewhere`", "choose from"]),
+    check(Case("on: surface", "on: soil"), &["case.yaml:28", "a region has no reaction", "take it out"]),
     check(Geo("Line(1) = {1, 2};", "Line(1) = {1, 2;"), &["scene.geo, line 8", "syntax error", "correct the file"]),
     check(Geo("Line(1) = {1, 2};", "Line(1) = {1, 99};"), &["scene.geo", "99"]),
     check(Geo("Physical Surface(\"water\") = {2};", ""), &["scene.geo, surface 2", "no physical surface", "add it"]),
@@ -510,6 +513,12 @@ fn files(folder: &Path) -> BTreeMap<PathBuf, Vec<u8>> {
 fn truncate(file: &Path) {
     let content = fs::read(file).unwrap();
     fs::write(file, &content[..content.len() / 2]).unwrap();
+}
+
+/// Lists of lists of aliases, a thousand million entries when written out.
+fn laughs() -> String {
+    let line = |i: usize| format!("a{i}: &a{i} [{}]\n", vec![format!("*a{}", i - 1); 10].join(", "));
+    "a0: &a0 [1]\n".to_owned() + &(1..10).map(line).collect::<String>()
 }
 
 /// Does something to each file of a folder.

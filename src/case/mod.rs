@@ -15,6 +15,8 @@ pub mod scene;
 pub mod seeding;
 pub mod source;
 pub mod structure;
+#[cfg(test)]
+mod tests;
 
 pub use checked::Case;
 

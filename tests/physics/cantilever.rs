@@ -53,7 +53,13 @@ fn print() {
         println!("{load}: {:.4} % {:.4} %  {r:?}", 100.0 * (dd / d - 1.0), 100.0 * (ss / s - 1.0));
     }
     let [load, d, s] = ELASTICA[5];
-    for (kind, n, deg) in [(CellKind::T6, 20, 2), (CellKind::T6, 40, 4), (CellKind::T6, 80, 2), (CellKind::Q9, 40, 2), (CellKind::Q8, 40, 2)] {
+    for (kind, n, deg) in [
+        (CellKind::T6, 20, 2),
+        (CellKind::T6, 40, 4),
+        (CellKind::T6, 80, 2),
+        (CellKind::Q9, 40, 2),
+        (CellKind::Q8, 40, 2),
+    ] {
         let (dd, ss, r) = cantilever(kind, load, n, 5, deg);
         println!("{kind:?} {n} {load}: {:.4} % {:.4} %  {r:?}", 100.0 * (dd / d - 1.0), 100.0 * (ss / s - 1.0));
     }
