@@ -78,18 +78,14 @@ struct Newton<'a, const D: usize> {
     grid: &'a mut Grid<D>,
     /// Equations whose displacement is given.
     fixed: Vec<bool>,
-    /// The part of the residual from the beginning of the step, and what is applied in it.
-    before: Vec<f64>,
-    applied_before: [f64; D],
     u: Vec<[f64; D]>,
     now: Evaluation<D>,
-    /// What residuals are measured against [kN].
-    scale: f64,
-    /// Relative residuals so far; the last is that of `u`, or of the system solved next where displacements
-    /// that are still to be given add to it.
+    /// A force [kN] below which nothing counts.
+    floor: f64,
+    /// Relative residuals so far; the last is that of `u`.
     history: Vec<f64>,
     method: Method,
-    /// The best state so far, the residual to beat, and how many iterations have not.
+    /// The best state so far, the residual [kN] to beat, and how many iterations have not.
     best: Vec<[f64; D]>,
     target: f64,
     relaxed: usize,
@@ -100,10 +96,9 @@ struct Newton<'a, const D: usize> {
 
 impl<'a, const D: usize> Newton<'a, D> {
     fn begin(problem: &'a Problem<'a, D>, grid: &'a mut Grid<D>) -> Result<Self> {
-        let (before, applied_before) = force_before(problem, grid)?;
         let u = problem.converged.to_vec();
-        let now = evaluate(problem, grid, &u, &before)?;
-        let scale = now.scale.max(floor(problem.scene, before.len()));
+        let now = evaluate(problem, grid, &u)?;
+        let floor = floor(problem.scene, problem.given.len());
         let mut newton = Self {
             fixed: problem.given.iter().map(Option::is_some).collect(),
             history: Vec::new(),
@@ -115,20 +110,22 @@ impl<'a, const D: usize> Newton<'a, D> {
             stalled: 0,
             problem,
             grid,
-            before,
-            applied_before,
             u,
             now,
-            scale,
+            floor,
         };
-        let first = newton.size(&newton.now);
-        newton.history.push(first);
+        newton.note();
         Ok(newton)
     }
 
-    /// The relative residual.
+    /// The residual [kN].
     fn size(&self, evaluation: &Evaluation<D>) -> f64 {
-        norm_free(&evaluation.force, &self.fixed) / self.scale
+        norm_free(&evaluation.force, &self.fixed)
+    }
+
+    /// Notes the residual of the state at hand, relative to the largest of the terms that balance in it.
+    fn note(&mut self) {
+        self.history.push(self.size(&self.now) / self.now.scale.max(self.floor));
     }
 
     fn error(&self) -> f64 {
@@ -146,7 +143,7 @@ impl<'a, const D: usize> Newton<'a, D> {
             displacement: self.u,
             residual: self.now.force,
             history: self.history,
-            applied: std::array::from_fn(|d| self.now.applied[d] + self.applied_before[d]),
+            applied: self.now.applied,
             method: self.method,
         }
     }
@@ -163,7 +160,7 @@ impl<'a, const D: usize> Newton<'a, D> {
         motion.matrix.constrain(&motion.pattern, &self.fixed, &gap, diagonal, &mut delta);
         if self.target.is_infinite() {
             // Displacements still to be given unbalance the system beyond the residual at hand.
-            self.target = norm_free(&delta, &self.fixed) / self.scale;
+            self.target = norm_free(&delta, &self.fixed);
         }
         self.method = motion.solver.solve(&motion.pattern, &motion.matrix, &mut delta)?;
         Ok(delta)
@@ -176,23 +173,22 @@ impl<'a, const D: usize> Newton<'a, D> {
         let full = self.attempt(delta, 1.0);
         if let Some((u, now, size)) = full {
             if self.better(size, 1.0) {
-                self.accept(u, now, size);
+                self.accept(u, now);
                 return Ok(());
             }
             if !self.strict && self.relaxed < WATCH {
                 self.relaxed += 1;
                 (self.u, self.now) = (u, now);
-                self.history.push(size);
+                self.note();
                 return Ok(());
             }
         }
         if !self.strict && self.relaxed > 0 {
             self.strict = true;
             let best = self.best.clone();
-            let now = evaluate(self.problem, self.grid, &best, &self.before)?;
-            let size = self.size(&now);
-            (self.u, self.now) = (best, now);
-            self.history.push(size);
+            self.now = evaluate(self.problem, self.grid, &best)?;
+            self.u = best;
+            self.note();
             return Ok(());
         }
         self.backtrack(delta)
@@ -206,7 +202,7 @@ impl<'a, const D: usize> Newton<'a, D> {
             if let Some((u, now, size)) = self.attempt(delta, length) {
                 if self.better(size, length) {
                     self.stalled = 0;
-                    self.accept(u, now, size);
+                    self.accept(u, now);
                     return Ok(());
                 }
                 if least.is_none_or(|(other, _)| size < other) {
@@ -219,8 +215,8 @@ impl<'a, const D: usize> Newton<'a, D> {
         };
         self.stalled += 1;
         match self.attempt(delta, length) {
-            Some((u, now, size)) if self.stalled <= STALLED => {
-                self.accept(u, now, size);
+            Some((u, now, _)) if self.stalled <= STALLED => {
+                self.accept(u, now);
                 Ok(())
             }
             _ => Err(self.failure("the line search finds no smaller residual")),
@@ -230,21 +226,20 @@ impl<'a, const D: usize> Newton<'a, D> {
     /// The state at a step length, if it is admissible.
     fn attempt(&mut self, delta: &[f64], length: f64) -> Option<(Vec<[f64; D]>, Evaluation<D>, f64)> {
         let u = moved(self.problem, self.grid, &self.u, delta, length);
-        let now = evaluate(self.problem, self.grid, &u, &self.before).ok()?;
-        self.scale = self.scale.max(now.scale);
+        let now = evaluate(self.problem, self.grid, &u).ok()?;
         let size = self.size(&now);
         size.is_finite().then_some((u, now, size))
     }
 
     fn better(&self, size: f64, length: f64) -> bool {
-        size <= (1.0 - ARMIJO * length) * self.target || size <= self.problem.scene.numerics.tolerance
+        size <= (1.0 - ARMIJO * length) * self.target || size <= self.problem.scene.numerics.tolerance * self.floor
     }
 
-    fn accept(&mut self, u: Vec<[f64; D]>, now: Evaluation<D>, size: f64) {
+    fn accept(&mut self, u: Vec<[f64; D]>, now: Evaluation<D>) {
         self.best.clone_from(&u);
         (self.u, self.now) = (u, now);
-        (self.target, self.relaxed) = (size, 0);
-        self.history.push(size);
+        (self.target, self.relaxed) = (self.size(&self.now), 0);
+        self.note();
     }
 
     fn failure(&self, why: &str) -> Error {
@@ -261,68 +256,53 @@ fn floor<const D: usize>(scene: &Scene<D>, equations: usize) -> f64 {
     1e-6 * scene.stiffness_scale * scene.cell_face() * (equations as f64).sqrt()
 }
 
-/// `α_f F_n` of the generalised-α method, zero in quasi-static analysis, and the resultant of what is applied.
-fn force_before<const D: usize>(problem: &Problem<D>, grid: &mut Grid<D>) -> Result<(Vec<f64>, [f64; D])> {
-    match problem.integration {
-        Some(integration) => static_force(problem, grid, integration.alpha_f),
-        None => Ok((vec![0.0; grid.motion.pattern.len()], [0.0; D])),
-    }
-}
-
-/// The sum of all terms but inertia at the last converged step, times `weight`, and the resultant of what is
-/// applied.
+/// The sum of all terms but inertia at the last converged step.
 ///
 /// # Errors
 /// When the converged state is inadmissible on the restored grid.
-pub fn static_force<const D: usize>(
-    problem: &Problem<D>,
-    grid: &mut Grid<D>,
-    weight: f64,
-) -> Result<(Vec<f64>, [f64; D])> {
+pub fn static_force<const D: usize>(problem: &Problem<D>, grid: &mut Grid<D>) -> Result<Vec<f64>> {
     let trial = Trial {
         displacement: problem.converged,
+        displacement_slope: 1.0,
         converged: problem.converged,
         acceleration: &[],
         acceleration_slope: 0.0,
         phase: problem.phase,
         time: problem.from,
-        weight,
     };
-    let evaluation = sum_terms(problem, grid, &trial, None, |role| role != Role::Inertia)?;
-    Ok((evaluation.force, evaluation.applied))
+    sum_terms(problem, grid, &trial, None, |role| role != Role::Inertia).map(|sum| sum.force)
 }
 
-/// The residual, and with it the tangent in the matrix of the grid.
-fn evaluate<const D: usize>(
-    problem: &Problem<D>,
-    grid: &mut Grid<D>,
-    u: &[[f64; D]],
-    before: &[f64],
-) -> Result<Evaluation<D>> {
-    let acceleration = match problem.integration {
-        Some(integration) => weighted_acceleration(problem, &integration, u),
-        None => Vec::new(),
-    };
+/// The residual for a displacement at the end of the step, and with it the tangent in the matrix of the grid.
+fn evaluate<const D: usize>(problem: &Problem<D>, grid: &mut Grid<D>, u: &[[f64; D]]) -> Result<Evaluation<D>> {
+    let mut between = Vec::new();
+    let mut acceleration = Vec::new();
+    if let Some(integration) = &problem.integration {
+        between = blend(u, problem.converged, integration.alpha_f);
+        acceleration = weighted_acceleration(problem, integration, u);
+    }
+    let alpha_f = problem.integration.map_or(0.0, |i| i.alpha_f);
     let trial = Trial {
-        displacement: u,
+        displacement: if problem.integration.is_some() { &between } else { u },
+        displacement_slope: 1.0 - alpha_f,
         converged: problem.converged,
         acceleration: &acceleration,
         acceleration_slope: problem.integration.map_or(0.0, |i| i.slope()),
         phase: problem.phase,
-        time: problem.to,
-        weight: problem.integration.map_or(1.0, |i| 1.0 - i.alpha_f),
+        time: (1.0 - alpha_f) * problem.to + alpha_f * problem.from,
     };
     let dynamic = problem.integration.is_some();
     let mut matrix = std::mem::take(&mut grid.motion.matrix);
     matrix.clear();
     let sum = sum_terms(problem, grid, &trial, Some(&mut matrix), |role| dynamic || role != Role::Inertia);
     grid.motion.matrix = matrix;
-    let mut evaluation = sum?;
-    evaluation.scale = evaluation.scale.max(norm(before));
-    for (f, b) in evaluation.force.iter_mut().zip(before) {
-        *f += b;
-    }
-    Ok(evaluation)
+    sum
+}
+
+/// `(1 − α) u + α u_n`.
+fn blend<const D: usize>(u: &[[f64; D]], converged: &[[f64; D]], alpha: f64) -> Vec<[f64; D]> {
+    let one = |(u, c): (&[f64; D], &[f64; D])| std::array::from_fn(|d| (1.0 - alpha) * u[d] + alpha * c[d]);
+    u.iter().zip(converged).map(one).collect()
 }
 
 /// Adds up the terms of the wanted roles.
