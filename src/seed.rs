@@ -43,7 +43,7 @@ struct Part {
 
 /// Fills the cells of `regions` with points at rest, undeformed and free of stress, in the order of the cells.
 ///
-/// Masses are density at the point × volume [t], volumes per metre in plane strain and per full turn (2π)
+/// Masses are density at the point × volume, in t; volumes per metre in plane strain and per full turn (2π)
 /// in axisymmetry, where `x` is the radius. Velocities and accelerations are left empty.
 ///
 /// # Errors
@@ -214,7 +214,7 @@ fn no_rule<const D: usize>(mesh: &Mesh<D>, wanted: &RegionSeed, kind: CellKind) 
     )
 }
 
-/// The stress [kPa] of soil at rest: `σ_y = −∫ γ dy` over the soil vertically above the point, `σ_x = σ_z =
+/// The stress of soil at rest, in kPa: `σ_y = −∫ γ dy` over the soil vertically above the point, `σ_x = σ_z =
 /// k0 σ_y`, one entry a point. Points of regions that are not in `soils` have none.
 ///
 /// The integral is exact for layers, for `γ` that grows with depth and for curved boundaries: per region it

@@ -7,6 +7,7 @@ use std::process::Command;
 use mpm::error::{Kind, Result};
 use mpm::mesh::Mesh;
 use mpm::mesh::gmsh::{Options, generate, read};
+use mpm::mesh::quality;
 use mpm::mesh::shape::{self, CellKind, MAX_NODES};
 
 fn options(order: u8, parameters: &[(&str, f64)]) -> Options {
@@ -136,7 +137,7 @@ fn clockwise_surfaces_are_turned_round() {
 #[test]
 fn every_scene_of_the_project_meshes_in_both_orders() {
     for (scene, parameters, regions) in [
-        ("column", &[("h", 2.5)][..], &["soil"][..]),
+        ("column", &[("h", 1.25), ("width", 1.25)][..], &["soil"][..]),
         ("column", &[("h", 0.5), ("quads", 1.0)], &["soil"]),
         ("cantilever", &[("h", 1.0)], &["beam"]),
         ("bar", &[], &["bar"]),
@@ -151,6 +152,9 @@ fn every_scene_of_the_project_meshes_in_both_orders() {
             let mesh = read(&out).unwrap();
             assert_eq!(mesh.regions, regions, "{scene}");
             assert!(mesh.cells.kind.iter().all(|k| k.order() == usize::from(order)), "{scene}");
+            let summary = quality::check(&mesh, &out).unwrap();
+            assert!(summary.worst.0 > 0.5 && summary.mean > 0.8, "{scene}: {summary}");
+            assert!((summary.jacobian - 1.0).abs() < 1e-9, "{scene} has straight edges: {summary}");
         }
     }
 }

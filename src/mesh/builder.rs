@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 use super::shape::CellKind;
 use super::{Cells, Group, Mesh};
 
-/// The rectangle `[0, lx] × [0, ly]` [m] in `nx × ny` boxes of one quadrilateral or two triangles each.
+/// The rectangle `[0, lx] × [0, ly]` in `nx × ny` boxes of one quadrilateral or two triangles each.
 ///
 /// `jitter` moves every interior vertex by up to that fraction of the spacing in each direction (0.2 keeps
 /// the cells well shaped), the same way for the same `seed`. Mid-side nodes lie at the midpoints, so every

@@ -1,7 +1,7 @@
 //! Meshes from Gmsh: a `.geo` to an MSH 4.1 file, and such a file to a [`Mesh`].
 //!
 //! All foreign functions of the program are called here. Gmsh keeps one global model and is not safe to
-//! share among threads: a [`Session`] holds a lock, starts Gmsh afresh and ends it when dropped. Gmsh prints
+//! share among threads: a `Session` holds a lock, starts Gmsh afresh and ends it when dropped. Gmsh prints
 //! nothing; what it has to say comes back in errors, with its own file and line.
 
 use std::collections::BTreeMap;

@@ -86,7 +86,7 @@ impl<const D: usize> Locator<D> {
         &self.neighbour[self.facet[cell as usize] as usize..self.facet[cell as usize + 1] as usize]
     }
 
-    /// The cell that holds `x` [m] and the parametric coordinates there, which are always within the cell.
+    /// The cell that holds `x` and the parametric coordinates there, which are always within the cell.
     ///
     /// `hint` is a cell near the point and only saves time. A point shared by several cells belongs to the
     /// lowest of them; one outside the mesh by about 1e-10 of its size at most belongs to the nearest; for one

@@ -1,0 +1,42 @@
+# Drives everything; `make help` lists the targets.
+
+SHELL := /bin/bash
+.SHELLFLAGS := -eu -o pipefail -c
+.DEFAULT_GOAL := help
+PYTHON := .venv/bin/python
+
+MPM := target/release/mpm
+MPM_BUILD := $(MPM)
+include pipeline/mpm.mk
+
+.PHONY: help setup build demo test check fmt clean
+
+help: ## List the targets
+	@awk -F ':.*## ' '/^[a-z-]+:.*## / {printf "  %-12s %s\n", $$1, $$2}' $(firstword $(MAKEFILE_LIST))
+	@printf '  %-12s %s\n' '<case>' 'The four stages of a case, stale ones only: $(notdir $(CASES))' \
+	  '<case>-clean' 'Remove the output of a case; also -mesh, -seed, -solve, -export for single stages'
+
+setup: ## Install what is missing beside Rust: system packages (as root) and the wheels in .venv
+	@pipeline/setup.sh
+
+build: $(MPM) ## Build the program (target/release/mpm)
+
+# Cargo decides what is to be built; where nothing is, the program keeps its time and no result goes stale.
+$(MPM): setup
+	cargo build --release
+
+demo: seabed_slope ## From nothing to a ParaView series and a picture: the slope that fails and runs out
+	$(PYTHON) paraview/seabed_slope.py
+
+test: setup ## Set up and run all tests
+	cargo test --release
+
+check: setup ## Formatting, lints and documentation, without warnings
+	cargo fmt --check
+	cargo clippy --release --all-targets -- -D warnings
+	RUSTDOCFLAGS='-D warnings' cargo doc --release --no-deps
+
+fmt: ## Format the sources
+	cargo fmt
+
+clean: $(addsuffix -clean,$(notdir $(CASES))) ## Remove the output of all cases (`cargo clean` removes the build)
