@@ -11,6 +11,7 @@ use crate::material::spatial::Spatial;
 use crate::material::{Model, State};
 use crate::mesh::shape::MAX_NODES;
 use crate::points::Points;
+use crate::profile::timed_material;
 use crate::stencil::{Entries, Patch};
 use crate::system::{Local, scatter};
 use crate::tensor::{Symmetric, Tensor, full, symmetric};
@@ -28,13 +29,12 @@ pub struct Internal<K> {
     kinematics: PhantomData<K>,
 }
 
-/// A point in a trial state.
-struct Strained<T> {
+/// The deformation of a point in a trial state.
+struct Strained {
     /// Deformation since the last converged step.
     increment: Tensor,
     /// Inverse of the deformation since the grid was restored.
     inverse: Tensor,
-    answer: Spatial<T>,
 }
 
 impl<K> Internal<K> {
@@ -43,44 +43,84 @@ impl<K> Internal<K> {
         Self { models, kinematics: PhantomData }
     }
 
-    fn strain<const D: usize>(
+    /// The answers of the models at the points of a patch, in order.
+    fn answers<const D: usize>(
         &self,
         points: &Points<D>,
-        entries: &Entries<D>,
-        trial: &[[f64; D]],
-        converged: &[[f64; D]],
-    ) -> Result<Strained<K::Tangent>>
+        numbers: &[u32],
+        strained: &[Strained],
+    ) -> Result<Vec<Spatial<K::Tangent>>>
     where
         K: Kinematics<D>,
     {
-        let p = entries.point;
-        let (mut now, mut before) = (Tensor::identity(), Tensor::identity());
-        for i in 0..entries.value.len() {
-            let gradient = entries.gradient(i);
-            K::deform(&mut now, &trial[i], &gradient);
-            K::deform(&mut before, &converged[i], &gradient);
+        let mut answers = Vec::with_capacity(numbers.len());
+        for (&p, strained) in numbers.iter().zip(strained) {
+            let p = p as usize;
+            let increment = &strained.increment;
+            let elastic = symmetric(&(increment * full(&points.elastic[p]) * increment.transpose()));
+            let Some(model) = self.models.get(points.region[p] as usize).and_then(Option::as_ref) else {
+                return Err(Error::analysis(format!("material point {p}"), "its region has no material", ""));
+            };
+            let state = State { plastic_strain: points.plastic_strain[p] };
+            answers.push(
+                K::respond(model.as_ref(), points.origin[p][1], &elastic, &state)
+                    .ok_or_else(|| inadmissible(p, "is strained beyond measure", increment))?,
+            );
         }
-        let inverted = |what: &str| {
-            Error::analysis(
-                format!("material point {p}"),
-                format!("{what} (det F of the step {:.3})", now.determinant() / before.determinant()),
-                "take smaller steps or refine the mesh",
-            )
-        };
-        let inverse = now.try_inverse().ok_or_else(|| inverted("is squeezed flat"))?;
-        let increment = now * before.try_inverse().ok_or_else(|| inverted("was squeezed flat"))?;
-        if !(increment.determinant() > LEAST_VOLUME_RATIO && now.determinant() > 0.0) {
-            return Err(inverted("is turned inside out"));
-        }
-        let elastic = symmetric(&(increment * full(&points.elastic[p]) * increment.transpose()));
-        let Some(model) = self.models.get(points.region[p] as usize).and_then(Option::as_ref) else {
-            return Err(Error::analysis(format!("material point {p}"), "its region has no material", ""));
-        };
-        let state = State { plastic_strain: points.plastic_strain[p] };
-        let answer = K::respond(model.as_ref(), points.origin[p][1], &elastic, &state)
-            .ok_or_else(|| inverted("is strained beyond measure"))?;
-        Ok(Strained { increment, inverse, answer })
+        Ok(answers)
     }
+
+    /// Deformation and answers of the points of a patch at a trial state, in order.
+    fn evaluate<const D: usize>(
+        &self,
+        frame: &Frame<D>,
+        trial: &Trial<D>,
+        patch: &Patch,
+    ) -> Result<(Vec<Strained>, Vec<Spatial<K::Tangent>>)>
+    where
+        K: Kinematics<D>,
+    {
+        let now = gather(frame, patch, trial.displacement);
+        let before = gather(frame, patch, trial.converged);
+        let mut strained = Vec::with_capacity(patch.point_count as usize);
+        for entries in frame.stencil.entries::<K>(patch) {
+            strained.push(strain::<D, K>(&entries, &now, &before)?);
+        }
+        let answers = timed_material(|| self.answers(frame.points, frame.stencil.points(patch), &strained))?;
+        Ok((strained, answers))
+    }
+}
+
+/// The deformation of a point whose cell has the nodal displacements `trial` and had `converged`.
+#[inline]
+fn strain<const D: usize, K: Kinematics<D>>(
+    entries: &Entries<D>,
+    trial: &[[f64; D]],
+    converged: &[[f64; D]],
+) -> Result<Strained> {
+    let (mut now, mut before) = (Tensor::identity(), Tensor::identity());
+    for i in 0..entries.value.len() {
+        let gradient = entries.gradient(i);
+        K::deform(&mut now, &trial[i], &gradient);
+        K::deform(&mut before, &converged[i], &gradient);
+    }
+    let p = entries.point;
+    let inverse = now.try_inverse().ok_or_else(|| inadmissible(p, "is squeezed flat", &now))?;
+    let back = before.try_inverse().ok_or_else(|| inadmissible(p, "was squeezed flat", &before))?;
+    let increment = now * back;
+    if !(increment.determinant() > LEAST_VOLUME_RATIO && now.determinant() > 0.0) {
+        return Err(inadmissible(p, "is turned inside out", &increment));
+    }
+    Ok(Strained { increment, inverse })
+}
+
+#[cold]
+fn inadmissible(point: usize, what: &str, deformation: &Tensor) -> Error {
+    Error::analysis(
+        format!("material point {point}"),
+        format!("{what} (det F {:.3})", deformation.determinant()),
+        "take smaller steps or refine the mesh",
+    )
 }
 
 /// Copies the nodal vectors of a patch.
@@ -101,22 +141,20 @@ impl<const D: usize, K: Kinematics<D>> Term<D> for Internal<K> {
         let wanted = out.tangent.is_some();
         let symmetric = frame.pattern.symmetric;
         let compute = |patch: &Patch, local: &mut Local| {
-            let now = gather(frame, patch, trial.displacement);
-            let before = gather(frame, patch, trial.converged);
+            let (strained, answers) = self.evaluate(frame, trial, patch)?;
             let count = patch.node_count as usize;
-            for entries in frame.stencil.entries::<K>(patch) {
-                let point = self.strain(frame.points, &entries, &now, &before)?;
+            for ((entries, point), answer) in frame.stencil.entries::<K>(patch).zip(&strained).zip(&answers) {
                 let weight = trial.weight * frame.points.initial_volume[entries.point];
                 let mut spatial = [Gradient { g: [0.0; D], hoop: 0.0 }; MAX_NODES];
                 for i in 0..count {
                     spatial[i] = K::push_forward(&entries.gradient(i), &point.inverse);
-                    let f = K::force(&point.answer.kirchhoff, &spatial[i]);
+                    let f = K::force(&answer.kirchhoff, &spatial[i]);
                     for d in 0..D {
                         local.vector[i * D + d] += weight * f[d];
                     }
                 }
                 if wanted {
-                    add_stiffness::<D, K>(local, &point.answer.tangent, &spatial[..count], weight, symmetric);
+                    add_stiffness::<D, K>(local, &answer.tangent, &spatial[..count], weight, symmetric);
                 }
             }
             if wanted && symmetric {
@@ -153,17 +191,16 @@ impl<const D: usize, K: Kinematics<D>> Term<D> for Internal<K> {
             .patches
             .par_iter()
             .map(|patch| {
-                let now = gather(frame, patch, trial.displacement);
-                let before = gather(frame, patch, trial.converged);
-                let new = |entries: Entries<D>| {
-                    let point = self.strain(frame.points, &entries, &now, &before)?;
-                    let deformation = point.increment * frame.points.deformation[entries.point];
+                let (strained, answers) = self.evaluate(frame, trial, patch)?;
+                let numbers = frame.stencil.points(patch);
+                let new = |((&p, point), answer): ((&u32, &Strained), &Spatial<K::Tangent>)| {
+                    let p = p as usize;
+                    let deformation = point.increment * frame.points.deformation[p];
                     let volume_ratio = deformation.determinant();
-                    let stress = point.answer.kirchhoff.map(|t| t / volume_ratio);
-                    let plastic_strain = point.answer.state.plastic_strain;
-                    Ok((entries.point, deformation, point.answer.elastic, stress, plastic_strain))
+                    let stress = answer.kirchhoff.map(|t| t / volume_ratio);
+                    (p, deformation, answer.elastic, stress, answer.state.plastic_strain)
                 };
-                frame.stencil.entries::<K>(patch).map(new).collect::<Result<Vec<New>>>()
+                Ok(numbers.iter().zip(&strained).zip(&answers).map(new).collect())
             })
             .collect::<Result<_>>()?;
         let points = frame.points;
