@@ -95,9 +95,9 @@ impl<'a> Mass<'a> {
         if self.factorised {
             return solver.solve_again(pattern, matrix, x);
         }
-        solver.solve(pattern, matrix, x)?;
+        // A zero right-hand side is answered without a factorisation.
         self.factorised = x.iter().any(|&v| v != 0.0);
-        Ok(())
+        solver.solve(pattern, matrix, x).map(|_| ())
     }
 
     /// Solves `M x = b` with `x = 0` at the nodes marked in `fixed`. The mass is spent afterwards.
@@ -170,7 +170,7 @@ fn first_acceleration<const D: usize, K: Kinematics<D>>(
         given: &[],
         integration: None,
     };
-    let (force, _) = static_force(&problem, grid, 1.0)?;
+    let force = static_force(&problem, grid)?;
     let node = grid.node.clone();
     let mut acceleration = vec![[0.0; D]; scene.mesh.nodes.len()];
     let mut fixed = vec![[false; D]; scene.mesh.nodes.len()];
@@ -203,12 +203,12 @@ pub fn commit<const D: usize>(
 ) -> Result<()> {
     let trial = Trial {
         displacement: &solution.displacement,
+        displacement_slope: 1.0,
         converged: &state.displacement,
         acceleration: &[],
         acceleration_slope: 0.0,
         phase: state.phase,
         time: state.phase_time,
-        weight: 1.0,
     };
     let updates: Vec<_> = {
         let frame = grid.frame(&scene.mesh, &state.points);

@@ -144,16 +144,17 @@ impl<const D: usize, K: Kinematics<D>> Term<D> for Internal<K> {
             let (strained, answers) = self.evaluate(frame, trial, patch)?;
             let count = patch.node_count as usize;
             for ((entries, point), answer) in frame.stencil.entries::<K>(patch).zip(&strained).zip(&answers) {
-                let weight = trial.weight * frame.points.initial_volume[entries.point];
+                let volume = frame.points.initial_volume[entries.point];
                 let mut spatial = [Gradient { g: [0.0; D], hoop: 0.0 }; MAX_NODES];
                 for i in 0..count {
                     spatial[i] = K::push_forward(&entries.gradient(i), &point.inverse);
                     let f = K::force(&answer.kirchhoff, &spatial[i]);
                     for d in 0..D {
-                        local.vector[i * D + d] += weight * f[d];
+                        local.vector[i * D + d] += volume * f[d];
                     }
                 }
                 if wanted {
+                    let weight = trial.displacement_slope * volume;
                     add_stiffness::<D, K>(local, &answer.tangent, &spatial[..count], weight, symmetric);
                 }
             }

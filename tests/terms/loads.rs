@@ -1,0 +1,149 @@
+//! Everything but the internal force: resultants and tangents.
+
+use crate::stand::{Field, KINDS, Stand, WEIGHT, mesh, points, resultant, size};
+use mpm::kinematics::{Axisymmetric, Kinematics, PlaneStrain};
+use mpm::mesh::Mesh;
+use mpm::mesh::shape::CellKind;
+use mpm::term::{BodyForce, EmptyCells, Inertia, Role, Term, Traction};
+use mpm::time_value::TimeValue;
+use std::f64::consts::{PI, TAU};
+
+type Make = fn(&Mesh<2>) -> Box<dyn Term<2>>;
+
+/// 3 kPa inwards and 2·0.5 kPa upwards at the time of the test, in the first phase.
+fn traction<K: Kinematics<2>>(mesh: &Mesh<2>, group: &str) -> Box<dyn Term<2>> {
+    let value = [TimeValue::Constant(-3.0), TimeValue::Rate(2.0)];
+    Box::new(Traction::<K, 2>::new(mesh, mesh.group(group).unwrap(), 0, value))
+}
+
+fn body_force<K: Kinematics<2>>(_: &Mesh<2>) -> Box<dyn Term<2>> {
+    let factors = vec![TimeValue::Rate(1.5), TimeValue::Constant(0.0)];
+    Box::new(BodyForce::<K, 2>::new([0.5, -10.0], factors))
+}
+
+/// The points fill every third cell, so that there are soft ones of all kinds.
+fn stand<K: Kinematics<2>>(kind: CellKind, make: Make, whole: bool) -> Stand<K> {
+    let mesh = mesh(kind);
+    let term = make(&mesh);
+    let points = points(&mesh, |c| c % 3 == 0);
+    Stand::new(mesh, points, term, true, whole)
+}
+
+fn anywhere<K: Kinematics<2>>(stand: &Stand<K>) -> (Field, Field) {
+    let converged = stand.field(0.02, 1, |[x, y]| [0.1 * x - 0.1 * y, 0.1 * x]);
+    let trial = stand.field(0.02, 2, |[x, y]| [0.2 * x - 0.4 * y, 0.5 * x - 0.2 * y]);
+    (trial, converged)
+}
+
+fn every_tangent<K: Kinematics<2>>() {
+    let terms: [(&str, Make); 4] = [
+        ("body force", body_force::<K>),
+        ("inertia", |_| Box::new(Inertia::<K>::default())),
+        ("empty cells", |_| Box::new(EmptyCells::<K>::new(70.0))),
+        ("traction", |mesh| traction::<K>(mesh, "right")),
+    ];
+    for (name, make) in terms {
+        for kind in KINDS {
+            let whole = stand::<K>(kind, make, true);
+            let (trial, converged) = anywhere(&whole);
+            let error = whole.tangent_error(&trial, &converged);
+            // Residuals that are linear in u: the difference is exact but for rounding.
+            assert!(error < 1e-8, "{name}, {kind:?}: {error:.1e}");
+            assert!(whole.term().symmetric());
+            let asymmetry = whole.asymmetry(&trial, &converged);
+            assert!(asymmetry < 1e-13, "{name}, {kind:?}: {asymmetry:.1e}");
+            let half = stand::<K>(kind, make, false);
+            let (a, b) = [&whole, &half].map(|s| s.evaluate(&trial, &converged, 0, true).1).into();
+            let largest = a.iter().flatten().zip(b.iter().flatten()).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+            assert!(largest < 1e-9, "{name}, {kind:?}: {largest:.1e}");
+        }
+    }
+}
+
+#[test]
+fn every_tangent_is_the_derivative_and_symmetric() {
+    every_tangent::<PlaneStrain>();
+    every_tangent::<Axisymmetric>();
+}
+
+#[test]
+fn the_body_force_is_the_weight_times_its_factor() {
+    for kind in KINDS {
+        let stand = stand::<PlaneStrain>(kind, body_force::<PlaneStrain>, false);
+        assert_eq!(stand.term().role(), Role::External);
+        let mass: f64 = stand.points.mass.iter().sum();
+        let (trial, converged) = anywhere(&stand);
+        let sum = resultant(&stand.evaluate(&trial, &converged, 0, false).0);
+        // An applied force has the other sign in the residual.
+        for (sum, g) in sum.iter().zip([0.5, -10.0]) {
+            let weight = -WEIGHT * 1.5 * 0.5 * mass * g;
+            assert!((sum - weight).abs() < 1e-12 * weight.abs(), "{kind:?}: {sum} {weight}");
+        }
+        assert_eq!(size(&stand.evaluate(&trial, &converged, 1, false).0), 0.0);
+    }
+}
+
+#[test]
+fn inertia_is_mass_times_acceleration() {
+    for kind in KINDS {
+        let stand = stand::<Axisymmetric>(kind, |_| Box::new(Inertia::<Axisymmetric>::default()), false);
+        assert_eq!(stand.term().role(), Role::Inertia);
+        let mass: f64 = stand.points.mass.iter().sum();
+        let rest = stand.field(0.0, 1, |_| [0.0; 2]);
+        let sum = resultant(&stand.evaluate(&rest, &rest, 0, false).0);
+        for (sum, a) in sum.iter().zip([1.3, -0.7]) {
+            assert!((sum - mass * a).abs() < 1e-12 * mass, "{kind:?}: {sum} {}", mass * a);
+        }
+    }
+}
+
+/// The penalty resists strain only: not a rigid motion in the step, not what happened before it.
+#[test]
+fn empty_cells_resist_nothing_but_strain_in_the_step() {
+    for kind in KINDS {
+        let stand = stand::<PlaneStrain>(kind, |_| Box::new(EmptyCells::<PlaneStrain>::new(70.0)), false);
+        assert_eq!(stand.term().role(), Role::Internal);
+        assert!(stand.soft_cells() > stand.scene.mesh.cells.len() / 2);
+        let (strained, converged) = anywhere(&stand);
+        let resisted = size(&stand.evaluate(&strained, &converged, 0, false).0);
+        assert!(resisted > 1.0);
+        let moved = |by: fn([f64; 2]) -> [f64; 2]| {
+            let step = stand.field(0.0, 1, by);
+            let trial: Field = converged.iter().zip(&step).map(|(a, b)| [a[0] + b[0], a[1] + b[1]]).collect();
+            stand.evaluate(&trial, &converged, 0, false).0
+        };
+        let rigid = size(&moved(|[x, y]| [0.3 - 0.2 * y, 0.2 * x - 0.4]));
+        assert!(rigid < 1e-13 * resisted, "{kind:?}: {rigid:.1e}");
+        let sum = resultant(&moved(|[x, y]| [x * y, x - y]));
+        assert!(sum.iter().all(|s| s.abs() < 1e-11), "{kind:?}: {sum:?}");
+    }
+}
+
+/// The rectangle is `[2, 4] × [0, 1.5]` m.
+#[test]
+fn a_traction_adds_up_to_its_value_times_the_area() {
+    let ring = PI * (4.0 * 4.0 - 2.0 * 2.0);
+    for kind in KINDS {
+        for (group, length, turned) in
+            [("right", 1.5, TAU * 4.0 * 1.5), ("left", 1.5, TAU * 2.0 * 1.5), ("top", 2.0, ring), ("bottom", 2.0, ring)]
+        {
+            check_traction::<PlaneStrain>(kind, group, length);
+            check_traction::<Axisymmetric>(kind, group, turned);
+        }
+    }
+}
+
+fn check_traction<K: Kinematics<2>>(kind: CellKind, group: &str, area: f64) {
+    let mesh = mesh(kind);
+    let (term, points) = (traction::<K>(&mesh, group), points(&mesh, |_| true));
+    let stand = Stand::<K>::new(mesh, points, term, false, false);
+    assert_eq!(stand.term().role(), Role::External);
+    // A dead load: the same whatever the deformation.
+    let (trial, converged) = anywhere(&stand);
+    let sum = resultant(&stand.evaluate(&trial, &converged, 0, false).0);
+    for (sum, t) in sum.iter().zip([-3.0, 1.0]) {
+        let force = -WEIGHT * t * area;
+        assert!((sum - force).abs() < 1e-12 * force.abs(), "{kind:?}, {group}: {sum} {force}");
+    }
+    assert_eq!(size(&stand.evaluate(&trial, &converged, 1, false).0), 0.0, "another phase");
+}

@@ -1,0 +1,275 @@
+//! A test stand: one term on a small grid, with trial states of any size.
+
+use mpm::error::Result;
+use mpm::kinematics::Kinematics;
+use mpm::material::LinearElastic;
+use mpm::material::{Elasticity, Profile};
+use mpm::mesh::Mesh;
+use mpm::mesh::builder::rectangle;
+use mpm::mesh::locate::Locator;
+use mpm::mesh::shape::{CellKind, MAX_NODES};
+use mpm::points::Points;
+use mpm::step::{Grid, Numerics, Phase, Scene, Simulation, State, Stop};
+use mpm::system::{Matrix, Workspace};
+use mpm::tensor::{IDENTITY, Tensor, full, symmetric};
+use mpm::term::{Assembly, Frame, Term, Trial};
+use std::marker::PhantomData;
+use std::sync::Arc;
+
+pub const KINDS: [CellKind; 5] = [CellKind::T3, CellKind::T6, CellKind::Q4, CellKind::Q8, CellKind::Q9];
+
+/// Weight of everything but inertia in the trial states, and `∂a/∂u` [1/s²].
+pub const WEIGHT: f64 = 0.6;
+const SLOPE: f64 = 170.0;
+/// Uniform part of the acceleration [m/s²].
+const ACCELERATION: [f64; 2] = [1.3, -0.7];
+
+/// Vectors on the nodes.
+pub type Field = Vec<[f64; 2]>;
+
+/// Numbers in [-1, 1), the same for the same seed (SplitMix64).
+pub struct Random(pub u64);
+
+impl Random {
+    pub fn next(&mut self) -> f64 {
+        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+        ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 52) as f64 - 1.0
+    }
+}
+
+/// The mesh of all stands: `[2, 4] × [0, 1.5]` m, away from the axis.
+pub fn mesh(kind: CellKind) -> Mesh<2> {
+    let mut mesh = rectangle(kind, 2.0, 1.5, 2, 2, 0.2, 5);
+    for x in &mut mesh.nodes {
+        x[0] += 2.0;
+    }
+    mesh
+}
+
+/// Three points anywhere in each cell in which `filled` holds, given the cell's number.
+pub fn points(mesh: &Mesh<2>, filled: impl Fn(usize) -> bool) -> Points<2> {
+    let mut random = Random(11);
+    let mut points = Points::default();
+    for c in (0..mesh.cells.len()).filter(|&c| filled(c)) {
+        let kind = mesh.cells.kind[c];
+        for _ in 0..3 {
+            let (a, b) = (0.9 * random.next(), 0.9 * random.next());
+            let xi = if kind.is_simplex() {
+                let (a, b) = (0.5 + 0.5 * a, 0.5 + 0.5 * b);
+                [a * (1.0 - b), b, 0.0]
+            } else {
+                [a, b, 0.0]
+            };
+            let mut n = [0.0; MAX_NODES];
+            kind.values(&xi, &mut n);
+            let mut x = [0.0; 2];
+            for (n, &node) in n.iter().zip(mesh.cells.nodes(c)) {
+                for d in 0..2 {
+                    x[d] += n * mesh.nodes[node as usize][d];
+                }
+            }
+            points.position.push(x);
+            points.origin.push(x);
+            points.mass.push(0.3 + 0.1 * random.next());
+            points.initial_volume.push(0.1 + 0.05 * random.next());
+            points.deformation.push(Tensor::identity());
+            points.elastic.push(IDENTITY);
+            points.stress.push([0.0; 6]);
+            points.plastic_strain.push(0.0);
+            points.region.push(0);
+            points.cell.push(c as u32);
+        }
+    }
+    points
+}
+
+/// Makes the system unsymmetric, so that the whole tangent of another term is seen.
+struct Unsymmetric;
+
+impl Term<2> for Unsymmetric {
+    fn assemble(&self, _: &Frame<2>, _: &Trial<2>, _: &mut Assembly) -> Result<()> {
+        Ok(())
+    }
+
+    fn symmetric(&self) -> bool {
+        false
+    }
+}
+
+/// A term on a grid. The first term of the scene is the one tested.
+pub struct Stand<K> {
+    pub scene: Scene<2>,
+    pub points: Points<2>,
+    grid: Grid<2>,
+    kinematics: PhantomData<K>,
+}
+
+impl<K: Kinematics<2>> Stand<K> {
+    /// `whole` asks for the whole tangent, also of a symmetric term.
+    pub fn new(mesh: Mesh<2>, points: Points<2>, term: Box<dyn Term<2>>, restored: bool, whole: bool) -> Self {
+        let mut terms = vec![term];
+        if whole {
+            terms.push(Box::new(Unsymmetric));
+        }
+        let phase = Phase {
+            name: "test".into(),
+            dynamic: true,
+            duration: 1.0,
+            first_step: 1.0,
+            least_step: 1.0,
+            largest_step: 1.0,
+            prescribed: Vec::new(),
+            stops: vec![Stop { time: 1.0, frame: true }],
+        };
+        let scene = Scene {
+            locator: Locator::new(&mesh),
+            mesh,
+            terms,
+            supports: Vec::new(),
+            phases: vec![phase.clone(), phase],
+            numerics: Numerics {
+                restore_every_step: restored,
+                spectral_radius: 1.0,
+                tolerance: 1e-10,
+                max_iterations: 25,
+            },
+            gravity: [0.0; 2],
+            stiffness_scale: 1.0,
+            density_scale: 1.0,
+        };
+        let state = State::new(points, scene.mesh.nodes.len(), 1.0);
+        let state = Simulation::<2, K>::new(&scene, state).unwrap().state;
+        let grid = Grid::new::<K>(&scene, &state).unwrap();
+        assert_eq!(grid.node.len(), scene.mesh.nodes.len(), "all nodes take part, in order");
+        Self { scene, points: state.points, grid, kinematics: PhantomData }
+    }
+
+    pub fn term(&self) -> &dyn Term<2> {
+        self.scene.terms[0].as_ref()
+    }
+
+    pub fn soft_cells(&self) -> usize {
+        self.grid.soft.len()
+    }
+
+    /// A field given by the place of a node, with noise of the size `noise` [m].
+    pub fn field(&self, noise: f64, seed: u64, at: impl Fn([f64; 2]) -> [f64; 2]) -> Field {
+        let mut random = Random(seed);
+        self.scene.mesh.nodes.iter().map(|&x| at(x).map(|u| u + noise * random.next())).collect()
+    }
+
+    /// Gives each point the elastic state that the trial takes to the left Cauchy–Green tensor
+    /// `target(point)`.
+    pub fn aim(&mut self, trial: &[[f64; 2]], converged: &[[f64; 2]], mut target: impl FnMut(usize) -> Tensor) {
+        for patch in &self.grid.stencil.patches {
+            let nodes = self.scene.mesh.cells.nodes(patch.cell as usize);
+            for entries in self.grid.stencil.entries::<K>(patch) {
+                let (mut now, mut before) = (Tensor::identity(), Tensor::identity());
+                for (i, &n) in nodes.iter().enumerate() {
+                    K::deform(&mut now, &trial[n as usize], &entries.gradient(i));
+                    K::deform(&mut before, &converged[n as usize], &entries.gradient(i));
+                }
+                let back = before * now.try_inverse().unwrap();
+                let b = symmetric(&(back * target(entries.point) * back.transpose()));
+                self.points.elastic[entries.point] = b;
+                assert!((full(&b) - full(&b).transpose()).norm() == 0.0);
+            }
+        }
+    }
+
+    /// The residual in phase `phase` at the time 0.5 s, and the tangent by columns where wanted.
+    pub fn evaluate(
+        &self,
+        trial: &[[f64; 2]],
+        converged: &[[f64; 2]],
+        phase: usize,
+        tangent: bool,
+    ) -> (Field, Vec<Vec<f64>>) {
+        let frame = self.grid.frame(&self.scene.mesh, &self.points);
+        let acceleration: Field = trial
+            .iter()
+            .zip(converged)
+            .map(|(u, c)| std::array::from_fn(|d| ACCELERATION[d] + SLOPE * (u[d] - c[d])))
+            .collect();
+        let trial = Trial {
+            displacement: trial,
+            converged,
+            acceleration: &acceleration,
+            acceleration_slope: SLOPE,
+            phase,
+            time: 0.5,
+            weight: WEIGHT,
+        };
+        let mut force = vec![0.0; frame.pattern.len()];
+        let mut matrix = Matrix::new(frame.pattern);
+        let mut workspace = Workspace::default();
+        let mut out =
+            Assembly { force: &mut force, tangent: tangent.then_some(&mut matrix), workspace: &mut workspace };
+        self.term().assemble(&frame, &trial, &mut out).unwrap();
+        let columns = if tangent { 0..force.len() } else { 0..0 };
+        let columns = columns.map(|j| {
+            let (mut unit, mut column) = (vec![0.0; force.len()], vec![0.0; force.len()]);
+            unit[j] = 1.0;
+            matrix.multiply(frame.pattern, &unit, &mut column);
+            column
+        });
+        let columns = columns.collect();
+        (force.chunks_exact(2).map(|f| [f[0], f[1]]).collect(), columns)
+    }
+
+    /// Largest difference of the tangent from the central difference of the residual, relative to its largest
+    /// entry (to 1 where it vanishes).
+    pub fn tangent_error(&self, trial: &[[f64; 2]], converged: &[[f64; 2]]) -> f64 {
+        const H: f64 = 1e-6;
+        let (_, tangent) = self.evaluate(trial, converged, 0, true);
+        let mut error = 0f64;
+        for (j, column) in tangent.iter().enumerate() {
+            let at = |h: f64| {
+                let mut u = trial.to_vec();
+                u[j / 2][j % 2] += h;
+                self.evaluate(&u, converged, 0, false).0
+            };
+            let (plus, minus) = (at(H), at(-H));
+            for (i, entry) in column.iter().enumerate() {
+                let difference = (plus[i / 2][i % 2] - minus[i / 2][i % 2]) / (2.0 * H);
+                error = error.max((entry - difference).abs());
+            }
+        }
+        error / largest(&tangent)
+    }
+
+    /// Largest difference of the tangent from its transpose, relative to its largest entry.
+    pub fn asymmetry(&self, trial: &[[f64; 2]], converged: &[[f64; 2]]) -> f64 {
+        let (_, k) = self.evaluate(trial, converged, 0, true);
+        let pairs = (0..k.len()).flat_map(|i| (0..i).map(move |j| (i, j)));
+        pairs.map(|(i, j)| (k[i][j] - k[j][i]).abs()).fold(0.0, f64::max) / largest(&k)
+    }
+}
+
+fn largest(tangent: &[Vec<f64>]) -> f64 {
+    let largest = tangent.iter().flatten().fold(0f64, |a, b| a.max(b.abs()));
+    if largest > 0.0 { largest } else { 1.0 }
+}
+
+/// Sum of the forces.
+pub fn resultant(force: &[[f64; 2]]) -> [f64; 2] {
+    [0, 1].map(|d| force.iter().map(|f| f[d]).sum())
+}
+
+/// The largest component.
+pub fn size(force: &[[f64; 2]]) -> f64 {
+    force.iter().flatten().fold(0.0, |a: f64, b| a.max(b.abs()))
+}
+
+/// Hencky elasticity, for terms that need a model beside them.
+pub fn elasticity() -> Elasticity {
+    // Growing with depth, as soils do.
+    Elasticity::new(Profile { top: 1000.0, gradient: 100.0, datum: 1.0 }, 0.3).unwrap()
+}
+
+pub fn elastic() -> Arc<LinearElastic> {
+    Arc::new(LinearElastic::new(elasticity()))
+}
