@@ -102,7 +102,7 @@ pub enum RegionKind {
     Structure,
 }
 
-/// A material; its schema is written in [`super::materials`], from the list of models.
+/// A material; its schema is made from the list of models.
 #[derive(Debug, Deserialize)]
 pub struct Material {
     /// The name of a model.

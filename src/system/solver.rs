@@ -139,7 +139,11 @@ impl Solver {
             return Ok(());
         }
         let b = x.to_vec();
-        if self.refine(pattern, matrix, &b, x, true) { Ok(()) } else { Err(singular()) }
+        // Beside a zero right-hand side no residual is small.
+        if b.iter().all(|&v| v == 0.0) || self.refine(pattern, matrix, &b, x, true) {
+            return Ok(());
+        }
+        Err(singular())
     }
 
     /// Numeric factorisation, LLᵀ or LDLᵀ; false where it breaks down.
