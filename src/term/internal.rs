@@ -4,7 +4,7 @@
 //! `ΔF = F F_n⁻¹`, the elastic trial `b = ΔF b_n ΔFᵀ` (theory, eq. 3–5). The term keeps no state: the points
 //! carry it, and it is written only on convergence.
 
-use super::{Assembly, Frame, Term, Trial, Update};
+use super::{Assembly, Frame, History, Term, Trial, Update};
 use crate::error::{Error, Result};
 use crate::kinematics::{Gradient, Kinematics};
 use crate::material::spatial::Spatial;
@@ -14,7 +14,7 @@ use crate::points::Points;
 use crate::profile::timed_material;
 use crate::stencil::{Entries, Patch};
 use crate::system::{Local, scatter};
-use crate::tensor::{Symmetric, Tensor, full, symmetric};
+use crate::tensor::{Tensor, full, symmetric};
 use rayon::prelude::*;
 use std::marker::PhantomData;
 use std::sync::Arc;
@@ -186,38 +186,22 @@ impl<const D: usize, K: Kinematics<D>> Term<D> for Internal<K> {
     }
 
     fn commit(&self, frame: &Frame<D>, trial: &Trial<D>) -> Result<Option<Update>> {
-        type New = (usize, Tensor, Symmetric, Symmetric, f64);
-        let by_patch: Vec<Vec<New>> = frame
-            .stencil
-            .patches
-            .par_iter()
-            .map(|patch| {
-                let (strained, answers) = self.evaluate(frame, trial, patch)?;
-                let numbers = frame.stencil.points(patch);
-                let new = |((&p, point), answer): ((&u32, &Strained), &Spatial<K::Tangent>)| {
-                    let p = p as usize;
-                    let deformation = point.increment * frame.points.deformation[p];
-                    let volume_ratio = deformation.determinant();
-                    let stress = answer.kirchhoff.map(|t| t / volume_ratio);
-                    (p, deformation, answer.elastic, stress, answer.state.plastic_strain)
-                };
-                Ok(numbers.iter().zip(&strained).zip(&answers).map(new).collect())
-            })
-            .collect::<Result<_>>()?;
-        let points = frame.points;
-        let mut update = Update {
-            deformation: points.deformation.clone(),
-            elastic: points.elastic.clone(),
-            stress: points.stress.clone(),
-            plastic_strain: points.plastic_strain.clone(),
+        let new_of_patch = |patch: &Patch| {
+            let (strained, answers) = self.evaluate(frame, trial, patch)?;
+            let new = |((&p, point), answer): ((&u32, &Strained), &Spatial<K::Tangent>)| {
+                let deformation = point.increment * frame.points.deformation[p as usize];
+                let volume_ratio = deformation.determinant();
+                History {
+                    point: p as usize,
+                    deformation,
+                    elastic: answer.elastic,
+                    stress: answer.kirchhoff.map(|t| t / volume_ratio),
+                    plastic_strain: answer.state.plastic_strain,
+                }
+            };
+            Ok(frame.stencil.points(patch).iter().zip(&strained).zip(&answers).map(new).collect())
         };
-        for (p, deformation, elastic, stress, plastic_strain) in by_patch.into_iter().flatten() {
-            update.deformation[p] = deformation;
-            update.elastic[p] = elastic;
-            update.stress[p] = stress;
-            update.plastic_strain[p] = plastic_strain;
-        }
-        Ok(Some(update))
+        Ok(Some(Update(frame.stencil.patches.par_iter().map(new_of_patch).collect::<Result<_>>()?)))
     }
 }
 
