@@ -82,36 +82,49 @@ impl<K> Internal<K> {
     {
         let now = gather(frame, patch, trial.displacement);
         let before = gather(frame, patch, trial.converged);
+        // In the first step after a restoration nothing has moved before.
+        let moved = before.iter().flatten().any(|&u| u != 0.0);
         let mut strained = Vec::with_capacity(patch.point_count as usize);
         for entries in frame.stencil.entries::<K>(patch) {
-            strained.push(strain::<D, K>(&entries, &now, &before)?);
+            strained.push(strain::<D, K>(&entries, &now, moved.then_some(&before))?);
         }
         let answers = timed_material(|| self.answers(frame.points, frame.stencil.points(patch), &strained))?;
         Ok((strained, answers))
     }
 }
 
-/// The deformation of a point whose cell has the nodal displacements `trial` and had `converged`.
+/// The deformation of a point whose cell has the nodal displacements `trial` and had `converged`, `None` for
+/// all zero.
 #[inline]
 fn strain<const D: usize, K: Kinematics<D>>(
     entries: &Entries<D>,
-    trial: &[[f64; D]],
-    converged: &[[f64; D]],
+    trial: &[[f64; D]; MAX_NODES],
+    converged: Option<&[[f64; D]; MAX_NODES]>,
 ) -> Result<Strained> {
-    let (mut now, mut before) = (Tensor::identity(), Tensor::identity());
-    for i in 0..entries.value.len() {
-        let gradient = entries.gradient(i);
-        K::deform(&mut now, &trial[i], &gradient);
-        K::deform(&mut before, &converged[i], &gradient);
-    }
     let p = entries.point;
+    let now = deformation::<D, K>(entries, trial);
     let inverse = now.try_inverse().ok_or_else(|| inadmissible(p, "is squeezed flat", &now))?;
-    let back = before.try_inverse().ok_or_else(|| inadmissible(p, "was squeezed flat", &before))?;
-    let increment = now * back;
+    let increment = match converged {
+        None => now,
+        Some(converged) => {
+            let before = deformation::<D, K>(entries, converged);
+            now * before.try_inverse().ok_or_else(|| inadmissible(p, "was squeezed flat", &before))?
+        }
+    };
     if !(increment.determinant() > LEAST_VOLUME_RATIO && now.determinant() > 0.0) {
         return Err(inadmissible(p, "is turned inside out", &increment));
     }
     Ok(Strained { increment, inverse })
+}
+
+/// `I + Σ u ⊗ ∇N`.
+#[inline]
+fn deformation<const D: usize, K: Kinematics<D>>(entries: &Entries<D>, u: &[[f64; D]; MAX_NODES]) -> Tensor {
+    let mut f = Tensor::identity();
+    for (i, u) in u.iter().enumerate().take(entries.value.len()) {
+        K::deform(&mut f, u, &entries.gradient(i));
+    }
+    f
 }
 
 #[cold]
@@ -217,9 +230,10 @@ fn add_stiffness<const D: usize, K: Kinematics<D>>(
         let column = K::column(tangent, gb);
         for (a, ga) in spatial.iter().enumerate().skip(if symmetric { b } else { 0 }) {
             let block = K::block(&column, ga);
-            for i in 0..D {
-                for k in 0..D {
-                    local.matrix[(a * D + i) * local.size + b * D + k] += weight * block[i][k];
+            for (i, row) in block.iter().enumerate() {
+                let begin = (a * D + i) * local.size + b * D;
+                for (entry, k) in local.matrix[begin..begin + D].iter_mut().zip(row) {
+                    *entry += weight * k;
                 }
             }
         }
