@@ -1,12 +1,12 @@
 //! The generalised-α method (Chung & Hulbert 1993) for displacement increments.
 //!
-//! `R = M ((1−α_m) a_{n+1} + α_m a_n) + F((1−α_f) u_{n+1} + α_f u_n) = 0` with Newmark's
+//! `R = M ((1−α_m) a_{n+1} + α_m a_n) + F_α = 0` with Newmark's
 //! `a_{n+1} = (u_{n+1} − u_n − Δt v_n)/(β Δt²) − (1/(2β) − 1) a_n`,
 //! `v_{n+1} = v_n + Δt ((1−γ) a_n + γ a_{n+1})`. Second order for every `ρ∞`, unconditionally stable in
-//! linear problems. The forces are taken at the intermediate configuration, not averaged from those at the
-//! ends of the step: with `ρ∞ = 1` that is the implicit midpoint rule, which keeps the energy of linear
-//! problems and, since a symmetric stress exerts no moment on its own configuration, the angular momentum of
-//! all (Simo & Tarnow 1992).
+//! linear problems. The internal force `F_α` weights the stresses of both ends of the step, pulled back, and
+//! lets them act on the configuration in between ([`crate::term::Internal`]; Simo & Tarnow 1992, Kuhl &
+//! Crisfield 1999): angular momentum is kept exactly for `ρ∞ = 1`, and rotation adds no strain, which
+//! stresses taken in the configuration between the ends would show.
 
 /// The parameters for one step.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -78,7 +78,7 @@ mod tests {
     }
 
     #[test]
-    fn unit_spectral_radius_is_the_midpoint_rule() {
+    fn unit_spectral_radius_is_the_trapezoidal_rule() {
         let m = GeneralisedAlpha::new(1.0, 0.1);
         assert_eq!((m.alpha_m, m.alpha_f, m.beta, m.gamma), (0.5, 0.5, 0.25, 0.5));
     }

@@ -374,6 +374,24 @@ fn a_full_disk_leaves_the_earlier_files() {
 }
 
 #[test]
+fn a_disk_that_fills_while_solving_loses_nothing_that_is_needed_to_go_on() {
+    let whole = Scene::new();
+    let scene = Scene::new();
+    for part in ["results", "checkpoints"] {
+        fs::remove_dir_all(scene.path().join("out").join(part)).unwrap();
+    }
+    let script = format!("trap '' XFSZ; ulimit -f 2; exec '{}' solve case.yaml", env!("CARGO_BIN_EXE_mpm"));
+    let output = Command::new("sh").args(["-c", &script]).current_dir(scene.path()).output().unwrap();
+    let said = text(&output.stderr);
+    assert_eq!(output.status.code(), Some(3), "{said}");
+    assert!(said.contains("cannot be written") && said.contains("-o") && !said.contains("panicked"), "{said}");
+    let output = scene.mpm(&["solve", "--resume"]);
+    assert!(output.status.success(), "{}", text(&output.stderr));
+    let frame = |scene: &Scene| fs::read(scene.path().join("out/results/frame-000002.mpmf")).unwrap();
+    assert!(frame(&scene) == frame(&whole), "the last frame is another one");
+}
+
+#[test]
 fn standard_output_that_is_full_or_gone_is_no_panic() {
     let scene = Scene::new();
     let sh = |script: &str| Command::new("sh").args(["-c", script]).current_dir(scene.path()).output().unwrap();

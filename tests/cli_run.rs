@@ -103,6 +103,34 @@ fn overrides_reach_the_mesh_and_make_entries() {
 }
 
 #[test]
+fn an_interrupt_ends_the_step_in_hand_and_resume_goes_on_bit_by_bit() {
+    let short = ["--set", "phases.load.step.initial=0.001", "--set", "mesh.parameters.h=0.25"];
+    let whole = scene();
+    assert!(mpm(whole.path(), &[&["run", "."], &short[..]].concat()).status.success());
+    let scene = scene();
+    for stage in ["mesh", "seed"] {
+        assert!(mpm(scene.path(), &[&[stage, "."], &short[..]].concat()).status.success());
+    }
+    let program = env!("CARGO_BIN_EXE_mpm");
+    let mut solve = Command::new(program).args(["solve", "."]).args(short).current_dir(scene.path()).spawn().unwrap();
+    let history = scene.path().join("out/history.csv");
+    while fs::read_to_string(&history).unwrap_or_default().lines().count() < 5 {
+        assert!(solve.try_wait().unwrap().is_none(), "it ended before it could be stopped");
+        std::thread::sleep(std::time::Duration::from_millis(1));
+    }
+    assert!(Command::new("kill").args(["-INT", &solve.id().to_string()]).status().unwrap().success());
+    assert_eq!(solve.wait().unwrap().code(), Some(130));
+    let rows = fs::read_to_string(&history).unwrap().lines().count();
+    assert!(rows < 1001, "{rows} rows: it was not stopped");
+    let output = mpm(scene.path(), &[&["solve", ".", "--resume"], &short[..]].concat());
+    assert!(output.status.success(), "{}", text(&output.stderr));
+    for file in ["out/history.csv", "out/results/frame-000001.mpmf"] {
+        let read = |folder: &Path| fs::read(folder.join(file)).unwrap();
+        assert!(read(scene.path()) == read(whole.path()), "{file} is another one");
+    }
+}
+
+#[test]
 fn check_writes_nothing() {
     let scene = scene();
     assert!(mpm(scene.path(), &["check", "."]).status.success());

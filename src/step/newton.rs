@@ -263,7 +263,8 @@ fn floor<const D: usize>(scene: &Scene<D>, equations: usize) -> f64 {
 pub fn static_force<const D: usize>(problem: &Problem<D>, grid: &mut Grid<D>) -> Result<Vec<f64>> {
     let trial = Trial {
         displacement: problem.converged,
-        displacement_slope: 1.0,
+        between: problem.converged,
+        alpha_f: 0.0,
         converged: problem.converged,
         acceleration: &[],
         acceleration_slope: 0.0,
@@ -283,8 +284,9 @@ fn evaluate<const D: usize>(problem: &Problem<D>, grid: &mut Grid<D>, u: &[[f64;
     }
     let alpha_f = problem.integration.map_or(0.0, |i| i.alpha_f);
     let trial = Trial {
-        displacement: if problem.integration.is_some() { &between } else { u },
-        displacement_slope: 1.0 - alpha_f,
+        displacement: u,
+        between: if problem.integration.is_some() { &between } else { u },
+        alpha_f,
         converged: problem.converged,
         acceleration: &acceleration,
         acceleration_slope: problem.integration.map_or(0.0, |i| i.slope()),

@@ -203,7 +203,8 @@ pub fn commit<const D: usize>(
 ) -> Result<()> {
     let trial = Trial {
         displacement: &solution.displacement,
-        displacement_slope: 1.0,
+        between: &solution.displacement,
+        alpha_f: 0.0,
         converged: &state.displacement,
         acceleration: &[],
         acceleration_slope: 0.0,

@@ -34,7 +34,7 @@ impl<const D: usize, K: Kinematics<D>> Term<D> for EmptyCells<K> {
             let mut u = [[0.0; D]; MAX_NODES];
             for (u, &n) in u.iter_mut().zip(nodes) {
                 for d in 0..D {
-                    u[d] = trial.displacement[n as usize][d] - trial.converged[n as usize][d];
+                    u[d] = trial.between[n as usize][d] - trial.converged[n as usize][d];
                 }
             }
             let size = local.size;
@@ -49,7 +49,7 @@ impl<const D: usize, K: Kinematics<D>> Term<D> for EmptyCells<K> {
                                 let entry = w * (if i == k { dot } else { 0.0 } + g[a][k] * g[b][i]);
                                 local.vector[a * D + i] += entry * u[b][k];
                                 if wanted {
-                                    local.matrix[(a * D + i) * size + b * D + k] += trial.displacement_slope * entry;
+                                    local.matrix[(a * D + i) * size + b * D + k] += (1.0 - trial.alpha_f) * entry;
                                 }
                             }
                         }

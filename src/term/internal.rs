@@ -3,6 +3,10 @@
 //! Kinematics: `F = I + Σ u ⊗ ∇N` from the restored grid, the increment since the last converged step
 //! `ΔF = F F_n⁻¹`, the elastic trial `b = ΔF b_n ΔFᵀ` (theory, eq. 3–5). The term keeps no state: the points
 //! carry it, and it is written only on convergence.
+//!
+//! With inertia the stresses of both ends of the step act on the configuration between them: in place of `τ`
+//! stands `A W`, `A = (1 − α_f) I + α_f ΔF⁻¹`, `W = (1 − α_f) τ + α_f ΔF τ_n ΔFᵀ`. `A W Aᵀ` being symmetric,
+//! the forces have no moment about the positions in between, where the trapezoidal rule needs it.
 
 use super::{Assembly, Frame, History, Term, Trial, Update};
 use crate::error::{Error, Result};
@@ -26,6 +30,8 @@ const LEAST_VOLUME_RATIO: f64 = 0.05;
 pub struct Internal<K> {
     /// The model of each region of the mesh; `None` where a region holds no points.
     models: Vec<Option<Arc<dyn Model>>>,
+    /// Whether the scene has dynamic phases.
+    dynamic: bool,
     kinematics: PhantomData<K>,
 }
 
@@ -37,10 +43,35 @@ struct Strained {
     inverse: Tensor,
 }
 
+/// Deformation and answers of the points of a patch, in order.
+type Evaluated<T> = (Vec<Strained>, Vec<Spatial<T>>);
+
+/// The stress `A W` that acts at point `p` in the step; its tangent takes the place of that of `τ` in `answer`.
+#[inline]
+fn weighted_stress<const D: usize, K: Kinematics<D>>(
+    points: &Points<D>,
+    p: usize,
+    alpha_f: f64,
+    strained: &Strained,
+    answer: &mut Spatial<K::Tangent>,
+) -> Result<Tensor> {
+    let kirchhoff = full(&answer.kirchhoff);
+    if alpha_f == 0.0 {
+        return Ok(kirchhoff);
+    }
+    let increment = &strained.increment;
+    let back = increment.try_inverse().ok_or_else(|| inadmissible(p, "is squeezed flat", increment))?;
+    let before = full(&points.stress[p]) * points.deformation[p].determinant();
+    let a = Tensor::identity() * (1.0 - alpha_f) + back * alpha_f;
+    let w = kirchhoff * (1.0 - alpha_f) + increment * before * increment.transpose() * alpha_f;
+    K::weight(&mut answer.tangent, &a, &answer.kirchhoff, &w);
+    Ok(a * w)
+}
+
 impl<K> Internal<K> {
-    /// `models[r]` is the model of the points of region `r`.
-    pub fn new(models: Vec<Option<Arc<dyn Model>>>) -> Self {
-        Self { models, kinematics: PhantomData }
+    /// `models[r]` is the model of the points of region `r`; `dynamic` where any phase is.
+    pub fn new(models: Vec<Option<Arc<dyn Model>>>, dynamic: bool) -> Self {
+        Self { models, dynamic, kinematics: PhantomData }
     }
 
     /// The answers of the models at the points of a patch, in order.
@@ -70,13 +101,13 @@ impl<K> Internal<K> {
         Ok(answers)
     }
 
-    /// Deformation and answers of the points of a patch at a trial state, in order.
+    /// The points of a patch at a trial state.
     fn evaluate<const D: usize>(
         &self,
         frame: &Frame<D>,
         trial: &Trial<D>,
         patch: &Patch,
-    ) -> Result<(Vec<Strained>, Vec<Spatial<K::Tangent>>)>
+    ) -> Result<Evaluated<K::Tangent>>
     where
         K: Kinematics<D>,
     {
@@ -147,7 +178,7 @@ fn gather<const D: usize>(frame: &Frame<D>, patch: &Patch, field: &[[f64; D]]) -
 
 impl<const D: usize, K: Kinematics<D>> Term<D> for Internal<K> {
     fn symmetric(&self) -> bool {
-        self.models.iter().flatten().all(|m| m.symmetric())
+        !self.dynamic && self.models.iter().flatten().all(|m| m.symmetric())
     }
 
     fn assemble(&self, frame: &Frame<D>, trial: &Trial<D>, out: &mut Assembly) -> Result<()> {
@@ -156,18 +187,19 @@ impl<const D: usize, K: Kinematics<D>> Term<D> for Internal<K> {
         let compute = |patch: &Patch, local: &mut Local| {
             let (strained, answers) = self.evaluate(frame, trial, patch)?;
             let count = patch.node_count as usize;
-            for ((entries, point), answer) in frame.stencil.entries::<K>(patch).zip(&strained).zip(&answers) {
+            for ((entries, point), mut answer) in frame.stencil.entries::<K>(patch).zip(&strained).zip(answers) {
+                let stress = weighted_stress::<D, K>(frame.points, entries.point, trial.alpha_f, point, &mut answer)?;
                 let volume = frame.points.initial_volume[entries.point];
                 let mut spatial = [Gradient { g: [0.0; D], hoop: 0.0 }; MAX_NODES];
                 for i in 0..count {
                     spatial[i] = K::push_forward(&entries.gradient(i), &point.inverse);
-                    let f = K::force(&answer.kirchhoff, &spatial[i]);
+                    let f = K::force(&stress, &spatial[i]);
                     for d in 0..D {
                         local.vector[i * D + d] += volume * f[d];
                     }
                 }
                 if wanted {
-                    let weight = trial.displacement_slope * volume;
+                    let weight = (1.0 - trial.alpha_f) * volume;
                     add_stiffness::<D, K>(local, &answer.tangent, &spatial[..count], weight, symmetric);
                 }
             }

@@ -42,20 +42,21 @@ pub struct Frame<'a, const D: usize> {
 
 /// A trial state of the step.
 pub struct Trial<'a, const D: usize> {
-    /// Displacement of the nodes [m] since the grid was last restored, at the instant the forces are taken:
-    /// the end of the step, or between its ends in the generalised-α method.
+    /// Displacement of the nodes [m] since the grid was last restored, at the end of the step.
     pub displacement: &'a [[f64; D]],
-    /// Its derivative by the displacement at the end of the step [-]: 1, or `1 − α_f`.
-    pub displacement_slope: f64,
+    /// `(1 − α_f) u + α_f u_n` [m]: where loads are taken in the generalised-α method; `u` without inertia.
+    pub between: &'a [[f64; D]],
+    /// α_f of the generalised-α method [-]; zero in quasi-static analysis.
+    pub alpha_f: f64,
     /// The displacement at the last converged step.
     pub converged: &'a [[f64; D]],
-    /// Acceleration of the nodes [m/s²] at the instant the inertia is taken; empty without inertia.
+    /// Acceleration of the nodes [m/s²] weighted by α_m; empty without inertia.
     pub acceleration: &'a [[f64; D]],
     /// Its derivative by the displacement at the end of the step [1/s²].
     pub acceleration_slope: f64,
     /// Number of the phase, from 0.
     pub phase: usize,
-    /// Time [s] since the phase began, at the instant the forces are taken.
+    /// Time [s] since the phase began, between the ends of the step as `between` is.
     pub time: f64,
 }
 

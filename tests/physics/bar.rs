@@ -6,6 +6,7 @@ use mpm::kinematics::PlaneStrain;
 use mpm::material::{Elasticity, LinearElastic};
 use mpm::mesh::builder::rectangle;
 use mpm::mesh::shape::CellKind;
+use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
 
 const LENGTH: f64 = 10.0;
@@ -21,7 +22,7 @@ struct Trace {
 }
 
 fn vibrate(steps_a_period: usize, periods: usize, spectral_radius: f64, cells: usize) -> Trace {
-    let bar = Bar { length: LENGTH, modulus: YOUNG, density: DENSITY, mode: 1, velocity: VELOCITY };
+    let bar = bar();
     let mesh = rectangle(CellKind::T6, LENGTH, LENGTH / cells as f64, cells, 1, 0.0, 1);
     let elasticity = Elasticity::new(constant(YOUNG), 0.0).unwrap();
     let mut bench = Bench::new(mesh, Arc::new(LinearElastic::new(elasticity)));
@@ -56,16 +57,58 @@ fn period(trace: &Trace) -> f64 {
     (crossings[crossings.len() - 1] - crossings[0]) / (crossings.len() - 1) as f64
 }
 
+fn bar() -> Bar {
+    Bar { length: LENGTH, modulus: YOUNG, density: DENSITY, mode: 1, velocity: VELOCITY }
+}
+
 fn exact() -> f64 {
-    Bar { length: LENGTH, modulus: YOUNG, density: DENSITY, mode: 1, velocity: VELOCITY }.period()
+    bar().period()
+}
+
+/// The trapezoidal rule lengthens a period by (ωΔt)²/12, the least of all A-stable linear multistep methods
+/// of second order (Dahlquist 1963): 0.82 % at 20 steps a period, 0.2 % at 41. Against that own period of the
+/// method the rest, from space, is below 0.01 %.
+#[test]
+fn the_period_is_that_of_the_trapezoidal_rule_and_converges_at_second_order() {
+    let mut errors = Vec::new();
+    for steps in [20, 41, 80] {
+        let found = period(&vibrate(steps, 20, 1.0, 16));
+        let dt = exact() / steps as f64;
+        let own = TAU * dt / (2.0 * (PI / steps as f64).atan());
+        println!(
+            "{steps} steps a period: {:+.4} %, of the method's own {:+.4} %",
+            100.0 * (found / exact() - 1.0),
+            100.0 * (found / own - 1.0)
+        );
+        assert!((found / own - 1.0).abs() < 1e-4, "{steps} steps: {found} against {own}");
+        errors.push(found / exact() - 1.0);
+    }
+    assert!(errors[1] < 2e-3, "{errors:?}");
+    let order = (errors[0] / errors[2]).log2() / 2.0;
+    assert!((1.95..2.05).contains(&order), "order {order} of {errors:?}");
 }
 
 #[test]
-fn print() {
-    for steps in [20, 40, 80] {
-        let t = vibrate(steps, 20, 1.0, 16);
-        let e0 = t.energy[0];
-        let drift = t.energy.iter().map(|e| (e / e0 - 1.0).abs()).fold(0.0, f64::max);
-        println!("{steps}: period error {:.4} % energy drift {drift:.2e}", 100.0 * (period(&t) / exact() - 1.0));
+fn the_energy_is_kept_over_twenty_periods() {
+    let trace = vibrate(20, 20, 1.0, 16);
+    let drift = trace.energy.iter().map(|e| (e / trace.energy[0] - 1.0).abs()).fold(0.0, f64::max);
+    println!("energy kept to {drift:.1e}");
+    assert!(drift < 1e-3, "{drift:e}");
+}
+
+/// The first mode in steps of 100 times the time that a wave takes through a cell.
+#[test]
+fn a_hundred_times_the_courant_step_is_stable() {
+    let cells = 200;
+    let courant = LENGTH / cells as f64 / (YOUNG / DENSITY).sqrt();
+    let steps = (exact() / (100.0 * courant)).round() as usize;
+    for spectral_radius in [1.0, 0.8, 0.0] {
+        let trace = vibrate(steps, 10, spectral_radius, cells);
+        let bar = bar();
+        assert!(trace.time[0] >= 99.0 * courant);
+        let largest = trace.energy.iter().fold(0.0, |a: f64, &e| a.max(e));
+        let start = bar.energy() * LENGTH / cells as f64;
+        println!("ρ∞ = {spectral_radius}, {steps} steps a period: energy at most {:.6} of the start", largest / start);
+        assert!(largest < 1.001 * start, "{largest} {start}");
     }
 }
