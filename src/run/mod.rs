@@ -6,6 +6,8 @@
 //! | `history.csv` | a row a step |
 //! | `solve.log` | what every step did |
 //! | `checkpoints/` | what `--resume` continues from, after every step |
+//!
+//! The checkpoint of a step is written while the next one is solved.
 
 mod checkpoint;
 mod record;
@@ -24,8 +26,8 @@ use crate::step::{Controller, Limits, Scene, Simulation, State};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// Jobs that may wait for the writer before the solver does.
-const QUEUE: usize = 3;
+/// Jobs that may wait for the writer: the frame and the checkpoint of a step.
+const QUEUE: usize = 2;
 
 /// What a run writes, and where.
 #[derive(Clone, Debug)]
@@ -187,13 +189,15 @@ impl<'a> Files<'a> {
         Ok(Self { outputs, checkpoints, history, log, writer: Background::start(QUEUE)? })
     }
 
-    /// Notes a converged step.
+    /// Notes a converged step, once the checkpoint of the step before is written: a kill loses the step in hand,
+    /// and the one before it only in the moment in which its checkpoint is being written.
     fn step<const D: usize>(
         &mut self,
         scene: &Scene<D>,
         state: &mut State<D>,
         report: &crate::step::Report<D>,
     ) -> Result<()> {
+        self.writer.flush()?;
         for line in record::log_lines(scene, state, report) {
             self.log.line(&line)?;
         }
