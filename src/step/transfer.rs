@@ -11,7 +11,7 @@ use crate::error::{Error, Result};
 use crate::kinematics::Kinematics;
 use crate::points::Points;
 use crate::stencil::{SoftCell, cell_size, integrate};
-use crate::system::scatter;
+use crate::system::{Method, scatter};
 use crate::term::Trial;
 use crate::time_integration::GeneralisedAlpha;
 use rayon::prelude::*;
@@ -95,8 +95,9 @@ impl<'a> Mass<'a> {
         if self.factorised {
             return solver.solve_again(pattern, matrix, x);
         }
-        solver.solve(pattern, matrix, x)?;
-        self.factorised = x.iter().any(|&v| v != 0.0);
+        let method = solver.solve(pattern, matrix, x)?;
+        // Of a right-hand side of zeros nothing is factorised.
+        self.factorised = method == Method::Cholesky && x.iter().any(|&v| v != 0.0);
         Ok(())
     }
 
