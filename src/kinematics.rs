@@ -7,7 +7,7 @@
 
 use crate::material::spatial::{self, PlaneTangent, Spatial};
 use crate::material::{Model, State, spectral};
-use crate::tensor::{Symmetric, Tensor};
+use crate::tensor::{Symmetric, Tensor, full};
 use std::f64::consts::TAU;
 
 /// The gradient of a shape function at a point.
@@ -35,6 +35,9 @@ pub trait Kinematics<const D: usize>: Copy + Default + Send + Sync + 'static {
 
     /// Principal values of a symmetric tensor.
     fn roots(t: &Symmetric) -> [f64; 3];
+
+    /// The tangent of `A W` from that of `τ`: `A_im (a_mjkl − δ_mk τ_jl) + δ_ik W_jl` (theory, time integration).
+    fn weight(tangent: &mut Self::Tangent, a: &Tensor, kirchhoff: &Symmetric, w: &Tensor);
 
     /// `a : (e_k ⊗ ∇N)` for each component `k`.
     fn column(tangent: &Self::Tangent, gradient: &Gradient<D>) -> Self::Column;
@@ -71,16 +74,15 @@ pub trait Kinematics<const D: usize>: Copy + Default + Send + Sync + 'static {
     }
 
     /// The internal force on a node for the stress `s`: `s · ∇N`, with the hoop stress on the radius.
-    fn force(s: &Symmetric, gradient: &Gradient<D>) -> [f64; D] {
-        const ENTRY: [[usize; 3]; 3] = [[0, 3, 5], [3, 1, 4], [5, 4, 2]];
+    fn force(s: &Tensor, gradient: &Gradient<D>) -> [f64; D] {
         let mut f = [0.0; D];
         for i in 0..D {
             for j in 0..D {
-                f[i] += s[ENTRY[i][j]] * gradient.g[j];
+                f[i] += s[(i, j)] * gradient.g[j];
             }
         }
         if Self::HOOP {
-            f[0] += s[2] * gradient.hoop;
+            f[0] += s[(2, 2)] * gradient.hoop;
         }
         f
     }
@@ -107,6 +109,10 @@ impl Kinematics<2> for PlaneStrain {
         spectral::Plane::of(t).roots()
     }
 
+    fn weight(tangent: &mut Self::Tangent, a: &Tensor, kirchhoff: &Symmetric, w: &Tensor) {
+        weight_plane(tangent, a, kirchhoff, w);
+    }
+
     fn column(tangent: &Self::Tangent, gradient: &Gradient<2>) -> Self::Column {
         let (a, g) = (tangent, &gradient.g);
         std::array::from_fn(|k| std::array::from_fn(|ij| a[ij][2 * k] * g[0] + a[ij][2 * k + 1] * g[1]))
@@ -131,6 +137,10 @@ impl Kinematics<2> for Axisymmetric {
         spectral::Plane::of(t).roots()
     }
 
+    fn weight(tangent: &mut Self::Tangent, a: &Tensor, kirchhoff: &Symmetric, w: &Tensor) {
+        weight_plane(tangent, a, kirchhoff, w);
+    }
+
     fn column(tangent: &Self::Tangent, gradient: &Gradient<2>) -> Self::Column {
         let (a, g) = (tangent, &gradient.g);
         let hoop = [gradient.hoop, 0.0];
@@ -146,4 +156,28 @@ impl Kinematics<2> for Axisymmetric {
             std::array::from_fn(|k| g[0] * column[k][2 * i] + g[1] * column[k][2 * i + 1] + hoop[i] * column[k][4])
         })
     }
+}
+
+/// [`Kinematics::weight`] in the plane, rows and columns in the order xx, xy, yx, yy, zz.
+fn weight_plane(tangent: &mut PlaneTangent, a: &Tensor, kirchhoff: &Symmetric, w: &Tensor) {
+    let tau = full(kirchhoff);
+    let carried = *tangent;
+    for i in 0..2 {
+        for j in 0..2 {
+            for column in 0..5 {
+                let mixed = a[(i, 0)] * carried[j][column] + a[(i, 1)] * carried[2 + j][column];
+                let stress = if column < 4 {
+                    let (k, l) = (column / 2, column % 2);
+                    -a[(i, k)] * tau[(j, l)] + if i == k { w[(j, l)] } else { 0.0 }
+                } else {
+                    0.0
+                };
+                tangent[2 * i + j][column] = mixed + stress;
+            }
+        }
+    }
+    for column in 0..5 {
+        tangent[4][column] = a[(2, 2)] * carried[4][column];
+    }
+    tangent[4][4] += w[(2, 2)] - a[(2, 2)] * tau[(2, 2)];
 }

@@ -1,5 +1,6 @@
 //! Implicit second-order Material Point Method for geotechnics.
 
+pub mod analytical;
 pub mod case;
 pub mod cli;
 pub mod error;

@@ -1,9 +1,12 @@
 //! The generalised-α method (Chung & Hulbert 1993) for displacement increments.
 //!
-//! `R = M ((1−α_m) a_{n+1} + α_m a_n) + (1−α_f) F_{n+1} + α_f F_n = 0` with Newmark's
+//! `R = M ((1−α_m) a_{n+1} + α_m a_n) + F_α = 0` with Newmark's
 //! `a_{n+1} = (u_{n+1} − u_n − Δt v_n)/(β Δt²) − (1/(2β) − 1) a_n`,
 //! `v_{n+1} = v_n + Δt ((1−γ) a_n + γ a_{n+1})`. Second order for every `ρ∞`, unconditionally stable in
-//! linear problems; `ρ∞ = 1` is the trapezoidal rule, which keeps the energy.
+//! linear problems. The internal force `F_α` weights the stresses of both ends of the step, pulled back, and
+//! lets them act on the configuration in between ([`crate::term::Internal`]; Simo & Tarnow 1992, Kuhl &
+//! Crisfield 1999): angular momentum is kept exactly for `ρ∞ = 1`, and rotation adds no strain, which
+//! stresses taken in the configuration between the ends would show.
 
 /// The parameters for one step.
 #[derive(Clone, Copy, Debug, PartialEq)]

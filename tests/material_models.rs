@@ -73,9 +73,11 @@ fn returned_states_are_admissible() {
             let r = model.respond(0.0, &trial, &old);
             assert!(r.stress.iter().chain(&r.elastic_strain).all(|x| x.is_finite()), "{name}: {trial:?}");
             let excess = model.yield_excess(0.0, &r.stress);
-            assert!(excess <= 1e-10 * strength, "{name}: {trial:?}: outside by {excess:e}");
+            // At mean stresses of 10⁵ times the strength the last bit of the stress itself is 1e-10 of it.
+            let on_surface = 1e-10 * strength + 4.0 * f64::EPSILON * largest(&r.stress);
+            assert!(excess <= on_surface, "{name}: {trial:?}: outside by {excess:e}");
             if r.yielding {
-                assert!(excess >= -1e-10 * strength, "{name}: {trial:?}: yields inside, {excess:e}");
+                assert!(excess >= -on_surface, "{name}: {trial:?}: yields inside, {excess:e}");
             }
 
             let stress = model.elasticity().at(0.0).stress(&r.elastic_strain);
@@ -91,7 +93,7 @@ fn returned_states_are_admissible() {
             let change = again.state.plastic_strain - r.state.plastic_strain;
             assert!(change <= 1e-11 * (largest(&trial) + strength / model.young(0.0)), "{name}: {trial:?}: {change:e}");
             for k in 0..3 {
-                assert!((again.stress[k] - r.stress[k]).abs() <= rounding, "{name}: {trial:?}");
+                assert!((again.stress[k] - r.stress[k]).abs() <= rounding, "{name}: {trial:?}: {r:?} {again:?}");
             }
         }
     }

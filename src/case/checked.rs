@@ -1,6 +1,6 @@
 //! A case that cannot be wrong: what the rest of the program builds a scene from.
 //!
-//! Only [`super::check`] makes one. Units are kN, m, s and t. The names of curves and regions are known
+//! Only the checker makes one. Units are kN, m, s and t. The names of curves and regions are known
 //! to the mesh once [`super::names::check`] found no fault.
 
 pub use super::raw::{Axis, Encoding, Field, Quantity};

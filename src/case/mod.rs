@@ -1,10 +1,10 @@
 //! The case: from `case.yaml` to a checked [`Case`], and every mistake on the way in one go.
 //!
 //! [`source`] reads the text and applies the overrides of the command line, [`structure`] checks its shape
-//! against the schema of [`raw`], [`check`] resolves that into [`checked`] types, [`names`] holds the result
+//! against the schema of [`raw`], `check` resolves that into [`checked`] types, [`names`] holds the result
 //! against the groups of the mesh.
 
-pub mod check;
+mod check;
 pub mod checked;
 pub mod locate;
 mod materials;
@@ -15,6 +15,8 @@ pub mod scene;
 pub mod seeding;
 pub mod source;
 pub mod structure;
+#[cfg(test)]
+mod tests;
 
 pub use checked::Case;
 
@@ -91,9 +93,9 @@ fn resolve(source: &Source) -> (Option<Case>, Vec<Issue>) {
     let mut issues = source.faults().to_vec();
     let left_out = |issue: &Issue| source.faults().iter().any(|fault| fault.path.contains(&issue.path));
     issues.extend(structure::check(&schema(), source.tree()).into_iter().filter(|issue| !left_out(issue)));
-    // What is left without the unknown keys may be read all the same, and have more to say.
+    // With the unknown keys mended or left out the rest may be read all the same, and have more to say.
     let mut tree = source.tree().clone();
-    issues.iter().filter(|issue| issue.unknown).for_each(|issue| prune(&mut tree, &issue.path));
+    issues.iter().filter(|issue| issue.unknown).for_each(|issue| mend(&mut tree, issue));
     match read(&tree) {
         Ok(file) => {
             let (case, more) = check::check(&file, source.folder());
@@ -122,15 +124,16 @@ fn read(tree: &Value) -> Result<raw::CaseFile, Issue> {
     })
 }
 
-/// Takes the entry at `path` out of the tree.
-fn prune(tree: &mut Value, path: &locate::Path) {
-    let Some((Step::Key(last), around)) = path.0.split_last() else { return };
+/// Gives the entry of an unknown key the name that was meant, or takes it out of the tree.
+fn mend(tree: &mut Value, issue: &Issue) {
+    let Some((Step::Key(unknown), around)) = issue.path.0.split_last() else { return };
     let around = around.iter().try_fold(tree, |block, step| match step {
         Step::Key(key) => block.get_mut(key),
         Step::Index(index) => block.get_mut(index),
     });
-    if let Some(block) = around.and_then(Value::as_object_mut) {
-        block.remove(last);
+    let Some(block) = around.and_then(Value::as_object_mut) else { return };
+    if let (Some(value), Some(meant)) = (block.remove(unknown), &issue.meant) {
+        block.entry(meant).or_insert(value);
     }
 }
 

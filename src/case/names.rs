@@ -1,6 +1,6 @@
 //! The names in a case against the physical groups of its mesh.
 
-use super::checked::Case;
+use super::checked::{Case, Quantity};
 use super::locate::{At, Path};
 use super::source::Issue;
 use super::structure::{nearest, suggest};
@@ -47,6 +47,10 @@ pub fn check(case: &Case, groups: &Groups) -> Vec<Issue> {
         let path = root.key("output").key("history").index(i).key("on");
         let known = groups.curves.iter().chain(&groups.points).chain(&groups.surfaces);
         names.one_of(&entry.on, known, "physical curve, physical point or region", &path, At::Value);
+        let has_nodes = groups.curves.contains(&entry.on) || groups.points.contains(&entry.on);
+        if groups.surfaces.contains(&entry.on) && !has_nodes {
+            names.no_reaction(&entry.quantities, &root.key("output").key("history").index(i).key("quantities"));
+        }
     }
     names.issues
 }
@@ -57,6 +61,16 @@ struct Names<'a> {
 }
 
 impl Names<'_> {
+    /// Refuses reactions, which supports give and not regions.
+    fn no_reaction(&mut self, quantities: &[Quantity], path: &Path) {
+        for (i, quantity) in quantities.iter().enumerate() {
+            if matches!(quantity, Quantity::ReactionX | Quantity::ReactionY) {
+                let remedy = "take it out, or name the curve that is held";
+                self.issues.push(Issue::new(&path.index(i), At::Value, "a region has no reaction", remedy));
+            }
+        }
+    }
+
     /// Whether the mesh has no such surface.
     fn lacks(&self, surface: &str) -> bool {
         !self.groups.surfaces.iter().any(|known| known == surface)

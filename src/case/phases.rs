@@ -89,11 +89,12 @@ impl Checker {
     fn step(&mut self, step: &raw::Step, duration: f64, path: &Path) -> StepSize {
         let min = step.min.unwrap_or(1e-4 * step.initial);
         let max = step.max.unwrap_or(step.initial);
-        if step.initial > duration {
+        // A number out of range has been reported; what follows from it is not.
+        if step.initial > duration && duration > 0.0 {
             let problem = format!("the first step {} is longer than the phase ({duration})", step.initial);
             self.issue(&path.key("initial"), At::Value, problem, "shorten `initial` or lengthen `duration`");
         }
-        if min > step.initial {
+        if min > step.initial && step.initial > 0.0 {
             let problem = format!("`min` ({min}) is above `initial` ({})", step.initial);
             self.issue(&path.key("min"), At::Value, problem, "lower `min`");
         }

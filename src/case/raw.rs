@@ -1,6 +1,6 @@
 //! The case file as it is written: one structure a block, names exactly the contract.
 //!
-//! Nothing is checked here beyond shape and simple ranges; [`super::check`] turns these into a
+//! Nothing is checked here beyond shape and simple ranges; the checker turns these into a
 //! [`super::Case`]. The documentation comments become the descriptions of `mpm schema`, and the first
 //! sentence of each is shown as a remedy, so each says what the entry is and its unit.
 
@@ -102,7 +102,7 @@ pub enum RegionKind {
     Structure,
 }
 
-/// A material; its schema is written in [`super::materials`], from the list of models.
+/// A material; its schema is made from the list of models.
 #[derive(Debug, Deserialize)]
 pub struct Material {
     /// The name of a model.

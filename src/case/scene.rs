@@ -65,9 +65,9 @@ pub fn scene<K: Kinematics<2>>(case: &Case, mesh: Mesh<2>) -> Result<Scene<2>> {
     let stiffness_scale = largest(|m, y| m.model.young(y));
     let density_scale = largest(|m, y| m.density.at(y));
     let restore_every_step = case.numerics.restore == Restore::EveryStep;
-    let dynamic = |p: &super::checked::Phase| p.analysis == Analysis::Dynamic;
+    let dynamic = case.phases.iter().any(|p| p.analysis == Analysis::Dynamic);
 
-    let mut terms: Vec<Box<dyn Term<2>>> = vec![Box::new(Internal::<K>::new(models(case, &mesh)?))];
+    let mut terms: Vec<Box<dyn Term<2>>> = vec![Box::new(Internal::<K>::new(models(case, &mesh)?, dynamic))];
     if case.gravity != [0.0; 2] && density_scale > 0.0 {
         let factors = case.phases.iter().map(|p| p.gravity.clone()).collect();
         terms.push(Box::new(BodyForce::<K, 2>::new(case.gravity, factors)));
@@ -75,7 +75,7 @@ pub fn scene<K: Kinematics<2>>(case: &Case, mesh: Mesh<2>) -> Result<Scene<2>> {
     if restore_every_step {
         terms.push(Box::new(EmptyCells::<K>::new(case.numerics.empty_stiffness * stiffness_scale)));
     }
-    if case.phases.iter().any(dynamic) {
+    if dynamic {
         terms.push(Box::new(Inertia::<K>::default()));
     }
     for (phase, traction) in case.phases.iter().enumerate().flat_map(|(i, p)| p.tractions.iter().map(move |t| (i, t))) {

@@ -15,11 +15,13 @@ pub struct Issue {
     pub remedy: String,
     /// Whether the entry is a key that does not belong there: without it the rest can still be read.
     pub unknown: bool,
+    /// The key that was probably meant by an unknown one.
+    pub meant: Option<String>,
 }
 
 impl Issue {
     pub fn new(path: &Path, at: At, problem: impl Into<String>, remedy: impl Into<String>) -> Self {
-        Self { path: path.clone(), at, problem: problem.into(), remedy: remedy.into(), unknown: false }
+        Self { path: path.clone(), at, problem: problem.into(), remedy: remedy.into(), unknown: false, meant: None }
     }
 }
 

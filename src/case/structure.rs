@@ -127,9 +127,11 @@ impl<'a> Walk<'a> {
                     }
                 }
                 (None, _) => {
-                    let known = properties.unwrap_or(&none).keys().map(String::as_str);
-                    let issue = Issue::new(&entry, At::Key, format!("unknown key `{key}`"), suggest(key, known));
-                    self.issues.push(Issue { unknown: true, ..issue });
+                    let known = || properties.unwrap_or(&none).keys().map(String::as_str);
+                    let remedy = suggest(key, known());
+                    let issue = Issue::new(&entry, At::Key, format!("unknown key `{key}`"), remedy);
+                    let meant = nearest(key, known()).map(str::to_owned);
+                    self.issues.push(Issue { unknown: true, meant, ..issue });
                 }
             }
         }

@@ -5,8 +5,9 @@ use super::{Outcome, StageArgs, print};
 use crate::case::checked;
 use crate::case::names::Groups;
 use crate::error::{Error, Result};
-use crate::mesh::Mesh;
+use crate::io::atomic;
 use crate::mesh::gmsh::{self, Options};
+use crate::mesh::{Mesh, quality};
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -25,10 +26,20 @@ pub fn work(stage: &Stage) -> Outcome {
     let case = &stage.loaded.case;
     stage.loaded.check_names(&groups(&case.mesh)?)?;
     stage.prepare()?;
-    gmsh::generate(&case.mesh.geo, &options(&case.mesh), &stage.mesh())?;
-    let mesh = gmsh::read(&stage.mesh())?;
+    let candidate = stage.folder().join(".candidate.msh");
+    let summary = gmsh::generate(&case.mesh.geo, &options(&case.mesh), &candidate)
+        .and_then(|()| quality::check(&gmsh::read(&candidate)?, &case.mesh.geo))
+        .and_then(|summary| {
+            fs::rename(&candidate, stage.mesh()).map_err(|e| atomic::unwritable(&stage.mesh(), &e))?;
+            Ok(summary)
+        });
+    if summary.is_err() {
+        // What is left of the attempt; that it may not exist is no further error.
+        let _ = fs::remove_file(&candidate);
+    }
+    let summary = summary?;
     stamp(stage)?.write(&[stage.mesh()])?;
-    print(&format!("{}: {} nodes, {} cells\n", stage.mesh().display(), mesh.nodes.len(), mesh.cells.len()))
+    print(&format!("{}\n{summary}\n", stage.mesh().display()))
 }
 
 /// The mesh of an earlier `mpm mesh`, held against the names in the case.

@@ -52,7 +52,6 @@ pub fn work(stage: &Stage, resume: bool) -> Outcome {
     let stamp = stamp(stage)?;
     let fingerprint = Fingerprint::of(&[stamp.inputs().as_bytes()]);
     stage.prepare()?;
-    stamp.remove()?;
     catch_signals()?;
     let start = Instant::now();
     let mut meter = Meter::new();

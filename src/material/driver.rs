@@ -19,16 +19,16 @@ use nalgebra::{Matrix3, Vector3};
 /// What is prescribed along an axis.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Control {
-    /// Total Hencky strain [-] since the start.
+    /// Total Hencky strain (-) since the start.
     Strain(f64),
-    /// Kirchhoff stress [kPa], tension positive.
+    /// Kirchhoff stress (kPa), tension positive.
     Stress(f64),
 }
 
 /// Newton iterations a step may take.
 const ITERATIONS: usize = 50;
 
-/// The responses of `model` at height `y` [m], stress-free at first, at each point of `path`; the axes stay.
+/// The responses of `model` at height `y` (m), stress-free at first, at each point of `path`; the axes stay.
 ///
 /// # Errors
 /// If the prescribed stresses cannot be reached, beyond the strength for example.

@@ -6,7 +6,7 @@
 use super::Profile;
 use crate::error::{Error, Result};
 
-/// Young's modulus [kPa], possibly varying with depth, and Poisson's ratio [-], within their ranges.
+/// Young's modulus (kPa), possibly varying with depth, and Poisson's ratio (-), within their ranges.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Elasticity {
     young: Profile,
@@ -14,7 +14,7 @@ pub struct Elasticity {
 }
 
 impl Elasticity {
-    /// Elasticity with Young's modulus `young` [kPa] and Poisson's ratio `poisson` [-].
+    /// Elasticity with Young's modulus `young` (kPa) and Poisson's ratio `poisson` (-).
     ///
     /// # Errors
     /// Unless `young` is positive at its datum and `-1 < poisson < 0.5`.
@@ -30,7 +30,7 @@ impl Elasticity {
         Ok(Self { young, poisson })
     }
 
-    /// Whether Young's modulus is positive at height `y` [m].
+    /// Whether Young's modulus is positive at height `y` (m).
     ///
     /// # Errors
     /// If it is not, naming the value.
@@ -38,12 +38,12 @@ impl Elasticity {
         self.young.positive_at("young", y)
     }
 
-    /// Young's modulus [kPa] at height `y` [m].
+    /// Young's modulus (kPa) at height `y` (m).
     pub fn young(&self, y: f64) -> f64 {
         self.young.at(y)
     }
 
-    /// The moduli at height `y` [m].
+    /// The moduli at height `y` (m).
     pub fn at(&self, y: f64) -> Moduli {
         let (e, nu) = (self.young.at(y), self.poisson);
         let shear = 0.5 * e / (1.0 + nu);
@@ -51,7 +51,7 @@ impl Elasticity {
     }
 }
 
-/// Lamé's constants [kPa] at a point.
+/// Lamé's constants (kPa) at a point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Moduli {
     pub lambda: f64,
@@ -60,7 +60,7 @@ pub struct Moduli {
 }
 
 impl Moduli {
-    /// Bulk modulus [kPa].
+    /// Bulk modulus (kPa).
     pub fn bulk(&self) -> f64 {
         self.lambda + 2.0 / 3.0 * self.shear
     }
@@ -78,7 +78,7 @@ impl Moduli {
         stress.map(|s| volumetric + (s - mean) / (2.0 * self.shear))
     }
 
-    /// `∂τ_A/∂ε_B` [kPa].
+    /// `∂τ_A/∂ε_B` (kPa).
     pub fn tangent(&self) -> [[f64; 3]; 3] {
         let (l, d) = (self.lambda, self.lambda + 2.0 * self.shear);
         [[d, l, l], [l, d, l], [l, l, d]]

@@ -31,7 +31,7 @@ pub const MODELS: &[Kind] = &[linear_elastic::KIND, mohr_coulomb::KIND, tresca::
 /// What a model remembers at a point from step to step.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct State {
-    /// Accumulated equivalent plastic strain [-]: the sum of `√(⅔ Δε_p:Δε_p)` over the steps, `Δε_p` the
+    /// Accumulated equivalent plastic strain (-): the sum of `√(⅔ Δε_p:Δε_p)` over the steps, `Δε_p` the
     /// plastic Hencky strain of a step with its volumetric part.
     pub plastic_strain: f64,
 }
@@ -39,11 +39,11 @@ pub struct State {
 /// The answer of a model, in principal axes, in the order of the trial strains.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Response {
-    /// Kirchhoff stress [kPa], tension positive.
+    /// Kirchhoff stress (kPa), tension positive.
     pub stress: [f64; 3],
-    /// `∂τ_A/∂ε_B` of the stress with respect to the elastic trial strain [kPa].
+    /// `∂τ_A/∂ε_B` of the stress with respect to the elastic trial strain (kPa).
     pub tangent: [[f64; 3]; 3],
-    /// Elastic Hencky strain after the return [-].
+    /// Elastic Hencky strain after the return (-).
     pub elastic_strain: [f64; 3],
     pub state: State,
     /// Whether the point yielded.
@@ -65,7 +65,7 @@ impl Response {
 
 /// A material model.
 pub trait Model: Send + Sync {
-    /// The response at a point seeded at height `y` [m] to the elastic trial Hencky strains.
+    /// The response at a point seeded at height `y` (m) to the elastic trial Hencky strains.
     fn respond(&self, y: f64, trial: &[f64; 3], state: &State) -> Response;
 
     /// The elastic part.
@@ -75,10 +75,10 @@ pub trait Model: Send + Sync {
     fn symmetric(&self) -> bool;
 
     /// How far principal Kirchhoff stresses, in any order, lie outside the yield surface at height `y`,
-    /// as a stress [kPa]; negative inside.
+    /// as a stress (kPa); negative inside.
     fn yield_excess(&self, y: f64, stress: &[f64; 3]) -> f64;
 
-    /// The strength [kPa] at height `y` that yield is measured by (cohesion, yield stress); infinite
+    /// The strength (kPa) at height `y` that yield is measured by (cohesion, yield stress); infinite
     /// without yield.
     fn strength(&self, y: f64) -> f64;
 
@@ -89,7 +89,7 @@ pub trait Model: Send + Sync {
     /// Names the parameter and its value.
     fn check(&self, y: f64) -> Result<()>;
 
-    /// Young's modulus [kPa] at height `y`: the scale of penalties and tolerances.
+    /// Young's modulus (kPa) at height `y`: the scale of penalties and tolerances.
     fn young(&self, y: f64) -> f64 {
         self.elasticity().young(y)
     }

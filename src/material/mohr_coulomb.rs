@@ -1,7 +1,8 @@
 //! Perfectly plastic Mohr–Coulomb model with dilation (non-associated flow) and tension cut-off:
 //! `(τ₁ − τ₃) + (τ₁ + τ₃) sin φ ≤ 2 c cos φ` and `τ₁ ≤ σ_t`, tension positive.
 //!
-//! The return, with edges, apex and the cut-off's corners, is that of [`super::polyhedral`]; flow on the cut-off is associated.
+//! The return, with edges, apex and the cut-off's corners, is that of [`super::polyhedral`]; flow on the
+//! cut-off is associated.
 
 use super::polyhedral::Planes;
 use super::{Elasticity, Kind, Model, Parameter, Parameters, Profile, Response, State};
@@ -102,7 +103,7 @@ fn build(parameters: &Parameters) -> Result<Arc<dyn Model>> {
 }
 
 impl MohrCoulomb {
-    /// A model with the cohesion [kPa] and, if any, the largest tension [kPa].
+    /// A model with the cohesion (kPa) and, if any, the largest tension (kPa).
     ///
     /// # Errors
     /// As [`Model::check`], at the datum of cohesion.

@@ -11,7 +11,7 @@ pub struct Profile {
     pub top: f64,
     /// Growth per metre below `datum`.
     pub gradient: f64,
-    /// Height y [m] at which the growth begins.
+    /// Height y (m) at which the growth begins.
     pub datum: f64,
 }
 
@@ -20,7 +20,7 @@ impl Profile {
         Self { top: value, gradient: 0.0, datum: 0.0 }
     }
 
-    /// The value at height `y` [m].
+    /// The value at height `y` (m).
     #[inline]
     pub fn at(&self, y: f64) -> f64 {
         self.top + self.gradient * (self.datum - y).max(0.0)

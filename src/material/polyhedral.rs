@@ -10,8 +10,8 @@
 //!
 //! and plastic strain flows along `m_ij = (1 + sin ψ) e_i − (1 − sin ψ) e_j` and `e_i` (Koiter's rule). Since
 //! both law and surface are linear, each set of active planes gives its return in one exact step (Clausen,
-//! Damkilde & Andersen, *Int. J. Numer. Meth. Engng* 66 (2006) 1831–1853; de Souza Neto, Perić & Owen, *Computational Methods for
-//! Plasticity*, 2008, §8.2):
+//! Damkilde & Andersen, *Int. J. Numer. Meth. Engng* 66 (2006) 1036–1059, and, non-associated, *Computers
+//! and Structures* 85 (2007) 1795–1807; docs/theory.md, section 3):
 //!
 //! ```text
 //! τ = τ_tr − C M λ,   (Nᵀ C M) λ = f(τ_tr),   ∂τ/∂ε = C − C M (Nᵀ C M)⁻¹ Nᵀ C
@@ -44,7 +44,7 @@ const TOLERANCE: f64 = 1e-12;
 /// Rounding of a yield function, a fraction of the stress it is evaluated from.
 const ROUNDING: f64 = 8.0 * f64::EPSILON;
 
-/// A sorted return: stress, elastic strain and tangent, and by how much [kPa] its set of active planes fails
+/// A sorted return: stress, elastic strain and tangent, and by how much (kPa) its set of active planes fails
 /// the conditions of Kuhn and Tucker.
 struct Candidate {
     stress: [f64; 3],
@@ -74,7 +74,7 @@ struct Plane {
 }
 
 impl Planes {
-    /// How far stresses in any order lie outside [kPa]; negative inside.
+    /// How far stresses in any order lie outside (kPa); negative inside.
     pub fn excess(&self, stress: &[f64; 3]) -> f64 {
         let largest = stress[0].max(stress[1]).max(stress[2]);
         let smallest = stress[0].min(stress[1]).min(stress[2]);
@@ -159,22 +159,27 @@ impl Planes {
 
     /// The return with one or two planes active.
     fn on_planes<const K: usize>(&self, moduli: &Moduli, trial: &[f64; 3], active: [Plane; K]) -> Candidate {
-        let stress = moduli.stress(trial);
         let cm = active.map(|p| moduli.stress(&p.m));
         let cn = active.map(|p| moduli.stress(&p.n));
-        let f = active.map(|p| dot(&p.n, &stress) - p.r);
         let inverse: [[f64; K]; K] =
             inverse(std::array::from_fn(|a| std::array::from_fn(|b| dot(&active[a].n, &cm[b]))));
-        let lambda: [f64; K] = std::array::from_fn(|a| (0..K).map(|b| inverse[a][b] * f[b]).sum());
 
-        let mut stress = stress;
-        let mut elastic_strain = *trial;
+        // The second pass removes the rounding of the first, which is that of the trial stress times the
+        // condition of Nᵀ C M: near incompressibility it would show.
+        let mut stress = moduli.stress(trial);
+        let mut lambda = [0.0; K];
+        for _ in 0..2 {
+            let f = active.map(|p| dot(&p.n, &stress) - p.r);
+            for a in 0..K {
+                let change: f64 = (0..K).map(|b| inverse[a][b] * f[b]).sum();
+                lambda[a] += change;
+                for i in 0..3 {
+                    stress[i] -= cm[a][i] * change;
+                }
+            }
+        }
         let mut tangent = moduli.tangent();
         for a in 0..K {
-            for i in 0..3 {
-                stress[i] -= cm[a][i] * lambda[a];
-                elastic_strain[i] -= active[a].m[i] * lambda[a];
-            }
             for b in 0..K {
                 for i in 0..3 {
                     for j in 0..3 {
@@ -186,6 +191,8 @@ impl Planes {
         // Multipliers in strain, made a stress; order and every plane of the sorted sector.
         let negative = lambda.iter().fold(0.0, |v: f64, l| v.max(-2.0 * moduli.shear * l));
         let outside = self.excess(&stress).max(stress[1] - stress[0]).max(stress[2] - stress[1]);
+        // From the stress, not trial strain less flow: it must give this stress back, however large the trial.
+        let elastic_strain = moduli.strain(&stress);
         Candidate { stress, elastic_strain, tangent, violation: outside.max(negative) }
     }
 
@@ -202,10 +209,10 @@ impl Planes {
         // lengthening along those before it.
         let k = (1.0 + self.sin_dilation) / (1.0 - self.sin_dilation);
         let least = match tensile {
-            1 => (-d[1]).min(-d[2]).min(d[0] + k * (d[1] + d[2])),
-            2 => (-d[2]).min(d[0]).min(d[1]).min(d[0] + d[1] + k * d[2]),
+            1 => (-d[1]).min(d[0] + k * (d[1] + d[2])),
+            2 => (-d[2]).min(d[1]).min(d[0] + d[1] + k * d[2]),
             _ if tension < apex => d[2],
-            _ => d[0].min(d[0] + k * d[1]).min(d[0] + k * (d[1] + d[2])).min(d[0] + d[1] + k * d[2]),
+            _ => (d[0] + k * (d[1] + d[2])).min(d[0] + d[1] + k * d[2]),
         };
         Candidate { stress, elastic_strain, tangent: [[0.0; 3]; 3], violation: -2.0 * moduli.shear * least }
     }
@@ -242,4 +249,58 @@ fn inverse<const K: usize>(a: [[f64; K]; K]) -> [[f64; K]; K] {
         inverse[1][1] = a[0][0] / det;
     }
     inverse
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use nalgebra::{Matrix3, Vector3};
+
+    /// The cones of flow at the corners, written as inequalities, against a search through all triples of
+    /// the flows that meet there (Carathéodory).
+    #[test]
+    fn cones_of_the_corners() {
+        let moduli = Moduli { lambda: 120.0, shear: 80.0 };
+        let mut seed = 1u64;
+        let mut random = || {
+            seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            (seed >> 11) as f64 / (1u64 << 52) as f64 - 1.0
+        };
+        for (sin_dilation, tension) in [(0.0, 0.5), (0.3, 0.5), (0.5, 0.5), (0.2, f64::INFINITY)] {
+            let cone = Planes { sin_friction: 0.5, sin_dilation, strength: 2.0, tension };
+            let planes = Planes { tension: cone.tension.min(cone.apex()), ..cone };
+            let shear = |ij: &[(usize, usize)]| ij.iter().map(|&(i, j)| planes.shear(i, j).m).collect::<Vec<_>>();
+            let tensile = |n: usize| (0..n).map(|i| planes.tensile(i).m).collect::<Vec<_>>();
+            let flows = [
+                [shear(&[(0, 2), (0, 1)]), tensile(1)].concat(),
+                [shear(&[(0, 2), (1, 2)]), tensile(2)].concat(),
+                if planes.tension < planes.apex() {
+                    tensile(3)
+                } else {
+                    [shear(&[(0, 2), (0, 1), (1, 2)]), tensile(3)].concat()
+                },
+            ];
+            for (corner, flows) in flows.iter().enumerate() {
+                let mut inside = 0;
+                for _ in 0..10_000 {
+                    let mut d = [random(), random(), random()];
+                    d.sort_by(|a, b| b.total_cmp(a));
+                    let in_cone = (0..flows.len()).any(|a| {
+                        (0..a).any(|b| {
+                            (0..b).any(|c| {
+                                let m = Matrix3::from_columns(&[flows[a], flows[b], flows[c]].map(Vector3::from));
+                                m.try_inverse().is_some_and(|m| (m * Vector3::from(d)).min() >= 0.0)
+                            })
+                        })
+                    });
+                    let start = planes.corner(&moduli, &[0.0; 3], corner + 1).elastic_strain;
+                    let trial = std::array::from_fn(|k| start[k] + d[k]);
+                    let violation = planes.corner(&moduli, &trial, corner + 1).violation;
+                    assert_eq!(violation <= 0.0, in_cone, "corner {corner}, {planes:?}: {d:?} {violation}");
+                    inside += usize::from(in_cone);
+                }
+                assert!(inside > 20, "corner {corner}, {planes:?}: {inside}");
+            }
+        }
+    }
 }

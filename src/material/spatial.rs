@@ -22,30 +22,30 @@ const EQUAL: f64 = 1e-7;
 /// Components of a plane gradient in the order of [`PlaneTangent`]: xx, xy, yx, yy, zz.
 pub const PLANE: usize = 5;
 
-/// The tangent `a_ijkl` [kPa] in the plane: row (i, j), column (k, l) in the order xx, xy, yx, yy, zz.
+/// The tangent `a_ijkl` (kPa) in the plane: row (i, j), column (k, l) in the order xx, xy, yx, yy, zz.
 ///
 /// With `g_Ij = N_I,j` the stiffness between nodes is `K_IiJk = V0 Σ_jl g_Ij a_(ij)(kl) g_Jl`; the last row
 /// and column are the hoop, with `N_I/r` for the gradient and the component x for i.
 pub type PlaneTangent = [[f64; PLANE]; PLANE];
 
-/// The tangent `a_ijkl` [kPa] in three dimensions: row (i, j), column (k, l) in the order xx, xy, xz, yx, …
+/// The tangent `a_ijkl` (kPa) in three dimensions: row (i, j), column (k, l) in the order xx, xy, xz, yx, …
 pub type SolidTangent = [[f64; 9]; 9];
 
 /// The response of a point in the axes of space.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Spatial<T> {
-    /// Kirchhoff stress [kPa], tension positive.
+    /// Kirchhoff stress (kPa), tension positive.
     pub kirchhoff: Symmetric,
-    /// Elastic left Cauchy–Green tensor [-] after the return.
+    /// Elastic left Cauchy–Green tensor (-) after the return.
     pub elastic: Symmetric,
-    /// `a_ijkl = C_ijkl − τ_il δ_jk` [kPa].
+    /// `a_ijkl = C_ijkl − τ_il δ_jk` (kPa).
     pub tangent: T,
     pub state: State,
     /// Whether the point yielded.
     pub yielding: bool,
 }
 
-/// The response at a point seeded at height `y` [m] in plane strain or axisymmetry to the elastic trial
+/// The response at a point seeded at height `y` (m) in plane strain or axisymmetry to the elastic trial
 /// left Cauchy–Green tensor `trial`, whose components yz and xz are taken as zero.
 ///
 /// `None` where `trial` is not positive definite and finite: the step was too large.
@@ -164,7 +164,7 @@ pub fn solid(model: &dyn Model, y: f64, trial: &Symmetric, state: &State) -> Opt
     Some(Spatial { kirchhoff, elastic, tangent, state: r.state, yielding: r.yielding })
 }
 
-/// The elastic left Cauchy–Green tensor `exp 2ε` that carries the Kirchhoff stress [kPa], without a check of
+/// The elastic left Cauchy–Green tensor `exp 2ε` that carries the Kirchhoff stress (kPa), without a check of
 /// yield: how an initial stress enters.
 pub fn elastic_from_stress(model: &dyn Model, y: f64, kirchhoff: &Symmetric) -> Symmetric {
     spectral::map_roots(kirchhoff, |t| model.elastic_strain(y, t).map(|e| (2.0 * e).exp()))

@@ -41,7 +41,7 @@ fn build(parameters: &Parameters) -> Result<Arc<dyn Model>> {
 
 impl Tresca {
     /// # Errors
-    /// Unless `shear_strength` [kPa] is positive at its datum.
+    /// Unless `shear_strength` (kPa) is positive at its datum.
     pub fn new(elasticity: Elasticity, shear_strength: Profile) -> Result<Self> {
         shear_strength.positive_at("shear_strength", shear_strength.datum)?;
         Ok(Self { elasticity, shear_strength })

@@ -45,7 +45,7 @@ fn build(parameters: &Parameters) -> Result<Arc<dyn Model>> {
 
 impl VonMises {
     /// # Errors
-    /// Unless `yield_stress` [kPa] is positive at its datum.
+    /// Unless `yield_stress` (kPa) is positive at its datum.
     pub fn new(elasticity: Elasticity, yield_stress: Profile) -> Result<Self> {
         yield_stress.positive_at("yield_stress", yield_stress.datum)?;
         Ok(Self { elasticity, yield_stress })

@@ -12,9 +12,11 @@ use crate::time_integration::GeneralisedAlpha;
 /// Sufficient decrease of the residual for a step length `s`: by a factor `1 − ARMIJO · s`.
 const ARMIJO: f64 = 1e-4;
 /// Halvings of the step length before the best one is taken.
-const BACKTRACKS: usize = 6;
-/// Iterations that may end without a decrease before the step is given up.
+const BACKTRACKS: i32 = 6;
+/// Line searches that may end without a decrease before the step is given up.
 const STALLED: usize = 4;
+/// Full steps that may raise the residual before the iteration returns to its best state.
+const WATCH: usize = 3;
 /// A residual this small relative to the forces that balance is rounding.
 const ROUNDING: f64 = 1e-14;
 
@@ -62,89 +64,191 @@ struct Evaluation<const D: usize> {
 /// # Errors
 /// An analysis error that says why when the iteration does not converge: the caller takes a smaller step.
 pub fn solve<const D: usize>(problem: &Problem<D>, grid: &mut Grid<D>) -> Result<Solution<D>> {
-    let numerics = &problem.scene.numerics;
-    let equations = grid.motion.pattern.len();
-    let fixed: Vec<bool> = problem.given.iter().map(Option::is_some).collect();
-    let (before, applied_before) = force_before(problem, grid)?;
-    let mut u = problem.converged.to_vec();
-    let mut now = evaluate(problem, grid, &u, &before, true)?;
-    let mut scale = now.scale.max(floor(problem.scene, equations));
-    let mut history = vec![norm_free(&now.force, &fixed) / scale];
-    let mut method = Method::Cholesky;
-    let mut stalled = 0;
-    for iteration in 0..=numerics.max_iterations {
-        let gap: Vec<f64> = gaps(problem, grid, &u);
-        let error = norm_free(&now.force, &fixed) / scale;
-        let closed = gap.iter().all(|g| *g == 0.0);
-        if closed && (error <= ROUNDING || (iteration > 0 && error <= numerics.tolerance)) {
-            let applied = std::array::from_fn(|d| now.applied[d] + applied_before[d]);
-            return Ok(Solution { displacement: u, residual: now.force, history, applied, method });
-        }
-        if iteration == numerics.max_iterations {
-            break;
-        }
-        // K δ = −R with δ given where the displacement is.
-        let mut delta: Vec<f64> = now.force.iter().map(|r| -r).collect();
-        let motion = &mut grid.motion;
-        let diagonal = motion.matrix.scale(&motion.pattern);
-        motion.matrix.constrain(&motion.pattern, &fixed, &gap, diagonal, &mut delta);
-        let wanted = norm_free(&delta, &fixed) / scale;
-        method = motion.solver.solve(&motion.pattern, &motion.matrix, &mut delta)?;
-
-        let mut length = 1.0;
-        let mut best: Option<(f64, f64)> = None;
-        let mut accepted = None;
-        for _ in 0..=BACKTRACKS {
-            let trial = moved(problem, grid, &u, &delta, length);
-            if let Ok(next) = evaluate(problem, grid, &trial, &before, true) {
-                scale = scale.max(next.scale);
-                let size = norm_free(&next.force, &fixed) / scale;
-                if size.is_finite() {
-                    if size <= (1.0 - ARMIJO * length) * wanted || size <= numerics.tolerance {
-                        accepted = Some((trial, next, size));
-                        break;
-                    }
-                    if best.is_none_or(|(b, _)| size < b) {
-                        best = Some((size, length));
-                    }
-                }
-            }
-            length *= 0.5;
-        }
-        let (trial, next, size) = match (accepted, best) {
-            (Some(accepted), _) => {
-                stalled = 0;
-                accepted
-            }
-            (None, Some((size, length))) if stalled < STALLED => {
-                // No decrease along the whole direction: take the least and hope for a better tangent.
-                stalled += 1;
-                let trial = moved(problem, grid, &u, &delta, length);
-                let next = evaluate(problem, grid, &trial, &before, true)?;
-                (trial, next, size)
-            }
-            (None, best) => {
-                let why = match best {
-                    None => "every trial state turns a material point inside out",
-                    Some(_) => "the line search finds no smaller residual",
-                };
-                return Err(not_converged(&history, why));
-            }
-        };
-        u = trial;
-        now = next;
-        history.push(size);
+    let mut newton = Newton::begin(problem, grid)?;
+    while !newton.converged() {
+        let delta = newton.direction()?;
+        newton.search(&delta)?;
     }
-    Err(not_converged(&history, "too many iterations"))
+    Ok(newton.solution())
 }
 
-fn not_converged(history: &[f64], why: &str) -> Error {
-    let last = history.last().copied().unwrap_or(f64::NAN);
-    Error::analysis(
-        "Newton",
-        format!("{why} (residual {last:.1e} after {} iterations)", history.len() - 1),
-        "take smaller steps (step.min) or refine the mesh",
-    )
+/// The iteration.
+struct Newton<'a, const D: usize> {
+    problem: &'a Problem<'a, D>,
+    grid: &'a mut Grid<D>,
+    /// Equations whose displacement is given.
+    fixed: Vec<bool>,
+    u: Vec<[f64; D]>,
+    now: Evaluation<D>,
+    /// A force [kN] below which nothing counts.
+    floor: f64,
+    /// Relative residuals so far; the last is that of `u`.
+    history: Vec<f64>,
+    method: Method,
+    /// The best state so far, the residual [kN] to beat, and how many iterations have not.
+    best: Vec<[f64; D]>,
+    target: f64,
+    relaxed: usize,
+    /// Whether every iteration must lessen the residual: set when full steps have failed to.
+    strict: bool,
+    stalled: usize,
+}
+
+impl<'a, const D: usize> Newton<'a, D> {
+    fn begin(problem: &'a Problem<'a, D>, grid: &'a mut Grid<D>) -> Result<Self> {
+        let u = problem.converged.to_vec();
+        let now = evaluate(problem, grid, &u)?;
+        let floor = floor(problem.scene, problem.given.len());
+        let mut newton = Self {
+            fixed: problem.given.iter().map(Option::is_some).collect(),
+            history: Vec::new(),
+            method: Method::Cholesky,
+            best: u.clone(),
+            target: f64::INFINITY,
+            relaxed: 0,
+            strict: false,
+            stalled: 0,
+            problem,
+            grid,
+            u,
+            now,
+            floor,
+        };
+        newton.note();
+        Ok(newton)
+    }
+
+    /// The residual [kN].
+    fn size(&self, evaluation: &Evaluation<D>) -> f64 {
+        norm_free(&evaluation.force, &self.fixed)
+    }
+
+    /// Notes the residual of the state at hand, relative to the largest of the terms that balance in it.
+    fn note(&mut self) {
+        self.history.push(self.size(&self.now) / self.now.scale.max(self.floor));
+    }
+
+    fn error(&self) -> f64 {
+        self.history.last().copied().unwrap_or(f64::NAN)
+    }
+
+    fn converged(&self) -> bool {
+        let closed = gaps(self.problem, self.grid, &self.u).iter().all(|g| *g == 0.0);
+        let tolerance = if self.history.len() > 1 { self.problem.scene.numerics.tolerance } else { ROUNDING };
+        closed && self.error() <= tolerance
+    }
+
+    fn solution(self) -> Solution<D> {
+        Solution {
+            displacement: self.u,
+            residual: self.now.force,
+            history: self.history,
+            applied: self.now.applied,
+            method: self.method,
+        }
+    }
+
+    /// `K δ = −R` with δ given where the displacement is.
+    fn direction(&mut self) -> Result<Vec<f64>> {
+        if self.history.len() > self.problem.scene.numerics.max_iterations {
+            return Err(self.failure("too many iterations"));
+        }
+        let gap = gaps(self.problem, self.grid, &self.u);
+        let mut delta: Vec<f64> = self.now.force.iter().map(|r| -r).collect();
+        let motion = &mut self.grid.motion;
+        let diagonal = motion.matrix.scale(&motion.pattern);
+        motion.matrix.constrain(&motion.pattern, &self.fixed, &gap, diagonal, &mut delta);
+        if self.target.is_infinite() {
+            // Displacements still to be given unbalance the system beyond the residual at hand.
+            self.target = norm_free(&delta, &self.fixed);
+        }
+        self.method = motion.solver.solve(&motion.pattern, &motion.matrix, &mut delta)?;
+        Ok(delta)
+    }
+
+    /// Goes along `delta`. A full step is taken even if the residual grows, for a few iterations on trial:
+    /// bending structures converge so, and only so. If that does not pay, the iteration returns to its best
+    /// state and from then on backtracks until the residual falls (a watchdog, Chamberlain et al. 1982).
+    fn search(&mut self, delta: &[f64]) -> Result<()> {
+        let full = self.attempt(delta, 1.0);
+        if let Some((u, now, size)) = full {
+            if self.better(size, 1.0) {
+                self.accept(u, now);
+                return Ok(());
+            }
+            if !self.strict && self.relaxed < WATCH {
+                self.relaxed += 1;
+                (self.u, self.now) = (u, now);
+                self.note();
+                return Ok(());
+            }
+        }
+        if !self.strict && self.relaxed > 0 {
+            self.strict = true;
+            let best = self.best.clone();
+            self.now = evaluate(self.problem, self.grid, &best)?;
+            self.u = best;
+            self.note();
+            return Ok(());
+        }
+        self.backtrack(delta)
+    }
+
+    /// Halves the step length until the residual falls; takes the least one a few times where it never does.
+    fn backtrack(&mut self, delta: &[f64]) -> Result<()> {
+        let mut least: Option<(f64, f64)> = None;
+        for halvings in 1..=BACKTRACKS {
+            let length = 0.5f64.powi(halvings);
+            if let Some((u, now, size)) = self.attempt(delta, length) {
+                if self.better(size, length) {
+                    self.stalled = 0;
+                    self.accept(u, now);
+                    return Ok(());
+                }
+                if least.is_none_or(|(other, _)| size < other) {
+                    least = Some((size, length));
+                }
+            }
+        }
+        let Some((_, length)) = least else {
+            return Err(self.failure("every trial state turns a material point inside out"));
+        };
+        self.stalled += 1;
+        match self.attempt(delta, length) {
+            Some((u, now, _)) if self.stalled <= STALLED => {
+                self.accept(u, now);
+                Ok(())
+            }
+            _ => Err(self.failure("the line search finds no smaller residual")),
+        }
+    }
+
+    /// The state at a step length, if it is admissible.
+    fn attempt(&mut self, delta: &[f64], length: f64) -> Option<(Vec<[f64; D]>, Evaluation<D>, f64)> {
+        let u = moved(self.problem, self.grid, &self.u, delta, length);
+        let now = evaluate(self.problem, self.grid, &u).ok()?;
+        let size = self.size(&now);
+        size.is_finite().then_some((u, now, size))
+    }
+
+    fn better(&self, size: f64, length: f64) -> bool {
+        size <= (1.0 - ARMIJO * length) * self.target || size <= self.problem.scene.numerics.tolerance * self.floor
+    }
+
+    fn accept(&mut self, u: Vec<[f64; D]>, now: Evaluation<D>) {
+        self.best.clone_from(&u);
+        (self.u, self.now) = (u, now);
+        (self.target, self.relaxed) = (self.size(&self.now), 0);
+        self.note();
+    }
+
+    fn failure(&self, why: &str) -> Error {
+        Error::analysis(
+            "Newton",
+            format!("{why} (residual {:.1e} after {} iterations)", self.error(), self.history.len() - 1),
+            "take smaller steps (step.min) or refine the mesh",
+        )
+    }
 }
 
 /// A force [kN] below which nothing counts: rounding in stresses of the order of the stiffness.
@@ -152,70 +256,55 @@ fn floor<const D: usize>(scene: &Scene<D>, equations: usize) -> f64 {
     1e-6 * scene.stiffness_scale * scene.cell_face() * (equations as f64).sqrt()
 }
 
-/// `α_f F_n` of the generalised-α method, zero in quasi-static analysis, and the resultant of what is applied.
-fn force_before<const D: usize>(problem: &Problem<D>, grid: &mut Grid<D>) -> Result<(Vec<f64>, [f64; D])> {
-    match problem.integration {
-        Some(integration) => static_force(problem, grid, integration.alpha_f),
-        None => Ok((vec![0.0; grid.motion.pattern.len()], [0.0; D])),
-    }
-}
-
-/// The sum of all terms but inertia at the last converged step, times `weight`, and the resultant of what is
-/// applied.
+/// The sum of all terms but inertia at the last converged step.
 ///
 /// # Errors
 /// When the converged state is inadmissible on the restored grid.
-pub fn static_force<const D: usize>(
-    problem: &Problem<D>,
-    grid: &mut Grid<D>,
-    weight: f64,
-) -> Result<(Vec<f64>, [f64; D])> {
+pub fn static_force<const D: usize>(problem: &Problem<D>, grid: &mut Grid<D>) -> Result<Vec<f64>> {
     let trial = Trial {
         displacement: problem.converged,
+        between: problem.converged,
+        alpha_f: 0.0,
         converged: problem.converged,
         acceleration: &[],
         acceleration_slope: 0.0,
         phase: problem.phase,
         time: problem.from,
-        weight,
     };
-    let evaluation = sum_terms(problem, grid, &trial, None, |role| role != Role::Inertia)?;
-    Ok((evaluation.force, evaluation.applied))
+    sum_terms(problem, grid, &trial, None, |role| role != Role::Inertia).map(|sum| sum.force)
 }
 
-/// The residual, and with it the tangent in the matrix of the grid.
-fn evaluate<const D: usize>(
-    problem: &Problem<D>,
-    grid: &mut Grid<D>,
-    u: &[[f64; D]],
-    before: &[f64],
-    tangent: bool,
-) -> Result<Evaluation<D>> {
-    let acceleration = match problem.integration {
-        Some(integration) => weighted_acceleration(problem, &integration, u),
-        None => Vec::new(),
-    };
+/// The residual for a displacement at the end of the step, and with it the tangent in the matrix of the grid.
+fn evaluate<const D: usize>(problem: &Problem<D>, grid: &mut Grid<D>, u: &[[f64; D]]) -> Result<Evaluation<D>> {
+    let mut between = Vec::new();
+    let mut acceleration = Vec::new();
+    if let Some(integration) = &problem.integration {
+        between = blend(u, problem.converged, integration.alpha_f);
+        acceleration = weighted_acceleration(problem, integration, u);
+    }
+    let alpha_f = problem.integration.map_or(0.0, |i| i.alpha_f);
     let trial = Trial {
         displacement: u,
+        between: if problem.integration.is_some() { &between } else { u },
+        alpha_f,
         converged: problem.converged,
         acceleration: &acceleration,
         acceleration_slope: problem.integration.map_or(0.0, |i| i.slope()),
         phase: problem.phase,
-        time: problem.to,
-        weight: problem.integration.map_or(1.0, |i| 1.0 - i.alpha_f),
+        time: (1.0 - alpha_f) * problem.to + alpha_f * problem.from,
     };
     let dynamic = problem.integration.is_some();
     let mut matrix = std::mem::take(&mut grid.motion.matrix);
     matrix.clear();
-    let tangent = tangent.then_some(&mut matrix);
-    let sum = sum_terms(problem, grid, &trial, tangent, |role| dynamic || role != Role::Inertia);
+    let sum = sum_terms(problem, grid, &trial, Some(&mut matrix), |role| dynamic || role != Role::Inertia);
     grid.motion.matrix = matrix;
-    let mut evaluation = sum?;
-    evaluation.scale = evaluation.scale.max(norm(before));
-    for (f, b) in evaluation.force.iter_mut().zip(before) {
-        *f += b;
-    }
-    Ok(evaluation)
+    sum
+}
+
+/// `(1 − α) u + α u_n`.
+fn blend<const D: usize>(u: &[[f64; D]], converged: &[[f64; D]], alpha: f64) -> Vec<[f64; D]> {
+    let one = |(u, c): (&[f64; D], &[f64; D])| std::array::from_fn(|d| (1.0 - alpha) * u[d] + alpha * c[d]);
+    u.iter().zip(converged).map(one).collect()
 }
 
 /// Adds up the terms of the wanted roles.

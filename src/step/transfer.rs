@@ -171,7 +171,7 @@ fn first_acceleration<const D: usize, K: Kinematics<D>>(
         given: &[],
         integration: None,
     };
-    let (force, _) = static_force(&problem, grid, 1.0)?;
+    let force = static_force(&problem, grid)?;
     let node = grid.node.clone();
     let mut acceleration = vec![[0.0; D]; scene.mesh.nodes.len()];
     let mut fixed = vec![[false; D]; scene.mesh.nodes.len()];
@@ -204,12 +204,13 @@ pub fn commit<const D: usize>(
 ) -> Result<()> {
     let trial = Trial {
         displacement: &solution.displacement,
+        between: &solution.displacement,
+        alpha_f: 0.0,
         converged: &state.displacement,
         acceleration: &[],
         acceleration_slope: 0.0,
         phase: state.phase,
         time: state.phase_time,
-        weight: 1.0,
     };
     let updates: Vec<_> = {
         let frame = grid.frame(&scene.mesh, &state.points);

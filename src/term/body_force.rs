@@ -29,7 +29,7 @@ impl<const D: usize, K: Kinematics<D>> Term<D> for BodyForce<K, D> {
     }
 
     fn assemble(&self, frame: &Frame<D>, trial: &Trial<D>, out: &mut Assembly) -> Result<()> {
-        let factor = trial.weight * self.factors[trial.phase].at(trial.time);
+        let factor = self.factors[trial.phase].at(trial.time);
         let load = self.gravity.map(|g| -factor * g);
         scatter(
             frame.pattern,

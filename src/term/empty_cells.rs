@@ -34,12 +34,12 @@ impl<const D: usize, K: Kinematics<D>> Term<D> for EmptyCells<K> {
             let mut u = [[0.0; D]; MAX_NODES];
             for (u, &n) in u.iter_mut().zip(nodes) {
                 for d in 0..D {
-                    u[d] = trial.displacement[n as usize][d] - trial.converged[n as usize][d];
+                    u[d] = trial.between[n as usize][d] - trial.converged[n as usize][d];
                 }
             }
             let size = local.size;
             integrate::<D, K>(frame.mesh, soft.cell as usize, |weight, _, g| {
-                let w = 0.5 * trial.weight * self.stiffness * soft.emptiness * weight;
+                let w = 0.5 * self.stiffness * soft.emptiness * weight;
                 for a in 0..g.len() {
                     for b in 0..g.len() {
                         let dot: f64 = (0..D).map(|d| g[a][d] * g[b][d]).sum();
@@ -49,7 +49,7 @@ impl<const D: usize, K: Kinematics<D>> Term<D> for EmptyCells<K> {
                                 let entry = w * (if i == k { dot } else { 0.0 } + g[a][k] * g[b][i]);
                                 local.vector[a * D + i] += entry * u[b][k];
                                 if wanted {
-                                    local.matrix[(a * D + i) * size + b * D + k] += entry;
+                                    local.matrix[(a * D + i) * size + b * D + k] += (1.0 - trial.alpha_f) * entry;
                                 }
                             }
                         }

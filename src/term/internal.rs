@@ -3,6 +3,10 @@
 //! Kinematics: `F = I + Σ u ⊗ ∇N` from the restored grid, the increment since the last converged step
 //! `ΔF = F F_n⁻¹`, the elastic trial `b = ΔF b_n ΔFᵀ` (theory, eq. 3–5). The term keeps no state: the points
 //! carry it, and it is written only on convergence.
+//!
+//! With inertia the stresses of both ends of the step act on the configuration between them: in place of `τ`
+//! stands `A W`, `A = (1 − α_f) I + α_f ΔF⁻¹`, `W = (1 − α_f) τ + α_f ΔF τ_n ΔFᵀ`. `A W Aᵀ` being symmetric,
+//! the forces have no moment about the positions in between, where the trapezoidal rule needs it.
 
 use super::{Assembly, Frame, Term, Trial, Update};
 use crate::error::{Error, Result};
@@ -25,6 +29,8 @@ const LEAST_VOLUME_RATIO: f64 = 0.05;
 pub struct Internal<K> {
     /// The model of each region of the mesh; `None` where a region holds no points.
     models: Vec<Option<Arc<dyn Model>>>,
+    /// Whether the scene has dynamic phases.
+    dynamic: bool,
     kinematics: PhantomData<K>,
 }
 
@@ -37,10 +43,32 @@ struct Strained<T> {
     answer: Spatial<T>,
 }
 
+impl<T> Strained<T> {
+    /// The stress `A W` that acts in the step, and its tangent in place of that of `τ`.
+    fn weighted_stress<const D: usize, K>(&mut self, points: &Points<D>, p: usize, alpha_f: f64) -> Result<Tensor>
+    where
+        K: Kinematics<D, Tangent = T>,
+    {
+        let kirchhoff = full(&self.answer.kirchhoff);
+        if alpha_f == 0.0 {
+            return Ok(kirchhoff);
+        }
+        let back = self
+            .increment
+            .try_inverse()
+            .ok_or_else(|| Error::analysis(format!("material point {p}"), "is squeezed flat", "take smaller steps"))?;
+        let before = full(&points.stress[p]) * points.deformation[p].determinant();
+        let a = Tensor::identity() * (1.0 - alpha_f) + back * alpha_f;
+        let w = kirchhoff * (1.0 - alpha_f) + self.increment * before * self.increment.transpose() * alpha_f;
+        K::weight(&mut self.answer.tangent, &a, &self.answer.kirchhoff, &w);
+        Ok(a * w)
+    }
+}
+
 impl<K> Internal<K> {
-    /// `models[r]` is the model of the points of region `r`.
-    pub fn new(models: Vec<Option<Arc<dyn Model>>>) -> Self {
-        Self { models, kinematics: PhantomData }
+    /// `models[r]` is the model of the points of region `r`; `dynamic` where any phase is.
+    pub fn new(models: Vec<Option<Arc<dyn Model>>>, dynamic: bool) -> Self {
+        Self { models, dynamic, kinematics: PhantomData }
     }
 
     fn strain<const D: usize>(
@@ -94,7 +122,7 @@ fn gather<const D: usize>(frame: &Frame<D>, patch: &Patch, field: &[[f64; D]]) -
 
 impl<const D: usize, K: Kinematics<D>> Term<D> for Internal<K> {
     fn symmetric(&self) -> bool {
-        self.models.iter().flatten().all(|m| m.symmetric())
+        !self.dynamic && self.models.iter().flatten().all(|m| m.symmetric())
     }
 
     fn assemble(&self, frame: &Frame<D>, trial: &Trial<D>, out: &mut Assembly) -> Result<()> {
@@ -105,17 +133,19 @@ impl<const D: usize, K: Kinematics<D>> Term<D> for Internal<K> {
             let before = gather(frame, patch, trial.converged);
             let count = patch.node_count as usize;
             for entries in frame.stencil.entries::<K>(patch) {
-                let point = self.strain(frame.points, &entries, &now, &before)?;
-                let weight = trial.weight * frame.points.initial_volume[entries.point];
+                let mut point = self.strain(frame.points, &entries, &now, &before)?;
+                let stress = point.weighted_stress::<D, K>(frame.points, entries.point, trial.alpha_f)?;
+                let volume = frame.points.initial_volume[entries.point];
                 let mut spatial = [Gradient { g: [0.0; D], hoop: 0.0 }; MAX_NODES];
                 for i in 0..count {
                     spatial[i] = K::push_forward(&entries.gradient(i), &point.inverse);
-                    let f = K::force(&point.answer.kirchhoff, &spatial[i]);
+                    let f = K::force(&stress, &spatial[i]);
                     for d in 0..D {
-                        local.vector[i * D + d] += weight * f[d];
+                        local.vector[i * D + d] += volume * f[d];
                     }
                 }
                 if wanted {
+                    let weight = (1.0 - trial.alpha_f) * volume;
                     add_stiffness::<D, K>(local, &point.answer.tangent, &spatial[..count], weight, symmetric);
                 }
             }

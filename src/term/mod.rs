@@ -42,20 +42,22 @@ pub struct Frame<'a, const D: usize> {
 
 /// A trial state of the step.
 pub struct Trial<'a, const D: usize> {
-    /// Displacement of the nodes [m] since the grid was last restored.
+    /// Displacement of the nodes [m] since the grid was last restored, at the end of the step.
     pub displacement: &'a [[f64; D]],
-    /// The same at the last converged step.
+    /// `(1 − α_f) u + α_f u_n` [m]: where loads are taken in the generalised-α method; `u` without inertia.
+    pub between: &'a [[f64; D]],
+    /// α_f of the generalised-α method [-]; zero in quasi-static analysis.
+    pub alpha_f: f64,
+    /// The displacement at the last converged step.
     pub converged: &'a [[f64; D]],
-    /// Acceleration of the nodes [m/s²] weighted in time as the inertia needs it; empty without inertia.
+    /// Acceleration of the nodes [m/s²] weighted by α_m; empty without inertia.
     pub acceleration: &'a [[f64; D]],
-    /// `∂(weighted acceleration)/∂u` [1/s²].
+    /// Its derivative by the displacement at the end of the step [1/s²].
     pub acceleration_slope: f64,
     /// Number of the phase, from 0.
     pub phase: usize,
-    /// Time [s] since the phase began.
+    /// Time [s] since the phase began, between the ends of the step as `between` is.
     pub time: f64,
-    /// Weight of everything but inertia: `1 − α_f` of the generalised-α method, 1 in quasi-static analysis.
-    pub weight: f64,
 }
 
 /// Where a term adds its residual and tangent.

@@ -78,7 +78,7 @@ impl<const D: usize, K: Kinematics<D>> Term<D> for Traction<K, D> {
         if trial.phase != self.phase {
             return Ok(());
         }
-        let t: [f64; D] = std::array::from_fn(|d| -trial.weight * self.value[d].at(trial.time));
+        let t: [f64; D] = std::array::from_fn(|d| -self.value[d].at(trial.time));
         for &(node, area) in &self.area {
             let block = frame.block[node as usize];
             if block != u32::MAX {

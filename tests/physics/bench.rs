@@ -92,7 +92,8 @@ impl Bench {
 
     pub fn scene<K: Kinematics<2>>(self) -> Scene<2> {
         let stiffness_scale = self.model.young(0.0);
-        let mut terms: Vec<Box<dyn Term<2>>> = vec![Box::new(Internal::<K>::new(vec![Some(self.model.clone())]))];
+        let mut terms: Vec<Box<dyn Term<2>>> =
+            vec![Box::new(Internal::<K>::new(vec![Some(self.model.clone())], self.dynamic))];
         if self.gravity != [0.0; 2] {
             terms.push(Box::new(BodyForce::<K, 2>::new(self.gravity, vec![self.gravity_factor])));
         }

@@ -1,9 +1,12 @@
-//! The self-weight column (VERIFICATION: large-strain closed form with Lambert's W).
+//! The self-weight column against its closed form ([`mpm::analytical::self_weight_column`]).
 //!
-//! Confined sides, ν = 0, Hencky elasticity: the stress at original depth Z is −ρ₀ g Z whatever the
-//! stiffness, and the settlement follows from the stretch W(q)/q.
+//! Confined sides, ν = 0, Hencky elasticity, gravity in four steps. Tolerances: issue and VERIFICATION, a
+//! stress error of 1e-4 at 16 cells over the height and third-order displacements on a grid that is never
+//! restored. Restored in every step, the plain method does not converge: that is asserted too, so that the
+//! day it does, this file must change.
 
 use crate::bench::{Bench, constant, quadrature_points, run};
+use mpm::analytical::self_weight_column::Column;
 use mpm::kinematics::PlaneStrain;
 use mpm::material::{Elasticity, LinearElastic};
 use mpm::mesh::builder::rectangle;
@@ -13,13 +16,20 @@ use std::sync::Arc;
 
 const HEIGHT: f64 = 10.0;
 const GRAVITY: f64 = 10.0;
+const YOUNG: f64 = 100.0;
 
-/// Mean stress error relative to ρ g H, and the error of the mean displacement of the points relative to the
-/// settlement of the top.
-fn column(kind: CellKind, cells: usize, r: f64, steps: usize, restore: bool) -> (f64, f64) {
-    let (young, density) = (100.0, r * 100.0 / (GRAVITY * HEIGHT));
+struct Errors {
+    /// Mean stress error over ρ g H, weighted with the initial volume.
+    stress: f64,
+    /// Mean error of the points' displacement over the settlement of the top.
+    displacement: f64,
+}
+
+/// `r = ρ g H / E`.
+fn column(kind: CellKind, cells: usize, r: f64, steps: usize, degree: usize, restore: bool) -> Errors {
+    let density = r * YOUNG / (GRAVITY * HEIGHT);
     let mesh = rectangle(kind, HEIGHT / cells as f64, HEIGHT, 1, cells, 0.0, 1);
-    let elasticity = Elasticity::new(constant(young), 0.0).unwrap();
+    let elasticity = Elasticity::new(constant(YOUNG), 0.0).unwrap();
     let mut bench = Bench::new(mesh, Arc::new(LinearElastic::new(elasticity)));
     bench.density = density;
     bench.gravity = [0.0, -GRAVITY];
@@ -27,54 +37,77 @@ fn column(kind: CellKind, cells: usize, r: f64, steps: usize, restore: bool) -> 
     bench.restore_every_step = restore;
     bench.steps = steps;
     bench.hold("left", &[0]).hold("right", &[0]).hold("bottom", &[1]);
-    let points = quadrature_points::<PlaneStrain>(&bench.mesh, 3, density);
+    let points = quadrature_points::<PlaneStrain>(&bench.mesh, degree, density);
     let scene = bench.scene::<PlaneStrain>();
-    let state = run::<PlaneStrain>(&scene, points, |_, _| {});
-    let exact = Exact { r };
-    let p = &state.points;
+    let p = run::<PlaneStrain>(&scene, points, |_, _| {}).points;
+    let exact = Column { height: HEIGHT, unit_weight: density * GRAVITY, modulus: YOUNG };
     let volume: f64 = p.initial_volume.iter().sum();
-    let (mut stress, mut displacement) = (0.0, 0.0);
+    let mut errors = Errors { stress: 0.0, displacement: 0.0 };
     for i in 0..p.len() {
-        let depth = HEIGHT - p.origin[i][1];
-        stress += p.initial_volume[i] * (p.stress[i][1] - exact.stress(depth, density)).abs();
-        displacement += p.initial_volume[i] * (p.position[i][1] - p.origin[i][1] - exact.displacement(depth)).abs();
+        let (depth, weight) = (HEIGHT - p.origin[i][1], p.initial_volume[i] / volume);
+        errors.stress += weight * (p.stress[i][1] - exact.stress(depth)).abs() / -exact.stress(HEIGHT);
+        let u = p.position[i][1] - p.origin[i][1];
+        errors.displacement += weight * (u - exact.displacement(depth)).abs() / exact.displacement(0.0).abs();
     }
-    (stress / (volume * density * GRAVITY * HEIGHT), displacement / (volume * -exact.displacement(0.0)))
+    errors
 }
 
 #[test]
-fn print() {
-    for r in [0.01, 0.1, 1.0] {
-        for cells in [4, 8, 16, 32] {
-            let (s, d) = column(CellKind::T6, cells, r, 4, false);
-            println!("r {r} cells {cells} stress {s:.3e} disp {d:.3e}");
-        }
-    }
-    for cells in [8, 16, 32] {
-        let (s, d) = column(CellKind::T6, cells, 0.5, 40, true);
-        println!("restored cells {cells} stress {s:.3e} disp {d:.3e}");
+fn stress_within_1e_4_at_16_cells_without_restoration() {
+    for r in [0.01, 0.05, 0.1, 0.2, 0.5, 1.0] {
+        let errors = column(CellKind::T6, 16, r, 4, 2, false);
+        println!("r = {r}: stress {:.2e}, displacement {:.2e}", errors.stress, errors.displacement);
+        assert!(errors.stress <= 1e-4, "r = {r}: {:e}", errors.stress);
     }
 }
 
-struct Exact {
-    r: f64,
-}
-impl Exact {
-    fn w(q: f64) -> f64 {
-        let mut w = q.ln_1p();
-        for _ in 0..50 {
-            w -= (w * w.exp() - q) / (w.exp() * (1.0 + w));
+#[test]
+fn displacement_converges_at_third_order_without_restoration() {
+    for kind in [CellKind::T6, CellKind::Q8, CellKind::Q9] {
+        for r in [0.01, 1.0] {
+            let e: Vec<f64> = [8, 16, 32].map(|n| column(kind, n, r, 4, 6, false).displacement).to_vec();
+            let order = (e[0] / e[2]).log2() / 2.0;
+            println!("{kind:?} r = {r}: {e:?}, order {order:.2}");
+            assert!((2.9..3.3).contains(&order), "{kind:?} r = {r}: order {order} of {e:?}");
         }
-        w
     }
-    fn stress(&self, z: f64, rho: f64) -> f64 {
-        -rho * GRAVITY * z
+}
+
+#[test]
+fn first_order_cells_converge_at_second_order() {
+    for kind in [CellKind::T3, CellKind::Q4] {
+        let e: Vec<f64> = [8, 16, 32].map(|n| column(kind, n, 0.5, 4, 4, false).displacement).to_vec();
+        let order = (e[0] / e[2]).log2() / 2.0;
+        assert!((1.9..2.2).contains(&order), "{kind:?}: order {order} of {e:?}");
     }
-    fn below(&self, z: f64) -> f64 {
-        let w = Self::w(self.r * z / HEIGHT);
-        HEIGHT / self.r * (0.5 * w * w + w)
-    }
-    fn displacement(&self, z: f64) -> f64 {
-        self.below(HEIGHT) - self.below(z) - (HEIGHT - z)
+}
+
+/// Without soft modes the residuals square from iteration to iteration, with a constant of order one.
+#[test]
+fn newton_converges_quadratically() {
+    let mesh = rectangle(CellKind::T6, HEIGHT / 8.0, HEIGHT, 1, 8, 0.0, 1);
+    let elasticity = Elasticity::new(constant(YOUNG), 0.0).unwrap();
+    let mut bench = Bench::new(mesh, Arc::new(LinearElastic::new(elasticity)));
+    bench.gravity = [0.0, -GRAVITY];
+    bench.hold("left", &[0]).hold("right", &[0]).hold("bottom", &[1]);
+    let points = quadrature_points::<PlaneStrain>(&bench.mesh, 4, 0.3);
+    let scene = bench.scene::<PlaneStrain>();
+    run::<PlaneStrain>(&scene, points, |_, report| {
+        println!("{:?}", report.residuals);
+        let squares = report.residuals.windows(2).skip(1).filter(|pair| pair[0] > 1e-6);
+        assert!(squares.clone().count() >= 2, "{:?}", report.residuals);
+        for pair in squares {
+            assert!(pair[1] <= 10.0 * pair[0] * pair[0], "{:?}", report.residuals);
+        }
+    });
+}
+
+/// The plain method has no gradient that is continuous over the edges: it errs by 10 % however fine the grid.
+#[test]
+fn plain_mpm_restored_in_every_step_does_not_converge() {
+    for cells in [8, 16, 32] {
+        let errors = column(CellKind::T6, cells, 0.5, 40, 6, true);
+        println!("restored, {cells} cells: stress {:.2e}, displacement {:.2e}", errors.stress, errors.displacement);
+        assert!((0.03..0.3).contains(&errors.stress), "{cells} cells: {:e}", errors.stress);
     }
 }

@@ -78,11 +78,13 @@ struct Set<K> {
     converged: Vec<[f64; 2]>,
 }
 
-fn set<K: Kinematics<2>>(case: &Case, kind: CellKind, whole: bool) -> Set<K> {
+fn set<K: Kinematics<2>>(case: &Case, kind: CellKind, whole: bool, alpha_f: f64) -> Set<K> {
     let mesh = mesh(kind);
     let points = points(&mesh, |_| true);
-    let term = Box::new(Internal::<K>::new(vec![Some(case.model.clone())]));
+    let term = Box::new(Internal::<K>::new(vec![Some(case.model.clone())], alpha_f > 0.0));
     let mut stand = Stand::<K>::new(mesh, points, term, false, whole);
+    stand.alpha_f = alpha_f;
+    stand.points.stress.fill([3.0, -7.0, 2.0, 1.5, 0.0, 0.0]);
     // Turned, stretched and sheared before, and again in the step.
     let converged = stand.field(0.02, 1, |[x, y]| [0.2 * x - 0.3 * y, 0.2 * x + 0.1 * y]);
     let trial = stand.field(0.02, 2, |[x, y]| [0.1 * x - 0.6 * y, 0.7 * x - 0.2 * y]);
@@ -102,9 +104,11 @@ fn set<K: Kinematics<2>>(case: &Case, kind: CellKind, whole: bool) -> Set<K> {
 fn tangent_is_the_derivative<K: Kinematics<2>>() {
     for case in cases() {
         for kind in KINDS {
-            let Set { stand, trial, converged } = set::<K>(&case, kind, true);
-            let error = stand.tangent_error(&trial, &converged);
-            assert!(error < 1e-6, "{}, {kind:?}: {error:.1e}", case.name);
+            for alpha_f in [0.0, 0.4] {
+                let Set { stand, trial, converged } = set::<K>(&case, kind, true, alpha_f);
+                let error = stand.tangent_error(&trial, &converged);
+                assert!(error < 1e-6, "{}, {kind:?}, α_f = {alpha_f}: {error:.1e}", case.name);
+            }
         }
     }
 }
@@ -121,7 +125,7 @@ fn the_tangent_is_the_derivative_in_axisymmetry() {
 
 fn symmetric_as_it_says<K: Kinematics<2>>() {
     for case in cases() {
-        let whole = set::<K>(&case, CellKind::T6, true);
+        let whole = set::<K>(&case, CellKind::T6, true, 0.0);
         let asymmetry = whole.stand.asymmetry(&whole.trial, &whole.converged);
         if !case.model.symmetric() {
             assert!(!whole.stand.term().symmetric());
@@ -133,12 +137,29 @@ fn symmetric_as_it_says<K: Kinematics<2>>() {
         assert!(whole.stand.term().symmetric());
         assert!(asymmetry < 1e-12, "{}: {asymmetry:.1e}", case.name);
         // Half of it is computed in a symmetric system; the other half must be the same.
-        let half = set::<K>(&case, CellKind::T6, false);
+        let half = set::<K>(&case, CellKind::T6, false, 0.0);
         let (_, a) = whole.stand.evaluate(&whole.trial, &whole.converged, 0, true);
         let (_, b) = half.stand.evaluate(&half.trial, &half.converged, 0, true);
         for (a, b) in a.iter().flatten().zip(b.iter().flatten()) {
             assert!((a - b).abs() < 1e-9, "{}: {a} {b}", case.name);
         }
+    }
+}
+
+/// With inertia the stresses of both ends act between them: no moment there, whatever the material does.
+#[test]
+fn the_force_in_a_dynamic_step_has_no_moment_about_the_places_between() {
+    for case in cases() {
+        let Set { stand, trial, converged } = set::<PlaneStrain>(&case, CellKind::T6, true, 0.5);
+        let (force, _) = stand.evaluate(&trial, &converged, 0, false);
+        let between = stand.between(&trial, &converged);
+        let (mut moment, mut size) = (0.0, 0.0);
+        for ((f, u), x) in force.iter().zip(&between).zip(&stand.scene.mesh.nodes) {
+            let x = [x[0] + u[0], x[1] + u[1]];
+            moment += x[0] * f[1] - x[1] * f[0];
+            size += (x[0] * f[1]).abs() + (x[1] * f[0]).abs();
+        }
+        assert!(moment.abs() < 1e-12 * size, "{}: {moment:e} of {size}", case.name);
     }
 }
 
@@ -153,7 +174,7 @@ fn the_tangent_is_symmetric_where_the_term_says_so_and_only_there() {
 fn the_force_is_in_balance_with_itself() {
     for case in cases() {
         for kind in KINDS {
-            let Set { stand, trial, converged } = set::<PlaneStrain>(&case, kind, false);
+            let Set { stand, trial, converged } = set::<PlaneStrain>(&case, kind, false, 0.0);
             let (force, _) = stand.evaluate(&trial, &converged, 0, false);
             let rounding = 1e-12 * size(&force);
             let sum = resultant(&force);
@@ -162,7 +183,7 @@ fn the_force_is_in_balance_with_itself() {
             let moment: f64 = places.zip(&force).map(|(x, f)| x[0] * f[1] - x[1] * f[0]).sum();
             assert!(moment.abs() < 30.0 * rounding, "{}, {kind:?}: {moment:.1e}", case.name);
 
-            let Set { stand, trial, converged } = set::<Axisymmetric>(&case, kind, false);
+            let Set { stand, trial, converged } = set::<Axisymmetric>(&case, kind, false, 0.0);
             let (force, _) = stand.evaluate(&trial, &converged, 0, false);
             let axial = resultant(&force)[1];
             assert!(axial.abs() < 1e-12 * size(&force), "{}, {kind:?}: {axial:.1e}", case.name);
@@ -176,7 +197,7 @@ fn the_force_of_a_stressed_body_turns_with_it() {
     let turn = |[x, y]: [f64; 2]| [c * x - s * y, s * x + c * y];
     for case in cases() {
         for kind in KINDS {
-            let mut stand = set::<PlaneStrain>(&case, kind, false).stand;
+            let mut stand = set::<PlaneStrain>(&case, kind, false, 0.0).stand;
             let rest = stand.field(0.0, 1, |_| [0.0; 2]);
             let mut random = Random(3);
             stand.aim(&rest, &rest, |_| left_cauchy_green(&case.strain, 3.0 * random.next()));
@@ -199,7 +220,7 @@ fn the_force_of_a_stressed_body_turns_with_it() {
 #[test]
 fn an_axisymmetric_body_moves_along_its_axis_unchanged() {
     for case in cases() {
-        let Set { stand, trial, converged } = set::<Axisymmetric>(&case, CellKind::T6, false);
+        let Set { stand, trial, converged } = set::<Axisymmetric>(&case, CellKind::T6, false, 0.0);
         let (force, _) = stand.evaluate(&trial, &converged, 0, false);
         let moved: Vec<[f64; 2]> = trial.iter().map(|u| [u[0], u[1] + 5.0]).collect();
         let (after, _) = stand.evaluate(&moved, &converged, 0, false);

@@ -1,6 +1,6 @@
 //! Everything but the internal force: resultants and tangents.
 
-use crate::stand::{Field, KINDS, Stand, WEIGHT, mesh, points, resultant, size};
+use crate::stand::{Field, KINDS, Stand, mesh, points, resultant, size};
 use mpm::kinematics::{Axisymmetric, Kinematics, PlaneStrain};
 use mpm::mesh::Mesh;
 use mpm::mesh::shape::CellKind;
@@ -76,7 +76,7 @@ fn the_body_force_is_the_weight_times_its_factor() {
         let sum = resultant(&stand.evaluate(&trial, &converged, 0, false).0);
         // An applied force has the other sign in the residual.
         for (sum, g) in sum.iter().zip([0.5, -10.0]) {
-            let weight = -WEIGHT * 1.5 * 0.5 * mass * g;
+            let weight = -1.5 * 0.5 * mass * g;
             assert!((sum - weight).abs() < 1e-12 * weight.abs(), "{kind:?}: {sum} {weight}");
         }
         assert_eq!(size(&stand.evaluate(&trial, &converged, 1, false).0), 0.0);
@@ -142,7 +142,7 @@ fn check_traction<K: Kinematics<2>>(kind: CellKind, group: &str, area: f64) {
     let (trial, converged) = anywhere(&stand);
     let sum = resultant(&stand.evaluate(&trial, &converged, 0, false).0);
     for (sum, t) in sum.iter().zip([-3.0, 1.0]) {
-        let force = -WEIGHT * t * area;
+        let force = -t * area;
         assert!((sum - force).abs() < 1e-12 * force.abs(), "{kind:?}, {group}: {sum} {force}");
     }
     assert_eq!(size(&stand.evaluate(&trial, &converged, 1, false).0), 0.0, "another phase");

@@ -18,8 +18,7 @@ use std::sync::Arc;
 
 pub const KINDS: [CellKind; 5] = [CellKind::T3, CellKind::T6, CellKind::Q4, CellKind::Q8, CellKind::Q9];
 
-/// Weight of everything but inertia in the trial states, and `∂a/∂u` [1/s²].
-pub const WEIGHT: f64 = 0.6;
+/// `∂a/∂u` [1/s²].
 const SLOPE: f64 = 170.0;
 /// Uniform part of the acceleration [m/s²].
 const ACCELERATION: [f64; 2] = [1.3, -0.7];
@@ -103,6 +102,8 @@ impl Term<2> for Unsymmetric {
 pub struct Stand<K> {
     pub scene: Scene<2>,
     pub points: Points<2>,
+    /// α_f of the trial states.
+    pub alpha_f: f64,
     grid: Grid<2>,
     kinematics: PhantomData<K>,
 }
@@ -144,7 +145,7 @@ impl<K: Kinematics<2>> Stand<K> {
         let state = Simulation::<2, K>::new(&scene, state).unwrap().state;
         let grid = Grid::new::<K>(&scene, &state).unwrap();
         assert_eq!(grid.node.len(), scene.mesh.nodes.len(), "all nodes take part, in order");
-        Self { scene, points: state.points, grid, kinematics: PhantomData }
+        Self { scene, points: state.points, alpha_f: 0.0, grid, kinematics: PhantomData }
     }
 
     pub fn term(&self) -> &dyn Term<2> {
@@ -180,6 +181,12 @@ impl<K: Kinematics<2>> Stand<K> {
         }
     }
 
+    /// Displacements between the ends of the step.
+    pub fn between(&self, trial: &[[f64; 2]], converged: &[[f64; 2]]) -> Field {
+        let blend = |(u, c): (&[f64; 2], &[f64; 2])| [0, 1].map(|d| (1.0 - self.alpha_f) * u[d] + self.alpha_f * c[d]);
+        trial.iter().zip(converged).map(blend).collect()
+    }
+
     /// The residual in phase `phase` at the time 0.5 s, and the tangent by columns where wanted.
     pub fn evaluate(
         &self,
@@ -194,14 +201,16 @@ impl<K: Kinematics<2>> Stand<K> {
             .zip(converged)
             .map(|(u, c)| std::array::from_fn(|d| ACCELERATION[d] + SLOPE * (u[d] - c[d])))
             .collect();
+        let between = self.between(trial, converged);
         let trial = Trial {
             displacement: trial,
+            between: &between,
+            alpha_f: self.alpha_f,
             converged,
             acceleration: &acceleration,
             acceleration_slope: SLOPE,
             phase,
             time: 0.5,
-            weight: WEIGHT,
         };
         let mut force = vec![0.0; frame.pattern.len()];
         let mut matrix = Matrix::new(frame.pattern);

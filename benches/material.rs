@@ -1,0 +1,43 @@
+//! Time of a material point: model alone and with the spatial tangent, elastic and yielding, in ns.
+//! `cargo bench --bench material`
+
+use mpm::material::{MODELS, State, spatial};
+use std::hint::black_box;
+use std::time::Instant;
+
+/// Best time of one call [ns] over a few rounds through the inputs.
+fn time<I, O>(inputs: &[I], mut call: impl FnMut(&I) -> O) -> f64 {
+    (0..20)
+        .map(|_| {
+            let start = Instant::now();
+            for input in inputs {
+                black_box(call(black_box(input)));
+            }
+            start.elapsed().as_nanos() as f64 / inputs.len() as f64
+        })
+        .fold(f64::INFINITY, f64::min)
+}
+
+fn main() {
+    println!("{:<16}{:>12}{:>12}{:>16}{:>16}", "", "elastic", "yielding", "plane elastic", "plane yielding");
+    for kind in MODELS {
+        let Ok(model) = (kind.build)(&kind.examples[0].iter().collect()) else { continue };
+        let strength = (model.strength(0.0) / model.young(0.0)).min(0.05);
+        let strains = |size: f64| -> Vec<[f64; 3]> {
+            let at = |n: usize, k: usize| size * strength * ((n * 7 + k * 3) as f64).sin();
+            (0..20_000).map(|n| std::array::from_fn(|k| at(n, k))).collect()
+        };
+        let tensors = |size: f64| -> Vec<[f64; 6]> {
+            strains(size).iter().map(|e| [1.0 + e[0], 1.0 + e[1], 1.0 + e[2], 0.5 * e[0], 0.0, 0.0]).collect()
+        };
+        let state = State::default();
+        print!("{:<16}", kind.name);
+        for size in [0.05, 5.0] {
+            print!("{:>12.1}", time(&strains(size), |e| model.respond(0.0, e, &state)));
+        }
+        for size in [0.1, 5.0] {
+            print!("{:>16.1}", time(&tensors(size), |b| spatial::plane(&*model, 0.0, b, &state)));
+        }
+        println!();
+    }
+}

@@ -1,0 +1,7 @@
+//! Closed-form solutions that the program is verified against, one a file, each with its source.
+
+pub mod elastica;
+pub mod limit_load;
+pub mod self_weight_column;
+pub mod spinning_disc;
+pub mod vibrating_bar;

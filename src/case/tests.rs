@@ -1,0 +1,153 @@
+//! Sound cases come out as they were meant, and no text makes the reader panic.
+
+use super::checked::{Content, Geometry, InitialVelocity, Order, Restore};
+use super::source::Source;
+use super::{Case, resolve, seeding};
+use crate::mesh::builder;
+use crate::mesh::shape::CellKind;
+use crate::time_value::TimeValue;
+use proptest::prelude::*;
+use std::path::PathBuf;
+
+// The reader only asks whether the .geo is there: any file will do.
+const CASE: &str = "\
+geometry: axisymmetric
+mesh: {geo: Cargo.toml, order: 2, incomplete: true, parameters: {h: 0.5}}
+regions:
+  block: {kind: mpm, material: clay, points_per_cell: 9}
+materials:
+  rock: {model: linear_elastic, young: 5000, poisson: 0.2, density: 2.5}
+  clay:
+    model: tresca
+    young: {top: 100, gradient: 10, datum: 2}
+    poisson: 0.49
+    shear_strength: {top: 1, gradient: 0.5}
+    unit_weight: {top: 10, gradient: 1, datum: 1}
+supports: {bottom: {ux: 0, uy: 0}, side: {ux: 0}}
+gravity: {y: -10}
+initial_stress: {k0: 0.5}
+initial_velocity: {block: {velocity: {x: 1}, gradient: [[0, -2], [2, 0]], centre: {x: 1, y: 1}}}
+numerics: {restore: never, spectral_radius: 1}
+phases:
+  - {name: a, analysis: quasi_static, duration: 2, step: {initial: 0.1}, gravity: {rate: 0.5}}
+  - name: b
+    analysis: dynamic
+    duration: 1
+    step: {initial: 0.01, min: 0.001, max: 0.02}
+    prescribe: {top: {uy: {table: [[0, 0], [1, -3]]}}}
+    tractions: [{on: top, tx: 4}]
+output: {every: 0.5}
+";
+
+fn case(text: &str, overrides: &[&str]) -> Case {
+    let overrides: Vec<String> = overrides.iter().map(|&text| text.to_owned()).collect();
+    let source = Source::parse(PathBuf::from("case.yaml"), text.to_owned(), &overrides).unwrap();
+    match resolve(&source) {
+        (Some(case), issues) if issues.is_empty() => case,
+        (_, issues) => panic!("{issues:?}"),
+    }
+}
+
+#[test]
+fn entries_arrive_where_they_are_meant() {
+    let case = case(CASE, &[]);
+    assert_eq!(case.geometry, Geometry::Axisymmetric);
+    assert_eq!(case.mesh.order, Order::SecondIncomplete);
+    assert_eq!(case.mesh.parameters["h"], 0.5);
+    assert_eq!(case.gravity, [0.0, -10.0]);
+    assert_eq!(case.k0, Some(0.5));
+    assert_eq!(case.numerics.restore, Restore::Never);
+    assert_eq!((case.numerics.spectral_radius, case.numerics.tolerance), (1.0, 1e-8));
+    let Content::Mpm { material, points_per_cell: 9 } = case.regions[0].content else { panic!("{:?}", case.regions) };
+    assert_eq!(case.materials[material].name, "clay");
+    assert_eq!(case.supports.iter().map(|s| s.fixed).collect::<Vec<_>>(), [[true, true], [true, false]]);
+    let [a, b] = case.phases.as_slice() else { panic!("{:?}", case.phases) };
+    assert_eq!(a.gravity, TimeValue::Rate(0.5));
+    assert_eq!(b.gravity, TimeValue::Constant(1.0));
+    assert_eq!((a.step.min, a.step.initial, a.step.max), (1e-5, 0.1, 0.1));
+    assert_eq!((b.step.min, b.step.initial, b.step.max), (0.001, 0.01, 0.02));
+    assert_eq!((b.prescribed[0].component, b.prescribed[0].displacement.at(0.5)), (1, -1.5));
+    assert_eq!(b.tractions[0].components, [TimeValue::Constant(4.0), TimeValue::Constant(0.0)]);
+}
+
+#[test]
+fn a_unit_weight_is_divided_by_gravity() {
+    let case = case(CASE, &[]);
+    let density = case.materials[0].density;
+    // 10 kN/m³ at y = 1 and 1 more a metre below, at 10 m/s².
+    assert_eq!([2.0, 1.0, -1.0].map(|y| density.at(y)), [1.0, 1.0, 1.2]);
+}
+
+#[test]
+fn overrides_set_entries_by_keys_numbers_and_names() {
+    let overrides =
+        ["phases[0].duration=7", "phases.b.step={initial: 0.5}", "numerics.max_iterations=9", "materials.clay.young=3"];
+    let case = case(CASE, &overrides);
+    assert_eq!((case.phases[0].duration, case.phases[1].step.initial), (7.0, 0.5));
+    assert_eq!(case.numerics.max_iterations, 9);
+    assert_eq!(case.materials[0].model.young(-4.0), 3.0);
+}
+
+#[test]
+fn a_later_override_wins() {
+    assert_eq!(case(CASE, &["title=a", "title=b"]).title, "b");
+}
+
+#[test]
+fn a_velocity_field_turns_about_its_centre_and_has_its_wave() {
+    let velocity = &case(CASE, &[]).initial_velocity[0];
+    assert_eq!(velocity.at(&[1.0, 1.0]), [1.0, 0.0]);
+    assert_eq!(velocity.at(&[2.0, 1.0]), [1.0, 2.0]);
+    assert_eq!(velocity.at(&[1.0, 2.0]), [-1.0, 0.0]);
+    let wave = "initial_velocity.block={standing_wave: {component: y, along: x, amplitude: 3, wave_number: 0.5}}";
+    let wave: InitialVelocity = case(CASE, &[wave]).initial_velocity.swap_remove(0);
+    assert_eq!(wave.at(&[2.0, 9.0]), [0.0, 3.0 * 1f64.sin()]);
+}
+
+#[test]
+fn points_start_with_their_mass_velocity_and_stress_at_rest() {
+    let case = case(CASE, &["geometry=plane_strain"]);
+    let mut mesh = builder::rectangle(CellKind::T6, 1.0, 1.0, 2, 2, 0.0, 0);
+    mesh.regions = vec!["block".to_owned()];
+    let points = seeding::points(&case, &mesh).unwrap();
+    assert_eq!(points.len(), 8 * 9);
+    // ∫ (1 + 0.1 (1 − y)) dy over the unit square.
+    let mass: f64 = points.mass.iter().sum();
+    assert!((mass - 1.05).abs() < 1e-12, "{mass}");
+    for p in 0..points.len() {
+        let y = points.position[p][1];
+        let vertical = -(10.0 * (1.0 - y) + 0.5 * (1.0 - y).powi(2));
+        let [xx, yy, zz, ..] = points.stress[p];
+        assert!((yy - vertical).abs() < 1e-11, "{yy} {vertical}");
+        assert!((xx - 0.5 * vertical).abs() < 1e-11 && xx == zz);
+        assert_eq!(points.velocity[p], case.initial_velocity[0].at(&points.position[p]));
+        // The elastic strain carries the stress: Hencky's law back again, ε = ½ ln b.
+        let strain = [0, 1, 2].map(|i| 0.5 * points.elastic[p][i].ln());
+        let young = case.materials[0].model.young(y);
+        let back = (strain[1] * young - (yy - 0.49 * (xx + zz))).abs();
+        assert!(back < 1e-10, "{back}");
+    }
+}
+
+proptest! {
+    #[test]
+    fn no_text_makes_the_reader_panic(
+        at in 0..CASE.len(), cut in 0..40_usize, piece in "[ \\-\\[\\]{}:,&*!|>'\"%#~a-z0-9.\n]{0,6}"
+    ) {
+        let mut text = CASE.to_owned();
+        text.replace_range(at..(at + cut).min(CASE.len()), &piece);
+        if let Ok(source) = Source::parse(PathBuf::from("case.yaml"), text, &[]) {
+            for issue in resolve(&source).1 {
+                let error = source.error(&issue);
+                prop_assert!(!error.problem.is_empty() && !error.remedy.is_empty(), "{error:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn no_override_makes_the_reader_panic(argument in "[a-z.\\[\\]0-9=]{0,24}=[ \\-\\[\\]{}:,a-z0-9.]{0,8}") {
+        if let Ok(source) = Source::parse(PathBuf::from("case.yaml"), CASE.to_owned(), &[argument]) {
+            resolve(&source).1.iter().for_each(|issue| { source.error(issue); });
+        }
+    }
+}

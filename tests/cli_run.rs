@@ -1,0 +1,209 @@
+//! The command line: overrides, the output folder, and which stages `mpm run` skips.
+
+use std::fs;
+use std::path::Path;
+use std::process::{Command, Output};
+use tempfile::TempDir;
+
+const GEO: &str = r#"DefineConstant[ h = {1, Name "Parameters/h"} ];
+Point(1) = {0, 0, 0, h};
+Point(2) = {1, 0, 0, h};
+Point(3) = {1, 2, 0, h};
+Point(4) = {0, 2, 0, h};
+Line(1) = {1, 2};
+Line(2) = {2, 3};
+Line(3) = {3, 4};
+Line(4) = {4, 1};
+Curve Loop(1) = {1, 2, 3, 4};
+Plane Surface(1) = {1};
+Physical Surface("block") = {1};
+Physical Curve("bottom") = {1};
+"#;
+
+const CASE: &str = "\
+geometry: plane_strain
+mesh: {geo: scene.geo, parameters: {h: 1}}
+regions: {block: {kind: mpm, material: rock, points_per_cell: 4}}
+materials: {rock: {model: linear_elastic, young: 1000, poisson: 0.2, density: 2}}
+supports: {bottom: {ux: 0, uy: 0}}
+gravity: {y: -10}
+numerics: {restore: never}
+phases:
+  - {name: load, analysis: quasi_static, duration: 1, step: {initial: 1}}
+";
+
+const STAGES: [&str; 4] = ["mesh", "seed", "solve", "export"];
+
+#[test]
+fn run_does_every_stage_once() {
+    let scene = scene();
+    assert_eq!(skipped(&mpm(scene.path(), &["run", "."])), [false; 4]);
+    assert_eq!(skipped(&mpm(scene.path(), &["run", "."])), [true; 4]);
+}
+
+#[test]
+fn a_change_runs_the_stages_it_reaches() {
+    // What is changed, and the stages that may be skipped then.
+    let changes: [(&[&str], [bool; 4]); 7] = [
+        (&["--set", "title=Other"], [true, true, true, true]),
+        (&["--set", "output.encoding=plain"], [true, true, false, false]),
+        (&["--set", "phases.load.step.initial=0.5"], [true, true, false, false]),
+        (&["--set", "materials.rock.young=2000"], [true, false, false, false]),
+        (&["--set", "regions.block.points_per_cell=9"], [true, false, false, false]),
+        (&["--set", "mesh.parameters.h=0.5"], [false, false, false, false]),
+        (&["--threads", "1"], [true, true, true, true]),
+    ];
+    for (arguments, expected) in changes {
+        let scene = scene();
+        mpm(scene.path(), &["run", "."]);
+        let output = mpm(scene.path(), &[&["run", "."], arguments].concat());
+        assert_eq!(skipped(&output), expected, "{arguments:?}: {}", text(&output.stdout));
+    }
+}
+
+#[test]
+fn a_changed_geo_meshes_again() {
+    let scene = scene();
+    mpm(scene.path(), &["run", "."]);
+    fs::write(scene.path().join("scene.geo"), GEO.replace("{1, 2, 0, h}", "{1, 3, 0, h}")).unwrap();
+    assert_eq!(skipped(&mpm(scene.path(), &["run", "."])), [false; 4]);
+}
+
+#[test]
+fn a_file_that_was_lost_or_changed_is_made_again() {
+    let scene = scene();
+    mpm(scene.path(), &["run", "."]);
+    let points = fs::read(scene.path().join("out/points.vtu")).unwrap();
+    fs::remove_file(scene.path().join("out/points.vtu")).unwrap();
+    // The same points again: what follows need not be done again.
+    assert_eq!(skipped(&mpm(scene.path(), &["run", "."])), [true, false, true, true]);
+    fs::write(scene.path().join("out/points.vtu"), &points[..100]).unwrap();
+    assert_eq!(skipped(&mpm(scene.path(), &["run", "."])), [true, false, true, true]);
+    assert_eq!(fs::read(scene.path().join("out/points.vtu")).unwrap(), points);
+    fs::remove_file(scene.path().join("out/vtu/points_000000.vtu")).unwrap();
+    assert_eq!(skipped(&mpm(scene.path(), &["run", "."])), [true, true, true, false]);
+}
+
+#[test]
+fn the_output_folder_can_be_chosen() {
+    let scene = scene();
+    assert!(mpm(scene.path(), &["mesh", ".", "-o", "a/b"]).status.success());
+    assert!(scene.path().join("a/b/mesh.msh").is_file());
+    assert!(!scene.path().join("out").exists());
+}
+
+#[test]
+fn overrides_reach_the_mesh_and_make_entries() {
+    let scene = scene();
+    mpm(scene.path(), &["mesh", ".", "-o", "coarse"]);
+    mpm(scene.path(), &["mesh", ".", "-o", "fine", "--set", "mesh.parameters.h=0.25"]);
+    mpm(scene.path(), &["mesh", ".", "-o", "linear", "--set", "mesh.order=1"]);
+    let size = |folder: &str| fs::metadata(scene.path().join(folder).join("mesh.msh")).unwrap().len();
+    assert!(size("fine") > 4 * size("coarse") && size("linear") < size("coarse"));
+}
+
+#[test]
+fn an_interrupt_ends_the_step_in_hand_and_resume_goes_on_bit_by_bit() {
+    let short = ["--set", "phases.load.step.initial=0.001", "--set", "mesh.parameters.h=0.25"];
+    let whole = scene();
+    assert!(mpm(whole.path(), &[&["run", "."], &short[..]].concat()).status.success());
+    let scene = scene();
+    for stage in ["mesh", "seed"] {
+        assert!(mpm(scene.path(), &[&[stage, "."], &short[..]].concat()).status.success());
+    }
+    let program = env!("CARGO_BIN_EXE_mpm");
+    let mut solve = Command::new(program).args(["solve", "."]).args(short).current_dir(scene.path()).spawn().unwrap();
+    let history = scene.path().join("out/history.csv");
+    while fs::read_to_string(&history).unwrap_or_default().lines().count() < 5 {
+        assert!(solve.try_wait().unwrap().is_none(), "it ended before it could be stopped");
+        std::thread::sleep(std::time::Duration::from_millis(1));
+    }
+    assert!(Command::new("kill").args(["-INT", &solve.id().to_string()]).status().unwrap().success());
+    assert_eq!(solve.wait().unwrap().code(), Some(130));
+    let rows = fs::read_to_string(&history).unwrap().lines().count();
+    assert!(rows < 1001, "{rows} rows: it was not stopped");
+    let output = mpm(scene.path(), &[&["solve", ".", "--resume"], &short[..]].concat());
+    assert!(output.status.success(), "{}", text(&output.stderr));
+    for file in ["out/history.csv", "out/results/frame-000001.mpmf"] {
+        let read = |folder: &Path| fs::read(folder.join(file)).unwrap();
+        assert!(read(scene.path()) == read(whole.path()), "{file} is another one");
+    }
+}
+
+#[test]
+fn check_writes_nothing() {
+    let scene = scene();
+    assert!(mpm(scene.path(), &["check", "."]).status.success());
+    let mut files: Vec<_> = fs::read_dir(scene.path()).unwrap().map(|e| e.unwrap().file_name()).collect();
+    files.sort();
+    assert_eq!(files, ["case.yaml", "scene.geo"]);
+}
+
+#[test]
+fn the_schema_describes_every_key() {
+    let output = mpm(Path::new("."), &["schema"]);
+    let schema: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    let mut undescribed = Vec::new();
+    properties(&schema, &mut |name, property| {
+        if property.get("description").is_none() {
+            undescribed.push(name.to_owned());
+        }
+    });
+    assert!(undescribed.is_empty(), "{undescribed:?}");
+    let young = schema.pointer("/$defs/Material/properties/young");
+    assert!(young.is_some_and(|young| young["description"].to_string().contains("kPa")), "{young:?}");
+}
+
+#[test]
+fn the_cases_of_the_repository_are_sound() {
+    let cases = Path::new(env!("CARGO_MANIFEST_DIR")).join("cases");
+    let mut count = 0;
+    for entry in fs::read_dir(cases).unwrap() {
+        let case = entry.unwrap().path();
+        let output = mpm(&case, &["check", "."]);
+        assert!(output.status.success(), "{}: {}", case.display(), text(&output.stderr));
+        assert!(case.join("README.md").is_file(), "{} has no README.md", case.display());
+        count += 1;
+    }
+    assert!(count >= 5, "{count} cases");
+}
+
+#[test]
+fn wrong_usage_has_exit_status_2() {
+    let usages: [&[&str]; 4] = [&[], &["solves"], &["mesh"], &["mesh", ".", "--threads", "0"]];
+    for arguments in usages {
+        assert_eq!(mpm(Path::new("."), arguments).status.code(), Some(2), "{arguments:?}");
+    }
+}
+
+fn properties<'a>(schema: &'a serde_json::Value, see: &mut impl FnMut(&'a str, &'a serde_json::Value)) {
+    if let Some(known) = schema.get("properties").and_then(|p| p.as_object()) {
+        known.iter().for_each(|(name, property)| see(name, property));
+    }
+    match schema {
+        serde_json::Value::Object(map) => map.values().for_each(|value| properties(value, see)),
+        serde_json::Value::Array(items) => items.iter().for_each(|value| properties(value, see)),
+        _ => {}
+    }
+}
+
+fn scene() -> TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("case.yaml"), CASE).unwrap();
+    fs::write(folder.path().join("scene.geo"), GEO).unwrap();
+    folder
+}
+
+fn mpm(folder: &Path, arguments: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_mpm")).args(arguments).current_dir(folder).output().unwrap()
+}
+
+/// Which of the stages a run has skipped.
+fn skipped(output: &Output) -> [bool; 4] {
+    assert!(output.status.success(), "{}", text(&output.stderr));
+    STAGES.map(|stage| text(&output.stdout).contains(&format!("{stage}: nothing has changed")))
+}
+
+fn text(bytes: &[u8]) -> String {
+    String::from_utf8_lossy(bytes).into_owned()
+}
