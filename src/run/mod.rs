@@ -14,7 +14,7 @@ mod record;
 
 pub use record::{Field, Quantity, Watch, WatchedOn};
 
-use crate::error::{Error, Result};
+use crate::error::{Error, Kind, Result};
 use crate::io::atomic;
 use crate::io::background::Background;
 use crate::io::checkpoint::{Checkpoints, Fingerprint};
@@ -22,7 +22,7 @@ use crate::io::frame;
 use crate::io::history::{History, Log};
 use crate::kinematics::Kinematics;
 use crate::profile::{Activity, timed};
-use crate::step::{Controller, Limits, Scene, Simulation, State};
+use crate::step::{Controller, Limits, Phase, Scene, Simulation, State};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -115,6 +115,7 @@ pub fn run<const D: usize, K: Kinematics<D>>(
             let report = match simulation.advance(&mut controller) {
                 Ok(report) => report,
                 Err(error) => {
+                    let error = in_time(error, phase, &simulation.state);
                     files.log.line(&format!("the analysis ends here: {error}"))?;
                     files.close()?;
                     return Err(error);
@@ -140,6 +141,15 @@ pub fn run<const D: usize, K: Kinematics<D>>(
     }
     files.close()?;
     Ok(Ended::Done)
+}
+
+/// An error of the analysis with the moment it came in.
+fn in_time<const D: usize>(error: Error, phase: &Phase, state: &State<D>) -> Error {
+    if error.kind != Kind::Analysis {
+        return error;
+    }
+    let moment = format!("in step {} from t = {:.6} s in phase `{}`", state.step + 1, state.time, phase.name);
+    Error { problem: format!("{} ({moment})", error.problem), ..error }
 }
 
 /// Begins the next phase in the converged state of this one.
