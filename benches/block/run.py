@@ -5,7 +5,7 @@ Both run one thread, pinned to one core, so that not even a writer thread gets a
 charged with the whole of `mpm solve`, reading, frames and checkpoints included; Kratos only with the solution
 of its steps, without setting up and without output. Needs `make build`; see `make bench-block`.
 
-Writes docs/benchmarks-block.md when asked to, with the numbers of this run.
+With --write the numbers of this run go to docs/benchmarks-block.md, if there are numbers of both.
 """
 
 import argparse
@@ -158,7 +158,9 @@ def main():
     peer = None if arguments.alone else run_kratos()
     lines = table(ours, peer)
     print("\n".join(lines))
-    if arguments.write:
+    if arguments.write and not peer:
+        print(f"\n{REPORT.relative_to(ROOT)} is kept as it is: it compares with Kratos.")
+    elif arguments.write:
         REPORT.parent.mkdir(exist_ok=True)
         REPORT.write_text("\n".join([INTRODUCTION, *lines]) + "\n")
 
