@@ -254,7 +254,7 @@ impl Checker {
         let root = Path::default();
         let frames: f64 = case.phases.iter().map(|p| case.output.every.map_or(1.0, |e| (p.duration / e).ceil())).sum();
         if frames > MOST_FRAMES {
-            let problem = format!("the phases would give {frames:.0} frames, more than {MOST_FRAMES}");
+            let problem = format!("the phases would give {frames:e} frames, more than {MOST_FRAMES}");
             self.issue(&root.key("output").key("every"), At::Value, problem, "write them less often");
         }
         if file.regions.values().all(|region| region.kind == raw::RegionKind::Buffer) {
