@@ -5,7 +5,7 @@ use mpm::material::{MODELS, State, spatial};
 use std::hint::black_box;
 use std::time::Instant;
 
-/// Best time of one call [ns] over a few rounds through the inputs.
+/// Best time of one call (ns) over a few rounds through the inputs.
 fn time<I, O>(inputs: &[I], mut call: impl FnMut(&I) -> O) -> f64 {
     (0..20)
         .map(|_| {

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Sets up what building and testing need beside Rust, and does nothing where it is all there:
-#   1. system packages: a C compiler, Python with venv, the shared libraries that Gmsh and VTK load.
+#   1. system packages: a C compiler, make, Python with venv, the shared libraries that Gmsh and VTK load.
 #      As root they are installed with apt, else the command to run is printed.
 #   2. .venv with the wheels of pipeline/requirements.txt.
 set -euo pipefail
@@ -28,6 +28,7 @@ libgomp.so.1       libgomp1
 "
 packages=()
 command -v cc >/dev/null || packages+=(gcc libc6-dev)
+command -v make >/dev/null || packages+=(make)
 # An existing .venv brings its own Python.
 if ! [ -x .venv/bin/python ] && ! python3 -c 'import ensurepip, venv' 2>/dev/null; then
   packages+=(python3 python3-venv)

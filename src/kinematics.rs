@@ -13,9 +13,9 @@ use std::f64::consts::TAU;
 /// The gradient of a shape function at a point.
 #[derive(Clone, Copy, Debug)]
 pub struct Gradient<const D: usize> {
-    /// `∇N_I` [1/m].
+    /// `∇N_I` (1/m).
     pub g: [f64; D],
-    /// `N_I / r` [1/m], zero but in axisymmetry.
+    /// `N_I / r` (1/m), zero but in axisymmetry.
     pub hoop: f64,
 }
 
@@ -29,7 +29,7 @@ pub trait Kinematics<const D: usize>: Copy + Default + Send + Sync + 'static {
     /// Whether the circumferential strain `u_r / r` exists.
     const HOOP: bool;
 
-    /// The response of a point seeded at height `y` [m] to an elastic trial left Cauchy–Green tensor;
+    /// The response of a point seeded at height `y` (m) to an elastic trial left Cauchy–Green tensor;
     /// `None` where that is not positive definite.
     fn respond(model: &dyn Model, y: f64, trial: &Symmetric, state: &State) -> Option<Spatial<Self::Tangent>>;
 

@@ -1,4 +1,47 @@
-//! Implicit second-order Material Point Method for geotechnics.
+//! Implicit second-order Material Point Method for geotechnics, from a Gmsh `.geo` file to ParaView.
+//!
+//! # Where things are
+//!
+//! A module imports from its own layer and lower ones only; `tests/architecture.rs` keeps it so.
+//!
+//! | layer | modules | what |
+//! |---|---|---|
+//! | 0 | [`error`], [`tensor`], [`time_value`], [`time_integration`], [`profile`], [`analytical`] | errors and exit status; the order of tensor components; values in time; generalised-α; time by activity; closed forms for the tests |
+//! | 1 | [`mesh`], [`material`] | cells and shape functions, Gmsh, location of points; stress and tangent of a point |
+//! | 2 | [`points`], [`seed`], [`kinematics`], [`stencil`], [`system`] | the material points and how cells are filled with them; plane strain and axisymmetry; what a point sees of the grid; sparse systems and their solution |
+//! | 3 | [`term`] | the terms of the equations of motion, each with its residual and tangent |
+//! | 4 | [`step`], [`io`], [`run`] | the time step (**read this first**); files; a run from the first state or a checkpoint to the end |
+//! | 5 | [`case`] | from `case.yaml` to a scene: the only place that decides which terms exist |
+//! | 6 | [`cli`] | the commands |
+//!
+//! `docs/code-tour.md` follows the data from a `.geo` to ParaView; `docs/theory.md` has the equations that
+//! the sources refer to.
+//!
+//! # Symbols
+//!
+//! Fields are named in words; locals in formulas are the symbols of the theory. Units are kN, m, s, t.
+//! Stress and strain are positive in tension.
+//!
+//! | symbol | in code | meaning |
+//! |---|---|---|
+//! | x, X | `position`, `origin` | place of a point now and when it was seeded (m) |
+//! | u | `displacement`, `u` | displacement of the nodes since the grid was restored (m) |
+//! | v, a | `velocity`, `acceleration` | (m/s), (m/s²) |
+//! | N, ∇N | `value`, `gradient` of [`stencil::Entries`] | shape functions at a point (-), (1/m) |
+//! | F | `deformation` | deformation gradient of a point since it was seeded (-) |
+//! | ΔF | `increment` | that of a step (-) |
+//! | J | `volume_ratio` | det F (-) |
+//! | b | `elastic` | elastic left Cauchy–Green tensor (-) |
+//! | ε_A | `strain` | principal Hencky strains ½ ln λ_A (-) |
+//! | τ | `kirchhoff` | Kirchhoff stress (kPa) |
+//! | σ | `stress` | Cauchy stress τ/J (kPa) |
+//! | C, a | `tangent` | material tangent, spatial tangent (kPa) |
+//! | V₀, m | `initial_volume`, `mass` | volume when seeded (m³) and mass (t), per metre or per full turn |
+//! | Δt | `dt` | size of the step (s) |
+//! | α_m, α_f, β, γ, ρ∞ | of [`time_integration::GeneralisedAlpha`] | generalised-α (-) |
+//! | W, A | `w`, `a` of [`term::Internal`] | stress of both ends of a dynamic step, and where it acts |
+//! | ε, fill | `stiffness`, `emptiness` | softness (-) and emptiness 1 − fill (-) of a cell |
+//! | s_u, c, φ, ψ, σ_t | of [`material`] | strengths (kPa), angles (°), tension cut-off (kPa) |
 
 pub mod analytical;
 pub mod case;

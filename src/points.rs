@@ -6,25 +6,25 @@ use crate::tensor::{Symmetric, Tensor};
 /// are empty in a quasi-static analysis.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Points<const D: usize> {
-    /// Position [m] at the last converged step.
+    /// Position (m) at the last converged step.
     pub position: Vec<[f64; D]>,
-    /// Position [m] at which the point was seeded; depth-dependent parameters are taken here.
+    /// Position (m) at which the point was seeded; depth-dependent parameters are taken here.
     pub origin: Vec<[f64; D]>,
-    /// Velocity [m/s].
+    /// Velocity (m/s).
     pub velocity: Vec<[f64; D]>,
-    /// Acceleration [m/s²].
+    /// Acceleration (m/s²).
     pub acceleration: Vec<[f64; D]>,
-    /// Mass [t], per metre in plane strain, per full turn (2π) in axisymmetry.
+    /// Mass (t), per metre in plane strain, per full turn (2π) in axisymmetry.
     pub mass: Vec<f64>,
-    /// Volume [m³] when seeded, per metre in plane strain, per full turn (2π) in axisymmetry.
+    /// Volume (m³) when seeded, per metre in plane strain, per full turn (2π) in axisymmetry.
     pub initial_volume: Vec<f64>,
-    /// Deformation gradient [-] since seeding.
+    /// Deformation gradient (-) since seeding.
     pub deformation: Vec<Tensor>,
-    /// Elastic left Cauchy–Green tensor [-].
+    /// Elastic left Cauchy–Green tensor (-).
     pub elastic: Vec<Symmetric>,
-    /// Cauchy stress [kPa], tension positive, at the last converged step.
+    /// Cauchy stress (kPa), tension positive, at the last converged step.
     pub stress: Vec<Symmetric>,
-    /// Accumulated equivalent plastic strain [-].
+    /// Accumulated equivalent plastic strain (-).
     pub plastic_strain: Vec<f64>,
     /// Index into the regions of the mesh.
     pub region: Vec<u16>,
@@ -37,7 +37,7 @@ impl<const D: usize> Points<D> {
         self.position.len()
     }
 
-    /// Current volume [m³] of point `p`, by the measure of `initial_volume`.
+    /// Current volume (m³) of point `p`, by the measure of `initial_volume`.
     pub fn volume(&self, p: usize) -> f64 {
         self.initial_volume[p] * self.deformation[p].determinant()
     }

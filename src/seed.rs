@@ -21,7 +21,7 @@ pub struct RegionSeed {
     /// Index into [`Mesh::regions`].
     pub region: u16,
     pub points_per_cell: u32,
-    /// Density [t/m³] at the height y.
+    /// Density (t/m³) at the height y.
     pub density: Profile,
 }
 
@@ -30,7 +30,7 @@ pub struct RegionSeed {
 pub struct RegionWeight {
     /// Index into [`Mesh::regions`].
     pub region: u16,
-    /// Unit weight [kN/m³] at the height y.
+    /// Unit weight (kN/m³) at the height y.
     pub unit_weight: Profile,
 }
 
@@ -292,7 +292,7 @@ impl Arc {
     }
 }
 
-/// `∫ γ dy` [kPa] over the part of a region vertically above `x`.
+/// `∫ γ dy` (kPa) over the part of a region vertically above `x`.
 fn weight_above(boundary: &[Arc], unit_weight: &Profile, x: &[f64; 2]) -> f64 {
     let primitive = |y: f64| {
         let below = (unit_weight.datum - y).max(0.0);

@@ -15,7 +15,7 @@ pub struct GeneralisedAlpha {
     pub alpha_f: f64,
     pub beta: f64,
     pub gamma: f64,
-    /// Step size [s].
+    /// Step size (s).
     pub dt: f64,
 }
 

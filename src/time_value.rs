@@ -1,6 +1,6 @@
 //! A value that varies in time: prescribed displacements, tractions and the factor on gravity.
 
-/// A value in a phase's own time [s].
+/// A value in a phase's own time (s).
 #[derive(Clone, Debug, PartialEq)]
 pub enum TimeValue {
     Constant(f64),
@@ -11,7 +11,7 @@ pub enum TimeValue {
 }
 
 impl TimeValue {
-    /// The value at time `t` [s] since the beginning of the phase.
+    /// The value at time `t` (s) since the beginning of the phase.
     pub fn at(&self, t: f64) -> f64 {
         match self {
             Self::Constant(value) => *value,
@@ -20,7 +20,7 @@ impl TimeValue {
         }
     }
 
-    /// Times [s] at which the slope jumps: a step had better end there.
+    /// Times (s) at which the slope jumps: a step had better end there.
     pub fn kinks(&self) -> impl Iterator<Item = f64> + '_ {
         let table: &[[f64; 2]] = if let Self::Table(table) = self { table } else { &[] };
         table.iter().map(|&[t, _]| t)

@@ -22,9 +22,9 @@ pub struct Case {
     /// The materials, sorted by name.
     pub materials: Vec<Material>,
     pub supports: Vec<Support>,
-    /// Acceleration of gravity [m/s²].
+    /// Acceleration of gravity (m/s²).
     pub gravity: [f64; 2],
-    /// Horizontal over vertical stress [-] of the initial stress; `None` for no stress.
+    /// Horizontal over vertical stress (-) of the initial stress; `None` for no stress.
     pub k0: Option<f64>,
     /// The velocities of the regions that do not start at rest.
     pub initial_velocity: Vec<InitialVelocity>,
@@ -79,7 +79,7 @@ pub enum Content {
 #[derive(Clone)]
 pub struct Material {
     pub name: String,
-    /// Density [t/m³].
+    /// Density (t/m³).
     pub density: Profile,
     pub model: Arc<dyn Model>,
 }
@@ -102,11 +102,11 @@ pub struct Support {
 pub struct InitialVelocity {
     /// Index into [`Case::regions`].
     pub region: usize,
-    /// Velocity at the centre [m/s].
+    /// Velocity at the centre (m/s).
     pub velocity: [f64; 2],
-    /// Velocity gradient [1/s], in rows.
+    /// Velocity gradient (1/s), in rows.
     pub gradient: [[f64; 2]; 2],
-    /// The point [m] the gradient is taken about.
+    /// The point (m) the gradient is taken about.
     pub centre: [f64; 2],
     pub standing_wave: Option<StandingWave>,
 }
@@ -116,14 +116,14 @@ pub struct InitialVelocity {
 pub struct StandingWave {
     pub component: usize,
     pub along: usize,
-    /// Largest velocity [m/s].
+    /// Largest velocity (m/s).
     pub amplitude: f64,
-    /// Wave number [rad/m].
+    /// Wave number (rad/m).
     pub wave_number: f64,
 }
 
 impl InitialVelocity {
-    /// The velocity [m/s] at `x` [m].
+    /// The velocity (m/s) at `x` (m).
     pub fn at(&self, x: &[f64; 2]) -> [f64; 2] {
         let from = [x[0] - self.centre[0], x[1] - self.centre[1]];
         let mut v = [0, 1].map(|i| self.velocity[i] + self.gradient[i][0] * from[0] + self.gradient[i][1] * from[1]);
@@ -138,13 +138,13 @@ impl InitialVelocity {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Numerics {
     pub restore: Restore,
-    /// ρ∞ [-] of generalised-α.
+    /// ρ∞ (-) of generalised-α.
     pub spectral_radius: f64,
-    /// Relative residual [-] at which Newton's iteration ends.
+    /// Relative residual (-) at which Newton's iteration ends.
     pub tolerance: f64,
     /// Iterations after which a step is halved.
     pub max_iterations: usize,
-    /// Stiffness of empty cells over that of the soil [-].
+    /// Stiffness of empty cells over that of the soil (-).
     pub empty_stiffness: f64,
 }
 
@@ -161,12 +161,12 @@ pub enum Restore {
 pub struct Phase {
     pub name: String,
     pub analysis: Analysis,
-    /// Duration [s].
+    /// Duration (s).
     pub duration: f64,
     pub step: StepSize,
     pub prescribed: Vec<Prescribed>,
     pub tractions: Vec<Traction>,
-    /// Factor [-] on gravity.
+    /// Factor (-) on gravity.
     pub gravity: TimeValue,
 }
 
@@ -176,7 +176,7 @@ pub enum Analysis {
     Dynamic,
 }
 
-/// Time steps [s], `min ≤ initial ≤ max`.
+/// Time steps (s), `min ≤ initial ≤ max`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StepSize {
     pub initial: f64,
@@ -184,7 +184,7 @@ pub struct StepSize {
     pub max: f64,
 }
 
-/// A component of the displacement [m] of a curve since the beginning of the phase.
+/// A component of the displacement (m) of a curve since the beginning of the phase.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Prescribed {
     pub curve: String,
@@ -193,7 +193,7 @@ pub struct Prescribed {
     pub displacement: TimeValue,
 }
 
-/// A dead load [kPa] on a curve, per area of the undeformed curve.
+/// A dead load (kPa) on a curve, per area of the undeformed curve.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Traction {
     pub curve: String,
@@ -203,7 +203,7 @@ pub struct Traction {
 /// What is written, and when.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Output {
-    /// Time between frames [s]; `None` for one at the end of each phase.
+    /// Time between frames (s); `None` for one at the end of each phase.
     pub every: Option<f64>,
     pub fields: Vec<Field>,
     pub encoding: Encoding,

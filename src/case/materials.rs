@@ -15,7 +15,7 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 impl Checker {
-    /// The checked material `name`, if it is without fault; `gravity` [m/s²] turns a unit weight into a density.
+    /// The checked material `name`, if it is without fault; `gravity` (m/s²) turns a unit weight into a density.
     pub(super) fn material(
         &mut self,
         name: &str,

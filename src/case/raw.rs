@@ -31,7 +31,7 @@ pub struct CaseFile {
     /// Displacements held at zero in every phase, by the name of a physical curve.
     #[serde(default)]
     pub supports: BTreeMap<String, Components>,
-    /// Acceleration of gravity [m/s²].
+    /// Acceleration of gravity (m/s²).
     #[serde(default)]
     pub gravity: Vector,
     /// The stress before the first phase; without it there is none.
@@ -107,9 +107,9 @@ pub enum RegionKind {
 pub struct Material {
     /// The name of a model.
     pub model: String,
-    /// Density [t/m³].
+    /// Density (t/m³).
     pub density: Option<InDepth>,
-    /// Unit weight [kN/m³].
+    /// Unit weight (kN/m³).
     pub unit_weight: Option<InDepth>,
     /// The parameters of the model.
     #[serde(flatten)]
@@ -133,7 +133,7 @@ pub struct Profile {
     /// Growth per metre below `datum`, 0 or above.
     #[schemars(range(min = 0))]
     pub gradient: f64,
-    /// Height y [m] at which the growth begins.
+    /// Height y (m) at which the growth begins.
     #[serde(default)]
     pub datum: f64,
 }
@@ -164,7 +164,7 @@ pub struct Vector {
 #[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct InitialStress {
-    /// Horizontal over vertical stress [-], 0 or above; the vertical stress is the weight above the point.
+    /// Horizontal over vertical stress (-), 0 or above; the vertical stress is the weight above the point.
     #[schemars(range(min = 0))]
     pub k0: f64,
 }
@@ -173,13 +173,13 @@ pub struct InitialStress {
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Velocity {
-    /// Velocity at the centre [m/s].
+    /// Velocity at the centre (m/s).
     #[serde(default)]
     pub velocity: Vector,
-    /// Velocity gradient [1/s], in rows: [[0, -w], [w, 0]] is a spin of w radians a second.
+    /// Velocity gradient (1/s), in rows: [[0, -w], [w, 0]] is a spin of w radians a second.
     #[serde(default)]
     pub gradient: [[f64; 2]; 2],
-    /// The point [m] the gradient is taken about.
+    /// The point (m) the gradient is taken about.
     #[serde(default)]
     pub centre: Vector,
     /// A standing wave.
@@ -194,9 +194,9 @@ pub struct StandingWave {
     pub component: Axis,
     /// The coordinate it varies along: x or y.
     pub along: Axis,
-    /// Largest velocity [m/s].
+    /// Largest velocity (m/s).
     pub amplitude: f64,
-    /// Wave number [rad/m].
+    /// Wave number (rad/m).
     pub wave_number: f64,
 }
 
@@ -218,16 +218,16 @@ pub struct Numerics {
     pub quadrature: Quadrature,
     /// When the grid goes back to its first shape: every_step, never, or {min_quality: q}.
     pub restore: Restore,
-    /// Spectral radius ρ∞ [-] of generalised-α at high frequencies, from 0 to 1; 1 damps nothing.
+    /// Spectral radius ρ∞ (-) of generalised-α at high frequencies, from 0 to 1; 1 damps nothing.
     #[schemars(range(min = 0, max = 1))]
     pub spectral_radius: f64,
-    /// Newton's iteration ends when the residual is this small beside the forces [-].
+    /// Newton's iteration ends when the residual is this small beside the forces (-).
     #[schemars(extend("exclusiveMinimum" = 0), extend("exclusiveMaximum" = 1))]
     pub tolerance: f64,
     /// Iterations after which a step is halved.
     #[schemars(range(min = 1, max = 1000))]
     pub max_iterations: usize,
-    /// Stiffness of empty cells over that of the soil [-].
+    /// Stiffness of empty cells over that of the soil (-).
     #[schemars(extend("exclusiveMinimum" = 0), extend("exclusiveMaximum" = 1))]
     pub empty_stiffness: f64,
 }
@@ -286,7 +286,7 @@ pub enum RestoreName {
 #[derive(Clone, Copy, Debug, Deserialize, serde::Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct RestoreQuality {
-    /// The grid is restored when a cell's quality falls below this share of its first one [-].
+    /// The grid is restored when a cell's quality falls below this share of its first one (-).
     #[schemars(range(min = 0, max = 1))]
     pub min_quality: f64,
 }
@@ -299,7 +299,7 @@ pub struct Phase {
     pub name: String,
     /// The kind of analysis: quasi_static (no inertia), dynamic or consolidation.
     pub analysis: Analysis,
-    /// Duration [s], above 0; in a quasi-static phase a fictitious time that loads vary in.
+    /// Duration (s), above 0; in a quasi-static phase a fictitious time that loads vary in.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub duration: f64,
     /// Time steps.
@@ -310,7 +310,7 @@ pub struct Phase {
     /// Dead loads on named curves.
     #[serde(default)]
     pub tractions: Vec<Traction>,
-    /// Factor on gravity in the phase [-]; without it 1.
+    /// Factor on gravity in the phase (-); without it 1.
     pub gravity: Option<InTime>,
 }
 
@@ -327,13 +327,13 @@ pub enum Analysis {
 #[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Step {
-    /// First time step [s], above 0.
+    /// First time step (s), above 0.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub initial: f64,
-    /// Smallest time step [s], at most `initial`; without it a ten-thousandth of `initial`.
+    /// Smallest time step (s), at most `initial`; without it a ten-thousandth of `initial`.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub min: Option<f64>,
-    /// Largest time step [s], at least `initial`; without it `initial`.
+    /// Largest time step (s), at least `initial`; without it `initial`.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub max: Option<f64>,
 }
@@ -368,9 +368,9 @@ pub struct Table {
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Motion {
-    /// Horizontal (in axisymmetry radial) displacement [m] since the beginning of the phase.
+    /// Horizontal (in axisymmetry radial) displacement (m) since the beginning of the phase.
     pub ux: Option<InTime>,
-    /// Vertical displacement [m] since the beginning of the phase.
+    /// Vertical displacement (m) since the beginning of the phase.
     pub uy: Option<InTime>,
 }
 
@@ -380,9 +380,9 @@ pub struct Motion {
 pub struct Traction {
     /// The name of a physical curve.
     pub on: String,
-    /// Horizontal (in axisymmetry radial) traction [kPa].
+    /// Horizontal (in axisymmetry radial) traction (kPa).
     pub tx: Option<InTime>,
-    /// Vertical traction [kPa], positive upwards.
+    /// Vertical traction (kPa), positive upwards.
     pub ty: Option<InTime>,
 }
 
@@ -390,7 +390,7 @@ pub struct Traction {
 #[derive(Debug, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Output {
-    /// Time between frames [s], above 0; without it one frame at the end of each phase.
+    /// Time between frames (s), above 0; without it one frame at the end of each phase.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub every: Option<f64>,
     /// The fields of the frames; without it stress and displacement.

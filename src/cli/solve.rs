@@ -103,7 +103,7 @@ const INTERVAL: f64 = 10.0;
 struct Meter {
     bar: Option<ProgressBar>,
     start: Instant,
-    /// When a line is due, and the time [s] of the run when it was taken up.
+    /// When a line is due, and the time (s) of the run when it was taken up.
     due: f64,
     from: Option<f64>,
 }

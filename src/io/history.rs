@@ -69,7 +69,7 @@ impl Log {
     }
 }
 
-/// A table of numbers in CSV whose header names the quantities with their units, `head.uy [m]`.
+/// A table of numbers in CSV whose header names the quantities with their units, `head.uy (m)`.
 #[derive(Debug)]
 pub struct History {
     log: Log,

@@ -31,10 +31,10 @@ pub struct Locator<const D: usize> {
     /// Neighbours over the facets of cell `c`: `neighbour[facet[c]..facet[c + 1]]`.
     facet: Vec<u32>,
     neighbour: Vec<u32>,
-    /// Boxes [m] that hold the cells, curved edges included, widened by `reach`.
+    /// Boxes (m) that hold the cells, curved edges included, widened by `reach`.
     boxes: Vec<Bounds<D>>,
     bins: Bins<D>,
-    /// Distance [m] up to which a point outside the mesh is taken in.
+    /// Distance (m) up to which a point outside the mesh is taken in.
     reach: f64,
 }
 

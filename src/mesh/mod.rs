@@ -11,7 +11,7 @@ use shape::CellKind;
 /// A mesh in `D` dimensions. Lengths in m.
 #[derive(Clone, Debug, Default)]
 pub struct Mesh<const D: usize> {
-    /// Node coordinates [m].
+    /// Node coordinates (m).
     pub nodes: Vec<[f64; D]>,
     /// Cells of dimension `D`, each in exactly one region.
     pub cells: Cells,

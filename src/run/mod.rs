@@ -49,7 +49,7 @@ impl Outputs {
 #[derive(Clone, Copy, Debug)]
 pub struct Progress<'a> {
     pub phase: &'a str,
-    /// Time [s] done and in all, over all phases.
+    /// Time (s) done and in all, over all phases.
     pub time: f64,
     pub end: f64,
     pub step: u64,

@@ -18,11 +18,11 @@ pub enum Field {
 /// A quantity of the history, with its component.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Quantity {
-    /// Displacement [m], the mean over what is watched.
+    /// Displacement (m), the mean over what is watched.
     Displacement(usize),
-    /// Velocity [m/s], the mean over what is watched.
+    /// Velocity (m/s), the mean over what is watched.
     Velocity(usize),
-    /// Force of the supports and prescribed displacements on the nodes [kN], the sum.
+    /// Force of the supports and prescribed displacements on the nodes (kN), the sum.
     Reaction(usize),
 }
 

@@ -71,7 +71,7 @@ pub fn integrate<const D: usize, K: Kinematics<D>>(
     volume
 }
 
-/// The diagonal of the box around a cell's nodes [m].
+/// The diagonal of the box around a cell's nodes (m).
 pub fn cell_size<const D: usize>(mesh: &Mesh<D>, cell: usize) -> f64 {
     let (mut low, mut high) = ([f64::INFINITY; D], [f64::NEG_INFINITY; D]);
     for &n in mesh.cells.nodes(cell) {

@@ -32,11 +32,11 @@ pub struct Stencil<const D: usize> {
     pub patches: Vec<Patch>,
     /// Point numbers, grouped by patch, ascending in each.
     pub points: Vec<u32>,
-    /// `N_I(x_p)` [-].
+    /// `N_I(x_p)` (-).
     value: Vec<f64>,
-    /// `∇N_I(x_p)` [1/m].
+    /// `∇N_I(x_p)` (1/m).
     gradient: Vec<[f64; D]>,
-    /// Radius of the points [m], in the order of `points`; empty without hoop strain.
+    /// Radius of the points (m), in the order of `points`; empty without hoop strain.
     radius: Vec<f64>,
 }
 

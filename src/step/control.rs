@@ -7,7 +7,7 @@ use crate::error::{Error, Result};
 const EASY: usize = 6;
 const GROWTH: f64 = 1.5;
 
-/// Bounds of the step size [s] in a phase.
+/// Bounds of the step size (s) in a phase.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Limits {
     pub least: f64,
@@ -19,7 +19,7 @@ pub struct Limits {
 pub struct Controller {
     limits: Limits,
     stops: Vec<Stop>,
-    /// The size [s] that the next step should have, before it is fitted to the next stop.
+    /// The size (s) that the next step should have, before it is fitted to the next stop.
     pub wanted: f64,
     /// Halvings since the last accepted step, with the reasons.
     halvings: Vec<String>,

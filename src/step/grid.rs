@@ -172,7 +172,7 @@ pub fn choose_cells<const D: usize>(scene: &Scene<D>, state: &mut State<D>) -> b
     true
 }
 
-/// The displacement increments [m] that are given in a step of size `dt`, one entry an equation: zero at the
+/// The displacement increments (m) that are given in a step of size `dt`, one entry an equation: zero at the
 /// supports, and what is prescribed, which takes precedence.
 pub fn given_increments<const D: usize>(
     scene: &Scene<D>,

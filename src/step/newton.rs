@@ -29,10 +29,10 @@ pub struct Problem<'a, const D: usize> {
     pub velocity: &'a [[f64; D]],
     pub acceleration: &'a [[f64; D]],
     pub phase: usize,
-    /// Time [s] in the phase at the beginning and the end of the step.
+    /// Time (s) in the phase at the beginning and the end of the step.
     pub from: f64,
     pub to: f64,
-    /// Increment [m] of the displacements that are given, `None` where free. One entry an equation.
+    /// Increment (m) of the displacements that are given, `None` where free. One entry an equation.
     pub given: &'a [Option<f64>],
     /// Present in dynamic analysis.
     pub integration: Option<GeneralisedAlpha>,
@@ -40,13 +40,13 @@ pub struct Problem<'a, const D: usize> {
 
 /// A converged step.
 pub struct Solution<const D: usize> {
-    /// Displacement of the nodes [m] since the last restoration.
+    /// Displacement of the nodes (m) since the last restoration.
     pub displacement: Vec<[f64; D]>,
-    /// Residual [kN], one entry an equation: zero where free, the force of the support where given.
+    /// Residual (kN), one entry an equation: zero where free, the force of the support where given.
     pub residual: Vec<f64>,
     /// Relative residuals, the first before the first iteration.
     pub history: Vec<f64>,
-    /// Resultant [kN] of the applied forces, weighted in time as the step does.
+    /// Resultant (kN) of the applied forces, weighted in time as the step does.
     pub applied: [f64; D],
     pub method: Method,
 }
@@ -80,12 +80,12 @@ struct Newton<'a, const D: usize> {
     fixed: Vec<bool>,
     u: Vec<[f64; D]>,
     now: Evaluation<D>,
-    /// A force [kN] below which nothing counts.
+    /// A force (kN) below which nothing counts.
     floor: f64,
     /// Relative residuals so far; the last is that of `u`.
     history: Vec<f64>,
     method: Method,
-    /// The best state so far, the residual [kN] to beat, and how many iterations have not.
+    /// The best state so far, the residual (kN) to beat, and how many iterations have not.
     best: Vec<[f64; D]>,
     target: f64,
     relaxed: usize,
@@ -118,7 +118,7 @@ impl<'a, const D: usize> Newton<'a, D> {
         Ok(newton)
     }
 
-    /// The residual [kN].
+    /// The residual (kN).
     fn size(&self, evaluation: &Evaluation<D>) -> f64 {
         norm_free(&evaluation.force, &self.fixed)
     }
@@ -251,7 +251,7 @@ impl<'a, const D: usize> Newton<'a, D> {
     }
 }
 
-/// A force [kN] below which nothing counts: rounding in stresses of the order of the stiffness.
+/// A force (kN) below which nothing counts: rounding in stresses of the order of the stiffness.
 fn floor<const D: usize>(scene: &Scene<D>, equations: usize) -> f64 {
     1e-6 * scene.stiffness_scale * scene.cell_face() * (equations as f64).sqrt()
 }

@@ -10,13 +10,13 @@ use crate::system::Method;
 /// Mass and momentum of the points.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Motion<const D: usize> {
-    /// Mass [t].
+    /// Mass (t).
     pub mass: f64,
-    /// Linear momentum [t m/s].
+    /// Linear momentum (t m/s).
     pub linear: [f64; D],
-    /// Angular momentum [t m²/s] about the origin, in the plane.
+    /// Angular momentum (t m²/s) about the origin, in the plane.
     pub angular: f64,
-    /// Kinetic energy [kJ].
+    /// Kinetic energy (kJ).
     pub kinetic: f64,
 }
 
@@ -41,7 +41,7 @@ impl<const D: usize> Motion<D> {
 /// A converged step.
 #[derive(Clone, Debug)]
 pub struct Report<const D: usize> {
-    /// Size of the step [s].
+    /// Size of the step (s).
     pub dt: f64,
     /// Relative residuals, the first before the first iteration.
     pub residuals: Vec<f64>,
@@ -49,13 +49,13 @@ pub struct Report<const D: usize> {
     /// Why the step was halved before, each time.
     pub halvings: Vec<String>,
     pub motion: Motion<D>,
-    /// Change of linear momentum less the impulse of applied forces and supports [t m/s].
+    /// Change of linear momentum less the impulse of applied forces and supports (t m/s).
     pub imbalance: [f64; D],
-    /// Elastic energy [kJ].
+    /// Elastic energy (kJ).
     pub elastic: f64,
-    /// Potential energy [kJ] of gravity at its full factor.
+    /// Potential energy (kJ) of gravity at its full factor.
     pub potential: f64,
-    /// Force of the supports on the nodes [kN]: zero at nodes without.
+    /// Force of the supports on the nodes (kN): zero at nodes without.
     pub reaction: Vec<[f64; D]>,
 }
 

@@ -16,9 +16,9 @@ pub struct Scene<const D: usize> {
     pub supports: Vec<Fixed>,
     pub phases: Vec<Phase>,
     pub numerics: Numerics,
-    /// Acceleration of gravity [m/s²], for the energies in the log.
+    /// Acceleration of gravity (m/s²), for the energies in the log.
     pub gravity: [f64; D],
-    /// Largest confined modulus λ + 2G [kPa] and density [t/m³] of the scene: rounding is measured by the
+    /// Largest confined modulus λ + 2G (kPa) and density (t/m³) of the scene: rounding is measured by the
     /// first, the spread of the motion over empty nodes by the second.
     pub stiffness_scale: f64,
     pub density_scale: f64,
@@ -30,7 +30,7 @@ impl<const D: usize> Scene<D> {
         self.supports.iter().chain(self.phases[phase].prescribed.iter().map(|p| &p.fixed))
     }
 
-    /// Area [m²] of the side of a typical cell.
+    /// Area (m²) of the side of a typical cell.
     pub fn cell_face(&self) -> f64 {
         let sum: f64 = (0..self.mesh.cells.len()).map(|c| cell_size(&self.mesh, c)).sum();
         (sum / self.mesh.cells.len().max(1) as f64).powi(D as i32 - 1)
@@ -48,7 +48,7 @@ pub struct Fixed {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Prescribed {
     pub fixed: Fixed,
-    /// Displacement [m] since the beginning of the phase.
+    /// Displacement (m) since the beginning of the phase.
     pub displacement: TimeValue,
 }
 
@@ -58,21 +58,21 @@ pub struct Phase {
     pub name: String,
     /// With inertia; quasi-static otherwise.
     pub dynamic: bool,
-    /// Duration [s].
+    /// Duration (s).
     pub duration: f64,
-    /// Time steps [s]: the first, the least and the largest.
+    /// Time steps (s): the first, the least and the largest.
     pub first_step: f64,
     pub least_step: f64,
     pub largest_step: f64,
     pub prescribed: Vec<Prescribed>,
-    /// Times [s] in the phase at which a step must end: outputs, kinks of tables, the end.
+    /// Times (s) in the phase at which a step must end: outputs, kinks of tables, the end.
     pub stops: Vec<Stop>,
 }
 
 /// A time at which a step ends.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stop {
-    /// Time [s] since the beginning of the phase.
+    /// Time (s) since the beginning of the phase.
     pub time: f64,
     /// Whether a frame is written there.
     pub frame: bool,
@@ -83,9 +83,9 @@ pub struct Stop {
 pub struct Numerics {
     /// Restore the grid in every step; never otherwise (updated Lagrangian).
     pub restore_every_step: bool,
-    /// ρ∞ [-] of the generalised-α method.
+    /// ρ∞ (-) of the generalised-α method.
     pub spectral_radius: f64,
-    /// Relative residual [-] at which Newton's iteration ends.
+    /// Relative residual (-) at which Newton's iteration ends.
     pub tolerance: f64,
     /// Iterations after which a step is halved.
     pub max_iterations: usize,

@@ -7,12 +7,12 @@ use crate::points::Points;
 pub struct State<const D: usize> {
     /// Number of the phase, from 0; the number of phases when all are done.
     pub phase: usize,
-    /// Time [s] since the run and since the phase began.
+    /// Time (s) since the run and since the phase began.
     pub time: f64,
     pub phase_time: f64,
     /// Converged steps so far.
     pub step: u64,
-    /// Size [s] of the next step that the step control wants.
+    /// Size (s) of the next step that the step control wants.
     pub step_size: f64,
     /// Frames written so far.
     pub frames: u64,
@@ -26,11 +26,11 @@ pub struct State<const D: usize> {
     pub moving: bool,
     /// Parametric coordinates of the points in their cells, as of the last restoration.
     pub parametric: Vec<[f64; 3]>,
-    /// Displacement [m] of the nodes since the last restoration.
+    /// Displacement (m) of the nodes since the last restoration.
     pub displacement: Vec<[f64; D]>,
-    /// Displacement [m] of the nodes since the run began: what passes a node of a grid that is restored.
+    /// Displacement (m) of the nodes since the run began: what passes a node of a grid that is restored.
     pub travel: Vec<[f64; D]>,
-    /// Velocity [m/s] and acceleration [m/s²] of the nodes; empty in quasi-static analysis.
+    /// Velocity (m/s) and acceleration (m/s²) of the nodes; empty in quasi-static analysis.
     pub velocity: Vec<[f64; D]>,
     pub acceleration: Vec<[f64; D]>,
     /// Cells that take part in the solution; empty before the first step.

@@ -9,7 +9,7 @@ use std::marker::PhantomData;
 
 /// Gravity on all material points.
 pub struct BodyForce<K, const D: usize> {
-    /// Acceleration of gravity [m/s²].
+    /// Acceleration of gravity (m/s²).
     gravity: [f64; D],
     /// The factor on it in each phase.
     factors: Vec<TimeValue>,

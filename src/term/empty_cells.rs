@@ -14,13 +14,13 @@ use std::marker::PhantomData;
 
 /// The soft stiffness of the cells that are not full.
 pub struct EmptyCells<K> {
-    /// `ε E` [kPa].
+    /// `ε E` (kPa).
     stiffness: f64,
     kinematics: PhantomData<K>,
 }
 
 impl<K> EmptyCells<K> {
-    /// `stiffness` is that of an empty cell [kPa].
+    /// `stiffness` is that of an empty cell (kPa).
     pub fn new(stiffness: f64) -> Self {
         Self { stiffness, kinematics: PhantomData }
     }

@@ -42,27 +42,27 @@ pub struct Frame<'a, const D: usize> {
 
 /// A trial state of the step.
 pub struct Trial<'a, const D: usize> {
-    /// Displacement of the nodes [m] since the grid was last restored, at the end of the step.
+    /// Displacement of the nodes (m) since the grid was last restored, at the end of the step.
     pub displacement: &'a [[f64; D]],
-    /// `(1 − α_f) u + α_f u_n` [m]: where loads are taken in the generalised-α method; `u` without inertia.
+    /// `(1 − α_f) u + α_f u_n` (m): where loads are taken in the generalised-α method; `u` without inertia.
     pub between: &'a [[f64; D]],
-    /// α_f of the generalised-α method [-]; zero in quasi-static analysis.
+    /// α_f of the generalised-α method (-); zero in quasi-static analysis.
     pub alpha_f: f64,
     /// The displacement at the last converged step.
     pub converged: &'a [[f64; D]],
-    /// Acceleration of the nodes [m/s²] weighted by α_m; empty without inertia.
+    /// Acceleration of the nodes (m/s²) weighted by α_m; empty without inertia.
     pub acceleration: &'a [[f64; D]],
-    /// Its derivative by the displacement at the end of the step [1/s²].
+    /// Its derivative by the displacement at the end of the step (1/s²).
     pub acceleration_slope: f64,
     /// Number of the phase, from 0.
     pub phase: usize,
-    /// Time [s] since the phase began, between the ends of the step as `between` is.
+    /// Time (s) since the phase began, between the ends of the step as `between` is.
     pub time: f64,
 }
 
 /// Where a term adds its residual and tangent.
 pub struct Assembly<'a> {
-    /// One entry an equation [kN].
+    /// One entry an equation (kN).
     pub force: &'a mut [f64],
     /// Present when the tangent is wanted.
     pub tangent: Option<&'a mut Matrix>,
@@ -131,7 +131,7 @@ pub trait Term<const D: usize>: Send + Sync {
         Role::Internal
     }
 
-    /// Stored energy [kJ] of the points in their converged state.
+    /// Stored energy (kJ) of the points in their converged state.
     fn energy(&self, _points: &Points<D>) -> f64 {
         0.0
     }

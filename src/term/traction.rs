@@ -13,9 +13,9 @@ use std::marker::PhantomData;
 /// A traction on one curve in one phase.
 pub struct Traction<K, const D: usize> {
     phase: usize,
-    /// Traction components [kPa] in time.
+    /// Traction components (kPa) in time.
     value: [TimeValue; D],
-    /// `∫ N_I dS` of the nodes of the curve [m²].
+    /// `∫ N_I dS` of the nodes of the curve (m²).
     area: Vec<(u32, f64)>,
     kinematics: PhantomData<K>,
 }

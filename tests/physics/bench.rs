@@ -12,7 +12,7 @@ use mpm::term::{BodyForce, EmptyCells, Inertia, Internal, Term};
 use mpm::time_value::TimeValue;
 use std::sync::Arc;
 
-/// Points at the quadrature points of every cell, of the density [t/m³].
+/// Points at the quadrature points of every cell, of the density (t/m³).
 pub fn quadrature_points<K: Kinematics<2>>(mesh: &Mesh<2>, degree: usize, density: f64) -> Points<2> {
     let mut points = Points::default();
     let (mut n, mut g) = ([0.0; MAX_NODES], [[0.0; 2]; MAX_NODES]);

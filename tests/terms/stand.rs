@@ -18,9 +18,9 @@ use std::sync::Arc;
 
 pub const KINDS: [CellKind; 5] = [CellKind::T3, CellKind::T6, CellKind::Q4, CellKind::Q8, CellKind::Q9];
 
-/// `∂a/∂u` [1/s²].
+/// `∂a/∂u` (1/s²).
 const SLOPE: f64 = 170.0;
-/// Uniform part of the acceleration [m/s²].
+/// Uniform part of the acceleration (m/s²).
 const ACCELERATION: [f64; 2] = [1.3, -0.7];
 
 /// Vectors on the nodes.
@@ -156,7 +156,7 @@ impl<K: Kinematics<2>> Stand<K> {
         self.grid.soft.len()
     }
 
-    /// A field given by the place of a node, with noise of the size `noise` [m].
+    /// A field given by the place of a node, with noise of the size `noise` (m).
     pub fn field(&self, noise: f64, seed: u64, at: impl Fn([f64; 2]) -> [f64; 2]) -> Field {
         let mut random = Random(seed);
         self.scene.mesh.nodes.iter().map(|&x| at(x).map(|u| u + noise * random.next())).collect()

@@ -74,7 +74,7 @@ fn quadrature_integrates_its_degree() {
                 let sum: f64 =
                     rule(kind, degree).iter().map(|(xi, w)| w * xi[0].powi(a as i32) * xi[1].powi(b as i32)).sum();
                 let factorial = |n: usize| (1..=n).map(|k| k as f64).product::<f64>();
-                let side = |n: usize| if n % 2 == 0 { 2.0 / (n as f64 + 1.0) } else { 0.0 };
+                let side = |n: usize| if n.is_multiple_of(2) { 2.0 / (n as f64 + 1.0) } else { 0.0 };
                 let exact = match kind.dimension() {
                     1 => side(a),
                     _ if kind.is_simplex() => factorial(a) * factorial(b) / factorial(a + b + 2),

@@ -1,0 +1,155 @@
+//! The layers of the crate (see the table in `src/lib.rs`): a module imports from its own layer and lower
+//! ones only. Also which files alone may name the sparse solver's crate and call foreign code.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// The modules by layer, lowest first.
+const LAYERS: [&[&str]; 7] = [
+    &["analytical", "error", "profile", "tensor", "time_integration", "time_value"],
+    &["material", "mesh"],
+    &["kinematics", "points", "seed", "stencil", "system"],
+    &["term"],
+    &["io", "run", "step"],
+    &["case"],
+    &["cli", "main"],
+];
+
+/// Imports within a layer that are not wanted either: a run joins steps and files, which do not know each other,
+/// nor the run; meshes and materials have nothing to do with each other.
+const APART: [(&str, &str); 6] =
+    [("step", "io"), ("io", "step"), ("step", "run"), ("io", "run"), ("mesh", "material"), ("material", "mesh")];
+
+#[test]
+fn modules_import_from_their_own_layer_and_lower_ones() {
+    let mut wrong = Vec::new();
+    for (file, code) in sources() {
+        let module = module(&file);
+        let Some(own) = layer(&module) else {
+            wrong.push(format!("{}: `{module}` has no layer; give it one in tests/architecture.rs", file.display()));
+            continue;
+        };
+        // The program sees the crate from outside; elsewhere `mpm` may be a module of the scheme.
+        let root = if module == "main" { "mpm::" } else { "crate::" };
+        for import in imports(&code, root) {
+            let allowed = layer(&import).is_some_and(|other| other <= own);
+            if !allowed || APART.contains(&(module.as_str(), import.as_str())) {
+                wrong.push(format!("{}: `{module}` must not import `{import}`", file.display()));
+            }
+        }
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+#[test]
+fn the_table_of_the_crate_names_every_module_in_its_layer() {
+    let text = fs::read_to_string(root().join("lib.rs")).unwrap();
+    for (number, modules) in LAYERS.iter().enumerate() {
+        let row = text.lines().find(|line| line.starts_with(&format!("//! | {number} |")));
+        let row = row.unwrap_or_else(|| panic!("src/lib.rs has no row for layer {number}"));
+        for module in modules.iter().filter(|&&module| module != "main") {
+            assert!(row.contains(&format!("[`{module}`]")), "`{module}` is not in the row of layer {number}: {row}");
+        }
+    }
+}
+
+#[test]
+fn one_file_names_the_sparse_solver_and_one_calls_gmsh() {
+    let holds = |word: &str| {
+        let mut files: Vec<String> = sources()
+            .into_iter()
+            .filter(|(_, code)| words(code).any(|found| found == word))
+            .map(|(file, _)| file.strip_prefix(root()).unwrap().display().to_string())
+            .collect();
+        files.sort();
+        files
+    };
+    assert_eq!(holds("faer"), ["system/solver.rs"]);
+    assert_eq!(holds("unsafe"), ["mesh/gmsh.rs"]);
+    assert_eq!(holds("OUT_DIR"), ["mesh/gmsh.rs"], "the bindings that build.rs makes");
+    assert_eq!(holds("extern"), [""; 0]);
+}
+
+#[test]
+fn imports_are_found_wherever_they_stand() {
+    let code = "use crate::{error::{self, Error}, tensor::Tensor};\nuse crate::io::{\n    frame,\n};\n\
+        fn f(x: &crate::step::Report) {}\n// crate::case\n    /// [`crate::cli`]\npub(crate) fn g() {}";
+    assert_eq!(imports(&without_comments(code), "crate::"), ["error", "tensor", "io", "step"]);
+}
+
+fn root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("src")
+}
+
+/// Every source file but `lib.rs`, without its comments.
+fn sources() -> Vec<(PathBuf, String)> {
+    let (mut found, mut folders) = (Vec::new(), vec![root()]);
+    while let Some(folder) = folders.pop() {
+        for entry in fs::read_dir(folder).unwrap() {
+            let path = entry.unwrap().path();
+            if path.is_dir() {
+                folders.push(path);
+            } else if path.extension().is_some_and(|kind| kind == "rs") && path != root().join("lib.rs") {
+                let code = without_comments(&fs::read_to_string(&path).unwrap());
+                found.push((path, code));
+            }
+        }
+    }
+    assert!(found.len() > 50, "the sources were not found");
+    found
+}
+
+/// A line comment ends the code of its line; `//` in a string does too, and costs nothing here.
+fn without_comments(text: &str) -> String {
+    text.lines().map(|line| line.split("//").next().unwrap_or_default()).collect::<Vec<_>>().join("\n")
+}
+
+/// The module of the crate that a file belongs to.
+fn module(file: &Path) -> String {
+    let first = file.strip_prefix(root()).unwrap().components().next().unwrap();
+    first.as_os_str().to_string_lossy().trim_end_matches(".rs").to_owned()
+}
+
+fn layer(module: &str) -> Option<usize> {
+    LAYERS.iter().position(|modules| modules.contains(&module))
+}
+
+/// The modules named behind `root`, in order.
+fn imports(code: &str, root: &str) -> Vec<String> {
+    let mut found = Vec::new();
+    for (at, _) in code.match_indices(root) {
+        if code[..at].ends_with(|c: char| c.is_alphanumeric() || c == '_') {
+            continue;
+        }
+        let rest = &code[at + root.len()..];
+        match rest.strip_prefix('{') {
+            Some(group) => found.extend(heads(group)),
+            None => found.extend(words(rest).next().map(str::to_owned)),
+        }
+    }
+    found
+}
+
+/// The first names of the entries of a `{…}` whose opening brace has been read.
+fn heads(group: &str) -> Vec<String> {
+    let (mut depth, mut entry, mut heads) = (0, String::new(), Vec::new());
+    for c in group.chars() {
+        match c {
+            '{' => depth += 1,
+            '}' if depth == 0 => break,
+            '}' => depth -= 1,
+            ',' if depth == 0 => {
+                heads.extend(words(&std::mem::take(&mut entry)).next().map(str::to_owned));
+                continue;
+            }
+            _ => {}
+        }
+        entry.push(c);
+    }
+    heads.extend(words(&entry).next().map(str::to_owned));
+    heads
+}
+
+fn words(code: &str) -> impl Iterator<Item = &str> {
+    code.split(|c: char| !(c.is_alphanumeric() || c == '_')).filter(|word| !word.is_empty())
+}
