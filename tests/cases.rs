@@ -56,25 +56,26 @@ fn references_are_the_closed_forms() {
     }
 }
 
-/// Four cells over the height: displacement 1e-4 of the settlement, stress 3e-4 of that at the base.
+/// Eight cells over the height: the stress errs by 3e-5 of that at the base on average, the displacement by 1e-5
+/// of the settlement.
 #[test]
 fn column() {
-    let run = Run::new("column", &["mesh.parameters.h=2.5"]);
+    let run = Run::new("column", &["mesh.parameters.h=1.25"]);
     let reference = Table::read(&cases().join("column/reference.csv"));
     let surface = reference.rows.iter().find(|row| row[0] == 0.5 && row[1] == 0.0).unwrap()[2];
     let found = run.history.last("surface.uy");
-    assert!((found / surface - 1.0).abs() < 3e-4, "the surface settles by {found}, not {surface}");
+    assert!((found / surface - 1.0).abs() < 1e-4, "the surface settles by {found}, not {surface}");
     let weight = 20.0 * 10.0 * 1.25;
     assert!((run.history.last("bottom.reaction_y") / weight - 1.0).abs() < 1e-7, "the base carries the weight");
     let points = run.last_points();
-    assert!(points.len() >= 12);
-    for Point { position, displacement, stress } in points {
+    let mut errors = [0.0; 2];
+    for Point { position, displacement, stress } in &points {
         let depth = 10.0 - (position[1] - displacement[1]);
-        let error = (displacement[1] - COLUMN.displacement(depth)) / surface;
-        assert!(error.abs() < 3e-4, "at the depth {depth}: {displacement:?}");
-        let error = (stress[1] - COLUMN.stress(depth)) / 200.0;
-        assert!(error.abs() < 1e-3, "at the depth {depth}: {stress:?}");
+        errors[0] += (stress[1] - COLUMN.stress(depth)).abs() / 200.0 / points.len() as f64;
+        errors[1] += ((displacement[1] - COLUMN.displacement(depth)) / surface).abs() / points.len() as f64;
     }
+    println!("{} points: stress {:.1e}, displacement {:.1e}", points.len(), errors[0], errors[1]);
+    assert!(errors[0] < 1e-4 && errors[1] < 5e-5, "{errors:?}");
 }
 
 /// 0.38 % at the last load, of which 0.40 % are the beam's thickness and −0.02 % the coarse mesh.
