@@ -76,6 +76,7 @@ fn column() {
     }
     println!("{} points: stress {:.1e}, displacement {:.1e}", points.len(), errors[0], errors[1]);
     assert!(errors[0] < 1e-4 && errors[1] < 5e-5, "{errors:?}");
+    run.draw("column");
 }
 
 /// 0.38 % at the last load, of which 0.40 % are the beam's thickness and −0.02 % the coarse mesh.
@@ -91,6 +92,7 @@ fn cantilever() {
         assert!(errors.iter().all(|e| e.abs() <= 5e-3), "PL²/EI = {load}: {errors:?}");
     }
     assert!((run.history.last("clamp.reaction_y") - 12.5).abs() < 1e-6, "the clamp carries the load");
+    run.draw("cantilever");
 }
 
 /// Two periods of 20 steps. The trapezoidal rule lags behind by 0.82 % of the time, which is an angle of 0.1
@@ -116,6 +118,7 @@ fn bar_follows_its_first_mode() {
     assert_eq!(energies.len(), 40);
     let exact = 0.05 * bar.energy();
     assert!(energies.iter().all(|e| (e / exact - 1.0).abs() < 1e-3), "{exact}: {energies:?}");
+    run.draw("bar");
 }
 
 /// `tests/footings.rs` has the documented mesh and the convergence; here h is twice as large.
@@ -163,6 +166,20 @@ impl Run {
         }
         let history = Table::read(&folder.path().join("history.csv"));
         Self { folder, history }
+    }
+
+    /// Draws the case's picture and looks whether it shows something.
+    fn draw(&self, case: &str) {
+        let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+        let picture = self.folder.path().join("picture.png");
+        let script = format!("paraview/{case}.py");
+        for (script, argument) in [(script.as_str(), self.folder.path()), ("tests/readers/check_picture.py", &picture)]
+        {
+            let mut command = Command::new(root.join(".venv/bin/python"));
+            let output = command.arg(root.join(script)).arg(argument).env_remove("DISPLAY").output();
+            let output = output.expect("the Python of the project is there: make setup");
+            assert!(output.status.success(), "{script}: {}", String::from_utf8_lossy(&output.stderr));
+        }
     }
 
     /// The points of the last file of the series, read by vtkio.
