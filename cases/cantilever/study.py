@@ -1,6 +1,6 @@
 """The cantilever against the elastica: the tables of the README, and reference.csv.
 
-    .venv/bin/python cases/cantilever/study.py                                           # the tables, about 15 s
+    .venv/bin/python cases/cantilever/study.py                                           # the tables, about 20 s
     .venv/bin/python cases/cantilever/study.py --reference > cases/cantilever/reference.csv
 
 The elastica is that of src/analytical/elastica.rs, computed here in another way: EI θ″ = -P cos θ with no moment

@@ -1,6 +1,6 @@
 """The column against its closed form: the tables of the README, and reference.csv.
 
-    .venv/bin/python cases/column/study.py                                       # the tables, about 15 s
+    .venv/bin/python cases/column/study.py                                       # the tables, about 10 s
     .venv/bin/python cases/column/study.py --reference > cases/column/reference.csv
 
 The closed form is that of src/analytical/self_weight_column.rs, computed here in another way, from the balance
