@@ -17,8 +17,9 @@ use crate::time_integration::GeneralisedAlpha;
 use rayon::prelude::*;
 
 /// Weight of the gradient penalty that spreads the motion smoothly over nodes with little or no mass,
-/// relative to the mass of a full cell: `ε ρ h² (1 − fill) ∫ ∇N_I·∇N_J`. It does not touch uniform motion
-/// and adds no momentum.
+/// relative to the mass of a full cell: `ε ρ h² s ∫ ∇N_I·∇N_J`, `s = 1 − fill` and at least a tenth in cells
+/// with fewer points than nodes, whose mass alone is singular. It does not touch uniform motion and adds no
+/// momentum.
 const SPREAD: f64 = 1e-4;
 
 /// The mass of the points on the nodes, factorised.
@@ -37,6 +38,7 @@ impl<'a> Mass<'a> {
         grid: &'a mut Grid<D>,
         points: &Points<D>,
     ) -> Result<Self> {
+        let spread = spread_cells(grid);
         let Some(system) = grid.mass.as_mut() else {
             return Err(Error::analysis("transfer", "a scene without dynamic phases has no mass system", ""));
         };
@@ -64,7 +66,7 @@ impl<'a> Mass<'a> {
         )?;
         scatter(
             &system.pattern,
-            &grid.soft,
+            &spread,
             |soft| clique[soft.cell as usize] as usize,
             |soft: &SoftCell, local| {
                 let cell = soft.cell as usize;
@@ -113,6 +115,17 @@ impl<'a> Mass<'a> {
         self.factorised = false;
         solver.solve(pattern, &held, x).map(|_| ())
     }
+}
+
+/// The cells whose nodes the motion is spread over, with their share of the penalty.
+fn spread_cells<const D: usize>(grid: &Grid<D>) -> Vec<SoftCell> {
+    const FEW: f64 = 0.1;
+    let few = grid.stencil.patches.iter().filter(|patch| patch.point_count < patch.node_count);
+    let mut cells: Vec<SoftCell> = few.map(|patch| SoftCell { cell: patch.cell, emptiness: FEW }).collect();
+    cells.extend(&grid.soft);
+    cells.sort_by(|a, b| a.cell.cmp(&b.cell).then(b.emptiness.total_cmp(&a.emptiness)));
+    cells.dedup_by_key(|soft| soft.cell);
+    cells
 }
 
 /// Brings velocity and acceleration to the nodes: from the points after a restoration, from the forces at the

@@ -22,6 +22,11 @@ struct Trace {
 }
 
 fn vibrate(steps_a_period: usize, periods: usize, spectral_radius: f64, cells: usize) -> Trace {
+    vibrate_with(4, steps_a_period, periods, spectral_radius, cells)
+}
+
+/// With the points of the quadrature rule of `degree`.
+fn vibrate_with(degree: usize, steps_a_period: usize, periods: usize, spectral_radius: f64, cells: usize) -> Trace {
     let bar = bar();
     let mesh = rectangle(CellKind::T6, LENGTH, LENGTH / cells as f64, cells, 1, 0.0, 1);
     let elasticity = Elasticity::new(constant(YOUNG), 0.0).unwrap();
@@ -32,7 +37,7 @@ fn vibrate(steps_a_period: usize, periods: usize, spectral_radius: f64, cells: u
     bench.duration = bar.period() * periods as f64;
     bench.steps = steps_a_period * periods;
     bench.hold("left", &[0]).hold("bottom", &[1]).hold("top", &[1]);
-    let mut points = quadrature_points::<PlaneStrain>(&bench.mesh, 4, DENSITY);
+    let mut points = quadrature_points::<PlaneStrain>(&bench.mesh, degree, DENSITY);
     points.velocity = points.position.iter().map(|x| [bar.velocity(x[0], 0.0), 0.0]).collect();
     let tip = bench.mesh.group("right").unwrap().nodes[0] as usize;
     let scene = bench.scene::<PlaneStrain>();
@@ -111,4 +116,13 @@ fn a_hundred_times_the_courant_step_is_stable() {
         println!("ρ∞ = {spectral_radius}, {steps} steps a period: energy at most {:.6} of the start", largest / start);
         assert!(largest < 1.001 * start, "{largest} {start}");
     }
+}
+
+/// Three points leave the mass of a six-node triangle singular; the motion starts all the same, and 1 % of
+/// the energy is what so few points miss.
+#[test]
+fn a_motion_starts_from_three_points_a_cell() {
+    let trace = vibrate_with(2, 40, 2, 1.0, 16);
+    let start = bar().energy() * LENGTH / 16.0;
+    assert!(trace.energy.iter().all(|e| (e / start - 1.0).abs() < 0.02), "{:?}", trace.energy);
 }
