@@ -84,6 +84,7 @@ class Block(MpmAnalysis):
     def __init__(self, model, parameters, n):
         self.n = n
         self.seconds = []
+        self.processor_seconds = []
         self.iterations = []
         self.unconverged = 0
         super().__init__(model, parameters)
@@ -136,12 +137,13 @@ class Block(MpmAnalysis):
             self.time = solver.AdvanceInTime(self.time)
             # Setting the load from Python is slow and no fault of the peer: it is not timed.
             self.InitializeSolutionStep()
-            start = time.perf_counter()
+            start, processor = time.perf_counter(), time.process_time()
             solver.Predict()
             converged = solver.SolveSolutionStep()
             self.iterations.append(self.model["Background_Grid"].ProcessInfo[KM.NL_ITERATION_NUMBER])
             self.FinalizeSolutionStep()
             self.seconds.append(time.perf_counter() - start)
+            self.processor_seconds.append(time.process_time() - processor)
             self.unconverged += not converged
 
 
@@ -163,6 +165,7 @@ def main():
         "iterations": block.iterations,
         "unconverged": block.unconverged,
         "seconds": block.seconds,
+        "processor_seconds": block.processor_seconds,
         "peak_mb": resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024,
     }
     sys.stdout.flush()

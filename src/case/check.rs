@@ -252,9 +252,11 @@ impl Checker {
     /// What only shows between blocks.
     fn together(&mut self, case: &Case, file: &raw::CaseFile) {
         let root = Path::default();
-        let frames: f64 = case.phases.iter().map(|p| case.output.every.map_or(1.0, |e| (p.duration / e).ceil())).sum();
+        // What is not positive has been told already.
+        let every = case.output.every.filter(|&every| every > 0.0);
+        let frames: f64 = case.phases.iter().map(|p| every.map_or(1.0, |e| (p.duration / e).ceil())).sum();
         if frames > MOST_FRAMES {
-            let problem = format!("the phases would give {frames:.0} frames, more than {MOST_FRAMES}");
+            let problem = format!("the phases would give {frames:e} frames, more than {MOST_FRAMES}");
             self.issue(&root.key("output").key("every"), At::Value, problem, "write them less often");
         }
         if file.regions.values().all(|region| region.kind == raw::RegionKind::Buffer) {

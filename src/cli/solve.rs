@@ -4,7 +4,6 @@ use super::stage::{Stage, Stamp};
 use super::{Outcome, StageArgs, mesh, print};
 use crate::case::scene;
 use crate::error::{Error, Result};
-use crate::io::checkpoint::Fingerprint;
 use crate::io::points_vtu;
 use crate::profile::{self, Activity};
 use crate::run::{Ended, Progress};
@@ -50,7 +49,7 @@ pub fn work(stage: &Stage, resume: bool) -> Outcome {
         return Err(vec![Error::input(stage.points().display(), "its regions are not those of mesh.msh", remedy)]);
     }
     let stamp = stamp(stage)?;
-    let fingerprint = Fingerprint::of(&[stamp.inputs().as_bytes()]);
+    let fingerprint = stage.fingerprint(&KEYS, &[stage.mesh(), stage.points()])?;
     stage.prepare()?;
     catch_signals()?;
     let start = Instant::now();

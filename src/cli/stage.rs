@@ -8,6 +8,7 @@ use super::{CaseArgs, StageArgs};
 use crate::case::{self, Loaded};
 use crate::error::{Error, Result};
 use crate::io::atomic;
+use crate::io::checkpoint::Fingerprint;
 use serde_json::{Map, Value};
 use std::fs::{self, File};
 use std::hash::Hasher;
@@ -65,14 +66,34 @@ impl Stage {
         &self.folder
     }
 
+    /// The entries `keys` of the case, as far as it has them.
+    fn entries(&self, keys: &[&str]) -> Map<String, Value> {
+        let tree = self.loaded.source.tree();
+        keys.iter().filter_map(|&key| tree.get(key).map(|value| (key.to_owned(), value.clone()))).collect()
+    }
+
+    /// A hash of the entries `keys` of the case without the step control of the phases and of Newton's method,
+    /// and of `files`: what must be the same for a run to continue.
+    ///
+    /// # Errors
+    /// `Input` when a file is missing, `Machine` when it cannot be read.
+    pub fn fingerprint(&self, keys: &[&str], files: &[PathBuf]) -> Result<Fingerprint> {
+        let mut read = self.entries(keys);
+        for phase in read.get_mut("phases").and_then(Value::as_array_mut).into_iter().flatten() {
+            phase.as_object_mut().map(|phase| phase.remove("step"));
+        }
+        read.get_mut("numerics").and_then(Value::as_object_mut).map(|numerics| numerics.remove("max_iterations"));
+        let files = hash_files(files, XxHash64::with_seed(0))?;
+        let version = env!("CARGO_PKG_VERSION").as_bytes();
+        Ok(Fingerprint::of(&[version, Value::Object(read).to_string().as_bytes(), &files.to_le_bytes()]))
+    }
+
     /// The stamp of the stage `name`, which reads the entries `keys` of the case and `files`.
     ///
     /// # Errors
     /// `Input` when a file is missing, `Machine` when it cannot be read.
     pub fn stamp(&self, name: &str, keys: &[&str], files: &[PathBuf]) -> Result<Stamp> {
-        let tree = self.loaded.source.tree();
-        let read: Map<String, Value> =
-            keys.iter().filter_map(|&key| tree.get(key).map(|value| (key.to_owned(), value.clone()))).collect();
+        let read = self.entries(keys);
         let mut hasher = XxHash64::with_seed(0);
         hasher.write(env!("CARGO_PKG_VERSION").as_bytes());
         hasher.write(Value::Object(read).to_string().as_bytes());
@@ -96,11 +117,6 @@ pub struct Stamp {
 }
 
 impl Stamp {
-    /// The hash of the inputs.
-    pub fn inputs(&self) -> &str {
-        &self.hash
-    }
-
     /// Whether the stage ended well with the same inputs and its `results` are as it left them.
     pub fn is_current(&self, results: &[PathBuf]) -> bool {
         let left = fs::read_to_string(&self.file);

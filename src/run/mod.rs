@@ -96,7 +96,12 @@ pub fn run<const D: usize, K: Kinematics<D>>(
             }
             state
         }
-        None => first,
+        None => {
+            if resume {
+                tell(&first, Some("there is no checkpoint to continue from: the run begins afresh"));
+            }
+            first
+        }
     };
     let mut files = Files::open(scene, outputs, checkpoints, &state)?;
     let mut simulation = Simulation::<D, K>::new(scene, state)?;
@@ -105,7 +110,9 @@ pub fn run<const D: usize, K: Kinematics<D>>(
     }
     while let Some(phase) = scene.phases.get(simulation.state.phase) {
         let limits = Limits { least: phase.least_step, largest: phase.largest_step };
-        let mut controller = Controller::new(limits, phase.stops.clone(), simulation.state.step_size);
+        // The largest step may have been lowered since the checkpoint.
+        let wanted = simulation.state.step_size.min(limits.largest);
+        let mut controller = Controller::new(limits, phase.stops.clone(), wanted);
         let number = simulation.state.phase;
         while simulation.state.phase == number {
             if stop.load(Ordering::Relaxed) {
@@ -117,6 +124,7 @@ pub fn run<const D: usize, K: Kinematics<D>>(
                 Err(error) => {
                     let error = in_time(error, phase, &simulation.state);
                     files.log.line(&format!("the analysis ends here: {error}"))?;
+                    files.last_frame(scene, &mut simulation.state)?;
                     files.close()?;
                     return Err(error);
                 }
@@ -172,6 +180,8 @@ struct Files<'a> {
     history: History,
     log: Log,
     writer: Background,
+    /// The step of the last frame handed to the writer.
+    framed: Option<u64>,
 }
 
 impl<'a> Files<'a> {
@@ -196,7 +206,7 @@ impl<'a> Files<'a> {
             (History::create(&history, &columns)?, log)
         };
         frame::prepare(&outputs.results(), usize::try_from(state.frames).unwrap_or(usize::MAX))?;
-        Ok(Self { outputs, checkpoints, history, log, writer: Background::start(QUEUE)? })
+        Ok(Self { outputs, checkpoints, history, log, writer: Background::start(QUEUE)?, framed: None })
     }
 
     /// Notes a converged step, once the checkpoint of the step before is written: a kill loses the step in hand,
@@ -221,7 +231,14 @@ impl<'a> Files<'a> {
         let frame = record::frame(scene, state, &self.outputs.fields);
         let (folder, index) = (self.outputs.results(), state.frames as usize);
         state.frames += 1;
+        self.framed = Some(state.step);
         self.writer.submit(move || frame.write(&folder, index))
+    }
+
+    /// Hands a frame of the last converged step to the writer, unless it has it: what an analysis that cannot go
+    /// on came to. No checkpoint knows of it, so a run that continues writes over it.
+    fn last_frame<const D: usize>(&mut self, scene: &Scene<D>, state: &mut State<D>) -> Result<()> {
+        if self.framed == Some(state.step) { Ok(()) } else { self.frame(scene, state) }
     }
 
     /// Hands a checkpoint to the writer.

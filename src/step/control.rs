@@ -59,12 +59,12 @@ impl Controller {
     pub fn halve(&mut self, dt: f64, error: Error) -> Result<()> {
         if 0.5 * dt < self.limits.least {
             let how = match self.halvings.len() {
-                0 => format!("the step of {dt:.3e} s"),
-                1 => format!("the step, halved once down to {dt:.3e} s,"),
-                n => format!("the step, halved {n} times down to {dt:.3e} s,"),
+                0 => format!("the step of {dt:.3e} s cannot be halved"),
+                1 => format!("the step was halved once down to {dt:.3e} s and cannot be again"),
+                n => format!("the step was halved {n} times down to {dt:.3e} s and cannot be again"),
             };
             let least = self.limits.least;
-            let problem = format!("{}; {how} cannot be halved again: step.min is {least:.3e} s", error.problem);
+            let problem = format!("{}; {how}: step.min is {least:.3e} s", error.problem);
             return Err(Error { problem, ..error });
         }
         self.wanted = 0.5 * dt;

@@ -147,3 +147,42 @@ fn the_number_of_threads_does_not_change_the_sums() {
     };
     assert_eq!(run(1), run(3));
 }
+
+/// A net of `n × n` nodes with springs of all strengths between neighbours, and its stiffness.
+fn net(n: u32, symmetric: bool) -> (Pattern, Matrix) {
+    let mut cliques = Cliques::default();
+    for i in 0..n * n {
+        if i % n + 1 < n {
+            cliques.push([i, i + 1]);
+        }
+        if i + n < n * n {
+            cliques.push([i, i + n]);
+        }
+    }
+    let pattern = Pattern::new(&vec![1; (n * n) as usize], cliques, symmetric);
+    let mut matrix = Matrix::new(&pattern);
+    for k in 0..pattern.cliques.len() {
+        let s = (7.0 * (k as f64).sin()).exp();
+        matrix.add(&pattern, k, &[s, -s, -s, s], 2);
+    }
+    (pattern, matrix)
+}
+
+/// A load that a free body could bear has solutions, but no single one: what rounding makes of it is refused.
+#[test]
+fn a_singular_system_that_has_solutions_is_refused() {
+    for (n, symmetric) in [(3, true), (30, true), (30, false)] {
+        let (pattern, mut matrix) = net(n, symmetric);
+        let mut load = vec![0.0; pattern.len()];
+        (load[1], load[5]) = (1.0, -1.0);
+        let mut solver = Solver::new(&pattern).unwrap();
+        let refused = solver.solve(&pattern, &matrix, &mut load.clone()).unwrap_err();
+        assert!(refused.problem.contains("singular"), "{refused}");
+        let mut fixed = vec![false; pattern.len()];
+        fixed[0] = true;
+        let known = vec![0.0; pattern.len()];
+        let scale = matrix.scale(&pattern);
+        matrix.constrain(&pattern, &fixed, &known, scale, &mut load);
+        solver.solve(&pattern, &matrix, &mut load).unwrap();
+    }
+}
