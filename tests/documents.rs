@@ -1,10 +1,11 @@
-//! What the documents say holds: the README's first case runs, the user guide has every entry of a case.
+//! What the documents say holds: the README's first case runs, the user guide has every entry of a case,
+//! every link leads to a file.
 
 use mpm::material::MODELS;
 use serde_json::Value;
 use std::collections::BTreeSet;
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
 /// The text of the first block of code after `heading` that is marked as `language`.
@@ -63,4 +64,32 @@ fn the_user_guide_has_every_entry_of_a_case() {
     let words: BTreeSet<&str> = guide.split(|c: char| !(c.is_alphanumeric() || c == '_')).collect();
     let missing: Vec<&String> = names.iter().filter(|name| !words.contains(name.as_str())).collect();
     assert!(missing.is_empty(), "docs/user-guide.md does not mention {missing:?}");
+}
+
+/// The Markdown files in `folder` and the folders in it, but for what is built or installed.
+fn pages(folder: &Path, found: &mut Vec<PathBuf>) {
+    for entry in fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        let name = path.file_name().unwrap().to_string_lossy().into_owned();
+        let ours = !name.starts_with('.') && name != "target" && !name.starts_with("out");
+        if path.is_dir() && ours {
+            pages(&path, found);
+        } else if name.ends_with(".md") {
+            found.push(path);
+        }
+    }
+}
+
+#[test]
+fn every_link_leads_to_a_file() {
+    let mut files = Vec::new();
+    pages(Path::new(env!("CARGO_MANIFEST_DIR")), &mut files);
+    assert!(files.len() > 10, "{files:?}");
+    for file in files {
+        let text = fs::read_to_string(&file).unwrap();
+        for link in text.split("](").skip(1).filter_map(|rest| rest.split([')', '#']).next()) {
+            let inside = !link.is_empty() && !link.contains("://");
+            assert!(!inside || file.with_file_name(link).exists(), "{}: {link} is not there", file.display());
+        }
+    }
 }
