@@ -36,7 +36,7 @@ pub trait Kinematics<const D: usize>: Copy + Default + Send + Sync + 'static {
     /// Principal values of a symmetric tensor.
     fn roots(t: &Symmetric) -> [f64; 3];
 
-    /// The tangent of `A W` from that of `τ`: `A_im (a_mjkl − δ_mk τ_jl) + δ_ik W_jl` (theory, time integration).
+    /// The tangent of `A W` from that of `τ`: `A_im (a_mjkl − δ_mk τ_jl) + δ_ik W_jl` (theory, eq. 9).
     fn weight(tangent: &mut Self::Tangent, a: &Tensor, kirchhoff: &Symmetric, w: &Tensor);
 
     /// `a : (e_k ⊗ ∇N)` for each component `k`.

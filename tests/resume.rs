@@ -191,7 +191,7 @@ fn ctrl_c_loses_nothing_and_the_run_continues() {
     let folder = stopped.path();
     let mut child = mpm("solve", &SLOPE, folder, &[]).spawn().unwrap();
     reach(&mut child, folder, 5);
-    let signal = Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap();
+    let signal = Command::new("sh").args(["-c", &format!("kill -INT {}", child.id())]).status().unwrap();
     assert!(signal.success());
     let output = child.wait_with_output().unwrap();
     let said = String::from_utf8_lossy(&output.stderr);

@@ -1,7 +1,7 @@
 //! Internal force of the material points: `f_I = Σ_p V⁰_p τ_p · ∇_x N_I`, with its consistent tangent.
 //!
 //! Kinematics: `F = I + Σ u ⊗ ∇N` from the restored grid, the increment since the last converged step
-//! `ΔF = F F_n⁻¹`, the elastic trial `b = ΔF b_n ΔFᵀ` (theory, eq. 3–5). The term keeps no state: the points
+//! `ΔF = F F_n⁻¹`, the elastic trial `b = ΔF b_n ΔFᵀ` (theory, eq. 2). The term keeps no state: the points
 //! carry it, and it is written only on convergence.
 //!
 //! With inertia the stresses of both ends of the step act on the configuration between them: in place of `τ`

@@ -1,0 +1,95 @@
+//! What the documents say holds: the README's first case runs, the user guide has every entry of a case,
+//! every link leads to a file.
+
+use mpm::material::MODELS;
+use serde_json::Value;
+use std::collections::BTreeSet;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+/// The text of the first block of code after `heading` that is marked as `language`.
+fn block(text: &str, heading: &str, language: &str) -> String {
+    let after = &text[text.find(heading).unwrap_or_else(|| panic!("no `{heading}`"))..];
+    let start = after.find(&format!("```{language}\n")).unwrap_or_else(|| panic!("no {language} after `{heading}`"));
+    let code = &after[start + language.len() + 4..];
+    code[..code.find("```").expect("the end of the block")].to_owned()
+}
+
+fn mpm(stage: &str, case: &Path) -> Output {
+    let output = Command::new(env!("CARGO_BIN_EXE_mpm")).arg(stage).arg(case).output().unwrap();
+    assert!(output.status.success(), "mpm {stage}: {}", String::from_utf8_lossy(&output.stderr));
+    output
+}
+
+#[test]
+fn the_first_case_runs_as_it_is_printed() {
+    let text = fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("README.md")).unwrap();
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("bank.geo"), block(&text, "## A first case", "c")).unwrap();
+    fs::write(folder.path().join("case.yaml"), block(&text, "## A first case", "yaml")).unwrap();
+    mpm("check", folder.path());
+    mpm("run", folder.path());
+    let out = folder.path().join("out");
+    let series = fs::read_to_string(out.join("points.pvd")).unwrap();
+    assert_eq!(series.matches("<DataSet").count(), 31, "a frame each 0.1 s for 3 s, and the first");
+    let log = fs::read_to_string(out.join("solve.log")).unwrap();
+    assert!(log.lines().last().unwrap().contains(" fall t 3.000000000 "), "{log}");
+}
+
+/// The names of all properties in a schema.
+fn entries(schema: &Value, found: &mut BTreeSet<String>) {
+    match schema {
+        Value::Object(map) => {
+            for (key, value) in map {
+                if key == "properties" {
+                    found.extend(value.as_object().into_iter().flat_map(|p| p.keys().cloned()));
+                }
+                entries(value, found);
+            }
+        }
+        Value::Array(list) => list.iter().for_each(|value| entries(value, found)),
+        _ => {}
+    }
+}
+
+#[test]
+fn the_user_guide_has_every_entry_of_a_case() {
+    let guide = fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/user-guide.md")).unwrap();
+    let mut names = BTreeSet::new();
+    entries(&mpm::case::schema(), &mut names);
+    names.extend(MODELS.iter().flat_map(|model| model.parameters.iter().map(|p| p.name.to_owned())));
+    names.extend(MODELS.iter().map(|model| model.name.to_owned()));
+    assert!(names.len() > 60, "{names:?}");
+    let words: BTreeSet<&str> = guide.split(|c: char| !(c.is_alphanumeric() || c == '_')).collect();
+    let missing: Vec<&String> = names.iter().filter(|name| !words.contains(name.as_str())).collect();
+    assert!(missing.is_empty(), "docs/user-guide.md does not mention {missing:?}");
+}
+
+/// The Markdown files in `folder` and the folders in it, but for what is built or installed.
+fn pages(folder: &Path, found: &mut Vec<PathBuf>) {
+    for entry in fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        let name = path.file_name().unwrap().to_string_lossy().into_owned();
+        let ours = !name.starts_with('.') && name != "target" && !name.starts_with("out");
+        if path.is_dir() && ours {
+            pages(&path, found);
+        } else if name.ends_with(".md") {
+            found.push(path);
+        }
+    }
+}
+
+#[test]
+fn every_link_leads_to_a_file() {
+    let mut files = Vec::new();
+    pages(Path::new(env!("CARGO_MANIFEST_DIR")), &mut files);
+    assert!(files.len() > 10, "{files:?}");
+    for file in files {
+        let text = fs::read_to_string(&file).unwrap();
+        for link in text.split("](").skip(1).filter_map(|rest| rest.split([')', '#']).next()) {
+            let inside = !link.is_empty() && !link.contains("://");
+            assert!(!inside || file.with_file_name(link).exists(), "{}: {link} is not there", file.display());
+        }
+    }
+}
