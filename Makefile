@@ -9,11 +9,11 @@ MPM := target/release/mpm
 MPM_BUILD := $(MPM)
 include pipeline/mpm.mk
 
-.PHONY: help setup build demo test check fmt clean
+.PHONY: help setup build demo test check fmt clean bench-block
 
 help: ## List the targets
-	@awk -F ':.*## ' '/^[a-z-]+:.*## / {printf "  %-12s %s\n", $$1, $$2}' $(firstword $(MAKEFILE_LIST))
-	@printf '  %-12s %s\n' '<case>' 'The four stages of a case, stale ones only: $(notdir $(CASES))' \
+	@awk -F ':.*## ' '/^[a-z-]+:.*## / {printf "  %-13s %s\n", $$1, $$2}' $(firstword $(MAKEFILE_LIST))
+	@printf '  %-13s %s\n' '<case>' 'The four stages of a case, stale ones only: $(notdir $(CASES))' \
 	  '<case>-clean' 'Remove the output of a case; also -mesh, -seed, -solve, -export for single stages'
 
 setup: ## Install what is missing beside Rust: system packages (as root) and the wheels in .venv
@@ -30,6 +30,9 @@ demo: seabed_slope ## From nothing to a ParaView series and a picture: the slope
 
 test: setup ## Set up and run all tests
 	cargo test --release
+
+bench-block: build ## Time the block of 102 400 points beside Kratos; writes docs/benchmarks-block.md
+	$(PYTHON) benches/block/run.py --write
 
 check: setup ## Formatting, lints and documentation, without warnings
 	cargo fmt --check

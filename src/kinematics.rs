@@ -23,7 +23,7 @@ pub struct Gradient<const D: usize> {
 pub trait Kinematics<const D: usize>: Copy + Default + Send + Sync + 'static {
     /// The spatial tangent `a_ijkl = C_ijkl − τ_il δ_jk`.
     type Tangent;
-    /// The product of the tangent with the gradient of one node, one entry a displacement component.
+    /// The product of the tangent with the gradient of one node, one column a displacement component.
     type Column;
 
     /// Whether the circumferential strain `u_r / r` exists.
@@ -98,7 +98,7 @@ pub struct Axisymmetric;
 
 impl Kinematics<2> for PlaneStrain {
     type Tangent = PlaneTangent;
-    type Column = [[f64; 4]; 2];
+    type Column = [[f64; 2]; 4];
     const HOOP: bool = false;
 
     fn respond(model: &dyn Model, y: f64, trial: &Symmetric, state: &State) -> Option<Spatial<Self::Tangent>> {
@@ -115,18 +115,18 @@ impl Kinematics<2> for PlaneStrain {
 
     fn column(tangent: &Self::Tangent, gradient: &Gradient<2>) -> Self::Column {
         let (a, g) = (tangent, &gradient.g);
-        std::array::from_fn(|k| std::array::from_fn(|ij| a[ij][2 * k] * g[0] + a[ij][2 * k + 1] * g[1]))
+        std::array::from_fn(|ij| std::array::from_fn(|k| a[ij][2 * k] * g[0] + a[ij][2 * k + 1] * g[1]))
     }
 
     fn block(column: &Self::Column, gradient: &Gradient<2>) -> [[f64; 2]; 2] {
         let g = &gradient.g;
-        std::array::from_fn(|i| std::array::from_fn(|k| g[0] * column[k][2 * i] + g[1] * column[k][2 * i + 1]))
+        std::array::from_fn(|i| std::array::from_fn(|k| g[0] * column[2 * i][k] + g[1] * column[2 * i + 1][k]))
     }
 }
 
 impl Kinematics<2> for Axisymmetric {
     type Tangent = PlaneTangent;
-    type Column = [[f64; 5]; 2];
+    type Column = [[f64; 2]; 5];
     const HOOP: bool = true;
 
     fn respond(model: &dyn Model, y: f64, trial: &Symmetric, state: &State) -> Option<Spatial<Self::Tangent>> {
@@ -144,8 +144,8 @@ impl Kinematics<2> for Axisymmetric {
     fn column(tangent: &Self::Tangent, gradient: &Gradient<2>) -> Self::Column {
         let (a, g) = (tangent, &gradient.g);
         let hoop = [gradient.hoop, 0.0];
-        std::array::from_fn(|k| {
-            std::array::from_fn(|ij| a[ij][2 * k] * g[0] + a[ij][2 * k + 1] * g[1] + a[ij][4] * hoop[k])
+        std::array::from_fn(|ij| {
+            std::array::from_fn(|k| a[ij][2 * k] * g[0] + a[ij][2 * k + 1] * g[1] + a[ij][4] * hoop[k])
         })
     }
 
@@ -153,7 +153,7 @@ impl Kinematics<2> for Axisymmetric {
         let g = &gradient.g;
         let hoop = [gradient.hoop, 0.0];
         std::array::from_fn(|i| {
-            std::array::from_fn(|k| g[0] * column[k][2 * i] + g[1] * column[k][2 * i + 1] + hoop[i] * column[k][4])
+            std::array::from_fn(|k| g[0] * column[2 * i][k] + g[1] * column[2 * i + 1][k] + hoop[i] * column[4][k])
         })
     }
 }

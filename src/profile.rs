@@ -1,5 +1,6 @@
-//! Where the time goes: wall time by activity, summed over a run. Only the main thread is timed, and only
-//! around whole activities, so that the clock costs nothing.
+//! Where the time goes: wall time by activity, summed over a run. The main thread is timed around whole
+//! activities; the material, which works inside the assembly on all threads, once a cell: so the clock costs
+//! next to nothing.
 
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Instant;
@@ -9,7 +10,7 @@ use std::time::Instant;
 pub enum Activity {
     /// Finding points, filling the stencil, mapping between points and nodes.
     Transfer,
-    /// Stress and tangent of the points, and the sums into the system.
+    /// Strain, stress and tangent of the points, and the sums into the system.
     Assembly,
     /// Symbolic analysis of a new pattern.
     Analysis,
@@ -28,6 +29,9 @@ impl Activity {
 
 static NANOSECONDS: [AtomicU64; 6] = [const { AtomicU64::new(0) }; 6];
 
+/// Time of the material models, the sum over all threads.
+static MATERIAL: AtomicU64 = AtomicU64::new(0);
+
 /// Runs `work` and books its time.
 pub fn timed<T>(activity: Activity, work: impl FnOnce() -> T) -> T {
     let start = Instant::now();
@@ -39,4 +43,18 @@ pub fn timed<T>(activity: Activity, work: impl FnOnce() -> T) -> T {
 /// Seconds booked on an activity so far.
 pub fn seconds(activity: Activity) -> f64 {
     NANOSECONDS[activity as usize].load(Ordering::Relaxed) as f64 * 1e-9
+}
+
+/// Runs `work`, the evaluation of a material model on any thread, and books its time.
+pub fn timed_material<T>(work: impl FnOnce() -> T) -> T {
+    let start = Instant::now();
+    let result = work();
+    MATERIAL.fetch_add(start.elapsed().as_nanos() as u64, Ordering::Relaxed);
+    result
+}
+
+/// Seconds of the material models so far, the mean over the threads: the part of [`Activity::Assembly`], and
+/// to a small extent of [`Activity::Transfer`], that is theirs.
+pub fn material_seconds() -> f64 {
+    MATERIAL.load(Ordering::Relaxed) as f64 * 1e-9 / rayon::current_num_threads() as f64
 }

@@ -16,6 +16,9 @@ pub(super) fn check(file: &raw::CaseFile, folder: &FilePath) -> (Case, Vec<Issue
     (case, checker.issues)
 }
 
+/// Frames are numbered by six digits.
+const MOST_FRAMES: f64 = 999_999.0;
+
 pub(super) const LATER: &str = "is not available yet";
 
 #[derive(Default)]
@@ -249,6 +252,11 @@ impl Checker {
     /// What only shows between blocks.
     fn together(&mut self, case: &Case, file: &raw::CaseFile) {
         let root = Path::default();
+        let frames: f64 = case.phases.iter().map(|p| case.output.every.map_or(1.0, |e| (p.duration / e).ceil())).sum();
+        if frames > MOST_FRAMES {
+            let problem = format!("the phases would give {frames:.0} frames, more than {MOST_FRAMES}");
+            self.issue(&root.key("output").key("every"), At::Value, problem, "write them less often");
+        }
         if file.regions.values().all(|region| region.kind == raw::RegionKind::Buffer) {
             let remedy = "make at least one region `kind: mpm` with a material";
             self.issue(&root.key("regions"), At::Key, "no region holds material", remedy);

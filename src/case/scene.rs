@@ -62,7 +62,11 @@ pub fn scene<K: Kinematics<2>>(case: &Case, mesh: Mesh<2>) -> Result<Scene<2>> {
     let materials = || filled(case).map(|(_, material)| material);
     let lowest = mesh.nodes.iter().map(|x| x[1]).fold(f64::INFINITY, f64::min);
     let largest = |value: fn(&Material, f64) -> f64| materials().map(|m| value(m, lowest)).fold(0.0, f64::max);
-    let stiffness_scale = largest(|m, y| m.model.young(y));
+    let young = largest(|m, y| m.model.young(y));
+    let stiffness_scale = largest(|m, y| {
+        let moduli = m.model.elasticity().at(y);
+        moduli.lambda + 2.0 * moduli.shear
+    });
     let density_scale = largest(|m, y| m.density.at(y));
     let restore_every_step = case.numerics.restore == Restore::EveryStep;
     let dynamic = case.phases.iter().any(|p| p.analysis == Analysis::Dynamic);
@@ -73,7 +77,7 @@ pub fn scene<K: Kinematics<2>>(case: &Case, mesh: Mesh<2>) -> Result<Scene<2>> {
         terms.push(Box::new(BodyForce::<K, 2>::new(case.gravity, factors)));
     }
     if restore_every_step {
-        terms.push(Box::new(EmptyCells::<K>::new(case.numerics.empty_stiffness * stiffness_scale)));
+        terms.push(Box::new(EmptyCells::<K>::new(case.numerics.empty_stiffness * young)));
     }
     if dynamic {
         terms.push(Box::new(Inertia::<K>::default()));

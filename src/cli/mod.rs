@@ -63,7 +63,7 @@ struct StageArgs {
     #[arg(short, long, value_name = "DIR")]
     output: Option<PathBuf>,
     /// The number of threads [default: one a core]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     threads: Option<u16>,
 }
 

@@ -80,7 +80,8 @@ fn summary(elapsed: Duration) -> String {
         .iter()
         .map(|&a| format!("{} {:.0} %", format!("{a:?}").to_lowercase(), 100.0 * profile::seconds(a) / all))
         .collect();
-    format!("solved in {all:.2} s: {}\n", shares.join(", "))
+    let material = 100.0 * profile::material_seconds() / all;
+    format!("solved in {all:.2} s: {}; material, within assembly, {material:.0} %\n", shares.join(", "))
 }
 
 /// A first Ctrl-C (or SIGTERM) ends the run after the step in hand, a second one at once.

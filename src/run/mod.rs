@@ -6,13 +6,15 @@
 //! | `history.csv` | a row a step |
 //! | `solve.log` | what every step did |
 //! | `checkpoints/` | what `--resume` continues from, after every step |
+//!
+//! The checkpoint of a step is written while the next one is solved.
 
 mod checkpoint;
 mod record;
 
 pub use record::{Field, Quantity, Watch, WatchedOn};
 
-use crate::error::{Error, Result};
+use crate::error::{Error, Kind, Result};
 use crate::io::atomic;
 use crate::io::background::Background;
 use crate::io::checkpoint::{Checkpoints, Fingerprint};
@@ -20,12 +22,12 @@ use crate::io::frame;
 use crate::io::history::{History, Log};
 use crate::kinematics::Kinematics;
 use crate::profile::{Activity, timed};
-use crate::step::{Controller, Limits, Scene, Simulation, State};
+use crate::step::{Controller, Limits, Phase, Scene, Simulation, State};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// Jobs that may wait for the writer before the solver does.
-const QUEUE: usize = 3;
+/// Jobs that may wait for the writer: the frame and the checkpoint of a step.
+const QUEUE: usize = 2;
 
 /// What a run writes, and where.
 #[derive(Clone, Debug)]
@@ -113,6 +115,7 @@ pub fn run<const D: usize, K: Kinematics<D>>(
             let report = match simulation.advance(&mut controller) {
                 Ok(report) => report,
                 Err(error) => {
+                    let error = in_time(error, phase, &simulation.state);
                     files.log.line(&format!("the analysis ends here: {error}"))?;
                     files.close()?;
                     return Err(error);
@@ -138,6 +141,15 @@ pub fn run<const D: usize, K: Kinematics<D>>(
     }
     files.close()?;
     Ok(Ended::Done)
+}
+
+/// An error of the analysis with the moment it came in.
+fn in_time<const D: usize>(error: Error, phase: &Phase, state: &State<D>) -> Error {
+    if error.kind != Kind::Analysis {
+        return error;
+    }
+    let moment = format!("in step {} from t = {:.6} s in phase `{}`", state.step + 1, state.time, phase.name);
+    Error { problem: format!("{} ({moment})", error.problem), ..error }
 }
 
 /// Begins the next phase in the converged state of this one.
@@ -187,13 +199,15 @@ impl<'a> Files<'a> {
         Ok(Self { outputs, checkpoints, history, log, writer: Background::start(QUEUE)? })
     }
 
-    /// Notes a converged step.
+    /// Notes a converged step, once the checkpoint of the step before is written: a kill loses the step in hand,
+    /// and the one before it only in the moment in which its checkpoint is being written.
     fn step<const D: usize>(
         &mut self,
         scene: &Scene<D>,
         state: &mut State<D>,
         report: &crate::step::Report<D>,
     ) -> Result<()> {
+        self.writer.flush()?;
         for line in record::log_lines(scene, state, report) {
             self.log.line(&line)?;
         }

@@ -58,11 +58,14 @@ impl Controller {
     /// The failure itself, once the step would fall below the least one.
     pub fn halve(&mut self, dt: f64, error: Error) -> Result<()> {
         if 0.5 * dt < self.limits.least {
-            let tried = self.halvings.len();
-            return Err(Error {
-                problem: format!("{}; the step was halved {tried} times down to {dt:.3e} s", error.problem),
-                ..error
-            });
+            let how = match self.halvings.len() {
+                0 => format!("the step of {dt:.3e} s"),
+                1 => format!("the step, halved once down to {dt:.3e} s,"),
+                n => format!("the step, halved {n} times down to {dt:.3e} s,"),
+            };
+            let least = self.limits.least;
+            let problem = format!("{}; {how} cannot be halved again: step.min is {least:.3e} s", error.problem);
+            return Err(Error { problem, ..error });
         }
         self.wanted = 0.5 * dt;
         self.halvings.push(format!("{}: {}", error.place, error.problem));

@@ -138,7 +138,7 @@ pub fn locate_points<const D: usize>(scene: &Scene<D>, state: &mut State<D>) -> 
             let region = scene.mesh.regions.get(points.region[p] as usize).map_or("", String::as_str);
             Err(Error::analysis(
                 format!("material point {p} ({region})"),
-                format!("it left the grid at {:.4?} m in step {}", position[p], state.step),
+                format!("it left the grid at {:.4?} m", position[p]),
                 "extend the mesh by a buffer region there, or hold the material back by a support",
             ))
         }

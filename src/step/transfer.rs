@@ -11,7 +11,7 @@ use crate::error::{Error, Result};
 use crate::kinematics::Kinematics;
 use crate::points::Points;
 use crate::stencil::{SoftCell, cell_size, integrate};
-use crate::system::scatter;
+use crate::system::{Method, scatter};
 use crate::term::Trial;
 use crate::time_integration::GeneralisedAlpha;
 use rayon::prelude::*;
@@ -95,9 +95,10 @@ impl<'a> Mass<'a> {
         if self.factorised {
             return solver.solve_again(pattern, matrix, x);
         }
-        // A zero right-hand side is answered without a factorisation.
-        self.factorised = x.iter().any(|&v| v != 0.0);
-        solver.solve(pattern, matrix, x).map(|_| ())
+        let method = solver.solve(pattern, matrix, x)?;
+        // Of a right-hand side of zeros nothing is factorised.
+        self.factorised = method == Method::Cholesky && x.iter().any(|&v| v != 0.0);
+        Ok(())
     }
 
     /// Solves `M x = b` with `x = 0` at the nodes marked in `fixed`. The mass is spent afterwards.

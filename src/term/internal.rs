@@ -8,16 +8,17 @@
 //! stands `A W`, `A = (1 − α_f) I + α_f ΔF⁻¹`, `W = (1 − α_f) τ + α_f ΔF τ_n ΔFᵀ`. `A W Aᵀ` being symmetric,
 //! the forces have no moment about the positions in between, where the trapezoidal rule needs it.
 
-use super::{Assembly, Frame, Term, Trial, Update};
+use super::{Assembly, Frame, History, Term, Trial, Update};
 use crate::error::{Error, Result};
 use crate::kinematics::{Gradient, Kinematics};
 use crate::material::spatial::Spatial;
 use crate::material::{Model, State};
 use crate::mesh::shape::MAX_NODES;
 use crate::points::Points;
+use crate::profile::timed_material;
 use crate::stencil::{Entries, Patch};
 use crate::system::{Local, scatter};
-use crate::tensor::{Symmetric, Tensor, full, symmetric};
+use crate::tensor::{Tensor, full, symmetric};
 use rayon::prelude::*;
 use std::marker::PhantomData;
 use std::sync::Arc;
@@ -34,35 +35,37 @@ pub struct Internal<K> {
     kinematics: PhantomData<K>,
 }
 
-/// A point in a trial state.
-struct Strained<T> {
+/// The deformation of a point in a trial state.
+struct Strained {
     /// Deformation since the last converged step.
     increment: Tensor,
     /// Inverse of the deformation since the grid was restored.
     inverse: Tensor,
-    answer: Spatial<T>,
 }
 
-impl<T> Strained<T> {
-    /// The stress `A W` that acts in the step, and its tangent in place of that of `τ`.
-    fn weighted_stress<const D: usize, K>(&mut self, points: &Points<D>, p: usize, alpha_f: f64) -> Result<Tensor>
-    where
-        K: Kinematics<D, Tangent = T>,
-    {
-        let kirchhoff = full(&self.answer.kirchhoff);
-        if alpha_f == 0.0 {
-            return Ok(kirchhoff);
-        }
-        let back = self
-            .increment
-            .try_inverse()
-            .ok_or_else(|| Error::analysis(format!("material point {p}"), "is squeezed flat", "take smaller steps"))?;
-        let before = full(&points.stress[p]) * points.deformation[p].determinant();
-        let a = Tensor::identity() * (1.0 - alpha_f) + back * alpha_f;
-        let w = kirchhoff * (1.0 - alpha_f) + self.increment * before * self.increment.transpose() * alpha_f;
-        K::weight(&mut self.answer.tangent, &a, &self.answer.kirchhoff, &w);
-        Ok(a * w)
+/// Deformation and answers of the points of a patch, in order.
+type Evaluated<T> = (Vec<Strained>, Vec<Spatial<T>>);
+
+/// The stress `A W` that acts at point `p` in the step; its tangent takes the place of that of `τ` in `answer`.
+#[inline]
+fn weighted_stress<const D: usize, K: Kinematics<D>>(
+    points: &Points<D>,
+    p: usize,
+    alpha_f: f64,
+    strained: &Strained,
+    answer: &mut Spatial<K::Tangent>,
+) -> Result<Tensor> {
+    let kirchhoff = full(&answer.kirchhoff);
+    if alpha_f == 0.0 {
+        return Ok(kirchhoff);
     }
+    let increment = &strained.increment;
+    let back = increment.try_inverse().ok_or_else(|| inadmissible(p, "is squeezed flat", increment))?;
+    let before = full(&points.stress[p]) * points.deformation[p].determinant();
+    let a = Tensor::identity() * (1.0 - alpha_f) + back * alpha_f;
+    let w = kirchhoff * (1.0 - alpha_f) + increment * before * increment.transpose() * alpha_f;
+    K::weight(&mut answer.tangent, &a, &answer.kirchhoff, &w);
+    Ok(a * w)
 }
 
 impl<K> Internal<K> {
@@ -71,44 +74,97 @@ impl<K> Internal<K> {
         Self { models, dynamic, kinematics: PhantomData }
     }
 
-    fn strain<const D: usize>(
+    /// The answers of the models at the points of a patch, in order.
+    fn answers<const D: usize>(
         &self,
         points: &Points<D>,
-        entries: &Entries<D>,
-        trial: &[[f64; D]],
-        converged: &[[f64; D]],
-    ) -> Result<Strained<K::Tangent>>
+        numbers: &[u32],
+        strained: &[Strained],
+    ) -> Result<Vec<Spatial<K::Tangent>>>
     where
         K: Kinematics<D>,
     {
-        let p = entries.point;
-        let (mut now, mut before) = (Tensor::identity(), Tensor::identity());
-        for i in 0..entries.value.len() {
-            let gradient = entries.gradient(i);
-            K::deform(&mut now, &trial[i], &gradient);
-            K::deform(&mut before, &converged[i], &gradient);
+        let mut answers = Vec::with_capacity(numbers.len());
+        for (&p, strained) in numbers.iter().zip(strained) {
+            let p = p as usize;
+            let increment = &strained.increment;
+            let elastic = symmetric(&(increment * full(&points.elastic[p]) * increment.transpose()));
+            let Some(model) = self.models.get(points.region[p] as usize).and_then(Option::as_ref) else {
+                return Err(Error::analysis(format!("material point {p}"), "its region has no material", ""));
+            };
+            let state = State { plastic_strain: points.plastic_strain[p] };
+            answers.push(
+                K::respond(model.as_ref(), points.origin[p][1], &elastic, &state)
+                    .ok_or_else(|| inadmissible(p, "is strained beyond measure", increment))?,
+            );
         }
-        let inverted = |what: &str| {
-            Error::analysis(
-                format!("material point {p}"),
-                format!("{what} (det F of the step {:.3})", now.determinant() / before.determinant()),
-                "take smaller steps or refine the mesh",
-            )
-        };
-        let inverse = now.try_inverse().ok_or_else(|| inverted("is squeezed flat"))?;
-        let increment = now * before.try_inverse().ok_or_else(|| inverted("was squeezed flat"))?;
-        if !(increment.determinant() > LEAST_VOLUME_RATIO && now.determinant() > 0.0) {
-            return Err(inverted("is turned inside out"));
-        }
-        let elastic = symmetric(&(increment * full(&points.elastic[p]) * increment.transpose()));
-        let Some(model) = self.models.get(points.region[p] as usize).and_then(Option::as_ref) else {
-            return Err(Error::analysis(format!("material point {p}"), "its region has no material", ""));
-        };
-        let state = State { plastic_strain: points.plastic_strain[p] };
-        let answer = K::respond(model.as_ref(), points.origin[p][1], &elastic, &state)
-            .ok_or_else(|| inverted("is strained beyond measure"))?;
-        Ok(Strained { increment, inverse, answer })
+        Ok(answers)
     }
+
+    /// The points of a patch at a trial state.
+    fn evaluate<const D: usize>(
+        &self,
+        frame: &Frame<D>,
+        trial: &Trial<D>,
+        patch: &Patch,
+    ) -> Result<Evaluated<K::Tangent>>
+    where
+        K: Kinematics<D>,
+    {
+        let now = gather(frame, patch, trial.displacement);
+        let before = gather(frame, patch, trial.converged);
+        // In the first step after a restoration nothing has moved before.
+        let moved = before.iter().flatten().any(|&u| u != 0.0);
+        let mut strained = Vec::with_capacity(patch.point_count as usize);
+        for entries in frame.stencil.entries::<K>(patch) {
+            strained.push(strain::<D, K>(&entries, &now, moved.then_some(&before))?);
+        }
+        let answers = timed_material(|| self.answers(frame.points, frame.stencil.points(patch), &strained))?;
+        Ok((strained, answers))
+    }
+}
+
+/// The deformation of a point whose cell has the nodal displacements `trial` and had `converged`, `None` for
+/// all zero.
+#[inline]
+fn strain<const D: usize, K: Kinematics<D>>(
+    entries: &Entries<D>,
+    trial: &[[f64; D]; MAX_NODES],
+    converged: Option<&[[f64; D]; MAX_NODES]>,
+) -> Result<Strained> {
+    let p = entries.point;
+    let now = deformation::<D, K>(entries, trial);
+    let inverse = now.try_inverse().ok_or_else(|| inadmissible(p, "is squeezed flat", &now))?;
+    let increment = match converged {
+        None => now,
+        Some(converged) => {
+            let before = deformation::<D, K>(entries, converged);
+            now * before.try_inverse().ok_or_else(|| inadmissible(p, "was squeezed flat", &before))?
+        }
+    };
+    if !(increment.determinant() > LEAST_VOLUME_RATIO && now.determinant() > 0.0) {
+        return Err(inadmissible(p, "is turned inside out", &increment));
+    }
+    Ok(Strained { increment, inverse })
+}
+
+/// `I + Σ u ⊗ ∇N`.
+#[inline]
+fn deformation<const D: usize, K: Kinematics<D>>(entries: &Entries<D>, u: &[[f64; D]; MAX_NODES]) -> Tensor {
+    let mut f = Tensor::identity();
+    for (i, u) in u.iter().enumerate().take(entries.value.len()) {
+        K::deform(&mut f, u, &entries.gradient(i));
+    }
+    f
+}
+
+#[cold]
+fn inadmissible(point: usize, what: &str, deformation: &Tensor) -> Error {
+    Error::analysis(
+        format!("material point {point}"),
+        format!("{what} (det F {:.3})", deformation.determinant()),
+        "take smaller steps or refine the mesh",
+    )
 }
 
 /// Copies the nodal vectors of a patch.
@@ -129,12 +185,10 @@ impl<const D: usize, K: Kinematics<D>> Term<D> for Internal<K> {
         let wanted = out.tangent.is_some();
         let symmetric = frame.pattern.symmetric;
         let compute = |patch: &Patch, local: &mut Local| {
-            let now = gather(frame, patch, trial.displacement);
-            let before = gather(frame, patch, trial.converged);
+            let (strained, answers) = self.evaluate(frame, trial, patch)?;
             let count = patch.node_count as usize;
-            for entries in frame.stencil.entries::<K>(patch) {
-                let mut point = self.strain(frame.points, &entries, &now, &before)?;
-                let stress = point.weighted_stress::<D, K>(frame.points, entries.point, trial.alpha_f)?;
+            for ((entries, point), mut answer) in frame.stencil.entries::<K>(patch).zip(&strained).zip(answers) {
+                let stress = weighted_stress::<D, K>(frame.points, entries.point, trial.alpha_f, point, &mut answer)?;
                 let volume = frame.points.initial_volume[entries.point];
                 let mut spatial = [Gradient { g: [0.0; D], hoop: 0.0 }; MAX_NODES];
                 for i in 0..count {
@@ -146,7 +200,7 @@ impl<const D: usize, K: Kinematics<D>> Term<D> for Internal<K> {
                 }
                 if wanted {
                     let weight = (1.0 - trial.alpha_f) * volume;
-                    add_stiffness::<D, K>(local, &point.answer.tangent, &spatial[..count], weight, symmetric);
+                    add_stiffness::<D, K>(local, &answer.tangent, &spatial[..count], weight, symmetric);
                 }
             }
             if wanted && symmetric {
@@ -177,39 +231,22 @@ impl<const D: usize, K: Kinematics<D>> Term<D> for Internal<K> {
     }
 
     fn commit(&self, frame: &Frame<D>, trial: &Trial<D>) -> Result<Option<Update>> {
-        type New = (usize, Tensor, Symmetric, Symmetric, f64);
-        let by_patch: Vec<Vec<New>> = frame
-            .stencil
-            .patches
-            .par_iter()
-            .map(|patch| {
-                let now = gather(frame, patch, trial.displacement);
-                let before = gather(frame, patch, trial.converged);
-                let new = |entries: Entries<D>| {
-                    let point = self.strain(frame.points, &entries, &now, &before)?;
-                    let deformation = point.increment * frame.points.deformation[entries.point];
-                    let volume_ratio = deformation.determinant();
-                    let stress = point.answer.kirchhoff.map(|t| t / volume_ratio);
-                    let plastic_strain = point.answer.state.plastic_strain;
-                    Ok((entries.point, deformation, point.answer.elastic, stress, plastic_strain))
-                };
-                frame.stencil.entries::<K>(patch).map(new).collect::<Result<Vec<New>>>()
-            })
-            .collect::<Result<_>>()?;
-        let points = frame.points;
-        let mut update = Update {
-            deformation: points.deformation.clone(),
-            elastic: points.elastic.clone(),
-            stress: points.stress.clone(),
-            plastic_strain: points.plastic_strain.clone(),
+        let new_of_patch = |patch: &Patch| {
+            let (strained, answers) = self.evaluate(frame, trial, patch)?;
+            let new = |((&p, point), answer): ((&u32, &Strained), &Spatial<K::Tangent>)| {
+                let deformation = point.increment * frame.points.deformation[p as usize];
+                let volume_ratio = deformation.determinant();
+                History {
+                    point: p as usize,
+                    deformation,
+                    elastic: answer.elastic,
+                    stress: answer.kirchhoff.map(|t| t / volume_ratio),
+                    plastic_strain: answer.state.plastic_strain,
+                }
+            };
+            Ok(frame.stencil.points(patch).iter().zip(&strained).zip(&answers).map(new).collect())
         };
-        for (p, deformation, elastic, stress, plastic_strain) in by_patch.into_iter().flatten() {
-            update.deformation[p] = deformation;
-            update.elastic[p] = elastic;
-            update.stress[p] = stress;
-            update.plastic_strain[p] = plastic_strain;
-        }
-        Ok(Some(update))
+        Ok(Some(Update(frame.stencil.patches.par_iter().map(new_of_patch).collect::<Result<_>>()?)))
     }
 }
 
@@ -225,9 +262,10 @@ fn add_stiffness<const D: usize, K: Kinematics<D>>(
         let column = K::column(tangent, gb);
         for (a, ga) in spatial.iter().enumerate().skip(if symmetric { b } else { 0 }) {
             let block = K::block(&column, ga);
-            for i in 0..D {
-                for k in 0..D {
-                    local.matrix[(a * D + i) * local.size + b * D + k] += weight * block[i][k];
+            for (i, row) in block.iter().enumerate() {
+                let begin = (a * D + i) * local.size + b * D;
+                for (entry, k) in local.matrix[begin..begin + D].iter_mut().zip(row) {
+                    *entry += weight * k;
                 }
             }
         }

@@ -69,21 +69,28 @@ pub struct Assembly<'a> {
     pub workspace: &'a mut Workspace,
 }
 
-/// New values of the points' history, one entry a point.
-pub struct Update {
-    pub deformation: Vec<Tensor>,
-    pub elastic: Vec<Symmetric>,
-    pub stress: Vec<Symmetric>,
-    pub plastic_strain: Vec<f64>,
+/// New values of the history of one point.
+pub struct History {
+    pub point: usize,
+    pub deformation: Tensor,
+    pub elastic: Symmetric,
+    pub stress: Symmetric,
+    pub plastic_strain: f64,
 }
+
+/// New values of the points' history, in lists of any length and order.
+pub struct Update(pub Vec<Vec<History>>);
 
 impl Update {
     /// Writes the new values.
     pub fn apply<const D: usize>(self, points: &mut Points<D>) {
-        points.deformation = self.deformation;
-        points.elastic = self.elastic;
-        points.stress = self.stress;
-        points.plastic_strain = self.plastic_strain;
+        for new in self.0.iter().flatten() {
+            let p = new.point;
+            points.deformation[p] = new.deformation;
+            points.elastic[p] = new.elastic;
+            points.stress[p] = new.stress;
+            points.plastic_strain[p] = new.plastic_strain;
+        }
     }
 }
 

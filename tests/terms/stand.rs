@@ -66,8 +66,8 @@ pub fn points(mesh: &Mesh<2>, filled: impl Fn(usize) -> bool) -> Points<2> {
             kind.values(&xi, &mut n);
             let mut x = [0.0; 2];
             for (n, &node) in n.iter().zip(mesh.cells.nodes(c)) {
-                for d in 0..2 {
-                    x[d] += n * mesh.nodes[node as usize][d];
+                for (x, y) in x.iter_mut().zip(mesh.nodes[node as usize]) {
+                    *x += n * y;
                 }
             }
             points.position.push(x);

@@ -21,9 +21,9 @@ pub(super) fn compress<T: Scalar>(values: &[T], components: usize, out: &mut Vec
         }
         sorted.resize(plain.len(), 0);
         let tuples = block.len() / components;
-        for (i, tuple) in plain.chunks_exact(stride).enumerate() {
-            for (j, &byte) in tuple.iter().enumerate() {
-                sorted[j * tuples + i] = byte;
+        for (j, lane) in sorted.chunks_exact_mut(tuples).enumerate() {
+            for (byte, tuple) in lane.iter_mut().zip(plain.chunks_exact(stride)) {
+                *byte = tuple[j];
             }
         }
         packed.resize(lz4_flex::block::get_maximum_output_size(sorted.len()), 0);

@@ -1,0 +1,206 @@
+//! A run that is killed and continued, or given another number of threads, ends with the same bytes as an
+//! undisturbed one: frames, history, log and the exported series.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Child, Command, Output, Stdio};
+use std::time::Duration;
+
+/// A case with the entries to override.
+struct Case {
+    file: &'static str,
+    overrides: &'static [&'static str],
+}
+
+/// The main job in coarse: dynamic, the grid restored in every step, Tresca, steps that are halved.
+const SLOPE: Case =
+    Case { file: "cases/seabed_slope", overrides: &["mesh.parameters.h=1.25", "phases[0].duration=3.5"] };
+
+/// Quasi-static, then dynamic, then quasi-static again on a grid that is never restored.
+const RELEASE: Case = Case { file: "tests/data/release", overrides: &["mesh.parameters.h=0.2"] };
+
+/// Dilating friction: an unsymmetric system, solved by iteration.
+const SAND: Case = Case {
+    file: "cases/seabed_slope",
+    overrides: &[
+        "mesh.parameters.h=1.5",
+        "phases[0].duration=0.5",
+        "materials.clay={model: mohr_coulomb, young: 5000, poisson: 0.3, cohesion: 1, friction: 25, dilation: 5, \
+         density: 1.65}",
+    ],
+};
+
+fn mpm(verb: &str, case: &Case, folder: &Path, more: &[&str]) -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_mpm"));
+    command.arg(verb).arg(Path::new(env!("CARGO_MANIFEST_DIR")).join(case.file)).arg("-o").arg(folder);
+    for entry in case.overrides {
+        command.args(["--set", entry]);
+    }
+    command.args(more).stdout(Stdio::piped()).stderr(Stdio::piped());
+    command
+}
+
+fn ends(mut command: Command, status: i32) -> Output {
+    let output = command.output().unwrap();
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(status), "{command:?}: {said}");
+    output
+}
+
+/// A folder with mesh and points.
+fn seeded(case: &Case) -> tempfile::TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    ends(mpm("mesh", case, folder.path(), &[]), 0);
+    ends(mpm("seed", case, folder.path(), &[]), 0);
+    folder
+}
+
+/// A new folder with the mesh and the points of another one.
+fn copy(seeded: &Path) -> tempfile::TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    for name in ["mesh.msh", "points.vtu"] {
+        fs::copy(seeded.join(name), folder.path().join(name)).unwrap();
+    }
+    folder
+}
+
+/// Every file that a finished run and its export leave for the user, with its bytes.
+fn results(case: &Case, folder: &Path) -> Vec<(PathBuf, Vec<u8>)> {
+    ends(mpm("export", case, folder, &[]), 0);
+    let mut files = Vec::new();
+    for part in ["", "results", "vtu"] {
+        for entry in fs::read_dir(folder.join(part)).unwrap() {
+            let path = entry.unwrap().path();
+            let hidden = path.file_name().is_some_and(|name| name.as_encoded_bytes().starts_with(b"."));
+            if path.is_file() && !hidden {
+                files.push((path.strip_prefix(folder).unwrap().to_owned(), fs::read(&path).unwrap()));
+            }
+        }
+    }
+    files.sort();
+    files
+}
+
+fn assert_same(a: &[(PathBuf, Vec<u8>)], b: &[(PathBuf, Vec<u8>)]) {
+    let names = |files: &[(PathBuf, Vec<u8>)]| files.iter().map(|f| f.0.clone()).collect::<Vec<_>>();
+    assert_eq!(names(a), names(b));
+    for ending in ["mpmf", "vtu", "pvd", "csv", "log"] {
+        assert!(names(a).iter().any(|n| n.extension().is_some_and(|e| e == ending)), "no .{ending}");
+    }
+    for ((name, a), (_, b)) in a.iter().zip(b) {
+        assert!(a == b, "{} differs", name.display());
+    }
+}
+
+/// Steps of which the history tells.
+fn rows(folder: &Path) -> u64 {
+    let history = fs::read(folder.join("history.csv")).unwrap_or_default();
+    (history.iter().filter(|&&b| b == b'\n').count() as u64).saturating_sub(1)
+}
+
+/// The step of the newest checkpoint.
+fn newest(folder: &Path) -> u64 {
+    let Ok(entries) = fs::read_dir(folder.join("checkpoints")) else { return 0 };
+    let step = |name: &str| name.strip_prefix("step-")?.strip_suffix(".mpmc")?.parse().ok();
+    entries.filter_map(|e| step(e.unwrap().file_name().to_str()?)).max().unwrap_or(0)
+}
+
+/// Waits until the history tells of `step`.
+fn reach(child: &mut Child, folder: &Path, step: u64) {
+    while rows(folder) < step {
+        assert!(child.try_wait().unwrap().is_none(), "the run ended by itself before step {step}");
+        std::thread::sleep(Duration::from_micros(100));
+    }
+}
+
+/// Whole numbers below `below`, the same every time (SplitMix64).
+struct Random(u64);
+
+impl Random {
+    fn below(&mut self, below: u64) -> u64 {
+        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+        (z ^ (z >> 31)) % below
+    }
+}
+
+/// Kills a run ten times and continues it to the end.
+fn kill_ten_times(case: &Case, undisturbed: &Path, seed: u64) -> tempfile::TempDir {
+    let steps = rows(undisturbed);
+    assert!(steps >= 30, "{steps} steps leave no room for ten kills");
+    let killed = copy(undisturbed);
+    let folder = killed.path();
+    let mut random = Random(seed);
+    // The last moments are left out: a run that ends by itself cannot be killed.
+    let mut moments: Vec<u64> = (0..10).map(|_| 1 + random.below(3 * steps / 4)).collect();
+    moments.sort_unstable();
+    for moment in moments {
+        let before = newest(folder);
+        let mut child = mpm("solve", case, folder, &["--resume"]).spawn().unwrap();
+        reach(&mut child, folder, moment);
+        // Somewhere in the step or the next one.
+        std::thread::sleep(Duration::from_micros(random.below(20_000)));
+        child.kill().unwrap();
+        assert!(!child.wait().unwrap().success(), "the run ended by itself");
+        let (told, kept) = (rows(folder), newest(folder));
+        assert!(kept + 1 >= told, "the history tells of {told} steps, the checkpoint is of step {kept}");
+        assert!(kept >= before && kept + 1 >= moment, "killed after step {moment}, went back to {kept}");
+    }
+    ends(mpm("solve", case, folder, &["--resume"]), 0);
+    killed
+}
+
+fn survives_kills(case: &Case, seed: u64) {
+    let undisturbed = seeded(case);
+    ends(mpm("solve", case, undisturbed.path(), &[]), 0);
+    let expected = results(case, undisturbed.path());
+    let killed = kill_ten_times(case, undisturbed.path(), seed);
+    assert_same(&expected, &results(case, killed.path()));
+}
+
+#[test]
+fn a_restored_dynamic_run_killed_ten_times_ends_the_same() {
+    survives_kills(&SLOPE, 1);
+}
+
+#[test]
+fn a_run_of_three_phases_killed_ten_times_ends_the_same() {
+    survives_kills(&RELEASE, 2);
+}
+
+#[test]
+fn the_number_of_threads_changes_no_bit() {
+    for case in [SLOPE, RELEASE, SAND] {
+        let one = seeded(&case);
+        let three = copy(one.path());
+        ends(mpm("solve", &case, one.path(), &["--threads", "1"]), 0);
+        ends(mpm("solve", &case, three.path(), &["--threads", "3"]), 0);
+        assert_same(&results(&case, one.path()), &results(&case, three.path()));
+    }
+}
+
+#[test]
+fn ctrl_c_loses_nothing_and_the_run_continues() {
+    let undisturbed = seeded(&SLOPE);
+    ends(mpm("solve", &SLOPE, undisturbed.path(), &[]), 0);
+    let expected = results(&SLOPE, undisturbed.path());
+
+    let stopped = copy(undisturbed.path());
+    let folder = stopped.path();
+    let mut child = mpm("solve", &SLOPE, folder, &[]).spawn().unwrap();
+    reach(&mut child, folder, 5);
+    let signal = Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap();
+    assert!(signal.success());
+    let output = child.wait_with_output().unwrap();
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(130), "{said}");
+    assert!(said.contains("--resume"), "{said}");
+    assert_eq!(newest(folder), rows(folder), "the step in hand is finished and kept");
+    assert!(rows(folder) < rows(undisturbed.path()));
+    // What there is can be looked at.
+    ends(mpm("export", &SLOPE, folder, &[]), 0);
+    ends(mpm("solve", &SLOPE, folder, &["--resume"]), 0);
+    assert_same(&expected, &results(&SLOPE, folder));
+}
