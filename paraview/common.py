@@ -169,10 +169,10 @@ def panels(picture, title, frames, labels, name, columns=1, limits=None, grid=No
             inside = lines.clip_box(clip.bounds, invert=False)
             if inside.n_cells:
                 plotter.add_mesh(inside.transform(place, inplace=False), color="#b0b0b0", line_width=1)
-        plotter.add_mesh(squares(frame, fill * h, full, values).transform(place, inplace=False), scalars=full, clim=limits,
-                         cmap=colours, lighting=False, show_scalar_bar=False)
         if line is not None:
             plotter.add_mesh(line.transform(place, inplace=False).translate((0, 0, 1)), color=INK, line_width=2)
+        plotter.add_mesh(squares(frame, fill * h, full, values).transform(place, inplace=False), scalars=full, clim=limits,
+                         cmap=colours, lighting=False, show_scalar_bar=False)
     plotter.add_text(f"{full}\n{everything.min():.3g} to {everything.max():.3g}", position=(gap, 16), font_size=12, color=INK)
     plotter.add_scalar_bar(title="", color=INK, n_labels=5, fmt="%.3g", label_font_size=18, width=0.6,
                            height=60 / size[1], position_x=0.3, position_y=14 / size[1])

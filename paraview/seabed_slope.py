@@ -25,7 +25,7 @@ def main():
     grid = Series(given.out / "grid.pvd").frame(0)
     panels(given.picture, f"Seabed slope: {last.n_points} material points", frames,
            [f"t = {times[i]:.3g} s" for i in chosen], name, grid=grid, limits=(0.0, 2.0) if plastic else None,
-           colours="YlOrBr" if plastic else "viridis", line=surface_line(points.frame(0)), fill=1.35)
+           colours="YlOrBr" if plastic else "viridis", line=surface_line(points.frame(0)), fill=1.5)
 
 
 if __name__ == "__main__":
