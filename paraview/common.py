@@ -120,10 +120,21 @@ def outline(grid):
         boundary_edges=True, feature_edges=False, manifold_edges=False, non_manifold_edges=False)
 
 
-def panels(picture, title, frames, labels, name, columns=1, limits=None, grid=None, colours="viridis"):
+def surface_line(points, bins=150):
+    """The upper outline of the points, as a line."""
+    half, x, y = 0.5 * spacing(points), points.points[:, 0], points.points[:, 1]
+    edges = np.linspace(x.min() - half, x.max() + half, bins + 1)
+    number = np.clip(np.digitize(x, edges) - 1, 0, bins - 1)
+    top = [(0.5 * (edges[k] + edges[k + 1]), y[number == k].max() + half, 0.0) for k in np.unique(number)]
+    return pv.lines_from_points(np.array(top))
+
+
+def panels(picture, title, frames, labels, name, columns=1, limits=None, grid=None, colours="viridis", line=None,
+           fill=1.0):
     """Draws frames in panels of one scale, coloured by the field `name`, and saves the picture.
 
-    All panels lie in one plane beside each other, in pixels; `grid` gives the outline to draw in each.
+    All panels lie in one plane beside each other, in pixels; `grid` gives the outline to draw in each and `line`
+    one more. `fill` is the side of a point over that of its share of the first frame.
     """
     found = [field(frame, name) for frame in frames]
     full = found[0][0]
@@ -158,7 +169,9 @@ def panels(picture, title, frames, labels, name, columns=1, limits=None, grid=No
             inside = lines.clip_box(clip.bounds, invert=False)
             if inside.n_cells:
                 plotter.add_mesh(inside.transform(place, inplace=False), color="#b0b0b0", line_width=1)
-        plotter.add_mesh(squares(frame, h, full, values).transform(place, inplace=False), scalars=full, clim=limits,
+        if line is not None:
+            plotter.add_mesh(line.transform(place, inplace=False).translate((0, 0, 1)), color=INK, line_width=2)
+        plotter.add_mesh(squares(frame, fill * h, full, values).transform(place, inplace=False), scalars=full, clim=limits,
                          cmap=colours, lighting=False, show_scalar_bar=False)
     plotter.add_text(f"{full}\n{everything.min():.3g} to {everything.max():.3g}", position=(gap, 16), font_size=12, color=INK)
     plotter.add_scalar_bar(title="", color=INK, n_labels=5, fmt="%.3g", label_font_size=18, width=0.6,
