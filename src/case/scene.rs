@@ -77,7 +77,7 @@ pub fn scene<K: Kinematics<2>>(case: &Case, mesh: Mesh<2>) -> Result<Scene<2>> {
         terms.push(Box::new(BodyForce::<K, 2>::new(case.gravity, factors)));
     }
     if restore_every_step {
-        terms.push(Box::new(EmptyCells::<K>::new(case.numerics.empty_stiffness * young)));
+        terms.push(Box::new(EmptyCells::<K>::new(case.numerics.empty_stiffness * young, mesh.cells.len())));
     }
     if dynamic {
         terms.push(Box::new(Inertia::<K>::default()));

@@ -7,55 +7,66 @@
 use super::{Assembly, Frame, Term, Trial};
 use crate::error::Result;
 use crate::kinematics::Kinematics;
-use crate::mesh::shape::MAX_NODES;
+use crate::mesh::Mesh;
 use crate::stencil::{SoftCell, integrate};
 use crate::system::{Local, scatter};
 use std::marker::PhantomData;
+use std::sync::OnceLock;
 
 /// The soft stiffness of the cells that are not full.
 pub struct EmptyCells<K> {
     /// `ε E` (kPa).
     stiffness: f64,
+    /// `∫ ∇ˢN_I : ∇ˢN_J` of each cell, row-major, made when a cell is first not full: a restored grid keeps
+    /// its shape, so that it holds for the whole run.
+    unit: Vec<OnceLock<Box<[f64]>>>,
     kinematics: PhantomData<K>,
 }
 
 impl<K> EmptyCells<K> {
-    /// `stiffness` is that of an empty cell (kPa).
-    pub fn new(stiffness: f64) -> Self {
-        Self { stiffness, kinematics: PhantomData }
+    /// `stiffness` is that of an empty cell (kPa), `cells` the number of cells of the mesh.
+    pub fn new(stiffness: f64, cells: usize) -> Self {
+        Self { stiffness, unit: (0..cells).map(|_| OnceLock::new()).collect(), kinematics: PhantomData }
     }
+}
+
+/// `∫ ∇ˢN_a e_i : ∇ˢN_b e_k = ½ ∫ (δ_ik g_a·g_b + g_a,k g_b,i)`, row (a, i), column (b, k).
+fn unit_stiffness<const D: usize, K: Kinematics<D>>(mesh: &Mesh<D>, cell: usize) -> Box<[f64]> {
+    let size = D * mesh.cells.nodes(cell).len();
+    let mut unit = vec![0.0; size * size];
+    integrate::<D, K>(mesh, cell, |weight, _, g| {
+        for a in 0..g.len() {
+            for b in 0..g.len() {
+                let dot: f64 = (0..D).map(|d| g[a][d] * g[b][d]).sum();
+                for i in 0..D {
+                    for k in 0..D {
+                        let isotropic = if i == k { dot } else { 0.0 };
+                        unit[(a * D + i) * size + b * D + k] += 0.5 * weight * (isotropic + g[a][k] * g[b][i]);
+                    }
+                }
+            }
+        }
+    });
+    unit.into_boxed_slice()
 }
 
 impl<const D: usize, K: Kinematics<D>> Term<D> for EmptyCells<K> {
     fn assemble(&self, frame: &Frame<D>, trial: &Trial<D>, out: &mut Assembly) -> Result<()> {
-        let wanted = out.tangent.is_some();
         let compute = |soft: &SoftCell, local: &mut Local| {
-            let nodes = frame.mesh.cells.nodes(soft.cell as usize);
-            let mut u = [[0.0; D]; MAX_NODES];
-            for (u, &n) in u.iter_mut().zip(nodes) {
-                for d in 0..D {
-                    u[d] = trial.between[n as usize][d] - trial.converged[n as usize][d];
-                }
-            }
-            let size = local.size;
-            integrate::<D, K>(frame.mesh, soft.cell as usize, |weight, _, g| {
-                let w = 0.5 * self.stiffness * soft.emptiness * weight;
-                for a in 0..g.len() {
-                    for b in 0..g.len() {
-                        let dot: f64 = (0..D).map(|d| g[a][d] * g[b][d]).sum();
-                        for i in 0..D {
-                            for k in 0..D {
-                                // ∇ˢN_a : ∇ˢN_b = ½ (δ_ik g_a·g_b + g_a,k g_b,i)
-                                let entry = w * (if i == k { dot } else { 0.0 } + g[a][k] * g[b][i]);
-                                local.vector[a * D + i] += entry * u[b][k];
-                                if wanted {
-                                    local.matrix[(a * D + i) * size + b * D + k] += (1.0 - trial.alpha_f) * entry;
-                                }
-                            }
-                        }
+            let cell = soft.cell as usize;
+            let unit = self.unit[cell].get_or_init(|| unit_stiffness::<D, K>(frame.mesh, cell));
+            let stiffness = self.stiffness * soft.emptiness;
+            for (row, force) in unit.chunks_exact(local.size).zip(local.vector.iter_mut()) {
+                for (columns, &n) in row.chunks_exact(D).zip(frame.mesh.cells.nodes(cell)) {
+                    let (u, before) = (&trial.between[n as usize], &trial.converged[n as usize]);
+                    for k in 0..D {
+                        *force += stiffness * columns[k] * (u[k] - before[k]);
                     }
                 }
-            });
+            }
+            for (entry, unit) in local.matrix.iter_mut().zip(unit) {
+                *entry = (1.0 - trial.alpha_f) * stiffness * unit;
+            }
             Ok(())
         };
         scatter(

@@ -98,7 +98,7 @@ impl Bench {
             terms.push(Box::new(BodyForce::<K, 2>::new(self.gravity, vec![self.gravity_factor])));
         }
         if self.restore_every_step {
-            terms.push(Box::new(EmptyCells::<K>::new(1e-5 * stiffness_scale)));
+            terms.push(Box::new(EmptyCells::<K>::new(1e-5 * stiffness_scale, self.mesh.cells.len())));
         }
         if self.dynamic {
             terms.push(Box::new(Inertia::<K>::default()));

@@ -39,7 +39,7 @@ fn every_tangent<K: Kinematics<2>>() {
     let terms: [(&str, Make); 4] = [
         ("body force", body_force::<K>),
         ("inertia", |_| Box::new(Inertia::<K>::default())),
-        ("empty cells", |_| Box::new(EmptyCells::<K>::new(70.0))),
+        ("empty cells", |mesh| Box::new(EmptyCells::<K>::new(70.0, mesh.cells.len()))),
         ("traction", |mesh| traction::<K>(mesh, "right")),
     ];
     for (name, make) in terms {
@@ -101,7 +101,8 @@ fn inertia_is_mass_times_acceleration() {
 #[test]
 fn empty_cells_resist_nothing_but_strain_in_the_step() {
     for kind in KINDS {
-        let stand = stand::<PlaneStrain>(kind, |_| Box::new(EmptyCells::<PlaneStrain>::new(70.0)), false);
+        let stand =
+            stand::<PlaneStrain>(kind, |mesh| Box::new(EmptyCells::<PlaneStrain>::new(70.0, mesh.cells.len())), false);
         assert_eq!(stand.term().role(), Role::Internal);
         assert!(stand.soft_cells() > stand.scene.mesh.cells.len() / 2);
         let (strained, converged) = anywhere(&stand);
