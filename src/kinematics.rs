@@ -88,46 +88,20 @@ pub trait Kinematics<const D: usize>: Copy + Default + Send + Sync + 'static {
     }
 }
 
-/// No strain out of the plane.
+/// A plane of points, with or without hoop strain.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct PlaneStrain;
+pub struct Plane<const HOOP: bool>;
+
+/// No strain out of the plane.
+pub type PlaneStrain = Plane<false>;
 
 /// `x` is the radius, `y` the axis, the third direction the circumference.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct Axisymmetric;
+pub type Axisymmetric = Plane<true>;
 
-impl Kinematics<2> for PlaneStrain {
-    type Tangent = PlaneTangent;
-    type Column = [[f64; 2]; 4];
-    const HOOP: bool = false;
-
-    fn respond(model: &dyn Model, y: f64, trial: &Symmetric, state: &State) -> Option<Spatial<Self::Tangent>> {
-        spatial::plane(model, y, trial, state)
-    }
-
-    fn roots(t: &Symmetric) -> [f64; 3] {
-        spectral::Plane::of(t).roots()
-    }
-
-    fn weight(tangent: &mut Self::Tangent, a: &Tensor, kirchhoff: &Symmetric, w: &Tensor) {
-        weight_plane(tangent, a, kirchhoff, w);
-    }
-
-    fn column(tangent: &Self::Tangent, gradient: &Gradient<2>) -> Self::Column {
-        let (a, g) = (tangent, &gradient.g);
-        std::array::from_fn(|ij| std::array::from_fn(|k| a[ij][2 * k] * g[0] + a[ij][2 * k + 1] * g[1]))
-    }
-
-    fn block(column: &Self::Column, gradient: &Gradient<2>) -> [[f64; 2]; 2] {
-        let g = &gradient.g;
-        std::array::from_fn(|i| std::array::from_fn(|k| g[0] * column[2 * i][k] + g[1] * column[2 * i + 1][k]))
-    }
-}
-
-impl Kinematics<2> for Axisymmetric {
+impl<const HOOP: bool> Kinematics<2> for Plane<HOOP> {
     type Tangent = PlaneTangent;
     type Column = [[f64; 2]; 5];
-    const HOOP: bool = true;
+    const HOOP: bool = HOOP;
 
     fn respond(model: &dyn Model, y: f64, trial: &Symmetric, state: &State) -> Option<Spatial<Self::Tangent>> {
         spatial::plane(model, y, trial, state)
@@ -144,17 +118,28 @@ impl Kinematics<2> for Axisymmetric {
     fn column(tangent: &Self::Tangent, gradient: &Gradient<2>) -> Self::Column {
         let (a, g) = (tangent, &gradient.g);
         let hoop = [gradient.hoop, 0.0];
-        std::array::from_fn(|ij| {
-            std::array::from_fn(|k| a[ij][2 * k] * g[0] + a[ij][2 * k + 1] * g[1] + a[ij][4] * hoop[k])
-        })
+        let mut column = [[0.0; 2]; 5];
+        for ij in 0..if HOOP { 5 } else { 4 } {
+            for k in 0..2 {
+                column[ij][k] = a[ij][2 * k] * g[0] + a[ij][2 * k + 1] * g[1];
+                if HOOP {
+                    column[ij][k] += a[ij][4] * hoop[k];
+                }
+            }
+        }
+        column
     }
 
     fn block(column: &Self::Column, gradient: &Gradient<2>) -> [[f64; 2]; 2] {
         let g = &gradient.g;
-        let hoop = [gradient.hoop, 0.0];
-        std::array::from_fn(|i| {
-            std::array::from_fn(|k| g[0] * column[2 * i][k] + g[1] * column[2 * i + 1][k] + hoop[i] * column[4][k])
-        })
+        let mut block: [[f64; 2]; 2] =
+            std::array::from_fn(|i| [0, 1].map(|k| g[0] * column[2 * i][k] + g[1] * column[2 * i + 1][k]));
+        if HOOP {
+            for k in 0..2 {
+                block[0][k] += gradient.hoop * column[4][k];
+            }
+        }
+        block
     }
 }
 
