@@ -29,7 +29,7 @@ demo: seabed_slope ## From nothing to a ParaView series and a picture: the slope
 	$(PYTHON) paraview/seabed_slope.py
 
 test: setup ## Set up and run all tests
-	cargo test --release
+	cargo test --release --no-fail-fast
 
 bench-block: build ## Time the block of 102 400 points beside Kratos; writes docs/benchmarks-block.md
 	$(PYTHON) benches/block/run.py --write

@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 use tempfile::TempDir;
 
-/// Density of the clay [t/m³] and its strength [kPa] by height [m], as in the case.
+/// Density of the clay (t/m³) and its strength (kPa) by height (m), as in the case.
 const DENSITY: f64 = 1.65;
 fn strength(y: f64) -> f64 {
     1.5 + 0.3 * (5.0 - y)
@@ -74,7 +74,7 @@ impl Run {
         Frame::read(&self.frames[number]).unwrap()
     }
 
-    /// Σ V₀ √3 s_u ε_p [kJ]: the work of plastic flow in plane strain, with ε_p = γ_p/√3 and s_u from the first
+    /// Σ V₀ √3 s_u ε_p (kJ): the work of plastic flow in plane strain, with ε_p = γ_p/√3 and s_u from the first
     /// height of the point, as the strength goes with the soil.
     fn plastic_work(&self) -> f64 {
         let (seeds, _) = points_vtu::read::<2>(&self.folder.path().join("points.vtu")).unwrap();
@@ -103,7 +103,7 @@ fn step(line: &str) -> Step {
     }
 }
 
-/// The largest distance of a point between two frames [m].
+/// The largest distance of a point between two frames (m).
 fn largest_move(a: &Frame, b: &Frame) -> f64 {
     let distance = |(a, b): (&[f64; 3], &[f64; 3])| (a[0] - b[0]).hypot(a[1] - b[1]);
     a.points.position.iter().zip(&b.points.position).map(distance).fold(0.0, f64::max)
