@@ -25,6 +25,7 @@ use crate::profile::{Activity, timed};
 use crate::time_integration::GeneralisedAlpha;
 use newton::Problem;
 use std::marker::PhantomData;
+use transfer::Start;
 
 /// A scene in motion.
 pub struct Simulation<'a, const D: usize, K> {
@@ -54,14 +55,14 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
     /// When a point left the grid, or the step falls below the least one.
     pub fn advance(&mut self, controller: &mut Controller) -> Result<Report<D>> {
         timed(Activity::Transfer, || self.initialise())?;
-        let (dt, solution) = loop {
+        let (dt, start, solution) = loop {
             let dt = controller.size(self.state.phase_time);
             match self.lagrange(dt) {
-                Ok(solution) => break (dt, solution),
+                Ok((start, solution)) => break (dt, start, solution),
                 Err(error) => controller.halve(dt, error)?,
             }
         };
-        let mut report = timed(Activity::Transfer, || self.convect(dt, solution))?;
+        let mut report = timed(Activity::Transfer, || self.convect(dt, start, solution))?;
         report.halvings = controller.accept(dt, report.iterations());
         Ok(report)
     }
@@ -84,34 +85,40 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
         Ok(())
     }
 
-    /// The solution on the grid.
-    fn lagrange(&mut self, dt: f64) -> Result<Solution<D>> {
+    /// The solution on the grid and, with inertia, the motion that it starts from.
+    fn lagrange(&mut self, dt: f64) -> Result<(Option<Start<D>>, Solution<D>)> {
         let (scene, state) = (self.scene, &self.state);
         let phase = &scene.phases[state.phase];
         let given = grid::given_increments(scene, state, &self.grid, dt);
+        let start = phase.dynamic.then(|| Start::of(&self.grid, state, &given, dt));
+        let (velocity, acceleration): (&[_], &[_]) =
+            start.as_ref().map_or((&[], &[]), |s| (&s.velocity, &s.acceleration));
         let problem = Problem {
             scene,
             points: &state.points,
             converged: &state.displacement,
-            velocity: &state.velocity,
-            acceleration: &state.acceleration,
+            velocity,
+            acceleration,
             phase: state.phase,
             from: state.phase_time,
             to: state.phase_time + dt,
             given: &given,
             integration: phase.dynamic.then(|| GeneralisedAlpha::new(scene.numerics.spectral_radius, dt)),
         };
-        newton::solve(&problem, &mut self.grid)
+        let solution = newton::solve(&problem, &mut self.grid)?;
+        Ok((start, solution))
     }
 
     /// Grid to points.
-    fn convect(&mut self, dt: f64, solution: Solution<D>) -> Result<Report<D>> {
+    fn convect(&mut self, dt: f64, start: Option<Start<D>>, solution: Solution<D>) -> Result<Report<D>> {
         let (scene, state) = (self.scene, &mut self.state);
-        let before = report::Motion::of(&state.points);
+        let mut momentum = report::Motion::of(&state.points).linear;
         transfer::commit(scene, &self.grid, state, &solution)?;
         transfer::move_points::<D, K>(scene, &self.grid, state, &solution.displacement);
-        if scene.phases[state.phase].dynamic {
-            transfer::motion_to_points::<D, K>(scene, &self.grid, state, &solution.displacement, dt);
+        if let Some(start) = &start {
+            let impulse = start.impulse::<K>(scene, &self.grid, state);
+            momentum = std::array::from_fn(|d| momentum[d] + impulse[d]);
+            transfer::motion_to_points::<D, K>(scene, &self.grid, state, start, &solution.displacement, dt);
         }
         for (travel, (now, before)) in
             state.travel.iter_mut().zip(solution.displacement.iter().zip(&state.displacement))
@@ -124,6 +131,6 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
         state.step += 1;
         state.time += dt;
         state.phase_time += dt;
-        Ok(Report::new(scene, state, &self.grid, dt, solution, &before))
+        Ok(Report::new(scene, state, &self.grid, dt, solution, &momentum))
     }
 }

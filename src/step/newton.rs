@@ -5,6 +5,7 @@ use super::scene::Scene;
 use crate::error::{Error, Result};
 use crate::points::Points;
 use crate::profile::{Activity, timed};
+use crate::stencil::cell_size;
 use crate::system::{Matrix, Method};
 use crate::term::{Assembly, Role, Trial};
 use crate::time_integration::GeneralisedAlpha;
@@ -98,7 +99,7 @@ impl<'a, const D: usize> Newton<'a, D> {
     fn begin(problem: &'a Problem<'a, D>, grid: &'a mut Grid<D>) -> Result<Self> {
         let u = problem.converged.to_vec();
         let now = evaluate(problem, grid, &u)?;
-        let floor = floor(problem.scene, problem.given.len());
+        let floor = floor(problem, grid);
         let mut newton = Self {
             fixed: problem.given.iter().map(Option::is_some).collect(),
             history: Vec::new(),
@@ -251,9 +252,13 @@ impl<'a, const D: usize> Newton<'a, D> {
     }
 }
 
-/// A force (kN) below which nothing counts: rounding in stresses of the order of the stiffness.
-fn floor<const D: usize>(scene: &Scene<D>, equations: usize) -> f64 {
-    1e-6 * scene.stiffness_scale * scene.cell_face() * (equations as f64).sqrt()
+/// A force (kN) below which nothing counts: rounding in stresses of the order of the stiffness, on the sides of a
+/// typical cell, which are four times its volume over its diagonal (in axisymmetry those of its ring).
+fn floor<const D: usize>(problem: &Problem<D>, grid: &Grid<D>) -> f64 {
+    let cells = grid.stencil.patches.iter().map(|patch| cell_size(&problem.scene.mesh, patch.cell as usize));
+    let volume: f64 = problem.points.initial_volume.iter().sum();
+    let side = 4.0 * volume / cells.sum::<f64>();
+    1e-6 * problem.scene.stiffness_scale * side * (problem.given.len() as f64).sqrt()
 }
 
 /// The sum of all terms but inertia at the last converged step.

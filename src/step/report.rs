@@ -60,13 +60,14 @@ pub struct Report<const D: usize> {
 }
 
 impl<const D: usize> Report<D> {
+    /// `before` is the linear momentum at the beginning of the step, once the supports have stopped their nodes.
     pub fn new(
         scene: &Scene<D>,
         state: &State<D>,
         grid: &Grid<D>,
         dt: f64,
         solution: Solution<D>,
-        before: &Motion<D>,
+        before: &[f64; D],
     ) -> Self {
         let motion = Motion::of(&state.points);
         let mut reaction = vec![[0.0; D]; scene.mesh.nodes.len()];
@@ -80,8 +81,7 @@ impl<const D: usize> Report<D> {
         }
         let impulse = |d: usize| dt * (solution.applied[d] + reaction.iter().map(|r| r[d]).sum::<f64>());
         let dynamic = scene.phases[state.phase].dynamic;
-        let imbalance =
-            std::array::from_fn(|d| if dynamic { motion.linear[d] - before.linear[d] - impulse(d) } else { 0.0 });
+        let imbalance = std::array::from_fn(|d| if dynamic { motion.linear[d] - before[d] - impulse(d) } else { 0.0 });
         let fall = |(x, m): (&[f64; D], &f64)| -m * (0..D).map(|d| scene.gravity[d] * x[d]).sum::<f64>();
         Self {
             dt,

@@ -2,7 +2,6 @@
 
 use crate::mesh::Mesh;
 use crate::mesh::locate::Locator;
-use crate::stencil::cell_size;
 use crate::term::Term;
 use crate::time_value::TimeValue;
 
@@ -28,12 +27,6 @@ impl<const D: usize> Scene<D> {
     /// Where displacements are given in a phase: the supports and what is prescribed.
     pub fn fixed(&self, phase: usize) -> impl Iterator<Item = &Fixed> {
         self.supports.iter().chain(self.phases[phase].prescribed.iter().map(|p| &p.fixed))
-    }
-
-    /// Area (m²) of the side of a typical cell.
-    pub fn cell_face(&self) -> f64 {
-        let sum: f64 = (0..self.mesh.cells.len()).map(|c| cell_size(&self.mesh, c)).sum();
-        (sum / self.mesh.cells.len().max(1) as f64).powi(D as i32 - 1)
     }
 }
 

@@ -147,7 +147,6 @@ pub fn motion_to_grid<const D: usize, K: Kinematics<D>>(
     let points = &state.points;
     [state.velocity, state.acceleration] =
         to_nodes::<D, K>(scene, grid, points, [&points.velocity, &points.acceleration])?;
-    hold(scene, state);
     if !state.moving {
         state.acceleration = first_acceleration::<D, K>(scene, grid, state)?;
         state.points.acceleration = to_points::<D, K>(scene, grid, &state.acceleration, count);
@@ -156,13 +155,49 @@ pub fn motion_to_grid<const D: usize, K: Kinematics<D>>(
     Ok(())
 }
 
-/// Stops the nodes where their displacement is given.
-fn hold<const D: usize>(scene: &Scene<D>, state: &mut State<D>) {
-    for fixed in scene.fixed(state.phase) {
-        for &n in &fixed.nodes {
-            state.velocity[n as usize][fixed.component] = 0.0;
-            state.acceleration[n as usize][fixed.component] = 0.0;
+/// Velocity (m/s) and acceleration (m/s²) of the nodes at the beginning of a step.
+pub struct Start<const D: usize> {
+    pub velocity: Vec<[f64; D]>,
+    pub acceleration: Vec<[f64; D]>,
+}
+
+impl<const D: usize> Start<D> {
+    /// The motion in `state`, but of nodes whose displacement is given: they go at the constant speed that takes
+    /// them through the step. What they lose or gain by that (an impact, a kink of a table) is theirs at once,
+    /// and [`motion_to_points`] hands it on with the rest.
+    pub fn of(grid: &Grid<D>, state: &State<D>, given: &[Option<f64>], dt: f64) -> Self {
+        let mut start = Self { velocity: state.velocity.clone(), acceleration: state.acceleration.clone() };
+        for (e, increment) in given.iter().enumerate() {
+            if let Some(increment) = increment {
+                let (n, d) = (grid.node[e / D] as usize, e % D);
+                start.velocity[n][d] = increment / dt;
+                start.acceleration[n][d] = 0.0;
+            }
         }
+        start
+    }
+
+    /// Momentum (t m/s) that the nodes take on at once, all together.
+    pub fn impulse<K: Kinematics<D>>(&self, scene: &Scene<D>, grid: &Grid<D>, state: &State<D>) -> [f64; D] {
+        let mut impulse = [0.0; D];
+        for patch in &grid.stencil.patches {
+            let jump = scene.mesh.cells.nodes(patch.cell as usize).iter().map(|&n| {
+                let (now, before) = (&self.velocity[n as usize], &state.velocity[n as usize]);
+                std::array::from_fn::<f64, D, _>(|d| now[d] - before[d])
+            });
+            let jump: Vec<[f64; D]> = jump.collect();
+            if jump.iter().flatten().all(|&v| v == 0.0) {
+                continue;
+            }
+            for entries in grid.stencil.entries::<K>(patch) {
+                for (n, jump) in entries.value.iter().zip(&jump) {
+                    for d in 0..D {
+                        impulse[d] += state.points.mass[entries.point] * n * jump[d];
+                    }
+                }
+            }
+        }
+        impulse
     }
 }
 
@@ -255,11 +290,13 @@ pub fn move_points<const D: usize, K: Kinematics<D>>(
     }
 }
 
-/// Hands the motion at the end of the step to the points.
+/// Hands the motion at the end of the step that began with `start` to the points. They take on all that the
+/// velocity of the nodes has changed by since it was mapped, so that a point at a support stops with it.
 pub fn motion_to_points<const D: usize, K: Kinematics<D>>(
     scene: &Scene<D>,
     grid: &Grid<D>,
     state: &mut State<D>,
+    start: &Start<D>,
     displacement: &[[f64; D]],
     dt: f64,
 ) {
@@ -267,11 +304,12 @@ pub fn motion_to_points<const D: usize, K: Kinematics<D>>(
     let mut change = vec![[0.0; D]; displacement.len()];
     for n in 0..displacement.len() {
         for d in 0..D {
-            let (v, a) = (state.velocity[n][d], state.acceleration[n][d]);
+            let (v, a) = (start.velocity[n][d], start.acceleration[n][d]);
             let next = integration.acceleration(displacement[n][d] - state.displacement[n][d], v, a);
-            state.velocity[n][d] = integration.velocity(v, a, next);
+            let velocity = integration.velocity(v, a, next);
+            change[n][d] = velocity - state.velocity[n][d];
+            state.velocity[n][d] = velocity;
             state.acceleration[n][d] = next;
-            change[n][d] = state.velocity[n][d] - v;
         }
     }
     let count = state.points.len();

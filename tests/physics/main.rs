@@ -4,5 +4,6 @@ mod bar;
 mod bench;
 mod cantilever;
 mod column;
+mod held_out;
 mod patch;
 mod rotation;
