@@ -33,7 +33,7 @@ impl Controller {
 
     /// The next time a step must end at, after `now`.
     pub fn next_stop(&self, now: f64) -> Option<&Stop> {
-        self.stops.iter().find(|s| s.time > now && !same(s.time, now))
+        self.stops.get(self.stops.partition_point(|s| s.time <= now || same(s.time, now)))
     }
 
     /// The stop at `now`, if there is one.

@@ -19,7 +19,7 @@ pub use report::Report;
 pub use scene::{Fixed, Numerics, Phase, Prescribed, Scene, Stop};
 pub use state::State;
 
-use crate::error::Result;
+use crate::error::{Kind, Result};
 use crate::kinematics::Kinematics;
 use crate::profile::{Activity, timed};
 use crate::time_integration::GeneralisedAlpha;
@@ -52,14 +52,16 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
     /// One time step of the size that `controller` wants, halved until it converges.
     ///
     /// # Errors
-    /// When a point left the grid, or the step falls below the least one.
+    /// When a point left the grid, the step falls below the least one, or memory does not suffice.
     pub fn advance(&mut self, controller: &mut Controller) -> Result<Report<D>> {
         timed(Activity::Transfer, || self.initialise())?;
         let (dt, start, solution) = loop {
             let dt = controller.size(self.state.phase_time);
             match self.lagrange(dt) {
                 Ok((start, solution)) => break (dt, start, solution),
-                Err(error) => controller.halve(dt, error)?,
+                Err(error) if error.kind == Kind::Analysis => controller.halve(dt, error)?,
+                // No step is small enough for a machine without memory.
+                Err(error) => return Err(error),
             }
         };
         let mut report = timed(Activity::Transfer, || self.convect(dt, start, solution))?;

@@ -1,7 +1,7 @@
 //! Transfer of the motion between points and grid.
 //!
-//! To the grid by consistent mass, `Σ_p m_p N_I N_J v_J = Σ_p m_p N_I v_p`: it keeps linear momentum, and a
-//! linear velocity field exactly. To the points by increments of velocity (FLIP) and values of acceleration.
+//! To the grid by consistent mass, `Σ_p m_p N_I N_J v_J = Σ_p m_p N_I v_p`: it keeps linear momentum and,
+//! where cells are full, a linear velocity field exactly. To the points by increments of velocity (FLIP) and values of acceleration.
 
 use super::grid::{Grid, System};
 use super::newton::{Problem, Solution, static_force};
@@ -9,6 +9,7 @@ use super::scene::Scene;
 use super::state::State;
 use crate::error::{Error, Result};
 use crate::kinematics::Kinematics;
+use crate::mesh::shape::MAX_NODES;
 use crate::points::Points;
 use crate::stencil::{SoftCell, cell_size, integrate};
 use crate::system::{Method, scatter};
@@ -181,11 +182,12 @@ impl<const D: usize> Start<D> {
     pub fn impulse<K: Kinematics<D>>(&self, scene: &Scene<D>, grid: &Grid<D>, state: &State<D>) -> [f64; D] {
         let mut impulse = [0.0; D];
         for patch in &grid.stencil.patches {
-            let jump = scene.mesh.cells.nodes(patch.cell as usize).iter().map(|&n| {
+            let nodes = scene.mesh.cells.nodes(patch.cell as usize);
+            let mut jump = [[0.0; D]; MAX_NODES];
+            for (jump, &n) in jump.iter_mut().zip(nodes) {
                 let (now, before) = (&self.velocity[n as usize], &state.velocity[n as usize]);
-                std::array::from_fn::<f64, D, _>(|d| now[d] - before[d])
-            });
-            let jump: Vec<[f64; D]> = jump.collect();
+                *jump = std::array::from_fn(|d| now[d] - before[d]);
+            }
             if jump.iter().flatten().all(|&v| v == 0.0) {
                 continue;
             }

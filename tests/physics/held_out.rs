@@ -266,7 +266,7 @@ fn results_do_not_depend_on_units() {
     }
 }
 
-/// A thick-walled cylinder under inner pressure against Lamé, as small strains; and with the mean of its ends held.
+/// A thick-walled cylinder under inner pressure against Lamé, at small strain, its ends held.
 #[test]
 fn a_thick_walled_cylinder_is_that_of_lame() {
     let (a, b, young, poisson, pressure) = (0.7, 1.9, 5e4, 0.27, 1e-2);
@@ -345,5 +345,38 @@ fn level_ground_at_rest_stays_at_rest() {
                 assert!(round < 0.02, "{round}");
             }
         }
+    }
+}
+
+/// Ground that its weight has settled quasi-statically feels nothing when inertia comes in, and nothing when it
+/// goes again.
+#[test]
+fn inertia_comes_and_goes_without_a_kick() {
+    for kind in [CellKind::T6, CellKind::Q9] {
+        let scene = |dynamic: bool, gravity_factor: TimeValue| {
+            let mut bench = Bench::new(rectangle(kind, 3.0, 2.0, 4, 4, 0.2, 3), elastic(1e4, 0.3));
+            bench.gravity = [0.0, -10.0];
+            bench.gravity_factor = gravity_factor;
+            bench.restore_every_step = true;
+            bench.dynamic = dynamic;
+            bench.steps = 10;
+            bench.hold("left", &[0]).hold("right", &[0]).hold("bottom", &[0, 1]);
+            bench
+        };
+        let first = scene(false, TimeValue::Rate(1.0));
+        let points = quadrature_points::<PlaneStrain>(&first.mesh, 6, 1.0);
+        let settled = run::<PlaneStrain>(&first.scene::<PlaneStrain>(), points, |_, _| {}).points;
+        let steady = |dynamic| scene(dynamic, TimeValue::Constant(1.0)).scene::<PlaneStrain>();
+        let mut fastest = 0f64;
+        let moved = run::<PlaneStrain>(&steady(true), settled.clone(), |state, _| {
+            fastest = fastest.max(largest(state.points.velocity.iter().flatten().copied()));
+        });
+        let mut end = moved.points;
+        (end.velocity, end.acceleration) = (Vec::new(), Vec::new());
+        let end = run::<PlaneStrain>(&steady(false), end, |_, _| {}).points;
+        let settlement = largest(settled.position.iter().zip(&settled.origin).map(|(x, o)| x[1] - o[1]));
+        let drift = largest(settled.position.iter().zip(&end.position).map(|(a, b)| a[1] - b[1])) / settlement;
+        println!("{kind:?}: fastest {fastest:.1e} m/s, drift {drift:.1e} of the settlement");
+        assert!(fastest < 2e-4 && drift < 5e-3, "{kind:?}: {fastest:e} {drift:e}");
     }
 }
