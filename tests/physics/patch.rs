@@ -22,7 +22,7 @@ fn error<K: Kinematics<2>>(kind: CellKind, gradient: [[f64; 2]; 2], restore: boo
     let elasticity = Elasticity::new(constant(1000.0), 0.3).unwrap();
     let mut bench = Bench::new(mesh, Arc::new(LinearElastic::new(elasticity)));
     bench.restore_every_step = restore;
-    bench.steps = 2;
+    bench.steps = if restore { 1 } else { 2 };
     let boundary: Vec<u32> = {
         let mut nodes: Vec<u32> = bench.mesh.groups.iter().flat_map(|g| g.nodes.clone()).collect();
         nodes.sort_unstable();
@@ -76,11 +76,16 @@ fn axisymmetry() {
     }
 }
 
+/// The first step on a grid that is restored: its points are still a quadrature of their cells, so that a
+/// uniform strain is exact there too. Once they have moved it is not, which is the plain method's error.
 #[test]
-fn with_the_grid_restored() {
-    // The points of a body that fills the grid must not leave it: compress it less than it fits.
+fn in_the_first_step_of_a_restored_grid() {
     for kind in KINDS {
-        let e = error::<PlaneStrain>(kind, [[0.0, 0.0], [0.0, 0.0]], true);
-        assert!(e < 1e-12, "{kind:?}: {e:e}");
+        for gradient in [[[1e-3, 2e-3], [-1e-3, 3e-3]], [[-0.2, 0.1], [0.05, -0.15]]] {
+            let e = error::<PlaneStrain>(kind, gradient, true);
+            assert!(e < 1e-10, "{kind:?}: {e:e}");
+        }
+        let e = error::<Axisymmetric>(kind, [[-0.1, 0.0], [0.0, -0.15]], true);
+        assert!(e < 1e-10, "{kind:?}: {e:e}");
     }
 }
