@@ -110,6 +110,23 @@ fn what_is_watched_may_be_empty() {
 }
 
 #[test]
+fn a_prescribed_displacement_far_from_all_material_is_noted() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    let height = "mesh.parameters.headroom=15";
+    let rest = ["phases[0].duration=0.04", "phases[0].gravity=0", "supports={bottom: {uy: 0}}", "output.history=[]"];
+    for (curve, noted) in [("top", true), ("end", false)] {
+        let prescribe = format!("phases[0].prescribe={{{curve}: {{ux: {{rate: 0.001}}}}}}");
+        let set = [SHORT[0], height, &prescribe, rest[0], rest[1], rest[2], rest[3]];
+        let said = ["mesh", "seed", "solve"].map(|stage| mpm(stage, SLOPE, folder, &set, &[], 0)).concat();
+        let log = fs::read_to_string(folder.join("solve.log")).unwrap();
+        for text in [&said, &log] {
+            assert_eq!(text.contains("prescribed in x near") && text.contains("meets no material"), noted, "{text}");
+        }
+    }
+}
+
+#[test]
 fn frames_without_number_are_refused() {
     let folder = tempfile::tempdir().unwrap();
     for entry in ["output.every=1e-9", "phases[0].duration=1e300"] {

@@ -113,6 +113,12 @@ pub fn run<const D: usize, K: Kinematics<D>>(
         // The largest step may have been lowered since the checkpoint.
         let wanted = simulation.state.step_size.min(limits.largest);
         let mut controller = Controller::new(limits, phase.stops.clone(), wanted);
+        if simulation.state.phase_time == 0.0 {
+            for note in simulation.idle() {
+                tell(&simulation.state, Some(&note));
+                files.log.line(&note)?;
+            }
+        }
         let number = simulation.state.phase;
         while simulation.state.phase == number {
             if stop.load(Ordering::Relaxed) {
