@@ -1,0 +1,2 @@
+//! Integration weights of the material points: their volumes, or weights fitted to the part of each cell that
+//! is filled, so that polynomials are integrated exactly there.

@@ -1,0 +1,1 @@
+//! Where the material ends: its surface within the cells, reconstructed from the material points.
