@@ -116,7 +116,9 @@ def shear(r):
 def spin(r):
     """A free elastic body that turns several times."""
     turns, steps = r.choice([0.5, 1, 2, 3]), r.choice([12, 20, 30])
-    case = body(r, choose_mesh(r), 1, 0.7, (2.4, 2.4, 0.7, 0.85), **elastic(r))
+    mesh = choose_mesh(r)
+    mesh["parameters"]["h"] = round(r.uniform(0.25, 0.4), 3)
+    case = body(r, mesh, 1, 0.7, (2.4, 2.4, 0.7, 0.85), **elastic(r))
     case["geometry"] = "plane_strain"
     # Slow against the speed of sound: it keeps its shape.
     rate = 0.05 * math.sqrt(case["materials"]["matter"]["young"])
