@@ -1,6 +1,7 @@
 //! The mesh: nodes, cells of any mixture of kinds, and the named groups of the `.geo`.
 
 pub mod builder;
+pub mod faces;
 pub mod gmsh;
 pub mod locate;
 pub mod quality;
