@@ -121,7 +121,7 @@ impl<'a> Mass<'a> {
 /// The cells whose nodes the motion is spread over, with their share of the penalty.
 fn spread_cells<const D: usize>(grid: &Grid<D>, soft: &[SoftCell]) -> Vec<SoftCell> {
     const FEW: f64 = 0.1;
-    let few = grid.stencil.patches.iter().filter(|patch| patch.point_count < patch.function_count);
+    let few = grid.stencil.patches.iter().filter(|patch| patch.point_count < patch.node_count);
     let mut cells: Vec<SoftCell> = few.map(|patch| SoftCell { cell: patch.cell, emptiness: FEW }).collect();
     cells.extend(soft);
     cells.sort_by(|a, b| a.cell.cmp(&b.cell).then(b.emptiness.total_cmp(&a.emptiness)));
