@@ -4,9 +4,11 @@
 //! scheme made them. Points are grouped in *patches* that share their nodes: the points of a cell.
 
 mod fill;
+mod jumps;
 mod mpm;
 
 pub use fill::{SoftCell, cell_size, integrate, soft_cells};
+pub use jumps::{Jump, Jumps};
 pub use mpm::fill as fill_mpm;
 
 use crate::kinematics::{Gradient, Kinematics};
