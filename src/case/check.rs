@@ -204,11 +204,7 @@ impl Checker {
         let restore = match numerics.restore {
             raw::Restore::Named(raw::RestoreName::EveryStep) => Restore::EveryStep,
             raw::Restore::Named(raw::RestoreName::Never) => Restore::Never,
-            raw::Restore::Quality(_) => {
-                let problem = format!("`min_quality` {LATER}");
-                self.issue(&path.key("restore"), At::Value, problem, "choose every_step or never");
-                Restore::Never
-            }
+            raw::Restore::Quality(quality) => Restore::Quality { least: quality.min_quality },
         };
         Numerics {
             restore,

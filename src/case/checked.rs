@@ -149,9 +149,13 @@ pub struct Numerics {
 }
 
 /// When the grid goes back to its first shape.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Restore {
     EveryStep,
+    /// When a cell with points has less than the share `least` (-) of its first quality.
+    Quality {
+        least: f64,
+    },
     /// Updated Lagrangian: the grid moves with the material.
     Never,
 }

@@ -7,8 +7,10 @@ use crate::kinematics::{Axisymmetric, Kinematics, PlaneStrain};
 use crate::mesh::Mesh;
 use crate::mesh::locate::Locator;
 use crate::points::Points;
+use crate::quadrature::{Quadrature, Volumes};
 use crate::run::{self, Ended, Outputs, Progress, Watch, WatchedOn};
-use crate::step::{Fixed, Numerics, Phase, Prescribed, Scene, State, Stop};
+use crate::stencil::Scheme;
+use crate::step::{self, Fixed, Numerics, Phase, Prescribed, Scene, State, Stop};
 use crate::term::{BodyForce, EmptyCells, Inertia, Internal, Term, Traction};
 use crate::time_value::TimeValue;
 use std::path::Path;
@@ -68,7 +70,6 @@ pub fn scene<K: Kinematics<2>>(case: &Case, mesh: Mesh<2>) -> Result<Scene<2>> {
         moduli.lambda + 2.0 * moduli.shear
     });
     let density_scale = largest(|m, y| m.density.at(y));
-    let restore_every_step = case.numerics.restore == Restore::EveryStep;
     let dynamic = case.phases.iter().any(|p| p.analysis == Analysis::Dynamic);
 
     let mut terms: Vec<Box<dyn Term<2>>> = vec![Box::new(Internal::<K>::new(models(case, &mesh)?, dynamic))];
@@ -76,7 +77,7 @@ pub fn scene<K: Kinematics<2>>(case: &Case, mesh: Mesh<2>) -> Result<Scene<2>> {
         let factors = case.phases.iter().map(|p| p.gravity.clone()).collect();
         terms.push(Box::new(BodyForce::<K, 2>::new(case.gravity, factors)));
     }
-    if restore_every_step {
+    if case.numerics.restore != Restore::Never {
         terms.push(Box::new(EmptyCells::<K>::new(case.numerics.empty_stiffness * young, mesh.cells.len())));
     }
     if dynamic {
@@ -98,10 +99,13 @@ pub fn scene<K: Kinematics<2>>(case: &Case, mesh: Mesh<2>) -> Result<Scene<2>> {
         locator: Locator::new(&mesh),
         mesh,
         terms,
+        faces: None,
+        quadrature: quadrature::<K>(),
         supports,
         phases,
         numerics: Numerics {
-            restore_every_step,
+            scheme: Scheme::Mpm,
+            restore: restore(case.numerics.restore),
             spectral_radius: case.numerics.spectral_radius,
             tolerance: case.numerics.tolerance,
             max_iterations: case.numerics.max_iterations,
@@ -110,6 +114,18 @@ pub fn scene<K: Kinematics<2>>(case: &Case, mesh: Mesh<2>) -> Result<Scene<2>> {
         stiffness_scale,
         density_scale,
     })
+}
+
+fn quadrature<K: Kinematics<2>>() -> Box<dyn Quadrature<2>> {
+    Box::new(Volumes::<K>::default())
+}
+
+fn restore(restore: Restore) -> step::Restore {
+    match restore {
+        Restore::EveryStep => step::Restore::EveryStep,
+        Restore::Quality { least } => step::Restore::Quality { least },
+        Restore::Never => step::Restore::Never,
+    }
 }
 
 fn phase(case: &Case, mesh: &Mesh<2>, phase: &super::checked::Phase) -> Result<Phase> {

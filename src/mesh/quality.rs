@@ -114,7 +114,8 @@ fn coincident(nodes: &[[f64; 2]]) -> usize {
     places.windows(2).filter(|pair| pair[0] == pair[1]).count()
 }
 
-fn quality(corners: &[[f64; 2]]) -> f64 {
+/// Quality of a triangle or quadrilateral with these corners (-): 1 at best, 0 if flat, negative if inverted.
+pub fn quality(corners: &[[f64; 2]]) -> f64 {
     let edge = |i: usize, j: usize| {
         let (a, b) = (corners[i % corners.len()], corners[j % corners.len()]);
         [b[0] - a[0], b[1] - a[1]]
@@ -137,8 +138,8 @@ fn determinant(kind: CellKind, x: &[[f64; 2]], xi: &[f64; 3]) -> f64 {
     shape::map(kind, x, xi, &mut n, &mut grad)
 }
 
-/// Least and largest Bernstein coefficient of `det J`, between which all its values lie.
-fn jacobian_range(kind: CellKind, x: &[[f64; 2]]) -> (f64, f64) {
+/// Least and largest Bernstein coefficient of `det J` (m²), between which all its values lie.
+pub fn jacobian_range(kind: CellKind, x: &[[f64; 2]]) -> (f64, f64) {
     let at = |xi: [f64; 3]| determinant(kind, x, &xi);
     let coefficients: Vec<f64> = match kind {
         CellKind::T6 => {

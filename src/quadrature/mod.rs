@@ -1,2 +1,54 @@
 //! Integration weights of the material points: their volumes, or weights fitted to the part of each cell that
 //! is filled, so that polynomials are integrated exactly there.
+//!
+//! Weights are found when the grid is restored and hold until it is again. Mass and momentum stay with the
+//! points.
+
+mod volumes;
+
+pub use volumes::Volumes;
+
+use crate::mesh::Mesh;
+use crate::points::Points;
+use crate::stencil::{SoftCell, Stencil};
+
+/// What the points of a restored grid weigh, and what follows from where they lie.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Weighing<const D: usize> {
+    /// What each point weighs in integrals (m³), as volume when seeded.
+    pub weight: Vec<f64>,
+    /// By cell, ascending, what is added to the gradients of its nodes (1/m) at all its points, so that a
+    /// uniform stress exerts the forces it must where no weights do that; few cells need it.
+    pub shift: Vec<(u32, Vec<[f64; D]>)>,
+    /// Cells that take part and are not full, ascending.
+    pub soft: Vec<SoftCell>,
+    /// Cells with points that are cut or too poor in points to stand alone, ascending: their faces take a penalty.
+    pub poor: Vec<u32>,
+    pub tally: Tally,
+}
+
+/// How the weights of the cells came out.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Tally {
+    /// Cells with weights that integrate quadratic polynomials, linear ones and constants; by volume alone.
+    pub quadratic: u32,
+    pub linear: u32,
+    pub constant: u32,
+    pub volume: u32,
+    /// `Σ V_p` of the points and the volume that the weights stand for (m³).
+    pub point_volume: f64,
+    pub fitted_volume: f64,
+}
+
+/// A rule for the weights of points.
+pub trait Quadrature<const D: usize>: Send + Sync {
+    /// Weighs the points of a restored grid; `stencil` is filled, `taking_part` marks the cells of the grid.
+    fn weigh(
+        &self,
+        mesh: &Mesh<D>,
+        points: &Points<D>,
+        parametric: &[[f64; 3]],
+        stencil: &Stencil<D>,
+        taking_part: &[bool],
+    ) -> Weighing<D>;
+}

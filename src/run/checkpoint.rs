@@ -5,6 +5,8 @@ use crate::error::Result;
 use crate::io::checkpoint::Checkpoints;
 use crate::io::columns;
 use crate::io::container::Store;
+use crate::quadrature::{Tally, Weighing};
+use crate::stencil::SoftCell;
 use crate::step::State;
 
 const POINTS: &str = "points.";
@@ -29,9 +31,16 @@ pub fn store<const D: usize>(state: &State<D>) -> Store {
         velocity,
         acceleration,
         taking_part,
+        penalised,
+        weighing,
+        restorations,
     } = state;
     let mut store = Checkpoints::store();
-    store.put("state.counts", 1, vec![*phase as u64, *step, *frames, *rows, *log_lines, u64::from(*moving)]);
+    store.put(
+        "state.counts",
+        1,
+        vec![*phase as u64, *step, *frames, *rows, *log_lines, u64::from(*moving), *restorations],
+    );
     store.put("state.times", 1, vec![*time, *phase_time, *step_size]);
     store.put("state.parametric", 3, parametric.concat());
     for (name, field) in
@@ -40,11 +49,50 @@ pub fn store<const D: usize>(state: &State<D>) -> Store {
         store.put(&format!("state.{name}"), D, field.concat());
     }
     store.put("state.taking_part", 1, taking_part.iter().map(|&b| u8::from(b)).collect());
+    store.put("state.penalised", 1, penalised.iter().map(|&b| u8::from(b)).collect());
+    put_weighing(&mut store, weighing);
     for mut array in columns::to_arrays(points) {
         array.name.insert_str(0, POINTS);
         store.put_array(array);
     }
     store
+}
+
+fn put_weighing<const D: usize>(store: &mut Store, weighing: &Weighing<D>) {
+    let Weighing { weight, shift, soft, poor, tally } = weighing;
+    let Tally { quadratic, linear, constant, volume, point_volume, fitted_volume } = tally;
+    store.put("weighing.weight", 1, weight.clone());
+    store.put("weighing.shifted", 2, shift.iter().flat_map(|(cell, by)| [*cell, by.len() as u32]).collect());
+    store.put("weighing.shift", D, shift.iter().flat_map(|(_, by)| by.concat()).collect());
+    store.put("weighing.soft", 1, soft.iter().map(|s| s.cell).collect());
+    store.put("weighing.emptiness", 1, soft.iter().map(|s| s.emptiness).collect());
+    store.put("weighing.poor", 1, poor.clone());
+    store.put("weighing.cells", 1, vec![*quadratic, *linear, *constant, *volume]);
+    store.put("weighing.volume", 1, vec![*point_volume, *fitted_volume]);
+}
+
+fn take_weighing<const D: usize>(store: &mut Store) -> Result<Weighing<D>> {
+    let weight = store.take::<f64>("weighing.weight", 1)?;
+    let shifted = store.take::<u32>("weighing.shifted", 2)?;
+    let values = store.take::<f64>("weighing.shift", D)?;
+    let mut values = values.chunks_exact(D).map(|v| std::array::from_fn(|d| v[d]));
+    let shift = shifted.chunks_exact(2).map(|s| (s[0], values.by_ref().take(s[1] as usize).collect())).collect();
+    let (soft, emptiness) = (store.take::<u32>("weighing.soft", 1)?, store.take::<f64>("weighing.emptiness", 1)?);
+    let soft = soft.into_iter().zip(emptiness).map(|(cell, emptiness)| SoftCell { cell, emptiness }).collect();
+    let poor = store.take::<u32>("weighing.poor", 1)?;
+    let (cells, volume) = (store.take::<u32>("weighing.cells", 1)?, store.take::<f64>("weighing.volume", 1)?);
+    let ([quadratic, linear, constant, volume_only], [point_volume, fitted_volume]) = (&cells[..], &volume[..]) else {
+        return Err(foreign("its weights"));
+    };
+    let tally = Tally {
+        quadratic: *quadratic,
+        linear: *linear,
+        constant: *constant,
+        volume: *volume_only,
+        point_volume: *point_volume,
+        fitted_volume: *fitted_volume,
+    };
+    Ok(Weighing { weight, shift, soft, poor, tally })
 }
 
 /// The state in a checkpoint of the run that began with `first`.
@@ -54,7 +102,8 @@ pub fn store<const D: usize>(state: &State<D>) -> Store {
 pub fn take<const D: usize>(mut store: Store, first: &State<D>) -> Result<State<D>> {
     let counts = store.take::<u64>("state.counts", 1)?;
     let times = store.take::<f64>("state.times", 1)?;
-    let ([phase, step, frames, rows, log_lines, moving], [time, phase_time, step_size]) = (&counts[..], &times[..])
+    let ([phase, step, frames, rows, log_lines, moving, restorations], [time, phase_time, step_size]) =
+        (&counts[..], &times[..])
     else {
         return Err(foreign("its list of counts"));
     };
@@ -68,6 +117,8 @@ pub fn take<const D: usize>(mut store: Store, first: &State<D>) -> Result<State<
     let (velocity, acceleration) = (nodal("velocity")?, nodal("acceleration")?);
     let parametric = store.take::<f64>("state.parametric", 3)?.chunks_exact(3).map(|v| [v[0], v[1], v[2]]).collect();
     let taking_part = store.take::<u8>("state.taking_part", 1)?.into_iter().map(|b| b != 0).collect();
+    let penalised = store.take::<u8>("state.penalised", 1)?.into_iter().map(|b| b != 0).collect();
+    let weighing = take_weighing(&mut store)?;
     let points = columns::take(&mut store, POINTS)?;
     let state = State {
         phase: *phase as usize,
@@ -86,8 +137,13 @@ pub fn take<const D: usize>(mut store: Store, first: &State<D>) -> Result<State<
         velocity,
         acceleration,
         taking_part,
+        penalised,
+        weighing,
+        restorations: *restorations,
     };
-    if state.points.len() != first.points.len() || state.parametric.len() != state.points.len() {
+    if state.points.len() != first.points.len()
+        || [state.parametric.len(), state.weighing.weight.len()] != [state.points.len(); 2]
+    {
         return Err(foreign("the number of points"));
     }
     if state.displacement.len() != nodes || state.travel.len() != nodes {

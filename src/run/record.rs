@@ -3,7 +3,7 @@
 use crate::io::columns::padded;
 use crate::io::frame::{Column, Frame, Part};
 use crate::points::Points;
-use crate::step::{Report, Scene, State};
+use crate::step::{Report, Restore, Scene, State};
 
 /// A field of the frames.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -127,7 +127,7 @@ pub fn frame<const D: usize>(scene: &Scene<D>, state: &State<D>, fields: &[Field
         }
     });
     // A grid that is restored stays where the mesh has it.
-    let grid = if scene.numerics.restore_every_step {
+    let grid = if scene.numerics.restore == Restore::EveryStep {
         Part::default()
     } else {
         let x: Vec<[f64; D]> = scene
@@ -197,6 +197,9 @@ pub fn log_lines<const D: usize>(scene: &Scene<D>, state: &State<D>, report: &Re
             report.motion.angular,
             vector(&report.imbalance)
         ));
+    }
+    if report.restored && scene.numerics.restore != Restore::EveryStep {
+        line.push_str(" restored");
     }
     lines.push(line);
     lines

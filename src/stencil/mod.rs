@@ -6,12 +6,22 @@
 mod fill;
 mod jumps;
 mod mpm;
+mod reach;
 
 pub use fill::{SoftCell, cell_size, integrate, soft_cells};
 pub use jumps::{Jump, Jumps};
-pub use mpm::fill as fill_mpm;
+pub use reach::Reach;
 
 use crate::kinematics::{Gradient, Kinematics};
+use crate::mesh::Mesh;
+use crate::mesh::shape::MAX_NODES;
+
+/// How gradients at the points are formed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Scheme {
+    /// Those of the cell's own shape functions.
+    Mpm,
+}
 
 /// The points of one cell and the nodes they act on.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -21,9 +31,9 @@ pub struct Patch {
     /// The points: `Stencil::points[first_point..first_point + point_count]`.
     pub first_point: u32,
     pub point_count: u32,
-    /// Nodes of the cell.
-    pub node_count: u32,
-    /// Where the entries of the first point begin; those of each point follow node by node.
+    /// Local functions: the nodes of the cell, and what else a scheme forms gradients with.
+    pub function_count: u32,
+    /// Where the entries of the first point begin; those of each point follow function by function.
     first_entry: usize,
 }
 
@@ -40,6 +50,10 @@ pub struct Stencil<const D: usize> {
     gradient: Vec<[f64; D]>,
     /// Radius of the points (m), in the order of `points`; empty without hoop strain.
     radius: Vec<f64>,
+    /// What the points weigh in integrals (m³), as volume when seeded, in the order of `points`.
+    pub weight: Vec<f64>,
+    /// Where the gradients of a cell reach beyond its own nodes; absent where they do not.
+    pub reach: Option<Reach>,
 }
 
 /// The entries of one point.
@@ -47,7 +61,9 @@ pub struct Stencil<const D: usize> {
 pub struct Entries<'a, const D: usize> {
     /// The number of the point.
     pub point: usize,
-    /// `N_I` for the nodes of the patch.
+    /// What the point weighs in integrals (m³), as volume when seeded.
+    pub weight: f64,
+    /// `N_I` for the functions of the patch: its cell's nodes first.
     pub value: &'a [f64],
     gradient: &'a [[f64; D]],
     /// `1 / r`, zero without hoop strain.
@@ -62,12 +78,13 @@ impl<const D: usize> Stencil<D> {
 
     /// The entries of the points of a patch, in order.
     pub fn entries<K: Kinematics<D>>(&self, patch: &Patch) -> impl Iterator<Item = Entries<'_, D>> {
-        let (first, count) = (patch.first_point as usize, patch.node_count as usize);
+        let (first, count) = (patch.first_point as usize, patch.function_count as usize);
         let begin = patch.first_entry;
         (0..patch.point_count as usize).map(move |k| {
             let range = begin + k * count..begin + (k + 1) * count;
             Entries {
                 point: self.points[first + k] as usize,
+                weight: self.weight[first + k],
                 value: &self.value[range.clone()],
                 gradient: &self.gradient[range],
                 hoop: if K::HOOP { 1.0 / self.radius[first + k] } else { 0.0 },
@@ -76,8 +93,69 @@ impl<const D: usize> Stencil<D> {
     }
 }
 
+impl<const D: usize> Stencil<D> {
+    /// Fills the stencil for points in `cell` at the parametric coordinates `xi`, given per point. `taking_part`
+    /// marks the cells of the grid. The weights are for the caller to write.
+    pub fn fill<K: Kinematics<D>>(
+        &mut self,
+        scheme: Scheme,
+        mesh: &Mesh<D>,
+        cell: &[u32],
+        xi: &[[f64; 3]],
+        _taking_part: &[bool],
+    ) {
+        match scheme {
+            Scheme::Mpm => mpm::fill::<D, K>(self, mesh, cell, xi),
+        }
+        self.weight.resize(self.points.len(), 0.0);
+    }
+
+    /// Gives the points their weights (m³), by number, and the cells in `shift` what is added to the gradients of
+    /// their nodes (1/m).
+    pub fn weigh(&mut self, weight: &[f64], shift: &[(u32, Vec<[f64; D]>)]) {
+        for (own, &p) in self.weight.iter_mut().zip(&self.points) {
+            *own = weight[p as usize];
+        }
+        for (cell, shift) in shift {
+            let Ok(patch) = self.patches.binary_search_by_key(cell, |patch| patch.cell) else { continue };
+            let patch = self.patches[patch];
+            let count = patch.function_count as usize;
+            let entries = patch.first_entry..patch.first_entry + patch.point_count as usize * count;
+            for gradient in self.gradient[entries].chunks_exact_mut(count) {
+                for (gradient, shift) in gradient.iter_mut().zip(shift) {
+                    for d in 0..D {
+                        gradient[d] += shift[d];
+                    }
+                }
+            }
+        }
+    }
+
+    /// The nodes that a cell acts on: its own first.
+    pub fn nodes<'a>(&'a self, mesh: &'a Mesh<D>, cell: u32) -> &'a [u32] {
+        match &self.reach {
+            None => mesh.cells.nodes(cell as usize),
+            Some(reach) => reach.nodes(cell),
+        }
+    }
+
+    /// The coefficients of the patch's functions for a field on the nodes.
+    #[inline]
+    pub fn gather(&self, mesh: &Mesh<D>, patch: &Patch, field: &[[f64; D]]) -> [[f64; D]; MAX_NODES] {
+        let nodes = mesh.cells.nodes(patch.cell as usize);
+        if let Some(reach) = &self.reach {
+            return reach.gather(patch.cell, nodes.len(), field);
+        }
+        let mut local = [[0.0; D]; MAX_NODES];
+        for (local, &n) in local.iter_mut().zip(nodes) {
+            *local = field[n as usize];
+        }
+        local
+    }
+}
+
 impl<const D: usize> Entries<'_, D> {
-    /// The gradient of node `i` of the patch.
+    /// The gradient of function `i` of the patch.
     pub fn gradient(&self, i: usize) -> Gradient<D> {
         Gradient { g: self.gradient[i], hoop: self.hoop * self.value[i] }
     }

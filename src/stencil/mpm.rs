@@ -9,7 +9,7 @@ use rayon::prelude::*;
 /// Fills `stencil` for points in `cell` at the parametric coordinates `xi`, given per point.
 pub fn fill<const D: usize, K: Kinematics<D>>(stencil: &mut Stencil<D>, mesh: &Mesh<D>, cell: &[u32], xi: &[[f64; 3]]) {
     group(stencil, mesh, cell);
-    let entries = stencil.patches.last().map_or(0, |p| p.first_entry + (p.point_count * p.node_count) as usize);
+    let entries = stencil.patches.last().map_or(0, |p| p.first_entry + (p.point_count * p.function_count) as usize);
     stencil.value.clear();
     stencil.value.resize(entries, 0.0);
     stencil.gradient.clear();
@@ -23,7 +23,7 @@ pub fn fill<const D: usize, K: Kinematics<D>>(stencil: &mut Stencil<D>, mesh: &M
     let (mut value, mut gradient) = (&mut stencil.value[..], &mut stencil.gradient[..]);
     let mut radius = &mut stencil.radius[..];
     for patch in &stencil.patches {
-        let count = (patch.point_count * patch.node_count) as usize;
+        let count = (patch.point_count * patch.function_count) as usize;
         let (v, g);
         (v, value) = value.split_at_mut(count);
         (g, gradient) = gradient.split_at_mut(count);
@@ -34,7 +34,7 @@ pub fn fill<const D: usize, K: Kinematics<D>>(stencil: &mut Stencil<D>, mesh: &M
     let points = &stencil.points;
     slots.into_par_iter().for_each(|(patch, value, gradient, radius)| {
         let cell = patch.cell as usize;
-        let count = patch.node_count as usize;
+        let count = patch.function_count as usize;
         let mut x = [[0.0; D]; MAX_NODES];
         for (x, &n) in x.iter_mut().zip(mesh.cells.nodes(cell)) {
             *x = mesh.nodes[n as usize];
@@ -63,10 +63,16 @@ fn group<const D: usize>(stencil: &mut Stencil<D>, mesh: &Mesh<D>, cell: &[u32])
         let points = count[c + 1];
         count[c + 1] += count[c];
         if points > 0 {
-            let node_count = mesh.cells.nodes(c).len() as u32;
+            let function_count = mesh.cells.nodes(c).len() as u32;
             let first_point = count[c];
-            stencil.patches.push(Patch { cell: c as u32, first_point, point_count: points, node_count, first_entry });
-            first_entry += (points * node_count) as usize;
+            stencil.patches.push(Patch {
+                cell: c as u32,
+                first_point,
+                point_count: points,
+                function_count,
+                first_entry,
+            });
+            first_entry += (points * function_count) as usize;
         }
     }
     stencil.points.clear();

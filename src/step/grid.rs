@@ -1,15 +1,17 @@
 //! The grid of a run: which cells take part, the numbering of the unknowns and the stencil of the points.
 //! All of it follows from the scene and the state, and is made anew only as far as they changed.
 
-use super::scene::{Fixed, Scene};
+use super::ghost_faces;
+use super::scene::{Fixed, Restore, Scene};
 use super::state::State;
 use crate::error::{Error, Result};
 use crate::kinematics::Kinematics;
 use crate::mesh::Mesh;
 use crate::points::Points;
-use crate::stencil::{SoftCell, Stencil, fill_mpm, soft_cells};
+use crate::quadrature::Weighing;
+use crate::stencil::Stencil;
 use crate::system::{Cliques, Matrix, Pattern, Solver, Workspace};
-use crate::term::Frame;
+use crate::term::{Frame, GhostFace};
 use rayon::prelude::*;
 
 /// Rings of cells around those with points that take part too, so that points can move on for a while
@@ -26,7 +28,10 @@ pub struct System {
 /// The grid of a run.
 pub struct Grid<const D: usize> {
     pub stencil: Stencil<D>,
-    pub soft: Vec<SoftCell>,
+    /// The faces that take a ghost penalty.
+    pub ghost: Vec<GhostFace>,
+    /// The clique of each face that the system has room for a penalty at, else `u32::MAX`; empty without faces.
+    face_clique: Vec<u32>,
     /// The clique of each cell and the block of each node; `u32::MAX` for those left out.
     pub clique: Vec<u32>,
     pub block: Vec<u32>,
@@ -48,11 +53,42 @@ impl System {
 }
 
 impl<const D: usize> Grid<D> {
-    /// The grid of a state whose points are located.
+    /// The grid of a state whose points are located and weighed.
     ///
     /// # Errors
     /// A machine error when memory does not suffice.
     pub fn new<K: Kinematics<D>>(scene: &Scene<D>, state: &State<D>) -> Result<Self> {
+        let mut stencil = Stencil::default();
+        fill::<D, K>(&mut stencil, scene, state);
+        stencil.weigh(&state.weighing.weight, &state.weighing.shift);
+        Self::with(scene, state, stencil)
+    }
+
+    /// The grid in its first shape, with the points on it.
+    ///
+    /// # Errors
+    /// When a point lies outside the grid, or memory does not suffice.
+    pub fn first<K: Kinematics<D>>(scene: &Scene<D>, state: &mut State<D>) -> Result<Self> {
+        let mut stencil = Stencil::default();
+        begin_anew::<D, K>(scene, state, &mut stencil)?;
+        Self::with(scene, state, stencil)
+    }
+
+    /// Restores the grid.
+    ///
+    /// # Errors
+    /// As [`Grid::first`].
+    pub fn restore<K: Kinematics<D>>(&mut self, scene: &Scene<D>, state: &mut State<D>) -> Result<()> {
+        if begin_anew::<D, K>(scene, state, &mut self.stencil)? {
+            *self = Self::with(scene, state, std::mem::take(&mut self.stencil))?;
+        } else {
+            self.penalise(ghost_faces::choose(scene, state));
+        }
+        Ok(())
+    }
+
+    /// The grid for a stencil.
+    fn with(scene: &Scene<D>, state: &State<D>, stencil: Stencil<D>) -> Result<Self> {
         let mesh = &scene.mesh;
         let (mut clique, mut block) = (vec![u32::MAX; mesh.cells.len()], vec![u32::MAX; mesh.nodes.len()]);
         let (mut cliques, mut node) = (Cliques::default(), Vec::new());
@@ -66,43 +102,42 @@ impl<const D: usize> Grid<D> {
             node.push(n as u32);
         }
         for c in (0..mesh.cells.len()).filter(|&c| state.taking_part[c]) {
-            clique[c] = cliques.push(mesh.cells.nodes(c).iter().map(|&n| block[n as usize]));
+            clique[c] = cliques.push(stencil.nodes(mesh, c as u32).iter().map(|&n| block[n as usize]));
+        }
+        let mut face_clique = Vec::new();
+        if let Some(faces) = &scene.faces {
+            face_clique.resize(faces.inner.len(), u32::MAX);
+            for (face, clique) in faces.inner.iter().zip(&mut face_clique) {
+                if ghost_faces::has_room(state, face) {
+                    let [first, second] = face.cells.map(|c| mesh.cells.nodes(c as usize));
+                    let nodes = first.iter().chain(second.iter().filter(|n| !first.contains(n)));
+                    *clique = cliques.push(nodes.map(|&n| block[n as usize]));
+                }
+            }
         }
         let dynamic = scene.phases.iter().any(|p| p.dynamic);
         let mass = if dynamic { Some(System::new(node.len(), 1, cliques.clone(), true)?) } else { None };
         let symmetric = scene.terms.iter().all(|t| t.symmetric());
         let motion = System::new(node.len(), D as u8, cliques, symmetric)?;
-        let mut grid = Self {
-            stencil: Stencil::default(),
-            soft: Vec::new(),
-            clique,
-            block,
-            node,
-            motion,
-            mass,
-            workspace: Workspace::default(),
-        };
-        grid.see_points::<K>(scene, state);
+        let workspace = Workspace::default();
+        let mut grid = Self { stencil, ghost: Vec::new(), face_clique, clique, block, node, motion, mass, workspace };
+        grid.penalise(ghost_faces::choose(scene, state));
         Ok(grid)
     }
 
-    /// Fills the stencil for the points where they were last located.
-    pub fn see_points<K: Kinematics<D>>(&mut self, scene: &Scene<D>, state: &State<D>) {
-        fill_mpm::<D, K>(&mut self.stencil, &scene.mesh, &state.points.cell, &state.parametric);
-        self.soft = if scene.numerics.restore_every_step {
-            soft_cells::<D, K>(&scene.mesh, &self.stencil, &state.points, &state.taking_part)
-        } else {
-            // A grid that is never restored carries its points along: its cells stay as full as seeded.
-            Vec::new()
-        };
+    /// Takes the faces that are to have a ghost penalty.
+    fn penalise(&mut self, faces: Vec<u32>) {
+        self.ghost.clear();
+        self.ghost.extend(faces.into_iter().map(|face| GhostFace { face, clique: self.face_clique[face as usize] }));
     }
 
     /// What the terms see.
-    pub fn frame<'a>(&'a self, mesh: &'a Mesh<D>, points: &'a Points<D>) -> Frame<'a, D> {
+    pub fn frame<'a>(&'a self, mesh: &'a Mesh<D>, points: &'a Points<D>, weighing: &'a Weighing<D>) -> Frame<'a, D> {
         Frame {
             mesh,
             stencil: &self.stencil,
-            soft: &self.soft,
+            soft: &weighing.soft,
+            ghost: &self.ghost,
             points,
             pattern: &self.motion.pattern,
             clique: &self.clique,
@@ -111,11 +146,46 @@ impl<const D: usize> Grid<D> {
     }
 }
 
+/// Goes back to the first shape of the grid: finds the points on it, chooses the cells that take part and weighs
+/// the points. True when the system must have another pattern than before.
+///
+/// # Errors
+/// When a point lies outside the grid.
+fn begin_anew<const D: usize, K: Kinematics<D>>(
+    scene: &Scene<D>,
+    state: &mut State<D>,
+    stencil: &mut Stencil<D>,
+) -> Result<bool> {
+    locate_points(scene, state)?;
+    let changed = choose_cells(scene, state);
+    state.displacement.fill([0.0; D]);
+    state.restorations += 1;
+    fill::<D, K>(stencil, scene, state);
+    let points = &state.points;
+    state.weighing = scene.quadrature.weigh(&scene.mesh, points, &state.parametric, stencil, &state.taking_part);
+    if scene.numerics.restore == Restore::Never {
+        // A grid that is never restored carries its points along: its cells stay as full as seeded.
+        state.weighing.soft.clear();
+    }
+    stencil.weigh(&state.weighing.weight, &state.weighing.shift);
+    if let Some(faces) = &scene.faces {
+        let chosen = ghost_faces::choose(scene, state);
+        return Ok(ghost_faces::make_room(faces, state, &chosen) || changed);
+    }
+    Ok(changed)
+}
+
+/// Fills the stencil for the points where they were last located.
+fn fill<const D: usize, K: Kinematics<D>>(stencil: &mut Stencil<D>, scene: &Scene<D>, state: &State<D>) {
+    let (cell, scheme) = (&state.points.cell, scene.numerics.scheme);
+    stencil.fill::<K>(scheme, &scene.mesh, cell, &state.parametric, &state.taking_part);
+}
+
 /// Finds the cell of every point of the restored grid.
 ///
 /// # Errors
 /// An analysis error that names the first point outside the grid.
-pub fn locate_points<const D: usize>(scene: &Scene<D>, state: &mut State<D>) -> Result<()> {
+fn locate_points<const D: usize>(scene: &Scene<D>, state: &mut State<D>) -> Result<()> {
     let points = &mut state.points;
     let position = &points.position;
     state.parametric.resize(position.len(), [0.0; 3]);
@@ -146,7 +216,7 @@ pub fn locate_points<const D: usize>(scene: &Scene<D>, state: &mut State<D>) -> 
 }
 
 /// Decides which cells take part; true when that changed since the last time.
-pub fn choose_cells<const D: usize>(scene: &Scene<D>, state: &mut State<D>) -> bool {
+fn choose_cells<const D: usize>(scene: &Scene<D>, state: &mut State<D>) -> bool {
     let cells = scene.mesh.cells.len();
     if state.taking_part.len() == cells && state.points.cell.iter().all(|&c| state.taking_part[c as usize]) {
         return false;
@@ -155,7 +225,7 @@ pub fn choose_cells<const D: usize>(scene: &Scene<D>, state: &mut State<D>) -> b
     for &c in &state.points.cell {
         chosen[c as usize] = true;
     }
-    if scene.numerics.restore_every_step {
+    if scene.numerics.restore != Restore::Never {
         let mut reached = vec![false; scene.mesh.nodes.len()];
         for _ in 0..RINGS {
             for c in (0..cells).filter(|&c| chosen[c]) {

@@ -5,6 +5,8 @@
 //! implicitly. *Convect* moves the points with the grid and hands them its motion and the converged state.
 
 mod control;
+mod distortion;
+mod ghost_faces;
 mod grid;
 mod newton;
 mod report;
@@ -16,7 +18,7 @@ pub use control::{Controller, Limits};
 pub use grid::Grid;
 pub use newton::Solution;
 pub use report::Report;
-pub use scene::{Fixed, Numerics, Phase, Prescribed, Scene, Stop};
+pub use scene::{Fixed, Numerics, Phase, Prescribed, Restore, Scene, Stop};
 pub use state::State;
 
 use crate::error::{Kind, Result};
@@ -41,11 +43,8 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
     /// # Errors
     /// When a point lies outside the grid, or memory does not suffice.
     pub fn new(scene: &'a Scene<D>, mut state: State<D>) -> Result<Self> {
-        if state.parametric.is_empty() {
-            grid::locate_points(scene, &mut state)?;
-            grid::choose_cells(scene, &mut state);
-        }
-        let grid = Grid::new::<K>(scene, &state)?;
+        let first = state.parametric.is_empty();
+        let grid = if first { Grid::first::<K>(scene, &mut state)? } else { Grid::new::<K>(scene, &state)? };
         Ok(Self { scene, state, grid, kinematics: PhantomData })
     }
 
@@ -70,37 +69,47 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
     /// # Errors
     /// When a point left the grid, the step falls below the least one, or memory does not suffice.
     pub fn advance(&mut self, controller: &mut Controller) -> Result<Report<D>> {
-        timed(Activity::Transfer, || self.initialise())?;
+        let before = self.state.restorations;
+        let mut fresh = timed(Activity::Transfer, || self.initialise(false))?;
         let (dt, start, solution) = loop {
             let dt = controller.size(self.state.phase_time);
             match self.lagrange(dt) {
                 Ok((start, solution)) => break (dt, start, solution),
-                Err(error) if error.kind == Kind::Analysis => controller.halve(dt, error)?,
+                Err(error) if error.kind == Kind::Analysis => {
+                    if fresh {
+                        controller.halve(dt, error)?;
+                    } else {
+                        // A distorted grid is the first thing to blame.
+                        fresh = timed(Activity::Transfer, || self.initialise(true))?;
+                    }
+                }
                 // No step is small enough for a machine without memory.
                 Err(error) => return Err(error),
             }
         };
         let mut report = timed(Activity::Transfer, || self.convect(dt, start, solution))?;
+        report.restored = self.state.restorations > before;
         report.halvings = controller.accept(dt, report.iterations());
         Ok(report)
     }
 
-    /// Points to grid.
-    fn initialise(&mut self) -> Result<()> {
+    /// Points to grid, where the grid is to be restored or `forced` to be. True when nothing has moved on it yet
+    /// or never will be restored.
+    fn initialise(&mut self, forced: bool) -> Result<bool> {
         let (scene, state) = (self.scene, &mut self.state);
-        if scene.numerics.restore_every_step {
-            grid::locate_points(scene, state)?;
-            if grid::choose_cells(scene, state) {
-                self.grid = Grid::new::<K>(scene, state)?;
-            } else {
-                self.grid.see_points::<K>(scene, state);
-            }
-            state.displacement.fill([0.0; D]);
+        let moved = state.displacement.iter().flatten().any(|&u| u != 0.0);
+        let restore = match scene.numerics.restore {
+            Restore::EveryStep => true,
+            Restore::Never => false,
+            Restore::Quality { least } => moved && (forced || distortion::exceeds(scene, state, &self.grid, least)),
+        };
+        if restore {
+            self.grid.restore::<K>(scene, state)?;
         }
-        if scene.phases[state.phase].dynamic {
+        if scene.phases[state.phase].dynamic && (restore || !state.moving) {
             transfer::motion_to_grid::<D, K>(scene, &mut self.grid, state)?;
         }
-        Ok(())
+        Ok(restore || !moved || scene.numerics.restore == Restore::Never)
     }
 
     /// The solution on the grid and, with inertia, the motion that it starts from.
@@ -114,6 +123,7 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
         let problem = Problem {
             scene,
             points: &state.points,
+            weighing: &state.weighing,
             converged: &state.displacement,
             velocity,
             acceleration,

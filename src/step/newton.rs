@@ -5,6 +5,7 @@ use super::scene::Scene;
 use crate::error::{Error, Result};
 use crate::points::Points;
 use crate::profile::{Activity, timed};
+use crate::quadrature::Weighing;
 use crate::stencil::cell_size;
 use crate::system::{Matrix, Method};
 use crate::term::{Assembly, Role, Trial};
@@ -25,6 +26,7 @@ const ROUNDING: f64 = 1e-14;
 pub struct Problem<'a, const D: usize> {
     pub scene: &'a Scene<D>,
     pub points: &'a Points<D>,
+    pub weighing: &'a Weighing<D>,
     /// State of the nodes at the last converged step.
     pub converged: &'a [[f64; D]],
     pub velocity: &'a [[f64; D]],
@@ -331,7 +333,7 @@ fn add_terms<const D: usize>(
     wanted: &dyn Fn(Role) -> bool,
 ) -> Result<Evaluation<D>> {
     let mut workspace = std::mem::take(&mut grid.workspace);
-    let frame = grid.frame(&problem.scene.mesh, problem.points);
+    let frame = grid.frame(&problem.scene.mesh, problem.points, problem.weighing);
     let equations = frame.pattern.len();
     let mut sum = Evaluation { force: vec![0.0; equations], applied: [0.0; D], scale: 0.0 };
     let mut own = vec![0.0; equations];

@@ -46,6 +46,8 @@ pub struct Report<const D: usize> {
     /// Relative residuals, the first before the first iteration.
     pub residuals: Vec<f64>,
     pub method: Method,
+    /// Whether the grid was restored before the step.
+    pub restored: bool,
     /// Why the step was halved before, each time.
     pub halvings: Vec<String>,
     pub motion: Motion<D>,
@@ -87,6 +89,7 @@ impl<const D: usize> Report<D> {
             dt,
             residuals: solution.history,
             method: solution.method,
+            restored: false,
             halvings: Vec::new(),
             imbalance,
             elastic: scene.terms.iter().map(|t| t.energy(&state.points)).sum(),

@@ -1,7 +1,10 @@
 //! A scene: everything that does not change while it is solved.
 
 use crate::mesh::Mesh;
+use crate::mesh::faces::Faces;
 use crate::mesh::locate::Locator;
+use crate::quadrature::Quadrature;
+use crate::stencil::Scheme;
 use crate::term::Term;
 use crate::time_value::TimeValue;
 
@@ -11,6 +14,10 @@ pub struct Scene<const D: usize> {
     pub locator: Locator<D>,
     /// The terms of the equations; what the scene does not use is absent.
     pub terms: Vec<Box<dyn Term<D>>>,
+    /// The faces between the cells; absent where none takes a ghost penalty.
+    pub faces: Option<Faces>,
+    /// What the points weigh in integrals.
+    pub quadrature: Box<dyn Quadrature<D>>,
     /// Degrees of freedom held at their place in every phase.
     pub supports: Vec<Fixed>,
     pub phases: Vec<Phase>,
@@ -71,11 +78,26 @@ pub struct Stop {
     pub frame: bool,
 }
 
+/// When the grid goes back to its first shape.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Restore {
+    EveryStep,
+    /// When a cell with points is distorted beyond a limit or Newton's iteration fails (paper §2.8).
+    Quality {
+        /// Least quality of a cell relative to its first one (-).
+        least: f64,
+    },
+    /// Updated Lagrangian: the grid moves with the material.
+    Never,
+}
+
 /// Settings of the numerical method.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Numerics {
-    /// Restore the grid in every step; never otherwise (updated Lagrangian).
-    pub restore_every_step: bool,
+    /// How gradients at the points are formed.
+    pub scheme: Scheme,
+    /// When the grid goes back to its first shape.
+    pub restore: Restore,
     /// ρ∞ (-) of the generalised-α method.
     pub spectral_radius: f64,
     /// Relative residual (-) at which Newton's iteration ends.

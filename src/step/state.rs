@@ -1,6 +1,7 @@
 //! The state of a run: all that a checkpoint holds. Everything else follows from it and the scene.
 
 use crate::points::Points;
+use crate::quadrature::Weighing;
 
 /// The state at the last converged step.
 #[derive(Clone, Debug, PartialEq)]
@@ -35,6 +36,12 @@ pub struct State<const D: usize> {
     pub acceleration: Vec<[f64; D]>,
     /// Cells that take part in the solution; empty before the first step.
     pub taking_part: Vec<bool>,
+    /// Cells whose faces the system has room for a ghost penalty at; empty where the scene has none.
+    pub penalised: Vec<bool>,
+    /// What the points weigh, as of the last restoration.
+    pub weighing: Weighing<D>,
+    /// Restorations so far.
+    pub restorations: u64,
 }
 
 impl<const D: usize> State<D> {
@@ -57,6 +64,9 @@ impl<const D: usize> State<D> {
             velocity: Vec::new(),
             acceleration: Vec::new(),
             taking_part: Vec::new(),
+            penalised: Vec::new(),
+            weighing: Weighing::default(),
+            restorations: 0,
         }
     }
 

@@ -10,7 +10,6 @@ use super::state::State;
 use crate::error::{Error, Result};
 use crate::kinematics::Kinematics;
 use crate::mesh::shape::MAX_NODES;
-use crate::points::Points;
 use crate::stencil::{SoftCell, cell_size, integrate};
 use crate::system::{Method, scatter};
 use crate::term::Trial;
@@ -37,9 +36,10 @@ impl<'a> Mass<'a> {
     fn assemble<const D: usize, K: Kinematics<D>>(
         scene: &Scene<D>,
         grid: &'a mut Grid<D>,
-        points: &Points<D>,
+        state: &State<D>,
     ) -> Result<Self> {
-        let spread = spread_cells(grid);
+        let spread = spread_cells(grid, &state.weighing.soft);
+        let points = &state.points;
         let Some(system) = grid.mass.as_mut() else {
             return Err(Error::analysis("transfer", "a scene without dynamic phases has no mass system", ""));
         };
@@ -119,18 +119,18 @@ impl<'a> Mass<'a> {
 }
 
 /// The cells whose nodes the motion is spread over, with their share of the penalty.
-fn spread_cells<const D: usize>(grid: &Grid<D>) -> Vec<SoftCell> {
+fn spread_cells<const D: usize>(grid: &Grid<D>, soft: &[SoftCell]) -> Vec<SoftCell> {
     const FEW: f64 = 0.1;
-    let few = grid.stencil.patches.iter().filter(|patch| patch.point_count < patch.node_count);
+    let few = grid.stencil.patches.iter().filter(|patch| patch.point_count < patch.function_count);
     let mut cells: Vec<SoftCell> = few.map(|patch| SoftCell { cell: patch.cell, emptiness: FEW }).collect();
-    cells.extend(&grid.soft);
+    cells.extend(soft);
     cells.sort_by(|a, b| a.cell.cmp(&b.cell).then(b.emptiness.total_cmp(&a.emptiness)));
     cells.dedup_by_key(|soft| soft.cell);
     cells
 }
 
-/// Brings velocity and acceleration to the nodes: from the points after a restoration, from the forces at the
-/// first step of a motion; a grid that moves with the material keeps its own.
+/// Brings velocity and acceleration to the nodes: from the points, and from the forces at the first step of a
+/// motion.
 ///
 /// # Errors
 /// When the mass on the nodes cannot be inverted.
@@ -140,14 +140,9 @@ pub fn motion_to_grid<const D: usize, K: Kinematics<D>>(
     state: &mut State<D>,
 ) -> Result<()> {
     let count = state.points.len();
-    if state.moving && !scene.numerics.restore_every_step {
-        return Ok(());
-    }
     state.points.velocity.resize(count, [0.0; D]);
     state.points.acceleration.resize(count, [0.0; D]);
-    let points = &state.points;
-    [state.velocity, state.acceleration] =
-        to_nodes::<D, K>(scene, grid, points, [&points.velocity, &points.acceleration])?;
+    [state.velocity, state.acceleration] = to_nodes::<D, K>(scene, grid, state)?;
     if !state.moving {
         state.acceleration = first_acceleration::<D, K>(scene, grid, state)?;
         state.points.acceleration = to_points::<D, K>(scene, grid, &state.acceleration, count);
@@ -212,6 +207,7 @@ fn first_acceleration<const D: usize, K: Kinematics<D>>(
     let problem = Problem {
         scene,
         points: &state.points,
+        weighing: &state.weighing,
         converged: &state.displacement,
         velocity: &state.velocity,
         acceleration: &state.acceleration,
@@ -230,7 +226,7 @@ fn first_acceleration<const D: usize, K: Kinematics<D>>(
             fixed[n as usize][f.component] = true;
         }
     }
-    let mut mass = Mass::assemble::<D, K>(scene, grid, &state.points)?;
+    let mut mass = Mass::assemble::<D, K>(scene, grid, state)?;
     for d in 0..D {
         let held: Vec<bool> = node.iter().map(|&n| fixed[n as usize][d]).collect();
         let mut x: Vec<f64> = (0..node.len()).map(|b| -force[b * D + d]).collect();
@@ -263,7 +259,7 @@ pub fn commit<const D: usize>(
         time: state.phase_time,
     };
     let updates: Vec<_> = {
-        let frame = grid.frame(&scene.mesh, &state.points);
+        let frame = grid.frame(&scene.mesh, &state.points, &state.weighing);
         scene.terms.iter().map(|term| term.commit(&frame, &trial)).collect::<Result<_>>()?
     };
     for update in updates.into_iter().flatten() {
@@ -324,16 +320,17 @@ pub fn motion_to_points<const D: usize, K: Kinematics<D>>(
     state.points.acceleration = to_points::<D, K>(scene, grid, &state.acceleration, count);
 }
 
-/// Maps a field of the points to the nodes, weighted by mass.
+/// Velocity and acceleration of the points, mapped to the nodes, weighted by mass.
 ///
 /// # Errors
 /// As [`Mass::assemble`].
 fn to_nodes<const D: usize, K: Kinematics<D>>(
     scene: &Scene<D>,
     grid: &mut Grid<D>,
-    points: &Points<D>,
-    fields: [&[[f64; D]]; 2],
+    state: &State<D>,
 ) -> Result<[Vec<[f64; D]>; 2]> {
+    let points = &state.points;
+    let fields = [&points.velocity, &points.acceleration];
     let mut right: [Vec<[f64; D]>; 2] = [0, 1].map(|_| vec![[0.0; D]; grid.node.len()]);
     for patch in &grid.stencil.patches {
         let nodes = scene.mesh.cells.nodes(patch.cell as usize);
@@ -350,7 +347,7 @@ fn to_nodes<const D: usize, K: Kinematics<D>>(
         }
     }
     let node = grid.node.clone();
-    let mut mass = Mass::assemble::<D, K>(scene, grid, points)?;
+    let mut mass = Mass::assemble::<D, K>(scene, grid, state)?;
     let mut nodal = [0, 1].map(|_| vec![[0.0; D]; scene.mesh.nodes.len()]);
     for (right, nodal) in right.iter().zip(&mut nodal) {
         for d in 0..D {

@@ -1,9 +1,12 @@
-//! Body force of the material points: `−Σ_p m_p N_I g`, times a load factor in the phase's time.
+//! Body force of the material points: `−Σ_p ρ_p w_p N_I g`, times a load factor in the phase's time.
+//!
+//! It is integrated with the weights of the internal force, so that both sides of equilibrium err alike.
 
-use super::{Assembly, Frame, Role, Term, Trial};
+use super::{Assembly, Frame, Role, Term, Trial, scatter_patches};
 use crate::error::Result;
 use crate::kinematics::Kinematics;
-use crate::system::scatter;
+use crate::stencil::Patch;
+use crate::system::Local;
 use crate::time_value::TimeValue;
 use std::marker::PhantomData;
 
@@ -31,13 +34,12 @@ impl<const D: usize, K: Kinematics<D>> Term<D> for BodyForce<K, D> {
     fn assemble(&self, frame: &Frame<D>, trial: &Trial<D>, out: &mut Assembly) -> Result<()> {
         let factor = self.factors[trial.phase].at(trial.time);
         let load = self.gravity.map(|g| -factor * g);
-        scatter(
-            frame.pattern,
-            &frame.stencil.patches,
-            |patch| frame.clique[patch.cell as usize] as usize,
-            |patch, local| {
+        scatter_patches(
+            frame,
+            |patch: &Patch, local: &mut Local| {
                 for entries in frame.stencil.entries::<K>(patch) {
-                    let mass = frame.points.mass[entries.point];
+                    let p = entries.point;
+                    let mass = frame.points.mass[p] / frame.points.initial_volume[p] * entries.weight;
                     for (i, n) in entries.value.iter().enumerate() {
                         for d in 0..D {
                             local.vector[i * D + d] += mass * n * load[d];
@@ -46,9 +48,7 @@ impl<const D: usize, K: Kinematics<D>> Term<D> for BodyForce<K, D> {
                 }
                 Ok(())
             },
-            out.force,
-            None,
-            out.workspace,
+            &mut Assembly { force: out.force, tangent: None, workspace: out.workspace },
         )
     }
 }

@@ -56,7 +56,8 @@ impl<const D: usize, K: Kinematics<D>> Term<D> for EmptyCells<K> {
             let cell = soft.cell as usize;
             let unit = self.unit[cell].get_or_init(|| unit_stiffness::<D, K>(frame.mesh, cell));
             let stiffness = self.stiffness * soft.emptiness;
-            for (row, force) in unit.chunks_exact(local.size).zip(local.vector.iter_mut()) {
+            let size = D * frame.mesh.cells.nodes(cell).len();
+            for (row, force) in unit.chunks_exact(size).zip(local.vector.iter_mut()) {
                 for (columns, &n) in row.chunks_exact(D).zip(frame.mesh.cells.nodes(cell)) {
                     let (u, before) = (&trial.between[n as usize], &trial.converged[n as usize]);
                     for k in 0..D {
@@ -64,8 +65,10 @@ impl<const D: usize, K: Kinematics<D>> Term<D> for EmptyCells<K> {
                     }
                 }
             }
-            for (entry, unit) in local.matrix.iter_mut().zip(unit) {
-                *entry = (1.0 - trial.alpha_f) * stiffness * unit;
+            for (entries, unit) in local.matrix.chunks_exact_mut(local.size).zip(unit.chunks_exact(size)) {
+                for (entry, unit) in entries.iter_mut().zip(unit) {
+                    *entry = (1.0 - trial.alpha_f) * stiffness * unit;
+                }
             }
             Ok(())
         };

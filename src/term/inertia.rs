@@ -2,10 +2,11 @@
 //!
 //! Row-summed masses are out of the question: the corner functions of a six-node triangle integrate to zero.
 
-use super::{Assembly, Frame, Role, Term, Trial};
+use super::{Assembly, Frame, Role, Term, Trial, scatter_patches};
 use crate::error::Result;
 use crate::kinematics::Kinematics;
-use crate::system::{Local, scatter};
+use crate::stencil::Patch;
+use crate::system::Local;
 use std::marker::PhantomData;
 
 /// The inertia of all material points.
@@ -21,11 +22,9 @@ impl<const D: usize, K: Kinematics<D>> Term<D> for Inertia<K> {
 
     fn assemble(&self, frame: &Frame<D>, trial: &Trial<D>, out: &mut Assembly) -> Result<()> {
         let wanted = out.tangent.is_some();
-        scatter(
-            frame.pattern,
-            &frame.stencil.patches,
-            |patch| frame.clique[patch.cell as usize] as usize,
-            |patch, local| {
+        scatter_patches(
+            frame,
+            |patch: &Patch, local: &mut Local| {
                 let nodes = frame.mesh.cells.nodes(patch.cell as usize);
                 for entries in frame.stencil.entries::<K>(patch) {
                     let mass = frame.points.mass[entries.point];
@@ -46,9 +45,7 @@ impl<const D: usize, K: Kinematics<D>> Term<D> for Inertia<K> {
                 }
                 Ok(())
             },
-            out.force,
-            out.tangent.as_deref_mut(),
-            out.workspace,
+            out,
         )
     }
 }

@@ -8,7 +8,7 @@
 //! stands `A W`, `A = (1 − α_f) I + α_f ΔF⁻¹`, `W = (1 − α_f) τ + α_f ΔF τ_n ΔFᵀ`. `A W Aᵀ` being symmetric,
 //! the forces have no moment about the positions in between, where the trapezoidal rule needs it.
 
-use super::{Assembly, Frame, History, Term, Trial, Update};
+use super::{Assembly, Frame, History, Term, Trial, Update, scatter_patches};
 use crate::error::{Error, Result};
 use crate::kinematics::{Gradient, Kinematics};
 use crate::material::spatial::Spatial;
@@ -17,7 +17,7 @@ use crate::mesh::shape::MAX_NODES;
 use crate::points::Points;
 use crate::profile::timed_material;
 use crate::stencil::{Entries, Patch};
-use crate::system::{Local, scatter};
+use crate::system::Local;
 use crate::tensor::{Tensor, full, symmetric};
 use rayon::prelude::*;
 use std::marker::PhantomData;
@@ -111,8 +111,8 @@ impl<K> Internal<K> {
     where
         K: Kinematics<D>,
     {
-        let now = gather(frame, patch, trial.displacement);
-        let before = gather(frame, patch, trial.converged);
+        let now = frame.stencil.gather(frame.mesh, patch, trial.displacement);
+        let before = frame.stencil.gather(frame.mesh, patch, trial.converged);
         // In the first step after a restoration nothing has moved before.
         let moved = before.iter().flatten().any(|&u| u != 0.0);
         let mut strained = Vec::with_capacity(patch.point_count as usize);
@@ -167,15 +167,6 @@ fn inadmissible(point: usize, what: &str, deformation: &Tensor) -> Error {
     )
 }
 
-/// Copies the nodal vectors of a patch.
-fn gather<const D: usize>(frame: &Frame<D>, patch: &Patch, field: &[[f64; D]]) -> [[f64; D]; MAX_NODES] {
-    let mut local = [[0.0; D]; MAX_NODES];
-    for (local, &n) in local.iter_mut().zip(frame.mesh.cells.nodes(patch.cell as usize)) {
-        *local = field[n as usize];
-    }
-    local
-}
-
 impl<const D: usize, K: Kinematics<D>> Term<D> for Internal<K> {
     fn symmetric(&self) -> bool {
         !self.dynamic && self.models.iter().flatten().all(|m| m.symmetric())
@@ -186,10 +177,10 @@ impl<const D: usize, K: Kinematics<D>> Term<D> for Internal<K> {
         let symmetric = frame.pattern.symmetric;
         let compute = |patch: &Patch, local: &mut Local| {
             let (strained, answers) = self.evaluate(frame, trial, patch)?;
-            let count = patch.node_count as usize;
+            let count = patch.function_count as usize;
             for ((entries, point), mut answer) in frame.stencil.entries::<K>(patch).zip(&strained).zip(answers) {
                 let stress = weighted_stress::<D, K>(frame.points, entries.point, trial.alpha_f, point, &mut answer)?;
-                let volume = frame.points.initial_volume[entries.point];
+                let volume = entries.weight;
                 let mut spatial = [Gradient { g: [0.0; D], hoop: 0.0 }; MAX_NODES];
                 for i in 0..count {
                     spatial[i] = K::push_forward(&entries.gradient(i), &point.inverse);
@@ -208,15 +199,7 @@ impl<const D: usize, K: Kinematics<D>> Term<D> for Internal<K> {
             }
             Ok(())
         };
-        scatter(
-            frame.pattern,
-            &frame.stencil.patches,
-            |patch| frame.clique[patch.cell as usize] as usize,
-            compute,
-            out.force,
-            out.tangent.as_deref_mut(),
-            out.workspace,
-        )
+        scatter_patches(frame, compute, out)
     }
 
     fn energy(&self, points: &Points<D>) -> f64 {

@@ -19,9 +19,18 @@ pub use traction::Traction;
 use crate::error::Result;
 use crate::mesh::Mesh;
 use crate::points::Points;
-use crate::stencil::{SoftCell, Stencil};
-use crate::system::{Matrix, Pattern, Workspace};
+use crate::stencil::{Patch, SoftCell, Stencil};
+use crate::system::{Local, Matrix, Pattern, Workspace, scatter};
 use crate::tensor::{Symmetric, Tensor};
+
+/// A face between two cells that takes a ghost penalty.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct GhostFace {
+    /// Its number among the inner faces of the mesh.
+    pub face: u32,
+    /// Its clique: the nodes of the first cell and those that only the second has.
+    pub clique: u32,
+}
 
 /// What stays fixed while a step is solved.
 pub struct Frame<'a, const D: usize> {
@@ -30,6 +39,8 @@ pub struct Frame<'a, const D: usize> {
     pub stencil: &'a Stencil<D>,
     /// Cells that take part and are not full of points.
     pub soft: &'a [SoftCell],
+    /// Faces beside cells that cannot stand alone; empty where the scene has no such penalty.
+    pub ghost: &'a [GhostFace],
     /// The points at the last converged step.
     pub points: &'a Points<D>,
     /// One block a node that takes part, one clique a cell that does.
@@ -67,6 +78,31 @@ pub struct Assembly<'a> {
     /// Present when the tangent is wanted.
     pub tangent: Option<&'a mut Matrix>,
     pub workspace: &'a mut Workspace,
+}
+
+/// Adds what `compute` makes of each patch over its functions to the nodes it acts on.
+///
+/// # Errors
+/// The error of the first patch that fails.
+pub fn scatter_patches<const D: usize>(
+    frame: &Frame<D>,
+    compute: impl Fn(&Patch, &mut Local) -> Result<()> + Sync,
+    out: &mut Assembly,
+) -> Result<()> {
+    let clique = |patch: &Patch| frame.clique[patch.cell as usize] as usize;
+    let over_nodes = |patch: &Patch, local: &mut Local| {
+        let Some(reach) = &frame.stencil.reach else { return compute(patch, local) };
+        let own = frame.mesh.cells.nodes(patch.cell as usize).len();
+        let extra = local.size - D * reach.nodes(patch.cell).len();
+        let size = D * patch.function_count as usize + extra;
+        let mut vector = vec![0.0; size];
+        let mut matrix = if local.matrix.is_empty() { Vec::new() } else { vec![0.0; size * size] };
+        compute(patch, &mut Local { matrix: &mut matrix, vector: &mut vector, size })?;
+        reach.expand(patch.cell, own, D, extra, &vector, &matrix, local.vector, local.matrix);
+        Ok(())
+    };
+    let tangent = out.tangent.as_deref_mut();
+    scatter(frame.pattern, &frame.stencil.patches, clique, over_nodes, out.force, tangent, out.workspace)
 }
 
 /// New values of the history of one point.

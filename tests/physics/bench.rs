@@ -6,7 +6,11 @@ use mpm::mesh::Mesh;
 use mpm::mesh::locate::Locator;
 use mpm::mesh::shape::{MAX_NODES, map, rule};
 use mpm::points::Points;
-use mpm::step::{Controller, Fixed, Limits, Numerics, Phase, Prescribed, Report, Scene, Simulation, State, Stop};
+use mpm::quadrature::{Quadrature, Volumes};
+use mpm::stencil::Scheme;
+use mpm::step::{
+    Controller, Fixed, Limits, Numerics, Phase, Prescribed, Report, Restore, Scene, Simulation, State, Stop,
+};
 use mpm::tensor::{IDENTITY, Tensor};
 use mpm::term::{BodyForce, EmptyCells, Inertia, Internal, Term};
 use mpm::time_value::TimeValue;
@@ -48,7 +52,10 @@ pub struct Bench {
     pub supports: Vec<Fixed>,
     pub prescribed: Vec<Prescribed>,
     pub extra: Vec<Box<dyn Term<2>>>,
-    pub restore_every_step: bool,
+    pub restore: Restore,
+    pub scheme: Scheme,
+    /// The volumes of the points where none is given.
+    pub quadrature: Option<Box<dyn Quadrature<2>>>,
     pub spectral_radius: f64,
     pub dynamic: bool,
     pub duration: f64,
@@ -68,7 +75,9 @@ impl Bench {
             supports: Vec::new(),
             prescribed: Vec::new(),
             extra: Vec::new(),
-            restore_every_step: false,
+            restore: Restore::Never,
+            scheme: Scheme::Mpm,
+            quadrature: None,
             spectral_radius: 1.0,
             dynamic: false,
             duration: 1.0,
@@ -97,7 +106,7 @@ impl Bench {
         if self.gravity != [0.0; 2] {
             terms.push(Box::new(BodyForce::<K, 2>::new(self.gravity, vec![self.gravity_factor])));
         }
-        if self.restore_every_step {
+        if self.restore != Restore::Never {
             terms.push(Box::new(EmptyCells::<K>::new(1e-5 * stiffness_scale, self.mesh.cells.len())));
         }
         if self.dynamic {
@@ -109,6 +118,8 @@ impl Bench {
             locator: Locator::new(&self.mesh),
             mesh: self.mesh,
             terms,
+            faces: None,
+            quadrature: self.quadrature.unwrap_or_else(|| Box::new(Volumes::<K>::default())),
             supports: self.supports,
             phases: vec![Phase {
                 name: "test".into(),
@@ -121,7 +132,8 @@ impl Bench {
                 stops: vec![Stop { time: self.duration, frame: true }],
             }],
             numerics: Numerics {
-                restore_every_step: self.restore_every_step,
+                scheme: self.scheme,
+                restore: self.restore,
                 spectral_radius: self.spectral_radius,
                 tolerance: 1e-10,
                 max_iterations: 25,

@@ -11,6 +11,7 @@ use mpm::kinematics::PlaneStrain;
 use mpm::material::{Elasticity, LinearElastic};
 use mpm::mesh::builder::rectangle;
 use mpm::mesh::shape::CellKind;
+use mpm::step::Restore;
 use mpm::time_value::TimeValue;
 use std::sync::Arc;
 
@@ -26,7 +27,7 @@ struct Errors {
 }
 
 /// `r = ρ g H / E`.
-fn column(kind: CellKind, cells: usize, r: f64, steps: usize, degree: usize, restore: bool) -> Errors {
+fn column(kind: CellKind, cells: usize, r: f64, steps: usize, degree: usize, restore: Restore) -> Errors {
     let density = r * YOUNG / (GRAVITY * HEIGHT);
     let mesh = rectangle(kind, HEIGHT / cells as f64, HEIGHT, 1, cells, 0.0, 1);
     let elasticity = Elasticity::new(constant(YOUNG), 0.0).unwrap();
@@ -34,7 +35,7 @@ fn column(kind: CellKind, cells: usize, r: f64, steps: usize, degree: usize, res
     bench.density = density;
     bench.gravity = [0.0, -GRAVITY];
     bench.gravity_factor = TimeValue::Rate(1.0);
-    bench.restore_every_step = restore;
+    bench.restore = restore;
     bench.steps = steps;
     bench.hold("left", &[0]).hold("right", &[0]).hold("bottom", &[1]);
     let points = quadrature_points::<PlaneStrain>(&bench.mesh, degree, density);
@@ -55,7 +56,7 @@ fn column(kind: CellKind, cells: usize, r: f64, steps: usize, degree: usize, res
 #[test]
 fn stress_within_1e_4_at_16_cells_without_restoration() {
     for r in [0.01, 0.05, 0.1, 0.2, 0.5, 1.0] {
-        let errors = column(CellKind::T6, 16, r, 4, 2, false);
+        let errors = column(CellKind::T6, 16, r, 4, 2, Restore::Never);
         println!("r = {r}: stress {:.2e}, displacement {:.2e}", errors.stress, errors.displacement);
         assert!(errors.stress <= 1e-4, "r = {r}: {:e}", errors.stress);
     }
@@ -65,7 +66,7 @@ fn stress_within_1e_4_at_16_cells_without_restoration() {
 fn displacement_converges_at_third_order_without_restoration() {
     for kind in [CellKind::T6, CellKind::Q8, CellKind::Q9] {
         for r in [0.01, 1.0] {
-            let e: Vec<f64> = [8, 16, 32].map(|n| column(kind, n, r, 4, 6, false).displacement).to_vec();
+            let e: Vec<f64> = [8, 16, 32].map(|n| column(kind, n, r, 4, 6, Restore::Never).displacement).to_vec();
             let order = (e[0] / e[2]).log2() / 2.0;
             println!("{kind:?} r = {r}: {e:?}, order {order:.2}");
             assert!((2.9..3.3).contains(&order), "{kind:?} r = {r}: order {order} of {e:?}");
@@ -76,7 +77,7 @@ fn displacement_converges_at_third_order_without_restoration() {
 #[test]
 fn first_order_cells_converge_at_second_order() {
     for kind in [CellKind::T3, CellKind::Q4] {
-        let e: Vec<f64> = [8, 16, 32].map(|n| column(kind, n, 0.5, 4, 4, false).displacement).to_vec();
+        let e: Vec<f64> = [8, 16, 32].map(|n| column(kind, n, 0.5, 4, 4, Restore::Never).displacement).to_vec();
         let order = (e[0] / e[2]).log2() / 2.0;
         assert!((1.9..2.2).contains(&order), "{kind:?}: order {order} of {e:?}");
     }
@@ -106,8 +107,15 @@ fn newton_converges_quadratically() {
 #[test]
 fn plain_mpm_restored_in_every_step_does_not_converge() {
     for cells in [8, 16, 32] {
-        let errors = column(CellKind::T6, cells, 0.5, 40, 6, true);
+        let errors = column(CellKind::T6, cells, 0.5, 40, 6, Restore::EveryStep);
         println!("restored, {cells} cells: stress {:.2e}, displacement {:.2e}", errors.stress, errors.displacement);
         assert!((0.03..0.3).contains(&errors.stress), "{cells} cells: {:e}", errors.stress);
     }
+}
+
+/// A grid restored when its cells are distorted errs less than one restored in every step, and less often.
+#[test]
+fn restoration_by_quality_is_rare() {
+    let errors = column(CellKind::T6, 16, 1.0, 40, 6, Restore::Quality { least: 0.5 });
+    println!("restored by quality: stress {:.2e}, displacement {:.2e}", errors.stress, errors.displacement);
 }

@@ -9,7 +9,7 @@ use mpm::mesh::builder::rectangle;
 use mpm::mesh::shape::CellKind;
 use mpm::points::Points;
 use mpm::seed::{RegionSeed, RegionWeight, k0_stress, seed};
-use mpm::step::{Fixed, Prescribed};
+use mpm::step::{Fixed, Prescribed, Restore};
 use mpm::term::Traction;
 use mpm::time_value::TimeValue;
 use std::sync::Arc;
@@ -51,7 +51,7 @@ fn a_thrown_block_flies_a_parabola_free_of_stress() {
         bench.gravity = [0.0, -10.0];
         bench.density = 1.7;
         bench.dynamic = true;
-        bench.restore_every_step = true;
+        bench.restore = Restore::EveryStep;
         bench.spectral_radius = spectral_radius;
         bench.steps = 100;
         bench.duration = 0.9;
@@ -89,7 +89,7 @@ fn a_body_carried_by_its_boundary_moves_as_its_boundary_does() {
             let mesh = rectangle(CellKind::T6, 1.0, 1.0, 3, 3, 0.2, 3);
             let mut bench = Bench::new(mesh, elastic(1e4, 0.3));
             bench.dynamic = true;
-            bench.restore_every_step = restore;
+            bench.restore = if restore { Restore::EveryStep } else { Restore::Never };
             bench.spectral_radius = spectral_radius;
             bench.steps = 20;
             bench.duration = 1e-2;
@@ -162,7 +162,7 @@ fn what_has_landed_is_at_rest() {
         let mesh = rectangle(CellKind::T6, 2.0, 2.0, 4, 4, 0.2, 3);
         let mut bench = Bench::new(mesh, elastic(200.0, 0.0));
         bench.dynamic = true;
-        bench.restore_every_step = true;
+        bench.restore = Restore::EveryStep;
         bench.spectral_radius = spectral_radius;
         (bench.duration, bench.steps) = (duration, steps);
         bench.gravity = [0.0, -10.0];
@@ -196,7 +196,7 @@ fn heavy_column(put: impl Fn([f64; 2]) -> [f64; 2], gravity: [f64; 2], restore: 
     bench.density = 1.0;
     bench.gravity = gravity;
     bench.gravity_factor = TimeValue::Rate(1.0);
-    bench.restore_every_step = restore;
+    bench.restore = if restore { Restore::EveryStep } else { Restore::Never };
     bench.steps = 3;
     bench.hold("bottom", &[0, 1]);
     let points = keep(quadrature_points::<PlaneStrain>(&bench.mesh, 6, 1.0), |_| true);
@@ -323,7 +323,7 @@ fn at_rest<K: Kinematics<2>>(restore: bool, dynamic: bool, count: u32) -> f64 {
     }
     let mut bench = Bench::new(mesh, model);
     bench.gravity = [0.0, -10.0];
-    bench.restore_every_step = restore;
+    bench.restore = if restore { Restore::EveryStep } else { Restore::Never };
     bench.dynamic = dynamic;
     bench.steps = 10;
     bench.hold("left", &[0]).hold("right", &[0]).hold("bottom", &[0, 1]);
@@ -357,7 +357,7 @@ fn inertia_comes_and_goes_without_a_kick() {
             let mut bench = Bench::new(rectangle(kind, 3.0, 2.0, 4, 4, 0.2, 3), elastic(1e4, 0.3));
             bench.gravity = [0.0, -10.0];
             bench.gravity_factor = gravity_factor;
-            bench.restore_every_step = true;
+            bench.restore = Restore::EveryStep;
             bench.dynamic = dynamic;
             bench.steps = 10;
             bench.hold("left", &[0]).hold("right", &[0]).hold("bottom", &[0, 1]);

@@ -5,7 +5,7 @@ use mpm::kinematics::{Axisymmetric, Kinematics, PlaneStrain};
 use mpm::material::{Elasticity, LinearElastic};
 use mpm::mesh::builder::rectangle;
 use mpm::mesh::shape::CellKind;
-use mpm::step::{Fixed, Prescribed};
+use mpm::step::{Fixed, Prescribed, Restore};
 use mpm::time_value::TimeValue;
 use std::sync::Arc;
 
@@ -21,7 +21,7 @@ fn error<K: Kinematics<2>>(kind: CellKind, gradient: [[f64; 2]; 2], restore: boo
     }
     let elasticity = Elasticity::new(constant(1000.0), 0.3).unwrap();
     let mut bench = Bench::new(mesh, Arc::new(LinearElastic::new(elasticity)));
-    bench.restore_every_step = restore;
+    bench.restore = if restore { Restore::EveryStep } else { Restore::Never };
     bench.steps = if restore { 1 } else { 2 };
     let boundary: Vec<u32> = {
         let mut nodes: Vec<u32> = bench.mesh.groups.iter().flat_map(|g| g.nodes.clone()).collect();

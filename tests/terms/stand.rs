@@ -9,7 +9,9 @@ use mpm::mesh::builder::rectangle;
 use mpm::mesh::locate::Locator;
 use mpm::mesh::shape::{CellKind, MAX_NODES};
 use mpm::points::Points;
-use mpm::step::{Grid, Numerics, Phase, Scene, Simulation, State, Stop};
+use mpm::quadrature::{Volumes, Weighing};
+use mpm::stencil::Scheme;
+use mpm::step::{Grid, Numerics, Phase, Restore, Scene, Simulation, State, Stop};
 use mpm::system::{Matrix, Workspace};
 use mpm::tensor::{IDENTITY, Tensor, full, symmetric};
 use mpm::term::{Assembly, Frame, Term, Trial};
@@ -105,6 +107,7 @@ pub struct Stand<K> {
     /// α_f of the trial states.
     pub alpha_f: f64,
     grid: Grid<2>,
+    weighing: Weighing<2>,
     kinematics: PhantomData<K>,
 }
 
@@ -129,10 +132,13 @@ impl<K: Kinematics<2>> Stand<K> {
             locator: Locator::new(&mesh),
             mesh,
             terms,
+            faces: None,
+            quadrature: Box::new(Volumes::<K>::default()),
             supports: Vec::new(),
             phases: vec![phase.clone(), phase],
             numerics: Numerics {
-                restore_every_step: restored,
+                scheme: Scheme::Mpm,
+                restore: if restored { Restore::EveryStep } else { Restore::Never },
                 spectral_radius: 1.0,
                 tolerance: 1e-10,
                 max_iterations: 25,
@@ -145,7 +151,7 @@ impl<K: Kinematics<2>> Stand<K> {
         let state = Simulation::<2, K>::new(&scene, state).unwrap().state;
         let grid = Grid::new::<K>(&scene, &state).unwrap();
         assert_eq!(grid.node.len(), scene.mesh.nodes.len(), "all nodes take part, in order");
-        Self { scene, points: state.points, alpha_f: 0.0, grid, kinematics: PhantomData }
+        Self { scene, points: state.points, alpha_f: 0.0, grid, weighing: state.weighing, kinematics: PhantomData }
     }
 
     pub fn term(&self) -> &dyn Term<2> {
@@ -153,7 +159,7 @@ impl<K: Kinematics<2>> Stand<K> {
     }
 
     pub fn soft_cells(&self) -> usize {
-        self.grid.soft.len()
+        self.weighing.soft.len()
     }
 
     /// A field given by the place of a node, with noise of the size `noise` (m).
@@ -195,7 +201,7 @@ impl<K: Kinematics<2>> Stand<K> {
         phase: usize,
         tangent: bool,
     ) -> (Field, Vec<Vec<f64>>) {
-        let frame = self.grid.frame(&self.scene.mesh, &self.points);
+        let frame = self.grid.frame(&self.scene.mesh, &self.points, &self.weighing);
         let acceleration: Field = trial
             .iter()
             .zip(converged)

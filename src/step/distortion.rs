@@ -1,0 +1,51 @@
+//! How distorted the cells have become since the grid was restored (paper §2.8).
+
+use super::grid::Grid;
+use super::scene::Scene;
+use super::state::State;
+use crate::mesh::quality;
+use crate::mesh::shape::MAX_NODES;
+use rayon::prelude::*;
+
+/// Least ratio of the least to the largest `det J` in a cell, relative to the first one: a curved cell folds
+/// where it reaches zero.
+const FOLDED: f64 = 0.3;
+/// Largest ratio of an edge to its first length, or of that to it.
+const STRETCHED: f64 = 1.5;
+
+/// Whether a cell with points has a quality below the share `least` of its first one, has come near to
+/// folding, or is stretched or squeezed beyond measure.
+pub fn exceeds<const D: usize>(scene: &Scene<D>, state: &State<D>, grid: &Grid<D>, least: f64) -> bool {
+    let mesh = &scene.mesh;
+    grid.stencil.patches.par_iter().any(|patch| {
+        let cell = patch.cell as usize;
+        let (kind, nodes) = (mesh.cells.kind[cell], mesh.cells.nodes(cell));
+        let (mut before, mut now) = ([[0.0; 2]; MAX_NODES], [[0.0; 2]; MAX_NODES]);
+        for (i, &n) in nodes.iter().enumerate() {
+            for d in 0..D.min(2) {
+                before[i][d] = mesh.nodes[n as usize][d];
+                now[i][d] = before[i][d] + state.displacement[n as usize][d];
+            }
+        }
+        let (before, now) = (&before[..nodes.len()], &now[..nodes.len()]);
+        let corners = kind.corner_count();
+        if quality::quality(&now[..corners]) < least * quality::quality(&before[..corners]) {
+            return true;
+        }
+        let evenness = |x: &[[f64; 2]]| {
+            let (low, high) = quality::jacobian_range(kind, x);
+            if high > 0.0 { low / high } else { 0.0 }
+        };
+        if evenness(now) < FOLDED * evenness(before) {
+            return true;
+        }
+        (0..corners).any(|i| {
+            let length = |x: &[[f64; 2]]| {
+                let (a, b) = (x[i], x[(i + 1) % corners]);
+                (b[0] - a[0]).hypot(b[1] - a[1])
+            };
+            let stretch = length(now) / length(before);
+            !(1.0 / STRETCHED..=STRETCHED).contains(&stretch)
+        })
+    })
+}
