@@ -29,33 +29,27 @@ impl Matrix {
 
     /// Adds the dense matrix of clique `k`. Of a symmetric system only the lower triangle is read.
     pub fn add(&mut self, pattern: &Pattern, k: usize, local: &[f64], size: usize) {
-        let blocks = pattern.cliques.blocks(k);
-        let first_pair = pattern.pairs[k] as usize;
-        let mut column = 0;
-        for (b, &cb) in blocks.iter().enumerate() {
-            let width = (pattern.start[cb as usize + 1] - pattern.start[cb as usize]) as usize;
-            let mut row = 0;
-            for (a, &ra) in blocks.iter().enumerate() {
-                let height = (pattern.start[ra as usize + 1] - pattern.start[ra as usize]) as usize;
-                if !pattern.symmetric || ra >= cb {
-                    let offset = pattern.offset[first_pair + a * blocks.len() + b] as usize;
-                    for j in 0..width {
-                        let begin = pattern.column[pattern.start[cb as usize] as usize + j] as usize;
-                        // In the lower triangle column j of the diagonal block has lost its first j rows.
-                        let (skip, lost) = match (pattern.symmetric, ra == cb) {
-                            (true, true) => (j, j),
-                            (true, false) => (0, j),
-                            _ => (0, 0),
-                        };
-                        for i in skip..height {
-                            self.values[begin + offset + i - lost] += local[(row + i) * size + column + j];
-                        }
-                    }
-                }
-                row += height;
+        let mut all = Columns { blocks: 0..pattern.start.len() as u32 - 1, first: 0, values: &mut self.values };
+        all.add(pattern, k, local, size);
+    }
+
+    /// The matrix in `count` groups of columns with about as many entries each.
+    fn columns(&mut self, pattern: &Pattern, count: usize) -> Vec<Columns<'_>> {
+        let blocks = pattern.start.len() as u32 - 1;
+        let first = |block: u32| pattern.column[pattern.start[block as usize] as usize] as usize;
+        let total = self.values.len();
+        let (mut groups, mut values, mut begin) = (Vec::with_capacity(count), &mut self.values[..], 0);
+        for group in 1..=count {
+            let mut end = if group == count { blocks } else { begin };
+            while end < blocks && first(end) < group * total / count {
+                end += 1;
             }
-            column += width;
+            let own;
+            (own, values) = values.split_at_mut(first(end) - first(begin));
+            groups.push(Columns { blocks: begin..end, first: first(begin), values: own });
+            begin = end;
         }
+        groups
     }
 
     /// Takes the equations marked in `fixed` out of the system: their rows and columns vanish but for a
@@ -114,8 +108,54 @@ impl Matrix {
     }
 }
 
-/// Items computed side by side before their results are added, one after another, to the system.
-const BATCH: usize = 256;
+/// Some columns of a matrix.
+struct Columns<'a> {
+    /// The blocks they belong to.
+    blocks: std::ops::Range<u32>,
+    /// Where their values begin in the matrix.
+    first: usize,
+    values: &'a mut [f64],
+}
+
+impl Columns<'_> {
+    /// Adds what the dense matrix of clique `k` has in these columns.
+    fn add(&mut self, pattern: &Pattern, k: usize, local: &[f64], size: usize) {
+        let blocks = pattern.cliques.blocks(k);
+        let first_pair = pattern.pairs[k] as usize;
+        let mut column = 0;
+        for (b, &cb) in blocks.iter().enumerate() {
+            let width = (pattern.start[cb as usize + 1] - pattern.start[cb as usize]) as usize;
+            if !self.blocks.contains(&cb) {
+                column += width;
+                continue;
+            }
+            let mut row = 0;
+            for (a, &ra) in blocks.iter().enumerate() {
+                let height = (pattern.start[ra as usize + 1] - pattern.start[ra as usize]) as usize;
+                if !pattern.symmetric || ra >= cb {
+                    let offset = pattern.offset[first_pair + a * blocks.len() + b] as usize;
+                    for j in 0..width {
+                        let begin = pattern.column[pattern.start[cb as usize] as usize + j] as usize - self.first;
+                        // In the lower triangle column j of the diagonal block has lost its first j rows.
+                        let (skip, lost) = match (pattern.symmetric, ra == cb) {
+                            (true, true) => (j, j),
+                            (true, false) => (0, j),
+                            _ => (0, 0),
+                        };
+                        for i in skip..height {
+                            self.values[begin + offset + i - lost] += local[(row + i) * size + column + j];
+                        }
+                    }
+                }
+                row += height;
+            }
+            column += width;
+        }
+    }
+}
+
+/// Items computed side by side before their results are added, in their order, to the system.
+const BATCH: usize = 512;
 
 /// Memory that assembly uses again and again.
 #[derive(Default)]
@@ -145,6 +185,8 @@ pub fn scatter<I: Sync>(
         return Ok(());
     }
     workspace.buffer.resize(stride * BATCH, 0.0);
+    let threads = rayon::current_num_threads();
+    let mut columns = matrix.as_deref_mut().map_or(Vec::new(), |matrix| matrix.columns(pattern, threads));
     let run = |item: &I, slot: &mut [f64]| {
         let size = pattern.clique_size(clique(item));
         slot.fill(0.0);
@@ -170,10 +212,14 @@ pub fn scatter<I: Sync>(
                     local += 1;
                 }
             }
-            if let Some(matrix) = matrix.as_deref_mut() {
-                matrix.add(pattern, k, &slot[largest..], local);
-            }
         }
+        // Each thread adds to columns of its own, so that every entry sees the items in their order.
+        columns.par_iter_mut().for_each(|columns| {
+            for (item, slot) in batch.iter().zip(slots.chunks(stride)) {
+                let k = clique(item);
+                columns.add(pattern, k, &slot[largest..], pattern.clique_size(k));
+            }
+        });
     }
     Ok(())
 }
