@@ -3,7 +3,7 @@
 use crate::tensor::{Symmetric, Tensor};
 
 /// All material points of a scene. Every column has one entry a point; `velocity` and `acceleration`
-/// are empty in a quasi-static analysis, `plastic_increment` where there is no ghost penalty.
+/// are empty in a quasi-static analysis, `plastic_increment` where no term needs it.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Points<const D: usize> {
     /// Position (m) at the last converged step.

@@ -5,6 +5,7 @@ use crate::error::{Error, Result};
 use crate::io::checkpoint::Fingerprint;
 use crate::kinematics::{Axisymmetric, Kinematics, PlaneStrain};
 use crate::mesh::Mesh;
+use crate::mesh::faces::Faces;
 use crate::mesh::locate::Locator;
 use crate::points::Points;
 use crate::quadrature::{Quadrature, Volumes};
@@ -97,9 +98,9 @@ pub fn scene<K: Kinematics<2>>(case: &Case, mesh: Mesh<2>) -> Result<Scene<2>> {
     let phases = case.phases.iter().map(|p| phase(case, &mesh, p)).collect::<Result<_>>()?;
     Ok(Scene {
         locator: Locator::new(&mesh),
+        faces: Some(Faces::of(&mesh)),
         mesh,
         terms,
-        faces: None,
         quadrature: quadrature::<K>(),
         supports,
         phases,

@@ -70,7 +70,7 @@ impl<const D: usize> Grid<D> {
     /// When a point lies outside the grid, or memory does not suffice.
     pub fn first<K: Kinematics<D>>(scene: &Scene<D>, state: &mut State<D>) -> Result<Self> {
         let mut stencil = Stencil::default();
-        if scene.faces.is_some() {
+        if scene.terms.iter().any(|term| term.sees_flow()) {
             state.points.plastic_increment.resize(state.points.len(), 0.0);
         }
         begin_anew::<D, K>(scene, state, &mut stencil)?;

@@ -8,6 +8,7 @@ mod control;
 mod distortion;
 mod ghost_faces;
 mod grid;
+mod mass;
 mod newton;
 mod report;
 mod scene;

@@ -14,7 +14,7 @@ pub struct Scene<const D: usize> {
     pub locator: Locator<D>,
     /// The terms of the equations; what the scene does not use is absent.
     pub terms: Vec<Box<dyn Term<D>>>,
-    /// The faces between the cells; absent where none takes a ghost penalty.
+    /// The faces between the cells; absent where none takes a ghost penalty, on displacement or on mass.
     pub faces: Option<Faces>,
     /// What the points weigh in integrals.
     pub quadrature: Box<dyn Quadrature<D>>,

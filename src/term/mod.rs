@@ -180,6 +180,11 @@ pub trait Term<const D: usize>: Send + Sync {
         None
     }
 
+    /// Whether the term needs [`Points::plastic_increment`].
+    fn sees_flow(&self) -> bool {
+        false
+    }
+
     /// Stored energy (kJ) of the points in their converged state.
     fn energy(&self, _points: &Points<D>) -> f64 {
         0.0
