@@ -7,6 +7,7 @@
 mod check;
 pub mod checked;
 pub mod locate;
+mod incompressible;
 mod materials;
 pub mod names;
 mod phases;
