@@ -28,6 +28,7 @@ pub fn store<const D: usize>(state: &State<D>) -> Store {
         parametric,
         displacement,
         travel,
+        pressure,
         velocity,
         acceleration,
         taking_part,
@@ -48,6 +49,7 @@ pub fn store<const D: usize>(state: &State<D>) -> Store {
     {
         store.put(&format!("state.{name}"), D, field.concat());
     }
+    store.put("state.pressure", 1, pressure.clone());
     store.put("state.taking_part", 1, taking_part.iter().map(|&b| u8::from(b)).collect());
     store.put("state.penalised", 1, penalised.iter().map(|&b| u8::from(b)).collect());
     put_weighing(&mut store, weighing);
@@ -116,6 +118,7 @@ pub fn take<const D: usize>(mut store: Store, first: &State<D>) -> Result<State<
     let (displacement, travel) = (nodal("displacement")?, nodal("travel")?);
     let (velocity, acceleration) = (nodal("velocity")?, nodal("acceleration")?);
     let parametric = store.take::<f64>("state.parametric", 3)?.chunks_exact(3).map(|v| [v[0], v[1], v[2]]).collect();
+    let pressure = store.take::<f64>("state.pressure", 1)?;
     let taking_part = store.take::<u8>("state.taking_part", 1)?.into_iter().map(|b| b != 0).collect();
     let penalised = store.take::<u8>("state.penalised", 1)?.into_iter().map(|b| b != 0).collect();
     let weighing = take_weighing(&mut store)?;
@@ -134,6 +137,7 @@ pub fn take<const D: usize>(mut store: Store, first: &State<D>) -> Result<State<
         parametric,
         displacement,
         travel,
+        pressure,
         velocity,
         acceleration,
         taking_part,
