@@ -9,7 +9,7 @@ MPM := target/release/mpm
 MPM_BUILD := $(MPM)
 include pipeline/mpm.mk
 
-.PHONY: help setup build demo test check fmt clean bench bench-block stress
+.PHONY: help setup build demo test check fmt clean bench bench-block stress verification
 
 help: ## List the targets
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / {printf "  %-13s %s\n", $$1, $$2}' $(firstword $(MAKEFILE_LIST))
@@ -30,6 +30,9 @@ demo: seabed_slope ## From nothing to a ParaView series and a picture: the slope
 
 test: setup ## Set up and run all tests
 	cargo test --release --no-fail-fast
+
+verification: build ## Run every verification; writes docs/verification.md
+	$(PYTHON) benches/verification/run.py $(ARGS)
 
 bench: build ## Error against seconds for every scheme, beside Kratos; writes docs/benchmarks.md (ARGS=--quick for a few runs)
 	$(PYTHON) benches/work_precision/run.py $(ARGS)

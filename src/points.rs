@@ -3,7 +3,7 @@
 use crate::tensor::{Symmetric, Tensor};
 
 /// All material points of a scene. Every column has one entry a point; `velocity` and `acceleration`
-/// are empty in a quasi-static analysis.
+/// are empty in a quasi-static analysis, `plastic_increment` where there is no ghost penalty.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Points<const D: usize> {
     /// Position (m) at the last converged step.
@@ -26,6 +26,8 @@ pub struct Points<const D: usize> {
     pub stress: Vec<Symmetric>,
     /// Accumulated equivalent plastic strain (-).
     pub plastic_strain: Vec<f64>,
+    /// What the last converged step added to it (-).
+    pub plastic_increment: Vec<f64>,
     /// Index into the regions of the mesh.
     pub region: Vec<u16>,
     /// The cell that holds the point.

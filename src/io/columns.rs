@@ -22,6 +22,7 @@ pub fn to_arrays<const D: usize>(points: &Points<D>) -> Vec<Array> {
         elastic,
         stress,
         plastic_strain,
+        plastic_increment,
         region,
         cell,
     } = points;
@@ -41,10 +42,13 @@ pub fn to_arrays<const D: usize>(points: &Points<D>) -> Vec<Array> {
         array("elastic", "-", 6, elastic.concat()),
         array("stress", "kPa", 6, stress.concat()),
         array("plastic_strain", "-", 1, plastic_strain.clone()),
+        array("plastic_increment", "-", 1, plastic_increment.clone()),
         array("region", "-", 1, region.clone()),
         array("cell", "-", 1, cell.clone()),
     ];
-    arrays.retain(|a| !(a.data.is_empty() && matches!(a.name.as_str(), "velocity" | "acceleration")));
+    arrays.retain(|a| {
+        !(a.data.is_empty() && matches!(a.name.as_str(), "velocity" | "acceleration" | "plastic_increment"))
+    });
     arrays
 }
 
@@ -74,6 +78,7 @@ pub fn take<const D: usize>(store: &mut Store, prefix: &str) -> Result<Points<D>
         elastic: columns.symmetric("elastic")?,
         stress: columns.symmetric("stress")?,
         plastic_strain: columns.scalars("plastic_strain")?,
+        plastic_increment: columns.if_present("plastic_increment", 1)?.unwrap_or_default(),
         region: columns.scalars("region")?,
         cell: columns.scalars("cell")?,
     })

@@ -70,6 +70,9 @@ impl<const D: usize> Grid<D> {
     /// When a point lies outside the grid, or memory does not suffice.
     pub fn first<K: Kinematics<D>>(scene: &Scene<D>, state: &mut State<D>) -> Result<Self> {
         let mut stencil = Stencil::default();
+        if scene.faces.is_some() {
+            state.points.plastic_increment.resize(state.points.len(), 0.0);
+        }
         begin_anew::<D, K>(scene, state, &mut stencil)?;
         Self::with(scene, state, stencil)
     }
@@ -82,7 +85,7 @@ impl<const D: usize> Grid<D> {
         if begin_anew::<D, K>(scene, state, &mut self.stencil)? {
             *self = Self::with(scene, state, std::mem::take(&mut self.stencil))?;
         } else {
-            self.penalise(ghost_faces::choose(scene, state));
+            self.penalise(scene, state);
         }
         Ok(())
     }
@@ -109,9 +112,7 @@ impl<const D: usize> Grid<D> {
             face_clique.resize(faces.inner.len(), u32::MAX);
             for (face, clique) in faces.inner.iter().zip(&mut face_clique) {
                 if ghost_faces::has_room(state, face) {
-                    let [first, second] = face.cells.map(|c| mesh.cells.nodes(c as usize));
-                    let nodes = first.iter().chain(second.iter().filter(|n| !first.contains(n)));
-                    *clique = cliques.push(nodes.map(|&n| block[n as usize]));
+                    *clique = cliques.push(face.nodes(mesh).map(|n| block[n as usize]));
                 }
             }
         }
@@ -121,14 +122,19 @@ impl<const D: usize> Grid<D> {
         let motion = System::new(node.len(), D as u8, cliques, symmetric)?;
         let workspace = Workspace::default();
         let mut grid = Self { stencil, ghost: Vec::new(), face_clique, clique, block, node, motion, mass, workspace };
-        grid.penalise(ghost_faces::choose(scene, state));
+        grid.penalise(scene, state);
         Ok(grid)
     }
 
     /// Takes the faces that are to have a ghost penalty.
-    fn penalise(&mut self, faces: Vec<u32>) {
+    fn penalise(&mut self, scene: &Scene<D>, state: &State<D>) {
         self.ghost.clear();
-        self.ghost.extend(faces.into_iter().map(|face| GhostFace { face, clique: self.face_clique[face as usize] }));
+        let Some(faces) = &scene.faces else { return };
+        self.ghost.extend(ghost_faces::choose(scene, state).into_iter().map(|face| GhostFace {
+            face,
+            between: faces.inner[face as usize],
+            clique: self.face_clique[face as usize],
+        }));
     }
 
     /// What the terms see.

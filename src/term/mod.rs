@@ -6,29 +6,34 @@
 
 mod body_force;
 mod empty_cells;
+mod ghost;
 mod inertia;
 mod internal;
 mod traction;
 
 pub use body_force::BodyForce;
 pub use empty_cells::EmptyCells;
+pub use ghost::GhostPenalty;
 pub use inertia::Inertia;
 pub use internal::Internal;
 pub use traction::Traction;
 
 use crate::error::Result;
 use crate::mesh::Mesh;
+use crate::mesh::faces::Face;
 use crate::points::Points;
 use crate::stencil::{Patch, SoftCell, Stencil};
 use crate::system::{Local, Matrix, Pattern, Workspace, scatter};
 use crate::tensor::{Symmetric, Tensor};
+use crate::time_value::TimeValue;
 
 /// A face between two cells that takes a ghost penalty.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct GhostFace {
     /// Its number among the inner faces of the mesh.
     pub face: u32,
-    /// Its clique: the nodes of the first cell and those that only the second has.
+    pub between: Face,
+    /// Its clique: the nodes in the order of [`Face::nodes`].
     pub clique: u32,
 }
 
@@ -125,6 +130,9 @@ impl Update {
             points.deformation[p] = new.deformation;
             points.elastic[p] = new.elastic;
             points.stress[p] = new.stress;
+            if let Some(increment) = points.plastic_increment.get_mut(p) {
+                *increment = new.plastic_strain - points.plastic_strain[p];
+            }
             points.plastic_strain[p] = new.plastic_strain;
         }
     }
@@ -165,6 +173,11 @@ pub trait Term<const D: usize>: Send + Sync {
     /// What kind of force the term is.
     fn role(&self) -> Role {
         Role::Internal
+    }
+
+    /// The factor on the load of the term in a phase, if it has one.
+    fn factor(&self, _phase: usize) -> Option<&TimeValue> {
+        None
     }
 
     /// Stored energy (kJ) of the points in their converged state.
