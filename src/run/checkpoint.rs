@@ -62,7 +62,7 @@ pub fn store<const D: usize>(state: &State<D>) -> Store {
 
 fn put_weighing<const D: usize>(store: &mut Store, weighing: &Weighing<D>) {
     let Weighing { weight, shift, soft, poor, tally } = weighing;
-    let Tally { quadratic, linear, constant, volume, point_volume, fitted_volume } = tally;
+    let Tally { quadratic, linear, constant, volume, point_volume, fitted_volume, drift } = tally;
     store.put("weighing.weight", 1, weight.clone());
     store.put("weighing.shifted", 2, shift.iter().flat_map(|(cell, by)| [*cell, by.len() as u32]).collect());
     store.put("weighing.shift", D, shift.iter().flat_map(|(_, by)| by.concat()).collect());
@@ -70,7 +70,7 @@ fn put_weighing<const D: usize>(store: &mut Store, weighing: &Weighing<D>) {
     store.put("weighing.emptiness", 1, soft.iter().map(|s| s.emptiness).collect());
     store.put("weighing.poor", 1, poor.clone());
     store.put("weighing.cells", 1, vec![*quadratic, *linear, *constant, *volume]);
-    store.put("weighing.volume", 1, vec![*point_volume, *fitted_volume]);
+    store.put("weighing.volume", 1, vec![*point_volume, *fitted_volume, *drift]);
 }
 
 fn take_weighing<const D: usize>(store: &mut Store) -> Result<Weighing<D>> {
@@ -83,7 +83,8 @@ fn take_weighing<const D: usize>(store: &mut Store) -> Result<Weighing<D>> {
     let soft = soft.into_iter().zip(emptiness).map(|(cell, emptiness)| SoftCell { cell, emptiness }).collect();
     let poor = store.take::<u32>("weighing.poor", 1)?;
     let (cells, volume) = (store.take::<u32>("weighing.cells", 1)?, store.take::<f64>("weighing.volume", 1)?);
-    let ([quadratic, linear, constant, volume_only], [point_volume, fitted_volume]) = (&cells[..], &volume[..]) else {
+    let ([quadratic, linear, constant, volume_only], [point_volume, fitted_volume, drift]) = (&cells[..], &volume[..])
+    else {
         return Err(foreign("its weights"));
     };
     let tally = Tally {
@@ -93,6 +94,7 @@ fn take_weighing<const D: usize>(store: &mut Store) -> Result<Weighing<D>> {
         volume: *volume_only,
         point_volume: *point_volume,
         fitted_volume: *fitted_volume,
+        drift: *drift,
     };
     Ok(Weighing { weight, shift, soft, poor, tally })
 }
