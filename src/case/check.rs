@@ -5,6 +5,7 @@ use super::locate::{At, Path};
 use super::raw;
 use super::source::Issue;
 use super::structure::suggest;
+use crate::stencil::Scheme;
 use std::collections::BTreeMap;
 use std::path::Path as FilePath;
 
@@ -195,20 +196,24 @@ impl Checker {
     }
 
     fn numerics(&mut self, numerics: &raw::Numerics, path: &Path) -> Numerics {
-        if numerics.gradient != raw::Gradient::Mpm {
-            let problem = format!("this gradient {LATER}");
-            self.issue(&path.key("gradient"), At::Value, problem, "choose mpm");
-        }
-        if numerics.quadrature != raw::Quadrature::Points {
-            let problem = format!("`fitted` {LATER}");
-            self.issue(&path.key("quadrature"), At::Value, problem, "choose points");
-        }
+        let fitted = numerics.quadrature == raw::Quadrature::Fitted;
+        let gradient = match numerics.gradient {
+            raw::Gradient::Mpm => Scheme::Mpm,
+            raw::Gradient::Ddmp => Scheme::Ddmp { fitted },
+            _ => {
+                let problem = format!("this gradient {LATER}");
+                self.issue(&path.key("gradient"), At::Value, problem, "choose mpm or ddmp");
+                Scheme::Mpm
+            }
+        };
         let restore = match numerics.restore {
             raw::Restore::Named(raw::RestoreName::EveryStep) => Restore::EveryStep,
             raw::Restore::Named(raw::RestoreName::Never) => Restore::Never,
             raw::Restore::Quality(quality) => Restore::Quality { least: quality.min_quality },
         };
         Numerics {
+            gradient,
+            fitted,
             restore,
             spectral_radius: numerics.spectral_radius,
             tolerance: numerics.tolerance,

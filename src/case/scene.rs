@@ -8,15 +8,20 @@ use crate::mesh::Mesh;
 use crate::mesh::faces::Faces;
 use crate::mesh::locate::Locator;
 use crate::points::Points;
-use crate::quadrature::{Quadrature, Volumes};
+use crate::quadrature::{Fitted, Quadrature, Volumes};
 use crate::run::{self, Ended, Outputs, Progress, Watch, WatchedOn};
-use crate::stencil::{Scheme, cell_size};
+use crate::stencil::cell_size;
 use crate::step::{self, Fixed, Numerics, Phase, Prescribed, Scene, State, Stop};
 use crate::tensor::full;
-use crate::term::{BodyForce, Carried, EmptyCells, Inertia, Internal, PressureField, SmoothPressure, Term, Traction};
+use crate::term::{
+    BodyForce, Carried, EmptyCells, GhostPenalty, Inertia, Internal, PressureField, SmoothPressure, Term, Traction,
+};
 use crate::time_value::TimeValue;
 use std::path::Path;
 use std::sync::atomic::AtomicBool;
+
+/// γ (-) of the ghost penalty: 1e-3 … 1 give the same results to the error of the grid.
+const GHOST: f64 = 0.1;
 
 /// Solves a case in `folder`.
 ///
@@ -85,6 +90,7 @@ pub fn scene<K: Kinematics<2>>(case: &Case, mesh: Mesh<2>) -> Result<Scene<2>> {
     });
     let density_scale = largest(|m, y| m.density.at(y));
     let dynamic = case.phases.iter().any(|p| p.analysis == Analysis::Dynamic);
+    let faces = Faces::of(&mesh);
 
     let shear = largest(|m, y| m.model.elasticity().at(y).shear);
     let pressure_unit = materials().any(|m| m.carried.is_some()).then(|| shear / mean_size(&mesh));
@@ -103,6 +109,10 @@ pub fn scene<K: Kinematics<2>>(case: &Case, mesh: Mesh<2>) -> Result<Scene<2>> {
     }
     if case.numerics.restore != Restore::Never {
         terms.push(Box::new(EmptyCells::<K>::new(case.numerics.empty_stiffness * young, mesh.cells.len())));
+        if case.numerics.fitted {
+            let models = self::models(case, &mesh)?;
+            terms.push(Box::new(GhostPenalty::<K>::new(GHOST, models, faces.inner.len())));
+        }
     }
     if dynamic {
         terms.push(Box::new(Inertia::<K>::default()));
@@ -121,15 +131,15 @@ pub fn scene<K: Kinematics<2>>(case: &Case, mesh: Mesh<2>) -> Result<Scene<2>> {
     let phases = case.phases.iter().map(|p| phase(case, &mesh, p)).collect::<Result<_>>()?;
     Ok(Scene {
         locator: Locator::new(&mesh),
-        faces: Some(Faces::of(&mesh)),
+        faces: Some(faces),
+        quadrature: quadrature::<K>(case, &mesh),
         mesh,
         terms,
-        quadrature: quadrature::<K>(),
         pressure_unit,
         supports,
         phases,
         numerics: Numerics {
-            scheme: Scheme::Mpm,
+            scheme: case.numerics.gradient,
             restore: restore(case.numerics.restore),
             spectral_radius: case.numerics.spectral_radius,
             tolerance: case.numerics.tolerance,
@@ -141,8 +151,8 @@ pub fn scene<K: Kinematics<2>>(case: &Case, mesh: Mesh<2>) -> Result<Scene<2>> {
     })
 }
 
-fn quadrature<K: Kinematics<2>>() -> Box<dyn Quadrature<2>> {
-    Box::new(Volumes::<K>::default())
+fn quadrature<K: Kinematics<2>>(case: &Case, mesh: &Mesh<2>) -> Box<dyn Quadrature<2>> {
+    if case.numerics.fitted { Box::new(Fitted::<K>::new(mesh)) } else { Box::new(Volumes::<K>::default()) }
 }
 
 fn restore(restore: Restore) -> step::Restore {
