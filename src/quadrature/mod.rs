@@ -4,8 +4,15 @@
 //! Weights are found when the grid is restored and hold until it is again. Mass and momentum stay with the
 //! points.
 
+mod dual;
+mod fit;
+mod least;
 mod volumes;
 
+#[cfg(test)]
+mod tests;
+
+pub use fit::{Degree, Fitter, MOMENTS};
 pub use volumes::Volumes;
 
 use crate::mesh::Mesh;

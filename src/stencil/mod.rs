@@ -3,6 +3,7 @@
 //! A scheme (one file each) fills the flat arrays; everything downstream reads them and never asks which
 //! scheme made them. Points are grouped in *patches* that share their nodes: the points of a cell.
 
+mod ddmp;
 mod fill;
 mod jumps;
 mod mpm;
@@ -21,6 +22,8 @@ use crate::mesh::shape::MAX_NODES;
 pub enum Scheme {
     /// Those of the cell's own shape functions.
     Mpm,
+    /// Smoothed between cells; `fitted` where the points have weights fitted to the cells.
+    Ddmp { fitted: bool },
 }
 
 /// The points of one cell and the nodes they act on.
@@ -31,10 +34,14 @@ pub struct Patch {
     /// The points: `Stencil::points[first_point..first_point + point_count]`.
     pub first_point: u32,
     pub point_count: u32,
+    /// Nodes of the cell.
+    pub node_count: u32,
     /// Local functions: the nodes of the cell, and what else a scheme forms gradients with.
     pub function_count: u32,
-    /// Where the entries of the first point begin; those of each point follow function by function.
-    first_entry: usize,
+    /// Where the values of the first point begin; those of each point follow node by node.
+    first_value: usize,
+    /// Where the gradients of the first point begin; those of each point follow function by function.
+    first_gradient: usize,
 }
 
 /// Weights and gradients of all points, on the reference configuration: the grid as last restored.
@@ -54,6 +61,16 @@ pub struct Stencil<const D: usize> {
     pub weight: Vec<f64>,
     /// Where the gradients of a cell reach beyond its own nodes; absent where they do not.
     pub reach: Option<Reach>,
+    /// What is to be done once the points have weights.
+    unweighed: Option<ddmp::Unweighed>,
+}
+
+/// The arrays of one patch, to be filled.
+struct Slot<'a, const D: usize> {
+    patch: &'a Patch,
+    value: &'a mut [f64],
+    gradient: &'a mut [[f64; D]],
+    radius: &'a mut [f64],
 }
 
 /// The entries of one point.
@@ -63,7 +80,7 @@ pub struct Entries<'a, const D: usize> {
     pub point: usize,
     /// What the point weighs in integrals (m³), as volume when seeded.
     pub weight: f64,
-    /// `N_I` for the functions of the patch: its cell's nodes first.
+    /// `N_I` for the nodes of the cell; other functions have no value.
     pub value: &'a [f64],
     gradient: &'a [[f64; D]],
     /// `1 / r`, zero without hoop strain.
@@ -78,15 +95,15 @@ impl<const D: usize> Stencil<D> {
 
     /// The entries of the points of a patch, in order.
     pub fn entries<K: Kinematics<D>>(&self, patch: &Patch) -> impl Iterator<Item = Entries<'_, D>> {
-        let (first, count) = (patch.first_point as usize, patch.function_count as usize);
-        let begin = patch.first_entry;
+        let first = patch.first_point as usize;
+        let (nodes, functions) = (patch.node_count as usize, patch.function_count as usize);
         (0..patch.point_count as usize).map(move |k| {
-            let range = begin + k * count..begin + (k + 1) * count;
+            let (value, gradient) = (patch.first_value + k * nodes, patch.first_gradient + k * functions);
             Entries {
                 point: self.points[first + k] as usize,
                 weight: self.weight[first + k],
-                value: &self.value[range.clone()],
-                gradient: &self.gradient[range],
+                value: &self.value[value..value + nodes],
+                gradient: &self.gradient[gradient..gradient + functions],
                 hoop: if K::HOOP { 1.0 / self.radius[first + k] } else { 0.0 },
             }
         })
@@ -102,10 +119,11 @@ impl<const D: usize> Stencil<D> {
         mesh: &Mesh<D>,
         cell: &[u32],
         xi: &[[f64; 3]],
-        _taking_part: &[bool],
+        taking_part: &[bool],
     ) {
         match scheme {
             Scheme::Mpm => mpm::fill::<D, K>(self, mesh, cell, xi),
+            Scheme::Ddmp { fitted } => ddmp::fill::<D, K>(self, mesh, cell, xi, taking_part, fitted),
         }
         self.weight.resize(self.points.len(), 0.0);
     }
@@ -120,8 +138,8 @@ impl<const D: usize> Stencil<D> {
             let Ok(patch) = self.patches.binary_search_by_key(cell, |patch| patch.cell) else { continue };
             let patch = self.patches[patch];
             let count = patch.function_count as usize;
-            let entries = patch.first_entry..patch.first_entry + patch.point_count as usize * count;
-            for gradient in self.gradient[entries].chunks_exact_mut(count) {
+            let begin = patch.first_gradient;
+            for gradient in self.gradient[begin..begin + patch.point_count as usize * count].chunks_exact_mut(count) {
                 for (gradient, shift) in gradient.iter_mut().zip(shift) {
                     for d in 0..D {
                         gradient[d] += shift[d];
@@ -129,6 +147,23 @@ impl<const D: usize> Stencil<D> {
                 }
             }
         }
+        ddmp::weigh(self);
+    }
+
+    /// The arrays of each patch, so that patches can be filled in parallel.
+    fn slots(&mut self) -> Vec<Slot<'_, D>> {
+        let mut slots = Vec::with_capacity(self.patches.len());
+        let (mut value, mut gradient) = (&mut self.value[..], &mut self.gradient[..]);
+        let mut radius = &mut self.radius[..];
+        for patch in &self.patches {
+            let (v, g, r);
+            (v, value) = value.split_at_mut((patch.point_count * patch.node_count) as usize);
+            (g, gradient) = gradient.split_at_mut((patch.point_count * patch.function_count) as usize);
+            let radii = radius.len().min(patch.point_count as usize);
+            (r, radius) = radius.split_at_mut(radii);
+            slots.push(Slot { patch, value: v, gradient: g, radius: r });
+        }
+        slots
     }
 
     /// The nodes that a cell acts on: its own first.
@@ -157,6 +192,11 @@ impl<const D: usize> Stencil<D> {
 impl<const D: usize> Entries<'_, D> {
     /// The gradient of function `i` of the patch.
     pub fn gradient(&self, i: usize) -> Gradient<D> {
-        Gradient { g: self.gradient[i], hoop: self.hoop * self.value[i] }
+        Gradient { g: self.gradient[i], hoop: self.value.get(i).map_or(0.0, |n| self.hoop * n) }
+    }
+
+    /// The number of functions, values or none.
+    pub fn functions(&self) -> usize {
+        self.gradient.len()
     }
 }

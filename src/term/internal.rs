@@ -152,7 +152,7 @@ fn strain<const D: usize, K: Kinematics<D>>(
 #[inline]
 fn deformation<const D: usize, K: Kinematics<D>>(entries: &Entries<D>, u: &[[f64; D]; MAX_NODES]) -> Tensor {
     let mut f = Tensor::identity();
-    for (i, u) in u.iter().enumerate().take(entries.value.len()) {
+    for (i, u) in u.iter().enumerate().take(entries.functions()) {
         K::deform(&mut f, u, &entries.gradient(i));
     }
     f

@@ -25,6 +25,7 @@ use crate::points::Points;
 use crate::stencil::{Patch, SoftCell, Stencil};
 use crate::system::{Local, Matrix, Pattern, Workspace, scatter};
 use crate::tensor::{Symmetric, Tensor};
+use crate::time_value::TimeValue;
 
 /// A face between two cells that takes a ghost penalty.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -172,6 +173,11 @@ pub trait Term<const D: usize>: Send + Sync {
     /// What kind of force the term is.
     fn role(&self) -> Role {
         Role::Internal
+    }
+
+    /// The factor on the load of the term in a phase, if it has one.
+    fn factor(&self, _phase: usize) -> Option<&TimeValue> {
+        None
     }
 
     /// Whether the term needs [`Points::plastic_increment`].

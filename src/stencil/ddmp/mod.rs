@@ -1,0 +1,113 @@
+//! Dual-domain material point gradients: continuous over the edges of cells.
+//!
+//! `∇̄N_I = ∇N_I + Σ_a ψ_a(x) (G_aI − g_aI)`, with the cell's own gradients `g_a = ∇N(x_a)` at its nodes and the
+//! smoothed ones `G_a` there (`smoothing`), blended by `ψ_a` (`blend`). After Zhang, Ma & Giguere (2011), with
+//! `ψ_a = (1 − α) S_a`; the smoothing functions are the cell's own, which keeps the order of quadratic cells. The
+//! smoothing adds, for each node `a` and direction `j`, one function without value and with the gradient
+//! `ψ_a e_j` to those of a cell. Hoop strain stays `N_I / r`.
+
+mod blend;
+mod smoothing;
+
+use super::{Stencil, mpm};
+use crate::kinematics::Kinematics;
+use crate::mesh::Mesh;
+use crate::mesh::shape::{CellKind, MAX_NODES};
+use blend::{ByVolume, MAX_SMOOTHED, Orthogonal, Seen, smoothed_nodes};
+use rayon::prelude::*;
+
+/// What is kept until the points are weighed.
+#[derive(Clone, Debug, Default)]
+pub struct Unweighed {
+    /// The kind of the cell of each patch.
+    kind: Vec<CellKind>,
+    /// In the order of [`Stencil::points`].
+    seen: Vec<Seen>,
+}
+
+/// Fills `stencil` as [`Stencil::fill`] does. With `fitted` the blend waits for the weights of the points.
+pub fn fill<const D: usize, K: Kinematics<D>>(
+    stencil: &mut Stencil<D>,
+    mesh: &Mesh<D>,
+    cell: &[u32],
+    xi: &[[f64; 3]],
+    taking_part: &[bool],
+    fitted: bool,
+) {
+    mpm::fill_with::<D, K>(stencil, mesh, cell, xi, |c| D * smoothed_nodes(mesh.cells.kind[c]));
+    let kinds: Vec<CellKind> = stencil.patches.iter().map(|patch| mesh.cells.kind[patch.cell as usize]).collect();
+    let blends: Vec<(ByVolume, f64)> = stencil
+        .patches
+        .par_iter()
+        .zip(&kinds)
+        .map(|(patch, &kind)| {
+            let nodes = mesh.cells.nodes(patch.cell as usize);
+            let mut x = [[0.0; D]; MAX_NODES];
+            for (x, &n) in x.iter_mut().zip(nodes) {
+                *x = mesh.nodes[n as usize];
+            }
+            ByVolume::new(kind, &x[..nodes.len()], K::measure)
+        })
+        .collect();
+    let mut volume = vec![0.0; mesh.cells.len()];
+    for (patch, (_, v)) in stencil.patches.iter().zip(&blends) {
+        volume[patch.cell as usize] = *v;
+    }
+    let points = std::mem::take(&mut stencil.points);
+    stencil.slots().into_par_iter().zip(&blends).for_each(|(slot, (blend, _))| {
+        let (own, all) = (slot.patch.node_count as usize, slot.patch.function_count as usize);
+        let numbers = &points[slot.patch.first_point as usize..];
+        for ((n, gradient), &p) in slot.value.chunks_exact(own).zip(slot.gradient.chunks_exact_mut(all)).zip(numbers) {
+            let psi = if fitted { shapes(n) } else { blend.at(&xi[p as usize], n) };
+            write::<D>(&mut gradient[own..], |a| psi[a]);
+        }
+    });
+    stencil.points = points;
+    stencil.unweighed = fitted.then(|| Unweighed {
+        seen: stencil
+            .points
+            .iter()
+            .map(|&p| Seen::new(mesh.cells.kind[cell[p as usize] as usize], &xi[p as usize]))
+            .collect(),
+        kind: kinds,
+    });
+    stencil.reach = Some(smoothing::reach(mesh, taking_part, &volume));
+}
+
+/// Blends by the weights that the points now have.
+pub fn weigh<const D: usize>(stencil: &mut Stencil<D>) {
+    let Some(Unweighed { kind, seen }) = stencil.unweighed.take() else { return };
+    let weight = std::mem::take(&mut stencil.weight);
+    stencil.slots().into_par_iter().zip(kind).for_each(|(slot, kind)| {
+        let (own, all) = (slot.patch.node_count as usize, slot.patch.function_count as usize);
+        let range = slot.patch.first_point as usize..(slot.patch.first_point + slot.patch.point_count) as usize;
+        let (seen, weight) = (&seen[range.clone()], &weight[range]);
+        let smoothed = (all - own) / D;
+        let shapes = slot.value.chunks_exact(own).map(|n| &n[..smoothed]);
+        let points = seen.iter().zip(weight).zip(shapes).map(|((&seen, &w), n)| (seen, w, n));
+        let blend = Orthogonal::new(kind, points);
+        for ((n, gradient), seen) in slot.value.chunks_exact(own).zip(slot.gradient.chunks_exact_mut(all)).zip(seen) {
+            write::<D>(&mut gradient[own..], |a| n[a] + blend.correction(a, seen));
+        }
+    });
+    stencil.weight = weight;
+}
+
+/// The shape functions of the smoothing nodes among those of a cell.
+fn shapes(n: &[f64]) -> [f64; MAX_SMOOTHED] {
+    std::array::from_fn(|a| n.get(a).copied().unwrap_or(0.0))
+}
+
+/// The gradients `ψ_a e_j` of the functions beyond the cell's nodes.
+fn write<const D: usize>(gradients: &mut [[f64; D]], psi: impl Fn(usize) -> f64) {
+    for (a, gradients) in gradients.chunks_exact_mut(D).enumerate() {
+        let psi = psi(a);
+        for (j, gradient) in gradients.iter_mut().enumerate() {
+            *gradient = [0.0; D];
+            gradient[j] = psi;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;

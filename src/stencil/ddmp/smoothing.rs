@@ -1,0 +1,167 @@
+//! Smoothed gradients at the nodes: what each cell sees of its neighbours.
+//!
+//! `G_a = Σ_c W_c g_c(a) / Σ_c W_c` over the cells with points that have the node `a`: their own gradients there,
+//! weighted by volume. A field that is quadratic on quadratic cells has its own gradient everywhere, which
+//! smoothing then keeps.
+
+use super::blend::{share, smoothed_nodes};
+use crate::mesh::Mesh;
+use crate::mesh::shape::{self, MAX_NODES};
+use crate::stencil::Reach;
+use rayon::prelude::*;
+
+/// Cells by node.
+struct Around {
+    start: Vec<u32>,
+    cell: Vec<u32>,
+}
+
+impl Around {
+    /// The cells in `taking_part` around each node, ascending.
+    fn new<const D: usize>(mesh: &Mesh<D>, taking_part: &[bool]) -> Self {
+        let mut start = vec![0; mesh.nodes.len() + 1];
+        let cells = || (0..mesh.cells.len()).filter(|&c| taking_part[c]);
+        for c in cells() {
+            for &n in mesh.cells.nodes(c) {
+                start[n as usize + 1] += 1;
+            }
+        }
+        for n in 0..mesh.nodes.len() {
+            start[n + 1] += start[n];
+        }
+        let mut next = start.clone();
+        let mut cell = vec![0; start[mesh.nodes.len()] as usize];
+        for c in cells() {
+            for &n in mesh.cells.nodes(c) {
+                cell[next[n as usize] as usize] = c as u32;
+                next[n as usize] += 1;
+            }
+        }
+        Self { start, cell }
+    }
+
+    fn of(&self, node: u32) -> &[u32] {
+        &self.cell[self.start[node as usize] as usize..self.start[node as usize + 1] as usize]
+    }
+}
+
+/// The gradients of a cell's functions at its smoothing nodes, node by node.
+fn own_gradients<const D: usize>(mesh: &Mesh<D>, cell: usize) -> Vec<[f64; D]> {
+    let (kind, nodes) = (mesh.cells.kind[cell], mesh.cells.nodes(cell));
+    let mut x = [[0.0; D]; MAX_NODES];
+    for (x, &n) in x.iter_mut().zip(nodes) {
+        *x = mesh.nodes[n as usize];
+    }
+    let mut n = [0.0; MAX_NODES];
+    let mut gradients = vec![[0.0; D]; smoothed_nodes(kind) * nodes.len()];
+    for (row, xi) in gradients.chunks_exact_mut(nodes.len()).zip(kind.node_coordinates()) {
+        shape::map(kind, &x[..nodes.len()], xi, &mut n, row);
+    }
+    gradients
+}
+
+/// Marks a node that the cell at hand does not act on.
+const ABSENT: u32 = u32::MAX;
+
+/// The functions of all cells: for each smoothing node `a` and direction `j` the combination
+/// `(G_aI − g_aI)·e_j` of nodal values. `volume` is that of the cells with points, zero for the others; cells in
+/// `taking_part` without points act on the same nodes as if they had some, so that they can take them up.
+pub fn reach<const D: usize>(mesh: &Mesh<D>, taking_part: &[bool], volume: &[f64]) -> Reach {
+    let around = Around::new(mesh, taking_part);
+    let own: Vec<Vec<[f64; D]>> = (0..mesh.cells.len())
+        .into_par_iter()
+        .map(|c| if volume[c] > 0.0 { own_gradients(mesh, c) } else { Vec::new() })
+        .collect();
+    let total = |node: u32| -> f64 { around.of(node).iter().map(|&c| weight(mesh, c, node, volume)).sum() };
+    let total: Vec<f64> = (0..mesh.nodes.len() as u32).into_par_iter().map(total).collect();
+    let scratch = || vec![ABSENT; mesh.nodes.len()];
+    let cell = |place: &mut Vec<u32>, c: usize| {
+        let mut nodes = Vec::new();
+        if taking_part[c] {
+            gather_nodes(mesh, &around, c, place, &mut nodes);
+        }
+        let mut rows = Vec::new();
+        if volume[c] > 0.0 {
+            rows = combinations(mesh, &around, c, volume, &own, &total, place, nodes.len());
+        }
+        for &n in &nodes {
+            place[n as usize] = ABSENT;
+        }
+        (nodes, rows)
+    };
+    let cells: Vec<(Vec<u32>, Vec<f64>)> =
+        (0..mesh.cells.len()).into_par_iter().with_min_len(64).map_init(scratch, cell).collect();
+    let mut reach = Reach { node_start: vec![0], row_start: vec![0], ..Reach::default() };
+    for (nodes, rows) in cells {
+        reach.node.extend(nodes);
+        reach.combination.extend(rows);
+        reach.node_start.push(reach.node.len() as u32);
+        reach.row_start.push(reach.combination.len() as u32);
+    }
+    reach
+}
+
+/// What a cell weighs at its node; zero where it does not smooth there.
+fn weight<const D: usize>(mesh: &Mesh<D>, cell: u32, node: u32, volume: &[f64]) -> f64 {
+    let c = cell as usize;
+    let kind = mesh.cells.kind[c];
+    match mesh.cells.nodes(c).iter().position(|&n| n == node) {
+        Some(a) if a < smoothed_nodes(kind) => share(kind, a) * volume[c],
+        _ => 0.0,
+    }
+}
+
+/// The nodes that a cell acts on, its own first; `place` says where each stands.
+fn gather_nodes<const D: usize>(mesh: &Mesh<D>, around: &Around, c: usize, place: &mut [u32], nodes: &mut Vec<u32>) {
+    let own = mesh.cells.nodes(c);
+    let mut take = |n: u32| {
+        if place[n as usize] == ABSENT {
+            place[n as usize] = nodes.len() as u32;
+            nodes.push(n);
+        }
+    };
+    own.iter().for_each(|&n| take(n));
+    for &a in &own[..smoothed_nodes(mesh.cells.kind[c])] {
+        for &other in around.of(a) {
+            if smoothed_nodes(mesh.cells.kind[other as usize]) > 0 {
+                mesh.cells.nodes(other as usize).iter().for_each(|&n| take(n));
+            }
+        }
+    }
+}
+
+/// The rows of a cell that acts on `count` nodes.
+#[expect(clippy::too_many_arguments, reason = "the cell and its surroundings")]
+fn combinations<const D: usize>(
+    mesh: &Mesh<D>,
+    around: &Around,
+    c: usize,
+    volume: &[f64],
+    own: &[Vec<[f64; D]>],
+    total: &[f64],
+    place: &[u32],
+    count: usize,
+) -> Vec<f64> {
+    let smoothed = &mesh.cells.nodes(c)[..smoothed_nodes(mesh.cells.kind[c])];
+    let mut rows = vec![0.0; smoothed.len() * D * count];
+    for ((a, &node), rows) in smoothed.iter().enumerate().zip(rows.chunks_exact_mut(D * count)) {
+        let mut add = |cell: usize, a: usize, factor: f64| {
+            let nodes = mesh.cells.nodes(cell);
+            for (&n, gradient) in nodes.iter().zip(&own[cell][a * nodes.len()..]) {
+                for d in 0..D {
+                    rows[d * count + place[n as usize] as usize] += factor * gradient[d];
+                }
+            }
+        };
+        add(c, a, -1.0);
+        for &other in around.of(node) {
+            let weight = weight(mesh, other, node, volume);
+            if weight > 0.0
+                && let Some(b) = mesh.cells.nodes(other as usize).iter().position(|&n| n == node)
+            {
+                add(other as usize, b, weight / total[node as usize]);
+            }
+        }
+    }
+    rows
+}
