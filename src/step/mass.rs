@@ -18,7 +18,7 @@ use crate::stencil::{Jump, cell_size, integrate};
 use crate::system::{Method, scatter};
 
 /// `γ_m` (-).
-const PENALTY: f64 = 1e-2;
+const PENALTY: f64 = 1e-4;
 
 /// `ε` (-).
 const WEAK: f64 = 1e-8;
