@@ -5,6 +5,7 @@
 
 pub use super::raw::{Axis, Encoding, Field, Quantity};
 use crate::material::{Model, Profile};
+use crate::term::Carried;
 use crate::time_value::TimeValue;
 use std::collections::BTreeMap;
 use std::fmt;
@@ -82,6 +83,8 @@ pub struct Material {
     /// Density (t/m³).
     pub density: Profile,
     pub model: Arc<dyn Model>,
+    /// What the pressure field carries of its stress.
+    pub carried: Option<Carried>,
 }
 
 impl fmt::Debug for Material {

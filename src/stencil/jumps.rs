@@ -22,6 +22,44 @@ pub struct Jump {
     pub form: Box<[f64]>,
 }
 
+impl Jump {
+    /// Computes the form of a face.
+    pub fn of<const D: usize, K: Kinematics<D>>(mesh: &Mesh<D>, face: &Face) -> Self {
+        let both: Vec<u32> = face.nodes(mesh).collect();
+        let first = face.cells[0] as usize;
+        let (facet, facets) = mesh.cells.kind[first].facets();
+        let shared: Vec<u32> = facets[face.sides[0] as usize].iter().map(|&i| mesh.cells.nodes(first)[i]).collect();
+        let sides = [(0, 1.0), (1, -1.0)].map(|(i, sign)| side(mesh, face.cells[i] as usize, &both, &shared, sign));
+        let x: Vec<[f64; D]> = shared.iter().map(|&n| mesh.nodes[n as usize]).collect();
+        let middle = place(facet, &x, &facet.centre());
+        let size = 0.5 * (extent(&sides[0], &middle) + extent(&sides[1], &middle));
+
+        let count = both.len();
+        let mut form = vec![0.0; count * count];
+        let (mut values, mut grad, mut second) = ([0.0; MAX_NODES], [[0.0; D]; MAX_NODES], [[[0.0; D]; D]; MAX_NODES]);
+        for (xi, weight) in rule(facet, 2 * facet.order() + 1) {
+            facet.values(&xi, &mut values);
+            let Place { x, normal, stretch } = place(facet, &x, &xi);
+            let (mut kink, mut bend) = (vec![0.0; count], vec![0.0; count]);
+            for side in &sides {
+                let at = [0, 1, 2].map(|d| side.facet.iter().zip(&values).map(|(c, n)| n * c[d]).sum());
+                map_second(side.kind, &side.x, &at, &mut grad, &mut second);
+                for (i, &slot) in side.place.iter().enumerate() {
+                    kink[slot] += side.sign * dot(&grad[i], &normal);
+                    bend[slot] += side.sign * dot(&second[i].map(|row| dot(&row, &normal)), &normal);
+                }
+            }
+            let weight = weight * stretch * K::measure(&x) * size;
+            for i in 0..count {
+                for j in 0..count {
+                    form[i * count + j] += weight * (kink[i] * kink[j] + size * size * bend[i] * bend[j]);
+                }
+            }
+        }
+        Self { size, form: form.into_boxed_slice() }
+    }
+}
+
 /// The forms of the faces of a mesh, each made when it is first asked for: a restored grid keeps its shape, so
 /// that it holds for the whole run.
 #[derive(Debug, Default)]
@@ -35,7 +73,7 @@ impl Jumps {
 
     /// The form of `face`, number `number` of the inner faces.
     pub fn of<const D: usize, K: Kinematics<D>>(&self, mesh: &Mesh<D>, face: &Face, number: u32) -> &Jump {
-        self.0[number as usize].get_or_init(|| jump::<D, K>(mesh, face))
+        self.0[number as usize].get_or_init(|| Jump::of::<D, K>(mesh, face))
     }
 }
 
@@ -56,42 +94,6 @@ struct Place<const D: usize> {
     normal: [f64; D],
     /// Length (area) for a unit of the parametric one.
     stretch: f64,
-}
-
-/// Computes the form of a face.
-fn jump<const D: usize, K: Kinematics<D>>(mesh: &Mesh<D>, face: &Face) -> Jump {
-    let both: Vec<u32> = face.nodes(mesh).collect();
-    let first = face.cells[0] as usize;
-    let (facet, facets) = mesh.cells.kind[first].facets();
-    let shared: Vec<u32> = facets[face.sides[0] as usize].iter().map(|&i| mesh.cells.nodes(first)[i]).collect();
-    let sides = [(0, 1.0), (1, -1.0)].map(|(i, sign)| side(mesh, face.cells[i] as usize, &both, &shared, sign));
-    let x: Vec<[f64; D]> = shared.iter().map(|&n| mesh.nodes[n as usize]).collect();
-    let middle = place(facet, &x, &facet.centre());
-    let size = 0.5 * (extent(&sides[0], &middle) + extent(&sides[1], &middle));
-
-    let count = both.len();
-    let mut form = vec![0.0; count * count];
-    let (mut values, mut grad, mut second) = ([0.0; MAX_NODES], [[0.0; D]; MAX_NODES], [[[0.0; D]; D]; MAX_NODES]);
-    for (xi, weight) in rule(facet, 2 * facet.order() + 1) {
-        facet.values(&xi, &mut values);
-        let Place { x, normal, stretch } = place(facet, &x, &xi);
-        let (mut kink, mut bend) = (vec![0.0; count], vec![0.0; count]);
-        for side in &sides {
-            let at = [0, 1, 2].map(|d| side.facet.iter().zip(&values).map(|(c, n)| n * c[d]).sum());
-            map_second(side.kind, &side.x, &at, &mut grad, &mut second);
-            for (i, &slot) in side.place.iter().enumerate() {
-                kink[slot] += side.sign * dot(&grad[i], &normal);
-                bend[slot] += side.sign * dot(&second[i].map(|row| dot(&row, &normal)), &normal);
-            }
-        }
-        let weight = weight * stretch * K::measure(&x) * size;
-        for i in 0..count {
-            for j in 0..count {
-                form[i * count + j] += weight * (kink[i] * kink[j] + size * size * bend[i] * bend[j]);
-            }
-        }
-    }
-    Jump { size, form: form.into_boxed_slice() }
 }
 
 fn side<const D: usize>(mesh: &Mesh<D>, cell: usize, both: &[u32], shared: &[u32], sign: f64) -> Side<D> {
@@ -152,7 +154,7 @@ mod tests {
 
     /// `uᵀ G u` for `u` given by the place of the nodes, and the largest product that it is a sum of.
     fn energy<K: Kinematics<2>>(mesh: &Mesh<2>, face: &Face, u: impl Fn([f64; 2]) -> f64) -> (f64, f64) {
-        let jump = jump::<2, K>(mesh, face);
+        let jump = Jump::of::<2, K>(mesh, face);
         let u: Vec<f64> = face.nodes(mesh).map(|n| u(mesh.nodes[n as usize])).collect();
         let (mut sum, mut largest) = (0.0, 0f64);
         for (row, a) in jump.form.chunks_exact(u.len()).zip(&u) {
@@ -214,7 +216,7 @@ mod tests {
             let face = across.unwrap();
             let kink = |[x, _]: [f64; 2]| a * (x - 3.0).abs();
             let bend = |[x, _]: [f64; 2]| 0.5 * b * (x - 3.0) * (x - 3.0).abs();
-            assert_eq!(jump::<2, PlaneStrain>(&mesh, face).size, 1.0);
+            assert_eq!(Jump::of::<2, PlaneStrain>(&mesh, face).size, 1.0);
             for (e, turned) in [
                 (energy::<PlaneStrain>(&mesh, face, kink).0, 1.0),
                 (energy::<Axisymmetric>(&mesh, face, kink).0, TAU * 3.0),
@@ -233,7 +235,7 @@ mod tests {
         for kind in PLANE {
             let mesh = if kind.order() == 2 { curved(kind) } else { rectangle(kind, 3.0, 2.0, 4, 3, 0.2, 5) };
             for face in &Faces::of(&mesh).inner {
-                let form = jump::<2, Axisymmetric>(&mesh, face).form;
+                let form = Jump::of::<2, Axisymmetric>(&mesh, face).form;
                 let count = face.nodes(&mesh).count();
                 let g = nalgebra::DMatrix::from_row_slice(count, count, &form);
                 let largest = g.amax();

@@ -4,6 +4,7 @@ mod bar;
 mod bench;
 mod cantilever;
 mod column;
+mod ghost;
 mod held_out;
 mod patch;
 mod rotation;

@@ -2,12 +2,16 @@
 
 use crate::loads::{anywhere, stand};
 use crate::stand::{KINDS, Stand, elastic, resultant, size};
+use mpm::error::Result;
 use mpm::kinematics::{Axisymmetric, Kinematics, PlaneStrain};
 use mpm::material::{Elasticity, LinearElastic, Model, Profile};
 use mpm::mesh::Mesh;
+use mpm::mesh::builder::rectangle;
 use mpm::mesh::faces::Faces;
 use mpm::mesh::shape::CellKind;
-use mpm::term::{GhostPenalty, Role, Term};
+use mpm::points::Points;
+use mpm::tensor::{IDENTITY, Tensor};
+use mpm::term::{Assembly, Frame, GhostPenalty, Internal, Role, Term, Trial};
 use std::sync::Arc;
 
 const FACTOR: f64 = 0.1;
@@ -99,4 +103,69 @@ fn in_flow_it_resists_independently_of_the_step() {
     assert!(one < 1e-2 * elastic, "{one} of {elastic}");
     // As it was where the flow is too small to tell.
     assert!((flow(1e-5) - 1e-5 * elastic).abs() < 1e-9 * 1e-5 * elastic);
+}
+
+/// Several terms as one.
+struct Sum(Vec<Box<dyn Term<2>>>);
+
+impl Term<2> for Sum {
+    fn assemble(&self, frame: &Frame<2>, trial: &Trial<2>, out: &mut Assembly) -> Result<()> {
+        for term in &self.0 {
+            let tangent = out.tangent.as_deref_mut();
+            term.assemble(frame, trial, &mut Assembly { force: out.force, tangent, workspace: out.workspace })?;
+        }
+        Ok(())
+    }
+}
+
+/// Condition number of the stiffness of a body that fills the left half of the rectangle of the stand and reaches
+/// `over` (in widths of a cell) into the right one, held at the left.
+fn condition(over: f64, ghost: bool) -> f64 {
+    let mesh = rectangle(CellKind::T6, 4.0, 4.0, 4, 4, 0.0, 0);
+    let mut points = Points::default();
+    let mut add = |x: [f64; 2], volume: f64| {
+        points.position.push(x);
+        points.origin.push(x);
+        points.mass.push(volume);
+        points.initial_volume.push(volume);
+        points.deformation.push(Tensor::identity());
+        points.elastic.push(IDENTITY);
+        points.stress.push([0.0; 6]);
+        points.plastic_strain.push(0.0);
+        points.region.push(0);
+        points.cell.push(0);
+    };
+    let spacing = 0.2;
+    for j in 0..20 {
+        let y = (f64::from(j) + 0.5) * spacing;
+        (0..10).for_each(|i| add([(f64::from(i) + 0.5) * spacing, y], spacing * spacing));
+        add([2.0 + 0.5 * over, y], over * spacing);
+    }
+    let mut terms: Vec<Box<dyn Term<2>>> = vec![Box::new(Internal::<PlaneStrain>::new(vec![young(1000.0)], false))];
+    if ghost {
+        terms.push(Box::new(of::<PlaneStrain>(&mesh, vec![young(1000.0)])));
+    }
+    let stand: Stand<PlaneStrain> = Stand::new(mesh, points, Box::new(Sum(terms)), true, false);
+    let rest = stand.field(0.0, 1, |_| [0.0; 2]);
+    let (_, tangent) = stand.evaluate(&rest, &rest, 0, true);
+    let nodes = &stand.scene.mesh.nodes;
+    let free: Vec<usize> = (0..tangent.len()).filter(|&i| tangent[i][i] != 0.0 && nodes[i / 2][0] > 0.0).collect();
+    let k = nalgebra::DMatrix::from_fn(free.len(), free.len(), |i, j| tangent[free[j]][free[i]]);
+    let values = nalgebra::SymmetricEigen::new(k).eigenvalues;
+    values.max() / values.min().max(0.0)
+}
+
+/// A body shifted over the edge of its cells: what is left in the next ones may be as thin as rounding.
+#[test]
+fn the_condition_number_is_bounded_however_thin_the_sliver() {
+    let slivers = [0.3, 0.1, 1e-2, 1e-4, 1e-6, 1e-9, 1e-12];
+    let with = slivers.map(|over| condition(over, true));
+    let without = slivers.map(|over| condition(over, false));
+    for ((over, with), without) in slivers.iter().zip(&with).zip(&without) {
+        println!("{over:.0e} h over the edge: condition {with:.3e}, without the penalty {without:.1e}");
+    }
+    // The last one is so thin that its points lie on the edge: there is no sliver.
+    assert!(with[..6].iter().all(|&c| c < 100.0 * with[6]), "{with:?}");
+    assert!((with[5] - with[3]).abs() < 1e-2 * with[3], "no bound in sight: {with:?}");
+    assert!(without[..6].iter().all(|&c| c > 1e12), "{without:?}");
 }

@@ -134,7 +134,7 @@ impl<K: Kinematics<2>> Stand<K> {
             locator: Locator::new(&mesh),
             mesh,
             terms,
-            faces: restored.then_some(faces),
+            faces: Some(faces),
             quadrature: Box::new(Volumes::<K>::default()),
             supports: Vec::new(),
             phases: vec![phase.clone(), phase],
