@@ -15,6 +15,14 @@ pub struct Face {
     pub sides: [u8; 2],
 }
 
+impl Face {
+    /// The nodes of both cells, each once: those of the first in its order, then what the second adds.
+    pub fn nodes<'a, const D: usize>(&self, mesh: &'a Mesh<D>) -> impl Iterator<Item = u32> + 'a {
+        let [first, second] = self.cells.map(|c| mesh.cells.nodes(c as usize));
+        first.iter().chain(second.iter().filter(|n| !first.contains(n))).copied()
+    }
+}
+
 /// The faces of a mesh, from its connectivity alone: they stay what they are when the nodes move.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Faces {

@@ -4,8 +4,12 @@ use super::{Quadrature, Tally, Weighing};
 use crate::kinematics::Kinematics;
 use crate::mesh::Mesh;
 use crate::points::Points;
-use crate::stencil::{Stencil, soft_cells};
+use crate::stencil::{Patch, Stencil, soft_cells};
 use std::marker::PhantomData;
+
+/// Fewer points than this, or more emptiness (-), do not hold a cell's nodes by themselves.
+const FEW: u32 = 4;
+const POOR: f64 = 0.5;
 
 /// Points weigh what their volume is. Cells are as full as the volumes of their points say.
 #[derive(Default)]
@@ -23,11 +27,16 @@ impl<const D: usize, K: Kinematics<D>> Quadrature<D> for Volumes<K> {
         taking_part: &[bool],
     ) -> Weighing<D> {
         let volume = (0..points.len()).map(|p| points.volume(p)).sum();
+        let soft = soft_cells::<D, K>(mesh, stencil, points, taking_part);
+        let half_empty =
+            |cell: u32| soft.binary_search_by_key(&cell, |s| s.cell).is_ok_and(|at| soft[at].emptiness > POOR);
+        let poor = |patch: &&Patch| patch.point_count < FEW || half_empty(patch.cell);
+        let poor = stencil.patches.iter().filter(poor).map(|patch| patch.cell).collect();
         Weighing {
             weight: points.initial_volume.clone(),
             shift: Vec::new(),
-            soft: soft_cells::<D, K>(mesh, stencil, points, taking_part),
-            poor: Vec::new(),
+            soft,
+            poor,
             tally: Tally {
                 volume: stencil.patches.len() as u32,
                 point_volume: volume,

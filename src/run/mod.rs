@@ -23,6 +23,7 @@ use crate::io::history::{History, Log};
 use crate::kinematics::Kinematics;
 use crate::profile::{Activity, timed};
 use crate::step::{Controller, Limits, Phase, Scene, Simulation, State};
+use crate::time_value::TimeValue;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -128,7 +129,7 @@ pub fn run<const D: usize, K: Kinematics<D>>(
             let report = match simulation.advance(&mut controller) {
                 Ok(report) => report,
                 Err(error) => {
-                    let error = in_time(error, phase, &simulation.state);
+                    let error = in_time(error, scene, phase, &simulation.state);
                     files.log.line(&format!("the analysis ends here: {error}"))?;
                     files.last_frame(scene, &mut simulation.state)?;
                     files.close()?;
@@ -157,13 +158,37 @@ pub fn run<const D: usize, K: Kinematics<D>>(
     Ok(Ended::Done)
 }
 
-/// An error of the analysis with the moment it came in.
-fn in_time<const D: usize>(error: Error, phase: &Phase, state: &State<D>) -> Error {
+/// An error of the analysis with the moment it came in, and, where loads grow without inertia, how far they had come:
+/// what stops Newton's method there may be the limit load.
+fn in_time<const D: usize>(error: Error, scene: &Scene<D>, phase: &Phase, state: &State<D>) -> Error {
     if error.kind != Kind::Analysis {
         return error;
     }
     let moment = format!("in step {} from t = {:.6} s in phase `{}`", state.step + 1, state.time, phase.name);
-    Error { problem: format!("{} ({moment})", error.problem), ..error }
+    let loads = if phase.dynamic { Vec::new() } else { loads_reached(scene, phase, state) };
+    if loads.is_empty() {
+        return Error { problem: format!("{} ({moment})", error.problem), ..error };
+    }
+    let problem = format!("{} ({moment}; equilibrium was last found at {})", error.problem, loads.join(", "));
+    let remedy = match error.place.as_str() {
+        "Newton" => format!("{}; beyond the load that the soil can bear go on with `analysis: dynamic`", error.remedy),
+        _ => error.remedy,
+    };
+    Error { problem, remedy, ..error }
+}
+
+/// The loads of a phase that vary: where they stand, and where the phase takes them.
+fn loads_reached<const D: usize>(scene: &Scene<D>, phase: &Phase, state: &State<D>) -> Vec<String> {
+    let (now, end) = (state.phase_time, phase.duration);
+    let varies = |value: &TimeValue| !matches!(value, TimeValue::Constant(_)) && value.at(end) != 0.0;
+    let factors = scene.terms.iter().filter_map(|term| term.factor(state.phase)).filter(|value| varies(value));
+    let factors = factors.map(|value| format!("the gravity factor {:.4} of {:.4}", value.at(now), value.at(end)));
+    let moved = phase.prescribed.iter().filter(|p| varies(&p.displacement)).map(|p| {
+        let axis = ["x", "y", "z"][p.fixed.component];
+        let (now, end) = (p.displacement.at(now), p.displacement.at(end));
+        format!("{now:.4e} of {end:.4e} m prescribed in {axis}")
+    });
+    factors.chain(moved).collect()
 }
 
 /// Begins the next phase in the converged state of this one.

@@ -5,10 +5,12 @@
 
 mod ddmp;
 mod fill;
+mod jumps;
 mod mpm;
 mod reach;
 
 pub use fill::{SoftCell, cell_size, integrate, soft_cells};
+pub use jumps::{Jump, Jumps};
 pub use reach::Reach;
 
 use crate::kinematics::{Gradient, Kinematics};

@@ -1,133 +1,19 @@
 //! Transfer of the motion between points and grid.
 //!
-//! To the grid by consistent mass, `Σ_p m_p N_I N_J v_J = Σ_p m_p N_I v_p`: it keeps linear momentum and,
-//! where cells are full, a linear velocity field exactly. To the points by increments of velocity (FLIP) and values of acceleration.
+//! To the grid by consistent mass, `Σ_p m_p N_I N_J v_J = Σ_p m_p N_I v_p`: it keeps linear and angular momentum
+//! and a linear velocity field exactly. To the points by increments of velocity (FLIP) and values of acceleration.
 
-use super::grid::{Grid, System};
+use super::grid::Grid;
+use super::mass::Mass;
 use super::newton::{Problem, Solution, static_force};
 use super::scene::Scene;
 use super::state::State;
-use crate::error::{Error, Result};
+use crate::error::Result;
 use crate::kinematics::Kinematics;
 use crate::mesh::shape::MAX_NODES;
-use crate::stencil::{SoftCell, cell_size, integrate};
-use crate::system::{Method, scatter};
 use crate::term::Trial;
 use crate::time_integration::GeneralisedAlpha;
 use rayon::prelude::*;
-
-/// Weight of the gradient penalty that spreads the motion smoothly over nodes with little or no mass,
-/// relative to the mass of a full cell: `ε ρ h² s ∫ ∇N_I·∇N_J`, `s = 1 − fill` and at least a tenth in cells
-/// with fewer points than nodes, whose mass alone is singular. It does not touch uniform motion and adds no
-/// momentum.
-const SPREAD: f64 = 1e-4;
-
-/// The mass of the points on the nodes, factorised.
-struct Mass<'a> {
-    system: &'a mut System,
-    factorised: bool,
-}
-
-impl<'a> Mass<'a> {
-    /// Assembles the mass where the points are.
-    ///
-    /// # Errors
-    /// When the scene has no dynamic phase.
-    fn assemble<const D: usize, K: Kinematics<D>>(
-        scene: &Scene<D>,
-        grid: &'a mut Grid<D>,
-        state: &State<D>,
-    ) -> Result<Self> {
-        let spread = spread_cells(grid, &state.weighing.soft);
-        let points = &state.points;
-        let Some(system) = grid.mass.as_mut() else {
-            return Err(Error::analysis("transfer", "a scene without dynamic phases has no mass system", ""));
-        };
-        system.matrix.clear();
-        let mut unused = vec![0.0; system.pattern.len()];
-        let (stencil, clique) = (&grid.stencil, &grid.clique);
-        scatter(
-            &system.pattern,
-            &stencil.patches,
-            |patch| clique[patch.cell as usize] as usize,
-            |patch, local| {
-                for entries in stencil.entries::<K>(patch) {
-                    let m = points.mass[entries.point];
-                    for (i, ni) in entries.value.iter().enumerate() {
-                        for (j, nj) in entries.value.iter().enumerate() {
-                            local.matrix[i * local.size + j] += m * ni * nj;
-                        }
-                    }
-                }
-                Ok(())
-            },
-            &mut unused,
-            Some(&mut system.matrix),
-            &mut grid.workspace,
-        )?;
-        scatter(
-            &system.pattern,
-            &spread,
-            |soft| clique[soft.cell as usize] as usize,
-            |soft: &SoftCell, local| {
-                let cell = soft.cell as usize;
-                let scale = SPREAD * scene.density_scale * soft.emptiness * cell_size(&scene.mesh, cell).powi(2);
-                integrate::<D, K>(&scene.mesh, cell, |weight, _, g| {
-                    for a in 0..g.len() {
-                        for b in 0..g.len() {
-                            let dot: f64 = (0..D).map(|d| g[a][d] * g[b][d]).sum();
-                            local.matrix[a * local.size + b] += scale * weight * dot;
-                        }
-                    }
-                });
-                Ok(())
-            },
-            &mut unused,
-            Some(&mut system.matrix),
-            &mut grid.workspace,
-        )?;
-        Ok(Self { system, factorised: false })
-    }
-
-    /// Solves `M x = b` for one component, `b` given in `x`, one entry a node that takes part.
-    ///
-    /// # Errors
-    /// An analysis error when the mass is singular.
-    fn solve(&mut self, x: &mut [f64]) -> Result<()> {
-        let System { pattern, matrix, solver } = &mut *self.system;
-        if self.factorised {
-            return solver.solve_again(pattern, matrix, x);
-        }
-        let method = solver.solve(pattern, matrix, x)?;
-        // Of a right-hand side of zeros nothing is factorised.
-        self.factorised = method == Method::Cholesky && x.iter().any(|&v| v != 0.0);
-        Ok(())
-    }
-
-    /// Solves `M x = b` with `x = 0` at the nodes marked in `fixed`. The mass is spent afterwards.
-    ///
-    /// # Errors
-    /// As [`Mass::solve`].
-    fn solve_held(&mut self, fixed: &[bool], x: &mut [f64]) -> Result<()> {
-        let System { pattern, matrix, solver } = &mut *self.system;
-        let mut held = crate::system::Matrix { values: matrix.values.clone() };
-        let (zero, scale) = (vec![0.0; x.len()], held.scale(pattern));
-        held.constrain(pattern, fixed, &zero, scale, x);
-        self.factorised = false;
-        solver.solve(pattern, &held, x).map(|_| ())
-    }
-}
-
-/// The cells whose nodes the motion is spread over, with their share of the penalty.
-fn spread_cells<const D: usize>(grid: &Grid<D>, soft: &[SoftCell]) -> Vec<SoftCell> {
-    const FEW: f64 = 0.1;
-    let few = grid.stencil.patches.iter().filter(|patch| patch.point_count < patch.node_count);
-    let mut cells: Vec<SoftCell> = few.map(|patch| SoftCell { cell: patch.cell, emptiness: FEW }).collect();
-    cells.extend(soft);
-    cells.sort_by(|a, b| a.cell.cmp(&b.cell).then(b.emptiness.total_cmp(&a.emptiness)));
-    cells.dedup_by_key(|soft| soft.cell);
-    cells
-}
 
 /// Brings velocity and acceleration to the nodes: from the points, and from the forces at the first step of a
 /// motion.
@@ -209,6 +95,7 @@ fn first_acceleration<const D: usize, K: Kinematics<D>>(
         points: &state.points,
         weighing: &state.weighing,
         converged: &state.displacement,
+        pressure: &state.pressure,
         velocity: &state.velocity,
         acceleration: &state.acceleration,
         phase: state.phase,
@@ -253,6 +140,8 @@ pub fn commit<const D: usize>(
         between: &solution.displacement,
         alpha_f: 0.0,
         converged: &state.displacement,
+        pressure: &solution.pressure,
+        converged_pressure: &state.pressure,
         acceleration: &[],
         acceleration_slope: 0.0,
         phase: state.phase,

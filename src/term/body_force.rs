@@ -31,6 +31,10 @@ impl<const D: usize, K: Kinematics<D>> Term<D> for BodyForce<K, D> {
         Role::External
     }
 
+    fn factor(&self, phase: usize) -> Option<&TimeValue> {
+        self.factors.get(phase)
+    }
+
     fn assemble(&self, frame: &Frame<D>, trial: &Trial<D>, out: &mut Assembly) -> Result<()> {
         let factor = self.factors[trial.phase].at(trial.time);
         let load = self.gravity.map(|g| -factor * g);

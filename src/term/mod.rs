@@ -6,29 +6,38 @@
 
 mod body_force;
 mod empty_cells;
+mod ghost;
 mod inertia;
 mod internal;
+mod pressure;
+mod smooth_pressure;
 mod traction;
 
 pub use body_force::BodyForce;
 pub use empty_cells::EmptyCells;
+pub use ghost::GhostPenalty;
 pub use inertia::Inertia;
-pub use internal::Internal;
+pub use internal::{Internal, Share};
+pub use pressure::{Carried, PressureField, hats as pressure_hats};
+pub use smooth_pressure::SmoothPressure;
 pub use traction::Traction;
 
 use crate::error::Result;
 use crate::mesh::Mesh;
+use crate::mesh::faces::Face;
 use crate::points::Points;
 use crate::stencil::{Patch, SoftCell, Stencil};
 use crate::system::{Local, Matrix, Pattern, Workspace, scatter};
 use crate::tensor::{Symmetric, Tensor};
+use crate::time_value::TimeValue;
 
 /// A face between two cells that takes a ghost penalty.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct GhostFace {
     /// Its number among the inner faces of the mesh.
     pub face: u32,
-    /// Its clique: the nodes of the first cell and those that only the second has.
+    pub between: Face,
+    /// Its clique: the nodes in the order of [`Face::nodes`].
     pub clique: u32,
 }
 
@@ -41,9 +50,12 @@ pub struct Frame<'a, const D: usize> {
     pub soft: &'a [SoftCell],
     /// Faces beside cells that cannot stand alone; empty where the scene has no such penalty.
     pub ghost: &'a [GhostFace],
+    /// The cells that take part, ascending.
+    pub cells: &'a [u32],
     /// The points at the last converged step.
     pub points: &'a Points<D>,
-    /// One block a node that takes part, one clique a cell that does.
+    /// One block a node that takes part, one clique a cell that does. With a pressure field, one more block for each
+    /// corner and each cell with a constant of its own; they are the last ones of a clique.
     pub pattern: &'a Pattern,
     /// The clique of each cell; `u32::MAX` for cells left out.
     pub clique: &'a [u32],
@@ -61,6 +73,10 @@ pub struct Trial<'a, const D: usize> {
     pub alpha_f: f64,
     /// The displacement at the last converged step.
     pub converged: &'a [[f64; D]],
+    /// The pressure field (kPa) at the end of the step, as in the state; empty without one.
+    pub pressure: &'a [f64],
+    /// That at the last converged step, or what the points carry to a restored grid.
+    pub converged_pressure: &'a [f64],
     /// Acceleration of the nodes (m/s²) weighted by α_m; empty without inertia.
     pub acceleration: &'a [[f64; D]],
     /// Its derivative by the displacement at the end of the step (1/s²).
@@ -112,6 +128,8 @@ pub struct History {
     pub elastic: Symmetric,
     pub stress: Symmetric,
     pub plastic_strain: f64,
+    /// What the pressure field carries (kPa); not kept by points without the column.
+    pub pressure: f64,
 }
 
 /// New values of the points' history, in lists of any length and order.
@@ -125,7 +143,13 @@ impl Update {
             points.deformation[p] = new.deformation;
             points.elastic[p] = new.elastic;
             points.stress[p] = new.stress;
+            if let Some(increment) = points.plastic_increment.get_mut(p) {
+                *increment = new.plastic_strain - points.plastic_strain[p];
+            }
             points.plastic_strain[p] = new.plastic_strain;
+            if let Some(pressure) = points.pressure.get_mut(p) {
+                *pressure = new.pressure;
+            }
         }
     }
 }
@@ -165,6 +189,16 @@ pub trait Term<const D: usize>: Send + Sync {
     /// What kind of force the term is.
     fn role(&self) -> Role {
         Role::Internal
+    }
+
+    /// The factor on the load of the term in a phase, if it has one.
+    fn factor(&self, _phase: usize) -> Option<&TimeValue> {
+        None
+    }
+
+    /// Whether the term needs [`Points::plastic_increment`].
+    fn sees_flow(&self) -> bool {
+        false
     }
 
     /// Stored energy (kJ) of the points in their converged state.

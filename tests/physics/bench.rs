@@ -3,6 +3,7 @@
 use mpm::kinematics::Kinematics;
 use mpm::material::{Model, Profile};
 use mpm::mesh::Mesh;
+use mpm::mesh::faces::Faces;
 use mpm::mesh::locate::Locator;
 use mpm::mesh::shape::{MAX_NODES, map, rule};
 use mpm::points::Points;
@@ -116,9 +117,10 @@ impl Bench {
         let step = self.duration / self.steps as f64;
         Scene {
             locator: Locator::new(&self.mesh),
+            faces: Some(Faces::of(&self.mesh)),
+            pressure_unit: None,
             mesh: self.mesh,
             terms,
-            faces: None,
             quadrature: self.quadrature.unwrap_or_else(|| Box::new(Volumes::<K>::default())),
             supports: self.supports,
             phases: vec![Phase {

@@ -5,6 +5,7 @@ mod bench;
 mod cantilever;
 mod column;
 mod ddmp;
+mod ghost;
 mod held_out;
 mod patch;
 mod rotation;

@@ -1,5 +1,6 @@
 //! Everything but the internal force: resultants and tangents.
 
+use crate::ghost;
 use crate::stand::{Field, KINDS, Stand, mesh, points, resultant, size};
 use mpm::kinematics::{Axisymmetric, Kinematics, PlaneStrain};
 use mpm::mesh::Mesh;
@@ -8,7 +9,7 @@ use mpm::term::{BodyForce, EmptyCells, Inertia, Role, Term, Traction};
 use mpm::time_value::TimeValue;
 use std::f64::consts::{PI, TAU};
 
-type Make = fn(&Mesh<2>) -> Box<dyn Term<2>>;
+pub type Make = fn(&Mesh<2>) -> Box<dyn Term<2>>;
 
 /// 3 kPa inwards and 2·0.5 kPa upwards at the time of the test, in the first phase.
 fn traction<K: Kinematics<2>>(mesh: &Mesh<2>, group: &str) -> Box<dyn Term<2>> {
@@ -22,24 +23,25 @@ fn body_force<K: Kinematics<2>>(_: &Mesh<2>) -> Box<dyn Term<2>> {
 }
 
 /// The points fill every third cell, so that there are soft ones of all kinds.
-fn stand<K: Kinematics<2>>(kind: CellKind, make: Make, whole: bool) -> Stand<K> {
+pub fn stand<K: Kinematics<2>>(kind: CellKind, make: Make, whole: bool) -> Stand<K> {
     let mesh = mesh(kind);
     let term = make(&mesh);
     let points = points(&mesh, |c| c % 3 == 0);
     Stand::new(mesh, points, term, true, whole)
 }
 
-fn anywhere<K: Kinematics<2>>(stand: &Stand<K>) -> (Field, Field) {
+pub fn anywhere<K: Kinematics<2>>(stand: &Stand<K>) -> (Field, Field) {
     let converged = stand.field(0.02, 1, |[x, y]| [0.1 * x - 0.1 * y, 0.1 * x]);
     let trial = stand.field(0.02, 2, |[x, y]| [0.2 * x - 0.4 * y, 0.5 * x - 0.2 * y]);
     (trial, converged)
 }
 
 fn every_tangent<K: Kinematics<2>>() {
-    let terms: [(&str, Make); 4] = [
+    let terms: [(&str, Make); 5] = [
         ("body force", body_force::<K>),
         ("inertia", |_| Box::new(Inertia::<K>::default())),
         ("empty cells", |mesh| Box::new(EmptyCells::<K>::new(70.0, mesh.cells.len()))),
+        ("ghost penalty", ghost::penalty::<K>),
         ("traction", |mesh| traction::<K>(mesh, "right")),
     ];
     for (name, make) in terms {

@@ -6,6 +6,7 @@ use mpm::material::LinearElastic;
 use mpm::material::{Elasticity, Profile};
 use mpm::mesh::Mesh;
 use mpm::mesh::builder::rectangle;
+use mpm::mesh::faces::Faces;
 use mpm::mesh::locate::Locator;
 use mpm::mesh::shape::{CellKind, MAX_NODES};
 use mpm::points::Points;
@@ -14,7 +15,7 @@ use mpm::stencil::Scheme;
 use mpm::step::{Grid, Numerics, Phase, Restore, Scene, Simulation, State, Stop};
 use mpm::system::{Matrix, Workspace};
 use mpm::tensor::{IDENTITY, Tensor, full, symmetric};
-use mpm::term::{Assembly, Frame, Term, Trial};
+use mpm::term::{Assembly, Frame, GhostFace, Term, Trial};
 use std::marker::PhantomData;
 use std::sync::Arc;
 
@@ -140,11 +141,13 @@ impl<K: Kinematics<2>> Stand<K> {
             prescribed: Vec::new(),
             stops: vec![Stop { time: 1.0, frame: true }],
         };
+        let faces = Faces::of(&mesh);
         let scene = Scene {
             locator: Locator::new(&mesh),
             mesh,
             terms,
-            faces: None,
+            faces: Some(faces),
+            pressure_unit: None,
             quadrature: Box::new(Volumes::<K>::default()),
             supports: Vec::new(),
             phases: vec![phase.clone(), phase],
@@ -168,6 +171,15 @@ impl<K: Kinematics<2>> Stand<K> {
 
     pub fn term(&self) -> &dyn Term<2> {
         self.scene.terms[0].as_ref()
+    }
+
+    pub fn ghost_faces(&self) -> &[GhostFace] {
+        &self.grid.ghost
+    }
+
+    /// What the term sees.
+    pub fn frame(&self) -> Frame<'_, 2> {
+        self.grid.frame(&self.scene.mesh, &self.points, &self.weighing)
     }
 
     pub fn soft_cells(&self) -> usize {
@@ -213,7 +225,7 @@ impl<K: Kinematics<2>> Stand<K> {
         phase: usize,
         tangent: bool,
     ) -> (Field, Vec<Vec<f64>>) {
-        let frame = self.grid.frame(&self.scene.mesh, &self.points, &self.weighing);
+        let frame = self.frame();
         let acceleration: Field = trial
             .iter()
             .zip(converged)
@@ -225,6 +237,8 @@ impl<K: Kinematics<2>> Stand<K> {
             between: &between,
             alpha_f: self.alpha_f,
             converged,
+            pressure: &[],
+            converged_pressure: &[],
             acceleration: &acceleration,
             acceleration_slope: SLOPE,
             phase,

@@ -5,10 +5,12 @@ mod q4;
 mod q8;
 mod q9;
 mod quadrature;
+mod second;
 mod t3;
 mod t6;
 
 pub use quadrature::rule;
+pub use second::map_second;
 
 /// Upper bound of the nodes of a cell, for buffers on the stack (27: a quadratic brick).
 pub const MAX_NODES: usize = 27;

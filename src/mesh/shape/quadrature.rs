@@ -3,7 +3,8 @@
 
 use super::CellKind;
 
-/// Points and weights that integrate polynomials up to `degree` (at most 6) over the domain of `kind`.
+/// Points and weights that integrate polynomials up to `degree` over the domain of `kind`: at most 6 on triangles,
+/// 9 in each direction on lines and boxes.
 pub fn rule(kind: CellKind, degree: usize) -> Vec<([f64; 3], f64)> {
     match kind.dimension() {
         0 => vec![([0.0; 3], 1.0)],
@@ -29,10 +30,16 @@ fn gauss(count: usize) -> Vec<(f64, f64)> {
             let t = 0.6f64.sqrt();
             vec![(-t, 5.0 / 9.0), (0.0, 8.0 / 9.0), (t, 5.0 / 9.0)]
         }
-        _ => {
+        4 => {
             let (r, s) = (2.0 / 7.0 * 1.2f64.sqrt(), 30f64.sqrt() / 36.0);
             let (t, u) = ((3.0 / 7.0 - r).sqrt(), (3.0 / 7.0 + r).sqrt());
             vec![(-u, 0.5 - s), (-t, 0.5 + s), (t, 0.5 + s), (u, 0.5 - s)]
+        }
+        _ => {
+            let (r, s) = (2.0 * (10.0f64 / 7.0).sqrt(), 13.0 * 70f64.sqrt());
+            let (t, u) = ((5.0 - r).sqrt() / 3.0, (5.0 + r).sqrt() / 3.0);
+            let (v, w) = ((322.0 + s) / 900.0, (322.0 - s) / 900.0);
+            vec![(-u, w), (-t, v), (0.0, 128.0 / 225.0), (t, v), (u, w)]
         }
     }
 }

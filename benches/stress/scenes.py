@@ -1,0 +1,238 @@
+"""Random scenes for the stability campaign, each wholly determined by the seed and its number.
+
+A class of scenes is a function of a random generator that returns a case; the entries that all share (mesh, kind of cells,
+scheme) are drawn here. Sizes are small: a scene takes a second or less.
+"""
+
+import math
+import random
+
+from schemes import SCHEMES
+
+CLASSES = {}
+
+
+def kind_of_scene(function):
+    CLASSES[function.__name__] = function
+    return function
+
+
+def choose_mesh(r, regular=False):
+    """Cells of both orders, triangles and quadrangles, regular and not."""
+    kind = r.choice([2, 3]) if regular else r.choice([0, 0, 0, 1, 2, 3])
+    order = r.choice([1, 2, 2, 2])
+    mesh = {"order": order, "parameters": {"kind": kind, "algorithm": r.choice([5, 6, 8])}}
+    if order == 2 and kind in (1, 3) and r.random() < 0.4:
+        mesh["incomplete"] = True
+    return mesh
+
+
+def body(r, mesh, width, height, room=None, **material):
+    """A case with a body of the size (m) and, with `room` (box width, box height, x, y), empty cells around it."""
+    box = room or (width, height, 0, 0)
+    mesh["parameters"] |= {"width": width, "height": height, "box_width": box[0], "box_height": box[1], "x": box[2], "y": box[3]}
+    mesh["parameters"].setdefault("h", round(r.uniform(0.2, 0.35) * min(width, height), 4))
+    mesh["geo"] = "body.geo"
+    points = r.choice([3, 6, 7, 12, 4, 9, 16, 16, 16, 25]) if mesh["parameters"]["kind"] in (0, 2) else r.choice([4, 9, 16, 25])
+    regions = {"body": {"kind": "mpm", "material": "matter", "points_per_cell": points}}
+    if room:
+        regions["room"] = {"kind": "buffer"}
+    return {
+        "geometry": r.choice(["plane_strain", "plane_strain", "axisymmetric"]),
+        "mesh": mesh,
+        "regions": regions,
+        "materials": {"matter": material},
+        "output": {"fields": ["stress", "displacement", "velocity", "deformation_gradient"]},
+    }
+
+
+def poisson(r):
+    return r.choice([0, round(r.uniform(0, 0.45), 3), 0.49, 0.499, 0.4999])
+
+
+def elastic(r, young=None):
+    return {"model": "linear_elastic", "young": young or 10 ** r.uniform(1, 6), "poisson": poisson(r), "density": 1.0}
+
+
+def soil(r, strength, young):
+    """A plastic material whose strength (kPa) is about that; friction from 0 to 45 degrees."""
+    common = {"young": young, "poisson": poisson(r), "density": 1.0}
+    model = r.choice(["tresca", "von_mises", "mohr_coulomb", "mohr_coulomb", "mohr_coulomb"])
+    if model == "tresca":
+        return {"model": model, "shear_strength": strength, **common}
+    if model == "von_mises":
+        return {"model": model, "yield_stress": math.sqrt(3) * strength, **common}
+    friction = r.choice([0, 0.01, round(r.uniform(1, 45), 2), 45])
+    cohesion = strength * r.choice([1, 0.1, 0.01])
+    more = {"tension": 0.1 * cohesion} if r.random() < 0.3 else {}
+    dilation = friction * r.choice([0, 0, 0.3, 1])
+    return {"model": model, "cohesion": cohesion, "friction": friction, "dilation": round(dilation, 3), **more, **common}
+
+
+def phase(analysis, duration, steps, **more):
+    step = {"initial": duration / steps, "min": duration / steps / 30}
+    return {"name": "load", "analysis": analysis, "duration": duration, "step": step, **more}
+
+
+@kind_of_scene
+def settle(r):
+    """A confined or free body under growing gravity, compressed to 30 % of its height at the most."""
+    ratio = r.choice([0.05, 0.5, 1.0, 2.0, 4.0])
+    free = ratio <= 0.5 and r.random() < 0.5
+    case = body(r, choose_mesh(r), 1, 1, (1.6, 1, 0, 0) if free else None, **elastic(r, 10 / ratio))
+    if not free:
+        case["materials"]["matter"]["poisson"] = r.choice([0, 0.2])
+    case["supports"] = {"lower": {"uy": 0}, "left": {"ux": 0}, **({} if free else {"right": {"ux": 0}})}
+    case["gravity"] = {"y": -10}
+    case["phases"] = [phase("quasi_static", 1, r.choice([1, 5, 20, 40]), gravity={"rate": 1})]
+    return case
+
+
+@kind_of_scene
+def press(r):
+    """A body between smooth plates that come together to 30 % of its height; the upper one is a fixed curve of the grid."""
+    case = body(r, choose_mesh(r), 1, 1, **elastic(r))
+    down = r.uniform(0.2, 0.7)
+    case["supports"] = {"lower": {"uy": 0}, "left": {"ux": 0}}
+    if case["materials"]["matter"]["poisson"] <= 0.3 and r.random() < 0.5:
+        case["supports"]["right"] = {"ux": 0}
+    steps = r.choice([10, 20, 40])
+    case["phases"] = [phase("quasi_static", 1, steps, prescribe={"head": {"uy": {"rate": -down}}})]
+    return case
+
+
+@kind_of_scene
+def shear(r):
+    """A block whose upper side moves along, by up to twice its height."""
+    matter = soil(r, 10, 1000) if r.random() < 0.5 else elastic(r)
+    case = body(r, choose_mesh(r), 2, 1, (6, 1, 1, 0), **matter)
+    case["geometry"] = "plane_strain"
+    case["supports"] = {"lower": {"ux": 0, "uy": 0}, "upper": {"uy": 0}}
+    case["phases"] = [phase("quasi_static", 1, 40, prescribe={"head": {"ux": {"rate": r.uniform(0.1, 2)}}})]
+    return case
+
+
+@kind_of_scene
+def spin(r):
+    """A free elastic body that turns several times."""
+    turns, steps = r.choice([0.5, 1, 2, 3]), r.choice([12, 20, 30])
+    mesh = choose_mesh(r)
+    mesh["parameters"]["h"] = round(r.uniform(0.25, 0.4), 3)
+    case = body(r, mesh, 1, 0.7, (2.4, 2.4, 0.7, 0.85), **elastic(r))
+    case["geometry"] = "plane_strain"
+    # Slow against the speed of sound: it keeps its shape.
+    rate = 0.05 * math.sqrt(case["materials"]["matter"]["young"])
+    case["initial_velocity"] = {"body": {"gradient": [[0, -rate], [rate, 0]], "centre": {"x": 1.2, "y": 1.2}}}
+    duration = 2 * math.pi * turns / rate
+    case["numerics"] = {"spectral_radius": r.choice([0, 0.5, 0.9, 1])}
+    case["phases"] = [phase("dynamic", duration, max(1, round(steps * turns)))]
+    return case
+
+
+@kind_of_scene
+def throw(r):
+    """A body thrown against floor and wall, in steps of up to 100 times the time a wave takes through a cell."""
+    matter = soil(r, 10 ** r.uniform(0, 2), 10 ** r.uniform(2, 4)) if r.random() < 0.6 else elastic(r)
+    case = body(r, choose_mesh(r), 1, 1, (3, 2, 0.5, 0.5), **matter)
+    if case["geometry"] == "axisymmetric":
+        case["mesh"]["parameters"] |= {"x": 0}
+    case["supports"] = {"lower": {"ux": 0, "uy": 0}, "left": {"ux": 0}, "right": {"ux": 0}, "upper": {"uy": 0}}
+    speed = r.uniform(0.5, 3)
+    across = 0 if case["geometry"] == "axisymmetric" else speed * r.choice([0, 1])
+    case["initial_velocity"] = {"body": {"velocity": {"x": across, "y": -speed}}}
+    case["gravity"] = {"y": r.choice([0, -10])}
+    wave = case["mesh"]["parameters"]["h"] / math.sqrt(case["materials"]["matter"]["young"])
+    step = r.choice([1, 10, 100]) * wave
+    steps = min(60, max(4, round(1 / step)))
+    case["numerics"] = {"spectral_radius": r.choice([0, 0.5, 0.9, 1])}
+    case["phases"] = [phase("dynamic", steps * step, steps)]
+    return case
+
+
+@kind_of_scene
+def collapse(r):
+    """A block of soil that gravity brings down, slowly (to its limit load) or in motion."""
+    strength = 10 ** r.uniform(-1, 1)
+    case = body(r, choose_mesh(r), 1, 1, (2.5, 1.2, 0, 0), **soil(r, strength, 100 * 10 ** r.uniform(0, 2)))
+    rough = {"ux": 0, "uy": 0} if r.random() < 0.5 else {"uy": 0}
+    case["supports"] = {"lower": rough, "left": {"ux": 0}, "right": {"ux": 0}}
+    case["gravity"] = {"y": -10}
+    if r.random() < 0.5:
+        case["phases"] = [phase("quasi_static", 1, 20, gravity={"rate": 1})]
+    else:
+        case["numerics"] = {"spectral_radius": r.choice([0, 0.6, 0.9])}
+        case["phases"] = [phase("dynamic", r.choice([0.5, 1.0]), r.choice([10, 30, 60]))]
+    return case
+
+
+@kind_of_scene
+def edges(r):
+    """A regular lattice of points whose every step ends with points on edges and corners of a regular mesh, or hairs off them."""
+    mesh = choose_mesh(r, regular=True)
+    mesh["parameters"]["h"] = 0.25
+    case = body(r, mesh, 1, 0.5, (2, 1.5, 0.5, 0.5), **elastic(r))
+    case["geometry"] = "plane_strain"
+    # Equal points lie on multiples of h/12 (triangles) or h/2n (quadrangles).
+    points = case["regions"]["body"]["points_per_cell"]
+    part = 0.25 / 12 if mesh["parameters"]["kind"] == 2 else 0.25 / (2 * math.isqrt(points))
+    off = r.choice([0, 0, 1e-15, 1e-12, 1e-9])
+    a, b = r.choice([(1, 0), (0, 1), (1, 1), (-1, 1), (2, 1)])
+    case["initial_velocity"] = {"body": {"velocity": {"x": a * part * (1 + off), "y": b * part * (1 - off)}}}
+    steps = min(r.choice([8, 11]), math.floor(0.45 / (part * max(abs(a), abs(b)))))
+    case["phases"] = [phase("dynamic", steps, steps)]
+    return case
+
+
+@kind_of_scene
+def slivers(r):
+    """A body shifted over the edge of a cell by a hair, under a little gravity."""
+    mesh = choose_mesh(r, regular=r.random() < 0.5)
+    mesh["parameters"]["h"] = 0.25
+    case = body(r, mesh, 1, 0.5, (2, 1.5, 0.5, 0), **elastic(r, 1000))
+    case["geometry"] = "plane_strain"
+    hair = r.choice([0.3, 1e-2, 1e-4, 1e-6, 1e-9, 1e-12]) * 0.25
+    case["initial_velocity"] = {"body": {"velocity": {"x": hair, "y": hair * r.choice([0, 1])}}}
+    settle = phase("quasi_static", 1, 4, gravity={"rate": 1}, prescribe={"head": {"ux": {"rate": 0}}})
+    settle["name"] = "settle"
+    case["supports"] = {"lower": {"uy": 0}}
+    case["gravity"] = {"y": -0.01}
+    case["phases"] = [phase("dynamic", 1, 5), settle]
+    return case
+
+
+@kind_of_scene
+def footing(r):
+    """The head of a block of soil pushed into it, ν up to 0.4999."""
+    strength = 10.0
+    case = body(r, choose_mesh(r), 0.5, 1, (2, 1, 0, 0), **soil(r, strength, 10000))
+    case["regions"]["room"] = {"kind": "mpm", "material": "matter", "points_per_cell": case["regions"]["body"]["points_per_cell"]}
+    case["supports"] = {"lower": {"ux": 0, "uy": 0}, "left": {"ux": 0}, "right": {"ux": 0}}
+    case["phases"] = [phase("quasi_static", 1, 20, prescribe={"head": {"uy": {"rate": -r.choice([0.002, 0.02, 0.05])}}})]
+    return case
+
+
+@kind_of_scene
+def contrast(r):
+    """Two matters side by side whose stiffnesses differ by up to 10⁶."""
+    case = body(r, choose_mesh(r), 0.5, 1, (1.5, 1, 0.5, 0), **elastic(r, 10.0**r.choice([4, 6, 8])))
+    case["regions"]["room"] = {"kind": "mpm", "material": "soft", "points_per_cell": case["regions"]["body"]["points_per_cell"]}
+    case["materials"]["soft"] = elastic(r, 100)
+    case["supports"] = {"lower": {"uy": 0}, "left": {"ux": 0}, "right": {"ux": 0}}
+    case["gravity"] = {"y": -10}
+    case["phases"] = [phase("quasi_static", 1, 10, gravity={"rate": 1})]
+    if r.random() < 0.4:
+        case["phases"] = [phase("dynamic", 0.5, r.choice([5, 20]))]
+    return case
+
+
+def scene(seed, number, schemes=None):
+    """Class, scheme and case of scene `number`; classes and schemes take turns."""
+    r = random.Random(f"{seed} {number}")
+    names = list(CLASSES)
+    name = names[number % len(names)]
+    case = CLASSES[name](r)
+    schemes = schemes or SCHEMES
+    scheme = schemes[(number // len(names) + number) % len(schemes)]
+    case["numerics"] = {**case.get("numerics", {}), **dict(scheme.numerics)}
+    case["title"] = f"Stability campaign, seed {seed}, scene {number}: {name}, {scheme.name}"
+    return name, scheme.name, case

@@ -1,0 +1,60 @@
+"""The schemes that are compared: a line each."""
+
+import json
+import tempfile
+from dataclasses import dataclass
+from pathlib import Path
+
+from program import GEO, PROGRAM, execute
+
+
+@dataclass(frozen=True)
+class Scheme:
+    """Entries of `numerics`; an empty list of entries is what a case gets that says nothing."""
+
+    name: str
+    numerics: tuple  # of pairs (key, value)
+    about: str
+    points: int = 16  # a cell, where the series does not say
+
+    @property
+    def settings(self):
+        return {f"numerics.{key}": value for key, value in self.numerics}
+
+
+def scheme(name, about, points=16, **numerics):
+    return Scheme(name, tuple(numerics.items()), about, points)
+
+
+QUALITY = {"min_quality": 0.5}
+SCHEMES = [
+    scheme("default", "what a case gets that says nothing"),
+    scheme("plain", "V_p weights, plain gradients", quadrature="points", gradient="mpm", restore="every_step"),
+    scheme("fitted", "fitted weights", quadrature="fitted", gradient="mpm", restore="every_step"),
+    scheme("ddmp", "V_p weights, smooth gradients", quadrature="points", gradient="ddmp", restore="every_step"),
+    scheme("plain, quality", "plain, restored by quality", quadrature="points", gradient="mpm", restore=QUALITY),
+    scheme("fitted, quality", "fitted, restored by quality", quadrature="fitted", gradient="mpm", restore=QUALITY),
+    scheme("fitted, no pressure field", "fitted, displacements alone", quadrature="fitted", gradient="mpm",
+           restore="every_step", pressure="none"),
+    scheme("fitted, pressure field", "fitted, with a field of pressure", quadrature="fitted", gradient="mpm",
+           restore="every_step", pressure="field"),
+    scheme("never", "the grid is never restored: finite elements", points=3, restore="never"),
+]  # fmt: skip
+
+CASE = {
+    "geometry": "plane_strain",
+    "mesh": {"geo": str(GEO / "column.geo"), "parameters": {"height": 2, "h": 1}},
+    "regions": {"soil": {"kind": "mpm", "material": "soil"}},
+    "materials": {"soil": {"model": "linear_elastic", "young": 1, "poisson": 0.3, "density": 1}},
+    "phases": [{"name": "rest", "analysis": "quasi_static", "duration": 1, "step": {"initial": 1}}],
+}
+
+
+def missing(scheme):
+    """Why the program does not have the scheme; None where it has."""
+    with tempfile.TemporaryDirectory() as name:
+        case = Path(name) / "case.yaml"
+        numerics = dict(scheme.numerics)
+        case.write_text(json.dumps({**CASE, "numerics": numerics}))
+        done = execute([PROGRAM, "check", name])
+        return done.reason if done.status else None

@@ -1,0 +1,66 @@
+//! What the integrals over the cells of a restored grid need and what does not change while its nodes stay.
+
+use super::moments::{Cell, CellFrame, Moments, is_affine};
+use crate::kinematics::Kinematics;
+use crate::mesh::Mesh;
+use crate::mesh::faces::Faces;
+use crate::mesh::shape::MAX_NODES;
+use rayon::prelude::*;
+
+/// Frames and moments of the whole cells, and the hats of the nodes.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Geometry {
+    /// The frame of each cell, in which its moments are taken.
+    pub frame: Vec<CellFrame>,
+    /// The moments (m³) of each whole cell.
+    pub whole: Vec<Moments>,
+    /// Whether each cell is the affine image of its parametric domain.
+    pub affine: Vec<bool>,
+    /// `V_v = ∫ L_v dV` (m³) of each node: the volume inside the mesh that its hat covers.
+    pub hat: Vec<f64>,
+    /// The cells that meet across faces.
+    pub faces: Faces,
+}
+
+impl Geometry {
+    /// That of `mesh`, to be made anew when its nodes move.
+    pub fn new<K: Kinematics<2>>(mesh: &Mesh<2>) -> Self {
+        let cell = |c: usize| {
+            let frame = CellFrame::of(mesh, c);
+            let affine = is_affine(mesh, c);
+            let cell = Cell::new(mesh, c, &frame, affine);
+            let mut hats = [0.0; MAX_NODES];
+            cell.hat_volumes::<K>(&mut hats);
+            (frame, affine, cell.whole::<K>(), hats)
+        };
+        let cells: Vec<_> = (0..mesh.cells.len()).into_par_iter().map(cell).collect();
+        let mut hat = vec![0.0; mesh.nodes.len()];
+        for (c, cell) in cells.iter().enumerate() {
+            for (&n, volume) in mesh.cells.nodes(c).iter().zip(&cell.3) {
+                hat[n as usize] += volume;
+            }
+        }
+        Self {
+            frame: cells.iter().map(|c| c.0).collect(),
+            affine: cells.iter().map(|c| c.1).collect(),
+            whole: cells.iter().map(|c| c.2).collect(),
+            hat,
+            faces: Faces::of(mesh),
+        }
+    }
+
+    /// Cell `c`, its moments to be taken in the frame of cell `owner`.
+    pub fn cell(&self, mesh: &Mesh<2>, c: usize, owner: usize) -> Cell<'_> {
+        Cell::new(mesh, c, &self.frame[owner], self.affine[c])
+    }
+
+    /// The volume (m³) of cell `c`.
+    pub fn volume(&self, c: usize) -> f64 {
+        self.whole[c][0]
+    }
+
+    /// The side (m) of a square that holds cell `c`, or two like it if it is a triangle.
+    pub fn size(&self, mesh: &Mesh<2>, c: usize) -> f64 {
+        self.frame[c].length * if mesh.cells.kind[c].is_simplex() { std::f64::consts::SQRT_2 } else { 1.0 }
+    }
+}

@@ -1,0 +1,158 @@
+//! The straight triangles into which the nodes of a cell split its parametric domain, and the parts of a
+//! triangle where a linear function is positive.
+
+use crate::mesh::shape::CellKind;
+
+/// Barycentric coordinates in a triangle.
+pub type Barycentric = [f64; 3];
+
+/// The triangles between the nodes of a plane kind, counter-clockwise, as local node numbers. Two cells that
+/// share an edge split it alike.
+pub fn triangles(kind: CellKind) -> &'static [[usize; 3]] {
+    match kind {
+        CellKind::T3 => &[[0, 1, 2]],
+        CellKind::T6 => &[[0, 3, 5], [3, 1, 4], [5, 4, 2], [3, 4, 5]],
+        CellKind::Q4 => &[[0, 1, 2], [0, 2, 3]],
+        CellKind::Q8 => &[[0, 4, 7], [4, 1, 5], [5, 2, 6], [6, 3, 7], [4, 5, 6], [4, 6, 7]],
+        CellKind::Q9 => &[[0, 4, 8], [4, 1, 8], [1, 5, 8], [5, 2, 8], [2, 6, 8], [6, 3, 8], [3, 7, 8], [7, 0, 8]],
+        CellKind::Point1 | CellKind::Line2 | CellKind::Line3 => &[],
+    }
+}
+
+/// The parametric coordinates of the corners of one of the [`triangles`] of a kind.
+pub fn corners(kind: CellKind, triangle: &[usize; 3]) -> [[f64; 2]; 3] {
+    triangle.map(|i| {
+        let xi = kind.node_coordinates()[i];
+        [xi[0], xi[1]]
+    })
+}
+
+/// Twice the signed area of a triangle.
+pub fn twice_area(x: &[[f64; 2]; 3]) -> f64 {
+    (x[1][0] - x[0][0]) * (x[2][1] - x[0][1]) - (x[2][0] - x[0][0]) * (x[1][1] - x[0][1])
+}
+
+/// The triangle of a kind that holds the parametric point `xi` (the lowest of several) and the barycentric
+/// coordinates there. A point outside the domain belongs to the nearest triangle, with a negative coordinate.
+pub fn hats(kind: CellKind, xi: &[f64; 3]) -> (&'static [usize; 3], Barycentric) {
+    let mut best = (&[0, 0, 0], [0.0; 3]);
+    let mut depth = f64::NEG_INFINITY;
+    for triangle in triangles(kind) {
+        let x = corners(kind, triangle);
+        let whole = twice_area(&x);
+        let p = [xi[0], xi[1]];
+        let (b, c) = (twice_area(&[x[0], p, x[2]]) / whole, twice_area(&[x[0], x[1], p]) / whole);
+        let l = [1.0 - b - c, b, c];
+        let least = l[0].min(b).min(c);
+        if least > depth {
+            (best, depth) = ((triangle, l), least);
+            if least >= 0.0 {
+                break;
+            }
+        }
+    }
+    best
+}
+
+/// Calls `piece(corners, fraction)` for at most two triangles that cover the part of a triangle where the linear
+/// function with the values `v` at its corners is positive. The corners are barycentric and run as those of the
+/// triangle do; `fraction` is the piece's share of the area, positive and with full relative accuracy however
+/// thin the piece is.
+pub fn positive(v: &[f64; 3], mut piece: impl FnMut(&[Barycentric; 3], f64)) {
+    const CORNER: [Barycentric; 3] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+    // Where the function vanishes between a positive corner `i` and another one `j`, as a share of their distance.
+    let share = |i: usize, j: usize| v[i] / (v[i] - v[j]);
+    let between = |i: usize, j: usize, t: f64| {
+        let mut l = [0.0; 3];
+        (l[i], l[j]) = (1.0 - t, t);
+        l
+    };
+    let inside = v.map(|v| v > 0.0);
+    match inside.iter().filter(|&&inside| inside).count() {
+        0 => {}
+        1 => {
+            let i = inside.iter().position(|&inside| inside).unwrap_or(0);
+            let (j, k) = ((i + 1) % 3, (i + 2) % 3);
+            let (s, t) = (share(i, j), share(i, k));
+            piece(&[CORNER[i], between(i, j, s), between(i, k, t)], s * t);
+        }
+        2 => {
+            let k = inside.iter().position(|&inside| !inside).unwrap_or(0);
+            let (i, j) = ((k + 1) % 3, (k + 2) % 3);
+            let (s, t) = (share(i, k), share(j, k));
+            let (on_s, on_t) = (between(i, k, s), between(j, k, t));
+            piece(&[CORNER[i], CORNER[j], on_t], t);
+            // `1 − t` without cancellation, from the values themselves.
+            piece(&[CORNER[i], on_t, on_s], s * (v[k] / (v[k] - v[j])));
+        }
+        _ => piece(&CORNER, 1.0),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn plane_kinds() -> impl Iterator<Item = CellKind> {
+        CellKind::ALL.into_iter().filter(|k| k.dimension() == 2)
+    }
+
+    #[test]
+    fn the_triangles_cover_the_domain_once_and_use_every_node() {
+        for kind in plane_kinds() {
+            let area: f64 = triangles(kind).iter().map(|t| 0.5 * twice_area(&corners(kind, t))).sum();
+            assert!((area - if kind.is_simplex() { 0.5 } else { 4.0 }).abs() < 1e-15, "{kind:?}");
+            assert!(triangles(kind).iter().all(|t| twice_area(&corners(kind, t)) > 0.0));
+            assert!((0..kind.node_count()).all(|i| triangles(kind).iter().any(|t| t.contains(&i))), "{kind:?}");
+        }
+    }
+
+    #[test]
+    fn hats_are_a_partition_of_unity_and_reproduce_the_place() {
+        for kind in plane_kinds() {
+            for i in 0..500 {
+                let [a, b] = [0.754_877_666, 0.569_840_291].map(|g| (g * f64::from(i)).fract());
+                let xi = match kind.is_simplex() {
+                    true if a + b > 1.0 => [1.0 - a, 1.0 - b, 0.0],
+                    true => [a, b, 0.0],
+                    false => [2.0 * a - 1.0, 2.0 * b - 1.0, 0.0],
+                };
+                let (triangle, l) = hats(kind, &xi);
+                assert!(l.iter().all(|&l| l >= -1e-14) && (l.iter().sum::<f64>() - 1.0).abs() < 1e-14);
+                let x = corners(kind, triangle);
+                for d in 0..2 {
+                    let place: f64 = (0..3).map(|k| l[k] * x[k][d]).sum();
+                    assert!((place - xi[d]).abs() < 1e-14, "{kind:?} {xi:?}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn pieces_measure_what_is_positive_down_to_the_thinnest() {
+        let area = |v: [f64; 3]| {
+            let mut sum = 0.0;
+            positive(&v, |corners, fraction| {
+                sum += fraction;
+                let x = corners.map(|l| [l[1], l[2]]);
+                assert!((twice_area(&x) - fraction).abs() < 1e-15, "{v:?}");
+                // Nothing of the piece is negative.
+                assert!(corners.iter().all(|l| (0..3).map(|k| l[k] * v[k]).sum::<f64>() > -1e-15));
+            });
+            sum
+        };
+        assert_eq!((area([1.0; 3]), area([-1.0; 3]), area([0.0; 3])), (1.0, 0.0, 0.0));
+        assert_eq!((area([1.0, 0.0, 0.0]), area([1.0, 1.0, 0.0])), (1.0, 1.0));
+        for turn in 0..3 {
+            let at = |v: [f64; 3]| area([v[turn], v[(turn + 1) % 3], v[(turn + 2) % 3]]);
+            for e in [0.7, 1e-3, 1e-9, 1e-15, 1e-100] {
+                // x > 1 − e with x the first barycentric coordinate: the area e².
+                assert!((at([e, e - 1.0, e - 1.0]) / (e * e) - 1.0).abs() < 1e-12 + 1e-15 / e || e < 1e-15);
+                // x < e in the same triangle: 1 − (1 − e)².
+                let strip = e * (2.0 - e);
+                assert!((at([e - 1.0, e, e]) / strip - 1.0).abs() < 1e-14, "{e}");
+            }
+            assert!((at([0.3, -0.5, 0.2]) + at([-0.3, 0.5, -0.2]) - 1.0).abs() < 1e-15);
+        }
+    }
+}
