@@ -175,3 +175,14 @@ def infsup(basis,al,n,seed=1,k=16):
         import scipy.linalg as sl
         ev=sl.eigh(S,Mp,eigvals_only=True); out.append(np.sqrt(np.abs(ev[1])))
     return out
+def energies(basis,al,k,n,gen):
+    """least and largest ratio of the energy to that of the plain gradients, foot held"""
+    import scipy.linalg as sl
+    m=DM(np.linspace(0,1,n+1),np.linspace(0,1,n+1),seed=1)
+    P,W=seeds(k) if not gen else (None,None)
+    if gen: x,v=lattice(m,k,(.3,.7)); w=np.full(len(x),v)
+    else: x=np.einsum('qa,ead->eqd',P,m.X[m.T[:,:3]]).reshape(-1,2); w=(m.A[:,None]*W).ravel()
+    el,L=m.locate(x); act=np.zeros(m.ne,bool); act[el]=True
+    m.basis='plain'; K0,_=stiff(m,el,L,w,act); m.basis=basis; m.al=al; m.pw=w if basis=='dbub' else None; K1,_=stiff(m,el,L,w,act)
+    fix=m.X[:,1]<1e-9; i=np.where(~np.r_[fix,fix])[0]
+    ev=sl.eigvalsh(K1[np.ix_(i,i)],K0[np.ix_(i,i)]); return ev[0],ev[-1]

@@ -7,7 +7,7 @@ import warnings
 from multiprocessing import Pool
 
 from column import DM, column
-from forms import crossing, infsup, rank
+from forms import crossing, energies, infsup, rank
 
 warnings.filterwarnings("ignore")
 
@@ -24,6 +24,11 @@ def operators():
         modes = [int(rank(basis, blend, 9, seed=2, holes=h, gen=g)[0]) for h, g in ((0, 0), (1, 0), (0, 1))]
         constant = " / ".join(f"{infsup(basis, blend, n)[1]:.3f}" for n in (4, 8, 12))
         print(basis, blend, "|", noise, "|", modes, "|", constant, flush=True)
+    print("energy by the plain one, least and most: points a cell, seeded or on a lattice")
+    for basis, blend in (("quad", "27"), ("dbub", (0, 0))):
+        for n in (4, 8):
+            for points, turned in ((9, False), (16, False), (11, True)):
+                print(basis, blend, n, points, turned, "%.2f %.2f" % energies(basis, blend, points, n, turned), flush=True)
 
 
 def job(a):
@@ -50,6 +55,8 @@ def columns():
              for o in (dict(scale=True), dict(shift=True), dict(shift=True, scale=True), dict(gall=0.01), dict(gall=0.1),
                        dict(restore=False))]
     jobs += [(16, 16, "quad", "27", o) for o in (dict(ncol=1), dict(ncol=4), dict(steps=10), dict(steps=160))]
+    jobs += [(n, 16, "quad", a, {}) for n in (8, 16, 32) for a in ("sq", "rt", "c0.7")]
+    jobs += [(n, 25, "quad", "27", {}) for n in (8, 16, 32)]
     run(jobs)
 
 
