@@ -211,6 +211,24 @@ pub fn log_lines<const D: usize>(scene: &Scene<D>, state: &State<D>, report: &Re
     if report.restored && scene.numerics.restore != Restore::EveryStep {
         line.push_str(" restored");
     }
+    let tally = &state.weighing.tally;
+    if report.restored && tally.volume == 0 {
+        line.push_str(&format!(
+            " cells {} quadratic {} linear {} constant volume drift {:.2e} in a cell {:.2e}",
+            tally.quadratic,
+            tally.linear,
+            tally.constant,
+            tally.point_volume / tally.fitted_volume - 1.0,
+            tally.drift
+        ));
+    }
     lines.push(line);
+    if report.restored {
+        lines.extend(
+            state.weighing.lost_front.iter().map(|why| {
+                format!("  the surface is from now on the contour of the points: following it failed, {why}")
+            }),
+        );
+    }
     lines
 }

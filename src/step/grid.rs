@@ -10,7 +10,7 @@ use crate::error::{Error, Result};
 use crate::kinematics::Kinematics;
 use crate::mesh::Mesh;
 use crate::points::Points;
-use crate::quadrature::Weighing;
+use crate::quadrature::{Restored, Weighing};
 use crate::stencil::Stencil;
 use crate::system::{Cliques, Matrix, Pattern, Solver, Workspace};
 use crate::term::{Frame, GhostFace};
@@ -227,11 +227,19 @@ fn begin_anew<const D: usize, K: Kinematics<D>>(
 ) -> Result<bool> {
     locate_points(scene, state)?;
     let changed = choose_cells(scene, state);
+    fill::<D, K>(stencil, scene, state);
+    let grid = Restored {
+        mesh: &scene.mesh,
+        locator: &scene.locator,
+        points: &state.points,
+        parametric: &state.parametric,
+        stencil,
+        taking_part: &state.taking_part,
+        displacement: (state.restorations > 0).then_some(&state.displacement),
+    };
+    state.weighing = scene.quadrature.weigh(&grid, &mut state.front);
     state.displacement.fill([0.0; D]);
     state.restorations += 1;
-    fill::<D, K>(stencil, scene, state);
-    let points = &state.points;
-    state.weighing = scene.quadrature.weigh(&scene.mesh, points, &state.parametric, stencil, &state.taking_part);
     if scene.numerics.restore == Restore::Never {
         // A grid that is never restored carries its points along: its cells stay as full as seeded.
         state.weighing.soft.clear();
