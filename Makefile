@@ -9,7 +9,7 @@ MPM := target/release/mpm
 MPM_BUILD := $(MPM)
 include pipeline/mpm.mk
 
-.PHONY: help setup build demo test check fmt clean bench bench-block stress verification
+.PHONY: help setup build demo test check fmt clean bench bench-block bench-unused stress verification
 
 help: ## List the targets
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / {printf "  %-13s %s\n", $$1, $$2}' $(firstword $(MAKEFILE_LIST))
@@ -39,6 +39,9 @@ bench: build ## Error against seconds for every scheme, beside Kratos; writes do
 
 bench-block: build ## Time the block of 102 400 points beside Kratos; writes docs/benchmarks-block.md
 	$(PYTHON) benches/block/run.py --write
+
+bench-unused: build ## Count the instructions that parts cost which a scene does not use; writes docs/unused.md
+	$(PYTHON) benches/unused/run.py $(ARGS)
 
 stress: build ## 350 random scenes, each to end converged or with a statement; writes docs/stress.md
 	$(PYTHON) benches/stress/run.py --write $(ARGS)

@@ -39,6 +39,9 @@ pub trait Kinematics<const D: usize>: Copy + Default + Send + Sync + 'static {
     /// The tangent of `A W` from that of `τ`: `A_im (a_mjkl − δ_mk τ_jl) + δ_ik W_jl` (theory, eq. 9).
     fn weight(tangent: &mut Self::Tangent, a: &Tensor, kirchhoff: &Symmetric, w: &Tensor);
 
+    /// Adds to the tangent that of the stress `π 1` at a fixed `π` (kPa): `−π δ_il δ_jk`.
+    fn add_pressure(tangent: &mut Self::Tangent, pressure: f64);
+
     /// `a : (e_k ⊗ ∇N)` for each component `k`.
     fn column(tangent: &Self::Tangent, gradient: &Gradient<D>) -> Self::Column;
 
@@ -113,6 +116,12 @@ impl<const HOOP: bool> Kinematics<2> for Plane<HOOP> {
 
     fn weight(tangent: &mut Self::Tangent, a: &Tensor, kirchhoff: &Symmetric, w: &Tensor) {
         weight_plane(tangent, a, kirchhoff, w);
+    }
+
+    fn add_pressure(tangent: &mut Self::Tangent, pressure: f64) {
+        for (ij, kl) in [(0, 0), (1, 2), (2, 1), (3, 3), (4, 4)] {
+            tangent[ij][kl] -= pressure;
+        }
     }
 
     fn column(tangent: &Self::Tangent, gradient: &Gradient<2>) -> Self::Column {

@@ -3,7 +3,8 @@
 use crate::tensor::{Symmetric, Tensor};
 
 /// All material points of a scene. Every column has one entry a point; `velocity` and `acceleration`
-/// are empty in a quasi-static analysis, `plastic_increment` where no term needs it.
+/// are empty in a quasi-static analysis, `plastic_increment` where no term needs it, `pressure` without a pressure
+/// field.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Points<const D: usize> {
     /// Position (m) at the last converged step.
@@ -28,6 +29,8 @@ pub struct Points<const D: usize> {
     pub plastic_strain: Vec<f64>,
     /// What the last converged step added to it (-).
     pub plastic_increment: Vec<f64>,
+    /// Kirchhoff mean stress (kPa), tension positive, that the pressure field carries.
+    pub pressure: Vec<f64>,
     /// Index into the regions of the mesh.
     pub region: Vec<u16>,
     /// The cell that holds the point.

@@ -196,3 +196,16 @@ fn a_damaged_checkpoint_is_passed_over() {
     says(&said, &[newest.file_name().unwrap().to_str().unwrap()]);
     assert!(before == contents(folder.path()), "the last step is done again, to the same bytes");
 }
+
+/// The load factor that a quasi-static analysis came to is what one wants to know of a collapse.
+#[test]
+fn an_analysis_that_meets_the_limit_load_says_how_far_it_came() {
+    let material = "materials.soil={model: tresca, young: 1000, poisson: 0.3, shear_strength: 10, density: 1}";
+    let step = "phases.gravity.step={initial: 0.05, min: 0.05}";
+    let set = ["mesh.parameters.h=2", material, step, "numerics.max_iterations=4"];
+    fails(
+        "cases/slump",
+        &set,
+        &["equilibrium was last found at the gravity factor 0.", " of 1.0000)", "analysis: dynamic"],
+    );
+}

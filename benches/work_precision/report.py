@@ -1,6 +1,7 @@
 """docs/benchmarks.md with its pictures, from the numbers in docs/benchmarks/*.csv."""
 
 import csv
+import re
 
 from program import ROOT
 
@@ -116,7 +117,8 @@ def table(problem, series, rows):
             if row is None:
                 cells.append("–")
             elif not row["wall [s]"]:
-                cells.append("fails")
+                when = re.search(r"from t = ([\d.]+) s", row["note"])
+                cells.append(f"fails at t = {float(when[1]):.2f} s" if when else "fails")
             else:
                 errors = ", ".join(number(row[key], "{:.1e}") for key in problem.measures)
                 mark = "¹" if row["note"] else ""

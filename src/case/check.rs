@@ -5,6 +5,7 @@ use super::locate::{At, Path};
 use super::raw;
 use super::source::Issue;
 use super::structure::suggest;
+use crate::stencil::Scheme;
 use std::collections::BTreeMap;
 use std::path::Path as FilePath;
 
@@ -42,7 +43,9 @@ impl Checker {
         let materials: Vec<_> = file
             .materials
             .iter()
-            .filter_map(|(name, material)| self.material(name, material, &gravity, &root.key("materials").key(name)))
+            .filter_map(|(name, material)| {
+                self.material(name, material, &gravity, file.numerics.pressure, &root.key("materials").key(name))
+            })
             .collect();
         let names: Vec<&str> = file.materials.keys().map(String::as_str).collect();
         let regions = file
@@ -193,20 +196,24 @@ impl Checker {
     }
 
     fn numerics(&mut self, numerics: &raw::Numerics, path: &Path) -> Numerics {
-        if numerics.gradient != raw::Gradient::Mpm {
-            let problem = format!("this gradient {LATER}");
-            self.issue(&path.key("gradient"), At::Value, problem, "choose mpm");
-        }
-        if numerics.quadrature != raw::Quadrature::Points {
-            let problem = format!("`fitted` {LATER}");
-            self.issue(&path.key("quadrature"), At::Value, problem, "choose points");
-        }
+        let fitted = numerics.quadrature == raw::Quadrature::Fitted;
+        let gradient = match numerics.gradient {
+            raw::Gradient::Mpm => Scheme::Mpm,
+            raw::Gradient::Ddmp => Scheme::Ddmp { fitted },
+            _ => {
+                let problem = format!("this gradient {LATER}");
+                self.issue(&path.key("gradient"), At::Value, problem, "choose mpm or ddmp");
+                Scheme::Mpm
+            }
+        };
         let restore = match numerics.restore {
             raw::Restore::Named(raw::RestoreName::EveryStep) => Restore::EveryStep,
             raw::Restore::Named(raw::RestoreName::Never) => Restore::Never,
             raw::Restore::Quality(quality) => Restore::Quality { least: quality.min_quality },
         };
         Numerics {
+            gradient,
+            fitted,
             restore,
             spectral_radius: numerics.spectral_radius,
             tolerance: numerics.tolerance,
@@ -219,9 +226,6 @@ impl Checker {
         let fields = output.fields.clone().unwrap_or(vec![Field::Stress, Field::Displacement]);
         for (i, field) in fields.iter().enumerate() {
             let path = path.key("fields").index(i);
-            if *field == Field::PorePressure {
-                self.issue(&path, At::Value, format!("`pore_pressure` {LATER}"), "take it out");
-            }
             if fields[..i].contains(field) {
                 self.issue(&path, At::Value, "the field is named twice", "take it out");
             }
@@ -254,6 +258,19 @@ impl Checker {
         if frames > MOST_FRAMES {
             let problem = format!("the phases would give {frames:e} frames, more than {MOST_FRAMES}");
             self.issue(&root.key("output").key("every"), At::Value, problem, "write them less often");
+        }
+        let undrained = case.materials.iter().any(|m| m.carried.as_ref().is_some_and(|c| !c.total));
+        let wanted = case.output.fields.iter().position(|f| *f == Field::PorePressure);
+        if let Some(i) = wanted.filter(|_| !undrained) {
+            let path = root.key("output").key("fields").index(i);
+            self.issue(&path, At::Value, "no material is undrained", "take it out, or set `drainage: undrained`");
+        }
+        let unused =
+            file.numerics.pressure == Some(raw::Pressure::Field) && case.materials.iter().all(|m| m.carried.is_none());
+        if unused && self.issues.is_empty() {
+            let problem = "no material has a share for it: the field is for undrained materials, and for linear_elastic, \
+                tresca and von_mises with a Poisson's ratio above 0.3";
+            self.issue(&root.key("numerics").key("pressure"), At::Value, problem, "take it out");
         }
         if file.regions.values().all(|region| region.kind == raw::RegionKind::Buffer) {
             let remedy = "make at least one region `kind: mpm` with a material";

@@ -5,6 +5,8 @@
 
 pub use super::raw::{Axis, Encoding, Field, Quantity};
 use crate::material::{Model, Profile};
+use crate::stencil::Scheme;
+use crate::term::Carried;
 use crate::time_value::TimeValue;
 use std::collections::BTreeMap;
 use std::fmt;
@@ -82,6 +84,8 @@ pub struct Material {
     /// Density (t/m³).
     pub density: Profile,
     pub model: Arc<dyn Model>,
+    /// What the pressure field carries of its stress.
+    pub carried: Option<Carried>,
 }
 
 impl fmt::Debug for Material {
@@ -134,9 +138,13 @@ impl InitialVelocity {
     }
 }
 
-/// The numerical method: plain gradients, points as integration weights.
+/// The numerical method.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Numerics {
+    /// How gradients at the points are formed.
+    pub gradient: Scheme,
+    /// Weights fitted to the filled part of each cell, in place of the volumes of the points.
+    pub fitted: bool,
     pub restore: Restore,
     /// ρ∞ (-) of generalised-α.
     pub spectral_radius: f64,

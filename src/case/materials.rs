@@ -8,6 +8,7 @@ use super::raw::{self, InDepth};
 use super::structure::suggest;
 use crate::error::Result;
 use crate::material::{Kind, MODELS, Model, Parameters, Profile};
+use crate::term::Carried;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde_json::{Map, Value, json};
 use std::borrow::Cow;
@@ -21,11 +22,12 @@ impl Checker {
         name: &str,
         material: &raw::Material,
         gravity: &[f64; 2],
+        pressure: Option<raw::Pressure>,
         path: &Path,
     ) -> Option<Material> {
         let density = self.density(material, gravity, path);
-        let model = self.model(material, path);
-        Some(Material { name: name.to_owned(), density: density?, model: model? })
+        let (model, carried) = self.model(material, pressure, path)?;
+        Some(Material { name: name.to_owned(), density: density?, model, carried })
     }
 
     fn density(&mut self, material: &raw::Material, gravity: &[f64; 2], path: &Path) -> Option<Profile> {
@@ -65,7 +67,12 @@ impl Checker {
         None
     }
 
-    fn model(&mut self, material: &raw::Material, path: &Path) -> Option<Arc<dyn Model>> {
+    fn model(
+        &mut self,
+        material: &raw::Material,
+        pressure: Option<raw::Pressure>,
+        path: &Path,
+    ) -> Option<(Arc<dyn Model>, Option<Carried>)> {
         let kind = MODELS.iter().find(|kind| kind.name == material.model)?;
         let mut values = BTreeMap::new();
         let before = self.count();
@@ -100,7 +107,11 @@ impl Checker {
                 return None;
             }
         };
-        (self.count() == before).then_some(model)
+        if self.count() > before {
+            return None;
+        }
+        let carried = self.carried(material, kind, &model, &values, pressure, path);
+        Some((model, carried))
     }
 }
 
@@ -110,7 +121,7 @@ fn example(kind: &Kind, name: &str) -> Option<(&'static str, Profile)> {
     Some((name, Profile::constant(*value)))
 }
 
-fn build(kind: &Kind, values: &BTreeMap<&str, Profile>) -> Result<Arc<dyn Model>> {
+pub(super) fn build(kind: &Kind, values: &BTreeMap<&str, Profile>) -> Result<Arc<dyn Model>> {
     let mut parameters = Parameters::default();
     for (&name, &value) in values {
         parameters.set(name, value);
@@ -159,6 +170,19 @@ impl JsonSchema for raw::Material {
         let weight = "Unit weight [kN/m³], 0 or above; with gravity it gives the density.";
         properties.insert("unit_weight".into(), varying(weight.into()));
         properties.insert("density".into(), varying("Density [t/m³], 0 or above; or give `unit_weight`.".into()));
+        let drainage = "Whether water can leave the pores; undrained, the model and its parameters are those of the \
+            effective stress, and the excess pressure of the water is found. Without it drained.";
+        let mut schema = generator.subschema_for::<raw::Drainage>();
+        schema.insert("description".into(), drainage.into());
+        properties.insert("drainage".into(), schema.to_value());
+        properties.insert(
+            "undrained_poisson".into(),
+            json!({
+                "description": "Poisson's ratio [-] of an undrained soil as a whole, that tells the stiffness of its \
+                    water, above `poisson` and below 0.5; without it 0.495.",
+                "type": "number",
+            }),
+        );
         for kind in MODELS {
             for parameter in kind.parameters {
                 let takers = MODELS.iter().filter(|k| k.parameters.iter().any(|p| p.name == parameter.name));

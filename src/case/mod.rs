@@ -6,6 +6,7 @@
 
 mod check;
 pub mod checked;
+mod incompressible;
 pub mod locate;
 mod materials;
 pub mod names;

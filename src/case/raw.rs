@@ -111,9 +111,21 @@ pub struct Material {
     pub density: Option<InDepth>,
     /// Unit weight (kN/m³).
     pub unit_weight: Option<InDepth>,
+    /// Whether water can leave its pores.
+    pub drainage: Option<Drainage>,
+    /// Poisson's ratio of the undrained soil as a whole (-).
+    pub undrained_poisson: Option<f64>,
     /// The parameters of the model.
     #[serde(flatten)]
     pub parameters: BTreeMap<String, InDepth>,
+}
+
+/// Whether water can leave the pores of a material.
+#[derive(Clone, Copy, Debug, Deserialize, JsonSchema, PartialEq, Eq)]
+#[serde(rename_all = "snake_case")]
+pub enum Drainage {
+    Drained,
+    Undrained,
 }
 
 /// A number, or `{top, gradient, datum}`: `top` at the height `datum` and above, growing downwards by `gradient`.
@@ -216,6 +228,9 @@ pub struct Numerics {
     pub gradient: Gradient,
     /// The integration weights: points (the volumes of the points) or fitted.
     pub quadrature: Quadrature,
+    /// Who carries the mean stress of nearly incompressible and undrained materials: a field of pressure unknowns, or
+    /// none. Without it a field where Poisson's ratio is 0.45 or more or a material is undrained.
+    pub pressure: Option<Pressure>,
     /// When the grid goes back to its first shape: every_step, never, or {min_quality: q}.
     pub restore: Restore,
     /// Spectral radius ρ∞ (-) of generalised-α at high frequencies, from 0 to 1; 1 damps nothing.
@@ -237,6 +252,7 @@ impl Default for Numerics {
         Self {
             gradient: Gradient::Mpm,
             quadrature: Quadrature::Points,
+            pressure: None,
             restore: Restore::Named(RestoreName::EveryStep),
             spectral_radius: 0.9,
             tolerance: 1e-8,
@@ -264,6 +280,14 @@ pub enum Gradient {
 pub enum Quadrature {
     Points,
     Fitted,
+}
+
+/// Who carries the mean stress.
+#[derive(Clone, Copy, Debug, Deserialize, serde::Serialize, JsonSchema, PartialEq, Eq)]
+#[serde(rename_all = "snake_case")]
+pub enum Pressure {
+    Field,
+    None,
 }
 
 /// When the grid goes back to its first shape.

@@ -8,14 +8,20 @@ use crate::mesh::Mesh;
 use crate::mesh::faces::Faces;
 use crate::mesh::locate::Locator;
 use crate::points::Points;
-use crate::quadrature::{Quadrature, Volumes};
+use crate::quadrature::{Fitted, Quadrature, Volumes};
 use crate::run::{self, Ended, Outputs, Progress, Watch, WatchedOn};
-use crate::stencil::Scheme;
+use crate::stencil::cell_size;
 use crate::step::{self, Fixed, Numerics, Phase, Prescribed, Scene, State, Stop};
-use crate::term::{BodyForce, EmptyCells, Inertia, Internal, Term, Traction};
+use crate::tensor::full;
+use crate::term::{
+    BodyForce, Carried, EmptyCells, GhostPenalty, Inertia, Internal, PressureField, SmoothPressure, Term, Traction,
+};
 use crate::time_value::TimeValue;
 use std::path::Path;
 use std::sync::atomic::AtomicBool;
+
+/// γ (-) of the ghost penalty: 1e-3 … 1 give the same results to the error of the grid.
+const GHOST: f64 = 0.1;
 
 /// Solves a case in `folder`.
 ///
@@ -43,18 +49,29 @@ pub fn solve(
     match case.geometry {
         Geometry::PlaneStrain => {
             let scene = scene::<PlaneStrain>(case, mesh)?;
-            run::run::<2, PlaneStrain>(&scene, first(&scene, points), &outputs, resume, stop, progress)
+            run::run::<2, PlaneStrain>(&scene, first(case, &scene, points)?, &outputs, resume, stop, progress)
         }
         Geometry::Axisymmetric => {
             let scene = scene::<Axisymmetric>(case, mesh)?;
-            run::run::<2, Axisymmetric>(&scene, first(&scene, points), &outputs, resume, stop, progress)
+            run::run::<2, Axisymmetric>(&scene, first(case, &scene, points)?, &outputs, resume, stop, progress)
         }
     }
 }
 
-fn first(scene: &Scene<2>, points: Points<2>) -> State<2> {
+fn first(case: &Case, scene: &Scene<2>, mut points: Points<2>) -> Result<State<2>> {
+    if scene.pressure_unit.is_some() {
+        // The points bring the elastic strain of all their stress: the field begins with its share.
+        let carried = carried(case, &scene.mesh)?;
+        let share = |p: usize| match carried.get(points.region[p] as usize) {
+            Some(Some(carried)) if carried.total => {
+                0.5 * full(&points.elastic[p]).determinant().ln() / carried.compliance(points.origin[p][1])
+            }
+            _ => 0.0,
+        };
+        points.pressure = (0..points.len()).map(share).collect();
+    }
     let first_step = scene.phases.first().map_or(0.0, |p| p.first_step);
-    State::new(points, scene.mesh.nodes.len(), first_step)
+    Ok(State::new(points, scene.mesh.nodes.len(), first_step))
 }
 
 /// The scene of a case on its mesh.
@@ -67,19 +84,35 @@ pub fn scene<K: Kinematics<2>>(case: &Case, mesh: Mesh<2>) -> Result<Scene<2>> {
     let largest = |value: fn(&Material, f64) -> f64| materials().map(|m| value(m, lowest)).fold(0.0, f64::max);
     let young = largest(|m, y| m.model.young(y));
     let stiffness_scale = largest(|m, y| {
-        let moduli = m.model.elasticity().at(y);
+        // What the pressure field carries does not come through a modulus.
+        let moduli = m.carried.as_ref().map_or(&m.model, |c| &c.model).elasticity().at(y);
         moduli.lambda + 2.0 * moduli.shear
     });
     let density_scale = largest(|m, y| m.density.at(y));
     let dynamic = case.phases.iter().any(|p| p.analysis == Analysis::Dynamic);
+    let faces = Faces::of(&mesh);
 
-    let mut terms: Vec<Box<dyn Term<2>>> = vec![Box::new(Internal::<K>::new(models(case, &mesh)?, dynamic))];
+    let shear = largest(|m, y| m.model.elasticity().at(y).shear);
+    let pressure_unit = materials().any(|m| m.carried.is_some()).then(|| shear / mean_size(&mesh));
+    let models = models(case, &mesh)?;
+    let mut terms: Vec<Box<dyn Term<2>>> = match pressure_unit {
+        None => vec![Box::new(Internal::<K>::new(models, dynamic))],
+        Some(unit) => {
+            let field = PressureField::<K>::new(carried(case, &mesh)?, unit);
+            let internal = Internal::<K, _>::sharing(models, dynamic, field);
+            vec![Box::new(internal), Box::new(SmoothPressure::<K>::new(unit, shear, mesh.cells.len()))]
+        }
+    };
     if case.gravity != [0.0; 2] && density_scale > 0.0 {
         let factors = case.phases.iter().map(|p| p.gravity.clone()).collect();
         terms.push(Box::new(BodyForce::<K, 2>::new(case.gravity, factors)));
     }
     if case.numerics.restore != Restore::Never {
         terms.push(Box::new(EmptyCells::<K>::new(case.numerics.empty_stiffness * young, mesh.cells.len())));
+        if case.numerics.fitted {
+            let models = self::models(case, &mesh)?;
+            terms.push(Box::new(GhostPenalty::<K>::new(GHOST, models, faces.inner.len())));
+        }
     }
     if dynamic {
         terms.push(Box::new(Inertia::<K>::default()));
@@ -98,14 +131,15 @@ pub fn scene<K: Kinematics<2>>(case: &Case, mesh: Mesh<2>) -> Result<Scene<2>> {
     let phases = case.phases.iter().map(|p| phase(case, &mesh, p)).collect::<Result<_>>()?;
     Ok(Scene {
         locator: Locator::new(&mesh),
-        faces: Some(Faces::of(&mesh)),
+        faces: Some(faces),
+        quadrature: quadrature::<K>(case, &mesh),
         mesh,
         terms,
-        quadrature: quadrature::<K>(),
+        pressure_unit,
         supports,
         phases,
         numerics: Numerics {
-            scheme: Scheme::Mpm,
+            scheme: case.numerics.gradient,
             restore: restore(case.numerics.restore),
             spectral_radius: case.numerics.spectral_radius,
             tolerance: case.numerics.tolerance,
@@ -117,8 +151,8 @@ pub fn scene<K: Kinematics<2>>(case: &Case, mesh: Mesh<2>) -> Result<Scene<2>> {
     })
 }
 
-fn quadrature<K: Kinematics<2>>() -> Box<dyn Quadrature<2>> {
-    Box::new(Volumes::<K>::default())
+fn quadrature<K: Kinematics<2>>(case: &Case, mesh: &Mesh<2>) -> Box<dyn Quadrature<2>> {
+    if case.numerics.fitted { Box::new(Fitted::<K>::new(mesh)) } else { Box::new(Volumes::<K>::default()) }
 }
 
 fn restore(restore: Restore) -> step::Restore {
@@ -180,9 +214,7 @@ fn outputs(case: &Case, mesh: &Mesh<2>, folder: &Path, fingerprint: Fingerprint)
             Field::Stress | Field::MeanStress | Field::DeviatoricStress => run::Field::Stress,
             Field::PlasticStrain => run::Field::PlasticStrain,
             Field::DeformationGradient => run::Field::DeformationGradient,
-            Field::PorePressure => {
-                return Err(Error::input("output.fields", "pore_pressure is not available yet", "take it out"));
-            }
+            Field::PorePressure => run::Field::PorePressure(undrained(case, mesh)?),
         };
         if !fields.contains(&field) {
             fields.push(field);
@@ -219,9 +251,30 @@ fn filled(case: &Case) -> impl Iterator<Item = (&Region, &Material)> {
 fn models(case: &Case, mesh: &Mesh<2>) -> Result<Vec<Option<std::sync::Arc<dyn crate::material::Model>>>> {
     let mut models = vec![None; mesh.regions.len()];
     for (region, material) in filled(case) {
-        models[region_index(mesh, &region.name)? as usize] = Some(material.model.clone());
+        let model = material.carried.as_ref().map_or(&material.model, |carried| &carried.model);
+        models[region_index(mesh, &region.name)? as usize] = Some(model.clone());
     }
     Ok(models)
+}
+
+/// What the pressure field carries in each region of the mesh.
+fn carried(case: &Case, mesh: &Mesh<2>) -> Result<Vec<Option<Carried>>> {
+    let mut carried = vec![None; mesh.regions.len()];
+    for (region, material) in filled(case) {
+        carried[region_index(mesh, &region.name)? as usize] = material.carried.clone();
+    }
+    Ok(carried)
+}
+
+/// Which regions of the mesh have pore water of their own.
+fn undrained(case: &Case, mesh: &Mesh<2>) -> Result<Vec<bool>> {
+    Ok(carried(case, mesh)?.iter().map(|c| c.as_ref().is_some_and(|c| !c.total)).collect())
+}
+
+/// The mean size of the cells of a mesh (m).
+fn mean_size(mesh: &Mesh<2>) -> f64 {
+    let cells = mesh.cells.len();
+    (0..cells).map(|c| cell_size(mesh, c)).sum::<f64>() / cells as f64
 }
 
 fn region_index(mesh: &Mesh<2>, name: &str) -> Result<u16> {

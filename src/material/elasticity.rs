@@ -43,6 +43,11 @@ impl Elasticity {
         self.young.at(y)
     }
 
+    /// Poisson's ratio (-).
+    pub fn poisson(&self) -> f64 {
+        self.poisson
+    }
+
     /// The moduli at height `y` (m).
     pub fn at(&self, y: f64) -> Moduli {
         let (e, nu) = (self.young.at(y), self.poisson);

@@ -13,6 +13,7 @@ pub struct LinearElastic {
 /// The entry of the model list.
 pub const KIND: Kind = Kind {
     name: "linear_elastic",
+    keeps_volume: true,
     parameters: &[Parameter::YOUNG, Parameter::POISSON],
     build,
     examples: &[

@@ -53,6 +53,7 @@ pub struct MohrCoulomb {
 /// The entry of the model list.
 pub const KIND: Kind = Kind {
     name: "mohr_coulomb",
+    keeps_volume: false,
     parameters: &[
         Parameter::YOUNG,
         Parameter::POISSON,

@@ -16,6 +16,7 @@ pub struct Tresca {
 /// The entry of the model list.
 pub const KIND: Kind = Kind {
     name: "tresca",
+    keeps_volume: true,
     parameters: &[
         Parameter::YOUNG,
         Parameter::POISSON,

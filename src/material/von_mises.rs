@@ -20,6 +20,7 @@ pub struct VonMises {
 /// The entry of the model list.
 pub const KIND: Kind = Kind {
     name: "von_mises",
+    keeps_volume: true,
     parameters: &[
         Parameter::YOUNG,
         Parameter::POISSON,

@@ -4,8 +4,10 @@
 //! Weights are found when the grid is restored and hold until it is again. Mass and momentum stay with the
 //! points.
 
+mod cells;
 mod dual;
 mod fit;
+mod fitted;
 mod least;
 mod volumes;
 
@@ -13,6 +15,7 @@ mod volumes;
 mod tests;
 
 pub use fit::{Degree, Fitter, MOMENTS};
+pub use fitted::Fitted;
 pub use volumes::Volumes;
 
 use crate::mesh::Mesh;
@@ -45,6 +48,9 @@ pub struct Tally {
     /// `Σ V_p` of the points and the volume that the weights stand for (m³).
     pub point_volume: f64,
     pub fitted_volume: f64,
+    /// `Σ V_p / Σ w − 1` (-) of the cell inside the material in which it is farthest from zero: points crowd
+    /// (positive) or thin out there.
+    pub drift: f64,
 }
 
 /// A rule for the weights of points.

@@ -65,7 +65,7 @@ impl Cell {
 
     fn check_sound(&self, weight: &[f64], active: f64) {
         for r in self.ratios(weight, active) {
-            assert!(r >= LOW * (1.0 - 1e-9) && r <= HIGH * (1.0 + 1e-9), "ratio {r}");
+            assert!((LOW * (1.0 - 1e-9)..=HIGH * (1.0 + 1e-9)).contains(&r), "ratio {r}");
         }
         let sum: f64 = weight.iter().sum();
         assert!((sum / active - 1.0).abs() < 1e-12, "{sum} in place of {active}");

@@ -28,6 +28,7 @@ pub fn store<const D: usize>(state: &State<D>) -> Store {
         parametric,
         displacement,
         travel,
+        pressure,
         velocity,
         acceleration,
         taking_part,
@@ -48,6 +49,7 @@ pub fn store<const D: usize>(state: &State<D>) -> Store {
     {
         store.put(&format!("state.{name}"), D, field.concat());
     }
+    store.put("state.pressure", 1, pressure.clone());
     store.put("state.taking_part", 1, taking_part.iter().map(|&b| u8::from(b)).collect());
     store.put("state.penalised", 1, penalised.iter().map(|&b| u8::from(b)).collect());
     put_weighing(&mut store, weighing);
@@ -60,7 +62,7 @@ pub fn store<const D: usize>(state: &State<D>) -> Store {
 
 fn put_weighing<const D: usize>(store: &mut Store, weighing: &Weighing<D>) {
     let Weighing { weight, shift, soft, poor, tally } = weighing;
-    let Tally { quadratic, linear, constant, volume, point_volume, fitted_volume } = tally;
+    let Tally { quadratic, linear, constant, volume, point_volume, fitted_volume, drift } = tally;
     store.put("weighing.weight", 1, weight.clone());
     store.put("weighing.shifted", 2, shift.iter().flat_map(|(cell, by)| [*cell, by.len() as u32]).collect());
     store.put("weighing.shift", D, shift.iter().flat_map(|(_, by)| by.concat()).collect());
@@ -68,7 +70,7 @@ fn put_weighing<const D: usize>(store: &mut Store, weighing: &Weighing<D>) {
     store.put("weighing.emptiness", 1, soft.iter().map(|s| s.emptiness).collect());
     store.put("weighing.poor", 1, poor.clone());
     store.put("weighing.cells", 1, vec![*quadratic, *linear, *constant, *volume]);
-    store.put("weighing.volume", 1, vec![*point_volume, *fitted_volume]);
+    store.put("weighing.volume", 1, vec![*point_volume, *fitted_volume, *drift]);
 }
 
 fn take_weighing<const D: usize>(store: &mut Store) -> Result<Weighing<D>> {
@@ -81,7 +83,8 @@ fn take_weighing<const D: usize>(store: &mut Store) -> Result<Weighing<D>> {
     let soft = soft.into_iter().zip(emptiness).map(|(cell, emptiness)| SoftCell { cell, emptiness }).collect();
     let poor = store.take::<u32>("weighing.poor", 1)?;
     let (cells, volume) = (store.take::<u32>("weighing.cells", 1)?, store.take::<f64>("weighing.volume", 1)?);
-    let ([quadratic, linear, constant, volume_only], [point_volume, fitted_volume]) = (&cells[..], &volume[..]) else {
+    let ([quadratic, linear, constant, volume_only], [point_volume, fitted_volume, drift]) = (&cells[..], &volume[..])
+    else {
         return Err(foreign("its weights"));
     };
     let tally = Tally {
@@ -91,6 +94,7 @@ fn take_weighing<const D: usize>(store: &mut Store) -> Result<Weighing<D>> {
         volume: *volume_only,
         point_volume: *point_volume,
         fitted_volume: *fitted_volume,
+        drift: *drift,
     };
     Ok(Weighing { weight, shift, soft, poor, tally })
 }
@@ -116,6 +120,7 @@ pub fn take<const D: usize>(mut store: Store, first: &State<D>) -> Result<State<
     let (displacement, travel) = (nodal("displacement")?, nodal("travel")?);
     let (velocity, acceleration) = (nodal("velocity")?, nodal("acceleration")?);
     let parametric = store.take::<f64>("state.parametric", 3)?.chunks_exact(3).map(|v| [v[0], v[1], v[2]]).collect();
+    let pressure = store.take::<f64>("state.pressure", 1)?;
     let taking_part = store.take::<u8>("state.taking_part", 1)?.into_iter().map(|b| b != 0).collect();
     let penalised = store.take::<u8>("state.penalised", 1)?.into_iter().map(|b| b != 0).collect();
     let weighing = take_weighing(&mut store)?;
@@ -134,6 +139,7 @@ pub fn take<const D: usize>(mut store: Store, first: &State<D>) -> Result<State<
         parametric,
         displacement,
         travel,
+        pressure,
         velocity,
         acceleration,
         taking_part,

@@ -6,13 +6,15 @@ use crate::points::Points;
 use crate::step::{Report, Restore, Scene, State};
 
 /// A field of the frames.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Field {
     Displacement,
     Velocity,
     Stress,
     PlasticStrain,
     DeformationGradient,
+    /// In the regions of the mesh that are marked; zero in the others.
+    PorePressure(Vec<bool>),
 }
 
 /// A quantity of the history, with its component.
@@ -124,6 +126,14 @@ pub fn frame<const D: usize>(scene: &Scene<D>, state: &State<D>, fields: &[Field
         Field::DeformationGradient => {
             let rows = points.deformation.iter().flat_map(|f| f.transpose().data.0.into_iter().flatten());
             column("deformation_gradient", "-", 9, rows.collect())
+        }
+        Field::PorePressure(regions) => {
+            let undrained = |p: usize| regions.get(points.region[p] as usize).copied().unwrap_or(false);
+            let excess = |p: usize| {
+                let carried = if undrained(p) { points.pressure.get(p) } else { None };
+                carried.map_or(0.0, |carried| -carried / points.deformation[p].determinant())
+            };
+            column("pore_pressure", "kPa", 1, (0..points.len()).map(excess).collect())
         }
     });
     // A grid that is restored stays where the mesh has it.

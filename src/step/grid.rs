@@ -2,6 +2,8 @@
 //! All of it follows from the scene and the state, and is made anew only as far as they changed.
 
 use super::ghost_faces;
+use super::newton::Buffers;
+use super::pressure;
 use super::scene::{Fixed, Restore, Scene};
 use super::state::State;
 use crate::error::{Error, Result};
@@ -37,18 +39,55 @@ pub struct Grid<const D: usize> {
     pub block: Vec<u32>,
     /// The node of each block.
     pub node: Vec<u32>,
+    /// What each unknown of the pressure field, after those of the nodes, is in [`State::pressure`].
+    pub carrier: Vec<u32>,
+    /// The cells that take part, ascending.
+    pub cells: Vec<u32>,
     pub motion: System,
     /// The mass of the points on the nodes, one equation a node: in dynamic analysis only.
     pub mass: Option<System>,
     pub workspace: Workspace,
+    pub buffers: Buffers<D>,
 }
 
 impl System {
-    fn new(blocks: usize, size: u8, cliques: Cliques, symmetric: bool) -> Result<Self> {
-        let pattern = Pattern::new(&vec![size; blocks], cliques, symmetric);
+    fn new(sizes: &[u8], cliques: Cliques, symmetric: bool) -> Result<Self> {
+        let pattern = Pattern::new(sizes, cliques, symmetric);
         let matrix = Matrix::new(&pattern);
         let solver = Solver::new(&pattern)?;
         Ok(Self { pattern, matrix, solver })
+    }
+}
+
+/// The unknowns of a pressure field.
+struct Carriers {
+    carrier: Vec<u32>,
+    /// The cliques of the nodes, those of cells with their unknowns of pressure.
+    cliques: Cliques,
+}
+
+impl Carriers {
+    /// Numbers the unknowns of `cells`, whose cliques come first in `cliques` and in their order, after `nodes`
+    /// blocks.
+    fn new<const D: usize>(mesh: &Mesh<D>, cells: &[u32], nodes: usize, cliques: &Cliques) -> Self {
+        let mut block = vec![u32::MAX; mesh.nodes.len() + mesh.cells.len()];
+        for &c in cells {
+            for unknown in pressure::unknowns_of(mesh, c as usize) {
+                block[unknown as usize] = 0;
+            }
+        }
+        let mut carrier = Vec::new();
+        for (unknown, block) in (0u32..).zip(&mut block).filter(|(_, b)| **b == 0) {
+            *block = (nodes + carrier.len()) as u32;
+            carrier.push(unknown);
+        }
+        let mut extended = Cliques::default();
+        for k in 0..cliques.len() {
+            let own = cliques.blocks(k).iter().copied();
+            let carriers = cells.get(k).into_iter().flat_map(|&c| pressure::unknowns_of(mesh, c as usize));
+            extended.push(own.chain(carriers.map(|unknown| block[unknown as usize])));
+        }
+        Self { carrier, cliques: extended }
     }
 }
 
@@ -104,8 +143,9 @@ impl<const D: usize> Grid<D> {
             *block = node.len() as u32;
             node.push(n as u32);
         }
-        for c in (0..mesh.cells.len()).filter(|&c| state.taking_part[c]) {
-            clique[c] = cliques.push(stencil.nodes(mesh, c as u32).iter().map(|&n| block[n as usize]));
+        let cells: Vec<u32> = (0u32..).zip(&state.taking_part).filter(|(_, part)| **part).map(|(c, _)| c).collect();
+        for &c in &cells {
+            clique[c as usize] = cliques.push(stencil.nodes(mesh, c).iter().map(|&n| block[n as usize]));
         }
         let mut face_clique = Vec::new();
         if let Some(faces) = &scene.faces {
@@ -116,12 +156,34 @@ impl<const D: usize> Grid<D> {
                 }
             }
         }
+        let with_pressure = scene.pressure_unit.map(|_| Carriers::new(mesh, &cells, node.len(), &cliques));
         let dynamic = scene.phases.iter().any(|p| p.dynamic);
-        let mass = if dynamic { Some(System::new(node.len(), 1, cliques.clone(), true)?) } else { None };
+        let mass = if dynamic { Some(System::new(&vec![1; node.len()], cliques.clone(), true)?) } else { None };
         let symmetric = scene.terms.iter().all(|t| t.symmetric());
-        let motion = System::new(node.len(), D as u8, cliques, symmetric)?;
-        let workspace = Workspace::default();
-        let mut grid = Self { stencil, ghost: Vec::new(), face_clique, clique, block, node, motion, mass, workspace };
+        let mut sizes = vec![D as u8; node.len()];
+        let (motion, carrier) = match with_pressure {
+            None => (System::new(&sizes, cliques, symmetric)?, Vec::new()),
+            Some(Carriers { carrier, cliques }) => {
+                sizes.resize(node.len() + carrier.len(), 1);
+                let mut motion = System::new(&sizes, cliques, symmetric)?;
+                motion.solver = motion.solver.saddle();
+                (motion, carrier)
+            }
+        };
+        let mut grid = Self {
+            stencil,
+            ghost: Vec::new(),
+            face_clique,
+            clique,
+            block,
+            node,
+            carrier,
+            cells,
+            motion,
+            mass,
+            workspace: Workspace::default(),
+            buffers: Buffers::default(),
+        };
         grid.penalise(scene, state);
         Ok(grid)
     }
@@ -144,6 +206,7 @@ impl<const D: usize> Grid<D> {
             stencil: &self.stencil,
             soft: &weighing.soft,
             ghost: &self.ghost,
+            cells: &self.cells,
             points,
             pattern: &self.motion.pattern,
             clique: &self.clique,
@@ -172,8 +235,12 @@ fn begin_anew<const D: usize, K: Kinematics<D>>(
     if scene.numerics.restore == Restore::Never {
         // A grid that is never restored carries its points along: its cells stay as full as seeded.
         state.weighing.soft.clear();
+        state.weighing.poor.clear();
     }
     stencil.weigh(&state.weighing.weight, &state.weighing.shift);
+    if scene.pressure_unit.is_some() {
+        pressure::gather::<D, K>(&scene.mesh, stencil, state);
+    }
     if let Some(faces) = &scene.faces {
         let chosen = ghost_faces::choose(scene, state);
         return Ok(ghost_faces::make_room(faces, state, &chosen) || changed);

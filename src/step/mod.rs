@@ -10,10 +10,12 @@ mod ghost_faces;
 mod grid;
 mod mass;
 mod newton;
+mod pressure;
 mod report;
 mod scene;
 mod state;
 mod transfer;
+mod unknowns;
 
 pub use control::{Controller, Limits};
 pub use grid::Grid;
@@ -126,6 +128,7 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
             points: &state.points,
             weighing: &state.weighing,
             converged: &state.displacement,
+            pressure: &state.pressure,
             velocity,
             acceleration,
             phase: state.phase,
@@ -157,6 +160,7 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
             }
         }
         state.displacement.clone_from(&solution.displacement);
+        state.pressure.clone_from(&solution.pressure);
         state.step += 1;
         state.time += dt;
         state.phase_time += dt;

@@ -2,12 +2,13 @@
 
 use super::grid::Grid;
 use super::scene::Scene;
+use super::unknowns::Unknowns;
 use crate::error::{Error, Result};
 use crate::points::Points;
 use crate::profile::{Activity, timed};
 use crate::quadrature::Weighing;
 use crate::stencil::cell_size;
-use crate::system::{Matrix, Method};
+use crate::system::Method;
 use crate::term::{Assembly, Role, Trial};
 use crate::time_integration::GeneralisedAlpha;
 
@@ -29,6 +30,8 @@ pub struct Problem<'a, const D: usize> {
     pub weighing: &'a Weighing<D>,
     /// State of the nodes at the last converged step.
     pub converged: &'a [[f64; D]],
+    /// The pressure field (kPa) there; empty without one.
+    pub pressure: &'a [f64],
     pub velocity: &'a [[f64; D]],
     pub acceleration: &'a [[f64; D]],
     pub phase: usize,
@@ -45,6 +48,8 @@ pub struct Problem<'a, const D: usize> {
 pub struct Solution<const D: usize> {
     /// Displacement of the nodes (m) since the last restoration.
     pub displacement: Vec<[f64; D]>,
+    /// The pressure field (kPa); empty without one.
+    pub pressure: Vec<f64>,
     /// Residual (kN), one entry an equation: zero where free, the force of the support where given.
     pub residual: Vec<f64>,
     /// Relative residuals, the first before the first iteration.
@@ -54,12 +59,34 @@ pub struct Solution<const D: usize> {
     pub method: Method,
 }
 
-/// The residual at a trial state.
+/// Vectors that the iterations of all steps use.
+#[derive(Default)]
+pub struct Buffers<const D: usize> {
+    now: Evaluation<D>,
+    trial: Evaluation<D>,
+    best: Unknowns<D>,
+    delta: Vec<f64>,
+    gap: Vec<f64>,
+    fixed: Vec<bool>,
+    /// The residual of one term.
+    own: Vec<f64>,
+    between: Vec<[f64; D]>,
+    acceleration: Vec<[f64; D]>,
+}
+
+/// A state and its residual.
 struct Evaluation<const D: usize> {
+    at: Unknowns<D>,
     force: Vec<f64>,
     applied: [f64; D],
-    /// Norm of the largest term: what the residual is measured against.
+    /// Norm of the largest term on the displacements: what the residual is measured against.
     scale: f64,
+}
+
+impl<const D: usize> Default for Evaluation<D> {
+    fn default() -> Self {
+        Self { at: Unknowns::default(), force: Vec::new(), applied: [0.0; D], scale: 0.0 }
+    }
 }
 
 /// Solves a step.
@@ -67,29 +94,27 @@ struct Evaluation<const D: usize> {
 /// # Errors
 /// An analysis error that says why when the iteration does not converge: the caller takes a smaller step.
 pub fn solve<const D: usize>(problem: &Problem<D>, grid: &mut Grid<D>) -> Result<Solution<D>> {
-    let mut newton = Newton::begin(problem, grid)?;
-    while !newton.converged() {
-        let delta = newton.direction()?;
-        newton.search(&delta)?;
-    }
-    Ok(newton.solution())
+    let buffers = std::mem::take(&mut grid.buffers);
+    let mut newton = Newton::new(problem, grid, buffers);
+    let solution = newton.solve();
+    let Newton { grid, buffers, .. } = newton;
+    grid.buffers = buffers;
+    solution
 }
 
 /// The iteration.
 struct Newton<'a, const D: usize> {
     problem: &'a Problem<'a, D>,
     grid: &'a mut Grid<D>,
-    /// Equations whose displacement is given.
-    fixed: Vec<bool>,
-    u: Vec<[f64; D]>,
-    now: Evaluation<D>,
+    buffers: Buffers<D>,
+    /// Whether the matrix of the grid is the tangent of the state at hand.
+    tangent: bool,
     /// A force (kN) below which nothing counts.
     floor: f64,
-    /// Relative residuals so far; the last is that of `u`.
+    /// Relative residuals so far; the last is that of the state at hand.
     history: Vec<f64>,
     method: Method,
-    /// The best state so far, the residual (kN) to beat, and how many iterations have not.
-    best: Vec<[f64; D]>,
+    /// The residual (kN) to beat, and how many iterations have not.
     target: f64,
     relaxed: usize,
     /// Whether every iteration must lessen the residual: set when full steps have failed to.
@@ -98,114 +123,143 @@ struct Newton<'a, const D: usize> {
 }
 
 impl<'a, const D: usize> Newton<'a, D> {
-    fn begin(problem: &'a Problem<'a, D>, grid: &'a mut Grid<D>) -> Result<Self> {
-        let u = problem.converged.to_vec();
-        let now = evaluate(problem, grid, &u)?;
+    fn new(problem: &'a Problem<'a, D>, grid: &'a mut Grid<D>, mut buffers: Buffers<D>) -> Self {
+        buffers.fixed.clear();
+        buffers.fixed.extend(problem.given.iter().map(Option::is_some));
+        buffers.now.at.set(problem.converged, problem.pressure);
+        buffers.best.clone_from(&buffers.now.at);
         let floor = floor(problem, grid);
-        let mut newton = Self {
-            fixed: problem.given.iter().map(Option::is_some).collect(),
+        Self {
+            problem,
+            grid,
+            buffers,
+            tangent: false,
+            floor,
             history: Vec::new(),
             method: Method::Cholesky,
-            best: u.clone(),
             target: f64::INFINITY,
             relaxed: 0,
             strict: false,
             stalled: 0,
-            problem,
-            grid,
-            u,
-            now,
-            floor,
-        };
-        newton.note();
-        Ok(newton)
+        }
+    }
+
+    fn solve(&mut self) -> Result<Solution<D>> {
+        self.evaluate(true)?;
+        self.note();
+        while !self.converged() {
+            self.direction()?;
+            self.search()?;
+        }
+        let now = &mut self.buffers.now;
+        let at = std::mem::take(&mut now.at);
+        Ok(Solution {
+            displacement: at.displacement,
+            pressure: at.pressure,
+            residual: std::mem::take(&mut now.force),
+            history: std::mem::take(&mut self.history),
+            applied: now.applied,
+            method: self.method,
+        })
+    }
+
+    /// The residual of the state at hand, and its tangent where wanted.
+    fn evaluate(&mut self, tangent: bool) -> Result<()> {
+        let mut now = std::mem::take(&mut self.buffers.now);
+        let result = evaluate(self.problem, self.grid, &mut self.buffers, &mut now, tangent);
+        self.buffers.now = now;
+        self.tangent = tangent;
+        result
     }
 
     /// The residual (kN).
     fn size(&self, evaluation: &Evaluation<D>) -> f64 {
-        norm_free(&evaluation.force, &self.fixed)
+        norm_free(&evaluation.force, &self.buffers.fixed)
     }
 
     /// Notes the residual of the state at hand, relative to the largest of the terms that balance in it.
     fn note(&mut self) {
-        self.history.push(self.size(&self.now) / self.now.scale.max(self.floor));
+        self.history.push(self.size(&self.buffers.now) / self.buffers.now.scale.max(self.floor));
     }
 
     fn error(&self) -> f64 {
         self.history.last().copied().unwrap_or(f64::NAN)
     }
 
-    fn converged(&self) -> bool {
-        let closed = gaps(self.problem, self.grid, &self.u).iter().all(|g| *g == 0.0);
-        let tolerance = if self.history.len() > 1 { self.problem.scene.numerics.tolerance } else { ROUNDING };
-        closed && self.error() <= tolerance
+    fn tolerance(&self) -> f64 {
+        if self.history.len() > 1 { self.problem.scene.numerics.tolerance } else { ROUNDING }
     }
 
-    fn solution(self) -> Solution<D> {
-        Solution {
-            displacement: self.u,
-            residual: self.now.force,
-            history: self.history,
-            applied: self.now.applied,
-            method: self.method,
-        }
+    fn converged(&mut self) -> bool {
+        gaps(self.problem, self.grid, &self.buffers.now.at, &mut self.buffers.gap);
+        self.buffers.gap.iter().all(|g| *g == 0.0) && self.error() <= self.tolerance()
     }
 
-    /// `K δ = −R` with δ given where the displacement is.
-    fn direction(&mut self) -> Result<Vec<f64>> {
+    /// `K δ = −R` with δ given where the displacement is, as the last call of [`Newton::converged`] found.
+    fn direction(&mut self) -> Result<()> {
         if self.history.len() > self.problem.scene.numerics.max_iterations {
             return Err(self.failure("too many iterations"));
         }
-        let gap = gaps(self.problem, self.grid, &self.u);
-        let mut delta: Vec<f64> = self.now.force.iter().map(|r| -r).collect();
+        if !self.tangent {
+            self.evaluate(true)?;
+        }
+        self.tangent = false;
+        let Buffers { now, delta, gap, fixed, .. } = &mut self.buffers;
+        delta.clear();
+        delta.extend(now.force.iter().map(|r| -r));
         let motion = &mut self.grid.motion;
         let diagonal = motion.matrix.scale(&motion.pattern);
-        motion.matrix.constrain(&motion.pattern, &self.fixed, &gap, diagonal, &mut delta);
+        motion.matrix.constrain(&motion.pattern, fixed, gap, diagonal, delta);
         if self.target.is_infinite() {
             // Displacements still to be given unbalance the system beyond the residual at hand.
-            self.target = norm_free(&delta, &self.fixed);
+            self.target = norm_free(delta, fixed);
         }
-        self.method = motion.solver.solve(&motion.pattern, &motion.matrix, &mut delta)?;
-        Ok(delta)
+        self.method = motion.solver.solve(&motion.pattern, &motion.matrix, delta)?;
+        Ok(())
     }
 
-    /// Goes along `delta`. A full step is taken even if the residual grows, for a few iterations on trial:
+    /// Whether the next full step will end the iteration, if it converges as the last ones did: its tangent is then
+    /// not worth its time.
+    fn near_the_end(&self) -> bool {
+        let [.., before, last] = self.history[..] else { return false };
+        last < before && last * (last / before).powi(2) < self.tolerance()
+    }
+
+    /// Goes along `δ`. A full step is taken even if the residual grows, for a few iterations on trial:
     /// bending structures converge so, and only so. If that does not pay, the iteration returns to its best
     /// state and from then on backtracks until the residual falls (a watchdog, Chamberlain et al. 1982).
-    fn search(&mut self, delta: &[f64]) -> Result<()> {
-        let full = self.attempt(delta, 1.0);
-        if let Some((u, now, size)) = full {
+    fn search(&mut self) -> Result<()> {
+        let with_tangent = !self.near_the_end();
+        if let Some(size) = self.attempt(1.0, with_tangent) {
             if self.better(size, 1.0) {
-                self.accept(u, now);
+                self.accept(with_tangent);
                 return Ok(());
             }
             if !self.strict && self.relaxed < WATCH {
                 self.relaxed += 1;
-                (self.u, self.now) = (u, now);
-                self.note();
+                self.take(with_tangent);
                 return Ok(());
             }
         }
         if !self.strict && self.relaxed > 0 {
             self.strict = true;
-            let best = self.best.clone();
-            self.now = evaluate(self.problem, self.grid, &best)?;
-            self.u = best;
+            self.buffers.now.at.clone_from(&self.buffers.best);
+            self.evaluate(true)?;
             self.note();
             return Ok(());
         }
-        self.backtrack(delta)
+        self.backtrack()
     }
 
     /// Halves the step length until the residual falls; takes the least one a few times where it never does.
-    fn backtrack(&mut self, delta: &[f64]) -> Result<()> {
+    fn backtrack(&mut self) -> Result<()> {
         let mut least: Option<(f64, f64)> = None;
         for halvings in 1..=BACKTRACKS {
             let length = 0.5f64.powi(halvings);
-            if let Some((u, now, size)) = self.attempt(delta, length) {
+            if let Some(size) = self.attempt(length, false) {
                 if self.better(size, length) {
                     self.stalled = 0;
-                    self.accept(u, now);
+                    self.accept(false);
                     return Ok(());
                 }
                 if least.is_none_or(|(other, _)| size < other) {
@@ -217,32 +271,41 @@ impl<'a, const D: usize> Newton<'a, D> {
             return Err(self.failure("every trial state turns a material point inside out"));
         };
         self.stalled += 1;
-        match self.attempt(delta, length) {
-            Some((u, now, _)) if self.stalled <= STALLED => {
-                self.accept(u, now);
-                Ok(())
-            }
-            _ => Err(self.failure("the line search finds no smaller residual")),
+        if self.stalled <= STALLED && self.attempt(length, true).is_some() {
+            self.accept(true);
+            return Ok(());
         }
+        Err(self.failure("the line search finds no smaller residual"))
     }
 
-    /// The state at a step length, if it is admissible.
-    fn attempt(&mut self, delta: &[f64], length: f64) -> Option<(Vec<[f64; D]>, Evaluation<D>, f64)> {
-        let u = moved(self.problem, self.grid, &self.u, delta, length);
-        let now = evaluate(self.problem, self.grid, &u).ok()?;
-        let size = self.size(&now);
-        size.is_finite().then_some((u, now, size))
+    /// The residual (kN) of the trial state at a step length, if it is admissible.
+    fn attempt(&mut self, length: f64, tangent: bool) -> Option<f64> {
+        let mut trial = std::mem::take(&mut self.buffers.trial);
+        trial.at.clone_from(&self.buffers.now.at);
+        trial.at.advance(self.problem, self.grid, &self.buffers.delta, length);
+        let done = evaluate(self.problem, self.grid, &mut self.buffers, &mut trial, tangent);
+        let size = self.size(&trial);
+        self.buffers.trial = trial;
+        (done.is_ok() && size.is_finite()).then_some(size)
     }
 
     fn better(&self, size: f64, length: f64) -> bool {
         size <= (1.0 - ARMIJO * length) * self.target || size <= self.problem.scene.numerics.tolerance * self.floor
     }
 
-    fn accept(&mut self, u: Vec<[f64; D]>, now: Evaluation<D>) {
-        self.best.clone_from(&u);
-        (self.u, self.now) = (u, now);
-        (self.target, self.relaxed) = (self.size(&self.now), 0);
+    /// Makes the trial state the one at hand; `tangent` where the matrix of the grid is its tangent.
+    fn take(&mut self, tangent: bool) {
+        let Buffers { now, trial, .. } = &mut self.buffers;
+        std::mem::swap(now, trial);
+        self.tangent = tangent;
         self.note();
+    }
+
+    fn accept(&mut self, tangent: bool) {
+        self.take(tangent);
+        let Buffers { now, best, .. } = &mut self.buffers;
+        best.clone_from(&now.at);
+        (self.target, self.relaxed) = (self.size(&self.buffers.now), 0);
     }
 
     fn failure(&self, why: &str) -> Error {
@@ -273,132 +336,133 @@ pub fn static_force<const D: usize>(problem: &Problem<D>, grid: &mut Grid<D>) ->
         between: problem.converged,
         alpha_f: 0.0,
         converged: problem.converged,
+        pressure: problem.pressure,
+        converged_pressure: problem.pressure,
         acceleration: &[],
         acceleration_slope: 0.0,
         phase: problem.phase,
         time: problem.from,
     };
-    sum_terms(problem, grid, &trial, None, |role| role != Role::Inertia).map(|sum| sum.force)
+    let (mut own, mut sum) = (Vec::new(), Evaluation::default());
+    timed(Activity::Assembly, || {
+        add_terms(problem, grid, &trial, false, &|role| role != Role::Inertia, &mut own, &mut sum)
+    })?;
+    Ok(sum.force)
 }
 
-/// The residual for a displacement at the end of the step, and with it the tangent in the matrix of the grid.
-fn evaluate<const D: usize>(problem: &Problem<D>, grid: &mut Grid<D>, u: &[[f64; D]]) -> Result<Evaluation<D>> {
-    let mut between = Vec::new();
-    let mut acceleration = Vec::new();
+/// The residual of a state at the end of the step and, where wanted, the tangent in the matrix of the grid.
+fn evaluate<const D: usize>(
+    problem: &Problem<D>,
+    grid: &mut Grid<D>,
+    buffers: &mut Buffers<D>,
+    state: &mut Evaluation<D>,
+    tangent: bool,
+) -> Result<()> {
+    let at = std::mem::take(&mut state.at);
+    let Buffers { own, between, acceleration, .. } = buffers;
+    let u = &at.displacement;
     if let Some(integration) = &problem.integration {
-        between = blend(u, problem.converged, integration.alpha_f);
-        acceleration = weighted_acceleration(problem, integration, u);
+        blend(u, problem.converged, integration.alpha_f, between);
+        weighted_acceleration(problem, integration, u, acceleration);
     }
+    let dynamic = problem.integration.is_some();
     let alpha_f = problem.integration.map_or(0.0, |i| i.alpha_f);
     let trial = Trial {
         displacement: u,
-        between: if problem.integration.is_some() { &between } else { u },
+        between: if dynamic { between } else { u },
         alpha_f,
         converged: problem.converged,
-        acceleration: &acceleration,
+        pressure: &at.pressure,
+        converged_pressure: problem.pressure,
+        acceleration,
         acceleration_slope: problem.integration.map_or(0.0, |i| i.slope()),
         phase: problem.phase,
         time: (1.0 - alpha_f) * problem.to + alpha_f * problem.from,
     };
-    let dynamic = problem.integration.is_some();
-    let mut matrix = std::mem::take(&mut grid.motion.matrix);
-    matrix.clear();
-    let sum = sum_terms(problem, grid, &trial, Some(&mut matrix), |role| dynamic || role != Role::Inertia);
-    grid.motion.matrix = matrix;
-    sum
-}
-
-/// `(1 − α) u + α u_n`.
-fn blend<const D: usize>(u: &[[f64; D]], converged: &[[f64; D]], alpha: f64) -> Vec<[f64; D]> {
-    let one = |(u, c): (&[f64; D], &[f64; D])| std::array::from_fn(|d| (1.0 - alpha) * u[d] + alpha * c[d]);
-    u.iter().zip(converged).map(one).collect()
+    let result = timed(Activity::Assembly, || {
+        add_terms(problem, grid, &trial, tangent, &|role| dynamic || role != Role::Inertia, own, state)
+    });
+    state.at = at;
+    result
 }
 
 /// Adds up the terms of the wanted roles.
-fn sum_terms<const D: usize>(
-    problem: &Problem<D>,
-    grid: &mut Grid<D>,
-    trial: &Trial<D>,
-    mut tangent: Option<&mut Matrix>,
-    wanted: impl Fn(Role) -> bool,
-) -> Result<Evaluation<D>> {
-    timed(Activity::Assembly, || add_terms(problem, grid, trial, &mut tangent, &wanted))
-}
-
 fn add_terms<const D: usize>(
     problem: &Problem<D>,
     grid: &mut Grid<D>,
     trial: &Trial<D>,
-    tangent: &mut Option<&mut Matrix>,
+    tangent: bool,
     wanted: &dyn Fn(Role) -> bool,
-) -> Result<Evaluation<D>> {
+    own: &mut Vec<f64>,
+    sum: &mut Evaluation<D>,
+) -> Result<()> {
     let mut workspace = std::mem::take(&mut grid.workspace);
+    let mut matrix = std::mem::take(&mut grid.motion.matrix);
+    if tangent {
+        matrix.clear();
+    }
     let frame = grid.frame(&problem.scene.mesh, problem.points, problem.weighing);
-    let equations = frame.pattern.len();
-    let mut sum = Evaluation { force: vec![0.0; equations], applied: [0.0; D], scale: 0.0 };
-    let mut own = vec![0.0; equations];
+    let (equations, of_nodes) = (frame.pattern.len(), D * grid.node.len());
+    sum.force.clear();
+    sum.force.resize(equations, 0.0);
+    (sum.applied, sum.scale) = ([0.0; D], 0.0);
+    own.resize(equations, 0.0);
     let mut result = Ok(());
     for term in problem.scene.terms.iter().filter(|t| wanted(t.role())) {
         own.fill(0.0);
-        let mut out = Assembly { force: &mut own, tangent: tangent.as_deref_mut(), workspace: &mut workspace };
+        let mut out = Assembly { force: own, tangent: tangent.then_some(&mut matrix), workspace: &mut workspace };
         result = term.assemble(&frame, trial, &mut out);
         if result.is_err() {
             break;
         }
-        sum.scale = sum.scale.max(norm(&own));
-        for (e, (f, o)) in sum.force.iter_mut().zip(&own).enumerate() {
+        sum.scale = sum.scale.max(norm(&own[..of_nodes]));
+        for (f, o) in sum.force.iter_mut().zip(own.iter()) {
             *f += o;
-            if term.role() == Role::External {
+        }
+        if term.role() == Role::External {
+            for (e, o) in own[..of_nodes].iter().enumerate() {
                 sum.applied[e % D] -= o;
             }
         }
     }
     grid.workspace = workspace;
-    result.map(|()| sum)
+    grid.motion.matrix = matrix;
+    result
+}
+
+/// `(1 − α) u + α u_n`.
+fn blend<const D: usize>(u: &[[f64; D]], converged: &[[f64; D]], alpha: f64, out: &mut Vec<[f64; D]>) {
+    let one = |(u, c): (&[f64; D], &[f64; D])| std::array::from_fn(|d| (1.0 - alpha) * u[d] + alpha * c[d]);
+    out.clear();
+    out.extend(u.iter().zip(converged).map(one));
 }
 
 fn weighted_acceleration<const D: usize>(
     problem: &Problem<D>,
     integration: &GeneralisedAlpha,
     u: &[[f64; D]],
-) -> Vec<[f64; D]> {
+    out: &mut Vec<[f64; D]>,
+) {
     let at = |n: usize| {
         std::array::from_fn(|d| {
             let (v, a) = (problem.velocity[n][d], problem.acceleration[n][d]);
             integration.weighted(a, integration.acceleration(u[n][d] - problem.converged[n][d], v, a))
         })
     };
-    (0..u.len()).map(at).collect()
+    out.clear();
+    out.extend((0..u.len()).map(at));
 }
 
 /// What is missing to the given displacements, one entry an equation.
-fn gaps<const D: usize>(problem: &Problem<D>, grid: &Grid<D>, u: &[[f64; D]]) -> Vec<f64> {
+fn gaps<const D: usize>(problem: &Problem<D>, grid: &Grid<D>, at: &Unknowns<D>, out: &mut Vec<f64>) {
     let gap = |(e, given): (usize, &Option<f64>)| {
         given.map_or(0.0, |increment| {
             let (n, d) = (grid.node[e / D] as usize, e % D);
-            problem.converged[n][d] + increment - u[n][d]
+            problem.converged[n][d] + increment - at.displacement[n][d]
         })
     };
-    problem.given.iter().enumerate().map(gap).collect()
-}
-
-/// `u + length · δ`; a full step lands on the given displacements to the last bit.
-fn moved<const D: usize>(
-    problem: &Problem<D>,
-    grid: &Grid<D>,
-    u: &[[f64; D]],
-    delta: &[f64],
-    length: f64,
-) -> Vec<[f64; D]> {
-    let mut moved = u.to_vec();
-    for (e, delta) in delta.iter().enumerate() {
-        let (n, d) = (grid.node[e / D] as usize, e % D);
-        match problem.given[e] {
-            Some(increment) if length == 1.0 => moved[n][d] = problem.converged[n][d] + increment,
-            _ => moved[n][d] += length * delta,
-        }
-    }
-    moved
+    out.clear();
+    out.extend(problem.given.iter().enumerate().map(gap));
 }
 
 fn norm(x: &[f64]) -> f64 {

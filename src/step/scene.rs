@@ -18,6 +18,9 @@ pub struct Scene<const D: usize> {
     pub faces: Option<Faces>,
     /// What the points weigh in integrals.
     pub quadrature: Box<dyn Quadrature<D>>,
+    /// What a unit of the pressure unknowns stands for (kPa/m): a shear modulus over the size of a cell, so that all
+    /// unknowns are lengths and all equations forces; absent without a pressure field.
+    pub pressure_unit: Option<f64>,
     /// Degrees of freedom held at their place in every phase.
     pub supports: Vec<Fixed>,
     pub phases: Vec<Phase>,

@@ -31,6 +31,9 @@ pub struct State<const D: usize> {
     pub displacement: Vec<[f64; D]>,
     /// Displacement (m) of the nodes since the run began: what passes a node of a grid that is restored.
     pub travel: Vec<[f64; D]>,
+    /// The pressure field (kPa, tension positive) by node, at the corners of cells, then the constant of each cell;
+    /// empty without one.
+    pub pressure: Vec<f64>,
     /// Velocity (m/s) and acceleration (m/s²) of the nodes; empty in quasi-static analysis.
     pub velocity: Vec<[f64; D]>,
     pub acceleration: Vec<[f64; D]>,
@@ -61,6 +64,7 @@ impl<const D: usize> State<D> {
             parametric: Vec::new(),
             displacement: vec![[0.0; D]; nodes],
             travel: vec![[0.0; D]; nodes],
+            pressure: Vec::new(),
             velocity: Vec::new(),
             acceleration: Vec::new(),
             taking_part: Vec::new(),

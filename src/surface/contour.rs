@@ -49,7 +49,7 @@ impl Contour {
         taking_part: &[bool],
     ) {
         self.fill(mesh, geometry, points, parametric);
-        self.wanted = (0..points.len()).map(|p| points.volume(p)).sum();
+        self.wanted = self.shares.iter().map(|(_, volume)| volume.iter().sum::<f64>()).sum();
         self.find_level::<K>(mesh, geometry, taking_part);
         for value in &mut self.level_set {
             *value -= self.level;

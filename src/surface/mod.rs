@@ -1,16 +1,22 @@
 //! Where the material ends: its surface within the cells, reconstructed from the material points.
 //!
 //! A [`Contour`] makes a level set at the nodes from the points; [`Active`] cuts the cells along it and says how much
-//! of each holds material, with the [`moments`] of that part. [`Geometry`] is what both need of a grid.
+//! of each holds material, with the [`moments`] of that part. [`Geometry`] is what both need of a grid. Where it holds, a
+//! [`Front`] of markers that move with the grid is better than the contour: [`Distance`] makes its level set.
 
 mod active;
+mod bins;
 mod contour;
+mod distance;
 #[cfg(test)]
 mod fixture;
+mod front;
 mod geometry;
 pub mod moments;
 mod split;
 
 pub use active::{Active, Filling};
 pub use contour::Contour;
+pub use distance::Distance;
+pub use front::{Fault, Front};
 pub use geometry::Geometry;

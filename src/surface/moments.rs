@@ -112,6 +112,18 @@ impl<'a> Cell<'a> {
     /// entry a node. They sum to the volume of the cell.
     pub fn hat_volumes<K: Kinematics<2>>(&self, out: &mut [f64]) {
         for triangle in triangles(self.kind) {
+            if self.affine {
+                let x = triangle.map(|i| self.x[i]);
+                let area = 0.5 * self.frame.length * self.frame.length * twice_area(&x);
+                // Hat times radius is of degree 2: the middles of the sides.
+                for l in [[0.5, 0.5, 0.0], [0.0, 0.5, 0.5], [0.5, 0.0, 0.5]] {
+                    let volume = area / 3.0 * self.measure::<K>(&place(&x, &l));
+                    for (&i, l) in triangle.iter().zip(l) {
+                        out[i] += l * volume;
+                    }
+                }
+                continue;
+            }
             let xi = corners(self.kind, triangle);
             let area = twice_area(&xi);
             for (l, weight) in high_rule() {

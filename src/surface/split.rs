@@ -46,6 +46,9 @@ pub fn hats(kind: CellKind, xi: &[f64; 3]) -> (&'static [usize; 3], Barycentric)
         let least = l[0].min(b).min(c);
         if least > depth {
             (best, depth) = ((triangle, l), least);
+            if least >= 0.0 {
+                break;
+            }
         }
     }
     best

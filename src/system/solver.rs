@@ -1,7 +1,7 @@
 //! The sparse direct solver: the only file that names faer.
 //!
-//! A symmetric system is tried by Cholesky, then by LDLᵀ; an unsymmetric one by BiCGSTAB (van der Vorst
-//! 1992) on the Cholesky factor of its symmetric part; LU is the last resort of both. faer can return a
+//! A symmetric system is tried by Cholesky, then by LDLᵀ, one with a pressure field by LDLᵀ only; an unsymmetric one by BiCGSTAB (van der Vorst
+//! 1992) on that factor of its symmetric part; LU is the last resort of both. faer can return a
 //! solution that is not finite, or one that does not solve, without an error: every solution is checked.
 
 use super::{Matrix, Pattern};
@@ -37,6 +37,8 @@ pub struct Solver {
     symbolic: cholesky::SymbolicCholesky<u32>,
     values: Vec<f64>,
     scratch: MemBuffer,
+    /// Whether the matrices are definite, if they are symmetric.
+    definite: bool,
     /// Lower triangle of the symmetric part of an unsymmetric system.
     symmetric_part: Option<SymmetricPart>,
     /// Symbolic LU with its full pattern, made when first needed.
@@ -96,7 +98,14 @@ impl Solver {
         ]))
         .map_err(out_of_memory)?;
         let values = vec![0.0; symbolic.len_val()];
-        Ok(Self { symbolic, values, scratch, symmetric_part, general: None, work: Vec::new() })
+        let definite = true;
+        Ok(Self { symbolic, values, scratch, definite, symmetric_part, general: None, work: Vec::new() })
+    }
+
+    /// The solver for saddles: quasi-definite matrices, which have an LDLᵀ factor in any order of the equations
+    /// (Vanderbei 1995), but no Cholesky factor.
+    pub fn saddle(self) -> Self {
+        Self { definite: false, ..self }
     }
 
     /// Nonzeros of the Cholesky factor.
@@ -118,13 +127,16 @@ impl Solver {
         }
         if pattern.symmetric {
             for (llt, method) in [(true, Method::Cholesky), (false, Method::Ldlt)] {
+                if llt && !self.definite {
+                    continue;
+                }
                 if timed(Activity::Factorisation, || self.factorize(matrix, pattern, llt))?
                     && timed(Activity::Solution, || self.refine(pattern, matrix, &b, x, llt))
                 {
                     return Ok(method);
                 }
             }
-        } else if timed(Activity::Factorisation, || self.factorize(matrix, pattern, true))?
+        } else if timed(Activity::Factorisation, || self.factorize(matrix, pattern, self.definite))?
             && timed(Activity::Solution, || self.iterate(pattern, matrix, &b, x))
         {
             return Ok(Method::Iterative);
@@ -272,7 +284,7 @@ impl Solver {
     ) -> bool {
         let [r, shadow, p, v, s, t, y] = work else { return false };
         x.copy_from_slice(b);
-        self.back_substitute(x, true);
+        self.back_substitute(x, self.definite);
         matrix.multiply(pattern, x, r);
         for (r, b) in r.iter_mut().zip(b) {
             *r = b - *r;
@@ -286,7 +298,7 @@ impl Solver {
                 return true;
             }
             y.copy_from_slice(p);
-            self.back_substitute(y, true);
+            self.back_substitute(y, self.definite);
             matrix.multiply(pattern, y, v);
             let alpha = rho / dot(shadow, v);
             for i in 0..x.len() {
@@ -294,7 +306,7 @@ impl Solver {
                 s[i] = r[i] - alpha * v[i];
             }
             y.copy_from_slice(s);
-            self.back_substitute(y, true);
+            self.back_substitute(y, self.definite);
             matrix.multiply(pattern, y, t);
             let omega = dot(t, s) / dot(t, t);
             if !omega.is_finite() {

@@ -7,6 +7,9 @@
 //! With inertia the stresses of both ends of the step act on the configuration between them: in place of `τ`
 //! stands `A W`, `A = (1 − α_f) I + α_f ΔF⁻¹`, `W = (1 − α_f) τ + α_f ΔF τ_n ΔFᵀ`. `A W Aᵀ` being symmetric,
 //! the forces have no moment about the positions in between, where the trapezoidal rule needs it.
+//!
+//! A [`Share`] of the stress may be carried by unknowns of its own; it is a type, so that a scene without one pays
+//! nothing.
 
 use super::{Assembly, Frame, History, Term, Trial, Update, scatter_patches};
 use crate::error::{Error, Result};
@@ -26,12 +29,83 @@ use std::sync::Arc;
 /// Least ratio of volumes in one step that a trial state may have.
 const LEAST_VOLUME_RATIO: f64 = 0.05;
 
+/// A share of the stress of the points that unknowns of its own carry.
+pub trait Share<const D: usize, K: Kinematics<D>>: Send + Sync {
+    /// Its unknowns over a patch.
+    type Cell;
+
+    fn over(&self, frame: &Frame<D>, trial: &Trial<D>, patch: &Patch) -> Self::Cell;
+
+    /// Adds the share to the answer of the model at the end of the step, and returns the mean stress (kPa,
+    /// Kirchhoff) at its beginning that the stress of the points does not hold.
+    fn add(&self, cell: &Self::Cell, points: &Points<D>, entries: &Entries<D>, answer: &mut Spatial<K::Tangent>)
+    -> f64;
+
+    /// Adds the equations of the unknowns and what couples them with the displacements to the end of `local`, given
+    /// the gradients on the deformed grid, `ΔJ`, the tensor through which the stress acts and the weight of the end
+    /// of the step.
+    #[expect(clippy::too_many_arguments, reason = "a point, and where it goes")]
+    fn couple(
+        &self,
+        cell: &Self::Cell,
+        points: &Points<D>,
+        entries: &Entries<D>,
+        spatial: &[Gradient<D>],
+        volume_ratio: f64,
+        acts_on: &Tensor,
+        later: f64,
+        local: &mut Local,
+    );
+
+    /// Completes what a point keeps.
+    fn commit(&self, cell: &Self::Cell, points: &Points<D>, entries: &Entries<D>, history: &mut History);
+
+    /// Energy (kJ) stored at point `p`.
+    fn energy(&self, points: &Points<D>, p: usize) -> f64;
+}
+
+/// No share: the models answer for the whole stress.
+impl<const D: usize, K: Kinematics<D>> Share<D, K> for () {
+    type Cell = ();
+
+    #[inline]
+    fn over(&self, _: &Frame<D>, _: &Trial<D>, _: &Patch) {}
+
+    #[inline]
+    fn add(&self, (): &(), _: &Points<D>, _: &Entries<D>, _: &mut Spatial<K::Tangent>) -> f64 {
+        0.0
+    }
+
+    #[inline]
+    fn couple(
+        &self,
+        (): &(),
+        _: &Points<D>,
+        _: &Entries<D>,
+        _: &[Gradient<D>],
+        _: f64,
+        _: &Tensor,
+        _: f64,
+        _: &mut Local,
+    ) {
+    }
+
+    #[inline]
+    fn commit(&self, (): &(), _: &Points<D>, _: &Entries<D>, _: &mut History) {}
+
+    #[inline]
+    fn energy(&self, _: &Points<D>, _: usize) -> f64 {
+        0.0
+    }
+}
+
 /// The internal force of all material points.
-pub struct Internal<K> {
+pub struct Internal<K, S = ()> {
     /// The model of each region of the mesh; `None` where a region holds no points.
     models: Vec<Option<Arc<dyn Model>>>,
     /// Whether the scene has dynamic phases.
     dynamic: bool,
+    share: S,
     kinematics: PhantomData<K>,
 }
 
@@ -46,32 +120,41 @@ struct Strained {
 /// Deformation and answers of the points of a patch, in order.
 type Evaluated<T> = (Vec<Strained>, Vec<Spatial<T>>);
 
-/// The stress `A W` that acts at point `p` in the step; its tangent takes the place of that of `τ` in `answer`.
+/// The stress `A W` that acts at point `p` in the step, and `A`; its tangent takes the place of that of `τ` in
+/// `answer`. `beside` is the mean stress (kPa) before the step that the points' stress does not hold.
 #[inline]
 fn weighted_stress<const D: usize, K: Kinematics<D>>(
     points: &Points<D>,
     p: usize,
     alpha_f: f64,
     strained: &Strained,
+    beside: f64,
     answer: &mut Spatial<K::Tangent>,
-) -> Result<Tensor> {
+) -> Result<(Tensor, Tensor)> {
     let kirchhoff = full(&answer.kirchhoff);
     if alpha_f == 0.0 {
-        return Ok(kirchhoff);
+        return Ok((kirchhoff, Tensor::identity()));
     }
     let increment = &strained.increment;
     let back = increment.try_inverse().ok_or_else(|| inadmissible(p, "is squeezed flat", increment))?;
-    let before = full(&points.stress[p]) * points.deformation[p].determinant();
+    let before = full(&points.stress[p]) * points.deformation[p].determinant() + Tensor::from_diagonal_element(beside);
     let a = Tensor::identity() * (1.0 - alpha_f) + back * alpha_f;
     let w = kirchhoff * (1.0 - alpha_f) + increment * before * increment.transpose() * alpha_f;
     K::weight(&mut answer.tangent, &a, &answer.kirchhoff, &w);
-    Ok(a * w)
+    Ok((a * w, a))
 }
 
 impl<K> Internal<K> {
     /// `models[r]` is the model of the points of region `r`; `dynamic` where any phase is.
     pub fn new(models: Vec<Option<Arc<dyn Model>>>, dynamic: bool) -> Self {
-        Self { models, dynamic, kinematics: PhantomData }
+        Self::sharing(models, dynamic, ())
+    }
+}
+
+impl<K, S> Internal<K, S> {
+    /// As [`Internal::new`], where `share` carries a part of the stress.
+    pub fn sharing(models: Vec<Option<Arc<dyn Model>>>, dynamic: bool, share: S) -> Self {
+        Self { models, dynamic, share, kinematics: PhantomData }
     }
 
     /// The answers of the models at the points of a patch, in order.
@@ -167,7 +250,7 @@ fn inadmissible(point: usize, what: &str, deformation: &Tensor) -> Error {
     )
 }
 
-impl<const D: usize, K: Kinematics<D>> Term<D> for Internal<K> {
+impl<const D: usize, K: Kinematics<D>, S: Share<D, K>> Term<D> for Internal<K, S> {
     fn symmetric(&self) -> bool {
         !self.dynamic && self.models.iter().flatten().all(|m| m.symmetric())
     }
@@ -178,8 +261,13 @@ impl<const D: usize, K: Kinematics<D>> Term<D> for Internal<K> {
         let compute = |patch: &Patch, local: &mut Local| {
             let (strained, answers) = self.evaluate(frame, trial, patch)?;
             let count = patch.function_count as usize;
+            let cell = self.share.over(frame, trial, patch);
+            let later = 1.0 - trial.alpha_f;
             for ((entries, point), mut answer) in frame.stencil.entries::<K>(patch).zip(&strained).zip(answers) {
-                let stress = weighted_stress::<D, K>(frame.points, entries.point, trial.alpha_f, point, &mut answer)?;
+                let beside = self.share.add(&cell, frame.points, &entries, &mut answer);
+                let p = entries.point;
+                let (stress, acts_on) =
+                    weighted_stress::<D, K>(frame.points, p, trial.alpha_f, point, beside, &mut answer)?;
                 let volume = entries.weight;
                 let mut spatial = [Gradient { g: [0.0; D], hoop: 0.0 }; MAX_NODES];
                 for i in 0..count {
@@ -190,9 +278,10 @@ impl<const D: usize, K: Kinematics<D>> Term<D> for Internal<K> {
                     }
                 }
                 if wanted {
-                    let weight = (1.0 - trial.alpha_f) * volume;
-                    add_stiffness::<D, K>(local, &answer.tangent, &spatial[..count], weight, symmetric);
+                    add_stiffness::<D, K>(local, &answer.tangent, &spatial[..count], later * volume, symmetric);
                 }
+                let (spatial, ratio) = (&spatial[..count], point.increment.determinant());
+                self.share.couple(&cell, frame.points, &entries, spatial, ratio, &acts_on, later, local);
             }
             if wanted && symmetric {
                 mirror::<D>(local, count);
@@ -207,7 +296,8 @@ impl<const D: usize, K: Kinematics<D>> Term<D> for Internal<K> {
             let Some(model) = self.models.get(points.region[p] as usize).and_then(Option::as_ref) else { return 0.0 };
             let strain = K::roots(&points.elastic[p]).map(|b| 0.5 * b.ln());
             let stress = model.elasticity().at(points.origin[p][1]).stress(&strain);
-            0.5 * points.initial_volume[p] * stress.iter().zip(&strain).map(|(t, e)| t * e).sum::<f64>()
+            let carried = self.share.energy(points, p);
+            carried + 0.5 * points.initial_volume[p] * stress.iter().zip(&strain).map(|(t, e)| t * e).sum::<f64>()
         };
         // In order, so that the sum does not depend on the number of threads.
         (0..points.len()).into_par_iter().map(energy).collect::<Vec<f64>>().iter().sum()
@@ -216,18 +306,22 @@ impl<const D: usize, K: Kinematics<D>> Term<D> for Internal<K> {
     fn commit(&self, frame: &Frame<D>, trial: &Trial<D>) -> Result<Option<Update>> {
         let new_of_patch = |patch: &Patch| {
             let (strained, answers) = self.evaluate(frame, trial, patch)?;
-            let new = |((&p, point), answer): ((&u32, &Strained), &Spatial<K::Tangent>)| {
-                let deformation = point.increment * frame.points.deformation[p as usize];
+            let cell = self.share.over(frame, trial, patch);
+            let new = |((entries, point), answer): ((Entries<D>, &Strained), &Spatial<K::Tangent>)| {
+                let deformation = point.increment * frame.points.deformation[entries.point];
                 let volume_ratio = deformation.determinant();
-                History {
-                    point: p as usize,
+                let mut history = History {
+                    point: entries.point,
                     deformation,
                     elastic: answer.elastic,
                     stress: answer.kirchhoff.map(|t| t / volume_ratio),
                     plastic_strain: answer.state.plastic_strain,
-                }
+                    pressure: 0.0,
+                };
+                self.share.commit(&cell, frame.points, &entries, &mut history);
+                history
             };
-            Ok(frame.stencil.points(patch).iter().zip(&strained).zip(&answers).map(new).collect())
+            Ok(frame.stencil.entries::<K>(patch).zip(&strained).zip(&answers).map(new).collect())
         };
         Ok(Some(Update(frame.stencil.patches.par_iter().map(new_of_patch).collect::<Result<_>>()?)))
     }

@@ -9,13 +9,17 @@ mod empty_cells;
 mod ghost;
 mod inertia;
 mod internal;
+mod pressure;
+mod smooth_pressure;
 mod traction;
 
 pub use body_force::BodyForce;
 pub use empty_cells::EmptyCells;
 pub use ghost::GhostPenalty;
 pub use inertia::Inertia;
-pub use internal::Internal;
+pub use internal::{Internal, Share};
+pub use pressure::{Carried, PressureField, hats as pressure_hats};
+pub use smooth_pressure::SmoothPressure;
 pub use traction::Traction;
 
 use crate::error::Result;
@@ -46,9 +50,12 @@ pub struct Frame<'a, const D: usize> {
     pub soft: &'a [SoftCell],
     /// Faces beside cells that cannot stand alone; empty where the scene has no such penalty.
     pub ghost: &'a [GhostFace],
+    /// The cells that take part, ascending.
+    pub cells: &'a [u32],
     /// The points at the last converged step.
     pub points: &'a Points<D>,
-    /// One block a node that takes part, one clique a cell that does.
+    /// One block a node that takes part, one clique a cell that does. With a pressure field, one more block for each
+    /// corner and each cell with a constant of its own; they are the last ones of a clique.
     pub pattern: &'a Pattern,
     /// The clique of each cell; `u32::MAX` for cells left out.
     pub clique: &'a [u32],
@@ -66,6 +73,10 @@ pub struct Trial<'a, const D: usize> {
     pub alpha_f: f64,
     /// The displacement at the last converged step.
     pub converged: &'a [[f64; D]],
+    /// The pressure field (kPa) at the end of the step, as in the state; empty without one.
+    pub pressure: &'a [f64],
+    /// That at the last converged step, or what the points carry to a restored grid.
+    pub converged_pressure: &'a [f64],
     /// Acceleration of the nodes (m/s²) weighted by α_m; empty without inertia.
     pub acceleration: &'a [[f64; D]],
     /// Its derivative by the displacement at the end of the step (1/s²).
@@ -117,6 +128,8 @@ pub struct History {
     pub elastic: Symmetric,
     pub stress: Symmetric,
     pub plastic_strain: f64,
+    /// What the pressure field carries (kPa); not kept by points without the column.
+    pub pressure: f64,
 }
 
 /// New values of the points' history, in lists of any length and order.
@@ -134,6 +147,9 @@ impl Update {
                 *increment = new.plastic_strain - points.plastic_strain[p];
             }
             points.plastic_strain[p] = new.plastic_strain;
+            if let Some(pressure) = points.pressure.get_mut(p) {
+                *pressure = new.pressure;
+            }
         }
     }
 }

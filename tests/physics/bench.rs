@@ -118,6 +118,7 @@ impl Bench {
         Scene {
             locator: Locator::new(&self.mesh),
             faces: Some(Faces::of(&self.mesh)),
+            pressure_unit: None,
             mesh: self.mesh,
             terms,
             quadrature: self.quadrature.unwrap_or_else(|| Box::new(Volumes::<K>::default())),

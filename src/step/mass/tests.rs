@@ -19,6 +19,7 @@ fn scene<K: Kinematics<2>>(kind: CellKind) -> Scene<2> {
     Scene {
         locator: Locator::new(&mesh),
         faces: Some(Faces::of(&mesh)),
+        pressure_unit: None,
         mesh,
         terms: Vec::new(),
         quadrature: Box::new(Volumes::<K>::default()),

@@ -1,0 +1,84 @@
+//! Which materials leave a part of their stress to the pressure field, and how much.
+
+use super::check::Checker;
+use super::locate::{At, Path};
+use super::raw;
+use crate::material::{Kind, Model, Profile};
+use crate::term::Carried;
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+/// Poisson's ratio from which on a material is left to the pressure field unasked: above it cells of second order
+/// with many points lock.
+const NEARLY_INCOMPRESSIBLE: f64 = 0.45;
+/// Poisson's ratio of the model that the points keep: where cells do not lock yet.
+const OF_POINTS: f64 = 0.3;
+/// Poisson's ratio of an undrained soil as a whole, where none is given: that of PLAXIS.
+const UNDRAINED: f64 = 0.495;
+
+/// Bulk modulus over shear modulus.
+fn bulk(poisson: f64) -> f64 {
+    2.0 * (1.0 + poisson) / (3.0 * (1.0 - 2.0 * poisson))
+}
+
+impl Checker {
+    /// What the pressure field carries of a material; `build` makes its model with other parameters.
+    pub(super) fn carried(
+        &mut self,
+        material: &raw::Material,
+        kind: &Kind,
+        model: &Arc<dyn Model>,
+        values: &BTreeMap<&str, Profile>,
+        pressure: Option<raw::Pressure>,
+        path: &Path,
+    ) -> Option<Carried> {
+        let poisson = model.elasticity().poisson();
+        if material.drainage == Some(raw::Drainage::Undrained) {
+            return self.pore_water(material, model, poisson, pressure, path);
+        }
+        if material.undrained_poisson.is_some() {
+            let problem = "a drained material has no `undrained_poisson`";
+            self.issue(&path.key("undrained_poisson"), At::Key, problem, "take it out, or set `drainage: undrained`");
+        }
+        let least = match pressure {
+            Some(raw::Pressure::None) => return None,
+            Some(raw::Pressure::Field) => OF_POINTS,
+            None => NEARLY_INCOMPRESSIBLE,
+        };
+        if !kind.keeps_volume || poisson < least || poisson <= OF_POINTS {
+            return None;
+        }
+        // The same shear modulus with another Poisson's ratio.
+        let mut values = values.clone();
+        let stretch = (1.0 + OF_POINTS) / (1.0 + poisson);
+        if let Some(young) = values.get_mut("young") {
+            (young.top, young.gradient) = (stretch * young.top, stretch * young.gradient);
+        }
+        values.insert("poisson", Profile::constant(OF_POINTS));
+        let model = super::materials::build(kind, &values).ok()?;
+        Some(Carried { model, ratio: bulk(poisson) - bulk(OF_POINTS), total: true })
+    }
+
+    fn pore_water(
+        &mut self,
+        material: &raw::Material,
+        model: &Arc<dyn Model>,
+        poisson: f64,
+        pressure: Option<raw::Pressure>,
+        path: &Path,
+    ) -> Option<Carried> {
+        if pressure == Some(raw::Pressure::None) {
+            let remedy = "take `pressure: none` out of `numerics`, or `drainage` out of the material";
+            self.issue(&path.key("drainage"), At::Value, "an undrained material needs the pressure field", remedy);
+            return None;
+        }
+        let undrained = material.undrained_poisson.unwrap_or(UNDRAINED);
+        if !(undrained > poisson && undrained < 0.5) {
+            let problem = format!("is {undrained}, but must lie between `poisson` ({poisson}) and 0.5");
+            let key = if material.undrained_poisson.is_some() { "undrained_poisson" } else { "poisson" };
+            self.issue(&path.key(key), At::Value, problem, "give `poisson` of the skeleton, such as 0.3");
+            return None;
+        }
+        Some(Carried { model: model.clone(), ratio: bulk(undrained) - bulk(poisson), total: false })
+    }
+}

@@ -1,0 +1,168 @@
+//! Fitted weights: the points of a cell integrate polynomials exactly over the part of it that is within the
+//! surface of the material.
+
+use super::cells::{self, CellFit};
+use super::{Degree, Quadrature, Tally, Weighing};
+use crate::kinematics::{Kinematics, PlaneStrain};
+use crate::mesh::Mesh;
+use crate::points::Points;
+use crate::stencil::{SoftCell, Stencil};
+use crate::surface::{Active, Contour, Filling, Geometry};
+use std::marker::PhantomData;
+
+/// Cells with fewer points do not stand alone.
+const FEW: u32 = 4;
+
+/// Weights fitted to the cells cut along the contour of the material.
+pub struct Fitted<K> {
+    geometry: Geometry,
+    /// That of plane strain, where it is another one.
+    plane: Option<Geometry>,
+    kinematics: PhantomData<K>,
+}
+
+impl<K: Kinematics<2>> Fitted<K> {
+    /// For grids that are restored to `mesh`.
+    pub fn new(mesh: &Mesh<2>) -> Self {
+        let plane = K::HOOP.then(|| Geometry::new::<PlaneStrain>(mesh));
+        Self { geometry: Geometry::new::<K>(mesh), plane, kinematics: PhantomData }
+    }
+
+    /// Weighs points in a body whose surface is the zero of `level_set`: one value a node, positive inside.
+    pub fn weigh_within(
+        &self,
+        mesh: &Mesh<2>,
+        points: &Points<2>,
+        stencil: &Stencil<2>,
+        taking_part: &[bool],
+        level_set: &[f64],
+    ) -> Weighing<2> {
+        let plane = self.plane.as_ref().unwrap_or(&self.geometry);
+        let mut active = Active::default();
+        active.update::<PlaneStrain>(mesh, plane, level_set, &points.cell, taking_part);
+        let mut current = Vec::new();
+        let fits = cells::fit::<K>(mesh, plane, &active.moments, points, stencil, &mut current);
+        let mut weight = vec![0.0; points.len()];
+        for (w, &p) in current.iter().zip(&stencil.points) {
+            let p = p as usize;
+            weight[p] = w * points.initial_volume[p] / points.volume(p);
+        }
+        let full = |c: u32| active.filling[c as usize] == Filling::Full;
+        let tally = tally(&fits, full);
+        let poor = |fit: &&CellFit| !full(fit.cell) || fit.points < FEW || fit.degree == Degree::Constant;
+        let poor = fits.iter().filter(poor).map(|fit| fit.cell).collect();
+        let shift = fits.into_iter().filter_map(|fit| Some((fit.cell, fit.shift?))).collect();
+        Weighing { weight, shift, soft: soft(plane, &active, taking_part), poor, tally }
+    }
+}
+
+impl<K: Kinematics<2>> Quadrature<2> for Fitted<K> {
+    fn weigh(
+        &self,
+        mesh: &Mesh<2>,
+        points: &Points<2>,
+        parametric: &[[f64; 3]],
+        stencil: &Stencil<2>,
+        taking_part: &[bool],
+    ) -> Weighing<2> {
+        let mut contour = Contour::default();
+        contour.update::<K>(mesh, &self.geometry, points, parametric, taking_part);
+        self.weigh_within(mesh, points, stencil, taking_part, &contour.level_set)
+    }
+}
+
+/// The cells that take part and are not full.
+fn soft(geometry: &Geometry, active: &Active, taking_part: &[bool]) -> Vec<SoftCell> {
+    let emptiness = |c: usize| match active.filling[c] {
+        Filling::Full => 0.0,
+        Filling::Cut => 1.0 - active.volume[c] / geometry.volume(c),
+        Filling::Empty => 1.0,
+    };
+    let cells = (0..taking_part.len()).filter(|&c| taking_part[c]);
+    let soft = cells.map(|c| SoftCell { cell: c as u32, emptiness: emptiness(c) });
+    soft.filter(|soft| soft.emptiness > 0.0).collect()
+}
+
+fn tally(fits: &[CellFit], full: impl Fn(u32) -> bool) -> Tally {
+    let mut tally = Tally::default();
+    for fit in fits {
+        match fit.degree {
+            Degree::Quadratic => tally.quadratic += 1,
+            Degree::Linear => tally.linear += 1,
+            Degree::Constant => tally.constant += 1,
+        }
+        tally.point_volume += fit.held;
+        tally.fitted_volume += fit.fitted;
+        if full(fit.cell) {
+            let drift = fit.held / fit.fitted - 1.0;
+            if drift.abs() > tally.drift.abs() {
+                tally.drift = drift;
+            }
+        }
+    }
+    tally
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::kinematics::Axisymmetric;
+    use crate::mesh::builder::rectangle;
+    use crate::mesh::locate::Locator;
+    use crate::mesh::shape::CellKind;
+    use crate::stencil::Scheme;
+    use crate::tensor::Tensor;
+
+    /// A block that fills the lower `height` of the square, compressed by a tenth since it was seeded.
+    fn weigh<K: Kinematics<2>>(kind: CellKind, height: f64) -> (Mesh<2>, Points<2>, Stencil<2>, Weighing<2>) {
+        let mesh = rectangle(kind, 1.0, 1.0, 8, 8, 0.2, 4);
+        let n = 45;
+        let rows = (height * n as f64).round() as usize;
+        let places = (0..n * rows).map(|k| [(k % n) as f64 + 0.5, (k / n) as f64 + 0.5].map(|x| x / n as f64));
+        let position: Vec<[f64; 2]> = places.collect();
+        let locator = Locator::new(&mesh);
+        let found: Vec<_> = position.iter().map(|x| locator.locate(&mesh, x, None).unwrap()).collect();
+        let points = Points {
+            initial_volume: position.iter().map(|x| K::measure(x) / (0.9 * (n * n) as f64)).collect(),
+            deformation: vec![Tensor::from_diagonal(&[1.0, 0.9, 1.0].into()); position.len()],
+            cell: found.iter().map(|f| f.0).collect(),
+            position,
+            ..Points::default()
+        };
+        let parametric: Vec<_> = found.iter().map(|f| f.1).collect();
+        let taking_part = vec![true; mesh.cells.len()];
+        let mut stencil = Stencil::default();
+        stencil.fill::<K>(Scheme::Mpm, &mesh, &points.cell, &parametric, &taking_part);
+        let weighing = Fitted::<K>::new(&mesh).weigh(&mesh, &points, &parametric, &stencil, &taking_part);
+        (mesh, points, stencil, weighing)
+    }
+
+    fn check<K: Kinematics<2>>(kind: CellKind) {
+        let (mesh, points, stencil, weighing) = weigh::<K>(kind, 0.6);
+        let Weighing { weight, soft, poor, tally, .. } = &weighing;
+        assert_eq!((tally.quadratic + tally.linear + tally.constant) as usize, stencil.patches.len());
+        let degree = if kind == CellKind::T3 { tally.linear } else { tally.quadratic };
+        assert!(degree as usize > stencil.patches.len() / 2, "{tally:?}");
+        // The contour encloses the volume of the points; next to nothing of it is in cells without points.
+        assert!((tally.fitted_volume / tally.point_volume - 1.0).abs() < 0.01, "{tally:?}");
+        let current: f64 = (0..points.len()).map(|p| weight[p] * points.deformation[p].determinant()).sum();
+        assert!((current / tally.fitted_volume - 1.0).abs() < 1e-12);
+        assert!(weight.iter().all(|w| *w > 0.0) && tally.drift.abs() < 0.5, "{tally:?}");
+        // Full below the surface, empty above it.
+        let heights = |cell: u32| mesh.cells.nodes(cell as usize).iter().map(|&n| mesh.nodes[n as usize][1]);
+        for soft in soft {
+            let top = heights(soft.cell).fold(0.0, f64::max);
+            assert!(top > 0.5 && soft.emptiness > 0.0 && soft.emptiness <= 1.0, "{soft:?}");
+            assert!(soft.emptiness == 1.0 || heights(soft.cell).fold(1.0, f64::min) < 0.7);
+        }
+        assert!(poor.is_sorted() && poor.iter().filter(|&&c| heights(c).fold(0.0, f64::max) > 0.58).count() > 4);
+    }
+
+    #[test]
+    fn a_block_with_a_free_surface_is_weighed() {
+        for kind in [CellKind::T3, CellKind::T6, CellKind::Q4, CellKind::Q8, CellKind::Q9] {
+            check::<PlaneStrain>(kind);
+            check::<Axisymmetric>(kind);
+        }
+    }
+}

@@ -1,0 +1,169 @@
+//! The signed distance of the nodes to the free surface of a front.
+//!
+//! Only free segments count. Where the surface ends at a wall it is continued straight beyond it, so that the level
+//! set of a straight surface is linear up to the wall. The sign comes from the nearest segment; far from all of them a
+//! node is in the material if a cell around it holds points.
+
+use super::bins::Bins;
+use super::front::Front;
+use super::geometry::Geometry;
+use crate::mesh::Mesh;
+use crate::mesh::locate::Locator;
+use rayon::prelude::*;
+
+/// The distance at the last restoration; its buffers are reused.
+#[derive(Clone, Debug, Default)]
+pub struct Distance {
+    /// Signed distance (m) of the nodes of cells that take part: positive in the material; no more than a few cells.
+    pub level_set: Vec<f64>,
+    segments: Vec<Segment>,
+    /// Per node, whether it belongs to a cell with points and to one that takes part.
+    material: Vec<bool>,
+    wanted: Vec<bool>,
+}
+
+/// A free segment with the normals out of the material at its ends: sums of the unit normals of the two segments there.
+#[derive(Clone, Copy, Debug)]
+struct Segment {
+    from: [f64; 2],
+    to: [f64; 2],
+    normal: [[f64; 2]; 2],
+}
+
+/// What a zero is, as a share of the reach.
+const ROUNDING: f64 = 1e-13;
+
+impl Distance {
+    /// Measures the nodes of the cells `taking_part`; `cell` is the cell of each point. The markers must be in the mesh.
+    pub fn update(
+        &mut self,
+        mesh: &Mesh<2>,
+        geometry: &Geometry,
+        locator: &Locator<2>,
+        front: &Front,
+        cell: &[u32],
+        taking_part: &[bool],
+    ) {
+        let wall = front.walls(mesh, geometry, locator);
+        let reach = self.reach(mesh, locator, front, &wall);
+        self.segments.clear();
+        for l in 0..front.loops() {
+            let range = front.first[l] as usize..front.first[l + 1] as usize;
+            arcs(front.markers(l), &wall[range], 2.0 * reach, |arc, closed| add_arc(&mut self.segments, arc, closed));
+        }
+        let bins = Bins::new(self.segments.iter().map(|s| (s.from, s.to)), reach);
+        self.mark(mesh, cell, taking_part);
+        let (segments, material, wanted) = (&self.segments, &self.material, &self.wanted);
+        let measure = |n: usize| {
+            let far = if material[n] { reach } else { -reach };
+            if !wanted[n] { far } else { nearest(segments, &bins, &mesh.nodes[n], reach).unwrap_or(far) }
+        };
+        (0..mesh.nodes.len()).into_par_iter().with_min_len(256).map(measure).collect_into_vec(&mut self.level_set);
+    }
+
+    /// More than the diameter of every cell that holds a free marker, with the length of the segments in it.
+    fn reach(&self, mesh: &Mesh<2>, locator: &Locator<2>, front: &Front, wall: &[bool]) -> f64 {
+        let (mut reach, mut hint) = (0.0f64, None);
+        for (x, _) in front.position.iter().zip(wall).filter(|(_, wall)| !**wall) {
+            if let Some((c, _)) = locator.locate(mesh, x, hint) {
+                reach = reach.max(1.25 * crate::stencil::cell_size(mesh, c as usize));
+                hint = Some(c);
+            }
+        }
+        // No free marker: every node is far, and any length will do for that.
+        if reach > 0.0 { reach } else { 1.0 }
+    }
+
+    fn mark(&mut self, mesh: &Mesh<2>, cell: &[u32], taking_part: &[bool]) {
+        for marks in [&mut self.material, &mut self.wanted] {
+            marks.clear();
+            marks.resize(mesh.nodes.len(), false);
+        }
+        for &c in cell {
+            mesh.cells.nodes(c as usize).iter().for_each(|&n| self.material[n as usize] = true);
+        }
+        for c in (0..mesh.cells.len()).filter(|&c| taking_part[c]) {
+            mesh.cells.nodes(c).iter().for_each(|&n| self.wanted[n as usize] = true);
+        }
+    }
+}
+
+/// Calls `action(markers, closed)` for every run of free segments of a loop; a run that ends at a wall is continued by
+/// `beyond` (m) at both ends.
+fn arcs(x: &[[f64; 2]], wall: &[bool], beyond: f64, mut action: impl FnMut(&[[f64; 2]], bool)) {
+    let count = x.len();
+    let Some(start) = wall.iter().position(|&wall| wall) else {
+        action(x, true);
+        return;
+    };
+    let mut arc: Vec<[f64; 2]> = Vec::new();
+    // Once around, from the end of a wall segment to the end of the same one.
+    for k in 1..=count {
+        let i = (start + k) % count;
+        if !wall[i] {
+            arc.push(x[i]);
+        } else if !arc.is_empty() {
+            arc.push(x[i]);
+            let (first, last) = (beyond_end(&arc[1], &arc[0], beyond), beyond_end(&arc[arc.len() - 2], &x[i], beyond));
+            arc.insert(0, first);
+            arc.push(last);
+            action(&arc, false);
+            arc.clear();
+        }
+    }
+}
+
+/// The place `length` beyond `b` as seen from `a`.
+fn beyond_end(a: &[f64; 2], b: &[f64; 2], length: f64) -> [f64; 2] {
+    let [x, y] = [b[0] - a[0], b[1] - a[1]];
+    let stretch = length / x.hypot(y).max(f64::MIN_POSITIVE);
+    [b[0] + stretch * x, b[1] + stretch * y]
+}
+
+fn add_arc(segments: &mut Vec<Segment>, x: &[[f64; 2]], closed: bool) {
+    let first = segments.len();
+    let ends = x.windows(2).map(|w| (w[0], w[1])).chain(closed.then(|| (x[x.len() - 1], x[0])));
+    segments.extend(ends.filter(|(a, b)| a != b).map(|(from, to)| {
+        let [dx, dy] = [to[0] - from[0], to[1] - from[1]];
+        let length = dx.hypot(dy);
+        Segment { from, to, normal: [[dy / length, -dx / length]; 2] }
+    }));
+    let count = segments.len() - first;
+    let own: Vec<[f64; 2]> = segments[first..].iter().map(|s| s.normal[0]).collect();
+    for i in 0..count {
+        let sum = |j: usize| [own[i][0] + own[j][0], own[i][1] + own[j][1]];
+        if i > 0 || closed {
+            segments[first + i].normal[0] = sum((i + count - 1) % count);
+        }
+        if i + 1 < count || closed {
+            segments[first + i].normal[1] = sum((i + 1) % count);
+        }
+    }
+}
+
+/// The signed distance of `x` to the nearest segment, if one is within reach.
+fn nearest(segments: &[Segment], bins: &Bins, x: &[f64; 2], reach: f64) -> Option<f64> {
+    let (mut least, mut height) = (reach * reach, None);
+    for &number in bins.around(x).flatten() {
+        let s = &segments[number as usize];
+        let (d, r) = ([0, 1].map(|d| s.to[d] - s.from[d]), [0, 1].map(|d| x[d] - s.from[d]));
+        let t = (r[0] * d[0] + r[1] * d[1]) / (d[0] * d[0] + d[1] * d[1]);
+        let foot = [0, 1].map(|k| r[k] - t.clamp(0.0, 1.0) * d[k]);
+        let square = foot[0] * foot[0] + foot[1] * foot[1];
+        if square < least {
+            least = square;
+            height = Some(if t <= 0.0 {
+                foot[0] * s.normal[0][0] + foot[1] * s.normal[0][1]
+            } else if t >= 1.0 {
+                foot[0] * s.normal[1][0] + foot[1] * s.normal[1][1]
+            } else {
+                foot[0] * d[1] - foot[1] * d[0]
+            });
+        }
+    }
+    let distance = least.sqrt();
+    height.map(|height| if distance <= ROUNDING * reach { 0.0 } else { -distance.copysign(height) })
+}
+
+#[cfg(test)]
+mod tests;

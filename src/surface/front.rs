@@ -1,0 +1,139 @@
+//! The surface as closed polylines of markers that move with the grid.
+//!
+//! They begin as the exact boundary of the cells that are filled with points and remember it, where the contour of the
+//! points forgets within a step what is smaller than their spacing. Loops run with the material on their left:
+//! counter-clockwise around a body, clockwise around a hole. What of them lies on the boundary of the mesh is wall, the
+//! rest free surface; which is which is seen anew from the places of the markers, so that the places are all the state
+//! there is. Markers on a wall slide along it because the displacement of the grid does.
+//!
+//! A front that folds, touches itself or another loop, or loses volume holds no longer ([`Front::inspect`]): there is no
+//! surgery, the [`super::Contour`] takes over. It leaves out slip along curved walls, which no support can ask for.
+
+mod inspect;
+mod resample;
+mod seed;
+
+pub use inspect::Fault;
+
+use super::geometry::Geometry;
+use crate::kinematics::Kinematics;
+use crate::mesh::Mesh;
+use crate::mesh::faces::BOUNDARY;
+use crate::mesh::locate::Locator;
+use crate::mesh::shape::MAX_NODES;
+use std::f64::consts::PI;
+
+/// Markers per length of a cell along the free surface.
+const PER_LENGTH: usize = 6;
+
+/// The loops of markers at the last restoration: part of the state of a run.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Front {
+    /// Places (m) of the markers, loop after loop.
+    pub position: Vec<[f64; 2]>,
+    /// Loop `l` has the markers `first[l]..first[l + 1]`.
+    pub first: Vec<u32>,
+}
+
+impl Front {
+    /// The number of loops.
+    pub fn loops(&self) -> usize {
+        self.first.len().saturating_sub(1)
+    }
+
+    /// The markers of a loop; the last one is followed by the first.
+    pub fn markers(&self, l: usize) -> &[[f64; 2]] {
+        &self.position[self.first[l] as usize..self.first[l + 1] as usize]
+    }
+
+    /// The volume (m³, per metre or full turn) that the loops enclose.
+    pub fn volume<K: Kinematics<2>>(&self) -> f64 {
+        let mut volume = 0.0;
+        for l in 0..self.loops() {
+            let markers = self.markers(l);
+            // About a marker, or cancellation eats the digits of a small body far from the origin.
+            let origin = markers.first().map_or(0.0, |x| x[1]);
+            for (i, a) in markers.iter().enumerate() {
+                let b = markers[(i + 1) % markers.len()];
+                if K::HOOP {
+                    volume += PI / 3.0 * (b[1] - a[1]) * (a[0] * a[0] + a[0] * b[0] + b[0] * b[0]);
+                } else {
+                    volume -= 0.5 * (b[0] - a[0]) * (a[1] + b[1] - 2.0 * origin);
+                }
+            }
+        }
+        volume
+    }
+
+    /// Moves the markers with the `displacement` (m) of the nodes since the grid was restored, and evens out their
+    /// spacing. `mesh`, `geometry` and `locator` are those of the grid before it is restored again.
+    ///
+    /// # Errors
+    /// When a marker is or gets outside the mesh: the front is of no use then.
+    pub fn advance(
+        &mut self,
+        mesh: &Mesh<2>,
+        geometry: &Geometry,
+        locator: &Locator<2>,
+        displacement: &[[f64; 2]],
+    ) -> Result<(), Fault> {
+        let (mut n, mut hint) = ([0.0; MAX_NODES], None);
+        for x in &mut self.position {
+            let (c, xi) = locator.locate(mesh, x, hint).ok_or(Fault::Outside { place: *x })?;
+            mesh.cells.kind[c as usize].values(&xi, &mut n);
+            for (&node, n) in mesh.cells.nodes(c as usize).iter().zip(&n) {
+                for d in 0..2 {
+                    x[d] += n * displacement[node as usize][d];
+                }
+            }
+            hint = Some(c);
+        }
+        let wall = self.walls(mesh, geometry, locator);
+        self.resample(mesh, geometry, locator, &wall)
+    }
+
+    /// Whether the segment from each marker to the next one lies on the boundary of the mesh.
+    pub fn walls(&self, mesh: &Mesh<2>, geometry: &Geometry, locator: &Locator<2>) -> Vec<bool> {
+        let mut wall = Vec::with_capacity(self.position.len());
+        let mut hint = None;
+        for l in 0..self.loops() {
+            let markers = self.markers(l);
+            for (i, a) in markers.iter().enumerate() {
+                let b = markers[(i + 1) % markers.len()];
+                // Two places, for at a node the cell that is found may touch the boundary in that node alone.
+                wall.push([0.4618, 0.5431].into_iter().any(|t| {
+                    let x = [0, 1].map(|d| a[d] + t * (b[d] - a[d]));
+                    // The chord of a curved wall may run outside the mesh.
+                    let Some((c, xi)) = locator.locate(mesh, &x, hint) else { return true };
+                    hint = Some(c);
+                    on_boundary(mesh, geometry, c as usize, &xi)
+                }));
+            }
+        }
+        wall
+    }
+}
+
+/// Whether the place `xi` in cell `c` is on a side of it that bounds the mesh: to rounding where the cell is straight,
+/// within the rise of a chord where it is curved.
+fn on_boundary(mesh: &Mesh<2>, geometry: &Geometry, c: usize, xi: &[f64; 3]) -> bool {
+    let across = geometry.faces.across(c as u32);
+    let reach = if geometry.affine[c] { 1e-7 } else { 1e-2 };
+    let depth = |side: usize| match (mesh.cells.kind[c].is_simplex(), side) {
+        (true, 0) => xi[1],
+        (true, 1) => 1.0 - xi[0] - xi[1],
+        (true, _) => xi[0],
+        (false, 0) => 1.0 + xi[1],
+        (false, 1) => 1.0 - xi[0],
+        (false, 2) => 1.0 - xi[1],
+        (false, _) => 1.0 + xi[0],
+    };
+    across.iter().enumerate().any(|(side, &other)| other == BOUNDARY && depth(side) <= reach)
+}
+
+fn distance(a: &[f64; 2], b: &[f64; 2]) -> f64 {
+    (a[0] - b[0]).hypot(a[1] - b[1])
+}
+
+#[cfg(test)]
+mod tests;

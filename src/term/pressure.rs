@@ -1,0 +1,223 @@
+//! A field of unknowns that carries most of the mean stress, so that cells with many points do not lock.
+//!
+//! The points keep the shear modulus and a moderate bulk modulus `K_m`; the field `π` (Kirchhoff, tension positive)
+//! carries the rest, `K_f = K − K_m` in total stress and `K_f = K_w/n` of the pore water in effective stress, where
+//! `p = −π/J` is the excess pore pressure. Both are stationary points of
+//! `Σ w₀ [W_m + π ln J − π²/(2 K_f)]` (theory, eq. 15):
+//!
+//! ```text
+//! R_u += Σ w₀ π 1 : ∇_x N          R_π = Σ w₀ L [ln ΔJ − (π − π_n)/K_f]
+//! ```
+//!
+//! The second is in increments: the points carry `π_n`. The volume strain of single points is only loosely bound to
+//! the field; were it summed up, a restored grid would have to undo what other cells make of it, in every step.
+//!
+//! `L` are the corner hats, continuous from cell to cell, and in cells of second order a constant a cell (Taylor–Hood
+//! with cell-wise volume balance; Boffi et al. 2012). Cells of first order have no room for the constant; there the
+//! projection `Σ w₀ (L − L̄)(π − π_n)/2G` of Bochev, Dohrmann & Gunzburger (2006) makes the hats stable.
+
+use super::{Frame, History, Share, Trial};
+use crate::kinematics::{Gradient, Kinematics};
+use crate::material::Model;
+use crate::material::spatial::Spatial;
+use crate::mesh::shape::CellKind;
+use crate::points::Points;
+use crate::stencil::{Entries, Patch};
+use crate::system::Local;
+use crate::tensor::Tensor;
+use std::marker::PhantomData;
+use std::sync::Arc;
+
+/// Most unknowns of a cell.
+pub const MOST: usize = 5;
+
+/// Values of the functions of the field at a point: corners, then the constant.
+pub type Hats = [f64; MOST];
+
+/// What the field carries in a region.
+#[derive(Clone)]
+pub struct Carried {
+    /// The model of the points of the region.
+    pub model: Arc<dyn Model>,
+    /// `K_f / G` (-).
+    pub ratio: f64,
+    /// Whether it is a part of the stress of the points, not the pressure of their pore water.
+    pub total: bool,
+}
+
+impl Carried {
+    /// `1 / K_f` (1/kPa) at a point seeded at height `y` (m).
+    pub fn compliance(&self, y: f64) -> f64 {
+        1.0 / (self.ratio * self.model.elasticity().at(y).shear)
+    }
+}
+
+/// How many unknowns the field has in a cell: one a corner, and the constant in cells of second order.
+pub fn unknowns(kind: CellKind) -> usize {
+    kind.corner_count() + usize::from(kind.order() > 1)
+}
+
+/// The functions of the field where the shape functions of the cell are `n`: the corner hats lie in their span.
+pub fn hats(kind: CellKind, n: &[f64]) -> Hats {
+    let corners = kind.corner_count();
+    let mut hats = [0.0; MOST];
+    hats[..corners].copy_from_slice(&n[..corners]);
+    if kind.order() > 1 {
+        for v in 0..corners {
+            hats[v] += 0.5 * (n[corners + v] + n[corners + (v + corners - 1) % corners]);
+            hats[v] += n.get(2 * corners).map_or(0.0, |centre| 0.25 * centre);
+        }
+        hats[corners] = 1.0;
+    }
+    hats
+}
+
+/// The unknowns of a cell in the field `pressure` as the state has it: by node, then by cell.
+pub fn gather(kind: CellKind, nodes: &[u32], all_nodes: usize, cell: usize, pressure: &[f64]) -> Hats {
+    let corners = kind.corner_count();
+    let mut own = [0.0; MOST];
+    for (own, &n) in own.iter_mut().zip(&nodes[..corners]) {
+        *own = pressure[n as usize];
+    }
+    if kind.order() > 1 {
+        own[corners] = pressure[all_nodes + cell];
+    }
+    own
+}
+
+fn dot(a: &Hats, b: &Hats) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}
+
+/// The pressure field of a scene.
+pub struct PressureField<K> {
+    /// What it carries in each region of the mesh; `None` where nothing.
+    carried: Vec<Option<Carried>>,
+    /// What a unit of its unknowns stands for (kPa/m).
+    unit: f64,
+    kinematics: PhantomData<K>,
+}
+
+impl<K> PressureField<K> {
+    /// `carried[r]` is what the field carries in region `r`, `unit` that of [`crate::step::Scene`].
+    pub fn new(carried: Vec<Option<Carried>>, unit: f64) -> Self {
+        Self { carried, unit, kinematics: PhantomData }
+    }
+
+    fn of<const D: usize>(&self, points: &Points<D>, p: usize) -> Option<&Carried> {
+        self.carried.get(points.region[p] as usize).and_then(Option::as_ref)
+    }
+}
+
+/// The field over a cell.
+pub struct Cell {
+    kind: CellKind,
+    /// Its unknowns (kPa).
+    pressure: Hats,
+    /// Means of the functions over the points, for cells of first order.
+    mean: Option<Hats>,
+}
+
+impl<const D: usize, K: Kinematics<D>> Share<D, K> for PressureField<K> {
+    type Cell = Cell;
+
+    fn over(&self, frame: &Frame<D>, trial: &Trial<D>, patch: &Patch) -> Cell {
+        let cell = patch.cell as usize;
+        let kind = frame.mesh.cells.kind[cell];
+        let nodes = frame.mesh.cells.nodes(cell);
+        let pressure = gather(kind, nodes, frame.mesh.nodes.len(), cell, trial.pressure);
+        let mean = (kind.order() == 1).then(|| {
+            let (mut sum, mut weight) = ([0.0; MOST], 0.0);
+            for entries in frame.stencil.entries::<K>(patch) {
+                if self.of(frame.points, entries.point).is_some() {
+                    weight += entries.weight;
+                    for (sum, hat) in sum.iter_mut().zip(hats(kind, entries.value)) {
+                        *sum += entries.weight * hat;
+                    }
+                }
+            }
+            if weight > 0.0 { sum.map(|s| s / weight) } else { sum }
+        });
+        Cell { kind, pressure, mean }
+    }
+
+    fn add(&self, cell: &Cell, points: &Points<D>, entries: &Entries<D>, answer: &mut Spatial<K::Tangent>) -> f64 {
+        let Some(carried) = self.of(points, entries.point) else { return 0.0 };
+        let pressure = dot(&hats(cell.kind, entries.value), &cell.pressure);
+        for normal in &mut answer.kirchhoff[..3] {
+            *normal += pressure;
+        }
+        K::add_pressure(&mut answer.tangent, pressure);
+        // The stress that the points keep has it in it already where it is a part of it.
+        if carried.total { 0.0 } else { points.pressure[entries.point] }
+    }
+
+    fn couple(
+        &self,
+        cell: &Cell,
+        points: &Points<D>,
+        entries: &Entries<D>,
+        spatial: &[Gradient<D>],
+        volume_ratio: f64,
+        acts_on: &Tensor,
+        later: f64,
+        local: &mut Local,
+    ) {
+        let p = entries.point;
+        let Some(carried) = self.of(points, p) else { return };
+        let count = unknowns(cell.kind);
+        let begin = D * spatial.len();
+        let y = points.origin[p][1];
+        let compliance = carried.compliance(y);
+        let hats = hats(cell.kind, entries.value);
+        // Cells of first order: only what varies within the cell is stabilised.
+        let stabilised: Hats = match &cell.mean {
+            None => [0.0; MOST],
+            Some(mean) => {
+                let softness = 0.5 / carried.model.elasticity().at(y).shear;
+                std::array::from_fn(|a| softness * (hats[a] - mean[a]))
+            }
+        };
+        let gained = dot(&hats, &cell.pressure) - points.pressure[p];
+        let strain = volume_ratio.ln() - compliance * gained;
+        let weight = later * self.unit * entries.weight;
+        for a in 0..count {
+            local.vector[begin + a] += weight * (hats[a] * strain - stabilised[a] * gained);
+        }
+        if local.matrix.is_empty() {
+            return;
+        }
+        let (size, one) = (local.size, Tensor::identity());
+        for (i, gradient) in spatial.iter().enumerate() {
+            let (volume, force) = (K::force(&one, gradient), K::force(acts_on, gradient));
+            for (a, hat) in hats.iter().enumerate().take(count) {
+                for d in 0..D {
+                    local.matrix[(begin + a) * size + i * D + d] += weight * hat * volume[d];
+                    local.matrix[(i * D + d) * size + begin + a] += weight * hat * force[d];
+                }
+            }
+        }
+        for a in 0..count {
+            for b in 0..count {
+                local.matrix[(begin + a) * size + begin + b] -=
+                    weight * self.unit * (compliance * hats[a] + stabilised[a]) * hats[b];
+            }
+        }
+    }
+
+    fn commit(&self, cell: &Cell, points: &Points<D>, entries: &Entries<D>, history: &mut History) {
+        let Some(carried) = self.of(points, entries.point) else { return };
+        history.pressure = dot(&hats(cell.kind, entries.value), &cell.pressure);
+        if carried.total {
+            let pressure = history.pressure / history.deformation.determinant();
+            for normal in &mut history.stress[..3] {
+                *normal += pressure;
+            }
+        }
+    }
+
+    fn energy(&self, points: &Points<D>, p: usize) -> f64 {
+        let Some(carried) = self.of(points, p) else { return 0.0 };
+        0.5 * points.initial_volume[p] * carried.compliance(points.origin[p][1]) * points.pressure[p].powi(2)
+    }
+}

@@ -1,0 +1,79 @@
+//! A weak bond between the unknowns of the pressure field in each cell: where a corner sees few points or none, it
+//! follows its neighbours, and the pattern and the signs of the pivots are the same everywhere.
+//!
+//! On the increment of the step, `−ε V/G Σ_a (π_a − π̄)` over the corners and `−ε₀ V/G π₀` for the constant of the
+//! cell: a uniform increment is free. The second also settles which part of a uniform pressure the corners have and
+//! which the constants, which the strains do not tell.
+
+use super::pressure::{MOST, gather, unknowns};
+use super::{Assembly, Frame, Term, Trial};
+use crate::error::Result;
+use crate::kinematics::Kinematics;
+use crate::stencil::integrate;
+use crate::system::{Local, scatter};
+use std::marker::PhantomData;
+use std::sync::OnceLock;
+
+/// Bond between the corners of a cell, ε (-).
+const CORNERS: f64 = 1e-6;
+/// Bond of the constant of a cell, ε₀ (-).
+const CONSTANT: f64 = 1e-4;
+
+/// The bond in all cells that take part.
+pub struct SmoothPressure<K> {
+    /// What a unit of the unknowns stands for (kPa/m), and a shear modulus (kPa).
+    unit: f64,
+    shear: f64,
+    /// Volume of each cell (m³), when first needed: a restored grid keeps its shape.
+    volume: Vec<OnceLock<f64>>,
+    kinematics: PhantomData<K>,
+}
+
+impl<K> SmoothPressure<K> {
+    /// `unit` is that of [`crate::step::Scene`], `shear` the largest shear modulus (kPa), `cells` those of the mesh.
+    pub fn new(unit: f64, shear: f64, cells: usize) -> Self {
+        Self { unit, shear, volume: (0..cells).map(|_| OnceLock::new()).collect(), kinematics: PhantomData }
+    }
+}
+
+impl<const D: usize, K: Kinematics<D>> Term<D> for SmoothPressure<K> {
+    fn assemble(&self, frame: &Frame<D>, trial: &Trial<D>, out: &mut Assembly) -> Result<()> {
+        let nodes = frame.mesh.nodes.len();
+        let compute = |cell: &u32, local: &mut Local| {
+            let cell = *cell as usize;
+            let kind = frame.mesh.cells.kind[cell];
+            let (corners, count) = (kind.corner_count(), unknowns(kind));
+            let own = frame.mesh.cells.nodes(cell);
+            let now = gather(kind, own, nodes, cell, trial.pressure);
+            let before = gather(kind, own, nodes, cell, trial.converged_pressure);
+            let gained: [f64; MOST] = std::array::from_fn(|a| now[a] - before[a]);
+            let volume = *self.volume[cell].get_or_init(|| integrate::<D, K>(frame.mesh, cell, |_, _, _| {}));
+            let scale = (1.0 - trial.alpha_f) * self.unit * volume / self.shear;
+            let share = 1.0 / corners as f64;
+            let mean = share * gained[..corners].iter().sum::<f64>();
+            let begin = local.size - count;
+            for a in 0..corners {
+                local.vector[begin + a] -= scale * CORNERS * (gained[a] - mean);
+            }
+            for a in corners..count {
+                local.vector[begin + a] -= scale * CONSTANT * gained[a];
+            }
+            if local.matrix.is_empty() {
+                return Ok(());
+            }
+            let scale = scale * self.unit;
+            let mut add = |a: usize, b: usize, k: f64| local.matrix[(begin + a) * local.size + begin + b] -= scale * k;
+            for a in 0..corners {
+                for b in 0..corners {
+                    add(a, b, CORNERS * (if a == b { 1.0 } else { 0.0 } - share));
+                }
+            }
+            for a in corners..count {
+                add(a, a, CONSTANT);
+            }
+            Ok(())
+        };
+        let clique = |cell: &u32| frame.clique[*cell as usize] as usize;
+        scatter(frame.pattern, frame.cells, clique, compute, out.force, out.tangent.as_deref_mut(), out.workspace)
+    }
+}
