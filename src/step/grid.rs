@@ -299,7 +299,12 @@ fn locate_points<const D: usize>(scene: &Scene<D>, state: &mut State<D>) -> Resu
 /// Decides which cells take part; true when that changed since the last time.
 fn choose_cells<const D: usize>(scene: &Scene<D>, state: &mut State<D>) -> bool {
     let cells = scene.mesh.cells.len();
-    if state.taking_part.len() == cells && state.points.cell.iter().all(|&c| state.taking_part[c as usize]) {
+    // A face to a cell beyond would have no place in the system.
+    let surrounded = |&c: &u32| {
+        let across = scene.faces.as_ref().map_or(&[][..], |faces| faces.neighbours(c));
+        state.taking_part[c as usize] && across.iter().all(|&other| state.taking_part[other as usize])
+    };
+    if state.taking_part.len() == cells && state.points.cell.iter().all(surrounded) {
         return false;
     }
     let mut chosen = vec![false; cells];
