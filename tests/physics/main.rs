@@ -4,6 +4,7 @@ mod bar;
 mod bench;
 mod cantilever;
 mod column;
+mod ddmp;
 mod ghost;
 mod held_out;
 mod patch;

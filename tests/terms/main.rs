@@ -6,4 +6,5 @@
 mod ghost;
 mod internal;
 mod loads;
+mod smooth;
 mod stand;

@@ -115,6 +115,18 @@ pub struct Stand<K> {
 impl<K: Kinematics<2>> Stand<K> {
     /// `whole` asks for the whole tangent, also of a symmetric term.
     pub fn new(mesh: Mesh<2>, points: Points<2>, term: Box<dyn Term<2>>, restored: bool, whole: bool) -> Self {
+        Self::with(Scheme::Mpm, mesh, points, term, restored, whole)
+    }
+
+    /// As [`Stand::new`], with gradients of another scheme.
+    pub fn with(
+        scheme: Scheme,
+        mesh: Mesh<2>,
+        points: Points<2>,
+        term: Box<dyn Term<2>>,
+        restored: bool,
+        whole: bool,
+    ) -> Self {
         let mut terms = vec![term];
         if whole {
             terms.push(Box::new(Unsymmetric));
@@ -140,7 +152,7 @@ impl<K: Kinematics<2>> Stand<K> {
             supports: Vec::new(),
             phases: vec![phase.clone(), phase],
             numerics: Numerics {
-                scheme: Scheme::Mpm,
+                scheme,
                 restore: if restored { Restore::EveryStep } else { Restore::Never },
                 spectral_radius: 1.0,
                 tolerance: 1e-10,

@@ -214,3 +214,5 @@ fn integrals_of_the_gradients_are_those_of_the_shape_functions() {
     check::<PlaneStrain>();
     check::<Axisymmetric>();
 }
+
+mod spectra;

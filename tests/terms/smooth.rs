@@ -1,0 +1,67 @@
+//! The internal force with gradients that are smoothed between cells.
+
+use crate::stand::{Stand, elastic, elasticity, mesh, points, resultant, size};
+use mpm::kinematics::{Axisymmetric, Kinematics, PlaneStrain};
+use mpm::material::{Model, Profile, VonMises};
+use mpm::mesh::shape::CellKind;
+use mpm::stencil::Scheme;
+use mpm::term::Internal;
+use std::sync::Arc;
+
+const KINDS: [CellKind; 4] = [CellKind::T3, CellKind::T6, CellKind::Q4, CellKind::Q9];
+
+/// Every kind, both blends, elastic and yielding, quasi-static and dynamic.
+fn for_all<K: Kinematics<2>>(whole: bool, check: impl Fn(&str, &Stand<K>, &[[f64; 2]], &[[f64; 2]])) {
+    let von_mises: Arc<dyn Model> = Arc::new(VonMises::new(elasticity(), Profile::constant(12.0)).unwrap());
+    for kind in KINDS {
+        for fitted in [false, true] {
+            for (name, model) in [("elastic", elastic() as Arc<dyn Model>), ("von Mises", von_mises.clone())] {
+                for alpha_f in [0.0, 0.4] {
+                    let mesh = mesh(kind);
+                    let points = points(&mesh, |_| true);
+                    let term = Box::new(Internal::<K>::new(vec![Some(model.clone())], alpha_f > 0.0));
+                    let scheme = Scheme::Ddmp { fitted };
+                    let mut stand = Stand::<K>::with(scheme, mesh, points, term, false, whole);
+                    stand.alpha_f = alpha_f;
+                    let converged = stand.field(0.02, 1, |[x, y]| [0.1 * x - 0.3 * y, 0.2 * x + 0.1 * y]);
+                    let trial = stand.field(0.02, 2, |[x, y]| [0.2 * x - 0.5 * y, 0.6 * x - 0.2 * y]);
+                    let name = format!("{kind:?}, fitted {fitted}, {name}, α_f = {alpha_f}");
+                    check(&name, &stand, &trial, &converged);
+                }
+            }
+        }
+    }
+}
+
+fn tangent_is_the_derivative<K: Kinematics<2>>() {
+    for_all::<K>(true, |name, stand, trial, converged| {
+        let error = stand.tangent_error(&trial.to_vec(), &converged.to_vec());
+        assert!(error < 1e-6, "{name}: {error:.1e}");
+    });
+}
+
+#[test]
+fn the_tangent_is_the_derivative_in_plane_strain() {
+    tangent_is_the_derivative::<PlaneStrain>();
+}
+
+#[test]
+fn the_tangent_is_the_derivative_in_axisymmetry() {
+    tangent_is_the_derivative::<Axisymmetric>();
+}
+
+/// Cauchy's laws hold for them too: the gradients of constants vanish, and those of linear fields are exact.
+#[test]
+fn the_force_is_in_balance_with_itself() {
+    for_all::<PlaneStrain>(false, |name, stand, trial, converged| {
+        let (force, _) = stand.evaluate(&trial.to_vec(), &converged.to_vec(), 0, false);
+        let rounding = 1e-11 * size(&force);
+        let sum = resultant(&force);
+        assert!(sum.iter().all(|s| s.abs() < rounding), "{name}: {sum:?}");
+        if stand.alpha_f == 0.0 {
+            let places = stand.scene.mesh.nodes.iter().zip(trial).map(|(x, u)| [x[0] + u[0], x[1] + u[1]]);
+            let moment: f64 = places.zip(&force).map(|(x, f)| x[0] * f[1] - x[1] * f[0]).sum();
+            assert!(moment.abs() < 30.0 * rounding, "{name}: {moment:.1e}");
+        }
+    });
+}
