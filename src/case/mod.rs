@@ -6,8 +6,8 @@
 
 mod check;
 pub mod checked;
-pub mod locate;
 mod incompressible;
+pub mod locate;
 mod materials;
 pub mod names;
 mod phases;

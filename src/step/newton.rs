@@ -410,8 +410,7 @@ fn add_terms<const D: usize>(
     let mut result = Ok(());
     for term in problem.scene.terms.iter().filter(|t| wanted(t.role())) {
         own.fill(0.0);
-        let mut out =
-            Assembly { force: own, tangent: tangent.then_some(&mut matrix), workspace: &mut workspace };
+        let mut out = Assembly { force: own, tangent: tangent.then_some(&mut matrix), workspace: &mut workspace };
         result = term.assemble(&frame, trial, &mut out);
         if result.is_err() {
             break;

@@ -137,8 +137,7 @@ fn weighted_stress<const D: usize, K: Kinematics<D>>(
     }
     let increment = &strained.increment;
     let back = increment.try_inverse().ok_or_else(|| inadmissible(p, "is squeezed flat", increment))?;
-    let before =
-        full(&points.stress[p]) * points.deformation[p].determinant() + Tensor::from_diagonal_element(beside);
+    let before = full(&points.stress[p]) * points.deformation[p].determinant() + Tensor::from_diagonal_element(beside);
     let a = Tensor::identity() * (1.0 - alpha_f) + back * alpha_f;
     let w = kirchhoff * (1.0 - alpha_f) + increment * before * increment.transpose() * alpha_f;
     K::weight(&mut answer.tangent, &a, &answer.kirchhoff, &w);

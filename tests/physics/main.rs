@@ -5,5 +5,6 @@ mod bench;
 mod cantilever;
 mod column;
 mod held_out;
+mod incompressible;
 mod patch;
 mod rotation;

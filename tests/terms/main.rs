@@ -5,4 +5,5 @@
 
 mod internal;
 mod loads;
+mod pressure;
 mod stand;
