@@ -2,7 +2,7 @@
 //!
 //! The points keep the shear modulus and a moderate bulk modulus `K_m`; the field `π` (Kirchhoff, tension positive)
 //! carries the rest: `K_f = K − K_m` in total stress, and with it the `K_w/n` of the pore water in effective stress. Both are stationary points of
-//! `Σ w₀ [W_m + π ln J − π²/(2 K_f)]` (theory, eq. 15):
+//! `Σ w₀ [W_m + π ln J − π²/(2 K_f)]` (theory, eq. 24):
 //!
 //! ```text
 //! R_u += Σ w₀ π 1 : ∇_x N          R_π = Σ w₀ L [ln ΔJ − (π − π_n)/K_f]

@@ -103,7 +103,8 @@ impl Bench {
     }
 
     pub fn scene<K: Kinematics<2>>(self) -> Scene<2> {
-        let stiffness_scale = self.model.young(0.0);
+        let moduli = self.model.elasticity().at(0.0);
+        let stiffness_scale = self.model.young(0.0).max(moduli.shear);
         let models = vec![Some(self.model.clone())];
         let shear = self.model.elasticity().at(0.0).shear;
         let unit = self.carried.is_some().then(|| shear / cell_size(&self.mesh, 0));

@@ -114,25 +114,27 @@ fn cylinder(kind: CellKind, n: usize, water: f64) -> State<2> {
     run::<Axisymmetric>(&scene, points, |_, report| assert!(report.iterations() <= 3))
 }
 
-const PUSHED: f64 = 1e-7;
+const PUSHED: f64 = 1e-5;
 
-/// Root mean square error of the radial and the mean stress over the largest radial stress.
-fn cylinder_error(kind: CellKind, n: usize) -> f64 {
+/// Root mean square error of the radial and the mean stress over the largest radial stress, and the largest error of
+/// the mean stress: it is uniform, so that a checkerboard in the field would show.
+fn cylinder_error(kind: CellKind, n: usize) -> [f64; 2] {
     let state = cylinder(kind, n, 0.0);
     let (outer, lateral) = (2.0f64, 1.0 - 2.0 * POISSON);
     let b = PUSHED / (lateral / outer.powi(2) + 1.0);
     let a = b * lateral / outer.powi(2);
     let scale = 2.0 * SHEAR * b * (1.0 - 1.0 / outer.powi(2));
-    let (mut sum, mut volume) = (0.0, 0.0);
+    let (mut sum, mut volume, mut largest) = (0.0, 0.0, 0f64);
     for p in 0..state.points.len() {
         let (r, stress) = (state.points.origin[p][0], &state.points.stress[p]);
         let radial = 2.0 * SHEAR * (a / lateral - b / (r * r));
         let mean = 2.0 * a * bulk(POISSON) * SHEAR;
-        let error = (stress[0] - radial).powi(2) + (mpm::tensor::mean(stress) - mean).powi(2);
-        sum += state.points.initial_volume[p] * error;
+        let deviation = mpm::tensor::mean(stress) - mean;
+        largest = largest.max(deviation.abs() / scale);
+        sum += state.points.initial_volume[p] * ((stress[0] - radial).powi(2) + deviation.powi(2));
         volume += state.points.initial_volume[p];
     }
-    (sum / volume).sqrt() / scale
+    [(sum / volume).sqrt() / scale, largest]
 }
 
 /// Second order in the stresses for cells of second order, first for the others: the displacements are one order
@@ -141,10 +143,11 @@ fn cylinder_error(kind: CellKind, n: usize) -> f64 {
 fn thick_cylinder() {
     for kind in KINDS {
         let errors = [4, 8].map(|n| cylinder_error(kind, n));
-        println!("{kind:?}: stress error {:.2e}, {:.2e}", errors[0], errors[1]);
+        let [[coarse, _], [fine, largest]] = errors;
+        println!("{kind:?}: stress error {coarse:.2e}, {fine:.2e}, at most {largest:.2e} in the mean");
         let ratio = if kind.order() > 1 { 0.33 } else { 0.65 };
         let small = if kind.order() > 1 { 2e-3 } else { 5e-2 };
-        assert!(errors[1] < ratio * errors[0] && errors[1] < small, "{kind:?}: {errors:?}");
+        assert!(fine < ratio * coarse && fine < small && largest < 15.0 * fine, "{kind:?}: {errors:?}");
     }
 }
 
