@@ -147,6 +147,7 @@ impl<const D: usize> Grid<D> {
         for &c in &cells {
             clique[c as usize] = cliques.push(stencil.nodes(mesh, c).iter().map(|&n| block[n as usize]));
         }
+        let cells_only = cliques.clone();
         let mut face_clique = Vec::new();
         if let Some(faces) = &scene.faces {
             face_clique.resize(faces.inner.len(), u32::MAX);
@@ -156,9 +157,11 @@ impl<const D: usize> Grid<D> {
                 }
             }
         }
-        let with_pressure = scene.pressure_unit.map(|_| Carriers::new(mesh, &cells, node.len(), &cliques));
         let dynamic = scene.phases.iter().any(|p| p.dynamic);
         let mass = if dynamic { Some(System::new(&vec![1; node.len()], cliques.clone(), true)?) } else { None };
+        // The mass always takes a penalty on faces, the motion only where a term says so.
+        let cliques = if scene.terms.iter().any(|t| t.penalises_faces()) { cliques } else { cells_only };
+        let with_pressure = scene.pressure_unit.map(|_| Carriers::new(mesh, &cells, node.len(), &cliques));
         let symmetric = scene.terms.iter().all(|t| t.symmetric());
         let mut sizes = vec![D as u8; node.len()];
         let (motion, carrier) = match with_pressure {
