@@ -259,7 +259,7 @@ impl Checker {
             let problem = format!("the phases would give {frames:e} frames, more than {MOST_FRAMES}");
             self.issue(&root.key("output").key("every"), At::Value, problem, "write them less often");
         }
-        let undrained = case.materials.iter().any(|m| m.carried.as_ref().is_some_and(|c| !c.total));
+        let undrained = case.materials.iter().any(|m| m.carried.as_ref().is_some_and(|c| c.water > 0.0));
         let wanted = case.output.fields.iter().position(|f| *f == Field::PorePressure);
         if let Some(i) = wanted.filter(|_| !undrained) {
             let path = root.key("output").key("fields").index(i);
@@ -269,7 +269,7 @@ impl Checker {
             file.numerics.pressure == Some(raw::Pressure::Field) && case.materials.iter().all(|m| m.carried.is_none());
         if unused && self.issues.is_empty() {
             let problem = "no material has a share for it: the field is for undrained materials, and for linear_elastic, \
-                tresca and von_mises with a Poisson's ratio above 0.3";
+                tresca and von_mises";
             self.issue(&root.key("numerics").key("pressure"), At::Value, problem, "take it out");
         }
         if file.regions.values().all(|region| region.kind == raw::RegionKind::Buffer) {

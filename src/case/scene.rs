@@ -12,7 +12,6 @@ use crate::quadrature::{Fitted, Quadrature, Volumes};
 use crate::run::{self, Ended, Outputs, Progress, Watch, WatchedOn};
 use crate::stencil::cell_size;
 use crate::step::{self, Fixed, Numerics, Phase, Prescribed, Scene, State, Stop};
-use crate::tensor::full;
 use crate::term::{
     BodyForce, Carried, EmptyCells, GhostPenalty, Inertia, Internal, PressureField, SmoothPressure, Term, Traction,
 };
@@ -61,14 +60,15 @@ pub fn solve(
 fn first(case: &Case, scene: &Scene<2>, mut points: Points<2>) -> Result<State<2>> {
     if scene.pressure_unit.is_some() {
         // The points bring the elastic strain of all their stress: the field begins with its share.
-        let carried = carried(case, &scene.mesh)?;
-        let share = |p: usize| match carried.get(points.region[p] as usize) {
-            Some(Some(carried)) if carried.total => {
-                0.5 * full(&points.elastic[p]).determinant().ln() / carried.compliance(points.origin[p][1])
+        points.pressure = vec![0.0; points.len()];
+        for (region, material) in filled(case) {
+            let (Some(carried), region) = (&material.carried, region_index(&scene.mesh, &region.name)?) else {
+                continue;
+            };
+            for p in (0..points.len()).filter(|&p| points.region[p] == region) {
+                points.pressure[p] = carried.begin(material.model.as_ref(), &points, p);
             }
-            _ => 0.0,
-        };
-        points.pressure = (0..points.len()).map(share).collect();
+        }
     }
     let first_step = scene.phases.first().map_or(0.0, |p| p.first_step);
     Ok(State::new(points, scene.mesh.nodes.len(), first_step))
@@ -214,9 +214,10 @@ fn outputs(case: &Case, mesh: &Mesh<2>, folder: &Path, fingerprint: Fingerprint)
             Field::Stress | Field::MeanStress | Field::DeviatoricStress => run::Field::Stress,
             Field::PlasticStrain => run::Field::PlasticStrain,
             Field::DeformationGradient => run::Field::DeformationGradient,
-            Field::PorePressure => run::Field::PorePressure(undrained(case, mesh)?),
+            Field::PorePressure => run::Field::PorePressure(carried(case, mesh)?),
         };
-        if !fields.contains(&field) {
+        // Invariants come with the stress.
+        if !(matches!(field, run::Field::Stress) && fields.iter().any(|f| matches!(f, run::Field::Stress))) {
             fields.push(field);
         }
     }
@@ -264,11 +265,6 @@ fn carried(case: &Case, mesh: &Mesh<2>) -> Result<Vec<Option<Carried>>> {
         carried[region_index(mesh, &region.name)? as usize] = material.carried.clone();
     }
     Ok(carried)
-}
-
-/// Which regions of the mesh have pore water of their own.
-fn undrained(case: &Case, mesh: &Mesh<2>) -> Result<Vec<bool>> {
-    Ok(carried(case, mesh)?.iter().map(|c| c.as_ref().is_some_and(|c| !c.total)).collect())
 }
 
 /// The mean size of the cells of a mesh (m).

@@ -2,12 +2,12 @@
 //! surface of the material.
 
 use super::cells::{self, CellFit};
-use super::{Degree, Quadrature, Tally, Weighing};
+use super::{Degree, Quadrature, Restored, Tally, Weighing};
 use crate::kinematics::{Kinematics, PlaneStrain};
 use crate::mesh::Mesh;
 use crate::points::Points;
 use crate::stencil::{SoftCell, Stencil};
-use crate::surface::{Active, Contour, Filling, Geometry};
+use crate::surface::{Active, Contour, Distance, Fault, Filling, Front, Geometry};
 use std::marker::PhantomData;
 
 /// Cells with fewer points do not stand alone.
@@ -26,6 +26,26 @@ impl<K: Kinematics<2>> Fitted<K> {
     pub fn new(mesh: &Mesh<2>) -> Self {
         let plane = K::HOOP.then(|| Geometry::new::<PlaneStrain>(mesh));
         Self { geometry: Geometry::new::<K>(mesh), plane, kinematics: PhantomData }
+    }
+
+    /// Takes the surface along with the grid: at first it goes around the cells with points.
+    ///
+    /// # Errors
+    /// Why the surface so followed is not that of the material.
+    fn follow(&self, grid: &Restored<2>, front: &mut Option<Front>) -> Result<(), Fault> {
+        let (mesh, points) = (grid.mesh, grid.points);
+        match (grid.displacement, front.as_mut()) {
+            (Some(displacement), Some(front)) => front.advance(mesh, &self.geometry, grid.locator, displacement)?,
+            (Some(_), None) => return Ok(()),
+            (None, _) => {
+                let mut filled = vec![false; mesh.cells.len()];
+                points.cell.iter().for_each(|&c| filled[c as usize] = true);
+                *front = Some(Front::around(mesh, &self.geometry.faces, &filled));
+            }
+        }
+        let Some(front) = front else { return Ok(()) };
+        let volume = (0..points.len()).map(|p| points.volume(p)).sum();
+        front.inspect::<K>(mesh, &self.geometry, grid.locator, volume)
     }
 
     /// Weighs points in a body whose surface is the zero of `level_set`: one value a node, positive inside.
@@ -52,22 +72,32 @@ impl<K: Kinematics<2>> Fitted<K> {
         let poor = |fit: &&CellFit| !full(fit.cell) || fit.points < FEW || fit.degree == Degree::Constant;
         let poor = fits.iter().filter(poor).map(|fit| fit.cell).collect();
         let shift = fits.into_iter().filter_map(|fit| Some((fit.cell, fit.shift?))).collect();
-        Weighing { weight, shift, soft: soft(plane, &active, taking_part), poor, tally }
+        Weighing { weight, shift, soft: soft(plane, &active, taking_part), poor, tally, lost_front: None }
     }
 }
 
 impl<K: Kinematics<2>> Quadrature<2> for Fitted<K> {
-    fn weigh(
-        &self,
-        mesh: &Mesh<2>,
-        points: &Points<2>,
-        parametric: &[[f64; 3]],
-        stencil: &Stencil<2>,
-        taking_part: &[bool],
-    ) -> Weighing<2> {
-        let mut contour = Contour::default();
-        contour.update::<K>(mesh, &self.geometry, points, parametric, taking_part);
-        self.weigh_within(mesh, points, stencil, taking_part, &contour.level_set)
+    fn weigh(&self, grid: &Restored<2>, front: &mut Option<Front>) -> Weighing<2> {
+        let Restored { mesh, locator, points, parametric, stencil, taking_part, .. } = *grid;
+        let mut lost_front = None;
+        if let Err(fault) = self.follow(grid, front) {
+            *front = None;
+            lost_front = Some(fault.to_string());
+        }
+        let mut weighing = match front {
+            Some(front) => {
+                let mut distance = Distance::default();
+                distance.update(mesh, &self.geometry, locator, front, &points.cell, taking_part);
+                self.weigh_within(mesh, points, stencil, taking_part, &distance.level_set)
+            }
+            None => {
+                let mut contour = Contour::default();
+                contour.update::<K>(mesh, &self.geometry, points, parametric, taking_part);
+                self.weigh_within(mesh, points, stencil, taking_part, &contour.level_set)
+            }
+        };
+        weighing.lost_front = lost_front;
+        weighing
     }
 }
 
@@ -133,7 +163,19 @@ mod tests {
         let taking_part = vec![true; mesh.cells.len()];
         let mut stencil = Stencil::default();
         stencil.fill::<K>(Scheme::Mpm, &mesh, &points.cell, &parametric, &taking_part);
-        let weighing = Fitted::<K>::new(&mesh).weigh(&mesh, &points, &parametric, &stencil, &taking_part);
+        let grid = Restored {
+            mesh: &mesh,
+            locator: &locator,
+            points: &points,
+            parametric: &parametric,
+            stencil: &stencil,
+            taking_part: &taking_part,
+            displacement: None,
+        };
+        // The cells with points are not all full: the contour it must be.
+        let mut front = None;
+        let weighing = Fitted::<K>::new(&mesh).weigh(&grid, &mut front);
+        assert!(front.is_none() && weighing.lost_front.is_some());
         (mesh, points, stencil, weighing)
     }
 

@@ -19,8 +19,10 @@ pub use fitted::Fitted;
 pub use volumes::Volumes;
 
 use crate::mesh::Mesh;
+use crate::mesh::locate::Locator;
 use crate::points::Points;
 use crate::stencil::{SoftCell, Stencil};
+use crate::surface::Front;
 
 /// What the points of a restored grid weigh, and what follows from where they lie.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -35,6 +37,22 @@ pub struct Weighing<const D: usize> {
     /// Cells with points that are cut or too poor in points to stand alone, ascending: their faces take a penalty.
     pub poor: Vec<u32>,
     pub tally: Tally,
+    /// Why the surface is followed no longer, where it ceased to be in this restoration.
+    pub lost_front: Option<String>,
+}
+
+/// A grid that is being restored: the points are found on it and `stencil` is filled.
+pub struct Restored<'a, const D: usize> {
+    pub mesh: &'a Mesh<D>,
+    pub locator: &'a Locator<D>,
+    pub points: &'a Points<D>,
+    /// Parametric coordinates of the points in their cells.
+    pub parametric: &'a [[f64; 3]],
+    pub stencil: &'a Stencil<D>,
+    /// The cells of the grid.
+    pub taking_part: &'a [bool],
+    /// Displacement (m) of the nodes since the restoration before; `None` in the first one.
+    pub displacement: Option<&'a [[f64; D]]>,
 }
 
 /// How the weights of the cells came out.
@@ -55,13 +73,7 @@ pub struct Tally {
 
 /// A rule for the weights of points.
 pub trait Quadrature<const D: usize>: Send + Sync {
-    /// Weighs the points of a restored grid; `stencil` is filled, `taking_part` marks the cells of the grid.
-    fn weigh(
-        &self,
-        mesh: &Mesh<D>,
-        points: &Points<D>,
-        parametric: &[[f64; 3]],
-        stencil: &Stencil<D>,
-        taking_part: &[bool],
-    ) -> Weighing<D>;
+    /// Weighs the points of a restored grid. `front` is the surface of the material as followed so far, for rules
+    /// that need it.
+    fn weigh(&self, grid: &Restored<D>, front: &mut Option<Front>) -> Weighing<D>;
 }

@@ -1,10 +1,9 @@
 //! The classical weights: each point stands for its volume.
 
-use super::{Quadrature, Tally, Weighing};
+use super::{Quadrature, Restored, Tally, Weighing};
 use crate::kinematics::Kinematics;
-use crate::mesh::Mesh;
-use crate::points::Points;
-use crate::stencil::{Patch, Stencil, soft_cells};
+use crate::stencil::{Patch, soft_cells};
+use crate::surface::Front;
 use std::marker::PhantomData;
 
 /// Fewer points than this, or more emptiness (-), do not hold a cell's nodes by themselves.
@@ -18,14 +17,8 @@ pub struct Volumes<K> {
 }
 
 impl<const D: usize, K: Kinematics<D>> Quadrature<D> for Volumes<K> {
-    fn weigh(
-        &self,
-        mesh: &Mesh<D>,
-        points: &Points<D>,
-        _parametric: &[[f64; 3]],
-        stencil: &Stencil<D>,
-        taking_part: &[bool],
-    ) -> Weighing<D> {
+    fn weigh(&self, grid: &Restored<D>, _front: &mut Option<Front>) -> Weighing<D> {
+        let Restored { mesh, points, stencil, taking_part, .. } = *grid;
         let volume = (0..points.len()).map(|p| points.volume(p)).sum();
         let soft = soft_cells::<D, K>(mesh, stencil, points, taking_part);
         let half_empty =
@@ -43,6 +36,7 @@ impl<const D: usize, K: Kinematics<D>> Quadrature<D> for Volumes<K> {
                 fitted_volume: volume,
                 ..Tally::default()
             },
+            lost_front: None,
         }
     }
 }

@@ -8,6 +8,7 @@ use crate::io::container::Store;
 use crate::quadrature::{Tally, Weighing};
 use crate::stencil::SoftCell;
 use crate::step::State;
+use crate::surface::Front;
 
 const POINTS: &str = "points.";
 
@@ -34,6 +35,7 @@ pub fn store<const D: usize>(state: &State<D>) -> Store {
         taking_part,
         penalised,
         weighing,
+        front,
         restorations,
     } = state;
     let mut store = Checkpoints::store();
@@ -53,6 +55,10 @@ pub fn store<const D: usize>(state: &State<D>) -> Store {
     store.put("state.taking_part", 1, taking_part.iter().map(|&b| u8::from(b)).collect());
     store.put("state.penalised", 1, penalised.iter().map(|&b| u8::from(b)).collect());
     put_weighing(&mut store, weighing);
+    // Without loops where the surface is not followed.
+    let (markers, loops) = front.as_ref().map_or((Vec::new(), Vec::new()), |f| (f.position.concat(), f.first.clone()));
+    store.put("front.position", 2, markers);
+    store.put("front.first", 1, loops);
     for mut array in columns::to_arrays(points) {
         array.name.insert_str(0, POINTS);
         store.put_array(array);
@@ -61,7 +67,8 @@ pub fn store<const D: usize>(state: &State<D>) -> Store {
 }
 
 fn put_weighing<const D: usize>(store: &mut Store, weighing: &Weighing<D>) {
-    let Weighing { weight, shift, soft, poor, tally } = weighing;
+    // Why a front was lost has been told when it was.
+    let Weighing { weight, shift, soft, poor, tally, lost_front: _ } = weighing;
     let Tally { quadratic, linear, constant, volume, point_volume, fitted_volume, drift } = tally;
     store.put("weighing.weight", 1, weight.clone());
     store.put("weighing.shifted", 2, shift.iter().flat_map(|(cell, by)| [*cell, by.len() as u32]).collect());
@@ -96,7 +103,7 @@ fn take_weighing<const D: usize>(store: &mut Store) -> Result<Weighing<D>> {
         fitted_volume: *fitted_volume,
         drift: *drift,
     };
-    Ok(Weighing { weight, shift, soft, poor, tally })
+    Ok(Weighing { weight, shift, soft, poor, tally, lost_front: None })
 }
 
 /// The state in a checkpoint of the run that began with `first`.
@@ -124,6 +131,9 @@ pub fn take<const D: usize>(mut store: Store, first: &State<D>) -> Result<State<
     let taking_part = store.take::<u8>("state.taking_part", 1)?.into_iter().map(|b| b != 0).collect();
     let penalised = store.take::<u8>("state.penalised", 1)?.into_iter().map(|b| b != 0).collect();
     let weighing = take_weighing(&mut store)?;
+    let position = store.take::<f64>("front.position", 2)?.chunks_exact(2).map(|x| [x[0], x[1]]).collect();
+    let loops = store.take::<u32>("front.first", 1)?;
+    let front = (!loops.is_empty()).then_some(Front { position, first: loops });
     let points = columns::take(&mut store, POINTS)?;
     let state = State {
         phase: *phase as usize,
@@ -145,6 +155,7 @@ pub fn take<const D: usize>(mut store: Store, first: &State<D>) -> Result<State<
         taking_part,
         penalised,
         weighing,
+        front,
         restorations: *restorations,
     };
     if state.points.len() != first.points.len()

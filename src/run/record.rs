@@ -4,17 +4,18 @@ use crate::io::columns::padded;
 use crate::io::frame::{Column, Frame, Part};
 use crate::points::Points;
 use crate::step::{Report, Restore, Scene, State};
+use crate::term::Carried;
 
 /// A field of the frames.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug)]
 pub enum Field {
     Displacement,
     Velocity,
     Stress,
     PlasticStrain,
     DeformationGradient,
-    /// In the regions of the mesh that are marked; zero in the others.
-    PorePressure(Vec<bool>),
+    /// Excess pressure of pore water, given what the pressure field carries in each region of the mesh.
+    PorePressure(Vec<Option<Carried>>),
 }
 
 /// A quantity of the history, with its component.
@@ -128,10 +129,9 @@ pub fn frame<const D: usize>(scene: &Scene<D>, state: &State<D>, fields: &[Field
             column("deformation_gradient", "-", 9, rows.collect())
         }
         Field::PorePressure(regions) => {
-            let undrained = |p: usize| regions.get(points.region[p] as usize).copied().unwrap_or(false);
-            let excess = |p: usize| {
-                let carried = if undrained(p) { points.pressure.get(p) } else { None };
-                carried.map_or(0.0, |carried| -carried / points.deformation[p].determinant())
+            let excess = |p: usize| match &regions[points.region[p] as usize] {
+                Some(carried) if !points.pressure.is_empty() => carried.pore_pressure(points, p),
+                _ => 0.0,
             };
             column("pore_pressure", "kPa", 1, (0..points.len()).map(excess).collect())
         }
@@ -147,7 +147,7 @@ pub fn frame<const D: usize>(scene: &Scene<D>, state: &State<D>, fields: &[Field
             .zip(&state.displacement)
             .map(|(x, u)| std::array::from_fn(|d| x[d] + u[d]))
             .collect();
-        let displacement = fields.contains(&Field::Displacement);
+        let displacement = fields.iter().any(|field| matches!(field, Field::Displacement));
         let columns = displacement.then(|| column("displacement", "m", 3, padded(&state.displacement)));
         Part { position: triples(&x), columns: columns.into_iter().collect() }
     };
@@ -211,6 +211,24 @@ pub fn log_lines<const D: usize>(scene: &Scene<D>, state: &State<D>, report: &Re
     if report.restored && scene.numerics.restore != Restore::EveryStep {
         line.push_str(" restored");
     }
+    let tally = &state.weighing.tally;
+    if report.restored && tally.volume == 0 {
+        line.push_str(&format!(
+            " cells {} quadratic {} linear {} constant volume drift {:.2e} in a cell {:.2e}",
+            tally.quadratic,
+            tally.linear,
+            tally.constant,
+            tally.point_volume / tally.fitted_volume - 1.0,
+            tally.drift
+        ));
+    }
     lines.push(line);
+    if report.restored {
+        lines.extend(
+            state.weighing.lost_front.iter().map(|why| {
+                format!("  the surface is from now on the contour of the points: following it failed, {why}")
+            }),
+        );
+    }
     lines
 }

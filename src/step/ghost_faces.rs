@@ -30,7 +30,8 @@ pub fn choose<const D: usize>(scene: &Scene<D>, state: &State<D>) -> Vec<u32> {
     let wanted = |face: &Face| {
         let [a, b] = face.cells.map(|c| c as usize);
         let near = |c: usize| poor[c] || ring[c] && !holds[c];
-        (holds[a] || holds[b]) && (holds[a] || ring[a]) && (holds[b] || ring[b]) && (near(a) || near(b))
+        let inside = |c: usize| state.taking_part[c] && (holds[c] || ring[c]);
+        (holds[a] || holds[b]) && inside(a) && inside(b) && (near(a) || near(b))
     };
     (0u32..).zip(&faces.inner).filter(|(_, face)| wanted(face)).map(|(number, _)| number).collect()
 }

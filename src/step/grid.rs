@@ -10,7 +10,7 @@ use crate::error::{Error, Result};
 use crate::kinematics::Kinematics;
 use crate::mesh::Mesh;
 use crate::points::Points;
-use crate::quadrature::Weighing;
+use crate::quadrature::{Restored, Weighing};
 use crate::stencil::Stencil;
 use crate::system::{Cliques, Matrix, Pattern, Solver, Workspace};
 use crate::term::{Frame, GhostFace};
@@ -147,6 +147,7 @@ impl<const D: usize> Grid<D> {
         for &c in &cells {
             clique[c as usize] = cliques.push(stencil.nodes(mesh, c).iter().map(|&n| block[n as usize]));
         }
+        let cells_only = cliques.clone();
         let mut face_clique = Vec::new();
         if let Some(faces) = &scene.faces {
             face_clique.resize(faces.inner.len(), u32::MAX);
@@ -156,9 +157,11 @@ impl<const D: usize> Grid<D> {
                 }
             }
         }
-        let with_pressure = scene.pressure_unit.map(|_| Carriers::new(mesh, &cells, node.len(), &cliques));
         let dynamic = scene.phases.iter().any(|p| p.dynamic);
         let mass = if dynamic { Some(System::new(&vec![1; node.len()], cliques.clone(), true)?) } else { None };
+        // The mass always takes a penalty on faces, the motion only where a term says so.
+        let cliques = if scene.terms.iter().any(|t| t.penalises_faces()) { cliques } else { cells_only };
+        let with_pressure = scene.pressure_unit.map(|_| Carriers::new(mesh, &cells, node.len(), &cliques));
         let symmetric = scene.terms.iter().all(|t| t.symmetric());
         let mut sizes = vec![D as u8; node.len()];
         let (motion, carrier) = match with_pressure {
@@ -227,11 +230,19 @@ fn begin_anew<const D: usize, K: Kinematics<D>>(
 ) -> Result<bool> {
     locate_points(scene, state)?;
     let changed = choose_cells(scene, state);
+    fill::<D, K>(stencil, scene, state);
+    let grid = Restored {
+        mesh: &scene.mesh,
+        locator: &scene.locator,
+        points: &state.points,
+        parametric: &state.parametric,
+        stencil,
+        taking_part: &state.taking_part,
+        displacement: (state.restorations > 0).then_some(&state.displacement),
+    };
+    state.weighing = scene.quadrature.weigh(&grid, &mut state.front);
     state.displacement.fill([0.0; D]);
     state.restorations += 1;
-    fill::<D, K>(stencil, scene, state);
-    let points = &state.points;
-    state.weighing = scene.quadrature.weigh(&scene.mesh, points, &state.parametric, stencil, &state.taking_part);
     if scene.numerics.restore == Restore::Never {
         // A grid that is never restored carries its points along: its cells stay as full as seeded.
         state.weighing.soft.clear();
@@ -291,7 +302,12 @@ fn locate_points<const D: usize>(scene: &Scene<D>, state: &mut State<D>) -> Resu
 /// Decides which cells take part; true when that changed since the last time.
 fn choose_cells<const D: usize>(scene: &Scene<D>, state: &mut State<D>) -> bool {
     let cells = scene.mesh.cells.len();
-    if state.taking_part.len() == cells && state.points.cell.iter().all(|&c| state.taking_part[c as usize]) {
+    // A face to a cell beyond would have no place in the system.
+    let surrounded = |&c: &u32| {
+        let across = scene.faces.as_ref().map_or(&[][..], |faces| faces.neighbours(c));
+        state.taking_part[c as usize] && across.iter().all(|&other| state.taking_part[other as usize])
+    };
+    if state.taking_part.len() == cells && state.points.cell.iter().all(surrounded) {
         return false;
     }
     let mut chosen = vec![false; cells];

@@ -21,7 +21,7 @@ use crate::system::{Method, scatter};
 const PENALTY: f64 = 1e-4;
 
 /// `ε` (-).
-const WEAK: f64 = 1e-8;
+const WEAK: f64 = 1e-10;
 
 /// The mass of the points on the nodes, factorised.
 pub struct Mass<'a> {

@@ -2,6 +2,7 @@
 
 use crate::points::Points;
 use crate::quadrature::Weighing;
+use crate::surface::Front;
 
 /// The state at the last converged step.
 #[derive(Clone, Debug, PartialEq)]
@@ -43,6 +44,8 @@ pub struct State<const D: usize> {
     pub penalised: Vec<bool>,
     /// What the points weigh, as of the last restoration.
     pub weighing: Weighing<D>,
+    /// The surface of the material, while it is followed.
+    pub front: Option<Front>,
     /// Restorations so far.
     pub restorations: u64,
 }
@@ -70,6 +73,7 @@ impl<const D: usize> State<D> {
             taking_part: Vec::new(),
             penalised: Vec::new(),
             weighing: Weighing::default(),
+            front: None,
             restorations: 0,
         }
     }

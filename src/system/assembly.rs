@@ -175,7 +175,7 @@ pub fn scatter<I: Sync>(
     clique: impl Fn(&I) -> usize + Sync,
     compute: impl Fn(&I, &mut Local) -> Result<()> + Sync,
     vector: &mut [f64],
-    mut matrix: Option<&mut Matrix>,
+    matrix: Option<&mut Matrix>,
     workspace: &mut Workspace,
 ) -> Result<()> {
     let largest = pattern.largest_clique;
@@ -186,7 +186,7 @@ pub fn scatter<I: Sync>(
     }
     workspace.buffer.resize(stride * BATCH, 0.0);
     let threads = rayon::current_num_threads();
-    let mut columns = matrix.as_deref_mut().map_or(Vec::new(), |matrix| matrix.columns(pattern, threads));
+    let mut columns = matrix.map_or(Vec::new(), |matrix| matrix.columns(pattern, threads));
     let run = |item: &I, slot: &mut [f64]| {
         let size = pattern.clique_size(clique(item));
         slot.fill(0.0);

@@ -83,6 +83,10 @@ fn secant<const D: usize>(points: &Points<D>, p: usize, model: &dyn Model) -> f6
 }
 
 impl<const D: usize, K: Kinematics<D>> Term<D> for GhostPenalty<K> {
+    fn penalises_faces(&self) -> bool {
+        true
+    }
+
     fn sees_flow(&self) -> bool {
         self.models.iter().flatten().any(|model| model.strength(0.0).is_finite())
     }

@@ -196,6 +196,11 @@ pub trait Term<const D: usize>: Send + Sync {
         None
     }
 
+    /// Whether the term couples cells across the faces of [`Frame::ghost`].
+    fn penalises_faces(&self) -> bool {
+        false
+    }
+
     /// Whether the term needs [`Points::plastic_increment`].
     fn sees_flow(&self) -> bool {
         false

@@ -1,9 +1,8 @@
 //! A field of unknowns that carries most of the mean stress, so that cells with many points do not lock.
 //!
 //! The points keep the shear modulus and a moderate bulk modulus `K_m`; the field `π` (Kirchhoff, tension positive)
-//! carries the rest, `K_f = K − K_m` in total stress and `K_f = K_w/n` of the pore water in effective stress, where
-//! `p = −π/J` is the excess pore pressure. Both are stationary points of
-//! `Σ w₀ [W_m + π ln J − π²/(2 K_f)]` (theory, eq. 15):
+//! carries the rest: `K_f = K − K_m` in total stress, and with it the `K_w/n` of the pore water in effective stress. Both are stationary points of
+//! `Σ w₀ [W_m + π ln J − π²/(2 K_f)]` (theory, eq. 24):
 //!
 //! ```text
 //! R_u += Σ w₀ π 1 : ∇_x N          R_π = Σ w₀ L [ln ΔJ − (π − π_n)/K_f]
@@ -24,7 +23,8 @@ use crate::mesh::shape::CellKind;
 use crate::points::Points;
 use crate::stencil::{Entries, Patch};
 use crate::system::Local;
-use crate::tensor::Tensor;
+use crate::tensor::{Symmetric, Tensor, full, mean};
+use std::fmt;
 use std::marker::PhantomData;
 use std::sync::Arc;
 
@@ -41,8 +41,14 @@ pub struct Carried {
     pub model: Arc<dyn Model>,
     /// `K_f / G` (-).
     pub ratio: f64,
-    /// Whether it is a part of the stress of the points, not the pressure of their pore water.
-    pub total: bool,
+    /// Share (-) of its increments that is pressure of the pore water and not stress of the points: 0 in total stress.
+    pub water: f64,
+}
+
+impl fmt::Debug for Carried {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Carried").field("ratio", &self.ratio).field("water", &self.water).finish_non_exhaustive()
+    }
 }
 
 impl Carried {
@@ -50,6 +56,32 @@ impl Carried {
     pub fn compliance(&self, y: f64) -> f64 {
         1.0 / (self.ratio * self.model.elasticity().at(y).shear)
     }
+
+    /// What the stress of point `p` holds of the field (kPa, Kirchhoff).
+    fn held<const D: usize>(&self, points: &Points<D>, p: usize) -> f64 {
+        if self.water == 0.0 {
+            return points.pressure[p];
+        }
+        let of_model = self.model.elasticity().at(points.origin[p][1]).bulk() * volume_strain(&points.elastic[p]);
+        points.deformation[p].determinant() * mean(&points.stress[p]) - of_model
+    }
+
+    /// Excess pressure of the pore water (kPa, Cauchy, compression positive) at point `p`.
+    pub fn pore_pressure<const D: usize>(&self, points: &Points<D>, p: usize) -> f64 {
+        (self.held(points, p) - points.pressure[p]) / points.deformation[p].determinant()
+    }
+
+    /// What the field begins with (kPa) at a point whose elastic tensor is that of `whole`, the model that answers for
+    /// the whole stress.
+    pub fn begin<const D: usize>(&self, whole: &dyn Model, points: &Points<D>, p: usize) -> f64 {
+        let bulk = |model: &dyn Model| model.elasticity().at(points.origin[p][1]).bulk();
+        (bulk(whole) - bulk(self.model.as_ref())) * volume_strain(&points.elastic[p])
+    }
+}
+
+/// Elastic volume strain `½ ln det b` (-).
+fn volume_strain(elastic: &Symmetric) -> f64 {
+    0.5 * full(elastic).determinant().ln()
 }
 
 /// How many unknowns the field has in a cell: one a corner, and the constant in cells of second order.
@@ -149,7 +181,7 @@ impl<const D: usize, K: Kinematics<D>> Share<D, K> for PressureField<K> {
         }
         K::add_pressure(&mut answer.tangent, pressure);
         // The stress that the points keep has it in it already where it is a part of it.
-        if carried.total { 0.0 } else { points.pressure[entries.point] }
+        points.pressure[entries.point] - carried.held(points, entries.point)
     }
 
     fn couple(
@@ -208,11 +240,10 @@ impl<const D: usize, K: Kinematics<D>> Share<D, K> for PressureField<K> {
     fn commit(&self, cell: &Cell, points: &Points<D>, entries: &Entries<D>, history: &mut History) {
         let Some(carried) = self.of(points, entries.point) else { return };
         history.pressure = dot(&hats(cell.kind, entries.value), &cell.pressure);
-        if carried.total {
-            let pressure = history.pressure / history.deformation.determinant();
-            for normal in &mut history.stress[..3] {
-                *normal += pressure;
-            }
+        let gained = history.pressure - points.pressure[entries.point];
+        let held = carried.held(points, entries.point) + (1.0 - carried.water) * gained;
+        for normal in &mut history.stress[..3] {
+            *normal += held / history.deformation.determinant();
         }
     }
 

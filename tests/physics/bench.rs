@@ -8,12 +8,12 @@ use mpm::mesh::locate::Locator;
 use mpm::mesh::shape::{MAX_NODES, map, rule};
 use mpm::points::Points;
 use mpm::quadrature::{Quadrature, Volumes};
-use mpm::stencil::Scheme;
+use mpm::stencil::{Scheme, cell_size};
 use mpm::step::{
     Controller, Fixed, Limits, Numerics, Phase, Prescribed, Report, Restore, Scene, Simulation, State, Stop,
 };
 use mpm::tensor::{IDENTITY, Tensor};
-use mpm::term::{BodyForce, EmptyCells, Inertia, Internal, Term};
+use mpm::term::{BodyForce, Carried, EmptyCells, Inertia, Internal, PressureField, SmoothPressure, Term};
 use mpm::time_value::TimeValue;
 use std::sync::Arc;
 
@@ -47,6 +47,8 @@ pub fn quadrature_points<K: Kinematics<2>>(mesh: &Mesh<2>, degree: usize, densit
 pub struct Bench {
     pub mesh: Mesh<2>,
     pub model: Arc<dyn Model>,
+    /// What a pressure field carries beside the model.
+    pub carried: Option<Carried>,
     pub density: f64,
     pub gravity: [f64; 2],
     pub gravity_factor: TimeValue,
@@ -70,6 +72,7 @@ impl Bench {
         Self {
             mesh,
             model,
+            carried: None,
             density: 1.0,
             gravity: [0.0; 2],
             gravity_factor: TimeValue::Constant(1.0),
@@ -101,9 +104,19 @@ impl Bench {
     }
 
     pub fn scene<K: Kinematics<2>>(self) -> Scene<2> {
-        let stiffness_scale = self.model.young(0.0);
-        let mut terms: Vec<Box<dyn Term<2>>> =
-            vec![Box::new(Internal::<K>::new(vec![Some(self.model.clone())], self.dynamic))];
+        let moduli = self.model.elasticity().at(0.0);
+        let stiffness_scale = self.model.young(0.0).max(moduli.shear);
+        let models = vec![Some(self.model.clone())];
+        let shear = self.model.elasticity().at(0.0).shear;
+        let unit = self.carried.is_some().then(|| shear / cell_size(&self.mesh, 0));
+        let mut terms: Vec<Box<dyn Term<2>>> = match unit {
+            None => vec![Box::new(Internal::<K>::new(models, self.dynamic))],
+            Some(unit) => {
+                let field = PressureField::<K>::new(vec![self.carried], unit);
+                let bond = SmoothPressure::<K>::new(unit, shear, self.mesh.cells.len());
+                vec![Box::new(Internal::<K, _>::sharing(models, self.dynamic, field)), Box::new(bond)]
+            }
+        };
         if self.gravity != [0.0; 2] {
             terms.push(Box::new(BodyForce::<K, 2>::new(self.gravity, vec![self.gravity_factor])));
         }
@@ -118,10 +131,10 @@ impl Bench {
         Scene {
             locator: Locator::new(&self.mesh),
             faces: Some(Faces::of(&self.mesh)),
-            pressure_unit: None,
             mesh: self.mesh,
             terms,
             quadrature: self.quadrature.unwrap_or_else(|| Box::new(Volumes::<K>::default())),
+            pressure_unit: unit,
             supports: self.supports,
             phases: vec![Phase {
                 name: "test".into(),
@@ -150,10 +163,13 @@ impl Bench {
 /// Runs the first phase of a scene to its end, calling `watch` after every step.
 pub fn run<K: Kinematics<2>>(
     scene: &Scene<2>,
-    points: Points<2>,
+    mut points: Points<2>,
     mut watch: impl FnMut(&State<2>, &Report<2>),
 ) -> State<2> {
     let phase = &scene.phases[0];
+    if scene.pressure_unit.is_some() {
+        points.pressure.resize(points.len(), 0.0);
+    }
     let state = State::new(points, scene.mesh.nodes.len(), phase.first_step);
     let mut simulation = Simulation::<2, K>::new(scene, state).unwrap();
     let limits = Limits { least: phase.least_step, largest: phase.largest_step };

@@ -7,5 +7,6 @@ mod column;
 mod ddmp;
 mod ghost;
 mod held_out;
+mod incompressible;
 mod patch;
 mod rotation;

@@ -6,5 +6,6 @@
 mod ghost;
 mod internal;
 mod loads;
+mod pressure;
 mod smooth;
 mod stand;

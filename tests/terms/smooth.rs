@@ -21,7 +21,7 @@ fn for_all<K: Kinematics<2>>(whole: bool, check: impl Fn(&str, &Stand<K>, &[[f64
                     let points = points(&mesh, |_| true);
                     let term = Box::new(Internal::<K>::new(vec![Some(model.clone())], alpha_f > 0.0));
                     let scheme = Scheme::Ddmp { fitted };
-                    let mut stand = Stand::<K>::with(scheme, mesh, points, term, false, whole);
+                    let mut stand = Stand::<K>::with(scheme, mesh, points, term, false, whole, None);
                     stand.alpha_f = alpha_f;
                     let converged = stand.field(0.02, 1, |[x, y]| [0.1 * x - 0.3 * y, 0.2 * x + 0.1 * y]);
                     let trial = stand.field(0.02, 2, |[x, y]| [0.2 * x - 0.5 * y, 0.6 * x - 0.2 * y]);

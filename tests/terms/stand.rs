@@ -107,6 +107,9 @@ pub struct Stand<K> {
     pub points: Points<2>,
     /// α_f of the trial states.
     pub alpha_f: f64,
+    /// The pressure field of the trial states, in the unknowns of the state, and the one before.
+    pub pressure: Vec<f64>,
+    pub converged_pressure: Vec<f64>,
     grid: Grid<2>,
     weighing: Weighing<2>,
     kinematics: PhantomData<K>,
@@ -115,10 +118,22 @@ pub struct Stand<K> {
 impl<K: Kinematics<2>> Stand<K> {
     /// `whole` asks for the whole tangent, also of a symmetric term.
     pub fn new(mesh: Mesh<2>, points: Points<2>, term: Box<dyn Term<2>>, restored: bool, whole: bool) -> Self {
-        Self::with(Scheme::Mpm, mesh, points, term, restored, whole)
+        Self::with(Scheme::Mpm, mesh, points, term, restored, whole, None)
     }
 
-    /// As [`Stand::new`], with gradients of another scheme.
+    /// As [`Stand::new`], with a pressure field of the given unit (kPa/m).
+    pub fn with_pressure(
+        mesh: Mesh<2>,
+        points: Points<2>,
+        term: Box<dyn Term<2>>,
+        restored: bool,
+        whole: bool,
+        pressure_unit: Option<f64>,
+    ) -> Self {
+        Self::with(Scheme::Mpm, mesh, points, term, restored, whole, pressure_unit)
+    }
+
+    /// As [`Stand::with_pressure`], with gradients of another scheme.
     pub fn with(
         scheme: Scheme,
         mesh: Mesh<2>,
@@ -126,6 +141,7 @@ impl<K: Kinematics<2>> Stand<K> {
         term: Box<dyn Term<2>>,
         restored: bool,
         whole: bool,
+        pressure_unit: Option<f64>,
     ) -> Self {
         let mut terms = vec![term];
         if whole {
@@ -147,8 +163,8 @@ impl<K: Kinematics<2>> Stand<K> {
             mesh,
             terms,
             faces: Some(faces),
-            pressure_unit: None,
             quadrature: Box::new(Volumes::<K>::default()),
+            pressure_unit,
             supports: Vec::new(),
             phases: vec![phase.clone(), phase],
             numerics: Numerics {
@@ -166,7 +182,16 @@ impl<K: Kinematics<2>> Stand<K> {
         let state = Simulation::<2, K>::new(&scene, state).unwrap().state;
         let grid = Grid::new::<K>(&scene, &state).unwrap();
         assert_eq!(grid.node.len(), scene.mesh.nodes.len(), "all nodes take part, in order");
-        Self { scene, points: state.points, alpha_f: 0.0, grid, weighing: state.weighing, kinematics: PhantomData }
+        Self {
+            scene,
+            points: state.points,
+            alpha_f: 0.0,
+            converged_pressure: state.pressure.clone(),
+            pressure: state.pressure,
+            grid,
+            weighing: state.weighing,
+            kinematics: PhantomData,
+        }
     }
 
     pub fn term(&self) -> &dyn Term<2> {
@@ -225,6 +250,19 @@ impl<K: Kinematics<2>> Stand<K> {
         phase: usize,
         tangent: bool,
     ) -> (Field, Vec<Vec<f64>>) {
+        let (force, columns) = self.system(trial, &self.pressure, converged, phase, tangent);
+        (force[..2 * trial.len()].chunks_exact(2).map(|f| [f[0], f[1]]).collect(), columns)
+    }
+
+    /// As [`Stand::evaluate`], with the equations of the pressure field `pressure` at the end.
+    pub fn system(
+        &self,
+        trial: &[[f64; 2]],
+        pressure: &[f64],
+        converged: &[[f64; 2]],
+        phase: usize,
+        tangent: bool,
+    ) -> (Vec<f64>, Vec<Vec<f64>>) {
         let frame = self.frame();
         let acceleration: Field = trial
             .iter()
@@ -237,8 +275,8 @@ impl<K: Kinematics<2>> Stand<K> {
             between: &between,
             alpha_f: self.alpha_f,
             converged,
-            pressure: &[],
-            converged_pressure: &[],
+            pressure,
+            converged_pressure: &self.converged_pressure,
             acceleration: &acceleration,
             acceleration_slope: SLOPE,
             phase,
@@ -258,7 +296,7 @@ impl<K: Kinematics<2>> Stand<K> {
             column
         });
         let columns = columns.collect();
-        (force.chunks_exact(2).map(|f| [f[0], f[1]]).collect(), columns)
+        (force, columns)
     }
 
     /// Largest difference of the tangent from the central difference of the residual, relative to its largest
@@ -266,16 +304,20 @@ impl<K: Kinematics<2>> Stand<K> {
     pub fn tangent_error(&self, trial: &[[f64; 2]], converged: &[[f64; 2]]) -> f64 {
         const H: f64 = 1e-6;
         let (_, tangent) = self.evaluate(trial, converged, 0, true);
+        let unit = self.scene.pressure_unit.unwrap_or(0.0);
         let mut error = 0f64;
         for (j, column) in tangent.iter().enumerate() {
             let at = |h: f64| {
-                let mut u = trial.to_vec();
-                u[j / 2][j % 2] += h;
-                self.evaluate(&u, converged, 0, false).0
+                let (mut u, mut pressure) = (trial.to_vec(), self.pressure.clone());
+                match j.checked_sub(2 * u.len()) {
+                    None => u[j / 2][j % 2] += h,
+                    Some(k) => pressure[self.grid.carrier[k] as usize] += h * unit,
+                }
+                self.system(&u, &pressure, converged, 0, false).0
             };
             let (plus, minus) = (at(H), at(-H));
             for (i, entry) in column.iter().enumerate() {
-                let difference = (plus[i / 2][i % 2] - minus[i / 2][i % 2]) / (2.0 * H);
+                let difference = (plus[i] - minus[i]) / (2.0 * H);
                 error = error.max((entry - difference).abs());
             }
         }

@@ -77,7 +77,7 @@ fn disc(spacing: f64, velocity: impl Fn([f64; 2]) -> [f64; 2]) -> Points<2> {
 }
 
 /// The velocity of the nodes, interpolated back to the points.
-fn through_the_grid<K: Kinematics<2>>(kind: CellKind, points: Points<2>) -> (Points<2>, f64) {
+fn through_the_grid<K: Kinematics<2>>(kind: CellKind, points: Points<2>) -> Points<2> {
     let scene = scene::<K>(kind);
     let mut state = State::new(points, scene.mesh.nodes.len(), 1.0);
     let mut grid = Grid::first::<K>(&scene, &mut state).unwrap();
@@ -93,7 +93,7 @@ fn through_the_grid<K: Kinematics<2>>(kind: CellKind, points: Points<2>) -> (Poi
             }
         }
     }
-    (mapped, state.velocity.iter().flatten().fold(0.0, |a: f64, b| a.max(b.abs())))
+    mapped
 }
 
 const KINDS: [CellKind; 5] = [CellKind::T3, CellKind::T6, CellKind::Q4, CellKind::Q8, CellKind::Q9];
@@ -107,7 +107,7 @@ fn a_linear_velocity_field_passes_untouched() {
         let spin = |[x, y]: [f64; 2]| [0.3 + 0.5 * x - 2.0 * y, -1.0 + 2.0 * x + 0.1 * y];
         for kind in KINDS {
             for spacing in SPACINGS {
-                let (mapped, _) = through_the_grid::<K>(kind, disc(spacing, spin));
+                let mapped = through_the_grid::<K>(kind, disc(spacing, spin));
                 let body = mapped.len() - 1;
                 for (v, &x) in mapped.velocity.iter().zip(&mapped.position).take(body) {
                     let exact = spin(x);
@@ -128,7 +128,7 @@ fn linear_and_angular_momentum_are_kept() {
             let noise = |[x, y]: [f64; 2]| [(50.0 * x).sin() + (31.0 * y).cos(), (43.0 * x * y).sin()];
             let points = disc(spacing, noise);
             let before = Motion::of(&points);
-            let (mapped, largest) = through_the_grid::<PlaneStrain>(kind, points);
+            let mapped = through_the_grid::<PlaneStrain>(kind, points);
             let after = Motion::of(&mapped);
             let scale = before.mass * 5.0;
             for (name, a, b) in [
@@ -139,7 +139,6 @@ fn linear_and_angular_momentum_are_kept() {
                 assert!((a - b).abs() < 1e-12 * scale, "{kind:?}, {spacing}, {name}: {a} {b}");
             }
             assert!(after.kinetic <= before.kinetic * (1.0 + 1e-12));
-            assert!(largest < 50.0, "{kind:?}, {spacing}: {largest}");
         }
     }
 }

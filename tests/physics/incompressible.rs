@@ -1,0 +1,167 @@
+//! The pressure field at Poisson's ratio 0.4999: the patch, a thick cylinder, undrained against total stress.
+
+use crate::bench::{Bench, constant, quadrature_points, run};
+use mpm::kinematics::{Axisymmetric, Kinematics, PlaneStrain};
+use mpm::material::{Elasticity, LinearElastic, Model};
+use mpm::mesh::builder::rectangle;
+use mpm::mesh::shape::CellKind;
+use mpm::step::{Fixed, Prescribed, Restore, State};
+use mpm::term::Carried;
+use mpm::time_value::TimeValue;
+use std::sync::Arc;
+
+const SHEAR: f64 = 400.0;
+const POISSON: f64 = 0.4999;
+const KINDS: [CellKind; 5] = [CellKind::T3, CellKind::T6, CellKind::Q4, CellKind::Q8, CellKind::Q9];
+
+fn bulk(poisson: f64) -> f64 {
+    2.0 * (1.0 + poisson) / (3.0 * (1.0 - 2.0 * poisson))
+}
+
+fn elastic(poisson: f64) -> Arc<dyn Model> {
+    let young = constant(2.0 * SHEAR * (1.0 + poisson));
+    Arc::new(LinearElastic::new(Elasticity::new(young, poisson).unwrap()))
+}
+
+/// A bench whose points keep the bulk modulus of Poisson's ratio `kept` and whose field carries the rest.
+fn bench(mesh: mpm::mesh::Mesh<2>, kept: f64) -> Bench {
+    let model = elastic(kept);
+    let mut bench = Bench::new(mesh, model.clone());
+    bench.carried = Some(Carried { model, ratio: bulk(POISSON) - bulk(kept), water: 0.0 });
+    bench
+}
+
+/// Stretches a jittered mesh by a linear field and returns the largest error of the deformation gradients, and of
+/// the mean stress relative to the bulk modulus.
+fn patch<K: Kinematics<2>>(kind: CellKind, gradient: [[f64; 2]; 2], restore: bool, dynamic: bool) -> [f64; 2] {
+    let mut mesh = rectangle(kind, 2.0, 1.5, 4, 3, 0.2, 7);
+    if !K::HOOP {
+        for x in &mut mesh.nodes {
+            x[0] += 3.0;
+        }
+    }
+    let mut bench = bench(mesh, -0.9);
+    bench.restore = if restore { Restore::EveryStep } else { Restore::Never };
+    bench.steps = if restore { 1 } else { 2 };
+    bench.dynamic = dynamic;
+    if dynamic {
+        // Without mass to speak of the patch is at rest in every step.
+        bench.density = 1e-9;
+    }
+    let mut boundary: Vec<u32> = bench.mesh.groups.iter().flat_map(|g| g.nodes.clone()).collect();
+    boundary.sort_unstable();
+    boundary.dedup();
+    for n in boundary {
+        let x = bench.mesh.nodes[n as usize];
+        for component in 0..2 {
+            let u = gradient[component][0] * x[0] + gradient[component][1] * x[1];
+            let fixed = Fixed { nodes: vec![n], component };
+            bench.prescribed.push(Prescribed { fixed, displacement: TimeValue::Rate(u) });
+        }
+    }
+    let points = quadrature_points::<K>(&bench.mesh, 4, bench.density);
+    let hoop = if K::HOOP { gradient[0][0] } else { 0.0 };
+    let scene = bench.scene::<K>();
+    let state = run::<K>(&scene, points, |_, report| assert!(report.iterations() <= 8));
+    let mut error = [0f64; 2];
+    for (f, stress) in state.points.deformation.iter().zip(&state.points.stress) {
+        for i in 0..2 {
+            for j in 0..2 {
+                let exact = f64::from(u8::from(i == j)) + gradient[i][j];
+                error[0] = error[0].max((f[(i, j)] - exact).abs());
+            }
+        }
+        error[0] = error[0].max((f[(2, 2)] - 1.0 - hoop).abs());
+        let k = SHEAR * bulk(POISSON);
+        let exact = k * f.determinant().ln() / f.determinant();
+        error[1] = error[1].max((mpm::tensor::mean(stress) - exact).abs() / k);
+    }
+    error
+}
+
+#[test]
+fn a_uniform_strain_is_exact() {
+    for kind in KINDS {
+        for gradient in [[[1e-3, 2e-3], [-1e-3, 3e-3]], [[0.2, 0.3], [-0.1, 0.15]]] {
+            for (restore, dynamic) in [(false, false), (false, true), (true, false)] {
+                let sign = if restore { -1.0 } else { 1.0 };
+                let gradient = gradient.map(|row: [f64; 2]| row.map(|g| sign * g));
+                let e = patch::<PlaneStrain>(kind, gradient, restore, dynamic);
+                assert!(e[0] < 1e-10 && e[1] < 1e-10, "{kind:?}, {gradient:?}, {restore}, {dynamic}: {e:?}");
+            }
+        }
+        let e = patch::<Axisymmetric>(kind, [[0.1, 0.0], [0.0, -0.15]], false, false);
+        assert!(e[0] < 1e-10 && e[1] < 1e-10, "{kind:?}: {e:?}");
+    }
+}
+
+/// A cylinder from r = 1 to 2 m between smooth plates, its inner face pushed out by `u`: Lamé's solution
+/// `u_r = A r + B/r`, `A = B (1 − 2ν)/b²`.
+fn cylinder(kind: CellKind, n: usize, water: f64) -> State<2> {
+    let mut mesh = rectangle(kind, 1.0, 0.5, 2 * n, n, 0.2, 3);
+    for x in &mut mesh.nodes {
+        x[0] += 1.0;
+    }
+    let mut bench = bench(mesh, -0.9);
+    if let Some(carried) = &mut bench.carried {
+        carried.water = water;
+    }
+    bench.hold("bottom", &[1]).hold("top", &[1]);
+    let fixed = bench.on("left", 0);
+    bench.prescribed.push(Prescribed { fixed, displacement: TimeValue::Rate(PUSHED) });
+    let points = quadrature_points::<Axisymmetric>(&bench.mesh, 6, 1.0);
+    let scene = bench.scene::<Axisymmetric>();
+    run::<Axisymmetric>(&scene, points, |_, report| assert!(report.iterations() <= 3))
+}
+
+const PUSHED: f64 = 1e-5;
+
+/// Root mean square error of the radial and the mean stress over the largest radial stress, and the largest error of
+/// the mean stress: it is uniform, so that a checkerboard in the field would show.
+fn cylinder_error(kind: CellKind, n: usize) -> [f64; 2] {
+    let state = cylinder(kind, n, 0.0);
+    let (outer, lateral) = (2.0f64, 1.0 - 2.0 * POISSON);
+    let b = PUSHED / (lateral / outer.powi(2) + 1.0);
+    let a = b * lateral / outer.powi(2);
+    let scale = 2.0 * SHEAR * b * (1.0 - 1.0 / outer.powi(2));
+    let (mut sum, mut volume, mut largest) = (0.0, 0.0, 0f64);
+    for p in 0..state.points.len() {
+        let (r, stress) = (state.points.origin[p][0], &state.points.stress[p]);
+        let radial = 2.0 * SHEAR * (a / lateral - b / (r * r));
+        let mean = 2.0 * a * bulk(POISSON) * SHEAR;
+        let deviation = mpm::tensor::mean(stress) - mean;
+        largest = largest.max(deviation.abs() / scale);
+        sum += state.points.initial_volume[p] * ((stress[0] - radial).powi(2) + deviation.powi(2));
+        volume += state.points.initial_volume[p];
+    }
+    [(sum / volume).sqrt() / scale, largest]
+}
+
+/// Second order in the stresses for cells of second order, first for the others: the displacements are one order
+/// better than their gradients, and linear pressures are as good as these.
+#[test]
+fn thick_cylinder() {
+    for kind in KINDS {
+        let errors = [4, 8].map(|n| cylinder_error(kind, n));
+        let [[coarse, _], [fine, largest]] = errors;
+        println!("{kind:?}: stress error {coarse:.2e}, {fine:.2e}, at most {largest:.2e} in the mean");
+        let ratio = if kind.order() > 1 { 0.33 } else { 0.65 };
+        let small = if kind.order() > 1 { 2e-3 } else { 5e-2 };
+        assert!(fine < ratio * coarse && fine < small && largest < 15.0 * fine, "{kind:?}: {errors:?}");
+    }
+}
+
+/// What the water carries is missing in the stress of the points, and nothing else changes.
+#[test]
+fn undrained_is_total_stress_less_the_pore_pressure() {
+    let [total, undrained] = [0.0, 0.8].map(|water| cylinder(CellKind::T6, 4, water));
+    let carried = Carried { model: elastic(-0.9), ratio: bulk(POISSON) - bulk(-0.9), water: 0.8 };
+    let largest = total.points.stress.iter().fold(0f64, |a, s| a.max(s[0].abs()));
+    for p in 0..total.points.len() {
+        let pore = carried.pore_pressure(&undrained.points, p);
+        for i in 0..3 {
+            let sum = undrained.points.stress[p][i] - pore;
+            assert!((sum - total.points.stress[p][i]).abs() < 1e-6 * largest, "point {p}: {sum}");
+        }
+    }
+}
