@@ -129,6 +129,54 @@ fn points_start_with_their_mass_velocity_and_stress_at_rest() {
     }
 }
 
+/// The bulk modulus over G that the pressure field of clay carries, and the share of the water, under overrides.
+fn carried(overrides: &[&str]) -> Option<(f64, f64)> {
+    case(CASE, overrides).materials[0].carried.as_ref().map(|c| (c.ratio, c.water))
+}
+
+#[test]
+fn nearly_incompressible_and_undrained_materials_leave_their_mean_stress_to_a_field() {
+    let bulk = |poisson: f64| 2.0 * (1.0 + poisson) / (3.0 * (1.0 - 2.0 * poisson));
+    assert_eq!(case(CASE, &[]).materials[1].carried.as_ref().map(|c| c.ratio), None, "rock");
+    let (ratio, water) = carried(&[]).unwrap();
+    assert!((ratio / bulk(0.49) - 1.0).abs() < 1e-4 && water == 0.0);
+    assert_eq!(carried(&["numerics.pressure=none"]), None);
+    assert_eq!(carried(&["materials.clay.poisson=0.4"]), None);
+    let (ratio, _) = carried(&["materials.clay.poisson=0.4", "numerics.pressure=field"]).unwrap();
+    assert!((ratio / bulk(0.4) - 1.0).abs() < 1e-3);
+    // Water as stiff as PLAXIS has it: K_w/n = 3 (ν_u − ν')/((1 − 2 ν_u)(1 + ν')) K'.
+    let (ratio, water) = carried(&["materials.clay.poisson=0.3", "materials.clay.drainage=undrained"]).unwrap();
+    let stiffness = 3.0 * 0.195 / (0.01 * 1.3) * bulk(0.3);
+    assert!((water * ratio / stiffness - 1.0).abs() < 1e-12 && (ratio / bulk(0.495) - 1.0).abs() < 1e-4);
+}
+
+/// The shear modulus stays, whatever is taken from the bulk modulus.
+#[test]
+fn the_field_leaves_the_shear_modulus() {
+    let case = case(CASE, &[]);
+    let (whole, left) = (&case.materials[0].model, &case.materials[0].carried.as_ref().unwrap().model);
+    for y in [0.0, 5.0] {
+        let (whole, left) = (whole.elasticity().at(y), left.elasticity().at(y));
+        assert!((left.shear / whole.shear - 1.0).abs() < 1e-12 && left.bulk() < 2e-4 * whole.shear);
+    }
+}
+
+#[test]
+fn contradictions_about_drainage_are_told() {
+    for (overrides, place) in [
+        (&["materials.clay.undrained_poisson=0.495"][..], "undrained_poisson"),
+        (&["materials.clay.drainage=undrained", "materials.clay.undrained_poisson=0.3"], "undrained_poisson"),
+        (&["materials.clay.drainage=undrained", "numerics.pressure=none"], "drainage"),
+        (&["output.fields=[pore_pressure]"], "fields"),
+    ] {
+        let overrides: Vec<String> = overrides.iter().map(|&text| text.to_owned()).collect();
+        let source = Source::parse(PathBuf::from("case.yaml"), CASE.to_owned(), &overrides).unwrap();
+        let issues = resolve(&source).1;
+        assert_eq!(issues.len(), 1, "{overrides:?}: {issues:?}");
+        assert!(format!("{:?}", issues[0]).contains(place), "{issues:?}");
+    }
+}
+
 proptest! {
     #[test]
     fn no_text_makes_the_reader_panic(

@@ -42,6 +42,7 @@ pub(in crate::io) fn same_bits<const D: usize>(a: &Points<D>, b: &Points<D>) -> 
             p.stress.concat(),
             p.plastic_strain.clone(),
             p.plastic_increment.clone(),
+            p.pressure.clone(),
         ];
         (f.map(|v| v.into_iter().map(f64::to_bits).collect::<Vec<_>>()), p.region.clone(), p.cell.clone())
     };
