@@ -139,15 +139,17 @@ fn nearly_incompressible_and_undrained_materials_leave_their_mean_stress_to_a_fi
     let bulk = |poisson: f64| 2.0 * (1.0 + poisson) / (3.0 * (1.0 - 2.0 * poisson));
     assert_eq!(case(CASE, &[]).materials[1].carried.as_ref().map(|c| c.ratio), None, "rock");
     let (ratio, water) = carried(&[]).unwrap();
-    assert!((ratio / bulk(0.49) - 1.0).abs() < 1e-4 && water == 0.0);
+    // The points keep a hundredth of G.
+    let left = |poisson: f64| bulk(poisson) - 0.01;
+    assert!((ratio / left(0.49) - 1.0).abs() < 1e-12 && water == 0.0);
     assert_eq!(carried(&["numerics.pressure=none"]), None);
     assert_eq!(carried(&["materials.clay.poisson=0.4"]), None);
     let (ratio, _) = carried(&["materials.clay.poisson=0.4", "numerics.pressure=field"]).unwrap();
-    assert!((ratio / bulk(0.4) - 1.0).abs() < 1e-3);
+    assert!((ratio / left(0.4) - 1.0).abs() < 1e-12);
     // Water as stiff as PLAXIS has it: K_w/n = 3 (ν_u − ν')/((1 − 2 ν_u)(1 + ν')) K'.
     let (ratio, water) = carried(&["materials.clay.poisson=0.3", "materials.clay.drainage=undrained"]).unwrap();
     let stiffness = 3.0 * 0.195 / (0.01 * 1.3) * bulk(0.3);
-    assert!((water * ratio / stiffness - 1.0).abs() < 1e-12 && (ratio / bulk(0.495) - 1.0).abs() < 1e-4);
+    assert!((water * ratio / stiffness - 1.0).abs() < 1e-12 && (ratio / left(0.495) - 1.0).abs() < 1e-12);
 }
 
 /// The shear modulus stays, whatever is taken from the bulk modulus.
@@ -157,7 +159,9 @@ fn the_field_leaves_the_shear_modulus() {
     let (whole, left) = (&case.materials[0].model, &case.materials[0].carried.as_ref().unwrap().model);
     for y in [0.0, 5.0] {
         let (whole, left) = (whole.elasticity().at(y), left.elasticity().at(y));
-        assert!((left.shear / whole.shear - 1.0).abs() < 1e-12 && left.bulk() < 2e-4 * whole.shear);
+        assert!(
+            (left.shear / whole.shear - 1.0).abs() < 1e-12 && (left.bulk() / (0.01 * whole.shear) - 1.0).abs() < 1e-9
+        );
     }
 }
 
