@@ -13,8 +13,8 @@ use std::sync::Arc;
 const NEARLY_INCOMPRESSIBLE: f64 = 0.45;
 /// Bulk modulus that the points keep, over the shear modulus (-). With 16 points a cell it is a bound of its own where
 /// soil flows: on 8 cells a rough strip footing is 2.8 % stronger with that of Poisson's ratio 0.3 than with next to
-/// nothing, and 0.3 % with this. With less, single points in cut cells of a moving body have nothing that keeps their volume.
-const KEPT: f64 = 1e-2;
+/// nothing, and no stronger with this. With less, single points in cut cells of a moving body have nothing that keeps their volume.
+const KEPT: f64 = 1e-3;
 /// Poisson's ratio of an undrained soil as a whole, where none is given: that of PLAXIS.
 const UNDRAINED: f64 = 0.495;
 

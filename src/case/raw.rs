@@ -251,9 +251,9 @@ impl Default for Numerics {
     fn default() -> Self {
         Self {
             gradient: Gradient::Mpm,
-            quadrature: Quadrature::Points,
+            quadrature: Quadrature::Fitted,
             pressure: None,
-            restore: Restore::Named(RestoreName::EveryStep),
+            restore: Restore::Quality(RestoreQuality { min_quality: 0.5 }),
             spectral_radius: 0.9,
             tolerance: 1e-8,
             max_iterations: 25,

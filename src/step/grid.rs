@@ -246,7 +246,9 @@ fn begin_anew<const D: usize, K: Kinematics<D>>(
     if scene.numerics.restore == Restore::Never {
         // A grid that is never restored carries its points along: its cells stay as full as seeded.
         state.weighing.soft.clear();
-        state.weighing.poor.clear();
+        if !scene.terms.iter().any(|t| t.penalises_faces()) {
+            state.weighing.poor.clear();
+        }
     }
     stencil.weigh(&state.weighing.weight, &state.weighing.shift);
     if scene.pressure_unit.is_some() {

@@ -10,7 +10,7 @@ use mpm::mesh::builder::rectangle;
 use mpm::mesh::faces::Faces;
 use mpm::mesh::shape::CellKind;
 use mpm::quadrature::{Quadrature, Restored, Volumes, Weighing};
-use mpm::step::{Fixed, Prescribed, Restore};
+use mpm::step::{Fixed, Prescribed};
 use mpm::surface::Front;
 use mpm::term::GhostPenalty;
 use mpm::time_value::TimeValue;
@@ -35,7 +35,6 @@ fn bearing(factor: f64, steps: usize) -> f64 {
     let penalty = GhostPenalty::<PlaneStrain>::new(factor, vec![Some(model.clone())], Faces::of(&mesh).inner.len());
     let mut bench = Bench::new(mesh, model);
     bench.steps = steps;
-    bench.restore = Restore::EveryStep;
     bench.extra = vec![Box::new(penalty)];
     bench.quadrature = Some(Box::new(AllPoor(Volumes::default())));
     bench.hold("left", &[0]).hold("right", &[0]).hold("bottom", &[0, 1]);
