@@ -22,7 +22,7 @@ fn elastic(young: f64, poisson: f64) -> Arc<LinearElastic> {
     Arc::new(LinearElastic::new(Elasticity::new(constant(young), poisson).unwrap()))
 }
 
-/// A column under its own weight, `ρ g H = 4 E`, restored as asked; a ring in axisymmetry.
+/// A column 50 m high under its own weight, `ρ g H = 4 E`, confined, ν = 0; a ring in axisymmetry.
 #[derive(Clone, Copy, Debug)]
 struct Tall {
     kind: CellKind,
@@ -95,52 +95,72 @@ impl Tall {
     }
 }
 
+/// Per halving of the cells, over all of `errors`.
+fn order(errors: &[f64]) -> f64 {
+    (errors[0] / errors[errors.len() - 1]).log2() / (errors.len() - 1) as f64
+}
+
 #[test]
-fn explore_column() {
-    for wide in [1, 3] {
-        for cells in [8, 16, 32, 64, 128] {
-            Tall { wide, cells, ..TALL }.error::<PlaneStrain>();
+fn the_column_converges_at_second_order() {
+    let bounds = [(8, 1.5e-3), (16, 5e-4), (32, 1.5e-4), (64, 6e-5), (128, 2.5e-5)];
+    for (wide, count) in [(1, 5), (3, 4)] {
+        let errors: Vec<f64> =
+            bounds[..count].iter().map(|&(cells, _)| Tall { wide, cells, ..TALL }.error::<PlaneStrain>()).collect();
+        for ((cells, bound), error) in bounds.iter().zip(&errors) {
+            assert!(error <= bound, "{wide} × {cells}: {error:e}");
         }
-    }
-    for steps in [160] {
-        Tall { steps, cells: 32, ..TALL }.error::<PlaneStrain>();
-    }
-    for cells in [41, 47, 53, 59, 67, 71, 79] {
-        Tall { cells, ..TALL }.error::<PlaneStrain>();
+        println!("{wide} wide: order {:.2} from 8 to 64 cells", order(&errors[..4]));
+        assert!(order(&errors[..4]) > 1.6, "{wide} wide: {errors:?}");
     }
 }
 
 #[test]
-fn explore_steps() {
-    for (cells, wide) in [(8, 1), (16, 1), (32, 1), (64, 1), (16, 3), (32, 3)] {
-        for seed in [5, 6] {
-            for steps in [20, 40, 80, 160] {
-                Tall { steps, wide, seed, cells, ..TALL }.error::<PlaneStrain>();
-            }
-        }
+fn no_count_of_cells_is_an_outlier() {
+    let counts = [41, 47, 53, 59, 67, 71, 79];
+    let scaled = counts.map(|cells| Tall { cells, ..TALL }.error::<PlaneStrain>() * (cells * cells) as f64);
+    let trend = (scaled.iter().map(|e| e.ln()).sum::<f64>() / scaled.len() as f64).exp();
+    let worst = scaled.iter().fold(0.0, |a: f64, &e| a.max(e)) / trend;
+    println!("worst of 41 … 79 cells: {worst:.2} times the trend");
+    assert!(worst < 2.0, "{scaled:?}");
+}
+
+/// What points that cross edges leave behind adds up like noise: the error grows with the root of the number of
+/// steps at most, and at 160 steps is still within the bounds for 40.
+#[test]
+fn more_steps_add_little() {
+    for (cells, bound) in [(16, 5e-4), (32, 1.5e-4), (64, 6e-5)] {
+        let [few, many] = [40, 160].map(|steps| Tall { cells, steps, ..TALL }.error::<PlaneStrain>());
+        println!("{cells} cells: 160 steps err {:.2} times as much as 40", many / few);
+        assert!(many <= 2.5 * few && many <= bound, "{few:e} {many:e}");
     }
 }
 
 #[test]
-fn explore_column_quality() {
-    for least in [0.3, 0.5, 0.7] {
-        for cells in [16, 32] {
-            Tall { cells, restore: Restore::Quality { least }, ..TALL }.error::<PlaneStrain>();
-        }
+fn restoration_by_quality_is_as_accurate() {
+    for cells in [16, 32] {
+        let every = Tall { cells, ..TALL }.error::<PlaneStrain>();
+        let seldom = Tall { cells, restore: Restore::Quality { least: 0.5 }, ..TALL }.error::<PlaneStrain>();
+        assert!(seldom <= 1.1 * every, "{seldom:e} {every:e}");
+    }
+}
+
+/// Six moments are all that a six-node triangle needs. Cells of first order have their own error, and those of
+/// eight and nine nodes gradients beyond degree 1, which sixteen points to a cell integrate less well.
+#[test]
+fn other_cells_converge_too() {
+    for (kind, least) in [(CellKind::T3, 1.2), (CellKind::Q4, 1.2), (CellKind::Q8, 0.7), (CellKind::Q9, 0.7)] {
+        let errors = [8, 16, 32, 64].map(|cells| Tall { kind, cells, ..TALL }.error::<PlaneStrain>());
+        println!("{kind:?}: order {:.2}", order(&errors));
+        assert!(order(&errors) > least && errors[3] < 1.5e-3, "{kind:?}: {errors:?}");
     }
 }
 
 #[test]
-fn explore_column_kinds() {
-    for kind in [CellKind::T3, CellKind::Q4, CellKind::Q8, CellKind::Q9] {
-        for cells in [8, 16, 32, 64] {
-            Tall { kind, cells, ..TALL }.error::<PlaneStrain>();
-        }
-    }
-    for kind in [CellKind::T6, CellKind::Q9, CellKind::T3, CellKind::Q4] {
-        for cells in [8, 16, 32] {
-            Tall { kind, cells, ..TALL }.error::<Axisymmetric>();
-        }
+fn so_does_a_ring() {
+    for (kind, least) in [(CellKind::T6, 1.8), (CellKind::T3, 1.2), (CellKind::Q4, 1.2), (CellKind::Q9, 0.7)] {
+        let errors = [8, 16, 32].map(|cells| Tall { kind, cells, ..TALL }.error::<Axisymmetric>());
+        println!("{kind:?} ring: order {:.2}", order(&errors));
+        assert!(order(&errors) > least, "{kind:?}: {errors:?}");
     }
 }
 
@@ -184,28 +204,36 @@ fn vortex(turns: f64) -> impl Fn([f64; 2]) -> [f64; 2] {
 }
 
 #[test]
-fn explore_crossing() {
+fn a_uniform_stress_is_in_balance_wherever_the_points_are() {
+    let shear = |x: [f64; 2]| [x[0] + 2.0 * (x[1] - 2.0), x[1]];
     for kind in [CellKind::T6, CellKind::T3, CellKind::Q4, CellKind::Q9] {
         for each in [9, 16] {
-            let shear = |g: f64| move |x: [f64; 2]| [x[0] + g * (x[1] - 2.0), x[1]];
-            let r = [
-                crossing(kind, each, |x| x),
-                crossing(kind, each, shear(1.0)),
-                crossing(kind, each, shear(2.0)),
-                crossing(kind, each, vortex(0.5)),
-                crossing(kind, each, vortex(2.0)),
-            ];
-            println!("{kind:?}, {each} points: {r:?}");
+            for (name, (residual, [two, one, none])) in [
+                ("unrelated", crossing(kind, each, |x| x)),
+                ("shear 2", crossing(kind, each, shear)),
+                ("vortex, 2 turns", crossing(kind, each, vortex(2.0))),
+            ] {
+                println!("{kind:?}, {each} points, {name}: {residual:.1e}; cells of degree 2/1/0: {two}/{one}/{none}");
+                assert!(residual < 1e-12, "{kind:?}, {name}: {residual:e}");
+            }
         }
     }
 }
 
 /// A free bar that vibrates in its first mode while it flies over cells of a grid restored in every step.
-fn flying_bar(kind: CellKind, cells: usize, steps: usize, speed: f64, fitted: bool, dense: f64, radius: f64) -> [f64; 3] {
+fn flying_bar(
+    kind: CellKind,
+    cells: usize,
+    steps: usize,
+    speed: f64,
+    fitted: bool,
+    dense: f64,
+    radius: f64,
+) -> [f64; 3] {
     let periods = 1.0;
     let (length, young, density, amplitude) = (10.0, 100.0, 1.0, 1e-3);
     let h = length / cells as f64;
-    let (celerity, room) = ((young / density as f64).sqrt(), 6.0);
+    let (celerity, room) = (f64::sqrt(young / density), 6.0);
     let period = 2.0 * length / celerity;
     let mut bench = Bench::new(
         rectangle(kind, length + room, 2.0 * h, ((length + room) / h).round() as usize, 2, 0.15, 9),
@@ -246,19 +274,24 @@ fn flying_bar(kind: CellKind, cells: usize, steps: usize, speed: f64, fitted: bo
         worst[1] = worst[1].max((own / first - 1.0).abs());
         worst[2] = worst[2].max((report.motion.linear[0] / (mass * speed) - 1.0).abs());
     });
-    println!("{kind:?} {cells} cells, {steps} steps, speed {speed}, fitted {fitted}, {dense} points an h, ρ∞ {radius}: velocity {:.2e}, energy {:.2e}, momentum {:.1e}", worst[0], worst[1], worst[2]);
+    println!(
+        "{kind:?} {cells} cells, {steps} steps, speed {speed}, fitted {fitted}, {dense} points an h, ρ∞ {radius}: velocity {:.2e}, energy {:.2e}, momentum {:.1e}",
+        worst[0], worst[1], worst[2]
+    );
     worst
 }
 
 #[test]
-fn explore_flying_bar() {
-    for (fitted, dense, radius) in [(true, 5.66, 1.0), (true, 4.0, 0.8), (true, 5.66, 0.8), (false, 5.66, 1.0), (false, 5.66, 0.8)] {
-        for cells in [8, 16, 32] {
-            flying_bar(CellKind::T6, cells, 160, 2.0, fitted, dense, radius);
-        }
+fn a_bar_vibrates_in_flight() {
+    for cells in [8, 16] {
+        let [velocity, energy, momentum] = flying_bar(CellKind::T6, cells, 160, 2.0, true, 5.66, 1.0);
+        assert!(velocity < 0.02 && energy < 4e-3 && momentum < 1e-6, "{velocity:e} {energy:e} {momentum:e}");
+        let [plain, ..] = flying_bar(CellKind::T6, cells, 160, 2.0, false, 5.66, 1.0);
+        assert!(plain > 10.0 * velocity, "{plain:e} {velocity:e}");
     }
     for kind in [CellKind::T3, CellKind::Q4, CellKind::Q9] {
-        flying_bar(kind, 16, 160, 2.0, true, 5.66, 1.0);
+        let [velocity, energy, _] = flying_bar(kind, 16, 160, 2.0, true, 5.66, 1.0);
+        assert!(velocity < 0.03 && energy < 5e-3, "{kind:?}: {velocity:e} {energy:e}");
     }
 }
 
@@ -282,22 +315,61 @@ fn spin(kind: CellKind, steps: usize, spectral_radius: f64) -> [f64; 3] {
         .sum();
     let scene = bench.scene::<PlaneStrain>();
     let mut worst = [0f64; 3];
+    let mut first = None;
     run::<PlaneStrain>(&scene, points, |_, report| {
+        let [x, y] = report.motion.linear;
+        let [x0, y0] = *first.get_or_insert([x, y]);
         worst[0] = worst[0].max((report.motion.angular / before - 1.0).abs());
         worst[1] = worst[1].max(((report.motion.kinetic + report.elastic) / (0.5 * before) - 1.0).abs());
-        worst[2] = worst[2].max(report.motion.linear[0].hypot(report.motion.linear[1]));
+        worst[2] = worst[2].max((x - x0).hypot(y - y0));
     });
-    println!("{kind:?} {steps} steps, ρ∞ {spectral_radius}: angular {:.1e}, energy {:.1e}, linear {:.1e}", worst[0], worst[1], worst[2]);
+    println!(
+        "{kind:?} {steps} steps, ρ∞ {spectral_radius}: angular {:.1e}, energy {:.1e}, linear {:.1e}",
+        worst[0], worst[1], worst[2]
+    );
     worst
 }
 
 #[test]
-fn explore_spin() {
-    for steps in [100, 200, 400] {
-        spin(CellKind::T6, steps, 1.0);
-    }
-    spin(CellKind::T6, 200, 0.8);
+fn a_spinning_body_keeps_momenta_and_energy() {
+    let [coarse, fine] = [100, 200].map(|steps| spin(CellKind::T6, steps, 1.0));
+    assert!(coarse[0] < 2e-4 && fine[0] < 0.25 * coarse[0], "{coarse:?} {fine:?}");
     for kind in [CellKind::T3, CellKind::Q4, CellKind::Q9] {
-        spin(kind, 200, 1.0);
+        let [angular, energy, linear] = spin(kind, 200, 1.0);
+        assert!(angular < 5e-5 && energy < 5e-4 && linear < 1e-11, "{kind:?}: {angular:e} {energy:e} {linear:e}");
     }
+}
+
+/// A free block in flight over some ten cells of a grid restored in every step. With volumes as weights it flies to
+/// rounding (`held_out.rs`); the fitted ones make of gravity another force than `m g` in the cells that the surface
+/// cuts, which stays with the points in inertia: the block flies its parabola, but stressed by some `ρ g H` there.
+#[test]
+fn a_thrown_block_flies_its_parabola() {
+    let mut bench = Bench::new(rectangle(CellKind::T6, 8.0, 8.0, 8, 8, 0.2, 3), elastic(1e4, 0.3));
+    bench.gravity = [0.0, -10.0];
+    bench.dynamic = true;
+    bench.restore = Restore::EveryStep;
+    bench.steps = 100;
+    bench.duration = 0.9;
+    fit::<PlaneStrain>(&mut bench);
+    let mut places = lattice(1.6, 1.9, 0.15, &mut Random(8));
+    places.iter_mut().for_each(|(x, _)| *x = [x[0] + 1.0, x[1] + 1.7]);
+    let mut points = at::<PlaneStrain>(&bench.mesh, &places, 1.0);
+    points.velocity = vec![[4.0, 7.0]; points.len()];
+    let mass: f64 = points.mass.iter().sum();
+    let scene = bench.scene::<PlaneStrain>();
+    let mut worst = [0f64; 3];
+    run::<PlaneStrain>(&scene, points, |state, report| {
+        let (t, p) = (state.time, &state.points);
+        let off = |i: usize| {
+            let [x, y] = [0, 1].map(|d| p.position[i][d] - p.origin[i][d]);
+            (x - 4.0 * t).hypot(y - 7.0 * t + 5.0 * t * t)
+        };
+        worst[0] = (0..p.len()).map(off).fold(worst[0], f64::max);
+        let [x, y] = report.motion.linear.map(|v| v / mass);
+        worst[1] = worst[1].max((x - 4.0).hypot(y - 7.0 + 10.0 * t));
+        worst[2] = p.stress.iter().flatten().fold(worst[2], |a, s| a.max(s.abs()));
+    });
+    println!("thrown: {:.1e} m off, velocity {:.1e} m/s, stress {:.1e} kPa", worst[0], worst[1], worst[2]);
+    assert!(worst[0] < 3e-2 && worst[1] < 1e-2, "{worst:?}");
 }
