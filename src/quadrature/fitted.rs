@@ -61,13 +61,14 @@ impl<K: Kinematics<2>> Fitted<K> {
         let mut active = Active::default();
         active.update::<PlaneStrain>(mesh, plane, level_set, &points.cell, taking_part);
         let mut current = Vec::new();
-        let fits = cells::fit::<K>(mesh, plane, &active.moments, points, stencil, &mut current);
+        let mut fits = cells::fit::<K>(mesh, plane, &active.moments, points, stencil, &mut current);
+        let full = |c: u32| active.filling[c as usize] == Filling::Full;
+        keep_drops(&self.geometry, stencil, full, &mut fits, &mut current);
         let mut weight = vec![0.0; points.len()];
         for (w, &p) in current.iter().zip(&stencil.points) {
             let p = p as usize;
             weight[p] = w * points.initial_volume[p] / points.volume(p);
         }
-        let full = |c: u32| active.filling[c as usize] == Filling::Full;
         let tally = tally(&fits, full);
         let poor = |fit: &&CellFit| !full(fit.cell) || fit.points < FEW || fit.degree == Degree::Constant;
         let poor = fits.iter().filter(poor).map(|fit| fit.cell).collect();
@@ -98,6 +99,46 @@ impl<K: Kinematics<2>> Quadrature<2> for Fitted<K> {
         };
         weighing.lost_front = lost_front;
         weighing
+    }
+}
+
+/// Gives a body that fills no cell the volume of its points: what the surface cuts off cells beside it, which have no
+/// points and may have no neighbour with any, is much of it, and it would lose as much of its weight.
+fn keep_drops(
+    geometry: &Geometry,
+    stencil: &Stencil<2>,
+    full: impl Fn(u32) -> bool,
+    fits: &mut [CellFit],
+    current: &mut [f64],
+) {
+    let patch_of = |c: u32| stencil.patches.binary_search_by_key(&c, |patch| patch.cell).ok();
+    let mut seen = vec![false; fits.len()];
+    for first in 0..fits.len() {
+        if std::mem::replace(&mut seen[first], true) {
+            continue;
+        }
+        let mut body = vec![first];
+        let mut next = 0;
+        while let Some(&i) = body.get(next) {
+            next += 1;
+            for patch in geometry.faces.neighbours(fits[i].cell).iter().filter_map(|&c| patch_of(c)) {
+                if !std::mem::replace(&mut seen[patch], true) {
+                    body.push(patch);
+                }
+            }
+        }
+        if body.iter().any(|&i| full(fits[i].cell)) {
+            continue;
+        }
+        body.sort_unstable();
+        let sum = |value: fn(&CellFit) -> f64| body.iter().map(|&i| value(&fits[i])).sum::<f64>();
+        let factor = sum(|fit| fit.held) / sum(|fit| fit.fitted);
+        for &i in &body {
+            fits[i].fitted *= factor;
+            let patch = &stencil.patches[i];
+            let begin = patch.first_point as usize;
+            current[begin..begin + patch.point_count as usize].iter_mut().for_each(|w| *w *= factor);
+        }
     }
 }
 
