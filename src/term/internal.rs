@@ -11,7 +11,7 @@
 //! A [`Share`] of the stress may be carried by unknowns of its own; it is a type, so that a scene without one pays
 //! nothing.
 
-use super::{Assembly, Frame, History, Term, Trial, Update, scatter_patches};
+use super::{Assembly, Frame, History, Term, Trial, Update, scatter_functions};
 use crate::error::{Error, Result};
 use crate::kinematics::{Gradient, Kinematics};
 use crate::material::spatial::Spatial;
@@ -288,7 +288,7 @@ impl<const D: usize, K: Kinematics<D>, S: Share<D, K>> Term<D> for Internal<K, S
             }
             Ok(())
         };
-        scatter_patches(frame, compute, out)
+        scatter_functions(frame, compute, out)
     }
 
     fn energy(&self, points: &Points<D>) -> f64 {

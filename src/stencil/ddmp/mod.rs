@@ -15,6 +15,7 @@ use crate::mesh::Mesh;
 use crate::mesh::shape::{CellKind, MAX_NODES};
 use blend::{ByVolume, MAX_SMOOTHED, Orthogonal, Seen, smoothed_nodes};
 use rayon::prelude::*;
+use std::sync::Arc;
 
 /// What is kept until the points are weighed.
 #[derive(Clone, Debug, Default)]
@@ -71,7 +72,7 @@ pub fn fill<const D: usize, K: Kinematics<D>>(
             .collect(),
         kind: kinds,
     });
-    stencil.reach = Some(smoothing::reach(mesh, taking_part, &volume));
+    stencil.reach = Some(Arc::new(smoothing::reach(mesh, taking_part, &volume)));
 }
 
 /// Blends by the weights that the points now have.
