@@ -9,6 +9,7 @@ mod jumps;
 mod mpm;
 mod reach;
 
+pub use ddmp::smooths;
 pub use fill::{SoftCell, cell_size, integrate, soft_cells};
 pub use jumps::{Jump, Jumps};
 pub use reach::Reach;

@@ -5,8 +5,11 @@
 
 use super::{Assembly, Frame, scatter_patches};
 use crate::error::Result;
-use crate::stencil::{Patch, Reach};
+use crate::kinematics::{Gradient, Kinematics};
+use crate::mesh::shape::MAX_NODES;
+use crate::stencil::{Entries, Patch, Reach};
 use crate::system::{Beyond, Local};
+use crate::tensor::Tensor;
 use rayon::prelude::*;
 use std::sync::Arc;
 
@@ -147,6 +150,75 @@ impl<const D: usize> Beyond for Rest<D> {
             let extra = s.functions - s.own;
             for i in 0..s.all - extra {
                 y[equation[i] as usize] += force[if i < s.own { i } else { i + extra }];
+            }
+        }
+    }
+}
+
+/// Adds the stiffness of one point on the functions beyond the nodes of its cell, whose gradients are `spatial` on the
+/// deformed grid; of a symmetric one only the lower triangle. As these functions come in groups with gradients
+/// `ψ_a e_j`, the blocks of all groups are multiples of those for `e_j`.
+pub fn stiffen<const D: usize, K: Kinematics<D>>(
+    local: &mut Local,
+    tangent: &K::Tangent,
+    entries: &Entries<D>,
+    spatial: &[Gradient<D>],
+    inverse: &Tensor,
+    weight: f64,
+    symmetric: bool,
+) {
+    let (own, size) = (spatial.len(), local.size);
+    let groups = (entries.functions() - own) / D;
+    let along: [Gradient<D>; D] = std::array::from_fn(|j| {
+        let unit = std::array::from_fn(|d| if d == j { 1.0 } else { 0.0 });
+        K::push_forward(&Gradient { g: unit, hoop: 0.0 }, inverse)
+    });
+    let psi = |a: usize| entries.gradient(own + a * D).g[0];
+    // Of direction j and component c: against the nodes of the cell, and against the other directions.
+    let mut to_nodes = [[[[0.0; D]; MAX_NODES]; D]; D];
+    let mut from_nodes = [[[[0.0; D]; D]; D]; MAX_NODES];
+    let mut among = [[[[0.0; D]; D]; D]; D];
+    for (i, gradient) in spatial.iter().enumerate() {
+        let column = K::column(tangent, gradient);
+        for (j, along) in along.iter().enumerate() {
+            let block = K::block(&column, along);
+            (0..D).for_each(|c| to_nodes[j][c][i] = block[c].map(|b| weight * b));
+        }
+    }
+    for (k, to) in along.iter().enumerate() {
+        let column = K::column(tangent, to);
+        for (j, from) in along.iter().enumerate() {
+            let block = K::block(&column, from);
+            (0..D).for_each(|c| among[j][c][k] = block[c].map(|b| weight * b));
+        }
+        if !symmetric {
+            for (i, gradient) in spatial.iter().enumerate() {
+                let block = K::block(&column, gradient);
+                (0..D).for_each(|c| from_nodes[i][c][k] = block[c].map(|b| weight * b));
+            }
+        }
+    }
+    let add = |to: &mut [f64], factor: f64, from: &[f64]| {
+        to.iter_mut().zip(from).for_each(|(to, from)| *to += factor * from);
+    };
+    for a in 0..groups {
+        let psi_a = psi(a);
+        for j in 0..D {
+            for c in 0..D {
+                let row = &mut local.matrix[((own + a * D + j) * D + c) * size..][..size];
+                add(&mut row[..own * D], psi_a, to_nodes[j][c][..own].as_flattened());
+                for b in 0..if symmetric { a + 1 } else { groups } {
+                    let begin = (own + b * D) * D;
+                    add(&mut row[begin..begin + D * D], psi_a * psi(b), among[j][c].as_flattened());
+                }
+            }
+        }
+        if !symmetric {
+            for i in 0..own {
+                for c in 0..D {
+                    let row = &mut local.matrix[(i * D + c) * size + (own + a * D) * D..][..D * D];
+                    add(row, psi_a, from_nodes[i][c].as_flattened());
+                }
             }
         }
     }

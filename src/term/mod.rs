@@ -14,7 +14,6 @@ mod pressure;
 mod smooth_pressure;
 mod traction;
 
-pub use beyond::scatter_functions;
 pub use body_force::BodyForce;
 pub use empty_cells::EmptyCells;
 pub use ghost::GhostPenalty;

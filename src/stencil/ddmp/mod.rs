@@ -17,6 +17,11 @@ use blend::{ByVolume, MAX_SMOOTHED, Orthogonal, Seen, smoothed_nodes};
 use rayon::prelude::*;
 use std::sync::Arc;
 
+/// Whether gradients are smoothed in cells of a kind; others keep plain ones.
+pub fn smooths(kind: CellKind) -> bool {
+    smoothed_nodes(kind) > 0
+}
+
 /// What is kept until the points are weighed.
 #[derive(Clone, Debug, Default)]
 pub struct Unweighed {
