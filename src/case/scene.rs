@@ -10,7 +10,7 @@ use crate::mesh::locate::Locator;
 use crate::points::Points;
 use crate::quadrature::{Fitted, Quadrature, Volumes};
 use crate::run::{self, Ended, Outputs, Progress, Watch, WatchedOn};
-use crate::stencil::cell_size;
+use crate::stencil::{Scheme, cell_size, smooths};
 use crate::step::{self, Fixed, Numerics, Phase, Prescribed, Scene, State, Stop};
 use crate::term::{
     BodyForce, Carried, EmptyCells, GhostPenalty, Inertia, Internal, PressureField, SmoothPressure, Term, Traction,
@@ -79,6 +79,15 @@ fn first(case: &Case, scene: &Scene<2>, mut points: Points<2>) -> Result<State<2
 /// # Errors
 /// `Input` when the mesh lacks a group that the case names.
 pub fn scene<K: Kinematics<2>>(case: &Case, mesh: Mesh<2>) -> Result<Scene<2>> {
+    if case.numerics.gradient != Scheme::Mpm
+        && let Some(kind) = mesh.cells.kind.iter().find(|&&kind| !smooths(kind))
+    {
+        return Err(Error::input(
+            "numerics.gradient",
+            format!("ddmp cannot smooth the gradients of {kind:?} cells"),
+            "mesh with T3, T6, Q4 or Q9 (no `incomplete: true`), or choose `gradient: mpm`",
+        ));
+    }
     let materials = || filled(case).map(|(_, material)| material);
     let lowest = mesh.nodes.iter().map(|x| x[1]).fold(f64::INFINITY, f64::min);
     let largest = |value: fn(&Material, f64) -> f64| materials().map(|m| value(m, lowest)).fold(0.0, f64::max);

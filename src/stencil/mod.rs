@@ -9,6 +9,7 @@ mod jumps;
 mod mpm;
 mod reach;
 
+pub use ddmp::smooths;
 pub use fill::{SoftCell, cell_size, integrate, soft_cells};
 pub use jumps::{Jump, Jumps};
 pub use reach::Reach;
@@ -16,6 +17,7 @@ pub use reach::Reach;
 use crate::kinematics::{Gradient, Kinematics};
 use crate::mesh::Mesh;
 use crate::mesh::shape::MAX_NODES;
+use std::sync::Arc;
 
 /// How gradients at the points are formed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -60,7 +62,7 @@ pub struct Stencil<const D: usize> {
     /// What the points weigh in integrals (m³), as volume when seeded, in the order of `points`.
     pub weight: Vec<f64>,
     /// Where the gradients of a cell reach beyond its own nodes; absent where they do not.
-    pub reach: Option<Reach>,
+    pub reach: Option<Arc<Reach>>,
     /// What is to be done once the points have weights.
     unweighed: Option<ddmp::Unweighed>,
 }
@@ -164,14 +166,6 @@ impl<const D: usize> Stencil<D> {
             slots.push(Slot { patch, value: v, gradient: g, radius: r });
         }
         slots
-    }
-
-    /// The nodes that a cell acts on: its own first.
-    pub fn nodes<'a>(&'a self, mesh: &'a Mesh<D>, cell: u32) -> &'a [u32] {
-        match &self.reach {
-            None => mesh.cells.nodes(cell as usize),
-            Some(reach) => reach.nodes(cell),
-        }
     }
 
     /// The coefficients of the patch's functions for a field on the nodes.

@@ -145,7 +145,7 @@ impl<const D: usize> Grid<D> {
         }
         let cells: Vec<u32> = (0u32..).zip(&state.taking_part).filter(|(_, part)| **part).map(|(c, _)| c).collect();
         for &c in &cells {
-            clique[c as usize] = cliques.push(stencil.nodes(mesh, c).iter().map(|&n| block[n as usize]));
+            clique[c as usize] = cliques.push(mesh.cells.nodes(c as usize).iter().map(|&n| block[n as usize]));
         }
         let cells_only = cliques.clone();
         let mut face_clique = Vec::new();

@@ -157,7 +157,7 @@ impl<'a> Mass<'a> {
     /// As [`Mass::solve`].
     pub fn solve_held(&mut self, fixed: &[bool], x: &mut [f64]) -> Result<()> {
         let System { pattern, matrix, solver } = &mut *self.system;
-        let mut held = crate::system::Matrix { values: matrix.values.clone() };
+        let mut held = crate::system::Matrix { values: matrix.values.clone(), ..Default::default() };
         let (zero, scale) = (vec![0.0; x.len()], held.scale(pattern));
         held.constrain(pattern, fixed, &zero, scale, x);
         self.factorised = false;

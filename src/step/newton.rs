@@ -20,6 +20,8 @@ const BACKTRACKS: i32 = 6;
 const STALLED: usize = 4;
 /// Full steps that may raise the residual before the iteration returns to its best state.
 const WATCH: usize = 3;
+/// Largest relative residual that the linear systems of an iteration are solved to.
+const LOOSEST: f64 = 1e-3;
 /// A residual this small relative to the forces that balance is rounding.
 const ROUNDING: f64 = 1e-14;
 
@@ -214,7 +216,13 @@ impl<'a, const D: usize> Newton<'a, D> {
             // Displacements still to be given unbalance the system beyond the residual at hand.
             self.target = norm_free(delta, fixed);
         }
-        self.method = motion.solver.solve(&motion.pattern, &motion.matrix, delta)?;
+        let (pattern, matrix) = (&motion.pattern, &motion.matrix);
+        self.method = if matrix.beyond.is_empty() {
+            motion.solver.solve(pattern, matrix, delta)?
+        } else {
+            let tolerance = forcing(&self.history, self.problem.scene.numerics.tolerance);
+            motion.solver.solve_beyond(pattern, matrix, tolerance, delta)?
+        };
         Ok(())
     }
 
@@ -315,6 +323,18 @@ impl<'a, const D: usize> Newton<'a, D> {
             "take smaller steps (step.min) or refine the mesh",
         )
     }
+}
+
+/// The relative residual to solve an iteration to: as the residual fell in the one before, squared (Eisenstat & Walker
+/// 1996), which keeps the convergence of Newton's method, but no more than the end of the iteration asks for.
+fn forcing(history: &[f64], tolerance: f64) -> f64 {
+    let last = history.last().copied().unwrap_or(1.0);
+    let enough = 0.1 * tolerance / last;
+    let quadratic = match history {
+        [.., before, last] => 0.1 * (last / before).powi(2),
+        _ => LOOSEST,
+    };
+    quadratic.max(enough).clamp(1e-10, LOOSEST)
 }
 
 /// A force (kN) below which nothing counts: rounding in stresses of the order of the stiffness, on the sides of a

@@ -4,10 +4,20 @@ use super::Pattern;
 use crate::error::Result;
 use rayon::prelude::*;
 
-/// The values of a matrix with a given [`Pattern`].
+/// The values of a matrix with a given [`Pattern`], and what else belongs to it.
 #[derive(Default)]
 pub struct Matrix {
     pub values: Vec<f64>,
+    /// Summands that the pattern has no room for, known by their products only. The direct solver cannot have them.
+    pub beyond: Vec<Box<dyn Beyond>>,
+    /// The equations taken out; empty before [`Matrix::constrain`].
+    pub(crate) fixed: Vec<bool>,
+}
+
+/// A matrix known by its products.
+pub trait Beyond: Send + Sync {
+    /// `y += A x`.
+    fn add_product(&self, x: &[f64], y: &mut [f64]);
 }
 
 /// What one clique contributes: a dense matrix (row-major) and a vector over the equations of its blocks.
@@ -20,11 +30,13 @@ pub struct Local<'a> {
 
 impl Matrix {
     pub fn new(pattern: &Pattern) -> Self {
-        Self { values: vec![0.0; pattern.row.len()] }
+        Self { values: vec![0.0; pattern.row.len()], ..Self::default() }
     }
 
     pub fn clear(&mut self) {
         self.values.fill(0.0);
+        self.beyond.clear();
+        self.fixed.clear();
     }
 
     /// Adds the dense matrix of clique `k`. Of a symmetric system only the lower triangle is read.
@@ -55,6 +67,15 @@ impl Matrix {
     /// Takes the equations marked in `fixed` out of the system: their rows and columns vanish but for a
     /// diagonal entry `scale`. Their known solution `known` moves to the right-hand side.
     pub fn constrain(&mut self, pattern: &Pattern, fixed: &[bool], known: &[f64], scale: f64, rhs: &mut [f64]) {
+        if !self.beyond.is_empty() {
+            let held: Vec<f64> = known.iter().zip(fixed).map(|(u, fixed)| if *fixed { *u } else { 0.0 }).collect();
+            if held.iter().any(|&u| u != 0.0) {
+                let mut force = vec![0.0; held.len()];
+                self.beyond.iter().for_each(|beyond| beyond.add_product(&held, &mut force));
+                rhs.iter_mut().zip(&force).for_each(|(rhs, f)| *rhs -= f);
+            }
+            self.fixed = fixed.to_vec();
+        }
         for j in 0..pattern.len() {
             for k in pattern.column[j] as usize..pattern.column[j + 1] as usize {
                 let i = pattern.row[k] as usize;
@@ -92,6 +113,20 @@ impl Matrix {
                 }
             }
         }
+        if self.beyond.is_empty() {
+            return;
+        }
+        let fixed = |i: usize| self.fixed.get(i).is_some_and(|fixed| *fixed);
+        let free: Vec<f64> = x.iter().enumerate().map(|(i, x)| if fixed(i) { 0.0 } else { *x }).collect();
+        let mut force = vec![0.0; y.len()];
+        self.beyond.iter().for_each(|beyond| beyond.add_product(&free, &mut force));
+        y.iter_mut().zip(&force).enumerate().filter(|(i, _)| !fixed(*i)).for_each(|(_, (y, f))| *y += f);
+    }
+
+    /// The norm of the entries of `x` that belong to equations not taken out.
+    pub fn norm_free(&self, x: &[f64]) -> f64 {
+        let fixed = self.fixed.iter().copied().chain(std::iter::repeat(false));
+        x.iter().zip(fixed).map(|(x, fixed)| if fixed { 0.0 } else { x * x }).sum::<f64>().sqrt()
     }
 
     /// The largest diagonal entry, at least the smallest positive number.

@@ -5,10 +5,11 @@
 //! its symbolic factorisation stay fixed until the cliques change.
 
 mod assembly;
+mod iterative;
 mod pattern;
 mod solver;
 
-pub use assembly::{Local, Matrix, Workspace, scatter};
+pub use assembly::{Beyond, Local, Matrix, Workspace, scatter};
 pub use pattern::{Cliques, Pattern};
 pub use solver::{Method, Solver};
 

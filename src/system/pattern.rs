@@ -53,7 +53,7 @@ pub struct Pattern {
     /// Where the pairs of each clique begin in `offset`.
     pub(super) pairs: Vec<u32>,
     /// Equations of the largest clique.
-    pub(super) largest_clique: usize,
+    pub largest_clique: usize,
 }
 
 impl Pattern {

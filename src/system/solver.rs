@@ -4,6 +4,7 @@
 //! 1992) on that factor of its symmetric part; LU is the last resort of both. faer can return a
 //! solution that is not finite, or one that does not solve, without an error: every solution is checked.
 
+use super::iterative::gmres;
 use super::{Matrix, Pattern};
 use crate::error::{Error, Result};
 use crate::profile::{Activity, timed};
@@ -143,6 +144,47 @@ impl Solver {
         }
         timed(Activity::Factorisation, || self.solve_lu(pattern, matrix, &b, x))?;
         Ok(Method::Lu)
+    }
+
+    /// Solves `A x = b` where the matrix has parts beyond its pattern: by GMRES, to the relative residual `tolerance`,
+    /// with the factor of the rest (of its symmetric part) for preconditioner.
+    ///
+    /// # Errors
+    /// An analysis error when the iteration does not converge or the rest is singular.
+    pub fn solve_beyond(
+        &mut self,
+        pattern: &Pattern,
+        matrix: &Matrix,
+        tolerance: f64,
+        x: &mut [f64],
+    ) -> Result<Method> {
+        if x.iter().chain(&matrix.values).any(|v| !v.is_finite()) {
+            return Err(Error::analysis("linear system", "a coefficient is not finite", "the step is too large"));
+        }
+        let b = x.to_vec();
+        let size = if matrix.norm_free(&b) > 0.0 { matrix.norm_free(&b) } else { norm(&b) };
+        if size == 0.0 {
+            return Ok(Method::Iterative);
+        }
+        for llt in [true, false] {
+            if (llt && !self.definite) || !timed(Activity::Factorisation, || self.factorize(matrix, pattern, llt))? {
+                continue;
+            }
+            let multiply = |x: &[f64], y: &mut [f64]| matrix.multiply(pattern, x, y);
+            let products = timed(Activity::Solution, || {
+                self.back_substitute(x, llt);
+                gmres(&multiply, &mut |r| self.back_substitute(r, llt), &b, x, tolerance * size)
+            });
+            if products.is_some() {
+                return Ok(Method::Iterative);
+            }
+            break;
+        }
+        Err(Error::analysis(
+            "linear solver",
+            "the iteration for smoothed gradients does not converge",
+            "take smaller steps (step.min), or plain gradients (gradient: mpm)",
+        ))
     }
 
     /// Solves with the factor of the last successful Cholesky factorisation of this solver.

@@ -11,7 +11,8 @@
 //! A [`Share`] of the stress may be carried by unknowns of its own; it is a type, so that a scene without one pays
 //! nothing.
 
-use super::{Assembly, Frame, History, Term, Trial, Update, scatter_patches};
+use super::beyond::{scatter_functions, stiffen};
+use super::{Assembly, Frame, History, Term, Trial, Update};
 use crate::error::{Error, Result};
 use crate::kinematics::{Gradient, Kinematics};
 use crate::material::spatial::Spatial;
@@ -278,7 +279,12 @@ impl<const D: usize, K: Kinematics<D>, S: Share<D, K>> Term<D> for Internal<K, S
                     }
                 }
                 if wanted {
-                    add_stiffness::<D, K>(local, &answer.tangent, &spatial[..count], later * volume, symmetric);
+                    let (own, weight) = (entries.value.len(), later * volume);
+                    add_stiffness::<D, K>(local, &answer.tangent, &spatial[..own], weight, symmetric);
+                    if own < count {
+                        let (tangent, inverse) = (&answer.tangent, &point.inverse);
+                        stiffen::<D, K>(local, tangent, &entries, &spatial[..own], inverse, weight, symmetric);
+                    }
                 }
                 let (spatial, ratio) = (&spatial[..count], point.increment.determinant());
                 self.share.couple(&cell, frame.points, &entries, spatial, ratio, &acts_on, later, local);
@@ -288,7 +294,7 @@ impl<const D: usize, K: Kinematics<D>, S: Share<D, K>> Term<D> for Internal<K, S
             }
             Ok(())
         };
-        scatter_patches(frame, compute, out)
+        scatter_functions(frame, compute, out)
     }
 
     fn energy(&self, points: &Points<D>) -> f64 {

@@ -4,6 +4,7 @@
 //! The system solved in each step is `R(u) = 0` with `R = Σ terms`, internal forces positive. A term adds
 //! its residual and, when asked, its tangent; the ones that carry history commit it after convergence.
 
+mod beyond;
 mod body_force;
 mod empty_cells;
 mod ghost;
@@ -96,7 +97,7 @@ pub struct Assembly<'a> {
     pub workspace: &'a mut Workspace,
 }
 
-/// Adds what `compute` makes of each patch over its functions to the nodes it acts on.
+/// Adds what `compute` makes of each patch over the nodes of its cell.
 ///
 /// # Errors
 /// The error of the first patch that fails.
@@ -106,19 +107,8 @@ pub fn scatter_patches<const D: usize>(
     out: &mut Assembly,
 ) -> Result<()> {
     let clique = |patch: &Patch| frame.clique[patch.cell as usize] as usize;
-    let over_nodes = |patch: &Patch, local: &mut Local| {
-        let Some(reach) = &frame.stencil.reach else { return compute(patch, local) };
-        let own = frame.mesh.cells.nodes(patch.cell as usize).len();
-        let extra = local.size - D * reach.nodes(patch.cell).len();
-        let size = D * patch.function_count as usize + extra;
-        let mut vector = vec![0.0; size];
-        let mut matrix = if local.matrix.is_empty() { Vec::new() } else { vec![0.0; size * size] };
-        compute(patch, &mut Local { matrix: &mut matrix, vector: &mut vector, size })?;
-        reach.expand(patch.cell, own, D, extra, &vector, &matrix, local.vector, local.matrix);
-        Ok(())
-    };
     let tangent = out.tangent.as_deref_mut();
-    scatter(frame.pattern, &frame.stencil.patches, clique, over_nodes, out.force, tangent, out.workspace)
+    scatter(frame.pattern, &frame.stencil.patches, clique, compute, out.force, tangent, out.workspace)
 }
 
 /// New values of the history of one point.

@@ -15,6 +15,12 @@ use crate::mesh::Mesh;
 use crate::mesh::shape::{CellKind, MAX_NODES};
 use blend::{ByVolume, MAX_SMOOTHED, Orthogonal, Seen, smoothed_nodes};
 use rayon::prelude::*;
+use std::sync::Arc;
+
+/// Whether gradients are smoothed in cells of a kind; others keep plain ones.
+pub fn smooths(kind: CellKind) -> bool {
+    smoothed_nodes(kind) > 0
+}
 
 /// What is kept until the points are weighed.
 #[derive(Clone, Debug, Default)]
@@ -71,7 +77,7 @@ pub fn fill<const D: usize, K: Kinematics<D>>(
             .collect(),
         kind: kinds,
     });
-    stencil.reach = Some(smoothing::reach(mesh, taking_part, &volume));
+    stencil.reach = Some(Arc::new(smoothing::reach(mesh, taking_part, &volume)));
 }
 
 /// Blends by the weights that the points now have.

@@ -92,7 +92,16 @@ pub fn reach<const D: usize>(mesh: &Mesh<D>, taking_part: &[bool], volume: &[f64
     let cells: Vec<(Vec<u32>, Vec<f64>)> =
         (0..mesh.cells.len()).into_par_iter().with_min_len(64).map_init(scratch, cell).collect();
     let mut reach = Reach { node_start: vec![0], row_start: vec![0], ..Reach::default() };
-    for (nodes, rows) in cells {
+    (reach.node_count, reach.share_start, reach.gradient_start) = (mesh.nodes.len(), vec![0], vec![0]);
+    for (c, (nodes, rows)) in cells.into_iter().enumerate() {
+        if volume[c] > 0.0 {
+            let smoothed = &mesh.cells.nodes(c)[..smoothed_nodes(mesh.cells.kind[c])];
+            let share = |&n: &u32| weight(mesh, c as u32, n, volume) / total[n as usize];
+            reach.share.extend(smoothed.iter().map(share));
+            reach.gradient.extend(own[c].iter().flatten());
+        }
+        reach.share_start.push(reach.share.len() as u32);
+        reach.gradient_start.push(reach.gradient.len() as u32);
         reach.node.extend(nodes);
         reach.combination.extend(rows);
         reach.node_start.push(reach.node.len() as u32);

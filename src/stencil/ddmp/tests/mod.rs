@@ -76,7 +76,8 @@ fn filled<K: Kinematics<2>>(mesh: &Mesh<2>, points: &Points, scheme: Scheme) -> 
 /// Calls `f(point, weight, node, ∇̄N)` for all points and nodes.
 fn for_all<K: Kinematics<2>>(mesh: &Mesh<2>, stencil: &Stencil<2>, mut f: impl FnMut(usize, f64, usize, [f64; 2])) {
     for patch in &stencil.patches {
-        let (nodes, own) = (stencil.nodes(mesh, patch.cell), patch.node_count as usize);
+        let own = patch.node_count as usize;
+        let nodes = stencil.reach.as_ref().map_or(mesh.cells.nodes(patch.cell as usize), |r| r.nodes(patch.cell));
         let rows: Vec<&[f64]> = stencil.reach.iter().flat_map(|r| r.rows(patch.cell)).collect();
         for entries in stencil.entries::<K>(patch) {
             for (k, &node) in nodes.iter().enumerate() {
