@@ -23,8 +23,9 @@ pub struct Gradient<const D: usize> {
 pub trait Kinematics<const D: usize>: Copy + Default + Send + Sync + 'static {
     /// The spatial tangent `a_ijkl = C_ijkl − τ_il δ_jk`.
     type Tangent;
-    /// The product of the tangent with the gradient of one node, one column a displacement component.
-    type Column;
+    /// The product of the tangent with the gradient of one node, one column a displacement component; the rows
+    /// are the components (i, j) of a gradient, and the hoop where it exists.
+    type Column: AsRef<[[f64; D]]>;
 
     /// Whether the circumferential strain `u_r / r` exists.
     const HOOP: bool;
@@ -44,9 +45,6 @@ pub trait Kinematics<const D: usize>: Copy + Default + Send + Sync + 'static {
 
     /// `a : (e_k ⊗ ∇N)` for each component `k`.
     fn column(tangent: &Self::Tangent, gradient: &Gradient<D>) -> Self::Column;
-
-    /// The stiffness of a node against the node of `column`: `K_ik = g_j a_ijkl g'_l` with the hoop terms.
-    fn block(column: &Self::Column, gradient: &Gradient<D>) -> [[f64; D]; D];
 
     /// What an area (volume in 3D) element at `x` weighs: 1, or `2πr` for a full turn.
     fn measure(x: &[f64; D]) -> f64 {
@@ -137,18 +135,6 @@ impl<const HOOP: bool> Kinematics<2> for Plane<HOOP> {
             }
         }
         column
-    }
-
-    fn block(column: &Self::Column, gradient: &Gradient<2>) -> [[f64; 2]; 2] {
-        let g = &gradient.g;
-        let mut block: [[f64; 2]; 2] =
-            std::array::from_fn(|i| [0, 1].map(|k| g[0] * column[2 * i][k] + g[1] * column[2 * i + 1][k]));
-        if HOOP {
-            for k in 0..2 {
-                block[0][k] += gradient.hoop * column[4][k];
-            }
-        }
-        block
     }
 }
 
