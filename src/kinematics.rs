@@ -23,8 +23,9 @@ pub struct Gradient<const D: usize> {
 pub trait Kinematics<const D: usize>: Copy + Default + Send + Sync + 'static {
     /// The spatial tangent `a_ijkl = C_ijkl − τ_il δ_jk`.
     type Tangent;
-    /// The product of the tangent with the gradient of one node, one column a displacement component.
-    type Column;
+    /// The product of the tangent with the gradient of one node, one column a displacement component; the rows
+    /// are the components (i, j) of a gradient, and the hoop where it exists.
+    type Column: AsRef<[[f64; D]]>;
 
     /// Whether the circumferential strain `u_r / r` exists.
     const HOOP: bool;

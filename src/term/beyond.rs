@@ -224,6 +224,15 @@ pub fn stiffen<const D: usize, K: Kinematics<D>>(
     }
 }
 
+/// Copies what the functions beyond the `own` nodes have in the lower triangle to the upper one.
+pub fn mirror_beyond<const D: usize>(local: &mut Local, own: usize, functions: usize) {
+    for a in own * D..functions * D {
+        for b in 0..a {
+            local.matrix[b * local.size + a] = local.matrix[a * local.size + b];
+        }
+    }
+}
+
 /// In four sums side by side.
 fn dot(a: &[f64], b: &[f64]) -> f64 {
     let mut sums = [0.0; 4];

@@ -11,7 +11,8 @@
 //! A [`Share`] of the stress may be carried by unknowns of its own; it is a type, so that a scene without one pays
 //! nothing.
 
-use super::beyond::{scatter_functions, stiffen};
+use super::beyond::{mirror_beyond, scatter_functions, stiffen};
+use super::stiffness::Stiffness;
 use super::{Assembly, Frame, History, Term, Trial, Update};
 use crate::error::{Error, Result};
 use crate::kinematics::{Gradient, Kinematics};
@@ -177,10 +178,10 @@ impl<K, S> Internal<K, S> {
                 return Err(Error::analysis(format!("material point {p}"), "its region has no material", ""));
             };
             let state = State { plastic_strain: points.plastic_strain[p] };
-            answers.push(
-                K::respond(model.as_ref(), points.origin[p][1], &elastic, &state)
-                    .ok_or_else(|| inadmissible(p, "is strained beyond measure", increment))?,
-            );
+            let Some(answer) = K::respond(model.as_ref(), points.origin[p][1], &elastic, &state) else {
+                return Err(inadmissible(p, "is strained beyond measure", increment));
+            };
+            answers.push(answer);
         }
         Ok(answers)
     }
@@ -260,39 +261,46 @@ impl<const D: usize, K: Kinematics<D>, S: Share<D, K>> Term<D> for Internal<K, S
         let wanted = out.tangent.is_some();
         let symmetric = frame.pattern.symmetric;
         let compute = |patch: &Patch, local: &mut Local| {
-            let (strained, answers) = self.evaluate(frame, trial, patch)?;
+            let (strained, mut answers) = self.evaluate(frame, trial, patch)?;
             let count = patch.function_count as usize;
             let cell = self.share.over(frame, trial, patch);
             let later = 1.0 - trial.alpha_f;
-            for ((entries, point), mut answer) in frame.stencil.entries::<K>(patch).zip(&strained).zip(answers) {
-                let beside = self.share.add(&cell, frame.points, &entries, &mut answer);
-                let p = entries.point;
-                let (stress, acts_on) =
-                    weighted_stress::<D, K>(frame.points, p, trial.alpha_f, point, beside, &mut answer)?;
-                let volume = entries.weight;
-                let mut spatial = [Gradient { g: [0.0; D], hoop: 0.0 }; MAX_NODES];
-                for i in 0..count {
-                    spatial[i] = K::push_forward(&entries.gradient(i), &point.inverse);
-                    let f = K::force(&stress, &spatial[i]);
-                    for d in 0..D {
-                        local.vector[i * D + d] += volume * f[d];
+            let mut spatial = [Gradient { g: [0.0; D], hoop: 0.0 }; MAX_NODES];
+            let own = patch.node_count as usize;
+            Stiffness::with::<D, _>(own, |stiffness| {
+                for ((entries, point), answer) in frame.stencil.entries::<K>(patch).zip(&strained).zip(&mut answers) {
+                    let beside = self.share.add(&cell, frame.points, &entries, answer);
+                    let p = entries.point;
+                    let (stress, acts_on) =
+                        weighted_stress::<D, K>(frame.points, p, trial.alpha_f, point, beside, answer)?;
+                    let volume = entries.weight;
+                    for i in 0..count {
+                        spatial[i] = K::push_forward(&entries.gradient(i), &point.inverse);
+                        let f = K::force(&stress, &spatial[i]);
+                        for d in 0..D {
+                            local.vector[i * D + d] += volume * f[d];
+                        }
                     }
+                    let spatial = &spatial[..count];
+                    if wanted {
+                        let (tangent, weight) = (&answer.tangent, later * volume);
+                        stiffness.push::<D, K>(tangent, &spatial[..own], weight, local);
+                        if own < count {
+                            let inverse = &point.inverse;
+                            stiffen::<D, K>(local, tangent, &entries, &spatial[..own], inverse, weight, symmetric);
+                        }
+                    }
+                    let ratio = point.increment.determinant();
+                    self.share.couple(&cell, frame.points, &entries, spatial, ratio, &acts_on, later, local);
                 }
                 if wanted {
-                    let (own, weight) = (entries.value.len(), later * volume);
-                    add_stiffness::<D, K>(local, &answer.tangent, &spatial[..own], weight, symmetric);
-                    if own < count {
-                        let (tangent, inverse) = (&answer.tangent, &point.inverse);
-                        stiffen::<D, K>(local, tangent, &entries, &spatial[..own], inverse, weight, symmetric);
+                    stiffness.add_to::<D, K>(local);
+                    if symmetric {
+                        mirror_beyond::<D>(local, own, count);
                     }
                 }
-                let (spatial, ratio) = (&spatial[..count], point.increment.determinant());
-                self.share.couple(&cell, frame.points, &entries, spatial, ratio, &acts_on, later, local);
-            }
-            if wanted && symmetric {
-                mirror::<D>(local, count);
-            }
-            Ok(())
+                Ok(())
+            })
         };
         scatter_functions(frame, compute, out)
     }
@@ -330,36 +338,5 @@ impl<const D: usize, K: Kinematics<D>, S: Share<D, K>> Term<D> for Internal<K, S
             Ok(frame.stencil.entries::<K>(patch).zip(&strained).zip(&answers).map(new).collect())
         };
         Ok(Some(Update(frame.stencil.patches.par_iter().map(new_of_patch).collect::<Result<_>>()?)))
-    }
-}
-
-/// Adds the stiffness of one point; of a symmetric one only the lower triangle of blocks.
-fn add_stiffness<const D: usize, K: Kinematics<D>>(
-    local: &mut Local,
-    tangent: &K::Tangent,
-    spatial: &[Gradient<D>],
-    weight: f64,
-    symmetric: bool,
-) {
-    for (b, gb) in spatial.iter().enumerate() {
-        let column = K::column(tangent, gb);
-        for (a, ga) in spatial.iter().enumerate().skip(if symmetric { b } else { 0 }) {
-            let block = K::block(&column, ga);
-            for (i, row) in block.iter().enumerate() {
-                let begin = (a * D + i) * local.size + b * D;
-                for (entry, k) in local.matrix[begin..begin + D].iter_mut().zip(row) {
-                    *entry += weight * k;
-                }
-            }
-        }
-    }
-}
-
-/// Copies the lower triangle of blocks to the upper one: cliques are not in the order of equations.
-fn mirror<const D: usize>(local: &mut Local, count: usize) {
-    for a in 0..count * D {
-        for b in a + 1..count * D {
-            local.matrix[a * local.size + b] = local.matrix[b * local.size + a];
-        }
     }
 }

@@ -120,6 +120,10 @@ impl Term<2> for Sum {
         }
         Ok(())
     }
+
+    fn penalises_faces(&self) -> bool {
+        self.0.iter().any(|term| term.penalises_faces())
+    }
 }
 
 /// Condition number of the stiffness of a body that fills the left half of the rectangle of the stand and reaches

@@ -1,0 +1,188 @@
+//! The stiffness of the points of a patch, `Σ_p w_p B_pᵀ a_p B_p`, as a product of two dense matrices.
+//!
+//! The right one holds `w a B`, a row for each component of the gradients of each point; the left one the gradients
+//! themselves. Their product runs along rows of the result, so that it fills whole registers, whatever the machine has.
+
+use crate::kinematics::{Gradient, Kinematics};
+use crate::system::Local;
+use pulp::{Arch, Simd, WithSimd};
+use std::cell::RefCell;
+
+/// Points whose rows are multiplied at once: as many as stay in the nearest cache.
+const AT_ONCE: usize = 16;
+
+thread_local! {
+    /// Memory that the patches of a thread use again and again.
+    static SCRATCH: RefCell<Stiffness> = RefCell::default();
+}
+
+/// The stiffness of some points of a patch, collected until [`Stiffness::add_to`] works it out.
+#[derive(Default)]
+pub struct Stiffness {
+    /// Gradients: a block a point, in it a row a direction and one of the hoop, a column a function.
+    left: Vec<f64>,
+    /// `w a B`: a block a point, in it a row a component of the gradient, a column an equation, padded with zeros.
+    right: Vec<f64>,
+    /// Functions of the patch.
+    functions: usize,
+    /// Length of the rows of `right`.
+    width: usize,
+    points: usize,
+}
+
+impl Stiffness {
+    /// Runs `work` with the memory of this thread, empty, for a patch with so many functions in `D` dimensions.
+    pub fn with<const D: usize, T>(functions: usize, work: impl FnOnce(&mut Self) -> T) -> T {
+        SCRATCH.with_borrow_mut(|scratch| {
+            scratch.points = 0;
+            scratch.functions = functions;
+            scratch.width = (functions * D).next_multiple_of(Arch::new().dispatch(Lanes));
+            work(scratch)
+        })
+    }
+
+    /// Takes in a point with its tangent, gradients on the deformed grid and weight (m³).
+    pub fn push<const D: usize, K: Kinematics<D>>(
+        &mut self,
+        tangent: &K::Tangent,
+        spatial: &[Gradient<D>],
+        weight: f64,
+        local: &mut Local,
+    ) {
+        if self.points == AT_ONCE {
+            self.add_to::<D, K>(local);
+        }
+        let (width, functions) = (self.width, self.functions);
+        let (left, right) = ((D + 1) * functions, rows::<D, K>() * width);
+        self.left.resize(left * AT_ONCE, 0.0);
+        self.right.resize(right * AT_ONCE, 0.0);
+        let left = &mut self.left[left * self.points..][..left];
+        let right = &mut self.right[right * self.points..][..right];
+        for (b, gradient) in spatial.iter().enumerate() {
+            for d in 0..D {
+                left[d * functions + b] = gradient.g[d];
+            }
+            left[D * functions + b] = gradient.hoop;
+            let column = K::column(tangent, gradient);
+            for (row, column) in right.chunks_exact_mut(width).zip(column.as_ref()) {
+                for (entry, a) in row[b * D..(b + 1) * D].iter_mut().zip(column) {
+                    *entry = weight * a;
+                }
+            }
+        }
+        for row in right.chunks_exact_mut(width) {
+            row[functions * D..].fill(0.0);
+        }
+        self.points += 1;
+    }
+
+    /// Adds the stiffness of the points taken in to the first equations of `local`, and forgets them.
+    pub fn add_to<const D: usize, K: Kinematics<D>>(&mut self, local: &mut Local) {
+        let points = std::mem::take(&mut self.points);
+        for component in 0..D {
+            Arch::new().dispatch(Product {
+                left: &self.left[..(D + 1) * self.functions * points],
+                right: &self.right[..rows::<D, K>() * self.width * points],
+                functions: self.functions,
+                width: self.width,
+                dimension: D,
+                hoop: K::HOOP,
+                component,
+                matrix: local.matrix,
+                size: local.size,
+            });
+        }
+    }
+}
+
+/// Components of a gradient.
+fn rows<const D: usize, K: Kinematics<D>>() -> usize {
+    D * D + usize::from(K::HOOP)
+}
+
+/// How many numbers a register holds.
+struct Lanes;
+
+impl WithSimd for Lanes {
+    type Output = usize;
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) -> usize {
+        S::F64_LANES
+    }
+}
+
+/// The rows of one component of the force, `Σ_p Σ_j g_aj (w a B)_ij`.
+struct Product<'a> {
+    left: &'a [f64],
+    right: &'a [f64],
+    functions: usize,
+    width: usize,
+    dimension: usize,
+    hoop: bool,
+    component: usize,
+    matrix: &'a mut [f64],
+    size: usize,
+}
+
+impl WithSimd for Product<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(mut self, simd: S) {
+        let vectors = self.width / S::F64_LANES;
+        for a in (0..self.functions).step_by(3) {
+            for c in (0..vectors).step_by(3) {
+                match ((self.functions - a).min(3), (vectors - c).min(3)) {
+                    (3, 3) => self.tile::<S, 3, 3>(simd, a, c),
+                    (3, 2) => self.tile::<S, 3, 2>(simd, a, c),
+                    (3, _) => self.tile::<S, 3, 1>(simd, a, c),
+                    (2, 3) => self.tile::<S, 2, 3>(simd, a, c),
+                    (2, 2) => self.tile::<S, 2, 2>(simd, a, c),
+                    (2, _) => self.tile::<S, 2, 1>(simd, a, c),
+                    (_, 3) => self.tile::<S, 1, 3>(simd, a, c),
+                    (_, 2) => self.tile::<S, 1, 2>(simd, a, c),
+                    _ => self.tile::<S, 1, 1>(simd, a, c),
+                }
+            }
+        }
+    }
+}
+
+impl Product<'_> {
+    /// `R` functions from `a` on, `C` registers of columns from `c` on.
+    #[inline(always)]
+    fn tile<S: Simd, const R: usize, const C: usize>(&mut self, simd: S, a: usize, c: usize) {
+        let (dimension, functions) = (self.dimension, self.functions);
+        let vectors = self.width / S::F64_LANES;
+        let per_point = (dimension * dimension + usize::from(self.hoop)) * vectors;
+        let (right, _) = S::as_simd_f64s(self.right);
+        let mut sum = [[simd.splat_f64s(0.0); C]; R];
+        let mut add = |left: &[f64], right: &[S::f64s]| {
+            let (left, right) = (&left[a..a + R], &right[c..c + C]);
+            for (sum, &g) in sum.iter_mut().zip(left) {
+                let g = simd.splat_f64s(g);
+                for (sum, &right) in sum.iter_mut().zip(right) {
+                    *sum = simd.mul_add_e_f64s(g, right, *sum);
+                }
+            }
+        };
+        for (left, right) in self.left.chunks_exact((dimension + 1) * functions).zip(right.chunks_exact(per_point)) {
+            for j in 0..dimension {
+                add(&left[j * functions..], &right[(self.component * dimension + j) * vectors..]);
+            }
+            if self.hoop && self.component == 0 {
+                add(&left[dimension * functions..], &right[dimension * dimension * vectors..]);
+            }
+        }
+        for (k, sum) in sum.iter().enumerate() {
+            let row = ((a + k) * dimension + self.component) * self.size;
+            let row = &mut self.matrix[row..row + functions * dimension];
+            let begin = c * S::F64_LANES;
+            let end = row.len().min(begin + C * S::F64_LANES);
+            for (entry, sum) in row[begin..end].iter_mut().zip(pulp::bytemuck::cast_slice::<S::f64s, f64>(sum)) {
+                *entry += sum;
+            }
+        }
+    }
+}
