@@ -29,9 +29,7 @@ impl Stage {
     /// Every mistake of the case.
     pub fn open(args: &StageArgs) -> std::result::Result<Self, Vec<Error>> {
         let CaseArgs { case, overrides } = &args.case;
-        if let Some(threads) = args.threads {
-            use_threads(threads)?;
-        }
+        use_threads(args.threads)?;
         let loaded = case::load(case, overrides)?;
         let folder = args.output.clone().unwrap_or_else(|| loaded.source.folder().join("out"));
         Ok(Self { loaded, folder })
@@ -102,12 +100,18 @@ impl Stage {
     }
 }
 
-/// Sets the number of threads of the process.
-fn use_threads(threads: u16) -> Result<()> {
-    rayon::ThreadPoolBuilder::new()
-        .num_threads(threads.into())
-        .build_global()
-        .map_err(|e| Error::machine("--threads", format!("{threads} threads cannot be started: {e}"), "ask for fewer"))
+/// Sets the number of threads of the process. The one at hand is one of them: were all work handed to others, steps of
+/// milliseconds would spend most of their time waiting to be woken.
+fn use_threads(threads: Option<u16>) -> Result<()> {
+    let wanted = threads.map_or(0, usize::from);
+    match (threads, rayon::ThreadPoolBuilder::new().num_threads(wanted).use_current_thread().build_global()) {
+        (Some(threads), Err(e)) => {
+            let problem = format!("{threads} threads cannot be started: {e}");
+            Err(Error::machine("--threads", problem, "ask for fewer"))
+        }
+        // Where nothing was asked for, the threads that are there already will do.
+        _ => Ok(()),
+    }
 }
 
 /// What a stage's result depends on, as a hash.

@@ -158,21 +158,14 @@ impl Product<'_> {
         let per_point = (dimension * dimension + usize::from(self.hoop)) * vectors;
         let (right, _) = S::as_simd_f64s(self.right);
         let mut sum = [[simd.splat_f64s(0.0); C]; R];
-        let mut add = |left: &[f64], right: &[S::f64s]| {
-            let (left, right) = (&left[a..a + R], &right[c..c + C]);
-            for (sum, &g) in sum.iter_mut().zip(left) {
-                let g = simd.splat_f64s(g);
-                for (sum, &right) in sum.iter_mut().zip(right) {
-                    *sum = simd.mul_add_e_f64s(g, right, *sum);
-                }
-            }
-        };
         for (left, right) in self.left.chunks_exact((dimension + 1) * functions).zip(right.chunks_exact(per_point)) {
             for j in 0..dimension {
-                add(&left[j * functions..], &right[(self.component * dimension + j) * vectors..]);
+                let right = &right[(self.component * dimension + j) * vectors..];
+                add(simd, &mut sum, &left[j * functions + a..], &right[c..]);
             }
             if self.hoop && self.component == 0 {
-                add(&left[dimension * functions..], &right[dimension * dimension * vectors..]);
+                let right = &right[dimension * dimension * vectors..];
+                add(simd, &mut sum, &left[dimension * functions + a..], &right[c..]);
             }
         }
         for (k, sum) in sum.iter().enumerate() {
@@ -183,6 +176,19 @@ impl Product<'_> {
             for (entry, sum) in row[begin..end].iter_mut().zip(pulp::bytemuck::cast_slice::<S::f64s, f64>(sum)) {
                 *entry += sum;
             }
+        }
+    }
+}
+
+/// Adds the products of `R` gradients with `C` registers. A closure in its place might be compiled on its own, without
+/// the instructions that its caller may use.
+#[inline(always)]
+fn add<S: Simd, const R: usize, const C: usize>(simd: S, sum: &mut [[S::f64s; C]; R], left: &[f64], right: &[S::f64s]) {
+    let (left, right) = (&left[..R], &right[..C]);
+    for k in 0..R {
+        let g = simd.splat_f64s(left[k]);
+        for l in 0..C {
+            sum[k][l] = simd.mul_add_e_f64s(g, right[l], sum[k][l]);
         }
     }
 }
