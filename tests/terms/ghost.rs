@@ -109,10 +109,6 @@ fn in_flow_it_resists_independently_of_the_step() {
 struct Sum(Vec<Box<dyn Term<2>>>);
 
 impl Term<2> for Sum {
-    fn penalises_faces(&self) -> bool {
-        self.0.iter().any(|t| t.penalises_faces())
-    }
-
     fn assemble(&self, frame: &Frame<2>, trial: &Trial<2>, out: &mut Assembly) -> Result<()> {
         for term in &self.0 {
             let tangent = out.tangent.as_deref_mut();
