@@ -167,7 +167,6 @@ const MEANING: &[Broken] = &[
     ),
     check(Case("restore: every_step", "restore: {min_quality: 1.3}"), &["case.yaml:17", "at most 1"]),
     check(Case("restore: every_step", "gradient: gimp"), &["case.yaml:17", "not available yet", "mpm or ddmp"]),
-    check(Case("restore: every_step", "quadrature: fitted"), &["case.yaml:17", "not available yet", "choose points"]),
     check(Case("tolerance: 1.0e-8", "tolerance: 0"), &["case.yaml:17", "numerics.tolerance", "above 0"]),
     check(Case("quasi_static", "consolidation"), &["case.yaml:20", "not available yet", "quasi_static or dynamic"]),
     check(Case("duration: 1", "duration: -1"), &["case.yaml:21:15", "above 0"]),
