@@ -129,17 +129,22 @@ impl Matrix {
         x.iter().zip(fixed).map(|(x, fixed)| if fixed { 0.0 } else { x * x }).sum::<f64>().sqrt()
     }
 
-    /// The largest diagonal entry, at least the smallest positive number.
-    pub fn scale(&self, pattern: &Pattern) -> f64 {
-        let mut scale = f64::MIN_POSITIVE;
-        for j in 0..pattern.len() {
+    /// The diagonal.
+    pub fn diagonal(&self, pattern: &Pattern) -> Vec<f64> {
+        let mut diagonal = vec![0.0; pattern.len()];
+        for (j, diagonal) in diagonal.iter_mut().enumerate() {
             for k in pattern.column[j] as usize..pattern.column[j + 1] as usize {
                 if pattern.row[k] as usize == j {
-                    scale = scale.max(self.values[k].abs());
+                    *diagonal = self.values[k];
                 }
             }
         }
-        scale
+        diagonal
+    }
+
+    /// The largest diagonal entry, at least the smallest positive number.
+    pub fn scale(&self, pattern: &Pattern) -> f64 {
+        self.diagonal(pattern).iter().fold(f64::MIN_POSITIVE, |scale, d| scale.max(d.abs()))
     }
 }
 
