@@ -32,6 +32,7 @@ SCHEMES = [
     scheme("plain", "V_p weights, plain gradients", quadrature="points", gradient="mpm", restore="every_step"),
     scheme("fitted", "fitted weights", quadrature="fitted", gradient="mpm", restore="every_step"),
     scheme("ddmp", "V_p weights, smooth gradients", quadrature="points", gradient="ddmp", restore="every_step"),
+    scheme("ddmp, fitted", "fitted weights, smooth gradients", quadrature="fitted", gradient="ddmp", restore="every_step"),
     scheme("plain, quality", "plain, restored by quality", quadrature="points", gradient="mpm", restore=QUALITY),
     scheme("fitted, quality", "fitted, restored by quality", quadrature="fitted", gradient="mpm", restore=QUALITY),
     scheme("fitted, no pressure field", "fitted, displacements alone", quadrature="fitted", gradient="mpm",

@@ -1,6 +1,6 @@
 //! Integrals of 1, x, y, x², xy, y² over a cell, or over the part of it where a level set is positive.
 //!
-//! The level set is given at the nodes and linear on the triangles between them (see [`super::split`]), in the
+//! The level set is given at the nodes and linear on the triangles between them (see `split.rs`), in the
 //! parametric domain: curved cells keep their shape. Areas and volumes are per metre in plane strain and per
 //! full turn (2π) in axisymmetry, by [`Kinematics::measure`].
 
