@@ -112,10 +112,3 @@ fn plain_mpm_restored_in_every_step_does_not_converge() {
         assert!((0.03..0.3).contains(&errors.stress), "{cells} cells: {:e}", errors.stress);
     }
 }
-
-/// A grid restored when its cells are distorted errs less than one restored in every step, and less often.
-#[test]
-fn restoration_by_quality_is_rare() {
-    let errors = column(CellKind::T6, 16, 1.0, 40, 6, Restore::Quality { least: 0.5 });
-    println!("restored by quality: stress {:.2e}, displacement {:.2e}", errors.stress, errors.displacement);
-}
