@@ -123,13 +123,21 @@ impl Checker {
                 Content::Buffer
             }
             raw::RegionKind::Fem | raw::RegionKind::Structure => {
-                let kind = if region.kind == raw::RegionKind::Fem { "fem" } else { "structure" };
-                let problem = format!("a region of kind `{kind}` {LATER}");
-                self.issue(&path.key("kind"), At::Value, problem, "choose mpm or buffer");
-                return Region { name: name.to_owned(), content: Content::Buffer };
+                if region.points_per_cell.is_some() {
+                    let problem = "finite elements have the points of their quadrature rule";
+                    self.issue(&path.key("points_per_cell"), At::Key, problem, "take `points_per_cell` out");
+                }
+                let material = self.material_of(region, materials, path);
+                if region.kind == raw::RegionKind::Fem {
+                    Content::Fem { material }
+                } else {
+                    Content::Structure { material }
+                }
             }
         };
-        if region.rigid.is_some() {
+        if region.rigid == Some(true) && region.kind == raw::RegionKind::Structure {
+            self.issue(&path.key("rigid"), At::Key, format!("a rigid structure {LATER}"), "give it a stiff material");
+        } else if region.rigid.is_some() && region.kind != raw::RegionKind::Structure {
             self.issue(&path.key("rigid"), At::Key, "only a structure can be rigid", "take `rigid` out");
         }
         Region { name: name.to_owned(), content }
@@ -138,7 +146,7 @@ impl Checker {
     fn material_of(&mut self, region: &raw::Region, materials: &[&str], path: &Path) -> usize {
         let Some(name) = &region.material else {
             let remedy = "add `material: …`, the name of an entry of `materials`";
-            self.issue(path, At::Key, "a region of kind mpm has no `material`", remedy);
+            self.issue(path, At::Key, "a region that is not a buffer has no `material`", remedy);
             return 0;
         };
         materials.iter().position(|material| material == name).unwrap_or_else(|| {
@@ -273,7 +281,7 @@ impl Checker {
             self.issue(&root.key("numerics").key("pressure"), At::Value, problem, "take it out");
         }
         if file.regions.values().all(|region| region.kind == raw::RegionKind::Buffer) {
-            let remedy = "make at least one region `kind: mpm` with a material";
+            let remedy = "make at least one region `kind: mpm` or `kind: fem` with a material";
             self.issue(&root.key("regions"), At::Key, "no region holds material", remedy);
         }
         if case.k0.is_some() && case.gravity[0] != 0.0 {

@@ -75,6 +75,25 @@ pub enum Content {
     Mpm { material: usize, points_per_cell: usize },
     /// Cells without points, that material may move into.
     Buffer,
+    /// Finite elements, of the material with this index.
+    Fem { material: usize },
+    /// A structure: finite elements of its own, above the grid.
+    Structure { material: usize },
+}
+
+impl Content {
+    /// The index of the material, if there is one.
+    pub fn material(&self) -> Option<usize> {
+        match *self {
+            Self::Mpm { material, .. } | Self::Fem { material } | Self::Structure { material } => Some(material),
+            Self::Buffer => None,
+        }
+    }
+
+    /// Whether the cells are finite elements.
+    pub fn is_fem(&self) -> bool {
+        matches!(self, Self::Fem { .. } | Self::Structure { .. })
+    }
 }
 
 /// A material.
@@ -86,6 +105,13 @@ pub struct Material {
     pub model: Arc<dyn Model>,
     /// What the pressure field carries of its stress.
     pub carried: Option<Carried>,
+}
+
+impl Material {
+    /// Whether it has a density anywhere.
+    pub fn has_mass(&self) -> bool {
+        self.density.top > 0.0 || self.density.gradient > 0.0
+    }
 }
 
 impl fmt::Debug for Material {

@@ -10,6 +10,7 @@ mod incompressible;
 pub mod locate;
 mod materials;
 pub mod names;
+mod parts;
 mod phases;
 pub mod raw;
 pub mod scene;

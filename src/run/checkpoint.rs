@@ -11,6 +11,7 @@ use crate::step::State;
 use crate::surface::Front;
 
 const POINTS: &str = "points.";
+const FEM: &str = "fem.";
 
 /// Everything in a state.
 pub fn store<const D: usize>(state: &State<D>) -> Store {
@@ -25,6 +26,9 @@ pub fn store<const D: usize>(state: &State<D>) -> Store {
         rows,
         log_lines,
         points,
+        fem,
+        fem_parametric,
+        nodes,
         moving,
         parametric,
         displacement,
@@ -46,9 +50,14 @@ pub fn store<const D: usize>(state: &State<D>) -> Store {
     );
     store.put("state.times", 1, vec![*time, *phase_time, *step_size]);
     store.put("state.parametric", 3, parametric.concat());
-    for (name, field) in
-        [("displacement", displacement), ("travel", travel), ("velocity", velocity), ("acceleration", acceleration)]
-    {
+    store.put("state.fem_parametric", 3, fem_parametric.concat());
+    for (name, field) in [
+        ("displacement", displacement),
+        ("travel", travel),
+        ("velocity", velocity),
+        ("acceleration", acceleration),
+        ("nodes", nodes),
+    ] {
         store.put(&format!("state.{name}"), D, field.concat());
     }
     store.put("state.pressure", 1, pressure.clone());
@@ -59,9 +68,11 @@ pub fn store<const D: usize>(state: &State<D>) -> Store {
     let (markers, loops) = front.as_ref().map_or((Vec::new(), Vec::new()), |f| (f.position.concat(), f.first.clone()));
     store.put("front.position", 2, markers);
     store.put("front.first", 1, loops);
-    for mut array in columns::to_arrays(points) {
-        array.name.insert_str(0, POINTS);
-        store.put_array(array);
+    for (prefix, points) in [(POINTS, points), (FEM, fem)] {
+        for mut array in columns::to_arrays(points) {
+            array.name.insert_str(0, prefix);
+            store.put_array(array);
+        }
     }
     store
 }
@@ -125,8 +136,10 @@ pub fn take<const D: usize>(mut store: Store, first: &State<D>) -> Result<State<
         if field.len() == nodes || field.is_empty() { Ok(field) } else { Err(foreign(name)) }
     };
     let (displacement, travel) = (nodal("displacement")?, nodal("travel")?);
-    let (velocity, acceleration) = (nodal("velocity")?, nodal("acceleration")?);
-    let parametric = store.take::<f64>("state.parametric", 3)?.chunks_exact(3).map(|v| [v[0], v[1], v[2]]).collect();
+    let (velocity, acceleration, places) = (nodal("velocity")?, nodal("acceleration")?, nodal("nodes")?);
+    let triples = |values: Vec<f64>| values.chunks_exact(3).map(|v| [v[0], v[1], v[2]]).collect();
+    let parametric: Vec<_> = triples(store.take("state.parametric", 3)?);
+    let fem_parametric = triples(store.take("state.fem_parametric", 3)?);
     let pressure = store.take::<f64>("state.pressure", 1)?;
     let taking_part = store.take::<u8>("state.taking_part", 1)?.into_iter().map(|b| b != 0).collect();
     let penalised = store.take::<u8>("state.penalised", 1)?.into_iter().map(|b| b != 0).collect();
@@ -134,7 +147,7 @@ pub fn take<const D: usize>(mut store: Store, first: &State<D>) -> Result<State<
     let position = store.take::<f64>("front.position", 2)?.chunks_exact(2).map(|x| [x[0], x[1]]).collect();
     let loops = store.take::<u32>("front.first", 1)?;
     let front = (!loops.is_empty()).then_some(Front { position, first: loops });
-    let points = columns::take(&mut store, POINTS)?;
+    let (points, fem) = (columns::take(&mut store, POINTS)?, columns::take(&mut store, FEM)?);
     let state = State {
         phase: *phase as usize,
         time: *time,
@@ -145,6 +158,9 @@ pub fn take<const D: usize>(mut store: Store, first: &State<D>) -> Result<State<
         rows: *rows,
         log_lines: *log_lines,
         points,
+        fem,
+        fem_parametric,
+        nodes: places,
         moving: *moving != 0,
         parametric,
         displacement,
@@ -159,6 +175,7 @@ pub fn take<const D: usize>(mut store: Store, first: &State<D>) -> Result<State<
         restorations: *restorations,
     };
     if state.points.len() != first.points.len()
+        || [state.fem.len(), state.fem_parametric.len()] != [first.fem.len(); 2]
         || [state.parametric.len(), state.weighing.weight.len()] != [state.points.len(); 2]
     {
         return Err(foreign("the number of points"));

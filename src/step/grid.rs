@@ -1,6 +1,7 @@
 //! The grid of a run: which cells take part, the numbering of the unknowns and the stencil of the points.
 //! All of it follows from the scene and the state, and is made anew only as far as they changed.
 
+use super::fem::{self, Elements};
 use super::ghost_faces;
 use super::newton::Buffers;
 use super::pressure;
@@ -10,7 +11,7 @@ use crate::error::{Error, Result};
 use crate::kinematics::Kinematics;
 use crate::mesh::Mesh;
 use crate::points::Points;
-use crate::quadrature::{Restored, Weighing};
+use crate::quadrature::Restored;
 use crate::stencil::Stencil;
 use crate::system::{Cliques, Matrix, Pattern, Solver, Workspace};
 use crate::term::{Frame, GhostFace};
@@ -19,6 +20,15 @@ use rayon::prelude::*;
 /// Rings of cells around those with points that take part too, so that points can move on for a while
 /// before the pattern changes.
 const RINGS: usize = 2;
+
+/// Points with the cells they act on: the material points on the grid, or those of the finite elements.
+pub struct Family<'a, const D: usize> {
+    pub mesh: &'a Mesh<D>,
+    pub stencil: &'a Stencil<D>,
+    /// The clique of each cell.
+    pub clique: &'a [u32],
+    pub points: &'a Points<D>,
+}
 
 /// A system of equations over the nodes that take part.
 pub struct System {
@@ -30,6 +40,8 @@ pub struct System {
 /// The grid of a run.
 pub struct Grid<const D: usize> {
     pub stencil: Stencil<D>,
+    /// The finite elements; absent where the scene has none.
+    pub elements: Option<Elements<D>>,
     /// The faces that take a ghost penalty.
     pub ghost: Vec<GhostFace>,
     /// The clique of each face that the system has room for a penalty at, else `u32::MAX`; empty without faces.
@@ -67,13 +79,18 @@ struct Carriers {
 }
 
 impl Carriers {
-    /// Numbers the unknowns of `cells`, whose cliques come first in `cliques` and in their order, after `nodes`
-    /// blocks.
-    fn new<const D: usize>(mesh: &Mesh<D>, cells: &[u32], nodes: usize, cliques: &Cliques) -> Self {
-        let mut block = vec![u32::MAX; mesh.nodes.len() + mesh.cells.len()];
-        for &c in cells {
-            for unknown in pressure::unknowns_of(mesh, c as usize) {
-                block[unknown as usize] = 0;
+    /// Numbers the unknowns of `families` (meshes, where their constants begin, and their cells with unknowns, whose
+    /// cliques `clique` tells) after `nodes` blocks.
+    fn new<const D: usize>(families: &[Carrying<D>], nodes: usize, cliques: &Cliques) -> Self {
+        let most = families.iter().map(|f| f.constants + f.mesh.cells.len()).max().unwrap_or(0);
+        let mut block = vec![u32::MAX; most];
+        let mut of_clique: Vec<Option<(usize, u32)>> = vec![None; cliques.len()];
+        for (i, family) in families.iter().enumerate() {
+            for &c in family.cells {
+                of_clique[family.clique[c as usize] as usize] = Some((i, c));
+                for unknown in family.unknowns(c) {
+                    block[unknown as usize] = 0;
+                }
             }
         }
         let mut carrier = Vec::new();
@@ -82,12 +99,26 @@ impl Carriers {
             carrier.push(unknown);
         }
         let mut extended = Cliques::default();
-        for k in 0..cliques.len() {
+        for (k, of) in of_clique.iter().enumerate() {
             let own = cliques.blocks(k).iter().copied();
-            let carriers = cells.get(k).into_iter().flat_map(|&c| pressure::unknowns_of(mesh, c as usize));
+            let carriers = of.iter().flat_map(|&(i, c)| families[i].unknowns(c));
             extended.push(own.chain(carriers.map(|unknown| block[unknown as usize])));
         }
         Self { carrier, cliques: extended }
+    }
+}
+
+/// Cells with unknowns of pressure.
+struct Carrying<'a, const D: usize> {
+    mesh: &'a Mesh<D>,
+    constants: usize,
+    cells: &'a [u32],
+    clique: &'a [u32],
+}
+
+impl<const D: usize> Carrying<'_, D> {
+    fn unknowns(&self, cell: u32) -> impl Iterator<Item = u32> {
+        pressure::unknowns_of(self.mesh, self.constants, cell as usize)
     }
 }
 
@@ -100,7 +131,7 @@ impl<const D: usize> Grid<D> {
         let mut stencil = Stencil::default();
         fill::<D, K>(&mut stencil, scene, state);
         stencil.weigh(&state.weighing.weight, &state.weighing.shift);
-        Self::with(scene, state, stencil)
+        Self::with::<K>(scene, state, stencil)
     }
 
     /// The grid in its first shape, with the points on it.
@@ -113,7 +144,13 @@ impl<const D: usize> Grid<D> {
             state.points.plastic_increment.resize(state.points.len(), 0.0);
         }
         begin_anew::<D, K>(scene, state, &mut stencil)?;
-        Self::with(scene, state, stencil)
+        let grid = Self::with::<K>(scene, state, stencil)?;
+        if let (Some(elements), Some(_)) = (&grid.elements, scene.pressure_unit) {
+            let constants = scene.mesh.nodes.len() + scene.mesh.cells.len();
+            let Elements { mesh, stencil, .. } = elements;
+            pressure::gather::<D, K>(mesh, stencil, &state.fem, constants, &mut state.pressure);
+        }
+        Ok(grid)
     }
 
     /// Restores the grid.
@@ -122,15 +159,18 @@ impl<const D: usize> Grid<D> {
     /// As [`Grid::first`].
     pub fn restore<K: Kinematics<D>>(&mut self, scene: &Scene<D>, state: &mut State<D>) -> Result<()> {
         if begin_anew::<D, K>(scene, state, &mut self.stencil)? {
-            *self = Self::with(scene, state, std::mem::take(&mut self.stencil))?;
+            *self = Self::with::<K>(scene, state, std::mem::take(&mut self.stencil))?;
         } else {
+            if let Some(elements) = &mut self.elements {
+                elements.place::<K>(state);
+            }
             self.penalise(scene, state);
         }
         Ok(())
     }
 
     /// The grid for a stencil.
-    fn with(scene: &Scene<D>, state: &State<D>, stencil: Stencil<D>) -> Result<Self> {
+    fn with<K: Kinematics<D>>(scene: &Scene<D>, state: &State<D>, stencil: Stencil<D>) -> Result<Self> {
         let mesh = &scene.mesh;
         let (mut clique, mut block) = (vec![u32::MAX; mesh.cells.len()], vec![u32::MAX; mesh.nodes.len()]);
         let (mut cliques, mut node) = (Cliques::default(), Vec::new());
@@ -139,6 +179,9 @@ impl<const D: usize> Grid<D> {
                 block[n as usize] = 0;
             }
         }
+        for &n in scene.fem.iter().flat_map(|fem| &fem.mesh.cells.nodes) {
+            block[n as usize] = 0;
+        }
         for (n, block) in block.iter_mut().enumerate().filter(|(_, b)| **b == 0) {
             *block = node.len() as u32;
             node.push(n as u32);
@@ -146,6 +189,10 @@ impl<const D: usize> Grid<D> {
         let cells: Vec<u32> = (0u32..).zip(&state.taking_part).filter(|(_, part)| **part).map(|(c, _)| c).collect();
         for &c in &cells {
             clique[c as usize] = cliques.push(mesh.cells.nodes(c as usize).iter().map(|&n| block[n as usize]));
+        }
+        let mut elements = scene.fem.as_ref().map(|fem| Elements::new::<K>(fem, state));
+        if let Some(elements) = &mut elements {
+            elements.couple(&block, &mut cliques);
         }
         let cells_only = cliques.clone();
         let mut face_clique = Vec::new();
@@ -161,7 +208,17 @@ impl<const D: usize> Grid<D> {
         let mass = if dynamic { Some(System::new(&vec![1; node.len()], cliques.clone(), true)?) } else { None };
         // The mass always takes a penalty on faces, the motion only where a term says so.
         let cliques = if scene.terms.iter().any(|t| t.penalises_faces()) { cliques } else { cells_only };
-        let with_pressure = scene.pressure_unit.map(|_| Carriers::new(mesh, &cells, node.len(), &cliques));
+        let with_pressure = scene.pressure_unit.map(|_| {
+            let constants = mesh.nodes.len();
+            let mut families = vec![Carrying { mesh, constants, cells: &cells, clique: &clique }];
+            families.extend(elements.iter().map(|elements| Carrying {
+                mesh: &elements.mesh,
+                constants: constants + mesh.cells.len(),
+                cells: &elements.cells,
+                clique: &elements.clique,
+            }));
+            Carriers::new(&families, node.len(), &cliques)
+        });
         let symmetric = scene.terms.iter().all(|t| t.symmetric());
         let mut sizes = vec![D as u8; node.len()];
         let (motion, carrier) = match with_pressure {
@@ -175,6 +232,7 @@ impl<const D: usize> Grid<D> {
         };
         let mut grid = Self {
             stencil,
+            elements,
             ghost: Vec::new(),
             face_clique,
             clique,
@@ -202,19 +260,47 @@ impl<const D: usize> Grid<D> {
         }));
     }
 
-    /// What the terms see.
-    pub fn frame<'a>(&'a self, mesh: &'a Mesh<D>, points: &'a Points<D>, weighing: &'a Weighing<D>) -> Frame<'a, D> {
+    /// What the terms of the scene see.
+    pub fn frame<'a>(&'a self, mesh: &'a Mesh<D>, state: &'a State<D>) -> Frame<'a, D> {
         Frame {
             mesh,
             stencil: &self.stencil,
-            soft: &weighing.soft,
+            soft: &state.weighing.soft,
             ghost: &self.ghost,
             cells: &self.cells,
-            points,
+            constants: mesh.nodes.len(),
+            points: &state.points,
             pattern: &self.motion.pattern,
             clique: &self.clique,
             block: &self.block,
         }
+    }
+
+    /// What the terms of the finite elements see.
+    pub fn frame_of_elements<'a>(
+        &'a self,
+        scene: &Scene<D>,
+        elements: &'a Elements<D>,
+        state: &'a State<D>,
+    ) -> Frame<'a, D> {
+        Frame {
+            mesh: &elements.mesh,
+            stencil: &elements.stencil,
+            soft: &[],
+            ghost: &[],
+            cells: &elements.cells,
+            constants: scene.mesh.nodes.len() + scene.mesh.cells.len(),
+            points: &state.fem,
+            pattern: &self.motion.pattern,
+            clique: &elements.clique,
+            block: &self.block,
+        }
+    }
+
+    /// All that carries mass.
+    pub fn families<'a>(&'a self, scene: &'a Scene<D>, state: &'a State<D>) -> impl Iterator<Item = Family<'a, D>> {
+        let soil = Family { mesh: &scene.mesh, stencil: &self.stencil, clique: &self.clique, points: &state.points };
+        std::iter::once(soil).chain(self.elements.iter().map(|elements| elements.family(&state.fem)))
     }
 }
 
@@ -241,6 +327,7 @@ fn begin_anew<const D: usize, K: Kinematics<D>>(
         displacement: (state.restorations > 0).then_some(&state.displacement),
     };
     state.weighing = scene.quadrature.weigh(&grid, &mut state.front);
+    fem::keep_shape(scene, state);
     state.displacement.fill([0.0; D]);
     state.restorations += 1;
     if scene.numerics.restore == Restore::Never {
@@ -252,7 +339,8 @@ fn begin_anew<const D: usize, K: Kinematics<D>>(
     }
     stencil.weigh(&state.weighing.weight, &state.weighing.shift);
     if scene.pressure_unit.is_some() {
-        pressure::gather::<D, K>(&scene.mesh, stencil, state);
+        let nodes = scene.mesh.nodes.len();
+        pressure::gather::<D, K>(&scene.mesh, stencil, &state.points, nodes, &mut state.pressure);
     }
     if let Some(faces) = &scene.faces {
         let chosen = ghost_faces::choose(scene, state);

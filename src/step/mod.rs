@@ -6,6 +6,7 @@
 
 mod control;
 mod distortion;
+mod fem;
 mod ghost_faces;
 mod grid;
 mod mass;
@@ -21,7 +22,7 @@ pub use control::{Controller, Limits};
 pub use grid::Grid;
 pub use newton::Solution;
 pub use report::Report;
-pub use scene::{Fixed, Numerics, Phase, Prescribed, Restore, Scene, Stop};
+pub use scene::{Fem, Fixed, Numerics, Phase, Prescribed, Restore, Scene, Stop};
 pub use state::State;
 
 use crate::error::{Kind, Result};
@@ -125,8 +126,7 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
             start.as_ref().map_or((&[], &[]), |s| (&s.velocity, &s.acceleration));
         let problem = Problem {
             scene,
-            points: &state.points,
-            weighing: &state.weighing,
+            state,
             converged: &state.displacement,
             pressure: &state.pressure,
             velocity,
@@ -144,7 +144,7 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
     /// Grid to points.
     fn convect(&mut self, dt: f64, start: Option<Start<D>>, solution: Solution<D>) -> Result<Report<D>> {
         let (scene, state) = (self.scene, &mut self.state);
-        let mut momentum = report::Motion::of(&state.points).linear;
+        let mut momentum = report::Motion::of(state).linear;
         transfer::commit(scene, &self.grid, state, &solution)?;
         transfer::move_points::<D, K>(scene, &self.grid, state, &solution.displacement);
         if let Some(start) = &start {

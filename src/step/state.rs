@@ -23,6 +23,12 @@ pub struct State<const D: usize> {
     /// Lines of the log written so far.
     pub log_lines: u64,
     pub points: Points<D>,
+    /// The points of the finite elements, and where they are in them; empty without.
+    pub fem: Points<D>,
+    pub fem_parametric: Vec<[f64; 3]>,
+    /// Coordinates (m) of the nodes when the grid was last restored; empty without finite elements, which alone
+    /// change them.
+    pub nodes: Vec<[f64; D]>,
     /// Whether the velocities and accelerations of the points are those of the motion: false until the first
     /// dynamic step has computed the accelerations from the forces.
     pub moving: bool,
@@ -63,6 +69,9 @@ impl<const D: usize> State<D> {
             rows: 0,
             log_lines: 0,
             points,
+            fem: Points::default(),
+            fem_parametric: Vec::new(),
+            nodes: Vec::new(),
             moving: false,
             parametric: Vec::new(),
             displacement: vec![[0.0; D]; nodes],
@@ -81,8 +90,10 @@ impl<const D: usize> State<D> {
     /// Forgets the motion, at the end of a dynamic phase before a quasi-static one.
     pub fn rest(&mut self) {
         self.moving = false;
-        self.points.velocity.clear();
-        self.points.acceleration.clear();
+        for points in [&mut self.points, &mut self.fem] {
+            points.velocity.clear();
+            points.acceleration.clear();
+        }
         self.velocity.clear();
         self.acceleration.clear();
     }

@@ -52,8 +52,10 @@ pub struct Frame<'a, const D: usize> {
     pub soft: &'a [SoftCell],
     /// Faces beside cells that cannot stand alone; empty where the scene has no such penalty.
     pub ghost: &'a [GhostFace],
-    /// The cells that take part, ascending.
+    /// The cells that take part, ascending; of finite elements those with unknowns of pressure.
     pub cells: &'a [u32],
+    /// Where the constants of the cells begin in [`Trial::pressure`].
+    pub constants: usize,
     /// The points at the last converged step.
     pub points: &'a Points<D>,
     /// One block a node that takes part, one clique a cell that does. With a pressure field, one more block for each

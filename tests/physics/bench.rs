@@ -129,6 +129,7 @@ impl Bench {
         terms.extend(self.extra);
         let step = self.duration / self.steps as f64;
         Scene {
+            fem: None,
             locator: Locator::new(&self.mesh),
             faces: Some(Faces::of(&self.mesh)),
             mesh: self.mesh,
