@@ -5,6 +5,7 @@ use super::locate::{At, Path};
 use super::raw;
 use super::source::Issue;
 use super::structure::suggest;
+use crate::contact::Law;
 use crate::stencil::Scheme;
 use std::collections::BTreeMap;
 use std::path::Path as FilePath;
@@ -53,9 +54,7 @@ impl Checker {
             .iter()
             .map(|(name, region)| self.region(name, region, &names, &root.key("regions").key(name)))
             .collect();
-        if !file.contacts.is_empty() {
-            self.issue(&root.key("contacts"), At::Key, format!("contact {LATER}"), "take the entry out");
-        }
+        let contacts = self.contacts(file, &root.key("contacts"));
         let numerics = self.numerics(&file.numerics, &root.key("numerics"));
         let phases = self.phases(file, &numerics, &root.key("phases"));
         let case = Case {
@@ -64,6 +63,7 @@ impl Checker {
             mesh: self.mesh(&file.mesh, folder, &root.key("mesh")),
             regions,
             materials,
+            contacts,
             supports: self.supports(&file.supports, &root.key("supports")),
             gravity,
             k0: file.initial_stress.map(|stress| stress.k0),
@@ -154,6 +154,39 @@ impl Checker {
             self.issue(&path.key("material"), At::Value, problem, suggest(name, materials.iter().copied()));
             0
         })
+    }
+
+    fn contacts(&mut self, file: &raw::CaseFile, path: &Path) -> Vec<Contact> {
+        let of_kind = |kind: raw::RegionKind| {
+            let names = file.regions.iter().filter(move |(_, region)| region.kind == kind);
+            names.map(|(name, _)| name.as_str())
+        };
+        let mut checked = Vec::new();
+        for (i, contact) in file.contacts.iter().enumerate() {
+            let path = path.index(i);
+            let mut find = |name: &String, kind, words: &str, path: &Path| {
+                let known = of_kind(kind).any(|known| known == name);
+                if !known {
+                    let problem = format!("there is no region `{name}` of kind {words}");
+                    self.issue(path, At::Value, problem, suggest(name, of_kind(kind)));
+                }
+                file.regions.keys().position(|known| known == name).filter(|_| known)
+            };
+            let structure = find(&contact.structure, raw::RegionKind::Structure, "structure", &path.key("structure"));
+            let soil =
+                contact.soil.names().iter().map(|name| find(name, raw::RegionKind::Mpm, "mpm", &path.key("soil")));
+            let soil: Option<Vec<usize>> = soil.collect();
+            let law = Law {
+                friction: contact.friction,
+                adhesion: contact.adhesion,
+                factor: contact.adhesion_factor,
+                separates: contact.tension == raw::Tension::CutOff,
+            };
+            if let (Some(structure), Some(soil)) = (structure, soil) {
+                checked.push(Contact { structure, soil, law });
+            }
+        }
+        checked
     }
 
     fn supports(&mut self, supports: &BTreeMap<String, raw::Components>, path: &Path) -> Vec<Support> {

@@ -4,6 +4,7 @@
 //! to the mesh once [`super::names::check`] found no fault.
 
 pub use super::raw::{Axis, Encoding, Field, Quantity};
+use crate::contact::Law;
 use crate::material::{Model, Profile};
 use crate::stencil::Scheme;
 use crate::term::Carried;
@@ -23,6 +24,7 @@ pub struct Case {
     pub regions: Vec<Region>,
     /// The materials, sorted by name.
     pub materials: Vec<Material>,
+    pub contacts: Vec<Contact>,
     pub supports: Vec<Support>,
     /// Acceleration of gravity (m/s²).
     pub gravity: [f64; 2],
@@ -118,6 +120,15 @@ impl fmt::Debug for Material {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("Material").field("name", &self.name).field("density", &self.density).finish_non_exhaustive()
     }
+}
+
+/// Contact between a structure and soil.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Contact {
+    /// Indices into [`Case::regions`].
+    pub structure: usize,
+    pub soil: Vec<usize>,
+    pub law: Law,
 }
 
 /// Components of the displacement held at zero on a curve.

@@ -19,6 +19,7 @@ pub mod source;
 pub mod structure;
 #[cfg(test)]
 mod tests;
+mod touch;
 
 pub use checked::Case;
 

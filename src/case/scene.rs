@@ -1,7 +1,7 @@
 //! From a checked case to a scene: the only place that decides which terms exist.
 
 use super::checked::{Analysis, Case, Field, Geometry, Material, Quantity, Region, Restore};
-use super::parts;
+use super::{parts, touch};
 use crate::error::{Error, Result};
 use crate::io::checkpoint::Fingerprint;
 use crate::kinematics::{Axisymmetric, Kinematics, PlaneStrain};
@@ -14,7 +14,8 @@ use crate::run::{self, Ended, Outputs, Progress, Watch, WatchedOn};
 use crate::stencil::{Scheme, cell_size, smooths};
 use crate::step::{self, Fem, Fixed, Numerics, Phase, Prescribed, Scene, State, Stop};
 use crate::term::{
-    BodyForce, Carried, EmptyCells, GhostPenalty, Inertia, Internal, PressureField, SmoothPressure, Term, Traction,
+    BodyForce, Carried, Contact, EmptyCells, GhostPenalty, Inertia, Internal, PressureField, SmoothPressure, Term,
+    Traction,
 };
 use crate::time_value::TimeValue;
 use std::path::Path;
@@ -148,6 +149,13 @@ pub fn scene<K: Kinematics<2>>(case: &Case, whole: Mesh<2>) -> Result<Scene<2>> 
         }
         None => None,
     };
+    let pairs = match &fem {
+        Some(fem) => touch::pairs::<K>(case, &mesh, &fem.mesh)?,
+        None => Vec::new(),
+    };
+    for (number, pair) in (0..).zip(&pairs) {
+        terms.push(Box::new(Contact::new(number, *pair.law())));
+    }
     let mut supports = Vec::new();
     for support in &case.supports {
         for component in (0..2).filter(|&c| support.fixed[c]) {
@@ -162,6 +170,7 @@ pub fn scene<K: Kinematics<2>>(case: &Case, whole: Mesh<2>) -> Result<Scene<2>> 
         mesh,
         terms,
         fem,
+        pairs,
         pressure_unit,
         supports,
         phases,
@@ -279,6 +288,8 @@ fn outputs(case: &Case, mesh: &Mesh<2>, folder: &Path, fingerprint: Fingerprint)
             Quantity::Vy => run::Quantity::Velocity(1),
             Quantity::ReactionX => run::Quantity::Reaction(0),
             Quantity::ReactionY => run::Quantity::Reaction(1),
+            Quantity::ContactX => run::Quantity::Contact(0),
+            Quantity::ContactY => run::Quantity::Contact(1),
         });
         Ok(Watch { name: entry.name.clone(), on, quantities: quantities.collect() })
     };
@@ -316,7 +327,7 @@ fn mean_size(mesh: &Mesh<2>) -> f64 {
     (0..cells).map(|c| cell_size(mesh, c)).sum::<f64>() / cells as f64
 }
 
-fn region_index(mesh: &Mesh<2>, name: &str) -> Result<u16> {
+pub(super) fn region_index(mesh: &Mesh<2>, name: &str) -> Result<u16> {
     mesh.regions.iter().position(|r| r == name).map(|i| i as u16).ok_or_else(|| {
         Error::input(
             "mesh.msh",

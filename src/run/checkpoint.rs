@@ -1,6 +1,7 @@
 //! The state as named arrays, for checkpoints, every number bit-exact.
 
 use super::foreign;
+use crate::contact::Multipliers;
 use crate::error::Result;
 use crate::io::checkpoint::Checkpoints;
 use crate::io::columns;
@@ -29,6 +30,7 @@ pub fn store<const D: usize>(state: &State<D>) -> Store {
         fem,
         fem_parametric,
         nodes,
+        multipliers,
         moving,
         parametric,
         displacement,
@@ -64,6 +66,7 @@ pub fn store<const D: usize>(state: &State<D>) -> Store {
     store.put("state.taking_part", 1, taking_part.iter().map(|&b| u8::from(b)).collect());
     store.put("state.penalised", 1, penalised.iter().map(|&b| u8::from(b)).collect());
     put_weighing(&mut store, weighing);
+    put_multipliers(&mut store, multipliers);
     // Without loops where the surface is not followed.
     let (markers, loops) = front.as_ref().map_or((Vec::new(), Vec::new()), |f| (f.position.concat(), f.first.clone()));
     store.put("front.position", 2, markers);
@@ -117,6 +120,29 @@ fn take_weighing<const D: usize>(store: &mut Store) -> Result<Weighing<D>> {
     Ok(Weighing { weight, shift, soft, poor, tally, lost_front: None })
 }
 
+fn put_multipliers(store: &mut Store, pairs: &[Multipliers]) {
+    store.put("contact.pairs", 1, vec![pairs.len() as u64]);
+    for (i, Multipliers { pressure, shear, gap, slip, room, first }) in pairs.iter().enumerate() {
+        for (name, values) in [("pressure", pressure), ("shear", shear), ("gap", gap), ("slip", slip)] {
+            store.put(&format!("contact.{i}.{name}"), 1, values.clone());
+        }
+        store.put(&format!("contact.{i}.room"), 1, room.clone());
+        store.put(&format!("contact.{i}.first"), 1, first.clone());
+    }
+}
+
+fn take_multipliers(store: &mut Store) -> Result<Vec<Multipliers>> {
+    let count = store.take::<u64>("contact.pairs", 1)?.first().copied().unwrap_or(0);
+    let pair = |i: u64| {
+        let mut values = |name: &str| store.take::<f64>(&format!("contact.{i}.{name}"), 1);
+        let (pressure, shear, gap, slip) = (values("pressure")?, values("shear")?, values("gap")?, values("slip")?);
+        let mut numbers = |name: &str| store.take::<u32>(&format!("contact.{i}.{name}"), 1);
+        let (room, first) = (numbers("room")?, numbers("first")?);
+        Ok(Multipliers { pressure, shear, gap, slip, room, first })
+    };
+    (0..count).map(pair).collect()
+}
+
 /// The state in a checkpoint of the run that began with `first`.
 ///
 /// # Errors
@@ -144,6 +170,7 @@ pub fn take<const D: usize>(mut store: Store, first: &State<D>) -> Result<State<
     let taking_part = store.take::<u8>("state.taking_part", 1)?.into_iter().map(|b| b != 0).collect();
     let penalised = store.take::<u8>("state.penalised", 1)?.into_iter().map(|b| b != 0).collect();
     let weighing = take_weighing(&mut store)?;
+    let multipliers = take_multipliers(&mut store)?;
     let position = store.take::<f64>("front.position", 2)?.chunks_exact(2).map(|x| [x[0], x[1]]).collect();
     let loops = store.take::<u32>("front.first", 1)?;
     let front = (!loops.is_empty()).then_some(Front { position, first: loops });
@@ -161,6 +188,7 @@ pub fn take<const D: usize>(mut store: Store, first: &State<D>) -> Result<State<
         fem,
         fem_parametric,
         nodes: places,
+        multipliers,
         moving: *moving != 0,
         parametric,
         displacement,

@@ -27,6 +27,8 @@ pub enum Quantity {
     Velocity(usize),
     /// Force of the supports and prescribed displacements on the nodes (kN), the sum.
     Reaction(usize),
+    /// Force of what a structure touches on it (kN), the sum.
+    Contact(usize),
 }
 
 /// What is watched.
@@ -57,6 +59,7 @@ pub fn columns(watches: &[Watch]) -> Vec<String> {
                 Quantity::Displacement(d) => format!("{}.u{} [m]", watch.name, AXES[d]),
                 Quantity::Velocity(d) => format!("{}.v{} [m/s]", watch.name, AXES[d]),
                 Quantity::Reaction(d) => format!("{}.reaction_{} [kN]", watch.name, AXES[d]),
+                Quantity::Contact(d) => format!("{}.contact_{} [kN]", watch.name, AXES[d]),
             });
         }
     }
@@ -82,19 +85,23 @@ fn value<const D: usize>(on: &WatchedOn, quantity: Quantity, state: &State<D>, r
         }
         (WatchedOn::Nodes(nodes), Quantity::Reaction(d)) => nodes.iter().map(|&n| report.reaction[n as usize][d]).sum(),
         (WatchedOn::Region(region), Quantity::Displacement(d)) => {
-            let points = &state.points;
-            mean(members(points, *region).map(|p| points.position[p][d] - points.origin[p][d]))
+            mean(members(state, *region).map(|(points, p)| points.position[p][d] - points.origin[p][d]))
         }
         (WatchedOn::Region(region), Quantity::Velocity(d)) => {
-            mean(members(&state.points, *region).map(|p| state.points.velocity.get(p).map_or(0.0, |v| v[d])))
+            mean(members(state, *region).map(|(points, p)| points.velocity.get(p).map_or(0.0, |v| v[d])))
         }
-        // A region has no supports of its own.
-        (WatchedOn::Region(_), Quantity::Reaction(_)) => 0.0,
+        (WatchedOn::Region(region), Quantity::Contact(d)) => {
+            report.contacts.iter().filter(|c| c.structure == *region).map(|c| c.force[d]).sum()
+        }
+        // A region has no supports of its own, a curve no contact.
+        (WatchedOn::Region(_), Quantity::Reaction(_)) | (WatchedOn::Nodes(_), Quantity::Contact(_)) => 0.0,
     }
 }
 
-fn members<const D: usize>(points: &Points<D>, region: u16) -> impl Iterator<Item = usize> {
-    (0..points.len()).filter(move |&p| points.region[p] == region)
+/// The points of a region, of whatever kind.
+fn members<const D: usize>(state: &State<D>, region: u16) -> impl Iterator<Item = (&Points<D>, usize)> {
+    let all = [&state.points, &state.fem].into_iter().flat_map(|points| (0..points.len()).map(move |p| (points, p)));
+    all.filter(move |(points, p)| points.region[*p] == region)
 }
 
 fn mean(values: impl Iterator<Item = f64>) -> f64 {
@@ -207,6 +214,13 @@ pub fn log_lines<const D: usize>(scene: &Scene<D>, state: &State<D>, report: &Re
             report.motion.angular,
             vector(&report.imbalance)
         ));
+    }
+    for contact in &report.contacts {
+        let force = contact.force.map(|f| format!("{f:.6e}")).join(" ");
+        line.push_str(&format!(" contact {force} kN on {} hats overlap {:.1e} m", contact.hats, contact.overlap));
+        if contact.pushed.points > 0 {
+            line.push_str(&format!(" pushed out {} by {:.1e} m", contact.pushed.points, contact.pushed.most));
+        }
     }
     if report.restored && scene.numerics.restore != Restore::EveryStep {
         line.push_str(" restored");

@@ -1,6 +1,7 @@
 //! The grid of a run: which cells take part, the numbering of the unknowns and the stencil of the points.
 //! All of it follows from the scene and the state, and is made anew only as far as they changed.
 
+use super::contact;
 use super::fem::{self, Elements};
 use super::ghost_faces;
 use super::newton::Buffers;
@@ -14,7 +15,7 @@ use crate::points::Points;
 use crate::quadrature::Restored;
 use crate::stencil::Stencil;
 use crate::system::{Cliques, Matrix, Pattern, Solver, Workspace};
-use crate::term::{Frame, GhostFace};
+use crate::term::{Frame, GhostFace, Touch};
 use rayon::prelude::*;
 
 /// Rings of cells around those with points that take part too, so that points can move on for a while
@@ -44,6 +45,10 @@ pub struct Grid<const D: usize> {
     pub elements: Option<Elements<D>>,
     /// The faces that take a ghost penalty.
     pub ghost: Vec<GhostFace>,
+    /// The hats that face something.
+    pub touches: Vec<Touch<D>>,
+    /// The clique of each hat of each pair that the system has room for, else `u32::MAX`.
+    pub touch_clique: Vec<Vec<u32>>,
     /// The clique of each face that the system has room for a penalty at, else `u32::MAX`; empty without faces.
     face_clique: Vec<u32>,
     /// The clique of each cell and the block of each node; `u32::MAX` for those left out.
@@ -170,7 +175,7 @@ impl<const D: usize> Grid<D> {
     }
 
     /// The grid for a stencil.
-    fn with<K: Kinematics<D>>(scene: &Scene<D>, state: &State<D>, stencil: Stencil<D>) -> Result<Self> {
+    pub fn with<K: Kinematics<D>>(scene: &Scene<D>, state: &State<D>, stencil: Stencil<D>) -> Result<Self> {
         let mesh = &scene.mesh;
         let (mut clique, mut block) = (vec![u32::MAX; mesh.cells.len()], vec![u32::MAX; mesh.nodes.len()]);
         let (mut cliques, mut node) = (Cliques::default(), Vec::new());
@@ -207,7 +212,8 @@ impl<const D: usize> Grid<D> {
         let dynamic = scene.phases.iter().any(|p| p.dynamic);
         let mass = if dynamic { Some(System::new(&vec![1; node.len()], cliques.clone(), true)?) } else { None };
         // The mass always takes a penalty on faces, the motion only where a term says so.
-        let cliques = if scene.terms.iter().any(|t| t.penalises_faces()) { cliques } else { cells_only };
+        let mut cliques = if scene.terms.iter().any(|t| t.penalises_faces()) { cliques } else { cells_only };
+        let touch_clique = contact::couple(state, &block, &mut cliques);
         let with_pressure = scene.pressure_unit.map(|_| {
             let constants = mesh.nodes.len();
             let mut families = vec![Carrying { mesh, constants, cells: &cells, clique: &clique }];
@@ -234,6 +240,8 @@ impl<const D: usize> Grid<D> {
             stencil,
             elements,
             ghost: Vec::new(),
+            touches: Vec::new(),
+            touch_clique,
             face_clique,
             clique,
             block,
@@ -267,6 +275,7 @@ impl<const D: usize> Grid<D> {
             stencil: &self.stencil,
             soft: &state.weighing.soft,
             ghost: &self.ghost,
+            touches: &self.touches,
             cells: &self.cells,
             constants: mesh.nodes.len(),
             points: &state.points,
@@ -288,6 +297,7 @@ impl<const D: usize> Grid<D> {
             stencil: &elements.stencil,
             soft: &[],
             ghost: &[],
+            touches: &[],
             cells: &elements.cells,
             constants: scene.mesh.nodes.len() + scene.mesh.cells.len(),
             points: &state.fem,

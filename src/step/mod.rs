@@ -4,6 +4,7 @@
 //! points on it and maps their motion to its nodes. *Lagrange* solves the equations of motion on the grid,
 //! implicitly. *Convect* moves the points with the grid and hands them its motion and the converged state.
 
+mod contact;
 mod control;
 mod distortion;
 mod fem;
@@ -18,6 +19,7 @@ mod state;
 mod transfer;
 mod unknowns;
 
+pub use contact::Resultant;
 pub use control::{Controller, Limits};
 pub use grid::Grid;
 pub use newton::Solution;
@@ -110,6 +112,7 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
         if restore {
             self.grid.restore::<K>(scene, state)?;
         }
+        contact::begin::<D, K>(scene, &mut self.grid, state)?;
         if scene.phases[state.phase].dynamic && (restore || !state.moving) {
             transfer::motion_to_grid::<D, K>(scene, &mut self.grid, state)?;
         }
@@ -145,6 +148,7 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
     fn convect(&mut self, dt: f64, start: Option<Start<D>>, solution: Solution<D>) -> Result<Report<D>> {
         let (scene, state) = (self.scene, &mut self.state);
         let mut momentum = report::Motion::of(state).linear;
+        let mut contacts = contact::commit(scene, &self.grid, state, &solution);
         transfer::commit(scene, &self.grid, state, &solution)?;
         transfer::move_points::<D, K>(scene, &self.grid, state, &solution.displacement);
         if let Some(start) = &start {
@@ -161,9 +165,10 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
         }
         state.displacement.clone_from(&solution.displacement);
         state.pressure.clone_from(&solution.pressure);
+        contact::push_out(scene, state, &mut contacts);
         state.step += 1;
         state.time += dt;
         state.phase_time += dt;
-        Ok(Report::new(scene, state, &self.grid, dt, solution, &momentum))
+        Ok(Report { contacts, ..Report::new(scene, state, &self.grid, dt, solution, &momentum) })
     }
 }

@@ -1,5 +1,6 @@
 //! What a step reports: for the log, the history and the progress.
 
+use super::contact::Resultant;
 use super::grid::Grid;
 use super::newton::Solution;
 use super::scene::Scene;
@@ -65,6 +66,8 @@ pub struct Report<const D: usize> {
     pub elastic: f64,
     /// Potential energy (kJ) of gravity at its full factor.
     pub potential: f64,
+    /// What the pairs in contact exerted.
+    pub contacts: Vec<Resultant<D>>,
     /// Force of the supports on the nodes (kN): zero at nodes without.
     pub reaction: Vec<[f64; D]>,
 }
@@ -106,6 +109,7 @@ impl<const D: usize> Report<D> {
                 + scene.fem.as_ref().map_or(0.0, |fem| energy(&fem.terms, &state.fem)),
             potential: [&state.points, &state.fem].iter().flat_map(|p| p.position.iter().zip(&p.mass)).map(fall).sum(),
             motion,
+            contacts: Vec::new(),
             reaction,
         }
     }

@@ -1,5 +1,6 @@
 //! A scene: everything that does not change while it is solved.
 
+use crate::contact::Pair;
 use crate::mesh::Mesh;
 use crate::mesh::faces::Faces;
 use crate::mesh::locate::Locator;
@@ -16,6 +17,8 @@ pub struct Scene<const D: usize> {
     pub terms: Vec<Box<dyn Term<D>>>,
     /// The finite elements beside the points, where there are any.
     pub fem: Option<Fem<D>>,
+    /// The structures and what they touch.
+    pub pairs: Vec<Box<dyn Pair<D>>>,
     /// The faces between the cells; absent where none takes a ghost penalty, on displacement or on mass.
     pub faces: Option<Faces>,
     /// What the points weigh in integrals.

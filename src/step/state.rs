@@ -1,5 +1,6 @@
 //! The state of a run: all that a checkpoint holds. Everything else follows from it and the scene.
 
+use crate::contact::Multipliers;
 use crate::points::Points;
 use crate::quadrature::Weighing;
 use crate::surface::Front;
@@ -29,6 +30,8 @@ pub struct State<const D: usize> {
     /// Coordinates (m) of the nodes when the grid was last restored; empty without finite elements, which alone
     /// change them.
     pub nodes: Vec<[f64; D]>,
+    /// What the hats of each pair in contact carry.
+    pub multipliers: Vec<Multipliers>,
     /// Whether the velocities and accelerations of the points are those of the motion: false until the first
     /// dynamic step has computed the accelerations from the forces.
     pub moving: bool,
@@ -72,6 +75,7 @@ impl<const D: usize> State<D> {
             fem: Points::default(),
             fem_parametric: Vec::new(),
             nodes: Vec::new(),
+            multipliers: Vec::new(),
             moving: false,
             parametric: Vec::new(),
             displacement: vec![[0.0; D]; nodes],

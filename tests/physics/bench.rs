@@ -130,6 +130,7 @@ impl Bench {
         let step = self.duration / self.steps as f64;
         Scene {
             fem: None,
+            pairs: Vec::new(),
             locator: Locator::new(&self.mesh),
             faces: Some(Faces::of(&self.mesh)),
             mesh: self.mesh,
