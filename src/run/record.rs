@@ -144,16 +144,12 @@ pub fn frame<const D: usize>(scene: &Scene<D>, state: &State<D>, fields: &[Field
         }
     });
     // A grid that is restored stays where the mesh has it.
-    let grid = if scene.numerics.restore == Restore::EveryStep {
+    let grid = if scene.numerics.restore == Restore::EveryStep && scene.fem.is_none() {
         Part::default()
     } else {
-        let x: Vec<[f64; D]> = scene
-            .mesh
-            .nodes
-            .iter()
-            .zip(&state.displacement)
-            .map(|(x, u)| std::array::from_fn(|d| x[d] + u[d]))
-            .collect();
+        let from = if state.nodes.is_empty() { &scene.mesh.nodes } else { &state.nodes };
+        let x: Vec<[f64; D]> =
+            from.iter().zip(&state.displacement).map(|(x, u)| std::array::from_fn(|d| x[d] + u[d])).collect();
         let displacement = fields.iter().any(|field| matches!(field, Field::Displacement));
         let columns = displacement.then(|| column("displacement", "m", 3, padded(&state.displacement)));
         Part { position: triples(&x), columns: columns.into_iter().collect() }

@@ -70,7 +70,8 @@ pub fn begin<const D: usize, K: Kinematics<D>>(
         let locator = Locator::new(&mesh);
         (mesh, locator)
     });
-    let (mesh, locator) = deformed.as_ref().map_or((&scene.mesh, &scene.locator), |(mesh, locator)| (mesh, locator));
+    let restored = grid.relaxed.as_ref().map_or((&scene.mesh, &scene.locator), |r| (&r.mesh, &r.locator));
+    let (mesh, locator) = deformed.as_ref().map_or(restored, |(mesh, locator)| (mesh, locator));
     let ground = Ground { grid: mesh, locator, points: &state.points };
     let mut touches = Vec::new();
     for ((pair, number), held) in scene.pairs.iter().zip(0..).zip(&state.multipliers) {
@@ -81,8 +82,8 @@ pub fn begin<const D: usize, K: Kinematics<D>>(
     touches.retain(takes_part);
     if !place(grid, state, &mut touches) {
         make_room(state, &touches);
-        let restored = std::mem::take(&mut grid.stencil);
-        *grid = Grid::with::<K>(scene, state, restored)?;
+        let stencil = std::mem::take(&mut grid.stencil);
+        *grid = Grid::with::<K>(scene, state, stencil, grid.relaxed.take())?;
         place(grid, state, &mut touches);
     }
     grid.touches = touches;

@@ -6,11 +6,13 @@ use super::fem::{self, Elements};
 use super::ghost_faces;
 use super::newton::Buffers;
 use super::pressure;
+use super::relax::{self, Relaxed};
 use super::scene::{Fixed, Restore, Scene};
 use super::state::State;
 use crate::error::{Error, Result};
 use crate::kinematics::Kinematics;
 use crate::mesh::Mesh;
+use crate::mesh::locate::Locator;
 use crate::points::Points;
 use crate::quadrature::Restored;
 use crate::stencil::Stencil;
@@ -41,6 +43,8 @@ pub struct System {
 /// The grid of a run.
 pub struct Grid<const D: usize> {
     pub stencil: Stencil<D>,
+    /// The grid where finite elements that share nodes with it have moved it; absent where it keeps its first shape.
+    pub relaxed: Option<Relaxed<D>>,
     /// The finite elements; absent where the scene has none.
     pub elements: Option<Elements<D>>,
     /// The faces that take a ghost penalty.
@@ -133,10 +137,11 @@ impl<const D: usize> Grid<D> {
     /// # Errors
     /// A machine error when memory does not suffice.
     pub fn new<K: Kinematics<D>>(scene: &Scene<D>, state: &State<D>) -> Result<Self> {
+        let relaxed = relax::at(scene, state);
         let mut stencil = Stencil::default();
-        fill::<D, K>(&mut stencil, scene, state);
+        fill::<D, K>(&mut stencil, scene, relaxed.as_ref().map_or(&scene.mesh, |r| &r.mesh), state);
         stencil.weigh(&state.weighing.weight, &state.weighing.shift);
-        Self::with::<K>(scene, state, stencil)
+        Self::with::<K>(scene, state, stencil, relaxed)
     }
 
     /// The grid in its first shape, with the points on it.
@@ -148,8 +153,9 @@ impl<const D: usize> Grid<D> {
         if scene.terms.iter().any(|term| term.sees_flow()) {
             state.points.plastic_increment.resize(state.points.len(), 0.0);
         }
-        begin_anew::<D, K>(scene, state, &mut stencil)?;
-        let grid = Self::with::<K>(scene, state, stencil)?;
+        let mut relaxed = None;
+        begin_anew::<D, K>(scene, state, &mut stencil, &mut relaxed)?;
+        let grid = Self::with::<K>(scene, state, stencil, relaxed)?;
         if let (Some(elements), Some(_)) = (&grid.elements, scene.pressure_unit) {
             let constants = scene.mesh.nodes.len() + scene.mesh.cells.len();
             let Elements { mesh, stencil, .. } = elements;
@@ -163,8 +169,8 @@ impl<const D: usize> Grid<D> {
     /// # Errors
     /// As [`Grid::first`].
     pub fn restore<K: Kinematics<D>>(&mut self, scene: &Scene<D>, state: &mut State<D>) -> Result<()> {
-        if begin_anew::<D, K>(scene, state, &mut self.stencil)? {
-            *self = Self::with::<K>(scene, state, std::mem::take(&mut self.stencil))?;
+        if begin_anew::<D, K>(scene, state, &mut self.stencil, &mut self.relaxed)? {
+            *self = Self::with::<K>(scene, state, std::mem::take(&mut self.stencil), self.relaxed.take())?;
         } else {
             if let Some(elements) = &mut self.elements {
                 elements.place::<K>(state);
@@ -175,7 +181,12 @@ impl<const D: usize> Grid<D> {
     }
 
     /// The grid for a stencil.
-    pub fn with<K: Kinematics<D>>(scene: &Scene<D>, state: &State<D>, stencil: Stencil<D>) -> Result<Self> {
+    pub fn with<K: Kinematics<D>>(
+        scene: &Scene<D>,
+        state: &State<D>,
+        stencil: Stencil<D>,
+        relaxed: Option<Relaxed<D>>,
+    ) -> Result<Self> {
         let mesh = &scene.mesh;
         let (mut clique, mut block) = (vec![u32::MAX; mesh.cells.len()], vec![u32::MAX; mesh.nodes.len()]);
         let (mut cliques, mut node) = (Cliques::default(), Vec::new());
@@ -238,6 +249,7 @@ impl<const D: usize> Grid<D> {
         };
         let mut grid = Self {
             stencil,
+            relaxed,
             elements,
             ghost: Vec::new(),
             touches: Vec::new(),
@@ -323,13 +335,19 @@ fn begin_anew<const D: usize, K: Kinematics<D>>(
     scene: &Scene<D>,
     state: &mut State<D>,
     stencil: &mut Stencil<D>,
+    relaxed: &mut Option<Relaxed<D>>,
 ) -> Result<bool> {
-    locate_points(scene, state)?;
+    fem::keep_shape(scene, state);
+    let before = std::mem::replace(relaxed, relax::relax(scene, state)?);
+    let (mesh, locator) = relaxed.as_ref().map_or((&scene.mesh, &scene.locator), |r| (&r.mesh, &r.locator));
+    locate_points(mesh, locator, state)?;
     let changed = choose_cells(scene, state);
-    fill::<D, K>(stencil, scene, state);
+    fill::<D, K>(stencil, scene, mesh, state);
     let grid = Restored {
-        mesh: &scene.mesh,
-        locator: &scene.locator,
+        mesh,
+        locator,
+        before: before.as_ref().map_or((&scene.mesh, &scene.locator), |r| (&r.mesh, &r.locator)),
+        relaxed: relaxed.is_some(),
         points: &state.points,
         parametric: &state.parametric,
         stencil,
@@ -337,7 +355,6 @@ fn begin_anew<const D: usize, K: Kinematics<D>>(
         displacement: (state.restorations > 0).then_some(&state.displacement),
     };
     state.weighing = scene.quadrature.weigh(&grid, &mut state.front);
-    fem::keep_shape(scene, state);
     state.displacement.fill([0.0; D]);
     state.restorations += 1;
     if scene.numerics.restore == Restore::Never {
@@ -360,16 +377,21 @@ fn begin_anew<const D: usize, K: Kinematics<D>>(
 }
 
 /// Fills the stencil for the points where they were last located.
-fn fill<const D: usize, K: Kinematics<D>>(stencil: &mut Stencil<D>, scene: &Scene<D>, state: &State<D>) {
+fn fill<const D: usize, K: Kinematics<D>>(
+    stencil: &mut Stencil<D>,
+    scene: &Scene<D>,
+    mesh: &Mesh<D>,
+    state: &State<D>,
+) {
     let (cell, scheme) = (&state.points.cell, scene.numerics.scheme);
-    stencil.fill::<K>(scheme, &scene.mesh, cell, &state.parametric, &state.taking_part);
+    stencil.fill::<K>(scheme, mesh, cell, &state.parametric, &state.taking_part);
 }
 
 /// Finds the cell of every point of the restored grid.
 ///
 /// # Errors
 /// An analysis error that names the first point outside the grid.
-fn locate_points<const D: usize>(scene: &Scene<D>, state: &mut State<D>) -> Result<()> {
+fn locate_points<const D: usize>(mesh: &Mesh<D>, locator: &Locator<D>, state: &mut State<D>) -> Result<()> {
     let points = &mut state.points;
     let position = &points.position;
     state.parametric.resize(position.len(), [0.0; 3]);
@@ -378,7 +400,7 @@ fn locate_points<const D: usize>(scene: &Scene<D>, state: &mut State<D>) -> Resu
         .par_iter_mut()
         .zip(&mut state.parametric)
         .enumerate()
-        .filter_map(|(p, (cell, parametric))| match scene.locator.locate(&scene.mesh, &position[p], Some(*cell)) {
+        .filter_map(|(p, (cell, parametric))| match locator.locate(mesh, &position[p], Some(*cell)) {
             Some((c, xi)) => {
                 (*cell, *parametric) = (c, xi);
                 None
@@ -389,7 +411,7 @@ fn locate_points<const D: usize>(scene: &Scene<D>, state: &mut State<D>) -> Resu
     match lost {
         None => Ok(()),
         Some(p) => {
-            let region = scene.mesh.regions.get(points.region[p] as usize).map_or("", String::as_str);
+            let region = mesh.regions.get(points.region[p] as usize).map_or("", String::as_str);
             Err(Error::analysis(
                 format!("material point {p} ({region})"),
                 format!("it left the grid at {:.4?} m", position[p]),

@@ -13,6 +13,7 @@ mod grid;
 mod mass;
 mod newton;
 mod pressure;
+mod relax;
 mod report;
 mod scene;
 mod state;
