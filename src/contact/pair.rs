@@ -114,6 +114,9 @@ pub trait Pair<const D: usize>: Send + Sync {
     /// The conditions of the hats that face soil; `position` tells where the nodes are.
     fn rows(&self, ground: &Ground<D>, position: &dyn Fn(u32) -> [f64; D], held: &Multipliers) -> Vec<Row<D>>;
 
+    /// The boundary as polylines with the structure on their left; closed ones end where they begin.
+    fn outlines(&self, position: &dyn Fn(u32) -> [f64; D]) -> Vec<Vec<[f64; D]>>;
+
     /// Moves points of the soil out of the structure.
     fn push_out(&self, points: &mut Points<D>, position: &dyn Fn(u32) -> [f64; D]) -> Pushed;
 }
@@ -240,6 +243,15 @@ impl<K: Kinematics<2>> Pair<2> for Boundary<K> {
             })
         };
         sums.into_iter().enumerate().filter_map(row).collect()
+    }
+
+    fn outlines(&self, position: &dyn Fn(u32) -> [f64; 2]) -> Vec<Vec<[f64; 2]>> {
+        let segments = Segments::new::<K>(&self.surface, position);
+        let outline = |chain: &std::ops::Range<usize>| {
+            let segments = &segments.0[chain.clone()];
+            segments.iter().map(|s| s.from).chain(segments.last().map(|s| s.to)).collect()
+        };
+        self.surface.chains.iter().map(outline).collect()
     }
 
     fn push_out(&self, points: &mut Points<2>, position: &dyn Fn(u32) -> [f64; 2]) -> Pushed {

@@ -31,6 +31,8 @@ pub struct Surface {
     pub segments: Vec<Segment>,
     /// Pieces: smooth stretches of the boundary, by their segments.
     pub pieces: Vec<std::ops::Range<usize>>,
+    /// Pieces that follow each other without a gap, by their segments.
+    pub chains: Vec<std::ops::Range<usize>>,
     pub hats: usize,
     /// Length (m) between hats.
     pub spacing: f64,
@@ -63,7 +65,15 @@ impl Surface {
                 "give the structure a mesh of its own, not joined to the grid",
             ));
         }
-        let mut surface = Self { kind, facets: Vec::new(), segments: Vec::new(), pieces: Vec::new(), hats: 0, spacing };
+        let mut surface = Self {
+            kind,
+            facets: Vec::new(),
+            segments: Vec::new(),
+            pieces: Vec::new(),
+            chains: Vec::new(),
+            hats: 0,
+            spacing,
+        };
         for chain in chains(facets) {
             surface.add_chain(mesh, chain);
         }
@@ -89,11 +99,13 @@ impl Surface {
             cuts.extend(corners.into_iter().filter(|&c| c > 0));
         }
         cuts.push(count);
+        let first_segment = self.segments.len();
         let mut begin = 0;
         for end in cuts {
             self.add_piece(mesh, &chain[begin..end], smooth_loop);
             begin = end;
         }
+        self.chains.push(first_segment..self.segments.len());
     }
 
     /// Adds a smooth stretch with its hats; those of a loop have no end.

@@ -37,6 +37,7 @@ impl<K: Kinematics<2>> Fitted<K> {
         match (grid.displacement, front.as_mut()) {
             (Some(displacement), Some(front)) => {
                 front.advance(grid.before, (mesh, grid.locator), &self.geometry, displacement)?;
+                front.lean(mesh, &self.geometry, grid.locator, grid.outlines)?;
             }
             (Some(_), None) => return Ok(()),
             (None, _) => {
@@ -221,6 +222,7 @@ mod tests {
             stencil: &stencil,
             taking_part: &taking_part,
             before: (&mesh, &locator),
+            outlines: &[],
             relaxed: false,
             displacement: None,
         };

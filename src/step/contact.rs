@@ -32,6 +32,13 @@ fn position<const D: usize>(scene: &Scene<D>, state: &State<D>, n: u32) -> [f64;
     std::array::from_fn(|d| from[d] + state.displacement[n][d])
 }
 
+/// The boundaries of the structures that touch soil, when the grid is restored: the nodes are in place already, the
+/// displacement is still that of the grid before.
+pub fn outlines<const D: usize>(scene: &Scene<D>, state: &State<D>) -> Vec<Vec<[f64; D]>> {
+    let place = |n: u32| *state.nodes.get(n as usize).unwrap_or(&scene.mesh.nodes[n as usize]);
+    scene.pairs.iter().flat_map(|pair| pair.outlines(&place)).collect()
+}
+
 /// Appends a clique for each hat with room, given the block of each node.
 pub fn couple<const D: usize>(state: &State<D>, block: &[u32], cliques: &mut Cliques) -> Vec<Vec<u32>> {
     let of_pair = |multipliers: &Multipliers| {

@@ -342,11 +342,13 @@ fn begin_anew<const D: usize, K: Kinematics<D>>(
     let (mesh, locator) = relaxed.as_ref().map_or((&scene.mesh, &scene.locator), |r| (&r.mesh, &r.locator));
     locate_points(mesh, locator, state)?;
     let changed = choose_cells(scene, state);
+    let outlines = contact::outlines(scene, state);
     fill::<D, K>(stencil, scene, mesh, state);
     let grid = Restored {
         mesh,
         locator,
         before: before.as_ref().map_or((&scene.mesh, &scene.locator), |r| (&r.mesh, &r.locator)),
+        outlines: &outlines,
         relaxed: relaxed.is_some(),
         points: &state.points,
         parametric: &state.parametric,

@@ -10,6 +10,7 @@
 //! surgery, the [`super::Contour`] takes over. It leaves out slip along curved walls, which no support can ask for.
 
 mod inspect;
+mod lean;
 mod resample;
 mod seed;
 
