@@ -32,7 +32,7 @@ pub fn pairs<K: Kinematics<2>>(case: &Case, grid: &Mesh<2>, fem: &Mesh<2>) -> Re
         // The axis of symmetry is no boundary.
         let on_axis = |nodes: &[u32]| nodes.iter().all(|&n| fem.nodes[n as usize][0].abs() < 1e-9 * spacing);
         let skip = |nodes: &[u32]| case.geometry == Geometry::Axisymmetric && on_axis(nodes);
-        let surface = Surface::new(fem, structure, spacing, skip)?;
+        let surface = Surface::new(fem, structure, crate::tune("HAT", 1.0) * spacing, skip)?;
         pairs.push(Box::new(Boundary::<K> {
             structure,
             surface,

@@ -131,7 +131,7 @@ pub fn push_out<K: Kinematics<2>>(segments: &Segments, points: &mut Points<2>, r
     let near = Soil { points, regions }.near::<K>(segments);
     let (mut count, mut most) = (0, 0.0f64);
     for near in near {
-        let by = 0.5 * near.half_width - near.distance;
+        let by = crate::tune("PUSH", 0.5) * near.half_width - near.distance;
         if by > 0.0 {
             count += 1;
             most = most.max(by);

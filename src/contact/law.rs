@@ -71,7 +71,8 @@ impl Law {
     /// The largest shear (kPa) under a pressure, and its slope by the pressure (-).
     fn limit(&self, pressure: f64, strength: f64) -> (f64, f64) {
         let own = self.adhesion + self.friction * pressure;
-        match self.factor.map(|factor| factor * strength) {
+        // A strength without limit limits nothing, not even where α is zero.
+        match self.factor.map(|factor| if factor > 0.0 { factor * strength } else { 0.0 }) {
             Some(most) if own > most || (self.friction == 0.0 && self.adhesion == 0.0) => (most, 0.0),
             _ => (own, self.friction),
         }

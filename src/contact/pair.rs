@@ -16,8 +16,6 @@ use std::sync::Arc;
 /// ε_n and ε_t (-), in Young's modulus over the spacing of the hats.
 const NORMAL: f64 = 50.0;
 const TANGENTIAL: f64 = 5.0;
-/// Least share of the difference between the gap as carried on and as measured that is made up for in a step.
-const CORRECTION: f64 = 0.05;
 
 /// What a boundary lies on: the grid where it is at the beginning of the step.
 pub struct Ground<'a, const D: usize> {
@@ -68,6 +66,8 @@ pub struct Multipliers {
     /// Mean gap and slip (m) of the last step.
     pub gap: Vec<f64>,
     pub slip: Vec<f64>,
+    /// Whether the hat faced soil in the last step.
+    pub near: Vec<bool>,
     /// The nodes that the system has room to couple: those of hat `k` are `room[first[k]..first[k + 1]]`.
     pub room: Vec<u32>,
     pub first: Vec<u32>,
@@ -82,6 +82,7 @@ impl Multipliers {
             shear: zero.clone(),
             gap: zero.clone(),
             slip: zero,
+            near: vec![false; hats],
             room: Vec::new(),
             first: vec![0; hats + 1],
         }
@@ -134,6 +135,18 @@ pub struct Boundary<K> {
 }
 
 impl<K: Kinematics<2>> Boundary<K> {
+    /// The gap (m) of a hat at the beginning of a step, given that measured from points `spacing` (m) apart. As measured
+    /// it jumps when points come and go, and a jump has to be made up for by straining the soil: near the surfaces the
+    /// gap is carried on, and approaches the measured one as fast as the hat slides.
+    fn carry(&self, raw: f64, spacing: f64, held: &Multipliers, hat: usize) -> f64 {
+        let still = crate::tune("STILL", 1e-3) * spacing;
+        if !held.near[hat] || raw > crate::tune("OPEN", 0.5) * spacing {
+            return raw.max(-still);
+        }
+        let most = crate::tune("RATE", 0.1) * held.slip[hat] + still;
+        held.gap[hat] + (crate::tune("SHARE", 0.5) * (raw - held.gap[hat])).clamp(-most, most)
+    }
+
     /// Penalties and multipliers of a hat over soil like that at `point`.
     fn penalty(&self, points: &Points<2>, point: usize, hat: usize, held: &Multipliers) -> Penalty {
         let y = points.origin[point][1];
@@ -142,8 +155,8 @@ impl<K: Kinematics<2>> Boundary<K> {
         Penalty {
             pressure: held.pressure[hat],
             shear: held.shear[hat],
-            normal: NORMAL * stiffness,
-            tangential: TANGENTIAL * stiffness,
+            normal: crate::tune("EN", NORMAL) * stiffness,
+            tangential: crate::tune("ET", TANGENTIAL) * stiffness,
             strength: model.map_or(0.0, |m| m.strength(y)),
         }
     }
@@ -222,13 +235,13 @@ impl<K: Kinematics<2>> Pair<2> for Boundary<K> {
         let row = |(hat, sum): (usize, Option<Sum>)| {
             let Sum { area, open, spacing, point, mut entries } = sum.filter(|sum| sum.area > 0.0)?;
             let (raw, spacing) = (open / area, spacing / area);
-            // A gap that was held open or closed is carried on: as measured it jumps as points come and go.
-            let gap = if held.pressure[hat] > 0.0 {
-                let share = (CORRECTION + held.slip[hat] / spacing).min(1.0);
-                held.gap[hat] + share * (raw - held.gap[hat])
-            } else {
-                raw
-            };
+            let gap = self.carry(raw, spacing, held, hat);
+            if crate::tune("TRACE", 0.0) > 1.0 {
+                eprintln!(
+                    "hat {hat} area {area:.4} raw {raw:.5} used {gap:.5} p {:.4} t {:.4} gprev {:.1e} slip {:.4} point {point}",
+                    held.pressure[hat], held.shear[hat], held.gap[hat], held.slip[hat]
+                );
+            }
             let of_structure = |n: &u32| self.surface.facets.iter().any(|f| f.contains(n));
             entries.sort_by_key(|(n, ..)| (!of_structure(n), *n));
             Some(Row {

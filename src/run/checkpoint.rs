@@ -122,10 +122,11 @@ fn take_weighing<const D: usize>(store: &mut Store) -> Result<Weighing<D>> {
 
 fn put_multipliers(store: &mut Store, pairs: &[Multipliers]) {
     store.put("contact.pairs", 1, vec![pairs.len() as u64]);
-    for (i, Multipliers { pressure, shear, gap, slip, room, first }) in pairs.iter().enumerate() {
+    for (i, Multipliers { pressure, shear, gap, slip, near, room, first }) in pairs.iter().enumerate() {
         for (name, values) in [("pressure", pressure), ("shear", shear), ("gap", gap), ("slip", slip)] {
             store.put(&format!("contact.{i}.{name}"), 1, values.clone());
         }
+        store.put(&format!("contact.{i}.near"), 1, near.iter().map(|&b| u8::from(b)).collect());
         store.put(&format!("contact.{i}.room"), 1, room.clone());
         store.put(&format!("contact.{i}.first"), 1, first.clone());
     }
@@ -138,7 +139,8 @@ fn take_multipliers(store: &mut Store) -> Result<Vec<Multipliers>> {
         let (pressure, shear, gap, slip) = (values("pressure")?, values("shear")?, values("gap")?, values("slip")?);
         let mut numbers = |name: &str| store.take::<u32>(&format!("contact.{i}.{name}"), 1);
         let (room, first) = (numbers("room")?, numbers("first")?);
-        Ok(Multipliers { pressure, shear, gap, slip, room, first })
+        let near = store.take::<u8>(&format!("contact.{i}.near"), 1)?.into_iter().map(|b| b != 0).collect();
+        Ok(Multipliers { pressure, shear, gap, slip, near, room, first })
     };
     (0..count).map(pair).collect()
 }

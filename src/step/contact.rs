@@ -148,13 +148,14 @@ pub fn commit<const D: usize>(
         for values in [&mut multipliers.pressure, &mut multipliers.shear, &mut multipliers.gap, &mut multipliers.slip] {
             values.fill(0.0);
         }
+        multipliers.near.fill(false);
     }
     for touch in &grid.touches {
         let (pair, hat, row) = (touch.pair as usize, touch.row.hat as usize, &touch.row);
         let (answer, gap, slip) = contact_answer(scene.pairs[pair].law(), touch, &trial);
         let held = &mut state.multipliers[pair];
         (held.pressure[hat], held.shear[hat]) = (answer.pressure, answer.shear);
-        (held.gap[hat], held.slip[hat]) = (gap, slip.abs());
+        (held.gap[hat], held.slip[hat], held.near[hat]) = (gap, slip.abs(), true);
         let resultant = &mut resultants[pair];
         if answer.pressure != 0.0 {
             resultant.hats += 1;

@@ -179,6 +179,9 @@ impl<'a, const D: usize> Newton<'a, D> {
 
     /// Notes the residual of the state at hand, relative to the largest of the terms that balance in it.
     fn note(&mut self) {
+        if crate::tune("TRACE", 0.0) > 0.0 {
+            eprintln!("  noted {:.3e}", self.size(&self.buffers.now));
+        }
         self.history.push(self.size(&self.buffers.now) / self.buffers.now.scale.max(self.floor));
     }
 
@@ -291,6 +294,14 @@ impl<'a, const D: usize> Newton<'a, D> {
         trial.at.advance(self.problem, self.grid, &self.buffers.delta, length);
         let done = evaluate(self.problem, self.grid, &mut self.buffers, &mut trial, tangent);
         let size = self.size(&trial);
+        if crate::tune("TRACE", 0.0) > 0.0 {
+            eprintln!(
+                "attempt {length} -> {size:.3e} target {:.3e} scale {:.3e} {:?}",
+                self.target,
+                trial.scale,
+                done.as_ref().err().map(|e| format!("{} {}", e.place, e.problem))
+            );
+        }
         self.buffers.trial = trial;
         (done.is_ok() && size.is_finite()).then_some(size)
     }
