@@ -65,8 +65,3 @@ pub mod tensor;
 pub mod term;
 pub mod time_integration;
 pub mod time_value;
-
-/// TEMPORARY
-pub fn tune(name: &str, default: f64) -> f64 {
-    std::env::var(name).ok().and_then(|v| v.parse().ok()).unwrap_or(default)
-}

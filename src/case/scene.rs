@@ -122,7 +122,7 @@ pub fn scene<K: Kinematics<2>>(case: &Case, whole: Mesh<2>) -> Result<Scene<2>> 
         terms.push(Box::new(EmptyCells::<K>::new(case.numerics.empty_stiffness * young, mesh.cells.len())));
         if case.numerics.fitted {
             let models = self::models(case, &mesh)?;
-            terms.push(Box::new(GhostPenalty::<K>::new(crate::tune("GHOST", GHOST), models, faces.inner.len())));
+            terms.push(Box::new(GhostPenalty::<K>::new(GHOST, models, faces.inner.len())));
         }
     }
     if dynamic {

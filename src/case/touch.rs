@@ -8,6 +8,9 @@ use crate::kinematics::Kinematics;
 use crate::mesh::Mesh;
 use std::marker::PhantomData;
 
+/// Distance of the hats (-), in the length of an edge of the grid: that of its nodes.
+const HATS: f64 = 0.5;
+
 /// The pairs of a case, given the grid and the finite elements.
 ///
 /// # Errors
@@ -32,7 +35,7 @@ pub fn pairs<K: Kinematics<2>>(case: &Case, grid: &Mesh<2>, fem: &Mesh<2>) -> Re
         // The axis of symmetry is no boundary.
         let on_axis = |nodes: &[u32]| nodes.iter().all(|&n| fem.nodes[n as usize][0].abs() < 1e-9 * spacing);
         let skip = |nodes: &[u32]| case.geometry == Geometry::Axisymmetric && on_axis(nodes);
-        let surface = Surface::new(fem, structure, crate::tune("HAT", 1.0) * spacing, skip)?;
+        let surface = Surface::new(fem, structure, HATS * spacing, skip)?;
         pairs.push(Box::new(Boundary::<K> {
             structure,
             surface,

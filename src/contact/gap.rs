@@ -1,6 +1,6 @@
 //! How far the soil is from the segments of a boundary: the signed distance of material points to it.
 
-use super::place::Segments;
+use super::place::{Placed, Segments};
 use super::surface::Surface;
 use crate::kinematics::Kinematics;
 use crate::points::Points;
@@ -83,6 +83,9 @@ impl Soil<'_> {
         let (square, s, from_foot) = best?;
         let spacing = self.width::<K>(p);
         let segment = &segments.0[s as usize];
+        if segment.passes(x) {
+            return None;
+        }
         let outside = from_foot[0] * segment.normal[0] + from_foot[1] * segment.normal[1] >= 0.0;
         let distance = if outside { square.sqrt() } else { -square.sqrt() };
         if distance.abs() > (REACH + 1.0) * spacing {
@@ -125,13 +128,56 @@ pub fn raw_gaps<K: Kinematics<2>>(surface: &Surface, segments: &Segments, soil: 
     gaps
 }
 
+/// The surface of the soil, to be seen from segments.
+pub struct Facing {
+    pieces: Vec<[[f64; 2]; 2]>,
+    bins: Bins,
+}
+
+impl Facing {
+    /// That of loops of markers.
+    pub fn new(loops: &[Vec<[f64; 2]>]) -> Self {
+        let pieces: Vec<[[f64; 2]; 2]> =
+            loops.iter().flat_map(|x| (0..x.len()).map(|i| [x[i], x[(i + 1) % x.len()]])).collect();
+        let longest = pieces.iter().map(|[a, b]| (b[0] - a[0]).hypot(b[1] - a[1])).collect::<Vec<_>>();
+        let side = longest.iter().sum::<f64>() / longest.len().max(1) as f64;
+        let bins = Bins::new(pieces.iter().map(|[a, b]| (*a, *b)), 4.0 * side);
+        Self { pieces, bins }
+    }
+
+    /// Distance (m) from the middle of a segment along its normal to a surface that faces it, within `REACH` spacings,
+    /// negative where the soil overlaps the structure.
+    pub fn distance(&self, segment: &Placed, spacing: f64) -> Option<f64> {
+        let (x, n) = (segment.middle, segment.normal);
+        let mut best: Option<f64> = None;
+        for &piece in self.bins.around(&x).flatten() {
+            let [a, b] = self.pieces[piece as usize];
+            let along = [b[0] - a[0], b[1] - a[1]];
+            // The soil is on the left of its surface: its normal out of the soil is to face the segment.
+            let facing = along[1] * n[0] - along[0] * n[1];
+            if facing > -0.3 * along[0].hypot(along[1]) {
+                continue;
+            }
+            let to = [a[0] - x[0], a[1] - x[1]];
+            // x + t n = a + s along
+            let s = (to[1] * n[0] - to[0] * n[1]) / (along[0] * n[1] - along[1] * n[0]);
+            let t = (to[0] + s * along[0]) * n[0] + (to[1] + s * along[1]) * n[1];
+            let inside = (-1e-9..=1.0 + 1e-9).contains(&s) && t.abs() <= REACH * spacing;
+            if inside && best.is_none_or(|best| t.abs() < best.abs()) {
+                best = Some(t);
+            }
+        }
+        best
+    }
+}
+
 /// Moves points that are in the structure, or nearer to it than half their half width, out to there. Returns how many
 /// and the farthest move (m).
 pub fn push_out<K: Kinematics<2>>(segments: &Segments, points: &mut Points<2>, regions: &[u16]) -> (usize, f64) {
     let near = Soil { points, regions }.near::<K>(segments);
     let (mut count, mut most) = (0, 0.0f64);
     for near in near {
-        let by = crate::tune("PUSH", 0.5) * near.half_width - near.distance;
+        let by = 0.5 * near.half_width - near.distance;
         if by > 0.0 {
             count += 1;
             most = most.max(by);

@@ -1,8 +1,8 @@
 //! A structure and the soil it touches: the condition of each hat in a step.
 
-use super::gap::{Gap, Soil, push_out, raw_gaps};
+use super::gap::{Facing, Gap, Soil, push_out, raw_gaps};
 use super::law::{Law, Penalty};
-use super::place::Segments;
+use super::place::{Placed, Segments};
 use super::surface::Surface;
 use crate::kinematics::Kinematics;
 use crate::material::Model;
@@ -17,12 +17,23 @@ use std::sync::Arc;
 const NORMAL: f64 = 50.0;
 const TANGENTIAL: f64 = 5.0;
 
+/// Overlap (-), in spacings of the points, that a hat may begin to touch with, and correct in a step, without sliding.
+const STILL: f64 = 1e-3;
+/// Error (-) of a measured gap, in spacings: what points that come and go make of it.
+const BAND: f64 = 0.15;
+/// Share of its slip by which a gap may be corrected in a step.
+const RATE: f64 = 0.1;
+/// Where soil is looked for from a segment, in spacings of its points.
+const AWAY: [f64; 5] = [0.0, 0.05, 0.15, 0.3, 0.6];
+
 /// What a boundary lies on: the grid where it is at the beginning of the step.
 pub struct Ground<'a, const D: usize> {
     /// The background grid with its nodes in place, and the way to find places in it.
     pub grid: &'a Mesh<D>,
     pub locator: &'a Locator<D>,
     pub points: &'a Points<D>,
+    /// The surface of the soil, where it is followed: loops of markers with the soil on their left.
+    pub surface: &'a [Vec<[f64; D]>],
 }
 
 /// The condition of a hat: its mean gap and slip in the step, linear in the displacements since its beginning.
@@ -66,8 +77,6 @@ pub struct Multipliers {
     /// Mean gap and slip (m) of the last step.
     pub gap: Vec<f64>,
     pub slip: Vec<f64>,
-    /// Whether the hat faced soil in the last step.
-    pub near: Vec<bool>,
     /// The nodes that the system has room to couple: those of hat `k` are `room[first[k]..first[k + 1]]`.
     pub room: Vec<u32>,
     pub first: Vec<u32>,
@@ -82,7 +91,6 @@ impl Multipliers {
             shear: zero.clone(),
             gap: zero.clone(),
             slip: zero,
-            near: vec![false; hats],
             room: Vec::new(),
             first: vec![0; hats + 1],
         }
@@ -135,16 +143,20 @@ pub struct Boundary<K> {
 }
 
 impl<K: Kinematics<2>> Boundary<K> {
-    /// The gap (m) of a hat at the beginning of a step, given that measured from points `spacing` (m) apart. As measured
-    /// it jumps when points come and go, and a jump has to be made up for by straining the soil: near the surfaces the
-    /// gap is carried on, and approaches the measured one as fast as the hat slides.
-    fn carry(&self, raw: f64, spacing: f64, held: &Multipliers, hat: usize) -> f64 {
-        let still = crate::tune("STILL", 1e-3) * spacing;
-        if !held.near[hat] || raw > crate::tune("OPEN", 0.5) * spacing {
-            return raw.max(-still);
+    /// The gap (m) of a hat at the beginning of a step, given that `measured` from points `spacing` (m) apart and that of
+    /// the `surface`.
+    ///
+    /// What touched in the step before carries its gap on: as measured it jumps when points come and go, and every jump
+    /// has to be made up for by straining the soil. It is corrected by what lies beyond the error of the measure, and no
+    /// faster than the hat slides. What did not touch has the gap of the surface; it may begin to touch, not to overlap.
+    fn begin(&self, measured: f64, surface: Option<f64>, spacing: f64, held: &Multipliers, hat: usize) -> f64 {
+        let still = STILL * spacing;
+        if held.pressure[hat] == 0.0 {
+            return surface.unwrap_or(measured).max(-still);
         }
-        let most = crate::tune("RATE", 0.1) * held.slip[hat] + still;
-        held.gap[hat] + (crate::tune("SHARE", 0.5) * (raw - held.gap[hat])).clamp(-most, most)
+        let (error, band) = (measured - held.gap[hat], BAND * spacing);
+        let most = RATE * held.slip[hat] + still;
+        held.gap[hat] + (error - error.clamp(-band, band)).clamp(-most, most)
     }
 
     /// Penalties and multipliers of a hat over soil like that at `point`.
@@ -155,10 +167,23 @@ impl<K: Kinematics<2>> Boundary<K> {
         Penalty {
             pressure: held.pressure[hat],
             shear: held.shear[hat],
-            normal: crate::tune("EN", NORMAL) * stiffness,
-            tangential: crate::tune("ET", TANGENTIAL) * stiffness,
+            normal: NORMAL * stiffness,
+            tangential: TANGENTIAL * stiffness,
             strength: model.map_or(0.0, |m| m.strength(y)),
         }
+    }
+}
+
+impl Ground<'_, 2> {
+    /// The cell of the soil that a segment lies on, and where: in its middle or, where no point is in the cell there, as
+    /// little farther out of the structure as will do. The nodes of an empty cell would give way in place of the soil.
+    fn find(&self, segment: &Placed, spacing: f64, point: u32, holds: &[bool]) -> Option<(u32, [f64; 3])> {
+        let hint = Some(self.points.cell[point as usize]);
+        let at = |away: &f64| {
+            let x = [0, 1].map(|d| segment.middle[d] + away * spacing * segment.normal[d]);
+            self.locator.locate(self.grid, &x, hint)
+        };
+        AWAY.iter().filter_map(at).find(|(cell, _)| holds[*cell as usize]).or_else(|| at(&0.0))
     }
 }
 
@@ -166,6 +191,9 @@ impl<K: Kinematics<2>> Boundary<K> {
 struct Sum {
     area: f64,
     open: f64,
+    /// Area that faces the surface of the soil, and its distance from there times the area.
+    facing: f64,
+    distance: f64,
     spacing: f64,
     point: u32,
     entries: Vec<(u32, [f64; 2], [f64; 2])>,
@@ -201,11 +229,14 @@ impl<K: Kinematics<2>> Pair<2> for Boundary<K> {
     fn rows(&self, ground: &Ground<2>, position: &dyn Fn(u32) -> [f64; 2], held: &Multipliers) -> Vec<Row<2>> {
         let segments = Segments::new::<K>(&self.surface, position);
         let gaps = raw_gaps::<K>(&self.surface, &segments, &Soil { points: ground.points, regions: &self.regions });
+        let surface = Facing::new(ground.surface);
+        let mut holds = vec![false; ground.grid.cells.len()];
+        ground.points.cell.iter().for_each(|&c| holds[c as usize] = true);
         let mut sums: Vec<Option<Sum>> = (0..self.surface.hats).map(|_| None).collect();
         for ((segment, placed), gap) in self.surface.segments.iter().zip(&segments.0).zip(&gaps) {
             let Some(Gap { open, point, spacing }) = *gap else { continue };
-            let hint = Some(ground.points.cell[point as usize]);
-            let Some((cell, xi)) = ground.locator.locate(ground.grid, &placed.middle, hint) else { continue };
+            let Some((cell, xi)) = ground.find(placed, spacing, point, &holds) else { continue };
+            let across = surface.distance(placed, spacing);
             let mut value = [0.0; MAX_NODES];
             ground.grid.cells.kind[cell as usize].values(&xi, &mut value);
             let soil = ground.grid.cells.nodes(cell as usize);
@@ -217,12 +248,18 @@ impl<K: Kinematics<2>> Pair<2> for Boundary<K> {
                 let sum = sums[hat as usize].get_or_insert_with(|| Sum {
                     area: 0.0,
                     open: 0.0,
+                    facing: 0.0,
+                    distance: 0.0,
                     spacing: 0.0,
                     point,
                     entries: Vec::new(),
                 });
                 sum.area += weight;
                 sum.open += weight * open;
+                if let Some(distance) = across {
+                    sum.facing += weight;
+                    sum.distance += weight * distance;
+                }
                 sum.spacing += weight * spacing;
                 for (&node, n_s) in structure.iter().zip(&placed.value) {
                     sum.add(node, n.map(|n| -weight * n_s * n), t.map(|t| -weight * n_s * t));
@@ -233,15 +270,10 @@ impl<K: Kinematics<2>> Pair<2> for Boundary<K> {
             }
         }
         let row = |(hat, sum): (usize, Option<Sum>)| {
-            let Sum { area, open, spacing, point, mut entries } = sum.filter(|sum| sum.area > 0.0)?;
+            let Sum { area, open, facing, distance, spacing, point, mut entries } = sum.filter(|sum| sum.area > 0.0)?;
             let (raw, spacing) = (open / area, spacing / area);
-            let gap = self.carry(raw, spacing, held, hat);
-            if crate::tune("TRACE", 0.0) > 1.0 {
-                eprintln!(
-                    "hat {hat} area {area:.4} raw {raw:.5} used {gap:.5} p {:.4} t {:.4} gprev {:.1e} slip {:.4} point {point}",
-                    held.pressure[hat], held.shear[hat], held.gap[hat], held.slip[hat]
-                );
-            }
+            let surface = (facing > 0.5 * area).then_some(distance / facing);
+            let gap = self.begin(raw, surface, spacing, held, hat);
             let of_structure = |n: &u32| self.surface.facets.iter().any(|f| f.contains(n));
             entries.sort_by_key(|(n, ..)| (!of_structure(n), *n));
             Some(Row {

@@ -17,8 +17,23 @@ pub struct Placed {
     pub area: f64,
     /// Arc length (m) of the middle along its piece.
     pub along: f64,
+    /// Whether the boundary has a corner or an end where the segment begins and where it ends.
+    pub ends: [bool; 2],
     /// Shape functions of the facet at the middle.
     pub value: [f64; 3],
+}
+
+impl Placed {
+    /// Whether a place is beyond a corner or end of the boundary, so that the segment does not face it.
+    pub fn passes(&self, x: &[f64; 2]) -> bool {
+        let along = [0, 1].map(|d| self.to[d] - self.from[d]);
+        let way = |from: &[f64; 2]| (0..2).map(|d| (x[d] - from[d]) * along[d]).sum::<f64>();
+        self.ends[0] && way(&self.from) < 0.0 || self.ends[1] && way(&self.to) > 0.0
+    }
+}
+
+fn distance(a: &[f64; 2], b: &[f64; 2]) -> f64 {
+    (a[0] - b[0]).hypot(a[1] - b[1])
 }
 
 /// All segments of a boundary, in their order.
@@ -57,9 +72,15 @@ impl Segments {
                     normal: [chord[1] / length, -chord[0] / length],
                     area: length * K::measure(&middle),
                     along: along + 0.5 * length,
+                    ends: [false; 2],
                     value,
                 });
                 along += length;
+            }
+            if let [first, .., last] = &mut placed[piece.clone()]
+                && distance(&first.from, &last.to) > 1e-9 * along
+            {
+                (first.ends[0], last.ends[1]) = (true, true);
             }
         }
         Self(placed)

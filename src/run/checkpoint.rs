@@ -34,6 +34,8 @@ pub fn store<const D: usize>(state: &State<D>) -> Store {
         moving,
         parametric,
         displacement,
+        increment,
+        last_step,
         travel,
         pressure,
         velocity,
@@ -50,7 +52,7 @@ pub fn store<const D: usize>(state: &State<D>) -> Store {
         1,
         vec![*phase as u64, *step, *frames, *rows, *log_lines, u64::from(*moving), *restorations],
     );
-    store.put("state.times", 1, vec![*time, *phase_time, *step_size]);
+    store.put("state.times", 1, vec![*time, *phase_time, *step_size, *last_step]);
     store.put("state.parametric", 3, parametric.concat());
     store.put("state.fem_parametric", 3, fem_parametric.concat());
     for (name, field) in [
@@ -59,6 +61,7 @@ pub fn store<const D: usize>(state: &State<D>) -> Store {
         ("velocity", velocity),
         ("acceleration", acceleration),
         ("nodes", nodes),
+        ("increment", increment),
     ] {
         store.put(&format!("state.{name}"), D, field.concat());
     }
@@ -122,11 +125,10 @@ fn take_weighing<const D: usize>(store: &mut Store) -> Result<Weighing<D>> {
 
 fn put_multipliers(store: &mut Store, pairs: &[Multipliers]) {
     store.put("contact.pairs", 1, vec![pairs.len() as u64]);
-    for (i, Multipliers { pressure, shear, gap, slip, near, room, first }) in pairs.iter().enumerate() {
+    for (i, Multipliers { pressure, shear, gap, slip, room, first }) in pairs.iter().enumerate() {
         for (name, values) in [("pressure", pressure), ("shear", shear), ("gap", gap), ("slip", slip)] {
             store.put(&format!("contact.{i}.{name}"), 1, values.clone());
         }
-        store.put(&format!("contact.{i}.near"), 1, near.iter().map(|&b| u8::from(b)).collect());
         store.put(&format!("contact.{i}.room"), 1, room.clone());
         store.put(&format!("contact.{i}.first"), 1, first.clone());
     }
@@ -139,8 +141,7 @@ fn take_multipliers(store: &mut Store) -> Result<Vec<Multipliers>> {
         let (pressure, shear, gap, slip) = (values("pressure")?, values("shear")?, values("gap")?, values("slip")?);
         let mut numbers = |name: &str| store.take::<u32>(&format!("contact.{i}.{name}"), 1);
         let (room, first) = (numbers("room")?, numbers("first")?);
-        let near = store.take::<u8>(&format!("contact.{i}.near"), 1)?.into_iter().map(|b| b != 0).collect();
-        Ok(Multipliers { pressure, shear, gap, slip, near, room, first })
+        Ok(Multipliers { pressure, shear, gap, slip, room, first })
     };
     (0..count).map(pair).collect()
 }
@@ -152,7 +153,7 @@ fn take_multipliers(store: &mut Store) -> Result<Vec<Multipliers>> {
 pub fn take<const D: usize>(mut store: Store, first: &State<D>) -> Result<State<D>> {
     let counts = store.take::<u64>("state.counts", 1)?;
     let times = store.take::<f64>("state.times", 1)?;
-    let ([phase, step, frames, rows, log_lines, moving, restorations], [time, phase_time, step_size]) =
+    let ([phase, step, frames, rows, log_lines, moving, restorations], [time, phase_time, step_size, last_step]) =
         (&counts[..], &times[..])
     else {
         return Err(foreign("its list of counts"));
@@ -163,7 +164,7 @@ pub fn take<const D: usize>(mut store: Store, first: &State<D>) -> Result<State<
         let field: Vec<[f64; D]> = values.chunks_exact(D).map(|v| std::array::from_fn(|d| v[d])).collect();
         if field.len() == nodes || field.is_empty() { Ok(field) } else { Err(foreign(name)) }
     };
-    let (displacement, travel) = (nodal("displacement")?, nodal("travel")?);
+    let (displacement, travel, increment) = (nodal("displacement")?, nodal("travel")?, nodal("increment")?);
     let (velocity, acceleration, places) = (nodal("velocity")?, nodal("acceleration")?, nodal("nodes")?);
     let triples = |values: Vec<f64>| values.chunks_exact(3).map(|v| [v[0], v[1], v[2]]).collect();
     let parametric: Vec<_> = triples(store.take("state.parametric", 3)?);
@@ -194,6 +195,8 @@ pub fn take<const D: usize>(mut store: Store, first: &State<D>) -> Result<State<
         moving: *moving != 0,
         parametric,
         displacement,
+        increment,
+        last_step: *last_step,
         travel,
         pressure,
         velocity,

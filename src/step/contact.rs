@@ -9,6 +9,7 @@ use crate::error::Result;
 use crate::kinematics::Kinematics;
 use crate::mesh::Mesh;
 use crate::mesh::locate::Locator;
+use crate::mesh::shape::MAX_NODES;
 use crate::system::Cliques;
 use crate::term::{Touch, Trial, contact_answer};
 
@@ -79,7 +80,8 @@ pub fn begin<const D: usize, K: Kinematics<D>>(
     });
     let restored = grid.relaxed.as_ref().map_or((&scene.mesh, &scene.locator), |r| (&r.mesh, &r.locator));
     let (mesh, locator) = deformed.as_ref().map_or(restored, |(mesh, locator)| (mesh, locator));
-    let ground = Ground { grid: mesh, locator, points: &state.points };
+    let surface = surface(restored, state);
+    let ground = Ground { grid: mesh, locator, points: &state.points, surface: &surface };
     let mut touches = Vec::new();
     for ((pair, number), held) in scene.pairs.iter().zip(0..).zip(&state.multipliers) {
         let rows = pair.rows(&ground, &at, held);
@@ -95,6 +97,26 @@ pub fn begin<const D: usize, K: Kinematics<D>>(
     }
     grid.touches = touches;
     Ok(())
+}
+
+/// The surface of the soil where it is now, given the grid as restored; no loops where it is not followed.
+fn surface<const D: usize>((mesh, locator): (&Mesh<D>, &Locator<D>), state: &State<D>) -> Vec<Vec<[f64; D]>> {
+    let Some(front) = &state.front else { return Vec::new() };
+    let (mut n, mut hint) = ([0.0; MAX_NODES], None);
+    let mut moved = |marker: &[f64; 2]| {
+        let mut x: [f64; D] = std::array::from_fn(|d| marker.get(d).copied().unwrap_or(0.0));
+        if let Some((c, xi)) = locator.locate(mesh, &x, hint) {
+            hint = Some(c);
+            mesh.cells.kind[c as usize].values(&xi, &mut n);
+            for (&node, n) in mesh.cells.nodes(c as usize).iter().zip(&n) {
+                for d in 0..D {
+                    x[d] += n * state.displacement[node as usize][d];
+                }
+            }
+        }
+        x
+    };
+    (0..front.loops()).map(|l| front.markers(l).iter().map(&mut moved).collect()).collect()
 }
 
 /// Finds the places of the rows in their cliques; false where one has none.
@@ -148,14 +170,13 @@ pub fn commit<const D: usize>(
         for values in [&mut multipliers.pressure, &mut multipliers.shear, &mut multipliers.gap, &mut multipliers.slip] {
             values.fill(0.0);
         }
-        multipliers.near.fill(false);
     }
     for touch in &grid.touches {
         let (pair, hat, row) = (touch.pair as usize, touch.row.hat as usize, &touch.row);
         let (answer, gap, slip) = contact_answer(scene.pairs[pair].law(), touch, &trial);
         let held = &mut state.multipliers[pair];
         (held.pressure[hat], held.shear[hat]) = (answer.pressure, answer.shear);
-        (held.gap[hat], held.slip[hat], held.near[hat]) = (gap, slip.abs(), true);
+        (held.gap[hat], held.slip[hat]) = (gap, slip.abs());
         let resultant = &mut resultants[pair];
         if answer.pressure != 0.0 {
             resultant.hats += 1;

@@ -78,9 +78,10 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
     pub fn advance(&mut self, controller: &mut Controller) -> Result<Report<D>> {
         let before = self.state.restorations;
         let mut fresh = timed(Activity::Transfer, || self.initialise(false))?;
+        let mut guess = true;
         let (dt, start, solution) = loop {
             let dt = controller.size(self.state.phase_time);
-            match self.lagrange(dt) {
+            match self.lagrange(dt, std::mem::take(&mut guess)) {
                 Ok((start, solution)) => break (dt, start, solution),
                 Err(error) if error.kind == Kind::Analysis => {
                     if fresh {
@@ -121,16 +122,20 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
     }
 
     /// The solution on the grid and, with inertia, the motion that it starts from.
-    fn lagrange(&mut self, dt: f64) -> Result<(Option<Start<D>>, Solution<D>)> {
+    /// Where nodes go on as they did, they are a good `guess` of the end of the step.
+    fn lagrange(&mut self, dt: f64, guess: bool) -> Result<(Option<Start<D>>, Solution<D>)> {
         let (scene, state) = (self.scene, &self.state);
         let phase = &scene.phases[state.phase];
         let given = grid::given_increments(scene, state, &self.grid, dt);
         let start = phase.dynamic.then(|| Start::of(&self.grid, state, &given, dt));
         let (velocity, acceleration): (&[_], &[_]) =
             start.as_ref().map_or((&[], &[]), |s| (&s.velocity, &s.acceleration));
+        let guess = (guess && state.last_step > 0.0 && !phase.dynamic && !scene.pairs.is_empty())
+            .then(|| going_on(state, dt / state.last_step));
         let problem = Problem {
             scene,
             state,
+            guess: guess.as_deref(),
             converged: &state.displacement,
             pressure: &state.pressure,
             velocity,
@@ -157,13 +162,15 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
             momentum = std::array::from_fn(|d| momentum[d] + impulse[d]);
             transfer::motion_to_points::<D, K>(scene, &self.grid, state, start, &solution.displacement, dt);
         }
-        for (travel, (now, before)) in
-            state.travel.iter_mut().zip(solution.displacement.iter().zip(&state.displacement))
-        {
+        state.increment.resize(solution.displacement.len(), [0.0; D]);
+        let ends = solution.displacement.iter().zip(&state.displacement);
+        for ((travel, increment), (now, before)) in state.travel.iter_mut().zip(&mut state.increment).zip(ends) {
             for d in 0..D {
-                travel[d] += now[d] - before[d];
+                increment[d] = now[d] - before[d];
+                travel[d] += increment[d];
             }
         }
+        state.last_step = dt;
         state.displacement.clone_from(&solution.displacement);
         state.pressure.clone_from(&solution.pressure);
         contact::push_out(scene, state, &mut contacts);
@@ -172,4 +179,10 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
         state.phase_time += dt;
         Ok(Report { contacts, ..Report::new(scene, state, &self.grid, dt, solution, &momentum) })
     }
+}
+
+/// The displacement (m) of the nodes after `share` times their last increment.
+fn going_on<const D: usize>(state: &State<D>, share: f64) -> Vec<[f64; D]> {
+    let ends = state.displacement.iter().zip(&state.increment);
+    ends.map(|(u, by)| std::array::from_fn(|d| u[d] + share * by[d])).collect()
 }

@@ -28,6 +28,8 @@ const ROUNDING: f64 = 1e-14;
 pub struct Problem<'a, const D: usize> {
     pub scene: &'a Scene<D>,
     pub state: &'a State<D>,
+    /// Displacement (m) of the nodes that the iteration begins with, if not the converged one.
+    pub guess: Option<&'a [[f64; D]]>,
     /// State of the nodes at the last converged step.
     pub converged: &'a [[f64; D]],
     /// The pressure field (kPa) there; empty without one.
@@ -145,7 +147,7 @@ impl<'a, const D: usize> Newton<'a, D> {
     }
 
     fn solve(&mut self) -> Result<Solution<D>> {
-        self.evaluate(true)?;
+        self.begin()?;
         self.note();
         while !self.converged() {
             self.direction()?;
@@ -161,6 +163,18 @@ impl<'a, const D: usize> Newton<'a, D> {
             applied: now.applied,
             method: self.method,
         })
+    }
+
+    /// The state that the iteration begins with.
+    fn begin(&mut self) -> Result<()> {
+        if let Some(guess) = self.problem.guess {
+            self.buffers.now.at.set(guess, self.problem.pressure);
+            if self.evaluate(true).is_ok() {
+                return Ok(());
+            }
+            self.buffers.now.at.set(self.problem.converged, self.problem.pressure);
+        }
+        self.evaluate(true)
     }
 
     /// The residual of the state at hand, and its tangent where wanted.
@@ -179,9 +193,6 @@ impl<'a, const D: usize> Newton<'a, D> {
 
     /// Notes the residual of the state at hand, relative to the largest of the terms that balance in it.
     fn note(&mut self) {
-        if crate::tune("TRACE", 0.0) > 0.0 {
-            eprintln!("  noted {:.3e}", self.size(&self.buffers.now));
-        }
         self.history.push(self.size(&self.buffers.now) / self.buffers.now.scale.max(self.floor));
     }
 
@@ -294,14 +305,6 @@ impl<'a, const D: usize> Newton<'a, D> {
         trial.at.advance(self.problem, self.grid, &self.buffers.delta, length);
         let done = evaluate(self.problem, self.grid, &mut self.buffers, &mut trial, tangent);
         let size = self.size(&trial);
-        if crate::tune("TRACE", 0.0) > 0.0 {
-            eprintln!(
-                "attempt {length} -> {size:.3e} target {:.3e} scale {:.3e} {:?}",
-                self.target,
-                trial.scale,
-                done.as_ref().err().map(|e| format!("{} {}", e.place, e.problem))
-            );
-        }
         self.buffers.trial = trial;
         (done.is_ok() && size.is_finite()).then_some(size)
     }

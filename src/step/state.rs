@@ -39,6 +39,9 @@ pub struct State<const D: usize> {
     pub parametric: Vec<[f64; 3]>,
     /// Displacement (m) of the nodes since the last restoration.
     pub displacement: Vec<[f64; D]>,
+    /// What the last step added to it, and the size (s) of that step; empty where no step begins with a guess.
+    pub increment: Vec<[f64; D]>,
+    pub last_step: f64,
     /// Displacement (m) of the nodes since the run began: what passes a node of a grid that is restored.
     pub travel: Vec<[f64; D]>,
     /// The pressure field (kPa, tension positive) by node, at the corners of cells, then the constant of each cell;
@@ -79,6 +82,8 @@ impl<const D: usize> State<D> {
             moving: false,
             parametric: Vec::new(),
             displacement: vec![[0.0; D]; nodes],
+            increment: Vec::new(),
+            last_step: 0.0,
             travel: vec![[0.0; D]; nodes],
             pressure: Vec::new(),
             velocity: Vec::new(),

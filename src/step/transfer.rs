@@ -97,6 +97,7 @@ fn first_acceleration<const D: usize, K: Kinematics<D>>(
     let problem = Problem {
         scene,
         state,
+        guess: None,
         converged: &state.displacement,
         pressure: &state.pressure,
         velocity: &state.velocity,
