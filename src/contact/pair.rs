@@ -21,6 +21,8 @@ const TANGENTIAL: f64 = 5.0;
 const STILL: f64 = 1e-3;
 /// Error (-) of a measured gap, in spacings: what points that come and go make of it.
 const BAND: f64 = 0.15;
+/// Slip, in spacings of the points, over which a gap becomes that measured: as many points have passed by.
+const SLIDE: f64 = 2.0;
 /// Share of its slip by which a gap may be corrected in a step.
 const RATE: f64 = 0.1;
 /// Where soil is looked for from a segment, in spacings of its points.
@@ -147,16 +149,17 @@ impl<K: Kinematics<2>> Boundary<K> {
     /// the `surface`.
     ///
     /// What touched in the step before carries its gap on: as measured it jumps when points come and go, and every jump
-    /// has to be made up for by straining the soil. It is corrected by what lies beyond the error of the measure, and no
-    /// faster than the hat slides. What did not touch has the gap of the surface; it may begin to touch, not to overlap.
+    /// has to be made up for by straining the soil. It becomes that measured as the hat slides, which evens the jumps out,
+    /// and is corrected by what lies beyond their size. What did not touch has the gap of the surface; it may begin to touch, not to overlap.
     fn begin(&self, measured: f64, surface: Option<f64>, spacing: f64, held: &Multipliers, hat: usize) -> f64 {
         let still = STILL * spacing;
         if held.pressure[hat] == 0.0 {
             return surface.unwrap_or(measured).max(-still);
         }
         let (error, band) = (measured - held.gap[hat], BAND * spacing);
+        let share = (held.slip[hat] / (SLIDE * spacing)).min(1.0);
         let most = RATE * held.slip[hat] + still;
-        held.gap[hat] + (error - error.clamp(-band, band)).clamp(-most, most)
+        held.gap[hat] + share * error + ((1.0 - share) * (error - error.clamp(-band, band))).clamp(-most, most)
     }
 
     /// Penalties and multipliers of a hat over soil like that at `point`.

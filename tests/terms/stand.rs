@@ -110,7 +110,7 @@ pub struct Stand<K> {
     /// The pressure field of the trial states, in the unknowns of the state, and the one before.
     pub pressure: Vec<f64>,
     pub converged_pressure: Vec<f64>,
-    grid: Grid<2>,
+    pub grid: Grid<2>,
     kinematics: PhantomData<K>,
 }
 
