@@ -274,17 +274,15 @@ fn points_in_general_position_bear_what_regular_ones_do() {
 /// The surface beside the footing runs through the cells, which takes the ghost penalty; whatever the step.
 #[test]
 fn soil_that_ends_within_cells_bears_the_same() {
-    for rough in [true, false] {
+    for (rough, layout) in [(true, Layout::Shifted), (false, Layout::Lattice)] {
         let whole = Footing { rough, ..STRIP }.strip();
-        for layout in [Layout::Shifted, Layout::Lattice] {
-            let cut = Footing { layout, rough, restored: true, cut: true, ..STRIP };
-            let [few, many] = [10, 40].map(|steps| Footing { steps, ..cut }.strip());
-            println!("    {:+.2} %, {:+.2} % of the whole", 100.0 * (few / PRANDTL - 1.0), 100.0 * (few / whole - 1.0));
-            assert!((few / PRANDTL - 1.0).abs() < 0.02 && (few / whole - 1.0).abs() < 0.015, "{few} {whole}");
-            assert!((many / few - 1.0).abs() < 2e-3, "{many} {few}");
-            let [_, fine] = errors([cut, Footing { cells: 16, ..cut }]);
-            assert!(fine.abs() < 0.012, "{fine}");
-        }
+        let cut = Footing { layout, rough, restored: true, cut: true, ..STRIP };
+        let [few, many] = [10, 40].map(|steps| Footing { steps, ..cut }.strip());
+        let fine = Footing { cells: 12, ..cut }.strip();
+        let [error, of_whole, finer] = [few / PRANDTL, few / whole, fine / PRANDTL].map(|r| r - 1.0);
+        println!("    {:+.2} %, {:+.2} % of the whole; {:+.2} %", 100.0 * error, 100.0 * of_whole, 100.0 * finer);
+        assert!(error.abs() < 0.02 && of_whole.abs() < 0.01 && finer.abs() < 0.01, "{few} {whole} {fine}");
+        assert!((many / few - 1.0).abs() < 2e-3, "{many} {few}");
     }
 }
 
@@ -306,14 +304,11 @@ fn a_smooth_circle() {
 /// by twice and by eight times as much.
 #[test]
 fn a_strength_that_grows_with_depth() {
-    for (gain, factor) in [(1.0, 1.1095), (2.0, 1.1807), (8.0, 1.3696)] {
-        for layout in [Layout::Regular, Layout::Shifted] {
-            let footing = Footing { layout, rough: false, graded: true, gain, ..STRIP };
-            let errors =
-                [8, 12].map(|cells| Footing { cells, ..footing }.strip() / (PRANDTL + 0.25 * gain) / factor - 1.0);
-            println!("    {:+.2} %, {:+.2} %", 100.0 * errors[0], 100.0 * errors[1]);
-            assert!(errors[0].abs() < 0.02 && errors[1].abs() < 0.02, "{errors:?}");
-        }
+    for (gain, factor, bound) in [(1.0, 1.1095, 0.01), (2.0, 1.1807, 0.01), (8.0, 1.3696, 0.035)] {
+        let footing = Footing { rough: false, graded: true, gain, ..STRIP };
+        let error = footing.strip() / (PRANDTL + 0.25 * gain) / factor - 1.0;
+        println!("    {:+.2} %", 100.0 * error);
+        assert!(error.abs() < bound, "{error}");
     }
 }
 
