@@ -13,6 +13,12 @@ use std::marker::PhantomData;
 /// Cells with fewer points do not stand alone.
 const FEW: u32 = 4;
 
+/// The surface lies at most so far beside the markers of its front, as a share of a cell's size: as far as the front may
+/// be off before it is given up.
+const LARGEST_OFFSET: f64 = 0.05;
+/// So far is no distance.
+const LEAST_OFFSET: f64 = 1e-10;
+
 /// Weights fitted to the cells cut along the contour of the material.
 pub struct Fitted<K> {
     geometry: Geometry,
@@ -48,6 +54,29 @@ impl<K: Kinematics<2>> Fitted<K> {
         front.inspect::<K>(mesh, &self.geometry, grid.locator, volume)
     }
 
+    /// Weighs points within a front. It follows the grid and not the points, and nothing holds it where it is: it would
+    /// sink or rise a little in every restoration, and the body lose or gain weight by that. So the surface is taken
+    /// where the points weigh together what they did when the front was made: everywhere as far beside the markers.
+    fn weigh_followed(&self, grid: &Restored<2>, front: &mut Front) -> Weighing<2> {
+        let Restored { mesh, locator, points, stencil, taking_part, .. } = *grid;
+        let mut distance = Distance::default();
+        distance.update(mesh, &self.geometry, locator, front, &points.cell, taking_part);
+        let weighing = self.weigh_within(mesh, points, stencil, taking_part, &distance.level_set);
+        let weight: f64 = weighing.weight.iter().sum();
+        if grid.displacement.is_none() {
+            front.weight = weight;
+        }
+        let (surface, size) = front.surface::<K>(mesh, &self.geometry, locator);
+        // What was of the volume one when seeded has that of `J` at the surface.
+        let missing = (front.weight - weight) * volume_ratio(points, &weighing);
+        let offset = (missing / surface).clamp(-LARGEST_OFFSET * size, LARGEST_OFFSET * size);
+        if surface == 0.0 || offset.abs() <= LEAST_OFFSET * size {
+            return weighing;
+        }
+        distance.level_set.iter_mut().for_each(|distance| *distance += offset);
+        self.weigh_within(mesh, points, stencil, taking_part, &distance.level_set)
+    }
+
     /// Weighs points in a body whose surface is the zero of `level_set`: one value a node, positive inside.
     pub fn weigh_within(
         &self,
@@ -79,18 +108,14 @@ impl<K: Kinematics<2>> Fitted<K> {
 
 impl<K: Kinematics<2>> Quadrature<2> for Fitted<K> {
     fn weigh(&self, grid: &Restored<2>, front: &mut Option<Front>) -> Weighing<2> {
-        let Restored { mesh, locator, points, parametric, stencil, taking_part, .. } = *grid;
+        let Restored { mesh, points, parametric, stencil, taking_part, .. } = *grid;
         let mut lost_front = None;
         if let Err(fault) = self.follow(grid, front) {
             *front = None;
             lost_front = Some(fault.to_string());
         }
         let mut weighing = match front {
-            Some(front) => {
-                let mut distance = Distance::default();
-                distance.update(mesh, &self.geometry, locator, front, &points.cell, taking_part);
-                self.weigh_within(mesh, points, stencil, taking_part, &distance.level_set)
-            }
+            Some(front) => self.weigh_followed(grid, front),
             None => {
                 let mut contour = Contour::default();
                 contour.update::<K>(mesh, &self.geometry, points, parametric, taking_part);
@@ -100,6 +125,18 @@ impl<K: Kinematics<2>> Quadrature<2> for Fitted<K> {
         weighing.lost_front = lost_front;
         weighing
     }
+}
+
+/// The mean of `J` over the points in cells that are not full; one where there are none.
+fn volume_ratio(points: &Points<2>, weighing: &Weighing<2>) -> f64 {
+    let (mut now, mut then) = (0.0, 0.0);
+    for (p, &cell) in points.cell.iter().enumerate() {
+        if weighing.soft.binary_search_by_key(&cell, |soft| soft.cell).is_ok() {
+            now += points.volume(p) * (weighing.weight[p] / points.initial_volume[p]);
+            then += weighing.weight[p];
+        }
+    }
+    if then > 0.0 { now / then } else { 1.0 }
 }
 
 /// Gives a body that fills no cell the volume of its points: what the surface cuts off cells beside it, which have no
