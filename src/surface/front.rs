@@ -69,12 +69,7 @@ impl Front {
 
     /// The area (m², per metre or full turn) of the free surface, and the mean size (m) of the cells along it; zeros
     /// without one.
-    pub fn surface<K: Kinematics<2>>(
-        &self,
-        mesh: &Mesh<2>,
-        geometry: &Geometry,
-        locator: &Locator<2>,
-    ) -> (f64, f64) {
+    pub fn surface<K: Kinematics<2>>(&self, mesh: &Mesh<2>, geometry: &Geometry, locator: &Locator<2>) -> (f64, f64) {
         let wall = self.walls(mesh, geometry, locator);
         let (mut area, mut sizes, mut hint) = (0.0, 0.0, None);
         for l in 0..self.loops() {
