@@ -44,8 +44,6 @@ pub struct Patch {
     first_value: usize,
     /// Where the gradients of the first point begin; those of each point follow function by function.
     first_gradient: usize,
-    /// Where the means of the gradients over its points begin, function by function.
-    first_mean: usize,
 }
 
 /// Weights and gradients of all points, on the reference configuration: the grid as last restored.
@@ -59,8 +57,6 @@ pub struct Stencil<const D: usize> {
     value: Vec<f64>,
     /// `∇N_I(x_p)` (1/m).
     gradient: Vec<[f64; D]>,
-    /// Their means over the points of each patch, by weight, patch by patch (1/m).
-    mean: Vec<[f64; D]>,
     /// Radius of the points (m), in the order of `points`; empty without hoop strain.
     radius: Vec<f64>,
     /// What the points weigh in integrals (m³), as volume when seeded, in the order of `points`.
@@ -89,9 +85,6 @@ pub struct Entries<'a, const D: usize> {
     /// `N_I` for the nodes of the cell; other functions have no value.
     pub value: &'a [f64],
     gradient: &'a [[f64; D]],
-    /// The means of the gradients over the patch, and the part (-) of the way to them.
-    mean: &'a [[f64; D]],
-    towards_mean: f64,
     /// `1 / r`, zero without hoop strain.
     hoop: f64,
 }
@@ -104,19 +97,8 @@ impl<const D: usize> Stencil<D> {
 
     /// The entries of the points of a patch, in order.
     pub fn entries<K: Kinematics<D>>(&self, patch: &Patch) -> impl Iterator<Item = Entries<'_, D>> {
-        self.entries_towards_mean::<K>(patch, 0.0)
-    }
-
-    /// As [`Stencil::entries`], with gradients the part `towards_mean` (-) of the way to their means over the patch. A
-    /// linear field keeps its gradient.
-    pub fn entries_towards_mean<K: Kinematics<D>>(
-        &self,
-        patch: &Patch,
-        towards_mean: f64,
-    ) -> impl Iterator<Item = Entries<'_, D>> {
         let first = patch.first_point as usize;
         let (nodes, functions) = (patch.node_count as usize, patch.function_count as usize);
-        let mean = &self.mean[patch.first_mean..patch.first_mean + if towards_mean > 0.0 { functions } else { 0 }];
         (0..patch.point_count as usize).map(move |k| {
             let (value, gradient) = (patch.first_value + k * nodes, patch.first_gradient + k * functions);
             Entries {
@@ -124,8 +106,6 @@ impl<const D: usize> Stencil<D> {
                 weight: self.weight[first + k],
                 value: &self.value[value..value + nodes],
                 gradient: &self.gradient[gradient..gradient + functions],
-                mean,
-                towards_mean,
                 hoop: if K::HOOP { 1.0 / self.radius[first + k] } else { 0.0 },
             }
         })
@@ -170,28 +150,6 @@ impl<const D: usize> Stencil<D> {
             }
         }
         ddmp::weigh(self);
-        self.average();
-    }
-
-    /// The means of the gradients over each patch.
-    fn average(&mut self) {
-        self.mean.clear();
-        for patch in &mut self.patches {
-            let (points, functions) = (patch.point_count as usize, patch.function_count as usize);
-            let weight = &self.weight[patch.first_point as usize..][..points];
-            let total: f64 = weight.iter().sum();
-            patch.first_mean = self.mean.len();
-            self.mean.resize(patch.first_mean + functions, [0.0; D]);
-            let mean = &mut self.mean[patch.first_mean..];
-            let gradients = self.gradient[patch.first_gradient..][..points * functions].chunks_exact(functions);
-            for (gradient, weight) in gradients.zip(weight) {
-                for (mean, gradient) in mean.iter_mut().zip(gradient) {
-                    for d in 0..D {
-                        mean[d] += weight / total * gradient[d];
-                    }
-                }
-            }
-        }
     }
 
     /// The arrays of each patch, so that patches can be filled in parallel.
@@ -228,13 +186,7 @@ impl<const D: usize> Stencil<D> {
 impl<const D: usize> Entries<'_, D> {
     /// The gradient of function `i` of the patch.
     pub fn gradient(&self, i: usize) -> Gradient<D> {
-        let mut g = self.gradient[i];
-        if let Some(mean) = self.mean.get(i) {
-            for d in 0..D {
-                g[d] += self.towards_mean * (mean[d] - g[d]);
-            }
-        }
-        Gradient { g, hoop: self.value.get(i).map_or(0.0, |n| self.hoop * n) }
+        Gradient { g: self.gradient[i], hoop: self.value.get(i).map_or(0.0, |n| self.hoop * n) }
     }
 
     /// The number of functions, values or none.

@@ -76,7 +76,6 @@ fn group<const D: usize>(stencil: &mut Stencil<D>, mesh: &Mesh<D>, cell: &[u32],
                 function_count,
                 first_value,
                 first_gradient,
-                first_mean: 0,
             });
             first_value += (points * node_count) as usize;
             first_gradient += (points * function_count) as usize;

@@ -12,7 +12,6 @@
 //! nothing.
 
 use super::beyond::{mirror_beyond, scatter_functions, stiffen};
-use super::flow::towards_mean;
 use super::stiffness::Stiffness;
 use super::{Assembly, Frame, History, Term, Trial, Update};
 use crate::error::{Error, Result};
@@ -34,9 +33,6 @@ const LEAST_VOLUME_RATIO: f64 = 0.05;
 
 /// A share of the stress of the points that unknowns of its own carry.
 pub trait Share<const D: usize, K: Kinematics<D>>: Send + Sync {
-    /// Whether cells that flow unevenly do so by their mean strains (see `flow`).
-    const EVENS: bool;
-
     /// Its unknowns over a patch.
     type Cell;
 
@@ -72,8 +68,6 @@ pub trait Share<const D: usize, K: Kinematics<D>>: Send + Sync {
 
 /// No share: the models answer for the whole stress.
 impl<const D: usize, K: Kinematics<D>> Share<D, K> for () {
-    const EVENS: bool = false;
-
     type Cell = ();
 
     #[inline]
@@ -192,16 +186,6 @@ impl<K, S> Internal<K, S> {
         Ok(answers)
     }
 
-    /// The entries of the points of a patch, as the strains are formed with them.
-    fn entries<'a, const D: usize>(&self, frame: &Frame<'a, D>, patch: &Patch) -> impl Iterator<Item = Entries<'a, D>>
-    where
-        K: Kinematics<D>,
-        S: Share<D, K>,
-    {
-        let stencil = frame.stencil;
-        stencil.entries_towards_mean::<K>(patch, if S::EVENS { towards_mean(frame, patch) } else { 0.0 })
-    }
-
     /// The points of a patch at a trial state.
     fn evaluate<const D: usize>(
         &self,
@@ -211,14 +195,13 @@ impl<K, S> Internal<K, S> {
     ) -> Result<Evaluated<K::Tangent>>
     where
         K: Kinematics<D>,
-        S: Share<D, K>,
     {
         let now = frame.stencil.gather(frame.mesh, patch, trial.displacement);
         let before = frame.stencil.gather(frame.mesh, patch, trial.converged);
         // In the first step after a restoration nothing has moved before.
         let moved = before.iter().flatten().any(|&u| u != 0.0);
         let mut strained = Vec::with_capacity(patch.point_count as usize);
-        for entries in self.entries(frame, patch) {
+        for entries in frame.stencil.entries::<K>(patch) {
             strained.push(strain::<D, K>(&entries, &now, moved.then_some(&before))?);
         }
         let answers = timed_material(|| self.answers(frame.points, frame.stencil.points(patch), &strained))?;
@@ -274,10 +257,6 @@ impl<const D: usize, K: Kinematics<D>, S: Share<D, K>> Term<D> for Internal<K, S
         !self.dynamic && self.models.iter().flatten().all(|m| m.symmetric())
     }
 
-    fn sees_flow(&self) -> bool {
-        S::EVENS && self.models.iter().flatten().any(|model| model.strength(0.0).is_finite())
-    }
-
     fn assemble(&self, frame: &Frame<D>, trial: &Trial<D>, out: &mut Assembly) -> Result<()> {
         let wanted = out.tangent.is_some();
         let symmetric = frame.pattern.symmetric;
@@ -289,7 +268,7 @@ impl<const D: usize, K: Kinematics<D>, S: Share<D, K>> Term<D> for Internal<K, S
             let mut spatial = [Gradient { g: [0.0; D], hoop: 0.0 }; MAX_NODES];
             let own = patch.node_count as usize;
             Stiffness::with::<D, _>(own, |stiffness| {
-                for ((entries, point), answer) in self.entries(frame, patch).zip(&strained).zip(&mut answers) {
+                for ((entries, point), answer) in frame.stencil.entries::<K>(patch).zip(&strained).zip(&mut answers) {
                     let beside = self.share.add(&cell, frame.points, &entries, answer);
                     let p = entries.point;
                     let (stress, acts_on) =
@@ -356,7 +335,7 @@ impl<const D: usize, K: Kinematics<D>, S: Share<D, K>> Term<D> for Internal<K, S
                 self.share.commit(&cell, frame.points, &entries, &mut history);
                 history
             };
-            Ok(self.entries(frame, patch).zip(&strained).zip(&answers).map(new).collect())
+            Ok(frame.stencil.entries::<K>(patch).zip(&strained).zip(&answers).map(new).collect())
         };
         Ok(Some(Update(frame.stencil.patches.par_iter().map(new_of_patch).collect::<Result<_>>()?)))
     }

@@ -7,7 +7,6 @@
 mod beyond;
 mod body_force;
 mod empty_cells;
-mod flow;
 mod ghost;
 mod inertia;
 mod internal;

@@ -151,8 +151,6 @@ pub struct Cell {
 }
 
 impl<const D: usize, K: Kinematics<D>> Share<D, K> for PressureField<K> {
-    const EVENS: bool = true;
-
     type Cell = Cell;
 
     fn over(&self, frame: &Frame<D>, trial: &Trial<D>, patch: &Patch) -> Cell {
