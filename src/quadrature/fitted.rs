@@ -2,16 +2,23 @@
 //! surface of the material.
 
 use super::cells::{self, CellFit};
-use super::{Degree, Quadrature, Restored, Tally, Weighing};
+use super::{Degree, MOMENTS, Quadrature, Restored, Tally, Weighing};
 use crate::kinematics::{Kinematics, PlaneStrain};
 use crate::mesh::Mesh;
+use crate::mesh::shape::CellKind;
 use crate::points::Points;
-use crate::stencil::{SoftCell, Stencil};
+use crate::stencil::{Patch, SoftCell, Stencil};
 use crate::surface::{Active, Contour, Distance, Fault, Filling, Front, Geometry};
 use std::marker::PhantomData;
 
-/// Cells with fewer points do not stand alone.
-const FEW: u32 = 4;
+/// Cells whose weights are worth fewer points for each moment that they are fitted to do not stand alone.
+const POINTS_A_MOMENT: f64 = 2.0;
+
+/// The surface lies at most so far beside the markers of its front, as a share of a cell's size: as far as the front may
+/// be off before it is given up.
+const LARGEST_OFFSET: f64 = 0.05;
+/// So far is no distance.
+const LEAST_OFFSET: f64 = 1e-10;
 
 /// Weights fitted to the cells cut along the contour of the material.
 pub struct Fitted<K> {
@@ -51,6 +58,29 @@ impl<K: Kinematics<2>> Fitted<K> {
         front.inspect::<K>(mesh, &self.geometry, grid.locator, volume)
     }
 
+    /// Weighs points within a front. It follows the grid and not the points, and nothing holds it where it is: it would
+    /// sink or rise a little in every restoration, and the body lose or gain weight by that. So the surface is taken
+    /// where the points weigh together what they did when the front was made: everywhere as far beside the markers.
+    fn weigh_followed(&self, grid: &Restored<2>, front: &mut Front) -> Weighing<2> {
+        let Restored { mesh, locator, points, stencil, taking_part, .. } = *grid;
+        let mut distance = Distance::default();
+        distance.update(mesh, &self.geometry, locator, front, &points.cell, taking_part);
+        let weighing = self.weigh_within(mesh, points, stencil, taking_part, &distance.level_set);
+        let weight: f64 = weighing.weight.iter().sum();
+        if grid.displacement.is_none() {
+            front.weight = weight;
+        }
+        let (surface, size) = front.surface::<K>(mesh, &self.geometry, locator);
+        let missing = (front.weight - weight) * volume_ratio(points, &weighing);
+        // Against a structure the surface is that of the structure, which has not moved.
+        if missing.abs() <= LEAST_OFFSET * size * surface || !grid.outlines.is_empty() {
+            return weighing;
+        }
+        let offset = (missing / surface).clamp(-LARGEST_OFFSET * size, LARGEST_OFFSET * size);
+        distance.level_set.iter_mut().for_each(|distance| *distance += offset);
+        self.weigh_within(mesh, points, stencil, taking_part, &distance.level_set)
+    }
+
     /// Weighs points in a body whose surface is the zero of `level_set`: one value a node, positive inside.
     pub fn weigh_within(
         &self,
@@ -73,8 +103,14 @@ impl<K: Kinematics<2>> Fitted<K> {
             weight[p] = w * points.initial_volume[p] / points.volume(p);
         }
         let tally = tally(&fits, full);
-        let poor = |fit: &&CellFit| !full(fit.cell) || fit.points < FEW || fit.degree == Degree::Constant;
-        let poor = fits.iter().filter(poor).map(|fit| fit.cell).collect();
+        let poor = |(fit, patch): &(&CellFit, &Patch)| {
+            !full(fit.cell) || fit.degree == Degree::Constant || {
+                let begin = patch.first_point as usize;
+                let weight = &current[begin..begin + patch.point_count as usize];
+                effective_points(points, stencil.points(patch), weight) < enough(mesh.cells.kind[fit.cell as usize])
+            }
+        };
+        let poor = fits.iter().zip(&stencil.patches).filter(poor).map(|(fit, _)| fit.cell).collect();
         let shift = fits.into_iter().filter_map(|fit| Some((fit.cell, fit.shift?))).collect();
         Weighing { weight, shift, soft: soft(plane, &active, taking_part), poor, tally, lost_front: None }
     }
@@ -89,18 +125,14 @@ impl<K: Kinematics<2>> Quadrature<2> for Fitted<K> {
 impl<K: Kinematics<2>> Fitted<K> {
     /// Weighs the points on a grid whose geometry this is.
     fn weigh_on(&self, grid: &Restored<2>, front: &mut Option<Front>) -> Weighing<2> {
-        let Restored { mesh, locator, points, parametric, stencil, taking_part, .. } = *grid;
+        let Restored { mesh, points, parametric, stencil, taking_part, .. } = *grid;
         let mut lost_front = None;
         if let Err(fault) = self.follow(grid, front) {
             *front = None;
             lost_front = Some(fault.to_string());
         }
         let mut weighing = match front {
-            Some(front) => {
-                let mut distance = Distance::default();
-                distance.update(mesh, &self.geometry, locator, front, &points.cell, taking_part);
-                self.weigh_within(mesh, points, stencil, taking_part, &distance.level_set)
-            }
+            Some(front) => self.weigh_followed(grid, front),
             None => {
                 let mut contour = Contour::default();
                 contour.update::<K>(mesh, &self.geometry, points, parametric, taking_part);
@@ -110,6 +142,41 @@ impl<K: Kinematics<2>> Fitted<K> {
         weighing.lost_front = lost_front;
         weighing
     }
+}
+
+/// How many points of equal weight the points of a cell are worth: `n (Σ w)²/(Σ V Σ w²/V)`, of the current weights (m³) and
+/// volumes. The stresses of points differ from those in balance by some noise; that of the cell's forces falls with it.
+fn effective_points(points: &Points<2>, numbers: &[u32], weight: &[f64]) -> f64 {
+    let (mut volumes, mut weights, mut squares) = (0.0, 0.0, 0.0);
+    for (&p, w) in numbers.iter().zip(weight) {
+        let volume = points.volume(p as usize);
+        volumes += volume;
+        weights += w;
+        squares += w * w / volume;
+    }
+    numbers.len() as f64 * weights * weights / (volumes * squares)
+}
+
+/// The points that the weights of a cell must be worth.
+fn enough(kind: CellKind) -> f64 {
+    let moments = match cells::wanted(kind) {
+        Degree::Constant => 1,
+        Degree::Linear => 3,
+        Degree::Quadratic => MOMENTS,
+    };
+    POINTS_A_MOMENT * moments as f64
+}
+
+/// The mean of `J` over the points in cells that are not full; one where there are none.
+fn volume_ratio(points: &Points<2>, weighing: &Weighing<2>) -> f64 {
+    let (mut now, mut then) = (0.0, 0.0);
+    for (p, &cell) in points.cell.iter().enumerate() {
+        if weighing.soft.binary_search_by_key(&cell, |soft| soft.cell).is_ok() {
+            now += points.volume(p) * (weighing.weight[p] / points.initial_volume[p]);
+            then += weighing.weight[p];
+        }
+    }
+    if then > 0.0 { now / then } else { 1.0 }
 }
 
 /// Gives a body that fills no cell the volume of its points: what the surface cuts off cells beside it, which have no
@@ -190,7 +257,6 @@ mod tests {
     use crate::kinematics::Axisymmetric;
     use crate::mesh::builder::rectangle;
     use crate::mesh::locate::Locator;
-    use crate::mesh::shape::CellKind;
     use crate::stencil::Scheme;
     use crate::tensor::Tensor;
 

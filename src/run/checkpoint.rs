@@ -74,6 +74,7 @@ pub fn store<const D: usize>(state: &State<D>) -> Store {
     let (markers, loops) = front.as_ref().map_or((Vec::new(), Vec::new()), |f| (f.position.concat(), f.first.clone()));
     store.put("front.position", 2, markers);
     store.put("front.first", 1, loops);
+    store.put("front.weight", 1, front.iter().map(|f| f.weight).collect());
     for (prefix, points) in [(POINTS, points), (FEM, fem)] {
         for mut array in columns::to_arrays(points) {
             array.name.insert_str(0, prefix);
@@ -176,7 +177,8 @@ pub fn take<const D: usize>(mut store: Store, first: &State<D>) -> Result<State<
     let multipliers = take_multipliers(&mut store)?;
     let position = store.take::<f64>("front.position", 2)?.chunks_exact(2).map(|x| [x[0], x[1]]).collect();
     let loops = store.take::<u32>("front.first", 1)?;
-    let front = (!loops.is_empty()).then_some(Front { position, first: loops });
+    let weight = store.take::<f64>("front.weight", 1)?;
+    let front = weight.first().map(|&weight| Front { position, first: loops, weight });
     let (points, fem) = (columns::take(&mut store, POINTS)?, columns::take(&mut store, FEM)?);
     let state = State {
         phase: *phase as usize,

@@ -34,6 +34,8 @@ pub struct Front {
     pub position: Vec<[f64; 2]>,
     /// Loop `l` has the markers `first[l]..first[l + 1]`.
     pub first: Vec<u32>,
+    /// What the points within weighed together when the front was made (m³, as when seeded).
+    pub weight: f64,
 }
 
 impl Front {
@@ -64,6 +66,25 @@ impl Front {
             }
         }
         volume
+    }
+
+    /// The area (m², per metre or full turn) of the free surface, and the mean size (m) of the cells along it; zeros
+    /// without one.
+    pub fn surface<K: Kinematics<2>>(&self, mesh: &Mesh<2>, geometry: &Geometry, locator: &Locator<2>) -> (f64, f64) {
+        let wall = self.walls(mesh, geometry, locator);
+        let (mut area, mut sizes, mut hint) = (0.0, 0.0, None);
+        for l in 0..self.loops() {
+            let (x, first) = (self.markers(l), self.first[l] as usize);
+            for i in (0..x.len()).filter(|i| !wall[first + i]) {
+                let (a, b) = (x[i], x[(i + 1) % x.len()]);
+                let Some((cell, _)) = locator.locate(mesh, &a, hint) else { continue };
+                let part = distance(&a, &b) * K::measure(&[0, 1].map(|d| 0.5 * (a[d] + b[d])));
+                area += part;
+                sizes += part * geometry.size(mesh, cell as usize);
+                hint = Some(cell);
+            }
+        }
+        if area > 0.0 { (area, sizes / area) } else { (0.0, 0.0) }
     }
 
     /// Moves the markers with the `displacement` (m) of the nodes since the grid was restored to `before`, and evens out

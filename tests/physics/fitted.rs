@@ -116,31 +116,44 @@ fn the_column_converges_at_second_order() {
 
 #[test]
 fn no_count_of_cells_is_an_outlier() {
-    let counts = [41, 47, 53, 59, 67, 71, 79];
-    let scaled = counts.map(|cells| Tall { cells, ..TALL }.error::<PlaneStrain>() * (cells * cells) as f64);
-    let trend = (scaled.iter().map(|e| e.ln()).sum::<f64>() / scaled.len() as f64).exp();
-    let worst = scaled.iter().fold(0.0, |a: f64, &e| a.max(e)) / trend;
-    println!("worst of 41 … 79 cells: {worst:.2} times the trend");
-    assert!(worst < 2.0, "{scaled:?}");
+    let counts: Vec<usize> = (40..=80).collect();
+    let scaled: Vec<f64> =
+        counts.iter().map(|&cells| Tall { cells, ..TALL }.error::<PlaneStrain>() * (cells * cells) as f64).collect();
+    let trend = mean(&scaled);
+    let (worst, cells) = scaled.iter().zip(&counts).fold((0.0, 0), |a, (&e, &n)| if e > a.0 { (e, n) } else { a });
+    println!("worst of 40 … 80 cells: {:.2} times the trend, with {cells}", worst / trend);
+    assert!(worst < 2.0 * trend, "{scaled:?}");
 }
 
-/// What points that cross edges leave behind adds up like noise: the error grows with the root of the number of
-/// steps at most, and at 160 steps is still within the bounds for 40.
+/// The geometric mean.
+fn mean(values: &[f64]) -> f64 {
+    (values.iter().map(|e| e.ln()).sum::<f64>() / values.len() as f64).exp()
+}
+
+/// Points that cross edges leave some noise behind, and it grows a little with the number of steps. How much differs
+/// from mesh to mesh; at 160 steps the error is within the bounds for 40.
 #[test]
 fn more_steps_add_little() {
+    let mut ratios = Vec::new();
     for (cells, bound) in [(16, 5e-4), (32, 1.5e-4), (64, 6e-5)] {
-        let [few, many] = [40, 160].map(|steps| Tall { cells, steps, ..TALL }.error::<PlaneStrain>());
-        println!("{cells} cells: 160 steps err {:.2} times as much as 40", many / few);
-        assert!(many <= 2.5 * few && many <= bound, "{few:e} {many:e}");
+        for (wide, seed) in [(1, 5), (1, 6), (3, 5), (3, 6)] {
+            let [few, many] = [40, 160].map(|steps| Tall { cells, wide, steps, seed, ..TALL }.error::<PlaneStrain>());
+            println!("{wide} × {cells} cells: 160 steps err {:.2} times as much as 40", many / few);
+            assert!(many <= 2.1 * few && many <= bound, "{wide} × {cells}: {few:e} {many:e}");
+            ratios.push(many / few);
+        }
     }
+    println!("in the mean {:.2} times", mean(&ratios));
+    assert!(mean(&ratios) <= 1.5, "{ratios:?}");
 }
 
+/// Fewer points cross edges, but cells that have moved along are less regular: neither is better everywhere.
 #[test]
 fn restoration_by_quality_is_as_accurate() {
-    for cells in [16, 32] {
+    for (cells, bound) in [(16, 2.2e-4), (32, 6e-5)] {
         let every = Tall { cells, ..TALL }.error::<PlaneStrain>();
         let seldom = Tall { cells, restore: Restore::Quality { least: 0.5 }, ..TALL }.error::<PlaneStrain>();
-        assert!(seldom <= 1.1 * every, "{seldom:e} {every:e}");
+        assert!(every <= bound && seldom <= bound, "{seldom:e} {every:e}");
     }
 }
 

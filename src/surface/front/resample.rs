@@ -29,7 +29,8 @@ impl Front {
             wanted.push(geometry.size(mesh, c as usize) / PER_LENGTH as f64);
             hint = Some(c);
         }
-        let mut next = Self { position: Vec::with_capacity(self.position.len() + 16), first: vec![0] };
+        let position = Vec::with_capacity(self.position.len() + 16);
+        let mut next = Self { position, first: vec![0], weight: self.weight };
         for l in 0..self.loops() {
             let range = self.first[l] as usize..self.first[l + 1] as usize;
             resample_loop(&self.position[range.clone()], &wall[range.clone()], &wanted[range], &mut next.position);
