@@ -10,6 +10,8 @@ pub struct Matrix {
     pub values: Vec<f64>,
     /// Summands that the pattern has no room for, known by their products only. The direct solver cannot have them.
     pub beyond: Vec<Box<dyn Beyond>>,
+    /// Memory of such summands that are spent, for the next ones.
+    pub spare: Vec<Vec<f64>>,
     /// The equations taken out; empty before [`Matrix::constrain`].
     pub(crate) fixed: Vec<bool>,
 }
@@ -18,6 +20,9 @@ pub struct Matrix {
 pub trait Beyond: Send + Sync {
     /// `y += A x`.
     fn add_product(&self, x: &[f64], y: &mut [f64]);
+
+    /// Gives back the memory of a summand that is spent.
+    fn into_memory(self: Box<Self>) -> Vec<f64>;
 }
 
 /// What one clique contributes: a dense matrix (row-major) and a vector over the equations of its blocks.
@@ -35,7 +40,7 @@ impl Matrix {
 
     pub fn clear(&mut self) {
         self.values.fill(0.0);
-        self.beyond.clear();
+        self.spare.extend(self.beyond.drain(..).map(|beyond| beyond.into_memory()));
         self.fixed.clear();
     }
 

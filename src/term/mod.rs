@@ -12,6 +12,7 @@ mod inertia;
 mod internal;
 mod pressure;
 mod smooth_pressure;
+mod smoothed;
 mod stiffness;
 mod traction;
 
