@@ -6,6 +6,7 @@ charged with the whole of `mpm solve`, reading, frames and checkpoints included;
 of its steps, without setting up and without output. Needs `make build`; see `make bench-block`.
 
 With --large the block has four times the cells: the shares of its Lagrangian phase, and one thread beside two.
+With --gradients nothing but what smooth gradients cost beside plain ones, before the block yields, is measured and printed.
 With --write the numbers of this run go to docs/benchmarks-block.md, if there are numbers of all.
 """
 
@@ -31,6 +32,8 @@ SCHEMES = {
     "mpm, classical": ["--set", "numerics.quadrature=points", "--set", "numerics.restore=every_step"],
 }
 LARGE = ["--set", "mesh.parameters.nx=128", "--set", "mesh.parameters.ny=100"]
+# The first three steps, before anything yields, each restored.
+ELASTIC = ["--set", "phases[0].duration=0.075", "--set", "numerics.restore=every_step"]
 SHARES = ["factorisation", "solution", "assembly", "material", "transfer", "analysis", "output"]
 
 
@@ -170,6 +173,24 @@ def large(folder, repeats):
     ]
 
 
+def gradients(folder, repeats):
+    """The lines on smooth gradients beside plain ones: processor time of whole runs [s], the median."""
+    lines = ["| | plain | smooth | ratio | iterations, plain and smooth |", "|---|---|---|---|---|"]
+    for name, quadrature in (("volumes", "points"), ("fitted weights", "fitted")):
+        settings = [
+            [*ELASTIC, "--set", f"numerics.quadrature={quadrature}", "--set", f"numerics.gradient={gradient}"]
+            for gradient in ("mpm", "ddmp")
+        ]
+        folders = [folder / f"{quadrature}{k}" for k in (0, 1)]
+        for of, chosen in zip(folders, settings):
+            prepare(of, chosen)
+        runs = [[run_mpm(of, chosen) for of, chosen in zip(folders, settings)] for _ in range(repeats)]
+        plain, smooth = (middle([pair[k] for pair in runs], "cpu") for k in (0, 1))
+        steps = " and ".join(str(sum(run["iterations"])) for run in runs[0])
+        lines.append(f"| {name} | {plain:.2f} | {smooth:.2f} | {smooth / plain:.1f} | {steps} |")
+    return lines
+
+
 INTRODUCTION = """# Time and memory: the block
 
 Made by `make bench-block`. A block 8 m × 8 m under growing gravity, quasi-static, Mohr–Coulomb (E = 1000 kPa,
@@ -195,10 +216,14 @@ def main():
     parser.add_argument("--repeats", type=int, default=5, help="runs of mpm, of which the median counts")
     parser.add_argument("--alone", action="store_true", help="mpm without Kratos")
     parser.add_argument("--large", action="store_true", help="also the block of four times the cells, on one thread and on two")
+    parser.add_argument("--gradients", action="store_true", help="only smooth gradients beside plain ones")
     parser.add_argument("--write", action="store_true", help=f"write {REPORT.relative_to(ROOT)}")
     arguments = parser.parse_args()
     ours = {name: [] for name in SCHEMES}
     with tempfile.TemporaryDirectory() as name:
+        if arguments.gradients:
+            print("\n".join(gradients(Path(name), arguments.repeats)))
+            return
         folders = {scheme: Path(name) / str(k) for k, scheme in enumerate(SCHEMES)}
         for scheme, settings in SCHEMES.items():
             prepare(folders[scheme], settings)
