@@ -38,7 +38,7 @@ bench: build ## Error against seconds for every scheme, beside Kratos; writes do
 	$(PYTHON) benches/work_precision/run.py $(ARGS)
 
 bench-block: build ## Time the block of 102 400 points beside Kratos; writes docs/benchmarks-block.md
-	$(PYTHON) benches/block/run.py --write
+	$(PYTHON) benches/block/run.py --large --write $(ARGS)
 
 bench-unused: build ## Count the instructions that parts cost which a scene does not use; writes docs/unused.md
 	$(PYTHON) benches/unused/run.py $(ARGS)

@@ -66,6 +66,8 @@ def build(revision):
             subprocess.run(["git", "worktree", "add", "--detach", source, revision], cwd=ROOT, check=True, capture_output=True)
             try:
                 target = ROOT / "target/unused/build"
+                # The build finds Gmsh in .venv of its own checkout.
+                (source / ".venv").symlink_to((ROOT / ".venv").resolve())
                 command = ["cargo", "build", "--release", "--target-dir", target]
                 subprocess.run(command, cwd=source, check=True)
             finally:

@@ -43,13 +43,38 @@ impl Reach {
     pub fn gather<const D: usize>(&self, cell: u32, own: usize, field: &[[f64; D]]) -> [[f64; D]; MAX_NODES] {
         let mut local = [[0.0; D]; MAX_NODES];
         let nodes = self.nodes(cell);
+        // Nothing has moved at the beginning of a step on a restored grid.
+        if nodes.iter().all(|&n| field[n as usize] == [0.0; D]) {
+            return local;
+        }
         for (local, &n) in local.iter_mut().zip(&nodes[..own]) {
             *local = field[n as usize];
         }
-        for (local, row) in local[own..].iter_mut().zip(self.rows(cell)) {
-            for (t, &n) in row.iter().zip(nodes) {
-                for (local, u) in local.iter_mut().zip(&field[n as usize]) {
-                    *local += t * u;
+        // Four rows at once: the field is fetched a quarter as often, and the sums do not wait for each other.
+        let count = nodes.len();
+        let rows =
+            &self.combination[self.row_start[cell as usize] as usize..self.row_start[cell as usize + 1] as usize];
+        for (local, rows) in local[own..].chunks_mut(4).zip(rows.chunks(4 * count)) {
+            if let ([l0, l1, l2, l3], true) = (&mut *local, rows.len() == 4 * count) {
+                let (r0, rest) = rows.split_at(count);
+                let (r1, rest) = rest.split_at(count);
+                let (r2, r3) = rest.split_at(count);
+                for ((((&n, t0), t1), t2), t3) in nodes.iter().zip(r0).zip(r1).zip(r2).zip(r3) {
+                    let u = &field[n as usize];
+                    for d in 0..D {
+                        l0[d] += t0 * u[d];
+                        l1[d] += t1 * u[d];
+                        l2[d] += t2 * u[d];
+                        l3[d] += t3 * u[d];
+                    }
+                }
+                continue;
+            }
+            for (local, row) in local.iter_mut().zip(rows.chunks_exact(count)) {
+                for (t, &n) in row.iter().zip(nodes) {
+                    for (local, u) in local.iter_mut().zip(&field[n as usize]) {
+                        *local += t * u;
+                    }
                 }
             }
         }

@@ -4,12 +4,19 @@ use super::Pattern;
 use crate::error::Result;
 use rayon::prelude::*;
 
+/// Groups of columns that are worked on side by side, whatever the threads.
+const COLUMNS: usize = 4;
+/// Entries from which on that pays in a product.
+const MANY: usize = 1 << 17;
+
 /// The values of a matrix with a given [`Pattern`], and what else belongs to it.
 #[derive(Default)]
 pub struct Matrix {
     pub values: Vec<f64>,
     /// Summands that the pattern has no room for, known by their products only. The direct solver cannot have them.
     pub beyond: Vec<Box<dyn Beyond>>,
+    /// Memory of such summands that are spent, for the next ones.
+    pub spare: Vec<Vec<f64>>,
     /// The equations taken out; empty before [`Matrix::constrain`].
     pub(crate) fixed: Vec<bool>,
 }
@@ -18,6 +25,9 @@ pub struct Matrix {
 pub trait Beyond: Send + Sync {
     /// `y += A x`.
     fn add_product(&self, x: &[f64], y: &mut [f64]);
+
+    /// Gives back the memory of a summand that is spent.
+    fn into_memory(self: Box<Self>) -> Vec<f64>;
 }
 
 /// What one clique contributes: a dense matrix (row-major) and a vector over the equations of its blocks.
@@ -35,7 +45,7 @@ impl Matrix {
 
     pub fn clear(&mut self) {
         self.values.fill(0.0);
-        self.beyond.clear();
+        self.spare.extend(self.beyond.drain(..).map(|beyond| beyond.into_memory()));
         self.fixed.clear();
     }
 
@@ -76,24 +86,39 @@ impl Matrix {
             }
             self.fixed = fixed.to_vec();
         }
-        for j in 0..pattern.len() {
+        // The columns that are taken out concern other right-hand sides; the rows in the lower triangle only their own.
+        for j in (0..pattern.len()).filter(|&j| fixed[j] && known[j] != 0.0) {
             for k in pattern.column[j] as usize..pattern.column[j + 1] as usize {
                 let i = pattern.row[k] as usize;
-                if fixed[i] || fixed[j] {
-                    let value = self.values[k];
-                    if i == j {
-                        self.values[k] = scale;
-                        continue;
-                    }
-                    if fixed[j] && !fixed[i] {
-                        rhs[i] -= value * known[j];
-                    } else if pattern.symmetric && fixed[i] && !fixed[j] {
-                        rhs[j] -= value * known[i];
-                    }
-                    self.values[k] = 0.0;
+                if !fixed[i] {
+                    rhs[i] -= self.values[k] * known[j];
                 }
             }
         }
+        let mut groups = self.columns(pattern, COLUMNS);
+        let mut right = &mut rhs[..];
+        let groups: Vec<_> = groups
+            .iter_mut()
+            .map(|group| {
+                let equations = group.equations(pattern);
+                let own;
+                (own, right) = std::mem::take(&mut right).split_at_mut(equations.len());
+                (equations, own, group)
+            })
+            .collect();
+        groups.into_par_iter().for_each(|(equations, right, group)| {
+            for (j, right) in equations.zip(right) {
+                for k in pattern.column[j] as usize..pattern.column[j + 1] as usize {
+                    let (i, value) = (pattern.row[k] as usize, &mut group.values[k - group.first]);
+                    if fixed[i] || fixed[j] {
+                        if pattern.symmetric && !fixed[j] {
+                            *right -= *value * known[i];
+                        }
+                        *value = if i == j { scale } else { 0.0 };
+                    }
+                }
+            }
+        });
         for (i, rhs) in rhs.iter_mut().enumerate() {
             if fixed[i] {
                 *rhs = scale * known[i];
@@ -103,15 +128,30 @@ impl Matrix {
 
     /// `y = A x`.
     pub fn multiply(&self, pattern: &Pattern, x: &[f64], y: &mut [f64]) {
-        y.fill(0.0);
-        for j in 0..pattern.len() {
-            for k in pattern.column[j] as usize..pattern.column[j + 1] as usize {
-                let i = pattern.row[k] as usize;
-                y[i] += self.values[k] * x[j];
-                if pattern.symmetric && i != j {
-                    y[j] += self.values[k] * x[i];
+        let equations = pattern.len();
+        // Groups of columns side by side, each into a vector of its own: as many whatever the threads.
+        let count = if self.values.len() < MANY { 1 } else { COLUMNS };
+        let mut others = vec![0.0; (count - 1) * equations];
+        let mut parts: Vec<&mut [f64]> = others.chunks_exact_mut(equations.max(1)).collect();
+        parts.push(&mut *y);
+        let products = |(group, y): (usize, &mut [f64])| {
+            y.fill(0.0);
+            for j in group * equations / count..(group + 1) * equations / count {
+                let column = pattern.column[j] as usize..pattern.column[j + 1] as usize;
+                let mut own = 0.0;
+                for (&i, value) in pattern.row[column.clone()].iter().zip(&self.values[column]) {
+                    let i = i as usize;
+                    y[i] += value * x[j];
+                    if pattern.symmetric && i != j {
+                        own += value * x[i];
+                    }
                 }
+                y[j] += own;
             }
+        };
+        parts.into_par_iter().enumerate().for_each(products);
+        for other in others.chunks_exact(equations.max(1)) {
+            y.iter_mut().zip(other).for_each(|(y, other)| *y += other);
         }
         if self.beyond.is_empty() {
             return;
@@ -158,6 +198,11 @@ struct Columns<'a> {
 }
 
 impl Columns<'_> {
+    /// The equations they belong to.
+    fn equations(&self, pattern: &Pattern) -> std::ops::Range<usize> {
+        pattern.start[self.blocks.start as usize] as usize..pattern.start[self.blocks.end as usize] as usize
+    }
+
     /// Adds what the dense matrix of clique `k` has in these columns.
     fn add(&mut self, pattern: &Pattern, k: usize, local: &[f64], size: usize) {
         let blocks = pattern.cliques.blocks(k);

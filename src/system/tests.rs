@@ -186,3 +186,44 @@ fn a_singular_system_that_has_solutions_is_refused() {
         solver.solve(&pattern, &matrix, &mut load).unwrap();
     }
 }
+
+/// A net large enough for products in groups: they are those of a plain sum over the entries, and they, the right-hand
+/// side of a constrained system and its solution have the same bits on any number of threads.
+#[test]
+fn products_and_constraints_do_not_depend_on_the_threads() {
+    for symmetric in [true, false] {
+        let (pattern, matrix) = net(220, symmetric);
+        let n = pattern.len();
+        let known: Vec<f64> = (0..n).map(|i| (i as f64).sin()).collect();
+        let mut expected = vec![0.0; n];
+        for j in 0..n {
+            for k in pattern.column[j] as usize..pattern.column[j + 1] as usize {
+                let i = pattern.row[k] as usize;
+                expected[i] += matrix.values[k] * known[j];
+                if symmetric && i != j {
+                    expected[j] += matrix.values[k] * known[i];
+                }
+            }
+        }
+        let fixed: Vec<bool> = (0..n).map(|i| i % 5 == 0).collect();
+        let run = |threads: usize| {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+            pool.install(|| {
+                let mut product = vec![0.0; n];
+                matrix.multiply(&pattern, &known, &mut product);
+                let mut constrained = Matrix { values: matrix.values.clone(), ..Matrix::default() };
+                let mut x = product.clone();
+                constrained.constrain(&pattern, &fixed, &known, matrix.scale(&pattern), &mut x);
+                let load = x.clone();
+                Solver::new(&pattern).unwrap().solve(&pattern, &constrained, &mut x).unwrap();
+                (product, constrained.values, load, x)
+            })
+        };
+        let (product, values, load, x) = run(1);
+        let largest = expected.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
+        let apart = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        assert!(apart(&product, &expected) < 1e-13 * largest);
+        assert!(apart(&x, &known) < 1e-8, "{:e}", apart(&x, &known));
+        assert!(run(3) == (product, values, load, x));
+    }
+}

@@ -5,11 +5,9 @@
 
 use super::{Assembly, Frame, scatter_patches};
 use crate::error::Result;
-use crate::kinematics::{Gradient, Kinematics};
-use crate::mesh::shape::MAX_NODES;
-use crate::stencil::{Entries, Patch, Reach};
+use crate::stencil::{Patch, Reach};
 use crate::system::{Beyond, Local};
-use crate::tensor::Tensor;
+use pulp::{Arch, Simd, WithSimd};
 use rayon::prelude::*;
 use std::sync::Arc;
 
@@ -57,11 +55,15 @@ pub fn scatter_functions<const D: usize>(
     let most = sizes.iter().map(|s| s.all).max().unwrap_or(0).max(1);
     let wanted = out.tangent.is_some();
     let stride = if wanted { most * most } else { 1 };
-    let (mut force, mut stiffness) = (vec![0.0; most * patches.len()], vec![0.0; stride * patches.len()]);
+    let mut force = vec![0.0; most * patches.len()];
+    // As large as all else of a step together: taken over from the last tangent.
+    let mut stiffness = out.tangent.as_deref_mut().and_then(|tangent| tangent.spare.pop()).unwrap_or_default();
+    stiffness.resize(stride * patches.len(), 0.0);
     let slots = force.par_chunks_mut(most).zip(stiffness.par_chunks_mut(stride)).zip(patches.par_iter().zip(&sizes));
     let failed = slots.map(|((vector, matrix), (patch, sizes))| {
         let size = sizes.all;
         let matrix = if wanted { &mut matrix[..size * size] } else { &mut matrix[..0] };
+        matrix.fill(0.0);
         compute(patch, &mut Local { matrix, vector: &mut vector[..size], size }).err()
     });
     if let Some(error) = failed.find_first(Option::is_some).flatten() {
@@ -109,6 +111,10 @@ pub fn scatter_functions<const D: usize>(
 }
 
 impl<const D: usize> Beyond for Rest<D> {
+    fn into_memory(self: Box<Self>) -> Vec<f64> {
+        self.stiffness
+    }
+
     fn add_product(&self, x: &[f64], y: &mut [f64]) {
         let most = self.sizes.iter().map(|s| s.all).max().unwrap_or(0).max(1);
         let patches = || self.sizes.par_iter().zip(self.equation.par_chunks_exact(self.width));
@@ -132,11 +138,7 @@ impl<const D: usize> Beyond for Rest<D> {
             .zip(&self.sizes)
             .for_each(|(((force, field), stiffness), s)| {
                 self.reach.less_own::<D>(s.cell, &means, &mut field[s.own..s.functions]);
-                for (i, row) in stiffness[..s.all * s.all].chunks_exact(s.all).enumerate() {
-                    let beyond = s.own..s.functions;
-                    let columns = if beyond.contains(&i) { 0..s.all } else { beyond };
-                    force[i] = dot(&row[columns.clone()], &field[columns]);
-                }
+                Arch::new().dispatch(Products { sizes: s, stiffness, field, force });
             });
         let slices = self.sizes.iter().zip(force.chunks_exact(most)).map(|(s, f)| (s.cell, &f[s.own..s.functions]));
         let sums = self.reach.sum::<D>(slices);
@@ -155,93 +157,41 @@ impl<const D: usize> Beyond for Rest<D> {
     }
 }
 
-/// Adds the stiffness of one point on the functions beyond the nodes of its cell, whose gradients are `spatial` on the
-/// deformed grid; of a symmetric one only the lower triangle. As these functions come in groups with gradients
-/// `ψ_a e_j`, the blocks of all groups are multiples of those for `e_j`.
-pub fn stiffen<const D: usize, K: Kinematics<D>>(
-    local: &mut Local,
-    tangent: &K::Tangent,
-    entries: &Entries<D>,
-    spatial: &[Gradient<D>],
-    inverse: &Tensor,
-    weight: f64,
-    symmetric: bool,
-) {
-    let (own, size) = (spatial.len(), local.size);
-    let groups = (entries.functions() - own) / D;
-    let along: [Gradient<D>; D] = std::array::from_fn(|j| {
-        let unit = std::array::from_fn(|d| if d == j { 1.0 } else { 0.0 });
-        K::push_forward(&Gradient { g: unit, hoop: 0.0 }, inverse)
-    });
-    let psi = |a: usize| entries.gradient(own + a * D).g[0];
-    // Of direction j and component c: against the nodes of the cell, and against the other directions.
-    let mut to_nodes = [[[[0.0; D]; MAX_NODES]; D]; D];
-    let mut from_nodes = [[[[0.0; D]; D]; D]; MAX_NODES];
-    let mut among = [[[[0.0; D]; D]; D]; D];
-    for (i, gradient) in spatial.iter().enumerate() {
-        let column = K::column(tangent, gradient);
-        for (j, along) in along.iter().enumerate() {
-            let block = K::block(&column, along);
-            (0..D).for_each(|c| to_nodes[j][c][i] = block[c].map(|b| weight * b));
-        }
-    }
-    for (k, to) in along.iter().enumerate() {
-        let column = K::column(tangent, to);
-        for (j, from) in along.iter().enumerate() {
-            let block = K::block(&column, from);
-            (0..D).for_each(|c| among[j][c][k] = block[c].map(|b| weight * b));
-        }
-        if !symmetric {
-            for (i, gradient) in spatial.iter().enumerate() {
-                let block = K::block(&column, gradient);
-                (0..D).for_each(|c| from_nodes[i][c][k] = block[c].map(|b| weight * b));
-            }
-        }
-    }
-    let add = |to: &mut [f64], factor: f64, from: &[f64]| {
-        to.iter_mut().zip(from).for_each(|(to, from)| *to += factor * from);
-    };
-    for a in 0..groups {
-        let psi_a = psi(a);
-        for j in 0..D {
-            for c in 0..D {
-                let row = &mut local.matrix[((own + a * D + j) * D + c) * size..][..size];
-                add(&mut row[..own * D], psi_a, to_nodes[j][c][..own].as_flattened());
-                for b in 0..if symmetric { a + 1 } else { groups } {
-                    let begin = (own + b * D) * D;
-                    add(&mut row[begin..begin + D * D], psi_a * psi(b), among[j][c].as_flattened());
-                }
-            }
-        }
-        if !symmetric {
-            for i in 0..own {
-                for c in 0..D {
-                    let row = &mut local.matrix[(i * D + c) * size + (own + a * D) * D..][..D * D];
-                    add(row, psi_a, from_nodes[i][c].as_flattened());
-                }
-            }
+/// The products of the rows of a patch's matrix with its functions, without those that the matrix of the system has.
+struct Products<'a> {
+    sizes: &'a Sizes,
+    stiffness: &'a [f64],
+    field: &'a [f64],
+    force: &'a mut [f64],
+}
+
+impl WithSimd for Products<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) {
+        let s = self.sizes;
+        let beyond = s.own..s.functions;
+        for (i, (row, force)) in self.stiffness.chunks_exact(s.all).zip(self.force).take(s.all).enumerate() {
+            let columns = if beyond.contains(&i) { 0..s.all } else { beyond.clone() };
+            *force = dot(simd, &row[columns.clone()], &self.field[columns]);
         }
     }
 }
 
-/// Copies what the functions beyond the `own` nodes have in the lower triangle to the upper one.
-pub fn mirror_beyond<const D: usize>(local: &mut Local, own: usize, functions: usize) {
-    for a in own * D..functions * D {
-        for b in 0..a {
-            local.matrix[b * local.size + a] = local.matrix[a * local.size + b];
-        }
+/// In two registers side by side.
+#[inline(always)]
+fn dot<S: Simd>(simd: S, a: &[f64], b: &[f64]) -> f64 {
+    let ((a, last_a), (b, last_b)) = (S::as_simd_f64s(a), S::as_simd_f64s(b));
+    let (mut even, mut odd) = (simd.splat_f64s(0.0), simd.splat_f64s(0.0));
+    let (pairs_a, pairs_b) = (a.chunks_exact(2), b.chunks_exact(2));
+    for (a, b) in pairs_a.remainder().iter().zip(pairs_b.remainder()) {
+        odd = simd.mul_add_e_f64s(*a, *b, odd);
     }
-}
-
-/// In four sums side by side.
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    let mut sums = [0.0; 4];
-    let (fours, others) = (a.chunks_exact(4), b.chunks_exact(4));
-    let last: f64 = fours.remainder().iter().zip(others.remainder()).map(|(a, b)| a * b).sum();
-    for (a, b) in fours.zip(others) {
-        for k in 0..4 {
-            sums[k] += a[k] * b[k];
-        }
+    for (a, b) in pairs_a.zip(pairs_b) {
+        even = simd.mul_add_e_f64s(a[0], b[0], even);
+        odd = simd.mul_add_e_f64s(a[1], b[1], odd);
     }
-    sums[0] + sums[1] + (sums[2] + sums[3]) + last
+    let last: f64 = last_a.iter().zip(last_b).map(|(a, b)| a * b).sum();
+    simd.reduce_sum_f64s(simd.add_f64s(even, odd)) + last
 }

@@ -11,7 +11,8 @@
 //! A [`Share`] of the stress may be carried by unknowns of its own; it is a type, so that a scene without one pays
 //! nothing.
 
-use super::beyond::{mirror_beyond, scatter_functions, stiffen};
+use super::beyond::scatter_functions;
+use super::smoothed::Smoothed;
 use super::stiffness::Stiffness;
 use super::{Assembly, Frame, History, Term, Trial, Update};
 use crate::error::{Error, Result};
@@ -267,7 +268,8 @@ impl<const D: usize, K: Kinematics<D>, S: Share<D, K>> Term<D> for Internal<K, S
             let later = 1.0 - trial.alpha_f;
             let mut spatial = [Gradient { g: [0.0; D], hoop: 0.0 }; MAX_NODES];
             let own = patch.node_count as usize;
-            Stiffness::with::<D, _>(own, |stiffness| {
+            let groups = (count - own) / D;
+            let mut work = |stiffness: &mut Stiffness, mut smoothed: Option<&mut Smoothed>| {
                 for ((entries, point), answer) in frame.stencil.entries::<K>(patch).zip(&strained).zip(&mut answers) {
                     let beside = self.share.add(&cell, frame.points, &entries, answer);
                     let p = entries.point;
@@ -285,9 +287,8 @@ impl<const D: usize, K: Kinematics<D>, S: Share<D, K>> Term<D> for Internal<K, S
                     if wanted {
                         let (tangent, weight) = (&answer.tangent, later * volume);
                         stiffness.push::<D, K>(tangent, &spatial[..own], weight, local);
-                        if own < count {
-                            let inverse = &point.inverse;
-                            stiffen::<D, K>(local, tangent, &entries, &spatial[..own], inverse, weight, symmetric);
+                        if let Some(smoothed) = &mut smoothed {
+                            smoothed.push::<D, K>(tangent, &entries, &spatial[..own], &point.inverse, weight);
                         }
                     }
                     let ratio = point.increment.determinant();
@@ -295,11 +296,15 @@ impl<const D: usize, K: Kinematics<D>, S: Share<D, K>> Term<D> for Internal<K, S
                 }
                 if wanted {
                     stiffness.add_to::<D, K>(local);
-                    if symmetric {
-                        mirror_beyond::<D>(local, own, count);
+                    if let Some(smoothed) = smoothed {
+                        smoothed.add_to::<D>(local);
                     }
                 }
                 Ok(())
+            };
+            Stiffness::with::<D, _>(own, |stiffness| match groups {
+                0 => work(stiffness, None),
+                _ => Smoothed::with::<D, _>(own, groups, symmetric, |smoothed| work(stiffness, Some(smoothed))),
             })
         };
         scatter_functions(frame, compute, out)

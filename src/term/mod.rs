@@ -13,6 +13,7 @@ mod inertia;
 mod internal;
 mod pressure;
 mod smooth_pressure;
+mod smoothed;
 mod stiffness;
 mod traction;
 
@@ -35,6 +36,7 @@ use crate::stencil::{Patch, SoftCell, Stencil};
 use crate::system::{Local, Matrix, Pattern, Workspace, scatter};
 use crate::tensor::{Symmetric, Tensor};
 use crate::time_value::TimeValue;
+use rayon::prelude::*;
 
 /// A face between two cells that takes a ghost penalty.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -165,20 +167,31 @@ pub struct Update(pub Vec<Vec<History>>);
 impl Update {
     /// Writes the new values.
     pub fn apply<const D: usize>(self, points: &mut Points<D>) {
+        let mut of_point: Vec<Option<&History>> = vec![None; points.len()];
         for new in self.0.iter().flatten() {
-            let p = new.point;
-            points.deformation[p] = new.deformation;
-            points.elastic[p] = new.elastic;
-            points.stress[p] = new.stress;
-            if let Some(increment) = points.plastic_increment.get_mut(p) {
-                *increment = new.plastic_strain - points.plastic_strain[p];
-            }
-            points.plastic_strain[p] = new.plastic_strain;
-            if let Some(pressure) = points.pressure.get_mut(p) {
-                *pressure = new.pressure;
-            }
+            of_point[new.point] = Some(new);
         }
+        let increment = &mut points.plastic_increment;
+        increment.par_iter_mut().zip(&points.plastic_strain).zip(&of_point).for_each(|((increment, before), new)| {
+            if let Some(new) = new {
+                *increment = new.plastic_strain - before;
+            }
+        });
+        write(&mut points.deformation, &of_point, |new| new.deformation);
+        write(&mut points.elastic, &of_point, |new| new.elastic);
+        write(&mut points.stress, &of_point, |new| new.stress);
+        write(&mut points.plastic_strain, &of_point, |new| new.plastic_strain);
+        write(&mut points.pressure, &of_point, |new| new.pressure);
     }
+}
+
+/// Writes the new values of the points that have one into a column, which may be empty.
+fn write<T: Send>(column: &mut [T], of_point: &[Option<&History>], value: impl Fn(&History) -> T + Sync) {
+    column.par_iter_mut().zip(of_point).with_min_len(1024).for_each(|(old, new)| {
+        if let Some(new) = new {
+            *old = value(new);
+        }
+    });
 }
 
 /// What kind of force a term is.
