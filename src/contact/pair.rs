@@ -21,8 +21,8 @@ const TANGENTIAL: f64 = 5.0;
 const STILL: f64 = 1e-3;
 /// Error (-) of a measured gap, in spacings: what points that come and go make of it.
 const BAND: f64 = 0.15;
-/// Slip, in spacings of the points, over which a gap becomes that measured: as many points have passed by.
-const SLIDE: f64 = 2.0;
+/// Slip, in spacings of the points, over which a gap becomes that measured.
+const SLIDE: f64 = 8.0;
 /// Share of its slip by which a gap may be corrected in a step.
 const RATE: f64 = 0.1;
 /// Where soil is looked for from a segment, in spacings of its points.
@@ -44,8 +44,9 @@ pub struct Row<const D: usize> {
     pub hat: u32,
     /// Area (m²) under the hat where there is soil.
     pub area: f64,
-    /// Mean gap (m) at the beginning of the step.
+    /// Mean gap (m) at the beginning of the step, and how much more the points measure.
     pub gap: f64,
+    pub offset: f64,
     /// The nodes of the structure, `own` of them, then those of the grid.
     pub nodes: Vec<u32>,
     pub own: usize,
@@ -79,6 +80,8 @@ pub struct Multipliers {
     /// Mean gap and slip (m) of the last step.
     pub gap: Vec<f64>,
     pub slip: Vec<f64>,
+    /// How much more (m) the points measure as gap.
+    pub offset: Vec<f64>,
     /// The nodes that the system has room to couple: those of hat `k` are `room[first[k]..first[k + 1]]`.
     pub room: Vec<u32>,
     pub first: Vec<u32>,
@@ -92,7 +95,8 @@ impl Multipliers {
             pressure: zero.clone(),
             shear: zero.clone(),
             gap: zero.clone(),
-            slip: zero,
+            slip: zero.clone(),
+            offset: zero,
             room: Vec::new(),
             first: vec![0; hats + 1],
         }
@@ -150,16 +154,20 @@ impl<K: Kinematics<2>> Boundary<K> {
     ///
     /// What touched in the step before carries its gap on: as measured it jumps when points come and go, and every jump
     /// has to be made up for by straining the soil. It becomes that measured as the hat slides, which evens the jumps out,
-    /// and is corrected by what lies beyond their size. What did not touch has the gap of the surface; it may begin to touch, not to overlap.
-    fn begin(&self, measured: f64, surface: Option<f64>, spacing: f64, held: &Multipliers, hat: usize) -> f64 {
+    /// and is corrected by what lies beyond their size. What did not touch has the gap of the surface; it may begin to
+    /// touch, not to overlap. The second number is how much more the points measure than that.
+    fn begin(&self, measured: f64, surface: Option<f64>, spacing: f64, held: &Multipliers, hat: usize) -> (f64, f64) {
         let still = STILL * spacing;
         if held.pressure[hat] == 0.0 {
-            return surface.unwrap_or(measured).max(-still);
+            let gap = surface.unwrap_or(measured);
+            return (gap.max(-still), (measured - gap).clamp(-0.5 * spacing, 0.5 * spacing));
         }
-        let (error, band) = (measured - held.gap[hat], BAND * spacing);
+        let offset = held.offset[hat];
+        let (error, band) = (measured - offset - held.gap[hat], BAND * spacing);
         let share = (held.slip[hat] / (SLIDE * spacing)).min(1.0);
         let most = RATE * held.slip[hat] + still;
-        held.gap[hat] + share * error + ((1.0 - share) * (error - error.clamp(-band, band))).clamp(-most, most)
+        let correction = share * error + ((1.0 - share) * (error - error.clamp(-band, band))).clamp(-most, most);
+        (held.gap[hat] + correction, offset)
     }
 
     /// Penalties and multipliers of a hat over soil like that at `point`.
@@ -276,13 +284,14 @@ impl<K: Kinematics<2>> Pair<2> for Boundary<K> {
             let Sum { area, open, facing, distance, spacing, point, mut entries } = sum.filter(|sum| sum.area > 0.0)?;
             let (raw, spacing) = (open / area, spacing / area);
             let surface = (facing > 0.5 * area).then_some(distance / facing);
-            let gap = self.begin(raw, surface, spacing, held, hat);
+            let (gap, offset) = self.begin(raw, surface, spacing, held, hat);
             let of_structure = |n: &u32| self.surface.facets.iter().any(|f| f.contains(n));
             entries.sort_by_key(|(n, ..)| (!of_structure(n), *n));
             Some(Row {
                 hat: hat as u32,
                 area,
                 gap,
+                offset,
                 own: entries.iter().filter(|(n, ..)| of_structure(n)).count(),
                 nodes: entries.iter().map(|e| e.0).collect(),
                 by_normal: entries.iter().map(|e| e.1.map(|n| n / area)).collect(),

@@ -126,8 +126,10 @@ fn take_weighing<const D: usize>(store: &mut Store) -> Result<Weighing<D>> {
 
 fn put_multipliers(store: &mut Store, pairs: &[Multipliers]) {
     store.put("contact.pairs", 1, vec![pairs.len() as u64]);
-    for (i, Multipliers { pressure, shear, gap, slip, room, first }) in pairs.iter().enumerate() {
-        for (name, values) in [("pressure", pressure), ("shear", shear), ("gap", gap), ("slip", slip)] {
+    for (i, Multipliers { pressure, shear, gap, slip, offset, room, first }) in pairs.iter().enumerate() {
+        for (name, values) in
+            [("pressure", pressure), ("shear", shear), ("gap", gap), ("slip", slip), ("offset", offset)]
+        {
             store.put(&format!("contact.{i}.{name}"), 1, values.clone());
         }
         store.put(&format!("contact.{i}.room"), 1, room.clone());
@@ -139,10 +141,11 @@ fn take_multipliers(store: &mut Store) -> Result<Vec<Multipliers>> {
     let count = store.take::<u64>("contact.pairs", 1)?.first().copied().unwrap_or(0);
     let pair = |i: u64| {
         let mut values = |name: &str| store.take::<f64>(&format!("contact.{i}.{name}"), 1);
-        let (pressure, shear, gap, slip) = (values("pressure")?, values("shear")?, values("gap")?, values("slip")?);
+        let (pressure, shear, gap) = (values("pressure")?, values("shear")?, values("gap")?);
+        let (slip, offset) = (values("slip")?, values("offset")?);
         let mut numbers = |name: &str| store.take::<u32>(&format!("contact.{i}.{name}"), 1);
         let (room, first) = (numbers("room")?, numbers("first")?);
-        Ok(Multipliers { pressure, shear, gap, slip, room, first })
+        Ok(Multipliers { pressure, shear, gap, slip, offset, room, first })
     };
     (0..count).map(pair).collect()
 }

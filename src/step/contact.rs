@@ -157,26 +157,25 @@ pub fn commit<const D: usize>(
     state: &mut State<D>,
     solution: &Solution<D>,
 ) -> Vec<Resultant<D>> {
-    let none = |pair: &Box<dyn Pair<D>>| Resultant {
+    let none = |pair: &dyn Pair<D>| Resultant {
         structure: pair.structure(),
         force: [0.0; D],
         hats: 0,
         overlap: 0.0,
         pushed: Pushed::default(),
     };
-    let mut resultants: Vec<_> = scene.pairs.iter().map(none).collect();
+    let mut resultants: Vec<_> = scene.pairs.iter().map(|pair| none(pair.as_ref())).collect();
     let trial = Trial::at_rest(&solution.displacement, &state.displacement);
     for multipliers in &mut state.multipliers {
-        for values in [&mut multipliers.pressure, &mut multipliers.shear, &mut multipliers.gap, &mut multipliers.slip] {
-            values.fill(0.0);
-        }
+        let Multipliers { pressure, shear, gap, slip, offset, .. } = multipliers;
+        [pressure, shear, gap, slip, offset].into_iter().for_each(|values| values.fill(0.0));
     }
     for touch in &grid.touches {
         let (pair, hat, row) = (touch.pair as usize, touch.row.hat as usize, &touch.row);
         let (answer, gap, slip) = contact_answer(scene.pairs[pair].law(), touch, &trial);
         let held = &mut state.multipliers[pair];
         (held.pressure[hat], held.shear[hat]) = (answer.pressure, answer.shear);
-        (held.gap[hat], held.slip[hat]) = (gap, slip.abs());
+        (held.gap[hat], held.slip[hat], held.offset[hat]) = (gap, slip.abs(), row.offset);
         let resultant = &mut resultants[pair];
         if answer.pressure != 0.0 {
             resultant.hats += 1;

@@ -19,7 +19,7 @@ fn stand(law: Law, apart: f64) -> Stand<PlaneStrain> {
     let mut stand = Stand::new(mesh, points, Box::new(Contact::new(0, law)), true, law.friction > 0.0);
     let mut random = Random(7);
     for hat in 0..4u32 {
-        let cell = 3 * hat;
+        let cell = 2 * hat;
         let nodes = stand.scene.mesh.cells.nodes(cell as usize).to_vec();
         let mut share = || {
             let values: Vec<f64> = (0..3).map(|_| 1.5 + random.next()).collect();
@@ -32,6 +32,7 @@ fn stand(law: Law, apart: f64) -> Stand<PlaneStrain> {
         let row = Row {
             hat,
             area: 0.3 + 0.1 * angle,
+            offset: 0.0,
             gap: if hat == 0 { apart } else { -1e-3 * angle },
             by_normal: weights.iter().map(|w| normal.map(|n| w * n)).collect(),
             by_tangent: weights.iter().map(|w| [-normal[1] * w, normal[0] * w]).collect(),
