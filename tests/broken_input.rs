@@ -213,6 +213,7 @@ const GEOMETRY: &[Broken] = &[
     check(Case("{surface: {uy", "{surfase: {uy"), &["case.yaml:23", "no physical curve `surfase`", "`surface`?"]),
     check(Case("on: surface", "on: somewhere"), &["case.yaml:28", "`somewhere`", "choose from"]),
     check(Case("on: surface", "on: soil"), &["case.yaml:28", "a region has no reaction", "take it out"]),
+    check(Case("[uy, reaction_y]", "[uy, contact_y]"), &["case.yaml:28", "only a structure has contact"]),
     check(Geo("Line(1) = {1, 2};", "Line(1) = {1, 2;"), &["scene.geo, line 8", "syntax error", "correct the file"]),
     check(Geo("Line(1) = {1, 2};", "Line(1) = {1, 99};"), &["scene.geo", "99"]),
     check(Geo("Physical Surface(\"water\") = {2};", ""), &["scene.geo, surface 2", "no physical surface", "add it"]),
