@@ -10,7 +10,7 @@ mod incompressible;
 pub mod locate;
 mod materials;
 pub mod names;
-mod parts;
+pub mod parts;
 mod phases;
 pub mod raw;
 pub mod scene;

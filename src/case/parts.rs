@@ -4,12 +4,13 @@
 
 use super::checked::Case;
 use crate::error::{Error, Result};
-use crate::mesh::Mesh;
 use crate::mesh::locate::Locator;
+use crate::mesh::{Group, Mesh};
 use crate::points::Points;
+use std::collections::HashSet;
 
 /// Whether each region of the mesh is of finite elements.
-fn of_elements(case: &Case, mesh: &Mesh<2>) -> Vec<bool> {
+pub fn of_elements(case: &Case, mesh: &Mesh<2>) -> Vec<bool> {
     let fem = |name: &String| case.regions.iter().any(|r| r.name == *name && r.content.is_fem());
     mesh.regions.iter().map(fem).collect()
 }
@@ -23,6 +24,12 @@ pub fn meshes(case: &Case, mesh: Mesh<2>) -> (Mesh<2>, Option<Mesh<2>>) {
         return (mesh, None);
     }
     (mesh.part(|c| !is_fem(c)), Some(fem))
+}
+
+/// Whether a curve is one of finite elements: they have all of its nodes.
+pub fn carries(fem: &Mesh<2>, curve: &Group) -> bool {
+    let of: HashSet<u32> = fem.cells.nodes.iter().copied().collect();
+    curve.nodes.iter().all(|n| of.contains(n))
 }
 
 /// The material points and those of the finite elements, numbered with the cells of their parts, of all `points`

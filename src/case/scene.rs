@@ -130,6 +130,13 @@ pub fn scene<K: Kinematics<2>>(case: &Case, whole: Mesh<2>) -> Result<Scene<2>> 
     }
     for (phase, traction) in case.phases.iter().enumerate().flat_map(|(i, p)| p.tractions.iter().map(move |t| (i, t))) {
         let group = group(&mesh, &traction.curve)?;
+        if case.numerics.restore != Restore::Never && !fem.as_ref().is_some_and(|fem| parts::carries(fem, group)) {
+            return Err(Error::input(
+                format!("the traction on `{}` in phase `{}`", traction.curve, case.phases[phase].name),
+                "the curve is not one of finite elements, and the grid does not move with the material",
+                "set `restore: never` under `numerics`, or make the region beside it `kind: fem`",
+            ));
+        }
         terms.push(Box::new(Traction::<K, 2>::new(&mesh, group, phase, traction.components.clone())));
     }
 

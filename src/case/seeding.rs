@@ -5,10 +5,7 @@ use crate::error::{Error, Result};
 use crate::material::{Profile, spatial};
 use crate::mesh::Mesh;
 use crate::points::Points;
-use crate::seed::{RegionSeed, RegionWeight, k0_stress, seed};
-
-/// Points of a finite element: a quadrature rule for polynomials of degree 4 in triangles.
-const FEM_POINTS: usize = 6;
+use crate::seed::{QUADRATURE, RegionSeed, RegionWeight, k0_stress, seed};
 
 /// Fills the regions of `case` in `mesh`, whose groups its names have been held against.
 ///
@@ -46,8 +43,8 @@ fn filled(case: &Case, mesh: &Mesh<2>) -> Result<Vec<Filled>> {
     let mut filled = Vec::new();
     for (index, region) in case.regions.iter().enumerate() {
         let (material, points_per_cell) = match region.content {
-            Content::Mpm { material, points_per_cell } => (material, points_per_cell),
-            Content::Fem { material } | Content::Structure { material } => (material, FEM_POINTS),
+            Content::Mpm { material, points_per_cell } => (material, points_per_cell as u32),
+            Content::Fem { material } | Content::Structure { material } => (material, QUADRATURE),
             Content::Buffer => continue,
         };
         let place = mesh.regions.iter().position(|name| *name == region.name).ok_or_else(|| {
@@ -55,7 +52,7 @@ fn filled(case: &Case, mesh: &Mesh<2>) -> Result<Vec<Filled>> {
             Error::input(place, "the mesh has no physical surface of this name", "mesh the case again: `mpm mesh`")
         })?;
         let density = case.materials[material].density;
-        let seed = RegionSeed { region: place as u16, points_per_cell: points_per_cell as u32, density };
+        let seed = RegionSeed { region: place as u16, points_per_cell, density };
         filled.push(Filled { index, material, seed });
     }
     Ok(filled)

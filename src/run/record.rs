@@ -1,7 +1,7 @@
 //! What a run writes down: frames, rows of the history, lines of the log.
 
 use crate::io::columns::padded;
-use crate::io::frame::{Column, Frame, Part};
+use crate::io::frame::{CELL, Column, Frame, Part};
 use crate::points::Points;
 use crate::step::{Report, Restore, Scene, State};
 use crate::term::Carried;
@@ -111,13 +111,31 @@ fn mean(values: impl Iterator<Item = f64>) -> f64 {
 
 /// The state at one moment.
 pub fn frame<const D: usize>(scene: &Scene<D>, state: &State<D>, fields: &[Field]) -> Frame {
-    let points = &state.points;
-    let column = |name: &str, unit: &str, components, values| Column {
-        name: name.into(),
-        unit: unit.into(),
-        components,
-        values,
+    // A grid that is restored stays where the mesh has it.
+    let grid = if scene.numerics.restore == Restore::EveryStep && scene.fem.is_none() {
+        Part::default()
+    } else {
+        let from = if state.nodes.is_empty() { &scene.mesh.nodes } else { &state.nodes };
+        let x: Vec<[f64; D]> =
+            from.iter().zip(&state.displacement).map(|(x, u)| std::array::from_fn(|d| x[d] + u[d])).collect();
+        let displacement = fields.iter().any(|field| matches!(field, Field::Displacement));
+        let columns = displacement.then(|| column("displacement", "m", 3, padded(&state.displacement)));
+        Part { position: triples(&x), columns: columns.into_iter().collect() }
     };
+    let mut elements = part(&state.fem, fields);
+    elements.columns.push(column(CELL, "-", 1, state.fem.cell.iter().map(|&c| f64::from(c)).collect()));
+    Frame {
+        time: state.time,
+        phase: scene.phases.get(state.phase).map_or_else(String::new, |p| p.name.clone()),
+        step: state.step,
+        points: part(&state.points, fields),
+        grid,
+        elements: if scene.fem.is_some() { elements } else { Part::default() },
+    }
+}
+
+/// The fields of some points.
+fn part<const D: usize>(points: &Points<D>, fields: &[Field]) -> Part {
     let at_rest = vec![[0.0; D]; points.len()];
     let columns = fields.iter().map(|field| match field {
         Field::Displacement => {
@@ -143,24 +161,11 @@ pub fn frame<const D: usize>(scene: &Scene<D>, state: &State<D>, fields: &[Field
             column("pore_pressure", "kPa", 1, (0..points.len()).map(excess).collect())
         }
     });
-    // A grid that is restored stays where the mesh has it.
-    let grid = if scene.numerics.restore == Restore::EveryStep && scene.fem.is_none() {
-        Part::default()
-    } else {
-        let from = if state.nodes.is_empty() { &scene.mesh.nodes } else { &state.nodes };
-        let x: Vec<[f64; D]> =
-            from.iter().zip(&state.displacement).map(|(x, u)| std::array::from_fn(|d| x[d] + u[d])).collect();
-        let displacement = fields.iter().any(|field| matches!(field, Field::Displacement));
-        let columns = displacement.then(|| column("displacement", "m", 3, padded(&state.displacement)));
-        Part { position: triples(&x), columns: columns.into_iter().collect() }
-    };
-    Frame {
-        time: state.time,
-        phase: scene.phases.get(state.phase).map_or_else(String::new, |p| p.name.clone()),
-        step: state.step,
-        points: Part { position: triples(&points.position), columns: columns.collect() },
-        grid,
-    }
+    Part { columns: columns.collect(), position: triples(&points.position) }
+}
+
+fn column(name: &str, unit: &str, components: usize, values: Vec<f64>) -> Column {
+    Column { name: name.into(), unit: unit.into(), components, values }
 }
 
 fn triples<const D: usize>(x: &[[f64; D]]) -> Vec<[f64; 3]> {

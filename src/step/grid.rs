@@ -337,10 +337,14 @@ fn begin_anew<const D: usize, K: Kinematics<D>>(
     stencil: &mut Stencil<D>,
     relaxed: &mut Option<Relaxed<D>>,
 ) -> Result<bool> {
-    fem::keep_shape(scene, state);
-    let before = std::mem::replace(relaxed, relax::relax(scene, state)?);
+    let nodes = state.nodes.clone();
+    let placed = place(scene, state, relaxed);
+    if placed.is_err() {
+        // The displacement is still that of the last converged step.
+        state.nodes = nodes;
+    }
+    let before = placed?;
     let (mesh, locator) = relaxed.as_ref().map_or((&scene.mesh, &scene.locator), |r| (&r.mesh, &r.locator));
-    locate_points(mesh, locator, state)?;
     let changed = choose_cells(scene, state);
     let outlines = contact::outlines(scene, state);
     fill::<D, K>(stencil, scene, mesh, state);
@@ -376,6 +380,22 @@ fn begin_anew<const D: usize, K: Kinematics<D>>(
         return Ok(ghost_faces::make_room(faces, state, &chosen) || changed);
     }
     Ok(changed)
+}
+
+/// Moves the nodes to where the restored grid has them, and finds the points on it. Returns the grid before.
+///
+/// # Errors
+/// When a cell of the grid is folded, or a point lies outside it.
+fn place<const D: usize>(
+    scene: &Scene<D>,
+    state: &mut State<D>,
+    relaxed: &mut Option<Relaxed<D>>,
+) -> Result<Option<Relaxed<D>>> {
+    fem::keep_shape(scene, state);
+    let before = std::mem::replace(relaxed, relax::relax(scene, state)?);
+    let (mesh, locator) = relaxed.as_ref().map_or((&scene.mesh, &scene.locator), |r| (&r.mesh, &r.locator));
+    locate_points(mesh, locator, state)?;
+    Ok(before)
 }
 
 /// Fills the stencil for the points where they were last located.
