@@ -81,3 +81,16 @@ fn a_block_rests_on_an_incline() {
     let free = 0.5 * 9.81 * 20f64.to_radians().sin() * 0.8f64.powi(2);
     assert!((at(0.8) - at(0.6)).abs() < 1e-6 * free, "{} {}", at(0.6), at(0.8));
 }
+
+/// The head of a pile bears what the soil exerts on it, and in the first centimetres that is the limit load of a circular
+/// footing, between smooth (5.69 s_u) and rough (6.05 s_u), with what it gains with depth and errs by in coarse cells.
+#[test]
+fn a_pile_finds_its_bearing_capacity() {
+    let folder = run("cases/pile", &["phases.push.duration=0.1"]);
+    let rows = history(folder.path());
+    for row in &rows {
+        assert!((row[2] + row[4]).abs() < 1e-6 * row[2].abs().max(1e-3), "{row:?}");
+    }
+    let pressure = rows.last().unwrap()[2] / (std::f64::consts::PI * 0.5f64.powi(2)) / 0.5;
+    assert!((5.69..1.1 * 6.05).contains(&pressure), "{pressure}");
+}
