@@ -47,6 +47,29 @@ impl<const D: usize> Points<D> {
         self.initial_volume[p] * self.deformation[p].determinant()
     }
 
+    /// The points with the given numbers, in that order.
+    pub fn select(&self, numbers: &[usize]) -> Self {
+        fn pick<T: Clone>(column: &[T], numbers: &[usize]) -> Vec<T> {
+            if column.is_empty() { Vec::new() } else { numbers.iter().map(|&p| column[p].clone()).collect() }
+        }
+        Self {
+            position: pick(&self.position, numbers),
+            origin: pick(&self.origin, numbers),
+            velocity: pick(&self.velocity, numbers),
+            acceleration: pick(&self.acceleration, numbers),
+            mass: pick(&self.mass, numbers),
+            initial_volume: pick(&self.initial_volume, numbers),
+            deformation: pick(&self.deformation, numbers),
+            elastic: pick(&self.elastic, numbers),
+            stress: pick(&self.stress, numbers),
+            plastic_strain: pick(&self.plastic_strain, numbers),
+            plastic_increment: pick(&self.plastic_increment, numbers),
+            pressure: pick(&self.pressure, numbers),
+            region: pick(&self.region, numbers),
+            cell: pick(&self.cell, numbers),
+        }
+    }
+
     pub fn is_empty(&self) -> bool {
         self.position.is_empty()
     }

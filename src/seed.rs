@@ -15,11 +15,16 @@ use crate::mesh::shape::{self, CellKind, MAX_NODES, rule};
 use crate::points::Points;
 use crate::tensor::{IDENTITY, Symmetric, Tensor};
 
+/// In place of a number of points: those of a quadrature rule for polynomials of degree 4, six in a triangle and nine in a
+/// quadrilateral. Finite elements have them.
+pub const QUADRATURE: u32 = 0;
+
 /// How one region is filled with points.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RegionSeed {
     /// Index into [`Mesh::regions`].
     pub region: u16,
+    /// Or [`QUADRATURE`].
     pub points_per_cell: u32,
     /// Density (t/m³) at the height y.
     pub density: Profile,
@@ -151,6 +156,13 @@ fn parts(kind: CellKind, count: u32) -> Option<Vec<Part>> {
     if kind.dimension() != 2 {
         return None;
     }
+    let gauss = |degree| {
+        let points = rule(kind, degree).into_iter();
+        Some(points.map(|(point, w)| Part { point, quadrature: vec![(point, w)] }).collect())
+    };
+    if count == QUADRATURE {
+        return gauss(4);
+    }
     if kind.is_simplex() {
         let degree = match count {
             4 | 9 | 16 | 25 => return Some(sub_triangles(kind, count.isqrt())),
@@ -160,8 +172,7 @@ fn parts(kind: CellKind, count: u32) -> Option<Vec<Part>> {
             12 => 6,
             _ => return None,
         };
-        let points = rule(kind, degree).into_iter();
-        return Some(points.map(|(point, w)| Part { point, quadrature: vec![(point, w)] }).collect());
+        return gauss(degree);
     }
     match count {
         1 | 4 | 9 | 16 | 25 => Some(sub_boxes(kind, count.isqrt())),
@@ -360,6 +371,18 @@ mod tests {
                     assert!((mass / (1.7 * measure) - 1.0).abs() < 1e-12, "{kind:?} {count}: {mass}");
                 }
             }
+        }
+    }
+
+    #[test]
+    fn finite_elements_have_points_that_integrate_degree_4() {
+        for kind in plane_kinds() {
+            let mesh = rectangle(kind, 3.0, 2.0, 5, 4, 0.0, 11);
+            let points = seed(&mesh, false, &all(QUADRATURE, 1.0)).unwrap();
+            assert_eq!(points.len(), mesh.cells.len() * if kind.is_simplex() { 6 } else { 9 });
+            let terms =
+                points.position.iter().zip(&points.initial_volume).map(|(x, v)| v * x[0].powi(2) * x[1].powi(2));
+            assert!((terms.sum::<f64>() / (9.0 * 8.0 / 3.0) - 1.0).abs() < 1e-12, "{kind:?}");
         }
     }
 

@@ -131,8 +131,8 @@ const TEXT: &[Broken] = &[
 const MEANING: &[Broken] = &[
     check(Case("plane_strain", "plane_stress"), &["case.yaml:2:11", "`plane_stress`", "did you mean `plane_strain`?"]),
     check(Case("plane_strain", "solid"), &["case.yaml:2:11 (geometry)", "not available yet", "axisymmetric"]),
-    check(Case("kind: buffer", "kind: fem"), &["case.yaml:9", "`fem` is not available yet", "mpm or buffer"]),
-    check(Case("kind: buffer", "kind: structure"), &["case.yaml:9", "`structure` is not available yet"]),
+    check(Case("kind: buffer", "kind: fem"), &["case.yaml:9:3 (regions.water)", "no `material`", "add `material"]),
+    check(Case("kind: buffer", "kind: structure, material: clay, rigid: true"), &["case.yaml:9", "not available yet"]),
     check(Case("kind: buffer", "kind: buffer, material: clay"), &["regions.water.material", "empty", "kind: mpm"]),
     check(Case("material: clay", "material: caly"), &["case.yaml:8:31", "no material `caly`", "did you mean `clay`?"]),
     check(Case(", points_per_cell: 4", ", points_per_cell: 5"), &["case.yaml:8", "5", "choose from `3`, `4`"]),
@@ -213,6 +213,7 @@ const GEOMETRY: &[Broken] = &[
     check(Case("{surface: {uy", "{surfase: {uy"), &["case.yaml:23", "no physical curve `surfase`", "`surface`?"]),
     check(Case("on: surface", "on: somewhere"), &["case.yaml:28", "`somewhere`", "choose from"]),
     check(Case("on: surface", "on: soil"), &["case.yaml:28", "a region has no reaction", "take it out"]),
+    check(Case("[uy, reaction_y]", "[uy, contact_y]"), &["case.yaml:28", "only a structure has contact"]),
     check(Geo("Line(1) = {1, 2};", "Line(1) = {1, 2;"), &["scene.geo, line 8", "syntax error", "correct the file"]),
     check(Geo("Line(1) = {1, 2};", "Line(1) = {1, 99};"), &["scene.geo", "99"]),
     check(Geo("Physical Surface(\"water\") = {2};", ""), &["scene.geo, surface 2", "no physical surface", "add it"]),

@@ -145,6 +145,16 @@ fn energy(line: &str) -> Option<f64> {
     Some(after("elastic")? + after("kinetic")?)
 }
 
+/// The first 5 cm on cells of 0.25 m. Nothing has weight: what the soil exerts on the pile the head holds.
+#[test]
+fn pile() {
+    let run = Run::new("pile", &["mesh.parameters.h=0.25", "phases[0].duration=0.05", "output.every=0.025"]);
+    let (contact, head) = (run.history.last("pile.contact_y"), run.history.last("head.reaction_y"));
+    println!("contact {contact} kN, head {head} kN");
+    assert!(contact > 1.0 && (head / contact + 1.0).abs() < 1e-6, "{contact} kN from the soil, {head} kN at the head");
+    run.draw("pile");
+}
+
 /// What the four stages wrote.
 struct Run {
     folder: TempDir,

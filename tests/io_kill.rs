@@ -49,7 +49,14 @@ fn run(folder: &Path) {
         history.row(&[time, state[7]]).unwrap();
         if step.is_multiple_of(5) {
             let points = Part { position: state.iter().map(|&x| [x, 0.0, 0.0]).collect(), columns: Vec::new() };
-            let frame = Frame { time, phase: "push".to_string(), step, points, grid: Part::default() };
+            let frame = Frame {
+                time,
+                phase: "push".to_string(),
+                step,
+                points,
+                grid: Part::default(),
+                elements: Part::default(),
+            };
             let results = folder.join("results");
             background.submit(move || frame.write(&results, step as usize / 5 - 1)).unwrap();
         }

@@ -59,11 +59,18 @@ fn leaning_block(out: &Path, width: f64, height: f64) {
                 column("stress", "kPa", 6, all.flat_map(|i| [0.0, -10.0 * start(i)[1], 0.0, 0.0, 0.0, 0.0]).collect()),
             ],
         };
-        let frame = Frame { time: k as f64 * 0.5, phase: "fall".to_string(), step: k, points, grid: Part::default() };
+        let frame = Frame {
+            time: k as f64 * 0.5,
+            phase: "fall".to_string(),
+            step: k,
+            points,
+            grid: Part::default(),
+            elements: Part::default(),
+        };
         frame.write(&out.join("results"), k as usize).unwrap();
     }
     let fields = ["displacement", "plastic_strain", "stress"].map(String::from);
-    export(&out.join("results"), &mesh, out, &fields, Encoding::Raw).unwrap();
+    export(&out.join("results"), &mesh, &vec![false; mesh.regions.len()], out, &fields, Encoding::Raw).unwrap();
 }
 
 #[test]

@@ -270,12 +270,14 @@ fn a_series_has_its_frames_at_their_times() {
             step: k as u64,
             points: Part { position: vec![[time, 1.0, 0.0]; 7], columns: vec![column(7)] },
             grid: Part { position: Vec::new(), columns: vec![column(mesh.nodes.len())] },
+            elements: Part::default(),
         };
         frame.write(&results, k).unwrap();
     }
     let arguments: Vec<String> = times.iter().map(|t| format!("{t:?}")).collect();
     for encoding in [Encoding::Raw, Encoding::Lz4, Encoding::Plain] {
-        export::export(&results, &mesh, folder.path(), &["displacement".to_string()], encoding).unwrap();
+        let none = vec![false; mesh.regions.len()];
+        export::export(&results, &mesh, &none, folder.path(), &["displacement".to_string()], encoding).unwrap();
         for series in ["points.pvd", "grid.pvd"] {
             let path = folder.path().join(series);
             let mut all: Vec<&dyn AsRef<std::ffi::OsStr>> = vec![&"pvd", &path];

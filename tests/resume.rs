@@ -30,6 +30,12 @@ const SAND: Case = Case {
     ],
 };
 
+/// Finite elements, contact and a grid that follows both.
+const PILE: Case = Case {
+    file: "cases/pile",
+    overrides: &["mesh.parameters.h=0.25", "phases[0].duration=0.16", "phases[0].step.max=0.005", "output.every=0.04"],
+};
+
 fn mpm(verb: &str, case: &Case, folder: &Path, more: &[&str]) -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_mpm"));
     command.arg(verb).arg(Path::new(env!("CARGO_MANIFEST_DIR")).join(case.file)).arg("-o").arg(folder);
@@ -171,8 +177,13 @@ fn a_run_of_three_phases_killed_ten_times_ends_the_same() {
 }
 
 #[test]
+fn a_run_with_finite_elements_and_contact_killed_ten_times_ends_the_same() {
+    survives_kills(&PILE, 3);
+}
+
+#[test]
 fn the_number_of_threads_changes_no_bit() {
-    for case in [SLOPE, RELEASE, SAND] {
+    for case in [SLOPE, RELEASE, SAND, PILE] {
         let one = seeded(&case);
         let three = copy(one.path());
         ends(mpm("solve", &case, one.path(), &["--threads", "1"]), 0);

@@ -5,6 +5,7 @@ use super::locate::{At, Path};
 use super::raw;
 use super::source::Issue;
 use super::structure::suggest;
+use crate::contact::Law;
 use crate::stencil::Scheme;
 use std::collections::BTreeMap;
 use std::path::Path as FilePath;
@@ -53,9 +54,7 @@ impl Checker {
             .iter()
             .map(|(name, region)| self.region(name, region, &names, &root.key("regions").key(name)))
             .collect();
-        if !file.contacts.is_empty() {
-            self.issue(&root.key("contacts"), At::Key, format!("contact {LATER}"), "take the entry out");
-        }
+        let contacts = self.contacts(file, &root.key("contacts"));
         let numerics = self.numerics(&file.numerics, &root.key("numerics"));
         let phases = self.phases(file, &numerics, &root.key("phases"));
         let case = Case {
@@ -64,6 +63,7 @@ impl Checker {
             mesh: self.mesh(&file.mesh, folder, &root.key("mesh")),
             regions,
             materials,
+            contacts,
             supports: self.supports(&file.supports, &root.key("supports")),
             gravity,
             k0: file.initial_stress.map(|stress| stress.k0),
@@ -123,13 +123,21 @@ impl Checker {
                 Content::Buffer
             }
             raw::RegionKind::Fem | raw::RegionKind::Structure => {
-                let kind = if region.kind == raw::RegionKind::Fem { "fem" } else { "structure" };
-                let problem = format!("a region of kind `{kind}` {LATER}");
-                self.issue(&path.key("kind"), At::Value, problem, "choose mpm or buffer");
-                return Region { name: name.to_owned(), content: Content::Buffer };
+                if region.points_per_cell.is_some() {
+                    let problem = "finite elements have the points of their quadrature rule";
+                    self.issue(&path.key("points_per_cell"), At::Key, problem, "take `points_per_cell` out");
+                }
+                let material = self.material_of(region, materials, path);
+                if region.kind == raw::RegionKind::Fem {
+                    Content::Fem { material }
+                } else {
+                    Content::Structure { material }
+                }
             }
         };
-        if region.rigid.is_some() {
+        if region.rigid == Some(true) && region.kind == raw::RegionKind::Structure {
+            self.issue(&path.key("rigid"), At::Key, format!("a rigid structure {LATER}"), "give it a stiff material");
+        } else if region.rigid.is_some() && region.kind != raw::RegionKind::Structure {
             self.issue(&path.key("rigid"), At::Key, "only a structure can be rigid", "take `rigid` out");
         }
         Region { name: name.to_owned(), content }
@@ -138,7 +146,7 @@ impl Checker {
     fn material_of(&mut self, region: &raw::Region, materials: &[&str], path: &Path) -> usize {
         let Some(name) = &region.material else {
             let remedy = "add `material: …`, the name of an entry of `materials`";
-            self.issue(path, At::Key, "a region of kind mpm has no `material`", remedy);
+            self.issue(path, At::Key, "a region that is not a buffer has no `material`", remedy);
             return 0;
         };
         materials.iter().position(|material| material == name).unwrap_or_else(|| {
@@ -146,6 +154,39 @@ impl Checker {
             self.issue(&path.key("material"), At::Value, problem, suggest(name, materials.iter().copied()));
             0
         })
+    }
+
+    fn contacts(&mut self, file: &raw::CaseFile, path: &Path) -> Vec<Contact> {
+        let of_kind = |kind: raw::RegionKind| {
+            let names = file.regions.iter().filter(move |(_, region)| region.kind == kind);
+            names.map(|(name, _)| name.as_str())
+        };
+        let mut checked = Vec::new();
+        for (i, contact) in file.contacts.iter().enumerate() {
+            let path = path.index(i);
+            let mut find = |name: &String, kind, words: &str, path: &Path| {
+                let known = of_kind(kind).any(|known| known == name);
+                if !known {
+                    let problem = format!("there is no region `{name}` of kind {words}");
+                    self.issue(path, At::Value, problem, suggest(name, of_kind(kind)));
+                }
+                file.regions.keys().position(|known| known == name).filter(|_| known)
+            };
+            let structure = find(&contact.structure, raw::RegionKind::Structure, "structure", &path.key("structure"));
+            let soil =
+                contact.soil.names().iter().map(|name| find(name, raw::RegionKind::Mpm, "mpm", &path.key("soil")));
+            let soil: Option<Vec<usize>> = soil.collect();
+            let law = Law {
+                friction: contact.friction,
+                adhesion: contact.adhesion,
+                factor: contact.adhesion_factor,
+                separates: contact.tension == raw::Tension::CutOff,
+            };
+            if let (Some(structure), Some(soil)) = (structure, soil) {
+                checked.push(Contact { structure, soil, law });
+            }
+        }
+        checked
     }
 
     fn supports(&mut self, supports: &BTreeMap<String, raw::Components>, path: &Path) -> Vec<Support> {
@@ -273,7 +314,7 @@ impl Checker {
             self.issue(&root.key("numerics").key("pressure"), At::Value, problem, "take it out");
         }
         if file.regions.values().all(|region| region.kind == raw::RegionKind::Buffer) {
-            let remedy = "make at least one region `kind: mpm` with a material";
+            let remedy = "make at least one region `kind: mpm` or `kind: fem` with a material";
             self.issue(&root.key("regions"), At::Key, "no region holds material", remedy);
         }
         if case.k0.is_some() && case.gravity[0] != 0.0 {

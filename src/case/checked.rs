@@ -4,6 +4,7 @@
 //! to the mesh once [`super::names::check`] found no fault.
 
 pub use super::raw::{Axis, Encoding, Field, Quantity};
+use crate::contact::Law;
 use crate::material::{Model, Profile};
 use crate::stencil::Scheme;
 use crate::term::Carried;
@@ -23,6 +24,7 @@ pub struct Case {
     pub regions: Vec<Region>,
     /// The materials, sorted by name.
     pub materials: Vec<Material>,
+    pub contacts: Vec<Contact>,
     pub supports: Vec<Support>,
     /// Acceleration of gravity (m/s²).
     pub gravity: [f64; 2],
@@ -75,6 +77,25 @@ pub enum Content {
     Mpm { material: usize, points_per_cell: usize },
     /// Cells without points, that material may move into.
     Buffer,
+    /// Finite elements, of the material with this index.
+    Fem { material: usize },
+    /// A structure: finite elements of its own, above the grid.
+    Structure { material: usize },
+}
+
+impl Content {
+    /// The index of the material, if there is one.
+    pub fn material(&self) -> Option<usize> {
+        match *self {
+            Self::Mpm { material, .. } | Self::Fem { material } | Self::Structure { material } => Some(material),
+            Self::Buffer => None,
+        }
+    }
+
+    /// Whether the cells are finite elements.
+    pub fn is_fem(&self) -> bool {
+        matches!(self, Self::Fem { .. } | Self::Structure { .. })
+    }
 }
 
 /// A material.
@@ -88,10 +109,26 @@ pub struct Material {
     pub carried: Option<Carried>,
 }
 
+impl Material {
+    /// Whether it has a density anywhere.
+    pub fn has_mass(&self) -> bool {
+        self.density.top > 0.0 || self.density.gradient > 0.0
+    }
+}
+
 impl fmt::Debug for Material {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("Material").field("name", &self.name).field("density", &self.density).finish_non_exhaustive()
     }
+}
+
+/// Contact between a structure and soil.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Contact {
+    /// Indices into [`Case::regions`].
+    pub structure: usize,
+    pub soil: Vec<usize>,
+    pub law: Law,
 }
 
 /// Components of the displacement held at zero on a curve.

@@ -10,6 +10,7 @@ mod incompressible;
 pub mod locate;
 mod materials;
 pub mod names;
+pub mod parts;
 mod phases;
 pub mod raw;
 pub mod scene;
@@ -18,6 +19,7 @@ pub mod source;
 pub mod structure;
 #[cfg(test)]
 mod tests;
+mod touch;
 
 pub use checked::Case;
 

@@ -1,6 +1,6 @@
 //! The names in a case against the physical groups of its mesh.
 
-use super::checked::{Case, Quantity};
+use super::checked::{Case, Content, Quantity, Region};
 use super::locate::{At, Path};
 use super::source::Issue;
 use super::structure::{nearest, suggest};
@@ -51,6 +51,11 @@ pub fn check(case: &Case, groups: &Groups) -> Vec<Issue> {
         if groups.surfaces.contains(&entry.on) && !has_nodes {
             names.no_reaction(&entry.quantities, &root.key("output").key("history").index(i).key("quantities"));
         }
+        let structure =
+            |region: &Region| region.name == entry.on && matches!(region.content, Content::Structure { .. });
+        if has_nodes || !case.regions.iter().any(structure) {
+            names.no_contact(&entry.quantities, &root.key("output").key("history").index(i).key("quantities"));
+        }
     }
     names.issues
 }
@@ -67,6 +72,16 @@ impl Names<'_> {
             if matches!(quantity, Quantity::ReactionX | Quantity::ReactionY) {
                 let remedy = "take it out, or name the curve that is held";
                 self.issues.push(Issue::new(&path.index(i), At::Value, "a region has no reaction", remedy));
+            }
+        }
+    }
+
+    /// Refuses forces of contact, which only structures feel.
+    fn no_contact(&mut self, quantities: &[Quantity], path: &Path) {
+        for (i, quantity) in quantities.iter().enumerate() {
+            if matches!(quantity, Quantity::ContactX | Quantity::ContactY) {
+                let remedy = "take it out, or name a region of kind structure";
+                self.issues.push(Issue::new(&path.index(i), At::Value, "only a structure has contact", remedy));
             }
         }
     }

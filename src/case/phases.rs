@@ -47,11 +47,13 @@ impl Checker {
                 prescribed.push(Prescribed { curve: curve.clone(), component, displacement });
             }
         }
+        let of_elements = |kind| matches!(kind, raw::RegionKind::Fem | raw::RegionKind::Structure);
+        let with_elements = file.regions.values().any(|region| of_elements(region.kind));
         let tractions = phase
             .tractions
             .iter()
             .enumerate()
-            .map(|(i, traction)| self.traction(traction, numerics, &path.key("tractions").index(i)))
+            .map(|(i, traction)| self.traction(traction, numerics, with_elements, &path.key("tractions").index(i)))
             .collect();
         let gravity = match &phase.gravity {
             Some(factor) => self.in_time(factor, &path.key("gravity")),
@@ -68,10 +70,18 @@ impl Checker {
         }
     }
 
-    fn traction(&mut self, traction: &raw::Traction, numerics: &Numerics, path: &Path) -> Traction {
-        if numerics.restore != Restore::Never {
-            let problem = "a traction on a curve needs a grid that moves with the material";
-            self.issue(&path.key("on"), At::Value, problem, "set `restore: never` under `numerics`");
+    fn traction(
+        &mut self,
+        traction: &raw::Traction,
+        numerics: &Numerics,
+        with_elements: bool,
+        path: &Path,
+    ) -> Traction {
+        // Whether the curve is one of finite elements, only the mesh can tell.
+        if numerics.restore != Restore::Never && !with_elements {
+            let problem = "a traction on a curve needs finite elements, or a grid that moves with the material";
+            let remedy = "set `restore: never` under `numerics`, or make the region beside it `kind: fem`";
+            self.issue(&path.key("on"), At::Value, problem, remedy);
         }
         if traction.tx.is_none() && traction.ty.is_none() {
             self.issue(path, At::Value, "there is no load", "add `tx: …` or `ty: …`");

@@ -27,7 +27,7 @@ pub struct CaseFile {
     pub materials: BTreeMap<String, Material>,
     /// Contacts between structures and soil.
     #[serde(default)]
-    pub contacts: Vec<serde_json::Value>,
+    pub contacts: Vec<Contact>,
     /// Displacements held at zero in every phase, by the name of a physical curve.
     #[serde(default)]
     pub supports: BTreeMap<String, Components>,
@@ -158,6 +158,57 @@ pub struct Components {
     pub ux: Option<f64>,
     /// Vertical displacement, held at 0.
     pub uy: Option<f64>,
+}
+
+/// Contact between a structure and soil.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Contact {
+    /// The name of a region of kind structure.
+    pub structure: String,
+    /// The name of a region of kind mpm, or a list of them.
+    pub soil: OneOrMore,
+    /// Coefficient of friction tan δ (-).
+    #[serde(default)]
+    #[schemars(range(min = 0))]
+    pub friction: f64,
+    /// Adhesion (kPa).
+    #[serde(default)]
+    #[schemars(range(min = 0))]
+    pub adhesion: f64,
+    /// α (-), from 0 to 1: the shear is at most α times the strength of the soil; without friction and adhesion it is
+    /// just that.
+    #[schemars(range(min = 0, max = 1))]
+    pub adhesion_factor: Option<f64>,
+    /// Whether the two part where they are pulled: cut_off (they do) or no_separation (they do not).
+    #[serde(default)]
+    pub tension: Tension,
+}
+
+/// What pulling does to a contact.
+#[derive(Clone, Copy, Debug, Default, Deserialize, JsonSchema, PartialEq, Eq)]
+#[serde(rename_all = "snake_case")]
+pub enum Tension {
+    #[default]
+    CutOff,
+    NoSeparation,
+}
+
+/// A name or a list of names.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(untagged)]
+pub enum OneOrMore {
+    One(String),
+    More(Vec<String>),
+}
+
+impl OneOrMore {
+    pub fn names(&self) -> &[String] {
+        match self {
+            Self::One(name) => std::slice::from_ref(name),
+            Self::More(names) => names,
+        }
+    }
 }
 
 /// A vector in the plane.
@@ -477,7 +528,8 @@ pub struct History {
     pub quantities: Vec<Quantity>,
 }
 
-/// A quantity of history.csv: means over the nodes of a curve or the points of a region; reactions are sums.
+/// A quantity of history.csv: means over the nodes of a curve or the points of a region; reactions are sums, contact is
+/// the force of all contacts on a structure.
 #[derive(Clone, Copy, Debug, Deserialize, JsonSchema, PartialEq, Eq)]
 #[serde(rename_all = "snake_case")]
 pub enum Quantity {
@@ -487,6 +539,8 @@ pub enum Quantity {
     Vy,
     ReactionX,
     ReactionY,
+    ContactX,
+    ContactY,
 }
 
 fn two() -> u8 {

@@ -1,6 +1,7 @@
 //! From a checked case to a scene: the only place that decides which terms exist.
 
-use super::checked::{Analysis, Case, Content, Field, Geometry, Material, Quantity, Region, Restore};
+use super::checked::{Analysis, Case, Field, Geometry, Material, Quantity, Region, Restore};
+use super::{parts, touch};
 use crate::error::{Error, Result};
 use crate::io::checkpoint::Fingerprint;
 use crate::kinematics::{Axisymmetric, Kinematics, PlaneStrain};
@@ -11,9 +12,10 @@ use crate::points::Points;
 use crate::quadrature::{Fitted, Quadrature, Volumes};
 use crate::run::{self, Ended, Outputs, Progress, Watch, WatchedOn};
 use crate::stencil::{Scheme, cell_size, smooths};
-use crate::step::{self, Fixed, Numerics, Phase, Prescribed, Scene, State, Stop};
+use crate::step::{self, Fem, Fixed, Numerics, Phase, Prescribed, Scene, State, Stop};
 use crate::term::{
-    BodyForce, Carried, EmptyCells, GhostPenalty, Inertia, Internal, PressureField, SmoothPressure, Term, Traction,
+    BodyForce, Carried, Contact, EmptyCells, GhostPenalty, Inertia, Internal, PressureField, SmoothPressure, Term,
+    Traction,
 };
 use crate::time_value::TimeValue;
 use std::path::Path;
@@ -45,40 +47,48 @@ pub fn solve(
         ));
     }
     let outputs = outputs(case, &mesh, folder, fingerprint)?;
+    let parts = parts::points(case, &mesh, points);
     match case.geometry {
         Geometry::PlaneStrain => {
             let scene = scene::<PlaneStrain>(case, mesh)?;
-            run::run::<2, PlaneStrain>(&scene, first(case, &scene, points)?, &outputs, resume, stop, progress)
+            run::run::<2, PlaneStrain>(&scene, first(case, &scene, parts)?, &outputs, resume, stop, progress)
         }
         Geometry::Axisymmetric => {
             let scene = scene::<Axisymmetric>(case, mesh)?;
-            run::run::<2, Axisymmetric>(&scene, first(case, &scene, points)?, &outputs, resume, stop, progress)
+            run::run::<2, Axisymmetric>(&scene, first(case, &scene, parts)?, &outputs, resume, stop, progress)
         }
     }
 }
 
-fn first(case: &Case, scene: &Scene<2>, mut points: Points<2>) -> Result<State<2>> {
+/// The state before the first step, given the material points and those of the finite elements.
+fn first(case: &Case, scene: &Scene<2>, [mut points, mut fem]: [Points<2>; 2]) -> Result<State<2>> {
     if scene.pressure_unit.is_some() {
-        // The points bring the elastic strain of all their stress: the field begins with its share.
-        points.pressure = vec![0.0; points.len()];
-        for (region, material) in filled(case) {
-            let (Some(carried), region) = (&material.carried, region_index(&scene.mesh, &region.name)?) else {
-                continue;
-            };
-            for p in (0..points.len()).filter(|&p| points.region[p] == region) {
-                points.pressure[p] = carried.begin(material.model.as_ref(), &points, p);
-            }
-        }
+        begin_pressure(case, &scene.mesh, &mut points)?;
+        begin_pressure(case, &scene.mesh, &mut fem)?;
     }
     let first_step = scene.phases.first().map_or(0.0, |p| p.first_step);
-    Ok(State::new(points, scene.mesh.nodes.len(), first_step))
+    let fem_parametric = scene.fem.as_ref().map_or(Ok(Vec::new()), |part| parts::places(&part.mesh, &fem))?;
+    Ok(State { fem, fem_parametric, ..State::new(points, scene.mesh.nodes.len(), first_step) })
+}
+
+/// Hands the pressure field its share: the points bring the elastic strain of all their stress.
+fn begin_pressure(case: &Case, mesh: &Mesh<2>, points: &mut Points<2>) -> Result<()> {
+    points.pressure = vec![0.0; points.len()];
+    for (region, material) in filled(case) {
+        let (Some(carried), region) = (&material.carried, region_index(mesh, &region.name)?) else { continue };
+        for p in (0..points.len()).filter(|&p| points.region[p] == region) {
+            points.pressure[p] = carried.begin(material.model.as_ref(), points, p);
+        }
+    }
+    Ok(())
 }
 
 /// The scene of a case on its mesh.
 ///
 /// # Errors
 /// `Input` when the mesh lacks a group that the case names.
-pub fn scene<K: Kinematics<2>>(case: &Case, mesh: Mesh<2>) -> Result<Scene<2>> {
+pub fn scene<K: Kinematics<2>>(case: &Case, whole: Mesh<2>) -> Result<Scene<2>> {
+    let (mesh, fem) = parts::meshes(case, whole);
     if case.numerics.gradient != Scheme::Mpm
         && let Some(kind) = mesh.cells.kind.iter().find(|&&kind| !smooths(kind))
     {
@@ -102,19 +112,11 @@ pub fn scene<K: Kinematics<2>>(case: &Case, mesh: Mesh<2>) -> Result<Scene<2>> {
     let faces = Faces::of(&mesh);
 
     let shear = largest(|m, y| m.model.elasticity().at(y).shear);
-    let pressure_unit = materials().any(|m| m.carried.is_some()).then(|| shear / mean_size(&mesh));
-    let models = models(case, &mesh)?;
-    let mut terms: Vec<Box<dyn Term<2>>> = match pressure_unit {
-        None => vec![Box::new(Internal::<K>::new(models, dynamic))],
-        Some(unit) => {
-            let field = PressureField::<K>::new(carried(case, &mesh)?, unit);
-            let internal = Internal::<K, _>::sharing(models, dynamic, field);
-            vec![Box::new(internal), Box::new(SmoothPressure::<K>::new(unit, shear, mesh.cells.len()))]
-        }
-    };
+    let size = fem.as_ref().map_or(mean_size(&mesh), |fem| mean_size(fem).max(mean_size(&mesh)));
+    let pressure_unit = materials().any(|m| m.carried.is_some()).then(|| shear / size);
+    let mut terms = internal::<K>(case, &mesh, dynamic, pressure_unit, shear)?;
     if case.gravity != [0.0; 2] && density_scale > 0.0 {
-        let factors = case.phases.iter().map(|p| p.gravity.clone()).collect();
-        terms.push(Box::new(BodyForce::<K, 2>::new(case.gravity, factors)));
+        terms.push(Box::new(gravity::<K>(case)));
     }
     if case.numerics.restore != Restore::Never {
         terms.push(Box::new(EmptyCells::<K>::new(case.numerics.empty_stiffness * young, mesh.cells.len())));
@@ -128,9 +130,39 @@ pub fn scene<K: Kinematics<2>>(case: &Case, mesh: Mesh<2>) -> Result<Scene<2>> {
     }
     for (phase, traction) in case.phases.iter().enumerate().flat_map(|(i, p)| p.tractions.iter().map(move |t| (i, t))) {
         let group = group(&mesh, &traction.curve)?;
+        if case.numerics.restore != Restore::Never && !fem.as_ref().is_some_and(|fem| parts::carries(fem, group)) {
+            return Err(Error::input(
+                format!("the traction on `{}` in phase `{}`", traction.curve, case.phases[phase].name),
+                "the curve is not one of finite elements, and the grid does not move with the material",
+                "set `restore: never` under `numerics`, or make the region beside it `kind: fem`",
+            ));
+        }
         terms.push(Box::new(Traction::<K, 2>::new(&mesh, group, phase, traction.components.clone())));
     }
 
+    let fem = match fem {
+        Some(part) => {
+            let mut terms = internal::<K>(case, &part, dynamic, pressure_unit, shear)?;
+            let heavy = filled(case).any(|(region, m)| region.content.is_fem() && m.has_mass());
+            if case.gravity != [0.0; 2] && heavy {
+                terms.push(Box::new(gravity::<K>(case)));
+            }
+            if dynamic {
+                terms.push(Box::new(Inertia::<K>::default()));
+            }
+            let carried = carried(case, &part)?;
+            let with_pressure = part.cells.region.iter().map(|&r| carried[r as usize].is_some()).collect();
+            Some(Fem { mesh: part, with_pressure, terms })
+        }
+        None => None,
+    };
+    let pairs = match &fem {
+        Some(fem) => touch::pairs::<K>(case, &mesh, &fem.mesh)?,
+        None => Vec::new(),
+    };
+    for (number, pair) in (0..).zip(&pairs) {
+        terms.push(Box::new(Contact::new(number, *pair.law())));
+    }
     let mut supports = Vec::new();
     for support in &case.supports {
         for component in (0..2).filter(|&c| support.fixed[c]) {
@@ -144,6 +176,8 @@ pub fn scene<K: Kinematics<2>>(case: &Case, mesh: Mesh<2>) -> Result<Scene<2>> {
         quadrature: quadrature::<K>(case, &mesh),
         mesh,
         terms,
+        fem,
+        pairs,
         pressure_unit,
         supports,
         phases,
@@ -158,6 +192,25 @@ pub fn scene<K: Kinematics<2>>(case: &Case, mesh: Mesh<2>) -> Result<Scene<2>> {
         stiffness_scale,
         density_scale,
     })
+}
+
+/// The terms of the stress in the cells of `mesh`.
+fn internal<K: Kinematics<2>>(
+    case: &Case,
+    mesh: &Mesh<2>,
+    dynamic: bool,
+    pressure_unit: Option<f64>,
+    shear: f64,
+) -> Result<Vec<Box<dyn Term<2>>>> {
+    let models = models(case, mesh)?;
+    let Some(unit) = pressure_unit else { return Ok(vec![Box::new(Internal::<K>::new(models, dynamic))]) };
+    let field = PressureField::<K>::new(carried(case, mesh)?, unit);
+    let internal = Internal::<K, _>::sharing(models, dynamic, field);
+    Ok(vec![Box::new(internal), Box::new(SmoothPressure::<K>::new(unit, shear, mesh.cells.len()))])
+}
+
+fn gravity<K>(case: &Case) -> BodyForce<K, 2> {
+    BodyForce::new(case.gravity, case.phases.iter().map(|p| p.gravity.clone()).collect())
 }
 
 fn quadrature<K: Kinematics<2>>(case: &Case, mesh: &Mesh<2>) -> Box<dyn Quadrature<2>> {
@@ -242,6 +295,8 @@ fn outputs(case: &Case, mesh: &Mesh<2>, folder: &Path, fingerprint: Fingerprint)
             Quantity::Vy => run::Quantity::Velocity(1),
             Quantity::ReactionX => run::Quantity::Reaction(0),
             Quantity::ReactionY => run::Quantity::Reaction(1),
+            Quantity::ContactX => run::Quantity::Contact(0),
+            Quantity::ContactY => run::Quantity::Contact(1),
         });
         Ok(Watch { name: entry.name.clone(), on, quantities: quantities.collect() })
     };
@@ -251,10 +306,7 @@ fn outputs(case: &Case, mesh: &Mesh<2>, folder: &Path, fingerprint: Fingerprint)
 
 /// The regions with points and their materials.
 fn filled(case: &Case) -> impl Iterator<Item = (&Region, &Material)> {
-    case.regions.iter().filter_map(|region| match region.content {
-        Content::Mpm { material, .. } => Some((region, &case.materials[material])),
-        Content::Buffer => None,
-    })
+    case.regions.iter().filter_map(|region| Some((region, &case.materials[region.content.material()?])))
 }
 
 /// The model of each region of the mesh, if it holds points.
@@ -282,7 +334,7 @@ fn mean_size(mesh: &Mesh<2>) -> f64 {
     (0..cells).map(|c| cell_size(mesh, c)).sum::<f64>() / cells as f64
 }
 
-fn region_index(mesh: &Mesh<2>, name: &str) -> Result<u16> {
+pub(super) fn region_index(mesh: &Mesh<2>, name: &str) -> Result<u16> {
     mesh.regions.iter().position(|r| r == name).map(|i| i as u16).ok_or_else(|| {
         Error::input(
             "mesh.msh",

@@ -5,7 +5,7 @@ use crate::error::{Error, Result};
 use crate::material::{Profile, spatial};
 use crate::mesh::Mesh;
 use crate::points::Points;
-use crate::seed::{RegionSeed, RegionWeight, k0_stress, seed};
+use crate::seed::{QUADRATURE, RegionSeed, RegionWeight, k0_stress, seed};
 
 /// Fills the regions of `case` in `mesh`, whose groups its names have been held against.
 ///
@@ -42,13 +42,17 @@ struct Filled {
 fn filled(case: &Case, mesh: &Mesh<2>) -> Result<Vec<Filled>> {
     let mut filled = Vec::new();
     for (index, region) in case.regions.iter().enumerate() {
-        let Content::Mpm { material, points_per_cell } = region.content else { continue };
+        let (material, points_per_cell) = match region.content {
+            Content::Mpm { material, points_per_cell } => (material, points_per_cell as u32),
+            Content::Fem { material } | Content::Structure { material } => (material, QUADRATURE),
+            Content::Buffer => continue,
+        };
         let place = mesh.regions.iter().position(|name| *name == region.name).ok_or_else(|| {
             let place = format!("region {}", region.name);
             Error::input(place, "the mesh has no physical surface of this name", "mesh the case again: `mpm mesh`")
         })?;
         let density = case.materials[material].density;
-        let seed = RegionSeed { region: place as u16, points_per_cell: points_per_cell as u32, density };
+        let seed = RegionSeed { region: place as u16, points_per_cell, density };
         filled.push(Filled { index, material, seed });
     }
     Ok(filled)
@@ -79,15 +83,15 @@ fn check_over_depth(mesh: &Mesh<2>, index: u16, region: &Region, material: &Mate
 /// the one they are seeded with, so that Kirchhoff and Cauchy stress are the same.
 fn rest(case: &Case, mesh: &Mesh<2>, filled: &[Filled], k0: f64, points: &mut Points<2>) -> Result<()> {
     let g = -case.gravity[1];
-    let weights: Vec<_> = filled
-        .iter()
+    let soils = || filled.iter().filter(|f| !matches!(case.regions[f.index].content, Content::Structure { .. }));
+    let weights: Vec<_> = soils()
         .map(|Filled { seed, .. }| {
             let Profile { top, gradient, datum } = seed.density;
             RegionWeight { region: seed.region, unit_weight: Profile { top: g * top, gradient: g * gradient, datum } }
         })
         .collect();
     points.stress = k0_stress(mesh, &weights, k0, points)?;
-    for Filled { material, seed, .. } in filled {
+    for Filled { material, seed, .. } in soils() {
         let model = &*case.materials[*material].model;
         for p in (0..points.len()).filter(|&p| points.region[p] == seed.region) {
             points.elastic[p] = spatial::elastic_from_stress(model, points.origin[p][1], &points.stress[p]);

@@ -3,6 +3,7 @@
 use super::stage::{Stage, Stamp};
 use super::{Outcome, StageArgs, mesh, print};
 use crate::case::checked::Encoding;
+use crate::case::parts;
 use crate::error::Result;
 use crate::io::{export, frame, vtu};
 use std::fs;
@@ -23,7 +24,8 @@ pub fn is_current(stage: &Stage) -> Result<bool> {
 /// Exports, and prints a summary.
 pub fn work(stage: &Stage) -> Outcome {
     let mesh = mesh::read(stage)?;
-    let output = &stage.loaded.case.output;
+    let case = &stage.loaded.case;
+    let output = &case.output;
     let fields: Vec<String> = output.fields.iter().map(|field| field.name().to_owned()).collect();
     let encoding = match output.encoding {
         Encoding::Compressed => vtu::Encoding::Lz4,
@@ -32,7 +34,8 @@ pub fn work(stage: &Stage) -> Outcome {
     let stamp = stamp(stage)?;
     // The series change file by file: until all of them are there they are nobody's.
     stamp.remove()?;
-    let summary = export::export(&stage.results(), &mesh, stage.folder(), &fields, encoding)?;
+    let summary =
+        export::export(&stage.results(), &mesh, &parts::of_elements(case, &mesh), stage.folder(), &fields, encoding)?;
     stamp.write(&series(stage))?;
     print(&format!("{}: {} frames\n", stage.folder().join("points.pvd").display(), summary.frames))
 }

@@ -1,5 +1,6 @@
 //! Result frames to series for ParaView: `vtu/points_000123.vtu` and `vtu/grid_000123.vtu` with `points.pvd`
-//! and `grid.pvd`, with the fields that the case asks for.
+//! and `grid.pvd`, with the fields that the case asks for; where it has finite elements, `vtu/structures_000123.vtu` and
+//! `structures.pvd` with these.
 //!
 //! Derived here, from the stress: `mean_stress` (tension positive) and `deviatoric_stress`, √(3/2 s:s).
 
@@ -8,7 +9,6 @@ use std::path::Path;
 
 use rayon::prelude::*;
 
-use super::columns::padded;
 use super::container::Data;
 use super::frame::{self, Column, Frame, Part};
 use super::vtu::{self, Array, Encoding, Grid, Topology};
@@ -17,8 +17,13 @@ use crate::error::{Error, Result};
 use crate::mesh::Mesh;
 use crate::tensor::Symmetric;
 
+mod pieces;
+
+use pieces::Piece;
+
 /// The kinds of files, each with a `.pvd`.
-const SERIES: [&str; 2] = ["points", "grid"];
+const SERIES: [&str; 3] = ["points", "grid", STRUCTURES];
+const STRUCTURES: &str = "structures";
 
 /// What an export wrote.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -28,7 +33,8 @@ pub struct Summary {
     pub removed: usize,
 }
 
-/// Writes the frames in `results` as series into `out`, with `fields` and nothing else.
+/// Writes the frames in `results` as series into `out`, with `fields` and nothing else. `of_elements` tells of each
+/// region of the mesh whether it is of finite elements.
 ///
 /// # Errors
 /// `Input` when there are no frames, one is damaged, they do not belong to `mesh`, or a field is in none of
@@ -36,6 +42,7 @@ pub struct Summary {
 pub fn export<const D: usize>(
     results: &Path,
     mesh: &Mesh<D>,
+    of_elements: &[bool],
     out: &Path,
     fields: &[String],
     encoding: Encoding,
@@ -43,12 +50,19 @@ pub fn export<const D: usize>(
     let infos = frame::list(results)?;
     let folder = out.join("vtu");
     atomic::prepare_folder(&folder)?;
-    let topology = Topology::of_mesh(mesh);
-    let nodes = padded(&mesh.nodes);
+    let is_element = |c: usize| of_elements[mesh.cells.region[c] as usize];
+    let elements = mesh.part(is_element);
+    let with_elements = !elements.cells.is_empty();
+    let (background, structures) = if with_elements {
+        (Piece::background(&mesh.part(|c| !is_element(c))), Piece::by_region(&elements))
+    } else {
+        (Piece::whole(mesh), Piece::default())
+    };
+    let first = triples(&mesh.nodes);
     infos.par_iter().enumerate().try_for_each(|(i, info)| {
         let frame = Frame::read(&info.path)?;
         check_fields(&info.path, &frame, fields)?;
-        let Frame { time, points, grid, .. } = frame;
+        let Frame { time, points, mut grid, elements, .. } = frame;
         let time = Some(time);
         let points = Grid {
             point_data: select(&points, fields),
@@ -57,40 +71,61 @@ pub fn export<const D: usize>(
             ..Grid { time, ..Grid::default() }
         };
         vtu::write(&folder.join(file_name("points", i)), &points, encoding)?;
-        let count = if grid.position.is_empty() { mesh.nodes.len() } else { grid.position.len() };
-        let fits = count == mesh.nodes.len() && grid.columns.iter().all(|c| c.values.len() == c.components * count);
-        if !fits {
+        if grid.position.is_empty() {
+            grid.position.clone_from(&first);
+        }
+        let count = mesh.nodes.len();
+        let fits = grid.position.len() == count && grid.columns.iter().all(|c| c.values.len() == c.components * count);
+        let Some(smooth) = structures.smooth(&grid, &first, &elements).filter(|_| fits) else {
             return Err(Error::input(
                 info.path.display(),
-                format!("has not the {} nodes of the mesh", mesh.nodes.len()),
+                format!("has not the {count} nodes and the cells of the mesh"),
                 "the mesh was made again after the run: run `mpm solve` again",
             ));
+        };
+        vtu::write(
+            &folder.join(file_name("grid", i)),
+            &background.grid(&background.at(&grid), fields, time),
+            encoding,
+        )?;
+        if with_elements {
+            vtu::write(&folder.join(file_name(STRUCTURES, i)), &structures.grid(&smooth, fields, time), encoding)?;
         }
-        let point_data = select(&grid, fields);
-        let points = if grid.position.is_empty() { nodes.clone() } else { grid.position.concat() };
-        let grid = Grid { points, topology: topology.clone(), point_data, cell_data: vec![regions(mesh)], time };
-        vtu::write(&folder.join(file_name("grid", i)), &grid, encoding)
+        Ok(())
     })?;
     for series in SERIES {
+        let path = out.join(format!("{series}.pvd"));
+        if series == STRUCTURES && !with_elements {
+            if path.exists() {
+                atomic::remove(&path)?;
+            }
+            continue;
+        }
         let files: Vec<_> =
             infos.iter().enumerate().map(|(i, info)| (info.time, format!("vtu/{}", file_name(series, i)))).collect();
-        pvd::write(&out.join(format!("{series}.pvd")), &files)?;
+        pvd::write(&path, &files)?;
     }
-    Ok(Summary { frames: infos.len(), removed: remove_stale(&folder, infos.len())? })
+    let kept = |series: &str| if series == STRUCTURES && !with_elements { 0 } else { infos.len() };
+    Ok(Summary { frames: infos.len(), removed: remove_stale(&folder, kept)? })
+}
+
+/// Coordinates padded to three.
+fn triples<const D: usize>(x: &[[f64; D]]) -> Vec<[f64; 3]> {
+    x.iter().map(|x| std::array::from_fn(|d| x.get(d).copied().unwrap_or(0.0))).collect()
 }
 
 fn file_name(series: &str, index: usize) -> String {
     format!("{series}_{index:06}.vtu")
 }
 
-/// Removes the files of an earlier run that had more than `count` frames.
-fn remove_stale(folder: &Path, count: usize) -> Result<usize> {
+/// Removes the files of an earlier run that had more frames than are `kept` of a series.
+fn remove_stale(folder: &Path, kept: impl Fn(&str) -> usize) -> Result<usize> {
     let mut removed = 0;
     for entry in fs::read_dir(folder).map_err(|e| atomic::unwritable(folder, &e))? {
         let path = entry.map_err(|e| atomic::unwritable(folder, &e))?.path();
         let name = path.file_name().and_then(|n| n.to_str()).and_then(|n| n.strip_suffix(".vtu"));
         let stale = name.and_then(|n| n.split_once('_')).is_some_and(|(series, index)| {
-            SERIES.contains(&series) && index.parse::<usize>().is_ok_and(|i| i >= count)
+            SERIES.contains(&series) && index.parse::<usize>().is_ok_and(|i| i >= kept(series))
         });
         if stale {
             atomic::remove(&path)?;
@@ -98,11 +133,6 @@ fn remove_stale(folder: &Path, count: usize) -> Result<usize> {
         }
     }
     Ok(removed)
-}
-
-/// The region of each cell of the grid.
-fn regions<const D: usize>(mesh: &Mesh<D>) -> Array {
-    Array { name: "region [-]".to_string(), components: 1, data: Data::U16(mesh.cells.region.clone()) }
 }
 
 /// The fields that a part has or that follow from what it has.
@@ -132,9 +162,11 @@ fn column(part: &Part, name: &str) -> Option<Array> {
 
 /// Every field must be somewhere in the frame.
 fn check_fields(path: &Path, frame: &Frame, fields: &[String]) -> Result<()> {
-    let has = |name: &str| column(&frame.points, name).is_some() || column(&frame.grid, name).is_some();
+    let parts = [&frame.points, &frame.grid, &frame.elements];
+    let has = |name: &str| parts.iter().any(|part| column(part, name).is_some());
     let Some(missing) = fields.iter().find(|name| !has(name)) else { return Ok(()) };
-    let names = frame.points.columns.iter().chain(&frame.grid.columns).map(|c| c.name.as_str());
+    let names =
+        parts.iter().flat_map(|part| &part.columns).map(|c| c.name.as_str()).filter(|name| *name != frame::CELL);
     let mut names: Vec<_> =
         names.chain(["mean_stress", "deviatoric_stress"].into_iter().filter(|name| has(name))).collect();
     names.sort_unstable();

@@ -46,7 +46,13 @@ pub struct Frame {
     pub step: u64,
     pub points: Part,
     pub grid: Part,
+    /// The points of the finite elements, with the number of their cell among those of finite elements in the column
+    /// [`CELL`]; empty, and not written, without finite elements.
+    pub elements: Part,
 }
+
+/// The column of [`Frame::elements`] that tells the cells.
+pub const CELL: &str = "cell";
 
 /// What a listing tells about a frame.
 #[derive(Clone, Debug, PartialEq)]
@@ -76,7 +82,13 @@ impl Frame {
         store.put_text("time", format!("{:?}", self.time));
         store.put_text("phase", &*self.phase);
         store.put_text("step", self.step.to_string());
-        for (prefix, item, part) in [("points/", "material point", &self.points), ("grid/", "grid node", &self.grid)] {
+        let parts = [
+            ("points/", "material point", &self.points),
+            ("grid/", "grid node", &self.grid),
+            ("elements/", "point of a finite element", &self.elements),
+        ];
+        let count = if self.elements.position.is_empty() { 2 } else { 3 };
+        for (prefix, item, part) in parts.into_iter().take(count) {
             let position =
                 Column { name: POSITION.into(), unit: "m".into(), components: 3, values: part.position.concat() };
             for Column { name, unit, components, values } in std::iter::once(&position).chain(&part.columns) {
@@ -107,6 +119,7 @@ impl Frame {
             let (part, name) = match name.split_once('/') {
                 Some(("points", name)) => (&mut frame.points, name),
                 Some(("grid", name)) => (&mut frame.grid, name),
+                Some(("elements", name)) => (&mut frame.elements, name),
                 _ => return Err(broken()),
             };
             let Data::F64(values) = data else { return Err(broken()) };
@@ -116,7 +129,7 @@ impl Frame {
                 _ => part.columns.push(Column { name: name.to_string(), unit, components, values }),
             }
         }
-        for (what, part) in [("points", &frame.points), ("grid", &frame.grid)] {
+        for (what, part) in [("points", &frame.points), ("grid", &frame.grid), ("elements", &frame.elements)] {
             let counts = part.columns.iter().map(|c| (c.name.as_str(), c.values.len() / c.components));
             // A grid without positions of its own takes those of the mesh; its columns still agree.
             let count = if part.position.is_empty() { None } else { Some((POSITION, part.position.len())) };

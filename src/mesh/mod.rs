@@ -80,6 +80,15 @@ impl<const D: usize> Mesh<D> {
         self.groups.iter().find(|g| g.name == name)
     }
 
+    /// The mesh with only those of its cells that `keep` is true for, given their number; all nodes and groups stay.
+    pub fn part(&self, keep: impl Fn(usize) -> bool) -> Self {
+        let mut cells = Cells::default();
+        for c in (0..self.cells.len()).filter(|&c| keep(c)) {
+            cells.push(self.cells.kind[c], self.cells.region[c], self.cells.nodes(c));
+        }
+        Self { cells, nodes: self.nodes.clone(), regions: self.regions.clone(), groups: self.groups.clone() }
+    }
+
     /// The coordinates of the nodes of cell `c`, in the cell's order, into `out` (cleared first).
     pub fn cell_coordinates(&self, c: usize, out: &mut Vec<[f64; D]>) {
         out.clear();

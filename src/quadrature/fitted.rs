@@ -42,7 +42,10 @@ impl<K: Kinematics<2>> Fitted<K> {
     fn follow(&self, grid: &Restored<2>, front: &mut Option<Front>) -> Result<(), Fault> {
         let (mesh, points) = (grid.mesh, grid.points);
         match (grid.displacement, front.as_mut()) {
-            (Some(displacement), Some(front)) => front.advance(mesh, &self.geometry, grid.locator, displacement)?,
+            (Some(displacement), Some(front)) => {
+                front.advance(grid.before, (mesh, grid.locator), &self.geometry, displacement)?;
+                front.lean(mesh, &self.geometry, grid.locator, grid.outlines)?;
+            }
             (Some(_), None) => return Ok(()),
             (None, _) => {
                 let mut filled = vec![false; mesh.cells.len()];
@@ -69,7 +72,8 @@ impl<K: Kinematics<2>> Fitted<K> {
         }
         let (surface, size) = front.surface::<K>(mesh, &self.geometry, locator);
         let missing = (front.weight - weight) * volume_ratio(points, &weighing);
-        if missing.abs() <= LEAST_OFFSET * size * surface {
+        // Against a structure the surface is that of the structure, which has not moved.
+        if missing.abs() <= LEAST_OFFSET * size * surface || !grid.outlines.is_empty() {
             return weighing;
         }
         let offset = (missing / surface).clamp(-LARGEST_OFFSET * size, LARGEST_OFFSET * size);
@@ -114,6 +118,13 @@ impl<K: Kinematics<2>> Fitted<K> {
 
 impl<K: Kinematics<2>> Quadrature<2> for Fitted<K> {
     fn weigh(&self, grid: &Restored<2>, front: &mut Option<Front>) -> Weighing<2> {
+        if grid.relaxed { Self::new(grid.mesh).weigh_on(grid, front) } else { self.weigh_on(grid, front) }
+    }
+}
+
+impl<K: Kinematics<2>> Fitted<K> {
+    /// Weighs the points on a grid whose geometry this is.
+    fn weigh_on(&self, grid: &Restored<2>, front: &mut Option<Front>) -> Weighing<2> {
         let Restored { mesh, points, parametric, stencil, taking_part, .. } = *grid;
         let mut lost_front = None;
         if let Err(fault) = self.follow(grid, front) {
@@ -276,6 +287,9 @@ mod tests {
             parametric: &parametric,
             stencil: &stencil,
             taking_part: &taking_part,
+            before: (&mesh, &locator),
+            outlines: &[],
+            relaxed: false,
             displacement: None,
         };
         // The cells with points are not all full: the contour it must be.

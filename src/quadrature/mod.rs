@@ -51,6 +51,12 @@ pub struct Restored<'a, const D: usize> {
     pub stencil: &'a Stencil<D>,
     /// The cells of the grid.
     pub taking_part: &'a [bool],
+    /// The grid as it was restored before, on which `displacement` began.
+    pub before: (&'a Mesh<D>, &'a Locator<D>),
+    /// The boundaries of structures that touch the material, as polylines with the structure on their left.
+    pub outlines: &'a [Vec<[f64; D]>],
+    /// Whether the nodes are not where the first shape of the grid has them.
+    pub relaxed: bool,
     /// Displacement (m) of the nodes since the restoration before; `None` in the first one.
     pub displacement: Option<&'a [[f64; D]]>,
 }

@@ -1,6 +1,7 @@
 //! The state as named arrays, for checkpoints, every number bit-exact.
 
 use super::foreign;
+use crate::contact::Multipliers;
 use crate::error::Result;
 use crate::io::checkpoint::Checkpoints;
 use crate::io::columns;
@@ -11,6 +12,7 @@ use crate::step::State;
 use crate::surface::Front;
 
 const POINTS: &str = "points.";
+const FEM: &str = "fem.";
 
 /// Everything in a state.
 pub fn store<const D: usize>(state: &State<D>) -> Store {
@@ -25,9 +27,15 @@ pub fn store<const D: usize>(state: &State<D>) -> Store {
         rows,
         log_lines,
         points,
+        fem,
+        fem_parametric,
+        nodes,
+        multipliers,
         moving,
         parametric,
         displacement,
+        increment,
+        last_step,
         travel,
         pressure,
         velocity,
@@ -44,25 +52,34 @@ pub fn store<const D: usize>(state: &State<D>) -> Store {
         1,
         vec![*phase as u64, *step, *frames, *rows, *log_lines, u64::from(*moving), *restorations],
     );
-    store.put("state.times", 1, vec![*time, *phase_time, *step_size]);
+    store.put("state.times", 1, vec![*time, *phase_time, *step_size, *last_step]);
     store.put("state.parametric", 3, parametric.concat());
-    for (name, field) in
-        [("displacement", displacement), ("travel", travel), ("velocity", velocity), ("acceleration", acceleration)]
-    {
+    store.put("state.fem_parametric", 3, fem_parametric.concat());
+    for (name, field) in [
+        ("displacement", displacement),
+        ("travel", travel),
+        ("velocity", velocity),
+        ("acceleration", acceleration),
+        ("nodes", nodes),
+        ("increment", increment),
+    ] {
         store.put(&format!("state.{name}"), D, field.concat());
     }
     store.put("state.pressure", 1, pressure.clone());
     store.put("state.taking_part", 1, taking_part.iter().map(|&b| u8::from(b)).collect());
     store.put("state.penalised", 1, penalised.iter().map(|&b| u8::from(b)).collect());
     put_weighing(&mut store, weighing);
+    put_multipliers(&mut store, multipliers);
     // Without loops where the surface is not followed.
     let (markers, loops) = front.as_ref().map_or((Vec::new(), Vec::new()), |f| (f.position.concat(), f.first.clone()));
     store.put("front.position", 2, markers);
     store.put("front.first", 1, loops);
     store.put("front.weight", 1, front.iter().map(|f| f.weight).collect());
-    for mut array in columns::to_arrays(points) {
-        array.name.insert_str(0, POINTS);
-        store.put_array(array);
+    for (prefix, points) in [(POINTS, points), (FEM, fem)] {
+        for mut array in columns::to_arrays(points) {
+            array.name.insert_str(0, prefix);
+            store.put_array(array);
+        }
     }
     store
 }
@@ -107,6 +124,32 @@ fn take_weighing<const D: usize>(store: &mut Store) -> Result<Weighing<D>> {
     Ok(Weighing { weight, shift, soft, poor, tally, lost_front: None })
 }
 
+fn put_multipliers(store: &mut Store, pairs: &[Multipliers]) {
+    store.put("contact.pairs", 1, vec![pairs.len() as u64]);
+    for (i, Multipliers { pressure, shear, gap, slip, offset, room, first }) in pairs.iter().enumerate() {
+        for (name, values) in
+            [("pressure", pressure), ("shear", shear), ("gap", gap), ("slip", slip), ("offset", offset)]
+        {
+            store.put(&format!("contact.{i}.{name}"), 1, values.clone());
+        }
+        store.put(&format!("contact.{i}.room"), 1, room.clone());
+        store.put(&format!("contact.{i}.first"), 1, first.clone());
+    }
+}
+
+fn take_multipliers(store: &mut Store) -> Result<Vec<Multipliers>> {
+    let count = store.take::<u64>("contact.pairs", 1)?.first().copied().unwrap_or(0);
+    let pair = |i: u64| {
+        let mut values = |name: &str| store.take::<f64>(&format!("contact.{i}.{name}"), 1);
+        let (pressure, shear, gap) = (values("pressure")?, values("shear")?, values("gap")?);
+        let (slip, offset) = (values("slip")?, values("offset")?);
+        let mut numbers = |name: &str| store.take::<u32>(&format!("contact.{i}.{name}"), 1);
+        let (room, first) = (numbers("room")?, numbers("first")?);
+        Ok(Multipliers { pressure, shear, gap, slip, offset, room, first })
+    };
+    (0..count).map(pair).collect()
+}
+
 /// The state in a checkpoint of the run that began with `first`.
 ///
 /// # Errors
@@ -114,7 +157,7 @@ fn take_weighing<const D: usize>(store: &mut Store) -> Result<Weighing<D>> {
 pub fn take<const D: usize>(mut store: Store, first: &State<D>) -> Result<State<D>> {
     let counts = store.take::<u64>("state.counts", 1)?;
     let times = store.take::<f64>("state.times", 1)?;
-    let ([phase, step, frames, rows, log_lines, moving, restorations], [time, phase_time, step_size]) =
+    let ([phase, step, frames, rows, log_lines, moving, restorations], [time, phase_time, step_size, last_step]) =
         (&counts[..], &times[..])
     else {
         return Err(foreign("its list of counts"));
@@ -125,18 +168,21 @@ pub fn take<const D: usize>(mut store: Store, first: &State<D>) -> Result<State<
         let field: Vec<[f64; D]> = values.chunks_exact(D).map(|v| std::array::from_fn(|d| v[d])).collect();
         if field.len() == nodes || field.is_empty() { Ok(field) } else { Err(foreign(name)) }
     };
-    let (displacement, travel) = (nodal("displacement")?, nodal("travel")?);
-    let (velocity, acceleration) = (nodal("velocity")?, nodal("acceleration")?);
-    let parametric = store.take::<f64>("state.parametric", 3)?.chunks_exact(3).map(|v| [v[0], v[1], v[2]]).collect();
+    let (displacement, travel, increment) = (nodal("displacement")?, nodal("travel")?, nodal("increment")?);
+    let (velocity, acceleration, places) = (nodal("velocity")?, nodal("acceleration")?, nodal("nodes")?);
+    let triples = |values: Vec<f64>| values.chunks_exact(3).map(|v| [v[0], v[1], v[2]]).collect();
+    let parametric: Vec<_> = triples(store.take("state.parametric", 3)?);
+    let fem_parametric = triples(store.take("state.fem_parametric", 3)?);
     let pressure = store.take::<f64>("state.pressure", 1)?;
     let taking_part = store.take::<u8>("state.taking_part", 1)?.into_iter().map(|b| b != 0).collect();
     let penalised = store.take::<u8>("state.penalised", 1)?.into_iter().map(|b| b != 0).collect();
     let weighing = take_weighing(&mut store)?;
+    let multipliers = take_multipliers(&mut store)?;
     let position = store.take::<f64>("front.position", 2)?.chunks_exact(2).map(|x| [x[0], x[1]]).collect();
     let loops = store.take::<u32>("front.first", 1)?;
     let weight = store.take::<f64>("front.weight", 1)?;
     let front = weight.first().map(|&weight| Front { position, first: loops, weight });
-    let points = columns::take(&mut store, POINTS)?;
+    let (points, fem) = (columns::take(&mut store, POINTS)?, columns::take(&mut store, FEM)?);
     let state = State {
         phase: *phase as usize,
         time: *time,
@@ -147,9 +193,15 @@ pub fn take<const D: usize>(mut store: Store, first: &State<D>) -> Result<State<
         rows: *rows,
         log_lines: *log_lines,
         points,
+        fem,
+        fem_parametric,
+        nodes: places,
+        multipliers,
         moving: *moving != 0,
         parametric,
         displacement,
+        increment,
+        last_step: *last_step,
         travel,
         pressure,
         velocity,
@@ -161,6 +213,7 @@ pub fn take<const D: usize>(mut store: Store, first: &State<D>) -> Result<State<
         restorations: *restorations,
     };
     if state.points.len() != first.points.len()
+        || [state.fem.len(), state.fem_parametric.len()] != [first.fem.len(); 2]
         || [state.parametric.len(), state.weighing.weight.len()] != [state.points.len(); 2]
     {
         return Err(foreign("the number of points"));

@@ -1,7 +1,7 @@
 //! What a run writes down: frames, rows of the history, lines of the log.
 
 use crate::io::columns::padded;
-use crate::io::frame::{Column, Frame, Part};
+use crate::io::frame::{CELL, Column, Frame, Part};
 use crate::points::Points;
 use crate::step::{Report, Restore, Scene, State};
 use crate::term::Carried;
@@ -27,6 +27,8 @@ pub enum Quantity {
     Velocity(usize),
     /// Force of the supports and prescribed displacements on the nodes (kN), the sum.
     Reaction(usize),
+    /// Force of what a structure touches on it (kN), the sum.
+    Contact(usize),
 }
 
 /// What is watched.
@@ -57,6 +59,7 @@ pub fn columns(watches: &[Watch]) -> Vec<String> {
                 Quantity::Displacement(d) => format!("{}.u{} [m]", watch.name, AXES[d]),
                 Quantity::Velocity(d) => format!("{}.v{} [m/s]", watch.name, AXES[d]),
                 Quantity::Reaction(d) => format!("{}.reaction_{} [kN]", watch.name, AXES[d]),
+                Quantity::Contact(d) => format!("{}.contact_{} [kN]", watch.name, AXES[d]),
             });
         }
     }
@@ -82,19 +85,23 @@ fn value<const D: usize>(on: &WatchedOn, quantity: Quantity, state: &State<D>, r
         }
         (WatchedOn::Nodes(nodes), Quantity::Reaction(d)) => nodes.iter().map(|&n| report.reaction[n as usize][d]).sum(),
         (WatchedOn::Region(region), Quantity::Displacement(d)) => {
-            let points = &state.points;
-            mean(members(points, *region).map(|p| points.position[p][d] - points.origin[p][d]))
+            mean(members(state, *region).map(|(points, p)| points.position[p][d] - points.origin[p][d]))
         }
         (WatchedOn::Region(region), Quantity::Velocity(d)) => {
-            mean(members(&state.points, *region).map(|p| state.points.velocity.get(p).map_or(0.0, |v| v[d])))
+            mean(members(state, *region).map(|(points, p)| points.velocity.get(p).map_or(0.0, |v| v[d])))
         }
-        // A region has no supports of its own.
-        (WatchedOn::Region(_), Quantity::Reaction(_)) => 0.0,
+        (WatchedOn::Region(region), Quantity::Contact(d)) => {
+            report.contacts.iter().filter(|c| c.structure == *region).map(|c| c.force[d]).sum()
+        }
+        // A region has no supports of its own, a curve no contact.
+        (WatchedOn::Region(_), Quantity::Reaction(_)) | (WatchedOn::Nodes(_), Quantity::Contact(_)) => 0.0,
     }
 }
 
-fn members<const D: usize>(points: &Points<D>, region: u16) -> impl Iterator<Item = usize> {
-    (0..points.len()).filter(move |&p| points.region[p] == region)
+/// The points of a region, of whatever kind.
+fn members<const D: usize>(state: &State<D>, region: u16) -> impl Iterator<Item = (&Points<D>, usize)> {
+    let all = [&state.points, &state.fem].into_iter().flat_map(|points| (0..points.len()).map(move |p| (points, p)));
+    all.filter(move |(points, p)| points.region[*p] == region)
 }
 
 fn mean(values: impl Iterator<Item = f64>) -> f64 {
@@ -104,13 +111,31 @@ fn mean(values: impl Iterator<Item = f64>) -> f64 {
 
 /// The state at one moment.
 pub fn frame<const D: usize>(scene: &Scene<D>, state: &State<D>, fields: &[Field]) -> Frame {
-    let points = &state.points;
-    let column = |name: &str, unit: &str, components, values| Column {
-        name: name.into(),
-        unit: unit.into(),
-        components,
-        values,
+    // A grid that is restored stays where the mesh has it.
+    let grid = if scene.numerics.restore == Restore::EveryStep && scene.fem.is_none() {
+        Part::default()
+    } else {
+        let from = if state.nodes.is_empty() { &scene.mesh.nodes } else { &state.nodes };
+        let x: Vec<[f64; D]> =
+            from.iter().zip(&state.displacement).map(|(x, u)| std::array::from_fn(|d| x[d] + u[d])).collect();
+        let displacement = fields.iter().any(|field| matches!(field, Field::Displacement));
+        let columns = displacement.then(|| column("displacement", "m", 3, padded(&state.displacement)));
+        Part { position: triples(&x), columns: columns.into_iter().collect() }
     };
+    let mut elements = part(&state.fem, fields);
+    elements.columns.push(column(CELL, "-", 1, state.fem.cell.iter().map(|&c| f64::from(c)).collect()));
+    Frame {
+        time: state.time,
+        phase: scene.phases.get(state.phase).map_or_else(String::new, |p| p.name.clone()),
+        step: state.step,
+        points: part(&state.points, fields),
+        grid,
+        elements: if scene.fem.is_some() { elements } else { Part::default() },
+    }
+}
+
+/// The fields of some points.
+fn part<const D: usize>(points: &Points<D>, fields: &[Field]) -> Part {
     let at_rest = vec![[0.0; D]; points.len()];
     let columns = fields.iter().map(|field| match field {
         Field::Displacement => {
@@ -136,28 +161,11 @@ pub fn frame<const D: usize>(scene: &Scene<D>, state: &State<D>, fields: &[Field
             column("pore_pressure", "kPa", 1, (0..points.len()).map(excess).collect())
         }
     });
-    // A grid that is restored stays where the mesh has it.
-    let grid = if scene.numerics.restore == Restore::EveryStep {
-        Part::default()
-    } else {
-        let x: Vec<[f64; D]> = scene
-            .mesh
-            .nodes
-            .iter()
-            .zip(&state.displacement)
-            .map(|(x, u)| std::array::from_fn(|d| x[d] + u[d]))
-            .collect();
-        let displacement = fields.iter().any(|field| matches!(field, Field::Displacement));
-        let columns = displacement.then(|| column("displacement", "m", 3, padded(&state.displacement)));
-        Part { position: triples(&x), columns: columns.into_iter().collect() }
-    };
-    Frame {
-        time: state.time,
-        phase: scene.phases.get(state.phase).map_or_else(String::new, |p| p.name.clone()),
-        step: state.step,
-        points: Part { position: triples(&points.position), columns: columns.collect() },
-        grid,
-    }
+    Part { columns: columns.collect(), position: triples(&points.position) }
+}
+
+fn column(name: &str, unit: &str, components: usize, values: Vec<f64>) -> Column {
+    Column { name: name.into(), unit: unit.into(), components, values }
 }
 
 fn triples<const D: usize>(x: &[[f64; D]]) -> Vec<[f64; 3]> {
@@ -207,6 +215,13 @@ pub fn log_lines<const D: usize>(scene: &Scene<D>, state: &State<D>, report: &Re
             report.motion.angular,
             vector(&report.imbalance)
         ));
+    }
+    for contact in &report.contacts {
+        let force = contact.force.map(|f| format!("{f:.6e}")).join(" ");
+        line.push_str(&format!(" contact {force} kN on {} hats overlap {:.1e} m", contact.hats, contact.overlap));
+        if contact.pushed.points > 0 {
+            line.push_str(&format!(" pushed out {} by {:.1e} m", contact.pushed.points, contact.pushed.most));
+        }
     }
     if report.restored && scene.numerics.restore != Restore::EveryStep {
         line.push_str(" restored");

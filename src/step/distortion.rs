@@ -16,7 +16,7 @@ const STRETCHED: f64 = 1.5;
 /// Whether a cell with points has a quality below the share `least` of its first one, has come near to
 /// folding, or is stretched or squeezed beyond measure.
 pub fn exceeds<const D: usize>(scene: &Scene<D>, state: &State<D>, grid: &Grid<D>, least: f64) -> bool {
-    let mesh = &scene.mesh;
+    let mesh = grid.relaxed.as_ref().map_or(&scene.mesh, |relaxed| &relaxed.mesh);
     grid.stencil.patches.par_iter().any(|patch| {
         let cell = patch.cell as usize;
         let (kind, nodes) = (mesh.cells.kind[cell], mesh.cells.nodes(cell));

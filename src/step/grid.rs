@@ -1,24 +1,37 @@
 //! The grid of a run: which cells take part, the numbering of the unknowns and the stencil of the points.
 //! All of it follows from the scene and the state, and is made anew only as far as they changed.
 
+use super::contact;
+use super::fem::{self, Elements};
 use super::ghost_faces;
 use super::newton::Buffers;
 use super::pressure;
+use super::relax::{self, Relaxed};
 use super::scene::{Fixed, Restore, Scene};
 use super::state::State;
 use crate::error::{Error, Result};
 use crate::kinematics::Kinematics;
 use crate::mesh::Mesh;
+use crate::mesh::locate::Locator;
 use crate::points::Points;
-use crate::quadrature::{Restored, Weighing};
+use crate::quadrature::Restored;
 use crate::stencil::Stencil;
 use crate::system::{Cliques, Matrix, Pattern, Solver, Workspace};
-use crate::term::{Frame, GhostFace};
+use crate::term::{Frame, GhostFace, Touch};
 use rayon::prelude::*;
 
 /// Rings of cells around those with points that take part too, so that points can move on for a while
 /// before the pattern changes.
 const RINGS: usize = 2;
+
+/// Points with the cells they act on: the material points on the grid, or those of the finite elements.
+pub struct Family<'a, const D: usize> {
+    pub mesh: &'a Mesh<D>,
+    pub stencil: &'a Stencil<D>,
+    /// The clique of each cell.
+    pub clique: &'a [u32],
+    pub points: &'a Points<D>,
+}
 
 /// A system of equations over the nodes that take part.
 pub struct System {
@@ -30,8 +43,16 @@ pub struct System {
 /// The grid of a run.
 pub struct Grid<const D: usize> {
     pub stencil: Stencil<D>,
+    /// The grid where finite elements that share nodes with it have moved it; absent where it keeps its first shape.
+    pub relaxed: Option<Relaxed<D>>,
+    /// The finite elements; absent where the scene has none.
+    pub elements: Option<Elements<D>>,
     /// The faces that take a ghost penalty.
     pub ghost: Vec<GhostFace>,
+    /// The hats that face something.
+    pub touches: Vec<Touch<D>>,
+    /// The clique of each hat of each pair that the system has room for, else `u32::MAX`.
+    pub touch_clique: Vec<Vec<u32>>,
     /// The clique of each face that the system has room for a penalty at, else `u32::MAX`; empty without faces.
     face_clique: Vec<u32>,
     /// The clique of each cell and the block of each node; `u32::MAX` for those left out.
@@ -67,13 +88,18 @@ struct Carriers {
 }
 
 impl Carriers {
-    /// Numbers the unknowns of `cells`, whose cliques come first in `cliques` and in their order, after `nodes`
-    /// blocks.
-    fn new<const D: usize>(mesh: &Mesh<D>, cells: &[u32], nodes: usize, cliques: &Cliques) -> Self {
-        let mut block = vec![u32::MAX; mesh.nodes.len() + mesh.cells.len()];
-        for &c in cells {
-            for unknown in pressure::unknowns_of(mesh, c as usize) {
-                block[unknown as usize] = 0;
+    /// Numbers the unknowns of `families` (meshes, where their constants begin, and their cells with unknowns, whose
+    /// cliques `clique` tells) after `nodes` blocks.
+    fn new<const D: usize>(families: &[Carrying<D>], nodes: usize, cliques: &Cliques) -> Self {
+        let most = families.iter().map(|f| f.constants + f.mesh.cells.len()).max().unwrap_or(0);
+        let mut block = vec![u32::MAX; most];
+        let mut of_clique: Vec<Option<(usize, u32)>> = vec![None; cliques.len()];
+        for (i, family) in families.iter().enumerate() {
+            for &c in family.cells {
+                of_clique[family.clique[c as usize] as usize] = Some((i, c));
+                for unknown in family.unknowns(c) {
+                    block[unknown as usize] = 0;
+                }
             }
         }
         let mut carrier = Vec::new();
@@ -82,12 +108,26 @@ impl Carriers {
             carrier.push(unknown);
         }
         let mut extended = Cliques::default();
-        for k in 0..cliques.len() {
+        for (k, of) in of_clique.iter().enumerate() {
             let own = cliques.blocks(k).iter().copied();
-            let carriers = cells.get(k).into_iter().flat_map(|&c| pressure::unknowns_of(mesh, c as usize));
+            let carriers = of.iter().flat_map(|&(i, c)| families[i].unknowns(c));
             extended.push(own.chain(carriers.map(|unknown| block[unknown as usize])));
         }
         Self { carrier, cliques: extended }
+    }
+}
+
+/// Cells with unknowns of pressure.
+struct Carrying<'a, const D: usize> {
+    mesh: &'a Mesh<D>,
+    constants: usize,
+    cells: &'a [u32],
+    clique: &'a [u32],
+}
+
+impl<const D: usize> Carrying<'_, D> {
+    fn unknowns(&self, cell: u32) -> impl Iterator<Item = u32> {
+        pressure::unknowns_of(self.mesh, self.constants, cell as usize)
     }
 }
 
@@ -97,10 +137,11 @@ impl<const D: usize> Grid<D> {
     /// # Errors
     /// A machine error when memory does not suffice.
     pub fn new<K: Kinematics<D>>(scene: &Scene<D>, state: &State<D>) -> Result<Self> {
+        let relaxed = relax::at(scene, state);
         let mut stencil = Stencil::default();
-        fill::<D, K>(&mut stencil, scene, state);
+        fill::<D, K>(&mut stencil, scene, relaxed.as_ref().map_or(&scene.mesh, |r| &r.mesh), state);
         stencil.weigh(&state.weighing.weight, &state.weighing.shift);
-        Self::with(scene, state, stencil)
+        Self::with::<K>(scene, state, stencil, relaxed)
     }
 
     /// The grid in its first shape, with the points on it.
@@ -112,8 +153,15 @@ impl<const D: usize> Grid<D> {
         if scene.terms.iter().any(|term| term.sees_flow()) {
             state.points.plastic_increment.resize(state.points.len(), 0.0);
         }
-        begin_anew::<D, K>(scene, state, &mut stencil)?;
-        Self::with(scene, state, stencil)
+        let mut relaxed = None;
+        begin_anew::<D, K>(scene, state, &mut stencil, &mut relaxed)?;
+        let grid = Self::with::<K>(scene, state, stencil, relaxed)?;
+        if let (Some(elements), Some(_)) = (&grid.elements, scene.pressure_unit) {
+            let constants = scene.mesh.nodes.len() + scene.mesh.cells.len();
+            let Elements { mesh, stencil, .. } = elements;
+            pressure::gather::<D, K>(mesh, stencil, &state.fem, constants, &mut state.pressure);
+        }
+        Ok(grid)
     }
 
     /// Restores the grid.
@@ -121,16 +169,24 @@ impl<const D: usize> Grid<D> {
     /// # Errors
     /// As [`Grid::first`].
     pub fn restore<K: Kinematics<D>>(&mut self, scene: &Scene<D>, state: &mut State<D>) -> Result<()> {
-        if begin_anew::<D, K>(scene, state, &mut self.stencil)? {
-            *self = Self::with(scene, state, std::mem::take(&mut self.stencil))?;
+        if begin_anew::<D, K>(scene, state, &mut self.stencil, &mut self.relaxed)? {
+            *self = Self::with::<K>(scene, state, std::mem::take(&mut self.stencil), self.relaxed.take())?;
         } else {
+            if let Some(elements) = &mut self.elements {
+                elements.place::<K>(state);
+            }
             self.penalise(scene, state);
         }
         Ok(())
     }
 
     /// The grid for a stencil.
-    fn with(scene: &Scene<D>, state: &State<D>, stencil: Stencil<D>) -> Result<Self> {
+    pub fn with<K: Kinematics<D>>(
+        scene: &Scene<D>,
+        state: &State<D>,
+        stencil: Stencil<D>,
+        relaxed: Option<Relaxed<D>>,
+    ) -> Result<Self> {
         let mesh = &scene.mesh;
         let (mut clique, mut block) = (vec![u32::MAX; mesh.cells.len()], vec![u32::MAX; mesh.nodes.len()]);
         let (mut cliques, mut node) = (Cliques::default(), Vec::new());
@@ -139,6 +195,9 @@ impl<const D: usize> Grid<D> {
                 block[n as usize] = 0;
             }
         }
+        for &n in scene.fem.iter().flat_map(|fem| &fem.mesh.cells.nodes) {
+            block[n as usize] = 0;
+        }
         for (n, block) in block.iter_mut().enumerate().filter(|(_, b)| **b == 0) {
             *block = node.len() as u32;
             node.push(n as u32);
@@ -146,6 +205,10 @@ impl<const D: usize> Grid<D> {
         let cells: Vec<u32> = (0u32..).zip(&state.taking_part).filter(|(_, part)| **part).map(|(c, _)| c).collect();
         for &c in &cells {
             clique[c as usize] = cliques.push(mesh.cells.nodes(c as usize).iter().map(|&n| block[n as usize]));
+        }
+        let mut elements = scene.fem.as_ref().map(|fem| Elements::new::<K>(fem, state));
+        if let Some(elements) = &mut elements {
+            elements.couple(&block, &mut cliques);
         }
         let cells_only = cliques.clone();
         let mut face_clique = Vec::new();
@@ -160,8 +223,19 @@ impl<const D: usize> Grid<D> {
         let dynamic = scene.phases.iter().any(|p| p.dynamic);
         let mass = if dynamic { Some(System::new(&vec![1; node.len()], cliques.clone(), true)?) } else { None };
         // The mass always takes a penalty on faces, the motion only where a term says so.
-        let cliques = if scene.terms.iter().any(|t| t.penalises_faces()) { cliques } else { cells_only };
-        let with_pressure = scene.pressure_unit.map(|_| Carriers::new(mesh, &cells, node.len(), &cliques));
+        let mut cliques = if scene.terms.iter().any(|t| t.penalises_faces()) { cliques } else { cells_only };
+        let touch_clique = contact::couple(state, &block, &mut cliques);
+        let with_pressure = scene.pressure_unit.map(|_| {
+            let constants = mesh.nodes.len();
+            let mut families = vec![Carrying { mesh, constants, cells: &cells, clique: &clique }];
+            families.extend(elements.iter().map(|elements| Carrying {
+                mesh: &elements.mesh,
+                constants: constants + mesh.cells.len(),
+                cells: &elements.cells,
+                clique: &elements.clique,
+            }));
+            Carriers::new(&families, node.len(), &cliques)
+        });
         let symmetric = scene.terms.iter().all(|t| t.symmetric());
         let mut sizes = vec![D as u8; node.len()];
         let (motion, carrier) = match with_pressure {
@@ -175,7 +249,11 @@ impl<const D: usize> Grid<D> {
         };
         let mut grid = Self {
             stencil,
+            relaxed,
+            elements,
             ghost: Vec::new(),
+            touches: Vec::new(),
+            touch_clique,
             face_clique,
             clique,
             block,
@@ -202,19 +280,49 @@ impl<const D: usize> Grid<D> {
         }));
     }
 
-    /// What the terms see.
-    pub fn frame<'a>(&'a self, mesh: &'a Mesh<D>, points: &'a Points<D>, weighing: &'a Weighing<D>) -> Frame<'a, D> {
+    /// What the terms of the scene see.
+    pub fn frame<'a>(&'a self, mesh: &'a Mesh<D>, state: &'a State<D>) -> Frame<'a, D> {
         Frame {
             mesh,
             stencil: &self.stencil,
-            soft: &weighing.soft,
+            soft: &state.weighing.soft,
             ghost: &self.ghost,
+            touches: &self.touches,
             cells: &self.cells,
-            points,
+            constants: mesh.nodes.len(),
+            points: &state.points,
             pattern: &self.motion.pattern,
             clique: &self.clique,
             block: &self.block,
         }
+    }
+
+    /// What the terms of the finite elements see.
+    pub fn frame_of_elements<'a>(
+        &'a self,
+        scene: &Scene<D>,
+        elements: &'a Elements<D>,
+        state: &'a State<D>,
+    ) -> Frame<'a, D> {
+        Frame {
+            mesh: &elements.mesh,
+            stencil: &elements.stencil,
+            soft: &[],
+            ghost: &[],
+            touches: &[],
+            cells: &elements.cells,
+            constants: scene.mesh.nodes.len() + scene.mesh.cells.len(),
+            points: &state.fem,
+            pattern: &self.motion.pattern,
+            clique: &elements.clique,
+            block: &self.block,
+        }
+    }
+
+    /// All that carries mass.
+    pub fn families<'a>(&'a self, scene: &'a Scene<D>, state: &'a State<D>) -> impl Iterator<Item = Family<'a, D>> {
+        let soil = Family { mesh: &scene.mesh, stencil: &self.stencil, clique: &self.clique, points: &state.points };
+        std::iter::once(soil).chain(self.elements.iter().map(|elements| elements.family(&state.fem)))
     }
 }
 
@@ -227,13 +335,25 @@ fn begin_anew<const D: usize, K: Kinematics<D>>(
     scene: &Scene<D>,
     state: &mut State<D>,
     stencil: &mut Stencil<D>,
+    relaxed: &mut Option<Relaxed<D>>,
 ) -> Result<bool> {
-    locate_points(scene, state)?;
+    let nodes = state.nodes.clone();
+    let placed = place(scene, state, relaxed);
+    if placed.is_err() {
+        // The displacement is still that of the last converged step.
+        state.nodes = nodes;
+    }
+    let before = placed?;
+    let (mesh, locator) = relaxed.as_ref().map_or((&scene.mesh, &scene.locator), |r| (&r.mesh, &r.locator));
     let changed = choose_cells(scene, state);
-    fill::<D, K>(stencil, scene, state);
+    let outlines = contact::outlines(scene, state);
+    fill::<D, K>(stencil, scene, mesh, state);
     let grid = Restored {
-        mesh: &scene.mesh,
-        locator: &scene.locator,
+        mesh,
+        locator,
+        before: before.as_ref().map_or((&scene.mesh, &scene.locator), |r| (&r.mesh, &r.locator)),
+        outlines: &outlines,
+        relaxed: relaxed.is_some(),
         points: &state.points,
         parametric: &state.parametric,
         stencil,
@@ -252,7 +372,8 @@ fn begin_anew<const D: usize, K: Kinematics<D>>(
     }
     stencil.weigh(&state.weighing.weight, &state.weighing.shift);
     if scene.pressure_unit.is_some() {
-        pressure::gather::<D, K>(&scene.mesh, stencil, state);
+        let nodes = scene.mesh.nodes.len();
+        pressure::gather::<D, K>(&scene.mesh, stencil, &state.points, nodes, &mut state.pressure);
     }
     if let Some(faces) = &scene.faces {
         let chosen = ghost_faces::choose(scene, state);
@@ -261,17 +382,38 @@ fn begin_anew<const D: usize, K: Kinematics<D>>(
     Ok(changed)
 }
 
+/// Moves the nodes to where the restored grid has them, and finds the points on it. Returns the grid before.
+///
+/// # Errors
+/// When a cell of the grid is folded, or a point lies outside it.
+fn place<const D: usize>(
+    scene: &Scene<D>,
+    state: &mut State<D>,
+    relaxed: &mut Option<Relaxed<D>>,
+) -> Result<Option<Relaxed<D>>> {
+    fem::keep_shape(scene, state);
+    let before = std::mem::replace(relaxed, relax::relax(scene, state)?);
+    let (mesh, locator) = relaxed.as_ref().map_or((&scene.mesh, &scene.locator), |r| (&r.mesh, &r.locator));
+    locate_points(mesh, locator, state)?;
+    Ok(before)
+}
+
 /// Fills the stencil for the points where they were last located.
-fn fill<const D: usize, K: Kinematics<D>>(stencil: &mut Stencil<D>, scene: &Scene<D>, state: &State<D>) {
+fn fill<const D: usize, K: Kinematics<D>>(
+    stencil: &mut Stencil<D>,
+    scene: &Scene<D>,
+    mesh: &Mesh<D>,
+    state: &State<D>,
+) {
     let (cell, scheme) = (&state.points.cell, scene.numerics.scheme);
-    stencil.fill::<K>(scheme, &scene.mesh, cell, &state.parametric, &state.taking_part);
+    stencil.fill::<K>(scheme, mesh, cell, &state.parametric, &state.taking_part);
 }
 
 /// Finds the cell of every point of the restored grid.
 ///
 /// # Errors
 /// An analysis error that names the first point outside the grid.
-fn locate_points<const D: usize>(scene: &Scene<D>, state: &mut State<D>) -> Result<()> {
+fn locate_points<const D: usize>(mesh: &Mesh<D>, locator: &Locator<D>, state: &mut State<D>) -> Result<()> {
     let points = &mut state.points;
     let position = &points.position;
     state.parametric.resize(position.len(), [0.0; 3]);
@@ -280,7 +422,7 @@ fn locate_points<const D: usize>(scene: &Scene<D>, state: &mut State<D>) -> Resu
         .par_iter_mut()
         .zip(&mut state.parametric)
         .enumerate()
-        .filter_map(|(p, (cell, parametric))| match scene.locator.locate(&scene.mesh, &position[p], Some(*cell)) {
+        .filter_map(|(p, (cell, parametric))| match locator.locate(mesh, &position[p], Some(*cell)) {
             Some((c, xi)) => {
                 (*cell, *parametric) = (c, xi);
                 None
@@ -291,7 +433,7 @@ fn locate_points<const D: usize>(scene: &Scene<D>, state: &mut State<D>) -> Resu
     match lost {
         None => Ok(()),
         Some(p) => {
-            let region = scene.mesh.regions.get(points.region[p] as usize).map_or("", String::as_str);
+            let region = mesh.regions.get(points.region[p] as usize).map_or("", String::as_str);
             Err(Error::analysis(
                 format!("material point {p} ({region})"),
                 format!("it left the grid at {:.4?} m", position[p]),

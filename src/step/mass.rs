@@ -9,7 +9,7 @@
 //! `ε ρ h² ∫ ∇N_I·∇N_J` in cells with fewer points than nodes decides these, and a second solution that takes it
 //! back to the first one (iterated Tikhonov regularisation) removes it from all that the points do determine.
 
-use super::grid::{Grid, System};
+use super::grid::{Family, Grid, System};
 use super::scene::Scene;
 use super::state::State;
 use crate::error::{Error, Result};
@@ -47,32 +47,35 @@ impl<'a> Mass<'a> {
         grid: &'a mut Grid<D>,
         state: &State<D>,
     ) -> Result<Self> {
-        let points = &state.points;
         let Some(system) = grid.mass.as_mut() else {
             return Err(Error::analysis("transfer", "a scene without dynamic phases has no mass system", ""));
         };
         system.matrix.clear();
         let mut unused = vec![0.0; system.pattern.len()];
         let (stencil, clique) = (&grid.stencil, &grid.clique);
-        scatter(
-            &system.pattern,
-            &stencil.patches,
-            |patch| clique[patch.cell as usize] as usize,
-            |patch, local| {
-                for entries in stencil.entries::<K>(patch) {
-                    let m = points.mass[entries.point];
-                    for (i, ni) in entries.value.iter().enumerate() {
-                        for (j, nj) in entries.value.iter().enumerate() {
-                            local.matrix[i * local.size + j] += m * ni * nj;
+        let soil = Family { mesh: &scene.mesh, stencil, clique, points: &state.points };
+        let elements = grid.elements.iter().map(|elements| elements.family(&state.fem));
+        for Family { stencil, clique, points, .. } in std::iter::once(soil).chain(elements) {
+            scatter(
+                &system.pattern,
+                &stencil.patches,
+                |patch| clique[patch.cell as usize] as usize,
+                |patch, local| {
+                    for entries in stencil.entries::<K>(patch) {
+                        let m = points.mass[entries.point];
+                        for (i, ni) in entries.value.iter().enumerate() {
+                            for (j, nj) in entries.value.iter().enumerate() {
+                                local.matrix[i * local.size + j] += m * ni * nj;
+                            }
                         }
                     }
-                }
-                Ok(())
-            },
-            &mut unused,
-            Some(&mut system.matrix),
-            &mut grid.workspace,
-        )?;
+                    Ok(())
+                },
+                &mut unused,
+                Some(&mut system.matrix),
+                &mut grid.workspace,
+            )?;
+        }
         scatter(
             &system.pattern,
             &grid.ghost,

@@ -4,24 +4,28 @@
 //! points on it and maps their motion to its nodes. *Lagrange* solves the equations of motion on the grid,
 //! implicitly. *Convect* moves the points with the grid and hands them its motion and the converged state.
 
+mod contact;
 mod control;
 mod distortion;
+mod fem;
 mod ghost_faces;
 mod grid;
 mod mass;
 mod newton;
 mod pressure;
+mod relax;
 mod report;
 mod scene;
 mod state;
 mod transfer;
 mod unknowns;
 
+pub use contact::Resultant;
 pub use control::{Controller, Limits};
 pub use grid::Grid;
 pub use newton::Solution;
 pub use report::Report;
-pub use scene::{Fixed, Numerics, Phase, Prescribed, Restore, Scene, Stop};
+pub use scene::{Fem, Fixed, Numerics, Phase, Prescribed, Restore, Scene, Stop};
 pub use state::State;
 
 use crate::error::{Kind, Result};
@@ -74,9 +78,10 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
     pub fn advance(&mut self, controller: &mut Controller) -> Result<Report<D>> {
         let before = self.state.restorations;
         let mut fresh = timed(Activity::Transfer, || self.initialise(false))?;
+        let mut guess = true;
         let (dt, start, solution) = loop {
             let dt = controller.size(self.state.phase_time);
-            match self.lagrange(dt) {
+            match self.lagrange(dt, std::mem::take(&mut guess)) {
                 Ok((start, solution)) => break (dt, start, solution),
                 Err(error) if error.kind == Kind::Analysis => {
                     if fresh {
@@ -109,6 +114,7 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
         if restore {
             self.grid.restore::<K>(scene, state)?;
         }
+        contact::begin::<D, K>(scene, &mut self.grid, state)?;
         if scene.phases[state.phase].dynamic && (restore || !state.moving) {
             transfer::motion_to_grid::<D, K>(scene, &mut self.grid, state)?;
         }
@@ -116,17 +122,20 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
     }
 
     /// The solution on the grid and, with inertia, the motion that it starts from.
-    fn lagrange(&mut self, dt: f64) -> Result<(Option<Start<D>>, Solution<D>)> {
+    /// Where nodes go on as they did, they are a good `guess` of the end of the step.
+    fn lagrange(&mut self, dt: f64, guess: bool) -> Result<(Option<Start<D>>, Solution<D>)> {
         let (scene, state) = (self.scene, &self.state);
         let phase = &scene.phases[state.phase];
         let given = grid::given_increments(scene, state, &self.grid, dt);
         let start = phase.dynamic.then(|| Start::of(&self.grid, state, &given, dt));
         let (velocity, acceleration): (&[_], &[_]) =
             start.as_ref().map_or((&[], &[]), |s| (&s.velocity, &s.acceleration));
+        let guess = (guess && state.last_step > 0.0 && !phase.dynamic && !scene.pairs.is_empty())
+            .then(|| going_on(state, dt / state.last_step));
         let problem = Problem {
             scene,
-            points: &state.points,
-            weighing: &state.weighing,
+            state,
+            guess: guess.as_deref(),
             converged: &state.displacement,
             pressure: &state.pressure,
             velocity,
@@ -144,7 +153,8 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
     /// Grid to points.
     fn convect(&mut self, dt: f64, start: Option<Start<D>>, solution: Solution<D>) -> Result<Report<D>> {
         let (scene, state) = (self.scene, &mut self.state);
-        let mut momentum = report::Motion::of(&state.points).linear;
+        let mut momentum = report::Motion::of(state).linear;
+        let mut contacts = contact::commit(scene, &self.grid, state, &solution);
         transfer::commit(scene, &self.grid, state, &solution)?;
         transfer::move_points::<D, K>(scene, &self.grid, state, &solution.displacement);
         if let Some(start) = &start {
@@ -152,18 +162,27 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
             momentum = std::array::from_fn(|d| momentum[d] + impulse[d]);
             transfer::motion_to_points::<D, K>(scene, &self.grid, state, start, &solution.displacement, dt);
         }
-        for (travel, (now, before)) in
-            state.travel.iter_mut().zip(solution.displacement.iter().zip(&state.displacement))
-        {
+        state.increment.resize(solution.displacement.len(), [0.0; D]);
+        let ends = solution.displacement.iter().zip(&state.displacement);
+        for ((travel, increment), (now, before)) in state.travel.iter_mut().zip(&mut state.increment).zip(ends) {
             for d in 0..D {
-                travel[d] += now[d] - before[d];
+                increment[d] = now[d] - before[d];
+                travel[d] += increment[d];
             }
         }
+        state.last_step = dt;
         state.displacement.clone_from(&solution.displacement);
         state.pressure.clone_from(&solution.pressure);
+        contact::push_out(scene, state, &mut contacts);
         state.step += 1;
         state.time += dt;
         state.phase_time += dt;
-        Ok(Report::new(scene, state, &self.grid, dt, solution, &momentum))
+        Ok(Report { contacts, ..Report::new(scene, state, &self.grid, dt, solution, &momentum) })
     }
+}
+
+/// The displacement (m) of the nodes after `share` times their last increment.
+fn going_on<const D: usize>(state: &State<D>, share: f64) -> Vec<[f64; D]> {
+    let ends = state.displacement.iter().zip(&state.increment);
+    ends.map(|(u, by)| std::array::from_fn(|d| u[d] + share * by[d])).collect()
 }

@@ -1,12 +1,11 @@
 //! Newton's method for one step, with a backtracking line search.
 
-use super::grid::Grid;
+use super::grid::{Family, Grid};
 use super::scene::Scene;
+use super::state::State;
 use super::unknowns::Unknowns;
 use crate::error::{Error, Result};
-use crate::points::Points;
 use crate::profile::{Activity, timed};
-use crate::quadrature::Weighing;
 use crate::stencil::cell_size;
 use crate::system::Method;
 use crate::term::{Assembly, Role, Trial};
@@ -28,8 +27,9 @@ const ROUNDING: f64 = 1e-14;
 /// What is to be solved.
 pub struct Problem<'a, const D: usize> {
     pub scene: &'a Scene<D>,
-    pub points: &'a Points<D>,
-    pub weighing: &'a Weighing<D>,
+    pub state: &'a State<D>,
+    /// Displacement (m) of the nodes that the iteration begins with, if not the converged one.
+    pub guess: Option<&'a [[f64; D]]>,
     /// State of the nodes at the last converged step.
     pub converged: &'a [[f64; D]],
     /// The pressure field (kPa) there; empty without one.
@@ -147,7 +147,7 @@ impl<'a, const D: usize> Newton<'a, D> {
     }
 
     fn solve(&mut self) -> Result<Solution<D>> {
-        self.evaluate(true)?;
+        self.begin()?;
         self.note();
         while !self.converged() {
             self.direction()?;
@@ -163,6 +163,18 @@ impl<'a, const D: usize> Newton<'a, D> {
             applied: now.applied,
             method: self.method,
         })
+    }
+
+    /// The state that the iteration begins with.
+    fn begin(&mut self) -> Result<()> {
+        if let Some(guess) = self.problem.guess {
+            self.buffers.now.at.set(guess, self.problem.pressure);
+            if self.evaluate(true).is_ok() {
+                return Ok(());
+            }
+            self.buffers.now.at.set(self.problem.converged, self.problem.pressure);
+        }
+        self.evaluate(true)
     }
 
     /// The residual of the state at hand, and its tangent where wanted.
@@ -340,9 +352,12 @@ fn forcing(history: &[f64], tolerance: f64) -> f64 {
 /// A force (kN) below which nothing counts: rounding in stresses of the order of the stiffness, on the sides of a
 /// typical cell, which are four times its volume over its diagonal (in axisymmetry those of its ring).
 fn floor<const D: usize>(problem: &Problem<D>, grid: &Grid<D>) -> f64 {
-    let cells = grid.stencil.patches.iter().map(|patch| cell_size(&problem.scene.mesh, patch.cell as usize));
-    let volume: f64 = problem.points.initial_volume.iter().sum();
-    let side = 4.0 * volume / cells.sum::<f64>();
+    let (mut volume, mut size) = (0.0, 0.0);
+    for Family { mesh, stencil, points, .. } in grid.families(problem.scene, problem.state) {
+        volume += points.initial_volume.iter().sum::<f64>();
+        size += stencil.patches.iter().map(|patch| cell_size(mesh, patch.cell as usize)).sum::<f64>();
+    }
+    let side = 4.0 * volume / size;
     1e-6 * problem.scene.stiffness_scale * side * (problem.given.len() as f64).sqrt()
 }
 
@@ -421,17 +436,21 @@ fn add_terms<const D: usize>(
     if tangent {
         matrix.clear();
     }
-    let frame = grid.frame(&problem.scene.mesh, problem.points, problem.weighing);
-    let (equations, of_nodes) = (frame.pattern.len(), D * grid.node.len());
+    let scene = problem.scene;
+    let (equations, of_nodes) = (grid.motion.pattern.len(), D * grid.node.len());
     sum.force.clear();
     sum.force.resize(equations, 0.0);
     (sum.applied, sum.scale) = ([0.0; D], 0.0);
     own.resize(equations, 0.0);
+    let soil = grid.frame(&scene.mesh, problem.state);
+    let elements = grid.elements.as_ref().map(|elements| grid.frame_of_elements(scene, elements, problem.state));
+    let of_elements = scene.fem.iter().flat_map(|fem| &fem.terms).zip(elements.iter().cycle());
+    let terms = scene.terms.iter().map(|term| (term, &soil)).chain(of_elements);
     let mut result = Ok(());
-    for term in problem.scene.terms.iter().filter(|t| wanted(t.role())) {
+    for (term, frame) in terms.filter(|(term, _)| wanted(term.role())) {
         own.fill(0.0);
         let mut out = Assembly { force: own, tangent: tangent.then_some(&mut matrix), workspace: &mut workspace };
-        result = term.assemble(&frame, trial, &mut out);
+        result = term.assemble(frame, trial, &mut out);
         if result.is_err() {
             break;
         }

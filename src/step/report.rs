@@ -1,11 +1,13 @@
 //! What a step reports: for the log, the history and the progress.
 
+use super::contact::Resultant;
 use super::grid::Grid;
 use super::newton::Solution;
 use super::scene::Scene;
 use super::state::State;
 use crate::points::Points;
 use crate::system::Method;
+use crate::term::Term;
 
 /// Mass and momentum of the points.
 #[derive(Clone, Debug, PartialEq)]
@@ -21,20 +23,27 @@ pub struct Motion<const D: usize> {
 }
 
 impl<const D: usize> Motion<D> {
-    pub fn of(points: &Points<D>) -> Self {
+    /// That of the material points and the finite elements.
+    pub fn of(state: &State<D>) -> Self {
         let mut motion = Self { mass: 0.0, linear: [0.0; D], angular: 0.0, kinetic: 0.0 };
+        for points in [&state.points, &state.fem] {
+            motion.add(points);
+        }
+        motion
+    }
+
+    fn add(&mut self, points: &Points<D>) {
         for (p, &m) in points.mass.iter().enumerate() {
-            motion.mass += m;
+            self.mass += m;
             if let Some(v) = points.velocity.get(p) {
                 let x = &points.position[p];
                 for d in 0..D {
-                    motion.linear[d] += m * v[d];
-                    motion.kinetic += 0.5 * m * v[d] * v[d];
+                    self.linear[d] += m * v[d];
+                    self.kinetic += 0.5 * m * v[d] * v[d];
                 }
-                motion.angular += m * (x[0] * v[1] - x[1] * v[0]);
+                self.angular += m * (x[0] * v[1] - x[1] * v[0]);
             }
         }
-        motion
     }
 }
 
@@ -57,6 +66,8 @@ pub struct Report<const D: usize> {
     pub elastic: f64,
     /// Potential energy (kJ) of gravity at its full factor.
     pub potential: f64,
+    /// What the pairs in contact exerted.
+    pub contacts: Vec<Resultant<D>>,
     /// Force of the supports on the nodes (kN): zero at nodes without.
     pub reaction: Vec<[f64; D]>,
 }
@@ -71,7 +82,7 @@ impl<const D: usize> Report<D> {
         solution: Solution<D>,
         before: &[f64; D],
     ) -> Self {
-        let motion = Motion::of(&state.points);
+        let motion = Motion::of(state);
         let mut reaction = vec![[0.0; D]; scene.mesh.nodes.len()];
         for fixed in scene.fixed(state.phase) {
             for &n in &fixed.nodes {
@@ -85,6 +96,8 @@ impl<const D: usize> Report<D> {
         let dynamic = scene.phases[state.phase].dynamic;
         let imbalance = std::array::from_fn(|d| if dynamic { motion.linear[d] - before[d] - impulse(d) } else { 0.0 });
         let fall = |(x, m): (&[f64; D], &f64)| -m * (0..D).map(|d| scene.gravity[d] * x[d]).sum::<f64>();
+        let energy =
+            |terms: &[Box<dyn Term<D>>], points: &Points<D>| terms.iter().map(|t| t.energy(points)).sum::<f64>();
         Self {
             dt,
             residuals: solution.history,
@@ -92,9 +105,11 @@ impl<const D: usize> Report<D> {
             restored: false,
             halvings: Vec::new(),
             imbalance,
-            elastic: scene.terms.iter().map(|t| t.energy(&state.points)).sum(),
-            potential: state.points.position.iter().zip(&state.points.mass).map(fall).sum(),
+            elastic: energy(&scene.terms, &state.points)
+                + scene.fem.as_ref().map_or(0.0, |fem| energy(&fem.terms, &state.fem)),
+            potential: [&state.points, &state.fem].iter().flat_map(|p| p.position.iter().zip(&p.mass)).map(fall).sum(),
             motion,
+            contacts: Vec::new(),
             reaction,
         }
     }

@@ -1,5 +1,6 @@
 //! A scene: everything that does not change while it is solved.
 
+use crate::contact::Pair;
 use crate::mesh::Mesh;
 use crate::mesh::faces::Faces;
 use crate::mesh::locate::Locator;
@@ -14,6 +15,10 @@ pub struct Scene<const D: usize> {
     pub locator: Locator<D>,
     /// The terms of the equations; what the scene does not use is absent.
     pub terms: Vec<Box<dyn Term<D>>>,
+    /// The finite elements beside the points, where there are any.
+    pub fem: Option<Fem<D>>,
+    /// The structures and what they touch.
+    pub pairs: Vec<Box<dyn Pair<D>>>,
     /// The faces between the cells; absent where none takes a ghost penalty, on displacement or on mass.
     pub faces: Option<Faces>,
     /// What the points weigh in integrals.
@@ -38,6 +43,17 @@ impl<const D: usize> Scene<D> {
     pub fn fixed(&self, phase: usize) -> impl Iterator<Item = &Fixed> {
         self.supports.iter().chain(self.phases[phase].prescribed.iter().map(|p| &p.fixed))
     }
+}
+
+/// Finite elements: structures, and regions of soil that share nodes with the grid. They keep their points, at the
+/// places of a quadrature rule, and go on from the shape they have (updated Lagrangian).
+pub struct Fem<const D: usize> {
+    /// Their cells; the nodes are those of [`Scene::mesh`], by number.
+    pub mesh: Mesh<D>,
+    /// Whether each cell has unknowns of a pressure field.
+    pub with_pressure: Vec<bool>,
+    /// Their terms, as [`Scene::terms`].
+    pub terms: Vec<Box<dyn Term<D>>>,
 }
 
 /// Nodes held in one direction.

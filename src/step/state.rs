@@ -1,5 +1,6 @@
 //! The state of a run: all that a checkpoint holds. Everything else follows from it and the scene.
 
+use crate::contact::Multipliers;
 use crate::points::Points;
 use crate::quadrature::Weighing;
 use crate::surface::Front;
@@ -23,6 +24,14 @@ pub struct State<const D: usize> {
     /// Lines of the log written so far.
     pub log_lines: u64,
     pub points: Points<D>,
+    /// The points of the finite elements, and where they are in them; empty without.
+    pub fem: Points<D>,
+    pub fem_parametric: Vec<[f64; 3]>,
+    /// Coordinates (m) of the nodes when the grid was last restored; empty without finite elements, which alone
+    /// change them.
+    pub nodes: Vec<[f64; D]>,
+    /// What the hats of each pair in contact carry.
+    pub multipliers: Vec<Multipliers>,
     /// Whether the velocities and accelerations of the points are those of the motion: false until the first
     /// dynamic step has computed the accelerations from the forces.
     pub moving: bool,
@@ -30,6 +39,9 @@ pub struct State<const D: usize> {
     pub parametric: Vec<[f64; 3]>,
     /// Displacement (m) of the nodes since the last restoration.
     pub displacement: Vec<[f64; D]>,
+    /// What the last step added to it, and the size (s) of that step; empty where no step begins with a guess.
+    pub increment: Vec<[f64; D]>,
+    pub last_step: f64,
     /// Displacement (m) of the nodes since the run began: what passes a node of a grid that is restored.
     pub travel: Vec<[f64; D]>,
     /// The pressure field (kPa, tension positive) by node, at the corners of cells, then the constant of each cell;
@@ -63,9 +75,15 @@ impl<const D: usize> State<D> {
             rows: 0,
             log_lines: 0,
             points,
+            fem: Points::default(),
+            fem_parametric: Vec::new(),
+            nodes: Vec::new(),
+            multipliers: Vec::new(),
             moving: false,
             parametric: Vec::new(),
             displacement: vec![[0.0; D]; nodes],
+            increment: Vec::new(),
+            last_step: 0.0,
             travel: vec![[0.0; D]; nodes],
             pressure: Vec::new(),
             velocity: Vec::new(),
@@ -81,8 +99,10 @@ impl<const D: usize> State<D> {
     /// Forgets the motion, at the end of a dynamic phase before a quasi-static one.
     pub fn rest(&mut self) {
         self.moving = false;
-        self.points.velocity.clear();
-        self.points.acceleration.clear();
+        for points in [&mut self.points, &mut self.fem] {
+            points.velocity.clear();
+            points.acceleration.clear();
+        }
         self.velocity.clear();
         self.acceleration.clear();
     }

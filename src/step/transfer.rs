@@ -3,7 +3,7 @@
 //! To the grid by consistent mass, `Σ_p m_p N_I N_J v_J = Σ_p m_p N_I v_p`: it keeps linear and angular momentum
 //! and a linear velocity field exactly. To the points by increments of velocity (FLIP) and values of acceleration.
 
-use super::grid::Grid;
+use super::grid::{Family, Grid};
 use super::mass::Mass;
 use super::newton::{Problem, Solution, static_force};
 use super::scene::Scene;
@@ -11,7 +11,7 @@ use super::state::State;
 use crate::error::Result;
 use crate::kinematics::Kinematics;
 use crate::mesh::shape::MAX_NODES;
-use crate::term::Trial;
+use crate::term::{Frame, Term, Trial};
 use crate::time_integration::GeneralisedAlpha;
 use rayon::prelude::*;
 
@@ -25,13 +25,15 @@ pub fn motion_to_grid<const D: usize, K: Kinematics<D>>(
     grid: &mut Grid<D>,
     state: &mut State<D>,
 ) -> Result<()> {
-    let count = state.points.len();
-    state.points.velocity.resize(count, [0.0; D]);
-    state.points.acceleration.resize(count, [0.0; D]);
+    for points in [&mut state.points, &mut state.fem] {
+        let count = points.len();
+        points.velocity.resize(count, [0.0; D]);
+        points.acceleration.resize(count, [0.0; D]);
+    }
     [state.velocity, state.acceleration] = to_nodes::<D, K>(scene, grid, state)?;
     if !state.moving {
         state.acceleration = first_acceleration::<D, K>(scene, grid, state)?;
-        state.points.acceleration = to_points::<D, K>(scene, grid, &state.acceleration, count);
+        accelerations_to_points::<D, K>(scene, grid, state);
         state.moving = true;
     }
     Ok(())
@@ -62,20 +64,22 @@ impl<const D: usize> Start<D> {
     /// Momentum (t m/s) that the nodes take on at once, all together.
     pub fn impulse<K: Kinematics<D>>(&self, scene: &Scene<D>, grid: &Grid<D>, state: &State<D>) -> [f64; D] {
         let mut impulse = [0.0; D];
-        for patch in &grid.stencil.patches {
-            let nodes = scene.mesh.cells.nodes(patch.cell as usize);
-            let mut jump = [[0.0; D]; MAX_NODES];
-            for (jump, &n) in jump.iter_mut().zip(nodes) {
-                let (now, before) = (&self.velocity[n as usize], &state.velocity[n as usize]);
-                *jump = std::array::from_fn(|d| now[d] - before[d]);
-            }
-            if jump.iter().flatten().all(|&v| v == 0.0) {
-                continue;
-            }
-            for entries in grid.stencil.entries::<K>(patch) {
-                for (n, jump) in entries.value.iter().zip(&jump) {
-                    for d in 0..D {
-                        impulse[d] += state.points.mass[entries.point] * n * jump[d];
+        for Family { mesh, stencil, points, .. } in grid.families(scene, state) {
+            for patch in &stencil.patches {
+                let nodes = mesh.cells.nodes(patch.cell as usize);
+                let mut jump = [[0.0; D]; MAX_NODES];
+                for (jump, &n) in jump.iter_mut().zip(nodes) {
+                    let (now, before) = (&self.velocity[n as usize], &state.velocity[n as usize]);
+                    *jump = std::array::from_fn(|d| now[d] - before[d]);
+                }
+                if jump.iter().flatten().all(|&v| v == 0.0) {
+                    continue;
+                }
+                for entries in stencil.entries::<K>(patch) {
+                    for (n, jump) in entries.value.iter().zip(&jump) {
+                        for d in 0..D {
+                            impulse[d] += points.mass[entries.point] * n * jump[d];
+                        }
                     }
                 }
             }
@@ -92,8 +96,8 @@ fn first_acceleration<const D: usize, K: Kinematics<D>>(
 ) -> Result<Vec<[f64; D]>> {
     let problem = Problem {
         scene,
-        points: &state.points,
-        weighing: &state.weighing,
+        state,
+        guess: None,
         converged: &state.displacement,
         pressure: &state.pressure,
         velocity: &state.velocity,
@@ -147,12 +151,19 @@ pub fn commit<const D: usize>(
         phase: state.phase,
         time: state.phase_time,
     };
-    let updates: Vec<_> = {
-        let frame = grid.frame(&scene.mesh, &state.points, &state.weighing);
-        scene.terms.iter().map(|term| term.commit(&frame, &trial)).collect::<Result<_>>()?
+    let of = |terms: &[Box<dyn Term<D>>], frame: &Frame<D>| {
+        terms.iter().map(|term| term.commit(frame, &trial)).collect::<Result<Vec<_>>>()
+    };
+    let updates = of(&scene.terms, &grid.frame(&scene.mesh, state))?;
+    let of_elements = match (&scene.fem, &grid.elements) {
+        (Some(fem), Some(elements)) => of(&fem.terms, &grid.frame_of_elements(scene, elements, state))?,
+        _ => Vec::new(),
     };
     for update in updates.into_iter().flatten() {
         update.apply(&mut state.points);
+    }
+    for update in of_elements.into_iter().flatten() {
+        update.apply(&mut state.fem);
     }
     Ok(())
 }
@@ -169,12 +180,21 @@ pub fn move_points<const D: usize, K: Kinematics<D>>(
         .zip(&state.displacement)
         .map(|(now, before)| std::array::from_fn(|d| now[d] - before[d]))
         .collect();
-    let moved = to_points::<D, K>(scene, grid, &increment, state.points.len());
-    for (x, u) in state.points.position.iter_mut().zip(&moved) {
+    let [moved, fem] = to_points::<D, K>(scene, grid, state, &increment);
+    add(&mut state.points.position, &moved);
+    add(&mut state.fem.position, &fem);
+}
+
+fn add<const D: usize>(to: &mut [[f64; D]], increment: &[[f64; D]]) {
+    for (to, by) in to.iter_mut().zip(increment) {
         for d in 0..D {
-            x[d] += u[d];
+            to[d] += by[d];
         }
     }
+}
+
+fn accelerations_to_points<const D: usize, K: Kinematics<D>>(scene: &Scene<D>, grid: &Grid<D>, state: &mut State<D>) {
+    [state.points.acceleration, state.fem.acceleration] = to_points::<D, K>(scene, grid, state, &state.acceleration);
 }
 
 /// Hands the motion at the end of the step that began with `start` to the points. They take on all that the
@@ -199,14 +219,10 @@ pub fn motion_to_points<const D: usize, K: Kinematics<D>>(
             state.acceleration[n][d] = next;
         }
     }
-    let count = state.points.len();
-    let gained = to_points::<D, K>(scene, grid, &change, count);
-    for (v, gained) in state.points.velocity.iter_mut().zip(&gained) {
-        for d in 0..D {
-            v[d] += gained[d];
-        }
-    }
-    state.points.acceleration = to_points::<D, K>(scene, grid, &state.acceleration, count);
+    let [gained, fem] = to_points::<D, K>(scene, grid, state, &change);
+    add(&mut state.points.velocity, &gained);
+    add(&mut state.fem.velocity, &fem);
+    accelerations_to_points::<D, K>(scene, grid, state);
 }
 
 /// Velocity and acceleration of the points, mapped to the nodes, weighted by mass.
@@ -218,18 +234,19 @@ fn to_nodes<const D: usize, K: Kinematics<D>>(
     grid: &mut Grid<D>,
     state: &State<D>,
 ) -> Result<[Vec<[f64; D]>; 2]> {
-    let points = &state.points;
-    let fields = [&points.velocity, &points.acceleration];
     let mut right: [Vec<[f64; D]>; 2] = [0, 1].map(|_| vec![[0.0; D]; grid.node.len()]);
-    for patch in &grid.stencil.patches {
-        let nodes = scene.mesh.cells.nodes(patch.cell as usize);
-        for entries in grid.stencil.entries::<K>(patch) {
-            for (n, &node) in entries.value.iter().zip(nodes) {
-                let block = grid.block[node as usize] as usize;
-                let weight = points.mass[entries.point] * n;
-                for (right, field) in right.iter_mut().zip(&fields) {
-                    for d in 0..D {
-                        right[block][d] += weight * field[entries.point][d];
+    for Family { mesh, stencil, points, .. } in grid.families(scene, state) {
+        let fields = [&points.velocity, &points.acceleration];
+        for patch in &stencil.patches {
+            let nodes = mesh.cells.nodes(patch.cell as usize);
+            for entries in stencil.entries::<K>(patch) {
+                for (n, &node) in entries.value.iter().zip(nodes) {
+                    let block = grid.block[node as usize] as usize;
+                    let weight = points.mass[entries.point] * n;
+                    for (right, field) in right.iter_mut().zip(&fields) {
+                        for d in 0..D {
+                            right[block][d] += weight * field[entries.point][d];
+                        }
                     }
                 }
             }
@@ -250,34 +267,37 @@ fn to_nodes<const D: usize, K: Kinematics<D>>(
     Ok(nodal)
 }
 
-/// Interpolates a nodal field at the points.
+/// Interpolates a nodal field at the material points and at those of the finite elements.
 fn to_points<const D: usize, K: Kinematics<D>>(
     scene: &Scene<D>,
     grid: &Grid<D>,
+    state: &State<D>,
     field: &[[f64; D]],
-    count: usize,
-) -> Vec<[f64; D]> {
-    let stencil = &grid.stencil;
-    let by_patch: Vec<Vec<(usize, [f64; D])>> = stencil
-        .patches
-        .par_iter()
-        .map(|patch| {
-            let nodes = scene.mesh.cells.nodes(patch.cell as usize);
-            let interpolate = |entries: crate::stencil::Entries<'_, D>| {
-                let mut value = [0.0; D];
-                for (n, &node) in entries.value.iter().zip(nodes) {
-                    for d in 0..D {
-                        value[d] += n * field[node as usize][d];
+) -> [Vec<[f64; D]>; 2] {
+    let mut out = [Vec::new(), Vec::new()];
+    for (out, family) in out.iter_mut().zip(grid.families(scene, state)) {
+        let Family { mesh, stencil, points, .. } = family;
+        let by_patch: Vec<Vec<(usize, [f64; D])>> = stencil
+            .patches
+            .par_iter()
+            .map(|patch| {
+                let nodes = mesh.cells.nodes(patch.cell as usize);
+                let interpolate = |entries: crate::stencil::Entries<'_, D>| {
+                    let mut value = [0.0; D];
+                    for (n, &node) in entries.value.iter().zip(nodes) {
+                        for d in 0..D {
+                            value[d] += n * field[node as usize][d];
+                        }
                     }
-                }
-                (entries.point, value)
-            };
-            stencil.entries::<K>(patch).map(interpolate).collect()
-        })
-        .collect();
-    let mut out = vec![[0.0; D]; count];
-    for (p, value) in by_patch.into_iter().flatten() {
-        out[p] = value;
+                    (entries.point, value)
+                };
+                stencil.entries::<K>(patch).map(interpolate).collect()
+            })
+            .collect();
+        out.resize(points.len(), [0.0; D]);
+        for (p, value) in by_patch.into_iter().flatten() {
+            out[p] = value;
+        }
     }
     out
 }

@@ -10,6 +10,7 @@
 //! surgery, the [`super::Contour`] takes over. It leaves out slip along curved walls, which no support can ask for.
 
 mod inspect;
+mod lean;
 mod resample;
 mod seed;
 
@@ -86,23 +87,23 @@ impl Front {
         if area > 0.0 { (area, sizes / area) } else { (0.0, 0.0) }
     }
 
-    /// Moves the markers with the `displacement` (m) of the nodes since the grid was restored, and evens out their
-    /// spacing. `mesh`, `geometry` and `locator` are those of the grid before it is restored again.
+    /// Moves the markers with the `displacement` (m) of the nodes since the grid was restored to `before`, and evens out
+    /// their spacing on the grid that is restored now, with its `geometry`.
     ///
     /// # Errors
     /// When a marker is or gets outside the mesh: the front is of no use then.
     pub fn advance(
         &mut self,
-        mesh: &Mesh<2>,
+        before: (&Mesh<2>, &Locator<2>),
+        (mesh, locator): (&Mesh<2>, &Locator<2>),
         geometry: &Geometry,
-        locator: &Locator<2>,
         displacement: &[[f64; 2]],
     ) -> Result<(), Fault> {
         let (mut n, mut hint) = ([0.0; MAX_NODES], None);
         for x in &mut self.position {
-            let (c, xi) = locator.locate(mesh, x, hint).ok_or(Fault::Outside { place: *x })?;
-            mesh.cells.kind[c as usize].values(&xi, &mut n);
-            for (&node, n) in mesh.cells.nodes(c as usize).iter().zip(&n) {
+            let (c, xi) = before.1.locate(before.0, x, hint).ok_or(Fault::Outside { place: *x })?;
+            before.0.cells.kind[c as usize].values(&xi, &mut n);
+            for (&node, n) in before.0.cells.nodes(c as usize).iter().zip(&n) {
                 for d in 0..2 {
                     x[d] += n * displacement[node as usize][d];
                 }

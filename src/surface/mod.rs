@@ -16,6 +16,7 @@ pub mod moments;
 mod split;
 
 pub use active::{Active, Filling};
+pub use bins::Bins;
 pub use contour::Contour;
 pub use distance::Distance;
 pub use front::{Fault, Front};

@@ -6,6 +6,7 @@
 
 mod beyond;
 mod body_force;
+mod contact;
 mod empty_cells;
 mod ghost;
 mod inertia;
@@ -17,6 +18,7 @@ mod stiffness;
 mod traction;
 
 pub use body_force::BodyForce;
+pub use contact::{Contact, answer as contact_answer};
 pub use empty_cells::EmptyCells;
 pub use ghost::GhostPenalty;
 pub use inertia::Inertia;
@@ -25,6 +27,7 @@ pub use pressure::{Carried, PressureField, hats as pressure_hats};
 pub use smooth_pressure::SmoothPressure;
 pub use traction::Traction;
 
+use crate::contact::Row;
 use crate::error::Result;
 use crate::mesh::Mesh;
 use crate::mesh::faces::Face;
@@ -45,6 +48,17 @@ pub struct GhostFace {
     pub clique: u32,
 }
 
+/// A hat of a pair in contact.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Touch<const D: usize> {
+    /// The number of the pair in the scene.
+    pub pair: u32,
+    pub row: Row<D>,
+    /// Its clique, and the place of each node of the row among the blocks of that.
+    pub clique: u32,
+    pub place: Vec<u32>,
+}
+
 /// What stays fixed while a step is solved.
 pub struct Frame<'a, const D: usize> {
     /// The grid as last restored: the reference configuration.
@@ -54,8 +68,12 @@ pub struct Frame<'a, const D: usize> {
     pub soft: &'a [SoftCell],
     /// Faces beside cells that cannot stand alone; empty where the scene has no such penalty.
     pub ghost: &'a [GhostFace],
-    /// The cells that take part, ascending.
+    /// The hats that face something; empty where the scene has no contact.
+    pub touches: &'a [Touch<D>],
+    /// The cells that take part, ascending; of finite elements those with unknowns of pressure.
     pub cells: &'a [u32],
+    /// Where the constants of the cells begin in [`Trial::pressure`].
+    pub constants: usize,
     /// The points at the last converged step.
     pub points: &'a Points<D>,
     /// One block a node that takes part, one clique a cell that does. With a pressure field, one more block for each
@@ -89,6 +107,24 @@ pub struct Trial<'a, const D: usize> {
     pub phase: usize,
     /// Time (s) since the phase began, between the ends of the step as `between` is.
     pub time: f64,
+}
+
+impl<'a, const D: usize> Trial<'a, D> {
+    /// A state of displacements alone, as far as contact sees it.
+    pub fn at_rest(displacement: &'a [[f64; D]], converged: &'a [[f64; D]]) -> Self {
+        Self {
+            displacement,
+            between: displacement,
+            alpha_f: 0.0,
+            converged,
+            pressure: &[],
+            converged_pressure: &[],
+            acceleration: &[],
+            acceleration_slope: 0.0,
+            phase: 0,
+            time: 0.0,
+        }
+    }
 }
 
 /// Where a term adds its residual and tangent.

@@ -105,14 +105,15 @@ pub fn hats(kind: CellKind, n: &[f64]) -> Hats {
 }
 
 /// The unknowns of a cell in the field `pressure` as the state has it: by node, then by cell.
-pub fn gather(kind: CellKind, nodes: &[u32], all_nodes: usize, cell: usize, pressure: &[f64]) -> Hats {
+/// `constant` is where that of the cell stands.
+pub fn gather(kind: CellKind, nodes: &[u32], constant: usize, pressure: &[f64]) -> Hats {
     let corners = kind.corner_count();
     let mut own = [0.0; MOST];
     for (own, &n) in own.iter_mut().zip(&nodes[..corners]) {
         *own = pressure[n as usize];
     }
     if kind.order() > 1 {
-        own[corners] = pressure[all_nodes + cell];
+        own[corners] = pressure[constant];
     }
     own
 }
@@ -157,7 +158,7 @@ impl<const D: usize, K: Kinematics<D>> Share<D, K> for PressureField<K> {
         let cell = patch.cell as usize;
         let kind = frame.mesh.cells.kind[cell];
         let nodes = frame.mesh.cells.nodes(cell);
-        let pressure = gather(kind, nodes, frame.mesh.nodes.len(), cell, trial.pressure);
+        let pressure = gather(kind, nodes, frame.constants + cell, trial.pressure);
         let mean = (kind.order() == 1).then(|| {
             let (mut sum, mut weight) = ([0.0; MOST], 0.0);
             for entries in frame.stencil.entries::<K>(patch) {

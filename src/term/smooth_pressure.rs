@@ -38,14 +38,13 @@ impl<K> SmoothPressure<K> {
 
 impl<const D: usize, K: Kinematics<D>> Term<D> for SmoothPressure<K> {
     fn assemble(&self, frame: &Frame<D>, trial: &Trial<D>, out: &mut Assembly) -> Result<()> {
-        let nodes = frame.mesh.nodes.len();
         let compute = |cell: &u32, local: &mut Local| {
             let cell = *cell as usize;
             let kind = frame.mesh.cells.kind[cell];
             let (corners, count) = (kind.corner_count(), unknowns(kind));
             let own = frame.mesh.cells.nodes(cell);
-            let now = gather(kind, own, nodes, cell, trial.pressure);
-            let before = gather(kind, own, nodes, cell, trial.converged_pressure);
+            let now = gather(kind, own, frame.constants + cell, trial.pressure);
+            let before = gather(kind, own, frame.constants + cell, trial.converged_pressure);
             let gained: [f64; MOST] = std::array::from_fn(|a| now[a] - before[a]);
             let volume = *self.volume[cell].get_or_init(|| integrate::<D, K>(frame.mesh, cell, |_, _, _| {}));
             let scale = (1.0 - trial.alpha_f) * self.unit * volume / self.shear;

@@ -1,5 +1,6 @@
 //! Small scenes on structured meshes, built without a case file.
 
+use mpm::case::parts::places;
 use mpm::kinematics::Kinematics;
 use mpm::material::{Model, Profile};
 use mpm::mesh::Mesh;
@@ -10,7 +11,7 @@ use mpm::points::Points;
 use mpm::quadrature::{Quadrature, Volumes};
 use mpm::stencil::{Scheme, cell_size};
 use mpm::step::{
-    Controller, Fixed, Limits, Numerics, Phase, Prescribed, Report, Restore, Scene, Simulation, State, Stop,
+    Controller, Fem, Fixed, Limits, Numerics, Phase, Prescribed, Report, Restore, Scene, Simulation, State, Stop,
 };
 use mpm::tensor::{IDENTITY, Tensor};
 use mpm::term::{BodyForce, Carried, EmptyCells, Inertia, Internal, PressureField, SmoothPressure, Term};
@@ -46,6 +47,8 @@ pub fn quadrature_points<K: Kinematics<2>>(mesh: &Mesh<2>, degree: usize, densit
 /// A scene under construction.
 pub struct Bench {
     pub mesh: Mesh<2>,
+    /// Whether each cell of the mesh is a finite element; empty where none is.
+    pub elements: Vec<bool>,
     pub model: Arc<dyn Model>,
     /// What a pressure field carries beside the model.
     pub carried: Option<Carried>,
@@ -71,6 +74,7 @@ impl Bench {
     pub fn new(mesh: Mesh<2>, model: Arc<dyn Model>) -> Self {
         Self {
             mesh,
+            elements: Vec::new(),
             model,
             carried: None,
             density: 1.0,
@@ -103,7 +107,55 @@ impl Bench {
         self
     }
 
+    /// Makes finite elements of the cells whose centre is where `within` says.
+    pub fn elements_where(&mut self, within: impl Fn(&[f64; 2]) -> bool) {
+        let centre = |c: usize| {
+            let corners = &self.mesh.cells.nodes(c)[..self.mesh.cells.kind[c].corner_count()];
+            [0, 1].map(|d| corners.iter().map(|&n| self.mesh.nodes[n as usize][d]).sum::<f64>() / corners.len() as f64)
+        };
+        self.elements = (0..self.mesh.cells.len()).map(|c| within(&centre(c))).collect();
+    }
+
+    fn is_element(&self, cell: usize) -> bool {
+        self.elements.get(cell).copied().unwrap_or(false)
+    }
+
+    /// The mesh without its finite elements.
+    pub fn background(&self) -> Mesh<2> {
+        self.mesh.part(|c| !self.is_element(c))
+    }
+
+    /// The material points and those of the finite elements, numbered with the cells of their part, of all `points`.
+    pub fn split(&self, mut points: Points<2>) -> [Points<2>; 2] {
+        let (mut count, mut of) = ([0; 2], [Vec::new(), Vec::new()]);
+        let number: Vec<u32> = (0..self.mesh.cells.len())
+            .map(|c| {
+                let count = &mut count[usize::from(self.is_element(c))];
+                *count += 1;
+                *count - 1
+            })
+            .collect();
+        for (p, cell) in points.cell.iter_mut().enumerate() {
+            of[usize::from(self.is_element(*cell as usize))].push(p);
+            *cell = number[*cell as usize];
+        }
+        of.map(|numbers| points.select(&numbers))
+    }
+
     pub fn scene<K: Kinematics<2>>(self) -> Scene<2> {
+        let elements = self.mesh.part(|c| self.is_element(c));
+        let background = self.background();
+        let fem = (!elements.cells.is_empty()).then(|| {
+            let models = vec![Some(self.model.clone())];
+            let mut terms: Vec<Box<dyn Term<2>>> = vec![Box::new(Internal::<K>::new(models, self.dynamic))];
+            if self.gravity != [0.0; 2] {
+                terms.push(Box::new(BodyForce::<K, 2>::new(self.gravity, vec![self.gravity_factor.clone()])));
+            }
+            if self.dynamic {
+                terms.push(Box::new(Inertia::<K>::default()));
+            }
+            Fem { with_pressure: vec![false; elements.cells.len()], mesh: elements, terms }
+        });
         let moduli = self.model.elasticity().at(0.0);
         let stiffness_scale = self.model.young(0.0).max(moduli.shear);
         let models = vec![Some(self.model.clone())];
@@ -121,7 +173,7 @@ impl Bench {
             terms.push(Box::new(BodyForce::<K, 2>::new(self.gravity, vec![self.gravity_factor])));
         }
         if self.restore != Restore::Never {
-            terms.push(Box::new(EmptyCells::<K>::new(1e-5 * stiffness_scale, self.mesh.cells.len())));
+            terms.push(Box::new(EmptyCells::<K>::new(1e-5 * stiffness_scale, background.cells.len())));
         }
         if self.dynamic {
             terms.push(Box::new(Inertia::<K>::default()));
@@ -129,9 +181,11 @@ impl Bench {
         terms.extend(self.extra);
         let step = self.duration / self.steps as f64;
         Scene {
-            locator: Locator::new(&self.mesh),
-            faces: Some(Faces::of(&self.mesh)),
-            mesh: self.mesh,
+            fem,
+            pairs: Vec::new(),
+            locator: Locator::new(&background),
+            faces: Some(Faces::of(&background)),
+            mesh: background,
             terms,
             quadrature: self.quadrature.unwrap_or_else(|| Box::new(Volumes::<K>::default())),
             pressure_unit: unit,
@@ -163,14 +217,25 @@ impl Bench {
 /// Runs the first phase of a scene to its end, calling `watch` after every step.
 pub fn run<K: Kinematics<2>>(
     scene: &Scene<2>,
-    mut points: Points<2>,
+    points: Points<2>,
+    watch: impl FnMut(&State<2>, &Report<2>),
+) -> State<2> {
+    run_parts::<K>(scene, [points, Points::default()], watch)
+}
+
+/// As [`run`], given the material points and those of the finite elements.
+pub fn run_parts<K: Kinematics<2>>(
+    scene: &Scene<2>,
+    [mut points, fem]: [Points<2>; 2],
     mut watch: impl FnMut(&State<2>, &Report<2>),
 ) -> State<2> {
     let phase = &scene.phases[0];
     if scene.pressure_unit.is_some() {
         points.pressure.resize(points.len(), 0.0);
     }
-    let state = State::new(points, scene.mesh.nodes.len(), phase.first_step);
+    let fem_parametric = scene.fem.as_ref().map_or_else(Vec::new, |part| places(&part.mesh, &fem).unwrap());
+    let first = State::new(points, scene.mesh.nodes.len(), phase.first_step);
+    let state = State { fem, fem_parametric, ..first };
     let mut simulation = Simulation::<2, K>::new(scene, state).unwrap();
     let limits = Limits { least: phase.least_step, largest: phase.largest_step };
     let mut controller = Controller::new(limits, phase.stops.clone(), phase.first_step);

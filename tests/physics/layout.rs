@@ -15,9 +15,9 @@ use mpm::term::GhostPenalty;
 /// Gives a scene weights fitted to its cells and, where it is restored, the penalty that goes with them, as a case has
 /// them.
 pub fn fit<K: Kinematics<2> + 'static>(bench: &mut Bench) {
-    bench.quadrature = Some(Box::new(Fitted::<K>::new(&bench.mesh)));
+    bench.quadrature = Some(Box::new(Fitted::<K>::new(&bench.background())));
     if bench.restore != Restore::Never {
-        let faces = Faces::of(&bench.mesh).inner.len();
+        let faces = Faces::of(&bench.background()).inner.len();
         bench.extra.push(Box::new(GhostPenalty::<K>::new(0.1, vec![Some(bench.model.clone())], faces)));
     }
 }

@@ -5,6 +5,7 @@ mod bench;
 mod cantilever;
 mod column;
 mod ddmp;
+mod elements;
 mod fitted;
 mod general_position;
 mod ghost;

@@ -57,7 +57,7 @@ fn condition(scene: &Scene<2>, points: Points<2>) -> f64 {
     let pattern = &grid.motion.pattern;
     let (mut matrix, mut workspace) = (Matrix::new(pattern), Workspace::default());
     let mut force = vec![0.0; pattern.len()];
-    let frame = grid.frame(&scene.mesh, &state.points, &state.weighing);
+    let frame = grid.frame(&scene.mesh, &state);
     for term in &scene.terms {
         let mut out = Assembly { force: &mut force, tangent: Some(&mut matrix), workspace: &mut workspace };
         term.assemble(&frame, &trial, &mut out).unwrap();

@@ -76,9 +76,9 @@ fn soft_material_decides() {
         assert!((s - FACTOR * 1e6).abs() < 1e-6);
     }
     // One point of three soft in every cell.
-    let volume: f64 = stand.points.initial_volume.iter().sum();
-    (0..stand.points.len()).step_by(3).for_each(|p| stand.points.region[p] = 1);
-    let least = stand.points.initial_volume.iter().fold(f64::INFINITY, |a, b| a.min(*b));
+    let volume: f64 = stand.state.points.initial_volume.iter().sum();
+    (0..stand.state.points.len()).step_by(3).for_each(|p| stand.state.points.region[p] = 1);
+    let least = stand.state.points.initial_volume.iter().fold(f64::INFINITY, |a, b| a.min(*b));
     for s in stiffness(&stand) {
         assert!(s >= FACTOR && s < 1.001 * FACTOR * volume / least, "{s}");
     }
@@ -89,11 +89,11 @@ fn soft_material_decides() {
 fn in_flow_it_resists_independently_of_the_step() {
     let mut stand: Stand<PlaneStrain> = stand(CellKind::T6, penalty::<PlaneStrain>, false);
     let (trial, converged) = anywhere(&stand);
-    let count = stand.points.len();
-    stand.points.stress = vec![[2.0, -2.0, 0.0, 0.0, 0.0, 0.0]; count];
+    let count = stand.state.points.len();
+    stand.state.points.stress = vec![[2.0, -2.0, 0.0, 0.0, 0.0, 0.0]; count];
     let elastic = size(&stand.evaluate(&trial, &converged, 0, false).0);
     let mut flow = |by: f64| {
-        stand.points.plastic_increment = vec![1e-2 * by; count];
+        stand.state.points.plastic_increment = vec![1e-2 * by; count];
         let scaled: Vec<_> =
             trial.iter().zip(&converged).map(|(u, c)| [0, 1].map(|d| c[d] + by * (u[d] - c[d]))).collect();
         size(&stand.evaluate(&scaled, &converged, 0, false).0)

@@ -84,11 +84,11 @@ fn set<K: Kinematics<2>>(case: &Case, kind: CellKind, whole: bool, alpha_f: f64)
     let term = Box::new(Internal::<K>::new(vec![Some(case.model.clone())], alpha_f > 0.0));
     let mut stand = Stand::<K>::new(mesh, points, term, false, whole);
     stand.alpha_f = alpha_f;
-    stand.points.stress.fill([3.0, -7.0, 2.0, 1.5, 0.0, 0.0]);
+    stand.state.points.stress.fill([3.0, -7.0, 2.0, 1.5, 0.0, 0.0]);
     // Turned, stretched and sheared before, and again in the step.
     let converged = stand.field(0.02, 1, |[x, y]| [0.2 * x - 0.3 * y, 0.2 * x + 0.1 * y]);
     let trial = stand.field(0.02, 2, |[x, y]| [0.1 * x - 0.6 * y, 0.7 * x - 0.2 * y]);
-    let heights: Vec<f64> = stand.points.origin.iter().map(|x| x[1]).collect();
+    let heights: Vec<f64> = stand.state.points.origin.iter().map(|x| x[1]).collect();
     let mut random = Random(3);
     // Noise small beside the distance to a kink.
     let noise = 0.02 * case.strain.iter().fold(0f64, |a, b| a.max(b.abs()));

@@ -73,7 +73,7 @@ fn the_body_force_is_the_weight_times_its_factor() {
     for kind in KINDS {
         let stand = stand::<PlaneStrain>(kind, body_force::<PlaneStrain>, false);
         assert_eq!(stand.term().role(), Role::External);
-        let mass: f64 = stand.points.mass.iter().sum();
+        let mass: f64 = stand.state.points.mass.iter().sum();
         let (trial, converged) = anywhere(&stand);
         let sum = resultant(&stand.evaluate(&trial, &converged, 0, false).0);
         // An applied force has the other sign in the residual.
@@ -90,7 +90,7 @@ fn inertia_is_mass_times_acceleration() {
     for kind in KINDS {
         let stand = stand::<Axisymmetric>(kind, |_| Box::new(Inertia::<Axisymmetric>::default()), false);
         assert_eq!(stand.term().role(), Role::Inertia);
-        let mass: f64 = stand.points.mass.iter().sum();
+        let mass: f64 = stand.state.points.mass.iter().sum();
         let rest = stand.field(0.0, 1, |_| [0.0; 2]);
         let sum = resultant(&stand.evaluate(&rest, &rest, 0, false).0);
         for (sum, a) in sum.iter().zip([1.3, -0.7]) {

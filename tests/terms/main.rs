@@ -3,6 +3,7 @@
 //!
 //! The grids are jittered and the points lie anywhere in their cells, as after some steps of a run.
 
+mod contact;
 mod ghost;
 mod internal;
 mod loads;

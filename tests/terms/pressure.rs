@@ -39,7 +39,7 @@ fn set<K: Kinematics<2>>(
     let term = Box::new(Internal::<K, _>::sharing(vec![Some(model)], alpha_f > 0.0, field));
     let mut stand = Stand::<K>::with_pressure(mesh, points, term, false, true, Some(UNIT));
     stand.alpha_f = alpha_f;
-    stand.points.stress.fill([3.0, -7.0, 2.0, 1.5, 0.0, 0.0]);
+    stand.state.points.stress.fill([3.0, -7.0, 2.0, 1.5, 0.0, 0.0]);
     for pressure in &mut stand.pressure {
         *pressure = 40.0 + 20.0 * random.next();
     }

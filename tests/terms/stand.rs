@@ -10,7 +10,7 @@ use mpm::mesh::faces::Faces;
 use mpm::mesh::locate::Locator;
 use mpm::mesh::shape::{CellKind, MAX_NODES};
 use mpm::points::Points;
-use mpm::quadrature::{Volumes, Weighing};
+use mpm::quadrature::Volumes;
 use mpm::stencil::Scheme;
 use mpm::step::{Grid, Numerics, Phase, Restore, Scene, Simulation, State, Stop};
 use mpm::system::{Matrix, Workspace};
@@ -104,14 +104,13 @@ impl Term<2> for Unsymmetric {
 /// A term on a grid. The first term of the scene is the one tested.
 pub struct Stand<K> {
     pub scene: Scene<2>,
-    pub points: Points<2>,
+    pub state: State<2>,
     /// α_f of the trial states.
     pub alpha_f: f64,
     /// The pressure field of the trial states, in the unknowns of the state, and the one before.
     pub pressure: Vec<f64>,
     pub converged_pressure: Vec<f64>,
-    grid: Grid<2>,
-    weighing: Weighing<2>,
+    pub grid: Grid<2>,
     kinematics: PhantomData<K>,
 }
 
@@ -159,6 +158,8 @@ impl<K: Kinematics<2>> Stand<K> {
         };
         let faces = Faces::of(&mesh);
         let scene = Scene {
+            fem: None,
+            pairs: Vec::new(),
             locator: Locator::new(&mesh),
             mesh,
             terms,
@@ -184,12 +185,11 @@ impl<K: Kinematics<2>> Stand<K> {
         assert_eq!(grid.node.len(), scene.mesh.nodes.len(), "all nodes take part, in order");
         Self {
             scene,
-            points: state.points,
             alpha_f: 0.0,
             converged_pressure: state.pressure.clone(),
-            pressure: state.pressure,
+            pressure: state.pressure.clone(),
             grid,
-            weighing: state.weighing,
+            state,
             kinematics: PhantomData,
         }
     }
@@ -204,11 +204,11 @@ impl<K: Kinematics<2>> Stand<K> {
 
     /// What the term sees.
     pub fn frame(&self) -> Frame<'_, 2> {
-        self.grid.frame(&self.scene.mesh, &self.points, &self.weighing)
+        self.grid.frame(&self.scene.mesh, &self.state)
     }
 
     pub fn soft_cells(&self) -> usize {
-        self.weighing.soft.len()
+        self.state.weighing.soft.len()
     }
 
     /// A field given by the place of a node, with noise of the size `noise` (m).
@@ -230,7 +230,7 @@ impl<K: Kinematics<2>> Stand<K> {
                 }
                 let back = before * now.try_inverse().unwrap();
                 let b = symmetric(&(back * target(entries.point) * back.transpose()));
-                self.points.elastic[entries.point] = b;
+                self.state.points.elastic[entries.point] = b;
                 assert!((full(&b) - full(&b).transpose()).norm() == 0.0);
             }
         }

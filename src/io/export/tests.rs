@@ -1,5 +1,6 @@
 use super::*;
 use crate::error::Kind;
+use crate::io::export::pieces::Piece;
 use crate::mesh::shape::CellKind;
 
 fn mesh() -> Mesh<2> {
@@ -31,13 +32,19 @@ fn only_what_is_asked_for_is_written_and_stale_files_go() {
     fs::create_dir_all(out.join("vtu")).unwrap();
     fs::write(out.join("vtu/points_own.vtu"), b"").unwrap();
     let asked = fields(&["mean_stress", "plastic_strain"]);
-    assert_eq!(export(&results, &mesh(), &out, &asked, Encoding::Plain).unwrap(), Summary { frames: 4, removed: 0 });
+    assert_eq!(
+        export(&results, &mesh(), &[false], &out, &asked, Encoding::Plain).unwrap(),
+        Summary { frames: 4, removed: 0 }
+    );
     let text = fs::read_to_string(out.join("vtu/points_000003.vtu")).unwrap();
     assert!(text.contains("Name=\"mean_stress [kPa]\"") && text.contains("Name=\"plastic_strain [-]\""));
     assert!(!text.contains("Name=\"stress") && !text.contains("displacement") && !text.contains("deviatoric"));
 
     write_frames(&results, 2);
-    assert_eq!(export(&results, &mesh(), &out, &asked, Encoding::Raw).unwrap(), Summary { frames: 2, removed: 4 });
+    assert_eq!(
+        export(&results, &mesh(), &[false], &out, &asked, Encoding::Raw).unwrap(),
+        Summary { frames: 2, removed: 4 }
+    );
     let mut left: Vec<_> =
         fs::read_dir(out.join("vtu")).unwrap().map(|e| e.unwrap().file_name().into_string().unwrap()).collect();
     left.sort();
@@ -53,12 +60,12 @@ fn unknown_fields_and_other_meshes_are_errors() {
     let folder = tempfile::tempdir().unwrap();
     let (results, out) = (folder.path().join("results"), folder.path().join("out"));
     write_frames(&results, 1);
-    let e = export(&results, &mesh(), &out, &fields(&["pore_pressure"]), Encoding::Raw).unwrap_err();
+    let e = export(&results, &mesh(), &[false], &out, &fields(&["pore_pressure"]), Encoding::Raw).unwrap_err();
     assert_eq!(e.kind, Kind::Input);
     assert!(e.problem.contains("`pore_pressure`") && e.problem.contains("mean_stress, plastic_strain"), "{e}");
     let mut other = mesh();
     other.nodes.push([2., 2.]);
-    let e = export(&results, &other, &out, &fields(&["stress"]), Encoding::Raw).unwrap_err();
+    let e = export(&results, &other, &[false], &out, &fields(&["stress"]), Encoding::Raw).unwrap_err();
     assert!(e.kind == Kind::Input && e.problem.contains("7 nodes"), "{e}");
     assert!(!out.join("points.pvd").exists());
 }
@@ -73,4 +80,78 @@ fn stress_invariants() {
         assert_eq!(mean(&s), -7.0);
         assert!((deviatoric(&s) - 2.0 * 3_f64.sqrt()).abs() < 1e-15);
     }
+}
+
+/// Two elements of different regions beside a cell of the grid: their nodes at the interface are two, and a stress that is linear
+/// in each is found again at them.
+#[test]
+fn finite_elements_are_a_series_of_their_own() {
+    let folder = tempfile::tempdir().unwrap();
+    let (results, out) = (folder.path().join("results"), folder.path().join("out"));
+    let mut mesh = Mesh {
+        nodes: vec![[0., 0.], [1., 0.], [1., 1.], [0., 1.], [2., 0.]],
+        regions: ["soil", "clay", "steel"].map(str::to_string).to_vec(),
+        ..Mesh::default()
+    };
+    mesh.cells.push(CellKind::T3, 1, &[0, 1, 2]);
+    mesh.cells.push(CellKind::T3, 0, &[0, 2, 3]);
+    mesh.cells.push(CellKind::T3, 2, &[1, 4, 2]);
+    let now: Vec<[f64; 3]> = mesh.nodes.iter().map(|x| [x[0] + 0.1, 0.5 * x[1], 0.0]).collect();
+    let inside = |nodes: [usize; 3]| {
+        [[0.6, 0.2, 0.2], [0.2, 0.6, 0.2], [0.2, 0.2, 0.6]]
+            .map(|w| [0, 1, 2].map(|d| (0..3).map(|i| w[i] * now[nodes[i]][d]).sum::<f64>()))
+    };
+    let position = [inside([0, 1, 2]), inside([1, 4, 2])].concat();
+    let strain = |region: usize, x: &[f64; 3]| if region == 1 { x[0] - 2.0 * x[1] } else { 7.0 };
+    let column = |name: &str, values: Vec<f64>| Column {
+        name: name.to_string(),
+        unit: "-".to_string(),
+        components: values.len() / 6,
+        values,
+    };
+    let elements = Part {
+        columns: vec![
+            column("plastic_strain", position.iter().zip([1, 1, 1, 2, 2, 2]).map(|(x, r)| strain(r, x)).collect()),
+            column("displacement", vec![9.0; 18]),
+            column(frame::CELL, vec![0.0, 0.0, 0.0, 1.0, 1.0, 1.0]),
+        ],
+        position,
+    };
+    let grid = Part { position: now.clone(), ..Part::default() };
+    let full = Frame { grid, elements, ..Frame::default() };
+    frame::prepare(&results, 0).unwrap();
+    full.write(&results, 0).unwrap();
+    assert_eq!(Frame::read(&frame::path(&results, 0)).unwrap(), full);
+
+    let pieces = Piece::by_region(&mesh.part(|c| c != 1));
+    let first: Vec<[f64; 3]> = mesh.nodes.iter().map(|x| [x[0], x[1], 0.0]).collect();
+    let smooth = pieces.smooth(&full.grid, &first, &full.elements).unwrap();
+    assert_eq!(smooth.position.len(), 6);
+    for (n, x) in smooth.position.iter().enumerate() {
+        let expected = strain(if n < 3 { 1 } else { 2 }, x);
+        assert!(
+            (smooth.columns[0].values[n] - expected).abs() < 1e-14 * (1.0 + expected.abs()),
+            "node {n}: {}",
+            smooth.columns[0].values[n]
+        );
+        assert!((smooth.columns[1].values[3 * n] - 0.1).abs() < 1e-15, "the displacement of the node itself");
+    }
+
+    let asked = fields(&["plastic_strain"]);
+    let done = export(&results, &mesh, &[false, true, true], &out, &asked, Encoding::Plain).unwrap();
+    assert_eq!(done, Summary { frames: 1, removed: 0 });
+    let count = |series: &str| {
+        let text = fs::read_to_string(out.join(format!("vtu/{series}_000000.vtu"))).unwrap();
+        text.lines().find(|line| line.contains("<Piece")).unwrap().to_string()
+    };
+    assert!(count("grid").contains("NumberOfPoints=\"3\" NumberOfCells=\"1\""), "{}", count("grid"));
+    assert!(count("structures").contains("NumberOfPoints=\"6\" NumberOfCells=\"2\""), "{}", count("structures"));
+    assert!(out.join("structures.pvd").exists());
+
+    // A case that no longer has any.
+    let without = Frame { elements: Part::default(), ..full };
+    without.write(&results, 0).unwrap();
+    let done = export(&results, &mesh, &[false; 3], &out, &[], Encoding::Plain).unwrap();
+    assert_eq!(done, Summary { frames: 1, removed: 1 });
+    assert!(!out.join("structures.pvd").exists());
 }

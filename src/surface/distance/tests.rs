@@ -27,7 +27,7 @@ fn scene(
     let mut front = Front::around(&mesh, &geometry.faces, &filled);
     let u: Vec<_> = mesh.nodes.iter().map(&step).collect();
     for _ in 0..steps {
-        front.advance(&mesh, &geometry, &locator, &u).unwrap();
+        front.advance((&mesh, &locator), (&mesh, &locator), &geometry, &u).unwrap();
     }
     // A cell holds points if the surface leaves anything of it.
     let holds = |c: &u32| mesh.cells.nodes(*c as usize).iter().any(|&n| later(&mesh.nodes[n as usize]) > 1e-3);

@@ -22,7 +22,10 @@ impl Grid {
 
     fn advance(&self, front: &mut Front, displacement: impl Fn(&[f64; 2]) -> [f64; 2]) -> Result<(), Fault> {
         let u: Vec<_> = self.mesh.nodes.iter().map(displacement).collect();
-        front.advance(&self.mesh, &self.geometry, &self.locator, &u)
+        {
+            let grid = (&self.mesh, &self.locator);
+            front.advance(grid, grid, &self.geometry, &u)
+        }
     }
 
     fn inspect(&self, front: &Front, points: f64) -> Result<(), Fault> {

@@ -1,0 +1,72 @@
+//! The parts of a mesh: the background grid with its material points, and the finite elements with theirs.
+//!
+//! Both number the nodes as the whole mesh does; cells are numbered in each part in their order in the whole.
+
+use super::checked::Case;
+use crate::error::{Error, Result};
+use crate::mesh::locate::Locator;
+use crate::mesh::{Group, Mesh};
+use crate::points::Points;
+use std::collections::HashSet;
+
+/// Whether each region of the mesh is of finite elements.
+pub fn of_elements(case: &Case, mesh: &Mesh<2>) -> Vec<bool> {
+    let fem = |name: &String| case.regions.iter().any(|r| r.name == *name && r.content.is_fem());
+    mesh.regions.iter().map(fem).collect()
+}
+
+/// The background grid of a mesh, and its finite elements if it has some.
+pub fn meshes(case: &Case, mesh: Mesh<2>) -> (Mesh<2>, Option<Mesh<2>>) {
+    let of_elements = of_elements(case, &mesh);
+    let is_fem = |c: usize| of_elements[mesh.cells.region[c] as usize];
+    let fem = mesh.part(is_fem);
+    if fem.cells.is_empty() {
+        return (mesh, None);
+    }
+    (mesh.part(|c| !is_fem(c)), Some(fem))
+}
+
+/// Whether a curve is one of finite elements: they have all of its nodes.
+pub fn carries(fem: &Mesh<2>, curve: &Group) -> bool {
+    let of: HashSet<u32> = fem.cells.nodes.iter().copied().collect();
+    curve.nodes.iter().all(|n| of.contains(n))
+}
+
+/// The material points and those of the finite elements, numbered with the cells of their parts, of all `points`
+/// of the whole mesh.
+pub fn points(case: &Case, mesh: &Mesh<2>, mut points: Points<2>) -> [Points<2>; 2] {
+    let of_elements = of_elements(case, mesh);
+    let part = |c: usize| usize::from(of_elements[mesh.cells.region[c] as usize]);
+    let mut count = [0; 2];
+    let mut number = Vec::with_capacity(mesh.cells.len());
+    for c in 0..mesh.cells.len() {
+        number.push(count[part(c)]);
+        count[part(c)] += 1;
+    }
+    let mut of = [Vec::new(), Vec::new()];
+    for (p, cell) in points.cell.iter_mut().enumerate() {
+        of[part(*cell as usize)].push(p);
+        *cell = number[*cell as usize];
+    }
+    if of[1].is_empty() {
+        return [points, Points::default()];
+    }
+    of.map(|numbers| points.select(&numbers))
+}
+
+/// Where the points of finite elements are in their cells, parametrically.
+///
+/// # Errors
+/// Input: a point that is not in its cell.
+pub fn places(mesh: &Mesh<2>, points: &Points<2>) -> Result<Vec<[f64; 3]>> {
+    let locator = Locator::new(mesh);
+    let place = |(x, &cell): (&[f64; 2], &u32)| match locator.locate(mesh, x, Some(cell)) {
+        Some((found, xi)) if found == cell => Ok(xi),
+        _ => Err(Error::input(
+            "points.vtu",
+            format!("the point of a finite element at {x:?} m is not in it"),
+            "run `mpm seed` again",
+        )),
+    };
+    points.position.iter().zip(&points.cell).map(place).collect()
+}

@@ -1,0 +1,191 @@
+//! How far the soil is from the segments of a boundary: the signed distance of material points to it.
+
+use super::place::{Placed, Segments};
+use super::surface::Surface;
+use crate::kinematics::Kinematics;
+use crate::points::Points;
+use crate::surface::Bins;
+use rayon::prelude::*;
+
+/// Points this many spacings away are no surface that a segment faces.
+const REACH: f64 = 2.5;
+
+/// A point of soil near a boundary.
+#[derive(Clone, Copy, Debug)]
+struct Near {
+    point: u32,
+    segment: u32,
+    /// Signed distance (m), negative in the structure, and the half width of the point (m) across the boundary.
+    distance: f64,
+    half_width: f64,
+    spacing: f64,
+    normal: [f64; 2],
+}
+
+/// What a segment faces.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Gap {
+    /// Distance (m) between the segment and the soil, negative where they overlap.
+    pub open: f64,
+    /// The nearest point of soil, and the spacing (m) of the points there.
+    pub point: u32,
+    pub spacing: f64,
+}
+
+/// The points of one region as soil.
+#[derive(Clone, Copy)]
+pub struct Soil<'a> {
+    pub points: &'a Points<2>,
+    pub regions: &'a [u16],
+}
+
+impl Soil<'_> {
+    /// Width (m) of point `p` when seeded.
+    fn width<K: Kinematics<2>>(&self, p: usize) -> f64 {
+        let points = self.points;
+        (points.initial_volume[p] / K::measure(&points.origin[p])).sqrt()
+    }
+
+    /// The points within `REACH` spacings of the segments.
+    fn near<K: Kinematics<2>>(&self, segments: &Segments) -> Vec<Near> {
+        let points = self.points;
+        let ours = |p: &usize| self.regions.contains(&points.region[*p]);
+        let widest =
+            (0..points.len()).into_par_iter().filter(ours).map(|p| self.width::<K>(p)).reduce(|| 0.0, f64::max);
+        let longest = segments.0.iter().map(|s| (s.to[0] - s.from[0]).hypot(s.to[1] - s.from[1])).fold(0.0, f64::max);
+        let side = (1.0 + REACH) * widest + longest;
+        let bins = Bins::new(segments.0.iter().map(|s| (s.from, s.to)), side);
+        (0..points.len()).into_par_iter().filter(ours).filter_map(|p| self.nearest::<K>(segments, &bins, p)).collect()
+    }
+
+    fn nearest<K: Kinematics<2>>(&self, segments: &Segments, bins: &Bins, p: usize) -> Option<Near> {
+        let x = &self.points.position[p];
+        let mut best: Option<(f64, u32, [f64; 2])> = None;
+        for &s in bins.around(x).flatten() {
+            let segment = &segments.0[s as usize];
+            let along = [0, 1].map(|d| segment.to[d] - segment.from[d]);
+            let to = [0, 1].map(|d| x[d] - segment.from[d]);
+            let t = (to[0] * along[0] + to[1] * along[1]) / (along[0] * along[0] + along[1] * along[1]);
+            let foot = [0, 1].map(|d| segment.from[d] + t.clamp(0.0, 1.0) * along[d]);
+            let from_foot = [0, 1].map(|d| x[d] - foot[d]);
+            let square = from_foot[0] * from_foot[0] + from_foot[1] * from_foot[1];
+            // Of two segments that meet nearest to the point the one that faces it more tells the side.
+            let face = from_foot[0] * segment.normal[0] + from_foot[1] * segment.normal[1];
+            let closer = best.is_none_or(|(other, s, from)| {
+                let n = segments.0[s as usize].normal;
+                square < other * (1.0 - 1e-9)
+                    || square <= other * (1.0 + 1e-9) && face.abs() > (from[0] * n[0] + from[1] * n[1]).abs()
+            });
+            if closer {
+                best = Some((square, s, from_foot));
+            }
+        }
+        let (square, s, from_foot) = best?;
+        let spacing = self.width::<K>(p);
+        let segment = &segments.0[s as usize];
+        if segment.passes(x) {
+            return None;
+        }
+        let outside = from_foot[0] * segment.normal[0] + from_foot[1] * segment.normal[1] >= 0.0;
+        let distance = if outside { square.sqrt() } else { -square.sqrt() };
+        if distance.abs() > (REACH + 1.0) * spacing {
+            return None;
+        }
+        let f = &self.points.deformation[p];
+        let n = segment.normal;
+        let stretch = (f[(0, 0)] * n[0] + f[(1, 0)] * n[1]).hypot(f[(0, 1)] * n[0] + f[(1, 1)] * n[1]);
+        Some(Near { point: p as u32, segment: s, distance, half_width: 0.5 * spacing * stretch, spacing, normal: n })
+    }
+}
+
+/// The gap of each segment: the least of the points within a spacing of it along the boundary; `None` where there is
+/// none or it is farther than `REACH` spacings.
+pub fn raw_gaps<K: Kinematics<2>>(surface: &Surface, segments: &Segments, soil: &Soil) -> Vec<Option<Gap>> {
+    let mut near = soil.near::<K>(segments);
+    near.sort_unstable_by_key(|n| (n.segment, n.point));
+    let mut gaps: Vec<Option<Gap>> = vec![None; segments.0.len()];
+    for near in &near {
+        let own = near.segment as usize;
+        let Some(piece) = surface.pieces.iter().find(|piece| piece.contains(&own)) else { continue };
+        let open = near.distance - near.half_width;
+        if open > REACH * near.spacing {
+            continue;
+        }
+        let at = segments.0[own].along;
+        let offer = |gaps: &mut Vec<Option<Gap>>, s: usize| {
+            if gaps[s].is_none_or(|gap| open < gap.open) {
+                gaps[s] = Some(Gap { open, point: near.point, spacing: near.spacing });
+            }
+        };
+        offer(&mut gaps, own);
+        for s in (piece.start..own).rev().take_while(|&s| at - segments.0[s].along <= near.spacing) {
+            offer(&mut gaps, s);
+        }
+        for s in (own + 1..piece.end).take_while(|&s| segments.0[s].along - at <= near.spacing) {
+            offer(&mut gaps, s);
+        }
+    }
+    gaps
+}
+
+/// The surface of the soil, to be seen from segments.
+pub struct Facing {
+    pieces: Vec<[[f64; 2]; 2]>,
+    bins: Bins,
+}
+
+impl Facing {
+    /// That of loops of markers.
+    pub fn new(loops: &[Vec<[f64; 2]>]) -> Self {
+        let pieces: Vec<[[f64; 2]; 2]> =
+            loops.iter().flat_map(|x| (0..x.len()).map(|i| [x[i], x[(i + 1) % x.len()]])).collect();
+        let longest = pieces.iter().map(|[a, b]| (b[0] - a[0]).hypot(b[1] - a[1])).collect::<Vec<_>>();
+        let side = longest.iter().sum::<f64>() / longest.len().max(1) as f64;
+        let bins = Bins::new(pieces.iter().map(|[a, b]| (*a, *b)), 4.0 * side);
+        Self { pieces, bins }
+    }
+
+    /// Distance (m) from the middle of a segment along its normal to a surface that faces it, within `REACH` spacings,
+    /// negative where the soil overlaps the structure.
+    pub fn distance(&self, segment: &Placed, spacing: f64) -> Option<f64> {
+        let (x, n) = (segment.middle, segment.normal);
+        let mut best: Option<f64> = None;
+        for &piece in self.bins.around(&x).flatten() {
+            let [a, b] = self.pieces[piece as usize];
+            let along = [b[0] - a[0], b[1] - a[1]];
+            // The soil is on the left of its surface: its normal out of the soil is to face the segment.
+            let facing = along[1] * n[0] - along[0] * n[1];
+            if facing > -0.3 * along[0].hypot(along[1]) {
+                continue;
+            }
+            let to = [a[0] - x[0], a[1] - x[1]];
+            // x + t n = a + s along
+            let s = (to[1] * n[0] - to[0] * n[1]) / (along[0] * n[1] - along[1] * n[0]);
+            let t = (to[0] + s * along[0]) * n[0] + (to[1] + s * along[1]) * n[1];
+            let inside = (-1e-9..=1.0 + 1e-9).contains(&s) && t.abs() <= REACH * spacing;
+            if inside && best.is_none_or(|best| t.abs() < best.abs()) {
+                best = Some(t);
+            }
+        }
+        best
+    }
+}
+
+/// Moves points that are in the structure, or nearer to it than half their half width, out to there. Returns how many
+/// and the farthest move (m).
+pub fn push_out<K: Kinematics<2>>(segments: &Segments, points: &mut Points<2>, regions: &[u16]) -> (usize, f64) {
+    let near = Soil { points, regions }.near::<K>(segments);
+    let (mut count, mut most) = (0, 0.0f64);
+    for near in near {
+        let by = 0.5 * near.half_width - near.distance;
+        if by > 0.0 {
+            count += 1;
+            most = most.max(by);
+            let x = &mut points.position[near.point as usize];
+            for d in 0..2 {
+                x[d] += by * near.normal[d];
+            }
+        }
+    }
+    (count, most)
+}

@@ -1,0 +1,128 @@
+//! The law of contact: normal pressure and shear from gap and slip, by an augmented Lagrangian.
+//!
+//! `p = ⟨λ − ε_n g⟩`, shear `τ = λ_t − ε_t s` limited to `|τ| ≤ τ_max`, `τ_max = min(c_a + p tan δ, α s_u)`. With the
+//! multipliers `λ`, `λ_t` of the step before, gaps close and sticking soil creeps no farther (Alart & Curnier 1991).
+
+/// What two surfaces exert on each other.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Law {
+    /// tan δ (-).
+    pub friction: f64,
+    /// c_a (kPa).
+    pub adhesion: f64,
+    /// α (-): the shear is at most α times the strength of the soil, and without friction and adhesion just that.
+    pub factor: Option<f64>,
+    /// Whether the surfaces part where they are pulled.
+    pub separates: bool,
+}
+
+/// Multipliers and penalties of a hat.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Penalty {
+    /// Pressure and shear (kPa) so far.
+    pub pressure: f64,
+    pub shear: f64,
+    /// ε_n and ε_t (kPa/m).
+    pub normal: f64,
+    pub tangential: f64,
+    /// Strength of the soil (kPa).
+    pub strength: f64,
+}
+
+/// Pressure (compression positive) and shear (kPa) with their slopes by gap and slip (kPa/m).
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Answer {
+    pub pressure: f64,
+    /// On the soil, along the tangent.
+    pub shear: f64,
+    pub pressure_by_gap: f64,
+    pub shear_by_gap: f64,
+    pub shear_by_slip: f64,
+}
+
+impl Law {
+    /// Whether the tangent is symmetric in every state.
+    pub fn symmetric(&self) -> bool {
+        self.friction == 0.0
+    }
+
+    /// The answer to a mean gap and slip (m).
+    pub fn respond(&self, at: &Penalty, gap: f64, slip: f64) -> Answer {
+        let pressure = at.pressure - at.normal * gap;
+        if self.separates && pressure <= 0.0 {
+            return Answer::default();
+        }
+        let mut answer = Answer { pressure, pressure_by_gap: -at.normal, ..Answer::default() };
+        let (limit, slope) = self.limit(pressure.max(0.0), at.strength);
+        if limit == 0.0 && slope == 0.0 {
+            return answer;
+        }
+        let shear = at.shear - at.tangential * slip;
+        if shear.abs() <= limit {
+            answer.shear = shear;
+            answer.shear_by_slip = -at.tangential;
+        } else {
+            answer.shear = limit.copysign(shear);
+            answer.shear_by_gap = if pressure > 0.0 { slope.copysign(shear) * -at.normal } else { 0.0 };
+        }
+        answer
+    }
+
+    /// The largest shear (kPa) under a pressure, and its slope by the pressure (-).
+    fn limit(&self, pressure: f64, strength: f64) -> (f64, f64) {
+        let own = self.adhesion + self.friction * pressure;
+        // A strength without limit limits nothing, not even where α is zero.
+        match self.factor.map(|factor| if factor > 0.0 { factor * strength } else { 0.0 }) {
+            Some(most) if own > most || (self.friction == 0.0 && self.adhesion == 0.0) => (most, 0.0),
+            _ => (own, self.friction),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const AT: Penalty = Penalty { pressure: 3.0, shear: 0.5, normal: 100.0, tangential: 50.0, strength: 2.0 };
+
+    fn laws() -> Vec<Law> {
+        let law = |friction, adhesion, factor, separates| Law { friction, adhesion, factor, separates };
+        vec![
+            law(0.0, 0.0, None, true),
+            law(0.4, 0.0, None, true),
+            law(0.4, 0.3, Some(0.5), true),
+            law(0.0, 0.0, Some(0.5), true),
+            law(0.2, 0.1, None, false),
+        ]
+    }
+
+    #[test]
+    fn slopes_are_those_of_the_answer() {
+        let step = 1e-7;
+        for law in laws() {
+            for gap in [-0.02, 0.011, 0.029, 0.04] {
+                for slip in [-0.1, -0.004, 0.0, 0.003, 0.2] {
+                    let answer = law.respond(&AT, gap, slip);
+                    let [up, down] = [step, -step].map(|d| law.respond(&AT, gap + d, slip));
+                    let slope = |f: fn(&Answer) -> f64| (f(&up) - f(&down)) / (2.0 * step);
+                    assert!((slope(|a| a.pressure) - answer.pressure_by_gap).abs() < 1e-5, "{law:?} {gap} {slip}");
+                    assert!((slope(|a| a.shear) - answer.shear_by_gap).abs() < 1e-5, "{law:?} {gap} {slip}");
+                    let [up, down] = [step, -step].map(|d| law.respond(&AT, gap, slip + d));
+                    let by_slip = (up.shear - down.shear) / (2.0 * step);
+                    assert!((by_slip - answer.shear_by_slip).abs() < 1e-5, "{law:?} {gap} {slip}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn shear_has_its_limits() {
+        let [smooth, rough, capped, clay, bonded] = laws().try_into().unwrap();
+        assert_eq!(smooth.respond(&AT, 0.0, 1.0).shear, 0.0);
+        assert!((rough.respond(&AT, 0.0, 1.0).shear + 0.4 * 3.0).abs() < 1e-15);
+        assert_eq!(capped.respond(&AT, 0.0, -1.0).shear, 1.0);
+        assert_eq!(clay.respond(&AT, 0.0, 1.0).shear, -1.0);
+        assert_eq!(clay.respond(&AT, 0.05, 1.0), Answer::default());
+        assert_eq!(bonded.respond(&AT, 0.05, 0.0).pressure, -2.0);
+    }
+}

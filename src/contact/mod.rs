@@ -1,0 +1,17 @@
+//! Contact between the boundary of a structure and soil: where they meet, how far apart they are and what they
+//! exert on each other.
+//!
+//! The boundary is where contact is integrated, for there area and normal are exact. It is cut into segments about a
+//! fifth of a cell long; pressure and shear are combinations of hats along it, about a cell wide, and each hat has one
+//! condition: its mean gap. The gap of a segment is the signed distance of the nearest points of soil to the boundary
+//! (its level set), less the half width of a point.
+
+mod gap;
+mod law;
+mod pair;
+mod place;
+mod surface;
+
+pub use law::{Answer, Law, Penalty};
+pub use pair::{Boundary, Ground, Multipliers, Pair, Pushed, Row};
+pub use surface::Surface;

@@ -1,0 +1,319 @@
+//! A structure and the soil it touches: the condition of each hat in a step.
+
+use super::gap::{Facing, Gap, Soil, push_out, raw_gaps};
+use super::law::{Law, Penalty};
+use super::place::{Placed, Segments};
+use super::surface::Surface;
+use crate::kinematics::Kinematics;
+use crate::material::Model;
+use crate::mesh::Mesh;
+use crate::mesh::locate::Locator;
+use crate::mesh::shape::MAX_NODES;
+use crate::points::Points;
+use std::marker::PhantomData;
+use std::sync::Arc;
+
+/// ε_n and ε_t (-), in Young's modulus over the spacing of the hats.
+const NORMAL: f64 = 50.0;
+const TANGENTIAL: f64 = 5.0;
+
+/// Overlap (-), in spacings of the points, that a hat may begin to touch with, and correct in a step, without sliding.
+const STILL: f64 = 1e-3;
+/// Error (-) of a measured gap, in spacings: what points that come and go make of it.
+const BAND: f64 = 0.15;
+/// Slip, in spacings of the points, over which a gap becomes that measured.
+const SLIDE: f64 = 8.0;
+/// Share of its slip by which a gap may be corrected in a step.
+const RATE: f64 = 0.1;
+/// Where soil is looked for from a segment, in spacings of its points.
+const AWAY: [f64; 5] = [0.0, 0.05, 0.15, 0.3, 0.6];
+
+/// What a boundary lies on: the grid where it is at the beginning of the step.
+pub struct Ground<'a, const D: usize> {
+    /// The background grid with its nodes in place, and the way to find places in it.
+    pub grid: &'a Mesh<D>,
+    pub locator: &'a Locator<D>,
+    pub points: &'a Points<D>,
+    /// The surface of the soil, where it is followed: loops of markers with the soil on their left.
+    pub surface: &'a [Vec<[f64; D]>],
+}
+
+/// The condition of a hat: its mean gap and slip in the step, linear in the displacements since its beginning.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Row<const D: usize> {
+    pub hat: u32,
+    /// Area (m²) under the hat where there is soil.
+    pub area: f64,
+    /// Mean gap (m) at the beginning of the step, and how much more the points measure.
+    pub gap: f64,
+    pub offset: f64,
+    /// The nodes of the structure, `own` of them, then those of the grid.
+    pub nodes: Vec<u32>,
+    pub own: usize,
+    /// Derivatives of gap and slip (-) by the displacement of the nodes.
+    pub by_normal: Vec<[f64; D]>,
+    pub by_tangent: Vec<[f64; D]>,
+    pub penalty: Penalty,
+}
+
+impl<const D: usize> Row<D> {
+    /// Gap and slip (m) after the nodes moved by `increment`, given by node.
+    pub fn measure(&self, increment: impl Fn(u32) -> [f64; D]) -> (f64, f64) {
+        let (mut gap, mut slip) = (self.gap, 0.0);
+        for (k, &n) in self.nodes.iter().enumerate() {
+            let u = increment(n);
+            for d in 0..D {
+                gap += self.by_normal[k][d] * u[d];
+                slip += self.by_tangent[k][d] * u[d];
+            }
+        }
+        (gap, slip)
+    }
+}
+
+/// What the hats of a pair carry from step to step; one entry a hat.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Multipliers {
+    /// Pressure and shear (kPa).
+    pub pressure: Vec<f64>,
+    pub shear: Vec<f64>,
+    /// Mean gap and slip (m) of the last step.
+    pub gap: Vec<f64>,
+    pub slip: Vec<f64>,
+    /// How much more (m) the points measure as gap.
+    pub offset: Vec<f64>,
+    /// The nodes that the system has room to couple: those of hat `k` are `room[first[k]..first[k + 1]]`.
+    pub room: Vec<u32>,
+    pub first: Vec<u32>,
+}
+
+impl Multipliers {
+    /// Those of `hats` hats that touch nothing yet.
+    pub fn new(hats: usize) -> Self {
+        let zero = vec![0.0; hats];
+        Self {
+            pressure: zero.clone(),
+            shear: zero.clone(),
+            gap: zero.clone(),
+            slip: zero.clone(),
+            offset: zero,
+            room: Vec::new(),
+            first: vec![0; hats + 1],
+        }
+    }
+
+    /// The nodes that hat `k` has room for.
+    pub fn room(&self, k: usize) -> &[u32] {
+        &self.room[self.first[k] as usize..self.first[k + 1] as usize]
+    }
+}
+
+/// What pushing points out of a structure did.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Pushed {
+    pub points: usize,
+    /// The farthest move (m).
+    pub most: f64,
+}
+
+/// A structure and what it touches.
+pub trait Pair<const D: usize>: Send + Sync {
+    /// The region of the structure.
+    fn structure(&self) -> u16;
+
+    /// The number of hats.
+    fn hats(&self) -> usize;
+
+    fn law(&self) -> &Law;
+
+    /// The conditions of the hats that face soil; `position` tells where the nodes are.
+    fn rows(&self, ground: &Ground<D>, position: &dyn Fn(u32) -> [f64; D], held: &Multipliers) -> Vec<Row<D>>;
+
+    /// The boundary as polylines with the structure on their left; closed ones end where they begin.
+    fn outlines(&self, position: &dyn Fn(u32) -> [f64; D]) -> Vec<Vec<[f64; D]>>;
+
+    /// Moves points of the soil out of the structure.
+    fn push_out(&self, points: &mut Points<D>, position: &dyn Fn(u32) -> [f64; D]) -> Pushed;
+}
+
+/// The boundary of a structure on material points.
+pub struct Boundary<K> {
+    /// The region of the structure.
+    pub structure: u16,
+    pub surface: Surface,
+    pub law: Law,
+    /// The regions of the soil, and the model of each.
+    pub regions: Vec<u16>,
+    pub models: Vec<Arc<dyn Model>>,
+    pub kinematics: PhantomData<K>,
+}
+
+impl<K: Kinematics<2>> Boundary<K> {
+    /// The gap (m) of a hat at the beginning of a step, given that `measured` from points `spacing` (m) apart and that of
+    /// the `surface`.
+    ///
+    /// What touched in the step before carries its gap on: as measured it jumps when points come and go, and every jump
+    /// has to be made up for by straining the soil. It becomes that measured as the hat slides, which evens the jumps out,
+    /// and is corrected by what lies beyond their size. What did not touch has the gap of the surface; it may begin to
+    /// touch, not to overlap. The second number is how much more the points measure than that.
+    fn begin(&self, measured: f64, surface: Option<f64>, spacing: f64, held: &Multipliers, hat: usize) -> (f64, f64) {
+        let still = STILL * spacing;
+        if held.pressure[hat] == 0.0 {
+            let gap = surface.unwrap_or(measured);
+            return (gap.max(-still), (measured - gap).clamp(-0.5 * spacing, 0.5 * spacing));
+        }
+        let offset = held.offset[hat];
+        let (error, band) = (measured - offset - held.gap[hat], BAND * spacing);
+        let share = (held.slip[hat] / (SLIDE * spacing)).min(1.0);
+        let most = RATE * held.slip[hat] + still;
+        let correction = share * error + ((1.0 - share) * (error - error.clamp(-band, band))).clamp(-most, most);
+        (held.gap[hat] + correction, offset)
+    }
+
+    /// Penalties and multipliers of a hat over soil like that at `point`.
+    fn penalty(&self, points: &Points<2>, point: usize, hat: usize, held: &Multipliers) -> Penalty {
+        let y = points.origin[point][1];
+        let model = self.regions.iter().position(|r| *r == points.region[point]).map(|i| &self.models[i]);
+        let stiffness = model.map_or(0.0, |m| m.young(y)) / self.surface.spacing;
+        Penalty {
+            pressure: held.pressure[hat],
+            shear: held.shear[hat],
+            normal: NORMAL * stiffness,
+            tangential: TANGENTIAL * stiffness,
+            strength: model.map_or(0.0, |m| m.strength(y)),
+        }
+    }
+}
+
+impl Ground<'_, 2> {
+    /// The cell of the soil that a segment lies on, and where: in its middle or, where no point is in the cell there, as
+    /// little farther out of the structure as will do. The nodes of an empty cell would give way in place of the soil.
+    fn find(&self, segment: &Placed, spacing: f64, point: u32, holds: &[bool]) -> Option<(u32, [f64; 3])> {
+        let hint = Some(self.points.cell[point as usize]);
+        let at = |away: &f64| {
+            let x = [0, 1].map(|d| segment.middle[d] + away * spacing * segment.normal[d]);
+            self.locator.locate(self.grid, &x, hint)
+        };
+        AWAY.iter().filter_map(at).find(|(cell, _)| holds[*cell as usize]).or_else(|| at(&0.0))
+    }
+}
+
+/// What is summed up under a hat.
+struct Sum {
+    area: f64,
+    open: f64,
+    /// Area that faces the surface of the soil, and its distance from there times the area.
+    facing: f64,
+    distance: f64,
+    spacing: f64,
+    point: u32,
+    entries: Vec<(u32, [f64; 2], [f64; 2])>,
+}
+
+impl Sum {
+    fn add(&mut self, node: u32, normal: [f64; 2], tangent: [f64; 2]) {
+        match self.entries.iter_mut().find(|(n, ..)| *n == node) {
+            Some((_, n, t)) => {
+                for d in 0..2 {
+                    n[d] += normal[d];
+                    t[d] += tangent[d];
+                }
+            }
+            None => self.entries.push((node, normal, tangent)),
+        }
+    }
+}
+
+impl<K: Kinematics<2>> Pair<2> for Boundary<K> {
+    fn structure(&self) -> u16 {
+        self.structure
+    }
+
+    fn hats(&self) -> usize {
+        self.surface.hats
+    }
+
+    fn law(&self) -> &Law {
+        &self.law
+    }
+
+    fn rows(&self, ground: &Ground<2>, position: &dyn Fn(u32) -> [f64; 2], held: &Multipliers) -> Vec<Row<2>> {
+        let segments = Segments::new::<K>(&self.surface, position);
+        let gaps = raw_gaps::<K>(&self.surface, &segments, &Soil { points: ground.points, regions: &self.regions });
+        let surface = Facing::new(ground.surface);
+        let mut holds = vec![false; ground.grid.cells.len()];
+        ground.points.cell.iter().for_each(|&c| holds[c as usize] = true);
+        let mut sums: Vec<Option<Sum>> = (0..self.surface.hats).map(|_| None).collect();
+        for ((segment, placed), gap) in self.surface.segments.iter().zip(&segments.0).zip(&gaps) {
+            let Some(Gap { open, point, spacing }) = *gap else { continue };
+            let Some((cell, xi)) = ground.find(placed, spacing, point, &holds) else { continue };
+            let across = surface.distance(placed, spacing);
+            let mut value = [0.0; MAX_NODES];
+            ground.grid.cells.kind[cell as usize].values(&xi, &mut value);
+            let soil = ground.grid.cells.nodes(cell as usize);
+            let structure = &self.surface.facets[segment.facet as usize];
+            let n = placed.normal;
+            let t = [-n[1], n[0]];
+            for (hat, share) in segment.hats {
+                let weight = share * placed.area;
+                let sum = sums[hat as usize].get_or_insert_with(|| Sum {
+                    area: 0.0,
+                    open: 0.0,
+                    facing: 0.0,
+                    distance: 0.0,
+                    spacing: 0.0,
+                    point,
+                    entries: Vec::new(),
+                });
+                sum.area += weight;
+                sum.open += weight * open;
+                if let Some(distance) = across {
+                    sum.facing += weight;
+                    sum.distance += weight * distance;
+                }
+                sum.spacing += weight * spacing;
+                for (&node, n_s) in structure.iter().zip(&placed.value) {
+                    sum.add(node, n.map(|n| -weight * n_s * n), t.map(|t| -weight * n_s * t));
+                }
+                for (&node, n_c) in soil.iter().zip(&value) {
+                    sum.add(node, n.map(|n| weight * n_c * n), t.map(|t| weight * n_c * t));
+                }
+            }
+        }
+        let row = |(hat, sum): (usize, Option<Sum>)| {
+            let Sum { area, open, facing, distance, spacing, point, mut entries } = sum.filter(|sum| sum.area > 0.0)?;
+            let (raw, spacing) = (open / area, spacing / area);
+            let surface = (facing > 0.5 * area).then_some(distance / facing);
+            let (gap, offset) = self.begin(raw, surface, spacing, held, hat);
+            let of_structure = |n: &u32| self.surface.facets.iter().any(|f| f.contains(n));
+            entries.sort_by_key(|(n, ..)| (!of_structure(n), *n));
+            Some(Row {
+                hat: hat as u32,
+                area,
+                gap,
+                offset,
+                own: entries.iter().filter(|(n, ..)| of_structure(n)).count(),
+                nodes: entries.iter().map(|e| e.0).collect(),
+                by_normal: entries.iter().map(|e| e.1.map(|n| n / area)).collect(),
+                by_tangent: entries.iter().map(|e| e.2.map(|t| t / area)).collect(),
+                penalty: self.penalty(ground.points, point as usize, hat, held),
+            })
+        };
+        sums.into_iter().enumerate().filter_map(row).collect()
+    }
+
+    fn outlines(&self, position: &dyn Fn(u32) -> [f64; 2]) -> Vec<Vec<[f64; 2]>> {
+        let segments = Segments::new::<K>(&self.surface, position);
+        let outline = |chain: &std::ops::Range<usize>| {
+            let segments = &segments.0[chain.clone()];
+            segments.iter().map(|s| s.from).chain(segments.last().map(|s| s.to)).collect()
+        };
+        self.surface.chains.iter().map(outline).collect()
+    }
+
+    fn push_out(&self, points: &mut Points<2>, position: &dyn Fn(u32) -> [f64; 2]) -> Pushed {
+        let segments = Segments::new::<K>(&self.surface, position);
+        let (points, most) = push_out::<K>(&segments, points, &self.regions);
+        Pushed { points, most }
+    }
+}

@@ -1,0 +1,88 @@
+//! The segments of a boundary where the structure is now.
+
+use super::surface::Surface;
+use crate::kinematics::Kinematics;
+use crate::mesh::shape::MAX_NODES;
+
+/// A segment where it is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Placed {
+    /// Its ends and its middle (m).
+    pub from: [f64; 2],
+    pub to: [f64; 2],
+    pub middle: [f64; 2],
+    /// Unit normal out of the structure.
+    pub normal: [f64; 2],
+    /// Area (m², per metre or full turn).
+    pub area: f64,
+    /// Arc length (m) of the middle along its piece.
+    pub along: f64,
+    /// Whether the boundary has a corner or an end where the segment begins and where it ends.
+    pub ends: [bool; 2],
+    /// Shape functions of the facet at the middle.
+    pub value: [f64; 3],
+}
+
+impl Placed {
+    /// Whether a place is beyond a corner or end of the boundary, so that the segment does not face it.
+    pub fn passes(&self, x: &[f64; 2]) -> bool {
+        let along = [0, 1].map(|d| self.to[d] - self.from[d]);
+        let way = |from: &[f64; 2]| (0..2).map(|d| (x[d] - from[d]) * along[d]).sum::<f64>();
+        self.ends[0] && way(&self.from) < 0.0 || self.ends[1] && way(&self.to) > 0.0
+    }
+}
+
+fn distance(a: &[f64; 2], b: &[f64; 2]) -> f64 {
+    (a[0] - b[0]).hypot(a[1] - b[1])
+}
+
+/// All segments of a boundary, in their order.
+#[derive(Clone, Debug, Default)]
+pub struct Segments(pub Vec<Placed>);
+
+impl Segments {
+    /// The segments of `surface` with the nodes at `position`.
+    pub fn new<K: Kinematics<2>>(surface: &Surface, position: impl Fn(u32) -> [f64; 2]) -> Self {
+        let mut placed = Vec::with_capacity(surface.segments.len());
+        for piece in &surface.pieces {
+            let mut along = 0.0;
+            for segment in &surface.segments[piece.clone()] {
+                let facet = &surface.facets[segment.facet as usize];
+                let at = |xi: f64| {
+                    let mut n = [0.0; MAX_NODES];
+                    surface.kind.values(&[xi, 0.0, 0.0], &mut n);
+                    let mut x = [0.0; 2];
+                    for (n, &node) in n.iter().zip(facet) {
+                        let p = position(node);
+                        for d in 0..2 {
+                            x[d] += n * p[d];
+                        }
+                    }
+                    (x, [n[0], n[1], n[2]])
+                };
+                let ([from, to], (middle, value)) =
+                    ([segment.from, segment.to].map(|xi| at(xi).0), at(0.5 * (segment.from + segment.to)));
+                let chord = [to[0] - from[0], to[1] - from[1]];
+                let length = chord[0].hypot(chord[1]);
+                let value = if facet.len() == 2 { [value[0], value[1], 0.0] } else { value };
+                placed.push(Placed {
+                    from,
+                    to,
+                    middle,
+                    normal: [chord[1] / length, -chord[0] / length],
+                    area: length * K::measure(&middle),
+                    along: along + 0.5 * length,
+                    ends: [false; 2],
+                    value,
+                });
+                along += length;
+            }
+            if let [first, .., last] = &mut placed[piece.clone()]
+                && distance(&first.from, &last.to) > 1e-9 * along
+            {
+                (first.ends[0], last.ends[1]) = (true, true);
+            }
+        }
+        Self(placed)
+    }
+}

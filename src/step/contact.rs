@@ -1,0 +1,200 @@
+//! Contact in a step: which hats face soil where the step begins, and what they come to in its end.
+
+use super::grid::Grid;
+use super::newton::Solution;
+use super::scene::Scene;
+use super::state::State;
+use crate::contact::{Ground, Multipliers, Pair, Pushed};
+use crate::error::Result;
+use crate::kinematics::Kinematics;
+use crate::mesh::Mesh;
+use crate::mesh::locate::Locator;
+use crate::mesh::shape::MAX_NODES;
+use crate::system::Cliques;
+use crate::term::{Touch, Trial, contact_answer};
+
+/// What a pair exerted in a step.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Resultant<const D: usize> {
+    /// The region of the structure.
+    pub structure: u16,
+    /// Force (kN) of the soil on the structure.
+    pub force: [f64; D],
+    /// Hats that touch, and the deepest mean overlap (m) of one.
+    pub hats: usize,
+    pub overlap: f64,
+    pub pushed: Pushed,
+}
+
+/// Where a node is at the last converged step.
+fn position<const D: usize>(scene: &Scene<D>, state: &State<D>, n: u32) -> [f64; D] {
+    let n = n as usize;
+    let from = state.nodes.get(n).unwrap_or(&scene.mesh.nodes[n]);
+    std::array::from_fn(|d| from[d] + state.displacement[n][d])
+}
+
+/// The boundaries of the structures that touch soil, when the grid is restored: the nodes are in place already, the
+/// displacement is still that of the grid before.
+pub fn outlines<const D: usize>(scene: &Scene<D>, state: &State<D>) -> Vec<Vec<[f64; D]>> {
+    let place = |n: u32| *state.nodes.get(n as usize).unwrap_or(&scene.mesh.nodes[n as usize]);
+    scene.pairs.iter().flat_map(|pair| pair.outlines(&place)).collect()
+}
+
+/// Appends a clique for each hat with room, given the block of each node.
+pub fn couple<const D: usize>(state: &State<D>, block: &[u32], cliques: &mut Cliques) -> Vec<Vec<u32>> {
+    let of_pair = |multipliers: &Multipliers| {
+        let hats = multipliers.first.len() - 1;
+        let clique = |k: usize| {
+            let room = multipliers.room(k);
+            // Cells that no longer take part leave nothing to couple.
+            let blocks: Vec<u32> = room.iter().map(|&n| block[n as usize]).filter(|b| *b != u32::MAX).collect();
+            if blocks.len() < room.len() || room.is_empty() { u32::MAX } else { cliques.push(blocks) }
+        };
+        (0..hats).map(clique).collect()
+    };
+    state.multipliers.iter().map(of_pair).collect()
+}
+
+/// Finds the hats that face soil and makes room for them in the system.
+///
+/// # Errors
+/// As [`Grid::new`].
+pub fn begin<const D: usize, K: Kinematics<D>>(
+    scene: &Scene<D>,
+    grid: &mut Grid<D>,
+    state: &mut State<D>,
+) -> Result<()> {
+    if scene.pairs.is_empty() {
+        return Ok(());
+    }
+    if state.multipliers.is_empty() {
+        state.multipliers = scene.pairs.iter().map(|pair| Multipliers::new(pair.hats())).collect();
+    }
+    let at = |n: u32| position(scene, state, n);
+    let moved = state.displacement.iter().flatten().any(|&u| u != 0.0);
+    let deformed = moved.then(|| {
+        let nodes = (0..scene.mesh.nodes.len() as u32).map(at).collect();
+        let mesh = Mesh { nodes, ..scene.mesh.clone() };
+        let locator = Locator::new(&mesh);
+        (mesh, locator)
+    });
+    let restored = grid.relaxed.as_ref().map_or((&scene.mesh, &scene.locator), |r| (&r.mesh, &r.locator));
+    let (mesh, locator) = deformed.as_ref().map_or(restored, |(mesh, locator)| (mesh, locator));
+    let surface = surface(restored, state);
+    let ground = Ground { grid: mesh, locator, points: &state.points, surface: &surface };
+    let mut touches = Vec::new();
+    for ((pair, number), held) in scene.pairs.iter().zip(0..).zip(&state.multipliers) {
+        let rows = pair.rows(&ground, &at, held);
+        touches.extend(rows.into_iter().map(|row| Touch { pair: number, row, clique: 0, place: Vec::new() }));
+    }
+    let takes_part = |touch: &Touch<D>| touch.row.nodes.iter().all(|&n| grid.block[n as usize] != u32::MAX);
+    touches.retain(takes_part);
+    if !place(grid, state, &mut touches) {
+        make_room(state, &touches);
+        let stencil = std::mem::take(&mut grid.stencil);
+        *grid = Grid::with::<K>(scene, state, stencil, grid.relaxed.take())?;
+        place(grid, state, &mut touches);
+    }
+    grid.touches = touches;
+    Ok(())
+}
+
+/// The surface of the soil where it is now, given the grid as restored; no loops where it is not followed.
+fn surface<const D: usize>((mesh, locator): (&Mesh<D>, &Locator<D>), state: &State<D>) -> Vec<Vec<[f64; D]>> {
+    let Some(front) = &state.front else { return Vec::new() };
+    let (mut n, mut hint) = ([0.0; MAX_NODES], None);
+    let mut moved = |marker: &[f64; 2]| {
+        let mut x: [f64; D] = std::array::from_fn(|d| marker.get(d).copied().unwrap_or(0.0));
+        if let Some((c, xi)) = locator.locate(mesh, &x, hint) {
+            hint = Some(c);
+            mesh.cells.kind[c as usize].values(&xi, &mut n);
+            for (&node, n) in mesh.cells.nodes(c as usize).iter().zip(&n) {
+                for d in 0..D {
+                    x[d] += n * state.displacement[node as usize][d];
+                }
+            }
+        }
+        x
+    };
+    (0..front.loops()).map(|l| front.markers(l).iter().map(&mut moved).collect()).collect()
+}
+
+/// Finds the places of the rows in their cliques; false where one has none.
+fn place<const D: usize>(grid: &Grid<D>, state: &State<D>, touches: &mut [Touch<D>]) -> bool {
+    for touch in touches {
+        let (pair, hat) = (touch.pair as usize, touch.row.hat as usize);
+        let clique = grid.touch_clique.get(pair).map_or(u32::MAX, |cliques| cliques[hat]);
+        let room = state.multipliers[pair].room(hat);
+        let found = touch.row.nodes.iter().map(|n| room.iter().position(|other| other == n).map(|at| at as u32));
+        match found.collect::<Option<Vec<_>>>() {
+            Some(place) if clique != u32::MAX => (touch.clique, touch.place) = (clique, place),
+            _ => return false,
+        }
+    }
+    true
+}
+
+/// Makes room for just these rows.
+fn make_room<const D: usize>(state: &mut State<D>, touches: &[Touch<D>]) {
+    for (multipliers, number) in state.multipliers.iter_mut().zip(0..) {
+        let hats = multipliers.first.len() - 1;
+        let mut rows = touches.iter().filter(|touch| touch.pair == number).peekable();
+        multipliers.room.clear();
+        for hat in 0..hats {
+            multipliers.first[hat] = multipliers.room.len() as u32;
+            if let Some(touch) = rows.next_if(|touch| touch.row.hat as usize == hat) {
+                multipliers.room.extend(&touch.row.nodes);
+            }
+        }
+        multipliers.first[hats] = multipliers.room.len() as u32;
+    }
+}
+
+/// Hands what the hats came to on to the next step.
+pub fn commit<const D: usize>(
+    scene: &Scene<D>,
+    grid: &Grid<D>,
+    state: &mut State<D>,
+    solution: &Solution<D>,
+) -> Vec<Resultant<D>> {
+    let none = |pair: &dyn Pair<D>| Resultant {
+        structure: pair.structure(),
+        force: [0.0; D],
+        hats: 0,
+        overlap: 0.0,
+        pushed: Pushed::default(),
+    };
+    let mut resultants: Vec<_> = scene.pairs.iter().map(|pair| none(pair.as_ref())).collect();
+    let trial = Trial::at_rest(&solution.displacement, &state.displacement);
+    for multipliers in &mut state.multipliers {
+        let Multipliers { pressure, shear, gap, slip, offset, .. } = multipliers;
+        [pressure, shear, gap, slip, offset].into_iter().for_each(|values| values.fill(0.0));
+    }
+    for touch in &grid.touches {
+        let (pair, hat, row) = (touch.pair as usize, touch.row.hat as usize, &touch.row);
+        let (answer, gap, slip) = contact_answer(scene.pairs[pair].law(), touch, &trial);
+        let held = &mut state.multipliers[pair];
+        (held.pressure[hat], held.shear[hat]) = (answer.pressure, answer.shear);
+        (held.gap[hat], held.slip[hat], held.offset[hat]) = (gap, slip.abs(), row.offset);
+        let resultant = &mut resultants[pair];
+        if answer.pressure != 0.0 {
+            resultant.hats += 1;
+            resultant.overlap = resultant.overlap.max(-gap);
+        }
+        for (n, t) in row.by_normal[..row.own].iter().zip(&row.by_tangent) {
+            for d in 0..D {
+                resultant.force[d] += row.area * (answer.pressure * n[d] + answer.shear * t[d]);
+            }
+        }
+    }
+    resultants
+}
+
+/// Moves points out of the structures, once all is where the step takes it.
+pub fn push_out<const D: usize>(scene: &Scene<D>, state: &mut State<D>, resultants: &mut [Resultant<D>]) {
+    for (pair, resultant) in scene.pairs.iter().zip(resultants) {
+        let mut points = std::mem::take(&mut state.points);
+        resultant.pushed = pair.push_out(&mut points, &|n| position(scene, state, n));
+        state.points = points;
+    }
+}

@@ -1,0 +1,70 @@
+//! The finite elements of a run: cells that keep their points and their shape.
+//!
+//! When the grid is restored they go on from where they are: their nodes stay, the displacement begins at zero again,
+//! and the points carry the deformation so far (updated Lagrangian).
+
+use super::grid::Family;
+use super::scene::{Fem, Scene};
+use super::state::State;
+use crate::kinematics::Kinematics;
+use crate::mesh::Mesh;
+use crate::points::Points;
+use crate::stencil::{Scheme, Stencil};
+use crate::system::Cliques;
+
+/// The finite elements, and what their points see of them.
+pub struct Elements<const D: usize> {
+    /// The cells with the nodes where they were when the grid was last restored.
+    pub mesh: Mesh<D>,
+    pub stencil: Stencil<D>,
+    /// The cells with unknowns of pressure.
+    pub cells: Vec<u32>,
+    /// The clique of each cell.
+    pub clique: Vec<u32>,
+}
+
+impl<const D: usize> Elements<D> {
+    /// The elements of a scene in a state.
+    pub fn new<K: Kinematics<D>>(fem: &Fem<D>, state: &State<D>) -> Self {
+        let cells = (0u32..).zip(&fem.with_pressure).filter(|(_, with)| **with).map(|(c, _)| c).collect();
+        let mut elements = Self { mesh: fem.mesh.clone(), stencil: Stencil::default(), cells, clique: Vec::new() };
+        elements.place::<K>(state);
+        elements
+    }
+
+    /// Their points and cells.
+    pub fn family<'a>(&'a self, points: &'a Points<D>) -> Family<'a, D> {
+        Family { mesh: &self.mesh, stencil: &self.stencil, clique: &self.clique, points }
+    }
+
+    /// Takes the nodes where `state` has them.
+    pub fn place<K: Kinematics<D>>(&mut self, state: &State<D>) {
+        self.mesh.nodes.clone_from(&state.nodes);
+        self.stencil.fill::<K>(Scheme::Mpm, &self.mesh, &state.fem.cell, &state.fem_parametric, &[]);
+        self.stencil.weigh(&state.fem.initial_volume, &[]);
+    }
+
+    /// Appends a clique for each cell, given the block of each node.
+    pub fn couple(&mut self, block: &[u32], cliques: &mut Cliques) {
+        let cells = &self.mesh.cells;
+        let clique = |c: usize| cliques.push(cells.nodes(c).iter().map(|&n| block[n as usize]));
+        self.clique = (0..cells.len()).map(clique).collect();
+    }
+}
+
+/// Moves the nodes of the elements to where they are, before the displacement begins at zero again.
+pub fn keep_shape<const D: usize>(scene: &Scene<D>, state: &mut State<D>) {
+    let Some(fem) = &scene.fem else { return };
+    if state.nodes.is_empty() {
+        state.nodes.clone_from(&scene.mesh.nodes);
+    }
+    let mut of_elements = vec![false; state.nodes.len()];
+    for &n in &fem.mesh.cells.nodes {
+        of_elements[n as usize] = true;
+    }
+    for ((x, u), _) in state.nodes.iter_mut().zip(&state.displacement).zip(&of_elements).filter(|(_, of)| **of) {
+        for d in 0..D {
+            x[d] += u[d];
+        }
+    }
+}

@@ -1,0 +1,155 @@
+//! Where the surface lies against a structure it is the boundary of that: markers near it are taken anew from it.
+//!
+//! The structure slides along the material, and markers that went with the material would crowd and fold at its edges.
+
+use super::{Fault, Front, PER_LENGTH, distance};
+use crate::mesh::Mesh;
+use crate::mesh::locate::Locator;
+use crate::surface::bins::Bins;
+use crate::surface::geometry::Geometry;
+
+/// Markers lie against a structure that are nearer to it than this share of a cell, or less than `DEEP` in it.
+const NEAR: f64 = 0.15;
+const DEEP: f64 = 1.0;
+
+/// A marker against an outline.
+#[derive(Clone, Copy)]
+struct Foot {
+    outline: usize,
+    /// Arc length (m) along it.
+    along: f64,
+}
+
+/// A polyline with the arc length of its vertices.
+struct Outline<'a> {
+    x: &'a [[f64; 2]],
+    along: Vec<f64>,
+    closed: bool,
+}
+
+impl<'a> Outline<'a> {
+    fn new(x: &'a [[f64; 2]]) -> Self {
+        let mut along = vec![0.0];
+        for pair in x.windows(2) {
+            along.push(along[along.len() - 1] + distance(&pair[0], &pair[1]));
+        }
+        let closed = x.len() > 2 && distance(&x[0], &x[x.len() - 1]) < 1e-9 * along[along.len() - 1];
+        Self { x, along, closed }
+    }
+
+    fn length(&self) -> f64 {
+        self.along[self.along.len() - 1]
+    }
+
+    /// The place at an arc length.
+    fn at(&self, s: f64) -> [f64; 2] {
+        let s = if self.closed { s.rem_euclid(self.length()) } else { s.clamp(0.0, self.length()) };
+        let i = self.along.partition_point(|&a| a < s).clamp(1, self.x.len() - 1);
+        let t = (s - self.along[i - 1]) / (self.along[i] - self.along[i - 1]);
+        [0, 1].map(|d| self.x[i - 1][d] + t * (self.x[i][d] - self.x[i - 1][d]))
+    }
+
+    /// The way from one arc length to another, the shorter one around a closed outline.
+    fn way(&self, from: f64, to: f64) -> f64 {
+        let way = to - from;
+        if self.closed { way - (way / self.length()).round() * self.length() } else { way }
+    }
+}
+
+impl Front {
+    /// Takes the markers that lie against `outlines` anew from these.
+    ///
+    /// # Errors
+    /// When a marker is outside the mesh.
+    pub fn lean(
+        &mut self,
+        mesh: &Mesh<2>,
+        geometry: &Geometry,
+        locator: &Locator<2>,
+        outlines: &[Vec<[f64; 2]>],
+    ) -> Result<(), Fault> {
+        if outlines.is_empty() {
+            return Ok(());
+        }
+        let outlines: Vec<Outline> = outlines.iter().filter(|x| x.len() > 1).map(|x| Outline::new(x)).collect();
+        let pieces: Vec<(usize, usize)> =
+            outlines.iter().enumerate().flat_map(|(k, o)| (1..o.x.len()).map(move |i| (k, i))).collect();
+        let mut hint = None;
+        let mut size = Vec::with_capacity(self.position.len());
+        for x in &self.position {
+            let (c, _) = locator.locate(mesh, x, hint).ok_or(Fault::Outside { place: *x })?;
+            size.push(geometry.size(mesh, c as usize));
+            hint = Some(c);
+        }
+        let longest = outlines.iter().flat_map(|o| o.along.windows(2).map(|a| a[1] - a[0])).fold(0.0, f64::max);
+        let side = DEEP * size.iter().fold(0.0f64, |a, b| a.max(*b)) + longest;
+        let bins = Bins::new(pieces.iter().map(|&(k, i)| (outlines[k].x[i - 1], outlines[k].x[i])), side);
+        let feet: Vec<Option<Foot>> =
+            self.position.iter().zip(&size).map(|(x, h)| foot(&outlines, &pieces, &bins, x, *h)).collect();
+        let mut next =
+            Self { position: Vec::with_capacity(self.position.len() + 16), first: vec![0], weight: self.weight };
+        for l in 0..self.loops() {
+            let range = self.first[l] as usize..self.first[l + 1] as usize;
+            lean_loop(&outlines, &self.position[range.clone()], &feet[range.clone()], &size[range], &mut next.position);
+            next.first.push(next.position.len() as u32);
+        }
+        *self = next;
+        Ok(())
+    }
+}
+
+/// Where a marker at `x` in a cell of size `h` lies against an outline.
+fn foot(outlines: &[Outline], pieces: &[(usize, usize)], bins: &Bins, x: &[f64; 2], h: f64) -> Option<Foot> {
+    let mut best: Option<(f64, f64, Foot)> = None;
+    for &piece in bins.around(x).flatten() {
+        let (outline, i) = pieces[piece as usize];
+        let (a, b) = (outlines[outline].x[i - 1], outlines[outline].x[i]);
+        let (along, to) = ([0, 1].map(|d| b[d] - a[d]), [0, 1].map(|d| x[d] - a[d]));
+        let length = along[0].hypot(along[1]);
+        let t = ((to[0] * along[0] + to[1] * along[1]) / (length * length)).clamp(0.0, 1.0);
+        let away = distance(x, &[0, 1].map(|d| a[d] + t * along[d]));
+        if best.as_ref().is_none_or(|(least, ..)| away < *least) {
+            // The structure is on the left.
+            let left = (along[0] * to[1] - along[1] * to[0]) / length;
+            best = Some((away, left, Foot { outline, along: outlines[outline].along[i - 1] + t * length }));
+        }
+    }
+    let (away, left, foot) = best?;
+    (away <= if left > 0.0 { DEEP * h } else { NEAR * h }).then_some(foot)
+}
+
+/// Appends the markers of a loop, those of each run against an outline taken from it.
+fn lean_loop(outlines: &[Outline], x: &[[f64; 2]], feet: &[Option<Foot>], size: &[f64], out: &mut Vec<[f64; 2]>) {
+    let count = x.len();
+    let on = |i: usize| feet[i % count].as_ref().map(|foot| foot.outline);
+    // Begin where no run goes on.
+    let Some(begin) = (0..count).find(|&i| on(i).is_none() || on(i) != on(i + count - 1)) else {
+        out.extend(x);
+        return;
+    };
+    let mut i = begin;
+    while i < begin + count {
+        let Some(Foot { outline, along }) = feet[i % count] else {
+            out.push(x[i % count]);
+            i += 1;
+            continue;
+        };
+        let outline = &outlines[outline];
+        let (mut way, mut last) = (0.0, along);
+        let mut end = i + 1;
+        while end < begin + count && on(end) == on(i) {
+            if let Some(foot) = feet[end % count] {
+                way += outline.way(last, foot.along);
+                last = foot.along;
+            }
+            end += 1;
+        }
+        let spacing = size[i % count] / PER_LENGTH as f64;
+        let markers = (way.abs() / spacing).ceil();
+        // The material is on the left of its surface, as the structure is of its own: they run against each other.
+        let way = way.min(0.0);
+        let markers = if way == 0.0 { 0.0 } else { markers };
+        out.extend((0..=markers as usize).map(|k| outline.at(along + way * k as f64 / markers.max(1.0))));
+        i = end;
+    }
+}

@@ -1,0 +1,75 @@
+//! Contact: `−Σ_k A_k (p_k ∂g_k/∂u + τ_k ∂s_k/∂u)` over the hats of a pair, `p_k`, `τ_k` by its law from the mean gap
+//! `g_k` and slip `s_k` at the end of the step (theory, Contact).
+//!
+//! Within a step gap and slip are linear in the displacements, so that the tangent is exact and Newton's method ends at
+//! a fixed set of hats that touch, stick or slide.
+
+use super::{Assembly, Frame, Term, Touch, Trial};
+use crate::contact::{Answer, Law};
+use crate::error::Result;
+use crate::system::{Local, scatter};
+
+/// The contact of one pair.
+pub struct Contact {
+    /// The number of the pair in the scene.
+    pair: u32,
+    law: Law,
+}
+
+impl Contact {
+    pub fn new(pair: u32, law: Law) -> Self {
+        Self { pair, law }
+    }
+}
+
+/// What a hat answers to the displacements of a trial state.
+pub fn answer<const D: usize>(law: &Law, touch: &Touch<D>, trial: &Trial<D>) -> (Answer, f64, f64) {
+    let since = |n: u32| {
+        let (now, before) = (&trial.displacement[n as usize], &trial.converged[n as usize]);
+        std::array::from_fn(|d| now[d] - before[d])
+    };
+    let (gap, slip) = touch.row.measure(since);
+    (law.respond(&touch.row.penalty, gap, slip), gap, slip)
+}
+
+impl<const D: usize> Term<D> for Contact {
+    fn symmetric(&self) -> bool {
+        self.law.symmetric()
+    }
+
+    fn assemble(&self, frame: &Frame<D>, trial: &Trial<D>, out: &mut Assembly) -> Result<()> {
+        let compute = |touch: &Touch<D>, local: &mut Local| {
+            if touch.pair != self.pair {
+                return Ok(());
+            }
+            let row = &touch.row;
+            let (answer, ..) = answer(&self.law, touch, trial);
+            let (pressure, shear) = (row.area * answer.pressure, row.area * answer.shear);
+            for (k, &at) in touch.place.iter().enumerate() {
+                for d in 0..D {
+                    local.vector[at as usize * D + d] -= pressure * row.by_normal[k][d] + shear * row.by_tangent[k][d];
+                }
+            }
+            if local.matrix.is_empty() {
+                return Ok(());
+            }
+            let [nn, tn, tt] =
+                [answer.pressure_by_gap, answer.shear_by_gap, answer.shear_by_slip].map(|slope| row.area * slope);
+            for (a, &i) in touch.place.iter().enumerate() {
+                for (b, &j) in touch.place.iter().enumerate() {
+                    for d in 0..D {
+                        let (n, t) = (row.by_normal[a][d], row.by_tangent[a][d]);
+                        let entry = (i as usize * D + d) * local.size + j as usize * D;
+                        for e in 0..D {
+                            let (m, s) = (row.by_normal[b][e], row.by_tangent[b][e]);
+                            local.matrix[entry + e] -= nn * n * m + tn * t * m + tt * t * s;
+                        }
+                    }
+                }
+            }
+            Ok(())
+        };
+        let clique = |touch: &Touch<D>| touch.clique as usize;
+        scatter(frame.pattern, frame.touches, clique, compute, out.force, out.tangent.as_deref_mut(), out.workspace)
+    }
+}

@@ -1,0 +1,96 @@
+//! Structures on soil, from the case to the results: forces against closed forms.
+
+use mpm::io::frame::Frame;
+use std::path::Path;
+use std::process::Command;
+
+/// Runs a case with overrides and returns its folder.
+fn run(case: &str, overrides: &[&str]) -> tempfile::TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    let mut command = Command::new(env!("CARGO_BIN_EXE_mpm"));
+    command.arg("run").arg(Path::new(env!("CARGO_MANIFEST_DIR")).join(case)).arg("-o").arg(folder.path());
+    for entry in overrides {
+        command.args(["--set", entry]);
+    }
+    let output = command.output().unwrap();
+    assert!(output.status.success(), "{case} {overrides:?}: {}", String::from_utf8_lossy(&output.stderr));
+    folder
+}
+
+/// The history: rows of numbers.
+fn history(folder: &Path) -> Vec<Vec<f64>> {
+    let text = std::fs::read_to_string(folder.join("history.csv")).unwrap();
+    text.lines().skip(1).map(|line| line.split(',').map(|v| v.parse().unwrap()).collect()).collect()
+}
+
+/// Confined soil under a plate with an unrelated mesh is strained evenly: Hencky elasticity, `σ = M ln λ / λ`, the
+/// confined modulus M, and no point differs.
+#[test]
+fn a_plate_hands_on_a_uniform_pressure() {
+    let folder = run("tests/data/plate", &[]);
+    let force = history(folder.path()).last().unwrap()[4];
+    let (young, poisson, stretch) = (1000.0, 0.3, 0.9f64);
+    let modulus = young * (1.0 - poisson) / ((1.0 + poisson) * (1.0 - 2.0 * poisson));
+    let stress = modulus * stretch.ln() / stretch;
+    assert!((force / (-2.0 * stress) - 1.0).abs() < 1e-3, "{force} {}", -2.0 * stress);
+    let frame = Frame::read(&folder.path().join("results/frame-000001.mpmf")).unwrap();
+    let column = frame.points.columns.iter().find(|c| c.name == "stress").unwrap();
+    for sigma in column.values.chunks_exact(6) {
+        assert!((sigma[1] / (-0.5 * force) - 1.0).abs() < 1e-3, "{sigma:?} {force}");
+    }
+}
+
+/// A plate that slides along soil it is pressed into keeps its normal force while it crosses five cells. One per cent is
+/// wanted; what points that come and go make of its gap is more (docs/numerics.md).
+#[test]
+fn a_plate_that_slides_keeps_its_normal_force() {
+    let phases = "phases=[{name: press, analysis: quasi_static, duration: 1, step: {initial: 0.2}, \
+        prescribe: {top: {ux: 0, uy: {rate: -0.02}}}}, {name: slide, analysis: quasi_static, duration: 1, \
+        step: {initial: 0.04}, prescribe: {top: {ux: {rate: 1}, uy: 0}}}]";
+    let mesh = "mesh.parameters={width: 6, plate: 1, left: 2, edge: 0.1, depth: 1.5, h: 0.2, hp: 0.12}";
+    let folder = run("tests/data/plate", &[phases, mesh]);
+    // At first the new soil under the leading edge has to be pressed down.
+    let forces: Vec<f64> = history(folder.path()).iter().filter(|row| row[0] > 1.2).map(|row| row[4]).collect();
+    let mean = forces.iter().sum::<f64>() / forces.len() as f64;
+    for force in &forces {
+        assert!((force / mean - 1.0).abs() < 0.05, "{forces:?}");
+    }
+}
+
+/// A block slides down with `g (sin θ − tan δ cos θ)` where that is positive …
+#[test]
+fn a_block_slides_down_an_incline() {
+    let folder = run("cases/incline", &["phases[0].duration=0.6"]);
+    let (sin, cos) = 20f64.to_radians().sin_cos();
+    let way = 0.5 * 9.81 * (sin - 0.2 * cos) * 0.6f64.powi(2);
+    let rows = history(folder.path());
+    let row = rows.last().unwrap();
+    let (along, across) = (row[1] * cos - row[2] * sin, row[1] * sin + row[2] * cos);
+    assert!((along / way - 1.0).abs() < 0.01, "{along} {way}");
+    // Cells are 0.25 m wide.
+    assert!(across.abs() < 0.01 * 0.25, "{across}");
+}
+
+/// … and rests where it is not, once it has settled.
+#[test]
+fn a_block_rests_on_an_incline() {
+    let overrides = ["contacts[0].friction=0.37", "numerics.spectral_radius=0.5", "phases[0].duration=0.8"];
+    let folder = run("cases/incline", &overrides);
+    let rows = history(folder.path());
+    let at = |time: f64| rows.iter().find(|row| row[0] > time - 1e-9).unwrap()[1];
+    let free = 0.5 * 9.81 * 20f64.to_radians().sin() * 0.8f64.powi(2);
+    assert!((at(0.8) - at(0.6)).abs() < 1e-6 * free, "{} {}", at(0.6), at(0.8));
+}
+
+/// The head of a pile bears what the soil exerts on it, and in the first centimetres that is the limit load of a circular
+/// footing, between smooth (5.69 s_u) and rough (6.05 s_u), with what it gains with depth and errs by in coarse cells.
+#[test]
+fn a_pile_finds_its_bearing_capacity() {
+    let folder = run("cases/pile", &["phases.push.duration=0.1"]);
+    let rows = history(folder.path());
+    for row in &rows {
+        assert!((row[2] + row[4]).abs() < 1e-6 * row[2].abs().max(1e-3), "{row:?}");
+    }
+    let pressure = rows.last().unwrap()[2] / (std::f64::consts::PI * 0.5f64.powi(2)) / 0.5;
+    assert!((5.69..1.1 * 6.05).contains(&pressure), "{pressure}");
+}

@@ -1,0 +1,79 @@
+//! Contact: the forces of hats that are apart, stick, slide and are limited, and their tangent.
+
+use crate::loads::anywhere;
+use crate::stand::{Random, Stand, mesh, points, resultant, size};
+use mpm::contact::{Law, Penalty, Row};
+use mpm::kinematics::PlaneStrain;
+use mpm::mesh::shape::CellKind;
+use mpm::term::{Contact, Touch};
+
+fn law(friction: f64, adhesion: f64, factor: Option<f64>) -> Law {
+    Law { friction, adhesion, factor, separates: true }
+}
+
+/// A stand with hats between the first nodes of a cell, as a structure, and the rest of them: each moves as one where
+/// the weights of each sum to one. The first hat is `apart`, the others overlap by up to a millimetre.
+fn stand(law: Law, apart: f64) -> Stand<PlaneStrain> {
+    let mesh = mesh(CellKind::T6);
+    let points = points(&mesh, |_| true);
+    let mut stand = Stand::new(mesh, points, Box::new(Contact::new(0, law)), true, law.friction > 0.0);
+    let mut random = Random(7);
+    for hat in 0..4u32 {
+        let cell = 2 * hat;
+        let nodes = stand.scene.mesh.cells.nodes(cell as usize).to_vec();
+        let mut share = || {
+            let values: Vec<f64> = (0..3).map(|_| 1.5 + random.next()).collect();
+            let sum: f64 = values.iter().sum();
+            values.into_iter().map(move |v| v / sum)
+        };
+        let weights: Vec<f64> = share().map(|v| -v).collect::<Vec<_>>().into_iter().chain(share()).collect();
+        let angle = f64::from(hat);
+        let normal = [angle.cos(), angle.sin()];
+        let row = Row {
+            hat,
+            area: 0.3 + 0.1 * angle,
+            offset: 0.0,
+            gap: if hat == 0 { apart } else { -1e-3 * angle },
+            by_normal: weights.iter().map(|w| normal.map(|n| w * n)).collect(),
+            by_tangent: weights.iter().map(|w| [-normal[1] * w, normal[0] * w]).collect(),
+            own: 3,
+            nodes,
+            penalty: Penalty { pressure: 20.0, shear: angle - 2.0, normal: 5e3, tangential: 5e2, strength: 30.0 },
+        };
+        let clique = stand.grid.clique[cell as usize];
+        let place = (0..6).collect();
+        stand.grid.touches.push(Touch { pair: 0, row, clique, place });
+    }
+    stand
+}
+
+#[test]
+fn the_tangent_is_the_derivative() {
+    for law in [law(0.0, 0.0, None), law(0.4, 0.0, None), law(0.3, 2.0, Some(0.3)), law(0.0, 0.0, Some(0.5))] {
+        let stand = stand(law, 10.0);
+        // Small motions stick, larger ones slide.
+        for size in [1e-5, 1e-3, 3e-2] {
+            let (trial, converged) = anywhere(&stand);
+            let trial: Vec<_> =
+                trial.iter().zip(&converged).map(|(u, c)| [0, 1].map(|d| c[d] + size * (u[d] - c[d]))).collect();
+            let error = stand.tangent_error(&trial, &converged);
+            assert!(error < 1e-6, "{law:?} {size}: {error:.1e}");
+            if law.friction == 0.0 {
+                assert!(stand.asymmetry(&trial, &converged) < 1e-14, "{law:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn what_the_soil_bears_the_structure_gives() {
+    let stand = stand(law(0.4, 0.0, None), -1e-3);
+    let (_, converged) = anywhere(&stand);
+    let force = stand.evaluate(&converged, &converged, 0, false).0;
+    let (sum, whole) = (resultant(&force), size(&force));
+    assert!(whole > 1.0 && sum[0].hypot(sum[1]) < 1e-12 * whole, "{sum:?} {whole}");
+    // Of the hat that is apart nothing comes.
+    let mut alone = self::stand(law(0.4, 0.0, None), 10.0);
+    alone.grid.touches.truncate(1);
+    assert_eq!(size(&alone.evaluate(&converged, &converged, 0, false).0), 0.0);
+}
