@@ -282,8 +282,10 @@ impl<const D: usize> Grid<D> {
 
     /// What the terms of the scene see.
     pub fn frame<'a>(&'a self, mesh: &'a Mesh<D>, state: &'a State<D>) -> Frame<'a, D> {
+        let relaxed = self.relaxed.as_ref().map(|relaxed| &relaxed.mesh);
         Frame {
-            mesh,
+            mesh: relaxed.unwrap_or(mesh),
+            relaxed: relaxed.is_some(),
             stencil: &self.stencil,
             soft: &state.weighing.soft,
             ghost: &self.ghost,
@@ -306,6 +308,7 @@ impl<const D: usize> Grid<D> {
     ) -> Frame<'a, D> {
         Frame {
             mesh: &elements.mesh,
+            relaxed: true,
             stencil: &elements.stencil,
             soft: &[],
             ghost: &[],

@@ -53,6 +53,7 @@ impl<'a> Mass<'a> {
         system.matrix.clear();
         let mut unused = vec![0.0; system.pattern.len()];
         let (stencil, clique) = (&grid.stencil, &grid.clique);
+        let mesh = grid.relaxed.as_ref().map_or(&scene.mesh, |relaxed| &relaxed.mesh);
         let soil = Family { mesh: &scene.mesh, stencil, clique, points: &state.points };
         let elements = grid.elements.iter().map(|elements| elements.family(&state.fem));
         for Family { stencil, clique, points, .. } in std::iter::once(soil).chain(elements) {
@@ -81,7 +82,7 @@ impl<'a> Mass<'a> {
             &grid.ghost,
             |ghost| ghost.clique as usize,
             |ghost, local| {
-                let jump = Jump::of::<D, K>(&scene.mesh, &ghost.between);
+                let jump = Jump::of::<D, K>(mesh, &ghost.between);
                 let scale = PENALTY * scene.density_scale * jump.size * jump.size;
                 for (entry, form) in local.matrix.iter_mut().zip(&jump.form) {
                     *entry = scale * form;

@@ -15,7 +15,7 @@ use crate::error::{Error, Result};
 use crate::kinematics::Kinematics;
 use crate::material::Model;
 use crate::points::Points;
-use crate::stencil::Jumps;
+use crate::stencil::{Jump, Jumps};
 use crate::system::{Local, scatter};
 use crate::tensor::deviatoric;
 use std::marker::PhantomData;
@@ -94,7 +94,9 @@ impl<const D: usize, K: Kinematics<D>> Term<D> for GhostPenalty<K> {
     fn assemble(&self, frame: &Frame<D>, trial: &Trial<D>, out: &mut Assembly) -> Result<()> {
         let compute = |ghost: &GhostFace, local: &mut Local| {
             let stiffness = self.stiffness(frame, ghost)?;
-            let form = &self.jumps.of::<D, K>(frame.mesh, &ghost.between, ghost.face).form;
+            let fresh = frame.relaxed.then(|| Jump::of::<D, K>(frame.mesh, &ghost.between));
+            let jump = fresh.as_ref().unwrap_or_else(|| self.jumps.of::<D, K>(frame.mesh, &ghost.between, ghost.face));
+            let form = &jump.form;
             let count = local.size / D;
             for (b, n) in ghost.between.nodes(frame.mesh).enumerate() {
                 let (u, before) = (&trial.between[n as usize], &trial.converged[n as usize]);

@@ -63,6 +63,8 @@ pub struct Touch<const D: usize> {
 pub struct Frame<'a, const D: usize> {
     /// The grid as last restored: the reference configuration.
     pub mesh: &'a Mesh<D>,
+    /// Whether that is not the first shape of the grid, so that what was kept of that one does not hold.
+    pub relaxed: bool,
     pub stencil: &'a Stencil<D>,
     /// Cells that take part and are not full of points.
     pub soft: &'a [SoftCell],
