@@ -25,7 +25,7 @@ mpm_geo = $(addprefix $(1)/,$(shell sed -n 's/.*\bgeo: *["'\'']\{0,1\}\([^]["'\'
 # $(1): name of the case, $(2): its folder.
 define mpm_rules
 .PHONY: $(1) $(1)-mesh $(1)-seed $(1)-solve $(1)-export $(1)-clean
-$(1) $(1)-export: $(2)/out/vtu/points.pvd
+$(1) $(1)-export: $(2)/out/points.pvd
 $(1)-mesh: $(2)/out/mesh.msh
 $(1)-seed: $(2)/out/points.vtu
 $(1)-solve: $(2)/out/.solved
@@ -38,7 +38,7 @@ $(2)/out/points.vtu: $(2)/out/mesh.msh
 $(2)/out/.solved: $(2)/out/points.vtu
 	$(MPM) solve $(2) $$(mpm_solve_flags) $(MPM_FLAGS)
 	@touch $$@
-$(2)/out/vtu/points.pvd: $(2)/out/.solved
+$(2)/out/points.pvd: $(2)/out/.solved
 	$(MPM) export $(2) $(MPM_FLAGS)
 $(1)-clean:
 	rm -rf $(2)/out

@@ -15,7 +15,7 @@ case $1 in
   mesh) echo > "$2/out/mesh.msh" ;;
   seed) echo > "$2/out/points.vtu" ;;
   solve) echo > "$2/out/history.csv"; [ ! -e fail ] ;;
-  export) echo > "$2/out/vtu/points.pvd" ;;
+  export) echo > "$2/out/points.pvd" ;;
 esac
 "#;
 
