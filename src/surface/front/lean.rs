@@ -49,6 +49,14 @@ impl<'a> Outline<'a> {
         [0, 1].map(|d| self.x[i - 1][d] + t * (self.x[i][d] - self.x[i - 1][d]))
     }
 
+    /// An arc length, or the end of an open outline within `reach` of it: that is on a wall, and the surface goes up to it.
+    fn snap(&self, s: f64, reach: f64) -> f64 {
+        match [0.0, self.length()].into_iter().find(|end| (s - end).abs() < reach) {
+            Some(end) if !self.closed => end,
+            _ => s,
+        }
+    }
+
     /// The way from one arc length to another, the shorter one around a closed outline.
     fn way(&self, from: f64, to: f64) -> f64 {
         let way = to - from;
@@ -135,16 +143,18 @@ fn lean_loop(outlines: &[Outline], x: &[[f64; 2]], feet: &[Option<Foot>], size: 
             continue;
         };
         let outline = &outlines[outline];
+        let spacing = size[i % count] / PER_LENGTH as f64;
+        let along = outline.snap(along, 0.5 * spacing);
         let (mut way, mut last) = (0.0, along);
         let mut end = i + 1;
         while end < begin + count && on(end) == on(i) {
             if let Some(foot) = feet[end % count] {
-                way += outline.way(last, foot.along);
-                last = foot.along;
+                let along = outline.snap(foot.along, 0.5 * spacing);
+                way += outline.way(last, along);
+                last = along;
             }
             end += 1;
         }
-        let spacing = size[i % count] / PER_LENGTH as f64;
         let markers = (way.abs() / spacing).ceil();
         // The material is on the left of its surface, as the structure is of its own: they run against each other.
         let way = way.min(0.0);
