@@ -4,6 +4,7 @@
 use super::contact;
 use super::fem::{self, Elements};
 use super::ghost_faces;
+use super::guess;
 use super::newton::Buffers;
 use super::pressure;
 use super::relax::{self, Relaxed};
@@ -364,6 +365,7 @@ fn begin_anew<const D: usize, K: Kinematics<D>>(
         displacement: (state.restorations > 0).then_some(&state.displacement),
     };
     state.weighing = scene.quadrature.weigh(&grid, &mut state.front);
+    guess::carry(scene, before.as_ref().map_or(&scene.mesh, |r| &r.mesh), mesh, state);
     state.displacement.fill([0.0; D]);
     state.restorations += 1;
     if scene.numerics.restore == Restore::Never {

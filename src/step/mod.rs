@@ -10,6 +10,7 @@ mod distortion;
 mod fem;
 mod ghost_faces;
 mod grid;
+mod guess;
 mod mass;
 mod newton;
 mod pressure;
@@ -131,7 +132,7 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
         let (velocity, acceleration): (&[_], &[_]) =
             start.as_ref().map_or((&[], &[]), |s| (&s.velocity, &s.acceleration));
         let guess = (guess && state.last_step > 0.0 && !phase.dynamic && !scene.pairs.is_empty())
-            .then(|| going_on(state, dt / state.last_step));
+            .then(|| guess::going_on(state, dt / state.last_step));
         let problem = Problem {
             scene,
             state,
@@ -179,10 +180,4 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
         state.phase_time += dt;
         Ok(Report { contacts, ..Report::new(scene, state, &self.grid, dt, solution, &momentum) })
     }
-}
-
-/// The displacement (m) of the nodes after `share` times their last increment.
-fn going_on<const D: usize>(state: &State<D>, share: f64) -> Vec<[f64; D]> {
-    let ends = state.displacement.iter().zip(&state.increment);
-    ends.map(|(u, by)| std::array::from_fn(|d| u[d] + share * by[d])).collect()
 }
