@@ -17,6 +17,11 @@ const ARMIJO: f64 = 1e-4;
 const BACKTRACKS: i32 = 6;
 /// Line searches that may end without a decrease before the step is given up.
 const STALLED: usize = 4;
+/// Shares by which the diagonal of the tangent is raised where its steps go astray (Levenberg 1944).
+const LEAST_DAMPING: f64 = 1e-4;
+const MOST_DAMPING: f64 = 0.2;
+/// Halvings of an accepted step length from which its tangent is not to be trusted so far.
+const ASTRAY: i32 = 3;
 /// Full steps that may raise the residual before the iteration returns to its best state.
 const WATCH: usize = 3;
 /// Largest relative residual that the linear systems of an iteration are solved to.
@@ -122,6 +127,8 @@ struct Newton<'a, const D: usize> {
     /// Whether every iteration must lessen the residual: set when full steps have failed to.
     strict: bool,
     stalled: usize,
+    /// Share by which the diagonal of the tangent is raised: not zero while its steps go astray.
+    damping: f64,
 }
 
 impl<'a, const D: usize> Newton<'a, D> {
@@ -141,8 +148,10 @@ impl<'a, const D: usize> Newton<'a, D> {
             method: Method::Cholesky,
             target: f64::INFINITY,
             relaxed: 0,
-            strict: false,
+            // Hats touch or part on the way of a full step, and what follows is no better for it.
+            strict: !problem.scene.pairs.is_empty() && problem.integration.is_none(),
             stalled: 0,
+            damping: 0.0,
         }
     }
 
@@ -222,6 +231,9 @@ impl<'a, const D: usize> Newton<'a, D> {
         delta.clear();
         delta.extend(now.force.iter().map(|r| -r));
         let motion = &mut self.grid.motion;
+        if self.damping > 0.0 {
+            motion.matrix.dampen(&motion.pattern, D * self.grid.node.len(), self.damping);
+        }
         let diagonal = motion.matrix.scale(&motion.pattern);
         motion.matrix.constrain(&motion.pattern, fixed, gap, diagonal, delta);
         if self.target.is_infinite() {
@@ -252,6 +264,7 @@ impl<'a, const D: usize> Newton<'a, D> {
         let with_tangent = !self.near_the_end();
         if let Some(size) = self.attempt(1.0, with_tangent) {
             if self.better(size, 1.0) {
+                self.damping = if self.damping > LEAST_DAMPING { 0.1 * self.damping } else { 0.0 };
                 self.accept(with_tangent);
                 return Ok(());
             }
@@ -271,6 +284,16 @@ impl<'a, const D: usize> Newton<'a, D> {
         self.backtrack()
     }
 
+    /// Raises the diagonal more from here on; false where it is raised enough.
+    fn dampen(&mut self) -> bool {
+        let more = (10.0 * self.damping).max(LEAST_DAMPING);
+        let can = more <= MOST_DAMPING;
+        if can {
+            self.damping = more;
+        }
+        can
+    }
+
     /// Halves the step length until the residual falls; takes the least one a few times where it never does.
     fn backtrack(&mut self) -> Result<()> {
         let mut least: Option<(f64, f64)> = None;
@@ -279,6 +302,9 @@ impl<'a, const D: usize> Newton<'a, D> {
             if let Some(size) = self.attempt(length, false) {
                 if self.better(size, length) {
                     self.stalled = 0;
+                    if halvings >= ASTRAY {
+                        self.dampen();
+                    }
                     self.accept(false);
                     return Ok(());
                 }
@@ -286,6 +312,10 @@ impl<'a, const D: usize> Newton<'a, D> {
                     least = Some((size, length));
                 }
             }
+        }
+        // A direction that leads nowhere at any length: the next, from the same state, is shorter and turned downhill.
+        if self.dampen() {
+            return Ok(());
         }
         let Some((_, length)) = least else {
             return Err(self.failure("every trial state turns a material point inside out"));

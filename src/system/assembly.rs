@@ -182,6 +182,17 @@ impl Matrix {
         diagonal
     }
 
+    /// Makes the first `equations` stiffer by a share of their diagonal.
+    pub fn dampen(&mut self, pattern: &Pattern, equations: usize, share: f64) {
+        for j in 0..equations {
+            for k in pattern.column[j] as usize..pattern.column[j + 1] as usize {
+                if pattern.row[k] as usize == j {
+                    self.values[k] *= 1.0 + share;
+                }
+            }
+        }
+    }
+
     /// The largest diagonal entry, at least the smallest positive number.
     pub fn scale(&self, pattern: &Pattern) -> f64 {
         self.diagonal(pattern).iter().fold(f64::MIN_POSITIVE, |scale, d| scale.max(d.abs()))
