@@ -2,6 +2,11 @@
 //!
 //! `p = ⟨λ − ε_n g⟩`, shear `τ = λ_t − ε_t s` limited to `|τ| ≤ τ_max`, `τ_max = min(c_a + p tan δ, α s_u)`. With the
 //! multipliers `λ`, `λ_t` of the step before, gaps close and sticking soil creeps no farther (Alart & Curnier 1991).
+//!
+//! Surfaces part smoothly: `⟨q⟩` is rounded over `|q| < d`, and adhesion, which would vanish at once where they
+//! part, fades over a gap `w`, `τ_max (1 − ⟨g⟩/w)`. Without the one Newton's method may go back and forth at a hat that
+//! neither bears nor is open; without the other there may be no equilibrium: soil that touches is dragged away, and
+//! soil that is not dragged touches.
 
 /// What two surfaces exert on each other.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -25,6 +30,10 @@ pub struct Penalty {
     /// ε_n and ε_t (kPa/m).
     pub normal: f64,
     pub tangential: f64,
+    /// Pressure `d` (kPa) over which parting is rounded.
+    pub rounding: f64,
+    /// Gap `w` (m) over which adhesion fades.
+    pub fading: f64,
     /// Strength of the soil (kPa).
     pub strength: f64,
 }
@@ -43,18 +52,22 @@ pub struct Answer {
 impl Law {
     /// Whether the tangent is symmetric in every state.
     pub fn symmetric(&self) -> bool {
-        self.friction == 0.0
+        self.friction == 0.0 && !(self.separates && self.adheres())
+    }
+
+    /// Whether the surfaces bear shear without pressure.
+    fn adheres(&self) -> bool {
+        self.adhesion > 0.0 || self.friction == 0.0 && self.factor.is_some_and(|factor| factor > 0.0)
     }
 
     /// The answer to a mean gap and slip (m).
     pub fn respond(&self, at: &Penalty, gap: f64, slip: f64) -> Answer {
-        let pressure = at.pressure - at.normal * gap;
-        if self.separates && pressure <= 0.0 {
-            return Answer::default();
-        }
-        let mut answer = Answer { pressure, pressure_by_gap: -at.normal, ..Answer::default() };
-        let (limit, slope) = self.limit(pressure.max(0.0), at.strength);
-        if limit == 0.0 && slope == 0.0 {
+        let (pressure, by_gap) = self.pressure(at, gap);
+        let mut answer = Answer { pressure, pressure_by_gap: by_gap, ..Answer::default() };
+        let (full, slope) = self.limit(pressure.max(0.0), at.strength);
+        let (share, share_by_gap) = self.share(at, gap);
+        let limit = full * share;
+        if limit == 0.0 {
             return answer;
         }
         let shear = at.shear - at.tangential * slip;
@@ -62,10 +75,36 @@ impl Law {
             answer.shear = shear;
             answer.shear_by_slip = -at.tangential;
         } else {
+            let of_pressure = if pressure > 0.0 { slope * share * by_gap } else { 0.0 };
             answer.shear = limit.copysign(shear);
-            answer.shear_by_gap = if pressure > 0.0 { slope.copysign(shear) * -at.normal } else { 0.0 };
+            answer.shear_by_gap = (of_pressure + full * share_by_gap) * shear.signum();
         }
         answer
+    }
+
+    /// The pressure (kPa) and its slope by the gap (kPa/m).
+    fn pressure(&self, at: &Penalty, gap: f64) -> (f64, f64) {
+        let pressure = at.pressure - at.normal * gap;
+        let around = at.rounding;
+        if !self.separates || pressure >= around {
+            (pressure, -at.normal)
+        } else if pressure <= -around {
+            (0.0, 0.0)
+        } else {
+            let above = pressure + around;
+            (above * above / (4.0 * around), -at.normal * above / (2.0 * around))
+        }
+    }
+
+    /// The part of the largest shear that an open gap leaves (-), and its slope by the gap (1/m).
+    fn share(&self, at: &Penalty, gap: f64) -> (f64, f64) {
+        if !self.separates || !self.adheres() || gap <= 0.0 {
+            (1.0, 0.0)
+        } else if gap >= at.fading {
+            (0.0, 0.0)
+        } else {
+            (1.0 - gap / at.fading, -1.0 / at.fading)
+        }
     }
 
     /// The largest shear (kPa) under a pressure, and its slope by the pressure (-).
@@ -83,7 +122,15 @@ impl Law {
 mod tests {
     use super::*;
 
-    const AT: Penalty = Penalty { pressure: 3.0, shear: 0.5, normal: 100.0, tangential: 50.0, strength: 2.0 };
+    const AT: Penalty = Penalty {
+        pressure: 3.0,
+        shear: 0.5,
+        normal: 100.0,
+        tangential: 50.0,
+        rounding: 0.2,
+        fading: 0.045,
+        strength: 2.0,
+    };
 
     fn laws() -> Vec<Law> {
         let law = |friction, adhesion, factor, separates| Law { friction, adhesion, factor, separates };
@@ -100,7 +147,7 @@ mod tests {
     fn slopes_are_those_of_the_answer() {
         let step = 1e-7;
         for law in laws() {
-            for gap in [-0.02, 0.011, 0.029, 0.04] {
+            for gap in [-0.02, 0.011, 0.029, 0.0315, 0.04] {
                 for slip in [-0.1, -0.004, 0.0, 0.003, 0.2] {
                     let answer = law.respond(&AT, gap, slip);
                     let [up, down] = [step, -step].map(|d| law.respond(&AT, gap + d, slip));
@@ -124,5 +171,8 @@ mod tests {
         assert_eq!(clay.respond(&AT, 0.0, 1.0).shear, -1.0);
         assert_eq!(clay.respond(&AT, 0.05, 1.0), Answer::default());
         assert_eq!(bonded.respond(&AT, 0.05, 0.0).pressure, -2.0);
+        // Parted, but not far: adhesion has faded by a fifth.
+        let parted = clay.respond(&AT, 0.036, 1.0);
+        assert!(parted.pressure == 0.0 && (parted.shear + 0.2).abs() < 1e-12, "{parted:?}");
     }
 }

@@ -11,11 +11,20 @@ use crate::mesh::locate::Locator;
 use crate::mesh::shape::MAX_NODES;
 use crate::points::Points;
 use std::marker::PhantomData;
+use std::ops::Range;
 use std::sync::Arc;
 
 /// ε_n and ε_t (-), in Young's modulus over the spacing of the hats.
 const NORMAL: f64 = 50.0;
 const TANGENTIAL: f64 = 5.0;
+/// Share of them over soil that may yield, and then gives way however little presses on it.
+const YIELDING: f64 = 0.1;
+/// Pressure over which parting is rounded (-), in the mean pressure of the hats, and gap over which adhesion fades (-),
+/// in their spacing.
+const ROUNDING: f64 = 0.1;
+const FADING: f64 = 0.05;
+/// Share of a multiplier that its neighbours' mean takes the place of in each step.
+const EVEN: f64 = 0.5;
 
 /// Overlap (-), in spacings of the points, that a hat may begin to touch with, and correct in a step, without sliding.
 const STILL: f64 = 1e-3;
@@ -102,6 +111,39 @@ impl Multipliers {
         }
     }
 
+    /// Evens the pressure out along the `runs`, where hats and both their neighbours touch. Hats as close as nodes have
+    /// more conditions than the soil can meet: waves of pressure that it hardly feels would grow from step to step. What
+    /// is taken from a wave here, a gap has to make up for (a stabilised multiplier, Burman & Hansbo 2010).
+    pub fn even_out(&mut self, runs: &[(Range<usize>, bool)]) {
+        let before = self.pressure.clone();
+        for (run, is_loop) in runs {
+            let hats = &before[run.clone()];
+            let beside = |k: usize, by: usize| match k + by {
+                at if *is_loop => Some(hats[at % hats.len()]),
+                at => hats.get(at).copied(),
+            };
+            for k in 0..hats.len() {
+                let left = if *is_loop { beside(k, hats.len() - 1) } else { k.checked_sub(1).map(|k| hats[k]) };
+                let (Some(left), Some(right)) = (left, beside(k, 1)) else { continue };
+                if [left, hats[k], right].iter().all(|&pressure| pressure != 0.0) {
+                    self.pressure[run.start + k] += EVEN * (0.5 * (left + right) - hats[k]);
+                }
+            }
+        }
+    }
+
+    /// The mean pressure (kPa) of the hats that press.
+    pub fn mean_pressure(&self) -> f64 {
+        let pressing = self.pressure.iter().filter(|pressure| **pressure > 0.0);
+        let (sum, count) = pressing.fold((0.0, 0), |(sum, count), pressure| (sum + pressure, count + 1));
+        sum / f64::from(count.max(1))
+    }
+
+    /// Whether hat `k` touched in the last step.
+    pub fn touched(&self, k: usize) -> bool {
+        self.pressure[k] != 0.0 || self.shear[k] != 0.0
+    }
+
     /// The nodes that hat `k` has room for.
     pub fn room(&self, k: usize) -> &[u32] {
         &self.room[self.first[k] as usize..self.first[k + 1] as usize]
@@ -128,6 +170,9 @@ pub trait Pair<const D: usize>: Send + Sync {
 
     /// The conditions of the hats that face soil; `position` tells where the nodes are.
     fn rows(&self, ground: &Ground<D>, position: &dyn Fn(u32) -> [f64; D], held: &Multipliers) -> Vec<Row<D>>;
+
+    /// The hats in order along each smooth piece of the boundary, and whether the last is beside the first.
+    fn runs(&self) -> &[(Range<usize>, bool)];
 
     /// The boundary as polylines with the structure on their left; closed ones end where they begin.
     fn outlines(&self, position: &dyn Fn(u32) -> [f64; D]) -> Vec<Vec<[f64; D]>>;
@@ -158,7 +203,7 @@ impl<K: Kinematics<2>> Boundary<K> {
     /// touch, not to overlap. The second number is how much more the points measure than that.
     fn begin(&self, measured: f64, surface: Option<f64>, spacing: f64, held: &Multipliers, hat: usize) -> (f64, f64) {
         let still = STILL * spacing;
-        if held.pressure[hat] == 0.0 {
+        if !held.touched(hat) {
             let gap = surface.unwrap_or(measured);
             return (gap.max(-still), (measured - gap).clamp(-0.5 * spacing, 0.5 * spacing));
         }
@@ -174,27 +219,33 @@ impl<K: Kinematics<2>> Boundary<K> {
     fn penalty(&self, points: &Points<2>, point: usize, hat: usize, held: &Multipliers) -> Penalty {
         let y = points.origin[point][1];
         let model = self.regions.iter().position(|r| *r == points.region[point]).map(|i| &self.models[i]);
-        let stiffness = model.map_or(0.0, |m| m.young(y)) / self.surface.spacing;
+        let yields = model.is_some_and(|m| m.strength(y).is_finite());
+        let share = if yields { YIELDING } else { 1.0 };
+        let stiffness = share * model.map_or(0.0, |m| m.young(y)) / self.surface.spacing;
         Penalty {
             pressure: held.pressure[hat],
             shear: held.shear[hat],
             normal: NORMAL * stiffness,
             tangential: TANGENTIAL * stiffness,
+            rounding: ROUNDING * held.mean_pressure(),
+            fading: FADING * self.surface.spacing,
             strength: model.map_or(0.0, |m| m.strength(y)),
         }
     }
 }
 
 impl Ground<'_, 2> {
-    /// The cell of the soil that a segment lies on, and where: in its middle or, where no point is in the cell there, as
-    /// little farther out of the structure as will do. The nodes of an empty cell would give way in place of the soil.
+    /// The cell of the soil that a segment lies on and where in it its middle is: outside it where no point is in the
+    /// cell there, and the nearest out of the structure with points goes on to the segment. The nodes of an empty cell
+    /// would give way in place of the soil.
     fn find(&self, segment: &Placed, spacing: f64, point: u32, holds: &[bool]) -> Option<(u32, [f64; 3])> {
         let hint = Some(self.points.cell[point as usize]);
         let at = |away: &f64| {
             let x = [0, 1].map(|d| segment.middle[d] + away * spacing * segment.normal[d]);
             self.locator.locate(self.grid, &x, hint)
         };
-        AWAY.iter().filter_map(at).find(|(cell, _)| holds[*cell as usize]).or_else(|| at(&0.0))
+        let (cell, xi) = AWAY.iter().filter_map(at).find(|(cell, _)| holds[*cell as usize]).or_else(|| at(&0.0))?;
+        Some((cell, self.locator.extend(self.grid, cell, &segment.middle).unwrap_or(xi)))
     }
 }
 
@@ -231,6 +282,10 @@ impl<K: Kinematics<2>> Pair<2> for Boundary<K> {
 
     fn hats(&self) -> usize {
         self.surface.hats
+    }
+
+    fn runs(&self) -> &[(Range<usize>, bool)] {
+        &self.surface.runs
     }
 
     fn law(&self) -> &Law {

@@ -34,6 +34,8 @@ pub struct Surface {
     /// Pieces that follow each other without a gap, by their segments.
     pub chains: Vec<std::ops::Range<usize>>,
     pub hats: usize,
+    /// Hats of each piece, and whether the last is beside the first.
+    pub runs: Vec<(std::ops::Range<usize>, bool)>,
     /// Length (m) between hats.
     pub spacing: f64,
 }
@@ -72,6 +74,7 @@ impl Surface {
             pieces: Vec::new(),
             chains: Vec::new(),
             hats: 0,
+            runs: Vec::new(),
             spacing,
         };
         for chain in chains(facets) {
@@ -131,7 +134,9 @@ impl Surface {
             self.facets.push(nodes.clone());
             along += length;
         }
+        let first = self.hats;
         self.hats += intervals as usize + usize::from(!is_loop);
+        self.runs.push((first..self.hats, is_loop));
         self.pieces.push(first_segment..self.segments.len());
     }
 }

@@ -107,6 +107,11 @@ impl<const D: usize> Locator<D> {
         self.nearest(mesh, x, bin)
     }
 
+    /// The parametric coordinates of `x` in a cell that need not hold it.
+    pub fn extend(&self, mesh: &Mesh<D>, c: u32, x: &[f64; D]) -> Option<[f64; 3]> {
+        self.invert(mesh, c, x, false)
+    }
+
     /// Walks from `start` to a cell that holds `x` well inside; `None` where that is not settled.
     fn walk(&self, mesh: &Mesh<D>, x: &[f64; D], start: u32) -> Option<(u32, [f64; 3])> {
         let mut c = start;

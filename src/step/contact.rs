@@ -187,6 +187,9 @@ pub fn commit<const D: usize>(
             }
         }
     }
+    for (pair, held) in scene.pairs.iter().zip(&mut state.multipliers) {
+        held.even_out(pair.runs());
+    }
     resultants
 }
 

@@ -38,7 +38,15 @@ fn stand(law: Law, apart: f64) -> Stand<PlaneStrain> {
             by_tangent: weights.iter().map(|w| [-normal[1] * w, normal[0] * w]).collect(),
             own: 3,
             nodes,
-            penalty: Penalty { pressure: 20.0, shear: angle - 2.0, normal: 5e3, tangential: 5e2, strength: 30.0 },
+            penalty: Penalty {
+                pressure: 20.0,
+                shear: angle - 2.0,
+                normal: 5e3,
+                tangential: 5e2,
+                rounding: 0.5,
+                fading: 5e-3,
+                strength: 30.0,
+            },
         };
         let clique = stand.grid.clique[cell as usize];
         let place = (0..6).collect();
