@@ -36,6 +36,12 @@ const PILE: Case = Case {
     overrides: &["mesh.parameters.h=0.25", "phases[0].duration=0.16", "phases[0].step.max=0.005", "output.every=0.04"],
 };
 
+/// A rigid structure in contact, dynamic.
+const BLOCK: Case = Case {
+    file: "cases/incline",
+    overrides: &["regions.block.rigid=true", "mesh.parameters.h=0.4", "phases[0].duration=0.6"],
+};
+
 fn mpm(verb: &str, case: &Case, folder: &Path, more: &[&str]) -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_mpm"));
     command.arg(verb).arg(Path::new(env!("CARGO_MANIFEST_DIR")).join(case.file)).arg("-o").arg(folder);
@@ -182,8 +188,13 @@ fn a_run_with_finite_elements_and_contact_killed_ten_times_ends_the_same() {
 }
 
 #[test]
+fn a_run_with_a_rigid_structure_killed_ten_times_ends_the_same() {
+    survives_kills(&BLOCK, 4);
+}
+
+#[test]
 fn the_number_of_threads_changes_no_bit() {
-    for case in [SLOPE, RELEASE, SAND, PILE] {
+    for case in [SLOPE, RELEASE, SAND, PILE, BLOCK] {
         let one = seeded(&case);
         let three = copy(one.path());
         ends(mpm("solve", &case, one.path(), &["--threads", "1"]), 0);

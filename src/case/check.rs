@@ -64,7 +64,7 @@ impl Checker {
             regions,
             materials,
             contacts,
-            supports: self.supports(&file.supports, &root.key("supports")),
+            supports: self.supports(&file.supports, &file.regions, &root.key("supports")),
             gravity,
             k0: file.initial_stress.map(|stress| stress.k0),
             initial_velocity: self.initial_velocity(file, &root.key("initial_velocity")),
@@ -131,13 +131,11 @@ impl Checker {
                 if region.kind == raw::RegionKind::Fem {
                     Content::Fem { material }
                 } else {
-                    Content::Structure { material }
+                    Content::Structure { material, rigid: region.rigid == Some(true) }
                 }
             }
         };
-        if region.rigid == Some(true) && region.kind == raw::RegionKind::Structure {
-            self.issue(&path.key("rigid"), At::Key, format!("a rigid structure {LATER}"), "give it a stiff material");
-        } else if region.rigid.is_some() && region.kind != raw::RegionKind::Structure {
+        if region.rigid.is_some() && region.kind != raw::RegionKind::Structure {
             self.issue(&path.key("rigid"), At::Key, "only a structure can be rigid", "take `rigid` out");
         }
         Region { name: name.to_owned(), content }
@@ -189,20 +187,40 @@ impl Checker {
         checked
     }
 
-    fn supports(&mut self, supports: &BTreeMap<String, raw::Components>, path: &Path) -> Vec<Support> {
+    /// Refuses a rotation of anything but a rigid structure.
+    pub(super) fn turns(&mut self, regions: &BTreeMap<String, raw::Region>, name: &str, path: &Path) {
+        if regions.get(name).is_none_or(|region| region.rigid != Some(true)) {
+            let remedy = "take it out, or name a region of kind structure with `rigid: true`";
+            self.issue(path, At::Key, "only a rigid structure as a whole can be turned", remedy);
+        }
+    }
+
+    fn supports(
+        &mut self,
+        supports: &BTreeMap<String, raw::Components>,
+        regions: &BTreeMap<String, raw::Region>,
+        path: &Path,
+    ) -> Vec<Support> {
         let mut checked = Vec::new();
         for (curve, held) in supports {
             let path = path.key(curve);
-            for (key, value) in [("ux", held.ux), ("uy", held.uy)] {
+            for (key, value) in [("ux", held.ux), ("uy", held.uy), ("rotation", held.rotation)] {
                 if value.is_some_and(|value| value != 0.0) {
                     let remedy = "write 0 here and the motion under `prescribe` of a phase";
                     self.issue(&path.key(key), At::Value, "a support does not move", remedy);
                 }
             }
-            if held.ux.is_none() && held.uy.is_none() {
+            if held.rotation.is_some() {
+                self.turns(regions, curve, &path.key("rotation"));
+            }
+            if held.ux.is_none() && held.uy.is_none() && held.rotation.is_none() {
                 self.issue(&path, At::Key, "nothing is held", "add `ux: 0` or `uy: 0`");
             }
-            checked.push(Support { curve: curve.clone(), fixed: [held.ux.is_some(), held.uy.is_some()] });
+            checked.push(Support {
+                curve: curve.clone(),
+                fixed: [held.ux.is_some(), held.uy.is_some()],
+                rotation: held.rotation.is_some(),
+            });
         }
         checked
     }

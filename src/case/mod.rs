@@ -13,6 +13,7 @@ pub mod names;
 pub mod parts;
 mod phases;
 pub mod raw;
+mod rigid;
 pub mod scene;
 pub mod seeding;
 pub mod source;

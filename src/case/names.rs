@@ -30,14 +30,14 @@ pub fn check(case: &Case, groups: &Groups) -> Vec<Issue> {
         }
     }
     for support in &case.supports {
-        names.curve(&support.curve, &root.key("supports").key(&support.curve), At::Key);
+        names.held(case, &support.curve, &root.key("supports").key(&support.curve));
     }
     for (i, phase) in case.phases.iter().enumerate() {
         let path = root.key("phases").index(i);
         let mut curves: Vec<&str> = phase.prescribed.iter().map(|p| p.curve.as_str()).collect();
         curves.dedup();
         for curve in curves {
-            names.curve(curve, &path.key("prescribe").key(curve), At::Key);
+            names.held(case, curve, &path.key("prescribe").key(curve));
         }
         for (j, traction) in phase.tractions.iter().enumerate() {
             names.curve(&traction.curve, &path.key("tractions").index(j).key("on"), At::Value);
@@ -48,7 +48,11 @@ pub fn check(case: &Case, groups: &Groups) -> Vec<Issue> {
         let known = groups.curves.iter().chain(&groups.points).chain(&groups.surfaces);
         names.one_of(&entry.on, known, "physical curve, physical point or region", &path, At::Value);
         let has_nodes = groups.curves.contains(&entry.on) || groups.points.contains(&entry.on);
-        if groups.surfaces.contains(&entry.on) && !has_nodes {
+        let rigid = !has_nodes && is_rigid(case, &entry.on);
+        if !rigid {
+            names.no_rotation(&entry.quantities, &root.key("output").key("history").index(i).key("quantities"));
+        }
+        if groups.surfaces.contains(&entry.on) && !has_nodes && !rigid {
             names.no_reaction(&entry.quantities, &root.key("output").key("history").index(i).key("quantities"));
         }
         let structure =
@@ -58,6 +62,10 @@ pub fn check(case: &Case, groups: &Groups) -> Vec<Issue> {
         }
     }
     names.issues
+}
+
+fn is_rigid(case: &Case, name: &str) -> bool {
+    case.regions.iter().any(|region| region.name == name && region.content.is_rigid())
 }
 
 struct Names<'a> {
@@ -86,6 +94,16 @@ impl Names<'_> {
         }
     }
 
+    /// Refuses rotations and moments, which only rigid structures have.
+    fn no_rotation(&mut self, quantities: &[Quantity], path: &Path) {
+        for (i, quantity) in quantities.iter().enumerate() {
+            if matches!(quantity, Quantity::Rotation | Quantity::ReactionMoment | Quantity::ContactMoment) {
+                let remedy = "take it out, or name a region of kind structure with `rigid: true`";
+                self.issues.push(Issue::new(&path.index(i), At::Value, "only a rigid structure turns", remedy));
+            }
+        }
+    }
+
     /// Whether the mesh has no such surface.
     fn lacks(&self, surface: &str) -> bool {
         !self.groups.surfaces.iter().any(|known| known == surface)
@@ -97,6 +115,13 @@ impl Names<'_> {
 
     fn curve(&mut self, name: &str, path: &Path, at: At) {
         self.one_of(name, &self.groups.curves, "physical curve", path, at);
+    }
+
+    /// What is held or moved: a curve, or a rigid structure as a whole.
+    fn held(&mut self, case: &Case, name: &str, path: &Path) {
+        if !is_rigid(case, name) {
+            self.curve(name, path, At::Key);
+        }
     }
 
     fn one_of<'n>(

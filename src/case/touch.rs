@@ -2,10 +2,11 @@
 
 use super::checked::{Case, Geometry};
 use super::scene::region_index;
-use crate::contact::{Boundary, Pair, Surface};
+use crate::contact::{Boundary, Pair, Rigid, Surface};
 use crate::error::{Error, Result};
 use crate::kinematics::Kinematics;
 use crate::mesh::Mesh;
+use crate::rigid::Body;
 use std::marker::PhantomData;
 
 /// Distance of the hats (-), in the length of an edge of the grid: that of its nodes.
@@ -15,7 +16,12 @@ const HATS: f64 = 0.5;
 ///
 /// # Errors
 /// Input: a region that the mesh has not, a soil without cells.
-pub fn pairs<K: Kinematics<2>>(case: &Case, grid: &Mesh<2>, fem: &Mesh<2>) -> Result<Vec<Box<dyn Pair<2>>>> {
+pub fn pairs<K: Kinematics<2>>(
+    case: &Case,
+    grid: &Mesh<2>,
+    fem: &Mesh<2>,
+    bodies: &[Body<2>],
+) -> Result<Vec<Box<dyn Pair<2>>>> {
     let mut pairs: Vec<Box<dyn Pair<2>>> = Vec::new();
     for contact in &case.contacts {
         let structure = region_index(grid, &case.regions[contact.structure].name)?;
@@ -36,16 +42,18 @@ pub fn pairs<K: Kinematics<2>>(case: &Case, grid: &Mesh<2>, fem: &Mesh<2>) -> Re
         let on_axis = |nodes: &[u32]| nodes.iter().all(|&n| fem.nodes[n as usize][0].abs() < 1e-9 * spacing);
         let skip = |nodes: &[u32]| case.geometry == Geometry::Axisymmetric && on_axis(nodes);
         let surface = Surface::new(fem, structure, HATS * spacing, skip)?;
-        pairs.push(Box::new(Boundary::<K> {
-            structure,
-            surface,
-            law: contact.law,
-            regions,
-            models,
-            kinematics: PhantomData,
-        }));
+        let pair = Boundary::<K> { structure, surface, law: contact.law, regions, models, kinematics: PhantomData };
+        pairs.push(Box::new(pair));
     }
-    Ok(pairs)
+    Ok(pairs.into_iter().map(|pair| with_bodies(pair, bodies, grid.nodes.len())).collect())
+}
+
+/// A pair by the unknowns of the rigid bodies in it, if there are some.
+fn with_bodies(pair: Box<dyn Pair<2>>, bodies: &[Body<2>], nodes: usize) -> Box<dyn Pair<2>> {
+    match bodies.iter().any(|body| body.region == pair.structure()) {
+        true => Box::new(Rigid::new(pair, bodies, nodes)),
+        false => pair,
+    }
 }
 
 /// The length (m) of the finest edges of the cells in some regions: nine of ten are longer.

@@ -10,8 +10,10 @@ mod gap;
 mod law;
 mod pair;
 mod place;
+mod rigid;
 mod surface;
 
 pub use law::{Answer, Law, Penalty};
 pub use pair::{Boundary, Ground, Multipliers, Pair, Pushed, Row};
+pub use rigid::Rigid;
 pub use surface::Surface;

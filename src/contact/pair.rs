@@ -47,7 +47,7 @@ pub struct Row<const D: usize> {
     /// Mean gap (m) at the beginning of the step, and how much more the points measure.
     pub gap: f64,
     pub offset: f64,
-    /// The nodes of the structure, `own` of them, then those of the grid.
+    /// The nodes of the structure, `own` of them that bear the force on it, then those of the grid.
     pub nodes: Vec<u32>,
     pub own: usize,
     /// Derivatives of gap and slip (-) by the displacement of the nodes.

@@ -29,6 +29,10 @@ pub enum Quantity {
     Reaction(usize),
     /// Force of what a structure touches on it (kN), the sum.
     Contact(usize),
+    /// Rotation of a rigid body (rad), and the moments (kN m) about its centroid of what holds it and of what it touches.
+    Rotation,
+    ReactionMoment,
+    ContactMoment,
 }
 
 /// What is watched.
@@ -36,6 +40,10 @@ pub enum Quantity {
 pub enum WatchedOn {
     /// Nodes of the grid: a curve or a point.
     Nodes(Vec<u32>),
+    /// Nodes of a rigid body, and its reference node.
+    Side(Vec<u32>, u32),
+    /// A rigid body.
+    Body { region: u16, reference: u32, turning: Option<u32>, arm: f64 },
     /// The points of a region of the mesh.
     Region(u16),
 }
@@ -60,6 +68,9 @@ pub fn columns(watches: &[Watch]) -> Vec<String> {
                 Quantity::Velocity(d) => format!("{}.v{} [m/s]", watch.name, AXES[d]),
                 Quantity::Reaction(d) => format!("{}.reaction_{} [kN]", watch.name, AXES[d]),
                 Quantity::Contact(d) => format!("{}.contact_{} [kN]", watch.name, AXES[d]),
+                Quantity::Rotation => format!("{}.rotation [rad]", watch.name),
+                Quantity::ReactionMoment => format!("{}.reaction_moment [kN m]", watch.name),
+                Quantity::ContactMoment => format!("{}.contact_moment [kN m]", watch.name),
             });
         }
     }
@@ -77,13 +88,27 @@ pub fn row<const D: usize>(watches: &[Watch], state: &State<D>, report: &Report<
 
 fn value<const D: usize>(on: &WatchedOn, quantity: Quantity, state: &State<D>, report: &Report<D>) -> f64 {
     match (on, quantity) {
-        (WatchedOn::Nodes(nodes), Quantity::Displacement(d)) => {
+        (WatchedOn::Nodes(nodes) | WatchedOn::Side(nodes, _), Quantity::Displacement(d)) => {
             mean(nodes.iter().map(|&n| state.travel[n as usize][d]))
         }
-        (WatchedOn::Nodes(nodes), Quantity::Velocity(d)) => {
+        (WatchedOn::Nodes(nodes) | WatchedOn::Side(nodes, _), Quantity::Velocity(d)) => {
             mean(nodes.iter().map(|&n| state.velocity.get(n as usize).map_or(0.0, |v| v[d])))
         }
         (WatchedOn::Nodes(nodes), Quantity::Reaction(d)) => nodes.iter().map(|&n| report.reaction[n as usize][d]).sum(),
+        (WatchedOn::Side(_, reference), Quantity::Reaction(d)) => report.reaction[*reference as usize][d],
+        (WatchedOn::Body { region, reference, turning, arm }, quantity) => {
+            let (n, turning) = (*reference as usize, turning.map(|n| n as usize));
+            let touching = || report.contacts.iter().filter(|c| c.structure == *region);
+            match quantity {
+                Quantity::Displacement(d) => state.travel[n][d],
+                Quantity::Velocity(d) => state.velocity.get(n).map_or(0.0, |v| v[d]),
+                Quantity::Reaction(d) => report.reaction[n][d],
+                Quantity::Contact(d) => touching().map(|c| c.force[d]).sum(),
+                Quantity::Rotation => turning.map_or(0.0, |n| state.travel[n][0] / arm),
+                Quantity::ReactionMoment => turning.map_or(0.0, |n| report.reaction[n][0] * arm),
+                Quantity::ContactMoment => touching().map(|c| c.moment).sum(),
+            }
+        }
         (WatchedOn::Region(region), Quantity::Displacement(d)) => {
             mean(members(state, *region).map(|(points, p)| points.position[p][d] - points.origin[p][d]))
         }
@@ -93,8 +118,8 @@ fn value<const D: usize>(on: &WatchedOn, quantity: Quantity, state: &State<D>, r
         (WatchedOn::Region(region), Quantity::Contact(d)) => {
             report.contacts.iter().filter(|c| c.structure == *region).map(|c| c.force[d]).sum()
         }
-        // A region has no supports of its own, a curve no contact.
-        (WatchedOn::Region(_), Quantity::Reaction(_)) | (WatchedOn::Nodes(_), Quantity::Contact(_)) => 0.0,
+        // A region has no supports of its own, a curve no contact; only rigid bodies turn.
+        (WatchedOn::Region(_) | WatchedOn::Nodes(_) | WatchedOn::Side(..), _) => 0.0,
     }
 }
 
@@ -111,15 +136,20 @@ fn mean(values: impl Iterator<Item = f64>) -> f64 {
 
 /// The state at one moment.
 pub fn frame<const D: usize>(scene: &Scene<D>, state: &State<D>, fields: &[Field]) -> Frame {
+    let nodes = scene.mesh_nodes();
     // A grid that is restored stays where the mesh has it.
     let grid = if scene.numerics.restore == Restore::EveryStep && scene.fem.is_none() {
         Part::default()
     } else {
         let from = if state.nodes.is_empty() { &scene.mesh.nodes } else { &state.nodes };
-        let x: Vec<[f64; D]> =
-            from.iter().zip(&state.displacement).map(|(x, u)| std::array::from_fn(|d| x[d] + u[d])).collect();
+        let x: Vec<[f64; D]> = from
+            .iter()
+            .zip(&state.displacement)
+            .map(|(x, u)| std::array::from_fn(|d| x[d] + u[d]))
+            .take(nodes)
+            .collect();
         let displacement = fields.iter().any(|field| matches!(field, Field::Displacement));
-        let columns = displacement.then(|| column("displacement", "m", 3, padded(&state.displacement)));
+        let columns = displacement.then(|| column("displacement", "m", 3, padded(&state.displacement[..nodes])));
         Part { position: triples(&x), columns: columns.into_iter().collect() }
     };
     let mut elements = part(&state.fem, fields);
@@ -180,7 +210,7 @@ pub fn heading<const D: usize>(scene: &Scene<D>, points: &Points<D>) -> Vec<Stri
             "{} material points, mass {mass:.12e} t, in {} cells with {} nodes",
             points.len(),
             scene.mesh.cells.len(),
-            scene.mesh.nodes.len()
+            scene.mesh_nodes()
         ),
         "energies in kJ, momenta in t m/s, the imbalance is the change of momentum less the impulse of the loads"
             .to_string(),

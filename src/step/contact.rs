@@ -18,8 +18,9 @@ use crate::term::{Touch, Trial, contact_answer};
 pub struct Resultant<const D: usize> {
     /// The region of the structure.
     pub structure: u16,
-    /// Force (kN) of the soil on the structure.
+    /// Force (kN) of the soil on the structure and, where that is rigid, its moment (kN m) about the reference point.
     pub force: [f64; D],
+    pub moment: f64,
     /// Hats that touch, and the deepest mean overlap (m) of one.
     pub hats: usize,
     pub overlap: f64,
@@ -160,6 +161,7 @@ pub fn commit<const D: usize>(
     let none = |pair: &dyn Pair<D>| Resultant {
         structure: pair.structure(),
         force: [0.0; D],
+        moment: 0.0,
         hats: 0,
         overlap: 0.0,
         pushed: Pushed::default(),
@@ -185,6 +187,12 @@ pub fn commit<const D: usize>(
             for d in 0..D {
                 resultant.force[d] += row.area * (answer.pressure * n[d] + answer.shear * t[d]);
             }
+        }
+        if let Some(body) = scene.body(resultant.structure)
+            && let Some(k) = row.nodes.iter().position(|&n| Some(n) == body.turning)
+        {
+            let by_arm = answer.pressure * row.by_normal[k][0] + answer.shear * row.by_tangent[k][0];
+            resultant.moment += row.area * by_arm * body.arm;
         }
     }
     resultants

@@ -15,6 +15,7 @@ mod newton;
 mod pressure;
 mod relax;
 mod report;
+mod rigid;
 mod scene;
 mod state;
 mod transfer;
@@ -151,8 +152,9 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
     }
 
     /// Grid to points.
-    fn convect(&mut self, dt: f64, start: Option<Start<D>>, solution: Solution<D>) -> Result<Report<D>> {
+    fn convect(&mut self, dt: f64, start: Option<Start<D>>, mut solution: Solution<D>) -> Result<Report<D>> {
         let (scene, state) = (self.scene, &mut self.state);
+        rigid::follow(scene, state, &mut solution.displacement);
         let mut momentum = report::Motion::of(state).linear;
         let mut contacts = contact::commit(scene, &self.grid, state, &solution);
         transfer::commit(scene, &self.grid, state, &solution)?;
@@ -173,6 +175,9 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
         state.last_step = dt;
         state.displacement.clone_from(&solution.displacement);
         state.pressure.clone_from(&solution.pressure);
+        if start.is_some() {
+            rigid::motion_to_points(scene, state);
+        }
         contact::push_out(scene, state, &mut contacts);
         state.step += 1;
         state.time += dt;
