@@ -127,13 +127,30 @@ impl fmt::Debug for Material {
     }
 }
 
-/// Contact between a structure and soil.
+/// Contact between a structure or a wall and soil, or between two bodies.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Contact {
-    /// Indices into [`Case::regions`].
-    pub structure: usize,
-    pub soil: Vec<usize>,
+    pub structure: Touching,
+    pub on: Touched,
     pub law: Law,
+}
+
+/// What has the boundary where a contact is.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Touching {
+    /// The structure with this index in [`Case::regions`].
+    Structure(usize),
+    /// A physical curve.
+    Wall(String),
+}
+
+/// What that touches, by indices into [`Case::regions`].
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Touched {
+    /// Material points.
+    Soil(Vec<usize>),
+    /// Finite elements or another structure.
+    Body(usize),
 }
 
 /// Components of the displacement held at zero on a curve or a rigid structure, and the rotation of that.

@@ -6,6 +6,7 @@
 
 mod check;
 pub mod checked;
+mod contacts;
 mod incompressible;
 pub mod locate;
 mod materials;
@@ -21,6 +22,7 @@ pub mod structure;
 #[cfg(test)]
 mod tests;
 mod touch;
+mod wall;
 
 pub use checked::Case;
 

@@ -1,6 +1,6 @@
 //! The names in a case against the physical groups of its mesh.
 
-use super::checked::{Case, Content, Quantity, Region};
+use super::checked::{Case, Content, Quantity, Touched, Touching};
 use super::locate::{At, Path};
 use super::source::Issue;
 use super::structure::{nearest, suggest};
@@ -32,6 +32,11 @@ pub fn check(case: &Case, groups: &Groups) -> Vec<Issue> {
     for support in &case.supports {
         names.held(case, &support.curve, &root.key("supports").key(&support.curve));
     }
+    for (i, contact) in case.contacts.iter().enumerate() {
+        if let Touching::Wall(curve) = &contact.structure {
+            names.curve(curve, &root.key("contacts").index(i).key("wall"), At::Value);
+        }
+    }
     for (i, phase) in case.phases.iter().enumerate() {
         let path = root.key("phases").index(i);
         let mut curves: Vec<&str> = phase.prescribed.iter().map(|p| p.curve.as_str()).collect();
@@ -48,24 +53,35 @@ pub fn check(case: &Case, groups: &Groups) -> Vec<Issue> {
         let known = groups.curves.iter().chain(&groups.points).chain(&groups.surfaces);
         names.one_of(&entry.on, known, "physical curve, physical point or region", &path, At::Value);
         let has_nodes = groups.curves.contains(&entry.on) || groups.points.contains(&entry.on);
-        let rigid = !has_nodes && is_rigid(case, &entry.on);
+        let rigid = is_wall(case, &entry.on) || !has_nodes && is_rigid(case, &entry.on);
         if !rigid {
             names.no_rotation(&entry.quantities, &root.key("output").key("history").index(i).key("quantities"));
         }
         if groups.surfaces.contains(&entry.on) && !has_nodes && !rigid {
             names.no_reaction(&entry.quantities, &root.key("output").key("history").index(i).key("quantities"));
         }
-        let structure =
-            |region: &Region| region.name == entry.on && matches!(region.content, Content::Structure { .. });
-        if has_nodes || !case.regions.iter().any(structure) {
+        let touches =
+            rigid || !has_nodes && case.regions.iter().enumerate().any(|(i, r)| r.name == entry.on && touches(case, i));
+        if !touches {
             names.no_contact(&entry.quantities, &root.key("output").key("history").index(i).key("quantities"));
         }
     }
     names.issues
 }
 
+fn is_wall(case: &Case, name: &str) -> bool {
+    case.contacts.iter().any(|contact| matches!(&contact.structure, Touching::Wall(wall) if wall == name))
+}
+
+/// Whether that is a rigid structure or a wall.
 fn is_rigid(case: &Case, name: &str) -> bool {
-    case.regions.iter().any(|region| region.name == name && region.content.is_rigid())
+    is_wall(case, name) || case.regions.iter().any(|region| region.name == name && region.content.is_rigid())
+}
+
+/// Whether a region has a boundary where contact may be.
+fn touches(case: &Case, region: usize) -> bool {
+    let structure = matches!(case.regions[region].content, Content::Structure { .. });
+    structure || case.contacts.iter().any(|contact| contact.on == Touched::Body(region))
 }
 
 struct Names<'a> {

@@ -34,7 +34,7 @@ impl Checker {
         for (curve, motion) in &phase.prescribe {
             let path = path.key("prescribe").key(curve);
             if motion.rotation.is_some() {
-                self.turns(&file.regions, curve, &path.key("rotation"));
+                self.turns(file, curve, &path.key("rotation"));
             }
             if motion.ux.is_none() && motion.uy.is_none() && motion.rotation.is_none() {
                 self.issue(&path, At::Key, "nothing is prescribed", "add `ux: …` or `uy: …`");

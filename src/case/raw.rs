@@ -162,14 +162,18 @@ pub struct Components {
     pub rotation: Option<f64>,
 }
 
-/// Contact between a structure and soil.
+/// Contact between a structure or a wall and soil, or between two bodies.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Contact {
     /// The name of a region of kind structure.
-    pub structure: String,
+    pub structure: Option<String>,
+    /// In place of a structure, the name of a physical curve: a rigid wall.
+    pub wall: Option<String>,
     /// The name of a region of kind mpm, or a list of them.
-    pub soil: OneOrMore,
+    pub soil: Option<OneOrMore>,
+    /// In place of soil, the name of another region of kind structure or fem.
+    pub against: Option<String>,
     /// Coefficient of friction tan δ (-).
     #[serde(default)]
     #[schemars(range(min = 0))]

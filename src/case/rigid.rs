@@ -47,13 +47,19 @@ pub fn bodies(case: &Case, mesh: &mut Mesh<2>) -> Result<Vec<Body<2>>> {
     Ok(bodies)
 }
 
-/// What the unknowns of bodies cannot do in any phase: the second component of a rotation, and leaving the axis.
-pub fn always_fixed(bodies: &[Body<2>]) -> Vec<Fixed> {
-    let fixed = |body: &Body<2>| match body.turning {
-        Some(node) => Fixed { nodes: vec![node], component: 1 },
-        None => Fixed { nodes: vec![body.reference], component: 0 },
-    };
-    bodies.iter().map(fixed).collect()
+/// What bodies do not do unless a phase prescribes it: walls, which have no mass and no cells, do not move. No body has a second
+/// component of its rotation, and none leaves the axis of symmetry.
+fn always_fixed(body: &Body<2>, is_wall: bool) -> Vec<Fixed> {
+    let fixed = |node: u32, component: usize| Fixed { nodes: vec![node], component };
+    let mut all = vec![match body.turning {
+        Some(node) => fixed(node, 1),
+        None => fixed(body.reference, 0),
+    }];
+    if is_wall {
+        all.extend([0, 1].map(|component| fixed(body.reference, component)));
+        all.extend(body.turning.map(|node| fixed(node, 0)));
+    }
+    all
 }
 
 /// A motion given to an entry of `supports` or `prescribe`.
@@ -84,7 +90,8 @@ impl<'a> Holds<'a> {
     pub fn supports(&self) -> Result<Vec<Fixed>> {
         let given = self.supported();
         self.check("supports", &given)?;
-        let mut supports = always_fixed(self.bodies);
+        let is_wall = |body: &Body<2>| !self.case.regions.iter().any(|r| is_region(self.mesh, body, &r.name));
+        let mut supports: Vec<Fixed> = self.bodies.iter().flat_map(|body| always_fixed(body, is_wall(body))).collect();
         for entry in &given {
             supports.extend(self.resolve(entry)?.into_iter().map(|p| p.fixed));
         }
@@ -197,7 +204,7 @@ impl<'a> Holds<'a> {
     }
 }
 
-fn is_region(mesh: &Mesh<2>, body: &Body<2>, name: &str) -> bool {
+pub fn is_region(mesh: &Mesh<2>, body: &Body<2>, name: &str) -> bool {
     mesh.regions.get(body.region as usize).is_some_and(|region| region == name)
 }
 

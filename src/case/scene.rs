@@ -2,7 +2,7 @@
 
 use super::checked::{Analysis, Case, Field, Geometry, Material, Quantity, Region, Restore};
 use super::rigid::{self, Holds};
-use super::{parts, touch};
+use super::{parts, touch, wall};
 use crate::error::{Error, Result};
 use crate::io::checkpoint::Fingerprint;
 use crate::kinematics::{Axisymmetric, Kinematics, PlaneStrain};
@@ -91,7 +91,9 @@ fn begin_pressure(case: &Case, mesh: &Mesh<2>, points: &mut Points<2>) -> Result
 /// # Errors
 /// `Input` when the mesh lacks a group that the case names.
 pub fn scene<K: Kinematics<2>>(case: &Case, mut whole: Mesh<2>) -> Result<Scene<2>> {
-    let bodies = rigid::bodies(case, &mut whole)?;
+    let mut bodies = rigid::bodies(case, &mut whole)?;
+    let structures = bodies.len();
+    bodies.extend(wall::bodies(case, &mut whole)?);
     let (mesh, fem) = parts::meshes(case, whole);
     if case.numerics.gradient != Scheme::Mpm
         && let Some(kind) = mesh.cells.kind.iter().find(|&&kind| !smooths(kind))
@@ -134,7 +136,7 @@ pub fn scene<K: Kinematics<2>>(case: &Case, mut whole: Mesh<2>) -> Result<Scene<
     }
     for (phase, traction) in case.phases.iter().enumerate().flat_map(|(i, p)| p.tractions.iter().map(move |t| (i, t))) {
         let group = group(&mesh, &traction.curve)?;
-        if bodies.iter().any(|body| rigid::body_of(&mesh, body, &traction.curve)) {
+        if bodies[..structures].iter().any(|body| rigid::body_of(&mesh, body, &traction.curve)) {
             continue;
         }
         if case.numerics.restore != Restore::Never && !fem.as_ref().is_some_and(|fem| parts::carries(fem, group)) {
@@ -158,7 +160,7 @@ pub fn scene<K: Kinematics<2>>(case: &Case, mut whole: Mesh<2>) -> Result<Scene<
             if dynamic {
                 terms.push(Box::new(Inertia::<K>::default()));
             }
-            terms.extend(rigid_terms::<K>(case, &part, &bodies, dynamic)?);
+            terms.extend(rigid_terms::<K>(case, &part, &bodies[..structures], dynamic)?);
             let (carried, rigid) = (carried(case, &part)?, rigid::regions(case, &part));
             let with = |r: usize| carried[r].is_some() && !rigid[r];
             let with_pressure = part.cells.region.iter().map(|&r| with(r as usize)).collect();
@@ -166,10 +168,7 @@ pub fn scene<K: Kinematics<2>>(case: &Case, mut whole: Mesh<2>) -> Result<Scene<
         }
         None => None,
     };
-    let pairs = match &fem {
-        Some(fem) => touch::pairs::<K>(case, &mesh, &fem.mesh, &bodies)?,
-        None => Vec::new(),
-    };
+    let pairs = touch::pairs::<K>(case, &mesh, fem.as_ref().map_or(&mesh, |fem| &fem.mesh), &bodies)?;
     for (number, pair) in (0..).zip(&pairs) {
         terms.push(Box::new(Contact::new(number, *pair.law())));
     }
@@ -318,12 +317,13 @@ fn outputs(case: &Case, scene: &Scene<2>, folder: &Path, fingerprint: Fingerprin
     let watch = |entry: &super::checked::History| {
         let body = scene.bodies.iter().find(|body| rigid::body_of(mesh, body, &entry.on));
         let on = match (mesh.group(&entry.on), body) {
-            (Some(group), None) => WatchedOn::Nodes(group.nodes.clone()),
-            (Some(group), Some(body)) => WatchedOn::Side(group.nodes.clone(), body.reference),
-            (None, Some(&Body { region, reference, turning, arm, .. })) => {
+            (_, Some(body)) if rigid::is_region(mesh, body, &entry.on) => {
+                let Body { region, reference, turning, arm, .. } = *body;
                 WatchedOn::Body { region, reference, turning, arm }
             }
-            (None, None) => WatchedOn::Region(region_index(mesh, &entry.on)?),
+            (Some(group), None) => WatchedOn::Nodes(group.nodes.clone()),
+            (Some(group), Some(body)) => WatchedOn::Side(group.nodes.clone(), body.reference),
+            (None, _) => WatchedOn::Region(region_index(mesh, &entry.on)?),
         };
         let quantities = entry.quantities.iter().map(|q| match q {
             Quantity::Ux => run::Quantity::Displacement(0),

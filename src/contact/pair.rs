@@ -14,8 +14,8 @@ use std::marker::PhantomData;
 use std::sync::Arc;
 
 /// ε_n and ε_t (-), in Young's modulus over the spacing of the hats.
-const NORMAL: f64 = 50.0;
-const TANGENTIAL: f64 = 5.0;
+pub(super) const NORMAL: f64 = 50.0;
+pub(super) const TANGENTIAL: f64 = 5.0;
 
 /// Overlap (-), in spacings of the points, that a hat may begin to touch with, and correct in a step, without sliding.
 const STILL: f64 = 1e-3;
@@ -120,6 +120,11 @@ pub struct Pushed {
 pub trait Pair<const D: usize>: Send + Sync {
     /// The region of the structure.
     fn structure(&self) -> u16;
+
+    /// The region of what it touches, if that is a body and not soil.
+    fn against(&self) -> Option<u16> {
+        None
+    }
 
     /// The number of hats.
     fn hats(&self) -> usize;

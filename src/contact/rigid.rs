@@ -62,9 +62,10 @@ impl<const D: usize> Rigid<D> {
 }
 
 /// A node, and the derivatives of gap and slip by its displacement.
-type Entry<const D: usize> = (u32, [f64; D], [f64; D]);
+pub type Entry<const D: usize> = (u32, [f64; D], [f64; D]);
 
-fn add<const D: usize>(entries: &mut Vec<Entry<D>>, node: u32, normal: &[f64; D], tangent: &[f64; D]) {
+/// Adds to the entry of a node.
+pub fn add<const D: usize>(entries: &mut Vec<Entry<D>>, node: u32, normal: &[f64; D], tangent: &[f64; D]) {
     match entries.iter_mut().find(|(n, ..)| *n == node) {
         Some((_, n, t)) => {
             for d in 0..D {
@@ -79,6 +80,10 @@ fn add<const D: usize>(entries: &mut Vec<Entry<D>>, node: u32, normal: &[f64; D]
 impl<const D: usize> Pair<D> for Rigid<D> {
     fn structure(&self) -> u16 {
         self.pair.structure()
+    }
+
+    fn against(&self) -> Option<u16> {
+        self.pair.against()
     }
 
     fn hats(&self) -> usize {

@@ -98,15 +98,15 @@ fn value<const D: usize>(on: &WatchedOn, quantity: Quantity, state: &State<D>, r
         (WatchedOn::Side(_, reference), Quantity::Reaction(d)) => report.reaction[*reference as usize][d],
         (WatchedOn::Body { region, reference, turning, arm }, quantity) => {
             let (n, turning) = (*reference as usize, turning.map(|n| n as usize));
-            let touching = || report.contacts.iter().filter(|c| c.structure == *region);
+            let touching = || report.contacts.iter().map(|c| c.on(*region));
             match quantity {
                 Quantity::Displacement(d) => state.travel[n][d],
                 Quantity::Velocity(d) => state.velocity.get(n).map_or(0.0, |v| v[d]),
                 Quantity::Reaction(d) => report.reaction[n][d],
-                Quantity::Contact(d) => touching().map(|c| c.force[d]).sum(),
+                Quantity::Contact(d) => touching().map(|(force, _)| force[d]).sum(),
                 Quantity::Rotation => turning.map_or(0.0, |n| state.travel[n][0] / arm),
                 Quantity::ReactionMoment => turning.map_or(0.0, |n| report.reaction[n][0] * arm),
-                Quantity::ContactMoment => touching().map(|c| c.moment).sum(),
+                Quantity::ContactMoment => touching().map(|(_, moment)| moment).sum(),
             }
         }
         (WatchedOn::Region(region), Quantity::Displacement(d)) => {
@@ -115,9 +115,7 @@ fn value<const D: usize>(on: &WatchedOn, quantity: Quantity, state: &State<D>, r
         (WatchedOn::Region(region), Quantity::Velocity(d)) => {
             mean(members(state, *region).map(|(points, p)| points.velocity.get(p).map_or(0.0, |v| v[d])))
         }
-        (WatchedOn::Region(region), Quantity::Contact(d)) => {
-            report.contacts.iter().filter(|c| c.structure == *region).map(|c| c.force[d]).sum()
-        }
+        (WatchedOn::Region(region), Quantity::Contact(d)) => report.contacts.iter().map(|c| c.on(*region).0[d]).sum(),
         // A region has no supports of its own, a curve no contact; only rigid bodies turn.
         (WatchedOn::Region(_) | WatchedOn::Nodes(_) | WatchedOn::Side(..), _) => 0.0,
     }

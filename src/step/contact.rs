@@ -16,15 +16,31 @@ use crate::term::{Touch, Trial, contact_answer};
 /// What a pair exerted in a step.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Resultant<const D: usize> {
-    /// The region of the structure.
+    /// The region of the structure, and that of the body it touches.
     pub structure: u16,
+    pub against: Option<u16>,
     /// Force (kN) of the soil on the structure and, where that is rigid, its moment (kN m) about the reference point.
     pub force: [f64; D],
     pub moment: f64,
+    /// The moment on the body it touches, where that is rigid; the force on it is the opposite.
+    pub moment_against: f64,
     /// Hats that touch, and the deepest mean overlap (m) of one.
     pub hats: usize,
     pub overlap: f64,
     pub pushed: Pushed,
+}
+
+impl<const D: usize> Resultant<D> {
+    /// Force (kN) and moment (kN m) of this contact on a region.
+    pub fn on(&self, region: u16) -> ([f64; D], f64) {
+        if self.structure == region {
+            (self.force, self.moment)
+        } else if self.against == Some(region) {
+            (self.force.map(|f| -f), self.moment_against)
+        } else {
+            ([0.0; D], 0.0)
+        }
+    }
 }
 
 /// Where a node is at the last converged step.
@@ -160,8 +176,10 @@ pub fn commit<const D: usize>(
 ) -> Vec<Resultant<D>> {
     let none = |pair: &dyn Pair<D>| Resultant {
         structure: pair.structure(),
+        against: pair.against(),
         force: [0.0; D],
         moment: 0.0,
+        moment_against: 0.0,
         hats: 0,
         overlap: 0.0,
         pushed: Pushed::default(),
@@ -188,12 +206,14 @@ pub fn commit<const D: usize>(
                 resultant.force[d] += row.area * (answer.pressure * n[d] + answer.shear * t[d]);
             }
         }
-        if let Some(body) = scene.body(resultant.structure)
-            && let Some(k) = row.nodes.iter().position(|&n| Some(n) == body.turning)
-        {
+        let moment_on = |region: u16| {
+            let body = scene.body(region)?;
+            let k = row.nodes.iter().position(|&n| Some(n) == body.turning)?;
             let by_arm = answer.pressure * row.by_normal[k][0] + answer.shear * row.by_tangent[k][0];
-            resultant.moment += row.area * by_arm * body.arm;
-        }
+            Some(row.area * by_arm * body.arm)
+        };
+        resultant.moment += moment_on(resultant.structure).unwrap_or(0.0);
+        resultant.moment_against += resultant.against.and_then(moment_on).unwrap_or(0.0);
     }
     resultants
 }

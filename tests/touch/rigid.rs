@@ -1,25 +1,6 @@
 //! Rigid structures, from the case to the results: forces and motion against closed forms and deformable ones.
 
-use std::path::Path;
-use std::process::{Command, Output};
-
-fn mpm(verb: &str, case: &str, folder: &Path, overrides: &[&str]) -> Output {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_mpm"));
-    command.arg(verb).arg(Path::new(env!("CARGO_MANIFEST_DIR")).join(case)).arg("-o").arg(folder);
-    for entry in overrides {
-        command.args(["--set", entry]);
-    }
-    command.output().unwrap()
-}
-
-/// Runs a case with overrides and returns the rows of its history.
-fn history(case: &str, overrides: &[&str]) -> Vec<Vec<f64>> {
-    let folder = tempfile::tempdir().unwrap();
-    let output = mpm("run", case, folder.path(), overrides);
-    assert!(output.status.success(), "{case} {overrides:?}: {}", String::from_utf8_lossy(&output.stderr));
-    let text = std::fs::read_to_string(folder.path().join("history.csv")).unwrap();
-    text.lines().skip(1).map(|line| line.split(',').map(|v| v.parse().unwrap()).collect()).collect()
-}
+use crate::history;
 
 const PLATE: &str = "tests/data/plate";
 const INCLINE: &str = "cases/incline";
@@ -133,11 +114,7 @@ fn a_block_falls_and_spins_freely() {
 #[test]
 fn contradictions_about_rigid_structures_are_told() {
     let refused = |overrides: &[&str], words: &[&str]| {
-        let folder = tempfile::tempdir().unwrap();
-        let output = mpm("run", PLATE, folder.path(), &[&["regions.plate.rigid=true"], overrides].concat());
-        let said = String::from_utf8_lossy(&output.stderr).into_owned();
-        assert_eq!(output.status.code(), Some(2), "{overrides:?}: {said}");
-        assert!(words.iter().all(|word| said.contains(word)), "{overrides:?}: {said}");
+        crate::refused(PLATE, &[&["regions.plate.rigid=true"], overrides].concat(), words);
     };
     refused(&["phases[0].prescribe.plate={uy: {rate: -0.2}}"], &["differently (y)", "`top`", "`plate`"]);
     refused(&["phases[0].prescribe.plate={rotation: {rate: 1}}"], &["rules out the rotation of `plate`"]);
