@@ -78,13 +78,13 @@ fn check(name: &str, h: f64, contact: &Contact) {
 
 #[test]
 fn two_bodies_touch_as_hertz_has_it() {
-    for h in [0.3, 0.24, 0.18, 0.12] {
-        for push in [0.055, 0.065] {
-            let mesh = format!("mesh.parameters.h={h}");
-            let load = format!("phases[0].prescribe.top.uy={{rate: -{push}}}");
-            let name = format!("h {h} m, pushed by {push} m");
-            check(&name, h, &contact(&[&mesh, &load], modulus(1000.0)));
-        }
+    let coarse = [(0.3, 0.055), (0.3, 0.065), (0.24, 0.05), (0.24, 0.055), (0.24, 0.065)];
+    let fine = [(0.18, 0.055), (0.18, 0.065), (0.12, 0.055), (0.12, 0.065)];
+    for (h, push) in coarse.into_iter().chain(fine) {
+        let mesh = format!("mesh.parameters.h={h}");
+        let load = format!("phases[0].prescribe.top.uy={{rate: -{push}}}");
+        let name = format!("h {h} m, pushed by {push} m");
+        check(&name, h, &contact(&[&mesh, &load], modulus(1000.0)));
     }
 }
 

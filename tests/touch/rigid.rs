@@ -1,6 +1,7 @@
 //! Rigid structures, from the case to the results: forces and motion against closed forms and deformable ones.
 
-use crate::history;
+use crate::{history, rows, run};
+use mpm::io::frame::Frame;
 
 const PLATE: &str = "tests/data/plate";
 const INCLINE: &str = "cases/incline";
@@ -100,7 +101,8 @@ fn a_block_falls_and_spins_freely() {
         "initial_velocity={block: {velocity: {x: 1}, gradient: [[0, -2], [2, 0]]}}",
         "output.history=[{name: block, on: block, quantities: [ux, uy, vx, vy, rotation]}]",
     ];
-    let rows = history(INCLINE, &overrides);
+    let folder = run(INCLINE, &overrides);
+    let rows = rows(folder.path());
     let first = &rows[0];
     for row in &rows {
         let t = row[0];
@@ -108,6 +110,27 @@ fn a_block_falls_and_spins_freely() {
         let expected = [vx * t, vy * t - 0.5 * 9.81 * t * t, vx, vy - 9.81 * t, 2.0 * t];
         assert!(row[1..].iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-12), "{row:?} {expected:?}");
     }
+    // What is shown of it keeps its shape: the nodes that have come far are the block's.
+    let frame = |k: u32| Frame::read(&folder.path().join(format!("results/frame-{k:06}.mpmf"))).unwrap();
+    let (before, after) = (frame(0), frame(3));
+    let apart = |a: &[f64; 3], b: &[f64; 3]| (a[0] - b[0]).hypot(a[1] - b[1]);
+    for (x, y) in [(before.grid.position, after.grid.position), (before.elements.position, after.elements.position)] {
+        let far: Vec<usize> = (0..x.len()).filter(|&i| apart(&x[i], &y[i]) > 0.1).collect();
+        assert!(far.len() > 50);
+        let shape = |i: usize| (apart(&y[i], &y[far[0]]) - apart(&x[i], &x[far[0]])).abs() < 1e-12;
+        assert!(far.iter().all(|&i| shape(i)));
+    }
+}
+
+/// In axisymmetry a rigid pile only sinks. In its first centimetres it bears the limit load of a circular footing, as the deformable
+/// one of tests/contact.rs, with what it gains with depth.
+#[test]
+fn a_rigid_pile_finds_its_bearing_capacity() {
+    let rows = history("cases/pile", &["regions.pile.rigid=true", "phases.push.duration=0.1"]);
+    assert!(rows.iter().all(|row| (row[2] + row[4]).abs() < 1e-9 * row[2].abs().max(1.0)), "{rows:?}");
+    let pressure = rows.last().unwrap()[2] / (std::f64::consts::PI * 0.5f64.powi(2)) / 0.5;
+    println!("bearing capacity {pressure:.3} times the strength");
+    assert!((5.69..1.1 * 6.05).contains(&pressure), "{pressure}");
 }
 
 /// Curves move a body without turning it; what contradicts that, or another entry, is told.
