@@ -3,10 +3,12 @@
 use super::checked::{self, Case, Geometry, Phase};
 use super::scene::{group, region_index};
 use crate::error::{Error, Result};
+use crate::kinematics::Kinematics;
 use crate::mesh::Mesh;
 use crate::rigid::Body;
 use crate::seed::{QUADRATURE, RegionSeed, seed};
 use crate::step::{Fixed, Prescribed};
+use crate::term::{RigidInertia, RigidTraction, RigidWeight, Term, Traction};
 use crate::time_value::TimeValue;
 use std::collections::HashSet;
 
@@ -45,6 +47,38 @@ pub fn bodies(case: &Case, mesh: &mut Mesh<2>) -> Result<Vec<Body<2>>> {
         bodies.push(Body::append(mesh, number, nodes, &points, plane));
     }
     Ok(bodies)
+}
+
+/// What acts on the rigid structures, given the part of the mesh with them.
+///
+/// # Errors
+/// Input: a traction on a curve that the mesh has not.
+pub fn terms<K: Kinematics<2>>(
+    case: &Case,
+    mesh: &Mesh<2>,
+    bodies: &[Body<2>],
+    dynamic: bool,
+) -> Result<Vec<Box<dyn Term<2>>>> {
+    let mut terms: Vec<Box<dyn Term<2>>> = Vec::new();
+    for body in bodies {
+        if case.gravity != [0.0; 2] && body.mass > 0.0 {
+            let factors = case.phases.iter().map(|p| p.gravity.clone()).collect();
+            terms.push(Box::new(RigidWeight::new(body, case.gravity, factors)));
+        }
+        if dynamic {
+            terms.push(Box::new(RigidInertia::new(body)));
+        }
+        for (phase, traction) in
+            case.phases.iter().enumerate().flat_map(|(i, p)| p.tractions.iter().map(move |t| (i, t)))
+        {
+            if body_of(mesh, body, &traction.curve) {
+                let shares = Traction::<K, 2>::shares(mesh, group(mesh, &traction.curve)?);
+                let value = traction.components.clone();
+                terms.push(Box::new(RigidTraction::new(body, &mesh.nodes, &shares, phase, value)));
+            }
+        }
+    }
+    Ok(terms)
 }
 
 /// What bodies do not do unless a phase prescribes it: walls, which have no mass and no cells, do not move. No body has a second

@@ -16,8 +16,8 @@ use crate::run::{self, Ended, Outputs, Progress, Watch, WatchedOn};
 use crate::stencil::{Scheme, cell_size, smooths};
 use crate::step::{self, Fem, Numerics, Phase, Scene, State, Stop};
 use crate::term::{
-    BodyForce, Carried, Contact, EmptyCells, GhostPenalty, Inertia, Internal, PressureField, RigidInertia,
-    RigidTraction, RigidWeight, SmoothPressure, Term, Traction,
+    BodyForce, Carried, Contact, EmptyCells, GhostPenalty, Inertia, Internal, PressureField, SmoothPressure, Term,
+    Traction,
 };
 use crate::time_value::TimeValue;
 use std::path::Path;
@@ -160,7 +160,7 @@ pub fn scene<K: Kinematics<2>>(case: &Case, mut whole: Mesh<2>) -> Result<Scene<
             if dynamic {
                 terms.push(Box::new(Inertia::<K>::default()));
             }
-            terms.extend(rigid_terms::<K>(case, &part, &bodies[..structures], dynamic)?);
+            terms.extend(rigid::terms::<K>(case, &part, &bodies[..structures], dynamic)?);
             let (carried, rigid) = (carried(case, &part)?, rigid::regions(case, &part));
             let with = |r: usize| carried[r].is_some() && !rigid[r];
             let with_pressure = part.cells.region.iter().map(|&r| with(r as usize)).collect();
@@ -213,35 +213,6 @@ fn internal<K: Kinematics<2>>(
     let field = PressureField::<K>::new(carried(case, mesh)?, unit);
     let internal = Internal::<K, _>::sharing(models, dynamic, field);
     Ok(vec![Box::new(internal), Box::new(SmoothPressure::<K>::new(unit, shear, mesh.cells.len()))])
-}
-
-/// What acts on the rigid structures, given the part of the mesh with them.
-fn rigid_terms<K: Kinematics<2>>(
-    case: &Case,
-    mesh: &Mesh<2>,
-    bodies: &[Body<2>],
-    dynamic: bool,
-) -> Result<Vec<Box<dyn Term<2>>>> {
-    let mut terms: Vec<Box<dyn Term<2>>> = Vec::new();
-    for body in bodies {
-        if case.gravity != [0.0; 2] && body.mass > 0.0 {
-            let factors = case.phases.iter().map(|p| p.gravity.clone()).collect();
-            terms.push(Box::new(RigidWeight::new(body, case.gravity, factors)));
-        }
-        if dynamic {
-            terms.push(Box::new(RigidInertia::new(body)));
-        }
-        for (phase, traction) in
-            case.phases.iter().enumerate().flat_map(|(i, p)| p.tractions.iter().map(move |t| (i, t)))
-        {
-            if rigid::body_of(mesh, body, &traction.curve) {
-                let shares = Traction::<K, 2>::shares(mesh, group(mesh, &traction.curve)?);
-                let value = traction.components.clone();
-                terms.push(Box::new(RigidTraction::new(body, &mesh.nodes, &shares, phase, value)));
-            }
-        }
-    }
-    Ok(terms)
 }
 
 fn gravity<K>(case: &Case) -> BodyForce<K, 2> {
