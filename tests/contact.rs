@@ -1,6 +1,6 @@
 //! Structures on soil, from the case to the results: forces against closed forms.
 
-use mpm::io::frame::Frame;
+use mpm::io::frame::{FACES, Frame, LINE};
 use std::path::Path;
 use std::process::Command;
 
@@ -38,6 +38,36 @@ fn a_plate_hands_on_a_uniform_pressure() {
     for sigma in column.values.chunks_exact(6) {
         assert!((sigma[1] / (-0.5 * force) - 1.0).abs() < 1e-3, "{sigma:?} {force}");
     }
+}
+
+/// The same pressure stands along the base of the plate, adds up to the force, and leaves the other sides free. Where there
+/// is no soil the gap is not known, and along the base it is closed.
+#[test]
+fn pressure_is_shown_along_the_boundary() {
+    let folder = run("tests/data/plate", &[]);
+    let force = history(folder.path()).last().unwrap()[4];
+    let contact = Frame::read(&folder.path().join("results/frame-000001.mpmf")).unwrap().contact;
+    let column = |name: &str| &contact.columns.iter().find(|c| c.name == name).unwrap().values;
+    let (pressure, gap, line, faces) = (column("contact_pressure"), column("contact_gap"), column(LINE), column(FACES));
+    let (mut sum, mut most, mut length) = (0.0, 0.0f64, 0.0);
+    for i in (1..line.len()).filter(|&i| line[i] == line[i - 1]) {
+        let [a, b] = [i - 1, i].map(|i| contact.position[i]);
+        let on_base = faces[i] == 1.0;
+        assert_eq!(on_base, (a[1] - b[1]).abs() < 1e-6 && a[1] < 0.0, "{a:?} {b:?}");
+        if on_base {
+            sum += 0.5 * (pressure[i - 1] + pressure[i]) * (b[0] - a[0]);
+            length += b[0] - a[0];
+            most = most.max((pressure[i] / (0.5 * force) - 1.0).abs());
+            assert!(gap[i].abs() < 1e-4, "{}", gap[i]);
+        } else {
+            assert_eq!(pressure[i], 0.0);
+        }
+    }
+    println!("pressure off its mean by up to {most:.4}, in all by {:.1e}", sum / force - 1.0);
+    assert!((length - 2.0).abs() < 1e-6 && (sum / force - 1.0).abs() < 1e-3, "{length} {sum} {force}");
+    assert!(most < 0.015, "{most}");
+    let text = std::fs::read_to_string(folder.path().join("contact.pvd")).unwrap();
+    assert_eq!(text.matches("vtu/contact_").count(), 2);
 }
 
 /// A plate that slides along soil it is pressed into keeps its normal force while it crosses five cells. One per cent is

@@ -6,12 +6,14 @@
 //! condition: its mean gap. The gap of a segment is the signed distance of the nearest points of soil to the boundary
 //! (its level set), less the half width of a point.
 
+mod along;
 mod gap;
 mod law;
 mod pair;
 mod place;
 mod surface;
 
+pub use along::Mark;
 pub use law::{Answer, Law, Penalty};
 pub use pair::{Boundary, Ground, Multipliers, Pair, Pushed, Row};
 pub use surface::Surface;

@@ -9,6 +9,7 @@
 //!
 //! The checkpoint of a step is written while the next one is solved.
 
+mod boundary;
 mod checkpoint;
 mod record;
 

@@ -1,5 +1,6 @@
 //! What a run writes down: frames, rows of the history, lines of the log.
 
+use super::boundary;
 use crate::io::columns::padded;
 use crate::io::frame::{CELL, Column, Frame, Part};
 use crate::points::Points;
@@ -131,6 +132,7 @@ pub fn frame<const D: usize>(scene: &Scene<D>, state: &State<D>, fields: &[Field
         points: part(&state.points, fields),
         grid,
         elements: if scene.fem.is_some() { elements } else { Part::default() },
+        contact: boundary::part(scene, state),
     }
 }
 
@@ -164,11 +166,11 @@ fn part<const D: usize>(points: &Points<D>, fields: &[Field]) -> Part {
     Part { columns: columns.collect(), position: triples(&points.position) }
 }
 
-fn column(name: &str, unit: &str, components: usize, values: Vec<f64>) -> Column {
+pub(super) fn column(name: &str, unit: &str, components: usize, values: Vec<f64>) -> Column {
     Column { name: name.into(), unit: unit.into(), components, values }
 }
 
-fn triples<const D: usize>(x: &[[f64; D]]) -> Vec<[f64; 3]> {
+pub(super) fn triples<const D: usize>(x: &[[f64; D]]) -> Vec<[f64; 3]> {
     x.iter().map(|x| std::array::from_fn(|d| x.get(d).copied().unwrap_or(0.0))).collect()
 }
 

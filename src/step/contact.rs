@@ -169,6 +169,7 @@ pub fn commit<const D: usize>(
     for multipliers in &mut state.multipliers {
         let Multipliers { pressure, shear, gap, slip, offset, .. } = multipliers;
         [pressure, shear, gap, slip, offset].into_iter().for_each(|values| values.fill(0.0));
+        multipliers.faces.fill(false);
     }
     for touch in &grid.touches {
         let (pair, hat, row) = (touch.pair as usize, touch.row.hat as usize, &touch.row);
@@ -176,9 +177,11 @@ pub fn commit<const D: usize>(
         let held = &mut state.multipliers[pair];
         (held.pressure[hat], held.shear[hat]) = (answer.pressure, answer.shear);
         (held.gap[hat], held.slip[hat], held.offset[hat]) = (gap, slip.abs(), row.offset);
+        held.faces[hat] = true;
         let resultant = &mut resultants[pair];
         if answer.pressure != 0.0 {
             resultant.hats += 1;
+            held.slid[hat] += slip;
             resultant.overlap = resultant.overlap.max(-gap);
         }
         for (n, t) in row.by_normal[..row.own].iter().zip(&row.by_tangent) {
