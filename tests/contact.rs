@@ -70,6 +70,22 @@ fn pressure_is_shown_along_the_boundary() {
     assert_eq!(text.matches("vtu/contact_").count(), 2);
 }
 
+/// A plate that reaches beyond the soil has the force in the middle of the soil, and so a moment about its own middle.
+#[test]
+fn the_moment_is_about_the_centroid() {
+    let history_of = "output.history=[{name: plate, on: plate, quantities: [contact_x, contact_y, contact_moment]}]";
+    let folder = run("tests/data/plate", &[history_of, "mesh.parameters={plate: 2.6, hp: 0.13}"]);
+    let row = history(folder.path()).pop().unwrap();
+    let arm = row[3] / row[2];
+    println!("arm {arm:.5} of -0.3 m");
+    assert!((arm / -0.3 - 1.0).abs() < 0.01 && row[1].abs() < 1e-3 * row[2], "{row:?}");
+    let text = std::fs::read_to_string(folder.path().join("history.csv")).unwrap();
+    assert!(
+        text.starts_with("time [s],plate.contact_x [kN],plate.contact_y [kN],plate.contact_moment [kNm]\n"),
+        "{text}"
+    );
+}
+
 /// A plate that slides along soil it is pressed into keeps its normal force while it crosses five cells. One per cent is
 /// wanted; what points that come and go make of its gap is more (docs/numerics.md).
 #[test]

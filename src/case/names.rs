@@ -79,7 +79,7 @@ impl Names<'_> {
     /// Refuses forces of contact, which only structures feel.
     fn no_contact(&mut self, quantities: &[Quantity], path: &Path) {
         for (i, quantity) in quantities.iter().enumerate() {
-            if matches!(quantity, Quantity::ContactX | Quantity::ContactY) {
+            if matches!(quantity, Quantity::ContactX | Quantity::ContactY | Quantity::ContactMoment) {
                 let remedy = "take it out, or name a region of kind structure";
                 self.issues.push(Issue::new(&path.index(i), At::Value, "only a structure has contact", remedy));
             }

@@ -529,7 +529,7 @@ pub struct History {
 }
 
 /// A quantity of history.csv: means over the nodes of a curve or the points of a region; reactions are sums, contact is
-/// the force of all contacts on a structure.
+/// the force of all contacts on a structure, and its moment about the centroid.
 #[derive(Clone, Copy, Debug, Deserialize, JsonSchema, PartialEq, Eq)]
 #[serde(rename_all = "snake_case")]
 pub enum Quantity {
@@ -541,6 +541,7 @@ pub enum Quantity {
     ReactionY,
     ContactX,
     ContactY,
+    ContactMoment,
 }
 
 fn two() -> u8 {

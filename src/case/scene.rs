@@ -297,6 +297,7 @@ fn outputs(case: &Case, mesh: &Mesh<2>, folder: &Path, fingerprint: Fingerprint)
             Quantity::ReactionY => run::Quantity::Reaction(1),
             Quantity::ContactX => run::Quantity::Contact(0),
             Quantity::ContactY => run::Quantity::Contact(1),
+            Quantity::ContactMoment => run::Quantity::ContactMoment,
         });
         Ok(Watch { name: entry.name.clone(), on, quantities: quantities.collect() })
     };

@@ -4,7 +4,7 @@ use super::boundary;
 use crate::io::columns::padded;
 use crate::io::frame::{CELL, Column, Frame, Part};
 use crate::points::Points;
-use crate::step::{Report, Restore, Scene, State};
+use crate::step::{Report, Restore, Resultant, Scene, State};
 use crate::term::Carried;
 
 /// A field of the frames.
@@ -30,6 +30,8 @@ pub enum Quantity {
     Reaction(usize),
     /// Force of what a structure touches on it (kN), the sum.
     Contact(usize),
+    /// Moment of that force (kNm) about the centroid of the structure, in the plane, counterclockwise.
+    ContactMoment,
 }
 
 /// What is watched.
@@ -61,6 +63,7 @@ pub fn columns(watches: &[Watch]) -> Vec<String> {
                 Quantity::Velocity(d) => format!("{}.v{} [m/s]", watch.name, AXES[d]),
                 Quantity::Reaction(d) => format!("{}.reaction_{} [kN]", watch.name, AXES[d]),
                 Quantity::Contact(d) => format!("{}.contact_{} [kN]", watch.name, AXES[d]),
+                Quantity::ContactMoment => format!("{}.contact_moment [kNm]", watch.name),
             });
         }
     }
@@ -94,9 +97,28 @@ fn value<const D: usize>(on: &WatchedOn, quantity: Quantity, state: &State<D>, r
         (WatchedOn::Region(region), Quantity::Contact(d)) => {
             report.contacts.iter().filter(|c| c.structure == *region).map(|c| c.force[d]).sum()
         }
+        (WatchedOn::Region(region), Quantity::ContactMoment) => {
+            let [x, y] = centroid(state, *region);
+            let about = |c: &Resultant<D>| c.moment - (x * c.force[1] - y * c.force[0]);
+            report.contacts.iter().filter(|c| c.structure == *region).map(about).sum()
+        }
         // A region has no supports of its own, a curve no contact.
-        (WatchedOn::Region(_), Quantity::Reaction(_)) | (WatchedOn::Nodes(_), Quantity::Contact(_)) => 0.0,
+        (WatchedOn::Region(_), Quantity::Reaction(_))
+        | (WatchedOn::Nodes(_), Quantity::Contact(_) | Quantity::ContactMoment) => 0.0,
     }
+}
+
+/// The centroid (m) of a region where it is now, in the plane, by the volumes of its points.
+fn centroid<const D: usize>(state: &State<D>, region: u16) -> [f64; 2] {
+    let (mut volume, mut sum) = (0.0, [0.0; 2]);
+    for (points, p) in members(state, region) {
+        let v = points.initial_volume[p];
+        volume += v;
+        for d in 0..2 {
+            sum[d] += v * points.position[p][d];
+        }
+    }
+    sum.map(|s| if volume > 0.0 { s / volume } else { 0.0 })
 }
 
 /// The points of a region, of whatever kind.

@@ -20,6 +20,8 @@ pub struct Resultant<const D: usize> {
     pub structure: u16,
     /// Force (kN) of the soil on the structure.
     pub force: [f64; D],
+    /// Its moment (kNm) about the origin, in the plane, counterclockwise.
+    pub moment: f64,
     /// Hats that touch, and the deepest mean overlap (m) of one.
     pub hats: usize,
     pub overlap: f64,
@@ -160,6 +162,7 @@ pub fn commit<const D: usize>(
     let none = |pair: &dyn Pair<D>| Resultant {
         structure: pair.structure(),
         force: [0.0; D],
+        moment: 0.0,
         hats: 0,
         overlap: 0.0,
         pushed: Pushed::default(),
@@ -184,9 +187,13 @@ pub fn commit<const D: usize>(
             held.slid[hat] += slip;
             resultant.overlap = resultant.overlap.max(-gap);
         }
-        for (n, t) in row.by_normal[..row.own].iter().zip(&row.by_tangent) {
+        for ((n, t), &node) in row.by_normal[..row.own].iter().zip(&row.by_tangent).zip(&row.nodes) {
+            let force: [f64; D] = std::array::from_fn(|d| row.area * (answer.pressure * n[d] + answer.shear * t[d]));
+            let first = state.nodes.get(node as usize).unwrap_or(&scene.mesh.nodes[node as usize]);
+            let x: [f64; D] = std::array::from_fn(|d| first[d] + solution.displacement[node as usize][d]);
+            resultant.moment += x[0] * force[1] - x[1] * force[0];
             for d in 0..D {
-                resultant.force[d] += row.area * (answer.pressure * n[d] + answer.shear * t[d]);
+                resultant.force[d] += force[d];
             }
         }
     }
