@@ -167,8 +167,12 @@ impl Checker {
             let mut find = |name: &String, kind, words: &str, path: &Path| {
                 let known = of_kind(kind).any(|known| known == name);
                 if !known {
-                    let problem = format!("there is no region `{name}` of kind {words}");
-                    self.issue(path, At::Value, problem, suggest(name, of_kind(kind)));
+                    let problem = match file.regions.get(name) {
+                        Some(other) => format!("the region `{name}` is of kind {}, not {words}", other.kind.name()),
+                        None => format!("there is no region `{name}`"),
+                    };
+                    let remedy = format!("of kind {words}: {}", suggest(name, of_kind(kind)));
+                    self.issue(path, At::Value, problem, remedy);
                 }
                 file.regions.keys().position(|known| known == name).filter(|_| known)
             };

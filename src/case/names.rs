@@ -11,6 +11,8 @@ pub struct Groups {
     pub surfaces: Vec<String>,
     pub curves: Vec<String>,
     pub points: Vec<String>,
+    /// Whether they are those of a `mesh.msh`, which may be older than the `.geo`.
+    pub meshed: bool,
 }
 
 /// Every name in `case` that the mesh does not have, and every surface that the case does not fill.
@@ -53,7 +55,8 @@ pub fn check(case: &Case, groups: &Groups) -> Vec<Issue> {
         }
         let structure =
             |region: &Region| region.name == entry.on && matches!(region.content, Content::Structure { .. });
-        if has_nodes || !case.regions.iter().any(structure) {
+        let known = has_nodes || groups.surfaces.contains(&entry.on);
+        if known && (has_nodes || !case.regions.iter().any(structure)) {
             names.no_contact(&entry.quantities, &root.key("output").key("history").index(i).key("quantities"));
         }
     }
@@ -110,8 +113,12 @@ impl Names<'_> {
         if known.clone().into_iter().any(|k| k == name) {
             return;
         }
-        let remedy = suggest(name, known.into_iter().map(String::as_str));
-        let problem = format!("the .geo has no {kind} `{name}`");
+        let mut remedy = suggest(name, known.into_iter().map(String::as_str));
+        let file = if self.groups.meshed { "mesh.msh" } else { "the .geo" };
+        if self.groups.meshed {
+            remedy.push_str(" (or run `mpm mesh` again, if the .geo has it by now)");
+        }
+        let problem = format!("{file} has no {kind} `{name}`");
         self.issues.push(Issue::new(path, at, problem, remedy));
     }
 }

@@ -1,7 +1,7 @@
 //! From a checked case to a scene: the only place that decides which terms exist.
 
 use super::checked::{Analysis, Case, Field, Geometry, Material, Quantity, Region, Restore};
-use super::{parts, touch};
+use super::{overlap, parts, touch};
 use crate::error::{Error, Result};
 use crate::io::checkpoint::Fingerprint;
 use crate::kinematics::{Axisymmetric, Kinematics, PlaneStrain};
@@ -62,6 +62,7 @@ pub fn solve(
 
 /// The state before the first step, given the material points and those of the finite elements.
 fn first(case: &Case, scene: &Scene<2>, [mut points, mut fem]: [Points<2>; 2]) -> Result<State<2>> {
+    overlap::check(case, scene, &points)?;
     if scene.pressure_unit.is_some() {
         begin_pressure(case, &scene.mesh, &mut points)?;
         begin_pressure(case, &scene.mesh, &mut fem)?;

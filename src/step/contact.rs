@@ -1,6 +1,7 @@
 //! Contact in a step: which hats face soil where the step begins, and what they come to in its end.
 
 use super::grid::Grid;
+use super::leaving;
 use super::newton::Solution;
 use super::scene::Scene;
 use super::state::State;
@@ -60,7 +61,7 @@ pub fn couple<const D: usize>(state: &State<D>, block: &[u32], cliques: &mut Cli
 /// Finds the hats that face soil and makes room for them in the system.
 ///
 /// # Errors
-/// As [`Grid::new`].
+/// As [`Grid::new`], and analysis: a structure that left the grid.
 pub fn begin<const D: usize, K: Kinematics<D>>(
     scene: &Scene<D>,
     grid: &mut Grid<D>,
@@ -86,6 +87,7 @@ pub fn begin<const D: usize, K: Kinematics<D>>(
     let ground = Ground { grid: mesh, locator, points: &state.points, surface: &surface };
     let mut touches = Vec::new();
     for ((pair, number), held) in scene.pairs.iter().zip(0..).zip(&state.multipliers) {
+        leaving::check(scene, pair.as_ref(), held, &ground, &at)?;
         let rows = pair.rows(&ground, &at, held);
         touches.extend(rows.into_iter().map(|row| Touch { pair: number, row, clique: 0, place: Vec::new() }));
     }
