@@ -87,8 +87,8 @@ pub fn begin<const D: usize, K: Kinematics<D>>(
     let ground = Ground { grid: mesh, locator, points: &state.points, surface: &surface };
     let mut touches = Vec::new();
     for ((pair, number), held) in scene.pairs.iter().zip(0..).zip(&state.multipliers) {
-        leaving::check(scene, pair.as_ref(), held, &ground, &at)?;
         let rows = pair.rows(&ground, &at, held);
+        leaving::check(scene, pair.as_ref(), held, &rows, &ground, &at)?;
         touches.extend(rows.into_iter().map(|row| Touch { pair: number, row, clique: 0, place: Vec::new() }));
     }
     let takes_part = |touch: &Touch<D>| touch.row.nodes.iter().all(|&n| grid.block[n as usize] != u32::MAX);
