@@ -81,7 +81,7 @@ fn the_moment_is_about_the_centroid() {
     assert!((arm / -0.3 - 1.0).abs() < 0.01 && row[1].abs() < 1e-3 * row[2], "{row:?}");
     let text = std::fs::read_to_string(folder.path().join("history.csv")).unwrap();
     assert!(
-        text.starts_with("time [s],plate.contact_x [kN],plate.contact_y [kN],plate.contact_moment [kNm]\n"),
+        text.starts_with("time [s],plate.contact_x [kN],plate.contact_y [kN],plate.contact_moment [kN m]\n"),
         "{text}"
     );
 }

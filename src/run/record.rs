@@ -30,7 +30,7 @@ pub enum Quantity {
     Reaction(usize),
     /// Force of what a structure touches on it (kN), the sum.
     Contact(usize),
-    /// Moment of that force (kNm) about the centroid of the structure, in the plane, counterclockwise.
+    /// Moment of that force (kN m) about the centroid of the structure, in the plane, counterclockwise.
     ContactMoment,
 }
 
@@ -63,7 +63,7 @@ pub fn columns(watches: &[Watch]) -> Vec<String> {
                 Quantity::Velocity(d) => format!("{}.v{} [m/s]", watch.name, AXES[d]),
                 Quantity::Reaction(d) => format!("{}.reaction_{} [kN]", watch.name, AXES[d]),
                 Quantity::Contact(d) => format!("{}.contact_{} [kN]", watch.name, AXES[d]),
-                Quantity::ContactMoment => format!("{}.contact_moment [kNm]", watch.name),
+                Quantity::ContactMoment => format!("{}.contact_moment [kN m]", watch.name),
             });
         }
     }

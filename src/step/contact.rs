@@ -21,7 +21,7 @@ pub struct Resultant<const D: usize> {
     pub structure: u16,
     /// Force (kN) of the soil on the structure.
     pub force: [f64; D],
-    /// Its moment (kNm) about the origin, in the plane, counterclockwise.
+    /// Its moment (kN m) about the origin, in the plane, counterclockwise.
     pub moment: f64,
     /// Hats that touch, and the deepest mean overlap (m) of one.
     pub hats: usize,
