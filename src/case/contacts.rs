@@ -82,15 +82,13 @@ impl Checker {
     fn region_of(&mut self, file: &raw::CaseFile, name: &str, kinds: &[RegionKind], path: &Path) -> Option<usize> {
         let known = || file.regions.iter().filter(|(_, region)| kinds.contains(&region.kind)).map(|(known, _)| known);
         if !known().any(|known| known == name) {
-            let word = |kind: &RegionKind| match kind {
-                RegionKind::Mpm => "mpm",
-                RegionKind::Buffer => "buffer",
-                RegionKind::Fem => "fem",
-                RegionKind::Structure => "structure",
+            let words = kinds.iter().map(|kind| kind.name()).collect::<Vec<_>>().join(" or ");
+            let problem = match file.regions.get(name) {
+                Some(other) => format!("the region `{name}` is of kind {}, not {words}", other.kind.name()),
+                None => format!("there is no region `{name}`"),
             };
-            let words = kinds.iter().map(word).collect::<Vec<_>>().join(" or ");
-            let problem = format!("there is no region `{name}` of kind {words}");
-            self.issue(path, At::Value, problem, suggest(name, known().map(String::as_str)));
+            let remedy = format!("of kind {words}: {}", suggest(name, known().map(String::as_str)));
+            self.issue(path, At::Value, problem, remedy);
             return None;
         }
         file.regions.keys().position(|known| known == name)

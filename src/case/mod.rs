@@ -11,6 +11,7 @@ mod incompressible;
 pub mod locate;
 mod materials;
 pub mod names;
+mod overlap;
 pub mod parts;
 mod phases;
 pub mod raw;

@@ -11,6 +11,8 @@ pub struct Groups {
     pub surfaces: Vec<String>,
     pub curves: Vec<String>,
     pub points: Vec<String>,
+    /// Whether they are those of a `mesh.msh`, which may be older than the `.geo`.
+    pub meshed: bool,
 }
 
 /// Every name in `case` that the mesh does not have, and every surface that the case does not fill.
@@ -54,7 +56,8 @@ pub fn check(case: &Case, groups: &Groups) -> Vec<Issue> {
         names.one_of(&entry.on, known, "physical curve, physical point or region", &path, At::Value);
         let has_nodes = groups.curves.contains(&entry.on) || groups.points.contains(&entry.on);
         let rigid = is_wall(case, &entry.on) || !has_nodes && is_rigid(case, &entry.on);
-        if !rigid {
+        let known = has_nodes || groups.surfaces.contains(&entry.on);
+        if known && !rigid {
             names.no_rotation(&entry.quantities, &root.key("output").key("history").index(i).key("quantities"));
         }
         if groups.surfaces.contains(&entry.on) && !has_nodes && !rigid {
@@ -62,7 +65,7 @@ pub fn check(case: &Case, groups: &Groups) -> Vec<Issue> {
         }
         let touches =
             rigid || !has_nodes && case.regions.iter().enumerate().any(|(i, r)| r.name == entry.on && touches(case, i));
-        if !touches {
+        if known && !touches {
             names.no_contact(&entry.quantities, &root.key("output").key("history").index(i).key("quantities"));
         }
     }
@@ -103,17 +106,17 @@ impl Names<'_> {
     /// Refuses forces of contact, which only structures feel.
     fn no_contact(&mut self, quantities: &[Quantity], path: &Path) {
         for (i, quantity) in quantities.iter().enumerate() {
-            if matches!(quantity, Quantity::ContactX | Quantity::ContactY) {
+            if matches!(quantity, Quantity::ContactX | Quantity::ContactY | Quantity::ContactMoment) {
                 let remedy = "take it out, or name a region of kind structure";
                 self.issues.push(Issue::new(&path.index(i), At::Value, "only a structure has contact", remedy));
             }
         }
     }
 
-    /// Refuses rotations and moments, which only rigid structures have.
+    /// Refuses rotations and moments of supports, which only rigid structures have.
     fn no_rotation(&mut self, quantities: &[Quantity], path: &Path) {
         for (i, quantity) in quantities.iter().enumerate() {
-            if matches!(quantity, Quantity::Rotation | Quantity::ReactionMoment | Quantity::ContactMoment) {
+            if matches!(quantity, Quantity::Rotation | Quantity::ReactionMoment) {
                 let remedy = "take it out, or name a region of kind structure with `rigid: true`";
                 self.issues.push(Issue::new(&path.index(i), At::Value, "only a rigid structure turns", remedy));
             }
@@ -151,8 +154,12 @@ impl Names<'_> {
         if known.clone().into_iter().any(|k| k == name) {
             return;
         }
-        let remedy = suggest(name, known.into_iter().map(String::as_str));
-        let problem = format!("the .geo has no {kind} `{name}`");
+        let mut remedy = suggest(name, known.into_iter().map(String::as_str));
+        let file = if self.groups.meshed { "mesh.msh" } else { "the .geo" };
+        if self.groups.meshed {
+            remedy.push_str(" (or run `mpm mesh` again, if the .geo has it by now)");
+        }
+        let problem = format!("{file} has no {kind} `{name}`");
         self.issues.push(Issue::new(path, at, problem, remedy));
     }
 }

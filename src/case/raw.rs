@@ -102,6 +102,18 @@ pub enum RegionKind {
     Structure,
 }
 
+impl RegionKind {
+    /// As the case file has it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Mpm => "mpm",
+            Self::Buffer => "buffer",
+            Self::Fem => "fem",
+            Self::Structure => "structure",
+        }
+    }
+}
+
 /// A material; its schema is made from the list of models.
 #[derive(Debug, Deserialize)]
 pub struct Material {

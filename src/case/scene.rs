@@ -2,7 +2,7 @@
 
 use super::checked::{Analysis, Case, Field, Geometry, Material, Quantity, Region, Restore};
 use super::rigid::{self, Holds};
-use super::{parts, touch, wall};
+use super::{overlap, parts, touch, wall};
 use crate::error::{Error, Result};
 use crate::io::checkpoint::Fingerprint;
 use crate::kinematics::{Axisymmetric, Kinematics, PlaneStrain};
@@ -65,6 +65,7 @@ pub fn solve(
 
 /// The state before the first step, given the material points and those of the finite elements.
 fn first(case: &Case, scene: &Scene<2>, [mut points, mut fem]: [Points<2>; 2]) -> Result<State<2>> {
+    overlap::check(case, scene, &points)?;
     if scene.pressure_unit.is_some() {
         begin_pressure(case, &scene.mesh, &mut points)?;
         begin_pressure(case, &scene.mesh, &mut fem)?;

@@ -6,6 +6,7 @@
 //! the two are at the beginning of the step: gap and slip are those of the displacements there, interpolated by its
 //! shape functions.
 
+use super::along::{Mark, lines};
 use super::law::{Law, Penalty};
 use super::pair::{Ground, Multipliers, NORMAL, Pair, Pushed, Row, TANGENTIAL};
 use super::place::{Placed, Segments};
@@ -236,6 +237,10 @@ impl<K: Kinematics<2>> Pair<2> for Bodies<K> {
 
     fn outlines(&self, _: &dyn Fn(u32) -> [f64; 2]) -> Vec<Vec<[f64; 2]>> {
         Vec::new()
+    }
+
+    fn lines(&self, position: &dyn Fn(u32) -> [f64; 2]) -> Vec<Vec<Mark<2>>> {
+        lines(&self.surface, &Segments::new::<K>(&self.surface, position))
     }
 
     fn push_out(&self, _: &mut Points<2>, _: &dyn Fn(u32) -> [f64; 2]) -> Pushed {

@@ -1,5 +1,6 @@
 //! A structure and the soil it touches: the condition of each hat in a step.
 
+use super::along::{Mark, lines};
 use super::gap::{Facing, Gap, Soil, push_out, raw_gaps};
 use super::law::{Law, Penalty};
 use super::place::{Placed, Segments};
@@ -82,6 +83,10 @@ pub struct Multipliers {
     pub slip: Vec<f64>,
     /// How much more (m) the points measure as gap.
     pub offset: Vec<f64>,
+    /// Slip (m) of the soil while it touched since the run began, along the boundary with the structure on the left.
+    pub slid: Vec<f64>,
+    /// Whether there was before the hat, in the last step, what it touches.
+    pub faces: Vec<bool>,
     /// The nodes that the system has room to couple: those of hat `k` are `room[first[k]..first[k + 1]]`.
     pub room: Vec<u32>,
     pub first: Vec<u32>,
@@ -96,7 +101,9 @@ impl Multipliers {
             shear: zero.clone(),
             gap: zero.clone(),
             slip: zero.clone(),
-            offset: zero,
+            offset: zero.clone(),
+            slid: zero,
+            faces: vec![false; hats],
             room: Vec::new(),
             first: vec![0; hats + 1],
         }
@@ -136,6 +143,9 @@ pub trait Pair<const D: usize>: Send + Sync {
 
     /// The boundary as polylines with the structure on their left; closed ones end where they begin.
     fn outlines(&self, position: &dyn Fn(u32) -> [f64; D]) -> Vec<Vec<[f64; D]>>;
+
+    /// The boundary as lines with its hats, one a smooth stretch.
+    fn lines(&self, position: &dyn Fn(u32) -> [f64; D]) -> Vec<Vec<Mark<D>>>;
 
     /// Moves points of the soil out of the structure.
     fn push_out(&self, points: &mut Points<D>, position: &dyn Fn(u32) -> [f64; D]) -> Pushed;
@@ -314,6 +324,10 @@ impl<K: Kinematics<2>> Pair<2> for Boundary<K> {
             segments.iter().map(|s| s.from).chain(segments.last().map(|s| s.to)).collect()
         };
         self.surface.chains.iter().map(outline).collect()
+    }
+
+    fn lines(&self, position: &dyn Fn(u32) -> [f64; 2]) -> Vec<Vec<Mark<2>>> {
+        lines(&self.surface, &Segments::new::<K>(&self.surface, position))
     }
 
     fn push_out(&self, points: &mut Points<2>, position: &dyn Fn(u32) -> [f64; 2]) -> Pushed {

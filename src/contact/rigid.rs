@@ -3,6 +3,7 @@
 //! A node at `r` from the reference point moves by `Δc + Δθ e_z × r`, so that the derivatives of gap and slip by its
 //! displacement add up to one by that of the reference point and one by the rotation.
 
+use super::along::Mark;
 use super::law::Law;
 use super::pair::{Ground, Multipliers, Pair, Pushed, Row};
 use crate::points::Points;
@@ -102,6 +103,10 @@ impl<const D: usize> Pair<D> for Rigid<D> {
         self.pair.outlines(position)
     }
 
+    fn lines(&self, position: &dyn Fn(u32) -> [f64; D]) -> Vec<Vec<Mark<D>>> {
+        self.pair.lines(position)
+    }
+
     fn push_out(&self, points: &mut Points<D>, position: &dyn Fn(u32) -> [f64; D]) -> Pushed {
         self.pair.push_out(points, position)
     }
@@ -134,6 +139,10 @@ mod tests {
         }
 
         fn outlines(&self, _: &dyn Fn(u32) -> [f64; 2]) -> Vec<Vec<[f64; 2]>> {
+            Vec::new()
+        }
+
+        fn lines(&self, _: &dyn Fn(u32) -> [f64; 2]) -> Vec<Vec<Mark<2>>> {
             Vec::new()
         }
 

@@ -10,6 +10,7 @@ mod distortion;
 mod fem;
 mod ghost_faces;
 mod grid;
+mod leaving;
 mod mass;
 mod newton;
 mod pressure;
@@ -115,7 +116,7 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
         if restore {
             self.grid.restore::<K>(scene, state)?;
         }
-        contact::begin::<D, K>(scene, &mut self.grid, state)?;
+        timed(Activity::Contact, || contact::begin::<D, K>(scene, &mut self.grid, state))?;
         if scene.phases[state.phase].dynamic && (restore || !state.moving) {
             transfer::motion_to_grid::<D, K>(scene, &mut self.grid, state)?;
         }
@@ -156,7 +157,7 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
         let (scene, state) = (self.scene, &mut self.state);
         rigid::follow(scene, state, &mut solution.displacement);
         let mut momentum = report::Motion::of(state).linear;
-        let mut contacts = contact::commit(scene, &self.grid, state, &solution);
+        let mut contacts = timed(Activity::Contact, || contact::commit(scene, &self.grid, state, &solution));
         transfer::commit(scene, &self.grid, state, &solution)?;
         transfer::move_points::<D, K>(scene, &self.grid, state, &solution.displacement);
         if let Some(start) = &start {
@@ -178,7 +179,7 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
         if start.is_some() {
             rigid::motion_to_points(scene, state);
         }
-        contact::push_out(scene, state, &mut contacts);
+        timed(Activity::Contact, || contact::push_out(scene, state, &mut contacts));
         state.step += 1;
         state.time += dt;
         state.phase_time += dt;

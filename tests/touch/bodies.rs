@@ -57,11 +57,25 @@ fn the_sides_of_a_contact_may_change_places() {
     assert!((rigid / exact - 1.0).abs() < 1e-3 && (turned / exact - 1.0).abs() < 1e-3, "{rigid} {turned} {exact}");
 }
 
+/// A pressure that is even over both has no moment about the centroid of either, though it has one about the origin.
+#[test]
+fn each_side_has_the_moment_about_its_own_centroid() {
+    let history_of = "output.history=[{name: upper, on: upper, quantities: [contact_y, contact_moment]}, {name: lower, on: \
+        lower, quantities: [contact_y, contact_moment]}]";
+    let upper = ["regions.upper.rigid=true", "supports={bottom: {uy: 0}, lower_sides: {ux: 0}, upper: {ux: 0}}"];
+    for overrides in [&[history_of][..], &[history_of, upper[0], upper[1]]] {
+        let row = history(BLOCKS, overrides).pop().unwrap();
+        println!("moments {:.1e} and {:.1e} kN m of {:.1} kN", row[2], row[4], row[1]);
+        assert!(row[1] > 10.0 && row[3] == -row[1], "{row:?}");
+        assert!(row[2].abs() < 1e-6 * row[1] && row[4].abs() < 1e-6 * row[1], "{row:?}");
+    }
+}
+
 #[test]
 fn bodies_that_cannot_touch_are_told() {
     let refused = |contact: &str, words: &[&str]| refused(BLOCKS, &[&format!("contacts=[{contact}]")], words);
     refused("{structure: upper, against: upper}", &["does not touch itself"]);
-    refused("{structure: upper, against: uper}", &["no region `uper` of kind structure or fem", "did you mean"]);
+    refused("{structure: upper, against: uper}", &["no region `uper`", "of kind structure or fem", "did you mean"]);
     refused("{structure: upper, against: lower, soil: lower}", &["both soil and a body"]);
     refused("{structure: upper, against: lower, adhesion_factor: 0.5}", &["share of the strength of soil"]);
 }

@@ -44,6 +44,22 @@ fn a_wall_that_moves_takes_soil_along() {
     }
 }
 
+/// A wall that is drawn from under soil, over the side of the grid, goes on holding what is left on it.
+#[test]
+fn a_wall_that_leaves_the_grid_holds_soil_on_it() {
+    let belt = [
+        "mesh.parameters.angle=0",
+        "phases[0].prescribe={slope: {ux: {rate: -1}}}",
+        "phases[0].duration=0.5",
+        "gravity.x=2.4525",
+    ];
+    let rows = history(WALL, &belt);
+    let row = rows.last().unwrap();
+    let way = 0.5 * (2.4525 - 0.2 * GRAVITY) * row[0].powi(2);
+    println!("way {:.6} of {way:.6} m", row[1]);
+    assert!((row[1] / way - 1.0).abs() < 0.01 && (row[5] + 0.5).abs() < 1e-12, "{row:?} {way}");
+}
+
 #[test]
 fn walls_that_cannot_be_are_told() {
     let refused = |overrides: &[&str], words: &[&str]| refused(WALL, overrides, words);
