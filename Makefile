@@ -9,7 +9,7 @@ MPM := target/release/mpm
 MPM_BUILD := $(MPM)
 include pipeline/mpm.mk
 
-.PHONY: help setup build demo pile-picture test check fmt clean bench bench-block bench-unused stress verification
+.PHONY: help setup build demo pile-picture pile-variants test check fmt clean bench bench-block bench-unused stress verification
 
 help: ## List the targets
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / {printf "  %-13s %s\n", $$1, $$2}' $(firstword $(MAKEFILE_LIST))
@@ -30,6 +30,12 @@ demo: seabed_slope ## From nothing to a ParaView series and a picture: the slope
 
 pile-picture: pile ## The pile that is pushed into clay, and the picture of the stress around it
 	$(PYTHON) paraview/pile.py
+
+pile-variants: build ## The pile smooth, rough, as it is, and by mpm and ddmp: pictures, curves, tables of noise and ripple
+	$(PYTHON) cases/pile/variants.py $(if $(THREADS),--threads $(THREADS))
+	$(PYTHON) paraview/pile.py $(addprefix cases/pile/,out-smooth out out-rough) -o cases/pile/out/adhesion.png
+	$(PYTHON) paraview/pile.py $(addprefix cases/pile/,out-mpm out-ddmp out) -o cases/pile/out/schemes.png
+	$(PYTHON) cases/pile/study.py
 
 test: setup ## Set up and run all tests
 	cargo test --release --no-fail-fast

@@ -20,6 +20,15 @@ impl TimeValue {
         }
     }
 
+    /// This times a factor.
+    pub fn scaled(&self, by: f64) -> Self {
+        match self {
+            Self::Constant(value) => Self::Constant(by * value),
+            Self::Rate(rate) => Self::Rate(by * rate),
+            Self::Table(table) => Self::Table(table.iter().map(|[t, v]| [*t, by * v]).collect()),
+        }
+    }
+
     /// Times (s) at which the slope jumps: a step had better end there.
     pub fn kinks(&self) -> impl Iterator<Item = f64> + '_ {
         let table: &[[f64; 2]] = if let Self::Table(table) = self { table } else { &[] };

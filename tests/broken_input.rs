@@ -132,7 +132,7 @@ const MEANING: &[Broken] = &[
     check(Case("plane_strain", "plane_stress"), &["case.yaml:2:11", "`plane_stress`", "did you mean `plane_strain`?"]),
     check(Case("plane_strain", "solid"), &["case.yaml:2:11 (geometry)", "not available yet", "axisymmetric"]),
     check(Case("kind: buffer", "kind: fem"), &["case.yaml:9:3 (regions.water)", "no `material`", "add `material"]),
-    check(Case("kind: buffer", "kind: structure, material: clay, rigid: true"), &["case.yaml:9", "not available yet"]),
+    check(Case("kind: buffer", "kind: buffer, rigid: true"), &["case.yaml:9", "only a structure can be rigid"]),
     check(Case("kind: buffer", "kind: buffer, material: clay"), &["regions.water.material", "empty", "kind: mpm"]),
     check(Case("material: clay", "material: caly"), &["case.yaml:8:31", "no material `caly`", "did you mean `clay`?"]),
     check(Case(", points_per_cell: 4", ", points_per_cell: 5"), &["case.yaml:8", "5", "choose from `3`, `4`"]),

@@ -56,6 +56,7 @@ fn run(folder: &Path) {
                 points,
                 grid: Part::default(),
                 elements: Part::default(),
+                contact: Part::default(),
             };
             let results = folder.join("results");
             background.submit(move || frame.write(&results, step as usize / 5 - 1)).unwrap();

@@ -66,6 +66,7 @@ fn leaning_block(out: &Path, width: f64, height: f64) {
             points,
             grid: Part::default(),
             elements: Part::default(),
+            contact: Part::default(),
         };
         frame.write(&out.join("results"), k as usize).unwrap();
     }

@@ -271,6 +271,7 @@ fn a_series_has_its_frames_at_their_times() {
             points: Part { position: vec![[time, 1.0, 0.0]; 7], columns: vec![column(7)] },
             grid: Part { position: Vec::new(), columns: vec![column(mesh.nodes.len())] },
             elements: Part::default(),
+            contact: Part::default(),
         };
         frame.write(&results, k).unwrap();
     }

@@ -36,6 +36,21 @@ const PILE: Case = Case {
     overrides: &["mesh.parameters.h=0.25", "phases[0].duration=0.16", "phases[0].step.max=0.005", "output.every=0.04"],
 };
 
+/// A rigid structure in contact, dynamic.
+const BLOCK: Case = Case {
+    file: "cases/incline",
+    overrides: &["regions.block.rigid=true", "mesh.parameters.h=0.4", "phases[0].duration=0.6"],
+};
+
+/// Soil on a wall that moves, dynamic.
+const WALL: Case = Case {
+    file: "tests/data/wall",
+    overrides: &["phases[0].duration=0.5", "phases[0].prescribe={slope: {ux: {rate: 0.5}, rotation: {rate: 0.1}}}"],
+};
+
+/// Bodies that touch, one of them rigid, quasi-static.
+const BODIES: Case = Case { file: "cases/hertz", overrides: &["mesh.parameters.h=0.4", "regions.upper.rigid=true"] };
+
 fn mpm(verb: &str, case: &Case, folder: &Path, more: &[&str]) -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_mpm"));
     command.arg(verb).arg(Path::new(env!("CARGO_MANIFEST_DIR")).join(case.file)).arg("-o").arg(folder);
@@ -182,8 +197,18 @@ fn a_run_with_finite_elements_and_contact_killed_ten_times_ends_the_same() {
 }
 
 #[test]
+fn a_run_with_a_rigid_structure_killed_ten_times_ends_the_same() {
+    survives_kills(&BLOCK, 4);
+}
+
+#[test]
+fn a_run_with_a_wall_that_moves_killed_ten_times_ends_the_same() {
+    survives_kills(&WALL, 5);
+}
+
+#[test]
 fn the_number_of_threads_changes_no_bit() {
-    for case in [SLOPE, RELEASE, SAND, PILE] {
+    for case in [SLOPE, RELEASE, SAND, PILE, BLOCK, WALL, BODIES] {
         let one = seeded(&case);
         let three = copy(one.path());
         ends(mpm("solve", &case, one.path(), &["--threads", "1"]), 0);

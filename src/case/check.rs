@@ -5,9 +5,7 @@ use super::locate::{At, Path};
 use super::raw;
 use super::source::Issue;
 use super::structure::suggest;
-use crate::contact::Law;
 use crate::stencil::Scheme;
-use std::collections::BTreeMap;
 use std::path::Path as FilePath;
 
 /// The case of `file`, whose paths are relative to `folder`, and every mistake that shows without the mesh;
@@ -64,7 +62,7 @@ impl Checker {
             regions,
             materials,
             contacts,
-            supports: self.supports(&file.supports, &root.key("supports")),
+            supports: self.supports(file, &root.key("supports")),
             gravity,
             k0: file.initial_stress.map(|stress| stress.k0),
             initial_velocity: self.initial_velocity(file, &root.key("initial_velocity")),
@@ -131,13 +129,11 @@ impl Checker {
                 if region.kind == raw::RegionKind::Fem {
                     Content::Fem { material }
                 } else {
-                    Content::Structure { material }
+                    Content::Structure { material, rigid: region.rigid == Some(true) }
                 }
             }
         };
-        if region.rigid == Some(true) && region.kind == raw::RegionKind::Structure {
-            self.issue(&path.key("rigid"), At::Key, format!("a rigid structure {LATER}"), "give it a stiff material");
-        } else if region.rigid.is_some() && region.kind != raw::RegionKind::Structure {
+        if region.rigid.is_some() && region.kind != raw::RegionKind::Structure {
             self.issue(&path.key("rigid"), At::Key, "only a structure can be rigid", "take `rigid` out");
         }
         Region { name: name.to_owned(), content }
@@ -156,53 +152,36 @@ impl Checker {
         })
     }
 
-    fn contacts(&mut self, file: &raw::CaseFile, path: &Path) -> Vec<Contact> {
-        let of_kind = |kind: raw::RegionKind| {
-            let names = file.regions.iter().filter(move |(_, region)| region.kind == kind);
-            names.map(|(name, _)| name.as_str())
-        };
-        let mut checked = Vec::new();
-        for (i, contact) in file.contacts.iter().enumerate() {
-            let path = path.index(i);
-            let mut find = |name: &String, kind, words: &str, path: &Path| {
-                let known = of_kind(kind).any(|known| known == name);
-                if !known {
-                    let problem = format!("there is no region `{name}` of kind {words}");
-                    self.issue(path, At::Value, problem, suggest(name, of_kind(kind)));
-                }
-                file.regions.keys().position(|known| known == name).filter(|_| known)
-            };
-            let structure = find(&contact.structure, raw::RegionKind::Structure, "structure", &path.key("structure"));
-            let soil =
-                contact.soil.names().iter().map(|name| find(name, raw::RegionKind::Mpm, "mpm", &path.key("soil")));
-            let soil: Option<Vec<usize>> = soil.collect();
-            let law = Law {
-                friction: contact.friction,
-                adhesion: contact.adhesion,
-                factor: contact.adhesion_factor,
-                separates: contact.tension == raw::Tension::CutOff,
-            };
-            if let (Some(structure), Some(soil)) = (structure, soil) {
-                checked.push(Contact { structure, soil, law });
-            }
+    /// Refuses a rotation of anything but a rigid structure.
+    pub(super) fn turns(&mut self, file: &raw::CaseFile, name: &str, path: &Path) {
+        let wall = file.contacts.iter().any(|contact| contact.wall.as_deref() == Some(name));
+        if !wall && file.regions.get(name).is_none_or(|region| region.rigid != Some(true)) {
+            let remedy = "take it out, or name a wall, or a region of kind structure with `rigid: true`";
+            self.issue(path, At::Key, "only a rigid structure as a whole can be turned", remedy);
         }
-        checked
     }
 
-    fn supports(&mut self, supports: &BTreeMap<String, raw::Components>, path: &Path) -> Vec<Support> {
+    fn supports(&mut self, file: &raw::CaseFile, path: &Path) -> Vec<Support> {
         let mut checked = Vec::new();
-        for (curve, held) in supports {
+        for (curve, held) in &file.supports {
             let path = path.key(curve);
-            for (key, value) in [("ux", held.ux), ("uy", held.uy)] {
+            for (key, value) in [("ux", held.ux), ("uy", held.uy), ("rotation", held.rotation)] {
                 if value.is_some_and(|value| value != 0.0) {
                     let remedy = "write 0 here and the motion under `prescribe` of a phase";
                     self.issue(&path.key(key), At::Value, "a support does not move", remedy);
                 }
             }
-            if held.ux.is_none() && held.uy.is_none() {
+            if held.rotation.is_some() {
+                self.turns(file, curve, &path.key("rotation"));
+            }
+            if held.ux.is_none() && held.uy.is_none() && held.rotation.is_none() {
                 self.issue(&path, At::Key, "nothing is held", "add `ux: 0` or `uy: 0`");
             }
-            checked.push(Support { curve: curve.clone(), fixed: [held.ux.is_some(), held.uy.is_some()] });
+            checked.push(Support {
+                curve: curve.clone(),
+                fixed: [held.ux.is_some(), held.uy.is_some()],
+                rotation: held.rotation.is_some(),
+            });
         }
         checked
     }

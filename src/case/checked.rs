@@ -79,20 +79,25 @@ pub enum Content {
     Buffer,
     /// Finite elements, of the material with this index.
     Fem { material: usize },
-    /// A structure: finite elements of its own, above the grid.
-    Structure { material: usize },
+    /// A structure: finite elements of its own, above the grid, or a rigid body.
+    Structure { material: usize, rigid: bool },
 }
 
 impl Content {
     /// The index of the material, if there is one.
     pub fn material(&self) -> Option<usize> {
         match *self {
-            Self::Mpm { material, .. } | Self::Fem { material } | Self::Structure { material } => Some(material),
+            Self::Mpm { material, .. } | Self::Fem { material } | Self::Structure { material, .. } => Some(material),
             Self::Buffer => None,
         }
     }
 
-    /// Whether the cells are finite elements.
+    /// Whether it is a structure that keeps its shape.
+    pub fn is_rigid(&self) -> bool {
+        matches!(self, Self::Structure { rigid: true, .. })
+    }
+
+    /// Whether the cells are beside the grid: finite elements, or those of a rigid structure.
     pub fn is_fem(&self) -> bool {
         matches!(self, Self::Fem { .. } | Self::Structure { .. })
     }
@@ -122,20 +127,38 @@ impl fmt::Debug for Material {
     }
 }
 
-/// Contact between a structure and soil.
+/// Contact between a structure or a wall and soil, or between two bodies.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Contact {
-    /// Indices into [`Case::regions`].
-    pub structure: usize,
-    pub soil: Vec<usize>,
+    pub structure: Touching,
+    pub on: Touched,
     pub law: Law,
 }
 
-/// Components of the displacement held at zero on a curve.
+/// What has the boundary where a contact is.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Touching {
+    /// The structure with this index in [`Case::regions`].
+    Structure(usize),
+    /// A physical curve.
+    Wall(String),
+}
+
+/// What that touches, by indices into [`Case::regions`].
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Touched {
+    /// Material points.
+    Soil(Vec<usize>),
+    /// Finite elements or another structure.
+    Body(usize),
+}
+
+/// Components of the displacement held at zero on a curve or a rigid structure, and the rotation of that.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Support {
     pub curve: String,
     pub fixed: [bool; 2],
+    pub rotation: bool,
 }
 
 /// The velocity of a region before the first phase.
@@ -233,11 +256,11 @@ pub struct StepSize {
     pub max: f64,
 }
 
-/// A component of the displacement (m) of a curve since the beginning of the phase.
+/// A component of the displacement (m) of a curve or a rigid structure since the beginning of the phase.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Prescribed {
     pub curve: String,
-    /// 0 for x, 1 for y.
+    /// 0 for x, 1 for y, 2 for the rotation (rad) of a rigid structure.
     pub component: usize,
     pub displacement: TimeValue,
 }

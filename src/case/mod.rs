@@ -6,13 +6,16 @@
 
 mod check;
 pub mod checked;
+mod contacts;
 mod incompressible;
 pub mod locate;
 mod materials;
 pub mod names;
+mod overlap;
 pub mod parts;
 mod phases;
 pub mod raw;
+mod rigid;
 pub mod scene;
 pub mod seeding;
 pub mod source;
@@ -20,6 +23,7 @@ pub mod structure;
 #[cfg(test)]
 mod tests;
 mod touch;
+mod wall;
 
 pub use checked::Case;
 

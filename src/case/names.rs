@@ -1,6 +1,6 @@
 //! The names in a case against the physical groups of its mesh.
 
-use super::checked::{Case, Content, Quantity, Region};
+use super::checked::{Case, Content, Quantity, Touched, Touching};
 use super::locate::{At, Path};
 use super::source::Issue;
 use super::structure::{nearest, suggest};
@@ -11,6 +11,8 @@ pub struct Groups {
     pub surfaces: Vec<String>,
     pub curves: Vec<String>,
     pub points: Vec<String>,
+    /// Whether they are those of a `mesh.msh`, which may be older than the `.geo`.
+    pub meshed: bool,
 }
 
 /// Every name in `case` that the mesh does not have, and every surface that the case does not fill.
@@ -30,14 +32,19 @@ pub fn check(case: &Case, groups: &Groups) -> Vec<Issue> {
         }
     }
     for support in &case.supports {
-        names.curve(&support.curve, &root.key("supports").key(&support.curve), At::Key);
+        names.held(case, &support.curve, &root.key("supports").key(&support.curve));
+    }
+    for (i, contact) in case.contacts.iter().enumerate() {
+        if let Touching::Wall(curve) = &contact.structure {
+            names.curve(curve, &root.key("contacts").index(i).key("wall"), At::Value);
+        }
     }
     for (i, phase) in case.phases.iter().enumerate() {
         let path = root.key("phases").index(i);
         let mut curves: Vec<&str> = phase.prescribed.iter().map(|p| p.curve.as_str()).collect();
         curves.dedup();
         for curve in curves {
-            names.curve(curve, &path.key("prescribe").key(curve), At::Key);
+            names.held(case, curve, &path.key("prescribe").key(curve));
         }
         for (j, traction) in phase.tractions.iter().enumerate() {
             names.curve(&traction.curve, &path.key("tractions").index(j).key("on"), At::Value);
@@ -48,16 +55,36 @@ pub fn check(case: &Case, groups: &Groups) -> Vec<Issue> {
         let known = groups.curves.iter().chain(&groups.points).chain(&groups.surfaces);
         names.one_of(&entry.on, known, "physical curve, physical point or region", &path, At::Value);
         let has_nodes = groups.curves.contains(&entry.on) || groups.points.contains(&entry.on);
-        if groups.surfaces.contains(&entry.on) && !has_nodes {
+        let rigid = is_wall(case, &entry.on) || !has_nodes && is_rigid(case, &entry.on);
+        let known = has_nodes || groups.surfaces.contains(&entry.on);
+        if known && !rigid {
+            names.no_rotation(&entry.quantities, &root.key("output").key("history").index(i).key("quantities"));
+        }
+        if groups.surfaces.contains(&entry.on) && !has_nodes && !rigid {
             names.no_reaction(&entry.quantities, &root.key("output").key("history").index(i).key("quantities"));
         }
-        let structure =
-            |region: &Region| region.name == entry.on && matches!(region.content, Content::Structure { .. });
-        if has_nodes || !case.regions.iter().any(structure) {
+        let touches =
+            rigid || !has_nodes && case.regions.iter().enumerate().any(|(i, r)| r.name == entry.on && touches(case, i));
+        if known && !touches {
             names.no_contact(&entry.quantities, &root.key("output").key("history").index(i).key("quantities"));
         }
     }
     names.issues
+}
+
+fn is_wall(case: &Case, name: &str) -> bool {
+    case.contacts.iter().any(|contact| matches!(&contact.structure, Touching::Wall(wall) if wall == name))
+}
+
+/// Whether that is a rigid structure or a wall.
+fn is_rigid(case: &Case, name: &str) -> bool {
+    is_wall(case, name) || case.regions.iter().any(|region| region.name == name && region.content.is_rigid())
+}
+
+/// Whether a region has a boundary where contact may be.
+fn touches(case: &Case, region: usize) -> bool {
+    let structure = matches!(case.regions[region].content, Content::Structure { .. });
+    structure || case.contacts.iter().any(|contact| contact.on == Touched::Body(region))
 }
 
 struct Names<'a> {
@@ -79,9 +106,19 @@ impl Names<'_> {
     /// Refuses forces of contact, which only structures feel.
     fn no_contact(&mut self, quantities: &[Quantity], path: &Path) {
         for (i, quantity) in quantities.iter().enumerate() {
-            if matches!(quantity, Quantity::ContactX | Quantity::ContactY) {
+            if matches!(quantity, Quantity::ContactX | Quantity::ContactY | Quantity::ContactMoment) {
                 let remedy = "take it out, or name a region of kind structure";
                 self.issues.push(Issue::new(&path.index(i), At::Value, "only a structure has contact", remedy));
+            }
+        }
+    }
+
+    /// Refuses rotations and moments of supports, which only rigid structures have.
+    fn no_rotation(&mut self, quantities: &[Quantity], path: &Path) {
+        for (i, quantity) in quantities.iter().enumerate() {
+            if matches!(quantity, Quantity::Rotation | Quantity::ReactionMoment) {
+                let remedy = "take it out, or name a region of kind structure with `rigid: true`";
+                self.issues.push(Issue::new(&path.index(i), At::Value, "only a rigid structure turns", remedy));
             }
         }
     }
@@ -99,6 +136,13 @@ impl Names<'_> {
         self.one_of(name, &self.groups.curves, "physical curve", path, at);
     }
 
+    /// What is held or moved: a curve, or a rigid structure as a whole.
+    fn held(&mut self, case: &Case, name: &str, path: &Path) {
+        if !is_rigid(case, name) {
+            self.curve(name, path, At::Key);
+        }
+    }
+
     fn one_of<'n>(
         &mut self,
         name: &str,
@@ -110,8 +154,12 @@ impl Names<'_> {
         if known.clone().into_iter().any(|k| k == name) {
             return;
         }
-        let remedy = suggest(name, known.into_iter().map(String::as_str));
-        let problem = format!("the .geo has no {kind} `{name}`");
+        let mut remedy = suggest(name, known.into_iter().map(String::as_str));
+        let file = if self.groups.meshed { "mesh.msh" } else { "the .geo" };
+        if self.groups.meshed {
+            remedy.push_str(" (or run `mpm mesh` again, if the .geo has it by now)");
+        }
+        let problem = format!("{file} has no {kind} `{name}`");
         self.issues.push(Issue::new(path, at, problem, remedy));
     }
 }

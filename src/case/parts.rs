@@ -3,6 +3,7 @@
 //! Both number the nodes as the whole mesh does; cells are numbered in each part in their order in the whole.
 
 use super::checked::Case;
+use super::rigid;
 use crate::error::{Error, Result};
 use crate::mesh::locate::Locator;
 use crate::mesh::{Group, Mesh};
@@ -51,6 +52,9 @@ pub fn points(case: &Case, mesh: &Mesh<2>, mut points: Points<2>) -> [Points<2>;
     if of[1].is_empty() {
         return [points, Points::default()];
     }
+    // Finite elements first, then rigid structures.
+    let rigid = rigid::regions(case, mesh);
+    of[1].sort_by_key(|&p| rigid[points.region[p] as usize]);
     of.map(|numbers| points.select(&numbers))
 }
 

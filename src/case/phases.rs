@@ -33,13 +33,18 @@ impl Checker {
         let mut prescribed = Vec::new();
         for (curve, motion) in &phase.prescribe {
             let path = path.key("prescribe").key(curve);
-            if motion.ux.is_none() && motion.uy.is_none() {
+            if motion.rotation.is_some() {
+                self.turns(file, curve, &path.key("rotation"));
+            }
+            if motion.ux.is_none() && motion.uy.is_none() && motion.rotation.is_none() {
                 self.issue(&path, At::Key, "nothing is prescribed", "add `ux: …` or `uy: …`");
             }
-            for (component, key, value) in [(0, "ux", &motion.ux), (1, "uy", &motion.uy)] {
+            let entries = [("ux", &motion.ux), ("uy", &motion.uy), ("rotation", &motion.rotation)];
+            for (component, (key, value)) in entries.into_iter().enumerate() {
                 let Some(value) = value else { continue };
                 let displacement = self.in_time(value, &path.key(key));
-                let held = file.supports.get(curve).is_some_and(|held| [held.ux, held.uy][component].is_some());
+                let held =
+                    file.supports.get(curve).is_some_and(|held| [held.ux, held.uy, held.rotation][component].is_some());
                 if held && displacement != TimeValue::Constant(0.0) {
                     let problem = format!("`{curve}` is held in this direction under `supports`");
                     self.issue(&path.key(key), At::Key, problem, format!("take `{key}` out there or here"));

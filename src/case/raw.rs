@@ -28,7 +28,7 @@ pub struct CaseFile {
     /// Contacts between structures and soil.
     #[serde(default)]
     pub contacts: Vec<Contact>,
-    /// Displacements held at zero in every phase, by the name of a physical curve.
+    /// Displacements held at zero in every phase, by the name of a physical curve or a rigid structure.
     #[serde(default)]
     pub supports: BTreeMap<String, Components>,
     /// Acceleration of gravity (m/s²).
@@ -88,7 +88,7 @@ pub struct Region {
     /// Material points a cell: 4, 9, 16 or 25 equal points, or 3, 6, 7 or 12 quadrature points of a triangle.
     #[schemars(extend("enum" = [3, 4, 6, 7, 9, 12, 16, 25]))]
     pub points_per_cell: Option<usize>,
-    /// Whether a structure keeps its shape.
+    /// Whether a structure keeps its shape: it moves and turns as a whole.
     pub rigid: Option<bool>,
 }
 
@@ -100,6 +100,18 @@ pub enum RegionKind {
     Buffer,
     Fem,
     Structure,
+}
+
+impl RegionKind {
+    /// As the case file has it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Mpm => "mpm",
+            Self::Buffer => "buffer",
+            Self::Fem => "fem",
+            Self::Structure => "structure",
+        }
+    }
 }
 
 /// A material; its schema is made from the list of models.
@@ -150,7 +162,7 @@ pub struct Profile {
     pub datum: f64,
 }
 
-/// Displacements held on a curve.
+/// Displacements held on a curve, or of a rigid structure by its name.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Components {
@@ -158,16 +170,22 @@ pub struct Components {
     pub ux: Option<f64>,
     /// Vertical displacement, held at 0.
     pub uy: Option<f64>,
+    /// Rotation of a rigid structure, held at 0.
+    pub rotation: Option<f64>,
 }
 
-/// Contact between a structure and soil.
+/// Contact between a structure or a wall and soil, or between two bodies.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Contact {
     /// The name of a region of kind structure.
-    pub structure: String,
+    pub structure: Option<String>,
+    /// In place of a structure, the name of a physical curve: a rigid wall.
+    pub wall: Option<String>,
     /// The name of a region of kind mpm, or a list of them.
-    pub soil: OneOrMore,
+    pub soil: Option<OneOrMore>,
+    /// In place of soil, the name of another region of kind structure or fem.
+    pub against: Option<String>,
     /// Coefficient of friction tan δ (-).
     #[serde(default)]
     #[schemars(range(min = 0))]
@@ -379,7 +397,7 @@ pub struct Phase {
     pub duration: f64,
     /// Time steps.
     pub step: Step,
-    /// Displacements since the beginning of the phase, by the name of a physical curve.
+    /// Displacements since the beginning of the phase, by the name of a physical curve or a rigid structure.
     #[serde(default)]
     pub prescribe: BTreeMap<String, Motion>,
     /// Dead loads on named curves.
@@ -439,7 +457,7 @@ pub struct Table {
     pub table: Vec<[f64; 2]>,
 }
 
-/// Displacements prescribed on a curve.
+/// Displacements prescribed on a curve, or of a rigid structure by its name.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Motion {
@@ -447,6 +465,8 @@ pub struct Motion {
     pub ux: Option<InTime>,
     /// Vertical displacement (m) since the beginning of the phase.
     pub uy: Option<InTime>,
+    /// Rotation (rad) of a rigid structure since the beginning of the phase, anticlockwise.
+    pub rotation: Option<InTime>,
 }
 
 /// A dead load on a named curve, per area of the undeformed curve.
@@ -528,8 +548,8 @@ pub struct History {
     pub quantities: Vec<Quantity>,
 }
 
-/// A quantity of history.csv: means over the nodes of a curve or the points of a region; reactions are sums, contact is
-/// the force of all contacts on a structure.
+/// A quantity of history.csv: means over the nodes of a curve or the points of a region, of a rigid structure those of its
+/// centroid; reactions are sums, contact is the force of all contacts on a structure; moments are about the centroid.
 #[derive(Clone, Copy, Debug, Deserialize, JsonSchema, PartialEq, Eq)]
 #[serde(rename_all = "snake_case")]
 pub enum Quantity {
@@ -541,6 +561,9 @@ pub enum Quantity {
     ReactionY,
     ContactX,
     ContactY,
+    Rotation,
+    ReactionMoment,
+    ContactMoment,
 }
 
 fn two() -> u8 {

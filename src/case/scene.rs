@@ -1,7 +1,8 @@
 //! From a checked case to a scene: the only place that decides which terms exist.
 
 use super::checked::{Analysis, Case, Field, Geometry, Material, Quantity, Region, Restore};
-use super::{parts, touch};
+use super::rigid::{self, Holds};
+use super::{overlap, parts, touch, wall};
 use crate::error::{Error, Result};
 use crate::io::checkpoint::Fingerprint;
 use crate::kinematics::{Axisymmetric, Kinematics, PlaneStrain};
@@ -10,9 +11,10 @@ use crate::mesh::faces::Faces;
 use crate::mesh::locate::Locator;
 use crate::points::Points;
 use crate::quadrature::{Fitted, Quadrature, Volumes};
+use crate::rigid::Body;
 use crate::run::{self, Ended, Outputs, Progress, Watch, WatchedOn};
 use crate::stencil::{Scheme, cell_size, smooths};
-use crate::step::{self, Fem, Fixed, Numerics, Phase, Prescribed, Scene, State, Stop};
+use crate::step::{self, Fem, Numerics, Phase, Scene, State, Stop};
 use crate::term::{
     BodyForce, Carried, Contact, EmptyCells, GhostPenalty, Inertia, Internal, PressureField, SmoothPressure, Term,
     Traction,
@@ -46,15 +48,16 @@ pub fn solve(
             "run `mpm seed` again",
         ));
     }
-    let outputs = outputs(case, &mesh, folder, fingerprint)?;
     let parts = parts::points(case, &mesh, points);
     match case.geometry {
         Geometry::PlaneStrain => {
             let scene = scene::<PlaneStrain>(case, mesh)?;
+            let outputs = outputs(case, &scene, folder, fingerprint)?;
             run::run::<2, PlaneStrain>(&scene, first(case, &scene, parts)?, &outputs, resume, stop, progress)
         }
         Geometry::Axisymmetric => {
             let scene = scene::<Axisymmetric>(case, mesh)?;
+            let outputs = outputs(case, &scene, folder, fingerprint)?;
             run::run::<2, Axisymmetric>(&scene, first(case, &scene, parts)?, &outputs, resume, stop, progress)
         }
     }
@@ -62,6 +65,7 @@ pub fn solve(
 
 /// The state before the first step, given the material points and those of the finite elements.
 fn first(case: &Case, scene: &Scene<2>, [mut points, mut fem]: [Points<2>; 2]) -> Result<State<2>> {
+    overlap::check(case, scene, &points)?;
     if scene.pressure_unit.is_some() {
         begin_pressure(case, &scene.mesh, &mut points)?;
         begin_pressure(case, &scene.mesh, &mut fem)?;
@@ -87,7 +91,10 @@ fn begin_pressure(case: &Case, mesh: &Mesh<2>, points: &mut Points<2>) -> Result
 ///
 /// # Errors
 /// `Input` when the mesh lacks a group that the case names.
-pub fn scene<K: Kinematics<2>>(case: &Case, whole: Mesh<2>) -> Result<Scene<2>> {
+pub fn scene<K: Kinematics<2>>(case: &Case, mut whole: Mesh<2>) -> Result<Scene<2>> {
+    let mut bodies = rigid::bodies(case, &mut whole)?;
+    let structures = bodies.len();
+    bodies.extend(wall::bodies(case, &mut whole)?);
     let (mesh, fem) = parts::meshes(case, whole);
     if case.numerics.gradient != Scheme::Mpm
         && let Some(kind) = mesh.cells.kind.iter().find(|&&kind| !smooths(kind))
@@ -98,7 +105,7 @@ pub fn scene<K: Kinematics<2>>(case: &Case, whole: Mesh<2>) -> Result<Scene<2>> 
             "mesh with T3, T6, Q4 or Q9 (no `incomplete: true`), or choose `gradient: mpm`",
         ));
     }
-    let materials = || filled(case).map(|(_, material)| material);
+    let materials = || filled(case).filter(|(region, _)| !region.content.is_rigid()).map(|(_, material)| material);
     let lowest = mesh.nodes.iter().map(|x| x[1]).fold(f64::INFINITY, f64::min);
     let largest = |value: fn(&Material, f64) -> f64| materials().map(|m| value(m, lowest)).fold(0.0, f64::max);
     let young = largest(|m, y| m.model.young(y));
@@ -130,6 +137,9 @@ pub fn scene<K: Kinematics<2>>(case: &Case, whole: Mesh<2>) -> Result<Scene<2>> 
     }
     for (phase, traction) in case.phases.iter().enumerate().flat_map(|(i, p)| p.tractions.iter().map(move |t| (i, t))) {
         let group = group(&mesh, &traction.curve)?;
+        if bodies[..structures].iter().any(|body| rigid::body_of(&mesh, body, &traction.curve)) {
+            continue;
+        }
         if case.numerics.restore != Restore::Never && !fem.as_ref().is_some_and(|fem| parts::carries(fem, group)) {
             return Err(Error::input(
                 format!("the traction on `{}` in phase `{}`", traction.curve, case.phases[phase].name),
@@ -143,33 +153,29 @@ pub fn scene<K: Kinematics<2>>(case: &Case, whole: Mesh<2>) -> Result<Scene<2>> 
     let fem = match fem {
         Some(part) => {
             let mut terms = internal::<K>(case, &part, dynamic, pressure_unit, shear)?;
-            let heavy = filled(case).any(|(region, m)| region.content.is_fem() && m.has_mass());
+            let deforms = |region: &Region| region.content.is_fem() && !region.content.is_rigid();
+            let heavy = filled(case).any(|(region, m)| deforms(region) && m.has_mass());
             if case.gravity != [0.0; 2] && heavy {
                 terms.push(Box::new(gravity::<K>(case)));
             }
             if dynamic {
                 terms.push(Box::new(Inertia::<K>::default()));
             }
-            let carried = carried(case, &part)?;
-            let with_pressure = part.cells.region.iter().map(|&r| carried[r as usize].is_some()).collect();
-            Some(Fem { mesh: part, with_pressure, terms })
+            terms.extend(rigid::terms::<K>(case, &part, &bodies[..structures], dynamic)?);
+            let (carried, rigid) = (carried(case, &part)?, rigid::regions(case, &part));
+            let with = |r: usize| carried[r].is_some() && !rigid[r];
+            let with_pressure = part.cells.region.iter().map(|&r| with(r as usize)).collect();
+            Some(Fem { mesh: part, rigid, with_pressure, terms })
         }
         None => None,
     };
-    let pairs = match &fem {
-        Some(fem) => touch::pairs::<K>(case, &mesh, &fem.mesh)?,
-        None => Vec::new(),
-    };
+    let pairs = touch::pairs::<K>(case, &mesh, fem.as_ref().map_or(&mesh, |fem| &fem.mesh), &bodies)?;
     for (number, pair) in (0..).zip(&pairs) {
         terms.push(Box::new(Contact::new(number, *pair.law())));
     }
-    let mut supports = Vec::new();
-    for support in &case.supports {
-        for component in (0..2).filter(|&c| support.fixed[c]) {
-            supports.push(Fixed { nodes: group(&mesh, &support.curve)?.nodes.clone(), component });
-        }
-    }
-    let phases = case.phases.iter().map(|p| phase(case, &mesh, p)).collect::<Result<_>>()?;
+    let holds = Holds::new(case, &mesh, &bodies);
+    let supports = holds.supports()?;
+    let phases = case.phases.iter().map(|p| phase(case, &holds, p)).collect::<Result<_>>()?;
     Ok(Scene {
         locator: Locator::new(&mesh),
         faces: Some(faces),
@@ -177,6 +183,7 @@ pub fn scene<K: Kinematics<2>>(case: &Case, whole: Mesh<2>) -> Result<Scene<2>> 
         mesh,
         terms,
         fem,
+        bodies,
         pairs,
         pressure_unit,
         supports,
@@ -225,12 +232,7 @@ fn restore(restore: Restore) -> step::Restore {
     }
 }
 
-fn phase(case: &Case, mesh: &Mesh<2>, phase: &super::checked::Phase) -> Result<Phase> {
-    let mut prescribed = Vec::new();
-    for p in &phase.prescribed {
-        let fixed = Fixed { nodes: group(mesh, &p.curve)?.nodes.clone(), component: p.component };
-        prescribed.push(Prescribed { fixed, displacement: p.displacement.clone() });
-    }
+fn phase<'a>(case: &Case, holds: &Holds<'a>, phase: &'a super::checked::Phase) -> Result<Phase> {
     let values = phase
         .prescribed
         .iter()
@@ -244,7 +246,7 @@ fn phase(case: &Case, mesh: &Mesh<2>, phase: &super::checked::Phase) -> Result<P
         first_step: phase.step.initial,
         least_step: phase.step.min,
         largest_step: phase.step.max,
-        prescribed,
+        prescribed: holds.prescribed(phase)?,
         stops: stops(phase.duration, case.output.every, values.flat_map(TimeValue::kinks)),
     })
 }
@@ -267,7 +269,8 @@ fn stops(duration: f64, every: Option<f64>, kinks: impl Iterator<Item = f64>) ->
 }
 
 /// What the case asks to be written.
-fn outputs(case: &Case, mesh: &Mesh<2>, folder: &Path, fingerprint: Fingerprint) -> Result<Outputs> {
+fn outputs(case: &Case, scene: &Scene<2>, folder: &Path, fingerprint: Fingerprint) -> Result<Outputs> {
+    let mesh = &scene.mesh;
     let mut fields = Vec::new();
     for field in &case.output.fields {
         let field = match field {
@@ -284,9 +287,15 @@ fn outputs(case: &Case, mesh: &Mesh<2>, folder: &Path, fingerprint: Fingerprint)
         }
     }
     let watch = |entry: &super::checked::History| {
-        let on = match mesh.group(&entry.on) {
-            Some(group) => WatchedOn::Nodes(group.nodes.clone()),
-            None => WatchedOn::Region(region_index(mesh, &entry.on)?),
+        let body = scene.bodies.iter().find(|body| rigid::body_of(mesh, body, &entry.on));
+        let on = match (mesh.group(&entry.on), body) {
+            (_, Some(body)) if rigid::is_region(mesh, body, &entry.on) => {
+                let Body { region, reference, turning, arm, .. } = *body;
+                WatchedOn::Body { region, reference, turning, arm }
+            }
+            (Some(group), None) => WatchedOn::Nodes(group.nodes.clone()),
+            (Some(group), Some(body)) => WatchedOn::Side(group.nodes.clone(), body.reference),
+            (None, _) => WatchedOn::Region(region_index(mesh, &entry.on)?),
         };
         let quantities = entry.quantities.iter().map(|q| match q {
             Quantity::Ux => run::Quantity::Displacement(0),
@@ -297,6 +306,9 @@ fn outputs(case: &Case, mesh: &Mesh<2>, folder: &Path, fingerprint: Fingerprint)
             Quantity::ReactionY => run::Quantity::Reaction(1),
             Quantity::ContactX => run::Quantity::Contact(0),
             Quantity::ContactY => run::Quantity::Contact(1),
+            Quantity::Rotation => run::Quantity::Rotation,
+            Quantity::ReactionMoment => run::Quantity::ReactionMoment,
+            Quantity::ContactMoment => run::Quantity::ContactMoment,
         });
         Ok(Watch { name: entry.name.clone(), on, quantities: quantities.collect() })
     };
@@ -344,7 +356,7 @@ pub(super) fn region_index(mesh: &Mesh<2>, name: &str) -> Result<u16> {
     })
 }
 
-fn group<'a>(mesh: &'a Mesh<2>, name: &str) -> Result<&'a crate::mesh::Group> {
+pub(super) fn group<'a>(mesh: &'a Mesh<2>, name: &str) -> Result<&'a crate::mesh::Group> {
     mesh.group(name)
         .ok_or_else(|| Error::input("mesh.msh", format!("it has no curve `{name}`"), "run `mpm mesh` again"))
 }

@@ -44,7 +44,7 @@ fn filled(case: &Case, mesh: &Mesh<2>) -> Result<Vec<Filled>> {
     for (index, region) in case.regions.iter().enumerate() {
         let (material, points_per_cell) = match region.content {
             Content::Mpm { material, points_per_cell } => (material, points_per_cell as u32),
-            Content::Fem { material } | Content::Structure { material } => (material, QUADRATURE),
+            Content::Fem { material } | Content::Structure { material, .. } => (material, QUADRATURE),
             Content::Buffer => continue,
         };
         let place = mesh.regions.iter().position(|name| *name == region.name).ok_or_else(|| {

@@ -1,51 +1,127 @@
-//! The structures of a case and what they touch.
+//! The structures and walls of a case and what they touch.
 
-use super::checked::{Case, Geometry};
+use super::checked::{Case, Contact, Geometry, Touched, Touching};
 use super::scene::region_index;
-use crate::contact::{Boundary, Pair, Surface};
+use super::wall;
+use crate::contact::{Bodies, Boundary, Pair, Rigid, Surface};
 use crate::error::{Error, Result};
 use crate::kinematics::Kinematics;
+use crate::material::Model;
 use crate::mesh::Mesh;
+use crate::rigid::Body;
 use std::marker::PhantomData;
+use std::sync::Arc;
 
 /// Distance of the hats (-), in the length of an edge of the grid: that of its nodes.
 const HATS: f64 = 0.5;
 
-/// The pairs of a case, given the grid and the finite elements.
+/// The pairs of a case, given the grid, the cells beside it and the rigid bodies.
 ///
 /// # Errors
-/// Input: a region that the mesh has not, a soil without cells.
-pub fn pairs<K: Kinematics<2>>(case: &Case, grid: &Mesh<2>, fem: &Mesh<2>) -> Result<Vec<Box<dyn Pair<2>>>> {
-    let mut pairs: Vec<Box<dyn Pair<2>>> = Vec::new();
-    for contact in &case.contacts {
-        let structure = region_index(grid, &case.regions[contact.structure].name)?;
-        let (mut regions, mut models) = (Vec::new(), Vec::new());
-        for &soil in &contact.soil {
-            let region = &case.regions[soil];
-            regions.push(region_index(grid, &region.name)?);
-            models.extend(region.content.material().map(|m| case.materials[m].model.clone()));
-        }
-        let spacing = size(grid, &regions).ok_or_else(|| {
-            Error::input(
-                format!("contact of `{}`", case.regions[contact.structure].name),
-                "the soil that it names has no cells",
-                "run `mpm mesh` again",
-            )
-        })?;
-        // The axis of symmetry is no boundary.
-        let on_axis = |nodes: &[u32]| nodes.iter().all(|&n| fem.nodes[n as usize][0].abs() < 1e-9 * spacing);
-        let skip = |nodes: &[u32]| case.geometry == Geometry::Axisymmetric && on_axis(nodes);
-        let surface = Surface::new(fem, structure, HATS * spacing, skip)?;
-        pairs.push(Box::new(Boundary::<K> {
-            structure,
-            surface,
-            law: contact.law,
-            regions,
-            models,
-            kinematics: PhantomData,
-        }));
+/// Input: a region that the mesh has not, a soil without cells, a wall that [`wall::facets`] refuses.
+pub fn pairs<K: Kinematics<2>>(
+    case: &Case,
+    grid: &Mesh<2>,
+    fem: &Mesh<2>,
+    bodies: &[Body<2>],
+) -> Result<Vec<Box<dyn Pair<2>>>> {
+    let parts = Parts { case, grid, fem, bodies };
+    let pair = |contact: &Contact| {
+        let pair: Box<dyn Pair<2>> = match &contact.on {
+            Touched::Soil(soil) => Box::new(parts.on_soil::<K>(contact, soil)?),
+            Touched::Body(body) => Box::new(parts.on_body::<K>(contact, *body)?),
+        };
+        let rigid = |region: u16| bodies.iter().any(|body| body.region == region);
+        let keeps_shape = rigid(pair.structure()) || pair.against().is_some_and(rigid);
+        Ok(if keeps_shape { Box::new(Rigid::new(pair, bodies, grid.nodes.len())) } else { pair })
+    };
+    case.contacts.iter().map(pair).collect()
+}
+
+/// What pairs are made from.
+struct Parts<'a> {
+    case: &'a Case,
+    grid: &'a Mesh<2>,
+    fem: &'a Mesh<2>,
+    bodies: &'a [Body<2>],
+}
+
+impl Parts<'_> {
+    fn region(&self, index: usize) -> Result<u16> {
+        region_index(self.grid, &self.case.regions[index].name)
     }
-    Ok(pairs)
+
+    fn name<'a>(&'a self, touching: &'a Touching) -> &'a str {
+        match touching {
+            Touching::Structure(index) => &self.case.regions[*index].name,
+            Touching::Wall(curve) => curve,
+        }
+    }
+
+    fn model(&self, index: usize) -> Option<Arc<dyn Model>> {
+        self.case.regions[index].content.material().map(|m| self.case.materials[m].model.clone())
+    }
+
+    /// The boundary of a region beside the grid, with hats about `spacing` (m) apart.
+    fn boundary(&self, region: u16, spacing: f64) -> Result<Surface> {
+        // The axis of symmetry is no boundary.
+        let on_axis = |nodes: &[u32]| nodes.iter().all(|&n| self.fem.nodes[n as usize][0].abs() < 1e-9 * spacing);
+        let skip = |nodes: &[u32]| self.case.geometry == Geometry::Axisymmetric && on_axis(nodes);
+        Surface::new(self.fem, region, spacing, skip)
+    }
+
+    fn no_cells(&self, contact: &Contact, what: &str) -> Error {
+        Error::input(
+            format!("contact of `{}`", self.name(&contact.structure)),
+            format!("{what} that it names has no cells"),
+            "run `mpm mesh` again",
+        )
+    }
+
+    fn on_soil<K: Kinematics<2>>(&self, contact: &Contact, soil: &[usize]) -> Result<Boundary<K>> {
+        let regions = soil.iter().map(|&region| self.region(region)).collect::<Result<Vec<u16>>>()?;
+        let models = soil.iter().filter_map(|&region| self.model(region)).collect();
+        let edge = size(self.grid, &regions).ok_or_else(|| self.no_cells(contact, "the soil"))?;
+        let structure = region_index(self.grid, self.name(&contact.structure))?;
+        let surface = match (&contact.structure, self.bodies.iter().find(|body| body.region == structure)) {
+            (Touching::Wall(_), Some(body)) => {
+                let (kind, facets) = wall::facets(self.grid, body, &regions)?;
+                Surface::of(self.grid, kind, facets, HATS * edge)
+            }
+            _ => self.boundary(structure, HATS * edge)?,
+        };
+        Ok(Boundary { structure, surface, law: contact.law, regions, models, kinematics: PhantomData })
+    }
+
+    /// The hats are as far apart as the coarser of the boundaries that can give way has its nodes.
+    fn on_body<K: Kinematics<2>>(&self, contact: &Contact, against: usize) -> Result<Bodies<K>> {
+        let Touching::Structure(structure) = contact.structure else {
+            return Err(self.no_cells(contact, "the wall"));
+        };
+        let sides = [structure, against];
+        let soft = sides.iter().filter(|&&region| !self.case.regions[region].content.is_rigid());
+        let soft: Vec<usize> = if soft.clone().next().is_some() { soft.copied().collect() } else { sides.to_vec() };
+        let edges = soft.iter().map(|&region| Ok(size(self.fem, &[self.region(region)?])));
+        let edges = edges.collect::<Result<Option<Vec<f64>>>>()?;
+        let edge = edges.and_then(|edges| edges.into_iter().reduce(f64::max));
+        let spacing = HATS * edge.ok_or_else(|| self.no_cells(contact, "a region"))?;
+        let [structure, against] = [self.region(sides[0])?, self.region(sides[1])?];
+        let surface = self.boundary(structure, spacing)?;
+        let (mut height, mut count) = (0.0, 0.0);
+        for &n in surface.facets.iter().flatten() {
+            (height, count) = (height + self.fem.nodes[n as usize][1], count + 1.0);
+        }
+        let young = soft.iter().filter_map(|&region| Some(self.model(region)?.young(height / count)));
+        Ok(Bodies {
+            structure,
+            against,
+            surface,
+            other: self.boundary(against, spacing)?,
+            law: contact.law,
+            young: young.fold(f64::INFINITY, f64::min),
+            kinematics: PhantomData,
+        })
+    }
 }
 
 /// The length (m) of the finest edges of the cells in some regions: nine of ten are longer.

@@ -50,7 +50,8 @@ pub fn read(stage: &Stage) -> std::result::Result<Mesh<2>, Vec<Error>> {
     }
     let mesh = gmsh::read(&stage.mesh())?;
     let named = |dimension| mesh.groups.iter().filter(move |g| g.dimension == dimension).map(|g| g.name.clone());
-    let groups = Groups { surfaces: mesh.regions.clone(), curves: named(1).collect(), points: named(0).collect() };
+    let (curves, points) = (named(1).collect(), named(0).collect());
+    let groups = Groups { surfaces: mesh.regions.clone(), curves, points, meshed: true };
     stage.loaded.check_names(&groups)?;
     Ok(mesh)
 }
@@ -58,7 +59,7 @@ pub fn read(stage: &Stage) -> std::result::Result<Mesh<2>, Vec<Error>> {
 /// The names of the groups of the `.geo`, without meshing it.
 pub fn groups(mesh: &checked::Mesh) -> Result<Groups> {
     let gmsh::Groups { surfaces, curves, points } = gmsh::groups(&mesh.geo, &options(mesh))?;
-    Ok(Groups { surfaces, curves, points })
+    Ok(Groups { surfaces, curves, points, meshed: false })
 }
 
 fn options(mesh: &checked::Mesh) -> Options {

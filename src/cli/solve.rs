@@ -3,7 +3,7 @@
 use super::stage::{Stage, Stamp};
 use super::{Outcome, StageArgs, mesh, print};
 use crate::case::scene;
-use crate::error::{Error, Result};
+use crate::error::{Error, Kind, Result};
 use crate::io::points_vtu;
 use crate::profile::{self, Activity};
 use crate::run::{Ended, Progress};
@@ -58,13 +58,20 @@ pub fn work(stage: &Stage, resume: bool) -> Outcome {
     let folder = stage.folder();
     let ended = scene::solve(case, mesh, points, folder, fingerprint, resume, &STOP, &mut |p| meter.show(&p));
     meter.finish();
-    match ended? {
+    // What an analysis that could not go on took is told, too; one that never began took nothing.
+    let told = match &ended {
+        Err(e) if e.kind != Kind::Analysis => Ok(()),
+        ended => print(&summary(start.elapsed(), matches!(ended, Ok(Ended::Done)))),
+    };
+    let ended = ended?;
+    told?;
+    match ended {
         Ended::Stopped => {
             Err(vec![Error::interrupted("the run was stopped after the step in hand", "continue it with `--resume`")])
         }
         Ended::Done => {
             stamp.write(&[stage.history()])?;
-            print(&summary(start.elapsed()))
+            Ok(())
         }
     }
 }
@@ -73,15 +80,22 @@ fn stamp(stage: &Stage) -> Result<Stamp> {
     stage.stamp("solve", &KEYS, &[stage.mesh(), stage.points()])
 }
 
-/// The wall time and where it went.
-fn summary(elapsed: Duration) -> String {
+/// The wall time and where it went, whether the run is `done` or came to an end before.
+fn summary(elapsed: Duration, done: bool) -> String {
     let all = elapsed.as_secs_f64();
-    let shares: Vec<String> = Activity::ALL
-        .iter()
-        .map(|&a| format!("{} {:.0} %", format!("{a:?}").to_lowercase(), 100.0 * profile::seconds(a) / all))
-        .collect();
-    let material = 100.0 * profile::material_seconds() / all;
-    format!("solved in {all:.2} s: {}; material, within assembly, {material:.0} %\n", shares.join(", "))
+    let percent = |seconds: f64| format!("{:.0} %", 100.0 * seconds / all);
+    // Without contact there is none to speak of.
+    let spent = |a: &&Activity| **a != Activity::Contact || profile::seconds(**a) > 0.0;
+    let share = |&a: &Activity| format!("{} {}", format!("{a:?}").to_lowercase(), percent(profile::seconds(a)));
+    let shares: Vec<String> = Activity::ALL.iter().filter(spent).map(share).collect();
+    let booked: f64 = Activity::ALL.iter().map(|&a| profile::seconds(a)).sum();
+    format!(
+        "{} {all:.2} s: {}, other {}; material, within assembly, {}\n",
+        if done { "solved in" } else { "ended after" },
+        shares.join(", "),
+        percent((all - booked).max(0.0)),
+        percent(profile::material_seconds())
+    )
 }
 
 /// A first Ctrl-C (or SIGTERM) ends the run after the step in hand, a second one at once.

@@ -6,12 +6,18 @@
 //! condition: its mean gap. The gap of a segment is the signed distance of the nearest points of soil to the boundary
 //! (its level set), less the half width of a point.
 
+mod along;
+mod bodies;
 mod gap;
 mod law;
 mod pair;
 mod place;
+mod rigid;
 mod surface;
 
+pub use along::Mark;
+pub use bodies::Bodies;
 pub use law::{Answer, Law, Penalty};
 pub use pair::{Boundary, Ground, Multipliers, Pair, Pushed, Row};
+pub use rigid::Rigid;
 pub use surface::Surface;

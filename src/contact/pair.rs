@@ -1,5 +1,6 @@
 //! A structure and the soil it touches: the condition of each hat in a step.
 
+use super::along::{Mark, lines};
 use super::gap::{Facing, Gap, Soil, push_out, raw_gaps};
 use super::law::{Law, Penalty};
 use super::place::{Placed, Segments};
@@ -15,14 +16,14 @@ use std::ops::Range;
 use std::sync::Arc;
 
 /// ε_n and ε_t (-), in Young's modulus over the spacing of the hats.
-const NORMAL: f64 = 50.0;
-const TANGENTIAL: f64 = 5.0;
+pub(super) const NORMAL: f64 = 50.0;
+pub(super) const TANGENTIAL: f64 = 5.0;
 /// Share of them over soil that may yield, and then gives way however little presses on it.
 const YIELDING: f64 = 0.1;
 /// Pressure over which parting is rounded (-), in the mean pressure of the hats, and gap over which adhesion fades (-),
 /// in their spacing.
-const ROUNDING: f64 = 0.1;
-const FADING: f64 = 0.05;
+pub(super) const ROUNDING: f64 = 0.1;
+pub(super) const FADING: f64 = 0.05;
 /// Share of a multiplier that its neighbours' mean takes the place of in each step.
 const EVEN: f64 = 0.5;
 
@@ -56,7 +57,7 @@ pub struct Row<const D: usize> {
     /// Mean gap (m) at the beginning of the step, and how much more the points measure.
     pub gap: f64,
     pub offset: f64,
-    /// The nodes of the structure, `own` of them, then those of the grid.
+    /// The nodes of the structure, `own` of them that bear the force on it, then those of the grid.
     pub nodes: Vec<u32>,
     pub own: usize,
     /// Derivatives of gap and slip (-) by the displacement of the nodes.
@@ -91,6 +92,10 @@ pub struct Multipliers {
     pub slip: Vec<f64>,
     /// How much more (m) the points measure as gap.
     pub offset: Vec<f64>,
+    /// Slip (m) of the soil while it touched since the run began, along the boundary with the structure on the left.
+    pub slid: Vec<f64>,
+    /// Whether there was before the hat, in the last step, what it touches.
+    pub faces: Vec<bool>,
     /// The nodes that the system has room to couple: those of hat `k` are `room[first[k]..first[k + 1]]`.
     pub room: Vec<u32>,
     pub first: Vec<u32>,
@@ -105,19 +110,21 @@ impl Multipliers {
             shear: zero.clone(),
             gap: zero.clone(),
             slip: zero.clone(),
-            offset: zero,
+            offset: zero.clone(),
+            slid: zero,
+            faces: vec![false; hats],
             room: Vec::new(),
             first: vec![0; hats + 1],
         }
     }
 
-    /// Evens the pressure out along the `runs`, where hats and both their neighbours touch. Hats as close as nodes have
+    /// These with the pressure evened out along the `runs`, where hats and both their neighbours touch. Hats as close as nodes have
     /// more conditions than the soil can meet: waves of pressure that it hardly feels would grow from step to step. What
     /// is taken from a wave here, a gap has to make up for (a stabilised multiplier, Burman & Hansbo 2010).
-    pub fn even_out(&mut self, runs: &[(Range<usize>, bool)]) {
-        let before = self.pressure.clone();
+    pub fn evened(&self, runs: &[(Range<usize>, bool)]) -> Self {
+        let mut evened = self.clone();
         for (run, is_loop) in runs {
-            let hats = &before[run.clone()];
+            let hats = &self.pressure[run.clone()];
             let beside = |k: usize, by: usize| match k + by {
                 at if *is_loop => Some(hats[at % hats.len()]),
                 at => hats.get(at).copied(),
@@ -126,10 +133,11 @@ impl Multipliers {
                 let left = if *is_loop { beside(k, hats.len() - 1) } else { k.checked_sub(1).map(|k| hats[k]) };
                 let (Some(left), Some(right)) = (left, beside(k, 1)) else { continue };
                 if [left, hats[k], right].iter().all(|&pressure| pressure != 0.0) {
-                    self.pressure[run.start + k] += EVEN * (0.5 * (left + right) - hats[k]);
+                    evened.pressure[run.start + k] += EVEN * (0.5 * (left + right) - hats[k]);
                 }
             }
         }
+        evened
     }
 
     /// The mean pressure (kPa) of the hats that press.
@@ -163,6 +171,11 @@ pub trait Pair<const D: usize>: Send + Sync {
     /// The region of the structure.
     fn structure(&self) -> u16;
 
+    /// The region of what it touches, if that is a body and not soil.
+    fn against(&self) -> Option<u16> {
+        None
+    }
+
     /// The number of hats.
     fn hats(&self) -> usize;
 
@@ -176,6 +189,9 @@ pub trait Pair<const D: usize>: Send + Sync {
 
     /// The boundary as polylines with the structure on their left; closed ones end where they begin.
     fn outlines(&self, position: &dyn Fn(u32) -> [f64; D]) -> Vec<Vec<[f64; D]>>;
+
+    /// The boundary as lines with its hats, one a smooth stretch.
+    fn lines(&self, position: &dyn Fn(u32) -> [f64; D]) -> Vec<Vec<Mark<D>>>;
 
     /// Moves points of the soil out of the structure.
     fn push_out(&self, points: &mut Points<D>, position: &dyn Fn(u32) -> [f64; D]) -> Pushed;
@@ -364,6 +380,10 @@ impl<K: Kinematics<2>> Pair<2> for Boundary<K> {
             segments.iter().map(|s| s.from).chain(segments.last().map(|s| s.to)).collect()
         };
         self.surface.chains.iter().map(outline).collect()
+    }
+
+    fn lines(&self, position: &dyn Fn(u32) -> [f64; 2]) -> Vec<Vec<Mark<2>>> {
+        lines(&self.surface, &Segments::new::<K>(&self.surface, position))
     }
 
     fn push_out(&self, points: &mut Points<2>, position: &dyn Fn(u32) -> [f64; 2]) -> Pushed {

@@ -67,6 +67,11 @@ impl Surface {
                 "give the structure a mesh of its own, not joined to the grid",
             ));
         }
+        Ok(Self::of(mesh, kind, facets, spacing))
+    }
+
+    /// The boundary that `facets` of one kind are, given their nodes, with the structure on their left.
+    pub fn of(mesh: &Mesh<2>, kind: CellKind, facets: Vec<Vec<u32>>, spacing: f64) -> Self {
         let mut surface = Self {
             kind,
             facets: Vec::new(),
@@ -80,7 +85,7 @@ impl Surface {
         for chain in chains(facets) {
             surface.add_chain(mesh, chain);
         }
-        Ok(surface)
+        surface
     }
 
     /// Adds a chain of facets, cut at its corners.

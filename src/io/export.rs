@@ -1,6 +1,7 @@
 //! Result frames to series for ParaView: `vtu/points_000123.vtu` and `vtu/grid_000123.vtu` with `points.pvd`
 //! and `grid.pvd`, with the fields that the case asks for; where it has finite elements, `vtu/structures_000123.vtu` and
-//! `structures.pvd` with these.
+//! `structures.pvd` with these; and where they touch soil, `vtu/contact_000123.vtu` and `contact.pvd` with what it exerts
+//! along their boundaries.
 //!
 //! Derived here, from the stress: `mean_stress` (tension positive) and `deviatoric_stress`, √(3/2 s:s).
 
@@ -17,13 +18,15 @@ use crate::error::{Error, Result};
 use crate::mesh::Mesh;
 use crate::tensor::Symmetric;
 
+mod contact;
 mod pieces;
 
 use pieces::Piece;
 
 /// The kinds of files, each with a `.pvd`.
-const SERIES: [&str; 3] = ["points", "grid", STRUCTURES];
+const SERIES: [&str; 4] = ["points", "grid", STRUCTURES, CONTACT];
 const STRUCTURES: &str = "structures";
+const CONTACT: &str = "contact";
 
 /// What an export wrote.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -58,11 +61,12 @@ pub fn export<const D: usize>(
     } else {
         (Piece::whole(mesh), Piece::default())
     };
+    let with_contact = infos.iter().any(|info| info.contact > 0);
     let first = triples(&mesh.nodes);
     infos.par_iter().enumerate().try_for_each(|(i, info)| {
         let frame = Frame::read(&info.path)?;
         check_fields(&info.path, &frame, fields)?;
-        let Frame { time, points, mut grid, elements, .. } = frame;
+        let Frame { time, points, mut grid, elements, contact, .. } = frame;
         let time = Some(time);
         let points = Grid {
             point_data: select(&points, fields),
@@ -91,11 +95,26 @@ pub fn export<const D: usize>(
         if with_elements {
             vtu::write(&folder.join(file_name(STRUCTURES, i)), &structures.grid(&smooth, fields, time), encoding)?;
         }
+        if with_contact {
+            let Some(lines) = contact::grid(&contact, time) else {
+                return Err(Error::input(
+                    info.path.display(),
+                    "has not the boundaries in contact that others have",
+                    "the frames are of several runs: run `mpm solve` again",
+                ));
+            };
+            vtu::write(&folder.join(file_name(CONTACT, i)), &lines, encoding)?;
+        }
         Ok(())
     })?;
+    let is_there = |series: &str| match series {
+        STRUCTURES => with_elements,
+        CONTACT => with_contact,
+        _ => true,
+    };
     for series in SERIES {
         let path = out.join(format!("{series}.pvd"));
-        if series == STRUCTURES && !with_elements {
+        if !is_there(series) {
             if path.exists() {
                 atomic::remove(&path)?;
             }
@@ -105,7 +124,7 @@ pub fn export<const D: usize>(
             infos.iter().enumerate().map(|(i, info)| (info.time, format!("vtu/{}", file_name(series, i)))).collect();
         pvd::write(&path, &files)?;
     }
-    let kept = |series: &str| if series == STRUCTURES && !with_elements { 0 } else { infos.len() };
+    let kept = |series: &str| if is_there(series) { infos.len() } else { 0 };
     Ok(Summary { frames: infos.len(), removed: remove_stale(&folder, kept)? })
 }
 

@@ -49,10 +49,18 @@ pub struct Frame {
     /// The points of the finite elements, with the number of their cell among those of finite elements in the column
     /// [`CELL`]; empty, and not written, without finite elements.
     pub elements: Part,
+    /// The boundaries of structures in contact, as the lines of [`LINE`]; empty, and not written, without contact.
+    pub contact: Part,
 }
 
 /// The column of [`Frame::elements`] that tells the cells.
 pub const CELL: &str = "cell";
+
+/// Columns of [`Frame::contact`] that are not shown as they are: the number of the line that a node is on, which joins
+/// nodes that follow each other; the region of its structure; and whether there is soil before it (1) or not (0).
+pub const LINE: &str = "line";
+pub const REGION: &str = "region";
+pub const FACES: &str = "faces";
 
 /// What a listing tells about a frame.
 #[derive(Clone, Debug, PartialEq)]
@@ -63,6 +71,8 @@ pub struct Info {
     pub step: u64,
     /// Material points.
     pub points: usize,
+    /// Nodes along boundaries in contact.
+    pub contact: usize,
 }
 
 /// The file of frame `index`.
@@ -86,9 +96,11 @@ impl Frame {
             ("points/", "material point", &self.points),
             ("grid/", "grid node", &self.grid),
             ("elements/", "point of a finite element", &self.elements),
+            ("contact/", "node of a boundary in contact", &self.contact),
         ];
-        let count = if self.elements.position.is_empty() { 2 } else { 3 };
-        for (prefix, item, part) in parts.into_iter().take(count) {
+        let optional = |prefix: &str| matches!(prefix, "elements/" | "contact/");
+        let written = parts.into_iter().filter(|(prefix, _, part)| !optional(prefix) || !part.position.is_empty());
+        for (prefix, item, part) in written {
             let position =
                 Column { name: POSITION.into(), unit: "m".into(), components: 3, values: part.position.concat() };
             for Column { name, unit, components, values } in std::iter::once(&position).chain(&part.columns) {
@@ -120,6 +132,7 @@ impl Frame {
                 Some(("points", name)) => (&mut frame.points, name),
                 Some(("grid", name)) => (&mut frame.grid, name),
                 Some(("elements", name)) => (&mut frame.elements, name),
+                Some(("contact", name)) => (&mut frame.contact, name),
                 _ => return Err(broken()),
             };
             let Data::F64(values) = data else { return Err(broken()) };
@@ -129,7 +142,13 @@ impl Frame {
                 _ => part.columns.push(Column { name: name.to_string(), unit, components, values }),
             }
         }
-        for (what, part) in [("points", &frame.points), ("grid", &frame.grid), ("elements", &frame.elements)] {
+        let parts = [
+            ("points", &frame.points),
+            ("grid", &frame.grid),
+            ("elements", &frame.elements),
+            ("contact", &frame.contact),
+        ];
+        for (what, part) in parts {
             let counts = part.columns.iter().map(|c| (c.name.as_str(), c.values.len() / c.components));
             // A grid without positions of its own takes those of the mesh; its columns still agree.
             let count = if part.position.is_empty() { None } else { Some((POSITION, part.position.len())) };
@@ -167,7 +186,8 @@ pub fn list(folder: &Path) -> Result<Vec<Info>> {
                 .map(String::as_str)
                 .ok_or_else(|| Error::input(path.display(), format!("is damaged: text `{name}` is missing"), AGAIN))
         })?;
-        let points = arrays.iter().find(|(name, _)| name == "points/position").map_or(0, |&(_, n)| n);
+        let count = |array: &str| arrays.iter().find(|(name, _)| name == array).map_or(0, |&(_, n)| n);
+        let (points, contact) = (count("points/position"), count("contact/position"));
         if let Some(before) = infos.last() {
             let mixed = |problem: String| {
                 Err(Error::input(path.display(), format!("does not belong to the frame before: {problem}"), AGAIN))
@@ -179,7 +199,7 @@ pub fn list(folder: &Path) -> Result<Vec<Info>> {
                 return mixed(format!("{points} material points after {}", before.points));
             }
         }
-        infos.push(Info { path, time, phase, step, points });
+        infos.push(Info { path, time, phase, step, points, contact });
     }
     Ok(infos)
 }

@@ -126,12 +126,13 @@ fn take_weighing<const D: usize>(store: &mut Store) -> Result<Weighing<D>> {
 
 fn put_multipliers(store: &mut Store, pairs: &[Multipliers]) {
     store.put("contact.pairs", 1, vec![pairs.len() as u64]);
-    for (i, Multipliers { pressure, shear, gap, slip, offset, room, first }) in pairs.iter().enumerate() {
+    for (i, Multipliers { pressure, shear, gap, slip, offset, slid, faces, room, first }) in pairs.iter().enumerate() {
         for (name, values) in
-            [("pressure", pressure), ("shear", shear), ("gap", gap), ("slip", slip), ("offset", offset)]
+            [("pressure", pressure), ("shear", shear), ("gap", gap), ("slip", slip), ("offset", offset), ("slid", slid)]
         {
             store.put(&format!("contact.{i}.{name}"), 1, values.clone());
         }
+        store.put(&format!("contact.{i}.faces"), 1, faces.iter().map(|&b| u8::from(b)).collect());
         store.put(&format!("contact.{i}.room"), 1, room.clone());
         store.put(&format!("contact.{i}.first"), 1, first.clone());
     }
@@ -142,10 +143,11 @@ fn take_multipliers(store: &mut Store) -> Result<Vec<Multipliers>> {
     let pair = |i: u64| {
         let mut values = |name: &str| store.take::<f64>(&format!("contact.{i}.{name}"), 1);
         let (pressure, shear, gap) = (values("pressure")?, values("shear")?, values("gap")?);
-        let (slip, offset) = (values("slip")?, values("offset")?);
+        let (slip, offset, slid) = (values("slip")?, values("offset")?, values("slid")?);
+        let faces = store.take::<u8>(&format!("contact.{i}.faces"), 1)?.into_iter().map(|b| b != 0).collect();
         let mut numbers = |name: &str| store.take::<u32>(&format!("contact.{i}.{name}"), 1);
         let (room, first) = (numbers("room")?, numbers("first")?);
-        Ok(Multipliers { pressure, shear, gap, slip, offset, room, first })
+        Ok(Multipliers { pressure, shear, gap, slip, offset, slid, faces, room, first })
     };
     (0..count).map(pair).collect()
 }

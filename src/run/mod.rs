@@ -9,6 +9,7 @@
 //!
 //! The checkpoint of a step is written while the next one is solved.
 
+mod boundary;
 mod checkpoint;
 mod record;
 
@@ -252,7 +253,7 @@ impl<'a> Files<'a> {
         for line in record::log_lines(scene, state, report) {
             self.log.line(&line)?;
         }
-        self.history.row(&record::row(&self.outputs.watches, state, report))?;
+        self.history.row(&record::row(scene, &self.outputs.watches, state, report))?;
         (state.rows, state.log_lines) = (self.history.rows(), self.log.lines());
         Ok(())
     }

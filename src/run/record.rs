@@ -1,5 +1,6 @@
 //! What a run writes down: frames, rows of the history, lines of the log.
 
+use super::boundary;
 use crate::io::columns::padded;
 use crate::io::frame::{CELL, Column, Frame, Part};
 use crate::points::Points;
@@ -29,6 +30,11 @@ pub enum Quantity {
     Reaction(usize),
     /// Force of what a structure touches on it (kN), the sum.
     Contact(usize),
+    /// Rotation of a rigid body (rad), and the moment (kN m) about its centroid of what holds it.
+    Rotation,
+    ReactionMoment,
+    /// Moment (kN m) of what a structure touches on it about the centroid that it has now, in the plane, anticlockwise.
+    ContactMoment,
 }
 
 /// What is watched.
@@ -36,6 +42,10 @@ pub enum Quantity {
 pub enum WatchedOn {
     /// Nodes of the grid: a curve or a point.
     Nodes(Vec<u32>),
+    /// Nodes of a rigid body, and its reference node.
+    Side(Vec<u32>, u32),
+    /// A rigid body.
+    Body { region: u16, reference: u32, turning: Option<u32>, arm: f64 },
     /// The points of a region of the mesh.
     Region(u16),
 }
@@ -60,6 +70,9 @@ pub fn columns(watches: &[Watch]) -> Vec<String> {
                 Quantity::Velocity(d) => format!("{}.v{} [m/s]", watch.name, AXES[d]),
                 Quantity::Reaction(d) => format!("{}.reaction_{} [kN]", watch.name, AXES[d]),
                 Quantity::Contact(d) => format!("{}.contact_{} [kN]", watch.name, AXES[d]),
+                Quantity::Rotation => format!("{}.rotation [rad]", watch.name),
+                Quantity::ReactionMoment => format!("{}.reaction_moment [kN m]", watch.name),
+                Quantity::ContactMoment => format!("{}.contact_moment [kN m]", watch.name),
             });
         }
     }
@@ -67,35 +80,77 @@ pub fn columns(watches: &[Watch]) -> Vec<String> {
 }
 
 /// A row of the history.
-pub fn row<const D: usize>(watches: &[Watch], state: &State<D>, report: &Report<D>) -> Vec<f64> {
+pub fn row<const D: usize>(scene: &Scene<D>, watches: &[Watch], state: &State<D>, report: &Report<D>) -> Vec<f64> {
     let mut row = vec![state.time];
     for watch in watches {
-        row.extend(watch.quantities.iter().map(|quantity| value(&watch.on, *quantity, state, report)));
+        row.extend(watch.quantities.iter().map(|quantity| value(&watch.on, *quantity, scene, state, report)));
     }
     row
 }
 
-fn value<const D: usize>(on: &WatchedOn, quantity: Quantity, state: &State<D>, report: &Report<D>) -> f64 {
+fn value<const D: usize>(
+    on: &WatchedOn,
+    quantity: Quantity,
+    scene: &Scene<D>,
+    state: &State<D>,
+    report: &Report<D>,
+) -> f64 {
+    let contact = |region: u16| report.contacts.iter().map(move |c| c.on(region));
     match (on, quantity) {
-        (WatchedOn::Nodes(nodes), Quantity::Displacement(d)) => {
+        (WatchedOn::Nodes(nodes) | WatchedOn::Side(nodes, _), Quantity::Displacement(d)) => {
             mean(nodes.iter().map(|&n| state.travel[n as usize][d]))
         }
-        (WatchedOn::Nodes(nodes), Quantity::Velocity(d)) => {
+        (WatchedOn::Nodes(nodes) | WatchedOn::Side(nodes, _), Quantity::Velocity(d)) => {
             mean(nodes.iter().map(|&n| state.velocity.get(n as usize).map_or(0.0, |v| v[d])))
         }
         (WatchedOn::Nodes(nodes), Quantity::Reaction(d)) => nodes.iter().map(|&n| report.reaction[n as usize][d]).sum(),
+        (WatchedOn::Side(_, reference), Quantity::Reaction(d)) => report.reaction[*reference as usize][d],
+        (WatchedOn::Body { region, reference, turning, arm }, quantity) => {
+            let (n, turning) = (*reference as usize, turning.map(|n| n as usize));
+            match quantity {
+                Quantity::Displacement(d) => state.travel[n][d],
+                Quantity::Velocity(d) => state.velocity.get(n).map_or(0.0, |v| v[d]),
+                Quantity::Reaction(d) => report.reaction[n][d],
+                Quantity::Contact(d) => contact(*region).map(|(force, _)| force[d]).sum(),
+                Quantity::Rotation => turning.map_or(0.0, |n| state.travel[n][0] / arm),
+                Quantity::ReactionMoment => turning.map_or(0.0, |n| report.reaction[n][0] * arm),
+                Quantity::ContactMoment => {
+                    let centre = [0, 1].map(|d| scene.mesh.nodes[n][d] + state.travel[n][d]);
+                    turning.map_or(0.0, |_| moment_about(&centre, contact(*region)))
+                }
+            }
+        }
         (WatchedOn::Region(region), Quantity::Displacement(d)) => {
             mean(members(state, *region).map(|(points, p)| points.position[p][d] - points.origin[p][d]))
         }
         (WatchedOn::Region(region), Quantity::Velocity(d)) => {
             mean(members(state, *region).map(|(points, p)| points.velocity.get(p).map_or(0.0, |v| v[d])))
         }
-        (WatchedOn::Region(region), Quantity::Contact(d)) => {
-            report.contacts.iter().filter(|c| c.structure == *region).map(|c| c.force[d]).sum()
+        (WatchedOn::Region(region), Quantity::Contact(d)) => contact(*region).map(|(force, _)| force[d]).sum(),
+        (WatchedOn::Region(region), Quantity::ContactMoment) => {
+            moment_about(&centroid(state, *region), contact(*region))
         }
-        // A region has no supports of its own, a curve no contact.
-        (WatchedOn::Region(_), Quantity::Reaction(_)) | (WatchedOn::Nodes(_), Quantity::Contact(_)) => 0.0,
+        // A region has no supports of its own, a curve no contact; only rigid bodies turn.
+        (WatchedOn::Region(_) | WatchedOn::Nodes(_) | WatchedOn::Side(..), _) => 0.0,
     }
+}
+
+/// The moment (kN m) about `centre` of forces with their moments about the origin.
+fn moment_about<const D: usize>(centre: &[f64; 2], forces: impl Iterator<Item = ([f64; D], f64)>) -> f64 {
+    forces.map(|(force, moment)| moment - (centre[0] * force[1] - centre[1] * force[0])).sum()
+}
+
+/// The centroid (m) of a region where it is now, in the plane, by the volumes of its points.
+fn centroid<const D: usize>(state: &State<D>, region: u16) -> [f64; 2] {
+    let (mut volume, mut sum) = (0.0, [0.0; 2]);
+    for (points, p) in members(state, region) {
+        let v = points.initial_volume[p];
+        volume += v;
+        for d in 0..2 {
+            sum[d] += v * points.position[p][d];
+        }
+    }
+    sum.map(|s| if volume > 0.0 { s / volume } else { 0.0 })
 }
 
 /// The points of a region, of whatever kind.
@@ -111,15 +166,20 @@ fn mean(values: impl Iterator<Item = f64>) -> f64 {
 
 /// The state at one moment.
 pub fn frame<const D: usize>(scene: &Scene<D>, state: &State<D>, fields: &[Field]) -> Frame {
+    let nodes = scene.mesh_nodes();
     // A grid that is restored stays where the mesh has it.
     let grid = if scene.numerics.restore == Restore::EveryStep && scene.fem.is_none() {
         Part::default()
     } else {
         let from = if state.nodes.is_empty() { &scene.mesh.nodes } else { &state.nodes };
-        let x: Vec<[f64; D]> =
-            from.iter().zip(&state.displacement).map(|(x, u)| std::array::from_fn(|d| x[d] + u[d])).collect();
+        let x: Vec<[f64; D]> = from
+            .iter()
+            .zip(&state.displacement)
+            .map(|(x, u)| std::array::from_fn(|d| x[d] + u[d]))
+            .take(nodes)
+            .collect();
         let displacement = fields.iter().any(|field| matches!(field, Field::Displacement));
-        let columns = displacement.then(|| column("displacement", "m", 3, padded(&state.displacement)));
+        let columns = displacement.then(|| column("displacement", "m", 3, padded(&state.displacement[..nodes])));
         Part { position: triples(&x), columns: columns.into_iter().collect() }
     };
     let mut elements = part(&state.fem, fields);
@@ -131,6 +191,7 @@ pub fn frame<const D: usize>(scene: &Scene<D>, state: &State<D>, fields: &[Field
         points: part(&state.points, fields),
         grid,
         elements: if scene.fem.is_some() { elements } else { Part::default() },
+        contact: boundary::part(scene, state),
     }
 }
 
@@ -164,11 +225,11 @@ fn part<const D: usize>(points: &Points<D>, fields: &[Field]) -> Part {
     Part { columns: columns.collect(), position: triples(&points.position) }
 }
 
-fn column(name: &str, unit: &str, components: usize, values: Vec<f64>) -> Column {
+pub(super) fn column(name: &str, unit: &str, components: usize, values: Vec<f64>) -> Column {
     Column { name: name.into(), unit: unit.into(), components, values }
 }
 
-fn triples<const D: usize>(x: &[[f64; D]]) -> Vec<[f64; 3]> {
+pub(super) fn triples<const D: usize>(x: &[[f64; D]]) -> Vec<[f64; 3]> {
     x.iter().map(|x| std::array::from_fn(|d| x.get(d).copied().unwrap_or(0.0))).collect()
 }
 
@@ -180,7 +241,7 @@ pub fn heading<const D: usize>(scene: &Scene<D>, points: &Points<D>) -> Vec<Stri
             "{} material points, mass {mass:.12e} t, in {} cells with {} nodes",
             points.len(),
             scene.mesh.cells.len(),
-            scene.mesh.nodes.len()
+            scene.mesh_nodes()
         ),
         "energies in kJ, momenta in t m/s, the imbalance is the change of momentum less the impulse of the loads"
             .to_string(),

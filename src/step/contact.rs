@@ -1,6 +1,7 @@
 //! Contact in a step: which hats face soil where the step begins, and what they come to in its end.
 
 use super::grid::Grid;
+use super::leaving;
 use super::newton::Solution;
 use super::scene::Scene;
 use super::state::State;
@@ -16,14 +17,31 @@ use crate::term::{Touch, Trial, contact_answer};
 /// What a pair exerted in a step.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Resultant<const D: usize> {
-    /// The region of the structure.
+    /// The region of the structure, and that of the body it touches.
     pub structure: u16,
-    /// Force (kN) of the soil on the structure.
+    pub against: Option<u16>,
+    /// Force (kN) of what it touches on the structure.
     pub force: [f64; D],
+    /// Its moment (kN m) about the origin, in the plane, anticlockwise, and that of the opposite force on what it touches.
+    pub moment: f64,
+    pub moment_against: f64,
     /// Hats that touch, and the deepest mean overlap (m) of one.
     pub hats: usize,
     pub overlap: f64,
     pub pushed: Pushed,
+}
+
+impl<const D: usize> Resultant<D> {
+    /// Force (kN) of this contact on a region, and its moment (kN m) about the origin.
+    pub fn on(&self, region: u16) -> ([f64; D], f64) {
+        if self.structure == region {
+            (self.force, self.moment)
+        } else if self.against == Some(region) {
+            (self.force.map(|f| -f), self.moment_against)
+        } else {
+            ([0.0; D], 0.0)
+        }
+    }
 }
 
 /// Where a node is at the last converged step.
@@ -58,7 +76,7 @@ pub fn couple<const D: usize>(state: &State<D>, block: &[u32], cliques: &mut Cli
 /// Finds the hats that face soil and makes room for them in the system.
 ///
 /// # Errors
-/// As [`Grid::new`].
+/// As [`Grid::new`], and analysis: a structure that left the grid.
 pub fn begin<const D: usize, K: Kinematics<D>>(
     scene: &Scene<D>,
     grid: &mut Grid<D>,
@@ -84,7 +102,8 @@ pub fn begin<const D: usize, K: Kinematics<D>>(
     let ground = Ground { grid: mesh, locator, points: &state.points, surface: &surface };
     let mut touches = Vec::new();
     for ((pair, number), held) in scene.pairs.iter().zip(0..).zip(&state.multipliers) {
-        let rows = pair.rows(&ground, &at, held);
+        let rows = pair.rows(&ground, &at, &held.evened(pair.runs()));
+        leaving::check(scene, pair.as_ref(), held, &rows, &ground, &at)?;
         touches.extend(rows.into_iter().map(|row| Touch { pair: number, row, clique: 0, place: Vec::new() }));
     }
     let takes_part = |touch: &Touch<D>| touch.row.nodes.iter().all(|&n| grid.block[n as usize] != u32::MAX);
@@ -159,7 +178,10 @@ pub fn commit<const D: usize>(
 ) -> Vec<Resultant<D>> {
     let none = |pair: &dyn Pair<D>| Resultant {
         structure: pair.structure(),
+        against: pair.against(),
         force: [0.0; D],
+        moment: 0.0,
+        moment_against: 0.0,
         hats: 0,
         overlap: 0.0,
         pushed: Pushed::default(),
@@ -169,6 +191,7 @@ pub fn commit<const D: usize>(
     for multipliers in &mut state.multipliers {
         let Multipliers { pressure, shear, gap, slip, offset, .. } = multipliers;
         [pressure, shear, gap, slip, offset].into_iter().for_each(|values| values.fill(0.0));
+        multipliers.faces.fill(false);
     }
     for touch in &grid.touches {
         let (pair, hat, row) = (touch.pair as usize, touch.row.hat as usize, &touch.row);
@@ -176,19 +199,34 @@ pub fn commit<const D: usize>(
         let held = &mut state.multipliers[pair];
         (held.pressure[hat], held.shear[hat]) = (answer.pressure, answer.shear);
         (held.gap[hat], held.slip[hat], held.offset[hat]) = (gap, slip.abs(), row.offset);
+        held.faces[hat] = true;
         let resultant = &mut resultants[pair];
         if answer.pressure != 0.0 {
             resultant.hats += 1;
+            held.slid[hat] += slip;
             resultant.overlap = resultant.overlap.max(-gap);
         }
-        for (n, t) in row.by_normal[..row.own].iter().zip(&row.by_tangent) {
-            for d in 0..D {
-                resultant.force[d] += row.area * (answer.pressure * n[d] + answer.shear * t[d]);
+        for (k, ((n, t), &node)) in row.by_normal.iter().zip(&row.by_tangent).zip(&row.nodes).enumerate() {
+            let force: [f64; D] = std::array::from_fn(|d| row.area * (answer.pressure * n[d] + answer.shear * t[d]));
+            let turned = scene.turned_by(node);
+            let moment = match turned {
+                // A moment over the arm.
+                Some(body) => body.arm * force[0],
+                None => {
+                    let first = state.nodes.get(node as usize).unwrap_or(&scene.mesh.nodes[node as usize]);
+                    let x: [f64; D] = std::array::from_fn(|d| first[d] + solution.displacement[node as usize][d]);
+                    x[0] * force[1] - x[1] * force[0]
+                }
+            };
+            if k < row.own {
+                resultant.force = std::array::from_fn(|d| resultant.force[d] + force[d]);
+            }
+            if k < row.own || turned.is_some_and(|body| body.region == resultant.structure) {
+                resultant.moment += moment;
+            } else {
+                resultant.moment_against += moment;
             }
         }
-    }
-    for (pair, held) in scene.pairs.iter().zip(&mut state.multipliers) {
-        held.even_out(pair.runs());
     }
     resultants
 }

@@ -19,15 +19,19 @@ pub struct Elements<const D: usize> {
     pub stencil: Stencil<D>,
     /// The cells with unknowns of pressure.
     pub cells: Vec<u32>,
-    /// The clique of each cell.
+    /// The clique of each cell; `u32::MAX` for those of rigid bodies.
     pub clique: Vec<u32>,
+    /// The number of points that are not of rigid bodies: the first ones.
+    points: usize,
 }
 
 impl<const D: usize> Elements<D> {
     /// The elements of a scene in a state.
     pub fn new<K: Kinematics<D>>(fem: &Fem<D>, state: &State<D>) -> Self {
         let cells = (0u32..).zip(&fem.with_pressure).filter(|(_, with)| **with).map(|(c, _)| c).collect();
-        let mut elements = Self { mesh: fem.mesh.clone(), stencil: Stencil::default(), cells, clique: Vec::new() };
+        let points = state.fem.region.iter().filter(|r| !fem.rigid[**r as usize]).count();
+        let mut elements =
+            Self { mesh: fem.mesh.clone(), stencil: Stencil::default(), cells, clique: Vec::new(), points };
         elements.place::<K>(state);
         elements
     }
@@ -40,28 +44,34 @@ impl<const D: usize> Elements<D> {
     /// Takes the nodes where `state` has them.
     pub fn place<K: Kinematics<D>>(&mut self, state: &State<D>) {
         self.mesh.nodes.clone_from(&state.nodes);
-        self.stencil.fill::<K>(Scheme::Mpm, &self.mesh, &state.fem.cell, &state.fem_parametric, &[]);
-        self.stencil.weigh(&state.fem.initial_volume, &[]);
+        let count = self.points;
+        self.stencil.fill::<K>(Scheme::Mpm, &self.mesh, &state.fem.cell[..count], &state.fem_parametric[..count], &[]);
+        self.stencil.weigh(&state.fem.initial_volume[..count], &[]);
     }
 
-    /// Appends a clique for each cell, given the block of each node.
-    pub fn couple(&mut self, block: &[u32], cliques: &mut Cliques) {
+    /// Appends a clique for each cell that deforms, given the block of each node.
+    pub fn couple(&mut self, fem: &Fem<D>, block: &[u32], cliques: &mut Cliques) {
         let cells = &self.mesh.cells;
-        let clique = |c: usize| cliques.push(cells.nodes(c).iter().map(|&n| block[n as usize]));
-        self.clique = (0..cells.len()).map(clique).collect();
+        self.clique = vec![u32::MAX; cells.len()];
+        for c in fem.deforming() {
+            self.clique[c] = cliques.push(cells.nodes(c).iter().map(|&n| block[n as usize]));
+        }
     }
 }
 
-/// Moves the nodes of the elements to where they are, before the displacement begins at zero again.
+/// Moves the nodes of the elements and of rigid bodies to where they are, before the displacement begins at zero again.
 pub fn keep_shape<const D: usize>(scene: &Scene<D>, state: &mut State<D>) {
-    let Some(fem) = &scene.fem else { return };
+    if scene.fem.is_none() && scene.bodies.is_empty() {
+        return;
+    }
     if state.nodes.is_empty() {
         state.nodes.clone_from(&scene.mesh.nodes);
     }
     let mut of_elements = vec![false; state.nodes.len()];
-    for &n in &fem.mesh.cells.nodes {
+    for &n in scene.fem.iter().flat_map(|fem| &fem.mesh.cells.nodes) {
         of_elements[n as usize] = true;
     }
+    of_elements[scene.mesh_nodes()..].fill(true);
     for ((x, u), _) in state.nodes.iter_mut().zip(&state.displacement).zip(&of_elements).filter(|(_, of)| **of) {
         for d in 0..D {
             x[d] += u[d];

@@ -16,6 +16,7 @@ use crate::mesh::Mesh;
 use crate::mesh::locate::Locator;
 use crate::points::Points;
 use crate::quadrature::Restored;
+use crate::rigid::Body;
 use crate::stencil::Stencil;
 use crate::system::{Cliques, Matrix, Pattern, Solver, Workspace};
 use crate::term::{Frame, GhostFace, Touch};
@@ -196,7 +197,12 @@ impl<const D: usize> Grid<D> {
                 block[n as usize] = 0;
             }
         }
-        for &n in scene.fem.iter().flat_map(|fem| &fem.mesh.cells.nodes) {
+        if let Some(fem) = &scene.fem {
+            for &n in fem.deforming().flat_map(|c| fem.mesh.cells.nodes(c)) {
+                block[n as usize] = 0;
+            }
+        }
+        for n in scene.bodies.iter().flat_map(Body::carriers) {
             block[n as usize] = 0;
         }
         for (n, block) in block.iter_mut().enumerate().filter(|(_, b)| **b == 0) {
@@ -208,8 +214,8 @@ impl<const D: usize> Grid<D> {
             clique[c as usize] = cliques.push(mesh.cells.nodes(c as usize).iter().map(|&n| block[n as usize]));
         }
         let mut elements = scene.fem.as_ref().map(|fem| Elements::new::<K>(fem, state));
-        if let Some(elements) = &mut elements {
-            elements.couple(&block, &mut cliques);
+        if let (Some(elements), Some(fem)) = (&mut elements, &scene.fem) {
+            elements.couple(fem, &block, &mut cliques);
         }
         let cells_only = cliques.clone();
         let mut face_clique = Vec::new();

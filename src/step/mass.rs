@@ -10,6 +10,7 @@
 //! back to the first one (iterated Tikhonov regularisation) removes it from all that the points do determine.
 
 use super::grid::{Family, Grid, System};
+use super::rigid;
 use super::scene::Scene;
 use super::state::State;
 use crate::error::{Error, Result};
@@ -93,6 +94,7 @@ impl<'a> Mass<'a> {
             Some(&mut system.matrix),
             &mut grid.workspace,
         )?;
+        rigid::add_mass(scene, &grid.block, &system.pattern, &mut system.matrix);
         let few =
             stencil.patches.iter().filter(|p| p.point_count < scene.mesh.cells.nodes(p.cell as usize).len() as u32);
         let weak: Vec<Weak> = few

@@ -11,11 +11,13 @@ mod fem;
 mod ghost_faces;
 mod grid;
 mod guess;
+mod leaving;
 mod mass;
 mod newton;
 mod pressure;
 mod relax;
 mod report;
+mod rigid;
 mod scene;
 mod state;
 mod transfer;
@@ -115,7 +117,7 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
         if restore {
             self.grid.restore::<K>(scene, state)?;
         }
-        contact::begin::<D, K>(scene, &mut self.grid, state)?;
+        timed(Activity::Contact, || contact::begin::<D, K>(scene, &mut self.grid, state))?;
         if scene.phases[state.phase].dynamic && (restore || !state.moving) {
             transfer::motion_to_grid::<D, K>(scene, &mut self.grid, state)?;
         }
@@ -152,10 +154,11 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
     }
 
     /// Grid to points.
-    fn convect(&mut self, dt: f64, start: Option<Start<D>>, solution: Solution<D>) -> Result<Report<D>> {
+    fn convect(&mut self, dt: f64, start: Option<Start<D>>, mut solution: Solution<D>) -> Result<Report<D>> {
         let (scene, state) = (self.scene, &mut self.state);
+        rigid::follow(scene, state, &mut solution.displacement);
         let mut momentum = report::Motion::of(state).linear;
-        let mut contacts = contact::commit(scene, &self.grid, state, &solution);
+        let mut contacts = timed(Activity::Contact, || contact::commit(scene, &self.grid, state, &solution));
         transfer::commit(scene, &self.grid, state, &solution)?;
         transfer::move_points::<D, K>(scene, &self.grid, state, &solution.displacement);
         if let Some(start) = &start {
@@ -174,7 +177,10 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
         state.last_step = dt;
         state.displacement.clone_from(&solution.displacement);
         state.pressure.clone_from(&solution.pressure);
-        contact::push_out(scene, state, &mut contacts);
+        if start.is_some() {
+            rigid::motion_to_points(scene, state);
+        }
+        timed(Activity::Contact, || contact::push_out(scene, state, &mut contacts));
         state.step += 1;
         state.time += dt;
         state.phase_time += dt;

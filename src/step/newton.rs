@@ -384,7 +384,7 @@ fn forcing(history: &[f64], tolerance: f64) -> f64 {
 fn floor<const D: usize>(problem: &Problem<D>, grid: &Grid<D>) -> f64 {
     let (mut volume, mut size) = (0.0, 0.0);
     for Family { mesh, stencil, points, .. } in grid.families(problem.scene, problem.state) {
-        volume += points.initial_volume.iter().sum::<f64>();
+        volume += stencil.points.iter().map(|&p| points.initial_volume[p as usize]).sum::<f64>();
         size += stencil.patches.iter().map(|patch| cell_size(mesh, patch.cell as usize)).sum::<f64>();
     }
     let side = 4.0 * volume / size;

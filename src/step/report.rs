@@ -68,7 +68,8 @@ pub struct Report<const D: usize> {
     pub potential: f64,
     /// What the pairs in contact exerted.
     pub contacts: Vec<Resultant<D>>,
-    /// Force of the supports on the nodes (kN): zero at nodes without.
+    /// Force of the supports on the nodes (kN): zero at nodes without. At the turning node of a rigid body its moment
+    /// over the arm.
     pub reaction: Vec<[f64; D]>,
 }
 
@@ -92,7 +93,9 @@ impl<const D: usize> Report<D> {
                 }
             }
         }
-        let impulse = |d: usize| dt * (solution.applied[d] + reaction.iter().map(|r| r[d]).sum::<f64>());
+        // What holds the rotation of a body is a moment.
+        let forces = || (0u32..).zip(&reaction).filter(|(n, _)| scene.turned_by(*n).is_none()).map(|(_, r)| r);
+        let impulse = |d: usize| dt * (solution.applied[d] + forces().map(|r| r[d]).sum::<f64>());
         let dynamic = scene.phases[state.phase].dynamic;
         let imbalance = std::array::from_fn(|d| if dynamic { motion.linear[d] - before[d] - impulse(d) } else { 0.0 });
         let fall = |(x, m): (&[f64; D], &f64)| -m * (0..D).map(|d| scene.gravity[d] * x[d]).sum::<f64>();

@@ -5,6 +5,7 @@ use crate::mesh::Mesh;
 use crate::mesh::faces::Faces;
 use crate::mesh::locate::Locator;
 use crate::quadrature::Quadrature;
+use crate::rigid::Body;
 use crate::stencil::Scheme;
 use crate::term::Term;
 use crate::time_value::TimeValue;
@@ -17,6 +18,8 @@ pub struct Scene<const D: usize> {
     pub terms: Vec<Box<dyn Term<D>>>,
     /// The finite elements beside the points, where there are any.
     pub fem: Option<Fem<D>>,
+    /// The rigid bodies: their unknowns are those of nodes at the end of [`Scene::mesh`], which no cell has.
+    pub bodies: Vec<Body<D>>,
     /// The structures and what they touch.
     pub pairs: Vec<Box<dyn Pair<D>>>,
     /// The faces between the cells; absent where none takes a ghost penalty, on displacement or on mass.
@@ -39,6 +42,21 @@ pub struct Scene<const D: usize> {
 }
 
 impl<const D: usize> Scene<D> {
+    /// The number of nodes of the mesh without those that rigid bodies add at its end.
+    pub fn mesh_nodes(&self) -> usize {
+        self.bodies.first().map_or(self.mesh.nodes.len(), |body| body.first as usize)
+    }
+
+    /// The body whose region that is.
+    pub fn body(&self, region: u16) -> Option<&Body<D>> {
+        self.bodies.iter().find(|body| body.region == region)
+    }
+
+    /// The rigid body that turns by the first component of node `n`.
+    pub fn turned_by(&self, n: u32) -> Option<&Body<D>> {
+        self.bodies.iter().find(|body| body.turning == Some(n))
+    }
+
     /// Where displacements are given in a phase: the supports and what is prescribed.
     pub fn fixed(&self, phase: usize) -> impl Iterator<Item = &Fixed> {
         self.supports.iter().chain(self.phases[phase].prescribed.iter().map(|p| &p.fixed))
@@ -48,12 +66,21 @@ impl<const D: usize> Scene<D> {
 /// Finite elements: structures, and regions of soil that share nodes with the grid. They keep their points, at the
 /// places of a quadrature rule, and go on from the shape they have (updated Lagrangian).
 pub struct Fem<const D: usize> {
-    /// Their cells; the nodes are those of [`Scene::mesh`], by number.
+    /// Their cells, those of rigid bodies among them; the nodes are those of [`Scene::mesh`], by number.
     pub mesh: Mesh<D>,
+    /// Whether each region of the mesh is a rigid body, and no finite elements.
+    pub rigid: Vec<bool>,
     /// Whether each cell has unknowns of a pressure field.
     pub with_pressure: Vec<bool>,
     /// Their terms, as [`Scene::terms`].
     pub terms: Vec<Box<dyn Term<D>>>,
+}
+
+impl<const D: usize> Fem<D> {
+    /// The cells that are finite elements.
+    pub fn deforming(&self) -> impl Iterator<Item = usize> {
+        (0..self.mesh.cells.len()).filter(|&c| !self.rigid[self.mesh.cells.region[c] as usize])
+    }
 }
 
 /// Nodes held in one direction.

@@ -24,11 +24,12 @@ pub struct State<const D: usize> {
     /// Lines of the log written so far.
     pub log_lines: u64,
     pub points: Points<D>,
-    /// The points of the finite elements, and where they are in them; empty without.
+    /// The points of the finite elements, then those of rigid structures, and where they are in their cells; empty
+    /// without.
     pub fem: Points<D>,
     pub fem_parametric: Vec<[f64; 3]>,
-    /// Coordinates (m) of the nodes when the grid was last restored; empty without finite elements, which alone
-    /// change them.
+    /// Coordinates (m) of the nodes when the grid was last restored; empty without finite elements and rigid bodies,
+    /// which alone change them.
     pub nodes: Vec<[f64; D]>,
     /// What the hats of each pair in contact carry.
     pub multipliers: Vec<Multipliers>,

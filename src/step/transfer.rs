@@ -6,6 +6,7 @@
 use super::grid::{Family, Grid};
 use super::mass::Mass;
 use super::newton::{Problem, Solution, static_force};
+use super::rigid;
 use super::scene::Scene;
 use super::state::State;
 use crate::error::Result;
@@ -34,6 +35,7 @@ pub fn motion_to_grid<const D: usize, K: Kinematics<D>>(
     if !state.moving {
         state.acceleration = first_acceleration::<D, K>(scene, grid, state)?;
         accelerations_to_points::<D, K>(scene, grid, state);
+        rigid::motion_to_points(scene, state);
         state.moving = true;
     }
     Ok(())
@@ -63,7 +65,7 @@ impl<const D: usize> Start<D> {
 
     /// Momentum (t m/s) that the nodes take on at once, all together.
     pub fn impulse<K: Kinematics<D>>(&self, scene: &Scene<D>, grid: &Grid<D>, state: &State<D>) -> [f64; D] {
-        let mut impulse = [0.0; D];
+        let mut impulse = rigid::impulse(scene, state, self);
         for Family { mesh, stencil, points, .. } in grid.families(scene, state) {
             for patch in &stencil.patches {
                 let nodes = mesh.cells.nodes(patch.cell as usize);
@@ -183,6 +185,7 @@ pub fn move_points<const D: usize, K: Kinematics<D>>(
     let [moved, fem] = to_points::<D, K>(scene, grid, state, &increment);
     add(&mut state.points.position, &moved);
     add(&mut state.fem.position, &fem);
+    rigid::move_points(scene, state, displacement);
 }
 
 fn add<const D: usize>(to: &mut [[f64; D]], increment: &[[f64; D]]) {
@@ -252,6 +255,7 @@ fn to_nodes<const D: usize, K: Kinematics<D>>(
             }
         }
     }
+    rigid::momentum(scene, grid, state, &mut right);
     let node = grid.node.clone();
     let mut mass = Mass::assemble::<D, K>(scene, grid, state)?;
     let mut nodal = [0, 1].map(|_| vec![[0.0; D]; scene.mesh.nodes.len()]);

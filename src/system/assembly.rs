@@ -55,6 +55,15 @@ impl Matrix {
         all.add(pattern, k, local, size);
     }
 
+    /// Adds to the diagonal entry of equation `e`.
+    pub fn add_diagonal(&mut self, pattern: &Pattern, e: usize, value: f64) {
+        let first = pattern.column[e] as usize;
+        let column = &pattern.row[first..pattern.column[e + 1] as usize];
+        if let Some(k) = column.iter().position(|&row| row as usize == e) {
+            self.values[first + k] += value;
+        }
+    }
+
     /// The matrix in `count` groups of columns with about as many entries each.
     fn columns(&mut self, pattern: &Pattern, count: usize) -> Vec<Columns<'_>> {
         let blocks = pattern.start.len() as u32 - 1;

@@ -12,6 +12,7 @@ mod ghost;
 mod inertia;
 mod internal;
 mod pressure;
+mod rigid;
 mod smooth_pressure;
 mod smoothed;
 mod stiffness;
@@ -24,6 +25,7 @@ pub use ghost::GhostPenalty;
 pub use inertia::Inertia;
 pub use internal::{Internal, Share};
 pub use pressure::{Carried, PressureField, hats as pressure_hats};
+pub use rigid::{RigidInertia, RigidTraction, RigidWeight};
 pub use smooth_pressure::SmoothPressure;
 pub use traction::Traction;
 

@@ -26,6 +26,14 @@ impl<K, const D: usize> Traction<K, D> {
     where
         K: Kinematics<D>,
     {
+        Self { phase, value, area: Self::shares(mesh, group), kinematics: PhantomData }
+    }
+
+    /// `∫ N_I dS` (m²) of the nodes of `group` on the undeformed `mesh`, where it is not zero.
+    pub fn shares(mesh: &Mesh<D>, group: &Group) -> Vec<(u32, f64)>
+    where
+        K: Kinematics<D>,
+    {
         let mut area = vec![0.0; mesh.nodes.len()];
         for (kind, nodes) in &group.facets {
             for (xi, weight) in rule(*kind, 2 * kind.order() + 1) {
@@ -37,8 +45,7 @@ impl<K, const D: usize> Traction<K, D> {
                 }
             }
         }
-        let area = area.into_iter().enumerate().filter(|(_, a)| *a != 0.0).map(|(n, a)| (n as u32, a)).collect();
-        Self { phase, value, area, kinematics: PhantomData }
+        (0..).zip(area).filter(|(_, a)| *a != 0.0).collect()
     }
 }
 

@@ -154,7 +154,7 @@ impl Bench {
             if self.dynamic {
                 terms.push(Box::new(Inertia::<K>::default()));
             }
-            Fem { with_pressure: vec![false; elements.cells.len()], mesh: elements, terms }
+            Fem { with_pressure: vec![false; elements.cells.len()], rigid: vec![false], mesh: elements, terms }
         });
         let moduli = self.model.elasticity().at(0.0);
         let stiffness_scale = self.model.young(0.0).max(moduli.shear);
@@ -182,6 +182,7 @@ impl Bench {
         let step = self.duration / self.steps as f64;
         Scene {
             fem,
+            bodies: Vec::new(),
             pairs: Vec::new(),
             locator: Locator::new(&background),
             faces: Some(Faces::of(&background)),

@@ -8,5 +8,6 @@ mod ghost;
 mod internal;
 mod loads;
 mod pressure;
+mod rigid;
 mod smooth;
 mod stand;

@@ -159,6 +159,7 @@ impl<K: Kinematics<2>> Stand<K> {
         let faces = Faces::of(&mesh);
         let scene = Scene {
             fem: None,
+            bodies: Vec::new(),
             pairs: Vec::new(),
             locator: Locator::new(&mesh),
             mesh,

@@ -155,3 +155,49 @@ fn finite_elements_are_a_series_of_their_own() {
     assert_eq!(done, Summary { frames: 1, removed: 1 });
     assert!(!out.join("structures.pvd").exists());
 }
+
+/// Two lines of a structure: cells join the nodes of a line and nothing else, and a gap where there is no soil is not a number.
+#[test]
+fn boundaries_in_contact_are_a_series_of_their_own() {
+    let folder = tempfile::tempdir().unwrap();
+    let (results, out) = (folder.path().join("results"), folder.path().join("out"));
+    let column = |name: &str, values: &[f64]| Column {
+        name: name.to_string(),
+        unit: "-".to_string(),
+        components: 1,
+        values: values.to_vec(),
+    };
+    let contact = Part {
+        position: (0..5).map(|i| [f64::from(i), 0.0, 0.0]).collect(),
+        columns: vec![
+            column("contact_pressure", &[1.0, 2.0, 3.0, 0.0, 0.0]),
+            column("contact_gap", &[0.0, 0.0, 0.1, 0.0, 0.0]),
+            column(frame::LINE, &[0.0, 0.0, 0.0, 1.0, 1.0]),
+            column(frame::REGION, &[4.0; 5]),
+            column(frame::FACES, &[1.0, 1.0, 1.0, 0.0, 0.0]),
+        ],
+    };
+    let grid = contact::grid(&contact, None).unwrap();
+    assert_eq!(grid.topology.connectivity, [0, 1, 1, 2, 3, 4]);
+    assert_eq!(grid.cell_data[0].data, Data::U16(vec![4; 3]));
+    let [pressure, gap] = &grid.point_data[..] else { panic!("{:?}", grid.point_data) };
+    assert_eq!(pressure.data, Data::F64(vec![1.0, 2.0, 3.0, 0.0, 0.0]));
+    let Data::F64(gap) = &gap.data else { panic!("{gap:?}") };
+    assert!(gap[..3] == [0.0, 0.0, 0.1] && gap[3..].iter().all(|g| g.is_nan()), "{gap:?}");
+
+    let with = Frame { contact, ..frame::tests::sample(0) };
+    frame::prepare(&results, 0).unwrap();
+    with.write(&results, 0).unwrap();
+    assert_eq!(Frame::read(&frame::path(&results, 0)).unwrap(), with);
+    export(&results, &mesh(), &[false], &out, &[], Encoding::Plain).unwrap();
+    assert!(out.join("contact.pvd").exists() && out.join("vtu/contact_000000.vtu").exists());
+
+    // A frame of a run without contact among those with it, and a run without any.
+    frame::tests::sample(1).write(&results, 1).unwrap();
+    let e = export(&results, &mesh(), &[false], &out, &[], Encoding::Plain).unwrap_err();
+    assert!(e.kind == Kind::Input && e.problem.contains("boundaries in contact"), "{e}");
+    frame::tests::sample(0).write(&results, 0).unwrap();
+    let done = export(&results, &mesh(), &[false], &out, &[], Encoding::Plain).unwrap();
+    assert_eq!(done, Summary { frames: 2, removed: 1 });
+    assert!(!out.join("contact.pvd").exists());
+}

@@ -23,6 +23,7 @@ fn scene<K: Kinematics<2>>(kind: CellKind) -> Scene<2> {
         mesh,
         terms: Vec::new(),
         fem: None,
+        bodies: Vec::new(),
         pairs: Vec::new(),
         quadrature: Box::new(Volumes::<K>::default()),
         supports: Vec::new(),

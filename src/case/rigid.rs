@@ -1,0 +1,249 @@
+//! The rigid structures of a case: their nodes in the mesh, and what holds and moves them.
+
+use super::checked::{self, Case, Geometry, Phase};
+use super::scene::{group, region_index};
+use crate::error::{Error, Result};
+use crate::kinematics::Kinematics;
+use crate::mesh::Mesh;
+use crate::rigid::Body;
+use crate::seed::{QUADRATURE, RegionSeed, seed};
+use crate::step::{Fixed, Prescribed};
+use crate::term::{RigidInertia, RigidTraction, RigidWeight, Term, Traction};
+use crate::time_value::TimeValue;
+use std::collections::HashSet;
+
+/// Whether each region of the mesh is of a rigid structure.
+pub fn regions(case: &Case, mesh: &Mesh<2>) -> Vec<bool> {
+    let rigid = |name: &String| case.regions.iter().any(|r| r.name == *name && r.content.is_rigid());
+    mesh.regions.iter().map(rigid).collect()
+}
+
+/// Appends the nodes of the rigid structures to `mesh` and tells what they are.
+///
+/// # Errors
+/// Input: a structure without cells, or one that shares nodes with other regions.
+pub fn bodies(case: &Case, mesh: &mut Mesh<2>) -> Result<Vec<Body<2>>> {
+    let mut bodies = Vec::new();
+    for region in case.regions.iter().filter(|region| region.content.is_rigid()) {
+        let number = region_index(mesh, &region.name)?;
+        let part = mesh.part(|c| mesh.cells.region[c] == number);
+        let nodes: HashSet<u32> = part.cells.nodes.iter().copied().collect();
+        let alone = |c: usize| mesh.cells.region[c] == number || mesh.cells.nodes(c).iter().all(|n| !nodes.contains(n));
+        if nodes.is_empty() || !(0..mesh.cells.len()).all(alone) {
+            return Err(Error::input(
+                format!("region {}", region.name),
+                "a rigid structure must have cells, and share no nodes with another region",
+                "give it a surface of its own in the .geo, joined to no other",
+            ));
+        }
+        let mut nodes: Vec<u32> = nodes.into_iter().collect();
+        nodes.sort_unstable();
+        let Some(material) = region.content.material() else { continue };
+        let density = case.materials[material].density;
+        let filling = RegionSeed { region: number, points_per_cell: QUADRATURE, density };
+        let plane = case.geometry == Geometry::PlaneStrain;
+        let points = seed(&part, !plane, &[filling])?;
+        // In axisymmetry it only moves along the axis.
+        bodies.push(Body::append(mesh, number, nodes, &points, plane));
+    }
+    Ok(bodies)
+}
+
+/// What acts on the rigid structures, given the part of the mesh with them.
+///
+/// # Errors
+/// Input: a traction on a curve that the mesh has not.
+pub fn terms<K: Kinematics<2>>(
+    case: &Case,
+    mesh: &Mesh<2>,
+    bodies: &[Body<2>],
+    dynamic: bool,
+) -> Result<Vec<Box<dyn Term<2>>>> {
+    let mut terms: Vec<Box<dyn Term<2>>> = Vec::new();
+    for body in bodies {
+        if case.gravity != [0.0; 2] && body.mass > 0.0 {
+            let factors = case.phases.iter().map(|p| p.gravity.clone()).collect();
+            terms.push(Box::new(RigidWeight::new(body, case.gravity, factors)));
+        }
+        if dynamic {
+            terms.push(Box::new(RigidInertia::new(body)));
+        }
+        for (phase, traction) in
+            case.phases.iter().enumerate().flat_map(|(i, p)| p.tractions.iter().map(move |t| (i, t)))
+        {
+            if body_of(mesh, body, &traction.curve) {
+                let shares = Traction::<K, 2>::shares(mesh, group(mesh, &traction.curve)?);
+                let value = traction.components.clone();
+                terms.push(Box::new(RigidTraction::new(body, &mesh.nodes, &shares, phase, value)));
+            }
+        }
+    }
+    Ok(terms)
+}
+
+/// What bodies do not do unless a phase prescribes it: walls, which have no mass and no cells, do not move. No body has a second
+/// component of its rotation, and none leaves the axis of symmetry.
+fn always_fixed(body: &Body<2>, is_wall: bool) -> Vec<Fixed> {
+    let fixed = |node: u32, component: usize| Fixed { nodes: vec![node], component };
+    let mut all = vec![match body.turning {
+        Some(node) => fixed(node, 1),
+        None => fixed(body.reference, 0),
+    }];
+    if is_wall {
+        all.extend([0, 1].map(|component| fixed(body.reference, component)));
+        all.extend(body.turning.map(|node| fixed(node, 0)));
+    }
+    all
+}
+
+/// A motion given to an entry of `supports` or `prescribe`.
+struct Given<'a> {
+    /// The name of a curve or a rigid body.
+    name: &'a str,
+    /// 0 for x, 1 for y, 2 for the rotation.
+    component: usize,
+    value: TimeValue,
+}
+
+/// What holds the nodes of a mesh, curve by curve, and rigid bodies.
+pub struct Holds<'a> {
+    case: &'a Case,
+    mesh: &'a Mesh<2>,
+    bodies: &'a [Body<2>],
+}
+
+impl<'a> Holds<'a> {
+    pub fn new(case: &'a Case, mesh: &'a Mesh<2>, bodies: &'a [Body<2>]) -> Self {
+        Self { case, mesh, bodies }
+    }
+
+    /// The supports of all phases.
+    ///
+    /// # Errors
+    /// Input: a name that the mesh has not; what [`Holds::check`] finds.
+    pub fn supports(&self) -> Result<Vec<Fixed>> {
+        let given = self.supported();
+        self.check("supports", &given)?;
+        let is_wall = |body: &Body<2>| !self.case.regions.iter().any(|r| is_region(self.mesh, body, &r.name));
+        let mut supports: Vec<Fixed> = self.bodies.iter().flat_map(|body| always_fixed(body, is_wall(body))).collect();
+        for entry in &given {
+            supports.extend(self.resolve(entry)?.into_iter().map(|p| p.fixed));
+        }
+        Ok(supports)
+    }
+
+    /// What is prescribed in a phase.
+    ///
+    /// # Errors
+    /// As [`Holds::supports`].
+    pub fn prescribed(&self, phase: &'a Phase) -> Result<Vec<Prescribed>> {
+        let entry = |p: &'a checked::Prescribed| Given {
+            name: &p.curve,
+            component: p.component,
+            value: p.displacement.clone(),
+        };
+        let own: Vec<Given> = phase.prescribed.iter().map(entry).collect();
+        let mut prescribed = Vec::new();
+        for entry in &own {
+            prescribed.extend(self.resolve(entry)?);
+        }
+        let all: Vec<Given> = own.into_iter().chain(self.supported()).collect();
+        self.check(&format!("phase {}", phase.name), &all)?;
+        Ok(prescribed)
+    }
+
+    fn supported(&self) -> Vec<Given<'a>> {
+        let mut given = Vec::new();
+        for support in &self.case.supports {
+            let held = [support.fixed[0], support.fixed[1], support.rotation];
+            for component in (0..3).filter(|&c| held[c]) {
+                given.push(Given { name: &support.curve, component, value: TimeValue::Constant(0.0) });
+            }
+        }
+        given
+    }
+
+    /// The body that an entry names, or that has all of a curve.
+    fn body(&self, name: &str) -> Option<&'a Body<2>> {
+        self.bodies.iter().find(|body| body_of(self.mesh, body, name))
+    }
+
+    /// The nodes that an entry moves. All of a curve moves alike: a body that has it does not turn.
+    fn resolve(&self, given: &Given) -> Result<Vec<Prescribed>> {
+        let one = |node: u32, component: usize, displacement: TimeValue| Prescribed {
+            fixed: Fixed { nodes: vec![node], component },
+            displacement,
+        };
+        let Some(body) = self.body(given.name) else {
+            let nodes = group(self.mesh, given.name)?.nodes.clone();
+            if self.bodies.iter().any(|body| nodes.iter().any(|n| body.nodes.binary_search(n).is_ok())) {
+                return Err(Error::input(
+                    format!("the curve `{}`", given.name),
+                    "some of it belongs to a rigid structure and some does not",
+                    "make two curves of it in the .geo",
+                ));
+            }
+            let fixed = Fixed { nodes, component: given.component };
+            return Ok(vec![Prescribed { fixed, displacement: given.value.clone() }]);
+        };
+        let mut all = Vec::new();
+        if given.component < 2 {
+            all.push(one(body.reference, given.component, given.value.clone()));
+        }
+        let turn = match given.component {
+            2 => Some(given.value.scaled(body.arm)),
+            _ => (!is_region(self.mesh, body, given.name)).then_some(TimeValue::Constant(0.0)),
+        };
+        all.extend(body.turning.zip(turn).map(|(node, turn)| one(node, 0, turn)));
+        Ok(all)
+    }
+
+    /// # Errors
+    /// Input: two entries that move a rigid body differently, a rotation that its curves rule out, one of a body
+    /// that cannot turn, or a way off the axis.
+    fn check(&self, place: &str, given: &[Given]) -> Result<()> {
+        let still = TimeValue::Constant(0.0);
+        for (i, entry) in given.iter().enumerate() {
+            let Some(body) = self.body(entry.name) else { continue };
+            let problem = |problem: String| {
+                Err(Error::input(place, problem, "prescribe the motion of a rigid structure once, by its name"))
+            };
+            let cannot = body.turning.is_none() && entry.component != 1 && entry.value != still;
+            if cannot {
+                return problem(format!("`{}` moves along the axis of symmetry only", entry.name));
+            }
+            let same = |other: &&Given| self.body(other.name) == Some(body);
+            for other in given[..i].iter().filter(same) {
+                let directions = ["x", "y", "rotation"];
+                if other.component == entry.component && other.value != entry.value {
+                    let direction = directions[entry.component];
+                    return problem(format!(
+                        "`{}` and `{}` move the same rigid structure differently ({direction})",
+                        other.name, entry.name
+                    ));
+                }
+            }
+            let turns = |e: &&Given| same(e) && e.component == 2 && e.value != still;
+            if entry.component < 2
+                && !is_region(self.mesh, body, entry.name)
+                && let Some(turns) = given.iter().find(turns)
+            {
+                return problem(format!(
+                    "the curve `{}` of a rigid structure moves alike all along, which rules out the rotation of `{}`",
+                    entry.name, turns.name
+                ));
+            }
+        }
+        Ok(())
+    }
+}
+
+pub fn is_region(mesh: &Mesh<2>, body: &Body<2>, name: &str) -> bool {
+    mesh.regions.get(body.region as usize).is_some_and(|region| region == name)
+}
+
+/// Whether `name` is that of a body or of a curve or point that belongs to it.
+pub fn body_of(mesh: &Mesh<2>, body: &Body<2>, name: &str) -> bool {
+    is_region(mesh, body, name)
+        || mesh.group(name).is_some_and(|g| g.nodes.iter().all(|n| body.nodes.binary_search(n).is_ok()))
+}

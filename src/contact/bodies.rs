@@ -1,0 +1,256 @@
+//! Contact between two bodies: the boundary of one and, seen from it along its normal, that of the other.
+//!
+//! Segments, hats and their conditions are those of the first. Segments are cut where a facet of the other boundary ends
+//! across them, and have two points of Gauss's rule between cuts: then a uniform pressure is handed on exactly between straight
+//! boundaries, whatever their meshes. What is across a point is a place on a facet of the other boundary, found where
+//! the two are at the beginning of the step: gap and slip are those of the displacements there, interpolated by its
+//! shape functions.
+
+use super::along::{Mark, lines};
+use super::law::{Law, Penalty};
+use super::pair::{FADING, Ground, Multipliers, NORMAL, Pair, Pushed, ROUNDING, Row, TANGENTIAL};
+use super::place::{Placed, Segments};
+use super::rigid::{Entry, add};
+use super::surface::{Segment, Surface};
+use crate::kinematics::Kinematics;
+use crate::mesh::shape::MAX_NODES;
+use crate::points::Points;
+use crate::surface::Bins;
+use std::marker::PhantomData;
+use std::ops::Range;
+
+/// How far (-) across a segment the other boundary is looked for, in distances of the hats.
+const REACH: f64 = 2.5;
+/// Cosine of the angle between the two normals from which on the boundaries face each other.
+const FACING: f64 = -0.3;
+/// Iterations for the place on a curved facet, which begin on its chord.
+const ITERATIONS: usize = 4;
+
+/// The boundary of a structure on that of another body.
+pub struct Bodies<K> {
+    /// The regions of both.
+    pub structure: u16,
+    pub against: u16,
+    /// The boundary with the hats, and the other one.
+    pub surface: Surface,
+    pub other: Surface,
+    pub law: Law,
+    /// Young's modulus (kPa) of the softer one.
+    pub young: f64,
+    pub kinematics: PhantomData<K>,
+}
+
+/// Places of Gauss's rule of two points in [0, 1].
+const GAUSS: [f64; 2] = [0.211_324_865_405_187_1, 0.788_675_134_594_812_9];
+
+/// A point of the boundary with the hats.
+struct Point {
+    x: [f64; 2],
+    /// Unit normal out of the structure.
+    normal: [f64; 2],
+    /// The area (m²) that it stands for.
+    area: f64,
+    /// Shape functions of the facet.
+    value: [f64; 3],
+}
+
+/// What is across a point: a facet of the other boundary, its shape functions there and the gap (m).
+struct Across {
+    facet: u32,
+    value: [f64; 3],
+    gap: f64,
+}
+
+impl<K: Kinematics<2>> Bodies<K> {
+    /// Where a segment is to be cut, as shares of it, ascending from 0 to 1.
+    fn cuts(&self, from: &Placed, bins: &Bins, position: &dyn Fn(u32) -> [f64; 2]) -> Vec<f64> {
+        let along = [0, 1].map(|d| from.to[d] - from.from[d]);
+        let square = along[0] * along[0] + along[1] * along[1];
+        let mut cuts = vec![0.0, 1.0];
+        for &s in bins.around(&from.middle).flatten() {
+            for &end in &self.other.facets[self.other.segments[s as usize].facet as usize][..2] {
+                let to = position(end);
+                let share = (0..2).map(|d| (to[d] - from.from[d]) * along[d]).sum::<f64>() / square;
+                let away = (0..2).map(|d| (to[d] - from.from[d]) * from.normal[d]).sum::<f64>();
+                if share > 1e-6 && share < 1.0 - 1e-6 && away.abs() <= REACH * self.surface.spacing {
+                    cuts.push(share);
+                }
+            }
+        }
+        cuts.sort_by(f64::total_cmp);
+        cuts.dedup_by(|a, b| *a - *b < 1e-6);
+        cuts
+    }
+
+    /// The points of a segment between its cuts.
+    fn points(&self, segment: &Segment, cuts: &[f64], position: &dyn Fn(u32) -> [f64; 2]) -> Vec<Point> {
+        let facet = &self.surface.facets[segment.facet as usize];
+        let point = |share: f64, part: f64| {
+            let xi = segment.from + share * (segment.to - segment.from);
+            let (x, tangent, value) = at(&self.surface, facet, xi, position);
+            let length = tangent[0].hypot(tangent[1]);
+            Point {
+                x,
+                normal: [tangent[1] / length, -tangent[0] / length],
+                area: part * (segment.to - segment.from) * length * K::measure(&x),
+                value,
+            }
+        };
+        let between = cuts.windows(2).flat_map(|cut| GAUSS.map(|g| (cut[0] + g * (cut[1] - cut[0]), cut[1] - cut[0])));
+        between.map(|(share, part)| point(share, 0.5 * part)).collect()
+    }
+
+    /// What a point sees along its normal.
+    fn across(
+        &self,
+        from: &Point,
+        other: &Segments,
+        bins: &Bins,
+        position: &dyn Fn(u32) -> [f64; 2],
+    ) -> Option<Across> {
+        let (x, n) = (from.x, from.normal);
+        let mut best: Option<(f64, usize, f64)> = None;
+        for &s in bins.around(&x).flatten() {
+            let to = &other.0[s as usize];
+            if to.normal[0] * n[0] + to.normal[1] * n[1] > FACING {
+                continue;
+            }
+            let along = [0, 1].map(|d| to.to[d] - to.from[d]);
+            let start = [0, 1].map(|d| to.from[d] - x[d]);
+            // x + t n = from + share along
+            let share = (start[1] * n[0] - start[0] * n[1]) / (along[0] * n[1] - along[1] * n[0]);
+            let t = (0..2).map(|d| (start[d] + share * along[d]) * n[d]).sum::<f64>();
+            let seen = (-1e-9..=1.0 + 1e-9).contains(&share) && t.abs() <= REACH * self.surface.spacing;
+            if seen && best.is_none_or(|(other, ..)| t.abs() < other.abs()) {
+                best = Some((t, s as usize, share));
+            }
+        }
+        let (_, s, share) = best?;
+        let segment = &self.other.segments[s];
+        let facet = &self.other.facets[segment.facet as usize];
+        let mut xi = segment.from + share * (segment.to - segment.from);
+        let (mut value, mut away) = ([0.0; 3], [0.0; 2]);
+        for _ in 0..ITERATIONS {
+            let (y, tangent, values) = at(&self.other, facet, xi, position);
+            (away, value) = ([y[0] - x[0], y[1] - x[1]], values);
+            // Along the normal there is nothing across it.
+            let off = away[1] * n[0] - away[0] * n[1];
+            xi = (xi - off / (tangent[1] * n[0] - tangent[0] * n[1])).clamp(-1.0, 1.0);
+        }
+        Some(Across { facet: segment.facet, value, gap: away[0] * n[0] + away[1] * n[1] })
+    }
+}
+
+/// The place on a facet at `xi`, its derivative, and the shape functions there.
+fn at(surface: &Surface, facet: &[u32], xi: f64, position: &dyn Fn(u32) -> [f64; 2]) -> ([f64; 2], [f64; 2], [f64; 3]) {
+    let (mut value, mut slope) = ([0.0; MAX_NODES], [[0.0; 3]; MAX_NODES]);
+    surface.kind.values(&[xi, 0.0, 0.0], &mut value);
+    surface.kind.derivatives(&[xi, 0.0, 0.0], &mut slope);
+    let (mut x, mut tangent, mut values) = ([0.0; 2], [0.0; 2], [0.0; 3]);
+    for (i, &node) in facet.iter().enumerate() {
+        let y = position(node);
+        values[i] = value[i];
+        for d in 0..2 {
+            x[d] += value[i] * y[d];
+            tangent[d] += slope[i][0] * y[d];
+        }
+    }
+    (x, tangent, values)
+}
+
+/// What is summed up under a hat: on both sides.
+#[derive(Clone, Default)]
+struct Sum {
+    area: f64,
+    gap: f64,
+    sides: [Vec<Entry<2>>; 2],
+}
+
+impl<K: Kinematics<2>> Pair<2> for Bodies<K> {
+    fn structure(&self) -> u16 {
+        self.structure
+    }
+
+    fn against(&self) -> Option<u16> {
+        Some(self.against)
+    }
+
+    fn hats(&self) -> usize {
+        self.surface.hats
+    }
+
+    fn runs(&self) -> &[(Range<usize>, bool)] {
+        &self.surface.runs
+    }
+
+    fn law(&self) -> &Law {
+        &self.law
+    }
+
+    fn rows(&self, _: &Ground<2>, position: &dyn Fn(u32) -> [f64; 2], held: &Multipliers) -> Vec<Row<2>> {
+        let segments = Segments::new::<K>(&self.surface, position);
+        let other = Segments::new::<K>(&self.other, position);
+        let longest = other.0.iter().map(|s| (s.to[0] - s.from[0]).hypot(s.to[1] - s.from[1])).fold(0.0, f64::max);
+        let bins = Bins::new(other.0.iter().map(|s| (s.from, s.to)), REACH * self.surface.spacing + longest);
+        let mut sums = vec![Sum::default(); self.surface.hats];
+        for (segment, placed) in self.surface.segments.iter().zip(&segments.0) {
+            let own = &self.surface.facets[segment.facet as usize];
+            let cuts = self.cuts(placed, &bins, position);
+            for point in self.points(segment, &cuts, position) {
+                let Some(across) = self.across(&point, &other, &bins, position) else { continue };
+                let facets = [(own, point.value, -1.0), (&self.other.facets[across.facet as usize], across.value, 1.0)];
+                let n = point.normal;
+                let t = [-n[1], n[0]];
+                for (hat, share) in segment.hats {
+                    let weight = share * point.area;
+                    let sum = &mut sums[hat as usize];
+                    sum.area += weight;
+                    sum.gap += weight * across.gap;
+                    for (side, (facet, values, sign)) in sum.sides.iter_mut().zip(&facets) {
+                        for (&node, value) in facet.iter().zip(values) {
+                            let by = sign * weight * value;
+                            add(side, node, &n.map(|n| by * n), &t.map(|t| by * t));
+                        }
+                    }
+                }
+            }
+        }
+        let stiffness = self.young / self.surface.spacing;
+        let row = |(hat, sum): (usize, Sum)| {
+            let area = (sum.area > 0.0).then_some(sum.area)?;
+            let entries = || sum.sides.iter().flatten();
+            Some(Row {
+                hat: hat as u32,
+                area,
+                gap: sum.gap / area,
+                offset: 0.0,
+                own: sum.sides[0].len(),
+                nodes: entries().map(|e| e.0).collect(),
+                by_normal: entries().map(|e| e.1.map(|n| n / area)).collect(),
+                by_tangent: entries().map(|e| e.2.map(|t| t / area)).collect(),
+                penalty: Penalty {
+                    pressure: held.pressure[hat],
+                    shear: held.shear[hat],
+                    normal: NORMAL * stiffness,
+                    tangential: TANGENTIAL * stiffness,
+                    rounding: ROUNDING * held.mean_pressure(),
+                    fading: FADING * self.surface.spacing,
+                    strength: f64::INFINITY,
+                },
+            })
+        };
+        sums.into_iter().enumerate().filter_map(row).collect()
+    }
+
+    fn outlines(&self, _: &dyn Fn(u32) -> [f64; 2]) -> Vec<Vec<[f64; 2]>> {
+        Vec::new()
+    }
+
+    fn lines(&self, position: &dyn Fn(u32) -> [f64; 2]) -> Vec<Vec<Mark<2>>> {
+        lines(&self.surface, &Segments::new::<K>(&self.surface, position))
+    }
+
+    fn push_out(&self, _: &mut Points<2>, _: &dyn Fn(u32) -> [f64; 2]) -> Pushed {
+        Pushed::default()
+    }
+}

@@ -1,0 +1,212 @@
+//! Contact of rigid bodies: the conditions of a pair by the unknowns of the bodies in place of their nodes.
+//!
+//! A node at `r` from the reference point moves by `Δc + Δθ e_z × r`, so that the derivatives of gap and slip by its
+//! displacement add up to one by that of the reference point and one by the rotation.
+
+use super::along::Mark;
+use super::law::Law;
+use super::pair::{Ground, Multipliers, Pair, Pushed, Row};
+use crate::points::Points;
+use crate::rigid::Body;
+use std::ops::Range;
+
+/// A pair with a rigid side, or two.
+pub struct Rigid<const D: usize> {
+    pair: Box<dyn Pair<D>>,
+    bodies: Vec<Body<D>>,
+    /// The number of the body of each node, else `u32::MAX`.
+    body: Vec<u32>,
+}
+
+impl<const D: usize> Rigid<D> {
+    /// `pair` with `bodies` that keep their shape, in a mesh with so many nodes.
+    pub fn new(pair: Box<dyn Pair<D>>, bodies: &[Body<D>], nodes: usize) -> Self {
+        let mut body = vec![u32::MAX; nodes];
+        for (b, of) in (0..).zip(bodies) {
+            for &n in &of.nodes {
+                body[n as usize] = b;
+            }
+        }
+        Self { pair, bodies: bodies.to_vec(), body }
+    }
+
+    /// The row by the unknowns of the bodies: first the nodes of the structure that move it, then those that turn it,
+    /// then those of the other side.
+    fn condense(&self, row: Row<D>, position: &dyn Fn(u32) -> [f64; D]) -> Row<D> {
+        let mut sides: [Vec<Entry<D>>; 3] = Default::default();
+        for (k, &n) in row.nodes.iter().enumerate() {
+            let own = k < row.own;
+            let [moving, turning] = if own { [0, 1] } else { [2, 2] };
+            let (normal, tangent) = (&row.by_normal[k], &row.by_tangent[k]);
+            let Some(body) = self.bodies.get(self.body[n as usize] as usize) else {
+                sides[moving].push((n, *normal, *tangent));
+                continue;
+            };
+            let (x, c) = (position(n), position(body.reference));
+            let arm = std::array::from_fn(|d| x[d] - c[d]);
+            let (normal, tangent) = (body.hand_on(&arm, normal), body.hand_on(&arm, tangent));
+            for ((carrier, side), (normal, tangent)) in
+                body.carriers().zip([moving, turning]).zip(normal.into_iter().zip(tangent))
+            {
+                add(&mut sides[side], carrier, &normal, &tangent);
+            }
+        }
+        let own = sides[0].len();
+        let entries = || sides.iter().flatten();
+        Row {
+            own,
+            nodes: entries().map(|e| e.0).collect(),
+            by_normal: entries().map(|e| e.1).collect(),
+            by_tangent: entries().map(|e| e.2).collect(),
+            ..row
+        }
+    }
+}
+
+/// A node, and the derivatives of gap and slip by its displacement.
+pub type Entry<const D: usize> = (u32, [f64; D], [f64; D]);
+
+/// Adds to the entry of a node.
+pub fn add<const D: usize>(entries: &mut Vec<Entry<D>>, node: u32, normal: &[f64; D], tangent: &[f64; D]) {
+    match entries.iter_mut().find(|(n, ..)| *n == node) {
+        Some((_, n, t)) => {
+            for d in 0..D {
+                n[d] += normal[d];
+                t[d] += tangent[d];
+            }
+        }
+        None => entries.push((node, *normal, *tangent)),
+    }
+}
+
+impl<const D: usize> Pair<D> for Rigid<D> {
+    fn structure(&self) -> u16 {
+        self.pair.structure()
+    }
+
+    fn against(&self) -> Option<u16> {
+        self.pair.against()
+    }
+
+    fn hats(&self) -> usize {
+        self.pair.hats()
+    }
+
+    fn runs(&self) -> &[(Range<usize>, bool)] {
+        self.pair.runs()
+    }
+
+    fn law(&self) -> &Law {
+        self.pair.law()
+    }
+
+    fn rows(&self, ground: &Ground<D>, position: &dyn Fn(u32) -> [f64; D], held: &Multipliers) -> Vec<Row<D>> {
+        self.pair.rows(ground, position, held).into_iter().map(|row| self.condense(row, position)).collect()
+    }
+
+    fn outlines(&self, position: &dyn Fn(u32) -> [f64; D]) -> Vec<Vec<[f64; D]>> {
+        self.pair.outlines(position)
+    }
+
+    fn lines(&self, position: &dyn Fn(u32) -> [f64; D]) -> Vec<Vec<Mark<D>>> {
+        self.pair.lines(position)
+    }
+
+    fn push_out(&self, points: &mut Points<D>, position: &dyn Fn(u32) -> [f64; D]) -> Pushed {
+        self.pair.push_out(points, position)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::law::Penalty;
+    use super::*;
+    use crate::mesh::Mesh;
+
+    /// A pair with one row, between nodes 0 and 1 of a body and node 2 of soil.
+    struct One(Law);
+
+    impl Pair<2> for One {
+        fn structure(&self) -> u16 {
+            0
+        }
+
+        fn hats(&self) -> usize {
+            1
+        }
+
+        fn runs(&self) -> &[(Range<usize>, bool)] {
+            &[]
+        }
+
+        fn law(&self) -> &Law {
+            &self.0
+        }
+
+        fn rows(&self, _: &Ground<2>, _: &dyn Fn(u32) -> [f64; 2], _: &Multipliers) -> Vec<Row<2>> {
+            vec![row()]
+        }
+
+        fn outlines(&self, _: &dyn Fn(u32) -> [f64; 2]) -> Vec<Vec<[f64; 2]>> {
+            Vec::new()
+        }
+
+        fn lines(&self, _: &dyn Fn(u32) -> [f64; 2]) -> Vec<Vec<Mark<2>>> {
+            Vec::new()
+        }
+
+        fn push_out(&self, _: &mut Points<2>, _: &dyn Fn(u32) -> [f64; 2]) -> Pushed {
+            Pushed::default()
+        }
+    }
+
+    fn row() -> Row<2> {
+        Row {
+            hat: 0,
+            area: 1.0,
+            gap: 0.3,
+            offset: 0.0,
+            nodes: vec![0, 1, 2],
+            own: 2,
+            by_normal: vec![[-0.2, -0.3], [-0.4, -0.1], [0.6, 0.4]],
+            by_tangent: vec![[0.3, -0.2], [0.1, -0.4], [-0.4, 0.6]],
+            penalty: Penalty {
+                pressure: 0.0,
+                shear: 0.0,
+                normal: 1.0,
+                tangential: 1.0,
+                rounding: 0.0,
+                fading: 0.0,
+                strength: 0.0,
+            },
+        }
+    }
+
+    /// Gap and slip under a small motion of the body are those that its nodes give.
+    #[test]
+    fn a_body_opens_the_gap_as_its_nodes_do() {
+        let mut mesh = Mesh { nodes: vec![[1.0, 0.5], [2.0, -0.5], [1.0, -2.0], [3.0, 1.5]], ..Mesh::default() };
+        let body = Body::append(&mut mesh, 0, vec![0, 1, 3], &Points::default(), true);
+        let law = Law { friction: 0.0, adhesion: 0.0, factor: None, separates: true };
+        let pair = Rigid::new(Box::new(One(law)), std::slice::from_ref(&body), mesh.nodes.len());
+        let condensed = pair.condense(row(), &|n| mesh.nodes[n as usize]);
+        assert_eq!((condensed.own, &condensed.nodes[..]), (1, &[4, 5, 2][..]));
+        let (moved, turned, soil) = ([2e-6, -3e-6], 1e-6, [1e-6, 5e-6]);
+        let pose = crate::rigid::Pose { moved, turned };
+        let by_nodes = row().measure(|n| match n {
+            2 => soil,
+            n => {
+                let x = mesh.nodes[n as usize];
+                let to = body.place(&mesh, &pose, &x);
+                [to[0] - x[0], to[1] - x[1]]
+            }
+        });
+        let by_body = condensed.measure(|n| match n {
+            2 => soil,
+            4 => moved,
+            _ => [turned * body.arm, 0.0],
+        });
+        assert!((by_nodes.0 - by_body.0).abs() < 1e-11 && (by_nodes.1 - by_body.1).abs() < 1e-11);
+        assert!((by_body.0 - 0.3).abs() > 1e-6 && by_body.1.abs() > 1e-6, "{by_body:?}");
+    }
+}

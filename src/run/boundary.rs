@@ -1,0 +1,54 @@
+//! What frames hold of contact: the values of the hats along the boundaries of structures, as lines.
+
+use super::record::{column, triples};
+use crate::io::frame::{FACES, LINE, Part, REGION};
+use crate::step::{Scene, State};
+
+/// The lines of all pairs in contact, with what their hats came to in the last step; empty without contact.
+///
+/// Pressure (kPa, compression positive), shear (kPa) on the soil and slip (m) since the run began, positive along the
+/// boundary with the structure on the left, and gap (m, positive where they are apart). Between hats they are
+/// linear. The gap of a hat that has no soil before it is not known: [`FACES`] is 0 wherever it counts.
+pub fn part<const D: usize>(scene: &Scene<D>, state: &State<D>) -> Part {
+    if scene.pairs.is_empty() {
+        return Part::default();
+    }
+    let from = if state.nodes.is_empty() { &scene.mesh.nodes } else { &state.nodes };
+    let position = |n: u32| {
+        let (x, u) = (&from[n as usize], &state.displacement[n as usize]);
+        std::array::from_fn(|d| x[d] + u[d])
+    };
+    let mut place = Vec::new();
+    let [mut pressure, mut shear, mut gap, mut slip] = [const { Vec::new() }; 4];
+    let [mut number, mut region, mut faces] = [const { Vec::new() }; 3];
+    let mut lines = 0;
+    for (i, pair) in scene.pairs.iter().enumerate() {
+        // Before the first step nothing is known yet.
+        let held = state.multipliers.get(i);
+        for line in pair.lines(&position) {
+            for mark in &line {
+                let known =
+                    held.is_some_and(|h| mark.hats.iter().all(|&(k, share)| share == 0.0 || h.faces[k as usize]));
+                place.push(mark.place);
+                pressure.push(held.map_or(0.0, |h| mark.value(&h.pressure)));
+                shear.push(held.map_or(0.0, |h| mark.value(&h.shear)));
+                gap.push(held.filter(|_| known).map_or(0.0, |h| mark.value(&h.gap)));
+                slip.push(held.map_or(0.0, |h| mark.value(&h.slid)));
+                number.push(f64::from(lines));
+                region.push(f64::from(pair.structure()));
+                faces.push(f64::from(u8::from(known)));
+            }
+            lines += 1;
+        }
+    }
+    let columns = vec![
+        column("contact_pressure", "kPa", 1, pressure),
+        column("contact_shear", "kPa", 1, shear),
+        column("contact_gap", "m", 1, gap),
+        column("contact_slip", "m", 1, slip),
+        column(LINE, "-", 1, number),
+        column(REGION, "-", 1, region),
+        column(FACES, "-", 1, faces),
+    ];
+    Part { position: triples(&place), columns }
+}

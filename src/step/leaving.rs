@@ -1,0 +1,46 @@
+//! Structures that leave the grid.
+
+use super::scene::Scene;
+use crate::contact::{Ground, Multipliers, Pair, Row};
+use crate::error::{Error, Result};
+
+/// Refuses a hat that touched soil in the step before, as `held` has it, has no condition among the `rows` of this one, and
+/// is where the grid has no cells: the soil there has no freedom to answer with, and contact would be lost without a word.
+/// Two bodies need no grid between them, and a wall may leave it: its curve is often the end of it, and soil that follows
+/// leaves the grid itself.
+///
+/// # Errors
+/// Analysis: the structure and where its boundary is.
+pub fn check<const D: usize>(
+    scene: &Scene<D>,
+    pair: &dyn Pair<D>,
+    held: &Multipliers,
+    rows: &[Row<D>],
+    ground: &Ground<D>,
+    position: &dyn Fn(u32) -> [f64; D],
+) -> Result<()> {
+    let mut lost: Vec<bool> = held.pressure.iter().map(|&p| p != 0.0).collect();
+    rows.iter().for_each(|row| lost[row.hat as usize] = false);
+    let is_wall = || !scene.fem.as_ref().is_some_and(|fem| fem.mesh.cells.region.contains(&pair.structure()));
+    if !lost.contains(&true) || pair.against().is_some() || is_wall() {
+        return Ok(());
+    }
+    // Where a hat is: the mark at which it is largest.
+    let mut places = vec![(0.0, [0.0; D]); lost.len()];
+    for mark in pair.lines(position).iter().flatten() {
+        for (hat, share) in mark.hats {
+            if share > places[hat as usize].0 {
+                places[hat as usize] = (share, mark.place);
+            }
+        }
+    }
+    let outside = |x: &[f64; D]| ground.locator.locate(ground.grid, x, None).is_none();
+    let left = lost.iter().zip(&places).find(|(lost, (_, place))| **lost && outside(place));
+    let Some((_, (_, place))) = left else { return Ok(()) };
+    let name = scene.mesh.regions.get(pair.structure() as usize).map_or("", String::as_str);
+    Err(Error::analysis(
+        format!("structure `{name}`"),
+        format!("its boundary, in contact near {place:.3?} m, has left the grid"),
+        "extend the regions of kind mpm and buffer in the .geo beyond the way of the structure, or end the phase before",
+    ))
+}

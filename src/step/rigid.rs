@@ -1,0 +1,121 @@
+//! The rigid bodies of a run: their nodes and points follow their unknowns.
+//!
+//! Within a step contact sees a body move along the tangent of its motion. Once the step has converged its nodes and points
+//! are placed by the rotation itself, from where they were when the run began, so that it keeps its shape.
+
+use super::grid::Grid;
+use super::scene::Scene;
+use super::state::State;
+use super::transfer::Start;
+use crate::rigid::{Body, Pose};
+use crate::system::{Matrix, Pattern};
+use crate::tensor::Tensor;
+
+/// How far node `n` has come when its displacement since the restoration is `displacement`.
+fn travel<const D: usize>(state: &State<D>, displacement: &[[f64; D]], n: u32) -> [f64; D] {
+    let n = n as usize;
+    std::array::from_fn(|d| state.travel[n][d] + displacement[n][d] - state.displacement[n][d])
+}
+
+/// Completes the `displacement` at the end of a step by that of the nodes of rigid bodies.
+pub fn follow<const D: usize>(scene: &Scene<D>, state: &State<D>, displacement: &mut [[f64; D]]) {
+    for body in &scene.bodies {
+        let pose = body.pose(|n| travel(state, displacement, n));
+        for &n in &body.nodes {
+            let n = n as usize;
+            let from = state.nodes.get(n).unwrap_or(&scene.mesh.nodes[n]);
+            let to = body.place(&scene.mesh, &pose, &scene.mesh.nodes[n]);
+            displacement[n] = std::array::from_fn(|d| to[d] - from[d]);
+        }
+    }
+}
+
+/// Moves the points of rigid bodies to the pose at the end of a step.
+pub fn move_points<const D: usize>(scene: &Scene<D>, state: &mut State<D>, displacement: &[[f64; D]]) {
+    for body in &scene.bodies {
+        let pose = body.pose(|n| travel(state, displacement, n));
+        let rotation = rotation(&pose);
+        for p in 0..state.fem.len() {
+            if state.fem.region[p] == body.region {
+                state.fem.position[p] = body.place(&scene.mesh, &pose, &state.fem.origin[p]);
+                state.fem.deformation[p] = rotation;
+            }
+        }
+    }
+}
+
+fn rotation<const D: usize>(pose: &Pose<D>) -> Tensor {
+    let mut rotation = Tensor::identity();
+    for j in 0..D {
+        let unit: [f64; D] = std::array::from_fn(|d| if d == j { 1.0 } else { 0.0 });
+        for (i, v) in pose.turn(&unit).iter().enumerate() {
+            rotation[(i, j)] = *v;
+        }
+    }
+    rotation
+}
+
+/// Where the reference point of a body is.
+fn centre<const D: usize>(scene: &Scene<D>, body: &Body<D>, state: &State<D>) -> [f64; D] {
+    let pose = body.pose(|n| state.travel[n as usize]);
+    body.place(&scene.mesh, &pose, &scene.mesh.nodes[body.reference as usize])
+}
+
+fn arm<const D: usize>(centre: &[f64; D], x: &[f64; D]) -> [f64; D] {
+    std::array::from_fn(|d| x[d] - centre[d])
+}
+
+/// Hands the motion of bodies to their points, and their velocity to their nodes.
+pub fn motion_to_points<const D: usize>(scene: &Scene<D>, state: &mut State<D>) {
+    for body in &scene.bodies {
+        let centre = centre(scene, body, state);
+        for p in (0..state.fem.len()).filter(|&p| state.fem.region[p] == body.region) {
+            let arm = arm(&centre, &state.fem.position[p]);
+            state.fem.velocity[p] = body.motion(&arm, &state.velocity);
+            state.fem.acceleration[p] = body.motion(&arm, &state.acceleration);
+        }
+        for &n in &body.nodes {
+            let n = n as usize;
+            let from = state.nodes.get(n).unwrap_or(&scene.mesh.nodes[n]);
+            let x = std::array::from_fn(|d| from[d] + state.displacement[n][d]);
+            state.velocity[n] = body.motion(&arm(&centre, &x), &state.velocity);
+        }
+    }
+}
+
+/// Adds momentum and moment of momentum of the points of bodies, and the same of their accelerations, to the right-hand
+/// sides of the nodes, one entry a block.
+pub fn momentum<const D: usize>(scene: &Scene<D>, grid: &Grid<D>, state: &State<D>, right: &mut [Vec<[f64; D]>; 2]) {
+    for body in &scene.bodies {
+        let centre = centre(scene, body, state);
+        for p in (0..state.fem.len()).filter(|&p| state.fem.region[p] == body.region) {
+            let arm = arm(&centre, &state.fem.position[p]);
+            for (right, field) in right.iter_mut().zip([&state.fem.velocity, &state.fem.acceleration]) {
+                let share = body.hand_on(&arm, &field[p].map(|v| state.fem.mass[p] * v));
+                for (n, share) in body.carriers().zip(share) {
+                    let sum = &mut right[grid.block[n as usize] as usize];
+                    *sum = std::array::from_fn(|d| sum[d] + share[d]);
+                }
+            }
+        }
+    }
+}
+
+/// Adds mass and inertia of bodies to the mass of the nodes.
+pub fn add_mass<const D: usize>(scene: &Scene<D>, block: &[u32], pattern: &Pattern, mass: &mut Matrix) {
+    for body in &scene.bodies {
+        for (n, value) in body.carriers().zip([body.mass, body.inertia / body.arm.powi(2)]) {
+            mass.add_diagonal(pattern, block[n as usize] as usize, value);
+        }
+    }
+}
+
+/// Momentum (t m/s) that bodies take on at once where the step prescribes their motion.
+pub fn impulse<const D: usize>(scene: &Scene<D>, state: &State<D>, start: &Start<D>) -> [f64; D] {
+    let mut impulse = [0.0; D];
+    for body in &scene.bodies {
+        let n = body.reference as usize;
+        impulse = std::array::from_fn(|d| impulse[d] + body.mass * (start.velocity[n][d] - state.velocity[n][d]));
+    }
+    impulse
+}

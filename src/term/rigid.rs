@@ -1,0 +1,137 @@
+//! What acts on rigid bodies: their weight, their inertia and dead tractions on their boundary.
+//!
+//! The reference point is the centroid, so that `m a` and `J α` are uncoupled and the weight has no moment. A dead
+//! traction keeps its direction: its moment `Σ (R r) × f` turns with the body.
+
+use super::{Assembly, Frame, Role, Term, Trial};
+use crate::error::Result;
+use crate::rigid::{Body, Pose};
+use crate::time_value::TimeValue;
+
+/// Adds a force (kN) to the equations of node `n`.
+fn add<const D: usize>(frame: &Frame<D>, n: u32, force: &[f64; D], out: &mut Assembly) {
+    let first = frame.pattern.start[frame.block[n as usize] as usize] as usize;
+    for (entry, force) in out.force[first..].iter_mut().zip(force) {
+        *entry += force;
+    }
+}
+
+/// Gravity on a body, times a factor in the phase's time.
+pub struct RigidWeight<const D: usize> {
+    reference: u32,
+    /// Weight (kN).
+    weight: [f64; D],
+    factors: Vec<TimeValue>,
+}
+
+impl<const D: usize> RigidWeight<D> {
+    /// `factors[i]` scales `gravity` (m/s²) in phase `i`.
+    pub fn new(body: &Body<D>, gravity: [f64; D], factors: Vec<TimeValue>) -> Self {
+        Self { reference: body.reference, weight: gravity.map(|g| body.mass * g), factors }
+    }
+}
+
+impl<const D: usize> Term<D> for RigidWeight<D> {
+    fn role(&self) -> Role {
+        Role::External
+    }
+
+    fn assemble(&self, frame: &Frame<D>, trial: &Trial<D>, out: &mut Assembly) -> Result<()> {
+        let factor = self.factors[trial.phase].at(trial.time);
+        add(frame, self.reference, &self.weight.map(|w| -factor * w), out);
+        Ok(())
+    }
+}
+
+/// Inertia of a body.
+pub struct RigidInertia {
+    /// Nodes with what resists their acceleration (t).
+    masses: Vec<(u32, f64)>,
+}
+
+impl RigidInertia {
+    pub fn new<const D: usize>(body: &Body<D>) -> Self {
+        Self { masses: body.carriers().zip([body.mass, body.inertia / body.arm.powi(2)]).collect() }
+    }
+}
+
+impl<const D: usize> Term<D> for RigidInertia {
+    fn role(&self) -> Role {
+        Role::Inertia
+    }
+
+    fn assemble(&self, frame: &Frame<D>, trial: &Trial<D>, out: &mut Assembly) -> Result<()> {
+        for &(n, mass) in &self.masses {
+            add(frame, n, &trial.acceleration[n as usize].map(|a| mass * a), out);
+            let first = frame.pattern.start[frame.block[n as usize] as usize] as usize;
+            for e in first..first + D {
+                if let Some(tangent) = &mut out.tangent {
+                    tangent.add_diagonal(frame.pattern, e, mass * trial.acceleration_slope);
+                }
+            }
+        }
+        Ok(())
+    }
+}
+
+/// A dead traction on a curve of a body.
+pub struct RigidTraction<const D: usize> {
+    body: Body<D>,
+    /// Where the turning node was when the run began.
+    origin: [f64; D],
+    phase: usize,
+    /// Traction components (kPa) in time.
+    value: [TimeValue; D],
+    /// Area (m²) of the curve, and its first moment (m³) about the reference point when the run began.
+    area: f64,
+    moment: [f64; D],
+}
+
+impl<const D: usize> RigidTraction<D> {
+    /// The traction `value` in `phase` on nodes at `position` (m), each with its share (m²) of the area.
+    pub fn new(
+        body: &Body<D>,
+        position: &[[f64; D]],
+        shares: &[(u32, f64)],
+        phase: usize,
+        value: [TimeValue; D],
+    ) -> Self {
+        let origin = position[body.reference as usize];
+        let mut moment = [0.0; D];
+        for &(n, area) in shares {
+            let x = &position[n as usize];
+            moment = std::array::from_fn(|d| moment[d] + area * (x[d] - origin[d]));
+        }
+        Self { body: body.clone(), origin, phase, value, area: shares.iter().map(|(_, a)| a).sum(), moment }
+    }
+}
+
+impl<const D: usize> Term<D> for RigidTraction<D> {
+    fn role(&self) -> Role {
+        Role::External
+    }
+
+    fn assemble(&self, frame: &Frame<D>, trial: &Trial<D>, out: &mut Assembly) -> Result<()> {
+        if trial.phase != self.phase {
+            return Ok(());
+        }
+        let t: [f64; D] = std::array::from_fn(|d| self.value[d].at(trial.time));
+        add(frame, self.body.reference, &t.map(|t| -self.area * t), out);
+        let Some(turning) = self.body.turning else { return Ok(()) };
+        let travel = |n: u32| -> [f64; D] {
+            let (from, by) = (&frame.mesh.nodes[n as usize], &trial.between[n as usize]);
+            std::array::from_fn(|d| from[d] + by[d] - self.origin[d])
+        };
+        let pose: Pose<D> = self.body.pose(travel);
+        let arm = pose.turn(&self.moment);
+        let [_, moment] = self.body.hand_on(&arm, &t);
+        add(frame, turning, &moment.map(|m| -m), out);
+        if let Some(tangent) = &mut out.tangent {
+            let against: f64 = arm.iter().zip(&t).map(|(r, t)| r * t).sum();
+            let first = frame.pattern.start[frame.block[turning as usize] as usize] as usize;
+            let slope = (1.0 - trial.alpha_f) * against / self.body.arm.powi(2);
+            tangent.add_diagonal(frame.pattern, first, slope);
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,76 @@
+//! Walls: curves that soil slides along, and that move.
+
+use crate::{history, refused};
+
+const WALL: &str = "tests/data/wall";
+const GRAVITY: f64 = 9.81;
+
+/// A block of soil slides down a wall with `g (sin θ − tan δ cos θ)`, across a dozen cells …
+#[test]
+fn a_block_of_soil_slides_down_a_wall() {
+    let rows = history(WALL, &[]);
+    let (sin, cos) = 20f64.to_radians().sin_cos();
+    let row = rows.last().unwrap();
+    let way = 0.5 * GRAVITY * (sin - 0.2 * cos) * row[0].powi(2);
+    let (along, across) = (row[1] * cos - row[2] * sin, row[1] * sin + row[2] * cos);
+    println!("way {along:.6} of {way:.6} m, lifted by {across:.1e} m");
+    assert!((along / way - 1.0).abs() < 2e-3 && across.abs() < 0.01 * 0.25, "{along} {way} {across}");
+    // What the wall bears, held where it is, on the whole way: a tonne. It has friction all the way.
+    let mean = |i: usize| rows.iter().map(|row| row[i]).sum::<f64>() / rows.len() as f64;
+    let (x, y) = (mean(7), mean(8));
+    let (normal, shear) = (-x * sin - y * cos, x * cos - y * sin);
+    println!("normal force {normal:.4} of {:.4}, shear over it {:.5}", GRAVITY * cos, shear / normal);
+    assert!((normal / (GRAVITY * cos) - 1.0).abs() < 0.01 && (shear / normal - 0.2).abs() < 1e-3, "{normal} {shear}");
+    let balances = |row: &Vec<f64>| (7..9).all(|i| (row[i] + row[i + 2]).abs() < 1e-12 * GRAVITY);
+    assert!(rows.iter().all(|row| row[5..7] == [0.0; 2] && balances(row)));
+}
+
+/// … and rests on it where friction holds it, once it has settled.
+#[test]
+fn a_block_of_soil_rests_on_a_wall() {
+    let rows = history(WALL, &["contacts[0].friction=0.37", "numerics.spectral_radius=0.5"]);
+    let at = |time: f64| rows.iter().find(|row| row[0] > time - 1e-9).unwrap()[1];
+    assert!((at(1.0) - at(0.8)).abs() < 1e-6, "{} {}", at(0.8), at(1.0));
+}
+
+/// A wall that moves on takes soil along with `tan δ g` until both go at the same speed.
+#[test]
+fn a_wall_that_moves_takes_soil_along() {
+    let belt = ["mesh.parameters.angle=0", "phases[0].prescribe={slope: {ux: {rate: 1}}}", "phases[0].duration=0.8"];
+    for row in &history(WALL, &belt) {
+        let (t, a) = (row[0], 0.2 * GRAVITY);
+        let way = if t < 1.0 / a { 0.5 * a * t * t } else { t - 0.5 / a };
+        assert!((row[1] - way).abs() < 5e-4 && (row[5] - t).abs() < 1e-12, "{row:?} {way}");
+    }
+}
+
+/// A wall that is drawn from under soil, over the side of the grid, goes on holding what is left on it.
+#[test]
+fn a_wall_that_leaves_the_grid_holds_soil_on_it() {
+    let belt = [
+        "mesh.parameters.angle=0",
+        "phases[0].prescribe={slope: {ux: {rate: -1}}}",
+        "phases[0].duration=0.5",
+        "gravity.x=2.4525",
+    ];
+    let rows = history(WALL, &belt);
+    let row = rows.last().unwrap();
+    let way = 0.5 * (2.4525 - 0.2 * GRAVITY) * row[0].powi(2);
+    println!("way {:.6} of {way:.6} m", row[1]);
+    assert!((row[1] / way - 1.0).abs() < 0.01 && (row[5] + 0.5).abs() < 1e-12, "{row:?} {way}");
+}
+
+#[test]
+fn walls_that_cannot_be_are_told() {
+    let refused = |overrides: &[&str], words: &[&str]| refused(WALL, overrides, words);
+    refused(&["contacts=[{wall: slop, soil: soil}]"], &["no physical curve `slop`", "did you mean `slope`?"]);
+    refused(&["contacts=[{soil: soil}]"], &["contacts[0]", "no structure", "wall: …"]);
+    refused(&["contacts=[{wall: slope}]"], &["contacts[0]", "nothing that is touched"]);
+    refused(&["contacts=[{wall: slope, structure: soil, soil: soil}]"], &["both a structure and a wall"]);
+    refused(&["contacts=[{wall: slope, against: soil}]"], &["a wall is one for soil only"]);
+    let both = "regions={soil: {kind: mpm, material: rock}, air: {kind: mpm, material: rock}}";
+    refused(
+        &[both, "output.history=[]", "contacts=[{wall: side, soil: [soil, air]}]"],
+        &["the wall `side`", "both of its sides"],
+    );
+}
