@@ -8,7 +8,7 @@
 
 use super::along::{Mark, lines};
 use super::law::{Law, Penalty};
-use super::pair::{FADING, Ground, Multipliers, NORMAL, Pair, Pushed, ROUNDING, Row, TANGENTIAL};
+use super::pair::{FADING, Ground, Multipliers, NORMAL, Pair, Pushed, Row, TANGENTIAL};
 use super::place::{Placed, Segments};
 use super::rigid::{Entry, add};
 use super::surface::{Segment, Surface};
@@ -233,7 +233,7 @@ impl<K: Kinematics<2>> Pair<2> for Bodies<K> {
                     shear: held.shear[hat],
                     normal: NORMAL * stiffness,
                     tangential: TANGENTIAL * stiffness,
-                    rounding: ROUNDING * held.mean_pressure(),
+                    rounding: 0.0,
                     fading: FADING * self.surface.spacing,
                     strength: f64::INFINITY,
                 },

@@ -22,7 +22,7 @@ pub(super) const TANGENTIAL: f64 = 5.0;
 const YIELDING: f64 = 0.1;
 /// Pressure over which parting is rounded (-), in the mean pressure of the hats, and gap over which adhesion fades (-),
 /// in their spacing.
-pub(super) const ROUNDING: f64 = 0.1;
+const ROUNDING: f64 = 0.1;
 pub(super) const FADING: f64 = 0.05;
 /// Share of a multiplier that its neighbours' mean takes the place of in each step.
 const EVEN: f64 = 0.5;
@@ -243,7 +243,7 @@ impl<K: Kinematics<2>> Boundary<K> {
             shear: held.shear[hat],
             normal: NORMAL * stiffness,
             tangential: TANGENTIAL * stiffness,
-            rounding: ROUNDING * held.mean_pressure(),
+            rounding: if yields { ROUNDING * held.mean_pressure() } else { 0.0 },
             fading: FADING * self.surface.spacing,
             strength: model.map_or(0.0, |m| m.strength(y)),
         }
