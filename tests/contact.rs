@@ -160,22 +160,22 @@ fn a_plate_that_slides_is_held_by_adhesion() {
 
 /// On a longer way, where it may part from the soil, too.
 #[test]
-#[ignore = "hats part where the pressure along the boundary swings from one to the next (docs/numerics.md, Contact)"]
 fn a_plate_that_slides_on_is_held_by_adhesion() {
     let off = slide(2.0, 0.06, &["contacts[0].adhesion=2"]);
     println!("shear off by {off:.4?}");
     assert!(off.len() >= 5 && off.iter().all(|off| off.abs() < 0.01), "{off:?}");
 }
 
-/// A plate that slides along soil it is pressed into keeps its normal force while it crosses five cells. One per cent is
-/// wanted; what points that come and go make of its gap is more (docs/numerics.md).
+/// A plate that slides along soil it is pressed into keeps its normal force while it crosses five cells, if empty cells
+/// are a tenth as stiff as the soil: what lies before the plate is then pressed down in time. One per cent is wanted, and
+/// as stiff as cells are without that, the force falls by a third on the way (docs/numerics.md).
 #[test]
 fn a_plate_that_slides_keeps_its_normal_force() {
     let phases = "phases=[{name: press, analysis: quasi_static, duration: 1, step: {initial: 0.2}, \
         prescribe: {top: {ux: 0, uy: {rate: -0.02}}}}, {name: slide, analysis: quasi_static, duration: 1, \
         step: {initial: 0.04}, prescribe: {top: {ux: {rate: 1}, uy: 0}}}]";
     let mesh = "mesh.parameters={width: 6, plate: 1, left: 2, edge: 0.1, depth: 1.5, h: 0.2, hp: 0.12}";
-    let folder = run("tests/data/plate", &[phases, mesh]);
+    let folder = run("tests/data/plate", &[phases, mesh, "numerics.empty_stiffness=0.1"]);
     // At first the new soil under the leading edge has to be pressed down.
     let rows = history(folder.path());
     let sliding = || rows.iter().filter(|row| row[0] > 1.2);

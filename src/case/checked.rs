@@ -97,6 +97,11 @@ impl Content {
         matches!(self, Self::Structure { rigid: true, .. })
     }
 
+    /// Whether it is a structure, rigid or not.
+    pub fn is_structure(&self) -> bool {
+        matches!(self, Self::Structure { .. })
+    }
+
     /// Whether the cells are beside the grid: finite elements, or those of a rigid structure.
     pub fn is_fem(&self) -> bool {
         matches!(self, Self::Fem { .. } | Self::Structure { .. })

@@ -108,7 +108,10 @@ pub fn scene<K: Kinematics<2>>(case: &Case, mut whole: Mesh<2>) -> Result<Scene<
     let materials = || filled(case).filter(|(region, _)| !region.content.is_rigid()).map(|(_, material)| material);
     let lowest = mesh.nodes.iter().map(|x| x[1]).fold(f64::INFINITY, f64::min);
     let largest = |value: fn(&Material, f64) -> f64| materials().map(|m| value(m, lowest)).fold(0.0, f64::max);
-    let young = largest(|m, y| m.model.young(y));
+    // Structures do not tell how stiff the grid is where it is empty, nor its pressure.
+    let soils = || filled(case).filter(|(region, _)| !region.content.is_structure()).map(|(_, material)| material);
+    let of_soil = |value: fn(&Material, f64) -> f64| soils().map(|m| value(m, lowest)).fold(0.0, f64::max);
+    let young = of_soil(|m, y| m.model.young(y));
     let stiffness_scale = largest(|m, y| {
         // What the pressure field carries does not come through a modulus.
         let moduli = m.carried.as_ref().map_or(&m.model, |c| &c.model).elasticity().at(y);
@@ -118,7 +121,7 @@ pub fn scene<K: Kinematics<2>>(case: &Case, mut whole: Mesh<2>) -> Result<Scene<
     let dynamic = case.phases.iter().any(|p| p.analysis == Analysis::Dynamic);
     let faces = Faces::of(&mesh);
 
-    let shear = largest(|m, y| m.model.elasticity().at(y).shear);
+    let shear = of_soil(|m, y| m.model.elasticity().at(y).shear);
     let size = fem.as_ref().map_or(mean_size(&mesh), |fem| mean_size(fem).max(mean_size(&mesh)));
     let pressure_unit = materials().any(|m| m.carried.is_some()).then(|| shear / size);
     let mut terms = internal::<K>(case, &mesh, dynamic, pressure_unit, shear)?;
