@@ -8,7 +8,8 @@
 
 use super::along::{Mark, lines};
 use super::law::{Law, Penalty};
-use super::pair::{FADING, Ground, Multipliers, NORMAL, Pair, Pushed, Row, TANGENTIAL};
+use super::multipliers::Multipliers;
+use super::pair::{FADING, Ground, NORMAL, Pair, Pushed, Row, TANGENTIAL};
 use super::place::{Placed, Segments};
 use super::rigid::{Entry, add};
 use super::surface::{Segment, Surface};

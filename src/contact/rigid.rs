@@ -5,7 +5,8 @@
 
 use super::along::Mark;
 use super::law::Law;
-use super::pair::{Ground, Multipliers, Pair, Pushed, Row};
+use super::multipliers::Multipliers;
+use super::pair::{Ground, Pair, Pushed, Row};
 use crate::points::Points;
 use crate::rigid::Body;
 use std::ops::Range;
