@@ -110,7 +110,10 @@ pub fn scene<K: Kinematics<2>>(case: &Case, mut whole: Mesh<2>) -> Result<Scene<
     let largest = |value: fn(&Material, f64) -> f64| materials().map(|m| value(m, lowest)).fold(0.0, f64::max);
     // Structures do not tell how stiff the grid is where it is empty, nor its pressure.
     let soils = || filled(case).filter(|(region, _)| !region.content.is_structure()).map(|(_, material)| material);
-    let of_soil = |value: fn(&Material, f64) -> f64| soils().map(|m| value(m, lowest)).fold(0.0, f64::max);
+    let of_soil = |value: fn(&Material, f64) -> f64| {
+        // A scene may have nothing else.
+        soils().map(|m| value(m, lowest)).reduce(f64::max).unwrap_or_else(|| largest(value))
+    };
     let young = of_soil(|m, y| m.model.young(y));
     let stiffness_scale = largest(|m, y| {
         // What the pressure field carries does not come through a modulus.

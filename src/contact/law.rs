@@ -66,10 +66,11 @@ impl Law {
         let mut answer = Answer { pressure, pressure_by_gap: by_gap, ..Answer::default() };
         let (full, slope) = self.limit(pressure.max(0.0), at.strength);
         let (share, share_by_gap) = self.share(at, gap);
-        let limit = full * share;
-        if limit == 0.0 {
+        // The full one may be infinite: soil without limit of strength.
+        if full == 0.0 || share == 0.0 {
             return answer;
         }
+        let limit = full * share;
         let shear = at.shear - at.tangential * slip;
         if shear.abs() <= limit {
             answer.shear = shear;
@@ -170,6 +171,7 @@ mod tests {
         assert_eq!(capped.respond(&AT, 0.0, -1.0).shear, 1.0);
         assert_eq!(clay.respond(&AT, 0.0, 1.0).shear, -1.0);
         assert_eq!(clay.respond(&AT, 0.05, 1.0), Answer::default());
+        assert_eq!(clay.respond(&Penalty { strength: f64::INFINITY, ..AT }, 0.05, 1.0), Answer::default());
         assert_eq!(bonded.respond(&AT, 0.05, 0.0).pressure, -2.0);
         // Parted, but not far: adhesion has faded by a fifth.
         let parted = clay.respond(&AT, 0.036, 1.0);
