@@ -51,7 +51,7 @@ struct Footing {
     of_points: f64,
     /// In every step, on a grid that goes on above the surface.
     restored: bool,
-    /// The cells shrink towards the edge of the footing and the surface; not for restored grids.
+    /// The cells shrink towards the edge of the footing and the surface.
     graded: bool,
     seed: u64,
 }
@@ -95,13 +95,15 @@ impl Footing {
     fn mesh(&self) -> Mesh<2> {
         let h = 1.0 / self.cells as f64;
         let (nx, ny) = ((WIDTH / h).round() as usize, (DEPTH / h).round() as usize);
-        if !self.restored {
-            let mut mesh = rectangle(CellKind::T6, WIDTH, DEPTH, nx, ny, 0.2, self.seed);
+        let graded = |mut mesh: Mesh<2>| {
             if self.graded {
                 mesh.nodes.iter_mut().for_each(|x| *x = grade(*x).0);
-                straighten(&mut mesh);
             }
-            return mesh;
+            straighten(&mut mesh);
+            mesh
+        };
+        if !self.restored {
+            return graded(rectangle(CellKind::T6, WIDTH, DEPTH, nx, ny, 0.2, self.seed));
         }
         let mut mesh = rectangle(CellKind::T6, WIDTH, DEPTH + 2.0 * h, nx, ny + 2, 0.2, self.seed);
         let mut random = Random(self.seed + 7);
@@ -114,8 +116,7 @@ impl Footing {
                 node[1] = DEPTH + 0.4 * h * random.next();
             }
         }
-        straighten(&mut mesh);
-        mesh
+        graded(mesh)
     }
 
     fn points<K: Kinematics<2>>(&self, mesh: &Mesh<2>) -> Points<2> {
@@ -284,6 +285,19 @@ fn soil_that_ends_within_cells_bears_the_same() {
     let finer = Footing { cells: 12, layout: Layout::Shifted, restored: true, cut: true, ..STRIP }.strip();
     println!("    {:+.2} %", 100.0 * (finer / PRANDTL - 1.0));
     assert!((finer / PRANDTL / (1.0 + 0.5 / 12.0) - 1.0).abs() < 0.005, "{finer}");
+}
+
+/// The same beside graded cells, which bear the limit load itself.
+#[test]
+fn graded_cells_may_be_cut_by_the_surface() {
+    for (rough, layout) in [(true, Layout::Shifted), (false, Layout::Lattice)] {
+        let loads = [10, 40].map(|steps| {
+            Footing { rough, layout, steps, graded: true, restored: true, cut: true, ..STRIP }.strip() / PRANDTL - 1.0
+        });
+        println!("    {:+.2} %, {:+.2} % in 40 steps", 100.0 * loads[0], 100.0 * loads[1]);
+        assert!(loads.iter().all(|error| error.abs() < 0.03), "{loads:?}");
+        assert!((loads[1] - loads[0]).abs() < 1e-3, "{loads:?}");
+    }
 }
 
 /// Cox, Eason and Hopkins (1961): 5.689 under a smooth circle.
