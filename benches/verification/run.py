@@ -125,7 +125,7 @@ def tests(name):
         what = about.get(test, "").replace("|", "/")
         lines.append(f"| `{test}` | {what} | {result} | {seconds:.1f} |")
         noise = r"^(running \d+ test|test result|test .* \.\.\. ok$|\.$|ok$|$)"
-        said = [re.sub(r"^test \S+ \.\.\. ", "", line) for line in done.out.splitlines()]
+        said = [re.sub(r"^test \S+ \.\.\. ", "", line) for line in done.out.replace(f"{ROOT}/", "").splitlines()]
         said = [line.rstrip() for line in said if not re.match(noise, line.strip())]
         if said and done.status == 0:
             printed += [f"{test}", *(f"  {line}" for line in said)]
