@@ -245,12 +245,16 @@ pub struct Phase {
     pub tractions: Vec<Traction>,
     /// Factor (-) on gravity.
     pub gravity: TimeValue,
+    /// What strengths are divided by (-); absent where they are as given.
+    pub reduction: Option<TimeValue>,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Analysis {
     QuasiStatic,
     Dynamic,
+    /// Quasi-static, with strengths that fall until no equilibrium is left.
+    StrengthReduction,
 }
 
 /// Time steps (s), `min ≤ initial ≤ max`.

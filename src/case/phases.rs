@@ -24,9 +24,15 @@ impl Checker {
         let analysis = match phase.analysis {
             raw::Analysis::QuasiStatic => Analysis::QuasiStatic,
             raw::Analysis::Dynamic => Analysis::Dynamic,
+            raw::Analysis::StrengthReduction => Analysis::StrengthReduction,
             raw::Analysis::Consolidation => {
                 let problem = format!("`consolidation` {LATER}");
-                self.issue(&path.key("analysis"), At::Value, problem, "choose quasi_static or dynamic");
+                self.issue(
+                    &path.key("analysis"),
+                    At::Value,
+                    problem,
+                    "choose quasi_static, dynamic or strength_reduction",
+                );
                 Analysis::QuasiStatic
             }
         };
@@ -72,7 +78,53 @@ impl Checker {
             prescribed,
             tractions,
             gravity,
+            reduction: self.reduction(phase, analysis, file, path),
         }
+    }
+
+    /// What strengths are divided by in a phase. A search goes from 1 upwards by 1 a second where nothing is said.
+    fn reduction(
+        &mut self,
+        phase: &raw::Phase,
+        analysis: Analysis,
+        file: &raw::CaseFile,
+        path: &Path,
+    ) -> Option<TimeValue> {
+        let searches = analysis == Analysis::StrengthReduction;
+        let at = path.key("strength_reduction");
+        if (searches || phase.strength_reduction.is_some())
+            && file.materials.values().all(|material| material.model == "linear_elastic")
+        {
+            let at = if phase.strength_reduction.is_some() { &at } else { path };
+            self.issue(at, At::Key, "no material has a strength to be reduced", "give the soil a model that yields");
+        }
+        let Some(given) = &phase.strength_reduction else {
+            return searches.then(|| TimeValue::Table(vec![[0.0, 1.0], [phase.duration, 1.0 + phase.duration]]));
+        };
+        let value = self.in_time(given, &at);
+        let remedy = "give a number above 0, or `{table: [[0, 1], [1, 2]]}`";
+        match &value {
+            TimeValue::Constant(factor) if *factor <= 0.0 => {
+                self.issue(&at, At::Value, format!("strengths cannot be divided by {factor}"), remedy);
+            }
+            TimeValue::Rate(_) => {
+                self.issue(&at, At::Value, "a rate begins at 0, and strengths cannot be divided by that", remedy)
+            }
+            TimeValue::Table(table) => {
+                for (i, [_, factor]) in table.iter().enumerate().filter(|(_, [_, factor])| *factor <= 0.0) {
+                    let at = at.key("table").index(i);
+                    self.issue(&at, At::Value, format!("strengths cannot be divided by {factor}"), remedy);
+                }
+            }
+            TimeValue::Constant(_) => {}
+        }
+        let grows =
+            matches!(&value, TimeValue::Table(table) if table.len() > 1 && table.windows(2).all(|w| w[1][1] > w[0][1]));
+        if searches && !grows {
+            let remedy = "give a table that grows, or leave it out: then the factor is 1 plus the time";
+            self.issue(&at, At::Value, "a search for failure needs a factor that grows", remedy);
+        }
+        Some(value)
     }
 
     fn traction(

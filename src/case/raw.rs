@@ -390,7 +390,8 @@ pub struct RestoreQuality {
 pub struct Phase {
     /// The name of the phase, for logs and errors.
     pub name: String,
-    /// The kind of analysis: quasi_static (no inertia), dynamic or consolidation.
+    /// The kind of analysis: quasi_static (no inertia), dynamic, strength_reduction (quasi-static until no equilibrium is
+    /// left) or consolidation.
     pub analysis: Analysis,
     /// Duration (s), above 0; in a quasi-static phase a fictitious time that loads vary in.
     #[schemars(extend("exclusiveMinimum" = 0))]
@@ -405,6 +406,8 @@ pub struct Phase {
     pub tractions: Vec<Traction>,
     /// Factor on gravity in the phase (-); without it 1.
     pub gravity: Option<InTime>,
+    /// What the strengths of all soil and contacts are divided by in the phase (-), above 0; without it 1.
+    pub strength_reduction: Option<InTime>,
 }
 
 /// The kind of analysis.
@@ -413,6 +416,7 @@ pub struct Phase {
 pub enum Analysis {
     QuasiStatic,
     Dynamic,
+    StrengthReduction,
     Consolidation,
 }
 

@@ -14,7 +14,7 @@ use crate::quadrature::{Fitted, Quadrature, Volumes};
 use crate::rigid::Body;
 use crate::run::{self, Ended, Outputs, Progress, Watch, WatchedOn};
 use crate::stencil::{Scheme, cell_size, smooths};
-use crate::step::{self, Fem, Numerics, Phase, Scene, State, Stop};
+use crate::step::{self, Fem, Numerics, Phase, Scene, Search, State, Stop};
 use crate::term::{
     BodyForce, Carried, Contact, EmptyCells, GhostPenalty, Inertia, Internal, PressureField, SmoothPressure, Term,
     Traction,
@@ -25,6 +25,9 @@ use std::sync::atomic::AtomicBool;
 
 /// γ (-) of the ghost penalty: 1e-3 … 1 give the same results to the error of the grid.
 const GHOST: f64 = 0.1;
+
+/// How far soil may move for a unit of the factor on its strength and count as what it was (-), in its height.
+const FARTHEST: f64 = 0.5;
 
 /// Solves a case in `folder`.
 ///
@@ -181,7 +184,8 @@ pub fn scene<K: Kinematics<2>>(case: &Case, mut whole: Mesh<2>) -> Result<Scene<
     }
     let holds = Holds::new(case, &mesh, &bodies);
     let supports = holds.supports()?;
-    let phases = case.phases.iter().map(|p| phase(case, &holds, p)).collect::<Result<_>>()?;
+    let height = soil_height(case, &mesh, fem.as_ref().map(|fem| &fem.mesh))?;
+    let phases = case.phases.iter().map(|p| phase(case, &holds, p, height)).collect::<Result<_>>()?;
     Ok(Scene {
         locator: Locator::new(&mesh),
         faces: Some(faces),
@@ -216,9 +220,13 @@ fn internal<K: Kinematics<2>>(
     shear: f64,
 ) -> Result<Vec<Box<dyn Term<2>>>> {
     let models = models(case, mesh)?;
-    let Some(unit) = pressure_unit else { return Ok(vec![Box::new(Internal::<K>::new(models, dynamic))]) };
+    let is_structure = |name: &String| case.regions.iter().any(|r| r.name == *name && r.content.is_structure());
+    let kept: Vec<bool> = mesh.regions.iter().map(is_structure).collect();
+    let Some(unit) = pressure_unit else {
+        return Ok(vec![Box::new(Internal::<K>::new(models, dynamic).keeping(&kept))]);
+    };
     let field = PressureField::<K>::new(carried(case, mesh)?, unit);
-    let internal = Internal::<K, _>::sharing(models, dynamic, field);
+    let internal = Internal::<K, _>::sharing(models, dynamic, field).keeping(&kept);
     Ok(vec![Box::new(internal), Box::new(SmoothPressure::<K>::new(unit, shear, mesh.cells.len()))])
 }
 
@@ -238,13 +246,14 @@ fn restore(restore: Restore) -> step::Restore {
     }
 }
 
-fn phase<'a>(case: &Case, holds: &Holds<'a>, phase: &'a super::checked::Phase) -> Result<Phase> {
+fn phase<'a>(case: &Case, holds: &Holds<'a>, phase: &'a super::checked::Phase, height: f64) -> Result<Phase> {
     let values = phase
         .prescribed
         .iter()
         .map(|p| &p.displacement)
         .chain(phase.tractions.iter().flat_map(|t| &t.components))
-        .chain(std::iter::once(&phase.gravity));
+        .chain(std::iter::once(&phase.gravity))
+        .chain(&phase.reduction);
     Ok(Phase {
         name: phase.name.clone(),
         dynamic: phase.analysis == Analysis::Dynamic,
@@ -253,8 +262,26 @@ fn phase<'a>(case: &Case, holds: &Holds<'a>, phase: &'a super::checked::Phase) -
         least_step: phase.step.min,
         largest_step: phase.step.max,
         prescribed: holds.prescribed(phase)?,
+        reduction: phase.reduction.clone(),
+        search: (phase.analysis == Analysis::StrengthReduction).then(|| Search { farthest: FARTHEST * height }),
         stops: stops(phase.duration, case.output.every, values.flat_map(TimeValue::kinks)),
     })
+}
+
+/// The height (m) of the soil as drawn, from its lowest to its highest node; 0 without any.
+fn soil_height(case: &Case, mesh: &Mesh<2>, fem: Option<&Mesh<2>>) -> Result<f64> {
+    let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
+    for (region, _) in filled(case).filter(|(region, _)| !region.content.is_structure()) {
+        let number = region_index(mesh, &region.name)?;
+        for part in std::iter::once(mesh).chain(fem) {
+            for c in (0..part.cells.len()).filter(|&c| part.cells.region[c] == number) {
+                for &n in part.cells.nodes(c) {
+                    (low, high) = (low.min(part.nodes[n as usize][1]), high.max(part.nodes[n as usize][1]));
+                }
+            }
+        }
+    }
+    Ok((high - low).max(0.0))
 }
 
 /// When steps must end: at outputs, where a table bends, and at the end of the phase.

@@ -55,6 +55,13 @@ impl Law {
         self.friction == 0.0 && !(self.separates && self.adheres())
     }
 
+    /// The law with friction, adhesion and the part of the soil's strength divided by `factor` (-).
+    pub fn reduced(&self, factor: f64) -> Self {
+        let Self { friction, adhesion, separates, .. } = *self;
+        let part = self.factor.map(|part| part / factor);
+        Self { friction: friction / factor, adhesion: adhesion / factor, factor: part, separates }
+    }
+
     /// Whether the surfaces bear shear without pressure.
     fn adheres(&self) -> bool {
         self.adhesion > 0.0 || self.friction == 0.0 && self.factor.is_some_and(|factor| factor > 0.0)

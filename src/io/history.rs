@@ -74,6 +74,8 @@ impl Log {
 pub struct History {
     log: Log,
     columns: Vec<String>,
+    /// The last row; empty without one.
+    last: Vec<f64>,
 }
 
 impl History {
@@ -84,7 +86,7 @@ impl History {
     pub fn create(path: &Path, columns: &[String]) -> Result<Self> {
         let mut log = Log::create(path)?;
         log.line(&header(columns))?;
-        Ok(Self { log, columns: columns.to_vec() })
+        Ok(Self { log, columns: columns.to_vec(), last: Vec::new() })
     }
 
     /// Opens a file to continue after its first `rows` rows; later ones are cut.
@@ -98,7 +100,10 @@ impl History {
             let problem = format!("has the columns `{}` of another run", String::from_utf8_lossy(first));
             return Err(Error::input(format!("{}:1", path.display()), problem, AGAIN));
         }
-        Ok(Self { log: Log::resume(path, rows.saturating_add(1))?, columns: columns.to_vec() })
+        let last = text.split(|&b| b == b'\n').nth(usize::try_from(rows).unwrap_or(usize::MAX)).filter(|_| rows > 0);
+        let last = String::from_utf8_lossy(last.unwrap_or_default()).into_owned();
+        let last = last.split(',').filter_map(|number| number.parse().ok()).collect();
+        Ok(Self { log: Log::resume(path, rows.saturating_add(1))?, columns: columns.to_vec(), last })
     }
 
     /// Appends a row, one number a column.
@@ -116,7 +121,22 @@ impl History {
         }
         // As many digits as tell the number from all others.
         let fields: Vec<String> = numbers.iter().map(|v| format!("{v:?}")).collect();
-        self.log.line(&fields.join(","))
+        self.log.line(&fields.join(","))?;
+        self.last = numbers.to_vec();
+        Ok(())
+    }
+
+    /// Appends the last row again with another number in the column called `name`; nothing without a row or the column.
+    ///
+    /// # Errors
+    /// As [`History::row`].
+    pub fn again(&mut self, name: &str, number: f64) -> Result<()> {
+        let mut row = self.last.clone();
+        match self.columns.iter().position(|column| column == name).and_then(|i| row.get_mut(i)) {
+            Some(place) => *place = number,
+            None => return Ok(()),
+        }
+        self.row(&row)
     }
 
     /// Rows in the file, without the header, for a checkpoint.

@@ -55,6 +55,10 @@ impl Model for LinearElastic {
         f64::INFINITY
     }
 
+    fn reduced(&self, _: f64) -> Arc<dyn Model> {
+        Arc::new(*self)
+    }
+
     fn check(&self, y: f64) -> Result<()> {
         self.elasticity.check(y)
     }

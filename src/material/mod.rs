@@ -24,6 +24,7 @@ pub use tresca::Tresca;
 pub use von_mises::VonMises;
 
 use crate::error::Result;
+use std::sync::Arc;
 
 /// Every model a case can name.
 pub const MODELS: &[Kind] = &[linear_elastic::KIND, mohr_coulomb::KIND, tresca::KIND, von_mises::KIND];
@@ -88,6 +89,10 @@ pub trait Model: Send + Sync {
     /// # Errors
     /// Names the parameter and its value.
     fn check(&self, y: f64) -> Result<()>;
+
+    /// The same material with its strengths divided by `factor` (-): `c`, `tan φ`, `σ_t`, `s_u`, the yield stress. An angle of
+    /// dilation stays, as far as it is not above that of friction.
+    fn reduced(&self, factor: f64) -> Arc<dyn Model>;
 
     /// Young's modulus (kPa) at height `y`: the scale of penalties and tolerances.
     fn young(&self, y: f64) -> f64 {

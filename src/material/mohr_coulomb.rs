@@ -40,6 +40,14 @@ impl Friction {
         let (sin_friction, cos_friction) = friction.to_radians().sin_cos();
         Ok(Self { sin_friction, cos_friction, sin_dilation: dilation.to_radians().sin() })
     }
+
+    /// The angles with `tan φ` divided by `factor`; dilation is at most friction.
+    fn reduced(&self, factor: f64) -> Self {
+        let tan = self.sin_friction / (self.cos_friction * factor);
+        let cos_friction = 1.0 / tan.hypot(1.0);
+        let sin_friction = tan * cos_friction;
+        Self { sin_friction, cos_friction, sin_dilation: self.sin_dilation.min(sin_friction) }
+    }
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -158,6 +166,15 @@ impl Model for MohrCoulomb {
 
     fn strength(&self, y: f64) -> f64 {
         self.cohesion.at(y)
+    }
+
+    fn reduced(&self, factor: f64) -> Arc<dyn Model> {
+        Arc::new(Self {
+            elasticity: self.elasticity,
+            cohesion: self.cohesion.scaled(1.0 / factor),
+            friction: self.friction.reduced(factor),
+            tension: self.tension.map(|t| t.scaled(1.0 / factor)),
+        })
     }
 
     fn check(&self, y: f64) -> Result<()> {

@@ -20,6 +20,11 @@ impl Profile {
         Self { top: value, gradient: 0.0, datum: 0.0 }
     }
 
+    /// This times a factor.
+    pub fn scaled(&self, by: f64) -> Self {
+        Self { top: by * self.top, gradient: by * self.gradient, datum: self.datum }
+    }
+
     /// The value at height `y` (m).
     #[inline]
     pub fn at(&self, y: f64) -> f64 {

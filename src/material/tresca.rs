@@ -79,6 +79,10 @@ impl Model for Tresca {
         self.shear_strength.at(y)
     }
 
+    fn reduced(&self, factor: f64) -> Arc<dyn Model> {
+        Arc::new(Self { shear_strength: self.shear_strength.scaled(1.0 / factor), ..*self })
+    }
+
     fn check(&self, y: f64) -> Result<()> {
         self.elasticity.check(y)?;
         self.shear_strength.positive_at("shear_strength", y)

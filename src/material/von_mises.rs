@@ -100,6 +100,10 @@ impl Model for VonMises {
         self.yield_stress.at(y)
     }
 
+    fn reduced(&self, factor: f64) -> Arc<dyn Model> {
+        Arc::new(Self { yield_stress: self.yield_stress.scaled(1.0 / factor), ..*self })
+    }
+
     fn check(&self, y: f64) -> Result<()> {
         self.elasticity.check(y)?;
         self.yield_stress.positive_at("yield_stress", y)

@@ -11,11 +11,12 @@
 
 mod boundary;
 mod checkpoint;
+mod ending;
 mod record;
 
 pub use record::{Field, Quantity, Watch, WatchedOn};
 
-use crate::error::{Error, Kind, Result};
+use crate::error::{Error, Result};
 use crate::io::atomic;
 use crate::io::background::Background;
 use crate::io::checkpoint::{Checkpoints, Fingerprint};
@@ -23,8 +24,7 @@ use crate::io::frame;
 use crate::io::history::{History, Log};
 use crate::kinematics::Kinematics;
 use crate::profile::{Activity, timed};
-use crate::step::{Controller, Limits, Phase, Scene, Simulation, State};
-use crate::time_value::TimeValue;
+use crate::step::{Controller, Limits, Scene, Simulation, State};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -129,8 +129,19 @@ pub fn run<const D: usize, K: Kinematics<D>>(
             }
             let report = match simulation.advance(&mut controller) {
                 Ok(report) => report,
+                Err(_) if ending::found_failure(phase, &simulation.state, &controller) => {
+                    let state = &mut simulation.state;
+                    let failed = phase.reduction_at(state.phase_time + controller.size(state.phase_time));
+                    let note = ending::safety(phase, state, Some(failed));
+                    tell(state, Some(&note));
+                    timed(Activity::Output, || {
+                        files.history.again(record::NO_EQUILIBRIUM, failed)?;
+                        files.end_early(scene, state, &note)
+                    })?;
+                    break;
+                }
                 Err(error) => {
-                    let error = in_time(error, scene, phase, &simulation.state);
+                    let error = ending::in_time(error, scene, phase, &simulation.state);
                     files.log.line(&format!("the analysis ends here: {error}"))?;
                     files.last_frame(scene, &mut simulation.state)?;
                     files.close()?;
@@ -148,7 +159,12 @@ pub fn run<const D: usize, K: Kinematics<D>>(
                     files.frame(scene, state)?;
                 }
                 if controller.next_stop(state.phase_time).is_none() {
-                    next_phase(scene, state);
+                    if phase.search.is_some() {
+                        let note = ending::safety(phase, state, None);
+                        tell(state, Some(&note));
+                        files.note(state, &note)?;
+                    }
+                    ending::next_phase(scene, state);
                 }
                 files.checkpoint(state)
             })?;
@@ -157,52 +173,6 @@ pub fn run<const D: usize, K: Kinematics<D>>(
     }
     files.close()?;
     Ok(Ended::Done)
-}
-
-/// An error of the analysis with the moment it came in, and, where loads grow without inertia, how far they had come:
-/// what stops Newton's method there may be the limit load.
-fn in_time<const D: usize>(error: Error, scene: &Scene<D>, phase: &Phase, state: &State<D>) -> Error {
-    if error.kind != Kind::Analysis {
-        return error;
-    }
-    let moment = format!("in step {} from t = {:.6} s in phase `{}`", state.step + 1, state.time, phase.name);
-    let loads = if phase.dynamic { Vec::new() } else { loads_reached(scene, phase, state) };
-    if loads.is_empty() {
-        return Error { problem: format!("{} ({moment})", error.problem), ..error };
-    }
-    let problem = format!("{} ({moment}; equilibrium was last found at {})", error.problem, loads.join(", "));
-    let remedy = match error.place.as_str() {
-        "Newton" => format!("{}; beyond the load that the soil can bear go on with `analysis: dynamic`", error.remedy),
-        _ => error.remedy,
-    };
-    Error { problem, remedy, ..error }
-}
-
-/// The loads of a phase that vary: where they stand, and where the phase takes them.
-fn loads_reached<const D: usize>(scene: &Scene<D>, phase: &Phase, state: &State<D>) -> Vec<String> {
-    let (now, end) = (state.phase_time, phase.duration);
-    let varies = |value: &TimeValue| !matches!(value, TimeValue::Constant(_)) && value.at(end) != 0.0;
-    let factors = scene.terms.iter().filter_map(|term| term.factor(state.phase)).filter(|value| varies(value));
-    let factors = factors.map(|value| format!("the gravity factor {:.4} of {:.4}", value.at(now), value.at(end)));
-    let moved = phase.prescribed.iter().filter(|p| varies(&p.displacement)).map(|p| {
-        let axis = ["x", "y", "z"][p.fixed.component];
-        let (now, end) = (p.displacement.at(now), p.displacement.at(end));
-        format!("{now:.4e} of {end:.4e} m prescribed in {axis}")
-    });
-    factors.chain(moved).collect()
-}
-
-/// Begins the next phase in the converged state of this one.
-fn next_phase<const D: usize>(scene: &Scene<D>, state: &mut State<D>) {
-    let dynamic = |phase: usize| scene.phases.get(phase).is_some_and(|p| p.dynamic);
-    if dynamic(state.phase) && !dynamic(state.phase + 1) {
-        state.rest();
-    }
-    state.phase += 1;
-    state.phase_time = 0.0;
-    if let Some(next) = scene.phases.get(state.phase) {
-        state.step_size = next.first_step;
-    }
 }
 
 /// The open files of a run.
@@ -225,7 +195,7 @@ impl<'a> Files<'a> {
     ) -> Result<Self> {
         let folder: &Path = &outputs.folder;
         atomic::prepare_folder(folder)?;
-        let columns = record::columns(&outputs.watches);
+        let columns = record::columns(scene, &outputs.watches);
         let (history, log) = (folder.join("history.csv"), folder.join("solve.log"));
         let (history, log) = if state.step > 0 {
             (History::resume(&history, &columns, state.rows)?, Log::resume(&log, state.log_lines)?)
@@ -256,6 +226,24 @@ impl<'a> Files<'a> {
         self.history.row(&record::row(scene, &self.outputs.watches, state, report))?;
         (state.rows, state.log_lines) = (self.history.rows(), self.log.lines());
         Ok(())
+    }
+
+    /// Writes a line into the log.
+    fn note<const D: usize>(&mut self, state: &mut State<D>, note: &str) -> Result<()> {
+        self.log.line(note)?;
+        state.log_lines = self.log.lines();
+        Ok(())
+    }
+
+    /// Ends a phase before its time, with the reason, in the last converged state.
+    fn end_early<const D: usize>(&mut self, scene: &Scene<D>, state: &mut State<D>, note: &str) -> Result<()> {
+        self.note(state, note)?;
+        state.rows = self.history.rows();
+        if self.framed != Some(state.step) {
+            self.frame(scene, state)?;
+        }
+        ending::next_phase(scene, state);
+        self.checkpoint(state)
     }
 
     /// Hands a frame to the writer.

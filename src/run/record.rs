@@ -60,9 +60,15 @@ pub struct Watch {
 
 const AXES: [&str; 3] = ["x", "y", "z"];
 
+/// The column of the reduction of strength at which the last search found no equilibrium.
+pub const NO_EQUILIBRIUM: &str = "no_equilibrium_at [-]";
+
 /// The header of the history.
-pub fn columns(watches: &[Watch]) -> Vec<String> {
+pub fn columns<const D: usize>(scene: &Scene<D>, watches: &[Watch]) -> Vec<String> {
     let mut columns = vec!["time [s]".to_string()];
+    if reduces(scene) {
+        columns.extend(["strength_reduction [-]", NO_EQUILIBRIUM].map(String::from));
+    }
     for watch in watches {
         for quantity in &watch.quantities {
             columns.push(match *quantity {
@@ -79,9 +85,17 @@ pub fn columns(watches: &[Watch]) -> Vec<String> {
     columns
 }
 
+/// Whether a phase reduces strengths.
+fn reduces<const D: usize>(scene: &Scene<D>) -> bool {
+    scene.phases.iter().any(|phase| phase.reduction.is_some())
+}
+
 /// A row of the history.
 pub fn row<const D: usize>(scene: &Scene<D>, watches: &[Watch], state: &State<D>, report: &Report<D>) -> Vec<f64> {
     let mut row = vec![state.time];
+    if reduces(scene) {
+        row.extend([scene.phases[state.phase].reduction_at(state.phase_time), 0.0]);
+    }
     for watch in watches {
         row.extend(watch.quantities.iter().map(|quantity| value(&watch.on, *quantity, scene, state, report)));
     }

@@ -175,6 +175,7 @@ pub fn commit<const D: usize>(
     grid: &Grid<D>,
     state: &mut State<D>,
     solution: &Solution<D>,
+    dt: f64,
 ) -> Vec<Resultant<D>> {
     let none = |pair: &dyn Pair<D>| Resultant {
         structure: pair.structure(),
@@ -187,7 +188,8 @@ pub fn commit<const D: usize>(
         pushed: Pushed::default(),
     };
     let mut resultants: Vec<_> = scene.pairs.iter().map(|pair| none(pair.as_ref())).collect();
-    let trial = Trial::at_rest(&solution.displacement, &state.displacement);
+    let reduction = scene.phases[state.phase].reduction_at(state.phase_time + dt);
+    let trial = Trial { reduction, ..Trial::at_rest(&solution.displacement, &state.displacement) };
     for multipliers in &mut state.multipliers {
         let Multipliers { pressure, shear, gap, slip, offset, .. } = multipliers;
         [pressure, shear, gap, slip, offset].into_iter().for_each(|values| values.fill(0.0));

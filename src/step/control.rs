@@ -23,12 +23,14 @@ pub struct Controller {
     pub wanted: f64,
     /// Halvings since the last accepted step, with the reasons.
     halvings: Vec<String>,
+    /// Whether a step failed that could not be halved again.
+    pub exhausted: bool,
 }
 
 impl Controller {
     /// `stops` ascend and end with the end of the phase.
     pub fn new(limits: Limits, stops: Vec<Stop>, wanted: f64) -> Self {
-        Self { limits, stops, wanted, halvings: Vec::new() }
+        Self { limits, stops, wanted, halvings: Vec::new(), exhausted: false }
     }
 
     /// The next time a step must end at, after `now`.
@@ -58,6 +60,7 @@ impl Controller {
     /// The failure itself, once the step would fall below the least one.
     pub fn halve(&mut self, dt: f64, error: Error) -> Result<()> {
         if 0.5 * dt < self.limits.least {
+            self.exhausted = true;
             let how = match self.halvings.len() {
                 0 => format!("the step of {dt:.3e} s cannot be halved"),
                 1 => format!("the step was halved once down to {dt:.3e} s and cannot be again"),

@@ -28,16 +28,19 @@ pub use control::{Controller, Limits};
 pub use grid::Grid;
 pub use newton::Solution;
 pub use report::Report;
-pub use scene::{Fem, Fixed, Numerics, Phase, Prescribed, Restore, Scene, Stop};
+pub use scene::{Fem, Fixed, Numerics, Phase, Prescribed, Restore, Scene, Search, Stop};
 pub use state::State;
 
-use crate::error::{Kind, Result};
+use crate::error::{Error, Kind, Result};
 use crate::kinematics::Kinematics;
 use crate::profile::{Activity, timed};
 use crate::time_integration::GeneralisedAlpha;
 use newton::Problem;
 use std::marker::PhantomData;
 use transfer::Start;
+
+/// The motion that a step starts from, with inertia, and its end.
+type Lagrange<const D: usize> = (Option<Start<D>>, Solution<D>);
 
 /// A scene in motion.
 pub struct Simulation<'a, const D: usize, K> {
@@ -84,7 +87,7 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
         let mut guess = true;
         let (dt, start, solution) = loop {
             let dt = controller.size(self.state.phase_time);
-            match self.lagrange(dt, std::mem::take(&mut guess)) {
+            match self.lagrange(dt, std::mem::take(&mut guess)).and_then(|found| self.stands(dt, found)) {
                 Ok((start, solution)) => break (dt, start, solution),
                 Err(error) if error.kind == Kind::Analysis => {
                     if fresh {
@@ -126,7 +129,7 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
 
     /// The solution on the grid and, with inertia, the motion that it starts from.
     /// Where nodes go on as they did, they are a good `guess` of the end of the step.
-    fn lagrange(&mut self, dt: f64, guess: bool) -> Result<(Option<Start<D>>, Solution<D>)> {
+    fn lagrange(&mut self, dt: f64, guess: bool) -> Result<Lagrange<D>> {
         let (scene, state) = (self.scene, &self.state);
         let phase = &scene.phases[state.phase];
         let given = grid::given_increments(scene, state, &self.grid, dt);
@@ -153,13 +156,35 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
         Ok((start, solution))
     }
 
+    /// Refuses an equilibrium that reduced strengths leave only in another shape of the soil.
+    fn stands(&self, dt: f64, found: Lagrange<D>) -> Result<Lagrange<D>> {
+        let phase = &self.scene.phases[self.state.phase];
+        let Some(search) = phase.search else { return Ok(found) };
+        let from = self.state.phase_time;
+        let more = phase.reduction_at(from + dt) - phase.reduction_at(from);
+        let nodes = self.grid.stencil.patches.iter().flat_map(|patch| self.scene.mesh.cells.nodes(patch.cell as usize));
+        let squared = |&n: &u32| {
+            let (now, before) = (&found.1.displacement[n as usize], &self.state.displacement[n as usize]);
+            now.iter().zip(before).map(|(now, before)| (now - before).powi(2)).sum::<f64>()
+        };
+        let moved = nodes.map(squared).fold(0.0, f64::max).sqrt();
+        if more <= 0.0 || moved <= search.farthest * more {
+            return Ok(found);
+        }
+        Err(Error::analysis(
+            "strength reduction",
+            format!("there is equilibrium only after the soil has moved by {moved:.3e} m"),
+            "what holds up to here is the result",
+        ))
+    }
+
     /// Grid to points.
     fn convect(&mut self, dt: f64, start: Option<Start<D>>, mut solution: Solution<D>) -> Result<Report<D>> {
         let (scene, state) = (self.scene, &mut self.state);
         rigid::follow(scene, state, &mut solution.displacement);
         let mut momentum = report::Motion::of(state).linear;
-        let mut contacts = timed(Activity::Contact, || contact::commit(scene, &self.grid, state, &solution));
-        transfer::commit(scene, &self.grid, state, &solution)?;
+        let mut contacts = timed(Activity::Contact, || contact::commit(scene, &self.grid, state, &solution, dt));
+        transfer::commit(scene, &self.grid, state, &solution, dt)?;
         transfer::move_points::<D, K>(scene, &self.grid, state, &solution.displacement);
         if let Some(start) = &start {
             let impulse = start.impulse::<K>(scene, &self.grid, state);

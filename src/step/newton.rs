@@ -407,6 +407,7 @@ pub fn static_force<const D: usize>(problem: &Problem<D>, grid: &mut Grid<D>) ->
         acceleration_slope: 0.0,
         phase: problem.phase,
         time: problem.from,
+        reduction: problem.scene.phases[problem.phase].reduction_at(problem.from),
     };
     let (mut own, mut sum) = (Vec::new(), Evaluation::default());
     timed(Activity::Assembly, || {
@@ -443,6 +444,7 @@ fn evaluate<const D: usize>(
         acceleration_slope: problem.integration.map_or(0.0, |i| i.slope()),
         phase: problem.phase,
         time: (1.0 - alpha_f) * problem.to + alpha_f * problem.from,
+        reduction: problem.scene.phases[problem.phase].reduction_at(problem.to),
     };
     let result = timed(Activity::Assembly, || {
         add_terms(problem, grid, &trial, tangent, &|role| dynamic || role != Role::Inertia, own, state)

@@ -111,8 +111,27 @@ pub struct Phase {
     pub least_step: f64,
     pub largest_step: f64,
     pub prescribed: Vec<Prescribed>,
+    /// What strengths are divided by (-); absent where they are as given.
+    pub reduction: Option<TimeValue>,
+    /// Present where the phase looks for the reduction of strength that leaves no equilibrium.
+    pub search: Option<Search>,
     /// Times (s) in the phase at which a step must end: outputs, kinks of tables, the end.
     pub stops: Vec<Stop>,
+}
+
+impl Phase {
+    /// What strengths are divided by (-) at a time (s) since the phase began.
+    pub fn reduction_at(&self, time: f64) -> f64 {
+        self.reduction.as_ref().map_or(1.0, |factor| factor.at(time))
+    }
+}
+
+/// What counts as equilibrium while strengths are reduced to failure.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Search {
+    /// The farthest (m) that soil may move for a unit of the factor: soil that fails finds equilibrium again in another
+    /// shape, and that is not the one asked about.
+    pub farthest: f64,
 }
 
 /// A time at which a step ends.

@@ -140,6 +140,7 @@ pub fn commit<const D: usize>(
     grid: &Grid<D>,
     state: &mut State<D>,
     solution: &Solution<D>,
+    dt: f64,
 ) -> Result<()> {
     let trial = Trial {
         displacement: &solution.displacement,
@@ -152,6 +153,7 @@ pub fn commit<const D: usize>(
         acceleration_slope: 0.0,
         phase: state.phase,
         time: state.phase_time,
+        reduction: scene.phases[state.phase].reduction_at(state.phase_time + dt),
     };
     let of = |terms: &[Box<dyn Term<D>>], frame: &Frame<D>| {
         terms.iter().map(|term| term.commit(frame, &trial)).collect::<Result<Vec<_>>>()

@@ -29,7 +29,7 @@ pub fn answer<const D: usize>(law: &Law, touch: &Touch<D>, trial: &Trial<D>) -> 
         std::array::from_fn(|d| now[d] - before[d])
     };
     let (gap, slip) = touch.row.measure(since);
-    (law.respond(&touch.row.penalty, gap, slip), gap, slip)
+    (law.reduced(trial.reduction).respond(&touch.row.penalty, gap, slip), gap, slip)
 }
 
 impl<const D: usize> Term<D> for Contact {

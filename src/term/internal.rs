@@ -26,6 +26,7 @@ use crate::stencil::{Entries, Patch};
 use crate::system::Local;
 use crate::tensor::{Tensor, full, symmetric};
 use rayon::prelude::*;
+use std::borrow::Cow;
 use std::marker::PhantomData;
 use std::sync::Arc;
 
@@ -105,12 +106,17 @@ impl<const D: usize, K: Kinematics<D>> Share<D, K> for () {
 /// The internal force of all material points.
 pub struct Internal<K, S = ()> {
     /// The model of each region of the mesh; `None` where a region holds no points.
-    models: Vec<Option<Arc<dyn Model>>>,
+    models: Models,
+    /// Whether the strength of each region is what [`Trial::reduction`] divides.
+    reduces: Vec<bool>,
     /// Whether the scene has dynamic phases.
     dynamic: bool,
     share: S,
     kinematics: PhantomData<K>,
 }
+
+/// The model of each region of a mesh.
+type Models = Vec<Option<Arc<dyn Model>>>;
 
 /// The deformation of a point in a trial state.
 struct Strained {
@@ -149,20 +155,37 @@ fn weighted_stress<const D: usize, K: Kinematics<D>>(
 
 impl<K> Internal<K> {
     /// `models[r]` is the model of the points of region `r`; `dynamic` where any phase is.
-    pub fn new(models: Vec<Option<Arc<dyn Model>>>, dynamic: bool) -> Self {
+    pub fn new(models: Models, dynamic: bool) -> Self {
         Self::sharing(models, dynamic, ())
     }
 }
 
 impl<K, S> Internal<K, S> {
     /// As [`Internal::new`], where `share` carries a part of the stress.
-    pub fn sharing(models: Vec<Option<Arc<dyn Model>>>, dynamic: bool, share: S) -> Self {
-        Self { models, dynamic, share, kinematics: PhantomData }
+    pub fn sharing(models: Models, dynamic: bool, share: S) -> Self {
+        Self { reduces: vec![true; models.len()], models, dynamic, share, kinematics: PhantomData }
+    }
+
+    /// Takes regions out of every reduction of strength; `kept[r]` is true for those.
+    pub fn keeping(mut self, kept: &[bool]) -> Self {
+        self.reduces = kept.iter().map(|kept| !kept).collect();
+        self
+    }
+
+    /// The models in a trial state.
+    fn models_in<const D: usize>(&self, trial: &Trial<D>) -> Cow<'_, [Option<Arc<dyn Model>>]> {
+        if trial.reduction == 1.0 {
+            return Cow::Borrowed(&self.models);
+        }
+        let reduced = |(model, reduces): (&Option<Arc<dyn Model>>, &bool)| {
+            model.as_ref().map(|model| if *reduces { model.reduced(trial.reduction) } else { model.clone() })
+        };
+        Cow::Owned(self.models.iter().zip(&self.reduces).map(reduced).collect())
     }
 
     /// The answers of the models at the points of a patch, in order.
     fn answers<const D: usize>(
-        &self,
+        models: &[Option<Arc<dyn Model>>],
         points: &Points<D>,
         numbers: &[u32],
         strained: &[Strained],
@@ -175,7 +198,7 @@ impl<K, S> Internal<K, S> {
             let p = p as usize;
             let increment = &strained.increment;
             let elastic = symmetric(&(increment * full(&points.elastic[p]) * increment.transpose()));
-            let Some(model) = self.models.get(points.region[p] as usize).and_then(Option::as_ref) else {
+            let Some(model) = models.get(points.region[p] as usize).and_then(Option::as_ref) else {
                 return Err(Error::analysis(format!("material point {p}"), "its region has no material", ""));
             };
             let state = State { plastic_strain: points.plastic_strain[p] };
@@ -189,7 +212,7 @@ impl<K, S> Internal<K, S> {
 
     /// The points of a patch at a trial state.
     fn evaluate<const D: usize>(
-        &self,
+        models: &[Option<Arc<dyn Model>>],
         frame: &Frame<D>,
         trial: &Trial<D>,
         patch: &Patch,
@@ -205,7 +228,7 @@ impl<K, S> Internal<K, S> {
         for entries in frame.stencil.entries::<K>(patch) {
             strained.push(strain::<D, K>(&entries, &now, moved.then_some(&before))?);
         }
-        let answers = timed_material(|| self.answers(frame.points, frame.stencil.points(patch), &strained))?;
+        let answers = timed_material(|| Self::answers(models, frame.points, frame.stencil.points(patch), &strained))?;
         Ok((strained, answers))
     }
 }
@@ -261,8 +284,9 @@ impl<const D: usize, K: Kinematics<D>, S: Share<D, K>> Term<D> for Internal<K, S
     fn assemble(&self, frame: &Frame<D>, trial: &Trial<D>, out: &mut Assembly) -> Result<()> {
         let wanted = out.tangent.is_some();
         let symmetric = frame.pattern.symmetric;
+        let models = self.models_in(trial);
         let compute = |patch: &Patch, local: &mut Local| {
-            let (strained, mut answers) = self.evaluate(frame, trial, patch)?;
+            let (strained, mut answers) = Self::evaluate(&models, frame, trial, patch)?;
             let count = patch.function_count as usize;
             let cell = self.share.over(frame, trial, patch);
             let later = 1.0 - trial.alpha_f;
@@ -323,8 +347,9 @@ impl<const D: usize, K: Kinematics<D>, S: Share<D, K>> Term<D> for Internal<K, S
     }
 
     fn commit(&self, frame: &Frame<D>, trial: &Trial<D>) -> Result<Option<Update>> {
+        let models = self.models_in(trial);
         let new_of_patch = |patch: &Patch| {
-            let (strained, answers) = self.evaluate(frame, trial, patch)?;
+            let (strained, answers) = Self::evaluate(&models, frame, trial, patch)?;
             let cell = self.share.over(frame, trial, patch);
             let new = |((entries, point), answer): ((Entries<D>, &Strained), &Spatial<K::Tangent>)| {
                 let deformation = point.increment * frame.points.deformation[entries.point];

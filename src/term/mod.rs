@@ -111,6 +111,8 @@ pub struct Trial<'a, const D: usize> {
     pub phase: usize,
     /// Time (s) since the phase began, between the ends of the step as `between` is.
     pub time: f64,
+    /// What strengths are divided by (-) at the end of the step.
+    pub reduction: f64,
 }
 
 impl<'a, const D: usize> Trial<'a, D> {
@@ -127,6 +129,7 @@ impl<'a, const D: usize> Trial<'a, D> {
             acceleration_slope: 0.0,
             phase: 0,
             time: 0.0,
+            reduction: 1.0,
         }
     }
 }

@@ -199,6 +199,8 @@ impl Bench {
                 least_step: step / 2f64.powi(self.halvings),
                 largest_step: step,
                 prescribed: self.prescribed,
+                reduction: None,
+                search: None,
                 stops: vec![Stop { time: self.duration, frame: true }],
             }],
             numerics: Numerics {

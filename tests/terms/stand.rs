@@ -154,6 +154,8 @@ impl<K: Kinematics<2>> Stand<K> {
             least_step: 1.0,
             largest_step: 1.0,
             prescribed: Vec::new(),
+            reduction: None,
+            search: None,
             stops: vec![Stop { time: 1.0, frame: true }],
         };
         let faces = Faces::of(&mesh);
@@ -282,6 +284,7 @@ impl<K: Kinematics<2>> Stand<K> {
             acceleration_slope: SLOPE,
             phase,
             time: 0.5,
+            reduction: 1.0,
         };
         let mut force = vec![0.0; frame.pattern.len()];
         let mut matrix = Matrix::new(frame.pattern);

@@ -35,6 +35,8 @@ fn scene<K: Kinematics<2>>(kind: CellKind) -> Scene<2> {
             least_step: 1.0,
             largest_step: 1.0,
             prescribed: Vec::new(),
+            reduction: None,
+            search: None,
             stops: Vec::new(),
         }],
         numerics: Numerics {
