@@ -3,7 +3,7 @@
 use crate::tensor::{Symmetric, Tensor};
 
 /// All material points of a scene. Every column has one entry a point; `velocity` and `acceleration`
-/// are empty in a quasi-static analysis, `plastic_increment` where no term needs it, `pressure` without a pressure
+/// are empty in a quasi-static analysis, `plastic_increment` where no term needs it, `memory` where no model does, `pressure` without a pressure
 /// field.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Points<const D: usize> {
@@ -29,6 +29,8 @@ pub struct Points<const D: usize> {
     pub plastic_strain: Vec<f64>,
     /// What the last converged step added to it (-).
     pub plastic_increment: Vec<f64>,
+    /// What hardens or softens the model of the point ([`crate::material::State::memory`]).
+    pub memory: Vec<f64>,
     /// Kirchhoff mean stress (kPa), tension positive, that the pressure field carries.
     pub pressure: Vec<f64>,
     /// Index into the regions of the mesh.
@@ -64,6 +66,7 @@ impl<const D: usize> Points<D> {
             stress: pick(&self.stress, numbers),
             plastic_strain: pick(&self.plastic_strain, numbers),
             plastic_increment: pick(&self.plastic_increment, numbers),
+            memory: pick(&self.memory, numbers),
             pressure: pick(&self.pressure, numbers),
             region: pick(&self.region, numbers),
             cell: pick(&self.cell, numbers),

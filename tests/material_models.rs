@@ -69,10 +69,10 @@ fn returned_states_are_admissible() {
         let strength = finite_strength(&*model);
         for _ in 0..STATES {
             let trial = random.trial(&*model);
-            let old = State { plastic_strain: 0.25 };
+            let old = State { plastic_strain: 0.25, ..State::default() };
             let r = model.respond(0.0, &trial, &old);
             assert!(r.stress.iter().chain(&r.elastic_strain).all(|x| x.is_finite()), "{name}: {trial:?}");
-            let excess = model.yield_excess(0.0, &r.stress);
+            let excess = model.yield_excess(0.0, &r.stress, &r.state);
             // At mean stresses of 10⁵ times the strength the last bit of the stress itself is 1e-10 of it.
             let on_surface = 1e-10 * strength + 4.0 * f64::EPSILON * largest(&r.stress);
             assert!(excess <= on_surface, "{name}: {trial:?}: outside by {excess:e}");
@@ -198,7 +198,7 @@ fn extreme_strains_are_survived() {
                 assert!(entries.chain([&r.state.plastic_strain]).all(|x| x.is_finite()), "{name}: {trial:?}");
                 // Rounding of a trial stress of λ + 2G times the strain is all that may show.
                 let rounding = 1e-14 * model.elasticity().at(0.0).tangent()[0][0] * size;
-                let excess = model.yield_excess(0.0, &r.stress);
+                let excess = model.yield_excess(0.0, &r.stress, &r.state);
                 assert!(excess <= 1e-10 * strength + rounding, "{name}: {trial:?}: {excess:e}");
             }
         }

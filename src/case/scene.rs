@@ -73,6 +73,11 @@ fn first(case: &Case, scene: &Scene<2>, [mut points, mut fem]: [Points<2>; 2]) -
         begin_pressure(case, &scene.mesh, &mut points)?;
         begin_pressure(case, &scene.mesh, &mut fem)?;
     }
+    if case.materials.iter().any(|material| material.model.remembers()) {
+        for points in [&mut points, &mut fem] {
+            points.memory = vec![0.0; points.len()];
+        }
+    }
     let first_step = scene.phases.first().map_or(0.0, |p| p.first_step);
     let fem_parametric = scene.fem.as_ref().map_or(Ok(Vec::new()), |part| parts::places(&part.mesh, &fem))?;
     Ok(State { fem, fem_parametric, ..State::new(points, scene.mesh.nodes.len(), first_step) })

@@ -23,6 +23,7 @@ pub fn to_arrays<const D: usize>(points: &Points<D>) -> Vec<Array> {
         stress,
         plastic_strain,
         plastic_increment,
+        memory,
         pressure,
         region,
         cell,
@@ -44,11 +45,12 @@ pub fn to_arrays<const D: usize>(points: &Points<D>) -> Vec<Array> {
         array("stress", "kPa", 6, stress.concat()),
         array("plastic_strain", "-", 1, plastic_strain.clone()),
         array("plastic_increment", "-", 1, plastic_increment.clone()),
+        array("memory", "-", 1, memory.clone()),
         array("pressure", "kPa", 1, pressure.clone()),
         array("region", "-", 1, region.clone()),
         array("cell", "-", 1, cell.clone()),
     ];
-    const OPTIONAL: [&str; 4] = ["velocity", "acceleration", "plastic_increment", "pressure"];
+    const OPTIONAL: [&str; 5] = ["velocity", "acceleration", "plastic_increment", "memory", "pressure"];
     arrays.retain(|a| !(a.data.is_empty() && OPTIONAL.contains(&a.name.as_str())));
     arrays
 }
@@ -80,6 +82,7 @@ pub fn take<const D: usize>(store: &mut Store, prefix: &str) -> Result<Points<D>
         stress: columns.symmetric("stress")?,
         plastic_strain: columns.scalars("plastic_strain")?,
         plastic_increment: columns.if_present("plastic_increment", 1)?.unwrap_or_default(),
+        memory: columns.if_present("memory", 1)?.unwrap_or_default(),
         pressure: columns.if_present("pressure", 1)?.unwrap_or_default(),
         region: columns.scalars("region")?,
         cell: columns.scalars("cell")?,

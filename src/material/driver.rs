@@ -33,8 +33,21 @@ const ITERATIONS: usize = 50;
 /// # Errors
 /// If the prescribed stresses cannot be reached, beyond the strength for example.
 pub fn drive(model: &dyn Model, y: f64, path: impl IntoIterator<Item = [Control; 3]>) -> Result<Vec<Response>> {
+    drive_from(model, y, [0.0; 3], path)
+}
+
+/// As [`drive`], from an elastic Hencky strain `elastic` (-) that the model begins with; the strains of the path are since then.
+///
+/// # Errors
+/// As [`drive`].
+pub fn drive_from(
+    model: &dyn Model,
+    y: f64,
+    mut elastic: [f64; 3],
+    path: impl IntoIterator<Item = [Control; 3]>,
+) -> Result<Vec<Response>> {
     let mut history = Vec::new();
-    let (mut strain, mut elastic, mut state) = ([0.0; 3], [0.0; 3], State::default());
+    let (mut strain, mut state) = ([0.0; 3], State::default());
     for (number, controls) in path.into_iter().enumerate() {
         let mut increment = [0.0; 3];
         for k in 0..3 {

@@ -47,7 +47,7 @@ impl Model for LinearElastic {
         true
     }
 
-    fn yield_excess(&self, _: f64, _: &[f64; 3]) -> f64 {
+    fn yield_excess(&self, _: f64, _: &[f64; 3], _: &State) -> f64 {
         f64::NEG_INFINITY
     }
 

@@ -5,21 +5,25 @@
 //!
 //! A model is one file and one line in [`MODELS`]; the shared tests find it there.
 
+pub mod cam_clay;
 pub mod driver;
 pub mod elasticity;
 pub mod linear_elastic;
 pub mod mohr_coulomb;
 pub mod parameters;
 pub mod polyhedral;
+pub mod softening_tresca;
 pub mod spatial;
 pub mod spectral;
 pub mod tresca;
 pub mod von_mises;
 
+pub use cam_clay::CamClay;
 pub use elasticity::{Elasticity, Moduli};
 pub use linear_elastic::LinearElastic;
 pub use mohr_coulomb::{Friction, MohrCoulomb};
 pub use parameters::{Kind, Parameter, Parameters, Profile};
+pub use softening_tresca::{Softening, SofteningTresca};
 pub use tresca::Tresca;
 pub use von_mises::VonMises;
 
@@ -27,7 +31,8 @@ use crate::error::Result;
 use std::sync::Arc;
 
 /// Every model a case can name.
-pub const MODELS: &[Kind] = &[linear_elastic::KIND, mohr_coulomb::KIND, tresca::KIND, von_mises::KIND];
+pub const MODELS: &[Kind] =
+    &[linear_elastic::KIND, mohr_coulomb::KIND, tresca::KIND, von_mises::KIND, softening_tresca::KIND, cam_clay::KIND];
 
 /// What a model remembers at a point from step to step.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -35,6 +40,11 @@ pub struct State {
     /// Accumulated equivalent plastic strain (-): the sum of `√(⅔ Δε_p:Δε_p)` over the steps, `Δε_p` the
     /// plastic Hencky strain of a step with its volumetric part.
     pub plastic_strain: f64,
+    /// What hardens or softens the model, 0 at first: its own quantity, if [`Model::remembers`].
+    pub memory: f64,
+    /// Steps a second (1/s), which is no memory but comes along: one over the size of the step in hand, 0 where time plays no
+    /// part.
+    pub per_second: f64,
 }
 
 /// The answer of a model, in principal axes, in the order of the trial strains.
@@ -75,9 +85,14 @@ pub trait Model: Send + Sync {
     /// Whether the tangent is symmetric in every state (associated flow).
     fn symmetric(&self) -> bool;
 
-    /// How far principal Kirchhoff stresses, in any order, lie outside the yield surface at height `y`,
-    /// as a stress (kPa); negative inside.
-    fn yield_excess(&self, y: f64, stress: &[f64; 3]) -> f64;
+    /// Whether the model needs [`State::memory`].
+    fn remembers(&self) -> bool {
+        false
+    }
+
+    /// How far principal Kirchhoff stresses, in any order, lie outside the yield surface at height `y` in a state, at
+    /// rest, as a stress (kPa); negative inside.
+    fn yield_excess(&self, y: f64, stress: &[f64; 3], state: &State) -> f64;
 
     /// The strength (kPa) at height `y` that yield is measured by (cohesion, yield stress); infinite
     /// without yield.

@@ -160,7 +160,7 @@ impl Model for MohrCoulomb {
         self.friction.sin_friction == self.friction.sin_dilation
     }
 
-    fn yield_excess(&self, y: f64, stress: &[f64; 3]) -> f64 {
+    fn yield_excess(&self, y: f64, stress: &[f64; 3], _: &State) -> f64 {
         self.planes(y).excess(stress)
     }
 

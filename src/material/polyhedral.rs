@@ -99,7 +99,7 @@ impl Planes {
             stress: [0.0; 3],
             tangent: [[0.0; 3]; 3],
             elastic_strain: [0.0; 3],
-            state: State { plastic_strain: state.plastic_strain + equivalent_plastic(&plastic) },
+            state: State { plastic_strain: state.plastic_strain + equivalent_plastic(&plastic), ..*state },
             yielding: true,
         };
         for a in 0..3 {

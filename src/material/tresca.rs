@@ -71,7 +71,7 @@ impl Model for Tresca {
         true
     }
 
-    fn yield_excess(&self, y: f64, stress: &[f64; 3]) -> f64 {
+    fn yield_excess(&self, y: f64, stress: &[f64; 3], _: &State) -> f64 {
         self.planes(y).excess(stress)
     }
 

@@ -78,7 +78,10 @@ impl Model for VonMises {
             stress: e.map(|x| mean + g * x),
             tangent,
             elastic_strain: e.map(|x| volumetric / 3.0 + kept * x),
-            state: State { plastic_strain: state.plastic_strain + equivalent_plastic(&e.map(|x| (1.0 - kept) * x)) },
+            state: State {
+                plastic_strain: state.plastic_strain + equivalent_plastic(&e.map(|x| (1.0 - kept) * x)),
+                ..*state
+            },
             yielding: true,
         }
     }
@@ -91,7 +94,7 @@ impl Model for VonMises {
         true
     }
 
-    fn yield_excess(&self, y: f64, stress: &[f64; 3]) -> f64 {
+    fn yield_excess(&self, y: f64, stress: &[f64; 3], _: &State) -> f64 {
         let [a, b, c] = stress;
         (0.5 * ((a - b).powi(2) + (b - c).powi(2) + (c - a).powi(2))).sqrt() - self.yield_stress.at(y)
     }

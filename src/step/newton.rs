@@ -408,6 +408,7 @@ pub fn static_force<const D: usize>(problem: &Problem<D>, grid: &mut Grid<D>) ->
         phase: problem.phase,
         time: problem.from,
         reduction: problem.scene.phases[problem.phase].reduction_at(problem.from),
+        per_second: 0.0,
     };
     let (mut own, mut sum) = (Vec::new(), Evaluation::default());
     timed(Activity::Assembly, || {
@@ -445,6 +446,7 @@ fn evaluate<const D: usize>(
         phase: problem.phase,
         time: (1.0 - alpha_f) * problem.to + alpha_f * problem.from,
         reduction: problem.scene.phases[problem.phase].reduction_at(problem.to),
+        per_second: 1.0 / (problem.to - problem.from),
     };
     let result = timed(Activity::Assembly, || {
         add_terms(problem, grid, &trial, tangent, &|role| dynamic || role != Role::Inertia, own, state)

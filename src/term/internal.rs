@@ -189,6 +189,7 @@ impl<K, S> Internal<K, S> {
         points: &Points<D>,
         numbers: &[u32],
         strained: &[Strained],
+        per_second: f64,
     ) -> Result<Vec<Spatial<K::Tangent>>>
     where
         K: Kinematics<D>,
@@ -201,7 +202,11 @@ impl<K, S> Internal<K, S> {
             let Some(model) = models.get(points.region[p] as usize).and_then(Option::as_ref) else {
                 return Err(Error::analysis(format!("material point {p}"), "its region has no material", ""));
             };
-            let state = State { plastic_strain: points.plastic_strain[p] };
+            let state = State {
+                plastic_strain: points.plastic_strain[p],
+                memory: points.memory.get(p).copied().unwrap_or(0.0),
+                per_second,
+            };
             let Some(answer) = K::respond(model.as_ref(), points.origin[p][1], &elastic, &state) else {
                 return Err(inadmissible(p, "is strained beyond measure", increment));
             };
@@ -228,7 +233,9 @@ impl<K, S> Internal<K, S> {
         for entries in frame.stencil.entries::<K>(patch) {
             strained.push(strain::<D, K>(&entries, &now, moved.then_some(&before))?);
         }
-        let answers = timed_material(|| Self::answers(models, frame.points, frame.stencil.points(patch), &strained))?;
+        let answers = timed_material(|| {
+            Self::answers(models, frame.points, frame.stencil.points(patch), &strained, trial.per_second)
+        })?;
         Ok((strained, answers))
     }
 }
@@ -360,6 +367,7 @@ impl<const D: usize, K: Kinematics<D>, S: Share<D, K>> Term<D> for Internal<K, S
                     elastic: answer.elastic,
                     stress: answer.kirchhoff.map(|t| t / volume_ratio),
                     plastic_strain: answer.state.plastic_strain,
+                    memory: answer.state.memory,
                     pressure: 0.0,
                 };
                 self.share.commit(&cell, frame.points, &entries, &mut history);

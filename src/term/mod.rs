@@ -113,6 +113,8 @@ pub struct Trial<'a, const D: usize> {
     pub time: f64,
     /// What strengths are divided by (-) at the end of the step.
     pub reduction: f64,
+    /// One over the size of the step (1/s), for strength that depends on the rate of strain.
+    pub per_second: f64,
 }
 
 impl<'a, const D: usize> Trial<'a, D> {
@@ -130,6 +132,7 @@ impl<'a, const D: usize> Trial<'a, D> {
             phase: 0,
             time: 0.0,
             reduction: 1.0,
+            per_second: 0.0,
         }
     }
 }
@@ -164,6 +167,8 @@ pub struct History {
     pub elastic: Symmetric,
     pub stress: Symmetric,
     pub plastic_strain: f64,
+    /// What hardens or softens the model; not kept by points without the column.
+    pub memory: f64,
     /// What the pressure field carries (kPa); not kept by points without the column.
     pub pressure: f64,
 }
@@ -188,6 +193,7 @@ impl Update {
         write(&mut points.elastic, &of_point, |new| new.elastic);
         write(&mut points.stress, &of_point, |new| new.stress);
         write(&mut points.plastic_strain, &of_point, |new| new.plastic_strain);
+        write(&mut points.memory, &of_point, |new| new.memory);
         write(&mut points.pressure, &of_point, |new| new.pressure);
     }
 }

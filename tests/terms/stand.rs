@@ -285,6 +285,7 @@ impl<K: Kinematics<2>> Stand<K> {
             phase,
             time: 0.5,
             reduction: 1.0,
+            per_second: 0.0,
         };
         let mut force = vec![0.0; frame.pattern.len()];
         let mut matrix = Matrix::new(frame.pattern);

@@ -1,0 +1,375 @@
+//! Tresca model with associated flow whose strength falls as it is sheared and grows with the rate of that (Einav &
+//! Randolph 2005, *Combining upper bound and strain path methods for evaluating penetration resistance*, Int. J. Numer. Meth.
+//! Engng 63, 1991–2016):
+//!
+//! ```text
+//! τ₁ − τ₃ ≤ 2 s_u,   s_u = s_u0 [1 + μ log₁₀(max(ξ̇, γ̇_ref)/γ̇_ref)] [δ_rem + (1 − δ_rem) e^(−3 ξ/ξ₉₅)]
+//! ```
+//!
+//! `ξ = Σ Σ_A |Δε_p,A|` is the accumulated plastic shear strain: in shear the sum of `|Δγ_p|`. So it is what the strength
+//! does work on, `s_u Δξ`, at the edges of the surface as on its faces. Both ends of the step count as the end does: the return
+//! finds `Δξ` with the strength that it leads to. For a given strength the return is that of [`super::polyhedral`], and
+//! `∂ξ/∂(2 s_u) = −c`, `c = 1/2G` on a face and `2/3G` at an edge, `∂ξ/∂ε = 2 ∂τ/∂(2 s_u) = 2 t`: the tangent stays symmetric,
+//!
+//! ```text
+//! ∂τ/∂ε = (∂τ/∂ε at constant s_u) + 4 s′/(1 + 2 c s′) t ⊗ t,   s′ = ds_u/dξ
+//! ```
+//!
+//! There is one answer as long as the soil softens more slowly than it unloads, which [`Model::check`] sees to. Softening makes
+//! shear bands as narrow as the cells allow: results depend on their size.
+
+use super::polyhedral::Planes;
+use super::{Elasticity, Kind, Model, Moduli, Parameter, Parameters, Profile, Response, State};
+use crate::error::{Error, Result};
+use std::f64::consts::LN_10;
+use std::sync::Arc;
+
+/// Iterations of the search for the strength; halving alone would need 60.
+const ITERATIONS: usize = 100;
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SofteningTresca {
+    elasticity: Elasticity,
+    shear_strength: Profile,
+    softening: Softening,
+}
+
+/// How the strength changes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Softening {
+    /// δ_rem (-): the strength of remoulded soil over the first one.
+    pub remoulded: f64,
+    /// ξ₉₅ (-): the plastic shear strain at which 95 % of the softening is done.
+    pub ductility: f64,
+    /// μ (-): the strength gained with each tenfold rate.
+    pub rate: f64,
+    /// γ̇_ref (1/s): the rate up to which the strength is `s_u0`.
+    pub reference_rate: f64,
+}
+
+/// The entry of the model list.
+pub const KIND: Kind = Kind {
+    name: "tresca_softening",
+    keeps_volume: true,
+    parameters: &[
+        Parameter::YOUNG,
+        Parameter::POISSON,
+        Parameter {
+            name: "shear_strength",
+            unit: "kPa",
+            required: true,
+            varies: true,
+            meaning: "undrained shear strength s_u, half the largest difference of principal stresses",
+        },
+        Parameter {
+            name: "remoulded",
+            unit: "-",
+            required: true,
+            varies: false,
+            meaning: "strength of remoulded soil over that of intact soil, above 0 and at most 1: one over the sensitivity",
+        },
+        Parameter {
+            name: "ductility",
+            unit: "-",
+            required: true,
+            varies: false,
+            meaning: "plastic shear strain at which 95 % of the softening is done",
+        },
+        Parameter {
+            name: "rate",
+            unit: "-",
+            required: false,
+            varies: false,
+            meaning: "part of the strength gained with each tenfold rate of shear; 0 if not given",
+        },
+        Parameter {
+            name: "reference_rate",
+            unit: "1/s",
+            required: false,
+            varies: false,
+            meaning: "rate of shear from which the strength grows; needed with a rate",
+        },
+    ],
+    build,
+    examples: &[
+        &[("young", 1000.0), ("poisson", 0.49), ("shear_strength", 2.0), ("remoulded", 0.3), ("ductility", 2.0)],
+        &[("young", 100.0), ("poisson", 0.3), ("shear_strength", 1.0), ("remoulded", 0.2), ("ductility", 0.5)],
+        &[("young", 5e4), ("poisson", 0.0), ("shear_strength", 50.0), ("remoulded", 1.0), ("ductility", 10.0)],
+    ],
+};
+
+fn build(parameters: &Parameters) -> Result<Arc<dyn Model>> {
+    let rate = parameters.number_or("rate", 0.0)?;
+    let reference_rate =
+        if rate == 0.0 { parameters.number_or("reference_rate", 1.0)? } else { parameters.number("reference_rate")? };
+    let (remoulded, ductility) = (parameters.number("remoulded")?, parameters.number("ductility")?);
+    let softening = Softening { remoulded, ductility, rate, reference_rate };
+    Ok(Arc::new(SofteningTresca::new(parameters.elasticity()?, parameters.profile("shear_strength")?, softening)?))
+}
+
+impl Softening {
+    /// `s_u/s_u0` and its derivative by ξ at the accumulated strain `before + more`, of which `more` came at `per_second`
+    /// steps a second.
+    fn factor(&self, before: f64, more: f64, per_second: f64) -> (f64, f64) {
+        let lost = (1.0 - self.remoulded) * (-3.0 * (before + more) / self.ductility).exp();
+        let (kept, kept_slope) = (self.remoulded + lost, -3.0 * lost / self.ductility);
+        let times = more * per_second / self.reference_rate;
+        let (fast, fast_slope) =
+            if times > 1.0 { (1.0 + self.rate * times.log10(), self.rate / (LN_10 * more)) } else { (1.0, 0.0) };
+        (kept * fast, kept_slope * fast + kept * fast_slope)
+    }
+}
+
+impl SofteningTresca {
+    /// # Errors
+    /// Names the parameter that is out of range, at the datum of the strength.
+    pub fn new(elasticity: Elasticity, shear_strength: Profile, softening: Softening) -> Result<Self> {
+        let Softening { remoulded, ductility, rate, reference_rate } = softening;
+        let refuse = |name: &str, value: f64, remedy: &str| {
+            Err(Error::input(name, format!("{value} is out of range"), remedy.to_string()))
+        };
+        if !(remoulded > 0.0 && remoulded <= 1.0) {
+            return refuse("remoulded", remoulded, "give a part of the strength above 0, and 1 at most");
+        }
+        if !(ductility > 0.0 && ductility.is_finite()) {
+            return refuse("ductility", ductility, "give a plastic shear strain above 0, such as 10 for 1000 %");
+        }
+        if !(rate >= 0.0 && rate.is_finite()) {
+            return refuse("rate", rate, "give a part of the strength, 0 or more, such as 0.1");
+        }
+        if !(reference_rate > 0.0 && reference_rate.is_finite()) {
+            return refuse("reference_rate", reference_rate, "give a rate of shear above 0 [1/s]");
+        }
+        let model = Self { elasticity, shear_strength, softening };
+        model.check(shear_strength.datum)?;
+        Ok(model)
+    }
+
+    fn planes(&self, y: f64, factor: f64) -> Planes {
+        Planes {
+            sin_friction: 0.0,
+            sin_dilation: 0.0,
+            strength: 2.0 * self.shear_strength.at(y) * factor,
+            tension: f64::INFINITY,
+        }
+    }
+}
+
+/// The plastic shear strain of a return.
+fn sheared(trial: &[f64; 3], response: &Response) -> f64 {
+    trial.iter().zip(&response.elastic_strain).map(|(t, e)| (t - e).abs()).sum()
+}
+
+/// `t = ∂τ/∂(2 s_u)` of a return to `stress`, and `c`: by the face, or the edge where two of the stresses are equal.
+fn by_strength(moduli: &Moduli, stress: &[f64; 3]) -> ([f64; 3], f64) {
+    let high = stress.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    let low = stress.iter().copied().fold(f64::INFINITY, f64::min);
+    let near = 1e-9 * (high - low) + 8.0 * f64::EPSILON * high.abs().max(low.abs());
+    let (at_high, at_low) = (stress.map(|s| high - s <= near), stress.map(|s| s - low <= near));
+    let count = |at: &[bool; 3]| at.iter().filter(|at| **at).count();
+    let edge = count(&at_high) + count(&at_low) > 2;
+    let share = if edge { [2.0 / 3.0, 1.0 / 3.0] } else { [0.5, 0.5] };
+    let of = |number: usize| share[number - 1];
+    let (up, down) = if edge { (of(count(&at_high)), of(count(&at_low))) } else { (0.5, 0.5) };
+    let t = std::array::from_fn(|k| {
+        if at_high[k] {
+            up
+        } else if at_low[k] {
+            -down
+        } else {
+            0.0
+        }
+    });
+    (t, if edge { 2.0 / (3.0 * moduli.shear) } else { 0.5 / moduli.shear })
+}
+
+impl Model for SofteningTresca {
+    fn respond(&self, y: f64, trial: &[f64; 3], state: &State) -> Response {
+        let moduli = self.elasticity.at(y);
+        let at = |more: f64| {
+            let (factor, slope) = self.softening.factor(state.memory, more, state.per_second);
+            (self.planes(y, factor).respond(&moduli, trial, state), self.shear_strength.at(y) * slope)
+        };
+        // The strength at the end lies between that before and that of remoulded soil, at whatever rate.
+        let first = at(0.0).0;
+        if !first.yielding {
+            return first;
+        }
+        let weakest = self.planes(y, self.softening.remoulded).respond(&moduli, trial, state);
+        let (mut low, mut high) = (0.0, sheared(trial, &weakest));
+        let mut more = sheared(trial, &first).min(high);
+        let (mut response, mut slope) = at(more);
+        for _ in 0..ITERATIONS {
+            let miss = sheared(trial, &response) - more;
+            if miss >= 0.0 {
+                low = more
+            } else {
+                high = more
+            }
+            let (_, c) = by_strength(&moduli, &response.stress);
+            let mut next = more + miss / (1.0 + 2.0 * c * slope);
+            if !(next > low && next < high) {
+                next = 0.5 * (low + high);
+            }
+            let done = (next - more).abs() <= 4.0 * f64::EPSILON * more;
+            more = next;
+            (response, slope) = at(more);
+            if done {
+                break;
+            }
+        }
+        let (t, c) = by_strength(&moduli, &response.stress);
+        let by = 4.0 * slope / (1.0 + 2.0 * c * slope);
+        for (row, a) in response.tangent.iter_mut().zip(&t) {
+            for (entry, b) in row.iter_mut().zip(&t) {
+                *entry += by * a * b;
+            }
+        }
+        response.state.memory = state.memory + more;
+        response
+    }
+
+    fn elasticity(&self) -> &Elasticity {
+        &self.elasticity
+    }
+
+    fn symmetric(&self) -> bool {
+        true
+    }
+
+    fn remembers(&self) -> bool {
+        true
+    }
+
+    fn yield_excess(&self, y: f64, stress: &[f64; 3], state: &State) -> f64 {
+        self.planes(y, self.softening.factor(state.memory, 0.0, 0.0).0).excess(stress)
+    }
+
+    fn strength(&self, y: f64) -> f64 {
+        self.shear_strength.at(y)
+    }
+
+    fn reduced(&self, factor: f64) -> Arc<dyn Model> {
+        Arc::new(Self { shear_strength: self.shear_strength.scaled(1.0 / factor), ..*self })
+    }
+
+    fn check(&self, y: f64) -> Result<()> {
+        self.elasticity.check(y)?;
+        self.shear_strength.positive_at("shear_strength", y)?;
+        let Softening { remoulded, ductility, .. } = self.softening;
+        let (slope, most) =
+            (3.0 * (1.0 - remoulded) * self.shear_strength.at(y) / ductility, 0.5 * self.elasticity.at(y).shear);
+        if slope <= most {
+            return Ok(());
+        }
+        Err(Error::input(
+            "ductility",
+            format!(
+                "the strength falls by {slope:.4} kPa for a unit of strain, faster than the soil can unload ({most:.4})"
+            ),
+            "raise it, or the stiffness",
+        ))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn model(rate: f64) -> SofteningTresca {
+        let elasticity = Elasticity::new(Profile::constant(2600.0), 0.3).unwrap();
+        let softening = Softening { remoulded: 0.25, ductility: 4.0, rate, reference_rate: 0.01 };
+        SofteningTresca::new(elasticity, Profile { top: 4.0, gradient: 1.0, datum: 0.0 }, softening).unwrap()
+    }
+
+    /// Leads a point through pure shear in steps of `step`, each of which takes `1/per_second`.
+    fn shear(model: &SofteningTresca, step: f64, count: usize, per_second: f64) -> Vec<(f64, f64, State)> {
+        let (mut elastic, mut state, mut path) = ([0.0; 3], State { per_second, ..State::default() }, Vec::new());
+        for n in 1..=count {
+            let trial = [elastic[0] + 0.5 * step, elastic[1], elastic[2] - 0.5 * step];
+            let r = model.respond(-6.0, &trial, &state);
+            (elastic, state) = (r.elastic_strain, r.state);
+            path.push((n as f64 * step, 0.5 * (r.stress[0] - r.stress[2]), state));
+        }
+        path
+    }
+
+    /// In pure shear ξ = γ − τ/G, and τ is the strength at that ξ: whatever the steps, as the return is implicit.
+    #[test]
+    fn in_shear_the_stress_follows_the_softening_curve() {
+        let model = model(0.0);
+        for (step, count) in [(1e-3, 8000), (0.5, 16), (8.0, 1)] {
+            let path = shear(&model, step, count, 0.0);
+            for &(gamma, tau, state) in path.iter().filter(|(gamma, ..)| *gamma > 0.02) {
+                let xi = gamma - tau / 1000.0;
+                let exact = 10.0 * (0.25 + 0.75 * (-3.0 * xi / 4.0f64).exp());
+                assert!((tau - exact).abs() < 1e-9, "γ {gamma}: {tau} {exact}");
+                assert!((state.memory - xi).abs() < 1e-11, "γ {gamma}: {} {xi}", state.memory);
+            }
+        }
+        // 95 % of the softening is done at ξ₉₅.
+        let (gamma, tau, _) = shear(&model, 1e-3, 4003, 0.0)[4002];
+        let left = (tau - 2.5) / 7.5;
+        assert!((left - (-3.0f64).exp()).abs() < 1e-4, "{gamma} {tau} {left}");
+    }
+
+    /// A tenfold rate gains μ; rates below the reference gain nothing.
+    #[test]
+    fn strength_grows_with_the_rate() {
+        let model = model(0.1);
+        for (times, gained) in [(0.1, 1.0), (10.0, 1.1), (1000.0, 1.3)] {
+            // A plastic rate that does not change: the steps far from the first yield are all alike.
+            let step = 1e-3;
+            let per_second = times * 0.01 / step;
+            let path = shear(&model, step, 4000, per_second);
+            let (gamma, tau, state) = path[3999];
+            let soft = 10.0 * (0.25 + 0.75 * (-3.0 * state.memory / 4.0f64).exp());
+            // What the falling stress gives back adds to the plastic rate: 1e-3 of it.
+            assert!((tau / soft - gained).abs() < 3e-4, "{times}: γ {gamma}: {}", tau / soft);
+        }
+    }
+
+    /// The tangent against differences of the return with rate and softening, on faces and edges.
+    #[test]
+    fn the_tangent_is_that_of_the_implicit_return() {
+        let model = model(0.2);
+        let state = State { memory: 0.3, per_second: 10.0, ..State::default() };
+        let mut edges = 0;
+        for trial in [
+            [0.02, 0.001, -0.03],
+            [0.5, 0.1, -0.6],
+            [0.03, -0.0148, -0.0152],
+            [0.0151, 0.0149, -0.03],
+            [0.2, 0.2, -0.3],
+        ] {
+            let r = model.respond(-6.0, &trial, &state);
+            assert!(r.yielding);
+            edges += usize::from(by_strength(&model.elasticity.at(-6.0), &r.stress).1 > 6e-4);
+            for b in 0..3 {
+                let moved = |by: f64| {
+                    let mut t = trial;
+                    t[b] += by;
+                    model.respond(-6.0, &t, &state).stress
+                };
+                let (up, down) = (moved(1e-7), moved(-1e-7));
+                for a in 0..3 {
+                    let difference = (up[a] - down[a]) / 2e-7;
+                    assert!(
+                        (difference - r.tangent[a][b]).abs() < 2e-3,
+                        "{trial:?} {a}{b}: {difference} {}",
+                        r.tangent[a][b]
+                    );
+                }
+            }
+        }
+        assert!(edges >= 2, "{edges}");
+    }
+
+    #[test]
+    fn soil_that_softens_faster_than_it_unloads_is_refused() {
+        let elasticity = Elasticity::new(Profile::constant(2600.0), 0.3).unwrap();
+        let brittle = Softening { remoulded: 0.1, ductility: 0.01, rate: 0.0, reference_rate: 1.0 };
+        let error = SofteningTresca::new(elasticity, Profile::constant(4.0), brittle).unwrap_err();
+        assert_eq!(error.place, "ductility");
+    }
+}
