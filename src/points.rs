@@ -11,6 +11,8 @@ pub struct Points<const D: usize> {
     pub position: Vec<[f64; D]>,
     /// Position (m) at which the point was seeded; depth-dependent parameters are taken here.
     pub origin: Vec<[f64; D]>,
+    /// Position (m) that displacements are counted from, as of the last reset; empty before one: from the origin.
+    pub reference: Vec<[f64; D]>,
     /// Velocity (m/s).
     pub velocity: Vec<[f64; D]>,
     /// Acceleration (m/s²).
@@ -44,6 +46,12 @@ impl<const D: usize> Points<D> {
         self.position.len()
     }
 
+    /// Displacement (m) of point `p` since seeding or the last reset.
+    pub fn displacement(&self, p: usize) -> [f64; D] {
+        let from = self.reference.get(p).unwrap_or(&self.origin[p]);
+        std::array::from_fn(|d| self.position[p][d] - from[d])
+    }
+
     /// Current volume (m³) of point `p`, by the measure of `initial_volume`.
     pub fn volume(&self, p: usize) -> f64 {
         self.initial_volume[p] * self.deformation[p].determinant()
@@ -57,6 +65,7 @@ impl<const D: usize> Points<D> {
         Self {
             position: pick(&self.position, numbers),
             origin: pick(&self.origin, numbers),
+            reference: pick(&self.reference, numbers),
             velocity: pick(&self.velocity, numbers),
             acceleration: pick(&self.acceleration, numbers),
             mass: pick(&self.mass, numbers),

@@ -209,6 +209,7 @@ fn points_vtu_is_viewable_as_it_is() {
     let points = Points::<2> {
         position: pairs(1),
         origin: pairs(2),
+        reference: Vec::new(),
         velocity: pairs(3),
         acceleration: pairs(4),
         mass: numbers(n, 7),

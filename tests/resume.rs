@@ -51,6 +51,33 @@ const WALL: Case = Case {
 /// Bodies that touch, one of them rigid, quasi-static.
 const BODIES: Case = Case { file: "cases/hertz", overrides: &["mesh.parameters.h=0.4", "regions.upper.rigid=true"] };
 
+/// A search for failure, and the run-out.
+const SAFETY: Case = Case {
+    file: "cases/slope_safety",
+    overrides: &[
+        "mesh.parameters.h=3",
+        "phases.safety.step={initial: 0.02, min: 0.005}",
+        "phases.failure.duration=0.4",
+        "phases.failure.step={initial: 0.01}",
+    ],
+};
+
+/// Quasi-static, dynamic where there is no equilibrium, and quasi-static again; then, with displacements from zero, up to a
+/// condition, softening clay.
+const FALL: Case = Case {
+    file: "cases/slump",
+    overrides: &[
+        "mesh.parameters.h=2",
+        "materials.soil={model: tresca_softening, young: 1000, poisson: 0.3, shear_strength: 10, remoulded: 0.5, \
+         ductility: 5, density: 1}",
+        "supports.bottom={ux: 0, uy: 0}",
+        "numerics.spectral_radius=0.5",
+        "phases=[{name: fall, analysis: auto, duration: 2, step: {initial: 0.05, min: 0.02, max: 0.05}, \
+         gravity: {table: [[0, 0], [1, 1]]}}, {name: on, analysis: dynamic, duration: 1, step: {initial: 0.05}, \
+         reset_displacements: true, until: [{of: block, quantity: uy, below: -0.2}]}]",
+    ],
+};
+
 fn mpm(verb: &str, case: &Case, folder: &Path, more: &[&str]) -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_mpm"));
     command.arg(verb).arg(Path::new(env!("CARGO_MANIFEST_DIR")).join(case.file)).arg("-o").arg(folder);
@@ -207,8 +234,18 @@ fn a_run_with_a_wall_that_moves_killed_ten_times_ends_the_same() {
 }
 
 #[test]
+fn a_search_for_failure_killed_ten_times_ends_the_same() {
+    survives_kills(&SAFETY, 6);
+}
+
+#[test]
+fn a_fall_between_equilibria_killed_ten_times_ends_the_same() {
+    survives_kills(&FALL, 7);
+}
+
+#[test]
 fn the_number_of_threads_changes_no_bit() {
-    for case in [SLOPE, RELEASE, SAND, PILE, BLOCK, WALL, BODIES] {
+    for case in [SLOPE, RELEASE, SAND, PILE, BLOCK, WALL, BODIES, SAFETY, FALL] {
         let one = seeded(&case);
         let three = copy(one.path());
         ends(mpm("solve", &case, one.path(), &["--threads", "1"]), 0);

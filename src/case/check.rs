@@ -300,7 +300,7 @@ impl Checker {
             let remedy = "take `x` out, or load gravity in a first quasi_static phase in place of `initial_stress`";
             self.issue(&root.key("gravity").key("x"), At::Value, "k0 needs vertical gravity", remedy);
         }
-        let dynamic = case.phases.iter().any(|phase| phase.analysis == Analysis::Dynamic);
+        let dynamic = case.phases.iter().any(|phase| phase.analysis.has_inertia());
         if !dynamic {
             for name in file.initial_velocity.keys() {
                 let remedy = "make a phase dynamic, or take `initial_velocity` out";

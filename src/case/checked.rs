@@ -135,6 +135,8 @@ impl fmt::Debug for Material {
 /// Contact between a structure or a wall and soil, or between two bodies.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Contact {
+    /// By which phases take it away.
+    pub name: Option<String>,
     pub structure: Touching,
     pub on: Touched,
     pub law: Law,
@@ -247,14 +249,37 @@ pub struct Phase {
     pub gravity: TimeValue,
     /// What strengths are divided by (-); absent where they are as given.
     pub reduction: Option<TimeValue>,
+    /// Structures, walls and contacts that are not there in the phase.
+    pub absent: Vec<String>,
+    /// Whether displacements are counted from its beginning.
+    pub reset: bool,
+    pub until: Vec<Until>,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Analysis {
     QuasiStatic,
     Dynamic,
+    /// Quasi-static, and dynamic where there is no equilibrium until there is rest.
+    Auto,
     /// Quasi-static, with strengths that fall until no equilibrium is left.
     StrengthReduction,
+}
+
+impl Analysis {
+    /// Whether inertia may come in.
+    pub fn has_inertia(self) -> bool {
+        matches!(self, Self::Dynamic | Self::Auto)
+    }
+}
+
+/// What ends a phase before its time.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Until {
+    /// A quantity of the entry of [`Output::history`] with this index is at least, or where `below` at most `bound`.
+    Reached { history: usize, quantity: Quantity, bound: f64, below: bool },
+    /// The kinetic energy has fallen to this part (-) of its largest in the phase.
+    Equilibrium(f64),
 }
 
 /// Time steps (s), `min ≤ initial ≤ max`.

@@ -25,7 +25,7 @@ impl Checker {
                 self.issue(&path.key("adhesion_factor"), At::Key, "it is a share of the strength of soil", remedy);
             }
             if let (Some(structure), Some(on)) = (structure, on) {
-                checked.push(Contact { structure, on, law });
+                checked.push(Contact { name: contact.name.clone(), structure, on, law });
             }
         }
         checked

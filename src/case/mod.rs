@@ -19,6 +19,7 @@ mod rigid;
 pub mod scene;
 pub mod seeding;
 pub mod source;
+mod staged;
 pub mod structure;
 #[cfg(test)]
 mod tests;

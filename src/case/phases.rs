@@ -1,21 +1,23 @@
 //! The phases of a case: time steps, prescribed displacements and loads.
 
 use super::check::{Checker, LATER};
-use super::checked::{Analysis, Numerics, Phase, Prescribed, Restore, StepSize, Traction};
+use super::checked::{Analysis, Numerics, Phase, Prescribed, Restore, StepSize, Traction, Until};
 use super::locate::{At, Path};
 use super::raw;
+use super::structure::suggest;
 use crate::time_value::TimeValue;
 
 impl Checker {
     pub(super) fn phases(&mut self, file: &raw::CaseFile, numerics: &Numerics, path: &Path) -> Vec<Phase> {
-        let mut checked = Vec::new();
+        let mut checked: Vec<Phase> = Vec::new();
         for (i, phase) in file.phases.iter().enumerate() {
             let path = path.index(i);
             if file.phases[..i].iter().any(|earlier| earlier.name == phase.name) {
                 let problem = format!("two phases are called `{}`", phase.name);
                 self.issue(&path.key("name"), At::Value, problem, "give each phase a name of its own");
             }
-            checked.push(self.phase(phase, file, numerics, &path));
+            let absent = self.absent(phase, checked.last(), file, &path);
+            checked.push(Phase { absent, ..self.phase(phase, file, numerics, &path) });
         }
         checked
     }
@@ -24,6 +26,7 @@ impl Checker {
         let analysis = match phase.analysis {
             raw::Analysis::QuasiStatic => Analysis::QuasiStatic,
             raw::Analysis::Dynamic => Analysis::Dynamic,
+            raw::Analysis::Auto => Analysis::Auto,
             raw::Analysis::StrengthReduction => Analysis::StrengthReduction,
             raw::Analysis::Consolidation => {
                 let problem = format!("`consolidation` {LATER}");
@@ -31,7 +34,7 @@ impl Checker {
                     &path.key("analysis"),
                     At::Value,
                     problem,
-                    "choose quasi_static, dynamic or strength_reduction",
+                    "choose quasi_static, dynamic, auto or strength_reduction",
                 );
                 Analysis::QuasiStatic
             }
@@ -79,6 +82,9 @@ impl Checker {
             tractions,
             gravity,
             reduction: self.reduction(phase, analysis, file, path),
+            absent: Vec::new(),
+            reset: phase.reset_displacements,
+            until: self.until(phase, analysis, file, &path.key("until")),
         }
     }
 
@@ -125,6 +131,85 @@ impl Checker {
             self.issue(&at, At::Value, "a search for failure needs a factor that grows", remedy);
         }
         Some(value)
+    }
+
+    /// What is not there in a phase, given the one before it.
+    fn absent(&mut self, phase: &raw::Phase, before: Option<&Phase>, file: &raw::CaseFile, path: &Path) -> Vec<String> {
+        let structures =
+            file.regions.iter().filter(|(_, r)| r.kind == raw::RegionKind::Structure).map(|(name, _)| name);
+        let of_contacts = file.contacts.iter().flat_map(|c| c.wall.iter().chain(&c.name));
+        let known: Vec<&str> = structures.chain(of_contacts).map(String::as_str).collect();
+        let mut absent = before.map_or_else(Vec::new, |before| before.absent.clone());
+        for (i, name) in phase.deactivate.iter().enumerate() {
+            let path = path.key("deactivate").index(i);
+            if !known.contains(&name.as_str()) {
+                let problem = format!("there is no structure, wall or contact `{name}`");
+                self.issue(&path, At::Value, problem, suggest(name, known.iter().copied()));
+            } else if absent.contains(name) {
+                self.issue(&path, At::Value, format!("`{name}` is not there already"), "take it out");
+            } else {
+                absent.push(name.clone());
+            }
+        }
+        for (i, name) in phase.activate.iter().enumerate() {
+            match absent.iter().position(|other| other == name) {
+                Some(at) => {
+                    absent.remove(at);
+                }
+                None => {
+                    let path = path.key("activate").index(i);
+                    let remedy = "take it out, or name it under `deactivate` of an earlier phase";
+                    self.issue(&path, At::Value, format!("`{name}` has not been deactivated"), remedy);
+                }
+            }
+        }
+        for name in phase.prescribe.keys().filter(|name| absent.contains(name)) {
+            let path = path.key("prescribe").key(name);
+            self.issue(&path, At::Key, format!("`{name}` is not there in this phase"), "take it out, or activate it");
+        }
+        absent
+    }
+
+    fn until(&mut self, phase: &raw::Phase, analysis: Analysis, file: &raw::CaseFile, path: &Path) -> Vec<Until> {
+        let mut checked = Vec::new();
+        for (i, condition) in phase.until.iter().enumerate() {
+            let path = path.index(i);
+            let raw::Until { of, quantity, above, below, equilibrium } = condition;
+            let (bound, is_below) = match (above, below) {
+                (Some(above), None) => (Some(*above), false),
+                (None, Some(below)) => (Some(*below), true),
+                _ => (None, false),
+            };
+            match (of, quantity, bound, equilibrium) {
+                (Some(of), Some(quantity), Some(bound), None) => {
+                    let Some(history) = file.output.history.iter().position(|entry| entry.name == *of) else {
+                        let names = file.output.history.iter().map(|entry| entry.name.as_str());
+                        let problem = format!("`output.history` has no entry `{of}`");
+                        self.issue(&path.key("of"), At::Value, problem, suggest(of, names));
+                        continue;
+                    };
+                    if !file.output.history[history].quantities.contains(quantity) {
+                        let remedy = "add it to the `quantities` of that entry";
+                        let problem = format!("the entry `{of}` of `output.history` does not have this quantity");
+                        self.issue(&path.key("quantity"), At::Value, problem, remedy);
+                    }
+                    checked.push(Until::Reached { history, quantity: *quantity, bound, below: is_below });
+                }
+                (None, None, None, Some(part)) if above.is_none() => {
+                    if !analysis.has_inertia() {
+                        let remedy = "take it out: every step of a phase without inertia ends in equilibrium";
+                        self.issue(&path, At::Value, "there is no motion to come to rest", remedy);
+                    }
+                    checked.push(Until::Equilibrium(*part));
+                }
+                _ => {
+                    let remedy =
+                        "write `{of: …, quantity: …, above: …}`, the same with `below`, or `{equilibrium: 1.0e-3}`";
+                    self.issue(&path, At::Value, "this says not, or not only, when the phase ends", remedy);
+                }
+            }
+        }
+        checked
     }
 
     fn traction(

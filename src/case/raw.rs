@@ -178,6 +178,8 @@ pub struct Components {
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Contact {
+    /// A name by which phases take the contact away.
+    pub name: Option<String>,
     /// The name of a region of kind structure.
     pub structure: Option<String>,
     /// In place of a structure, the name of a physical curve: a rigid wall.
@@ -390,8 +392,8 @@ pub struct RestoreQuality {
 pub struct Phase {
     /// The name of the phase, for logs and errors.
     pub name: String,
-    /// The kind of analysis: quasi_static (no inertia), dynamic, strength_reduction (quasi-static until no equilibrium is
-    /// left) or consolidation.
+    /// The kind of analysis: quasi_static (no inertia), dynamic, auto (quasi-static, and dynamic where there is no
+    /// equilibrium until there is rest), strength_reduction (quasi-static until no equilibrium is left) or consolidation.
     pub analysis: Analysis,
     /// Duration (s), above 0; in a quasi-static phase a fictitious time that loads vary in.
     #[schemars(extend("exclusiveMinimum" = 0))]
@@ -406,8 +408,38 @@ pub struct Phase {
     pub tractions: Vec<Traction>,
     /// Factor on gravity in the phase (-); without it 1.
     pub gravity: Option<InTime>,
+    /// Structures, walls and contacts, by name, that are taken away as the phase begins: until they are activated they carry
+    /// nothing, touch nothing and stay where they are.
+    #[serde(default)]
+    pub deactivate: Vec<String>,
+    /// Structures, walls and contacts, by name, that come back as the phase begins.
+    #[serde(default)]
+    pub activate: Vec<String>,
+    /// Whether displacements are counted from the beginning of the phase in frames and history.
+    #[serde(default)]
+    pub reset_displacements: bool,
+    /// Conditions any of which ends the phase before its time.
+    #[serde(default)]
+    pub until: Vec<Until>,
     /// What the strengths of all soil and contacts are divided by in the phase (-), above 0; without it 1.
     pub strength_reduction: Option<InTime>,
+}
+
+/// A condition that ends a phase: a quantity of the history that is above or below a bound, or equilibrium.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Until {
+    /// The name of an entry of `output.history`.
+    pub of: Option<String>,
+    /// A quantity of that entry.
+    pub quantity: Option<Quantity>,
+    /// The phase ends when the quantity is this much or more.
+    pub above: Option<f64>,
+    /// The phase ends when the quantity is this much or less.
+    pub below: Option<f64>,
+    /// The phase, which has inertia, ends when its kinetic energy has fallen to this part of its largest (-).
+    #[schemars(extend("exclusiveMinimum" = 0), extend("exclusiveMaximum" = 1))]
+    pub equilibrium: Option<f64>,
 }
 
 /// The kind of analysis.
@@ -416,6 +448,7 @@ pub struct Phase {
 pub enum Analysis {
     QuasiStatic,
     Dynamic,
+    Auto,
     StrengthReduction,
     Consolidation,
 }

@@ -1,8 +1,8 @@
 //! From a checked case to a scene: the only place that decides which terms exist.
 
-use super::checked::{Analysis, Case, Field, Geometry, Material, Quantity, Region, Restore};
+use super::checked::{Analysis, Case, Field, Geometry, Material, Quantity, Region, Restore, Until};
 use super::rigid::{self, Holds};
-use super::{overlap, parts, touch, wall};
+use super::{overlap, parts, staged, touch, wall};
 use crate::error::{Error, Result};
 use crate::io::checkpoint::Fingerprint;
 use crate::kinematics::{Axisymmetric, Kinematics, PlaneStrain};
@@ -129,7 +129,7 @@ pub fn scene<K: Kinematics<2>>(case: &Case, mut whole: Mesh<2>) -> Result<Scene<
         moduli.lambda + 2.0 * moduli.shear
     });
     let density_scale = largest(|m, y| m.density.at(y));
-    let dynamic = case.phases.iter().any(|p| p.analysis == Analysis::Dynamic);
+    let dynamic = case.phases.iter().any(|p| p.analysis.has_inertia());
     let faces = Faces::of(&mesh);
 
     let shear = of_soil(|m, y| m.model.elasticity().at(y).shear);
@@ -190,7 +190,12 @@ pub fn scene<K: Kinematics<2>>(case: &Case, mut whole: Mesh<2>) -> Result<Scene<
     let holds = Holds::new(case, &mesh, &bodies);
     let supports = holds.supports()?;
     let height = soil_height(case, &mesh, fem.as_ref().map(|fem| &fem.mesh))?;
-    let phases = case.phases.iter().map(|p| phase(case, &holds, p, height)).collect::<Result<_>>()?;
+    let of_structures = fem.as_ref().map_or(&mesh, |fem| &fem.mesh);
+    let staged = |p| {
+        let held = staged::held(case, &mesh, of_structures, &bodies, p)?;
+        Ok(Phase { held, ..phase(case, &holds, p, height)? })
+    };
+    let phases = case.phases.iter().map(staged).collect::<Result<_>>()?;
     Ok(Scene {
         locator: Locator::new(&mesh),
         faces: Some(faces),
@@ -262,13 +267,17 @@ fn phase<'a>(case: &Case, holds: &Holds<'a>, phase: &'a super::checked::Phase, h
     Ok(Phase {
         name: phase.name.clone(),
         dynamic: phase.analysis == Analysis::Dynamic,
+        auto: phase.analysis == Analysis::Auto,
         duration: phase.duration,
         first_step: phase.step.initial,
         least_step: phase.step.min,
         largest_step: phase.step.max,
         prescribed: holds.prescribed(phase)?,
         reduction: phase.reduction.clone(),
-        search: (phase.analysis == Analysis::StrengthReduction).then(|| Search { farthest: FARTHEST * height }),
+        search: (phase.analysis == Analysis::StrengthReduction).then_some(Search { farthest: FARTHEST * height }),
+        held: Vec::new(),
+        apart: staged::apart(case, phase),
+        reset: phase.reset,
         stops: stops(phase.duration, case.output.every, values.flat_map(TimeValue::kinks)),
     })
 }
@@ -335,23 +344,34 @@ fn outputs(case: &Case, scene: &Scene<2>, folder: &Path, fingerprint: Fingerprin
             (Some(group), Some(body)) => WatchedOn::Side(group.nodes.clone(), body.reference),
             (None, _) => WatchedOn::Region(region_index(mesh, &entry.on)?),
         };
-        let quantities = entry.quantities.iter().map(|q| match q {
-            Quantity::Ux => run::Quantity::Displacement(0),
-            Quantity::Uy => run::Quantity::Displacement(1),
-            Quantity::Vx => run::Quantity::Velocity(0),
-            Quantity::Vy => run::Quantity::Velocity(1),
-            Quantity::ReactionX => run::Quantity::Reaction(0),
-            Quantity::ReactionY => run::Quantity::Reaction(1),
-            Quantity::ContactX => run::Quantity::Contact(0),
-            Quantity::ContactY => run::Quantity::Contact(1),
-            Quantity::Rotation => run::Quantity::Rotation,
-            Quantity::ReactionMoment => run::Quantity::ReactionMoment,
-            Quantity::ContactMoment => run::Quantity::ContactMoment,
-        });
+        let quantities = entry.quantities.iter().map(|q| quantity(*q));
         Ok(Watch { name: entry.name.clone(), on, quantities: quantities.collect() })
     };
     let watches = case.output.history.iter().map(watch).collect::<Result<_>>()?;
-    Ok(Outputs { folder: folder.to_path_buf(), fields, watches, fingerprint })
+    let until = |condition: &Until| match *condition {
+        Until::Reached { history, quantity: of, bound, below } => {
+            run::Until::Reached { watch: history, quantity: quantity(of), bound, below }
+        }
+        Until::Equilibrium(part) => run::Until::Equilibrium(part),
+    };
+    let until = case.phases.iter().map(|phase| phase.until.iter().map(until).collect()).collect();
+    Ok(Outputs { folder: folder.to_path_buf(), fields, watches, until, fingerprint })
+}
+
+fn quantity(quantity: Quantity) -> run::Quantity {
+    match quantity {
+        Quantity::Ux => run::Quantity::Displacement(0),
+        Quantity::Uy => run::Quantity::Displacement(1),
+        Quantity::Vx => run::Quantity::Velocity(0),
+        Quantity::Vy => run::Quantity::Velocity(1),
+        Quantity::ReactionX => run::Quantity::Reaction(0),
+        Quantity::ReactionY => run::Quantity::Reaction(1),
+        Quantity::ContactX => run::Quantity::Contact(0),
+        Quantity::ContactY => run::Quantity::Contact(1),
+        Quantity::Rotation => run::Quantity::Rotation,
+        Quantity::ReactionMoment => run::Quantity::ReactionMoment,
+        Quantity::ContactMoment => run::Quantity::ContactMoment,
+    }
 }
 
 /// The regions with points and their materials.

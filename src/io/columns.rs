@@ -14,6 +14,7 @@ pub fn to_arrays<const D: usize>(points: &Points<D>) -> Vec<Array> {
     let Points {
         position,
         origin,
+        reference,
         velocity,
         acceleration,
         mass,
@@ -31,6 +32,7 @@ pub fn to_arrays<const D: usize>(points: &Points<D>) -> Vec<Array> {
     let mut arrays = vec![
         array("position", "m", 3, padded(position)),
         array("origin", "m", 3, padded(origin)),
+        array("reference", "m", 3, padded(reference)),
         array("velocity", "m/s", 3, padded(velocity)),
         array("acceleration", "m/s2", 3, padded(acceleration)),
         array("mass", "t", 1, mass.clone()),
@@ -50,7 +52,7 @@ pub fn to_arrays<const D: usize>(points: &Points<D>) -> Vec<Array> {
         array("region", "-", 1, region.clone()),
         array("cell", "-", 1, cell.clone()),
     ];
-    const OPTIONAL: [&str; 5] = ["velocity", "acceleration", "plastic_increment", "memory", "pressure"];
+    const OPTIONAL: [&str; 6] = ["reference", "velocity", "acceleration", "plastic_increment", "memory", "pressure"];
     arrays.retain(|a| !(a.data.is_empty() && OPTIONAL.contains(&a.name.as_str())));
     arrays
 }
@@ -73,6 +75,7 @@ pub fn take<const D: usize>(store: &mut Store, prefix: &str) -> Result<Points<D>
     Ok(Points {
         position,
         origin: columns.vectors("origin")?,
+        reference: columns.vectors_if_present("reference")?,
         velocity: columns.vectors_if_present("velocity")?,
         acceleration: columns.vectors_if_present("acceleration")?,
         mass: columns.scalars("mass")?,

@@ -32,11 +32,14 @@ pub fn store<const D: usize>(state: &State<D>) -> Store {
         nodes,
         multipliers,
         moving,
+        falling,
+        peak,
         parametric,
         displacement,
         increment,
         last_step,
         travel,
+        uncounted,
         pressure,
         velocity,
         acceleration,
@@ -50,14 +53,15 @@ pub fn store<const D: usize>(state: &State<D>) -> Store {
     store.put(
         "state.counts",
         1,
-        vec![*phase as u64, *step, *frames, *rows, *log_lines, u64::from(*moving), *restorations],
+        vec![*phase as u64, *step, *frames, *rows, *log_lines, u64::from(*moving), *restorations, u64::from(*falling)],
     );
-    store.put("state.times", 1, vec![*time, *phase_time, *step_size, *last_step]);
+    store.put("state.times", 1, vec![*time, *phase_time, *step_size, *last_step, *peak]);
     store.put("state.parametric", 3, parametric.concat());
     store.put("state.fem_parametric", 3, fem_parametric.concat());
     for (name, field) in [
         ("displacement", displacement),
         ("travel", travel),
+        ("uncounted", uncounted),
         ("velocity", velocity),
         ("acceleration", acceleration),
         ("nodes", nodes),
@@ -159,8 +163,10 @@ fn take_multipliers(store: &mut Store) -> Result<Vec<Multipliers>> {
 pub fn take<const D: usize>(mut store: Store, first: &State<D>) -> Result<State<D>> {
     let counts = store.take::<u64>("state.counts", 1)?;
     let times = store.take::<f64>("state.times", 1)?;
-    let ([phase, step, frames, rows, log_lines, moving, restorations], [time, phase_time, step_size, last_step]) =
-        (&counts[..], &times[..])
+    let (
+        [phase, step, frames, rows, log_lines, moving, restorations, falling],
+        [time, phase_time, step_size, last_step, peak],
+    ) = (&counts[..], &times[..])
     else {
         return Err(foreign("its list of counts"));
     };
@@ -172,6 +178,7 @@ pub fn take<const D: usize>(mut store: Store, first: &State<D>) -> Result<State<
     };
     let (displacement, travel, increment) = (nodal("displacement")?, nodal("travel")?, nodal("increment")?);
     let (velocity, acceleration, places) = (nodal("velocity")?, nodal("acceleration")?, nodal("nodes")?);
+    let uncounted = nodal("uncounted")?;
     let triples = |values: Vec<f64>| values.chunks_exact(3).map(|v| [v[0], v[1], v[2]]).collect();
     let parametric: Vec<_> = triples(store.take("state.parametric", 3)?);
     let fem_parametric = triples(store.take("state.fem_parametric", 3)?);
@@ -200,11 +207,14 @@ pub fn take<const D: usize>(mut store: Store, first: &State<D>) -> Result<State<
         nodes: places,
         multipliers,
         moving: *moving != 0,
+        falling: *falling != 0,
+        peak: *peak,
         parametric,
         displacement,
         increment,
         last_step: *last_step,
         travel,
+        uncounted,
         pressure,
         velocity,
         acceleration,

@@ -1,8 +1,85 @@
 //! How phases end: at their time, before it because what they look for is found, or because the analysis cannot go on.
 
+use super::record::{self, Quantity, Watch};
 use crate::error::{Error, Kind};
-use crate::step::{Controller, Phase, Scene, State};
+use crate::step::{Controller, Phase, Report, Scene, State};
 use crate::time_value::TimeValue;
+
+/// Part of the largest kinetic energy that counts as rest (-) where dynamics hands back to a quasi-static phase.
+const REST: f64 = 1e-3;
+
+/// What ends a phase before its time.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Until {
+    /// A quantity of an entry of the history, by number, is this much or more, or where `below` this much or less.
+    Reached { watch: usize, quantity: Quantity, bound: f64, below: bool },
+    /// The kinetic energy has fallen to this part (-) of its largest in the phase.
+    Equilibrium(f64),
+}
+
+/// Why a phase ends with the step of the `report`, if one of its conditions holds.
+pub fn met<const D: usize>(
+    until: &[Until],
+    watches: &[Watch],
+    scene: &Scene<D>,
+    state: &State<D>,
+    report: &Report<D>,
+) -> Option<String> {
+    let name = &scene.phases[state.phase].name;
+    until.iter().find_map(|condition| match *condition {
+        Until::Reached { watch, quantity, bound, below } => {
+            let watch = &watches[watch];
+            let value = record::value(&watch.on, quantity, scene, state, report);
+            let reached = if below { value <= bound } else { value >= bound };
+            reached.then(|| format!("phase `{name}` ends: {} is {value:.6e}", record::column_name(watch, quantity)))
+        }
+        Until::Equilibrium(part) => {
+            let kinetic = report.motion.kinetic;
+            let still = state.peak > 0.0 && kinetic <= part * state.peak;
+            still.then(|| {
+                format!("phase `{name}` ends: the kinetic energy is {kinetic:.3e} kJ of {:.3e} kJ", state.peak)
+            })
+        }
+    })
+}
+
+/// Whether a step that failed hands over to dynamics.
+pub fn falls<const D: usize>(phase: &Phase, state: &State<D>, controller: &Controller) -> bool {
+    phase.auto && controller.exhausted && !state.falling
+}
+
+/// Goes on with inertia after a step that failed with `error`: the note for the log.
+pub fn let_fall<const D: usize>(
+    phase: &Phase,
+    state: &mut State<D>,
+    controller: &mut Controller,
+    error: &Error,
+) -> String {
+    controller.exhausted = false;
+    (state.falling, state.peak) = (true, 0.0);
+    format!("phase `{}` goes on with inertia from t = {:.6} s: {}", phase.name, state.time, error.problem)
+}
+
+/// Goes back to equilibrium where such a phase has come to rest: the note for the log.
+pub fn let_rest<const D: usize>(
+    phase: &Phase,
+    state: &mut State<D>,
+    report: &Report<D>,
+    controller: &mut Controller,
+) -> Option<String> {
+    let kinetic = report.motion.kinetic;
+    if !state.falling || state.peak <= 0.0 || kinetic > REST * state.peak {
+        return None;
+    }
+    let note = format!(
+        "phase `{}` is quasi-static again from t = {:.6} s: the kinetic energy is {kinetic:.3e} kJ of {:.3e} kJ",
+        phase.name, state.time, state.peak
+    );
+    state.rest();
+    (state.falling, state.peak) = (false, 0.0);
+    controller.wanted = phase.first_step;
+    Some(note)
+}
 
 /// Whether a step that failed is the end of a search for the strength that leaves no equilibrium: where no step of the
 /// phase found any, nothing says that there was one to begin with.
@@ -31,7 +108,7 @@ pub fn in_time<const D: usize>(error: Error, scene: &Scene<D>, phase: &Phase, st
         return error;
     }
     let moment = format!("in step {} from t = {:.6} s in phase `{}`", state.step + 1, state.time, phase.name);
-    let loads = if phase.dynamic { Vec::new() } else { loads_reached(scene, phase, state) };
+    let loads = if state.dynamic(scene) { Vec::new() } else { loads_reached(scene, phase, state) };
     if loads.is_empty() {
         return Error { problem: format!("{} ({moment})", error.problem), ..error };
     }
@@ -57,17 +134,4 @@ fn loads_reached<const D: usize>(scene: &Scene<D>, phase: &Phase, state: &State<
     let reduction = phase.reduction.iter().filter(|value| varies(value));
     let reduction = reduction.map(|value| format!("strengths divided by {:.4} of {:.4}", value.at(now), value.at(end)));
     factors.chain(moved).chain(reduction).collect()
-}
-
-/// Begins the next phase in the converged state of this one.
-pub fn next_phase<const D: usize>(scene: &Scene<D>, state: &mut State<D>) {
-    let dynamic = |phase: usize| scene.phases.get(phase).is_some_and(|p| p.dynamic);
-    if dynamic(state.phase) && !dynamic(state.phase + 1) {
-        state.rest();
-    }
-    state.phase += 1;
-    state.phase_time = 0.0;
-    if let Some(next) = scene.phases.get(state.phase) {
-        state.step_size = next.first_step;
-    }
 }

@@ -14,6 +14,7 @@ mod checkpoint;
 mod ending;
 mod record;
 
+pub use ending::Until;
 pub use record::{Field, Quantity, Watch, WatchedOn};
 
 use crate::error::{Error, Result};
@@ -37,6 +38,8 @@ pub struct Outputs {
     pub folder: PathBuf,
     pub fields: Vec<Field>,
     pub watches: Vec<Watch>,
+    /// What ends each phase before its time.
+    pub until: Vec<Vec<Until>>,
     /// Tells whether a checkpoint belongs to the case.
     pub fingerprint: Fingerprint,
 }
@@ -129,6 +132,13 @@ pub fn run<const D: usize, K: Kinematics<D>>(
             }
             let report = match simulation.advance(&mut controller) {
                 Ok(report) => report,
+                Err(error) if ending::falls(phase, &simulation.state, &controller) => {
+                    let state = &mut simulation.state;
+                    let note = ending::let_fall(phase, state, &mut controller, &error);
+                    tell(state, Some(&note));
+                    files.note(state, &note)?;
+                    continue;
+                }
                 Err(_) if ending::found_failure(phase, &simulation.state, &controller) => {
                     let state = &mut simulation.state;
                     let failed = phase.reduction_at(state.phase_time + controller.size(state.phase_time));
@@ -155,6 +165,17 @@ pub fn run<const D: usize, K: Kinematics<D>>(
             }
             timed(Activity::Output, || {
                 files.step(scene, state, &report)?;
+                let met =
+                    outputs.until.get(number).and_then(|u| ending::met(u, &outputs.watches, scene, state, &report));
+                if let Some(note) = met.filter(|_| controller.next_stop(state.phase_time).is_some()) {
+                    tell(state, Some(&note));
+                    return files.end_early(scene, state, &note);
+                }
+                if let Some(note) = ending::let_rest(phase, state, &report, &mut controller) {
+                    tell(state, Some(&note));
+                    files.note(state, &note)?;
+                    state.step_size = controller.wanted;
+                }
                 if controller.stop_at(state.phase_time).is_some_and(|s| s.frame) {
                     files.frame(scene, state)?;
                 }
@@ -164,7 +185,7 @@ pub fn run<const D: usize, K: Kinematics<D>>(
                         tell(state, Some(&note));
                         files.note(state, &note)?;
                     }
-                    ending::next_phase(scene, state);
+                    state.next_phase(scene);
                 }
                 files.checkpoint(state)
             })?;
@@ -242,7 +263,7 @@ impl<'a> Files<'a> {
         if self.framed != Some(state.step) {
             self.frame(scene, state)?;
         }
-        ending::next_phase(scene, state);
+        state.next_phase(scene);
         self.checkpoint(state)
     }
 

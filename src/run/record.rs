@@ -71,18 +71,23 @@ pub fn columns<const D: usize>(scene: &Scene<D>, watches: &[Watch]) -> Vec<Strin
     }
     for watch in watches {
         for quantity in &watch.quantities {
-            columns.push(match *quantity {
-                Quantity::Displacement(d) => format!("{}.u{} [m]", watch.name, AXES[d]),
-                Quantity::Velocity(d) => format!("{}.v{} [m/s]", watch.name, AXES[d]),
-                Quantity::Reaction(d) => format!("{}.reaction_{} [kN]", watch.name, AXES[d]),
-                Quantity::Contact(d) => format!("{}.contact_{} [kN]", watch.name, AXES[d]),
-                Quantity::Rotation => format!("{}.rotation [rad]", watch.name),
-                Quantity::ReactionMoment => format!("{}.reaction_moment [kN m]", watch.name),
-                Quantity::ContactMoment => format!("{}.contact_moment [kN m]", watch.name),
-            });
+            columns.push(column_name(watch, *quantity));
         }
     }
     columns
+}
+
+/// The name of a column.
+pub fn column_name(watch: &Watch, quantity: Quantity) -> String {
+    match quantity {
+        Quantity::Displacement(d) => format!("{}.u{} [m]", watch.name, AXES[d]),
+        Quantity::Velocity(d) => format!("{}.v{} [m/s]", watch.name, AXES[d]),
+        Quantity::Reaction(d) => format!("{}.reaction_{} [kN]", watch.name, AXES[d]),
+        Quantity::Contact(d) => format!("{}.contact_{} [kN]", watch.name, AXES[d]),
+        Quantity::Rotation => format!("{}.rotation [rad]", watch.name),
+        Quantity::ReactionMoment => format!("{}.reaction_moment [kN m]", watch.name),
+        Quantity::ContactMoment => format!("{}.contact_moment [kN m]", watch.name),
+    }
 }
 
 /// Whether a phase reduces strengths.
@@ -102,7 +107,7 @@ pub fn row<const D: usize>(scene: &Scene<D>, watches: &[Watch], state: &State<D>
     row
 }
 
-fn value<const D: usize>(
+pub fn value<const D: usize>(
     on: &WatchedOn,
     quantity: Quantity,
     scene: &Scene<D>,
@@ -110,9 +115,10 @@ fn value<const D: usize>(
     report: &Report<D>,
 ) -> f64 {
     let contact = |region: u16| report.contacts.iter().map(move |c| c.on(region));
+    let travel = |n: usize, d: usize| state.travel[n][d] - state.uncounted.get(n).map_or(0.0, |u| u[d]);
     match (on, quantity) {
         (WatchedOn::Nodes(nodes) | WatchedOn::Side(nodes, _), Quantity::Displacement(d)) => {
-            mean(nodes.iter().map(|&n| state.travel[n as usize][d]))
+            mean(nodes.iter().map(|&n| travel(n as usize, d)))
         }
         (WatchedOn::Nodes(nodes) | WatchedOn::Side(nodes, _), Quantity::Velocity(d)) => {
             mean(nodes.iter().map(|&n| state.velocity.get(n as usize).map_or(0.0, |v| v[d])))
@@ -122,11 +128,11 @@ fn value<const D: usize>(
         (WatchedOn::Body { region, reference, turning, arm }, quantity) => {
             let (n, turning) = (*reference as usize, turning.map(|n| n as usize));
             match quantity {
-                Quantity::Displacement(d) => state.travel[n][d],
+                Quantity::Displacement(d) => travel(n, d),
                 Quantity::Velocity(d) => state.velocity.get(n).map_or(0.0, |v| v[d]),
                 Quantity::Reaction(d) => report.reaction[n][d],
                 Quantity::Contact(d) => contact(*region).map(|(force, _)| force[d]).sum(),
-                Quantity::Rotation => turning.map_or(0.0, |n| state.travel[n][0] / arm),
+                Quantity::Rotation => turning.map_or(0.0, |n| travel(n, 0) / arm),
                 Quantity::ReactionMoment => turning.map_or(0.0, |n| report.reaction[n][0] * arm),
                 Quantity::ContactMoment => {
                     let centre = [0, 1].map(|d| scene.mesh.nodes[n][d] + state.travel[n][d]);
@@ -135,7 +141,7 @@ fn value<const D: usize>(
             }
         }
         (WatchedOn::Region(region), Quantity::Displacement(d)) => {
-            mean(members(state, *region).map(|(points, p)| points.position[p][d] - points.origin[p][d]))
+            mean(members(state, *region).map(|(points, p)| points.displacement(p)[d]))
         }
         (WatchedOn::Region(region), Quantity::Velocity(d)) => {
             mean(members(state, *region).map(|(points, p)| points.velocity.get(p).map_or(0.0, |v| v[d])))
@@ -214,8 +220,7 @@ fn part<const D: usize>(points: &Points<D>, fields: &[Field]) -> Part {
     let at_rest = vec![[0.0; D]; points.len()];
     let columns = fields.iter().map(|field| match field {
         Field::Displacement => {
-            let u: Vec<[f64; D]> =
-                points.position.iter().zip(&points.origin).map(|(x, o)| std::array::from_fn(|d| x[d] - o[d])).collect();
+            let u: Vec<[f64; D]> = (0..points.len()).map(|p| points.displacement(p)).collect();
             column("displacement", "m", 3, padded(&u))
         }
         Field::Velocity => {
@@ -266,6 +271,7 @@ pub fn heading<const D: usize>(scene: &Scene<D>, points: &Points<D>) -> Vec<Stri
 pub fn log_lines<const D: usize>(scene: &Scene<D>, state: &State<D>, report: &Report<D>) -> Vec<String> {
     let mut lines: Vec<String> = report.halvings.iter().map(|reason| format!("  halved: {reason}")).collect();
     let phase = &scene.phases[state.phase];
+    let dynamic = state.dynamic(scene);
     let residuals: Vec<String> = report.residuals.iter().map(|r| format!("{r:.1e}")).collect();
     let mut line = format!(
         "step {} {} t {:.9} dt {:.3e} iterations {} residuals {} by {:?}",
@@ -281,7 +287,7 @@ pub fn log_lines<const D: usize>(scene: &Scene<D>, state: &State<D>, report: &Re
         " mass {:.12e} elastic {:.9e} potential {:.9e}",
         report.motion.mass, report.elastic, report.potential
     ));
-    if phase.dynamic {
+    if dynamic {
         let vector = |v: &[f64; D]| v.map(|x| format!("{x:.6e}")).join(" ");
         line.push_str(&format!(
             " kinetic {:.9e} momentum {} angular {:.6e} imbalance {}",

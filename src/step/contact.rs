@@ -55,7 +55,7 @@ fn position<const D: usize>(scene: &Scene<D>, state: &State<D>, n: u32) -> [f64;
 /// displacement is still that of the grid before.
 pub fn outlines<const D: usize>(scene: &Scene<D>, state: &State<D>) -> Vec<Vec<[f64; D]>> {
     let place = |n: u32| *state.nodes.get(n as usize).unwrap_or(&scene.mesh.nodes[n as usize]);
-    scene.pairs.iter().flat_map(|pair| pair.outlines(&place)).collect()
+    scene.touching(state.phase).flat_map(|(_, pair)| pair.outlines(&place)).collect()
 }
 
 /// Appends a clique for each hat with room, given the block of each node.
@@ -101,10 +101,12 @@ pub fn begin<const D: usize, K: Kinematics<D>>(
     let surface = surface(restored, state);
     let ground = Ground { grid: mesh, locator, points: &state.points, surface: &surface };
     let mut touches = Vec::new();
-    for ((pair, number), held) in scene.pairs.iter().zip(0..).zip(&state.multipliers) {
+    for (number, pair) in scene.touching(state.phase) {
+        let held = &state.multipliers[number];
         let rows = pair.rows(&ground, &at, &held.evened(pair.runs()));
-        leaving::check(scene, pair.as_ref(), held, &rows, &ground, &at)?;
-        touches.extend(rows.into_iter().map(|row| Touch { pair: number, row, clique: 0, place: Vec::new() }));
+        leaving::check(scene, pair, held, &rows, &ground, &at)?;
+        let pair = number as u32;
+        touches.extend(rows.into_iter().map(|row| Touch { pair, row, clique: 0, place: Vec::new() }));
     }
     let takes_part = |touch: &Touch<D>| touch.row.nodes.iter().all(|&n| grid.block[n as usize] != u32::MAX);
     touches.retain(takes_part);
@@ -235,7 +237,8 @@ pub fn commit<const D: usize>(
 
 /// Moves points out of the structures, once all is where the step takes it.
 pub fn push_out<const D: usize>(scene: &Scene<D>, state: &mut State<D>, resultants: &mut [Resultant<D>]) {
-    for (pair, resultant) in scene.pairs.iter().zip(resultants) {
+    for (number, pair) in scene.touching(state.phase) {
+        let resultant = &mut resultants[number];
         let mut points = std::mem::take(&mut state.points);
         resultant.pushed = pair.push_out(&mut points, &|n| position(scene, state, n));
         state.points = points;

@@ -19,7 +19,7 @@ pub fn choose<const D: usize>(scene: &Scene<D>, state: &State<D>) -> Vec<u32> {
         count[c as usize] += 1;
     }
     // The mass of fewer points than nodes is singular.
-    let dynamic = scene.phases.iter().any(|phase| phase.dynamic);
+    let dynamic = scene.dynamic();
     let few = (0u32..).zip(&count).filter(|&(c, &n)| dynamic && n > 0 && n < scene.mesh.cells.nodes(c as usize).len());
     for c in few.map(|(c, _)| c).chain(state.weighing.poor.iter().copied()) {
         poor[c as usize] = true;

@@ -227,7 +227,7 @@ impl<const D: usize> Grid<D> {
                 }
             }
         }
-        let dynamic = scene.phases.iter().any(|p| p.dynamic);
+        let dynamic = scene.dynamic();
         let mass = if dynamic { Some(System::new(&vec![1; node.len()], cliques.clone(), true)?) } else { None };
         // The mass always takes a penalty on faces, the motion only where a term says so.
         let mut cliques = if scene.terms.iter().any(|t| t.penalises_faces()) { cliques } else { cells_only };
@@ -509,6 +509,9 @@ pub fn given_increments<const D: usize>(
     for prescribed in &scene.phases[state.phase].prescribed {
         let from = if state.phase_time > 0.0 { prescribed.displacement.at(state.phase_time) } else { 0.0 };
         give(&prescribed.fixed, prescribed.displacement.at(state.phase_time + dt) - from);
+    }
+    for fixed in &scene.phases[state.phase].held {
+        give(fixed, 0.0);
     }
     given
 }

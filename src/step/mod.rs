@@ -121,7 +121,7 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
             self.grid.restore::<K>(scene, state)?;
         }
         timed(Activity::Contact, || contact::begin::<D, K>(scene, &mut self.grid, state))?;
-        if scene.phases[state.phase].dynamic && (restore || !state.moving) {
+        if state.dynamic(scene) && (restore || !state.moving) {
             transfer::motion_to_grid::<D, K>(scene, &mut self.grid, state)?;
         }
         Ok(restore || !moved || scene.numerics.restore == Restore::Never)
@@ -131,12 +131,12 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
     /// Where nodes go on as they did, they are a good `guess` of the end of the step.
     fn lagrange(&mut self, dt: f64, guess: bool) -> Result<Lagrange<D>> {
         let (scene, state) = (self.scene, &self.state);
-        let phase = &scene.phases[state.phase];
+        let dynamic = state.dynamic(scene);
         let given = grid::given_increments(scene, state, &self.grid, dt);
-        let start = phase.dynamic.then(|| Start::of(&self.grid, state, &given, dt));
+        let start = dynamic.then(|| Start::of(&self.grid, state, &given, dt));
         let (velocity, acceleration): (&[_], &[_]) =
             start.as_ref().map_or((&[], &[]), |s| (&s.velocity, &s.acceleration));
-        let guess = (guess && state.last_step > 0.0 && !phase.dynamic && !scene.pairs.is_empty())
+        let guess = (guess && state.last_step > 0.0 && !dynamic && !scene.pairs.is_empty())
             .then(|| guess::going_on(state, dt / state.last_step));
         let problem = Problem {
             scene,
@@ -150,7 +150,7 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
             from: state.phase_time,
             to: state.phase_time + dt,
             given: &given,
-            integration: phase.dynamic.then(|| GeneralisedAlpha::new(scene.numerics.spectral_radius, dt)),
+            integration: dynamic.then(|| GeneralisedAlpha::new(scene.numerics.spectral_radius, dt)),
         };
         let solution = newton::solve(&problem, &mut self.grid)?;
         Ok((start, solution))
@@ -209,6 +209,8 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
         state.step += 1;
         state.time += dt;
         state.phase_time += dt;
-        Ok(Report { contacts, ..Report::new(scene, state, &self.grid, dt, solution, &momentum) })
+        let report = Report { contacts, ..Report::new(scene, state, &self.grid, dt, solution, &momentum) };
+        state.peak = state.peak.max(report.motion.kinetic);
+        Ok(report)
     }
 }

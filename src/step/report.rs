@@ -96,7 +96,7 @@ impl<const D: usize> Report<D> {
         // What holds the rotation of a body is a moment.
         let forces = || (0u32..).zip(&reaction).filter(|(n, _)| scene.turned_by(*n).is_none()).map(|(_, r)| r);
         let impulse = |d: usize| dt * (solution.applied[d] + forces().map(|r| r[d]).sum::<f64>());
-        let dynamic = scene.phases[state.phase].dynamic;
+        let dynamic = state.dynamic(scene);
         let imbalance = std::array::from_fn(|d| if dynamic { motion.linear[d] - before[d] - impulse(d) } else { 0.0 });
         let fall = |(x, m): (&[f64; D], &f64)| -m * (0..D).map(|d| scene.gravity[d] * x[d]).sum::<f64>();
         let energy =

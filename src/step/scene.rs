@@ -57,9 +57,22 @@ impl<const D: usize> Scene<D> {
         self.bodies.iter().find(|body| body.turning == Some(n))
     }
 
-    /// Where displacements are given in a phase: the supports and what is prescribed.
+    /// Where displacements are given in a phase: the supports, what is prescribed and what is not there.
     pub fn fixed(&self, phase: usize) -> impl Iterator<Item = &Fixed> {
-        self.supports.iter().chain(self.phases[phase].prescribed.iter().map(|p| &p.fixed))
+        let Phase { prescribed, held, .. } = &self.phases[phase];
+        self.supports.iter().chain(prescribed.iter().map(|p| &p.fixed)).chain(held)
+    }
+
+    /// Whether inertia may come in.
+    pub fn dynamic(&self) -> bool {
+        self.phases.iter().any(|phase| phase.dynamic || phase.auto)
+    }
+
+    /// The pairs that may touch in a phase, with their numbers.
+    pub fn touching(&self, phase: usize) -> impl Iterator<Item = (usize, &dyn Pair<D>)> {
+        let apart = self.phases.get(phase).map_or(&[][..], |phase| &phase.apart);
+        let all = self.pairs.iter().map(|pair| pair.as_ref()).enumerate();
+        all.filter(move |(number, _)| !apart.contains(number))
     }
 }
 
@@ -104,6 +117,8 @@ pub struct Phase {
     pub name: String,
     /// With inertia; quasi-static otherwise.
     pub dynamic: bool,
+    /// Quasi-static, but a step that finds no equilibrium hands over to dynamics, which hands back at rest.
+    pub auto: bool,
     /// Duration (s).
     pub duration: f64,
     /// Time steps (s): the first, the least and the largest.
@@ -115,6 +130,12 @@ pub struct Phase {
     pub reduction: Option<TimeValue>,
     /// Present where the phase looks for the reduction of strength that leaves no equilibrium.
     pub search: Option<Search>,
+    /// Nodes of structures that are not there: they stay where they are.
+    pub held: Vec<Fixed>,
+    /// The pairs that do not touch, by number.
+    pub apart: Vec<usize>,
+    /// Whether displacements are counted from the beginning of the phase.
+    pub reset: bool,
     /// Times (s) in the phase at which a step must end: outputs, kinks of tables, the end.
     pub stops: Vec<Stop>,
 }

@@ -1,5 +1,6 @@
 //! The state of a run: all that a checkpoint holds. Everything else follows from it and the scene.
 
+use super::scene::Scene;
 use crate::contact::Multipliers;
 use crate::points::Points;
 use crate::quadrature::Weighing;
@@ -36,6 +37,10 @@ pub struct State<const D: usize> {
     /// Whether the velocities and accelerations of the points are those of the motion: false until the first
     /// dynamic step has computed the accelerations from the forces.
     pub moving: bool,
+    /// Whether a phase that is quasi-static as long as it can be goes on with inertia.
+    pub falling: bool,
+    /// Largest kinetic energy (kJ) since the phase began or inertia came in.
+    pub peak: f64,
     /// Parametric coordinates of the points in their cells, as of the last restoration.
     pub parametric: Vec<[f64; 3]>,
     /// Displacement (m) of the nodes since the last restoration.
@@ -45,6 +50,8 @@ pub struct State<const D: usize> {
     pub last_step: f64,
     /// Displacement (m) of the nodes since the run began: what passes a node of a grid that is restored.
     pub travel: Vec<[f64; D]>,
+    /// What of it the history does not count, as of the last reset; empty before one.
+    pub uncounted: Vec<[f64; D]>,
     /// The pressure field (kPa, tension positive) by node, at the corners of cells, then the constant of each cell;
     /// empty without one.
     pub pressure: Vec<f64>,
@@ -81,11 +88,14 @@ impl<const D: usize> State<D> {
             nodes: Vec::new(),
             multipliers: Vec::new(),
             moving: false,
+            falling: false,
+            peak: 0.0,
             parametric: Vec::new(),
             displacement: vec![[0.0; D]; nodes],
             increment: Vec::new(),
             last_step: 0.0,
             travel: vec![[0.0; D]; nodes],
+            uncounted: Vec::new(),
             pressure: Vec::new(),
             velocity: Vec::new(),
             acceleration: Vec::new(),
@@ -94,6 +104,31 @@ impl<const D: usize> State<D> {
             weighing: Weighing::default(),
             front: None,
             restorations: 0,
+        }
+    }
+
+    /// Whether the step in hand has inertia.
+    pub fn dynamic(&self, scene: &Scene<D>) -> bool {
+        self.falling || scene.phases.get(self.phase).is_some_and(|phase| phase.dynamic)
+    }
+
+    /// Begins the next phase where this one ended.
+    pub fn next_phase(&mut self, scene: &Scene<D>) {
+        let moved = self.dynamic(scene);
+        self.phase += 1;
+        self.phase_time = 0.0;
+        (self.falling, self.peak) = (false, 0.0);
+        if moved && !self.dynamic(scene) {
+            self.rest();
+        }
+        if let Some(next) = scene.phases.get(self.phase) {
+            self.step_size = next.first_step;
+            if next.reset {
+                self.uncounted.clone_from(&self.travel);
+                for points in [&mut self.points, &mut self.fem] {
+                    points.reference.clone_from(&points.position);
+                }
+            }
         }
     }
 

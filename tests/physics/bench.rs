@@ -194,6 +194,7 @@ impl Bench {
             phases: vec![Phase {
                 name: "test".into(),
                 dynamic: self.dynamic,
+                auto: false,
                 duration: self.duration,
                 first_step: step,
                 least_step: step / 2f64.powi(self.halvings),
@@ -201,6 +202,9 @@ impl Bench {
                 prescribed: self.prescribed,
                 reduction: None,
                 search: None,
+                held: Vec::new(),
+                apart: Vec::new(),
+                reset: false,
                 stops: vec![Stop { time: self.duration, frame: true }],
             }],
             numerics: Numerics {

@@ -149,6 +149,7 @@ impl<K: Kinematics<2>> Stand<K> {
         let phase = Phase {
             name: "test".into(),
             dynamic: true,
+            auto: false,
             duration: 1.0,
             first_step: 1.0,
             least_step: 1.0,
@@ -156,6 +157,9 @@ impl<K: Kinematics<2>> Stand<K> {
             prescribed: Vec::new(),
             reduction: None,
             search: None,
+            held: Vec::new(),
+            apart: Vec::new(),
+            reset: false,
             stops: vec![Stop { time: 1.0, frame: true }],
         };
         let faces = Faces::of(&mesh);

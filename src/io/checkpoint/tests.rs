@@ -12,6 +12,7 @@ pub(in crate::io) fn sample_points(n: usize, dynamic: bool) -> Points<2> {
     Points {
         position: vectors(1),
         origin: vectors(3),
+        reference: if dynamic { vectors(36) } else { Vec::new() },
         velocity: if dynamic { vectors(5) } else { Vec::new() },
         acceleration: if dynamic { vectors(7) } else { Vec::new() },
         mass: (0..n).map(|i| x(i, 9)).collect(),
@@ -34,6 +35,7 @@ pub(in crate::io) fn same_bits<const D: usize>(a: &Points<D>, b: &Points<D>) -> 
         let f = [
             p.position.concat(),
             p.origin.concat(),
+            p.reference.concat(),
             p.velocity.concat(),
             p.acceleration.concat(),
             p.mass.clone(),

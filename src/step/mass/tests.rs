@@ -30,6 +30,7 @@ fn scene<K: Kinematics<2>>(kind: CellKind) -> Scene<2> {
         phases: vec![Phase {
             name: "flight".into(),
             dynamic: true,
+            auto: false,
             duration: 1.0,
             first_step: 1.0,
             least_step: 1.0,
@@ -37,6 +38,9 @@ fn scene<K: Kinematics<2>>(kind: CellKind) -> Scene<2> {
             prescribed: Vec::new(),
             reduction: None,
             search: None,
+            held: Vec::new(),
+            apart: Vec::new(),
+            reset: false,
             stops: Vec::new(),
         }],
         numerics: Numerics {
