@@ -72,8 +72,8 @@ const FALL: Case = Case {
          ductility: 5, density: 1}",
         "supports.bottom={ux: 0, uy: 0}",
         "numerics.spectral_radius=0.5",
-        "phases=[{name: fall, analysis: auto, duration: 2, step: {initial: 0.05, min: 0.02, max: 0.05}, \
-         gravity: {table: [[0, 0], [1, 1]]}}, {name: on, analysis: dynamic, duration: 1, step: {initial: 0.05}, \
+        "phases=[{name: fall, analysis: auto, duration: 5, step: {initial: 0.05, min: 0.02, max: 0.05}, \
+         gravity: {table: [[0, 0], [1, 1]]}}, {name: on, analysis: auto, duration: 1, step: {initial: 0.05}, \
          reset_displacements: true, until: [{of: block, quantity: uy, below: -0.2}]}]",
     ],
 };

@@ -6,7 +6,7 @@ use crate::step::{Controller, Phase, Report, Scene, State};
 use crate::time_value::TimeValue;
 
 /// Part of the largest kinetic energy that counts as rest (-) where dynamics hands back to a quasi-static phase.
-const REST: f64 = 1e-3;
+const REST: f64 = 1e-2;
 
 /// What ends a phase before its time.
 #[derive(Clone, Copy, Debug, PartialEq)]
