@@ -63,18 +63,26 @@ const SAFETY: Case = Case {
 };
 
 /// Quasi-static, dynamic where there is no equilibrium, and quasi-static again; then, with displacements from zero, up to a
-/// condition, softening clay.
+/// condition.
 const FALL: Case = Case {
     file: "cases/slump",
     overrides: &[
         "mesh.parameters.h=2",
-        "materials.soil={model: tresca_softening, young: 1000, poisson: 0.3, shear_strength: 10, remoulded: 0.5, \
-         ductility: 5, density: 1}",
         "supports.bottom={ux: 0, uy: 0}",
         "numerics.spectral_radius=0.5",
-        "phases=[{name: fall, analysis: auto, duration: 5, step: {initial: 0.05, min: 0.02, max: 0.05}, \
-         gravity: {table: [[0, 0], [1, 1]]}}, {name: on, analysis: auto, duration: 1, step: {initial: 0.05}, \
-         reset_displacements: true, until: [{of: block, quantity: uy, below: -0.2}]}]",
+        "phases=[{name: fall, analysis: auto, duration: 6, step: {initial: 0.05, min: 0.02, max: 0.05}, \
+         gravity: {table: [[0, 0], [1, 1]]}}, {name: on, analysis: dynamic, duration: 3, step: {initial: 0.05}, gravity: 2, \
+         reset_displacements: true, until: [{of: block, quantity: uy, below: -0.1}]}]",
+    ],
+};
+
+/// A model that remembers, and whose strength depends on the size of the step.
+const SOFT: Case = Case {
+    file: "tests/data/release",
+    overrides: &[
+        "mesh.parameters.h=0.2",
+        "materials.steel={model: tresca_softening, young: 12000, poisson: 0.3, shear_strength: 75, remoulded: 0.5, \
+         ductility: 5, rate: 0.1, reference_rate: 0.01, density: 1}",
     ],
 };
 
@@ -244,8 +252,13 @@ fn a_fall_between_equilibria_killed_ten_times_ends_the_same() {
 }
 
 #[test]
+fn a_run_with_softening_soil_killed_ten_times_ends_the_same() {
+    survives_kills(&SOFT, 8);
+}
+
+#[test]
 fn the_number_of_threads_changes_no_bit() {
-    for case in [SLOPE, RELEASE, SAND, PILE, BLOCK, WALL, BODIES, SAFETY, FALL] {
+    for case in [SLOPE, RELEASE, SAND, PILE, BLOCK, WALL, BODIES, SAFETY, FALL, SOFT] {
         let one = seeded(&case);
         let three = copy(one.path());
         ends(mpm("solve", &case, one.path(), &["--threads", "1"]), 0);
