@@ -2,7 +2,7 @@
 
 use super::checked::{Analysis, Case, Field, Geometry, Material, Quantity, Region, Restore};
 use super::rigid::{self, Holds};
-use super::{overlap, parts, touch, wall};
+use super::{overlap, parts, touch, wall, water};
 use crate::error::{Error, Result};
 use crate::io::checkpoint::Fingerprint;
 use crate::kinematics::{Axisymmetric, Kinematics, PlaneStrain};
@@ -10,7 +10,7 @@ use crate::mesh::Mesh;
 use crate::mesh::faces::Faces;
 use crate::mesh::locate::Locator;
 use crate::points::Points;
-use crate::quadrature::{Fitted, Quadrature, Volumes};
+use crate::quadrature::{Bounded, Fitted, Quadrature, Volumes};
 use crate::rigid::Body;
 use crate::run::{self, Ended, Outputs, Progress, Watch, WatchedOn};
 use crate::stencil::{Scheme, cell_size, smooths};
@@ -141,6 +141,7 @@ pub fn scene<K: Kinematics<2>>(case: &Case, mut whole: Mesh<2>) -> Result<Scene<
     if dynamic {
         terms.push(Box::new(Inertia::<K>::default()));
     }
+    terms.extend(water::terms::<K>(case, &mesh, size)?);
     for (phase, traction) in case.phases.iter().enumerate().flat_map(|(i, p)| p.tractions.iter().map(move |t| (i, t))) {
         let group = group(&mesh, &traction.curve)?;
         if bodies[..structures].iter().any(|body| rigid::body_of(&mesh, body, &traction.curve)) {
@@ -167,6 +168,7 @@ pub fn scene<K: Kinematics<2>>(case: &Case, mut whole: Mesh<2>) -> Result<Scene<
             if dynamic {
                 terms.push(Box::new(Inertia::<K>::default()));
             }
+            terms.extend(water::on_elements::<K>(case, &part, size));
             terms.extend(rigid::terms::<K>(case, &part, &bodies[..structures], dynamic)?);
             let (carried, rigid) = (carried(case, &part)?, rigid::regions(case, &part));
             let with = |r: usize| carried[r].is_some() && !rigid[r];
@@ -181,7 +183,7 @@ pub fn scene<K: Kinematics<2>>(case: &Case, mut whole: Mesh<2>) -> Result<Scene<
     }
     let holds = Holds::new(case, &mesh, &bodies);
     let supports = holds.supports()?;
-    let phases = case.phases.iter().map(|p| phase(case, &holds, p)).collect::<Result<_>>()?;
+    let phases = case.phases.iter().enumerate().map(|(i, p)| phase(case, &holds, i, p)).collect::<Result<_>>()?;
     Ok(Scene {
         locator: Locator::new(&mesh),
         faces: Some(faces),
@@ -227,7 +229,12 @@ fn gravity<K>(case: &Case) -> BodyForce<K, 2> {
 }
 
 fn quadrature<K: Kinematics<2>>(case: &Case, mesh: &Mesh<2>) -> Box<dyn Quadrature<2>> {
-    if case.numerics.fitted { Box::new(Fitted::<K>::new(mesh)) } else { Box::new(Volumes::<K>::default()) }
+    match (case.numerics.fitted, water::needs_surface(case)) {
+        (true, true) => Box::new(Fitted::<K>::new(mesh).with_boundary()),
+        (true, false) => Box::new(Fitted::<K>::new(mesh)),
+        (false, true) => Box::new(Bounded::<K>::new(mesh)),
+        (false, false) => Box::new(Volumes::<K>::default()),
+    }
 }
 
 fn restore(restore: Restore) -> step::Restore {
@@ -238,12 +245,13 @@ fn restore(restore: Restore) -> step::Restore {
     }
 }
 
-fn phase<'a>(case: &Case, holds: &Holds<'a>, phase: &'a super::checked::Phase) -> Result<Phase> {
+fn phase<'a>(case: &Case, holds: &Holds<'a>, number: usize, phase: &'a super::checked::Phase) -> Result<Phase> {
     let values = phase
         .prescribed
         .iter()
         .map(|p| &p.displacement)
         .chain(phase.tractions.iter().flat_map(|t| &t.components))
+        .chain(water::values(case, number, phase))
         .chain(std::iter::once(&phase.gravity));
     Ok(Phase {
         name: phase.name.clone(),
@@ -319,7 +327,8 @@ fn outputs(case: &Case, scene: &Scene<2>, folder: &Path, fingerprint: Fingerprin
         Ok(Watch { name: entry.name.clone(), on, quantities: quantities.collect() })
     };
     let watches = case.output.history.iter().map(watch).collect::<Result<_>>()?;
-    Ok(Outputs { folder: folder.to_path_buf(), fields, watches, fingerprint })
+    let surface = if water::needs_surface(case) { Some(water::acting(case, mesh)?) } else { None };
+    Ok(Outputs { folder: folder.to_path_buf(), fields, watches, surface, fingerprint })
 }
 
 /// The regions with points and their materials.
@@ -347,7 +356,7 @@ fn carried(case: &Case, mesh: &Mesh<2>) -> Result<Vec<Option<Carried>>> {
 }
 
 /// The mean size of the cells of a mesh (m).
-fn mean_size(mesh: &Mesh<2>) -> f64 {
+pub(super) fn mean_size(mesh: &Mesh<2>) -> f64 {
     let cells = mesh.cells.len();
     (0..cells).map(|c| cell_size(mesh, c)).sum::<f64>() / cells as f64
 }

@@ -12,8 +12,10 @@
 mod boundary;
 mod checkpoint;
 mod record;
+mod surface;
 
 pub use record::{Field, Quantity, Watch, WatchedOn};
+pub use surface::Acting;
 
 use crate::error::{Error, Kind, Result};
 use crate::io::atomic;
@@ -37,6 +39,8 @@ pub struct Outputs {
     pub folder: PathBuf,
     pub fields: Vec<Field>,
     pub watches: Vec<Watch>,
+    /// What acts on the surface of the material, where that is shown.
+    pub surface: Option<Acting>,
     /// Tells whether a checkpoint belongs to the case.
     pub fingerprint: Fingerprint,
 }
@@ -260,7 +264,7 @@ impl<'a> Files<'a> {
 
     /// Hands a frame to the writer.
     fn frame<const D: usize>(&mut self, scene: &Scene<D>, state: &mut State<D>) -> Result<()> {
-        let frame = record::frame(scene, state, &self.outputs.fields);
+        let frame = record::frame(scene, state, self.outputs);
         let (folder, index) = (self.outputs.results(), state.frames as usize);
         state.frames += 1;
         self.framed = Some(state.step);
