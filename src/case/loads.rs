@@ -24,7 +24,15 @@ impl Checker {
             let path = path.index(i);
             match (&traction.on, &traction.surface) {
                 (Some(curve), None) => tractions.push(self.traction(curve, traction, file, numerics, &path)),
-                (None, Some(surface)) => surface_loads.push(self.surface_load(surface, traction, file, &path)),
+                (None, Some(surface)) => {
+                    let load = self.surface_load(surface, traction, file, &path);
+                    if numerics.restore == Restore::Never && !load.is_pressure_all_around() {
+                        let problem = "on a grid that is never restored the surface of the soil lies on curves";
+                        let remedy = "load these with `on` in place of `surface`, or take `restore: never` out";
+                        self.issue(&path.key("surface"), At::Key, problem, remedy);
+                    }
+                    surface_loads.push(load);
+                }
                 _ => {
                     let remedy = "name a physical curve with `on`, or a region of kind mpm or `all` with `surface`";
                     self.issue(&path, At::Value, "a load acts on a curve or on a surface, one of the two", remedy);

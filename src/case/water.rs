@@ -68,15 +68,19 @@ impl Pressure {
     }
 }
 
-/// Whether a load acts on all of the boundary of the material and is nothing but a pressure, so that it can be taken
-/// into the material. Finite elements would need it too where they meet the material.
-pub fn is_all_around(case: &Case, load: &SurfaceLoad) -> bool {
+impl SurfaceLoad {
+    /// Whether it acts on all of the boundary of the material and is nothing but a pressure.
+    pub fn is_pressure_all_around(&self) -> bool {
+        let none = TimeValue::Constant(0.0);
+        let whole = self.region.is_none() && self.within.is_none();
+        whole && self.shear == none && self.components.iter().all(|component| *component == none)
+    }
+}
+
+/// Whether a load can be taken into the material. Finite elements would need it too where they meet the material.
+fn is_all_around(case: &Case, load: &SurfaceLoad) -> bool {
     let fem = case.regions.iter().any(|region| region.content.is_fem() && !region.content.is_structure());
-    let none = TimeValue::Constant(0.0);
-    !fem && load.region.is_none()
-        && load.within.is_none()
-        && load.shear == none
-        && load.components == [none.clone(), none]
+    !fem && load.is_pressure_all_around()
 }
 
 /// Whether the surface of the material points must be known: for loads on it, or to be shown.

@@ -19,15 +19,19 @@ use std::sync::Arc;
 const WATER: f64 = 9.81;
 /// Cells over a length of 2 m.
 const CELLS: usize = 16;
-const SIZE: f64 = 2.0 / CELLS as f64;
 
 fn elastic() -> Arc<LinearElastic> {
     Arc::new(LinearElastic::new(Elasticity::new(constant(1000.0), 0.3).unwrap()))
 }
 
-fn head(level: f64) -> Head {
+/// Water over cells of which `cells` make 2 m.
+fn water(level: f64, cells: usize) -> Head {
     let constant = TimeValue::Constant;
-    Head { top: constant(0.0), gradient: constant(WATER), datum: constant(level), band: 0.25 * SIZE }
+    Head { top: constant(0.0), gradient: constant(WATER), datum: constant(level), band: 0.25 * 2.0 / cells as f64 }
+}
+
+fn head(level: f64) -> Head {
+    water(level, CELLS)
 }
 
 fn slope(x: &[f64; 2]) -> bool {
@@ -44,9 +48,9 @@ fn jagged(x: &[f64; 2]) -> bool {
     teeth && (x[0] - 0.8).hypot(x[1] - 0.8) > 0.2 || (x[0] - 1.0).hypot(x[1] - 1.75) < 0.1
 }
 
-/// Points in a shape: in rows, anywhere, and sheared.
-fn layouts(inside: fn(&[f64; 2]) -> bool) -> Vec<(&'static str, Vec<([f64; 2], f64)>)> {
-    let spacing = SIZE / 4.0;
+/// Points in a shape, 16 a square cell: in rows, anywhere, and sheared.
+fn layouts(inside: fn(&[f64; 2]) -> bool, cells: usize) -> Vec<(&'static str, Vec<([f64; 2], f64)>)> {
+    let spacing = 0.5 / cells as f64;
     let n = (2.0 / spacing) as usize;
     let row = |k: usize| ([k % n, k / n].map(|i| (i as f64 + 0.5) * spacing), spacing * spacing);
     let rows: Vec<_> = (0..n * n).map(row).collect();
@@ -85,7 +89,7 @@ fn unbalanced<K: Kinematics<2> + 'static>(places: &[([f64; 2], f64)], fitted: bo
 #[test]
 fn water_at_rest_is_in_balance_with_any_shape_and_any_points() {
     for (shape, inside) in [("slope", slope as fn(&[f64; 2]) -> bool), ("disk", disk), ("jagged", jagged)] {
-        for (layout, places) in layouts(inside) {
+        for (layout, places) in layouts(inside, CELLS) {
             for fitted in [true, false] {
                 let plane = unbalanced::<PlaneStrain>(&places, fitted);
                 let ring = unbalanced::<Axisymmetric>(&places, fitted);
@@ -125,10 +129,10 @@ fn below(lines: &[Vec<[f64; 2]>], level: f64) -> f64 {
 
 /// The buoyancy of bodies at many levels against the weight of the water that they displace, over all of it: the
 /// largest error afloat, and that of a body sunk by the volume of its points.
-fn archimedes(inside: fn(&[f64; 2]) -> bool, levels: [f64; 2]) -> [f64; 2] {
+fn archimedes(inside: fn(&[f64; 2]) -> bool, levels: [f64; 2], cells: usize) -> [f64; 2] {
     let mut worst = [0f64; 2];
-    for (layout, places) in layouts(inside) {
-        let mut bench = Bench::new(rectangle(CellKind::T6, 2.0, 2.0, CELLS, CELLS, 0.2, 4), elastic());
+    for (layout, places) in layouts(inside, cells) {
+        let mut bench = Bench::new(rectangle(CellKind::T6, 2.0, 2.0, cells, cells, 0.2, 4), elastic());
         bench.restore = Restore::EveryStep;
         bench.quadrature = Some(Box::new(Fitted::<PlaneStrain>::new(&bench.mesh).with_boundary()));
         let points = at::<PlaneStrain>(&bench.mesh, &places, 1.0);
@@ -141,7 +145,7 @@ fn archimedes(inside: fn(&[f64; 2]) -> bool, levels: [f64; 2]) -> [f64; 2] {
         let lines: Vec<Vec<_>> =
             (0..boundary.loops()).map(|l| boundary.corners(&scene.mesh, &scene.mesh.nodes, l).collect()).collect();
         let buoyancy = |level: f64| {
-            let term = VirtualPressure::<PlaneStrain>::new(vec![Some(head(level))]);
+            let term = VirtualPressure::<PlaneStrain>::new(vec![Some(water(level, cells))]);
             resultant(&scene, &grid, &state, &term)
         };
         let mut error = [0f64; 2];
@@ -162,9 +166,11 @@ fn archimedes_holds_for_bodies_afloat_and_sunk() {
     let block = |x: &[f64; 2]| x[0] > 0.5 && x[0] < 1.5 && x[1] > 0.5 && x[1] < 1.25;
     // Not where a level face is within the band.
     for (name, inside, levels) in [("block", block as fn(&[f64; 2]) -> bool, [0.6, 1.15]), ("disk", disk, [0.6, 1.7])] {
-        println!("{name}");
-        let error = archimedes(inside, levels);
-        assert!(error[0] < 3e-3 && error[1] < 2e-3, "{name}: {error:?}");
+        for (cells, afloat, sunk) in [(16, 3e-3, 2e-3), (48, 1e-3, 1e-3)] {
+            println!("{name}, {cells} cells");
+            let error = archimedes(inside, levels, cells);
+            assert!(error[0] < afloat && error[1] < sunk, "{name}, {cells} cells: {error:?}");
+        }
     }
 }
 
