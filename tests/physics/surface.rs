@@ -97,10 +97,10 @@ fn disk(x: &[f64; 2]) -> bool {
     (x[0] - 1.0).hypot(x[1] - 1.0) < RADIUS
 }
 
-/// The contour of points that are at random in the disk: the better of the two is the front.
+/// What takes over where a disk cannot be followed is the contour of its points, and that is rough.
 #[test]
 fn the_contour_of_a_disk_of_points() {
-    for (kind, n) in [(CellKind::T6, 10), (CellKind::Q9, 14)] {
+    for (kind, n, longer, off) in [(CellKind::T6, 10, 0.035, 16.0), (CellKind::Q9, 14, 0.06, 20.0)] {
         let mesh = rectangle(kind, 2.0, 2.0, n, n, 0.2, 4);
         let geometry = Geometry::new::<PlaneStrain>(&mesh);
         for spread in [false, true] {
@@ -127,7 +127,7 @@ fn the_contour_of_a_disk_of_points() {
             let lines = polylines(&boundary, &mesh);
             let [length, mean, most] = of_disk(&lines[0]);
             println!("{kind:?} {spread}: {} loops, length {length:+.2e}, normals {mean:.1}° {most:.1}°", lines.len());
-            assert!(lines.len() == 1 && length.abs() < 0.05 && mean < 20.0, "{kind:?} {spread}");
+            assert!(lines.len() == 1 && length.abs() < longer && mean < off, "{kind:?} {spread}");
         }
     }
 }
