@@ -183,6 +183,27 @@ const MEANING: &[Broken] = &[
         &["tractions[0].on", "restore: never"],
     ),
     check(
+        Case("    prescribe:", "    tractions: [{on: surface, surface: all, ty: -1}]\n    prescribe:"),
+        &["tractions[0]", "one of the two", "`surface`"],
+    ),
+    check(
+        Case("    prescribe:", "    tractions: [{surface: sol, ty: -1}]\n    prescribe:"),
+        &["tractions[0].surface", "not a region of kind mpm", "did you mean `soil`?"],
+    ),
+    check(
+        Case("    prescribe:", "    tractions: [{surface: all, where: {x: [1, 0]}}]\n    prescribe:"),
+        &["tractions[0]", "there is no load", "where.x", "is empty"],
+    ),
+    check(
+        Case("    prescribe:", "    tractions: [{surface: all, pressure: 1, factor: 2}]\n    prescribe:"),
+        &["tractions[0].factor", "grows with depth"],
+    ),
+    check(
+        Case("    prescribe:", "    water_level: 1\n    prescribe:"),
+        &["phases[0].water_level", "no water", "add `water"],
+    ),
+    check(Case("gravity: {y: -9.81}", "water: {level: 1, unit_weight: 0}"), &["water.unit_weight", "above 0"]),
+    check(
         Case("side: {ux: 0}", "surface: {uy: 0}"),
         &["prescribe.surface.uy", "held in this direction", "take `uy` out"],
     ),

@@ -57,6 +57,7 @@ fn run(folder: &Path) {
                 grid: Part::default(),
                 elements: Part::default(),
                 contact: Part::default(),
+                surface: Part::default(),
             };
             let results = folder.join("results");
             background.submit(move || frame.write(&results, step as usize / 5 - 1)).unwrap();

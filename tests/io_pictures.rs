@@ -67,6 +67,7 @@ fn leaning_block(out: &Path, width: f64, height: f64) {
             grid: Part::default(),
             elements: Part::default(),
             contact: Part::default(),
+            surface: Part::default(),
         };
         frame.write(&out.join("results"), k as usize).unwrap();
     }

@@ -252,6 +252,25 @@ fn points_vtu_is_viewable_as_it_is() {
     check(&[&"meshio", &expected.folder, &path]);
 }
 
+/// A square and a triangle beside it, loaded by `1 + x`.
+fn surface(time: f64) -> Part {
+    let x = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0], [2.0, 0.0], [3.0, 0.0], [2.0, 1.0]];
+    let column = |name: &str, components: usize, values: Vec<f64>| Column {
+        name: name.to_string(),
+        unit: "-".to_string(),
+        components,
+        values,
+    };
+    Part {
+        position: x.map(|[x, y]| [x, y + time, 0.0]).to_vec(),
+        columns: vec![
+            column("pressure", 1, x.iter().map(|x| 1.0 + x[0]).collect()),
+            column("normal", 3, [0.6, 0.8, 0.0].repeat(x.len())),
+            column(frame::LINE, 1, vec![0.0, 0.0, 0.0, 0.0, 1.0, 1.0, 1.0]),
+        ],
+    }
+}
+
 #[test]
 fn a_series_has_its_frames_at_their_times() {
     let folder = tempfile::tempdir().unwrap();
@@ -274,6 +293,7 @@ fn a_series_has_its_frames_at_their_times() {
             grid: Part { position: Vec::new(), columns: vec![column(mesh.nodes.len())] },
             elements: Part::default(),
             contact: Part::default(),
+            surface: surface(time),
         };
         frame.write(&results, k).unwrap();
     }
@@ -281,7 +301,8 @@ fn a_series_has_its_frames_at_their_times() {
     for encoding in [Encoding::Raw, Encoding::Lz4, Encoding::Plain] {
         let none = vec![false; mesh.regions.len()];
         export::export(&results, &mesh, &none, folder.path(), &["displacement".to_string()], encoding).unwrap();
-        for series in ["points.pvd", "grid.pvd"] {
+        check(&[&"vtp", &folder.path().join("vtu/surface_000002.vtp"), &"[[0, 1, 2, 3, 0], [4, 5, 6, 4]]"]);
+        for series in ["points.pvd", "grid.pvd", "surface.pvd"] {
             let path = folder.path().join(series);
             let mut all: Vec<&dyn AsRef<std::ffi::OsStr>> = vec![&"pvd", &path];
             all.extend(arguments.iter().map(|a| a as &dyn AsRef<std::ffi::OsStr>));

@@ -86,6 +86,18 @@ const SOFT: Case = Case {
     ],
 };
 
+/// Water that falls, and a load on a part of the surface, on a grid that is restored now and then.
+const POOL: Case = Case {
+    file: "cases/submerged_slope",
+    overrides: &[
+        "mesh.parameters.h=1.25",
+        "phases[1].duration=2",
+        "phases[1].step={initial: 0.05}",
+        "phases[1].water_level={table: [[0, 5.5], [2, 3]]}",
+        "phases[1].tractions=[{surface: soil, ty: -5, shear: 1, where: {x: [-12, -6]}}]",
+    ],
+};
+
 fn mpm(verb: &str, case: &Case, folder: &Path, more: &[&str]) -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_mpm"));
     command.arg(verb).arg(Path::new(env!("CARGO_MANIFEST_DIR")).join(case.file)).arg("-o").arg(folder);
@@ -260,8 +272,13 @@ fn a_run_with_softening_soil_killed_ten_times_ends_the_same() {
 }
 
 #[test]
+fn a_run_with_loads_on_the_surface_killed_ten_times_ends_the_same() {
+    survives_kills(&POOL, 6);
+}
+
+#[test]
 fn the_number_of_threads_changes_no_bit() {
-    for case in [SLOPE, RELEASE, SAND, PILE, BLOCK, WALL, BODIES, SAFETY, FALL, SOFT] {
+    for case in [SLOPE, RELEASE, SAND, PILE, BLOCK, WALL, BODIES, SAFETY, FALL, SOFT, POOL] {
         let one = seeded(&case);
         let three = copy(one.path());
         ends(mpm("solve", &case, one.path(), &["--threads", "1"]), 0);

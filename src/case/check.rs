@@ -65,6 +65,7 @@ impl Checker {
             supports: self.supports(file, &root.key("supports")),
             gravity,
             k0: file.initial_stress.map(|stress| stress.k0),
+            water: self.water(file, &root),
             initial_velocity: self.initial_velocity(file, &root.key("initial_velocity")),
             numerics,
             phases,
@@ -266,7 +267,13 @@ impl Checker {
             on: entry.on.clone(),
             quantities: entry.quantities.clone(),
         });
-        Output { every: output.every, fields, encoding: output.encoding, history: history.collect() }
+        Output {
+            every: output.every,
+            fields,
+            encoding: output.encoding,
+            surface: output.surface,
+            history: history.collect(),
+        }
     }
 
     /// What only shows between blocks.

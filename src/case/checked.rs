@@ -30,6 +30,7 @@ pub struct Case {
     pub gravity: [f64; 2],
     /// Horizontal over vertical stress (-) of the initial stress; `None` for no stress.
     pub k0: Option<f64>,
+    pub water: Option<Water>,
     /// The velocities of the regions that do not start at rest.
     pub initial_velocity: Vec<InitialVelocity>,
     pub numerics: Numerics,
@@ -245,6 +246,7 @@ pub struct Phase {
     pub step: StepSize,
     pub prescribed: Vec<Prescribed>,
     pub tractions: Vec<Traction>,
+    pub surface_loads: Vec<SurfaceLoad>,
     /// Factor (-) on gravity.
     pub gravity: TimeValue,
     /// What strengths are divided by (-); absent where they are as given.
@@ -306,6 +308,37 @@ pub struct Traction {
     pub components: [TimeValue; 2],
 }
 
+/// A load on the surface of the material points, per area of the surface as it is.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SurfaceLoad {
+    /// Index into [`Case::regions`]; `None` for all of the surface.
+    pub region: Option<usize>,
+    pub pressure: Option<Pressure>,
+    /// Along the surface (kPa), positive in the sense that has the material on its left.
+    pub shear: TimeValue,
+    /// In fixed directions (kPa).
+    pub components: [TimeValue; 2],
+    /// From and to (m) in x and y.
+    pub within: Option<[[f64; 2]; 2]>,
+}
+
+/// A pressure (kPa, compression positive): uniform, or growing with depth.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Pressure {
+    pub top: TimeValue,
+    pub gradient: TimeValue,
+    pub datum: f64,
+}
+
+/// Water around soil and structures.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Water {
+    /// Unit weight (kN/m³).
+    pub unit_weight: f64,
+    /// Height y (m) of its level in each phase.
+    pub level: Vec<TimeValue>,
+}
+
 /// What is written, and when.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Output {
@@ -313,6 +346,8 @@ pub struct Output {
     pub every: Option<f64>,
     pub fields: Vec<Field>,
     pub encoding: Encoding,
+    /// Whether the surface of the material points is wanted where no load acts on it.
+    pub surface: bool,
     pub history: Vec<History>,
 }
 

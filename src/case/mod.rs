@@ -8,6 +8,7 @@ mod check;
 pub mod checked;
 mod contacts;
 mod incompressible;
+mod loads;
 pub mod locate;
 mod materials;
 pub mod names;
@@ -25,6 +26,7 @@ pub mod structure;
 mod tests;
 mod touch;
 mod wall;
+mod water;
 
 pub use checked::Case;
 

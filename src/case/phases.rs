@@ -1,7 +1,7 @@
 //! The phases of a case: time steps, prescribed displacements and loads.
 
 use super::check::{Checker, LATER};
-use super::checked::{Analysis, Numerics, Phase, Prescribed, Restore, StepSize, Traction, Until};
+use super::checked::{Analysis, Numerics, Phase, Prescribed, StepSize, Until};
 use super::locate::{At, Path};
 use super::raw;
 use super::structure::suggest;
@@ -61,14 +61,7 @@ impl Checker {
                 prescribed.push(Prescribed { curve: curve.clone(), component, displacement });
             }
         }
-        let of_elements = |kind| matches!(kind, raw::RegionKind::Fem | raw::RegionKind::Structure);
-        let with_elements = file.regions.values().any(|region| of_elements(region.kind));
-        let tractions = phase
-            .tractions
-            .iter()
-            .enumerate()
-            .map(|(i, traction)| self.traction(traction, numerics, with_elements, &path.key("tractions").index(i)))
-            .collect();
+        let (tractions, surface_loads) = self.loads(phase, file, numerics, &path.key("tractions"));
         let gravity = match &phase.gravity {
             Some(factor) => self.in_time(factor, &path.key("gravity")),
             None => TimeValue::Constant(1.0),
@@ -80,6 +73,7 @@ impl Checker {
             step: self.step(&phase.step, phase.duration, &path.key("step")),
             prescribed,
             tractions,
+            surface_loads,
             gravity,
             reduction: self.reduction(phase, analysis, file, path),
             absent: Vec::new(),
@@ -212,32 +206,6 @@ impl Checker {
         checked
     }
 
-    fn traction(
-        &mut self,
-        traction: &raw::Traction,
-        numerics: &Numerics,
-        with_elements: bool,
-        path: &Path,
-    ) -> Traction {
-        // Whether the curve is one of finite elements, only the mesh can tell.
-        if numerics.restore != Restore::Never && !with_elements {
-            let problem = "a traction on a curve needs finite elements, or a grid that moves with the material";
-            let remedy = "set `restore: never` under `numerics`, or make the region beside it `kind: fem`";
-            self.issue(&path.key("on"), At::Value, problem, remedy);
-        }
-        if traction.tx.is_none() && traction.ty.is_none() {
-            self.issue(path, At::Value, "there is no load", "add `tx: …` or `ty: …`");
-        }
-        let mut component = |key, value: &Option<raw::InTime>| match value {
-            Some(value) => self.in_time(value, &path.key(key)),
-            None => TimeValue::Constant(0.0),
-        };
-        Traction {
-            curve: traction.on.clone(),
-            components: [component("tx", &traction.tx), component("ty", &traction.ty)],
-        }
-    }
-
     fn step(&mut self, step: &raw::Step, duration: f64, path: &Path) -> StepSize {
         let min = step.min.unwrap_or(1e-4 * step.initial);
         let max = step.max.unwrap_or(step.initial);
@@ -257,7 +225,7 @@ impl Checker {
         StepSize { initial: step.initial, min, max }
     }
 
-    fn in_time(&mut self, value: &raw::InTime, path: &Path) -> TimeValue {
+    pub(super) fn in_time(&mut self, value: &raw::InTime, path: &Path) -> TimeValue {
         match value {
             raw::InTime::Constant(value) => TimeValue::Constant(*value),
             raw::InTime::Rate(rate) => TimeValue::Rate(rate.rate),

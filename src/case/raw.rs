@@ -39,6 +39,8 @@ pub struct CaseFile {
     /// The velocity before the first phase, by the name of a region; without it everything is at rest.
     #[serde(default)]
     pub initial_velocity: BTreeMap<String, Velocity>,
+    /// Water whose pressure acts on all that is below its level; without it none.
+    pub water: Option<Water>,
     /// The numerical method.
     #[serde(default)]
     pub numerics: Numerics,
@@ -252,6 +254,18 @@ pub struct InitialStress {
     pub k0: f64,
 }
 
+/// Water around the soil and the structures: a load on their boundaries.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Water {
+    /// Height y (m) of its level, in the time of each phase.
+    pub level: InTime,
+    /// Unit weight (kN/m³), above 0.
+    #[serde(default = "unit_weight_of_water")]
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub unit_weight: f64,
+}
+
 /// A velocity field: `velocity + gradient · (x − centre)` plus a standing wave.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -403,9 +417,11 @@ pub struct Phase {
     /// Displacements since the beginning of the phase, by the name of a physical curve or a rigid structure.
     #[serde(default)]
     pub prescribe: BTreeMap<String, Motion>,
-    /// Dead loads on named curves.
+    /// Loads on named curves, or on the surface of the material points.
     #[serde(default)]
     pub tractions: Vec<Traction>,
+    /// Height y (m) of the water level in this phase; without it that of `water`.
+    pub water_level: Option<InTime>,
     /// Factor on gravity in the phase (-); without it 1.
     pub gravity: Option<InTime>,
     /// Structures, walls and contacts, by name, that are taken away as the phase begins: until they are activated they carry
@@ -506,16 +522,46 @@ pub struct Motion {
     pub rotation: Option<InTime>,
 }
 
-/// A dead load on a named curve, per area of the undeformed curve.
+/// A load: `on` a named curve, dead and per area of the undeformed curve; or on the `surface` of the material points,
+/// which it follows, per area of the surface as it is.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Traction {
     /// The name of a physical curve.
-    pub on: String,
+    pub on: Option<String>,
+    /// In place of a curve, the surface of the material points of a region by its name, or of `all`.
+    pub surface: Option<String>,
     /// Horizontal (in axisymmetry radial) traction (kPa).
     pub tx: Option<InTime>,
     /// Vertical traction (kPa), positive upwards.
     pub ty: Option<InTime>,
+    /// Pressure (kPa) on a surface, at right angles to it, positive in compression; it may grow with depth.
+    pub pressure: Option<Load>,
+    /// Traction (kPa) along a surface, positive in the sense that has the material on its left.
+    pub shear: Option<InTime>,
+    /// A factor (-) on a pressure that is given as a profile.
+    pub factor: Option<InTime>,
+    /// The part of a surface that is loaded; without it all of it.
+    #[serde(rename = "where")]
+    pub within: Option<Window>,
+}
+
+/// A number in time, or one that grows with depth.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(untagged)]
+pub enum Load {
+    InTime(InTime),
+    Profile(Profile),
+}
+
+/// A box, fixed in space.
+#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Window {
+    /// From and to (m), horizontally.
+    pub x: Option<[f64; 2]>,
+    /// From and to (m), vertically.
+    pub y: Option<[f64; 2]>,
 }
 
 /// What is written, and when.
@@ -529,6 +575,8 @@ pub struct Output {
     pub fields: Option<Vec<Field>>,
     /// How the exported files are packed: compressed, or plain (what meshio reads).
     pub encoding: Encoding,
+    /// Whether the surface of the material points is written; it is wherever a load or water acts on it.
+    pub surface: bool,
     /// Curves of history.csv, a row each step.
     pub history: Vec<History>,
 }
@@ -605,4 +653,8 @@ pub enum Quantity {
 
 fn two() -> u8 {
     2
+}
+
+fn unit_weight_of_water() -> f64 {
+    9.81
 }

@@ -2,7 +2,7 @@
 
 use super::checked::{Analysis, Case, Field, Geometry, Material, Quantity, Region, Restore, Until};
 use super::rigid::{self, Holds};
-use super::{overlap, parts, staged, touch, wall};
+use super::{overlap, parts, staged, touch, wall, water};
 use crate::error::{Error, Result};
 use crate::io::checkpoint::Fingerprint;
 use crate::kinematics::{Axisymmetric, Kinematics, PlaneStrain};
@@ -10,7 +10,7 @@ use crate::mesh::Mesh;
 use crate::mesh::faces::Faces;
 use crate::mesh::locate::Locator;
 use crate::points::Points;
-use crate::quadrature::{Fitted, Quadrature, Volumes};
+use crate::quadrature::{Bounded, Fitted, Quadrature, Volumes};
 use crate::rigid::Body;
 use crate::run::{self, Ended, Outputs, Progress, Watch, WatchedOn};
 use crate::stencil::{Scheme, cell_size, smooths};
@@ -149,6 +149,7 @@ pub fn scene<K: Kinematics<2>>(case: &Case, mut whole: Mesh<2>) -> Result<Scene<
     if dynamic {
         terms.push(Box::new(Inertia::<K>::default()));
     }
+    terms.extend(water::terms::<K>(case, &mesh, size)?);
     for (phase, traction) in case.phases.iter().enumerate().flat_map(|(i, p)| p.tractions.iter().map(move |t| (i, t))) {
         let group = group(&mesh, &traction.curve)?;
         if bodies[..structures].iter().any(|body| rigid::body_of(&mesh, body, &traction.curve)) {
@@ -175,6 +176,7 @@ pub fn scene<K: Kinematics<2>>(case: &Case, mut whole: Mesh<2>) -> Result<Scene<
             if dynamic {
                 terms.push(Box::new(Inertia::<K>::default()));
             }
+            terms.extend(water::on_elements::<K>(case, &part, size));
             terms.extend(rigid::terms::<K>(case, &part, &bodies[..structures], dynamic)?);
             let (carried, rigid) = (carried(case, &part)?, rigid::regions(case, &part));
             let with = |r: usize| carried[r].is_some() && !rigid[r];
@@ -191,11 +193,11 @@ pub fn scene<K: Kinematics<2>>(case: &Case, mut whole: Mesh<2>) -> Result<Scene<
     let supports = holds.supports()?;
     let height = soil_height(case, &mesh, fem.as_ref().map(|fem| &fem.mesh))?;
     let of_structures = fem.as_ref().map_or(&mesh, |fem| &fem.mesh);
-    let staged = |p| {
+    let staged = |(number, p)| {
         let held = staged::held(case, &mesh, of_structures, &bodies, p)?;
-        Ok(Phase { held, ..phase(case, &holds, p, height)? })
+        Ok(Phase { held, ..phase(case, &holds, number, p, height)? })
     };
-    let phases = case.phases.iter().map(staged).collect::<Result<_>>()?;
+    let phases = case.phases.iter().enumerate().map(staged).collect::<Result<_>>()?;
     Ok(Scene {
         locator: Locator::new(&mesh),
         faces: Some(faces),
@@ -245,7 +247,12 @@ fn gravity<K>(case: &Case) -> BodyForce<K, 2> {
 }
 
 fn quadrature<K: Kinematics<2>>(case: &Case, mesh: &Mesh<2>) -> Box<dyn Quadrature<2>> {
-    if case.numerics.fitted { Box::new(Fitted::<K>::new(mesh)) } else { Box::new(Volumes::<K>::default()) }
+    match (case.numerics.fitted, water::needs_surface(case)) {
+        (true, true) => Box::new(Fitted::<K>::new(mesh).with_boundary()),
+        (true, false) => Box::new(Fitted::<K>::new(mesh)),
+        (false, true) => Box::new(Bounded::<K>::new(mesh)),
+        (false, false) => Box::new(Volumes::<K>::default()),
+    }
 }
 
 fn restore(restore: Restore) -> step::Restore {
@@ -256,12 +263,19 @@ fn restore(restore: Restore) -> step::Restore {
     }
 }
 
-fn phase<'a>(case: &Case, holds: &Holds<'a>, phase: &'a super::checked::Phase, height: f64) -> Result<Phase> {
+fn phase<'a>(
+    case: &Case,
+    holds: &Holds<'a>,
+    number: usize,
+    phase: &'a super::checked::Phase,
+    height: f64,
+) -> Result<Phase> {
     let values = phase
         .prescribed
         .iter()
         .map(|p| &p.displacement)
         .chain(phase.tractions.iter().flat_map(|t| &t.components))
+        .chain(water::values(case, number, phase))
         .chain(std::iter::once(&phase.gravity))
         .chain(&phase.reduction);
     Ok(Phase {
@@ -355,7 +369,8 @@ fn outputs(case: &Case, scene: &Scene<2>, folder: &Path, fingerprint: Fingerprin
         Until::Equilibrium(part) => run::Until::Equilibrium(part),
     };
     let until = case.phases.iter().map(|phase| phase.until.iter().map(until).collect()).collect();
-    Ok(Outputs { folder: folder.to_path_buf(), fields, watches, until, fingerprint })
+    let surface = if water::needs_surface(case) { Some(water::acting(case, mesh)?) } else { None };
+    Ok(Outputs { folder: folder.to_path_buf(), fields, watches, until, surface, fingerprint })
 }
 
 fn quantity(quantity: Quantity) -> run::Quantity {
@@ -399,7 +414,7 @@ fn carried(case: &Case, mesh: &Mesh<2>) -> Result<Vec<Option<Carried>>> {
 }
 
 /// The mean size of the cells of a mesh (m).
-fn mean_size(mesh: &Mesh<2>) -> f64 {
+pub(super) fn mean_size(mesh: &Mesh<2>) -> f64 {
     let cells = mesh.cells.len();
     (0..cells).map(|c| cell_size(mesh, c)).sum::<f64>() / cells as f64
 }

@@ -91,6 +91,16 @@ fn rest(case: &Case, mesh: &Mesh<2>, filled: &[Filled], k0: f64, points: &mut Po
         })
         .collect();
     points.stress = k0_stress(mesh, &weights, k0, points)?;
+    if let Some(water) = &case.water {
+        // What stands on the ground presses evenly on what is below it.
+        let unit = |f: &RegionWeight| RegionWeight { region: f.region, unit_weight: Profile::constant(1.0) };
+        let above = k0_stress(mesh, &weights.iter().map(unit).collect::<Vec<_>>(), 0.0, points)?;
+        let soil = |r: u16| weights.iter().any(|w| w.region == r);
+        for p in (0..points.len()).filter(|&p| soil(points.region[p])) {
+            let pressure = water.at_first(points.position[p][1] - above[p][1]);
+            points.stress[p][..3].iter_mut().for_each(|s| *s -= pressure);
+        }
+    }
     for Filled { material, seed, .. } in soils() {
         let model = &*case.materials[*material].model;
         for p in (0..points.len()).filter(|&p| points.region[p] == seed.region) {

@@ -52,7 +52,9 @@ fn series(stage: &Stage) -> Vec<PathBuf> {
     for folder in [stage.folder().to_owned(), stage.folder().join("vtu")] {
         // A folder that is not there has no files in it.
         let entries = fs::read_dir(folder).into_iter().flatten().flatten().map(|entry| entry.path());
-        files.extend(entries.filter(|path| path.extension().is_some_and(|kind| kind == "vtu" || kind == "pvd")));
+        files.extend(
+            entries.filter(|path| path.extension().is_some_and(|kind| kind == "vtu" || kind == "vtp" || kind == "pvd")),
+        );
     }
     files.retain(|path| *path != stage.points());
     files.sort();

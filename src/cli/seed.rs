@@ -30,6 +30,6 @@ pub fn work(stage: &Stage) -> Outcome {
 }
 
 fn stamp(stage: &Stage) -> Result<Stamp> {
-    let keys = ["geometry", "regions", "materials", "gravity", "initial_stress", "initial_velocity"];
+    let keys = ["geometry", "regions", "materials", "gravity", "water", "initial_stress", "initial_velocity"];
     stage.stamp("seed", &keys, &[stage.mesh()])
 }

@@ -1,7 +1,7 @@
 //! Result frames to series for ParaView: `vtu/points_000123.vtu` and `vtu/grid_000123.vtu` with `points.pvd`
 //! and `grid.pvd`, with the fields that the case asks for; where it has finite elements, `vtu/structures_000123.vtu` and
 //! `structures.pvd` with these; and where they touch soil, `vtu/contact_000123.vtu` and `contact.pvd` with what it exerts
-//! along their boundaries.
+//! along their boundaries. Where the surface of the material is known, `vtu/surface_000123.vtp` and `surface.pvd`.
 //!
 //! Derived here, from the stress: `mean_stress` (tension positive) and `deviatoric_stress`, √(3/2 s:s).
 
@@ -20,13 +20,15 @@ use crate::tensor::Symmetric;
 
 mod contact;
 mod pieces;
+mod surface;
 
 use pieces::Piece;
 
 /// The kinds of files, each with a `.pvd`.
-const SERIES: [&str; 4] = ["points", "grid", STRUCTURES, CONTACT];
+const SERIES: [&str; 5] = ["points", "grid", STRUCTURES, CONTACT, SURFACE];
 const STRUCTURES: &str = "structures";
 const CONTACT: &str = "contact";
+const SURFACE: &str = "surface";
 
 /// What an export wrote.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -62,11 +64,12 @@ pub fn export<const D: usize>(
         (Piece::whole(mesh), Piece::default())
     };
     let with_contact = infos.iter().any(|info| info.contact > 0);
+    let with_surface = infos.iter().any(|info| info.surface > 0);
     let first = triples(&mesh.nodes);
     infos.par_iter().enumerate().try_for_each(|(i, info)| {
         let frame = Frame::read(&info.path)?;
         check_fields(&info.path, &frame, fields)?;
-        let Frame { time, points, mut grid, elements, contact, .. } = frame;
+        let Frame { time, points, mut grid, elements, contact, surface, .. } = frame;
         let time = Some(time);
         let points = Grid {
             point_data: select(&points, fields),
@@ -105,11 +108,22 @@ pub fn export<const D: usize>(
             };
             vtu::write(&folder.join(file_name(CONTACT, i)), &lines, encoding)?;
         }
+        if with_surface {
+            let Some(lines) = surface::lines(&surface, time) else {
+                return Err(Error::input(
+                    info.path.display(),
+                    "has not the loops of the surface that others have",
+                    "the frames are of several runs: run `mpm solve` again",
+                ));
+            };
+            vtu::write_lines(&folder.join(file_name(SURFACE, i)), &lines, encoding)?;
+        }
         Ok(())
     })?;
     let is_there = |series: &str| match series {
         STRUCTURES => with_elements,
         CONTACT => with_contact,
+        SURFACE => with_surface,
         _ => true,
     };
     for series in SERIES {
@@ -134,7 +148,8 @@ fn triples<const D: usize>(x: &[[f64; D]]) -> Vec<[f64; 3]> {
 }
 
 fn file_name(series: &str, index: usize) -> String {
-    format!("{series}_{index:06}.vtu")
+    let kind = if series == SURFACE { "vtp" } else { "vtu" };
+    format!("{series}_{index:06}.{kind}")
 }
 
 /// Removes the files of an earlier run that had more frames than are `kept` of a series.
@@ -142,7 +157,8 @@ fn remove_stale(folder: &Path, kept: impl Fn(&str) -> usize) -> Result<usize> {
     let mut removed = 0;
     for entry in fs::read_dir(folder).map_err(|e| atomic::unwritable(folder, &e))? {
         let path = entry.map_err(|e| atomic::unwritable(folder, &e))?.path();
-        let name = path.file_name().and_then(|n| n.to_str()).and_then(|n| n.strip_suffix(".vtu"));
+        let name = path.file_name().and_then(|n| n.to_str());
+        let name = name.and_then(|n| n.strip_suffix(".vtu").or_else(|| n.strip_suffix(".vtp")));
         let stale = name.and_then(|n| n.split_once('_')).is_some_and(|(series, index)| {
             SERIES.contains(&series) && index.parse::<usize>().is_ok_and(|i| i >= kept(series))
         });

@@ -51,13 +51,15 @@ pub struct Frame {
     pub elements: Part,
     /// The boundaries of structures in contact, as the lines of [`LINE`]; empty, and not written, without contact.
     pub contact: Part,
+    /// The corners of the surface of the material, as the loops of [`LINE`]; empty, and not written, where it is not known.
+    pub surface: Part,
 }
 
 /// The column of [`Frame::elements`] that tells the cells.
 pub const CELL: &str = "cell";
 
 /// Columns of [`Frame::contact`] that are not shown as they are: the number of the line that a node is on, which joins
-/// nodes that follow each other; the region of its structure; and whether there is soil before it (1) or not (0).
+/// nodes that follow each other (the last one of a surface with its first); the region of its structure; and whether there is soil before it (1) or not (0).
 pub const LINE: &str = "line";
 pub const REGION: &str = "region";
 pub const FACES: &str = "faces";
@@ -73,6 +75,8 @@ pub struct Info {
     pub points: usize,
     /// Nodes along boundaries in contact.
     pub contact: usize,
+    /// Corners of the surface of the material.
+    pub surface: usize,
 }
 
 /// The file of frame `index`.
@@ -97,8 +101,9 @@ impl Frame {
             ("grid/", "grid node", &self.grid),
             ("elements/", "point of a finite element", &self.elements),
             ("contact/", "node of a boundary in contact", &self.contact),
+            ("surface/", "corner of the surface", &self.surface),
         ];
-        let optional = |prefix: &str| matches!(prefix, "elements/" | "contact/");
+        let optional = |prefix: &str| matches!(prefix, "elements/" | "contact/" | "surface/");
         let written = parts.into_iter().filter(|(prefix, _, part)| !optional(prefix) || !part.position.is_empty());
         for (prefix, item, part) in written {
             let position =
@@ -133,6 +138,7 @@ impl Frame {
                 Some(("grid", name)) => (&mut frame.grid, name),
                 Some(("elements", name)) => (&mut frame.elements, name),
                 Some(("contact", name)) => (&mut frame.contact, name),
+                Some(("surface", name)) => (&mut frame.surface, name),
                 _ => return Err(broken()),
             };
             let Data::F64(values) = data else { return Err(broken()) };
@@ -147,6 +153,7 @@ impl Frame {
             ("grid", &frame.grid),
             ("elements", &frame.elements),
             ("contact", &frame.contact),
+            ("surface", &frame.surface),
         ];
         for (what, part) in parts {
             let counts = part.columns.iter().map(|c| (c.name.as_str(), c.values.len() / c.components));
@@ -187,7 +194,7 @@ pub fn list(folder: &Path) -> Result<Vec<Info>> {
                 .ok_or_else(|| Error::input(path.display(), format!("is damaged: text `{name}` is missing"), AGAIN))
         })?;
         let count = |array: &str| arrays.iter().find(|(name, _)| name == array).map_or(0, |&(_, n)| n);
-        let (points, contact) = (count("points/position"), count("contact/position"));
+        let [points, contact, surface] = ["points/position", "contact/position", "surface/position"].map(count);
         if let Some(before) = infos.last() {
             let mixed = |problem: String| {
                 Err(Error::input(path.display(), format!("does not belong to the frame before: {problem}"), AGAIN))
@@ -199,7 +206,7 @@ pub fn list(folder: &Path) -> Result<Vec<Info>> {
                 return mixed(format!("{points} material points after {}", before.points));
             }
         }
-        infos.push(Info { path, time, phase, step, points, contact });
+        infos.push(Info { path, time, phase, step, points, contact, surface });
     }
     Ok(infos)
 }

@@ -1,4 +1,4 @@
-//! Unstructured grids in VTK's XML format (`.vtu`), every number bit-exact.
+//! Unstructured grids (`.vtu`) and polylines (`.vtp`) in VTK's XML format, every number bit-exact.
 //!
 //! Format: VTK file formats, "XML file formats", version 1.0 with 64-bit headers. Three encodings: raw
 //! appended data (the fastest), the same compressed with LZ4, and base64 within the elements, which every
@@ -47,7 +47,7 @@ impl From<container::Array> for Array {
     }
 }
 
-/// What a `.vtu` shows.
+/// What a `.vtu` shows, or a `.vtp` if all of its cells are polylines.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Grid {
     /// Coordinates of the points in m, three each.
@@ -108,18 +108,32 @@ pub fn write(path: &Path, grid: &Grid, encoding: Encoding) -> Result<()> {
     atomic::write(path, |out| write_to(out, grid, encoding))
 }
 
+/// Writes the polylines of `grid` to `path`, atomically.
+///
+/// # Errors
+/// `Machine` when they cannot be written.
+pub fn write_lines(path: &Path, grid: &Grid, encoding: Encoding) -> Result<()> {
+    atomic::write(path, |out| write_as(out, "PolyData", grid, encoding))
+}
+
 /// Writes the XML of `grid`.
 ///
 /// # Errors
 /// Those of `out`.
 pub fn write_to(out: &mut dyn Write, grid: &Grid, encoding: Encoding) -> io::Result<()> {
+    write_as(out, "UnstructuredGrid", grid, encoding)
+}
+
+/// Writes the XML of `grid` as a data set of a `kind`.
+fn write_as(out: &mut dyn Write, kind: &str, grid: &Grid, encoding: Encoding) -> io::Result<()> {
+    let lines = kind == "PolyData";
     let compressor = if encoding == Encoding::Lz4 { " compressor=\"vtkLZ4DataCompressor\"" } else { "" };
     writeln!(out, "<?xml version=\"1.0\"?>")?;
     writeln!(
         out,
-        "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\"{compressor}>"
+        "<VTKFile type=\"{kind}\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\"{compressor}>"
     )?;
-    writeln!(out, "<UnstructuredGrid>")?;
+    writeln!(out, "<{kind}>")?;
     if let Some(time) = grid.time {
         writeln!(
             out,
@@ -128,7 +142,8 @@ pub fn write_to(out: &mut dyn Write, grid: &Grid, encoding: Encoding) -> io::Res
         )?;
     }
     let (points, cells) = (grid.points.len() / 3, grid.topology.types.len());
-    writeln!(out, "<Piece NumberOfPoints=\"{points}\" NumberOfCells=\"{cells}\">")?;
+    let of = if lines { "Lines" } else { "Cells" };
+    writeln!(out, "<Piece NumberOfPoints=\"{points}\" NumberOf{of}=\"{cells}\">")?;
     let mut arrays = Arrays { out, encoding, appended: Vec::new() };
     for (section, data) in [("PointData", &grid.point_data), ("CellData", &grid.cell_data)] {
         writeln!(arrays.out, "<{section}>")?;
@@ -139,11 +154,13 @@ pub fn write_to(out: &mut dyn Write, grid: &Grid, encoding: Encoding) -> io::Res
     }
     writeln!(arrays.out, "<Points>")?;
     arrays.numbers("Points", 3, &grid.points)?;
-    writeln!(arrays.out, "</Points>\n<Cells>")?;
+    writeln!(arrays.out, "</Points>\n<{of}>")?;
     arrays.numbers("connectivity", 1, &grid.topology.connectivity)?;
     arrays.numbers("offsets", 1, &grid.topology.offsets)?;
-    arrays.numbers("types", 1, &grid.topology.types)?;
-    writeln!(arrays.out, "</Cells>\n</Piece>\n</UnstructuredGrid>")?;
+    if !lines {
+        arrays.numbers("types", 1, &grid.topology.types)?;
+    }
+    writeln!(arrays.out, "</{of}>\n</Piece>\n</{kind}>")?;
     let Arrays { out, appended, .. } = arrays;
     if encoding != Encoding::Plain {
         out.write_all(b"<AppendedData encoding=\"raw\">\n_")?;

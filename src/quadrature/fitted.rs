@@ -2,13 +2,14 @@
 //! surface of the material.
 
 use super::cells::{self, CellFit};
+use super::surface::{boundary, follow};
 use super::{Degree, MOMENTS, Quadrature, Restored, Tally, Weighing};
 use crate::kinematics::{Kinematics, PlaneStrain};
 use crate::mesh::Mesh;
 use crate::mesh::shape::CellKind;
 use crate::points::Points;
 use crate::stencil::{Patch, SoftCell, Stencil};
-use crate::surface::{Active, Contour, Distance, Fault, Filling, Front, Geometry};
+use crate::surface::{Active, Contour, Distance, Filling, Front, Geometry};
 use std::marker::PhantomData;
 
 /// Cells whose weights are worth fewer points for each moment that they are fitted to do not stand alone.
@@ -25,6 +26,8 @@ pub struct Fitted<K> {
     geometry: Geometry,
     /// That of plane strain, where it is another one.
     plane: Option<Geometry>,
+    /// Whether the boundary of the material is wanted.
+    bounded: bool,
     kinematics: PhantomData<K>,
 }
 
@@ -32,36 +35,20 @@ impl<K: Kinematics<2>> Fitted<K> {
     /// For grids that are restored to `mesh`.
     pub fn new(mesh: &Mesh<2>) -> Self {
         let plane = K::HOOP.then(|| Geometry::new::<PlaneStrain>(mesh));
-        Self { geometry: Geometry::new::<K>(mesh), plane, kinematics: PhantomData }
+        Self { geometry: Geometry::new::<K>(mesh), plane, bounded: false, kinematics: PhantomData }
     }
 
-    /// Takes the surface along with the grid: at first it goes around the cells with points.
-    ///
-    /// # Errors
-    /// Why the surface so followed is not that of the material.
-    fn follow(&self, grid: &Restored<2>, front: &mut Option<Front>) -> Result<(), Fault> {
-        let (mesh, points) = (grid.mesh, grid.points);
-        match (grid.displacement, front.as_mut()) {
-            (Some(displacement), Some(front)) => {
-                front.advance(grid.before, (mesh, grid.locator), &self.geometry, displacement)?;
-                front.lean(mesh, &self.geometry, grid.locator, grid.outlines)?;
-            }
-            (Some(_), None) => return Ok(()),
-            (None, _) => {
-                let mut filled = vec![false; mesh.cells.len()];
-                points.cell.iter().for_each(|&c| filled[c as usize] = true);
-                *front = Some(Front::around(mesh, &self.geometry.faces, &filled));
-            }
-        }
-        let Some(front) = front else { return Ok(()) };
-        let volume = (0..points.len()).map(|p| points.volume(p)).sum();
-        front.inspect::<K>(mesh, &self.geometry, grid.locator, volume)
+    /// With the boundary of the material in what the points weigh.
+    #[must_use]
+    pub fn with_boundary(mut self) -> Self {
+        self.bounded = true;
+        self
     }
 
     /// Weighs points within a front. It follows the grid and not the points, and nothing holds it where it is: it would
     /// sink or rise a little in every restoration, and the body lose or gain weight by that. So the surface is taken
     /// where the points weigh together what they did when the front was made: everywhere as far beside the markers.
-    fn weigh_followed(&self, grid: &Restored<2>, front: &mut Front) -> Weighing<2> {
+    fn weigh_followed(&self, grid: &Restored<2>, front: &mut Front) -> (Weighing<2>, Vec<f64>) {
         let Restored { mesh, locator, points, stencil, taking_part, .. } = *grid;
         let mut distance = Distance::default();
         distance.update(mesh, &self.geometry, locator, front, &points.cell, taking_part);
@@ -74,11 +61,11 @@ impl<K: Kinematics<2>> Fitted<K> {
         let missing = (front.weight - weight) * volume_ratio(points, &weighing);
         // Against a structure the surface is that of the structure, which has not moved.
         if missing.abs() <= LEAST_OFFSET * size * surface || !grid.outlines.is_empty() {
-            return weighing;
+            return (weighing, distance.level_set);
         }
         let offset = (missing / surface).clamp(-LARGEST_OFFSET * size, LARGEST_OFFSET * size);
         distance.level_set.iter_mut().for_each(|distance| *distance += offset);
-        self.weigh_within(mesh, points, stencil, taking_part, &distance.level_set)
+        (self.weigh_within(mesh, points, stencil, taking_part, &distance.level_set), distance.level_set)
     }
 
     /// Weighs points in a body whose surface is the zero of `level_set`: one value a node, positive inside.
@@ -112,13 +99,17 @@ impl<K: Kinematics<2>> Fitted<K> {
         };
         let poor = fits.iter().zip(&stencil.patches).filter(poor).map(|(fit, _)| fit.cell).collect();
         let shift = fits.into_iter().filter_map(|fit| Some((fit.cell, fit.shift?))).collect();
-        Weighing { weight, shift, soft: soft(plane, &active, taking_part), poor, tally, lost_front: None }
+        let soft = soft(plane, &active, taking_part);
+        Weighing { weight, shift, soft, poor, tally, ..Weighing::default() }
     }
 }
 
 impl<K: Kinematics<2>> Quadrature<2> for Fitted<K> {
     fn weigh(&self, grid: &Restored<2>, front: &mut Option<Front>) -> Weighing<2> {
-        if grid.relaxed { Self::new(grid.mesh).weigh_on(grid, front) } else { self.weigh_on(grid, front) }
+        if !grid.relaxed {
+            return self.weigh_on(grid, front);
+        }
+        Self { bounded: self.bounded, ..Self::new(grid.mesh) }.weigh_on(grid, front)
     }
 }
 
@@ -127,19 +118,22 @@ impl<K: Kinematics<2>> Fitted<K> {
     fn weigh_on(&self, grid: &Restored<2>, front: &mut Option<Front>) -> Weighing<2> {
         let Restored { mesh, points, parametric, stencil, taking_part, .. } = *grid;
         let mut lost_front = None;
-        if let Err(fault) = self.follow(grid, front) {
+        if let Err(fault) = follow::<K>(&self.geometry, grid, front) {
             *front = None;
             lost_front = Some(fault.to_string());
         }
-        let mut weighing = match front {
+        let (mut weighing, level_set) = match front {
             Some(front) => self.weigh_followed(grid, front),
             None => {
                 let mut contour = Contour::default();
                 contour.update::<K>(mesh, &self.geometry, points, parametric, taking_part);
-                self.weigh_within(mesh, points, stencil, taking_part, &contour.level_set)
+                (self.weigh_within(mesh, points, stencil, taking_part, &contour.level_set), contour.level_set)
             }
         };
         weighing.lost_front = lost_front;
+        if self.bounded {
+            weighing.boundary = boundary(&self.geometry, grid, &level_set);
+        }
         weighing
     }
 }

@@ -9,6 +9,7 @@ mod dual;
 mod fit;
 mod fitted;
 mod least;
+mod surface;
 mod volumes;
 
 #[cfg(test)]
@@ -16,13 +17,14 @@ mod tests;
 
 pub use fit::{Degree, Fitter, MOMENTS};
 pub use fitted::Fitted;
+pub use surface::Bounded;
 pub use volumes::Volumes;
 
 use crate::mesh::Mesh;
 use crate::mesh::locate::Locator;
 use crate::points::Points;
 use crate::stencil::{SoftCell, Stencil};
-use crate::surface::Front;
+use crate::surface::{ActiveBoundary, Front};
 
 /// What the points of a restored grid weigh, and what follows from where they lie.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -36,6 +38,8 @@ pub struct Weighing<const D: usize> {
     pub soft: Vec<SoftCell>,
     /// Cells with points that are cut or too poor in points to stand alone, ascending: their faces take a penalty.
     pub poor: Vec<u32>,
+    /// The boundary of the material; empty where nothing needs it.
+    pub boundary: ActiveBoundary,
     pub tally: Tally,
     /// Why the surface is followed no longer, where it ceased to be in this restoration.
     pub lost_front: Option<String>,

@@ -36,7 +36,7 @@ impl<const D: usize, K: Kinematics<D>> Quadrature<D> for Volumes<K> {
                 fitted_volume: volume,
                 ..Tally::default()
             },
-            lost_front: None,
+            ..Weighing::default()
         }
     }
 }

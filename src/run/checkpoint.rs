@@ -9,7 +9,7 @@ use crate::io::container::Store;
 use crate::quadrature::{Tally, Weighing};
 use crate::stencil::SoftCell;
 use crate::step::State;
-use crate::surface::Front;
+use crate::surface::{ActiveBoundary, Front, Piece};
 
 const POINTS: &str = "points.";
 const FEM: &str = "fem.";
@@ -90,7 +90,7 @@ pub fn store<const D: usize>(state: &State<D>) -> Store {
 
 fn put_weighing<const D: usize>(store: &mut Store, weighing: &Weighing<D>) {
     // Why a front was lost has been told when it was.
-    let Weighing { weight, shift, soft, poor, tally, lost_front: _ } = weighing;
+    let Weighing { weight, shift, soft, poor, boundary, tally, lost_front: _ } = weighing;
     let Tally { quadratic, linear, constant, volume, point_volume, fitted_volume, drift } = tally;
     store.put("weighing.weight", 1, weight.clone());
     store.put("weighing.shifted", 2, shift.iter().flat_map(|(cell, by)| [*cell, by.len() as u32]).collect());
@@ -98,6 +98,15 @@ fn put_weighing<const D: usize>(store: &mut Store, weighing: &Weighing<D>) {
     store.put("weighing.soft", 1, soft.iter().map(|s| s.cell).collect());
     store.put("weighing.emptiness", 1, soft.iter().map(|s| s.emptiness).collect());
     store.put("weighing.poor", 1, poor.clone());
+    let ActiveBoundary { pieces, first } = boundary;
+    store.put("boundary.first", 1, first.clone());
+    store.put(
+        "boundary.ends",
+        2,
+        pieces.iter().flat_map(|piece| [piece.ends, piece.borne].concat().concat()).collect(),
+    );
+    let numbers = |piece: &Piece| [piece.cell, piece.bearer, u32::from(piece.region), u32::from(piece.wall)];
+    store.put("boundary.numbers", 4, pieces.iter().flat_map(numbers).collect());
     store.put("weighing.cells", 1, vec![*quadratic, *linear, *constant, *volume]);
     store.put("weighing.volume", 1, vec![*point_volume, *fitted_volume, *drift]);
 }
@@ -111,6 +120,7 @@ fn take_weighing<const D: usize>(store: &mut Store) -> Result<Weighing<D>> {
     let (soft, emptiness) = (store.take::<u32>("weighing.soft", 1)?, store.take::<f64>("weighing.emptiness", 1)?);
     let soft = soft.into_iter().zip(emptiness).map(|(cell, emptiness)| SoftCell { cell, emptiness }).collect();
     let poor = store.take::<u32>("weighing.poor", 1)?;
+    let boundary = take_boundary(store)?;
     let (cells, volume) = (store.take::<u32>("weighing.cells", 1)?, store.take::<f64>("weighing.volume", 1)?);
     let ([quadratic, linear, constant, volume_only], [point_volume, fitted_volume, drift]) = (&cells[..], &volume[..])
     else {
@@ -125,7 +135,22 @@ fn take_weighing<const D: usize>(store: &mut Store) -> Result<Weighing<D>> {
         fitted_volume: *fitted_volume,
         drift: *drift,
     };
-    Ok(Weighing { weight, shift, soft, poor, tally, lost_front: None })
+    Ok(Weighing { weight, shift, soft, poor, boundary, tally, lost_front: None })
+}
+
+fn take_boundary(store: &mut Store) -> Result<ActiveBoundary> {
+    let first = store.take::<u32>("boundary.first", 1)?;
+    let (ends, numbers) = (store.take::<f64>("boundary.ends", 2)?, store.take::<u32>("boundary.numbers", 4)?);
+    let piece = |(ends, numbers): (&[f64], &[u32])| {
+        let line = |k: usize| [[ends[k], ends[k + 1]], [ends[k + 2], ends[k + 3]]];
+        let (cell, bearer, region, wall) = (numbers[0], numbers[1], numbers[2] as u16, numbers[3] != 0);
+        Piece { cell, ends: line(0), wall, region, bearer, borne: line(4) }
+    };
+    let pieces: Vec<Piece> = ends.chunks_exact(8).zip(numbers.chunks_exact(4)).map(piece).collect();
+    if first.last().is_some_and(|&last| last as usize != pieces.len()) {
+        return Err(foreign("its boundary"));
+    }
+    Ok(ActiveBoundary { pieces, first })
 }
 
 fn put_multipliers(store: &mut Store, pairs: &[Multipliers]) {

@@ -13,9 +13,11 @@ mod boundary;
 mod checkpoint;
 mod ending;
 mod record;
+mod surface;
 
 pub use ending::Until;
 pub use record::{Field, Quantity, Watch, WatchedOn};
+pub use surface::Acting;
 
 use crate::error::{Error, Result};
 use crate::io::atomic;
@@ -40,6 +42,8 @@ pub struct Outputs {
     pub watches: Vec<Watch>,
     /// What ends each phase before its time.
     pub until: Vec<Vec<Until>>,
+    /// What acts on the surface of the material, where that is shown.
+    pub surface: Option<Acting>,
     /// Tells whether a checkpoint belongs to the case.
     pub fingerprint: Fingerprint,
 }
@@ -269,7 +273,7 @@ impl<'a> Files<'a> {
 
     /// Hands a frame to the writer.
     fn frame<const D: usize>(&mut self, scene: &Scene<D>, state: &mut State<D>) -> Result<()> {
-        let frame = record::frame(scene, state, &self.outputs.fields);
+        let frame = record::frame(scene, state, self.outputs);
         let (folder, index) = (self.outputs.results(), state.frames as usize);
         state.frames += 1;
         self.framed = Some(state.step);

@@ -1,6 +1,6 @@
 //! What a run writes down: frames, rows of the history, lines of the log.
 
-use super::boundary;
+use super::{Outputs, boundary, surface};
 use crate::io::columns::padded;
 use crate::io::frame::{CELL, Column, Frame, Part};
 use crate::points::Points;
@@ -185,7 +185,8 @@ fn mean(values: impl Iterator<Item = f64>) -> f64 {
 }
 
 /// The state at one moment.
-pub fn frame<const D: usize>(scene: &Scene<D>, state: &State<D>, fields: &[Field]) -> Frame {
+pub fn frame<const D: usize>(scene: &Scene<D>, state: &State<D>, outputs: &Outputs) -> Frame {
+    let fields = &outputs.fields[..];
     let nodes = scene.mesh_nodes();
     // A grid that is restored stays where the mesh has it.
     let grid = if scene.numerics.restore == Restore::EveryStep && scene.fem.is_none() {
@@ -212,6 +213,7 @@ pub fn frame<const D: usize>(scene: &Scene<D>, state: &State<D>, fields: &[Field
         grid,
         elements: if scene.fem.is_some() { elements } else { Part::default() },
         contact: boundary::part(scene, state),
+        surface: outputs.surface.as_ref().map_or_else(Part::default, |acting| surface::part(scene, state, acting)),
     }
 }
 

@@ -61,20 +61,25 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
         Ok(Self { scene, state, grid, kinematics: PhantomData })
     }
 
-    /// Notes on prescribed displacements of the phase that begins and that no cell near material feels.
+    /// Notes on prescribed displacements and loads of the phase that begins and that no material feels.
     pub fn idle(&self) -> Vec<String> {
         let Some(phase) = self.scene.phases.get(self.state.phase) else { return Vec::new() };
         let out = |n: &u32| self.grid.block[*n as usize] == u32::MAX;
         let idle = phase.prescribed.iter().filter(|p| p.fixed.nodes.iter().all(out));
-        idle.filter_map(|p| {
+        let frame = self.grid.frame(&self.scene.mesh, &self.state);
+        let loads = self.scene.terms.iter().filter_map(|term| {
+            let idle = term.idle(&frame, &self.state.displacement, self.state.phase)?;
+            Some(format!("phase {}: {idle}", phase.name))
+        });
+        let notes = idle.filter_map(|p| {
             let place = self.scene.mesh.nodes[*p.fixed.nodes.first()? as usize];
             let axis = ["x", "y", "z"][p.fixed.component];
             Some(format!(
                 "phase {}: the displacement prescribed in {axis} near {place:.3?} m meets no material: it does nothing until some comes within two cells",
                 phase.name
             ))
-        })
-        .collect()
+        });
+        notes.chain(loads).collect()
     }
 
     /// One time step of the size that `controller` wants, halved until it converges.

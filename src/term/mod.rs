@@ -8,7 +8,9 @@ mod beyond;
 mod body_force;
 mod contact;
 mod empty_cells;
+mod facet_pressure;
 mod ghost;
+mod head;
 mod inertia;
 mod internal;
 mod pressure;
@@ -16,18 +18,24 @@ mod rigid;
 mod smooth_pressure;
 mod smoothed;
 mod stiffness;
+mod surface_traction;
 mod traction;
+mod virtual_pressure;
 
 pub use body_force::BodyForce;
 pub use contact::{Contact, answer as contact_answer};
 pub use empty_cells::EmptyCells;
+pub use facet_pressure::FacetPressure;
 pub use ghost::GhostPenalty;
+pub use head::Head;
 pub use inertia::Inertia;
 pub use internal::{Internal, Share};
 pub use pressure::{Carried, PressureField, hats as pressure_hats};
 pub use rigid::{RigidInertia, RigidTraction, RigidWeight};
 pub use smooth_pressure::SmoothPressure;
+pub use surface_traction::{SurfaceLoad, SurfaceTraction};
 pub use traction::Traction;
+pub use virtual_pressure::VirtualPressure;
 
 use crate::contact::Row;
 use crate::error::Result;
@@ -35,6 +43,7 @@ use crate::mesh::Mesh;
 use crate::mesh::faces::Face;
 use crate::points::Points;
 use crate::stencil::{Patch, SoftCell, Stencil};
+use crate::surface::Piece;
 use crate::system::{Local, Matrix, Pattern, Workspace, scatter};
 use crate::tensor::{Symmetric, Tensor};
 use crate::time_value::TimeValue;
@@ -74,6 +83,8 @@ pub struct Frame<'a, const D: usize> {
     pub ghost: &'a [GhostFace],
     /// The hats that face something; empty where the scene has no contact.
     pub touches: &'a [Touch<D>],
+    /// The pieces of the boundary of the material; empty where the scene has no use for them.
+    pub boundary: &'a [Piece],
     /// The cells that take part, ascending; of finite elements those with unknowns of pressure.
     pub cells: &'a [u32],
     /// Where the constants of the cells begin in [`Trial::pressure`].
@@ -246,6 +257,11 @@ pub trait Term<const D: usize>: Send + Sync {
 
     /// The factor on the load of the term in a phase, if it has one.
     fn factor(&self, _phase: usize) -> Option<&TimeValue> {
+        None
+    }
+
+    /// What a load of the term in a phase that begins meets nothing of, if it does.
+    fn idle(&self, _frame: &Frame<D>, _displacement: &[[f64; D]], _phase: usize) -> Option<String> {
         None
     }
 

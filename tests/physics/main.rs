@@ -15,3 +15,5 @@ mod layout;
 mod patch;
 mod rotation;
 mod slivers;
+mod surface;
+mod water;

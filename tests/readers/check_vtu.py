@@ -2,6 +2,7 @@
 
     check_vtu.py vtk|meshio EXPECTED FILE.vtu ...
     check_vtu.py pvd FILE.pvd TIME ...
+    check_vtu.py vtp FILE.vtp LOOPS
 
 EXPECTED is a folder with the arrays of the first file as raw little-endian numbers, `manifest.json` saying
 which: a list of {"where": "point"|"cell"|"field"|"points"|"connectivity"|"offsets"|"types",
@@ -135,6 +136,26 @@ def check_meshio(folder, path):
             same(what, kinds, want)
 
 
+def check_vtp(path, loops):
+    """Closed polylines with the pressure 1 + x at their corners, opened by pyvista and by vtk's own reader."""
+    import pyvista
+    from vtkmodules.vtkIOXML import vtkXMLPolyDataReader
+
+    reader = vtkXMLPolyDataReader()
+    errors = []
+    reader.AddObserver("ErrorEvent", lambda *_: errors.append("error"))
+    reader.AddObserver("WarningEvent", lambda *_: errors.append("warning"))
+    reader.SetFileName(str(path))
+    reader.Update()
+    assert not errors, f"{path}: vtk complains"
+    for data in (pyvista.wrap(reader.GetOutput()), pyvista.read(path)):
+        got = [list(map(int, data.get_cell(i).point_ids)) for i in range(data.n_cells)]
+        assert got == loops, f"{path}: loops {got}, expected {loops}"
+        assert (data.point_data["pressure [-]"] == 1 + data.points[:, 0]).all()
+        assert data.point_data["normal [-]"].shape == (data.n_points, 3)
+        assert "line [-]" not in data.point_data
+
+
 def check_pvd(path, times):
     import pyvista
 
@@ -153,6 +174,9 @@ def main():
     what, *rest = sys.argv[1:]
     if what == "pvd":
         check_pvd(Path(rest[0]), [float(t) for t in rest[1:]])
+        return
+    if what == "vtp":
+        check_vtp(Path(rest[0]), json.loads(rest[1]))
         return
     folder = Path(rest[0])
     for path in map(Path, rest[1:]):

@@ -5,7 +5,10 @@ use crate::stand::{Field, KINDS, Stand, mesh, points, resultant, size};
 use mpm::kinematics::{Axisymmetric, Kinematics, PlaneStrain};
 use mpm::mesh::Mesh;
 use mpm::mesh::shape::CellKind;
-use mpm::term::{BodyForce, EmptyCells, Inertia, Role, Term, Traction};
+use mpm::stencil::Scheme;
+use mpm::surface::{ActiveBoundary, Piece};
+use mpm::term::{BodyForce, EmptyCells, FacetPressure, Head, Inertia, Role, Term, Traction, VirtualPressure};
+use mpm::term::{SurfaceLoad, SurfaceTraction};
 use mpm::time_value::TimeValue;
 use std::f64::consts::{PI, TAU};
 
@@ -149,4 +152,104 @@ fn check_traction<K: Kinematics<2>>(kind: CellKind, group: &str, area: f64) {
         assert!((sum - force).abs() < 1e-12 * force.abs(), "{kind:?}, {group}: {sum} {force}");
     }
     assert_eq!(size(&stand.evaluate(&trial, &converged, 1, false).0), 0.0, "another phase");
+}
+
+/// Water up to the middle of the mesh, and 2 kPa above.
+fn head() -> Vec<Option<Head>> {
+    let [top, gradient, datum] = [2.0, 10.0, 0.8].map(TimeValue::Constant);
+    vec![Some(Head { top, gradient, datum, band: 0.2 }), None]
+}
+
+fn pressures<K: Kinematics<2>>() {
+    let terms: [(&str, Make); 2] = [
+        ("points", |_| Box::new(VirtualPressure::<K>::new(head()))),
+        ("facets", |mesh| Box::new(FacetPressure::<K>::new(mesh, |_| true, head()))),
+    ];
+    for (name, make) in terms {
+        for kind in KINDS {
+            for alpha_f in [0.0, 0.4] {
+                let mut stand = stand::<K>(kind, make, true);
+                stand.alpha_f = alpha_f;
+                let (trial, converged) = anywhere(&stand);
+                let error = stand.tangent_error(&trial, &converged);
+                assert!(error < 1e-6, "{name}, {kind:?}: {error:.1e}");
+                // The whole boundary of a body: the pressure has a potential.
+                let asymmetry = stand.asymmetry(&trial, &converged);
+                assert!(asymmetry < 1e-11, "{name}, {kind:?}: {asymmetry:.1e}");
+                assert!(stand.term().symmetric());
+                assert_eq!(size(&stand.evaluate(&trial, &converged, 1, false).0), 0.0);
+            }
+        }
+    }
+}
+
+#[test]
+fn the_tangent_of_a_pressure_all_around_is_its_derivative_and_symmetric() {
+    pressures::<PlaneStrain>();
+    pressures::<Axisymmetric>();
+}
+
+#[test]
+fn the_tangent_of_a_pressure_is_its_derivative_with_smooth_gradients() {
+    for kind in [CellKind::T6, CellKind::Q4] {
+        let mesh = mesh(kind);
+        let points = points(&mesh, |_| true);
+        let term = Box::new(VirtualPressure::<Axisymmetric>::new(head()));
+        let scheme = Scheme::Ddmp { fitted: false };
+        let stand = Stand::<Axisymmetric>::with(scheme, mesh, points, term, false, true, None);
+        let (trial, converged) = anywhere(&stand);
+        let error = stand.tangent_error(&trial, &converged);
+        assert!(error < 1e-6, "{kind:?}: {error:.1e}");
+    }
+}
+
+/// Pressure, shear and a fixed traction on a part of pieces in all cells, one of them borne beyond its cell.
+fn on_pieces<K: Kinematics<2>>() {
+    let constant = TimeValue::Constant;
+    let none = || SurfaceLoad {
+        phase: 0,
+        region: None,
+        pressure: None,
+        shear: constant(0.0),
+        components: [constant(0.0), constant(0.0)],
+        within: None,
+    };
+    let all = SurfaceLoad {
+        pressure: head().remove(0),
+        shear: TimeValue::Rate(3.0),
+        components: [constant(2.0), TimeValue::Rate(-5.0)],
+        within: Some([[2.3, 3.5], [0.1, 1.7]]),
+        ..none()
+    };
+    let loads =
+        [SurfaceLoad { pressure: head().remove(0), ..none() }, SurfaceLoad { shear: constant(4.0), ..none() }, all];
+    for load in loads {
+        for kind in KINDS {
+            for alpha_f in [0.0, 0.4] {
+                let mesh = mesh(kind);
+                let points = points(&mesh, |_| true);
+                let cells = mesh.cells.len() as u32;
+                let term = Box::new(SurfaceTraction::<K>::new(vec![load.clone()]));
+                let mut stand = Stand::<K>::new(mesh, points, term, true, true);
+                stand.alpha_f = alpha_f;
+                let piece = |cell: u32| {
+                    let borne = if cell == 0 { [[1.1, -0.2], [0.4, 0.9]] } else { [[0.2, 0.1], [0.3, 0.6]] };
+                    Piece { cell, ends: [[0.2, 0.1], [0.3, 0.6]], wall: false, region: 0, bearer: cell, borne }
+                };
+                stand.state.weighing.boundary =
+                    ActiveBoundary { pieces: (0..cells).map(piece).collect(), first: vec![0, cells] };
+                let (trial, converged) = anywhere(&stand);
+                let error = stand.tangent_error(&trial, &converged);
+                assert!(error < 1e-6, "{kind:?}: {error:.1e}");
+                assert!(size(&stand.evaluate(&trial, &converged, 0, false).0) > 0.1 && !stand.term().symmetric());
+                assert_eq!(size(&stand.evaluate(&trial, &converged, 1, false).0), 0.0);
+            }
+        }
+    }
+}
+
+#[test]
+fn the_tangent_of_loads_on_the_surface_is_their_derivative() {
+    on_pieces::<PlaneStrain>();
+    on_pieces::<Axisymmetric>();
 }

@@ -25,6 +25,7 @@ pub(in crate::io) fn sample(k: usize) -> Frame {
         grid: Part { position: Vec::new(), columns: vec![column("displacement", "m", 3, 6)] },
         elements: Part::default(),
         contact: Part::default(),
+        surface: Part::default(),
     }
 }
 

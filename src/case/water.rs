@@ -1,0 +1,161 @@
+//! Water around soil and structures: its level in each phase, and the terms of its pressure.
+
+use super::check::Checker;
+use super::checked::{Case, Phase, Pressure, SurfaceLoad, Water};
+use super::locate::{At, Path};
+use super::raw;
+use super::scene::{mean_size, region_index};
+use crate::error::Result;
+use crate::kinematics::Kinematics;
+use crate::mesh::Mesh;
+use crate::run::Acting;
+use crate::term::{self, FacetPressure, Head, SurfaceTraction, Term, VirtualPressure};
+use crate::time_value::TimeValue;
+
+/// Half the height of the band over which a pressure begins to grow, as a share of the diagonal of a cell:
+/// a quarter of its side.
+const BAND: f64 = 0.18;
+
+impl Checker {
+    pub(super) fn water(&mut self, file: &raw::CaseFile, root: &Path) -> Option<Water> {
+        let path = |i: usize| root.key("phases").index(i).key("water_level");
+        let Some(water) = &file.water else {
+            for (i, _) in file.phases.iter().enumerate().filter(|(_, phase)| phase.water_level.is_some()) {
+                let remedy = "add `water: {level: …}`, or take it out";
+                self.issue(&path(i), At::Key, "there is no water in this case", remedy);
+            }
+            return None;
+        };
+        if file.regions.values().any(|region| region.rigid == Some(true)) {
+            let remedy = "give the structure the weight that it has under water, and leave `rigid` or `water` out";
+            self.issue(&root.key("water"), At::Key, "water does not act on rigid structures yet", remedy);
+        }
+        let whole = self.in_time(&water.level, &root.key("water").key("level"));
+        let levels = file.phases.iter().enumerate();
+        let level = levels
+            .map(|(i, phase)| match &phase.water_level {
+                Some(level) => self.in_time(level, &path(i)),
+                None => whole.clone(),
+            })
+            .collect();
+        Some(Water { unit_weight: water.unit_weight, level })
+    }
+}
+
+impl Water {
+    /// The pressure of the water in each phase, over cells of the size `size` (m).
+    pub fn heads(&self, size: f64) -> Vec<Option<Head>> {
+        let head = |level: &TimeValue| Head {
+            top: TimeValue::Constant(0.0),
+            gradient: TimeValue::Constant(self.unit_weight),
+            datum: level.clone(),
+            band: BAND * size,
+        };
+        self.level.iter().map(|level| Some(head(level))).collect()
+    }
+
+    /// The pressure (kPa) at height `y` (m) as the run begins.
+    pub fn at_first(&self, y: f64) -> f64 {
+        self.level.first().map_or(0.0, |level| self.unit_weight * (level.at(0.0) - y).max(0.0))
+    }
+}
+
+impl Pressure {
+    /// The same over cells of the size `size` (m).
+    pub fn head(&self, size: f64) -> Head {
+        let datum = TimeValue::Constant(self.datum);
+        Head { top: self.top.clone(), gradient: self.gradient.clone(), datum, band: BAND * size }
+    }
+}
+
+impl SurfaceLoad {
+    /// Whether it acts on all of the boundary of the material and is nothing but a pressure.
+    pub fn is_pressure_all_around(&self) -> bool {
+        let none = TimeValue::Constant(0.0);
+        let whole = self.region.is_none() && self.within.is_none();
+        whole && self.shear == none && self.components.iter().all(|component| *component == none)
+    }
+}
+
+/// Whether a load can be taken into the material. Finite elements would need it too where they meet the material.
+fn is_all_around(case: &Case, load: &SurfaceLoad) -> bool {
+    let fem = case.regions.iter().any(|region| region.content.is_fem() && !region.content.is_structure());
+    !fem && load.is_pressure_all_around()
+}
+
+/// Whether the surface of the material points must be known: for loads on it, or to be shown.
+pub fn needs_surface(case: &Case) -> bool {
+    case.output.surface || case.water.is_some() || case.phases.iter().any(|phase| !phase.surface_loads.is_empty())
+}
+
+/// The loads on the surface of the material points.
+///
+/// # Errors
+/// Input: a region that the mesh has not.
+pub fn loads(case: &Case, mesh: &Mesh<2>, size: f64) -> Result<Vec<term::SurfaceLoad>> {
+    let mut loads = Vec::new();
+    for (phase, load) in case.phases.iter().enumerate().flat_map(|(i, p)| p.surface_loads.iter().map(move |l| (i, l))) {
+        let name = load.region.map(|region| &case.regions[region].name);
+        loads.push(term::SurfaceLoad {
+            phase,
+            region: name.map(|name| region_index(mesh, name)).transpose()?,
+            pressure: load.pressure.as_ref().map(|pressure| pressure.head(size)),
+            shear: load.shear.clone(),
+            components: load.components.clone(),
+            within: load.within,
+        });
+    }
+    Ok(loads)
+}
+
+/// What acts on the surface of the material points, for the frames.
+///
+/// # Errors
+/// As [`loads`].
+pub fn acting(case: &Case, mesh: &Mesh<2>) -> Result<Acting> {
+    let size = mean_size(mesh);
+    let water = case.water.as_ref().map_or_else(Vec::new, |water| water.heads(size));
+    Ok(Acting { loads: loads(case, mesh, size)?, water })
+}
+
+/// The terms of water and of loads on the surface of the material points.
+///
+/// # Errors
+/// As [`loads`].
+pub fn terms<K: Kinematics<2>>(case: &Case, mesh: &Mesh<2>, size: f64) -> Result<Vec<Box<dyn Term<2>>>> {
+    let mut terms: Vec<Box<dyn Term<2>>> = Vec::new();
+    if let Some(water) = &case.water {
+        terms.push(Box::new(VirtualPressure::<K>::new(water.heads(size))));
+    }
+    for (i, phase) in case.phases.iter().enumerate() {
+        for load in phase.surface_loads.iter().filter(|load| is_all_around(case, load)) {
+            let Some(pressure) = &load.pressure else { continue };
+            let mut heads = vec![None; case.phases.len()];
+            heads[i] = Some(pressure.head(size));
+            terms.push(Box::new(VirtualPressure::<K>::new(heads)));
+        }
+    }
+    let all = case.phases.iter().flat_map(|phase| &phase.surface_loads);
+    let pieces = loads(case, mesh, size)?.into_iter().zip(all).filter(|(_, load)| !is_all_around(case, load));
+    let pieces: Vec<_> = pieces.map(|(load, _)| load).collect();
+    if !pieces.is_empty() {
+        terms.push(Box::new(SurfaceTraction::<K>::new(pieces)));
+    }
+    Ok(terms)
+}
+
+/// The term of water on the finite elements of `mesh`.
+pub fn on_elements<K: Kinematics<2>>(case: &Case, mesh: &Mesh<2>, size: f64) -> Option<Box<dyn Term<2>>> {
+    let heads = case.water.as_ref()?.heads(size);
+    Some(Box::new(FacetPressure::<K>::new(mesh, |_| true, heads)))
+}
+
+/// What of a phase's loads and of the water varies in time.
+pub fn values<'a>(case: &'a Case, number: usize, phase: &'a Phase) -> impl Iterator<Item = &'a TimeValue> {
+    let of_load = |load: &'a SurfaceLoad| {
+        let pressure = load.pressure.iter().flat_map(|p| [&p.top, &p.gradient]);
+        pressure.chain([&load.shear]).chain(&load.components)
+    };
+    let level = case.water.iter().filter_map(move |water| water.level.get(number));
+    phase.surface_loads.iter().flat_map(of_load).chain(level)
+}

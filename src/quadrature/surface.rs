@@ -1,0 +1,113 @@
+//! The surface of the material from one restoration to the next, for weights and for loads on it.
+
+use super::{Quadrature, Restored, Volumes, Weighing};
+use crate::kinematics::Kinematics;
+use crate::surface::{ActiveBoundary, Behind, Contour, Distance, Fault, Front, Geometry, NO_REGION};
+use std::cmp::Reverse;
+
+/// Takes the front along with the grid: at first it goes around the cells with points.
+///
+/// # Errors
+/// Why the surface so followed is not that of the material.
+pub fn follow<K: Kinematics<2>>(
+    geometry: &Geometry,
+    grid: &Restored<2>,
+    front: &mut Option<Front>,
+) -> Result<(), Fault> {
+    let (mesh, points) = (grid.mesh, grid.points);
+    match (grid.displacement, front.as_mut()) {
+        (Some(displacement), Some(front)) => {
+            front.advance(grid.before, (mesh, grid.locator), geometry, displacement)?;
+            front.lean(mesh, geometry, grid.locator, grid.outlines)?;
+        }
+        (Some(_), None) => return Ok(()),
+        (None, _) => {
+            let mut filled = vec![false; mesh.cells.len()];
+            points.cell.iter().for_each(|&c| filled[c as usize] = true);
+            *front = Some(Front::around(mesh, &geometry.faces, &filled));
+        }
+    }
+    let Some(front) = front else { return Ok(()) };
+    let volume = (0..points.len()).map(|p| points.volume(p)).sum();
+    front.inspect::<K>(mesh, geometry, grid.locator, volume)
+}
+
+/// Rings of cells across faces in which points are sought that stand for what is behind a piece of the boundary.
+const RINGS: usize = 3;
+
+/// The boundary of where `level_set` is positive. What is behind a piece in a cell without points is borne by the nearest
+/// one with points across faces, the one with most of several: it is that to which its active part is handed.
+pub fn boundary(geometry: &Geometry, grid: &Restored<2>, level_set: &[f64]) -> ActiveBoundary {
+    let Restored { mesh, points, stencil, .. } = *grid;
+    let patch = |c: u32| stencil.patches.binary_search_by_key(&c, |patch| patch.cell).ok();
+    let count = |c: u32| patch(c).map_or(0, |i| stencil.patches[i].point_count);
+    let bearer = |cell: u32| {
+        let mut reached = vec![cell];
+        let mut begin = 0;
+        for _ in 0..=RINGS {
+            let ring = reached[begin..].to_vec();
+            if let Some(&best) = ring.iter().filter(|&&c| count(c) > 0).max_by_key(|&&c| (count(c), Reverse(c))) {
+                return Some(best);
+            }
+            begin = reached.len();
+            for &next in ring.iter().flat_map(|&c| geometry.faces.neighbours(c)) {
+                if !reached.contains(&next) {
+                    reached.push(next);
+                }
+            }
+        }
+        None
+    };
+    let region = |cell: u32, x: &[f64; 2]| {
+        let distance = |p: u32| {
+            let y = &points.position[p as usize];
+            (x[0] - y[0]).powi(2) + (x[1] - y[1]).powi(2)
+        };
+        let all = patch(cell).into_iter().flat_map(|i| stencil.points(&stencil.patches[i]));
+        let nearest = all.map(|&p| (distance(p), p)).min_by(|a, b| a.0.total_cmp(&b.0));
+        nearest.map_or(NO_REGION, |(_, p)| points.region[p as usize])
+    };
+    ActiveBoundary::of(mesh, geometry, level_set, grid.taking_part, |cell, x| match bearer(cell) {
+        Some(bearer) => Behind { region: region(bearer, x), bearer },
+        None => Behind { region: NO_REGION, bearer: cell },
+    })
+}
+
+/// Classical weights with the boundary of the material: followed, or the contour of the points.
+pub struct Bounded<K> {
+    geometry: Geometry,
+    volumes: Volumes<K>,
+}
+
+impl<K: Kinematics<2>> Bounded<K> {
+    /// For grids that are restored to `mesh`.
+    pub fn new(mesh: &crate::mesh::Mesh<2>) -> Self {
+        Self { geometry: Geometry::new::<K>(mesh), volumes: Volumes::default() }
+    }
+}
+
+impl<K: Kinematics<2>> Quadrature<2> for Bounded<K> {
+    fn weigh(&self, grid: &Restored<2>, front: &mut Option<Front>) -> Weighing<2> {
+        let relaxed = grid.relaxed.then(|| Geometry::new::<K>(grid.mesh));
+        let geometry = relaxed.as_ref().unwrap_or(&self.geometry);
+        let Restored { mesh, locator, points, parametric, taking_part, .. } = *grid;
+        let mut weighing = self.volumes.weigh(grid, front);
+        if let Err(fault) = follow::<K>(geometry, grid, front) {
+            *front = None;
+            weighing.lost_front = Some(fault.to_string());
+        }
+        weighing.boundary = match front {
+            Some(front) => {
+                let mut distance = Distance::default();
+                distance.update(mesh, geometry, locator, front, &points.cell, taking_part);
+                boundary(geometry, grid, &distance.level_set)
+            }
+            None => {
+                let mut contour = Contour::default();
+                contour.update::<K>(mesh, geometry, points, parametric, taking_part);
+                boundary(geometry, grid, &contour.level_set)
+            }
+        };
+        weighing
+    }
+}

@@ -1,0 +1,275 @@
+//! The active boundary (paper §2.5): where the material ends, as closed, oriented polylines.
+//!
+//! They are the zero of a level set that is linear on the triangles between the nodes of a cell, in the parametric
+//! domain: the surface that the [`super::Active`] part of a cell is cut along, so that weights fitted to that part and
+//! integrals over the boundary agree. Each piece lies within one cell. Loops run with the material on their left:
+//! counter-clockwise around a body, clockwise around a hole. Where the material lies against the boundary of the mesh
+//! the loop runs along that, in pieces that are *wall* and not free surface.
+
+use super::geometry::Geometry;
+use super::split::triangles;
+use crate::mesh::Mesh;
+use crate::mesh::faces::BOUNDARY;
+use crate::mesh::shape::{CellKind, MAX_NODES};
+use std::collections::BTreeMap;
+
+/// The region of a piece that no point is near: there is nothing that could bear a load.
+pub const NO_REGION: u16 = u16::MAX;
+
+/// A piece of the boundary: a straight line in the parametric domain of its cell.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Piece {
+    pub cell: u32,
+    /// Its ends, parametric.
+    pub ends: [[f64; 2]; 2],
+    /// Whether it lies on the boundary of the mesh.
+    pub wall: bool,
+    /// The region of the material behind it.
+    pub region: u16,
+    /// The cell whose points stand for the material behind it, and the ends in the parametric domain of that, continued
+    /// beyond the cell where it is another one: there the cell of the piece is a sliver without points.
+    pub bearer: u32,
+    pub borne: [[f64; 2]; 2],
+}
+
+/// What is behind a piece.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Behind {
+    pub region: u16,
+    /// The cell whose points stand for it.
+    pub bearer: u32,
+}
+
+/// The loops of the boundary, on the grid as last restored.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct ActiveBoundary {
+    /// The pieces, loop after loop; each begins where the one before ends.
+    pub pieces: Vec<Piece>,
+    /// Loop `l` has the pieces `first[l]..first[l + 1]`.
+    pub first: Vec<u32>,
+}
+
+/// A place on the boundary: a node that is on it or within the material at a wall, or between two nodes.
+type Vertex = [u32; 2];
+
+impl ActiveBoundary {
+    /// The boundary of where `level_set` (one value a node) is positive, over the cells `taking_part`. `behind` tells
+    /// what material is near a place of a cell.
+    pub fn of(
+        mesh: &Mesh<2>,
+        geometry: &Geometry,
+        level_set: &[f64],
+        taking_part: &[bool],
+        mut behind: impl FnMut(u32, &[f64; 2]) -> Behind,
+    ) -> Self {
+        let mut found: Vec<(Vertex, Vertex, Piece)> = Vec::new();
+        for c in (0..mesh.cells.len()).filter(|&c| taking_part[c]) {
+            add_cell(mesh, geometry, level_set, c, &mut found);
+        }
+        let mut boundary = Self { pieces: Vec::with_capacity(found.len()), first: vec![0] };
+        let mut outgoing: BTreeMap<Vertex, Vec<usize>> = BTreeMap::new();
+        for (number, (from, ..)) in found.iter().enumerate() {
+            outgoing.entry(*from).or_default().push(number);
+        }
+        let mut used = vec![false; found.len()];
+        for start in 0..found.len() {
+            let mut at = start;
+            while !std::mem::replace(&mut used[at], true) {
+                let (_, to, mut piece) = found[at];
+                let Behind { region, bearer } = behind(piece.cell, &position(mesh, &piece, 0.5));
+                piece.region = region;
+                if bearer != piece.cell {
+                    let ends = [0.0, 1.0].map(|t| continued(mesh, bearer as usize, &position(mesh, &piece, t)));
+                    if let [Some(a), Some(b)] = ends {
+                        (piece.bearer, piece.borne) = (bearer, [a, b]);
+                    }
+                }
+                boundary.pieces.push(piece);
+                let along = direction(mesh, &piece);
+                // Where bodies touch in a node, the sharpest turn to the left stays with the same one.
+                let turn = |&number: &usize| {
+                    let other = direction(mesh, &found[number].2);
+                    (along[0] * other[1] - along[1] * other[0]).atan2(along[0] * other[0] + along[1] * other[1])
+                };
+                let next = outgoing.get(&to).into_iter().flatten().copied().filter(|&n| !used[n]);
+                let Some(next) = next.max_by(|a, b| turn(a).total_cmp(&turn(b))) else { break };
+                at = next;
+            }
+            let count = boundary.pieces.len() as u32;
+            if boundary.first.last() != Some(&count) {
+                boundary.first.push(count);
+            }
+        }
+        boundary
+    }
+
+    /// The number of loops.
+    pub fn loops(&self) -> usize {
+        self.first.len().saturating_sub(1)
+    }
+
+    /// The pieces of a loop.
+    pub fn pieces(&self, l: usize) -> &[Piece] {
+        &self.pieces[self.first[l] as usize..self.first[l + 1] as usize]
+    }
+
+    /// The corners (m) of a loop, one where each piece begins, on a grid with its nodes at `nodes`.
+    pub fn corners<'a>(&'a self, mesh: &'a Mesh<2>, nodes: &'a [[f64; 2]], l: usize) -> impl Iterator<Item = [f64; 2]> {
+        self.pieces(l).iter().map(move |piece| place(mesh, nodes, piece, 0.0))
+    }
+}
+
+/// The place (m) on a piece at the share `t` of its way, on a grid with its nodes at `nodes`.
+pub fn place(mesh: &Mesh<2>, nodes: &[[f64; 2]], piece: &Piece, t: f64) -> [f64; 2] {
+    let xi = piece.at(t);
+    let mut n = [0.0; MAX_NODES];
+    mesh.cells.kind[piece.cell as usize].values(&xi, &mut n);
+    let mut x = [0.0; 2];
+    for (n, &node) in n.iter().zip(mesh.cells.nodes(piece.cell as usize)) {
+        for d in 0..2 {
+            x[d] += n * nodes[node as usize][d];
+        }
+    }
+    x
+}
+
+fn position(mesh: &Mesh<2>, piece: &Piece, t: f64) -> [f64; 2] {
+    place(mesh, &mesh.nodes, piece, t)
+}
+
+fn direction(mesh: &Mesh<2>, piece: &Piece) -> [f64; 2] {
+    let (a, b) = (position(mesh, piece, 0.0), position(mesh, piece, 1.0));
+    [b[0] - a[0], b[1] - a[1]]
+}
+
+impl Piece {
+    /// The parametric coordinates at the share `t` of its way.
+    pub fn at(&self, t: f64) -> [f64; 3] {
+        along(&self.ends, t)
+    }
+
+    /// The same in the domain of the bearer.
+    pub fn borne_at(&self, t: f64) -> [f64; 3] {
+        along(&self.borne, t)
+    }
+}
+
+fn along([a, b]: &[[f64; 2]; 2], t: f64) -> [f64; 3] {
+    [a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1]), 0.0]
+}
+
+/// The parametric coordinates of the place `x` (m) by the map of cell `c`, continued beyond it; `None` where it has no
+/// inverse there.
+fn continued(mesh: &Mesh<2>, c: usize, x: &[f64; 2]) -> Option<[f64; 2]> {
+    let (kind, nodes) = (mesh.cells.kind[c], mesh.cells.nodes(c));
+    let (mut n, mut slopes) = ([0.0; MAX_NODES], [[0.0; 3]; MAX_NODES]);
+    let mut xi = if kind.is_simplex() { [1.0 / 3.0, 1.0 / 3.0, 0.0] } else { [0.0; 3] };
+    for _ in 0..INVERSIONS {
+        kind.values(&xi, &mut n);
+        kind.derivatives(&xi, &mut slopes);
+        let (mut missing, mut by) = (*x, [[0.0; 2]; 2]);
+        for (i, &node) in nodes.iter().enumerate() {
+            let place = &mesh.nodes[node as usize];
+            for d in 0..2 {
+                missing[d] -= n[i] * place[d];
+                for e in 0..2 {
+                    by[d][e] += slopes[i][e] * place[d];
+                }
+            }
+        }
+        let determinant = by[0][0] * by[1][1] - by[0][1] * by[1][0];
+        let step = [
+            (by[1][1] * missing[0] - by[0][1] * missing[1]) / determinant,
+            (by[0][0] * missing[1] - by[1][0] * missing[0]) / determinant,
+        ];
+        (xi[0], xi[1]) = (xi[0] + step[0], xi[1] + step[1]);
+        if !(xi[0].abs() < FARTHEST && xi[1].abs() < FARTHEST) {
+            return None;
+        }
+        if step[0].abs() + step[1].abs() < 1e-12 {
+            return Some([xi[0], xi[1]]);
+        }
+    }
+    None
+}
+
+/// Newton steps to find parametric coordinates, and how large these may be: a neighbour is not farther away.
+const INVERSIONS: usize = 20;
+const FARTHEST: f64 = 10.0;
+
+/// Whether a cell lies within the material: what is zero in it counts as inside, for a surface through its nodes cuts
+/// nothing off it.
+fn is_full(mesh: &Mesh<2>, level_set: &[f64], c: usize) -> bool {
+    let values = || mesh.cells.nodes(c).iter().map(|&n| level_set[n as usize]);
+    values().all(|v| v >= 0.0) && values().any(|v| v > 0.0)
+}
+
+/// Appends the pieces in a cell.
+fn add_cell(mesh: &Mesh<2>, geometry: &Geometry, level_set: &[f64], c: usize, out: &mut Vec<(Vertex, Vertex, Piece)>) {
+    let (kind, nodes) = (mesh.cells.kind[c], mesh.cells.nodes(c));
+    let value = |i: usize| level_set[nodes[i] as usize];
+    if nodes.iter().all(|&n| level_set[n as usize] <= 0.0) {
+        return;
+    }
+    let mut add = |from: (Vertex, [f64; 2]), to: (Vertex, [f64; 2]), wall: bool| {
+        if from.0 != to.0 {
+            let (cell, ends) = (c as u32, [from.1, to.1]);
+            let piece = Piece { cell, ends, wall, region: NO_REGION, bearer: cell, borne: ends };
+            out.push((from.0, to.0, piece));
+        }
+    };
+    let at = |i: usize| ([nodes[i]; 2], [0, 1].map(|d| kind.node_coordinates()[i][d]));
+    // Where the level set vanishes between a node within and one that is not.
+    let between = |i: usize, j: usize| crossing(kind, nodes, [i, j], [value(i), value(j)]);
+    let full = is_full(mesh, level_set, c);
+    for triangle in triangles(kind).iter().filter(|_| !full) {
+        let inside = triangle.map(|i| value(i) > 0.0);
+        match inside.iter().filter(|&&inside| inside).count() {
+            1 => {
+                let k = inside.iter().position(|&inside| inside).unwrap_or(0);
+                let [i, j, l] = [triangle[k], triangle[(k + 1) % 3], triangle[(k + 2) % 3]];
+                add(between(i, j), between(i, l), false);
+            }
+            2 => {
+                let k = inside.iter().position(|&inside| !inside).unwrap_or(0);
+                let [l, i, j] = [triangle[k], triangle[(k + 1) % 3], triangle[(k + 2) % 3]];
+                add(between(j, l), between(i, l), false);
+            }
+            _ => {}
+        }
+    }
+    let (_, facets) = kind.facets();
+    for (facet, &other) in facets.iter().zip(geometry.faces.across(c as u32)) {
+        let wall = other == BOUNDARY;
+        // Between cells only what is zero may bound a full one.
+        if !wall && (!full || is_full(mesh, level_set, other as usize)) {
+            continue;
+        }
+        let halves: &[[usize; 2]] = match **facet {
+            [a, b, middle] => &[[a, middle], [middle, b]],
+            [a, b] => &[[a, b]],
+            _ => &[],
+        };
+        for &[i, j] in halves {
+            match (value(i) > 0.0, value(j) > 0.0) {
+                (false, false) if full => add(at(i), at(j), wall),
+                _ if !wall => {}
+                (true, true) => add(at(i), at(j), true),
+                (true, false) => add(at(i), between(i, j), true),
+                (false, true) => add(between(j, i), at(j), true),
+                (false, false) => {}
+            }
+        }
+    }
+}
+
+/// The vertex between two nodes of a cell, the first of them within the material, and its parametric place. It is
+/// the same seen from either cell at an edge.
+fn crossing(kind: CellKind, nodes: &[u32], [i, j]: [usize; 2], [a, b]: [f64; 2]) -> (Vertex, [f64; 2]) {
+    let t = a / (a - b);
+    let (x, y) = (kind.node_coordinates()[i], kind.node_coordinates()[j]);
+    let at = [0, 1].map(|d| x[d] + t * (y[d] - x[d]));
+    // A node where the level set is zero is on the boundary itself.
+    let vertex = if b == 0.0 { [nodes[j]; 2] } else { [nodes[i].min(nodes[j]), nodes[i].max(nodes[j])] };
+    (vertex, at)
+}

@@ -1,0 +1,350 @@
+//! The active boundary: closed polylines through collapses, and loads that follow them.
+
+use crate::bench::{Bench, constant, run};
+use crate::layout::{Random, at, fit, lattice, seeded};
+use mpm::kinematics::{Axisymmetric, Kinematics, PlaneStrain};
+use mpm::material::{Elasticity, LinearElastic, Profile, VonMises};
+use mpm::mesh::Mesh;
+use mpm::mesh::builder::rectangle;
+use mpm::mesh::locate::Locator;
+use mpm::mesh::shape::CellKind;
+use mpm::quadrature::{Bounded, Fitted};
+use mpm::step::{Grid, Restore, Simulation, State};
+use mpm::surface::boundary::place;
+use mpm::surface::{ActiveBoundary, Behind, Contour, Distance, Front, Geometry, Piece};
+use mpm::system::Workspace;
+use mpm::term::{Assembly, Head, SurfaceLoad, SurfaceTraction, Term, Trial, VirtualPressure};
+use mpm::time_value::TimeValue;
+use std::f64::consts::{PI, TAU};
+use std::sync::Arc;
+
+const RADIUS: f64 = 0.6;
+
+fn way(mesh: &Mesh<2>, piece: &Piece) -> [f64; 2] {
+    let (a, b) = (place(mesh, &mesh.nodes, piece, 0.0), place(mesh, &mesh.nodes, piece, 1.0));
+    [b[0] - a[0], b[1] - a[1]]
+}
+
+/// Loops with their corners.
+fn polylines(boundary: &ActiveBoundary, mesh: &Mesh<2>) -> Vec<Vec<[f64; 2]>> {
+    (0..boundary.loops()).map(|l| boundary.corners(mesh, &mesh.nodes, l).collect()).collect()
+}
+
+fn area(x: &[[f64; 2]]) -> f64 {
+    let next = |i: usize| x[(i + 1) % x.len()];
+    x.iter().enumerate().map(|(i, a)| 0.5 * (a[0] * next(i)[1] - a[1] * next(i)[0])).sum()
+}
+
+/// The error of the length of a disk's circle, and the error of its normals (°), in the mean and at most, by length.
+fn of_disk(x: &[[f64; 2]]) -> [f64; 3] {
+    let (mut length, mut square, mut most) = (0.0, 0.0, 0.0f64);
+    for (i, a) in x.iter().enumerate() {
+        let b = x[(i + 1) % x.len()];
+        let (t, r) = ([b[0] - a[0], b[1] - a[1]], [0.5 * (a[0] + b[0]) - 1.0, 0.5 * (a[1] + b[1]) - 1.0]);
+        let l = t[0].hypot(t[1]);
+        if l < 1e-9 {
+            continue;
+        }
+        let angle = (t[1] * r[1] + t[0] * r[0]).atan2(t[1] * r[0] - t[0] * r[1]).to_degrees();
+        length += l;
+        square += l * angle * angle;
+        most = most.max(angle.abs());
+    }
+    [length / (TAU * RADIUS) - 1.0, (square / length).sqrt(), most]
+}
+
+/// Every piece ends where the next one of its loop begins.
+fn assert_closed(boundary: &ActiveBoundary, mesh: &Mesh<2>) {
+    for l in 0..boundary.loops() {
+        let pieces = boundary.pieces(l);
+        for (i, piece) in pieces.iter().enumerate() {
+            let (end, next) =
+                (place(mesh, &mesh.nodes, piece, 1.0), place(mesh, &mesh.nodes, &pieces[(i + 1) % pieces.len()], 0.0));
+            assert!((end[0] - next[0]).hypot(end[1] - next[1]) < 1e-14, "loop {l}, piece {i}: {end:?} {next:?}");
+        }
+    }
+}
+
+/// The disk as its exact circle is followed, with four points across a cell.
+#[test]
+fn a_followed_disk_has_its_length_and_its_normals() {
+    for (kind, n) in [(CellKind::T6, 10), (CellKind::Q9, 14), (CellKind::T3, 20)] {
+        let mesh = rectangle(kind, 2.0, 2.0, n, n, 0.2, 4);
+        let (geometry, locator) = (Geometry::new::<PlaneStrain>(&mesh), Locator::new(&mesh));
+        let count = (TAU * RADIUS / (2.0 / n as f64) * 6.0) as u32;
+        let at = |k: u32| TAU * f64::from(k) / f64::from(count);
+        let position = (0..count).map(|k| [1.0 + RADIUS * at(k).cos(), 1.0 + RADIUS * at(k).sin()]).collect();
+        let front = Front { position, first: vec![0, count], weight: 0.0 };
+        let cell: Vec<u32> = (0..mesh.cells.len() as u32)
+            .filter(|&c| mesh.cells.nodes(c as usize).iter().any(|&n| disk(&mesh.nodes[n as usize])))
+            .collect();
+        let all = vec![true; mesh.cells.len()];
+        let mut distance = Distance::default();
+        distance.update(&mesh, &geometry, &locator, &front, &cell, &all);
+        let boundary =
+            ActiveBoundary::of(&mesh, &geometry, &distance.level_set, &all, |bearer, _| Behind { region: 3, bearer });
+        assert_closed(&boundary, &mesh);
+        assert!(boundary.pieces.iter().all(|piece| !piece.wall && piece.region == 3));
+        let lines = polylines(&boundary, &mesh);
+        assert_eq!(lines.len(), 1);
+        let [length, mean, most] = of_disk(&lines[0]);
+        println!("{kind:?}: length {length:+.2e}, normals {mean:.1}° in the mean, {most:.1}° at most");
+        assert!(length.abs() < 0.01 && mean < 5.0, "{kind:?}");
+    }
+}
+
+fn disk(x: &[f64; 2]) -> bool {
+    (x[0] - 1.0).hypot(x[1] - 1.0) < RADIUS
+}
+
+/// What takes over where a disk cannot be followed is the contour of its points, and that is rough.
+#[test]
+fn the_contour_of_a_disk_of_points() {
+    for (kind, n, longer, off) in [(CellKind::T6, 10, 0.035, 16.0), (CellKind::Q9, 14, 0.06, 20.0)] {
+        let mesh = rectangle(kind, 2.0, 2.0, n, n, 0.2, 4);
+        let geometry = Geometry::new::<PlaneStrain>(&mesh);
+        for spread in [false, true] {
+            let mut random = Random(5);
+            let spacing = 0.5 / n as f64;
+            let row = |k: usize| ([k % (4 * n), k / (4 * n)].map(|i| (i as f64 + 0.5) * spacing), spacing * spacing);
+            let rows: Vec<_> = (0..16 * n * n).map(row).collect();
+            let places = if spread { lattice(2.0, 2.0, spacing, &mut random) } else { rows };
+            let inside: Vec<_> = places.into_iter().filter(|(x, _)| disk(x)).collect();
+            let points = at::<PlaneStrain>(&mesh, &inside, 1.0);
+            let locator = Locator::new(&mesh);
+            let parametric: Vec<_> = points.position.iter().map(|x| locator.locate(&mesh, x, None).unwrap()).collect();
+            let mut points = points;
+            points.cell = parametric.iter().map(|p| p.0).collect();
+            let parametric: Vec<_> = parametric.into_iter().map(|p| p.1).collect();
+            let part = vec![true; mesh.cells.len()];
+            let mut contour = Contour::default();
+            contour.update::<PlaneStrain>(&mesh, &geometry, &points, &parametric, &part);
+            let boundary = ActiveBoundary::of(&mesh, &geometry, &contour.level_set, &part, |bearer, _| Behind {
+                region: 0,
+                bearer,
+            });
+            assert_closed(&boundary, &mesh);
+            let lines = polylines(&boundary, &mesh);
+            let [length, mean, most] = of_disk(&lines[0]);
+            println!("{kind:?} {spread}: {} loops, length {length:+.2e}, normals {mean:.1}° {most:.1}°", lines.len());
+            assert!(lines.len() == 1 && length.abs() < longer && mean < off, "{kind:?} {spread}");
+        }
+    }
+}
+
+/// Two bodies, one with a hole, on two walls.
+#[test]
+fn bodies_holes_and_walls_are_told_apart() {
+    for kind in [CellKind::T3, CellKind::T6, CellKind::Q4, CellKind::Q8, CellKind::Q9] {
+        let mesh = rectangle(kind, 2.0, 2.0, 40, 40, 0.2, 4);
+        let geometry = Geometry::new::<PlaneStrain>(&mesh);
+        let (hole, drop) =
+            (|x: &[f64; 2]| (x[0] - 0.6).hypot(x[1] - 0.5) - 0.2, |x: &[f64; 2]| 0.15 - (x[0] - 1.6).hypot(x[1] - 1.6));
+        let value = |x: &[f64; 2]| (1.1 - x[0]).min(1.0 - x[1]).min(hole(x)).max(drop(x));
+        let level_set: Vec<f64> = mesh.nodes.iter().map(value).collect();
+        let boundary = ActiveBoundary::of(&mesh, &geometry, &level_set, &vec![true; mesh.cells.len()], |bearer, _| {
+            Behind { region: 0, bearer }
+        });
+        assert_closed(&boundary, &mesh);
+        let lines = polylines(&boundary, &mesh);
+        let mut areas: Vec<f64> = lines.iter().map(|x| area(x)).collect();
+        areas.sort_by(f64::total_cmp);
+        assert_eq!(lines.len(), 3, "{kind:?}");
+        for (area, exact) in areas.iter().zip([-0.04 * PI, 0.0225 * PI, 1.1]) {
+            assert!((area - exact).abs() < 0.03 * exact.abs(), "{kind:?}: {areas:?}");
+        }
+        let wall = |wall: bool| -> f64 {
+            let length = |p: &Piece| {
+                let d = way(&mesh, p);
+                d[0].hypot(d[1])
+            };
+            boundary.pieces.iter().filter(|piece| piece.wall == wall).map(length).sum()
+        };
+        assert!((wall(true) - 2.1).abs() < 1e-3, "{kind:?}: {}", wall(true));
+        assert!((wall(false) - 2.1 - 0.7 * PI).abs() < 0.05, "{kind:?}: {}", wall(false));
+        for x in &lines {
+            let around = |d: usize| (0..x.len()).map(|i| x[(i + 1) % x.len()][d] - x[i][d]).sum::<f64>();
+            assert!(around(0).abs() < 1e-13 && around(1).abs() < 1e-13);
+        }
+    }
+}
+
+fn elastic(young: f64, poisson: f64) -> Arc<LinearElastic> {
+    Arc::new(LinearElastic::new(Elasticity::new(constant(young), poisson).unwrap()))
+}
+
+fn load(pressure: Option<Head>) -> SurfaceLoad {
+    let none = TimeValue::Constant(0.0);
+    SurfaceLoad {
+        phase: 0,
+        region: None,
+        pressure,
+        shear: none.clone(),
+        components: [none.clone(), none],
+        within: None,
+    }
+}
+
+fn head(top: f64, gradient: f64, datum: f64) -> Head {
+    let constant = TimeValue::Constant;
+    Head { top: constant(top), gradient: constant(gradient), datum: constant(datum), band: 0.01 }
+}
+
+/// The forces (kN) of a term on the nodes of a scene at rest.
+fn forces(scene: &mpm::step::Scene<2>, grid: &Grid<2>, state: &State<2>, term: &dyn Term<2>) -> Vec<f64> {
+    let frame = grid.frame(&scene.mesh, state);
+    let at_rest = vec![[0.0; 2]; scene.mesh.nodes.len()];
+    let mut force = vec![0.0; frame.pattern.len()];
+    let mut workspace = Workspace::default();
+    let mut out = Assembly { force: &mut force, tangent: None, workspace: &mut workspace };
+    term.assemble(&frame, &Trial::at_rest(&at_rest, &at_rest), &mut out).unwrap();
+    force
+}
+
+fn norm(x: impl Iterator<Item = f64>) -> f64 {
+    x.map(|x| x * x).sum::<f64>().sqrt()
+}
+
+/// A pressure as virtual stress and over the pieces of the surface: the difference of the nodal forces over the forces,
+/// for a uniform one and one that grows with depth, and the buoyancy by the pieces over that of the volume of the points.
+fn both_ways<K: Kinematics<2> + 'static>(fitted: bool, followed: bool) -> [f64; 3] {
+    let mesh = rectangle(CellKind::T6, 2.0, 2.0, 12, 12, 0.2, 4);
+    let mut bench = Bench::new(mesh, elastic(1000.0, 0.3));
+    bench.restore = Restore::EveryStep;
+    bench.quadrature = Some(if fitted {
+        Box::new(Fitted::<K>::new(&bench.mesh).with_boundary())
+    } else {
+        Box::new(Bounded::<K>::new(&bench.mesh))
+    });
+    let inside: Vec<_> = if followed {
+        // Cells that are full.
+        let locator = Locator::new(&bench.mesh);
+        let geometry = Geometry::new::<PlaneStrain>(&bench.mesh);
+        let of_cell = |x: &[f64; 2]| geometry.frame[locator.locate(&bench.mesh, x, None).unwrap().0 as usize].centre;
+        seeded(&bench.mesh, 16).into_iter().filter(|(x, _)| disk(&of_cell(x))).collect()
+    } else {
+        lattice(2.0, 2.0, 1.0 / 48.0, &mut Random(5)).into_iter().filter(|(x, _)| disk(x)).collect()
+    };
+    let points = at::<K>(&bench.mesh, &inside, 1.0);
+    let volume: f64 = points.initial_volume.iter().sum();
+    let scene = bench.scene::<K>();
+    let state = Simulation::<2, K>::new(&scene, State::new(points, scene.mesh.nodes.len(), 1.0)).unwrap().state;
+    let grid = Grid::new::<K>(&scene, &state).unwrap();
+    let mut out = [0.0; 3];
+    for (out, head) in out.iter_mut().zip([head(3.0, 0.0, 0.0), head(0.0, 10.0, 3.0)]) {
+        let by_volume = forces(&scene, &grid, &state, &VirtualPressure::<K>::new(vec![Some(head.clone())]));
+        let by_pieces = forces(&scene, &grid, &state, &SurfaceTraction::<K>::new(vec![load(Some(head))]));
+        *out = norm(by_volume.iter().zip(&by_pieces).map(|(a, b)| a - b)) / norm(by_volume.iter().copied());
+    }
+    let by_pieces = forces(&scene, &grid, &state, &SurfaceTraction::<K>::new(vec![load(Some(head(0.0, 10.0, 3.0)))]));
+    out[2] = by_pieces.iter().skip(1).step_by(2).sum::<f64>() / (-10.0 * volume) - 1.0;
+    out
+}
+
+#[test]
+fn a_pressure_over_the_surface_is_that_of_virtual_stress() {
+    for fitted in [true, false] {
+        for followed in [true, false] {
+            let plane = both_ways::<PlaneStrain>(fitted, followed);
+            let ring = both_ways::<Axisymmetric>(fitted, followed);
+            println!("fitted {fitted}, followed {followed}: {plane:?}, axisymmetric {ring:?}");
+            // Buoyancy.
+            assert!(plane[2].abs() < 0.01 && ring[2].abs() < 0.01, "{plane:?} {ring:?}");
+            match (fitted, followed) {
+                (true, true) => {
+                    assert!(plane[0] < 1e-12 && plane[1] < 1e-12, "{plane:?}");
+                    assert!(ring[0] < 1e-12 && ring[1] < 1e-3, "{ring:?}");
+                }
+                // Slivers belong to one cell in the volume and border on others.
+                (true, false) => assert!(plane[0] < 0.05 && plane[1] < 0.05, "{plane:?}"),
+                (false, _) => {}
+            }
+        }
+    }
+}
+
+/// A column that a traction on its top presses together by ten cells of twenty: the stress over the traction less one,
+/// in the mean and at most.
+fn settles(make: impl Fn(f64) -> SurfaceLoad) -> [f64; 2] {
+    const YOUNG: f64 = 100.0;
+    let traction = 2.0 * YOUNG * 2f64.ln();
+    let mut bench = Bench::new(rectangle(CellKind::T6, 3.0, 21.0, 3, 21, 0.0, 4), elastic(YOUNG, 0.0));
+    bench.restore = Restore::EveryStep;
+    bench.steps = 40;
+    fit::<PlaneStrain>(&mut bench);
+    bench.quadrature = Some(Box::new(Fitted::<PlaneStrain>::new(&bench.mesh).with_boundary()));
+    bench.hold("left", &[0]).hold("right", &[0]).hold("bottom", &[1]);
+    bench.extra.push(Box::new(SurfaceTraction::<PlaneStrain>::new(vec![make(traction)])));
+    let column: Vec<_> = seeded(&bench.mesh, 16).into_iter().filter(|(x, _)| x[1] < 20.0).collect();
+    let points = at::<PlaneStrain>(&bench.mesh, &column, 1.0);
+    let scene = bench.scene::<PlaneStrain>();
+    let state = run::<PlaneStrain>(&scene, points, |_, _| {});
+    let p = &state.points;
+    let top = p.position.iter().map(|x| x[1]).fold(0.0, f64::max);
+    assert!((top - 10.0).abs() < 0.2, "it settles by half: {top}");
+    let error = |i: usize| (p.stress[i][1] / -traction - 1.0).abs();
+    let volume: f64 = p.initial_volume.iter().sum();
+    let mean = (0..p.len()).map(|i| p.initial_volume[i] * error(i)).sum::<f64>() / volume;
+    [mean, (0..p.len()).map(error).fold(0.0, f64::max)]
+}
+
+#[test]
+fn a_traction_follows_the_top_of_a_column_across_ten_cells() {
+    let dead = settles(|t| SurfaceLoad { components: [TimeValue::Constant(0.0), TimeValue::Rate(-t)], ..load(None) });
+    println!("vertical traction: {dead:?}");
+    let pressure = settles(|t| load(Some(Head { top: TimeValue::Rate(t), ..head(0.0, 0.0, 0.0) })));
+    println!("pressure: {pressure:?}");
+    assert!(dead[0] < 5e-3 && pressure[0] < 5e-3, "{dead:?} {pressure:?}");
+}
+
+/// A soft block collapses under its weight and runs out.
+fn collapse(fitted: bool) {
+    let mut bench = Bench::new(
+        rectangle(CellKind::T6, 4.0, 1.25, 32, 10, 0.0, 4),
+        Arc::new(VonMises::new(Elasticity::new(constant(500.0), 0.3).unwrap(), Profile::constant(4.0)).unwrap()),
+    );
+    (bench.gravity, bench.restore, bench.dynamic) = ([0.0, -10.0], Restore::EveryStep, true);
+    (bench.duration, bench.steps, bench.spectral_radius) = (1.0, 100, 0.6);
+    if fitted {
+        fit::<PlaneStrain>(&mut bench);
+        bench.quadrature = Some(Box::new(Fitted::<PlaneStrain>::new(&bench.mesh).with_boundary()));
+    } else {
+        bench.quadrature = Some(Box::new(Bounded::<PlaneStrain>::new(&bench.mesh)));
+    }
+    bench.hold("left", &[0]).hold("right", &[0]).hold("bottom", &[0, 1]);
+    let block: Vec<_> = seeded(&bench.mesh, 16).into_iter().filter(|(x, _)| x[0] < 1.0 && x[1] < 1.0).collect();
+    let points = at::<PlaneStrain>(&bench.mesh, &block, 1.6);
+    let volume: f64 = points.initial_volume.iter().sum();
+    let scene = bench.scene::<PlaneStrain>();
+    let (mut worst, mut most, mut lost) = (0f64, 0, 0);
+    let state = run::<PlaneStrain>(&scene, points, |state, _| {
+        let boundary = &state.weighing.boundary;
+        assert_closed(boundary, &scene.mesh);
+        let now: Vec<[f64; 2]> =
+            scene.mesh.nodes.iter().zip(&state.displacement).map(|(x, u)| [0, 1].map(|d| x[d] + u[d])).collect();
+        let mut enclosed = 0.0;
+        for l in 0..boundary.loops() {
+            let x: Vec<_> = boundary.corners(&scene.mesh, &now, l).collect();
+            enclosed += area(&x);
+            for d in 0..2 {
+                let around = (0..x.len()).map(|i| x[(i + 1) % x.len()][d] - x[i][d]).sum::<f64>();
+                worst = worst.max(around.abs());
+            }
+        }
+        let held: f64 = (0..state.points.len()).map(|p| state.points.volume(p)).sum();
+        assert!((enclosed / held - 1.0).abs() < 0.1, "{enclosed} {held} {volume}");
+        most = most.max(boundary.loops());
+        lost += usize::from(state.weighing.lost_front.is_some());
+    });
+    let front = state.points.position.iter().map(|x| x[0]).fold(0.0, f64::max);
+    println!(
+        "fitted {fitted}: Σ n ds {worst:.1e} m, up to {most} loops, front lost {lost} times, ran out to {front:.2} m"
+    );
+    assert!(worst < 1e-12 && front > 1.3, "{worst:e} {front}");
+}
+
+#[test]
+fn the_boundary_is_closed_through_a_collapse() {
+    collapse(true);
+    collapse(false);
+}

@@ -1,0 +1,219 @@
+//! Pressure on the boundary of the material as virtual stress: water on bodies of any shape with points anywhere.
+
+use crate::bench::{Bench, constant, quadrature_points};
+use crate::layout::{Random, at, fit, lattice, seeded};
+use mpm::case::parts::places;
+use mpm::kinematics::{Axisymmetric, Kinematics, PlaneStrain};
+use mpm::material::spatial::elastic_from_stress;
+use mpm::material::{Elasticity, LinearElastic, Model};
+use mpm::mesh::Mesh;
+use mpm::mesh::builder::rectangle;
+use mpm::mesh::locate::Locator;
+use mpm::mesh::shape::CellKind;
+use mpm::points::Points;
+use mpm::quadrature::Fitted;
+use mpm::step::{Controller, Grid, Limits, Restore, Scene, Simulation, State};
+use mpm::surface::Geometry;
+use mpm::system::Workspace;
+use mpm::term::{Assembly, FacetPressure, Head, Term, Trial, VirtualPressure};
+use mpm::time_value::TimeValue;
+use std::sync::Arc;
+
+const WATER: f64 = 9.81;
+/// Cells over a length of 2 m.
+const CELLS: usize = 16;
+
+fn elastic() -> Arc<LinearElastic> {
+    Arc::new(LinearElastic::new(Elasticity::new(constant(1000.0), 0.3).unwrap()))
+}
+
+/// Water over cells of which `cells` make 2 m.
+fn water(level: f64, cells: usize) -> Head {
+    let constant = TimeValue::Constant;
+    Head { top: constant(0.0), gradient: constant(WATER), datum: constant(level), band: 0.25 * 2.0 / cells as f64 }
+}
+
+fn head(level: f64) -> Head {
+    water(level, CELLS)
+}
+
+fn slope(x: &[f64; 2]) -> bool {
+    x[0] > 0.3 && x[1] < 1.6 - 0.7 * x[0] && x[1] > 0.2
+}
+
+fn disk(x: &[f64; 2]) -> bool {
+    (x[0] - 1.0).hypot(x[1] - 1.0) < 0.6
+}
+
+/// Teeth a little larger than a cell, a hole, and a drop beside it.
+fn jagged(x: &[f64; 2]) -> bool {
+    let teeth = x[1] < 1.2 + 0.2 * (9.0 * x[0]).fract() && x[1] > 0.3 && x[0] > 0.3 && x[0] < 1.7;
+    teeth && (x[0] - 0.8).hypot(x[1] - 0.8) > 0.2 || (x[0] - 1.0).hypot(x[1] - 1.75) < 0.1
+}
+
+/// Places (m) with areas (m²).
+type Places = Vec<([f64; 2], f64)>;
+
+/// Points in a shape, 16 a square cell: in rows, anywhere, and sheared.
+fn layouts(inside: fn(&[f64; 2]) -> bool, cells: usize) -> Vec<(&'static str, Places)> {
+    let spacing = 0.5 / cells as f64;
+    let n = (2.0 / spacing) as usize;
+    let row = |k: usize| ([k % n, k / n].map(|i| (i as f64 + 0.5) * spacing), spacing * spacing);
+    let rows: Vec<_> = (0..n * n).map(row).collect();
+    let random = lattice(2.0, 2.0, spacing, &mut Random(3));
+    let sheared = rows.iter().map(|&([x, y], a)| ([(x + 1.37 * y) % 2.0, y], a)).collect();
+    let shapes = [("rows", rows.clone()), ("random", random), ("sheared", sheared)];
+    shapes.map(|(name, points)| (name, points.into_iter().filter(|(x, _)| inside(x)).collect())).into()
+}
+
+/// The points of the cells whose centres are in a shape.
+fn full_cells(mesh: &Mesh<2>, inside: fn(&[f64; 2]) -> bool) -> Places {
+    let (locator, frames) = (Locator::new(mesh), Geometry::new::<PlaneStrain>(mesh).frame);
+    let of_cell = |x: &[f64; 2]| locator.locate(mesh, x, None).is_some_and(|(c, _)| inside(&frames[c as usize].centre));
+    seeded(mesh, 16).into_iter().filter(|(x, _)| of_cell(x)).collect()
+}
+
+/// Gives the points the stress of water at rest with the given level.
+fn float(points: &mut Points<2>, level: f64) {
+    let model = elastic();
+    for p in 0..points.len() {
+        let pressure = WATER * (level - points.position[p][1]);
+        points.stress[p] = [-pressure, -pressure, -pressure, 0.0, 0.0, 0.0];
+        points.elastic[p] = elastic_from_stress(model.as_ref() as &dyn Model, points.origin[p][1], &points.stress[p]);
+    }
+}
+
+/// The relative residual of a body of the density of water, in water, that has its stress.
+fn unbalanced<K: Kinematics<2> + 'static>(places: &[([f64; 2], f64)], fitted: bool) -> f64 {
+    let mut bench = Bench::new(rectangle(CellKind::T6, 2.0, 2.0, CELLS, CELLS, 0.2, 4), elastic());
+    (bench.gravity, bench.density, bench.restore) = ([0.0, -10.0], 0.1 * WATER, Restore::EveryStep);
+    if fitted {
+        fit::<K>(&mut bench);
+    }
+    bench.extra.push(Box::new(VirtualPressure::<K>::new(vec![Some(head(3.0))])));
+    let mut points = at::<K>(&bench.mesh, places, bench.density);
+    float(&mut points, 3.0);
+    let scene = bench.scene::<K>();
+    let mut simulation = Simulation::<2, K>::new(&scene, State::new(points, scene.mesh.nodes.len(), 1.0)).unwrap();
+    let mut controller = Controller::new(Limits { least: 1.0, largest: 1.0 }, scene.phases[0].stops.clone(), 1.0);
+    simulation.advance(&mut controller).unwrap().residuals[0]
+}
+
+#[test]
+fn water_at_rest_is_in_balance_with_any_shape_and_any_points() {
+    for (shape, inside) in [("slope", slope as fn(&[f64; 2]) -> bool), ("disk", disk), ("jagged", jagged)] {
+        for (layout, places) in layouts(inside, CELLS) {
+            for fitted in [true, false] {
+                let plane = unbalanced::<PlaneStrain>(&places, fitted);
+                let ring = unbalanced::<Axisymmetric>(&places, fitted);
+                println!("{shape}, {layout}, fitted {fitted}: {plane:.1e}, axisymmetric {ring:.1e}");
+                assert!(plane < 1e-10 && ring < 1e-10, "{shape}, {layout}, fitted {fitted}");
+            }
+        }
+    }
+}
+
+/// The sum of the forces (kN) that a term exerts on the scene at rest.
+fn resultant(scene: &Scene<2>, grid: &Grid<2>, state: &State<2>, term: &dyn Term<2>) -> [f64; 2] {
+    let frame = grid.frame(&scene.mesh, state);
+    let at_rest = vec![[0.0; 2]; scene.mesh.nodes.len()];
+    let mut force = vec![0.0; frame.pattern.len()];
+    let mut workspace = Workspace::default();
+    let mut out = Assembly { force: &mut force, tangent: None, workspace: &mut workspace };
+    term.assemble(&frame, &Trial::at_rest(&at_rest, &at_rest), &mut out).unwrap();
+    [0, 1].map(|d| -force.iter().skip(d).step_by(2).sum::<f64>())
+}
+
+/// The area of what of closed polylines is below a level: `−∮ min(y, level) dx`.
+fn below(lines: &[Vec<[f64; 2]>], level: f64) -> f64 {
+    let mut area = 0.0;
+    for x in lines {
+        for (i, a) in x.iter().enumerate() {
+            let b = x[(i + 1) % x.len()];
+            let t = ((level - a[1]) / (b[1] - a[1])).clamp(0.0, 1.0);
+            let t = if t.is_nan() { 0.5 } else { t };
+            let middle = level.min(a[1] + t * (b[1] - a[1]));
+            let [low, high] = [a[1].min(level), b[1].min(level)];
+            area -= (b[0] - a[0]) * 0.5 * (t * (low + middle) + (1.0 - t) * (middle + high));
+        }
+    }
+    area
+}
+
+/// The buoyancy of bodies at many levels against the weight of the water that they displace, over all of it: the
+/// largest error afloat, and that of a body sunk by the volume of its points.
+fn archimedes(inside: fn(&[f64; 2]) -> bool, levels: [f64; 2], cells: usize) -> [f64; 2] {
+    let mut worst = [0f64; 2];
+    let mesh = rectangle(CellKind::T6, 2.0, 2.0, cells, cells, 0.2, 4);
+    let mut all = layouts(inside, cells);
+    all.push(("full cells", full_cells(&mesh, inside)));
+    for (layout, places) in all {
+        let mut bench = Bench::new(mesh.clone(), elastic());
+        bench.restore = Restore::EveryStep;
+        bench.quadrature = Some(Box::new(Fitted::<PlaneStrain>::new(&bench.mesh).with_boundary()));
+        let points = at::<PlaneStrain>(&bench.mesh, &places, 1.0);
+        let volume: f64 = points.initial_volume.iter().sum();
+        let scene = bench.scene::<PlaneStrain>();
+        let first = State::new(points, scene.mesh.nodes.len(), 1.0);
+        let state = Simulation::<2, PlaneStrain>::new(&scene, first).unwrap().state;
+        let grid = Grid::new::<PlaneStrain>(&scene, &state).unwrap();
+        let boundary = &state.weighing.boundary;
+        let lines: Vec<Vec<_>> =
+            (0..boundary.loops()).map(|l| boundary.corners(&scene.mesh, &scene.mesh.nodes, l).collect()).collect();
+        let buoyancy = |level: f64| {
+            let term = VirtualPressure::<PlaneStrain>::new(vec![Some(water(level, cells))]);
+            resultant(&scene, &grid, &state, &term)
+        };
+        let mut error = [0f64; 2];
+        for k in 0..=40 {
+            let level = levels[0] + (levels[1] - levels[0]) * f64::from(k) / 40.0;
+            let [x, y] = buoyancy(level);
+            error[0] = error[0].max((y / WATER - below(&lines, level)).abs().max((x / WATER).abs()) / volume);
+        }
+        error[1] = (buoyancy(3.0)[1] / (WATER * volume) - 1.0).abs();
+        println!("{layout}: {:.1e} {:.1e}", error[0], error[1]);
+        worst = [0, 1].map(|i| worst[i].max(error[i]));
+    }
+    worst
+}
+
+#[test]
+fn archimedes_holds_for_bodies_afloat_and_sunk() {
+    let block = |x: &[f64; 2]| x[0] > 0.5 && x[0] < 1.5 && x[1] > 0.5 && x[1] < 1.25;
+    // Not where a level face is within the band.
+    for (name, inside, levels) in [("block", block as fn(&[f64; 2]) -> bool, [0.6, 1.15]), ("disk", disk, [0.6, 1.7])] {
+        for (cells, afloat, sunk) in [(16, 5e-3, 2e-3), (48, 1e-3, 1e-3)] {
+            println!("{name}, {cells} cells");
+            let error = archimedes(inside, levels, cells);
+            assert!(error[0] < afloat && error[1] < sunk, "{name}, {cells} cells: {error:?}");
+        }
+    }
+}
+
+/// Where points and finite elements meet, what either takes of the pressure cancels.
+#[test]
+fn water_does_not_act_where_points_meet_finite_elements() {
+    for kind in [CellKind::T6, CellKind::T3, CellKind::Q9] {
+        let mut bench = Bench::new(rectangle(kind, 1.0, 1.0, 6, 6, 0.2, 4), elastic());
+        (bench.gravity, bench.density, bench.restore) = ([0.0, -10.0], 0.1 * WATER, Restore::EveryStep);
+        bench.elements_where(|x| x[1] < 0.2 + 0.5 * x[0]);
+        fit::<PlaneStrain>(&mut bench);
+        bench.extra.push(Box::new(VirtualPressure::<PlaneStrain>::new(vec![Some(head(3.0))])));
+        bench.hold("bottom", &[0, 1]);
+        let mut parts = bench.split(quadrature_points::<PlaneStrain>(&bench.mesh, 4, bench.density));
+        parts.iter_mut().for_each(|points| float(points, 3.0));
+        let mut scene = bench.scene::<PlaneStrain>();
+        let fem = scene.fem.as_mut().unwrap();
+        let term = FacetPressure::<PlaneStrain>::new(&fem.mesh, |_| true, vec![Some(head(3.0))]);
+        fem.terms.push(Box::new(term));
+        let [points, elements] = parts;
+        let fem_parametric = places(&scene.fem.as_ref().unwrap().mesh, &elements).unwrap();
+        let first = State::new(points, scene.mesh.nodes.len(), 1.0);
+        let state = State { fem: elements, fem_parametric, ..first };
+        let mut simulation = Simulation::<2, PlaneStrain>::new(&scene, state).unwrap();
+        let mut controller = Controller::new(Limits { least: 1.0, largest: 1.0 }, scene.phases[0].stops.clone(), 1.0);
+        let residual = simulation.advance(&mut controller).unwrap().residuals[0];
+        println!("{kind:?}: {residual:.1e}");
+        assert!(residual < 1e-10, "{kind:?}: {residual:.1e}");
+    }
+}
