@@ -191,8 +191,12 @@ const MEANING: &[Broken] = &[
         &["tractions[0].surface", "not a region of kind mpm", "did you mean `soil`?"],
     ),
     check(
-        Case("    prescribe:", "    tractions: [{surface: all, where: {x: [1, 0]}}]\n    prescribe:"),
-        &["tractions[0]", "there is no load", "where.x", "is empty"],
+        Case("    prescribe:", "    tractions: [{surface: all}]\n    prescribe:"),
+        &["tractions[0]", "there is no load", "add `pressure"],
+    ),
+    check(
+        Case("    prescribe:", "    tractions: [{surface: all, ty: -1, where: {x: [1, 0]}}]\n    prescribe:"),
+        &["tractions[0].where.x", "is empty", "smaller one first"],
     ),
     check(
         Case("    prescribe:", "    tractions: [{surface: all, pressure: 1, factor: 2}]\n    prescribe:"),
