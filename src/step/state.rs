@@ -45,8 +45,8 @@ pub struct State<const D: usize> {
     pub last_step: f64,
     /// Displacement (m) of the nodes since the run began: what passes a node of a grid that is restored.
     pub travel: Vec<[f64; D]>,
-    /// The pressure field (kPa, tension positive) by node, at the corners of cells, then the constant of each cell;
-    /// empty without one.
+    /// The pressure field (kPa, tension positive) by node, at the corners of cells, then the constant of each cell, then
+    /// the excess pore pressure (kPa, compression positive) by node, at the corners of cells; empty without either.
     pub pressure: Vec<f64>,
     /// Velocity (m/s) and acceleration (m/s²) of the nodes; empty in quasi-static analysis.
     pub velocity: Vec<[f64; D]>,

@@ -20,6 +20,7 @@ fn scene<K: Kinematics<2>>(kind: CellKind) -> Scene<2> {
         locator: Locator::new(&mesh),
         faces: Some(Faces::of(&mesh)),
         pressure_unit: None,
+        water: None,
         mesh,
         terms: Vec::new(),
         fem: None,
@@ -30,6 +31,7 @@ fn scene<K: Kinematics<2>>(kind: CellKind) -> Scene<2> {
         phases: vec![Phase {
             name: "flight".into(),
             dynamic: true,
+            flows: false,
             duration: 1.0,
             first_step: 1.0,
             least_step: 1.0,
