@@ -43,6 +43,9 @@ pub trait Kinematics<const D: usize>: Copy + Default + Send + Sync + 'static {
     /// Adds to the tangent that of the stress `π 1` at a fixed `π` (kPa): `−π δ_il δ_jk`.
     fn add_pressure(tangent: &mut Self::Tangent, pressure: f64);
 
+    /// Adds to the tangent that of a stress `s 1` with `s` (kPa) proportional to the volume: `s δ_ij δ_kl`.
+    fn add_volumetric(tangent: &mut Self::Tangent, stress: f64);
+
     /// `a : (e_k ⊗ ∇N)` for each component `k`.
     fn column(tangent: &Self::Tangent, gradient: &Gradient<D>) -> Self::Column;
 
@@ -122,6 +125,14 @@ impl<const HOOP: bool> Kinematics<2> for Plane<HOOP> {
     fn add_pressure(tangent: &mut Self::Tangent, pressure: f64) {
         for (ij, kl) in [(0, 0), (1, 2), (2, 1), (3, 3), (4, 4)] {
             tangent[ij][kl] -= pressure;
+        }
+    }
+
+    fn add_volumetric(tangent: &mut Self::Tangent, stress: f64) {
+        for ij in [0, 3, 4] {
+            for kl in [0, 3, 4] {
+                tangent[ij][kl] += stress;
+            }
         }
     }
 

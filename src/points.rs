@@ -3,8 +3,8 @@
 use crate::tensor::{Symmetric, Tensor};
 
 /// All material points of a scene. Every column has one entry a point; `velocity` and `acceleration`
-/// are empty in a quasi-static analysis, `plastic_increment` where no term needs it, `memory` where no model does, `pressure` without a pressure
-/// field.
+/// are empty in a quasi-static analysis, `plastic_increment` where no term needs it, `memory` where no model does,
+/// `pressure` without a pressure field, `pore_pressure` without pore water.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Points<const D: usize> {
     /// Position (m) at the last converged step.
@@ -35,6 +35,8 @@ pub struct Points<const D: usize> {
     pub memory: Vec<f64>,
     /// Kirchhoff mean stress (kPa), tension positive, that the pressure field carries.
     pub pressure: Vec<f64>,
+    /// Excess pressure (kPa) of the water in the pores, compression positive, at the last converged step.
+    pub pore_pressure: Vec<f64>,
     /// Index into the regions of the mesh.
     pub region: Vec<u16>,
     /// The cell that holds the point.
@@ -77,6 +79,7 @@ impl<const D: usize> Points<D> {
             plastic_increment: pick(&self.plastic_increment, numbers),
             memory: pick(&self.memory, numbers),
             pressure: pick(&self.pressure, numbers),
+            pore_pressure: pick(&self.pore_pressure, numbers),
             region: pick(&self.region, numbers),
             cell: pick(&self.cell, numbers),
         }

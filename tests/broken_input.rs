@@ -168,7 +168,10 @@ const MEANING: &[Broken] = &[
     check(Case("restore: every_step", "restore: {min_quality: 1.3}"), &["case.yaml:17", "at most 1"]),
     check(Case("restore: every_step", "gradient: gimp"), &["case.yaml:17", "not available yet", "mpm or ddmp"]),
     check(Case("tolerance: 1.0e-8", "tolerance: 0"), &["case.yaml:17", "numerics.tolerance", "above 0"]),
-    check(Case("quasi_static", "consolidation"), &["case.yaml:20", "not available yet", "quasi_static or dynamic"]),
+    check(
+        Case("quasi_static", "consolidation"),
+        &["case.yaml:20", "no material has a permeability", "choose quasi_static"],
+    ),
     check(Case("duration: 1", "duration: -1"), &["case.yaml:21:15", "above 0"]),
     check(Case("initial: 0.1", "initial: 0"), &["case.yaml:22", "above 0"]),
     check(Case("min: 0.001", "min: 0.5"), &["phases[0].step.min", "above `initial`", "lower `min`"]),

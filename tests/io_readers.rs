@@ -221,6 +221,7 @@ fn points_vtu_is_viewable_as_it_is() {
         plastic_increment: Vec::new(),
         memory: Vec::new(),
         pressure: Vec::new(),
+        pore_pressure: Vec::new(),
         region: (0..n).map(|i| (i % 2) as u16).collect(),
         cell: (0..n as u32).collect(),
     };

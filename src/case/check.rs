@@ -66,6 +66,7 @@ impl Checker {
             gravity,
             k0: file.initial_stress.map(|stress| stress.k0),
             water: self.water(file, &root),
+            initial_pore_pressure: self.initial_pore_pressure(file, &root.key("initial_pore_pressure")),
             initial_velocity: self.initial_velocity(file, &root.key("initial_velocity")),
             numerics,
             phases,
@@ -175,13 +176,15 @@ impl Checker {
             if held.rotation.is_some() {
                 self.turns(file, curve, &path.key("rotation"));
             }
-            if held.ux.is_none() && held.uy.is_none() && held.rotation.is_none() {
+            self.drained(file, held, &path);
+            if held.ux.is_none() && held.uy.is_none() && held.rotation.is_none() && held.pore_pressure.is_none() {
                 self.issue(&path, At::Key, "nothing is held", "add `ux: 0` or `uy: 0`");
             }
             checked.push(Support {
                 curve: curve.clone(),
                 fixed: [held.ux.is_some(), held.uy.is_some()],
                 rotation: held.rotation.is_some(),
+                drained: held.pore_pressure.is_some(),
             });
         }
         checked
@@ -286,7 +289,8 @@ impl Checker {
             let problem = format!("the phases would give {frames:e} frames, more than {MOST_FRAMES}");
             self.issue(&root.key("output").key("every"), At::Value, problem, "write them less often");
         }
-        let undrained = case.materials.iter().any(|m| m.carried.as_ref().is_some_and(|c| c.water > 0.0));
+        self.pores(case, file);
+        let undrained = case.materials.iter().any(Material::has_pore_pressure);
         let wanted = case.output.fields.iter().position(|f| *f == Field::PorePressure);
         if let Some(i) = wanted.filter(|_| !undrained) {
             let path = root.key("output").key("fields").index(i);

@@ -7,7 +7,7 @@ pub use super::raw::{Axis, Encoding, Field, Quantity};
 use crate::contact::Law;
 use crate::material::{Model, Profile};
 use crate::stencil::Scheme;
-use crate::term::Carried;
+use crate::term::{Carried, Porous};
 use crate::time_value::TimeValue;
 use std::collections::BTreeMap;
 use std::fmt;
@@ -31,6 +31,8 @@ pub struct Case {
     /// Horizontal over vertical stress (-) of the initial stress; `None` for no stress.
     pub k0: Option<f64>,
     pub water: Option<Water>,
+    /// Excess pore pressure (kPa) before the first phase, by index into `regions`.
+    pub initial_pore_pressure: Vec<(usize, Profile)>,
     /// The velocities of the regions that do not start at rest.
     pub initial_velocity: Vec<InitialVelocity>,
     pub numerics: Numerics,
@@ -118,9 +120,16 @@ pub struct Material {
     pub model: Arc<dyn Model>,
     /// What the pressure field carries of its stress.
     pub carried: Option<Carried>,
+    /// The water in its pores, where that flows or has a stiffness of its own.
+    pub porous: Option<Porous>,
 }
 
 impl Material {
+    /// Whether the excess pressure of its pore water is found.
+    pub fn has_pore_pressure(&self) -> bool {
+        self.porous.is_some() || self.carried.as_ref().is_some_and(|carried| carried.water > 0.0)
+    }
+
     /// Whether it has a density anywhere.
     pub fn has_mass(&self) -> bool {
         self.density.top > 0.0 || self.density.gradient > 0.0
@@ -167,6 +176,8 @@ pub struct Support {
     pub curve: String,
     pub fixed: [bool; 2],
     pub rotation: bool,
+    /// Whether water leaves there.
+    pub drained: bool,
 }
 
 /// The velocity of a region before the first phase.
@@ -264,6 +275,8 @@ pub enum Analysis {
     Dynamic,
     /// Quasi-static, and dynamic where there is no equilibrium until there is rest.
     Auto,
+    /// Quasi-static while water flows.
+    Consolidation,
     /// Quasi-static, with strengths that fall until no equilibrium is left.
     StrengthReduction,
 }

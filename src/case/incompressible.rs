@@ -2,6 +2,7 @@
 
 use super::check::Checker;
 use super::locate::{At, Path};
+use super::pores::has_water_of_its_own;
 use super::raw;
 use crate::material::{Kind, Model, Profile};
 use crate::term::Carried;
@@ -16,10 +17,10 @@ const NEARLY_INCOMPRESSIBLE: f64 = 0.45;
 /// nothing, and no stronger with this. With less, single points in cut cells of a moving body have nothing that keeps their volume.
 const KEPT: f64 = 1e-3;
 /// Poisson's ratio of an undrained soil as a whole, where none is given: that of PLAXIS.
-const UNDRAINED: f64 = 0.495;
+pub(super) const UNDRAINED: f64 = 0.495;
 
 /// Bulk modulus over shear modulus.
-fn bulk(poisson: f64) -> f64 {
+pub(super) fn bulk(poisson: f64) -> f64 {
     2.0 * (1.0 + poisson) / (3.0 * (1.0 - 2.0 * poisson))
 }
 
@@ -35,9 +36,25 @@ impl Checker {
         path: &Path,
     ) -> Option<Carried> {
         let poisson = model.elasticity().poisson();
+        if material.drainage == Some(raw::Drainage::Undrained) && has_water_of_its_own(material) {
+            // A skeleton that yields locks as well as one that is nearly incompressible.
+            let split = match pressure {
+                Some(raw::Pressure::None) => false,
+                Some(raw::Pressure::Field) => true,
+                None => poisson >= NEARLY_INCOMPRESSIBLE || model.strength(0.0).is_finite(),
+            };
+            let ratio = bulk(poisson) - KEPT;
+            let split = split && kind.keeps_volume && ratio > KEPT;
+            return split.then(|| deviatoric(kind, values, poisson)).flatten().map(|model| Carried {
+                model,
+                ratio,
+                water: 0.0,
+            });
+        }
         if material.drainage == Some(raw::Drainage::Undrained) {
             return self.pore_water(material, kind, model, values, pressure, path);
         }
+        self.drained_material(material, path);
         if material.undrained_poisson.is_some() {
             let problem = "a drained material has no `undrained_poisson`";
             self.issue(&path.key("undrained_poisson"), At::Key, problem, "take it out, or set `drainage: undrained`");

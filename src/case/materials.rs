@@ -27,7 +27,8 @@ impl Checker {
     ) -> Option<Material> {
         let density = self.density(material, gravity, path);
         let (model, carried) = self.model(material, pressure, path)?;
-        Some(Material { name: name.to_owned(), density: density?, model, carried })
+        let porous = self.porous(material, &model, path);
+        Some(Material { name: name.to_owned(), density: density?, model, carried, porous })
     }
 
     fn density(&mut self, material: &raw::Material, gravity: &[f64; 2], path: &Path) -> Option<Profile> {
@@ -136,7 +137,7 @@ impl raw::Material {
 }
 
 impl InDepth {
-    fn profile(self) -> Profile {
+    pub(super) fn profile(self) -> Profile {
         match self {
             Self::Constant(value) => Profile::constant(value),
             Self::Profile(p) => Profile { top: p.top, gradient: p.gradient, datum: p.datum },
@@ -183,6 +184,32 @@ impl JsonSchema for raw::Material {
                 "type": "number",
             }),
         );
+        let mut schema = generator.subschema_for::<raw::Permeability>();
+        let permeability = "Permeability [m/s] of an undrained soil, or {x, y}: its water flows in phases of consolidation and \
+            dynamics.";
+        schema.insert("description".into(), permeability.into());
+        properties.insert("permeability".into(), schema.to_value());
+        for (name, range, description) in [
+            ("porosity", json!({"exclusiveMinimum": 0, "exclusiveMaximum": 1}), "Porosity [-] of an undrained soil."),
+            (
+                "water_bulk_modulus",
+                json!({"exclusiveMinimum": 0}),
+                "Bulk modulus [kPa] of the water in an undrained soil; with \
+                `porosity` in place of `undrained_poisson`.",
+            ),
+            (
+                "water_unit_weight",
+                json!({"exclusiveMinimum": 0}),
+                "Unit weight [kN/m³] of the water in an undrained soil; without \
+                it 9.81.",
+            ),
+        ] {
+            let mut schema = json!({ "description": description, "type": "number" });
+            if let (Some(schema), Some(range)) = (schema.as_object_mut(), range.as_object()) {
+                schema.extend(range.clone());
+            }
+            properties.insert(name.into(), schema);
+        }
         for kind in MODELS {
             for parameter in kind.parameters {
                 let takers = MODELS.iter().filter(|k| k.parameters.iter().any(|p| p.name == parameter.name));

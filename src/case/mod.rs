@@ -15,6 +15,7 @@ pub mod names;
 mod overlap;
 pub mod parts;
 mod phases;
+mod pores;
 pub mod raw;
 mod rigid;
 pub mod scene;

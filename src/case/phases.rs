@@ -1,6 +1,6 @@
 //! The phases of a case: time steps, prescribed displacements and loads.
 
-use super::check::{Checker, LATER};
+use super::check::Checker;
 use super::checked::{Analysis, Numerics, Phase, Prescribed, StepSize, Until};
 use super::locate::{At, Path};
 use super::raw;
@@ -29,14 +29,11 @@ impl Checker {
             raw::Analysis::Auto => Analysis::Auto,
             raw::Analysis::StrengthReduction => Analysis::StrengthReduction,
             raw::Analysis::Consolidation => {
-                let problem = format!("`consolidation` {LATER}");
-                self.issue(
-                    &path.key("analysis"),
-                    At::Value,
-                    problem,
-                    "choose quasi_static, dynamic, auto or strength_reduction",
-                );
-                Analysis::QuasiStatic
+                if file.materials.values().all(|material| material.permeability.is_none()) {
+                    let remedy = "give an undrained material a `permeability`, or choose quasi_static";
+                    self.issue(&path.key("analysis"), At::Value, "no material has a permeability", remedy);
+                }
+                Analysis::Consolidation
             }
         };
         let mut prescribed = Vec::new();

@@ -36,6 +36,9 @@ pub struct CaseFile {
     pub gravity: Vector,
     /// The stress before the first phase; without it there is none.
     pub initial_stress: Option<InitialStress>,
+    /// Excess pore pressure (kPa, compression positive) before the first phase, by the name of a region.
+    #[serde(default)]
+    pub initial_pore_pressure: BTreeMap<String, InDepth>,
     /// The velocity before the first phase, by the name of a region; without it everything is at rest.
     #[serde(default)]
     pub initial_velocity: BTreeMap<String, Velocity>,
@@ -129,6 +132,14 @@ pub struct Material {
     pub drainage: Option<Drainage>,
     /// Poisson's ratio of the undrained soil as a whole (-).
     pub undrained_poisson: Option<f64>,
+    /// Permeability of an undrained soil, whose water flows in consolidation.
+    pub permeability: Option<Permeability>,
+    /// Volume of the pores over that of the soil (-), and bulk modulus of the water (kPa): in place of
+    /// `undrained_poisson`.
+    pub porosity: Option<f64>,
+    pub water_bulk_modulus: Option<f64>,
+    /// Unit weight of the water (kN/m³).
+    pub water_unit_weight: Option<f64>,
     /// The parameters of the model.
     #[serde(flatten)]
     pub parameters: BTreeMap<String, InDepth>,
@@ -140,6 +151,36 @@ pub struct Material {
 pub enum Drainage {
     Drained,
     Undrained,
+}
+
+/// A permeability (m/s), or `{x, y}` where it differs horizontally and vertically.
+#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
+#[serde(untagged)]
+pub enum Permeability {
+    Uniform(f64),
+    ByAxis(PermeabilityByAxis),
+}
+
+/// Horizontal (in axisymmetry radial) and vertical permeability.
+#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct PermeabilityByAxis {
+    /// Horizontal permeability (m/s), 0 or above.
+    #[schemars(range(min = 0))]
+    pub x: f64,
+    /// Vertical permeability (m/s), 0 or above.
+    #[schemars(range(min = 0))]
+    pub y: f64,
+}
+
+impl Permeability {
+    /// In x and y (m/s).
+    pub fn by_axis(self) -> [f64; 2] {
+        match self {
+            Self::Uniform(k) => [k; 2],
+            Self::ByAxis(PermeabilityByAxis { x, y }) => [x, y],
+        }
+    }
 }
 
 /// A number, or `{top, gradient, datum}`: `top` at the height `datum` and above, growing downwards by `gradient`.
@@ -164,7 +205,7 @@ pub struct Profile {
     pub datum: f64,
 }
 
-/// Displacements held on a curve, or of a rigid structure by its name.
+/// Displacements, or the excess pore pressure, held on a curve, or displacements of a rigid structure by its name.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Components {
@@ -174,6 +215,8 @@ pub struct Components {
     pub uy: Option<f64>,
     /// Rotation of a rigid structure, held at 0.
     pub rotation: Option<f64>,
+    /// Excess pore pressure, held at 0 while water flows: the curve is drained.
+    pub pore_pressure: Option<f64>,
 }
 
 /// Contact between a structure or a wall and soil, or between two bodies.
@@ -409,7 +452,7 @@ pub struct Phase {
     /// The kind of analysis: quasi_static (no inertia), dynamic, auto (quasi-static, and dynamic where there is no
     /// equilibrium until there is rest), strength_reduction (quasi-static until no equilibrium is left) or consolidation.
     pub analysis: Analysis,
-    /// Duration (s), above 0; in a quasi-static phase a fictitious time that loads vary in.
+    /// Duration (s), above 0; in a quasi_static phase a fictitious time that loads vary in.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub duration: f64,
     /// Time steps.
@@ -649,6 +692,7 @@ pub enum Quantity {
     Rotation,
     ReactionMoment,
     ContactMoment,
+    PorePressure,
 }
 
 fn two() -> u8 {

@@ -2,7 +2,7 @@
 
 use super::checked::{Analysis, Case, Field, Geometry, Material, Quantity, Region, Restore, Until};
 use super::rigid::{self, Holds};
-use super::{overlap, parts, staged, touch, wall, water};
+use super::{overlap, parts, pores, staged, touch, wall, water};
 use crate::error::{Error, Result};
 use crate::io::checkpoint::Fingerprint;
 use crate::kinematics::{Axisymmetric, Kinematics, PlaneStrain};
@@ -16,8 +16,8 @@ use crate::run::{self, Ended, Outputs, Progress, Watch, WatchedOn};
 use crate::stencil::{Scheme, cell_size, smooths};
 use crate::step::{self, Fem, Numerics, Phase, Scene, Search, State, Stop};
 use crate::term::{
-    BodyForce, Carried, Contact, EmptyCells, GhostPenalty, Inertia, Internal, PressureField, SmoothPressure, Term,
-    Traction,
+    BodyForce, Carried, Contact, EmptyCells, GhostPenalty, Inertia, Internal, PoreWater, PressureField, SmoothPressure,
+    Term, Traction, WaterBond,
 };
 use crate::time_value::TimeValue;
 use std::path::Path;
@@ -69,7 +69,7 @@ pub fn solve(
 /// The state before the first step, given the material points and those of the finite elements.
 fn first(case: &Case, scene: &Scene<2>, [mut points, mut fem]: [Points<2>; 2]) -> Result<State<2>> {
     overlap::check(case, scene, &points)?;
-    if scene.pressure_unit.is_some() {
+    if scene.has_pressure_field() {
         begin_pressure(case, &scene.mesh, &mut points)?;
         begin_pressure(case, &scene.mesh, &mut fem)?;
     }
@@ -77,6 +77,11 @@ fn first(case: &Case, scene: &Scene<2>, [mut points, mut fem]: [Points<2>; 2]) -
         for points in [&mut points, &mut fem] {
             points.memory = vec![0.0; points.len()];
         }
+    }
+    if scene.water.is_some() {
+        // Without an initial pressure there is none.
+        points.pore_pressure.resize(points.len(), 0.0);
+        fem.pore_pressure.resize(fem.len(), 0.0);
     }
     let first_step = scene.phases.first().map_or(0.0, |p| p.first_step);
     let fem_parametric = scene.fem.as_ref().map_or(Ok(Vec::new()), |part| parts::places(&part.mesh, &fem))?;
@@ -134,8 +139,12 @@ pub fn scene<K: Kinematics<2>>(case: &Case, mut whole: Mesh<2>) -> Result<Scene<
 
     let shear = of_soil(|m, y| m.model.elasticity().at(y).shear);
     let size = fem.as_ref().map_or(mean_size(&mesh), |fem| mean_size(fem).max(mean_size(&mesh)));
-    let pressure_unit = materials().any(|m| m.carried.is_some()).then(|| shear / size);
+    let pressure_unit = materials().any(|m| m.carried.is_some() || m.porous.is_some()).then(|| shear / size);
+    let water = pores::water(case, &mesh)?;
     let mut terms = internal::<K>(case, &mesh, dynamic, pressure_unit, shear)?;
+    if let (Some(water), Some(unit)) = (&water, pressure_unit) {
+        terms.push(Box::new(WaterBond::<K>::new(water.porous.clone(), unit, shear, mesh.cells.len())));
+    }
     if case.gravity != [0.0; 2] && density_scale > 0.0 {
         terms.push(Box::new(gravity::<K>(case)));
     }
@@ -181,7 +190,10 @@ pub fn scene<K: Kinematics<2>>(case: &Case, mut whole: Mesh<2>) -> Result<Scene<
             let (carried, rigid) = (carried(case, &part)?, rigid::regions(case, &part));
             let with = |r: usize| carried[r].is_some() && !rigid[r];
             let with_pressure = part.cells.region.iter().map(|&r| with(r as usize)).collect();
-            Some(Fem { mesh: part, rigid, with_pressure, terms })
+            let porous = pores::porous(case, &part)?;
+            let with_water =
+                part.cells.region.iter().map(|&r| porous[r as usize].is_some() && !rigid[r as usize]).collect();
+            Some(Fem { mesh: part, rigid, with_pressure, with_water, terms })
         }
         None => None,
     };
@@ -208,6 +220,7 @@ pub fn scene<K: Kinematics<2>>(case: &Case, mut whole: Mesh<2>) -> Result<Scene<
         bodies,
         pairs,
         pressure_unit,
+        water,
         supports,
         phases,
         numerics: Numerics {
@@ -238,8 +251,17 @@ fn internal<K: Kinematics<2>>(
         return Ok(vec![Box::new(Internal::<K>::new(models, dynamic).keeping(&kept))]);
     };
     let field = PressureField::<K>::new(carried(case, mesh)?, unit);
-    let internal = Internal::<K, _>::sharing(models, dynamic, field).keeping(&kept);
-    Ok(vec![Box::new(internal), Box::new(SmoothPressure::<K>::new(unit, shear, mesh.cells.len()))])
+    let bond = SmoothPressure::<K>::new(unit, shear, mesh.cells.len());
+    let porous = pores::porous(case, mesh)?;
+    let with_water = porous.iter().any(Option::is_some);
+    let water = PoreWater::<K>::new(porous, unit);
+    Ok(match (with_water, filled(case).any(|(_, m)| m.carried.is_some())) {
+        (false, _) => vec![Box::new(Internal::<K, _>::sharing(models, dynamic, field).keeping(&kept)), Box::new(bond)],
+        (true, false) => vec![Box::new(Internal::<K, _>::sharing(models, dynamic, water).keeping(&kept))],
+        (true, true) => {
+            vec![Box::new(Internal::<K, _>::sharing(models, dynamic, (field, water)).keeping(&kept)), Box::new(bond)]
+        }
+    })
 }
 
 fn gravity<K>(case: &Case) -> BodyForce<K, 2> {
@@ -282,6 +304,8 @@ fn phase<'a>(
         name: phase.name.clone(),
         dynamic: phase.analysis == Analysis::Dynamic,
         auto: phase.analysis == Analysis::Auto,
+        flows: matches!(phase.analysis, Analysis::Dynamic | Analysis::Consolidation)
+            && case.materials.iter().any(|m| m.porous.is_some()),
         duration: phase.duration,
         first_step: phase.step.initial,
         least_step: phase.step.min,
@@ -361,7 +385,8 @@ fn outputs(case: &Case, scene: &Scene<2>, folder: &Path, fingerprint: Fingerprin
         let quantities = entry.quantities.iter().map(|q| quantity(*q));
         Ok(Watch { name: entry.name.clone(), on, quantities: quantities.collect() })
     };
-    let watches = case.output.history.iter().map(watch).collect::<Result<_>>()?;
+    let watches = case.output.history.iter().map(watch).collect::<Result<Vec<_>>>()?;
+    let watches = pores::pressures_at_corners(scene, watches);
     let until = |condition: &Until| match *condition {
         Until::Reached { history, quantity: of, bound, below } => {
             run::Until::Reached { watch: history, quantity: quantity(of), bound, below }
@@ -386,11 +411,12 @@ fn quantity(quantity: Quantity) -> run::Quantity {
         Quantity::Rotation => run::Quantity::Rotation,
         Quantity::ReactionMoment => run::Quantity::ReactionMoment,
         Quantity::ContactMoment => run::Quantity::ContactMoment,
+        Quantity::PorePressure => run::Quantity::PorePressure,
     }
 }
 
 /// The regions with points and their materials.
-fn filled(case: &Case) -> impl Iterator<Item = (&Region, &Material)> {
+pub(super) fn filled(case: &Case) -> impl Iterator<Item = (&Region, &Material)> {
     case.regions.iter().filter_map(|region| Some((region, &case.materials[region.content.material()?])))
 }
 

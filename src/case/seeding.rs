@@ -21,6 +21,15 @@ pub fn points(case: &Case, mesh: &Mesh<2>) -> Result<Points<2>> {
     if let Some(k0) = case.k0 {
         rest(case, mesh, &filled, k0, &mut points)?;
     }
+    if !case.initial_pore_pressure.is_empty() {
+        points.pore_pressure = vec![0.0; points.len()];
+        for f in &filled {
+            let Some((_, excess)) = case.initial_pore_pressure.iter().find(|(r, _)| *r == f.index) else { continue };
+            for p in (0..points.len()).filter(|&p| points.region[p] == f.seed.region) {
+                points.pore_pressure[p] = excess.at(points.position[p][1]);
+            }
+        }
+    }
     if !case.initial_velocity.is_empty() {
         let mut velocity_of = vec![None; mesh.regions.len()];
         for f in &filled {

@@ -152,6 +152,27 @@ fn nearly_incompressible_and_undrained_materials_leave_their_mean_stress_to_a_fi
     assert!((water * ratio / stiffness - 1.0).abs() < 1e-12 && (ratio / left(0.495) - 1.0).abs() < 1e-12);
 }
 
+/// A permeability gives the water a field of its own, with the stiffness that it had; only a skeleton that yields or is
+/// nearly incompressible has the other field beside it.
+#[test]
+fn water_that_can_flow_has_a_field_of_its_own() {
+    let porous = |overrides: &[&str]| case(CASE, overrides).materials[0].porous.clone();
+    let base = ["materials.clay.poisson=0.3", "materials.clay.drainage=undrained"];
+    assert!(porous(&base).is_none());
+    let with = |more: &str| -> Vec<String> { base.iter().map(|s| s.to_string()).chain([more.to_owned()]).collect() };
+    let strings = with("materials.clay.permeability={x: 2e-8, y: 1e-8}");
+    let overrides: Vec<&str> = strings.iter().map(String::as_str).collect();
+    let soil = porous(&overrides).unwrap();
+    assert!(
+        (soil.mobility[0] * 9.81 / 2e-8 - 1.0).abs() < 1e-12 && (soil.mobility[1] * 9.81 / 1e-8 - 1.0).abs() < 1e-12
+    );
+    let shear = soil.model.elasticity().at(0.0).shear;
+    let bulk = |poisson: f64| 2.0 * (1.0 + poisson) / (3.0 * (1.0 - 2.0 * poisson));
+    assert!((soil.storage(0.0) * shear * (bulk(0.495) - bulk(0.3)) - 1.0).abs() < 1e-12);
+    let (ratio, water) = carried(&overrides).unwrap();
+    assert!((ratio / (bulk(0.3) - 0.001) - 1.0).abs() < 1e-12 && water == 0.0, "clay yields");
+}
+
 /// The shear modulus stays, whatever is taken from the bulk modulus.
 #[test]
 fn the_field_leaves_the_shear_modulus() {
@@ -172,6 +193,20 @@ fn contradictions_about_drainage_are_told() {
         (&["materials.clay.drainage=undrained", "materials.clay.undrained_poisson=0.3"], "undrained_poisson"),
         (&["materials.clay.drainage=undrained", "numerics.pressure=none"], "drainage"),
         (&["output.fields=[pore_pressure]"], "fields"),
+        (&["materials.clay.permeability=1e-8"], "permeability"),
+        (
+            &["materials.clay.drainage=undrained", "materials.clay.poisson=0.3", "materials.clay.permeability=-1"],
+            "permeability",
+        ),
+        (
+            &["materials.clay.drainage=undrained", "materials.clay.poisson=0.3", "materials.clay.porosity=0.4"],
+            "porosity",
+        ),
+        (
+            &["materials.clay.drainage=undrained", "materials.clay.poisson=0.3", "materials.clay.water_unit_weight=10"],
+            "water_unit_weight",
+        ),
+        (&["initial_pore_pressure.block=3"], "initial_pore_pressure"),
     ] {
         let overrides: Vec<String> = overrides.iter().map(|&text| text.to_owned()).collect();
         let source = Source::parse(PathBuf::from("case.yaml"), CASE.to_owned(), &overrides).unwrap();

@@ -1,7 +1,7 @@
 //! The columns of [`Points`] as named arrays, for files: one list that checkpoints and `points.vtu` share.
 //!
 //! Vectors are padded to three components, tensors are written row by row, so that a column can be shown as
-//! it is. A column that the points do not have (velocity in a quasi-static analysis, pressure without a field) is left out.
+//! it is. A column that the points do not have (velocity in a quasi-static analysis, pressures without a field) is left out.
 
 use super::container::{Array, Scalar, Store};
 use crate::error::Result;
@@ -26,6 +26,7 @@ pub fn to_arrays<const D: usize>(points: &Points<D>) -> Vec<Array> {
         plastic_increment,
         memory,
         pressure,
+        pore_pressure,
         region,
         cell,
     } = points;
@@ -49,10 +50,12 @@ pub fn to_arrays<const D: usize>(points: &Points<D>) -> Vec<Array> {
         array("plastic_increment", "-", 1, plastic_increment.clone()),
         array("memory", "-", 1, memory.clone()),
         array("pressure", "kPa", 1, pressure.clone()),
+        array("pore_pressure", "kPa", 1, pore_pressure.clone()),
         array("region", "-", 1, region.clone()),
         array("cell", "-", 1, cell.clone()),
     ];
-    const OPTIONAL: [&str; 6] = ["reference", "velocity", "acceleration", "plastic_increment", "memory", "pressure"];
+    const OPTIONAL: [&str; 7] =
+        ["reference", "velocity", "acceleration", "plastic_increment", "memory", "pressure", "pore_pressure"];
     arrays.retain(|a| !(a.data.is_empty() && OPTIONAL.contains(&a.name.as_str())));
     arrays
 }
@@ -87,6 +90,7 @@ pub fn take<const D: usize>(store: &mut Store, prefix: &str) -> Result<Points<D>
         plastic_increment: columns.if_present("plastic_increment", 1)?.unwrap_or_default(),
         memory: columns.if_present("memory", 1)?.unwrap_or_default(),
         pressure: columns.if_present("pressure", 1)?.unwrap_or_default(),
+        pore_pressure: columns.if_present("pore_pressure", 1)?.unwrap_or_default(),
         region: columns.scalars("region")?,
         cell: columns.scalars("cell")?,
     })

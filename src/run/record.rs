@@ -15,7 +15,8 @@ pub enum Field {
     Stress,
     PlasticStrain,
     DeformationGradient,
-    /// Excess pressure of pore water, given what the pressure field carries in each region of the mesh.
+    /// Excess pressure of pore water, given what the pressure field carries in each region of the mesh where the water has no
+    /// field of its own.
     PorePressure(Vec<Option<Carried>>),
 }
 
@@ -35,6 +36,8 @@ pub enum Quantity {
     ReactionMoment,
     /// Moment (kN m) of what a structure touches on it about the centroid that it has now, in the plane, anticlockwise.
     ContactMoment,
+    /// Excess pore pressure (kPa), the mean over what is watched.
+    PorePressure,
 }
 
 /// What is watched.
@@ -87,6 +90,7 @@ pub fn column_name(watch: &Watch, quantity: Quantity) -> String {
         Quantity::Rotation => format!("{}.rotation [rad]", watch.name),
         Quantity::ReactionMoment => format!("{}.reaction_moment [kN m]", watch.name),
         Quantity::ContactMoment => format!("{}.contact_moment [kN m]", watch.name),
+        Quantity::PorePressure => format!("{}.pore_pressure [kPa]", watch.name),
     }
 }
 
@@ -132,6 +136,7 @@ pub fn value<const D: usize>(
                 Quantity::Velocity(d) => state.velocity.get(n).map_or(0.0, |v| v[d]),
                 Quantity::Reaction(d) => report.reaction[n][d],
                 Quantity::Contact(d) => contact(*region).map(|(force, _)| force[d]).sum(),
+                Quantity::PorePressure => 0.0,
                 Quantity::Rotation => turning.map_or(0.0, |n| travel(n, 0) / arm),
                 Quantity::ReactionMoment => turning.map_or(0.0, |n| report.reaction[n][0] * arm),
                 Quantity::ContactMoment => {
@@ -139,6 +144,13 @@ pub fn value<const D: usize>(
                     turning.map_or(0.0, |_| moment_about(&centre, contact(*region)))
                 }
             }
+        }
+        (WatchedOn::Nodes(nodes), Quantity::PorePressure) => {
+            let [_, water] = scene.pressure_places();
+            mean(nodes.iter().map(|&n| state.pressure.get(water + n as usize).copied().unwrap_or(0.0)))
+        }
+        (WatchedOn::Region(region), Quantity::PorePressure) => {
+            mean(members(state, *region).map(|(points, p)| points.pore_pressure.get(p).copied().unwrap_or(0.0)))
         }
         (WatchedOn::Region(region), Quantity::Displacement(d)) => {
             mean(members(state, *region).map(|(points, p)| points.displacement(p)[d]))
@@ -236,9 +248,10 @@ fn part<const D: usize>(points: &Points<D>, fields: &[Field]) -> Part {
             column("deformation_gradient", "-", 9, rows.collect())
         }
         Field::PorePressure(regions) => {
+            let own = |p: usize| points.pore_pressure.get(p).copied().unwrap_or(0.0);
             let excess = |p: usize| match &regions[points.region[p] as usize] {
-                Some(carried) if !points.pressure.is_empty() => carried.pore_pressure(points, p),
-                _ => 0.0,
+                Some(carried) if carried.water > 0.0 && !points.pressure.is_empty() => carried.pore_pressure(points, p),
+                _ => own(p),
             };
             column("pore_pressure", "kPa", 1, (0..points.len()).map(excess).collect())
         }
@@ -298,6 +311,10 @@ pub fn log_lines<const D: usize>(scene: &Scene<D>, state: &State<D>, report: &Re
             report.motion.angular,
             vector(&report.imbalance)
         ));
+    }
+    if let Some(water) = &report.water {
+        let (taken_up, left, error) = (water.taken_up, water.left, water.error());
+        line.push_str(&format!(" water taken up {taken_up:.9e} left {left:.9e} m3 imbalance {error:.1e}"));
     }
     for contact in &report.contacts {
         let force = contact.force.map(|f| format!("{f:.6e}")).join(" ");

@@ -10,6 +10,7 @@ use super::pressure;
 use super::relax::{self, Relaxed};
 use super::scene::{Fixed, Restore, Scene};
 use super::state::State;
+use super::water;
 use crate::error::{Error, Result};
 use crate::kinematics::Kinematics;
 use crate::mesh::Mesh;
@@ -64,6 +65,8 @@ pub struct Grid<const D: usize> {
     pub node: Vec<u32>,
     /// What each unknown of the pressure field, after those of the nodes, is in [`State::pressure`].
     pub carrier: Vec<u32>,
+    /// Where the pore pressures of the nodes begin there.
+    pub water: usize,
     /// The cells that take part, ascending.
     pub cells: Vec<u32>,
     pub motion: System,
@@ -90,14 +93,12 @@ struct Carriers {
 }
 
 impl Carriers {
-    /// Numbers the unknowns of `families` (meshes, where their constants begin, and their cells with unknowns, whose
-    /// cliques `clique` tells) after `nodes` blocks.
-    fn new<const D: usize>(families: &[Carrying<D>], nodes: usize, cliques: &Cliques) -> Self {
-        let most = families.iter().map(|f| f.constants + f.mesh.cells.len()).max().unwrap_or(0);
+    /// Numbers the unknowns of `families`, of which there are `most`, after `nodes` blocks.
+    fn new<const D: usize>(families: &[Carrying<D>], nodes: usize, cliques: &Cliques, most: usize) -> Self {
         let mut block = vec![u32::MAX; most];
         let mut of_clique: Vec<Option<(usize, u32)>> = vec![None; cliques.len()];
         for (i, family) in families.iter().enumerate() {
-            for &c in family.cells {
+            for c in family.cells() {
                 of_clique[family.clique[c as usize] as usize] = Some((i, c));
                 for unknown in family.unknowns(c) {
                     block[unknown as usize] = 0;
@@ -119,17 +120,29 @@ impl Carriers {
     }
 }
 
-/// Cells with unknowns of pressure.
+/// A family of cells with unknowns of pressure.
 struct Carrying<'a, const D: usize> {
     mesh: &'a Mesh<D>,
+    /// Where the constants of its cells begin, and the pore pressures of the nodes.
     constants: usize,
-    cells: &'a [u32],
+    water: usize,
+    /// Whether a cell has pore water, and whether it has a pressure field.
+    with: Box<dyn Fn(u32) -> [bool; 2] + 'a>,
     clique: &'a [u32],
 }
 
 impl<const D: usize> Carrying<'_, D> {
+    fn cells(&self) -> impl Iterator<Item = u32> {
+        (0..self.mesh.cells.len() as u32).filter(|&c| (self.with)(c).contains(&true))
+    }
+
+    /// Those of a cell, of its pore water first.
     fn unknowns(&self, cell: u32) -> impl Iterator<Item = u32> {
-        pressure::unknowns_of(self.mesh, self.constants, cell as usize)
+        let [water, field] = (self.with)(cell);
+        let cell = cell as usize;
+        let of_water = water.then(|| water::unknowns_of(self.mesh, self.water, cell));
+        let of_field = field.then(|| pressure::unknowns_of(self.mesh, self.constants, cell));
+        of_water.into_iter().flatten().chain(of_field.into_iter().flatten())
     }
 }
 
@@ -158,11 +171,11 @@ impl<const D: usize> Grid<D> {
         let mut relaxed = None;
         begin_anew::<D, K>(scene, state, &mut stencil, &mut relaxed)?;
         let grid = Self::with::<K>(scene, state, stencil, relaxed)?;
-        if let (Some(elements), Some(_)) = (&grid.elements, scene.pressure_unit) {
-            let constants = scene.mesh.nodes.len() + scene.mesh.cells.len();
-            let Elements { mesh, stencil, .. } = elements;
+        if let (Some(Elements { mesh, stencil, .. }), true) = (&grid.elements, scene.has_pressure_field()) {
+            let [constants, _] = scene.pressure_places();
             pressure::gather::<D, K>(mesh, stencil, &state.fem, constants, &mut state.pressure);
         }
+        grid.take_water::<K>(scene, state);
         Ok(grid)
     }
 
@@ -179,6 +192,7 @@ impl<const D: usize> Grid<D> {
             }
             self.penalise(scene, state);
         }
+        self.take_water::<K>(scene, state);
         Ok(())
     }
 
@@ -233,15 +247,25 @@ impl<const D: usize> Grid<D> {
         let mut cliques = if scene.terms.iter().any(|t| t.penalises_faces()) { cliques } else { cells_only };
         let touch_clique = contact::couple(state, &block, &mut cliques);
         let with_pressure = scene.pressure_unit.map(|_| {
-            let constants = mesh.nodes.len();
-            let mut families = vec![Carrying { mesh, constants, cells: &cells, clique: &clique }];
-            families.extend(elements.iter().map(|elements| Carrying {
+            let [constants, of_water] = scene.pressure_places();
+            let (with_water, with_field) = (scene.water.is_some(), scene.has_pressure_field());
+            let part = &state.taking_part;
+            let mut families = vec![Carrying {
+                mesh,
+                constants: mesh.nodes.len(),
+                water: of_water,
+                with: Box::new(move |c| [with_water, with_field].map(|with| with && part[c as usize])),
+                clique: &clique,
+            }];
+            families.extend(elements.iter().zip(&scene.fem).map(|(elements, fem)| Carrying {
                 mesh: &elements.mesh,
-                constants: constants + mesh.cells.len(),
-                cells: &elements.cells,
+                constants,
+                water: of_water,
+                with: Box::new(|c| [fem.with_water[c as usize], fem.with_pressure[c as usize]]),
                 clique: &elements.clique,
             }));
-            Carriers::new(&families, node.len(), &cliques)
+            let most = of_water + if with_water { mesh.nodes.len() } else { 0 };
+            Carriers::new(&families, node.len(), &cliques, most)
         });
         let symmetric = scene.terms.iter().all(|t| t.symmetric());
         let mut sizes = vec![D as u8; node.len()];
@@ -266,6 +290,7 @@ impl<const D: usize> Grid<D> {
             block,
             node,
             carrier,
+            water: scene.pressure_places()[1],
             cells,
             motion,
             mass,
@@ -274,6 +299,19 @@ impl<const D: usize> Grid<D> {
         };
         grid.penalise(scene, state);
         Ok(grid)
+    }
+
+    /// Takes the pore pressures over from the points.
+    fn take_water<K: Kinematics<D>>(&self, scene: &Scene<D>, state: &mut State<D>) {
+        if let Some(water) = &scene.water {
+            state.pressure.resize(self.water + scene.mesh.nodes.len(), 0.0);
+            let mut field = state.pressure.split_off(self.water);
+            let soil = self.frame(&scene.mesh, state);
+            let elements = self.elements.as_ref().map(|elements| self.frame_of_elements(scene, elements, state));
+            let frames: Vec<_> = std::iter::once(soil).chain(elements).collect();
+            water::gather::<D, K>(&frames, &water.porous, &mut field);
+            state.pressure.extend(field);
+        }
     }
 
     /// Takes the faces that are to have a ghost penalty.
@@ -300,6 +338,7 @@ impl<const D: usize> Grid<D> {
             boundary: &state.weighing.boundary.pieces,
             cells: &self.cells,
             constants: mesh.nodes.len(),
+            water: self.water,
             points: &state.points,
             pattern: &self.motion.pattern,
             clique: &self.clique,
@@ -324,6 +363,7 @@ impl<const D: usize> Grid<D> {
             boundary: &[],
             cells: &elements.cells,
             constants: scene.mesh.nodes.len() + scene.mesh.cells.len(),
+            water: self.water,
             points: &state.fem,
             pattern: &self.motion.pattern,
             clique: &elements.clique,
@@ -384,7 +424,7 @@ fn begin_anew<const D: usize, K: Kinematics<D>>(
         }
     }
     stencil.weigh(&state.weighing.weight, &state.weighing.shift);
-    if scene.pressure_unit.is_some() {
+    if scene.has_pressure_field() {
         let nodes = scene.mesh.nodes.len();
         pressure::gather::<D, K>(&scene.mesh, stencil, &state.points, nodes, &mut state.pressure);
     }
@@ -488,8 +528,8 @@ fn choose_cells<const D: usize>(scene: &Scene<D>, state: &mut State<D>) -> bool 
     true
 }
 
-/// The displacement increments (m) that are given in a step of size `dt`, one entry an equation: zero at the
-/// supports, and what is prescribed, which takes precedence.
+/// The increments (m) of displacements that are given in a step of size `dt`, one entry an equation: zero at the
+/// supports, and what is prescribed, which takes precedence; and those (kPa) of pore pressures at drained nodes.
 pub fn given_increments<const D: usize>(
     scene: &Scene<D>,
     state: &State<D>,
@@ -514,6 +554,15 @@ pub fn given_increments<const D: usize>(
     }
     for fixed in &scene.phases[state.phase].held {
         give(fixed, 0.0);
+    }
+    if let Some(water) = scene.water.as_ref().filter(|_| scene.phases[state.phase].flows) {
+        let first = D * grid.node.len();
+        for (&unknown, given) in grid.carrier.iter().zip(&mut given[first..]) {
+            let of_water = (unknown as usize).checked_sub(grid.water).map(|n| n as u32);
+            if of_water.is_some_and(|n| water.drained.binary_search(&n).is_ok()) {
+                *given = Some(-state.pressure[unknown as usize]);
+            }
+        }
     }
     given
 }

@@ -22,14 +22,16 @@ mod scene;
 mod state;
 mod transfer;
 mod unknowns;
+mod water;
 
 pub use contact::Resultant;
 pub use control::{Controller, Limits};
 pub use grid::Grid;
 pub use newton::Solution;
 pub use report::Report;
-pub use scene::{Fem, Fixed, Numerics, Phase, Prescribed, Restore, Scene, Search, Stop};
+pub use scene::{Fem, Fixed, Numerics, Phase, Prescribed, Restore, Scene, Search, Stop, Water};
 pub use state::State;
+pub use water::Balance;
 
 use crate::error::{Error, Kind, Result};
 use crate::kinematics::Kinematics;
@@ -156,6 +158,7 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
             to: state.phase_time + dt,
             given: &given,
             integration: dynamic.then(|| GeneralisedAlpha::new(scene.numerics.spectral_radius, dt)),
+            flow_time: if phase.flows { dt } else { 0.0 },
         };
         let solution = newton::solve(&problem, &mut self.grid)?;
         Ok((start, solution))
@@ -188,8 +191,10 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
         let (scene, state) = (self.scene, &mut self.state);
         rigid::follow(scene, state, &mut solution.displacement);
         let mut momentum = report::Motion::of(state).linear;
+        let content = water::content(scene, state);
         let mut contacts = timed(Activity::Contact, || contact::commit(scene, &self.grid, state, &solution, dt));
         transfer::commit(scene, &self.grid, state, &solution, dt)?;
+        let water = water::balance(scene, &self.grid, state, &content, &solution);
         transfer::move_points::<D, K>(scene, &self.grid, state, &solution.displacement);
         if let Some(start) = &start {
             let impulse = start.impulse::<K>(scene, &self.grid, state);
@@ -214,7 +219,7 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
         state.step += 1;
         state.time += dt;
         state.phase_time += dt;
-        let report = Report { contacts, ..Report::new(scene, state, &self.grid, dt, solution, &momentum) };
+        let report = Report { contacts, water, ..Report::new(scene, state, &self.grid, dt, solution, &momentum) };
         state.peak = state.peak.max(report.motion.kinetic);
         Ok(report)
     }

@@ -45,10 +45,12 @@ pub struct Problem<'a, const D: usize> {
     /// Time (s) in the phase at the beginning and the end of the step.
     pub from: f64,
     pub to: f64,
-    /// Increment (m) of the displacements that are given, `None` where free. One entry an equation.
+    /// Increment (m, kPa) of the displacements and pore pressures that are given, `None` where free. One entry an equation.
     pub given: &'a [Option<f64>],
     /// Present in dynamic analysis.
     pub integration: Option<GeneralisedAlpha>,
+    /// Time (s) that water flows for.
+    pub flow_time: f64,
 }
 
 /// A converged step.
@@ -403,6 +405,7 @@ pub fn static_force<const D: usize>(problem: &Problem<D>, grid: &mut Grid<D>) ->
         converged: problem.converged,
         pressure: problem.pressure,
         converged_pressure: problem.pressure,
+        flow_time: 0.0,
         acceleration: &[],
         acceleration_slope: 0.0,
         phase: problem.phase,
@@ -441,6 +444,7 @@ fn evaluate<const D: usize>(
         converged: problem.converged,
         pressure: &at.pressure,
         converged_pressure: problem.pressure,
+        flow_time: problem.flow_time,
         acceleration,
         acceleration_slope: problem.integration.map_or(0.0, |i| i.slope()),
         phase: problem.phase,
@@ -526,10 +530,16 @@ fn weighted_acceleration<const D: usize>(
     out.extend((0..u.len()).map(at));
 }
 
-/// What is missing to the given displacements, one entry an equation.
+/// What is missing to the given displacements and pore pressures, in the unit of the unknowns, one entry an equation.
 fn gaps<const D: usize>(problem: &Problem<D>, grid: &Grid<D>, at: &Unknowns<D>, out: &mut Vec<f64>) {
+    let of_nodes = D * grid.node.len();
     let gap = |(e, given): (usize, &Option<f64>)| {
         given.map_or(0.0, |increment| {
+            if e >= of_nodes {
+                let unknown = grid.carrier[e - of_nodes] as usize;
+                let missing = problem.pressure[unknown] + increment - at.pressure[unknown];
+                return missing / problem.scene.pressure_unit.unwrap_or(1.0);
+            }
             let (n, d) = (grid.node[e / D] as usize, e % D);
             problem.converged[n][d] + increment - at.displacement[n][d]
         })

@@ -5,6 +5,7 @@ use super::grid::Grid;
 use super::newton::Solution;
 use super::scene::Scene;
 use super::state::State;
+use super::water::Balance;
 use crate::points::Points;
 use crate::system::Method;
 use crate::term::Term;
@@ -68,6 +69,8 @@ pub struct Report<const D: usize> {
     pub potential: f64,
     /// What the pairs in contact exerted.
     pub contacts: Vec<Resultant<D>>,
+    /// The water in the pores and what left them; absent without.
+    pub water: Option<Balance>,
     /// Force of the supports on the nodes (kN): zero at nodes without. At the turning node of a rigid body its moment
     /// over the arm.
     pub reaction: Vec<[f64; D]>,
@@ -113,6 +116,7 @@ impl<const D: usize> Report<D> {
             potential: [&state.points, &state.fem].iter().flat_map(|p| p.position.iter().zip(&p.mass)).map(fall).sum(),
             motion,
             contacts: Vec::new(),
+            water: None,
             reaction,
         }
     }

@@ -7,7 +7,7 @@ use crate::mesh::locate::Locator;
 use crate::quadrature::Quadrature;
 use crate::rigid::Body;
 use crate::stencil::Scheme;
-use crate::term::Term;
+use crate::term::{Porous, Term};
 use crate::time_value::TimeValue;
 
 /// What a case resolves into. Only [`crate::case`] decides which terms it has.
@@ -27,8 +27,10 @@ pub struct Scene<const D: usize> {
     /// What the points weigh in integrals.
     pub quadrature: Box<dyn Quadrature<D>>,
     /// What a unit of the pressure unknowns stands for (kPa/m): a shear modulus over the size of a cell, so that all
-    /// unknowns are lengths and all equations forces; absent without a pressure field.
+    /// unknowns are lengths and all equations forces; absent without a pressure field and pore water.
     pub pressure_unit: Option<f64>,
+    /// The water in the pores, where its pressure is a field of its own.
+    pub water: Option<Water>,
     /// Degrees of freedom held at their place in every phase.
     pub supports: Vec<Fixed>,
     pub phases: Vec<Phase>,
@@ -45,6 +47,18 @@ impl<const D: usize> Scene<D> {
     /// The number of nodes of the mesh without those that rigid bodies add at its end.
     pub fn mesh_nodes(&self) -> usize {
         self.bodies.first().map_or(self.mesh.nodes.len(), |body| body.first as usize)
+    }
+
+    /// Whether a pressure field carries a share of the stress.
+    pub fn has_pressure_field(&self) -> bool {
+        self.pressure_unit.is_some() && self.water.as_ref().is_none_or(|water| !water.alone)
+    }
+
+    /// Where the constants of the finite elements, and where the pore pressures of the nodes begin in
+    /// [`super::State::pressure`].
+    pub fn pressure_places(&self) -> [usize; 2] {
+        let constants = self.mesh.nodes.len() + self.mesh.cells.len();
+        [constants, constants + self.fem.as_ref().map_or(0, |fem| fem.mesh.cells.len())]
     }
 
     /// The body whose region that is.
@@ -76,6 +90,17 @@ impl<const D: usize> Scene<D> {
     }
 }
 
+/// Water in the pores.
+#[derive(Clone, Debug, Default)]
+pub struct Water {
+    /// The porous soil of each region of the mesh; `None` without water.
+    pub porous: Vec<Option<Porous>>,
+    /// Whether no pressure field carries a share of the stress beside it.
+    pub alone: bool,
+    /// Nodes at which it can leave, ascending: without excess pressure where water flows.
+    pub drained: Vec<u32>,
+}
+
 /// Finite elements: structures, and regions of soil that share nodes with the grid. They keep their points, at the
 /// places of a quadrature rule, and go on from the shape they have (updated Lagrangian).
 pub struct Fem<const D: usize> {
@@ -85,6 +110,8 @@ pub struct Fem<const D: usize> {
     pub rigid: Vec<bool>,
     /// Whether each cell has unknowns of a pressure field.
     pub with_pressure: Vec<bool>,
+    /// Whether each cell has water in its pores.
+    pub with_water: Vec<bool>,
     /// Their terms, as [`Scene::terms`].
     pub terms: Vec<Box<dyn Term<D>>>,
 }
@@ -119,6 +146,8 @@ pub struct Phase {
     pub dynamic: bool,
     /// Quasi-static, but a step that finds no equilibrium hands over to dynamics, which hands back at rest.
     pub auto: bool,
+    /// Whether water flows through the pores.
+    pub flows: bool,
     /// Duration (s).
     pub duration: f64,
     /// Time steps (s): the first, the least and the largest.

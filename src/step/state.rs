@@ -52,8 +52,8 @@ pub struct State<const D: usize> {
     pub travel: Vec<[f64; D]>,
     /// What of it the history does not count, as of the last reset; empty before one.
     pub uncounted: Vec<[f64; D]>,
-    /// The pressure field (kPa, tension positive) by node, at the corners of cells, then the constant of each cell;
-    /// empty without one.
+    /// The pressure field (kPa, tension positive) by node, at the corners of cells, then the constant of each cell, then
+    /// the excess pore pressure (kPa, compression positive) by node, at the corners of cells; empty without either.
     pub pressure: Vec<f64>,
     /// Velocity (m/s) and acceleration (m/s²) of the nodes; empty in quasi-static analysis.
     pub velocity: Vec<[f64; D]>,

@@ -53,7 +53,7 @@ impl<const D: usize> Start<D> {
     /// and [`motion_to_points`] hands it on with the rest.
     pub fn of(grid: &Grid<D>, state: &State<D>, given: &[Option<f64>], dt: f64) -> Self {
         let mut start = Self { velocity: state.velocity.clone(), acceleration: state.acceleration.clone() };
-        for (e, increment) in given.iter().enumerate() {
+        for (e, increment) in given.iter().enumerate().take(D * grid.node.len()) {
             if let Some(increment) = increment {
                 let (n, d) = (grid.node[e / D] as usize, e % D);
                 start.velocity[n][d] = increment / dt;
@@ -109,6 +109,7 @@ fn first_acceleration<const D: usize, K: Kinematics<D>>(
         to: state.phase_time,
         given: &[],
         integration: None,
+        flow_time: 0.0,
     };
     let force = static_force(&problem, grid)?;
     let node = grid.node.clone();
@@ -149,6 +150,7 @@ pub fn commit<const D: usize>(
         converged: &state.displacement,
         pressure: &solution.pressure,
         converged_pressure: &state.pressure,
+        flow_time: 0.0,
         acceleration: &[],
         acceleration_slope: 0.0,
         phase: state.phase,

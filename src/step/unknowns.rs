@@ -24,7 +24,7 @@ impl<const D: usize> Unknowns<D> {
         self.set(&other.displacement, &other.pressure);
     }
 
-    /// Adds `length · δ`, one entry an equation; a full step lands on the given displacements to the last bit.
+    /// Adds `length · δ`, one entry an equation; a full step lands on what is given to the last bit.
     pub fn advance(&mut self, problem: &Problem<D>, grid: &Grid<D>, delta: &[f64], length: f64) {
         let (of_nodes, of_pressure) = delta.split_at(D * grid.node.len());
         for (e, delta) in of_nodes.iter().enumerate() {
@@ -35,8 +35,13 @@ impl<const D: usize> Unknowns<D> {
             }
         }
         let unit = problem.scene.pressure_unit.unwrap_or(0.0);
-        for (delta, &unknown) in of_pressure.iter().zip(&grid.carrier) {
-            self.pressure[unknown as usize] += length * unit * delta;
+        let given = problem.given[of_nodes.len()..].iter();
+        for ((delta, &unknown), given) in of_pressure.iter().zip(&grid.carrier).zip(given) {
+            let unknown = unknown as usize;
+            match given {
+                Some(increment) if length == 1.0 => self.pressure[unknown] = problem.pressure[unknown] + increment,
+                _ => self.pressure[unknown] += length * unit * delta,
+            }
         }
     }
 }

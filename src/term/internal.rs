@@ -40,10 +40,16 @@ pub trait Share<const D: usize, K: Kinematics<D>>: Send + Sync {
 
     fn over(&self, frame: &Frame<D>, trial: &Trial<D>, patch: &Patch) -> Self::Cell;
 
-    /// Adds the share to the answer of the model at the end of the step, and returns the mean stress (kPa,
+    /// Adds the share to the answer of the model at the end of the step, given `ΔJ`, and returns the mean stress (kPa,
     /// Kirchhoff) at its beginning that the stress of the points does not hold.
-    fn add(&self, cell: &Self::Cell, points: &Points<D>, entries: &Entries<D>, answer: &mut Spatial<K::Tangent>)
-    -> f64;
+    fn add(
+        &self,
+        cell: &Self::Cell,
+        points: &Points<D>,
+        entries: &Entries<D>,
+        volume_ratio: f64,
+        answer: &mut Spatial<K::Tangent>,
+    ) -> f64;
 
     /// Adds the equations of the unknowns and what couples them with the displacements to the end of `local`, given
     /// the gradients on the deformed grid, `ΔJ`, the tensor through which the stress acts and the weight of the end
@@ -76,7 +82,7 @@ impl<const D: usize, K: Kinematics<D>> Share<D, K> for () {
     fn over(&self, _: &Frame<D>, _: &Trial<D>, _: &Patch) {}
 
     #[inline]
-    fn add(&self, (): &(), _: &Points<D>, _: &Entries<D>, _: &mut Spatial<K::Tangent>) -> f64 {
+    fn add(&self, (): &(), _: &Points<D>, _: &Entries<D>, _: f64, _: &mut Spatial<K::Tangent>) -> f64 {
         0.0
     }
 
@@ -100,6 +106,51 @@ impl<const D: usize, K: Kinematics<D>> Share<D, K> for () {
     #[inline]
     fn energy(&self, _: &Points<D>, _: usize) -> f64 {
         0.0
+    }
+}
+
+/// Two shares, side by side.
+impl<const D: usize, K: Kinematics<D>, A: Share<D, K>, B: Share<D, K>> Share<D, K> for (A, B) {
+    type Cell = (A::Cell, B::Cell);
+
+    fn over(&self, frame: &Frame<D>, trial: &Trial<D>, patch: &Patch) -> Self::Cell {
+        (self.0.over(frame, trial, patch), self.1.over(frame, trial, patch))
+    }
+
+    fn add(
+        &self,
+        cell: &Self::Cell,
+        points: &Points<D>,
+        entries: &Entries<D>,
+        volume_ratio: f64,
+        answer: &mut Spatial<K::Tangent>,
+    ) -> f64 {
+        self.0.add(&cell.0, points, entries, volume_ratio, answer)
+            + self.1.add(&cell.1, points, entries, volume_ratio, answer)
+    }
+
+    fn couple(
+        &self,
+        cell: &Self::Cell,
+        points: &Points<D>,
+        entries: &Entries<D>,
+        spatial: &[Gradient<D>],
+        volume_ratio: f64,
+        acts_on: &Tensor,
+        later: f64,
+        local: &mut Local,
+    ) {
+        self.0.couple(&cell.0, points, entries, spatial, volume_ratio, acts_on, later, local);
+        self.1.couple(&cell.1, points, entries, spatial, volume_ratio, acts_on, later, local);
+    }
+
+    fn commit(&self, cell: &Self::Cell, points: &Points<D>, entries: &Entries<D>, history: &mut History) {
+        self.0.commit(&cell.0, points, entries, history);
+        self.1.commit(&cell.1, points, entries, history);
+    }
+
+    fn energy(&self, points: &Points<D>, p: usize) -> f64 {
+        self.0.energy(points, p) + self.1.energy(points, p)
     }
 }
 
@@ -302,7 +353,8 @@ impl<const D: usize, K: Kinematics<D>, S: Share<D, K>> Term<D> for Internal<K, S
             let groups = (count - own) / D;
             let mut work = |stiffness: &mut Stiffness, mut smoothed: Option<&mut Smoothed>| {
                 for ((entries, point), answer) in frame.stencil.entries::<K>(patch).zip(&strained).zip(&mut answers) {
-                    let beside = self.share.add(&cell, frame.points, &entries, answer);
+                    let ratio = point.increment.determinant();
+                    let beside = self.share.add(&cell, frame.points, &entries, ratio, answer);
                     let p = entries.point;
                     let (stress, acts_on) =
                         weighted_stress::<D, K>(frame.points, p, trial.alpha_f, point, beside, answer)?;
@@ -322,7 +374,6 @@ impl<const D: usize, K: Kinematics<D>, S: Share<D, K>> Term<D> for Internal<K, S
                             smoothed.push::<D, K>(tangent, &entries, &spatial[..own], &point.inverse, weight);
                         }
                     }
-                    let ratio = point.increment.determinant();
                     self.share.couple(&cell, frame.points, &entries, spatial, ratio, &acts_on, later, local);
                 }
                 if wanted {
@@ -369,6 +420,7 @@ impl<const D: usize, K: Kinematics<D>, S: Share<D, K>> Term<D> for Internal<K, S
                     plastic_strain: answer.state.plastic_strain,
                     memory: answer.state.memory,
                     pressure: 0.0,
+                    pore_pressure: 0.0,
                 };
                 self.share.commit(&cell, frame.points, &entries, &mut history);
                 history

@@ -21,6 +21,8 @@ mod stiffness;
 mod surface_traction;
 mod traction;
 mod virtual_pressure;
+mod water;
+mod water_bond;
 
 pub use body_force::BodyForce;
 pub use contact::{Contact, answer as contact_answer};
@@ -36,6 +38,8 @@ pub use smooth_pressure::SmoothPressure;
 pub use surface_traction::{SurfaceLoad, SurfaceTraction};
 pub use traction::Traction;
 pub use virtual_pressure::VirtualPressure;
+pub use water::{PoreWater, Porous, WaterStiffness, corner_hats};
+pub use water_bond::WaterBond;
 
 use crate::contact::Row;
 use crate::error::Result;
@@ -89,10 +93,13 @@ pub struct Frame<'a, const D: usize> {
     pub cells: &'a [u32],
     /// Where the constants of the cells begin in [`Trial::pressure`].
     pub constants: usize,
+    /// Where the pore pressures at the nodes begin there.
+    pub water: usize,
     /// The points at the last converged step.
     pub points: &'a Points<D>,
-    /// One block a node that takes part, one clique a cell that does. With a pressure field, one more block for each
-    /// corner and each cell with a constant of its own; they are the last ones of a clique.
+    /// One block a node that takes part, one clique a cell that does. With pore water, one more block for each corner,
+    /// which follow in a clique, and with a pressure field one for each corner and each cell with a constant of its
+    /// own; they are the last ones of a clique.
     pub pattern: &'a Pattern,
     /// The clique of each cell; `u32::MAX` for cells left out.
     pub clique: &'a [u32],
@@ -110,10 +117,12 @@ pub struct Trial<'a, const D: usize> {
     pub alpha_f: f64,
     /// The displacement at the last converged step.
     pub converged: &'a [[f64; D]],
-    /// The pressure field (kPa) at the end of the step, as in the state; empty without one.
+    /// The pressures (kPa) at the end of the step, as in the state; empty without a field of them.
     pub pressure: &'a [f64],
     /// That at the last converged step, or what the points carry to a restored grid.
     pub converged_pressure: &'a [f64],
+    /// Time (s) that water flows through the pores for: the step, or zero in a phase without flow.
+    pub flow_time: f64,
     /// Acceleration of the nodes (m/s²) weighted by α_m; empty without inertia.
     pub acceleration: &'a [[f64; D]],
     /// Its derivative by the displacement at the end of the step (1/s²).
@@ -138,6 +147,7 @@ impl<'a, const D: usize> Trial<'a, D> {
             converged,
             pressure: &[],
             converged_pressure: &[],
+            flow_time: 0.0,
             acceleration: &[],
             acceleration_slope: 0.0,
             phase: 0,
@@ -182,6 +192,8 @@ pub struct History {
     pub memory: f64,
     /// What the pressure field carries (kPa); not kept by points without the column.
     pub pressure: f64,
+    /// The excess pressure (kPa) of the water in the pores; not kept by points without the column.
+    pub pore_pressure: f64,
 }
 
 /// New values of the points' history, in lists of any length and order.
@@ -206,6 +218,7 @@ impl Update {
         write(&mut points.plastic_strain, &of_point, |new| new.plastic_strain);
         write(&mut points.memory, &of_point, |new| new.memory);
         write(&mut points.pressure, &of_point, |new| new.pressure);
+        write(&mut points.pore_pressure, &of_point, |new| new.pore_pressure);
     }
 }
 

@@ -57,6 +57,11 @@ impl Carried {
         1.0 / (self.ratio * self.model.elasticity().at(y).shear)
     }
 
+    /// `1 / 2G` (1/kPa) at a point seeded at height `y` (m).
+    fn softness(&self, y: f64) -> f64 {
+        0.5 / self.model.elasticity().at(y).shear
+    }
+
     /// What the stress of point `p` holds of the field (kPa, Kirchhoff).
     fn held<const D: usize>(&self, points: &Points<D>, p: usize) -> f64 {
         if self.water == 0.0 {
@@ -147,7 +152,7 @@ pub struct Cell {
     kind: CellKind,
     /// Its unknowns (kPa).
     pressure: Hats,
-    /// Means of the functions over the points, for cells of first order.
+    /// Means of the functions over the points, weighted by `1/2G`, for cells of first order.
     mean: Option<Hats>,
 }
 
@@ -162,10 +167,12 @@ impl<const D: usize, K: Kinematics<D>> Share<D, K> for PressureField<K> {
         let mean = (kind.order() == 1).then(|| {
             let (mut sum, mut weight) = ([0.0; MOST], 0.0);
             for entries in frame.stencil.entries::<K>(patch) {
-                if self.of(frame.points, entries.point).is_some() {
-                    weight += entries.weight;
+                if let Some(carried) = self.of(frame.points, entries.point) {
+                    // As the differences from them are weighted: the projection is symmetric.
+                    let own = entries.weight * carried.softness(frame.points.origin[entries.point][1]);
+                    weight += own;
                     for (sum, hat) in sum.iter_mut().zip(hats(kind, entries.value)) {
-                        *sum += entries.weight * hat;
+                        *sum += own * hat;
                     }
                 }
             }
@@ -174,7 +181,14 @@ impl<const D: usize, K: Kinematics<D>> Share<D, K> for PressureField<K> {
         Cell { kind, pressure, mean }
     }
 
-    fn add(&self, cell: &Cell, points: &Points<D>, entries: &Entries<D>, answer: &mut Spatial<K::Tangent>) -> f64 {
+    fn add(
+        &self,
+        cell: &Cell,
+        points: &Points<D>,
+        entries: &Entries<D>,
+        _: f64,
+        answer: &mut Spatial<K::Tangent>,
+    ) -> f64 {
         let Some(carried) = self.of(points, entries.point) else { return 0.0 };
         let pressure = dot(&hats(cell.kind, entries.value), &cell.pressure);
         for normal in &mut answer.kirchhoff[..3] {
@@ -199,7 +213,8 @@ impl<const D: usize, K: Kinematics<D>> Share<D, K> for PressureField<K> {
         let p = entries.point;
         let Some(carried) = self.of(points, p) else { return };
         let count = unknowns(cell.kind);
-        let begin = D * spatial.len();
+        // They are the last ones of a clique.
+        let begin = local.size - count;
         let y = points.origin[p][1];
         let compliance = carried.compliance(y);
         let hats = hats(cell.kind, entries.value);
@@ -207,7 +222,7 @@ impl<const D: usize, K: Kinematics<D>> Share<D, K> for PressureField<K> {
         let stabilised: Hats = match &cell.mean {
             None => [0.0; MOST],
             Some(mean) => {
-                let softness = 0.5 / carried.model.elasticity().at(y).shear;
+                let softness = carried.softness(y);
                 std::array::from_fn(|a| softness * (hats[a] - mean[a]))
             }
         };

@@ -11,10 +11,13 @@ use mpm::points::Points;
 use mpm::quadrature::{Quadrature, Volumes};
 use mpm::stencil::{Scheme, cell_size};
 use mpm::step::{
-    Controller, Fem, Fixed, Limits, Numerics, Phase, Prescribed, Report, Restore, Scene, Simulation, State, Stop,
+    Controller, Fem, Fixed, Limits, Numerics, Phase, Prescribed, Report, Restore, Scene, Simulation, State, Stop, Water,
 };
 use mpm::tensor::{IDENTITY, Tensor};
-use mpm::term::{BodyForce, Carried, EmptyCells, Inertia, Internal, PressureField, SmoothPressure, Term};
+use mpm::term::{
+    BodyForce, Carried, EmptyCells, Inertia, Internal, PoreWater, Porous, PressureField, SmoothPressure, Term,
+    WaterBond,
+};
 use mpm::time_value::TimeValue;
 use std::sync::Arc;
 
@@ -52,6 +55,9 @@ pub struct Bench {
     pub model: Arc<dyn Model>,
     /// What a pressure field carries beside the model.
     pub carried: Option<Carried>,
+    /// Water in the pores, which flows, and the groups of the mesh where it leaves.
+    pub porous: Option<Porous>,
+    pub drained: Vec<&'static str>,
     pub density: f64,
     pub gravity: [f64; 2],
     pub gravity_factor: TimeValue,
@@ -77,6 +83,8 @@ impl Bench {
             elements: Vec::new(),
             model,
             carried: None,
+            porous: None,
+            drained: Vec::new(),
             density: 1.0,
             gravity: [0.0; 2],
             gravity_factor: TimeValue::Constant(1.0),
@@ -147,28 +155,59 @@ impl Bench {
         let background = self.background();
         let fem = (!elements.cells.is_empty()).then(|| {
             let models = vec![Some(self.model.clone())];
-            let mut terms: Vec<Box<dyn Term<2>>> = vec![Box::new(Internal::<K>::new(models, self.dynamic))];
+            let mut terms: Vec<Box<dyn Term<2>>> = match &self.porous {
+                None => vec![Box::new(Internal::<K>::new(models, self.dynamic))],
+                Some(porous) => {
+                    // As below.
+                    let unit = self.model.elasticity().at(0.0).shear / cell_size(&self.mesh, 0);
+                    let water = PoreWater::<K>::new(vec![Some(porous.clone())], unit);
+                    vec![Box::new(Internal::<K, _>::sharing(models, self.dynamic, water))]
+                }
+            };
             if self.gravity != [0.0; 2] {
                 terms.push(Box::new(BodyForce::<K, 2>::new(self.gravity, vec![self.gravity_factor.clone()])));
             }
             if self.dynamic {
                 terms.push(Box::new(Inertia::<K>::default()));
             }
-            Fem { with_pressure: vec![false; elements.cells.len()], rigid: vec![false], mesh: elements, terms }
+            Fem {
+                with_pressure: vec![false; elements.cells.len()],
+                with_water: vec![self.porous.is_some(); elements.cells.len()],
+                rigid: vec![false],
+                mesh: elements,
+                terms,
+            }
         });
         let moduli = self.model.elasticity().at(0.0);
         let stiffness_scale = self.model.young(0.0).max(moduli.shear);
         let models = vec![Some(self.model.clone())];
         let shear = self.model.elasticity().at(0.0).shear;
-        let unit = self.carried.is_some().then(|| shear / cell_size(&self.mesh, 0));
-        let mut terms: Vec<Box<dyn Term<2>>> = match unit {
-            None => vec![Box::new(Internal::<K>::new(models, self.dynamic))],
-            Some(unit) => {
-                let field = PressureField::<K>::new(vec![self.carried], unit);
-                let bond = SmoothPressure::<K>::new(unit, shear, self.mesh.cells.len());
-                vec![Box::new(Internal::<K, _>::sharing(models, self.dynamic, field)), Box::new(bond)]
+        let unit = (self.carried.is_some() || self.porous.is_some()).then(|| shear / cell_size(&self.mesh, 0));
+        let of_unit = unit.unwrap_or(0.0);
+        let water = self.porous.is_some().then(|| {
+            let mut drained: Vec<u32> =
+                self.drained.iter().flat_map(|name| self.mesh.group(name).unwrap().nodes.clone()).collect();
+            drained.sort_unstable();
+            Water { porous: vec![self.porous.clone()], alone: self.carried.is_none(), drained }
+        });
+        let cells = background.cells.len();
+        let field = || PressureField::<K>::new(vec![self.carried.clone()], of_unit);
+        let of_water = || PoreWater::<K>::new(vec![self.porous.clone()], of_unit);
+        let internal = |models: Vec<Option<Arc<dyn Model>>>| -> Box<dyn Term<2>> {
+            match (self.carried.is_some(), self.porous.is_some()) {
+                (false, false) => Box::new(Internal::<K>::new(models, self.dynamic)),
+                (true, false) => Box::new(Internal::<K, _>::sharing(models, self.dynamic, field())),
+                (false, true) => Box::new(Internal::<K, _>::sharing(models, self.dynamic, of_water())),
+                (true, true) => Box::new(Internal::<K, _>::sharing(models, self.dynamic, (field(), of_water()))),
             }
         };
+        let mut terms = vec![internal(models)];
+        if self.carried.is_some() {
+            terms.push(Box::new(SmoothPressure::<K>::new(of_unit, shear, cells)));
+        }
+        if self.porous.is_some() {
+            terms.push(Box::new(WaterBond::<K>::new(vec![self.porous.clone()], of_unit, shear, cells)));
+        }
         if self.gravity != [0.0; 2] {
             terms.push(Box::new(BodyForce::<K, 2>::new(self.gravity, vec![self.gravity_factor])));
         }
@@ -190,11 +229,13 @@ impl Bench {
             terms,
             quadrature: self.quadrature.unwrap_or_else(|| Box::new(Volumes::<K>::default())),
             pressure_unit: unit,
+            water,
             supports: self.supports,
             phases: vec![Phase {
                 name: "test".into(),
                 dynamic: self.dynamic,
                 auto: false,
+                flows: self.porous.is_some(),
                 duration: self.duration,
                 first_step: step,
                 least_step: step / 2f64.powi(self.halvings),
@@ -233,12 +274,16 @@ pub fn run<K: Kinematics<2>>(
 /// As [`run`], given the material points and those of the finite elements.
 pub fn run_parts<K: Kinematics<2>>(
     scene: &Scene<2>,
-    [mut points, fem]: [Points<2>; 2],
+    [mut points, mut fem]: [Points<2>; 2],
     mut watch: impl FnMut(&State<2>, &Report<2>),
 ) -> State<2> {
     let phase = &scene.phases[0];
     if scene.pressure_unit.is_some() {
         points.pressure.resize(points.len(), 0.0);
+    }
+    if scene.water.is_some() {
+        points.pore_pressure.resize(points.len(), 0.0);
+        fem.pore_pressure.resize(fem.len(), 0.0);
     }
     let fem_parametric = scene.fem.as_ref().map_or_else(Vec::new, |part| places(&part.mesh, &fem).unwrap());
     let first = State::new(points, scene.mesh.nodes.len(), phase.first_step);

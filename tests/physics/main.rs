@@ -16,4 +16,5 @@ mod patch;
 mod rotation;
 mod slivers;
 mod surface;
+mod terzaghi;
 mod water;

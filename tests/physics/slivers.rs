@@ -50,6 +50,7 @@ fn condition(scene: &Scene<2>, points: Points<2>) -> f64 {
         pressure: &[],
         converged_pressure: &[],
         acceleration: &[],
+        flow_time: 0.0,
         acceleration_slope: 0.0,
         phase: 0,
         time: 1.0,

@@ -11,3 +11,4 @@ mod pressure;
 mod rigid;
 mod smooth;
 mod stand;
+mod water;

@@ -12,7 +12,7 @@ use mpm::mesh::shape::{CellKind, MAX_NODES};
 use mpm::points::Points;
 use mpm::quadrature::Volumes;
 use mpm::stencil::Scheme;
-use mpm::step::{Grid, Numerics, Phase, Restore, Scene, Simulation, State, Stop};
+use mpm::step::{Grid, Numerics, Phase, Restore, Scene, Simulation, State, Stop, Water};
 use mpm::system::{Matrix, Workspace};
 use mpm::tensor::{IDENTITY, Tensor, full, symmetric};
 use mpm::term::{Assembly, Frame, GhostFace, Term, Trial};
@@ -107,6 +107,8 @@ pub struct Stand<K> {
     pub state: State<2>,
     /// α_f of the trial states.
     pub alpha_f: f64,
+    /// Time (s) that water flows for in them.
+    pub flow_time: f64,
     /// The pressure field of the trial states, in the unknowns of the state, and the one before.
     pub pressure: Vec<f64>,
     pub converged_pressure: Vec<f64>,
@@ -142,6 +144,21 @@ impl<K: Kinematics<2>> Stand<K> {
         whole: bool,
         pressure_unit: Option<f64>,
     ) -> Self {
+        Self::with_water(scheme, mesh, points, term, restored, whole, pressure_unit, None)
+    }
+
+    /// As [`Stand::with`], with water in the pores.
+    #[expect(clippy::too_many_arguments, reason = "what a stand is made of")]
+    pub fn with_water(
+        scheme: Scheme,
+        mesh: Mesh<2>,
+        points: Points<2>,
+        term: Box<dyn Term<2>>,
+        restored: bool,
+        whole: bool,
+        pressure_unit: Option<f64>,
+        water: Option<Water>,
+    ) -> Self {
         let mut terms = vec![term];
         if whole {
             terms.push(Box::new(Unsymmetric));
@@ -150,6 +167,7 @@ impl<K: Kinematics<2>> Stand<K> {
             name: "test".into(),
             dynamic: true,
             auto: false,
+            flows: false,
             duration: 1.0,
             first_step: 1.0,
             least_step: 1.0,
@@ -173,6 +191,7 @@ impl<K: Kinematics<2>> Stand<K> {
             faces: Some(faces),
             quadrature: Box::new(Volumes::<K>::default()),
             pressure_unit,
+            water,
             supports: Vec::new(),
             phases: vec![phase.clone(), phase],
             numerics: Numerics {
@@ -193,6 +212,7 @@ impl<K: Kinematics<2>> Stand<K> {
         Self {
             scene,
             alpha_f: 0.0,
+            flow_time: 0.0,
             converged_pressure: state.pressure.clone(),
             pressure: state.pressure.clone(),
             grid,
@@ -284,6 +304,7 @@ impl<K: Kinematics<2>> Stand<K> {
             converged,
             pressure,
             converged_pressure: &self.converged_pressure,
+            flow_time: self.flow_time,
             acceleration: &acceleration,
             acceleration_slope: SLOPE,
             phase,

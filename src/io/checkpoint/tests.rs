@@ -23,6 +23,7 @@ pub(in crate::io) fn sample_points(n: usize, dynamic: bool) -> Points<2> {
         plastic_increment: if dynamic { (0..n).map(|i| x(i, 33)).collect() } else { Vec::new() },
         memory: if dynamic { (0..n).map(|i| x(i, 35)).collect() } else { Vec::new() },
         pressure: if dynamic { (0..n).map(|i| x(i, 34)).collect() } else { Vec::new() },
+        pore_pressure: if dynamic { (0..n).map(|i| x(i, 35)).collect() } else { Vec::new() },
         plastic_strain: (0..n).map(|i| if i % 3 == 0 { 5e-324 } else { x(i, 32) }).collect(),
         region: (0..n).map(|i| (i % 2) as u16).collect(),
         cell: (0..n).map(|i| u32::MAX - i as u32).collect(),
@@ -47,6 +48,7 @@ pub(in crate::io) fn same_bits<const D: usize>(a: &Points<D>, b: &Points<D>) -> 
             p.plastic_increment.clone(),
             p.memory.clone(),
             p.pressure.clone(),
+            p.pore_pressure.clone(),
         ];
         (f.map(|v| v.into_iter().map(f64::to_bits).collect::<Vec<_>>()), p.region.clone(), p.cell.clone())
     };

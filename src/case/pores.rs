@@ -1,0 +1,206 @@
+//! Water in the pores whose pressure is a field of its own: what a case says of it, checked, and what a scene has of it.
+
+use super::check::Checker;
+use super::checked::Case;
+use super::incompressible::{UNDRAINED, bulk};
+use super::locate::{At, Path};
+use super::raw;
+use super::scene;
+use super::structure::suggest;
+use crate::error::Result;
+use crate::material::{Model, Profile};
+use crate::mesh::Mesh;
+use crate::run::{self, Watch, WatchedOn};
+use crate::stencil::Scheme;
+use crate::step::{Scene, Water};
+use crate::term::{Porous, WaterStiffness};
+use std::sync::Arc;
+
+/// Unit weight of water (kN/m³) where none is given.
+const UNIT_WEIGHT: f64 = 9.81;
+
+/// Whether the pressure of the water is a field of its own, and no share of one with the skeleton.
+pub(super) fn has_water_of_its_own(material: &raw::Material) -> bool {
+    material.permeability.is_some() || material.porosity.is_some() || material.water_bulk_modulus.is_some()
+}
+
+impl Checker {
+    /// Refuses what only an undrained material has.
+    pub(super) fn drained_material(&mut self, material: &raw::Material, path: &Path) {
+        let given = [
+            ("permeability", material.permeability.is_some()),
+            ("porosity", material.porosity.is_some()),
+            ("water_bulk_modulus", material.water_bulk_modulus.is_some()),
+            ("water_unit_weight", material.water_unit_weight.is_some()),
+        ];
+        for (key, _) in given.into_iter().filter(|(_, given)| *given) {
+            let problem = format!("a drained material has no `{key}`: its pores never hold excess pressure");
+            self.issue(&path.key(key), At::Key, problem, "take it out, or set `drainage: undrained`");
+        }
+    }
+
+    /// The pore water of a material, if it has one of its own.
+    pub(super) fn porous(&mut self, material: &raw::Material, model: &Arc<dyn Model>, path: &Path) -> Option<Porous> {
+        if material.drainage != Some(raw::Drainage::Undrained) {
+            return None;
+        }
+        if !has_water_of_its_own(material) {
+            if material.water_unit_weight.is_some() {
+                let remedy = "take it out, or give a `permeability`";
+                self.issue(&path.key("water_unit_weight"), At::Key, "water that does not flow needs no weight", remedy);
+            }
+            return None;
+        }
+        let stiffness = self.water_stiffness(material, model, path)?;
+        let permeability = material.permeability.map_or([0.0; 2], raw::Permeability::by_axis);
+        if let Some(k) = permeability.iter().find(|k| **k < 0.0 || k.is_nan()) {
+            let problem = format!("is {k}, but must be at least 0");
+            self.issue(&path.key("permeability"), At::Value, problem, "give it in m/s, such as 1.0e-8");
+            return None;
+        }
+        let weight = material.water_unit_weight.unwrap_or(UNIT_WEIGHT);
+        Some(Porous { model: model.clone(), stiffness, mobility: permeability.map(|k| k / weight) })
+    }
+
+    fn water_stiffness(
+        &mut self,
+        material: &raw::Material,
+        model: &Arc<dyn Model>,
+        path: &Path,
+    ) -> Option<WaterStiffness> {
+        match (material.porosity, material.water_bulk_modulus) {
+            (Some(porosity), Some(modulus)) => {
+                if material.undrained_poisson.is_some() {
+                    let problem = "`porosity` and `water_bulk_modulus` tell the stiffness of the water already";
+                    self.issue(&path.key("undrained_poisson"), At::Key, problem, "keep one of the two ways");
+                }
+                Some(WaterStiffness::Modulus(modulus / porosity))
+            }
+            (None, None) => {
+                let poisson = model.elasticity().poisson();
+                let undrained = material.undrained_poisson.unwrap_or(UNDRAINED);
+                if undrained > poisson && undrained < 0.5 {
+                    return Some(WaterStiffness::Ratio(bulk(undrained) - bulk(poisson)));
+                }
+                let problem = format!("is {undrained}, but must lie between `poisson` ({poisson}) and 0.5");
+                let key = if material.undrained_poisson.is_some() { "undrained_poisson" } else { "poisson" };
+                self.issue(&path.key(key), At::Value, problem, "give `poisson` of the skeleton, such as 0.3");
+                None
+            }
+            (porosity, _) => {
+                let (given, missing) = match porosity {
+                    Some(_) => ("porosity", "water_bulk_modulus"),
+                    None => ("water_bulk_modulus", "porosity"),
+                };
+                let problem = format!("it tells the stiffness of the water only together with `{missing}`");
+                self.issue(&path.key(given), At::Key, problem, format!("add `{missing}: …`, or take it out"));
+                None
+            }
+        }
+    }
+
+    /// A curve where water leaves.
+    pub(super) fn drained(&mut self, file: &raw::CaseFile, held: &raw::Components, path: &Path) {
+        let Some(pressure) = held.pore_pressure else { return };
+        let path = path.key("pore_pressure");
+        if pressure != 0.0 {
+            self.issue(&path, At::Value, "a drained curve has no excess pressure", "write 0 here");
+        }
+        if file.materials.values().all(|material| material.permeability.is_none()) {
+            let remedy = "take it out, or give an undrained material a `permeability`";
+            self.issue(&path, At::Key, "no material has a permeability", remedy);
+        }
+    }
+
+    /// The excess pore pressure before the first phase.
+    pub(super) fn initial_pore_pressure(&mut self, file: &raw::CaseFile, path: &Path) -> Vec<(usize, Profile)> {
+        let names: Vec<&str> = file.regions.keys().map(String::as_str).collect();
+        let mut checked = Vec::new();
+        for (name, value) in &file.initial_pore_pressure {
+            let path = path.key(name);
+            let Some(region) = names.iter().position(|region| region == name) else {
+                let problem = format!("there is no region `{name}`");
+                self.issue(&path, At::Key, problem, suggest(name, names.iter().copied()));
+                continue;
+            };
+            let material = file.regions.get(name).and_then(|region| file.materials.get(region.material.as_ref()?));
+            if !material.is_some_and(has_water_of_its_own) {
+                let remedy = "take it out, or give the material a `permeability`";
+                self.issue(&path, At::Key, "its material has no pore water of its own", remedy);
+            }
+            checked.push((region, value.profile()));
+        }
+        checked
+    }
+
+    /// What of the water only shows between blocks.
+    pub(super) fn pores(&mut self, case: &Case, file: &raw::CaseFile) {
+        let path = Path::default().key("numerics").key("gradient");
+        if case.materials.iter().any(|m| m.porous.is_some()) && case.numerics.gradient != Scheme::Mpm {
+            let remedy = "choose `gradient: mpm`, or take the permeability out";
+            self.issue(&path, At::Value, "ddmp does not smooth the gradient of pore pressures yet", remedy);
+        }
+        let wanted = |q: &raw::Quantity| *q == raw::Quantity::PorePressure;
+        for (i, entry) in file.output.history.iter().enumerate() {
+            if entry.quantities.iter().any(wanted) && case.materials.iter().all(|m| m.porous.is_none()) {
+                let path = Path::default().key("output").key("history").index(i).key("quantities");
+                let remedy = "take `pore_pressure` out, or give an undrained material a `permeability`";
+                self.issue(&path, At::Value, "no material has pore water of its own", remedy);
+            }
+        }
+    }
+}
+
+/// The water in the pores, if some soil has a field for its pressure.
+pub(super) fn water(case: &Case, mesh: &Mesh<2>) -> Result<Option<Water>> {
+    let porous = porous(case, mesh)?;
+    if porous.iter().all(Option::is_none) {
+        return Ok(None);
+    }
+    let mut drained = Vec::new();
+    for support in case.supports.iter().filter(|support| support.drained) {
+        drained.extend_from_slice(&scene::group(mesh, &support.curve)?.nodes);
+    }
+    drained.sort_unstable();
+    drained.dedup();
+    Ok(Some(Water { porous, alone: scene::filled(case).all(|(_, m)| m.carried.is_none()), drained }))
+}
+
+/// The porous soil of each region of the mesh.
+pub(super) fn porous(case: &Case, mesh: &Mesh<2>) -> Result<Vec<Option<Porous>>> {
+    let mut porous = vec![None; mesh.regions.len()];
+    for (region, material) in scene::filled(case) {
+        porous[scene::region_index(mesh, &region.name)? as usize] = material.porous.clone();
+    }
+    Ok(porous)
+}
+
+/// Lets pore pressures be watched at corners of cells, which alone have them.
+pub(super) fn pressures_at_corners(scene: &Scene<2>, watches: Vec<Watch>) -> Vec<Watch> {
+    let wanted = |watch: &Watch| watch.quantities.contains(&run::Quantity::PorePressure);
+    if !watches.iter().any(wanted) {
+        return watches;
+    }
+    let mut corner = vec![false; scene.mesh.nodes.len()];
+    for mesh in std::iter::once(&scene.mesh).chain(scene.fem.iter().map(|fem| &fem.mesh)) {
+        for c in 0..mesh.cells.len() {
+            for &n in &mesh.cells.nodes(c)[..mesh.cells.kind[c].corner_count()] {
+                corner[n as usize] = true;
+            }
+        }
+    }
+    let mut all = Vec::new();
+    for watch in watches {
+        let WatchedOn::Nodes(nodes) = &watch.on else {
+            all.push(watch);
+            continue;
+        };
+        let corners: Vec<u32> = nodes.iter().copied().filter(|&n| corner[n as usize]).collect();
+        for &quantity in &watch.quantities {
+            let at_corners = quantity == run::Quantity::PorePressure;
+            let on = WatchedOn::Nodes(if at_corners { corners.clone() } else { nodes.clone() });
+            all.push(Watch { name: watch.name.clone(), on, quantities: vec![quantity] });
+        }
+    }
+    all
+}

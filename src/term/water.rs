@@ -1,0 +1,292 @@
+//! Water in the pores: its excess pressure as a field of unknowns of its own, and its flow.
+//!
+//! The points answer for the effective stress. The field `p` (kPa, Cauchy, compression positive) is linear from corner to
+//! corner and continuous from cell to cell; with displacements of second order that is the Taylor–Hood pair, stable
+//! where nothing flows. With `J = det F`, `Q = K_w/n` and `κ = k/γ_w` (theory, eq. 35 to 37):
+//!
+//! ```text
+//! R_u −= Σ w₀ J p 1 : ∇_x N
+//! R_p  = −Σ w₀ { L [J − J_n + (p − p_n)/Q] + Δt J_n ∇L·κ∇p + s L_a (Δp_a − Δp) }
+//! ```
+//!
+//! `J − J_n + (p − p_n)/Q` is the water that a point takes up for each volume when seeded. It is the difference of a state, so
+//! that the water is conserved over any number of steps; and its derivative is that of `R_u`, so that the system is symmetric. `∇` in
+//! the flow is that of the configuration at the beginning of the step. The excess pressure has no gravity in it.
+//!
+//! The last term lumps, in part, what holds `p` against its change, the compliance `1/M + 1/Q` of skeleton and water. A step shorter
+//! than it takes pressure to pass a cell would otherwise make the pressure oscillate beside a drained boundary (Vermeer &
+//! Verruijt 1981); `s` is what is missing to keep neighbours from pushing each other, `1/M + 1/Q − 6 κ Δt/h²`, and zero in
+//! longer steps (Aguilar et al. 2008). In cells of first order it makes the pair stable, too, and stays.
+
+use super::{Frame, History, Share, Trial};
+use crate::kinematics::{Gradient, Kinematics};
+use crate::material::Model;
+use crate::material::spatial::Spatial;
+use crate::mesh::shape::{CellKind, MAX_NODES};
+use crate::points::Points;
+use crate::stencil::{Entries, Patch, cell_size};
+use crate::system::Local;
+use crate::tensor::Tensor;
+use std::fmt;
+use std::marker::PhantomData;
+use std::sync::Arc;
+
+/// Most corners of a cell.
+const MOST: usize = 4;
+
+/// Values of the hats of a cell at a point.
+type Hats = [f64; MOST];
+
+/// How stiff the water is in the pores: `K_w/n`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum WaterStiffness {
+    /// Over the shear modulus of the skeleton (-).
+    Ratio(f64),
+    /// In kPa.
+    Modulus(f64),
+}
+
+/// Soil whose pores hold water.
+#[derive(Clone)]
+pub struct Porous {
+    /// The model of the whole effective stress.
+    pub model: Arc<dyn Model>,
+    pub stiffness: WaterStiffness,
+    /// `k/γ_w` (m²/(kPa s)) in x and y.
+    pub mobility: [f64; 2],
+}
+
+impl fmt::Debug for Porous {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { stiffness, mobility, .. } = self;
+        f.debug_struct("Porous").field("stiffness", stiffness).field("mobility", mobility).finish_non_exhaustive()
+    }
+}
+
+impl Porous {
+    /// `n/K_w` (1/kPa) at a point seeded at height `y` (m).
+    pub fn storage(&self, y: f64) -> f64 {
+        match self.stiffness {
+            WaterStiffness::Ratio(ratio) => 1.0 / (ratio * self.model.elasticity().at(y).shear),
+            WaterStiffness::Modulus(modulus) => 1.0 / modulus,
+        }
+    }
+
+    /// What holds the pressure against its change (1/kPa): `1/M + n/K_w`, M the confined modulus of the skeleton.
+    fn compliance(&self, y: f64) -> f64 {
+        let moduli = self.model.elasticity().at(y);
+        1.0 / (moduli.lambda + 2.0 * moduli.shear) + self.storage(y)
+    }
+}
+
+/// The pore water of a scene.
+pub struct PoreWater<K> {
+    /// The porous soil of each region of the mesh; `None` without water.
+    porous: Vec<Option<Porous>>,
+    /// What a unit of its unknowns stands for (kPa/m).
+    unit: f64,
+    kinematics: PhantomData<K>,
+}
+
+impl<K> PoreWater<K> {
+    /// `porous[r]` is the soil of region `r`, `unit` that of [`crate::step::Scene`].
+    pub fn new(porous: Vec<Option<Porous>>, unit: f64) -> Self {
+        Self { porous, unit, kinematics: PhantomData }
+    }
+
+    fn of<const D: usize>(&self, points: &Points<D>, p: usize) -> Option<&Porous> {
+        self.porous.get(points.region[p] as usize).and_then(Option::as_ref)
+    }
+}
+
+/// The hats of a cell as sums of its shape functions: the coefficient of function `i` in hat `a`.
+fn coefficients(kind: CellKind) -> [[f64; MAX_NODES]; MOST] {
+    let corners = kind.corner_count();
+    let mut of = [[0.0; MAX_NODES]; MOST];
+    for (a, of) in of.iter_mut().enumerate().take(corners) {
+        of[a] = 1.0;
+        if kind.order() > 1 {
+            of[corners + a] = 0.5;
+            of[corners + (a + corners - 1) % corners] = 0.5;
+            if kind.node_count() > 2 * corners {
+                of[2 * corners] = 0.25;
+            }
+        }
+    }
+    of
+}
+
+/// The values of the corner hats of a cell where its shape functions are `n`.
+pub fn corner_hats(kind: CellKind, n: &[f64]) -> Hats {
+    coefficients(kind).map(|of| of.iter().zip(n).map(|(c, n)| c * n).sum())
+}
+
+/// The field over a cell.
+pub struct Cell<const D: usize> {
+    corners: usize,
+    /// The hats by the shape functions.
+    hats: [[f64; MAX_NODES]; MOST],
+    /// The pressure (kPa) at the corners, and what the step has added to it.
+    pressure: Hats,
+    gained: Hats,
+    /// Displacement (m) of the nodes at the beginning of the step.
+    before: [[f64; D]; MAX_NODES],
+    /// Time (s) that the water flows for, and over the size of the cell squared, six times.
+    flow_time: f64,
+    passing: f64,
+    /// Whether pressures are to be held apart from each other in any step.
+    first_order: bool,
+}
+
+impl<const D: usize> Cell<D> {
+    fn hats(&self, n: &[f64]) -> Hats {
+        self.hats.map(|of| of.iter().zip(n).map(|(c, n)| c * n).sum())
+    }
+
+    /// `∇L` (1/m) on the configuration at the beginning of the step.
+    fn gradients<K: Kinematics<D>>(&self, entries: &Entries<D>) -> [[f64; D]; MOST] {
+        let mut before = Tensor::identity();
+        for (i, u) in self.before.iter().enumerate().take(entries.functions()) {
+            K::deform(&mut before, u, &entries.gradient(i));
+        }
+        // It was admissible when the step before converged to it.
+        let inverse = before.try_inverse().unwrap_or_else(Tensor::identity);
+        self.hats.map(|of| {
+            let mut sum = Gradient { g: [0.0; D], hoop: 0.0 };
+            for (i, c) in of.iter().enumerate().take(entries.value.len()) {
+                for (sum, g) in sum.g.iter_mut().zip(entries.gradient(i).g) {
+                    *sum += c * g;
+                }
+            }
+            K::push_forward(&sum, &inverse).g
+        })
+    }
+}
+
+fn dot(a: &Hats, b: &Hats) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}
+
+impl<const D: usize, K: Kinematics<D>> Share<D, K> for PoreWater<K> {
+    type Cell = Cell<D>;
+
+    fn over(&self, frame: &Frame<D>, trial: &Trial<D>, patch: &Patch) -> Cell<D> {
+        let cell = patch.cell as usize;
+        let kind = frame.mesh.cells.kind[cell];
+        let corners = kind.corner_count();
+        let (mut pressure, mut gained) = ([0.0; MOST], [0.0; MOST]);
+        for (a, &n) in frame.mesh.cells.nodes(cell)[..corners].iter().enumerate() {
+            let unknown = frame.water + n as usize;
+            pressure[a] = trial.pressure[unknown];
+            gained[a] = pressure[a] - trial.converged_pressure[unknown];
+        }
+        // The edge of a typical cell is its diagonal over √2.
+        let edge = 0.5 * cell_size(frame.mesh, cell).powi(2);
+        Cell {
+            corners,
+            hats: coefficients(kind),
+            pressure,
+            gained,
+            before: frame.stencil.gather(frame.mesh, patch, trial.converged),
+            flow_time: trial.flow_time,
+            passing: 6.0 * trial.flow_time / edge,
+            first_order: kind.order() == 1,
+        }
+    }
+
+    fn add(
+        &self,
+        cell: &Cell<D>,
+        points: &Points<D>,
+        entries: &Entries<D>,
+        volume_ratio: f64,
+        answer: &mut Spatial<K::Tangent>,
+    ) -> f64 {
+        let p = entries.point;
+        if self.of(points, p).is_none() {
+            return 0.0;
+        }
+        let before = points.deformation[p].determinant();
+        let stress = -before * volume_ratio * dot(&cell.hats(entries.value), &cell.pressure);
+        for normal in &mut answer.kirchhoff[..3] {
+            *normal += stress;
+        }
+        K::add_pressure(&mut answer.tangent, stress);
+        K::add_volumetric(&mut answer.tangent, stress);
+        -before * points.pore_pressure[p]
+    }
+
+    fn couple(
+        &self,
+        cell: &Cell<D>,
+        points: &Points<D>,
+        entries: &Entries<D>,
+        spatial: &[Gradient<D>],
+        volume_ratio: f64,
+        acts_on: &Tensor,
+        later: f64,
+        local: &mut Local,
+    ) {
+        let p = entries.point;
+        let Some(porous) = self.of(points, p) else { return };
+        let begin = D * spatial.len();
+        let y = points.origin[p][1];
+        let before = points.deformation[p].determinant();
+        let hats = cell.hats(entries.value);
+        let storage = porous.storage(y);
+        let taken_up = before * (volume_ratio - 1.0) + storage * (dot(&hats, &cell.pressure) - points.pore_pressure[p]);
+        let weight = later * self.unit * entries.weight;
+        let flows = cell.flow_time > 0.0;
+        let gradients = if flows { cell.gradients::<K>(entries) } else { [[0.0; D]; MOST] };
+        let mobility: [f64; D] =
+            std::array::from_fn(|d| cell.flow_time * before * porous.mobility[usize::from(d == 1)]);
+        let conducted =
+            |a: usize, b: usize| (0..D).map(|d| gradients[a][d] * mobility[d] * gradients[b][d]).sum::<f64>();
+        let lumped = if flows || cell.first_order {
+            let slowest = porous.mobility[0].min(porous.mobility[1]);
+            (porous.compliance(y) - slowest * cell.passing).max(0.0)
+        } else {
+            0.0
+        };
+        let gained = dot(&hats, &cell.gained);
+        let held = |a: usize, b: usize| {
+            let own = if a == b { hats[a] } else { 0.0 };
+            storage * hats[a] * hats[b] + conducted(a, b) + lumped * (own - hats[a] * hats[b])
+        };
+        for a in 0..cell.corners {
+            let flow: f64 = (0..cell.corners).map(|b| conducted(a, b) * cell.pressure[b]).sum();
+            let bond = lumped * hats[a] * (cell.gained[a] - gained);
+            local.vector[begin + a] -= weight * (hats[a] * taken_up + flow + bond);
+        }
+        if local.matrix.is_empty() {
+            return;
+        }
+        let (size, one) = (local.size, Tensor::identity());
+        let volume = -weight * before * volume_ratio;
+        for (i, gradient) in spatial.iter().enumerate() {
+            let (swelling, force) = (K::force(&one, gradient), K::force(acts_on, gradient));
+            for (a, hat) in hats.iter().enumerate().take(cell.corners) {
+                for d in 0..D {
+                    local.matrix[(begin + a) * size + i * D + d] += volume * hat * swelling[d];
+                    local.matrix[(i * D + d) * size + begin + a] += volume * hat * force[d];
+                }
+            }
+        }
+        for a in 0..cell.corners {
+            for b in 0..cell.corners {
+                local.matrix[(begin + a) * size + begin + b] -= weight * self.unit * held(a, b);
+            }
+        }
+    }
+
+    fn commit(&self, cell: &Cell<D>, points: &Points<D>, entries: &Entries<D>, history: &mut History) {
+        if self.of(points, entries.point).is_some() {
+            history.pore_pressure = dot(&cell.hats(entries.value), &cell.pressure);
+        }
+    }
+
+    fn energy(&self, points: &Points<D>, p: usize) -> f64 {
+        let Some(porous) = self.of(points, p) else { return 0.0 };
+        0.5 * points.initial_volume[p] * porous.storage(points.origin[p][1]) * points.pore_pressure[p].powi(2)
+    }
+}
