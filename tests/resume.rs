@@ -36,6 +36,20 @@ const PILE: Case = Case {
     overrides: &["mesh.parameters.h=0.25", "phases[0].duration=0.16", "phases[0].step.max=0.005", "output.every=0.04"],
 };
 
+/// Water that flows through soil, whose strength has a pressure field beside it; dynamic, restored in every step.
+const WATER: Case = Case {
+    file: "cases/seabed_slope",
+    overrides: &[
+        "mesh.parameters.h=1.5",
+        "phases[0].duration=0.8",
+        "phases[0].step.max=0.02",
+        "supports.bottom.pore_pressure=0",
+        "materials.clay={model: tresca, young: 2000, poisson: 0.3, shear_strength: 2, density: 1.65, \
+         drainage: undrained, permeability: 1.0e-5}",
+        "output.fields=[stress, pore_pressure]",
+    ],
+};
+
 /// A rigid structure in contact, dynamic.
 const BLOCK: Case = Case {
     file: "cases/incline",
@@ -224,8 +238,13 @@ fn a_run_with_loads_on_the_surface_killed_ten_times_ends_the_same() {
 }
 
 #[test]
+fn a_run_with_water_in_the_pores_killed_ten_times_ends_the_same() {
+    survives_kills(&WATER, 6);
+}
+
+#[test]
 fn the_number_of_threads_changes_no_bit() {
-    for case in [SLOPE, RELEASE, SAND, PILE, BLOCK, WALL, BODIES, POOL] {
+    for case in [SLOPE, RELEASE, SAND, PILE, BLOCK, WALL, BODIES, POOL, WATER] {
         let one = seeded(&case);
         let three = copy(one.path());
         ends(mpm("solve", &case, one.path(), &["--threads", "1"]), 0);
