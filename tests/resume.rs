@@ -42,6 +42,7 @@ const WATER: Case = Case {
     overrides: &[
         "mesh.parameters.h=1.5",
         "phases[0].duration=0.8",
+        "phases[0].step.max=0.02",
         "supports.bottom.pore_pressure=0",
         "materials.clay={model: tresca, young: 2000, poisson: 0.3, shear_strength: 2, density: 1.65, \
          drainage: undrained, permeability: 1.0e-5}",

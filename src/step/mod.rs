@@ -158,7 +158,7 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
             to: state.phase_time + dt,
             given: &given,
             integration: dynamic.then(|| GeneralisedAlpha::new(scene.numerics.spectral_radius, dt)),
-            flow_time: if phase.flows { dt } else { 0.0 },
+            flow_time: if scene.phases[state.phase].flows { dt } else { 0.0 },
         };
         let solution = newton::solve(&problem, &mut self.grid)?;
         Ok((start, solution))
