@@ -9,7 +9,7 @@ MPM := target/release/mpm
 MPM_BUILD := $(MPM)
 include pipeline/mpm.mk
 
-.PHONY: help setup build demo pile-picture pile-variants test check fmt clean bench bench-block bench-unused stress verification
+.PHONY: help setup build demo pile pile-variants test check fmt clean bench bench-block bench-unused stress verification
 
 help: ## List the targets
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / {printf "  %-13s %s\n", $$1, $$2}' $(firstword $(MAKEFILE_LIST))
@@ -28,7 +28,8 @@ $(MPM): setup
 demo: seabed_slope ## From nothing to a ParaView series and a picture: the slope that fails and runs out
 	$(PYTHON) paraview/seabed_slope.py
 
-pile-picture: pile ## The pile that is pushed into clay, and the picture of the stress around it
+# A case like the others (pipeline/mpm.mk), that ends with its picture.
+pile: ## From nothing to the pile that is pushed into clay, and the picture of the stress around it
 	$(PYTHON) paraview/pile.py
 
 pile-variants: build ## The pile smooth, rough, as it is, and by mpm and ddmp: pictures, curves, tables of noise and ripple

@@ -189,6 +189,49 @@ fn a_plate_that_slides_keeps_its_normal_force() {
     assert!(off.iter().all(|off| off.abs() < 0.05), "{forces:?}");
 }
 
+/// A plate that slides over clay under 45 % of its bearing capacity, three cells far, is held by half the strength along its length.
+#[test]
+fn a_loaded_plate_slides_over_clay() {
+    let load = 0.45 * (2.0 + std::f64::consts::PI);
+    let phases = format!(
+        "phases=[{{name: press, analysis: quasi_static, duration: 1, step: {{initial: 0.25}}, \
+        prescribe: {{plate: {{ux: 0, rotation: 0, uy: {{rate: -0.0055}}}}}}}}, \
+        {{name: slide, analysis: quasi_static, duration: 0.6, step: {{initial: 0.002, max: 0.02}}, \
+        tractions: [{{on: top, tx: 0, ty: {}}}], prescribe: {{plate: {{ux: {{rate: 1}}, rotation: 0}}}}}}]",
+        -load
+    );
+    let folder = run(
+        "tests/data/plate",
+        &[
+            "mesh.parameters={width: 10, plate: 2, left: 3.7, depth: 4, h: 0.2, hp: 0.2}",
+            "regions.plate.rigid=true",
+            "contacts[0].adhesion_factor=0.5",
+            "materials.soil={model: tresca, young: 500, poisson: 0.49, shear_strength: 1, density: 0}",
+            "supports.bottom={ux: 0, uy: 0}",
+            &phases,
+        ],
+    );
+    let rows = history(folder.path());
+    // It sticks in the first step.
+    let sliding: Vec<&Vec<f64>> = rows.iter().filter(|row| row[0] > 1.004).collect();
+    let shear: Vec<f64> = sliding.iter().map(|row| -row[3] / (0.5 * 2.0)).collect();
+    let mean = shear.iter().sum::<f64>() / shear.len() as f64;
+    let ripple = (shear.iter().map(|s| (s / mean - 1.0).powi(2)).sum::<f64>() / shear.len() as f64).sqrt();
+    let log = std::fs::read_to_string(folder.path().join("solve.log")).unwrap();
+    let after = |line: &str| line.split(' ').skip_while(|w| *w != "iterations").nth(1).and_then(|n| n.parse().ok());
+    let iterations: Vec<usize> = log.lines().filter_map(after).collect();
+    let most = iterations.iter().copied().max().unwrap();
+    println!("shear over α s_u L {shear:.3?}, ripple {ripple:.4}, iterations {iterations:?}");
+    assert!(
+        shear.len() >= 30
+            && iterations.len() == rows.len()
+            && shear.iter().all(|s| (s - 1.0).abs() < 0.03)
+            && ripple < 0.02,
+        "{shear:?}"
+    );
+    assert!(most <= 10 && sliding.iter().all(|row| (row[4] / (2.0 * load) - 1.0).abs() < 1e-6), "{iterations:?}");
+}
+
 /// A block slides down with `g (sin θ − tan δ cos θ)` where that is positive …
 #[test]
 fn a_block_slides_down_an_incline() {
