@@ -223,6 +223,27 @@ fn pile() {
     run.draw("pile");
 }
 
+/// The bottom bears the clay less the water that it displaces, 125 m² of it; the slope stands in the pool (factor of safety
+/// 1.9) and must slide when that is gone (0.75), to a new rest.
+#[test]
+fn submerged_slope() {
+    let run = Run::new("submerged_slope", &["mesh.parameters.h=1.25"]);
+    let (time, way) = (run.history.column("time"), run.history.column("soil.ux"));
+    let bottom = run.history.column("bottom.reaction_y");
+    let at = |t: f64| time.iter().position(|&time| time >= t - 1e-9).unwrap();
+    let submerged = 125.0 * (16.2 - 9.81);
+    assert!((bottom[at(1.0)] / submerged - 1.0).abs() < 2e-3, "{} of {submerged}", bottom[at(1.0)]);
+    assert!(way[at(5.0)] < 0.02, "{}", way[at(5.0)]);
+    assert!(way[at(12.5)] > 0.3, "{}", way[at(12.5)]);
+    assert!((way[at(21.0)] - way[at(14.0)]).abs() < 5e-3, "{} {}", way[at(14.0)], way[at(21.0)]);
+    // Below the plain the clay stays under the level that the pool is drawn down to.
+    let half = 125.0 * 16.2 - 9.81 * 62.5;
+    assert!((bottom[at(21.0)] / half - 1.0).abs() < 0.02, "{} of {half}", bottom[at(21.0)]);
+    let series = fs::read_to_string(run.folder.path().join("surface.pvd")).unwrap();
+    assert_eq!(series.matches("vtu/surface_").count(), 43);
+    run.draw("submerged_slope");
+}
+
 /// What the four stages wrote.
 struct Run {
     folder: TempDir,
