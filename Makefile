@@ -9,7 +9,7 @@ MPM := target/release/mpm
 MPM_BUILD := $(MPM)
 include pipeline/mpm.mk
 
-.PHONY: help setup build demo pile pile-variants test check fmt clean bench bench-block bench-unused stress verification
+.PHONY: help setup build demo pile pile-variants pipeline test check fmt clean bench bench-block bench-unused stress verification
 
 help: ## List the targets
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / {printf "  %-13s %s\n", $$1, $$2}' $(firstword $(MAKEFILE_LIST))
@@ -37,6 +37,12 @@ pile-variants: build ## The pile smooth, rough, as it is, and by mpm and ddmp: p
 	$(PYTHON) paraview/pile.py $(addprefix cases/pile/,out-smooth out out-rough) -o cases/pile/out/adhesion.png
 	$(PYTHON) paraview/pile.py $(addprefix cases/pile/,out-mpm out-ddmp out) -o cases/pile/out/schemes.png
 	$(PYTHON) cases/pile/study.py
+
+# A case like the others, that goes on with its variants and their pictures.
+pipeline: build ## The pipe pressed into the seabed and pulled across it, α = 0.5, 0 and 1: pictures, curves, a table
+	$(PYTHON) cases/pipeline/variants.py $(if $(THREADS),--threads $(THREADS))
+	for out in out out-smooth out-rough; do $(PYTHON) paraview/pipeline.py cases/pipeline/$$out; done
+	$(PYTHON) cases/pipeline/study.py
 
 test: setup ## Set up and run all tests
 	cargo test --release --no-fail-fast

@@ -244,6 +244,32 @@ fn submerged_slope() {
     run.draw("submerged_slope");
 }
 
+/// Coarse cells, a short way, pressed in by 4 cm. Once nothing else holds the pipe, the soil bears just its weight; what pulls it
+/// sideways is what the soil resists with.
+#[test]
+fn pipeline() {
+    let settings = [
+        "mesh.parameters={h: 0.16, way: 0.4}",
+        "phases[0].duration=0.04",
+        "phases[2].duration=0.02",
+        "output.every=0.1",
+    ];
+    let run = Run::new("pipeline", &settings);
+    let weight = 6.9 * PI * 0.4 * 0.4;
+    let (vertical, time) = (run.history.column("pipe.contact_y"), run.history.column("time"));
+    let pressed = time.iter().position(|t| *t > 0.04 - 1e-9).unwrap();
+    println!("{:.2} kN/m press it down, {:.2} kN/m sideways", vertical[pressed], run.history.last("core.reaction_x"));
+    assert!(vertical[pressed] > 1.2 * weight && vertical[pressed] < 2.0 * weight, "{}", vertical[pressed]);
+    // Its boundary is of parabolas.
+    let meshed = run.history.last("pipe.contact_y");
+    assert!((meshed / weight - 1.0).abs() < 1e-3, "{meshed} kN/m is not the weight");
+    let most = vertical[pressed + 1..].iter().map(|v| (v / meshed - 1.0).abs()).fold(0.0, f64::max);
+    assert!(most < 1e-6, "the soil bears {most} more or less than the weight");
+    let (pull, soil) = (run.history.last("core.reaction_x"), run.history.last("pipe.contact_x"));
+    assert!(pull > 0.1 * weight && (pull / soil + 1.0).abs() < 1e-5, "{pull} kN/m pull, {soil} kN/m resist");
+    run.draw("pipeline");
+}
+
 /// What the four stages wrote.
 struct Run {
     folder: TempDir,

@@ -77,6 +77,9 @@ pub struct Buffers<const D: usize> {
     delta: Vec<f64>,
     gap: Vec<f64>,
     fixed: Vec<bool>,
+    /// The equations whose diagonal is raised where steps go astray: those of nodes that no structure has. Empty
+    /// until then.
+    damped: Vec<bool>,
     /// The residual of one term.
     own: Vec<f64>,
     between: Vec<[f64; D]>,
@@ -139,6 +142,7 @@ impl<'a, const D: usize> Newton<'a, D> {
         buffers.fixed.extend(problem.given.iter().map(Option::is_some));
         buffers.now.at.set(problem.converged, problem.pressure);
         buffers.best.clone_from(&buffers.now.at);
+        buffers.damped.clear();
         let floor = floor(problem, grid);
         Self {
             problem,
@@ -229,12 +233,15 @@ impl<'a, const D: usize> Newton<'a, D> {
             self.evaluate(true)?;
         }
         self.tangent = false;
-        let Buffers { now, delta, gap, fixed, .. } = &mut self.buffers;
+        let Buffers { now, delta, gap, fixed, damped, .. } = &mut self.buffers;
         delta.clear();
         delta.extend(now.force.iter().map(|r| -r));
+        if self.damping > 0.0 && damped.is_empty() {
+            damped_equations(self.problem.scene, self.grid, damped);
+        }
         let motion = &mut self.grid.motion;
         if self.damping > 0.0 {
-            motion.matrix.dampen(&motion.pattern, D * self.grid.node.len(), self.damping);
+            motion.matrix.dampen(&motion.pattern, damped, self.damping);
         }
         let diagonal = motion.matrix.scale(&motion.pattern);
         motion.matrix.constrain(&motion.pattern, fixed, gap, diagonal, delta);
@@ -379,6 +386,21 @@ fn forcing(history: &[f64], tolerance: f64) -> f64 {
         _ => LOOSEST,
     };
     quadratic.max(enough).clamp(1e-10, LOOSEST)
+}
+
+/// Which equations of nodes are damped. A structure as a whole may have no more to hold it than soil that flows: a share of
+/// its own stiffness would be a far stiffer hold on it, and its balance would come in tiny steps.
+fn damped_equations<const D: usize>(scene: &Scene<D>, grid: &Grid<D>, out: &mut Vec<bool>) {
+    out.extend(grid.node.iter().flat_map(|&n| [(n as usize) < scene.mesh_nodes(); D]));
+    let Some(fem) = &scene.fem else { return };
+    for c in fem.deforming() {
+        if scene.pairs.iter().any(|pair| pair.structure() == fem.mesh.cells.region[c]) {
+            for &n in fem.mesh.cells.nodes(c) {
+                let block = grid.block[n as usize] as usize;
+                out.iter_mut().skip(D * block).take(D).for_each(|damped| *damped = false);
+            }
+        }
+    }
 }
 
 /// A force (kN) below which nothing counts: rounding in stresses of the order of the stiffness, on the sides of a

@@ -191,9 +191,9 @@ impl Matrix {
         diagonal
     }
 
-    /// Makes the first `equations` stiffer by a share of their diagonal.
-    pub fn dampen(&mut self, pattern: &Pattern, equations: usize, share: f64) {
-        for j in 0..equations {
+    /// Makes the `wanted` of the first equations stiffer by a share of their diagonal.
+    pub fn dampen(&mut self, pattern: &Pattern, wanted: &[bool], share: f64) {
+        for (j, _) in wanted.iter().enumerate().filter(|(_, wanted)| **wanted) {
             for k in pattern.column[j] as usize..pattern.column[j + 1] as usize {
                 if pattern.row[k] as usize == j {
                     self.values[k] *= 1.0 + share;
