@@ -1,6 +1,6 @@
 """Mandel's strip against its closed form: the table of the README, and reference.csv.
 
-    .venv/bin/python cases/mandel/study.py                                    # the table, some minutes
+    .venv/bin/python cases/mandel/study.py                                    # the table
     .venv/bin/python cases/mandel/study.py --reference > cases/mandel/reference.csv
 
 The closed form is that of src/analytical/mandel.rs.

@@ -1,6 +1,6 @@
 """Terzaghi's layer against its closed form: the tables of the README, and reference.csv.
 
-    .venv/bin/python cases/terzaghi/study.py                                    # the tables, some minutes
+    .venv/bin/python cases/terzaghi/study.py                                    # the tables
     .venv/bin/python cases/terzaghi/study.py --reference > cases/terzaghi/reference.csv
 
 The closed form is that of src/analytical/terzaghi.rs.

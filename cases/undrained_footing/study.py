@@ -1,6 +1,6 @@
 """The undrained footing by four ways: the table of the README, and reference.csv.
 
-    .venv/bin/python cases/undrained_footing/study.py                                    # the table, a minute
+    .venv/bin/python cases/undrained_footing/study.py                                    # the table
     .venv/bin/python cases/undrained_footing/study.py --reference > cases/undrained_footing/reference.csv
 
 Prandtl's bearing capacity of half a footing 2 m wide on clay of 100 kPa is (2 + π) 100 kN/m.
