@@ -58,7 +58,8 @@ fn check(
         for _ in 0..1000 {
             let f = random.trial(&*model, plane);
             let l = random.gradient(1.0, plane);
-            let h = 1e-5 * (left(&f).map(f64::ln)[0]).abs().clamp(1e-4, 1e-1);
+            // Shorter steps drown in the rounding of F, longer ones meet kinks.
+            let h = 3e-5 * (left(&f).map(f64::ln)[0]).abs().clamp(1e-4, 1e-1);
             let pulled = |by: f64| {
                 let moved = f + l * f * by;
                 let (t, _) = stress(&*model, &moved);
