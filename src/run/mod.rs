@@ -143,10 +143,10 @@ pub fn run<const D: usize, K: Kinematics<D>>(
                     files.note(state, &note)?;
                     continue;
                 }
-                Err(_) if ending::found_failure(phase, &simulation.state, &controller) => {
+                Err(error) if ending::found_failure(phase, &simulation.state, &controller) => {
                     let state = &mut simulation.state;
                     let failed = phase.reduction_at(state.phase_time + controller.size(state.phase_time));
-                    let note = ending::safety(phase, state, Some(failed));
+                    let note = format!("{}; it failed by: {error}", ending::safety(phase, state, Some(failed)));
                     tell(state, Some(&note));
                     timed(Activity::Output, || {
                         files.history.again(record::NO_EQUILIBRIUM, failed)?;
