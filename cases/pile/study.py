@@ -5,6 +5,7 @@
 Each OUT is the output folder of a run (all of `cases/pile/variants.py` without). Prints Markdown tables and draws the curves to CHART
 (.svg or .png; without, curves.svg in the first OUT). What a run did not reach is `-`.
 
+The stress at the base is what pressure and shear along the lowest 0.1 m of the pile, its base and the round edge, bear upwards, over the area of the base.
 *Noise* at a depth of the pile: the root mean square of σ_yy of the soil points about its own smooth field, in the box
 below the base as wide as the pile (1 m; half of it in axisymmetry) and 1.5 m deep. The smooth field at a point is the quadratic fitted by least
 squares to the points below the base within two cells of it. The second number leaves out the layer under the base that is a cell
@@ -25,6 +26,7 @@ from variants import history
 
 CASE = Path(__file__).resolve().parent
 RADIUS = 0.5  # of the pile [m]
+EDGE = 0.1  # radius of the edge of its base [m]
 BOX = 1.5  # depth of the box [m]
 HALF = 0.2  # half the length of the curve that a cubic is fitted to [m]
 STEP = 0.01  # between the places on the curve [m]
@@ -45,17 +47,40 @@ class Run:
             return None
         return np.interp(depth, self.depth, self.load) / (np.pi * RADIUS**2)
 
-    def noise(self, depth, cell):
-        """Root mean square (kPa) of σ_yy about its smooth field in the box, and a cell and more below the base."""
+    def frame(self, series, depth):
+        """What a series shows where the pile is at a depth, if it does."""
         import pyvista
 
-        reader = pyvista.get_reader(str(self.out / "points.pvd"))
+        reader = pyvista.get_reader(str(self.out / f"{series}.pvd"))
         depths = np.interp(reader.time_values, self.time, self.depth, left=0)
-        i, radius = int(np.argmin(np.abs(depths - depth))), 2 * cell
+        i = int(np.argmin(np.abs(depths - depth)))
         if abs(depths[i] - depth) > 1e-6:
             return None
         reader.set_active_time_point(i)
-        frame = reader.read()[0]
+        return reader.read()[0]
+
+    def base(self, depth):
+        """Stress at the base (kPa)."""
+        frame = self.frame("contact", depth)
+        if frame is None:
+            return None
+        from_node, to_node = frame.cells.reshape(-1, 3)[:, 1:].T
+        pressure, shear = (
+            next(frame.point_data[name] for name in frame.point_data if name.startswith(f"contact_{what} ["))
+            for what in ("pressure", "shear")
+        )
+        middle = (frame.points[from_node] + frame.points[to_node]) / 2
+        along = frame.points[to_node] - frame.points[from_node]
+        mean = [(values[from_node] + values[to_node]) / 2 for values in (pressure, shear)]
+        # The pile is on the left of the lines; what is along them and positive pulls it back.
+        upwards = (mean[0] * along[:, 0] - mean[1] * along[:, 1]) * 2 * np.pi * middle[:, 0]
+        return np.sum(upwards[middle[:, 1] < np.min(frame.points[:, 1]) + EDGE + 1e-6]) / (np.pi * RADIUS**2)
+
+    def noise(self, depth, cell):
+        """Root mean square (kPa) of σ_yy about its smooth field in the box, and a cell and more below the base."""
+        frame, radius = self.frame("points", depth), 2 * cell
+        if frame is None:
+            return None
         stress = next(frame.point_data[name] for name in frame.point_data if name.startswith("stress ["))[:, 1]
         x = frame.points[:, :2]
         near = (x[:, 0] < RADIUS + radius) & (x[:, 1] < -depth) & (x[:, 1] > -depth - BOX - radius)
@@ -141,6 +166,10 @@ def main():
         loads = [number(run.pressure(depth), ".2f") for depth in given.depths]
         rows.append([run.name, *loads, number(run.ripple(), ".2%"), f"{run.depth[-1]:.2f} m", number(run.seconds(), ".0f")])
     table(["run", *at, "ripple", "reached", "s"], rows)
+
+    print("Stress at the base [kPa]:\n")
+    rows = [[run.name, *(number(run.base(depth), ".2f") for depth in given.depths)] for run in runs]
+    table(["run", *at], rows)
 
     print("Noise: rms of σ_yy about its smooth field below the base [kPa], all / a cell and more below it:\n")
     rows = []

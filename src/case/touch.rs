@@ -1,9 +1,9 @@
 //! The structures and walls of a case and what they touch.
 
-use super::checked::{Case, Contact, Geometry, Touched, Touching};
+use super::checked::{Case, Contact, Content, Geometry, Region, Touched, Touching};
 use super::scene::region_index;
 use super::wall;
-use crate::contact::{Bodies, Boundary, Pair, Rigid, Surface};
+use crate::contact::{Bodies, Boundary, Pair, Rigid, Skin, Surface};
 use crate::error::{Error, Result};
 use crate::kinematics::Kinematics;
 use crate::material::Model;
@@ -70,6 +70,16 @@ impl Parts<'_> {
         Surface::new(self.fem, region, spacing, skip)
     }
 
+    /// The surface that all soil of material points begins with. Where it is joined to finite elements there is none.
+    fn skin(&self) -> Result<Skin> {
+        let filled = |(_, region): &(usize, &Region)| matches!(region.content, Content::Mpm { .. });
+        let regions = self.case.regions.iter().enumerate().filter(filled).map(|(index, _)| self.region(index));
+        let regions = regions.collect::<Result<Vec<u16>>>()?;
+        let mut joined = vec![false; self.grid.nodes.len()];
+        self.fem.cells.nodes.iter().for_each(|&n| joined[n as usize] = true);
+        Ok(Skin::new(self.grid, &regions, |facet| facet.iter().all(|&n| joined[n as usize])))
+    }
+
     fn no_cells(&self, contact: &Contact, what: &str) -> Error {
         Error::input(
             format!("contact of `{}`", self.name(&contact.structure)),
@@ -90,7 +100,8 @@ impl Parts<'_> {
             }
             _ => self.boundary(structure, HATS * edge)?,
         };
-        Ok(Boundary { structure, surface, law: contact.law, regions, models, kinematics: PhantomData })
+        let skin = self.skin()?;
+        Ok(Boundary { structure, surface, law: contact.law, regions, models, skin, kinematics: PhantomData })
     }
 
     /// The hats are as far apart as the coarser of the boundaries that can give way has its nodes.

@@ -1,6 +1,7 @@
 //! How far the soil is from the segments of a boundary: the signed distance of material points to it.
 
 use super::place::{Placed, Segments};
+use super::skin::{Seen, Skin};
 use super::surface::Surface;
 use crate::kinematics::Kinematics;
 use crate::points::Points;
@@ -9,6 +10,8 @@ use rayon::prelude::*;
 
 /// Points this many spacings away are no surface that a segment faces.
 const REACH: f64 = 2.5;
+/// Points this many spacings below the surface that they began with tell where it is.
+const COVER: f64 = 1.5;
 
 /// A point of soil near a boundary.
 #[derive(Clone, Copy, Debug)]
@@ -18,15 +21,21 @@ struct Near {
     /// Signed distance (m), negative in the structure, and the half width of the point (m) across the boundary.
     distance: f64,
     half_width: f64,
+    /// Distance (m) across the boundary to the surface that the soil began with, where the point is just below it.
+    cover: Option<f64>,
     spacing: f64,
     normal: [f64; 2],
+    /// What is a metre farther out across the boundary was seeded by so much (m) from where the point was.
+    farther: [f64; 2],
 }
 
 /// What a segment faces.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Gap {
-    /// Distance (m) between the segment and the soil, negative where they overlap.
+    /// Distance (m) between the segment and the soil, negative where they overlap, by its nearest point.
     pub open: f64,
+    /// The same to the surface that the soil began with, where points know it: that does not jump as points come and go.
+    pub known: Option<f64>,
     /// The nearest point of soil, and the spacing (m) of the points there.
     pub point: u32,
     pub spacing: f64,
@@ -40,14 +49,14 @@ pub struct Soil<'a> {
 }
 
 impl Soil<'_> {
-    /// Width (m) of point `p` when seeded.
+    /// Width (m) of point `p` when seeded, as far from the axis as its hoop stretch tells.
     fn width<K: Kinematics<2>>(&self, p: usize) -> f64 {
         let points = self.points;
-        (points.initial_volume[p] / K::measure(&points.origin[p])).sqrt()
+        (points.initial_volume[p] * points.deformation[p][(2, 2)] / K::measure(&points.position[p])).sqrt()
     }
 
     /// The points within `REACH` spacings of the segments.
-    fn near<K: Kinematics<2>>(&self, segments: &Segments) -> Vec<Near> {
+    fn near<K: Kinematics<2>>(&self, segments: &Segments, skin: Option<&Skin>) -> Vec<Near> {
         let points = self.points;
         let ours = |p: &usize| self.regions.contains(&points.region[*p]);
         let widest =
@@ -55,10 +64,18 @@ impl Soil<'_> {
         let longest = segments.0.iter().map(|s| (s.to[0] - s.from[0]).hypot(s.to[1] - s.from[1])).fold(0.0, f64::max);
         let side = (1.0 + REACH) * widest + longest;
         let bins = Bins::new(segments.0.iter().map(|s| (s.from, s.to)), side);
-        (0..points.len()).into_par_iter().filter(ours).filter_map(|p| self.nearest::<K>(segments, &bins, p)).collect()
+        let seen = skin.map(|skin| skin.seen(COVER * widest));
+        let near = |p| self.nearest::<K>(segments, &bins, seen.as_ref(), p);
+        (0..points.len()).into_par_iter().filter(ours).filter_map(near).collect()
     }
 
-    fn nearest<K: Kinematics<2>>(&self, segments: &Segments, bins: &Bins, p: usize) -> Option<Near> {
+    fn nearest<K: Kinematics<2>>(
+        &self,
+        segments: &Segments,
+        bins: &Bins,
+        seen: Option<&Seen>,
+        p: usize,
+    ) -> Option<Near> {
         let x = &self.points.position[p];
         let mut best: Option<(f64, u32, [f64; 2])> = None;
         for &s in bins.around(x).flatten() {
@@ -93,17 +110,43 @@ impl Soil<'_> {
         }
         let f = &self.points.deformation[p];
         let n = segment.normal;
-        let stretch = (f[(0, 0)] * n[0] + f[(1, 0)] * n[1]).hypot(f[(0, 1)] * n[0] + f[(1, 1)] * n[1]);
-        Some(Near { point: p as u32, segment: s, distance, half_width: 0.5 * spacing * stretch, spacing, normal: n })
+        let back = [f[(0, 0)] * n[0] + f[(1, 0)] * n[1], f[(0, 1)] * n[0] + f[(1, 1)] * n[1]];
+        let stretch = back[0].hypot(back[1]);
+        let depth = seen.and_then(|seen| seen.depth(&self.points.origin[p], &back.map(|b| -b / stretch)));
+        let cover = depth.filter(|depth| *depth <= COVER * spacing).map(|depth| depth * stretch);
+        Some(Near {
+            point: p as u32,
+            segment: s,
+            distance,
+            half_width: 0.5 * spacing * stretch,
+            cover,
+            spacing,
+            normal: n,
+            farther: back.map(|b| b / (stretch * stretch)),
+        })
     }
 }
 
-/// The gap of each segment: the least of the points within a spacing of it along the boundary; `None` where there is
-/// none or it is farther than `REACH` spacings.
-pub fn raw_gaps<K: Kinematics<2>>(surface: &Surface, segments: &Segments, soil: &Soil) -> Vec<Option<Gap>> {
-    let mut near = soil.near::<K>(segments);
+/// What the points around a segment say of its gap.
+#[derive(Clone, Copy, Default)]
+struct Around {
+    least: Option<Gap>,
+    /// Weights of the points that know the surface the soil began with, and their gaps (m) times these.
+    weight: f64,
+    open: f64,
+}
+
+/// The gap of each segment, from the points within a spacing of it along the boundary: the least of them, and the mean of those
+/// that know the surface which the soil began with; `None` where there is no point or it is farther than `REACH` spacings.
+pub fn raw_gaps<K: Kinematics<2>>(
+    surface: &Surface,
+    segments: &Segments,
+    soil: &Soil,
+    skin: &Skin,
+) -> Vec<Option<Gap>> {
+    let mut near = soil.near::<K>(segments, Some(skin));
     near.sort_unstable_by_key(|n| (n.segment, n.point));
-    let mut gaps: Vec<Option<Gap>> = vec![None; segments.0.len()];
+    let mut around = vec![Around::default(); segments.0.len()];
     for near in &near {
         let own = near.segment as usize;
         let Some(piece) = surface.pieces.iter().find(|piece| piece.contains(&own)) else { continue };
@@ -112,20 +155,24 @@ pub fn raw_gaps<K: Kinematics<2>>(surface: &Surface, segments: &Segments, soil: 
             continue;
         }
         let at = segments.0[own].along;
-        let offer = |gaps: &mut Vec<Option<Gap>>, s: usize| {
-            if gaps[s].is_none_or(|gap| open < gap.open) {
-                gaps[s] = Some(Gap { open, point: near.point, spacing: near.spacing });
+        let mut offer = |s: usize| {
+            let around = &mut around[s];
+            if around.least.is_none_or(|gap| open < gap.open) {
+                around.least = Some(Gap { open, point: near.point, spacing: near.spacing, known: None });
+            }
+            if let Some(cover) = near.cover {
+                let weight = 1.0 - 0.99 * (segments.0[s].along - at).abs() / near.spacing;
+                around.weight += weight.max(0.01);
+                around.open += weight.max(0.01) * (near.distance - cover);
             }
         };
-        offer(&mut gaps, own);
-        for s in (piece.start..own).rev().take_while(|&s| at - segments.0[s].along <= near.spacing) {
-            offer(&mut gaps, s);
-        }
-        for s in (own + 1..piece.end).take_while(|&s| segments.0[s].along - at <= near.spacing) {
-            offer(&mut gaps, s);
-        }
+        offer(own);
+        (piece.start..own).rev().take_while(|&s| at - segments.0[s].along <= near.spacing).for_each(&mut offer);
+        (own + 1..piece.end).take_while(|&s| segments.0[s].along - at <= near.spacing).for_each(&mut offer);
     }
-    gaps
+    let known = |around: &Around| (around.weight > 0.0).then(|| around.open / around.weight);
+    let gap = |around: &Around| around.least.map(|least| Gap { known: known(around), ..least });
+    around.iter().map(gap).collect()
 }
 
 /// The surface of the soil, to be seen from segments.
@@ -171,19 +218,20 @@ impl Facing {
     }
 }
 
-/// Moves points that are in the structure, or nearer to it than half their half width, out to there. Returns how many
-/// and the farthest move (m).
+/// Moves points that are in the structure, or nearer to it than half their half width, out to there. Each then stands for the
+/// soil that is there, so that it still knows where the surface of the soil is. Returns how many and the farthest move (m).
 pub fn push_out<K: Kinematics<2>>(segments: &Segments, points: &mut Points<2>, regions: &[u16]) -> (usize, f64) {
-    let near = Soil { points, regions }.near::<K>(segments);
+    let near = Soil { points, regions }.near::<K>(segments, None);
     let (mut count, mut most) = (0, 0.0f64);
     for near in near {
         let by = 0.5 * near.half_width - near.distance;
         if by > 0.0 {
             count += 1;
             most = most.max(by);
-            let x = &mut points.position[near.point as usize];
+            let p = near.point as usize;
             for d in 0..2 {
-                x[d] += by * near.normal[d];
+                points.position[p][d] += by * near.normal[d];
+                points.origin[p][d] += by * near.farther[d];
             }
         }
     }

@@ -14,6 +14,7 @@ mod multipliers;
 mod pair;
 mod place;
 mod rigid;
+mod skin;
 mod surface;
 
 pub use along::Mark;
@@ -22,4 +23,5 @@ pub use law::{Answer, Law, Penalty};
 pub use multipliers::Multipliers;
 pub use pair::{Boundary, Ground, Pair, Pushed, Row};
 pub use rigid::Rigid;
+pub use skin::Skin;
 pub use surface::Surface;

@@ -5,6 +5,7 @@ use super::gap::{Facing, Gap, Soil, push_out, raw_gaps};
 use super::law::{Law, Penalty};
 use super::multipliers::Multipliers;
 use super::place::{Placed, Segments};
+use super::skin::Skin;
 use super::surface::Surface;
 use crate::kinematics::Kinematics;
 use crate::material::Model;
@@ -32,6 +33,8 @@ const STILL: f64 = 1e-3;
 const BAND: f64 = 0.15;
 /// Slip, in spacings of the points, over which a gap becomes that measured.
 const SLIDE: f64 = 8.0;
+/// The same where the measured gap is that of the surface which the soil began with, and does not jump.
+const KNOWN: f64 = 1.0;
 /// Share of its slip by which a gap may be corrected in a step.
 const RATE: f64 = 0.1;
 /// Where soil is looked for from a segment, in spacings of its points.
@@ -128,29 +131,32 @@ pub struct Boundary<K> {
     /// The regions of the soil, and the model of each.
     pub regions: Vec<u16>,
     pub models: Vec<Arc<dyn Model>>,
+    /// The surface that all soil began with.
+    pub skin: Skin,
     pub kinematics: PhantomData<K>,
 }
 
 impl<K: Kinematics<2>> Boundary<K> {
-    /// The gap (m) of a hat at the beginning of a step, given that `measured` from points `spacing` (m) apart and that of
-    /// the `surface`.
+    /// The gap (m) of a hat at the beginning of a step, given that `measured` from points and that of the `surface`.
     ///
     /// What touched in the step before carries its gap on: as measured it jumps when points come and go, and every jump
     /// has to be made up for by straining the soil. It becomes that measured as the hat slides, which evens the jumps out,
     /// and is corrected by what lies beyond their size. What did not touch has the gap of the surface; it may begin to
-    /// touch, not to overlap. The second number is how much more the points measure than that.
-    fn begin(&self, measured: f64, surface: Option<f64>, spacing: f64, held: &Multipliers, hat: usize) -> (f64, f64) {
+    /// touch, not to overlap. The second number is how much more the nearest points measure than that.
+    fn begin(&self, measured: &Measured, surface: Option<f64>, held: &Multipliers, hat: usize) -> (f64, f64) {
+        let Measured { open, known, spacing } = *measured;
         let still = STILL * spacing;
+        let offset = |gap: f64| (open - gap).clamp(-0.5 * spacing, 0.5 * spacing);
         if !held.touched(hat) {
-            let gap = surface.unwrap_or(measured);
-            return (gap.max(-still), (measured - gap).clamp(-0.5 * spacing, 0.5 * spacing));
+            let gap = known.or(surface).unwrap_or(open);
+            return (gap.max(-still), offset(gap));
         }
-        let offset = held.offset[hat];
-        let (error, band) = (measured - offset - held.gap[hat], BAND * spacing);
-        let share = (held.slip[hat] / (SLIDE * spacing)).min(1.0);
+        let before = held.gap[hat];
+        let (error, slide) = known.map_or((open - held.offset[hat] - before, SLIDE), |gap| (gap - before, KNOWN));
+        let (share, band) = ((held.slip[hat] / (slide * spacing)).min(1.0), BAND * spacing);
         let most = RATE * held.slip[hat] + still;
-        let correction = share * error + ((1.0 - share) * (error - error.clamp(-band, band))).clamp(-most, most);
-        (held.gap[hat] + correction, offset)
+        let gap = before + share * error + ((1.0 - share) * (error - error.clamp(-band, band))).clamp(-most, most);
+        (gap, if known.is_some() { offset(gap) } else { held.offset[hat] })
     }
 
     /// Penalties and multipliers of a hat over soil like that at `point`.
@@ -187,6 +193,16 @@ impl Ground<'_, 2> {
     }
 }
 
+/// The gap (m) of a hat as points measure it.
+struct Measured {
+    /// That of the nearest points.
+    open: f64,
+    /// That of the surface which the soil began with, where points know it.
+    known: Option<f64>,
+    /// Spacing (m) of the points.
+    spacing: f64,
+}
+
 /// What is summed up under a hat.
 struct Sum {
     area: f64,
@@ -194,6 +210,9 @@ struct Sum {
     /// Area that faces the surface of the soil, and its distance from there times the area.
     facing: f64,
     distance: f64,
+    /// Area whose gap does not jump, and that gap times the area.
+    sure: f64,
+    known: f64,
     spacing: f64,
     point: u32,
     entries: Vec<(u32, [f64; 2], [f64; 2])>,
@@ -232,13 +251,14 @@ impl<K: Kinematics<2>> Pair<2> for Boundary<K> {
 
     fn rows(&self, ground: &Ground<2>, position: &dyn Fn(u32) -> [f64; 2], held: &Multipliers) -> Vec<Row<2>> {
         let segments = Segments::new::<K>(&self.surface, position);
-        let gaps = raw_gaps::<K>(&self.surface, &segments, &Soil { points: ground.points, regions: &self.regions });
+        let soil = Soil { points: ground.points, regions: &self.regions };
+        let gaps = raw_gaps::<K>(&self.surface, &segments, &soil, &self.skin);
         let surface = Facing::new(ground.surface);
         let mut holds = vec![false; ground.grid.cells.len()];
         ground.points.cell.iter().for_each(|&c| holds[c as usize] = true);
         let mut sums: Vec<Option<Sum>> = (0..self.surface.hats).map(|_| None).collect();
         for ((segment, placed), gap) in self.surface.segments.iter().zip(&segments.0).zip(&gaps) {
-            let Some(Gap { open, point, spacing }) = *gap else { continue };
+            let Some(Gap { open, known, point, spacing }) = *gap else { continue };
             let Some((cell, xi)) = ground.find(placed, spacing, point, &holds) else { continue };
             let across = surface.distance(placed, spacing);
             let mut value = [0.0; MAX_NODES];
@@ -254,6 +274,8 @@ impl<K: Kinematics<2>> Pair<2> for Boundary<K> {
                     open: 0.0,
                     facing: 0.0,
                     distance: 0.0,
+                    sure: 0.0,
+                    known: 0.0,
                     spacing: 0.0,
                     point,
                     entries: Vec::new(),
@@ -263,6 +285,10 @@ impl<K: Kinematics<2>> Pair<2> for Boundary<K> {
                 if let Some(distance) = across {
                     sum.facing += weight;
                     sum.distance += weight * distance;
+                }
+                if let Some(known) = known {
+                    sum.sure += weight;
+                    sum.known += weight * known;
                 }
                 sum.spacing += weight * spacing;
                 for (&node, n_s) in structure.iter().zip(&placed.value) {
@@ -274,10 +300,13 @@ impl<K: Kinematics<2>> Pair<2> for Boundary<K> {
             }
         }
         let row = |(hat, sum): (usize, Option<Sum>)| {
-            let Sum { area, open, facing, distance, spacing, point, mut entries } = sum.filter(|sum| sum.area > 0.0)?;
-            let (raw, spacing) = (open / area, spacing / area);
+            let Sum { area, open, facing, distance, sure, known, spacing, point, mut entries } =
+                sum.filter(|sum| sum.area > 0.0)?;
+            let spacing = spacing / area;
             let surface = (facing > 0.5 * area).then_some(distance / facing);
-            let (gap, offset) = self.begin(raw, surface, spacing, held, hat);
+            let known = (sure > 0.5 * area).then_some(known / sure);
+            let measured = Measured { open: open / area, known, spacing };
+            let (gap, offset) = self.begin(&measured, surface, held, hat);
             let of_structure = |n: &u32| self.surface.facets.iter().any(|f| f.contains(n));
             entries.sort_by_key(|(n, ..)| (!of_structure(n), *n));
             Some(Row {
