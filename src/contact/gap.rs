@@ -13,6 +13,10 @@ const REACH: f64 = 2.5;
 /// Points this many spacings below the surface that they began with tell where it is.
 const COVER: f64 = 1.5;
 
+/// Stretch up to which a point is as wide as its deformation says. Soil that has flowed along the boundary and then turned
+/// stretches without end; the points beside such a one have long left, and it is no wider for it.
+const WIDEST: f64 = 1.5;
+
 /// A point of soil near a boundary.
 #[derive(Clone, Copy, Debug)]
 struct Near {
@@ -113,7 +117,9 @@ impl Soil<'_> {
         let back = [f[(0, 0)] * n[0] + f[(1, 0)] * n[1], f[(0, 1)] * n[0] + f[(1, 1)] * n[1]];
         let stretch = back[0].hypot(back[1]);
         let depth = seen.and_then(|seen| seen.depth(&self.points.origin[p], &back.map(|b| -b / stretch)));
-        let cover = depth.filter(|depth| *depth <= COVER * spacing).map(|depth| depth * stretch);
+        let plain = stretch <= WIDEST;
+        let cover = depth.filter(|depth| plain && *depth <= COVER * spacing).map(|depth| depth * stretch);
+        let stretch = stretch.min(WIDEST);
         Some(Near {
             point: p as u32,
             segment: s,

@@ -134,6 +134,8 @@ struct Newton<'a, const D: usize> {
     stalled: usize,
     /// Share by which the diagonal of the tangent is raised: not zero while its steps go astray.
     damping: f64,
+    /// Why the last trial state that was not admissible is not.
+    refused: Option<Error>,
 }
 
 impl<'a, const D: usize> Newton<'a, D> {
@@ -158,6 +160,7 @@ impl<'a, const D: usize> Newton<'a, D> {
             strict: !problem.scene.pairs.is_empty() && problem.integration.is_none(),
             stalled: 0,
             damping: 0.0,
+            refused: None,
         }
     }
 
@@ -327,7 +330,10 @@ impl<'a, const D: usize> Newton<'a, D> {
             return Ok(());
         }
         let Some((_, length)) = least else {
-            return Err(self.failure("every trial state turns a material point inside out"));
+            let why = self.refused.take().map_or("no trial state is admissible".to_string(), |error| {
+                format!("no trial state is admissible: {} {}", error.place, error.problem)
+            });
+            return Err(self.failure(&why));
         };
         self.stalled += 1;
         if self.stalled <= STALLED && self.attempt(length, true).is_some() {
@@ -345,7 +351,13 @@ impl<'a, const D: usize> Newton<'a, D> {
         let done = evaluate(self.problem, self.grid, &mut self.buffers, &mut trial, tangent);
         let size = self.size(&trial);
         self.buffers.trial = trial;
-        (done.is_ok() && size.is_finite()).then_some(size)
+        match done {
+            Ok(()) => size.is_finite().then_some(size),
+            Err(error) => {
+                self.refused = Some(error);
+                None
+            }
+        }
     }
 
     fn better(&self, size: f64, length: f64) -> bool {
