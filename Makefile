@@ -11,7 +11,7 @@ MPM_BUILD := $(MPM)
 CASES := $(filter-out cases/pipeline,$(patsubst %/case.yaml,%,$(wildcard cases/*/case.yaml)))
 include pipeline/mpm.mk
 
-.PHONY: help setup build demo pile pile-variants pipeline pipeline-clean test check fmt clean bench bench-block bench-unused stress verification
+.PHONY: help setup build demo pile pile-variants pipeline pipeline-study pipeline-clean test check fmt clean bench bench-block bench-unused stress verification
 
 help: ## List the targets
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / {printf "  %-13s %s\n", $$1, $$2}' $(firstword $(MAKEFILE_LIST))
@@ -41,8 +41,12 @@ pile-variants: build ## The pile smooth, rough, as it is, and by mpm and ddmp: p
 	$(PYTHON) cases/pile/study.py
 
 pipeline: build ## The pipe pressed into the seabed and pulled across it, α = 0.5, 0 and 1: pictures, curves, a table
-	$(PYTHON) cases/pipeline/variants.py $(if $(THREADS),--threads $(THREADS))
+	$(PYTHON) cases/pipeline/variants.py smooth rough $(if $(THREADS),--threads $(THREADS))
 	for out in out out-smooth out-rough; do $(PYTHON) paraview/pipeline.py cases/pipeline/$$out; done
+	$(PYTHON) cases/pipeline/study.py
+
+pipeline-study: build ## The same with all variants: softening clay, no parting, a rigid pipe, one that may turn, half the step, a coarse mesh
+	$(PYTHON) cases/pipeline/variants.py $(if $(THREADS),--threads $(THREADS))
 	$(PYTHON) cases/pipeline/study.py
 
 pipeline-clean:

@@ -2,7 +2,7 @@
 
     .venv/bin/python cases/pipeline/study.py [OUT ...] [-o CHART]
 
-Each OUT is the output folder of a run (all of `cases/pipeline/variants.py` without). Prints a Markdown table and draws the depth of the
+Each OUT is the output folder of a run (without: what there is of all runs of `cases/pipeline/variants.py`). Prints a Markdown table and draws the depth of the
 pipe and its horizontal resistance over its way sideways to CHART (.svg or .png; without, curves.svg in the first OUT).
 
 *V* is the vertical force of the soil when the pipe is pressed down farthest, *imbalance* the largest difference in an accepted step of later
@@ -94,10 +94,11 @@ def curves(runs, chart):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
-    parser.add_argument("out", nargs="*", type=Path, help="default: cases/pipeline/out and those beside it")
+    parser.add_argument("out", nargs="*", type=Path, help="default: cases/pipeline/out and what there is of its variants")
     parser.add_argument("-o", "--chart", type=Path, help="default: curves.svg in the first OUT")
     given = parser.parse_args()
-    outs = given.out or [CASE / "out", *(CASE / f"out-{name}" for name in ("smooth", "rough"))]
+    variants = [out for out in sorted(CASE.glob("out-*")) if (out / "history.csv").exists()]
+    outs = given.out or [CASE / "out", *variants]
     lacking = [str(out) for out in outs if not (out / "history.csv").exists()]
     if lacking:
         sys.exit(f"{', '.join(lacking)}: no history.csv; run `cases/pipeline/variants.py` first")
