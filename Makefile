@@ -14,8 +14,8 @@ include pipeline/mpm.mk
 .PHONY: help setup build demo pile pile-variants pipeline pipeline-study pipeline-clean test check fmt clean bench bench-block bench-unused stress verification
 
 help: ## List the targets
-	@awk -F ':.*## ' '/^[a-z-]+:.*## / {printf "  %-13s %s\n", $$1, $$2}' $(firstword $(MAKEFILE_LIST))
-	@printf '  %-13s %s\n' '<case>' 'The four stages of a case, stale ones only: $(notdir $(CASES))' \
+	@awk -F ':.*## ' '/^[a-z-]+:.*## / {printf "  %-14s %s\n", $$1, $$2}' $(firstword $(MAKEFILE_LIST))
+	@printf '  %-14s %s\n' '<case>' 'The four stages of a case, stale ones only: $(notdir $(CASES))' \
 	  '<case>-clean' 'Remove the output of a case; also -mesh, -seed, -solve, -export for single stages'
 
 setup: ## Install what is missing beside Rust: system packages (as root) and the wheels in .venv
