@@ -5,8 +5,12 @@
 //! its symbolic factorisation stay fixed until the cliques change.
 
 mod assembly;
+mod factor;
+mod halves;
 mod iterative;
+mod lu;
 mod pattern;
+mod separator;
 mod solver;
 
 pub use assembly::{Beyond, Local, Matrix, Workspace, scatter};
