@@ -256,4 +256,3 @@ pub(super) fn least_pivot(
     }
     least
 }
-

@@ -10,11 +10,13 @@ mod halves;
 mod iterative;
 mod lu;
 mod pattern;
+mod scatter;
 mod separator;
 mod solver;
 
-pub use assembly::{Beyond, Local, Matrix, Workspace, scatter};
+pub use assembly::{Beyond, Matrix};
 pub use pattern::{Cliques, Pattern};
+pub use scatter::{Local, Workspace, scatter};
 pub use solver::{Method, Solver};
 
 #[cfg(test)]

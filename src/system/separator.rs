@@ -45,8 +45,9 @@ fn weigh(pattern: &Pattern, blocks: &[u32]) -> f64 {
 
 /// Where all blocks are along an axis.
 fn along<const D: usize>(pattern: &Pattern, places: &[[f64; D]], axis: usize) -> Option<Vec<f64>> {
-    let mut along: Vec<f64> = places.iter().map(|place| place[axis]).collect();
-    for b in along.len()..pattern.start.len() - 1 {
+    let blocks = pattern.start.len() - 1;
+    let mut along: Vec<f64> = places.iter().take(blocks).map(|place| place[axis]).collect();
+    for b in along.len()..blocks {
         let beside = pattern.neighbours(b).iter().filter_map(|&n| places.get(n as usize));
         let (count, sum) = beside.fold((0.0, 0.0), |(count, sum), place| (count + 1.0, sum + place[axis]));
         along.push(if count > 0.0 { sum / count } else { 0.0 });
@@ -61,30 +62,30 @@ fn across(pattern: &Pattern, along: &[f64]) -> Option<Parts> {
     let (first, last) = (along[*order.first()? as usize], along[*order.last()? as usize]);
     let middle = order.iter().scan(0, |sum, &b| {
         *sum += 2 * (pattern.start[b as usize + 1] - pattern.start[b as usize]) as usize;
-        Some((*sum >= pattern.len()).then_some(along[b as usize]))
+        Some((*sum > pattern.len()).then_some(along[b as usize]))
     });
     let line = middle.flatten().next()? - CLOSE * (last - first);
     let lower = |b: u32| along[b as usize] < line;
-    // The edges across the line, by their lower ends; the upper ends are numbered as they come.
-    let (mut ends, mut edges, mut uppers) = (Vec::new(), Vec::new(), Vec::new());
+    // The edges across the line, by their upper ends, which are of the heavier part; the lower ones are numbered as they come.
+    let (mut uppers, mut lowers, mut edges) = (Vec::new(), Vec::new(), Vec::new());
     let mut number = vec![NONE; along.len()];
-    for b in (0..along.len() as u32).filter(|&b| lower(b)) {
-        let beyond: Vec<u32> = pattern.neighbours(b as usize).iter().copied().filter(|&n| !lower(n)).collect();
-        if beyond.is_empty() {
-            continue;
-        }
-        for &n in beyond.iter() {
+    for b in (0..along.len() as u32).filter(|&b| !lower(b)) {
+        let mut ends = Vec::new();
+        for &n in pattern.neighbours(b as usize).iter().filter(|&&n| lower(n)) {
             if number[n as usize] == NONE {
-                number[n as usize] = uppers.len() as u32;
-                uppers.push(n);
+                number[n as usize] = lowers.len() as u32;
+                lowers.push(n);
             }
+            ends.push(number[n as usize]);
         }
-        ends.push(b);
-        edges.push(beyond.iter().map(|&n| number[n as usize]).collect());
+        if !ends.is_empty() {
+            uppers.push(b);
+            edges.push(ends);
+        }
     }
-    let [below, above] = cover(&edges, uppers.len());
-    let chosen = |ends: Vec<u32>, chosen: Vec<bool>| ends.into_iter().zip(chosen).filter(|(_, c)| *c).map(|(b, _)| b);
-    let mut separator: Vec<u32> = chosen(ends, below).chain(chosen(uppers, above)).collect();
+    let [of_uppers, of_lowers] = cover(&edges, lowers.len());
+    let ends = uppers.into_iter().zip(of_uppers).chain(lowers.into_iter().zip(of_lowers));
+    let mut separator: Vec<u32> = ends.filter(|(_, chosen)| *chosen).map(|(b, _)| b).collect();
     separator.sort_unstable();
     let half = |side: bool| {
         let own = |b: &u32| lower(*b) == side && separator.binary_search(b).is_err();
@@ -93,8 +94,8 @@ fn across(pattern: &Pattern, along: &[f64]) -> Option<Parts> {
     Some(Parts { halves: [half(true), half(false)], separator })
 }
 
-/// The fewest nodes of a bipartite graph that all edges end at: which of the left, which of the right ones. `edges` has the
-/// right ends of each left node.
+/// The fewest nodes of a bipartite graph that all edges end at: which of the left, rather, and which of the right ones.
+/// `edges` has the right ends of each left node.
 fn cover(edges: &[Vec<u32>], right: usize) -> [Vec<bool>; 2] {
     // As many pairs as there can be: each path from a left to a right node that are alone gives one more.
     let (mut of_left, mut of_right) = (vec![NONE; edges.len()], vec![NONE; right]);
@@ -106,9 +107,9 @@ fn cover(edges: &[Vec<u32>], right: usize) -> [Vec<bool>; 2] {
         }
     }
     let alone = (0..edges.len() as u32).filter(|&left| of_left[left as usize] == NONE);
-    let above: Vec<bool> = search(edges, &of_right, alone).0.iter().map(|&from| from != NONE).collect();
-    let below = edges.iter().map(|ends| ends.iter().any(|&end| !above[end as usize])).collect();
-    [below, above]
+    let of_right: Vec<bool> = search(edges, &of_right, alone).0.iter().map(|&from| from != NONE).collect();
+    let of_left = edges.iter().map(|ends| ends.iter().any(|&end| !of_right[end as usize])).collect();
+    [of_left, of_right]
 }
 
 /// What can be reached from left nodes by edges, and back by partners: the left node before each right one, and the first
