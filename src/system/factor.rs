@@ -1,6 +1,7 @@
 //! LLᵀ and LDLᵀ factors of symmetric matrices by faer, whole or by halves.
 
 use super::halves::Halves;
+use super::supernodes::supernodes;
 use super::{Matrix, Pattern};
 use crate::error::{Error, Result};
 use faer::dyn_stack::{MemBuffer, MemStack, StackReq};
@@ -226,23 +227,15 @@ pub(super) fn least_pivot(
     llt: bool,
     count: usize,
 ) -> f64 {
-    let n = symbolic.nrows();
-    let mut pivot = vec![0.0; n];
-    match symbolic.raw() {
-        cholesky::SymbolicCholeskyRaw::Simplicial(s) => {
-            for (pivot, &first) in pivot.iter_mut().zip(s.col_ptr()) {
-                *pivot = values[first as usize];
-            }
+    let mut pivot = vec![0.0; symbolic.nrows()];
+    if let cholesky::SymbolicCholeskyRaw::Simplicial(s) = symbolic.raw() {
+        for (pivot, &first) in pivot.iter_mut().zip(s.col_ptr()) {
+            *pivot = values[first as usize];
         }
-        cholesky::SymbolicCholeskyRaw::Supernodal(s) => {
-            for k in 0..s.n_supernodes() {
-                let (begin, end) = (s.supernode_begin()[k] as usize, s.supernode_end()[k] as usize);
-                let first = s.col_ptr_for_val()[k] as usize;
-                let rows = end - begin + s.supernode(k).pattern().len();
-                for i in begin..end {
-                    pivot[i] = values[first + (i - begin) * (rows + 1)];
-                }
-            }
+    }
+    for node in supernodes(symbolic, values) {
+        for i in node.columns.clone() {
+            pivot[i] = node.column(i)[i - node.columns.start];
         }
     }
     let order = symbolic.perm().map(|p| p.arrays().0);

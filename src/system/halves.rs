@@ -11,6 +11,7 @@
 
 use super::factor::{equations, factorize, least_pivot, lower, ordering, out_of_memory, scratch};
 use super::separator::halve;
+use super::supernodes::{backward, forward, supernodes};
 use super::{Matrix, Pattern};
 use crate::error::Result;
 use faer::dyn_stack::{MemBuffer, MemStack, StackReq};
@@ -18,7 +19,6 @@ use faer::linalg::cholesky::{ldlt, llt};
 use faer::sparse::linalg::{SupernodalThreshold, cholesky};
 use faer::sparse::{SparseColMatRef, SymbolicSparseColMatRef};
 use faer::{Conj, Mat, MatMut, Par, Side};
-use std::ops::Range;
 
 pub struct Halves {
     halves: [Half; 2],
@@ -52,14 +52,6 @@ struct Half {
     x: Vec<f64>,
     /// What the columns of a supernode have to do with the equations after it.
     beyond: Vec<f64>,
-}
-
-/// Columns of a factor that share their rows: `rows` is those after the last of `columns`.
-struct Supernode<'a> {
-    columns: Range<usize>,
-    rows: &'a [u32],
-    /// Column-major, the upper triangle among the columns included.
-    values: &'a [f64],
 }
 
 impl Halves {
@@ -246,69 +238,14 @@ impl Half {
         let (own, separator) = self.x.split_at_mut(self.own);
         own.iter_mut().zip(&self.equations).for_each(|(x, &equation)| *x = b[equation as usize]);
         separator.fill(0.0);
-        for node in supernodes(&self.symbolic, &self.factor) {
-            let beyond = &mut self.beyond[..node.rows.len()];
-            beyond.fill(0.0);
-            for j in node.columns.start..node.columns.end.min(self.own) {
-                let (among, below) = node.column(j).split_at(node.columns.len());
-                let (done, rest) = self.x[node.columns.clone()].split_at_mut(j + 1 - node.columns.start);
-                let (diagonal, among) = among[done.len() - 1..].split_at(1);
-                let Some(x) = done.last_mut() else { continue };
-                if llt {
-                    *x /= diagonal[0];
-                }
-                rest.iter_mut().zip(among).for_each(|(rest, l)| *rest -= l * *x);
-                beyond.iter_mut().zip(below).for_each(|(beyond, l)| *beyond -= l * *x);
-            }
-            for (&i, beyond) in node.rows.iter().zip(beyond) {
-                self.x[i as usize] += *beyond;
-            }
-        }
+        forward(supernodes(&self.symbolic, &self.factor), self.own, &mut self.x, &mut self.beyond, llt);
     }
 
     /// Solves for the own equations with the upper triangle, the separator's known.
     fn backward(&mut self, separator: &[f64], llt: bool) {
         self.x[self.own..].copy_from_slice(separator);
-        for node in supernodes(&self.symbolic, &self.factor).rev() {
-            let beyond = &mut self.beyond[..node.rows.len()];
-            for (beyond, &i) in beyond.iter_mut().zip(node.rows) {
-                *beyond = self.x[i as usize];
-            }
-            for j in (node.columns.start..node.columns.end.min(self.own)).rev() {
-                let (among, below) = node.column(j).split_at(node.columns.len());
-                let (diagonal, among) = among[j - node.columns.start..].split_at(1);
-                let known = product(among, &self.x[j + 1..]) + product(below, beyond);
-                let x = &mut self.x[j];
-                *x = if llt { (*x - known) / diagonal[0] } else { *x / diagonal[0] - known };
-            }
-        }
+        backward(supernodes(&self.symbolic, &self.factor).rev(), self.own, &mut self.x, &mut self.beyond, llt);
     }
-}
-
-impl<'a> Supernode<'a> {
-    /// Column `j` from the row of the first column on.
-    fn column(&self, j: usize) -> &'a [f64] {
-        let rows = self.columns.len() + self.rows.len();
-        &self.values[(j - self.columns.start) * rows..][..rows]
-    }
-}
-
-fn supernodes<'a>(
-    symbolic: &'a cholesky::SymbolicCholesky<u32>,
-    factor: &'a [f64],
-) -> impl DoubleEndedIterator<Item = Supernode<'a>> {
-    let supernodal = match symbolic.raw() {
-        cholesky::SymbolicCholeskyRaw::Supernodal(supernodal) => Some(supernodal),
-        // Only where there are no equations.
-        cholesky::SymbolicCholeskyRaw::Simplicial(_) => None,
-    };
-    supernodal.into_iter().flat_map(move |s| {
-        (0..s.n_supernodes()).map(move |k| Supernode {
-            columns: s.supernode_begin()[k] as usize..s.supernode_end()[k] as usize,
-            rows: s.supernode(k).pattern(),
-            values: &factor[s.col_ptr_for_val()[k] as usize..s.col_ptr_for_val()[k + 1] as usize],
-        })
-    })
 }
 
 /// Where each of `n` columns begins among entries that are sorted by their columns, and which entries these are.
@@ -336,18 +273,4 @@ fn by_degree(pattern: &Pattern, blocks: &[u32]) -> Result<Vec<u32>> {
         column.push(row.len() as u32);
     }
     Ok(ordering(&column, &row)?.iter().map(|&k| blocks[k as usize]).collect())
-}
-
-/// `a · b`, `b` at least as long, in as many sums side by side as a register holds.
-fn product(a: &[f64], b: &[f64]) -> f64 {
-    let b = &b[..a.len()];
-    let mut sums = [0.0; 8];
-    let (a, b) = (a.chunks_exact(8), b.chunks_exact(8));
-    let rest: f64 = a.remainder().iter().zip(b.remainder()).map(|(a, b)| a * b).sum();
-    for (a, b) in a.zip(b) {
-        for k in 0..8 {
-            sums[k] += a[k] * b[k];
-        }
-    }
-    sums.iter().sum::<f64>() + rest
 }

@@ -13,6 +13,7 @@ mod pattern;
 mod scatter;
 mod separator;
 mod solver;
+mod supernodes;
 
 pub use assembly::{Beyond, Matrix};
 pub use pattern::{Cliques, Pattern};
