@@ -7,6 +7,7 @@ use super::container::{Array, Scalar, Store};
 use crate::error::Result;
 use crate::points::Points;
 use crate::tensor::{Symmetric, Tensor};
+use rayon::prelude::*;
 
 /// All columns, in a fixed order, every number bit-exact.
 pub fn to_arrays<const D: usize>(points: &Points<D>) -> Vec<Array> {
@@ -30,30 +31,26 @@ pub fn to_arrays<const D: usize>(points: &Points<D>) -> Vec<Array> {
         region,
         cell,
     } = points;
-    let mut arrays = vec![
-        array("position", "m", 3, padded(position)),
-        array("origin", "m", 3, padded(origin)),
-        array("reference", "m", 3, padded(reference)),
-        array("velocity", "m/s", 3, padded(velocity)),
-        array("acceleration", "m/s2", 3, padded(acceleration)),
-        array("mass", "t", 1, mass.clone()),
-        array("initial_volume", "m3", 1, initial_volume.clone()),
-        array(
-            "deformation",
-            "-",
-            9,
-            deformation.iter().flat_map(|t| t.transpose().data.0.into_iter().flatten()).collect(),
-        ),
-        array("elastic", "-", 6, elastic.concat()),
-        array("stress", "kPa", 6, stress.concat()),
-        array("plastic_strain", "-", 1, plastic_strain.clone()),
-        array("plastic_increment", "-", 1, plastic_increment.clone()),
-        array("memory", "-", 1, memory.clone()),
-        array("pressure", "kPa", 1, pressure.clone()),
-        array("pore_pressure", "kPa", 1, pore_pressure.clone()),
-        array("region", "-", 1, region.clone()),
-        array("cell", "-", 1, cell.clone()),
+    let columns: [&(dyn Fn() -> Array + Sync); 17] = [
+        &|| array("position", "m", 3, padded(position)),
+        &|| array("origin", "m", 3, padded(origin)),
+        &|| array("reference", "m", 3, padded(reference)),
+        &|| array("velocity", "m/s", 3, padded(velocity)),
+        &|| array("acceleration", "m/s2", 3, padded(acceleration)),
+        &|| array("mass", "t", 1, mass.clone()),
+        &|| array("initial_volume", "m3", 1, initial_volume.clone()),
+        &|| array("deformation", "-", 9, by_rows(deformation)),
+        &|| array("elastic", "-", 6, elastic.concat()),
+        &|| array("stress", "kPa", 6, stress.concat()),
+        &|| array("plastic_strain", "-", 1, plastic_strain.clone()),
+        &|| array("plastic_increment", "-", 1, plastic_increment.clone()),
+        &|| array("memory", "-", 1, memory.clone()),
+        &|| array("pressure", "kPa", 1, pressure.clone()),
+        &|| array("pore_pressure", "kPa", 1, pore_pressure.clone()),
+        &|| array("region", "-", 1, region.clone()),
+        &|| array("cell", "-", 1, cell.clone()),
     ];
+    let mut arrays: Vec<Array> = columns.par_iter().map(|column| column()).collect();
     const OPTIONAL: [&str; 7] =
         ["reference", "velocity", "acceleration", "plastic_increment", "memory", "pressure", "pore_pressure"];
     arrays.retain(|a| !(a.data.is_empty() && OPTIONAL.contains(&a.name.as_str())));
@@ -103,6 +100,15 @@ pub fn padded<const D: usize>(vectors: &[[f64; D]]) -> Vec<f64> {
         for (out, v) in out.iter_mut().zip(v) {
             *out = *v;
         }
+    }
+    out
+}
+
+/// The components of tensors, row by row.
+fn by_rows(tensors: &[Tensor]) -> Vec<f64> {
+    let mut out = vec![0.0; 9 * tensors.len()];
+    for (out, t) in out.chunks_exact_mut(9).zip(tensors) {
+        out.copy_from_slice(t.transpose().as_slice());
     }
     out
 }

@@ -77,10 +77,11 @@ pub struct Grid<const D: usize> {
 }
 
 impl System {
-    fn new(sizes: &[u8], cliques: Cliques, symmetric: bool) -> Result<Self> {
+    /// A system of blocks of `sizes` unknowns; `places` as for [`Solver::new`].
+    fn new<const D: usize>(sizes: &[u8], cliques: Cliques, symmetric: bool, places: &[[f64; D]]) -> Result<Self> {
         let pattern = Pattern::new(sizes, cliques, symmetric);
         let matrix = Matrix::new(&pattern);
-        let solver = Solver::new(&pattern)?;
+        let solver = Solver::new(&pattern, places)?;
         Ok(Self { pattern, matrix, solver })
     }
 }
@@ -242,7 +243,9 @@ impl<const D: usize> Grid<D> {
             }
         }
         let dynamic = scene.dynamic();
-        let mass = if dynamic { Some(System::new(&vec![1; node.len()], cliques.clone(), true)?) } else { None };
+        let places: Vec<_> = node.iter().map(|&n| mesh.nodes[n as usize]).collect();
+        let mass =
+            if dynamic { Some(System::new(&vec![1; node.len()], cliques.clone(), true, &places)?) } else { None };
         // The mass always takes a penalty on faces, the motion only where a term says so.
         let mut cliques = if scene.terms.iter().any(|t| t.penalises_faces()) { cliques } else { cells_only };
         let touch_clique = contact::couple(state, &block, &mut cliques);
@@ -270,10 +273,10 @@ impl<const D: usize> Grid<D> {
         let symmetric = scene.terms.iter().all(|t| t.symmetric());
         let mut sizes = vec![D as u8; node.len()];
         let (motion, carrier) = match with_pressure {
-            None => (System::new(&sizes, cliques, symmetric)?, Vec::new()),
+            None => (System::new(&sizes, cliques, symmetric, &places)?, Vec::new()),
             Some(Carriers { carrier, cliques }) => {
                 sizes.resize(node.len() + carrier.len(), 1);
-                let mut motion = System::new(&sizes, cliques, symmetric)?;
+                let mut motion = System::new(&sizes, cliques, symmetric, &places)?;
                 motion.solver = motion.solver.saddle();
                 (motion, carrier)
             }

@@ -49,7 +49,8 @@ pub fn relax<const D: usize>(scene: &Scene<D>, state: &mut State<D>) -> Result<O
     let held = corners.held(first, &shared);
     let mut moved = vec![[0.0; D]; first.nodes.len()];
     let pattern = Pattern::new(&vec![1; corners.node.len()], corners.edges(first), true);
-    let mut solver = Solver::new(&pattern)?;
+    let places: Vec<_> = corners.node.iter().map(|&n| first.nodes[n as usize]).collect();
+    let mut solver = Solver::new(&pattern, &places)?;
     for d in 0..D {
         let fixed: Vec<bool> = held.iter().map(|held| held[d]).collect();
         let given: Vec<f64> =

@@ -1,7 +1,7 @@
-//! Assembly of dense clique matrices and vectors into a system.
+//! The matrix of a system.
 
 use super::Pattern;
-use crate::error::Result;
+use super::scatter::Columns;
 use rayon::prelude::*;
 
 /// Groups of columns that are worked on side by side, whatever the threads.
@@ -28,14 +28,6 @@ pub trait Beyond: Send + Sync {
 
     /// Gives back the memory of a summand that is spent.
     fn into_memory(self: Box<Self>) -> Vec<f64>;
-}
-
-/// What one clique contributes: a dense matrix (row-major) and a vector over the equations of its blocks.
-pub struct Local<'a> {
-    /// Row-major, `size × size`; empty when only the vector is wanted.
-    pub matrix: &'a mut [f64],
-    pub vector: &'a mut [f64],
-    pub size: usize,
 }
 
 impl Matrix {
@@ -66,21 +58,31 @@ impl Matrix {
 
     /// The matrix in `count` groups of columns with about as many entries each.
     fn columns(&mut self, pattern: &Pattern, count: usize) -> Vec<Columns<'_>> {
-        let blocks = pattern.start.len() as u32 - 1;
-        let first = |block: u32| pattern.column[pattern.start[block as usize] as usize] as usize;
-        let total = self.values.len();
-        let (mut groups, mut values, mut begin) = (Vec::with_capacity(count), &mut self.values[..], 0);
-        for group in 1..=count {
-            let mut end = if group == count { blocks } else { begin };
-            while end < blocks && first(end) < group * total / count {
-                end += 1;
+        let blocks = pattern.start.len() - 1;
+        let (total, mut begin) = (self.values.len(), 0);
+        let mut cuts = Vec::with_capacity(count - 1);
+        for group in 1..count {
+            while begin < blocks && (pattern.column[pattern.start[begin] as usize] as usize) < group * total / count {
+                begin += 1;
             }
-            let own;
-            (own, values) = values.split_at_mut(first(end) - first(begin));
-            groups.push(Columns { blocks: begin..end, first: first(begin), values: own });
-            begin = end;
+            cuts.push(begin as u32);
         }
-        groups
+        self.columns_between(pattern, &cuts)
+    }
+
+    /// The matrix in groups of columns that end at the blocks `cuts`, ascending.
+    pub(super) fn columns_between(&mut self, pattern: &Pattern, cuts: &[u32]) -> Vec<Columns<'_>> {
+        let first = |block: u32| pattern.column[pattern.start[block as usize] as usize] as usize;
+        let (mut values, mut begin) = (&mut self.values[..], 0);
+        let last = pattern.start.len() as u32 - 1;
+        let group = |&end: &u32| {
+            let own;
+            (own, values) = std::mem::take(&mut values).split_at_mut(first(end) - first(begin));
+            let group = Columns { blocks: begin..end, first: first(begin), values: own };
+            begin = end;
+            group
+        };
+        cuts.iter().chain([&last]).map(group).collect()
     }
 
     /// Takes the equations marked in `fixed` out of the system: their rows and columns vanish but for a
@@ -180,15 +182,11 @@ impl Matrix {
 
     /// The diagonal.
     pub fn diagonal(&self, pattern: &Pattern) -> Vec<f64> {
-        let mut diagonal = vec![0.0; pattern.len()];
-        for (j, diagonal) in diagonal.iter_mut().enumerate() {
-            for k in pattern.column[j] as usize..pattern.column[j + 1] as usize {
-                if pattern.row[k] as usize == j {
-                    *diagonal = self.values[k];
-                }
-            }
-        }
-        diagonal
+        let entry = |j: usize| {
+            let column = pattern.column[j] as usize..pattern.column[j + 1] as usize;
+            self.values[column.start + pattern.row[column].partition_point(|&row| (row as usize) < j)]
+        };
+        (0..pattern.len()).map(entry).collect()
     }
 
     /// Makes the `wanted` of the first equations stiffer by a share of their diagonal.
@@ -206,125 +204,4 @@ impl Matrix {
     pub fn scale(&self, pattern: &Pattern) -> f64 {
         self.diagonal(pattern).iter().fold(f64::MIN_POSITIVE, |scale, d| scale.max(d.abs()))
     }
-}
-
-/// Some columns of a matrix.
-struct Columns<'a> {
-    /// The blocks they belong to.
-    blocks: std::ops::Range<u32>,
-    /// Where their values begin in the matrix.
-    first: usize,
-    values: &'a mut [f64],
-}
-
-impl Columns<'_> {
-    /// The equations they belong to.
-    fn equations(&self, pattern: &Pattern) -> std::ops::Range<usize> {
-        pattern.start[self.blocks.start as usize] as usize..pattern.start[self.blocks.end as usize] as usize
-    }
-
-    /// Adds what the dense matrix of clique `k` has in these columns.
-    fn add(&mut self, pattern: &Pattern, k: usize, local: &[f64], size: usize) {
-        let blocks = pattern.cliques.blocks(k);
-        let first_pair = pattern.pairs[k] as usize;
-        let mut column = 0;
-        for (b, &cb) in blocks.iter().enumerate() {
-            let width = (pattern.start[cb as usize + 1] - pattern.start[cb as usize]) as usize;
-            if !self.blocks.contains(&cb) {
-                column += width;
-                continue;
-            }
-            let mut row = 0;
-            for (a, &ra) in blocks.iter().enumerate() {
-                let height = (pattern.start[ra as usize + 1] - pattern.start[ra as usize]) as usize;
-                if !pattern.symmetric || ra >= cb {
-                    let offset = pattern.offset[first_pair + a * blocks.len() + b] as usize;
-                    for j in 0..width {
-                        let begin = pattern.column[pattern.start[cb as usize] as usize + j] as usize - self.first;
-                        // In the lower triangle column j of the diagonal block has lost its first j rows.
-                        let (skip, lost) = match (pattern.symmetric, ra == cb) {
-                            (true, true) => (j, j),
-                            (true, false) => (0, j),
-                            _ => (0, 0),
-                        };
-                        for i in skip..height {
-                            self.values[begin + offset + i - lost] += local[(row + i) * size + column + j];
-                        }
-                    }
-                }
-                row += height;
-            }
-            column += width;
-        }
-    }
-}
-
-/// Items computed side by side before their results are added, in their order, to the system.
-const BATCH: usize = 512;
-
-/// Memory that assembly uses again and again.
-#[derive(Default)]
-pub struct Workspace {
-    buffer: Vec<f64>,
-}
-
-/// Computes the contributions of `items` (each with its clique) in parallel and adds them to `vector` and,
-/// where wanted, to `matrix`. The order of the additions is that of `items`, so the sums do not depend on
-/// the number of threads.
-///
-/// # Errors
-/// The error of the first item that fails; the sums are then incomplete.
-pub fn scatter<I: Sync>(
-    pattern: &Pattern,
-    items: &[I],
-    clique: impl Fn(&I) -> usize + Sync,
-    compute: impl Fn(&I, &mut Local) -> Result<()> + Sync,
-    vector: &mut [f64],
-    matrix: Option<&mut Matrix>,
-    workspace: &mut Workspace,
-) -> Result<()> {
-    let largest = pattern.largest_clique;
-    let matrix_stride = if matrix.is_some() { largest * largest } else { 0 };
-    let stride = largest + matrix_stride;
-    if stride == 0 {
-        return Ok(());
-    }
-    workspace.buffer.resize(stride * BATCH, 0.0);
-    let threads = rayon::current_num_threads();
-    let mut columns = matrix.map_or(Vec::new(), |matrix| matrix.columns(pattern, threads));
-    let run = |item: &I, slot: &mut [f64]| {
-        let size = pattern.clique_size(clique(item));
-        slot.fill(0.0);
-        let (vector, rest) = slot.split_at_mut(largest);
-        let matrix = if matrix_stride > 0 { &mut rest[..size * size] } else { &mut rest[..0] };
-        compute(item, &mut Local { matrix, vector: &mut vector[..size], size })
-    };
-    for batch in items.chunks(BATCH) {
-        let slots = &mut workspace.buffer[..stride * batch.len()];
-        let pairs = batch.par_iter().zip(slots.par_chunks_mut(stride));
-        if pairs.try_for_each(|(item, slot)| run(item, slot).map_err(|_| ())).is_err() {
-            // Threads may fail in any order: run again one by one for the error of the first item.
-            for (item, slot) in batch.iter().zip(slots.chunks_mut(stride)) {
-                run(item, slot)?;
-            }
-        }
-        for (item, slot) in batch.iter().zip(slots.chunks(stride)) {
-            let k = clique(item);
-            let mut local = 0;
-            for &b in pattern.cliques.blocks(k) {
-                for equation in pattern.start[b as usize]..pattern.start[b as usize + 1] {
-                    vector[equation as usize] += slot[local];
-                    local += 1;
-                }
-            }
-        }
-        // Each thread adds to columns of its own, so that every entry sees the items in their order.
-        columns.par_iter_mut().for_each(|columns| {
-            for (item, slot) in batch.iter().zip(slots.chunks(stride)) {
-                let k = clique(item);
-                columns.add(pattern, k, &slot[largest..], pattern.clique_size(k));
-            }
-        });
-    }
-    Ok(())
 }

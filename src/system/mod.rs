@@ -5,12 +5,19 @@
 //! its symbolic factorisation stay fixed until the cliques change.
 
 mod assembly;
+mod factor;
+mod halves;
 mod iterative;
+mod lu;
 mod pattern;
+mod scatter;
+mod separator;
 mod solver;
+mod supernodes;
 
-pub use assembly::{Beyond, Local, Matrix, Workspace, scatter};
+pub use assembly::{Beyond, Matrix};
 pub use pattern::{Cliques, Pattern};
+pub use scatter::{Local, Workspace, scatter};
 pub use solver::{Method, Solver};
 
 #[cfg(test)]

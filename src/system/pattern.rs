@@ -101,7 +101,7 @@ impl Pattern {
     }
 
     /// The blocks that block `b` is coupled with, ascending, itself among them.
-    fn neighbours(&self, b: usize) -> &[u32] {
+    pub(super) fn neighbours(&self, b: usize) -> &[u32] {
         &self.graph_row[self.graph_column[b] as usize..self.graph_column[b + 1] as usize]
     }
 

@@ -2,6 +2,8 @@
 
 use super::*;
 
+mod halves;
+
 /// A chain of blocks with mixed sizes and three cliques, one of them unordered.
 fn chain(symmetric: bool) -> Pattern {
     let mut cliques = Cliques::default();
@@ -84,7 +86,7 @@ fn check_solution(symmetric: bool, skew: f64, shift: f64, expected: Method) {
     for (a, b) in x.iter().zip(&product) {
         assert!((a - b).abs() < 1e-12, "multiply: {a} against {b}");
     }
-    let mut solver = Solver::new(&pattern).unwrap();
+    let mut solver = Solver::new::<2>(&pattern, &[]).unwrap();
     assert_eq!(solver.solve(&pattern, &matrix, &mut x).unwrap(), expected);
     for (a, b) in x.iter().zip(&exact) {
         assert!((a - b).abs() < 1e-10, "{a} against {b}");
@@ -122,7 +124,7 @@ fn constraints_move_to_the_right_hand_side() {
         let fixed: Vec<bool> = (0..n).map(|i| i % 3 == 0).collect();
         let scale = matrix.scale(&pattern);
         matrix.constrain(&pattern, &fixed, &exact, scale, &mut x);
-        Solver::new(&pattern).unwrap().solve(&pattern, &matrix, &mut x).unwrap();
+        Solver::new::<2>(&pattern, &[]).unwrap().solve(&pattern, &matrix, &mut x).unwrap();
         for (a, b) in x.iter().zip(&exact) {
             assert!((a - b).abs() < 1e-11, "{a} against {b}");
         }
@@ -147,9 +149,9 @@ fn a_singular_system_is_refused() {
     let pattern = chain(true);
     let matrix = Matrix::new(&pattern);
     let mut x = vec![1.0; pattern.len()];
-    assert!(Solver::new(&pattern).unwrap().solve(&pattern, &matrix, &mut x).is_err());
+    assert!(Solver::new::<2>(&pattern, &[]).unwrap().solve(&pattern, &matrix, &mut x).is_err());
     let mut x = vec![f64::NAN; pattern.len()];
-    assert!(Solver::new(&pattern).unwrap().solve(&pattern, &matrix, &mut x).is_err());
+    assert!(Solver::new::<2>(&pattern, &[]).unwrap().solve(&pattern, &matrix, &mut x).is_err());
 }
 
 #[test]
@@ -161,8 +163,8 @@ fn the_number_of_threads_does_not_change_the_sums() {
     assert_eq!(run(1), run(3));
 }
 
-/// A net of `n × n` nodes with springs of all strengths between neighbours, and its stiffness.
-fn net(n: u32, symmetric: bool) -> (Pattern, Matrix) {
+/// A net of `n × n` nodes with springs of all strengths between neighbours, its stiffness, and where the nodes are.
+fn net(n: u32, symmetric: bool) -> (Pattern, Matrix, Vec<[f64; 2]>) {
     let mut cliques = Cliques::default();
     for i in 0..n * n {
         if i % n + 1 < n {
@@ -178,17 +180,19 @@ fn net(n: u32, symmetric: bool) -> (Pattern, Matrix) {
         let s = (7.0 * (k as f64).sin()).exp();
         matrix.add(&pattern, k, &[s, -s, -s, s], 2);
     }
-    (pattern, matrix)
+    let places = (0..n * n).map(|i| [f64::from(i % n), f64::from(i / n)]).collect();
+    (pattern, matrix, places)
 }
 
 /// A load that a free body could bear has solutions, but no single one: what rounding makes of it is refused.
 #[test]
 fn a_singular_system_that_has_solutions_is_refused() {
-    for (n, symmetric) in [(3, true), (30, true), (30, false)] {
-        let (pattern, mut matrix) = net(n, symmetric);
+    // The last two are large enough to be halved.
+    for (n, symmetric) in [(3, true), (30, true), (30, false), (150, true), (150, false)] {
+        let (pattern, mut matrix, places) = net(n, symmetric);
         let mut load = vec![0.0; pattern.len()];
         (load[1], load[5]) = (1.0, -1.0);
-        let mut solver = Solver::new(&pattern).unwrap();
+        let mut solver = Solver::new(&pattern, &places).unwrap();
         let refused = solver.solve(&pattern, &matrix, &mut load.clone()).unwrap_err();
         assert!(refused.problem.contains("singular"), "{refused}");
         let mut fixed = vec![false; pattern.len()];
@@ -200,12 +204,12 @@ fn a_singular_system_that_has_solutions_is_refused() {
     }
 }
 
-/// A net large enough for products in groups: they are those of a plain sum over the entries, and they, the right-hand
+/// A net large enough for products in groups and a factor by halves: they are those of a plain sum over the entries, and they, the right-hand
 /// side of a constrained system and its solution have the same bits on any number of threads.
 #[test]
 fn products_and_constraints_do_not_depend_on_the_threads() {
     for symmetric in [true, false] {
-        let (pattern, matrix) = net(220, symmetric);
+        let (pattern, matrix, places) = net(220, symmetric);
         let n = pattern.len();
         let known: Vec<f64> = (0..n).map(|i| (i as f64).sin()).collect();
         let mut expected = vec![0.0; n];
@@ -228,7 +232,7 @@ fn products_and_constraints_do_not_depend_on_the_threads() {
                 let mut x = product.clone();
                 constrained.constrain(&pattern, &fixed, &known, matrix.scale(&pattern), &mut x);
                 let load = x.clone();
-                Solver::new(&pattern).unwrap().solve(&pattern, &constrained, &mut x).unwrap();
+                Solver::new(&pattern, &places).unwrap().solve(&pattern, &constrained, &mut x).unwrap();
                 (product, constrained.values, load, x)
             })
         };

@@ -1,0 +1,180 @@
+//! Assembly of dense clique matrices and vectors into a system.
+
+use super::{Matrix, Pattern};
+use crate::error::Result;
+use rayon::prelude::*;
+use std::ops::Range;
+
+/// What one clique contributes: a dense matrix (row-major) and a vector over the equations of its blocks.
+pub struct Local<'a> {
+    /// Row-major, `size × size`; empty when only the vector is wanted.
+    pub matrix: &'a mut [f64],
+    pub vector: &'a mut [f64],
+    pub size: usize,
+}
+
+/// Some columns of a matrix.
+pub(super) struct Columns<'a> {
+    /// The blocks they belong to.
+    pub blocks: Range<u32>,
+    /// Where their values begin in the matrix.
+    pub first: usize,
+    pub values: &'a mut [f64],
+}
+
+impl Columns<'_> {
+    /// The equations they belong to.
+    pub fn equations(&self, pattern: &Pattern) -> Range<usize> {
+        pattern.start[self.blocks.start as usize] as usize..pattern.start[self.blocks.end as usize] as usize
+    }
+
+    /// Adds what the dense matrix of clique `k` has in these columns.
+    pub fn add(&mut self, pattern: &Pattern, k: usize, local: &[f64], size: usize) {
+        let blocks = pattern.cliques.blocks(k);
+        let first_pair = pattern.pairs[k] as usize;
+        let mut column = 0;
+        for (b, &cb) in blocks.iter().enumerate() {
+            let width = (pattern.start[cb as usize + 1] - pattern.start[cb as usize]) as usize;
+            if !self.blocks.contains(&cb) {
+                column += width;
+                continue;
+            }
+            let mut row = 0;
+            for (a, &ra) in blocks.iter().enumerate() {
+                let height = (pattern.start[ra as usize + 1] - pattern.start[ra as usize]) as usize;
+                if !pattern.symmetric || ra >= cb {
+                    let offset = pattern.offset[first_pair + a * blocks.len() + b] as usize;
+                    for j in 0..width {
+                        let begin = pattern.column[pattern.start[cb as usize] as usize + j] as usize - self.first;
+                        // In the lower triangle column j of the diagonal block has lost its first j rows.
+                        let (skip, lost) = match (pattern.symmetric, ra == cb) {
+                            (true, true) => (j, j),
+                            (true, false) => (0, j),
+                            _ => (0, 0),
+                        };
+                        for i in skip..height {
+                            self.values[begin + offset + i - lost] += local[(row + i) * size + column + j];
+                        }
+                    }
+                }
+                row += height;
+            }
+            column += width;
+        }
+    }
+}
+
+/// Some equations of a vector.
+struct Rows<'a> {
+    /// The blocks they belong to.
+    blocks: Range<u32>,
+    values: &'a mut [f64],
+}
+
+impl Rows<'_> {
+    /// Adds what the dense vector of clique `k` has in these equations.
+    fn add(&mut self, pattern: &Pattern, k: usize, local: &[f64]) {
+        let (first, mut begin) = (pattern.start[self.blocks.start as usize] as usize, 0);
+        for &b in pattern.cliques.blocks(k) {
+            let equations = pattern.start[b as usize] as usize..pattern.start[b as usize + 1] as usize;
+            let size = equations.len();
+            if self.blocks.contains(&b) {
+                let own = &mut self.values[equations.start - first..equations.end - first];
+                own.iter_mut().zip(&local[begin..]).for_each(|(sum, value)| *sum += value);
+            }
+            begin += size;
+        }
+    }
+}
+
+/// A vector in groups of equations that end at the blocks `cuts`, ascending.
+fn rows_between<'a>(pattern: &Pattern, cuts: &[u32], vector: &'a mut [f64]) -> Vec<Rows<'a>> {
+    let (mut rest, mut begin) = (vector, 0);
+    let last = pattern.start.len() as u32 - 1;
+    let group = |&end: &u32| {
+        let own;
+        let count = pattern.start[end as usize] - pattern.start[begin as usize];
+        (own, rest) = std::mem::take(&mut rest).split_at_mut(count as usize);
+        let group = Rows { blocks: begin..end, values: own };
+        begin = end;
+        group
+    };
+    cuts.iter().chain([&last]).map(group).collect()
+}
+
+/// Blocks to cut at, ascending, so that each of `threads` parts has about as many of those of the `cliques`.
+fn share(pattern: &Pattern, cliques: impl Iterator<Item = usize>, threads: usize) -> Vec<u32> {
+    if threads == 1 {
+        return Vec::new();
+    }
+    let mut blocks: Vec<u32> = cliques.flat_map(|k| pattern.cliques.blocks(k)).copied().collect();
+    blocks.sort_unstable();
+    (1..threads).map(|part| blocks.get(part * blocks.len() / threads).copied().unwrap_or(0)).collect()
+}
+
+/// Items computed side by side before their results are added, in their order, to the system.
+const BATCH: usize = 512;
+
+/// Memory that assembly uses again and again.
+#[derive(Default)]
+pub struct Workspace {
+    buffer: Vec<f64>,
+}
+
+/// Computes the contributions of `items` (each with its clique) in parallel and adds them to `vector` and,
+/// where wanted, to `matrix`. The order of the additions is that of `items`, so the sums do not depend on
+/// the number of threads.
+///
+/// # Errors
+/// The error of the first item that fails; the sums are then incomplete.
+pub fn scatter<I: Sync>(
+    pattern: &Pattern,
+    items: &[I],
+    clique: impl Fn(&I) -> usize + Sync,
+    compute: impl Fn(&I, &mut Local) -> Result<()> + Sync,
+    vector: &mut [f64],
+    mut matrix: Option<&mut Matrix>,
+    workspace: &mut Workspace,
+) -> Result<()> {
+    let largest = pattern.largest_clique;
+    let matrix_stride = if matrix.is_some() { largest * largest } else { 0 };
+    let stride = largest + matrix_stride;
+    if stride == 0 {
+        return Ok(());
+    }
+    workspace.buffer.resize(stride * BATCH, 0.0);
+    let threads = rayon::current_num_threads();
+    let run = |item: &I, slot: &mut [f64]| {
+        let size = pattern.clique_size(clique(item));
+        slot.fill(0.0);
+        let (vector, rest) = slot.split_at_mut(largest);
+        let matrix = if matrix_stride > 0 { &mut rest[..size * size] } else { &mut rest[..0] };
+        compute(item, &mut Local { matrix, vector: &mut vector[..size], size })
+    };
+    for batch in items.chunks(BATCH) {
+        let slots = &mut workspace.buffer[..stride * batch.len()];
+        let pairs = batch.par_iter().zip(slots.par_chunks_mut(stride));
+        if pairs.try_for_each(|(item, slot)| run(item, slot).map_err(|_| ())).is_err() {
+            // Threads may fail in any order: run again one by one for the error of the first item.
+            for (item, slot) in batch.iter().zip(slots.chunks_mut(stride)) {
+                run(item, slot)?;
+            }
+        }
+        // Each thread adds to equations of its own, so that every entry sees the items in their order.
+        let cuts = share(pattern, batch.iter().map(&clique), threads);
+        let columns: Vec<_> = match &mut matrix {
+            Some(matrix) => matrix.columns_between(pattern, &cuts).into_iter().map(Some).collect(),
+            None => (0..=cuts.len()).map(|_| None).collect(),
+        };
+        rows_between(pattern, &cuts, vector).into_par_iter().zip(columns).for_each(|(mut rows, mut columns)| {
+            for (item, slot) in batch.iter().zip(slots.chunks(stride)) {
+                let k = clique(item);
+                rows.add(pattern, k, slot);
+                if let Some(columns) = &mut columns {
+                    columns.add(pattern, k, &slot[largest..], pattern.clique_size(k));
+                }
+            }
+        });
+    }
+    Ok(())
+}
