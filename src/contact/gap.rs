@@ -117,15 +117,13 @@ impl Soil<'_> {
         let back = [f[(0, 0)] * n[0] + f[(1, 0)] * n[1], f[(0, 1)] * n[0] + f[(1, 1)] * n[1]];
         let stretch = back[0].hypot(back[1]);
         let depth = seen.and_then(|seen| seen.depth(&self.points.origin[p], &back.map(|b| -b / stretch)));
-        let plain = stretch <= WIDEST;
-        let cover = depth.filter(|depth| plain && *depth <= COVER * spacing).map(|depth| depth * stretch);
-        let stretch = stretch.min(WIDEST);
+        let known = depth.filter(|depth| stretch <= WIDEST && *depth <= COVER * spacing);
         Some(Near {
             point: p as u32,
             segment: s,
             distance,
-            half_width: 0.5 * spacing * stretch,
-            cover,
+            half_width: 0.5 * spacing * stretch.min(WIDEST),
+            cover: known.map(|depth| depth * stretch),
             spacing,
             normal: n,
             farther: back.map(|b| b / (stretch * stretch)),
@@ -242,4 +240,45 @@ pub fn push_out<K: Kinematics<2>>(segments: &Segments, points: &mut Points<2>, r
         }
     }
     (count, most)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::kinematics::PlaneStrain;
+    use crate::tensor::Tensor;
+
+    /// A point below a flat boundary that faces up is moved to where a quarter of its width is above it, at most one and a half times that however
+    /// it was sheared before the boundary came.
+    #[test]
+    fn sheared_points_are_pushed_no_farther_than_their_width() {
+        let placed = Placed {
+            from: [-0.1, 0.0],
+            to: [0.1, 0.0],
+            middle: [0.0, 0.0],
+            normal: [0.0, 1.0],
+            area: 0.2,
+            along: 0.1,
+            ends: [false; 2],
+            value: [0.0; 3],
+        };
+        let sheared = Tensor::new(1.0, 0.0, 0.0, 40.0, 1.0, 0.0, 0.0, 0.0, 1.0);
+        for (deformation, to) in [(Tensor::identity(), 0.025), (sheared, 0.0375)] {
+            let mut points = Points {
+                position: vec![[0.0, -0.005]],
+                origin: vec![[0.0, -0.005]],
+                initial_volume: vec![0.01],
+                deformation: vec![deformation],
+                region: vec![0],
+                ..Points::default()
+            };
+            let (count, most) = push_out::<PlaneStrain>(&Segments(vec![placed]), &mut points, &[0]);
+            assert_eq!(count, 1);
+            assert!((points.position[0][1] - to).abs() < 1e-15 && (most - to - 0.005).abs() < 1e-15, "{points:?}");
+            // What it stands for has moved as far along the normal.
+            let [x, y] = [0, 1].map(|d| points.origin[0][d] - [0.0, -0.005][d]);
+            let moved = deformation * nalgebra::Vector3::new(x, y, 0.0);
+            assert!(moved.y > 0.0 && (x.hypot(y) - most / deformation.row(1).norm()).abs() < 1e-15, "{points:?}");
+        }
+    }
 }
