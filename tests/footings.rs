@@ -2,8 +2,9 @@
 //! 5.689 for the circle; and those of rough ones, which many points in nearly incompressible cells must not lock.
 //! Tolerance: 4 % on the documented mesh, falling with h, 2 % where cells of B/8 are finer at the singular edge. The settlement at which the
 //! load is read is that of the cases, B/500 of a soil with E = 10⁴ s_u. The same for rigid punches in contact with the soil, whose
-//! sharp edges lie anywhere in its cells.
+//! sharp edges lie anywhere in its cells, and for a rigid pipe deep in it.
 
+use mpm::analytical::limit_load;
 use std::f64::consts::PI;
 use std::path::Path;
 use std::process::Command;
@@ -80,6 +81,24 @@ fn punch(case: &str, factor: f64, exact: f64) {
 fn rigid_strips_by_contact() {
     punch("punch", 0.0, STRIP);
     punch("punch", 1.0, STRIP);
+}
+
+/// A rigid pipe deep in clay, smooth, rough and between, within 3 % of Randolph & Houlsby with five cells over its diameter, 2 %
+/// with ten. No gap opens behind it.
+#[test]
+fn a_deep_pipe() {
+    for factor in [0.0, 0.3, 1.0] {
+        let exact = 0.5 * 10.0 * limit_load::deep_pipe(factor);
+        let set = format!("contacts[0].adhesion_factor={factor}");
+        let errors = [0.2, 0.1].map(|h| {
+            let (error, log) = error_and_log("deep_pipe", h, exact, &[&set]);
+            let most = numbers(&log, "iterations").into_iter().fold(0.0, f64::max);
+            assert!(most <= 30.0 && !log.contains("halved"), "{most}");
+            error
+        });
+        assert!(errors.iter().all(|e| *e > 0.0) && errors[0] < 0.03 && errors[1] < 0.02, "{errors:?}");
+        assert!(errors[1] < 0.8 * errors[0], "{errors:?}");
+    }
 }
 
 #[test]

@@ -3,6 +3,7 @@
 mod bodies;
 mod hertz;
 mod rigid;
+mod tube;
 mod wall;
 
 use std::path::Path;
