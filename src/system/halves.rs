@@ -20,6 +20,7 @@ use faer::sparse::linalg::{SupernodalThreshold, cholesky};
 use faer::sparse::{SparseColMatRef, SymbolicSparseColMatRef};
 use faer::{Conj, Mat, MatMut, Par, Side};
 
+/// The factor of the symmetric part of the matrices of one pattern.
 pub struct Halves {
     halves: [Half; 2],
     /// The equations of the separator.
