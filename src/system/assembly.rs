@@ -6,7 +6,7 @@ use rayon::prelude::*;
 
 /// Groups of columns that are worked on side by side, whatever the threads.
 const COLUMNS: usize = 4;
-/// Entries from which on that pays in a product.
+/// Entries that are worth a task of their own.
 const MANY: usize = 1 << 17;
 
 /// The values of a matrix with a given [`Pattern`], and what else belongs to it.
@@ -36,7 +36,7 @@ impl Matrix {
     }
 
     pub fn clear(&mut self) {
-        self.values.fill(0.0);
+        self.values.par_chunks_mut(MANY).for_each(|values| values.fill(0.0));
         self.spare.extend(self.beyond.drain(..).map(|beyond| beyond.into_memory()));
         self.fixed.clear();
     }
@@ -198,6 +198,11 @@ impl Matrix {
                 }
             }
         }
+    }
+
+    /// Whether every value is a number.
+    pub fn is_finite(&self) -> bool {
+        self.values.par_chunks(MANY).all(|values| values.iter().all(|v| v.is_finite()))
     }
 
     /// The largest diagonal entry, at least the smallest positive number.

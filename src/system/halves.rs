@@ -20,6 +20,7 @@ use faer::sparse::linalg::{SupernodalThreshold, cholesky};
 use faer::sparse::{SparseColMatRef, SymbolicSparseColMatRef};
 use faer::{Conj, Mat, MatMut, Par, Side};
 
+/// The factor of the symmetric part of the matrices of one pattern.
 pub struct Halves {
     halves: [Half; 2],
     /// The equations of the separator.
@@ -50,8 +51,8 @@ struct Half {
     left: Mat<f64>,
     end: Mat<f64>,
     x: Vec<f64>,
-    /// What the columns of a supernode have to do with the equations after it.
-    beyond: Vec<f64>,
+    /// Memory of the solution.
+    memory: Vec<f64>,
 }
 
 impl Halves {
@@ -181,7 +182,7 @@ impl Half {
             left: Mat::zeros(size, size),
             end: Mat::zeros(size, size),
             x: vec![0.0; n],
-            beyond: vec![0.0; n],
+            memory: vec![0.0; n],
             equations,
             own,
             column,
@@ -238,13 +239,13 @@ impl Half {
         let (own, separator) = self.x.split_at_mut(self.own);
         own.iter_mut().zip(&self.equations).for_each(|(x, &equation)| *x = b[equation as usize]);
         separator.fill(0.0);
-        forward(supernodes(&self.symbolic, &self.factor), self.own, &mut self.x, &mut self.beyond, llt);
+        forward(supernodes(&self.symbolic, &self.factor), self.own, &mut self.x, &mut self.memory, llt);
     }
 
     /// Solves for the own equations with the upper triangle, the separator's known.
     fn backward(&mut self, separator: &[f64], llt: bool) {
         self.x[self.own..].copy_from_slice(separator);
-        backward(supernodes(&self.symbolic, &self.factor).rev(), self.own, &mut self.x, &mut self.beyond, llt);
+        backward(supernodes(&self.symbolic, &self.factor).rev(), self.own, &mut self.x, &mut self.memory, llt);
     }
 }
 

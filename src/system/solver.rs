@@ -67,7 +67,7 @@ impl Solver {
     /// # Errors
     /// An analysis error when no method gives a finite solution with a small residual: the system is singular.
     pub fn solve(&mut self, pattern: &Pattern, matrix: &Matrix, x: &mut [f64]) -> Result<Method> {
-        if x.iter().chain(&matrix.values).any(|v| !v.is_finite()) {
+        if !matrix.is_finite() || x.iter().any(|v| !v.is_finite()) {
             return Err(Error::analysis("linear system", "a coefficient is not finite", "the step is too large"));
         }
         let b = x.to_vec();
@@ -109,7 +109,7 @@ impl Solver {
         tolerance: f64,
         x: &mut [f64],
     ) -> Result<Method> {
-        if x.iter().chain(&matrix.values).any(|v| !v.is_finite()) {
+        if !matrix.is_finite() || x.iter().any(|v| !v.is_finite()) {
             return Err(Error::analysis("linear system", "a coefficient is not finite", "the step is too large"));
         }
         let b = x.to_vec();

@@ -38,66 +38,67 @@ pub fn supernodes<'a>(
 }
 
 /// Solves with the lower triangle for the first `count` equations, in place; what they have to do with the others is taken
-/// off these. `beyond` is memory for as many numbers as there are equations.
+/// off these. `memory` is for as many numbers as there are equations.
 pub fn forward<'a>(
     supernodes: impl Iterator<Item = Supernode<'a>>,
     count: usize,
     x: &mut [f64],
-    beyond: &mut [f64],
+    memory: &mut [f64],
     llt: bool,
 ) {
     for node in supernodes {
-        let beyond = &mut beyond[..node.rows.len()];
-        beyond.fill(0.0);
+        // The equations of the columns, and what these add to the rows below, side by side as in a column.
+        let (top, below) = memory[..node.columns.len() + node.rows.len()].split_at_mut(node.columns.len());
+        top.copy_from_slice(&x[node.columns.clone()]);
+        below.fill(0.0);
         for j in node.columns.start..node.columns.end.min(count) {
-            let (among, below) = node.column(j).split_at(node.columns.len());
-            let (diagonal, among) = among[j - node.columns.start..].split_at(1);
+            let (k, column) = (j - node.columns.start, node.column(j));
             if llt {
-                x[j] /= diagonal[0];
+                memory[k] /= column[k];
             }
-            let value = x[j];
-            x[j + 1..].iter_mut().zip(among).for_each(|(x, l)| *x -= l * value);
-            beyond.iter_mut().zip(below).for_each(|(beyond, l)| *beyond -= l * value);
+            let value = memory[k];
+            memory[k + 1..].iter_mut().zip(&column[k + 1..]).for_each(|(sum, l)| *sum -= l * value);
         }
-        for (&i, beyond) in node.rows.iter().zip(beyond) {
-            x[i as usize] += *beyond;
+        let (top, below) = memory.split_at(node.columns.len());
+        x[node.columns].copy_from_slice(top);
+        for (&i, below) in node.rows.iter().zip(below) {
+            x[i as usize] += below;
         }
     }
 }
 
 /// Solves with the upper triangle for the first `count` equations, in place, the others being known. The `supernodes` come
-/// in reverse order, `beyond` as in [`forward`].
+/// in reverse order, `memory` as in [`forward`].
 pub fn backward<'a>(
     supernodes: impl Iterator<Item = Supernode<'a>>,
     count: usize,
     x: &mut [f64],
-    beyond: &mut [f64],
+    memory: &mut [f64],
     llt: bool,
 ) {
     for node in supernodes {
-        let beyond = &mut beyond[..node.rows.len()];
-        for (beyond, &i) in beyond.iter_mut().zip(node.rows) {
-            *beyond = x[i as usize];
-        }
+        let (top, below) = memory[..node.columns.len() + node.rows.len()].split_at_mut(node.columns.len());
+        top.copy_from_slice(&x[node.columns.clone()]);
+        below.iter_mut().zip(node.rows).for_each(|(below, &i)| *below = x[i as usize]);
         for j in (node.columns.start..node.columns.end.min(count)).rev() {
-            let (among, below) = node.column(j).split_at(node.columns.len());
-            let (diagonal, among) = among[j - node.columns.start..].split_at(1);
-            let known = product(among, &x[j + 1..]) + product(below, beyond);
-            x[j] = if llt { (x[j] - known) / diagonal[0] } else { x[j] / diagonal[0] - known };
+            let (k, column) = (j - node.columns.start, node.column(j));
+            let known = product(&column[k + 1..], &memory[k + 1..]);
+            memory[k] = if llt { (memory[k] - known) / column[k] } else { memory[k] / column[k] - known };
         }
+        x[node.columns.clone()].copy_from_slice(&memory[..node.columns.len()]);
     }
 }
 
 /// `a · b`, `b` at least as long, in as many sums side by side as a register holds.
 fn product(a: &[f64], b: &[f64]) -> f64 {
-    let b = &b[..a.len()];
     let mut sums = [0.0; 8];
-    let (a, b) = (a.chunks_exact(8), b.chunks_exact(8));
-    let rest: f64 = a.remainder().iter().zip(b.remainder()).map(|(a, b)| a * b).sum();
+    let (a, b) = (a.chunks_exact(8), b[..a.len()].chunks_exact(8));
+    let rest = a.remainder().iter().zip(b.remainder());
+    rest.zip(&mut sums).for_each(|((a, b), sum)| *sum = a * b);
     for (a, b) in a.zip(b) {
         for k in 0..8 {
             sums[k] += a[k] * b[k];
         }
     }
-    sums.iter().sum::<f64>() + rest
+    sums.iter().sum()
 }

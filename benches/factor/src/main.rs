@@ -190,7 +190,7 @@ fn full(near: &[Vec<u32>]) -> Columns {
     matrix
 }
 
-/// The minimum-degree ordering of the nodes, written out for their equations, as in `src/system/solver.rs`.
+/// The minimum-degree ordering of the nodes, written out for their equations, as `src/system/factor.rs` has it for a factor in one piece.
 fn ordering(near: &[Vec<u32>]) -> Perm<u32> {
     let (mut column, mut row) = (vec![0], Vec::new());
     for (node, list) in near.iter().enumerate() {
