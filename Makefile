@@ -7,11 +7,9 @@ PYTHON := .venv/bin/python
 
 MPM := target/release/mpm
 MPM_BUILD := $(MPM)
-# The pipeline has a target of its own below, which goes on with its variants where a run stops.
-CASES := $(filter-out cases/pipeline,$(patsubst %/case.yaml,%,$(wildcard cases/*/case.yaml)))
 include pipeline/mpm.mk
 
-.PHONY: help setup build demo pile pile-variants pipeline pipeline-study pipeline-clean test check fmt clean bench bench-block bench-unused stress verification
+.PHONY: help setup build demo pile pile-variants pipeline pipeline-study test check fmt clean bench bench-block bench-unused stress verification
 
 help: ## List the targets
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / {printf "  %-14s %s\n", $$1, $$2}' $(firstword $(MAKEFILE_LIST))
@@ -40,6 +38,7 @@ pile-variants: build ## The pile smooth, rough, as it is, and by mpm and ddmp: p
 	$(PYTHON) paraview/pile.py $(addprefix cases/pile/,out-mpm out-ddmp out) -o cases/pile/out/schemes.png
 	$(PYTHON) cases/pile/study.py
 
+# A case like the others, that goes on with its variants and their pictures.
 pipeline: build ## The pipe pressed into the seabed and pulled across it, α = 0.5, 0 and 1: pictures, curves, a table
 	$(PYTHON) cases/pipeline/variants.py smooth rough $(if $(THREADS),--threads $(THREADS))
 	for out in out out-smooth out-rough; do $(PYTHON) paraview/pipeline.py cases/pipeline/$$out; done
@@ -48,9 +47,6 @@ pipeline: build ## The pipe pressed into the seabed and pulled across it, α = 0
 pipeline-study: build ## The same with all variants: softening clay, no parting, a rigid pipe, one that may turn, half the step, a coarse mesh
 	$(PYTHON) cases/pipeline/variants.py $(if $(THREADS),--threads $(THREADS))
 	$(PYTHON) cases/pipeline/study.py
-
-pipeline-clean:
-	rm -rf cases/pipeline/out cases/pipeline/out-*
 
 test: setup ## Set up and run all tests
 	cargo test --release --no-fail-fast
@@ -78,4 +74,4 @@ check: setup ## Formatting, lints and documentation, without warnings
 fmt: ## Format the sources
 	cargo fmt
 
-clean: $(addsuffix -clean,$(notdir $(CASES))) pipeline-clean ## Remove the output of all cases (`cargo clean` removes the build)
+clean: $(addsuffix -clean,$(notdir $(CASES))) ## Remove the output of all cases (`cargo clean` removes the build)

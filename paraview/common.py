@@ -176,13 +176,18 @@ def panels(picture, title, frames, labels, name, columns=1, limits=None, grid=No
     plotter.add_text(f"{full}\n{everything.min():.3g} to {everything.max():.3g}", position=(gap, 16), font_size=12, color=INK)
     plotter.add_scalar_bar(title="", color=INK, n_labels=5, fmt="%.3g", label_font_size=18, width=0.6,
                            height=60 / size[1], position_x=0.3, position_y=14 / size[1])
+    face(plotter, size)
+    save(plotter, picture)
+
+
+def face(plotter, size):
+    """Looks straight at a plane of `size` pixels whose lower left corner is the origin."""
     plotter.enable_parallel_projection()
     plotter.camera.focal_point = size[0] / 2, size[1] / 2, 0
     plotter.camera.position = size[0] / 2, size[1] / 2, 1000
     plotter.camera.up = 0, 1, 0
     plotter.camera.parallel_scale = size[1] / 2
     plotter.camera.clipping_range = 1, 2000
-    save(plotter, picture)
 
 
 def save(plot, picture):

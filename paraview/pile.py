@@ -11,7 +11,7 @@ In ParaView itself: `paraview OUT/points.pvd OUT/structures.pvd`, colour both by
 import argparse
 from pathlib import Path
 
-from common import INK, ROOT, Series, field, history, outline, quantity, save, stop
+from common import INK, ROOT, Series, face, field, history, outline, quantity, save, stop
 
 import numpy as np
 import pyvista as pv
@@ -119,12 +119,7 @@ def draw(given, runs):
     plotter.add_text(f"{name}\n{low.min():.3g} to {low.max():.3g}", position=(gap, 16), font_size=12, color=INK)
     plotter.add_scalar_bar(title="", mapper=scale_of, color=INK, n_labels=5, fmt="%.3g", label_font_size=18, width=0.6,
                            height=60 / size[1], position_x=0.3, position_y=14 / size[1])
-    plotter.enable_parallel_projection()
-    plotter.camera.focal_point = size[0] / 2, size[1] / 2, 0
-    plotter.camera.position = size[0] / 2, size[1] / 2, 1000
-    plotter.camera.up = 0, 1, 0
-    plotter.camera.parallel_scale = size[1] / 2
-    plotter.camera.clipping_range = 1, 2000
+    face(plotter, size)
     save(plotter, given.picture)
 
 
