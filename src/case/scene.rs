@@ -16,8 +16,8 @@ use crate::run::{self, Ended, Outputs, Progress, Watch, WatchedOn};
 use crate::stencil::{Scheme, cell_size, smooths};
 use crate::step::{self, Fem, Numerics, Phase, Scene, Search, State, Stop};
 use crate::term::{
-    BodyForce, Carried, Contact, EmptyCells, GhostPenalty, Inertia, Internal, PoreWater, PressureField, SmoothPressure,
-    Term, Traction, WaterBond,
+    BodyForce, Carried, Contact, EmptyCells, GhostInertia, GhostPenalty, Inertia, Internal, PoreWater, PressureField,
+    SmoothPressure, Term, Traction, WaterBond,
 };
 use crate::time_value::TimeValue;
 use std::path::Path;
@@ -153,6 +153,9 @@ pub fn scene<K: Kinematics<2>>(case: &Case, mut whole: Mesh<2>) -> Result<Scene<
         if case.numerics.fitted {
             let models = self::models(case, &mesh)?;
             terms.push(Box::new(GhostPenalty::<K>::new(GHOST, models, faces.inner.len())));
+            if dynamic && density_scale > 0.0 {
+                terms.push(Box::new(GhostInertia::<K>::new(density_scale, faces.inner.len())));
+            }
         }
     }
     if dynamic {

@@ -99,7 +99,7 @@ impl<K: Kinematics<2>> Fitted<K> {
         };
         let poor = fits.iter().zip(&stencil.patches).filter(poor).map(|(fit, _)| fit.cell).collect();
         let shift = fits.into_iter().filter_map(|fit| Some((fit.cell, fit.shift?))).collect();
-        let soft = soft(plane, &active, taking_part);
+        let soft = soft(mesh, plane, &active, stencil, taking_part);
         Weighing { weight, shift, soft, poor, tally, ..Weighing::default() }
     }
 }
@@ -213,9 +213,19 @@ fn keep_drops(
     }
 }
 
-/// The cells that take part and are not full.
-fn soft(geometry: &Geometry, active: &Active, taking_part: &[bool]) -> Vec<SoftCell> {
+/// The cells that take part and are not full. Those within the surface with fewer points than nodes, or none, as where
+/// soil has come apart, do not hold their nodes either, and count as empty.
+fn soft(
+    mesh: &Mesh<2>,
+    geometry: &Geometry,
+    active: &Active,
+    stencil: &Stencil<2>,
+    taking_part: &[bool],
+) -> Vec<SoftCell> {
+    let mut count = vec![0; taking_part.len()];
+    stencil.patches.iter().for_each(|patch| count[patch.cell as usize] = patch.point_count as usize);
     let emptiness = |c: usize| match active.filling[c] {
+        Filling::Full if count[c] < mesh.cells.nodes(c).len() => 1.0,
         Filling::Full => 0.0,
         Filling::Cut => 1.0 - active.volume[c] / geometry.volume(c),
         Filling::Empty => 1.0,

@@ -43,6 +43,8 @@ pub struct Weighing<const D: usize> {
     pub tally: Tally,
     /// Why the surface is followed no longer, where it ceased to be in this restoration.
     pub lost_front: Option<String>,
+    /// What points were put back onto supports that they had got beyond, in this restoration.
+    pub put_back: Option<String>,
 }
 
 /// A grid that is being restored: the points are found on it and `stencil` is filled.

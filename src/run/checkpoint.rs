@@ -90,7 +90,7 @@ pub fn store<const D: usize>(state: &State<D>) -> Store {
 
 fn put_weighing<const D: usize>(store: &mut Store, weighing: &Weighing<D>) {
     // Why a front was lost has been told when it was.
-    let Weighing { weight, shift, soft, poor, boundary, tally, lost_front: _ } = weighing;
+    let Weighing { weight, shift, soft, poor, boundary, tally, lost_front: _, put_back: _ } = weighing;
     let Tally { quadratic, linear, constant, volume, point_volume, fitted_volume, drift } = tally;
     store.put("weighing.weight", 1, weight.clone());
     store.put("weighing.shifted", 2, shift.iter().flat_map(|(cell, by)| [*cell, by.len() as u32]).collect());
@@ -135,7 +135,7 @@ fn take_weighing<const D: usize>(store: &mut Store) -> Result<Weighing<D>> {
         fitted_volume: *fitted_volume,
         drift: *drift,
     };
-    Ok(Weighing { weight, shift, soft, poor, boundary, tally, lost_front: None })
+    Ok(Weighing { weight, shift, soft, poor, boundary, tally, lost_front: None, put_back: None })
 }
 
 fn take_boundary(store: &mut Store) -> Result<ActiveBoundary> {

@@ -339,6 +339,7 @@ pub fn log_lines<const D: usize>(scene: &Scene<D>, state: &State<D>, report: &Re
     }
     lines.push(line);
     if report.restored {
+        lines.extend(state.weighing.put_back.iter().map(|note| format!("  {note}")));
         lines.extend(
             state.weighing.lost_front.iter().map(|why| {
                 format!("  the surface is from now on the contour of the points: following it failed, {why}")

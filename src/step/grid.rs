@@ -7,6 +7,7 @@ use super::ghost_faces;
 use super::guess;
 use super::newton::Buffers;
 use super::pressure;
+use super::put_back::put_back;
 use super::relax::{self, Relaxed};
 use super::scene::{Fixed, Restore, Scene};
 use super::state::State;
@@ -398,7 +399,7 @@ fn begin_anew<const D: usize, K: Kinematics<D>>(
         // The displacement is still that of the last converged step.
         state.nodes = nodes;
     }
-    let before = placed?;
+    let (before, put_back) = placed?;
     let (mesh, locator) = relaxed.as_ref().map_or((&scene.mesh, &scene.locator), |r| (&r.mesh, &r.locator));
     let changed = choose_cells(scene, state);
     let outlines = contact::outlines(scene, state);
@@ -416,6 +417,7 @@ fn begin_anew<const D: usize, K: Kinematics<D>>(
         displacement: (state.restorations > 0).then_some(&state.displacement),
     };
     state.weighing = scene.quadrature.weigh(&grid, &mut state.front);
+    state.weighing.put_back = put_back;
     guess::carry(scene, before.as_ref().map_or(&scene.mesh, |r| &r.mesh), mesh, state);
     state.displacement.fill([0.0; D]);
     state.restorations += 1;
@@ -438,7 +440,8 @@ fn begin_anew<const D: usize, K: Kinematics<D>>(
     Ok(changed)
 }
 
-/// Moves the nodes to where the restored grid has them, and finds the points on it. Returns the grid before.
+/// Moves the nodes to where the restored grid has them, and finds the points on it. Returns the grid before, and a note on
+/// points that were put back onto it.
 ///
 /// # Errors
 /// When a cell of the grid is folded, or a point lies outside it.
@@ -446,12 +449,19 @@ fn place<const D: usize>(
     scene: &Scene<D>,
     state: &mut State<D>,
     relaxed: &mut Option<Relaxed<D>>,
-) -> Result<Option<Relaxed<D>>> {
+) -> Result<(Option<Relaxed<D>>, Option<String>)> {
     fem::keep_shape(scene, state);
     let before = std::mem::replace(relaxed, relax::relax(scene, state)?);
     let (mesh, locator) = relaxed.as_ref().map_or((&scene.mesh, &scene.locator), |r| (&r.mesh, &r.locator));
-    locate_points(mesh, locator, state)?;
-    Ok(before)
+    let mut note = None;
+    if let Err(lost) = locate_points(mesh, locator, state) {
+        note = put_back(scene, mesh, locator, state);
+        if note.is_none() {
+            return Err(lost);
+        }
+        locate_points(mesh, locator, state)?;
+    }
+    Ok((before, note))
 }
 
 /// Fills the stencil for the points where they were last located.

@@ -17,9 +17,7 @@ use crate::error::{Error, Result};
 use crate::kinematics::Kinematics;
 use crate::stencil::{Jump, cell_size, integrate};
 use crate::system::{Method, scatter};
-
-/// `γ_m` (-).
-const PENALTY: f64 = 1e-4;
+use crate::term::MASS_PENALTY;
 
 /// `ε` (-).
 const WEAK: f64 = 1e-10;
@@ -84,7 +82,7 @@ impl<'a> Mass<'a> {
             |ghost| ghost.clique as usize,
             |ghost, local| {
                 let jump = Jump::of::<D, K>(mesh, &ghost.between);
-                let scale = PENALTY * scene.density_scale * jump.size * jump.size;
+                let scale = MASS_PENALTY * scene.density_scale * jump.size * jump.size;
                 for (entry, form) in local.matrix.iter_mut().zip(&jump.form) {
                     *entry = scale * form;
                 }

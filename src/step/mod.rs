@@ -15,6 +15,7 @@ mod leaving;
 mod mass;
 mod newton;
 mod pressure;
+mod put_back;
 mod relax;
 mod report;
 mod rigid;

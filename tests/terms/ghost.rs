@@ -11,7 +11,7 @@ use mpm::mesh::faces::Faces;
 use mpm::mesh::shape::CellKind;
 use mpm::points::Points;
 use mpm::tensor::{IDENTITY, Tensor};
-use mpm::term::{Assembly, Frame, GhostPenalty, Internal, Role, Term, Trial};
+use mpm::term::{Assembly, Frame, GhostInertia, GhostPenalty, Internal, Role, Term, Trial};
 use std::sync::Arc;
 
 const FACTOR: f64 = 0.1;
@@ -54,6 +54,28 @@ fn it_resists_jumps_of_the_increment_alone() {
     for kind in KINDS {
         check::<PlaneStrain>(kind);
         check::<Axisymmetric>(kind);
+    }
+}
+
+pub fn inertia<K: Kinematics<2>>(mesh: &Mesh<2>) -> Box<dyn Term<2>> {
+    Box::new(GhostInertia::<K>::new(2.0, Faces::of(mesh).inner.len()))
+}
+
+/// Whatever the acceleration, the inertia of the faces exerts no force and no moment.
+#[test]
+fn inertia_of_faces_keeps_both_momenta() {
+    for kind in KINDS {
+        let stand: Stand<PlaneStrain> = stand(kind, inertia::<PlaneStrain>, false);
+        assert_eq!(stand.term().role(), Role::Inertia);
+        let (trial, converged) = anywhere(&stand);
+        let force = stand.evaluate(&trial, &converged, 0, false).0;
+        let resisted = size(&force);
+        assert!(resisted > 0.0);
+        let sum = resultant(&force);
+        let moment: f64 = force.iter().zip(&stand.scene.mesh.nodes).map(|(f, x)| x[0] * f[1] - x[1] * f[0]).sum();
+        for total in [sum[0], sum[1], moment] {
+            assert!(total.abs() < 1e-11 * resisted, "{kind:?}: {sum:?} {moment:.1e} of {resisted}");
+        }
     }
 }
 

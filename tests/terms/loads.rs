@@ -40,11 +40,12 @@ pub fn anywhere<K: Kinematics<2>>(stand: &Stand<K>) -> (Field, Field) {
 }
 
 fn every_tangent<K: Kinematics<2>>() {
-    let terms: [(&str, Make); 5] = [
+    let terms: [(&str, Make); 6] = [
         ("body force", body_force::<K>),
         ("inertia", |_| Box::new(Inertia::<K>::default())),
         ("empty cells", |mesh| Box::new(EmptyCells::<K>::new(70.0, mesh.cells.len()))),
         ("ghost penalty", ghost::penalty::<K>),
+        ("ghost inertia", ghost::inertia::<K>),
         ("traction", |mesh| traction::<K>(mesh, "right")),
     ];
     for (name, make) in terms {

@@ -1,0 +1,90 @@
+//! Points that got a little beyond a support: back to it.
+//!
+//! The nodes of a support stay where they are, and so does every place of its sides, but next to it a cell that soil squeezes
+//! or shears strongly can take a point across. Soil cannot go there: such a point is put onto the side. Its motion across the
+//! side ends with that of the nodes there. Whatever goes farther, or leaves the mesh elsewhere, stays an error.
+
+use super::scene::Scene;
+use super::state::State;
+use crate::mesh::Mesh;
+use crate::mesh::locate::Locator;
+use crate::stencil::cell_size;
+use rayon::prelude::*;
+
+/// How far beyond a side a point may be (-), in the size of the cell there.
+const FARTHEST: f64 = 0.1;
+
+/// A side of the mesh whose nodes cannot move across it, with its ends (m) and the size (m) of its cell.
+struct Side<const D: usize> {
+    ends: [[f64; D]; 2],
+    size: f64,
+}
+
+impl<const D: usize> Side<D> {
+    /// The nearest place (m) to `x` on it, and its distance (m).
+    fn nearest(&self, x: &[f64; D]) -> ([f64; D], f64) {
+        let [a, b] = &self.ends;
+        let along: [f64; D] = std::array::from_fn(|d| b[d] - a[d]);
+        let square: f64 = along.iter().map(|t| t * t).sum();
+        let t = (0..D).map(|d| (x[d] - a[d]) * along[d]).sum::<f64>() / square;
+        let place: [f64; D] = std::array::from_fn(|d| a[d] + t.clamp(0.0, 1.0) * along[d]);
+        let distance = place.iter().zip(x).map(|(p, x)| (p - x).powi(2)).sum::<f64>().sqrt();
+        (place, distance)
+    }
+}
+
+/// Puts points back onto the sides that hold them. Returns a note on how many and how far, where there are any.
+pub fn put_back<const D: usize>(
+    scene: &Scene<D>,
+    mesh: &Mesh<D>,
+    locator: &Locator<D>,
+    state: &mut State<D>,
+) -> Option<String> {
+    let points = &state.points;
+    let is_lost = |p: &usize| locator.locate(mesh, &points.position[*p], Some(points.cell[*p])).is_none();
+    let lost: Vec<usize> = (0..points.len()).into_par_iter().with_min_len(1024).filter(is_lost).collect();
+    if lost.is_empty() || D != 2 {
+        return None;
+    }
+    let sides = holding(scene, mesh, state.phase);
+    let (mut count, mut most) = (0, 0.0f64);
+    for p in lost {
+        let x = &mut state.points.position[p];
+        let near = sides.iter().map(|side| (side.nearest(x), side.size)).filter(|((_, d), size)| *d <= FARTHEST * size);
+        if let Some(((place, distance), _)) = near.min_by(|a, b| a.0.1.total_cmp(&b.0.1)) {
+            *x = place;
+            (count, most) = (count + 1, most.max(distance));
+        }
+    }
+    (count > 0).then(|| {
+        format!("{count} points were put back onto the supports that they had got beyond, by {most:.1e} m at most")
+    })
+}
+
+/// The sides on the boundary whose nodes cannot move across them in a phase.
+fn holding<const D: usize>(scene: &Scene<D>, mesh: &Mesh<D>, phase: usize) -> Vec<Side<D>> {
+    let mut held = vec![[false; D]; mesh.nodes.len()];
+    for fixed in &scene.supports {
+        for &n in &fixed.nodes {
+            held[n as usize][fixed.component] = true;
+        }
+    }
+    for prescribed in &scene.phases[phase].prescribed {
+        for &n in &prescribed.fixed.nodes {
+            held[n as usize][prescribed.fixed.component] = false;
+        }
+    }
+    let boundary = scene.faces.iter().flat_map(|faces| &faces.boundary);
+    let side = |&(cell, side): &(u32, u8)| {
+        let nodes = mesh.cells.nodes(cell as usize);
+        let (_, facets) = mesh.cells.kind[cell as usize].facets();
+        let facet = &facets[side as usize];
+        let ends = [facet[0], facet[1]].map(|i| mesh.nodes[nodes[i] as usize]);
+        let size = cell_size(mesh, cell as usize);
+        // In the plane, a side along one axis is crossed along the other; one at a slant along both.
+        let crossed = |d: usize| (ends[1][1 - d] - ends[0][1 - d]).abs() > 1e-9 * size;
+        let holds = (0..D).all(|d| !crossed(d) || facet.iter().all(|&i| held[nodes[i] as usize][d]));
+        holds.then_some(Side { ends, size })
+    };
+    boundary.filter_map(side).collect()
+}
