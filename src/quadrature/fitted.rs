@@ -213,8 +213,8 @@ fn keep_drops(
     }
 }
 
-/// The cells that take part and are not full. Those within the surface with fewer points than nodes, or none, as where
-/// soil has come apart, do not hold their nodes either, and count as empty.
+/// The cells that take part and are not full. Those with fewer points than nodes, or none, do not hold their nodes even
+/// within the surface, as where soil has come apart, and count as empty.
 fn soft(
     mesh: &Mesh<2>,
     geometry: &Geometry,
@@ -225,7 +225,7 @@ fn soft(
     let mut count = vec![0; taking_part.len()];
     stencil.patches.iter().for_each(|patch| count[patch.cell as usize] = patch.point_count as usize);
     let emptiness = |c: usize| match active.filling[c] {
-        Filling::Full if count[c] < mesh.cells.nodes(c).len() => 1.0,
+        _ if count[c] < mesh.cells.nodes(c).len() => 1.0,
         Filling::Full => 0.0,
         Filling::Cut => 1.0 - active.volume[c] / geometry.volume(c),
         Filling::Empty => 1.0,
