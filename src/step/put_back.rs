@@ -11,10 +11,10 @@ use crate::mesh::locate::Locator;
 use crate::stencil::cell_size;
 use rayon::prelude::*;
 
-/// How far beyond a side a point may be (-), in the size of the cell there.
+/// How far beyond a side a point may be (-), in the diagonal of the cell there.
 const FARTHEST: f64 = 0.1;
 
-/// A side of the mesh whose nodes cannot move across it, with its ends (m) and the size (m) of its cell.
+/// A side of the mesh whose nodes cannot move across it, with its ends (m) and the diagonal (m) of its cell.
 struct Side<const D: usize> {
     ends: [[f64; D]; 2],
     size: f64,

@@ -13,6 +13,7 @@ mod held_out;
 mod incompressible;
 mod layout;
 mod patch;
+mod put_back;
 mod rotation;
 mod slivers;
 mod surface;
