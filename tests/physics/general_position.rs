@@ -1,6 +1,7 @@
 //! Limit loads with points that owe nothing to the cells they lie in, and with soil that ends within them.
 //!
-//! Half of a rigid footing of width B = 1 m on soil so stiff (G = 10⁴ s_u) that the closed forms of small strain hold;
+//! Half of a rigid footing of width B = 1 m on soil so stiff (G = 10⁵ s_u) that the closed forms of small strain hold (with a tenth of
+//! that, a strip bears 0.2 % more where the strength is even and 3.7 % more where it grows eightfold over B);
 //! ν = 0.4999 with the pressure field; the grid restored in every step or never. Points in general position: those that
 //! an unrelated mesh is seeded with, shifted by (0.37, 0.21) h; a randomised lattice; those of an unrelated mesh after a
 //! shear of 2. With the points' volumes as weights the limit load is 4–6 % low there.
@@ -24,7 +25,7 @@ use std::time::Instant;
 const WIDTH: f64 = 2.5;
 const DEPTH: f64 = 1.5;
 const POISSON: f64 = 0.4999;
-const SHEAR: f64 = 1e4;
+const SHEAR: f64 = 1e5;
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Layout {
@@ -308,7 +309,7 @@ fn a_smooth_circle() {
         let errors =
             [8, 12].map(|cells| Footing { cells, ..footing }.push::<Axisymmetric>()[STRIP.steps - 1] / 5.689 - 1.0);
         println!("    {:+.2} %, {:+.2} %", 100.0 * errors[0], 100.0 * errors[1]);
-        assert!(errors[0].abs() < 0.035 && errors[1] < 0.8 * errors[0], "{errors:?}");
+        assert!(errors[0].abs() < 0.02 && errors[1].abs() < 0.8 * errors[0], "{errors:?}");
     }
 }
 
@@ -317,9 +318,9 @@ fn a_smooth_circle() {
 #[test]
 fn a_strength_that_grows_with_depth() {
     for (gain, factor, layouts, bound) in [
-        (1.0, 1.1095, &[Layout::Regular, Layout::Shifted][..], 0.03),
-        (2.0, 1.1807, &[Layout::Regular], 0.035),
-        (8.0, 1.3696, &[Layout::Regular], 0.07),
+        (1.0, 1.1095, &[Layout::Regular, Layout::Shifted][..], 0.02),
+        (2.0, 1.1807, &[Layout::Regular], 0.02),
+        (8.0, 1.3696, &[Layout::Regular], 0.03),
     ] {
         for &layout in layouts {
             let footing = Footing { layout, rough: false, graded: true, gain, ..STRIP };
