@@ -239,9 +239,11 @@ pub struct Numerics {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Restore {
     EveryStep,
-    /// When a cell with points has less than the share `least` (-) of its first quality.
+    /// When a cell with points has less than the share `least` (-) of its first quality, or an edge of it is `stretch`
+    /// times (-) as long as at first, or as short.
     Quality {
         least: f64,
+        stretch: f64,
     },
     /// Updated Lagrangian: the grid moves with the material.
     Never,

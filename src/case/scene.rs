@@ -283,7 +283,7 @@ fn quadrature<K: Kinematics<2>>(case: &Case, mesh: &Mesh<2>) -> Box<dyn Quadratu
 fn restore(restore: Restore) -> step::Restore {
     match restore {
         Restore::EveryStep => step::Restore::EveryStep,
-        Restore::Quality { least } => step::Restore::Quality { least },
+        Restore::Quality { least, stretch } => step::Restore::Quality { least, stretch },
         Restore::Never => step::Restore::Never,
     }
 }

@@ -10,12 +10,10 @@ use rayon::prelude::*;
 /// Least ratio of the least to the largest `det J` in a cell, relative to the first one: a curved cell folds
 /// where it reaches zero.
 const FOLDED: f64 = 0.3;
-/// Largest ratio of an edge to its first length, or of that to it.
-const STRETCHED: f64 = 1.5;
 
 /// Whether a cell with points has a quality below the share `least` of its first one, has come near to
-/// folding, or is stretched or squeezed beyond measure.
-pub fn exceeds<const D: usize>(scene: &Scene<D>, state: &State<D>, grid: &Grid<D>, least: f64) -> bool {
+/// folding, or an edge is `stretch` times as long as at first, or as short.
+pub fn exceeds<const D: usize>(scene: &Scene<D>, state: &State<D>, grid: &Grid<D>, least: f64, stretch: f64) -> bool {
     let mesh = grid.relaxed.as_ref().map_or(&scene.mesh, |relaxed| &relaxed.mesh);
     grid.stencil.patches.par_iter().any(|patch| {
         let cell = patch.cell as usize;
@@ -44,8 +42,7 @@ pub fn exceeds<const D: usize>(scene: &Scene<D>, state: &State<D>, grid: &Grid<D
                 let (a, b) = (x[i], x[(i + 1) % corners]);
                 (b[0] - a[0]).hypot(b[1] - a[1])
             };
-            let stretch = length(now) / length(before);
-            !(1.0 / STRETCHED..=STRETCHED).contains(&stretch)
+            !(1.0 / stretch..=stretch).contains(&(length(now) / length(before)))
         })
     })
 }

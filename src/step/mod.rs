@@ -123,7 +123,9 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
         let restore = match scene.numerics.restore {
             Restore::EveryStep => true,
             Restore::Never => false,
-            Restore::Quality { least } => moved && (forced || distortion::exceeds(scene, state, &self.grid, least)),
+            Restore::Quality { least, stretch } => {
+                moved && (forced || distortion::exceeds(scene, state, &self.grid, least, stretch))
+            }
         };
         if restore {
             self.grid.restore::<K>(scene, state)?;

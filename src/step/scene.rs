@@ -201,6 +201,8 @@ pub enum Restore {
     Quality {
         /// Least quality of a cell relative to its first one (-).
         least: f64,
+        /// Largest ratio of an edge to its first length, or of that to it (-).
+        stretch: f64,
     },
     /// Updated Lagrangian: the grid moves with the material.
     Never,
