@@ -46,7 +46,7 @@ fn a_column_without_cohesion_runs_out_and_comes_to_rest() {
     println!("kinetic energy {rest:.2e} of its peak {peak:.2e} kJ, {made:.1e} of it made");
     assert!(rest < 0.02 && made < 0.01);
 
-    // The toe has 99 % of the bars behind it; the README has it at 1.35 to 1.5 widths on finer cells.
+    // The toe has 99 % of the bars behind it; the README has it at 1.4 to 1.5 widths on finer cells.
     let frames = frame::list(&folder.path().join("results")).unwrap();
     let end = Frame::read(&frames[frames.len() - 1].path).unwrap();
     let mut place: Vec<f64> = end.points.position.iter().map(|x| x[0]).collect();

@@ -24,6 +24,7 @@ VARIANTS = {
     "h = 20 mm": COARSE,
     "h = 20 mm, steps of 1 ms at most": COARSE | {"phases.collapse.step.max": 0.001},
     "h = 10 mm": {},
+    "h = 25 mm, friction of 31°": {"mesh.parameters.h": 0.025, "materials.bars.friction": 31},
 }
 
 
