@@ -153,9 +153,9 @@ pub fn scene<K: Kinematics<2>>(case: &Case, mut whole: Mesh<2>) -> Result<Scene<
         if case.numerics.fitted {
             let models = self::models(case, &mesh)?;
             terms.push(Box::new(GhostPenalty::<K>::new(GHOST, models, faces.inner.len())));
-            if dynamic && density_scale > 0.0 {
-                terms.push(Box::new(GhostInertia::<K>::new(density_scale, faces.inner.len())));
-            }
+        }
+        if dynamic && density_scale > 0.0 {
+            terms.push(Box::new(GhostInertia::<K>::new(density_scale, faces.inner.len())));
         }
     }
     if dynamic {

@@ -1,0 +1,59 @@
+//! The collapse of a column without cohesion through the program, on cells of a third of its height.
+
+use mpm::io::frame::{self, Frame};
+use std::fs;
+use std::path::Path;
+use std::process::Command;
+
+/// Width and height of the column (m), its density (t/m³).
+const WIDTH: f64 = 0.2;
+const HEIGHT: f64 = 0.1;
+const DENSITY: f64 = 20.4 / 9.81;
+
+/// What follows `name` in a line of the log.
+fn after(line: &str, name: &str) -> f64 {
+    let mut words = line.split_whitespace().skip_while(|word| *word != name).skip(1);
+    words.next().unwrap_or_else(|| panic!("no {name} in {line}")).parse().unwrap()
+}
+
+#[test]
+fn a_column_without_cohesion_runs_out_and_comes_to_rest() {
+    let folder = tempfile::tempdir().unwrap();
+    let case = Path::new(env!("CARGO_MANIFEST_DIR")).join("cases/column_collapse");
+    for stage in ["mesh", "seed", "solve"] {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_mpm"));
+        command.arg(stage).arg(&case).arg("-o").arg(folder.path()).args(["--set", "mesh.parameters.h=0.0334"]);
+        let output = command.output().unwrap();
+        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    }
+    let log = fs::read_to_string(folder.path().join("solve.log")).unwrap();
+    let steps: Vec<&str> =
+        log.lines().filter(|line| line.starts_with("step ") && line.contains(" collapse ")).collect();
+    let energy = |line: &str| ["elastic", "potential", "kinetic"].iter().map(|of| after(line, of)).sum::<f64>();
+
+    // Mass: that of the drawing, in every step.
+    let mass = DENSITY * WIDTH * HEIGHT;
+    assert!(steps.iter().all(|line| (after(line, "mass") / mass - 1.0).abs() < 1e-12));
+
+    // Friction takes energy, and nothing makes any beyond what restoration leaves of noise.
+    let peak = steps.iter().map(|line| after(line, "kinetic")).fold(0.0, f64::max);
+    let (mut least, mut made) = (f64::INFINITY, 0.0f64);
+    for line in &steps {
+        made = made.max((energy(line) - least) / peak);
+        least = least.min(energy(line));
+    }
+    let rest = after(steps[steps.len() - 1], "kinetic") / peak;
+    println!("kinetic energy {rest:.2e} of its peak {peak:.2e} kJ, {made:.1e} of it made");
+    assert!(rest < 0.02 && made < 0.01);
+
+    // The toe has 99 % of the bars behind it; the README has it at 1.4 to 1.5 widths on finer cells.
+    let frames = frame::list(&folder.path().join("results")).unwrap();
+    let end = Frame::read(&frames[frames.len() - 1].path).unwrap();
+    let mut place: Vec<f64> = end.points.position.iter().map(|x| x[0]).collect();
+    place.sort_by(f64::total_cmp);
+    let run_out = place[place.len() * 99 / 100] / WIDTH - 1.0;
+    let wall = end.points.position.iter().filter(|x| x[0] < 0.02).map(|x| x[1]).fold(0.0, f64::max);
+    println!("run-out {run_out:.2} widths, {wall:.3} m high at the wall");
+    assert!((1.1..1.6).contains(&run_out), "{run_out}");
+    assert!((0.9 * HEIGHT..HEIGHT).contains(&wall), "{wall}");
+}
