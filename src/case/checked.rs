@@ -115,6 +115,8 @@ impl Content {
 #[derive(Clone)]
 pub struct Material {
     pub name: String,
+    /// The name of its model.
+    pub model_name: String,
     /// Density (t/m³).
     pub density: Profile,
     pub model: Arc<dyn Model>,
@@ -264,6 +266,8 @@ pub struct Phase {
     pub reduction: Option<TimeValue>,
     /// Structures, walls and contacts that are not there in the phase.
     pub absent: Vec<String>,
+    /// The materials that regions take as it begins.
+    pub changes: Vec<Change>,
     /// Whether displacements are counted from its beginning.
     pub reset: bool,
     pub until: Vec<Until>,
@@ -286,6 +290,13 @@ impl Analysis {
     pub fn has_inertia(self) -> bool {
         matches!(self, Self::Dynamic | Self::Auto)
     }
+}
+
+/// A material that a region takes: indices into [`Case::regions`] and [`Case::materials`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Change {
+    pub region: usize,
+    pub material: usize,
 }
 
 /// What ends a phase before its time.

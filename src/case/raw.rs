@@ -474,6 +474,9 @@ pub struct Phase {
     /// Structures, walls and contacts, by name, that come back as the phase begins.
     #[serde(default)]
     pub activate: Vec<String>,
+    /// Materials, by the names of regions, that these take as the phase begins, with the stress that they have.
+    #[serde(default)]
+    pub materials: BTreeMap<String, String>,
     /// Whether displacements are counted from the beginning of the phase in frames and history.
     #[serde(default)]
     pub reset_displacements: bool,

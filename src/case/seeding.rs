@@ -68,7 +68,7 @@ fn filled(case: &Case, mesh: &Mesh<2>) -> Result<Vec<Filled>> {
 }
 
 /// A profile is linear below its datum: in range at the top and the bottom of a region, it is in between.
-fn check_over_depth(mesh: &Mesh<2>, index: u16, region: &Region, material: &Material) -> Result<()> {
+pub(super) fn check_over_depth(mesh: &Mesh<2>, index: u16, region: &Region, material: &Material) -> Result<()> {
     let cells = (0..mesh.cells.len()).filter(|&c| mesh.cells.region[c] == index);
     let heights = cells.flat_map(|c| mesh.cells.nodes(c)).map(|&n| mesh.nodes[n as usize][1]);
     let (low, high) = heights.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), y| (l.min(y), h.max(y)));
