@@ -238,6 +238,14 @@ const MEANING: &[Broken] = &[
         Case("    prescribe: {surface", "    materials: {soil: clay}\n    prescribe: {surface"),
         &["case.yaml:23", "phases[0].materials.soil", "first phase begins with the materials of `regions`"],
     ),
+    check(
+        Case("    prescribe: {surface", "    phreatic_level: 1\n    prescribe: {surface"),
+        &["case.yaml:23", "phases[0].phreatic_level", "no water with a `phreatic_level`", "or take it out"],
+    ),
+    check(
+        Case("gravity:", "water: {unit_weight: 10}\ngravity:"),
+        &["case.yaml:15", "the water has no level", "phreatic_level"],
+    ),
     check(Case("output:", changed!("sol: clay")), &["case.yaml:24", "no region `sol`", "did you mean `soil`?"]),
     check(Case("output:", changed!("soil: caly")), &["no material `caly`", "did you mean `clay`?"]),
     check(Case("output:", changed!("water: clay")), &["materials.water", "a buffer region holds no material"]),

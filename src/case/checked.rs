@@ -354,13 +354,15 @@ pub struct Pressure {
     pub datum: f64,
 }
 
-/// Water around soil and structures.
+/// Water around soil and structures, and in the pores of soil.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Water {
     /// Unit weight (kN/m³).
     pub unit_weight: f64,
-    /// Height y (m) of its level in each phase.
-    pub level: Vec<TimeValue>,
+    /// Height y (m) of its level in each phase; `None` without any outside.
+    pub level: Option<Vec<TimeValue>>,
+    /// Height y (m) up to which the pores have it in each phase; `None` where they have none.
+    pub phreatic: Option<Vec<TimeValue>>,
 }
 
 /// What is written, and when.

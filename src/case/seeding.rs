@@ -108,6 +108,10 @@ fn rest(case: &Case, mesh: &Mesh<2>, filled: &[Filled], k0: f64, points: &mut Po
         for p in (0..points.len()).filter(|&p| soil(points.region[p])) {
             let pressure = water.at_first(points.position[p][1] - above[p][1]);
             points.stress[p][..3].iter_mut().for_each(|s| *s -= pressure);
+            if let Some(pore_pressure) = water.in_pores_at_first(points.position[p][1]) {
+                let effective = points.stress[p][1] + pore_pressure;
+                points.stress[p] = [k0 * effective, effective, k0 * effective, 0.0, 0.0, 0.0];
+            }
         }
     }
     for Filled { material, seed, .. } in soils() {
