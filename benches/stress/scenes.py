@@ -290,7 +290,7 @@ def drain(r):
 @kind_of_scene
 def stages(r):
     """Soil under its weight, then with another material, on a wall that is taken away, with its strength reduced, or left to fall."""
-    strength = 10 ** r.uniform(0.5, 1.5)
+    strength = 10 ** r.uniform(0.9, 2)
     case = body(r, choose_mesh(r), 1, 1, (2.5, 1.4, 0, 0), **soil(r, strength, 10 ** r.uniform(3, 4)))
     case["supports"] = {"lower": {"uy": 0}, "left": {"ux": 0}, "right": {"ux": 0}}
     case["gravity"] = {"y": -10}
@@ -303,6 +303,8 @@ def stages(r):
         "weaken": phase("dynamic", 1, 20, strength_reduction=r.uniform(1, 5), reset_displacements=True),
     }
     if r.random() < 0.4:
+        # What only touches a wall does not stand on it yet: it begins with its weight.
+        case["initial_stress"], rest["gravity"] = {"k0": 0.5}, 1
         case["contacts"] = [{"wall": "lower", "soil": "body", "friction": r.choice([0, 0.5])}]
         del case["supports"]["lower"]
         kinds["drop"] = phase("dynamic", 0.3, 10, deactivate=["lower"])
