@@ -66,6 +66,42 @@ fn a_column_moves_as_its_effective_stress_says() {
     }
 }
 
+/// Undrained soil has its excess pressure on top of the level in the pores: where the pool falls by 0.75 m and that level does not, skeleton and
+/// water share the 7.5 kPa as their stiffnesses `M` and `Q = K_w/n`; where both fall, nothing is left to share.
+#[test]
+fn undrained_soil_in_a_pool_shares_what_the_level_in_its_pores_does_not_take() {
+    let (confined, water) = (1e5 * 0.7 / (1.3 * 0.4), 4e5 / 0.4);
+    for (kind, restore) in [("mpm", "never"), ("mpm", "every_step"), ("fem", "never")] {
+        let text = format!(
+            "geometry: plane_strain\n\
+             mesh: {{geo: GEO, parameters: {{half_width: 0.5, height: 2, room: 0, h: 0.25}}}}\n\
+             regions: {{block: {{kind: {kind}, material: clay}}}}\n\
+             materials: {{clay: {{model: linear_elastic, young: 1.0e+5, poisson: 0.3, unit_weight: 20, drainage: undrained, \
+               permeability: 1.0e-9, porosity: 0.4, water_bulk_modulus: 4.0e+5}}}}\n\
+             supports: {{bottom: {{uy: 0}}, axis: {{ux: 0}}, face: {{ux: 0}}}}\n\
+             gravity: {{y: -9.81}}\n\
+             initial_stress: {{k0: 0.42857142857142855}}\n\
+             water: {{level: 2.25, phreatic_level: 2.25, unit_weight: 10}}\n\
+             numerics: {{restore: {restore}}}\n\
+             phases:\n\
+             - {{name: rest, analysis: quasi_static, duration: 1, step: {{initial: 1}}, water_level: 3, phreatic_level: 3}}\n\
+             - {{name: pool, analysis: quasi_static, duration: 1, step: {{initial: 1}}, phreatic_level: 3}}\n\
+             - {{name: both, analysis: quasi_static, duration: 1, step: {{initial: 1}}}}\n\
+             output: {{history: [{{name: top, on: top, quantities: [uy]}}, {{name: all, on: block, quantities: [pore_pressure]}}]}}\n"
+        );
+        let folder = run("slump.geo", &text);
+        let (uy, excess) = (column(folder.path(), "top.uy [m]"), column(folder.path(), "all.pore_pressure [kPa]"));
+        println!("{kind} {restore}: {uy:?} {excess:?}");
+        let (up, less) = (7.5 * 2.0 / (confined + water), -7.5 * water / (confined + water));
+        assert!(
+            uy[0].abs() < 1e-3 * up && excess[0].abs() < 1e-3,
+            "the initial stress is in balance: {uy:?} {excess:?}"
+        );
+        assert!((uy[1] / up - 1.0).abs() < 2e-3 && (excess[1] / less - 1.0).abs() < 2e-3, "{uy:?} {excess:?}");
+        assert!(uy[2].abs() < 2e-3 * up && excess[2].abs() < 2e-3 * less.abs(), "{uy:?} {excess:?}");
+    }
+}
+
 /// A slope that yields here and there: under water inside and outside it is one of its buoyant weight.
 #[test]
 fn a_submerged_slope_is_one_of_buoyant_weight() {
