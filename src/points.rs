@@ -4,7 +4,7 @@ use crate::tensor::{Symmetric, Tensor};
 
 /// All material points of a scene. Every column has one entry a point; `velocity` and `acceleration`
 /// are empty in a quasi-static analysis, `plastic_increment` where no term needs it, `memory` where no model does,
-/// `pressure` without a pressure field, `pore_pressure` without pore water.
+/// `pressure` without a pressure field, `pore_pressure` without pore water, `model` where no phase changes a material.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Points<const D: usize> {
     /// Position (m) at the last converged step.
@@ -39,6 +39,8 @@ pub struct Points<const D: usize> {
     pub pore_pressure: Vec<f64>,
     /// Index into the regions of the mesh.
     pub region: Vec<u16>,
+    /// Number of the material among those of a scene: first one a region of the mesh, then one a change of it.
+    pub model: Vec<u16>,
     /// The cell that holds the point.
     pub cell: Vec<u32>,
 }
@@ -52,6 +54,12 @@ impl<const D: usize> Points<D> {
     pub fn displacement(&self, p: usize) -> [f64; D] {
         let from = self.reference.get(p).unwrap_or(&self.origin[p]);
         std::array::from_fn(|d| self.position[p][d] - from[d])
+    }
+
+    /// The number of the material of point `p`: that of its region, unless a phase has changed it.
+    #[inline]
+    pub fn model_of(&self, p: usize) -> usize {
+        usize::from(*self.model.get(p).unwrap_or(&self.region[p]))
     }
 
     /// Current volume (m³) of point `p`, by the measure of `initial_volume`.
@@ -81,6 +89,7 @@ impl<const D: usize> Points<D> {
             pressure: pick(&self.pressure, numbers),
             pore_pressure: pick(&self.pore_pressure, numbers),
             region: pick(&self.region, numbers),
+            model: pick(&self.model, numbers),
             cell: pick(&self.cell, numbers),
         }
     }

@@ -95,6 +95,17 @@ const fn run(change: Change, command: &'static [&'static str], status: i32, says
     Broken { change, command, status, says }
 }
 
+/// A second phase that changes a material, before the output.
+macro_rules! changed {
+    ($change:literal) => {
+        concat!(
+            "  - {name: on, analysis: quasi_static, duration: 1, step: {initial: 1}, materials: {",
+            $change,
+            "}}\noutput:"
+        )
+    };
+}
+
 /// The text of the case, its YAML and its keys.
 const TEXT: &[Broken] = &[
     check(Do(|d| fs::write(d.join("case.yaml"), "").unwrap()), &["case.yaml", "empty", "mpm schema"]),
@@ -223,6 +234,22 @@ const MEANING: &[Broken] = &[
         Case("gravity: {y: -9.81}", "initial_velocity: {soil: {velocity: {x: 1}}}"),
         &["initial_velocity.soil", "no phase is dynamic"],
     ),
+    check(
+        Case("    prescribe: {surface", "    materials: {soil: clay}\n    prescribe: {surface"),
+        &["case.yaml:23", "phases[0].materials.soil", "first phase begins with the materials of `regions`"],
+    ),
+    check(
+        Case("    prescribe: {surface", "    phreatic_level: 1\n    prescribe: {surface"),
+        &["case.yaml:23", "phases[0].phreatic_level", "no water with a `phreatic_level`", "or take it out"],
+    ),
+    check(
+        Case("gravity:", "water: {unit_weight: 10}\ngravity:"),
+        &["case.yaml:15", "the water has no level", "phreatic_level"],
+    ),
+    check(Case("output:", changed!("sol: clay")), &["case.yaml:24", "no region `sol`", "did you mean `soil`?"]),
+    check(Case("output:", changed!("soil: caly")), &["no material `caly`", "did you mean `clay`?"]),
+    check(Case("output:", changed!("water: clay")), &["materials.water", "a buffer region holds no material"]),
+    check(Case("output:", changed!("soil: clay")), &["phases[1].materials.soil", "`clay` already", "take it out"]),
 ];
 
 /// The `.geo` and its groups.

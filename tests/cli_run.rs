@@ -61,6 +61,16 @@ fn a_change_runs_the_stages_it_reaches() {
     }
 }
 
+/// The soil begins under the water of the first phase.
+#[test]
+fn another_first_level_of_the_water_seeds_again() {
+    let scene = scene();
+    let water = ["run", ".", "--set", "water={level: 1}"];
+    assert_eq!(skipped(&mpm(scene.path(), &water)), [false; 4]);
+    let output = mpm(scene.path(), &[&water[..], &["--set", "phases.load.water_level=2"]].concat());
+    assert_eq!(skipped(&output), [true, false, false, false], "{}", text(&output.stdout));
+}
+
 #[test]
 fn a_changed_geo_meshes_again() {
     let scene = scene();

@@ -112,6 +112,21 @@ const POOL: Case = Case {
     ],
 };
 
+/// Soil that becomes stiffer, brittle and light, with a pressure field beside it before and none after, and softer again; dynamic in between.
+const CHANGE: Case = Case {
+    file: "cases/seabed_slope",
+    overrides: &[
+        "mesh.parameters.h=1.5",
+        "materials={clay: {model: tresca, young: 2000, poisson: 0.49, shear_strength: 8, density: 1.65}, \
+         brittle: {model: tresca_softening, young: 4000, poisson: 0.3, shear_strength: 8, remoulded: 0.2, ductility: 1, \
+         density: 1.5}}",
+        "numerics.restore={min_quality: 0.5}",
+        "phases=[{name: load, analysis: quasi_static, duration: 1, step: {initial: 0.1}, gravity: {rate: 1}}, \
+         {name: move, analysis: dynamic, duration: 1, step: {initial: 0.05}, materials: {soil: brittle}}, \
+         {name: rest, analysis: dynamic, duration: 0.5, step: {initial: 0.05}, materials: {soil: clay}}]",
+    ],
+};
+
 fn mpm(verb: &str, case: &Case, folder: &Path, more: &[&str]) -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_mpm"));
     command.arg(verb).arg(Path::new(env!("CARGO_MANIFEST_DIR")).join(case.file)).arg("-o").arg(folder);
@@ -296,8 +311,13 @@ fn a_run_with_water_in_the_pores_killed_ten_times_ends_the_same() {
 }
 
 #[test]
+fn a_run_whose_material_changes_killed_ten_times_ends_the_same() {
+    survives_kills(&CHANGE, 9);
+}
+
+#[test]
 fn the_number_of_threads_changes_no_bit() {
-    for case in [SLOPE, RELEASE, SAND, PILE, BLOCK, WALL, BODIES, SAFETY, FALL, SOFT, POOL, WATER] {
+    for case in [SLOPE, RELEASE, SAND, PILE, BLOCK, WALL, BODIES, SAFETY, FALL, SOFT, POOL, WATER, CHANGE] {
         let one = seeded(&case);
         let three = copy(one.path());
         ends(mpm("solve", &case, one.path(), &["--threads", "1"]), 0);

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """The stability campaign: random scenes, each of which must end converged or with a clean statement.
 
-    .venv/bin/python benches/stress/run.py [--seed 1] [--count 330] [--write]
+    .venv/bin/python benches/stress/run.py [--seed 1] [--count 416] [--write]
     .venv/bin/python benches/stress/run.py --only 17             # one scene again; its case goes to benches/stress/replay
 
 Two scenes at a time, each on one thread. With --write the table of outcomes goes to docs/stress.md. A scene that breaks a
@@ -136,7 +136,7 @@ def page(rows, seed, seconds, unavailable):
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--count", type=int, default=350, help="scenes")
+    parser.add_argument("--count", type=int, default=416, help="scenes")
     parser.add_argument("--jobs", type=int, default=min(2, len(os.sched_getaffinity(0))), help="scenes at a time")
     parser.add_argument("--only", type=int, action="append", help="a scene by its number; its case is kept in benches/stress/replay")
     parser.add_argument("--write", action="store_true", help=f"write {PAGE.relative_to(ROOT)}")

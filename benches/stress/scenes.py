@@ -225,6 +225,138 @@ def contrast(r):
     return case
 
 
+@kind_of_scene
+def load(r):
+    """A body in room whose moving surface is loaded: pressure, shear and tractions, on all of it or in a box."""
+    matter = soil(r, 10, 1000) if r.random() < 0.5 else elastic(r, 10 ** r.uniform(2, 4))
+    case = body(r, choose_mesh(r), 1, 1, (2.5, 1.6, 0, 0), **matter)
+    case["supports"] = {"lower": r.choice([{"uy": 0}, {"ux": 0, "uy": 0}]), "left": {"ux": 0}, "right": {"ux": 0}}
+    most = 10 ** r.uniform(-0.5, 1.5)
+    loads = {"pressure": {"rate": most}, "ty": {"rate": -most}, "shear": {"rate": r.choice([-0.3, 0.3]) * most}}
+    load = {"surface": r.choice(["all", "body"]), **dict(r.sample(sorted(loads.items()), r.choice([1, 2])))}
+    if r.random() < 0.6:
+        load["where"] = {"x": [-0.1, r.uniform(0.3, 1.2)], "y": [0.5, 1.5]}
+    analysis = r.choice(["quasi_static", "quasi_static", "dynamic"])
+    case["phases"] = [phase(analysis, 1, r.choice([10, 20, 40]), tractions=[load])]
+    return case
+
+
+@kind_of_scene
+def pool(r):
+    """A body in a pool that rises or falls, with or without water in its pores up to the same or another level."""
+    matter = soil(r, 10 ** r.uniform(0.3, 1.5), 10 ** r.uniform(3, 4)) if r.random() < 0.7 else elastic(r, 10 ** r.uniform(2, 4))
+    case = body(r, choose_mesh(r), 1, 1, (2.5, 1.4, 0, 0), **(matter | {"density": 2.0}))
+    case["supports"] = {"lower": r.choice([{"uy": 0}, {"ux": 0, "uy": 0}]), "left": {"ux": 0}, "right": {"ux": 0}}
+    case["gravity"] = {"y": -10}
+    if r.random() < 0.5:
+        case["initial_stress"] = {"k0": r.uniform(0.3, 1)}
+    first, last = r.uniform(-0.5, 2), r.uniform(-0.5, 2)
+    case["water"] = {"level": first}
+    move = phase(r.choice(["quasi_static", "dynamic"]), 1, r.choice([5, 20]), water_level={"table": [[0, first], [1, last]]})
+    if r.random() < 0.5:
+        case["water"]["phreatic_level"] = r.choice([first, r.uniform(-0.5, 2)])
+        move["phreatic_level"] = r.choice([case["water"]["phreatic_level"], {"table": [[0, case["water"]["phreatic_level"]], [1, last]]}])
+    case["phases"] = [phase("quasi_static", 1, 4) | {"name": "rest"}, move]
+    return case
+
+
+@kind_of_scene
+def drain(r):
+    """Soil whose water flows, or cannot, while weight or a load on its surface squeezes it, and then moves with inertia."""
+    matter = soil(r, 10 ** r.uniform(0.5, 2), 10 ** r.uniform(2, 4)) if r.random() < 0.5 else elastic(r, 10 ** r.uniform(2, 4))
+    matter["poisson"] = r.choice([0, 0.2, 0.3, 0.49])
+    matter |= {"drainage": "undrained", "permeability": r.choice([0, 10 ** r.uniform(-9, -2), {"x": 1e-4, "y": 1e-6}])}
+    if r.random() < 0.5:
+        matter |= {"porosity": 0.4, "water_bulk_modulus": 10 ** r.uniform(4, 6)}
+    free = r.random() < 0.5
+    case = body(r, choose_mesh(r), 1, 1, (2, 1.4, 0, 0) if free else (1, 1.4, 0, 0), **matter)
+    case["output"]["fields"].append("pore_pressure")
+    case["supports"] = {"lower": {"uy": 0}, "left": {"ux": 0}, "right": {"ux": 0}}
+    case["supports"][r.choice(["lower", "left", "right"])]["pore_pressure"] = 0
+    case["gravity"] = {"y": -10}
+    loads = [{"surface": "body", "pressure": 10 ** r.uniform(-1, 1)}] if r.random() < 0.5 else []
+    if r.random() < 0.3:
+        case["initial_pore_pressure"] = {"body": r.choice([5, -5, {"top": 0, "gradient": 10, "datum": 1}])}
+    steps = r.choice([3, 10])
+    case["phases"] = [
+        phase("quasi_static", 1, steps, tractions=loads, gravity={"rate": 1}) | {"name": "squeeze"},
+        phase("consolidation", 10 ** r.uniform(-2, 6), steps, tractions=loads) | {"name": "wait"},
+    ]
+    if r.random() < 0.4:
+        case["phases"].append(phase("dynamic", 0.2, 10, gravity=r.choice([1, 2])) | {"name": "shake"})
+    return case
+
+
+@kind_of_scene
+def stages(r):
+    """Soil under its weight, then with another material, on a wall that is taken away, with its strength reduced, or left to fall."""
+    strength = 10 ** r.uniform(0.9, 2)
+    case = body(r, choose_mesh(r), 1, 1, (2.5, 1.4, 0, 0), **soil(r, strength, 10 ** r.uniform(3, 4)))
+    case["supports"] = {"lower": {"uy": 0}, "left": {"ux": 0}, "right": {"ux": 0}}
+    case["gravity"] = {"y": -10}
+    case["materials"]["other"] = soil(r, strength * 10 ** r.uniform(-0.7, 0.7), 10 ** r.uniform(2, 5))
+    rest = phase("quasi_static", 1, 10, gravity={"rate": 1}) | {"name": "rest"}
+    kinds = {
+        "reduce": phase("strength_reduction", 1, 10),
+        "change": phase(r.choice(["quasi_static", "dynamic"]), 1, 10, materials={"body": "other"}),
+        "auto": phase("auto", 2, 20, gravity={"table": [[0, 1], [1, 10 ** r.uniform(0, 1)]]}),
+        "weaken": phase("dynamic", 1, 20, strength_reduction=r.uniform(1, 5), reset_displacements=True),
+    }
+    if r.random() < 0.4:
+        # What only touches a wall does not stand on it yet: it begins with its weight.
+        case["initial_stress"], rest["gravity"] = {"k0": 0.5}, 1
+        case["contacts"] = [{"wall": "lower", "soil": "body", "friction": r.choice([0, 0.5])}]
+        del case["supports"]["lower"]
+        kinds["drop"] = phase("dynamic", 0.3, 10, deactivate=["lower"])
+    names = r.sample(sorted(kinds), 2)
+    # The search ends when it has found what it looks for: it comes last, so that the time of the end is known.
+    names.sort(key=lambda name: name == "reduce")
+    case["phases"] = [rest] + [kinds[name] | {"name": name} for name in names]
+    return case
+
+
+@kind_of_scene
+def brittle(r):
+    """Soil that softens as it shears, and is stronger where it shears fast, pressed, pulled along or brought down."""
+    more = {"rate": r.uniform(0, 0.2), "reference_rate": 10 ** r.uniform(-6, -1)} if r.random() < 0.5 else {}
+    strength = 10 ** r.uniform(0, 1.3)
+    matter = {"model": "tresca_softening", "young": strength * 10 ** r.uniform(1.5, 2.7), "poisson": poisson(r), "density": 1.0}
+    matter |= {"shear_strength": strength, "remoulded": r.uniform(0.05, 1), "ductility": 10 ** r.uniform(-1, 1.5), **more}
+    case = body(r, choose_mesh(r), 1, 1, (2.5, 1, 0, 0), **matter)
+    case["supports"] = {"lower": {"ux": 0, "uy": 0}, "left": {"ux": 0}, "right": {"ux": 0}}
+    kind = r.choice(["press", "along", "fall"])
+    if kind == "fall":
+        case["gravity"] = {"y": -10}
+        analysis = r.choice(["quasi_static", "dynamic"])
+        case["phases"] = [phase(analysis, 1, 20, gravity={"rate": r.uniform(1, 3)})]
+    else:
+        motion = {"uy": {"rate": -r.uniform(0.05, 0.4)}} if kind == "press" else {"ux": {"rate": r.uniform(0.1, 1)}}
+        case["phases"] = [phase("quasi_static", 1, 20, prescribe={"head": motion})]
+    return case
+
+
+@kind_of_scene
+def clay(r):
+    """Modified Cam-Clay, over- and normally consolidated, drained and not, pressed, pulled along or under its weight."""
+    pressure = 10 ** r.uniform(0.5, 2)
+    matter = {"model": "cam_clay", "young": pressure * 10 ** r.uniform(1, 2.5), "poisson": r.choice([0, 0.2, 0.3]), "density": 2.0}
+    matter |= {"critical_slope": r.uniform(0.5, 1.5), "preconsolidation": pressure, "plastic_compressibility": r.uniform(0.02, 0.3)}
+    kind = r.choice(["press", "along", "weight"])
+    if r.random() < 0.4:
+        matter |= {"drainage": "undrained", **r.choice([{}, {"permeability": 1e-6}])}
+    case = body(r, choose_mesh(r), 1, 1, None if kind == "press" else (2.5, 1, 0, 0), **matter)
+    case["supports"] = {"lower": {"ux": 0, "uy": 0}, "left": {"ux": 0}, "right": {"ux": 0}}
+    case["gravity"] = {"y": -10}
+    case["initial_stress"] = {"k0": r.uniform(0.4, 1)}
+    motion = {"press": {"uy": {"rate": -r.uniform(0.02, 0.3)}}, "along": {"ux": {"rate": r.uniform(0.02, 0.5)}}}
+    if kind == "weight":
+        analysis = r.choice(["quasi_static", "dynamic"])
+        case["phases"] = [phase(analysis, 1, 20, gravity={"table": [[0, 1], [1, r.uniform(0, 5)]]})]
+    else:
+        case["phases"] = [phase("quasi_static", 1, 20, prescribe={"head": motion[kind]})]
+    return case
+
+
 def scene(seed, number, schemes=None):
     """Class, scheme and case of scene `number`; classes and schemes take turns."""
     r = random.Random(f"{seed} {number}")

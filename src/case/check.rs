@@ -329,7 +329,8 @@ impl Checker {
             return;
         }
         for material in case.materials.iter().filter(|material| material.density.top == 0.0) {
-            if file.regions.values().any(|region| region.material.as_ref() == Some(&material.name)) {
+            let begun = file.regions.values().filter_map(|region| region.material.as_ref());
+            if begun.chain(file.phases.iter().flat_map(|p| p.materials.values())).any(|name| *name == material.name) {
                 let path = root.key("materials").key(&material.name);
                 let remedy = "give it a `density` above 0, or make the phases quasi_static";
                 self.issue(&path, At::Key, "a dynamic phase needs material with mass", remedy);

@@ -115,6 +115,8 @@ impl Content {
 #[derive(Clone)]
 pub struct Material {
     pub name: String,
+    /// The name of its model.
+    pub model_name: String,
     /// Density (t/m³).
     pub density: Profile,
     pub model: Arc<dyn Model>,
@@ -266,6 +268,8 @@ pub struct Phase {
     pub reduction: Option<TimeValue>,
     /// Structures, walls and contacts that are not there in the phase.
     pub absent: Vec<String>,
+    /// The materials that regions take as it begins.
+    pub changes: Vec<Change>,
     /// Whether displacements are counted from its beginning.
     pub reset: bool,
     pub until: Vec<Until>,
@@ -288,6 +292,13 @@ impl Analysis {
     pub fn has_inertia(self) -> bool {
         matches!(self, Self::Dynamic | Self::Auto)
     }
+}
+
+/// A material that a region takes: indices into [`Case::regions`] and [`Case::materials`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Change {
+    pub region: usize,
+    pub material: usize,
 }
 
 /// What ends a phase before its time.
@@ -345,13 +356,15 @@ pub struct Pressure {
     pub datum: f64,
 }
 
-/// Water around soil and structures.
+/// Water around soil and structures, and in the pores of soil.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Water {
     /// Unit weight (kN/m³).
     pub unit_weight: f64,
-    /// Height y (m) of its level in each phase.
-    pub level: Vec<TimeValue>,
+    /// Height y (m) of its level in each phase; `None` without any outside.
+    pub level: Option<Vec<TimeValue>>,
+    /// Height y (m) up to which the pores have it in each phase; `None` where they have none.
+    pub phreatic: Option<Vec<TimeValue>>,
 }
 
 /// What is written, and when.

@@ -28,7 +28,8 @@ impl Checker {
         let density = self.density(material, gravity, path);
         let (model, carried) = self.model(material, pressure, path)?;
         let porous = self.porous(material, &model, path);
-        Some(Material { name: name.to_owned(), density: density?, model, carried, porous })
+        let model_name = material.model.clone();
+        Some(Material { name: name.to_owned(), model_name, density: density?, model, carried, porous })
     }
 
     fn density(&mut self, material: &raw::Material, gravity: &[f64; 2], path: &Path) -> Option<Profile> {

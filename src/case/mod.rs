@@ -4,6 +4,7 @@
 //! against the schema of [`raw`], `check` resolves that into [`checked`] types, [`names`] holds the result
 //! against the groups of the mesh.
 
+mod changes;
 mod check;
 pub mod checked;
 mod contacts;

@@ -10,6 +10,8 @@ use crate::time_value::TimeValue;
 impl Checker {
     pub(super) fn phases(&mut self, file: &raw::CaseFile, numerics: &Numerics, path: &Path) -> Vec<Phase> {
         let mut checked: Vec<Phase> = Vec::new();
+        let begun = file.regions.iter().filter_map(|(name, region)| Some((name.clone(), region.material.clone()?)));
+        let mut materials = begun.collect();
         for (i, phase) in file.phases.iter().enumerate() {
             let path = path.index(i);
             if file.phases[..i].iter().any(|earlier| earlier.name == phase.name) {
@@ -17,7 +19,8 @@ impl Checker {
                 self.issue(&path.key("name"), At::Value, problem, "give each phase a name of its own");
             }
             let absent = self.absent(phase, checked.last(), file, &path);
-            checked.push(Phase { absent, ..self.phase(phase, file, numerics, &path) });
+            let changes = self.changes(phase, i == 0, file, &mut materials, &path);
+            checked.push(Phase { absent, changes, ..self.phase(phase, file, numerics, &path) });
         }
         checked
     }
@@ -74,6 +77,7 @@ impl Checker {
             gravity,
             reduction: self.reduction(phase, analysis, file, path),
             absent: Vec::new(),
+            changes: Vec::new(),
             reset: phase.reset_displacements,
             until: self.until(phase, analysis, file, &path.key("until")),
         }

@@ -1,5 +1,6 @@
 //! Water in the pores whose pressure is a field of its own: what a case says of it, checked, and what a scene has of it.
 
+use super::changes;
 use super::check::Checker;
 use super::checked::Case;
 use super::incompressible::{UNDRAINED, bulk};
@@ -163,16 +164,12 @@ pub(super) fn water(case: &Case, mesh: &Mesh<2>) -> Result<Option<Water>> {
     }
     drained.sort_unstable();
     drained.dedup();
-    Ok(Some(Water { porous, alone: scene::filled(case).all(|(_, m)| m.carried.is_none()), drained }))
+    Ok(Some(Water { porous, alone: changes::used(case).all(|(_, m)| m.carried.is_none()), drained }))
 }
 
-/// The porous soil of each region of the mesh.
+/// The porous soil of each material by number.
 pub(super) fn porous(case: &Case, mesh: &Mesh<2>) -> Result<Vec<Option<Porous>>> {
-    let mut porous = vec![None; mesh.regions.len()];
-    for (region, material) in scene::filled(case) {
-        porous[scene::region_index(mesh, &region.name)? as usize] = material.porous.clone();
-    }
-    Ok(porous)
+    changes::by_number(case, mesh, |material| material.porous.clone())
 }
 
 /// Lets pore pressures be watched at corners of cells, which alone have them.

@@ -297,12 +297,15 @@ pub struct InitialStress {
     pub k0: f64,
 }
 
-/// Water around the soil and the structures: a load on their boundaries.
+/// Water around the soil and the structures, a load on their boundaries, and in the pores of the soil.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Water {
-    /// Height y (m) of its level, in the time of each phase.
-    pub level: InTime,
+    /// Height y (m) of its level outside of the soil, in the time of each phase; without it there is none.
+    pub level: Option<InTime>,
+    /// Height y (m) up to which it stands in the pores of the soil, in the time of each phase: with it, materials are those of the effective
+    /// stress. Without it there is none.
+    pub phreatic_level: Option<InTime>,
     /// Unit weight (kN/m³), above 0.
     #[serde(default = "unit_weight_of_water")]
     #[schemars(extend("exclusiveMinimum" = 0))]
@@ -470,6 +473,8 @@ pub struct Phase {
     pub tractions: Vec<Traction>,
     /// Height y (m) of the water level in this phase; without it that of `water`.
     pub water_level: Option<InTime>,
+    /// Height y (m) up to which water stands in the pores in this phase; without it that of `water`.
+    pub phreatic_level: Option<InTime>,
     /// Factor on gravity in the phase (-); without it 1.
     pub gravity: Option<InTime>,
     /// Structures, walls and contacts, by name, that are taken away as the phase begins: until they are activated they carry
@@ -479,6 +484,9 @@ pub struct Phase {
     /// Structures, walls and contacts, by name, that come back as the phase begins.
     #[serde(default)]
     pub activate: Vec<String>,
+    /// Materials, by the names of regions, that these take as the phase begins, with the stress that they have.
+    #[serde(default)]
+    pub materials: BTreeMap<String, String>,
     /// Whether displacements are counted from the beginning of the phase in frames and history.
     #[serde(default)]
     pub reset_displacements: bool,

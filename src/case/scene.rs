@@ -2,7 +2,7 @@
 
 use super::checked::{Analysis, Case, Field, Geometry, Material, Quantity, Region, Restore, Until};
 use super::rigid::{self, Holds};
-use super::{overlap, parts, pores, staged, touch, wall, water};
+use super::{changes, overlap, parts, pores, staged, touch, wall, water};
 use crate::error::{Error, Result};
 use crate::io::checkpoint::Fingerprint;
 use crate::kinematics::{Axisymmetric, Kinematics, PlaneStrain};
@@ -118,11 +118,13 @@ pub fn scene<K: Kinematics<2>>(case: &Case, mut whole: Mesh<2>) -> Result<Scene<
             "mesh with T3, T6, Q4 or Q9 (no `incomplete: true`), or choose `gradient: mpm`",
         ));
     }
-    let materials = || filled(case).filter(|(region, _)| !region.content.is_rigid()).map(|(_, material)| material);
+    let materials =
+        || changes::used(case).filter(|(region, _)| !region.content.is_rigid()).map(|(_, material)| material);
     let lowest = mesh.nodes.iter().map(|x| x[1]).fold(f64::INFINITY, f64::min);
     let largest = |value: fn(&Material, f64) -> f64| materials().map(|m| value(m, lowest)).fold(0.0, f64::max);
     // Structures do not tell how stiff the grid is where it is empty, nor its pressure.
-    let soils = || filled(case).filter(|(region, _)| !region.content.is_structure()).map(|(_, material)| material);
+    let soils =
+        || changes::used(case).filter(|(region, _)| !region.content.is_structure()).map(|(_, material)| material);
     let of_soil = |value: fn(&Material, f64) -> f64| {
         // A scene may have nothing else.
         soils().map(|m| value(m, lowest)).reduce(f64::max).unwrap_or_else(|| largest(value))
@@ -181,7 +183,7 @@ pub fn scene<K: Kinematics<2>>(case: &Case, mut whole: Mesh<2>) -> Result<Scene<
         Some(part) => {
             let mut terms = internal::<K>(case, &part, dynamic, pressure_unit, shear)?;
             let deforms = |region: &Region| region.content.is_fem() && !region.content.is_rigid();
-            let heavy = filled(case).any(|(region, m)| deforms(region) && m.has_mass());
+            let heavy = changes::used(case).any(|(region, m)| deforms(region) && m.has_mass());
             if case.gravity != [0.0; 2] && heavy {
                 terms.push(Box::new(gravity::<K>(case)));
             }
@@ -190,8 +192,8 @@ pub fn scene<K: Kinematics<2>>(case: &Case, mut whole: Mesh<2>) -> Result<Scene<
             }
             terms.extend(water::on_elements::<K>(case, &part, size));
             terms.extend(rigid::terms::<K>(case, &part, &bodies[..structures], dynamic)?);
-            let (carried, rigid) = (carried(case, &part)?, rigid::regions(case, &part));
-            let with = |r: usize| carried[r].is_some() && !rigid[r];
+            let (carried, rigid) = (changes::ever(case, &part, |m| m.carried.is_some())?, rigid::regions(case, &part));
+            let with = |r: usize| carried[r] && !rigid[r];
             let with_pressure = part.cells.region.iter().map(|&r| with(r as usize)).collect();
             let porous = pores::porous(case, &part)?;
             let with_water =
@@ -210,7 +212,8 @@ pub fn scene<K: Kinematics<2>>(case: &Case, mut whole: Mesh<2>) -> Result<Scene<
     let of_structures = fem.as_ref().map_or(&mesh, |fem| &fem.mesh);
     let staged = |(number, p)| {
         let held = staged::held(case, &mesh, of_structures, &bodies, p)?;
-        Ok(Phase { held, ..phase(case, &holds, number, p, height)? })
+        let changes = changes::of_phase(case, [&mesh, of_structures], number)?;
+        Ok(Phase { held, changes, ..phase(case, &holds, number, p, height)? })
     };
     let phases = case.phases.iter().enumerate().map(staged).collect::<Result<_>>()?;
     Ok(Scene {
@@ -248,17 +251,18 @@ fn internal<K: Kinematics<2>>(
     shear: f64,
 ) -> Result<Vec<Box<dyn Term<2>>>> {
     let models = models(case, mesh)?;
-    let is_structure = |name: &String| case.regions.iter().any(|r| r.name == *name && r.content.is_structure());
-    let kept: Vec<bool> = mesh.regions.iter().map(is_structure).collect();
+    let kept = changes::of_structures(case, mesh);
     let Some(unit) = pressure_unit else {
         return Ok(vec![Box::new(Internal::<K>::new(models, dynamic).keeping(&kept))]);
     };
-    let field = PressureField::<K>::new(carried(case, mesh)?, unit);
-    let bond = SmoothPressure::<K>::new(unit, shear, mesh.cells.len());
+    let carried = carried(case, mesh)?;
+    let carries = carried.iter().map(Option::is_some).collect();
+    let field = PressureField::<K>::new(carried, unit);
+    let bond = SmoothPressure::<K>::new(carries, unit, shear, mesh.cells.len());
     let porous = pores::porous(case, mesh)?;
     let with_water = porous.iter().any(Option::is_some);
     let water = PoreWater::<K>::new(porous, unit);
-    Ok(match (with_water, filled(case).any(|(_, m)| m.carried.is_some())) {
+    Ok(match (with_water, changes::used(case).any(|(_, m)| m.carried.is_some())) {
         (false, _) => vec![Box::new(Internal::<K, _>::sharing(models, dynamic, field).keeping(&kept)), Box::new(bond)],
         (true, false) => vec![Box::new(Internal::<K, _>::sharing(models, dynamic, water).keeping(&kept))],
         (true, true) => {
@@ -317,6 +321,7 @@ fn phase<'a>(
         reduction: phase.reduction.clone(),
         search: (phase.analysis == Analysis::StrengthReduction).then_some(Search { farthest: FARTHEST * height }),
         held: Vec::new(),
+        changes: Vec::new(),
         apart: staged::apart(case, phase),
         reset: phase.reset,
         stops: stops(phase.duration, case.output.every, values.flat_map(TimeValue::kinks)),
@@ -423,23 +428,15 @@ pub(super) fn filled(case: &Case) -> impl Iterator<Item = (&Region, &Material)> 
     case.regions.iter().filter_map(|region| Some((region, &case.materials[region.content.material()?])))
 }
 
-/// The model of each region of the mesh, if it holds points.
+/// The model of each material by number.
 fn models(case: &Case, mesh: &Mesh<2>) -> Result<Vec<Option<std::sync::Arc<dyn crate::material::Model>>>> {
-    let mut models = vec![None; mesh.regions.len()];
-    for (region, material) in filled(case) {
-        let model = material.carried.as_ref().map_or(&material.model, |carried| &carried.model);
-        models[region_index(mesh, &region.name)? as usize] = Some(model.clone());
-    }
-    Ok(models)
+    let model = |m: &Material| Some(m.carried.as_ref().map_or(&m.model, |carried| &carried.model).clone());
+    changes::by_number(case, mesh, model)
 }
 
-/// What the pressure field carries in each region of the mesh.
+/// What the pressure field carries of each material by number.
 fn carried(case: &Case, mesh: &Mesh<2>) -> Result<Vec<Option<Carried>>> {
-    let mut carried = vec![None; mesh.regions.len()];
-    for (region, material) in filled(case) {
-        carried[region_index(mesh, &region.name)? as usize] = material.carried.clone();
-    }
-    Ok(carried)
+    changes::by_number(case, mesh, |material| material.carried.clone())
 }
 
 /// The mean size of the cells of a mesh (m).

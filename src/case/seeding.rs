@@ -68,7 +68,7 @@ fn filled(case: &Case, mesh: &Mesh<2>) -> Result<Vec<Filled>> {
 }
 
 /// A profile is linear below its datum: in range at the top and the bottom of a region, it is in between.
-fn check_over_depth(mesh: &Mesh<2>, index: u16, region: &Region, material: &Material) -> Result<()> {
+pub(super) fn check_over_depth(mesh: &Mesh<2>, index: u16, region: &Region, material: &Material) -> Result<()> {
     let cells = (0..mesh.cells.len()).filter(|&c| mesh.cells.region[c] == index);
     let heights = cells.flat_map(|c| mesh.cells.nodes(c)).map(|&n| mesh.nodes[n as usize][1]);
     let (low, high) = heights.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), y| (l.min(y), h.max(y)));
@@ -108,6 +108,10 @@ fn rest(case: &Case, mesh: &Mesh<2>, filled: &[Filled], k0: f64, points: &mut Po
         for p in (0..points.len()).filter(|&p| soil(points.region[p])) {
             let pressure = water.at_first(points.position[p][1] - above[p][1]);
             points.stress[p][..3].iter_mut().for_each(|s| *s -= pressure);
+            if let Some(pore_pressure) = water.in_pores_at_first(points.position[p][1]) {
+                let effective = points.stress[p][1] + pore_pressure;
+                points.stress[p] = [k0 * effective, effective, k0 * effective, 0.0, 0.0, 0.0];
+            }
         }
     }
     for Filled { material, seed, .. } in soils() {

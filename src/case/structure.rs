@@ -78,19 +78,27 @@ impl<'a> Walk<'a> {
     }
 
     fn any_of(&mut self, branches: &'a [Value], value: &Value, path: &Path, help: &str) {
-        let fitting = branches.iter().filter(|branch| {
-            let branch = self.resolve(branch);
-            accepts(branch, value)
-        });
+        let branches = self.alternatives(branches);
+        let fitting = branches.iter().copied().filter(|branch| accepts(branch, value));
         // Of several blocks the one whose keys are most like the ones given.
         match fitting.max_by(|a, b| self.likeness(a, value).total_cmp(&self.likeness(b, value))) {
             Some(branch) => self.value(branch, value, path, help),
             None => {
-                let kinds = branches.iter().map(|branch| kind(self.resolve(branch))).filter(|kind| kind != "nothing");
+                let kinds = branches.iter().map(|branch| kind(branch)).filter(|kind| kind != "nothing");
                 let kinds = kinds.collect::<Vec<_>>().join(" or ");
                 self.issue(path, At::Value, format!("is {}, but must be {kinds}", describe(value)), help.to_owned());
             }
         }
+    }
+
+    /// The branches, those of branches that branch themselves in their place.
+    fn alternatives(&self, branches: &'a [Value]) -> Vec<&'a Value> {
+        let branches = branches.iter().map(|branch| self.resolve(branch));
+        let of = |branch: &'a Value| match branch.get("anyOf").and_then(Value::as_array) {
+            Some(own) => self.alternatives(own),
+            None => vec![branch],
+        };
+        branches.flat_map(of).collect()
     }
 
     fn likeness(&self, branch: &'a Value, value: &Value) -> f64 {

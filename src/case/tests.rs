@@ -238,3 +238,19 @@ proptest! {
         }
     }
 }
+
+/// A pressure may be a profile as well as in time, which has forms of its own.
+#[test]
+fn a_pressure_on_a_surface_takes_all_its_forms() {
+    let top = |pressure: &str| {
+        let load = format!("phases[1].tractions=[{{surface: all, pressure: {pressure}}}]");
+        let case = case(CASE, &["numerics.restore=every_step", &load]);
+        let pressure = case.phases[1].surface_loads[0].pressure.clone().unwrap();
+        (pressure.top, pressure.gradient)
+    };
+    let none = TimeValue::Constant(0.0);
+    assert_eq!(top("3"), (TimeValue::Constant(3.0), none.clone()));
+    assert_eq!(top("{rate: 3}"), (TimeValue::Rate(3.0), none.clone()));
+    assert_eq!(top("{table: [[0, 1], [1, 2]]}"), (TimeValue::Table(vec![[0.0, 1.0], [1.0, 2.0]]), none));
+    assert_eq!(top("{top: 1, gradient: 2}"), (TimeValue::Constant(1.0), TimeValue::Constant(2.0)));
+}

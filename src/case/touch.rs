@@ -1,5 +1,6 @@
 //! The structures and walls of a case and what they touch.
 
+use super::changes::by_number;
 use super::checked::{Case, Contact, Content, Geometry, Region, Touched, Touching};
 use super::scene::region_index;
 use super::wall;
@@ -90,7 +91,7 @@ impl Parts<'_> {
 
     fn on_soil<K: Kinematics<2>>(&self, contact: &Contact, soil: &[usize]) -> Result<Boundary<K>> {
         let regions = soil.iter().map(|&region| self.region(region)).collect::<Result<Vec<u16>>>()?;
-        let models = soil.iter().filter_map(|&region| self.model(region)).collect();
+        let models = by_number(self.case, self.grid, |material| Some(material.model.clone()))?;
         let edge = size(self.grid, &regions).ok_or_else(|| self.no_cells(contact, "the soil"))?;
         let structure = region_index(self.grid, self.name(&contact.structure))?;
         let surface = match (&contact.structure, self.bodies.iter().find(|body| body.region == structure)) {

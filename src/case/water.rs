@@ -1,5 +1,6 @@
-//! Water around soil and structures: its level in each phase, and the terms of its pressure.
+//! Water around soil and structures and in the pores of soil: its levels in each phase, and the terms of its pressure.
 
+use super::changes;
 use super::check::Checker;
 use super::checked::{Case, Phase, Pressure, SurfaceLoad, Water};
 use super::locate::{At, Path};
@@ -18,45 +19,83 @@ const BAND: f64 = 0.18;
 
 impl Checker {
     pub(super) fn water(&mut self, file: &raw::CaseFile, root: &Path) -> Option<Water> {
-        let path = |i: usize| root.key("phases").index(i).key("water_level");
-        let Some(water) = &file.water else {
-            for (i, _) in file.phases.iter().enumerate().filter(|(_, phase)| phase.water_level.is_some()) {
-                let remedy = "add `water: {level: …}`, or take it out";
-                self.issue(&path(i), At::Key, "there is no water in this case", remedy);
+        let whole = file.water.as_ref();
+        let path = root.key("water");
+        if file.regions.values().any(|region| region.rigid == Some(true)) && whole.is_some_and(|w| w.level.is_some()) {
+            let remedy = "give the structure the weight that it has under water, and leave `rigid` or `water` out";
+            self.issue(&path, At::Key, "water does not act on rigid structures yet", remedy);
+        }
+        if whole.is_some_and(|water| water.level.is_none() && water.phreatic_level.is_none()) {
+            self.issue(&path, At::Key, "the water has no level", "add `level: …` or `phreatic_level: …`");
+        }
+        let of_phases = |of: fn(&raw::Phase) -> &Option<raw::InTime>| file.phases.iter().map(of).collect::<Vec<_>>();
+        let outside = whole.and_then(|water| water.level.as_ref());
+        let level = self.levels(["level", "water_level"], outside, of_phases(|phase| &phase.water_level), root);
+        let inside = whole.and_then(|water| water.phreatic_level.as_ref());
+        let of_pores = of_phases(|phase| &phase.phreatic_level);
+        let phreatic = self.levels(["phreatic_level"; 2], inside, of_pores, root);
+        Some(Water { unit_weight: whole?.unit_weight, level, phreatic })
+    }
+
+    /// A level in each phase, given that of the whole case and those of the phases, by the keys of both.
+    fn levels(
+        &mut self,
+        [key, of_phase]: [&str; 2],
+        whole: Option<&raw::InTime>,
+        own: Vec<&Option<raw::InTime>>,
+        root: &Path,
+    ) -> Option<Vec<TimeValue>> {
+        let path = |i: usize| root.key("phases").index(i).key(of_phase);
+        let Some(whole) = whole else {
+            for (i, _) in own.iter().enumerate().filter(|(_, level)| level.is_some()) {
+                let problem = format!("there is no water with a `{key}` in this case");
+                self.issue(&path(i), At::Key, problem, format!("add `water: {{{key}: …}}`, or take it out"));
             }
             return None;
         };
-        if file.regions.values().any(|region| region.rigid == Some(true)) {
-            let remedy = "give the structure the weight that it has under water, and leave `rigid` or `water` out";
-            self.issue(&root.key("water"), At::Key, "water does not act on rigid structures yet", remedy);
-        }
-        let whole = self.in_time(&water.level, &root.key("water").key("level"));
-        let levels = file.phases.iter().enumerate();
-        let level = levels
-            .map(|(i, phase)| match &phase.water_level {
-                Some(level) => self.in_time(level, &path(i)),
-                None => whole.clone(),
-            })
-            .collect();
-        Some(Water { unit_weight: water.unit_weight, level })
+        let whole = self.in_time(whole, &root.key("water").key(key));
+        let levels = own.into_iter().enumerate().map(|(i, level)| match level {
+            Some(level) => self.in_time(level, &path(i)),
+            None => whole.clone(),
+        });
+        Some(levels.collect())
     }
 }
 
 impl Water {
-    /// The pressure of the water in each phase, over cells of the size `size` (m).
+    /// The pressure of the water outside in each phase, over cells of the size `size` (m).
     pub fn heads(&self, size: f64) -> Vec<Option<Head>> {
+        self.below(self.level.as_deref(), size)
+    }
+
+    /// That of the water in the pores.
+    pub fn heads_in_pores(&self, size: f64) -> Vec<Option<Head>> {
+        self.below(self.phreatic.as_deref(), size)
+    }
+
+    fn below(&self, levels: Option<&[TimeValue]>, size: f64) -> Vec<Option<Head>> {
         let head = |level: &TimeValue| Head {
             top: TimeValue::Constant(0.0),
             gradient: TimeValue::Constant(self.unit_weight),
             datum: level.clone(),
             band: BAND * size,
         };
-        self.level.iter().map(|level| Some(head(level))).collect()
+        levels.unwrap_or_default().iter().map(|level| Some(head(level))).collect()
     }
 
-    /// The pressure (kPa) at height `y` (m) as the run begins.
+    /// The pressure (kPa) outside at height `y` (m) as the run begins.
     pub fn at_first(&self, y: f64) -> f64 {
-        self.level.first().map_or(0.0, |level| self.unit_weight * (level.at(0.0) - y).max(0.0))
+        self.pressure_at_first(self.level.as_deref(), y)
+    }
+
+    /// That in the pores; `None` where they have no water.
+    pub fn in_pores_at_first(&self, y: f64) -> Option<f64> {
+        self.phreatic.as_ref().map(|levels| self.pressure_at_first(Some(levels), y))
+    }
+
+    fn pressure_at_first(&self, levels: Option<&[TimeValue]>, y: f64) -> f64 {
+        let level = levels.and_then(|levels| levels.first());
+        level.map_or(0.0, |level| self.unit_weight * (level.at(0.0) - y).max(0.0))
     }
 }
 
@@ -85,7 +124,8 @@ fn is_all_around(case: &Case, load: &SurfaceLoad) -> bool {
 
 /// Whether the surface of the material points must be known: for loads on it, or to be shown.
 pub fn needs_surface(case: &Case) -> bool {
-    case.output.surface || case.water.is_some() || case.phases.iter().any(|phase| !phase.surface_loads.is_empty())
+    let water = case.water.as_ref().is_some_and(|water| water.level.is_some());
+    case.output.surface || water || case.phases.iter().any(|phase| !phase.surface_loads.is_empty())
 }
 
 /// The loads on the surface of the material points.
@@ -125,7 +165,7 @@ pub fn acting(case: &Case, mesh: &Mesh<2>) -> Result<Acting> {
 pub fn terms<K: Kinematics<2>>(case: &Case, mesh: &Mesh<2>, size: f64) -> Result<Vec<Box<dyn Term<2>>>> {
     let mut terms: Vec<Box<dyn Term<2>>> = Vec::new();
     if let Some(water) = &case.water {
-        terms.push(Box::new(VirtualPressure::<K>::new(water.heads(size))));
+        terms.push(Box::new(of_water::<K>(case, water, water.heads(size), mesh, size)));
     }
     for (i, phase) in case.phases.iter().enumerate() {
         for load in phase.surface_loads.iter().filter(|load| is_all_around(case, load)) {
@@ -144,10 +184,29 @@ pub fn terms<K: Kinematics<2>>(case: &Case, mesh: &Mesh<2>, size: f64) -> Result
     Ok(terms)
 }
 
-/// The term of water on the finite elements of `mesh`.
-pub fn on_elements<K: Kinematics<2>>(case: &Case, mesh: &Mesh<2>, size: f64) -> Option<Box<dyn Term<2>>> {
-    let heads = case.water.as_ref()?.heads(size);
-    Some(Box::new(FacetPressure::<K>::new(mesh, |_| true, heads)))
+/// Water with the pressure `outside` in each phase, and that in the pores of all soil.
+fn of_water<K>(
+    case: &Case,
+    water: &Water,
+    outside: Vec<Option<Head>>,
+    mesh: &Mesh<2>,
+    size: f64,
+) -> VirtualPressure<K> {
+    let porous = changes::of_structures(case, mesh).into_iter().map(|structure| !structure).collect();
+    VirtualPressure::new(outside).with_pores(water.heads_in_pores(size), porous)
+}
+
+/// The terms of water on and in the finite elements of `mesh`.
+pub fn on_elements<K: Kinematics<2>>(case: &Case, mesh: &Mesh<2>, size: f64) -> Vec<Box<dyn Term<2>>> {
+    let mut terms: Vec<Box<dyn Term<2>>> = Vec::new();
+    let Some(water) = &case.water else { return terms };
+    if water.level.is_some() {
+        terms.push(Box::new(FacetPressure::<K>::new(mesh, |_| true, water.heads(size))));
+    }
+    if water.phreatic.is_some() {
+        terms.push(Box::new(of_water::<K>(case, water, Vec::new(), mesh, size)));
+    }
+    terms
 }
 
 /// What of a phase's loads and of the water varies in time.
@@ -156,6 +215,7 @@ pub fn values<'a>(case: &'a Case, number: usize, phase: &'a Phase) -> impl Itera
         let pressure = load.pressure.iter().flat_map(|p| [&p.top, &p.gradient]);
         pressure.chain([&load.shear]).chain(&load.components)
     };
-    let level = case.water.iter().filter_map(move |water| water.level.get(number));
+    let levels = case.water.iter().flat_map(|water| water.level.iter().chain(&water.phreatic));
+    let level = levels.filter_map(move |levels| levels.get(number));
     phase.surface_loads.iter().flat_map(of_load).chain(level)
 }

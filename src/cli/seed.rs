@@ -30,6 +30,11 @@ pub fn work(stage: &Stage) -> Outcome {
 }
 
 fn stamp(stage: &Stage) -> Result<Stamp> {
-    let keys = ["geometry", "regions", "materials", "gravity", "water", "initial_stress", "initial_velocity"];
+    let mut keys = vec!["geometry", "regions", "materials", "gravity", "water"];
+    keys.extend(["initial_stress", "initial_pore_pressure", "initial_velocity"]);
+    if stage.loaded.case.water.is_some() {
+        // The soil begins under the water of the first phase.
+        keys.push("phases");
+    }
     stage.stamp("seed", &keys, &[stage.mesh()])
 }

@@ -128,9 +128,9 @@ pub struct Boundary<K> {
     pub structure: u16,
     pub surface: Surface,
     pub law: Law,
-    /// The regions of the soil, and the model of each.
+    /// The regions of the soil, and the model of each material by number ([`Points::model_of`]).
     pub regions: Vec<u16>,
-    pub models: Vec<Arc<dyn Model>>,
+    pub models: Vec<Option<Arc<dyn Model>>>,
     /// The surface that all soil began with.
     pub skin: Skin,
     pub kinematics: PhantomData<K>,
@@ -162,7 +162,7 @@ impl<K: Kinematics<2>> Boundary<K> {
     /// Penalties and multipliers of a hat over soil like that at `point`.
     fn penalty(&self, points: &Points<2>, point: usize, hat: usize, held: &Multipliers) -> Penalty {
         let y = points.origin[point][1];
-        let model = self.regions.iter().position(|r| *r == points.region[point]).map(|i| &self.models[i]);
+        let model = self.models.get(points.model_of(point)).and_then(Option::as_ref);
         let yields = model.is_some_and(|m| m.strength(y).is_finite());
         let share = if yields { YIELDING } else { 1.0 };
         let stiffness = share * model.map_or(0.0, |m| m.young(y)) / self.surface.spacing;

@@ -29,9 +29,10 @@ pub fn to_arrays<const D: usize>(points: &Points<D>) -> Vec<Array> {
         pressure,
         pore_pressure,
         region,
+        model,
         cell,
     } = points;
-    let columns: [&(dyn Fn() -> Array + Sync); 17] = [
+    let columns: [&(dyn Fn() -> Array + Sync); 18] = [
         &|| array("position", "m", 3, padded(position)),
         &|| array("origin", "m", 3, padded(origin)),
         &|| array("reference", "m", 3, padded(reference)),
@@ -48,11 +49,12 @@ pub fn to_arrays<const D: usize>(points: &Points<D>) -> Vec<Array> {
         &|| array("pressure", "kPa", 1, pressure.clone()),
         &|| array("pore_pressure", "kPa", 1, pore_pressure.clone()),
         &|| array("region", "-", 1, region.clone()),
+        &|| array("model", "-", 1, model.clone()),
         &|| array("cell", "-", 1, cell.clone()),
     ];
     let mut arrays: Vec<Array> = columns.par_iter().map(|column| column()).collect();
-    const OPTIONAL: [&str; 7] =
-        ["reference", "velocity", "acceleration", "plastic_increment", "memory", "pressure", "pore_pressure"];
+    const OPTIONAL: [&str; 8] =
+        ["reference", "velocity", "acceleration", "plastic_increment", "memory", "pressure", "pore_pressure", "model"];
     arrays.retain(|a| !(a.data.is_empty() && OPTIONAL.contains(&a.name.as_str())));
     arrays
 }
@@ -89,6 +91,7 @@ pub fn take<const D: usize>(store: &mut Store, prefix: &str) -> Result<Points<D>
         pressure: columns.if_present("pressure", 1)?.unwrap_or_default(),
         pore_pressure: columns.if_present("pore_pressure", 1)?.unwrap_or_default(),
         region: columns.scalars("region")?,
+        model: columns.if_present("model", 1)?.unwrap_or_default(),
         cell: columns.scalars("cell")?,
     })
 }

@@ -15,8 +15,8 @@ pub enum Field {
     Stress,
     PlasticStrain,
     DeformationGradient,
-    /// Excess pressure of pore water, given what the pressure field carries in each region of the mesh where the water has no
-    /// field of its own.
+    /// Excess pressure of pore water, given what the pressure field carries of each material where the water has no field of its
+    /// own.
     PorePressure(Vec<Option<Carried>>),
 }
 
@@ -247,10 +247,10 @@ fn part<const D: usize>(points: &Points<D>, fields: &[Field]) -> Part {
             let rows = points.deformation.iter().flat_map(|f| f.transpose().data.0.into_iter().flatten());
             column("deformation_gradient", "-", 9, rows.collect())
         }
-        Field::PorePressure(regions) => {
+        Field::PorePressure(carried) => {
             let own = |p: usize| points.pore_pressure.get(p).copied().unwrap_or(0.0);
-            let excess = |p: usize| match &regions[points.region[p] as usize] {
-                Some(carried) if carried.water > 0.0 && !points.pressure.is_empty() => carried.pore_pressure(points, p),
+            let excess = |p: usize| match &carried[points.model_of(p)] {
+                Some(share) if share.water > 0.0 && !points.pressure.is_empty() => share.pore_pressure(points, p),
                 _ => own(p),
             };
             column("pore_pressure", "kPa", 1, (0..points.len()).map(excess).collect())

@@ -173,9 +173,8 @@ impl<const D: usize> Grid<D> {
         let mut relaxed = None;
         begin_anew::<D, K>(scene, state, &mut stencil, &mut relaxed)?;
         let grid = Self::with::<K>(scene, state, stencil, relaxed)?;
-        if let (Some(Elements { mesh, stencil, .. }), true) = (&grid.elements, scene.has_pressure_field()) {
-            let [constants, _] = scene.pressure_places();
-            pressure::gather::<D, K>(mesh, stencil, &state.fem, constants, &mut state.pressure);
+        if scene.has_pressure_field() {
+            grid.take_field_of_elements::<K>(scene, state);
         }
         grid.take_water::<K>(scene, state);
         Ok(grid)
@@ -303,6 +302,20 @@ impl<const D: usize> Grid<D> {
         };
         grid.penalise(scene, state);
         Ok(grid)
+    }
+
+    /// Takes the pressure field over from points whose materials have changed.
+    pub fn take_field<K: Kinematics<D>>(&self, scene: &Scene<D>, state: &mut State<D>) {
+        let mesh = self.relaxed.as_ref().map_or(&scene.mesh, |relaxed| &relaxed.mesh);
+        pressure::gather::<D, K>(mesh, &self.stencil, &state.points, mesh.nodes.len(), &mut state.pressure);
+        self.take_field_of_elements::<K>(scene, state);
+    }
+
+    fn take_field_of_elements<K: Kinematics<D>>(&self, scene: &Scene<D>, state: &mut State<D>) {
+        if let Some(Elements { mesh, stencil, .. }) = &self.elements {
+            let [constants, _] = scene.pressure_places();
+            pressure::gather::<D, K>(mesh, stencil, &state.fem, constants, &mut state.pressure);
+        }
     }
 
     /// Takes the pore pressures over from the points.

@@ -13,6 +13,7 @@ mod grid;
 mod guess;
 mod leaving;
 mod mass;
+mod materials;
 mod newton;
 mod pressure;
 mod put_back;
@@ -28,6 +29,7 @@ mod water;
 pub use contact::Resultant;
 pub use control::{Controller, Limits};
 pub use grid::Grid;
+pub use materials::Change;
 pub use newton::Solution;
 pub use report::Report;
 pub use scene::{Fem, Fixed, Numerics, Phase, Prescribed, Restore, Scene, Search, Stop, Water};
@@ -64,8 +66,8 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
         Ok(Self { scene, state, grid, kinematics: PhantomData })
     }
 
-    /// Notes on prescribed displacements and loads of the phase that begins and that no material feels.
-    pub fn idle(&self) -> Vec<String> {
+    /// Notes on the phase that begins: materials that change in it, prescribed displacements and loads that no material feels.
+    pub fn notes(&self) -> Vec<String> {
         let Some(phase) = self.scene.phases.get(self.state.phase) else { return Vec::new() };
         let out = |n: &u32| self.grid.block[*n as usize] == u32::MAX;
         let idle = phase.prescribed.iter().filter(|p| p.fixed.nodes.iter().all(out));
@@ -82,7 +84,8 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
                 phase.name
             ))
         });
-        notes.chain(loads).collect()
+        let changes = materials::notes::<D, K>(self.scene, &self.state);
+        changes.into_iter().chain(notes).chain(loads).collect()
     }
 
     /// One time step of the size that `controller` wants, halved until it converges.
@@ -130,6 +133,7 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
         if restore {
             self.grid.restore::<K>(scene, state)?;
         }
+        materials::take_field::<D, K>(scene, &self.grid, state);
         timed(Activity::Contact, || contact::begin::<D, K>(scene, &mut self.grid, state))?;
         if state.dynamic(scene) && (restore || !state.moving) {
             transfer::motion_to_grid::<D, K>(scene, &mut self.grid, state)?;

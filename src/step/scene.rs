@@ -1,5 +1,6 @@
 //! A scene: everything that does not change while it is solved.
 
+use super::materials::Change;
 use crate::contact::Pair;
 use crate::mesh::Mesh;
 use crate::mesh::faces::Faces;
@@ -93,7 +94,7 @@ impl<const D: usize> Scene<D> {
 /// Water in the pores.
 #[derive(Clone, Debug, Default)]
 pub struct Water {
-    /// The porous soil of each region of the mesh; `None` without water.
+    /// The porous soil of each material by number; `None` without water.
     pub porous: Vec<Option<Porous>>,
     /// Whether no pressure field carries a share of the stress beside it.
     pub alone: bool,
@@ -139,7 +140,7 @@ pub struct Prescribed {
 }
 
 /// A phase of the analysis.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug)]
 pub struct Phase {
     pub name: String,
     /// With inertia; quasi-static otherwise.
@@ -163,6 +164,8 @@ pub struct Phase {
     pub held: Vec<Fixed>,
     /// The pairs that do not touch, by number.
     pub apart: Vec<usize>,
+    /// The materials that regions take as it begins; none in the first phase.
+    pub changes: Vec<Change>,
     /// Whether displacements are counted from the beginning of the phase.
     pub reset: bool,
     /// Times (s) in the phase at which a step must end: outputs, kinks of tables, the end.

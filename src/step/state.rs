@@ -1,5 +1,6 @@
 //! The state of a run: all that a checkpoint holds. Everything else follows from it and the scene.
 
+use super::materials;
 use super::scene::Scene;
 use crate::contact::Multipliers;
 use crate::points::Points;
@@ -121,6 +122,7 @@ impl<const D: usize> State<D> {
         if moved && !self.dynamic(scene) {
             self.rest();
         }
+        materials::change(scene, self);
         if let Some(next) = scene.phases.get(self.phase) {
             self.step_size = next.first_step;
             if next.reset {

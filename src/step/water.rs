@@ -22,7 +22,7 @@ const ROUNDS: usize = 3;
 
 /// The porous soil of point `p`.
 fn soil<'a, const D: usize>(porous: &'a [Option<Porous>], points: &Points<D>, p: usize) -> Option<&'a Porous> {
-    porous.get(points.region[p] as usize).and_then(Option::as_ref)
+    porous.get(points.model_of(p)).and_then(Option::as_ref)
 }
 
 /// The water of a step.

@@ -31,14 +31,14 @@ const LEAST: f64 = 1e-4;
 pub struct GhostPenalty<K> {
     /// γ (-).
     factor: f64,
-    /// The model of each region of the mesh; `None` where a region holds no points.
+    /// The model of each material by number; `None` where a region holds no points.
     models: Vec<Option<Arc<dyn Model>>>,
     jumps: Jumps,
     kinematics: PhantomData<K>,
 }
 
 impl<K> GhostPenalty<K> {
-    /// `factor` is γ (-), `models[r]` the model of the points of region `r`, `faces` the number of inner faces of
+    /// `factor` is γ (-), `models[m]` that of material `m` ([`Points::model_of`]), `faces` the number of inner faces of
     /// the mesh.
     pub fn new(factor: f64, models: Vec<Option<Arc<dyn Model>>>, faces: usize) -> Self {
         Self { factor, models, jumps: Jumps::new(faces), kinematics: PhantomData }
@@ -54,7 +54,7 @@ impl<K> GhostPenalty<K> {
             let Ok(patch) = frame.stencil.patches.binary_search_by_key(&cell, |patch| patch.cell) else { continue };
             for &p in frame.stencil.points(&frame.stencil.patches[patch]) {
                 let p = p as usize;
-                let Some(model) = self.models.get(frame.points.region[p] as usize).and_then(Option::as_ref) else {
+                let Some(model) = self.models.get(frame.points.model_of(p)).and_then(Option::as_ref) else {
                     continue;
                 };
                 let v = frame.points.initial_volume[p];

@@ -156,9 +156,9 @@ impl<const D: usize, K: Kinematics<D>, A: Share<D, K>, B: Share<D, K>> Share<D, 
 
 /// The internal force of all material points.
 pub struct Internal<K, S = ()> {
-    /// The model of each region of the mesh; `None` where a region holds no points.
+    /// The model of each material by number; `None` where a region holds no points.
     models: Models,
-    /// Whether the strength of each region is what [`Trial::reduction`] divides.
+    /// Whether the strength of each material is what [`Trial::reduction`] divides.
     reduces: Vec<bool>,
     /// Whether the scene has dynamic phases.
     dynamic: bool,
@@ -166,7 +166,7 @@ pub struct Internal<K, S = ()> {
     kinematics: PhantomData<K>,
 }
 
-/// The model of each region of a mesh.
+/// The model of each material by number.
 type Models = Vec<Option<Arc<dyn Model>>>;
 
 /// The deformation of a point in a trial state.
@@ -205,7 +205,7 @@ fn weighted_stress<const D: usize, K: Kinematics<D>>(
 }
 
 impl<K> Internal<K> {
-    /// `models[r]` is the model of the points of region `r`; `dynamic` where any phase is.
+    /// `models[m]` is the model of material `m` ([`Points::model_of`]); `dynamic` where any phase is.
     pub fn new(models: Models, dynamic: bool) -> Self {
         Self::sharing(models, dynamic, ())
     }
@@ -217,7 +217,7 @@ impl<K, S> Internal<K, S> {
         Self { reduces: vec![true; models.len()], models, dynamic, share, kinematics: PhantomData }
     }
 
-    /// Takes regions out of every reduction of strength; `kept[r]` is true for those.
+    /// Takes materials out of every reduction of strength; `kept[m]` is true for those.
     pub fn keeping(mut self, kept: &[bool]) -> Self {
         self.reduces = kept.iter().map(|kept| !kept).collect();
         self
@@ -250,8 +250,8 @@ impl<K, S> Internal<K, S> {
             let p = p as usize;
             let increment = &strained.increment;
             let elastic = symmetric(&(increment * full(&points.elastic[p]) * increment.transpose()));
-            let Some(model) = models.get(points.region[p] as usize).and_then(Option::as_ref) else {
-                return Err(Error::analysis(format!("material point {p}"), "its region has no material", ""));
+            let Some(model) = models.get(points.model_of(p)).and_then(Option::as_ref) else {
+                return Err(Error::analysis(format!("material point {p}"), "it has no material", ""));
             };
             let state = State {
                 plastic_strain: points.plastic_strain[p],
@@ -394,7 +394,7 @@ impl<const D: usize, K: Kinematics<D>, S: Share<D, K>> Term<D> for Internal<K, S
 
     fn energy(&self, points: &Points<D>) -> f64 {
         let energy = |p: usize| {
-            let Some(model) = self.models.get(points.region[p] as usize).and_then(Option::as_ref) else { return 0.0 };
+            let Some(model) = self.models.get(points.model_of(p)).and_then(Option::as_ref) else { return 0.0 };
             let strain = K::roots(&points.elastic[p]).map(|b| 0.5 * b.ln());
             let stress = model.elasticity().at(points.origin[p][1]).stress(&strain);
             let carried = self.share.energy(points, p);

@@ -63,7 +63,7 @@ impl Carried {
     }
 
     /// What the stress of point `p` holds of the field (kPa, Kirchhoff).
-    fn held<const D: usize>(&self, points: &Points<D>, p: usize) -> f64 {
+    pub fn held<const D: usize>(&self, points: &Points<D>, p: usize) -> f64 {
         if self.water == 0.0 {
             return points.pressure[p];
         }
@@ -129,7 +129,7 @@ fn dot(a: &Hats, b: &Hats) -> f64 {
 
 /// The pressure field of a scene.
 pub struct PressureField<K> {
-    /// What it carries in each region of the mesh; `None` where nothing.
+    /// What it carries of each material by number; `None` where nothing.
     carried: Vec<Option<Carried>>,
     /// What a unit of its unknowns stands for (kPa/m).
     unit: f64,
@@ -137,13 +137,13 @@ pub struct PressureField<K> {
 }
 
 impl<K> PressureField<K> {
-    /// `carried[r]` is what the field carries in region `r`, `unit` that of [`crate::step::Scene`].
+    /// `carried[m]` is what the field carries of material `m` ([`Points::model_of`]), `unit` that of [`crate::step::Scene`].
     pub fn new(carried: Vec<Option<Carried>>, unit: f64) -> Self {
         Self { carried, unit, kinematics: PhantomData }
     }
 
     fn of<const D: usize>(&self, points: &Points<D>, p: usize) -> Option<&Carried> {
-        self.carried.get(points.region[p] as usize).and_then(Option::as_ref)
+        self.carried.get(points.model_of(p)).and_then(Option::as_ref)
     }
 }
 

@@ -3,7 +3,8 @@
 //!
 //! On the increment of the step, `−ε V/G Σ_a (π_a − π̄)` over the corners and `−ε₀ V/G π₀` for the constant of the
 //! cell: a uniform increment is free. The second also settles which part of a uniform pressure the corners have and
-//! which the constants, which the strains do not tell.
+//! which the constants, which the strains do not tell. Where a cell has points and the field carries nothing of any of them, a
+//! millionth of the first holds a uniform increment, too, which nothing else may.
 
 use super::pressure::{MOST, gather, unknowns};
 use super::{Assembly, Frame, Term, Trial};
@@ -19,8 +20,13 @@ const CORNERS: f64 = 1e-6;
 /// Bond of the constant of a cell, ε₀ (-).
 const CONSTANT: f64 = 1e-4;
 
+/// Share of the bond between corners against a uniform increment where nothing is carried.
+const IDLE: f64 = 1e-6;
+
 /// The bond in all cells that take part.
 pub struct SmoothPressure<K> {
+    /// Whether the field carries something of each material by number.
+    carries: Vec<bool>,
     /// What a unit of the unknowns stands for (kPa/m), and a shear modulus (kPa).
     unit: f64,
     shear: f64,
@@ -30,15 +36,27 @@ pub struct SmoothPressure<K> {
 }
 
 impl<K> SmoothPressure<K> {
-    /// `unit` is that of [`crate::step::Scene`], `shear` the largest shear modulus (kPa), `cells` those of the mesh.
-    pub fn new(unit: f64, shear: f64, cells: usize) -> Self {
-        Self { unit, shear, volume: (0..cells).map(|_| OnceLock::new()).collect(), kinematics: PhantomData }
+    /// `carries[m]` where the field carries something of material `m`, `unit` is that of [`crate::step::Scene`], `shear` the
+    /// largest shear modulus (kPa), `cells` those of the mesh.
+    pub fn new(carries: Vec<bool>, unit: f64, shear: f64, cells: usize) -> Self {
+        Self { carries, unit, shear, volume: (0..cells).map(|_| OnceLock::new()).collect(), kinematics: PhantomData }
+    }
+}
+
+impl<K> SmoothPressure<K> {
+    /// Whether a cell has points of which the field carries nothing, and no others.
+    fn is_idle<const D: usize>(&self, frame: &Frame<D>, cell: u32) -> bool {
+        let Ok(patch) = frame.stencil.patches.binary_search_by_key(&cell, |patch| patch.cell) else { return false };
+        let points = frame.stencil.points(&frame.stencil.patches[patch]);
+        let mut models = points.iter().map(|&p| frame.points.model_of(p as usize));
+        !models.any(|model| self.carries.get(model).copied().unwrap_or(false))
     }
 }
 
 impl<const D: usize, K: Kinematics<D>> Term<D> for SmoothPressure<K> {
     fn assemble(&self, frame: &Frame<D>, trial: &Trial<D>, out: &mut Assembly) -> Result<()> {
         let compute = |cell: &u32, local: &mut Local| {
+            let idle = self.is_idle(frame, *cell);
             let cell = *cell as usize;
             let kind = frame.mesh.cells.kind[cell];
             let (corners, count) = (kind.corner_count(), unknowns(kind));
@@ -48,7 +66,7 @@ impl<const D: usize, K: Kinematics<D>> Term<D> for SmoothPressure<K> {
             let gained: [f64; MOST] = std::array::from_fn(|a| now[a] - before[a]);
             let volume = *self.volume[cell].get_or_init(|| integrate::<D, K>(frame.mesh, cell, |_, _, _| {}));
             let scale = (1.0 - trial.alpha_f) * self.unit * volume / self.shear;
-            let share = 1.0 / corners as f64;
+            let share = (1.0 - if idle { IDLE } else { 0.0 }) / corners as f64;
             let mean = share * gained[..corners].iter().sum::<f64>();
             let begin = local.size - count;
             for a in 0..corners {

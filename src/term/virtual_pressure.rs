@@ -7,9 +7,13 @@
 //! rounding wherever its points lie and however jagged its surface. Where regions of the material meet, and where it
 //! meets finite elements with the same pressure on them, it cancels; on a wall it presses on the support.
 //! A pressure in space alone has a potential, and the tangent is symmetric.
+//!
+//! Water in the pores has the pressure `u` in space inside of the material, whose models answer for the effective stress `σ + u 1`: it takes
+//! `u ∇_x N_I` away, and where it is the water outside nothing is left but the buoyancy `N_I ∇p`. Its volume is that of the soil and not
+//! kept, so that the tangent is not symmetric.
 
 use super::beyond::scatter_functions;
-use super::head::Head;
+use super::head::{Head, Momentary};
 use super::{Assembly, Frame, Role, Term, Trial};
 use crate::error::{Error, Result};
 use crate::kinematics::{Gradient, Kinematics};
@@ -21,15 +25,23 @@ use std::marker::PhantomData;
 
 /// A pressure on the boundary of all material points.
 pub struct VirtualPressure<K> {
-    /// What acts in each phase.
+    /// What acts from outside in each phase.
     heads: Vec<Option<Head>>,
+    /// What acts in the pores in each phase, and whether each material by number has such pores; both empty without.
+    inside: Vec<Option<Head>>,
+    porous: Vec<bool>,
     kinematics: PhantomData<K>,
 }
 
 impl<K> VirtualPressure<K> {
     /// `heads[i]` acts in phase `i`.
     pub fn new(heads: Vec<Option<Head>>) -> Self {
-        Self { heads, kinematics: PhantomData }
+        Self { heads, inside: Vec::new(), porous: Vec::new(), kinematics: PhantomData }
+    }
+
+    /// With water in the pores: `inside[i]` in phase `i`, in material `m` ([`crate::points::Points::model_of`]) where `porous[m]`.
+    pub fn with_pores(self, inside: Vec<Option<Head>>, porous: Vec<bool>) -> Self {
+        Self { inside, porous, ..self }
     }
 }
 
@@ -38,9 +50,16 @@ impl<const D: usize, K: Kinematics<D>> Term<D> for VirtualPressure<K> {
         Role::External
     }
 
+    fn symmetric(&self) -> bool {
+        self.inside.iter().all(Option::is_none)
+    }
+
     fn assemble(&self, frame: &Frame<D>, trial: &Trial<D>, out: &mut Assembly) -> Result<()> {
-        let Some(head) = self.heads.get(trial.phase).and_then(Option::as_ref) else { return Ok(()) };
-        let head = head.at(trial.time);
+        let [outside, inside] = [&self.heads, &self.inside]
+            .map(|heads| heads.get(trial.phase).and_then(Option::as_ref).map(|head| head.at(trial.time)));
+        if outside.is_none() && inside.is_none() {
+            return Ok(());
+        }
         let compute = |patch: &Patch, local: &mut Local| {
             let now = frame.stencil.gather(frame.mesh, patch, trial.between);
             let before = frame.stencil.gather(frame.mesh, patch, trial.converged);
@@ -49,8 +68,14 @@ impl<const D: usize, K: Kinematics<D>> Term<D> for VirtualPressure<K> {
                 let height = |(n, &node): (&f64, &u32)| {
                     n * (frame.mesh.nodes[node as usize][1] + trial.between[node as usize][1])
                 };
-                let [p, slope, second] = head.at(entries.value.iter().zip(nodes).map(height).sum());
-                if p == 0.0 && slope == 0.0 {
+                let y = entries.value.iter().zip(nodes).map(height).sum();
+                let at = |head: Option<Momentary>| head.map_or([0.0; 3], |head| head.at(y));
+                let [p, slope, second] = at(outside);
+                let porous = || self.porous.get(frame.points.model_of(entries.point)).copied().unwrap_or(false);
+                let [u, growth, _] = at(inside.filter(|_| porous()));
+                // What is left of the pressure in the material, and of its slope.
+                let (left, left_slope) = (p - u, slope - growth);
+                if [p, slope, u, growth] == [0.0; 4] {
                     continue;
                 }
                 let count = entries.functions();
@@ -78,7 +103,7 @@ impl<const D: usize, K: Kinematics<D>> Term<D> for VirtualPressure<K> {
                 let value = |i: usize| entries.value.get(i).copied().unwrap_or(0.0);
                 for i in 0..count {
                     for d in 0..D {
-                        local.vector[i * D + d] += volume * p * divergence[i][d];
+                        local.vector[i * D + d] += volume * left * divergence[i][d];
                     }
                     local.vector[i * D + 1] += volume * slope * value(i);
                 }
@@ -91,12 +116,12 @@ impl<const D: usize, K: Kinematics<D>> Term<D> for VirtualPressure<K> {
                         let (a, b, size) = (&spatial[i], &spatial[j], local.size);
                         for d in 0..D {
                             for e in 0..D {
-                                let mut entry = p * (divergence[i][d] * divergence[j][e] - a.g[e] * b.g[d]);
+                                let mut entry = left * (divergence[i][d] * divergence[j][e] - a.g[e] * b.g[d]);
                                 if d == 0 && e == 0 {
-                                    entry -= p * a.hoop * b.hoop;
+                                    entry -= left * a.hoop * b.hoop;
                                 }
                                 if e == 1 {
-                                    entry += slope * divergence[i][d] * value(j);
+                                    entry += left_slope * divergence[i][d] * value(j);
                                 }
                                 if d == 1 {
                                     entry += slope * value(i) * divergence[j][e];

@@ -81,7 +81,7 @@ impl Porous {
 
 /// The pore water of a scene.
 pub struct PoreWater<K> {
-    /// The porous soil of each region of the mesh; `None` without water.
+    /// The porous soil of each material by number; `None` without water.
     porous: Vec<Option<Porous>>,
     /// What a unit of its unknowns stands for (kPa/m).
     unit: f64,
@@ -89,13 +89,13 @@ pub struct PoreWater<K> {
 }
 
 impl<K> PoreWater<K> {
-    /// `porous[r]` is the soil of region `r`, `unit` that of [`crate::step::Scene`].
+    /// `porous[m]` is the soil of material `m` ([`Points::model_of`]), `unit` that of [`crate::step::Scene`].
     pub fn new(porous: Vec<Option<Porous>>, unit: f64) -> Self {
         Self { porous, unit, kinematics: PhantomData }
     }
 
     fn of<const D: usize>(&self, points: &Points<D>, p: usize) -> Option<&Porous> {
-        self.porous.get(points.region[p] as usize).and_then(Option::as_ref)
+        self.porous.get(points.model_of(p)).and_then(Option::as_ref)
     }
 }
 

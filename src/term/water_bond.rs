@@ -18,7 +18,7 @@ const DRY: f64 = 1e-6;
 
 /// The bond in all cells that take part.
 pub struct WaterBond<K> {
-    /// The porous soil of each region of the mesh; `None` without water.
+    /// The porous soil of each material by number; `None` without water.
     porous: Vec<Option<Porous>>,
     /// What a unit of the unknowns stands for (kPa/m), and a shear modulus (kPa).
     unit: f64,
@@ -36,9 +36,9 @@ impl<K> WaterBond<K> {
 
     fn has_water<const D: usize>(&self, frame: &Frame<D>, cell: u32) -> bool {
         let Ok(patch) = frame.stencil.patches.binary_search_by_key(&cell, |patch| patch.cell) else { return false };
-        let mut regions =
-            frame.stencil.points(&frame.stencil.patches[patch]).iter().map(|&p| frame.points.region[p as usize]);
-        regions.any(|region| self.porous.get(region as usize).is_some_and(Option::is_some))
+        let points = frame.stencil.points(&frame.stencil.patches[patch]);
+        let mut models = points.iter().map(|&p| frame.points.model_of(p as usize));
+        models.any(|model| self.porous.get(model).is_some_and(Option::is_some))
     }
 }
 

@@ -203,7 +203,7 @@ impl Bench {
         };
         let mut terms = vec![internal(models)];
         if self.carried.is_some() {
-            terms.push(Box::new(SmoothPressure::<K>::new(of_unit, shear, cells)));
+            terms.push(Box::new(SmoothPressure::<K>::new(vec![true], of_unit, shear, cells)));
         }
         if self.porous.is_some() {
             terms.push(Box::new(WaterBond::<K>::new(vec![self.porous.clone()], of_unit, shear, cells)));
@@ -245,6 +245,7 @@ impl Bench {
                 search: None,
                 held: Vec::new(),
                 apart: Vec::new(),
+                changes: Vec::new(),
                 reset: false,
                 stops: vec![Stop { time: self.duration, frame: true }],
             }],

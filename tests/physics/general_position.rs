@@ -224,7 +224,7 @@ fn with_pressure<K: Kinematics<2> + 'static>(scene: &mut Scene<2>, model: Arc<dy
     let carried = Carried { model: model.clone(), ratio: bulk(POISSON) - bulk(of_points), water: 0.0 };
     let field = PressureField::<K>::new(vec![Some(carried)], unit);
     scene.terms[0] = Box::new(Internal::<K, _>::sharing(vec![Some(model)], false, field));
-    scene.terms.push(Box::new(SmoothPressure::<K>::new(unit, SHEAR, cells)));
+    scene.terms.push(Box::new(SmoothPressure::<K>::new(vec![true], unit, SHEAR, cells)));
     scene.pressure_unit = Some(unit);
 }
 

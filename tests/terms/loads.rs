@@ -184,6 +184,40 @@ fn pressures<K: Kinematics<2>>() {
     }
 }
 
+/// Water in the lower third of the mesh.
+fn lower() -> Vec<Option<Head>> {
+    let [top, gradient, datum] = [0.0, 10.0, 0.5].map(TimeValue::Constant);
+    vec![Some(Head { top, gradient, datum, band: 0.1 }), None]
+}
+
+/// Water in the pores up to another level than outside, up to the same, and without any outside.
+fn water_in_pores<K: Kinematics<2>>() {
+    let terms: [Make; 4] = [
+        |_| Box::new(VirtualPressure::<K>::new(head()).with_pores(head(), vec![true])),
+        |_| Box::new(VirtualPressure::<K>::new(head()).with_pores(head(), vec![false])),
+        |_| Box::new(VirtualPressure::<K>::new(head()).with_pores(lower(), vec![true])),
+        |_| Box::new(VirtualPressure::<K>::new(Vec::new()).with_pores(head(), vec![true])),
+    ];
+    for (number, make) in terms.into_iter().enumerate() {
+        for kind in KINDS {
+            for alpha_f in [0.0, 0.4] {
+                let mut stand = stand::<K>(kind, make, true);
+                stand.alpha_f = alpha_f;
+                let (trial, converged) = anywhere(&stand);
+                let error = stand.tangent_error(&trial, &converged);
+                assert!(error < 1e-6, "{number}, {kind:?}: {error:.1e}");
+                assert!(!stand.term().symmetric());
+            }
+        }
+    }
+}
+
+#[test]
+fn the_tangent_of_water_in_pores_is_its_derivative() {
+    water_in_pores::<PlaneStrain>();
+    water_in_pores::<Axisymmetric>();
+}
+
 #[test]
 fn the_tangent_of_a_pressure_all_around_is_its_derivative_and_symmetric() {
     pressures::<PlaneStrain>();

@@ -85,13 +85,35 @@ fn the_bond_is_free_for_a_uniform_increment_and_its_tangent_the_derivative() {
         let mut points = points(&mesh, |_| true);
         points.pressure = vec![0.0; points.len()];
         let (corners, cells) = (mesh.nodes.len(), mesh.cells.len());
-        let term: Box<dyn Term<2>> = Box::new(SmoothPressure::<PlaneStrain>::new(UNIT, 400.0, cells));
+        let term: Box<dyn Term<2>> = Box::new(SmoothPressure::<PlaneStrain>::new(vec![true], UNIT, 400.0, cells));
         let mut stand = Stand::<PlaneStrain>::with_pressure(mesh, points, term, false, true, Some(UNIT));
         let rest = stand.field(0.0, 1, |_| [0.0; 2]);
         stand.pressure[..corners].fill(25.0);
         let (force, _) = stand.system(&rest, &stand.pressure, &rest, 0, false);
         assert!(force.iter().all(|f| f.abs() < 1e-12), "{kind:?}");
         let mut random = Random(5);
+        for pressure in &mut stand.pressure {
+            *pressure = 1e4 * random.next();
+        }
+        assert!(stand.tangent_error(&rest, &rest) < 1e-6, "{kind:?}");
+    }
+}
+
+/// Where all is of a material of which the field carries nothing, a uniform pressure must not be free.
+#[test]
+fn the_bond_holds_a_uniform_increment_where_nothing_is_carried() {
+    for kind in KINDS {
+        let mesh = mesh(kind);
+        let mut points = points(&mesh, |_| true);
+        points.pressure = vec![0.0; points.len()];
+        let (corners, cells) = (mesh.nodes.len(), mesh.cells.len());
+        let term: Box<dyn Term<2>> = Box::new(SmoothPressure::<PlaneStrain>::new(vec![false], UNIT, 400.0, cells));
+        let mut stand = Stand::<PlaneStrain>::with_pressure(mesh, points, term, false, true, Some(UNIT));
+        let rest = stand.field(0.0, 1, |_| [0.0; 2]);
+        stand.pressure[..corners].fill(2.5e7);
+        let (force, _) = stand.system(&rest, &stand.pressure, &rest, 0, false);
+        assert!(force.iter().any(|f| f.abs() > 1e-9), "{kind:?}: {force:?}");
+        let mut random = Random(6);
         for pressure in &mut stand.pressure {
             *pressure = 1e4 * random.next();
         }

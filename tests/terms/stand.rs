@@ -177,6 +177,7 @@ impl<K: Kinematics<2>> Stand<K> {
             search: None,
             held: Vec::new(),
             apart: Vec::new(),
+            changes: Vec::new(),
             reset: false,
             stops: vec![Stop { time: 1.0, frame: true }],
         };

@@ -42,6 +42,7 @@ fn scene<K: Kinematics<2>>(kind: CellKind) -> Scene<2> {
             search: None,
             held: Vec::new(),
             apart: Vec::new(),
+            changes: Vec::new(),
             reset: false,
             stops: Vec::new(),
         }],
