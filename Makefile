@@ -63,7 +63,7 @@ bench-block: build ## Time the block of 102 400 points beside Kratos; writes doc
 bench-unused: build ## Count the instructions that parts cost which a scene does not use; writes docs/unused.md
 	$(PYTHON) benches/unused/run.py $(ARGS)
 
-stress: build ## 416 random scenes, each to end converged or with a statement; writes docs/stress.md
+stress: build ## Random scenes, each to end converged or with a statement; writes docs/stress.md
 	$(PYTHON) benches/stress/run.py --write $(ARGS)
 
 check: setup ## Formatting, lints and documentation, without warnings

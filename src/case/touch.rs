@@ -1,6 +1,6 @@
 //! The structures and walls of a case and what they touch.
 
-use super::changes::by_number;
+use super::changes::{self, by_number};
 use super::checked::{Case, Contact, Content, Geometry, Region, Touched, Touching};
 use super::scene::region_index;
 use super::wall;
@@ -57,10 +57,6 @@ impl Parts<'_> {
             Touching::Structure(index) => &self.case.regions[*index].name,
             Touching::Wall(curve) => curve,
         }
-    }
-
-    fn model(&self, index: usize) -> Option<Arc<dyn Model>> {
-        self.case.regions[index].content.material().map(|m| self.case.materials[m].model.clone())
     }
 
     /// The boundary of a region beside the grid, with hats about `spacing` (m) apart.
@@ -123,7 +119,10 @@ impl Parts<'_> {
         for &n in surface.facets.iter().flatten() {
             (height, count) = (height + self.fem.nodes[n as usize][1], count + 1.0);
         }
-        let young = soft.iter().filter_map(|&region| Some(self.model(region)?.young(height / count)));
+        // The softest that a phase makes them.
+        let is_soft = |region: &Region| soft.iter().any(|&index| self.case.regions[index].name == region.name);
+        let young = changes::used(self.case).filter(|(region, _)| is_soft(region));
+        let young = young.map(|(_, material)| material.model.young(height / count));
         Ok(Bodies {
             structure,
             against,

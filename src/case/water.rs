@@ -34,7 +34,20 @@ impl Checker {
         let inside = whole.and_then(|water| water.phreatic_level.as_ref());
         let of_pores = of_phases(|phase| &phase.phreatic_level);
         let phreatic = self.levels(["phreatic_level"; 2], inside, of_pores, root);
+        if phreatic.is_some() && phreatic != level {
+            self.no_friction(file, root);
+        }
         Some(Water { unit_weight: whole?.unit_weight, level, phreatic })
+    }
+
+    /// Contact knows the whole pressure between structure and soil, and not what part of it the grains bear.
+    fn no_friction(&mut self, file: &raw::CaseFile, root: &Path) {
+        for (i, _) in file.contacts.iter().enumerate().filter(|(_, contact)| contact.friction > 0.0) {
+            let problem =
+                "friction where water stands otherwise in the pores than outside: it would act on their pressure too";
+            let remedy = "give the contact `adhesion` or `adhesion_factor`, or make `phreatic_level` that of `level`";
+            self.issue(&root.key("contacts").index(i).key("friction"), At::Value, problem, remedy);
+        }
     }
 
     /// A level in each phase, given that of the whole case and those of the phases, by the keys of both.

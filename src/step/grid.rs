@@ -407,7 +407,7 @@ fn begin_anew<const D: usize, K: Kinematics<D>>(
     relaxed: &mut Option<Relaxed<D>>,
 ) -> Result<bool> {
     let nodes = state.nodes.clone();
-    let placed = place(scene, state, relaxed);
+    let placed = place::<D, K>(scene, state, relaxed);
     if placed.is_err() {
         // The displacement is still that of the last converged step.
         state.nodes = nodes;
@@ -458,7 +458,7 @@ fn begin_anew<const D: usize, K: Kinematics<D>>(
 ///
 /// # Errors
 /// When a cell of the grid is folded, or a point lies outside it.
-fn place<const D: usize>(
+fn place<const D: usize, K: Kinematics<D>>(
     scene: &Scene<D>,
     state: &mut State<D>,
     relaxed: &mut Option<Relaxed<D>>,
@@ -468,7 +468,7 @@ fn place<const D: usize>(
     let (mesh, locator) = relaxed.as_ref().map_or((&scene.mesh, &scene.locator), |r| (&r.mesh, &r.locator));
     let mut note = None;
     if let Err(lost) = locate_points(mesh, locator, state) {
-        note = put_back(scene, mesh, locator, state);
+        note = put_back::<D, K>(scene, mesh, locator, state);
         if note.is_none() {
             return Err(lost);
         }

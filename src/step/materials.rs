@@ -108,8 +108,9 @@ pub fn notes<const D: usize, K: Kinematics<D>>(scene: &Scene<D>, state: &State<D
                 let memory = Memory { plastic_strain: points.plastic_strain[p], memory, per_second: 0.0 };
                 let strength = change.model.strength(points.origin[p][1]);
                 let excess = change.model.yield_excess(points.origin[p][1], &stress, &memory);
+                let unit = stress.iter().fold(strength, |most, s| most.max(s.abs()));
                 all += 1;
-                beyond += usize::from(strength.is_finite() && excess > BEYOND * strength);
+                beyond += usize::from(strength.is_finite() && excess > BEYOND * unit);
             }
         }
         let Change { of, into, .. } = change;
@@ -124,5 +125,5 @@ pub fn notes<const D: usize, K: Kinematics<D>>(scene: &Scene<D>, state: &State<D
     phase.changes.iter().map(note).collect()
 }
 
-/// How far beyond yield (-), in the strength, a stress is told of.
+/// How far beyond yield (-), in the strength or the stress, a stress is told of.
 const BEYOND: f64 = 1e-3;

@@ -6,6 +6,7 @@
 
 use super::scene::Scene;
 use super::state::State;
+use crate::kinematics::Kinematics;
 use crate::mesh::Mesh;
 use crate::mesh::locate::Locator;
 use crate::stencil::cell_size;
@@ -33,8 +34,9 @@ impl<const D: usize> Side<D> {
     }
 }
 
-/// Puts points back onto the sides that hold them. Returns a note on how many and how far, where there are any.
-pub fn put_back<const D: usize>(
+/// Puts points back onto the sides that hold them, but none onto the axis of a ring, where it would have no volume. Returns
+/// a note on how many and how far, where there are any.
+pub fn put_back<const D: usize, K: Kinematics<D>>(
     scene: &Scene<D>,
     mesh: &Mesh<D>,
     locator: &Locator<D>,
@@ -50,7 +52,8 @@ pub fn put_back<const D: usize>(
     let (mut count, mut most) = (0, 0.0f64);
     for p in lost {
         let x = &mut state.points.position[p];
-        let near = sides.iter().map(|side| (side.nearest(x), side.size)).filter(|((_, d), size)| *d <= FARTHEST * size);
+        let near = sides.iter().map(|side| (side.nearest(x), side.size));
+        let near = near.filter(|((place, d), size)| *d <= FARTHEST * size && !(K::HOOP && place[0] <= 0.0));
         if let Some(((place, distance), _)) = near.min_by(|a, b| a.0.1.total_cmp(&b.0.1)) {
             *x = place;
             (count, most) = (count + 1, most.max(distance));

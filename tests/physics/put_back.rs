@@ -3,7 +3,7 @@
 use crate::bench::{Bench, constant, quadrature_points};
 use crate::layout::fit;
 use mpm::error::Result;
-use mpm::kinematics::PlaneStrain;
+use mpm::kinematics::{Axisymmetric, Kinematics, PlaneStrain};
 use mpm::material::{Elasticity, LinearElastic};
 use mpm::mesh::builder::rectangle;
 use mpm::mesh::shape::CellKind;
@@ -16,21 +16,21 @@ const H: f64 = 0.25;
 
 /// A step at rest of a square of 1 m, smooth on the bottom, rough on the left, with the top's motion prescribed and the right
 /// free, once the points nearest to the places `from` have been taken to the places `to` (m). Returns their numbers as well.
-fn taken(fitted: bool, moves: &[([f64; 2], [f64; 2])]) -> (Vec<usize>, Result<State<2>>) {
+fn taken<K: Kinematics<2> + 'static>(fitted: bool, moves: &[([f64; 2], [f64; 2])]) -> (Vec<usize>, Result<State<2>>) {
     let model = LinearElastic::new(Elasticity::new(constant(100.0), 0.3).unwrap());
     let mut bench = Bench::new(rectangle(CellKind::Q9, 1.0, 1.0, 4, 4, 0.0, 1), Arc::new(model));
     bench.restore = Restore::EveryStep;
     bench.dynamic = true;
     bench.steps = 2;
     if fitted {
-        fit::<PlaneStrain>(&mut bench);
+        fit::<K>(&mut bench);
     }
     bench.hold("bottom", &[1]).hold("left", &[0, 1]).hold("top", &[0, 1]);
     bench.prescribed.push(Prescribed { fixed: bench.on("top", 1), displacement: TimeValue::Constant(0.0) });
-    let points = quadrature_points::<PlaneStrain>(&bench.mesh, 4, 1.0);
-    let scene = bench.scene::<PlaneStrain>();
+    let points = quadrature_points::<K>(&bench.mesh, 4, 1.0);
+    let scene = bench.scene::<K>();
     let first = State::new(points, scene.mesh.nodes.len(), 0.5);
-    let mut simulation = Simulation::<2, PlaneStrain>::new(&scene, first).unwrap();
+    let mut simulation = Simulation::<2, K>::new(&scene, first).unwrap();
     let phase = &scene.phases[0];
     let limits = Limits { least: phase.least_step, largest: phase.largest_step };
     let mut controller = Controller::new(limits, phase.stops.clone(), phase.first_step);
@@ -57,7 +57,7 @@ fn points_a_little_beyond_a_support_are_put_onto_it() {
             ([0.0, 0.0], [-0.03 * H, -0.04 * H]),
             ([0.9, 0.1], [0.8, 0.1]),
         ];
-        let (numbers, end) = taken(fitted, &moves);
+        let (numbers, end) = taken::<PlaneStrain>(fitted, &moves);
         let end = end.unwrap_or_else(|error| panic!("{error}"));
         // Square to the side; at the corner there is one place; a point within stays where it is.
         for (p, expected) in numbers.iter().zip([[0.41, 0.0], [0.0, 0.63], [0.0, 0.0], [0.8, 0.1]]) {
@@ -80,11 +80,25 @@ fn points_far_beyond_a_support_or_beyond_anything_else_have_left_the_grid() {
         ("beyond the side whose motion across is prescribed", [0.4, 1.0], [0.4, 1.0 + 0.02 * H]),
     ];
     for (what, from, to) in lost {
-        let error = taken(true, &[(from, to)]).1.map(|_| ()).expect_err(what).to_string();
+        let error = taken::<PlaneStrain>(true, &[(from, to)]).1.map(|_| ()).expect_err(what).to_string();
         assert!(error.contains("left the grid"), "{what}: {error}");
         // One that can be put back does not hide it.
-        let error =
-            taken(true, &[(from, to), ([0.6, 0.0], [0.6, -0.01 * H])]).1.map(|_| ()).expect_err(what).to_string();
+        let error = taken::<PlaneStrain>(true, &[(from, to), ([0.6, 0.0], [0.6, -0.01 * H])])
+            .1
+            .map(|_| ())
+            .expect_err(what)
+            .to_string();
         assert!(error.contains("left the grid"), "{what}: {error}");
     }
+}
+
+/// On the axis of a ring a point would have no volume.
+#[test]
+fn none_is_put_onto_the_axis() {
+    for (from, to) in [([0.0, 0.6], [-0.02 * H, 0.6]), ([0.0, 0.0], [-0.02 * H, -0.02 * H])] {
+        let error = taken::<Axisymmetric>(true, &[(from, to)]).1.map(|_| ()).expect_err("beyond the axis").to_string();
+        assert!(error.contains("left the grid"), "{error}");
+    }
+    let (numbers, end) = taken::<Axisymmetric>(true, &[([0.4, 0.0], [0.4, -0.02 * H])]);
+    assert!(end.unwrap().points.position[numbers[0]][1].abs() < 1e-9);
 }
