@@ -7,11 +7,9 @@ use super::wall;
 use crate::contact::{Bodies, Boundary, Pair, Rigid, Skin, Surface};
 use crate::error::{Error, Result};
 use crate::kinematics::Kinematics;
-use crate::material::Model;
 use crate::mesh::Mesh;
 use crate::rigid::Body;
 use std::marker::PhantomData;
-use std::sync::Arc;
 
 /// Distance of the hats (-), in the length of an edge of the grid: that of its nodes.
 const HATS: f64 = 0.5;
