@@ -1,5 +1,8 @@
 //! Materials that change in a phase: what was borne stays, and what comes is borne by the new material; against closed forms.
 
+mod history;
+
+use history::column;
 use std::fs;
 use std::path::Path;
 use std::process::Command;
@@ -21,14 +24,6 @@ fn run(geo: &str, text: &str) -> TempDir {
         mpm(stage, folder.path());
     }
     folder
-}
-
-fn column(folder: &Path, name: &str) -> Vec<f64> {
-    let text = fs::read_to_string(folder.join("history.csv")).unwrap();
-    let mut lines = text.lines();
-    let at = lines.next().unwrap().split(',').position(|column| column == name);
-    let at = at.unwrap_or_else(|| panic!("no column {name} in {text}"));
-    lines.map(|line| line.split(',').nth(at).unwrap().parse().unwrap()).collect()
 }
 
 /// A block between smooth plates, free to the side, of one material and then of another; the load grows in the first phase, waits

@@ -1,5 +1,8 @@
 //! What phases do, through the program: the factor of safety against closed forms and a published slope.
 
+mod history;
+
+use history::column;
 use std::fs;
 use std::path::Path;
 use std::process::Command;
@@ -26,15 +29,6 @@ fn root() -> &'static Path {
 
 fn log(folder: &Path) -> String {
     fs::read_to_string(folder.join("solve.log")).unwrap()
-}
-
-/// The last number of each row of the history in the column called `name`.
-fn column(folder: &Path, name: &str) -> Vec<f64> {
-    let text = fs::read_to_string(folder.join("history.csv")).unwrap();
-    let mut lines = text.lines();
-    let at = lines.next().unwrap().split(',').position(|column| column == name);
-    let at = at.unwrap_or_else(|| panic!("no column {name} in {text}"));
-    lines.map(|line| line.split(',').nth(at).unwrap().parse().unwrap()).collect()
 }
 
 /// The factor of safety as the log has it: equilibrium and none.

@@ -1,5 +1,8 @@
 //! Water in the pores of soil up to a level, and outside up to the same one or another: against closed forms, through the program.
 
+mod history;
+
+use history::column;
 use std::fs;
 use std::path::Path;
 use std::process::Command;
@@ -16,14 +19,6 @@ fn run(geo: &str, text: &str) -> TempDir {
         assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
     }
     folder
-}
-
-fn column(folder: &Path, name: &str) -> Vec<f64> {
-    let text = fs::read_to_string(folder.join("history.csv")).unwrap();
-    let mut lines = text.lines();
-    let at = lines.next().unwrap().split(',').position(|column| column == name);
-    let at = at.unwrap_or_else(|| panic!("no column {name} in {text}"));
-    lines.map(|line| line.split(',').nth(at).unwrap().parse().unwrap()).collect()
 }
 
 /// A column 2 m high under 1 m of water. First the pool falls to a quarter of a metre while the pores keep their pressure, which relieves the

@@ -92,41 +92,57 @@ impl<const D: usize, K: Kinematics<D>> Term<D> for GhostPenalty<K> {
     }
 
     fn assemble(&self, frame: &Frame<D>, trial: &Trial<D>, out: &mut Assembly) -> Result<()> {
-        let compute = |ghost: &GhostFace, local: &mut Local| {
-            let stiffness = self.stiffness(frame, ghost)?;
-            let fresh = frame.relaxed.then(|| Jump::of::<D, K>(frame.mesh, &ghost.between));
-            let jump = fresh.as_ref().unwrap_or_else(|| self.jumps.of::<D, K>(frame.mesh, &ghost.between, ghost.face));
-            let form = &jump.form;
-            let count = local.size / D;
-            for (b, n) in ghost.between.nodes(frame.mesh).enumerate() {
-                let (u, before) = (&trial.between[n as usize], &trial.converged[n as usize]);
-                for a in 0..count {
-                    for k in 0..D {
-                        local.vector[a * D + k] += stiffness * form[a * count + b] * (u[k] - before[k]);
-                    }
-                }
-            }
-            if local.matrix.is_empty() {
-                return Ok(());
-            }
-            let stiffness = (1.0 - trial.alpha_f) * stiffness;
-            for (a, row) in form.chunks_exact(count).enumerate() {
-                for (b, form) in row.iter().enumerate() {
-                    for k in 0..D {
-                        local.matrix[(a * D + k) * local.size + b * D + k] = stiffness * form;
-                    }
-                }
-            }
-            Ok(())
+        let factors = |face: &GhostFace, _: &Jump| {
+            let stiffness = self.stiffness(frame, face)?;
+            Ok([stiffness, (1.0 - trial.alpha_f) * stiffness])
         };
-        scatter(
-            frame.pattern,
-            frame.ghost,
-            |ghost| ghost.clique as usize,
-            compute,
-            out.force,
-            out.tangent.as_deref_mut(),
-            out.workspace,
-        )
+        let increment = |n: usize| std::array::from_fn(|k| trial.between[n][k] - trial.converged[n][k]);
+        penalise::<D, K>(frame, &self.jumps, factors, increment, out)
     }
+}
+
+/// Adds the penalty on the jumps of a nodal field, `value` by node: `factors` of a face are what its form counts with in the
+/// force and in the tangent.
+pub(super) fn penalise<const D: usize, K: Kinematics<D>>(
+    frame: &Frame<D>,
+    jumps: &Jumps,
+    factors: impl Fn(&GhostFace, &Jump) -> Result<[f64; 2]> + Sync,
+    value: impl Fn(usize) -> [f64; D] + Sync,
+    out: &mut Assembly,
+) -> Result<()> {
+    let compute = |ghost: &GhostFace, local: &mut Local| {
+        let fresh = frame.relaxed.then(|| Jump::of::<D, K>(frame.mesh, &ghost.between));
+        let jump = fresh.as_ref().unwrap_or_else(|| jumps.of::<D, K>(frame.mesh, &ghost.between, ghost.face));
+        let [force, slope] = factors(ghost, jump)?;
+        let form = &jump.form;
+        let count = local.size / D;
+        for (b, n) in ghost.between.nodes(frame.mesh).enumerate() {
+            let value = value(n as usize);
+            for a in 0..count {
+                for k in 0..D {
+                    local.vector[a * D + k] += force * form[a * count + b] * value[k];
+                }
+            }
+        }
+        if local.matrix.is_empty() {
+            return Ok(());
+        }
+        for (a, row) in form.chunks_exact(count).enumerate() {
+            for (b, form) in row.iter().enumerate() {
+                for k in 0..D {
+                    local.matrix[(a * D + k) * local.size + b * D + k] = slope * form;
+                }
+            }
+        }
+        Ok(())
+    };
+    scatter(
+        frame.pattern,
+        frame.ghost,
+        |ghost| ghost.clique as usize,
+        compute,
+        out.force,
+        out.tangent.as_deref_mut(),
+        out.workspace,
+    )
 }

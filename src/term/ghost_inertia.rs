@@ -6,11 +6,11 @@
 //! short the step. An acceleration that is linear over both cells is free of it, so that it exerts neither force nor moment
 //! (Sticko & Kreiss 2016 stabilise the mass of cut elements so).
 
+use super::ghost::penalise;
 use super::{Assembly, Frame, GhostFace, Role, Term, Trial};
 use crate::error::Result;
 use crate::kinematics::Kinematics;
 use crate::stencil::{Jump, Jumps};
-use crate::system::{Local, scatter};
 use std::marker::PhantomData;
 
 /// The share of the mass (-) that the penalty counts with.
@@ -41,40 +41,10 @@ impl<const D: usize, K: Kinematics<D>> Term<D> for GhostInertia<K> {
     }
 
     fn assemble(&self, frame: &Frame<D>, trial: &Trial<D>, out: &mut Assembly) -> Result<()> {
-        let compute = |ghost: &GhostFace, local: &mut Local| {
-            let fresh = frame.relaxed.then(|| Jump::of::<D, K>(frame.mesh, &ghost.between));
-            let jump = fresh.as_ref().unwrap_or_else(|| self.jumps.of::<D, K>(frame.mesh, &ghost.between, ghost.face));
-            let (form, mass) = (&jump.form, self.density * jump.size * jump.size);
-            let count = local.size / D;
-            for (b, n) in ghost.between.nodes(frame.mesh).enumerate() {
-                let acceleration = &trial.acceleration[n as usize];
-                for a in 0..count {
-                    for k in 0..D {
-                        local.vector[a * D + k] += mass * form[a * count + b] * acceleration[k];
-                    }
-                }
-            }
-            if local.matrix.is_empty() {
-                return Ok(());
-            }
-            let slope = mass * trial.acceleration_slope;
-            for (a, row) in form.chunks_exact(count).enumerate() {
-                for (b, form) in row.iter().enumerate() {
-                    for k in 0..D {
-                        local.matrix[(a * D + k) * local.size + b * D + k] = slope * form;
-                    }
-                }
-            }
-            Ok(())
+        let factors = |_: &GhostFace, jump: &Jump| {
+            let mass = self.density * jump.size * jump.size;
+            Ok([mass, mass * trial.acceleration_slope])
         };
-        scatter(
-            frame.pattern,
-            frame.ghost,
-            |ghost| ghost.clique as usize,
-            compute,
-            out.force,
-            out.tangent.as_deref_mut(),
-            out.workspace,
-        )
+        penalise::<D, K>(frame, &self.jumps, factors, |n| trial.acceleration[n], out)
     }
 }
