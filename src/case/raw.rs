@@ -445,7 +445,7 @@ pub struct RestoreQuality {
     #[schemars(range(min = 0, max = 1))]
     pub min_quality: f64,
     /// And when an edge is this many times as long as at first, or as short (-), above 1.
-    /// Default: 1.15, and 1.5 in a scene with contacts.
+    /// Default: 1.3, and 1.5 in a scene with contacts.
     #[schemars(extend("exclusiveMinimum" = 1))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub max_stretch: Option<f64>,
