@@ -127,9 +127,11 @@ fn loads_reached<const D: usize>(scene: &Scene<D>, phase: &Phase, state: &State<
     let factors = scene.terms.iter().filter_map(|term| term.factor(state.phase)).filter(|value| varies(value));
     let factors = factors.map(|value| format!("the gravity factor {:.4} of {:.4}", value.at(now), value.at(end)));
     let moved = phase.prescribed.iter().filter(|p| varies(&p.displacement)).map(|p| {
-        let axis = ["x", "y", "z"][p.fixed.component];
         let (now, end) = (p.displacement.at(now), p.displacement.at(end));
-        format!("{now:.4e} of {end:.4e} m prescribed in {axis}")
+        match p.fixed.nodes.first().and_then(|&n| scene.turned_by(n)) {
+            Some(body) => format!("a rotation of {:.4e} of {:.4e} rad prescribed", now / body.arm, end / body.arm),
+            None => format!("{now:.4e} of {end:.4e} m prescribed in {}", ["x", "y", "z"][p.fixed.component]),
+        }
     });
     let reduction = phase.reduction.iter().filter(|value| varies(value));
     let reduction = reduction.map(|value| format!("strengths divided by {:.4} of {:.4}", value.at(now), value.at(end)));

@@ -133,6 +133,18 @@ fn a_rigid_pile_finds_its_bearing_capacity() {
     assert!((5.69..1.1 * 6.05).contains(&pressure), "{pressure}");
 }
 
+/// What stops where a body is turned says how far it was, and would be, as an angle.
+#[test]
+fn a_rotation_reached_is_told_in_radians() {
+    let phases = "phases=[{name: turn, analysis: quasi_static, duration: 1, step: {initial: 0.25, min: 0.25}, \
+        prescribe: {plate: {ux: 0, uy: 0, rotation: {table: [[0, 0], [0.25, 0.001], [0.5, 3]]}}}}]";
+    let folder = tempfile::tempdir().unwrap();
+    let output = crate::mpm("run", PLATE, folder.path(), &["regions.plate.rigid=true", phases]);
+    let said = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert_eq!(output.status.code(), Some(1), "{said}");
+    assert!(said.contains("a rotation of 1.0000e-3 of 3.0000e0 rad prescribed"), "{said}");
+}
+
 /// Curves move a body without turning it; what contradicts that, or another entry, is told.
 #[test]
 fn contradictions_about_rigid_structures_are_told() {
