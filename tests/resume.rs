@@ -127,6 +127,24 @@ const CHANGE: Case = Case {
     ],
 };
 
+/// A pool that falls faster than the water in the pores, and a search for failure.
+const LEVELS: Case = Case {
+    file: "cases/drawdown",
+    overrides: &[
+        "mesh.parameters.h=3",
+        "water={level: 7, phreatic_level: 8}",
+        "phases.drawdown.water_level={table: [[0, 10], [1, 7]]}",
+        "phases.drawdown.phreatic_level={table: [[0, 10], [1, 8]]}",
+        "phases.safety.step={initial: 0.01, min: 0.005}",
+    ],
+};
+
+/// Grains that come apart: the inertia of nodes that hold next to no mass.
+const GRAINS: Case = Case {
+    file: "cases/column_collapse",
+    overrides: &["mesh.parameters.h=0.05", "phases.collapse.duration=0.3", "output.every=0.1"],
+};
+
 fn mpm(verb: &str, case: &Case, folder: &Path, more: &[&str]) -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_mpm"));
     command.arg(verb).arg(Path::new(env!("CARGO_MANIFEST_DIR")).join(case.file)).arg("-o").arg(folder);
@@ -316,8 +334,20 @@ fn a_run_whose_material_changes_killed_ten_times_ends_the_same() {
 }
 
 #[test]
+fn a_run_with_two_water_levels_killed_ten_times_ends_the_same() {
+    survives_kills(&LEVELS, 23);
+}
+
+#[test]
+fn grains_that_come_apart_killed_ten_times_end_the_same() {
+    survives_kills(&GRAINS, 29);
+}
+
+#[test]
 fn the_number_of_threads_changes_no_bit() {
-    for case in [SLOPE, RELEASE, SAND, PILE, BLOCK, WALL, BODIES, SAFETY, FALL, SOFT, POOL, WATER, CHANGE] {
+    for case in
+        [SLOPE, RELEASE, SAND, PILE, BLOCK, WALL, BODIES, SAFETY, FALL, SOFT, POOL, WATER, CHANGE, LEVELS, GRAINS]
+    {
         let one = seeded(&case);
         let three = copy(one.path());
         ends(mpm("solve", &case, one.path(), &["--threads", "1"]), 0);

@@ -59,7 +59,8 @@ impl Controller {
     /// # Errors
     /// The failure itself, once the step would fall below the least one.
     pub fn halve(&mut self, dt: f64, error: Error) -> Result<()> {
-        if 0.5 * dt < self.limits.least {
+        let half = 0.5 * dt;
+        if half < self.limits.least && !same(half, self.limits.least) {
             self.exhausted = true;
             let how = match self.halvings.len() {
                 0 => format!("the step of {dt:.3e} s cannot be halved"),
@@ -70,7 +71,7 @@ impl Controller {
             let problem = format!("{}; {how}: step.min is {least:.3e} s", error.problem);
             return Err(Error { problem, ..error });
         }
-        self.wanted = 0.5 * dt;
+        self.wanted = half;
         self.halvings.push(format!("{}: {}", error.place, error.problem));
         Ok(())
     }
@@ -121,7 +122,7 @@ mod tests {
             c.accept(c.wanted, 3);
         }
         assert_eq!(c.wanted, 0.2);
-        c.wanted = 0.015;
+        c.halve(0.03 - 0.01, error()).expect("half of it is the least one but for rounding");
         assert!(c.halve(0.015, error()).unwrap_err().problem.contains("halved"));
     }
 }
