@@ -62,7 +62,7 @@ impl Sizes {
     fn kept(&self) -> usize {
         match &self.layout {
             None => self.all * self.all,
-            Some(layout) => self.before_points() + self.points * layout.per_point(),
+            Some(layout) => self.before_points() + layout.kept(self.points),
         }
     }
 
@@ -155,6 +155,7 @@ pub fn scatter_functions<const D: usize>(
             return compute(patch, &mut Local { matrix: kept, vector, size }, &mut []).err();
         }
         let (kept, points) = kept.split_at_mut(s.before_points());
+        points.fill(0.0);
         SCRATCH.with_borrow_mut(|matrix| {
             matrix.clear();
             matrix.resize(size * size, 0.0);
@@ -244,7 +245,6 @@ impl<const D: usize> Rest<D> {
             return;
         };
         let (matrix, points) = kept.split_at(s.before_points());
-        force[..s.all].fill(0.0);
         let (own, rest) = field.split_at(s.own);
         let (beside, extra) = rest.split_at(s.beside());
         let (force, force_rest) = force.split_at_mut(s.own);

@@ -350,9 +350,10 @@ impl<const D: usize, K: Kinematics<D>, S: Share<D, K>> Term<D> for Internal<K, S
             let mut spatial = [Gradient { g: [0.0; D], hoop: 0.0 }; MAX_NODES];
             let own = patch.node_count as usize;
             let layout = Layout::new::<D, K>(patch);
-            let mut kept = kept.chunks_exact_mut(layout.per_point());
             Stiffness::with::<D, _>(own, |stiffness| {
-                for ((entries, point), answer) in frame.stencil.entries::<K>(patch).zip(&strained).zip(&mut answers) {
+                for (k, ((entries, point), answer)) in
+                    frame.stencil.entries::<K>(patch).zip(&strained).zip(&mut answers).enumerate()
+                {
                     let ratio = point.increment.determinant();
                     let beside = self.share.add(&cell, frame.points, &entries, ratio, answer);
                     let p = entries.point;
@@ -370,8 +371,8 @@ impl<const D: usize, K: Kinematics<D>, S: Share<D, K>> Term<D> for Internal<K, S
                     if wanted {
                         let (tangent, weight) = (&answer.tangent, later * volume);
                         stiffness.push::<D, K>(tangent, &spatial[..own], weight, local);
-                        if let Some(kept) = kept.next() {
-                            smoothed::keep::<D, K>(&layout, tangent, &entries, &point.inverse, weight, kept);
+                        if !kept.is_empty() {
+                            smoothed::keep::<D, K>(&layout, tangent, &entries, &point.inverse, weight, k, kept);
                         }
                     }
                     self.share.couple(&cell, frame.points, &entries, spatial, ratio, &acts_on, later, local);
