@@ -95,9 +95,10 @@ impl Reach {
         }
     }
 
-    /// The smoothed gradients at the nodes, from those of the cells with points.
-    pub fn means<'a, const D: usize>(&self, gradients: impl Iterator<Item = (u32, &'a [f64])>) -> Vec<f64> {
-        let mut means = vec![0.0; self.node_count * D * D];
+    /// Writes the smoothed gradients at the nodes, from those of the cells with points.
+    pub fn means<'a, const D: usize>(&self, gradients: impl Iterator<Item = (u32, &'a [f64])>, means: &mut Vec<f64>) {
+        means.clear();
+        means.resize(self.node_count * D * D, 0.0);
         for (cell, gradients) in gradients {
             let corners = self.nodes(cell).iter().zip(self.share(cell));
             for (from, (&n, share)) in gradients.chunks_exact(D * D).zip(corners) {
@@ -105,7 +106,6 @@ impl Reach {
                 to.iter_mut().zip(from).for_each(|(to, from)| *to += share * from);
             }
         }
-        means
     }
 
     /// What a cell is to add to its gradients: `means` less its own ones, which are in `gradients`.
@@ -115,16 +115,16 @@ impl Reach {
         }
     }
 
-    /// The sum at each node of the forces on its functions in all cells.
-    pub fn sum<'a, const D: usize>(&self, forces: impl Iterator<Item = (u32, &'a [f64])>) -> Vec<f64> {
-        let mut sums = vec![0.0; self.node_count * D * D];
+    /// Writes the sum at each node of the forces on its functions in all cells.
+    pub fn sum<'a, const D: usize>(&self, forces: impl Iterator<Item = (u32, &'a [f64])>, sums: &mut Vec<f64>) {
+        sums.clear();
+        sums.resize(self.node_count * D * D, 0.0);
         for (cell, forces) in forces {
             for (from, &n) in forces.chunks_exact(D * D).zip(self.nodes(cell)) {
                 let to = &mut sums[n as usize * D * D..(n as usize + 1) * D * D];
                 to.iter_mut().zip(from).for_each(|(to, from)| *to += from);
             }
         }
-        sums
     }
 
     /// Adds to the nodes of a cell what the functions of all cells exert on them through its gradients: `sums` at its

@@ -6,7 +6,7 @@ const RESTART: usize = 40;
 /// Products in all.
 const MOST: usize = 160;
 
-/// Improves `x`, the solution of `A x = b`, until the residual is at most `limit`; the number of products, or `None`
+/// Writes to `x` a solution of `A x = b` with a residual of at most `limit`; the number of products, or `None`
 /// where they do not suffice. `multiply(x, y)` is `y = A x`, `precondition(r)` turns `r` into about `A⁻¹ r`.
 pub fn gmres(
     multiply: &dyn Fn(&[f64], &mut [f64]),
@@ -15,18 +15,19 @@ pub fn gmres(
     x: &mut [f64],
     limit: f64,
 ) -> Option<usize> {
-    let (mut products, mut r) = (0, vec![0.0; b.len()]);
+    let (mut products, mut r) = (0, b.to_vec());
     let (mut basis, mut images): (Vec<Vec<f64>>, Vec<Vec<f64>>) = (Vec::new(), Vec::new());
-    while products < MOST {
-        multiply(x, &mut r);
-        products += 1;
-        r.iter_mut().zip(b).for_each(|(r, b)| *r = b - *r);
+    x.fill(0.0);
+    loop {
         let size = dot(&r, &r).sqrt();
         if !size.is_finite() {
             return None;
         }
         if size <= limit {
             return Some(products);
+        }
+        if products >= MOST {
+            return None;
         }
         basis.clear();
         images.clear();
@@ -74,10 +75,14 @@ pub fn gmres(
         for (image, y) in images.iter().zip(&rest) {
             x.iter_mut().zip(image).for_each(|(x, v)| *x += y * v);
         }
+        // That the rotations know the residual as well as a product would is Arnoldi's relation.
+        if rest[images.len()].abs() <= 0.9 * limit {
+            return Some(products);
+        }
+        multiply(x, &mut r);
+        products += 1;
+        r.iter_mut().zip(b).for_each(|(r, b)| *r = b - *r);
     }
-    multiply(x, &mut r);
-    let size = r.iter().zip(b).map(|(r, b)| (b - r).powi(2)).sum::<f64>().sqrt();
-    (size <= limit).then_some(products + 1)
 }
 
 fn dot(a: &[f64], b: &[f64]) -> f64 {

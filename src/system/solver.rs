@@ -123,8 +123,19 @@ impl Solver {
             }
             let multiply = |x: &[f64], y: &mut [f64]| matrix.multiply(pattern, x, y);
             let products = timed(Activity::Solution, || {
-                self.factor.solve(x, llt);
-                gmres(&multiply, &mut |r| self.factor.solve(r, llt), &b, x, tolerance * size)
+                // What is taken out is known, and concerns no other equation.
+                let (mut known, mut unknown) = (vec![0.0; b.len()], b);
+                for ((known, unknown), fixed) in known.iter_mut().zip(&mut unknown).zip(&matrix.fixed) {
+                    if *fixed {
+                        std::mem::swap(known, unknown);
+                    }
+                }
+                let products = gmres(&multiply, &mut |r| self.factor.solve(r, llt), &unknown, x, tolerance * size);
+                if known.iter().any(|&b| b != 0.0) {
+                    self.factor.solve(&mut known, llt);
+                    x.iter_mut().zip(&known).for_each(|(x, known)| *x += known);
+                }
+                products
             });
             if products.is_some() {
                 return Ok(Method::Iterative);

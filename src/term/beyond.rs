@@ -1,15 +1,28 @@
 //! Forces on functions that reach beyond the nodes of a cell, and their stiffness.
 //!
-//! The matrix takes what a cell's own nodes have among themselves. The rest is kept as the small matrices over the
-//! functions of each patch, and known by its products: expanded to the nodes around it would fill the system.
+//! The matrix takes what a cell's own nodes have among themselves. The rest is kept patch by patch, as small
+//! matrices over its functions or by its points, and known by its products: expanded to the nodes around it would fill
+//! the system.
 
+use super::smoothed::{self, Layout};
 use super::{Assembly, Frame, scatter_patches};
 use crate::error::Result;
 use crate::stencil::{Patch, Reach};
 use crate::system::{Beyond, Local};
 use pulp::{Arch, Simd, WithSimd};
 use rayon::prelude::*;
-use std::sync::Arc;
+use std::cell::RefCell;
+use std::sync::{Arc, Mutex, PoisonError};
+
+/// How the stiffness over the functions of a patch is kept.
+#[derive(Clone, Copy)]
+pub enum Kept {
+    /// As a matrix over all functions.
+    Matrix,
+    /// By its points. The matrix still has what the nodes of the cell have among themselves, and what further unknowns
+    /// have.
+    Points(fn(&Patch) -> Layout),
+}
 
 /// What one patch has over its functions and unknowns of its own at the end.
 #[derive(Clone, Copy)]
@@ -19,77 +32,165 @@ struct Sizes {
     own: usize,
     functions: usize,
     all: usize,
+    /// What its points keep, if they keep the stiffness.
+    layout: Option<Layout>,
+    points: usize,
+}
+
+impl Sizes {
+    /// Functions that are not of nodes, and unknowns that are not of functions.
+    fn beside(&self) -> usize {
+        self.functions - self.own
+    }
+
+    fn extra(&self) -> usize {
+        self.all - self.functions
+    }
+
+    /// Equations of the cell.
+    fn clique(&self) -> usize {
+        self.all - self.beside()
+    }
+
+    /// Where an equation of the cell stands among all.
+    fn index(&self, i: usize) -> usize {
+        if i < self.own { i } else { i + self.beside() }
+    }
+
+    /// Numbers kept: a matrix over all, or over the equations of the cell, then the rows and columns of the
+    /// other unknowns, then what the points keep.
+    fn kept(&self) -> usize {
+        match &self.layout {
+            None => self.all * self.all,
+            Some(layout) => self.before_points() + layout.kept(self.points),
+        }
+    }
+
+    fn before_points(&self) -> usize {
+        self.clique() * self.clique() + 2 * self.beside() * self.extra()
+    }
 }
 
 /// The stiffness over the functions of all patches but that among the nodes of a cell.
 struct Rest<const D: usize> {
     reach: Arc<Reach>,
     sizes: Vec<Sizes>,
-    /// The matrices, row-major, `stride` numbers a patch.
+    /// What is kept of each patch, and where it begins.
     stiffness: Vec<f64>,
-    stride: usize,
+    start: Vec<usize>,
     /// The equations of the cliques: `width` a patch.
     equation: Vec<u32>,
     width: usize,
+    /// Memory of the products.
+    work: Mutex<Work>,
 }
 
-/// Adds what `compute` makes of each patch over its functions.
+#[derive(Default)]
+struct Work {
+    field: Vec<f64>,
+    force: Vec<f64>,
+    at_nodes: Vec<f64>,
+}
+
+thread_local! {
+    /// The matrix of a patch before what is needed of it is kept.
+    static SCRATCH: RefCell<Vec<f64>> = RefCell::default();
+}
+
+/// Adds what `compute` makes of each patch over its functions. Its last argument is for what the points keep: empty
+/// where no tangent is wanted, or no point keeps anything.
 ///
 /// # Errors
 /// The error of the first patch that fails.
 pub fn scatter_functions<const D: usize>(
     frame: &Frame<D>,
-    compute: impl Fn(&Patch, &mut Local) -> Result<()> + Sync,
+    kept: Kept,
+    compute: impl Fn(&Patch, &mut Local, &mut [f64]) -> Result<()> + Sync,
     out: &mut Assembly,
 ) -> Result<()> {
-    let Some(reach) = &frame.stencil.reach else { return scatter_patches(frame, compute, out) };
+    let Some(reach) = &frame.stencil.reach else {
+        return scatter_patches(frame, |patch, local| compute(patch, local, &mut []), out);
+    };
     let patches = &frame.stencil.patches;
     let sizes: Vec<Sizes> = patches
         .iter()
         .map(|patch| {
             let [own, functions] = [patch.node_count, patch.function_count].map(|n| D * n as usize);
             let extra = frame.pattern.clique_size(frame.clique[patch.cell as usize] as usize) - own;
-            Sizes { cell: patch.cell, own, functions, all: functions + extra }
+            let layout = match kept {
+                Kept::Matrix => None,
+                Kept::Points(layout) => Some(layout(patch)),
+            };
+            let points = patch.point_count as usize;
+            Sizes { cell: patch.cell, own, functions, all: functions + extra, layout, points }
         })
         .collect();
-    let most = sizes.iter().map(|s| s.all).max().unwrap_or(0).max(1);
+    let most = most(&sizes);
     let wanted = out.tangent.is_some();
-    let stride = if wanted { most * most } else { 1 };
+    let mut start = vec![0];
+    if wanted {
+        start.extend(sizes.iter().scan(0, |sum, s| {
+            *sum += s.kept();
+            Some(*sum)
+        }));
+    } else {
+        start.resize(sizes.len() + 1, 0);
+    }
     let mut force = vec![0.0; most * patches.len()];
     // As large as all else of a step together: taken over from the last tangent.
     let mut stiffness = out.tangent.as_deref_mut().and_then(|tangent| tangent.spare.pop()).unwrap_or_default();
-    stiffness.resize(stride * patches.len(), 0.0);
-    let slots = force.par_chunks_mut(most).zip(stiffness.par_chunks_mut(stride)).zip(patches.par_iter().zip(&sizes));
-    let failed = slots.map(|((vector, matrix), (patch, sizes))| {
-        let size = sizes.all;
-        let matrix = if wanted { &mut matrix[..size * size] } else { &mut matrix[..0] };
-        matrix.fill(0.0);
-        compute(patch, &mut Local { matrix, vector: &mut vector[..size], size }).err()
+    stiffness.resize(start[sizes.len()], 0.0);
+    let mut slices: Vec<&mut [f64]> = Vec::with_capacity(sizes.len());
+    let mut left = &mut stiffness[..];
+    for range in start.windows(2) {
+        let own;
+        (own, left) = std::mem::take(&mut left).split_at_mut(range[1] - range[0]);
+        slices.push(own);
+    }
+    let slots = force.par_chunks_mut(most).zip(slices.par_iter_mut()).zip(patches.par_iter().zip(&sizes));
+    let failed = slots.map(|((vector, kept), (patch, s))| {
+        let (size, vector) = (s.all, &mut vector[..s.all]);
+        if s.layout.is_none() || !wanted {
+            kept.fill(0.0);
+            return compute(patch, &mut Local { matrix: kept, vector, size }, &mut []).err();
+        }
+        let (kept, points) = kept.split_at_mut(s.before_points());
+        points.fill(0.0);
+        SCRATCH.with_borrow_mut(|matrix| {
+            matrix.clear();
+            matrix.resize(size * size, 0.0);
+            let result = compute(patch, &mut Local { matrix, vector, size }, points);
+            keep_matrix(s, matrix, kept);
+            result.err()
+        })
     });
     if let Some(error) = failed.find_first(Option::is_some).flatten() {
         return Err(error);
     }
     // The functions pass their forces on to the nodes of the cells they are averages of.
-    let sums =
-        reach.sum::<D>(sizes.iter().zip(force.chunks_exact(most)).map(|(s, f)| (s.cell, &f[s.own..s.functions])));
+    let mut sums = Vec::new();
+    let functions = sizes.iter().zip(force.chunks_exact(most)).map(|(s, f)| (s.cell, &f[s.own..s.functions]));
+    reach.sum::<D>(functions, &mut sums);
     force.par_chunks_mut(most).zip(&sizes).for_each(|(force, s)| {
         let (own, rest) = force.split_at_mut(s.own);
-        reach.pass_on::<D>(s.cell, &sums, &rest[..s.functions - s.own], own);
+        reach.pass_on::<D>(s.cell, &sums, &rest[..s.beside()], own);
     });
     let place = |cell: u32| patches.partition_point(|patch| patch.cell < cell);
     let copy = |patch: &Patch, local: &mut Local| {
         let k = place(patch.cell);
         let (s, from) = (sizes[k], &force[k * most..]);
-        let beside = s.functions - s.own;
-        let index = |i: usize| if i < s.own { i } else { i + beside };
         for i in 0..local.size {
-            local.vector[i] = from[index(i)];
+            local.vector[i] = from[s.index(i)];
         }
         if !local.matrix.is_empty() {
-            let from = &stiffness[k * stride..];
+            let from = &stiffness[start[k]..];
+            if s.layout.is_some() {
+                local.matrix.copy_from_slice(&from[..local.size * local.size]);
+                return Ok(());
+            }
             for i in 0..local.size {
                 for j in 0..local.size {
-                    local.matrix[i * local.size + j] = from[index(i) * s.all + index(j)];
+                    local.matrix[i * local.size + j] = from[s.index(i) * s.all + s.index(j)];
                 }
             }
         }
@@ -104,10 +205,59 @@ pub fn scatter_functions<const D: usize>(
             let all = blocks.iter().flat_map(|&b| frame.pattern.start[b as usize]..frame.pattern.start[b as usize + 1]);
             to.iter_mut().zip(all).for_each(|(to, e)| *to = e);
         }
-        let reach = reach.clone();
-        tangent.beyond.push(Box::new(Rest::<D> { reach, sizes, stiffness, stride, equation, width }));
+        let (reach, work) = (reach.clone(), Mutex::default());
+        tangent.beyond.push(Box::new(Rest::<D> { reach, sizes, stiffness, start, equation, width, work }));
     }
     Ok(())
+}
+
+/// The most equations of a patch, at least one.
+fn most(sizes: &[Sizes]) -> usize {
+    sizes.iter().map(|s| s.all).max().unwrap_or(0).max(1)
+}
+
+/// Keeps of the matrix of a patch what its points do not: that over the equations of the cell, and for each other
+/// unknown its row and its column over the functions beside them.
+fn keep_matrix(s: &Sizes, matrix: &[f64], kept: &mut [f64]) {
+    let clique = s.clique();
+    let (square, cross) = kept.split_at_mut(clique * clique);
+    for (i, row) in square.chunks_exact_mut(clique).enumerate() {
+        let from = &matrix[s.index(i) * s.all..][..s.all];
+        let (own, extra) = row.split_at_mut(s.own);
+        own.copy_from_slice(&from[..s.own]);
+        extra.copy_from_slice(&from[s.functions..]);
+    }
+    for (e, cross) in (s.functions..s.all).zip(cross.chunks_exact_mut(2 * s.beside().max(1))) {
+        let (row, column) = cross.split_at_mut(s.beside());
+        row.copy_from_slice(&matrix[e * s.all + s.own..][..s.beside()]);
+        for (i, to) in (s.own..s.functions).zip(column) {
+            *to = matrix[i * s.all + e];
+        }
+    }
+}
+
+impl<const D: usize> Rest<D> {
+    /// The products of a patch with the values `field`, without those that the matrix of the system has.
+    fn product(&self, k: usize, field: &[f64], force: &mut [f64]) {
+        let (s, kept) = (&self.sizes[k], &self.stiffness[self.start[k]..self.start[k + 1]]);
+        let Some(layout) = s.layout else {
+            Arch::new().dispatch(Products { sizes: s, stiffness: kept, field, force });
+            return;
+        };
+        let (matrix, points) = kept.split_at(s.before_points());
+        let (own, rest) = field.split_at(s.own);
+        let (beside, extra) = rest.split_at(s.beside());
+        let (force, force_rest) = force.split_at_mut(s.own);
+        let (force_beside, force_extra) = force_rest.split_at_mut(s.beside());
+        let products = smoothed::Products::<D> { layout, points, own, beside, force, force_beside };
+        Arch::new().dispatch(products);
+        let cross = matrix[s.clique() * s.clique()..].chunks_exact(2 * s.beside().max(1));
+        for ((cross, value), to) in cross.zip(extra).zip(force_extra) {
+            let (row, column) = cross.split_at(s.beside());
+            *to = row.iter().zip(beside).map(|(a, x)| a * x).sum();
+            force_beside.iter_mut().zip(column).for_each(|(f, a)| *f += a * value);
+        }
+    }
 }
 
 impl<const D: usize> Beyond for Rest<D> {
@@ -116,42 +266,41 @@ impl<const D: usize> Beyond for Rest<D> {
     }
 
     fn add_product(&self, x: &[f64], y: &mut [f64]) {
-        let most = self.sizes.iter().map(|s| s.all).max().unwrap_or(0).max(1);
+        let most = most(&self.sizes);
+        let mut work = self.work.lock().unwrap_or_else(PoisonError::into_inner);
+        let Work { field, force, at_nodes } = &mut *work;
+        field.resize(most * self.sizes.len(), 0.0);
+        force.resize(most * self.sizes.len(), 0.0);
         let patches = || self.sizes.par_iter().zip(self.equation.par_chunks_exact(self.width));
         // Own values, the gradients of the cell at its nodes, and other unknowns.
-        let mut field = vec![0.0; most * self.sizes.len()];
         field.par_chunks_mut(most).zip(patches()).for_each(|(field, (s, equation))| {
-            let extra = s.functions - s.own;
-            for i in 0..s.all - extra {
-                field[if i < s.own { i } else { i + extra }] = x[equation[i] as usize];
+            for i in 0..s.clique() {
+                field[s.index(i)] = x[equation[i] as usize];
             }
             let (own, rest) = field.split_at_mut(s.own);
-            self.reach.own_gradients::<D>(s.cell, own, &mut rest[..extra]);
+            let gradients = &mut rest[..s.beside()];
+            gradients.fill(0.0);
+            self.reach.own_gradients::<D>(s.cell, own, gradients);
         });
         let slices = self.sizes.iter().zip(field.chunks_exact(most)).map(|(s, f)| (s.cell, &f[s.own..s.functions]));
-        let means = self.reach.means::<D>(slices);
-        let mut force = vec![0.0; most * self.sizes.len()];
-        force
-            .par_chunks_mut(most)
-            .zip(field.par_chunks_mut(most))
-            .zip(self.stiffness.par_chunks_exact(self.stride))
-            .zip(&self.sizes)
-            .for_each(|(((force, field), stiffness), s)| {
-                self.reach.less_own::<D>(s.cell, &means, &mut field[s.own..s.functions]);
-                Arch::new().dispatch(Products { sizes: s, stiffness, field, force });
-            });
+        self.reach.means::<D>(slices, at_nodes);
+        let means = &at_nodes[..];
+        force.par_chunks_mut(most).zip(field.par_chunks_mut(most)).enumerate().for_each(|(k, (force, field))| {
+            let s = &self.sizes[k];
+            self.reach.less_own::<D>(s.cell, means, &mut field[s.own..s.functions]);
+            self.product(k, field, force);
+        });
         let slices = self.sizes.iter().zip(force.chunks_exact(most)).map(|(s, f)| (s.cell, &f[s.own..s.functions]));
-        let sums = self.reach.sum::<D>(slices);
+        self.reach.sum::<D>(slices, at_nodes);
+        let sums = &at_nodes[..];
         force.par_chunks_mut(most).zip(&self.sizes).for_each(|(force, s)| {
             let (own, rest) = force.split_at_mut(s.own);
-            self.reach.pass_on::<D>(s.cell, &sums, &rest[..s.functions - s.own], own);
+            self.reach.pass_on::<D>(s.cell, sums, &rest[..s.beside()], own);
         });
-        for ((force, s), equation) in
-            force.chunks_exact(most).zip(&self.sizes).zip(self.equation.chunks_exact(self.width))
-        {
-            let extra = s.functions - s.own;
-            for i in 0..s.all - extra {
-                y[equation[i] as usize] += force[if i < s.own { i } else { i + extra }];
+        let patches = self.sizes.iter().zip(self.equation.chunks_exact(self.width));
+        for (force, (s, equation)) in force.chunks_exact(most).zip(patches) {
+            for i in 0..s.clique() {
+                y[equation[i] as usize] += force[s.index(i)];
             }
         }
     }

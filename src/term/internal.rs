@@ -11,8 +11,8 @@
 //! A [`Share`] of the stress may be carried by unknowns of its own; it is a type, so that a scene without one pays
 //! nothing.
 
-use super::beyond::scatter_functions;
-use super::smoothed::Smoothed;
+use super::beyond::{Kept, scatter_functions};
+use super::smoothed::{self, Layout};
 use super::stiffness::Stiffness;
 use super::{Assembly, Frame, History, Term, Trial, Update};
 use crate::error::{Error, Result};
@@ -341,18 +341,19 @@ impl<const D: usize, K: Kinematics<D>, S: Share<D, K>> Term<D> for Internal<K, S
 
     fn assemble(&self, frame: &Frame<D>, trial: &Trial<D>, out: &mut Assembly) -> Result<()> {
         let wanted = out.tangent.is_some();
-        let symmetric = frame.pattern.symmetric;
         let models = self.models_in(trial);
-        let compute = |patch: &Patch, local: &mut Local| {
+        let compute = |patch: &Patch, local: &mut Local, kept: &mut [f64]| {
             let (strained, mut answers) = Self::evaluate(&models, frame, trial, patch)?;
             let count = patch.function_count as usize;
             let cell = self.share.over(frame, trial, patch);
             let later = 1.0 - trial.alpha_f;
             let mut spatial = [Gradient { g: [0.0; D], hoop: 0.0 }; MAX_NODES];
             let own = patch.node_count as usize;
-            let groups = (count - own) / D;
-            let mut work = |stiffness: &mut Stiffness, mut smoothed: Option<&mut Smoothed>| {
-                for ((entries, point), answer) in frame.stencil.entries::<K>(patch).zip(&strained).zip(&mut answers) {
+            let layout = Layout::new::<D, K>(patch);
+            Stiffness::with::<D, _>(own, |stiffness| {
+                for (k, ((entries, point), answer)) in
+                    frame.stencil.entries::<K>(patch).zip(&strained).zip(&mut answers).enumerate()
+                {
                     let ratio = point.increment.determinant();
                     let beside = self.share.add(&cell, frame.points, &entries, ratio, answer);
                     let p = entries.point;
@@ -370,26 +371,19 @@ impl<const D: usize, K: Kinematics<D>, S: Share<D, K>> Term<D> for Internal<K, S
                     if wanted {
                         let (tangent, weight) = (&answer.tangent, later * volume);
                         stiffness.push::<D, K>(tangent, &spatial[..own], weight, local);
-                        if let Some(smoothed) = &mut smoothed {
-                            smoothed.push::<D, K>(tangent, &entries, &spatial[..own], &point.inverse, weight);
+                        if !kept.is_empty() {
+                            smoothed::keep::<D, K>(&layout, tangent, &entries, &point.inverse, weight, k, kept);
                         }
                     }
                     self.share.couple(&cell, frame.points, &entries, spatial, ratio, &acts_on, later, local);
                 }
                 if wanted {
                     stiffness.add_to::<D, K>(local);
-                    if let Some(smoothed) = smoothed {
-                        smoothed.add_to::<D>(local);
-                    }
                 }
                 Ok(())
-            };
-            Stiffness::with::<D, _>(own, |stiffness| match groups {
-                0 => work(stiffness, None),
-                _ => Smoothed::with::<D, _>(own, groups, symmetric, |smoothed| work(stiffness, Some(smoothed))),
             })
         };
-        scatter_functions(frame, compute, out)
+        scatter_functions(frame, Kept::Points(Layout::new::<D, K>), compute, out)
     }
 
     fn energy(&self, points: &Points<D>) -> f64 {

@@ -1,175 +1,193 @@
 //! The stiffness of the points of a patch on the functions that smooth its gradients.
 //!
-//! They come in groups with the gradients `ψ_a e_j`, one function a direction, so that all that a point has for group
-//! `a` is a multiple of what it has for `e_j`: `ψ_a` times against the nodes of the cell, `ψ_a ψ_b` times against
-//! group `b`. These sums run over whole rows of numbers and are put in their places once a patch.
+//! The functions come in groups with the gradients `ψ_a e_j`, one function a direction. What a point has is therefore
+//! known by a small matrix over the components of a gradient, by the gradients of the cell's nodes and by the `ψ_a`: a
+//! third of the numbers of the matrix over all functions, which is never formed.
 
 use crate::kinematics::{Gradient, Kinematics};
-use crate::mesh::shape::MAX_NODES;
-use crate::stencil::Entries;
-use crate::system::Local;
+use crate::stencil::{Entries, Patch};
 use crate::tensor::Tensor;
-use pulp::{Arch, Simd, WithSimd};
-use std::cell::RefCell;
+use pulp::{Simd, WithSimd};
 
-thread_local! {
-    /// Memory that the patches of a thread use again and again.
-    static SCRATCH: RefCell<Smoothed> = RefCell::default();
-}
+/// Nodes of the largest cell with smoothed gradients.
+const MOST_NODES: usize = 9;
+/// Points whose numbers stand side by side, so that the products work on as many at once. The last ones of a patch may
+/// be absent: all they have is zero.
+const SIDE_BY_SIDE: usize = 4;
 
-/// The stiffness of some points on the smoothing functions of a patch, collected until [`Smoothed::add_to`].
-#[derive(Default)]
-pub struct Smoothed {
-    /// Nodes of the cell, groups of functions, and whether the stiffness is symmetric.
+/// What the points of a patch keep. A row of a gradient is `D` numbers, and one for the hoop where there is one.
+#[derive(Clone, Copy)]
+pub struct Layout {
+    /// Nodes of the cell and groups of functions.
     own: usize,
     groups: usize,
-    symmetric: bool,
-    /// For each group, rows of direction and component: a column for each component of each node.
-    to_nodes: Vec<f64>,
-    /// For each group, rows of node and component: a column for each direction and component. Empty where symmetric.
-    from_nodes: Vec<f64>,
-    /// For each pair of groups, the second not after the first: rows and columns of direction and component.
-    among: Vec<f64>,
-    /// The same three of one point, without `ψ`.
-    point: [Vec<f64>; 3],
+    dimension: usize,
+    hoop: bool,
 }
 
-impl Smoothed {
-    /// Runs `work` with the memory of this thread, empty, for a patch with `own` nodes and so many groups.
-    pub fn with<const D: usize, T>(own: usize, groups: usize, symmetric: bool, work: impl FnOnce(&mut Self) -> T) -> T {
-        SCRATCH.with_borrow_mut(|scratch| {
-            (scratch.own, scratch.groups, scratch.symmetric) = (own, groups, symmetric);
-            let row = D * D * own * D;
-            let sizes = [row, if symmetric { 0 } else { row }, D * D * D * D];
-            let counts = [groups, groups, groups * (groups + 1) / 2];
-            let Self { to_nodes, from_nodes, among, point, .. } = scratch;
-            for (k, sum) in [to_nodes, from_nodes, among].into_iter().enumerate() {
-                sum.clear();
-                sum.resize(counts[k] * sizes[k], 0.0);
-                point[k].resize(sizes[k], 0.0);
-            }
-            work(scratch)
-        })
+impl Layout {
+    pub fn new<const D: usize, K: Kinematics<D>>(patch: &Patch) -> Self {
+        let own = patch.node_count as usize;
+        Self { own, groups: (patch.function_count as usize - own) / D, dimension: D, hoop: K::HOOP }
     }
 
-    /// Takes in a point with its tangent, the gradients of the nodes on the deformed grid, the inverse of its
-    /// deformation since the grid was restored, and its weight (m³).
-    pub fn push<const D: usize, K: Kinematics<D>>(
-        &mut self,
-        tangent: &K::Tangent,
-        entries: &Entries<D>,
-        spatial: &[Gradient<D>],
-        inverse: &Tensor,
-        weight: f64,
-    ) {
-        let (own, groups) = (self.own, self.groups);
-        let along: [Gradient<D>; D] = std::array::from_fn(|j| {
-            let unit = std::array::from_fn(|d| if d == j { 1.0 } else { 0.0 });
-            K::push_forward(&Gradient { g: unit, hoop: 0.0 }, inverse)
-        });
-        let [to_nodes, from_nodes, among] = &mut self.point;
-        let put = |to: &mut [f64], width: usize, row: usize, column: usize, block: [[f64; D]; D]| {
-            for (c, block) in block.iter().enumerate() {
-                let to = &mut to[(row * D + c) * width + column * D..][..D];
-                to.iter_mut().zip(block).for_each(|(to, b)| *to = weight * b);
-            }
-        };
-        for (i, gradient) in spatial.iter().enumerate() {
-            let column = K::column(tangent, gradient);
-            for (j, along) in along.iter().enumerate() {
-                put(to_nodes, own * D, j, i, K::block(&column, along));
-            }
-        }
-        for (k, to) in along.iter().enumerate() {
-            let column = K::column(tangent, to);
-            for (j, from) in along.iter().enumerate() {
-                put(among, D * D, j, k, K::block(&column, from));
-            }
-            if !self.symmetric {
-                for (i, gradient) in spatial.iter().enumerate() {
-                    put(from_nodes, D * D, i, k, K::block(&column, gradient));
-                }
-            }
-        }
-        let mut psi = [0.0; MAX_NODES];
-        for (a, psi) in psi[..groups].iter_mut().enumerate() {
-            *psi = entries.gradient(own + a * D).g[0];
-        }
-        Arch::new().dispatch(Add { psi: &psi[..groups], sums: self });
+    /// Components of the gradient of a displacement: by direction and component, then the hoop.
+    fn components(&self) -> usize {
+        self.dimension * self.dimension + usize::from(self.hoop)
     }
 
-    /// Adds the stiffness of the points taken in to `local`, whose first equations are those of the nodes.
-    pub fn add_to<const D: usize>(&self, local: &mut Local) {
-        let (own, size, across) = (self.own * D, local.size, D * D);
-        let place = |a: usize, row: usize, width: usize| (a * across + row) * width;
-        for a in 0..self.groups {
-            for row in 0..across {
-                let to = &mut local.matrix[(own + a * across + row) * size..][..own];
-                add(to, &self.to_nodes[place(a, row, own)..]);
-            }
-            for i in 0..own {
-                let to = &mut local.matrix[i * size + own + a * across..][..across];
-                if self.symmetric {
-                    for (row, to) in to.iter_mut().enumerate() {
-                        *to += self.to_nodes[place(a, row, own) + i];
-                    }
-                } else {
-                    add(to, &self.from_nodes[place(a, 0, own) + i * across..]);
-                }
-            }
-            for b in 0..self.groups {
-                let pair = if a < b { b * (b + 1) / 2 + a } else { a * (a + 1) / 2 + b };
-                for row in 0..across {
-                    let to = &mut local.matrix[(own + a * across + row) * size + own + b * across..][..across];
-                    add(to, &self.among[place(pair, row, across)..]);
+    /// Numbers that a point keeps: the gradients of the nodes, the `ψ_a`, and its matrix, column by column.
+    fn per_point(&self) -> usize {
+        (self.dimension + usize::from(self.hoop)) * self.own + self.groups + self.components().pow(2)
+    }
+
+    /// Numbers that so many points keep.
+    pub fn kept(&self, points: usize) -> usize {
+        self.per_point() * points.next_multiple_of(SIDE_BY_SIDE)
+    }
+}
+
+/// Writes what the point with number `k` of the patch keeps to `out`, which is for all of them, given its tangent, the
+/// inverse of its deformation since the grid was restored, and its weight (m³).
+pub fn keep<const D: usize, K: Kinematics<D>>(
+    layout: &Layout,
+    tangent: &K::Tangent,
+    entries: &Entries<D>,
+    inverse: &Tensor,
+    weight: f64,
+    k: usize,
+    out: &mut [f64],
+) {
+    let (own, row, components) = (layout.own, D + usize::from(K::HOOP), layout.components());
+    let together = layout.per_point() * SIDE_BY_SIDE;
+    let out = &mut out[k / SIDE_BY_SIDE * together..][..together];
+    let mut put = |number: usize, value: f64| out[number * SIDE_BY_SIDE + k % SIDE_BY_SIDE] = value;
+    for i in 0..own {
+        let gradient = entries.gradient(i);
+        for (j, g) in gradient.g.iter().enumerate() {
+            put(i * row + j, *g);
+        }
+        if K::HOOP {
+            put(i * row + D, gradient.hoop);
+        }
+    }
+    for a in 0..layout.groups {
+        put(own * row + a, entries.gradient(own + a * D).g[0]);
+    }
+    let matrix = own * row + layout.groups;
+    // Along each direction, then around the axis.
+    let along = |j: usize| {
+        let unit = std::array::from_fn(|d| if d == j { 1.0 } else { 0.0 });
+        K::push_forward(&Gradient { g: unit, hoop: if j == D { 1.0 } else { 0.0 } }, inverse)
+    };
+    for to in 0..row {
+        let column = K::column(tangent, &along(to));
+        for from in 0..row {
+            let block = K::block(&column, &along(from));
+            // A displacement has one component around the axis.
+            for d in 0..if from == D { 1 } else { D } {
+                for e in 0..if to == D { 1 } else { D } {
+                    put(matrix + (to * D + e) * components + from * D + d, weight * block[d][e]);
                 }
             }
         }
     }
 }
 
-fn add(to: &mut [f64], from: &[f64]) {
-    to.iter_mut().zip(from).for_each(|(to, from)| *to += from);
+/// The products of a patch: forces of a field without those that the cell's own nodes exert on each other.
+pub struct Products<'a, const D: usize> {
+    pub layout: Layout,
+    /// What the points keep, one after the other.
+    pub points: &'a [f64],
+    /// Values at the nodes of the cell, and of the functions beside them.
+    pub own: &'a [f64],
+    pub beside: &'a [f64],
+    /// The forces on them, written.
+    pub force: &'a mut [f64],
+    pub force_beside: &'a mut [f64],
 }
 
-/// Adds what one point has, times its `ψ`, to the sums.
-struct Add<'a> {
-    psi: &'a [f64],
-    sums: &'a mut Smoothed,
-}
-
-impl WithSimd for Add<'_> {
+impl<const D: usize> WithSimd for Products<'_, D> {
     type Output = ();
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
-        let Smoothed { to_nodes, from_nodes, among, point, .. } = self.sums;
-        for (k, sums) in [to_nodes, from_nodes].into_iter().enumerate() {
-            if !point[k].is_empty() {
-                for (sum, &psi) in sums.chunks_exact_mut(point[k].len()).zip(self.psi) {
-                    add_multiple(simd, sum, psi, &point[k]);
-                }
-            }
-        }
-        let mut sums = among.chunks_exact_mut(point[2].len());
-        for (a, psi_a) in self.psi.iter().enumerate() {
-            for (psi_b, sum) in self.psi[..=a].iter().zip(&mut sums) {
-                add_multiple(simd, sum, psi_a * psi_b, &point[2]);
-            }
+        match self.layout.components() {
+            4 => self.add::<S, 4>(simd),
+            5 => self.add::<S, 5>(simd),
+            9 => self.add::<S, 9>(simd),
+            _ => self.add::<S, 10>(simd),
         }
     }
 }
 
-/// Adds a multiple. A closure in its place might be compiled on its own, without the instructions that its caller may
-/// use.
-#[inline(always)]
-fn add_multiple<S: Simd>(simd: S, to: &mut [f64], factor: f64, from: &[f64]) {
-    let ((to, last), (from, last_from)) = (S::as_mut_simd_f64s(to), S::as_simd_f64s(from));
-    let factors = simd.splat_f64s(factor);
-    for (to, from) in to.iter_mut().zip(from) {
-        *to = simd.mul_add_e_f64s(factors, *from, *to);
-    }
-    for (to, from) in last.iter_mut().zip(last_from) {
-        *to += factor * from;
+impl<const D: usize> Products<'_, D> {
+    /// `B` components of a gradient.
+    #[inline(always)]
+    fn add<S: Simd, const B: usize>(self, simd: S) {
+        let Layout { own, groups, .. } = self.layout;
+        let (across, row) = (D * D, D + B - D * D);
+        let zero = simd.splat_f64s(0.0);
+        let (mut force, mut force_beside) = ([[zero; D]; MOST_NODES], [[[zero; D]; D]; MOST_NODES]);
+        let (numbers, _) = S::as_simd_f64s(self.points);
+        let registers = SIDE_BY_SIDE / S::F64_LANES;
+        for together in numbers.chunks_exact(self.layout.per_point() * registers) {
+            for register in 0..registers {
+                let number = |k: usize| together[k * registers + register];
+                let mut added = [zero; B];
+                for (a, beside) in self.beside.chunks_exact(across).enumerate() {
+                    let psi = number(own * row + a);
+                    for k in 0..across {
+                        added[k] = simd.mul_add_e_f64s(psi, simd.splat_f64s(beside[k]), added[k]);
+                    }
+                }
+                let mut whole = added;
+                for (i, u) in self.own.chunks_exact(D).enumerate() {
+                    for j in 0..D {
+                        let g = number(i * row + j);
+                        for c in 0..D {
+                            whole[j * D + c] = simd.mul_add_e_f64s(g, simd.splat_f64s(u[c]), whole[j * D + c]);
+                        }
+                    }
+                    if B > across {
+                        whole[across] = simd.mul_add_e_f64s(number(i * row + D), simd.splat_f64s(u[0]), whole[across]);
+                    }
+                }
+                let (mut stress, mut stress_added) = ([zero; B], [zero; B]);
+                let matrix = own * row + groups;
+                for l in 0..B {
+                    for k in 0..B {
+                        let entry = number(matrix + l * B + k);
+                        stress[k] = simd.mul_add_e_f64s(entry, whole[l], stress[k]);
+                        stress_added[k] = simd.mul_add_e_f64s(entry, added[l], stress_added[k]);
+                    }
+                }
+                for (a, force) in force_beside[..groups].iter_mut().enumerate() {
+                    let psi = number(own * row + a);
+                    for j in 0..D {
+                        for c in 0..D {
+                            force[j][c] = simd.mul_add_e_f64s(psi, stress[j * D + c], force[j][c]);
+                        }
+                    }
+                }
+                for (i, force) in force[..own].iter_mut().enumerate() {
+                    for j in 0..D {
+                        let g = number(i * row + j);
+                        for c in 0..D {
+                            force[c] = simd.mul_add_e_f64s(g, stress_added[j * D + c], force[c]);
+                        }
+                    }
+                    if B > across {
+                        force[0] = simd.mul_add_e_f64s(number(i * row + D), stress_added[across], force[0]);
+                    }
+                }
+            }
+        }
+        for (to, sum) in self.force.iter_mut().zip(force.as_flattened()) {
+            *to = simd.reduce_sum_f64s(*sum);
+        }
+        for (to, sum) in self.force_beside.iter_mut().zip(force_beside.as_flattened().as_flattened()) {
+            *to = simd.reduce_sum_f64s(*sum);
+        }
     }
 }

@@ -12,7 +12,7 @@
 //! `u ∇_x N_I` away, and where it is the water outside nothing is left but the buoyancy `N_I ∇p`. Its volume is that of the soil and not
 //! kept, so that the tangent is not symmetric.
 
-use super::beyond::scatter_functions;
+use super::beyond::{Kept, scatter_functions};
 use super::head::{Head, Momentary};
 use super::{Assembly, Frame, Role, Term, Trial};
 use crate::error::{Error, Result};
@@ -60,7 +60,7 @@ impl<const D: usize, K: Kinematics<D>> Term<D> for VirtualPressure<K> {
         if outside.is_none() && inside.is_none() {
             return Ok(());
         }
-        let compute = |patch: &Patch, local: &mut Local| {
+        let compute = |patch: &Patch, local: &mut Local, _: &mut [f64]| {
             let now = frame.stencil.gather(frame.mesh, patch, trial.between);
             let before = frame.stencil.gather(frame.mesh, patch, trial.converged);
             let nodes = frame.mesh.cells.nodes(patch.cell as usize);
@@ -137,6 +137,6 @@ impl<const D: usize, K: Kinematics<D>> Term<D> for VirtualPressure<K> {
             }
             Ok(())
         };
-        scatter_functions(frame, compute, out)
+        scatter_functions(frame, Kept::Matrix, compute, out)
     }
 }
