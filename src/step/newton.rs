@@ -26,8 +26,6 @@ const ASTRAY: i32 = 3;
 const WATCH: usize = 3;
 /// Largest relative residual that the linear systems of an iteration are solved to.
 const LOOSEST: f64 = 1e-3;
-/// Share of the tolerance of the step that the last of these systems may leave: the rest is for what is not linear.
-const ENOUGH: f64 = 0.3;
 /// A residual this small relative to the forces that balance is rounding.
 const ROUNDING: f64 = 1e-14;
 
@@ -394,7 +392,7 @@ impl<'a, const D: usize> Newton<'a, D> {
 /// 1996), which keeps the convergence of Newton's method, but no more than the end of the iteration asks for.
 fn forcing(history: &[f64], tolerance: f64) -> f64 {
     let last = history.last().copied().unwrap_or(1.0);
-    let enough = ENOUGH * tolerance / last;
+    let enough = 0.1 * tolerance / last;
     let quadratic = match history {
         [.., before, last] => 0.1 * (last / before).powi(2),
         _ => LOOSEST,

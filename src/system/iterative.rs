@@ -75,10 +75,6 @@ pub fn gmres(
         for (image, y) in images.iter().zip(&rest) {
             x.iter_mut().zip(image).for_each(|(x, v)| *x += y * v);
         }
-        // That the rotations know the residual as well as a product would is Arnoldi's relation.
-        if rest[images.len()].abs() <= 0.9 * limit {
-            return Some(products);
-        }
         multiply(x, &mut r);
         products += 1;
         r.iter_mut().zip(b).for_each(|(r, b)| *r = b - *r);

@@ -130,6 +130,7 @@ impl<const D: usize> Products<'_, D> {
         let zero = simd.splat_f64s(0.0);
         let (mut force, mut force_beside) = ([[zero; D]; MOST_NODES], [[[zero; D]; D]; MOST_NODES]);
         let (numbers, _) = S::as_simd_f64s(self.points);
+        const { assert!(S::F64_LANES <= SIDE_BY_SIDE) };
         let registers = SIDE_BY_SIDE / S::F64_LANES;
         for together in numbers.chunks_exact(self.layout.per_point() * registers) {
             for register in 0..registers {
