@@ -31,6 +31,9 @@ use std::marker::PhantomData;
 /// where they are: it may be a sliver, and they stand for others beside it.
 const LEAST_SHARE: f64 = 0.5;
 
+/// Share of the band over which a pressure begins to grow that it does over there: no point gains its buoyancy at once.
+const BAND: f64 = 0.25;
+
 /// A pressure on the boundary of all material points.
 pub struct VirtualPressure<K> {
     /// What acts from outside in each phase.
@@ -184,7 +187,7 @@ impl<'a, const D: usize> Layered<'a, D> {
         let own = &height[..nodes.len()];
         let [low, high] =
             [own.iter().copied().fold(f64::INFINITY, f64::min), own.iter().copied().fold(f64::NEG_INFINITY, f64::max)];
-        let bends = |head: &Momentary| head.breaks()[0] < high && low < head.breaks()[1];
+        let bends = |head: &Momentary| head.gradient != 0.0 && head.breaks()[0] < high && low < head.breaks()[1];
         if ![acting.outside, acting.inside].iter().flatten().any(bends) {
             return None;
         }
@@ -199,12 +202,16 @@ impl<'a, const D: usize> Layered<'a, D> {
             x: [[0.0; D]; MAX_NODES],
             frame,
             cell,
-            acting: acting.on(first),
+            acting: acting.on(first).map(|head| Momentary { band: BAND * head.band, ..head }),
             scale: 1.0,
         };
         for (i, &n) in nodes.iter().enumerate() {
             layered.level_set[i] = frame.level_set[n as usize];
             layered.x[i] = frame.mesh.nodes[n as usize];
+        }
+        if layered.level_set.iter().all(|&value| value >= 0.0) {
+            // Full, as [`crate::surface::Filling`] has it: triangles with all corners on the surface belong to it.
+            layered.level_set = [1.0; MAX_NODES];
         }
         let before = frame.stencil.gather(frame.mesh, patch, trial.converged);
         let of_points: f64 = frame
