@@ -133,6 +133,7 @@ impl<K: Kinematics<2>> Fitted<K> {
         weighing.lost_front = lost_front;
         if self.bounded {
             weighing.boundary = boundary(&self.geometry, grid, &level_set);
+            weighing.level_set = level_set;
         }
         weighing
     }

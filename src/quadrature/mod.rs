@@ -40,6 +40,8 @@ pub struct Weighing<const D: usize> {
     pub poor: Vec<u32>,
     /// The boundary of the material; empty where nothing needs it.
     pub boundary: ActiveBoundary,
+    /// The level set that the cells were cut along, one value a node; empty where they were not, or nothing needs the boundary.
+    pub level_set: Vec<f64>,
     pub tally: Tally,
     /// Why the surface is followed no longer, where it ceased to be in this restoration.
     pub lost_front: Option<String>,

@@ -90,7 +90,7 @@ pub fn store<const D: usize>(state: &State<D>) -> Store {
 
 fn put_weighing<const D: usize>(store: &mut Store, weighing: &Weighing<D>) {
     // Why a front was lost has been told when it was.
-    let Weighing { weight, shift, soft, poor, boundary, tally, lost_front: _, put_back: _ } = weighing;
+    let Weighing { weight, shift, soft, poor, boundary, level_set, tally, lost_front: _, put_back: _ } = weighing;
     let Tally { quadratic, linear, constant, volume, point_volume, fitted_volume, drift } = tally;
     store.put("weighing.weight", 1, weight.clone());
     store.put("weighing.shifted", 2, shift.iter().flat_map(|(cell, by)| [*cell, by.len() as u32]).collect());
@@ -98,6 +98,7 @@ fn put_weighing<const D: usize>(store: &mut Store, weighing: &Weighing<D>) {
     store.put("weighing.soft", 1, soft.iter().map(|s| s.cell).collect());
     store.put("weighing.emptiness", 1, soft.iter().map(|s| s.emptiness).collect());
     store.put("weighing.poor", 1, poor.clone());
+    store.put("weighing.level_set", 1, level_set.clone());
     let ActiveBoundary { pieces, first } = boundary;
     store.put("boundary.first", 1, first.clone());
     store.put(
@@ -120,6 +121,7 @@ fn take_weighing<const D: usize>(store: &mut Store) -> Result<Weighing<D>> {
     let (soft, emptiness) = (store.take::<u32>("weighing.soft", 1)?, store.take::<f64>("weighing.emptiness", 1)?);
     let soft = soft.into_iter().zip(emptiness).map(|(cell, emptiness)| SoftCell { cell, emptiness }).collect();
     let poor = store.take::<u32>("weighing.poor", 1)?;
+    let level_set = store.take::<f64>("weighing.level_set", 1)?;
     let boundary = take_boundary(store)?;
     let (cells, volume) = (store.take::<u32>("weighing.cells", 1)?, store.take::<f64>("weighing.volume", 1)?);
     let ([quadratic, linear, constant, volume_only], [point_volume, fitted_volume, drift]) = (&cells[..], &volume[..])
@@ -135,7 +137,7 @@ fn take_weighing<const D: usize>(store: &mut Store) -> Result<Weighing<D>> {
         fitted_volume: *fitted_volume,
         drift: *drift,
     };
-    Ok(Weighing { weight, shift, soft, poor, boundary, tally, lost_front: None, put_back: None })
+    Ok(Weighing { weight, shift, soft, poor, boundary, level_set, tally, lost_front: None, put_back: None })
 }
 
 fn take_boundary(store: &mut Store) -> Result<ActiveBoundary> {
@@ -255,7 +257,8 @@ pub fn take<const D: usize>(mut store: Store, first: &State<D>) -> Result<State<
     {
         return Err(foreign("the number of points"));
     }
-    if state.displacement.len() != nodes || state.travel.len() != nodes {
+    let level_set = state.weighing.level_set.len();
+    if state.displacement.len() != nodes || state.travel.len() != nodes || ![0, nodes].contains(&level_set) {
         return Err(foreign("the number of nodes"));
     }
     Ok(state)

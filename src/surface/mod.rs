@@ -14,6 +14,7 @@ mod distance;
 mod fixture;
 mod front;
 mod geometry;
+mod layers;
 pub mod moments;
 mod split;
 
@@ -24,3 +25,4 @@ pub use contour::Contour;
 pub use distance::Distance;
 pub use front::{Fault, Front};
 pub use geometry::Geometry;
+pub use layers::visit_layers;

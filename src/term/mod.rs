@@ -91,6 +91,9 @@ pub struct Frame<'a, const D: usize> {
     pub touches: &'a [Touch<D>],
     /// The pieces of the boundary of the material; empty where the scene has no use for them.
     pub boundary: &'a [Piece],
+    /// The level set that cells are cut along, one value a node, positive in the material; empty where the scene has no use for
+    /// it, or the points weigh their volumes.
+    pub level_set: &'a [f64],
     /// The cells that take part, ascending; of finite elements those with unknowns of pressure.
     pub cells: &'a [u32],
     /// Where the constants of the cells begin in [`Trial::pressure`].

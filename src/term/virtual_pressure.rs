@@ -8,6 +8,9 @@
 //! meets finite elements with the same pressure on them, it cancels; on a wall it presses on the support.
 //! A pressure in space alone has a potential, and the tangent is symmetric.
 //!
+//! In cells where the pressure bends, the points integrate its growth as a polynomial, which it is not. Where the surface is
+//! known within the cells the growth is summed there over places of its own ([`visit_layers`]), with the volume of the points.
+//!
 //! Water in the pores has the pressure `u` in space inside of the material, whose models answer for the effective stress `σ + u 1`: it takes
 //! `u ∇_x N_I` away, and where it is the water outside nothing is left but the buoyancy `N_I ∇p`. Its volume is that of the soil and not
 //! kept, so that the tangent is not symmetric.
@@ -17,11 +20,19 @@ use super::head::{Head, Momentary};
 use super::{Assembly, Frame, Role, Term, Trial};
 use crate::error::{Error, Result};
 use crate::kinematics::{Gradient, Kinematics};
-use crate::mesh::shape::MAX_NODES;
+use crate::mesh::shape::{self, MAX_NODES};
 use crate::stencil::Patch;
+use crate::surface::visit_layers;
 use crate::system::Local;
 use crate::tensor::Tensor;
 use std::marker::PhantomData;
+
+/// The volume of the points of a cell over that of its active part is between this and its inverse where the latter tells
+/// where they are: it may be a sliver, and they stand for others beside it.
+const LEAST_SHARE: f64 = 0.5;
+
+/// Share of the band over which a pressure begins to grow that it does over there: no point gains its buoyancy at once.
+const BAND: f64 = 0.25;
 
 /// A pressure on the boundary of all material points.
 pub struct VirtualPressure<K> {
@@ -45,6 +56,247 @@ impl<K> VirtualPressure<K> {
     }
 }
 
+/// What acts at one time.
+#[derive(Clone, Copy)]
+struct Acting {
+    outside: Option<Momentary>,
+    inside: Option<Momentary>,
+}
+
+/// The pressures (kPa) at a place, by its height.
+struct Pressures {
+    /// The slope of that outside, and its slope (kPa/m, kPa/m²).
+    slope: f64,
+    second: f64,
+    /// What is left of it in the material beside that in the pores, and the slope of that.
+    left: f64,
+    left_slope: f64,
+}
+
+impl Acting {
+    /// That which acts on material with or without pores.
+    fn on(self, porous: bool) -> Self {
+        Self { inside: self.inside.filter(|_| porous), ..self }
+    }
+
+    fn map(self, to: impl Fn(Momentary) -> Momentary) -> Self {
+        Self { outside: self.outside.map(&to), inside: self.inside.map(&to) }
+    }
+
+    /// That at height `y` (m); `None` where there is nothing.
+    fn at(self, y: f64) -> Option<Pressures> {
+        let at = |head: Option<Momentary>| head.map_or([0.0; 3], |head| head.at(y));
+        let ([p, slope, second], [u, growth, _]) = (at(self.outside), at(self.inside));
+        let nothing = [p, slope, u, growth] == [0.0; 4];
+        (!nothing).then_some(Pressures { slope, second, left: p - u, left_slope: slope - growth })
+    }
+}
+
+/// A place over which the term is summed.
+struct Place<'a, const D: usize> {
+    /// The values of functions at the nodes, and the gradients of all, in the configuration of the grid.
+    value: &'a [f64],
+    gradient: &'a [Gradient<D>],
+    /// The inverse of the deformation of the grid there.
+    inverse: Tensor,
+    /// The volume (m³) in the trial state.
+    volume: f64,
+    pressures: Pressures,
+}
+
+impl<const D: usize> Place<'_, D> {
+    /// Adds the force, and the tangent by `share` of the displacement.
+    fn add<K: Kinematics<D>>(&self, share: f64, local: &mut Local) {
+        let Self { volume, pressures: Pressures { slope, second, left, left_slope }, .. } = *self;
+        let count = self.gradient.len();
+        let mut spatial = [Gradient { g: [0.0; D], hoop: 0.0 }; MAX_NODES];
+        let mut divergence = [[0.0; D]; MAX_NODES];
+        for i in 0..count {
+            spatial[i] = K::push_forward(&self.gradient[i], &self.inverse);
+            divergence[i] = K::force(&Tensor::identity(), &spatial[i]);
+        }
+        let value = |i: usize| self.value.get(i).copied().unwrap_or(0.0);
+        for i in 0..count {
+            for d in 0..D {
+                local.vector[i * D + d] += volume * left * divergence[i][d];
+            }
+            local.vector[i * D + 1] += volume * slope * value(i);
+        }
+        if local.matrix.is_empty() {
+            return;
+        }
+        let weight = share * volume;
+        for i in 0..count {
+            for j in 0..count {
+                let (a, b, size) = (&spatial[i], &spatial[j], local.size);
+                for d in 0..D {
+                    for e in 0..D {
+                        let mut entry = left * (divergence[i][d] * divergence[j][e] - a.g[e] * b.g[d]);
+                        if d == 0 && e == 0 {
+                            entry -= left * a.hoop * b.hoop;
+                        }
+                        if e == 1 {
+                            entry += left_slope * divergence[i][d] * value(j);
+                        }
+                        if d == 1 {
+                            entry += slope * value(i) * divergence[j][e];
+                        }
+                        if d == 1 && e == 1 {
+                            entry += second * value(i) * value(j);
+                        }
+                        local.matrix[(i * D + d) * size + j * D + e] += weight * entry;
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// A cell where pressures bend, summed over places of its own.
+struct Layered<'a, const D: usize> {
+    level_set: [f64; MAX_NODES],
+    /// The heights (m) of the nodes at the last converged step: places do not move in Newton's method.
+    height: [f64; MAX_NODES],
+    /// The nodes (m) in the configuration of the grid.
+    x: [[f64; D]; MAX_NODES],
+    frame: &'a Frame<'a, D>,
+    cell: usize,
+    acting: Acting,
+    /// The volume of the points over that of the active part.
+    scale: f64,
+}
+
+impl<'a, const D: usize> Layered<'a, D> {
+    /// That of a patch; `None` where its points do: where nothing bends, or nothing is known of the surface.
+    fn of<K: Kinematics<D>>(
+        term: &VirtualPressure<K>,
+        frame: &'a Frame<D>,
+        trial: &Trial<D>,
+        patch: &Patch,
+        acting: Acting,
+    ) -> Option<Self> {
+        if frame.level_set.is_empty() || frame.stencil.reach.is_some() {
+            return None;
+        }
+        let cell = patch.cell as usize;
+        let nodes = frame.mesh.cells.nodes(cell);
+        let mut height = [0.0; MAX_NODES];
+        for (height, &n) in height.iter_mut().zip(nodes) {
+            *height = frame.mesh.nodes[n as usize][1] + trial.converged[n as usize][1];
+        }
+        let own = &height[..nodes.len()];
+        let [low, high] =
+            [own.iter().copied().fold(f64::INFINITY, f64::min), own.iter().copied().fold(f64::NEG_INFINITY, f64::max)];
+        let bends = |head: &Momentary| head.gradient != 0.0 && head.breaks()[0] < high && low < head.breaks()[1];
+        if ![acting.outside, acting.inside].iter().flatten().any(bends) {
+            return None;
+        }
+        let mut porous = frame.stencil.points(patch).iter().map(|&p| term.porous_at(frame, p as usize));
+        let first = porous.next()?;
+        if porous.any(|other| other != first) {
+            return None;
+        }
+        let mut layered = Self {
+            level_set: [0.0; MAX_NODES],
+            height,
+            x: [[0.0; D]; MAX_NODES],
+            frame,
+            cell,
+            acting: acting.on(first).map(|head| Momentary { band: BAND * head.band, ..head }),
+            scale: 1.0,
+        };
+        for (i, &n) in nodes.iter().enumerate() {
+            layered.level_set[i] = frame.level_set[n as usize];
+            layered.x[i] = frame.mesh.nodes[n as usize];
+        }
+        if layered.level_set.iter().all(|&value| value >= 0.0) {
+            // Full, as [`crate::surface::Filling`] has it: triangles with all corners on the surface belong to it.
+            layered.level_set = [1.0; MAX_NODES];
+        }
+        let before = frame.stencil.gather(frame.mesh, patch, trial.converged);
+        let of_points: f64 = frame
+            .stencil
+            .entries::<K>(patch)
+            .map(|entries| {
+                let mut known = Tensor::identity();
+                for i in 0..entries.functions() {
+                    K::deform(&mut known, &before[i], &entries.gradient(i));
+                }
+                entries.weight * frame.points.deformation[entries.point].determinant() / known.determinant()
+            })
+            .sum();
+        let mut active = 0.0;
+        layered.visit::<K>(&[], |_, _, volume| active += volume);
+        layered.scale = of_points / active;
+        (LEAST_SHARE..1.0 / LEAST_SHARE).contains(&layered.scale).then_some(layered)
+    }
+
+    /// Calls `place` with the values, the gradients and the volume (m³) of the places in the configuration of the grid.
+    fn visit<K: Kinematics<D>>(&self, breaks: &[f64], mut place: impl FnMut(&[f64], &[Gradient<D>], f64)) {
+        let kind = self.frame.mesh.cells.kind[self.cell];
+        let count = kind.node_count();
+        let (mut n, mut slope) = ([0.0; MAX_NODES], [[0.0; D]; MAX_NODES]);
+        let mut gradient = [Gradient { g: [0.0; D], hoop: 0.0 }; MAX_NODES];
+        visit_layers(kind, &self.level_set[..count], &self.height[..count], breaks, |xi, weight| {
+            let det = shape::map(kind, &self.x[..count], xi, &mut n, &mut slope);
+            let mut x = [0.0; D];
+            for (n, node) in n.iter().zip(&self.x[..count]) {
+                (0..D).for_each(|d| x[d] += n * node[d]);
+            }
+            for i in 0..count {
+                gradient[i] = Gradient { g: slope[i], hoop: if K::HOOP { n[i] / x[0] } else { 0.0 } };
+            }
+            place(&n[..count], &gradient[..count], weight * det * K::measure(&x));
+        });
+    }
+
+    fn add<K: Kinematics<D>>(&self, trial: &Trial<D>, now: &[[f64; D]], local: &mut Local) -> Result<()> {
+        let breaks =
+            [self.acting.outside, self.acting.inside].map(|head| head.map_or([f64::INFINITY; 2], |h| h.breaks()));
+        let mut breaks = [breaks[0][0], breaks[0][1], breaks[1][0], breaks[1][1]];
+        breaks.sort_by(f64::total_cmp);
+        let acting = self.acting.map(|head| Momentary { top: 0.0, ..head });
+        let mut inverted = None;
+        self.visit::<K>(&breaks, |value, gradient, volume| {
+            let y: f64 = value.iter().enumerate().map(|(i, n)| n * (self.x[i][1] + now[i][1])).sum();
+            let Some(pressures) = acting.at(y) else { return };
+            let mut deformed = Tensor::identity();
+            for (i, gradient) in gradient.iter().enumerate() {
+                K::deform(&mut deformed, &now[i], gradient);
+            }
+            match invert(&deformed) {
+                Ok((inverse, ratio)) => {
+                    let volume = self.scale * volume * ratio;
+                    Place { value, gradient, inverse, volume, pressures }.add::<K>(1.0 - trial.alpha_f, local);
+                }
+                Err(determinant) => inverted = Some(determinant),
+            }
+        });
+        inverted.map_or(Ok(()), |determinant| Err(inside_out(format!("cell {}", self.cell), determinant)))
+    }
+}
+
+/// The inverse and the determinant of a deformation; an error where the latter is not positive.
+fn invert(deformed: &Tensor) -> std::result::Result<(Tensor, f64), f64> {
+    let determinant = deformed.determinant();
+    let inverse = deformed.try_inverse().filter(|_| determinant > 0.0);
+    inverse.map(|inverse| (inverse, determinant)).ok_or(determinant)
+}
+
+fn inside_out(what: String, determinant: f64) -> Error {
+    Error::analysis(
+        what,
+        format!("is turned inside out (det F {determinant:.3})"),
+        "take smaller steps or refine the mesh",
+    )
+}
+
+impl<K> VirtualPressure<K> {
+    fn porous_at<const D: usize>(&self, frame: &Frame<D>, point: usize) -> bool {
+        self.porous.get(frame.points.model_of(point)).copied().unwrap_or(false)
+    }
+}
+
 impl<const D: usize, K: Kinematics<D>> Term<D> for VirtualPressure<K> {
     fn role(&self) -> Role {
         Role::External
@@ -60,80 +312,40 @@ impl<const D: usize, K: Kinematics<D>> Term<D> for VirtualPressure<K> {
         if outside.is_none() && inside.is_none() {
             return Ok(());
         }
+        let acting = Acting { outside, inside };
         let compute = |patch: &Patch, local: &mut Local, _: &mut [f64]| {
             let now = frame.stencil.gather(frame.mesh, patch, trial.between);
             let before = frame.stencil.gather(frame.mesh, patch, trial.converged);
             let nodes = frame.mesh.cells.nodes(patch.cell as usize);
+            let layered = Layered::of(self, frame, trial, patch, acting);
+            let by_points = match &layered {
+                Some(layered) => {
+                    layered.add::<K>(trial, &now, local)?;
+                    acting.map(|head| Momentary { gradient: 0.0, ..head })
+                }
+                None => acting,
+            };
             for entries in frame.stencil.entries::<K>(patch) {
                 let height = |(n, &node): (&f64, &u32)| {
                     n * (frame.mesh.nodes[node as usize][1] + trial.between[node as usize][1])
                 };
                 let y = entries.value.iter().zip(nodes).map(height).sum();
-                let at = |head: Option<Momentary>| head.map_or([0.0; 3], |head| head.at(y));
-                let [p, slope, second] = at(outside);
-                let porous = || self.porous.get(frame.points.model_of(entries.point)).copied().unwrap_or(false);
-                let [u, growth, _] = at(inside.filter(|_| porous()));
-                // What is left of the pressure in the material, and of its slope.
-                let (left, left_slope) = (p - u, slope - growth);
-                if [p, slope, u, growth] == [0.0; 4] {
-                    continue;
-                }
+                let porous = self.porous_at(frame, entries.point);
+                let Some(pressures) = by_points.on(porous).at(y) else { continue };
                 let count = entries.functions();
+                let mut gradient = [Gradient { g: [0.0; D], hoop: 0.0 }; MAX_NODES];
                 let (mut deformed, mut known) = (Tensor::identity(), Tensor::identity());
                 for i in 0..count {
-                    K::deform(&mut deformed, &now[i], &entries.gradient(i));
-                    K::deform(&mut known, &before[i], &entries.gradient(i));
+                    gradient[i] = entries.gradient(i);
+                    K::deform(&mut deformed, &now[i], &gradient[i]);
+                    K::deform(&mut known, &before[i], &gradient[i]);
                 }
-                let inverse = deformed.try_inverse().filter(|_| deformed.determinant() > 0.0).ok_or_else(|| {
-                    let what = format!("is turned inside out (det F {:.3})", deformed.determinant());
-                    Error::analysis(
-                        format!("material point {}", entries.point),
-                        what,
-                        "take smaller steps or refine the mesh",
-                    )
-                })?;
-                let ratio = deformed.determinant() / known.determinant();
+                let (inverse, determinant) = invert(&deformed)
+                    .map_err(|determinant| inside_out(format!("material point {}", entries.point), determinant))?;
+                let ratio = determinant / known.determinant();
                 let volume = entries.weight * ratio * frame.points.deformation[entries.point].determinant();
-                let mut spatial = [Gradient { g: [0.0; D], hoop: 0.0 }; MAX_NODES];
-                let mut divergence = [[0.0; D]; MAX_NODES];
-                for i in 0..count {
-                    spatial[i] = K::push_forward(&entries.gradient(i), &inverse);
-                    divergence[i] = K::force(&Tensor::identity(), &spatial[i]);
-                }
-                let value = |i: usize| entries.value.get(i).copied().unwrap_or(0.0);
-                for i in 0..count {
-                    for d in 0..D {
-                        local.vector[i * D + d] += volume * left * divergence[i][d];
-                    }
-                    local.vector[i * D + 1] += volume * slope * value(i);
-                }
-                if local.matrix.is_empty() {
-                    continue;
-                }
-                let weight = (1.0 - trial.alpha_f) * volume;
-                for i in 0..count {
-                    for j in 0..count {
-                        let (a, b, size) = (&spatial[i], &spatial[j], local.size);
-                        for d in 0..D {
-                            for e in 0..D {
-                                let mut entry = left * (divergence[i][d] * divergence[j][e] - a.g[e] * b.g[d]);
-                                if d == 0 && e == 0 {
-                                    entry -= left * a.hoop * b.hoop;
-                                }
-                                if e == 1 {
-                                    entry += left_slope * divergence[i][d] * value(j);
-                                }
-                                if d == 1 {
-                                    entry += slope * value(i) * divergence[j][e];
-                                }
-                                if d == 1 && e == 1 {
-                                    entry += second * value(i) * value(j);
-                                }
-                                local.matrix[(i * D + d) * size + j * D + e] += weight * entry;
-                            }
-                        }
-                    }
-                }
+                let place = Place { value: entries.value, gradient: &gradient[..count], inverse, volume, pressures };
+                place.add::<K>(1.0 - trial.alpha_f, local);
             }
             Ok(())
         };

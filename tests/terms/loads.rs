@@ -171,7 +171,7 @@ fn pressures<K: Kinematics<2>>() {
             for alpha_f in [0.0, 0.4] {
                 let mut stand = stand::<K>(kind, make, true);
                 stand.alpha_f = alpha_f;
-                let (trial, converged) = anywhere(&stand);
+                let (trial, converged) = afloat(&stand);
                 let error = stand.tangent_error(&trial, &converged);
                 assert!(error < 1e-6, "{name}, {kind:?}: {error:.1e}");
                 // The whole boundary of a body: the pressure has a potential.
@@ -203,13 +203,93 @@ fn water_in_pores<K: Kinematics<2>>() {
             for alpha_f in [0.0, 0.4] {
                 let mut stand = stand::<K>(kind, make, true);
                 stand.alpha_f = alpha_f;
-                let (trial, converged) = anywhere(&stand);
+                let (trial, converged) = afloat(&stand);
                 let error = stand.tangent_error(&trial, &converged);
                 assert!(error < 1e-6, "{number}, {kind:?}: {error:.1e}");
                 assert!(!stand.term().symmetric());
             }
         }
     }
+}
+
+/// As [`anywhere`], with the levels of [`head`] and [`lower`] within the mesh in both states.
+fn afloat<K: Kinematics<2>>(stand: &Stand<K>) -> (Field, Field) {
+    let trial = stand.field(0.02, 2, |[x, y]| [0.2 * x - 0.4 * y, 0.1 * x - 0.2 * y]);
+    (trial, anywhere(stand).1)
+}
+
+/// A stand whose points weigh what their cells do, with a level set that is `inside` at the nodes.
+fn filled<K: Kinematics<2>>(kind: CellKind, make: Make, inside: fn(&[f64; 2]) -> f64) -> Stand<K> {
+    let mesh = mesh(kind);
+    let mut points = points(&mesh, |_| true);
+    for (volume, &c) in points.initial_volume.iter_mut().zip(&points.cell) {
+        let kind = mesh.cells.kind[c as usize];
+        let corners: Vec<_> =
+            mesh.cells.nodes(c as usize)[..kind.corner_count()].iter().map(|&n| mesh.nodes[n as usize]).collect();
+        let n = corners.len();
+        let centre = [0, 1].map(|d| corners.iter().map(|x| x[d]).sum::<f64>() / n as f64);
+        let turned = |i: usize| corners[i][0] * corners[(i + 1) % n][1] - corners[i][1] * corners[(i + 1) % n][0];
+        *volume = K::measure(&centre) * 0.5 * (0..n).map(turned).sum::<f64>() / 3.0;
+    }
+    let term = make(&mesh);
+    let mut stand = Stand::new(mesh, points, term, true, true);
+    stand.state.weighing.level_set = stand.scene.mesh.nodes.iter().map(inside).collect();
+    stand
+}
+
+/// Where it bends in the cells and the surface is known, the pressure is summed over other places than the points.
+fn in_layers<K: Kinematics<2>>() {
+    let terms: [Make; 3] = [
+        |_| Box::new(VirtualPressure::<K>::new(head())),
+        |_| Box::new(VirtualPressure::<K>::new(head()).with_pores(head(), vec![true])),
+        |_| Box::new(VirtualPressure::<K>::new(head()).with_pores(lower(), vec![true])),
+    ];
+    for (number, make) in terms.into_iter().enumerate() {
+        for kind in KINDS {
+            for alpha_f in [0.0, 0.4] {
+                let mut stand = filled::<K>(kind, make, |x| x[0] - 2.2 + 0.2 * x[1]);
+                stand.alpha_f = alpha_f;
+                let (trial, converged) = afloat(&stand);
+                let error = stand.tangent_error(&trial, &converged);
+                assert!(error < 1e-6, "{number}, {kind:?}: {error:.1e}");
+                if number == 0 {
+                    let asymmetry = stand.asymmetry(&trial, &converged);
+                    assert!(asymmetry < 1e-11, "{kind:?}: {asymmetry:.1e}");
+                }
+                let by_places = stand.evaluate(&trial, &converged, 0, false).0;
+                stand.state.weighing.level_set.clear();
+                let by_points = stand.evaluate(&trial, &converged, 0, false).0;
+                let difference = by_places.iter().zip(&by_points).map(|(a, b)| [a[0] - b[0], a[1] - b[1]]);
+                let difference = size(&difference.collect::<Vec<_>>()) / size(&by_points);
+                assert!(difference > 1e-3, "{number}, {kind:?}: {difference:.1e}");
+            }
+        }
+    }
+}
+
+#[test]
+fn the_tangent_of_a_pressure_that_bends_within_cells_is_its_derivative() {
+    in_layers::<PlaneStrain>();
+    in_layers::<Axisymmetric>();
+}
+
+/// The level of the water lies in cells that are full: it is felt on the boundary alone.
+fn felt_within<K: Kinematics<2>>() {
+    for kind in [CellKind::T3, CellKind::T6] {
+        let stand = filled::<K>(kind, |_| Box::new(VirtualPressure::<K>::new(lower())), |_| 1.0);
+        let rest = stand.field(0.0, 1, |_| [0.0; 2]);
+        let force = stand.evaluate(&rest, &rest, 0, false).0;
+        let within = |x: &[f64; 2]| x[0] > 2.0 + 1e-9 && x[0] < 4.0 - 1e-9 && x[1] > 1e-9 && x[1] < 1.5 - 1e-9;
+        let felt: Vec<_> =
+            stand.scene.mesh.nodes.iter().zip(&force).filter(|(x, _)| within(x)).map(|(_, f)| *f).collect();
+        assert!(!felt.is_empty() && size(&felt) < 1e-13 * size(&force), "{kind:?}: {:.1e}", size(&felt));
+    }
+}
+
+#[test]
+fn a_level_within_full_cells_is_felt_on_their_boundary_alone() {
+    felt_within::<PlaneStrain>();
+    felt_within::<Axisymmetric>();
 }
 
 #[test]
@@ -232,7 +312,7 @@ fn the_tangent_of_a_pressure_is_its_derivative_with_smooth_gradients() {
         let term = Box::new(VirtualPressure::<Axisymmetric>::new(head()));
         let scheme = Scheme::Ddmp { fitted: false };
         let stand = Stand::<Axisymmetric>::with(scheme, mesh, points, term, false, true, None);
-        let (trial, converged) = anywhere(&stand);
+        let (trial, converged) = afloat(&stand);
         let error = stand.tangent_error(&trial, &converged);
         assert!(error < 1e-6, "{kind:?}: {error:.1e}");
     }
