@@ -71,6 +71,24 @@ fn another_first_level_of_the_water_seeds_again() {
     assert_eq!(skipped(&output), [true, false, false, false], "{}", text(&output.stdout));
 }
 
+/// Soil of 20 kN/m³ and K₀ = 0.5 has the shear stress 5 kPa/m times the depth: a strength of 4 kPa bears it down to 0.8 m of 2 m.
+#[test]
+fn an_initial_stress_beyond_yield_is_told() {
+    let scene = scene();
+    let seed = |strength: &str| {
+        let material = format!(
+            "materials.rock={{model: tresca, young: 1000, poisson: 0.2, density: 2, shear_strength: {strength}}}"
+        );
+        let arguments = ["--set", &material, "--set", "initial_stress={k0: 0.5}", "--set", "mesh.parameters.h=0.2"];
+        text(&mpm(scene.path(), &[&["run", "."], &arguments[..]].concat()).stdout)
+    };
+    let said = seed("4");
+    let line = said.lines().find(|line| line.contains("initial stress")).unwrap_or_else(|| panic!("{said}"));
+    let numbers: Vec<f64> = line.split(' ').filter_map(|word| word.parse().ok()).collect();
+    assert!(line.starts_with("region `block`") && (numbers[0] / numbers[1] - 0.6).abs() < 0.05, "{line}");
+    assert!(!seed("10.1").contains("initial stress"), "strong enough everywhere");
+}
+
 #[test]
 fn a_changed_geo_meshes_again() {
     let scene = scene();

@@ -66,6 +66,11 @@ def bench(problem, schemes, arguments):
     print(f"  {remark}", flush=True)
     path = report.DATA / f"{problem.name}.csv"
     path.parent.mkdir(parents=True, exist_ok=True)
+    others = []
+    if arguments.schemes and path.exists():
+        with open(path, newline="") as file:
+            done = {scheme.name for scheme in schemes}
+            others = [row for row in csv.DictReader(file.readlines()[1:]) if row["scheme"] not in done]
     with open(path.with_suffix(".part"), "w", newline="") as file:
         file.write(f"# {remark}\n")
         writer = csv.DictWriter(file, HEAD[:3] + list(problem.measures) + HEAD[3:], lineterminator="\n")
@@ -78,7 +83,8 @@ def bench(problem, schemes, arguments):
                 if not series.schemes or scheme.name in series.schemes
                 for variant in variants
             ]
-            if problem.peer and not arguments.alone and not series.schemes:
+            writer.writerows(row for row in others if row["series"] == series.name)
+            if problem.peer and not arguments.alone and not arguments.schemes and not series.schemes:
                 rows += [(lambda v=variant: peer(problem, v)) for variant in variants]
             for make in rows:
                 row = make()
@@ -97,7 +103,7 @@ def main():
     parser.add_argument("--quick", action="store_true", help="few runs of each series, once each")
     parser.add_argument("--alone", action="store_true", help="without Kratos")
     parser.add_argument("--report", action="store_true", help="tables and pictures from the numbers that are there")
-    parser.add_argument("--schemes", help="names, separated by semicolons; without it all")
+    parser.add_argument("--schemes", help="names, separated by semicolons; the rows of all others, Kratos among them, stay as they were")
     arguments = parser.parse_args()
     unknown = set(arguments.problems) - set(PROBLEMS)
     if unknown:
@@ -111,7 +117,7 @@ def main():
                 print(f"{scheme.name}: not available ({reason})")
             elif scheme.name in wanted:
                 schemes.append(scheme)
-        if not arguments.alone and not peers.install():
+        if not arguments.alone and not arguments.schemes and not peers.install():
             arguments.alone = True
         start = time.perf_counter()
         for name in arguments.problems or PROBLEMS:

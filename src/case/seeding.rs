@@ -2,7 +2,7 @@
 
 use super::checked::{Case, Content, Geometry, Material, Region};
 use crate::error::{Error, Result};
-use crate::material::{Profile, spatial};
+use crate::material::{Profile, State, is_beyond_yield, spatial};
 use crate::mesh::Mesh;
 use crate::points::Points;
 use crate::seed::{QUADRATURE, RegionSeed, RegionWeight, k0_stress, seed};
@@ -39,6 +39,36 @@ pub fn points(case: &Case, mesh: &Mesh<2>) -> Result<Points<2>> {
         points.velocity = places.map(|(x, &r)| velocity_of[r as usize].map_or([0.0; 2], |v| v.at(x))).collect();
     }
     Ok(points)
+}
+
+/// A line on each region whose initial stress is more than its material bears.
+///
+/// # Errors
+/// Input: a region that the mesh lacks.
+pub fn notes(case: &Case, mesh: &Mesh<2>, points: &Points<2>) -> Result<Vec<String>> {
+    let mut notes = Vec::new();
+    for Filled { index, material, seed } in filled(case, mesh)? {
+        let material = &case.materials[material];
+        let of = (0..points.len()).filter(|&p| points.region[p] == seed.region);
+        let (mut all, mut beyond, mut first) = (0, 0, None);
+        for p in of {
+            // At rest the axes are the principal ones, and nothing has deformed yet.
+            let [x, y, z, ..] = points.stress[p];
+            all += 1;
+            if is_beyond_yield(material.model.as_ref(), points.origin[p][1], &[x, y, z], &State::default()) {
+                beyond += 1;
+                first.get_or_insert(points.origin[p]);
+            }
+        }
+        if let Some([x, y]) = first {
+            notes.push(format!(
+                "region `{}`: the initial stress of {beyond} of its {all} points, such as that at [{x:.4}, {y:.4}] m, is more than `{}` \
+                 bears, and falls to it in the first step; another `k0` or more strength leaves them at rest",
+                case.regions[index].name, material.name
+            ));
+        }
+    }
+    Ok(notes)
 }
 
 /// A region with points: its index in the case, its material and how it is seeded.

@@ -18,13 +18,16 @@ pub fn is_current(stage: &Stage) -> Result<bool> {
     Ok(stamp(stage)?.is_current(&[stage.points()]))
 }
 
-/// Seeds, and prints a summary. Earlier points stay until the new ones are written.
+/// Seeds, and prints a summary, with what does not bear its initial stress. Earlier points stay until the new ones are written.
 pub fn work(stage: &Stage) -> Outcome {
     let mesh = mesh::read(stage)?;
     let points = seeding::points(&stage.loaded.case, &mesh)?;
     stage.prepare()?;
     points_vtu::write(&stage.points(), &points, &mesh.regions)?;
     stamp(stage)?.write(&[stage.points()])?;
+    for note in seeding::notes(&stage.loaded.case, &mesh, &points)? {
+        print(&format!("{note}\n"))?;
+    }
     let mass: f64 = points.mass.iter().sum();
     print(&format!("{}: {} points, {mass} t\n", stage.points().display(), points.len()))
 }

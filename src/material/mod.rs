@@ -120,6 +120,16 @@ pub trait Model: Send + Sync {
     }
 }
 
+/// How far beyond yield (-), in the strength or the stress, a stress is told of.
+const BEYOND: f64 = 1e-3;
+
+/// Whether principal Kirchhoff stresses at height `y` are more than a model bears in a state, at rest.
+pub fn is_beyond_yield(model: &dyn Model, y: f64, stress: &[f64; 3], state: &State) -> bool {
+    let strength = model.strength(y);
+    let unit = stress.iter().fold(strength, |most, s| most.max(s.abs()));
+    strength.is_finite() && model.yield_excess(y, stress, state) > BEYOND * unit
+}
+
 /// Equivalent `√(⅔ ε:ε)` of a principal plastic strain increment.
 fn equivalent_plastic(increment: &[f64; 3]) -> f64 {
     let [a, b, c] = increment;

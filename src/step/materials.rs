@@ -8,7 +8,7 @@ use super::grid::Grid;
 use super::scene::Scene;
 use super::state::State;
 use crate::kinematics::Kinematics;
-use crate::material::{Model, Profile, State as Memory, spatial};
+use crate::material::{Model, Profile, State as Memory, is_beyond_yield, spatial};
 use crate::points::Points;
 use crate::term::Carried;
 use std::fmt;
@@ -106,11 +106,8 @@ pub fn notes<const D: usize, K: Kinematics<D>>(scene: &Scene<D>, state: &State<D
                 let stress = K::roots(&points.stress[p].map(|s| volume_ratio * s));
                 let memory = points.memory.get(p).copied().unwrap_or(0.0);
                 let memory = Memory { plastic_strain: points.plastic_strain[p], memory, per_second: 0.0 };
-                let strength = change.model.strength(points.origin[p][1]);
-                let excess = change.model.yield_excess(points.origin[p][1], &stress, &memory);
-                let unit = stress.iter().fold(strength, |most, s| most.max(s.abs()));
                 all += 1;
-                beyond += usize::from(strength.is_finite() && excess > BEYOND * unit);
+                beyond += usize::from(is_beyond_yield(change.model.as_ref(), points.origin[p][1], &stress, &memory));
             }
         }
         let Change { of, into, .. } = change;
@@ -124,6 +121,3 @@ pub fn notes<const D: usize, K: Kinematics<D>>(scene: &Scene<D>, state: &State<D
     };
     phase.changes.iter().map(note).collect()
 }
-
-/// How far beyond yield (-), in the strength or the stress, a stress is told of.
-const BEYOND: f64 = 1e-3;
