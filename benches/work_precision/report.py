@@ -31,8 +31,8 @@ thread, pinned to one core; medians of three where a run takes less than 3 s. Kr
 alone. The numbers are in `docs/benchmarks/*.csv`, with processor seconds, Newton iterations and halvings; `--report` makes the page
 from them without running anything.
 
-Errors repeat to the last digit; seconds are those of the machine and of what else ran on it. After a change of some schemes these alone may be run again
-(`--schemes`), and the rows of the others, with Kratos, are then of an earlier day: last so for default, ddmp and those by quality.
+Errors repeat to the last digit; seconds are those of the machine and of what else ran on it. Where some schemes alone were run again (`--schemes`)
+the remark of a problem says which rows are of an earlier series.
 
 ## Schemes
 

@@ -71,6 +71,9 @@ def bench(problem, schemes, arguments):
         with open(path, newline="") as file:
             done = {scheme.name for scheme in schemes}
             others = [row for row in csv.DictReader(file.readlines()[1:]) if row["scheme"] not in done]
+        kept = dict.fromkeys(row["scheme"] for row in others)
+        if kept:
+            remark = f"{remark} Of an earlier series, whose seconds are not those of the rest: {', '.join(f'*{name}*' for name in kept)}.".strip()
     with open(path.with_suffix(".part"), "w", newline="") as file:
         file.write(f"# {remark}\n")
         writer = csv.DictWriter(file, HEAD[:3] + list(problem.measures) + HEAD[3:], lineterminator="\n")
