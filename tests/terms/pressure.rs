@@ -1,11 +1,12 @@
 //! The pressure field: its tangent, its symmetry, and the inf-sup constant of its functions.
 
-use crate::stand::{KINDS, Random, Stand, mesh, points};
+use crate::stand::{KINDS, Random, SMOOTHED, Stand, mesh, points};
 use mpm::kinematics::{Axisymmetric, Kinematics, PlaneStrain};
 use mpm::material::{Elasticity, LinearElastic, Model, Profile, Tresca};
 use mpm::mesh::builder::rectangle;
 use mpm::mesh::shape::{CellKind, MAX_NODES, map, rule};
 use mpm::points::Points;
+use mpm::stencil::Scheme;
 use mpm::tensor::{IDENTITY, Tensor};
 use mpm::term::{Carried, Internal, PressureField, SmoothPressure, Term};
 use nalgebra::{DMatrix, SymmetricEigen};
@@ -26,6 +27,7 @@ fn carried(model: Arc<dyn Model>, water: f64) -> Carried {
 
 /// A stand in large strain, with noise in all unknowns.
 fn set<K: Kinematics<2>>(
+    scheme: Scheme,
     kind: CellKind,
     model: Arc<dyn Model>,
     water: f64,
@@ -37,7 +39,7 @@ fn set<K: Kinematics<2>>(
     points.pressure = (0..points.len()).map(|_| 30.0 * random.next()).collect();
     let field = PressureField::<K>::new(vec![Some(carried(model.clone(), water))], UNIT);
     let term = Box::new(Internal::<K, _>::sharing(vec![Some(model)], alpha_f > 0.0, field));
-    let mut stand = Stand::<K>::with_pressure(mesh, points, term, false, true, Some(UNIT));
+    let mut stand = Stand::<K>::with(scheme, mesh, points, term, false, true, Some(UNIT));
     stand.alpha_f = alpha_f;
     stand.state.points.stress.fill([3.0, -7.0, 2.0, 1.5, 0.0, 0.0]);
     for pressure in &mut stand.pressure {
@@ -48,19 +50,20 @@ fn set<K: Kinematics<2>>(
     (stand, [trial, converged])
 }
 
-fn tangent_is_the_derivative<K: Kinematics<2>>() {
+fn tangent_is_the_derivative<K: Kinematics<2>>(scheme: Scheme, kinds: &[CellKind]) {
     let elastic: Arc<dyn Model> = Arc::new(LinearElastic::new(elasticity()));
     let tresca: Arc<dyn Model> = Arc::new(Tresca::new(elasticity(), Profile::constant(5.0)).unwrap());
-    for kind in KINDS {
+    for &kind in kinds {
         for model in [&elastic, &tresca] {
             for water in [0.0, 0.7, 1.0] {
                 for alpha_f in [0.0, 0.4] {
-                    let (stand, [trial, converged]) = set::<K>(kind, model.clone(), water, alpha_f);
+                    let (stand, [trial, converged]) = set::<K>(scheme, kind, model.clone(), water, alpha_f);
+                    let name = format!("{scheme:?}, {kind:?}, water {water}, α_f = {alpha_f}");
                     let error = stand.tangent_error(&trial, &converged);
-                    assert!(error < 1e-6, "{kind:?}, water {water}, α_f = {alpha_f}: {error:.1e}");
+                    assert!(error < 1e-6, "{name}: {error:.1e}");
                     if alpha_f == 0.0 {
                         let asymmetry = stand.asymmetry(&trial, &converged);
-                        assert!(asymmetry < 1e-12, "{kind:?}: {asymmetry:.1e}");
+                        assert!(asymmetry < 1e-12, "{name}: {asymmetry:.1e}");
                     }
                 }
             }
@@ -70,12 +73,22 @@ fn tangent_is_the_derivative<K: Kinematics<2>>() {
 
 #[test]
 fn the_tangent_is_the_derivative_in_plane_strain() {
-    tangent_is_the_derivative::<PlaneStrain>();
+    tangent_is_the_derivative::<PlaneStrain>(Scheme::Mpm, &KINDS);
 }
 
 #[test]
 fn the_tangent_is_the_derivative_in_axisymmetry() {
-    tangent_is_the_derivative::<Axisymmetric>();
+    tangent_is_the_derivative::<Axisymmetric>(Scheme::Mpm, &KINDS);
+}
+
+/// The field reaches the functions beyond a cell's nodes, too, whose stiffness the system has by products alone.
+#[test]
+fn the_tangent_is_the_derivative_with_smoothed_gradients() {
+    for fitted in [false, true] {
+        let scheme = Scheme::Ddmp { fitted };
+        tangent_is_the_derivative::<PlaneStrain>(scheme, &SMOOTHED);
+        tangent_is_the_derivative::<Axisymmetric>(scheme, &SMOOTHED);
+    }
 }
 
 #[test]

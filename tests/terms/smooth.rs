@@ -1,19 +1,16 @@
 //! The internal force with gradients that are smoothed between cells.
 
-use crate::stand::{Stand, elastic, elasticity, mesh, points, resultant, size};
+use crate::stand::{SMOOTHED, Stand, elastic, elasticity, mesh, points, resultant, size};
 use mpm::kinematics::{Axisymmetric, Kinematics, PlaneStrain};
 use mpm::material::{Model, Profile, VonMises};
-use mpm::mesh::shape::CellKind;
 use mpm::stencil::Scheme;
 use mpm::term::Internal;
 use std::sync::Arc;
 
-const KINDS: [CellKind; 4] = [CellKind::T3, CellKind::T6, CellKind::Q4, CellKind::Q9];
-
 /// Every kind, both blends, elastic and yielding, quasi-static and dynamic.
 fn for_all<K: Kinematics<2>>(whole: bool, check: impl Fn(&str, &Stand<K>, &[[f64; 2]], &[[f64; 2]])) {
     let von_mises: Arc<dyn Model> = Arc::new(VonMises::new(elasticity(), Profile::constant(12.0)).unwrap());
-    for kind in KINDS {
+    for kind in SMOOTHED {
         for fitted in [false, true] {
             for (name, model) in [("elastic", elastic() as Arc<dyn Model>), ("von Mises", von_mises.clone())] {
                 for alpha_f in [0.0, 0.4] {

@@ -21,6 +21,9 @@ use std::sync::Arc;
 
 pub const KINDS: [CellKind; 5] = [CellKind::T3, CellKind::T6, CellKind::Q4, CellKind::Q8, CellKind::Q9];
 
+/// Those whose gradients may be smoothed between cells.
+pub const SMOOTHED: [CellKind; 4] = [CellKind::T3, CellKind::T6, CellKind::Q4, CellKind::Q9];
+
 /// `∂a/∂u` (1/s²).
 const SLOPE: f64 = 170.0;
 /// Uniform part of the acceleration (m/s²).
