@@ -142,7 +142,10 @@ pub fn scatter<I: Sync>(
     if stride == 0 {
         return Ok(());
     }
-    workspace.buffer.resize(stride * BATCH, 0.0);
+    let needed = stride * items.len().min(BATCH);
+    if workspace.buffer.len() < needed {
+        workspace.buffer.resize(needed, 0.0);
+    }
     let threads = rayon::current_num_threads();
     let run = |item: &I, slot: &mut [f64]| {
         let size = pattern.clique_size(clique(item));
