@@ -16,7 +16,7 @@ use crate::run::{self, Ended, Outputs, Progress, Watch, WatchedOn};
 use crate::stencil::{Scheme, cell_size, smooths};
 use crate::step::{self, Fem, Numerics, Phase, Scene, Search, State, Stop};
 use crate::term::{
-    BodyForce, Carried, Contact, EmptyCells, GhostInertia, GhostPenalty, Inertia, Internal, PoreWater, PressureField,
+    BodyForce, Carried, Contact, DrainedSurface, EmptyCells, GhostInertia, GhostPenalty, Inertia, Internal, PoreWater, PressureField,
     SmoothPressure, Term, Traction, WaterBond,
 };
 use crate::time_value::TimeValue;
@@ -146,6 +146,10 @@ pub fn scene<K: Kinematics<2>>(case: &Case, mut whole: Mesh<2>) -> Result<Scene<
     let mut terms = internal::<K>(case, &mesh, dynamic, pressure_unit, shear)?;
     if let (Some(water), Some(unit)) = (&water, pressure_unit) {
         terms.push(Box::new(WaterBond::<K>::new(water.porous.clone(), unit, shear, mesh.cells.len())));
+        if let Some(surface) = case.drained_surface {
+            let region = surface.region().map(|i| region_index(&mesh, &case.regions[i].name)).transpose()?;
+            terms.push(Box::new(DrainedSurface::<K>::new(water.porous.clone(), region, unit)));
+        }
     }
     if case.gravity != [0.0; 2] && density_scale > 0.0 {
         terms.push(Box::new(gravity::<K>(case)));

@@ -207,6 +207,7 @@ fn contradictions_about_drainage_are_told() {
             "water_unit_weight",
         ),
         (&["initial_pore_pressure.block=3"], "initial_pore_pressure"),
+        (&["drained_surface=all"], "drained_surface"),
     ] {
         let overrides: Vec<String> = overrides.iter().map(|&text| text.to_owned()).collect();
         let source = Source::parse(PathBuf::from("case.yaml"), CASE.to_owned(), &overrides).unwrap();

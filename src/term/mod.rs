@@ -7,6 +7,7 @@
 mod beyond;
 mod body_force;
 mod contact;
+mod drained_surface;
 mod empty_cells;
 mod facet_pressure;
 mod ghost;
@@ -27,6 +28,7 @@ mod water_bond;
 
 pub use body_force::BodyForce;
 pub use contact::{Contact, answer as contact_answer};
+pub use drained_surface::DrainedSurface;
 pub use empty_cells::EmptyCells;
 pub use facet_pressure::FacetPressure;
 pub use ghost::GhostPenalty;
@@ -281,6 +283,11 @@ pub trait Term<const D: usize>: Send + Sync {
     /// What a load of the term in a phase that begins meets nothing of, if it does.
     fn idle(&self, _frame: &Frame<D>, _displacement: &[[f64; D]], _phase: usize) -> Option<String> {
         None
+    }
+
+    /// Water (m³) that leaves the soil through it in the step to a converged state.
+    fn outflow(&self, _frame: &Frame<D>, _trial: &Trial<D>) -> f64 {
+        0.0
     }
 
     /// Whether the term couples cells across the faces of [`Frame::ghost`].

@@ -333,6 +333,13 @@ impl<K: Kinematics<2>> Stand<K> {
         (force, columns)
     }
 
+    /// The water (m³) that the term says leaves through it.
+    pub fn outflow(&self, trial: &[[f64; 2]], converged: &[[f64; 2]]) -> f64 {
+        let at_rest = Trial::at_rest(trial, converged);
+        let trial = Trial { pressure: &self.pressure, flow_time: self.flow_time, ..at_rest };
+        self.term().outflow(&self.frame(), &trial)
+    }
+
     /// Largest difference of the tangent from the central difference of the residual, relative to its largest
     /// entry (to 1 where it vanishes).
     pub fn tangent_error(&self, trial: &[[f64; 2]], converged: &[[f64; 2]]) -> f64 {
