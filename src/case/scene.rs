@@ -195,7 +195,7 @@ pub fn scene<K: Kinematics<2>>(case: &Case, mut whole: Mesh<2>) -> Result<Scene<
                 terms.push(Box::new(Inertia::<K>::default()));
             }
             terms.extend(water::on_elements::<K>(case, &part, size));
-            terms.extend(rigid::terms::<K>(case, &part, &bodies[..structures], dynamic)?);
+            terms.extend(rigid::terms::<K>(case, &part, &bodies[..structures], dynamic, size)?);
             let (carried, rigid) = (changes::ever(case, &part, |m| m.carried.is_some())?, rigid::regions(case, &part));
             let with = |r: usize| carried[r] && !rigid[r];
             let with_pressure = part.cells.region.iter().map(|&r| with(r as usize)).collect();

@@ -4,7 +4,7 @@ use super::changes;
 use super::check::Checker;
 use super::checked::{Case, Phase, Pressure, SurfaceLoad, Water};
 use super::locate::{At, Path};
-use super::raw;
+use super::{raw, rigid};
 use super::scene::{mean_size, region_index};
 use crate::error::Result;
 use crate::kinematics::Kinematics;
@@ -21,10 +21,6 @@ impl Checker {
     pub(super) fn water(&mut self, file: &raw::CaseFile, root: &Path) -> Option<Water> {
         let whole = file.water.as_ref();
         let path = root.key("water");
-        if file.regions.values().any(|region| region.rigid == Some(true)) && whole.is_some_and(|w| w.level.is_some()) {
-            let remedy = "give the structure the weight that it has under water, and leave `rigid` or `water` out";
-            self.issue(&path, At::Key, "water does not act on rigid structures yet", remedy);
-        }
         if whole.is_some_and(|water| water.level.is_none() && water.phreatic_level.is_none()) {
             self.issue(&path, At::Key, "the water has no level", "add `level: …` or `phreatic_level: …`");
         }
@@ -210,12 +206,14 @@ fn of_water<K>(
     VirtualPressure::new(outside).with_pores(water.heads_in_pores(size), porous)
 }
 
-/// The terms of water on and in the finite elements of `mesh`.
+/// The terms of water on and in the finite elements of `mesh` that deform.
 pub fn on_elements<K: Kinematics<2>>(case: &Case, mesh: &Mesh<2>, size: f64) -> Vec<Box<dyn Term<2>>> {
     let mut terms: Vec<Box<dyn Term<2>>> = Vec::new();
     let Some(water) = &case.water else { return terms };
     if water.level.is_some() {
-        terms.push(Box::new(FacetPressure::<K>::new(mesh, |_| true, water.heads(size))));
+        let rigid = rigid::regions(case, mesh);
+        let deforms = |c: usize| !rigid[mesh.cells.region[c] as usize];
+        terms.push(Box::new(FacetPressure::<K>::new(mesh, deforms, water.heads(size))));
     }
     if water.phreatic.is_some() {
         terms.push(Box::new(of_water::<K>(case, water, Vec::new(), mesh, size)));

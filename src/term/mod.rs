@@ -17,6 +17,7 @@ mod inertia;
 mod internal;
 mod pressure;
 mod rigid;
+mod rigid_pressure;
 mod smooth_pressure;
 mod smoothed;
 mod stiffness;
@@ -38,6 +39,7 @@ pub use inertia::Inertia;
 pub use internal::{Internal, Share};
 pub use pressure::{Carried, PressureField, hats as pressure_hats};
 pub use rigid::{RigidInertia, RigidTraction, RigidWeight};
+pub use rigid_pressure::RigidPressure;
 pub use smooth_pressure::SmoothPressure;
 pub use surface_traction::{SurfaceLoad, SurfaceTraction};
 pub use traction::Traction;
@@ -112,6 +114,8 @@ pub struct Frame<'a, const D: usize> {
     pub clique: &'a [u32],
     /// The block of each node; `u32::MAX` for nodes left out.
     pub block: &'a [u32],
+    /// The clique of each rigid body: its reference and, where it turns, its turning node.
+    pub bodies: &'a [u32],
 }
 
 /// A trial state of the step.

@@ -158,3 +158,33 @@ fn contradictions_about_rigid_structures_are_told() {
     refused(&["geometry=axisymmetric", "phases[0].prescribe={plate: {ux: {rate: 1}}}"], &["along the axis"]);
     refused(&["regions.plate.rigid=false", ALL], &["only a rigid structure turns"]);
 }
+
+/// A plate 2 m wide and 0.3 m high, half as heavy as water, whose base is at 12 m: it comes to float with 0.15 m in the water, and turned about
+/// its centroid it is brought back by `W sin θ (GM + ½ BM tan²θ)`, as a wall-sided body is.
+#[test]
+fn a_plate_floats_as_archimedes_says() {
+    let (width, draft, angle) = (2.0, 0.15, 0.03f64);
+    let rows = history(
+        PLATE,
+        &[
+            "regions.plate.rigid=true",
+            "materials.plate.density=0.5",
+            "contacts=[]",
+            "gravity={y: -10}",
+            "initial_stress={k0: 1}",
+            "water={level: 12.2, unit_weight: 10}",
+            "mesh.parameters={width: 24, plate: 2, left: 11, depth: 12, h: 0.5, hp: 0.3}",
+            ALL,
+            "phases=[{name: rest, analysis: quasi_static, duration: 1, step: {initial: 1}, prescribe: {plate: {ux: 0, rotation: 0}}}, \
+                {name: turn, analysis: quasi_static, duration: 1, step: {initial: 0.5}, \
+                 prescribe: {plate: {ux: 0, rotation: {rate: 0.03}}}}]",
+        ],
+    );
+    let (rest, last) = (&rows[0], rows.last().unwrap());
+    assert!((rest[2] - (0.2 - draft)).abs() < 1e-7, "{rest:?}");
+    let weight = 10.0 * width * draft;
+    let metacentre = width * width / (12.0 * draft);
+    let lever = angle.sin() * (0.5 * draft + metacentre - 0.15 + 0.5 * metacentre * angle.tan().powi(2));
+    println!("{rest:?}\n{last:?}\nmoment {:.6} of {:.6} kN m", last[6], weight * lever);
+    assert!((last[6] / (weight * lever) - 1.0).abs() < 1e-3, "{last:?}");
+}
