@@ -210,6 +210,7 @@ pub fn scene<K: Kinematics<2>>(case: &Case, mut whole: Mesh<2>) -> Result<Scene<
     for (number, pair) in (0..).zip(&pairs) {
         terms.push(Box::new(Contact::new(number, *pair.law())));
     }
+    let carried = carried(case, &mesh)?;
     let holds = Holds::new(case, &mesh, &bodies);
     let supports = holds.supports()?;
     let height = soil_height(case, &mesh, fem.as_ref().map(|fem| &fem.mesh))?;
@@ -230,6 +231,7 @@ pub fn scene<K: Kinematics<2>>(case: &Case, mut whole: Mesh<2>) -> Result<Scene<
         bodies,
         pairs,
         pressure_unit,
+        carried,
         water,
         supports,
         phases,

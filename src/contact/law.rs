@@ -1,6 +1,6 @@
 //! The law of contact: normal pressure and shear from gap and slip, by an augmented Lagrangian.
 //!
-//! `p = ⟨λ − ε_n g⟩`, shear `τ = λ_t − ε_t s` limited to `|τ| ≤ τ_max`, `τ_max = min(c_a + p tan δ, α s_u)`. With the
+//! `p = ⟨λ − ε_n g⟩`, shear `τ = λ_t − ε_t s` limited to `|τ| ≤ τ_max`, `τ_max = min(c_a + p′ tan δ, α s_u)`, `p′` without what the water in the pores bears. With the
 //! multipliers `λ`, `λ_t` of the step before, gaps close and sticking soil creeps no farther (Alart & Curnier 1991).
 //!
 //! Surfaces part smoothly: `⟨q⟩` is rounded over `|q| < d`, and adhesion, which would vanish at once where they
@@ -36,6 +36,8 @@ pub struct Penalty {
     pub fading: f64,
     /// Strength of the soil (kPa).
     pub strength: f64,
+    /// What of the pressure (kPa) the water in the pores bears beyond the water outside: friction has no share in it.
+    pub water: f64,
 }
 
 /// Pressure (compression positive) and shear (kPa) with their slopes by gap and slip (kPa/m).
@@ -47,6 +49,13 @@ pub struct Answer {
     pub pressure_by_gap: f64,
     pub shear_by_gap: f64,
     pub shear_by_slip: f64,
+}
+
+impl Penalty {
+    /// What of a pressure (kPa) the grains bear. Suction in the pores does not press them on a structure that may part from them.
+    fn effective(&self, pressure: f64) -> f64 {
+        (pressure - self.water.max(0.0)).max(0.0)
+    }
 }
 
 impl Law {
@@ -71,7 +80,7 @@ impl Law {
     pub fn respond(&self, at: &Penalty, gap: f64, slip: f64) -> Answer {
         let (pressure, by_gap) = self.pressure(at, gap);
         let mut answer = Answer { pressure, pressure_by_gap: by_gap, ..Answer::default() };
-        let (full, slope) = self.limit(pressure.max(0.0), at.strength);
+        let (full, slope) = self.limit(at.effective(pressure), at.strength);
         let (share, share_by_gap) = self.share(at, gap);
         // The full one may be infinite: soil without limit of strength.
         if full == 0.0 || share == 0.0 {
@@ -83,7 +92,7 @@ impl Law {
             answer.shear = shear;
             answer.shear_by_slip = -at.tangential;
         } else {
-            let of_pressure = if pressure > 0.0 { slope * share * by_gap } else { 0.0 };
+            let of_pressure = if at.effective(pressure) > 0.0 { slope * share * by_gap } else { 0.0 };
             answer.shear = limit.copysign(shear);
             answer.shear_by_gap = (of_pressure + full * share_by_gap) * shear.signum();
         }
@@ -138,6 +147,7 @@ mod tests {
         rounding: 0.2,
         fading: 0.045,
         strength: 2.0,
+        water: 0.0,
     };
 
     fn laws() -> Vec<Law> {

@@ -37,7 +37,7 @@ pub use ghost_inertia::{GhostInertia, MASS_PENALTY};
 pub use head::Head;
 pub use inertia::Inertia;
 pub use internal::{Internal, Share};
-pub use pressure::{Carried, PressureField, hats as pressure_hats};
+pub use pressure::{Carried, PressureField, excess_pressure, hats as pressure_hats};
 pub use rigid::{RigidInertia, RigidTraction, RigidWeight};
 pub use rigid_pressure::RigidPressure;
 pub use smooth_pressure::SmoothPressure;

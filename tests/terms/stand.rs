@@ -195,6 +195,7 @@ impl<K: Kinematics<2>> Stand<K> {
             faces: Some(faces),
             quadrature: Box::new(Volumes::<K>::default()),
             pressure_unit,
+            carried: Vec::new(),
             water,
             supports: Vec::new(),
             phases: vec![phase.clone(), phase],

@@ -159,7 +159,7 @@ fn contradictions_about_rigid_structures_are_told() {
     refused(&["regions.plate.rigid=false", ALL], &["only a rigid structure turns"]);
 }
 
-/// A plate 2 m wide and 0.3 m high, half as heavy as water, whose base is at 12 m: it comes to float with 0.15 m in the water, and turned about
+/// A plate 2 m wide and 0.3 m high, half as heavy as water, whose base is at 0: it comes to float with 0.15 m in the water, and turned about
 /// its centroid it is brought back by `W sin θ (GM + ½ BM tan²θ)`, as a wall-sided body is.
 #[test]
 fn a_plate_floats_as_archimedes_says() {
@@ -172,7 +172,7 @@ fn a_plate_floats_as_archimedes_says() {
             "contacts=[]",
             "gravity={y: -10}",
             "initial_stress={k0: 1}",
-            "water={level: 12.2, unit_weight: 10}",
+            "water={level: 0.2, unit_weight: 10}",
             "mesh.parameters={width: 24, plate: 2, left: 11, depth: 12, h: 0.5, hp: 0.3}",
             ALL,
             "phases=[{name: rest, analysis: quasi_static, duration: 1, step: {initial: 1}, prescribe: {plate: {ux: 0, rotation: 0}}}, \
