@@ -295,12 +295,15 @@ fn friction_takes_the_pressure_of_the_grains() {
         )
     };
     let press = "{name: press, analysis: quasi_static, duration: 1, step: {initial: 0.25}, prescribe: {top: {ux: 0, uy: {rate: -0.002}}}}";
-    let slide = "duration: 1, step: {initial: 0.1}, prescribe: {top: {ux: {rate: 0.05}, uy: 0}}}";
+    let slide = |seconds: f64| {
+        let [ux, step] = [0.004 / seconds, 0.5 * seconds];
+        format!("duration: {seconds}, step: {{initial: {step}}}, prescribe: {{top: {{ux: {{rate: {ux}}}, uy: 0}}}}}}")
+    };
     let wait = "{name: wait, analysis: consolidation, duration: 1.0e+5, step: {initial: 1.0e+4}, prescribe: {top: {ux: 0, uy: 0}}}";
     let flowing = material(", permeability: 1.0e-6");
     let held = "supports={bottom: {uy: 0, pore_pressure: 0}, side: {ux: 0}}";
-    let first = format!("phases=[{press}, {{name: slide, analysis: quasi_static, {slide}]");
-    let later = format!("phases=[{press}, {wait}, {{name: slide, analysis: consolidation, {slide}]");
+    let first = format!("phases=[{press}, {{name: slide, analysis: quasi_static, {}]", slide(1.0));
+    let later = format!("phases=[{press}, {wait}, {{name: slide, analysis: consolidation, {}]", slide(1e5));
     let friction = "contacts[0].friction=0.2";
     for (name, overrides, grains) in [
         ("share of a field", &[&material("")[..], &first, friction][..], share),

@@ -92,7 +92,8 @@ impl Checker {
         if let Some(region) = file.regions.iter().position(|(known, region)| known == name && filled(region)) {
             return Some(Surface::Of(region));
         }
-        let known = file.regions.iter().filter(|(_, region)| filled(region)).map(|(name, _)| name.as_str()).chain([ALL]);
+        let known =
+            file.regions.iter().filter(|(_, region)| filled(region)).map(|(name, _)| name.as_str()).chain([ALL]);
         self.issue(path, At::Value, format!("`{name}` is not a region of kind mpm"), suggest(name, known));
         None
     }

@@ -16,8 +16,8 @@ use crate::run::{self, Ended, Outputs, Progress, Watch, WatchedOn};
 use crate::stencil::{Scheme, cell_size, smooths};
 use crate::step::{self, Fem, Numerics, Phase, Scene, Search, State, Stop};
 use crate::term::{
-    BodyForce, Carried, Contact, DrainedSurface, EmptyCells, GhostInertia, GhostPenalty, Inertia, Internal, PoreWater, PressureField,
-    SmoothPressure, Term, Traction, WaterBond,
+    BodyForce, Carried, Contact, DrainedSurface, EmptyCells, GhostInertia, GhostPenalty, Inertia, Internal, PoreWater,
+    PressureField, SmoothPressure, Term, Traction, WaterBond,
 };
 use crate::time_value::TimeValue;
 use std::path::Path;

@@ -84,9 +84,20 @@ fn under_water<K: Kinematics<2>>(kind: CellKind, level: f64) -> Stand<K> {
     stand
 }
 
+/// The middle of the body (m), which is that of the stand, in the trial pose, and from its reference point.
+fn middle(stand: &Stand<impl Kinematics<2>>, trial: &[[f64; 2]]) -> [[f64; 2]; 2] {
+    let (nodes, body) = (&stand.scene.mesh.nodes, &stand.scene.bodies[0]);
+    let turned = body.turning.map_or(0.0, |_| (nodes[7][0] + trial[7][0] - nodes[3][0]) / body.arm);
+    let ((sin, cos), [x, y]) = (turned.sin_cos(), [3.0 - nodes[3][0], 0.75 - nodes[3][1]]);
+    let arm = [cos * x - sin * y, sin * x + cos * y];
+    [[0, 1].map(|d| nodes[3][d] + trial[3][d] + arm[d]), arm]
+}
+
 fn water_on_a_body<K: Kinematics<2>>() {
     for kind in KINDS {
-        for level in [0.7, 50.0] {
+        let anywhere_in_air = under_water::<K>(kind, -50.0);
+        let [[_, height], _] = middle(&anywhere_in_air, &anywhere(&anywhere_in_air).0);
+        for level in [height, 50.0] {
             let mut stand = under_water::<K>(kind, level);
             for alpha_f in [0.0, 0.4] {
                 stand.alpha_f = alpha_f;
@@ -116,10 +127,8 @@ fn water_lifts_a_body_in_the_middle_of_its_volume() {
         let force = stand.evaluate(&trial, &converged, 0, false).0;
         let weight = 9.0 * 2.0 * 1.5;
         assert!(force[3][0].abs() < 1e-11 * weight && (force[3][1] / -weight - 1.0).abs() < 1e-12, "{:?}", force[3]);
-        let nodes = &stand.scene.mesh.nodes;
-        let from = [3.0 - nodes[3][0], 0.75 - nodes[3][1]];
-        let (sin, cos) = ((nodes[7][0] + trial[7][0] - nodes[3][0]) / 0.8).sin_cos();
-        let moment = weight * (cos * from[0] - sin * from[1]) / 0.8;
+        let [_, [lever, _]] = middle(&stand, &trial);
+        let moment = weight * lever / 0.8;
         assert!((force[7][0] + moment).abs() < 1e-11 * weight && force[7][1] == 0.0, "{:?} {moment}", force[7]);
     }
 }
