@@ -235,7 +235,7 @@ impl<const D: usize> Grid<D> {
             elements.couple(fem, &block, &mut cliques);
         }
         let carriers = |body: &Body<D>| body.carriers().map(|n| block[n as usize]).collect::<Vec<_>>();
-        let body_clique = scene.bodies.iter().map(|body| cliques.push(carriers(body).into_iter())).collect();
+        let body_clique = scene.bodies.iter().map(|body| cliques.push(carriers(body))).collect();
         let cells_only = cliques.clone();
         let mut face_clique = Vec::new();
         if let Some(faces) = &scene.faces {
