@@ -121,9 +121,16 @@ impl Checker {
         path: &Path,
     ) -> Option<Surface> {
         let name = file.drained_surface.as_deref()?;
-        if file.materials.values().all(|material| material.permeability.is_none()) {
-            let remedy = "take it out, or give an undrained material a `permeability`";
-            self.issue(path, At::Key, "no material has a permeability", remedy);
+        let surface = self.surface(name, file, path)?;
+        let named = |region: &String| surface.region().is_none() || region == name;
+        let first =
+            file.regions.iter().filter(|(region, _)| named(region)).filter_map(|(_, region)| region.material.as_ref());
+        let later =
+            file.phases.iter().flat_map(|phase| &phase.materials).filter(|(region, _)| named(region)).map(|(_, m)| m);
+        let conducts = |material: &raw::Material| material.permeability.is_some();
+        if !first.chain(later).any(|material| file.materials.get(material).is_some_and(conducts)) {
+            let remedy = "take it out, or give the material of the soil a `permeability`";
+            self.issue(path, At::Key, "no soil there has a permeability", remedy);
         }
         if numerics.restore == Restore::Never {
             let problem = "on a grid that is never restored the surface of the soil lies on curves";
@@ -135,7 +142,7 @@ impl Checker {
             let remedy = "take it out, or the `contacts`: a surface that only drains where it is free is not there yet";
             self.issue(path, At::Key, problem, remedy);
         }
-        self.surface(name, file, path)
+        Some(surface)
     }
 
     /// The excess pore pressure before the first phase.

@@ -148,7 +148,8 @@ pub fn scene<K: Kinematics<2>>(case: &Case, mut whole: Mesh<2>) -> Result<Scene<
         terms.push(Box::new(WaterBond::<K>::new(water.porous.clone(), unit, shear, mesh.cells.len())));
         if let Some(surface) = case.drained_surface {
             let region = surface.region().map(|i| region_index(&mesh, &case.regions[i].name)).transpose()?;
-            terms.push(Box::new(DrainedSurface::<K>::new(water.porous.clone(), region, unit)));
+            let flows = case.phases.iter().map(|phase| flows(case, phase)).collect();
+            terms.push(Box::new(DrainedSurface::<K>::new(water.porous.clone(), region, unit, flows)));
         }
     }
     if case.gravity != [0.0; 2] && density_scale > 0.0 {
@@ -298,6 +299,12 @@ fn restore(restore: Restore) -> step::Restore {
     }
 }
 
+/// Whether water flows in a phase.
+fn flows(case: &Case, phase: &super::checked::Phase) -> bool {
+    matches!(phase.analysis, Analysis::Dynamic | Analysis::Consolidation)
+        && case.materials.iter().any(|m| m.porous.is_some())
+}
+
 fn phase<'a>(
     case: &Case,
     holds: &Holds<'a>,
@@ -317,8 +324,7 @@ fn phase<'a>(
         name: phase.name.clone(),
         dynamic: phase.analysis == Analysis::Dynamic,
         auto: phase.analysis == Analysis::Auto,
-        flows: matches!(phase.analysis, Analysis::Dynamic | Analysis::Consolidation)
-            && case.materials.iter().any(|m| m.porous.is_some()),
+        flows: flows(case, phase),
         duration: phase.duration,
         first_step: phase.step.initial,
         least_step: phase.step.min,

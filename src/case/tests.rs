@@ -218,6 +218,15 @@ fn contradictions_about_drainage_are_told() {
             ],
             "nothing",
         ),
+        (
+            &[
+                "materials.clay.drainage=undrained",
+                "materials.clay.poisson=0.3",
+                "materials.clay.permeability=1e-8",
+                "drained_surface=all",
+            ],
+            "never restored",
+        ),
     ] {
         let overrides: Vec<String> = overrides.iter().map(|&text| text.to_owned()).collect();
         let source = Source::parse(PathBuf::from("case.yaml"), CASE.to_owned(), &overrides).unwrap();

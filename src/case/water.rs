@@ -36,7 +36,7 @@ impl Checker {
         Some(Water { unit_weight: whole?.unit_weight, level, phreatic })
     }
 
-    /// Contact knows the whole pressure between structure and soil, and not what part of it the grains bear.
+    /// Contact knows the pressure beyond that of the water outside, and of the water in the pores its excess alone.
     fn no_friction(&mut self, file: &raw::CaseFile, root: &Path) {
         for (i, _) in file.contacts.iter().enumerate().filter(|(_, contact)| contact.friction > 0.0) {
             let problem =

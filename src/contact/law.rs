@@ -164,15 +164,16 @@ mod tests {
     #[test]
     fn slopes_are_those_of_the_answer() {
         let step = 1e-7;
-        for law in laws() {
+        let in_water = Penalty { water: 1.3, ..AT };
+        for (law, at) in laws().into_iter().flat_map(|law| [(law, AT), (law, in_water)]) {
             for gap in [-0.02, 0.011, 0.029, 0.0315, 0.04] {
                 for slip in [-0.1, -0.004, 0.0, 0.003, 0.2] {
-                    let answer = law.respond(&AT, gap, slip);
-                    let [up, down] = [step, -step].map(|d| law.respond(&AT, gap + d, slip));
+                    let answer = law.respond(&at, gap, slip);
+                    let [up, down] = [step, -step].map(|d| law.respond(&at, gap + d, slip));
                     let slope = |f: fn(&Answer) -> f64| (f(&up) - f(&down)) / (2.0 * step);
                     assert!((slope(|a| a.pressure) - answer.pressure_by_gap).abs() < 1e-5, "{law:?} {gap} {slip}");
                     assert!((slope(|a| a.shear) - answer.shear_by_gap).abs() < 1e-5, "{law:?} {gap} {slip}");
-                    let [up, down] = [step, -step].map(|d| law.respond(&AT, gap, slip + d));
+                    let [up, down] = [step, -step].map(|d| law.respond(&at, gap, slip + d));
                     let by_slip = (up.shear - down.shear) / (2.0 * step);
                     assert!((by_slip - answer.shear_by_slip).abs() < 1e-5, "{law:?} {gap} {slip}");
                 }
@@ -185,6 +186,9 @@ mod tests {
         let [smooth, rough, capped, clay, bonded] = laws().try_into().unwrap();
         assert_eq!(smooth.respond(&AT, 0.0, 1.0).shear, 0.0);
         assert!((rough.respond(&AT, 0.0, 1.0).shear + 0.4 * 3.0).abs() < 1e-15);
+        assert!((rough.respond(&Penalty { water: 1.0, ..AT }, 0.0, 1.0).shear + 0.4 * 2.0).abs() < 1e-15);
+        assert_eq!(rough.respond(&Penalty { water: 4.0, ..AT }, 0.0, 1.0).shear, 0.0);
+        assert_eq!(rough.respond(&Penalty { water: -5.0, ..AT }, 0.0, 1.0), rough.respond(&AT, 0.0, 1.0));
         assert_eq!(capped.respond(&AT, 0.0, -1.0).shear, 1.0);
         assert_eq!(clay.respond(&AT, 0.0, 1.0).shear, -1.0);
         assert_eq!(clay.respond(&AT, 0.05, 1.0), Answer::default());

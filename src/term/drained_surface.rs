@@ -35,6 +35,8 @@ pub struct DrainedSurface<K> {
     region: Option<u16>,
     /// What a unit of the unknowns stands for (kPa/m).
     unit: f64,
+    /// Whether water flows in each phase.
+    flows: Vec<bool>,
     kinematics: PhantomData<K>,
 }
 
@@ -90,9 +92,9 @@ impl Bearer {
 }
 
 impl<K: Kinematics<2>> DrainedSurface<K> {
-    /// `porous[m]` is the soil of material `m`, `unit` that of [`crate::step::Scene`].
-    pub fn new(porous: Vec<Option<Porous>>, region: Option<u16>, unit: f64) -> Self {
-        Self { porous, region, unit, kinematics: PhantomData }
+    /// `porous[m]` is the soil of material `m`, `unit` that of [`crate::step::Scene`]; water `flows` in some phases.
+    pub fn new(porous: Vec<Option<Porous>>, region: Option<u16>, unit: f64, flows: Vec<bool>) -> Self {
+        Self { porous, region, unit, flows, kinematics: PhantomData }
     }
 
     fn drains(&self, piece: &Piece) -> bool {
@@ -184,6 +186,14 @@ impl<K: Kinematics<2>> Term<2> for DrainedSurface<K> {
         };
         let clique = |piece: &Piece| frame.clique[piece.bearer as usize] as usize;
         scatter(frame.pattern, frame.boundary, clique, compute, out.force, out.tangent.as_deref_mut(), out.workspace)
+    }
+
+    fn idle(&self, frame: &Frame<2>, displacement: &[[f64; 2]], phase: usize) -> Option<String> {
+        let drains = |piece: &Piece| self.drains(piece) && self.bearer(frame, displacement, piece).is_some();
+        let idle = self.flows.get(phase) == Some(&true) && !frame.boundary.iter().any(drains);
+        idle.then(|| {
+            "no free surface of soil with a permeability is there to drain: where soil lies on the boundary of the mesh it is tight".into()
+        })
     }
 
     fn outflow(&self, frame: &Frame<2>, trial: &Trial<2>) -> f64 {

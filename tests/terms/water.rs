@@ -115,7 +115,8 @@ fn the_bond_is_free_for_a_uniform_increment_and_its_tangent_the_derivative() {
     }
 }
 
-/// A drained surface in every cell, through that and as a neighbour's: its tangent, and that it lets out what the hats lose.
+/// A drained surface in every cell, through that and as a neighbour's, but for a wall and another region: its tangent, and that it lets out
+/// what the hats lose.
 fn a_surface_drains<K: Kinematics<2>>() {
     for kind in KINDS {
         let mesh = mesh(kind);
@@ -123,12 +124,19 @@ fn a_surface_drains<K: Kinematics<2>>() {
         points.pore_pressure = vec![0.0; points.len()];
         let cells = mesh.cells.len() as u32;
         let soil = porous([3e-5, 1e-5]);
-        let term: Box<dyn Term<2>> = Box::new(DrainedSurface::<K>::new(soil.clone(), None, UNIT));
+        let term: Box<dyn Term<2>> = Box::new(DrainedSurface::<K>::new(soil.clone(), Some(3), UNIT, vec![true; 2]));
         let water = Some(Water { porous: soil, alone: true, drained: Vec::new() });
         let mut stand = Stand::<K>::with_water(Scheme::Mpm, mesh, points, term, false, true, Some(UNIT), water);
         let piece = |cell: u32| {
             let borne = if cell == 0 { [[1.1, -0.2], [0.4, 0.9]] } else { [[0.2, 0.1], [0.3, 0.6]] };
-            Piece { cell, ends: [[0.2, 0.1], [0.3, 0.6]], wall: cell == 1, region: 0, bearer: cell, borne }
+            Piece {
+                cell,
+                ends: [[0.2, 0.1], [0.3, 0.6]],
+                wall: cell == 1,
+                region: 3 + u16::from(cell == 2),
+                bearer: cell,
+                borne,
+            }
         };
         stand.state.weighing.boundary =
             ActiveBoundary { pieces: (0..cells).map(piece).collect(), first: vec![0, cells] };
@@ -146,6 +154,10 @@ fn a_surface_drains<K: Kinematics<2>>() {
         assert!(stand.asymmetry(&trial, &converged) < 1e-12, "{kind:?}");
         let (force, _) = stand.system(&trial, &stand.pressure, &converged, 0, false);
         let (lost, out) = (-force.iter().sum::<f64>() / UNIT, stand.outflow(&trial, &converged));
+        let nothing = |stand: &Stand<K>| stand.term().idle(&stand.frame(), &converged, 0);
+        assert_eq!(nothing(&stand), None);
+        stand.state.weighing.boundary.pieces.retain(|piece| piece.wall || piece.region != 3);
+        assert!(stand.outflow(&trial, &converged) == 0.0 && nothing(&stand).is_some(), "{kind:?}");
         assert!(out.abs() > 1e-3 && (lost / out - 1.0).abs() < 1e-12, "{kind:?}: {lost} {out}");
     }
 }
