@@ -207,13 +207,14 @@ fn contradictions_about_drainage_are_told() {
             "water_unit_weight",
         ),
         (&["initial_pore_pressure.block=3"], "initial_pore_pressure"),
-        (&["drained_surface=all", "numerics.restore=every_step"], "drained_surface"),
+        (&["drained_surface=all", "numerics.restore=every_step", "phases[1].tractions=[]"], "drained_surface"),
         (
             &[
                 "materials.clay.drainage=undrained",
                 "materials.clay.poisson=0.3",
                 "materials.clay.permeability=1e-8",
                 "numerics.restore=every_step",
+                "phases[1].tractions=[]",
                 "drained_surface=nothing",
             ],
             "nothing",
