@@ -278,3 +278,42 @@ fn a_pile_finds_its_bearing_capacity() {
     let pressure = rows.last().unwrap()[2] / (std::f64::consts::PI * 0.5f64.powi(2)) / 0.5;
     assert!((5.69..1.1 * 6.05).contains(&pressure), "{pressure}");
 }
+
+/// A plate on confined clay that cannot drain at once: the water bears what it is stiffer by than the grains, and of the pressure friction
+/// has the grains' part alone, M′/(M′ + K_w/n). Once the water has left it has all.
+#[test]
+fn friction_takes_the_pressure_of_the_grains() {
+    let (young, poisson, undrained) = (1000.0, 0.2, 0.45);
+    let bulk = |nu: f64| 2.0 * (1.0 + nu) / (3.0 * (1.0 - 2.0 * nu));
+    let shear = young / (2.0 * (1.0 + poisson));
+    let confined = (bulk(poisson) + 4.0 / 3.0) * shear;
+    let share = confined / (confined + (bulk(undrained) - bulk(poisson)) * shear);
+    let material = |more: &str| {
+        format!(
+            "materials.soil={{model: linear_elastic, young: {young}, poisson: {poisson}, density: 0, drainage: undrained, \
+             undrained_poisson: {undrained}{more}}}"
+        )
+    };
+    let press = "{name: press, analysis: quasi_static, duration: 1, step: {initial: 0.25}, prescribe: {top: {ux: 0, uy: {rate: -0.002}}}}";
+    let slide = |seconds: f64| {
+        let [ux, step] = [0.004 / seconds, 0.5 * seconds];
+        format!("duration: {seconds}, step: {{initial: {step}}}, prescribe: {{top: {{ux: {{rate: {ux}}}, uy: 0}}}}}}")
+    };
+    let wait = "{name: wait, analysis: consolidation, duration: 1.0e+5, step: {initial: 1.0e+4}, prescribe: {top: {ux: 0, uy: 0}}}";
+    let flowing = material(", permeability: 1.0e-6");
+    let held = "supports={bottom: {uy: 0, pore_pressure: 0}, side: {ux: 0}}";
+    let first = format!("phases=[{press}, {{name: slide, analysis: quasi_static, {}]", slide(1.0));
+    let later = format!("phases=[{press}, {wait}, {{name: slide, analysis: consolidation, {}]", slide(1e5));
+    let friction = "contacts[0].friction=0.2";
+    for (name, overrides, grains) in [
+        ("share of a field", &[&material("")[..], &first, friction][..], share),
+        ("field of its own", &[&flowing, &first, friction], share),
+        ("drained", &[&flowing, &later, held, friction], 1.0),
+    ] {
+        let rows = history(run("tests/data/plate", overrides).path());
+        let last = rows.last().unwrap();
+        let ratio = (last[3] / last[4]).abs();
+        println!("{name}: shear over pressure {ratio:.5} of {:.5}", 0.2 * grains);
+        assert!((ratio / (0.2 * grains) - 1.0).abs() < 0.01, "{name}: {last:?}");
+    }
+}

@@ -284,6 +284,8 @@ def drain(r):
     ]
     if r.random() < 0.4:
         case["phases"].append(phase("dynamic", 0.2, 10, gravity=r.choice([1, 2])) | {"name": "shake"})
+    if r.random() < 0.5:
+        case["drained_surface"] = r.choice(["all", "body"])
     return case
 
 

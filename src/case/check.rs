@@ -72,6 +72,7 @@ impl Checker {
             k0: file.initial_stress.map(|stress| stress.k0),
             water: self.water(file, &root),
             initial_pore_pressure: self.initial_pore_pressure(file, &root.key("initial_pore_pressure")),
+            drained_surface: self.drained_surface(file, &numerics, &root.key("drained_surface")),
             initial_velocity: self.initial_velocity(file, &root.key("initial_velocity")),
             numerics,
             phases,

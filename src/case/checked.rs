@@ -33,6 +33,8 @@ pub struct Case {
     pub water: Option<Water>,
     /// Excess pore pressure (kPa) before the first phase, by index into `regions`.
     pub initial_pore_pressure: Vec<(usize, Profile)>,
+    /// The surface of material points that drains.
+    pub drained_surface: Option<Surface>,
     /// The velocities of the regions that do not start at rest.
     pub initial_velocity: Vec<InitialVelocity>,
     pub numerics: Numerics,
@@ -44,6 +46,23 @@ pub struct Case {
 pub enum Geometry {
     PlaneStrain,
     Axisymmetric,
+}
+
+/// The surface of material points: of all, or of the region of that index.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Surface {
+    All,
+    Of(usize),
+}
+
+impl Surface {
+    /// The index of its region; `None` for all.
+    pub fn region(self) -> Option<usize> {
+        match self {
+            Self::All => None,
+            Self::Of(region) => Some(region),
+        }
+    }
 }
 
 /// The background mesh.

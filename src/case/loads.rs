@@ -1,7 +1,7 @@
 //! The loads of a phase: dead ones on curves, and those that follow the surface of the material points.
 
 use super::check::Checker;
-use super::checked::{Numerics, Pressure, Restore, SurfaceLoad, Traction};
+use super::checked::{Numerics, Pressure, Restore, Surface, SurfaceLoad, Traction};
 use super::locate::{At, Path};
 use super::raw;
 use super::structure::suggest;
@@ -83,6 +83,21 @@ impl Checker {
         value.map_or(TimeValue::Constant(0.0), |value| self.in_time(value, path))
     }
 
+    /// The surface that an entry names.
+    pub(super) fn surface(&mut self, name: &str, file: &raw::CaseFile, path: &Path) -> Option<Surface> {
+        if name == ALL {
+            return Some(Surface::All);
+        }
+        let filled = |region: &raw::Region| region.kind == raw::RegionKind::Mpm;
+        if let Some(region) = file.regions.iter().position(|(known, region)| known == name && filled(region)) {
+            return Some(Surface::Of(region));
+        }
+        let known =
+            file.regions.iter().filter(|(_, region)| filled(region)).map(|(name, _)| name.as_str()).chain([ALL]);
+        self.issue(path, At::Value, format!("`{name}` is not a region of kind mpm"), suggest(name, known));
+        None
+    }
+
     fn surface_load(
         &mut self,
         surface: &str,
@@ -90,19 +105,13 @@ impl Checker {
         file: &raw::CaseFile,
         path: &Path,
     ) -> SurfaceLoad {
-        let filled = |name: &&String| file.regions.get(*name).is_some_and(|r| r.kind == raw::RegionKind::Mpm);
-        let region = file.regions.keys().position(|name| name == surface);
-        if surface != ALL && !region.is_some_and(|i| file.regions.keys().nth(i).as_ref().is_some_and(filled)) {
-            let problem = format!("`{surface}` is not a region of kind mpm");
-            let known = file.regions.keys().filter(filled).map(String::as_str).chain([ALL]);
-            self.issue(&path.key("surface"), At::Value, problem, suggest(surface, known));
-        }
+        let of = self.surface(surface, file, &path.key("surface"));
         let loads = [traction.tx.is_some(), traction.ty.is_some(), traction.shear.is_some()];
         if !loads.contains(&true) && traction.pressure.is_none() {
             self.issue(path, At::Value, "there is no load", "add `pressure: …`, `shear: …`, `tx: …` or `ty: …`");
         }
         SurfaceLoad {
-            region: region.filter(|_| surface != ALL),
+            region: of.and_then(Surface::region),
             pressure: self.pressure(traction, path),
             shear: self.or_zero(traction.shear.as_ref(), &path.key("shear")),
             components: self.components(traction, path),

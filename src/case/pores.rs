@@ -2,7 +2,7 @@
 
 use super::changes;
 use super::check::Checker;
-use super::checked::Case;
+use super::checked::{Case, Numerics, Restore, Surface};
 use super::incompressible::{UNDRAINED, bulk};
 use super::locate::{At, Path};
 use super::raw;
@@ -111,6 +111,38 @@ impl Checker {
             let remedy = "take it out, or give an undrained material a `permeability`";
             self.issue(&path, At::Key, "no material has a permeability", remedy);
         }
+    }
+
+    /// The surface where water leaves.
+    pub(super) fn drained_surface(
+        &mut self,
+        file: &raw::CaseFile,
+        numerics: &Numerics,
+        path: &Path,
+    ) -> Option<Surface> {
+        let name = file.drained_surface.as_deref()?;
+        let surface = self.surface(name, file, path)?;
+        let named = |region: &String| surface.region().is_none() || region == name;
+        let first =
+            file.regions.iter().filter(|(region, _)| named(region)).filter_map(|(_, region)| region.material.as_ref());
+        let later =
+            file.phases.iter().flat_map(|phase| &phase.materials).filter(|(region, _)| named(region)).map(|(_, m)| m);
+        let conducts = |material: &raw::Material| material.permeability.is_some();
+        if !first.chain(later).any(|material| file.materials.get(material).is_some_and(conducts)) {
+            let remedy = "take it out, or give the material of the soil a `permeability`";
+            self.issue(path, At::Key, "no soil there has a permeability", remedy);
+        }
+        if numerics.restore == Restore::Never {
+            let problem = "on a grid that is never restored the surface of the soil lies on curves";
+            let remedy = "drain these by `pore_pressure: 0` under `supports`, or take `restore: never` out";
+            self.issue(path, At::Key, problem, remedy);
+        }
+        if !file.contacts.is_empty() {
+            let problem = "the surface would drain beneath structures, too";
+            let remedy = "take it out, or the `contacts`: a surface that only drains where it is free is not there yet";
+            self.issue(path, At::Key, problem, remedy);
+        }
+        Some(surface)
     }
 
     /// The excess pore pressure before the first phase.

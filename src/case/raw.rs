@@ -42,6 +42,8 @@ pub struct CaseFile {
     /// The velocity before the first phase, by the name of a region; without it everything is at rest.
     #[serde(default)]
     pub initial_velocity: BTreeMap<String, Velocity>,
+    /// The surface of soil, wherever it moves, that has no excess pore pressure while water flows: all, or the name of a region.
+    pub drained_surface: Option<String>,
     /// Water whose pressure acts on all that is below its level; without it none.
     pub water: Option<Water>,
     /// The numerical method.

@@ -8,7 +8,7 @@ use crate::mesh::Mesh;
 use crate::rigid::Body;
 use crate::seed::{QUADRATURE, RegionSeed, seed};
 use crate::step::{Fixed, Prescribed};
-use crate::term::{RigidInertia, RigidTraction, RigidWeight, Term, Traction};
+use crate::term::{RigidInertia, RigidPressure, RigidTraction, RigidWeight, Term, Traction};
 use crate::time_value::TimeValue;
 use std::collections::HashSet;
 
@@ -49,7 +49,7 @@ pub fn bodies(case: &Case, mesh: &mut Mesh<2>) -> Result<Vec<Body<2>>> {
     Ok(bodies)
 }
 
-/// What acts on the rigid structures, given the part of the mesh with them.
+/// What acts on the rigid structures, given the part of the mesh with them and the size (m) of its cells.
 ///
 /// # Errors
 /// Input: a traction on a curve that the mesh has not.
@@ -58,9 +58,13 @@ pub fn terms<K: Kinematics<2>>(
     mesh: &Mesh<2>,
     bodies: &[Body<2>],
     dynamic: bool,
+    size: f64,
 ) -> Result<Vec<Box<dyn Term<2>>>> {
     let mut terms: Vec<Box<dyn Term<2>>> = Vec::new();
-    for body in bodies {
+    for (number, body) in bodies.iter().enumerate() {
+        if let Some(water) = case.water.as_ref().filter(|water| water.level.is_some()) {
+            terms.push(Box::new(RigidPressure::<K>::new(body, number, mesh, water.heads(size))));
+        }
         if case.gravity != [0.0; 2] && body.mass > 0.0 {
             let factors = case.phases.iter().map(|p| p.gravity.clone()).collect();
             terms.push(Box::new(RigidWeight::new(body, case.gravity, factors)));

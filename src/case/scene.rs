@@ -16,8 +16,8 @@ use crate::run::{self, Ended, Outputs, Progress, Watch, WatchedOn};
 use crate::stencil::{Scheme, cell_size, smooths};
 use crate::step::{self, Fem, Numerics, Phase, Scene, Search, State, Stop};
 use crate::term::{
-    BodyForce, Carried, Contact, EmptyCells, GhostInertia, GhostPenalty, Inertia, Internal, PoreWater, PressureField,
-    SmoothPressure, Term, Traction, WaterBond,
+    BodyForce, Carried, Contact, DrainedSurface, EmptyCells, GhostInertia, GhostPenalty, Inertia, Internal, PoreWater,
+    PressureField, SmoothPressure, Term, Traction, WaterBond,
 };
 use crate::time_value::TimeValue;
 use std::path::Path;
@@ -146,6 +146,11 @@ pub fn scene<K: Kinematics<2>>(case: &Case, mut whole: Mesh<2>) -> Result<Scene<
     let mut terms = internal::<K>(case, &mesh, dynamic, pressure_unit, shear)?;
     if let (Some(water), Some(unit)) = (&water, pressure_unit) {
         terms.push(Box::new(WaterBond::<K>::new(water.porous.clone(), unit, shear, mesh.cells.len())));
+        if let Some(surface) = case.drained_surface {
+            let region = surface.region().map(|i| region_index(&mesh, &case.regions[i].name)).transpose()?;
+            let flows = case.phases.iter().map(|phase| flows(case, phase)).collect();
+            terms.push(Box::new(DrainedSurface::<K>::new(water.porous.clone(), region, unit, flows)));
+        }
     }
     if case.gravity != [0.0; 2] && density_scale > 0.0 {
         terms.push(Box::new(gravity::<K>(case)));
@@ -191,7 +196,7 @@ pub fn scene<K: Kinematics<2>>(case: &Case, mut whole: Mesh<2>) -> Result<Scene<
                 terms.push(Box::new(Inertia::<K>::default()));
             }
             terms.extend(water::on_elements::<K>(case, &part, size));
-            terms.extend(rigid::terms::<K>(case, &part, &bodies[..structures], dynamic)?);
+            terms.extend(rigid::terms::<K>(case, &part, &bodies[..structures], dynamic, size)?);
             let (carried, rigid) = (changes::ever(case, &part, |m| m.carried.is_some())?, rigid::regions(case, &part));
             let with = |r: usize| carried[r] && !rigid[r];
             let with_pressure = part.cells.region.iter().map(|&r| with(r as usize)).collect();
@@ -206,6 +211,7 @@ pub fn scene<K: Kinematics<2>>(case: &Case, mut whole: Mesh<2>) -> Result<Scene<
     for (number, pair) in (0..).zip(&pairs) {
         terms.push(Box::new(Contact::new(number, *pair.law())));
     }
+    let carried = carried(case, &mesh)?;
     let holds = Holds::new(case, &mesh, &bodies);
     let supports = holds.supports()?;
     let height = soil_height(case, &mesh, fem.as_ref().map(|fem| &fem.mesh))?;
@@ -226,6 +232,7 @@ pub fn scene<K: Kinematics<2>>(case: &Case, mut whole: Mesh<2>) -> Result<Scene<
         bodies,
         pairs,
         pressure_unit,
+        carried,
         water,
         supports,
         phases,
@@ -292,6 +299,12 @@ fn restore(restore: Restore) -> step::Restore {
     }
 }
 
+/// Whether water flows in a phase.
+fn flows(case: &Case, phase: &super::checked::Phase) -> bool {
+    matches!(phase.analysis, Analysis::Dynamic | Analysis::Consolidation)
+        && case.materials.iter().any(|m| m.porous.is_some())
+}
+
 fn phase<'a>(
     case: &Case,
     holds: &Holds<'a>,
@@ -311,8 +324,7 @@ fn phase<'a>(
         name: phase.name.clone(),
         dynamic: phase.analysis == Analysis::Dynamic,
         auto: phase.analysis == Analysis::Auto,
-        flows: matches!(phase.analysis, Analysis::Dynamic | Analysis::Consolidation)
-            && case.materials.iter().any(|m| m.porous.is_some()),
+        flows: flows(case, phase),
         duration: phase.duration,
         first_step: phase.step.initial,
         least_step: phase.step.min,

@@ -207,6 +207,27 @@ fn contradictions_about_drainage_are_told() {
             "water_unit_weight",
         ),
         (&["initial_pore_pressure.block=3"], "initial_pore_pressure"),
+        (&["drained_surface=all", "numerics.restore=every_step", "phases[1].tractions=[]"], "drained_surface"),
+        (
+            &[
+                "materials.clay.drainage=undrained",
+                "materials.clay.poisson=0.3",
+                "materials.clay.permeability=1e-8",
+                "numerics.restore=every_step",
+                "phases[1].tractions=[]",
+                "drained_surface=nothing",
+            ],
+            "nothing",
+        ),
+        (
+            &[
+                "materials.clay.drainage=undrained",
+                "materials.clay.poisson=0.3",
+                "materials.clay.permeability=1e-8",
+                "drained_surface=all",
+            ],
+            "never restored",
+        ),
     ] {
         let overrides: Vec<String> = overrides.iter().map(|&text| text.to_owned()).collect();
         let source = Source::parse(PathBuf::from("case.yaml"), CASE.to_owned(), &overrides).unwrap();

@@ -4,8 +4,8 @@ use super::changes;
 use super::check::Checker;
 use super::checked::{Case, Phase, Pressure, SurfaceLoad, Water};
 use super::locate::{At, Path};
-use super::raw;
 use super::scene::{mean_size, region_index};
+use super::{raw, rigid};
 use crate::error::Result;
 use crate::kinematics::Kinematics;
 use crate::mesh::Mesh;
@@ -21,10 +21,6 @@ impl Checker {
     pub(super) fn water(&mut self, file: &raw::CaseFile, root: &Path) -> Option<Water> {
         let whole = file.water.as_ref();
         let path = root.key("water");
-        if file.regions.values().any(|region| region.rigid == Some(true)) && whole.is_some_and(|w| w.level.is_some()) {
-            let remedy = "give the structure the weight that it has under water, and leave `rigid` or `water` out";
-            self.issue(&path, At::Key, "water does not act on rigid structures yet", remedy);
-        }
         if whole.is_some_and(|water| water.level.is_none() && water.phreatic_level.is_none()) {
             self.issue(&path, At::Key, "the water has no level", "add `level: …` or `phreatic_level: …`");
         }
@@ -40,7 +36,7 @@ impl Checker {
         Some(Water { unit_weight: whole?.unit_weight, level, phreatic })
     }
 
-    /// Contact knows the whole pressure between structure and soil, and not what part of it the grains bear.
+    /// Contact knows the pressure beyond that of the water outside, and of the water in the pores its excess alone.
     fn no_friction(&mut self, file: &raw::CaseFile, root: &Path) {
         for (i, _) in file.contacts.iter().enumerate().filter(|(_, contact)| contact.friction > 0.0) {
             let problem =
@@ -135,10 +131,11 @@ fn is_all_around(case: &Case, load: &SurfaceLoad) -> bool {
     !fem && load.is_pressure_all_around()
 }
 
-/// Whether the surface of the material points must be known: for loads on it, or to be shown.
+/// Whether the surface of the material points must be known: for loads on it, to drain it, or to be shown.
 pub fn needs_surface(case: &Case) -> bool {
     let water = case.water.as_ref().is_some_and(|water| water.level.is_some());
-    case.output.surface || water || case.phases.iter().any(|phase| !phase.surface_loads.is_empty())
+    let drains = case.drained_surface.is_some();
+    case.output.surface || water || drains || case.phases.iter().any(|phase| !phase.surface_loads.is_empty())
 }
 
 /// The loads on the surface of the material points.
@@ -209,12 +206,14 @@ fn of_water<K>(
     VirtualPressure::new(outside).with_pores(water.heads_in_pores(size), porous)
 }
 
-/// The terms of water on and in the finite elements of `mesh`.
+/// The terms of water on and in the finite elements of `mesh` that deform.
 pub fn on_elements<K: Kinematics<2>>(case: &Case, mesh: &Mesh<2>, size: f64) -> Vec<Box<dyn Term<2>>> {
     let mut terms: Vec<Box<dyn Term<2>>> = Vec::new();
     let Some(water) = &case.water else { return terms };
     if water.level.is_some() {
-        terms.push(Box::new(FacetPressure::<K>::new(mesh, |_| true, water.heads(size))));
+        let rigid = rigid::regions(case, mesh);
+        let deforms = |c: usize| !rigid[mesh.cells.region[c] as usize];
+        terms.push(Box::new(FacetPressure::<K>::new(mesh, deforms, water.heads(size))));
     }
     if water.phreatic.is_some() {
         terms.push(Box::new(of_water::<K>(case, water, Vec::new(), mesh, size)));

@@ -13,8 +13,19 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
 /// The entries of the case that results depend on, beside those that shaped the points.
-const KEYS: [&str; 10] =
-    ["geometry", "regions", "materials", "contacts", "supports", "gravity", "water", "numerics", "phases", "output"];
+const KEYS: [&str; 11] = [
+    "geometry",
+    "regions",
+    "materials",
+    "contacts",
+    "supports",
+    "gravity",
+    "water",
+    "drained_surface",
+    "numerics",
+    "phases",
+    "output",
+];
 
 /// Set by Ctrl-C or a polite kill; polled between steps.
 static STOP: AtomicBool = AtomicBool::new(false);

@@ -237,6 +237,7 @@ impl<K: Kinematics<2>> Pair<2> for Bodies<K> {
                     rounding: 0.0,
                     fading: FADING * self.surface.spacing,
                     strength: f64::INFINITY,
+                    water: 0.0,
                 },
             })
         };

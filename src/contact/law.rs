@@ -1,6 +1,6 @@
 //! The law of contact: normal pressure and shear from gap and slip, by an augmented Lagrangian.
 //!
-//! `p = ⟨λ − ε_n g⟩`, shear `τ = λ_t − ε_t s` limited to `|τ| ≤ τ_max`, `τ_max = min(c_a + p tan δ, α s_u)`. With the
+//! `p = ⟨λ − ε_n g⟩`, shear `τ = λ_t − ε_t s` limited to `|τ| ≤ τ_max`, `τ_max = min(c_a + p′ tan δ, α s_u)`, `p′` without what the water in the pores bears. With the
 //! multipliers `λ`, `λ_t` of the step before, gaps close and sticking soil creeps no farther (Alart & Curnier 1991).
 //!
 //! Surfaces part smoothly: `⟨q⟩` is rounded over `|q| < d`, and adhesion, which would vanish at once where they
@@ -36,6 +36,8 @@ pub struct Penalty {
     pub fading: f64,
     /// Strength of the soil (kPa).
     pub strength: f64,
+    /// What of the pressure (kPa) the water in the pores bears beyond the water outside: friction has no share in it.
+    pub water: f64,
 }
 
 /// Pressure (compression positive) and shear (kPa) with their slopes by gap and slip (kPa/m).
@@ -47,6 +49,13 @@ pub struct Answer {
     pub pressure_by_gap: f64,
     pub shear_by_gap: f64,
     pub shear_by_slip: f64,
+}
+
+impl Penalty {
+    /// What of a pressure (kPa) the grains bear. Suction in the pores does not press them on a structure that may part from them.
+    fn effective(&self, pressure: f64) -> f64 {
+        (pressure - self.water.max(0.0)).max(0.0)
+    }
 }
 
 impl Law {
@@ -71,7 +80,7 @@ impl Law {
     pub fn respond(&self, at: &Penalty, gap: f64, slip: f64) -> Answer {
         let (pressure, by_gap) = self.pressure(at, gap);
         let mut answer = Answer { pressure, pressure_by_gap: by_gap, ..Answer::default() };
-        let (full, slope) = self.limit(pressure.max(0.0), at.strength);
+        let (full, slope) = self.limit(at.effective(pressure), at.strength);
         let (share, share_by_gap) = self.share(at, gap);
         // The full one may be infinite: soil without limit of strength.
         if full == 0.0 || share == 0.0 {
@@ -83,7 +92,7 @@ impl Law {
             answer.shear = shear;
             answer.shear_by_slip = -at.tangential;
         } else {
-            let of_pressure = if pressure > 0.0 { slope * share * by_gap } else { 0.0 };
+            let of_pressure = if at.effective(pressure) > 0.0 { slope * share * by_gap } else { 0.0 };
             answer.shear = limit.copysign(shear);
             answer.shear_by_gap = (of_pressure + full * share_by_gap) * shear.signum();
         }
@@ -138,6 +147,7 @@ mod tests {
         rounding: 0.2,
         fading: 0.045,
         strength: 2.0,
+        water: 0.0,
     };
 
     fn laws() -> Vec<Law> {
@@ -154,15 +164,16 @@ mod tests {
     #[test]
     fn slopes_are_those_of_the_answer() {
         let step = 1e-7;
-        for law in laws() {
+        let in_water = Penalty { water: 1.3, ..AT };
+        for (law, at) in laws().into_iter().flat_map(|law| [(law, AT), (law, in_water)]) {
             for gap in [-0.02, 0.011, 0.029, 0.0315, 0.04] {
                 for slip in [-0.1, -0.004, 0.0, 0.003, 0.2] {
-                    let answer = law.respond(&AT, gap, slip);
-                    let [up, down] = [step, -step].map(|d| law.respond(&AT, gap + d, slip));
+                    let answer = law.respond(&at, gap, slip);
+                    let [up, down] = [step, -step].map(|d| law.respond(&at, gap + d, slip));
                     let slope = |f: fn(&Answer) -> f64| (f(&up) - f(&down)) / (2.0 * step);
                     assert!((slope(|a| a.pressure) - answer.pressure_by_gap).abs() < 1e-5, "{law:?} {gap} {slip}");
                     assert!((slope(|a| a.shear) - answer.shear_by_gap).abs() < 1e-5, "{law:?} {gap} {slip}");
-                    let [up, down] = [step, -step].map(|d| law.respond(&AT, gap, slip + d));
+                    let [up, down] = [step, -step].map(|d| law.respond(&at, gap, slip + d));
                     let by_slip = (up.shear - down.shear) / (2.0 * step);
                     assert!((by_slip - answer.shear_by_slip).abs() < 1e-5, "{law:?} {gap} {slip}");
                 }
@@ -175,6 +186,9 @@ mod tests {
         let [smooth, rough, capped, clay, bonded] = laws().try_into().unwrap();
         assert_eq!(smooth.respond(&AT, 0.0, 1.0).shear, 0.0);
         assert!((rough.respond(&AT, 0.0, 1.0).shear + 0.4 * 3.0).abs() < 1e-15);
+        assert!((rough.respond(&Penalty { water: 1.0, ..AT }, 0.0, 1.0).shear + 0.4 * 2.0).abs() < 1e-15);
+        assert_eq!(rough.respond(&Penalty { water: 4.0, ..AT }, 0.0, 1.0).shear, 0.0);
+        assert_eq!(rough.respond(&Penalty { water: -5.0, ..AT }, 0.0, 1.0), rough.respond(&AT, 0.0, 1.0));
         assert_eq!(capped.respond(&AT, 0.0, -1.0).shear, 1.0);
         assert_eq!(clay.respond(&AT, 0.0, 1.0).shear, -1.0);
         assert_eq!(clay.respond(&AT, 0.05, 1.0), Answer::default());

@@ -48,6 +48,8 @@ pub struct Ground<'a, const D: usize> {
     pub points: &'a Points<D>,
     /// The surface of the soil, where it is followed: loops of markers with the soil on their left.
     pub surface: &'a [Vec<[f64; D]>],
+    /// The excess pressure (kPa) of the water in the pores at a point, by its number.
+    pub excess: &'a dyn Fn(usize) -> f64,
 }
 
 /// The condition of a hat: its mean gap and slip in the step, linear in the displacements since its beginning.
@@ -159,7 +161,7 @@ impl<K: Kinematics<2>> Boundary<K> {
         (gap, if known.is_some() { offset(gap) } else { held.offset[hat] })
     }
 
-    /// Penalties and multipliers of a hat over soil like that at `point`.
+    /// Penalties and multipliers of a hat over dry soil like that at `point`.
     fn penalty(&self, points: &Points<2>, point: usize, hat: usize, held: &Multipliers) -> Penalty {
         let y = points.origin[point][1];
         let model = self.models.get(points.model_of(point)).and_then(Option::as_ref);
@@ -174,6 +176,7 @@ impl<K: Kinematics<2>> Boundary<K> {
             rounding: if yields { ROUNDING * held.mean_pressure() } else { 0.0 },
             fading: FADING * self.surface.spacing,
             strength: model.map_or(0.0, |m| m.strength(y)),
+            water: 0.0,
         }
     }
 }
@@ -214,6 +217,8 @@ struct Sum {
     sure: f64,
     known: f64,
     spacing: f64,
+    /// Excess pressure of the pore water times the area.
+    water: f64,
     point: u32,
     entries: Vec<(u32, [f64; 2], [f64; 2])>,
 }
@@ -261,6 +266,8 @@ impl<K: Kinematics<2>> Pair<2> for Boundary<K> {
             let Some(Gap { open, known, point, spacing }) = *gap else { continue };
             let Some((cell, xi)) = ground.find(placed, spacing, point, &holds) else { continue };
             let across = surface.distance(placed, spacing);
+            // Nothing else depends on it.
+            let water = if self.law.friction > 0.0 { (ground.excess)(point as usize) } else { 0.0 };
             let mut value = [0.0; MAX_NODES];
             ground.grid.cells.kind[cell as usize].values(&xi, &mut value);
             let soil = ground.grid.cells.nodes(cell as usize);
@@ -277,6 +284,7 @@ impl<K: Kinematics<2>> Pair<2> for Boundary<K> {
                     sure: 0.0,
                     known: 0.0,
                     spacing: 0.0,
+                    water: 0.0,
                     point,
                     entries: Vec::new(),
                 });
@@ -291,6 +299,7 @@ impl<K: Kinematics<2>> Pair<2> for Boundary<K> {
                     sum.known += weight * known;
                 }
                 sum.spacing += weight * spacing;
+                sum.water += weight * water;
                 for (&node, n_s) in structure.iter().zip(&placed.value) {
                     sum.add(node, n.map(|n| -weight * n_s * n), t.map(|t| -weight * n_s * t));
                 }
@@ -300,7 +309,7 @@ impl<K: Kinematics<2>> Pair<2> for Boundary<K> {
             }
         }
         let row = |(hat, sum): (usize, Option<Sum>)| {
-            let Sum { area, open, facing, distance, sure, known, spacing, point, mut entries } =
+            let Sum { area, open, facing, distance, sure, known, spacing, water, point, mut entries } =
                 sum.filter(|sum| sum.area > 0.0)?;
             let spacing = spacing / area;
             let surface = (facing > 0.5 * area).then_some(distance / facing);
@@ -318,7 +327,7 @@ impl<K: Kinematics<2>> Pair<2> for Boundary<K> {
                 nodes: entries.iter().map(|e| e.0).collect(),
                 by_normal: entries.iter().map(|e| e.1.map(|n| n / area)).collect(),
                 by_tangent: entries.iter().map(|e| e.2.map(|t| t / area)).collect(),
-                penalty: self.penalty(ground.points, point as usize, hat, held),
+                penalty: Penalty { water: water / area, ..self.penalty(ground.points, point as usize, hat, held) },
             })
         };
         sums.into_iter().enumerate().filter_map(row).collect()

@@ -179,6 +179,7 @@ mod tests {
                 rounding: 0.0,
                 fading: 0.0,
                 strength: 0.0,
+                water: 0.0,
             },
         }
     }

@@ -5,7 +5,7 @@ use crate::io::columns::padded;
 use crate::io::frame::{CELL, Column, Frame, Part};
 use crate::points::Points;
 use crate::step::{Report, Restore, Scene, State};
-use crate::term::Carried;
+use crate::term::{Carried, excess_pressure};
 
 /// A field of the frames.
 #[derive(Clone, Debug)]
@@ -248,12 +248,8 @@ fn part<const D: usize>(points: &Points<D>, fields: &[Field]) -> Part {
             column("deformation_gradient", "-", 9, rows.collect())
         }
         Field::PorePressure(carried) => {
-            let own = |p: usize| points.pore_pressure.get(p).copied().unwrap_or(0.0);
-            let excess = |p: usize| match &carried[points.model_of(p)] {
-                Some(share) if share.water > 0.0 && !points.pressure.is_empty() => share.pore_pressure(points, p),
-                _ => own(p),
-            };
-            column("pore_pressure", "kPa", 1, (0..points.len()).map(excess).collect())
+            let excess = (0..points.len()).map(|p| excess_pressure(carried, points, p));
+            column("pore_pressure", "kPa", 1, excess.collect())
         }
     });
     Part { columns: columns.collect(), position: triples(&points.position) }

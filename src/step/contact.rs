@@ -12,7 +12,7 @@ use crate::mesh::Mesh;
 use crate::mesh::locate::Locator;
 use crate::mesh::shape::MAX_NODES;
 use crate::system::Cliques;
-use crate::term::{Touch, Trial, contact_answer};
+use crate::term::{Touch, Trial, contact_answer, excess_pressure};
 
 /// What a pair exerted in a step.
 #[derive(Clone, Debug, PartialEq)]
@@ -99,7 +99,8 @@ pub fn begin<const D: usize, K: Kinematics<D>>(
     let restored = grid.relaxed.as_ref().map_or((&scene.mesh, &scene.locator), |r| (&r.mesh, &r.locator));
     let (mesh, locator) = deformed.as_ref().map_or(restored, |(mesh, locator)| (mesh, locator));
     let surface = surface(restored, state);
-    let ground = Ground { grid: mesh, locator, points: &state.points, surface: &surface };
+    let excess = |p: usize| excess_pressure(&scene.carried, &state.points, p);
+    let ground = Ground { grid: mesh, locator, points: &state.points, surface: &surface, excess: &excess };
     let mut touches = Vec::new();
     for (number, pair) in scene.touching(state.phase) {
         let held = &state.multipliers[number];

@@ -59,6 +59,8 @@ pub struct Grid<const D: usize> {
     pub touch_clique: Vec<Vec<u32>>,
     /// The clique of each face that the system has room for a penalty at, else `u32::MAX`; empty without faces.
     face_clique: Vec<u32>,
+    /// The clique of each rigid body: the nodes with its unknowns.
+    body_clique: Vec<u32>,
     /// The clique of each cell and the block of each node; `u32::MAX` for those left out.
     pub clique: Vec<u32>,
     pub block: Vec<u32>,
@@ -232,6 +234,8 @@ impl<const D: usize> Grid<D> {
         if let (Some(elements), Some(fem)) = (&mut elements, &scene.fem) {
             elements.couple(fem, &block, &mut cliques);
         }
+        let carriers = |body: &Body<D>| body.carriers().map(|n| block[n as usize]).collect::<Vec<_>>();
+        let body_clique = scene.bodies.iter().map(|body| cliques.push(carriers(body))).collect();
         let cells_only = cliques.clone();
         let mut face_clique = Vec::new();
         if let Some(faces) = &scene.faces {
@@ -289,6 +293,7 @@ impl<const D: usize> Grid<D> {
             touches: Vec::new(),
             touch_clique,
             face_clique,
+            body_clique,
             clique,
             block,
             node,
@@ -361,6 +366,7 @@ impl<const D: usize> Grid<D> {
             pattern: &self.motion.pattern,
             clique: &self.clique,
             block: &self.block,
+            bodies: &self.body_clique,
         }
     }
 
@@ -387,6 +393,7 @@ impl<const D: usize> Grid<D> {
             pattern: &self.motion.pattern,
             clique: &elements.clique,
             block: &self.block,
+            bodies: &self.body_clique,
         }
     }
 

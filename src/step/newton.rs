@@ -531,8 +531,13 @@ fn add_terms<const D: usize>(
             *f += o;
         }
         if term.role() == Role::External {
-            for (e, o) in own[..of_nodes].iter().enumerate() {
-                sum.applied[e % D] -= o;
+            // What turns a body is a moment.
+            let forces =
+                own[..of_nodes].chunks_exact(D).zip(&grid.node).filter(|(_, n)| scene.turned_by(**n).is_none());
+            for (force, _) in forces {
+                for (applied, f) in sum.applied.iter_mut().zip(force) {
+                    *applied -= f;
+                }
             }
         }
     }

@@ -8,7 +8,7 @@ use crate::mesh::locate::Locator;
 use crate::quadrature::Quadrature;
 use crate::rigid::Body;
 use crate::stencil::Scheme;
-use crate::term::{Porous, Term};
+use crate::term::{Carried, Porous, Term};
 use crate::time_value::TimeValue;
 
 /// What a case resolves into. Only [`crate::case`] decides which terms it has.
@@ -30,6 +30,8 @@ pub struct Scene<const D: usize> {
     /// What a unit of the pressure unknowns stands for (kPa/m): a shear modulus over the size of a cell, so that all
     /// unknowns are lengths and all equations forces; absent without a pressure field and pore water.
     pub pressure_unit: Option<f64>,
+    /// What the pressure field carries of each material by number: what of it is of the pore water has no friction in contact.
+    pub carried: Vec<Option<Carried>>,
     /// The water in the pores, where its pressure is a field of its own.
     pub water: Option<Water>,
     /// Degrees of freedom held at their place in every phase.

@@ -9,7 +9,7 @@ use crate::kinematics::Kinematics;
 use crate::mesh::Mesh;
 use crate::points::Points;
 use crate::stencil::cell_size;
-use crate::term::{Frame, Porous, corner_hats};
+use crate::term::{Frame, Porous, Trial, corner_hats};
 use crate::time_integration::GeneralisedAlpha;
 use nalgebra::{SMatrix, SVector};
 
@@ -56,17 +56,35 @@ pub fn content<const D: usize>(scene: &Scene<D>, state: &State<D>) -> [Vec<f64>;
     })
 }
 
-/// The balance of a step, given the content of the points before it; absent without water.
+/// Water (m³) that leaves through surfaces in a step of `dt` (s), whose points are those before it.
+pub fn through_surfaces<const D: usize>(
+    scene: &Scene<D>,
+    grid: &Grid<D>,
+    state: &State<D>,
+    solution: &Solution<D>,
+    dt: f64,
+) -> f64 {
+    if scene.water.is_none() || !scene.phases[state.phase].flows {
+        return 0.0;
+    }
+    let frame = grid.frame(&scene.mesh, state);
+    let at_rest = Trial::at_rest(&solution.displacement, &state.displacement);
+    let trial = Trial { pressure: &solution.pressure, flow_time: dt, ..at_rest };
+    scene.terms.iter().map(|term| term.outflow(&frame, &trial)).sum()
+}
+
+/// The balance of a step, given the content of the points before it and what has left through surfaces; absent without water.
 pub fn balance<const D: usize>(
     scene: &Scene<D>,
     grid: &Grid<D>,
     state: &State<D>,
     before: &[Vec<f64>; 2],
     solution: &Solution<D>,
+    drained: f64,
 ) -> Option<Balance> {
     let water = scene.water.as_ref()?;
     let after = content(scene, state);
-    let mut balance = Balance::default();
+    let mut balance = Balance { left: drained, ..Balance::default() };
     for (family, (before, after)) in grid.families(scene, state).zip(before.iter().zip(&after)) {
         for (&p, weight) in family.stencil.points.iter().zip(&family.stencil.weight) {
             let taken_up = weight * (after[p as usize] - before[p as usize]);

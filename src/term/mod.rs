@@ -7,6 +7,7 @@
 mod beyond;
 mod body_force;
 mod contact;
+mod drained_surface;
 mod empty_cells;
 mod facet_pressure;
 mod ghost;
@@ -16,6 +17,7 @@ mod inertia;
 mod internal;
 mod pressure;
 mod rigid;
+mod rigid_pressure;
 mod smooth_pressure;
 mod smoothed;
 mod stiffness;
@@ -27,6 +29,7 @@ mod water_bond;
 
 pub use body_force::BodyForce;
 pub use contact::{Contact, answer as contact_answer};
+pub use drained_surface::DrainedSurface;
 pub use empty_cells::EmptyCells;
 pub use facet_pressure::FacetPressure;
 pub use ghost::GhostPenalty;
@@ -34,8 +37,9 @@ pub use ghost_inertia::{GhostInertia, MASS_PENALTY};
 pub use head::Head;
 pub use inertia::Inertia;
 pub use internal::{Internal, Share};
-pub use pressure::{Carried, PressureField, hats as pressure_hats};
+pub use pressure::{Carried, PressureField, excess_pressure, hats as pressure_hats};
 pub use rigid::{RigidInertia, RigidTraction, RigidWeight};
+pub use rigid_pressure::RigidPressure;
 pub use smooth_pressure::SmoothPressure;
 pub use surface_traction::{SurfaceLoad, SurfaceTraction};
 pub use traction::Traction;
@@ -110,6 +114,8 @@ pub struct Frame<'a, const D: usize> {
     pub clique: &'a [u32],
     /// The block of each node; `u32::MAX` for nodes left out.
     pub block: &'a [u32],
+    /// The clique of each rigid body: its reference and, where it turns, its turning node.
+    pub bodies: &'a [u32],
 }
 
 /// A trial state of the step.
@@ -281,6 +287,11 @@ pub trait Term<const D: usize>: Send + Sync {
     /// What a load of the term in a phase that begins meets nothing of, if it does.
     fn idle(&self, _frame: &Frame<D>, _displacement: &[[f64; D]], _phase: usize) -> Option<String> {
         None
+    }
+
+    /// Water (m³) that leaves the soil through it in the step to a converged state.
+    fn outflow(&self, _frame: &Frame<D>, _trial: &Trial<D>) -> f64 {
+        0.0
     }
 
     /// Whether the term couples cells across the faces of [`Frame::ghost`].

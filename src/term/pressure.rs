@@ -84,6 +84,15 @@ impl Carried {
     }
 }
 
+/// Excess pressure of the pore water (kPa, Cauchy, compression positive) at point `p` of soil of which a pressure field carries the share of
+/// the water, or that has a field for the water alone, or neither.
+pub fn excess_pressure<const D: usize>(carried: &[Option<Carried>], points: &Points<D>, p: usize) -> f64 {
+    match carried.get(points.model_of(p)).and_then(Option::as_ref) {
+        Some(share) if share.water > 0.0 && !points.pressure.is_empty() => share.pore_pressure(points, p),
+        _ => points.pore_pressure.get(p).copied().unwrap_or(0.0),
+    }
+}
+
 /// Elastic volume strain `½ ln det b` (-).
 fn volume_strain(elastic: &Symmetric) -> f64 {
     0.5 * full(elastic).determinant().ln()

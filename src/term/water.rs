@@ -32,7 +32,7 @@ use std::marker::PhantomData;
 use std::sync::Arc;
 
 /// Most corners of a cell.
-const MOST: usize = 4;
+pub(super) const MOST: usize = 4;
 
 /// Values of the hats of a cell at a point.
 type Hats = [f64; MOST];

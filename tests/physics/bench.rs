@@ -229,6 +229,7 @@ impl Bench {
             terms,
             quadrature: self.quadrature.unwrap_or_else(|| Box::new(Volumes::<K>::default())),
             pressure_unit: unit,
+            carried: Vec::new(),
             water,
             supports: self.supports,
             phases: vec![Phase {

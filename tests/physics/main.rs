@@ -5,6 +5,7 @@ mod bench;
 mod cantilever;
 mod column;
 mod ddmp;
+mod drained_surface;
 mod elements;
 mod fitted;
 mod general_position;

@@ -46,6 +46,7 @@ fn stand(law: Law, apart: f64) -> Stand<PlaneStrain> {
                 rounding: 0.5,
                 fading: 5e-3,
                 strength: 30.0,
+                water: 0.0,
             },
         };
         let clique = stand.grid.clique[cell as usize];

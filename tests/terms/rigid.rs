@@ -1,11 +1,12 @@
 //! Rigid bodies: what acts on their unknowns, and the tangents of that.
 
 use crate::loads::anywhere;
-use crate::stand::{Stand, mesh, points};
-use mpm::kinematics::PlaneStrain;
+use crate::stand::{KINDS, Stand, mesh, points};
+use mpm::kinematics::{Axisymmetric, Kinematics, PlaneStrain};
 use mpm::mesh::shape::CellKind;
 use mpm::rigid::Body;
-use mpm::term::{RigidInertia, RigidTraction, RigidWeight, Term};
+use mpm::step::Grid;
+use mpm::term::{Head, RigidInertia, RigidPressure, RigidTraction, RigidWeight, Term};
 use mpm::time_value::TimeValue;
 
 /// A body that has its unknowns at two nodes of the stand.
@@ -67,4 +68,67 @@ fn weight_and_traction_act_on_the_reference_point() {
     let arm = [cos * first[0] - sin * first[1], sin * first[0] + cos * first[1]];
     let moment = (arm[0] * -25.0 - arm[1] * 30.0) / 0.8;
     assert!((force[7][0] + moment).abs() < 1e-12 && force[7][1] == 0.0, "{:?} {moment}", force[7]);
+}
+
+/// All cells of the stand as one body under water, whose level passes through it or is high above.
+fn under_water<K: Kinematics<2>>(kind: CellKind, level: f64) -> Stand<K> {
+    let constant = TimeValue::Constant;
+    let head = Head { top: constant(2.0), gradient: constant(9.0), datum: constant(level), band: 0.2 };
+    let mesh = mesh(kind);
+    let body = Body { turning: (!K::HOOP).then_some(7), ..body() };
+    let term = Box::new(RigidPressure::<K>::new(&body, 0, &mesh, vec![Some(head), None]));
+    let points = points(&mesh, |_| true);
+    let mut stand = Stand::<K>::new(mesh, points, term, true, true);
+    stand.scene.bodies = vec![body];
+    stand.grid = Grid::new::<K>(&stand.scene, &stand.state).unwrap();
+    stand
+}
+
+/// The middle of the body (m), which is that of the stand, in the trial pose, and from its reference point.
+fn middle(stand: &Stand<impl Kinematics<2>>, trial: &[[f64; 2]]) -> [[f64; 2]; 2] {
+    let (nodes, body) = (&stand.scene.mesh.nodes, &stand.scene.bodies[0]);
+    let turned = body.turning.map_or(0.0, |_| (nodes[7][0] + trial[7][0] - nodes[3][0]) / body.arm);
+    let ((sin, cos), [x, y]) = (turned.sin_cos(), [3.0 - nodes[3][0], 0.75 - nodes[3][1]]);
+    let arm = [cos * x - sin * y, sin * x + cos * y];
+    [[0, 1].map(|d| nodes[3][d] + trial[3][d] + arm[d]), arm]
+}
+
+fn water_on_a_body<K: Kinematics<2>>() {
+    for kind in KINDS {
+        let anywhere_in_air = under_water::<K>(kind, -50.0);
+        let [[_, height], _] = middle(&anywhere_in_air, &anywhere(&anywhere_in_air).0);
+        for level in [height, 50.0] {
+            let mut stand = under_water::<K>(kind, level);
+            for alpha_f in [0.0, 0.4] {
+                stand.alpha_f = alpha_f;
+                let (trial, converged) = anywhere(&stand);
+                let error = stand.tangent_error(&trial, &converged);
+                assert!(error < 1e-6, "{kind:?}, {level}, {alpha_f}: {error:.1e}");
+                let asymmetry = stand.asymmetry(&trial, &converged);
+                assert!(asymmetry < 1e-12, "{kind:?}, {level}: {asymmetry:.1e}");
+                assert_eq!(stand.evaluate(&trial, &converged, 1, false).0[3], [0.0; 2]);
+            }
+        }
+    }
+}
+
+#[test]
+fn the_tangent_of_water_on_a_body_is_its_derivative_and_symmetric() {
+    water_on_a_body::<PlaneStrain>();
+    water_on_a_body::<Axisymmetric>();
+}
+
+/// Under water a body is as much lighter as the water that it displaces weighs, in any pose, at the middle of its volume.
+#[test]
+fn water_lifts_a_body_in_the_middle_of_its_volume() {
+    for kind in KINDS {
+        let stand = under_water::<PlaneStrain>(kind, 50.0);
+        let (trial, converged) = anywhere(&stand);
+        let force = stand.evaluate(&trial, &converged, 0, false).0;
+        let weight = 9.0 * 2.0 * 1.5;
+        assert!(force[3][0].abs() < 1e-11 * weight && (force[3][1] / -weight - 1.0).abs() < 1e-12, "{:?}", force[3]);
+        let [_, [lever, _]] = middle(&stand, &trial);
+        let moment = weight * lever / 0.8;
+        assert!((force[7][0] + moment).abs() < 1e-11 * weight && force[7][1] == 0.0, "{:?} {moment}", force[7]);
+    }
 }

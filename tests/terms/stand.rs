@@ -195,6 +195,7 @@ impl<K: Kinematics<2>> Stand<K> {
             faces: Some(faces),
             quadrature: Box::new(Volumes::<K>::default()),
             pressure_unit,
+            carried: Vec::new(),
             water,
             supports: Vec::new(),
             phases: vec![phase.clone(), phase],
@@ -331,6 +332,13 @@ impl<K: Kinematics<2>> Stand<K> {
         });
         let columns = columns.collect();
         (force, columns)
+    }
+
+    /// The water (m³) that the term says leaves through it.
+    pub fn outflow(&self, trial: &[[f64; 2]], converged: &[[f64; 2]]) -> f64 {
+        let at_rest = Trial::at_rest(trial, converged);
+        let trial = Trial { pressure: &self.pressure, flow_time: self.flow_time, ..at_rest };
+        self.term().outflow(&self.frame(), &trial)
     }
 
     /// Largest difference of the tangent from the central difference of the residual, relative to its largest

@@ -6,7 +6,8 @@ use mpm::material::Model;
 use mpm::mesh::shape::CellKind;
 use mpm::stencil::Scheme;
 use mpm::step::Water;
-use mpm::term::{Carried, Internal, PoreWater, Porous, PressureField, Term, WaterBond, WaterStiffness};
+use mpm::surface::{ActiveBoundary, Piece};
+use mpm::term::{Carried, DrainedSurface, Internal, PoreWater, Porous, PressureField, Term, WaterBond, WaterStiffness};
 use std::sync::Arc;
 
 const UNIT: f64 = 700.0;
@@ -112,4 +113,57 @@ fn the_bond_is_free_for_a_uniform_increment_and_its_tangent_the_derivative() {
         }
         assert!(stand.tangent_error(&rest, &rest) < 1e-6, "{kind:?}");
     }
+}
+
+/// A drained surface in every cell, through that and as a neighbour's, but for a wall and another region: its tangent, and that it lets out
+/// what the hats lose.
+fn a_surface_drains<K: Kinematics<2>>() {
+    for kind in KINDS {
+        let mesh = mesh(kind);
+        let mut points = points(&mesh, |_| true);
+        points.pore_pressure = vec![0.0; points.len()];
+        let cells = mesh.cells.len() as u32;
+        let soil = porous([3e-5, 1e-5]);
+        let term: Box<dyn Term<2>> = Box::new(DrainedSurface::<K>::new(soil.clone(), Some(3), UNIT, vec![true; 2]));
+        let water = Some(Water { porous: soil, alone: true, drained: Vec::new() });
+        let mut stand = Stand::<K>::with_water(Scheme::Mpm, mesh, points, term, false, true, Some(UNIT), water);
+        let piece = |cell: u32| {
+            let borne = if cell == 0 { [[1.1, -0.2], [0.4, 0.9]] } else { [[0.2, 0.1], [0.3, 0.6]] };
+            Piece {
+                cell,
+                ends: [[0.2, 0.1], [0.3, 0.6]],
+                wall: cell == 1,
+                region: 3 + u16::from(cell == 2),
+                bearer: cell,
+                borne,
+            }
+        };
+        stand.state.weighing.boundary =
+            ActiveBoundary { pieces: (0..cells).map(piece).collect(), first: vec![0, cells] };
+        let mut random = Random(9);
+        for pressure in &mut stand.pressure {
+            *pressure = 40.0 + 20.0 * random.next();
+        }
+        let converged = stand.field(0.02, 1, |[x, y]| [0.1 * x - 0.2 * y, 0.1 * x + 0.05 * y]);
+        let trial = stand.field(0.02, 2, |[x, y]| [0.12 * x - 0.3 * y, 0.3 * x - 0.1 * y]);
+        let (force, _) = stand.system(&trial, &stand.pressure, &converged, 0, false);
+        assert!(force.iter().all(|f| *f == 0.0), "{kind:?}: nothing flows in no time");
+        stand.flow_time = 1e4;
+        let error = stand.tangent_error(&trial, &converged);
+        assert!(error < 1e-8, "{kind:?}: {error:.1e}");
+        assert!(stand.asymmetry(&trial, &converged) < 1e-12, "{kind:?}");
+        let (force, _) = stand.system(&trial, &stand.pressure, &converged, 0, false);
+        let (lost, out) = (-force.iter().sum::<f64>() / UNIT, stand.outflow(&trial, &converged));
+        let nothing = |stand: &Stand<K>| stand.term().idle(&stand.frame(), &converged, 0);
+        assert_eq!(nothing(&stand), None);
+        stand.state.weighing.boundary.pieces.retain(|piece| piece.wall || piece.region != 3);
+        assert!(stand.outflow(&trial, &converged) == 0.0 && nothing(&stand).is_some(), "{kind:?}");
+        assert!(out.abs() > 1e-3 && (lost / out - 1.0).abs() < 1e-12, "{kind:?}: {lost} {out}");
+    }
+}
+
+#[test]
+fn a_surface_drains_symmetrically_what_the_hats_lose() {
+    a_surface_drains::<PlaneStrain>();
+    a_surface_drains::<Axisymmetric>();
 }

@@ -158,3 +158,38 @@ fn contradictions_about_rigid_structures_are_told() {
     refused(&["geometry=axisymmetric", "phases[0].prescribe={plate: {ux: {rate: 1}}}"], &["along the axis"]);
     refused(&["regions.plate.rigid=false", ALL], &["only a rigid structure turns"]);
 }
+
+/// A plate 2 m wide and 0.3 m high, half as heavy as water, whose base is at 0: it comes to float with 0.15 m in the water, and turned about
+/// its centroid it is brought back by `W sin θ (GM + ½ BM tan²θ)`, as a wall-sided body is. The rounded begin of the pressure widens the
+/// plane of the water, by the square of the size of cells.
+#[test]
+fn a_plate_floats_as_archimedes_says() {
+    let (width, draft, angle) = (2.0, 0.15, 0.01f64);
+    let weight = 10.0 * width * draft;
+    let metacentre = width * width / (12.0 * draft);
+    let lever = angle.sin() * (0.5 * draft + metacentre - 0.15 + 0.5 * metacentre * angle.tan().powi(2));
+    let off = [0.4, 0.2].map(|h| {
+        let mesh = format!("mesh.parameters={{width: 4, plate: 2, left: 1, depth: 1, h: {h}, hp: {h}}}");
+        let rows = history(
+            PLATE,
+            &[
+                "regions.plate.rigid=true",
+                "materials.plate.density=0.5",
+                "contacts=[]",
+                "gravity={y: -10}",
+                "initial_stress={k0: 1}",
+                "water={level: 0.2, unit_weight: 10}",
+                &mesh,
+                ALL,
+                "phases=[{name: rest, analysis: quasi_static, duration: 1, step: {initial: 1}, \
+                    prescribe: {plate: {ux: 0, rotation: 0}}}, \
+                    {name: turn, analysis: quasi_static, duration: 1, step: {initial: 0.5}, \
+                    prescribe: {plate: {ux: 0, rotation: {rate: 0.01}}}}]",
+            ],
+        );
+        assert!(rows.iter().all(|row| (row[2] - (0.2 - draft)).abs() < 1e-7), "{rows:?}");
+        rows.last().unwrap()[6] / (weight * lever) - 1.0
+    });
+    println!("moment beside that of a wall-sided body, cells of 0.4 and 0.2 m: {off:?}");
+    assert!(off[1].abs() < 2e-3 && (off[0] / off[1] / 4.0 - 1.0).abs() < 0.3, "{off:?}");
+}

@@ -20,6 +20,7 @@ fn scene<K: Kinematics<2>>(kind: CellKind) -> Scene<2> {
         locator: Locator::new(&mesh),
         faces: Some(Faces::of(&mesh)),
         pressure_unit: None,
+        carried: Vec::new(),
         water: None,
         mesh,
         terms: Vec::new(),

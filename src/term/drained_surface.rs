@@ -1,0 +1,208 @@
+//! The active boundary as one that drains: no excess pressure of the pore water on it, wherever it runs through the cells.
+//!
+//! Nitsche's method, on the pieces of the boundary as the step begins, as the flow in the pores is ([`super::PoreWater`]), `n` outwards:
+//!
+//! ```text
+//! R_p −= Δt ∫ { −L n·κ∇p − p n·κ∇L + β L p } dS,    β = γ n·κn |Γ|/V
+//! ```
+//!
+//! over the hats `L`. The first part is the flow that leaves, the second makes the system symmetric, the third holds the pressure at
+//! zero. `|Γ|` is the boundary that a cell bears and `V` what its points weigh: the flow through a cell however it is cut then stays
+//! less than what it loses, where `∇p` is one in all of the cell and γ above 1 (Dolbow & Harari 2009). What leaves through all of
+//! it is `Δt ∫ (−n·κ∇p + β p) dS`. Walls are tight.
+
+use super::water::{self, Porous};
+use super::{Assembly, Frame, Term, Trial};
+use crate::error::Result;
+use crate::kinematics::Kinematics;
+use crate::mesh::shape::{CellKind, MAX_NODES, rule};
+use crate::surface::{NO_REGION, Piece};
+use crate::system::{Local, scatter};
+use std::marker::PhantomData;
+
+/// γ (-): twice what is needed in triangles, more where gradients vary within a cell.
+const GAMMA: f64 = 2.0;
+const GAMMA_OF_QUADRANGLES: f64 = 4.0;
+
+/// Pressures of the corners of a cell.
+type Corners = [f64; water::MOST];
+
+/// The active boundary of porous soil, drained while water flows.
+pub struct DrainedSurface<K> {
+    /// The porous soil of each material by number; `None` without water.
+    porous: Vec<Option<Porous>>,
+    /// The region whose surface drains; all where `None`.
+    region: Option<u16>,
+    /// What a unit of the unknowns stands for (kPa/m).
+    unit: f64,
+    /// Whether water flows in each phase.
+    flows: Vec<bool>,
+    kinematics: PhantomData<K>,
+}
+
+/// A place of a piece as the step begins.
+struct Place {
+    hats: Corners,
+    /// `∇L` (1/m).
+    gradients: [[f64; 2]; water::MOST],
+    /// Outwards, as long as the piece by its parameter (m), with the measure of the place.
+    normal: [f64; 2],
+    area: f64,
+}
+
+/// The cell that bears a piece.
+struct Bearer {
+    kind: CellKind,
+    /// Its nodes (m) as the step begins.
+    nodes: [[f64; 2]; MAX_NODES],
+    /// `k/γ_w` (m²/(kPa s)) of its points in the mean.
+    mobility: [f64; 2],
+    /// β over `n·κn` (1/m).
+    hold: f64,
+}
+
+impl Bearer {
+    fn place<K: Kinematics<2>>(&self, piece: &Piece, s: f64) -> Place {
+        let (xi, [a, b]) = (piece.borne_at(s), piece.borne);
+        let (mut n, mut slopes) = ([0.0; MAX_NODES], [[0.0; 3]; MAX_NODES]);
+        self.kind.values(&xi, &mut n);
+        self.kind.derivatives(&xi, &mut slopes);
+        // ∂x/∂ξ.
+        let (mut x, mut by) = ([0.0; 2], [[0.0; 2]; 2]);
+        for (i, node) in self.nodes.iter().enumerate() {
+            for d in 0..2 {
+                x[d] += n[i] * node[d];
+                for e in 0..2 {
+                    by[d][e] += slopes[i][e] * node[d];
+                }
+            }
+        }
+        let determinant = by[0][0] * by[1][1] - by[0][1] * by[1][0];
+        let hats_by = [0, 1].map(|e| water::corner_hats(self.kind, &slopes.map(|slope| slope[e])));
+        let gradients = std::array::from_fn(|a| {
+            let [s, t] = [hats_by[0][a], hats_by[1][a]];
+            [(by[1][1] * s - by[1][0] * t) / determinant, (by[0][0] * t - by[0][1] * s) / determinant]
+        });
+        let way = [b[0] - a[0], b[1] - a[1]];
+        let along = [0, 1].map(|d| by[d][0] * way[0] + by[d][1] * way[1]);
+        let measure = K::measure(&x);
+        let normal = [measure * along[1], -measure * along[0]];
+        Place { hats: water::corner_hats(self.kind, &n), gradients, normal, area: normal[0].hypot(normal[1]) }
+    }
+}
+
+impl<K: Kinematics<2>> DrainedSurface<K> {
+    /// `porous[m]` is the soil of material `m`, `unit` that of [`crate::step::Scene`]; water `flows` in some phases.
+    pub fn new(porous: Vec<Option<Porous>>, region: Option<u16>, unit: f64, flows: Vec<bool>) -> Self {
+        Self { porous, region, unit, flows, kinematics: PhantomData }
+    }
+
+    fn drains(&self, piece: &Piece) -> bool {
+        !piece.wall && self.region.map_or(piece.region != NO_REGION, |region| region == piece.region)
+    }
+
+    /// What bears a piece; `None` where that has no water.
+    fn bearer(&self, frame: &Frame<2>, converged: &[[f64; 2]], piece: &Piece) -> Option<Bearer> {
+        let patch = frame.stencil.patches.binary_search_by_key(&piece.bearer, |patch| patch.cell).ok()?;
+        let (mut volume, mut mobility) = (0.0, [0.0; 2]);
+        for entries in frame.stencil.entries::<K>(&frame.stencil.patches[patch]) {
+            let p = entries.point;
+            if let Some(soil) = self.porous.get(frame.points.model_of(p)).and_then(Option::as_ref) {
+                let weight = entries.weight * frame.points.deformation[p].determinant();
+                volume += weight;
+                mobility = [0, 1].map(|d| mobility[d] + weight * soil.mobility[d]);
+            }
+        }
+        if volume <= 0.0 || mobility == [0.0; 2] {
+            return None;
+        }
+        let kind = frame.mesh.cells.kind[piece.bearer as usize];
+        let mut nodes = [[0.0; 2]; MAX_NODES];
+        for (x, &n) in nodes.iter_mut().zip(frame.mesh.cells.nodes(piece.bearer as usize)) {
+            *x = [0, 1].map(|d| frame.mesh.nodes[n as usize][d] + converged[n as usize][d]);
+        }
+        let mut bearer = Bearer { kind, nodes, mobility: mobility.map(|sum| sum / volume), hold: 0.0 };
+        let same = frame.boundary.iter().filter(|other| other.bearer == piece.bearer && self.drains(other));
+        let area: f64 = same.map(|other| bearer.place::<K>(other, 0.5).area).sum();
+        bearer.hold = area / volume * if kind.is_simplex() { GAMMA } else { GAMMA_OF_QUADRANGLES };
+        Some(bearer)
+    }
+
+    /// Calls `see` with the hats at each place of a piece and, over the time and the part of the piece that it stands for, their flow
+    /// outwards `−n·κ∇L` and β (m³/kPa).
+    fn visit(&self, frame: &Frame<2>, trial: &Trial<2>, piece: &Piece, mut see: impl FnMut(&Corners, &Corners, f64)) {
+        let Some(bearer) = self.bearer(frame, trial.converged, piece) else { return };
+        for (xi, weight) in rule(CellKind::Line2, 3) {
+            let Place { hats, gradients, normal, area } = bearer.place::<K>(piece, 0.5 * (1.0 + xi[0]));
+            let [kx, ky] = bearer.mobility;
+            let weight = 0.5 * weight * trial.flow_time;
+            let flow = gradients.map(|g| -weight * (kx * g[0] * normal[0] + ky * g[1] * normal[1]));
+            let through = (kx * normal[0] * normal[0] + ky * normal[1] * normal[1]) / area.max(f64::MIN_POSITIVE);
+            see(&hats, &flow, weight * bearer.hold * through);
+        }
+    }
+
+    fn pressures(frame: &Frame<2>, trial: &Trial<2>, piece: &Piece) -> (usize, Corners) {
+        let corners = frame.mesh.cells.kind[piece.bearer as usize].corner_count();
+        let mut pressure = [0.0; water::MOST];
+        for (p, &n) in pressure.iter_mut().zip(&frame.mesh.cells.nodes(piece.bearer as usize)[..corners]) {
+            *p = trial.pressure[frame.water + n as usize];
+        }
+        (corners, pressure)
+    }
+
+    fn add(&self, frame: &Frame<2>, trial: &Trial<2>, piece: &Piece, local: &mut Local) {
+        let (corners, pressure) = Self::pressures(frame, trial, piece);
+        let begin = 2 * frame.mesh.cells.nodes(piece.bearer as usize).len();
+        let scale = (1.0 - trial.alpha_f) * self.unit;
+        self.visit(frame, trial, piece, |hats, flow, hold| {
+            let held = |a: usize, b: usize| hats[a] * flow[b] + flow[a] * hats[b] + hold * hats[a] * hats[b];
+            for a in 0..corners {
+                let sum: f64 = (0..corners).map(|b| held(a, b) * pressure[b]).sum();
+                local.vector[begin + a] -= scale * sum;
+            }
+            if local.matrix.is_empty() {
+                return;
+            }
+            for a in 0..corners {
+                for b in 0..corners {
+                    local.matrix[(begin + a) * local.size + begin + b] -= scale * self.unit * held(a, b);
+                }
+            }
+        });
+    }
+}
+
+impl<K: Kinematics<2>> Term<2> for DrainedSurface<K> {
+    fn assemble(&self, frame: &Frame<2>, trial: &Trial<2>, out: &mut Assembly) -> Result<()> {
+        if trial.flow_time == 0.0 {
+            return Ok(());
+        }
+        let compute = |piece: &Piece, local: &mut Local| {
+            if self.drains(piece) {
+                self.add(frame, trial, piece, local);
+            }
+            Ok(())
+        };
+        let clique = |piece: &Piece| frame.clique[piece.bearer as usize] as usize;
+        scatter(frame.pattern, frame.boundary, clique, compute, out.force, out.tangent.as_deref_mut(), out.workspace)
+    }
+
+    fn idle(&self, frame: &Frame<2>, displacement: &[[f64; 2]], phase: usize) -> Option<String> {
+        let drains = |piece: &Piece| self.drains(piece) && self.bearer(frame, displacement, piece).is_some();
+        let idle = self.flows.get(phase) == Some(&true) && !frame.boundary.iter().any(drains);
+        idle.then(|| {
+            "no free surface of soil with a permeability is there to drain: where soil lies on the boundary of the mesh it is tight".into()
+        })
+    }
+
+    fn outflow(&self, frame: &Frame<2>, trial: &Trial<2>) -> f64 {
+        let mut sum = 0.0;
+        for piece in frame.boundary.iter().filter(|piece| self.drains(piece)) {
+            let (_, pressure) = Self::pressures(frame, trial, piece);
+            let dot = |a: &Corners| a.iter().zip(&pressure).map(|(a, p)| a * p).sum::<f64>();
+            self.visit(frame, trial, piece, |hats, flow, hold| sum += dot(flow) + hold * dot(hats));
+        }
+        sum
+    }
+}

@@ -1,0 +1,125 @@
+//! The pressure of water on a rigid body: `−∫ p n dS` over its boundary in the trial pose, and the moment of that about the reference point.
+//!
+//! The boundary turns with the body, its normals too. It is closed, so that the pressure has a potential and the tangent is symmetric.
+
+use super::facet_pressure::integrate;
+use super::head::Head;
+use super::{Assembly, Frame, Role, Term, Trial};
+use crate::error::Result;
+use crate::kinematics::Kinematics;
+use crate::mesh::Mesh;
+use crate::mesh::faces::Faces;
+use crate::rigid::{Body, Pose, across};
+use crate::system::{Local, scatter};
+use std::f64::consts::TAU;
+use std::marker::PhantomData;
+
+/// The nodes (m) of a facet, ends and then the middle, and how many there are.
+type Facet = ([[f64; 2]; 3], usize);
+
+/// Water on a rigid body.
+pub struct RigidPressure<K> {
+    body: Body<2>,
+    /// Its number in the scene.
+    number: usize,
+    /// Where the reference point was when the run began.
+    origin: [f64; 2],
+    heads: Vec<Option<Head>>,
+    /// The boundary when the run began, from the reference point.
+    facets: Vec<Facet>,
+    kinematics: PhantomData<K>,
+}
+
+fn dot(a: &[f64; 2], b: &[f64; 2]) -> f64 {
+    a[0] * b[0] + a[1] * b[1]
+}
+
+impl<K> RigidPressure<K> {
+    /// `heads[i]` acts in phase `i` on the body with that `number` in the scene, whose cells are in `mesh` as the run begins.
+    pub fn new(body: &Body<2>, number: usize, mesh: &Mesh<2>, heads: Vec<Option<Head>>) -> Self {
+        let origin = mesh.nodes[body.reference as usize];
+        let own = mesh.part(|c| mesh.cells.region[c] == body.region);
+        let facet = |(c, side): (u32, u8)| {
+            let nodes = own.cells.nodes(c as usize);
+            let of_facet = own.cells.kind[c as usize].facets().1[side as usize];
+            let mut x = [[0.0; 2]; 3];
+            for (x, &i) in x.iter_mut().zip(of_facet) {
+                *x = [0, 1].map(|d| own.nodes[nodes[i] as usize][d] - origin[d]);
+            }
+            (x, of_facet.len())
+        };
+        let facets = Faces::of(&own).boundary.into_iter().map(facet).collect();
+        Self { body: body.clone(), number, origin, heads, facets, kinematics: PhantomData }
+    }
+}
+
+impl<K: Kinematics<2>> RigidPressure<K> {
+    /// Adds force and moment, and their tangent: `x = c + R(θ) r` and `n = R(θ) n₀`.
+    fn add(&self, head: &Head, trial: &Trial<2>, pose: &Pose<2>, local: &mut Local) {
+        let head = head.at(trial.time);
+        let centre = [0, 1].map(|d| self.origin[d] + pose.moved[d]);
+        let (share, turns) = (1.0 - trial.alpha_f, self.body.turning.is_some());
+        for (from, count) in &self.facets {
+            let x = from.map(|from| {
+                let arm = pose.turn(&from);
+                [centre[0] + arm[0], centre[1] + arm[1]]
+            });
+            integrate(&x[..*count], &head.breaks(), |place| {
+                let [p, growth, _] = head.at(place.x[1]);
+                let (measure, by_radius) = (K::measure(&place.x), if K::HOOP { TAU } else { 0.0 });
+                let arm = [0, 1].map(|d| place.x[d] - centre[d]);
+                let weighed = place.normal.map(|n| place.weight * n);
+                let force = weighed.map(|n| p * measure * n);
+                let [_, moment] = self.body.hand_on(&arm, &force);
+                local.vector[0] += force[0];
+                local.vector[1] += force[1];
+                if turns {
+                    local.vector[2] += moment[0];
+                }
+                if local.matrix.is_empty() {
+                    return;
+                }
+                // By the place, and by the arc along which the body turns.
+                let by_x = weighed.map(|n| [p * by_radius * n, growth * measure * n]);
+                let way = across(&arm).map(|d| d / self.body.arm);
+                let turned = across(&force).map(|f| f / self.body.arm);
+                let by_arc = [0, 1].map(|d| dot(&by_x[d], &way) + turned[d]);
+                let size = local.size;
+                for d in 0..2 {
+                    for e in 0..2 {
+                        local.matrix[d * size + e] += share * by_x[d][e];
+                    }
+                    if turns {
+                        local.matrix[d * size + 2] += share * by_arc[d];
+                        local.matrix[2 * size + d] += share * (way[0] * by_x[0][d] + way[1] * by_x[1][d]);
+                    }
+                }
+                if turns {
+                    let bent = dot(&force, &arm) / self.body.arm.powi(2);
+                    local.matrix[2 * size + 2] += share * (dot(&way, &by_arc) - bent);
+                }
+            });
+        }
+    }
+}
+
+impl<K: Kinematics<2>> Term<2> for RigidPressure<K> {
+    fn role(&self) -> Role {
+        Role::External
+    }
+
+    fn assemble(&self, frame: &Frame<2>, trial: &Trial<2>, out: &mut Assembly) -> Result<()> {
+        let Some(head) = self.heads.get(trial.phase).and_then(Option::as_ref) else { return Ok(()) };
+        let travel = |n: u32| {
+            let (from, by) = (&frame.mesh.nodes[n as usize], &trial.between[n as usize]);
+            [0, 1].map(|d| from[d] + by[d] - self.origin[d])
+        };
+        let pose = self.body.pose(travel);
+        let compute = |_: &usize, local: &mut Local| {
+            self.add(head, trial, &pose, local);
+            Ok(())
+        };
+        let clique = |&number: &usize| frame.bodies[number] as usize;
+        scatter(frame.pattern, &[self.number], clique, compute, out.force, out.tangent.as_deref_mut(), out.workspace)
+    }
+}
