@@ -24,6 +24,14 @@ const MOST_DAMPING: f64 = 0.2;
 const ASTRAY: i32 = 3;
 /// Full steps that may raise the residual before the iteration returns to its best state.
 const WATCH: usize = 3;
+/// Share of the residual from which on a full step may have gone too far, and of the work that it may leave.
+const WORTH: f64 = 0.25;
+const LEVEL: f64 = 0.5;
+/// States looked at for a length that leaves less work, and the least share of a bracket that the next goes into it.
+const LEVELS: usize = 5;
+const INWARDS: f64 = 0.1;
+/// Directions from a guess that hold hats together.
+const HELD: usize = 3;
 /// Largest relative residual that the linear systems of an iteration are solved to.
 const LOOSEST: f64 = 1e-3;
 /// A residual this small relative to the forces that balance is rounding.
@@ -75,6 +83,8 @@ pub struct Buffers<const D: usize> {
     trial: Evaluation<D>,
     best: Unknowns<D>,
     delta: Vec<f64>,
+    /// What `delta` balances in the linear system (kN).
+    wanted: Vec<f64>,
     gap: Vec<f64>,
     fixed: Vec<bool>,
     /// The equations whose diagonal is raised where steps go astray: those of nodes that no structure has. Empty
@@ -84,6 +94,8 @@ pub struct Buffers<const D: usize> {
     own: Vec<f64>,
     between: Vec<[f64; D]>,
     acceleration: Vec<[f64; D]>,
+    /// As [`Trial::held`].
+    held: bool,
 }
 
 /// A state and its residual.
@@ -132,6 +144,8 @@ struct Newton<'a, const D: usize> {
     /// Whether every iteration must lessen the residual: set when full steps have failed to.
     strict: bool,
     stalled: usize,
+    /// Length of the last trial step, in those of `δ`.
+    length: f64,
     /// Share by which the diagonal of the tangent is raised: not zero while its steps go astray.
     damping: f64,
     /// Why the last trial state that was not admissible is not.
@@ -159,6 +173,7 @@ impl<'a, const D: usize> Newton<'a, D> {
             // Hats touch or part on the way of a full step, and what follows is no better for it.
             strict: !problem.scene.pairs.is_empty() && problem.integration.is_none(),
             stalled: 0,
+            length: 0.0,
             damping: 0.0,
             refused: None,
         }
@@ -166,7 +181,6 @@ impl<'a, const D: usize> Newton<'a, D> {
 
     fn solve(&mut self) -> Result<Solution<D>> {
         self.begin()?;
-        self.note();
         while !self.converged() {
             self.direction()?;
             self.search()?;
@@ -187,12 +201,41 @@ impl<'a, const D: usize> Newton<'a, D> {
     fn begin(&mut self) -> Result<()> {
         if let Some(guess) = self.problem.guess {
             self.buffers.now.at.set(guess, self.problem.pressure);
-            if self.evaluate(true).is_ok() {
+            if self.set_out().is_ok() {
                 return Ok(());
             }
+            self.history.clear();
+            self.buffers.held = false;
             self.buffers.now.at.set(self.problem.converged, self.problem.pressure);
+            self.buffers.best.clone_from(&self.buffers.now.at);
+            (self.target, self.damping, self.stalled) = (f64::INFINITY, 0.0, 0);
         }
-        self.evaluate(true)
+        self.evaluate(true)?;
+        self.note();
+        Ok(())
+    }
+
+    /// The first iterations from a guess. It leaves hats a little apart that bear in the end; nothing holds the soil beneath
+    /// them then, and what the tangent says flies through the structure. The directions hold such hats
+    /// together until one is worth its full length.
+    fn set_out(&mut self) -> Result<()> {
+        self.evaluate(false)?;
+        self.note();
+        for _ in 0..HELD {
+            if self.converged() {
+                break;
+            }
+            let size = self.size(&self.buffers.now);
+            self.buffers.held = true;
+            self.direction()?;
+            self.buffers.held = false;
+            self.target = self.target.max(size);
+            self.search()?;
+            if self.length == 1.0 {
+                break;
+            }
+        }
+        Ok(())
     }
 
     /// The residual of the state at hand, and its tangent where wanted.
@@ -236,7 +279,7 @@ impl<'a, const D: usize> Newton<'a, D> {
             self.evaluate(true)?;
         }
         self.tangent = false;
-        let Buffers { now, delta, gap, fixed, damped, .. } = &mut self.buffers;
+        let Buffers { now, delta, wanted, gap, fixed, damped, .. } = &mut self.buffers;
         delta.clear();
         delta.extend(now.force.iter().map(|r| -r));
         if self.damping > 0.0 && damped.is_empty() {
@@ -252,6 +295,7 @@ impl<'a, const D: usize> Newton<'a, D> {
             // Displacements still to be given unbalance the system beyond the residual at hand.
             self.target = norm_free(delta, fixed);
         }
+        wanted.clone_from(delta);
         let (pattern, matrix) = (&motion.pattern, &motion.matrix);
         self.method = if matrix.beyond.is_empty() {
             motion.solver.solve(pattern, matrix, delta)?
@@ -271,11 +315,17 @@ impl<'a, const D: usize> Newton<'a, D> {
 
     /// Goes along `δ`. A full step is taken even if the residual grows, for a few iterations on trial:
     /// bending structures converge so, and only so. If that does not pay, the iteration returns to its best
-    /// state and from then on backtracks until the residual falls (a watchdog, Chamberlain et al. 1982).
+    /// state and from then on backtracks until the residual falls (a watchdog, Chamberlain et al. 1982). A step that lessens
+    /// the residual little and goes beyond where it does no more work is shortened to about there (Matthies & Strang 1979):
+    /// where soil yields or hats part, iterations would else go to and fro.
     fn search(&mut self) -> Result<()> {
         let with_tangent = !self.near_the_end();
         if let Some(size) = self.attempt(1.0, with_tangent) {
-            if self.better(size, 1.0) {
+            let better = self.better(size, 1.0);
+            if (better || self.strict) && size > WORTH * self.target && self.too_far() {
+                return if self.level() { Ok(()) } else { self.backtrack() };
+            }
+            if better {
                 self.damping = if self.damping > LEAST_DAMPING { 0.1 * self.damping } else { 0.0 };
                 self.accept(with_tangent);
                 return Ok(());
@@ -294,6 +344,45 @@ impl<'a, const D: usize> Newton<'a, D> {
             return Ok(());
         }
         self.backtrack()
+    }
+
+    /// The work (kJ) of a force along `δ`, that of what is given and of pressures left out.
+    fn work(&self, force: &[f64]) -> f64 {
+        let of_nodes = D * self.grid.node.len();
+        let each = force.iter().zip(&self.buffers.delta).zip(&self.buffers.fixed).take(of_nodes);
+        each.map(|((f, d), fixed)| if *fixed { 0.0 } else { f * d }).sum()
+    }
+
+    /// Whether the residual does work against the rest of the way at the trial state.
+    fn too_far(&self) -> bool {
+        let before = self.work(&self.buffers.wanted);
+        before > 0.0 && self.work(&self.buffers.trial.force) > LEVEL * before
+    }
+
+    /// Shortens the full step to where the residual does little work along `δ`, by regula falsi with halved ends
+    /// (Dowell & Jarratt 1971); false where that does not lessen the residual.
+    fn level(&mut self) -> bool {
+        let first = -self.work(&self.buffers.wanted);
+        let (mut low, mut high) = ((0.0, first), (1.0, self.work(&self.buffers.trial.force)));
+        for _ in 0..LEVELS {
+            let (whole, root) = (high.0 - low.0, low.1 / (low.1 - high.1));
+            let length = low.0 + whole * root.clamp(INWARDS, 1.0 - INWARDS);
+            let Some(size) = self.attempt(length, false) else { return false };
+            let work = self.work(&self.buffers.trial.force);
+            if work.abs() <= -LEVEL * first {
+                let better = self.better(size, length);
+                if better {
+                    self.accept(false);
+                }
+                return better;
+            }
+            if work < 0.0 {
+                (low, high.1) = ((length, work), 0.5 * high.1);
+            } else {
+                (high, low.1) = ((length, work), 0.5 * low.1);
+            }
+        }
+        false
     }
 
     /// Raises the diagonal more from here on; false where it is raised enough.
@@ -345,6 +434,7 @@ impl<'a, const D: usize> Newton<'a, D> {
 
     /// The residual (kN) of the trial state at a step length, if it is admissible.
     fn attempt(&mut self, length: f64, tangent: bool) -> Option<f64> {
+        self.length = length;
         let mut trial = std::mem::take(&mut self.buffers.trial);
         trial.at.clone_from(&self.buffers.now.at);
         trial.at.advance(self.problem, self.grid, &self.buffers.delta, length);
@@ -445,6 +535,7 @@ pub fn static_force<const D: usize>(problem: &Problem<D>, grid: &mut Grid<D>) ->
         phase: problem.phase,
         time: problem.from,
         reduction: problem.scene.phases[problem.phase].reduction_at(problem.from),
+        held: false,
         per_second: 0.0,
     };
     let (mut own, mut sum) = (Vec::new(), Evaluation::default());
@@ -463,7 +554,7 @@ fn evaluate<const D: usize>(
     tangent: bool,
 ) -> Result<()> {
     let at = std::mem::take(&mut state.at);
-    let Buffers { own, between, acceleration, .. } = buffers;
+    let Buffers { own, between, acceleration, held, .. } = buffers;
     let u = &at.displacement;
     if let Some(integration) = &problem.integration {
         blend(u, problem.converged, integration.alpha_f, between);
@@ -484,6 +575,7 @@ fn evaluate<const D: usize>(
         phase: problem.phase,
         time: (1.0 - alpha_f) * problem.to + alpha_f * problem.from,
         reduction: problem.scene.phases[problem.phase].reduction_at(problem.to),
+        held: *held,
         per_second: 1.0 / (problem.to - problem.from),
     };
     let result = timed(Activity::Assembly, || {

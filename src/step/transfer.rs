@@ -156,6 +156,7 @@ pub fn commit<const D: usize>(
         phase: state.phase,
         time: state.phase_time,
         reduction: scene.phases[state.phase].reduction_at(state.phase_time + dt),
+        held: false,
         per_second: 1.0 / ((state.phase_time + dt) - state.phase_time),
     };
     let of = |terms: &[Box<dyn Term<D>>], frame: &Frame<D>| {
