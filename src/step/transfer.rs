@@ -3,9 +3,10 @@
 //! To the grid by consistent mass, `Σ_p m_p N_I N_J v_J = Σ_p m_p N_I v_p`: it keeps linear and angular momentum
 //! and a linear velocity field exactly. To the points by increments of velocity (FLIP) and values of acceleration.
 
+use super::balance::static_force;
 use super::grid::{Family, Grid};
 use super::mass::Mass;
-use super::newton::{Problem, Solution, static_force};
+use super::newton::{Problem, Solution};
 use super::rigid;
 use super::scene::Scene;
 use super::state::State;

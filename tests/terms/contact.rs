@@ -78,7 +78,11 @@ fn the_tangent_is_the_derivative() {
 #[test]
 fn hats_that_touched_are_held_together() {
     for law in [law(0.0, 0.0, None), law(0.3, 2.0, Some(0.3)), law(0.0, 0.0, Some(0.5))] {
-        let held = || Stand { held: true, ..stand(law, 10.0) };
+        let held = || {
+            let mut stand = stand(law, 10.0);
+            stand.held = true;
+            stand
+        };
         let (trial, converged) = anywhere(&held());
         let answer = |stand: &Stand<PlaneStrain>| stand.evaluate(&trial, &converged, 0, false).0;
         let bonded = stand(Law { separates: false, ..law }, 10.0);
