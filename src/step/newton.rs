@@ -16,6 +16,8 @@ use crate::time_integration::GeneralisedAlpha;
 const HELD: usize = 3;
 /// Largest relative residual that the linear systems of an iteration are solved to.
 const LOOSEST: f64 = 1e-3;
+/// Share of what a direction balances from which on displacements still to be given count.
+const DUE: f64 = 1e-3;
 /// A residual this small relative to the forces that balance is rounding.
 const ROUNDING: f64 = 1e-14;
 
@@ -111,6 +113,8 @@ struct Newton<'a, const D: usize> {
     /// Whether every iteration must lessen the residual: set when full steps have failed to.
     strict: bool,
     stalled: usize,
+    /// Whether displacements still to be given have a share in what the direction balances.
+    due: bool,
     /// Length of the last trial step, in those of `δ`.
     length: f64,
     /// Share by which the diagonal of the tangent is raised: not zero while its steps go astray.
@@ -140,6 +144,7 @@ impl<'a, const D: usize> Newton<'a, D> {
             // Hats touch or part on the way of a full step, and what follows is no better for it.
             strict: !problem.scene.pairs.is_empty() && problem.integration.is_none(),
             stalled: 0,
+            due: false,
             length: 0.0,
             damping: 0.0,
             refused: None,
@@ -171,7 +176,6 @@ impl<'a, const D: usize> Newton<'a, D> {
             if self.set_out().is_ok() {
                 return Ok(());
             }
-            self.history.clear();
             self.buffers.held = false;
             self.buffers.now.at.set(self.problem.converged, self.problem.pressure);
             self.buffers.best.clone_from(&self.buffers.now.at);
@@ -188,16 +192,21 @@ impl<'a, const D: usize> Newton<'a, D> {
     fn set_out(&mut self) -> Result<()> {
         self.evaluate(false)?;
         self.note();
+        let mut size = self.size(&self.buffers.now);
         for _ in 0..HELD {
+            let noted = self.history.len();
             if self.converged() {
                 break;
             }
-            let size = self.size(&self.buffers.now);
             self.buffers.held = true;
             self.direction()?;
             self.buffers.held = false;
-            self.target = self.target.max(size);
+            // The residual that is to fall is the true one.
+            self.target = if self.due { self.target.max(size) } else { size };
             self.search()?;
+            if self.history.len() > noted {
+                size = self.size(&self.buffers.now);
+            }
             if self.length == 1.0 {
                 break;
             }
@@ -258,11 +267,14 @@ impl<'a, const D: usize> Newton<'a, D> {
         }
         let diagonal = motion.matrix.scale(&motion.pattern);
         motion.matrix.constrain(&motion.pattern, fixed, gap, diagonal, delta);
-        if self.target.is_infinite() {
-            // Displacements still to be given unbalance the system beyond the residual at hand.
-            self.target = norm_free(delta, fixed);
-        }
         wanted.clone_from(delta);
+        // Displacements still to be given unbalance the system beyond the residual at hand.
+        let beyond = wanted.iter().zip(&now.force).zip(&*fixed).map(|((w, f), fixed)| if *fixed { 0.0 } else { w + f });
+        let whole = norm_free(wanted, fixed);
+        self.due = beyond.map(|b| b * b).sum::<f64>().sqrt() > DUE * whole;
+        if self.target.is_infinite() || self.due {
+            self.target = whole;
+        }
         let (pattern, matrix) = (&motion.pattern, &motion.matrix);
         self.method = if matrix.beyond.is_empty() {
             motion.solver.solve(pattern, matrix, delta)?

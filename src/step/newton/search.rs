@@ -41,10 +41,11 @@ impl<const D: usize> Newton<'_, D> {
         let with_tangent = !self.near_the_end();
         if let Some(size) = self.attempt(1.0, with_tangent) {
             let better = self.better(size, 1.0);
-            if (better || self.strict) && size > WORTH * self.target && self.too_far() {
-                return if self.level() { Ok(()) } else { self.backtrack() };
+            let far = (self.strict || better && self.relaxed == 0) && self.too_far(size);
+            if far && self.level() {
+                return Ok(());
             }
-            if better {
+            if better && (!far || self.attempt(1.0, with_tangent).is_some()) {
                 self.damping = if self.damping > LEAST_DAMPING { 0.1 * self.damping } else { 0.0 };
                 self.accept(with_tangent);
                 return Ok(());
@@ -72,10 +73,12 @@ impl<const D: usize> Newton<'_, D> {
         each.map(|((f, d), fixed)| if *fixed { 0.0 } else { f * d }).sum()
     }
 
-    /// Whether the residual does work against the rest of the way at the trial state.
-    fn too_far(&self) -> bool {
+    /// Whether the residual of the full step, of this size (kN), does work against the rest of the way, and is worth another.
+    fn too_far(&self, size: f64) -> bool {
+        let done = self.problem.scene.numerics.tolerance * self.buffers.trial.scale.max(self.floor);
         let before = self.work(&self.buffers.wanted);
-        before > 0.0 && self.work(&self.buffers.trial.force) > LEVEL * before
+        let worth = size > done && size > WORTH * self.target && !self.due;
+        worth && before > 0.0 && self.work(&self.buffers.trial.force) > LEVEL * before
     }
 
     /// Shortens the full step to where the residual does little work along `δ`, by regula falsi with halved ends
@@ -83,6 +86,7 @@ impl<const D: usize> Newton<'_, D> {
     fn level(&mut self) -> bool {
         let first = -self.work(&self.buffers.wanted);
         let (mut low, mut high) = ((0.0, first), (1.0, self.work(&self.buffers.trial.force)));
+        let mut below = None;
         for _ in 0..LEVELS {
             let (whole, root) = (high.0 - low.0, low.1 / (low.1 - high.1));
             let length = low.0 + whole * root.clamp(INWARDS, 1.0 - INWARDS);
@@ -91,15 +95,21 @@ impl<const D: usize> Newton<'_, D> {
             if work.abs() <= -LEVEL * first {
                 let better = self.better(size, length);
                 if better {
+                    self.stalled = 0;
                     self.accept(false);
                 }
                 return better;
             }
+            // An end that stays a second time weighs half.
+            let again = below == Some(work < 0.0);
             if work < 0.0 {
-                (low, high.1) = ((length, work), 0.5 * high.1);
+                low = (length, work);
+                high.1 *= if again { 0.5 } else { 1.0 };
             } else {
-                (high, low.1) = ((length, work), 0.5 * low.1);
+                high = (length, work);
+                low.1 *= if again { 0.5 } else { 1.0 };
             }
+            below = Some(work < 0.0);
         }
         false
     }
