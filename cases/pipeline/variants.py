@@ -32,7 +32,7 @@ VARIANTS = {
     | {"phases[1].prescribe": "{pipe: {ux: 0}}", "phases[2].prescribe": "{pipe: {ux: {rate: 1}}}"},
     "half-step": {
         "phases[0].step": "{initial: 0.001, max: 0.002, min: 1.0e-6}",
-        "phases[2].step": "{initial: 0.001, max: 0.01, min: 1.0e-6}",
+        "phases[2].step": "{initial: 0.001, max: 0.005, min: 1.0e-6}",
     },
     "coarse": {"mesh.parameters.h": 0.14},
 }

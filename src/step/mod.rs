@@ -4,6 +4,7 @@
 //! points on it and maps their motion to its nodes. *Lagrange* solves the equations of motion on the grid,
 //! implicitly. *Convect* moves the points with the grid and hands them its motion and the converged state.
 
+mod balance;
 mod contact;
 mod control;
 mod distortion;

@@ -1,31 +1,23 @@
-//! Newton's method for one step, with a backtracking line search.
+//! Newton's method for one step.
 
+mod search;
+
+use super::balance::{Evaluation, evaluate};
 use super::grid::{Family, Grid};
 use super::scene::Scene;
 use super::state::State;
 use super::unknowns::Unknowns;
 use crate::error::{Error, Result};
-use crate::profile::{Activity, timed};
 use crate::stencil::cell_size;
 use crate::system::Method;
-use crate::term::{Assembly, Role, Trial};
 use crate::time_integration::GeneralisedAlpha;
 
-/// Sufficient decrease of the residual for a step length `s`: by a factor `1 − ARMIJO · s`.
-const ARMIJO: f64 = 1e-4;
-/// Halvings of the step length before the best one is taken.
-const BACKTRACKS: i32 = 6;
-/// Line searches that may end without a decrease before the step is given up.
-const STALLED: usize = 4;
-/// Shares by which the diagonal of the tangent is raised where its steps go astray (Levenberg 1944).
-const LEAST_DAMPING: f64 = 1e-4;
-const MOST_DAMPING: f64 = 0.2;
-/// Halvings of an accepted step length from which its tangent is not to be trusted so far.
-const ASTRAY: i32 = 3;
-/// Full steps that may raise the residual before the iteration returns to its best state.
-const WATCH: usize = 3;
+/// Directions from a guess that hold hats together.
+const HELD: usize = 3;
 /// Largest relative residual that the linear systems of an iteration are solved to.
 const LOOSEST: f64 = 1e-3;
+/// Share of what a direction balances from which on displacements still to be given count.
+const DUE: f64 = 1e-3;
 /// A residual this small relative to the forces that balance is rounding.
 const ROUNDING: f64 = 1e-14;
 
@@ -75,30 +67,19 @@ pub struct Buffers<const D: usize> {
     trial: Evaluation<D>,
     best: Unknowns<D>,
     delta: Vec<f64>,
+    /// What `delta` balances in the linear system (kN).
+    wanted: Vec<f64>,
     gap: Vec<f64>,
     fixed: Vec<bool>,
     /// The equations whose diagonal is raised where steps go astray: those of nodes that no structure has. Empty
     /// until then.
     damped: Vec<bool>,
     /// The residual of one term.
-    own: Vec<f64>,
-    between: Vec<[f64; D]>,
-    acceleration: Vec<[f64; D]>,
-}
-
-/// A state and its residual.
-struct Evaluation<const D: usize> {
-    at: Unknowns<D>,
-    force: Vec<f64>,
-    applied: [f64; D],
-    /// Norm of the largest term on the displacements: what the residual is measured against.
-    scale: f64,
-}
-
-impl<const D: usize> Default for Evaluation<D> {
-    fn default() -> Self {
-        Self { at: Unknowns::default(), force: Vec::new(), applied: [0.0; D], scale: 0.0 }
-    }
+    pub own: Vec<f64>,
+    pub between: Vec<[f64; D]>,
+    pub acceleration: Vec<[f64; D]>,
+    /// As [`crate::term::Trial::held`].
+    pub held: bool,
 }
 
 /// Solves a step.
@@ -132,6 +113,10 @@ struct Newton<'a, const D: usize> {
     /// Whether every iteration must lessen the residual: set when full steps have failed to.
     strict: bool,
     stalled: usize,
+    /// Whether displacements still to be given have a share in what the direction balances.
+    due: bool,
+    /// Length of the last trial step, in those of `δ`.
+    length: f64,
     /// Share by which the diagonal of the tangent is raised: not zero while its steps go astray.
     damping: f64,
     /// Why the last trial state that was not admissible is not.
@@ -159,6 +144,8 @@ impl<'a, const D: usize> Newton<'a, D> {
             // Hats touch or part on the way of a full step, and what follows is no better for it.
             strict: !problem.scene.pairs.is_empty() && problem.integration.is_none(),
             stalled: 0,
+            due: false,
+            length: 0.0,
             damping: 0.0,
             refused: None,
         }
@@ -166,7 +153,6 @@ impl<'a, const D: usize> Newton<'a, D> {
 
     fn solve(&mut self) -> Result<Solution<D>> {
         self.begin()?;
-        self.note();
         while !self.converged() {
             self.direction()?;
             self.search()?;
@@ -187,12 +173,45 @@ impl<'a, const D: usize> Newton<'a, D> {
     fn begin(&mut self) -> Result<()> {
         if let Some(guess) = self.problem.guess {
             self.buffers.now.at.set(guess, self.problem.pressure);
-            if self.evaluate(true).is_ok() {
+            if self.set_out().is_ok() {
                 return Ok(());
             }
+            self.buffers.held = false;
             self.buffers.now.at.set(self.problem.converged, self.problem.pressure);
+            self.buffers.best.clone_from(&self.buffers.now.at);
+            (self.target, self.damping, self.stalled) = (f64::INFINITY, 0.0, 0);
         }
-        self.evaluate(true)
+        self.evaluate(true)?;
+        self.note();
+        Ok(())
+    }
+
+    /// The first iterations from a guess. It leaves hats a little apart that bear in the end; nothing holds the soil beneath
+    /// them then, and what the tangent says flies through the structure. The directions hold such hats
+    /// together until one is worth its full length.
+    fn set_out(&mut self) -> Result<()> {
+        self.evaluate(false)?;
+        self.note();
+        let mut size = self.size(&self.buffers.now);
+        for _ in 0..HELD {
+            let noted = self.history.len();
+            if self.converged() {
+                break;
+            }
+            self.buffers.held = true;
+            self.direction()?;
+            self.buffers.held = false;
+            // The residual that is to fall is the true one.
+            self.target = if self.due { self.target.max(size) } else { size };
+            self.search()?;
+            if self.history.len() > noted {
+                size = self.size(&self.buffers.now);
+            }
+            if self.length == 1.0 {
+                break;
+            }
+        }
+        Ok(())
     }
 
     /// The residual of the state at hand, and its tangent where wanted.
@@ -236,7 +255,7 @@ impl<'a, const D: usize> Newton<'a, D> {
             self.evaluate(true)?;
         }
         self.tangent = false;
-        let Buffers { now, delta, gap, fixed, damped, .. } = &mut self.buffers;
+        let Buffers { now, delta, wanted, gap, fixed, damped, .. } = &mut self.buffers;
         delta.clear();
         delta.extend(now.force.iter().map(|r| -r));
         if self.damping > 0.0 && damped.is_empty() {
@@ -248,9 +267,13 @@ impl<'a, const D: usize> Newton<'a, D> {
         }
         let diagonal = motion.matrix.scale(&motion.pattern);
         motion.matrix.constrain(&motion.pattern, fixed, gap, diagonal, delta);
-        if self.target.is_infinite() {
-            // Displacements still to be given unbalance the system beyond the residual at hand.
-            self.target = norm_free(delta, fixed);
+        wanted.clone_from(delta);
+        // Displacements still to be given unbalance the system beyond the residual at hand.
+        let beyond = wanted.iter().zip(&now.force).zip(&*fixed).map(|((w, f), fixed)| if *fixed { 0.0 } else { w + f });
+        let whole = norm_free(wanted, fixed);
+        self.due = beyond.map(|b| b * b).sum::<f64>().sqrt() > DUE * whole;
+        if self.target.is_infinite() || self.due {
+            self.target = whole;
         }
         let (pattern, matrix) = (&motion.pattern, &motion.matrix);
         self.method = if matrix.beyond.is_empty() {
@@ -260,123 +283,6 @@ impl<'a, const D: usize> Newton<'a, D> {
             motion.solver.solve_beyond(pattern, matrix, tolerance, delta)?
         };
         Ok(())
-    }
-
-    /// Whether the next full step will end the iteration, if it converges as the last ones did: its tangent is then
-    /// not worth its time.
-    fn near_the_end(&self) -> bool {
-        let [.., before, last] = self.history[..] else { return false };
-        last < before && last * (last / before).powi(2) < self.tolerance()
-    }
-
-    /// Goes along `δ`. A full step is taken even if the residual grows, for a few iterations on trial:
-    /// bending structures converge so, and only so. If that does not pay, the iteration returns to its best
-    /// state and from then on backtracks until the residual falls (a watchdog, Chamberlain et al. 1982).
-    fn search(&mut self) -> Result<()> {
-        let with_tangent = !self.near_the_end();
-        if let Some(size) = self.attempt(1.0, with_tangent) {
-            if self.better(size, 1.0) {
-                self.damping = if self.damping > LEAST_DAMPING { 0.1 * self.damping } else { 0.0 };
-                self.accept(with_tangent);
-                return Ok(());
-            }
-            if !self.strict && self.relaxed < WATCH {
-                self.relaxed += 1;
-                self.take(with_tangent);
-                return Ok(());
-            }
-        }
-        if !self.strict && self.relaxed > 0 {
-            self.strict = true;
-            self.buffers.now.at.clone_from(&self.buffers.best);
-            self.evaluate(true)?;
-            self.note();
-            return Ok(());
-        }
-        self.backtrack()
-    }
-
-    /// Raises the diagonal more from here on; false where it is raised enough.
-    fn dampen(&mut self) -> bool {
-        let more = (10.0 * self.damping).max(LEAST_DAMPING);
-        let can = more <= MOST_DAMPING;
-        if can {
-            self.damping = more;
-        }
-        can
-    }
-
-    /// Halves the step length until the residual falls; takes the least one a few times where it never does.
-    fn backtrack(&mut self) -> Result<()> {
-        let mut least: Option<(f64, f64)> = None;
-        for halvings in 1..=BACKTRACKS {
-            let length = 0.5f64.powi(halvings);
-            if let Some(size) = self.attempt(length, false) {
-                if self.better(size, length) {
-                    self.stalled = 0;
-                    if halvings >= ASTRAY {
-                        self.dampen();
-                    }
-                    self.accept(false);
-                    return Ok(());
-                }
-                if least.is_none_or(|(other, _)| size < other) {
-                    least = Some((size, length));
-                }
-            }
-        }
-        // A direction that leads nowhere at any length: the next, from the same state, is shorter and turned downhill.
-        if self.dampen() {
-            return Ok(());
-        }
-        let Some((_, length)) = least else {
-            let why = self.refused.take().map_or("no trial state is admissible".to_string(), |error| {
-                format!("no trial state is admissible: {} {}", error.place, error.problem)
-            });
-            return Err(self.failure(&why));
-        };
-        self.stalled += 1;
-        if self.stalled <= STALLED && self.attempt(length, true).is_some() {
-            self.accept(true);
-            return Ok(());
-        }
-        Err(self.failure("the line search finds no smaller residual"))
-    }
-
-    /// The residual (kN) of the trial state at a step length, if it is admissible.
-    fn attempt(&mut self, length: f64, tangent: bool) -> Option<f64> {
-        let mut trial = std::mem::take(&mut self.buffers.trial);
-        trial.at.clone_from(&self.buffers.now.at);
-        trial.at.advance(self.problem, self.grid, &self.buffers.delta, length);
-        let done = evaluate(self.problem, self.grid, &mut self.buffers, &mut trial, tangent);
-        let size = self.size(&trial);
-        self.buffers.trial = trial;
-        match done {
-            Ok(()) => size.is_finite().then_some(size),
-            Err(error) => {
-                self.refused = Some(error);
-                None
-            }
-        }
-    }
-
-    fn better(&self, size: f64, length: f64) -> bool {
-        size <= (1.0 - ARMIJO * length) * self.target || size <= self.problem.scene.numerics.tolerance * self.floor
-    }
-
-    /// Makes the trial state the one at hand; `tangent` where the matrix of the grid is its tangent.
-    fn take(&mut self, tangent: bool) {
-        let Buffers { now, trial, .. } = &mut self.buffers;
-        std::mem::swap(now, trial);
-        self.tangent = tangent;
-        self.note();
-    }
-
-    fn accept(&mut self, tangent: bool) {
-        self.take(tangent);
-        let Buffers { now, best, .. } = &mut self.buffers;
-        best.clone_from(&now.at);
-        (self.target, self.relaxed) = (self.size(&self.buffers.now), 0);
     }
 
     fn failure(&self, why: &str) -> Error {
@@ -427,148 +333,6 @@ fn floor<const D: usize>(problem: &Problem<D>, grid: &Grid<D>) -> f64 {
     1e-6 * problem.scene.stiffness_scale * side * (problem.given.len() as f64).sqrt()
 }
 
-/// The sum of all terms but inertia at the last converged step.
-///
-/// # Errors
-/// When the converged state is inadmissible on the restored grid.
-pub fn static_force<const D: usize>(problem: &Problem<D>, grid: &mut Grid<D>) -> Result<Vec<f64>> {
-    let trial = Trial {
-        displacement: problem.converged,
-        between: problem.converged,
-        alpha_f: 0.0,
-        converged: problem.converged,
-        pressure: problem.pressure,
-        converged_pressure: problem.pressure,
-        flow_time: 0.0,
-        acceleration: &[],
-        acceleration_slope: 0.0,
-        phase: problem.phase,
-        time: problem.from,
-        reduction: problem.scene.phases[problem.phase].reduction_at(problem.from),
-        per_second: 0.0,
-    };
-    let (mut own, mut sum) = (Vec::new(), Evaluation::default());
-    timed(Activity::Assembly, || {
-        add_terms(problem, grid, &trial, false, &|role| role != Role::Inertia, &mut own, &mut sum)
-    })?;
-    Ok(sum.force)
-}
-
-/// The residual of a state at the end of the step and, where wanted, the tangent in the matrix of the grid.
-fn evaluate<const D: usize>(
-    problem: &Problem<D>,
-    grid: &mut Grid<D>,
-    buffers: &mut Buffers<D>,
-    state: &mut Evaluation<D>,
-    tangent: bool,
-) -> Result<()> {
-    let at = std::mem::take(&mut state.at);
-    let Buffers { own, between, acceleration, .. } = buffers;
-    let u = &at.displacement;
-    if let Some(integration) = &problem.integration {
-        blend(u, problem.converged, integration.alpha_f, between);
-        weighted_acceleration(problem, integration, u, acceleration);
-    }
-    let dynamic = problem.integration.is_some();
-    let alpha_f = problem.integration.map_or(0.0, |i| i.alpha_f);
-    let trial = Trial {
-        displacement: u,
-        between: if dynamic { between } else { u },
-        alpha_f,
-        converged: problem.converged,
-        pressure: &at.pressure,
-        converged_pressure: problem.pressure,
-        flow_time: problem.flow_time,
-        acceleration,
-        acceleration_slope: problem.integration.map_or(0.0, |i| i.slope()),
-        phase: problem.phase,
-        time: (1.0 - alpha_f) * problem.to + alpha_f * problem.from,
-        reduction: problem.scene.phases[problem.phase].reduction_at(problem.to),
-        per_second: 1.0 / (problem.to - problem.from),
-    };
-    let result = timed(Activity::Assembly, || {
-        add_terms(problem, grid, &trial, tangent, &|role| dynamic || role != Role::Inertia, own, state)
-    });
-    state.at = at;
-    result
-}
-
-/// Adds up the terms of the wanted roles.
-fn add_terms<const D: usize>(
-    problem: &Problem<D>,
-    grid: &mut Grid<D>,
-    trial: &Trial<D>,
-    tangent: bool,
-    wanted: &dyn Fn(Role) -> bool,
-    own: &mut Vec<f64>,
-    sum: &mut Evaluation<D>,
-) -> Result<()> {
-    let mut workspace = std::mem::take(&mut grid.workspace);
-    let mut matrix = std::mem::take(&mut grid.motion.matrix);
-    if tangent {
-        matrix.clear();
-    }
-    let scene = problem.scene;
-    let (equations, of_nodes) = (grid.motion.pattern.len(), D * grid.node.len());
-    sum.force.clear();
-    sum.force.resize(equations, 0.0);
-    (sum.applied, sum.scale) = ([0.0; D], 0.0);
-    own.resize(equations, 0.0);
-    let soil = grid.frame(&scene.mesh, problem.state);
-    let elements = grid.elements.as_ref().map(|elements| grid.frame_of_elements(scene, elements, problem.state));
-    let of_elements = scene.fem.iter().flat_map(|fem| &fem.terms).zip(elements.iter().cycle());
-    let terms = scene.terms.iter().map(|term| (term, &soil)).chain(of_elements);
-    let mut result = Ok(());
-    for (term, frame) in terms.filter(|(term, _)| wanted(term.role())) {
-        own.fill(0.0);
-        let mut out = Assembly { force: own, tangent: tangent.then_some(&mut matrix), workspace: &mut workspace };
-        result = term.assemble(frame, trial, &mut out);
-        if result.is_err() {
-            break;
-        }
-        sum.scale = sum.scale.max(norm(&own[..of_nodes]));
-        for (f, o) in sum.force.iter_mut().zip(own.iter()) {
-            *f += o;
-        }
-        if term.role() == Role::External {
-            // What turns a body is a moment.
-            let forces =
-                own[..of_nodes].chunks_exact(D).zip(&grid.node).filter(|(_, n)| scene.turned_by(**n).is_none());
-            for (force, _) in forces {
-                for (applied, f) in sum.applied.iter_mut().zip(force) {
-                    *applied -= f;
-                }
-            }
-        }
-    }
-    grid.workspace = workspace;
-    grid.motion.matrix = matrix;
-    result
-}
-
-/// `(1 − α) u + α u_n`.
-fn blend<const D: usize>(u: &[[f64; D]], converged: &[[f64; D]], alpha: f64, out: &mut Vec<[f64; D]>) {
-    let one = |(u, c): (&[f64; D], &[f64; D])| std::array::from_fn(|d| (1.0 - alpha) * u[d] + alpha * c[d]);
-    out.clear();
-    out.extend(u.iter().zip(converged).map(one));
-}
-
-fn weighted_acceleration<const D: usize>(
-    problem: &Problem<D>,
-    integration: &GeneralisedAlpha,
-    u: &[[f64; D]],
-    out: &mut Vec<[f64; D]>,
-) {
-    let at = |n: usize| {
-        std::array::from_fn(|d| {
-            let (v, a) = (problem.velocity[n][d], problem.acceleration[n][d]);
-            integration.weighted(a, integration.acceleration(u[n][d] - problem.converged[n][d], v, a))
-        })
-    };
-    out.clear();
-    out.extend((0..u.len()).map(at));
-}
-
 /// What is missing to the given displacements and pore pressures, in the unit of the unknowns, one entry an equation.
 fn gaps<const D: usize>(problem: &Problem<D>, grid: &Grid<D>, at: &Unknowns<D>, out: &mut Vec<f64>) {
     let of_nodes = D * grid.node.len();
@@ -585,10 +349,6 @@ fn gaps<const D: usize>(problem: &Problem<D>, grid: &Grid<D>, at: &Unknowns<D>, 
     };
     out.clear();
     out.extend(problem.given.iter().enumerate().map(gap));
-}
-
-fn norm(x: &[f64]) -> f64 {
-    x.iter().map(|x| x * x).sum::<f64>().sqrt()
 }
 
 fn norm_free(x: &[f64], fixed: &[bool]) -> f64 {

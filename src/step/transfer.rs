@@ -3,9 +3,10 @@
 //! To the grid by consistent mass, `Σ_p m_p N_I N_J v_J = Σ_p m_p N_I v_p`: it keeps linear and angular momentum
 //! and a linear velocity field exactly. To the points by increments of velocity (FLIP) and values of acceleration.
 
+use super::balance::static_force;
 use super::grid::{Family, Grid};
 use super::mass::Mass;
-use super::newton::{Problem, Solution, static_force};
+use super::newton::{Problem, Solution};
 use super::rigid;
 use super::scene::Scene;
 use super::state::State;
@@ -156,6 +157,7 @@ pub fn commit<const D: usize>(
         phase: state.phase,
         time: state.phase_time,
         reduction: scene.phases[state.phase].reduction_at(state.phase_time + dt),
+        held: false,
         per_second: 1.0 / ((state.phase_time + dt) - state.phase_time),
     };
     let of = |terms: &[Box<dyn Term<D>>], frame: &Frame<D>| {

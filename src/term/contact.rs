@@ -29,7 +29,10 @@ pub fn answer<const D: usize>(law: &Law, touch: &Touch<D>, trial: &Trial<D>) -> 
         std::array::from_fn(|d| now[d] - before[d])
     };
     let (gap, slip) = touch.row.measure(since);
-    (law.reduced(trial.reduction).respond(&touch.row.penalty, gap, slip), gap, slip)
+    let law = law.reduced(trial.reduction);
+    let held = trial.held && touch.row.penalty.pressure > 0.0;
+    let law = Law { separates: law.separates && !held, ..law };
+    (law.respond(&touch.row.penalty, gap, slip), gap, slip)
 }
 
 impl<const D: usize> Term<D> for Contact {

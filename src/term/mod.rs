@@ -144,6 +144,8 @@ pub struct Trial<'a, const D: usize> {
     pub time: f64,
     /// What strengths are divided by (-) at the end of the step.
     pub reduction: f64,
+    /// Whether hats that touched in the step before do so here, pressed or pulled.
+    pub held: bool,
     /// One over the size of the step (1/s), for strength that depends on the rate of strain.
     pub per_second: f64,
 }
@@ -164,6 +166,7 @@ impl<'a, const D: usize> Trial<'a, D> {
             phase: 0,
             time: 0.0,
             reduction: 1.0,
+            held: false,
             per_second: 0.0,
         }
     }

@@ -74,6 +74,29 @@ fn the_tangent_is_the_derivative() {
     }
 }
 
+/// Held together, hats that pressed bear what those that cannot part bear, with its tangent; others do as ever.
+#[test]
+fn hats_that_touched_are_held_together() {
+    for law in [law(0.0, 0.0, None), law(0.3, 2.0, Some(0.3)), law(0.0, 0.0, Some(0.5))] {
+        let held = || {
+            let mut stand = stand(law, 10.0);
+            stand.held = true;
+            stand
+        };
+        let (trial, converged) = anywhere(&held());
+        let answer = |stand: &Stand<PlaneStrain>| stand.evaluate(&trial, &converged, 0, false).0;
+        let bonded = stand(Law { separates: false, ..law }, 10.0);
+        assert_eq!(answer(&held()), answer(&bonded));
+        assert_ne!(answer(&held()), answer(&stand(law, 10.0)));
+        assert!(held().tangent_error(&trial, &converged) < 1e-6, "{law:?}");
+        let [mut strange, mut free] = [held(), stand(law, 10.0)];
+        for touch in strange.grid.touches.iter_mut().chain(&mut free.grid.touches) {
+            touch.row.penalty.pressure = 0.0;
+        }
+        assert_eq!(answer(&strange), answer(&free));
+    }
+}
+
 #[test]
 fn what_the_soil_bears_the_structure_gives() {
     let stand = stand(law(0.4, 0.0, None), -1e-3);

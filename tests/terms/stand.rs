@@ -112,6 +112,8 @@ pub struct Stand<K> {
     pub alpha_f: f64,
     /// Time (s) that water flows for in them.
     pub flow_time: f64,
+    /// Whether hats that touched before are held together in them.
+    pub held: bool,
     /// The pressure field of the trial states, in the unknowns of the state, and the one before.
     pub pressure: Vec<f64>,
     pub converged_pressure: Vec<f64>,
@@ -218,6 +220,7 @@ impl<K: Kinematics<2>> Stand<K> {
             scene,
             alpha_f: 0.0,
             flow_time: 0.0,
+            held: false,
             converged_pressure: state.pressure.clone(),
             pressure: state.pressure.clone(),
             grid,
@@ -315,6 +318,7 @@ impl<K: Kinematics<2>> Stand<K> {
             phase,
             time: 0.5,
             reduction: 1.0,
+            held: self.held,
             per_second: 0.0,
         };
         let mut force = vec![0.0; frame.pattern.len()];

@@ -1,0 +1,172 @@
+//! The balance of a step: the sum of the terms of the scene, and its tangent, at a trial state.
+
+use super::grid::Grid;
+use super::newton::{Buffers, Problem};
+use super::unknowns::Unknowns;
+use crate::error::Result;
+use crate::profile::{Activity, timed};
+use crate::term::{Assembly, Role, Trial};
+use crate::time_integration::GeneralisedAlpha;
+
+/// A state and its residual.
+pub struct Evaluation<const D: usize> {
+    pub at: Unknowns<D>,
+    pub force: Vec<f64>,
+    pub applied: [f64; D],
+    /// Norm of the largest term on the displacements: what the residual is measured against.
+    pub scale: f64,
+}
+
+impl<const D: usize> Default for Evaluation<D> {
+    fn default() -> Self {
+        Self { at: Unknowns::default(), force: Vec::new(), applied: [0.0; D], scale: 0.0 }
+    }
+}
+
+/// The sum of all terms but inertia at the last converged step.
+///
+/// # Errors
+/// When the converged state is inadmissible on the restored grid.
+pub fn static_force<const D: usize>(problem: &Problem<D>, grid: &mut Grid<D>) -> Result<Vec<f64>> {
+    let trial = Trial {
+        displacement: problem.converged,
+        between: problem.converged,
+        alpha_f: 0.0,
+        converged: problem.converged,
+        pressure: problem.pressure,
+        converged_pressure: problem.pressure,
+        flow_time: 0.0,
+        acceleration: &[],
+        acceleration_slope: 0.0,
+        phase: problem.phase,
+        time: problem.from,
+        reduction: problem.scene.phases[problem.phase].reduction_at(problem.from),
+        held: false,
+        per_second: 0.0,
+    };
+    let (mut own, mut sum) = (Vec::new(), Evaluation::default());
+    timed(Activity::Assembly, || {
+        add_terms(problem, grid, &trial, false, &|role| role != Role::Inertia, &mut own, &mut sum)
+    })?;
+    Ok(sum.force)
+}
+
+/// The residual of a state at the end of the step and, where wanted, the tangent in the matrix of the grid.
+pub fn evaluate<const D: usize>(
+    problem: &Problem<D>,
+    grid: &mut Grid<D>,
+    buffers: &mut Buffers<D>,
+    state: &mut Evaluation<D>,
+    tangent: bool,
+) -> Result<()> {
+    let at = std::mem::take(&mut state.at);
+    let Buffers { own, between, acceleration, held, .. } = buffers;
+    let u = &at.displacement;
+    if let Some(integration) = &problem.integration {
+        blend(u, problem.converged, integration.alpha_f, between);
+        weighted_acceleration(problem, integration, u, acceleration);
+    }
+    let dynamic = problem.integration.is_some();
+    let alpha_f = problem.integration.map_or(0.0, |i| i.alpha_f);
+    let trial = Trial {
+        displacement: u,
+        between: if dynamic { between } else { u },
+        alpha_f,
+        converged: problem.converged,
+        pressure: &at.pressure,
+        converged_pressure: problem.pressure,
+        flow_time: problem.flow_time,
+        acceleration,
+        acceleration_slope: problem.integration.map_or(0.0, |i| i.slope()),
+        phase: problem.phase,
+        time: (1.0 - alpha_f) * problem.to + alpha_f * problem.from,
+        reduction: problem.scene.phases[problem.phase].reduction_at(problem.to),
+        held: *held,
+        per_second: 1.0 / (problem.to - problem.from),
+    };
+    let result = timed(Activity::Assembly, || {
+        add_terms(problem, grid, &trial, tangent, &|role| dynamic || role != Role::Inertia, own, state)
+    });
+    state.at = at;
+    result
+}
+
+/// Adds up the terms of the wanted roles.
+fn add_terms<const D: usize>(
+    problem: &Problem<D>,
+    grid: &mut Grid<D>,
+    trial: &Trial<D>,
+    tangent: bool,
+    wanted: &dyn Fn(Role) -> bool,
+    own: &mut Vec<f64>,
+    sum: &mut Evaluation<D>,
+) -> Result<()> {
+    let mut workspace = std::mem::take(&mut grid.workspace);
+    let mut matrix = std::mem::take(&mut grid.motion.matrix);
+    if tangent {
+        matrix.clear();
+    }
+    let scene = problem.scene;
+    let (equations, of_nodes) = (grid.motion.pattern.len(), D * grid.node.len());
+    sum.force.clear();
+    sum.force.resize(equations, 0.0);
+    (sum.applied, sum.scale) = ([0.0; D], 0.0);
+    own.resize(equations, 0.0);
+    let soil = grid.frame(&scene.mesh, problem.state);
+    let elements = grid.elements.as_ref().map(|elements| grid.frame_of_elements(scene, elements, problem.state));
+    let of_elements = scene.fem.iter().flat_map(|fem| &fem.terms).zip(elements.iter().cycle());
+    let terms = scene.terms.iter().map(|term| (term, &soil)).chain(of_elements);
+    let mut result = Ok(());
+    for (term, frame) in terms.filter(|(term, _)| wanted(term.role())) {
+        own.fill(0.0);
+        let mut out = Assembly { force: own, tangent: tangent.then_some(&mut matrix), workspace: &mut workspace };
+        result = term.assemble(frame, trial, &mut out);
+        if result.is_err() {
+            break;
+        }
+        sum.scale = sum.scale.max(norm(&own[..of_nodes]));
+        for (f, o) in sum.force.iter_mut().zip(own.iter()) {
+            *f += o;
+        }
+        if term.role() == Role::External {
+            // What turns a body is a moment.
+            let forces =
+                own[..of_nodes].chunks_exact(D).zip(&grid.node).filter(|(_, n)| scene.turned_by(**n).is_none());
+            for (force, _) in forces {
+                for (applied, f) in sum.applied.iter_mut().zip(force) {
+                    *applied -= f;
+                }
+            }
+        }
+    }
+    grid.workspace = workspace;
+    grid.motion.matrix = matrix;
+    result
+}
+
+/// `(1 − α) u + α u_n`.
+fn blend<const D: usize>(u: &[[f64; D]], converged: &[[f64; D]], alpha: f64, out: &mut Vec<[f64; D]>) {
+    let one = |(u, c): (&[f64; D], &[f64; D])| std::array::from_fn(|d| (1.0 - alpha) * u[d] + alpha * c[d]);
+    out.clear();
+    out.extend(u.iter().zip(converged).map(one));
+}
+
+fn weighted_acceleration<const D: usize>(
+    problem: &Problem<D>,
+    integration: &GeneralisedAlpha,
+    u: &[[f64; D]],
+    out: &mut Vec<[f64; D]>,
+) {
+    let at = |n: usize| {
+        std::array::from_fn(|d| {
+            let (v, a) = (problem.velocity[n][d], problem.acceleration[n][d]);
+            integration.weighted(a, integration.acceleration(u[n][d] - problem.converged[n][d], v, a))
+        })
+    };
+    out.clear();
+    out.extend((0..u.len()).map(at));
+}
+
+fn norm(x: &[f64]) -> f64 {
+    x.iter().map(|x| x * x).sum::<f64>().sqrt()
+}
