@@ -22,7 +22,10 @@ VARIANTS = {
         "materials.clay.remoulded": 0.3,
         "materials.clay.ductility": 10,
     },
-    "joined": {"contacts[0].tension": "no_separation"},
+    "joined": {
+        "contacts[0].tension": "no_separation",
+        "phases[0].step": "{initial: 0.001, max: 0.002, min: 1.0e-6}",
+    },
     "rigid": RIGID
     | {
         "phases[1].prescribe": "{pipe: {ux: 0, rotation: 0}}",
