@@ -37,13 +37,7 @@ impl Checker {
             (Some(name), None) => {
                 self.region_of(file, name, &[RegionKind::Structure], &path.key("structure")).map(Touching::Structure)
             }
-            (None, Some(curve)) => {
-                if contact.against.is_some() {
-                    let remedy = "name a region of kind mpm as `soil`, or make the wall a rigid structure";
-                    self.issue(&path.key("against"), At::Key, "a wall is one for soil only", remedy);
-                }
-                Some(Touching::Wall(curve.clone()))
-            }
+            (None, Some(curve)) => Some(Touching::Wall(curve.clone())),
             (structure, _) => {
                 let what = if structure.is_some() { "both a structure and a wall" } else { "no structure" };
                 let remedy = "add `structure: …`, a region of kind structure, or `wall: …`, a physical curve";

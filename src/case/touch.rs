@@ -99,20 +99,33 @@ impl Parts<'_> {
         Ok(Boundary { structure, surface, law: contact.law, regions, models, skin, kinematics: PhantomData })
     }
 
-    /// The hats are as far apart as the coarser of the boundaries that can give way has its nodes.
-    fn on_body<K: Kinematics<2>>(&self, contact: &Contact, against: usize) -> Result<Bodies<K>> {
-        let Touching::Structure(structure) = contact.structure else {
-            return Err(self.no_cells(contact, "the wall"));
+    /// The hats are as far apart as the coarser of the boundaries that can give way has its nodes. Against a wall they are the body's.
+    fn on_body<K: Kinematics<2>>(&self, contact: &Contact, body: usize) -> Result<Bodies<K>> {
+        let sides = match &contact.structure {
+            Touching::Structure(structure) => vec![*structure, body],
+            Touching::Wall(_) => vec![body],
         };
-        let sides = [structure, against];
         let soft = sides.iter().filter(|&&region| !self.case.regions[region].content.is_rigid());
         let soft: Vec<usize> = if soft.clone().next().is_some() { soft.copied().collect() } else { sides.to_vec() };
         let edges = soft.iter().map(|&region| Ok(size(self.fem, &[self.region(region)?])));
         let edges = edges.collect::<Result<Option<Vec<f64>>>>()?;
         let edge = edges.and_then(|edges| edges.into_iter().reduce(f64::max));
         let spacing = HATS * edge.ok_or_else(|| self.no_cells(contact, "a region"))?;
-        let [structure, against] = [self.region(sides[0])?, self.region(sides[1])?];
+        let structure = self.region(sides[0])?;
         let surface = self.boundary(structure, spacing)?;
+        let (against, other) = match &contact.structure {
+            Touching::Structure(_) => {
+                let against = self.region(body)?;
+                (against, self.boundary(against, spacing)?)
+            }
+            Touching::Wall(curve) => {
+                let wall = region_index(self.grid, curve)?;
+                let wall = self.bodies.iter().find(|body| body.region == wall);
+                let wall = wall.ok_or_else(|| self.no_cells(contact, "the wall"))?;
+                let (kind, facets) = wall::facets(self.fem, wall, &[structure])?;
+                (wall.region, Surface::of(self.fem, kind, facets, spacing))
+            }
+        };
         let (mut height, mut count) = (0.0, 0.0);
         for &n in surface.facets.iter().flatten() {
             (height, count) = (height + self.fem.nodes[n as usize][1], count + 1.0);
@@ -125,7 +138,7 @@ impl Parts<'_> {
             structure,
             against,
             surface,
-            other: self.boundary(against, spacing)?,
+            other,
             law: contact.law,
             young: young.fold(f64::INFINITY, f64::min),
             kinematics: PhantomData,

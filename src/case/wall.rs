@@ -1,7 +1,7 @@
-//! Rigid walls: physical curves of the mesh that soil touches.
+//! Rigid walls: physical curves of the mesh that soil or bodies touch.
 //!
 //! A wall is a rigid body of its own, with copies of the nodes of its curve: those belong to the grid, which deforms. It
-//! has a region without cells, by which it is known as structures are. The soil is on the side where its cells are.
+//! has a region without cells, by which it is known as structures are. What touches it is on the side where its cells are.
 
 use super::checked::{Case, Geometry, Touching};
 use super::scene::group;
@@ -37,17 +37,18 @@ pub fn bodies(case: &Case, mesh: &mut Mesh<2>) -> Result<Vec<Body<2>>> {
     Ok(bodies)
 }
 
-/// The facets of a wall with the cells of `soil`, some regions of the grid, on their right, by the nodes of the wall.
+/// The facets of a wall with the cells of some `regions` of a mesh, the grid or the one beside it, on their right, by the
+/// nodes of the wall.
 ///
 /// # Errors
-/// Input: a curve that branches, or with soil on both of its sides.
-pub fn facets(grid: &Mesh<2>, body: &Body<2>, soil: &[u16]) -> Result<(CellKind, Vec<Vec<u32>>)> {
-    let name = &grid.regions[body.region as usize];
-    let curve = group(grid, name)?;
+/// Input: a curve that branches, or with such cells on both of its sides.
+pub fn facets(mesh: &Mesh<2>, body: &Body<2>, regions: &[u16]) -> Result<(CellKind, Vec<Vec<u32>>)> {
+    let name = &mesh.regions[body.region as usize];
+    let curve = group(mesh, name)?;
     let own = |n: &u32| curve.nodes.binary_search(n).map_or(u32::MAX, |i| body.first + i as u32);
     let kind = curve.facets.first().map_or(CellKind::Line3, |(kind, _)| *kind);
     let mut left: Vec<Vec<u32>> = curve.facets.iter().map(|(_, nodes)| nodes.iter().map(own).collect()).collect();
-    let middles = middles(grid, soil);
+    let middles = middles(mesh, regions);
     let mut all = Vec::new();
     while let Some(first) = left.pop() {
         // All that hangs together, each facet begun where another one ends.
@@ -68,7 +69,7 @@ pub fn facets(grid: &Mesh<2>, body: &Body<2>, soil: &[u16]) -> Result<(CellKind,
         if chain.iter().any(|f| meets(f[0], 0) > 1 || meets(f[1], 1) > 1) {
             return Err(fault(name, "it branches", "make a wall of each branch"));
         }
-        if soil_is_left(grid, name, &chain, &middles)? {
+        if is_left(mesh, name, &chain, &middles)? {
             chain.iter_mut().for_each(|facet| facet.swap(0, 1));
         }
         all.extend(chain);
@@ -77,27 +78,27 @@ pub fn facets(grid: &Mesh<2>, body: &Body<2>, soil: &[u16]) -> Result<(CellKind,
 }
 
 /// The middles of the cells of some regions (m).
-fn middles(grid: &Mesh<2>, regions: &[u16]) -> Vec<[f64; 2]> {
-    let cells = (0..grid.cells.len()).filter(|&c| regions.contains(&grid.cells.region[c]));
+fn middles(mesh: &Mesh<2>, regions: &[u16]) -> Vec<[f64; 2]> {
+    let cells = (0..mesh.cells.len()).filter(|&c| regions.contains(&mesh.cells.region[c]));
     let middle = |c: usize| {
-        let corners = &grid.cells.nodes(c)[..grid.cells.kind[c].corner_count()];
-        [0, 1].map(|d| corners.iter().map(|&n| grid.nodes[n as usize][d]).sum::<f64>() / corners.len() as f64)
+        let corners = &mesh.cells.nodes(c)[..mesh.cells.kind[c].corner_count()];
+        [0, 1].map(|d| corners.iter().map(|&n| mesh.nodes[n as usize][d]).sum::<f64>() / corners.len() as f64)
     };
     cells.map(middle).collect()
 }
 
-/// Whether the soil nearest to a chain of facets is on their left.
+/// Whether the nearest of the `middles` of cells is on the left of a chain of facets.
 ///
 /// # Errors
-/// Input: a chain with soil at it on both sides.
-fn soil_is_left(grid: &Mesh<2>, name: &str, chain: &[Vec<u32>], soil: &[[f64; 2]]) -> Result<bool> {
+/// Input: a chain with cells at it on both sides.
+fn is_left(mesh: &Mesh<2>, name: &str, chain: &[Vec<u32>], middles: &[[f64; 2]]) -> Result<bool> {
     let mut nearest: Option<(f64, bool)> = None;
     let mut against = [false; 2];
     for facet in chain {
-        let [a, b] = [facet[0], facet[1]].map(|n| grid.nodes[n as usize]);
+        let [a, b] = [facet[0], facet[1]].map(|n| mesh.nodes[n as usize]);
         let (along, middle) = ([b[0] - a[0], b[1] - a[1]], [0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])]);
         let length = along[0].hypot(along[1]);
-        for x in soil {
+        for x in middles {
             let to = [x[0] - middle[0], x[1] - middle[1]];
             let (distance, left) = (to[0].hypot(to[1]), along[0] * to[1] - along[1] * to[0] > 0.0);
             against[usize::from(left)] |= distance < 0.5 * length;
@@ -107,7 +108,11 @@ fn soil_is_left(grid: &Mesh<2>, name: &str, chain: &[Vec<u32>], soil: &[[f64; 2]
         }
     }
     if against == [true; 2] {
-        return Err(fault(name, "soil lies on both of its sides", "name the soil on one side as a region of its own"));
+        return Err(fault(
+            name,
+            "what touches it lies on both of its sides",
+            "name what is on one side as a region of its own",
+        ));
     }
     Ok(nearest.is_some_and(|(_, left)| left))
 }

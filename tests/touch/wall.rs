@@ -1,8 +1,9 @@
-//! Walls: curves that soil slides along, and that move.
+//! Walls: curves that soil and structures slide along, and that move.
 
 use crate::{history, refused};
 
 const WALL: &str = "tests/data/wall";
+const BODY: &str = "tests/data/slide";
 const GRAVITY: f64 = 9.81;
 
 /// A block of soil slides down a wall with `g (sin θ − tan δ cos θ)`, across a dozen cells …
@@ -60,6 +61,44 @@ fn a_wall_that_leaves_the_grid_holds_soil_on_it() {
     assert!((row[1] / way - 1.0).abs() < 0.01 && (row[5] + 0.5).abs() < 1e-12, "{row:?} {way}");
 }
 
+/// A structure slides down a wall as soil does, and rests on it as that does; elastic, rigid, or rigid and free to turn.
+#[test]
+fn a_structure_slides_down_a_wall() {
+    let (sin, cos) = 20f64.to_radians().sin_cos();
+    let rigid = ["regions.body.rigid=true", "supports={body: {rotation: 0}}"];
+    for overrides in [&[][..], &rigid, &rigid[..1]] {
+        let rows = history(BODY, overrides);
+        let row = rows.last().unwrap();
+        let way = 0.5 * GRAVITY * (sin - 0.2 * cos) * row[0].powi(2);
+        let (along, across) = (row[1] * cos - row[2] * sin, row[1] * sin + row[2] * cos);
+        println!("way {along:.6} of {way:.6} m, lifted by {across:.1e} m");
+        assert!((along / way - 1.0).abs() < 1e-3 && across.abs() < 1e-3, "{overrides:?}: {along} {way} {across}");
+        // What the wall bears, held where it is.
+        assert!(rows.iter().all(|row| row[5..7] == [0.0; 2] && (7..9).all(|i| row[i] == -row[i - 4])), "{overrides:?}");
+        let (normal, shear) = (-row[7] * sin - row[8] * cos, row[7] * cos - row[8] * sin);
+        assert!(
+            (normal / (GRAVITY * cos) - 1.0).abs() < 1e-3 && (shear / normal - 0.2).abs() < 1e-6,
+            "{normal} {shear}"
+        );
+        let mut settled = vec!["contacts[0].friction=0.37", "numerics.spectral_radius=0.5"];
+        settled.extend(overrides);
+        let rows = history(BODY, &settled);
+        let at = |time: f64| rows.iter().find(|row| row[0] > time - 1e-9).unwrap()[1];
+        assert!((at(1.0) - at(0.8)).abs() < 1e-6, "{overrides:?}: {} {}", at(0.8), at(1.0));
+    }
+}
+
+/// A wall that moves takes it along until both go at the same speed.
+#[test]
+fn a_wall_that_moves_takes_a_structure_along() {
+    let belt = ["mesh.parameters.angle=0", "phases[0].prescribe={slope: {ux: {rate: 1}}}", "phases[0].duration=0.8"];
+    for row in &history(BODY, &belt) {
+        let (t, a) = (row[0], 0.2 * GRAVITY);
+        let way = if t < 1.0 / a { 0.5 * a * t * t } else { t - 0.5 / a };
+        assert!((row[1] - way).abs() < 5e-4 && (row[5] - t).abs() < 1e-12, "{row:?} {way}");
+    }
+}
+
 #[test]
 fn walls_that_cannot_be_are_told() {
     let refused = |overrides: &[&str], words: &[&str]| refused(WALL, overrides, words);
@@ -67,7 +106,7 @@ fn walls_that_cannot_be_are_told() {
     refused(&["contacts=[{soil: soil}]"], &["contacts[0]", "no structure", "wall: …"]);
     refused(&["contacts=[{wall: slope}]"], &["contacts[0]", "nothing that is touched"]);
     refused(&["contacts=[{wall: slope, structure: soil, soil: soil}]"], &["both a structure and a wall"]);
-    refused(&["contacts=[{wall: slope, against: soil}]"], &["a wall is one for soil only"]);
+    refused(&["contacts=[{wall: slope, against: soil}]"], &["of kind mpm, not structure or fem"]);
     let both = "regions={soil: {kind: mpm, material: rock}, air: {kind: mpm, material: rock}}";
     refused(
         &[both, "output.history=[]", "contacts=[{wall: side, soil: [soil, air]}]"],
