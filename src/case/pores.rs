@@ -137,11 +137,6 @@ impl Checker {
             let remedy = "drain these by `pore_pressure: 0` under `supports`, or take `restore: never` out";
             self.issue(path, At::Key, problem, remedy);
         }
-        if !file.contacts.is_empty() {
-            let problem = "the surface would drain beneath structures, too";
-            let remedy = "take it out, or the `contacts`: a surface that only drains where it is free is not there yet";
-            self.issue(path, At::Key, problem, remedy);
-        }
         Some(surface)
     }
 

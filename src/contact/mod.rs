@@ -8,6 +8,7 @@
 
 mod along;
 mod bodies;
+mod cover;
 mod gap;
 mod law;
 mod multipliers;

@@ -1,6 +1,7 @@
 //! A structure and the soil it touches: the condition of each hat in a step.
 
 use super::along::{Mark, lines};
+use super::cover::covers;
 use super::gap::{Facing, Gap, Soil, push_out, raw_gaps};
 use super::law::{Law, Penalty};
 use super::multipliers::Multipliers;
@@ -13,6 +14,7 @@ use crate::mesh::Mesh;
 use crate::mesh::locate::Locator;
 use crate::mesh::shape::MAX_NODES;
 use crate::points::Points;
+use crate::surface::Cover;
 use std::marker::PhantomData;
 use std::ops::Range;
 use std::sync::Arc;
@@ -119,6 +121,11 @@ pub trait Pair<const D: usize>: Send + Sync {
 
     /// The boundary as lines with its hats, one a smooth stretch.
     fn lines(&self, position: &dyn Fn(u32) -> [f64; D]) -> Vec<Vec<Mark<D>>>;
+
+    /// What of the boundary lies on soil as a step begins, given its conditions; nothing of one on a body.
+    fn covers(&self, _rows: &[Row<D>], _position: &dyn Fn(u32) -> [f64; D]) -> Vec<Cover<D>> {
+        Vec::new()
+    }
 
     /// Moves points of the soil out of the structure.
     fn push_out(&self, points: &mut Points<D>, position: &dyn Fn(u32) -> [f64; D]) -> Pushed;
@@ -344,6 +351,10 @@ impl<K: Kinematics<2>> Pair<2> for Boundary<K> {
 
     fn lines(&self, position: &dyn Fn(u32) -> [f64; 2]) -> Vec<Vec<Mark<2>>> {
         lines(&self.surface, &Segments::new::<K>(&self.surface, position))
+    }
+
+    fn covers(&self, rows: &[Row<2>], position: &dyn Fn(u32) -> [f64; 2]) -> Vec<Cover<2>> {
+        covers(&self.surface, &Segments::new::<K>(&self.surface, position), rows)
     }
 
     fn push_out(&self, points: &mut Points<2>, position: &dyn Fn(u32) -> [f64; 2]) -> Pushed {

@@ -9,6 +9,7 @@ use super::multipliers::Multipliers;
 use super::pair::{Ground, Pair, Pushed, Row};
 use crate::points::Points;
 use crate::rigid::Body;
+use crate::surface::Cover;
 use std::ops::Range;
 
 /// A pair with a rigid side, or two.
@@ -111,6 +112,10 @@ impl<const D: usize> Pair<D> for Rigid<D> {
 
     fn lines(&self, position: &dyn Fn(u32) -> [f64; D]) -> Vec<Vec<Mark<D>>> {
         self.pair.lines(position)
+    }
+
+    fn covers(&self, rows: &[Row<D>], position: &dyn Fn(u32) -> [f64; D]) -> Vec<Cover<D>> {
+        self.pair.covers(rows, position)
     }
 
     fn push_out(&self, points: &mut Points<D>, position: &dyn Fn(u32) -> [f64; D]) -> Pushed {

@@ -1,4 +1,4 @@
-//! Contact in a step: which hats face soil where the step begins, and what they come to in its end.
+//! Contact in a step: which hats face soil where the step begins, what of the surface they cover, and what they come to in its end.
 
 use super::grid::Grid;
 use super::leaving;
@@ -11,6 +11,7 @@ use crate::kinematics::Kinematics;
 use crate::mesh::Mesh;
 use crate::mesh::locate::Locator;
 use crate::mesh::shape::MAX_NODES;
+use crate::surface::open;
 use crate::system::Cliques;
 use crate::term::{Touch, Trial, contact_answer, excess_pressure};
 
@@ -101,14 +102,19 @@ pub fn begin<const D: usize, K: Kinematics<D>>(
     let surface = surface(restored, state);
     let excess = |p: usize| excess_pressure(&scene.carried, &state.points, p);
     let ground = Ground { grid: mesh, locator, points: &state.points, surface: &surface, excess: &excess };
-    let mut touches = Vec::new();
+    let (mut touches, mut covers) = (Vec::new(), Vec::new());
+    let covered = scene.terms.iter().any(|term| term.sees_open_boundary());
     for (number, pair) in scene.touching(state.phase) {
         let held = &state.multipliers[number];
         let rows = pair.rows(&ground, &at, &held.evened(pair.runs()));
         leaving::check(scene, pair, held, &rows, &ground, &at)?;
+        if covered {
+            covers.extend(pair.covers(&rows, &at));
+        }
         let pair = number as u32;
         touches.extend(rows.into_iter().map(|row| Touch { pair, row, clique: 0, place: Vec::new() }));
     }
+    let open = covered.then(|| open(mesh, &state.weighing.boundary.pieces, &covers));
     let takes_part = |touch: &Touch<D>| touch.row.nodes.iter().all(|&n| grid.block[n as usize] != u32::MAX);
     touches.retain(takes_part);
     if !place(grid, state, &mut touches) {
@@ -117,7 +123,7 @@ pub fn begin<const D: usize, K: Kinematics<D>>(
         *grid = Grid::with::<K>(scene, state, stencil, grid.relaxed.take())?;
         place(grid, state, &mut touches);
     }
-    grid.touches = touches;
+    (grid.touches, grid.open) = (touches, open);
     Ok(())
 }
 

@@ -20,6 +20,7 @@ use crate::points::Points;
 use crate::quadrature::Restored;
 use crate::rigid::Body;
 use crate::stencil::Stencil;
+use crate::surface::Piece;
 use crate::system::{Cliques, Matrix, Pattern, Solver, Workspace};
 use crate::term::{Frame, GhostFace, Touch};
 use rayon::prelude::*;
@@ -55,6 +56,8 @@ pub struct Grid<const D: usize> {
     pub ghost: Vec<GhostFace>,
     /// The hats that face something.
     pub touches: Vec<Touch<D>>,
+    /// The parts of the boundary of the material that no structure covers; absent where all of it is open or nothing asks.
+    pub open: Option<Vec<Piece>>,
     /// The clique of each hat of each pair that the system has room for, else `u32::MAX`.
     pub touch_clique: Vec<Vec<u32>>,
     /// The clique of each face that the system has room for a penalty at, else `u32::MAX`; empty without faces.
@@ -291,6 +294,7 @@ impl<const D: usize> Grid<D> {
             elements,
             ghost: Vec::new(),
             touches: Vec::new(),
+            open: None,
             touch_clique,
             face_clique,
             body_clique,
@@ -358,6 +362,7 @@ impl<const D: usize> Grid<D> {
             ghost: &self.ghost,
             touches: &self.touches,
             boundary: &state.weighing.boundary.pieces,
+            open: self.open.as_deref().unwrap_or(&state.weighing.boundary.pieces),
             level_set: &state.weighing.level_set,
             cells: &self.cells,
             constants: mesh.nodes.len(),
@@ -385,6 +390,7 @@ impl<const D: usize> Grid<D> {
             ghost: &[],
             touches: &[],
             boundary: &[],
+            open: &[],
             level_set: &[],
             cells: &elements.cells,
             constants: scene.mesh.nodes.len() + scene.mesh.cells.len(),

@@ -120,13 +120,13 @@ impl ActiveBoundary {
 }
 
 /// The place (m) on a piece at the share `t` of its way, on a grid with its nodes at `nodes`.
-pub fn place(mesh: &Mesh<2>, nodes: &[[f64; 2]], piece: &Piece, t: f64) -> [f64; 2] {
+pub fn place<const D: usize>(mesh: &Mesh<D>, nodes: &[[f64; D]], piece: &Piece, t: f64) -> [f64; D] {
     let xi = piece.at(t);
     let mut n = [0.0; MAX_NODES];
     mesh.cells.kind[piece.cell as usize].values(&xi, &mut n);
-    let mut x = [0.0; 2];
+    let mut x = [0.0; D];
     for (n, &node) in n.iter().zip(mesh.cells.nodes(piece.cell as usize)) {
-        for d in 0..2 {
+        for d in 0..D {
             x[d] += n * nodes[node as usize][d];
         }
     }
@@ -151,6 +151,14 @@ impl Piece {
     /// The same in the domain of the bearer.
     pub fn borne_at(&self, t: f64) -> [f64; 3] {
         along(&self.borne, t)
+    }
+
+    /// The part of it between two shares of its way; all of it for 0 and 1.
+    pub fn part(&self, from: f64, to: f64) -> Self {
+        let of = |ends: &[[f64; 2]; 2]| {
+            [from, to].map(|t| if t == 1.0 { ends[1] } else { [along(ends, t)[0], along(ends, t)[1]] })
+        };
+        Self { ends: of(&self.ends), borne: of(&self.borne), ..*self }
     }
 }
 

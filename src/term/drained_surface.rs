@@ -9,7 +9,7 @@
 //! over the hats `L`. The first part is the flow that leaves, the second makes the system symmetric, the third holds the pressure at
 //! zero. `|Γ|` is the boundary that a cell bears and `V` what its points weigh: the flow through a cell however it is cut then stays
 //! less than what it loses, where `∇p` is one in all of the cell and γ above 1 (Dolbow & Harari 2009). What leaves through all of
-//! it is `Δt ∫ (−n·κ∇p + β p) dS`. Walls are tight.
+//! it is `Δt ∫ (−n·κ∇p + β p) dS`. Walls are tight, and so is what a structure covers as the step begins.
 
 use super::water::{self, Porous};
 use super::{Assembly, Frame, Term, Trial};
@@ -122,7 +122,7 @@ impl<K: Kinematics<2>> DrainedSurface<K> {
             *x = [0, 1].map(|d| frame.mesh.nodes[n as usize][d] + converged[n as usize][d]);
         }
         let mut bearer = Bearer { kind, nodes, mobility: mobility.map(|sum| sum / volume), hold: 0.0 };
-        let same = frame.boundary.iter().filter(|other| other.bearer == piece.bearer && self.drains(other));
+        let same = frame.open.iter().filter(|other| other.bearer == piece.bearer && self.drains(other));
         let area: f64 = same.map(|other| bearer.place::<K>(other, 0.5).area).sum();
         bearer.hold = area / volume * if kind.is_simplex() { GAMMA } else { GAMMA_OF_QUADRANGLES };
         Some(bearer)
@@ -185,7 +185,7 @@ impl<K: Kinematics<2>> Term<2> for DrainedSurface<K> {
             Ok(())
         };
         let clique = |piece: &Piece| frame.clique[piece.bearer as usize] as usize;
-        scatter(frame.pattern, frame.boundary, clique, compute, out.force, out.tangent.as_deref_mut(), out.workspace)
+        scatter(frame.pattern, frame.open, clique, compute, out.force, out.tangent.as_deref_mut(), out.workspace)
     }
 
     fn idle(&self, frame: &Frame<2>, displacement: &[[f64; 2]], phase: usize) -> Option<String> {
@@ -196,9 +196,13 @@ impl<K: Kinematics<2>> Term<2> for DrainedSurface<K> {
         })
     }
 
+    fn sees_open_boundary(&self) -> bool {
+        true
+    }
+
     fn outflow(&self, frame: &Frame<2>, trial: &Trial<2>) -> f64 {
         let mut sum = 0.0;
-        for piece in frame.boundary.iter().filter(|piece| self.drains(piece)) {
+        for piece in frame.open.iter().filter(|piece| self.drains(piece)) {
             let (_, pressure) = Self::pressures(frame, trial, piece);
             let dot = |a: &Corners| a.iter().zip(&pressure).map(|(a, p)| a * p).sum::<f64>();
             self.visit(frame, trial, piece, |hats, flow, hold| sum += dot(flow) + hold * dot(hats));

@@ -95,6 +95,8 @@ pub struct Frame<'a, const D: usize> {
     pub touches: &'a [Touch<D>],
     /// The pieces of the boundary of the material; empty where the scene has no use for them.
     pub boundary: &'a [Piece],
+    /// The parts of these that no structure covers as the step begins.
+    pub open: &'a [Piece],
     /// The level set that cells are cut along, one value a node, positive in the material; empty where the scene has no use for
     /// it, or the points weigh their volumes.
     pub level_set: &'a [f64],
@@ -304,6 +306,11 @@ pub trait Term<const D: usize>: Send + Sync {
 
     /// Whether the term needs [`Points::plastic_increment`].
     fn sees_flow(&self) -> bool {
+        false
+    }
+
+    /// Whether the term needs [`Frame::open`].
+    fn sees_open_boundary(&self) -> bool {
         false
     }
 
