@@ -52,14 +52,6 @@ fn regions_in_contact_are_there_and_of_the_right_kind() {
     }
 }
 
-/// Friction does not know what part of the pressure the grains bear.
-#[test]
-fn there_is_no_friction_beside_water_in_the_pores_alone() {
-    let water = ("phases:", "water: {unit_weight: 10, phreatic_level: 0}\nphases:");
-    let folder = scene(&[("{structure: plate, soil: soil}", "{structure: plate, soil: soil, friction: 0.3}"), water]);
-    refused(folder.path(), &["check"], 2, &["contacts[0].friction", "water stands otherwise in the pores", "adhesion"]);
-}
-
 #[test]
 fn curves_of_a_structure_are_there() {
     let folder = scene(&[("prescribe: {top:", "prescribe: {head:")]);

@@ -124,6 +124,11 @@ impl Content {
         matches!(self, Self::Structure { .. })
     }
 
+    /// Whether it is soil of finite elements, whose pores may hold water.
+    pub fn is_soil_of_elements(&self) -> bool {
+        matches!(self, Self::Fem { .. })
+    }
+
     /// Whether the cells are beside the grid: finite elements, or those of a rigid structure.
     pub fn is_fem(&self) -> bool {
         matches!(self, Self::Fem { .. } | Self::Structure { .. })

@@ -207,9 +207,10 @@ pub fn scene<K: Kinematics<2>>(case: &Case, mut whole: Mesh<2>) -> Result<Scene<
         }
         None => None,
     };
+    let levels = case.water.as_ref().and_then(|water| water.levels(size));
     let pairs = touch::pairs::<K>(case, &mesh, fem.as_ref().map_or(&mesh, |fem| &fem.mesh), &bodies)?;
     for (number, pair) in (0..).zip(&pairs) {
-        terms.push(Box::new(Contact::new(number, *pair.law())));
+        terms.push(Box::new(Contact::new(number, *pair.law(), levels.clone())));
     }
     let carried = carried(case, &mesh)?;
     let holds = Holds::new(case, &mesh, &bodies);
@@ -231,6 +232,7 @@ pub fn scene<K: Kinematics<2>>(case: &Case, mut whole: Mesh<2>) -> Result<Scene<
         fem,
         bodies,
         pairs,
+        levels,
         pressure_unit,
         carried,
         water,

@@ -4,11 +4,12 @@ use super::changes::{self, by_number};
 use super::checked::{Case, Contact, Content, Geometry, Region, Touched, Touching};
 use super::scene::region_index;
 use super::wall;
-use crate::contact::{Bodies, Boundary, Pair, Rigid, Skin, Surface};
+use crate::contact::{Bodies, Boundary, Pair, Rigid, Skin, Soil, Surface};
 use crate::error::{Error, Result};
 use crate::kinematics::Kinematics;
 use crate::mesh::Mesh;
 use crate::rigid::Body;
+use std::collections::BTreeMap;
 use std::marker::PhantomData;
 
 /// Distance of the hats (-), in the length of an edge of the grid: that of its nodes.
@@ -75,6 +76,19 @@ impl Parts<'_> {
         Ok(Skin::new(self.grid, &regions, |facet| facet.iter().all(|&n| joined[n as usize])))
     }
 
+    /// The cell beside the grid that has each of the facets of the boundary of a region.
+    fn behind(&self, region: u16, facets: &[Vec<u32>]) -> Vec<u32> {
+        let ends = |facet: &[u32]| [facet[0].min(facet[1]), facet[0].max(facet[1])];
+        let mut cell_of = BTreeMap::new();
+        for c in (0..self.fem.cells.len()).filter(|&c| self.fem.cells.region[c] == region) {
+            let (_, sides) = self.fem.cells.kind[c].facets();
+            for side in sides {
+                cell_of.insert(ends(&[0, 1].map(|i| self.fem.cells.nodes(c)[side[i]])), c as u32);
+            }
+        }
+        facets.iter().map(|facet| cell_of[&ends(facet)]).collect()
+    }
+
     fn no_cells(&self, contact: &Contact, what: &str) -> Error {
         Error::input(
             format!("contact of `{}`", self.name(&contact.structure)),
@@ -126,6 +140,12 @@ impl Parts<'_> {
                 (wall.region, Surface::of(self.fem, kind, facets, spacing))
             }
         };
+        let is_soil = self.case.regions[body].content.is_soil_of_elements();
+        let soil = is_soil.then(|| {
+            let has_hats = matches!(contact.structure, Touching::Wall(_));
+            let facets = if has_hats { &surface.facets } else { &other.facets };
+            Ok(Soil { has_hats, behind: self.behind(self.region(body)?, facets) })
+        });
         let (mut height, mut count) = (0.0, 0.0);
         for &n in surface.facets.iter().flatten() {
             (height, count) = (height + self.fem.nodes[n as usize][1], count + 1.0);
@@ -140,6 +160,7 @@ impl Parts<'_> {
             surface,
             other,
             law: contact.law,
+            soil: soil.transpose()?,
             young: young.fold(f64::INFINITY, f64::min),
             kinematics: PhantomData,
         })

@@ -10,7 +10,7 @@ use crate::error::Result;
 use crate::kinematics::Kinematics;
 use crate::mesh::Mesh;
 use crate::run::Acting;
-use crate::term::{self, FacetPressure, Head, SurfaceTraction, Term, VirtualPressure};
+use crate::term::{self, FacetPressure, Head, Levels, SurfaceTraction, Term, VirtualPressure};
 use crate::time_value::TimeValue;
 
 /// Half the height of the band over which a pressure begins to grow, as a share of the diagonal of a cell:
@@ -30,20 +30,7 @@ impl Checker {
         let inside = whole.and_then(|water| water.phreatic_level.as_ref());
         let of_pores = of_phases(|phase| &phase.phreatic_level);
         let phreatic = self.levels(["phreatic_level"; 2], inside, of_pores, root);
-        if phreatic.is_some() && phreatic != level {
-            self.no_friction(file, root);
-        }
         Some(Water { unit_weight: whole?.unit_weight, level, phreatic })
-    }
-
-    /// Contact knows the pressure beyond that of the water outside, and of the water in the pores its excess alone.
-    fn no_friction(&mut self, file: &raw::CaseFile, root: &Path) {
-        for (i, _) in file.contacts.iter().enumerate().filter(|(_, contact)| contact.friction > 0.0) {
-            let problem =
-                "friction where water stands otherwise in the pores than outside: it would act on their pressure too";
-            let remedy = "give the contact `adhesion` or `adhesion_factor`, or make `phreatic_level` that of `level`";
-            self.issue(&root.key("contacts").index(i).key("friction"), At::Value, problem, remedy);
-        }
     }
 
     /// A level in each phase, given that of the whole case and those of the phases, by the keys of both.
@@ -80,6 +67,12 @@ impl Water {
     /// That of the water in the pores.
     pub fn heads_in_pores(&self, size: f64) -> Vec<Option<Head>> {
         self.below(self.phreatic.as_deref(), size)
+    }
+
+    /// Both, where they differ in some phase: friction has no share in what the one has more than the other.
+    pub fn levels(&self, size: f64) -> Option<Levels> {
+        let differ = self.phreatic.is_some() && self.phreatic != self.level;
+        differ.then(|| Levels::new(self.heads(size), self.heads_in_pores(size)))
     }
 
     fn below(&self, levels: Option<&[TimeValue]>, size: f64) -> Vec<Option<Head>> {

@@ -17,6 +17,7 @@ use crate::kinematics::Kinematics;
 use crate::mesh::shape::MAX_NODES;
 use crate::points::Points;
 use crate::surface::Bins;
+use std::collections::BTreeMap;
 use std::marker::PhantomData;
 use std::ops::Range;
 
@@ -36,9 +37,32 @@ pub struct Bodies<K> {
     pub surface: Surface,
     pub other: Surface,
     pub law: Law,
+    /// Where one of the two is soil, which has pores.
+    pub soil: Option<Soil>,
     /// Young's modulus (kPa) of the softer one.
     pub young: f64,
     pub kinematics: PhantomData<K>,
+}
+
+/// The side of a contact of bodies that is soil.
+pub struct Soil {
+    /// Whether it is the one with the hats.
+    pub has_hats: bool,
+    /// The finite element behind each facet of its boundary.
+    pub behind: Vec<u32>,
+}
+
+impl Soil {
+    /// The points of the elements behind the boundary.
+    fn points(&self, elements: &Points<2>) -> BTreeMap<u32, Vec<usize>> {
+        let mut points: BTreeMap<u32, Vec<usize>> = self.behind.iter().map(|&cell| (cell, Vec::new())).collect();
+        for (p, cell) in elements.cell.iter().enumerate() {
+            if let Some(of_cell) = points.get_mut(cell) {
+                of_cell.push(p);
+            }
+        }
+        points
+    }
 }
 
 /// Places of Gauss's rule of two points in [0, 1].
@@ -164,6 +188,9 @@ fn at(surface: &Surface, facet: &[u32], xi: f64, position: &dyn Fn(u32) -> [f64;
 struct Sum {
     area: f64,
     gap: f64,
+    /// Excess pressure of the pore water, and height, times the area.
+    water: f64,
+    height: f64,
     sides: [Vec<Entry<2>>; 2],
 }
 
@@ -188,18 +215,32 @@ impl<K: Kinematics<2>> Pair<2> for Bodies<K> {
         &self.law
     }
 
-    fn rows(&self, _: &Ground<2>, position: &dyn Fn(u32) -> [f64; 2], held: &Multipliers) -> Vec<Row<2>> {
+    fn rows(&self, ground: &Ground<2>, position: &dyn Fn(u32) -> [f64; 2], held: &Multipliers) -> Vec<Row<2>> {
         let segments = Segments::new::<K>(&self.surface, position);
         let other = Segments::new::<K>(&self.other, position);
         let longest = other.0.iter().map(|s| (s.to[0] - s.from[0]).hypot(s.to[1] - s.from[1])).fold(0.0, f64::max);
         let bins = Bins::new(other.0.iter().map(|s| (s.from, s.to)), REACH * self.surface.spacing + longest);
         let mut sums = vec![Sum::default(); self.surface.hats];
+        // Nothing else depends on it.
+        let wet = self.soil.as_ref().filter(|_| self.law.friction > 0.0);
+        let wet = wet.map(|soil| (soil, soil.points(ground.elements)));
         for (segment, placed) in self.surface.segments.iter().zip(&segments.0) {
             let own = &self.surface.facets[segment.facet as usize];
             let cuts = self.cuts(placed, &bins, position);
             for point in self.points(segment, &cuts, position) {
                 let Some(across) = self.across(&point, &other, &bins, position) else { continue };
                 let facets = [(own, point.value, -1.0), (&self.other.facets[across.facet as usize], across.value, 1.0)];
+                let water = wet.as_ref().map_or(0.0, |(soil, points)| {
+                    let (facet, away) = if soil.has_hats { (segment.facet, 0.0) } else { (across.facet, across.gap) };
+                    let x = [0, 1].map(|d| point.x[d] + away * point.normal[d]);
+                    let apart = |p: &usize| {
+                        let to = &ground.elements.position[*p];
+                        (to[0] - x[0]).hypot(to[1] - x[1])
+                    };
+                    let behind = points[&soil.behind[facet as usize]].iter();
+                    let nearest = behind.min_by(|p, q| apart(p).total_cmp(&apart(q)));
+                    nearest.map_or(0.0, |&p| (ground.excess)(ground.elements, p))
+                });
                 let n = point.normal;
                 let t = [-n[1], n[0]];
                 for (hat, share) in segment.hats {
@@ -207,6 +248,8 @@ impl<K: Kinematics<2>> Pair<2> for Bodies<K> {
                     let sum = &mut sums[hat as usize];
                     sum.area += weight;
                     sum.gap += weight * across.gap;
+                    sum.water += weight * water;
+                    sum.height += weight * point.x[1];
                     for (side, (facet, values, sign)) in sum.sides.iter_mut().zip(&facets) {
                         for (&node, value) in facet.iter().zip(values) {
                             let by = sign * weight * value;
@@ -225,6 +268,7 @@ impl<K: Kinematics<2>> Pair<2> for Bodies<K> {
                 area,
                 gap: sum.gap / area,
                 offset: 0.0,
+                height: self.soil.as_ref().map(|_| sum.height / area),
                 own: sum.sides[0].len(),
                 nodes: entries().map(|e| e.0).collect(),
                 by_normal: entries().map(|e| e.1.map(|n| n / area)).collect(),
@@ -237,7 +281,7 @@ impl<K: Kinematics<2>> Pair<2> for Bodies<K> {
                     rounding: 0.0,
                     fading: FADING * self.surface.spacing,
                     strength: f64::INFINITY,
-                    water: 0.0,
+                    water: sum.water / area,
                 },
             })
         };

@@ -36,7 +36,8 @@ pub struct Penalty {
     pub fading: f64,
     /// Strength of the soil (kPa).
     pub strength: f64,
-    /// What of the pressure (kPa) the water in the pores bears beyond the water outside: friction has no share in it.
+    /// What of the pressure (kPa) the water in the pores bears beyond the water outside: friction has no share in it. Negative where
+    /// the water outside presses the grains together.
     pub water: f64,
 }
 
@@ -52,9 +53,15 @@ pub struct Answer {
 }
 
 impl Penalty {
-    /// What of a pressure (kPa) the grains bear. Suction in the pores does not press them on a structure that may part from them.
+    /// These with the water in the pores at rest `beyond` (kPa) the pressure of that outside, to which the excess pressure of the pores is
+    /// added. Suction does not press the grains on a structure that may part from them: the pores count with no less than the lower of the two.
+    pub fn within(&self, beyond: f64) -> Self {
+        Self { water: (beyond + self.water).max(beyond.min(0.0)), ..*self }
+    }
+
+    /// What of a pressure (kPa) the grains bear.
     fn effective(&self, pressure: f64) -> f64 {
-        (pressure - self.water.max(0.0)).max(0.0)
+        (pressure - self.water).max(0.0)
     }
 }
 
@@ -71,7 +78,7 @@ impl Law {
         Self { friction: friction / factor, adhesion: adhesion / factor, factor: part, separates }
     }
 
-    /// Whether the surfaces bear shear without pressure.
+    /// Whether the surfaces bear shear without pressure in any water.
     fn adheres(&self) -> bool {
         self.adhesion > 0.0 || self.friction == 0.0 && self.factor.is_some_and(|factor| factor > 0.0)
     }
@@ -115,7 +122,8 @@ impl Law {
 
     /// The part of the largest shear that an open gap leaves (-), and its slope by the gap (1/m).
     fn share(&self, at: &Penalty, gap: f64) -> (f64, f64) {
-        if !self.separates || !self.adheres() || gap <= 0.0 {
+        let clings = self.adheres() || self.friction > 0.0 && at.water < 0.0;
+        if !self.separates || !clings || gap <= 0.0 {
             (1.0, 0.0)
         } else if gap >= at.fading {
             (0.0, 0.0)
@@ -164,8 +172,8 @@ mod tests {
     #[test]
     fn slopes_are_those_of_the_answer() {
         let step = 1e-7;
-        let in_water = Penalty { water: 1.3, ..AT };
-        for (law, at) in laws().into_iter().flat_map(|law| [(law, AT), (law, in_water)]) {
+        let in_water = [0.0, 1.3, -1.3].map(|water| Penalty { water, ..AT });
+        for (law, at) in laws().into_iter().flat_map(|law| in_water.map(|at| (law, at))) {
             for gap in [-0.02, 0.011, 0.029, 0.0315, 0.04] {
                 for slip in [-0.1, -0.004, 0.0, 0.003, 0.2] {
                     let answer = law.respond(&at, gap, slip);
@@ -181,6 +189,22 @@ mod tests {
         }
     }
 
+    /// Suction takes the pores no lower than the lower of their water at rest and that outside.
+    #[test]
+    fn excess_pressure_is_on_top_of_the_water_at_rest() {
+        for (excess, beyond, water) in [
+            (2.0, 0.0, 2.0),
+            (-2.0, 0.0, 0.0),
+            (2.0, 3.0, 5.0),
+            (-2.0, 3.0, 1.0),
+            (-4.0, 3.0, 0.0),
+            (2.0, -3.0, -1.0),
+            (-2.0, -3.0, -3.0),
+        ] {
+            assert_eq!(Penalty { water: excess, ..AT }.within(beyond).water, water, "{excess} {beyond}");
+        }
+    }
+
     #[test]
     fn shear_has_its_limits() {
         let [smooth, rough, capped, clay, bonded] = laws().try_into().unwrap();
@@ -188,7 +212,12 @@ mod tests {
         assert!((rough.respond(&AT, 0.0, 1.0).shear + 0.4 * 3.0).abs() < 1e-15);
         assert!((rough.respond(&Penalty { water: 1.0, ..AT }, 0.0, 1.0).shear + 0.4 * 2.0).abs() < 1e-15);
         assert_eq!(rough.respond(&Penalty { water: 4.0, ..AT }, 0.0, 1.0).shear, 0.0);
-        assert_eq!(rough.respond(&Penalty { water: -5.0, ..AT }, 0.0, 1.0), rough.respond(&AT, 0.0, 1.0));
+        assert_eq!(rough.respond(&Penalty { water: -5.0, ..AT }.within(0.0), 0.0, 1.0), rough.respond(&AT, 0.0, 1.0));
+        // Water that stands higher outside presses the grains together, until the two have parted.
+        let drawn = Penalty { water: -1.0, ..AT };
+        assert!((rough.respond(&drawn, 0.0, 1.0).shear + 0.4 * 4.0).abs() < 1e-15);
+        assert!((rough.respond(&drawn, 0.036, 1.0).shear + 0.2 * 0.4).abs() < 1e-12);
+        assert_eq!(rough.respond(&drawn, 0.05, 1.0), Answer::default());
         assert_eq!(capped.respond(&AT, 0.0, -1.0).shear, 1.0);
         assert_eq!(clay.respond(&AT, 0.0, 1.0).shear, -1.0);
         assert_eq!(clay.respond(&AT, 0.05, 1.0), Answer::default());

@@ -50,8 +50,10 @@ pub struct Ground<'a, const D: usize> {
     pub points: &'a Points<D>,
     /// The surface of the soil, where it is followed: loops of markers with the soil on their left.
     pub surface: &'a [Vec<[f64; D]>],
-    /// The excess pressure (kPa) of the water in the pores at a point, by its number.
-    pub excess: &'a dyn Fn(usize) -> f64,
+    /// The points of the finite elements.
+    pub elements: &'a Points<D>,
+    /// The excess pressure (kPa) of the water in the pores at one of some points, by its number.
+    pub excess: &'a dyn Fn(&Points<D>, usize) -> f64,
 }
 
 /// The condition of a hat: its mean gap and slip in the step, linear in the displacements since its beginning.
@@ -63,6 +65,8 @@ pub struct Row<const D: usize> {
     /// Mean gap (m) at the beginning of the step, and how much more the points measure.
     pub gap: f64,
     pub offset: f64,
+    /// Mean height y (m) of it where there are pores that water may stand in.
+    pub height: Option<f64>,
     /// The nodes of the structure, `own` of them that bear the force on it, then those of the grid.
     pub nodes: Vec<u32>,
     pub own: usize,
@@ -224,8 +228,9 @@ struct Sum {
     sure: f64,
     known: f64,
     spacing: f64,
-    /// Excess pressure of the pore water times the area.
+    /// Excess pressure of the pore water, and height, times the area.
     water: f64,
+    height: f64,
     point: u32,
     entries: Vec<(u32, [f64; 2], [f64; 2])>,
 }
@@ -274,7 +279,7 @@ impl<K: Kinematics<2>> Pair<2> for Boundary<K> {
             let Some((cell, xi)) = ground.find(placed, spacing, point, &holds) else { continue };
             let across = surface.distance(placed, spacing);
             // Nothing else depends on it.
-            let water = if self.law.friction > 0.0 { (ground.excess)(point as usize) } else { 0.0 };
+            let water = if self.law.friction > 0.0 { (ground.excess)(ground.points, point as usize) } else { 0.0 };
             let mut value = [0.0; MAX_NODES];
             ground.grid.cells.kind[cell as usize].values(&xi, &mut value);
             let soil = ground.grid.cells.nodes(cell as usize);
@@ -292,6 +297,7 @@ impl<K: Kinematics<2>> Pair<2> for Boundary<K> {
                     known: 0.0,
                     spacing: 0.0,
                     water: 0.0,
+                    height: 0.0,
                     point,
                     entries: Vec::new(),
                 });
@@ -307,6 +313,7 @@ impl<K: Kinematics<2>> Pair<2> for Boundary<K> {
                 }
                 sum.spacing += weight * spacing;
                 sum.water += weight * water;
+                sum.height += weight * placed.middle[1];
                 for (&node, n_s) in structure.iter().zip(&placed.value) {
                     sum.add(node, n.map(|n| -weight * n_s * n), t.map(|t| -weight * n_s * t));
                 }
@@ -316,7 +323,7 @@ impl<K: Kinematics<2>> Pair<2> for Boundary<K> {
             }
         }
         let row = |(hat, sum): (usize, Option<Sum>)| {
-            let Sum { area, open, facing, distance, sure, known, spacing, water, point, mut entries } =
+            let Sum { area, open, facing, distance, sure, known, spacing, water, height, point, mut entries } =
                 sum.filter(|sum| sum.area > 0.0)?;
             let spacing = spacing / area;
             let surface = (facing > 0.5 * area).then_some(distance / facing);
@@ -330,6 +337,7 @@ impl<K: Kinematics<2>> Pair<2> for Boundary<K> {
                 area,
                 gap,
                 offset,
+                height: Some(height / area),
                 own: entries.iter().filter(|(n, ..)| of_structure(n)).count(),
                 nodes: entries.iter().map(|e| e.0).collect(),
                 by_normal: entries.iter().map(|e| e.1.map(|n| n / area)).collect(),

@@ -172,6 +172,7 @@ mod tests {
             area: 1.0,
             gap: 0.3,
             offset: 0.0,
+            height: None,
             nodes: vec![0, 1, 2],
             own: 2,
             by_normal: vec![[-0.2, -0.3], [-0.4, -0.1], [0.6, 0.4]],

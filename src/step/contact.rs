@@ -11,9 +11,11 @@ use crate::kinematics::Kinematics;
 use crate::mesh::Mesh;
 use crate::mesh::locate::Locator;
 use crate::mesh::shape::MAX_NODES;
+use crate::points::Points;
 use crate::surface::open;
 use crate::system::Cliques;
 use crate::term::{Touch, Trial, contact_answer, excess_pressure};
+use crate::time_integration::GeneralisedAlpha;
 
 /// What a pair exerted in a step.
 #[derive(Clone, Debug, PartialEq)]
@@ -100,8 +102,9 @@ pub fn begin<const D: usize, K: Kinematics<D>>(
     let restored = grid.relaxed.as_ref().map_or((&scene.mesh, &scene.locator), |r| (&r.mesh, &r.locator));
     let (mesh, locator) = deformed.as_ref().map_or(restored, |(mesh, locator)| (mesh, locator));
     let surface = surface(restored, state);
-    let excess = |p: usize| excess_pressure(&scene.carried, &state.points, p);
-    let ground = Ground { grid: mesh, locator, points: &state.points, surface: &surface, excess: &excess };
+    let excess = |points: &Points<D>, p: usize| excess_pressure(&scene.carried, points, p);
+    let (points, elements) = (&state.points, &state.fem);
+    let ground = Ground { grid: mesh, locator, points, surface: &surface, elements, excess: &excess };
     let (mut touches, mut covers) = (Vec::new(), Vec::new());
     let covered = scene.terms.iter().any(|term| term.sees_open_boundary());
     for (number, pair) in scene.touching(state.phase) {
@@ -198,7 +201,11 @@ pub fn commit<const D: usize>(
     };
     let mut resultants: Vec<_> = scene.pairs.iter().map(|pair| none(pair.as_ref())).collect();
     let reduction = scene.phases[state.phase].reduction_at(state.phase_time + dt);
-    let trial = Trial { reduction, ..Trial::at_rest(&solution.displacement, &state.displacement) };
+    let alpha_f =
+        if state.dynamic(scene) { GeneralisedAlpha::new(scene.numerics.spectral_radius, dt).alpha_f } else { 0.0 };
+    let (phase, time) = (state.phase, state.phase_time + (1.0 - alpha_f) * dt);
+    let at_rest = Trial::at_rest(&solution.displacement, &state.displacement);
+    let trial = Trial { reduction, phase, time, ..at_rest };
     for multipliers in &mut state.multipliers {
         let Multipliers { pressure, shear, gap, slip, offset, .. } = multipliers;
         [pressure, shear, gap, slip, offset].into_iter().for_each(|values| values.fill(0.0));
@@ -206,7 +213,7 @@ pub fn commit<const D: usize>(
     }
     for touch in &grid.touches {
         let (pair, hat, row) = (touch.pair as usize, touch.row.hat as usize, &touch.row);
-        let (answer, gap, slip) = contact_answer(scene.pairs[pair].law(), touch, &trial);
+        let (answer, gap, slip) = contact_answer(scene.pairs[pair].law(), scene.levels.as_ref(), touch, &trial);
         let held = &mut state.multipliers[pair];
         (held.pressure[hat], held.shear[hat]) = (answer.pressure, answer.shear);
         (held.gap[hat], held.slip[hat], held.offset[hat]) = (gap, slip.abs(), row.offset);

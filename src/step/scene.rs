@@ -8,7 +8,7 @@ use crate::mesh::locate::Locator;
 use crate::quadrature::Quadrature;
 use crate::rigid::Body;
 use crate::stencil::Scheme;
-use crate::term::{Carried, Porous, Term};
+use crate::term::{Carried, Levels, Porous, Term};
 use crate::time_value::TimeValue;
 
 /// What a case resolves into. Only [`crate::case`] decides which terms it has.
@@ -23,6 +23,8 @@ pub struct Scene<const D: usize> {
     pub bodies: Vec<Body<D>>,
     /// The structures and what they touch.
     pub pairs: Vec<Box<dyn Pair<D>>>,
+    /// The levels of the water that friction tells apart: where those outside and in the pores differ.
+    pub levels: Option<Levels>,
     /// The faces between the cells; absent where none takes a ghost penalty, on displacement or on mass.
     pub faces: Option<Faces>,
     /// What the points weigh in integrals.

@@ -4,6 +4,7 @@
 //! Within a step gap and slip are linear in the displacements, so that the tangent is exact and Newton's method ends at
 //! a fixed set of hats that touch, stick or slide.
 
+use super::levels::Levels;
 use super::{Assembly, Frame, Term, Touch, Trial};
 use crate::contact::{Answer, Law};
 use crate::error::Result;
@@ -14,16 +15,23 @@ pub struct Contact {
     /// The number of the pair in the scene.
     pair: u32,
     law: Law,
+    /// The levels of the water, where those outside and in the pores differ.
+    levels: Option<Levels>,
 }
 
 impl Contact {
-    pub fn new(pair: u32, law: Law) -> Self {
-        Self { pair, law }
+    pub fn new(pair: u32, law: Law, levels: Option<Levels>) -> Self {
+        Self { pair, law, levels }
     }
 }
 
 /// What a hat answers to the displacements of a trial state.
-pub fn answer<const D: usize>(law: &Law, touch: &Touch<D>, trial: &Trial<D>) -> (Answer, f64, f64) {
+pub fn answer<const D: usize>(
+    law: &Law,
+    levels: Option<&Levels>,
+    touch: &Touch<D>,
+    trial: &Trial<D>,
+) -> (Answer, f64, f64) {
     let since = |n: u32| {
         let (now, before) = (&trial.displacement[n as usize], &trial.converged[n as usize]);
         std::array::from_fn(|d| now[d] - before[d])
@@ -32,7 +40,8 @@ pub fn answer<const D: usize>(law: &Law, touch: &Touch<D>, trial: &Trial<D>) -> 
     let law = law.reduced(trial.reduction);
     let held = trial.held && touch.row.penalty.pressure > 0.0;
     let law = Law { separates: law.separates && !held, ..law };
-    (law.respond(&touch.row.penalty, gap, slip), gap, slip)
+    let beyond = levels.zip(touch.row.height).map_or(0.0, |(levels, y)| levels.beyond(trial.phase, trial.time, y));
+    (law.respond(&touch.row.penalty.within(beyond), gap, slip), gap, slip)
 }
 
 impl<const D: usize> Term<D> for Contact {
@@ -46,7 +55,7 @@ impl<const D: usize> Term<D> for Contact {
                 return Ok(());
             }
             let row = &touch.row;
-            let (answer, ..) = answer(&self.law, touch, trial);
+            let (answer, ..) = answer(&self.law, self.levels.as_ref(), touch, trial);
             let (pressure, shear) = (row.area * answer.pressure, row.area * answer.shear);
             for (k, &at) in touch.place.iter().enumerate() {
                 for d in 0..D {

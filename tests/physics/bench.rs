@@ -223,6 +223,7 @@ impl Bench {
             fem,
             bodies: Vec::new(),
             pairs: Vec::new(),
+            levels: None,
             locator: Locator::new(&background),
             faces: Some(Faces::of(&background)),
             mesh: background,

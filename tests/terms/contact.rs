@@ -5,7 +5,8 @@ use crate::stand::{Random, Stand, mesh, points, resultant, size};
 use mpm::contact::{Law, Penalty, Row};
 use mpm::kinematics::PlaneStrain;
 use mpm::mesh::shape::CellKind;
-use mpm::term::{Contact, Touch};
+use mpm::term::{Contact, Head, Levels, Touch};
+use mpm::time_value::TimeValue;
 
 fn law(friction: f64, adhesion: f64, factor: Option<f64>) -> Law {
     Law { friction, adhesion, factor, separates: true }
@@ -14,9 +15,14 @@ fn law(friction: f64, adhesion: f64, factor: Option<f64>) -> Law {
 /// A stand with hats between the first nodes of a cell, as a structure, and the rest of them: each moves as one where
 /// the weights of each sum to one. The first hat is `apart`, the others overlap by up to a millimetre.
 fn stand(law: Law, apart: f64) -> Stand<PlaneStrain> {
+    stand_in_water(law, apart, None)
+}
+
+/// The same where water stands otherwise in the pores than outside.
+fn stand_in_water(law: Law, apart: f64, levels: Option<Levels>) -> Stand<PlaneStrain> {
     let mesh = mesh(CellKind::T6);
     let points = points(&mesh, |_| true);
-    let mut stand = Stand::new(mesh, points, Box::new(Contact::new(0, law)), true, law.friction > 0.0);
+    let mut stand = Stand::new(mesh, points, Box::new(Contact::new(0, law, levels)), true, law.friction > 0.0);
     let mut random = Random(7);
     for hat in 0..4u32 {
         let cell = 2 * hat;
@@ -33,6 +39,7 @@ fn stand(law: Law, apart: f64) -> Stand<PlaneStrain> {
             hat,
             area: 0.3 + 0.1 * angle,
             offset: 0.0,
+            height: Some(angle),
             gap: if hat == 0 { apart } else { -1e-3 * angle },
             by_normal: weights.iter().map(|w| normal.map(|n| w * n)).collect(),
             by_tangent: weights.iter().map(|w| [-normal[1] * w, normal[0] * w]).collect(),
@@ -71,6 +78,24 @@ fn the_tangent_is_the_derivative() {
                 assert!(stand.asymmetry(&trial, &converged) < 1e-14, "{law:?}");
             }
         }
+    }
+}
+
+/// Nor does it matter whether water stands higher in the pores or outside.
+#[test]
+fn water_levels_do_not_change_with_the_motion() {
+    let below = |level: f64| {
+        let [top, gradient, datum] = [0.0, 5.0, level].map(TimeValue::Constant);
+        vec![Some(Head { top, gradient, datum, band: 0.1 })]
+    };
+    for [outside, inside] in [[1.0, 4.0], [4.0, 1.0]] {
+        let levels = || Some(Levels::new(below(outside), below(inside)));
+        let stand = stand_in_water(law(0.4, 0.0, None), 10.0, levels());
+        let dry = self::stand(law(0.4, 0.0, None), 10.0);
+        let (trial, converged) = anywhere(&stand);
+        let error = stand.tangent_error(&trial, &converged);
+        assert!(error < 1e-6, "{outside} {inside}: {error:.1e}");
+        assert_ne!(stand.evaluate(&trial, &converged, 0, false).0, dry.evaluate(&trial, &converged, 0, false).0);
     }
 }
 

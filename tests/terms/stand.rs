@@ -191,6 +191,7 @@ impl<K: Kinematics<2>> Stand<K> {
             fem: None,
             bodies: Vec::new(),
             pairs: Vec::new(),
+            levels: None,
             locator: Locator::new(&mesh),
             mesh,
             terms,

@@ -27,6 +27,7 @@ fn scene<K: Kinematics<2>>(kind: CellKind) -> Scene<2> {
         fem: None,
         bodies: Vec::new(),
         pairs: Vec::new(),
+        levels: None,
         quadrature: Box::new(Volumes::<K>::default()),
         supports: Vec::new(),
         phases: vec![Phase {
