@@ -6,8 +6,8 @@ use crate::mesh::Mesh;
 
 /// Cosine of the angle between the ways of a piece and of a cover from which on they face each other.
 const FACING: f64 = -0.3;
-/// The least part of a piece (-) that counts as open: what rounding leaves is none.
-const LEAST: f64 = 1e-6;
+/// The least part of a piece (-) that counts as open: what is left beside a cover that ends where the piece does is none.
+const LEAST: f64 = 1e-3;
 
 /// A straight part of the boundary of a structure that lies on the material.
 #[derive(Clone, Copy, Debug, PartialEq)]
