@@ -410,3 +410,33 @@ fn friction_takes_the_pressure_of_the_grains_of_finite_elements() {
         assert!((ratio / (0.2 * grains) - 1.0).abs() < 0.01, "{name}: {last:?}");
     }
 }
+
+/// Finite elements have water in their pores up to a level, too. The block slides off by 3 % of its length, where nothing presses.
+#[test]
+fn friction_takes_the_grains_share_of_finite_elements_between_two_levels() {
+    let phases = "phases=[{name: press, analysis: quasi_static, duration: 1, step: {initial: 0.25}, \
+        prescribe: {top: {ux: 0, uy: {rate: -0.02}}}}, {name: slide, analysis: quasi_static, duration: 1, \
+        step: {initial: 0.25}, prescribe: {top: {ux: {rate: 0.06}, uy: 0}}}]";
+    for (outside, inside) in [(1.0, 1.0), (1.0, 1.5), (3.0, 1.0)] {
+        let water = format!("water={{level: {outside}, phreatic_level: {inside}, unit_weight: 10}}");
+        let rows = history(
+            run(
+                "tests/data/blocks",
+                &[
+                    "materials.upper={model: linear_elastic, young: 1.0e+7, poisson: 0, density: 0}",
+                    "contacts=[{structure: upper, against: lower, friction: 0.2}]",
+                    "supports={bottom: {uy: 0}, lower_sides: {ux: 0}}",
+                    &water,
+                    phases,
+                ],
+            )
+            .path(),
+        );
+        let last = rows.last().unwrap();
+        let ratio = -last[1] / (0.2 * (last[2] - 1.94 * 10.0 * (inside - outside)));
+        println!(
+            "levels of {outside} m outside and {inside} m inside: shear over what the grains bear times tan δ {ratio:.4}"
+        );
+        assert!((ratio - 1.0).abs() < 0.01, "{last:?}");
+    }
+}
