@@ -88,7 +88,25 @@ pub fn evaluate<const D: usize>(
         add_terms(problem, grid, &trial, tangent, &|role| dynamic || role != Role::Inertia, own, state)
     });
     state.at = at;
+    if !dynamic {
+        hold_back(problem, grid, &mut state.force);
+    }
     result
+}
+
+/// Takes off what is held of the forces that were out of balance as the phase began.
+fn hold_back<const D: usize>(problem: &Problem<D>, grid: &Grid<D>, force: &mut [f64]) {
+    let release = &problem.state.release;
+    let share = release.share(problem.to);
+    if share == 0.0 {
+        return;
+    }
+    let held = grid.node.iter().flat_map(|&n| release.force[n as usize]);
+    for ((f, held), given) in force.iter_mut().zip(held).zip(problem.given) {
+        if given.is_none() {
+            *f += share * held;
+        }
+    }
 }
 
 /// Adds up the terms of the wanted roles.

@@ -9,6 +9,7 @@ use super::newton::Buffers;
 use super::pressure;
 use super::put_back::put_back;
 use super::relax::{self, Relaxed};
+use super::release;
 use super::scene::{Fixed, Restore, Scene};
 use super::state::State;
 use super::water;
@@ -440,7 +441,9 @@ fn begin_anew<const D: usize, K: Kinematics<D>>(
     };
     state.weighing = scene.quadrature.weigh(&grid, &mut state.front);
     state.weighing.put_back = put_back;
-    guess::carry(scene, before.as_ref().map_or(&scene.mesh, |r| &r.mesh), mesh, state);
+    let before = before.as_ref().map_or(&scene.mesh, |r| &r.mesh);
+    guess::carry(scene, before, mesh, state);
+    release::carry(scene, before, (mesh, locator), state);
     state.displacement.fill([0.0; D]);
     state.restorations += 1;
     if scene.numerics.restore == Restore::Never {
