@@ -23,11 +23,11 @@ impl<const D: usize> Default for Evaluation<D> {
     }
 }
 
-/// The sum of all terms but inertia at the last converged step.
+/// The sum of all terms but inertia at the last converged step, and what it is measured against.
 ///
 /// # Errors
 /// When the converged state is inadmissible on the restored grid.
-pub fn static_force<const D: usize>(problem: &Problem<D>, grid: &mut Grid<D>) -> Result<Vec<f64>> {
+pub fn static_force<const D: usize>(problem: &Problem<D>, grid: &mut Grid<D>) -> Result<Evaluation<D>> {
     let trial = Trial {
         displacement: problem.converged,
         between: problem.converged,
@@ -48,7 +48,7 @@ pub fn static_force<const D: usize>(problem: &Problem<D>, grid: &mut Grid<D>) ->
     timed(Activity::Assembly, || {
         add_terms(problem, grid, &trial, false, &|role| role != Role::Inertia, &mut own, &mut sum)
     })?;
-    Ok(sum.force)
+    Ok(sum)
 }
 
 /// The residual of a state at the end of the step and, where wanted, the tangent in the matrix of the grid.

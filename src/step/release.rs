@@ -36,7 +36,7 @@ impl<const D: usize> Release<D> {
     }
 }
 
-/// Holds what is out of balance, after a first step of the size `dt` (s) that failed.
+/// Holds what is out of balance, if anything is, after a first step of the size `dt` (s) that failed.
 ///
 /// # Errors
 /// When the state is inadmissible on the restored grid.
@@ -44,13 +44,17 @@ pub fn hold<const D: usize>(scene: &Scene<D>, grid: &mut Grid<D>, state: &mut St
     if state.dynamic(scene) || state.phase_time > 0.0 || !state.release.force.is_empty() {
         return Ok(());
     }
-    let force = static_force(&Problem::at_rest(scene, state), grid)?;
+    let now = static_force(&Problem::at_rest(scene, state), grid)?;
     let mut by_node = vec![[0.0; D]; scene.mesh.nodes.len()];
-    for (f, &n) in force.chunks_exact(D).zip(&grid.node) {
+    for (f, &n) in now.force.chunks_exact(D).zip(&grid.node) {
         by_node[n as usize] = std::array::from_fn(|d| -f[d]);
     }
     for fixed in scene.fixed(state.phase) {
         fixed.nodes.iter().for_each(|&n| by_node[n as usize][fixed.component] = 0.0);
+    }
+    let size = by_node.iter().flatten().map(|f| f * f).sum::<f64>().sqrt();
+    if size <= scene.numerics.tolerance * now.scale {
+        return Ok(());
     }
     state.release = Release { force: by_node, until: dt };
     Ok(())
