@@ -21,6 +21,7 @@ mod put_back;
 mod relax;
 mod release;
 mod report;
+mod restore;
 mod rigid;
 mod scene;
 mod state;
