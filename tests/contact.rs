@@ -86,6 +86,27 @@ fn what_cannot_be_borne_at_once_is_released_by_halved_steps() {
     assert!((at_once[2] / grown[2] - 1.0).abs() < 0.1, "{at_once:?} {grown:?}");
 }
 
+/// The same on soil that presses on a wall already: what presses elsewhere is nothing to the plate.
+#[test]
+fn a_plate_is_laid_on_soil_that_rests_on_a_wall() {
+    let overrides = [
+        "mesh.parameters={plate: 0.8, left: 0.6, edge: 0.05}",
+        "materials.soil={model: tresca, young: 1000, poisson: 0.49, shear_strength: 10, density: 1}",
+        "contacts=[{structure: plate, soil: soil}, {wall: bottom, soil: soil}]",
+        "supports={side: {ux: 0}}",
+        "gravity={y: -9.81}",
+        "initial_stress={k0: 0.96}",
+        "phases=[{name: rest, analysis: quasi_static, duration: 1, step: {initial: 0.5}, deactivate: [plate]}, \
+         {name: load, analysis: quasi_static, duration: 1, step: {initial: 1}, activate: [plate], \
+         tractions: [{on: top, ty: -46}], prescribe: {top: {ux: 0}}}]",
+        "output.history=[{name: plate, on: plate, quantities: [uy, contact_y]}, {name: bottom, on: bottom, quantities: [contact_y]}]",
+    ];
+    let last = history(run("tests/data/plate", &overrides).path()).pop().unwrap();
+    println!("{last:?}");
+    let (load, weight) = (0.8 * 46.0, 2.0 * 9.81);
+    assert!((last[2] / load - 1.0).abs() < 1e-6 && (last[3] / -(load + weight) - 1.0).abs() < 1e-3, "{last:?}");
+}
+
 /// The same pressure stands along the base of the plate, adds up to the force, and leaves the other sides free. Where there
 /// is no soil the gap is not known, and along the base it is closed.
 #[test]

@@ -73,7 +73,7 @@ pub struct Row<const D: usize> {
 impl<const D: usize> Row<D> {
     /// Whether the two lie on each other as the step begins, pressed or not.
     pub fn lies(&self) -> bool {
-        self.penalty.pressure > 0.0 || self.gap < self.penalty.fading
+        self.gap < self.penalty.fading
     }
 
     /// Gap and slip (m) after the nodes moved by `increment`, given by node.

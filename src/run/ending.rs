@@ -136,7 +136,7 @@ fn loads_reached<const D: usize>(scene: &Scene<D>, phase: &Phase, state: &State<
     let reduction = phase.reduction.iter().filter(|value| varies(value));
     let reduction = reduction.map(|value| format!("strengths divided by {:.4} of {:.4}", value.at(now), value.at(end)));
     let held = state.release.share(now);
-    let released =
-        (held > 0.0).then(|| format!("{:.1} % of what was out of balance as the phase began", 100.0 * (1.0 - held)));
+    let released = (held > 0.0 && now > 0.0)
+        .then(|| format!("{:.1} % of what was out of balance as the phase began", 100.0 * (1.0 - held)));
     factors.chain(moved).chain(reduction).chain(released).collect()
 }

@@ -42,7 +42,7 @@ pub fn static_force<const D: usize>(problem: &Problem<D>, grid: &mut Grid<D>) ->
         time: problem.from,
         reduction: problem.scene.phases[problem.phase].reduction_at(problem.from),
         held: false,
-        per_second: 0.0,
+        per_second: if problem.to > problem.from { 1.0 / (problem.to - problem.from) } else { 0.0 },
     };
     let (mut own, mut sum) = (Vec::new(), Evaluation::default());
     timed(Activity::Assembly, || {

@@ -192,9 +192,9 @@ impl<'a, const D: usize> Newton<'a, D> {
 
     /// The state that the iteration begins with.
     fn begin(&mut self) -> Result<()> {
-        let lying = (self.problem.guess.is_none() && self.lies()).then_some(self.problem.converged);
-        if let Some(guess) = self.problem.guess.or(lying) {
-            self.buffers.now.at.set(guess, self.problem.pressure);
+        let laid = self.problem.integration.is_none() && self.grid.touches.iter().any(|touch| touch.laid);
+        for start in self.problem.guess.into_iter().chain(laid.then_some(self.problem.converged)) {
+            self.buffers.now.at.set(start, self.problem.pressure);
             if self.set_out().is_ok() {
                 return Ok(());
             }
@@ -208,14 +208,7 @@ impl<'a, const D: usize> Newton<'a, D> {
         Ok(())
     }
 
-    /// Whether bodies lie on each other that have not pressed yet.
-    fn lies(&self) -> bool {
-        let touches = &self.grid.touches;
-        let presses = touches.iter().any(|touch| touch.row.penalty.pressure > 0.0);
-        self.problem.integration.is_none() && !presses && touches.iter().any(|touch| touch.row.lies())
-    }
-
-    /// The first iterations from a guess, or of bodies that lie on each other without pressure. They leave hats a little apart that bear in
+    /// The first iterations from a guess, or of bodies laid on each other. They leave hats a little apart that bear in
     /// the end; nothing holds the soil beneath them then, and what the tangent says flies through the structure, or
     /// nothing holds the structure. The directions hold such hats together until one is worth its full length.
     fn set_out(&mut self) -> Result<()> {

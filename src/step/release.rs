@@ -2,7 +2,8 @@
 //!
 //! Weights that come, walls that go, loads that are there at once and strength that is lost leave forces `R₀` on the nodes, and no step
 //! is so small that they are less. Where the first step fails they are held, and released in proportion to the time until
-//! that step would have ended: steps that are halved then have less to bear. From there on nothing is left of them.
+//! that step would have ended: steps that are halved then have less to bear. From there on nothing is left of them. Phases that look for
+//! failure, or hand it to dynamics, hold nothing.
 
 use super::balance::static_force;
 use super::grid::Grid;
@@ -14,6 +15,9 @@ use crate::mesh::Mesh;
 use crate::mesh::locate::Locator;
 use crate::mesh::shape::MAX_NODES;
 use crate::rigid::Body;
+
+/// Share of the largest term from which on it is worth holding what is out of balance: a grid that was restored leaves less.
+const WORTH: f64 = 1e-3;
 
 /// Forces that are held.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -41,10 +45,12 @@ impl<const D: usize> Release<D> {
 /// # Errors
 /// When the state is inadmissible on the restored grid.
 pub fn hold<const D: usize>(scene: &Scene<D>, grid: &mut Grid<D>, state: &mut State<D>, dt: f64) -> Result<()> {
-    if state.dynamic(scene) || state.phase_time > 0.0 || !state.release.force.is_empty() {
+    let phase = &scene.phases[state.phase];
+    let looks_for_failure = phase.auto || phase.search.is_some();
+    if looks_for_failure || state.dynamic(scene) || state.phase_time > 0.0 || !state.release.force.is_empty() {
         return Ok(());
     }
-    let now = static_force(&Problem::at_rest(scene, state), grid)?;
+    let now = static_force(&Problem { to: dt, ..Problem::at_rest(scene, state) }, grid)?;
     let mut by_node = vec![[0.0; D]; scene.mesh.nodes.len()];
     for (f, &n) in now.force.chunks_exact(D).zip(&grid.node) {
         by_node[n as usize] = std::array::from_fn(|d| -f[d]);
@@ -53,7 +59,7 @@ pub fn hold<const D: usize>(scene: &Scene<D>, grid: &mut Grid<D>, state: &mut St
         fixed.nodes.iter().for_each(|&n| by_node[n as usize][fixed.component] = 0.0);
     }
     let size = by_node.iter().flatten().map(|f| f * f).sum::<f64>().sqrt();
-    if size <= scene.numerics.tolerance * now.scale {
+    if size <= WORTH * now.scale {
         return Ok(());
     }
     state.release = Release { force: by_node, until: dt };
@@ -75,13 +81,24 @@ pub fn carry<const D: usize>(
     let elements = scene.fem.iter().flat_map(|fem| &fem.mesh.cells.nodes);
     let bodies = scene.bodies.iter().flat_map(Body::carriers);
     elements.copied().chain(bodies).for_each(|n| own[n as usize] = true);
+    let mut holds = vec![false; after.cells.len()];
+    state.points.cell.iter().for_each(|&c| holds[c as usize] = true);
+    let mut beside = vec![None; state.release.force.len()];
+    for c in (0..after.cells.len()).filter(|&c| holds[c]) {
+        after.cells.nodes(c).iter().for_each(|&n| beside[n as usize] = Some(c as u32));
+    }
     let mut force = vec![[0.0; D]; state.release.force.len()];
     let (mut values, mut hint) = ([0.0; MAX_NODES], None);
     for (n, f) in state.release.force.iter().enumerate().filter(|(_, f)| f.iter().any(|f| *f != 0.0)) {
         let mut add = |n: usize, share: f64| (0..D).for_each(|d| force[n][d] += share * f[d]);
         let moved = |x: &[f64; D]| std::array::from_fn(|d| x[d] + state.displacement[n][d]);
         let place = before.nodes.get(n).filter(|_| !own[n]).map(moved);
-        let Some((c, xi)) = place.and_then(|x| locator.locate(after, &x, hint)) else {
+        // The nodes of an empty cell would give way: a cell with points beside the node goes on to there.
+        let found = place.and_then(|x| match locator.locate(after, &x, hint) {
+            Some((c, xi)) if holds[c as usize] => Some((c, xi)),
+            _ => beside[n].and_then(|c| Some((c, locator.extend(after, c, &x)?))),
+        });
+        let Some((c, xi)) = found else {
             add(n, 1.0);
             continue;
         };

@@ -30,7 +30,7 @@ pub fn answer<const D: usize>(law: &Law, touch: &Touch<D>, trial: &Trial<D>) -> 
     };
     let (gap, slip) = touch.row.measure(since);
     let law = law.reduced(trial.reduction);
-    let held = trial.held && touch.row.lies();
+    let held = trial.held && (touch.laid || touch.row.penalty.pressure > 0.0);
     let law = Law { separates: law.separates && !held, ..law };
     (law.respond(&touch.row.penalty, gap, slip), gap, slip)
 }

@@ -51,7 +51,7 @@ fn stand(law: Law, apart: f64) -> Stand<PlaneStrain> {
         };
         let clique = stand.grid.clique[cell as usize];
         let place = (0..6).collect();
-        stand.grid.touches.push(Touch { pair: 0, row, clique, place });
+        stand.grid.touches.push(Touch { pair: 0, row, laid: false, clique, place });
     }
     stand
 }
