@@ -65,8 +65,8 @@ fn factors_alone_name_the_sparse_solver_and_one_file_calls_gmsh() {
         files
     };
     assert_eq!(holds("faer"), ["factor", "halves", "lu", "supernodes"].map(|file| format!("system/{file}.rs")));
-    assert_eq!(holds("unsafe"), ["mesh/gmsh.rs"]);
-    assert_eq!(holds("OUT_DIR"), ["mesh/gmsh.rs"], "the bindings that build.rs makes");
+    assert_eq!(holds("unsafe"), ["mesh/gmsh/session.rs"]);
+    assert_eq!(holds("OUT_DIR"), ["mesh/gmsh/session.rs"], "the bindings that build.rs makes");
     assert_eq!(holds("extern"), [""; 0]);
 }
 

@@ -40,6 +40,73 @@ fn a_plate_hands_on_a_uniform_pressure() {
     }
 }
 
+/// The same with a load in place of a displacement, from the first step on: a plate that touches, and does not press yet, is held by the
+/// soil that it lies on.
+#[test]
+fn a_plate_laid_on_soil_bears_a_load() {
+    let load = 150.0;
+    let phase = "phases=[{name: load, analysis: quasi_static, duration: 1, step: {initial: 0.1}, \
+                  tractions: [{on: top, ty: -150}], prescribe: {top: {ux: 0}}}]";
+    let folder = run("tests/data/plate", &[phase]);
+    let last = history(folder.path()).pop().unwrap();
+    let (young, poisson) = (1000.0, 0.3);
+    let modulus = young * (1.0 - poisson) / ((1.0 + poisson) * (1.0 - 2.0 * poisson));
+    let balance = |stretch: f64| modulus * stretch.ln() / stretch + load;
+    let (mut low, mut high) = (0.5, 1.0);
+    while high - low > 1e-12 {
+        let middle = 0.5 * (low + high);
+        *(if balance(middle) < 0.0 { &mut low } else { &mut high }) = middle;
+    }
+    assert!((last[4] / (2.0 * load) - 1.0).abs() < 1e-9, "{last:?}");
+    assert!((last[2] / (low - 1.0) - 1.0).abs() < 1e-3, "{last:?}, {}", low - 1.0);
+}
+
+/// A plate near the limit of what clay bears, laid on it at once: the step fails, and halves of it bear a half. It
+/// ends where a load that grows does.
+#[test]
+fn what_cannot_be_borne_at_once_is_released_by_halved_steps() {
+    let with = |load: &str, step: f64| {
+        let phase = format!(
+            "phases=[{{name: load, analysis: quasi_static, duration: 1, step: {{initial: {step}, max: {step}}}, \
+             tractions: [{{on: top, ty: {load}}}], prescribe: {{top: {{ux: 0}}}}}}]"
+        );
+        let clay =
+            "materials.soil={model: tresca, young: 1000, poisson: 0.49, shear_strength: 10, density: 0}".to_string();
+        let plate = ["plate=0.8", "left=0.6", "edge=0.05"].map(|entry| format!("mesh.parameters.{entry}"));
+        let overrides: Vec<String> = plate.into_iter().chain([clay, phase]).collect();
+        let folder = run("tests/data/plate", &overrides.iter().map(String::as_str).collect::<Vec<_>>());
+        let log = std::fs::read_to_string(folder.path().join("solve.log")).unwrap();
+        (history(folder.path()).pop().unwrap(), log)
+    };
+    let (at_once, log) = with("-46", 1.0);
+    let (grown, _) = with("{rate: -46}", 0.05);
+    println!("{at_once:?}, grown {grown:?}");
+    assert!(log.contains("halved") && log.contains("held back"), "{log}");
+    assert!((at_once[4] / (0.8 * 46.0) - 1.0).abs() < 1e-6, "{at_once:?}");
+    assert!((at_once[2] / grown[2] - 1.0).abs() < 0.1, "{at_once:?} {grown:?}");
+}
+
+/// The same on soil that presses on a wall already: what presses elsewhere is nothing to the plate.
+#[test]
+fn a_plate_is_laid_on_soil_that_rests_on_a_wall() {
+    let overrides = [
+        "mesh.parameters={plate: 0.8, left: 0.6, edge: 0.05}",
+        "materials.soil={model: tresca, young: 1000, poisson: 0.49, shear_strength: 10, density: 1}",
+        "contacts=[{structure: plate, soil: soil}, {wall: bottom, soil: soil}]",
+        "supports={side: {ux: 0}}",
+        "gravity={y: -9.81}",
+        "initial_stress={k0: 0.96}",
+        "phases=[{name: rest, analysis: quasi_static, duration: 1, step: {initial: 0.5}, deactivate: [plate]}, \
+         {name: load, analysis: quasi_static, duration: 1, step: {initial: 1}, activate: [plate], \
+         tractions: [{on: top, ty: -46}], prescribe: {top: {ux: 0}}}]",
+        "output.history=[{name: plate, on: plate, quantities: [uy, contact_y]}, {name: bottom, on: bottom, quantities: [contact_y]}]",
+    ];
+    let last = history(run("tests/data/plate", &overrides).path()).pop().unwrap();
+    println!("{last:?}");
+    let (load, weight) = (0.8 * 46.0, 2.0 * 9.81);
+    assert!((last[2] / load - 1.0).abs() < 1e-6 && (last[3] / -(load + weight) - 1.0).abs() < 1e-3, "{last:?}");
+}
+
 /// The same pressure stands along the base of the plate, adds up to the force, and leaves the other sides free. Where there
 /// is no soil the gap is not known, and along the base it is closed.
 #[test]

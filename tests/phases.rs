@@ -99,6 +99,38 @@ fn a_block_fails_where_its_reduced_strength_is_the_load() {
     }
 }
 
+/// A search that begins with its load out of balance finds the factor where there is equilibrium to begin with. Where there is none
+/// it says so, and no factor: what it finds with a part of the load is none.
+#[test]
+fn a_search_begins_with_all_of_its_load() {
+    let search = |load: f64| {
+        let file = tempfile::tempdir().unwrap();
+        let text = format!(
+            "geometry: plane_strain\n\
+             mesh: {{geo: {}, parameters: {{half_width: 1, height: 1, room: 0, h: 0.5}}}}\n\
+             regions: {{block: {{kind: mpm, material: soil, points_per_cell: 12}}}}\n\
+             materials: {{soil: {{model: tresca, shear_strength: 10, young: 1.0e+6, poisson: 0.3, density: 1}}}}\n\
+             supports: {{bottom: {{uy: 0}}, axis: {{ux: 0}}}}\n\
+             numerics: {{restore: never}}\n\
+             phases:\n\
+             - {{name: safety, analysis: strength_reduction, duration: 1, step: {{initial: 0.05, min: 0.0002}}, \
+                 tractions: [{{on: top, ty: {load}}}]}}\n",
+            root().join("geo/slump.geo").display()
+        );
+        fs::write(file.path().join("case.yaml"), text).unwrap();
+        let folder = tempfile::tempdir().unwrap();
+        let mut command = Command::new(env!("CARGO_BIN_EXE_mpm"));
+        let output = command.arg("run").arg(file.path()).arg("-o").arg(folder.path()).output().unwrap();
+        (output.status.success(), log(folder.path()))
+    };
+    let (done, found) = search(-17.0);
+    let [held, failed] = bracket(&found);
+    let exact = 20.0 / 17.0;
+    assert!(done && held < 1.001 * exact && failed > 0.999 * exact, "{found}");
+    let (done, found) = search(-20.5);
+    assert!(!done && !found.contains("factor of safety"), "{found}");
+}
+
 #[test]
 fn what_bears_more_than_asked_is_told_so() {
     let folder = block("model: tresca, shear_strength: 100", -16.0);

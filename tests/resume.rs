@@ -139,6 +139,17 @@ const LEVELS: Case = Case {
     ],
 };
 
+/// A plate laid on clay that bears it only bit by bit: what is held back as the phase begins.
+const LAID: Case = Case {
+    file: "tests/data/plate",
+    overrides: &[
+        "mesh.parameters={plate: 0.8, left: 0.6, edge: 0.05}",
+        "materials.soil={model: tresca, young: 1000, poisson: 0.49, shear_strength: 10, density: 0}",
+        "phases=[{name: load, analysis: quasi_static, duration: 1, step: {initial: 0.02, max: 0.02}, \
+         tractions: [{on: top, ty: -48}], prescribe: {top: {ux: 0}}}]",
+    ],
+};
+
 /// Grains that come apart: the inertia of nodes that hold next to no mass.
 const GRAINS: Case = Case {
     file: "cases/column_collapse",
@@ -339,6 +350,11 @@ fn a_run_with_two_water_levels_killed_ten_times_ends_the_same() {
 }
 
 #[test]
+fn a_load_released_bit_by_bit_killed_ten_times_ends_the_same() {
+    survives_kills(&LAID, 33);
+}
+
+#[test]
 fn grains_that_come_apart_killed_ten_times_end_the_same() {
     survives_kills(&GRAINS, 29);
 }
@@ -346,7 +362,7 @@ fn grains_that_come_apart_killed_ten_times_end_the_same() {
 #[test]
 fn the_number_of_threads_changes_no_bit() {
     for case in
-        [SLOPE, RELEASE, SAND, PILE, BLOCK, WALL, BODIES, SAFETY, FALL, SOFT, POOL, WATER, CHANGE, LEVELS, GRAINS]
+        [SLOPE, RELEASE, SAND, PILE, BLOCK, WALL, BODIES, SAFETY, FALL, SOFT, POOL, WATER, CHANGE, LEVELS, GRAINS, LAID]
     {
         let one = seeded(&case);
         let three = copy(one.path());

@@ -305,8 +305,9 @@ def stages(r):
         "weaken": phase("dynamic", 1, 20, strength_reduction=r.uniform(1, 5), reset_displacements=True),
     }
     if r.random() < 0.4:
-        # What only touches a wall does not stand on it yet: it begins with its weight.
-        case["initial_stress"], rest["gravity"] = {"k0": 0.5}, 1
+        if r.random() < 0.5:
+            # All of the weight is there from the first step on.
+            case["initial_stress"], rest["gravity"] = {"k0": 0.5}, 1
         case["contacts"] = [{"wall": "lower", "soil": "body", "friction": r.choice([0, 0.5])}]
         del case["supports"]["lower"]
         kinds["drop"] = phase("dynamic", 0.3, 10, deactivate=["lower"])

@@ -77,6 +77,11 @@ pub struct Row<const D: usize> {
 }
 
 impl<const D: usize> Row<D> {
+    /// Whether the two lie on each other as the step begins, pressed or not.
+    pub fn lies(&self) -> bool {
+        self.gap < self.penalty.fading
+    }
+
     /// Gap and slip (m) after the nodes moved by `increment`, given by node.
     pub fn measure(&self, increment: impl Fn(u32) -> [f64; D]) -> (f64, f64) {
         let (mut gap, mut slip) = (self.gap, 0.0);

@@ -8,7 +8,7 @@ use crate::io::columns;
 use crate::io::container::Store;
 use crate::quadrature::{Tally, Weighing};
 use crate::stencil::SoftCell;
-use crate::step::State;
+use crate::step::{Release, State};
 use crate::surface::{ActiveBoundary, Front, Piece};
 
 const POINTS: &str = "points.";
@@ -34,6 +34,7 @@ pub fn store<const D: usize>(state: &State<D>) -> Store {
         moving,
         falling,
         peak,
+        release,
         parametric,
         displacement,
         increment,
@@ -55,7 +56,7 @@ pub fn store<const D: usize>(state: &State<D>) -> Store {
         1,
         vec![*phase as u64, *step, *frames, *rows, *log_lines, u64::from(*moving), *restorations, u64::from(*falling)],
     );
-    store.put("state.times", 1, vec![*time, *phase_time, *step_size, *last_step, *peak]);
+    store.put("state.times", 1, vec![*time, *phase_time, *step_size, *last_step, *peak, release.until]);
     store.put("state.parametric", 3, parametric.concat());
     store.put("state.fem_parametric", 3, fem_parametric.concat());
     for (name, field) in [
@@ -66,6 +67,7 @@ pub fn store<const D: usize>(state: &State<D>) -> Store {
         ("acceleration", acceleration),
         ("nodes", nodes),
         ("increment", increment),
+        ("release", &release.force),
     ] {
         store.put(&format!("state.{name}"), D, field.concat());
     }
@@ -192,7 +194,7 @@ pub fn take<const D: usize>(mut store: Store, first: &State<D>) -> Result<State<
     let times = store.take::<f64>("state.times", 1)?;
     let (
         [phase, step, frames, rows, log_lines, moving, restorations, falling],
-        [time, phase_time, step_size, last_step, peak],
+        [time, phase_time, step_size, last_step, peak, until],
     ) = (&counts[..], &times[..])
     else {
         return Err(foreign("its list of counts"));
@@ -205,7 +207,7 @@ pub fn take<const D: usize>(mut store: Store, first: &State<D>) -> Result<State<
     };
     let (displacement, travel, increment) = (nodal("displacement")?, nodal("travel")?, nodal("increment")?);
     let (velocity, acceleration, places) = (nodal("velocity")?, nodal("acceleration")?, nodal("nodes")?);
-    let uncounted = nodal("uncounted")?;
+    let (uncounted, force) = (nodal("uncounted")?, nodal("release")?);
     let triples = |values: Vec<f64>| values.chunks_exact(3).map(|v| [v[0], v[1], v[2]]).collect();
     let parametric: Vec<_> = triples(store.take("state.parametric", 3)?);
     let fem_parametric = triples(store.take("state.fem_parametric", 3)?);
@@ -236,6 +238,7 @@ pub fn take<const D: usize>(mut store: Store, first: &State<D>) -> Result<State<
         moving: *moving != 0,
         falling: *falling != 0,
         peak: *peak,
+        release: Release { force, until: *until },
         parametric,
         displacement,
         increment,

@@ -2,7 +2,7 @@
 
 use super::record::{self, Quantity, Watch};
 use crate::error::{Error, Kind};
-use crate::step::{Controller, Phase, Report, Scene, State};
+use crate::step::{Controller, Phase, Release, Report, Scene, State};
 use crate::time_value::TimeValue;
 
 /// Part of the largest kinetic energy that counts as rest (-) where dynamics hands back to a quasi-static phase.
@@ -56,7 +56,7 @@ pub fn let_fall<const D: usize>(
     error: &Error,
 ) -> String {
     controller.exhausted = false;
-    (state.falling, state.peak) = (true, 0.0);
+    (state.falling, state.peak, state.release) = (true, 0.0, Release::default());
     format!("phase `{}` goes on with inertia from t = {:.6} s: {}", phase.name, state.time, error.problem)
 }
 
@@ -135,5 +135,8 @@ fn loads_reached<const D: usize>(scene: &Scene<D>, phase: &Phase, state: &State<
     });
     let reduction = phase.reduction.iter().filter(|value| varies(value));
     let reduction = reduction.map(|value| format!("strengths divided by {:.4} of {:.4}", value.at(now), value.at(end)));
-    factors.chain(moved).chain(reduction).collect()
+    let held = state.release.share(now);
+    let released = (held > 0.0 && now > 0.0)
+        .then(|| format!("{:.1} % of what was out of balance as the phase began", 100.0 * (1.0 - held)));
+    factors.chain(moved).chain(reduction).chain(released).collect()
 }

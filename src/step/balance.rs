@@ -23,11 +23,11 @@ impl<const D: usize> Default for Evaluation<D> {
     }
 }
 
-/// The sum of all terms but inertia at the last converged step.
+/// The sum of all terms but inertia at the last converged step, and what it is measured against.
 ///
 /// # Errors
 /// When the converged state is inadmissible on the restored grid.
-pub fn static_force<const D: usize>(problem: &Problem<D>, grid: &mut Grid<D>) -> Result<Vec<f64>> {
+pub fn static_force<const D: usize>(problem: &Problem<D>, grid: &mut Grid<D>) -> Result<Evaluation<D>> {
     let trial = Trial {
         displacement: problem.converged,
         between: problem.converged,
@@ -42,13 +42,13 @@ pub fn static_force<const D: usize>(problem: &Problem<D>, grid: &mut Grid<D>) ->
         time: problem.from,
         reduction: problem.scene.phases[problem.phase].reduction_at(problem.from),
         held: false,
-        per_second: 0.0,
+        per_second: if problem.to > problem.from { 1.0 / (problem.to - problem.from) } else { 0.0 },
     };
     let (mut own, mut sum) = (Vec::new(), Evaluation::default());
     timed(Activity::Assembly, || {
         add_terms(problem, grid, &trial, false, &|role| role != Role::Inertia, &mut own, &mut sum)
     })?;
-    Ok(sum.force)
+    Ok(sum)
 }
 
 /// The residual of a state at the end of the step and, where wanted, the tangent in the matrix of the grid.
@@ -88,7 +88,25 @@ pub fn evaluate<const D: usize>(
         add_terms(problem, grid, &trial, tangent, &|role| dynamic || role != Role::Inertia, own, state)
     });
     state.at = at;
+    if !dynamic {
+        hold_back(problem, grid, &mut state.force);
+    }
     result
+}
+
+/// Takes off what is held of the forces that were out of balance as the phase began.
+fn hold_back<const D: usize>(problem: &Problem<D>, grid: &Grid<D>, force: &mut [f64]) {
+    let release = &problem.state.release;
+    let share = release.share(problem.to);
+    if share == 0.0 {
+        return;
+    }
+    let held = grid.node.iter().flat_map(|&n| release.force[n as usize]);
+    for ((f, held), given) in force.iter_mut().zip(held).zip(problem.given) {
+        if given.is_none() {
+            *f += share * held;
+        }
+    }
 }
 
 /// Adds up the terms of the wanted roles.

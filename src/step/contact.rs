@@ -5,7 +5,7 @@ use super::leaving;
 use super::newton::Solution;
 use super::scene::Scene;
 use super::state::State;
-use crate::contact::{Ground, Multipliers, Pair, Pushed};
+use crate::contact::{Ground, Multipliers, Pair, Pushed, Row};
 use crate::error::Result;
 use crate::kinematics::Kinematics;
 use crate::mesh::Mesh;
@@ -115,7 +115,9 @@ pub fn begin<const D: usize, K: Kinematics<D>>(
             covers.extend(pair.covers(&rows, &at));
         }
         let pair = number as u32;
-        touches.extend(rows.into_iter().map(|row| Touch { pair, row, clique: 0, place: Vec::new() }));
+        let presses = rows.iter().any(|row| row.penalty.pressure > 0.0);
+        let touch = |row: Row<D>| Touch { pair, laid: !presses && row.lies(), row, clique: 0, place: Vec::new() };
+        touches.extend(rows.into_iter().map(touch));
     }
     let open = covered.then(|| open(mesh, &state.weighing.boundary.pieces, &covers));
     let takes_part = |touch: &Touch<D>| touch.row.nodes.iter().all(|&n| grid.block[n as usize] != u32::MAX);

@@ -2,32 +2,24 @@
 //! All of it follows from the scene and the state, and is made anew only as far as they changed.
 
 use super::contact;
-use super::fem::{self, Elements};
+use super::fem::Elements;
 use super::ghost_faces;
-use super::guess;
 use super::newton::Buffers;
 use super::pressure;
-use super::put_back::put_back;
 use super::relax::{self, Relaxed};
-use super::scene::{Fixed, Restore, Scene};
+use super::restore::{begin_anew, fill};
+use super::scene::{Fixed, Scene};
 use super::state::State;
 use super::water;
-use crate::error::{Error, Result};
+use crate::error::Result;
 use crate::kinematics::Kinematics;
 use crate::mesh::Mesh;
-use crate::mesh::locate::Locator;
 use crate::points::Points;
-use crate::quadrature::Restored;
 use crate::rigid::Body;
 use crate::stencil::Stencil;
 use crate::surface::Piece;
 use crate::system::{Cliques, Matrix, Pattern, Solver, Workspace};
 use crate::term::{Frame, GhostFace, Touch};
-use rayon::prelude::*;
-
-/// Rings of cells around those with points that take part too, so that points can move on for a while
-/// before the pattern changes.
-const RINGS: usize = 2;
 
 /// Points with the cells they act on: the material points on the grid, or those of the finite elements.
 pub struct Family<'a, const D: usize> {
@@ -408,165 +400,6 @@ impl<const D: usize> Grid<D> {
         let soil = Family { mesh: &scene.mesh, stencil: &self.stencil, clique: &self.clique, points: &state.points };
         std::iter::once(soil).chain(self.elements.iter().map(|elements| elements.family(&state.fem)))
     }
-}
-
-/// Goes back to the first shape of the grid: finds the points on it, chooses the cells that take part and weighs
-/// the points. True when the system must have another pattern than before.
-///
-/// # Errors
-/// When a point lies outside the grid.
-fn begin_anew<const D: usize, K: Kinematics<D>>(
-    scene: &Scene<D>,
-    state: &mut State<D>,
-    stencil: &mut Stencil<D>,
-    relaxed: &mut Option<Relaxed<D>>,
-) -> Result<bool> {
-    let nodes = state.nodes.clone();
-    let placed = place::<D, K>(scene, state, relaxed);
-    if placed.is_err() {
-        // The displacement is still that of the last converged step.
-        state.nodes = nodes;
-    }
-    let (before, put_back) = placed?;
-    let (mesh, locator) = relaxed.as_ref().map_or((&scene.mesh, &scene.locator), |r| (&r.mesh, &r.locator));
-    let changed = choose_cells(scene, state);
-    let outlines = contact::outlines(scene, state);
-    fill::<D, K>(stencil, scene, mesh, state);
-    let grid = Restored {
-        mesh,
-        locator,
-        before: before.as_ref().map_or((&scene.mesh, &scene.locator), |r| (&r.mesh, &r.locator)),
-        outlines: &outlines,
-        relaxed: relaxed.is_some(),
-        points: &state.points,
-        parametric: &state.parametric,
-        stencil,
-        taking_part: &state.taking_part,
-        displacement: (state.restorations > 0).then_some(&state.displacement),
-    };
-    state.weighing = scene.quadrature.weigh(&grid, &mut state.front);
-    state.weighing.put_back = put_back;
-    guess::carry(scene, before.as_ref().map_or(&scene.mesh, |r| &r.mesh), mesh, state);
-    state.displacement.fill([0.0; D]);
-    state.restorations += 1;
-    if scene.numerics.restore == Restore::Never {
-        // A grid that is never restored carries its points along: its cells stay as full as seeded.
-        state.weighing.soft.clear();
-        if !scene.terms.iter().any(|t| t.penalises_faces()) {
-            state.weighing.poor.clear();
-        }
-    }
-    stencil.weigh(&state.weighing.weight, &state.weighing.shift);
-    if scene.has_pressure_field() {
-        let nodes = scene.mesh.nodes.len();
-        pressure::gather::<D, K>(&scene.mesh, stencil, &state.points, nodes, &mut state.pressure);
-    }
-    if let Some(faces) = &scene.faces {
-        let chosen = ghost_faces::choose(scene, state);
-        return Ok(ghost_faces::make_room(faces, state, &chosen) || changed);
-    }
-    Ok(changed)
-}
-
-/// Moves the nodes to where the restored grid has them, and finds the points on it. Returns the grid before, and a note on
-/// points that were put back onto it.
-///
-/// # Errors
-/// When a cell of the grid is folded, or a point lies outside it.
-fn place<const D: usize, K: Kinematics<D>>(
-    scene: &Scene<D>,
-    state: &mut State<D>,
-    relaxed: &mut Option<Relaxed<D>>,
-) -> Result<(Option<Relaxed<D>>, Option<String>)> {
-    fem::keep_shape(scene, state);
-    let before = std::mem::replace(relaxed, relax::relax(scene, state)?);
-    let (mesh, locator) = relaxed.as_ref().map_or((&scene.mesh, &scene.locator), |r| (&r.mesh, &r.locator));
-    let mut note = None;
-    if let Err(lost) = locate_points(mesh, locator, state) {
-        note = put_back::<D, K>(scene, mesh, locator, state);
-        if note.is_none() {
-            return Err(lost);
-        }
-        locate_points(mesh, locator, state)?;
-    }
-    Ok((before, note))
-}
-
-/// Fills the stencil for the points where they were last located.
-fn fill<const D: usize, K: Kinematics<D>>(
-    stencil: &mut Stencil<D>,
-    scene: &Scene<D>,
-    mesh: &Mesh<D>,
-    state: &State<D>,
-) {
-    let (cell, scheme) = (&state.points.cell, scene.numerics.scheme);
-    stencil.fill::<K>(scheme, mesh, cell, &state.parametric, &state.taking_part);
-}
-
-/// Finds the cell of every point of the restored grid.
-///
-/// # Errors
-/// An analysis error that names the first point outside the grid.
-fn locate_points<const D: usize>(mesh: &Mesh<D>, locator: &Locator<D>, state: &mut State<D>) -> Result<()> {
-    let points = &mut state.points;
-    let position = &points.position;
-    state.parametric.resize(position.len(), [0.0; 3]);
-    let lost = points
-        .cell
-        .par_iter_mut()
-        .zip(&mut state.parametric)
-        .enumerate()
-        .filter_map(|(p, (cell, parametric))| match locator.locate(mesh, &position[p], Some(*cell)) {
-            Some((c, xi)) => {
-                (*cell, *parametric) = (c, xi);
-                None
-            }
-            None => Some(p),
-        })
-        .min();
-    match lost {
-        None => Ok(()),
-        Some(p) => {
-            let region = mesh.regions.get(points.region[p] as usize).map_or("", String::as_str);
-            Err(Error::analysis(
-                format!("material point {p} ({region})"),
-                format!("it left the grid at {:.4?} m", position[p]),
-                "extend the mesh by a buffer region there, or hold the material back by a support",
-            ))
-        }
-    }
-}
-
-/// Decides which cells take part; true when that changed since the last time.
-fn choose_cells<const D: usize>(scene: &Scene<D>, state: &mut State<D>) -> bool {
-    let cells = scene.mesh.cells.len();
-    // A face to a cell beyond would have no place in the system.
-    let surrounded = |&c: &u32| {
-        let across = scene.faces.as_ref().map_or(&[][..], |faces| faces.neighbours(c));
-        state.taking_part[c as usize] && across.iter().all(|&other| state.taking_part[other as usize])
-    };
-    if state.taking_part.len() == cells && state.points.cell.iter().all(surrounded) {
-        return false;
-    }
-    let mut chosen = vec![false; cells];
-    for &c in &state.points.cell {
-        chosen[c as usize] = true;
-    }
-    if scene.numerics.restore != Restore::Never {
-        let mut reached = vec![false; scene.mesh.nodes.len()];
-        for _ in 0..RINGS {
-            for c in (0..cells).filter(|&c| chosen[c]) {
-                for &n in scene.mesh.cells.nodes(c) {
-                    reached[n as usize] = true;
-                }
-            }
-            for (c, chosen) in chosen.iter_mut().enumerate() {
-                *chosen |= scene.mesh.cells.nodes(c).iter().any(|&n| reached[n as usize]);
-            }
-        }
-    }
-    state.taking_part = chosen;
-    true
 }
 
 /// The increments (m) of displacements that are given in a step of size `dt`, one entry an equation: zero at the

@@ -19,7 +19,9 @@ mod newton;
 mod pressure;
 mod put_back;
 mod relax;
+mod release;
 mod report;
+mod restore;
 mod rigid;
 mod scene;
 mod state;
@@ -32,6 +34,7 @@ pub use control::{Controller, Limits};
 pub use grid::Grid;
 pub use materials::Change;
 pub use newton::Solution;
+pub use release::Release;
 pub use report::Report;
 pub use scene::{Fem, Fixed, Numerics, Phase, Prescribed, Restore, Scene, Search, Stop, Water};
 pub use state::State;
@@ -103,6 +106,7 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
                 Ok((start, solution)) => break (dt, start, solution),
                 Err(error) if error.kind == Kind::Analysis => {
                     if fresh {
+                        release::hold(self.scene, &mut self.grid, &mut self.state, dt)?;
                         controller.halve(dt, error)?;
                     } else {
                         // A distorted grid is the first thing to blame.

@@ -45,6 +45,27 @@ pub struct Problem<'a, const D: usize> {
     pub flow_time: f64,
 }
 
+impl<'a, const D: usize> Problem<'a, D> {
+    /// The last converged step, where nothing is given.
+    pub fn at_rest(scene: &'a Scene<D>, state: &'a State<D>) -> Self {
+        Self {
+            scene,
+            state,
+            guess: None,
+            converged: &state.displacement,
+            pressure: &state.pressure,
+            velocity: &state.velocity,
+            acceleration: &state.acceleration,
+            phase: state.phase,
+            from: state.phase_time,
+            to: state.phase_time,
+            given: &[],
+            integration: None,
+            flow_time: 0.0,
+        }
+    }
+}
+
 /// A converged step.
 pub struct Solution<const D: usize> {
     /// Displacement of the nodes (m) since the last restoration.
@@ -171,8 +192,9 @@ impl<'a, const D: usize> Newton<'a, D> {
 
     /// The state that the iteration begins with.
     fn begin(&mut self) -> Result<()> {
-        if let Some(guess) = self.problem.guess {
-            self.buffers.now.at.set(guess, self.problem.pressure);
+        let laid = self.problem.integration.is_none() && self.grid.touches.iter().any(|touch| touch.laid);
+        for start in self.problem.guess.into_iter().chain(laid.then_some(self.problem.converged)) {
+            self.buffers.now.at.set(start, self.problem.pressure);
             if self.set_out().is_ok() {
                 return Ok(());
             }
@@ -186,9 +208,9 @@ impl<'a, const D: usize> Newton<'a, D> {
         Ok(())
     }
 
-    /// The first iterations from a guess. It leaves hats a little apart that bear in the end; nothing holds the soil beneath
-    /// them then, and what the tangent says flies through the structure. The directions hold such hats
-    /// together until one is worth its full length.
+    /// The first iterations from a guess, or of bodies laid on each other. They leave hats a little apart that bear in
+    /// the end; nothing holds the soil beneath them then, and what the tangent says flies through the structure, or
+    /// nothing holds the structure. The directions hold such hats together until one is worth its full length.
     fn set_out(&mut self) -> Result<()> {
         self.evaluate(false)?;
         self.note();

@@ -1,6 +1,7 @@
 //! The state of a run: all that a checkpoint holds. Everything else follows from it and the scene.
 
 use super::materials;
+use super::release::Release;
 use super::scene::Scene;
 use crate::contact::Multipliers;
 use crate::points::Points;
@@ -42,6 +43,8 @@ pub struct State<const D: usize> {
     pub falling: bool,
     /// Largest kinetic energy (kJ) since the phase began or inertia came in.
     pub peak: f64,
+    /// What is held of the forces that were out of balance as the phase began.
+    pub release: Release<D>,
     /// Parametric coordinates of the points in their cells, as of the last restoration.
     pub parametric: Vec<[f64; 3]>,
     /// Displacement (m) of the nodes since the last restoration.
@@ -91,6 +94,7 @@ impl<const D: usize> State<D> {
             moving: false,
             falling: false,
             peak: 0.0,
+            release: Release::default(),
             parametric: Vec::new(),
             displacement: vec![[0.0; D]; nodes],
             increment: Vec::new(),
@@ -118,7 +122,7 @@ impl<const D: usize> State<D> {
         let moved = self.dynamic(scene);
         self.phase += 1;
         self.phase_time = 0.0;
-        (self.falling, self.peak) = (false, 0.0);
+        (self.falling, self.peak, self.release) = (false, 0.0, Release::default());
         if moved && !self.dynamic(scene) {
             self.rest();
         }

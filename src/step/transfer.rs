@@ -97,22 +97,7 @@ fn first_acceleration<const D: usize, K: Kinematics<D>>(
     grid: &mut Grid<D>,
     state: &State<D>,
 ) -> Result<Vec<[f64; D]>> {
-    let problem = Problem {
-        scene,
-        state,
-        guess: None,
-        converged: &state.displacement,
-        pressure: &state.pressure,
-        velocity: &state.velocity,
-        acceleration: &state.acceleration,
-        phase: state.phase,
-        from: state.phase_time,
-        to: state.phase_time,
-        given: &[],
-        integration: None,
-        flow_time: 0.0,
-    };
-    let force = static_force(&problem, grid)?;
+    let force = static_force(&Problem::at_rest(scene, state), grid)?.force;
     let node = grid.node.clone();
     let mut acceleration = vec![[0.0; D]; scene.mesh.nodes.len()];
     let mut fixed = vec![[false; D]; scene.mesh.nodes.len()];

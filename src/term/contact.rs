@@ -38,7 +38,7 @@ pub fn answer<const D: usize>(
     };
     let (gap, slip) = touch.row.measure(since);
     let law = law.reduced(trial.reduction);
-    let held = trial.held && touch.row.penalty.pressure > 0.0;
+    let held = trial.held && (touch.laid || touch.row.penalty.pressure > 0.0);
     let law = Law { separates: law.separates && !held, ..law };
     let beyond = levels.zip(touch.row.height).map_or(0.0, |(levels, y)| levels.beyond(trial.phase, trial.time, y));
     (law.respond(&touch.row.penalty.within(beyond), gap, slip), gap, slip)

@@ -77,6 +77,8 @@ pub struct Touch<const D: usize> {
     /// The number of the pair in the scene.
     pub pair: u32,
     pub row: Row<D>,
+    /// Whether it lies on what it faces, and no hat of the pair presses yet.
+    pub laid: bool,
     /// Its clique, and the place of each node of the row among the blocks of that.
     pub clique: u32,
     pub place: Vec<u32>,
@@ -148,7 +150,7 @@ pub struct Trial<'a, const D: usize> {
     pub time: f64,
     /// What strengths are divided by (-) at the end of the step.
     pub reduction: f64,
-    /// Whether hats that touched in the step before do so here, pressed or pulled.
+    /// Whether hats that touched in the step before, or are laid on what they face, touch here, pressed or pulled.
     pub held: bool,
     /// One over the size of the step (1/s), for strength that depends on the rate of strain.
     pub per_second: f64,

@@ -58,7 +58,7 @@ fn stand_in_water(law: Law, apart: f64, levels: Option<Levels>) -> Stand<PlaneSt
         };
         let clique = stand.grid.clique[cell as usize];
         let place = (0..6).collect();
-        stand.grid.touches.push(Touch { pair: 0, row, clique, place });
+        stand.grid.touches.push(Touch { pair: 0, row, laid: false, clique, place });
     }
     stand
 }

@@ -1,0 +1,143 @@
+//! What a `.geo` and a mesh file must be, beyond what Gmsh asks of them.
+
+use super::AGAIN;
+use super::session::Session;
+use crate::error::{Error, Result};
+use std::fs;
+use std::io::{Read, Seek, SeekFrom};
+use std::path::Path;
+
+/// Every surface must be in exactly one physical surface.
+pub fn check_surfaces(session: &Session, path: &Path) -> Result<()> {
+    let groups = session.physical_groups(2)?;
+    if groups.is_empty() {
+        return Err(Error::input(
+            path.display(),
+            "it has no physical surface",
+            "name the regions: Physical Surface(\"soil\") = {1};",
+        ));
+    }
+    for surface in session.entities(2) {
+        let mut holders = groups.iter().filter(|g| g.entities.contains(&surface));
+        let place = || format!("{}, surface {surface}", path.display());
+        match (holders.next(), holders.next()) {
+            (None, _) => {
+                return Err(Error::input(place(), "it is in no physical surface", "add it to one, or delete it"));
+            }
+            (Some(a), Some(b)) => {
+                let problem = format!("it is in two physical surfaces, {} and {}", a.name, b.name);
+                return Err(Error::input(place(), problem, "leave it in one: they are the regions of the case"));
+            }
+            _ => (),
+        }
+    }
+    Ok(())
+}
+
+/// Every parameter must have been taken up by a `DefineConstant` of the file.
+pub fn check_parameters(session: &Session, geo: &Path, text: &str, parameters: &[(String, f64)]) -> Result<()> {
+    if parameters.is_empty() {
+        return Ok(());
+    }
+    let declared = declared(text);
+    for (name, value) in parameters {
+        // An included file may declare it too; a plain assignment after it would have changed the value.
+        let used = declared.contains(name) || session.parameter_names().contains(name) && text.contains("Include");
+        if used && session.parameter(name)? == Some(*value) {
+            continue;
+        }
+        let remedy = match declared.is_empty() {
+            true => format!("declare it: DefineConstant[ {name} = {{1, Name \"Parameters/{name}\"}} ];"),
+            false => format!("it declares {}", declared.join(", ")),
+        };
+        let problem = format!("there is no DefineConstant for the parameter {name}");
+        return Err(Error::input(geo.display(), problem, remedy));
+    }
+    Ok(())
+}
+
+/// The names declared in the `DefineConstant[ a = …, b = {…, …} ]` of a `.geo`, in order.
+pub fn declared(text: &str) -> Vec<String> {
+    let lines = text.lines().map(|line| line.split("//").next().unwrap_or_default());
+    let text = lines.collect::<Vec<_>>().join("\n");
+    let mut names: Vec<String> = Vec::new();
+    for block in text.split("DefineConstant").skip(1) {
+        let Some(body) = block.trim_start().strip_prefix('[') else { continue };
+        let (mut depth, mut quoted, mut name, mut in_name) = (0usize, false, String::new(), true);
+        for c in body.chars() {
+            match c {
+                '"' => quoted = !quoted,
+                _ if quoted => (),
+                '{' | '(' | '[' => depth += 1,
+                ']' if depth == 0 => break,
+                '}' | ')' | ']' => depth = depth.saturating_sub(1),
+                ',' if depth == 0 => {
+                    names.push(std::mem::take(&mut name));
+                    in_name = true;
+                }
+                '=' if depth == 0 => in_name = false,
+                _ if in_name && !c.is_whitespace() => name.push(c),
+                _ => (),
+            }
+        }
+        names.push(name);
+    }
+    names.retain(|name| !name.is_empty());
+    names
+}
+
+pub fn check_readable(path: &Path) -> Result<()> {
+    match fs::File::open(path).and_then(|f| f.metadata()) {
+        Ok(metadata) if metadata.is_file() => Ok(()),
+        Ok(_) => Err(Error::input(path.display(), "it is a folder", "name a file")),
+        Err(error) => Err(Error::input(path.display(), error, "check the path")),
+    }
+}
+
+/// The sections an MSH file can end with.
+const LAST_SECTIONS: [&str; 8] = [
+    "Elements",
+    "Periodic",
+    "GhostElements",
+    "Parametrizations",
+    "NodeData",
+    "ElementData",
+    "ElementNodeData",
+    "InterpolationScheme",
+];
+
+/// A mesh file that was cut short does not end with the end of a section.
+pub fn check_complete(path: &Path) -> Result<()> {
+    let tail = || -> std::io::Result<Vec<u8>> {
+        let mut file = fs::File::open(path)?;
+        let length = file.metadata()?.len();
+        file.seek(SeekFrom::Start(length.saturating_sub(64)))?;
+        let mut tail = Vec::new();
+        file.read_to_end(&mut tail)?;
+        Ok(tail)
+    };
+    let tail = tail().map_err(|error| Error::input(path.display(), error, AGAIN))?;
+    let tail = String::from_utf8_lossy(&tail);
+    let last = tail.trim_end().lines().last().and_then(|line| line.trim().strip_prefix("$End")).unwrap_or_default();
+    if LAST_SECTIONS.contains(&last) {
+        Ok(())
+    } else {
+        Err(Error::input(path.display(), "it is cut short or no MSH file", AGAIN))
+    }
+}
+
+/// The mesh must lie in the plane z = 0, with finite coordinates.
+pub fn check_plane<'a>(path: &Path, nodes: impl Iterator<Item = &'a [f64; 3]> + Clone) -> Result<()> {
+    let size = nodes.clone().fold(0.0f64, |size, x| size.max(x[0].abs()).max(x[1].abs()));
+    for x in nodes {
+        if !x.iter().all(|v| v.is_finite()) || x[2].abs() > 1e-9 * size {
+            let place = format!("{}, node at ({}, {}, {})", path.display(), x[0], x[1], x[2]);
+            return Err(Error::input(place, "it is not in the plane z = 0", "draw the section in the x–y plane, y up"));
+        }
+    }
+    Ok(())
+}
+
+pub fn doubled(path: &Path, kind: &str, name: &str) -> Error {
+    Error::input(path.display(), format!("the physical {kind} have the name {name} twice"), "give each its own name")
+}
