@@ -74,13 +74,15 @@ fn returned_states_are_admissible() {
             assert!(r.stress.iter().chain(&r.elastic_strain).all(|x| x.is_finite()), "{name}: {trial:?}");
             let excess = model.yield_excess(0.0, &r.stress, &r.state);
             // At mean stresses of 10⁵ times the strength the last bit of the stress itself is 1e-10 of it.
-            let on_surface = 1e-10 * strength + 4.0 * f64::EPSILON * largest(&r.stress);
+            // A surface that has grown e²⁰-fold has lost some more.
+            let bits = if model.remembers() { 100.0 } else { 4.0 };
+            let on_surface = 1e-10 * strength + bits * f64::EPSILON * largest(&r.stress);
             assert!(excess <= on_surface, "{name}: {trial:?}: outside by {excess:e}");
             if r.yielding {
                 assert!(excess >= -on_surface, "{name}: {trial:?}: yields inside, {excess:e}");
             }
 
-            let stress = model.elasticity().at(0.0).stress(&r.elastic_strain);
+            let stress = model.elastic_stress(0.0, &r.elastic_strain);
             let work: f64 = (0..3).map(|k| r.stress[k] * (trial[k] - r.elastic_strain[k])).sum();
             let rounding = 1e-11 * (largest(&r.stress) + strength);
             for k in 0..3 {
@@ -213,7 +215,7 @@ fn elastic_strain_inverts_the_stress() {
         for _ in 0..1000 {
             let stress = std::array::from_fn(|_| random.signed() * finite_strength(&*model));
             let strain = model.elastic_strain(0.0, &stress);
-            let back = model.elasticity().at(0.0).stress(&strain);
+            let back = model.elastic_stress(0.0, &strain);
             for k in 0..3 {
                 assert!((back[k] - stress[k]).abs() <= 1e-11 * largest(&stress), "{name}: {stress:?} {back:?}");
             }
