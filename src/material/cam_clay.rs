@@ -283,7 +283,10 @@ impl Model for CamClay {
             })
         });
         let stress = e.map(|x| g * x - p);
-        let elastic_strain = self.elastic_strain(y, &stress);
+        let elastic_strain = match self.swelling {
+            None => moduli.strain(&stress),
+            Some(_) => e.map(|x| kept * x - t.bulk.strain(p) / 3.0),
+        };
         let plastic = std::array::from_fn(|k| trial[k] - elastic_strain[k]);
         Response {
             stress,
