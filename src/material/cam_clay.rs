@@ -12,7 +12,7 @@
 //! constant, which leaves pressure and shear apart from each other in one convex energy: every stress has its elastic strain, and the
 //! undrained stress paths are those of the literature. One in proportion to the pressure does work in closed cycles (Zytynski et al.
 //! 1978) unless the pressure depends on shear too; as Borja, Tamagnini & Amorosi (1997) have it no strain then carries
-//! `q/p > √(3G/2K)`, 0.83 for a Poisson's ratio of 0.3. With swelling, `G` follows from Poisson's ratio and `K` at the first preconsolidation pressure.
+//! `q/p > √(3G/2K)`, 0.83 for a Poisson's ratio of 0.3. With swelling, `G` follows from Poisson's ratio and `K` at a reference pressure.
 //! These two are the model's [`Elasticity`], what stands for it wherever one stiffness is asked for.
 //!
 //! The return is implicit, and one unknown, the plastic volume strain `x` of the step, decides all the others:
@@ -97,13 +97,13 @@ impl Trial {
             match self.bulk {
                 Bulk::Constant(_) => (weight * p - size, -fall - growth),
                 // Both are exponential, so that their logarithms are straight lines.
-                Bulk::Swelling { .. } => {
-                    let ratio = (weight * p / size).max(f64::MIN_POSITIVE);
-                    (ratio.ln(), -fall / (ratio * size) - 1.0 / self.compressibility)
+                Bulk::Swelling { .. } if p > 0.0 => {
+                    ((weight * p / size).ln(), -fall / (weight * p) - 1.0 / self.compressibility)
                 }
+                Bulk::Swelling { .. } => (f64::NEG_INFINITY, f64::NAN),
             }
         };
-        bisect(&mut low, &mut high, excess)
+        bisect(&mut low, &mut high, self.last_bits(), excess)
     }
 
     /// q (kPa) on the yield surface.
@@ -121,16 +121,35 @@ impl Trial {
         // Negative at the lower end, positive at the upper one: h on the wet side, −h on the dry.
         let h = |x: f64| {
             let (p, size, q) = (self.pressure_at(x), self.size_at(x), self.shear_at(x));
-            rigidity * x * q - (self.shear - q) * (2.0 * p - size)
+            let normal = 2.0 * p - size;
+            let value = rigidity * x * q - (self.shear - q) * normal;
+            let slope = match self.bulk {
+                // By halves.
+                Bulk::Constant(_) => f64::NAN,
+                Bulk::Swelling { .. } => {
+                    let (fall, growth) = (-self.bulk.modulus(p), size / self.compressibility);
+                    let rise = 0.5 * self.slope.powi(2) * (fall * (size - p) + p * (growth - fall)) / q;
+                    rigidity * (q + x * rise) + rise * normal - (self.shear - q) * (2.0 * fall - growth)
+                }
+            };
+            (-value, -slope)
         };
         let (mut low, mut high) = (start.min(critical), start.max(critical));
-        bisect(&mut low, &mut high, |x| (-h(x), f64::NAN))
+        bisect(&mut low, &mut high, self.last_bits(), h)
+    }
+
+    /// What the pressure does not feel of a plastic volume strain, where its search may stop; 0 where it goes on to the last bit.
+    fn last_bits(&self) -> f64 {
+        match self.bulk {
+            Bulk::Constant(_) => 0.0,
+            Bulk::Swelling { .. } => 2.0 * f64::EPSILON * self.strain.abs(),
+        }
     }
 }
 
 /// The zero of a function that is not negative at `low` and not positive at `high`, by Newton's method with the slope that it
-/// gives where that stays between them, and by halves.
-fn bisect(low: &mut f64, high: &mut f64, f: impl Fn(f64) -> (f64, f64)) -> f64 {
+/// gives where that stays between them, and by halves; a step of Newton's below `tolerance` is the last.
+fn bisect(low: &mut f64, high: &mut f64, tolerance: f64, f: impl Fn(f64) -> (f64, f64)) -> f64 {
     let mut x = 0.5 * (*low + *high);
     for _ in 0..ITERATIONS {
         let (value, slope) = f(x);
@@ -140,6 +159,10 @@ fn bisect(low: &mut f64, high: &mut f64, f: impl Fn(f64) -> (f64, f64)) -> f64 {
             *high = x
         }
         let newton = x - value / slope;
+        // Where the slope is infinite there is no step.
+        if newton != x && (newton - x).abs() < tolerance {
+            break;
+        }
         let next = if newton > *low && newton < *high { newton } else { 0.5 * (*low + *high) };
         if next == x || value == 0.0 {
             break;
@@ -165,7 +188,7 @@ impl CamClay {
         Ok(model)
     }
 
-    /// Clay that swells along a line; the shear modulus is that of Poisson's ratio `poisson` (-) at the preconsolidation pressure.
+    /// Clay that swells along a line; the shear modulus is that of Poisson's ratio `poisson` (-) at the reference pressure of the line.
     ///
     /// # Errors
     /// As [`CamClay::new`].
@@ -176,10 +199,12 @@ impl CamClay {
         preconsolidation: Profile,
         compressibility: f64,
     ) -> Result<Self> {
-        preconsolidation.positive_at("preconsolidation", preconsolidation.datum)?;
-        let young = preconsolidation.scaled(3.0 * (1.0 - 2.0 * poisson) / swelling.slope());
-        // It is positive where Poisson's ratio is in range: that is what there may be to tell.
-        let elasticity = Elasticity::new(young, poisson).or_else(|_| Elasticity::new(preconsolidation, poisson))?;
+        let reference = swelling.reference();
+        reference.positive_at("reference_pressure", reference.datum)?;
+        // What is wrong then is Poisson's ratio.
+        Elasticity::new(reference, poisson)?;
+        let young = reference.scaled(3.0 * (1.0 - 2.0 * poisson) / swelling.slope());
+        let elasticity = Elasticity::new(young, poisson)?;
         let model = Self::new(elasticity, slope, preconsolidation, compressibility)?;
         Ok(Self { swelling: Some(swelling), ..model })
     }
@@ -362,7 +387,10 @@ impl Model for CamClay {
     }
 
     fn check(&self, y: f64) -> Result<()> {
-        self.elasticity.check(y)?;
+        match self.swelling {
+            None => self.elasticity.check(y)?,
+            Some(swelling) => swelling.reference().positive_at("reference_pressure", y)?,
+        }
         self.preconsolidation.positive_at("preconsolidation", y)
     }
 }

@@ -10,6 +10,7 @@
 //! strain has a finite stress. Pressure and tangent are continuous, and both derive from one energy.
 
 use crate::error::{Error, Result};
+use crate::material::Profile;
 
 /// The largest pressure of a line of swelling, over that of preconsolidation or the least, whichever is more.
 const MOST: f64 = 1e6;
@@ -21,20 +22,22 @@ pub struct Swelling {
     slope: f64,
     /// p_l (kPa).
     least: f64,
+    /// Pressure (kPa) whose stiffness stands for the line.
+    reference: Profile,
 }
 
 impl Swelling {
-    /// The line of slope `slope`, κ* (-), down to the pressure `least` (kPa).
+    /// The line of slope `slope`, κ* (-), down to the pressure `least` (kPa); `reference` (kPa) is that whose stiffness stands for it.
     ///
     /// # Errors
-    /// Unless both are positive; names the parameter.
-    pub fn new(slope: f64, least: f64) -> Result<Self> {
+    /// Unless slope and least pressure are positive; names the parameter.
+    pub fn new(slope: f64, least: f64, reference: Profile) -> Result<Self> {
         for (name, value) in [("swelling", slope), ("least_pressure", least)] {
             if !(value > 0.0 && value.is_finite()) {
                 return Err(Error::input(name, format!("{value} is not positive"), "give a value above 0"));
             }
         }
-        Ok(Self { slope, least })
+        Ok(Self { slope, least, reference })
     }
 
     /// κ* (-).
@@ -42,9 +45,13 @@ impl Swelling {
         self.slope
     }
 
-    /// The law of clay of the preconsolidation pressure `reference` (kPa).
-    pub(super) fn at(self, reference: f64) -> Bulk {
-        Bulk::Swelling { line: self, most: MOST * reference.max(self.least) }
+    pub(super) fn reference(&self) -> Profile {
+        self.reference
+    }
+
+    /// The law of clay whose first preconsolidation pressure is `size` (kPa).
+    pub(super) fn at(&self, size: f64) -> Bulk {
+        Bulk::Swelling { slope: self.slope, least: self.least, most: MOST * size.max(self.least) }
     }
 }
 
@@ -54,7 +61,8 @@ pub(super) enum Bulk {
     /// K (kPa).
     Constant(f64),
     Swelling {
-        line: Swelling,
+        slope: f64,
+        least: f64,
         /// The largest pressure (kPa) on the line.
         most: f64,
     },
@@ -65,8 +73,8 @@ impl Bulk {
     pub fn pressure(&self, strain: f64) -> f64 {
         match *self {
             Self::Constant(bulk) => bulk * strain,
-            Self::Swelling { line: Swelling { slope, least }, .. } if strain <= slope => least * strain / slope,
-            Self::Swelling { line: Swelling { slope, least }, most } => {
+            Self::Swelling { slope, least, .. } if strain <= slope => least * strain / slope,
+            Self::Swelling { slope, least, most } => {
                 let pressure = least * (strain / slope - 1.0).exp();
                 if pressure <= most { pressure } else { most * (1.0 + (strain - self.strain(most)) / slope) }
             }
@@ -77,8 +85,8 @@ impl Bulk {
     pub fn strain(&self, pressure: f64) -> f64 {
         match *self {
             Self::Constant(bulk) => pressure / bulk,
-            Self::Swelling { line: Swelling { slope, least }, .. } if pressure <= least => slope * pressure / least,
-            Self::Swelling { line: Swelling { slope, least }, most } => {
+            Self::Swelling { slope, least, .. } if pressure <= least => slope * pressure / least,
+            Self::Swelling { slope, least, most } => {
                 let beyond = (pressure - most).max(0.0) / most;
                 slope * (1.0 + (pressure.min(most) / least).ln() + beyond)
             }
@@ -89,13 +97,13 @@ impl Bulk {
     pub fn modulus(&self, pressure: f64) -> f64 {
         match *self {
             Self::Constant(bulk) => bulk,
-            Self::Swelling { line, most } => pressure.max(line.least).min(most) / line.slope,
+            Self::Swelling { slope, least, most } => pressure.clamp(least, most) / slope,
         }
     }
 
     /// The energy (kPa) of a strain, `∫ p dε`.
     pub fn energy(&self, strain: f64) -> f64 {
-        let Self::Swelling { line: Swelling { slope, least }, most } = *self else {
+        let Self::Swelling { slope, least, most } = *self else {
             return 0.5 * self.pressure(strain) * strain;
         };
         let pressure = self.pressure(strain);
@@ -132,8 +140,8 @@ mod tests {
     fn one_energy_gives_all() {
         let laws = [
             Bulk::Constant(700.0),
-            Swelling::new(0.02, 1.5).unwrap().at(80.0),
-            Swelling::new(0.1, 4.0).unwrap().at(0.5),
+            Swelling::new(0.02, 1.5, Profile::constant(80.0)).unwrap().at(80.0),
+            Swelling::new(0.1, 4.0, Profile::constant(0.5)).unwrap().at(0.5),
         ];
         for law in laws {
             assert_eq!(law.pressure(0.0), 0.0);
@@ -153,7 +161,7 @@ mod tests {
     #[test]
     fn ranges_are_checked() {
         for (slope, least) in [(0.0, 1.0), (-0.1, 1.0), (f64::NAN, 1.0), (0.1, 0.0), (0.1, f64::INFINITY)] {
-            assert!(Swelling::new(slope, least).is_err());
+            assert!(Swelling::new(slope, least, Profile::constant(1.0)).is_err());
         }
     }
 }

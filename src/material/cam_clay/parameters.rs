@@ -30,6 +30,13 @@ pub const KIND: Kind = Kind {
             meaning: "mean pressure below which the stiffness of soil that has swelling is constant; without it 1",
         },
         Parameter {
+            name: "reference_pressure",
+            unit: "kPa",
+            required: false,
+            varies: true,
+            meaning: "mean pressure at which soil that has swelling has its Poisson's ratio; without it the preconsolidation",
+        },
+        Parameter {
             name: "critical_slope",
             unit: "-",
             required: true,
@@ -88,6 +95,7 @@ pub const KIND: Kind = Kind {
             ("critical_slope", 1.3),
             ("preconsolidation", 20.0),
             ("least_pressure", 2.0),
+            ("reference_pressure", 5.0),
         ],
     ],
 };
@@ -104,6 +112,7 @@ fn build(parameters: &Parameters) -> Result<Arc<dyn Model>> {
         for (name, remedy) in [
             ("compression", "give `plastic_compressibility`, which is λ* − κ*, or `swelling` in place of `young`"),
             ("least_pressure", "take it out, or give `swelling` in place of `young`"),
+            ("reference_pressure", "take it out, or give `swelling` in place of `young`"),
         ] {
             if given(name) {
                 return Err(Error::input(name, "it says something only beside `swelling`", remedy));
@@ -115,8 +124,15 @@ fn build(parameters: &Parameters) -> Result<Arc<dyn Model>> {
     if given("young") {
         return Err(Error::input("swelling", "`young` is given too", "keep one of them"));
     }
-    let swelling =
-        Swelling::new(parameters.number("swelling")?, parameters.number_or("least_pressure", LEAST_PRESSURE)?)?;
+    let reference = match parameters.optional("reference_pressure") {
+        Some(reference) => reference,
+        None => {
+            preconsolidation.positive_at("preconsolidation", preconsolidation.datum)?;
+            preconsolidation
+        }
+    };
+    let least = parameters.number_or("least_pressure", LEAST_PRESSURE)?;
+    let swelling = Swelling::new(parameters.number("swelling")?, least, reference)?;
     let compressibility = plastic_compressibility(parameters, swelling.slope())?;
     let poisson = parameters.number("poisson")?;
     Ok(Arc::new(CamClay::with_swelling(swelling, poisson, slope, preconsolidation, compressibility)?))

@@ -11,7 +11,7 @@ const LEAST: f64 = 1.0;
 const POISSON: f64 = 0.3;
 
 fn model() -> CamClay {
-    let swelling = Swelling::new(SWELLING, LEAST).unwrap();
+    let swelling = Swelling::new(SWELLING, LEAST, Profile::constant(P_C)).unwrap();
     CamClay::with_swelling(swelling, POISSON, M, Profile::constant(P_C), COMPRESSION - SWELLING).unwrap()
 }
 
@@ -181,6 +181,10 @@ fn parameters_that_do_not_go_together_are_refused() {
     }
     // K = p/κ* and ν at the preconsolidation pressure.
     assert!((pair.elasticity().at(0.0).bulk() / 2500.0 - 1.0).abs() < 1e-14);
+    let reference = build(&[("swelling", 0.02), ("compression", 0.1), ("reference_pressure", 10.0)]).unwrap();
+    assert!((reference.elasticity().at(0.0).bulk() / 500.0 - 1.0).abs() < 1e-14);
+    let ratio = pair.elasticity().at(0.0).shear / reference.elasticity().at(0.0).shear;
+    assert!((ratio - 5.0).abs() < 1e-13);
     for (entries, place) in [
         (&[("plastic_compressibility", 0.1)][..], "young"),
         (&[("swelling", 0.02), ("young", 1e3), ("compression", 0.1)], "swelling"),
@@ -189,13 +193,15 @@ fn parameters_that_do_not_go_together_are_refused() {
         (&[("swelling", 0.02), ("compression", 0.02)], "compression"),
         (&[("young", 1e3), ("compression", 0.1)], "compression"),
         (&[("young", 1e3), ("plastic_compressibility", 0.1), ("least_pressure", 1.0)], "least_pressure"),
+        (&[("young", 1e3), ("plastic_compressibility", 0.1), ("reference_pressure", 1.0)], "reference_pressure"),
+        (&[("swelling", 0.02), ("compression", 0.1), ("reference_pressure", -1.0)], "reference_pressure"),
         (&[("swelling", -0.02), ("compression", 0.1)], "swelling"),
         (&[("swelling", 0.02), ("compression", 0.1), ("least_pressure", 0.0)], "least_pressure"),
     ] {
         let error = build(entries).err().unwrap();
         assert_eq!(error.place, place, "{entries:?}: {error}");
     }
-    let swelling = Swelling::new(SWELLING, LEAST).unwrap();
+    let swelling = Swelling::new(SWELLING, LEAST, Profile::constant(P_C)).unwrap();
     let error = CamClay::with_swelling(swelling, 0.5, M, Profile::constant(P_C), 0.1).unwrap_err();
     assert_eq!(error.place, "poisson");
 }
