@@ -63,10 +63,10 @@ fn stiffness(model: &dyn Model, tangent: &[[f64; 3]; 3]) -> f64 {
     tangent.iter().flatten().fold(model.elasticity().at(0.0).tangent()[0][0], |most, x| most.max(x.abs()))
 }
 
-/// The last bits of a stress of this size, of which those of a surface that has grown e²⁰-fold are more.
+/// The last bits of a stress of this size (kPa); a surface that has grown with it is met to a part of its own size.
 fn last_bits(model: &dyn Model, stress: &[f64; 3]) -> f64 {
-    let bits = if model.remembers() { 100.0 } else { 4.0 };
-    bits * f64::EPSILON * largest(stress)
+    let part = if model.remembers() { 1e-12 } else { 4.0 * f64::EPSILON };
+    part * largest(stress)
 }
 
 const STATES: usize = 100_000;

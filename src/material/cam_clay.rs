@@ -161,7 +161,7 @@ fn bisect(low: &mut f64, high: &mut f64, tolerance: f64, f: impl Fn(f64) -> (f64
         let newton = x - value / slope;
         // Where the slope is infinite there is no step.
         if newton != x && (newton - x).abs() < tolerance {
-            break;
+            return newton.clamp(*low, *high);
         }
         let next = if newton > *low && newton < *high { newton } else { 0.5 * (*low + *high) };
         if next == x || value == 0.0 {
