@@ -106,6 +106,10 @@ fn settlement(model: &dyn Model, steps: usize, stress: impl Fn(f64, usize) -> f6
     sum
 }
 
+fn worst(errors: &[f64]) -> f64 {
+    errors.iter().fold(0.0, |most, e| most.max(e.abs()))
+}
+
 /// Loaded and unloaded evenly at its surface, with the grid's points and with finite elements. The same law in steps ten times as
 /// fine tells what the steps are worth.
 #[test]
@@ -128,15 +132,11 @@ fn a_surcharge_settles_and_swells_as_in_the_oedometer() {
         let uy = column(folder.path(), "top.uy [m]");
         assert_eq!(uy.len(), 1 + 2 * STEPS);
         let errors: Vec<f64> = uy[1..].iter().zip(&exact).map(|(u, s)| -u / s - 1.0).collect();
-        println!(
-            "{kind}: at rest {:.1e} m, loaded {:.5} m, unloaded {:.5} m; {errors:?}",
-            uy[0],
-            uy[STEPS],
-            uy[2 * STEPS]
-        );
+        println!("{kind}: at rest {:.1e} m, loaded {:.5} m, back {:.5} m", uy[0], uy[STEPS], uy[2 * STEPS]);
+        println!("worst {:.1e}, loaded {:.1e}, back {:.1e}", worst(&errors), errors[STEPS - 1], errors[2 * STEPS - 1]);
         assert!(uy[0].abs() < 1e-10, "{}", uy[0]);
-        assert!((-uy[STEPS] / fine[10 * STEPS - 1] - 1.0).abs() < 0.01, "{uy:?} {}", fine[10 * STEPS - 1]);
-        assert!(errors.iter().all(|e| e.abs() < 1e-3), "{errors:?}");
+        assert!((-uy[STEPS] / fine[10 * STEPS - 1] - 1.0).abs() < 1e-3, "{uy:?} {}", fine[10 * STEPS - 1]);
+        assert!(worst(&errors) < 1e-3, "{errors:?}");
         if kind == "mpm" {
             stresses(folder.path(), &*model, stress(STEPS));
         }
@@ -177,9 +177,9 @@ fn a_restored_grid_settles_under_more_weight() {
     let folder = run("mpm", "every_step", "", &phases);
     let uy = column(folder.path(), "top.uy [m]");
     let errors: Vec<f64> = uy[1..].iter().zip(&exact).map(|(u, s)| -u / s - 1.0).collect();
-    println!("at rest {:.1e} m, loaded {:.5} m, {errors:?}", uy[0], uy[STEPS]);
+    println!("at rest {:.1e} m, loaded {:.5} m, worst {:.1e}", uy[0], uy[STEPS], worst(&errors));
     assert!(uy[0].abs() < 1e-4 * exact[STEPS - 1], "{}", uy[0]);
-    assert!(errors.iter().all(|e| e.abs() < 0.02), "{errors:?}");
+    assert!(worst(&errors) < 5e-3, "{errors:?}");
 }
 
 /// Another clay takes the stress over as its own law has it, with water in the pores too; the water then bears what comes.

@@ -77,6 +77,7 @@ fn undrained_paths_and_strengths_are_those_of_the_literature() {
         }
         let (p, q) = invariants(&history[history.len() - 1].stress);
         let strength = 0.5 * M * p0 * (0.5 * ratio).powf(power);
+        println!("R = {ratio}: s_u {:.1e} off", 0.5 * q / strength - 1.0);
         assert!((0.5 * q / strength - 1.0).abs() < 1e-4 && (q / p / M - 1.0).abs() < 1e-4, "{ratio}: {q} {strength}");
     }
 }
@@ -104,6 +105,7 @@ fn drained_triaxial_compression_ends_at_the_critical_state() {
     let q = |steps: i32| drained(0.05, steps).last().map(|r| invariants(&r.stress).1).unwrap();
     let fine = q(10_000);
     let errors = [20, 40, 80, 160].map(|steps| (q(steps) / fine - 1.0).abs());
+    println!("drained: p {:.1e} off; q in 20, 40, 80, 160 steps {errors:?} off", p / exact - 1.0);
     for pair in errors.windows(2) {
         let order = (pair[0] / pair[1]).log2();
         assert!((0.8..1.3).contains(&order), "{errors:?}");
@@ -144,6 +146,7 @@ fn elastic_cycles_do_no_work() {
         work.abs() / turned
     };
     let (coarse, fine) = (net(1000), net(4000));
+    println!("work left of a cycle: {coarse:.1e}, {fine:.1e} of what turned over");
     assert!(coarse < 1e-4 && fine < 0.1 * coarse, "{coarse:e} {fine:e}");
 }
 
