@@ -159,8 +159,7 @@ fn bisect(low: &mut f64, high: &mut f64, tolerance: f64, f: impl Fn(f64) -> (f64
             *high = x
         }
         let newton = x - value / slope;
-        // Where the slope is infinite there is no step.
-        if newton != x && (newton - x).abs() < tolerance {
+        if slope.is_finite() && (newton - x).abs() < tolerance {
             return newton.clamp(*low, *high);
         }
         let next = if newton > *low && newton < *high { newton } else { 0.5 * (*low + *high) };
