@@ -8,7 +8,7 @@
 //! with `p` and the plastic volume strain `ε_pv` positive in compression, `q = √(3 J₂)`, and `M` the same in all directions of
 //! shear. Cohesion there is none; in tension the surface shrinks to nothing.
 //!
-//! Elasticity is Hencky's, with the bulk modulus of [`bulk`]: constant, or `p/κ*` of a line of swelling. The shear modulus of a point is
+//! Elasticity is Hencky's, with a bulk modulus that is constant, or `p/κ*` of a line of [`Swelling`]. The shear modulus of a point is
 //! constant, which leaves pressure and shear apart from each other in one convex energy: every stress has its elastic strain, and the
 //! undrained stress paths are those of the literature. One in proportion to the pressure does work in closed cycles (Zytynski et al.
 //! 1978) unless the pressure depends on shear too; as Borja, Tamagnini & Amorosi (1997) have it no strain then carries

@@ -45,6 +45,7 @@ impl Swelling {
         self.slope
     }
 
+    /// The pressure (kPa) whose stiffness stands for the line.
     pub(super) fn reference(&self) -> Profile {
         self.reference
     }
