@@ -6,11 +6,17 @@
 //! ```
 //!
 //! with `p` and the plastic volume strain `ε_pv` positive in compression, `q = √(3 J₂)`, and `M` the same in all directions of
-//! shear. Elasticity is Hencky's with moduli that do not change: they stand for `κ*`, the slope of unloading at the stress of
-//! interest, `K = p/κ*`. Cohesion there is none; in tension the surface shrinks to nothing.
+//! shear. Cohesion there is none; in tension the surface shrinks to nothing.
+//!
+//! Elasticity is Hencky's, with a bulk modulus that is constant, or `p/κ*` of a line of [`Swelling`]. The shear modulus of a point is
+//! constant, which leaves pressure and shear apart from each other in one convex energy: every stress has its elastic strain, and the
+//! undrained stress paths are those of the literature. One in proportion to the pressure does work in closed cycles (Zytynski et al.
+//! 1978) unless the pressure depends on shear too; as Borja, Tamagnini & Amorosi (1997) have it no strain then carries
+//! `q/p > √(3G/2K)`, 0.83 for a Poisson's ratio of 0.3. With swelling, `G` follows from Poisson's ratio and `K` at a reference pressure.
+//! These two are the model's [`Elasticity`], what stands for it wherever one stiffness is asked for.
 //!
 //! The return is implicit, and one unknown, the plastic volume strain `x` of the step, decides all the others:
-//! `p = p_tr − K x`, `p_c = p_cn e^(x/Λ)`, `q` by the yield surface, and
+//! `p = p(ε_tr − x)`, `p_tr − K x` where `K` is constant, `p_c = p_cn e^(x/Λ)`, `q` by the yield surface, and
 //!
 //! ```text
 //! h(x) = 6G/M² x q − (q_tr − q)(2p − p_c) = 0
@@ -19,8 +25,15 @@
 //! which is `x = Δγ (2p − p_c)` and `q = q_tr/(1 + 6G Δγ/M²)`. The root lies between the trial state, or where that is beyond a
 //! tip the return along the axis, and the critical state `2p = p_c`: on the wet side the surface grows, on the dry one it shrinks.
 
-use super::{Elasticity, Kind, Model, Moduli, Parameter, Parameters, Profile, Response, State, equivalent_plastic};
+mod bulk;
+mod parameters;
+
+pub use bulk::Swelling;
+pub use parameters::KIND;
+
+use super::{Elasticity, Model, Moduli, Profile, Response, State, equivalent_plastic};
 use crate::error::{Error, Result};
+use bulk::Bulk;
 use std::sync::Arc;
 
 /// Yield within this fraction of `p_c` counts as elastic, so that a returned state is.
@@ -35,6 +48,8 @@ const ITERATIONS: usize = 200;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CamClay {
     elasticity: Elasticity,
+    /// What the bulk modulus follows in place of `elasticity`.
+    swelling: Option<Swelling>,
     /// M (-).
     slope: f64,
     /// p_c0 (kPa).
@@ -43,68 +58,15 @@ pub struct CamClay {
     compressibility: f64,
 }
 
-/// The entry of the model list.
-pub const KIND: Kind = Kind {
-    name: "cam_clay",
-    keeps_volume: false,
-    parameters: &[
-        Parameter::YOUNG,
-        Parameter::POISSON,
-        Parameter {
-            name: "critical_slope",
-            unit: "-",
-            required: true,
-            varies: false,
-            meaning: "M, q over p at the critical state",
-        },
-        Parameter {
-            name: "preconsolidation",
-            unit: "kPa",
-            required: true,
-            varies: true,
-            meaning: "largest mean pressure that the soil bears without plastic strain at first",
-        },
-        Parameter {
-            name: "plastic_compressibility",
-            unit: "-",
-            required: true,
-            varies: false,
-            meaning: "slopes of virgin compression less of unloading, in logarithms of volume and pressure",
-        },
-    ],
-    build,
-    examples: &[
-        &[
-            ("young", 5000.0),
-            ("poisson", 0.3),
-            ("critical_slope", 1.0),
-            ("preconsolidation", 100.0),
-            ("plastic_compressibility", 0.1),
-        ],
-        &[
-            ("young", 2000.0),
-            ("poisson", 0.2),
-            ("critical_slope", 1.3),
-            ("preconsolidation", 20.0),
-            ("plastic_compressibility", 0.05),
-        ],
-    ],
-};
-
-fn build(parameters: &Parameters) -> Result<Arc<dyn Model>> {
-    Ok(Arc::new(CamClay::new(
-        parameters.elasticity()?,
-        parameters.number("critical_slope")?,
-        parameters.profile("preconsolidation")?,
-        parameters.number("plastic_compressibility")?,
-    )?))
-}
-
 /// The trial state of a return, and the size of the surface before it.
 struct Trial {
-    moduli: Moduli,
+    bulk: Bulk,
+    /// G (kPa).
+    rigidity: f64,
     slope: f64,
     compressibility: f64,
+    /// Volume strain (-), positive in compression.
+    strain: f64,
     /// p_tr and q_tr (kPa).
     pressure: f64,
     shear: f64,
@@ -114,7 +76,12 @@ struct Trial {
 
 impl Trial {
     fn pressure_at(&self, x: f64) -> f64 {
-        self.pressure - self.moduli.bulk() * x
+        self.bulk.relaxed(self.pressure, self.strain, x)
+    }
+
+    /// Where the pressure is `pressure`.
+    fn at_pressure(&self, pressure: f64) -> f64 {
+        self.bulk.relaxing(self.pressure, self.strain, pressure)
     }
 
     fn size_at(&self, x: f64) -> f64 {
@@ -123,15 +90,20 @@ impl Trial {
 
     /// Where `weight · p − p_c`, which falls as `x` grows, is zero: the critical state for 2, the tip for 1.
     fn meets(&self, weight: f64) -> f64 {
-        let (mut low, mut high) = (
-            ((self.pressure - self.size) / self.moduli.bulk()).min(0.0),
-            (self.pressure / self.moduli.bulk()).max(0.0),
-        );
-        let value = |x: f64| weight * self.pressure_at(x) - self.size_at(x);
-        bisect(&mut low, &mut high, |x| {
-            let slope = -weight * self.moduli.bulk() - self.size_at(x) / self.compressibility;
-            (value(x), slope)
-        })
+        let (mut low, mut high) = (self.at_pressure(self.size).min(0.0), self.at_pressure(0.0).max(0.0));
+        let excess = |x: f64| {
+            let (p, size) = (self.pressure_at(x), self.size_at(x));
+            let (fall, growth) = (weight * self.bulk.modulus(p), size / self.compressibility);
+            match self.bulk {
+                Bulk::Constant(_) => (weight * p - size, -fall - growth),
+                // Both are exponential, so that their logarithms are straight lines.
+                Bulk::Swelling { .. } if p > 0.0 => {
+                    ((weight * p / size).ln(), -fall / (weight * p) - 1.0 / self.compressibility)
+                }
+                Bulk::Swelling { .. } => (f64::NEG_INFINITY, f64::NAN),
+            }
+        };
+        bisect(&mut low, &mut high, self.last_bits(), excess)
     }
 
     /// q (kPa) on the yield surface.
@@ -144,25 +116,40 @@ impl Trial {
     fn volume(&self) -> f64 {
         let wet = 2.0 * self.pressure > self.size;
         let critical = self.meets(2.0);
-        let start = if wet && self.pressure > self.size {
-            self.meets(1.0)
-        } else {
-            (self.pressure / self.moduli.bulk()).min(0.0)
-        };
-        let rigidity = 6.0 * self.moduli.shear / self.slope.powi(2);
+        let start = if wet && self.pressure > self.size { self.meets(1.0) } else { self.at_pressure(0.0).min(0.0) };
+        let rigidity = 6.0 * self.rigidity / self.slope.powi(2);
         // Negative at the lower end, positive at the upper one: h on the wet side, −h on the dry.
         let h = |x: f64| {
             let (p, size, q) = (self.pressure_at(x), self.size_at(x), self.shear_at(x));
-            rigidity * x * q - (self.shear - q) * (2.0 * p - size)
+            let normal = 2.0 * p - size;
+            let value = rigidity * x * q - (self.shear - q) * normal;
+            let slope = match self.bulk {
+                // By halves.
+                Bulk::Constant(_) => f64::NAN,
+                Bulk::Swelling { .. } => {
+                    let (fall, growth) = (-self.bulk.modulus(p), size / self.compressibility);
+                    let rise = 0.5 * self.slope.powi(2) * (fall * (size - p) + p * (growth - fall)) / q;
+                    rigidity * (q + x * rise) + rise * normal - (self.shear - q) * (2.0 * fall - growth)
+                }
+            };
+            (-value, -slope)
         };
         let (mut low, mut high) = (start.min(critical), start.max(critical));
-        bisect(&mut low, &mut high, |x| (-h(x), f64::NAN))
+        bisect(&mut low, &mut high, self.last_bits(), h)
+    }
+
+    /// What the pressure does not feel of a plastic volume strain, where its search may stop; 0 where it goes on to the last bit.
+    fn last_bits(&self) -> f64 {
+        match self.bulk {
+            Bulk::Constant(_) => 0.0,
+            Bulk::Swelling { .. } => 2.0 * f64::EPSILON * self.strain.abs(),
+        }
     }
 }
 
 /// The zero of a function that is not negative at `low` and not positive at `high`, by Newton's method with the slope that it
-/// gives where that stays between them, and by halves.
-fn bisect(low: &mut f64, high: &mut f64, f: impl Fn(f64) -> (f64, f64)) -> f64 {
+/// gives where that stays between them, and by halves; a step of Newton's below `tolerance` is the last.
+fn bisect(low: &mut f64, high: &mut f64, tolerance: f64, f: impl Fn(f64) -> (f64, f64)) -> f64 {
     let mut x = 0.5 * (*low + *high);
     for _ in 0..ITERATIONS {
         let (value, slope) = f(x);
@@ -172,6 +159,9 @@ fn bisect(low: &mut f64, high: &mut f64, f: impl Fn(f64) -> (f64, f64)) -> f64 {
             *high = x
         }
         let newton = x - value / slope;
+        if slope.is_finite() && (newton - x).abs() < tolerance {
+            return newton.clamp(*low, *high);
+        }
         let next = if newton > *low && newton < *high { newton } else { 0.5 * (*low + *high) };
         if next == x || value == 0.0 {
             break;
@@ -182,6 +172,8 @@ fn bisect(low: &mut f64, high: &mut f64, f: impl Fn(f64) -> (f64, f64)) -> f64 {
 }
 
 impl CamClay {
+    /// Clay of constant moduli.
+    ///
     /// # Errors
     /// Names the parameter that is out of range, at the datum of the preconsolidation pressure.
     pub fn new(elasticity: Elasticity, slope: f64, preconsolidation: Profile, compressibility: f64) -> Result<Self> {
@@ -190,9 +182,38 @@ impl CamClay {
                 return Err(Error::input(name, format!("{value} is not positive"), "give a value above 0"));
             }
         }
-        let model = Self { elasticity, slope, preconsolidation, compressibility };
+        let model = Self { elasticity, swelling: None, slope, preconsolidation, compressibility };
         model.check(preconsolidation.datum)?;
         Ok(model)
+    }
+
+    /// Clay that swells along a line; the shear modulus is that of Poisson's ratio `poisson` (-) at the reference pressure of the line.
+    ///
+    /// # Errors
+    /// As [`CamClay::new`].
+    pub fn with_swelling(
+        swelling: Swelling,
+        poisson: f64,
+        slope: f64,
+        preconsolidation: Profile,
+        compressibility: f64,
+    ) -> Result<Self> {
+        let reference = swelling.reference();
+        reference.positive_at("reference_pressure", reference.datum)?;
+        // What is wrong then is Poisson's ratio.
+        Elasticity::new(reference, poisson)?;
+        let young = reference.scaled(3.0 * (1.0 - 2.0 * poisson) / swelling.slope());
+        let elasticity = Elasticity::new(young, poisson)?;
+        let model = Self::new(elasticity, slope, preconsolidation, compressibility)?;
+        Ok(Self { swelling: Some(swelling), ..model })
+    }
+
+    /// The law of the bulk modulus at height `y` (m), `moduli` those of the elasticity there.
+    fn bulk(&self, y: f64, moduli: &Moduli) -> Bulk {
+        match self.swelling {
+            None => Bulk::Constant(moduli.bulk()),
+            Some(swelling) => swelling.at(self.preconsolidation.at(y)),
+        }
     }
 
     /// p_c (kPa) as a step begins.
@@ -212,17 +233,26 @@ impl Model for CamClay {
         let volumetric = trial[0] + trial[1] + trial[2];
         let e = trial.map(|x| x - volumetric / 3.0);
         let norm = (e[0] * e[0] + e[1] * e[1] + e[2] * e[2]).sqrt();
-        let (bulk, shear) = (moduli.bulk(), moduli.shear);
+        let (bulk, shear) = (self.bulk(y, &moduli), moduli.shear);
         let t = Trial {
-            moduli,
+            bulk,
+            rigidity: shear,
             slope: self.slope,
             compressibility: self.compressibility,
-            pressure: -bulk * volumetric,
+            strain: -volumetric,
+            pressure: bulk.pressure(-volumetric),
             shear: 2.0 * shear * 1.5f64.sqrt() * norm,
             size: self.size(y, state),
         };
         if self.excess(t.pressure, t.shear, t.size) <= TOLERANCE * t.size {
-            return Response::elastic(&moduli, trial, state);
+            return match bulk {
+                Bulk::Constant(_) => Response::elastic(&moduli, trial, state),
+                Bulk::Swelling { .. } => {
+                    let now = Moduli { lambda: bulk.modulus(t.pressure) - 2.0 / 3.0 * shear, shear };
+                    let stress = e.map(|x| 2.0 * shear * x - t.pressure);
+                    Response { stress, ..Response::elastic(&now, trial, state) }
+                }
+            };
         }
         let x = t.volume();
         let (p, size) = (t.pressure_at(x), t.size_at(x));
@@ -239,6 +269,7 @@ impl Model for CamClay {
                 yielding: true,
             };
         }
+        let bulk = bulk.modulus(p);
         let normal = 2.0 * p - size;
         let m = self.slope.powi(2);
         // Δγ from q, which is on the surface then, or near the tips, where q² is a small difference, from the flow along p.
@@ -276,7 +307,10 @@ impl Model for CamClay {
             })
         });
         let stress = e.map(|x| g * x - p);
-        let elastic_strain = moduli.strain(&stress);
+        let elastic_strain = match self.swelling {
+            None => moduli.strain(&stress),
+            Some(_) => e.map(|x| kept * x - t.bulk.strain(p) / 3.0),
+        };
         let plastic = std::array::from_fn(|k| trial[k] - elastic_strain[k]);
         Response {
             stress,
@@ -293,6 +327,40 @@ impl Model for CamClay {
 
     fn elasticity(&self) -> &Elasticity {
         &self.elasticity
+    }
+
+    fn mean_stress(&self, y: f64, volume_strain: f64) -> f64 {
+        -self.bulk(y, &self.elasticity.at(y)).pressure(-volume_strain)
+    }
+
+    fn elastic_stress(&self, y: f64, strain: &[f64; 3]) -> [f64; 3] {
+        let moduli = self.elasticity.at(y);
+        if self.swelling.is_none() {
+            return moduli.stress(strain);
+        }
+        let volumetric = strain[0] + strain[1] + strain[2];
+        let mean = self.mean_stress(y, volumetric);
+        strain.map(|e| mean + 2.0 * moduli.shear * (e - volumetric / 3.0))
+    }
+
+    fn elastic_strain(&self, y: f64, stress: &[f64; 3]) -> [f64; 3] {
+        let moduli = self.elasticity.at(y);
+        if self.swelling.is_none() {
+            return moduli.strain(stress);
+        }
+        let mean = (stress[0] + stress[1] + stress[2]) / 3.0;
+        let volumetric = -self.bulk(y, &moduli).strain(-mean);
+        stress.map(|s| volumetric / 3.0 + (s - mean) / (2.0 * moduli.shear))
+    }
+
+    fn elastic_energy(&self, y: f64, strain: &[f64; 3]) -> f64 {
+        let moduli = self.elasticity.at(y);
+        if self.swelling.is_none() {
+            return moduli.energy(strain);
+        }
+        let volumetric = strain[0] + strain[1] + strain[2];
+        let deviatoric: f64 = strain.iter().map(|e| (e - volumetric / 3.0).powi(2)).sum();
+        self.bulk(y, &moduli).energy(-volumetric) + moduli.shear * deviatoric
     }
 
     fn symmetric(&self) -> bool {
@@ -318,7 +386,10 @@ impl Model for CamClay {
     }
 
     fn check(&self, y: f64) -> Result<()> {
-        self.elasticity.check(y)?;
+        match self.swelling {
+            None => self.elasticity.check(y)?,
+            Some(swelling) => swelling.reference().positive_at("reference_pressure", y)?,
+        }
         self.preconsolidation.positive_at("preconsolidation", y)
     }
 }

@@ -83,6 +83,11 @@ impl Moduli {
         stress.map(|s| volumetric + (s - mean) / (2.0 * self.shear))
     }
 
+    /// `W` (kPa) of a principal Hencky strain.
+    pub fn energy(&self, strain: &[f64; 3]) -> f64 {
+        0.5 * self.stress(strain).iter().zip(strain).map(|(t, e)| t * e).sum::<f64>()
+    }
+
     /// `∂τ_A/∂ε_B` (kPa).
     pub fn tangent(&self) -> [[f64; 3]; 3] {
         let (l, d) = (self.lambda, self.lambda + 2.0 * self.shear);

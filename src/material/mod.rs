@@ -18,7 +18,7 @@ pub mod spectral;
 pub mod tresca;
 pub mod von_mises;
 
-pub use cam_clay::CamClay;
+pub use cam_clay::{CamClay, Swelling};
 pub use elasticity::{Elasticity, Moduli};
 pub use linear_elastic::LinearElastic;
 pub use mohr_coulomb::{Friction, MohrCoulomb};
@@ -79,7 +79,7 @@ pub trait Model: Send + Sync {
     /// The response at a point seeded at height `y` (m) to the elastic trial Hencky strains.
     fn respond(&self, y: f64, trial: &[f64; 3], state: &State) -> Response;
 
-    /// The elastic part.
+    /// The elastic part; where that depends on the pressure, what stands for it wherever one stiffness is asked for.
     fn elasticity(&self) -> &Elasticity;
 
     /// Whether the tangent is symmetric in every state (associated flow).
@@ -114,7 +114,22 @@ pub trait Model: Send + Sync {
         self.elasticity().young(y)
     }
 
-    /// Elastic principal strain of a principal Kirchhoff stress.
+    /// Mean Kirchhoff stress (kPa) of an elastic volume strain.
+    fn mean_stress(&self, y: f64, volume_strain: f64) -> f64 {
+        self.elasticity().at(y).bulk() * volume_strain
+    }
+
+    /// Principal Kirchhoff stress of an elastic principal strain.
+    fn elastic_stress(&self, y: f64, strain: &[f64; 3]) -> [f64; 3] {
+        self.elasticity().at(y).stress(strain)
+    }
+
+    /// What an elastic principal strain stores (kPa), energy for each volume when seeded.
+    fn elastic_energy(&self, y: f64, strain: &[f64; 3]) -> f64 {
+        self.elasticity().at(y).energy(strain)
+    }
+
+    /// Elastic principal strain of a principal Kirchhoff stress, the inverse of [`Model::elastic_stress`].
     fn elastic_strain(&self, y: f64, stress: &[f64; 3]) -> [f64; 3] {
         self.elasticity().at(y).strain(stress)
     }

@@ -390,9 +390,8 @@ impl<const D: usize, K: Kinematics<D>, S: Share<D, K>> Term<D> for Internal<K, S
         let energy = |p: usize| {
             let Some(model) = self.models.get(points.model_of(p)).and_then(Option::as_ref) else { return 0.0 };
             let strain = K::roots(&points.elastic[p]).map(|b| 0.5 * b.ln());
-            let stress = model.elasticity().at(points.origin[p][1]).stress(&strain);
-            let carried = self.share.energy(points, p);
-            carried + 0.5 * points.initial_volume[p] * stress.iter().zip(&strain).map(|(t, e)| t * e).sum::<f64>()
+            let stored = model.elastic_energy(points.origin[p][1], &strain);
+            self.share.energy(points, p) + points.initial_volume[p] * stored
         };
         // In order, so that the sum does not depend on the number of threads.
         (0..points.len()).into_par_iter().map(energy).collect::<Vec<f64>>().iter().sum()

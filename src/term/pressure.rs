@@ -67,7 +67,7 @@ impl Carried {
         if self.water == 0.0 {
             return points.pressure[p];
         }
-        let of_model = self.model.elasticity().at(points.origin[p][1]).bulk() * volume_strain(&points.elastic[p]);
+        let of_model = self.model.mean_stress(points.origin[p][1], volume_strain(&points.elastic[p]));
         points.deformation[p].determinant() * mean(&points.stress[p]) - of_model
     }
 

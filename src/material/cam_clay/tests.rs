@@ -1,4 +1,6 @@
-//! Modified Cam-Clay against closed forms.
+//! Modified Cam-Clay against closed forms: here with constant moduli.
+
+mod swelling;
 
 use super::*;
 use crate::material::driver::{Control, drive_from};
