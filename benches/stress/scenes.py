@@ -286,6 +286,10 @@ def drain(r):
         case["phases"].append(phase("dynamic", 0.2, 10, gravity=r.choice([1, 2])) | {"name": "shake"})
     if r.random() < 0.5:
         case["drained_surface"] = r.choice(["all", "body"])
+        if r.random() < 0.5 and "pore_pressure" not in case["supports"]["right"]:
+            # What covers the surface does not drain.
+            del case["supports"]["right"]
+            case["contacts"] = [{"wall": "right", "soil": "body", "friction": r.choice([0, 0.3])}]
     return case
 
 
@@ -357,6 +361,9 @@ def clay(r):
         case["phases"] = [phase(analysis, 1, 20, gravity={"table": [[0, 1], [1, r.uniform(0, 5)]]})]
     else:
         case["phases"] = [phase("quasi_static", 1, 20, prescribe={"head": motion[kind]})]
+    if r.random() < 0.5:
+        del case["materials"]["matter"]["young"]
+        case["materials"]["matter"] |= {"swelling": 10 ** r.uniform(-3, -1.3), "least_pressure": r.choice([0.1, 1])}
     return case
 
 
