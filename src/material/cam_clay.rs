@@ -339,6 +339,10 @@ impl Model for CamClay {
         -self.bulk(y, &self.elasticity.at(y)).pressure(-volume_strain)
     }
 
+    fn bulk_modulus(&self, y: f64, mean: f64) -> f64 {
+        self.bulk(y, &self.elasticity.at(y)).modulus(-mean)
+    }
+
     fn elastic_stress(&self, y: f64, strain: &[f64; 3]) -> [f64; 3] {
         let moduli = self.elasticity.at(y);
         if self.swelling.is_none() {

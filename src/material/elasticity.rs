@@ -77,6 +77,11 @@ impl Moduli {
         self.lambda + 2.0 / 3.0 * self.shear
     }
 
+    /// Poisson's ratio (-) of a shear modulus beside the bulk modulus `bulk` (kPa).
+    pub fn poisson_beside(&self, bulk: f64) -> f64 {
+        (1.5 * bulk - self.shear) / (3.0 * bulk + self.shear)
+    }
+
     /// Principal Kirchhoff stress of a principal Hencky strain.
     pub fn stress(&self, strain: &[f64; 3]) -> [f64; 3] {
         let volumetric = self.lambda * (strain[0] + strain[1] + strain[2]);
