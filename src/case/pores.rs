@@ -107,7 +107,6 @@ impl Checker {
             let problem = "it would tell the stiffness of the water, too: far too little where the soil bears more";
             let remedy = "give `porosity` and `water_bulk_modulus`, such as 0.5 and 2.0e+6, or take it out";
             self.issue(&path.key(reference), At::Key, problem, remedy);
-            return None;
         }
         let poisson = model.elasticity().poisson();
         let undrained = material.undrained_poisson.unwrap_or(UNDRAINED);
