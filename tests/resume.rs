@@ -156,6 +156,9 @@ const GRAINS: Case = Case {
     overrides: &["mesh.parameters.h=0.05", "phases.collapse.duration=0.3", "output.every=0.1"],
 };
 
+/// Water that leaves a surface beside a strip that covers a part of it.
+const STRIP: Case = Case { file: "tests/data/strip", overrides: &["phases.wait.step.initial=40"] };
+
 fn mpm(verb: &str, case: &Case, folder: &Path, more: &[&str]) -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_mpm"));
     command.arg(verb).arg(Path::new(env!("CARGO_MANIFEST_DIR")).join(case.file)).arg("-o").arg(folder);
@@ -350,6 +353,11 @@ fn a_run_with_two_water_levels_killed_ten_times_ends_the_same() {
 }
 
 #[test]
+fn a_surface_that_drains_beside_a_strip_killed_ten_times_ends_the_same() {
+    survives_kills(&STRIP, 12);
+}
+
+#[test]
 fn a_load_released_bit_by_bit_killed_ten_times_ends_the_same() {
     survives_kills(&LAID, 33);
 }
@@ -361,9 +369,10 @@ fn grains_that_come_apart_killed_ten_times_end_the_same() {
 
 #[test]
 fn the_number_of_threads_changes_no_bit() {
-    for case in
-        [SLOPE, RELEASE, SAND, PILE, BLOCK, WALL, BODIES, SAFETY, FALL, SOFT, POOL, WATER, CHANGE, LEVELS, GRAINS, LAID]
-    {
+    for case in [
+        SLOPE, RELEASE, SAND, PILE, BLOCK, WALL, BODIES, SAFETY, FALL, SOFT, POOL, WATER, CHANGE, LEVELS, GRAINS, LAID,
+        STRIP,
+    ] {
         let one = seeded(&case);
         let three = copy(one.path());
         ends(mpm("solve", &case, one.path(), &["--threads", "1"]), 0);

@@ -16,8 +16,6 @@ const NEARLY_INCOMPRESSIBLE: f64 = 0.45;
 /// soil flows: on 8 cells a rough strip footing is 2.8 % stronger with that of Poisson's ratio 0.3 than with next to
 /// nothing, and no stronger with this. With less, single points in cut cells of a moving body have nothing that keeps their volume.
 const KEPT: f64 = 1e-3;
-/// Poisson's ratio of an undrained soil as a whole, where none is given: that of PLAXIS.
-pub(super) const UNDRAINED: f64 = 0.495;
 
 /// Bulk modulus over shear modulus.
 pub(super) fn bulk(poisson: f64) -> f64 {
@@ -85,14 +83,8 @@ impl Checker {
             self.issue(&path.key("drainage"), At::Value, "an undrained material needs the pressure field", remedy);
             return None;
         }
+        let undrained = self.undrained_poisson(material, model, path)?;
         let poisson = model.elasticity().poisson();
-        let undrained = material.undrained_poisson.unwrap_or(UNDRAINED);
-        if !(undrained > poisson && undrained < 0.5) {
-            let problem = format!("is {undrained}, but must lie between `poisson` ({poisson}) and 0.5");
-            let key = if material.undrained_poisson.is_some() { "undrained_poisson" } else { "poisson" };
-            self.issue(&path.key(key), At::Value, problem, "give `poisson` of the skeleton, such as 0.3");
-            return None;
-        }
         let water = bulk(undrained) - bulk(poisson);
         if !kind.keeps_volume {
             return Some(Carried { model: model.clone(), ratio: water, water: 1.0 });

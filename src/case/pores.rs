@@ -3,7 +3,7 @@
 use super::changes;
 use super::check::Checker;
 use super::checked::{Case, Numerics, Restore, Surface};
-use super::incompressible::{UNDRAINED, bulk};
+use super::incompressible::bulk;
 use super::locate::{At, Path};
 use super::raw;
 use super::scene;
@@ -17,6 +17,8 @@ use crate::step::{Scene, Water};
 use crate::term::{Porous, WaterStiffness};
 use std::sync::Arc;
 
+/// Poisson's ratio of an undrained soil as a whole, where none is given: that of PLAXIS.
+const UNDRAINED: f64 = 0.495;
 /// Unit weight of water (kN/m³) where none is given.
 const UNIT_WEIGHT: f64 = 9.81;
 
@@ -78,15 +80,8 @@ impl Checker {
                 Some(WaterStiffness::Modulus(modulus / porosity))
             }
             (None, None) => {
-                let poisson = model.elasticity().poisson();
-                let undrained = material.undrained_poisson.unwrap_or(UNDRAINED);
-                if undrained > poisson && undrained < 0.5 {
-                    return Some(WaterStiffness::Ratio(bulk(undrained) - bulk(poisson)));
-                }
-                let problem = format!("is {undrained}, but must lie between `poisson` ({poisson}) and 0.5");
-                let key = if material.undrained_poisson.is_some() { "undrained_poisson" } else { "poisson" };
-                self.issue(&path.key(key), At::Value, problem, "give `poisson` of the skeleton, such as 0.3");
-                None
+                let undrained = self.undrained_poisson(material, model, path)?;
+                Some(WaterStiffness::Ratio(bulk(undrained) - bulk(model.elasticity().poisson())))
             }
             (porosity, _) => {
                 let (given, missing) = match porosity {
@@ -98,6 +93,30 @@ impl Checker {
                 None
             }
         }
+    }
+
+    /// Poisson's ratio of an undrained soil as a whole, where that tells the stiffness of its water.
+    pub(super) fn undrained_poisson(
+        &mut self,
+        material: &raw::Material,
+        model: &Arc<dyn Model>,
+        path: &Path,
+    ) -> Option<f64> {
+        let reference = "reference_pressure";
+        if material.parameters.contains_key(reference) {
+            let problem = "it would tell the stiffness of the water, too: far too little where the soil bears more";
+            let remedy = "give `porosity` and `water_bulk_modulus`, such as 0.5 and 2.0e+6, or take it out";
+            self.issue(&path.key(reference), At::Key, problem, remedy);
+        }
+        let poisson = model.elasticity().poisson();
+        let undrained = material.undrained_poisson.unwrap_or(UNDRAINED);
+        if undrained > poisson && undrained < 0.5 {
+            return Some(undrained);
+        }
+        let problem = format!("is {undrained}, but must lie between `poisson` ({poisson}) and 0.5");
+        let key = if material.undrained_poisson.is_some() { "undrained_poisson" } else { "poisson" };
+        self.issue(&path.key(key), At::Value, problem, "give `poisson` of the skeleton, such as 0.3");
+        None
     }
 
     /// A curve where water leaves.

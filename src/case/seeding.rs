@@ -6,6 +6,7 @@ use crate::material::{Profile, State, is_beyond_yield, spatial};
 use crate::mesh::Mesh;
 use crate::points::Points;
 use crate::seed::{QUADRATURE, RegionSeed, RegionWeight, k0_stress, seed};
+use std::ops::RangeInclusive;
 
 /// Fills the regions of `case` in `mesh`, whose groups its names have been held against.
 ///
@@ -41,7 +42,10 @@ pub fn points(case: &Case, mesh: &Mesh<2>) -> Result<Points<2>> {
     Ok(points)
 }
 
-/// A line on each region whose initial stress is more than its material bears.
+/// Poisson's ratios (-) that soil has: what a pressure far from the reference makes of one beyond them is told.
+const POISSON: RangeInclusive<f64> = 0.0..=0.45;
+
+/// A line on each region whose initial stress is more than its material bears, and on each that has a Poisson's ratio which no soil has.
 ///
 /// # Errors
 /// Input: a region that the mesh lacks.
@@ -49,22 +53,40 @@ pub fn notes(case: &Case, mesh: &Mesh<2>, points: &Points<2>) -> Result<Vec<Stri
     let mut notes = Vec::new();
     for Filled { index, material, seed } in filled(case, mesh)? {
         let material = &case.materials[material];
-        let of = (0..points.len()).filter(|&p| points.region[p] == seed.region);
-        let (mut all, mut beyond, mut first) = (0, 0, None);
-        for p in of {
-            // At rest the axes are the principal ones, and nothing has deformed yet.
-            let [x, y, z, ..] = points.stress[p];
-            all += 1;
-            if is_beyond_yield(material.model.as_ref(), points.origin[p][1], &[x, y, z], &State::default()) {
-                beyond += 1;
-                first.get_or_insert(points.origin[p]);
-            }
-        }
-        if let Some([x, y]) = first {
+        let region = &case.regions[index].name;
+        let of: Vec<usize> = (0..points.len()).filter(|&p| points.region[p] == seed.region).collect();
+        // At rest the axes are the principal ones, and nothing has deformed yet.
+        let stress = |p: usize| [0, 1, 2].map(|k| points.stress[p][k]);
+        let height = |p: usize| points.origin[p][1];
+        let told = |found: &[usize]| {
+            let [x, y] = points.origin[*found.first()?];
+            Some(format!("{} of its {} points, such as that at [{x:.4}, {y:.4}] m", found.len(), of.len()))
+        };
+        let beyond = |&p: &usize| is_beyond_yield(material.model.as_ref(), height(p), &stress(p), &State::default());
+        let beyond: Vec<usize> = of.iter().copied().filter(beyond).collect();
+        if let Some(told) = told(&beyond) {
             notes.push(format!(
-                "region `{}`: the initial stress of {beyond} of its {all} points, such as that at [{x:.4}, {y:.4}] m, is more than `{}` \
-                 bears, and falls to it in the first step; another `k0` or more strength leaves them at rest",
-                case.regions[index].name, material.name
+                "region `{region}`: the initial stress of {told}, is more than `{}` bears, and falls to it in the first step; another `k0` or \
+                 more strength leaves them at rest",
+                material.name
+            ));
+        }
+        let poisson = |p: usize| {
+            let bulk = material.model.bulk_modulus(height(p), stress(p).iter().sum::<f64>() / 3.0);
+            material.model.elasticity().at(height(p)).poisson_beside(bulk)
+        };
+        let given = material.model.elasticity().poisson();
+        // With moduli that are constant it is that given, but for the last bits.
+        let strays = |&p: &usize| !POISSON.contains(&poisson(p)) && (poisson(p) - given).abs() > 1e-6;
+        let strays = |p: &usize| case.k0.is_some() && strays(p);
+        let strays: Vec<usize> = of.iter().copied().filter(strays).collect();
+        if let Some(told) = told(&strays) {
+            notes.push(format!(
+                "region `{region}`: Poisson's ratio of {told}, is {:.2} at the initial stress, below {} or above {}; a `reference_pressure` that \
+                 follows the pressure in the ground keeps it near `poisson`",
+                poisson(strays[0]),
+                POISSON.start(),
+                POISSON.end()
             ));
         }
     }

@@ -237,6 +237,52 @@ fn contradictions_about_drainage_are_told() {
     }
 }
 
+/// Water whose stiffness follows from the skeleton's is soft where that is taken at another pressure than the soil bears.
+#[test]
+fn a_reference_pressure_of_its_own_does_not_tell_the_stiffness_of_the_water() {
+    let clay = |more: &str| {
+        format!(
+            "materials.clay={{model: cam_clay, swelling: 0.02, compression: 0.1, poisson: 0.3, critical_slope: 1, \
+             preconsolidation: 100, density: 1.8, drainage: undrained{more}}}"
+        )
+    };
+    let issues = |more: &str| {
+        let source = Source::parse(PathBuf::from("case.yaml"), CASE.to_owned(), &[clay(more)]).unwrap();
+        resolve(&source).1.iter().map(|issue| source.error(issue).to_string()).collect::<Vec<_>>()
+    };
+    for more in ["", ", permeability: 1.0e-8", ", reference_pressure: 5, porosity: 0.5, water_bulk_modulus: 2.0e+6"] {
+        assert!(issues(more).is_empty(), "{more}: {:?}", issues(more));
+    }
+    for more in [", reference_pressure: 5", ", reference_pressure: 5, permeability: 1.0e-8"] {
+        let [issue] = issues(more).try_into().unwrap();
+        assert!(
+            ["reference_pressure", "stiffness of the water", "porosity"].iter().all(|s| issue.contains(s)),
+            "{issue}"
+        );
+    }
+}
+
+/// What a constant shear modulus makes of Poisson's ratio where the pressure is far from its reference is told with the points.
+#[test]
+fn poissons_ratios_that_no_soil_has_are_noted() {
+    let mesh = builder::rectangle(CellKind::Q9, 1.0, 10.0, 1, 5, 0.0, 0);
+    let notes = |more: &str| {
+        let clay = format!(
+            "materials.clay={{model: cam_clay, swelling: 0.02, compression: 0.1, poisson: 0.3, critical_slope: 1, \
+             preconsolidation: 300, density: 1.8{more}}}"
+        );
+        let case = case(CASE, &[&clay, "initial_velocity={}", "initial_stress.k0=1"]);
+        let mut mesh = mesh.clone();
+        mesh.regions = vec!["block".into()];
+        let points = seeding::points(&case, &mesh).unwrap();
+        seeding::notes(&case, &mesh, &points).unwrap()
+    };
+    // ν is negative below 0.31 p_ref: down to 5 m and more.
+    let [note] = notes("").try_into().unwrap();
+    assert!(["block", "of its 45 points", "reference_pressure"].iter().all(|s| note.contains(s)), "{note}");
+    assert_eq!(notes(", reference_pressure: {top: 1, gradient: 18, datum: 10}"), Vec::<String>::new());
+}
+
 proptest! {
     #[test]
     fn no_text_makes_the_reader_panic(

@@ -144,7 +144,9 @@ impl Parts<'_> {
         let soil = is_soil.then(|| {
             let has_hats = matches!(contact.structure, Touching::Wall(_));
             let facets = if has_hats { &surface.facets } else { &other.facets };
-            Ok(Soil { has_hats, behind: self.behind(self.region(body)?, facets) })
+            let name = &self.case.regions[body].name;
+            let undrained = changes::used(self.case).any(|(r, m)| r.name == *name && m.has_pore_pressure());
+            Ok(Soil { has_hats, undrained, behind: self.behind(self.region(body)?, facets) })
         });
         let (mut height, mut count) = (0.0, 0.0);
         for &n in surface.facets.iter().flatten() {

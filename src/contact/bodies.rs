@@ -48,6 +48,8 @@ pub struct Bodies<K> {
 pub struct Soil {
     /// Whether it is the one with the hats.
     pub has_hats: bool,
+    /// Whether its pores ever hold an excess pressure.
+    pub undrained: bool,
     /// The finite element behind each facet of its boundary.
     pub behind: Vec<u32>,
 }
@@ -222,7 +224,7 @@ impl<K: Kinematics<2>> Pair<2> for Bodies<K> {
         let bins = Bins::new(other.0.iter().map(|s| (s.from, s.to)), REACH * self.surface.spacing + longest);
         let mut sums = vec![Sum::default(); self.surface.hats];
         // Nothing else depends on it.
-        let wet = self.soil.as_ref().filter(|_| self.law.friction > 0.0);
+        let wet = self.soil.as_ref().filter(|soil| soil.undrained && self.law.friction > 0.0);
         let wet = wet.map(|soil| (soil, soil.points(ground.elements)));
         for (segment, placed) in self.surface.segments.iter().zip(&segments.0) {
             let own = &self.surface.facets[segment.facet as usize];

@@ -4,7 +4,8 @@
 //! multipliers `λ`, `λ_t` of the step before, gaps close and sticking soil creeps no farther (Alart & Curnier 1991).
 //!
 //! Surfaces part smoothly: `⟨q⟩` is rounded over `|q| < d`, and adhesion, which would vanish at once where they
-//! part, fades over a gap `w`, `τ_max (1 − ⟨g⟩/w)`. Without the one Newton's method may go back and forth at a hat that
+//! part, fades over a gap `w`, `τ_max (1 − ⟨g⟩/w)`; without adhesion only friction without pressure does, `⟨−w_p⟩ tan δ`
+//! of water that presses the two together from outside. Without the one Newton's method may go back and forth at a hat that
 //! neither bears nor is open; without the other there may be no equilibrium: soil that touches is dragged away, and
 //! soil that is not dragged touches.
 
@@ -58,11 +59,6 @@ impl Penalty {
     pub fn within(&self, beyond: f64) -> Self {
         Self { water: (beyond + self.water).max(beyond.min(0.0)), ..*self }
     }
-
-    /// What of a pressure (kPa) the grains bear.
-    fn effective(&self, pressure: f64) -> f64 {
-        (pressure - self.water).max(0.0)
-    }
 }
 
 impl Law {
@@ -87,8 +83,9 @@ impl Law {
     pub fn respond(&self, at: &Penalty, gap: f64, slip: f64) -> Answer {
         let (pressure, by_gap) = self.pressure(at, gap);
         let mut answer = Answer { pressure, pressure_by_gap: by_gap, ..Answer::default() };
-        let (full, slope) = self.limit(at.effective(pressure), at.strength);
-        let (share, share_by_gap) = self.share(at, gap);
+        let (effective, effective_by_gap) = self.effective(at, gap, (pressure, by_gap));
+        let (full, slope) = self.limit(effective, at.strength);
+        let (share, share_by_gap) = if self.adheres() { self.share(at, gap) } else { (1.0, 0.0) };
         // The full one may be infinite: soil without limit of strength.
         if full == 0.0 || share == 0.0 {
             return answer;
@@ -99,11 +96,23 @@ impl Law {
             answer.shear = shear;
             answer.shear_by_slip = -at.tangential;
         } else {
-            let of_pressure = if at.effective(pressure) > 0.0 { slope * share * by_gap } else { 0.0 };
             answer.shear = limit.copysign(shear);
-            answer.shear_by_gap = (of_pressure + full * share_by_gap) * shear.signum();
+            answer.shear_by_gap = (slope * share * effective_by_gap + full * share_by_gap) * shear.signum();
         }
         answer
+    }
+
+    /// What of the pressure (kPa) the grains bear, and its slope by the gap (kPa/m), of the pressure and its own. What water that stands higher
+    /// outside presses them together by is lost as they part; where the surfaces adhere all of the shear is.
+    fn effective(&self, at: &Penalty, gap: f64, (pressure, by_gap): (f64, f64)) -> (f64, f64) {
+        let borne = pressure - at.water;
+        let (borne, by_gap) = if borne > 0.0 { (borne, by_gap) } else { (0.0, 0.0) };
+        if self.adheres() {
+            return (borne, by_gap);
+        }
+        let drawn = (-at.water).max(0.0);
+        let (share, share_by_gap) = self.share(at, gap);
+        (borne - (1.0 - share) * drawn, by_gap + share_by_gap * drawn)
     }
 
     /// The pressure (kPa) and its slope by the gap (kPa/m).
@@ -120,10 +129,9 @@ impl Law {
         }
     }
 
-    /// The part of the largest shear that an open gap leaves (-), and its slope by the gap (1/m).
+    /// The part that an open gap leaves (-) of what does not come of the pressure, and its slope by the gap (1/m).
     fn share(&self, at: &Penalty, gap: f64) -> (f64, f64) {
-        let clings = self.adheres() || self.friction > 0.0 && at.water < 0.0;
-        if !self.separates || !clings || gap <= 0.0 {
+        if !self.separates || gap <= 0.0 {
             (1.0, 0.0)
         } else if gap >= at.fading {
             (0.0, 0.0)
@@ -166,6 +174,7 @@ mod tests {
             law(0.4, 0.3, Some(0.5), true),
             law(0.0, 0.0, Some(0.5), true),
             law(0.2, 0.1, None, false),
+            law(0.4, 0.0, Some(0.6), true),
         ]
     }
 
@@ -189,6 +198,17 @@ mod tests {
         }
     }
 
+    /// Shear does not jump where the level outside passes that in the pores, at any gap.
+    #[test]
+    fn water_that_passes_that_outside_changes_nothing_at_once() {
+        for law in laws() {
+            for gap in [-0.02, 0.011, 0.029, 0.0315, 0.04] {
+                let [above, below] = [1e-9, -1e-9].map(|water| law.respond(&Penalty { water, ..AT }, gap, 0.2));
+                assert!((above.shear - below.shear).abs() < 1e-8, "{law:?} {gap}: {above:?} {below:?}");
+            }
+        }
+    }
+
     /// Suction takes the pores no lower than the lower of their water at rest and that outside.
     #[test]
     fn excess_pressure_is_on_top_of_the_water_at_rest() {
@@ -207,7 +227,7 @@ mod tests {
 
     #[test]
     fn shear_has_its_limits() {
-        let [smooth, rough, capped, clay, bonded] = laws().try_into().unwrap();
+        let [smooth, rough, capped, clay, bonded, _] = laws().try_into().unwrap();
         assert_eq!(smooth.respond(&AT, 0.0, 1.0).shear, 0.0);
         assert!((rough.respond(&AT, 0.0, 1.0).shear + 0.4 * 3.0).abs() < 1e-15);
         assert!((rough.respond(&Penalty { water: 1.0, ..AT }, 0.0, 1.0).shear + 0.4 * 2.0).abs() < 1e-15);

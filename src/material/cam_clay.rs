@@ -177,17 +177,11 @@ impl CamClay {
     /// # Errors
     /// Names the parameter that is out of range, at the datum of the preconsolidation pressure.
     pub fn new(elasticity: Elasticity, slope: f64, preconsolidation: Profile, compressibility: f64) -> Result<Self> {
-        for (name, value) in [("critical_slope", slope), ("plastic_compressibility", compressibility)] {
-            if !(value > 0.0 && value.is_finite()) {
-                return Err(Error::input(name, format!("{value} is not positive"), "give a value above 0"));
-            }
-        }
-        let model = Self { elasticity, swelling: None, slope, preconsolidation, compressibility };
-        model.check(preconsolidation.datum)?;
-        Ok(model)
+        Self { elasticity, swelling: None, slope, preconsolidation, compressibility }.in_range()
     }
 
-    /// Clay that swells along a line; the shear modulus is that of Poisson's ratio `poisson` (-) at the reference pressure of the line.
+    /// Clay that swells along a line; the shear modulus is that of Poisson's ratio `poisson` (-) at the reference pressure of the line,
+    /// or at its least pressure where that is more.
     ///
     /// # Errors
     /// As [`CamClay::new`].
@@ -202,10 +196,22 @@ impl CamClay {
         reference.positive_at("reference_pressure", reference.datum)?;
         // What is wrong then is Poisson's ratio.
         Elasticity::new(reference, poisson)?;
-        let young = reference.scaled(3.0 * (1.0 - 2.0 * poisson) / swelling.slope());
-        let elasticity = Elasticity::new(young, poisson)?;
-        let model = Self::new(elasticity, slope, preconsolidation, compressibility)?;
-        Ok(Self { swelling: Some(swelling), ..model })
+        let per_pressure = 3.0 * (1.0 - 2.0 * poisson) / swelling.slope();
+        let young = reference.scaled(per_pressure);
+        young.positive_at("swelling", young.datum)?;
+        let elasticity = Elasticity::new(young, poisson)?.at_least(per_pressure * swelling.least());
+        Self { elasticity, swelling: Some(swelling), slope, preconsolidation, compressibility }.in_range()
+    }
+
+    /// This one, if its parameters are in range.
+    fn in_range(self) -> Result<Self> {
+        for (name, value) in [("critical_slope", self.slope), ("plastic_compressibility", self.compressibility)] {
+            if !(value > 0.0 && value.is_finite()) {
+                return Err(Error::input(name, format!("{value} is not positive"), "give a value above 0"));
+            }
+        }
+        self.check(self.preconsolidation.datum)?;
+        Ok(self)
     }
 
     /// The law of the bulk modulus at height `y` (m), `moduli` those of the elasticity there.
@@ -333,6 +339,10 @@ impl Model for CamClay {
         -self.bulk(y, &self.elasticity.at(y)).pressure(-volume_strain)
     }
 
+    fn bulk_modulus(&self, y: f64, mean: f64) -> f64 {
+        self.bulk(y, &self.elasticity.at(y)).modulus(-mean)
+    }
+
     fn elastic_stress(&self, y: f64, strain: &[f64; 3]) -> [f64; 3] {
         let moduli = self.elasticity.at(y);
         if self.swelling.is_none() {
@@ -386,11 +396,12 @@ impl Model for CamClay {
     }
 
     fn check(&self, y: f64) -> Result<()> {
+        // The reference may be the preconsolidation.
+        self.preconsolidation.positive_at("preconsolidation", y)?;
         match self.swelling {
-            None => self.elasticity.check(y)?,
-            Some(swelling) => swelling.reference().positive_at("reference_pressure", y)?,
+            None => self.elasticity.check(y),
+            Some(swelling) => swelling.reference().positive_at("reference_pressure", y),
         }
-        self.preconsolidation.positive_at("preconsolidation", y)
     }
 }
 

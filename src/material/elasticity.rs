@@ -10,6 +10,8 @@ use crate::error::{Error, Result};
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Elasticity {
     young: Profile,
+    /// Young's modulus (kPa) is no less.
+    least: f64,
     poisson: f64,
 }
 
@@ -27,7 +29,12 @@ impl Elasticity {
                 "for undrained behaviour take 0.49 or 0.495",
             ));
         }
-        Ok(Self { young, poisson })
+        Ok(Self { young, least: 0.0, poisson })
+    }
+
+    /// The same with a Young's modulus of at least `young` (kPa) at every height.
+    pub fn at_least(self, young: f64) -> Self {
+        Self { least: young, ..self }
     }
 
     /// Whether Young's modulus is positive at height `y` (m).
@@ -40,7 +47,7 @@ impl Elasticity {
 
     /// Young's modulus (kPa) at height `y` (m).
     pub fn young(&self, y: f64) -> f64 {
-        self.young.at(y)
+        self.young.at(y).max(self.least)
     }
 
     /// Poisson's ratio (-).
@@ -50,7 +57,7 @@ impl Elasticity {
 
     /// The moduli at height `y` (m).
     pub fn at(&self, y: f64) -> Moduli {
-        let (e, nu) = (self.young.at(y), self.poisson);
+        let (e, nu) = (self.young(y), self.poisson);
         let shear = 0.5 * e / (1.0 + nu);
         Moduli { lambda: 2.0 * shear * nu / (1.0 - 2.0 * nu), shear }
     }
@@ -68,6 +75,11 @@ impl Moduli {
     /// Bulk modulus (kPa).
     pub fn bulk(&self) -> f64 {
         self.lambda + 2.0 / 3.0 * self.shear
+    }
+
+    /// Poisson's ratio (-) of a shear modulus beside the bulk modulus `bulk` (kPa).
+    pub fn poisson_beside(&self, bulk: f64) -> f64 {
+        (1.5 * bulk - self.shear) / (3.0 * bulk + self.shear)
     }
 
     /// Principal Kirchhoff stress of a principal Hencky strain.

@@ -119,6 +119,11 @@ pub trait Model: Send + Sync {
         self.elasticity().at(y).bulk() * volume_strain
     }
 
+    /// Bulk modulus (kPa) at a mean Kirchhoff stress (kPa).
+    fn bulk_modulus(&self, y: f64, _mean: f64) -> f64 {
+        self.elasticity().at(y).bulk()
+    }
+
     /// Principal Kirchhoff stress of an elastic principal strain.
     fn elastic_stress(&self, y: f64, strain: &[f64; 3]) -> [f64; 3] {
         self.elasticity().at(y).stress(strain)

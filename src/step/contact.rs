@@ -12,7 +12,7 @@ use crate::mesh::Mesh;
 use crate::mesh::locate::Locator;
 use crate::mesh::shape::MAX_NODES;
 use crate::points::Points;
-use crate::surface::open;
+use crate::surface::{join, open};
 use crate::system::Cliques;
 use crate::term::{Touch, Trial, contact_answer, excess_pressure};
 use crate::time_integration::GeneralisedAlpha;
@@ -119,6 +119,7 @@ pub fn begin<const D: usize, K: Kinematics<D>>(
         let touch = |row: Row<D>| Touch { pair, laid: !presses && row.lies(), row, clique: 0, place: Vec::new() };
         touches.extend(rows.into_iter().map(touch));
     }
+    join(&mut covers);
     let open = covered.then(|| open(mesh, &state.weighing.boundary.pieces, &covers));
     let takes_part = |touch: &Touch<D>| touch.row.nodes.iter().all(|&n| grid.block[n as usize] != u32::MAX);
     touches.retain(takes_part);
@@ -221,7 +222,7 @@ pub fn commit<const D: usize>(
         (held.gap[hat], held.slip[hat], held.offset[hat]) = (gap, slip.abs(), row.offset);
         held.faces[hat] = true;
         let resultant = &mut resultants[pair];
-        if answer.pressure != 0.0 {
+        if held.touched(hat) {
             resultant.hats += 1;
             held.slid[hat] += slip;
             resultant.overlap = resultant.overlap.max(-gap);

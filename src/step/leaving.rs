@@ -19,7 +19,7 @@ pub fn check<const D: usize>(
     ground: &Ground<D>,
     position: &dyn Fn(u32) -> [f64; D],
 ) -> Result<()> {
-    let mut lost: Vec<bool> = held.pressure.iter().map(|&p| p != 0.0).collect();
+    let mut lost: Vec<bool> = (0..pair.hats()).map(|k| held.touched(k)).collect();
     rows.iter().for_each(|row| lost[row.hat as usize] = false);
     let is_wall = || !scene.fem.as_ref().is_some_and(|fem| fem.mesh.cells.region.contains(&pair.structure()));
     if !lost.contains(&true) || pair.against().is_some() || is_wall() {

@@ -3,11 +3,15 @@
 use super::bins::Bins;
 use super::boundary::{Piece, place};
 use crate::mesh::Mesh;
+use crate::stencil::cell_size;
+use std::f64::consts::FRAC_1_SQRT_2;
 
 /// Cosine of the angle between the ways of a piece and of a cover from which on they face each other.
 const FACING: f64 = -0.3;
 /// The least part of a piece (-) that counts as open: what is left beside a cover that ends where the piece does is none.
 const LEAST: f64 = 1e-3;
+/// How far apart (-), in the reach of covers, the ends of two may be that belong to one joint.
+const JOINT: f64 = 0.2;
 
 /// A straight part of the boundary of a structure that lies on the material.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -16,13 +20,14 @@ pub struct Cover<const D: usize> {
     pub ends: [[f64; D]; 2],
     /// Whether another one goes on from there.
     pub goes_on: [bool; 2],
-    /// How far (m) across it the boundary of the material may be, which is known to a part of a cell.
+    /// How far (m) across it the boundary of the material may be at least.
     pub reach: f64,
 }
 
 impl<const D: usize> Cover<D> {
-    /// From which share of its way to which a line between two places (m) is covered; nothing where the first is the larger one.
-    fn share(&self, [a, b]: &[[f64; D]; 2]) -> [f64; 2] {
+    /// From which share of its way to which a line between two places (m) is covered, known to within `size` (m); nothing where the first
+    /// is the larger one.
+    fn share(&self, [a, b]: &[[f64; D]; 2], size: f64) -> [f64; 2] {
         let way = |from: &[f64; D], to: &[f64; D]| [to[0] - from[0], to[1] - from[1]];
         let dot = |v: [f64; 2], w: [f64; 2]| v[0] * w[0] + v[1] * w[1];
         let [from, to] = &self.ends;
@@ -35,12 +40,30 @@ impl<const D: usize> Cover<D> {
         }
         let middle = [0, 1].map(|d| 0.5 * (from[d] + to[d]) - a[d]);
         let away = (along[0] * middle[1] - along[1] * middle[0]).abs() / length;
-        if away > self.reach {
+        if away > self.reach.max(size) {
             return [1.0, 0.0];
         }
         // Where the boundary turns and the two are apart their ends are not across each other.
         let more = self.goes_on.map(|goes_on| if goes_on { away / length } else { 0.0 });
         [dot(way(a, to), along) / square - more[1], dot(way(a, from), along) / square + more[0]]
+    }
+}
+
+/// Closes the joints of structures: where a cover ends and another one begins beside it, one between the two goes on from both.
+pub fn join<const D: usize>(covers: &mut Vec<Cover<D>>) {
+    let free = |k: usize| {
+        let free = covers.iter().enumerate().filter(move |(_, cover)| !cover.goes_on[k]);
+        free.map(move |(number, cover)| (number, cover.ends[k], cover.reach)).collect::<Vec<_>>()
+    };
+    let begins = free(0);
+    for (before, from, reach) in free(1) {
+        for &(after, to, other) in begins.iter().filter(|(after, ..)| *after != before) {
+            let reach = reach.max(other);
+            if (to[0] - from[0]).hypot(to[1] - from[1]) <= JOINT * reach {
+                (covers[before].goes_on[1], covers[after].goes_on[0]) = (true, true);
+                covers.push(Cover { ends: [from, to], goes_on: [true; 2], reach });
+            }
+        }
     }
 }
 
@@ -50,7 +73,9 @@ pub fn open<const D: usize>(mesh: &Mesh<D>, pieces: &[Piece], covers: &[Cover<D>
         pieces.iter().map(|piece| [0.0, 1.0].map(|t| place(mesh, &mesh.nodes, piece, t))).collect();
     let apart = |[a, b]: &[[f64; D]; 2]| (b[0] - a[0]).hypot(b[1] - a[1]);
     let longest = ends.iter().map(apart).fold(0.0, f64::max);
-    let reach = covers.iter().map(|cover| cover.reach).fold(0.0, f64::max);
+    // The place of a piece is known to a part of its cell; the edge of a typical cell is its diagonal over √2.
+    let known = |piece: &Piece| 0.5 * FRAC_1_SQRT_2 * cell_size(mesh, piece.cell as usize);
+    let reach = covers.iter().map(|cover| cover.reach).chain(pieces.iter().map(known)).fold(0.0, f64::max);
     let boxes = covers.iter().map(|cover| cover.ends.map(|x| [x[0], x[1]])).map(|[a, b]| (a, b));
     let bins = Bins::new(boxes, longest + reach);
     let mut open = Vec::with_capacity(pieces.len());
@@ -60,7 +85,7 @@ pub fn open<const D: usize>(mesh: &Mesh<D>, pieces: &[Piece], covers: &[Cover<D>
             continue;
         }
         let middle = [0, 1].map(|d| 0.5 * (ends[0][d] + ends[1][d]));
-        let shares = bins.around(&middle).flatten().map(|&cover| covers[cover as usize].share(ends));
+        let shares = bins.around(&middle).flatten().map(|&cover| covers[cover as usize].share(ends, known(piece)));
         let mut shares: Vec<[f64; 2]> = shares.filter(|[from, to]| from < to && *from < 1.0 && *to > 0.0).collect();
         shares.sort_by(|a, b| a[0].total_cmp(&b[0]));
         let mut at = 0.0;
@@ -80,7 +105,7 @@ mod tests {
     use crate::mesh::builder::rectangle;
     use crate::mesh::shape::CellKind;
 
-    /// A piece along the top of the square [0, 1]², from right to left.
+    /// A piece along the top of the square [0, 1]², from right to left; half a cell is 0.5 m.
     fn piece() -> Piece {
         let ends = [[1.0, 1.0], [-1.0, 1.0]];
         Piece { cell: 0, ends, wall: false, region: 0, bearer: 0, borne: ends }
@@ -117,7 +142,7 @@ mod tests {
 
     #[test]
     fn what_is_far_or_faces_away_covers_nothing() {
-        assert_are(&left(&[cover([0.2, 1.2], [0.5, 1.2])]), &[[1.0, 0.0]]);
+        assert_are(&left(&[cover([0.2, 1.6], [0.5, 1.6])]), &[[1.0, 0.0]]);
         assert_are(&left(&[cover([0.5, 1.0], [0.2, 1.0])]), &[[1.0, 0.0]]);
         assert_are(&left(&[cover([0.5, 1.05], [0.5, 0.95])]), &[[1.0, 0.0]]);
     }
@@ -134,6 +159,16 @@ mod tests {
         };
         assert_are(&left(&turned(false)), &[[0.55, 0.5]]);
         assert_are(&left(&turned(true)), &[]);
+    }
+
+    /// Structures that lie side by side leave no more open than one whose boundary turns, unless a gap is between them.
+    #[test]
+    fn joints_of_structures_are_closed() {
+        for (beside, wanted) in [(0.5, vec![]), (0.515, vec![]), (0.53, vec![[0.53, 0.5]])] {
+            let mut covers = vec![cover([-0.1, 1.0], [0.5, 1.06]), cover([beside, 1.06], [1.1, 1.0])];
+            join(&mut covers);
+            assert_are(&left(&covers), &wanted);
+        }
     }
 
     /// A wall is none that water leaves through, covered or not.

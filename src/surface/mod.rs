@@ -23,7 +23,7 @@ pub use active::{Active, Filling};
 pub use bins::Bins;
 pub use boundary::{ActiveBoundary, Behind, NO_REGION, Piece};
 pub use contour::Contour;
-pub use cover::{Cover, open};
+pub use cover::{Cover, join, open};
 pub use distance::Distance;
 pub use front::{Fault, Front};
 pub use geometry::Geometry;

@@ -72,7 +72,8 @@ impl Porous {
         }
     }
 
-    /// What holds the pressure against its change (1/kPa): `1/M + n/K_w`, M the confined modulus of the skeleton.
+    /// What holds the pressure against its change (1/kPa): `1/M + n/K_w`, M the confined modulus of the skeleton; of
+    /// one whose stiffness follows the pressure, that at its reference pressure.
     fn compliance(&self, y: f64) -> f64 {
         let moduli = self.model.elasticity().at(y);
         1.0 / (moduli.lambda + 2.0 * moduli.shear) + self.storage(y)

@@ -45,6 +45,11 @@ impl Swelling {
         self.slope
     }
 
+    /// p_l (kPa).
+    pub(super) fn least(&self) -> f64 {
+        self.least
+    }
+
     /// The pressure (kPa) whose stiffness stands for the line.
     pub(super) fn reference(&self) -> Profile {
         self.reference

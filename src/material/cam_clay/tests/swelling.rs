@@ -207,4 +207,26 @@ fn parameters_that_do_not_go_together_are_refused() {
     let swelling = Swelling::new(SWELLING, LEAST, Profile::constant(P_C)).unwrap();
     let error = CamClay::with_swelling(swelling, 0.5, M, Profile::constant(P_C), 0.1).unwrap_err();
     assert_eq!(error.place, "poisson");
+    // A preconsolidation that is the reference, too, is told as what was given.
+    let falling = Profile { top: P_C, gradient: -10.0, datum: 0.0 };
+    let swelling = Swelling::new(SWELLING, LEAST, falling).unwrap();
+    let clay = CamClay::with_swelling(swelling, POISSON, M, falling, 0.1).unwrap();
+    assert_eq!(clay.check(-P_C).unwrap_err().place, "preconsolidation");
+    // A modulus beyond all numbers comes of the slope.
+    let swelling = Swelling::new(1e-308, LEAST, Profile::constant(P_C)).unwrap();
+    let error = CamClay::with_swelling(swelling, POISSON, M, Profile::constant(P_C), 0.1).unwrap_err();
+    assert_eq!(error.place, "swelling");
+}
+
+/// Where the reference is below the least pressure, whose bulk modulus holds there, so is Poisson's ratio that of the least pressure.
+#[test]
+fn poisson_holds_below_the_least_pressure() {
+    let reference = Profile { top: 0.1, gradient: 1.0, datum: 0.0 };
+    let swelling = Swelling::new(SWELLING, 2.0, reference).unwrap();
+    let clay = CamClay::with_swelling(swelling, POISSON, M, Profile::constant(P_C), 0.1).unwrap();
+    for (y, pressure) in [(0.0, 2.0), (-1.0, 2.0), (-9.9, 10.0)] {
+        let moduli = clay.elasticity().at(y);
+        assert!((moduli.bulk() * SWELLING / pressure - 1.0).abs() < 1e-14, "{y}: {moduli:?}");
+        assert!((clay.bulk_modulus(y, -reference.at(y)) / moduli.bulk() - 1.0).abs() < 1e-14, "{y}: {moduli:?}");
+    }
 }
