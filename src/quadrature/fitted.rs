@@ -2,7 +2,7 @@
 //! surface of the material.
 
 use super::cells::{self, CellFit};
-use super::surface::{boundary, follow};
+use super::surface::{boundary, follow, renew};
 use super::{Degree, MOMENTS, Quadrature, Restored, Tally, Weighing};
 use crate::kinematics::{Kinematics, PlaneStrain};
 use crate::mesh::Mesh;
@@ -48,13 +48,13 @@ impl<K: Kinematics<2>> Fitted<K> {
     /// Weighs points within a front. It follows the grid and not the points, and nothing holds it where it is: it would
     /// sink or rise a little in every restoration, and the body lose or gain weight by that. So the surface is taken
     /// where the points weigh together what they did when the front was made: everywhere as far beside the markers.
-    fn weigh_followed(&self, grid: &Restored<2>, front: &mut Front) -> (Weighing<2>, Vec<f64>) {
+    fn weigh_followed(&self, grid: &Restored<2>, front: &mut Front, seeded: bool) -> (Weighing<2>, Vec<f64>) {
         let Restored { mesh, locator, points, stencil, taking_part, .. } = *grid;
         let mut distance = Distance::default();
         distance.update(mesh, &self.geometry, locator, front, &points.cell, taking_part);
         let weighing = self.weigh_within(mesh, points, stencil, taking_part, &distance.level_set);
         let weight: f64 = weighing.weight.iter().sum();
-        if grid.displacement.is_none() {
+        if seeded {
             front.weight = weight;
         }
         let (surface, size) = front.surface::<K>(mesh, &self.geometry, locator);
@@ -123,11 +123,19 @@ impl<K: Kinematics<2>> Fitted<K> {
             lost_front = Some(fault.to_string());
         }
         let (mut weighing, level_set) = match front {
-            Some(front) => self.weigh_followed(grid, front),
+            Some(front) => self.weigh_followed(grid, front, grid.displacement.is_none()),
             None => {
                 let mut contour = Contour::default();
                 contour.update::<K>(mesh, &self.geometry, points, parametric, taking_part);
-                (self.weigh_within(mesh, points, stencil, taking_part, &contour.level_set), contour.level_set)
+                match renew::<K>(&self.geometry, grid, &contour.level_set) {
+                    Some((mut renewed, holds)) => {
+                        let (mut weighing, level_set) = self.weigh_followed(grid, &mut renewed, false);
+                        weighing.new_front = holds;
+                        *front = holds.then_some(renewed);
+                        (weighing, level_set)
+                    }
+                    None => (self.weigh_within(mesh, points, stencil, taking_part, &contour.level_set), contour.level_set),
+                }
             }
         };
         weighing.lost_front = lost_front;

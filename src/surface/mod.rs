@@ -25,6 +25,6 @@ pub use boundary::{ActiveBoundary, Behind, NO_REGION, Piece};
 pub use contour::Contour;
 pub use cover::{Cover, open};
 pub use distance::Distance;
-pub use front::{Fault, Front};
+pub use front::{Fault, Front, Margin};
 pub use geometry::Geometry;
 pub use layers::visit_layers;

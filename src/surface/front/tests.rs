@@ -29,7 +29,7 @@ impl Grid {
     }
 
     fn inspect(&self, front: &Front, points: f64) -> Result<(), Fault> {
-        front.inspect::<PlaneStrain>(&self.mesh, &self.geometry, &self.locator, points)
+        front.inspect::<PlaneStrain>(&self.mesh, &self.geometry, &self.locator, points, Margin::Goes)
     }
 }
 
