@@ -45,8 +45,6 @@ pub struct Weighing<const D: usize> {
     pub tally: Tally,
     /// Why the surface is followed no longer, where it ceased to be in this restoration.
     pub lost_front: Option<String>,
-    /// Whether the surface is followed anew from this restoration on.
-    pub new_front: bool,
     /// What points were put back onto supports that they had got beyond, in this restoration.
     pub put_back: Option<String>,
 }

@@ -2,7 +2,7 @@
 
 use super::{Quadrature, Restored, Volumes, Weighing};
 use crate::kinematics::Kinematics;
-use crate::surface::{ActiveBoundary, Behind, Contour, Distance, Fault, Front, Geometry, Margin, NO_REGION};
+use crate::surface::{ActiveBoundary, Behind, Contour, Distance, Fault, Front, Geometry, NO_REGION};
 use std::cmp::Reverse;
 
 /// Takes the front along with the grid: at first it goes around the cells with points.
@@ -29,13 +29,12 @@ pub fn follow<K: Kinematics<2>>(
     }
     let Some(front) = front else { return Ok(()) };
     let volume = (0..points.len()).map(|p| points.volume(p)).sum();
-    front.inspect::<K>(mesh, geometry, grid.locator, volume, Margin::Goes)
+    front.inspect::<K>(mesh, geometry, grid.locator, volume)
 }
 
-/// A front along the contour of the points, whose level set is `contour`, and whether it is clear enough of itself to be
-/// followed from now on. `None` where the contour itself is better than any front: where that would cross itself, a body is smaller than a cell,
-/// or structures touch the material.
-pub fn renew<K: Kinematics<2>>(geometry: &Geometry, grid: &Restored<2>, contour: &[f64]) -> Option<(Front, bool)> {
+/// The contour of the points, whose level set is `contour`, smoothed: a front for this restoration alone. `None` where the contour
+/// is better as it is: where a body is smaller than a cell, structures touch the material, or the front would be none.
+pub fn smoothed<K: Kinematics<2>>(geometry: &Geometry, grid: &Restored<2>, contour: &[f64]) -> Option<Front> {
     let Restored { mesh, points, .. } = *grid;
     if !grid.outlines.is_empty() {
         return None;
@@ -44,9 +43,9 @@ pub fn renew<K: Kinematics<2>>(geometry: &Geometry, grid: &Restored<2>, contour:
     let boundary = ActiveBoundary::of(mesh, geometry, contour, grid.taking_part, nothing);
     let front = Front::along::<K>(mesh, geometry, &boundary, points.initial_volume.iter().sum())?;
     let volume = (0..points.len()).map(|p| points.volume(p)).sum();
-    match front.inspect::<K>(mesh, geometry, grid.locator, volume, Margin::Begins) {
-        Ok(()) => Some((front, true)),
-        Err(Fault::Touch { .. }) => Some((front, false)),
+    match front.inspect::<K>(mesh, geometry, grid.locator, volume) {
+        // Nothing follows it, so that it may touch itself.
+        Ok(()) | Err(Fault::Touch { .. }) => Some(front),
         Err(_) => None,
     }
 }
@@ -120,17 +119,15 @@ impl<K: Kinematics<2>> Quadrature<2> for Bounded<K> {
             distance.update(mesh, geometry, locator, front, &points.cell, taking_part);
             boundary(geometry, grid, &distance.level_set)
         };
-        if let Some(front) = front {
-            weighing.boundary = within(front);
-            return weighing;
-        }
-        let mut contour = Contour::default();
-        contour.update::<K>(mesh, geometry, points, parametric, taking_part);
-        let renewed = renew::<K>(geometry, grid, &contour.level_set);
-        weighing.boundary =
-            renewed.as_ref().map_or_else(|| boundary(geometry, grid, &contour.level_set), |(front, _)| within(front));
-        *front = renewed.and_then(|(front, holds)| holds.then_some(front));
-        weighing.new_front = front.is_some();
+        weighing.boundary = match front {
+            Some(front) => within(front),
+            None => {
+                let mut contour = Contour::default();
+                contour.update::<K>(mesh, geometry, points, parametric, taking_part);
+                let smoothed = smoothed::<K>(geometry, grid, &contour.level_set);
+                smoothed.map_or_else(|| boundary(geometry, grid, &contour.level_set), |front| within(&front))
+            }
+        };
         weighing
     }
 }

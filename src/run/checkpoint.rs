@@ -91,8 +91,8 @@ pub fn store<const D: usize>(state: &State<D>) -> Store {
 }
 
 fn put_weighing<const D: usize>(store: &mut Store, weighing: &Weighing<D>) {
-    // Why a front was lost has been told when it was, and that there is a new one.
-    let Weighing { weight, shift, soft, poor, boundary, level_set, tally, lost_front: _, new_front: _, put_back: _ } = weighing;
+    // Why a front was lost has been told when it was.
+    let Weighing { weight, shift, soft, poor, boundary, level_set, tally, lost_front: _, put_back: _ } = weighing;
     let Tally { quadratic, linear, constant, volume, point_volume, fitted_volume, drift } = tally;
     store.put("weighing.weight", 1, weight.clone());
     store.put("weighing.shifted", 2, shift.iter().flat_map(|(cell, by)| [*cell, by.len() as u32]).collect());
@@ -139,7 +139,7 @@ fn take_weighing<const D: usize>(store: &mut Store) -> Result<Weighing<D>> {
         fitted_volume: *fitted_volume,
         drift: *drift,
     };
-    Ok(Weighing { weight, shift, soft, poor, boundary, level_set, tally, ..Weighing::default() })
+    Ok(Weighing { weight, shift, soft, poor, boundary, level_set, tally, lost_front: None, put_back: None })
 }
 
 fn take_boundary(store: &mut Store) -> Result<ActiveBoundary> {

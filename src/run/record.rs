@@ -345,9 +345,6 @@ pub fn log_lines<const D: usize>(scene: &Scene<D>, state: &State<D>, report: &Re
                 format!("  the surface is from now on the contour of the points: following it failed, {why}")
             }),
         );
-        if state.weighing.new_front {
-            lines.push("  the surface is followed anew from the contour of the points".to_string());
-        }
     }
     lines
 }

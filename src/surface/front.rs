@@ -7,16 +7,15 @@
 //! there is. Markers on a wall slide along it because the displacement of the grid does.
 //!
 //! A front that folds, touches itself or another loop, or loses volume holds no longer ([`Front::inspect`]): there is no
-//! surgery, the [`super::Contour`] takes over, and a new front begins along it ([`Front::along`]) once that is clear of all
-//! this by a margin. It leaves out slip along curved walls, which no support can ask for.
+//! surgery, the [`super::Contour`] takes over, smoothed anew at every restoration ([`Front::along`]). It leaves out slip along curved walls, which no support can ask for.
 
 mod inspect;
 mod lean;
-mod renew;
 mod resample;
 mod seed;
+mod smooth;
 
-pub use inspect::{Fault, Margin};
+pub use inspect::Fault;
 
 use super::geometry::Geometry;
 use crate::kinematics::Kinematics;

@@ -19,24 +19,6 @@ const NEAR: usize = 8;
 /// The volume of points and front may differ by this share of a cell's length times the free surface.
 const OFFSET: f64 = 0.05;
 
-/// How clear of a fault a front must be.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Margin {
-    /// One that has been followed goes on.
-    Goes,
-    /// A new one begins: twice as far from a touch and half as far off in volume, lest it be lost at once.
-    Begins,
-}
-
-impl Margin {
-    fn factor(self) -> f64 {
-        match self {
-            Self::Goes => 1.0,
-            Self::Begins => 2.0,
-        }
-    }
-}
-
 /// Why a front holds no longer.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Fault {
@@ -75,9 +57,7 @@ impl Front {
         geometry: &Geometry,
         locator: &Locator<2>,
         points: f64,
-        margin: Margin,
     ) -> Result<(), Fault> {
-        let (touch, offset) = (TOUCH * margin.factor(), OFFSET / margin.factor());
         let wall = self.walls(mesh, geometry, locator);
         // Free markers: place, loop, length of the loop up to there; the greatest size of a cell among them.
         let (mut markers, mut lengths) = (Vec::new(), Vec::new());
@@ -106,14 +86,14 @@ impl Front {
             }
             lengths.push(along);
         }
-        let bins = Bins::new(markers.iter().map(|m| (m.0, m.0)), touch * size);
+        let bins = Bins::new(markers.iter().map(|m| (m.0, m.0)), TOUCH * size);
         for (i, (x, l, along, h)) in markers.iter().enumerate() {
             let touches = |&j: &u32| {
                 let (y, m, other, _) = &markers[j as usize];
                 let gap = distance(x, y);
                 let apart = (along - other).abs();
                 let apart = if l == m { apart.min(lengths[*l] - apart) } else { f64::INFINITY };
-                (j as usize) < i && gap < touch * h && apart > ALONG * gap + 0.5 * h
+                (j as usize) < i && gap < TOUCH * h && apart > ALONG * gap + 0.5 * h
             };
             if bins.around(x).any(|bin| bin.iter().any(touches)) {
                 return Err(Fault::Touch { place: *x });
@@ -121,7 +101,7 @@ impl Front {
         }
         let enclosed = self.volume::<K>();
         // Where no surface is free, the points may fill their box a little more or less than all.
-        if (enclosed - points).abs() <= offset * swept || markers.is_empty() {
+        if (enclosed - points).abs() <= OFFSET * swept || markers.is_empty() {
             Ok(())
         } else {
             Err(Fault::Volume { enclosed, points })
