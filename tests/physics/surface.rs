@@ -97,9 +97,14 @@ fn disk(x: &[f64; 2]) -> bool {
     (x[0] - 1.0).hypot(x[1] - 1.0) < RADIUS
 }
 
+/// A name and places with their areas.
+type Layout = (&'static str, Vec<([f64; 2], f64)>);
+/// A name, what is positive within, the loops of the boundary, and how far its normals may be off (°).
+type Body<'a> = (&'a str, &'a dyn Fn(&[f64; 2]) -> f64, usize, f64);
+
 /// Points of a spacing that lie on `[0, 2]²` and satisfy `inside`: in rows, rows that are turned by 0.4, scattered by up to 0.3
 /// of the spacing, and in rows sheared by one.
-fn layouts(spacing: f64, inside: impl Fn(&[f64; 2]) -> bool) -> [(&'static str, Vec<([f64; 2], f64)>); 4] {
+fn layouts(spacing: f64, inside: impl Fn(&[f64; 2]) -> bool) -> [Layout; 4] {
     let count = (2.0 / spacing).round() as i32;
     let (cos, sin) = (0.4f64.cos(), 0.4f64.sin());
     let maps: [(&str, [[f64; 2]; 2]); 3] = [
@@ -185,7 +190,7 @@ fn other_bodies_of_points_have_their_normals() {
     let block = |x: &[f64; 2], from: f64, to: f64| (x[0] - from).min(to - x[0]).min(x[1] - 0.45).min(1.55 - x[1]);
     let two = |x: &[f64; 2]| block(x, 0.25, 0.9).max(block(x, 1.1, 1.75));
     // The corners of the blocks are rounded.
-    let bodies: [(&str, &dyn Fn(&[f64; 2]) -> f64, usize, f64); 4] =
+    let bodies: [Body; 4] =
         [("slope", &slope, 1, 8.0), ("lobes", &lobes, 1, 13.0), ("ring", &ring, 2, 9.0), ("two blocks", &two, 2, 17.0)];
     for (body, exact, loops, angle) in bodies {
         for (name, places) in layouts(0.05, |x| exact(x) > 0.0) {
