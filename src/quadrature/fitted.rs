@@ -52,15 +52,22 @@ impl<K: Kinematics<2>> Fitted<K> {
     /// where the points weigh together what they did when the front was made: everywhere as far beside the markers.
     /// Against a structure the surface is that of the structure, which has not moved.
     fn weigh_followed(&self, grid: &Restored<2>, front: &mut Front) -> (Weighing<2>, Vec<f64>) {
-        self.weigh_beside(grid, front, usize::from(grid.outlines.is_empty()))
+        self.weigh_beside(grid, front, &grid.points.cell, usize::from(grid.outlines.is_empty()))
     }
 
     /// Weighs points within a front with the surface beside its markers, found by `offsets` of which each corrects the one
-    /// before. A front without weight takes that of the points within.
-    fn weigh_beside(&self, grid: &Restored<2>, front: &mut Front, offsets: usize) -> (Weighing<2>, Vec<f64>) {
+    /// before; `cells` are those with points that are material where the front is far. A front without weight takes that of the
+    /// points within.
+    fn weigh_beside(
+        &self,
+        grid: &Restored<2>,
+        front: &mut Front,
+        cells: &[u32],
+        offsets: usize,
+    ) -> (Weighing<2>, Vec<f64>) {
         let Restored { mesh, locator, points, stencil, taking_part, .. } = *grid;
         let mut distance = Distance::default();
-        distance.update(mesh, &self.geometry, locator, front, &points.cell, taking_part);
+        distance.update(mesh, &self.geometry, locator, front, cells, taking_part);
         let mut level_set = distance.level_set;
         let mut weighing = self.weigh_within(mesh, points, stencil, taking_part, &level_set);
         if grid.displacement.is_none() && front.weight == 0.0 {
@@ -141,7 +148,7 @@ impl<K: Kinematics<2>> Fitted<K> {
                 let mut contour = Contour::default();
                 contour.update::<K>(mesh, &self.geometry, points, parametric, taking_part);
                 match smoothed::<K>(&self.geometry, grid, &contour.level_set) {
-                    Some(mut front) => self.weigh_beside(grid, &mut front, OFFSETS),
+                    Some((mut front, cells)) => self.weigh_beside(grid, &mut front, &cells, OFFSETS),
                     None => {
                         (self.weigh_within(mesh, points, stencil, taking_part, &contour.level_set), contour.level_set)
                     }

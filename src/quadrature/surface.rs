@@ -32,9 +32,14 @@ pub fn follow<K: Kinematics<2>>(
     front.inspect::<K>(mesh, geometry, grid.locator, volume)
 }
 
-/// The contour of the points, whose level set is `contour`, smoothed: a front for this restoration alone. `None` where the contour
+/// The contour of the points, whose level set is `contour`, smoothed: a front for this restoration alone, and the cells with
+/// points that are within it at least in part, for points far outside are none of the material. `None` where the contour
 /// is better as it is: where a body is smaller than a cell, structures touch the material, or the front would be none.
-pub fn smoothed<K: Kinematics<2>>(geometry: &Geometry, grid: &Restored<2>, contour: &[f64]) -> Option<Front> {
+pub fn smoothed<K: Kinematics<2>>(
+    geometry: &Geometry,
+    grid: &Restored<2>,
+    contour: &[f64],
+) -> Option<(Front, Vec<u32>)> {
     let Restored { mesh, points, .. } = *grid;
     if !grid.outlines.is_empty() {
         return None;
@@ -45,7 +50,10 @@ pub fn smoothed<K: Kinematics<2>>(geometry: &Geometry, grid: &Restored<2>, conto
     let volume = (0..points.len()).map(|p| points.volume(p)).sum();
     match front.inspect::<K>(mesh, geometry, grid.locator, volume) {
         // Nothing follows it, so that it may touch itself.
-        Ok(()) | Err(Fault::Touch { .. }) => Some(front),
+        Ok(()) | Err(Fault::Touch { .. }) => {
+            let inside = |c: &u32| mesh.cells.nodes(*c as usize).iter().any(|&n| contour[n as usize] > 0.0);
+            Some((front, points.cell.iter().copied().filter(inside).collect()))
+        }
         Err(_) => None,
     }
 }
@@ -114,18 +122,21 @@ impl<K: Kinematics<2>> Quadrature<2> for Bounded<K> {
             *front = None;
             weighing.lost_front = Some(fault.to_string());
         }
-        let within = |front: &Front| {
+        let within = |front: &Front, cells: &[u32]| {
             let mut distance = Distance::default();
-            distance.update(mesh, geometry, locator, front, &points.cell, taking_part);
+            distance.update(mesh, geometry, locator, front, cells, taking_part);
             boundary(geometry, grid, &distance.level_set)
         };
         weighing.boundary = match front {
-            Some(front) => within(front),
+            Some(front) => within(front, &points.cell),
             None => {
                 let mut contour = Contour::default();
                 contour.update::<K>(mesh, geometry, points, parametric, taking_part);
                 let smoothed = smoothed::<K>(geometry, grid, &contour.level_set);
-                smoothed.map_or_else(|| boundary(geometry, grid, &contour.level_set), |front| within(&front))
+                smoothed.map_or_else(
+                    || boundary(geometry, grid, &contour.level_set),
+                    |(front, cells)| within(&front, &cells),
+                )
             }
         };
         weighing

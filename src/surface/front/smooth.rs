@@ -46,7 +46,8 @@ impl Front {
             front.position.append(&mut rough.position);
             front.first.push(front.position.len() as u32);
         }
-        Some(front)
+        // Without a loop there is no material, or no end of it.
+        (front.loops() > 0).then_some(front)
     }
 
     /// Replaces the free stretches of a single loop, whose segments are `wall` or not and lie in cells of a `size` (m), by
