@@ -2,7 +2,7 @@
 //! surface of the material.
 
 use super::cells::{self, CellFit};
-use super::surface::{boundary, follow};
+use super::surface::{boundary, follow, smoothed};
 use super::{Degree, MOMENTS, Quadrature, Restored, Tally, Weighing};
 use crate::kinematics::{Kinematics, PlaneStrain};
 use crate::mesh::Mesh;
@@ -18,6 +18,8 @@ const POINTS_A_MOMENT: f64 = 2.0;
 /// The surface lies at most so far beside the markers of its front, as a share of a cell's size: as far as the front may
 /// be off before it is given up.
 const LARGEST_OFFSET: f64 = 0.05;
+/// Offsets of a smoothed contour, which is farther from where it weighs what it should than a surface that was there before.
+const OFFSETS: usize = 4;
 /// So far is no distance.
 const LEAST_OFFSET: f64 = 1e-10;
 
@@ -48,24 +50,42 @@ impl<K: Kinematics<2>> Fitted<K> {
     /// Weighs points within a front. It follows the grid and not the points, and nothing holds it where it is: it would
     /// sink or rise a little in every restoration, and the body lose or gain weight by that. So the surface is taken
     /// where the points weigh together what they did when the front was made: everywhere as far beside the markers.
+    /// Against a structure the surface is that of the structure, which has not moved.
     fn weigh_followed(&self, grid: &Restored<2>, front: &mut Front) -> (Weighing<2>, Vec<f64>) {
+        self.weigh_beside(grid, front, &grid.points.cell, usize::from(grid.outlines.is_empty()))
+    }
+
+    /// Weighs points within a front with the surface beside its markers, found by `offsets` of which each corrects the one
+    /// before; `cells` are those with points that are material where the front is far. A front without weight takes that of the
+    /// points within.
+    fn weigh_beside(
+        &self,
+        grid: &Restored<2>,
+        front: &mut Front,
+        cells: &[u32],
+        offsets: usize,
+    ) -> (Weighing<2>, Vec<f64>) {
         let Restored { mesh, locator, points, stencil, taking_part, .. } = *grid;
         let mut distance = Distance::default();
-        distance.update(mesh, &self.geometry, locator, front, &points.cell, taking_part);
-        let weighing = self.weigh_within(mesh, points, stencil, taking_part, &distance.level_set);
-        let weight: f64 = weighing.weight.iter().sum();
-        if grid.displacement.is_none() {
-            front.weight = weight;
+        distance.update(mesh, &self.geometry, locator, front, cells, taking_part);
+        let mut level_set = distance.level_set;
+        let mut weighing = self.weigh_within(mesh, points, stencil, taking_part, &level_set);
+        if grid.displacement.is_none() && front.weight == 0.0 {
+            front.weight = weighing.weight.iter().sum();
         }
         let (surface, size) = front.surface::<K>(mesh, &self.geometry, locator);
-        let missing = (front.weight - weight) * volume_ratio(points, &weighing);
-        // Against a structure the surface is that of the structure, which has not moved.
-        if missing.abs() <= LEAST_OFFSET * size * surface || !grid.outlines.is_empty() {
-            return (weighing, distance.level_set);
+        let (mut offset, most) = (0.0, LARGEST_OFFSET * size);
+        for _ in 0..offsets {
+            let missing = (front.weight - weighing.weight.iter().sum::<f64>()) * volume_ratio(points, &weighing);
+            if missing.abs() <= LEAST_OFFSET * size * surface {
+                break;
+            }
+            let next = (offset + missing / surface).clamp(-most, most);
+            level_set.iter_mut().for_each(|distance| *distance += next - offset);
+            offset = next;
+            weighing = self.weigh_within(mesh, points, stencil, taking_part, &level_set);
         }
-        let offset = (missing / surface).clamp(-LARGEST_OFFSET * size, LARGEST_OFFSET * size);
-        distance.level_set.iter_mut().for_each(|distance| *distance += offset);
-        (self.weigh_within(mesh, points, stencil, taking_part, &distance.level_set), distance.level_set)
+        (weighing, level_set)
     }
 
     /// Weighs points in a body whose surface is the zero of `level_set`: one value a node, positive inside.
@@ -127,7 +147,12 @@ impl<K: Kinematics<2>> Fitted<K> {
             None => {
                 let mut contour = Contour::default();
                 contour.update::<K>(mesh, &self.geometry, points, parametric, taking_part);
-                (self.weigh_within(mesh, points, stencil, taking_part, &contour.level_set), contour.level_set)
+                match smoothed::<K>(&self.geometry, grid, &contour.level_set) {
+                    Some((mut front, cells)) => self.weigh_beside(grid, &mut front, &cells, OFFSETS),
+                    None => {
+                        (self.weigh_within(mesh, points, stencil, taking_part, &contour.level_set), contour.level_set)
+                    }
+                }
             }
         };
         weighing.lost_front = lost_front;

@@ -32,6 +32,32 @@ pub fn follow<K: Kinematics<2>>(
     front.inspect::<K>(mesh, geometry, grid.locator, volume)
 }
 
+/// The contour of the points, whose level set is `contour`, smoothed: a front for this restoration alone, and the cells with
+/// points that are within it at least in part, for points far outside are none of the material. `None` where the contour
+/// is better as it is: where a body is smaller than a cell, structures touch the material, or the front would be none.
+pub fn smoothed<K: Kinematics<2>>(
+    geometry: &Geometry,
+    grid: &Restored<2>,
+    contour: &[f64],
+) -> Option<(Front, Vec<u32>)> {
+    let Restored { mesh, points, .. } = *grid;
+    if !grid.outlines.is_empty() {
+        return None;
+    }
+    let nothing = |bearer: u32, _: &[f64; 2]| Behind { region: NO_REGION, bearer };
+    let boundary = ActiveBoundary::of(mesh, geometry, contour, grid.taking_part, nothing);
+    let front = Front::along::<K>(mesh, geometry, &boundary, points.initial_volume.iter().sum())?;
+    let volume = (0..points.len()).map(|p| points.volume(p)).sum();
+    match front.inspect::<K>(mesh, geometry, grid.locator, volume) {
+        // Nothing follows it, so that it may touch itself.
+        Ok(()) | Err(Fault::Touch { .. }) => {
+            let inside = |c: &u32| mesh.cells.nodes(*c as usize).iter().any(|&n| contour[n as usize] > 0.0);
+            Some((front, points.cell.iter().copied().filter(inside).collect()))
+        }
+        Err(_) => None,
+    }
+}
+
 /// Rings of cells across faces in which points are sought that stand for what is behind a piece of the boundary.
 const RINGS: usize = 3;
 
@@ -96,16 +122,21 @@ impl<K: Kinematics<2>> Quadrature<2> for Bounded<K> {
             *front = None;
             weighing.lost_front = Some(fault.to_string());
         }
+        let within = |front: &Front, cells: &[u32]| {
+            let mut distance = Distance::default();
+            distance.update(mesh, geometry, locator, front, cells, taking_part);
+            boundary(geometry, grid, &distance.level_set)
+        };
         weighing.boundary = match front {
-            Some(front) => {
-                let mut distance = Distance::default();
-                distance.update(mesh, geometry, locator, front, &points.cell, taking_part);
-                boundary(geometry, grid, &distance.level_set)
-            }
+            Some(front) => within(front, &points.cell),
             None => {
                 let mut contour = Contour::default();
                 contour.update::<K>(mesh, geometry, points, parametric, taking_part);
-                boundary(geometry, grid, &contour.level_set)
+                let smoothed = smoothed::<K>(geometry, grid, &contour.level_set);
+                smoothed.map_or_else(
+                    || boundary(geometry, grid, &contour.level_set),
+                    |(front, cells)| within(&front, &cells),
+                )
             }
         };
         weighing

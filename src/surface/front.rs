@@ -7,12 +7,13 @@
 //! there is. Markers on a wall slide along it because the displacement of the grid does.
 //!
 //! A front that folds, touches itself or another loop, or loses volume holds no longer ([`Front::inspect`]): there is no
-//! surgery, the [`super::Contour`] takes over. It leaves out slip along curved walls, which no support can ask for.
+//! surgery, the [`super::Contour`] takes over, smoothed anew at every restoration ([`Front::along`]). It leaves out slip along curved walls, which no support can ask for.
 
 mod inspect;
 mod lean;
 mod resample;
 mod seed;
+mod smooth;
 
 pub use inspect::Fault;
 

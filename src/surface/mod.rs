@@ -2,7 +2,7 @@
 //!
 //! A [`Contour`] makes a level set at the nodes from the points; [`Active`] cuts the cells along it and says how much
 //! of each holds material, with the [`moments`] of that part. [`Geometry`] is what both need of a grid. Where it holds, a
-//! [`Front`] of markers that move with the grid is better than the contour: [`Distance`] makes its level set. Loads and pictures
+//! [`Front`] of markers that move with the grid is better than the contour, and where none does, one that smooths it: [`Distance`] makes the level set. Loads and pictures
 //! take the surface as polylines, the [`ActiveBoundary`], of which structures [`Cover`] parts.
 
 mod active;

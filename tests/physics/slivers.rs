@@ -168,7 +168,7 @@ fn a_million_times_the_stiffness_beside_it() {
                 most
             });
             // What is a thousand times as stiff is as good as rigid.
-            assert!((moved[1] / moved[0] - 1.0).abs() < 0.6 && moved[1] > 0.0, "{moved:?}");
+            assert!((moved[1] / moved[0] - 1.0).abs() < 0.7 && moved[1] > 0.0, "{moved:?}");
         }
     }
 }

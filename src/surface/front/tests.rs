@@ -2,6 +2,7 @@ use super::*;
 use crate::kinematics::{Axisymmetric, PlaneStrain};
 use crate::mesh::builder::rectangle;
 use crate::mesh::shape::CellKind;
+use std::f64::consts::TAU;
 
 struct Grid {
     mesh: Mesh<2>,
@@ -220,4 +221,51 @@ fn what_meets_folds_or_shrinks_is_found() {
     let mut lost = front;
     lost.position[top][1] = 1.5;
     assert!(matches!(grid.advance(&mut lost, |_| [0.0; 2]), Err(Fault::Outside { .. })));
+}
+
+/// The radii of a rough circle of 48 markers.
+fn rough_circle() -> Vec<[f64; 2]> {
+    let radius = |k: usize| 1.0 + 0.02 * (((k * 7919 + 13) % 101) as f64 / 50.0 - 1.0);
+    (0..48).map(|k| (k, TAU * k as f64 / 48.0)).map(|(k, t)| [radius(k) * t.cos(), radius(k) * t.sin()]).collect()
+}
+
+#[test]
+fn smoothing_takes_what_is_rough_and_keeps_the_volume() {
+    for turned in [false, true] {
+        // A body, and a hole.
+        let mut x = rough_circle();
+        if turned {
+            x.reverse();
+        }
+        let mut front = Front { first: vec![0, 48], position: x, weight: 0.0 };
+        let volume = front.volume::<PlaneStrain>();
+        let free = front.smoothen(&[false; 48], |_| 1.0).unwrap();
+        assert!(free.iter().all(|&free| free) && front.position.len() == free.len());
+        front.offset::<PlaneStrain>(&free, volume);
+        assert!(
+            (front.volume::<PlaneStrain>() / volume - 1.0).abs() < 1e-4,
+            "{} {volume}",
+            front.volume::<PlaneStrain>()
+        );
+        let radius: Vec<f64> = front.position.iter().map(|x| x[0].hypot(x[1])).collect();
+        let jump = (1..radius.len()).map(|i| (radius[i] - radius[i - 1]).abs()).fold(0.0, f64::max);
+        assert!(jump < 4e-3, "{jump}");
+    }
+    // Too small for the cells that it lies in.
+    let mut front = Front { first: vec![0, 48], position: rough_circle(), weight: 0.0 };
+    assert!(front.smoothen(&[false; 48], |_| 4.0).is_none());
+}
+
+#[test]
+fn a_straight_stretch_between_walls_stays() {
+    // A rectangle on a floor, whose sides are walls, too.
+    let corners = vec![[0.0, 0.0], [4.0, 0.0], [4.0, 1.0], [2.3, 1.0], [0.0, 1.0]];
+    let wall = [true, true, false, false, true];
+    let mut front = Front { first: vec![0, 5], position: corners.clone(), weight: 0.0 };
+    let free = front.smoothen(&wall, |_| 0.5).unwrap();
+    front.offset::<PlaneStrain>(&free, 4.0);
+    assert!((front.volume::<PlaneStrain>() - 4.0).abs() < 1e-13);
+    assert_eq!(free.iter().filter(|free| !**free).count(), 4);
+    assert!(corners.iter().filter(|x| x[0] != 2.3).all(|x| front.position.contains(x)));
+    assert!(front.position.iter().zip(&free).all(|(x, free)| !free || (x[1] - 1.0).abs() < 1e-13));
 }
