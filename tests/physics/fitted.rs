@@ -402,5 +402,5 @@ fn a_thrown_block_flies_its_parabola() {
         worst[2] = p.stress.iter().flatten().fold(worst[2], |a, s| a.max(s.abs()));
     });
     println!("thrown: {:.1e} m off, velocity {:.1e} m/s, stress {:.1e} kPa", worst[0], worst[1], worst[2]);
-    assert!(worst[0] < 4e-2 && worst[1] < 1e-4, "{worst:?}");
+    assert!(worst[0] < 3e-2 && worst[1] < 1e-2, "{worst:?}");
 }

@@ -167,8 +167,10 @@ fn a_million_times_the_stiffness_beside_it() {
                 assert!(iterations <= 4);
                 most
             });
-            // What is a thousand times as stiff is as good as rigid.
-            assert!((moved[1] / moved[0] - 1.0).abs() < 0.7 && moved[1] > 0.0, "{moved:?}");
+            // What is a thousand times as stiff is as good as rigid: where it is the end, that moves along with the soft rest;
+            // where it is the rest, the soft end moves hardly, and of that much is the sliver's.
+            let limit = if stiff_end { 0.05 } else { 0.7 };
+            assert!((moved[1] / moved[0] - 1.0).abs() < limit && moved[1] > 0.0, "{moved:?}");
         }
     }
 }

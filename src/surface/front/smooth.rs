@@ -17,8 +17,9 @@ const SHARE: f64 = 1.0 / 16.0;
 const PASSES: usize = 32;
 /// No closed loop loses more than about this share of its radius before it comes back by the offset, …
 const SHRINKS: f64 = 0.1;
-/// … and those of fewer markers, hardly more than a cell across, are too small for the distance to see them at its nodes.
-const LEAST: usize = 4 * PER_LENGTH;
+/// … and those of fewer markers, hardly more than two cells across, keep the contour: the distance at its nodes is too coarse for them,
+/// and a thrown block of less than two cells would drift from its parabola by half as much again.
+const LEAST: usize = 8 * PER_LENGTH;
 
 impl Front {
     /// The front along `boundary`, smoothed; `weight` is what the points within weigh together (m³, as when seeded). `None`
