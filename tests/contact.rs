@@ -346,6 +346,15 @@ fn a_pile_finds_its_bearing_capacity() {
     assert!((5.69..1.1 * 6.05).contains(&pressure), "{pressure}");
 }
 
+/// Holds the forces in two columns in the end against each other.
+fn shear_over_pressure(name: &str, folder: &Path, columns: [usize; 2], wanted: f64) {
+    let last = history(folder).pop().unwrap();
+    let [shear, pressure] = columns.map(|column| last[column]);
+    let ratio = (shear / pressure).abs();
+    println!("{name}: shear over pressure {ratio:.5} of {wanted:.5}");
+    assert!((ratio / wanted - 1.0).abs() < 0.01, "{name}: {last:?}");
+}
+
 /// A plate on confined clay that cannot drain at once: the water bears what it is stiffer by than the grains, and of the pressure friction
 /// has the grains' part alone, M′/(M′ + K_w/n). Once the water has left it has all.
 #[test]
@@ -377,11 +386,7 @@ fn friction_takes_the_pressure_of_the_grains() {
         ("field of its own", &[&flowing, &first, friction], share),
         ("drained", &[&flowing, &later, held, friction], 1.0),
     ] {
-        let rows = history(run("tests/data/plate", overrides).path());
-        let last = rows.last().unwrap();
-        let ratio = (last[3] / last[4]).abs();
-        println!("{name}: shear over pressure {ratio:.5} of {:.5}", 0.2 * grains);
-        assert!((ratio / (0.2 * grains) - 1.0).abs() < 0.01, "{name}: {last:?}");
+        shear_over_pressure(name, run("tests/data/plate", overrides).path(), [3, 4], 0.2 * grains);
     }
 }
 
@@ -470,11 +475,7 @@ fn friction_takes_the_pressure_of_the_grains_of_finite_elements() {
         ("field of its own", [&material(", permeability: 1.0e-6"), phases, rough, on_floor, &on("upper")], share),
         ("on a wall", [&material(""), pushed, wall, on_wall, &on("bottom")], share),
     ] {
-        let rows = history(run("tests/data/blocks", &overrides).path());
-        let last = rows.last().unwrap();
-        let ratio = (last[1] / last[2]).abs();
-        println!("{name}: shear over pressure {ratio:.5} of {:.5}", 0.2 * grains);
-        assert!((ratio / (0.2 * grains) - 1.0).abs() < 0.01, "{name}: {last:?}");
+        shear_over_pressure(name, run("tests/data/blocks", &overrides).path(), [1, 2], 0.2 * grains);
     }
 }
 

@@ -81,30 +81,82 @@ pub fn carry<const D: usize>(
     let elements = scene.fem.iter().flat_map(|fem| &fem.mesh.cells.nodes);
     let bodies = scene.bodies.iter().flat_map(Body::carriers);
     elements.copied().chain(bodies).for_each(|n| own[n as usize] = true);
-    let mut holds = vec![false; after.cells.len()];
-    state.points.cell.iter().for_each(|&c| holds[c as usize] = true);
-    let mut beside = vec![None; state.release.force.len()];
-    for c in (0..after.cells.len()).filter(|&c| holds[c]) {
-        after.cells.nodes(c).iter().for_each(|&n| beside[n as usize] = Some(c as u32));
+    let moved = |(n, x): (usize, &[f64; D])| {
+        let place = std::array::from_fn(|d| x[d] + state.displacement[n][d]);
+        (!own[n]).then_some(place)
+    };
+    let places: Vec<_> = before.nodes.iter().enumerate().map(moved).collect();
+    state.release.force = spread(&state.release.force, &places, (after, locator), &state.points.cell);
+}
+
+/// Forces at the nodes of a grid with points in the cells `filled` that are equivalent to others at `places` (m), which are near the
+/// nodes of their numbers; those without a place stay at their nodes.
+fn spread<const D: usize>(
+    force: &[[f64; D]],
+    places: &[Option<[f64; D]>],
+    (mesh, locator): (&Mesh<D>, &Locator<D>),
+    filled: &[u32],
+) -> Vec<[f64; D]> {
+    let mut holds = vec![false; mesh.cells.len()];
+    filled.iter().for_each(|&c| holds[c as usize] = true);
+    let mut beside = vec![None; force.len()];
+    for c in (0..mesh.cells.len()).filter(|&c| holds[c]) {
+        mesh.cells.nodes(c).iter().for_each(|&n| beside[n as usize] = Some(c as u32));
     }
-    let mut force = vec![[0.0; D]; state.release.force.len()];
+    let mut out = vec![[0.0; D]; force.len()];
     let (mut values, mut hint) = ([0.0; MAX_NODES], None);
-    for (n, f) in state.release.force.iter().enumerate().filter(|(_, f)| f.iter().any(|f| *f != 0.0)) {
-        let mut add = |n: usize, share: f64| (0..D).for_each(|d| force[n][d] += share * f[d]);
-        let moved = |x: &[f64; D]| std::array::from_fn(|d| x[d] + state.displacement[n][d]);
-        let place = before.nodes.get(n).filter(|_| !own[n]).map(moved);
+    for (n, f) in force.iter().enumerate().filter(|(_, f)| f.iter().any(|f| *f != 0.0)) {
+        let mut add = |n: usize, share: f64| (0..D).for_each(|d| out[n][d] += share * f[d]);
         // The nodes of an empty cell would give way: a cell with points beside the node goes on to there.
-        let found = place.and_then(|x| match locator.locate(after, &x, hint) {
+        let found = places.get(n).copied().flatten().and_then(|x| match locator.locate(mesh, &x, hint) {
             Some((c, xi)) if holds[c as usize] => Some((c, xi)),
-            _ => beside[n].and_then(|c| Some((c, locator.extend(after, c, &x)?))),
+            _ => beside[n].and_then(|c| Some((c, locator.extend(mesh, c, &x)?))),
         });
         let Some((c, xi)) = found else {
             add(n, 1.0);
             continue;
         };
         hint = Some(c);
-        after.cells.kind[c as usize].values(&xi, &mut values);
-        after.cells.nodes(c as usize).iter().zip(&values).for_each(|(&m, value)| add(m as usize, *value));
+        mesh.cells.kind[c as usize].values(&xi, &mut values);
+        mesh.cells.nodes(c as usize).iter().zip(&values).for_each(|(&m, value)| add(m as usize, *value));
     }
-    state.release.force = force;
+    out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mesh::builder::rectangle;
+    use crate::mesh::shape::CellKind;
+
+    /// Forces in soil that has moved, its upper half out of the filled cells, have the resultant and the moment that they had where they were, and
+    /// act on nodes of filled cells alone; what has no place of its own stays.
+    #[test]
+    fn resultants_and_moments_are_kept() {
+        for kind in [CellKind::T3, CellKind::T6, CellKind::Q4, CellKind::Q9] {
+            let mesh = rectangle(kind, 4.0, 4.0, 4, 4, 0.0, 0);
+            let locator = Locator::new(&mesh);
+            let below = |c: usize| mesh.cells.nodes(c).iter().all(|&n| mesh.nodes[n as usize][1] < 2.0 + 1e-9);
+            let filled: Vec<u32> = (0..mesh.cells.len()).filter(|&c| below(c)).map(|c| c as u32).collect();
+            let in_soil = |x: &[f64; 2]| x[1] < 2.0 + 1e-9;
+            let force: Vec<[f64; 2]> = mesh
+                .nodes
+                .iter()
+                .map(|x| if in_soil(x) { [(3.0 * x[0]).sin(), 1.0 + x[1]] } else { [0.0; 2] })
+                .collect();
+            let place = |(n, x): (usize, &[f64; 2])| (n != 0).then_some([0.9 * x[0] + 0.2, 1.1 * x[1] + 0.05]);
+            let places: Vec<_> = mesh.nodes.iter().enumerate().map(place).collect();
+            let out = spread(&force, &places, (&mesh, &locator), &filled);
+            let sums = |force: &[[f64; 2]], at: &dyn Fn(usize) -> [f64; 2]| {
+                force
+                    .iter()
+                    .enumerate()
+                    .fold([0.0; 3], |[x, y, m], (n, f)| [x + f[0], y + f[1], m + at(n)[0] * f[1] - at(n)[1] * f[0]])
+            };
+            let before = sums(&force, &|n| places[n].unwrap_or(mesh.nodes[n]));
+            let after = sums(&out, &|n| mesh.nodes[n]);
+            assert!(before.iter().zip(&after).all(|(a, b)| (a - b).abs() < 1e-9), "{kind:?}: {before:?} {after:?}");
+            assert!(mesh.nodes.iter().zip(&out).all(|(x, f)| in_soil(x) || *f == [0.0; 2]), "{kind:?}");
+        }
+    }
 }

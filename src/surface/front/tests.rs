@@ -239,7 +239,7 @@ fn smoothing_takes_what_is_rough_and_keeps_the_volume() {
         }
         let mut front = Front { first: vec![0, 48], position: x, weight: 0.0 };
         let volume = front.volume::<PlaneStrain>();
-        let free = front.smoothen(&[false; 48], |_| 1.0).unwrap();
+        let free = front.smoothen(&[false; 48], |_| 0.75).unwrap();
         assert!(free.iter().all(|&free| free) && front.position.len() == free.len());
         front.offset::<PlaneStrain>(&free, volume);
         assert!(
@@ -253,7 +253,7 @@ fn smoothing_takes_what_is_rough_and_keeps_the_volume() {
     }
     // Too small for the cells that it lies in.
     let mut front = Front { first: vec![0, 48], position: rough_circle(), weight: 0.0 };
-    assert!(front.smoothen(&[false; 48], |_| 4.0).is_none());
+    assert!(front.smoothen(&[false; 48], |_| 0.85).is_none());
 }
 
 #[test]
