@@ -1,0 +1,70 @@
+//! Materials as they are written.
+
+use super::InDepth;
+use schemars::JsonSchema;
+use serde::Deserialize;
+use std::collections::BTreeMap;
+
+/// A material; its schema is made from the list of models.
+#[derive(Debug, Deserialize)]
+pub struct Material {
+    /// The name of a model.
+    pub model: String,
+    /// Density (t/m³).
+    pub density: Option<InDepth>,
+    /// Unit weight (kN/m³).
+    pub unit_weight: Option<InDepth>,
+    /// Whether water can leave its pores.
+    pub drainage: Option<Drainage>,
+    /// Poisson's ratio of the undrained soil as a whole (-).
+    pub undrained_poisson: Option<f64>,
+    /// Permeability of an undrained soil, whose water flows in consolidation.
+    pub permeability: Option<Permeability>,
+    /// Volume of the pores over that of the soil (-), and bulk modulus of the water (kPa): in place of
+    /// `undrained_poisson`.
+    pub porosity: Option<f64>,
+    pub water_bulk_modulus: Option<f64>,
+    /// Unit weight of the water (kN/m³).
+    pub water_unit_weight: Option<f64>,
+    /// The parameters of the model.
+    #[serde(flatten)]
+    pub parameters: BTreeMap<String, InDepth>,
+}
+
+/// Whether water can leave the pores of a material.
+#[derive(Clone, Copy, Debug, Deserialize, JsonSchema, PartialEq, Eq)]
+#[serde(rename_all = "snake_case")]
+pub enum Drainage {
+    Drained,
+    Undrained,
+}
+
+/// A permeability (m/s), or `{x, y}` where it differs horizontally and vertically.
+#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
+#[serde(untagged)]
+pub enum Permeability {
+    Uniform(f64),
+    ByAxis(PermeabilityByAxis),
+}
+
+/// Horizontal (in axisymmetry radial) and vertical permeability.
+#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct PermeabilityByAxis {
+    /// Horizontal permeability (m/s), 0 or above.
+    #[schemars(range(min = 0))]
+    pub x: f64,
+    /// Vertical permeability (m/s), 0 or above.
+    #[schemars(range(min = 0))]
+    pub y: f64,
+}
+
+impl Permeability {
+    /// In x and y (m/s).
+    pub fn by_axis(self) -> [f64; 2] {
+        match self {
+            Self::Uniform(k) => [k; 2],
+            Self::ByAxis(PermeabilityByAxis { x, y }) => [x, y],
+        }
+    }
+}

@@ -1,0 +1,104 @@
+//! The numerical method as it is written, and what it is where nothing is.
+
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+/// The numerical method.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct Numerics {
+    /// How gradients at the points are formed: mpm (plain), ddmp, gimp, cpdi, cpdi2 or bspline.
+    pub gradient: Gradient,
+    /// The integration weights: points (the volumes of the points) or fitted.
+    pub quadrature: Quadrature,
+    /// Who carries the mean stress of nearly incompressible and undrained materials: a field of pressure unknowns, or
+    /// none. Without it a field where Poisson's ratio is 0.45 or more or a material is undrained.
+    pub pressure: Option<Pressure>,
+    /// When the grid goes back to its first shape: every_step, never, or {min_quality: q, max_stretch: s}.
+    pub restore: Restore,
+    /// Spectral radius ρ∞ (-) of generalised-α at high frequencies, from 0 to 1; 1 damps nothing.
+    #[schemars(range(min = 0, max = 1))]
+    pub spectral_radius: f64,
+    /// Newton's iteration ends when the residual is this small beside the forces (-).
+    #[schemars(extend("exclusiveMinimum" = 0), extend("exclusiveMaximum" = 1))]
+    pub tolerance: f64,
+    /// Iterations after which a step is halved.
+    #[schemars(range(min = 1, max = 1000))]
+    pub max_iterations: usize,
+    /// Stiffness of empty cells over that of the soil (-).
+    #[schemars(extend("exclusiveMinimum" = 0), extend("exclusiveMaximum" = 1))]
+    pub empty_stiffness: f64,
+}
+
+impl Default for Numerics {
+    fn default() -> Self {
+        Self {
+            gradient: Gradient::Mpm,
+            quadrature: Quadrature::Fitted,
+            pressure: None,
+            restore: Restore::Quality(RestoreQuality { min_quality: 0.5, max_stretch: None }),
+            spectral_radius: 0.9,
+            tolerance: 1e-8,
+            max_iterations: 25,
+            empty_stiffness: 1e-5,
+        }
+    }
+}
+
+/// How gradients at the points are formed.
+#[derive(Clone, Copy, Debug, Deserialize, serde::Serialize, JsonSchema, PartialEq, Eq)]
+#[serde(rename_all = "snake_case")]
+pub enum Gradient {
+    Mpm,
+    Ddmp,
+    Gimp,
+    Cpdi,
+    Cpdi2,
+    Bspline,
+}
+
+/// The integration weights.
+#[derive(Clone, Copy, Debug, Deserialize, serde::Serialize, JsonSchema, PartialEq, Eq)]
+#[serde(rename_all = "snake_case")]
+pub enum Quadrature {
+    Points,
+    Fitted,
+}
+
+/// Who carries the mean stress.
+#[derive(Clone, Copy, Debug, Deserialize, serde::Serialize, JsonSchema, PartialEq, Eq)]
+#[serde(rename_all = "snake_case")]
+pub enum Pressure {
+    Field,
+    None,
+}
+
+/// When the grid goes back to its first shape.
+#[derive(Clone, Copy, Debug, Deserialize, serde::Serialize, JsonSchema)]
+#[serde(untagged)]
+pub enum Restore {
+    Named(RestoreName),
+    Quality(RestoreQuality),
+}
+
+/// The restorations that need no number.
+#[derive(Clone, Copy, Debug, Deserialize, serde::Serialize, JsonSchema, PartialEq, Eq)]
+#[serde(rename_all = "snake_case")]
+pub enum RestoreName {
+    EveryStep,
+    Never,
+}
+
+/// Restoration by quality.
+#[derive(Clone, Copy, Debug, Deserialize, serde::Serialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct RestoreQuality {
+    /// The grid is restored when a cell's quality falls below this share of its first one (-).
+    #[schemars(range(min = 0, max = 1))]
+    pub min_quality: f64,
+    /// And when an edge is this many times as long as at first, or as short (-), above 1.
+    /// Default: 1.3, and 1.5 in a scene with contacts.
+    #[schemars(extend("exclusiveMinimum" = 1))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub max_stretch: Option<f64>,
+}

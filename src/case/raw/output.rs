@@ -1,0 +1,92 @@
+//! What is written of a run, as it is written in the case.
+
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+/// What is written, and when.
+#[derive(Debug, Default, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct Output {
+    /// Time between frames (s), above 0; without it one frame at the end of each phase.
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub every: Option<f64>,
+    /// The fields of the frames; without it stress and displacement.
+    pub fields: Option<Vec<Field>>,
+    /// How the exported files are packed: compressed, or plain (what meshio reads).
+    pub encoding: Encoding,
+    /// Whether the surface of the material points is written; it is wherever a load or water acts on it.
+    pub surface: bool,
+    /// Curves of history.csv, a row each step.
+    pub history: Vec<History>,
+}
+
+/// A field of the frames.
+#[derive(Clone, Copy, Debug, Deserialize, JsonSchema, PartialEq, Eq)]
+#[serde(rename_all = "snake_case")]
+pub enum Field {
+    Displacement,
+    Velocity,
+    Stress,
+    MeanStress,
+    DeviatoricStress,
+    PlasticStrain,
+    DeformationGradient,
+    PorePressure,
+}
+
+impl Field {
+    /// The name in the case, in frames and in exported files.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Displacement => "displacement",
+            Self::Velocity => "velocity",
+            Self::Stress => "stress",
+            Self::MeanStress => "mean_stress",
+            Self::DeviatoricStress => "deviatoric_stress",
+            Self::PlasticStrain => "plastic_strain",
+            Self::DeformationGradient => "deformation_gradient",
+            Self::PorePressure => "pore_pressure",
+        }
+    }
+}
+
+/// How the exported files are packed.
+#[derive(Clone, Copy, Debug, Default, Deserialize, JsonSchema, PartialEq, Eq)]
+#[serde(rename_all = "snake_case")]
+pub enum Encoding {
+    #[default]
+    Compressed,
+    Plain,
+}
+
+/// An entry of history.csv.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct History {
+    /// The name of the columns.
+    pub name: String,
+    /// The name of a physical curve, a physical point or a region.
+    pub on: String,
+    /// What is written of it.
+    #[schemars(extend("minItems" = 1))]
+    pub quantities: Vec<Quantity>,
+}
+
+/// A quantity of history.csv: means over the nodes of a curve or the points of a region, of a rigid structure those of its
+/// centroid; reactions are sums, contact is the force of all contacts on a structure; moments are about the centroid.
+#[derive(Clone, Copy, Debug, Deserialize, JsonSchema, PartialEq, Eq)]
+#[serde(rename_all = "snake_case")]
+pub enum Quantity {
+    Ux,
+    Uy,
+    Vx,
+    Vy,
+    ReactionX,
+    ReactionY,
+    ContactX,
+    ContactY,
+    Rotation,
+    ReactionMoment,
+    ContactMoment,
+    PorePressure,
+}
