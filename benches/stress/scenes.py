@@ -344,7 +344,7 @@ def brittle(r):
 
 @kind_of_scene
 def clay(r):
-    """Modified Cam-Clay, over- and normally consolidated, drained and not, pressed, pulled along or under its weight."""
+    """Modified Cam-Clay, half of it with κ*, over- and normally consolidated, drained and not, from K0 or no stress; pressed, pulled along or under its weight."""
     pressure = 10 ** r.uniform(0.5, 2)
     matter = {"model": "cam_clay", "young": pressure * 10 ** r.uniform(1, 2.5), "poisson": r.choice([0, 0.2, 0.3]), "density": 2.0}
     matter |= {"critical_slope": r.uniform(0.5, 1.5), "preconsolidation": pressure, "plastic_compressibility": r.uniform(0.02, 0.3)}
@@ -364,6 +364,8 @@ def clay(r):
     if r.random() < 0.5:
         del case["materials"]["matter"]["young"]
         case["materials"]["matter"] |= {"swelling": 10 ** r.uniform(-3, -1.3), "least_pressure": r.choice([0.1, 1])}
+        if r.random() < 0.3:
+            del case["initial_stress"]
     return case
 
 

@@ -12,7 +12,7 @@ use crate::term::Carried;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde_json::{Map, Value, json};
 use std::borrow::Cow;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
 impl Checker {
@@ -93,21 +93,24 @@ impl Checker {
             values.extend(example(kind, known.name));
         }
         // A model stops at its first fault: with a sound value in its place the next one shows.
+        let mut mended = BTreeSet::new();
         let model = loop {
             let fault = match build(kind, &values) {
                 Ok(model) => break model,
                 Err(fault) => fault,
             };
-            // It names the parameter at fault as the place.
+            // It names the parameter at fault as the place. One that does not go with another stays at fault.
+            if mended.contains(&fault.place) {
+                return None;
+            }
             let Some(value) = material.parameters.get(&fault.place) else {
                 self.issue(path, At::Key, format!("{}: {}", fault.place, fault.problem), fault.remedy);
                 return None;
             };
             self.issue(&value.top(&path.key(&fault.place)), At::Value, fault.problem, fault.remedy);
             let sound = example(kind, &fault.place)?;
-            if values.insert(sound.0, sound.1) == Some(sound.1) {
-                return None;
-            }
+            values.insert(sound.0, sound.1);
+            mended.insert(fault.place);
         };
         if self.count() > before {
             return None;
@@ -119,7 +122,7 @@ impl Checker {
 
 /// A sound value of a parameter.
 fn example(kind: &Kind, name: &str) -> Option<(&'static str, Profile)> {
-    let (name, value) = kind.examples.first()?.iter().find(|(known, _)| *known == name)?;
+    let (name, value) = kind.examples.iter().flat_map(|example| example.iter()).find(|(known, _)| *known == name)?;
     Some((name, Profile::constant(*value)))
 }
 

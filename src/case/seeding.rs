@@ -2,11 +2,10 @@
 
 use super::checked::{Case, Content, Geometry, Material, Region};
 use crate::error::{Error, Result};
-use crate::material::{Profile, State, is_beyond_yield, spatial};
+use crate::material::{Profile, State, is_beyond_yield, odd_poisson, on_poisson, spatial};
 use crate::mesh::Mesh;
 use crate::points::Points;
 use crate::seed::{QUADRATURE, RegionSeed, RegionWeight, k0_stress, seed};
-use std::ops::RangeInclusive;
 
 /// Fills the regions of `case` in `mesh`, whose groups its names have been held against.
 ///
@@ -42,9 +41,6 @@ pub fn points(case: &Case, mesh: &Mesh<2>) -> Result<Points<2>> {
     Ok(points)
 }
 
-/// Poisson's ratios (-) that soil has: what a pressure far from the reference makes of one beyond them is told.
-const POISSON: RangeInclusive<f64> = 0.0..=0.45;
-
 /// A line on each region whose initial stress is more than its material bears, and on each that has a Poisson's ratio which no soil has.
 ///
 /// # Errors
@@ -71,22 +67,12 @@ pub fn notes(case: &Case, mesh: &Mesh<2>, points: &Points<2>) -> Result<Vec<Stri
                 material.name
             ));
         }
-        let poisson = |p: usize| {
-            let bulk = material.model.bulk_modulus(height(p), stress(p).iter().sum::<f64>() / 3.0);
-            material.model.elasticity().at(height(p)).poisson_beside(bulk)
-        };
-        let given = material.model.elasticity().poisson();
-        // With moduli that are constant it is that given, but for the last bits.
-        let strays = |&p: &usize| !POISSON.contains(&poisson(p)) && (poisson(p) - given).abs() > 1e-6;
-        let strays = |p: &usize| case.k0.is_some() && strays(p);
-        let strays: Vec<usize> = of.iter().copied().filter(strays).collect();
-        if let Some(told) = told(&strays) {
+        let poisson = |&p: &usize| odd_poisson(material.model.as_ref(), height(p), &stress(p));
+        let strays: Vec<usize> = of.iter().copied().filter(|p| poisson(p).is_some()).collect();
+        if let Some((told, ratio)) = told(&strays).zip(strays.first().and_then(poisson)) {
             notes.push(format!(
-                "region `{region}`: Poisson's ratio of {told}, is {:.2} at the initial stress, below {} or above {}; a `reference_pressure` that \
-                 follows the pressure in the ground keeps it near `poisson`",
-                poisson(strays[0]),
-                POISSON.start(),
-                POISSON.end()
+                "region `{region}`: Poisson's ratio of {told}, at the stress that they begin with {}",
+                on_poisson(ratio)
             ));
         }
     }

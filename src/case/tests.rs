@@ -262,6 +262,26 @@ fn a_reference_pressure_of_its_own_does_not_tell_the_stiffness_of_the_water() {
     }
 }
 
+/// All that is wrong with a material is told at once, what its first example has none of, too; and once.
+#[test]
+fn faults_of_swelling_clay_are_told_together() {
+    for (more, places) in [
+        ("swelling: 0.02, compression: 0.01, critical_slope: -1", vec!["compression", "critical_slope"]),
+        ("swelling: 0.02, compression: 0.1, young: 1000, critical_slope: 0", vec!["swelling"]),
+        (
+            "swelling: 0.02, compression: 0.1, least_pressure: 0, reference_pressure: -1, critical_slope: 0",
+            vec!["least_pressure", "reference_pressure", "critical_slope"],
+        ),
+    ] {
+        let clay =
+            format!("materials.clay={{model: cam_clay, {more}, poisson: 0.3, preconsolidation: 100, density: 1.8}}");
+        let source = Source::parse(PathBuf::from("case.yaml"), CASE.to_owned(), &[clay]).unwrap();
+        let issues: Vec<String> = resolve(&source).1.iter().map(|issue| format!("{issue:?}")).collect();
+        assert_eq!(issues.len(), places.len(), "{more}: {issues:?}");
+        assert!(places.iter().all(|place| issues.iter().any(|issue| issue.contains(place))), "{more}: {issues:?}");
+    }
+}
+
 /// What a constant shear modulus makes of Poisson's ratio where the pressure is far from its reference is told with the points.
 #[test]
 fn poissons_ratios_that_no_soil_has_are_noted() {

@@ -2,13 +2,14 @@
 //! Tamagnini (1998), *Cam-Clay plasticity, part III*, Comput. Methods Appl. Mech. Engng 155, 73–95:
 //!
 //! ```text
-//! q²/M² + p (p − p_c) ≤ 0,    p_c = p_c0 e^(ε_pv/Λ),    Λ = λ* − κ*
+//! q²/M² + p (p − p_c) ≤ 0,    p_c = p_c0 e^(ε_pv/Λ),    Λ = λ̂ − κ̂
 //! ```
 //!
 //! with `p` and the plastic volume strain `ε_pv` positive in compression, `q = √(3 J₂)`, and `M` the same in all directions of
-//! shear. Cohesion there is none; in tension the surface shrinks to nothing.
+//! shear. Cohesion there is none; in tension the surface shrinks to nothing. `λ̂ = λ*/(1 − λ*)` and `κ̂ = κ*/(1 − κ*)`: a line
+//! `ε = λ* ln p` in the Cauchy pressure, whose slope a case gives, is one of slope `λ̂` in the Kirchhoff pressure, `e^−ε` times as large.
 //!
-//! Elasticity is Hencky's, with a bulk modulus that is constant, or `p/κ*` of a line of [`Swelling`]. The shear modulus of a point is
+//! Elasticity is Hencky's, with a bulk modulus that is constant, or `p/κ̂` of a line of [`Swelling`]. The shear modulus of a point is
 //! constant, which leaves pressure and shear apart from each other in one convex energy: every stress has its elastic strain, and the
 //! undrained stress paths are those of the literature. One in proportion to the pressure does work in closed cycles (Zytynski et al.
 //! 1978) unless the pressure depends on shear too; as Borja, Tamagnini & Amorosi (1997) have it no strain then carries

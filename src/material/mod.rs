@@ -28,6 +28,7 @@ pub use tresca::Tresca;
 pub use von_mises::VonMises;
 
 use crate::error::Result;
+use std::ops::RangeInclusive;
 use std::sync::Arc;
 
 /// Every model a case can name.
@@ -148,6 +149,26 @@ pub fn is_beyond_yield(model: &dyn Model, y: f64, stress: &[f64; 3], state: &Sta
     let strength = model.strength(y);
     let unit = stress.iter().fold(strength, |most, s| most.max(s.abs()));
     strength.is_finite() && model.yield_excess(y, stress, state) > BEYOND * unit
+}
+
+/// Poisson's ratios (-) that soil has.
+const POISSON: RangeInclusive<f64> = 0.0..=0.45;
+
+/// What is said of those of soil beyond.
+pub fn on_poisson(ratio: f64) -> String {
+    let (least, most) = (POISSON.start(), POISSON.end());
+    format!(
+        "is {ratio:.2}, below {least} or above {most}; a `reference_pressure` that follows the pressure in the ground keeps it near `poisson`"
+    )
+}
+
+/// Poisson's ratio (-) of a model at height `y` and the principal Kirchhoff stresses, where no soil has such a one and the model has it by its stress.
+pub fn odd_poisson(model: &dyn Model, y: f64, stress: &[f64; 3]) -> Option<f64> {
+    let bulk = model.bulk_modulus(y, stress.iter().sum::<f64>() / 3.0);
+    let ratio = model.elasticity().at(y).poisson_beside(bulk);
+    // With moduli that are constant it is that given, but for the last bits.
+    let given = model.elasticity().poisson();
+    (!POISSON.contains(&ratio) && (ratio - given).abs() > 1e-6).then_some(ratio)
 }
 
 /// Equivalent `√(⅔ ε:ε)` of a principal plastic strain increment.

@@ -8,7 +8,7 @@ use super::grid::Grid;
 use super::scene::Scene;
 use super::state::State;
 use crate::kinematics::Kinematics;
-use crate::material::{Model, Profile, State as Memory, is_beyond_yield, spatial};
+use crate::material::{Model, Profile, State as Memory, is_beyond_yield, odd_poisson, on_poisson, spatial};
 use crate::points::Points;
 use crate::term::Carried;
 use std::fmt;
@@ -99,7 +99,7 @@ pub fn take_field<const D: usize, K: Kinematics<D>>(scene: &Scene<D>, grid: &Gri
 pub fn notes<const D: usize, K: Kinematics<D>>(scene: &Scene<D>, state: &State<D>) -> Vec<String> {
     let Some(phase) = scene.phases.get(state.phase) else { return Vec::new() };
     let note = |change: &Change| {
-        let (mut all, mut beyond) = (0, 0);
+        let (mut all, mut beyond, mut odd) = (0, 0, Vec::new());
         for points in [&state.points, &state.fem] {
             for p in change.of(points) {
                 let volume_ratio = points.deformation[p].determinant();
@@ -107,6 +107,7 @@ pub fn notes<const D: usize, K: Kinematics<D>>(scene: &Scene<D>, state: &State<D
                 let memory = points.memory.get(p).copied().unwrap_or(0.0);
                 let memory = Memory { plastic_strain: points.plastic_strain[p], memory, per_second: 0.0 };
                 all += 1;
+                odd.extend(odd_poisson(change.model.as_ref(), points.origin[p][1], &stress));
                 beyond += usize::from(is_beyond_yield(change.model.as_ref(), points.origin[p][1], &stress, &memory));
             }
         }
@@ -115,6 +116,13 @@ pub fn notes<const D: usize, K: Kinematics<D>>(scene: &Scene<D>, state: &State<D
         if beyond > 0 {
             note.push_str(&format!(
                 "; the stress of {beyond} of its {all} points is more than that bears, and falls to it in the first step"
+            ));
+        }
+        if let Some(&ratio) = odd.first() {
+            note.push_str(&format!(
+                "; Poisson's ratio of {} of its {all} points, at their stress, {}",
+                odd.len(),
+                on_poisson(ratio)
             ));
         }
         note

@@ -2,10 +2,10 @@
 //! straight line of swelling in the logarithm of pressure (Butterfield 1979; Borja, Tamagnini & Amorosi 1997),
 //!
 //! ```text
-//! p = K ε      or      p = p_l e^(ε/κ* − 1),  K = dp/dε = p/κ*
+//! p = K ε      or      p = p_l e^(ε/κ̂ − 1),  K = dp/dε = p/κ̂
 //! ```
 //!
-//! Below its least pressure `p_l`, tension included, the second goes on along its tangent, `p = p_l ε/κ*`, which leads through zero
+//! Below its least pressure `p_l`, tension included, the second goes on along its tangent, `p = p_l ε/κ̂`, which leads through zero
 //! stress at zero strain: soil at a free surface is stiff. So it does beyond a largest pressure that no soil comes to, and every
 //! strain has a finite stress. Pressure and tangent are continuous, and both derive from one energy.
 
@@ -18,7 +18,7 @@ const MOST: f64 = 1e6;
 /// A line of swelling.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Swelling {
-    /// κ* (-).
+    /// κ̂ (-).
     slope: f64,
     /// p_l (kPa).
     least: f64,
@@ -27,7 +27,7 @@ pub struct Swelling {
 }
 
 impl Swelling {
-    /// The line of slope `slope`, κ* (-), down to the pressure `least` (kPa); `reference` (kPa) is that whose stiffness stands for it.
+    /// The line of slope `slope`, κ̂ (-), down to the pressure `least` (kPa); `reference` (kPa) is that whose stiffness stands for it.
     ///
     /// # Errors
     /// Unless slope and least pressure are positive; names the parameter.
@@ -40,7 +40,7 @@ impl Swelling {
         Ok(Self { slope, least, reference })
     }
 
-    /// κ* (-).
+    /// κ̂ (-).
     pub fn slope(&self) -> f64 {
         self.slope
     }

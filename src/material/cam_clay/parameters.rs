@@ -20,7 +20,7 @@ pub const KIND: Kind = Kind {
             unit: "-",
             required: false,
             varies: false,
-            meaning: "κ*, slope of unloading in logarithms of volume and pressure, in place of young",
+            meaning: "κ*, slope of unloading in logarithms of volume and mean effective pressure, below 1, in place of young",
         },
         Parameter {
             name: "least_pressure",
@@ -55,14 +55,14 @@ pub const KIND: Kind = Kind {
             unit: "-",
             required: false,
             varies: false,
-            meaning: "λ*, slope of virgin compression in logarithms of volume and pressure, beside swelling",
+            meaning: "λ*, slope of virgin compression in logarithms of volume and mean effective pressure, below 1, beside swelling",
         },
         Parameter {
             name: "plastic_compressibility",
             unit: "-",
             required: false,
             varies: false,
-            meaning: "slopes of virgin compression less of unloading, in logarithms of volume and pressure",
+            meaning: "λ* − κ*, slopes of virgin compression less of unloading",
         },
     ],
     build,
@@ -118,7 +118,8 @@ fn build(parameters: &Parameters) -> Result<Arc<dyn Model>> {
                 return Err(Error::input(name, "it says something only beside `swelling`", remedy));
             }
         }
-        let compressibility = parameters.number("plastic_compressibility")?;
+        let compressibility =
+            slope_of_kirchhoff("plastic_compressibility", parameters.number("plastic_compressibility")?)?;
         return Ok(Arc::new(CamClay::new(parameters.elasticity()?, slope, preconsolidation, compressibility)?));
     }
     if given("young") {
@@ -132,20 +133,36 @@ fn build(parameters: &Parameters) -> Result<Arc<dyn Model>> {
         }
     };
     let least = parameters.number_or("least_pressure", LEAST_PRESSURE)?;
-    let swelling = Swelling::new(parameters.number("swelling")?, least, reference)?;
-    let compressibility = plastic_compressibility(parameters, swelling.slope())?;
+    let unloading = parameters.number("swelling")?;
+    let swelling = Swelling::new(slope_of_kirchhoff("swelling", unloading)?, least, reference)?;
+    let (name, compression) = compression(parameters, unloading)?;
+    let compressibility = slope_of_kirchhoff(name, compression)? - swelling.slope();
     let poisson = parameters.number("poisson")?;
     Ok(Arc::new(CamClay::with_swelling(swelling, poisson, slope, preconsolidation, compressibility)?))
 }
 
-/// Λ (-) of soil whose κ* is `swelling`.
-fn plastic_compressibility(parameters: &Parameters, swelling: f64) -> Result<f64> {
+/// The slope (-) of a line in the logarithm of the Kirchhoff pressure, which is `ln p − ε`, by that of `ε` in the logarithm of the Cauchy
+/// pressure `p`.
+fn slope_of_kirchhoff(name: &str, slope: f64) -> Result<f64> {
+    if slope > 0.0 && slope < 1.0 {
+        return Ok(slope / (1.0 - slope));
+    }
+    let remedy = "divide the slope in void ratio by 1 + e; clays have 0.005 to 0.3";
+    Err(Error::input(name, format!("is {slope}, but must be above 0 and below 1"), remedy))
+}
+
+/// λ* (-) of soil whose κ* is `swelling`, and the parameter that tells it.
+fn compression(parameters: &Parameters, swelling: f64) -> Result<(&'static str, f64)> {
     match (parameters.optional("compression"), parameters.optional("plastic_compressibility")) {
-        (None, Some(_)) => parameters.number("plastic_compressibility"),
+        (None, Some(_)) => {
+            let plastic = parameters.number("plastic_compressibility")?;
+            slope_of_kirchhoff("plastic_compressibility", plastic)?;
+            Ok(("plastic_compressibility", swelling + plastic))
+        }
         (Some(_), None) => {
             let compression = parameters.number("compression")?;
             if compression > swelling {
-                return Ok(compression - swelling);
+                return Ok(("compression", compression));
             }
             let problem = format!("is {compression}, but must be above `swelling` ({swelling})");
             Err(Error::input("compression", problem, "five times `swelling` is common"))

@@ -86,6 +86,11 @@ impl Front {
             }
             lengths.push(along);
         }
+        let enclosed = self.volume::<K>();
+        // Where no surface is free, the points may fill their box a little more or less than all.
+        if (enclosed - points).abs() > OFFSET * swept && !markers.is_empty() {
+            return Err(Fault::Volume { enclosed, points });
+        }
         let bins = Bins::new(markers.iter().map(|m| (m.0, m.0)), TOUCH * size);
         for (i, (x, l, along, h)) in markers.iter().enumerate() {
             let touches = |&j: &u32| {
@@ -99,13 +104,7 @@ impl Front {
                 return Err(Fault::Touch { place: *x });
             }
         }
-        let enclosed = self.volume::<K>();
-        // Where no surface is free, the points may fill their box a little more or less than all.
-        if (enclosed - points).abs() <= OFFSET * swept || markers.is_empty() {
-            Ok(())
-        } else {
-            Err(Fault::Volume { enclosed, points })
-        }
+        Ok(())
     }
 }
 

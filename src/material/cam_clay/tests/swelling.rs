@@ -172,6 +172,27 @@ fn build(entries: &[(&str, f64)]) -> crate::error::Result<std::sync::Arc<dyn Mod
     )
 }
 
+/// The slopes that a case gives are those of the oedometer, in the logarithm of the Cauchy pressure: `ε = λ* ln(p/p₀)` for clay on the
+/// virgin line, `κ*` back, whatever the strain.
+#[test]
+fn slopes_are_those_of_the_cauchy_pressure() {
+    for (swelling, compression) in [(0.02, 0.1), (0.05, 0.25)] {
+        let clay = build(&[("swelling", swelling), ("compression", compression)]).unwrap();
+        let start = clay.elastic_strain(0.0, &[-50.0; 3]);
+        let path = [0.4, 0.35].map(|strain: f64| [Control::Strain(-strain / 3.0); 3]);
+        let history = drive_from(&*clay, 0.0, start, path).unwrap();
+        let cauchy = |n: usize, strain: f64| invariants(&history[n].stress).0 * strain.exp();
+        let (loaded, back) = (cauchy(0, 0.4), cauchy(1, 0.35));
+        println!(
+            "ln p by λ* {:.1e} off, by κ* {:.1e}",
+            (loaded / 50.0).ln() * compression - 0.4,
+            (loaded / back).ln() * swelling - 0.05
+        );
+        assert!(((loaded / 50.0).ln() * compression - 0.4).abs() < 1e-12, "{loaded}");
+        assert!(((loaded / back).ln() * swelling - 0.05).abs() < 1e-12, "{back}");
+    }
+}
+
 /// λ* and κ* say what their difference and κ* say; what excludes or needs each other is told, at the entry that is to go.
 #[test]
 fn parameters_that_do_not_go_together_are_refused() {
@@ -182,10 +203,10 @@ fn parameters_that_do_not_go_together_are_refused() {
     for (a, b) in respond(&*pair).iter().zip(respond(&*difference)) {
         assert!((a / b - 1.0).abs() < 1e-12);
     }
-    // K = p/κ* and ν at the preconsolidation pressure.
-    assert!((pair.elasticity().at(0.0).bulk() / 2500.0 - 1.0).abs() < 1e-14);
+    // K = p (1 − κ*)/κ* and ν at the preconsolidation pressure.
+    assert!((pair.elasticity().at(0.0).bulk() / 2450.0 - 1.0).abs() < 1e-14);
     let reference = build(&[("swelling", 0.02), ("compression", 0.1), ("reference_pressure", 10.0)]).unwrap();
-    assert!((reference.elasticity().at(0.0).bulk() / 500.0 - 1.0).abs() < 1e-14);
+    assert!((reference.elasticity().at(0.0).bulk() / 490.0 - 1.0).abs() < 1e-14);
     let ratio = pair.elasticity().at(0.0).shear / reference.elasticity().at(0.0).shear;
     assert!((ratio - 5.0).abs() < 1e-13);
     for (entries, place) in [
@@ -194,6 +215,10 @@ fn parameters_that_do_not_go_together_are_refused() {
         (&[("swelling", 0.02)], "compression"),
         (&[("swelling", 0.02), ("compression", 0.1), ("plastic_compressibility", 0.08)], "compression"),
         (&[("swelling", 0.02), ("compression", 0.02)], "compression"),
+        (&[("swelling", 0.02), ("compression", 1.0)], "compression"),
+        (&[("swelling", 0.5), ("plastic_compressibility", 0.5)], "plastic_compressibility"),
+        (&[("swelling", 1.0), ("compression", 1.1)], "swelling"),
+        (&[("young", 1e3), ("plastic_compressibility", 1.0)], "plastic_compressibility"),
         (&[("young", 1e3), ("compression", 0.1)], "compression"),
         (&[("young", 1e3), ("plastic_compressibility", 0.1), ("least_pressure", 1.0)], "least_pressure"),
         (&[("young", 1e3), ("plastic_compressibility", 0.1), ("reference_pressure", 1.0)], "reference_pressure"),
