@@ -103,7 +103,7 @@ impl<K: Kinematics<2>> Fitted<K> {
         let mut current = Vec::new();
         let mut fits = cells::fit::<K>(mesh, plane, &active.moments, points, stencil, &mut current);
         let full = |c: u32| active.filling[c as usize] == Filling::Full;
-        keep_drops(&self.geometry, stencil, full, &mut fits, &mut current);
+        keep_drops(mesh, stencil, full, &mut fits, &mut current);
         let mut weight = vec![0.0; points.len()];
         for (w, &p) in current.iter().zip(&stencil.points) {
             let p = p as usize;
@@ -199,16 +199,22 @@ fn volume_ratio(points: &Points<2>, weighing: &Weighing<2>) -> f64 {
     if then > 0.0 { now / then } else { 1.0 }
 }
 
-/// Gives a body that fills no cell the volume of its points: what the surface cuts off cells beside it, which have no
+/// Gives a body, cells with points that share nodes, that fills no cell the volume of its points: what the surface cuts off cells beside it, which have no
 /// points and may have no neighbour with any, is much of it, and it would lose as much of its weight.
 fn keep_drops(
-    geometry: &Geometry,
+    mesh: &Mesh<2>,
     stencil: &Stencil<2>,
     full: impl Fn(u32) -> bool,
     fits: &mut [CellFit],
     current: &mut [f64],
 ) {
-    let patch_of = |c: u32| stencil.patches.binary_search_by_key(&c, |patch| patch.cell).ok();
+    let mut at: Vec<(u32, usize)> = Vec::new();
+    for (i, fit) in fits.iter().enumerate() {
+        let corners = mesh.cells.kind[fit.cell as usize].corner_count();
+        at.extend(mesh.cells.nodes(fit.cell as usize)[..corners].iter().map(|&n| (n, i)));
+    }
+    at.sort_unstable();
+    let around = |n: u32| at[at.partition_point(|&(m, _)| m < n)..].iter().take_while(move |&&(m, _)| m == n);
     let mut seen = vec![false; fits.len()];
     for first in 0..fits.len() {
         if std::mem::replace(&mut seen[first], true) {
@@ -218,7 +224,9 @@ fn keep_drops(
         let mut next = 0;
         while let Some(&i) = body.get(next) {
             next += 1;
-            for patch in geometry.faces.neighbours(fits[i].cell).iter().filter_map(|&c| patch_of(c)) {
+            let c = fits[i].cell as usize;
+            let corners = &mesh.cells.nodes(c)[..mesh.cells.kind[c].corner_count()];
+            for &(_, patch) in corners.iter().flat_map(|&n| around(n)) {
                 if !std::mem::replace(&mut seen[patch], true) {
                     body.push(patch);
                 }

@@ -3,7 +3,6 @@
 use super::{Quadrature, Restored, Volumes, Weighing};
 use crate::kinematics::Kinematics;
 use crate::surface::{ActiveBoundary, Behind, Contour, Distance, Fault, Front, Geometry, NO_REGION};
-use std::cmp::Reverse;
 
 /// Takes the front along with the grid: at first it goes around the cells with points.
 ///
@@ -58,32 +57,12 @@ pub fn smoothed<K: Kinematics<2>>(
     }
 }
 
-/// Rings of cells across faces in which points are sought that stand for what is behind a piece of the boundary.
-const RINGS: usize = 3;
-
-/// The boundary of where `level_set` is positive. What is behind a piece in a cell without points is borne by the nearest
-/// one with points across faces, the one with most of several: it is that to which its active part is handed.
+/// The boundary of where `level_set` is positive. What is behind a piece in a cell without points is borne by the cell to which its
+/// active part is handed.
 pub fn boundary(geometry: &Geometry, grid: &Restored<2>, level_set: &[f64]) -> ActiveBoundary {
     let Restored { mesh, points, stencil, .. } = *grid;
     let patch = |c: u32| stencil.patches.binary_search_by_key(&c, |patch| patch.cell).ok();
     let count = |c: u32| patch(c).map_or(0, |i| stencil.patches[i].point_count);
-    let bearer = |cell: u32| {
-        let mut reached = vec![cell];
-        let mut begin = 0;
-        for _ in 0..=RINGS {
-            let ring = reached[begin..].to_vec();
-            if let Some(&best) = ring.iter().filter(|&&c| count(c) > 0).max_by_key(|&&c| (count(c), Reverse(c))) {
-                return Some(best);
-            }
-            begin = reached.len();
-            for &next in ring.iter().flat_map(|&c| geometry.faces.neighbours(c)) {
-                if !reached.contains(&next) {
-                    reached.push(next);
-                }
-            }
-        }
-        None
-    };
     let region = |cell: u32, x: &[f64; 2]| {
         let distance = |p: u32| {
             let y = &points.position[p as usize];
@@ -93,7 +72,7 @@ pub fn boundary(geometry: &Geometry, grid: &Restored<2>, level_set: &[f64]) -> A
         let nearest = all.map(|&p| (distance(p), p)).min_by(|a, b| a.0.total_cmp(&b.0));
         nearest.map_or(NO_REGION, |(_, p)| points.region[p as usize])
     };
-    ActiveBoundary::of(mesh, geometry, level_set, grid.taking_part, |cell, x| match bearer(cell) {
+    ActiveBoundary::of(mesh, geometry, level_set, grid.taking_part, |cell, x| match geometry.bearer(cell, count) {
         Some(bearer) => Behind { region: region(bearer, x), bearer },
         None => Behind { region: NO_REGION, bearer: cell },
     })

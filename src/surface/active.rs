@@ -26,11 +26,11 @@ pub struct Active {
     /// Volume (m³) of the active part inside the cell.
     pub volume: Vec<f64>,
     /// Moments (m³) in the cell's frame of what the points of the cell stand for: its own active part and slivers of
-    /// neighbours without points. Zero in a cell without points.
+    /// cells near without points. Zero in a cell without points.
     pub moments: Vec<Moments>,
-    /// Volume (m³) in cells without points that have no face neighbour with points.
+    /// Volume (m³) in cells without points that have none with points near.
     pub lost: f64,
-    /// Volume (m³) in cells without points that neighbours took over.
+    /// Volume (m³) in cells without points that others took over.
     pub handed: f64,
     /// Points in each cell.
     points: Vec<u32>,
@@ -38,8 +38,7 @@ pub struct Active {
 
 impl Active {
     /// Cuts the cells `taking_part` along the zero of `level_set` (one value a node, positive in the material);
-    /// `cell` is the cell of each point. A part without points goes to the face neighbour with most points, the
-    /// lowest of equals.
+    /// `cell` is the cell of each point. A part without points goes to the cell that bears it.
     pub fn update<K: Kinematics<2>>(
         &mut self,
         mesh: &Mesh<2>,
@@ -86,10 +85,7 @@ impl Active {
             if self.points[c] > 0 || self.volume[c] <= ROUNDING * geometry.volume(c) {
                 continue;
             }
-            let neighbours = geometry.faces.neighbours(c as u32).iter().map(|&n| n as usize);
-            // The last of equals is the lowest: the count comes first, then the number, reversed.
-            let owner = neighbours.max_by_key(|&n| (self.points[n], std::cmp::Reverse(n)));
-            match owner.filter(|&n| self.points[n] > 0) {
+            match geometry.bearer(c as u32, |c| self.points[c as usize]).map(|owner| owner as usize) {
                 Some(owner) => {
                     let values = values(c);
                     let part = geometry.cell(mesh, c, owner).clipped::<K>(&values);

@@ -6,6 +6,10 @@ use crate::mesh::Mesh;
 use crate::mesh::faces::Faces;
 use crate::mesh::shape::MAX_NODES;
 use rayon::prelude::*;
+use std::cmp::Reverse;
+
+/// Rings of cells across faces in which points are sought that stand for what is in a cell without any.
+const RINGS: usize = 3;
 
 /// Frames and moments of the whole cells, and the hats of the nodes.
 #[derive(Clone, Debug, PartialEq)]
@@ -57,6 +61,29 @@ impl Geometry {
     /// The volume (m³) of cell `c`.
     pub fn volume(&self, c: usize) -> f64 {
         self.whole[c][0]
+    }
+
+    /// The cell that bears what is in `cell`, by the points that each cell has: itself, or the nearest one with points across
+    /// faces, the one with most of several, the lowest of equals. `None` where none is near.
+    pub fn bearer(&self, cell: u32, points: impl Fn(u32) -> u32) -> Option<u32> {
+        let mut reached = vec![cell];
+        let mut begin = 0;
+        for _ in 0..=RINGS {
+            let ring = begin..reached.len();
+            let with_points = reached[ring.clone()].iter().filter(|&&c| points(c) > 0);
+            if let Some(&best) = with_points.max_by_key(|&&c| (points(c), Reverse(c))) {
+                return Some(best);
+            }
+            begin = ring.end;
+            for i in ring {
+                for &next in self.faces.neighbours(reached[i]) {
+                    if !reached.contains(&next) {
+                        reached.push(next);
+                    }
+                }
+            }
+        }
+        None
     }
 
     /// The side (m) of a square that holds cell `c`, or two like it if it is a triangle.
