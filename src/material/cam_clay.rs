@@ -149,9 +149,11 @@ impl Trial {
 }
 
 /// The zero of a function that is not negative at `low` and not positive at `high`, by Newton's method with the slope that it
-/// gives where that stays between them, and by halves; a step of Newton's below `tolerance` is the last.
+/// gives where that stays between them and is less than half as long as the step before, and by halves, for along an exponential Newton's
+/// steps stay as long as they are; one below `tolerance` is the last.
 fn bisect(low: &mut f64, high: &mut f64, tolerance: f64, f: impl Fn(f64) -> (f64, f64)) -> f64 {
     let mut x = 0.5 * (*low + *high);
+    let mut before = *high - *low;
     for _ in 0..ITERATIONS {
         let (value, slope) = f(x);
         if value >= 0.0 {
@@ -163,10 +165,12 @@ fn bisect(low: &mut f64, high: &mut f64, tolerance: f64, f: impl Fn(f64) -> (f64
         if slope.is_finite() && (newton - x).abs() < tolerance {
             return newton.clamp(*low, *high);
         }
-        let next = if newton > *low && newton < *high { newton } else { 0.5 * (*low + *high) };
+        let shrinks = newton > *low && newton < *high && (newton - x).abs() < 0.5 * before;
+        let next = if shrinks { newton } else { 0.5 * (*low + *high) };
         if next == x || value == 0.0 {
             break;
         }
+        before = (next - x).abs();
         x = next;
     }
     x
