@@ -61,14 +61,38 @@ fn a_plate_laid_on_soil_bears_a_load() {
     assert!((last[2] / (low - 1.0) - 1.0).abs() < 1e-3, "{last:?}, {}", low - 1.0);
 }
 
+/// A free body with friction alone, laid on the soil or a little above it: nothing presses yet, and still it is held along the soil, too.
+#[test]
+fn a_free_body_with_friction_is_laid_on_soil() {
+    for gap in [0.0, 5e-4, 2e-3] {
+        let overrides = [
+            &format!("mesh.parameters={{gap: {gap}}}"),
+            "materials.clay={model: linear_elastic, young: 1000, poisson: 0.2, density: 0}",
+            "materials.steel.density=20",
+            "gravity={y: -10}",
+            "drained_surface=null",
+            "contacts[0].friction=0.3",
+            "phases=[{name: rest, analysis: quasi_static, duration: 1, step: {initial: 0.5}}]",
+            "output={history: [{name: strip, on: strip, quantities: [ux, uy, contact_x, contact_y]}]}",
+        ];
+        let folder = run("tests/data/strip", &overrides);
+        let last = history(folder.path()).pop().unwrap();
+        println!("gap of {gap} m: {last:?}");
+        // 20 t/m³ of 1 m by 0.2 m.
+        assert!(last[3].abs() < 1e-6 && (last[4] / 40.0 - 1.0).abs() < 1e-6, "{last:?}");
+        let log = std::fs::read_to_string(folder.path().join("solve.log")).unwrap();
+        assert!(!log.contains("halved"), "{log}");
+    }
+}
+
 /// A plate near the limit of what clay bears, laid on it at once: the step fails, and halves of it bear a half. It
 /// ends where a load that grows does.
 #[test]
 fn what_cannot_be_borne_at_once_is_released_by_halved_steps() {
-    let with = |load: &str, step: f64| {
+    let with = |load: &str, step: f64, more: &str| {
         let phase = format!(
             "phases=[{{name: load, analysis: quasi_static, duration: 1, step: {{initial: {step}, max: {step}}}, \
-             tractions: [{{on: top, ty: {load}}}], prescribe: {{top: {{ux: 0}}}}}}]"
+             tractions: [{{on: top, ty: {load}}}], prescribe: {{top: {{ux: 0}}}}{more}}}]"
         );
         let clay =
             "materials.soil={model: tresca, young: 1000, poisson: 0.49, shear_strength: 10, density: 0}".to_string();
@@ -78,12 +102,15 @@ fn what_cannot_be_borne_at_once_is_released_by_halved_steps() {
         let log = std::fs::read_to_string(folder.path().join("solve.log")).unwrap();
         (history(folder.path()).pop().unwrap(), log)
     };
-    let (at_once, log) = with("-46", 1.0);
-    let (grown, _) = with("{rate: -46}", 0.05);
+    let (at_once, log) = with("-46", 1.0, "");
+    let (grown, _) = with("{rate: -46}", 0.05, "");
     println!("{at_once:?}, grown {grown:?}");
     assert!(log.contains("halved") && log.contains("held back"), "{log}");
     assert!((at_once[4] / (0.8 * 46.0) - 1.0).abs() < 1e-6, "{at_once:?}");
     assert!((at_once[2] / grown[2] - 1.0).abs() < 0.1, "{at_once:?} {grown:?}");
+    // What ends before all is released says so.
+    let (_, log) = with("-46", 1.0, ", until: [{of: plate, quantity: uy, below: -0.002}]");
+    assert!(log.contains("% of what was out of balance as it began is not released"), "{log}");
 }
 
 /// The same on soil that presses on a wall already: what presses elsewhere is nothing to the plate.
@@ -438,7 +465,7 @@ fn friction_takes_the_grains_share_between_two_levels() {
         });
         let off: Vec<[f64; 2]> = off.collect();
         println!("{name}: shear and pressure off by {off:.4?}");
-        assert!(off.len() >= 4 && off.iter().flatten().all(|off| off.abs() < 0.01), "{name}: {off:?}");
+        assert!(off.len() >= 4 && off.iter().flatten().all(|off| off.abs() < 5e-4), "{name}: {off:?}");
     }
     // A table that says the same, so that the levels are compared in each step.
     let text = |levels: &str| std::fs::read_to_string(slid(levels).path().join("history.csv")).unwrap();

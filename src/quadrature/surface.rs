@@ -33,7 +33,7 @@ pub fn follow<K: Kinematics<2>>(
 
 /// The contour of the points, whose level set is `contour`, smoothed: a front for this restoration alone, and the cells with
 /// points that are within it at least in part, for points far outside are none of the material. `None` where the contour
-/// is better as it is: where a body is smaller than a cell, structures touch the material, or the front would be none.
+/// is better as it is: where a body is hardly more than two cells large, structures may touch the material, or the front would be none.
 pub fn smoothed<K: Kinematics<2>>(
     geometry: &Geometry,
     grid: &Restored<2>,

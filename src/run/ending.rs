@@ -2,7 +2,7 @@
 
 use super::record::{self, Quantity, Watch};
 use crate::error::{Error, Kind};
-use crate::step::{Controller, Phase, Release, Report, Scene, State};
+use crate::step::{Controller, Phase, Report, Scene, State};
 use crate::time_value::TimeValue;
 
 /// Part of the largest kinetic energy that counts as rest (-) where dynamics hands back to a quasi-static phase.
@@ -26,7 +26,8 @@ pub fn met<const D: usize>(
     report: &Report<D>,
 ) -> Option<String> {
     let name = &scene.phases[state.phase].name;
-    until.iter().find_map(|condition| match *condition {
+    let held = state.release.share(state.phase_time);
+    let note = until.iter().find_map(|condition| match *condition {
         Until::Reached { watch, quantity, bound, below } => {
             let watch = &watches[watch];
             let value = record::value(&watch.on, quantity, scene, state, report);
@@ -40,7 +41,12 @@ pub fn met<const D: usize>(
                 format!("phase `{name}` ends: the kinetic energy is {kinetic:.3e} kJ of {:.3e} kJ", state.peak)
             })
         }
-    })
+    })?;
+    let left = format!(
+        "; {:.1} % of what was out of balance as it began is not released, and comes on in the next",
+        100.0 * held
+    );
+    Some(if held > 0.0 { note + &left } else { note })
 }
 
 /// Whether a step that failed hands over to dynamics.
@@ -56,7 +62,7 @@ pub fn let_fall<const D: usize>(
     error: &Error,
 ) -> String {
     controller.exhausted = false;
-    (state.falling, state.peak, state.release) = (true, 0.0, Release::default());
+    (state.falling, state.peak) = (true, 0.0);
     format!("phase `{}` goes on with inertia from t = {:.6} s: {}", phase.name, state.time, error.problem)
 }
 

@@ -71,8 +71,12 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
     }
 
     /// Notes on the phase that begins: materials that change in it, prescribed displacements and loads that no material feels.
-    pub fn notes(&self) -> Vec<String> {
+    pub fn notes(&mut self) -> Vec<String> {
         let Some(phase) = self.scene.phases.get(self.state.phase) else { return Vec::new() };
+        if self.scene.terms.iter().any(|term| term.sees_open_boundary()) {
+            // What is at fault here is told by the step that comes.
+            let _ = contact::begin::<D, K>(self.scene, &mut self.grid, &mut self.state);
+        }
         let out = |n: &u32| self.grid.block[*n as usize] == u32::MAX;
         let idle = phase.prescribed.iter().filter(|p| p.fixed.nodes.iter().all(out));
         let frame = self.grid.frame(&self.scene.mesh, &self.state);
@@ -232,6 +236,9 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
         state.step += 1;
         state.time += dt;
         state.phase_time += dt;
+        if state.release.share(state.phase_time) == 0.0 {
+            state.release = Release::default();
+        }
         let report = Report { contacts, water, ..Report::new(scene, state, &self.grid, dt, solution, &momentum) };
         state.peak = state.peak.max(report.motion.kinetic);
         Ok(report)

@@ -39,7 +39,9 @@ pub fn answer<const D: usize>(
     let (gap, slip) = touch.row.measure(since);
     let law = law.reduced(trial.reduction);
     let held = trial.held && (touch.laid || touch.row.penalty.pressure > 0.0);
-    let law = Law { separates: law.separates && !held, ..law };
+    // What lies there without pressure would have no friction to hold it along the contact.
+    let adhesion = if held && touch.laid && law.friction > 0.0 { f64::INFINITY } else { law.adhesion };
+    let law = Law { separates: law.separates && !held, adhesion, ..law };
     let beyond = levels.zip(touch.row.height).map_or(0.0, |(levels, y)| levels.beyond(trial.phase, trial.time, y));
     (law.respond(&touch.row.penalty.within(beyond), gap, slip), gap, slip)
 }

@@ -18,6 +18,7 @@ use crate::kinematics::Kinematics;
 use crate::mesh::shape::{CellKind, MAX_NODES, rule};
 use crate::surface::{NO_REGION, Piece};
 use crate::system::{Local, scatter};
+use std::collections::BTreeMap;
 use std::marker::PhantomData;
 
 /// γ (-): twice what is needed in triangles, more where gradients vary within a cell.
@@ -57,8 +58,10 @@ struct Bearer {
     nodes: [[f64; 2]; MAX_NODES],
     /// `k/γ_w` (m²/(kPa s)) of its points in the mean.
     mobility: [f64; 2],
-    /// β over `n·κn` (1/m).
-    hold: f64,
+    /// What its points weigh (m³).
+    volume: f64,
+    /// Area (m²) of the boundary that it bears.
+    area: f64,
 }
 
 impl Bearer {
@@ -101,9 +104,21 @@ impl<K: Kinematics<2>> DrainedSurface<K> {
         !piece.wall && self.region.map_or(piece.region != NO_REGION, |region| region == piece.region)
     }
 
-    /// What bears a piece; `None` where that has no water.
-    fn bearer(&self, frame: &Frame<2>, converged: &[[f64; 2]], piece: &Piece) -> Option<Bearer> {
-        let patch = frame.stencil.patches.binary_search_by_key(&piece.bearer, |patch| patch.cell).ok()?;
+    /// The cells with water that bear open pieces, by number.
+    fn bearers(&self, frame: &Frame<2>, converged: &[[f64; 2]]) -> BTreeMap<u32, Bearer> {
+        let mut bearers = BTreeMap::new();
+        for piece in frame.open.iter().filter(|piece| self.drains(piece)) {
+            let bearer = bearers.entry(piece.bearer).or_insert_with(|| self.bearer(frame, converged, piece.bearer));
+            if let Some(bearer) = bearer {
+                bearer.area += bearer.place::<K>(piece, 0.5).area;
+            }
+        }
+        bearers.into_iter().filter_map(|(cell, bearer)| Some((cell, bearer?))).collect()
+    }
+
+    /// A cell that bears pieces, of no area yet; `None` where it has no water.
+    fn bearer(&self, frame: &Frame<2>, converged: &[[f64; 2]], cell: u32) -> Option<Bearer> {
+        let patch = frame.stencil.patches.binary_search_by_key(&cell, |patch| patch.cell).ok()?;
         let (mut volume, mut mobility) = (0.0, [0.0; 2]);
         for entries in frame.stencil.entries::<K>(&frame.stencil.patches[patch]) {
             let p = entries.point;
@@ -116,29 +131,26 @@ impl<K: Kinematics<2>> DrainedSurface<K> {
         if volume <= 0.0 || mobility == [0.0; 2] {
             return None;
         }
-        let kind = frame.mesh.cells.kind[piece.bearer as usize];
         let mut nodes = [[0.0; 2]; MAX_NODES];
-        for (x, &n) in nodes.iter_mut().zip(frame.mesh.cells.nodes(piece.bearer as usize)) {
+        for (x, &n) in nodes.iter_mut().zip(frame.mesh.cells.nodes(cell as usize)) {
             *x = [0, 1].map(|d| frame.mesh.nodes[n as usize][d] + converged[n as usize][d]);
         }
-        let mut bearer = Bearer { kind, nodes, mobility: mobility.map(|sum| sum / volume), hold: 0.0 };
-        let same = frame.open.iter().filter(|other| other.bearer == piece.bearer && self.drains(other));
-        let area: f64 = same.map(|other| bearer.place::<K>(other, 0.5).area).sum();
-        bearer.hold = area / volume * if kind.is_simplex() { GAMMA } else { GAMMA_OF_QUADRANGLES };
-        Some(bearer)
+        let kind = frame.mesh.cells.kind[cell as usize];
+        Some(Bearer { kind, nodes, mobility: mobility.map(|sum| sum / volume), volume, area: 0.0 })
     }
 
     /// Calls `see` with the hats at each place of a piece and, over the time and the part of the piece that it stands for, their flow
     /// outwards `−n·κ∇L` and β (m³/kPa).
-    fn visit(&self, frame: &Frame<2>, trial: &Trial<2>, piece: &Piece, mut see: impl FnMut(&Corners, &Corners, f64)) {
-        let Some(bearer) = self.bearer(frame, trial.converged, piece) else { return };
+    fn visit(bearer: &Bearer, trial: &Trial<2>, piece: &Piece, mut see: impl FnMut(&Corners, &Corners, f64)) {
+        let gamma = if bearer.kind.is_simplex() { GAMMA } else { GAMMA_OF_QUADRANGLES };
+        let hold = bearer.area / bearer.volume * gamma;
         for (xi, weight) in rule(CellKind::Line2, 3) {
             let Place { hats, gradients, normal, area } = bearer.place::<K>(piece, 0.5 * (1.0 + xi[0]));
             let [kx, ky] = bearer.mobility;
             let weight = 0.5 * weight * trial.flow_time;
             let flow = gradients.map(|g| -weight * (kx * g[0] * normal[0] + ky * g[1] * normal[1]));
             let through = (kx * normal[0] * normal[0] + ky * normal[1] * normal[1]) / area.max(f64::MIN_POSITIVE);
-            see(&hats, &flow, weight * bearer.hold * through);
+            see(&hats, &flow, weight * hold * through);
         }
     }
 
@@ -151,11 +163,11 @@ impl<K: Kinematics<2>> DrainedSurface<K> {
         (corners, pressure)
     }
 
-    fn add(&self, frame: &Frame<2>, trial: &Trial<2>, piece: &Piece, local: &mut Local) {
+    fn add(&self, frame: &Frame<2>, trial: &Trial<2>, bearer: &Bearer, piece: &Piece, local: &mut Local) {
         let (corners, pressure) = Self::pressures(frame, trial, piece);
         let begin = 2 * frame.mesh.cells.nodes(piece.bearer as usize).len();
         let scale = (1.0 - trial.alpha_f) * self.unit;
-        self.visit(frame, trial, piece, |hats, flow, hold| {
+        Self::visit(bearer, trial, piece, |hats, flow, hold| {
             let held = |a: usize, b: usize| hats[a] * flow[b] + flow[a] * hats[b] + hold * hats[a] * hats[b];
             for a in 0..corners {
                 let sum: f64 = (0..corners).map(|b| held(a, b) * pressure[b]).sum();
@@ -178,9 +190,10 @@ impl<K: Kinematics<2>> Term<2> for DrainedSurface<K> {
         if trial.flow_time == 0.0 {
             return Ok(());
         }
+        let bearers = self.bearers(frame, trial.converged);
         let compute = |piece: &Piece, local: &mut Local| {
-            if self.drains(piece) {
-                self.add(frame, trial, piece, local);
+            if let Some(bearer) = bearers.get(&piece.bearer).filter(|_| self.drains(piece)) {
+                self.add(frame, trial, bearer, piece, local);
             }
             Ok(())
         };
@@ -189,10 +202,11 @@ impl<K: Kinematics<2>> Term<2> for DrainedSurface<K> {
     }
 
     fn idle(&self, frame: &Frame<2>, displacement: &[[f64; 2]], phase: usize) -> Option<String> {
-        let drains = |piece: &Piece| self.drains(piece) && self.bearer(frame, displacement, piece).is_some();
-        let idle = self.flows.get(phase) == Some(&true) && !frame.boundary.iter().any(drains);
+        let idle = self.flows.get(phase) == Some(&true) && self.bearers(frame, displacement).is_empty();
         idle.then(|| {
-            "no free surface of soil with a permeability is there to drain: where soil lies on the boundary of the mesh it is tight".into()
+            "no free surface of soil with a permeability is there to drain: it is tight where structures cover it and where soil lies on the \
+             boundary of the mesh"
+                .into()
         })
     }
 
@@ -202,10 +216,12 @@ impl<K: Kinematics<2>> Term<2> for DrainedSurface<K> {
 
     fn outflow(&self, frame: &Frame<2>, trial: &Trial<2>) -> f64 {
         let mut sum = 0.0;
-        for piece in frame.open.iter().filter(|piece| self.drains(piece)) {
+        let bearers = self.bearers(frame, trial.converged);
+        let open = frame.open.iter().filter(|piece| self.drains(piece));
+        for (piece, bearer) in open.filter_map(|piece| Some((piece, bearers.get(&piece.bearer)?))) {
             let (_, pressure) = Self::pressures(frame, trial, piece);
             let dot = |a: &Corners| a.iter().zip(&pressure).map(|(a, p)| a * p).sum::<f64>();
-            self.visit(frame, trial, piece, |hats, flow, hold| sum += dot(flow) + hold * dot(hats));
+            Self::visit(bearer, trial, piece, |hats, flow, hold| sum += dot(flow) + hold * dot(hats));
         }
         sum
     }

@@ -109,6 +109,28 @@ fn water_levels_do_not_change_with_the_motion() {
     }
 }
 
+/// Held hats that lie there without pressure stick by the friction that they have none of yet, as those with adhesion enough do.
+#[test]
+fn hats_that_are_laid_down_stick() {
+    let unpressed = |law: Law, held: bool| {
+        let mut stand = stand(law, 10.0);
+        stand.held = held;
+        for touch in &mut stand.grid.touches {
+            (touch.laid, touch.row.penalty.pressure, touch.row.penalty.shear) = (true, 0.0, 0.0);
+            touch.row.gap = touch.row.gap.abs();
+        }
+        stand
+    };
+    let rough = law(0.3, 0.0, None);
+    let held = unpressed(rough, true);
+    let (trial, converged) = small(&held, 1e-3);
+    let answer = |stand: &Stand<PlaneStrain>| stand.evaluate(&trial, &converged, 0, false).0;
+    let bonded = unpressed(Law { separates: false, adhesion: 1e9, ..rough }, false);
+    assert_eq!(answer(&held), answer(&bonded));
+    assert_ne!(answer(&held), answer(&unpressed(law(0.0, 0.0, None), true)));
+    assert!(held.tangent_error(&trial, &converged) < 1e-6);
+}
+
 /// Held together, hats that pressed bear what those that cannot part bear, with its tangent; others do as ever.
 #[test]
 fn hats_that_touched_are_held_together() {
