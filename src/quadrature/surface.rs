@@ -57,8 +57,11 @@ pub fn smoothed<K: Kinematics<2>>(
     }
 }
 
-/// The boundary of where `level_set` is positive. What is behind a piece in a cell without points is borne by the cell to which its
-/// active part is handed.
+/// Rings of cells across faces in which points are sought that stand for what is behind a piece of the boundary.
+const RINGS: usize = 3;
+
+/// The boundary of where `level_set` is positive. What is behind a piece in a cell without points is borne by the nearest cell with
+/// points: where that is a neighbour, it is the one to which its active part is handed.
 pub fn boundary(geometry: &Geometry, grid: &Restored<2>, level_set: &[f64]) -> ActiveBoundary {
     let Restored { mesh, points, stencil, .. } = *grid;
     let patch = |c: u32| stencil.patches.binary_search_by_key(&c, |patch| patch.cell).ok();
@@ -72,9 +75,11 @@ pub fn boundary(geometry: &Geometry, grid: &Restored<2>, level_set: &[f64]) -> A
         let nearest = all.map(|&p| (distance(p), p)).min_by(|a, b| a.0.total_cmp(&b.0));
         nearest.map_or(NO_REGION, |(_, p)| points.region[p as usize])
     };
-    ActiveBoundary::of(mesh, geometry, level_set, grid.taking_part, |cell, x| match geometry.bearer(cell, count) {
-        Some(bearer) => Behind { region: region(bearer, x), bearer },
-        None => Behind { region: NO_REGION, bearer: cell },
+    ActiveBoundary::of(mesh, geometry, level_set, grid.taking_part, |cell, x| {
+        match geometry.bearer(cell, RINGS, count) {
+            Some(bearer) => Behind { region: region(bearer, x), bearer },
+            None => Behind { region: NO_REGION, bearer: cell },
+        }
     })
 }
 

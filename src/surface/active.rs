@@ -26,11 +26,11 @@ pub struct Active {
     /// Volume (m³) of the active part inside the cell.
     pub volume: Vec<f64>,
     /// Moments (m³) in the cell's frame of what the points of the cell stand for: its own active part and slivers of
-    /// cells near without points. Zero in a cell without points.
+    /// neighbours without points. Zero in a cell without points.
     pub moments: Vec<Moments>,
-    /// Volume (m³) in cells without points that have none with points near.
+    /// Volume (m³) in cells without points that have no face neighbour with points.
     pub lost: f64,
-    /// Volume (m³) in cells without points that others took over.
+    /// Volume (m³) in cells without points that neighbours took over.
     pub handed: f64,
     /// Points in each cell.
     points: Vec<u32>,
@@ -38,7 +38,8 @@ pub struct Active {
 
 impl Active {
     /// Cuts the cells `taking_part` along the zero of `level_set` (one value a node, positive in the material);
-    /// `cell` is the cell of each point. A part without points goes to the cell that bears it.
+    /// `cell` is the cell of each point. A part without points goes to the face neighbour with most points, the
+    /// lowest of equals: to fit points to a part farther away would spoil what they integrate of their own.
     pub fn update<K: Kinematics<2>>(
         &mut self,
         mesh: &Mesh<2>,
@@ -85,7 +86,7 @@ impl Active {
             if self.points[c] > 0 || self.volume[c] <= ROUNDING * geometry.volume(c) {
                 continue;
             }
-            match geometry.bearer(c as u32, |c| self.points[c as usize]).map(|owner| owner as usize) {
+            match geometry.bearer(c as u32, 1, |c| self.points[c as usize]).map(|owner| owner as usize) {
                 Some(owner) => {
                     let values = values(c);
                     let part = geometry.cell(mesh, c, owner).clipped::<K>(&values);

@@ -8,9 +8,6 @@ use crate::mesh::shape::MAX_NODES;
 use rayon::prelude::*;
 use std::cmp::Reverse;
 
-/// Rings of cells across faces in which points are sought that stand for what is in a cell without any.
-const RINGS: usize = 3;
-
 /// Frames and moments of the whole cells, and the hats of the nodes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Geometry {
@@ -63,12 +60,12 @@ impl Geometry {
         self.whole[c][0]
     }
 
-    /// The cell that bears what is in `cell`, by the points that each cell has: itself, or the nearest one with points across
-    /// faces, the one with most of several, the lowest of equals. `None` where none is near.
-    pub fn bearer(&self, cell: u32, points: impl Fn(u32) -> u32) -> Option<u32> {
+    /// The cell that stands for what is in `cell`, by the points that each cell has: itself, or the nearest one with points across
+    /// faces, the one with most of several, the lowest of equals. `None` where there is none within `rings`.
+    pub fn bearer(&self, cell: u32, rings: usize, points: impl Fn(u32) -> u32) -> Option<u32> {
         let mut reached = vec![cell];
         let mut begin = 0;
-        for _ in 0..=RINGS {
+        for _ in 0..=rings {
             let ring = begin..reached.len();
             let with_points = reached[ring.clone()].iter().filter(|&&c| points(c) > 0);
             if let Some(&best) = with_points.max_by_key(|&&c| (points(c), Reverse(c))) {
