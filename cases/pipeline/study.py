@@ -2,12 +2,13 @@
 
     .venv/bin/python cases/pipeline/study.py [OUT ...] [-o CHART]
 
-Each OUT is the output folder of a run (without: what there is of all runs of `cases/pipeline/variants.py`). Prints a Markdown table and draws the depth of the
+Each OUT is the output folder of a run (without: what there is of all runs of `cases/pipeline/variants.py`). Prints Markdown tables and draws the depth of the
 pipe and its horizontal resistance over its way sideways to CHART (.svg or .png; without, curves.svg in the first OUT).
 
 *V* is the vertical force of the soil when the pipe is pressed down farthest, *imbalance* the largest difference in an accepted step of later
 phases between that force and its median, over the median, which is the weight of the pipe as it is meshed. *Breakout* is the horizontal resistance when the pipe has gone a fiftieth of its diameter
-sideways; *H* the mean over the last metre, or what there is of it. What a run did not reach is `-`.
+sideways; *H* the mean over the last metre, or what there is of it. What a run did not reach is `-`. A second table has depth and horizontal resistance on
+the way.
 """
 
 import argparse
@@ -23,6 +24,7 @@ sys.path.insert(0, str(CASE.parents[1] / "pipeline"))
 from variants import history
 
 DIAMETER = 0.8  # [m]
+WAYS = (0.016, 0.2, 0.4, 0.8, 1.2, 1.6, 2.4, 3.0, 3.5, 4.5, 5.6)  # [m]
 
 
 class Run:
@@ -40,9 +42,12 @@ class Run:
         later = self.vertical[self.pressed + 1:]
         return np.abs(later / np.median(later) - 1).max() if len(later) else None
 
+    def at(self, way, values):
+        """A value of the pull at a way sideways."""
+        return np.interp(way, self.way[self.pulled], values[self.pulled]) if self.way[-1] > way - 1e-9 else None
+
     def breakout(self):
-        way = DIAMETER / 50
-        return np.interp(way, self.way[self.pulled], self.horizontal[self.pulled]) if self.way[-1] > way else None
+        return self.at(DIAMETER / 50, self.horizontal)
 
     def residual(self):
         last = self.way > max(self.way[-1] - 1, DIAMETER / 50)
@@ -68,6 +73,13 @@ def table(runs):
                number(least, ".3f"), number(run.residual(), ".2f"), f"{run.depth[-1]:.3f}", f"{run.way[-1]:.2f}",
                number(run.seconds(), ".0f")]
         print(f"| {' | '.join(row)} |")
+
+
+def ways(runs):
+    print(f"\n| way sideways [m] | {' | '.join(map(str, WAYS))} |\n|{'---|' * (len(WAYS) + 1)}")
+    for run in runs:
+        for name, values, form in ((f"{run.name}: depth [m]", run.depth, ".3f"), ("resistance [kN/m]", run.horizontal, ".2f")):
+            print(f"| {name} | {' | '.join(number(run.at(way, values), form) for way in WAYS)} |")
 
 
 def curves(runs, chart):
@@ -104,6 +116,7 @@ def main():
         sys.exit(f"{', '.join(lacking)}: no history.csv; run `cases/pipeline/variants.py` first")
     runs = [Run(out.resolve()) for out in outs]
     table(runs)
+    ways(runs)
     curves(runs, given.chart or runs[0].out / "curves.svg")
 
 
