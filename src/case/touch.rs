@@ -4,7 +4,7 @@ use super::changes::{self, by_number};
 use super::checked::{Case, Contact, Content, Geometry, Region, Touched, Touching};
 use super::scene::region_index;
 use super::wall;
-use crate::contact::{Bodies, Boundary, Pair, Rigid, Skin, Soil, Surface};
+use crate::contact::{Bodies, Boundary, Pair, Rigid, Skin, SoilSide, Surface};
 use crate::error::{Error, Result};
 use crate::kinematics::Kinematics;
 use crate::mesh::Mesh;
@@ -146,7 +146,7 @@ impl Parts<'_> {
             let facets = if has_hats { &surface.facets } else { &other.facets };
             let name = &self.case.regions[body].name;
             let undrained = changes::used(self.case).any(|(r, m)| r.name == *name && m.has_pore_pressure());
-            Ok(Soil { has_hats, undrained, behind: self.behind(self.region(body)?, facets) })
+            Ok(SoilSide { has_hats, undrained, behind: self.behind(self.region(body)?, facets) })
         });
         let (mut height, mut count) = (0.0, 0.0);
         for &n in surface.facets.iter().flatten() {

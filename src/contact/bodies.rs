@@ -38,14 +38,14 @@ pub struct Bodies<K> {
     pub other: Surface,
     pub law: Law,
     /// Where one of the two is soil, which has pores.
-    pub soil: Option<Soil>,
+    pub soil: Option<SoilSide>,
     /// Young's modulus (kPa) of the softer one.
     pub young: f64,
     pub kinematics: PhantomData<K>,
 }
 
 /// The side of a contact of bodies that is soil.
-pub struct Soil {
+pub struct SoilSide {
     /// Whether it is the one with the hats.
     pub has_hats: bool,
     /// Whether its pores ever hold an excess pressure.
@@ -54,7 +54,7 @@ pub struct Soil {
     pub behind: Vec<u32>,
 }
 
-impl Soil {
+impl SoilSide {
     /// The points of the elements behind the boundary.
     fn points(&self, elements: &Points<2>) -> BTreeMap<u32, Vec<usize>> {
         let mut points: BTreeMap<u32, Vec<usize>> = self.behind.iter().map(|&cell| (cell, Vec::new())).collect();

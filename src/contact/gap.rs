@@ -11,7 +11,7 @@ use rayon::prelude::*;
 /// Points this many spacings away are no surface that a segment faces.
 const REACH: f64 = 2.5;
 /// Points this many spacings below the surface that they began with tell where it is.
-const COVER: f64 = 1.5;
+const SEEN: f64 = 1.5;
 
 /// Stretch up to which a point is as wide as its deformation says. Soil that has flowed along the boundary and then turned
 /// stretches without end; the points beside such a one have long left, and it is no wider for it.
@@ -26,7 +26,7 @@ struct Near {
     distance: f64,
     half_width: f64,
     /// Distance (m) across the boundary to the surface that the soil began with, where the point is just below it.
-    cover: Option<f64>,
+    depth: Option<f64>,
     spacing: f64,
     normal: [f64; 2],
     /// What is a metre farther out across the boundary was seeded by so much (m) from where the point was.
@@ -68,7 +68,7 @@ impl Soil<'_> {
         let longest = segments.0.iter().map(|s| (s.to[0] - s.from[0]).hypot(s.to[1] - s.from[1])).fold(0.0, f64::max);
         let side = (1.0 + REACH) * widest + longest;
         let bins = Bins::new(segments.0.iter().map(|s| (s.from, s.to)), side);
-        let seen = skin.map(|skin| skin.seen(COVER * widest));
+        let seen = skin.map(|skin| skin.seen(SEEN * widest));
         let near = |p| self.nearest::<K>(segments, &bins, seen.as_ref(), p);
         (0..points.len()).into_par_iter().filter(ours).filter_map(near).collect()
     }
@@ -117,13 +117,13 @@ impl Soil<'_> {
         let back = [f[(0, 0)] * n[0] + f[(1, 0)] * n[1], f[(0, 1)] * n[0] + f[(1, 1)] * n[1]];
         let stretch = back[0].hypot(back[1]);
         let depth = seen.and_then(|seen| seen.depth(&self.points.origin[p], &back.map(|b| -b / stretch)));
-        let known = depth.filter(|depth| stretch <= WIDEST && *depth <= COVER * spacing);
+        let known = depth.filter(|depth| stretch <= WIDEST && *depth <= SEEN * spacing);
         Some(Near {
             point: p as u32,
             segment: s,
             distance,
             half_width: 0.5 * spacing * stretch.min(WIDEST),
-            cover: known.map(|depth| depth * stretch),
+            depth: known.map(|depth| depth * stretch),
             spacing,
             normal: n,
             farther: back.map(|b| b / (stretch * stretch)),
@@ -164,10 +164,10 @@ pub fn raw_gaps<K: Kinematics<2>>(
             if around.least.is_none_or(|gap| open < gap.open) {
                 around.least = Some(Gap { open, point: near.point, spacing: near.spacing, known: None });
             }
-            if let Some(cover) = near.cover {
+            if let Some(depth) = near.depth {
                 let weight = 1.0 - 0.99 * (segments.0[s].along - at).abs() / near.spacing;
                 around.weight += weight.max(0.01);
-                around.open += weight.max(0.01) * (near.distance - cover);
+                around.open += weight.max(0.01) * (near.distance - depth);
             }
         };
         offer(own);

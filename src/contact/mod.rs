@@ -19,7 +19,7 @@ mod skin;
 mod surface;
 
 pub use along::Mark;
-pub use bodies::{Bodies, Soil};
+pub use bodies::{Bodies, SoilSide};
 pub use law::{Answer, Law, Penalty};
 pub use multipliers::Multipliers;
 pub use pair::{Boundary, Ground, Pair, Pushed, Row};

@@ -168,9 +168,9 @@ fn a_million_times_the_stiffness_beside_it() {
                 most
             });
             // What is a thousand times as stiff is as good as rigid: where it is the end, that moves along with the soft rest;
-            // where it is the rest, the soft end moves hardly, and of that much is the sliver's.
-            let limit = if stiff_end { 0.05 } else { 0.7 };
-            assert!((moved[1] / moved[0] - 1.0).abs() < limit && moved[1] > 0.0, "{moved:?}");
+            // where it is the rest, the soft end moves hardly, and of that much is the sliver's. Neither moves more than beside what is less stiff.
+            let least = if stiff_end { 0.95 } else { 0.3 };
+            assert!((least..1.0).contains(&(moved[1] / moved[0])), "{moved:?}");
         }
     }
 }
