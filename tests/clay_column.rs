@@ -193,6 +193,8 @@ fn another_clay_takes_the_stress_over() {
     for more in ["", ", drainage: undrained", ", drainage: undrained, permeability: 1.0e-9"] {
         let folder = run("mpm", "never", more, &phases);
         let uy = column(folder.path(), "top.uy [m]");
+        let log = fs::read_to_string(folder.path().join("solve.log")).unwrap();
+        assert!(log.contains("is of `other` from here on; Poisson's ratio of"), "{log}");
         assert!(uy[..2].iter().all(|u| u.abs() < 1e-10), "{more}: {uy:?}");
         let frames = frame::list(&folder.path().join("results")).unwrap();
         let mean_excess = |time: f64| {

@@ -27,7 +27,7 @@ from schemes import SCHEMES, missing  # noqa: E402
 PAGE = ROOT / "docs/verification.md"
 # The tests that hold the program against closed forms, properties and limit loads.
 TESTS = ["physics", "terms", "touch", "material_models", "material_mohr_coulomb", "material_spatial", "footings", "slope"]
-TESTS += ["phases", "phreatic", "changes", "held_out"]
+TESTS += ["phases", "phreatic", "changes", "clay_column", "covered_surface", "held_out"]
 # Problem, largest error that the last mesh may have by measure, and where that is from.
 SERIES = [
     (column.PROBLEM, {"stress": 6e-5}, "second order on the way to 2.5e-5 at 128 cells"),

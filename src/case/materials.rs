@@ -100,7 +100,8 @@ impl Checker {
                 Err(fault) => fault,
             };
             // It names the parameter at fault as the place. One that does not go with another stays at fault.
-            if mended.contains(&fault.place) {
+            // What is said of one that has a sound value by now is nothing of the case.
+            if mended.iter().any(|name| *name == fault.place || fault.problem.contains(&format!("`{name}`"))) {
                 return None;
             }
             let Some(value) = material.parameters.get(&fault.place) else {

@@ -262,11 +262,13 @@ fn a_reference_pressure_of_its_own_does_not_tell_the_stiffness_of_the_water() {
     }
 }
 
-/// All that is wrong with a material is told at once, what its first example has none of, too; and once.
+/// What is wrong with a material is told at once, of entries that its first example has none of, too; each fault once, up to entries that exclude
+/// or outdo each other.
 #[test]
 fn faults_of_swelling_clay_are_told_together() {
     for (more, places) in [
         ("swelling: 0.02, compression: 0.01, critical_slope: -1", vec!["compression", "critical_slope"]),
+        ("swelling: 0, compression: 0.015, critical_slope: 1", vec!["swelling"]),
         ("swelling: 0.02, compression: 0.1, young: 1000, critical_slope: 0", vec!["swelling"]),
         (
             "swelling: 0.02, compression: 0.1, least_pressure: 0, reference_pressure: -1, critical_slope: 0",
@@ -286,21 +288,25 @@ fn faults_of_swelling_clay_are_told_together() {
 #[test]
 fn poissons_ratios_that_no_soil_has_are_noted() {
     let mesh = builder::rectangle(CellKind::Q9, 1.0, 10.0, 1, 5, 0.0, 0);
-    let notes = |more: &str| {
+    let notes_at = |stress: &str, more: &str| {
         let clay = format!(
             "materials.clay={{model: cam_clay, swelling: 0.02, compression: 0.1, poisson: 0.3, critical_slope: 1, \
              preconsolidation: 300, density: 1.8{more}}}"
         );
-        let case = case(CASE, &[&clay, "initial_velocity={}", "initial_stress.k0=1"]);
+        let case = case(CASE, &[&clay, "initial_velocity={}", stress]);
         let mut mesh = mesh.clone();
         mesh.regions = vec!["block".into()];
         let points = seeding::points(&case, &mesh).unwrap();
         seeding::notes(&case, &mesh, &points).unwrap()
     };
+    let notes = |more: &str| notes_at("initial_stress.k0=1", more);
     // ν is negative below 0.31 p_ref: down to 5 m and more.
     let [note] = notes("").try_into().unwrap();
     assert!(["block", "of its 45 points", "reference_pressure"].iter().all(|s| note.contains(s)), "{note}");
     assert_eq!(notes(", reference_pressure: {top: 1, gradient: 18, datum: 10}"), Vec::<String>::new());
+    // Without stress all have the bulk modulus of the least pressure.
+    let [note] = notes_at("initial_stress=null", "").try_into().unwrap();
+    assert!(note.contains("45 of its 45 points") && note.contains("begin with is -0.9"), "{note}");
 }
 
 proptest! {

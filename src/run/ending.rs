@@ -8,6 +8,9 @@ use crate::time_value::TimeValue;
 /// Part of the largest kinetic energy that counts as rest (-) where dynamics hands back to a quasi-static phase.
 const REST: f64 = 1e-2;
 
+/// A smaller part (-) of what was out of balance is no more than rounding.
+const TOLD: f64 = 1e-6;
+
 /// What ends a phase before its time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Until {
@@ -42,11 +45,14 @@ pub fn met<const D: usize>(
             })
         }
     })?;
-    let left = format!(
-        "; {:.1} % of what was out of balance as it began is not released, and comes on in the next",
-        100.0 * held
-    );
-    Some(if held > 0.0 { note + &left } else { note })
+    if held <= TOLD {
+        return Some(note);
+    }
+    let (share, most) = (100.0 * held, state.release.most());
+    let next = if scene.phases.len() > state.phase + 1 { ", and comes on in the next" } else { "" };
+    Some(format!(
+        "{note}; {share:.1} % of what was out of balance as it began, up to {most:.3e} kN at a node, is not released{next}"
+    ))
 }
 
 /// Whether a step that failed hands over to dynamics.

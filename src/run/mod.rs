@@ -123,7 +123,7 @@ pub fn run<const D: usize, K: Kinematics<D>>(
         let wanted = simulation.state.step_size.min(limits.largest);
         let mut controller = Controller::new(limits, phase.stops.clone(), wanted);
         if simulation.state.phase_time == 0.0 {
-            for note in simulation.notes() {
+            for note in simulation.notes()? {
                 tell(&simulation.state, Some(&note));
                 files.log.line(&note)?;
             }

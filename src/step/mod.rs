@@ -71,11 +71,17 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
     }
 
     /// Notes on the phase that begins: materials that change in it, prescribed displacements and loads that no material feels.
-    pub fn notes(&mut self) -> Vec<String> {
-        let Some(phase) = self.scene.phases.get(self.state.phase) else { return Vec::new() };
+    ///
+    /// # Errors
+    /// When memory does not suffice.
+    pub fn notes(&mut self) -> Result<Vec<String>> {
+        let Some(phase) = self.scene.phases.get(self.state.phase) else { return Ok(Vec::new()) };
         if self.scene.terms.iter().any(|term| term.sees_open_boundary()) {
-            // What is at fault here is told by the step that comes.
-            let _ = contact::begin::<D, K>(self.scene, &mut self.grid, &mut self.state);
+            match contact::begin::<D, K>(self.scene, &mut self.grid, &mut self.state) {
+                // What is at fault here is told by the step that comes.
+                Err(error) if error.kind != Kind::Analysis => return Err(error),
+                _ => {}
+            }
         }
         let out = |n: &u32| self.grid.block[*n as usize] == u32::MAX;
         let idle = phase.prescribed.iter().filter(|p| p.fixed.nodes.iter().all(out));
@@ -93,7 +99,7 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
             ))
         });
         let changes = materials::notes::<D, K>(self.scene, &self.state);
-        changes.into_iter().chain(notes).chain(loads).collect()
+        Ok(changes.into_iter().chain(notes).chain(loads).collect())
     }
 
     /// One time step of the size that `controller` wants, halved until it converges.

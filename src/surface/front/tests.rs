@@ -203,6 +203,7 @@ fn what_meets_folds_or_shrinks_is_found() {
             Ok(()) => assert!(gap(&front) > 0.2 / 8.0, "{}", gap(&front)),
             Err(fault) => {
                 assert!(matches!(fault, Fault::Touch { .. }) && gap(&front) < 0.25 / 8.0, "{fault}");
+                assert!(matches!(grid.inspect(&front, 3.0), Err(Fault::Volume { .. })));
                 break;
             }
         }

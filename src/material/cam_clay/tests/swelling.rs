@@ -1,4 +1,4 @@
-//! Clay that swells along a line against closed forms: those of the literature, which hold for `K = p/κ*`.
+//! Clay that swells along a line against closed forms: those of the literature, which hold for `K = p/κ̂`.
 
 use super::super::{CamClay, Swelling};
 use super::{M, P_C, invariants};
@@ -29,7 +29,7 @@ fn undrained(from: &[f64; 3], axial: f64, steps: i32) -> Vec<Response> {
     drive_from(&model, 0.0, model.elastic_strain(0.0, from), path).unwrap()
 }
 
-/// From no stress on: κ* below the least pressure in proportion, then κ* ln p, then λ* ln p, and κ* ln p back, in any steps.
+/// From no stress on: κ̂ below the least pressure in proportion, then κ̂ ln p, then λ̂ ln p, and κ̂ ln p back, in any steps.
 #[test]
 fn isotropic_lines_have_the_slopes_of_compression_and_swelling() {
     let model = model();
@@ -53,8 +53,8 @@ fn isotropic_lines_have_the_slopes_of_compression_and_swelling() {
     }
 }
 
-/// Undrained, p/p₀ = [(M² + η₀²)/(M² + η²)]^(Λ/λ*) from a stress on the surface on (Wood 1990, *Soil Behaviour and Critical State
-/// Soil Mechanics*, §5.4), in any steps; it ends at the strength s_u = ½ M p₀ (R/2)^(Λ/λ*).
+/// Undrained, p/p₀ = [(M² + η₀²)/(M² + η²)]^(Λ/λ̂) from a stress on the surface on (Wood 1990, *Soil Behaviour and Critical State
+/// Soil Mechanics*, §5.4), in any steps; it ends at the strength s_u = ½ M p₀ (R/2)^(Λ/λ̂).
 #[test]
 fn undrained_paths_and_strengths_are_those_of_the_literature() {
     let power = (COMPRESSION - SWELLING) / COMPRESSION;
