@@ -22,7 +22,7 @@ fn main() {
     println!("{:<16}{:>12}{:>12}{:>16}{:>16}", "", "elastic", "yielding", "plane elastic", "plane yielding");
     for kind in MODELS {
         let Ok(model) = (kind.build)(&kind.examples[0].iter().collect()) else { continue };
-        let strength = (model.strength(0.0) / model.young(0.0)).min(0.05);
+        let strength = (model.shear_strength(0.0, &State::default()) / model.young(0.0)).min(0.05);
         let strains = |size: f64| -> Vec<[f64; 3]> {
             let at = |n: usize, k: usize| size * strength * ((n * 7 + k * 3) as f64).sin();
             (0..20_000).map(|n| std::array::from_fn(|k| at(n, k))).collect()

@@ -1,5 +1,6 @@
 //! The material points: a struct of arrays.
 
+use crate::material::State;
 use crate::tensor::{Symmetric, Tensor};
 
 /// All material points of a scene. Every column has one entry a point; `velocity` and `acceleration`
@@ -60,6 +61,12 @@ impl<const D: usize> Points<D> {
     #[inline]
     pub fn model_of(&self, p: usize) -> usize {
         usize::from(*self.model.get(p).unwrap_or(&self.region[p]))
+    }
+
+    /// What the model of point `p` remembers, in a step of which `per_second` (1/s) make a second; 0 at rest.
+    #[inline]
+    pub fn state(&self, p: usize, per_second: f64) -> State {
+        State { plastic_strain: self.plastic_strain[p], memory: self.memory.get(p).copied().unwrap_or(0.0), per_second }
     }
 
     /// Current volume (m³) of point `p`, by the measure of `initial_volume`.

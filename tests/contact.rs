@@ -85,6 +85,31 @@ fn a_free_body_with_friction_is_laid_on_soil() {
     }
 }
 
+/// A strip pressed into clay and dragged along is held by `α` times the shear strength, which is `σ_y/√3` by von Mises.
+#[test]
+fn adhesion_is_a_share_of_the_shear_strength() {
+    for (clay, strength) in [
+        ("{model: tresca, young: 1000, poisson: 0.49, shear_strength: 5, density: 0}", 5.0),
+        ("{model: von_mises, young: 1000, poisson: 0.49, yield_stress: 10, density: 0}", 10.0 / 3f64.sqrt()),
+    ] {
+        let material = format!("materials.clay={clay}");
+        let overrides = [
+            material.as_str(),
+            "drained_surface=null",
+            "contacts[0].adhesion_factor=0.4",
+            "phases=[{name: press, analysis: quasi_static, duration: 1, step: {initial: 0.5}, \
+              prescribe: {strip: {ux: 0, rotation: 0, uy: {rate: -0.002}}}}, \
+              {name: drag, analysis: quasi_static, duration: 1, step: {initial: 0.1}, \
+              prescribe: {strip: {ux: {rate: 0.03}, rotation: 0, uy: 0}}}]",
+            "output={history: [{name: strip, on: strip, quantities: [ux, contact_x]}]}",
+        ];
+        let folder = run("tests/data/strip", &overrides);
+        let force = -history(folder.path()).pop().unwrap()[2];
+        println!("{force} of {}", 0.4 * strength);
+        assert!((force / (0.4 * strength) - 1.0).abs() < 5e-3, "{force} {strength}");
+    }
+}
+
 /// A plate near the limit of what clay bears, laid on it at once: the step fails, and halves of it bear a half. It
 /// ends where a load that grows does.
 #[test]

@@ -21,7 +21,7 @@ impl Random {
     /// Trial strains from well inside the yield surface to far outside, in every direction; some with equal
     /// or nearly equal entries, where edges are.
     fn trial(&mut self, model: &dyn Model) -> [f64; 3] {
-        let scale = if model.strength(0.0).is_finite() { model.strength(0.0) / model.young(0.0) } else { 1e-2 };
+        let scale = if model.yields() { model.shear_strength(0.0, &State::default()) / model.young(0.0) } else { 1e-2 };
         let size = scale * 10f64.powf(-0.7 + 3.0 * self.uniform());
         let mut e: [f64; 3] = std::array::from_fn(|_| size * self.signed());
         match (self.uniform() * 10.0) as usize {
@@ -50,7 +50,7 @@ fn models() -> Vec<(String, Arc<dyn Model>)> {
 }
 
 fn finite_strength(model: &dyn Model) -> f64 {
-    let s = model.strength(0.0);
+    let s = model.shear_strength(0.0, &State::default());
     if s.is_finite() { s } else { model.young(0.0) }
 }
 
@@ -254,4 +254,24 @@ fn missing_parameters_are_named() {
             assert!(kind.parameters.iter().any(|p| p.name == *name), "{}: {name} is not a parameter", kind.name);
         }
     }
+}
+
+/// Simple shear as large as the shear strength is on the yield surface, in every state; in Cam-Clay under half the
+/// preconsolidation pressure.
+#[test]
+fn the_shear_strength_yields_in_simple_shear() {
+    let mut seen = 0;
+    for (name, model) in models().iter().filter(|(name, model)| model.yields() && !name.starts_with("mohr_coulomb")) {
+        for memory in [0.0, 0.02, 0.5] {
+            let state = State { memory, ..State::default() };
+            let strength = model.shear_strength(0.0, &state);
+            // The yield function of Cam-Clay under a pressure of 1 is 1/p_c − 1.
+            let excess = |stress: [f64; 3]| model.yield_excess(0.0, &stress, &state);
+            let pressure = if name.starts_with("cam_clay") { 0.5 / (1.0 + excess([-1.0; 3])) } else { 7.0 };
+            let excess = excess([strength - pressure, -pressure, -strength - pressure]);
+            assert!(strength > 0.0 && excess.abs() < 1e-10 * strength, "{name}: {state:?}: {excess:e} of {strength}");
+            seen += 1;
+        }
+    }
+    assert!(seen >= 15, "{seen}");
 }

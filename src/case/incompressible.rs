@@ -39,7 +39,7 @@ impl Checker {
             let split = match pressure {
                 Some(raw::Pressure::None) => false,
                 Some(raw::Pressure::Field) => true,
-                None => poisson >= NEARLY_INCOMPRESSIBLE || model.strength(0.0).is_finite(),
+                None => poisson >= NEARLY_INCOMPRESSIBLE || model.yields(),
             };
             let ratio = bulk(poisson) - KEPT;
             let split = split && kind.keeps_volume && ratio > KEPT;

@@ -177,11 +177,11 @@ impl<K: Kinematics<2>> Boundary<K> {
         (gap, if known.is_some() { offset(gap) } else { held.offset[hat] })
     }
 
-    /// Penalties and multipliers of a hat over dry soil like that at `point`.
+    /// Penalties and multipliers of a hat over soil like that at `point`, without its strength and water.
     fn penalty(&self, points: &Points<2>, point: usize, hat: usize, held: &Multipliers) -> Penalty {
         let y = points.origin[point][1];
         let model = self.models.get(points.model_of(point)).and_then(Option::as_ref);
-        let yields = model.is_some_and(|m| m.strength(y).is_finite());
+        let yields = model.is_some_and(|m| m.yields());
         let share = if yields { YIELDING } else { 1.0 };
         let stiffness = share * model.map_or(0.0, |m| m.young(y)) / self.surface.spacing;
         Penalty {
@@ -191,10 +191,16 @@ impl<K: Kinematics<2>> Boundary<K> {
             tangential: TANGENTIAL * stiffness,
             rounding: if yields { ROUNDING * held.mean_pressure() } else { 0.0 },
             fading: FADING * self.surface.spacing,
-            strength: model.map_or(0.0, |m| m.strength(y)),
+            strength: 0.0,
             water: 0.0,
         }
     }
+}
+
+/// The shear strength (kPa) of the soil at a point as the step begins.
+fn strength(models: &[Option<Arc<dyn Model>>], points: &Points<2>, p: usize) -> f64 {
+    let model = models.get(points.model_of(p)).and_then(Option::as_ref);
+    model.map_or(0.0, |m| m.shear_strength(points.origin[p][1], &points.state(p, 0.0)))
 }
 
 impl Ground<'_, 2> {
@@ -233,7 +239,8 @@ struct Sum {
     sure: f64,
     known: f64,
     spacing: f64,
-    /// Excess pressure of the pore water, and height, times the area.
+    /// Shear strength of the soil, excess pressure of the pore water, and height, times the area.
+    strength: f64,
     water: f64,
     height: f64,
     point: u32,
@@ -283,8 +290,10 @@ impl<K: Kinematics<2>> Pair<2> for Boundary<K> {
             let Some(Gap { open, known, point, spacing }) = *gap else { continue };
             let Some((cell, xi)) = ground.find(placed, spacing, point, &holds) else { continue };
             let across = surface.distance(placed, spacing);
-            // Nothing else depends on it.
+            // Nothing else depends on them.
             let water = if self.law.friction > 0.0 { (ground.excess)(ground.points, point as usize) } else { 0.0 };
+            let strength =
+                if self.law.factor.is_some() { strength(&self.models, ground.points, point as usize) } else { 0.0 };
             let mut value = [0.0; MAX_NODES];
             ground.grid.cells.kind[cell as usize].values(&xi, &mut value);
             let soil = ground.grid.cells.nodes(cell as usize);
@@ -301,6 +310,7 @@ impl<K: Kinematics<2>> Pair<2> for Boundary<K> {
                     sure: 0.0,
                     known: 0.0,
                     spacing: 0.0,
+                    strength: 0.0,
                     water: 0.0,
                     height: 0.0,
                     point,
@@ -317,6 +327,10 @@ impl<K: Kinematics<2>> Pair<2> for Boundary<K> {
                     sum.known += weight * known;
                 }
                 sum.spacing += weight * spacing;
+                // Elastic soil has no limit, and no share of it is a number.
+                if weight > 0.0 {
+                    sum.strength += weight * strength;
+                }
                 sum.water += weight * water;
                 sum.height += weight * placed.middle[1];
                 for (&node, n_s) in structure.iter().zip(&placed.value) {
@@ -328,7 +342,7 @@ impl<K: Kinematics<2>> Pair<2> for Boundary<K> {
             }
         }
         let row = |(hat, sum): (usize, Option<Sum>)| {
-            let Sum { area, open, facing, distance, sure, known, spacing, water, height, point, mut entries } =
+            let Sum { area, open, facing, distance, sure, known, spacing, strength, water, height, point, mut entries } =
                 sum.filter(|sum| sum.area > 0.0)?;
             let spacing = spacing / area;
             let surface = (facing > 0.5 * area).then_some(distance / facing);
@@ -347,7 +361,11 @@ impl<K: Kinematics<2>> Pair<2> for Boundary<K> {
                 nodes: entries.iter().map(|e| e.0).collect(),
                 by_normal: entries.iter().map(|e| e.1.map(|n| n / area)).collect(),
                 by_tangent: entries.iter().map(|e| e.2.map(|t| t / area)).collect(),
-                penalty: Penalty { water: water / area, ..self.penalty(ground.points, point as usize, hat, held) },
+                penalty: Penalty {
+                    strength: strength / area,
+                    water: water / area,
+                    ..self.penalty(ground.points, point as usize, hat, held)
+                },
             })
         };
         sums.into_iter().enumerate().filter_map(row).collect()

@@ -392,8 +392,9 @@ impl Model for CamClay {
         self.excess(-(a + b + c) / 3.0, q, self.size(y, state))
     }
 
-    fn strength(&self, y: f64) -> f64 {
-        0.25 * self.slope * self.preconsolidation.at(y)
+    fn shear_strength(&self, y: f64, state: &State) -> f64 {
+        // q = M p at p = p_c/2, where yield does not change the volume; in simple shear it is √3 times the shear stress.
+        self.slope * 0.5 * self.size(y, state) / 3f64.sqrt()
     }
 
     fn reduced(&self, factor: f64) -> Arc<dyn Model> {

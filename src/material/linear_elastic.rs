@@ -51,7 +51,7 @@ impl Model for LinearElastic {
         f64::NEG_INFINITY
     }
 
-    fn strength(&self, _: f64) -> f64 {
+    fn shear_strength(&self, _: f64, _: &State) -> f64 {
         f64::INFINITY
     }
 

@@ -95,9 +95,14 @@ pub trait Model: Send + Sync {
     /// rest, as a stress (kPa); negative inside.
     fn yield_excess(&self, y: f64, stress: &[f64; 3], state: &State) -> f64;
 
-    /// The strength (kPa) at height `y` that yield is measured by (cohesion, yield stress); infinite
-    /// without yield.
-    fn strength(&self, y: f64) -> f64;
+    /// The shear strength (kPa) at height `y` in a state, at rest: `s_u`, `σ_y/√3`, `c`, in Modified Cam-Clay that of the
+    /// critical state in simple shear without drainage. Infinite without yield.
+    fn shear_strength(&self, y: f64, state: &State) -> f64;
+
+    /// Whether there is a limit to the stress.
+    fn yields(&self) -> bool {
+        self.shear_strength(0.0, &State::default()).is_finite()
+    }
 
     /// Whether the parameters are in range at height `y`; a profile is linear below its datum, so the
     /// lowest point of a region answers for the region.
@@ -106,8 +111,8 @@ pub trait Model: Send + Sync {
     /// Names the parameter and its value.
     fn check(&self, y: f64) -> Result<()>;
 
-    /// The same material with its strengths divided by `factor` (-): `c`, `tan φ`, `σ_t`, `s_u`, the yield stress. An angle of
-    /// dilation stays, as far as it is not above that of friction.
+    /// The same material with its strengths divided by `factor` (-): `c`, `tan φ`, `σ_t`, `s_u`, the yield stress, `M`. An
+    /// angle of dilation stays, as far as it is not above that of friction.
     fn reduced(&self, factor: f64) -> Arc<dyn Model>;
 
     /// Young's modulus (kPa) at height `y`: the scale of penalties and tolerances.
@@ -146,9 +151,8 @@ const BEYOND: f64 = 1e-3;
 
 /// Whether principal Kirchhoff stresses at height `y` are more than a model bears in a state, at rest.
 pub fn is_beyond_yield(model: &dyn Model, y: f64, stress: &[f64; 3], state: &State) -> bool {
-    let strength = model.strength(y);
-    let unit = stress.iter().fold(strength, |most, s| most.max(s.abs()));
-    strength.is_finite() && model.yield_excess(y, stress, state) > BEYOND * unit
+    let unit = stress.iter().fold(model.shear_strength(y, state), |most, s| most.max(s.abs()));
+    model.yields() && model.yield_excess(y, stress, state) > BEYOND * unit
 }
 
 /// Poisson's ratios (-) that soil has.

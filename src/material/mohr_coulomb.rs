@@ -164,7 +164,7 @@ impl Model for MohrCoulomb {
         self.planes(y).excess(stress)
     }
 
-    fn strength(&self, y: f64) -> f64 {
+    fn shear_strength(&self, y: f64, _: &State) -> f64 {
         self.cohesion.at(y)
     }
 

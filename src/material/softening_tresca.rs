@@ -245,8 +245,8 @@ impl Model for SofteningTresca {
         self.planes(y, self.softening.factor(state.memory, 0.0, 0.0).0).excess(stress)
     }
 
-    fn strength(&self, y: f64) -> f64 {
-        self.shear_strength.at(y)
+    fn shear_strength(&self, y: f64, state: &State) -> f64 {
+        self.shear_strength.at(y) * self.softening.factor(state.memory, 0.0, 0.0).0
     }
 
     fn reduced(&self, factor: f64) -> Arc<dyn Model> {

@@ -75,7 +75,7 @@ impl Model for Tresca {
         self.planes(y).excess(stress)
     }
 
-    fn strength(&self, y: f64) -> f64 {
+    fn shear_strength(&self, y: f64, _: &State) -> f64 {
         self.shear_strength.at(y)
     }
 

@@ -99,8 +99,8 @@ impl Model for VonMises {
         (0.5 * ((a - b).powi(2) + (b - c).powi(2) + (c - a).powi(2))).sqrt() - self.yield_stress.at(y)
     }
 
-    fn strength(&self, y: f64) -> f64 {
-        self.yield_stress.at(y)
+    fn shear_strength(&self, y: f64, _: &State) -> f64 {
+        self.yield_stress.at(y) / 3f64.sqrt()
     }
 
     fn reduced(&self, factor: f64) -> Arc<dyn Model> {

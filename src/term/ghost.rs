@@ -88,7 +88,7 @@ impl<const D: usize, K: Kinematics<D>> Term<D> for GhostPenalty<K> {
     }
 
     fn sees_flow(&self) -> bool {
-        self.models.iter().flatten().any(|model| model.strength(0.0).is_finite())
+        self.models.iter().flatten().any(|model| model.yields())
     }
 
     fn assemble(&self, frame: &Frame<D>, trial: &Trial<D>, out: &mut Assembly) -> Result<()> {

@@ -17,8 +17,8 @@ use super::stiffness::Stiffness;
 use super::{Assembly, Frame, History, Term, Trial, Update};
 use crate::error::{Error, Result};
 use crate::kinematics::{Gradient, Kinematics};
+use crate::material::Model;
 use crate::material::spatial::Spatial;
-use crate::material::{Model, State};
 use crate::mesh::shape::MAX_NODES;
 use crate::points::Points;
 use crate::profile::timed_material;
@@ -253,11 +253,7 @@ impl<K, S> Internal<K, S> {
             let Some(model) = models.get(points.model_of(p)).and_then(Option::as_ref) else {
                 return Err(Error::analysis(format!("material point {p}"), "it has no material", ""));
             };
-            let state = State {
-                plastic_strain: points.plastic_strain[p],
-                memory: points.memory.get(p).copied().unwrap_or(0.0),
-                per_second,
-            };
+            let state = points.state(p, per_second);
             let Some(answer) = K::respond(model.as_ref(), points.origin[p][1], &elastic, &state) else {
                 return Err(inadmissible(p, "is strained beyond measure", increment));
             };
