@@ -1,8 +1,9 @@
 //! From a checked case to a scene: the only place that decides which terms exist.
 
-use super::checked::{Analysis, Case, Field, Geometry, Material, Quantity, Region, Restore, Until};
+use super::checked::{Analysis, Case, Geometry, Material, Region, Restore};
+use super::outputs::outputs;
 use super::rigid::{self, Holds};
-use super::{changes, overlap, parts, pores, staged, touch, wall, water};
+use super::{changes, parts, pores, search, staged, touch, wall, water};
 use crate::error::{Error, Result};
 use crate::io::checkpoint::Fingerprint;
 use crate::kinematics::{Axisymmetric, Kinematics, PlaneStrain};
@@ -11,10 +12,9 @@ use crate::mesh::faces::Faces;
 use crate::mesh::locate::Locator;
 use crate::points::Points;
 use crate::quadrature::{Bounded, Fitted, Quadrature, Volumes};
-use crate::rigid::Body;
-use crate::run::{self, Ended, Outputs, Progress, Watch, WatchedOn};
+use crate::run::{self, Ended, Progress};
 use crate::stencil::{Scheme, cell_size, smooths};
-use crate::step::{self, Fem, Numerics, Phase, Scene, Search, State, Stop};
+use crate::step::{self, Fem, Numerics, Phase, Scene, Search, State, Stop, overlap};
 use crate::term::{
     BodyForce, Carried, Contact, DrainedSurface, EmptyCells, GhostInertia, GhostPenalty, Inertia, Internal, PoreWater,
     PressureField, SmoothPressure, Term, Traction, WaterBond,
@@ -25,9 +25,6 @@ use std::sync::atomic::AtomicBool;
 
 /// γ (-) of the ghost penalty: 1e-3 … 1 give the same results to the error of the grid.
 const GHOST: f64 = 0.1;
-
-/// How far soil may move for a unit of the factor on its strength and count as what it was (-), in its height.
-const FARTHEST: f64 = 0.5;
 
 /// Solves a case in `folder`.
 ///
@@ -68,7 +65,7 @@ pub fn solve(
 
 /// The state before the first step, given the material points and those of the finite elements.
 fn first(case: &Case, scene: &Scene<2>, [mut points, mut fem]: [Points<2>; 2]) -> Result<State<2>> {
-    overlap::check(case, scene, &points)?;
+    overlap::at_first(scene, &points)?;
     if scene.has_pressure_field() {
         begin_pressure(case, &scene.mesh, &mut points)?;
         begin_pressure(case, &scene.mesh, &mut fem)?;
@@ -215,12 +212,12 @@ pub fn scene<K: Kinematics<2>>(case: &Case, mut whole: Mesh<2>) -> Result<Scene<
     let carried = carried(case, &mesh)?;
     let holds = Holds::new(case, &mesh, &bodies);
     let supports = holds.supports()?;
-    let height = soil_height(case, &mesh, fem.as_ref().map(|fem| &fem.mesh))?;
+    let search = search::search(case, &mesh, fem.as_ref().map(|fem| &fem.mesh))?;
     let of_structures = fem.as_ref().map_or(&mesh, |fem| &fem.mesh);
     let staged = |(number, p)| {
         let held = staged::held(case, &mesh, of_structures, &bodies, p)?;
         let changes = changes::of_phase(case, [&mesh, of_structures], number)?;
-        Ok(Phase { held, changes, ..phase(case, &holds, number, p, height)? })
+        Ok(Phase { held, changes, ..phase(case, &holds, number, p, search.as_ref())? })
     };
     let phases = case.phases.iter().enumerate().map(staged).collect::<Result<_>>()?;
     Ok(Scene {
@@ -312,7 +309,7 @@ fn phase<'a>(
     holds: &Holds<'a>,
     number: usize,
     phase: &'a super::checked::Phase,
-    height: f64,
+    search: Option<&Search>,
 ) -> Result<Phase> {
     let values = phase
         .prescribed
@@ -333,29 +330,13 @@ fn phase<'a>(
         largest_step: phase.step.max,
         prescribed: holds.prescribed(phase)?,
         reduction: phase.reduction.clone(),
-        search: (phase.analysis == Analysis::StrengthReduction).then_some(Search { farthest: FARTHEST * height }),
+        search: search.filter(|_| phase.analysis == Analysis::StrengthReduction).cloned(),
         held: Vec::new(),
         changes: Vec::new(),
         apart: staged::apart(case, phase),
         reset: phase.reset,
         stops: stops(phase.duration, case.output.every, values.flat_map(TimeValue::kinks)),
     })
-}
-
-/// The height (m) of the soil as drawn, from its lowest to its highest node; 0 without any.
-fn soil_height(case: &Case, mesh: &Mesh<2>, fem: Option<&Mesh<2>>) -> Result<f64> {
-    let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
-    for (region, _) in filled(case).filter(|(region, _)| !region.content.is_structure()) {
-        let number = region_index(mesh, &region.name)?;
-        for part in std::iter::once(mesh).chain(fem) {
-            for c in (0..part.cells.len()).filter(|&c| part.cells.region[c] == number) {
-                for &n in part.cells.nodes(c) {
-                    (low, high) = (low.min(part.nodes[n as usize][1]), high.max(part.nodes[n as usize][1]));
-                }
-            }
-        }
-    }
-    Ok((high - low).max(0.0))
 }
 
 /// When steps must end: at outputs, where a table bends, and at the end of the phase.
@@ -375,68 +356,6 @@ fn stops(duration: f64, every: Option<f64>, kinks: impl Iterator<Item = f64>) ->
     stops
 }
 
-/// What the case asks to be written.
-fn outputs(case: &Case, scene: &Scene<2>, folder: &Path, fingerprint: Fingerprint) -> Result<Outputs> {
-    let mesh = &scene.mesh;
-    let mut fields = Vec::new();
-    for field in &case.output.fields {
-        let field = match field {
-            Field::Displacement => run::Field::Displacement,
-            Field::Velocity => run::Field::Velocity,
-            Field::Stress | Field::MeanStress | Field::DeviatoricStress => run::Field::Stress,
-            Field::PlasticStrain => run::Field::PlasticStrain,
-            Field::DeformationGradient => run::Field::DeformationGradient,
-            Field::PorePressure => run::Field::PorePressure(carried(case, mesh)?),
-        };
-        // Invariants come with the stress.
-        if !(matches!(field, run::Field::Stress) && fields.iter().any(|f| matches!(f, run::Field::Stress))) {
-            fields.push(field);
-        }
-    }
-    let watch = |entry: &super::checked::History| {
-        let body = scene.bodies.iter().find(|body| rigid::body_of(mesh, body, &entry.on));
-        let on = match (mesh.group(&entry.on), body) {
-            (_, Some(body)) if rigid::is_region(mesh, body, &entry.on) => {
-                let Body { region, reference, turning, arm, .. } = *body;
-                WatchedOn::Body { region, reference, turning, arm }
-            }
-            (Some(group), None) => WatchedOn::Nodes(group.nodes.clone()),
-            (Some(group), Some(body)) => WatchedOn::Side(group.nodes.clone(), body.reference),
-            (None, _) => WatchedOn::Region(region_index(mesh, &entry.on)?),
-        };
-        let quantities = entry.quantities.iter().map(|q| quantity(*q));
-        Ok(Watch { name: entry.name.clone(), on, quantities: quantities.collect() })
-    };
-    let watches = case.output.history.iter().map(watch).collect::<Result<Vec<_>>>()?;
-    let watches = pores::pressures_at_corners(scene, watches);
-    let until = |condition: &Until| match *condition {
-        Until::Reached { history, quantity: of, bound, below } => {
-            run::Until::Reached { watch: history, quantity: quantity(of), bound, below }
-        }
-        Until::Equilibrium(part) => run::Until::Equilibrium(part),
-    };
-    let until = case.phases.iter().map(|phase| phase.until.iter().map(until).collect()).collect();
-    let surface = if water::needs_surface(case) { Some(water::acting(case, mesh)?) } else { None };
-    Ok(Outputs { folder: folder.to_path_buf(), fields, watches, until, surface, fingerprint })
-}
-
-fn quantity(quantity: Quantity) -> run::Quantity {
-    match quantity {
-        Quantity::Ux => run::Quantity::Displacement(0),
-        Quantity::Uy => run::Quantity::Displacement(1),
-        Quantity::Vx => run::Quantity::Velocity(0),
-        Quantity::Vy => run::Quantity::Velocity(1),
-        Quantity::ReactionX => run::Quantity::Reaction(0),
-        Quantity::ReactionY => run::Quantity::Reaction(1),
-        Quantity::ContactX => run::Quantity::Contact(0),
-        Quantity::ContactY => run::Quantity::Contact(1),
-        Quantity::Rotation => run::Quantity::Rotation,
-        Quantity::ReactionMoment => run::Quantity::ReactionMoment,
-        Quantity::ContactMoment => run::Quantity::ContactMoment,
-        Quantity::PorePressure => run::Quantity::PorePressure,
-    }
-}
-
 /// The regions with points and their materials.
 pub(super) fn filled(case: &Case) -> impl Iterator<Item = (&Region, &Material)> {
     case.regions.iter().filter_map(|region| Some((region, &case.materials[region.content.material()?])))
@@ -449,7 +368,7 @@ fn models(case: &Case, mesh: &Mesh<2>) -> Result<Vec<Option<std::sync::Arc<dyn c
 }
 
 /// What the pressure field carries of each material by number.
-fn carried(case: &Case, mesh: &Mesh<2>) -> Result<Vec<Option<Carried>>> {
+pub(super) fn carried(case: &Case, mesh: &Mesh<2>) -> Result<Vec<Option<Carried>>> {
     changes::by_number(case, mesh, |material| material.carried.clone())
 }
 

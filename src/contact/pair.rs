@@ -114,6 +114,11 @@ pub trait Pair<const D: usize>: Send + Sync {
         None
     }
 
+    /// The regions of the soil that it touches; none of a body.
+    fn soils(&self) -> &[u16] {
+        &[]
+    }
+
     /// The number of hats.
     fn hats(&self) -> usize;
 
@@ -264,6 +269,10 @@ impl Sum {
 impl<K: Kinematics<2>> Pair<2> for Boundary<K> {
     fn structure(&self) -> u16 {
         self.structure
+    }
+
+    fn soils(&self) -> &[u16] {
+        &self.regions
     }
 
     fn hats(&self) -> usize {

@@ -5,6 +5,7 @@
 //!
 //! Derived here, from the stress: `mean_stress` (tension positive) and `deviatoric_stress`, √(3/2 s:s).
 
+use std::borrow::Cow;
 use std::fs;
 use std::path::Path;
 
@@ -83,7 +84,8 @@ pub fn export<const D: usize>(
         }
         let count = mesh.nodes.len();
         let fits = grid.position.len() == count && grid.columns.iter().all(|c| c.values.len() == c.components * count);
-        let Some(smooth) = structures.smooth(&grid, &first, &elements).filter(|_| fits) else {
+        let from = if fits { counted_from(&mut grid, &first) } else { Cow::Borrowed(&first[..]) };
+        let Some(smooth) = structures.smooth(&grid, &from, &elements).filter(|_| fits) else {
             return Err(Error::input(
                 info.path.display(),
                 format!("has not the {count} nodes and the cells of the mesh"),
@@ -140,6 +142,15 @@ pub fn export<const D: usize>(
     }
     let kept = |series: &str| if is_there(series) { infos.len() } else { 0 };
     Ok(Summary { frames: infos.len(), removed: remove_stale(&folder, kept)? })
+}
+
+/// Where the nodes were that displacements are counted from, given where they were at `first`.
+fn counted_from<'a>(grid: &mut Part, first: &'a [[f64; 3]]) -> Cow<'a, [[f64; 3]]> {
+    let Some(at) = grid.columns.iter().position(|column| column.name == frame::UNCOUNTED) else {
+        return Cow::Borrowed(first);
+    };
+    let way = grid.columns.remove(at).values;
+    Cow::Owned(first.iter().zip(way.chunks_exact(3)).map(|(x, way)| [0, 1, 2].map(|d| x[d] + way[d])).collect())
 }
 
 /// Coordinates padded to three.
@@ -200,8 +211,8 @@ fn check_fields(path: &Path, frame: &Frame, fields: &[String]) -> Result<()> {
     let parts = [&frame.points, &frame.grid, &frame.elements];
     let has = |name: &str| parts.iter().any(|part| column(part, name).is_some());
     let Some(missing) = fields.iter().find(|name| !has(name)) else { return Ok(()) };
-    let names =
-        parts.iter().flat_map(|part| &part.columns).map(|c| c.name.as_str()).filter(|name| *name != frame::CELL);
+    let names = parts.iter().flat_map(|part| &part.columns).map(|c| c.name.as_str());
+    let names = names.filter(|name| ![frame::CELL, frame::UNCOUNTED].contains(name));
     let mut names: Vec<_> =
         names.chain(["mean_stress", "deviatoric_stress"].into_iter().filter(|name| has(name))).collect();
     names.sort_unstable();

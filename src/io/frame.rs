@@ -58,6 +58,10 @@ pub struct Frame {
 /// The column of [`Frame::elements`] that tells the cells.
 pub const CELL: &str = "cell";
 
+/// The column of [`Frame::grid`] that tells what of the way of a node displacements are not counted from; absent before a
+/// phase resets them, and without finite elements.
+pub const UNCOUNTED: &str = "uncounted";
+
 /// Columns of [`Frame::contact`] that are not shown as they are: the number of the line that a node is on, which joins
 /// nodes that follow each other (the last one of a surface with its first); the region of its structure; and whether there is soil before it (1) or not (0).
 pub const LINE: &str = "line";

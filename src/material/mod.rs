@@ -112,7 +112,7 @@ pub trait Model: Send + Sync {
     fn check(&self, y: f64) -> Result<()>;
 
     /// The same material with its strengths divided by `factor` (-): `c`, `tan φ`, `σ_t`, `s_u`, the yield stress, `M`. An
-    /// angle of dilation stays, as far as it is not above that of friction.
+    /// angle of dilation stays, as far as it is not above that of friction; with that of friction it remains equal to it.
     fn reduced(&self, factor: f64) -> Arc<dyn Model>;
 
     /// Young's modulus (kPa) at height `y`: the scale of penalties and tolerances.

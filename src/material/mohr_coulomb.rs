@@ -41,12 +41,15 @@ impl Friction {
         Ok(Self { sin_friction, cos_friction, sin_dilation: dilation.to_radians().sin() })
     }
 
-    /// The angles with `tan φ` divided by `factor`; dilation is at most friction.
+    /// The angles with `tan φ` divided by `factor`. Dilation is at most friction, and stays equal to it where it is, so that
+    /// the tangent stays symmetric for factors below one.
     fn reduced(&self, factor: f64) -> Self {
         let tan = self.sin_friction / (self.cos_friction * factor);
         let cos_friction = 1.0 / tan.hypot(1.0);
         let sin_friction = tan * cos_friction;
-        Self { sin_friction, cos_friction, sin_dilation: self.sin_dilation.min(sin_friction) }
+        let associated = self.sin_dilation == self.sin_friction;
+        let sin_dilation = if associated { sin_friction } else { self.sin_dilation.min(sin_friction) };
+        Self { sin_friction, cos_friction, sin_dilation }
     }
 }
 

@@ -27,6 +27,9 @@ use std::sync::Arc;
 /// Iterations of the search for the strength; halving alone would need 60.
 const ITERATIONS: usize = 100;
 
+/// The least that counts for what falls ([`falls`]).
+const LEAST: f64 = 0.1;
+
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SofteningTresca {
     elasticity: Elasticity,
@@ -183,6 +186,12 @@ fn by_strength(moduli: &Moduli, stress: &[f64; 3]) -> ([f64; 3], f64) {
     (t, if edge { 2.0 / (3.0 * moduli.shear) } else { 0.5 / moduli.shear })
 }
 
+/// How fast what a return misses falls with the strain that is tried. [`SofteningTresca::check`] keeps it above a third at rates up to the
+/// reference; far above, where strength that grows with the rate is lost as fast, steps beyond the one answer are kept finite.
+fn falls(c: f64, slope: f64) -> f64 {
+    (1.0 + 2.0 * c * slope).max(LEAST)
+}
+
 impl Model for SofteningTresca {
     fn respond(&self, y: f64, trial: &[f64; 3], state: &State) -> Response {
         let moduli = self.elasticity.at(y);
@@ -207,7 +216,7 @@ impl Model for SofteningTresca {
                 high = more
             }
             let (_, c) = by_strength(&moduli, &response.stress);
-            let mut next = more + miss / (1.0 + 2.0 * c * slope);
+            let mut next = more + miss / falls(c, slope);
             if !(next > low && next < high) {
                 next = 0.5 * (low + high);
             }
@@ -219,7 +228,7 @@ impl Model for SofteningTresca {
             }
         }
         let (t, c) = by_strength(&moduli, &response.stress);
-        let by = 4.0 * slope / (1.0 + 2.0 * c * slope);
+        let by = 4.0 * slope / falls(c, slope);
         for (row, a) in response.tangent.iter_mut().zip(&t) {
             for (entry, b) in row.iter_mut().zip(&t) {
                 *entry += by * a * b;

@@ -72,15 +72,19 @@ pub fn let_fall<const D: usize>(
     format!("phase `{}` goes on with inertia from t = {:.6} s: {}", phase.name, state.time, error.problem)
 }
 
-/// Goes back to equilibrium where such a phase has come to rest: the note for the log.
+/// Goes back to equilibrium where such a phase has come to rest, not before it ends by what it waits `until`: the note for the
+/// log.
 pub fn let_rest<const D: usize>(
     phase: &Phase,
+    until: &[Until],
     state: &mut State<D>,
     report: &Report<D>,
     controller: &mut Controller,
 ) -> Option<String> {
     let kinetic = report.motion.kinetic;
-    if !state.falling || state.peak <= 0.0 || kinetic > REST * state.peak {
+    let part = |condition: &Until| if let Until::Equilibrium(part) = condition { *part } else { REST };
+    let rest = until.iter().map(part).fold(REST, f64::min);
+    if !state.falling || state.peak <= 0.0 || kinetic > rest * state.peak {
         return None;
     }
     let note = format!(

@@ -23,7 +23,7 @@ use crate::error::{Error, Result};
 use crate::io::atomic;
 use crate::io::background::Background;
 use crate::io::checkpoint::{Checkpoints, Fingerprint};
-use crate::io::frame;
+use crate::io::frame::{self, Frame};
 use crate::io::history::{History, Log};
 use crate::kinematics::Kinematics;
 use crate::profile::{Activity, timed};
@@ -123,7 +123,11 @@ pub fn run<const D: usize, K: Kinematics<D>>(
         let wanted = simulation.state.step_size.min(limits.largest);
         let mut controller = Controller::new(limits, phase.stops.clone(), wanted);
         if simulation.state.phase_time == 0.0 {
-            for note in simulation.notes()? {
+            let notes = match simulation.notes() {
+                Ok(notes) => notes,
+                Err(error) => return Err(files.fail(scene, &mut simulation.state, error)?),
+            };
+            for note in notes {
                 tell(&simulation.state, Some(&note));
                 files.log.line(&note)?;
             }
@@ -156,10 +160,7 @@ pub fn run<const D: usize, K: Kinematics<D>>(
                 }
                 Err(error) => {
                     let error = ending::in_time(error, scene, phase, &simulation.state);
-                    files.log.line(&format!("the analysis ends here: {error}"))?;
-                    files.last_frame(scene, &mut simulation.state)?;
-                    files.close()?;
-                    return Err(error);
+                    return Err(files.fail(scene, &mut simulation.state, error)?);
                 }
             };
             let state = &mut simulation.state;
@@ -169,13 +170,13 @@ pub fn run<const D: usize, K: Kinematics<D>>(
             }
             timed(Activity::Output, || {
                 files.step(scene, state, &report)?;
-                let met =
-                    outputs.until.get(number).and_then(|u| ending::met(u, &outputs.watches, scene, state, &report));
+                let until = outputs.until.get(number).map_or(&[][..], |until| until);
+                let met = ending::met(until, &outputs.watches, scene, state, &report);
                 if let Some(note) = met.filter(|_| controller.next_stop(state.phase_time).is_some()) {
                     tell(state, Some(&note));
                     return files.end_early(scene, state, &note);
                 }
-                if let Some(note) = ending::let_rest(phase, state, &report, &mut controller) {
+                if let Some(note) = ending::let_rest(phase, until, state, &report, &mut controller) {
                     tell(state, Some(&note));
                     files.note(state, &note)?;
                     state.step_size = controller.wanted;
@@ -232,8 +233,12 @@ impl<'a> Files<'a> {
             }
             (History::create(&history, &columns)?, log)
         };
-        frame::prepare(&outputs.results(), usize::try_from(state.frames).unwrap_or(usize::MAX))?;
-        Ok(Self { outputs, checkpoints, history, log, writer: Background::start(QUEUE)?, framed: None })
+        let (results, frames) = (outputs.results(), usize::try_from(state.frames).unwrap_or(usize::MAX));
+        frame::prepare(&results, frames)?;
+        // One that is gone is no reason not to go on.
+        let last = frames.checked_sub(1).and_then(|last| Frame::read(&frame::path(&results, last)).ok());
+        let framed = last.map(|frame| frame.step);
+        Ok(Self { outputs, checkpoints, history, log, writer: Background::start(QUEUE)?, framed })
     }
 
     /// Notes a converged step, once the checkpoint of the step before is written: a kill loses the step in hand,
@@ -284,6 +289,14 @@ impl<'a> Files<'a> {
     /// on came to. No checkpoint knows of it, so a run that continues writes over it.
     fn last_frame<const D: usize>(&mut self, scene: &Scene<D>, state: &mut State<D>) -> Result<()> {
         if self.framed == Some(state.step) { Ok(()) } else { self.frame(scene, state) }
+    }
+
+    /// Ends an analysis that cannot go on, and hands its error back.
+    fn fail<const D: usize>(mut self, scene: &Scene<D>, state: &mut State<D>, error: Error) -> Result<Error> {
+        self.log.line(&format!("the analysis ends here: {error}"))?;
+        self.last_frame(scene, state)?;
+        self.close()?;
+        Ok(error)
     }
 
     /// Hands a checkpoint to the writer.

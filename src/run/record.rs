@@ -2,7 +2,7 @@
 
 use super::{Outputs, boundary, surface};
 use crate::io::columns::padded;
-use crate::io::frame::{CELL, Column, Frame, Part};
+use crate::io::frame::{CELL, Column, Frame, Part, UNCOUNTED};
 use crate::points::Points;
 use crate::step::{Report, Restore, Scene, State};
 use crate::term::{Carried, excess_pressure};
@@ -213,7 +213,9 @@ pub fn frame<const D: usize>(scene: &Scene<D>, state: &State<D>, outputs: &Outpu
             .collect();
         let displacement = fields.iter().any(|field| matches!(field, Field::Displacement));
         let columns = displacement.then(|| column("displacement", "m", 3, padded(&state.displacement[..nodes])));
-        Part { position: triples(&x), columns: columns.into_iter().collect() }
+        let reset = scene.fem.is_some() && !state.uncounted.is_empty();
+        let uncounted = reset.then(|| column(UNCOUNTED, "m", 3, padded(&state.uncounted[..nodes])));
+        Part { position: triples(&x), columns: columns.into_iter().chain(uncounted).collect() }
     };
     let mut elements = part(&state.fem, fields);
     elements.columns.push(column(CELL, "-", 1, state.fem.cell.iter().map(|&c| f64::from(c)).collect()));

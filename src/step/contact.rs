@@ -48,7 +48,7 @@ impl<const D: usize> Resultant<D> {
 }
 
 /// Where a node is at the last converged step.
-fn position<const D: usize>(scene: &Scene<D>, state: &State<D>, n: u32) -> [f64; D] {
+pub(super) fn position<const D: usize>(scene: &Scene<D>, state: &State<D>, n: u32) -> [f64; D] {
     let n = n as usize;
     let from = state.nodes.get(n).unwrap_or(&scene.mesh.nodes[n]);
     std::array::from_fn(|d| from[d] + state.displacement[n][d])

@@ -16,6 +16,7 @@ mod leaving;
 mod mass;
 mod materials;
 mod newton;
+pub mod overlap;
 mod pressure;
 mod put_back;
 mod relax;
@@ -73,9 +74,10 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
     /// Notes on the phase that begins: materials that change in it, prescribed displacements and loads that no material feels.
     ///
     /// # Errors
-    /// When memory does not suffice.
+    /// When memory does not suffice, and where a structure comes back into soil.
     pub fn notes(&mut self) -> Result<Vec<String>> {
         let Some(phase) = self.scene.phases.get(self.state.phase) else { return Ok(Vec::new()) };
+        overlap::on_return(self.scene, &self.state)?;
         if self.scene.terms.iter().any(|term| term.sees_open_boundary()) {
             match contact::begin::<D, K>(self.scene, &mut self.grid, &mut self.state) {
                 // What is at fault here is told by the step that comes.
@@ -189,7 +191,7 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
     /// Refuses an equilibrium that reduced strengths leave only in another shape of the soil.
     fn stands(&self, dt: f64, found: Lagrange<D>) -> Result<Lagrange<D>> {
         let phase = &self.scene.phases[self.state.phase];
-        let Some(search) = phase.search else { return Ok(found) };
+        let Some(search) = &phase.search else { return Ok(found) };
         let from = self.state.phase_time;
         let more = phase.reduction_at(from + dt) - phase.reduction_at(from);
         let nodes = self.grid.stencil.patches.iter().flat_map(|patch| self.scene.mesh.cells.nodes(patch.cell as usize));
@@ -197,7 +199,7 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
             let (now, before) = (&found.1.displacement[n as usize], &self.state.displacement[n as usize]);
             now.iter().zip(before).map(|(now, before)| (now - before).powi(2)).sum::<f64>()
         };
-        let moved = nodes.map(squared).fold(0.0, f64::max).sqrt();
+        let moved = nodes.chain(&search.elements).map(squared).fold(0.0, f64::max).sqrt();
         if more <= 0.0 || moved <= search.farthest * more {
             return Ok(found);
         }

@@ -184,11 +184,13 @@ impl Phase {
 }
 
 /// What counts as equilibrium while strengths are reduced to failure.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Search {
     /// The farthest (m) that soil may move for a unit of the factor: soil that fails finds equilibrium again in another
     /// shape, and that is not the one asked about.
     pub farthest: f64,
+    /// The nodes of soil of finite elements; that of points is wherever they are.
+    pub elements: Vec<u32>,
 }
 
 /// A time at which a step ends.

@@ -137,6 +137,15 @@ fn finite_elements_are_a_series_of_their_own() {
         assert!((smooth.columns[1].values[3 * n] - 0.1).abs() < 1e-15, "the displacement of the node itself");
     }
 
+    // Once displacements have been reset they are counted from where the nodes were then.
+    let way =
+        Column { name: frame::UNCOUNTED.to_string(), unit: "m".to_string(), components: 3, values: vec![0.04; 15] };
+    let mut reset = Part { columns: vec![way], ..full.grid.clone() };
+    let from = counted_from(&mut reset, &first);
+    assert!(reset.columns.is_empty());
+    let counted = pieces.smooth(&reset, &from, &full.elements).unwrap();
+    assert!((counted.columns[1].values[0] - 0.06).abs() < 1e-15, "{:?}", counted.columns[1].values);
+
     let asked = fields(&["plastic_strain"]);
     let done = export(&results, &mesh, &[false, true, true], &out, &asked, Encoding::Plain).unwrap();
     assert_eq!(done, Summary { frames: 1, removed: 0 });

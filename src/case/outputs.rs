@@ -1,0 +1,79 @@
+//! What a case asks to be written, in the terms of a run.
+
+use super::checked::{Case, Field, History, Quantity, Until};
+use super::scene::{carried, region_index};
+use super::{pores, rigid, water};
+use crate::error::Result;
+use crate::io::checkpoint::Fingerprint;
+use crate::rigid::Body;
+use crate::run::{self, Outputs, Watch, WatchedOn};
+use crate::step::Scene;
+use std::path::Path;
+
+/// The outputs of a case.
+///
+/// # Errors
+/// Input: a region that the mesh has not.
+pub fn outputs(case: &Case, scene: &Scene<2>, folder: &Path, fingerprint: Fingerprint) -> Result<Outputs> {
+    let mesh = &scene.mesh;
+    let mut fields = Vec::new();
+    for field in &case.output.fields {
+        let field = match field {
+            Field::Displacement => run::Field::Displacement,
+            Field::Velocity => run::Field::Velocity,
+            Field::Stress | Field::MeanStress | Field::DeviatoricStress => run::Field::Stress,
+            Field::PlasticStrain => run::Field::PlasticStrain,
+            Field::DeformationGradient => run::Field::DeformationGradient,
+            Field::PorePressure => run::Field::PorePressure(carried(case, mesh)?),
+        };
+        // Invariants come with the stress.
+        if !(matches!(field, run::Field::Stress) && fields.iter().any(|f| matches!(f, run::Field::Stress))) {
+            fields.push(field);
+        }
+    }
+    let watch = |entry: &History| {
+        let body = scene.bodies.iter().find(|body| rigid::body_of(mesh, body, &entry.on));
+        let on = match (mesh.group(&entry.on), body) {
+            (_, Some(body)) if rigid::is_region(mesh, body, &entry.on) => {
+                let Body { region, reference, turning, arm, .. } = *body;
+                WatchedOn::Body { region, reference, turning, arm }
+            }
+            (Some(group), None) => WatchedOn::Nodes(group.nodes.clone()),
+            (Some(group), Some(body)) => WatchedOn::Side(group.nodes.clone(), body.reference),
+            (None, _) => WatchedOn::Region(region_index(mesh, &entry.on)?),
+        };
+        let quantities = entry.quantities.iter().map(|q| quantity(*q));
+        Ok(Watch { name: entry.name.clone(), on, quantities: quantities.collect() })
+    };
+    let watches = case.output.history.iter().map(watch).collect::<Result<Vec<_>>>()?;
+    let watches = pores::pressures_at_corners(scene, watches);
+    let until = |condition: &Until| match *condition {
+        Until::Reached { history, quantity: of, bound, below } => {
+            // An entry of the history may have become several.
+            let (name, quantity) = (&case.output.history[history].name, quantity(of));
+            let found = watches.iter().position(|w| w.name == *name && w.quantities.contains(&quantity));
+            run::Until::Reached { watch: found.unwrap_or(history), quantity, bound, below }
+        }
+        Until::Equilibrium(part) => run::Until::Equilibrium(part),
+    };
+    let until = case.phases.iter().map(|phase| phase.until.iter().map(until).collect()).collect();
+    let surface = if water::needs_surface(case) { Some(water::acting(case, mesh)?) } else { None };
+    Ok(Outputs { folder: folder.to_path_buf(), fields, watches, until, surface, fingerprint })
+}
+
+fn quantity(quantity: Quantity) -> run::Quantity {
+    match quantity {
+        Quantity::Ux => run::Quantity::Displacement(0),
+        Quantity::Uy => run::Quantity::Displacement(1),
+        Quantity::Vx => run::Quantity::Velocity(0),
+        Quantity::Vy => run::Quantity::Velocity(1),
+        Quantity::ReactionX => run::Quantity::Reaction(0),
+        Quantity::ReactionY => run::Quantity::Reaction(1),
+        Quantity::ContactX => run::Quantity::Contact(0),
+        Quantity::ContactY => run::Quantity::Contact(1),
+        Quantity::Rotation => run::Quantity::Rotation,
+        Quantity::ReactionMoment => run::Quantity::ReactionMoment,
+        Quantity::ContactMoment => run::Quantity::ContactMoment,
+        Quantity::PorePressure => run::Quantity::PorePressure,
+    }
+}

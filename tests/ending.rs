@@ -1,0 +1,110 @@
+//! How phases end and what the next one begins with, through the program, where several parts meet.
+
+mod history;
+
+use history::column;
+use std::fs;
+use std::path::Path;
+use std::process::{Command, Output};
+use tempfile::TempDir;
+
+fn mpm(verb: &str, case: &str, folder: &Path, settings: &[&str]) -> Output {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_mpm"));
+    command.arg(verb).arg(Path::new(env!("CARGO_MANIFEST_DIR")).join(case)).arg("-o").arg(folder);
+    for setting in settings {
+        command.args(["--set", setting]);
+    }
+    command.output().unwrap()
+}
+
+/// Runs a case to its end; returns its folder and log.
+fn run(case: &str, settings: &[&str]) -> (TempDir, String) {
+    let folder = tempfile::tempdir().unwrap();
+    let output = mpm("run", case, folder.path(), settings);
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let log = fs::read_to_string(folder.path().join("solve.log")).unwrap();
+    (folder, log)
+}
+
+/// A pressure that ends a phase is that of the entry that is asked for, whatever else is watched before it.
+#[test]
+fn a_pore_pressure_ends_a_phase() {
+    let settings = [
+        "output.history=[{name: strip, on: strip, quantities: [uy, contact_y]}, \
+            {name: beside, on: beside, quantities: [uy, pore_pressure]}, \
+            {name: bottom, on: bottom, quantities: [uy, pore_pressure]}]",
+        "phases.wait.until=[{of: bottom, quantity: pore_pressure, below: 0.046}]",
+    ];
+    let (folder, log) = run("tests/data/strip", &settings);
+    let pressure = column(folder.path(), "bottom.pore_pressure [kPa]");
+    let (last, before) = (pressure[pressure.len() - 1], &pressure[2..pressure.len() - 1]);
+    assert!(last <= 0.046 && before.len() > 3 && before.iter().all(|p| *p > 0.046), "{pressure:?}");
+    assert!(log.contains("phase `wait` ends: bottom.pore_pressure [kPa] is"), "{log}");
+}
+
+/// A phase that fails, falls and waits for a rest that is farther off than that at which it would go on without inertia.
+#[test]
+fn a_fall_ends_with_the_rest_that_is_asked_for() {
+    let settings = [
+        "mesh.parameters.h=2",
+        "phases.gravity.analysis=auto",
+        "phases.gravity.step={initial: 0.05, min: 0.02, max: 0.05}",
+        "phases.gravity.duration=60",
+        "phases.gravity.gravity={table: [[0, 0], [1, 1]]}",
+        "phases.gravity.until=[{equilibrium: 3.0e-3}]",
+        "supports.bottom={ux: 0, uy: 0}",
+        "numerics.spectral_radius=0.5",
+    ];
+    let (folder, log) = run("cases/slump", &settings);
+    assert!(log.contains("goes on with inertia from") && !log.contains("is quasi-static again"), "{log}");
+    assert!(log.contains("phase `gravity` ends: the kinetic energy is"), "{log}");
+    let time = column(folder.path(), "time [s]");
+    assert!(time[time.len() - 1] < 60.0, "{time:?}");
+}
+
+/// A plate that went through soil while their contact was away is not there again without a word.
+#[test]
+fn soil_in_a_structure_that_touches_again_is_told() {
+    let phases = "phases=[{name: through, analysis: quasi_static, duration: 1, step: {initial: 1}, deactivate: [bearing], \
+        prescribe: {top: {ux: 0, uy: -0.8}}}, \
+        {name: back, analysis: quasi_static, duration: 1, step: {initial: 1}, activate: [bearing], prescribe: {top: {uy: 0}}}]";
+    let folder = tempfile::tempdir().unwrap();
+    let contact = "contacts=[{name: bearing, structure: plate, soil: soil}]";
+    let output =
+        mpm("run", "tests/data/plate", folder.path(), &[phases, contact, "mesh.parameters={thick: 0.9, air: 1}"]);
+    let told = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(1), "{told}");
+    for words in
+        ["contact of `plate`", "phase `back` brings the structure back into soil", "points of `soil` are in it"]
+    {
+        assert!(told.contains(words), "{told}");
+    }
+    assert!(fs::read_to_string(folder.path().join("solve.log")).unwrap().contains("the analysis ends here"));
+}
+
+/// An associated material whose strength is raised is one still: as many iterations as with that strength given.
+#[test]
+fn strengths_divided_by_less_than_one_are_those_given() {
+    let soil = |cohesion: f64, friction: f64| {
+        format!(
+            "materials.soil={{model: mohr_coulomb, young: 1000, poisson: 0.3, cohesion: {cohesion}, friction: {friction}, \
+             dilation: {friction}, density: 0}}"
+        )
+    };
+    let phases = |reduction: &str| {
+        format!(
+            "phases=[{{name: press, analysis: quasi_static, duration: 1, step: {{initial: 0.1}}, {reduction}\
+             prescribe: {{top: {{ux: 0, uy: {{rate: -0.05}}}}}}}}]"
+        )
+    };
+    let narrow = ["mesh.parameters={plate: 0.8, left: 0.6, edge: 0.05}", "numerics.tolerance=1e-10"];
+    let tan = 20f64.to_radians().tan();
+    let with = |soil: &str, phases: &str| run("tests/data/plate", &[narrow[0], narrow[1], soil, phases]);
+    let (given, given_log) = with(&soil(5.0 / 0.8, (tan / 0.8).atan().to_degrees()), &phases(""));
+    let (divided, log) = with(&soil(5.0, 20.0), &phases("strength_reduction: 0.8, "));
+    let force = |folder: &TempDir| column(folder.path(), "plate.contact_y [kN]").pop().unwrap();
+    let (given, divided) = (force(&given), force(&divided));
+    println!("{given} {divided}");
+    assert!((divided / given - 1.0).abs() < 1e-7, "{given} {divided}");
+    assert_eq!(log.matches("halved").count(), given_log.matches("halved").count(), "{log}");
+}
