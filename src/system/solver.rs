@@ -68,7 +68,7 @@ impl Solver {
     /// An analysis error when no method gives a finite solution with a small residual: the system is singular.
     pub fn solve(&mut self, pattern: &Pattern, matrix: &Matrix, x: &mut [f64]) -> Result<Method> {
         if !matrix.is_finite() || x.iter().any(|v| !v.is_finite()) {
-            return Err(Error::analysis("linear system", "a coefficient is not finite", "the step is too large"));
+            return Err(Error::analysis("linear system", "a coefficient is not finite", "take smaller steps"));
         }
         let b = x.to_vec();
         if b.iter().all(|&v| v == 0.0) {
@@ -110,7 +110,7 @@ impl Solver {
         x: &mut [f64],
     ) -> Result<Method> {
         if !matrix.is_finite() || x.iter().any(|v| !v.is_finite()) {
-            return Err(Error::analysis("linear system", "a coefficient is not finite", "the step is too large"));
+            return Err(Error::analysis("linear system", "a coefficient is not finite", "take smaller steps"));
         }
         let b = x.to_vec();
         let size = if matrix.norm_free(&b) > 0.0 { matrix.norm_free(&b) } else { norm(&b) };
@@ -282,7 +282,7 @@ pub(super) fn singular() -> Error {
     Error::analysis(
         "linear solver",
         "the system is singular",
-        "check that every body is held by supports; in quasi-static analysis a body must not move freely",
+        "without inertia a body must not move freely: hold it by supports, prescribe it, or lay it on what it touches",
     )
 }
 

@@ -196,7 +196,7 @@ fn weighted_stress<const D: usize, K: Kinematics<D>>(
         return Ok((kirchhoff, Tensor::identity()));
     }
     let increment = &strained.increment;
-    let back = increment.try_inverse().ok_or_else(|| inadmissible(p, "is squeezed flat", increment))?;
+    let back = increment.try_inverse().ok_or_else(|| inadmissible(points, p, "is squeezed flat", increment))?;
     let before = full(&points.stress[p]) * points.deformation[p].determinant() + Tensor::from_diagonal_element(beside);
     let a = Tensor::identity() * (1.0 - alpha_f) + back * alpha_f;
     let w = kirchhoff * (1.0 - alpha_f) + increment * before * increment.transpose() * alpha_f;
@@ -255,7 +255,7 @@ impl<K, S> Internal<K, S> {
             };
             let state = points.state(p, per_second);
             let Some(answer) = K::respond(model.as_ref(), points.origin[p][1], &elastic, &state) else {
-                return Err(inadmissible(p, "is strained beyond measure", increment));
+                return Err(inadmissible(points, p, "is strained beyond measure", increment));
             };
             answers.push(answer);
         }
@@ -278,7 +278,7 @@ impl<K, S> Internal<K, S> {
         let moved = before.iter().flatten().any(|&u| u != 0.0);
         let mut strained = Vec::with_capacity(patch.point_count as usize);
         for entries in frame.stencil.entries::<K>(patch) {
-            strained.push(strain::<D, K>(&entries, &now, moved.then_some(&before))?);
+            strained.push(strain::<D, K>(frame.points, &entries, &now, moved.then_some(&before))?);
         }
         let answers = timed_material(|| {
             Self::answers(models, frame.points, frame.stencil.points(patch), &strained, trial.per_second)
@@ -291,22 +291,23 @@ impl<K, S> Internal<K, S> {
 /// all zero.
 #[inline]
 fn strain<const D: usize, K: Kinematics<D>>(
+    points: &Points<D>,
     entries: &Entries<D>,
     trial: &[[f64; D]; MAX_NODES],
     converged: Option<&[[f64; D]; MAX_NODES]>,
 ) -> Result<Strained> {
     let p = entries.point;
     let now = deformation::<D, K>(entries, trial);
-    let inverse = now.try_inverse().ok_or_else(|| inadmissible(p, "is squeezed flat", &now))?;
+    let inverse = now.try_inverse().ok_or_else(|| inadmissible(points, p, "is squeezed flat", &now))?;
     let increment = match converged {
         None => now,
         Some(converged) => {
             let before = deformation::<D, K>(entries, converged);
-            now * before.try_inverse().ok_or_else(|| inadmissible(p, "was squeezed flat", &before))?
+            now * before.try_inverse().ok_or_else(|| inadmissible(points, p, "was squeezed flat", &before))?
         }
     };
     if !(increment.determinant() > LEAST_VOLUME_RATIO && now.determinant() > 0.0) {
-        return Err(inadmissible(p, "is turned inside out", &increment));
+        return Err(inadmissible(points, p, "is turned inside out", &increment));
     }
     Ok(Strained { increment, inverse })
 }
@@ -322,9 +323,9 @@ fn deformation<const D: usize, K: Kinematics<D>>(entries: &Entries<D>, u: &[[f64
 }
 
 #[cold]
-fn inadmissible(point: usize, what: &str, deformation: &Tensor) -> Error {
+fn inadmissible<const D: usize>(points: &Points<D>, p: usize, what: &str, deformation: &Tensor) -> Error {
     Error::analysis(
-        format!("material point {point}"),
+        format!("material point {p} at {:.3?} m", points.position[p]),
         format!("{what} (det F {:.3})", deformation.determinant()),
         "take smaller steps or refine the mesh",
     )
