@@ -217,7 +217,7 @@ fn sub_boxes(kind: CellKind, k: u32) -> Vec<Part> {
 }
 
 fn no_rule<const D: usize>(mesh: &Mesh<D>, wanted: &RegionSeed, kind: CellKind) -> Error {
-    let rules = if kind.is_simplex() { "3, 4, 6, 7, 9, 12, 16 or 25" } else { "1, 4, 9, 16 or 25" };
+    let rules = if kind.is_simplex() { "3, 4, 6, 7, 9, 12, 16 or 25" } else { "4, 9, 16 or 25" };
     Error::input(
         format!("region {}, points_per_cell", mesh.regions[wanted.region as usize]),
         format!("{} points are not possible in its {kind:?} cells", wanted.points_per_cell),
@@ -357,6 +357,16 @@ mod tests {
             *x = [r * t.cos(), r * t.sin()];
         }
         mesh
+    }
+
+    /// What the message offers is what the schema of a case allows.
+    #[test]
+    fn a_number_of_points_that_cells_cannot_have_is_told_with_those_they_can() {
+        let mesh = rectangle(CellKind::Q9, 1.0, 1.0, 1, 1, 0.0, 3);
+        let error = seed(&mesh, false, &all(6, 1.0)).unwrap_err().to_string();
+        assert!(error.contains("6 points are not possible in its Q9 cells; use 4, 9, 16 or 25"), "{error}");
+        let error = no_rule(&mesh, &all(5, 1.0)[0], CellKind::T6).to_string();
+        assert!(error.contains("use 3, 4, 6, 7, 9, 12, 16 or 25"), "{error}");
     }
 
     #[test]

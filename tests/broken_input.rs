@@ -268,7 +268,14 @@ const GEOMETRY: &[Broken] = &[
     check(Case("{surface: {uy", "{surfase: {uy"), &["case.yaml:23", "no physical curve `surfase`", "`surface`?"]),
     check(Case("on: surface", "on: somewhere"), &["case.yaml:28", "`somewhere`", "choose from"]),
     check(Case("on: surface", "on: soil"), &["case.yaml:28", "a region has no reaction", "take it out"]),
-    check(Case("[uy, reaction_y]", "[uy, contact_y]"), &["case.yaml:28", "only a structure has contact"]),
+    check(
+        Case("[uy, reaction_y]", "[uy, contact_y]"),
+        &["case.yaml:28", "only a structure has contact", "a wall, or a region that a contact names under `against`"],
+    ),
+    check(
+        Case("[uy, reaction_y]", "[uy, rotation]"),
+        &["case.yaml:28", "only a rigid structure turns", "name a wall, or a region of kind structure"],
+    ),
     check(Geo("Line(1) = {1, 2};", "Line(1) = {1, 2;"), &["scene.geo, line 8", "syntax error", "correct the file"]),
     check(Geo("Line(1) = {1, 2};", "Line(1) = {1, 99};"), &["scene.geo", "99"]),
     check(Geo("Physical Surface(\"water\") = {2};", ""), &["scene.geo, surface 2", "no physical surface", "add it"]),
@@ -281,7 +288,39 @@ const GEOMETRY: &[Broken] = &[
 const ARGUMENTS: &[Broken] = &[
     run(Nothing, &["check", "--set", "mesh.parameters.h"], 2, &["--set mesh.parameters.h", "no `=`", "write it as"]),
     run(Nothing, &["check", "--set", "title.more=1"], 2, &["--set title.more=1", "`title` is the text `Block`"]),
-    run(Nothing, &["check", "--set", "phases[3].duration=1"], 2, &["--set phases[3].duration=1", "no item `3`"]),
+    run(
+        Nothing,
+        &["check", "--set", "phases[3].duration=1"],
+        2,
+        &["--set phases[3].duration=1", "no item `3`", "it has the items 0 to 0, by name load"],
+    ),
+    run(
+        Nothing,
+        &["check", "--set", "contacts=[]", "--set", "contacts[0].friction=1"],
+        2,
+        &["--set contacts[0].friction=1", "`contacts` has no item `0`", "it is empty: write the whole list"],
+    ),
+    run(
+        Nothing,
+        &["check", "--set", "output.history[0].quantities.head=uy"],
+        2,
+        &["`output.history[0].quantities` has no item `head`", "it has the items 0 to 1"],
+    ),
+    run(
+        Nothing,
+        &[
+            "check",
+            "--set",
+            "numerics.pressure=field",
+            "--set",
+            "materials.clay={model: mohr_coulomb, young: 100, poisson: 0.3, cohesion: 1, friction: 20, density: 1}",
+        ],
+        2,
+        &[
+            "no material has a share",
+            "and for `linear_elastic`, `tresca`, `von_mises`, `tresca_softening`; take it out",
+        ],
+    ),
     run(Nothing, &["check", "--set", "mesh..h=1"], 2, &["--set mesh..h=1", "an empty name"]),
     run(Nothing, &["check", "--set", "title=[1"], 2, &["--set title=[1", "not YAML"]),
     run(Nothing, &["check", "--set", "mesh.ordre=1"], 2, &["--set mesh.ordre=1", "did you mean `order`?"]),

@@ -64,6 +64,17 @@ fn curves_of_a_structure_are_there() {
     assert_eq!(said.matches("only a structure has contact").count(), 2, "contact_x and contact_y: {said}");
 }
 
+/// It would be looked for among the curves of the mesh, in vain.
+#[test]
+fn a_rigid_structure_does_not_drain() {
+    let folder = scene(&[("  side: {ux: 0}", "  side: {ux: 0}\n  plate: {pore_pressure: 0}")]);
+    let soil = "materials.soil={model: linear_elastic, young: 1000, poisson: 0.3, density: 0, drainage: undrained, \
+        permeability: 1.0e-8}";
+    let held = "phases[0].prescribe={plate: {uy: {rate: -0.1}}}";
+    let command = ["check", "--set", soil, "--set", "regions.plate.rigid=true", "--set", held];
+    refused(folder.path(), &command, 2, &["supports.plate.pore_pressure", "no pores", "drain a physical curve"]);
+}
+
 /// A mesh made before the case named a curve.
 #[test]
 fn a_curve_that_an_old_mesh_has_not_is_named() {

@@ -1,5 +1,5 @@
-//! What the documents say holds: the README's first case runs, the user guide has every entry of a case,
-//! every link leads to a file.
+//! What the documents say holds: the README's first case runs and its list has every case, the user guide has every
+//! entry of a case, every link leads to a file.
 
 use mpm::material::MODELS;
 use serde_json::Value;
@@ -64,6 +64,19 @@ fn the_user_guide_has_every_entry_of_a_case() {
     let words: BTreeSet<&str> = guide.split(|c: char| !(c.is_alphanumeric() || c == '_')).collect();
     let missing: Vec<&String> = names.iter().filter(|name| !words.contains(name.as_str())).collect();
     assert!(missing.is_empty(), "docs/user-guide.md does not mention {missing:?}");
+}
+
+#[test]
+fn the_readme_has_every_case() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let readme = fs::read_to_string(root.join("README.md")).unwrap();
+    let list = &readme[readme.find("| topic | cases |").expect("the list of cases")..];
+    for entry in fs::read_dir(root.join("cases")).unwrap() {
+        let entry = entry.unwrap();
+        let name = entry.file_name().to_string_lossy().into_owned();
+        let link = format!("](cases/{name}/README.md)");
+        assert!(!entry.path().is_dir() || list.contains(&link), "README.md does not list the case {name}");
+    }
 }
 
 /// The Markdown files in `folder` and the folders in it, but for what is built or installed.

@@ -17,6 +17,7 @@ from common import Series, stop
 
 NAMES = ["t", "dt", "mass", "elastic", "potential", "kinetic", "momentum", "imbalance"]
 DENSITY, TOP, GRADIENT, HEIGHT = 1.65, 1.5, 0.3, 5.0  # of case.yaml
+NEAREST = 8  # points to compare one with
 
 
 def steps(log):
@@ -62,6 +63,19 @@ def main():
     rest = s["kinetic"][-1] + s["elastic"][-1]
     print(f"energy: gravity gave {work:.2f} kJ, plastic flow took {plastic:.2f} kJ, kinetic and elastic energy at the end "
           f"{rest:.2f} kJ; {100 * (work - plastic - rest) / work:.2f} % are missing")
+
+    around = neighbours(last)
+    stress = last.point_data["stress [kPa]"][:, :3].mean(axis=1)
+    velocity = last.point_data["velocity [m/s]"]
+    strays = stress - stress[around].mean(axis=1)
+    alone = np.linalg.norm(velocity - velocity[around].mean(axis=1), axis=1)
+    print(f"noise: the mean stress of a point is {np.sqrt((strays**2).mean()):.2f} kPa r.m.s. off that of the {NEAREST} nearest, "
+          f"its velocity at most {alone.max():.2f} m/s")
+
+
+def neighbours(frame):
+    """The nearest points of each, by their numbers."""
+    return np.array([[n for n in frame.find_closest_point(x, NEAREST + 1) if n != i][:NEAREST] for i, x in enumerate(frame.points)])
 
 
 def points_of(out):

@@ -4,6 +4,5 @@ pub mod elastica;
 pub mod limit_load;
 pub mod mandel;
 pub mod self_weight_column;
-pub mod spinning_disc;
 pub mod terzaghi;
 pub mod vibrating_bar;

@@ -4,7 +4,8 @@ use super::checked::{self, *};
 use super::locate::{At, Path};
 use super::raw;
 use super::source::Issue;
-use super::structure::suggest;
+use super::structure::{list, suggest};
+use crate::material::MODELS;
 use crate::stencil::Scheme;
 use std::path::Path as FilePath;
 
@@ -182,7 +183,7 @@ impl Checker {
             if held.rotation.is_some() {
                 self.turns(file, curve, &path.key("rotation"));
             }
-            self.drained(file, held, &path);
+            self.drained(file, curve, held, &path);
             if held.ux.is_none() && held.uy.is_none() && held.rotation.is_none() && held.pore_pressure.is_none() {
                 self.issue(&path, At::Key, "nothing is held", "add `ux: 0` or `uy: 0`");
             }
@@ -308,8 +309,10 @@ impl Checker {
         let unused =
             file.numerics.pressure == Some(raw::Pressure::Field) && case.materials.iter().all(|m| m.carried.is_none());
         if unused && self.issues.is_empty() {
-            let problem = "no material has a share for it: the field is for undrained materials, and for linear_elastic, \
-                tresca and von_mises";
+            let models: Vec<&str> = MODELS.iter().filter(|kind| kind.keeps_volume).map(|kind| kind.name).collect();
+            let models = list(&models);
+            let problem =
+                format!("no material has a share for it: the field is for undrained materials, and for {models}");
             self.issue(&root.key("numerics").key("pressure"), At::Value, problem, "take it out");
         }
         if file.regions.values().all(|region| region.kind == raw::RegionKind::Buffer) {

@@ -13,8 +13,8 @@ use std::sync::Arc;
 /// with many points lock.
 const NEARLY_INCOMPRESSIBLE: f64 = 0.45;
 /// Bulk modulus that the points keep, over the shear modulus (-). With 16 points a cell it is a bound of its own where
-/// soil flows: on 8 cells a rough strip footing is 2.8 % stronger with that of Poisson's ratio 0.3 than with next to
-/// nothing, and no stronger with this. With less, single points in cut cells of a moving body have nothing that keeps their volume.
+/// soil flows: on 8 cells a rough strip footing is 1.3 % stronger with that of Poisson's ratio 0.3 than with this
+/// (`general_position::what_the_points_keep…`). With less, single points in cut cells of a moving body have nothing that keeps their volume.
 const KEPT: f64 = 1e-3;
 
 /// Bulk modulus over shear modulus.

@@ -107,7 +107,8 @@ impl Names<'_> {
     fn no_contact(&mut self, quantities: &[Quantity], path: &Path) {
         for (i, quantity) in quantities.iter().enumerate() {
             if matches!(quantity, Quantity::ContactX | Quantity::ContactY | Quantity::ContactMoment) {
-                let remedy = "take it out, or name a region of kind structure";
+                let remedy =
+                    "take it out, or name a structure, a wall, or a region that a contact names under `against`";
                 self.issues.push(Issue::new(&path.index(i), At::Value, "only a structure has contact", remedy));
             }
         }
@@ -117,7 +118,7 @@ impl Names<'_> {
     fn no_rotation(&mut self, quantities: &[Quantity], path: &Path) {
         for (i, quantity) in quantities.iter().enumerate() {
             if matches!(quantity, Quantity::Rotation | Quantity::ReactionMoment) {
-                let remedy = "take it out, or name a region of kind structure with `rigid: true`";
+                let remedy = "take it out, or name a wall, or a region of kind structure with `rigid: true`";
                 self.issues.push(Issue::new(&path.index(i), At::Value, "only a rigid structure turns", remedy));
             }
         }

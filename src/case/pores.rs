@@ -120,9 +120,13 @@ impl Checker {
     }
 
     /// A curve where water leaves.
-    pub(super) fn drained(&mut self, file: &raw::CaseFile, held: &raw::Components, path: &Path) {
+    pub(super) fn drained(&mut self, file: &raw::CaseFile, name: &str, held: &raw::Components, path: &Path) {
         let Some(pressure) = held.pore_pressure else { return };
         let path = path.key("pore_pressure");
+        if file.regions.get(name).is_some_and(|region| region.rigid == Some(true)) {
+            let remedy = "take it out, or drain a physical curve of the soil by its name";
+            self.issue(&path, At::Key, "a rigid structure has no pores", remedy);
+        }
         if pressure != 0.0 {
             self.issue(&path, At::Value, "a drained curve has no excess pressure", "write 0 here");
         }

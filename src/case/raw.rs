@@ -25,7 +25,7 @@ pub struct CaseFile {
     /// A line that names the case in logs and pictures.
     #[serde(default)]
     pub title: String,
-    /// The kind of geometry: plane_strain, axisymmetric (x is the radius) or solid.
+    /// The kind of geometry: plane_strain, axisymmetric (x is the radius), or solid (not available yet).
     pub geometry: Geometry,
     /// The background mesh.
     pub mesh: Mesh,
@@ -102,7 +102,7 @@ pub struct Region {
     pub kind: RegionKind,
     /// The name of an entry of `materials`.
     pub material: Option<String>,
-    /// Material points a cell: 4, 9, 16 or 25 equal points, or 3, 6, 7 or 12 quadrature points of a triangle.
+    /// Material points a cell: 4, 9, 16 or 25 equal points, or 3, 6, 7 or 12 quadrature points of a triangle. Without it 16.
     #[schemars(extend("enum" = [3, 4, 6, 7, 9, 12, 16, 25]))]
     pub points_per_cell: Option<usize>,
     /// Whether a structure keeps its shape: it moves and turns as a whole.

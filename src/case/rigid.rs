@@ -242,6 +242,7 @@ impl<'a> Holds<'a> {
     }
 }
 
+/// Whether `name` is that of the region of a body.
 pub fn is_region(mesh: &Mesh<2>, body: &Body<2>, name: &str) -> bool {
     mesh.regions.get(body.region as usize).is_some_and(|region| region == name)
 }

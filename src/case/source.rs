@@ -117,15 +117,11 @@ impl Source {
                     map.entry(name).or_insert(Value::Null)
                 }
                 Value::Array(list) => {
-                    let count = list.len();
+                    let choice = items(list);
                     let index = position(list, name);
                     let item = index.and_then(|i| list.get_mut(i).map(|item| (i, item)));
-                    let (index, item) = item.ok_or_else(|| {
-                        refuse(
-                            format!("{around} has no item `{name}`"),
-                            &format!("it has the items 0 to {}", count - 1),
-                        )
-                    })?;
+                    let (index, item) =
+                        item.ok_or_else(|| refuse(format!("{around} has no item `{name}`"), &choice))?;
                     path = path.index(index);
                     item
                 }
@@ -209,6 +205,16 @@ fn position(list: &[Value], name: &str) -> Option<usize> {
     match name.parse() {
         Ok(index) => Some(index),
         Err(_) => list.iter().position(|item| item.get("name").and_then(Value::as_str) == Some(name)),
+    }
+}
+
+/// What of a list there is to choose from: the numbers of its items, and their names.
+fn items(list: &[Value]) -> String {
+    let names: Vec<&str> = list.iter().filter_map(|item| item.get("name").and_then(Value::as_str)).collect();
+    match (list.len(), names.is_empty()) {
+        (0, _) => "it is empty: write the whole list, or add the item to the case file".to_owned(),
+        (count, true) => format!("it has the items 0 to {}", count - 1),
+        (count, false) => format!("it has the items 0 to {}, by name {}", count - 1, names.join(", ")),
     }
 }
 

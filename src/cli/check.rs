@@ -1,4 +1,4 @@
-//! `mpm check`: every mistake of a case in one go.
+//! `mpm check`: every mistake of a case that shows without its mesh, in one go.
 
 use super::{CaseArgs, Outcome, mesh, print};
 use crate::case;

@@ -17,11 +17,18 @@ pub fn run(args: &StageArgs) -> Outcome {
 }
 
 /// Whether `mesh.msh` is there and would come out the same.
+///
+/// # Errors
+/// Input: a `.geo`, or what it includes, that cannot be read.
 pub fn is_current(stage: &Stage) -> Result<bool> {
     Ok(stamp(stage)?.is_current(&[stage.mesh()]))
 }
 
 /// Meshes, and prints a summary. An earlier mesh stays until the new one has passed every check.
+///
+/// # Errors
+/// Input: names that the `.geo` does not have, one that does not mesh, cells of bad quality; a machine error where
+/// files cannot be written.
 pub fn work(stage: &Stage) -> Outcome {
     let case = &stage.loaded.case;
     stage.loaded.check_names(&groups(&case.mesh)?)?;
@@ -43,6 +50,9 @@ pub fn work(stage: &Stage) -> Outcome {
 }
 
 /// The mesh of an earlier `mpm mesh`, held against the names in the case.
+///
+/// # Errors
+/// Input: no mesh, one that cannot be read, and each name of the case that it does not have.
 pub fn read(stage: &Stage) -> std::result::Result<Mesh<2>, Vec<Error>> {
     if !stage.mesh().exists() {
         let place = stage.mesh().display().to_string();
@@ -57,6 +67,9 @@ pub fn read(stage: &Stage) -> std::result::Result<Mesh<2>, Vec<Error>> {
 }
 
 /// The names of the groups of the `.geo`, without meshing it.
+///
+/// # Errors
+/// Input: a `.geo` that Gmsh does not read, or that lacks a parameter.
 pub fn groups(mesh: &checked::Mesh) -> Result<Groups> {
     let gmsh::Groups { surfaces, curves, points } = gmsh::groups(&mesh.geo, &options(mesh))?;
     Ok(Groups { surfaces, curves, points, meshed: false })

@@ -38,7 +38,7 @@ enum Command {
     Export(StageArgs),
     /// All stages in turn, but those whose inputs have not changed
     Run(solve::Args),
-    /// Print every mistake of a case, with file, line and remedy; writes nothing
+    /// Print every mistake of a case that shows without its mesh, with file, line and remedy; writes nothing
     Check(CaseArgs),
     /// Print the JSON schema of case.yaml, for editors
     Schema,

@@ -1,10 +1,11 @@
 //! Contact between the boundary of a structure and soil: where they meet, how far apart they are and what they
 //! exert on each other.
 //!
-//! The boundary is where contact is integrated, for there area and normal are exact. It is cut into segments about a
-//! fifth of a cell long; pressure and shear are combinations of hats along it, about a cell wide, and each hat has one
-//! condition: its mean gap. The gap of a segment is the signed distance of the nearest points of soil to the boundary
-//! (its level set), less the half width of a point.
+//! The boundary is where contact is integrated, for there area and normal are exact. Pressure and shear are combinations
+//! of hats along it, about half an edge of the soil's cells apart (`case/touch.rs`), and each hat has one condition: its
+//! mean gap. It is summed over segments of a fifth of that distance. The gap of a segment is that to the surface which the
+//! soil began with, where the points just below it know it ([`skin`]); elsewhere it is the signed distance of the nearest
+//! point to the boundary (its level set), less the half width of that point.
 
 mod along;
 mod bodies;

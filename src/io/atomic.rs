@@ -22,6 +22,9 @@ pub fn write(path: &Path, fill: impl FnOnce(&mut dyn Write) -> io::Result<()>) -
 }
 
 /// Like [`write()`], and returns only when the file is on the disk.
+///
+/// # Errors
+/// As [`write()`].
 pub fn write_durable(path: &Path, fill: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<()> {
     replace(path, true, fill)
 }

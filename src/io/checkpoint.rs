@@ -4,7 +4,7 @@
 //! the caller's business ([`Store`]); that it belongs to the same case, mesh and points is checked here.
 
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use twox_hash::XxHash64;
 
@@ -26,18 +26,6 @@ impl Fingerprint {
     pub fn of(parts: &[&[u8]]) -> Self {
         // The length goes in too, so that what moves from one part to the next is noticed.
         Self(parts.iter().fold(0, |seed, part| XxHash64::oneshot(seed ^ part.len() as u64, part)))
-    }
-
-    /// The fingerprint of texts and of the contents of files.
-    ///
-    /// # Errors
-    /// `Input` when a file is missing.
-    pub fn of_files(text: &str, files: &[&Path]) -> Result<Self> {
-        let mut parts = vec![text.as_bytes().to_vec()];
-        for path in files {
-            parts.push(fs::read(path).map_err(|e| atomic::unreadable(path, &e, "run the stage that makes it"))?);
-        }
-        Ok(Self::of(&parts.iter().map(Vec::as_slice).collect::<Vec<_>>()))
     }
 }
 

@@ -70,8 +70,8 @@ pub struct Groups {
 /// Input: as [`generate`], but for what only shows in meshing.
 pub fn groups(geo: &Path, options: &Options) -> Result<Groups> {
     let session = open(geo, options)?;
-    let names = |dimension| Ok(session.physical_groups(dimension)?.into_iter().map(|group| group.name).collect());
-    Ok(Groups { surfaces: names(2)?, curves: names(1)?, points: names(0)? })
+    let names = |dimension| session.physical_groups(dimension).into_iter().map(|group| group.name).collect();
+    Ok(Groups { surfaces: names(2), curves: names(1), points: names(0) })
 }
 
 /// A session with the geometry in `geo`, its parameters and surfaces checked.
@@ -114,7 +114,7 @@ pub fn read(path: &Path) -> Result<Mesh<2>> {
     let nodes = session.nodes(path)?;
     let mut mesh = Mesh { nodes: Vec::new(), cells: Cells::default(), regions: Vec::new(), groups: Vec::new() };
     let mut cells = Vec::new();
-    for physical in session.physical_groups(2)? {
+    for physical in session.physical_groups(2) {
         let region = u16::try_from(mesh.regions.len())
             .map_err(|_| Error::input(&place, "more than 65536 physical surfaces", "join some of them"))?;
         if mesh.regions.contains(&physical.name) {
@@ -154,7 +154,7 @@ pub fn read(path: &Path) -> Result<Mesh<2>> {
         mesh.cells.push(*kind, *region, &local);
     }
     for dimension in [1, 0] {
-        for physical in session.physical_groups(dimension)? {
+        for physical in session.physical_groups(dimension) {
             let kind = if dimension == 1 { "curves" } else { "points" };
             if mesh.groups.iter().any(|g| g.name == physical.name) {
                 return Err(doubled(path, kind, &physical.name));

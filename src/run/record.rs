@@ -111,6 +111,7 @@ pub fn row<const D: usize>(scene: &Scene<D>, watches: &[Watch], state: &State<D>
     row
 }
 
+/// The value of a quantity of what is watched, as the converged state of a step and its report have it.
 pub fn value<const D: usize>(
     on: &WatchedOn,
     quantity: Quantity,

@@ -52,6 +52,9 @@ pub fn static_force<const D: usize>(problem: &Problem<D>, grid: &mut Grid<D>) ->
 }
 
 /// The residual of a state at the end of the step and, where wanted, the tangent in the matrix of the grid.
+///
+/// # Errors
+/// Analysis, where a term has no answer for the state: material turned inside out, a stress without a root.
 pub fn evaluate<const D: usize>(
     problem: &Problem<D>,
     grid: &mut Grid<D>,

@@ -195,6 +195,9 @@ impl<const D: usize> Grid<D> {
     }
 
     /// The grid for a stencil.
+    ///
+    /// # Errors
+    /// A machine error when memory does not suffice.
     pub fn with<K: Kinematics<D>>(
         scene: &Scene<D>,
         state: &State<D>,

@@ -135,8 +135,8 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
         Ok(report)
     }
 
-    /// Points to grid, where the grid is to be restored or `forced` to be. True when nothing has moved on it yet
-    /// or never will be restored.
+    /// Points to grid, where the grid is to be restored or `forced` to be. True where another restoration would change
+    /// nothing: the grid is fresh, or is never restored.
     fn initialise(&mut self, forced: bool) -> Result<bool> {
         let (scene, state) = (self.scene, &mut self.state);
         let moved = state.displacement.iter().flatten().any(|&u| u != 0.0);

@@ -78,6 +78,9 @@ struct SymmetricPart {
 
 impl Whole {
     /// As [`Factor::new`].
+    ///
+    /// # Errors
+    /// As [`Factor::new`].
     pub fn new(pattern: &Pattern) -> Result<Self> {
         let symmetric_part = if pattern.symmetric { None } else { Some(SymmetricPart::new(pattern)) };
         let (column, row) = match &symmetric_part {

@@ -7,12 +7,13 @@ use serde::Deserialize;
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Numerics {
-    /// How gradients at the points are formed: mpm (plain), ddmp, gimp, cpdi, cpdi2 or bspline.
+    /// How gradients at the points are formed: mpm (plain) or ddmp; gimp, cpdi, cpdi2 and bspline (not available yet).
     pub gradient: Gradient,
     /// The integration weights: points (the volumes of the points) or fitted.
     pub quadrature: Quadrature,
     /// Who carries the mean stress of nearly incompressible and undrained materials: a field of pressure unknowns, or
-    /// none. Without it a field where Poisson's ratio is 0.45 or more or a material is undrained.
+    /// none. Without it a field where Poisson's ratio is 0.45 or more (not in mohr_coulomb and cam_clay) or a material
+    /// is undrained.
     pub pressure: Option<Pressure>,
     /// When the grid goes back to its first shape: every_step, never, or {min_quality: q, max_stretch: s}.
     pub restore: Restore,

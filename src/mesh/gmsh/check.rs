@@ -8,8 +8,11 @@ use std::io::{Read, Seek, SeekFrom};
 use std::path::Path;
 
 /// Every surface must be in exactly one physical surface.
+///
+/// # Errors
+/// Input: one in none or in two, or no physical surface at all.
 pub fn check_surfaces(session: &Session, path: &Path) -> Result<()> {
-    let groups = session.physical_groups(2)?;
+    let groups = session.physical_groups(2);
     if groups.is_empty() {
         return Err(Error::input(
             path.display(),
@@ -35,6 +38,9 @@ pub fn check_surfaces(session: &Session, path: &Path) -> Result<()> {
 }
 
 /// Every parameter must have been taken up by a `DefineConstant` of the file.
+///
+/// # Errors
+/// Input: one that the file does not declare.
 pub fn check_parameters(session: &Session, geo: &Path, text: &str, parameters: &[(String, f64)]) -> Result<()> {
     if parameters.is_empty() {
         return Ok(());
@@ -86,6 +92,10 @@ pub fn declared(text: &str) -> Vec<String> {
     names
 }
 
+/// The path must be that of a file that opens.
+///
+/// # Errors
+/// Input: one that does not.
 pub fn check_readable(path: &Path) -> Result<()> {
     match fs::File::open(path).and_then(|f| f.metadata()) {
         Ok(metadata) if metadata.is_file() => Ok(()),
@@ -107,6 +117,9 @@ const LAST_SECTIONS: [&str; 8] = [
 ];
 
 /// A mesh file that was cut short does not end with the end of a section.
+///
+/// # Errors
+/// Input: such a file, or one that cannot be read.
 pub fn check_complete(path: &Path) -> Result<()> {
     let tail = || -> std::io::Result<Vec<u8>> {
         let mut file = fs::File::open(path)?;
@@ -127,6 +140,9 @@ pub fn check_complete(path: &Path) -> Result<()> {
 }
 
 /// The mesh must lie in the plane z = 0, with finite coordinates.
+///
+/// # Errors
+/// Input: the first node that does not.
 pub fn check_plane<'a>(path: &Path, nodes: impl Iterator<Item = &'a [f64; 3]> + Clone) -> Result<()> {
     let size = nodes.clone().fold(0.0f64, |size, x| size.max(x[0].abs()).max(x[1].abs()));
     for x in nodes {
@@ -138,6 +154,7 @@ pub fn check_plane<'a>(path: &Path, nodes: impl Iterator<Item = &'a [f64; 3]> + 
     Ok(())
 }
 
+/// The error for two physical groups of one name.
 pub fn doubled(path: &Path, kind: &str, name: &str) -> Error {
     Error::input(path.display(), format!("the physical {kind} have the name {name} twice"), "give each its own name")
 }

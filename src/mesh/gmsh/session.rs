@@ -30,6 +30,10 @@ pub struct Physical {
 }
 
 impl Session {
+    /// Starts it, once no other thread has a session.
+    ///
+    /// # Errors
+    /// A machine error when Gmsh does not start or lacks an option.
     pub fn start() -> Result<Self> {
         // A thread that panicked with the lock has ended its session: the lock guards nothing else.
         let lock = LOCK.lock().unwrap_or_else(PoisonError::into_inner);
@@ -50,6 +54,10 @@ impl Session {
         Ok(session)
     }
 
+    /// Sets an option that is a number.
+    ///
+    /// # Errors
+    /// A machine error when this Gmsh has no such option.
     pub fn set_option(&self, name: &str, value: f64) -> Result<()> {
         let mut status = 0;
         let c_name = c_string(name)?;
@@ -63,6 +71,9 @@ impl Session {
     }
 
     /// Presets a variable, which `DefineConstant` then leaves as it is.
+    ///
+    /// # Errors
+    /// Input: a name with a zero byte.
     pub fn set_parameter(&self, geo: &Path, name: &str, value: f64) -> Result<()> {
         let mut status = 0;
         let c_name = c_string(name)?;
@@ -72,6 +83,9 @@ impl Session {
     }
 
     /// The value of a variable of the `.geo`, where it is a number.
+    ///
+    /// # Errors
+    /// Input: a name with a zero byte.
     pub fn parameter(&self, name: &str) -> Result<Option<f64>> {
         let (mut data, mut count, mut status) = (null_mut(), 0, 0);
         let c_name = c_string(name)?;
@@ -84,6 +98,9 @@ impl Session {
     }
 
     /// Reads a file into the model, which is empty at the start of a session.
+    ///
+    /// # Errors
+    /// Input: what Gmsh says of the file, with its line.
     pub fn merge(&self, path: &Path) -> Result<()> {
         let name = c_path(path)?;
         let mut status = 0;
@@ -93,6 +110,9 @@ impl Session {
     }
 
     /// Meshes the plane with cells of an order.
+    ///
+    /// # Errors
+    /// Input: a geometry that does not mesh.
     pub fn mesh(&self, geo: &Path, order: u8) -> Result<()> {
         let mut status = 0;
         // SAFETY: plain numbers; the session holds the lock.
@@ -104,6 +124,9 @@ impl Session {
     }
 
     /// Writes the mesh beside `out`, checks that it is all there and renames it.
+    ///
+    /// # Errors
+    /// A machine error when it cannot be written in full.
     pub fn write(&self, out: &Path) -> Result<()> {
         let failed = |problem: String| {
             Error::machine(out.display(), problem, "free some space, or choose another folder with -o")
@@ -130,7 +153,7 @@ impl Session {
     }
 
     /// The physical groups of a dimension, by their numbers.
-    pub fn physical_groups(&self, dimension: c_int) -> Result<Vec<Physical>> {
+    pub fn physical_groups(&self, dimension: c_int) -> Vec<Physical> {
         let (mut data, mut count, mut status) = (null_mut(), 0, 0);
         // SAFETY: Gmsh hands out `count` integers, pairs of dimension and tag.
         let pairs = unsafe {
@@ -155,7 +178,7 @@ impl Session {
             groups.push(Physical { tag, name, entities });
         }
         groups.sort_by_key(|g| g.tag);
-        Ok(groups)
+        groups
     }
 
     /// The tags of the entities of a dimension.
@@ -170,6 +193,9 @@ impl Session {
     }
 
     /// The coordinates of all nodes by their tags.
+    ///
+    /// # Errors
+    /// Input: what Gmsh says of the file.
     pub fn nodes(&self, path: &Path) -> Result<BTreeMap<usize, [f64; 3]>> {
         let (mut tags, mut tag_count) = (null_mut(), 0);
         let (mut coordinates, mut coordinate_count) = (null_mut(), 0);
@@ -198,6 +224,9 @@ impl Session {
     }
 
     /// The elements of an entity, each with its kind and the tags of its nodes.
+    ///
+    /// # Errors
+    /// Input: elements of a type that there are no cells for, and what Gmsh says of the file.
     pub fn elements(&self, path: &Path, dimension: c_int, entity: c_int) -> Result<Vec<(CellKind, Vec<usize>)>> {
         let (mut types, mut type_count) = (null_mut(), 0);
         let (mut tags, mut tag_counts, mut tag_lists) = (null_mut(), null_mut(), 0);
@@ -233,6 +262,9 @@ impl Session {
     }
 
     /// An error if the last call failed or Gmsh has logged one.
+    ///
+    /// # Errors
+    /// Input: what Gmsh says, at the line of the file that it names, with the `remedy`.
     pub fn checked(&self, path: &Path, status: c_int, remedy: &str) -> Result<()> {
         // A group that names a curve that is not there is a warning to Gmsh, and wrong all the same.
         let logged = self.log().into_iter().find_map(|line| {
@@ -257,6 +289,7 @@ impl Session {
         Err(Error::input(place, problem, remedy))
     }
 
+    /// What Gmsh has logged since it was started, a line each.
     pub fn log(&self) -> Vec<String> {
         let (mut lines, mut count, mut status) = (null_mut(), 0, 0);
         // SAFETY: Gmsh hands out `count` strings.
@@ -266,6 +299,7 @@ impl Session {
         }
     }
 
+    /// What Gmsh says of its last error.
     pub fn last_error(&self) -> String {
         let (mut message, mut status) = (null_mut(), 0);
         // SAFETY: Gmsh hands out a zero-terminated string.
