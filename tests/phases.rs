@@ -3,6 +3,7 @@
 mod history;
 
 use history::column;
+use mpm::io::frame::{self, Frame};
 use std::fs;
 use std::path::Path;
 use std::process::Command;
@@ -182,6 +183,103 @@ fn a_phase_that_ends_changes_nothing() {
     }
 }
 
+/// What a run showed, but for the names of its phases.
+fn frames(folder: &Path) -> Vec<Frame> {
+    let results = folder.join("results");
+    let count = fs::read_dir(&results).unwrap().count();
+    let read = |i| Frame { phase: String::new(), ..Frame::read(&frame::path(&results, i)).unwrap() };
+    (0..count).map(read).collect()
+}
+
+fn values<'a>(frame: &'a Frame, name: &str) -> &'a [f64] {
+    &frame.points.columns.iter().find(|column| column.name == name).unwrap().values
+}
+
+fn size(values: &[f64]) -> f64 {
+    values.iter().map(|value| value * value).sum::<f64>().sqrt()
+}
+
+/// The same of soil that flows and crosses cells: with inertia, along a plate, and with water in its pores beneath a strip. A reset changes the
+/// displacements alone, those of points apart that are pushed out of the plate, and then stand for soil from elsewhere. Rates are sums of few powers of two, so that what is prescribed comes to the same bits from either beginning.
+#[test]
+fn a_phase_that_ends_changes_nothing_in_soil_that_yields() {
+    let clay = "model: tresca, young: 1000, poisson: 0.3, shear_strength: 20, density: 0";
+    let pores = "drainage: undrained, permeability: 9.0e-7, porosity: 0.5, water_bulk_modulus: 1.0e+4";
+    let porous =
+        format!("materials.clay={{model: tresca, young: 1000, poisson: 0.2, shear_strength: 2, density: 0, {pores}}}");
+    let soil = format!("materials.soil={{{clay}}}");
+    let press = |what: &str| {
+        format!("{{name: press, analysis: quasi_static, duration: 1, step: {{initial: 0.25}}, prescribe: {what}}}, ")
+    };
+    let scenes = [
+        (
+            "cases/slump",
+            vec!["mesh.parameters.h=2", "supports.bottom={ux: 0, uy: 0}", "output.every=0.5"],
+            String::new(),
+            (2.0, "analysis: dynamic, step: {initial: 0.03125}"),
+        ),
+        (
+            "tests/data/plate",
+            vec![
+                &soil,
+                "mesh.parameters={plate: 0.8, left: 0.6, edge: 0.05}",
+                "contacts=[{structure: plate, soil: soil, adhesion_factor: 0.5}]",
+                "output.every=0.5",
+            ],
+            press("{top: {ux: 0, uy: {rate: -0.0625}}}"),
+            (1.0, "analysis: quasi_static, step: {initial: 0.0625}, prescribe: {top: {ux: {rate: 0.125}, uy: 0}}"),
+        ),
+        (
+            "tests/data/strip",
+            vec![&porous, "output.every=256"],
+            press("{strip: {ux: 0, rotation: 0, uy: {rate: -0.0078125}}}"),
+            (
+                512.0,
+                "analysis: consolidation, step: {initial: 64}, \
+                 prescribe: {strip: {rotation: 0, ux: {rate: 7.62939453125e-6}, uy: {rate: -7.62939453125e-6}}}",
+            ),
+        ),
+    ];
+    for (case, settings, before, (duration, what)) in scenes {
+        let shown = |parts: &[(f64, &str)]| {
+            let phase = |(i, (part, more)): (usize, &(f64, &str))| {
+                format!("{{name: on {i}, duration: {}, {what}{more}}}", part * duration)
+            };
+            let all: Vec<String> = parts.iter().enumerate().map(phase).collect();
+            let phases = format!("phases=[{before}{}]", all.join(", "));
+            let more = ["numerics.restore=every_step", "output.fields=[displacement, stress, plastic_strain]", &phases];
+            let folder = run(&root().join(case), &[&settings[..], &more].concat());
+            (frames(folder.path()), fs::read_to_string(folder.path().join("history.csv")).unwrap())
+        };
+        let (one, history) = shown(&[(1.0, "")]);
+        let last = &one[one.len() - 1];
+        let yields = values(last, "plastic_strain").iter().filter(|strain| **strain > 1e-3).count();
+        println!("{case}: {yields} of {} points yielded, in {} steps", last.points.position.len(), last.step);
+        assert!(yields > last.points.position.len() / 20 && last.step >= 12, "{case}: {yields}");
+        let (two, again) = shown(&[(0.5, ""), (0.5, "")]);
+        assert!(one == two && history == again, "{case}");
+
+        let (reset, _) = shown(&[(0.5, ""), (0.5, ", reset_displacements: true")]);
+        let middle = one.iter().position(|frame| frame.time >= last.time - 0.5 * duration).unwrap();
+        assert_eq!(one[..=middle], reset[..=middle], "{case}");
+        let before = values(&one[middle], "displacement");
+        let mut off = 0f64;
+        for (one, reset) in one.iter().zip(&reset).skip(middle + 1) {
+            assert_eq!(one.points.position, reset.points.position, "{case}");
+            for name in ["stress", "plastic_strain"] {
+                assert_eq!(values(one, name), values(reset, name), "{case}");
+            }
+            let deep = one.points.position.iter().flat_map(|x| [x[1] < -0.3 || case != "tests/data/plate"; 3]);
+            let [one, reset] = [one, reset].map(|frame| values(frame, "displacement"));
+            assert!(size(reset) < 0.9 * size(one), "{case}");
+            let error = one.iter().zip(before).zip(reset).map(|((a, b), c)| (a - b - c).abs());
+            off = error.zip(deep).filter(|(_, deep)| *deep).map(|(error, _)| error).fold(off, f64::max);
+        }
+        println!("displacements are off by {off:.1e} m");
+        assert!(off < 1e-14, "{case}: {off:e}");
+    }
+}
+
 /// What has found equilibrium without inertia stays there with it, and the other way round.
 #[test]
 fn a_change_of_analysis_keeps_the_equilibrium() {
@@ -234,6 +332,132 @@ fn what_is_deactivated_carries_nothing() {
     assert_eq!(force.len(), 4);
     assert!(force[1] < -1e-3 && force[2] == 0.0, "{force:?}");
     assert!((force[3] / force[1] - 1.0).abs() < 1e-2, "{force:?}");
+}
+
+/// The force (kN) of confined soil, 1 m deep and 2 m wide, on a plate that is `depth` (m) in it, by Hencky's law: `M ln λ / λ`.
+fn pressed(depth: f64) -> f64 {
+    let (modulus, stretch) = (1000.0 * 0.7 / (1.3 * 0.4), 1.0 - depth);
+    -2.0 * modulus * stretch.ln() / stretch
+}
+
+/// How deep (m) that is where the force is `force` (kN).
+fn depth(force: f64) -> f64 {
+    let (mut low, mut high) = (0.0, 0.5);
+    for _ in 0..60 {
+        let middle = 0.5 * (low + high);
+        (low, high) = if pressed(middle) < force { (middle, high) } else { (low, middle) };
+    }
+    low
+}
+
+/// What a plate on soil does in phases, of which the last entries are given: a phase of equal steps each.
+fn plate(phases: &[(f64, &str)], settings: &[&str]) -> TempDir {
+    let phase = |(i, (step, more)): (usize, &(f64, &str))| {
+        format!("{{name: phase {i}, analysis: quasi_static, duration: 1, step: {{initial: {step}}}, {more}}}")
+    };
+    let all: Vec<String> = phases.iter().enumerate().map(phase).collect();
+    let phases = format!("phases=[{}]", all.join(", "));
+    let history = "output.history=[{name: plate, on: plate, quantities: [uy, contact_y]}, \
+        {name: top, on: top, quantities: [reaction_y]}, {name: soil, on: soil, quantities: [uy]}]";
+    run(&root().join("tests/data/plate"), &[&[phases.as_str(), history], settings].concat())
+}
+
+fn near(found: f64, exact: f64, part: f64) -> bool {
+    (found / exact - 1.0).abs() < part
+}
+
+/// The first step that comes to the force ends the phase, and the next one goes on from there.
+#[test]
+fn a_phase_ends_when_its_force_is_reached() {
+    let down = "prescribe: {top: {ux: 0, uy: {rate: -0.08}}}";
+    let folder = plate(
+        &[
+            (0.0625, &format!("{down}, until: [{{of: plate, quantity: contact_y, above: 100}}]")),
+            (1.0, "prescribe: {top: {ux: 0, uy: 0}}"),
+            (0.0625, &format!("{down}, until: [{{of: top, quantity: reaction_y, below: -200}}]")),
+        ],
+        &[],
+    );
+    let [time, force, held] =
+        ["time [s]", "plate.contact_y [kN]", "top.reaction_y [kN]"].map(|name| column(folder.path(), name));
+    // Steps of half a centimetre, the eighth and the fourteenth of which are the first ones beyond.
+    assert!(pressed(0.035) < 99.5 && pressed(0.04) > 101.0 && pressed(0.065) < 198.0 && pressed(0.07) > 202.0);
+    let expected = (1..=8).map(|k| (k as f64 * 0.0625, k)).chain([(1.5, 8)]);
+    let expected: Vec<_> = expected.chain((9..=14).map(|k| (1.5 + (k - 8) as f64 * 0.0625, k))).collect();
+    assert_eq!(time, expected.iter().map(|row| row.0).collect::<Vec<_>>());
+    for ((force, held), (_, k)) in force.iter().zip(&held).zip(expected) {
+        println!("{force:.3} kN of {:.3} kN", pressed(0.005 * k as f64));
+        assert!(near(*force, pressed(0.005 * k as f64), 2.5e-3) && near(*held, -force, 1e-8), "{force} {held}");
+    }
+    let log = log(folder.path());
+    assert!(log.contains("phase `phase 0` ends: plate.contact_y [kN] is 1.144"), "{log}");
+    assert!(log.contains("phase `phase 2` ends: top.reaction_y [kN] is -2.100"), "{log}");
+}
+
+/// Without its contact a plate is in the soil or beyond it and feels nothing, nor does the soil; with it again it bears by its depth.
+#[test]
+fn a_contact_is_taken_away_by_its_name() {
+    let down = |way: f64| format!("prescribe: {{top: {{ux: 0, uy: {{rate: {way}}}}}}}");
+    let folder = plate(
+        &[
+            (0.25, &down(-0.05)),
+            (0.25, &format!("deactivate: [base], {}", down(0.06))),
+            (0.125, &format!("activate: [base], {}", down(-0.08))),
+        ],
+        &["contacts=[{name: base, structure: plate, soil: soil}]"],
+    );
+    let [uy, force, held, soil] = ["plate.uy [m]", "plate.contact_y [kN]", "top.reaction_y [kN]", "soil.uy [m]"]
+        .map(|name| column(folder.path(), name));
+    println!("{uy:?} {force:?} {held:?} {soil:?}");
+    for i in [1, 2, 3, 10, 11, 12, 13, 14, 15] {
+        println!("{} m: {:+.1e}", uy[i], force[i] / pressed(-uy[i]) - 1.0);
+        assert!(near(force[i], pressed(-uy[i]), 2e-3), "{} {}", force[i], pressed(-uy[i]));
+    }
+    assert!(force[8].abs() < 1e-9, "it is back where it just touches");
+    assert!(uy[4] < -0.03, "it is in the soil");
+    for i in 4..8 {
+        assert!(force[i] == 0.0 && held[i].abs() < 1e-7 && soil[i].abs() < 1e-8, "{force:?} {held:?} {soil:?}");
+    }
+}
+
+/// A plate of 60 kN, rigid and not: pressed in, let go to where its weight is borne, moved on from there, taken away, and laid down again.
+#[test]
+fn a_structure_is_held_and_free_and_held_again_and_taken_away() {
+    let down = "prescribe: {top: {ux: 0, uy: {table: [[0, 0], [1, -0.03]]}}}";
+    let free = "prescribe: {top: {ux: 0}}";
+    let phases = [
+        (0.25, "prescribe: {top: {ux: 0, uy: {rate: -0.08}}}"),
+        (0.25, free),
+        (0.25, down),
+        (0.25, free),
+        (0.5, "deactivate: [plate]"),
+        (0.25, &format!("activate: [plate], {free}")),
+    ];
+    for rigid in [true, false] {
+        let rigid = format!("regions.plate.rigid={rigid}");
+        let folder = plate(&phases, &[&rigid, "materials.plate.density=10", "gravity={y: -10}"]);
+        let [uy, force, held, soil] = ["plate.uy [m]", "plate.contact_y [kN]", "top.reaction_y [kN]", "soil.uy [m]"]
+            .map(|name| column(folder.path(), name));
+        // Held, at depths that it is given.
+        for i in [1, 2, 3, 8, 9, 10, 11] {
+            println!("{rigid}, {} m: {:+.1e}", uy[i], force[i] / pressed(-uy[i]) - 1.0);
+            assert!(near(force[i], pressed(-uy[i]), 2e-3) && near(held[i], 60.0 - force[i], 1e-6), "{i}: {force:?}");
+        }
+        // Free, from above and from below: the soil bears its weight, as deep as that presses it.
+        for i in [7, 15] {
+            println!("{rigid}, free: {:+.1e} of {:.5} m", -uy[i] / depth(60.0) - 1.0, depth(60.0));
+            assert!(near(uy[i], -depth(60.0), 1e-4), "{uy:?}");
+        }
+        for i in [4, 5, 6, 7, 12, 13, 14, 15, 18, 19, 20, 21] {
+            assert!(near(force[i], 60.0, 1e-9) && held[i].abs() < 1e-9, "{i}: {force:?} {held:?}");
+        }
+        // Away it stays where it was, and the soil comes back to where that began; laid down again it presses the soil as before.
+        for i in [16, 17] {
+            assert!(uy[i] == uy[15] && force[i] == 0.0 && soil[i].abs() < 1e-11, "{uy:?} {force:?} {soil:?}");
+        }
+        println!("{rigid}, again: {:+.1e}", soil[21] / soil[15] - 1.0);
+        assert!(near(soil[21], soil[15], 2e-3), "{soil:?}");
+    }
 }
 
 /// A block that cannot bear its weight: without inertia as long as it stands, with it while it falls, and without again.

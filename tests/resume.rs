@@ -159,6 +159,27 @@ const GRAINS: Case = Case {
 /// Water that leaves a surface beside a strip that covers a part of it.
 const STRIP: Case = Case { file: "tests/data/strip", overrides: &["phases.wait.step.initial=40"] };
 
+/// A plate on clay that hardens: pressed in, let go until that bears its weight, taken away, and laid down again. The kills fall in every phase.
+const STAGES: Case = Case {
+    file: "tests/data/plate",
+    overrides: &[
+        "mesh.parameters={plate: 0.8, left: 0.6, edge: 0.05}",
+        "materials.soil={model: cam_clay, swelling: 0.02, compression: 0.1, poisson: 0.3, critical_slope: 1, \
+         preconsolidation: 40, reference_pressure: 10, unit_weight: 8}",
+        "materials.plate.density=5",
+        "gravity={y: -10}",
+        "initial_stress={k0: 0.6}",
+        "numerics.restore=every_step",
+        "output.every=0.5",
+        "phases=[{name: press, analysis: quasi_static, duration: 1, step: {initial: 0.0625}, \
+         prescribe: {top: {ux: 0, uy: {rate: -0.03}}}}, \
+         {name: release, analysis: quasi_static, duration: 1, step: {initial: 0.125}, prescribe: {top: {ux: 0}}}, \
+         {name: without, analysis: quasi_static, duration: 0.5, step: {initial: 0.125}, deactivate: [plate]}, \
+         {name: again, analysis: quasi_static, duration: 2, step: {initial: 0.125}, activate: [plate], \
+         prescribe: {top: {ux: 0}}}]",
+    ],
+};
+
 fn mpm(verb: &str, case: &Case, folder: &Path, more: &[&str]) -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_mpm"));
     command.arg(verb).arg(Path::new(env!("CARGO_MANIFEST_DIR")).join(case.file)).arg("-o").arg(folder);
@@ -270,6 +291,7 @@ fn kill_ten_times(case: &Case, undisturbed: &Path, seed: u64) -> tempfile::TempD
     // One while what a phase begins with is released.
     moments[0] = 2;
     moments.sort_unstable();
+    println!("killed after steps {moments:?} of {steps}");
     for moment in moments {
         let before = newest(folder);
         let mut child = mpm("solve", case, folder, &["--resume"]).spawn().unwrap();
@@ -368,6 +390,11 @@ fn a_load_released_bit_by_bit_killed_ten_times_ends_the_same() {
 }
 
 #[test]
+fn stages_of_a_structure_on_clay_killed_ten_times_end_the_same() {
+    survives_kills(&STAGES, 11);
+}
+
+#[test]
 fn grains_that_come_apart_killed_ten_times_end_the_same() {
     survives_kills(&GRAINS, 29);
 }
@@ -376,7 +403,7 @@ fn grains_that_come_apart_killed_ten_times_end_the_same() {
 fn the_number_of_threads_changes_no_bit() {
     for case in [
         SLOPE, RELEASE, SAND, PILE, BLOCK, WALL, BODIES, SAFETY, FALL, SOFT, POOL, WATER, CHANGE, LEVELS, GRAINS, LAID,
-        STRIP,
+        STRIP, STAGES,
     ] {
         let one = seeded(&case);
         let three = copy(one.path());
