@@ -240,6 +240,25 @@ fn elastic_strain_inverts_the_stress() {
     }
 }
 
+/// The list tells the case which models yield, and which can be built again with another Poisson's ratio.
+#[test]
+fn the_list_knows_its_models() {
+    for kind in MODELS {
+        for example in kind.examples {
+            let parameters: Parameters = example.iter().collect();
+            assert_eq!((kind.build)(&parameters).unwrap().yields(), kind.yields, "{}", kind.name);
+            if !kind.keeps_volume {
+                continue;
+            }
+            let other: Parameters =
+                example.iter().map(|entry| if entry.0 == "poisson" { &("poisson", -0.9) } else { entry }).collect();
+            let model = (kind.build)(&other).unwrap_or_else(|e| panic!("{}: {e}", kind.name));
+            assert_eq!(model.elasticity().poisson(), -0.9, "{}", kind.name);
+            assert!(example.iter().any(|(name, _)| *name == "young"), "{}", kind.name);
+        }
+    }
+}
+
 /// The list tells the case what a model takes: each required parameter is needed, and named when missing.
 #[test]
 fn missing_parameters_are_named() {

@@ -1,5 +1,5 @@
 //! The materials of a case: the entries a model takes come from the list of models, so that a new model
-//! needs no line here. The density is given, or follows from a unit weight and gravity.
+//! needs no line in this layer. The density is given, or follows from a unit weight and gravity.
 
 use super::check::Checker;
 use super::checked::Material;

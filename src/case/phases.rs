@@ -5,6 +5,7 @@ use super::checked::{Analysis, Numerics, Phase, Prescribed, StepSize, Until};
 use super::locate::{At, Path};
 use super::raw;
 use super::structure::suggest;
+use crate::material::MODELS;
 use crate::time_value::TimeValue;
 
 impl Checker {
@@ -93,8 +94,10 @@ impl Checker {
     ) -> Option<TimeValue> {
         let searches = analysis == Analysis::StrengthReduction;
         let at = path.key("strength_reduction");
+        // A model that is not known has been reported.
+        let bears_all = |name: &str| MODELS.iter().any(|kind| kind.name == name && !kind.yields);
         if (searches || phase.strength_reduction.is_some())
-            && file.materials.values().all(|material| material.model == "linear_elastic")
+            && file.materials.values().all(|material| bears_all(&material.model))
         {
             let at = if phase.strength_reduction.is_some() { &at } else { path };
             self.issue(at, At::Key, "no material has a strength to be reduced", "give the soil a model that yields");

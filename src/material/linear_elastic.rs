@@ -14,6 +14,7 @@ pub struct LinearElastic {
 pub const KIND: Kind = Kind {
     name: "linear_elastic",
     keeps_volume: true,
+    yields: false,
     parameters: &[Parameter::YOUNG, Parameter::POISSON],
     build,
     examples: &[

@@ -3,7 +3,8 @@
 //! All work in principal axes of the elastic trial left Cauchy–Green tensor with Hencky strains
 //! `ε_A = ½ ln b_A` and Kirchhoff stresses `τ_A`: the return maps are those of small strain theory.
 //!
-//! A model is one file and one line in [`MODELS`]; the shared tests find it there.
+//! A model is a file with its [`Kind`] and one line in [`MODELS`]; the shared tests find it there. It may remember one number
+//! a point ([`State::memory`]).
 
 pub mod cam_clay;
 pub mod driver;

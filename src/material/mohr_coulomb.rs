@@ -65,6 +65,7 @@ pub struct MohrCoulomb {
 pub const KIND: Kind = Kind {
     name: "mohr_coulomb",
     keeps_volume: false,
+    yields: true,
     parameters: &[
         Parameter::YOUNG,
         Parameter::POISSON,

@@ -63,8 +63,11 @@ impl Profile {
 /// A model in the list of models: its name in a case, its parameters and how to build it.
 pub struct Kind {
     pub name: &'static str,
-    /// Whether neither yield nor flow knows the mean stress, so that the bulk modulus can be taken out of the model.
+    /// Whether neither yield nor flow knows the mean stress, so that the bulk modulus can be taken out of the model: it is
+    /// built again with another `young` and `poisson`, which it has to have for parameters.
     pub keeps_volume: bool,
+    /// Whether its stress has a limit ([`Model::yields`]).
+    pub yields: bool,
     pub parameters: &'static [Parameter],
     /// Builds the model; an error names the parameter at fault.
     pub build: fn(&Parameters) -> Result<Arc<dyn Model>>,

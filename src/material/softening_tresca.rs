@@ -54,6 +54,7 @@ pub struct Softening {
 pub const KIND: Kind = Kind {
     name: "tresca_softening",
     keeps_volume: true,
+    yields: true,
     parameters: &[
         Parameter::YOUNG,
         Parameter::POISSON,

@@ -17,6 +17,7 @@ pub struct Tresca {
 pub const KIND: Kind = Kind {
     name: "tresca",
     keeps_volume: true,
+    yields: true,
     parameters: &[
         Parameter::YOUNG,
         Parameter::POISSON,

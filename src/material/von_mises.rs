@@ -21,6 +21,7 @@ pub struct VonMises {
 pub const KIND: Kind = Kind {
     name: "von_mises",
     keeps_volume: true,
+    yields: true,
     parameters: &[
         Parameter::YOUNG,
         Parameter::POISSON,

@@ -12,6 +12,7 @@ const LEAST_PRESSURE: f64 = 1.0;
 pub const KIND: Kind = Kind {
     name: "cam_clay",
     keeps_volume: false,
+    yields: true,
     parameters: &[
         Parameter { required: false, ..Parameter::YOUNG },
         Parameter::POISSON,
