@@ -70,61 +70,80 @@ fn references_are_the_closed_forms() {
     }
 }
 
-/// Eight cells over the height: the stress errs by 3e-5 of that at the base on average, the displacement by 1e-5
-/// of the settlement.
-/// Cells of 4 cm at the top: the settlement errs by 1.1 % at T_v = 0.01, by 0.5 % and less after that.
+/// Cells of 2 cm at the top: the settlement errs by 0.1 % at most, the pressure at the base by 0.15 % of p₀.
 #[test]
 fn terzaghi() {
-    let run = Run::new("terzaghi", &["mesh.parameters.h=0.04"]);
+    let run = Run::new("terzaghi", &["mesh.parameters.h=0.02"]);
     let modulus = 1000.0 * 0.8 / (1.2 * 0.6);
     let layer = Layer { height: 1.0, modulus, storage: 0.5 / 2.2e6, mobility: 8.829e-7 / 9.81, load: 0.1 };
     let [time, top, base] = ["time", "top.uy", "base.pore_pressure"].map(|name| run.history.column(name));
-    for (end, bound) in [(100.0, 2e-2), (500.0, 1e-2), (1000.0, 5e-3), (1970.0, 5e-3), (5000.0, 5e-3), (10000.0, 5e-3)]
-    {
+    for end in [100.0, 500.0, 1000.0, 1970.0, 5000.0, 10000.0] {
         let row = time.iter().position(|t| (t - end).abs() < 1e-6).expect("a step at each time");
         let settled = -top[row] / layer.settlement(end) - 1.0;
         let pressure = (base[row] - layer.pressure(1.0, end)) / layer.first_pressure();
         println!("{end} s: settlement {:+.2} %, pressure {:+.2} %", 100.0 * settled, 100.0 * pressure);
-        assert!(settled.abs() < bound && pressure.abs() < 5e-3, "{end} s: {settled} {pressure}");
+        assert!(settled.abs() < 5e-3 && pressure.abs() < 5e-3, "{end} s: {settled} {pressure}");
     }
 }
 
 const STRIP: Strip =
     Strip { half_width: 1.0, young: 1000.0, poisson: 0.2, storage: 0.5 / 2.2e6, mobility: 8.829e-7 / 9.81, force: 0.1 };
 
-/// Cells of 10 to 20 cm and 25 steps a phase: 0.7 % of p₀, and the pressure rises by 10 % first.
+/// Cells of 10 to 20 cm and 25 steps a phase: 0.7 % of p₀, and 0.2 % at the top of the rise. Of ν = 0 and 0.2; the
+/// permeabilities are those with which 1e4 s are T = 1.
 #[test]
 fn mandel() {
     let steps = ["[0].step.initial=4", "[1].step.initial=40", "[2].step.initial=160", "[3].step.initial=320"];
     let steps = steps.map(|entry| format!("phases{entry}"));
-    let mut settings = vec!["mesh.parameters.h=0.1"];
-    settings.extend(steps.iter().map(String::as_str));
-    let run = Run::new("mandel", &settings);
-    let [time, middle, plate] = ["time", "middle.pore_pressure", "plate.uy"].map(|name| run.history.column(name));
-    for end in [100.0, 1000.0, 5000.0, 10000.0] {
-        let row = time.iter().position(|t| (t - end).abs() < 1e-6).expect("a step at each time");
-        let pressure = (middle[row] - STRIP.pressure(0.0, end)) / STRIP.first_pressure();
-        let down = -plate[row] / (0.2 * STRIP.shortening(end)) - 1.0;
-        println!("{end} s: pressure {:+.2} % of p0, plate {:+.2} %", 100.0 * pressure, 100.0 * down);
-        assert!(pressure.abs() < 1e-2 && down.abs() < 5e-3, "{end} s: {pressure} {down}");
+    for (poisson, permeability) in [(0.2, 8.829e-7), (0.0, 9.81e-7)] {
+        let strip = Strip { poisson, mobility: permeability / 9.81, ..STRIP };
+        let clay = [format!("poisson={poisson}"), format!("permeability={permeability:e}")];
+        let clay = clay.map(|entry| format!("materials.clay.{entry}"));
+        let mut settings = vec!["mesh.parameters.h=0.1"];
+        settings.extend(steps.iter().chain(&clay).map(String::as_str));
+        let run = Run::new("mandel", &settings);
+        let [time, middle, plate] = ["time", "middle.pore_pressure", "plate.uy"].map(|name| run.history.column(name));
+        for end in [100.0, 1000.0, 5000.0, 10000.0] {
+            let row = time.iter().position(|t| (t - end).abs() < 1e-6).expect("a step at each time");
+            let pressure = (middle[row] - strip.pressure(0.0, end)) / strip.first_pressure();
+            let down = -plate[row] / (0.2 * strip.shortening(end)) - 1.0;
+            println!("ν {poisson}, {end} s: pressure {:+.2} % of p0, plate {:+.2} %", 100.0 * pressure, 100.0 * down);
+            assert!(pressure.abs() < 1e-2 && down.abs() < 5e-3, "{end} s: {pressure} {down}");
+        }
+        let largest =
+            |pressures: &mut dyn Iterator<Item = f64>| pressures.fold(0f64, f64::max) / strip.first_pressure();
+        let found = largest(&mut middle.iter().copied());
+        let exact = largest(&mut time.iter().map(|t| strip.pressure(0.0, *t)));
+        println!("ν {poisson}: the pressure rises to {found:.4}, by the closed form to {exact:.4}");
+        assert!((found / exact - 1.0).abs() < 1e-2, "{found} {exact}");
     }
-    let largest = middle.iter().fold(0f64, |a, p| a.max(*p)) / STRIP.first_pressure();
-    assert!(largest > 1.08, "{largest}");
 }
 
-/// A permeability that goes to zero is none.
+/// A permeability that goes to zero is none, with a pressure field of its own or without, and as much as a stiff soil in total stress.
 #[test]
 fn undrained_footing() {
     let load = |settings: &[&str]| {
         let settings: Vec<&str> = ["mesh.parameters.h=0.2"].iter().chain(settings).copied().collect();
         -Run::new("undrained_footing", &settings).history.last("footing.reaction_y")
     };
+    let own = "materials.clay={model: tresca, young: 86957, poisson: 0.3, shear_strength: 100, density: 0, \
+        drainage: undrained, undrained_poisson: 0.495}";
     let total = "materials.clay={model: tresca, young: 1.0e5, poisson: 0.495, shear_strength: 100, density: 0}";
-    let [flow, total] = [load(&[]), load(&["phases.push.analysis=quasi_static", total, "output.fields=[stress]"])];
-    println!("k → 0: {flow:.1} kN/m, total stress: {total:.1} kN/m");
-    assert!((flow / total - 1.0).abs() < 1e-2, "{flow} {total}");
+    let still = "phases.push.analysis=quasi_static";
+    let flow = load(&[]);
+    let none = load(&[still, "materials.clay.permeability=0"]);
+    let undrained = load(&[still, own]);
+    let total = load(&[still, total, "output.fields=[stress]"]);
+    println!(
+        "k → 0: {flow:.2} kN/m, k = 0: {none:.2} kN/m, undrained: {undrained:.2} kN/m, total stress: {total:.2} kN/m"
+    );
+    for load in [flow, none, undrained] {
+        assert!((load / total - 1.0).abs() < 1e-2, "{flow} {none} {undrained} {total}");
+    }
 }
 
+/// Eight cells over the height: the stress errs by 3e-5 of that at the base on average, the displacement by 1e-5
+/// of the settlement.
 #[test]
 fn column() {
     let run = Run::new("column", &["mesh.parameters.h=1.25"]);
