@@ -11,6 +11,7 @@
 //! A [`Share`] of the stress may be carried by unknowns of its own; it is a type, so that a scene without one pays
 //! nothing.
 
+use super::Share;
 use super::beyond::{Kept, scatter_functions};
 use super::smoothed::{self, Layout};
 use super::stiffness::Stiffness;
@@ -32,127 +33,6 @@ use std::sync::Arc;
 
 /// Least ratio of volumes in one step that a trial state may have.
 const LEAST_VOLUME_RATIO: f64 = 0.05;
-
-/// A share of the stress of the points that unknowns of its own carry.
-pub trait Share<const D: usize, K: Kinematics<D>>: Send + Sync {
-    /// Its unknowns over a patch.
-    type Cell;
-
-    fn over(&self, frame: &Frame<D>, trial: &Trial<D>, patch: &Patch) -> Self::Cell;
-
-    /// Adds the share to the answer of the model at the end of the step, given `ΔJ`, and returns the mean stress (kPa,
-    /// Kirchhoff) at its beginning that the stress of the points does not hold.
-    fn add(
-        &self,
-        cell: &Self::Cell,
-        points: &Points<D>,
-        entries: &Entries<D>,
-        volume_ratio: f64,
-        answer: &mut Spatial<K::Tangent>,
-    ) -> f64;
-
-    /// Adds the equations of the unknowns and what couples them with the displacements to the end of `local`, given
-    /// the gradients on the deformed grid, `ΔJ`, the tensor through which the stress acts and the weight of the end
-    /// of the step.
-    #[expect(clippy::too_many_arguments, reason = "a point, and where it goes")]
-    fn couple(
-        &self,
-        cell: &Self::Cell,
-        points: &Points<D>,
-        entries: &Entries<D>,
-        spatial: &[Gradient<D>],
-        volume_ratio: f64,
-        acts_on: &Tensor,
-        later: f64,
-        local: &mut Local,
-    );
-
-    /// Completes what a point keeps.
-    fn commit(&self, cell: &Self::Cell, points: &Points<D>, entries: &Entries<D>, history: &mut History);
-
-    /// Energy (kJ) stored at point `p`.
-    fn energy(&self, points: &Points<D>, p: usize) -> f64;
-}
-
-/// No share: the models answer for the whole stress.
-impl<const D: usize, K: Kinematics<D>> Share<D, K> for () {
-    type Cell = ();
-
-    #[inline]
-    fn over(&self, _: &Frame<D>, _: &Trial<D>, _: &Patch) {}
-
-    #[inline]
-    fn add(&self, (): &(), _: &Points<D>, _: &Entries<D>, _: f64, _: &mut Spatial<K::Tangent>) -> f64 {
-        0.0
-    }
-
-    #[inline]
-    fn couple(
-        &self,
-        (): &(),
-        _: &Points<D>,
-        _: &Entries<D>,
-        _: &[Gradient<D>],
-        _: f64,
-        _: &Tensor,
-        _: f64,
-        _: &mut Local,
-    ) {
-    }
-
-    #[inline]
-    fn commit(&self, (): &(), _: &Points<D>, _: &Entries<D>, _: &mut History) {}
-
-    #[inline]
-    fn energy(&self, _: &Points<D>, _: usize) -> f64 {
-        0.0
-    }
-}
-
-/// Two shares, side by side.
-impl<const D: usize, K: Kinematics<D>, A: Share<D, K>, B: Share<D, K>> Share<D, K> for (A, B) {
-    type Cell = (A::Cell, B::Cell);
-
-    fn over(&self, frame: &Frame<D>, trial: &Trial<D>, patch: &Patch) -> Self::Cell {
-        (self.0.over(frame, trial, patch), self.1.over(frame, trial, patch))
-    }
-
-    fn add(
-        &self,
-        cell: &Self::Cell,
-        points: &Points<D>,
-        entries: &Entries<D>,
-        volume_ratio: f64,
-        answer: &mut Spatial<K::Tangent>,
-    ) -> f64 {
-        self.0.add(&cell.0, points, entries, volume_ratio, answer)
-            + self.1.add(&cell.1, points, entries, volume_ratio, answer)
-    }
-
-    fn couple(
-        &self,
-        cell: &Self::Cell,
-        points: &Points<D>,
-        entries: &Entries<D>,
-        spatial: &[Gradient<D>],
-        volume_ratio: f64,
-        acts_on: &Tensor,
-        later: f64,
-        local: &mut Local,
-    ) {
-        self.0.couple(&cell.0, points, entries, spatial, volume_ratio, acts_on, later, local);
-        self.1.couple(&cell.1, points, entries, spatial, volume_ratio, acts_on, later, local);
-    }
-
-    fn commit(&self, cell: &Self::Cell, points: &Points<D>, entries: &Entries<D>, history: &mut History) {
-        self.0.commit(&cell.0, points, entries, history);
-        self.1.commit(&cell.1, points, entries, history);
-    }
-
-    fn energy(&self, points: &Points<D>, p: usize) -> f64 {
-        self.0.energy(points, p) + self.1.energy(points, p)
-    }
-}
 
 /// The internal force of all material points.
 pub struct Internal<K, S = ()> {

@@ -1,0 +1,120 @@
+//! The stress of soil at rest: what the weight above each point gives.
+
+use crate::error::{Error, Result};
+use crate::material::Profile;
+use crate::mesh::Mesh;
+use crate::mesh::locate::{Locator, OUTSIDE};
+use crate::points::Points;
+use crate::tensor::Symmetric;
+
+/// The weight of the soil in one region, for [`k0_stress`].
+#[derive(Clone, Debug, PartialEq)]
+pub struct RegionWeight {
+    /// Index into [`Mesh::regions`].
+    pub region: u16,
+    /// Unit weight (kN/m³) at the height y.
+    pub unit_weight: Profile,
+}
+
+/// The stress of soil at rest, in kPa: `σ_y = −∫ γ dy` over the soil vertically above the point, `σ_x = σ_z =
+/// k0 σ_y`, one entry a point. Points of regions that are not in `soils` have none.
+///
+/// The integral is exact for layers, for `γ` that grows with depth and for curved boundaries: per region it
+/// is the signed sum of `γ`'s primitive where the vertical crosses the region's boundary.
+///
+/// # Errors
+/// Input: `k0` that is negative or not finite.
+pub fn k0_stress(mesh: &Mesh<2>, soils: &[RegionWeight], k0: f64, points: &Points<2>) -> Result<Vec<Symmetric>> {
+    if !k0.is_finite() || k0 < 0.0 {
+        return Err(Error::input("initial_stress.k0", format!("{k0} is no earth pressure coefficient"), "use 0.3 … 1"));
+    }
+    let boundaries: Vec<Vec<Arc>> = soils.iter().map(|soil| boundary(mesh, soil.region)).collect();
+    let stress = |(x, region): (&[f64; 2], &u16)| {
+        if soils.iter().all(|soil| soil.region != *region) {
+            return [0.0; 6];
+        }
+        let layers = soils.iter().zip(&boundaries);
+        let weight: f64 = layers.map(|(soil, boundary)| weight_above(boundary, &soil.unit_weight, x)).sum();
+        [-k0 * weight, -weight, -k0 * weight, 0.0, 0.0, 0.0]
+    };
+    Ok(points.position.iter().zip(&points.region).map(stress).collect())
+}
+
+/// A piece of a region's boundary, counter-clockwise, on which `x` is monotone: ends at the parameters
+/// `from` and `to` of the quadratic `a + b t + c t²`.
+struct Arc {
+    a: [f64; 2],
+    b: [f64; 2],
+    c: [f64; 2],
+    from: f64,
+    to: f64,
+}
+
+/// The boundary of a region, cut where its tangent is vertical.
+fn boundary(mesh: &Mesh<2>, region: u16) -> Vec<Arc> {
+    let locator = Locator::new(mesh);
+    let mut arcs = Vec::new();
+    for cell in (0..mesh.cells.len()).filter(|&c| mesh.cells.region[c] == region) {
+        let facets = mesh.cells.kind[cell].facets().1;
+        for (facet, &other) in facets.iter().zip(locator.neighbours(cell as u32)) {
+            if other != OUTSIDE && mesh.cells.region[other as usize] == region {
+                continue;
+            }
+            let x: Vec<[f64; 2]> = facet.iter().map(|&i| mesh.nodes[mesh.cells.nodes(cell)[i] as usize]).collect();
+            let middle = x.get(2).copied().unwrap_or([0, 1].map(|d| 0.5 * (x[0][d] + x[1][d])));
+            let b = [0, 1].map(|d| 0.5 * (x[1][d] - x[0][d]));
+            let c = [0, 1].map(|d| 0.5 * (x[0][d] + x[1][d]) - middle[d]);
+            let arc = |from, to| Arc { a: middle, b, c, from, to };
+            let turn = -0.5 * b[0] / c[0];
+            if turn > -1.0 && turn < 1.0 {
+                arcs.extend([arc(-1.0, turn), arc(turn, 1.0)]);
+            } else {
+                arcs.push(arc(-1.0, 1.0));
+            }
+        }
+    }
+    arcs
+}
+
+impl Arc {
+    fn at(&self, t: f64, d: usize) -> f64 {
+        self.a[d] + t * (self.b[d] + t * self.c[d])
+    }
+
+    /// The height at which the piece crosses the vertical at `x`, which lies between its ends.
+    fn height(&self, x: f64) -> f64 {
+        let (a, b, c) = (self.a[0] - x, self.b[0], self.c[0]);
+        // Both roots without cancellation; the one on the piece is wanted.
+        let q = -0.5 * (b + (b * b - 4.0 * a * c).max(0.0).sqrt().copysign(b));
+        let (low, high) = (self.from.min(self.to), self.from.max(self.to));
+        let outside = |t: f64| if t.is_nan() { f64::INFINITY } else { (low - t).max(t - high).max(0.0) };
+        let (r, s) = (q / c, a / q);
+        let t = if outside(r) < outside(s) { r } else { s };
+        self.at(t.clamp(low, high), 1)
+    }
+}
+
+/// `∫ γ dy` (kPa) over the part of a region vertically above `x`.
+fn weight_above(boundary: &[Arc], unit_weight: &Profile, x: &[f64; 2]) -> f64 {
+    let primitive = |y: f64| {
+        let below = (unit_weight.datum - y).max(0.0);
+        unit_weight.top * y - 0.5 * unit_weight.gradient * below * below
+    };
+    let floor = primitive(x[1]);
+    let mut weight = 0.0;
+    for arc in boundary {
+        let (from, to) = (arc.at(arc.from, 0), arc.at(arc.to, 0));
+        // Counter-clockwise: the region lies below a piece that runs to the left. Half-open intervals count a
+        // vertex once.
+        let sign = match (from <= x[0], to <= x[0]) {
+            (true, false) => -1.0,
+            (false, true) => 1.0,
+            _ => continue,
+        };
+        let y = arc.height(x[0]);
+        if y > x[1] {
+            weight += sign * (primitive(y) - floor);
+        }
+    }
+    weight
+}
