@@ -132,7 +132,8 @@ fn a_bank_whose_pool_is_drawn_down_has_its_factor_of_safety() {
     let (case, folder) = (Path::new(env!("CARGO_MANIFEST_DIR")).join("cases/drawdown"), tempfile::tempdir().unwrap());
     for stage in ["mesh", "seed", "solve"] {
         let mut command = Command::new(env!("CARGO_BIN_EXE_mpm"));
-        command.arg(stage).arg(&case).arg("-o").arg(folder.path()).args(["--set", "phases.safety.step.min=0.01"]);
+        command.arg(stage).arg(&case).arg("-o").arg(folder.path());
+        command.args(["--set", "mesh.parameters.h=1", "--set", "phases.safety.step.min=0.01"]);
         let output = command.output().unwrap();
         assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
     }

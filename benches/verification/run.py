@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
 """Runs every verification of the repository and writes docs/verification.md.
 
-    .venv/bin/python benches/verification/run.py [--quick]
+    .venv/bin/python benches/verification/run.py [--quick] [--only STUDY …]
 
 Closed forms and limit loads over series of meshes, with errors, rates, tolerances and run times; then the tests, each with
-what it prints. --quick leaves out the tests and the finest meshes, and writes nothing. Needs `make build`; see
+what it prints. --quick leaves out the tests and the finest meshes, and writes nothing; --only prints some studies of cases. Needs `make build`; see
 `make verification`.
 """
 
@@ -27,7 +27,7 @@ from schemes import SCHEMES, missing  # noqa: E402
 PAGE = ROOT / "docs/verification.md"
 # The tests that hold the program against closed forms, properties and limit loads.
 TESTS = ["physics", "terms", "touch", "material_models", "material_mohr_coulomb", "material_spatial", "footings", "slope"]
-TESTS += ["phases", "phreatic", "changes", "clay_column", "covered_surface", "held_out"]
+TESTS += ["cases", "contact", "collapse", "phases", "phreatic", "changes", "clay_column", "covered_surface", "held_out", "resume"]
 # Problem, largest error that the last mesh may have by measure, and where that is from.
 SERIES = [
     (column.PROBLEM, {"stress": 6e-5}, "second order on the way to 2.5e-5 at 128 cells"),
@@ -139,10 +139,18 @@ def tests(name):
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--quick", action="store_true", help="few meshes, no tests, nothing written")
+    parser.add_argument("--only", nargs="+", metavar="STUDY", help="only these studies of cases, such as terzaghi; nothing written")
     arguments = parser.parse_args()
     start = time.perf_counter()
+    if arguments.only:
+        for study in (study for study in studies.SMALL + studies.LARGE if study.__name__ in arguments.only):
+            print("\n".join(study(arguments.quick)), flush=True)
+        return
     lines = [INTRODUCTION, "## Closed forms, on a grid that is never restored", ""]
-    for study in studies.ALL:
+    for study in studies.SMALL:
+        lines += study(arguments.quick)
+    lines += ["## Water, slopes and collapse", ""]
+    for study in studies.LARGE:
         lines += study(arguments.quick)
     lines += ["## Large deformation", ""]
     for problem, tolerances, why in SERIES:

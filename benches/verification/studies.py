@@ -1,15 +1,18 @@
-"""The cases whose closed form holds for a grid that is never restored, by the functions of their `study.py`."""
+"""The cases that are held against closed forms and published values, by the functions of their `study.py`."""
 
 import importlib.util
 import math
+import sys
 import time
 
 from program import ROOT
 
 
-def study(case):
-    """The module cases/CASE/study.py."""
-    spec = importlib.util.spec_from_file_location(f"study_{case}", ROOT / "cases" / case / "study.py")
+def study(case, name="study"):
+    """The module cases/CASE/NAME.py, and what it imports from beside it."""
+    folder = ROOT / "cases" / case
+    sys.path.append(str(folder))
+    spec = importlib.util.spec_from_file_location(f"{name}_{case}", folder / f"{name}.py")
     module = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(module)
     return module
@@ -101,4 +104,103 @@ def footings(quick):
     return [*lines, ""]
 
 
-ALL = [column, cantilever, bar, footings]
+def terzaghi(quick):
+    """Largest errors over the times of the table."""
+    module = study("terzaghi")
+    text = "`cases/terzaghi`: at T_v = 0.01 … 1 the largest errors of the settlement, over itself, and of the pressure at the base, over p₀."
+    lines = ["### Terzaghi's consolidation", "", f"{text} {SECONDS}", "", "| h [m] | settlement | pressure | tolerance | seconds |", "|---" * 5 + "|"]
+    for h in [0.04, 0.02] if quick else [0.04, 0.02, 0.01]:
+        found, seconds = timed(module.errors, {"mesh.parameters.h": h})
+        down, base = (max(map(abs, column)) for column in zip(*found))
+        met = judged([max(down, base)], 5e-3) if h < 0.04 else "–"
+        lines.append(f"| {h} | {down:.1e} | {base:.1e} | {met} | {seconds:.1f} |")
+    return [*lines, ""]
+
+
+def mandel(quick):
+    """Largest errors over the times of the table."""
+    module = study("mandel")
+    text = "`cases/mandel`: at t = 100 s … 10 000 s the largest errors of the pressure in the middle, over p₀, and of the plate's settlement, over itself."
+    lines = ["### Mandel's problem", "", f"{text} {SECONDS}", ""]
+    lines += ["| ν | pressure at 1000 s over p₀ | pressure | settlement | tolerance | seconds |", "|---" * 6 + "|"]
+    for poisson in [0.2] if quick else [0.2, 0.0]:
+        found, seconds = timed(module.errors, poisson, 0.05)
+        middle, down = (max(abs(row[i]) for row in found) for i in (1, 2))
+        met = judged([max(middle, down)], 0.01)
+        lines.append(f"| {poisson} | {found[1][0]:.4f} | {middle:.1e} | {down:.1e} | {met} | {seconds:.1f} |")
+    return [*lines, ""]
+
+
+def undrained_footing(quick):
+    """The ways to have undrained soil beside each other."""
+    module = study("undrained_footing")
+    text = "`cases/undrained_footing`: the smooth strip in effective stress beside total stress, h = 0.1 m at the edge."
+    lines = ["### Undrained footing", "", f"{text} {SECONDS}", "", "| way | over (2 + π) s_u | beside total stress | tolerance | seconds |", "|---" * 5 + "|"]
+    total, seconds = timed(module.load, module.WAYS["total stress"])
+    lines.append(f"| total stress | {total / module.LIMIT - 1:+.2e} | | – | {seconds:.1f} |")
+    for way, settings in list(module.WAYS.items())[: 1 if quick else -1]:
+        load, seconds = timed(module.load, settings)
+        lines.append(f"| {way} | {load / module.LIMIT - 1:+.2e} | {load / total - 1:+.1e} | {judged([load / total - 1], 0.01)} | {seconds:.1f} |")
+    return [*lines, ""]
+
+
+def slope_safety(quick):
+    """Factor of safety over the mesh."""
+    module = study("slope_safety")
+    text = "`cases/slope_safety`: Mohr–Coulomb, φ = 20°, c/γH = 0.05, 1 : 2; Griffiths & Lane (1999) find 1.4 by finite elements, Bishop's charts give 1.380."
+    lines = ["### Factor of safety of a slope", "", f"{text} {SECONDS}", ""]
+    lines += ["| h [m] | equilibrium at … none at | over 1.4 | over 1.380 | tolerance | seconds |", "|---" * 6 + "|"]
+    for h in [2.0] if quick else [2.0, 1.0]:
+        (low, high), seconds = timed(module.factor, h)
+        error, bishop = (0.5 * (low + high) / exact - 1 for exact in (module.FINITE_ELEMENTS, module.BISHOP))
+        met = judged([error], 0.03) if h < 2 else "–"
+        lines.append(f"| {h:g} | {low:.3f} … {high:.3f} | {error:+.3f} | {bishop:+.3f} | {met} | {seconds:.1f} |")
+    return [*lines, ""]
+
+
+def drawdown(quick):
+    """Factors of safety of a bank with its pool at four levels, on the mesh of the case."""
+    module = study("drawdown", "variants")
+    text = "`cases/drawdown`: the same bank on a rigid base, its pool and the water table in it drawn down by L; beside Bishop's method over all circles."
+    lines = ["### Factor of safety of a bank in a pool", "", f"{text} {SECONDS}", ""]
+    lines += ["| L/H | h [m] | equilibrium at … none at | Bishop | error | tolerance | seconds |", "|---" * 7 + "|"]
+    size = 2.0 if quick else module.SIZE
+    for down in module.DRAWN_DOWN[:: 2 if quick else 1]:
+        exact, _ = module.bishop.least(module.bishop.HEIGHT * (1 - down))
+        (low, high), seconds = timed(module.factor, size, down)
+        error = 0.5 * (low + high) / exact - 1
+        met = "–" if quick else judged([error], 0.03)
+        lines.append(f"| {down} | {size:g} | {low:.3f} … {high:.3f} | {exact:.3f} | {error:+.3f} | {met} | {seconds:.1f} |")
+    return [*lines, ""]
+
+
+def submerged_slope(quick):
+    """What the bottom bears in the pool, and the slide when it is drawn down."""
+    module = study("submerged_slope")
+    text = "`cases/submerged_slope`: in the pool the bottom bears the buoyant weight; drawn down, the slope slides and comes to rest."
+    lines = ["### Slope whose pool is drawn down", "", f"{text} {SECONDS}", ""]
+    lines += ["| h [m] | bottom over the buoyant weight − 1 | tolerance | moved in the pool [m] | at the end [m] | seconds |", "|---" * 6 + "|"]
+    for h in [2.5] if quick else [1.25]:
+        (bears, times, way), seconds = timed(module.run, h)
+        pool = way[abs(times - module.POOL).argmin()]
+        lines.append(f"| {h} | {bears - 1:+.1e} | {judged([bears - 1], 1e-3)} | {pool:.4f} | {way[-1]:.3f} | {seconds:.1f} |")
+    return [*lines, ""]
+
+
+def column_collapse(quick):
+    """Run-out over the width at the end of a collapse."""
+    module = study("column_collapse")
+    text = (
+        "`cases/column_collapse`: bars without cohesion, half as high as wide; 99 % of them lie behind the toe. Laws of others for columns of grains give"
+        " 0.6 to 0.9 widths whatever the friction; the tolerance is of the bars that are nearest to sand."
+    )
+    lines = ["### Collapse of a column of bars", "", f"{text} {SECONDS}", "", "| variant | run-out over the width | tolerance | seconds |", "|---" * 4 + "|"]
+    for name in ["h = 25 mm, friction of 31°", "h = 25 mm"][: 1 if quick else 2]:
+        run_out, seconds = timed(module.run_out, module.VARIANTS[name])
+        met = f"0.6 … 0.9: {'yes' if 0.6 <= run_out <= 0.9 else '**no**'}" if "31°" in name else "–"
+        lines.append(f"| {name} | {run_out:.2f} | {met} | {seconds:.1f} |")
+    return [*lines, ""]
+
+
+SMALL = [column, cantilever, bar, footings]
+LARGE = [terzaghi, mandel, undrained_footing, slope_safety, drawdown, submerged_slope, column_collapse]

@@ -61,10 +61,16 @@ def shapes(out):
             yield time - 1, Shape(points.points[:, :2], np.asarray(points["displacement [m]"])[:, :2], volume)
 
 
+def run_out(settings):
+    """Run-out over the width at the end of a variant."""
+    with variant("column_collapse", settings) as out:
+        *_, (_, last) = shapes(out)
+    return (last.toe - WIDTH) / WIDTH
+
+
 def tell(shape):
-    run_out = (shape.toe - WIDTH) / WIDTH
     return (
-        f"{1000 * shape.toe:.0f} | {run_out:.2f} | {1000 * shape.farthest:.0f} | {1000 * shape.thickness[0]:.0f} "
+        f"{1000 * shape.toe:.0f} | {(shape.toe - WIDTH) / WIDTH:.2f} | {1000 * shape.farthest:.0f} | {1000 * shape.thickness[0]:.0f} "
         f"| {1000 * shape.crest:.0f} | {1000 * shape.base:.0f} |"
     )
 

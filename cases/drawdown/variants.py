@@ -6,6 +6,7 @@
 Each run goes to `out/h<size>-L<depth>` here. Needs `make build`.
 """
 
+import os
 import re
 import subprocess
 import sys
@@ -14,8 +15,9 @@ from pathlib import Path
 import bishop
 
 CASE = Path(__file__).resolve().parent
-PROGRAM = CASE.parents[1] / "target/release/mpm"
+PROGRAM = os.environ.get("MPM", CASE.parents[1] / "target/release/mpm")
 DRAWN_DOWN = (0.0, 0.4, 0.7, 1.0)  # L/H
+SIZE = 0.7  # of the cells in case.yaml [m]
 
 
 def factor(size, down):
@@ -32,7 +34,7 @@ def factor(size, down):
 
 
 def main():
-    sizes = [float(size) for size in sys.argv[1:]] or [2.0, 1.0, 0.7]
+    sizes = [float(size) for size in sys.argv[1:]] or [2.0, 1.0, SIZE]
     print("| L/H | " + " | ".join(f"h = {size:g} m" for size in sizes) + " | Bishop |\n|---" + "|---" * (len(sizes) + 1) + "|")
     for down in DRAWN_DOWN:
         exact, _ = bishop.least(bishop.HEIGHT * (1 - down))

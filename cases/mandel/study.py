@@ -18,6 +18,7 @@ from variants import history, variant, write_csv
 YOUNG, FORCE, HEIGHT = 1000.0, 0.1, 0.2
 STORAGE, MOBILITY = 0.5 / 2.2e6, 8.829e-7 / 9.81
 FACTORS = [0.01, 0.1, 0.5, 1.0]
+ENDS = [100, 1000, 5000, 10000]  # of the phases [s]
 
 
 class Strip:
@@ -65,20 +66,25 @@ def reference():
     write_csv("T [-],nu = 0 [-],nu = 0.2 [-]", rows)
 
 
-def compare(poisson, h):
-    """Pressure in the middle (% of p0) and settlement of the plate (%) over the closed form."""
+def errors(poisson, h):
+    """At each of the times the pressure in the middle over p0, its error, and that of the settlement of the plate."""
     strip = Strip(poisson)
     with variant("mandel", {"materials.clay.poisson": poisson, "mesh.parameters.h": h}) as out:
         table = history(out)
-    errors = []
-    ends = [100, 1000, 5000, 10000]
-    for end in ends:
+    found = []
+    for end in ENDS:
         row = int(np.argmin(np.abs(table["time"] - end)))
         time = table["time"][row]
-        middle = (table["middle.pore_pressure"][row] - strip.pressure(time)) / strip.first
+        pressure = table["middle.pore_pressure"][row] / strip.first
         down = -table["plate.uy"][row] / (HEIGHT * strip.shortening(time)) - 1
-        errors.append(f"{table['middle.pore_pressure'][row] / strip.first:.4f} ({100 * middle:+.2f}) / {100 * down:+.2f}")
-    print(f"| ν = {poisson}, h = {h} m | " + " | ".join(errors) + " |", flush=True)
+        found.append((pressure, pressure - strip.pressure(time) / strip.first, down))
+    return found
+
+
+def compare(poisson, h):
+    """A row of the table, the errors in per cent."""
+    cells = [f"{pressure:.4f} ({100 * middle:+.2f}) / {100 * down:+.2f}" for pressure, middle, down in errors(poisson, h)]
+    print(f"| ν = {poisson}, h = {h} m | " + " | ".join(cells) + " |", flush=True)
 
 
 if __name__ == "__main__":

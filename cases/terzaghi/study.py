@@ -46,18 +46,23 @@ def reference():
     write_csv("T_v [-],degree [-],pressure at the base [-],pressure in the middle [-]", rows)
 
 
-def compare(title, settings):
-    """A row a time: settlement (%) and pressure at the base (% of p0) over the closed form."""
+def errors(settings):
+    """At each of the times the settlement over the closed form and the pressure at the base over that, in p0."""
     with variant("terzaghi", settings) as out:
         table = history(out)
-    errors = []
+    found = []
     for factor in FACTORS:
         row = int(np.argmin(np.abs(table["time"] - factor * 1e4)))
         time = table["time"][row]
         down = -table["top.uy"][row] / settlement(time) - 1
         base = table["base.pore_pressure"][row] / FIRST - isochrone(1.0, COEFFICIENT * time / HEIGHT**2)
-        errors.append(f"{100 * down:+.2f} / {100 * base:+.2f}")
-    print(f"| {title} | " + " | ".join(errors) + " |", flush=True)
+        found.append((down, base))
+    return found
+
+
+def compare(title, settings):
+    """A row of the table, in per cent."""
+    print(f"| {title} | " + " | ".join(f"{100 * down:+.2f} / {100 * base:+.2f}" for down, base in errors(settings)) + " |", flush=True)
 
 
 def first_step():

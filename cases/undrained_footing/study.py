@@ -26,6 +26,13 @@ WAYS = {
     | {"materials.clay": f"{{model: tresca, young: 1.0e5, poisson: 0.495, {SOIL}}}", "output.fields": "[stress]"},
 }
 
+
+def load(settings):
+    """The last load (kN/m)."""
+    with variant("undrained_footing", settings) as out:
+        return -history(out)["footing.reaction_y"][-1]
+
+
 if __name__ == "__main__":
     if "--reference" in sys.argv:
         write_csv("load [kN/m]", [(LIMIT,)])
@@ -33,6 +40,5 @@ if __name__ == "__main__":
         print("| way | load [kN/m] | over (2 + π) s_u |")
         print("|---|---|---|")
         for title, settings in WAYS.items():
-            with variant("undrained_footing", settings) as out:
-                load = -history(out)["footing.reaction_y"][-1]
-            print(f"| {title} | {load:.2f} | {100 * (load / LIMIT - 1):+.2f} % |", flush=True)
+            found = load(settings)
+            print(f"| {title} | {found:.2f} | {100 * (found / LIMIT - 1):+.2f} % |", flush=True)

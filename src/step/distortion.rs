@@ -1,4 +1,4 @@
-//! How distorted the cells have become since the grid was restored ([1] of docs/theory.md, §2.8).
+//! How distorted the cells have become since the grid was restored (reference 1 of docs/theory.md, §2.8).
 
 use super::grid::Grid;
 use super::scene::Scene;

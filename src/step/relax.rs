@@ -1,5 +1,5 @@
 //! The grid as finite elements that share nodes with it leave it: it follows them where they meet, less and less with
-//! the distance, and its sides are straight elsewhere ([1] of docs/theory.md, §2.7).
+//! the distance, and its sides are straight elsewhere (reference 1 of docs/theory.md, §2.7).
 //!
 //! The corners of its cells are held together by springs along the edges, stiff as the inverse square of their length;
 //! what they bear is the way of the shared nodes from the first shape of the grid, on the boundary of the mesh only

@@ -206,7 +206,7 @@ pub struct Stop {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Restore {
     EveryStep,
-    /// When a cell with points is distorted beyond a limit or Newton's iteration fails ([1] of docs/theory.md, §2.8).
+    /// When a cell with points is distorted beyond a limit or Newton's iteration fails (reference 1 of docs/theory.md, §2.8).
     Quality {
         /// Least quality of a cell relative to its first one (-).
         least: f64,

@@ -1,4 +1,4 @@
-//! The active boundary ([1] of docs/theory.md, §2.5): where the material ends, as closed, oriented polylines.
+//! The active boundary (reference 1 of docs/theory.md, §2.5): where the material ends, as closed, oriented polylines.
 //!
 //! They are the zero of a level set that is linear on the triangles between the nodes of a cell, in the parametric
 //! domain: the surface that the [`super::Active`] part of a cell is cut along, so that weights fitted to that part and

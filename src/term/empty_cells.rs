@@ -1,5 +1,5 @@
 //! A soft linear stiffness in empty and partly empty cells, so that nodes without material points neither
-//! make the system singular nor change its pattern ([1] of docs/theory.md, §2.4; Coombs 2023 uses the same kind of penalty).
+//! make the system singular nor change its pattern (reference 1 of docs/theory.md, §2.4; Coombs 2023 uses the same kind of penalty).
 //!
 //! `ε E (1 − fill) ∫ ∇ˢN_I : ∇ˢ(u − u_n)`: linear elasticity with Poisson's ratio zero on the increment of
 //! the step. It is free of stress at the beginning of every step, and of order `ε` in its end.

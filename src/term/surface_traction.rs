@@ -1,4 +1,4 @@
-//! Tractions on the active boundary ([1] of docs/theory.md, §2.5): `−∫ N_I t dS` over its pieces inside cells, where they are in the trial
+//! Tractions on the active boundary (reference 1 of docs/theory.md, §2.5): `−∫ N_I t dS` over its pieces inside cells, where they are in the trial
 //! state, per area of the surface as it is.
 //!
 //! `t dS = (−p R t̂ + s t̂ + q) dl`, `t̂` along the surface with the material on its left, `R` a turn to the right, which

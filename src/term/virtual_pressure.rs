@@ -1,4 +1,4 @@
-//! A pressure on the whole boundary of the material, as the work it does in the material ([1] of docs/theory.md, §2.5): by the theorem of
+//! A pressure on the whole boundary of the material, as the work it does in the material (reference 1 of docs/theory.md, §2.5): by the theorem of
 //! Gauss, `−∮ p N_I n dS = −∫ (p ∇N_I + N_I ∇p) dV`, so that
 //!
 //! `R_I = Σ_p w_p J_p (p ∇_x N_I + N_I ∇p)` at the places of the points in the trial state.
