@@ -369,17 +369,60 @@ fn a_traction_follows_the_top_of_a_column_across_ten_cells() {
     println!("vertical traction: {dead:?}");
     let pressure = settles(|t| load(Some(Head { top: TimeValue::Rate(t), ..head(0.0, 0.0, 0.0) })));
     println!("pressure: {pressure:?}");
-    assert!(dead[0] < 5e-3 && pressure[0] < 5e-3, "{dead:?} {pressure:?}");
+    // In the mean, and at the point that is off most.
+    assert!(dead[0] < 1e-4 && dead[1] < 2e-3, "{dead:?}");
+    assert!(pressure[0] < 1e-4 && pressure[1] < 2e-3, "{pressure:?}");
 }
 
-/// A soft block collapses under its weight and runs out.
-fn collapse(fitted: bool) {
+/// The force (kN/m), its moment about the origin (kN) and the length (m) that loads of 1 kPa find over closed loops of the boundary, one at a
+/// time, walls and what no points are near included, where the nodes are displaced: pressure over each piece with its own normal, and a
+/// traction in a fixed direction over its own length.
+fn over_loops<K: Kinematics<2>>(
+    scene: &mpm::step::Scene<2>,
+    state: &State<2>,
+    displacement: &[[f64; 2]],
+) -> Vec<([f64; 3], f64)> {
+    let grid = Grid::new::<K>(scene, state).unwrap();
+    let mut alone = state.clone();
+    let boundary = &state.weighing.boundary;
+    let mut sums = Vec::new();
+    for l in 0..boundary.loops() {
+        let pieces: Vec<_> =
+            boundary.pieces(l).iter().map(|piece| Piece { wall: false, region: 0, ..*piece }).collect();
+        let first = vec![0, pieces.len() as u32];
+        alone.weighing.boundary = ActiveBoundary { pieces, first };
+        let frame = grid.frame(&scene.mesh, &alone);
+        let sum = |load: SurfaceLoad| {
+            let mut force = vec![0.0; frame.pattern.len()];
+            let mut workspace = Workspace::default();
+            let mut out = Assembly { force: &mut force, tangent: None, workspace: &mut workspace };
+            let trial = Trial::at_rest(displacement, displacement);
+            SurfaceTraction::<K>::new(vec![load]).assemble(&frame, &trial, &mut out).unwrap();
+            let mut sum = [0.0; 3];
+            for (force, &n) in force.chunks_exact(2).zip(&grid.node) {
+                let x = [0, 1].map(|d| scene.mesh.nodes[n as usize][d] + displacement[n as usize][d]);
+                let parts = [force[0], force[1], x[0] * force[1] - x[1] * force[0]];
+                sum.iter_mut().zip(parts).for_each(|(sum, part)| *sum -= part);
+            }
+            sum
+        };
+        let constant = TimeValue::Constant;
+        let along = SurfaceLoad { components: [constant(1.0), constant(0.0)], ..load(None) };
+        sums.push((sum(load(Some(head(1.0, 0.0, 0.0)))), sum(along)[0]));
+    }
+    sums
+}
+
+/// A soft block collapses under its weight and runs out, with or without a ring that falls beside it and is still in the air in the end. What
+/// loads find over each closed loop in every step: no force and no moment of a pressure, and the length of its polyline.
+fn collapse(fitted: bool, beside: bool) {
     let mut bench = Bench::new(
         rectangle(CellKind::T6, 4.0, 1.25, 32, 10, 0.0, 4),
         Arc::new(VonMises::new(Elasticity::new(constant(500.0), 0.3).unwrap(), Profile::constant(4.0)).unwrap()),
     );
     (bench.gravity, bench.restore, bench.dynamic) = ([0.0, -10.0], Restore::EveryStep, true);
-    (bench.duration, bench.steps, bench.spectral_radius) = (1.0, 100, 0.6);
+    (bench.duration, bench.steps) = if beside { (0.3, 30) } else { (1.0, 100) };
+    bench.spectral_radius = 0.6;
     if fitted {
         fit::<PlaneStrain>(&mut bench);
         bench.quadrature = Some(Box::new(Fitted::<PlaneStrain>::new(&bench.mesh).with_boundary()));
@@ -387,39 +430,45 @@ fn collapse(fitted: bool) {
         bench.quadrature = Some(Box::new(Bounded::<PlaneStrain>::new(&bench.mesh)));
     }
     bench.hold("left", &[0]).hold("right", &[0]).hold("bottom", &[0, 1]);
-    let block: Vec<_> = seeded(&bench.mesh, 16).into_iter().filter(|(x, _)| x[0] < 1.0 && x[1] < 1.0).collect();
+    let within = |x: &[f64; 2], [left, low]: [f64; 2], side: f64| {
+        (left..left + side).contains(&x[0]) && (low..low + side).contains(&x[1])
+    };
+    let ring = |x: &[f64; 2]| within(x, [2.5, 0.5], 0.75) && !within(x, [2.75, 0.75], 0.25);
+    let soil = |x: &[f64; 2]| within(x, [0.0, 0.0], 1.0) || beside && ring(x);
+    let block: Vec<_> = seeded(&bench.mesh, 16).into_iter().filter(|(x, _)| soil(x)).collect();
     let points = at::<PlaneStrain>(&bench.mesh, &block, 1.6);
-    let volume: f64 = points.initial_volume.iter().sum();
     let scene = bench.scene::<PlaneStrain>();
-    let (mut worst, mut most, mut lost) = (0f64, 0, 0);
+    let still = vec![[0.0; 2]; scene.mesh.nodes.len()];
+    let (mut force, mut moment, mut off, mut fewest, mut slivers) = (0f64, 0f64, 0f64, usize::MAX, 0);
     let state = run::<PlaneStrain>(&scene, points, |state, _| {
         let boundary = &state.weighing.boundary;
         assert_closed(boundary, &scene.mesh);
-        let now: Vec<[f64; 2]> =
-            scene.mesh.nodes.iter().zip(&state.displacement).map(|(x, u)| [0, 1].map(|d| x[d] + u[d])).collect();
-        let mut enclosed = 0.0;
-        for l in 0..boundary.loops() {
-            let x: Vec<_> = boundary.corners(&scene.mesh, &now, l).collect();
-            enclosed += area(&x);
-            for d in 0..2 {
-                let around = (0..x.len()).map(|i| x[(i + 1) % x.len()][d] - x[i][d]).sum::<f64>();
-                worst = worst.max(around.abs());
-            }
-        }
+        let lines = polylines(boundary, &scene.mesh);
         let held: f64 = (0..state.points.len()).map(|p| state.points.volume(p)).sum();
-        assert!((enclosed / held - 1.0).abs() < 0.1, "{enclosed} {held} {volume}");
-        most = most.max(boundary.loops());
-        lost += usize::from(state.weighing.lost_front.is_some());
+        let enclosed: f64 = lines.iter().map(|x| area(x)).sum();
+        assert!((enclosed / held - 1.0).abs() < 0.1, "{enclosed} {held}");
+        for (x, (sum, length)) in lines.iter().zip(over_loops::<PlaneStrain>(&scene, state, &still)) {
+            let ends = x.iter().zip(x.iter().cycle().skip(1));
+            let exact: f64 = ends.map(|(a, b)| (b[0] - a[0]).hypot(b[1] - a[1])).sum();
+            (force, moment) = (force.max(sum[0].hypot(sum[1])), moment.max(sum[2].abs()));
+            off = off.max((length / exact - 1.0).abs());
+        }
+        fewest = fewest.min(lines.len());
+        slivers += boundary.pieces.iter().filter(|piece| piece.bearer != piece.cell).count();
     });
-    let front = state.points.position.iter().map(|x| x[0]).fold(0.0, f64::max);
+    let front = state.points.position.iter().map(|x| x[0]).filter(|x| *x < 2.4).fold(0.0, f64::max);
     println!(
-        "fitted {fitted}: Σ n ds {worst:.1e} m, up to {most} loops, front lost {lost} times, ran out to {front:.2} m"
+        "fitted {fitted}: force {force:.1e} kN/m, moment {moment:.1e} kN, length off by {off:.1e}, at least {fewest} loops, \
+         {slivers} pieces borne beyond their cells, ran out to {front:.2} m"
     );
-    assert!(worst < 1e-12 && front > 1.3, "{worst:e} {front}");
+    assert!(force < 1e-12 && moment < 1e-12 && off < 1e-12, "{force:e} {moment:e} {off:e}");
+    assert!(slivers > 0 && if beside { fewest == 3 } else { front > 1.3 }, "{slivers} {fewest} {front}");
 }
 
 #[test]
 fn the_boundary_is_closed_through_a_collapse() {
-    collapse(true);
-    collapse(false);
+    for fitted in [true, false] {
+        collapse(fitted, false);
+        collapse(fitted, true);
+    }
 }
