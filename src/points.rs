@@ -51,6 +51,11 @@ impl<const D: usize> Points<D> {
         self.position.len()
     }
 
+    /// What messages call point `p`.
+    pub fn name(&self, p: usize) -> String {
+        format!("material point {p} at {:.3?} m", self.position[p])
+    }
+
     /// Displacement (m) of point `p` since seeding or the last reset.
     pub fn displacement(&self, p: usize) -> [f64; D] {
         let from = self.reference.get(p).unwrap_or(&self.origin[p]);

@@ -110,6 +110,34 @@ fn adhesion_is_a_share_of_the_shear_strength() {
     }
 }
 
+/// Clay that a plate has consolidated along its virgin line adheres with the strength that it has come to.
+#[test]
+fn adhesion_grows_as_clay_hardens() {
+    let overrides = [
+        "materials.soil={model: cam_clay, young: 1000, poisson: 0.3, critical_slope: 1, preconsolidation: 20, \
+          plastic_compressibility: 0.1, density: 0}",
+        "contacts[0].adhesion_factor=0.3",
+        "phases=[{name: press, analysis: quasi_static, duration: 1, step: {initial: 0.05}, \
+          prescribe: {top: {ux: 0, uy: {rate: -0.1}}}}, \
+          {name: drag, analysis: quasi_static, duration: 1, step: {initial: 0.1}, \
+          prescribe: {top: {ux: {rate: 0.05}, uy: 0}}}]",
+    ];
+    let folder = run("tests/data/plate", &overrides);
+    let force = -history(folder.path()).pop().unwrap()[3];
+    // On the yield surface p_c is p + q²/(M² p), of the Kirchhoff stress that is 0.9 times the Cauchy stress.
+    let frame = Frame::read(&folder.path().join("results/frame-000001.mpmf")).unwrap();
+    let column = frame.points.columns.iter().find(|c| c.name == "stress").unwrap();
+    let size = |s: &[f64]| {
+        let (p, q) = (-0.9 * (s[0] + s[1] + s[2]) / 3.0, 0.9 * (s[0] - s[1]).abs());
+        p + q * q / p
+    };
+    let sizes: Vec<f64> = column.values.chunks_exact(6).map(size).collect();
+    let mean = sizes.iter().sum::<f64>() / sizes.len() as f64;
+    let wanted = 2.0 * 0.3 * mean / (2.0 * 3f64.sqrt());
+    println!("p_c {mean} kPa, at first 20; {force} of {wanted} kN");
+    assert!(mean > 30.0 && (force / wanted - 1.0).abs() < 3e-2, "{mean} {force} {wanted}");
+}
+
 /// A plate near the limit of what clay bears, laid on it at once: the step fails, and halves of it bear a half. It
 /// ends where a load that grows does.
 #[test]

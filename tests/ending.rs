@@ -68,21 +68,30 @@ fn soil_in_a_structure_that_touches_again_is_told() {
     let phases = "phases=[{name: through, analysis: quasi_static, duration: 1, step: {initial: 1}, deactivate: [bearing], \
         prescribe: {top: {ux: 0, uy: -0.8}}}, \
         {name: back, analysis: quasi_static, duration: 1, step: {initial: 1}, activate: [bearing], prescribe: {top: {uy: 0}}}]";
-    let folder = tempfile::tempdir().unwrap();
     let contact = "contacts=[{name: bearing, structure: plate, soil: soil}]";
-    let output =
-        mpm("run", "tests/data/plate", folder.path(), &[phases, contact, "mesh.parameters={thick: 0.9, air: 1}"]);
-    let told = String::from_utf8_lossy(&output.stderr);
-    assert_eq!(output.status.code(), Some(1), "{told}");
-    for words in
-        ["contact of `plate`", "phase `back` brings the structure back into soil", "points of `soil` are in it"]
-    {
-        assert!(told.contains(words), "{told}");
+    for rigid in [false, true] {
+        let folder = tempfile::tempdir().unwrap();
+        let (kind, on) = (format!("regions.plate.rigid={rigid}"), if rigid { "plate" } else { "top" });
+        let phases = phases.replace("top", on);
+        let output = mpm(
+            "run",
+            "tests/data/plate",
+            folder.path(),
+            &[&phases, contact, "mesh.parameters={thick: 0.9, air: 1}", &kind],
+        );
+        let told = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(1), "{told}");
+        let words =
+            ["contact of `plate`", "phase `back` brings the structure back into soil", "points of `soil` are in it"];
+        for words in words {
+            assert!(told.contains(words), "{told}");
+        }
+        let log = fs::read_to_string(folder.path().join("solve.log")).unwrap();
+        assert!(log.contains("the analysis ends here"), "{log}");
     }
-    assert!(fs::read_to_string(folder.path().join("solve.log")).unwrap().contains("the analysis ends here"));
 }
 
-/// An associated material whose strength is raised is one still: as many iterations as with that strength given.
+/// An associated material whose strength is raised is one still.
 #[test]
 fn strengths_divided_by_less_than_one_are_those_given() {
     let soil = |cohesion: f64, friction: f64| {

@@ -189,7 +189,7 @@ pub struct Contact {
     #[serde(default)]
     #[schemars(range(min = 0))]
     pub adhesion: f64,
-    /// α (-), from 0 to 1: the shear is at most α times the strength of the soil; without friction and adhesion it is
+    /// α (-), from 0 to 1: the shear is at most α times the shear strength that the soil has; without friction and adhesion it is
     /// just that.
     #[schemars(range(min = 0, max = 1))]
     pub adhesion_factor: Option<f64>,

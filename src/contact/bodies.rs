@@ -205,6 +205,10 @@ impl<K: Kinematics<2>> Pair<2> for Bodies<K> {
         Some(self.against)
     }
 
+    fn soils(&self) -> &[u16] {
+        &[]
+    }
+
     fn hats(&self) -> usize {
         self.surface.hats
     }

@@ -16,7 +16,7 @@ pub struct Law {
     pub friction: f64,
     /// c_a (kPa).
     pub adhesion: f64,
-    /// α (-): the shear is at most α times the strength of the soil, and without friction and adhesion just that.
+    /// α (-): the shear is at most α times the shear strength of the soil, and without friction and adhesion just that.
     pub factor: Option<f64>,
     /// Whether the surfaces part where they are pulled.
     pub separates: bool,
@@ -35,7 +35,7 @@ pub struct Penalty {
     pub rounding: f64,
     /// Gap `w` (m) over which adhesion fades.
     pub fading: f64,
-    /// Strength of the soil (kPa).
+    /// Shear strength of the soil (kPa) as the step begins.
     pub strength: f64,
     /// What of the pressure (kPa) the water in the pores bears beyond the water outside: friction has no share in it. Negative where
     /// the water outside presses the grains together.

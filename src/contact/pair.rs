@@ -115,9 +115,7 @@ pub trait Pair<const D: usize>: Send + Sync {
     }
 
     /// The regions of the soil that it touches; none of a body.
-    fn soils(&self) -> &[u16] {
-        &[]
-    }
+    fn soils(&self) -> &[u16];
 
     /// The number of hats.
     fn hats(&self) -> usize;

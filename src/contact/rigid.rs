@@ -90,6 +90,10 @@ impl<const D: usize> Pair<D> for Rigid<D> {
         self.pair.against()
     }
 
+    fn soils(&self) -> &[u16] {
+        self.pair.soils()
+    }
+
     fn hats(&self) -> usize {
         self.pair.hats()
     }
@@ -135,6 +139,10 @@ mod tests {
     impl Pair<2> for One {
         fn structure(&self) -> u16 {
             0
+        }
+
+        fn soils(&self) -> &[u16] {
+            &[]
         }
 
         fn hats(&self) -> usize {

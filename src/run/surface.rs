@@ -19,7 +19,7 @@ pub struct Acting {
 ///
 /// Normals (-) out of the material are the mean of the pieces on both sides; where a free surface begins, that of it.
 /// Pressure (kPa, compression positive) is what acts at right angles to the surface, traction (kPa) all that acts. The
-/// column `wall` is 1 where a loop goes on along the boundary of the mesh, which no load but water acts on, else 0.
+/// column `wall` is 1 where a loop goes on along the boundary of the mesh, where no load but water is shown, else 0.
 pub fn part<const D: usize>(scene: &Scene<D>, state: &State<D>, acting: &Acting) -> Part {
     let boundary = &state.weighing.boundary;
     let from = if state.nodes.is_empty() { &scene.mesh.nodes } else { &state.nodes };

@@ -56,6 +56,9 @@ fn within<const D: usize>(
 ) -> Option<Found> {
     let (fem, structure) = (scene.fem.as_ref()?, pair.structure());
     let drawn = fem.mesh.part(|c| fem.mesh.cells.region[c] == structure);
+    if pair.soils().is_empty() || drawn.cells.is_empty() {
+        return None;
+    }
     let body = Mesh { nodes: (0..drawn.nodes.len() as u32).map(at).collect(), ..drawn };
     let (locator, lines) = (Locator::new(&body), pair.lines(at));
     for &soil in pair.soils() {

@@ -205,7 +205,7 @@ fn deformation<const D: usize, K: Kinematics<D>>(entries: &Entries<D>, u: &[[f64
 #[cold]
 fn inadmissible<const D: usize>(points: &Points<D>, p: usize, what: &str, deformation: &Tensor) -> Error {
     Error::analysis(
-        format!("material point {p} at {:.3?} m", points.position[p]),
+        points.name(p),
         format!("{what} (det F {:.3})", deformation.determinant()),
         "take smaller steps or refine the mesh",
     )

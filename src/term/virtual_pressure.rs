@@ -341,7 +341,7 @@ impl<const D: usize, K: Kinematics<D>> Term<D> for VirtualPressure<K> {
                     K::deform(&mut known, &before[i], &gradient[i]);
                 }
                 let (inverse, determinant) = invert(&deformed)
-                    .map_err(|determinant| inside_out(format!("material point {}", entries.point), determinant))?;
+                    .map_err(|determinant| inside_out(frame.points.name(entries.point), determinant))?;
                 let ratio = determinant / known.determinant();
                 let volume = entries.weight * ratio * frame.points.deformation[entries.point].determinant();
                 let place = Place { value: entries.value, gradient: &gradient[..count], inverse, volume, pressures };
