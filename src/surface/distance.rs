@@ -1,8 +1,9 @@
 //! The signed distance of the nodes to the free surface of a front.
 //!
 //! Only free segments count. Where the surface ends at a wall it is continued straight beyond it, so that the level
-//! set of a straight surface is linear up to the wall. The sign comes from the nearest segment; far from all of them a
-//! node is in the material if a cell around it holds points.
+//! set of a straight surface is linear up to the wall. What is continued counts for nodes alone whose nearest free segment is of the same
+//! run: another run may lie between, as on the outside of a toe whose underside is hollow. The sign comes from the nearest segment; far from all
+//! of them a node is in the material if a cell around it holds points.
 
 use super::bins::Bins;
 use super::front::Front;
@@ -28,6 +29,9 @@ struct Segment {
     from: [f64; 2],
     to: [f64; 2],
     normal: [[f64; 2]; 2],
+    /// The number of its run of free segments, and whether it continues that beyond a wall.
+    arc: u32,
+    beyond: bool,
 }
 
 /// What a zero is, as a share of the reach.
@@ -47,9 +51,13 @@ impl Distance {
         let wall = front.walls(mesh, geometry, locator);
         let reach = self.reach(mesh, locator, front, &wall);
         self.segments.clear();
+        let mut count = 0;
         for l in 0..front.loops() {
             let range = front.first[l] as usize..front.first[l + 1] as usize;
-            arcs(front.markers(l), &wall[range], 2.0 * reach, |arc, closed| add_arc(&mut self.segments, arc, closed));
+            arcs(front.markers(l), &wall[range], 2.0 * reach, |arc, closed| {
+                add_arc(&mut self.segments, arc, count, closed);
+                count += 1;
+            });
         }
         let bins = Bins::new(self.segments.iter().map(|s| (s.from, s.to)), reach);
         self.mark(mesh, cell, taking_part);
@@ -120,13 +128,15 @@ fn beyond_end(a: &[f64; 2], b: &[f64; 2], length: f64) -> [f64; 2] {
     [b[0] + stretch * x, b[1] + stretch * y]
 }
 
-fn add_arc(segments: &mut Vec<Segment>, x: &[[f64; 2]], closed: bool) {
+/// Adds run `arc`; the first and the last segment of one that is not `closed` are those beyond walls.
+fn add_arc(segments: &mut Vec<Segment>, x: &[[f64; 2]], arc: u32, closed: bool) {
     let first = segments.len();
     let ends = x.windows(2).map(|w| (w[0], w[1])).chain(closed.then(|| (x[x.len() - 1], x[0])));
-    segments.extend(ends.filter(|(a, b)| a != b).map(|(from, to)| {
+    segments.extend(ends.enumerate().filter(|(_, (a, b))| a != b).map(|(i, (from, to))| {
         let [dx, dy] = [to[0] - from[0], to[1] - from[1]];
         let length = dx.hypot(dy);
-        Segment { from, to, normal: [[dy / length, -dx / length]; 2] }
+        let beyond = !closed && (i == 0 || i + 2 == x.len());
+        Segment { from, to, normal: [[dy / length, -dx / length]; 2], arc, beyond }
     }));
     let count = segments.len() - first;
     let own: Vec<[f64; 2]> = segments[first..].iter().map(|s| s.normal[0]).collect();
@@ -141,28 +151,51 @@ fn add_arc(segments: &mut Vec<Segment>, x: &[[f64; 2]], closed: bool) {
     }
 }
 
-/// The signed distance of `x` to the nearest segment, if one is within reach.
+/// The signed distance of `x` to the run of the nearest free segment, continued beyond walls, if that segment is within reach.
 fn nearest(segments: &[Segment], bins: &Bins, x: &[f64; 2], reach: f64) -> Option<f64> {
-    let (mut least, mut height) = (reach * reach, None);
-    for &number in bins.around(x).flatten() {
-        let s = &segments[number as usize];
-        let (d, r) = ([0, 1].map(|d| s.to[d] - s.from[d]), [0, 1].map(|d| x[d] - s.from[d]));
-        let t = (r[0] * d[0] + r[1] * d[1]) / (d[0] * d[0] + d[1] * d[1]);
-        let foot = [0, 1].map(|k| r[k] - t.clamp(0.0, 1.0) * d[k]);
-        let square = foot[0] * foot[0] + foot[1] * foot[1];
-        if square < least {
-            least = square;
-            height = Some(if t <= 0.0 {
-                foot[0] * s.normal[0][0] + foot[1] * s.normal[0][1]
-            } else if t >= 1.0 {
-                foot[0] * s.normal[1][0] + foot[1] * s.normal[1][1]
-            } else {
-                foot[0] * d[1] - foot[1] * d[0]
-            });
+    let around = || bins.around(x).flatten().map(|&number| &segments[number as usize]);
+    // The nearest free segment, and the nearest one of all.
+    let mut free = (reach * reach, None);
+    let mut all = (f64::INFINITY, 0.0, None);
+    for s in around() {
+        let (square, height) = s.height(x);
+        if !s.beyond && square < free.0 {
+            free = (square, Some(s.arc));
+        }
+        if square < all.0 {
+            all = (square, height, Some(s.arc));
         }
     }
+    let arc = free.1?;
+    if all.2 != Some(arc) {
+        all = (f64::INFINITY, 0.0, None);
+        for s in around().filter(|s| s.arc == arc) {
+            let (square, height) = s.height(x);
+            if square < all.0 {
+                all = (square, height, Some(arc));
+            }
+        }
+    }
+    let (least, height, _) = all;
     let distance = least.sqrt();
-    height.map(|height| if distance <= ROUNDING * reach { 0.0 } else { -distance.copysign(height) })
+    Some(if distance <= ROUNDING * reach { 0.0 } else { -distance.copysign(height) })
+}
+
+impl Segment {
+    /// The square of the distance (m) of `x`, and a number with the sign of its height above the surface.
+    fn height(&self, x: &[f64; 2]) -> (f64, f64) {
+        let (d, r) = ([0, 1].map(|d| self.to[d] - self.from[d]), [0, 1].map(|d| x[d] - self.from[d]));
+        let t = (r[0] * d[0] + r[1] * d[1]) / (d[0] * d[0] + d[1] * d[1]);
+        let foot = [0, 1].map(|k| r[k] - t.clamp(0.0, 1.0) * d[k]);
+        let height = if t <= 0.0 {
+            foot[0] * self.normal[0][0] + foot[1] * self.normal[0][1]
+        } else if t >= 1.0 {
+            foot[0] * self.normal[1][0] + foot[1] * self.normal[1][1]
+        } else {
+            foot[0] * d[1] - foot[1] * d[0]
+        };
+        (foot[0] * foot[0] + foot[1] * foot[1], height)
+    }
 }
 
 #[cfg(test)]

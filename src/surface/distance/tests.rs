@@ -138,3 +138,28 @@ fn a_turned_and_a_sheared_square_have_their_exact_distance() {
         assert!(worst < 1e-3 && (total - 1.0).abs() < 5e-3, "{name} {worst} {total}");
     }
 }
+
+/// A body on a floor that is hollow beneath stands on two toes. What its underside is continued by below the floor is nearer to places beside
+/// the toes than their outside is, and says nothing of them.
+#[test]
+fn the_underside_of_a_toe_says_nothing_of_its_outside() {
+    let body: [[f64; 2]; 7] =
+        [[0.9, 0.0], [0.953, 0.0], [1.5, 0.255], [2.047, 0.0], [2.1, 0.0], [2.19, 0.5], [0.81, 0.5]];
+    let within = |x: &[f64; 2]| {
+        let ends = body.iter().zip(body.iter().cycle().skip(1));
+        let crosses = |(a, b): &(&[f64; 2], &[f64; 2])| {
+            (a[1] > x[1]) != (b[1] > x[1]) && x[0] < a[0] + (x[1] - a[1]) / (b[1] - a[1]) * (b[0] - a[0])
+        };
+        ends.filter(crosses).count() % 2 == 1
+    };
+    let mesh = rectangle(CellKind::T6, 3.0, 1.0, 24, 8, 0.0, 0);
+    let (geometry, locator) = (Geometry::new::<PlaneStrain>(&mesh), Locator::new(&mesh));
+    let front = Front { position: body.to_vec(), first: vec![0, body.len() as u32], weight: 0.0 };
+    let holds = |c: &u32| within(&geometry.frame[*c as usize].centre);
+    let cell: Vec<u32> = (0..mesh.cells.len() as u32).filter(holds).collect();
+    let mut distance = Distance::default();
+    distance.update(&mesh, &geometry, &locator, &front, &cell, &vec![true; mesh.cells.len()]);
+    for (x, found) in mesh.nodes.iter().zip(&distance.level_set) {
+        assert!((*found > 0.0) == within(&[x[0], x[1] + 1e-9]), "{x:?}: {found}");
+    }
+}
