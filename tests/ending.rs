@@ -67,12 +67,12 @@ fn a_fall_ends_with_the_rest_that_is_asked_for() {
 fn soil_in_a_structure_that_touches_again_is_told() {
     let phases = "phases=[{name: through, analysis: quasi_static, duration: 1, step: {initial: 1}, deactivate: [bearing], \
         prescribe: {top: {ux: 0, uy: -0.8}}}, \
-        {name: back, analysis: quasi_static, duration: 1, step: {initial: 1}, activate: [bearing], prescribe: {top: {uy: 0}}}]";
+        {name: back, analysis: quasi_static, duration: 1, step: {initial: 1}, activate: [bearing], prescribe: {top: {ux: 0, uy: 0}}}]";
     let contact = "contacts=[{name: bearing, structure: plate, soil: soil}]";
     for rigid in [false, true] {
         let folder = tempfile::tempdir().unwrap();
-        let (kind, on) = (format!("regions.plate.rigid={rigid}"), if rigid { "plate" } else { "top" });
-        let phases = phases.replace("top", on);
+        let kind = format!("regions.plate.rigid={rigid}");
+        let phases = if rigid { phases.replace("top: {", "plate: {rotation: 0, ") } else { phases.to_string() };
         let output = mpm(
             "run",
             "tests/data/plate",
