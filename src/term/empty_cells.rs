@@ -1,8 +1,11 @@
 //! A soft linear stiffness in empty and partly empty cells, so that nodes without material points neither
 //! make the system singular nor change its pattern (reference 1 of docs/theory.md, §2.4; Coombs 2023 uses the same kind of penalty).
 //!
-//! `ε E (1 − fill) ∫ ∇ˢN_I : ∇ˢ(u − u_n)`: linear elasticity with Poisson's ratio zero on the increment of
+//! `ε E (1 − fill) ∫ (∇ˢN_I : ∇ˢ + τ ∇ᵃN_I : ∇ᵃ)(u − u_n)`: linear elasticity with Poisson's ratio zero on the increment of
 //! the step. It is free of stress at the beginning of every step, and of order `ε` in its end.
+//!
+//! The trace `τ` of it that turning meets is for points that fly alone: these hold the cells around them by their mass, but
+//! where their stress is at a corner of the yield surface not against turning about them.
 
 use super::{Assembly, Frame, Term, Trial};
 use crate::error::Result;
@@ -13,11 +16,14 @@ use crate::system::{Local, scatter};
 use std::marker::PhantomData;
 use std::sync::OnceLock;
 
+/// τ (-): no moment that counts, and a million times what the solver takes for rounding.
+const TRACE: f64 = 1e-6;
+
 /// The soft stiffness of the cells that are not full.
 pub struct EmptyCells<K> {
     /// `ε E` (kPa).
     stiffness: f64,
-    /// `∫ ∇ˢN_I : ∇ˢN_J` of each cell, row-major, made when a cell is first not full: a restored grid keeps
+    /// `∫ ∇ˢN_I : ∇ˢN_J + τ ∇ᵃN_I : ∇ᵃN_J` of each cell, row-major, made when a cell is first not full: a restored grid keeps
     /// its shape, so that it holds for the whole run.
     unit: Vec<OnceLock<Box<[f64]>>>,
     kinematics: PhantomData<K>,
@@ -30,7 +36,8 @@ impl<K> EmptyCells<K> {
     }
 }
 
-/// `∫ ∇ˢN_a e_i : ∇ˢN_b e_k = ½ ∫ (δ_ik g_a·g_b + g_a,k g_b,i)`, row (a, i), column (b, k).
+/// `∫ ∇ˢN_a e_i : ∇ˢN_b e_k = ½ ∫ (δ_ik g_a·g_b + g_a,k g_b,i)`, row (a, i), column (b, k); the antisymmetric parts have the
+/// other sign between the two.
 fn unit_stiffness<const D: usize, K: Kinematics<D>>(mesh: &Mesh<D>, cell: usize) -> Box<[f64]> {
     let size = D * mesh.cells.nodes(cell).len();
     let mut unit = vec![0.0; size * size];
@@ -40,8 +47,9 @@ fn unit_stiffness<const D: usize, K: Kinematics<D>>(mesh: &Mesh<D>, cell: usize)
                 let dot: f64 = (0..D).map(|d| g[a][d] * g[b][d]).sum();
                 for i in 0..D {
                     for k in 0..D {
-                        let isotropic = if i == k { dot } else { 0.0 };
-                        unit[(a * D + i) * size + b * D + k] += 0.5 * weight * (isotropic + g[a][k] * g[b][i]);
+                        let (isotropic, crossed) = (if i == k { dot } else { 0.0 }, g[a][k] * g[b][i]);
+                        unit[(a * D + i) * size + b * D + k] +=
+                            0.5 * weight * ((1.0 + TRACE) * isotropic + (1.0 - TRACE) * crossed);
                     }
                 }
             }
