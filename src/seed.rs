@@ -1,4 +1,4 @@
-//! Material points in the cells of a mesh; the stress they start with is in [`rest`].
+//! Material points in the cells of a mesh; the stress they start with is that of [`k0_stress`].
 //!
 //! Triangles take 4, 9, 16 or 25 equal points (centroids of the k × k sub-triangles) or the 3, 6, 7 or 12
 //! points of a quadrature rule; quadrilaterals k × k points at the centres of equal parametric boxes. A
