@@ -67,7 +67,7 @@ fn points_that_leave_the_grid_are_named() {
 
 #[test]
 fn a_body_free_to_move_is_told_to_be_held() {
-    let parts = ["singular", "step 1 ", "held by supports"];
+    let parts = ["singular", "step 1 ", "hold it by supports"];
     let phase = |tractions: &str| {
         format!(
             "phases=[{{name: pull, analysis: quasi_static, duration: 1, step: {{initial: 0.1}}, \
