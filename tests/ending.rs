@@ -3,6 +3,7 @@
 mod history;
 
 use history::column;
+use mpm::io::frame::{self, Frame, UNCOUNTED};
 use std::fs;
 use std::path::Path;
 use std::process::{Command, Output};
@@ -116,4 +117,48 @@ fn strengths_divided_by_less_than_one_are_those_given() {
     println!("{given} {divided}");
     assert!((divided / given - 1.0).abs() < 1e-7, "{given} {divided}");
     assert_eq!(log.matches("halved").count(), given_log.matches("halved").count(), "{log}");
+}
+
+/// What displacements are not counted from after a reset goes to the frames, for the nodes of structures.
+#[test]
+fn a_reset_is_told_to_the_frames() {
+    let phases = "phases=[{name: press, analysis: quasi_static, duration: 1, step: {initial: 0.5}, \
+        prescribe: {top: {ux: 0, uy: {rate: -0.01}}}}, \
+        {name: hold, analysis: quasi_static, duration: 1, step: {initial: 1}, reset_displacements: true, \
+        prescribe: {top: {ux: 0, uy: 0}}}]";
+    let (folder, _) = run("tests/data/plate", &[phases]);
+    let uncounted = |frame: usize| {
+        let frame = Frame::read(&frame::path(&folder.path().join("results"), frame)).unwrap();
+        frame.grid.columns.into_iter().find(|column| column.name == UNCOUNTED)
+    };
+    assert!(uncounted(1).is_none(), "nothing is reset before the second phase");
+    let least = uncounted(2).unwrap().values.chunks_exact(3).map(|u| u[1]).fold(0.0, f64::min);
+    assert!((least + 0.01).abs() < 1e-4, "{least}");
+}
+
+/// A run that fails where it wrote a frame last, and fails again when it is resumed, writes no frame twice.
+#[test]
+fn a_failure_that_is_repeated_writes_no_other_frame() {
+    let settings = [
+        "mesh.parameters={plate: 0.8, left: 0.6, edge: 0.05}",
+        "materials.soil={model: tresca, young: 1000, poisson: 0.49, shear_strength: 10, density: 0}",
+        "phases=[{name: load, analysis: quasi_static, duration: 1, step: {initial: 0.1, min: 0.06}, \
+          tractions: [{on: top, ty: {rate: -200}}], prescribe: {top: {ux: 0}}}]",
+        "output.every=0.1",
+    ];
+    let folder = tempfile::tempdir().unwrap();
+    let frames = || fs::read_dir(folder.path().join("results")).unwrap().count();
+    for stage in ["mesh", "seed"] {
+        assert!(mpm(stage, "tests/data/plate", folder.path(), &settings).status.success());
+    }
+    assert_eq!(mpm("solve", "tests/data/plate", folder.path(), &settings).status.code(), Some(1));
+    let first = frames();
+    let mut again = Command::new(env!("CARGO_BIN_EXE_mpm"));
+    again.arg("solve").arg(Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/plate")).arg("-o").arg(folder.path());
+    for setting in settings {
+        again.args(["--set", setting]);
+    }
+    assert_eq!(again.arg("--resume").output().unwrap().status.code(), Some(1));
+    assert!(first > 2, "{first}");
+    assert_eq!(frames(), first);
 }
