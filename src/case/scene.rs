@@ -5,7 +5,8 @@ use super::outputs::outputs;
 use super::rigid::{self, Holds};
 use super::{changes, parts, pores, search, staged, touch, wall, water};
 use crate::error::{Error, Result};
-use crate::io::checkpoint::Fingerprint;
+use crate::io::provenance::Origin;
+use crate::io::run_folder::RunFolder;
 use crate::kinematics::{Axisymmetric, Kinematics, PlaneStrain};
 use crate::mesh::Mesh;
 use crate::mesh::faces::Faces;
@@ -20,7 +21,6 @@ use crate::term::{
     PressureField, SmoothPressure, Term, Traction, WaterBond,
 };
 use crate::time_value::TimeValue;
-use std::path::Path;
 use std::sync::atomic::AtomicBool;
 
 /// γ (-) of the ghost penalty: 1e-3 … 1 give the same results to the error of the grid.
@@ -35,8 +35,8 @@ pub fn solve(
     case: &Case,
     mesh: Mesh<2>,
     points: Points<2>,
-    folder: &Path,
-    fingerprint: Fingerprint,
+    folder: &RunFolder,
+    origin: Origin,
     resume: bool,
     stop: &AtomicBool,
     progress: &mut dyn FnMut(Progress),
@@ -52,12 +52,12 @@ pub fn solve(
     match case.geometry {
         Geometry::PlaneStrain => {
             let scene = scene::<PlaneStrain>(case, mesh)?;
-            let outputs = outputs(case, &scene, folder, fingerprint)?;
+            let outputs = outputs(case, &scene, folder, origin)?;
             run::run::<2, PlaneStrain>(&scene, first(case, &scene, parts)?, &outputs, resume, stop, progress)
         }
         Geometry::Axisymmetric => {
             let scene = scene::<Axisymmetric>(case, mesh)?;
-            let outputs = outputs(case, &scene, folder, fingerprint)?;
+            let outputs = outputs(case, &scene, folder, origin)?;
             run::run::<2, Axisymmetric>(&scene, first(case, &scene, parts)?, &outputs, resume, stop, progress)
         }
     }

@@ -1,6 +1,6 @@
 //! `mpm mesh`: from the `.geo` to `mesh.msh`.
 
-use super::stage::{Stage, Stamp};
+use super::stage::{Inputs, Stage};
 use super::{Outcome, StageArgs, print};
 use crate::case::checked;
 use crate::case::names::Groups;
@@ -21,7 +21,7 @@ pub fn run(args: &StageArgs) -> Outcome {
 /// # Errors
 /// Input: a `.geo`, or what it includes, that cannot be read.
 pub fn is_current(stage: &Stage) -> Result<bool> {
-    Ok(stamp(stage)?.is_current(&[stage.mesh()]))
+    Ok(inputs(stage)?.are_current(stage.folder(), &[stage.mesh()]))
 }
 
 /// Meshes, and prints a summary. An earlier mesh stays until the new one has passed every check.
@@ -31,6 +31,8 @@ pub fn is_current(stage: &Stage) -> Result<bool> {
 /// files cannot be written.
 pub fn work(stage: &Stage) -> Outcome {
     let case = &stage.loaded.case;
+    stage.lock()?;
+    let mut record = inputs(stage)?.begin();
     stage.loaded.check_names(&groups(&case.mesh)?)?;
     stage.prepare()?;
     let candidate = stage.folder().join(".candidate.msh");
@@ -45,7 +47,8 @@ pub fn work(stage: &Stage) -> Outcome {
         let _ = fs::remove_file(&candidate);
     }
     let summary = summary?;
-    stamp(stage)?.write(&[stage.mesh()])?;
+    record.finish(stage.folder(), &[stage.mesh()])?;
+    record.write(stage.folder())?;
     print(&format!("{}\n{summary}\n", stage.mesh().display()))
 }
 
@@ -84,10 +87,10 @@ fn options(mesh: &checked::Mesh) -> Options {
     Options { order, incomplete, parameters: mesh.parameters.iter().map(|(name, &v)| (name.clone(), v)).collect() }
 }
 
-fn stamp(stage: &Stage) -> Result<Stamp> {
+fn inputs(stage: &Stage) -> Result<Inputs> {
     let mut files = BTreeSet::new();
     include(&stage.loaded.case.mesh.geo, &mut files);
-    stage.stamp("mesh", &["mesh"], &files.into_iter().collect::<Vec<_>>())
+    stage.inputs("mesh", &["mesh"], &files.into_iter().collect::<Vec<_>>())
 }
 
 /// A `.geo` and what it includes or merges.

@@ -119,6 +119,7 @@ impl Piece {
             point_data: select(part, fields),
             cell_data: vec![region],
             time,
+            note: String::new(),
         }
     }
 }
