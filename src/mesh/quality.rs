@@ -232,6 +232,7 @@ mod tests {
             mesh.nodes.push(mesh.nodes[old as usize]);
             mesh.cells.nodes[first..].iter_mut().filter(|n| **n == old).for_each(|n| *n = new);
         }
+        mesh.groups.clear();
         let summary = check(&mesh, Path::new("mesh.msh")).unwrap();
         assert_eq!(summary.coincident, shared.len());
         assert!(summary.to_string().contains("note: 3 nodes"), "{summary}");
