@@ -131,3 +131,15 @@ fn the_bill_of_materials_is_of_what_is_linked() {
     assert!(!output.status.success() && said.contains("make sbom"), "{said}");
     assert!(said.contains(&format!("+ faer {}", faer["version"].as_str().unwrap())), "{said}");
 }
+
+#[test]
+fn the_legal_note_has_every_licence() {
+    let docs = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs");
+    let note = fs::read_to_string(docs.join("legal.md")).unwrap();
+    let bill: Value = serde_json::from_str(&fs::read_to_string(docs.join("sbom.cdx.json")).unwrap()).unwrap();
+    for component in bill["components"].as_array().unwrap() {
+        let entry = &component["licenses"][0];
+        let licence = entry["expression"].as_str().or(entry["license"]["name"].as_str()).expect("a licence");
+        assert!(note.contains(&format!("`{licence}`")), "docs/legal.md lacks {licence} of {}", component["name"]);
+    }
+}
