@@ -9,7 +9,7 @@ MPM := target/release/mpm
 MPM_BUILD := $(MPM)
 include pipeline/mpm.mk
 
-.PHONY: help setup build demo pile pile-variants pipeline pipeline-study test check fmt clean bench bench-block bench-unused stress verification
+.PHONY: help setup build demo pile pile-variants pipeline pipeline-study test check fmt clean bench bench-block bench-unused sbom stress verification
 
 help: ## List the targets
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / {printf "  %-14s %s\n", $$1, $$2}' $(firstword $(MAKEFILE_LIST))
@@ -70,6 +70,9 @@ check: setup ## Formatting, lints and documentation, without warnings
 	cargo fmt --check
 	cargo clippy --release --all-targets -- -D warnings
 	RUSTDOCFLAGS='-D warnings' cargo doc --release --no-deps
+
+sbom: setup ## List what is linked into the program; writes docs/sbom.cdx.json
+	$(PYTHON) pipeline/sbom.py
 
 fmt: ## Format the sources
 	cargo fmt
