@@ -7,7 +7,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use super::atomic;
-use super::container::{Array, Contents, Data, Store, check_finite};
+use super::container::{Array, Contents, Data, Store, check_finite, not_finite};
 use crate::error::{Error, Result};
 
 const KIND: &str = "frame";
@@ -130,12 +130,17 @@ impl Frame {
     /// Reads a frame.
     ///
     /// # Errors
-    /// `Input` when the file is missing, cut or damaged.
+    /// `Input` when the file is missing, cut or damaged, or a number is not finite.
     pub fn read(path: &Path) -> Result<Self> {
         let store = Store::read(path, KIND, AGAIN)?;
         let (time, phase, step) = read_texts(|name| store.text(name))?;
         let mut frame = Self { time, phase, step, ..Self::default() };
-        for Array { name, unit, components, data } in store.into_arrays() {
+        for array in store.into_arrays() {
+            if let Some((entry, value)) = not_finite(&array) {
+                let problem = format!("is damaged: entry {entry} of array `{}` is {value}", array.name);
+                return Err(Error::input(path.display(), problem, AGAIN));
+            }
+            let Array { name, unit, components, data } = array;
             let broken = || Error::input(path.display(), format!("is damaged: array `{name}` is unexpected"), AGAIN);
             let (part, name) = match name.split_once('/') {
                 Some(("points", name)) => (&mut frame.points, name),
