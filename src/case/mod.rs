@@ -21,7 +21,7 @@ pub mod raw;
 mod rigid;
 pub mod scene;
 mod search;
-mod seeded;
+pub mod seeded;
 pub mod seeding;
 pub mod source;
 mod staged;

@@ -167,7 +167,8 @@ impl Frame {
         for (what, part) in parts {
             let counts = part.columns.iter().map(|c| (c.name.as_str(), c.values.len() / c.components));
             // A grid without positions of its own takes those of the mesh; its columns still agree.
-            let count = if part.position.is_empty() { None } else { Some((POSITION, part.position.len())) };
+            let of_mesh = what == "grid" && part.position.is_empty();
+            let count = (!of_mesh).then_some((POSITION, part.position.len()));
             let mut all = count.into_iter().chain(counts);
             let Some((_, first)) = all.next() else { continue };
             if let Some((name, n)) = all.find(|&(_, n)| n != first) {

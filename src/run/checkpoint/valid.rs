@@ -210,7 +210,7 @@ fn bounds_of_loops(first: &[u32], entries: usize, least: u32) -> bool {
 
 fn check_front(front: &Front) -> Result<()> {
     let loops = !front.first.is_empty() && bounds_of_loops(&front.first, front.position.len(), 3);
-    ensure(loops && front.weight > 0.0, "its surface")
+    ensure(loops && front.weight >= 0.0, "its surface")
 }
 
 fn check_contact<const D: usize>(scene: &Scene<D>, state: &State<D>) -> Result<()> {
