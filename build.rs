@@ -16,7 +16,7 @@ const OLDEST: (u32, u32) = (4, 11);
 /// The functions `src/mesh/gmsh.rs` calls.
 const FUNCTIONS: &str = "gmsh(Initialize|Finalize|Merge|Write|Free|OptionSetNumber|ModelGetEntities|\
     ModelGetPhysicalGroups|ModelGetPhysicalName|ModelGetEntitiesForPhysicalGroup|ModelMeshGenerate|\
-    ModelMeshSetOrder|ModelMeshGetNodes|ModelMeshGetElements|ParserClear|ParserGetNames|ParserGetNumber|ParserSetNumber|\
+    ModelMeshSetOrder|ParserClear|ParserGetNames|ParserGetNumber|ParserSetNumber|\
     LoggerStart|LoggerStop|LoggerGet|LoggerGetLastError)";
 
 struct Gmsh {

@@ -6,7 +6,8 @@ use std::process::Command;
 
 use mpm::error::{Kind, Result};
 use mpm::mesh::Mesh;
-use mpm::mesh::gmsh::{Options, generate, read};
+use mpm::mesh::gmsh::{Options, generate};
+use mpm::mesh::msh::read;
 use mpm::mesh::quality;
 use mpm::mesh::shape::{self, CellKind, MAX_NODES};
 
