@@ -3,7 +3,7 @@
 use super::checked::{Analysis, Case, Geometry, Material, Region, Restore};
 use super::outputs::outputs;
 use super::rigid::{self, Holds};
-use super::{changes, parts, pores, search, staged, touch, wall, water};
+use super::{changes, parts, pores, search, seeded, staged, touch, wall, water};
 use crate::error::{Error, Result};
 use crate::io::provenance::Origin;
 use crate::io::run_folder::RunFolder;
@@ -41,13 +41,7 @@ pub fn solve(
     stop: &AtomicBool,
     progress: &mut dyn FnMut(Progress),
 ) -> Result<Ended> {
-    if points.cell.iter().any(|&c| c as usize >= mesh.cells.len()) {
-        return Err(Error::input(
-            "points.vtu",
-            "its points lie in cells that the mesh has not",
-            "run `mpm seed` again",
-        ));
-    }
+    seeded::check(case, &mesh, &points)?;
     let parts = parts::points(case, &mesh, points);
     match case.geometry {
         Geometry::PlaneStrain => {
@@ -63,8 +57,12 @@ pub fn solve(
     }
 }
 
-/// The state before the first step, given the material points and those of the finite elements.
-fn first(case: &Case, scene: &Scene<2>, [mut points, mut fem]: [Points<2>; 2]) -> Result<State<2>> {
+/// The state before the first step, given the material points and those of the finite elements ([`parts::points`]).
+///
+/// # Errors
+/// `Input` when a point is not in its cell, or soil and a structure are in the same place.
+pub fn first(case: &Case, scene: &Scene<2>, [mut points, mut fem]: [Points<2>; 2]) -> Result<State<2>> {
+    seeded::check_places(&scene.mesh, &scene.locator, &points)?;
     overlap::at_first(scene, &points)?;
     if scene.has_pressure_field() {
         begin_pressure(case, &scene.mesh, &mut points)?;

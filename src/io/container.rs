@@ -134,7 +134,7 @@ impl Store {
     /// Takes the numbers of an array out of the store.
     ///
     /// # Errors
-    /// `Input` when there is no such array, or it has another type or number of components.
+    /// `Input` when there is no such array, it has another type or number of components, or a number is not finite.
     pub fn take<T: Scalar>(&mut self, name: &str, components: usize) -> Result<Vec<T>> {
         self.take_if_present(name, components)?.ok_or_else(|| self.missing("array", name))
     }
@@ -142,10 +142,13 @@ impl Store {
     /// Like [`Store::take`] for an array that may be absent.
     ///
     /// # Errors
-    /// `Input` when it has another type or number of components.
+    /// `Input` when it has another type or number of components, or a number is not finite.
     pub fn take_if_present<T: Scalar>(&mut self, name: &str, components: usize) -> Result<Option<Vec<T>>> {
         let Some(i) = self.arrays.iter().position(|a| a.name == name) else { return Ok(None) };
         let array = self.arrays.swap_remove(i);
+        if let Some((tuple, value)) = not_finite(&array) {
+            return Err(self.wrong(format!("entry {tuple} of array `{name}` is {value}")));
+        }
         let found = format!("{} × {}", array.components, array.data.type_name());
         match T::from_data(array.data) {
             Some(values) if array.components == components => Ok(Some(values)),
@@ -271,15 +274,21 @@ pub struct Contents {
 /// # Errors
 /// `Analysis` naming the item and the array.
 pub fn check_finite(array: &Array, item: &str) -> Result<()> {
-    let Data::F64(values) = &array.data else { return Ok(()) };
-    match values.iter().position(|v| !v.is_finite()) {
+    match not_finite(array) {
         None => Ok(()),
-        Some(i) => Err(Error::analysis(
-            format!("{item} {}", i / array.components),
-            format!("`{}` is {}: it was not written", array.name, values[i]),
+        Some((tuple, value)) => Err(Error::analysis(
+            format!("{item} {tuple}"),
+            format!("`{}` is {value}: it was not written", array.name),
             "what was written before is kept; reduce the steps or refine the mesh",
         )),
     }
+}
+
+/// The first tuple with a number that is not finite, and that number.
+pub(super) fn not_finite(array: &Array) -> Option<(usize, f64)> {
+    let Data::F64(values) = &array.data else { return None };
+    let at = values.iter().position(|v| !v.is_finite())?;
+    Some((at / array.components, values[at]))
 }
 
 fn decode(entry: Entry, stored: &[u8]) -> std::result::Result<Array, String> {

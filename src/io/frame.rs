@@ -7,7 +7,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use super::checkpoint::Fingerprint;
-use super::container::{Array, Contents, Data, Store, check_finite};
+use super::container::{Array, Contents, Data, Store, check_finite, not_finite};
 use super::provenance::Origin;
 use super::{atomic, hash};
 use crate::error::{Error, Result};
@@ -139,12 +139,17 @@ impl Frame {
     /// Reads a frame.
     ///
     /// # Errors
-    /// `Input` when the file is missing, cut or damaged.
+    /// `Input` when the file is missing, cut or damaged, or a number is not finite.
     pub fn read(path: &Path) -> Result<Self> {
         let store = Store::read(path, KIND, AGAIN)?;
         let (time, phase, step, origin) = read_texts(path, |name| store.text(name))?;
         let mut frame = Self { time, phase, step, origin, ..Self::default() };
-        for Array { name, unit, components, data } in store.into_arrays() {
+        for array in store.into_arrays() {
+            if let Some((entry, value)) = not_finite(&array) {
+                let problem = format!("is damaged: entry {entry} of array `{}` is {value}", array.name);
+                return Err(Error::input(path.display(), problem, AGAIN));
+            }
+            let Array { name, unit, components, data } = array;
             let broken = || Error::input(path.display(), format!("is damaged: array `{name}` is unexpected"), AGAIN);
             let (part, name) = match name.split_once('/') {
                 Some(("points", name)) => (&mut frame.points, name),
@@ -171,7 +176,8 @@ impl Frame {
         for (what, part) in parts {
             let counts = part.columns.iter().map(|c| (c.name.as_str(), c.values.len() / c.components));
             // A grid without positions of its own takes those of the mesh; its columns still agree.
-            let count = if part.position.is_empty() { None } else { Some((POSITION, part.position.len())) };
+            let of_mesh = what == "grid" && part.position.is_empty();
+            let count = (!of_mesh).then_some((POSITION, part.position.len()));
             let mut all = count.into_iter().chain(counts);
             let Some((_, first)) = all.next() else { continue };
             if let Some((name, n)) = all.find(|&(_, n)| n != first) {

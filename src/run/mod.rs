@@ -10,7 +10,7 @@
 //! The checkpoint of a step is written while the next one is solved.
 
 mod boundary;
-mod checkpoint;
+pub mod checkpoint;
 mod ending;
 mod record;
 mod surface;
@@ -97,7 +97,7 @@ pub fn run<const D: usize, K: Kinematics<D>>(
     let (state, written) = match loaded {
         Some(mut loaded) => {
             let written = Written::take(&mut loaded.store)?;
-            let state = checkpoint::take(loaded.store, &first)?;
+            let state = checkpoint::take(loaded.store, scene, &first)?;
             for warning in &loaded.warnings {
                 tell(&state, Some(warning));
             }
