@@ -73,7 +73,13 @@ fn work(stage: &Stage, run: &RunFolder) -> Outcome {
     Ok(())
 }
 
-const UNFINISHED: &str = " of a run that is not finished";
+/// How far a run that is not finished has come, and why it ended.
+fn unfinished_state(run: &RunFolder) -> Result<String> {
+    let until = frame::list(&run.results())?.last().map_or(0.0, |frame| frame.time);
+    let reason = run.record().and_then(|record| record.sessions.last()?.reason.clone());
+    let reason = reason.unwrap_or_else(|| "it was killed".to_owned());
+    Ok(format!(" of a run that is not finished, up to t = {until} s: {reason}"))
+}
 
 /// The run whose results are shown: that in the output folder, or where there is none the one beside it.
 fn shown(stage: &Stage) -> Result<RunFolder> {
