@@ -146,7 +146,11 @@ fn a_solve_that_fails_leaves_the_earlier_results() {
     assert_eq!(run_files(scene.path()), before);
     assert!(scene.path().join("out/unfinished/solve.log").exists(), "its log says why");
     says(&mpm(scene.path(), &["export", "."]), 0, &["5 frames\n", "--unfinished"]);
-    says(&mpm(scene.path(), &["export", ".", "--unfinished"]), 0, &["1 frames of a run that is not finished, up to t = 0 s: "]);
+    says(
+        &mpm(scene.path(), &["export", ".", "--unfinished"]),
+        0,
+        &["1 frames of a run that is not finished, up to t = 0 s: "],
+    );
     says(&mpm(scene.path(), &["run", "."]), 0, &["solve: nothing has changed"]);
 }
 

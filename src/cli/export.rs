@@ -58,13 +58,10 @@ fn work(stage: &Stage, run: &RunFolder) -> Outcome {
     record.finish(stage.folder(), &series(stage))?;
     record.write(stage.folder())?;
     let pvd = stage.folder().join("points.pvd");
-    let standing = run.standing()?;
-    print(&format!(
-        "{}: {frames} frames{}\n",
-        pvd.display(),
-        if standing == Standing::Finished { "" } else { UNFINISHED }
-    ))?;
-    if standing == Standing::Finished && stage.runs().beside.has_frames() {
+    let finished = run.standing()? == Standing::Finished;
+    let state = if finished { String::new() } else { unfinished_state(run)? };
+    print(&format!("{}: {frames} frames{state}\n", pvd.display()))?;
+    if finished && stage.runs().beside.has_frames() {
         print(&format!(
             "{}: a later run that was not finished is there too; `--unfinished` exports it\n",
             stage.runs().beside.path().display()
