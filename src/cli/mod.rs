@@ -6,10 +6,12 @@ mod mesh;
 mod run;
 mod schema;
 mod seed;
+mod signals;
 mod solve;
 mod stage;
 
 use crate::error::Error;
+use crate::mesh::gmsh;
 use clap::{Args, Parser, Subcommand};
 use std::io::{self, Write};
 use std::path::PathBuf;
@@ -29,7 +31,7 @@ struct Cli {
 #[derive(Subcommand)]
 enum Command {
     /// Mesh the .geo of a case: writes mesh.msh
-    Mesh(StageArgs),
+    Mesh(mesh::Args),
     /// Fill the regions of the mesh with material points: writes points.vtu
     Seed(StageArgs),
     /// Solve the equations of motion: writes results/, history.csv, solve.log and checkpoints/
@@ -37,11 +39,14 @@ enum Command {
     /// Turn results/ into series for ParaView: writes vtu/ and .pvd
     Export(StageArgs),
     /// All stages in turn, but those whose inputs have not changed
-    Run(solve::Args),
+    Run(run::Args),
     /// Print every mistake of a case that shows without its mesh, with file, line and remedy; writes nothing
-    Check(CaseArgs),
+    Check(check::Args),
     /// Print the JSON schema of case.yaml, for editors
     Schema,
+    /// Gmsh in a process of its own, which `mesh` and `check` start
+    #[command(name = gmsh::COMMAND, hide = true)]
+    GmshWorker,
 }
 
 /// What every subcommand that reads a case takes.
@@ -80,6 +85,7 @@ pub fn main() -> ExitCode {
         Command::Run(args) => run::run(&args),
         Command::Check(args) => check::run(&args),
         Command::Schema => schema::run(),
+        Command::GmshWorker => gmsh::serve().map_err(Vec::from),
     };
     match outcome {
         Ok(()) => ExitCode::SUCCESS,
