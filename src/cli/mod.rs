@@ -7,10 +7,12 @@ mod mesh;
 mod run;
 mod schema;
 mod seed;
+mod signals;
 mod solve;
 mod stage;
 
 use crate::error::Error;
+use crate::mesh::gmsh;
 use crate::program;
 use clap::{Args, Parser, Subcommand};
 use std::io::{self, Write};
@@ -31,7 +33,7 @@ struct Cli {
 #[derive(Subcommand)]
 enum Command {
     /// Mesh the .geo of a case: writes mesh.msh
-    Mesh(StageArgs),
+    Mesh(mesh::Args),
     /// Fill the regions of the mesh with material points: writes points.vtu
     Seed(StageArgs),
     /// Solve the equations of motion: writes results/, history.csv, solve.log and checkpoints/
@@ -39,13 +41,16 @@ enum Command {
     /// Turn results/ into series for ParaView: writes vtu/ and .pvd
     Export(export::Args),
     /// All stages in turn, but those whose inputs have not changed
-    Run(solve::Args),
+    Run(run::Args),
     /// Print every mistake of a case that shows without its mesh, with file, line and remedy; writes nothing
-    Check(CaseArgs),
+    Check(check::Args),
     /// Print what a file of mpm was made from, or those of an output folder: program, inputs, command, time
     Info(info::Args),
     /// Print the JSON schema of case.yaml, for editors
     Schema,
+    /// Gmsh in a process of its own, which `mesh` and `check` start
+    #[command(name = gmsh::COMMAND, hide = true)]
+    GmshWorker,
 }
 
 /// What every subcommand that reads a case takes.
@@ -85,6 +90,7 @@ pub fn main() -> ExitCode {
         Command::Check(args) => check::run(&args),
         Command::Info(args) => info::run(&args),
         Command::Schema => schema::run(),
+        Command::GmshWorker => gmsh::serve().map_err(Vec::from),
     };
     match outcome {
         Ok(()) => ExitCode::SUCCESS,
