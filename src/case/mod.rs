@@ -9,6 +9,7 @@ mod check;
 pub mod checked;
 mod contacts;
 mod incompressible;
+mod layout;
 mod loads;
 pub mod locate;
 mod materials;

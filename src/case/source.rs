@@ -28,8 +28,8 @@ impl Issue {
     }
 }
 
-/// Mistakes that are looked for: a case with more has few of its own.
-pub const MOST_FOUND: usize = 1000;
+/// Mistakes that are looked for.
+pub const MOST_FOUND: usize = 10_000;
 
 /// A case file that is valid YAML.
 #[derive(Clone, Debug)]
@@ -218,7 +218,7 @@ fn message(
         return Error::input(format!("{file}{path}"), problem, remedy);
     };
     let error = Error::input(format!("{file}:{line}:{column}{path}"), problem, remedy);
-    match text.lines().nth(line - 1) {
+    match text.lines().nth(line.saturating_sub(1)) {
         Some(text) if !text.trim().is_empty() => error.with_excerpt(excerpt(text, line, column)),
         _ => error,
     }

@@ -75,6 +75,8 @@ pub fn parse(text: &str) -> Result<Arc<Node>, Fault> {
         let (event, span) = event.map_err(|e| match place(e.marker()) {
             // Brackets that the parser has read ahead.
             place if e.info().contains("recursion limit") => too_deep(place),
+            // The parser tells where the text before the tab begins.
+            place if e.info().contains("tab") => fault(next_tab(text, place).unwrap_or(place), e.info(), MEND),
             place => fault(place, e.info(), MEND),
         })?;
         reader.take(event, place(&span.start))?;
@@ -84,6 +86,12 @@ pub fn parse(text: &str) -> Result<Arc<Node>, Fault> {
 
 fn place(mark: &Marker) -> Place {
     (mark.line(), mark.col() + 1)
+}
+
+/// The first tab in the lines from that of `from` on.
+fn next_tab(text: &str, from: Place) -> Option<Place> {
+    let mut lines = text.lines().enumerate().skip(from.0.saturating_sub(1));
+    lines.find_map(|(i, line)| Some((i + 1, line.chars().position(|c| c == '\t')? + 1)))
 }
 
 /// Text has no control characters but tabs and line breaks; a zero byte would end it unseen.
@@ -459,7 +467,7 @@ again: *more
     #[test]
     fn what_is_beyond_the_limits_is_refused_at_once() {
         let told = |text: &str| parse(text).unwrap_err().problem;
-        assert!(told(&"[".repeat(1_000_000)).contains("limit"));
+        assert!(told(&"[".repeat(1_000_000)).contains("nested"));
         assert!(told(&"[\n ".repeat(1_000_000)).contains("nested"));
         assert!(told(&"- ".repeat(1_000_000)).contains("nested"));
         assert!(told(&"? ".repeat(1_000_000)).contains("nested"));

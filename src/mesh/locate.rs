@@ -107,6 +107,13 @@ impl<const D: usize> Locator<D> {
         self.nearest(mesh, x, bin)
     }
 
+    /// The cells in which `x` lies at least `deep` (parametric) from the boundary: in a sound mesh one at most.
+    pub fn holders(&self, mesh: &Mesh<D>, x: &[f64; D], deep: f64) -> impl Iterator<Item = u32> {
+        let candidates = self.bins.at(x).into_iter().flat_map(|bin| self.candidates(bin, x));
+        candidates
+            .filter(move |&c| self.invert(mesh, c, x, true).is_some_and(|xi| self.kind(mesh, c).depth(&xi).0 >= deep))
+    }
+
     /// The parametric coordinates of `x` in a cell that need not hold it.
     pub fn extend(&self, mesh: &Mesh<D>, c: u32, x: &[f64; D]) -> Option<[f64; 3]> {
         self.invert(mesh, c, x, false)
