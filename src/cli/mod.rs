@@ -11,7 +11,7 @@ mod signals;
 mod solve;
 mod stage;
 
-use crate::error::Error;
+use crate::error::{Error, plain_lines};
 use crate::mesh::gmsh;
 use crate::program;
 use clap::{Args, Parser, Subcommand};
@@ -104,13 +104,13 @@ pub fn main() -> ExitCode {
     }
 }
 
-/// Prints to standard output; a reader that has gone (`| head`) is no error.
+/// Prints to standard output, without what a terminal would obey; a reader that has gone (`| head`) is no error.
 ///
 /// # Errors
 /// Standard output that cannot be written, such as a full disk behind it.
 fn print(text: &str) -> Outcome {
     let mut out = io::stdout().lock();
-    match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
+    match out.write_all(plain_lines(text).as_bytes()).and_then(|()| out.flush()) {
         Err(e) if e.kind() != io::ErrorKind::BrokenPipe => {
             Err(vec![Error::machine("standard output", e, "make room, or send it elsewhere")])
         }
@@ -120,5 +120,5 @@ fn print(text: &str) -> Outcome {
 
 /// Prints a line on standard error, where progress and notes go; nobody may be listening.
 fn note(text: &str) {
-    let _ = writeln!(io::stderr(), "{text}");
+    let _ = writeln!(io::stderr(), "{}", plain_lines(text));
 }
