@@ -59,7 +59,7 @@ phases:
     prescribe: {strip: {ux: 0, rotation: 0, uy: {rate: -0.02}}}
   - name: go_on
     analysis: quasi_static
-    duration: 0.2
+    duration: 0.4
     step: {initial: 0.1, min: 0.05}
     materials: {soil: firm}
     reset_displacements: true
@@ -84,7 +84,7 @@ numerics: {quadrature: points}
 phases:
   - name: drain
     analysis: consolidation
-    duration: 4
+    duration: 8
     step: {initial: 1, min: 0.5}
     tractions: [{surface: all, pressure: 1}]
 output: {fields: [pore_pressure, displacement]}
