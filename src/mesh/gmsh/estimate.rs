@@ -6,7 +6,7 @@ use crate::error::{Error, Result};
 use std::path::Path;
 
 /// The most segments of all curves that Gmsh is asked for.
-const MOST_SEGMENTS: f64 = 1e8;
+const MOST_SEGMENTS: f64 = 1e7;
 
 /// A mesh size must be larger than this part of the size of the geometry: smaller ones are below Gmsh's tolerance.
 const TOLERANCE: f64 = 1e-9;
