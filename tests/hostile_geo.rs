@@ -188,7 +188,7 @@ fn honest_scripts_pass() {
         "/* Print \"x\"; */ text = \"SystemCall\";",
         "/*\nSystemCall \"x\";\n*/",
         "Save = 1; If (Save) b = 2; EndIf // a comment",
-        "Printf(\"h = %g, %.3f m and 100%%\", h, 2 > 1);",
+        "Printf(\"h = %g, %.3f m\", h, 2 > 1);",
         "Include \"good.geo\"; // its constants\nInclude Str(\"good.geo\");\nMerge \"good.geo\";",
         "Mesh.Algorithm = 6; General.Terminal = 0; Print.Background = 1; General.LogFileName = \"\";",
         "Field[1] = MathEval; Field[1].F = \"0.5 + 0 * x\"; Background Field = 1;",

@@ -385,7 +385,7 @@ fn check_print(path: &Path, tokens: &[Token]) -> Result<()> {
             Kind::Text(text) if first && depth > 0 => {
                 if let Some(conversion) = bad_conversion(text) {
                     let problem = format!("the conversion {conversion} makes Gmsh read or write where it may not");
-                    return Err(at(path, token.line, problem, "use %g for numbers and %% for a percent sign"));
+                    return Err(at(path, token.line, problem, "use %g for numbers"));
                 }
             }
             _ => (),
