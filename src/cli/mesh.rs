@@ -7,7 +7,7 @@ use crate::case::names::Groups;
 use crate::error::{Error, Result};
 use crate::io::atomic;
 use crate::mesh::gmsh::{self, Options, Worker};
-use crate::mesh::{Mesh, quality};
+use crate::mesh::{Mesh, msh, quality};
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -105,7 +105,8 @@ pub fn work(stage: &Stage, gmsh: &Gmsh) -> Outcome {
         stage.loaded.check_names(&named(groups.clone()))
     })?;
     drop(caught);
-    let summary = quality::check(&gmsh::read(&candidate)?, &case.mesh.geo)?;
+    msh::seal(&candidate).map_err(|e| atomic::unwritable(&candidate, &e))?;
+    let summary = quality::check(&msh::read(&candidate)?, &case.mesh.geo)?;
     // What allowed programs did is not in the stamp: the next run meshes again.
     let stamp = if allowed { None } else { Some(stamp(stage)?) };
     fs::rename(&candidate, stage.mesh()).map_err(|e| atomic::unwritable(&stage.mesh(), &e))?;
@@ -160,16 +161,17 @@ impl Drop for Scratch {
     }
 }
 
-/// The mesh of an earlier `mpm mesh`, held against the names in the case.
+/// The mesh of an earlier `mpm mesh`, checked as when it was made, and held against the names in the case.
 ///
 /// # Errors
-/// Input: no mesh, one that cannot be read, and each name of the case that it does not have.
+/// Input: no mesh, one that cannot be read or has bad cells, and each name of the case that it does not have.
 pub fn read(stage: &Stage) -> std::result::Result<Mesh<2>, Vec<Error>> {
     if !stage.mesh().exists() {
         let place = stage.mesh().display().to_string();
         return Err(Error::input(place, "there is no mesh yet", "run `mpm mesh` first, or `mpm run` for all").into());
     }
-    let mesh = gmsh::read(&stage.mesh())?;
+    let mesh = msh::read(&stage.mesh())?;
+    quality::check(&mesh, &stage.mesh())?;
     let named = |dimension| mesh.groups.iter().filter(move |g| g.dimension == dimension).map(|g| g.name.clone());
     let (curves, points) = (named(1).collect(), named(0).collect());
     let groups = Groups { surfaces: mesh.regions.clone(), curves, points, meshed: true };

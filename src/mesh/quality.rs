@@ -1,4 +1,4 @@
-//! How good the cells of a plane mesh are, and that none is inverted or folded.
+//! How good the cells of a plane mesh are, and that none is inverted, flat or folded.
 //!
 //! The quality of a triangle is `4√3 A / (l1² + l2² + l3²)` of its corners: 1 if equilateral, 0 if flat. That
 //! of a quadrilateral is the least over its corners of `2 (a × b) / (|a|² + |b|²)` with the edges `a`, `b`
@@ -10,11 +10,13 @@ use std::fmt;
 use std::path::Path;
 
 use super::Mesh;
-use super::shape::{self, CellKind, MAX_NODES, rule};
+use super::conformity;
+use super::shape::{self, CellKind, MAX_NODES};
 use crate::error::{Error, Result};
 
-/// Below this ratio of the least to the largest Bernstein coefficient of `det J` a cell counts as folded.
-const FOLDED: f64 = 1e-6;
+/// Up to this quality a cell counts as flat, and up to this ratio of the least to the largest Bernstein coefficient of
+/// `det J` as folded: at the fourth root of the rounding of `f64` half of the digits of its stiffness are lost.
+const WORST: f64 = 1.2e-4;
 
 /// What a mesh is like.
 #[derive(Clone, Debug, PartialEq)]
@@ -34,10 +36,11 @@ pub struct Summary {
     pub coincident: usize,
 }
 
-/// Sums up `mesh`, read from `file`.
+/// Checks `mesh`, read from `file`, and sums it up.
 ///
 /// # Errors
-/// Input: a cell that is inverted or folded, with its number, region and place.
+/// Input: a cell that is inverted, flat or folded, with its number, region and place; cells that do not fit together
+/// ([`conformity`]).
 pub fn check(mesh: &Mesh<2>, file: &Path) -> Result<Summary> {
     let mut regions: Vec<_> = mesh.regions.iter().map(|name| (name.clone(), 0, 0.0)).collect();
     let (mut worst, mut sum, mut jacobian) = ((f64::INFINITY, 0, [0.0; 2]), 0.0, f64::INFINITY);
@@ -46,39 +49,48 @@ pub fn check(mesh: &Mesh<2>, file: &Path) -> Result<Summary> {
         let kind = mesh.cells.kind[c];
         mesh.cell_coordinates(c, &mut x);
         let corners = &x[..kind.corner_count()];
-        let centre = [0, 1].map(|d| corners.iter().map(|x| x[d]).sum::<f64>() / corners.len() as f64);
         let quality = quality(corners);
         let region = &mut regions[usize::from(mesh.cells.region[c])];
-        let (least, largest) = jacobian_range(kind, &x);
+        let coefficients = Coefficients::of(kind, &x);
+        let (least, largest) = coefficients.range();
         let finite = x.iter().flatten().all(|v| v.is_finite());
-        if !finite || quality <= 0.0 || least <= FOLDED * largest {
-            let (problem, remedy) = if quality > 0.0 && kind.order() == 2 {
+        // What is not a number is neither.
+        let (shaped, unfolded) = (quality > WORST, least > WORST * largest);
+        if !finite || !shaped || !unfolded {
+            let (problem, remedy) = if shaped && kind.order() == 2 {
                 ("its curved edges fold it over", "refine the mesh along the curve there, or use order: 1")
             } else {
                 ("it is inverted or flat", "mend the geometry there, or refine the mesh")
             };
-            let place = format!(
-                "{}, cell {c} of region {} near ({:.6}, {:.6})",
-                file.display(),
-                region.0,
-                centre[0],
-                centre[1]
-            );
-            let problem = format!("{problem} (quality {quality:.3}, det J {least:.3e} to {largest:.3e})");
+            let place = place_of(mesh, c, file);
+            let problem = format!("{problem} (quality {quality:.1e}, det J {least:.3e} to {largest:.3e})");
             return Err(Error::input(place, problem, remedy));
         }
         region.1 += 1;
-        region.2 += rule(kind, 4).iter().map(|(xi, w)| w * determinant(kind, &x, xi)).sum::<f64>();
+        region.2 += coefficients.integral(kind);
         sum += quality;
         jacobian = jacobian.min(least / largest);
         if quality < worst.0 {
-            worst = (quality, c, centre);
+            worst = (quality, c, centre(mesh, c));
         }
     }
+    conformity::check(mesh, file)?;
     let count = |kind| mesh.cells.kind.iter().filter(|&&k| k == kind).count();
     let cells = CellKind::ALL.into_iter().map(|k| (k, count(k))).filter(|(_, n)| *n > 0).collect();
     let mean = sum / mesh.cells.len() as f64;
     Ok(Summary { nodes: mesh.nodes.len(), cells, regions, worst, mean, jacobian, coincident: coincident(&mesh.nodes) })
+}
+
+/// The name of cell `c` in a message.
+pub fn place_of(mesh: &Mesh<2>, c: usize, file: &Path) -> String {
+    let (region, [x, y]) = (&mesh.regions[usize::from(mesh.cells.region[c])], centre(mesh, c));
+    format!("{}, cell {c} of region {region} near ({x:.6}, {y:.6})", file.display())
+}
+
+/// The mean place of the corners of cell `c` (m).
+fn centre(mesh: &Mesh<2>, c: usize) -> [f64; 2] {
+    let corners = &mesh.cells.nodes(c)[..mesh.cells.kind[c].corner_count()];
+    [0, 1].map(|d| corners.iter().map(|&n| mesh.nodes[n as usize][d]).sum::<f64>() / corners.len() as f64)
 }
 
 impl fmt::Display for Summary {
@@ -140,24 +152,53 @@ fn determinant(kind: CellKind, x: &[[f64; 2]], xi: &[f64; 3]) -> f64 {
 
 /// Least and largest Bernstein coefficient of `det J` (m²), between which all its values lie.
 pub fn jacobian_range(kind: CellKind, x: &[[f64; 2]]) -> (f64, f64) {
-    let at = |xi: [f64; 3]| determinant(kind, x, &xi);
-    let coefficients: Vec<f64> = match kind {
-        CellKind::T6 => {
-            // Degree 2 on the triangle, from the values at the six nodes.
-            let value: Vec<f64> = kind.node_coordinates().iter().map(|&xi| at(xi)).collect();
-            let edge = |i: usize| 2.0 * value[3 + i] - 0.5 * (value[i] + value[(i + 1) % 3]);
-            value[..3].iter().copied().chain((0..3).map(edge)).collect()
+    Coefficients::of(kind, x).range()
+}
+
+/// The Bernstein coefficients of `det J` of a cell (m²).
+struct Coefficients {
+    value: [f64; 16],
+    count: usize,
+}
+
+impl Coefficients {
+    fn of(kind: CellKind, x: &[[f64; 2]]) -> Self {
+        let at = |xi: [f64; 3]| determinant(kind, x, &xi);
+        let (mut value, mut count) = ([0.0; 16], 0);
+        let mut take = |coefficient| {
+            value[count] = coefficient;
+            count += 1;
+        };
+        match kind {
+            CellKind::T6 => {
+                // Degree 2 on the triangle, from the values at the six nodes.
+                let mut node = [0.0; 6];
+                node.iter_mut().zip(kind.node_coordinates()).for_each(|(value, &xi)| *value = at(xi));
+                node[..3].iter().for_each(|&corner| take(corner));
+                (0..3).for_each(|i| take(2.0 * node[3 + i] - 0.5 * (node[i] + node[(i + 1) % 3])));
+            }
+            CellKind::Q8 | CellKind::Q9 => {
+                // Degree 3 in each direction, from values at 4 × 4 equal distances.
+                let third = |i: usize| 2.0 / 3.0 * i as f64 - 1.0;
+                let rows = [0, 1, 2, 3].map(|j| bernstein([0, 1, 2, 3].map(|i| at([third(i), third(j), 0.0]))));
+                (0..4).for_each(|i| bernstein([0, 1, 2, 3].map(|j: usize| rows[j][i])).into_iter().for_each(&mut take));
+            }
+            // Constant on a T3, linear in each direction on a Q4: the corners tell.
+            _ => kind.node_coordinates().iter().for_each(|&xi| take(at(xi))),
         }
-        CellKind::Q8 | CellKind::Q9 => {
-            // Degree 3 in each direction, from values at 4 × 4 equal distances.
-            let third = |i: usize| 2.0 / 3.0 * i as f64 - 1.0;
-            let rows = [0, 1, 2, 3].map(|j| bernstein([0, 1, 2, 3].map(|i| at([third(i), third(j), 0.0]))));
-            (0..4).flat_map(|i| bernstein([0, 1, 2, 3].map(|j: usize| rows[j][i]))).collect()
-        }
-        // Constant on a T3, linear on a Q4: the corners tell.
-        _ => kind.node_coordinates().iter().map(|&xi| at(xi)).collect(),
-    };
-    coefficients.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), &b| (low.min(b), high.max(b)))
+        Self { value, count }
+    }
+
+    fn range(&self) -> (f64, f64) {
+        let range = (f64::INFINITY, f64::NEG_INFINITY);
+        self.value[..self.count].iter().fold(range, |(low, high), &b| (low.min(b), high.max(b)))
+    }
+
+    /// The area of the cell (m²): all Bernstein polynomials of a degree have the same integral.
+    fn integral(&self, kind: CellKind) -> f64 {
+        let reference = if kind.is_simplex() { 0.5 } else { 4.0 };
+        reference * self.value[..self.count].iter().sum::<f64>() / self.count as f64
+    }
 }
 
 /// Bernstein coefficients of the cubic with the values `f` at four equal distances.
@@ -221,6 +262,7 @@ mod tests {
             mesh.nodes.push(mesh.nodes[old as usize]);
             mesh.cells.nodes[first..].iter_mut().filter(|n| **n == old).for_each(|n| *n = new);
         }
+        mesh.groups.clear();
         let summary = check(&mesh, Path::new("mesh.msh")).unwrap();
         assert_eq!(summary.coincident, shared.len());
         assert!(summary.to_string().contains("note: 3 nodes"), "{summary}");
@@ -236,7 +278,8 @@ mod tests {
             let mut x = Vec::new();
             for c in 0..mesh.cells.len() {
                 mesh.cell_coordinates(c, &mut x);
-                let (least, largest) = jacobian_range(kind, &x);
+                let coefficients = Coefficients::of(kind, &x);
+                let (least, largest) = coefficients.range();
                 let mut seen = (f64::INFINITY, f64::NEG_INFINITY);
                 for i in 0..=20 {
                     for j in 0..=20 {
