@@ -294,10 +294,13 @@ fn number_length(text: &[u8]) -> usize {
 /// it drops the character behind a letter with which `EndIf`, `If`, `For` or `Return` could begin, and as many behind
 /// `If` and `For` as `EndFor` is longer.
 fn is_overlooked(text: &[u8], i: usize) -> bool {
-    let near = &text[i.saturating_sub(5)..i];
-    matches!(near.last(), Some(b'E' | b'I' | b'F' | b'R'))
-        || near.windows(2).any(|word| word == b"If")
-        || near.windows(3).any(|word| word == b"For")
+    let swallows = |back: usize| {
+        let Some(before) = i.checked_sub(back).map(|at| text.split_at(at)) else { return false };
+        let ends = before.0.ends_with(b"End") || before.0.ends_with(b"Else");
+        !ends && (before.1.starts_with(b"If") || back > 2 && before.1.starts_with(b"For"))
+    };
+    let last = i.checked_sub(1).map(|last| text[last]);
+    matches!(last, Some(b'E' | b'I' | b'F' | b'R')) || (2..=5).any(swallows)
 }
 
 /// The statements that a script may not have.
@@ -314,6 +317,20 @@ fn check_statements(path: &Path, tokens: &[Token]) -> Result<()> {
             && matches!(kind(i + 1), Some(Kind::Text(_) | Kind::Word(_)))
         {
             return refuse(does, ALLOW);
+        }
+        // Gmsh has read the line to its end when it goes on elsewhere, and joins what follows to what stands there.
+        let left = match word {
+            b"EndFor" | b"Return" => Some(i),
+            b"Include" | b"Merge" | b"MergeWithBoundingBox" | b"Call" => {
+                (i..tokens.len()).find(|&j| tokens[j].kind == Kind::Symbol(b';'))
+            }
+            _ => None,
+        };
+        if let Some(last) = left
+            && tokens.get(last + 1).is_some_and(|next| next.line == tokens[last].line)
+        {
+            let remedy = "put what follows on a line of its own";
+            return refuse("is followed by more on its line, which Gmsh reads in another order", remedy);
         }
         match word {
             b"General" if kind(i + 1) == Some(Kind::Symbol(b'.')) => {
@@ -368,7 +385,7 @@ fn check_print(path: &Path, tokens: &[Token]) -> Result<()> {
             Kind::Text(text) if first && depth > 0 => {
                 if let Some(conversion) = bad_conversion(text) {
                     let problem = format!("the conversion {conversion} makes Gmsh read or write where it may not");
-                    return Err(at(path, token.line, problem, "use %g for numbers and %% for a percent sign"));
+                    return Err(at(path, token.line, problem, "use %g for numbers"));
                 }
             }
             _ => (),
