@@ -54,7 +54,7 @@ const ALLOW: &str = "delete the statement, or allow it with --allow-system-calls
 const GEOMETRIES: [&str; 5] = ["step", "stp", "iges", "igs", "brep"];
 
 /// Ends of the names of scripts; for others Gmsh may start a program (`.gz`, `.py`, …).
-const SCRIPTS: [&str; 8] = ["", "geo", "geo_unrolled", "opt", "txt", "inc", "par", "dat"];
+const SCRIPTS: [&str; 9] = ["", "geo", "geo_unrolled", "opt", "txt", "inc", "par", "dat", "pos"];
 
 /// Reads the geometry `geo` and all that it includes or merges.
 ///
@@ -81,7 +81,12 @@ impl Scan {
     /// A file that Gmsh takes by its kind, and the options beside it, which Gmsh takes by itself.
     fn merge(&mut self, path: &Path) -> Result<()> {
         let extension = path.extension().unwrap_or_default().to_string_lossy().into_owned();
-        if GEOMETRIES.contains(&extension.as_str()) || extension == "msh" && has_msh_header(path) {
+        let is_data = match extension.as_str() {
+            "msh" => begins_with(path, b"$MeshFormat"),
+            "pos" => begins_with(path, b"$PostFormat"),
+            extension => GEOMETRIES.contains(&extension),
+        };
+        if is_data {
             self.files.insert(path.to_owned());
         } else if SCRIPTS.contains(&extension.as_str()) {
             self.script(path)?;
@@ -89,7 +94,7 @@ impl Scan {
             return Err(Error::input(
                 path.display(),
                 "it is neither a script of Gmsh nor a geometry in a known format",
-                format!("use a file that ends in .geo, .{} or .msh", GEOMETRIES.join(", .")),
+                format!("use a file that ends in .geo, .pos, .{} or .msh", GEOMETRIES.join(", .")),
             ));
         }
         let mut options = path.as_os_str().to_owned();
@@ -186,11 +191,11 @@ fn named(path: &Path, tokens: &[Token], i: usize) -> Result<PathBuf> {
     }
 }
 
-/// Gmsh takes a file without this header for a script, whatever its name.
-fn has_msh_header(path: &Path) -> bool {
+/// Whether a file begins with the `header` of its format: without it Gmsh takes it for a script, whatever its name.
+fn begins_with(path: &Path, header: &[u8; 11]) -> bool {
     use std::io::Read;
-    let mut header = [0; 11];
-    fs::File::open(path).and_then(|mut file| file.read_exact(&mut header)).is_ok() && &header == b"$MeshFormat"
+    let mut found = [0; 11];
+    fs::File::open(path).and_then(|mut file| file.read_exact(&mut found)).is_ok() && found == *header
 }
 
 /// A word of the language, where it begins.
