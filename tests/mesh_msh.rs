@@ -287,7 +287,7 @@ fn a_sealed_mesh_with_any_byte_changed_is_refused_or_the_same() {
         let mut changed = whole.clone();
         changed[at] ^= 1;
         match parse(&changed, "mesh.msh") {
-            // In the word `mpm mesh` of the seal itself: a comment of somebody else's.
+            // White space in the lines of the seal.
             Ok(read) => assert!(at >= unsealed.len() && bits(&read) == mesh, "byte {at}"),
             Err(error) => assert_eq!(error.kind, Kind::Input),
         }

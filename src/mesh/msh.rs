@@ -24,8 +24,8 @@ use twox_hash::XxHash64;
 
 const AGAIN: &str = "make the file again with `mpm mesh`";
 
-/// What the seal begins with.
-const SEAL: &str = "mpm mesh xxh64=";
+/// The words before the number of the seal.
+const SEAL: [&str; 2] = ["mpm mesh", "xxh64="];
 
 /// Reads a plane mesh with its named groups from an MSH 4.1 file.
 ///
@@ -58,10 +58,20 @@ pub fn parse(bytes: &[u8], place: &str) -> Result<Mesh<2>> {
 /// # Errors
 /// When it cannot be read or written.
 pub fn seal(path: &Path) -> io::Result<()> {
-    let hash = XxHash64::oneshot(0, &fs::read(path)?);
+    let seal = sealed(&fs::read(path)?);
     let mut file = OpenOptions::new().append(true).open(path)?;
-    file.write_all(format!("$Comments\n{SEAL}{hash:016x}\n$EndComments\n").as_bytes())?;
+    file.write_all(format!("$Comments\n{seal}\n$EndComments\n").as_bytes())?;
     file.sync_all()
+}
+
+/// The seal of all that stands before it.
+fn sealed(before: &[u8]) -> String {
+    format!("{} {}{:016x}", SEAL[0], SEAL[1], XxHash64::oneshot(0, before))
+}
+
+/// Whether a comment is a seal. Half of its words are enough: a damaged one is not to pass for a comment.
+fn is_seal(comment: &[u8]) -> bool {
+    SEAL.iter().any(|word| comment.windows(word.len()).any(|text| text == word.as_bytes()))
 }
 
 /// Reads the sections of a file.
@@ -89,12 +99,10 @@ fn sections(bytes: &[u8], place: &str) -> Result<Sections> {
             _ => {
                 let heart = source.skip()?.trim_ascii();
                 if name == "Comments"
-                    && let Some(seal) = heart.strip_prefix(SEAL.as_bytes())
+                    && is_seal(heart)
+                    && (heart != sealed(&bytes[..start]).as_bytes() || source.open()?.is_some())
                 {
-                    let hash = format!("{:016x}", XxHash64::oneshot(0, &bytes[..start]));
-                    if seal != hash.as_bytes() || source.open()?.is_some() {
-                        return Err(Error::input(place, "it was changed after it was written", AGAIN));
-                    }
+                    return Err(Error::input(place, "it was changed after it was written", AGAIN));
                 }
                 continue;
             }
