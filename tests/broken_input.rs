@@ -200,7 +200,21 @@ const MEANING: &[Broken] = &[
     check(Case("tolerance: 1.0e-8", "tolerance: 0.5"), &["case.yaml:17", "numerics.tolerance", "at most 0.01"]),
     check(
         Case("density: 1.8", "density: 0"),
-        &["case.yaml:11", "materials.clay.density", "without weight", "take `gravity`"],
+        &["case.yaml:11", "materials.clay.density", "nothing has weight", "take `gravity`"],
+    ),
+    run(
+        Nothing,
+        &[
+            "check",
+            "--set",
+            "regions.water={kind: structure, material: steel}",
+            "--set",
+            "materials.steel={model: linear_elastic, young: 1.0e+8, poisson: 0.2, density: 7.8}",
+            "--set",
+            "materials.clay.density=0",
+        ],
+        2,
+        &["materials.clay.density", "soil without weight", "initial_stress", "above 0"],
     ),
     check(
         Case("gravity: {y: -9.81}", "gravity: {y: 9.81}"),
