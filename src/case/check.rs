@@ -352,21 +352,30 @@ impl Checker {
         }
     }
 
-    /// Soil has weight where there is gravity; a structure may be without.
+    /// Gravity must act on something, and an initial stress be that of soil with weight. Soil without weight under a
+    /// heavy structure is an idealisation.
     fn weight(&mut self, case: &Case, file: &raw::CaseFile) {
         if case.gravity == [0.0; 2] {
             return;
         }
-        let soil = |kind: raw::RegionKind| matches!(kind, raw::RegionKind::Mpm | raw::RegionKind::Fem);
-        let soils = || file.regions.iter().filter(|(_, region)| soil(region.kind));
-        let begun: HashSet<_> = soils().filter_map(|(_, region)| region.material.as_ref()).collect();
-        let later = file.phases.iter().flat_map(|phase| &phase.materials);
-        let later = later.filter(|(name, _)| file.regions.get(*name).is_some_and(|region| soil(region.kind)));
-        let used: HashSet<_> = later.map(|(_, material)| material).chain(begun).collect();
-        for material in case.materials.iter().filter(|m| !m.has_mass() && used.contains(&m.name)) {
+        let begun = file.regions.iter().filter_map(|(name, region)| Some((name, region.material.as_ref()?)));
+        let used: Vec<_> = begun.chain(file.phases.iter().flat_map(|phase| &phase.materials)).collect();
+        let of = |wanted: fn(raw::RegionKind) -> bool| -> HashSet<&str> {
+            let filled = used.iter().filter(|(name, _)| file.regions.get(*name).is_some_and(|r| wanted(r.kind)));
+            filled.map(|(_, material)| material.as_str()).collect()
+        };
+        let soils = of(|kind| matches!(kind, raw::RegionKind::Mpm | raw::RegionKind::Fem));
+        let all = of(|_| true);
+        let nothing_weighs = !case.materials.iter().any(|m| m.has_mass() && all.contains(m.name.as_str()));
+        let (wanted, problem) = match (nothing_weighs, case.k0.is_some()) {
+            (true, _) => (all, "nothing has weight, so gravity does nothing"),
+            (false, true) => (soils, "soil without weight has no stress at rest for k0"),
+            (false, false) => return,
+        };
+        for material in case.materials.iter().filter(|m| !m.has_mass() && wanted.contains(m.name.as_str())) {
             let path = Path::default().key("materials").key(&material.name).key("density");
-            let remedy = "give it a `density` above 0, or take `gravity` out";
-            self.issue(&path, At::Value, "soil without weight does not go with gravity", remedy);
+            let remedy = "give it a `density` above 0, or take `gravity` and `initial_stress` out";
+            self.issue(&path, At::Value, problem, remedy);
         }
     }
 }

@@ -1,6 +1,6 @@
 //! The case: from `case.yaml` to a checked [`Case`], and every mistake on the way in one go.
 //!
-//! [`source`] reads the text and applies the overrides of the command line, [`structure`] checks its shape
+//! [`source`] reads the text by way of `yaml` and applies the overrides of the command line, [`structure`] checks its shape
 //! against the schema of [`raw`], `check` resolves that into [`checked`] types, [`names`] holds the result
 //! against the groups of the mesh.
 

@@ -90,7 +90,7 @@ impl Source {
         let text = text.strip_prefix('\u{feff}').map(str::to_owned).unwrap_or(text);
         let root = yaml::parse(&text).map_err(|e| message(&file, &text, e.place, None, &e.problem, e.remedy))?;
         let mut faults = Vec::new();
-        let tree = root.to_json(&Path::default(), &mut faults);
+        let tree = root.to_json(&mut faults);
         if tree.is_null() && faults.is_empty() {
             let remedy = "write a case: `mpm schema` describes it, the folder cases/ has examples";
             return Err(Error::input(file.display(), "the file is empty", remedy));
@@ -113,7 +113,7 @@ impl Source {
             refuse(format!("the value is not YAML{column}: {}", e.problem), "put the value in quotes")
         })?;
         let mut faults = Vec::new();
-        let value = value.to_json(&Path::default(), &mut faults);
+        let value = value.to_json(&mut faults);
         if let Some(fault) = faults.pop() {
             return Err(refuse(fault.problem, &fault.remedy));
         }

@@ -23,6 +23,11 @@ pub const MOST_ENTRIES: usize = 1_000_000;
 /// Keys of a block, and items of a list that are no rows of a table. They are compared with each other.
 pub const MOST_NAMED: usize = 10_000;
 
+/// Characters of a key: every message below repeats it.
+pub const MOST_OF_KEY: usize = 200;
+/// Bytes of a text that count as one entry: aliases repeat texts, too.
+const TEXT: usize = 32;
+
 /// Line and column, from 1.
 pub type Place = (usize, usize);
 
@@ -109,7 +114,8 @@ fn check_characters(text: &str) -> Result<(), Fault> {
 
 impl Node {
     fn scalar(place: Place, value: Value) -> Arc<Self> {
-        Arc::new(Self { place, content: Content::Scalar(value), entries: 1, levels: 0 })
+        let entries = 1 + value.as_str().map_or(0, str::len) / TEXT;
+        Arc::new(Self { place, content: Content::Scalar(value), entries, levels: 0 })
     }
 
     fn strange(place: Place, problem: String, remedy: &'static str) -> Arc<Self> {
@@ -141,7 +147,11 @@ impl Node {
 
     /// The tree without what a case never needs: tags, keys that are not names, numbers that are not finite,
     /// control characters. Each is left out, and a fault.
-    pub fn to_json(&self, path: &Path, faults: &mut Vec<Issue>) -> Value {
+    pub fn to_json(&self, faults: &mut Vec<Issue>) -> Value {
+        self.value(&mut Path::default(), faults)
+    }
+
+    fn value(&self, path: &mut Path, faults: &mut Vec<Issue>) -> Value {
         let mut refuse = |at: At, problem: &str, remedy: &str| {
             if faults.len() < MOST_FOUND {
                 faults.push(Issue::new(path, at, problem, remedy));
@@ -155,18 +165,27 @@ impl Node {
             Content::Scalar(value) => value.clone(),
             Content::Strange(problem, remedy) => refuse(At::Value, problem, remedy),
             Content::List(items) => {
-                items.iter().enumerate().map(|(i, item)| item.to_json(&path.index(i), faults)).collect()
+                let items = items.iter().enumerate();
+                items.map(|(i, item)| item.below(Step::Index(i), path, faults)).collect()
             }
             Content::Block(entries, strange) => {
                 if *strange {
                     refuse(At::Key, "a key that is not a name", "put the key in quotes, on one line");
                 }
                 let entry = |(key, (_, entry)): (&String, &(Place, Arc<Self>))| {
-                    (key.clone(), entry.to_json(&path.key(key), faults))
+                    (key.clone(), entry.below(Step::Key(key.clone()), path, faults))
                 };
                 Value::Object(entries.iter().map(entry).collect::<Map<_, _>>())
             }
         }
+    }
+
+    /// As [`Node::value`], one step further down.
+    fn below(&self, step: Step, path: &mut Path, faults: &mut Vec<Issue>) -> Value {
+        path.0.push(step);
+        let value = self.value(path, faults);
+        path.0.pop();
+        value
     }
 }
 
@@ -283,6 +302,10 @@ impl Reader {
                         let problem = format!("the key `{name}` is a duplicate");
                         return Err(fault(place, &problem, "keep one of the two entries"));
                     }
+                    if name.as_ref().is_some_and(|name| name.chars().nth(MOST_OF_KEY).is_some()) {
+                        let problem = format!("the key has more than {MOST_OF_KEY} characters");
+                        return Err(fault(place, &problem, "choose a shorter name"));
+                    }
                     if entries.len() >= MOST_NAMED {
                         return Err(too_many(place, "block", "keys"));
                     }
@@ -375,7 +398,7 @@ again: *more
 
     fn read(text: &str) -> Value {
         let mut faults = Vec::new();
-        let value = parse(text).unwrap().to_json(&Path::default(), &mut faults);
+        let value = parse(text).unwrap().to_json(&mut faults);
         assert!(faults.is_empty(), "{faults:?}");
         value
     }
@@ -458,6 +481,9 @@ again: *more
         let deep = |i: usize| format!("a{i}: &a{i} [[[[*a{}]]]]\n", i - 1);
         let deep = "a0: &a0 [1]\n".to_owned() + &(1..100_000).map(deep).collect::<String>();
         assert!(told(&deep).contains("nested"));
+        let long = format!("a: &a {}\nb: [{}]\n", "x".repeat(100_000), vec!["*a"; 9_999].join(", "));
+        assert!(told(&long).contains("aliases"));
+        assert!(told(&format!("{}: 1\n", "k".repeat(1000))).contains("the key has more than 200"));
         assert!(told("a: &a [*a]").contains("within"));
     }
 
