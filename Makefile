@@ -11,7 +11,7 @@ include pipeline/mpm.mk
 
 SECONDS := 600
 
-.PHONY: help setup build demo pile pile-variants pipeline pipeline-study test fuzz check fmt clean bench bench-block bench-unused stress verification
+.PHONY: help setup build demo pile pile-variants pipeline pipeline-study test fuzz campaign check fmt clean bench bench-block bench-unused sbom stress verification
 
 help: ## List the targets
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / {printf "  %-14s %s\n", $$1, $$2}' $(firstword $(MAKEFILE_LIST))
@@ -56,6 +56,9 @@ test: setup ## Set up and run all tests
 fuzz: ## Mutated files through every reader for a time: make fuzz SECONDS=600 (SEED=1; tests/fuzz/README.md)
 	FUZZ_SECONDS=$(SECONDS) FUZZ_SEED=$(or $(SEED),$(shell date +%s)) cargo test --release --test fuzz -- --nocapture
 
+campaign: setup ## Kills, signals, full disks and pairs of processes in every stage, 25 times as many as in the tests
+	CAMPAIGN=25 cargo test --release --test campaign -- --nocapture
+
 verification: build ## Run every verification; writes docs/verification.md
 	$(PYTHON) benches/verification/run.py $(ARGS)
 
@@ -75,6 +78,9 @@ check: setup ## Formatting, lints and documentation, without warnings
 	cargo fmt --check
 	cargo clippy --release --all-targets -- -D warnings
 	RUSTDOCFLAGS='-D warnings' cargo doc --release --no-deps
+
+sbom: setup ## List what is linked into the program; writes docs/sbom.cdx.json
+	$(PYTHON) pipeline/sbom.py
 
 fmt: ## Format the sources
 	cargo fmt

@@ -1,5 +1,5 @@
 //! What the documents say holds: the README's first case runs and its list has every case, the user guide has every
-//! entry of a case, every link leads to a file.
+//! entry of a case, every link leads to a file, the bill of materials is of what is linked.
 
 use mpm::material::MODELS;
 use serde_json::Value;
@@ -104,5 +104,42 @@ fn every_link_leads_to_a_file() {
             let inside = !link.is_empty() && !link.contains("://");
             assert!(!inside || file.with_file_name(link).exists(), "{}: {link} is not there", file.display());
         }
+    }
+}
+
+#[test]
+fn the_bill_of_materials_is_of_what_is_linked() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let check = |file: &Path| {
+        let script = root.join("pipeline/sbom.py");
+        Command::new(root.join(".venv/bin/python")).arg(script).arg("--check").arg(file).output().unwrap()
+    };
+    let file = root.join("docs/sbom.cdx.json");
+    let output = check(&file);
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+
+    // A list that lacks a crate, or has another version of one, is told with its name.
+    let bill: Value = serde_json::from_str(&fs::read_to_string(&file).unwrap()).unwrap();
+    let faer = bill["components"].as_array().unwrap().iter().find(|c| c["name"] == "faer").expect("faer is linked");
+    let mut other = bill.clone();
+    other["components"].as_array_mut().unwrap().retain(|c| c["name"] != "faer");
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("other.json");
+    fs::write(&path, other.to_string()).unwrap();
+    let output = check(&path);
+    let said = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert!(!output.status.success() && said.contains("make sbom"), "{said}");
+    assert!(said.contains(&format!("+ faer {}", faer["version"].as_str().unwrap())), "{said}");
+}
+
+#[test]
+fn the_legal_note_has_every_licence() {
+    let docs = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs");
+    let note = fs::read_to_string(docs.join("legal.md")).unwrap();
+    let bill: Value = serde_json::from_str(&fs::read_to_string(docs.join("sbom.cdx.json")).unwrap()).unwrap();
+    for component in bill["components"].as_array().unwrap() {
+        let entry = &component["licenses"][0];
+        let licence = entry["expression"].as_str().or(entry["license"]["name"].as_str()).expect("a licence");
+        assert!(note.contains(&format!("`{licence}`")), "docs/legal.md lacks {licence} of {}", component["name"]);
     }
 }

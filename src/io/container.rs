@@ -22,6 +22,7 @@ mod data;
 
 use std::collections::BTreeMap;
 use std::fs;
+use std::hash::Hasher;
 use std::io::Write;
 use std::path::Path;
 
@@ -168,12 +169,12 @@ impl Store {
         self.wrong(format!("{what} `{name}` is missing"))
     }
 
-    /// Writes the file, atomically; `durable` waits for the disk.
+    /// Writes the file, atomically, and returns its hash; `durable` waits for the disk.
     ///
     /// # Errors
     /// `Analysis` when a number is not finite (then nothing is written), `Machine` when the file cannot be
     /// written.
-    pub fn write(&self, path: &Path, durable: bool) -> Result<()> {
+    pub fn write(&self, path: &Path, durable: bool) -> Result<u64> {
         let mut entries = Vec::with_capacity(self.arrays.len());
         let mut blocks = Vec::new();
         for array in &self.arrays {
@@ -193,15 +194,14 @@ impl Store {
         let header = Header { kind: self.kind.clone(), texts: self.texts.clone(), arrays: entries };
         let header = serde_json::to_vec(&header)
             .map_err(|e| Error::analysis(path.display(), format!("header: {e}"), "report this as a mistake of mpm"))?;
-        let fill = |out: &mut dyn Write| {
-            out.write_all(&MAGIC)?;
-            out.write_all(&VERSION.to_le_bytes())?;
-            out.write_all(&(header.len() as u32).to_le_bytes())?;
-            out.write_all(&XxHash64::oneshot(0, &header).to_le_bytes())?;
-            out.write_all(&header)?;
-            out.write_all(&blocks)
-        };
-        if durable { atomic::write_durable(path, fill) } else { atomic::write(path, fill) }
+        let length = (header.len() as u32).to_le_bytes();
+        let checksum = XxHash64::oneshot(0, &header).to_le_bytes();
+        let parts: [&[u8]; 6] = [&MAGIC, &VERSION.to_le_bytes(), &length, &checksum, &header, &blocks];
+        let fill = |out: &mut dyn Write| parts.iter().try_for_each(|part| out.write_all(part));
+        if durable { atomic::write_durable(path, fill) } else { atomic::write(path, fill) }?;
+        let mut hasher = XxHash64::with_seed(0);
+        parts.iter().for_each(|part| hasher.write(part));
+        Ok(hasher.finish())
     }
 
     /// Reads a file of the given kind; `remedy` says how the user makes it again.
@@ -246,6 +246,18 @@ impl Store {
         let arrays = header.arrays.into_iter().map(|e| (e.name, e.count / e.components)).collect();
         Ok(Contents { texts: header.texts, arrays })
     }
+}
+
+/// The kind and the texts of a file, if it is a container: for `mpm info`.
+pub fn inspect(path: &Path) -> Option<(String, BTreeMap<String, String>)> {
+    use std::io::Read;
+    let file = fs::File::open(path).ok()?;
+    let mut bytes = Vec::new();
+    (&file).take(START as u64).read_to_end(&mut bytes).ok()?;
+    let length = header_length(&bytes).ok()?;
+    file.take(length as u64).read_to_end(&mut bytes).ok()?;
+    let header: Header = serde_json::from_slice(bytes.get(START..START + length)?).ok()?;
+    Some((header.kind, header.texts))
 }
 
 /// The header of a file.

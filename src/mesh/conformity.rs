@@ -187,3 +187,142 @@ fn root(joined: &mut [u16], mut region: u16) -> u16 {
     }
     region
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mesh::builder::rectangle;
+    use crate::mesh::{Group, quality};
+
+    const KINDS: [CellKind; 5] = [CellKind::T3, CellKind::T6, CellKind::Q4, CellKind::Q8, CellKind::Q9];
+
+    fn refused(mesh: &Mesh<2>) -> String {
+        check(mesh, Path::new("out/mesh.msh")).unwrap_err().to_string()
+    }
+
+    /// Adds the cells of another mesh, moved, with nodes of their own and in `region`.
+    fn add(mesh: &mut Mesh<2>, other: &Mesh<2>, by: [f64; 2], region: u16) {
+        let first = mesh.nodes.len() as u32;
+        mesh.nodes.extend(other.nodes.iter().map(|x| [x[0] + by[0], x[1] + by[1]]));
+        for c in 0..other.cells.len() {
+            let nodes: Vec<u32> = other.cells.nodes(c).iter().map(|n| n + first).collect();
+            mesh.cells.push(other.cells.kind[c], region, &nodes);
+        }
+    }
+
+    #[test]
+    fn a_region_must_not_lie_on_itself_nor_on_one_it_is_joined_to() {
+        for kind in KINDS {
+            let part = rectangle(kind, 3.0, 2.0, 6, 4, 0.1, 3);
+            let file = Path::new("mesh.msh");
+            for (by, apart) in [
+                ([3.0, 0.0], true),
+                ([2.0, 3.0], true),
+                ([0.0, 0.0], false),
+                ([2.7, 0.0], false),
+                ([2.7, 1.8], false),
+                ([-0.3, -0.9], false),
+            ] {
+                let mut mesh = part.clone();
+                mesh.regions.push("pile".into());
+                add(&mut mesh, &part, by, 0);
+                assert_eq!(quality::check(&mesh, file).is_ok(), apart, "{kind:?} {by:?}");
+                // A structure may lie on the grid, unless the two share an edge.
+                mesh.cells.region[part.cells.len()..].fill(1);
+                assert!(quality::check(&mesh, file).is_ok(), "{kind:?} {by:?}");
+                mesh.cells.region[0] = 1;
+                assert_eq!(quality::check(&mesh, file).is_ok(), apart, "{kind:?} {by:?}");
+            }
+            // One much larger than the other, and wholly inside it.
+            let mut mesh = rectangle(kind, 30.0, 20.0, 2, 1, 0.0, 0);
+            add(&mut mesh, &part, [4.0, 5.0], 0);
+            assert!(refused(&mesh).contains("lies on"), "{kind:?}");
+        }
+    }
+
+    #[test]
+    fn edges_that_do_not_fit_are_refused() {
+        for kind in KINDS {
+            let whole = rectangle(kind, 3.0, 2.0, 3, 2, 0.0, 0);
+            check(&whole, Path::new("mesh.msh")).unwrap();
+            // The same cell again.
+            let mut mesh = whole.clone();
+            let nodes = whole.cells.nodes(0).to_vec();
+            mesh.cells.push(kind, 0, &nodes);
+            let message = refused(&mesh);
+            assert!(message.starts_with("out/mesh.msh, cell ") && message.contains(REMEDY), "{message}");
+            // A cell on the inner side of the boundary: two cells use an edge in the same direction.
+            if kind.order() == 1 {
+                let mut mesh = whole.clone();
+                mesh.nodes.push([0.5, 0.1]);
+                mesh.cells.push(CellKind::T3, 0, &[0, 1, mesh.nodes.len() as u32 - 1]);
+                assert!(refused(&mesh).contains("lie on one another"));
+                // The third cell at an inner edge.
+                let mut mesh = whole.clone();
+                mesh.nodes.push([9.0, 1.0]);
+                mesh.cells.push(CellKind::T3, 0, &[1, 5, mesh.nodes.len() as u32 - 1]);
+                assert!(refused(&mesh).contains("more than two cells"), "{}", refused(&mesh));
+                continue;
+            }
+            // The jump of a derivative over such a face looked for a node that the second cell does not have.
+            let mut mesh = whole.clone();
+            let [c, i] = (0..whole.cells.len())
+                .flat_map(|c| (0..whole.cells.nodes(c).len()).map(move |i| [c, i]))
+                .find(|&[c, i]| {
+                    let node = whole.cells.nodes(c)[i];
+                    i >= kind.corner_count() && whole.cells.nodes.iter().filter(|&&n| n == node).count() == 2
+                })
+                .unwrap();
+            let at = mesh.cells.offset[c] as usize + i;
+            mesh.nodes.push(mesh.nodes[mesh.cells.nodes[at] as usize]);
+            mesh.cells.nodes[at] = mesh.nodes.len() as u32 - 1;
+            assert!(refused(&mesh).contains("different nodes on an edge"), "{kind:?}");
+            // A corner as a middle node, and a middle node of two edges.
+            for other in [mesh.cells.nodes[0], mesh.cells.nodes[kind.corner_count()]] {
+                let mut mesh = whole.clone();
+                mesh.cells.nodes[at] = other;
+                assert!(refused(&mesh).contains("lies otherwise in another cell"), "{kind:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn groups_name_edges_of_cells_once() {
+        for kind in KINDS {
+            let whole = rectangle(kind, 3.0, 2.0, 3, 2, 0.0, 0);
+            let mut mesh = whole.clone();
+            let again = mesh.groups[2].facets[0].clone();
+            mesh.groups[2].facets.push(again);
+            assert!(refused(&mesh).contains("out/mesh.msh, physical group bottom: it has a part twice"));
+            let mut mesh = whole.clone();
+            mesh.groups[2].facets[0].1[1] = 2;
+            assert!(refused(&mesh).contains("is no edge of a cell"), "{kind:?}");
+            let point = |nodes: &[u32]| Group {
+                name: "corner".into(),
+                dimension: 0,
+                facets: nodes.iter().map(|&n| (CellKind::Point1, vec![n])).collect(),
+                nodes: nodes.to_vec(),
+            };
+            let mut mesh = whole.clone();
+            mesh.groups.push(point(&[0, 1]));
+            check(&mesh, Path::new("mesh.msh")).unwrap();
+            mesh.groups.push(point(&[1, 1]));
+            assert!(refused(&mesh).contains("group corner: it has a part twice"));
+        }
+    }
+
+    /// A node in the wrong place is a cell of no shape, wherever it lies.
+    #[test]
+    fn a_node_far_from_its_mesh_is_refused() {
+        for kind in KINDS {
+            let whole = rectangle(kind, 3.0, 2.0, 3, 2, 0.0, 0);
+            for node in 0..whole.nodes.len() {
+                for x in [[4e9, 0.0], [4e9, 4e9], [-4e9, 1.0], [1.0, -4e9], [1e300, 0.0], [0.0, -1e160]] {
+                    let mut mesh = whole.clone();
+                    mesh.nodes[node] = x;
+                    assert!(quality::check(&mesh, Path::new("mesh.msh")).is_err(), "{kind:?} node {node} at {x:?}");
+                }
+            }
+        }
+    }
+}

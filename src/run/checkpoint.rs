@@ -26,8 +26,6 @@ pub fn store<const D: usize>(state: &State<D>) -> Store {
         step,
         step_size,
         frames,
-        rows,
-        log_lines,
         points,
         fem,
         fem_parametric,
@@ -56,7 +54,7 @@ pub fn store<const D: usize>(state: &State<D>) -> Store {
     store.put(
         "state.counts",
         1,
-        vec![*phase as u64, *step, *frames, *rows, *log_lines, u64::from(*moving), *restorations, u64::from(*falling)],
+        vec![*phase as u64, *step, *frames, u64::from(*moving), *restorations, u64::from(*falling)],
     );
     store.put("state.times", 1, vec![*time, *phase_time, *step_size, *last_step, *peak, release.until]);
     store.put("state.parametric", 3, parametric.concat());
@@ -227,10 +225,8 @@ fn take_front(store: &mut Store) -> Result<Option<Front>> {
 pub fn take<const D: usize>(mut store: Store, scene: &Scene<D>, first: &State<D>) -> Result<State<D>> {
     let counts = store.take::<u64>("state.counts", 1)?;
     let times = store.take::<f64>("state.times", 1)?;
-    let (
-        [phase, step, frames, rows, log_lines, moving, restorations, falling],
-        [time, phase_time, step_size, last_step, peak, until],
-    ) = (&counts[..], &times[..])
+    let ([phase, step, frames, moving, restorations, falling], [time, phase_time, step_size, last_step, peak, until]) =
+        (&counts[..], &times[..])
     else {
         return Err(foreign("its list of counts"));
     };
@@ -245,8 +241,6 @@ pub fn take<const D: usize>(mut store: Store, scene: &Scene<D>, first: &State<D>
         step: *step,
         step_size: *step_size,
         frames: *frames,
-        rows: *rows,
-        log_lines: *log_lines,
         points: columns::take(&mut store, POINTS)?,
         fem: columns::take(&mut store, FEM)?,
         fem_parametric: vectors(&store.take::<f64>("state.fem_parametric", 3)?),

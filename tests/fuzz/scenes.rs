@@ -217,7 +217,7 @@ impl Ready {
         }
         simulation.advance(&mut controller)?;
         let mut state = simulation.state;
-        (state.step_size, state.rows, state.log_lines) = (controller.wanted, state.rows + 1, state.log_lines + 1);
+        state.step_size = controller.wanted;
         if controller.next_stop(state.phase_time).is_none() {
             state.next_phase(&self.scene);
         }

@@ -121,6 +121,7 @@ impl Piece {
             point_data: select(part, fields),
             cell_data: vec![region],
             time,
+            note: String::new(),
         }
     }
 }

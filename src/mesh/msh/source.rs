@@ -15,6 +15,8 @@ enum Form {
 pub struct Source<'a> {
     bytes: &'a [u8],
     at: usize,
+    /// Where the word or line that was read last begins.
+    last: usize,
     form: Form,
     /// The file as the user named it.
     place: &'a str,
@@ -24,7 +26,7 @@ pub struct Source<'a> {
 
 impl<'a> Source<'a> {
     pub fn new(bytes: &'a [u8], place: &'a str) -> Self {
-        Self { bytes, at: 0, form: Form::Text, place, section: String::new() }
+        Self { bytes, at: 0, last: 0, form: Form::Text, place, section: String::new() }
     }
 
     /// An error at the present place: the line of a text, the section of a binary file.
@@ -34,9 +36,24 @@ impl<'a> Source<'a> {
 
     /// As [`Self::wrong`] with a remedy of its own.
     pub fn wrong_but(&self, problem: impl std::fmt::Display, remedy: &str) -> Error {
+        match self.at == self.bytes.len() {
+            // What is wrong may be the first half of what was right.
+            true => self.error(format!("it is cut short or damaged: {problem}"), remedy),
+            false => self.error(problem, remedy),
+        }
+    }
+
+    fn cut_short(&self) -> Error {
+        match self.section.as_str() {
+            "" => self.error("it is cut short", AGAIN),
+            section => self.error(format!("it is cut short in its section {section}"), AGAIN),
+        }
+    }
+
+    fn error(&self, problem: impl std::fmt::Display, remedy: &str) -> Error {
         let place = match self.form {
             Form::Text => {
-                format!("{}, line {}", self.place, 1 + self.bytes[..self.at].iter().filter(|&&c| c == b'\n').count())
+                format!("{}, line {}", self.place, 1 + self.bytes[..self.last].iter().filter(|&&c| c == b'\n').count())
             }
             Form::Binary { .. } if self.section.is_empty() => self.place.to_owned(),
             Form::Binary { .. } => format!("{}, section {}", self.place, self.section),
@@ -44,20 +61,15 @@ impl<'a> Source<'a> {
         Error::input(place, problem, remedy)
     }
 
-    fn cut_short(&self) -> Error {
-        match self.section.as_str() {
-            "" => self.wrong("it is cut short"),
-            section => self.wrong(format!("it is cut short in its section {section}")),
-        }
-    }
-
     /// Passes white space.
     fn skip_space(&mut self) {
         self.at += self.bytes[self.at..].iter().take_while(|c| c.is_ascii_whitespace()).count();
+        self.last = self.at;
     }
 
     /// The rest of the line, without its end and the space around it.
     fn line(&mut self) -> &'a [u8] {
+        self.last = self.at;
         let rest = &self.bytes[self.at..];
         let length = rest.iter().position(|&c| c == b'\n').unwrap_or(rest.len());
         self.at += (length + 1).min(rest.len());
@@ -82,10 +94,7 @@ impl<'a> Source<'a> {
                 self.section = format!("${name}");
                 Ok(Some((name, start)))
             }
-            None => {
-                self.at = start;
-                Err(self.wrong(format!("{} is no section of a mesh file", shown(line))))
-            }
+            None => Err(self.wrong(format!("{} is no section of a mesh file", shown(line)))),
         }
     }
 
@@ -98,12 +107,10 @@ impl<'a> Source<'a> {
         if self.at == self.bytes.len() {
             return Err(self.cut_short());
         }
-        let start = self.at;
         let line = self.line();
         if line.strip_prefix(b"$End") == self.section.as_bytes().strip_prefix(b"$") {
             return Ok(());
         }
-        self.at = start;
         Err(self.wrong(format!("{} stands where {} should end", shown(line), self.section)))
     }
 
@@ -174,11 +181,7 @@ impl<'a> Source<'a> {
     /// The next word of text as a number.
     fn parsed<T: str::FromStr>(&mut self, what: &str) -> Result<T> {
         let token = self.token()?;
-        token.parse().map_err(|_| match self.at == self.bytes.len() {
-            // What is left of a number, or of the end of the section.
-            true => self.cut_short(),
-            false => self.wrong(format!("{} stands where {what} should be", shown(token.as_bytes()))),
-        })
+        token.parse().map_err(|_| self.wrong(format!("{} stands where {what} should be", shown(token.as_bytes()))))
     }
 
     /// The next bytes of a binary file, the least significant first.
@@ -239,7 +242,7 @@ impl<'a> Source<'a> {
         let room = (self.bytes.len() - self.at) / each;
         match usize::try_from(count) {
             Ok(count) if count <= room => Ok(count),
-            _ => Err(self.wrong(format!("it is cut short or damaged: it has no room for {count} {what}"))),
+            _ => Err(self.error(format!("it is cut short or damaged: it has no room for {count} {what}"), AGAIN)),
         }
     }
 
@@ -256,15 +259,14 @@ impl<'a> Source<'a> {
     /// # Errors
     /// Input: no quotes, or bytes that are no text.
     pub fn quoted(&mut self) -> Result<&'a str> {
-        let start = self.at;
         let line = self.line();
+        if self.at == self.bytes.len() {
+            return Err(self.cut_short());
+        }
         let name = line.strip_prefix(b"\"").and_then(|rest| rest.strip_suffix(b"\""));
         match name.and_then(|name| str::from_utf8(name).ok()) {
             Some(name) if !name.contains('"') => Ok(name),
-            _ => {
-                self.at = start;
-                Err(self.wrong(format!("{} is no name in double quotes", shown(line))))
-            }
+            _ => Err(self.wrong(format!("{} is no name in double quotes", shown(line)))),
         }
     }
 }
