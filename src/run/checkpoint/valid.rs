@@ -212,7 +212,7 @@ fn check_front(front: &Front) -> Result<()> {
 
 fn check_contact<const D: usize>(scene: &Scene<D>, state: &State<D>) -> Result<()> {
     ensure(state.multipliers.len() == scene.pairs.len(), "the number of its contacts")?;
-    let fits = |(pair, held): (&Box<dyn Pair<D>>, &Multipliers)| {
+    let fits = |(pair, held): (&dyn Pair<D>, &Multipliers)| {
         let Multipliers { pressure, shear, gap, slip, offset, slid, faces, room, first } = held;
         let lengths = [pressure, shear, gap, slip, offset, slid].iter().all(|v| v.len() == pair.hats());
         let bounds = first.len() == pair.hats() + 1 && bounds_of_loops(first, room.len(), 0);
@@ -225,5 +225,5 @@ fn check_contact<const D: usize>(scene: &Scene<D>, state: &State<D>) -> Result<(
             })
         }
     };
-    ensure(scene.pairs.iter().zip(&state.multipliers).all(fits), "its contact")
+    ensure(scene.pairs.iter().map(AsRef::as_ref).zip(&state.multipliers).all(fits), "its contact")
 }
