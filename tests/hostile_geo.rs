@@ -188,7 +188,7 @@ fn a_pipe_in_place_of_a_file_does_not_hang() {
         let path = folder.path().join(name);
         let _ = fs::remove_file(&path);
         assert!(Command::new("mkfifo").arg(&path).status().unwrap().success());
-        assert!(refusal(folder.path(), &["check", "."]).contains("no regular file"));
+        assert!(refusal(folder.path(), &["check", "."]).contains(name));
     }
 }
 
