@@ -182,6 +182,17 @@ fn files_that_gmsh_opens_by_the_way_are_refused_too() {
 }
 
 #[test]
+fn a_pipe_in_place_of_a_file_does_not_hang() {
+    for name in ["scene.geo.opt", "scene.geo"] {
+        let folder = scene("");
+        let path = folder.path().join(name);
+        let _ = fs::remove_file(&path);
+        assert!(Command::new("mkfifo").arg(&path).status().unwrap().success());
+        assert!(refusal(folder.path(), &["check", "."]).contains(name));
+    }
+}
+
+#[test]
 fn honest_scripts_pass() {
     for statement in [
         "// SystemCall \"touch canary\"; Save \"x\";",

@@ -76,8 +76,13 @@ fn generate_when(
         session.set_option(name, value)?;
     }
     estimate::check_sizes(&session, geo)?;
-    session.mesh(geo, 1)?;
-    estimate::check_cells(geo, estimate::cells(&session)?, memory)?;
+    // A script may have meshed already, or hold a mesh of another program.
+    if session.elements(1, -1).is_empty() {
+        session.mesh(geo, 1)?;
+        estimate::check_cells(geo, estimate::cells(&session)?, memory)?;
+        // Surfaces on curves that are there already come out some 1e-16 elsewhere.
+        session.clear();
+    }
     session.mesh(geo, 2)?;
     estimate::check_cells(geo, session.elements(2, -1).len() as f64, memory)?;
     session.set_order(geo, options.order)?;

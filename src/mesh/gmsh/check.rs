@@ -97,9 +97,13 @@ pub fn declared(text: &str) -> Vec<String> {
 /// # Errors
 /// Input: one that does not.
 pub fn check_readable(path: &Path) -> Result<()> {
-    match fs::File::open(path).and_then(|f| f.metadata()) {
-        Ok(metadata) if metadata.is_file() => Ok(()),
-        Ok(_) => Err(Error::input(path.display(), "it is a folder", "name a file")),
+    // A pipe without a writer would not even open.
+    match fs::metadata(path) {
+        Ok(metadata) if metadata.is_file() => {
+            fs::File::open(path).map(drop).map_err(|error| Error::input(path.display(), error, "check the path"))
+        }
+        Ok(metadata) if metadata.is_dir() => Err(Error::input(path.display(), "it is a folder", "name a file")),
+        Ok(_) => Err(Error::input(path.display(), "it is no regular file", "name a file")),
         Err(error) => Err(Error::input(path.display(), error, "check the path")),
     }
 }

@@ -158,6 +158,13 @@ impl Session {
         self.checked(geo, status, "the geometry does not mesh; open it in Gmsh to see where")
     }
 
+    /// Forgets the mesh.
+    pub fn clear(&self) {
+        let mut status = 0;
+        // SAFETY: no entities are named, which means all.
+        unsafe { ffi::model_mesh_clear(std::ptr::null(), 0, &mut status) };
+    }
+
     /// Gives the cells their order.
     ///
     /// # Errors

@@ -304,7 +304,7 @@ pub fn serve() -> Result<()> {
         let text = serde_json::to_string(&answer).unwrap_or_default();
         writeln!(answers, "{text}").map_err(|error| broken(error.to_string()))
     };
-    match work(&request, &mut |groups| answer(Answer::Groups(groups)).and_then(|()| Ok(line().is_some()))) {
+    match work(&request, &mut |groups| answer(Answer::Groups(groups)).map(|()| line().is_some())) {
         Ok(()) => answer(Answer::Meshed),
         Err(error) => answer(Answer::Failed(error.exit_status(), error.place, error.problem, error.remedy)),
     }
