@@ -6,9 +6,11 @@
 
 use std::env;
 use std::fs;
+use std::hash::Hasher;
 use std::panic;
 use std::path::{Path, PathBuf};
 use std::process::{Command, exit};
+use twox_hash::XxHash64;
 
 /// The oldest Gmsh whose C API has the functions used, with these arguments.
 const OLDEST: (u32, u32) = (4, 11);
@@ -16,7 +18,7 @@ const OLDEST: (u32, u32) = (4, 11);
 /// The functions `src/mesh/gmsh.rs` calls.
 const FUNCTIONS: &str = "gmsh(Initialize|Finalize|Merge|Write|Free|OptionSetNumber|ModelGetEntities|\
     ModelGetPhysicalGroups|ModelGetPhysicalName|ModelGetEntitiesForPhysicalGroup|ModelMeshGenerate|\
-    ModelMeshSetOrder|ModelMeshGetNodes|ModelMeshGetElements|ParserClear|ParserGetNames|ParserGetNumber|ParserSetNumber|\
+    ModelMeshSetOrder|ParserClear|ParserGetNames|ParserGetNumber|ParserSetNumber|\
     LoggerStart|LoggerStop|LoggerGet|LoggerGetLastError)";
 
 struct Gmsh {
@@ -25,13 +27,16 @@ struct Gmsh {
 }
 
 fn main() {
+    identify();
     for name in ["GMSH_DIR", "LIBCLANG_PATH"] {
         println!("cargo::rerun-if-env-changed={name}");
     }
     println!("cargo::rerun-if-changed=build.rs");
     let venv = Path::new(&env::var("CARGO_MANIFEST_DIR").unwrap_or_default()).join(".venv");
     let gmsh = find_gmsh(&venv);
-    check_version(&gmsh.header);
+    let (version, text) = version(&gmsh.header);
+    println!("cargo::rustc-env=MPM_GMSH={text}");
+    check_version(&gmsh.header, version);
     link(&gmsh.library);
     bind(&gmsh.header, &venv);
 }
@@ -81,14 +86,57 @@ fn library_in(folder: &Path) -> Option<PathBuf> {
     libraries.filter(|path| path.file_name().is_some_and(|n| n.to_string_lossy().starts_with("libgmsh.so"))).max()
 }
 
-fn check_version(header: &Path) {
+/// Tells the program which one it is (`src/program.rs`): a hash of its sources, and the commit they were built at.
+fn identify() {
+    let root = PathBuf::from(env::var("CARGO_MANIFEST_DIR").unwrap_or_default());
+    let parts = ["src", "build.rs", "Cargo.toml", "Cargo.lock"];
+    let mut files = Vec::new();
+    for part in parts {
+        println!("cargo::rerun-if-changed={part}");
+        collect(&root.join(part), &mut files);
+    }
+    files.sort();
+    let mut hasher = XxHash64::with_seed(0);
+    for file in files {
+        hasher.write(file.strip_prefix(&root).unwrap_or(&file).to_string_lossy().as_bytes());
+        hasher.write(&fs::read(&file).unwrap_or_default());
+    }
+    println!("cargo::rustc-env=MPM_SOURCE={:016x}", hasher.finish());
+    let git = |arguments: &[&str]| {
+        // The repository of the program itself, not one that it was unpacked in.
+        let output =
+            root.join(".git").exists().then(|| Command::new("git").args(arguments).current_dir(&root).output());
+        let output = output?.ok().filter(|output| output.status.success())?;
+        String::from_utf8(output.stdout).ok().map(|text| text.trim().to_owned())
+    };
+    let changed = git(&[&["status", "--porcelain", "--"][..], &parts].concat()).is_some_and(|list| !list.is_empty());
+    let commit = git(&["rev-parse", "--short=12", "HEAD"]).unwrap_or_else(|| "unknown".to_owned());
+    println!("cargo::rustc-env=MPM_COMMIT={commit}{}", if changed { "+" } else { "" });
+    let variable = |name: &str| env::var(name).unwrap_or_default();
+    println!("cargo::rustc-env=MPM_BUILD={} {}", variable("TARGET"), variable("PROFILE"));
+}
+
+/// The files of a folder and those below it, or the one file.
+fn collect(path: &Path, files: &mut Vec<PathBuf>) {
+    match fs::read_dir(path) {
+        Ok(entries) => entries.flatten().for_each(|entry| collect(&entry.path(), files)),
+        Err(_) => files.push(path.to_owned()),
+    }
+}
+
+/// The version of the C API, and its text.
+fn version(header: &Path) -> ((u32, u32), String) {
     println!("cargo::rerun-if-changed={}", header.display());
     let text = fs::read_to_string(header).unwrap_or_default();
     let number = |name: &str| {
         let line = text.lines().find(|line| line.contains(&format!("define GMSH_API_VERSION_{name} ")))?;
         line.split_whitespace().last()?.parse::<u32>().ok()
     };
-    let version = (number("MAJOR").unwrap_or(0), number("MINOR").unwrap_or(0));
+    let [major, minor, patch] = ["MAJOR", "MINOR", "PATCH"].map(|name| number(name).unwrap_or(0));
+    ((major, minor), format!("{major}.{minor}.{patch}"))
+}
+
+fn check_version(header: &Path, version: (u32, u32)) {
     if version < OLDEST {
         fail(&format!(
             "{} is of Gmsh {}.{}, whose C API is too old ({}.{} or newer is needed); run `make setup`",

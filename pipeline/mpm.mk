@@ -9,6 +9,7 @@
 # stale and no more, several cases at a time. Results are under <case>/out.
 #
 #   make a RESUME=1       takes up a solve that was stopped at its last checkpoint
+#   make a FRESH=1        gives up a solve that was stopped, and begins anew
 #   make a THREADS=1      threads of a solve (with `make -j4`, let -j and THREADS share the cores)
 #   make a MPM_FLAGS='--set mesh.parameters.h=0.2'
 
@@ -17,7 +18,7 @@ CASES ?= $(patsubst %/case.yaml,%,$(wildcard cases/*/case.yaml))
 
 # Where the program is a file, or is built by a target MPM_BUILD, a new one makes every result stale.
 mpm_program := $(or $(MPM_BUILD),$(wildcard $(firstword $(MPM))))
-mpm_solve_flags = $(if $(RESUME),--resume) $(if $(THREADS),--threads $(THREADS))
+mpm_solve_flags = $(if $(RESUME),--resume) $(if $(FRESH),--fresh) $(if $(THREADS),--threads $(THREADS))
 
 # The .geo that a case names, relative to its folder.
 mpm_geo = $(addprefix $(1)/,$(shell sed -n 's/.*\bgeo: *["'\'']\{0,1\}\([^]["'\'' ,}\#]*\).*/\1/p;/\bgeo:/q' $(1)/case.yaml))

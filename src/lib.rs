@@ -6,7 +6,7 @@
 //!
 //! | layer | modules | what |
 //! |---|---|---|
-//! | 0 | [`error`], [`tensor`], [`time_value`], [`time_integration`], [`profile`], [`analytical`] | errors and exit status; the order of tensor components; values in time; generalised-α; time by activity; closed forms for the tests |
+//! | 0 | [`error`], [`tensor`], [`time_value`], [`time_integration`], [`profile`], [`program`], [`analytical`] | errors and exit status; the order of tensor components; values in time; generalised-α; time by activity; which program this is; closed forms for the tests |
 //! | 1 | [`mesh`], [`material`] | cells and shape functions, Gmsh, location of points; stress and tangent of a point |
 //! | 2 | [`points`], [`seed`], [`kinematics`], [`surface`], [`rigid`], [`contact`], [`quadrature`], [`stencil`], [`system`] | the material points and how cells are filled with them; plane strain and axisymmetry; where the material ends; bodies that keep their shape; how structures touch soil; what the points weigh in integrals; what a point sees of the grid; sparse systems and their solution |
 //! | 3 | [`term`] | the terms of the equations of motion, each with its residual and tangent |
@@ -54,6 +54,7 @@ pub mod material;
 pub mod mesh;
 pub mod points;
 pub mod profile;
+pub mod program;
 pub mod quadrature;
 pub mod rigid;
 pub mod run;

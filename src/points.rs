@@ -1,7 +1,7 @@
 //! The material points: a struct of arrays.
 
 use crate::material::State;
-use crate::tensor::{Symmetric, Tensor};
+use crate::tensor::{Symmetric, Tensor, full};
 
 /// All material points of a scene. Every column has one entry a point; `velocity` and `acceleration`
 /// are empty in a quasi-static analysis, `plastic_increment` where no term needs it, `memory` where no model does,
@@ -108,5 +108,83 @@ impl<const D: usize> Points<D> {
 
     pub fn is_empty(&self) -> bool {
         self.position.is_empty()
+    }
+
+    /// Checks points from a file, whose numbers are finite: that they are in regions and cells that exist, and that each
+    /// has a volume, a mass and a deformation that material can have.
+    ///
+    /// # Errors
+    /// The first point at fault and what is wrong with it.
+    pub fn check(&self, regions: usize, cells: usize) -> Result<(), String> {
+        (0..self.len()).try_for_each(|p| {
+            let (region, cell) = (self.region[p], self.cell[p]);
+            let volume_ratio = self.deformation[p].determinant();
+            let wrong = if usize::from(region) >= regions {
+                format!("is in region {region} of {regions}")
+            } else if cell as usize >= cells {
+                format!("is in cell {cell} of {cells}")
+            } else if !(self.initial_volume[p] > 0.0) {
+                format!("has the volume {:e} m³", self.initial_volume[p])
+            } else if !(self.mass[p] >= 0.0) {
+                format!("has the mass {:e} t", self.mass[p])
+            } else if !(volume_ratio > 0.0 && volume_ratio.is_finite()) {
+                format!("has a deformation gradient with the determinant {volume_ratio:e}")
+            } else if !is_positive_definite(&self.elastic[p]) {
+                "has an elastic strain tensor that is not positive definite".to_string()
+            } else if !(self.plastic_strain[p] >= 0.0) {
+                format!("has the plastic strain {:e}", self.plastic_strain[p])
+            } else {
+                return Ok(());
+            };
+            Err(format!("{} {wrong}", self.name(p)))
+        })
+    }
+}
+
+/// Whether all principal values are positive and their product is a number.
+fn is_positive_definite(s: &Symmetric) -> bool {
+    let determinant = full(s).determinant();
+    s[0] > 0.0 && s[0] * s[1] - s[3] * s[3] > 0.0 && determinant > 0.0 && determinant.is_finite()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::tensor::IDENTITY;
+
+    #[test]
+    fn each_fault_of_a_point_is_named() {
+        let sound = Points::<2> {
+            position: vec![[0.0; 2]; 2],
+            origin: vec![[0.0; 2]; 2],
+            mass: vec![0.0; 2],
+            initial_volume: vec![1.0; 2],
+            deformation: vec![Tensor::identity(); 2],
+            elastic: vec![IDENTITY; 2],
+            stress: vec![[0.0; 6]; 2],
+            plastic_strain: vec![0.0; 2],
+            region: vec![2; 2],
+            cell: vec![4; 2],
+            ..Points::default()
+        };
+        assert_eq!(sound.check(3, 5), Ok(()));
+        type Fault = (fn(&mut Points<2>), &'static str);
+        let faults: [Fault; 9] = [
+            (|p| p.region[1] = 3, "region 3 of 3"),
+            (|p| p.cell[1] = 5, "cell 5 of 5"),
+            (|p| p.initial_volume[1] = 0.0, "volume"),
+            (|p| p.initial_volume[1] = f64::NAN, "volume"),
+            (|p| p.mass[1] = -1.0, "mass"),
+            (|p| p.deformation[1][(0, 0)] = -1.0, "determinant -1"),
+            (|p| p.deformation[1] *= 1e200, "determinant inf"),
+            (|p| p.elastic[1][3] = 1.0, "positive definite"),
+            (|p| p.plastic_strain[1] = -1e-3, "plastic strain"),
+        ];
+        for (fault, says) in faults {
+            let mut points = sound.clone();
+            fault(&mut points);
+            let problem = points.check(3, 5).unwrap_err();
+            assert!(problem.starts_with("material point 1 at") && problem.contains(says), "{problem}");
+        }
     }
 }

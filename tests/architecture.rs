@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 /// The modules by layer, lowest first.
 const LAYERS: [&[&str]; 7] = [
-    &["analytical", "error", "profile", "tensor", "time_integration", "time_value"],
+    &["analytical", "error", "profile", "program", "tensor", "time_integration", "time_value"],
     &["material", "mesh"],
     &["contact", "kinematics", "points", "quadrature", "rigid", "seed", "stencil", "surface", "system"],
     &["term"],

@@ -4,7 +4,7 @@ use std::fs;
 use std::path::Path;
 use std::process::{Command, Output};
 
-use mpm::mesh::gmsh::read;
+use mpm::mesh::msh::read;
 use mpm::mesh::quality;
 use mpm::mesh::shape::CellKind;
 

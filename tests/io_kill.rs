@@ -10,7 +10,8 @@ use std::time::Duration;
 use mpm::io::background::Background;
 use mpm::io::checkpoint::{Checkpoints, Fingerprint};
 use mpm::io::frame::{self, Frame, Part};
-use mpm::io::history::History;
+use mpm::io::history::{History, Mark};
+use mpm::io::provenance::Origin;
 
 const FOLDER: &str = "MPM_TEST_KILL_FOLDER";
 const STEPS: u64 = 200;
@@ -32,8 +33,9 @@ fn run(folder: &Path) {
     let (mut step, mut state, mut history) = match checkpoints.latest().unwrap() {
         Some(mut loaded) => {
             assert!(loaded.warnings.is_empty(), "{:?}", loaded.warnings);
-            let rows = loaded.store.take::<u64>("rows", 1).unwrap()[0];
-            let history = History::resume(&folder.join("history.csv"), &columns, rows).unwrap();
+            let [lines, hash] = loaded.store.take::<u64>("history", 2).unwrap()[..] else { panic!("no mark") };
+            let mark = Mark { lines, hash };
+            let history = History::resume(&folder.join("history.csv"), &columns, mark).unwrap();
             (loaded.step, loaded.store.take::<f64>("state", 1).unwrap(), history)
         }
         None => {
@@ -53,6 +55,7 @@ fn run(folder: &Path) {
                 time,
                 phase: "push".to_string(),
                 step,
+                origin: Origin::default(),
                 points,
                 grid: Part::default(),
                 elements: Part::default(),
@@ -60,11 +63,12 @@ fn run(folder: &Path) {
                 surface: Part::default(),
             };
             let results = folder.join("results");
-            background.submit(move || frame.write(&results, step as usize / 5 - 1)).unwrap();
+            background.submit(move || frame.write(&results, step as usize / 5 - 1).map(drop)).unwrap();
         }
         let mut store = Checkpoints::store();
         store.put("state", 1, state.clone());
-        store.put("rows", 1, vec![history.rows()]);
+        let Mark { lines, hash } = history.mark();
+        store.put("history", 2, vec![lines, hash]);
         let checkpoints = checkpoints.clone();
         background.submit(move || checkpoints.save(step, store)).unwrap();
     }

@@ -8,6 +8,7 @@ use std::process::{Command, Output};
 use mpm::io::export::export;
 use mpm::io::frame::{self, Column, Frame, Part};
 use mpm::io::history::History;
+use mpm::io::provenance::Origin;
 use mpm::io::vtu::Encoding;
 use mpm::mesh::Mesh;
 use mpm::mesh::shape::CellKind;
@@ -63,6 +64,7 @@ fn leaning_block(out: &Path, width: f64, height: f64) {
             time: k as f64 * 0.5,
             phase: "fall".to_string(),
             step: k,
+            origin: Origin::default(),
             points,
             grid: Part::default(),
             elements: Part::default(),

@@ -7,6 +7,8 @@ use std::process::Command;
 
 use mpm::io::container::Data;
 use mpm::io::frame::{self, Column, Frame, Part};
+use mpm::io::points_vtu::Source;
+use mpm::io::provenance::Origin;
 use mpm::io::vtu::{self, Array, Encoding, Grid, Topology};
 use mpm::io::{export, points_vtu};
 use mpm::mesh::Mesh;
@@ -138,6 +140,7 @@ fn sample_grid() -> Grid {
             array("cell [-]", 1, Data::U32((0..mesh.cells.len() as u32).map(|c| u32::MAX - c).collect())),
         ],
         time: Some(0.1 + 0.2),
+        note: "mpm -- of a test".to_string(),
     }
 }
 
@@ -153,6 +156,7 @@ fn many_points() -> Grid {
         point_data: vec![Array { name: "stress [kPa]".to_string(), components: 6, data: Data::F64(numbers(6 * n, 6)) }],
         cell_data: Vec::new(),
         time: Some(1.0e-7),
+        note: String::new(),
     }
 }
 
@@ -226,7 +230,7 @@ fn points_vtu_is_viewable_as_it_is() {
         model: Vec::new(),
         cell: (0..n as u32).collect(),
     };
-    points_vtu::write(&path, &points, &["clay".to_string(), "sand".to_string()]).unwrap();
+    points_vtu::write(&path, &points, &["clay".to_string(), "sand".to_string()], &Source::default()).unwrap();
 
     let mut expected = Expected::new(folder.path().join("expected"));
     let padded = |v: &[[f64; 2]]| Data::F64(v.iter().flat_map(|x| [x[0], x[1], 0.0]).collect());
@@ -291,6 +295,7 @@ fn a_series_has_its_frames_at_their_times() {
             time,
             phase: "fall".to_string(),
             step: k as u64,
+            origin: Origin::default(),
             points: Part { position: vec![[time, 1.0, 0.0]; 7], columns: vec![column(7)] },
             grid: Part { position: Vec::new(), columns: vec![column(mesh.nodes.len())] },
             elements: Part::default(),

@@ -1,12 +1,12 @@
-//! Meshes from Gmsh: what comes out of a `.geo`, what other programs read of it, and what bad input gets.
+//! Meshes from Gmsh: what comes out of a `.geo`, and what bad input gets.
 
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::process::Command;
 
 use mpm::error::{Kind, Result};
 use mpm::mesh::Mesh;
-use mpm::mesh::gmsh::{Options, generate, read};
+use mpm::mesh::gmsh::{Options, generate};
+use mpm::mesh::msh::read;
 use mpm::mesh::quality;
 use mpm::mesh::shape::{self, CellKind, MAX_NODES};
 
@@ -159,23 +159,6 @@ fn every_scene_of_the_project_meshes_in_both_orders() {
     }
 }
 
-#[test]
-fn meshio_reads_cells_and_names() {
-    let folder = tempfile::tempdir().unwrap();
-    let out = folder.path().join("mesh.msh");
-    generate(&project("geo/seabed_slope.geo"), &options(2, &[("h", 1.0)]), &out).unwrap();
-    let mesh = read(&out).unwrap();
-    let script = "import meshio, sys\n\
-                  m = meshio.read(sys.argv[1])\n\
-                  print(sum(len(c.data) for c in m.cells if c.type == 'triangle6'), sorted(m.field_data))";
-    let output = Command::new(project(".venv/bin/python")).args(["-c", script]).arg(&out).output().unwrap();
-    let said = String::from_utf8(output.stdout).unwrap();
-    let mut names: Vec<_> = mesh.regions.iter().chain(mesh.groups.iter().map(|g| &g.name)).cloned().collect();
-    names.sort();
-    let expected = format!("{} {:?}", mesh.cells.len(), names).replace('"', "'");
-    assert!(said.trim_end().ends_with(&expected), "{said}{}", String::from_utf8_lossy(&output.stderr));
-}
-
 /// The message of a failure that is the input's fault.
 fn refusal<T: std::fmt::Debug>(result: Result<T>) -> String {
     let error = result.unwrap_err();
@@ -220,33 +203,6 @@ fn a_parameter_the_geo_does_not_declare_is_refused() {
     let message = refusal(mesh_of(&disc(false), &options(2, &[("h", 0.5)])));
     assert!(message.contains("DefineConstant[ h ="), "{message}");
     assert!(refusal(mesh_of(BOX, &options(3, &[]))).contains("order 3"));
-}
-
-#[test]
-fn a_damaged_mesh_file_is_refused() {
-    let folder = tempfile::tempdir().unwrap();
-    let out = folder.path().join("mesh.msh");
-    let geo = folder.path().join("scene.geo");
-    fs::write(&geo, BOX).unwrap();
-    generate(&geo, &options(2, &[]), &out).unwrap();
-    let whole = fs::read_to_string(&out).unwrap();
-    for part in [0, 10, 200, whole.len() / 2, whole.len() * 9 / 10, whole.len() - 5] {
-        fs::write(&out, &whole[..part]).unwrap();
-        assert!(refusal(read(&out)).contains("mesh.msh"));
-    }
-    for (from, to) in [("$Nodes", "$Nods"), ("$Elements", "$Element"), ("\n2 0 0\n", "\n2 nan 0\n"), ("soil", "")] {
-        assert!(whole.contains(from), "{from}");
-        fs::write(&out, whole.replace(from, to)).unwrap();
-        match to {
-            // A region without a name is called by its number.
-            "" => assert_eq!(read(&out).unwrap().regions, ["1"]),
-            _ => assert!(read(&out).is_err(), "{to}"),
-        }
-    }
-    fs::write(&out, whole.replace("right", "bottom")).unwrap();
-    assert!(refusal(read(&out)).contains("bottom twice"));
-    assert!(refusal(read(&folder.path().join("none.msh"))).contains("none.msh"));
-    assert!(refusal(read(folder.path())).contains("folder"));
 }
 
 #[test]

@@ -4,6 +4,7 @@ mod history;
 
 use history::column;
 use mpm::io::frame::{self, Frame};
+use mpm::io::provenance::Origin;
 use std::fs;
 use std::path::Path;
 use std::process::Command;
@@ -183,11 +184,12 @@ fn a_phase_that_ends_changes_nothing() {
     }
 }
 
-/// What a run showed, but for the names of its phases.
+/// What a run showed, but for the names of its phases and its origin.
 fn frames(folder: &Path) -> Vec<Frame> {
     let results = folder.join("results");
     let count = fs::read_dir(&results).unwrap().count();
-    let read = |i| Frame { phase: String::new(), ..Frame::read(&frame::path(&results, i)).unwrap() };
+    let shown = |frame| Frame { phase: String::new(), origin: Origin::default(), ..frame };
+    let read = |i| shown(Frame::read(&frame::path(&results, i)).unwrap());
     (0..count).map(read).collect()
 }
 

@@ -77,7 +77,7 @@ impl Run {
     /// Σ V₀ √3 s_u ε_p (kJ): the work of plastic flow in plane strain, with ε_p = γ_p/√3 and s_u from the first
     /// height of the point, as the strength goes with the soil.
     fn plastic_work(&self) -> f64 {
-        let (seeds, _) = points_vtu::read::<2>(&self.folder.path().join("points.vtu")).unwrap();
+        let seeds = points_vtu::read::<2>(&self.folder.path().join("points.vtu")).unwrap().points;
         let last = self.frame(self.frames.len() - 1);
         let strain = &last.points.columns.iter().find(|c| c.name == "plastic_strain").unwrap().values;
         let work = |((m, x), e): ((&f64, &[f64; 2]), &f64)| m / DENSITY * 3f64.sqrt() * strength(x[1]) * e;

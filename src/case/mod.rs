@@ -21,6 +21,7 @@ pub mod raw;
 mod rigid;
 pub mod scene;
 mod search;
+pub mod seeded;
 pub mod seeding;
 pub mod source;
 mod staged;

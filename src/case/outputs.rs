@@ -4,17 +4,17 @@ use super::checked::{Case, Field, History, Quantity, Until};
 use super::scene::{carried, region_index};
 use super::{pores, rigid, water};
 use crate::error::Result;
-use crate::io::checkpoint::Fingerprint;
+use crate::io::provenance::Origin;
+use crate::io::run_folder::RunFolder;
 use crate::rigid::Body;
 use crate::run::{self, Outputs, Watch, WatchedOn};
 use crate::step::Scene;
-use std::path::Path;
 
 /// The outputs of a case.
 ///
 /// # Errors
 /// Input: a region that the mesh has not.
-pub fn outputs(case: &Case, scene: &Scene<2>, folder: &Path, fingerprint: Fingerprint) -> Result<Outputs> {
+pub fn outputs(case: &Case, scene: &Scene<2>, folder: &RunFolder, origin: Origin) -> Result<Outputs> {
     let mesh = &scene.mesh;
     let mut fields = Vec::new();
     for field in &case.output.fields {
@@ -58,7 +58,7 @@ pub fn outputs(case: &Case, scene: &Scene<2>, folder: &Path, fingerprint: Finger
     };
     let until = case.phases.iter().map(|phase| phase.until.iter().map(until).collect()).collect();
     let surface = if water::needs_surface(case) { Some(water::acting(case, mesh)?) } else { None };
-    Ok(Outputs { folder: folder.to_path_buf(), fields, watches, until, surface, fingerprint })
+    Ok(Outputs { folder: folder.clone(), fields, watches, until, surface, origin })
 }
 
 fn quantity(quantity: Quantity) -> run::Quantity {

@@ -3,9 +3,10 @@
 use super::checked::{Analysis, Case, Geometry, Material, Region, Restore};
 use super::outputs::outputs;
 use super::rigid::{self, Holds};
-use super::{changes, parts, pores, search, staged, touch, wall, water};
+use super::{changes, parts, pores, search, seeded, staged, touch, wall, water};
 use crate::error::{Error, Result};
-use crate::io::checkpoint::Fingerprint;
+use crate::io::provenance::Origin;
+use crate::io::run_folder::RunFolder;
 use crate::kinematics::{Axisymmetric, Kinematics, PlaneStrain};
 use crate::mesh::Mesh;
 use crate::mesh::faces::Faces;
@@ -20,7 +21,6 @@ use crate::term::{
     PressureField, SmoothPressure, Term, Traction, WaterBond,
 };
 use crate::time_value::TimeValue;
-use std::path::Path;
 use std::sync::atomic::AtomicBool;
 
 /// γ (-) of the ghost penalty: 1e-3 … 1 give the same results to the error of the grid.
@@ -35,36 +35,34 @@ pub fn solve(
     case: &Case,
     mesh: Mesh<2>,
     points: Points<2>,
-    folder: &Path,
-    fingerprint: Fingerprint,
+    folder: &RunFolder,
+    origin: Origin,
     resume: bool,
     stop: &AtomicBool,
     progress: &mut dyn FnMut(Progress),
 ) -> Result<Ended> {
-    if points.cell.iter().any(|&c| c as usize >= mesh.cells.len()) {
-        return Err(Error::input(
-            "points.vtu",
-            "its points lie in cells that the mesh has not",
-            "run `mpm seed` again",
-        ));
-    }
+    seeded::check(case, &mesh, &points)?;
     let parts = parts::points(case, &mesh, points);
     match case.geometry {
         Geometry::PlaneStrain => {
             let scene = scene::<PlaneStrain>(case, mesh)?;
-            let outputs = outputs(case, &scene, folder, fingerprint)?;
+            let outputs = outputs(case, &scene, folder, origin)?;
             run::run::<2, PlaneStrain>(&scene, first(case, &scene, parts)?, &outputs, resume, stop, progress)
         }
         Geometry::Axisymmetric => {
             let scene = scene::<Axisymmetric>(case, mesh)?;
-            let outputs = outputs(case, &scene, folder, fingerprint)?;
+            let outputs = outputs(case, &scene, folder, origin)?;
             run::run::<2, Axisymmetric>(&scene, first(case, &scene, parts)?, &outputs, resume, stop, progress)
         }
     }
 }
 
-/// The state before the first step, given the material points and those of the finite elements.
-fn first(case: &Case, scene: &Scene<2>, [mut points, mut fem]: [Points<2>; 2]) -> Result<State<2>> {
+/// The state before the first step, given the material points and those of the finite elements ([`parts::points`]).
+///
+/// # Errors
+/// `Input` when a point is not in its cell, or soil and a structure are in the same place.
+pub fn first(case: &Case, scene: &Scene<2>, [mut points, mut fem]: [Points<2>; 2]) -> Result<State<2>> {
+    seeded::check_places(&scene.mesh, &scene.locator, &points)?;
     overlap::at_first(scene, &points)?;
     if scene.has_pressure_field() {
         begin_pressure(case, &scene.mesh, &mut points)?;

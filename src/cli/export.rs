@@ -1,16 +1,29 @@
 //! `mpm export`: from `results/` to series of `.vtu` with their `.pvd`.
 
-use super::stage::{Stage, Stamp};
+use super::stage::{Inputs, Stage};
 use super::{Outcome, StageArgs, mesh, print};
 use crate::case::checked::Encoding;
 use crate::case::parts;
-use crate::error::Result;
-use crate::io::{export, frame, vtu};
+use crate::error::{Error, Result};
+use crate::io::run_folder::{RunFolder, Standing};
+use crate::io::{export, frame, hash, vtu};
 use std::fs;
 use std::path::PathBuf;
 
-pub fn run(args: &StageArgs) -> Outcome {
-    work(&Stage::open(args)?)
+#[derive(clap::Args, Clone)]
+pub struct Args {
+    #[command(flatten)]
+    pub stage: StageArgs,
+    /// Export the run that was not finished, where there are finished results too
+    #[arg(long)]
+    pub unfinished: bool,
+}
+
+pub fn run(args: &Args) -> Outcome {
+    let stage = Stage::open(&args.stage)?;
+    stage.lock()?;
+    let run = if args.unfinished { unfinished(&stage)? } else { shown(&stage)? };
+    work(&stage, &run)
 }
 
 /// Whether the series are there and would come out the same.
@@ -18,11 +31,16 @@ pub fn run(args: &StageArgs) -> Outcome {
 /// # Errors
 /// Results that cannot be read.
 pub fn is_current(stage: &Stage) -> Result<bool> {
-    Ok(stamp(stage)?.is_current(&series(stage)))
+    let run = shown(stage)?;
+    Ok(run.standing()? == Standing::Finished && inputs(stage, &run)?.are_current(stage.folder(), &series(stage)))
 }
 
-/// Exports, and prints a summary.
-pub fn work(stage: &Stage) -> Outcome {
+/// Exports the results, and prints a summary.
+pub fn results(stage: &Stage) -> Outcome {
+    work(stage, &shown(stage)?)
+}
+
+fn work(stage: &Stage, run: &RunFolder) -> Outcome {
     let mesh = mesh::read(stage)?;
     let case = &stage.loaded.case;
     let output = &case.output;
@@ -31,19 +49,79 @@ pub fn work(stage: &Stage) -> Outcome {
         Encoding::Compressed => vtu::Encoding::Lz4,
         Encoding::Plain => vtu::Encoding::Plain,
     };
-    let stamp = stamp(stage)?;
-    // The series change file by file: until all of them are there they are nobody's.
-    stamp.remove()?;
-    let summary =
-        export::export(&stage.results(), &mesh, &parts::of_elements(case, &mesh), stage.folder(), &fields, encoding)?;
-    stamp.write(&series(stage))?;
-    print(&format!("{}: {} frames\n", stage.folder().join("points.pvd").display(), summary.frames))
+    let mut record = inputs(stage, run)?.begin();
+    check_run(stage, run)?;
+    let of_elements = parts::of_elements(case, &mesh);
+    // The collections change file by file: until all of them are there they are nobody's.
+    record.write(stage.folder())?;
+    let frames = export::export(&run.results(), &mesh, &of_elements, stage.folder(), &fields, encoding)?;
+    record.finish(stage.folder(), &series(stage))?;
+    record.write(stage.folder())?;
+    let pvd = stage.folder().join("points.pvd");
+    let finished = run.standing()? == Standing::Finished;
+    let state = if finished { String::new() } else { unfinished_state(run)? };
+    print(&format!("{}: {frames} frames{state}\n", pvd.display()))?;
+    if finished && stage.runs().beside.has_frames() {
+        print(&format!(
+            "{}: a later run that was not finished is there too; `--unfinished` exports it\n",
+            stage.runs().beside.path().display()
+        ))?;
+    }
+    Ok(())
 }
 
-fn stamp(stage: &Stage) -> Result<Stamp> {
-    let mut files: Vec<PathBuf> = frame::list(&stage.results())?.into_iter().map(|frame| frame.path).collect();
+/// How far a run that is not finished has come, and why it ended.
+fn unfinished_state(run: &RunFolder) -> Result<String> {
+    let until = frame::list(&run.results())?.last().map_or(0.0, |frame| frame.time);
+    let reason = run.record().and_then(|record| record.sessions.last()?.reason.clone());
+    let reason = reason.unwrap_or_else(|| "it was killed".to_owned());
+    Ok(format!(" of a run that is not finished, up to t = {until} s: {reason}"))
+}
+
+/// The run whose results are shown: that in the output folder, or where there is none the one beside it.
+fn shown(stage: &Stage) -> Result<RunFolder> {
+    let runs = stage.runs();
+    Ok(if !runs.main.has_frames() && runs.beside.has_frames() { runs.beside } else { runs.main })
+}
+
+fn unfinished(stage: &Stage) -> Result<RunFolder> {
+    let runs = stage.runs();
+    let candidates = [runs.beside, runs.main].into_iter();
+    let mut unfinished = Vec::new();
+    for run in candidates.filter(RunFolder::has_frames) {
+        if run.standing()? != Standing::Finished {
+            unfinished.push(run);
+        }
+    }
+    unfinished.into_iter().next().ok_or_else(|| {
+        let place = stage.folder().display();
+        Error::input(place, "there is no run that was not finished", "take `--unfinished` out to export the results")
+    })
+}
+
+/// Refuses results that were changed since the run, or that are of another mesh.
+fn check_run(stage: &Stage, run: &RunFolder) -> Result<()> {
+    const AGAIN: &str = "run `mpm solve` again";
+    let frames = frame::list(&run.results())?;
+    let mesh = hash::file(&stage.mesh(), "run `mpm mesh` first")?;
+    if let Some(other) = frames.iter().find(|frame| frame.origin.mesh != mesh) {
+        let problem = "it was made with another mesh.msh";
+        return Err(Error::input(other.path.display(), problem, "run `mpm seed` and `mpm solve` again, or `mpm run`"));
+    }
+    let changed = run.record().map_or(Ok(None), |record| record.changed(run.path(), &run.outputs()?))?;
+    match changed {
+        Some(name) => {
+            let place = run.path().join(name);
+            Err(Error::input(place.display(), "it is not as the run left it: missing, added or changed", AGAIN))
+        }
+        None => Ok(()),
+    }
+}
+
+fn inputs(stage: &Stage, run: &RunFolder) -> Result<Inputs> {
+    let mut files = run.outputs()?;
     files.push(stage.mesh());
-    stage.stamp("export", &["output"], &files)
+    stage.inputs("export", &["output"], &files)
 }
 
 /// The files of the series that are there.

@@ -1,13 +1,13 @@
 //! `mpm mesh`: from the `.geo` to `mesh.msh`.
 
-use super::stage::{Stage, Stamp};
+use super::stage::{Inputs, Stage};
 use super::{Outcome, StageArgs, print};
 use crate::case::checked;
 use crate::case::names::Groups;
 use crate::error::{Error, Result};
 use crate::io::atomic;
 use crate::mesh::gmsh::{self, Options};
-use crate::mesh::{Mesh, quality};
+use crate::mesh::{Mesh, msh, quality};
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -21,7 +21,7 @@ pub fn run(args: &StageArgs) -> Outcome {
 /// # Errors
 /// Input: a `.geo`, or what it includes, that cannot be read.
 pub fn is_current(stage: &Stage) -> Result<bool> {
-    Ok(stamp(stage)?.is_current(&[stage.mesh()]))
+    Ok(inputs(stage)?.are_current(stage.folder(), &[stage.mesh()]))
 }
 
 /// Meshes, and prints a summary. An earlier mesh stays until the new one has passed every check.
@@ -31,11 +31,14 @@ pub fn is_current(stage: &Stage) -> Result<bool> {
 /// files cannot be written.
 pub fn work(stage: &Stage) -> Outcome {
     let case = &stage.loaded.case;
+    stage.lock()?;
+    let mut record = inputs(stage)?.begin();
     stage.loaded.check_names(&groups(&case.mesh)?)?;
     stage.prepare()?;
     let candidate = stage.folder().join(".candidate.msh");
     let summary = gmsh::generate(&case.mesh.geo, &options(&case.mesh), &candidate)
-        .and_then(|()| quality::check(&gmsh::read(&candidate)?, &case.mesh.geo))
+        .and_then(|()| msh::seal(&candidate).map_err(|e| atomic::unwritable(&candidate, &e)))
+        .and_then(|()| quality::check(&msh::read(&candidate)?, &case.mesh.geo))
         .and_then(|summary| {
             fs::rename(&candidate, stage.mesh()).map_err(|e| atomic::unwritable(&stage.mesh(), &e))?;
             Ok(summary)
@@ -45,20 +48,22 @@ pub fn work(stage: &Stage) -> Outcome {
         let _ = fs::remove_file(&candidate);
     }
     let summary = summary?;
-    stamp(stage)?.write(&[stage.mesh()])?;
+    record.finish(stage.folder(), &[stage.mesh()])?;
+    record.write(stage.folder())?;
     print(&format!("{}\n{summary}\n", stage.mesh().display()))
 }
 
-/// The mesh of an earlier `mpm mesh`, held against the names in the case.
+/// The mesh of an earlier `mpm mesh`, checked as when it was made, and held against the names in the case.
 ///
 /// # Errors
-/// Input: no mesh, one that cannot be read, and each name of the case that it does not have.
+/// Input: no mesh, one that cannot be read or has bad cells, and each name of the case that it does not have.
 pub fn read(stage: &Stage) -> std::result::Result<Mesh<2>, Vec<Error>> {
     if !stage.mesh().exists() {
         let place = stage.mesh().display().to_string();
         return Err(Error::input(place, "there is no mesh yet", "run `mpm mesh` first, or `mpm run` for all").into());
     }
-    let mesh = gmsh::read(&stage.mesh())?;
+    let mesh = msh::read(&stage.mesh())?;
+    quality::check(&mesh, &stage.mesh())?;
     let named = |dimension| mesh.groups.iter().filter(move |g| g.dimension == dimension).map(|g| g.name.clone());
     let (curves, points) = (named(1).collect(), named(0).collect());
     let groups = Groups { surfaces: mesh.regions.clone(), curves, points, meshed: true };
@@ -84,10 +89,10 @@ fn options(mesh: &checked::Mesh) -> Options {
     Options { order, incomplete, parameters: mesh.parameters.iter().map(|(name, &v)| (name.clone(), v)).collect() }
 }
 
-fn stamp(stage: &Stage) -> Result<Stamp> {
+fn inputs(stage: &Stage) -> Result<Inputs> {
     let mut files = BTreeSet::new();
     include(&stage.loaded.case.mesh.geo, &mut files);
-    stage.stamp("mesh", &["mesh"], &files.into_iter().collect::<Vec<_>>())
+    stage.inputs("mesh", &["mesh"], &files.into_iter().collect::<Vec<_>>())
 }
 
 /// A `.geo` and what it includes or merges.

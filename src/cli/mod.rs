@@ -2,6 +2,7 @@
 
 mod check;
 mod export;
+mod info;
 mod mesh;
 mod run;
 mod schema;
@@ -10,6 +11,7 @@ mod solve;
 mod stage;
 
 use crate::error::Error;
+use crate::program;
 use clap::{Args, Parser, Subcommand};
 use std::io::{self, Write};
 use std::path::PathBuf;
@@ -20,7 +22,7 @@ use std::process::ExitCode;
 /// Exit status: 0 done, 1 the analysis could not go on (everything until then is kept), 2 the input is
 /// wrong, 3 something on the machine is missing, 130 stopped by Ctrl-C.
 #[derive(Parser)]
-#[command(name = "mpm", version, max_term_width = 100)]
+#[command(name = "mpm", version = program::IDENTITY, max_term_width = 100)]
 struct Cli {
     #[command(subcommand)]
     command: Command,
@@ -35,11 +37,13 @@ enum Command {
     /// Solve the equations of motion: writes results/, history.csv, solve.log and checkpoints/
     Solve(solve::Args),
     /// Turn results/ into series for ParaView: writes vtu/ and .pvd
-    Export(StageArgs),
+    Export(export::Args),
     /// All stages in turn, but those whose inputs have not changed
     Run(solve::Args),
     /// Print every mistake of a case that shows without its mesh, with file, line and remedy; writes nothing
     Check(CaseArgs),
+    /// Print what a file of mpm was made from, or those of an output folder: program, inputs, command, time
+    Info(info::Args),
     /// Print the JSON schema of case.yaml, for editors
     Schema,
 }
@@ -79,6 +83,7 @@ pub fn main() -> ExitCode {
         Command::Export(args) => export::run(&args),
         Command::Run(args) => run::run(&args),
         Command::Check(args) => check::run(&args),
+        Command::Info(args) => info::run(&args),
         Command::Schema => schema::run(),
     };
     match outcome {

@@ -9,11 +9,12 @@ type Entry<'a> = (&'static str, fn(&Stage) -> Result<bool>, &'a dyn Fn(&Stage) -
 
 pub fn run(args: &solve::Args) -> Outcome {
     let stage = Stage::open(&args.stage)?;
+    stage.lock()?;
     let stages: [Entry; 4] = [
         ("mesh", mesh::is_current, &mesh::work),
         ("seed", seed::is_current, &seed::work),
-        ("solve", solve::is_current, &|stage| solve::work(stage, args.resume)),
-        ("export", export::is_current, &export::work),
+        ("solve", solve::is_current, &|stage| solve::work(stage, args.start)),
+        ("export", export::is_current, &export::results),
     ];
     for (name, is_current, work) in stages {
         if is_current(&stage)? {

@@ -1,10 +1,11 @@
 //! `mpm seed`: from `mesh.msh` to `points.vtu`.
 
-use super::stage::{Stage, Stamp};
+use super::stage::{Inputs, Stage};
 use super::{Outcome, StageArgs, mesh, print};
 use crate::case::seeding;
 use crate::error::Result;
-use crate::io::points_vtu;
+use crate::io::hash;
+use crate::io::points_vtu::{self, Source};
 
 pub fn run(args: &StageArgs) -> Outcome {
     work(&Stage::open(args)?)
@@ -15,16 +16,19 @@ pub fn run(args: &StageArgs) -> Outcome {
 /// # Errors
 /// A `mesh.msh` that cannot be read.
 pub fn is_current(stage: &Stage) -> Result<bool> {
-    Ok(stamp(stage)?.is_current(&[stage.points()]))
+    Ok(inputs(stage)?.are_current(stage.folder(), &[stage.points()]))
 }
 
 /// Seeds, and prints a summary, with what does not bear its initial stress. Earlier points stay until the new ones are written.
 pub fn work(stage: &Stage) -> Outcome {
+    stage.lock()?;
     let mesh = mesh::read(stage)?;
+    let mut record = inputs(stage)?.begin();
     let points = seeding::points(&stage.loaded.case, &mesh)?;
     stage.prepare()?;
-    points_vtu::write(&stage.points(), &points, &mesh.regions)?;
-    stamp(stage)?.write(&[stage.points()])?;
+    points_vtu::write(&stage.points(), &points, &mesh.regions, &source(stage)?)?;
+    record.finish(stage.folder(), &[stage.points()])?;
+    record.write(stage.folder())?;
     for note in seeding::notes(&stage.loaded.case, &mesh, &points)? {
         print(&format!("{note}\n"))?;
     }
@@ -32,12 +36,26 @@ pub fn work(stage: &Stage) -> Outcome {
     print(&format!("{}: {} points, {mass} t\n", stage.points().display(), points.len()))
 }
 
-fn stamp(stage: &Stage) -> Result<Stamp> {
+/// What the points of this case are seeded from.
+///
+/// # Errors
+/// A `mesh.msh` that cannot be read.
+pub fn source(stage: &Stage) -> Result<Source> {
+    let mesh = hash::file(&stage.mesh(), "run `mpm mesh` first")?;
+    Ok(Source { mesh: hash::text(mesh), case: hash::text(stage.hash_of(&keys(stage))) })
+}
+
+fn inputs(stage: &Stage) -> Result<Inputs> {
+    stage.inputs("seed", &keys(stage), &[stage.mesh()])
+}
+
+/// The entries of the case that the points depend on.
+fn keys(stage: &Stage) -> Vec<&'static str> {
     let mut keys = vec!["geometry", "regions", "materials", "gravity", "water"];
     keys.extend(["initial_stress", "initial_pore_pressure", "initial_velocity"]);
     if stage.loaded.case.water.is_some() {
         // The soil begins under the water of the first phase.
         keys.push("phases");
     }
-    stage.stamp("seed", &keys, &[stage.mesh()])
+    keys
 }

@@ -1,10 +1,14 @@
 //! `mpm solve`: from `mesh.msh` and `points.vtu` to results, history, log and checkpoints.
 
-use super::stage::{Stage, Stamp};
-use super::{Outcome, StageArgs, mesh, print};
+use super::stage::{Inputs, Stage};
+use super::{Outcome, StageArgs, mesh, note, print, seed};
 use crate::case::scene;
 use crate::error::{Error, Kind, Result};
-use crate::io::points_vtu;
+use crate::io::checkpoint::Checkpoints;
+use crate::io::hash;
+use crate::io::points_vtu::{self, Seeded};
+use crate::io::provenance::{Origin, Record};
+use crate::io::run_folder::{RunFolder, STAGE, Standing};
 use crate::profile::{self, Activity};
 use crate::run::{Ended, Progress};
 use indicatif::{ProgressBar, ProgressStyle};
@@ -34,13 +38,23 @@ static STOP: AtomicBool = AtomicBool::new(false);
 pub struct Args {
     #[command(flatten)]
     pub stage: StageArgs,
+    #[command(flatten)]
+    pub start: Start,
+}
+
+/// What becomes of a run that was not finished.
+#[derive(clap::Args, Clone, Copy)]
+pub struct Start {
     /// Continue from the newest checkpoint, if there is one
     #[arg(long)]
     pub resume: bool,
+    /// Begin anew, and give up a run that could be continued
+    #[arg(long, conflicts_with = "resume")]
+    pub fresh: bool,
 }
 
 pub fn run(args: &Args) -> Outcome {
-    work(&Stage::open(&args.stage)?, args.resume)
+    work(&Stage::open(&args.stage)?, args.start)
 }
 
 /// Whether the results are there and would come out the same.
@@ -48,47 +62,107 @@ pub fn run(args: &Args) -> Outcome {
 /// # Errors
 /// A `mesh.msh` or `points.vtu` that cannot be read.
 pub fn is_current(stage: &Stage) -> Result<bool> {
-    Ok(stamp(stage)?.is_current(&[stage.history()]))
+    Ok(inputs(stage)?.are_current(stage.folder(), &stage.runs().main.outputs()?))
 }
 
 /// Solves, with progress on a terminal and plain lines elsewhere.
-pub fn work(stage: &Stage, resume: bool) -> Outcome {
-    let case = &stage.loaded.case;
+///
+/// Results that are there stay until the run is finished; one that could be continued is given up only by request.
+pub fn work(stage: &Stage, start: Start) -> Outcome {
+    stage.lock()?;
     let mesh = mesh::read(stage)?;
-    let (points, regions) = points_vtu::read::<2>(&stage.points())?;
-    if regions != mesh.regions {
-        let remedy = "run `mpm seed` again";
-        return Err(vec![Error::input(stage.points().display(), "its regions are not those of mesh.msh", remedy)]);
+    let Seeded { points, regions, source } = points_vtu::read::<2>(&stage.points())?;
+    let run = stage.fingerprint(&KEYS, &[stage.mesh(), stage.points()])?;
+    let origin = Origin { run, mesh: hash::file(&stage.mesh(), "run `mpm mesh` first")? };
+    if start.resume {
+        check_checkpoints(stage, origin)?;
     }
-    let stamp = stamp(stage)?;
-    let fingerprint = stage.fingerprint(&KEYS, &[stage.mesh(), stage.points()])?;
+    let foreign = |problem| Err(vec![Error::input(stage.points().display(), problem, "run `mpm seed` again")]);
+    let expected = seed::source(stage)?;
+    if regions != mesh.regions || source.mesh != expected.mesh {
+        return foreign("its points were seeded in another mesh.msh");
+    }
+    if source.case != expected.case {
+        return foreign("its points were seeded for other entries of the case (regions, materials, initial state)");
+    }
+    let inputs = inputs(stage)?;
     stage.prepare()?;
+    let Some((folder, mut record)) = choose(stage, start, origin, &inputs)? else {
+        return print("solve: the run is finished, there is nothing to continue\n");
+    };
+    record.write(folder.path())?;
     catch_signals()?;
-    let start = Instant::now();
+    let begin = Instant::now();
     let mut meter = Meter::new();
-    let folder = stage.folder();
-    let ended = scene::solve(case, mesh, points, folder, fingerprint, resume, &STOP, &mut |p| meter.show(&p));
+    let case = &stage.loaded.case;
+    let ended = scene::solve(case, mesh, points, &folder, origin, start.resume, &STOP, &mut |p| meter.show(&p));
     meter.finish();
     // What an analysis that could not go on took is told, too; one that never began took nothing.
     let told = match &ended {
         Err(e) if e.kind != Kind::Analysis => Ok(()),
-        ended => print(&summary(start.elapsed(), matches!(ended, Ok(Ended::Done)))),
+        ended => print(&summary(begin.elapsed(), matches!(ended, Ok(Ended::Done)))),
     };
-    let ended = ended?;
-    told?;
-    match ended {
+    match &ended {
+        Ok(Ended::Done) => record.finish(folder.path(), &folder.outputs()?)?,
+        Ok(Ended::Stopped) => record.interrupt("stopped by the user"),
+        Err(e) => record.interrupt(&e.to_string()),
+    }
+    record.write(folder.path())?;
+    if !stage.runs().settle(&folder)? {
+        let (results, beside) = (stage.folder().display(), folder.path().display());
+        note(&format!("{results}: the earlier results are as they were; what this run has is in {beside}"));
+    }
+    match ended? {
         Ended::Stopped => {
-            Err(vec![Error::interrupted("the run was stopped after the step in hand", "continue it with `--resume`")])
+            let remedy = "continue it with `--resume`";
+            Err(vec![Error::interrupted("the run was stopped after the step in hand", remedy)])
         }
-        Ended::Done => {
-            stamp.write(&[stage.history()])?;
-            Ok(())
-        }
+        Ended::Done => told,
     }
 }
 
-fn stamp(stage: &Stage) -> Result<Stamp> {
-    stage.stamp("solve", &KEYS, &[stage.mesh(), stage.points()])
+/// Refuses to continue a run of another case, before anything is written.
+fn check_checkpoints(stage: &Stage, origin: Origin) -> Result<()> {
+    let runs = stage.runs();
+    let run = runs.unfinished()?.unwrap_or(&runs.main);
+    Checkpoints::new(run.checkpoints(), origin.run).latest().map(drop)
+}
+
+/// The folder of the run and its record; none where the run that was to be continued is finished.
+fn choose(stage: &Stage, start: Start, origin: Origin, inputs: &Inputs) -> Result<Option<(RunFolder, Record)>> {
+    let runs = stage.runs();
+    let unfinished = runs.unfinished()?;
+    match unfinished {
+        Some(run) if start.resume => {
+            let mut record = run.record().unwrap_or_else(|| inputs.begin());
+            record.go_on();
+            return Ok(Some((run.clone(), record)));
+        }
+        Some(run) if !start.fresh && Checkpoints::new(run.checkpoints(), origin.run).can_resume() => {
+            return Err(Error::input(
+                run.path().display(),
+                "a run of this case was not finished, and can be continued",
+                "continue it with `--resume`, or begin anew with `--fresh`",
+            ));
+        }
+        None if start.resume && runs.main.standing()? == Standing::Finished => {
+            let changed =
+                runs.main.record().map_or(Ok(None), |r| r.changed(runs.main.path(), &runs.main.outputs()?))?;
+            return match changed {
+                Some(name) => {
+                    let place = runs.main.path().join(name);
+                    Err(Error::input(place.display(), "it is not as the run left it", "begin anew with `--fresh`"))
+                }
+                None => Ok(None),
+            };
+        }
+        _ => {}
+    }
+    Ok(Some((runs.start()?.clone(), inputs.begin())))
+}
+
+fn inputs(stage: &Stage) -> Result<Inputs> {
+    stage.inputs(STAGE, &KEYS, &[stage.mesh(), stage.points()])
 }
 
 /// The wall time and where it went, whether the run is `done` or came to an end before.

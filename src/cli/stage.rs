@@ -1,25 +1,27 @@
-//! What the stages share: the output folder, the names of its files, and the stamps by which `mpm run` knows
-//! that a stage need not run again.
+//! What the stages share: the output folder with its lock, the names of its files, and what a result depends on.
 //!
-//! A stamp is a hash (XXH64) of everything that the result of a stage depends on: the program's version, the
-//! entries of the case it reads and its input files. It is written when the stage has ended well.
+//! A stage is current when its record (`io::provenance`) was made from the same inputs, by the same program, and its outputs
+//! are as it left them: `mpm run` skips it then.
 
 use super::{CaseArgs, StageArgs};
 use crate::case::{self, Loaded};
 use crate::error::{Error, Result};
-use crate::io::atomic;
 use crate::io::checkpoint::Fingerprint;
+use crate::io::lock::Lock;
+use crate::io::provenance::Record;
+use crate::io::run_folder::Runs;
+use crate::io::{atomic, hash};
+use crate::program;
 use serde_json::{Map, Value};
-use std::fs::{self, File};
-use std::hash::Hasher;
-use std::io::{self, Read};
+use std::cell::OnceCell;
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
-use twox_hash::XxHash64;
 
 /// A loaded case and its output folder.
 pub struct Stage {
     pub loaded: Loaded,
     folder: PathBuf,
+    lock: OnceCell<Lock>,
 }
 
 impl Stage {
@@ -32,15 +34,35 @@ impl Stage {
         use_threads(args.threads)?;
         let loaded = case::load(case, overrides)?;
         let folder = args.output.clone().unwrap_or_else(|| loaded.source.folder().join("out"));
-        Ok(Self { loaded, folder })
+        Ok(Self { loaded, folder, lock: OnceCell::new() })
     }
 
-    /// Makes the output folder, and clears it of what killed processes left half-written.
+    /// Takes the lock of the output folder if there is one, and puts it in order; once it is there, before anything in it is
+    /// read.
     ///
     /// # Errors
-    /// `Machine` when it cannot be made.
+    /// `Machine` naming the process that works there; `Input` for links in it; what [`Runs::prepare`] gives.
+    pub fn lock(&self) -> Result<()> {
+        if self.lock.get().is_some() || !self.folder.is_dir() {
+            return Ok(());
+        }
+        // Nobody else can have set it: it is not shared between threads.
+        let _ = self.lock.set(Lock::take(&self.folder)?);
+        self.runs().prepare()
+    }
+
+    /// Makes the output folder, locks it, and clears it of what killed processes left half-written.
+    ///
+    /// # Errors
+    /// `Machine` when it cannot be made, and as [`Stage::lock`].
     pub fn prepare(&self) -> Result<()> {
-        atomic::prepare_folder(&self.folder)
+        atomic::prepare_folder(&self.folder)?;
+        self.lock()
+    }
+
+    /// The runs in the output folder.
+    pub fn runs(&self) -> Runs {
+        Runs::of(&self.folder)
     }
 
     pub fn mesh(&self) -> PathBuf {
@@ -49,14 +71,6 @@ impl Stage {
 
     pub fn points(&self) -> PathBuf {
         self.folder.join("points.vtu")
-    }
-
-    pub fn history(&self) -> PathBuf {
-        self.folder.join("history.csv")
-    }
-
-    pub fn results(&self) -> PathBuf {
-        self.folder.join("results")
     }
 
     /// The output folder.
@@ -70,7 +84,12 @@ impl Stage {
         keys.iter().filter_map(|&key| tree.get(key).map(|value| (key.to_owned(), value.clone()))).collect()
     }
 
-    /// A hash of the entries `keys` of the case without the step control of the phases and of Newton's method,
+    /// The hash of the entries `keys` of the case, as far as it has them.
+    pub fn hash_of(&self, keys: &[&str]) -> u64 {
+        hash::bytes(Value::Object(self.entries(keys)).to_string().as_bytes())
+    }
+
+    /// A hash of the program, of the entries `keys` of the case without the step control of the phases and of Newton's method,
     /// and of `files`: what must be the same for a run to continue.
     ///
     /// # Errors
@@ -81,22 +100,43 @@ impl Stage {
             phase.as_object_mut().map(|phase| phase.remove("step"));
         }
         read.get_mut("numerics").and_then(Value::as_object_mut).map(|numerics| numerics.remove("max_iterations"));
-        let files = hash_files(files, XxHash64::with_seed(0))?;
-        let version = env!("CARGO_PKG_VERSION").as_bytes();
-        Ok(Fingerprint::of(&[version, Value::Object(read).to_string().as_bytes(), &files.to_le_bytes()]))
+        let files: Vec<u8> = hash::files(files, MISSING)?.into_iter().flat_map(u64::to_le_bytes).collect();
+        Ok(Fingerprint::of(&[program::SOURCE.as_bytes(), Value::Object(read).to_string().as_bytes(), &files]))
     }
 
-    /// The stamp of the stage `name`, which reads the entries `keys` of the case and `files`.
+    /// What the stage `name` depends on, which reads the entries `keys` of the case and `files`.
     ///
     /// # Errors
     /// `Input` when a file is missing, `Machine` when it cannot be read.
-    pub fn stamp(&self, name: &str, keys: &[&str], files: &[PathBuf]) -> Result<Stamp> {
-        let read = self.entries(keys);
-        let mut hasher = XxHash64::with_seed(0);
-        hasher.write(env!("CARGO_PKG_VERSION").as_bytes());
-        hasher.write(Value::Object(read).to_string().as_bytes());
-        let hash = format!("{:016x}", hash_files(files, hasher)?);
-        Ok(Stamp { file: self.folder.join(format!(".stamp-{name}")), hash })
+    pub fn inputs(&self, name: &'static str, keys: &[&str], files: &[PathBuf]) -> Result<Inputs> {
+        let hashes = hash::files(files, MISSING)?;
+        let files: BTreeMap<_, _> =
+            files.iter().zip(hashes).map(|(path, hash)| (path.display().to_string(), hash::text(hash))).collect();
+        let case = Value::Object(self.entries(keys)).to_string();
+        let contents: Vec<&str> = files.values().map(String::as_str).collect();
+        let all = [program::SOURCE, program::GMSH, &case, &contents.join(" ")].join("\n");
+        Ok(Inputs { stage: name, hash: hash::bytes(all.as_bytes()), files })
+    }
+}
+
+const MISSING: &str = "run the stage that writes it, or `mpm run` for all";
+
+/// What the result of a stage depends on.
+pub struct Inputs {
+    stage: &'static str,
+    hash: u64,
+    files: BTreeMap<String, String>,
+}
+
+impl Inputs {
+    /// Whether the stage was finished with these inputs in `folder`, and its `outputs` are as it left them.
+    pub fn are_current(&self, folder: &Path, outputs: &[PathBuf]) -> bool {
+        Record::read(folder, self.stage).is_some_and(|record| record.is_current(self.hash, folder, outputs))
+    }
+
+    /// The record of the stage, which begins now.
+    pub fn begin(&self) -> Record {
+        Record::begin(self.stage, self.hash, self.files.clone())
     }
 }
 
@@ -112,64 +152,4 @@ fn use_threads(threads: Option<u16>) -> Result<()> {
         // Where nothing was asked for, the threads that are there already will do.
         _ => Ok(()),
     }
-}
-
-/// What a stage's result depends on, as a hash.
-pub struct Stamp {
-    file: PathBuf,
-    hash: String,
-}
-
-impl Stamp {
-    /// Whether the stage ended well with the same inputs and its `results` are as it left them.
-    pub fn is_current(&self, results: &[PathBuf]) -> bool {
-        let left = fs::read_to_string(&self.file);
-        left.is_ok_and(|left| self.text(results).is_ok_and(|now| now == left))
-    }
-
-    /// Takes the stamp away, before a stage that changes its results bit by bit.
-    ///
-    /// # Errors
-    /// `Machine` when it cannot be removed.
-    pub fn remove(&self) -> Result<()> {
-        atomic::remove(&self.file)
-    }
-
-    /// Writes the stamp, when the stage has ended well.
-    ///
-    /// # Errors
-    /// `Machine` when it cannot be written.
-    pub fn write(&self, results: &[PathBuf]) -> Result<()> {
-        let text = self.text(results)?;
-        atomic::write(&self.file, |out| out.write_all(text.as_bytes()))
-    }
-
-    fn text(&self, results: &[PathBuf]) -> Result<String> {
-        Ok(format!("inputs {}\nresults {:016x}\n", self.hash, hash_files(results, XxHash64::with_seed(0))?))
-    }
-}
-
-fn hash_files(files: &[PathBuf], mut hasher: XxHash64) -> Result<u64> {
-    for file in files {
-        hash_file(file, &mut hasher).map_err(|e| atomic::unreadable(file, &e, "run the stage that writes it"))?;
-    }
-    Ok(hasher.finish())
-}
-
-fn hash_file(path: &Path, hasher: &mut XxHash64) -> io::Result<()> {
-    let mut file = File::open(path)?;
-    let mut block = vec![0; 1 << 16];
-    let mut length = 0;
-    loop {
-        match file.read(&mut block)? {
-            0 => break,
-            n => {
-                hasher.write(&block[..n]);
-                length += n as u64;
-            }
-        }
-    }
-    // So that the end of one file and the beginning of the next are told apart.
-    hasher.write(&length.to_le_bytes());
-    Ok(())
 }

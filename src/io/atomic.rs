@@ -32,7 +32,12 @@ pub fn write_durable(path: &Path, fill: impl FnOnce(&mut dyn Write) -> io::Resul
 fn replace(path: &Path, durable: bool, fill: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<()> {
     let beside = beside(path);
     let written = (|| {
-        let mut out = BufWriter::with_capacity(1 << 18, File::create(&beside)?);
+        // What is left of an earlier process of this number, or a link that someone has laid there.
+        match fs::remove_file(&beside) {
+            Err(e) if e.kind() != io::ErrorKind::NotFound => return Err(e),
+            _ => {}
+        }
+        let mut out = BufWriter::with_capacity(1 << 18, File::create_new(&beside)?);
         fill(&mut out)?;
         let file = out.into_inner().map_err(io::IntoInnerError::into_error)?;
         if durable {
@@ -86,6 +91,41 @@ fn unfinished(path: &Path) -> Option<u32> {
     let name = path.file_name()?.to_str()?;
     let (start, process) = name.rsplit_once(MARK)?;
     start.starts_with('.').then(|| process.parse().ok())?
+}
+
+/// Refuses a symbolic link where the program writes in place or empties a folder: its target may be anywhere.
+///
+/// # Errors
+/// `Input` for a link.
+pub fn refuse_link(path: &Path) -> Result<()> {
+    match fs::symlink_metadata(path) {
+        Ok(metadata) if metadata.is_symlink() => Err(Error::input(
+            path.display(),
+            "is a symbolic link, and nothing is written outside the output folder",
+            "remove the link, or choose another folder with -o",
+        )),
+        _ => Ok(()),
+    }
+}
+
+/// Removes a folder with all that is in it, following no links; one that is not there is as good.
+///
+/// # Errors
+/// `Machine` when something in it stays.
+pub fn remove_folder(path: &Path) -> Result<()> {
+    match fs::remove_dir_all(path) {
+        Err(e) if e.kind() == io::ErrorKind::NotFound => Ok(()),
+        Err(e) if e.kind() == io::ErrorKind::NotADirectory => remove(path),
+        removed => removed.map_err(|e| unwritable(path, &e)),
+    }
+}
+
+/// Renames a file or folder.
+///
+/// # Errors
+/// `Machine` when it cannot be renamed.
+pub fn rename(from: &Path, to: &Path) -> Result<()> {
+    fs::rename(from, to).map_err(|e| unwritable(to, &e))
 }
 
 /// Removes a file; one that is not there is as good.

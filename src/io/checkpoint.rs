@@ -3,14 +3,16 @@
 //! The last two are kept, `step-000000456.mpmc`; the newest that is whole is taken. What a checkpoint holds is
 //! the caller's business ([`Store`]); that it belongs to the same case, mesh and points is checked here.
 
+use std::fmt;
 use std::fs;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use twox_hash::XxHash64;
 
-use super::atomic;
 use super::container::Store;
+use super::{atomic, hash};
 use crate::error::{Error, Result};
+use crate::program;
 
 const KIND: &str = "checkpoint";
 const KEPT: usize = 2;
@@ -18,8 +20,20 @@ const AGAIN: &str = "start the analysis afresh, without --resume";
 
 /// A number that tells whether a checkpoint belongs to a case: a hash (XXH64) of everything that the result
 /// depends on.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Fingerprint(u64);
+
+impl From<u64> for Fingerprint {
+    fn from(hash: u64) -> Self {
+        Self(hash)
+    }
+}
+
+impl fmt::Display for Fingerprint {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&hash::text(self.0))
+    }
+}
 
 impl Fingerprint {
     /// The fingerprint of several parts (the resolved case, the mesh, the points) in this order.
@@ -63,6 +77,7 @@ impl Checkpoints {
         atomic::prepare_folder(&self.folder)?;
         store.put("checkpoint.fingerprint", 1, vec![self.fingerprint.0]);
         // Renamed, not waited for: a kill loses nothing, and a step of milliseconds must not wait for the disk.
+        store.put_text("program", program::IDENTITY);
         store.write(&self.path(step), false)?;
         // Newer ones are of a run whose later part is being done again.
         let mut steps = self.steps()?;
@@ -88,8 +103,8 @@ impl Checkpoints {
                 Ok((_, fingerprint)) if fingerprint != [self.fingerprint.0] => {
                     return Err(Error::input(
                         path.display(),
-                        "this checkpoint belongs to another case, mesh or set of points",
-                        "undo the change of the case, or start the analysis afresh, without --resume",
+                        "this checkpoint belongs to another case, mesh or set of points, or was made by another build of mpm",
+                        "undo the change, or start the analysis afresh, without --resume",
                     ));
                 }
                 Ok((store, _)) => return Ok(Some(Loaded { step, store, warnings })),
@@ -100,6 +115,19 @@ impl Checkpoints {
             return Ok(None);
         }
         Err(Error::input(self.folder.display(), format!("no checkpoint can be read: {}", warnings.join("; ")), AGAIN))
+    }
+
+    /// Whether the run can be continued: its newest whole checkpoint belongs to this case.
+    pub fn can_resume(&self) -> bool {
+        matches!(self.latest(), Ok(Some(_)))
+    }
+
+    /// Whether there is any checkpoint in a folder.
+    ///
+    /// # Errors
+    /// `Machine` when it cannot be read.
+    pub fn exist(folder: &Path) -> Result<bool> {
+        Ok(!Self::new(folder, Fingerprint::default()).steps()?.is_empty())
     }
 
     /// Removes every checkpoint, at the start of a fresh run.

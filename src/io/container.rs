@@ -22,6 +22,7 @@ mod data;
 
 use std::collections::BTreeMap;
 use std::fs;
+use std::hash::Hasher;
 use std::io::Write;
 use std::path::Path;
 
@@ -133,7 +134,7 @@ impl Store {
     /// Takes the numbers of an array out of the store.
     ///
     /// # Errors
-    /// `Input` when there is no such array, or it has another type or number of components.
+    /// `Input` when there is no such array, it has another type or number of components, or a number is not finite.
     pub fn take<T: Scalar>(&mut self, name: &str, components: usize) -> Result<Vec<T>> {
         self.take_if_present(name, components)?.ok_or_else(|| self.missing("array", name))
     }
@@ -141,10 +142,13 @@ impl Store {
     /// Like [`Store::take`] for an array that may be absent.
     ///
     /// # Errors
-    /// `Input` when it has another type or number of components.
+    /// `Input` when it has another type or number of components, or a number is not finite.
     pub fn take_if_present<T: Scalar>(&mut self, name: &str, components: usize) -> Result<Option<Vec<T>>> {
         let Some(i) = self.arrays.iter().position(|a| a.name == name) else { return Ok(None) };
         let array = self.arrays.swap_remove(i);
+        if let Some((tuple, value)) = not_finite(&array) {
+            return Err(self.wrong(format!("entry {tuple} of array `{name}` is {value}")));
+        }
         let found = format!("{} × {}", array.components, array.data.type_name());
         match T::from_data(array.data) {
             Some(values) if array.components == components => Ok(Some(values)),
@@ -165,12 +169,12 @@ impl Store {
         self.wrong(format!("{what} `{name}` is missing"))
     }
 
-    /// Writes the file, atomically; `durable` waits for the disk.
+    /// Writes the file, atomically, and returns its hash; `durable` waits for the disk.
     ///
     /// # Errors
     /// `Analysis` when a number is not finite (then nothing is written), `Machine` when the file cannot be
     /// written.
-    pub fn write(&self, path: &Path, durable: bool) -> Result<()> {
+    pub fn write(&self, path: &Path, durable: bool) -> Result<u64> {
         let mut entries = Vec::with_capacity(self.arrays.len());
         let mut blocks = Vec::new();
         for array in &self.arrays {
@@ -190,15 +194,14 @@ impl Store {
         let header = Header { kind: self.kind.clone(), texts: self.texts.clone(), arrays: entries };
         let header = serde_json::to_vec(&header)
             .map_err(|e| Error::analysis(path.display(), format!("header: {e}"), "report this as a mistake of mpm"))?;
-        let fill = |out: &mut dyn Write| {
-            out.write_all(&MAGIC)?;
-            out.write_all(&VERSION.to_le_bytes())?;
-            out.write_all(&(header.len() as u32).to_le_bytes())?;
-            out.write_all(&XxHash64::oneshot(0, &header).to_le_bytes())?;
-            out.write_all(&header)?;
-            out.write_all(&blocks)
-        };
-        if durable { atomic::write_durable(path, fill) } else { atomic::write(path, fill) }
+        let length = (header.len() as u32).to_le_bytes();
+        let checksum = XxHash64::oneshot(0, &header).to_le_bytes();
+        let parts: [&[u8]; 6] = [&MAGIC, &VERSION.to_le_bytes(), &length, &checksum, &header, &blocks];
+        let fill = |out: &mut dyn Write| parts.iter().try_for_each(|part| out.write_all(part));
+        if durable { atomic::write_durable(path, fill) } else { atomic::write(path, fill) }?;
+        let mut hasher = XxHash64::with_seed(0);
+        parts.iter().for_each(|part| hasher.write(part));
+        Ok(hasher.finish())
     }
 
     /// Reads a file of the given kind; `remedy` says how the user makes it again.
@@ -245,6 +248,18 @@ impl Store {
     }
 }
 
+/// The kind and the texts of a file, if it is a container: for `mpm info`.
+pub fn inspect(path: &Path) -> Option<(String, BTreeMap<String, String>)> {
+    use std::io::Read;
+    let file = fs::File::open(path).ok()?;
+    let mut bytes = Vec::new();
+    (&file).take(START as u64).read_to_end(&mut bytes).ok()?;
+    let length = header_length(&bytes).ok()?;
+    file.take(length as u64).read_to_end(&mut bytes).ok()?;
+    let header: Header = serde_json::from_slice(bytes.get(START..START + length)?).ok()?;
+    Some((header.kind, header.texts))
+}
+
 /// The header of a file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Contents {
@@ -259,15 +274,21 @@ pub struct Contents {
 /// # Errors
 /// `Analysis` naming the item and the array.
 pub fn check_finite(array: &Array, item: &str) -> Result<()> {
-    let Data::F64(values) = &array.data else { return Ok(()) };
-    match values.iter().position(|v| !v.is_finite()) {
+    match not_finite(array) {
         None => Ok(()),
-        Some(i) => Err(Error::analysis(
-            format!("{item} {}", i / array.components),
-            format!("`{}` is {}: it was not written", array.name, values[i]),
+        Some((tuple, value)) => Err(Error::analysis(
+            format!("{item} {tuple}"),
+            format!("`{}` is {value}: it was not written", array.name),
             "what was written before is kept; reduce the steps or refine the mesh",
         )),
     }
+}
+
+/// The first tuple with a number that is not finite, and that number.
+pub(super) fn not_finite(array: &Array) -> Option<(usize, f64)> {
+    let Data::F64(values) = &array.data else { return None };
+    let at = values.iter().position(|v| !v.is_finite())?;
+    Some((at / array.components, values[at]))
 }
 
 fn decode(entry: Entry, stored: &[u8]) -> std::result::Result<Array, String> {

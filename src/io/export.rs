@@ -13,10 +13,12 @@ use rayon::prelude::*;
 
 use super::container::Data;
 use super::frame::{self, Column, Frame, Part};
+use super::provenance::Origin;
 use super::vtu::{self, Array, Encoding, Grid, Topology};
-use super::{atomic, pvd};
+use super::{atomic, hash, pvd};
 use crate::error::{Error, Result};
 use crate::mesh::Mesh;
+use crate::program;
 use crate::tensor::Symmetric;
 
 mod contact;
@@ -31,20 +33,15 @@ const STRUCTURES: &str = "structures";
 const CONTACT: &str = "contact";
 const SURFACE: &str = "surface";
 
-/// What an export wrote.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Summary {
-    pub frames: usize,
-    /// Files of an earlier, longer run that were removed.
-    pub removed: usize,
-}
-
-/// Writes the frames in `results` as series into `out`, with `fields` and nothing else. `of_elements` tells of each
-/// region of the mesh whether it is of finite elements.
+/// Writes the frames in `results` as series into `out`, with `fields` and nothing else; returns their number. `of_elements`
+/// tells of each region of the mesh whether it is of finite elements.
+///
+/// The files are written into a folder beside that of an earlier export and take its place when all of them are there;
+/// other files that somebody has put there stay. The `.pvd` files are written last.
 ///
 /// # Errors
 /// `Input` when there are no frames, one is damaged, they do not belong to `mesh`, or a field is in none of
-/// them; `Machine` when a file cannot be written. The `.pvd` files are written last.
+/// them; `Machine` when a file cannot be written.
 pub fn export<const D: usize>(
     results: &Path,
     mesh: &Mesh<D>,
@@ -52,10 +49,16 @@ pub fn export<const D: usize>(
     out: &Path,
     fields: &[String],
     encoding: Encoding,
-) -> Result<Summary> {
+) -> Result<usize> {
     let infos = frame::list(results)?;
-    let folder = out.join("vtu");
+    let folder = out.join(NEW);
+    prepare(out)?;
     atomic::prepare_folder(&folder)?;
+    let note = infos.first().map(|info| note(info.origin)).unwrap_or_default();
+    let write = |series: &str, index: usize, grid: Grid| {
+        let (path, grid) = (folder.join(file_name(series, index)), Grid { note: note.clone(), ..grid });
+        if series == SURFACE { vtu::write_lines(&path, &grid, encoding) } else { vtu::write(&path, &grid, encoding) }
+    };
     let is_element = |c: usize| of_elements[mesh.cells.region[c] as usize];
     let elements = mesh.part(is_element);
     let with_elements = !elements.cells.is_empty();
@@ -78,7 +81,7 @@ pub fn export<const D: usize>(
             points: points.position.concat(),
             ..Grid { time, ..Grid::default() }
         };
-        vtu::write(&folder.join(file_name("points", i)), &points, encoding)?;
+        write("points", i, points)?;
         if grid.position.is_empty() {
             grid.position.clone_from(&first);
         }
@@ -92,13 +95,9 @@ pub fn export<const D: usize>(
                 "the mesh was made again after the run: run `mpm solve` again",
             ));
         };
-        vtu::write(
-            &folder.join(file_name("grid", i)),
-            &background.grid(&background.at(&grid), fields, time),
-            encoding,
-        )?;
+        write("grid", i, background.grid(&background.at(&grid), fields, time))?;
         if with_elements {
-            vtu::write(&folder.join(file_name(STRUCTURES, i)), &structures.grid(&smooth, fields, time), encoding)?;
+            write(STRUCTURES, i, structures.grid(&smooth, fields, time))?;
         }
         if with_contact {
             let Some(lines) = contact::grid(&contact, time) else {
@@ -108,7 +107,7 @@ pub fn export<const D: usize>(
                     "the frames are of several runs: run `mpm solve` again",
                 ));
             };
-            vtu::write(&folder.join(file_name(CONTACT, i)), &lines, encoding)?;
+            write(CONTACT, i, lines)?;
         }
         if with_surface {
             let Some(lines) = surface::lines(&surface, time) else {
@@ -118,10 +117,11 @@ pub fn export<const D: usize>(
                     "the frames are of several runs: run `mpm solve` again",
                 ));
             };
-            vtu::write_lines(&folder.join(file_name(SURFACE, i)), &lines, encoding)?;
+            write(SURFACE, i, lines)?;
         }
         Ok(())
     })?;
+    exchange(out)?;
     let is_there = |series: &str| match series {
         STRUCTURES => with_elements,
         CONTACT => with_contact,
@@ -136,12 +136,63 @@ pub fn export<const D: usize>(
             }
             continue;
         }
-        let files: Vec<_> =
-            infos.iter().enumerate().map(|(i, info)| (info.time, format!("vtu/{}", file_name(series, i)))).collect();
-        pvd::write(&path, &files)?;
+        let files: Vec<_> = infos
+            .iter()
+            .enumerate()
+            .map(|(i, info)| (info.time, format!("{FOLDER}/{}", file_name(series, i))))
+            .collect();
+        pvd::write(&path, &files, &note)?;
     }
-    let kept = |series: &str| if is_there(series) { infos.len() } else { 0 };
-    Ok(Summary { frames: infos.len(), removed: remove_stale(&folder, kept)? })
+    Ok(infos.len())
+}
+
+/// The folder of the series, and those of an export in hand and of the one before it.
+const FOLDER: &str = "vtu";
+const NEW: &str = ".vtu-new";
+const OLD: &str = ".vtu-old";
+
+/// What the files of a series say of themselves.
+fn note(origin: Origin) -> String {
+    format!("{} run {} mesh {}", program::IDENTITY, origin.run, hash::text(origin.mesh))
+}
+
+/// Undoes what an export that was killed has left.
+fn prepare(out: &Path) -> Result<()> {
+    let [folder, new, old] = [FOLDER, NEW, OLD].map(|name| out.join(name));
+    atomic::refuse_link(&folder)?;
+    if old.exists() && !folder.exists() {
+        atomic::rename(&old, &folder)?;
+    }
+    atomic::remove_folder(&new)?;
+    atomic::remove_folder(&old)
+}
+
+/// Puts the new series into the place of the earlier ones.
+fn exchange(out: &Path) -> Result<()> {
+    let [folder, new, old] = [FOLDER, NEW, OLD].map(|name| out.join(name));
+    if folder.exists() {
+        atomic::rename(&folder, &old)?;
+    }
+    atomic::rename(&new, &folder)?;
+    if old.exists() {
+        for entry in fs::read_dir(&old).map_err(|e| atomic::unwritable(&old, &e))? {
+            let path = entry.map_err(|e| atomic::unwritable(&old, &e))?.path();
+            if let Some(name) = path.file_name()
+                && !is_of_series(&path)
+            {
+                atomic::rename(&path, &folder.join(name))?;
+            }
+        }
+    }
+    atomic::remove_folder(&old)
+}
+
+/// Whether a file is one of a series, or one that was not finished.
+fn is_of_series(path: &Path) -> bool {
+    let name = path.file_name().and_then(|n| n.to_str()).unwrap_or_default();
+    let stem = name.strip_suffix(".vtu").or_else(|| name.strip_suffix(".vtp"));
+    let numbered = |(series, index): (&str, &str)| SERIES.contains(&series) && index.parse::<u64>().is_ok();
+    name.starts_with('.') || stem.and_then(|stem| stem.split_once('_')).is_some_and(numbered)
 }
 
 /// Where the nodes were that displacements are counted from, given where they were at `first`.
@@ -161,24 +212,6 @@ fn triples<const D: usize>(x: &[[f64; D]]) -> Vec<[f64; 3]> {
 fn file_name(series: &str, index: usize) -> String {
     let kind = if series == SURFACE { "vtp" } else { "vtu" };
     format!("{series}_{index:06}.{kind}")
-}
-
-/// Removes the files of an earlier run that had more frames than are `kept` of a series.
-fn remove_stale(folder: &Path, kept: impl Fn(&str) -> usize) -> Result<usize> {
-    let mut removed = 0;
-    for entry in fs::read_dir(folder).map_err(|e| atomic::unwritable(folder, &e))? {
-        let path = entry.map_err(|e| atomic::unwritable(folder, &e))?.path();
-        let name = path.file_name().and_then(|n| n.to_str());
-        let name = name.and_then(|n| n.strip_suffix(".vtu").or_else(|| n.strip_suffix(".vtp")));
-        let stale = name.and_then(|n| n.split_once('_')).is_some_and(|(series, index)| {
-            SERIES.contains(&series) && index.parse::<usize>().is_ok_and(|i| i >= kept(series))
-        });
-        if stale {
-            atomic::remove(&path)?;
-            removed += 1;
-        }
-    }
-    Ok(removed)
 }
 
 /// The fields that a part has or that follow from what it has.

@@ -6,9 +6,12 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use super::atomic;
-use super::container::{Array, Contents, Data, Store, check_finite};
+use super::checkpoint::Fingerprint;
+use super::container::{Array, Contents, Data, Store, check_finite, not_finite};
+use super::provenance::Origin;
+use super::{atomic, hash};
 use crate::error::{Error, Result};
+use crate::program;
 
 const KIND: &str = "frame";
 const AGAIN: &str = "run `mpm solve` again";
@@ -44,6 +47,8 @@ pub struct Frame {
     pub phase: String,
     /// Steps done.
     pub step: u64,
+    /// What the run was made from.
+    pub origin: Origin,
     pub points: Part,
     pub grid: Part,
     /// The points of the finite elements, with the number of their cell among those of finite elements in the column
@@ -75,6 +80,7 @@ pub struct Info {
     pub time: f64,
     pub phase: String,
     pub step: u64,
+    pub origin: Origin,
     /// Material points.
     pub points: usize,
     /// Nodes along boundaries in contact.
@@ -89,17 +95,20 @@ pub fn path(folder: &Path, index: usize) -> PathBuf {
 }
 
 impl Frame {
-    /// Writes the frame as number `index` to the disk, atomically.
+    /// Writes the frame as number `index` to the disk, atomically; returns the hash of the file.
     ///
     /// # Errors
     /// `Analysis` naming the material point or node whose value is not finite (then nothing is written);
     /// `Machine` when the file cannot be written.
-    pub fn write(&self, folder: &Path, index: usize) -> Result<()> {
+    pub fn write(&self, folder: &Path, index: usize) -> Result<u64> {
         let mut store = Store::new(KIND);
         // Rust prints a float with as many digits as tell it from all others.
         store.put_text("time", format!("{:?}", self.time));
         store.put_text("phase", &*self.phase);
         store.put_text("step", self.step.to_string());
+        store.put_text("program", program::IDENTITY);
+        store.put_text("run", self.origin.run.to_string());
+        store.put_text("mesh", hash::text(self.origin.mesh));
         let parts = [
             ("points/", "material point", &self.points),
             ("grid/", "grid node", &self.grid),
@@ -130,12 +139,17 @@ impl Frame {
     /// Reads a frame.
     ///
     /// # Errors
-    /// `Input` when the file is missing, cut or damaged.
+    /// `Input` when the file is missing, cut or damaged, or a number is not finite.
     pub fn read(path: &Path) -> Result<Self> {
         let store = Store::read(path, KIND, AGAIN)?;
-        let (time, phase, step) = read_texts(|name| store.text(name))?;
-        let mut frame = Self { time, phase, step, ..Self::default() };
-        for Array { name, unit, components, data } in store.into_arrays() {
+        let (time, phase, step, origin) = read_texts(path, |name| store.text(name))?;
+        let mut frame = Self { time, phase, step, origin, ..Self::default() };
+        for array in store.into_arrays() {
+            if let Some((entry, value)) = not_finite(&array) {
+                let problem = format!("is damaged: entry {entry} of array `{}` is {value}", array.name);
+                return Err(Error::input(path.display(), problem, AGAIN));
+            }
+            let Array { name, unit, components, data } = array;
             let broken = || Error::input(path.display(), format!("is damaged: array `{name}` is unexpected"), AGAIN);
             let (part, name) = match name.split_once('/') {
                 Some(("points", name)) => (&mut frame.points, name),
@@ -162,7 +176,8 @@ impl Frame {
         for (what, part) in parts {
             let counts = part.columns.iter().map(|c| (c.name.as_str(), c.values.len() / c.components));
             // A grid without positions of its own takes those of the mesh; its columns still agree.
-            let count = if part.position.is_empty() { None } else { Some((POSITION, part.position.len())) };
+            let of_mesh = what == "grid" && part.position.is_empty();
+            let count = (!of_mesh).then_some((POSITION, part.position.len()));
             let mut all = count.into_iter().chain(counts);
             let Some((_, first)) = all.next() else { continue };
             if let Some((name, n)) = all.find(|&(_, n)| n != first) {
@@ -191,7 +206,7 @@ pub fn list(folder: &Path) -> Result<Vec<Info>> {
         }
         let path = path(folder, index);
         let Contents { texts, arrays } = Store::peek(&path, KIND, AGAIN)?;
-        let (time, phase, step) = read_texts(|name| {
+        let (time, phase, step, origin) = read_texts(&path, |name| {
             texts
                 .get(name)
                 .map(String::as_str)
@@ -209,8 +224,11 @@ pub fn list(folder: &Path) -> Result<Vec<Info>> {
             if points != before.points {
                 return mixed(format!("{points} material points after {}", before.points));
             }
+            if origin != before.origin {
+                return mixed("it is of another run".to_owned());
+            }
         }
-        infos.push(Info { path, time, phase, step, points, contact, surface });
+        infos.push(Info { path, time, phase, step, origin, points, contact, surface });
     }
     Ok(infos)
 }
@@ -222,6 +240,17 @@ pub fn list(folder: &Path) -> Result<Vec<Info>> {
 pub fn prepare(folder: &Path, first: usize) -> Result<()> {
     atomic::prepare_folder(folder)?;
     indices(folder)?.into_iter().filter(|&i| i >= first).try_for_each(|i| atomic::remove(&path(folder, i)))
+}
+
+/// The files of the frames in a results folder, in order; none where there is no folder.
+///
+/// # Errors
+/// `Machine` when the folder cannot be read.
+pub fn paths(folder: &Path) -> Result<Vec<PathBuf>> {
+    if !folder.exists() {
+        return Ok(Vec::new());
+    }
+    Ok(indices(folder)?.into_iter().map(|index| path(folder, index)).collect())
 }
 
 fn indices(folder: &Path) -> Result<Vec<usize>> {
@@ -236,15 +265,20 @@ fn indices(folder: &Path) -> Result<Vec<usize>> {
     Ok(indices)
 }
 
-fn read_texts<'a>(text: impl Fn(&'static str) -> Result<&'a str>) -> Result<(f64, String, u64)> {
-    let broken =
-        |name: &str, value: &str| Error::input("result frame", format!("{name} `{value}` is not a number"), AGAIN);
-    let (time, step) = (text("time")?, text("step")?);
+type Texts = (f64, String, u64, Origin);
+
+fn read_texts<'a>(path: &Path, text: impl Fn(&'static str) -> Result<&'a str>) -> Result<Texts> {
+    let broken = |name: &str, value: &str| {
+        Error::input(path.display(), format!("is damaged: {name} `{value}` is not a number"), AGAIN)
+    };
+    let (time, step, run, mesh) = (text("time")?, text("step")?, text("run")?, text("mesh")?);
     let parsed = time.parse::<f64>().ok().filter(|t| t.is_finite());
+    let hash = |name: &str, value: &str| u64::from_str_radix(value, 16).map_err(|_| broken(name, value));
     Ok((
         parsed.ok_or_else(|| broken("time", time))?,
         text("phase")?.to_string(),
         step.parse().map_err(|_| broken("step", step))?,
+        Origin { run: Fingerprint::from(hash("run", run)?), mesh: hash("mesh", mesh)? },
     ))
 }
 

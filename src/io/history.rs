@@ -1,16 +1,29 @@
 //! Files that grow by a line a step: `history.csv` (numbers) and `solve.log` (text).
 //!
 //! A line is with the operating system when the call returns, so that a kill loses none. A checkpoint
-//! remembers how many lines there were; [`History::resume`] and [`Log::resume`] cut what came after.
+//! has the [`Mark`] of each file: how many lines there were, and their hash. [`History::resume`] and [`Log::resume`] cut
+//! what came after, and refuse a file whose earlier lines are not those that were written.
 
 use std::fs::{self, File, OpenOptions};
+use std::hash::Hasher;
 use std::io::Write;
 use std::path::{Path, PathBuf};
+
+use twox_hash::XxHash64;
 
 use super::atomic;
 use crate::error::{Error, Result};
 
-const AGAIN: &str = "start the analysis afresh, without --resume";
+const AGAIN: &str = "start the analysis afresh, with --fresh in place of --resume";
+
+/// How much of a file a checkpoint knows.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Mark {
+    /// Whole lines, the header of a table included.
+    pub lines: u64,
+    /// Hash of their bytes (XXH64).
+    pub hash: u64,
+}
 
 /// A text file that grows by whole lines.
 #[derive(Debug)]
@@ -18,6 +31,7 @@ pub struct Log {
     file: File,
     path: PathBuf,
     lines: u64,
+    hasher: XxHash64,
 }
 
 impl Log {
@@ -26,17 +40,20 @@ impl Log {
     /// # Errors
     /// `Machine` when it cannot be written.
     pub fn create(path: &Path) -> Result<Self> {
-        let file = File::create(path).map_err(|e| atomic::unwritable(path, &e))?;
-        Ok(Self { file, path: path.to_path_buf(), lines: 0 })
+        atomic::remove(path)?;
+        let file = File::create_new(path).map_err(|e| atomic::unwritable(path, &e))?;
+        Ok(Self { file, path: path.to_path_buf(), lines: 0, hasher: XxHash64::with_seed(0) })
     }
 
-    /// Opens a file to continue after its first `lines` lines; later ones are cut.
+    /// Opens a file to continue after what the `mark` of a checkpoint knows of it; later lines are cut.
     ///
     /// # Errors
-    /// `Input` when it is missing or shorter, `Machine` when it cannot be written.
-    pub fn resume(path: &Path, lines: u64) -> Result<Self> {
+    /// `Input` when it is missing, a link, shorter, or was changed since; `Machine` when it cannot be written.
+    pub fn resume(path: &Path, mark: Mark) -> Result<Self> {
+        let Mark { lines, hash } = mark;
+        atomic::refuse_link(path)?;
         let bytes = fs::read(path).map_err(|e| atomic::unreadable(path, &e, AGAIN))?;
-        let ends = bytes.iter().enumerate().filter(|&(_, &b)| b == b'\n').map(|(i, _)| i as u64 + 1);
+        let ends = bytes.iter().enumerate().filter(|&(_, &b)| b == b'\n').map(|(i, _)| i + 1);
         // The length of the first `lines` lines; the one before the first is empty.
         let length = match lines {
             0 => Some(0),
@@ -46,9 +63,15 @@ impl Log {
             let problem = format!("has {} whole lines where the checkpoint knows {lines}", ends.count());
             return Err(Error::input(path.display(), problem, AGAIN));
         };
+        let mut hasher = XxHash64::with_seed(0);
+        hasher.write(&bytes[..length]);
+        if hasher.finish() != hash {
+            let problem = format!("its first {lines} lines were changed after they were written");
+            return Err(Error::input(path.display(), problem, AGAIN));
+        }
         let file = OpenOptions::new().append(true).open(path).map_err(|e| atomic::unwritable(path, &e))?;
-        file.set_len(length).map_err(|e| atomic::unwritable(path, &e))?;
-        Ok(Self { file, path: path.to_path_buf(), lines })
+        file.set_len(length as u64).map_err(|e| atomic::unwritable(path, &e))?;
+        Ok(Self { file, path: path.to_path_buf(), lines, hasher })
     }
 
     /// Appends a line.
@@ -59,13 +82,14 @@ impl Log {
         // One call, so that a kill cannot come in between.
         let whole = format!("{}\n", text.replace('\n', " "));
         self.file.write_all(whole.as_bytes()).map_err(|e| atomic::unwritable(&self.path, &e))?;
+        self.hasher.write(whole.as_bytes());
         self.lines += 1;
         Ok(())
     }
 
-    /// Lines in the file, for a checkpoint.
-    pub fn lines(&self) -> u64 {
-        self.lines
+    /// What there is of the file, for a checkpoint.
+    pub fn mark(&self) -> Mark {
+        Mark { lines: self.lines, hash: self.hasher.finish() }
     }
 }
 
@@ -89,11 +113,13 @@ impl History {
         Ok(Self { log, columns: columns.to_vec(), last: Vec::new() })
     }
 
-    /// Opens a file to continue after its first `rows` rows; later ones are cut.
+    /// Opens a file to continue after what the `mark` of a checkpoint knows of it; later rows are cut.
     ///
     /// # Errors
-    /// `Input` when it is missing, shorter, or has another header; `Machine` when it cannot be written.
-    pub fn resume(path: &Path, columns: &[String], rows: u64) -> Result<Self> {
+    /// `Input` when it is missing, a link, shorter, has another header, or was changed since; `Machine` when it cannot be
+    /// written.
+    pub fn resume(path: &Path, columns: &[String], mark: Mark) -> Result<Self> {
+        let rows = mark.lines.saturating_sub(1);
         let text = fs::read(path).map_err(|e| atomic::unreadable(path, &e, AGAIN))?;
         let first = text.split(|&b| b == b'\n').next().unwrap_or_default();
         if first != header(columns).as_bytes() {
@@ -103,7 +129,7 @@ impl History {
         let last = text.split(|&b| b == b'\n').nth(usize::try_from(rows).unwrap_or(usize::MAX)).filter(|_| rows > 0);
         let last = String::from_utf8_lossy(last.unwrap_or_default()).into_owned();
         let last = last.split(',').filter_map(|number| number.parse().ok()).collect();
-        Ok(Self { log: Log::resume(path, rows.saturating_add(1))?, columns: columns.to_vec(), last })
+        Ok(Self { log: Log::resume(path, mark)?, columns: columns.to_vec(), last })
     }
 
     /// Appends a row, one number a column.
@@ -139,9 +165,14 @@ impl History {
         self.row(&row)
     }
 
-    /// Rows in the file, without the header, for a checkpoint.
+    /// What there is of the file, for a checkpoint.
+    pub fn mark(&self) -> Mark {
+        self.log.mark()
+    }
+
+    /// Rows in the file, without the header.
     pub fn rows(&self) -> u64 {
-        self.log.lines() - 1
+        self.log.lines - 1
     }
 }
 

@@ -6,6 +6,8 @@
 //! | `results/frame-000123.mpmf` | [`frame`] | compact result frames, bit-exact |
 //! | `checkpoints/step-000000456.mpmc` | [`checkpoint`] | what `--resume` continues from |
 //! | `history.csv`, `solve.log` | [`history`] | one line a step, cut back on a resume |
+//! | `unfinished/` | [`run_folder`] | a run beside earlier results, which it replaces when it is finished |
+//! | `provenance/*.json` | [`provenance`] | what each stage was made from, by which program and command |
 //! | `vtu/*.vtu`, `*.pvd` | [`export`], [`vtu`], [`pvd`] | the series for ParaView |
 //!
 //! Whole files are written beside their name and renamed into place ([`atomic`]), so that a kill leaves the
@@ -19,7 +21,11 @@ pub mod columns;
 pub mod container;
 pub mod export;
 pub mod frame;
+pub mod hash;
 pub mod history;
+pub mod lock;
 pub mod points_vtu;
+pub mod provenance;
 pub mod pvd;
+pub mod run_folder;
 pub mod vtu;

@@ -57,6 +57,8 @@ pub struct Grid {
     pub cell_data: Vec<Array>,
     /// Time in s that ParaView shows.
     pub time: Option<f64>,
+    /// A comment at the start of the file: what it was made from; empty for none.
+    pub note: String,
 }
 
 /// Cells in VTK's flat form.
@@ -129,6 +131,7 @@ fn write_as(out: &mut dyn Write, kind: &str, grid: &Grid, encoding: Encoding) ->
     let lines = kind == "PolyData";
     let compressor = if encoding == Encoding::Lz4 { " compressor=\"vtkLZ4DataCompressor\"" } else { "" };
     writeln!(out, "<?xml version=\"1.0\"?>")?;
+    comment(out, &grid.note)?;
     writeln!(
         out,
         "<VTKFile type=\"{kind}\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\"{compressor}>"
@@ -168,6 +171,14 @@ fn write_as(out: &mut dyn Write, kind: &str, grid: &Grid, encoding: Encoding) ->
         out.write_all(b"\n</AppendedData>\n")?;
     }
     writeln!(out, "</VTKFile>")
+}
+
+/// Writes `note` as a comment, in which two hyphens may not stand; nothing for an empty one.
+///
+/// # Errors
+/// Those of `out`.
+pub fn comment(out: &mut dyn Write, note: &str) -> io::Result<()> {
+    if note.is_empty() { Ok(()) } else { writeln!(out, "<!-- {} -->", note.replace("--", "- -")) }
 }
 
 struct Arrays<'a> {

@@ -107,6 +107,12 @@ impl<const D: usize> Locator<D> {
         self.nearest(mesh, x, bin)
     }
 
+    /// The cells in which `x` lies deeper than `depth` ([`CellKind::depth`]), ascending.
+    pub fn holders(&self, mesh: &Mesh<D>, x: &[f64; D], depth: f64) -> impl Iterator<Item = u32> {
+        self.candidates(self.bins.at(x).unwrap_or_default(), x)
+            .filter(move |&c| self.invert(mesh, c, x, true).is_some_and(|xi| self.kind(mesh, c).depth(&xi).0 > depth))
+    }
+
     /// The parametric coordinates of `x` in a cell that need not hold it.
     pub fn extend(&self, mesh: &Mesh<D>, c: u32, x: &[f64; D]) -> Option<[f64; 3]> {
         self.invert(mesh, c, x, false)

@@ -1,9 +1,11 @@
 //! The mesh: nodes, cells of any mixture of kinds, and the named groups of the `.geo`.
 
 pub mod builder;
+pub mod conformity;
 pub mod faces;
 pub mod gmsh;
 pub mod locate;
+pub mod msh;
 pub mod quality;
 pub mod shape;
 

@@ -1,4 +1,4 @@
-//! How good the cells of a plane mesh are, and that none is inverted or folded.
+//! How good the cells of a plane mesh are, and that none is inverted, flat or folded.
 //!
 //! The quality of a triangle is `4√3 A / (l1² + l2² + l3²)` of its corners: 1 if equilateral, 0 if flat. That
 //! of a quadrilateral is the least over its corners of `2 (a × b) / (|a|² + |b|²)` with the edges `a`, `b`
@@ -10,11 +10,13 @@ use std::fmt;
 use std::path::Path;
 
 use super::Mesh;
+use super::conformity;
 use super::shape::{self, CellKind, MAX_NODES, rule};
 use crate::error::{Error, Result};
 
-/// Below this ratio of the least to the largest Bernstein coefficient of `det J` a cell counts as folded.
-const FOLDED: f64 = 1e-6;
+/// Up to this quality a cell counts as flat, and up to this ratio of the least to the largest Bernstein coefficient of
+/// `det J` as folded: at the fourth root of the rounding of `f64` half of the digits of its stiffness are lost.
+const WORST: f64 = 1.2e-4;
 
 /// What a mesh is like.
 #[derive(Clone, Debug, PartialEq)]
@@ -34,10 +36,11 @@ pub struct Summary {
     pub coincident: usize,
 }
 
-/// Sums up `mesh`, read from `file`.
+/// Checks `mesh`, read from `file`, and sums it up.
 ///
 /// # Errors
-/// Input: a cell that is inverted or folded, with its number, region and place.
+/// Input: a cell that is inverted, flat or folded, with its number, region and place; cells that do not fit together
+/// ([`conformity`]).
 pub fn check(mesh: &Mesh<2>, file: &Path) -> Result<Summary> {
     let mut regions: Vec<_> = mesh.regions.iter().map(|name| (name.clone(), 0, 0.0)).collect();
     let (mut worst, mut sum, mut jacobian) = ((f64::INFINITY, 0, [0.0; 2]), 0.0, f64::INFINITY);
@@ -46,25 +49,20 @@ pub fn check(mesh: &Mesh<2>, file: &Path) -> Result<Summary> {
         let kind = mesh.cells.kind[c];
         mesh.cell_coordinates(c, &mut x);
         let corners = &x[..kind.corner_count()];
-        let centre = [0, 1].map(|d| corners.iter().map(|x| x[d]).sum::<f64>() / corners.len() as f64);
         let quality = quality(corners);
         let region = &mut regions[usize::from(mesh.cells.region[c])];
         let (least, largest) = jacobian_range(kind, &x);
         let finite = x.iter().flatten().all(|v| v.is_finite());
-        if !finite || quality <= 0.0 || least <= FOLDED * largest {
-            let (problem, remedy) = if quality > 0.0 && kind.order() == 2 {
+        // A quality that is not a number is refused too.
+        let shaped = quality > WORST;
+        if !finite || !shaped || !(least > WORST * largest) {
+            let (problem, remedy) = if shaped && kind.order() == 2 {
                 ("its curved edges fold it over", "refine the mesh along the curve there, or use order: 1")
             } else {
                 ("it is inverted or flat", "mend the geometry there, or refine the mesh")
             };
-            let place = format!(
-                "{}, cell {c} of region {} near ({:.6}, {:.6})",
-                file.display(),
-                region.0,
-                centre[0],
-                centre[1]
-            );
-            let problem = format!("{problem} (quality {quality:.3}, det J {least:.3e} to {largest:.3e})");
+            let place = place_of(mesh, c, file);
+            let problem = format!("{problem} (quality {quality:.1e}, det J {least:.3e} to {largest:.3e})");
             return Err(Error::input(place, problem, remedy));
         }
         region.1 += 1;
@@ -72,13 +70,26 @@ pub fn check(mesh: &Mesh<2>, file: &Path) -> Result<Summary> {
         sum += quality;
         jacobian = jacobian.min(least / largest);
         if quality < worst.0 {
-            worst = (quality, c, centre);
+            worst = (quality, c, centre(mesh, c));
         }
     }
+    conformity::check(mesh, file)?;
     let count = |kind| mesh.cells.kind.iter().filter(|&&k| k == kind).count();
     let cells = CellKind::ALL.into_iter().map(|k| (k, count(k))).filter(|(_, n)| *n > 0).collect();
     let mean = sum / mesh.cells.len() as f64;
     Ok(Summary { nodes: mesh.nodes.len(), cells, regions, worst, mean, jacobian, coincident: coincident(&mesh.nodes) })
+}
+
+/// The name of cell `c` in a message.
+pub fn place_of(mesh: &Mesh<2>, c: usize, file: &Path) -> String {
+    let (region, [x, y]) = (&mesh.regions[usize::from(mesh.cells.region[c])], centre(mesh, c));
+    format!("{}, cell {c} of region {region} near ({x:.6}, {y:.6})", file.display())
+}
+
+/// The mean place of the corners of cell `c` (m).
+fn centre(mesh: &Mesh<2>, c: usize) -> [f64; 2] {
+    let corners = &mesh.cells.nodes(c)[..mesh.cells.kind[c].corner_count()];
+    [0, 1].map(|d| corners.iter().map(|&n| mesh.nodes[n as usize][d]).sum::<f64>() / corners.len() as f64)
 }
 
 impl fmt::Display for Summary {
@@ -221,6 +232,7 @@ mod tests {
             mesh.nodes.push(mesh.nodes[old as usize]);
             mesh.cells.nodes[first..].iter_mut().filter(|n| **n == old).for_each(|n| *n = new);
         }
+        mesh.groups.clear();
         let summary = check(&mesh, Path::new("mesh.msh")).unwrap();
         assert_eq!(summary.coincident, shared.len());
         assert!(summary.to_string().contains("note: 3 nodes"), "{summary}");

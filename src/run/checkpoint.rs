@@ -1,5 +1,7 @@
 //! The state as named arrays, for checkpoints, every number bit-exact.
 
+mod valid;
+
 use super::foreign;
 use crate::contact::Multipliers;
 use crate::error::Result;
@@ -8,7 +10,7 @@ use crate::io::columns;
 use crate::io::container::Store;
 use crate::quadrature::{Tally, Weighing};
 use crate::stencil::SoftCell;
-use crate::step::{Release, State};
+use crate::step::{Release, Scene, State};
 use crate::surface::{ActiveBoundary, Front, Piece};
 
 const POINTS: &str = "points.";
@@ -24,8 +26,6 @@ pub fn store<const D: usize>(state: &State<D>) -> Store {
         step,
         step_size,
         frames,
-        rows,
-        log_lines,
         points,
         fem,
         fem_parametric,
@@ -54,7 +54,7 @@ pub fn store<const D: usize>(state: &State<D>) -> Store {
     store.put(
         "state.counts",
         1,
-        vec![*phase as u64, *step, *frames, *rows, *log_lines, u64::from(*moving), *restorations, u64::from(*falling)],
+        vec![*phase as u64, *step, *frames, u64::from(*moving), *restorations, u64::from(*falling)],
     );
     store.put("state.times", 1, vec![*time, *phase_time, *step_size, *last_step, *peak, release.until]);
     store.put("state.parametric", 3, parametric.concat());
@@ -117,10 +117,14 @@ fn put_weighing<const D: usize>(store: &mut Store, weighing: &Weighing<D>) {
 fn take_weighing<const D: usize>(store: &mut Store) -> Result<Weighing<D>> {
     let weight = store.take::<f64>("weighing.weight", 1)?;
     let shifted = store.take::<u32>("weighing.shifted", 2)?;
-    let values = store.take::<f64>("weighing.shift", D)?;
-    let mut values = values.chunks_exact(D).map(|v| std::array::from_fn(|d| v[d]));
-    let shift = shifted.chunks_exact(2).map(|s| (s[0], values.by_ref().take(s[1] as usize).collect())).collect();
+    let values = vectors::<D>(&store.take::<f64>("weighing.shift", D)?);
+    let of_cells = shifted.chunks_exact(2).fold(0usize, |sum, s| sum.saturating_add(s[1] as usize));
     let (soft, emptiness) = (store.take::<u32>("weighing.soft", 1)?, store.take::<f64>("weighing.emptiness", 1)?);
+    if of_cells != values.len() || soft.len() != emptiness.len() {
+        return Err(foreign("what it says of cells"));
+    }
+    let mut values = values.into_iter();
+    let shift = shifted.chunks_exact(2).map(|s| (s[0], values.by_ref().take(s[1] as usize).collect())).collect();
     let soft = soft.into_iter().zip(emptiness).map(|(cell, emptiness)| SoftCell { cell, emptiness }).collect();
     let poor = store.take::<u32>("weighing.poor", 1)?;
     let level_set = store.take::<f64>("weighing.level_set", 1)?;
@@ -145,16 +149,35 @@ fn take_weighing<const D: usize>(store: &mut Store) -> Result<Weighing<D>> {
 fn take_boundary(store: &mut Store) -> Result<ActiveBoundary> {
     let first = store.take::<u32>("boundary.first", 1)?;
     let (ends, numbers) = (store.take::<f64>("boundary.ends", 2)?, store.take::<u32>("boundary.numbers", 4)?);
-    let piece = |(ends, numbers): (&[f64], &[u32])| {
-        let line = |k: usize| [[ends[k], ends[k + 1]], [ends[k + 2], ends[k + 3]]];
-        let (cell, bearer, region, wall) = (numbers[0], numbers[1], numbers[2] as u16, numbers[3] != 0);
-        Piece { cell, ends: line(0), wall, region, bearer, borne: line(4) }
-    };
-    let pieces: Vec<Piece> = ends.chunks_exact(8).zip(numbers.chunks_exact(4)).map(piece).collect();
-    if first.last().is_some_and(|&last| last as usize != pieces.len()) {
+    if ends.len() != 2 * numbers.len() {
         return Err(foreign("its boundary"));
     }
+    let piece = |(ends, numbers): (&[f64], &[u32])| {
+        let line = |k: usize| [[ends[k], ends[k + 1]], [ends[k + 2], ends[k + 3]]];
+        let region = u16::try_from(numbers[2]).map_err(|_| foreign("a region of its boundary"))?;
+        let wall = flag(numbers[3], "its boundary")?;
+        Ok(Piece { cell: numbers[0], ends: line(0), wall, region, bearer: numbers[1], borne: line(4) })
+    };
+    let pieces = ends.chunks_exact(8).zip(numbers.chunks_exact(4)).map(piece).collect::<Result<_>>()?;
     Ok(ActiveBoundary { pieces, first })
+}
+
+/// Vectors of `D` components, one after the other.
+fn vectors<const D: usize>(values: &[f64]) -> Vec<[f64; D]> {
+    values.chunks_exact(D).map(|v| std::array::from_fn(|d| v[d])).collect()
+}
+
+/// A truth value that is stored as 0 or 1.
+fn flag(value: impl Into<u64>, name: &str) -> Result<bool> {
+    match value.into() {
+        0 => Ok(false),
+        1 => Ok(true),
+        _ => Err(foreign(name)),
+    }
+}
+
+fn flags(store: &mut Store, name: &str) -> Result<Vec<bool>> {
+    store.take::<u8>(name, 1)?.into_iter().map(|value| flag(value, name)).collect()
 }
 
 fn put_multipliers(store: &mut Store, pairs: &[Multipliers]) {
@@ -172,12 +195,12 @@ fn put_multipliers(store: &mut Store, pairs: &[Multipliers]) {
 }
 
 fn take_multipliers(store: &mut Store) -> Result<Vec<Multipliers>> {
-    let count = store.take::<u64>("contact.pairs", 1)?.first().copied().unwrap_or(0);
+    let [count] = store.take::<u64>("contact.pairs", 1)?[..] else { return Err(foreign("its contact")) };
     let pair = |i: u64| {
         let mut values = |name: &str| store.take::<f64>(&format!("contact.{i}.{name}"), 1);
         let (pressure, shear, gap) = (values("pressure")?, values("shear")?, values("gap")?);
         let (slip, offset, slid) = (values("slip")?, values("offset")?, values("slid")?);
-        let faces = store.take::<u8>(&format!("contact.{i}.faces"), 1)?.into_iter().map(|b| b != 0).collect();
+        let faces = flags(store, &format!("contact.{i}.faces"))?;
         let mut numbers = |name: &str| store.take::<u32>(&format!("contact.{i}.{name}"), 1);
         let (room, first) = (numbers("room")?, numbers("first")?);
         Ok(Multipliers { pressure, shear, gap, slip, offset, slid, faces, room, first })
@@ -185,84 +208,66 @@ fn take_multipliers(store: &mut Store) -> Result<Vec<Multipliers>> {
     (0..count).map(pair).collect()
 }
 
-/// The state in a checkpoint of the run that began with `first`.
+fn take_front(store: &mut Store) -> Result<Option<Front>> {
+    let position = vectors(&store.take::<f64>("front.position", 2)?);
+    let first = store.take::<u32>("front.first", 1)?;
+    match store.take::<f64>("front.weight", 1)?[..] {
+        [] if position.is_empty() && first.is_empty() => Ok(None),
+        [weight] => Ok(Some(Front { position, first, weight })),
+        _ => Err(foreign("its surface")),
+    }
+}
+
+/// The state in a checkpoint of the run of `scene` that began with `first`.
 ///
 /// # Errors
-/// `Input` when an array is missing or does not fit the scene.
-pub fn take<const D: usize>(mut store: Store, first: &State<D>) -> Result<State<D>> {
+/// `Input` when an array is missing or unknown, or what one holds does not fit the scene.
+pub fn take<const D: usize>(mut store: Store, scene: &Scene<D>, first: &State<D>) -> Result<State<D>> {
     let counts = store.take::<u64>("state.counts", 1)?;
     let times = store.take::<f64>("state.times", 1)?;
-    let (
-        [phase, step, frames, rows, log_lines, moving, restorations, falling],
-        [time, phase_time, step_size, last_step, peak, until],
-    ) = (&counts[..], &times[..])
+    let ([phase, step, frames, moving, restorations, falling], [time, phase_time, step_size, last_step, peak, until]) =
+        (&counts[..], &times[..])
     else {
         return Err(foreign("its list of counts"));
     };
-    let nodes = first.displacement.len();
-    let mut nodal = |name: &str| {
-        let values = store.take::<f64>(&format!("state.{name}"), D)?;
-        let field: Vec<[f64; D]> = values.chunks_exact(D).map(|v| std::array::from_fn(|d| v[d])).collect();
-        if field.len() == nodes || field.is_empty() { Ok(field) } else { Err(foreign(name)) }
-    };
+    let mut nodal = |name: &str| Ok(vectors(&store.take::<f64>(&format!("state.{name}"), D)?));
     let (displacement, travel, increment) = (nodal("displacement")?, nodal("travel")?, nodal("increment")?);
-    let (velocity, acceleration, places) = (nodal("velocity")?, nodal("acceleration")?, nodal("nodes")?);
+    let (velocity, acceleration, nodes) = (nodal("velocity")?, nodal("acceleration")?, nodal("nodes")?);
     let (uncounted, force) = (nodal("uncounted")?, nodal("release")?);
-    let triples = |values: Vec<f64>| values.chunks_exact(3).map(|v| [v[0], v[1], v[2]]).collect();
-    let parametric: Vec<_> = triples(store.take("state.parametric", 3)?);
-    let fem_parametric = triples(store.take("state.fem_parametric", 3)?);
-    let pressure = store.take::<f64>("state.pressure", 1)?;
-    let taking_part = store.take::<u8>("state.taking_part", 1)?.into_iter().map(|b| b != 0).collect();
-    let penalised = store.take::<u8>("state.penalised", 1)?.into_iter().map(|b| b != 0).collect();
-    let weighing = take_weighing(&mut store)?;
-    let multipliers = take_multipliers(&mut store)?;
-    let position = store.take::<f64>("front.position", 2)?.chunks_exact(2).map(|x| [x[0], x[1]]).collect();
-    let loops = store.take::<u32>("front.first", 1)?;
-    let weight = store.take::<f64>("front.weight", 1)?;
-    let front = weight.first().map(|&weight| Front { position, first: loops, weight });
-    let (points, fem) = (columns::take(&mut store, POINTS)?, columns::take(&mut store, FEM)?);
     let state = State {
-        phase: *phase as usize,
+        phase: usize::try_from(*phase).map_err(|_| foreign("the number of its phase"))?,
         time: *time,
         phase_time: *phase_time,
         step: *step,
         step_size: *step_size,
         frames: *frames,
-        rows: *rows,
-        log_lines: *log_lines,
-        points,
-        fem,
-        fem_parametric,
-        nodes: places,
-        multipliers,
-        moving: *moving != 0,
-        falling: *falling != 0,
+        points: columns::take(&mut store, POINTS)?,
+        fem: columns::take(&mut store, FEM)?,
+        fem_parametric: vectors(&store.take::<f64>("state.fem_parametric", 3)?),
+        nodes,
+        multipliers: take_multipliers(&mut store)?,
+        moving: flag(*moving, "whether it moves")?,
+        falling: flag(*falling, "whether it falls")?,
         peak: *peak,
         release: Release { force, until: *until },
-        parametric,
+        parametric: vectors(&store.take::<f64>("state.parametric", 3)?),
         displacement,
         increment,
         last_step: *last_step,
         travel,
         uncounted,
-        pressure,
+        pressure: store.take::<f64>("state.pressure", 1)?,
         velocity,
         acceleration,
-        taking_part,
-        penalised,
-        weighing,
-        front,
+        taking_part: flags(&mut store, "state.taking_part")?,
+        penalised: flags(&mut store, "state.penalised")?,
+        weighing: take_weighing(&mut store)?,
+        front: take_front(&mut store)?,
         restorations: *restorations,
     };
-    if state.points.len() != first.points.len()
-        || [state.fem.len(), state.fem_parametric.len()] != [first.fem.len(); 2]
-        || [state.parametric.len(), state.weighing.weight.len()] != [state.points.len(); 2]
-    {
-        return Err(foreign("the number of points"));
+    if let Some(array) = store.into_arrays().first() {
+        return Err(foreign(&format!("the array `{}`", array.name)));
     }
-    let level_set = state.weighing.level_set.len();
-    if state.displacement.len() != nodes || state.travel.len() != nodes || ![0, nodes].contains(&level_set) {
-        return Err(foreign("the number of nodes"));
-    }
+    valid::check(scene, first, &state)?;
     Ok(state)
 }

@@ -10,7 +10,7 @@
 //! The checkpoint of a step is written while the next one is solved.
 
 mod boundary;
-mod checkpoint;
+pub mod checkpoint;
 mod ending;
 mod record;
 mod surface;
@@ -20,16 +20,19 @@ pub use record::{Field, Quantity, Watch, WatchedOn};
 pub use surface::Acting;
 
 use crate::error::{Error, Result};
-use crate::io::atomic;
 use crate::io::background::Background;
-use crate::io::checkpoint::{Checkpoints, Fingerprint};
+use crate::io::checkpoint::Checkpoints;
+use crate::io::container::Store;
 use crate::io::frame::{self, Frame};
-use crate::io::history::{History, Log};
+use crate::io::hash;
+use crate::io::history::{History, Log, Mark};
+use crate::io::provenance::Origin;
+use crate::io::run_folder::RunFolder;
 use crate::kinematics::Kinematics;
 use crate::profile::{Activity, timed};
 use crate::step::{Controller, Limits, Scene, Simulation, State};
-use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, Mutex, PoisonError};
 
 /// Jobs that may wait for the writer: the frame and the checkpoint of a step.
 const QUEUE: usize = 2;
@@ -37,21 +40,15 @@ const QUEUE: usize = 2;
 /// What a run writes, and where.
 #[derive(Clone, Debug)]
 pub struct Outputs {
-    pub folder: PathBuf,
+    pub folder: RunFolder,
     pub fields: Vec<Field>,
     pub watches: Vec<Watch>,
     /// What ends each phase before its time.
     pub until: Vec<Vec<Until>>,
     /// What acts on the surface of the material, where that is shown.
     pub surface: Option<Acting>,
-    /// Tells whether a checkpoint belongs to the case.
-    pub fingerprint: Fingerprint,
-}
-
-impl Outputs {
-    pub fn results(&self) -> PathBuf {
-        self.folder.join("results")
-    }
+    /// What the run is made from: whether a checkpoint belongs to the case, and a frame to the mesh.
+    pub origin: Origin,
 }
 
 /// How far a run has come.
@@ -90,29 +87,30 @@ pub fn run<const D: usize, K: Kinematics<D>>(
     stop: &AtomicBool,
     progress: &mut dyn FnMut(Progress),
 ) -> Result<Ended> {
-    let checkpoints = Checkpoints::new(outputs.folder.join("checkpoints"), outputs.fingerprint);
+    let checkpoints = Checkpoints::new(outputs.folder.checkpoints(), outputs.origin.run);
     let loaded = if resume { checkpoints.latest()? } else { None };
     let end: f64 = scene.phases.iter().map(|p| p.duration).sum();
     let mut tell = |state: &State<D>, note: Option<&str>| {
         let phase = scene.phases.get(state.phase).map_or("done", |p| p.name.as_str());
         progress(Progress { phase, time: state.time, end, step: state.step, note });
     };
-    let state = match loaded {
-        Some(loaded) => {
-            let state = checkpoint::take(loaded.store, &first)?;
+    let (state, written) = match loaded {
+        Some(mut loaded) => {
+            let written = Written::take(&mut loaded.store)?;
+            let state = checkpoint::take(loaded.store, scene, &first)?;
             for warning in &loaded.warnings {
                 tell(&state, Some(warning));
             }
-            state
+            (state, Some(written))
         }
         None => {
             if resume {
                 tell(&first, Some("there is no checkpoint to continue from: the run begins afresh"));
             }
-            first
+            (first, None)
         }
     };
-    let mut files = Files::open(scene, outputs, checkpoints, &state)?;
+    let mut files = Files::open(scene, outputs, checkpoints, &state, written)?;
     let mut simulation = Simulation::<D, K>::new(scene, state)?;
     if simulation.state.step == 0 && simulation.state.frames == 0 {
         files.frame(scene, &mut simulation.state)?;
@@ -144,7 +142,7 @@ pub fn run<const D: usize, K: Kinematics<D>>(
                     let state = &mut simulation.state;
                     let note = ending::let_fall(phase, state, &mut controller, &error);
                     tell(state, Some(&note));
-                    files.note(state, &note)?;
+                    files.log.line(&note)?;
                     continue;
                 }
                 Err(error) if ending::found_failure(phase, &simulation.state, &controller) => {
@@ -178,7 +176,7 @@ pub fn run<const D: usize, K: Kinematics<D>>(
                 }
                 if let Some(note) = ending::let_rest(phase, until, state, &report, &mut controller) {
                     tell(state, Some(&note));
-                    files.note(state, &note)?;
+                    files.log.line(&note)?;
                     state.step_size = controller.wanted;
                 }
                 if controller.stop_at(state.phase_time).is_some_and(|s| s.frame) {
@@ -188,7 +186,7 @@ pub fn run<const D: usize, K: Kinematics<D>>(
                     if phase.search.is_some() {
                         let note = ending::safety(phase, state, None);
                         tell(state, Some(&note));
-                        files.note(state, &note)?;
+                        files.log.line(&note)?;
                     }
                     state.next_phase(scene);
                 }
@@ -201,6 +199,31 @@ pub fn run<const D: usize, K: Kinematics<D>>(
     Ok(Ended::Done)
 }
 
+/// What a checkpoint knows of the other files of its run.
+struct Written {
+    history: Mark,
+    log: Mark,
+    /// The hashes of the frames.
+    frames: Vec<u64>,
+}
+
+impl Written {
+    fn put(&self, store: &mut Store) {
+        for (name, mark) in [("files.history", self.history), ("files.log", self.log)] {
+            store.put(name, 2, vec![mark.lines, mark.hash]);
+        }
+        store.put("files.frames", 1, self.frames.clone());
+    }
+
+    fn take(store: &mut Store) -> Result<Self> {
+        let mut mark = |name: &str| match store.take::<u64>(name, 2)?[..] {
+            [lines, hash] => Ok(Mark { lines, hash }),
+            _ => Err(foreign(name)),
+        };
+        Ok(Self { history: mark("files.history")?, log: mark("files.log")?, frames: store.take("files.frames", 1)? })
+    }
+}
+
 /// The open files of a run.
 struct Files<'a> {
     outputs: &'a Outputs,
@@ -208,6 +231,8 @@ struct Files<'a> {
     history: History,
     log: Log,
     writer: Background,
+    /// The hashes of the frames that the writer has written.
+    frames: Arc<Mutex<Vec<u64>>>,
     /// The step of the last frame handed to the writer.
     framed: Option<u64>,
 }
@@ -218,27 +243,30 @@ impl<'a> Files<'a> {
         outputs: &'a Outputs,
         checkpoints: Checkpoints,
         state: &State<D>,
+        written: Option<Written>,
     ) -> Result<Self> {
-        let folder: &Path = &outputs.folder;
-        atomic::prepare_folder(folder)?;
+        let folder = &outputs.folder;
         let columns = record::columns(scene, &outputs.watches);
-        let (history, log) = (folder.join("history.csv"), folder.join("solve.log"));
-        let (history, log) = if state.step > 0 {
-            (History::resume(&history, &columns, state.rows)?, Log::resume(&log, state.log_lines)?)
-        } else {
-            checkpoints.clear()?;
-            let mut log = Log::create(&log)?;
-            for line in record::heading(scene, &state.points) {
-                log.line(&line)?;
+        let (history, log) = (folder.history(), folder.log());
+        let (history, log, frames) = match written {
+            Some(Written { history: rows, log: lines, frames }) => {
+                check_frames(folder, &frames, state.frames)?;
+                (History::resume(&history, &columns, rows)?, Log::resume(&log, lines)?, frames)
             }
-            (History::create(&history, &columns)?, log)
+            None => {
+                checkpoints.clear()?;
+                let mut log = Log::create(&log)?;
+                for line in record::heading(scene, &state.points) {
+                    log.line(&line)?;
+                }
+                (History::create(&history, &columns)?, log, Vec::new())
+            }
         };
-        let (results, frames) = (outputs.results(), usize::try_from(state.frames).unwrap_or(usize::MAX));
-        frame::prepare(&results, frames)?;
-        // One that is gone is no reason not to go on.
-        let last = frames.checked_sub(1).and_then(|last| Frame::read(&frame::path(&results, last)).ok());
-        let framed = last.map(|frame| frame.step);
-        Ok(Self { outputs, checkpoints, history, log, writer: Background::start(QUEUE)?, framed })
+        frame::prepare(&folder.results(), frames.len())?;
+        let last = frames.len().checked_sub(1).map(|last| Frame::read(&frame::path(&folder.results(), last)));
+        let framed = last.transpose()?.map(|frame| frame.step);
+        let frames = Arc::new(Mutex::new(frames));
+        Ok(Self { outputs, checkpoints, history, log, writer: Background::start(QUEUE)?, frames, framed })
     }
 
     /// Notes a converged step, once the checkpoint of the step before is written: a kill loses the step in hand,
@@ -246,29 +274,19 @@ impl<'a> Files<'a> {
     fn step<const D: usize>(
         &mut self,
         scene: &Scene<D>,
-        state: &mut State<D>,
+        state: &State<D>,
         report: &crate::step::Report<D>,
     ) -> Result<()> {
         self.writer.flush()?;
         for line in record::log_lines(scene, state, report) {
             self.log.line(&line)?;
         }
-        self.history.row(&record::row(scene, &self.outputs.watches, state, report))?;
-        (state.rows, state.log_lines) = (self.history.rows(), self.log.lines());
-        Ok(())
-    }
-
-    /// Writes a line into the log.
-    fn note<const D: usize>(&mut self, state: &mut State<D>, note: &str) -> Result<()> {
-        self.log.line(note)?;
-        state.log_lines = self.log.lines();
-        Ok(())
+        self.history.row(&record::row(scene, &self.outputs.watches, state, report))
     }
 
     /// Ends a phase before its time, with the reason, in the last converged state.
     fn end_early<const D: usize>(&mut self, scene: &Scene<D>, state: &mut State<D>, note: &str) -> Result<()> {
-        self.note(state, note)?;
-        state.rows = self.history.rows();
+        self.log.line(note)?;
         if self.framed != Some(state.step) {
             self.frame(scene, state)?;
         }
@@ -279,10 +297,14 @@ impl<'a> Files<'a> {
     /// Hands a frame to the writer.
     fn frame<const D: usize>(&mut self, scene: &Scene<D>, state: &mut State<D>) -> Result<()> {
         let frame = record::frame(scene, state, self.outputs);
-        let (folder, index) = (self.outputs.results(), state.frames as usize);
+        let (folder, frames, index) = (self.outputs.folder.results(), Arc::clone(&self.frames), state.frames as usize);
         state.frames += 1;
         self.framed = Some(state.step);
-        self.writer.submit(move || frame.write(&folder, index))
+        self.writer.submit(move || {
+            let hash = frame.write(&folder, index)?;
+            frames.lock().unwrap_or_else(PoisonError::into_inner).push(hash);
+            Ok(())
+        })
     }
 
     /// Hands a frame of the last converged step to the writer, unless it has it: what an analysis that cannot go
@@ -301,8 +323,14 @@ impl<'a> Files<'a> {
 
     /// Hands a checkpoint to the writer.
     fn checkpoint<const D: usize>(&mut self, state: &State<D>) -> Result<()> {
-        let (checkpoints, step, store) = (self.checkpoints.clone(), state.step, checkpoint::store(state));
-        self.writer.submit(move || checkpoints.save(step, store))
+        let (checkpoints, step, mut store) = (self.checkpoints.clone(), state.step, checkpoint::store(state));
+        let (history, log, frames) = (self.history.mark(), self.log.mark(), Arc::clone(&self.frames));
+        self.writer.submit(move || {
+            // The frames before it are written by now.
+            let frames = frames.lock().unwrap_or_else(PoisonError::into_inner).clone();
+            Written { history, log, frames }.put(&mut store);
+            checkpoints.save(step, store)
+        })
     }
 
     /// Waits for the writer.
@@ -311,11 +339,22 @@ impl<'a> Files<'a> {
     }
 }
 
+/// Refuses frames that are not those that the run wrote.
+fn check_frames(folder: &RunFolder, known: &[u64], count: u64) -> Result<()> {
+    if known.len() as u64 != count {
+        return Err(foreign("its list of frames"));
+    }
+    let paths: Vec<_> = (0..known.len()).map(|index| frame::path(&folder.results(), index)).collect();
+    let hashes = hash::files(&paths, AFRESH)?;
+    match hashes.iter().zip(known).position(|(hash, known)| hash != known) {
+        Some(i) => Err(Error::input(paths[i].display(), "was changed after it was written", AFRESH)),
+        None => Ok(()),
+    }
+}
+
+const AFRESH: &str = "start the analysis afresh, with --fresh in place of --resume";
+
 /// The error of a checkpoint whose arrays do not fit the scene.
 fn foreign(what: &str) -> Error {
-    Error::input(
-        "checkpoint",
-        format!("{what} does not fit the mesh and the points"),
-        "start the analysis afresh, without --resume",
-    )
+    Error::input("checkpoint", format!("{what} does not fit the mesh and the points"), AFRESH)
 }

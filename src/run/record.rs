@@ -224,6 +224,7 @@ pub fn frame<const D: usize>(scene: &Scene<D>, state: &State<D>, outputs: &Outpu
         time: state.time,
         phase: scene.phases.get(state.phase).map_or_else(String::new, |p| p.name.clone()),
         step: state.step,
+        origin: outputs.origin,
         points: part(&state.points, fields),
         grid,
         elements: if scene.fem.is_some() { elements } else { Part::default() },

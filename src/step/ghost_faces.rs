@@ -42,6 +42,12 @@ pub fn has_room<const D: usize>(state: &State<D>, face: &Face) -> bool {
         && face.cells.iter().all(|&c| state.taking_part[c as usize])
 }
 
+/// Whether the system has room for all penalties that the cells of a state, which exist and take part, ask for.
+pub fn has_room_for_penalties<const D: usize>(scene: &Scene<D>, state: &State<D>) -> bool {
+    let Some(faces) = &scene.faces else { return true };
+    choose(scene, state).into_iter().all(|f| has_room(state, &faces.inner[f as usize]))
+}
+
 /// Makes room for the faces in `chosen` and those around; true where there was not enough.
 pub fn make_room<const D: usize>(faces: &Faces, state: &mut State<D>, chosen: &[u32]) -> bool {
     if chosen.iter().all(|&f| has_room(state, &faces.inner[f as usize])) {

@@ -32,6 +32,7 @@ mod water;
 
 pub use contact::Resultant;
 pub use control::{Controller, Limits};
+pub use ghost_faces::has_room_for_penalties;
 pub use grid::Grid;
 pub use materials::Change;
 pub use newton::Solution;

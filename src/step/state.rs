@@ -22,10 +22,6 @@ pub struct State<const D: usize> {
     pub step_size: f64,
     /// Frames written so far.
     pub frames: u64,
-    /// Rows of the history written so far.
-    pub rows: u64,
-    /// Lines of the log written so far.
-    pub log_lines: u64,
     pub points: Points<D>,
     /// The points of the finite elements, then those of rigid structures, and where they are in their cells; empty
     /// without.
@@ -84,8 +80,6 @@ impl<const D: usize> State<D> {
             step: 0,
             step_size: first_step,
             frames: 0,
-            rows: 0,
-            log_lines: 0,
             points,
             fem: Points::default(),
             fem_parametric: Vec::new(),

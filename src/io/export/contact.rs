@@ -36,5 +36,6 @@ pub fn grid(part: &Part, time: Option<f64>) -> Option<Grid> {
         point_data: part.columns.iter().filter(shown).map(array).collect(),
         cell_data: vec![Array { name: "region [-]".to_string(), components: 1, data: Data::U16(regions) }],
         time,
+        note: String::new(),
     })
 }

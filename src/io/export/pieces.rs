@@ -73,7 +73,9 @@ impl Piece {
         let mut members = vec![Vec::new(); self.region.len()];
         let cells = elements.columns.iter().find(|c| c.name == CELL).map_or(&[][..], |c| &c.values);
         for (p, &cell) in cells.iter().enumerate() {
-            members.get_mut(cell as usize)?.push(p);
+            let number = cell as usize;
+            // No part of a cell, and none before the first.
+            members.get_mut(number).filter(|_| number as f64 == cell)?.push(p);
         }
         let mut columns = Vec::new();
         let known: Vec<&Column> = elements.columns.iter().filter(|c| c.name != CELL).collect();
@@ -119,6 +121,7 @@ impl Piece {
             point_data: select(part, fields),
             cell_data: vec![region],
             time,
+            note: String::new(),
         }
     }
 }

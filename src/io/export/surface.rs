@@ -33,5 +33,6 @@ pub fn lines(part: &Part, time: Option<f64>) -> Option<Grid> {
         point_data: shown.map(array).collect(),
         cell_data: Vec::new(),
         time,
+        note: String::new(),
     })
 }

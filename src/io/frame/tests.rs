@@ -22,6 +22,7 @@ pub(in crate::io) fn sample(k: usize) -> Frame {
                 column("plastic_strain", "-", 1, 20),
             ],
         },
+        origin: Origin { run: Fingerprint::from(7), mesh: 11 },
         grid: Part { position: Vec::new(), columns: vec![column("displacement", "m", 3, 6)] },
         elements: Part::default(),
         contact: Part::default(),

@@ -8,10 +8,14 @@ fn regions() -> Vec<String> {
     vec!["clay_near".to_string(), "sand -- \"lower\" <2> & so --->".to_string()]
 }
 
+fn source() -> Source {
+    Source { mesh: "1f".to_string(), case: "2e".to_string() }
+}
+
 fn written(n: usize, dynamic: bool) -> (tempfile::TempDir, PathBuf) {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("points.vtu");
-    write(&path, &sample_points(n, dynamic), &regions()).unwrap();
+    write(&path, &sample_points(n, dynamic), &regions(), &source()).unwrap();
     (folder, path)
 }
 
@@ -19,9 +23,9 @@ fn written(n: usize, dynamic: bool) -> (tempfile::TempDir, PathBuf) {
 fn every_bit_and_the_regions_come_back() {
     for (n, dynamic) in [(1, true), (37, false), (1000, true), (0, false)] {
         let (_folder, path) = written(n, dynamic);
-        let (points, names) = read::<2>(&path).unwrap();
-        assert!(same_bits(&points, &sample_points(n, dynamic)), "{n} points");
-        assert_eq!(names, regions());
+        let read = read::<2>(&path).unwrap();
+        assert!(same_bits(&read.points, &sample_points(n, dynamic)), "{n} points");
+        assert_eq!((read.regions, read.source), (regions(), source()));
     }
 }
 
@@ -31,7 +35,7 @@ fn a_number_that_is_not_finite_is_named() {
     let path = folder.path().join("points.vtu");
     let mut points = sample_points(20, false);
     points.stress[13][2] = f64::NAN;
-    let e = write(&path, &points, &regions()).unwrap_err();
+    let e = write(&path, &points, &regions(), &source()).unwrap_err();
     assert_eq!(e.kind, Kind::Analysis);
     assert!(e.to_string().starts_with("material point 13: `stress` is NaN"), "{e}");
     assert!(!path.exists());
@@ -71,7 +75,10 @@ fn a_changed_byte_is_noticed_wherever_it_is() {
             match read::<2>(&path) {
                 Err(e) => assert_eq!(e.kind, Kind::Input),
                 // The case of a hexadecimal digit in the last line.
-                Ok((points, names)) => assert!(same_bits(&points, &sample_points(10, true)) && names == regions()),
+                Ok(Seeded { points, regions: names, source: from }) => {
+                    assert!(same_bits(&points, &sample_points(10, true)));
+                    assert_eq!((names, from), (regions(), source()));
+                }
             }
         }
     }

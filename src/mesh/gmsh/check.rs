@@ -138,23 +138,3 @@ pub fn check_complete(path: &Path) -> Result<()> {
         Err(Error::input(path.display(), "it is cut short or no MSH file", AGAIN))
     }
 }
-
-/// The mesh must lie in the plane z = 0, with finite coordinates.
-///
-/// # Errors
-/// Input: the first node that does not.
-pub fn check_plane<'a>(path: &Path, nodes: impl Iterator<Item = &'a [f64; 3]> + Clone) -> Result<()> {
-    let size = nodes.clone().fold(0.0f64, |size, x| size.max(x[0].abs()).max(x[1].abs()));
-    for x in nodes {
-        if !x.iter().all(|v| v.is_finite()) || x[2].abs() > 1e-9 * size {
-            let place = format!("{}, node at ({}, {}, {})", path.display(), x[0], x[1], x[2]);
-            return Err(Error::input(place, "it is not in the plane z = 0", "draw the section in the x–y plane, y up"));
-        }
-    }
-    Ok(())
-}
-
-/// The error for two physical groups of one name.
-pub fn doubled(path: &Path, kind: &str, name: &str) -> Error {
-    Error::input(path.display(), format!("the physical {kind} have the name {name} twice"), "give each its own name")
-}

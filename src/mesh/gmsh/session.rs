@@ -1,10 +1,7 @@
 //! Gmsh itself: a session with its one global model, by its C interface. All foreign functions of the program are called here.
 
-use super::super::shape::CellKind;
-use super::AGAIN;
 use super::check::check_complete;
 use crate::error::{Error, Result};
-use std::collections::BTreeMap;
 use std::ffi::{CStr, CString, c_char, c_int};
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -192,75 +189,6 @@ impl Session {
         pairs.chunks_exact(2).map(|pair| pair[1]).collect()
     }
 
-    /// The coordinates of all nodes by their tags.
-    ///
-    /// # Errors
-    /// Input: what Gmsh says of the file.
-    pub fn nodes(&self, path: &Path) -> Result<BTreeMap<usize, [f64; 3]>> {
-        let (mut tags, mut tag_count) = (null_mut(), 0);
-        let (mut coordinates, mut coordinate_count) = (null_mut(), 0);
-        let (mut parameters, mut parameter_count) = (null_mut(), 0);
-        let mut status = 0;
-        // SAFETY: Gmsh hands out three arrays of the counts it gives.
-        let (tags, coordinates) = unsafe {
-            ffi::model_mesh_get_nodes(
-                &mut tags,
-                &mut tag_count,
-                &mut coordinates,
-                &mut coordinate_count,
-                &mut parameters,
-                &mut parameter_count,
-                -1,
-                -1,
-                0,
-                0,
-                &mut status,
-            );
-            take(parameters, parameter_count);
-            (take(tags, tag_count), take(coordinates, coordinate_count))
-        };
-        self.checked(path, status, AGAIN)?;
-        Ok(tags.into_iter().zip(coordinates.chunks_exact(3).map(|x| [x[0], x[1], x[2]])).collect())
-    }
-
-    /// The elements of an entity, each with its kind and the tags of its nodes.
-    ///
-    /// # Errors
-    /// Input: elements of a type that there are no cells for, and what Gmsh says of the file.
-    pub fn elements(&self, path: &Path, dimension: c_int, entity: c_int) -> Result<Vec<(CellKind, Vec<usize>)>> {
-        let (mut types, mut type_count) = (null_mut(), 0);
-        let (mut tags, mut tag_counts, mut tag_lists) = (null_mut(), null_mut(), 0);
-        let (mut nodes, mut node_counts, mut node_lists) = (null_mut(), null_mut(), 0);
-        let mut status = 0;
-        // SAFETY: Gmsh hands out an array of types and, a type each, lists of elements and of their nodes.
-        let (types, nodes) = unsafe {
-            ffi::model_mesh_get_elements(
-                &mut types,
-                &mut type_count,
-                &mut tags,
-                &mut tag_counts,
-                &mut tag_lists,
-                &mut nodes,
-                &mut node_counts,
-                &mut node_lists,
-                dimension,
-                entity,
-                &mut status,
-            );
-            take_lists(tags, tag_counts, tag_lists);
-            (take(types, type_count), take_lists(nodes, node_counts, node_lists))
-        };
-        self.checked(path, status, AGAIN)?;
-        let mut elements = Vec::new();
-        for (kind, nodes) in types.into_iter().zip(nodes) {
-            let kind = kind_of(kind).ok_or_else(|| {
-                Error::input(path.display(), format!("elements of Gmsh's type {kind}"), "mesh it with order 1 or 2")
-            })?;
-            elements.extend(nodes.chunks_exact(kind.node_count()).map(|n| (kind, n.to_vec())));
-        }
-        Ok(elements)
-    }
-
     /// An error if the last call failed or Gmsh has logged one.
     ///
     /// # Errors
@@ -335,21 +263,6 @@ impl Drop for Session {
     }
 }
 
-/// The cell kind of a Gmsh element type.
-pub fn kind_of(element: c_int) -> Option<CellKind> {
-    Some(match element {
-        15 => CellKind::Point1,
-        1 => CellKind::Line2,
-        8 => CellKind::Line3,
-        2 => CellKind::T3,
-        9 => CellKind::T6,
-        3 => CellKind::Q4,
-        16 => CellKind::Q8,
-        10 => CellKind::Q9,
-        _ => return None,
-    })
-}
-
 fn c_string(text: &str) -> Result<CString> {
     CString::new(text).map_err(|_| Error::input(format!("{text:?}"), "it contains a zero byte", "take it out"))
 }
@@ -376,18 +289,6 @@ unsafe fn take<T: Copy>(data: *mut T, count: usize) -> Vec<T> {
         let values = std::slice::from_raw_parts(data, count).to_vec();
         ffi::free(data.cast());
         values
-    }
-}
-
-/// Copies a list of arrays and frees all of it.
-///
-/// # Safety
-/// `data` and `counts` are null or arrays of `count` arrays and of their lengths, allocated by Gmsh.
-unsafe fn take_lists<T: Copy>(data: *mut *mut T, counts: *mut usize, count: usize) -> Vec<Vec<T>> {
-    // SAFETY: as required of the caller.
-    unsafe {
-        let (lists, counts) = (take(data, count), take(counts, count));
-        lists.into_iter().zip(counts).map(|(list, count)| take(list, count)).collect()
     }
 }
 

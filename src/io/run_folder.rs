@@ -1,0 +1,230 @@
+//! The folder of a run, and how a new run takes the place of an earlier one.
+//!
+//! An output folder holds the results of one run. A run that starts where there are results already writes into the folder
+//! `unfinished` beside them, and takes their place when it is finished, or where they are unfinished too and it has
+//! converged at least one step. Until then they stay as they are.
+//!
+//! The exchange is a few renames. A marker is written before the first and removed after the last one: an exchange that a
+//! kill interrupts is completed by the next process.
+
+use std::path::{Path, PathBuf};
+
+use super::atomic;
+use super::checkpoint::Checkpoints;
+use super::frame;
+use super::provenance::{self, Record};
+use crate::error::Result;
+
+/// The name of the stage that writes runs, in its record.
+pub const STAGE: &str = "solve";
+/// The folder of a run beside earlier results.
+pub const BESIDE: &str = "unfinished";
+/// The marker of an exchange, and where the earlier results go meanwhile.
+const MARKER: &str = ".exchange";
+const REPLACED: &str = ".replaced";
+/// What a run consists of.
+const PARTS: [&str; 5] = ["results", "checkpoints", "history.csv", "solve.log", provenance::FOLDER];
+
+/// The folder that a run writes into.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct RunFolder {
+    path: PathBuf,
+}
+
+/// How far the run in a folder has come.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Standing {
+    /// No step has converged.
+    Nothing,
+    Unfinished,
+    Finished,
+}
+
+impl RunFolder {
+    pub fn new(path: impl Into<PathBuf>) -> Self {
+        Self { path: path.into() }
+    }
+
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    pub fn results(&self) -> PathBuf {
+        self.path.join("results")
+    }
+
+    pub fn checkpoints(&self) -> PathBuf {
+        self.path.join("checkpoints")
+    }
+
+    pub fn history(&self) -> PathBuf {
+        self.path.join("history.csv")
+    }
+
+    pub fn log(&self) -> PathBuf {
+        self.path.join("solve.log")
+    }
+
+    /// The record of the run.
+    pub fn record(&self) -> Option<Record> {
+        Record::read(&self.path, STAGE)
+    }
+
+    /// How far the run has come.
+    ///
+    /// # Errors
+    /// `Machine` when the folder cannot be read.
+    pub fn standing(&self) -> Result<Standing> {
+        if !Checkpoints::exist(&self.checkpoints())? {
+            return Ok(Standing::Nothing);
+        }
+        let finished = self.record().is_some_and(|record| record.finished) && self.has_frames();
+        Ok(if finished { Standing::Finished } else { Standing::Unfinished })
+    }
+
+    /// Whether there is at least one frame to show.
+    pub fn has_frames(&self) -> bool {
+        frame::path(&self.results(), 0).exists()
+    }
+
+    /// The files of a run that is finished: frames, history and log.
+    ///
+    /// # Errors
+    /// `Machine` when the folder cannot be read.
+    pub fn outputs(&self) -> Result<Vec<PathBuf>> {
+        let mut files = frame::paths(&self.results())?;
+        files.extend([self.history(), self.log()].into_iter().filter(|path| path.exists()));
+        Ok(files)
+    }
+
+    /// Refuses links in place of what is written in place or emptied.
+    fn refuse_links(&self) -> Result<()> {
+        atomic::refuse_link(&self.path)?;
+        PARTS.iter().try_for_each(|part| atomic::refuse_link(&self.path.join(part)))
+    }
+
+    /// Removes a run.
+    fn remove(&self, outer: bool) -> Result<()> {
+        if outer {
+            // The folder of the other stages, too: of the records only that of the run.
+            atomic::remove(&provenance::path(&self.path, STAGE))?;
+            return PARTS[..4].iter().try_for_each(|part| atomic::remove_folder(&self.path.join(part)));
+        }
+        atomic::remove_folder(&self.path)
+    }
+}
+
+/// The runs of an output folder: its results, and the run beside them.
+#[derive(Clone, Debug)]
+pub struct Runs {
+    pub main: RunFolder,
+    pub beside: RunFolder,
+}
+
+impl Runs {
+    /// The runs in an output folder, as they are.
+    pub fn of(folder: &Path) -> Self {
+        Self { main: RunFolder::new(folder), beside: RunFolder::new(folder.join(BESIDE)) }
+    }
+
+    /// Completes an exchange that was interrupted, and refuses links. The caller holds the lock of the folder.
+    ///
+    /// # Errors
+    /// `Input` for a link in place of a file or folder of a run, `Machine` when something cannot be renamed or removed.
+    pub fn prepare(&self) -> Result<()> {
+        for part in PARTS {
+            atomic::refuse_link(&self.main.path.join(part))?;
+        }
+        self.beside.refuse_links()?;
+        atomic::refuse_link(&self.replaced())?;
+        if self.marker().exists() { self.exchange() } else { atomic::remove_folder(&self.replaced()) }
+    }
+
+    /// The folder of the run that was not finished, if there is one with a converged step.
+    ///
+    /// # Errors
+    /// `Machine` when a folder cannot be read.
+    pub fn unfinished(&self) -> Result<Option<&RunFolder>> {
+        for run in [&self.beside, &self.main] {
+            if run.standing()? == Standing::Unfinished {
+                return Ok(Some(run));
+            }
+        }
+        Ok(None)
+    }
+
+    /// An empty folder for a new run: beside the results, where there are any.
+    ///
+    /// # Errors
+    /// `Machine` when what is left of another run cannot be removed.
+    pub fn start(&self) -> Result<&RunFolder> {
+        let run = if self.main.standing()? == Standing::Nothing { &self.main } else { &self.beside };
+        run.remove(run == &self.main)?;
+        atomic::prepare_folder(&run.path)?;
+        Ok(run)
+    }
+
+    /// Puts a run that ended into its place: whether it is in the main folder then.
+    ///
+    /// # Errors
+    /// `Machine` when something cannot be renamed or removed.
+    pub fn settle(&self, run: &RunFolder) -> Result<bool> {
+        if *run == self.main {
+            return Ok(true);
+        }
+        let (new, old) = (run.standing()?, self.main.standing()?);
+        let better = match new {
+            Standing::Finished => true,
+            Standing::Unfinished => old != Standing::Finished,
+            Standing::Nothing => false,
+        };
+        if better {
+            atomic::write_durable(&self.marker(), |out| {
+                out.write_all(b"unfinished/ takes the place of the results\n")
+            })?;
+            self.exchange()?;
+        }
+        Ok(better)
+    }
+
+    /// Moves every part of the run beside to the main folder, as far as that has not been done yet.
+    fn exchange(&self) -> Result<()> {
+        let replaced = self.replaced();
+        for part in PARTS.iter().filter(|&&part| part != provenance::FOLDER) {
+            self.exchange_part(&replaced, part)?;
+        }
+        // The record goes last: with it the results are finished.
+        self.exchange_part(&replaced, &format!("{}/{STAGE}.json", provenance::FOLDER))?;
+        atomic::remove_folder(&self.beside.path)?;
+        atomic::remove(&self.marker())?;
+        atomic::remove_folder(&replaced)
+    }
+
+    fn exchange_part(&self, replaced: &Path, part: &str) -> Result<()> {
+        let (new, old, aside) = (self.beside.path.join(part), self.main.path.join(part), replaced.join(part));
+        if !new.exists() {
+            return Ok(());
+        }
+        for path in [&old, &aside] {
+            if let Some(folder) = path.parent() {
+                atomic::prepare_folder(folder)?;
+            }
+        }
+        if old.exists() {
+            atomic::remove_folder(&aside)?;
+            atomic::rename(&old, &aside)?;
+        }
+        atomic::rename(&new, &old)
+    }
+
+    fn marker(&self) -> PathBuf {
+        self.main.path.join(MARKER)
+    }
+
+    fn replaced(&self) -> PathBuf {
+        self.main.path.join(REPLACED)
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,339 @@
+//! Reads meshes: MSH 4.1 of Gmsh, as text or binary, which is read as data and never by Gmsh, whose own reader takes
+//! a file without the header of a mesh for a script.
+//!
+//! Read are the sections MeshFormat, PhysicalNames, Entities, Nodes and Elements (Gmsh reference manual, *MSH file
+//! format*); others are passed. The crate `mshio` (0.4.2) is not used: it leaves out PhysicalNames, asks for memory by
+//! the counts that a file states, and panics on sizes of numbers that it does not know.
+//!
+//! The *seal* is a `$Comments` section at the end with the XXH64 of all before it. It tells accidents, not
+//! forgeries.
+
+mod sections;
+mod source;
+
+use super::shape::CellKind;
+use super::{Cells, Group, Mesh};
+use crate::error::{Error, Result};
+use sections::{Block, Nodes, Sections};
+use source::Source;
+use std::collections::{BTreeMap, BTreeSet};
+use std::fs::{self, OpenOptions};
+use std::io::{self, Write};
+use std::path::Path;
+use twox_hash::XxHash64;
+
+const AGAIN: &str = "make the file again with `mpm mesh`";
+
+/// What the seal begins with.
+const SEAL: &str = "mpm mesh xxh64=";
+
+/// Reads a plane mesh with its named groups from an MSH 4.1 file.
+///
+/// Cells come in the order of their physical surfaces' numbers, nodes in that of theirs; nodes of no cell are left
+/// out, clockwise cells are turned round, a group without a name is called by its number.
+///
+/// # Errors
+/// Input: a file that is missing, cut short, of another format, changed after it was sealed, or without physical
+/// surfaces; cells that are not T3, T6, Q4, Q8 or Q9, of mixed order, in two physical surfaces, or outside the x–y
+/// plane; groups that are empty or that no cell touches. Machine: one that cannot be read.
+pub fn read(path: &Path) -> Result<Mesh<2>> {
+    let place = path.display().to_string();
+    let metadata = fs::metadata(path).map_err(|error| Error::input(&place, error, "check the path"))?;
+    if !metadata.is_file() {
+        return Err(Error::input(&place, "it is a folder or a device", "name a file"));
+    }
+    parse(&fs::read(path).map_err(|error| Error::input(&place, error, "check the path"))?, &place)
+}
+
+/// As [`read`], from the bytes of the file called `place`.
+///
+/// # Errors
+/// As [`read`].
+pub fn parse(bytes: &[u8], place: &str) -> Result<Mesh<2>> {
+    assemble(sections(bytes, place)?, place)
+}
+
+/// Seals the mesh file at `path`, which is complete: [`read`] then refuses it when it was changed.
+///
+/// # Errors
+/// When it cannot be read or written.
+pub fn seal(path: &Path) -> io::Result<()> {
+    let hash = XxHash64::oneshot(0, &fs::read(path)?);
+    let mut file = OpenOptions::new().append(true).open(path)?;
+    file.write_all(format!("$Comments\n{SEAL}{hash:016x}\n$EndComments\n").as_bytes())?;
+    file.sync_all()
+}
+
+/// Reads the sections of a file.
+fn sections(bytes: &[u8], place: &str) -> Result<Sections> {
+    let mut source = Source::new(bytes, place);
+    let mut found: Vec<&str> = Vec::new();
+    let mut read = Sections { length: bytes.len(), ..Sections::default() };
+    while let Some((name, start)) = source.open().map_err(|error| match found.is_empty() {
+        true => no_mesh(place),
+        false => error,
+    })? {
+        if found.is_empty() && !matches!(name, "MeshFormat" | "Comments") {
+            return Err(no_mesh(place));
+        }
+        if found.contains(&name) {
+            return Err(source.wrong(format!("${name} is there twice")));
+        }
+        match name {
+            "MeshFormat" => source.format()?,
+            "PhysicalNames" => read.names = sections::names(&mut source)?,
+            "Entities" => read.entities = sections::entities(&mut source)?,
+            "Nodes" => read.nodes = sections::nodes(&mut source)?,
+            "Elements" if !found.contains(&"Nodes") => return Err(source.wrong("$Elements comes before $Nodes")),
+            "Elements" => read.blocks = sections::elements(&mut source, &read.nodes)?,
+            _ => {
+                let heart = source.skip()?.trim_ascii();
+                if name == "Comments"
+                    && let Some(seal) = heart.strip_prefix(SEAL.as_bytes())
+                {
+                    let hash = format!("{:016x}", XxHash64::oneshot(0, &bytes[..start]));
+                    if seal != hash.as_bytes() || source.open()?.is_some() {
+                        return Err(Error::input(place, "it was changed after it was written", AGAIN));
+                    }
+                }
+                continue;
+            }
+        }
+        source.close()?;
+        found.push(name);
+    }
+    match ["MeshFormat", "Nodes", "Elements"].into_iter().find(|name| !found.contains(name)) {
+        Some("MeshFormat") => Err(no_mesh(place)),
+        Some(missing) => Err(Error::input(place, format!("it is cut short: it has no section ${missing}"), AGAIN)),
+        None => Ok(read),
+    }
+}
+
+/// The error for a file that is none, an empty one or a script for Gmsh.
+fn no_mesh(place: &str) -> Error {
+    Error::input(place, "it is no mesh file: its first line is not $MeshFormat", AGAIN)
+}
+
+/// A physical group: its name and the tags of its entities, ascending.
+struct Physical {
+    name: String,
+    entities: Vec<i32>,
+}
+
+/// The physical groups of a dimension, by their numbers.
+fn physical_groups(read: &Sections, dimension: usize, place: &str) -> Result<Vec<Physical>> {
+    let mut groups: BTreeMap<u32, Vec<i32>> = BTreeMap::new();
+    for (&entity, numbers) in &read.entities[dimension] {
+        for &number in numbers {
+            groups.entry(number).or_default().push(entity);
+        }
+    }
+    let mut named: Vec<Physical> = Vec::with_capacity(groups.len());
+    let mut names = BTreeSet::new();
+    for (number, entities) in groups {
+        let name = read.names.get(&(dimension, number)).filter(|name| !name.is_empty());
+        let name = name.cloned().unwrap_or_else(|| number.to_string());
+        if !names.insert(name.clone()) {
+            let kind = ["points", "curves", "surfaces"][dimension];
+            let problem = format!("the physical {kind} have the name {name} twice");
+            return Err(Error::input(place, problem, "give each its own name"));
+        }
+        named.push(Physical { name, entities });
+    }
+    Ok(named)
+}
+
+/// Makes the mesh of what a file holds.
+fn assemble(read: Sections, place: &str) -> Result<Mesh<2>> {
+    let blocks = Blocks::of(&read, place)?;
+    let regions = physical_groups(&read, 2, place)?;
+    check_surfaces(&read, &regions, place)?;
+    u16::try_from(regions.len().saturating_sub(1))
+        .map_err(|_| Error::input(place, "more than 65536 physical surfaces", "join some of them"))?;
+    let mut cells: Vec<(CellKind, u16, &[u32])> = Vec::new();
+    for (region, physical) in regions.iter().enumerate() {
+        let before = cells.len();
+        for block in physical.entities.iter().flat_map(|&entity| blocks.of_entity(2, entity)) {
+            cells.extend(block.nodes.chunks_exact(block.kind.node_count()).map(|n| (block.kind, region as u16, n)));
+        }
+        if cells.len() == before {
+            return Err(Error::input(place, format!("its physical surface {} has no cells", physical.name), AGAIN));
+        }
+    }
+    let order = cells[0].0.order();
+    if let Some(other) = cells.iter().find(|c| c.0.order() != order) {
+        let problem = format!("{:?} and {:?} cells in one mesh", cells[0].0, other.0);
+        return Err(Error::input(place, problem, "use one order"));
+    }
+    let mut mesh = Mesh {
+        nodes: Vec::new(),
+        cells: Cells::default(),
+        regions: regions.into_iter().map(|r| r.name).collect(),
+        groups: Vec::new(),
+    };
+    let number = number_nodes(&cells, &read.nodes, &mut mesh, place)?;
+    let mut local = Vec::new();
+    for (kind, region, nodes) in cells {
+        local.clear();
+        local.extend(nodes.iter().map(|&n| number[n as usize]));
+        turn_counter_clockwise(kind, &mesh.nodes, &mut local);
+        mesh.cells.push(kind, region, &local);
+    }
+    let mut facets = 0;
+    for dimension in [1, 0] {
+        for physical in physical_groups(&read, dimension, place)? {
+            let place = format!("{place}, physical group {}", physical.name);
+            let mut group = Group { name: physical.name, dimension, facets: Vec::new(), nodes: Vec::new() };
+            for block in physical.entities.iter().flat_map(|&entity| blocks.of_entity(dimension, entity)) {
+                if dimension == 1 && block.kind.order() != order {
+                    let problem = format!("it has {:?} elements beside cells of order {order}", block.kind);
+                    return Err(Error::input(place, problem, "use one order"));
+                }
+                // An entity may be in several groups, but not so often that memory grows as the square of the file.
+                facets += block.nodes.len();
+                if facets > read.length {
+                    return Err(Error::input(place, "the same elements are in too many groups", AGAIN));
+                }
+                for nodes in block.nodes.chunks_exact(block.kind.node_count()) {
+                    let nodes: Vec<u32> = nodes.iter().map(|&n| number[n as usize]).collect();
+                    if nodes.contains(&UNUSED) {
+                        return Err(Error::input(
+                            place,
+                            "it has nodes that belong to no cell",
+                            "embed it in a surface (`Curve{…} In Surface{…};`) or take it out",
+                        ));
+                    }
+                    group.facets.push((block.kind, nodes));
+                }
+            }
+            if group.facets.is_empty() {
+                return Err(Error::input(place, "it has no elements", AGAIN));
+            }
+            group.nodes = group.facets.iter().flat_map(|(_, nodes)| nodes.iter().copied()).collect();
+            group.nodes.sort_unstable();
+            group.nodes.dedup();
+            mesh.groups.push(group);
+        }
+    }
+    Ok(mesh)
+}
+
+/// The blocks of elements by entity.
+struct Blocks<'a>(BTreeMap<(usize, i32), Vec<&'a Block>>);
+
+impl<'a> Blocks<'a> {
+    /// # Errors
+    /// Input: elements of an entity that is not there.
+    fn of(read: &'a Sections, place: &str) -> Result<Self> {
+        let mut blocks: BTreeMap<(usize, i32), Vec<&Block>> = BTreeMap::new();
+        for block in &read.blocks {
+            let (dimension, entity) = (block.dimension, block.entity);
+            if dimension < 2 && !read.entities[dimension].contains_key(&entity) {
+                let problem =
+                    format!("it has elements of entity {entity} of dimension {dimension}, which is not there");
+                return Err(Error::input(place, problem, AGAIN));
+            }
+            blocks.entry((dimension, entity)).or_default().push(block);
+        }
+        // Gmsh puts the elements of an entity in the order of their types.
+        blocks.values_mut().for_each(|blocks| blocks.sort_by_key(|block| block.number));
+        Ok(Self(blocks))
+    }
+
+    fn of_entity(&self, dimension: usize, entity: i32) -> impl Iterator<Item = &'a Block> {
+        self.0.get(&(dimension, entity)).into_iter().flatten().copied()
+    }
+}
+
+/// Every surface must be in exactly one physical surface.
+///
+/// # Errors
+/// Input: one in none or in two, or no physical surface at all.
+fn check_surfaces(read: &Sections, regions: &[Physical], place: &str) -> Result<()> {
+    if regions.is_empty() {
+        let remedy = "name the regions in the .geo: Physical Surface(\"soil\") = {1};";
+        return Err(Error::input(place, "it has no physical surface", remedy));
+    }
+    let with_cells = read.blocks.iter().filter(|block| block.dimension == 2).map(|block| (block.entity, &[][..]));
+    let of_file = read.entities[2].iter().map(|(&surface, groups)| (surface, &groups[..]));
+    for (surface, groups) in of_file.chain(with_cells.filter(|(surface, _)| !read.entities[2].contains_key(surface))) {
+        let place = format!("{place}, surface {surface}");
+        match groups {
+            [_] => (),
+            [] => return Err(Error::input(place, "it is in no physical surface", "add it to one, or delete it")),
+            [a, b, ..] => {
+                let problem = format!("it is in two physical surfaces, {a} and {b}");
+                return Err(Error::input(place, problem, "leave it in one: they are the regions of the case"));
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Marks a node of no cell.
+const UNUSED: u32 = u32::MAX;
+
+/// Gives the nodes of the cells their numbers in `mesh`, in the order of their tags.
+///
+/// # Errors
+/// Input: one that is not in the plane z = 0.
+fn number_nodes(cells: &[(CellKind, u16, &[u32])], nodes: &Nodes, mesh: &mut Mesh<2>, place: &str) -> Result<Vec<u32>> {
+    let mut number = vec![UNUSED; nodes.x.len()];
+    let used = cells.iter().flat_map(|c| c.2);
+    if u32::try_from(used.clone().count()).is_err() {
+        return Err(Error::input(place, "it has too many cells", "use a coarser mesh"));
+    }
+    used.for_each(|&n| number[n as usize] = 0);
+    for (number, x) in number.iter_mut().zip(&nodes.x).filter(|(number, _)| **number != UNUSED) {
+        *number = mesh.nodes.len() as u32;
+        mesh.nodes.push([x[0], x[1]]);
+    }
+    let size = mesh.nodes.iter().flatten().fold(0.0f64, |size, v| size.max(v.abs()));
+    for ((_, x), tag) in number.iter().zip(&nodes.x).zip(&nodes.tags).filter(|((n, _), _)| **n != UNUSED) {
+        if x[2].abs() > 1e-9 * size {
+            let place = format!("{place}, node {tag} at ({}, {}, {})", x[0], x[1], x[2]);
+            return Err(Error::input(place, "it is not in the plane z = 0", "draw the section in the x–y plane, y up"));
+        }
+    }
+    straighten(cells, &number, &mut mesh.nodes);
+    Ok(number)
+}
+
+/// Puts the middle nodes of straight edges and cells exactly in the middle, from which Gmsh's own are off by
+/// some 1e-13 of the length: so straight cells are recognised as straight.
+fn straighten(cells: &[(CellKind, u16, &[u32])], number: &[u32], x: &mut [[f64; 2]]) {
+    let snap = |x: &mut [[f64; 2]], middle: u32, around: &[u32]| {
+        let mean = [0, 1].map(|d| around.iter().map(|&n| x[n as usize][d]).sum::<f64>() / around.len() as f64);
+        let [a, b] = [around[0], around[around.len() / 2]].map(|n| x[n as usize]);
+        let size = (b[0] - a[0]).hypot(b[1] - a[1]);
+        let y = &mut x[middle as usize];
+        if (y[0] - mean[0]).hypot(y[1] - mean[1]) <= 1e-10 * size {
+            *y = mean;
+        }
+    };
+    for (kind, _, nodes) in cells {
+        let node = |i: usize| number[nodes[i] as usize];
+        for facet in kind.facets().1 {
+            if let [a, b, middle] = **facet {
+                snap(x, node(middle), &[node(a), node(b)]);
+            }
+        }
+        if *kind == CellKind::Q9 {
+            snap(x, node(8), &[0, 1, 2, 3].map(node));
+        }
+    }
+}
+
+/// Turns a clockwise cell round; its corners decide.
+fn turn_counter_clockwise(kind: CellKind, x: &[[f64; 2]], nodes: &mut [u32]) {
+    let corners = kind.corner_count();
+    let corner = |i: usize| x[nodes[i % corners] as usize];
+    let doubled: f64 = (0..corners).map(|i| corner(i)[0] * corner(i + 1)[1] - corner(i + 1)[0] * corner(i)[1]).sum();
+    if doubled < 0.0 {
+        nodes[1..corners].reverse();
+        if kind.order() == 2 {
+            // The mid-side after corner i is that before it in the other sense.
+            nodes[corners..2 * corners].reverse();
+        }
+    }
+}

@@ -1,0 +1,229 @@
+//! Whether the state in a checkpoint is one that the scene can be in: the step takes its indices, lengths and ranges for
+//! granted. That numbers are finite was checked as they were read.
+
+use super::super::foreign;
+use crate::contact::{Multipliers, Pair};
+use crate::error::{Error, Result};
+use crate::mesh::Mesh;
+use crate::points::Points;
+use crate::quadrature::Weighing;
+use crate::step::{Controller, Limits, Scene, State, has_room_for_penalties};
+use crate::surface::{ActiveBoundary, Front, NO_REGION};
+use std::collections::HashSet;
+
+/// What rounding leaves of times that are sums over steps, and of parametric coordinates (-).
+const ROUNDING: f64 = 1e-9;
+
+/// More steps and restorations than any run has, and room to count on.
+const MOST: u64 = 1 << 48;
+
+/// Checks `state` against the scene and the state `first` that its run began with.
+///
+/// # Errors
+/// `Input`: the first thing that does not fit.
+pub fn check<const D: usize>(scene: &Scene<D>, first: &State<D>, state: &State<D>) -> Result<()> {
+    check_times(scene, state)?;
+    check_fields(scene, state)?;
+    check_cells(scene, state)?;
+    check_points(scene, first, state)?;
+    check_elements(scene, first, state)?;
+    check_weighing(scene, state)?;
+    state.front.iter().try_for_each(check_front)?;
+    check_contact(scene, state)?;
+    ensure(has_room_for_penalties(scene, state), "the list of penalised cells")
+}
+
+fn ensure(fits: bool, what: &str) -> Result<()> {
+    if fits { Ok(()) } else { Err(foreign(what)) }
+}
+
+/// Where the run is, and the size of its steps.
+fn check_times<const D: usize>(scene: &Scene<D>, state: &State<D>) -> Result<()> {
+    let State { phase, time, phase_time, step, step_size, last_step, peak, frames, .. } = *state;
+    let phases = scene.phases.len();
+    ensure(phase <= phases, "the number of its phase")?;
+    ensure((1..=MOST).contains(&step) && frames <= step + 1, "its number of steps")?;
+    ensure((1..=MOST).contains(&state.restorations), "its number of restorations")?;
+    let earlier: f64 = scene.phases[..phase].iter().map(|p| p.duration).sum();
+    let longest = (1.0 + ROUNDING) * (earlier + phase_time);
+    ensure(phase_time >= 0.0 && (1.0 - ROUNDING) * phase_time <= time && time <= longest, "its time")?;
+    // Steps that the clock does not feel would never end.
+    ensure(last_step > 0.0 && time + last_step > time && last_step <= (1.0 + ROUNDING) * time, "its last step")?;
+    ensure(step_size > 0.0 && peak >= 0.0, "the size of its steps")?;
+    let Some(next) = scene.phases.get(phase) else {
+        return ensure(phase_time == 0.0 && !state.moving && !state.falling, "its end");
+    };
+    ensure(next.duration + step_size > next.duration, "the size of its steps")?;
+    let limits = Limits { least: next.least_step, largest: next.largest_step };
+    let more = Controller::new(limits, next.stops.clone(), step_size).next_stop(phase_time).is_some();
+    ensure(more, "its time in the phase")?;
+    ensure(next.auto || !state.falling, "its fall")?;
+    ensure(state.dynamic(scene) || !state.moving, "its motion")
+}
+
+/// The fields on the nodes.
+fn check_fields<const D: usize>(scene: &Scene<D>, state: &State<D>) -> Result<()> {
+    let nodes = scene.mesh.nodes.len();
+    let exact = |field: &[[f64; D]], present: bool, name: &str| {
+        let expected = if present { nodes } else { 0 };
+        ensure(field.len() == expected, &format!("the length {} of `{name}`, not {expected},", field.len()))
+    };
+    exact(&state.displacement, true, "displacement")?;
+    exact(&state.travel, true, "travel")?;
+    exact(&state.increment, true, "increment")?;
+    exact(&state.uncounted, begun(scene, state).any(|phase| phase.reset), "uncounted")?;
+    exact(&state.velocity, state.moving, "velocity")?;
+    exact(&state.acceleration, state.moving, "acceleration")?;
+    exact(&state.nodes, scene.fem.is_some() || !scene.bodies.is_empty(), "nodes")?;
+    let held = !state.release.force.is_empty();
+    exact(&state.release.force, held, "release")?;
+    let until = state.release.until;
+    ensure(if held { state.phase_time < until } else { until == 0.0 }, "the time of its release")?;
+    let of_water = if scene.water.is_some() { nodes } else { 0 };
+    let pressures = scene.pressure_unit.map_or(0, |_| scene.pressure_places()[1] + of_water);
+    ensure(state.pressure.len() == pressures, "its pressure field")
+}
+
+/// The phases after the first one that have begun.
+fn begun<'a, const D: usize>(
+    scene: &'a Scene<D>,
+    state: &State<D>,
+) -> impl DoubleEndedIterator<Item = &'a crate::step::Phase> {
+    scene.phases.iter().take(state.phase + 1).skip(1)
+}
+
+/// The cells that take part.
+fn check_cells<const D: usize>(scene: &Scene<D>, state: &State<D>) -> Result<()> {
+    let cells = scene.mesh.cells.len();
+    ensure(state.taking_part.len() == cells, "the number of cells")?;
+    ensure([0, cells].contains(&state.penalised.len()), "the list of penalised cells")
+}
+
+fn check_points<const D: usize>(scene: &Scene<D>, first: &State<D>, state: &State<D>) -> Result<()> {
+    let sees_flow = scene.terms.iter().any(|term| term.sees_flow());
+    check_family(scene, state, &scene.mesh, &first.points, &state.points, sees_flow)?;
+    let Points { cell, .. } = &state.points;
+    ensure(cell.iter().all(|&c| state.taking_part[c as usize]), "the cell of a material point")?;
+    let places = &state.parametric;
+    let inside = |(&c, xi): (&u32, &[f64; 3])| is_inside(&scene.mesh, c, xi);
+    ensure(places.len() == cell.len() && cell.iter().zip(places).all(inside), "the place of a material point")
+}
+
+/// The points of the finite elements, which stay where they are in their cells.
+fn check_elements<const D: usize>(scene: &Scene<D>, first: &State<D>, state: &State<D>) -> Result<()> {
+    let none = Mesh::default();
+    let mesh = scene.fem.as_ref().map_or(&none, |fem| &fem.mesh);
+    check_family(scene, state, mesh, &first.fem, &state.fem, false)?;
+    let (now, then) = (&state.fem, &first.fem);
+    let same = now.cell == then.cell && now.origin == then.origin && state.fem_parametric == first.fem_parametric;
+    ensure(same, "the place of a point of a finite element")
+}
+
+/// Points against those that the run began with.
+fn check_family<const D: usize>(
+    scene: &Scene<D>,
+    state: &State<D>,
+    mesh: &Mesh<D>,
+    first: &Points<D>,
+    points: &Points<D>,
+    sees_flow: bool,
+) -> Result<()> {
+    let count = first.len();
+    ensure(points.len() == count, "the number of points")?;
+    points
+        .check(mesh.regions.len(), mesh.cells.len())
+        .map_err(|problem| Error::input("checkpoint", problem, "start the analysis afresh, without --resume"))?;
+    let same = points.region == first.region && points.initial_volume == first.initial_volume;
+    ensure(same, "the region or the volume of a point")?;
+    let began_moving = !first.velocity.is_empty();
+    let columns = [
+        (points.reference.len(), begun(scene, state).any(|phase| phase.reset)),
+        (points.velocity.len(), state.moving || began_moving && !points.velocity.is_empty()),
+        (points.acceleration.len(), state.moving),
+        (points.plastic_increment.len(), sees_flow),
+        (points.memory.len(), !first.memory.is_empty()),
+        (points.pressure.len(), !first.pressure.is_empty()),
+        (points.pore_pressure.len(), !first.pore_pressure.is_empty()),
+        (points.model.len(), begun(scene, state).any(|phase| !phase.changes.is_empty())),
+    ];
+    ensure(
+        columns.iter().all(|&(length, present)| length == if present { count } else { 0 }),
+        "a column of its points",
+    )?;
+    let changes: Vec<_> = begun(scene, state).flat_map(|phase| &phase.changes).collect();
+    for (p, &region) in points.region.iter().enumerate() {
+        let change = changes.iter().rev().find(|change| change.region == region);
+        let number = change.map_or(region, |change| change.number);
+        ensure(points.model.is_empty() || points.model[p] == number, "the material of a point")?;
+        ensure(change.is_some() || points.mass[p] == first.mass[p], "the mass of a point")?;
+    }
+    Ok(())
+}
+
+/// Whether a parametric place is within a cell.
+fn is_inside<const D: usize>(mesh: &Mesh<D>, cell: u32, xi: &[f64; 3]) -> bool {
+    mesh.cells.kind[cell as usize].depth(xi).0 >= -ROUNDING
+}
+
+/// The weights of the points and what is known of the cells.
+fn check_weighing<const D: usize>(scene: &Scene<D>, state: &State<D>) -> Result<()> {
+    let Weighing { weight, shift, soft, poor, boundary, level_set, .. } = &state.weighing;
+    let nodes = scene.mesh.nodes.len();
+    ensure(weight.len() == state.points.len() && weight.iter().all(|w| *w > 0.0), "the weight of a point")?;
+    let takes_part = |c: u32| state.taking_part.get(c as usize) == Some(&true);
+    let ascend = |cells: &mut dyn Iterator<Item = u32>| cells.is_sorted_by(|a, b| a < b);
+    let whole =
+        |(c, by): &(u32, Vec<[f64; D]>)| takes_part(*c) && by.len() == scene.mesh.cells.nodes(*c as usize).len();
+    ensure(ascend(&mut shift.iter().map(|s| s.0)) && shift.iter().all(whole), "the gradients of a cell")?;
+    ensure(
+        ascend(&mut soft.iter().map(|s| s.cell)) && soft.iter().all(|s| takes_part(s.cell)),
+        "the list of soft cells",
+    )?;
+    ensure(soft.iter().all(|s| s.emptiness > 0.0 && s.emptiness <= 1.0), "the emptiness of a cell")?;
+    ensure(ascend(&mut poor.iter().copied()) && poor.iter().all(|&c| takes_part(c)), "the list of poor cells")?;
+    ensure([0, nodes].contains(&level_set.len()), "its level set")?;
+    let ActiveBoundary { pieces, first } = boundary;
+    ensure(bounds_of_loops(first, pieces.len(), 1), "a loop of its boundary")?;
+    for piece in pieces {
+        ensure(takes_part(piece.cell) && takes_part(piece.bearer), "a cell of its boundary")?;
+        let region = piece.region;
+        ensure(region == NO_REGION || usize::from(region) < scene.mesh.regions.len(), "a region of its boundary")?;
+        let inside = |&[x, y]: &[f64; 2]| is_inside(&scene.mesh, piece.cell, &[x, y, 0.0]);
+        ensure(piece.ends.iter().all(inside), "a place of its boundary")?;
+    }
+    Ok(())
+}
+
+/// Whether `first` says where each of some loops of at least `least` entries begins, and where the last one ends; there may be
+/// none at all.
+fn bounds_of_loops(first: &[u32], entries: usize, least: u32) -> bool {
+    let whole = first.windows(2).all(|w| w[0].checked_add(least).is_some_and(|end| end <= w[1]));
+    match (first.first(), first.last()) {
+        (Some(0), Some(&last)) => whole && last as usize == entries,
+        (None, _) => entries == 0,
+        _ => false,
+    }
+}
+
+fn check_front(front: &Front) -> Result<()> {
+    let loops = !front.first.is_empty() && bounds_of_loops(&front.first, front.position.len(), 3);
+    ensure(loops && front.weight >= 0.0, "its surface")
+}
+
+fn check_contact<const D: usize>(scene: &Scene<D>, state: &State<D>) -> Result<()> {
+    ensure(state.multipliers.len() == scene.pairs.len(), "the number of its contacts")?;
+    let fits = |(pair, held): (&Box<dyn Pair<D>>, &Multipliers)| {
+        let Multipliers { pressure, shear, gap, slip, offset, slid, faces, room, first } = held;
+        let lengths = [pressure, shear, gap, slip, offset, slid].iter().all(|v| v.len() == pair.hats());
+        let bounds = first.len() == pair.hats() + 1 && bounds_of_loops(first, room.len(), 0);
+        let nodes = room.iter().all(|&n| (n as usize) < scene.mesh.nodes.len());
+        lengths && bounds && nodes && faces.len() == pair.hats() && slip.iter().all(|slip| *slip >= 0.0) && {
+            let mut seen = HashSet::new();
+            (0..pair.hats()).all(|k| {
+                seen.clear();
+                held.room(k).iter().all(|n| seen.insert(*n))
+            })
+        }
+    };
+    ensure(scene.pairs.iter().zip(&state.multipliers).all(fits), "its contact")
+}
