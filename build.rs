@@ -15,10 +15,10 @@ use twox_hash::XxHash64;
 /// The oldest Gmsh whose C API has the functions used, with these arguments.
 const OLDEST: (u32, u32) = (4, 11);
 
-/// The functions `src/mesh/gmsh.rs` calls.
-const FUNCTIONS: &str = "gmsh(Initialize|Finalize|Merge|Write|Free|OptionSetNumber|ModelGetEntities|\
-    ModelGetPhysicalGroups|ModelGetPhysicalName|ModelGetEntitiesForPhysicalGroup|ModelMeshGenerate|\
-    ModelMeshSetOrder|ParserClear|ParserGetNames|ParserGetNumber|ParserSetNumber|\
+/// The functions `src/mesh/gmsh/session.rs` calls.
+const FUNCTIONS: &str = "gmsh(Initialize|Finalize|Merge|Write|Free|OptionSetNumber|OptionGetNumber|ModelGetEntities|\
+    ModelGetBoundary|ModelGetBoundingBox|ModelMeshGetSizes|ModelGetPhysicalGroups|ModelGetPhysicalName|ModelGetEntitiesForPhysicalGroup|ModelMeshGenerate|\
+    ModelMeshSetOrder|ModelMeshGetNodes|ModelMeshGetElements|ParserClear|ParserGetNames|ParserGetNumber|ParserSetNumber|\
     LoggerStart|LoggerStop|LoggerGet|LoggerGetLastError)";
 
 struct Gmsh {

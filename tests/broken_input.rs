@@ -119,8 +119,24 @@ const TEXT: &[Broken] = &[
     check(Case("title: Block", "title: a: b"), &["case.yaml:1", "mend the YAML"]),
     check(Case("geometry: plane_strain", "geometry: plane_strain\ngeometry: plane_strain"), &["geometry", "duplicate"]),
     check(Case("  water:", "  soil:"), &["soil", "duplicate"]),
-    check(Do(|d| fs::write(d.join("case.yaml"), "[".repeat(10_000)).unwrap()), &["case.yaml:1", "mend the YAML"]),
-    check(Do(|d| fs::write(d.join("case.yaml"), laughs()).unwrap()), &["case.yaml", "mend the YAML"]),
+    check(Do(|d| fs::write(d.join("case.yaml"), "[".repeat(100_000)).unwrap()), &["case.yaml:1", "nested", "take"]),
+    check(Do(|d| fs::write(d.join("case.yaml"), laughs()).unwrap()), &["case.yaml:7", "aliases repeat", "write fewer"]),
+    check(Do(|d| fs::write(d.join("case.yaml"), repeated()).unwrap()), &["case.yaml:2", "10000 items", "write fewer"]),
+    check(Do(|d| fs::write(d.join("case.yaml"), " ".repeat(5 << 20)).unwrap()), &["case.yaml", "bytes", "thin"]),
+    check(Do(|d| fs::write(d.join("case.yaml"), b"\xff\xfet\0").unwrap()), &["case.yaml", "UTF-16", "as UTF-8"]),
+    check(Case("title: Block", "title: Block\0"), &["case.yaml:1:13", "control character, U+0000", "take it out"]),
+    check(Case("title: Block", "title: \x1b[2J"), &["case.yaml:1:8", "control character, U+001B", "take it out"]),
+    check(Case("name: load", "name: \"lo\\e[31mad\""), &["case.yaml:19:11", "U+001B", "take it out"]),
+    check(Case("name: load", "name: \"lo\\nad\""), &["case.yaml:19:11", "line break", "on one line"]),
+    check(
+        Case("title: Block", "\u{202e}eltit: B"),
+        &["case.yaml:1:1 (\\u{202e}eltit)", "unknown key `\\u{202e}eltit`"],
+    ),
+    check(
+        Case("title: Block", "título: 土"),
+        &["case.yaml:1:1 (título)", "unknown key `título`", "\n 1 | título: 土\n"],
+    ),
+    check(Case("{kind: buffer}", "{kind: buffer}\n---\na: 1"), &["case.yaml:10", "more than one document", "keep one"]),
     check(Case("title: Block", "title: !text Block"), &["case.yaml:1", "tag", "without a tag"]),
     check(Case("order: 2", "ordr: 2"), &["case.yaml:5:3 (mesh.ordr)", "unknown key", "did you mean `order`?"]),
     check(Case("numerics:", "numeric:"), &["case.yaml:17:1", "unknown key", "did you mean `numerics`?"]),
@@ -178,6 +194,15 @@ const MEANING: &[Broken] = &[
     ),
     check(Case("restore: every_step", "restore: {min_quality: 1.3}"), &["case.yaml:17", "at most 1"]),
     check(Case("restore: every_step", "gradient: gimp"), &["case.yaml:17", "not available yet", "mpm or ddmp"]),
+    check(Case("tolerance: 1.0e-8", "tolerance: 0.5"), &["case.yaml:17", "numerics.tolerance", "at most 0.01"]),
+    check(
+        Case("density: 1.8", "density: 0"),
+        &["case.yaml:11", "materials.clay.density", "without weight", "take `gravity`"],
+    ),
+    check(
+        Case("gravity: {y: -9.81}", "gravity: {y: 9.81}"),
+        &["case.yaml:15:14 (gravity.y)", "points down", "negative"],
+    ),
     check(Case("tolerance: 1.0e-8", "tolerance: 0"), &["case.yaml:17", "numerics.tolerance", "above 0"]),
     check(
         Case("quasi_static", "consolidation"),
@@ -333,6 +358,41 @@ const ARGUMENTS: &[Broken] = &[
     ),
 ];
 
+/// Where the regions lie, which only the mesh tells.
+const LAYOUT: &[Broken] = &[
+    run(
+        Do(|d| {
+            let geo = GEO.replace("Curve Loop(2) = {5, 6, 7, -3};\nPlane Surface(2) = {2};", "Plane Surface(2) = {1};");
+            remesh(d, &geo, WATER);
+        }),
+        &["seed"],
+        2,
+        &["regions `soil` and `water`", "upon each other at [", "BooleanDifference"],
+    ),
+    run(
+        Do(|d| {
+            remesh(
+                d,
+                &(GEO.to_owned() + &rectangle("more", [1.3, -1.2])),
+                &format!("{WATER}  more: {{kind: buffer}}\n"),
+            )
+        }),
+        &["seed"],
+        2,
+        &["regions `", "`more`", "upon each other at [", "a hole in the Plane Surface"],
+    ),
+    run(
+        Do(|d| remesh(d, &(GEO.to_owned() + &rectangle("block", [5.0, -1.0])), &format!("{WATER}{BLOCK}"))),
+        &["seed"],
+        2,
+        &["region `block`", "3.0000 m beside the grid", "touches no soil", "move the structure"],
+    ),
+    run(Case("k0: 0.8", "k0: 1e300"), &["seed"], 2, &["initial_stress.k0", "sideways", "strained", "0.3 to 3"]),
+];
+
+const WATER: &str = "  water: {kind: buffer}\n";
+const BLOCK: &str = "  block: {kind: structure, material: clay}\ncontacts: [{structure: block, soil: soil}]\n";
+
 /// Files of earlier stages, and the machine.
 const FILES: &[Broken] = &[
     run(
@@ -395,6 +455,11 @@ fn the_arguments() {
 }
 
 #[test]
+fn the_layout_of_the_regions() {
+    try_all(LAYOUT);
+}
+
+#[test]
 fn the_files_and_the_machine() {
     try_all(FILES);
 }
@@ -427,6 +492,76 @@ fn every_mistake_is_told_in_one_go() {
         assert!(said.contains(place), "{place} is not in:\n{said}");
     }
     assert_eq!(said.matches("error: ").count(), mistakes.len(), "{said}");
+}
+
+#[test]
+fn of_many_mistakes_the_first_are_told_and_the_others_counted() {
+    let scene = Scene::new();
+    let keys: String = (0..9_000).map(|i| format!("key{i}: {i}\n")).collect();
+    let unknown = scene.attach("case.yaml", &keys);
+    assert_eq!(unknown.matches("error: ").count(), 51, "{unknown}");
+    assert!(unknown.contains("case.yaml:29:1 (key0)") && unknown.contains("(key49)"), "{unknown}");
+    assert!(unknown.contains("there are 8950 more mistakes; correct these first"), "{unknown}");
+    let scene = Scene::new();
+    let names: String = (0..100).map(|i| format!("    - {{name: n{i}, on: nowhere{i}, quantities: [uy]}}\n")).collect();
+    let nowhere = scene.attach("case.yaml", &names);
+    assert_eq!(nowhere.matches("error: ").count(), 51, "{nowhere}");
+    assert!(nowhere.contains("there are 50 more mistakes"), "{nowhere}");
+}
+
+#[test]
+fn large_cases_are_read_in_time_that_grows_with_their_size() {
+    let scene = Scene::new();
+    let rows: Vec<String> = (0..100_000).map(|i| format!("[{i}, {i}.5]")).collect();
+    scene.replace("case.yaml", "{table: [[0, 0], [1, -0.01]]}", &format!("{{table: [{}]}}", rows.join(", ")));
+    let names: String = (0..9_000).map(|i| format!("    - {{name: n{i}, on: surface, quantities: [uy]}}\n")).collect();
+    assert_eq!(scene.attach("case.yaml", &names), "");
+}
+
+#[test]
+fn a_byte_order_mark_is_no_mistake() {
+    let scene = Scene::new();
+    let case = fs::read_to_string(scene.path().join("case.yaml")).unwrap();
+    fs::write(scene.path().join("case.yaml"), format!("\u{feff}{case}")).unwrap();
+    let output = scene.mpm(&["check"]);
+    assert!(output.status.success(), "{}", text(&output.stderr));
+    scene.replace("case.yaml", "title: Block", "titel: Block");
+    let said = text(&scene.mpm(&["check"]).stderr);
+    assert!(said.contains("case.yaml:1:1 (titel)"), "{said}");
+}
+
+#[test]
+fn more_threads_than_cores_are_not_started() {
+    let scene = Scene::new();
+    let output = scene.mpm(&["seed", "--threads", "1024"]);
+    let said = text(&output.stderr);
+    assert!(output.status.success(), "{said}");
+    let cores = std::thread::available_parallelism().unwrap().get();
+    if cores < 1024 {
+        assert!(said.contains(&format!("--threads 1024 is more than the {cores} cores there are")), "{said}");
+    }
+}
+
+/// A name of a group or a file may hold what a terminal obeys.
+#[test]
+fn names_reach_the_terminal_as_text() {
+    let scene = Scene::new();
+    scene.replace("scene.geo", "Physical Surface(\"water\")", "Physical Surface(\"wa\x1b[2J\u{202e}ter\")");
+    let folder = scene.path().join("\x1b]0;title\x07");
+    fs::create_dir(&folder).unwrap();
+    for (name, command) in [("scene.geo", vec!["check"]), ("none", vec!["check", "--set", "mesh.geo=a\u{202e}b"])] {
+        let output = scene.mpm(&command);
+        let said = text(&output.stderr);
+        assert_eq!(output.status.code(), Some(2), "{name}: {said}");
+        assert!(!said.contains(['\x1b', '\x07', '\u{202e}']), "{name}: {said:?}");
+        assert!(said.contains("\\u{202e}"), "{name}: {said}");
+    }
+    let output = mpm(&folder, &["check"]);
+    let nothing = text(&output.stderr) + &text(&output.stdout);
+    assert!(nothing.contains("case.yaml") && !nothing.contains(['\x1b', '\x07']), "{nothing:?}");
+    let output = Command::new(env!("CARGO_BIN_EXE_mpm")).arg("check").arg(&folder).output().unwrap();
+    let said = text(&output.stderr);
+    assert!(said.contains("\\u{1b}]0;title\\u{7}") && !said.contains(['\x1b', '\x07']), "{said:?}");
 }
 
 #[test]
@@ -577,6 +712,14 @@ impl Scene {
         mpm(self.path(), command)
     }
 
+    /// Appends to a file and checks the case: what is said then.
+    fn attach(&self, file: &str, more: &str) -> String {
+        let file = self.path().join(file);
+        let before = fs::read_to_string(&file).unwrap();
+        fs::write(&file, before + more).unwrap();
+        text(&self.mpm(&["check"]).stderr)
+    }
+
     /// Every file of the output folder with its content.
     fn out(&self) -> BTreeMap<PathBuf, Vec<u8>> {
         files(&self.path().join("out"))
@@ -628,6 +771,30 @@ fn truncate(file: &Path) {
 fn laughs() -> String {
     let line = |i: usize| format!("a{i}: &a{i} [{}]\n", vec![format!("*a{}", i - 1); 10].join(", "));
     "a0: &a0 [1]\n".to_owned() + &(1..10).map(line).collect::<String>()
+}
+
+/// 200 000 bytes that are a thousand million when written out.
+fn repeated() -> String {
+    format!("a: &a {}\nb: [{}]\n", "x".repeat(100_000), vec!["*a"; 30_000].join(", "))
+}
+
+/// A surface of its own for a `.geo`: a square of 1 m with its lower left corner at `x`.
+fn rectangle(name: &str, x: [f64; 2]) -> String {
+    let [[a, b], [c, d]] = [x, [x[0] + 1.0, x[1] + 1.0]];
+    format!(
+        "Point(11) = {{{a}, {b}, 0, h}};\nPoint(12) = {{{c}, {b}, 0, h}};\nPoint(13) = {{{c}, {d}, 0, h}};\n\
+         Point(14) = {{{a}, {d}, 0, h}};\nLine(11) = {{11, 12}};\nLine(12) = {{12, 13}};\nLine(13) = {{13, 14}};\n\
+         Line(14) = {{14, 11}};\nCurve Loop(11) = {{11, 12, 13, 14}};\nPlane Surface(11) = {{11}};\n\
+         Physical Surface(\"{name}\") = {{11}};\n"
+    )
+}
+
+/// Gives the case another `.geo` with other regions beside the soil, and meshes it.
+fn remesh(folder: &Path, geo: &str, regions: &str) {
+    fs::write(folder.join("scene.geo"), geo).unwrap();
+    fs::write(folder.join("case.yaml"), CASE.replace(WATER, regions)).unwrap();
+    let output = mpm(folder, &["mesh"]);
+    assert!(output.status.success(), "{}", text(&output.stderr));
 }
 
 /// Does something to each file of a folder.

@@ -45,12 +45,12 @@ impl Checker {
                 self.issue(&path, At::Key, "the first phase begins with the materials of `regions`", remedy);
                 continue;
             }
-            let Some(region) = regions.iter().position(|region| region == name) else {
+            let Ok(region) = regions.binary_search(&name.as_str()) else {
                 let problem = format!("there is no region `{name}`");
                 self.issue(&path, At::Key, problem, suggest(name, regions.iter().copied()));
                 continue;
             };
-            let Some(material) = materials.iter().position(|material| material == into) else {
+            let Ok(material) = materials.binary_search(&into.as_str()) else {
                 let problem = format!("there is no material `{into}`");
                 self.issue(&path, At::Value, problem, suggest(into, materials.iter().copied()));
                 continue;

@@ -3,10 +3,11 @@
 use super::checked::{self, *};
 use super::locate::{At, Path};
 use super::raw;
-use super::source::Issue;
+use super::source::{Issue, MOST_FOUND};
 use super::structure::{list, suggest};
 use crate::material::MODELS;
 use crate::stencil::Scheme;
+use std::collections::HashSet;
 use std::path::Path as FilePath;
 
 /// The case of `file`, whose paths are relative to `folder`, and every mistake that shows without the mesh;
@@ -34,7 +35,9 @@ pub(super) struct Checker {
 
 impl Checker {
     pub(super) fn issue(&mut self, path: &Path, at: At, problem: impl Into<String>, remedy: impl Into<String>) {
-        self.issues.push(Issue::new(path, at, problem, remedy));
+        if self.issues.len() < MOST_FOUND {
+            self.issues.push(Issue::new(path, at, problem, remedy));
+        }
     }
 
     /// The number of mistakes found so far.
@@ -154,7 +157,8 @@ impl Checker {
             self.issue(path, At::Key, "a region that is not a buffer has no `material`", remedy);
             return 0;
         };
-        materials.iter().position(|material| material == name).unwrap_or_else(|| {
+        // They are sorted.
+        materials.binary_search(&name.as_str()).unwrap_or_else(|_| {
             let problem = format!("there is no material `{name}`");
             self.issue(&path.key("material"), At::Value, problem, suggest(name, materials.iter().copied()));
             0
@@ -201,7 +205,7 @@ impl Checker {
         let regions: Vec<&str> = file.regions.keys().map(String::as_str).collect();
         let mut checked = Vec::new();
         for (name, v) in &file.initial_velocity {
-            let Some(region) = regions.iter().position(|region| region == name) else {
+            let Ok(region) = regions.binary_search(&name.as_str()) else {
                 let problem = format!("there is no region `{name}`");
                 self.issue(&path.key(name), At::Key, problem, suggest(name, regions.iter().copied()));
                 continue;
@@ -264,9 +268,10 @@ impl Checker {
                 self.issue(&path, At::Value, "the field is named twice", "take it out");
             }
         }
+        let mut names = HashSet::new();
         for (i, entry) in output.history.iter().enumerate() {
             let path = path.key("history").index(i);
-            if output.history[..i].iter().any(|earlier| earlier.name == entry.name) {
+            if !names.insert(&entry.name) {
                 let problem = format!("two entries are called `{}`", entry.name);
                 self.issue(&path.key("name"), At::Value, problem, "give each entry a name of its own");
             }
@@ -323,6 +328,11 @@ impl Checker {
             let remedy = "take `x` out, or load gravity in a first quasi_static phase in place of `initial_stress`";
             self.issue(&root.key("gravity").key("x"), At::Value, "k0 needs vertical gravity", remedy);
         }
+        if case.k0.is_some() && case.gravity[1] > 0.0 {
+            let remedy = "write gravity as a negative `y`, which is up, or take `initial_stress` out";
+            self.issue(&root.key("gravity").key("y"), At::Value, "k0 needs gravity that points down", remedy);
+        }
+        self.weight(case, file);
         let dynamic = case.phases.iter().any(|phase| phase.analysis.has_inertia());
         if !dynamic {
             for name in file.initial_velocity.keys() {
@@ -339,6 +349,24 @@ impl Checker {
                 let remedy = "give it a `density` above 0, or make the phases quasi_static";
                 self.issue(&path, At::Key, "a dynamic phase needs material with mass", remedy);
             }
+        }
+    }
+
+    /// Soil has weight where there is gravity; a structure may be without.
+    fn weight(&mut self, case: &Case, file: &raw::CaseFile) {
+        if case.gravity == [0.0; 2] {
+            return;
+        }
+        let soil = |kind: raw::RegionKind| matches!(kind, raw::RegionKind::Mpm | raw::RegionKind::Fem);
+        let soils = || file.regions.iter().filter(|(_, region)| soil(region.kind));
+        let begun: HashSet<_> = soils().filter_map(|(_, region)| region.material.as_ref()).collect();
+        let later = file.phases.iter().flat_map(|phase| &phase.materials);
+        let later = later.filter(|(name, _)| file.regions.get(*name).is_some_and(|region| soil(region.kind)));
+        let used: HashSet<_> = later.map(|(_, material)| material).chain(begun).collect();
+        for material in case.materials.iter().filter(|m| !m.has_mass() && used.contains(&m.name)) {
+            let path = Path::default().key("materials").key(&material.name).key("density");
+            let remedy = "give it a `density` above 0, or take `gravity` out";
+            self.issue(&path, At::Value, "soil without weight does not go with gravity", remedy);
         }
     }
 }

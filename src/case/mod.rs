@@ -9,6 +9,7 @@ mod check;
 pub mod checked;
 mod contacts;
 mod incompressible;
+mod layout;
 mod loads;
 pub mod locate;
 mod materials;
@@ -31,6 +32,7 @@ mod tests;
 mod touch;
 mod wall;
 mod water;
+mod yaml;
 
 pub use checked::Case;
 
@@ -40,6 +42,7 @@ use names::Groups;
 use serde_json::Value;
 use serde_path_to_error::Segment;
 use source::{Issue, Source};
+use std::collections::HashSet;
 use std::path::Path;
 
 /// A case together with the text it is from.
@@ -105,8 +108,11 @@ pub fn schema() -> Value {
 /// The case if it can be read at all, and its mistakes; only without any is it a sound one.
 fn resolve(source: &Source) -> (Option<Case>, Vec<Issue>) {
     let mut issues = source.faults().to_vec();
-    let left_out = |issue: &Issue| source.faults().iter().any(|fault| fault.path.contains(&issue.path));
-    issues.extend(structure::check(&schema(), source.tree()).into_iter().filter(|issue| !left_out(issue)));
+    let faulty: HashSet<&[Step]> = source.faults().iter().map(|fault| fault.path.0.as_slice()).collect();
+    let left_out = |issue: &Issue| (0..=issue.path.0.len()).any(|end| faulty.contains(&issue.path.0[..end]));
+    let mut shape = structure::check(&schema(), source.tree());
+    shape.retain(|issue| !left_out(issue));
+    issues.extend(shape);
     // With the unknown keys mended or left out the rest may be read all the same, and have more to say.
     let mut tree = source.tree().clone();
     issues.iter().filter(|issue| issue.unknown).for_each(|issue| mend(&mut tree, issue));
@@ -151,9 +157,19 @@ fn mend(tree: &mut Value, issue: &Issue) {
     }
 }
 
-/// The errors of mistakes, in the order of the file.
+/// Mistakes that are told one by one.
+const TOLD: usize = 50;
+
+/// The errors of the first mistakes in the order of the file, and how many more there are.
 fn errors(source: &Source, issues: &[Issue]) -> Vec<Error> {
-    let mut errors: Vec<_> = issues.iter().map(|issue| (source.place(issue), source.error(issue))).collect();
-    errors.sort_by_key(|(place, _)| *place);
-    errors.into_iter().map(|(_, error)| error).collect()
+    let mut placed: Vec<_> = issues.iter().map(|issue| (source.place(issue), issue)).collect();
+    placed.sort_by_key(|(place, _)| *place);
+    let mut errors: Vec<Error> = placed.iter().take(TOLD).map(|(_, issue)| source.error(issue)).collect();
+    let more = issues.len().saturating_sub(TOLD);
+    if more > 0 {
+        let least = if issues.len() >= source::MOST_FOUND { "at least " } else { "" };
+        let problem = format!("there are {least}{more} more mistakes");
+        errors.push(Error::input(source.file().display(), problem, "correct these first, and check again"));
+    }
+    errors
 }

@@ -7,15 +7,17 @@ use super::raw;
 use super::structure::suggest;
 use crate::material::MODELS;
 use crate::time_value::TimeValue;
+use std::collections::HashSet;
 
 impl Checker {
     pub(super) fn phases(&mut self, file: &raw::CaseFile, numerics: &Numerics, path: &Path) -> Vec<Phase> {
         let mut checked: Vec<Phase> = Vec::new();
         let begun = file.regions.iter().filter_map(|(name, region)| Some((name.clone(), region.material.clone()?)));
         let mut materials = begun.collect();
+        let mut names = HashSet::new();
         for (i, phase) in file.phases.iter().enumerate() {
             let path = path.index(i);
-            if file.phases[..i].iter().any(|earlier| earlier.name == phase.name) {
+            if !names.insert(&phase.name) {
                 let problem = format!("two phases are called `{}`", phase.name);
                 self.issue(&path.key("name"), At::Value, problem, "give each phase a name of its own");
             }

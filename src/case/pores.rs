@@ -169,7 +169,7 @@ impl Checker {
         let mut checked = Vec::new();
         for (name, value) in &file.initial_pore_pressure {
             let path = path.key(name);
-            let Some(region) = names.iter().position(|region| region == name) else {
+            let Ok(region) = names.binary_search(&name.as_str()) else {
                 let problem = format!("there is no region `{name}`");
                 self.issue(&path, At::Key, problem, suggest(name, names.iter().copied()));
                 continue;

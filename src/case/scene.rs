@@ -3,7 +3,7 @@
 use super::checked::{Analysis, Case, Geometry, Material, Region, Restore};
 use super::outputs::outputs;
 use super::rigid::{self, Holds};
-use super::{changes, parts, pores, search, seeded, staged, touch, wall, water};
+use super::{changes, layout, parts, pores, search, seeded, staged, touch, wall, water};
 use crate::error::{Error, Result};
 use crate::io::provenance::Origin;
 use crate::io::run_folder::RunFolder;
@@ -42,6 +42,7 @@ pub fn solve(
     progress: &mut dyn FnMut(Progress),
 ) -> Result<Ended> {
     seeded::check(case, &mesh, &points)?;
+    layout::check_solving(&mesh, points.len())?;
     let parts = parts::points(case, &mesh, points);
     match case.geometry {
         Geometry::PlaneStrain => {
@@ -345,12 +346,17 @@ fn stops(duration: f64, every: Option<f64>, kinks: impl Iterator<Item = f64>) ->
         let count = ((duration - tiny) / every).floor() as usize;
         stops.extend((1..=count).map(|k| Stop { time: k as f64 * every, frame: true }));
     }
-    for time in kinks.filter(|&t| t > tiny && t < duration - tiny) {
-        if stops.iter().all(|s| (s.time - time).abs() > tiny) {
-            stops.push(Stop { time, frame: false });
-        }
-    }
+    let kinks = kinks.filter(|&t| t > tiny && t < duration - tiny);
+    stops.extend(kinks.map(|time| Stop { time, frame: false }));
     stops.sort_by(|a, b| a.time.total_cmp(&b.time));
+    // Of stops at a time one is enough, with a frame if one of them has.
+    stops.dedup_by(|later, kept| {
+        let same = later.time - kept.time <= tiny && !(later.frame && kept.frame);
+        if same && later.frame {
+            (kept.time, kept.frame) = (later.time, true);
+        }
+        same
+    });
     stops
 }
 

@@ -1,6 +1,7 @@
 //! The material points a case starts with: the regions filled, at rest or moving, with their stress.
 
 use super::checked::{Case, Content, Geometry, Material, Region};
+use super::layout;
 use crate::error::{Error, Result};
 use crate::material::{Profile, State, is_beyond_yield, odd_poisson, on_poisson, spatial};
 use crate::mesh::Mesh;
@@ -13,6 +14,8 @@ use crate::seed::{QUADRATURE, RegionSeed, RegionWeight, k0_stress, seed};
 /// Input: a number of points that the cells of a region have no rule for, cells at a negative radius.
 pub fn points(case: &Case, mesh: &Mesh<2>) -> Result<Points<2>> {
     let filled = filled(case, mesh)?;
+    layout::check(case, mesh)?;
+    layout::check_seeding(case, mesh)?;
     for f in &filled {
         check_over_depth(mesh, f.seed.region, &case.regions[f.index], &case.materials[f.material])?;
     }
@@ -156,6 +159,18 @@ fn rest(case: &Case, mesh: &Mesh<2>, filled: &[Filled], k0: f64, points: &mut Po
         let model = &*case.materials[*material].model;
         for p in (0..points.len()).filter(|&p| points.region[p] == seed.region) {
             points.elastic[p] = spatial::elastic_from_stress(model, points.origin[p][1], &points.stress[p]);
+            if !points.elastic[p].iter().all(|b| b.is_finite()) || points.elastic[p][..3].iter().any(|b| *b <= 0.0) {
+                let [x, y] = points.position[p];
+                return Err(Error::input(
+                    "initial_stress.k0",
+                    format!(
+                        "with k0 = {k0:e} the soil at [{x:.4}, {y:.4}] m begins with {:.3e} kPa sideways, more than `{}` \
+                         can be strained to",
+                        -points.stress[p][0], case.materials[*material].name
+                    ),
+                    "give the k0 of soil, mostly 0.3 to 3, and check `young` and the density",
+                ));
+            }
         }
     }
     Ok(())

@@ -1,10 +1,13 @@
 //! The text of a case file as a tree, with the overrides of the command line, and the messages that point into it.
 
-use super::locate::{At, Path, locate};
-use crate::error::Error;
+use super::locate::{At, Path};
+use super::yaml::{self, Node};
+use crate::error::{Error, plain, shown};
 use serde_json::{Map, Value};
-use std::fs;
+use std::fs::File;
+use std::io::Read;
 use std::path::{Path as FilePath, PathBuf};
+use std::sync::Arc;
 
 /// A mistake in the case, at an entry of it.
 #[derive(Clone, Debug)]
@@ -25,11 +28,16 @@ impl Issue {
     }
 }
 
+/// Mistakes that are looked for.
+pub const MOST_FOUND: usize = 10_000;
+
 /// A case file that is valid YAML.
 #[derive(Clone, Debug)]
 pub struct Source {
     file: PathBuf,
     text: String,
+    /// The text as a tree with places.
+    root: Arc<Node>,
     overrides: Vec<Override>,
     tree: Value,
     /// What the tree leaves out.
@@ -51,10 +59,20 @@ impl Source {
     /// A file that is missing, not text or not YAML, and overrides that fit nowhere: kind input.
     pub fn read(case: &FilePath, overrides: &[String]) -> Result<Self, Error> {
         let file = if case.is_dir() { case.join("case.yaml") } else { case.to_owned() };
-        let bytes = fs::read(&file).map_err(|e| {
+        let mut bytes = Vec::new();
+        let most = yaml::MOST_BYTES as u64 + 1;
+        File::open(&file).and_then(|f| f.take(most).read_to_end(&mut bytes)).map_err(|e| {
             let remedy = "name a case.yaml, or a folder that holds one";
             Error::input(file.display(), format!("cannot be read: {e}"), remedy)
         })?;
+        if bytes.starts_with(&[0xff, 0xfe]) || bytes.starts_with(&[0xfe, 0xff]) {
+            return Err(Error::input(file.display(), "the text is in UTF-16", "save the file as UTF-8"));
+        }
+        if bytes.len() > yaml::MOST_BYTES {
+            let problem = format!("the file has more than {} bytes", yaml::MOST_BYTES);
+            let remedy = "name a case.yaml; if it is one, thin its tables out";
+            return Err(Error::input(file.display(), problem, remedy));
+        }
         let text = String::from_utf8(bytes).map_err(|e| {
             let line = e.as_bytes().iter().take(e.utf8_error().valid_up_to()).filter(|&&b| b == b'\n').count() + 1;
             let place = format!("{}:{line}", file.display());
@@ -63,41 +81,39 @@ impl Source {
         Self::parse(file, text, overrides)
     }
 
-    /// As [`Source::read`] for a text at hand; `file` is for messages and as the root of relative paths.
+    /// As [`Source::read`] for a text at hand; `file` is for messages and as the root of relative paths. A byte
+    /// order mark at the beginning is skipped.
     ///
     /// # Errors
     /// As [`Source::read`].
     pub fn parse(file: PathBuf, text: String, overrides: &[String]) -> Result<Self, Error> {
-        let mut source = Self { file, text, overrides: Vec::new(), tree: Value::Null, faults: Vec::new() };
-        source.tree = source.parse_text()?;
+        let text = text.strip_prefix('\u{feff}').map(str::to_owned).unwrap_or(text);
+        let root = yaml::parse(&text).map_err(|e| message(&file, &text, e.place, None, &e.problem, e.remedy))?;
+        let mut faults = Vec::new();
+        let tree = root.to_json(&Path::default(), &mut faults);
+        if tree.is_null() && faults.is_empty() {
+            let remedy = "write a case: `mpm schema` describes it, the folder cases/ has examples";
+            return Err(Error::input(file.display(), "the file is empty", remedy));
+        }
+        let mut source = Self { file, text, root, overrides: Vec::new(), tree, faults };
         for argument in overrides {
             source.set(argument)?;
         }
         Ok(source)
     }
 
-    fn parse_text(&mut self) -> Result<Value, Error> {
-        let yaml: serde_yaml::Value = serde_yaml::from_str(&self.text).map_err(|e| {
-            let place = e.location().map(|place| (place.line(), place.column()));
-            let remedy = "mend the YAML there: check quotes, brackets, colons and indentation";
-            self.message(place, None, &e.to_string(), remedy)
-        })?;
-        if yaml.is_null() {
-            let remedy = "write a case: `mpm schema` describes it, the folder cases/ has examples";
-            return Err(Error::input(self.file.display(), "the file is empty", remedy));
-        }
-        Ok(to_json(yaml, &Path::default(), &mut self.faults))
-    }
-
     /// Sets the entry `PATH` of the tree to `VALUE` for an argument `PATH=VALUE`.
     fn set(&mut self, argument: &str) -> Result<(), Error> {
-        let refuse = |problem: String, remedy: &str| Error::input(format!("--set {argument}"), problem, remedy);
+        let refuse =
+            |problem: String, remedy: &str| Error::input(format!("--set {}", shown(argument)), problem, remedy);
         let example = "write it as --set mesh.parameters.h=0.1";
         let (target, text) = argument.split_once('=').ok_or_else(|| refuse("no `=`".into(), example))?;
-        let value = serde_yaml::from_str(text)
-            .map_err(|e| refuse(format!("the value is not YAML: {e}"), "put the value in quotes"))?;
+        let value = yaml::parse(text).map_err(|e| {
+            let column = e.place.map(|(_, column)| format!(" at character {column}")).unwrap_or_default();
+            refuse(format!("the value is not YAML{column}: {}", e.problem), "put the value in quotes")
+        })?;
         let mut faults = Vec::new();
-        let value = to_json(value, &Path::default(), &mut faults);
+        let value = value.to_json(&Path::default(), &mut faults);
         if let Some(fault) = faults.pop() {
             return Err(refuse(fault.problem, &fault.remedy));
         }
@@ -106,6 +122,9 @@ impl Source {
         for name in target.replace('[', ".").replace(']', "").split('.') {
             if name.is_empty() {
                 return Err(refuse("an empty name in the path".into(), example));
+            }
+            if path.0.len() >= yaml::MOST_LEVELS {
+                return Err(refuse(format!("the path is longer than {} names", yaml::MOST_LEVELS), example));
             }
             if entry.is_null() {
                 *entry = Value::Object(Map::new());
@@ -162,9 +181,9 @@ impl Source {
     /// Line and column of a mistake, or of the nearest block around it that the file has.
     pub fn place(&self, issue: &Issue) -> Option<(usize, usize)> {
         let mut around = issue.path.clone();
-        let mut place = locate(&self.text, &around, issue.at);
+        let mut place = self.root.locate(&around, issue.at);
         while place.is_none() && around.0.pop().is_some() {
-            place = locate(&self.text, &around, At::Key);
+            place = self.root.locate(&around, At::Key);
         }
         place
     }
@@ -173,31 +192,52 @@ impl Source {
     pub fn error(&self, issue: &Issue) -> Error {
         // An entry set on the command line, or a block that only the command line made.
         let given = self.overrides.iter().rev().find(|given| {
-            let made = || issue.path.contains(&given.path) && locate(&self.text, &issue.path, issue.at).is_none();
+            let made = || issue.path.contains(&given.path) && self.root.locate(&issue.path, issue.at).is_none();
             given.path.contains(&issue.path) || made()
         });
         if let Some(given) = given {
-            let place = format!("--set {} ({})", given.argument, issue.path);
+            let place = format!("--set {} ({})", shown(&given.argument), issue.path);
             return Error::input(place, &issue.problem, &issue.remedy);
         }
-        self.message(self.place(issue), Some(&issue.path), &issue.problem, &issue.remedy)
+        message(&self.file, &self.text, self.place(issue), Some(&issue.path), &issue.problem, &issue.remedy)
     }
+}
 
-    fn message(&self, place: Option<(usize, usize)>, path: Option<&Path>, problem: &str, remedy: &str) -> Error {
-        let file = self.file.display();
-        let path = path.filter(|path| !path.0.is_empty()).map(|path| format!(" ({path})")).unwrap_or_default();
-        let Some((line, column)) = place.filter(|&(line, _)| line > 0) else {
-            return Error::input(format!("{file}{path}"), problem, remedy);
-        };
-        let excerpt = match self.text.lines().nth(line - 1) {
-            Some(text) if !text.trim().is_empty() => {
-                let margin = " ".repeat(line.to_string().len());
-                format!("\n {line} | {text}\n {margin} | {}^", " ".repeat(column.saturating_sub(1)))
-            }
-            _ => String::new(),
-        };
-        Error::input(format!("{file}:{line}:{column}{path}"), problem, format!("{remedy}{excerpt}"))
+/// The error for a mistake in `text` of `file`, with its line and a caret under the place.
+fn message(
+    file: &FilePath,
+    text: &str,
+    place: Option<yaml::Place>,
+    path: Option<&Path>,
+    problem: &str,
+    remedy: &str,
+) -> Error {
+    let file = file.display();
+    let path = path.filter(|path| !path.0.is_empty()).map(|path| format!(" ({path})")).unwrap_or_default();
+    let Some((line, column)) = place else {
+        return Error::input(format!("{file}{path}"), problem, remedy);
+    };
+    let error = Error::input(format!("{file}:{line}:{column}{path}"), problem, remedy);
+    match text.lines().nth(line.saturating_sub(1)) {
+        Some(text) if !text.trim().is_empty() => error.with_excerpt(excerpt(text, line, column)),
+        _ => error,
     }
+}
+
+/// Characters of a line that are shown before the place of a mistake, and behind it.
+const AROUND: usize = 60;
+
+/// A line with a caret under its `column`; of a long one what is around it.
+fn excerpt(text: &str, line: usize, column: usize) -> String {
+    let first = (column - 1).saturating_sub(AROUND);
+    let before: String = text.chars().take(column - 1).skip(first).collect();
+    let behind: String = text.chars().skip(column - 1).take(AROUND).collect();
+    let cut = |cut: bool| if cut { "…" } else { "" };
+    let (start, end) = (cut(first > 0), cut(text.chars().nth(column - 1 + AROUND).is_some()));
+    let (before, behind) = (plain(&before), plain(&behind));
+    let margin = " ".repeat(line.to_string().len());
+    let blank = " ".repeat(start.chars().count() + before.chars().count());
+    format!("\n {line} | {start}{before}{behind}{end}\n {margin} | {blank}^")
 }
 
 /// The item a name means: its number, or the value of its `name`.
@@ -224,47 +264,8 @@ pub fn describe(value: &Value) -> String {
         Value::Null => "nothing".into(),
         Value::Bool(b) => b.to_string(),
         Value::Number(n) => format!("the number {n}"),
-        Value::String(s) => format!("the text `{s}`"),
+        Value::String(s) => format!("the text `{}`", shown(s)),
         Value::Array(_) => "a list".into(),
         Value::Object(_) => "a block of entries".into(),
-    }
-}
-
-/// The tree without what a case never needs: tags, keys that are not names, numbers that are not finite.
-/// Each is left out, and a fault.
-fn to_json(yaml: serde_yaml::Value, path: &Path, faults: &mut Vec<Issue>) -> Value {
-    use serde_yaml::Value as Yaml;
-    let mut refuse = |problem: String, remedy: &str| {
-        faults.push(Issue::new(path, At::Value, problem, remedy));
-        Value::Null
-    };
-    match yaml {
-        Yaml::Null => Value::Null,
-        Yaml::Bool(b) => b.into(),
-        Yaml::String(s) => s.into(),
-        Yaml::Number(n) => match (n.as_i64(), n.as_u64(), n.as_f64()) {
-            (Some(n), _, _) => n.into(),
-            (_, Some(n), _) => n.into(),
-            (_, _, Some(n)) if n.is_finite() => n.into(),
-            _ => refuse(format!("{n} is not a finite number"), "write a number"),
-        },
-        Yaml::Sequence(items) => {
-            let items = items.into_iter().enumerate();
-            items.map(|(i, item)| to_json(item, &path.index(i), faults)).collect()
-        }
-        Yaml::Mapping(entries) => {
-            let mut map = Map::new();
-            for (key, value) in entries {
-                match key {
-                    Yaml::String(key) => {
-                        let value = to_json(value, &path.key(&key), faults);
-                        map.insert(key, value);
-                    }
-                    _ => faults.push(Issue::new(path, At::Key, "a key that is not a name", "put the key in quotes")),
-                }
-            }
-            Value::Object(map)
-        }
-        Yaml::Tagged(tagged) => refuse(format!("a YAML tag {}", tagged.tag), "write the entry without a tag"),
     }
 }

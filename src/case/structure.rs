@@ -4,36 +4,49 @@
 //! from what the schema knows. It reads the part of JSON Schema that schemars writes for `raw`.
 
 use super::locate::{At, Path};
-use super::source::{Issue, describe};
+use super::source::{Issue, MOST_FOUND, describe};
+use crate::error::shown;
 use serde_json::{Map, Value};
 
-/// Every mistake in the shape of `tree`.
+/// Every mistake in the shape of `tree`, up to [`MOST_FOUND`].
 pub fn check(schema: &Value, tree: &Value) -> Vec<Issue> {
     let mut walk = Walk { root: schema, issues: Vec::new() };
     walk.value(schema, tree, &Path::default(), "");
     walk.issues
 }
 
-/// The name of `known` nearest to `name`, as a question, or all of them.
+/// The name of `known` nearest to `name`, as a question, or the names there are.
 pub fn suggest<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> String {
     let known: Vec<&str> = known.into_iter().collect();
     match nearest(name, known.iter().copied()) {
-        Some(near) => format!("did you mean `{near}`?"),
+        Some(near) => format!("did you mean `{}`?", shown(near)),
         None if known.is_empty() => "there is none to choose from".to_owned(),
         None => format!("choose from {}", list(&known)),
     }
 }
 
+/// Names that one not known is compared with, and names that a message lists.
+const COMPARED: usize = 1000;
+const LISTED: usize = 40;
+
 /// The name most like `name`, if one is.
 pub fn nearest<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
-    let likeness =
-        known.into_iter().map(|k| (strsim::jaro_winkler(name, k), k)).filter(|&(likeness, _)| likeness > 0.8);
+    let name = &*shown(name);
+    let likeness = known
+        .into_iter()
+        .take(COMPARED)
+        .map(|k| (strsim::jaro_winkler(name, &shown(k)), k))
+        .filter(|&(likeness, _)| likeness > 0.8);
     likeness.max_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, k)| k)
 }
 
-/// Names in backquotes with commas between.
+/// Names in backquotes with commas between; of many the first ones.
 pub fn list(names: &[&str]) -> String {
-    names.iter().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ")
+    let listed = names.iter().take(LISTED).map(|name| format!("`{}`", shown(name))).collect::<Vec<_>>().join(", ");
+    match names.len().saturating_sub(LISTED) {
+        0 => listed,
+        more => format!("{listed} and {more} more"),
+    }
 }
 
 struct Walk<'a> {
@@ -42,6 +55,11 @@ struct Walk<'a> {
 }
 
 impl<'a> Walk<'a> {
+    /// Whether so many mistakes are known that no more are looked for.
+    fn is_full(&self) -> bool {
+        self.issues.len() >= MOST_FOUND
+    }
+
     fn issue(&mut self, path: &Path, at: At, problem: String, remedy: String) {
         self.issues.push(Issue::new(path, at, problem, remedy));
     }
@@ -53,6 +71,9 @@ impl<'a> Walk<'a> {
     }
 
     fn value(&mut self, outer: &'a Value, value: &Value, path: &Path, around: &str) {
+        if self.is_full() {
+            return;
+        }
         let schema = self.resolve(outer);
         // The description beside a `$ref` is about the entry, the one behind it about the type.
         let help = first_sentence(outer).or_else(|| first_sentence(schema)).unwrap_or(around.to_owned());
@@ -104,8 +125,9 @@ impl<'a> Walk<'a> {
     fn likeness(&self, branch: &'a Value, value: &Value) -> f64 {
         let properties = self.resolve(branch).get("properties").and_then(Value::as_object);
         let (Some(properties), Some(map)) = (properties, value.as_object()) else { return 0.0 };
-        let best = |key: &String| properties.keys().map(|k| strsim::jaro_winkler(key, k)).fold(0.0, f64::max);
-        map.keys().map(best).sum()
+        let best = |key: &String| properties.keys().map(|k| strsim::jaro_winkler(&shown(key), k)).fold(0.0, f64::max);
+        // Of a block with many keys the first ones tell.
+        map.keys().take(properties.len()).map(best).sum()
     }
 
     fn choice(&mut self, known: &[&Value], value: &Value, path: &Path, help: &str) {
@@ -126,6 +148,9 @@ impl<'a> Walk<'a> {
         let properties = schema.get("properties").and_then(Value::as_object);
         let additional = schema.get("additionalProperties");
         for (key, value) in map {
+            if self.is_full() {
+                return;
+            }
             let entry = path.key(key);
             match (properties.and_then(|p| p.get(key)), additional) {
                 (Some(property), _) => self.value(property, value, &entry, help),
@@ -137,7 +162,7 @@ impl<'a> Walk<'a> {
                 (None, _) => {
                     let known = || properties.unwrap_or(&none).keys().map(String::as_str);
                     let remedy = suggest(key, known());
-                    let issue = Issue::new(&entry, At::Key, format!("unknown key `{key}`"), remedy);
+                    let issue = Issue::new(&entry, At::Key, format!("unknown key `{}`", shown(key)), remedy);
                     let meant = nearest(key, known()).map(str::to_owned);
                     self.issues.push(Issue { unknown: true, meant, ..issue });
                 }

@@ -3,7 +3,16 @@
 use super::{CaseArgs, Outcome, mesh, print};
 use crate::case;
 
-pub fn run(args: &CaseArgs) -> Outcome {
-    let errors = case::review(&args.case, &args.overrides, mesh::groups)?;
-    if errors.is_empty() { print(&format!("{}: no mistakes\n", args.case.display())) } else { Err(errors) }
+#[derive(clap::Args)]
+pub struct Args {
+    #[command(flatten)]
+    case: CaseArgs,
+    #[command(flatten)]
+    limits: mesh::Limits,
+}
+
+pub fn run(args: &Args) -> Outcome {
+    let CaseArgs { case, overrides } = &args.case;
+    let errors = case::review(case, overrides, |mesh| mesh::groups(mesh, &args.limits))?;
+    if errors.is_empty() { print(&format!("{}: no mistakes\n", case.display())) } else { Err(errors) }
 }

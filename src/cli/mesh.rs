@@ -1,27 +1,90 @@
 //! `mpm mesh`: from the `.geo` to `mesh.msh`.
 
 use super::stage::{Inputs, Stage};
-use super::{Outcome, StageArgs, print};
+use super::{Outcome, StageArgs, print, signals};
 use crate::case::checked;
 use crate::case::names::Groups;
 use crate::error::{Error, Result};
 use crate::io::atomic;
-use crate::mesh::gmsh::{self, Options};
+use crate::mesh::gmsh::{self, Options, Worker};
 use crate::mesh::{Mesh, msh, quality};
-use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-pub fn run(args: &StageArgs) -> Outcome {
-    work(&Stage::open(args)?)
+/// How long `mpm mesh` lets Gmsh work (s).
+const MESHING: u64 = 600;
+
+/// How long Gmsh may take for the names of the groups alone (s).
+const NAMING: u64 = 60;
+
+#[derive(clap::Args)]
+pub struct Args {
+    #[command(flatten)]
+    stage: StageArgs,
+    #[command(flatten)]
+    gmsh: Gmsh,
 }
 
-/// Whether `mesh.msh` is there and would come out the same.
+/// What the user lets Gmsh do.
+#[derive(clap::Args)]
+pub struct Gmsh {
+    #[command(flatten)]
+    limits: Limits,
+    /// Let the .geo execute programs and write files, as Gmsh itself does: only for a file that you trust
+    #[arg(long)]
+    allow_system_calls: bool,
+}
+
+/// What the user lets Gmsh take.
+#[derive(clap::Args)]
+pub struct Limits {
+    /// The longest time that Gmsh may take [default: 600 for a mesh, 60 for its names alone]
+    #[arg(long, value_name = "SECONDS", value_parser = clap::value_parser!(u64).range(1..=31_536_000))]
+    mesh_timeout: Option<u64>,
+    /// The most memory that Gmsh may take [default: 8, or 3/4 of the machine's where that is less]
+    #[arg(long, value_name = "GIB", value_parser = clap::value_parser!(u64).range(1..=65_536))]
+    mesh_memory: Option<u64>,
+}
+
+impl Limits {
+    /// How Gmsh is started by the program at `program`, for so many seconds unless the user has said otherwise.
+    fn worker<'a>(&self, program: &'a Path, seconds: u64) -> Worker<'a> {
+        let memory = machine_memory();
+        Worker {
+            program,
+            seconds: self.mesh_timeout.unwrap_or(seconds),
+            memory: self.mesh_memory.map_or((memory / 4 * 3).min(8 * GIB), |gib| gib * GIB),
+            analysis: memory / 4 * 3,
+            filter: true,
+            sandbox: true,
+            stop: signals::stop(),
+        }
+    }
+}
+
+const GIB: u64 = 1 << 30;
+
+/// The memory of the machine (bytes).
+fn machine_memory() -> u64 {
+    let known = fs::read_to_string("/proc/meminfo").unwrap_or_default();
+    let total = known.lines().find_map(|line| line.strip_prefix("MemTotal:")?.trim().strip_suffix(" kB"));
+    total.and_then(|kib| kib.parse::<u64>().ok()).map_or(u64::MAX, |kib| kib * 1024)
+}
+
+fn program() -> Result<PathBuf> {
+    std::env::current_exe().map_err(|e| Error::machine("mpm", format!("it cannot find itself: {e}"), "mount /proc"))
+}
+
+pub fn run(args: &Args) -> Outcome {
+    work(&Stage::open(&args.stage)?, &args.gmsh)
+}
+
+/// Whether `mesh.msh` is there and would come out the same, which nobody knows of a `.geo` that may execute programs.
 ///
 /// # Errors
-/// Input: a `.geo`, or what it includes, that cannot be read.
-pub fn is_current(stage: &Stage) -> Result<bool> {
-    Ok(inputs(stage)?.are_current(stage.folder(), &[stage.mesh()]))
+/// Input: a `.geo`, or what it includes, that cannot be read or does what it may not.
+pub fn is_current(stage: &Stage, gmsh: &Gmsh) -> Result<bool> {
+    Ok(!gmsh.allow_system_calls && inputs(stage)?.are_current(stage.folder(), &[stage.mesh()]))
 }
 
 /// Meshes, and prints a summary. An earlier mesh stays until the new one has passed every check.
@@ -29,28 +92,71 @@ pub fn is_current(stage: &Stage) -> Result<bool> {
 /// # Errors
 /// Input: names that the `.geo` does not have, one that does not mesh, cells of bad quality; a machine error where
 /// files cannot be written.
-pub fn work(stage: &Stage) -> Outcome {
+pub fn work(stage: &Stage, gmsh: &Gmsh) -> Outcome {
     let case = &stage.loaded.case;
+    let program = program()?;
+    let allowed = gmsh.allow_system_calls;
+    let worker = Worker { filter: !allowed, sandbox: !allowed, ..gmsh.limits.worker(&program, MESHING) };
     stage.lock()?;
-    let mut record = inputs(stage)?.begin();
-    stage.loaded.check_names(&groups(&case.mesh)?)?;
-    stage.prepare()?;
-    let candidate = stage.folder().join(".candidate.msh");
-    let summary = gmsh::generate(&case.mesh.geo, &options(&case.mesh), &candidate)
-        .and_then(|()| msh::seal(&candidate).map_err(|e| atomic::unwritable(&candidate, &e)))
-        .and_then(|()| quality::check(&msh::read(&candidate)?, &case.mesh.geo))
-        .and_then(|summary| {
-            fs::rename(&candidate, stage.mesh()).map_err(|e| atomic::unwritable(&stage.mesh(), &e))?;
-            Ok(summary)
-        });
-    if summary.is_err() {
-        // What is left of the attempt; that it may not exist is no further error.
-        let _ = fs::remove_file(&candidate);
-    }
-    let summary = summary?;
+    let mut record = if allowed { unknown_inputs(stage)? } else { inputs(stage)? }.begin();
+    let scratch = Scratch::new(stage)?;
+    let candidate = scratch.folder.join("mesh.msh");
+    let caught = signals::catch()?;
+    worker.mesh(&case.mesh.geo, &options(&case.mesh), &candidate, |groups| {
+        stage.loaded.check_names(&named(groups.clone()))
+    })?;
+    drop(caught);
+    msh::seal(&candidate).map_err(|e| atomic::unwritable(&candidate, &e))?;
+    let summary = quality::check(&msh::read(&candidate)?, &case.mesh.geo)?;
+    fs::rename(&candidate, stage.mesh()).map_err(|e| atomic::unwritable(&stage.mesh(), &e))?;
+    scratch.keep_folder();
     record.finish(stage.folder(), &[stage.mesh()])?;
     record.write(stage.folder())?;
     print(&format!("{}\n{summary}\n", stage.mesh().display()))
+}
+
+/// The only folder that Gmsh writes in, `.gmsh-<process>` in the output folder. It goes away with this, and the output
+/// folder too where it was made for an attempt that failed.
+struct Scratch {
+    folder: PathBuf,
+    made: Option<PathBuf>,
+}
+
+/// The marker of such folders.
+const MARK: &str = ".gmsh-";
+
+impl Scratch {
+    fn new(stage: &Stage) -> Result<Self> {
+        let made = (!stage.folder().exists()).then(|| stage.folder().to_owned());
+        stage.prepare()?;
+        // What killed processes have left.
+        for entry in fs::read_dir(stage.folder()).into_iter().flatten().flatten() {
+            let name = entry.file_name().to_string_lossy().into_owned();
+            let process = name.strip_prefix(MARK).and_then(|process| process.parse::<u32>().ok());
+            if process.is_some_and(|p| p == std::process::id() || !Path::new(&format!("/proc/{p}")).exists()) {
+                // Only tidiness; where it matters the next call says so.
+                let _ = fs::remove_dir_all(entry.path());
+            }
+        }
+        let folder = stage.folder().join(format!("{MARK}{}", std::process::id()));
+        fs::create_dir(&folder).map_err(|e| atomic::unwritable(&folder, &e))?;
+        Ok(Self { folder, made })
+    }
+
+    /// The output folder holds something now.
+    fn keep_folder(mut self) {
+        self.made = None;
+    }
+}
+
+impl Drop for Scratch {
+    fn drop(&mut self) {
+        // Only tidiness: a next run does it again.
+        let _ = fs::remove_dir_all(&self.folder);
+        if let Some(made) = &self.made {
+            let _ = fs::remove_dir(made);
+        }
+    }
 }
 
 /// The mesh of an earlier `mpm mesh`, checked as when it was made, and held against the names in the case.
@@ -74,10 +180,14 @@ pub fn read(stage: &Stage) -> std::result::Result<Mesh<2>, Vec<Error>> {
 /// The names of the groups of the `.geo`, without meshing it.
 ///
 /// # Errors
-/// Input: a `.geo` that Gmsh does not read, or that lacks a parameter.
-pub fn groups(mesh: &checked::Mesh) -> Result<Groups> {
-    let gmsh::Groups { surfaces, curves, points } = gmsh::groups(&mesh.geo, &options(mesh))?;
-    Ok(Groups { surfaces, curves, points, meshed: false })
+/// Input: a `.geo` that Gmsh does not read, that does what it may not, or that lacks a parameter.
+pub fn groups(mesh: &checked::Mesh, limits: &Limits) -> Result<Groups> {
+    limits.worker(&program()?, NAMING).groups(&mesh.geo, &options(mesh)).map(named)
+}
+
+fn named(groups: gmsh::Groups) -> Groups {
+    let gmsh::Groups { surfaces, curves, points } = groups;
+    Groups { surfaces, curves, points, meshed: false }
 }
 
 fn options(mesh: &checked::Mesh) -> Options {
@@ -90,23 +200,10 @@ fn options(mesh: &checked::Mesh) -> Options {
 }
 
 fn inputs(stage: &Stage) -> Result<Inputs> {
-    let mut files = BTreeSet::new();
-    include(&stage.loaded.case.mesh.geo, &mut files);
-    stage.inputs("mesh", &["mesh"], &files.into_iter().collect::<Vec<_>>())
+    stage.inputs("mesh", &["mesh"], &gmsh::sources(&stage.loaded.case.mesh.geo)?.files)
 }
 
-/// A `.geo` and what it includes or merges.
-fn include(geo: &Path, files: &mut BTreeSet<PathBuf>) {
-    if !files.insert(geo.to_owned()) {
-        return;
-    }
-    // A file that cannot be read is missed when it is hashed, with its name.
-    let text = fs::read(geo).unwrap_or_default();
-    for line in String::from_utf8_lossy(&text).lines() {
-        let line = line.trim_start();
-        let name = line.strip_prefix("Include").or(line.strip_prefix("Merge")).and_then(|rest| rest.split('"').nth(1));
-        if let Some(name) = name {
-            include(&geo.with_file_name("").join(name), files);
-        }
-    }
+/// Those of a `.geo` that may read whatever it likes: what is known of them.
+fn unknown_inputs(stage: &Stage) -> Result<Inputs> {
+    stage.inputs("mesh", &["mesh"], std::slice::from_ref(&stage.loaded.case.mesh.geo))
 }

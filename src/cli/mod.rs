@@ -7,10 +7,12 @@ mod mesh;
 mod run;
 mod schema;
 mod seed;
+mod signals;
 mod solve;
 mod stage;
 
-use crate::error::Error;
+use crate::error::{Error, plain_lines};
+use crate::mesh::gmsh;
 use crate::program;
 use clap::{Args, Parser, Subcommand};
 use std::io::{self, Write};
@@ -31,7 +33,7 @@ struct Cli {
 #[derive(Subcommand)]
 enum Command {
     /// Mesh the .geo of a case: writes mesh.msh
-    Mesh(StageArgs),
+    Mesh(mesh::Args),
     /// Fill the regions of the mesh with material points: writes points.vtu
     Seed(StageArgs),
     /// Solve the equations of motion: writes results/, history.csv, solve.log and checkpoints/
@@ -39,13 +41,16 @@ enum Command {
     /// Turn results/ into series for ParaView: writes vtu/ and .pvd
     Export(export::Args),
     /// All stages in turn, but those whose inputs have not changed
-    Run(solve::Args),
+    Run(run::Args),
     /// Print every mistake of a case that shows without its mesh, with file, line and remedy; writes nothing
-    Check(CaseArgs),
+    Check(check::Args),
     /// Print what a file of mpm was made from, or those of an output folder: program, inputs, command, time
     Info(info::Args),
     /// Print the JSON schema of case.yaml, for editors
     Schema,
+    /// Gmsh in a process of its own, which `mesh` and `check` start
+    #[command(name = gmsh::COMMAND, hide = true)]
+    GmshWorker,
 }
 
 /// What every subcommand that reads a case takes.
@@ -85,6 +90,7 @@ pub fn main() -> ExitCode {
         Command::Check(args) => check::run(&args),
         Command::Info(args) => info::run(&args),
         Command::Schema => schema::run(),
+        Command::GmshWorker => gmsh::serve().map_err(Vec::from),
     };
     match outcome {
         Ok(()) => ExitCode::SUCCESS,
@@ -98,13 +104,13 @@ pub fn main() -> ExitCode {
     }
 }
 
-/// Prints to standard output; a reader that has gone (`| head`) is no error.
+/// Prints to standard output, without what a terminal would obey; a reader that has gone (`| head`) is no error.
 ///
 /// # Errors
 /// Standard output that cannot be written, such as a full disk behind it.
 fn print(text: &str) -> Outcome {
     let mut out = io::stdout().lock();
-    match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
+    match out.write_all(plain_lines(text).as_bytes()).and_then(|()| out.flush()) {
         Err(e) if e.kind() != io::ErrorKind::BrokenPipe => {
             Err(vec![Error::machine("standard output", e, "make room, or send it elsewhere")])
         }
@@ -114,5 +120,5 @@ fn print(text: &str) -> Outcome {
 
 /// Prints a line on standard error, where progress and notes go; nobody may be listening.
 fn note(text: &str) {
-    let _ = writeln!(io::stderr(), "{text}");
+    let _ = writeln!(io::stderr(), "{}", plain_lines(text));
 }

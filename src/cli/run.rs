@@ -4,17 +4,25 @@ use super::stage::Stage;
 use super::{Outcome, export, mesh, print, seed, solve};
 use crate::error::Result;
 
-/// A stage: its name, whether it may be skipped, and its work.
-type Entry<'a> = (&'static str, fn(&Stage) -> Result<bool>, &'a dyn Fn(&Stage) -> Outcome);
+#[derive(clap::Args)]
+pub struct Args {
+    #[command(flatten)]
+    solve: solve::Args,
+    #[command(flatten)]
+    gmsh: mesh::Gmsh,
+}
 
-pub fn run(args: &solve::Args) -> Outcome {
-    let stage = Stage::open(&args.stage)?;
+/// A stage: its name, whether it may be skipped, and its work.
+type Entry<'a> = (&'static str, &'a dyn Fn(&Stage) -> Result<bool>, &'a dyn Fn(&Stage) -> Outcome);
+
+pub fn run(args: &Args) -> Outcome {
+    let stage = Stage::open(&args.solve.stage)?;
     stage.lock()?;
     let stages: [Entry; 4] = [
-        ("mesh", mesh::is_current, &mesh::work),
-        ("seed", seed::is_current, &seed::work),
-        ("solve", solve::is_current, &|stage| solve::work(stage, args.start)),
-        ("export", export::is_current, &export::results),
+        ("mesh", &|stage| mesh::is_current(stage, &args.gmsh), &|stage| mesh::work(stage, &args.gmsh)),
+        ("seed", &seed::is_current, &seed::work),
+        ("solve", &solve::is_current, &|stage| solve::work(stage, args.solve.start)),
+        ("export", &export::is_current, &export::results),
     ];
     for (name, is_current, work) in stages {
         if is_current(&stage)? {

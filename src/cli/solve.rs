@@ -1,7 +1,7 @@
 //! `mpm solve`: from `mesh.msh` and `points.vtu` to results, history, log and checkpoints.
 
 use super::stage::{Inputs, Stage};
-use super::{Outcome, StageArgs, mesh, note, print, seed};
+use super::{Outcome, StageArgs, mesh, note, print, seed, signals};
 use crate::case::scene;
 use crate::error::{Error, Kind, Result};
 use crate::io::checkpoint::Checkpoints;
@@ -13,7 +13,6 @@ use crate::profile::{self, Activity};
 use crate::run::{Ended, Progress};
 use indicatif::{ProgressBar, ProgressStyle};
 use std::io::IsTerminal;
-use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
 /// The entries of the case that results depend on, beside those that shaped the points.
@@ -30,9 +29,6 @@ const KEYS: [&str; 11] = [
     "phases",
     "output",
 ];
-
-/// Set by Ctrl-C or a polite kill; polled between steps.
-static STOP: AtomicBool = AtomicBool::new(false);
 
 #[derive(clap::Args, Clone)]
 pub struct Args {
@@ -91,11 +87,13 @@ pub fn work(stage: &Stage, start: Start) -> Outcome {
         return print("solve: the run is finished, there is nothing to continue\n");
     };
     record.write(folder.path())?;
-    catch_signals()?;
+    // A first Ctrl-C (or SIGTERM) ends the run after the step in hand, a second one at once.
+    let _caught = signals::catch()?;
     let begin = Instant::now();
     let mut meter = Meter::new();
     let case = &stage.loaded.case;
-    let ended = scene::solve(case, mesh, points, &folder, origin, start.resume, &STOP, &mut |p| meter.show(&p));
+    let ended =
+        scene::solve(case, mesh, points, &folder, origin, start.resume, signals::stop(), &mut |p| meter.show(&p));
     meter.finish();
     // What an analysis that could not go on took is told, too; one that never began took nothing.
     let told = match &ended {
@@ -181,19 +179,6 @@ fn summary(elapsed: Duration, done: bool) -> String {
         percent((all - booked).max(0.0)),
         percent(profile::material_seconds())
     )
-}
-
-/// A first Ctrl-C (or SIGTERM) ends the run after the step in hand, a second one at once.
-fn catch_signals() -> Result<()> {
-    let handler = || {
-        if STOP.swap(true, Ordering::Relaxed) {
-            std::process::exit(130);
-        }
-    };
-    match ctrlc::set_handler(handler) {
-        Ok(()) | Err(ctrlc::Error::MultipleHandlers) => Ok(()),
-        Err(e) => Err(Error::machine("signals", format!("Ctrl-C cannot be caught: {e}"), "run in another terminal")),
-    }
 }
 
 /// Seconds between lines where there is no terminal.

@@ -3,7 +3,7 @@
 //! A stage is current when its record (`io::provenance`) was made from the same inputs, by the same program, and its outputs
 //! are as it left them: `mpm run` skips it then.
 
-use super::{CaseArgs, StageArgs};
+use super::{CaseArgs, StageArgs, note};
 use crate::case::{self, Loaded};
 use crate::error::{Error, Result};
 use crate::io::checkpoint::Fingerprint;
@@ -141,9 +141,13 @@ impl Inputs {
 }
 
 /// Sets the number of threads of the process. The one at hand is one of them: were all work handed to others, steps of
-/// milliseconds would spend most of their time waiting to be woken.
+/// milliseconds would spend most of their time waiting to be woken. More threads than cores only wait for each other.
 fn use_threads(threads: Option<u16>) -> Result<()> {
-    let wanted = threads.map_or(0, usize::from);
+    let cores = std::thread::available_parallelism().map_or(usize::MAX, usize::from);
+    let wanted = threads.map_or(0, usize::from).min(cores);
+    if let Some(threads) = threads.filter(|&threads| usize::from(threads) > cores) {
+        note(&format!("note: --threads {threads} is more than the {cores} cores there are: {cores} are used"));
+    }
     match (threads, rayon::ThreadPoolBuilder::new().num_threads(wanted).use_current_thread().build_global()) {
         (Some(threads), Err(e)) => {
             let problem = format!("{threads} threads cannot be started: {e}");

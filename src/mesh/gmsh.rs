@@ -1,13 +1,24 @@
 //! Meshes from Gmsh: a `.geo` to an MSH 4.1 file. Gmsh opens no mesh file: [`super::msh`] reads them.
 //!
+//! The program runs Gmsh in a process of its own, a [`Worker`], behind a filter of the `.geo` ([`sources`]) and with the
+//! rights that the kernel can take from it. [`generate`] and [`groups`] are what that process does.
+//!
 //! Gmsh keeps one global model and is not safe to share among threads: a `Session` holds a lock, starts Gmsh afresh and
 //! ends it when dropped. Gmsh prints nothing; what it has to say comes back in errors, with its own file and line.
 
 mod check;
+mod estimate;
+mod sandbox;
+mod script;
 mod session;
+mod worker;
+
+pub use script::{Sources, sources};
+pub use worker::{COMMAND, Worker, serve};
 
 use crate::error::{Error, Result};
 use check::{check_parameters, check_readable, check_surfaces};
+use serde::{Deserialize, Serialize};
 use session::Session;
 use std::fs;
 use std::path::Path;
@@ -15,7 +26,7 @@ use std::path::Path;
 const AGAIN: &str = "make the file again with `mpm mesh`";
 
 /// What the case decides about the mesh.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Options {
     /// Polynomial order of the cells: 1 or 2.
     pub order: u8,
@@ -30,13 +41,28 @@ pub struct Options {
 ///
 /// # Errors
 /// Input: what Gmsh cannot read or mesh, with its line where it names one; a parameter that no
-/// `DefineConstant` declares; a surface in no physical surface or in two; an order other than 1 and 2.
+/// `DefineConstant` declares; a surface in no physical surface or in two; an order other than 1 and 2; a mesh size below
+/// the tolerance of the geometry.
 /// Machine: `out` cannot be written.
 pub fn generate(geo: &Path, options: &Options, out: &Path) -> Result<()> {
+    generate_when(geo, options, out, u64::MAX, &mut |_| Ok(true))
+}
+
+/// As [`generate`], once `agree` to the names of the groups, for an analysis that may take `memory` (bytes).
+fn generate_when(
+    geo: &Path,
+    options: &Options,
+    out: &Path,
+    memory: u64,
+    agree: &mut dyn FnMut(Groups) -> Result<bool>,
+) -> Result<()> {
     if !matches!(options.order, 1 | 2) {
         return Err(Error::input(geo.display(), format!("order {} is not possible", options.order), "use 1 or 2"));
     }
     let session = open(geo, options)?;
+    if !agree(names(&session))? {
+        return Ok(());
+    }
     for (name, value) in [
         ("Mesh.ElementOrder", 1.0),
         ("Mesh.SecondOrderIncomplete", f64::from(u8::from(options.incomplete))),
@@ -49,12 +75,17 @@ pub fn generate(geo: &Path, options: &Options, out: &Path) -> Result<()> {
     ] {
         session.set_option(name, value)?;
     }
-    session.mesh(geo, options.order)?;
+    estimate::check_sizes(&session, geo)?;
+    session.mesh(geo, 1)?;
+    estimate::check_cells(geo, estimate::cells(&session, geo)?, memory)?;
+    session.mesh(geo, 2)?;
+    estimate::check_cells(geo, session.cell_count() as f64, memory)?;
+    session.set_order(geo, options.order)?;
     session.write(out)
 }
 
 /// The names of the physical groups of a `.geo`.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Groups {
     pub surfaces: Vec<String>,
     pub curves: Vec<String>,
@@ -66,9 +97,12 @@ pub struct Groups {
 /// # Errors
 /// Input: as [`generate`], but for what only shows in meshing.
 pub fn groups(geo: &Path, options: &Options) -> Result<Groups> {
-    let session = open(geo, options)?;
+    Ok(names(&open(geo, options)?))
+}
+
+fn names(session: &Session) -> Groups {
     let names = |dimension| session.physical_groups(dimension).into_iter().map(|group| group.name).collect();
-    Ok(Groups { surfaces: names(2), curves: names(1), points: names(0) })
+    Groups { surfaces: names(2), curves: names(1), points: names(0) }
 }
 
 /// A session with the geometry in `geo`, its parameters and surfaces checked.

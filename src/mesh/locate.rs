@@ -107,9 +107,10 @@ impl<const D: usize> Locator<D> {
         self.nearest(mesh, x, bin)
     }
 
-    /// The cells in which `x` lies deeper than `depth` ([`CellKind::depth`]), ascending.
+    /// The cells in which `x` lies deeper than `depth` ([`CellKind::depth`]): in a sound mesh one at most.
     pub fn holders(&self, mesh: &Mesh<D>, x: &[f64; D], depth: f64) -> impl Iterator<Item = u32> {
-        self.candidates(self.bins.at(x).unwrap_or_default(), x)
+        let candidates = self.bins.at(x).into_iter().flat_map(|bin| self.candidates(bin, x));
+        candidates
             .filter(move |&c| self.invert(mesh, c, x, true).is_some_and(|xi| self.kind(mesh, c).depth(&xi).0 > depth))
     }
 

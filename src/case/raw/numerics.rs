@@ -20,8 +20,9 @@ pub struct Numerics {
     /// Spectral radius ρ∞ (-) of generalised-α at high frequencies, from 0 to 1; 1 damps nothing.
     #[schemars(range(min = 0, max = 1))]
     pub spectral_radius: f64,
-    /// Newton's iteration ends when the residual is this small beside the forces (-).
-    #[schemars(extend("exclusiveMinimum" = 0), extend("exclusiveMaximum" = 1))]
+    /// Newton's iteration ends when the residual is this small beside the forces (-), at most 0.01: results have
+    /// an error of that size.
+    #[schemars(extend("exclusiveMinimum" = 0), extend("maximum" = 0.01))]
     pub tolerance: f64,
     /// Iterations after which a step is halved.
     #[schemars(range(min = 1, max = 1000))]

@@ -1,7 +1,10 @@
 //! Gmsh itself: a session with its one global model, by its C interface. All foreign functions of the program are called here.
 
+use super::super::shape::CellKind;
+use super::AGAIN;
 use super::check::check_complete;
 use crate::error::{Error, Result};
+use std::collections::BTreeMap;
 use std::ffi::{CStr, CString, c_char, c_int};
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -60,11 +63,7 @@ impl Session {
         let c_name = c_string(name)?;
         // SAFETY: a zero-terminated string that outlives the call.
         unsafe { ffi::option_set_number(c_name.as_ptr(), value, &mut status) };
-        if status == 0 {
-            Ok(())
-        } else {
-            Err(Error::machine("Gmsh", format!("it has no option {name}"), "run `make setup`"))
-        }
+        if status == 0 { Ok(()) } else { Err(no_option(name)) }
     }
 
     /// Presets a variable, which `DefineConstant` then leaves as it is.
@@ -106,18 +105,97 @@ impl Session {
         self.checked(path, status, "correct the file")
     }
 
-    /// Meshes the plane with cells of an order.
+    /// The value of an option that is a number.
+    ///
+    /// # Errors
+    /// A machine error when this Gmsh has no such option.
+    pub fn option(&self, name: &str) -> Result<f64> {
+        let (mut value, mut status) = (0.0, 0);
+        let c_name = c_string(name)?;
+        // SAFETY: a zero-terminated string that outlives the call, and a place for a number.
+        unsafe { ffi::option_get_number(c_name.as_ptr(), &mut value, &mut status) };
+        if status == 0 { Ok(value) } else { Err(no_option(name)) }
+    }
+
+    /// The mesh size that is set at a point (m), if any.
+    pub fn size(&self, point: c_int) -> Option<f64> {
+        let (mut data, mut count, mut status) = (null_mut(), 0, 0);
+        // SAFETY: a pair of dimension and tag; Gmsh hands out an array of `count` numbers.
+        let sizes = unsafe {
+            ffi::model_mesh_get_sizes([0, point].as_ptr(), 2, &mut data, &mut count, &mut status);
+            take(data, count)
+        };
+        sizes.first().copied()
+    }
+
+    /// The diagonal of the box around an entity (m), or around all for the dimension −1; not a number where there is none.
+    pub fn extent(&self, dimension: c_int, tag: c_int) -> f64 {
+        let ([mut x, mut y, mut z, mut x2, mut y2, mut z2], mut status) = ([f64::NAN; 6], 0);
+        // SAFETY: places for six numbers.
+        unsafe {
+            ffi::model_get_bounding_box(dimension, tag, &mut x, &mut y, &mut z, &mut x2, &mut y2, &mut z2, &mut status);
+        }
+        (x2 - x).hypot(y2 - y).hypot(z2 - z)
+    }
+
+    /// The entities that bound one, negative where they run against its sense.
+    pub fn boundary(&self, dimension: c_int, tag: c_int) -> Vec<c_int> {
+        let (mut data, mut count, mut status) = (null_mut(), 0, 0);
+        // SAFETY: a pair of dimension and tag; Gmsh hands out `count` integers, pairs of dimension and tag.
+        let pairs = unsafe {
+            ffi::model_get_boundary([dimension, tag].as_ptr(), 2, &mut data, &mut count, 0, 1, 0, &mut status);
+            take(data, count)
+        };
+        pairs.chunks_exact(2).map(|pair| pair[1]).collect()
+    }
+
+    /// Meshes the entities of a dimension and of those below, with straight cells.
     ///
     /// # Errors
     /// Input: a geometry that does not mesh.
-    pub fn mesh(&self, geo: &Path, order: u8) -> Result<()> {
+    pub fn mesh(&self, geo: &Path, dimension: c_int) -> Result<()> {
         let mut status = 0;
         // SAFETY: plain numbers; the session holds the lock.
-        unsafe { ffi::model_mesh_generate(2, &mut status) };
-        self.checked(geo, status, "the geometry does not mesh; open it in Gmsh to see where")?;
+        unsafe { ffi::model_mesh_generate(dimension, &mut status) };
+        self.checked(geo, status, "the geometry does not mesh; open it in Gmsh to see where")
+    }
+
+    /// Gives the cells their order.
+    ///
+    /// # Errors
+    /// Input: a mesh that cannot have it.
+    pub fn set_order(&self, geo: &Path, order: u8) -> Result<()> {
+        let mut status = 0;
         // SAFETY: as above.
         unsafe { ffi::model_mesh_set_order(c_int::from(order), &mut status) };
         self.checked(geo, status, "the mesh has no second order; use order: 1 or mend the geometry")
+    }
+
+    /// The number of surface cells.
+    pub fn cell_count(&self) -> usize {
+        let (mut types, mut type_count, mut tags, mut tag_counts, mut tag_lists) =
+            (null_mut(), 0, null_mut(), null_mut(), 0);
+        let (mut nodes, mut node_counts, mut node_lists, mut status) = (null_mut(), null_mut(), 0, 0);
+        // SAFETY: Gmsh hands out an array of types and two lists of arrays.
+        let tags = unsafe {
+            ffi::model_mesh_get_elements(
+                &mut types,
+                &mut type_count,
+                &mut tags,
+                &mut tag_counts,
+                &mut tag_lists,
+                &mut nodes,
+                &mut node_counts,
+                &mut node_lists,
+                2,
+                -1,
+                &mut status,
+            );
+            take(types, type_count);
+            take_lists(nodes, node_counts, node_lists);
+            take_lists(tags, tag_counts, tag_lists)
+        };
+        tags.iter().map(Vec::len).sum()
     }
 
     /// Writes the mesh beside `out`, checks that it is all there and renames it.
@@ -189,6 +267,75 @@ impl Session {
         pairs.chunks_exact(2).map(|pair| pair[1]).collect()
     }
 
+    /// The coordinates of all nodes by their tags.
+    ///
+    /// # Errors
+    /// Input: what Gmsh says of the file.
+    pub fn nodes(&self, path: &Path) -> Result<BTreeMap<usize, [f64; 3]>> {
+        let (mut tags, mut tag_count) = (null_mut(), 0);
+        let (mut coordinates, mut coordinate_count) = (null_mut(), 0);
+        let (mut parameters, mut parameter_count) = (null_mut(), 0);
+        let mut status = 0;
+        // SAFETY: Gmsh hands out three arrays of the counts it gives.
+        let (tags, coordinates) = unsafe {
+            ffi::model_mesh_get_nodes(
+                &mut tags,
+                &mut tag_count,
+                &mut coordinates,
+                &mut coordinate_count,
+                &mut parameters,
+                &mut parameter_count,
+                -1,
+                -1,
+                0,
+                0,
+                &mut status,
+            );
+            take(parameters, parameter_count);
+            (take(tags, tag_count), take(coordinates, coordinate_count))
+        };
+        self.checked(path, status, AGAIN)?;
+        Ok(tags.into_iter().zip(coordinates.chunks_exact(3).map(|x| [x[0], x[1], x[2]])).collect())
+    }
+
+    /// The elements of an entity, each with its kind and the tags of its nodes.
+    ///
+    /// # Errors
+    /// Input: elements of a type that there are no cells for, and what Gmsh says of the file.
+    pub fn elements(&self, path: &Path, dimension: c_int, entity: c_int) -> Result<Vec<(CellKind, Vec<usize>)>> {
+        let (mut types, mut type_count) = (null_mut(), 0);
+        let (mut tags, mut tag_counts, mut tag_lists) = (null_mut(), null_mut(), 0);
+        let (mut nodes, mut node_counts, mut node_lists) = (null_mut(), null_mut(), 0);
+        let mut status = 0;
+        // SAFETY: Gmsh hands out an array of types and, a type each, lists of elements and of their nodes.
+        let (types, nodes) = unsafe {
+            ffi::model_mesh_get_elements(
+                &mut types,
+                &mut type_count,
+                &mut tags,
+                &mut tag_counts,
+                &mut tag_lists,
+                &mut nodes,
+                &mut node_counts,
+                &mut node_lists,
+                dimension,
+                entity,
+                &mut status,
+            );
+            take_lists(tags, tag_counts, tag_lists);
+            (take(types, type_count), take_lists(nodes, node_counts, node_lists))
+        };
+        self.checked(path, status, AGAIN)?;
+        let mut elements = Vec::new();
+        for (kind, nodes) in types.into_iter().zip(nodes) {
+            let kind = kind_of(kind).ok_or_else(|| {
+                Error::input(path.display(), format!("elements of Gmsh's type {kind}"), "mesh it with order 1 or 2")
+            })?;
+            elements.extend(nodes.chunks_exact(kind.node_count()).map(|n| (kind, n.to_vec())));
+        }
+        Ok(elements)
+    }
+
     /// An error if the last call failed or Gmsh has logged one.
     ///
     /// # Errors
@@ -204,6 +351,10 @@ impl Session {
             None if status == 0 => return Ok(()),
             None => self.last_error(),
         };
+        if message.trim().is_empty() {
+            let problem = "Gmsh gave up without a message, mostly for lack of memory";
+            return Err(Error::input(path.display(), problem, "ask for a larger mesh size, or simplify the geometry"));
+        }
         // Gmsh names the place as `'file', line N: what`.
         let split = message.strip_prefix('\'').and_then(|rest| {
             let (file, rest) = rest.split_once("', line ")?;
@@ -263,6 +414,25 @@ impl Drop for Session {
     }
 }
 
+fn no_option(name: &str) -> Error {
+    Error::machine("Gmsh", format!("it has no option {name}"), "run `make setup`")
+}
+
+/// The cell kind of a Gmsh element type.
+pub fn kind_of(element: c_int) -> Option<CellKind> {
+    Some(match element {
+        15 => CellKind::Point1,
+        1 => CellKind::Line2,
+        8 => CellKind::Line3,
+        2 => CellKind::T3,
+        9 => CellKind::T6,
+        3 => CellKind::Q4,
+        16 => CellKind::Q8,
+        10 => CellKind::Q9,
+        _ => return None,
+    })
+}
+
 fn c_string(text: &str) -> Result<CString> {
     CString::new(text).map_err(|_| Error::input(format!("{text:?}"), "it contains a zero byte", "take it out"))
 }
@@ -289,6 +459,18 @@ unsafe fn take<T: Copy>(data: *mut T, count: usize) -> Vec<T> {
         let values = std::slice::from_raw_parts(data, count).to_vec();
         ffi::free(data.cast());
         values
+    }
+}
+
+/// Copies a list of arrays and frees all of it.
+///
+/// # Safety
+/// `data` and `counts` are null or arrays of `count` arrays and of their lengths, allocated by Gmsh.
+unsafe fn take_lists<T: Copy>(data: *mut *mut T, counts: *mut usize, count: usize) -> Vec<Vec<T>> {
+    // SAFETY: as required of the caller.
+    unsafe {
+        let (lists, counts) = (take(data, count), take(counts, count));
+        lists.into_iter().zip(counts).map(|(list, count)| take(list, count)).collect()
     }
 }
 

@@ -1,0 +1,497 @@
+//! YAML text as a tree in which each entry knows its place.
+//!
+//! The text is read event by event, so that limits hold before time or memory is spent: on its size, on how deep
+//! blocks and lists are nested, and on how many entries there are with those that aliases repeat. Plain scalars
+//! are told apart as in the core schema of YAML 1.2 (§10.3), with whole numbers in base 2 beside 8 and 16. An
+//! alias shares the tree of its anchor. Left out: several documents in a file, and merge keys (`<<` is a key).
+
+use super::locate::{At, Path, Step};
+use super::source::{Issue, MOST_FOUND};
+use saphyr_parser::{Event, Marker, Parser, ScalarStyle};
+use serde_json::{Map, Number, Value};
+use std::borrow::Cow;
+use std::collections::{BTreeMap, HashMap};
+use std::sync::Arc;
+
+/// Bytes of a text: a table of 100 000 rows has half as many.
+pub const MOST_BYTES: usize = 4 << 20;
+/// Levels of blocks and lists within each other: a case has ten.
+pub const MOST_LEVELS: usize = 64;
+/// Entries and items with those that aliases repeat: a table of 100 000 rows has 300 000.
+pub const MOST_ENTRIES: usize = 1_000_000;
+
+/// Keys of a block, and items of a list that are no rows of a table. They are compared with each other.
+pub const MOST_NAMED: usize = 10_000;
+
+/// Line and column, from 1.
+pub type Place = (usize, usize);
+
+/// An entry and what is below it.
+#[derive(Debug)]
+pub struct Node {
+    place: Place,
+    content: Content,
+    /// Entries and items from here downwards, those behind aliases counted each time.
+    entries: usize,
+    /// Levels from here downwards.
+    levels: usize,
+}
+
+#[derive(Debug)]
+enum Content {
+    Scalar(Value),
+    List(Vec<Arc<Node>>),
+    /// By key, with the place of the key; and whether there are keys that are not names.
+    Block(BTreeMap<String, (Place, Arc<Node>)>, bool),
+    /// What a case does not have, with the remedy.
+    Strange(String, &'static str),
+}
+
+/// Where reading ended, and why.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Fault {
+    pub place: Option<Place>,
+    pub problem: String,
+    pub remedy: &'static str,
+}
+
+/// The one entry that may have several lines.
+const TITLE: &str = "title";
+
+const MEND: &str = "mend the YAML there: check quotes, brackets, colons and indentation";
+
+/// Reads a text.
+///
+/// # Errors
+/// What is not YAML, what is beyond the limits, control characters, a key that a block has twice.
+pub fn parse(text: &str) -> Result<Arc<Node>, Fault> {
+    if text.len() > MOST_BYTES {
+        let problem = format!("it has {} bytes, more than {MOST_BYTES}", text.len());
+        return Err(Fault { place: None, problem, remedy: "shorten it: tables need no more rows than the steps take" });
+    }
+    check_characters(text)?;
+    let mut reader = Reader::default();
+    for event in Parser::new_from_str(text) {
+        let (event, span) = event.map_err(|e| match place(e.marker()) {
+            // Brackets that the parser has read ahead.
+            place if e.info().contains("recursion limit") => too_deep(place),
+            // The parser tells where the text before the tab begins.
+            place if e.info().contains("tab") => fault(next_tab(text, place).unwrap_or(place), e.info(), MEND),
+            place => fault(place, e.info(), MEND),
+        })?;
+        reader.take(event, place(&span.start))?;
+    }
+    Ok(reader.root.unwrap_or_else(|| Node::scalar((1, 1), Value::Null)))
+}
+
+fn place(mark: &Marker) -> Place {
+    (mark.line(), mark.col() + 1)
+}
+
+/// The first tab in the lines from that of `from` on.
+fn next_tab(text: &str, from: Place) -> Option<Place> {
+    let mut lines = text.lines().enumerate().skip(from.0.saturating_sub(1));
+    lines.find_map(|(i, line)| Some((i + 1, line.chars().position(|c| c == '\t')? + 1)))
+}
+
+/// Text has no control characters but tabs and line breaks; a zero byte would end it unseen.
+fn check_characters(text: &str) -> Result<(), Fault> {
+    for (i, line) in text.split('\n').enumerate() {
+        let control = |c: char| c.is_control() && !matches!(c, '\t' | '\r' | '\u{85}');
+        if let Some((column, c)) = line.chars().enumerate().find(|&(_, c)| control(c)) {
+            let problem = format!("there is a control character, U+{:04X}", u32::from(c));
+            let remedy = "take it out, and save the file as plain UTF-8 text";
+            return Err(Fault { place: Some((i + 1, column + 1)), problem, remedy });
+        }
+    }
+    Ok(())
+}
+
+impl Node {
+    fn scalar(place: Place, value: Value) -> Arc<Self> {
+        Arc::new(Self { place, content: Content::Scalar(value), entries: 1, levels: 0 })
+    }
+
+    fn strange(place: Place, problem: String, remedy: &'static str) -> Arc<Self> {
+        Arc::new(Self { place, content: Content::Strange(problem, remedy), entries: 1, levels: 0 })
+    }
+
+    /// Whether it is a text, a block or nothing: what lists have few of.
+    fn is_named(&self) -> bool {
+        matches!(
+            self.content,
+            Content::Scalar(Value::String(_) | Value::Null) | Content::Block(..) | Content::Strange(..)
+        )
+    }
+
+    /// Line and column of the entry at `path`; `None` without such an entry.
+    pub fn locate(&self, path: &Path, at: At) -> Option<Place> {
+        let (mut key, mut node) = (None, self);
+        for step in &path.0 {
+            (key, node) = match (step, &node.content) {
+                (Step::Key(name), Content::Block(entries, _)) => {
+                    entries.get(name).map(|(key, entry)| (Some(*key), entry.as_ref()))?
+                }
+                (Step::Index(index), Content::List(items)) => (None, items.get(*index)?.as_ref()),
+                _ => return None,
+            };
+        }
+        Some(key.filter(|_| at == At::Key).unwrap_or(node.place))
+    }
+
+    /// The tree without what a case never needs: tags, keys that are not names, numbers that are not finite,
+    /// control characters. Each is left out, and a fault.
+    pub fn to_json(&self, path: &Path, faults: &mut Vec<Issue>) -> Value {
+        let mut refuse = |at: At, problem: &str, remedy: &str| {
+            if faults.len() < MOST_FOUND {
+                faults.push(Issue::new(path, at, problem, remedy));
+            }
+            Value::Null
+        };
+        match &self.content {
+            Content::Scalar(Value::String(text)) if text.contains('\n') && *path != Path::default().key(TITLE) => {
+                refuse(At::Value, "the text has a line break", "write it on one line")
+            }
+            Content::Scalar(value) => value.clone(),
+            Content::Strange(problem, remedy) => refuse(At::Value, problem, remedy),
+            Content::List(items) => {
+                items.iter().enumerate().map(|(i, item)| item.to_json(&path.index(i), faults)).collect()
+            }
+            Content::Block(entries, strange) => {
+                if *strange {
+                    refuse(At::Key, "a key that is not a name", "put the key in quotes, on one line");
+                }
+                let entry = |(key, (_, entry)): (&String, &(Place, Arc<Self>))| {
+                    (key.clone(), entry.to_json(&path.key(key), faults))
+                };
+                Value::Object(entries.iter().map(entry).collect::<Map<_, _>>())
+            }
+        }
+    }
+}
+
+/// A block or list whose end has not come.
+struct Open {
+    place: Place,
+    anchor: usize,
+    /// Why the case cannot have it.
+    tag: Option<String>,
+    content: Content,
+    /// The key whose value comes next; the inner `None` for one that is not a name.
+    key: Option<Option<(String, Place)>>,
+    entries: usize,
+    levels: usize,
+}
+
+#[derive(Default)]
+struct Reader {
+    open: Vec<Open>,
+    anchors: HashMap<usize, Arc<Node>>,
+    root: Option<Arc<Node>>,
+    documents: usize,
+}
+
+impl Reader {
+    fn take(&mut self, event: Event, place: Place) -> Result<(), Fault> {
+        match event {
+            Event::DocumentStart(_) => {
+                self.documents += 1;
+                if self.documents > 1 {
+                    let remedy = "keep one, and take the line `---` before the other out";
+                    return Err(fault(place, "there is more than one document", remedy));
+                }
+            }
+            Event::Alias(anchor) => {
+                let Some(node) = self.anchors.get(&anchor).cloned() else {
+                    return Err(fault(place, "the alias stands within what it names", "write the entry out"));
+                };
+                self.add(node, place)?;
+            }
+            Event::Scalar(text, style, anchor, tag) => {
+                let node = match tag {
+                    Some(tag) => tagged(place, &tag.to_string()),
+                    None => scalar(place, text, style),
+                };
+                self.end(node, place, anchor)?;
+            }
+            Event::SequenceStart(anchor, tag) => {
+                self.begin(place, anchor, tag.map(|tag| tag.to_string()), Content::List(Vec::new()))?;
+            }
+            Event::MappingStart(anchor, tag) => {
+                let content = Content::Block(BTreeMap::new(), false);
+                self.begin(place, anchor, tag.map(|tag| tag.to_string()), content)?;
+            }
+            Event::SequenceEnd | Event::MappingEnd => {
+                if let Some(Open { place, anchor, tag, content, entries, levels, .. }) = self.open.pop() {
+                    let node = match tag {
+                        Some(tag) => tagged(place, &tag),
+                        None => Arc::new(Node { place, content, entries, levels: levels + 1 }),
+                    };
+                    self.end(node, place, anchor)?;
+                }
+            }
+            Event::Nothing | Event::StreamStart | Event::StreamEnd | Event::DocumentEnd => {}
+        }
+        Ok(())
+    }
+
+    fn begin(&mut self, place: Place, anchor: usize, tag: Option<String>, content: Content) -> Result<(), Fault> {
+        if self.open.len() >= MOST_LEVELS {
+            return Err(too_deep(place));
+        }
+        self.open.push(Open { place, anchor, tag, content, key: None, entries: 1, levels: 0 });
+        Ok(())
+    }
+
+    /// A whole entry, which aliases may name from now on.
+    fn end(&mut self, node: Arc<Node>, place: Place, anchor: usize) -> Result<(), Fault> {
+        if anchor != 0 {
+            self.anchors.insert(anchor, node.clone());
+        }
+        self.add(node, place)
+    }
+
+    /// Adds an entry, which stands at `place`, to the block or list that is open.
+    fn add(&mut self, node: Arc<Node>, place: Place) -> Result<(), Fault> {
+        if self.open.len() + node.levels > MOST_LEVELS {
+            return Err(too_deep(place));
+        }
+        let Some(open) = self.open.last_mut() else {
+            self.root = Some(node);
+            return Ok(());
+        };
+        open.entries += node.entries;
+        open.levels = open.levels.max(node.levels);
+        if open.entries > MOST_ENTRIES {
+            let problem = format!("there are more than {MOST_ENTRIES} entries, those that aliases repeat among them");
+            return Err(fault(place, &problem, "write fewer: no case needs as many"));
+        }
+        match &mut open.content {
+            Content::List(items) => {
+                if items.len() >= MOST_NAMED && node.is_named() {
+                    return Err(too_many(place, "list", "items"));
+                }
+                items.push(node);
+            }
+            Content::Block(entries, strange) => match open.key.take() {
+                None => {
+                    let name = match &node.content {
+                        Content::Scalar(Value::String(name)) if !name.contains('\n') => Some(name.clone()),
+                        _ => None,
+                    };
+                    if let Some(name) = name.as_ref().filter(|name| entries.contains_key(*name)) {
+                        let problem = format!("the key `{name}` is a duplicate");
+                        return Err(fault(place, &problem, "keep one of the two entries"));
+                    }
+                    if entries.len() >= MOST_NAMED {
+                        return Err(too_many(place, "block", "keys"));
+                    }
+                    *strange |= name.is_none();
+                    open.key = Some(name.map(|name| (name, place)));
+                }
+                Some(None) => {}
+                Some(Some((name, key))) => {
+                    entries.insert(name, (key, node));
+                }
+            },
+            Content::Scalar(_) | Content::Strange(..) => {}
+        }
+        Ok(())
+    }
+}
+
+fn fault(place: Place, problem: &str, remedy: &'static str) -> Fault {
+    Fault { place: Some(place), problem: problem.to_owned(), remedy }
+}
+
+fn too_deep(place: Place) -> Fault {
+    let problem = format!("blocks and lists are nested deeper than {MOST_LEVELS} levels");
+    fault(place, &problem, "take brackets or indentation out: a case has about ten levels")
+}
+
+fn too_many(place: Place, of: &str, what: &str) -> Fault {
+    fault(place, &format!("the {of} has more than {MOST_NAMED} {what}"), "write fewer: no case needs as many")
+}
+
+fn tagged(place: Place, tag: &str) -> Arc<Node> {
+    Node::strange(place, format!("a YAML tag {tag}"), "write the entry without a tag")
+}
+
+fn scalar(place: Place, text: Cow<str>, style: ScalarStyle) -> Arc<Node> {
+    if style != ScalarStyle::Plain {
+        return match text.chars().find(|&c| c.is_control() && !matches!(c, '\n' | '\t')) {
+            Some(c) => {
+                let problem = format!("the text has a control character, U+{:04X}", u32::from(c));
+                Node::strange(place, problem, "take it out")
+            }
+            None => Node::scalar(place, text.into()),
+        };
+    }
+    let value = match text.as_ref() {
+        "" | "~" | "null" | "Null" | "NULL" => Value::Null,
+        "true" | "True" | "TRUE" => true.into(),
+        "false" | "False" | "FALSE" => false.into(),
+        plain => match number(plain) {
+            Some(Ok(number)) => number.into(),
+            Some(Err(())) => return Node::strange(place, format!("{plain} is not a finite number"), "write a number"),
+            None => plain.into(),
+        },
+    };
+    Node::scalar(place, value)
+}
+
+/// The number that a plain scalar is; an error for one that is not finite.
+fn number(text: &str) -> Option<Result<Number, ()>> {
+    let (negative, size) = match text.strip_prefix('-') {
+        Some(size) => (true, size),
+        None => (false, text.strip_prefix('+').unwrap_or(text)),
+    };
+    if matches!(size, ".inf" | ".Inf" | ".INF") || matches!(text, ".nan" | ".NaN" | ".NAN") {
+        return Some(Err(()));
+    }
+    let based = [("0x", 16), ("0o", 8), ("0b", 2)].iter().find_map(|&(p, base)| Some((size.strip_prefix(p)?, base)));
+    let (digits, base) = based.unwrap_or((size, 10));
+    // A sign after the sign or the prefix makes it text, and so does a leading zero.
+    if !digits.starts_with(|c: char| c.is_ascii_alphanumeric() || c == '.')
+        || base == 10 && digits.len() > 1 && digits.starts_with('0') && digits.bytes().all(|b| b.is_ascii_digit())
+    {
+        return None;
+    }
+    if let Ok(whole) = u64::from_str_radix(digits, base) {
+        let below = || 0i64.checked_sub_unsigned(whole).map_or(-(whole as f64), |whole| whole as f64);
+        return match (negative, 0i64.checked_sub_unsigned(whole)) {
+            (false, _) => Some(Ok(whole.into())),
+            (true, Some(whole)) => Some(Ok(whole.into())),
+            (true, None) => Number::from_f64(below()).map(Ok),
+        };
+    }
+    if base != 10 {
+        return None;
+    }
+    let value: f64 = digits.parse().ok()?;
+    // `inf` and `1e999` are text.
+    Number::from_f64(if negative { -value } else { value }).map(Ok)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const TEXT: &str = "\
+title: \"a: b\" # materials: none
+materials:
+  clay: {model: tresca, young: {top: 1, gradient: 2}}
+phases:
+  - name: one
+    table: [[0, 1], [2, 3]]
+more: &more {a: 1}
+again: *more
+";
+
+    fn path(text: &str) -> Path {
+        text.split('.').fold(Path::default(), |path, step| match step.parse() {
+            Ok(index) => path.index(index),
+            Err(_) => path.key(step),
+        })
+    }
+
+    fn read(text: &str) -> Value {
+        let mut faults = Vec::new();
+        let value = parse(text).unwrap().to_json(&Path::default(), &mut faults);
+        assert!(faults.is_empty(), "{faults:?}");
+        value
+    }
+
+    #[test]
+    fn keys_and_values_are_found_in_block_and_flow_style() {
+        let cases = [
+            ("title", At::Key, (1, 1)),
+            ("title", At::Value, (1, 8)),
+            ("materials.clay", At::Key, (3, 3)),
+            ("materials.clay.model", At::Value, (3, 17)),
+            ("materials.clay.young.gradient", At::Key, (3, 41)),
+            ("phases.0.name", At::Value, (5, 11)),
+            ("phases.0.table.1.0", At::Value, (6, 22)),
+            ("again", At::Key, (8, 1)),
+            ("again.a", At::Key, (7, 14)),
+        ];
+        let node = parse(TEXT).unwrap();
+        for (at_path, at, place) in cases {
+            assert_eq!(node.locate(&path(at_path), at), Some(place), "{at_path}");
+        }
+        for missing in ["nothing", "materials.sand", "phases.7", "title.sub", "materials.0"] {
+            assert_eq!(node.locate(&path(missing), At::Value), None, "{missing}");
+        }
+    }
+
+    #[test]
+    fn plain_scalars_are_what_the_core_schema_says() {
+        let list = "[1, -1, +1, 0x1F, -0o17, 0b101, 1e-6, .5, -5., 1.0e+3, 18446744073709551615, -9223372036854775808]";
+        let numbers = serde_json::json!([
+            1,
+            -1,
+            1,
+            31,
+            -15,
+            5,
+            1e-6,
+            0.5,
+            -5.0,
+            1000.0,
+            18446744073709551615u64,
+            -9223372036854775808i64
+        ]);
+        assert_eq!(read(list), numbers);
+        let texts =
+            ["01", "1_000", "inf", "nan", "1e999", "++1", "+-1", "0x", "0x+1", "1 2", "yes", "on", "1:30", "é土"];
+        for text in texts {
+            assert_eq!(read(&format!("- {text}\n")), serde_json::json!([text]), "{text}");
+        }
+        let others = serde_json::json!({"a": [null, null, true, false, "1", "true"], "b": null, "c": {"d": null}});
+        assert_eq!(read("a: [~, null, true, FALSE, '1', \"true\"]\nb:\nc: {d}\n"), others);
+        assert_eq!(read(""), Value::Null);
+        assert_eq!(read("# nothing\n"), Value::Null);
+    }
+
+    #[test]
+    fn flow_style_may_run_over_lines() {
+        let text = "a: {\n  b: [1,\n 2\n  ],\n}\nc: \"one\n  two\"\nd: # nothing\n- 1\n";
+        assert_eq!(read(text), serde_json::json!({"a": {"b": [1, 2]}, "c": "one two", "d": [1]}));
+    }
+
+    #[test]
+    fn an_alias_is_what_its_anchor_is() {
+        assert_eq!(read(TEXT)["again"], serde_json::json!({"a": 1}));
+    }
+
+    #[test]
+    fn what_is_beyond_the_limits_is_refused_at_once() {
+        let told = |text: &str| parse(text).unwrap_err().problem;
+        assert!(told(&"[".repeat(1_000_000)).contains("nested"));
+        assert!(told(&"[\n ".repeat(1_000_000)).contains("nested"));
+        assert!(told(&"- ".repeat(1_000_000)).contains("nested"));
+        assert!(told(&"? ".repeat(1_000_000)).contains("nested"));
+        assert!(told(&"{a: ".repeat(100_000)).contains("nested"));
+        assert!(told(&" ".repeat(MOST_BYTES + 1)).contains("bytes"));
+        // Tenfold at each level, in breadth and in depth.
+        let wide = |i: usize| format!("a{i}: &a{i} [{}]\n", vec![format!("*a{}", i - 1); 10].join(", "));
+        let wide = "a0: &a0 [1]\n".to_owned() + &(1..10).map(wide).collect::<String>();
+        assert!(told(&wide).contains("aliases"));
+        let deep = |i: usize| format!("a{i}: &a{i} [[[[*a{}]]]]\n", i - 1);
+        let deep = "a0: &a0 [1]\n".to_owned() + &(1..100_000).map(deep).collect::<String>();
+        assert!(told(&deep).contains("nested"));
+        assert!(told("a: &a [*a]").contains("within"));
+    }
+
+    #[test]
+    fn what_no_case_has_is_refused_with_its_place() {
+        let told = |text: &str| parse(text).map(|_| ()).unwrap_err();
+        assert_eq!(told("a: 1\nb:\n  c: 1\n  c: 2\n").place, Some((4, 3)));
+        assert!(told("a: 1\na: 2\n").problem.contains("`a` is a duplicate"));
+        assert!(told("a: 1\n---\nb: 2\n").problem.contains("more than one document"));
+        // A parser that takes a zero for the end would not see what is behind it.
+        assert_eq!(told("a: 1\nb: \0\nc: 3\n").place, Some((2, 4)));
+        assert!(told("a: \u{1b}[31mred\n").problem.contains("U+001B"));
+        assert!(told("a: *b\n").problem.contains("anchor"));
+    }
+}
