@@ -9,7 +9,9 @@ MPM := target/release/mpm
 MPM_BUILD := $(MPM)
 include pipeline/mpm.mk
 
-.PHONY: help setup build demo pile pile-variants pipeline pipeline-study test check fmt clean bench bench-block bench-unused sbom stress verification
+SECONDS := 600
+
+.PHONY: help setup build demo pile pile-variants pipeline pipeline-study test fuzz campaign check fmt clean bench bench-block bench-unused sbom stress verification
 
 help: ## List the targets
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / {printf "  %-14s %s\n", $$1, $$2}' $(firstword $(MAKEFILE_LIST))
@@ -50,6 +52,12 @@ pipeline-study: build ## The same with all variants: softening clay, no parting,
 
 test: setup ## Set up and run all tests
 	cargo test --release --no-fail-fast
+
+fuzz: ## Mutated files through every reader for a time: make fuzz SECONDS=600 (SEED=1; tests/fuzz/README.md)
+	FUZZ_SECONDS=$(SECONDS) FUZZ_SEED=$(or $(SEED),$(shell date +%s)) cargo test --release --test fuzz -- --nocapture
+
+campaign: setup ## Kills, signals, full disks and pairs of processes in every stage, 25 times as many as in the tests
+	CAMPAIGN=25 cargo test --release --test campaign -- --nocapture
 
 verification: build ## Run every verification; writes docs/verification.md
 	$(PYTHON) benches/verification/run.py $(ARGS)

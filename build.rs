@@ -17,8 +17,9 @@ const OLDEST: (u32, u32) = (4, 11);
 
 /// The functions `src/mesh/gmsh/session.rs` calls.
 const FUNCTIONS: &str = "gmsh(Initialize|Finalize|Merge|Write|Free|OptionSetNumber|OptionGetNumber|ModelGetEntities|\
-    ModelGetBoundary|ModelGetBoundingBox|ModelMeshGetSizes|ModelGetPhysicalGroups|ModelGetPhysicalName|ModelGetEntitiesForPhysicalGroup|ModelMeshGenerate|\
-    ModelMeshSetOrder|ModelMeshGetNodes|ModelMeshGetElements|ParserClear|ParserGetNames|ParserGetNumber|ParserSetNumber|\
+    ModelGetBoundary|ModelGetBoundingBox|ModelMeshGetSizes|ModelGetPhysicalGroups|ModelGetPhysicalName|\
+    ModelGetEntitiesForPhysicalGroup|ModelMeshGenerate|ModelMeshSetOrder|\
+    ModelMeshGetNodes|ModelMeshGetElements|ParserClear|ParserGetNames|ParserGetNumber|ParserSetNumber|\
     LoggerStart|LoggerStop|LoggerGet|LoggerGetLastError)";
 
 struct Gmsh {

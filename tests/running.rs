@@ -7,6 +7,7 @@ use tempfile::TempDir;
 
 const SLOPE: &str = "cases/seabed_slope";
 const BEAM: &str = "tests/data/release";
+const PLATE: &str = "tests/data/plate";
 
 /// Runs `mpm verb case -o folder` with entries of the case overridden; returns what it said on standard error.
 fn mpm(verb: &str, case: &str, folder: &Path, set: &[&str], more: &[&str], status: i32) -> String {
@@ -67,7 +68,7 @@ fn points_that_leave_the_grid_are_named() {
 
 #[test]
 fn a_body_free_to_move_is_told_to_be_held() {
-    let parts = ["singular", "step 1 ", "hold it by supports"];
+    let parts = |ways| [ways, "step 1 ", "hold it by supports"];
     let phase = |tractions: &str| {
         format!(
             "phases=[{{name: pull, analysis: quasi_static, duration: 1, step: {{initial: 0.1}}, \
@@ -78,9 +79,15 @@ fn a_body_free_to_move_is_told_to_be_held() {
     // In balance: there are solutions, and none of them is the one.
     let balanced = phase("[{on: tip, tx: 5}, {on: clamp, tx: -5}]");
     for phases in [pulled, balanced] {
+        let parts = parts("singular: `beam` is free in x, in y and to turn;");
         fails(BEAM, &["supports={}", &phases], &parts);
     }
-    fails(BEAM, &["supports={}"], &parts);
+    // The tip is moved downwards: there it may turn.
+    fails(BEAM, &["supports={}"], &parts("singular: `beam` is free in x and to turn about [4.0000, "));
+    // A plate on soil, held by nothing but the soil: it may slide.
+    let lies = "phases=[{name: lie, analysis: quasi_static, duration: 1, step: {initial: 0.1}, tractions: [{on: top, ty: -1}]}]";
+    fails(PLATE, &[lies], &parts("singular: `plate` is free in x;"));
+    fails(PLATE, &[lies, "regions.plate.rigid=true"], &parts("singular: `plate` is free in x;"));
 }
 
 #[test]

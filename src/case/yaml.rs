@@ -1,9 +1,9 @@
 //! YAML text as a tree in which each entry knows its place.
 //!
 //! The text is read event by event, so that limits hold before time or memory is spent: on its size, on how deep
-//! blocks and lists are nested, and on how many entries there are with those that aliases repeat. Plain scalars
-//! are told apart as in the core schema of YAML 1.2 (§10.3), with whole numbers in base 2 beside 8 and 16. An
-//! alias shares the tree of its anchor. Left out: several documents in a file, and merge keys (`<<` is a key).
+//! blocks and lists are nested, and on how many entries there are with those that aliases repeat. What a plain scalar
+//! means (nothing, a truth value, a number or text) is what `serde_yaml` reads it as. An alias shares the tree of its
+//! anchor. Left out: several documents in a file, and merge keys (`<<` is a key).
 
 use super::locate::{At, Path, Step};
 use super::source::{Issue, MOST_FOUND};
@@ -327,50 +327,28 @@ fn scalar(place: Place, text: Cow<str>, style: ScalarStyle) -> Arc<Node> {
             None => Node::scalar(place, text.into()),
         };
     }
-    let value = match text.as_ref() {
-        "" | "~" | "null" | "Null" | "NULL" => Value::Null,
-        "true" | "True" | "TRUE" => true.into(),
-        "false" | "False" | "FALSE" => false.into(),
-        plain => match number(plain) {
-            Some(Ok(number)) => number.into(),
-            Some(Err(())) => return Node::strange(place, format!("{plain} is not a finite number"), "write a number"),
-            None => plain.into(),
-        },
-    };
-    Node::scalar(place, value)
+    match meaning(&text) {
+        Some(value) => Node::scalar(place, value),
+        None => Node::strange(place, format!("{text} is not a finite number"), "write a number"),
+    }
 }
 
-/// The number that a plain scalar is; an error for one that is not finite.
-fn number(text: &str) -> Option<Result<Number, ()>> {
-    let (negative, size) = match text.strip_prefix('-') {
-        Some(size) => (true, size),
-        None => (false, text.strip_prefix('+').unwrap_or(text)),
-    };
-    if matches!(size, ".inf" | ".Inf" | ".INF") || matches!(text, ".nan" | ".NaN" | ".NAN") {
-        return Some(Err(()));
-    }
-    let based = [("0x", 16), ("0o", 8), ("0b", 2)].iter().find_map(|&(p, base)| Some((size.strip_prefix(p)?, base)));
-    let (digits, base) = based.unwrap_or((size, 10));
-    // A sign after the sign or the prefix makes it text, and so does a leading zero.
-    if !digits.starts_with(|c: char| c.is_ascii_alphanumeric() || c == '.')
-        || base == 10 && digits.len() > 1 && digits.starts_with('0') && digits.bytes().all(|b| b.is_ascii_digit())
-    {
-        return None;
-    }
-    if let Ok(whole) = u64::from_str_radix(digits, base) {
-        let below = || 0i64.checked_sub_unsigned(whole).map_or(-(whole as f64), |whole| whole as f64);
-        return match (negative, 0i64.checked_sub_unsigned(whole)) {
-            (false, _) => Some(Ok(whole.into())),
-            (true, Some(whole)) => Some(Ok(whole.into())),
-            (true, None) => Number::from_f64(below()).map(Ok),
-        };
-    }
-    if base != 10 {
-        return None;
-    }
-    let value: f64 = digits.parse().ok()?;
-    // `inf` and `1e999` are text.
-    Number::from_f64(if negative { -value } else { value }).map(Ok)
+/// What a plain scalar means: nothing, a truth value, a number or text. `None` for a number that is not finite.
+fn meaning(text: &str) -> Option<Value> {
+    use serde_yaml::Value as Yaml;
+    // As an item of a list, where no text means the end of a document.
+    let item = serde_yaml::from_str::<Vec<Yaml>>(&format!("- {text}")).ok().and_then(|items| items.into_iter().next());
+    Some(match item {
+        Some(Yaml::Null) => Value::Null,
+        Some(Yaml::Bool(truth)) => truth.into(),
+        Some(Yaml::Number(number)) => match (number.as_i64(), number.as_u64(), number.as_f64()) {
+            (Some(whole), _, _) => whole.into(),
+            (_, Some(whole), _) => whole.into(),
+            (_, _, Some(real)) => Number::from_f64(real)?.into(),
+            _ => text.into(),
+        },
+        _ => text.into(),
+    })
 }
 
 #[cfg(test)]

@@ -4,6 +4,7 @@ use super::{CaseArgs, Outcome, mesh, print};
 use crate::case;
 
 #[derive(clap::Args)]
+#[group(skip)]
 pub struct Args {
     #[command(flatten)]
     case: CaseArgs,

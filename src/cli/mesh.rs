@@ -18,6 +18,7 @@ const MESHING: u64 = 600;
 const NAMING: u64 = 60;
 
 #[derive(clap::Args)]
+#[group(skip)]
 pub struct Args {
     #[command(flatten)]
     stage: StageArgs,

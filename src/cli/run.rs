@@ -5,6 +5,7 @@ use super::{Outcome, export, mesh, print, seed, solve};
 use crate::error::Result;
 
 #[derive(clap::Args)]
+#[group(skip)]
 pub struct Args {
     #[command(flatten)]
     solve: solve::Args,

@@ -77,9 +77,9 @@ fn generate_when(
     }
     estimate::check_sizes(&session, geo)?;
     session.mesh(geo, 1)?;
-    estimate::check_cells(geo, estimate::cells(&session, geo)?, memory)?;
+    estimate::check_cells(geo, estimate::cells(&session)?, memory)?;
     session.mesh(geo, 2)?;
-    estimate::check_cells(geo, session.cell_count() as f64, memory)?;
+    estimate::check_cells(geo, session.elements(2, -1).len() as f64, memory)?;
     session.set_order(geo, options.order)?;
     session.write(out)
 }

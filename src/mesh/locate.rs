@@ -20,6 +20,8 @@ const ON_FACET: f64 = 1e-12;
 const TAKEN_IN: f64 = 1e-10;
 /// Cells a walk visits before the bins take over.
 const WALK: usize = 24;
+/// Bins that a cell may touch in the mean.
+const MOST: usize = 64;
 /// Newton iterations of the inverse map.
 const ITERATIONS: usize = 30;
 
@@ -214,15 +216,26 @@ impl<const D: usize> Affine<D> {
 }
 
 impl<const D: usize> Bins<D> {
-    /// About one bin a cell.
+    /// About one bin a cell, and fewer where boxes are so large that they would touch many each.
     fn new(boxes: &[Bounds<D>]) -> Self {
         let (low, high) = enclose(boxes);
         let extent: [f64; D] = std::array::from_fn(|d| (high[d] - low[d]).max(f64::MIN_POSITIVE));
         let side = (extent.iter().product::<f64>() / boxes.len().max(1) as f64).powf(1.0 / D as f64);
-        let count = extent.map(|e| ((e / side) as usize).clamp(1, 4096));
-        let scale = std::array::from_fn(|d| count[d] as f64 / extent[d]);
+        let mut count = extent.map(|e| ((e / side) as usize).clamp(1, 4096));
+        let mut bins = loop {
+            let scale = std::array::from_fn(|d| count[d] as f64 / extent[d]);
+            let bins = Self { low, scale, count, offset: Vec::new(), cells: Vec::new() };
+            let touched = |(low, high): &Bounds<D>| -> usize {
+                (0..D).map(|d| 1 + bins.index(d, high[d]) - bins.index(d, low[d])).product()
+            };
+            // Cells of like size touch about four.
+            if boxes.iter().map(touched).sum::<usize>() <= MOST * boxes.len() || count.iter().all(|&n| n == 1) {
+                break bins;
+            }
+            count = count.map(|n| n.div_ceil(2));
+        };
         let total = count.iter().product::<usize>();
-        let mut bins = Self { low, scale, count, offset: vec![0; total + 1], cells: Vec::new() };
+        bins.offset = vec![0; total + 1];
         // Count, then fill in the order of the cells.
         for b in boxes {
             bins.touched(b, |bins, bin| bins.offset[bin + 1] += 1);

@@ -11,7 +11,7 @@ use std::path::Path;
 
 use super::Mesh;
 use super::conformity;
-use super::shape::{self, CellKind, MAX_NODES, rule};
+use super::shape::{self, CellKind, MAX_NODES};
 use crate::error::{Error, Result};
 
 /// Up to this quality a cell counts as flat, and up to this ratio of the least to the largest Bernstein coefficient of
@@ -51,11 +51,12 @@ pub fn check(mesh: &Mesh<2>, file: &Path) -> Result<Summary> {
         let corners = &x[..kind.corner_count()];
         let quality = quality(corners);
         let region = &mut regions[usize::from(mesh.cells.region[c])];
-        let (least, largest) = jacobian_range(kind, &x);
+        let coefficients = Coefficients::of(kind, &x);
+        let (least, largest) = coefficients.range();
         let finite = x.iter().flatten().all(|v| v.is_finite());
-        // A quality that is not a number is refused too.
-        let shaped = quality > WORST;
-        if !finite || !shaped || !(least > WORST * largest) {
+        // What is not a number is neither.
+        let (shaped, unfolded) = (quality > WORST, least > WORST * largest);
+        if !finite || !shaped || !unfolded {
             let (problem, remedy) = if shaped && kind.order() == 2 {
                 ("its curved edges fold it over", "refine the mesh along the curve there, or use order: 1")
             } else {
@@ -66,7 +67,7 @@ pub fn check(mesh: &Mesh<2>, file: &Path) -> Result<Summary> {
             return Err(Error::input(place, problem, remedy));
         }
         region.1 += 1;
-        region.2 += rule(kind, 4).iter().map(|(xi, w)| w * determinant(kind, &x, xi)).sum::<f64>();
+        region.2 += coefficients.integral(kind);
         sum += quality;
         jacobian = jacobian.min(least / largest);
         if quality < worst.0 {
@@ -151,24 +152,53 @@ fn determinant(kind: CellKind, x: &[[f64; 2]], xi: &[f64; 3]) -> f64 {
 
 /// Least and largest Bernstein coefficient of `det J` (m²), between which all its values lie.
 pub fn jacobian_range(kind: CellKind, x: &[[f64; 2]]) -> (f64, f64) {
-    let at = |xi: [f64; 3]| determinant(kind, x, &xi);
-    let coefficients: Vec<f64> = match kind {
-        CellKind::T6 => {
-            // Degree 2 on the triangle, from the values at the six nodes.
-            let value: Vec<f64> = kind.node_coordinates().iter().map(|&xi| at(xi)).collect();
-            let edge = |i: usize| 2.0 * value[3 + i] - 0.5 * (value[i] + value[(i + 1) % 3]);
-            value[..3].iter().copied().chain((0..3).map(edge)).collect()
+    Coefficients::of(kind, x).range()
+}
+
+/// The Bernstein coefficients of `det J` of a cell (m²).
+struct Coefficients {
+    value: [f64; 16],
+    count: usize,
+}
+
+impl Coefficients {
+    fn of(kind: CellKind, x: &[[f64; 2]]) -> Self {
+        let at = |xi: [f64; 3]| determinant(kind, x, &xi);
+        let (mut value, mut count) = ([0.0; 16], 0);
+        let mut take = |coefficient| {
+            value[count] = coefficient;
+            count += 1;
+        };
+        match kind {
+            CellKind::T6 => {
+                // Degree 2 on the triangle, from the values at the six nodes.
+                let mut node = [0.0; 6];
+                node.iter_mut().zip(kind.node_coordinates()).for_each(|(value, &xi)| *value = at(xi));
+                node[..3].iter().for_each(|&corner| take(corner));
+                (0..3).for_each(|i| take(2.0 * node[3 + i] - 0.5 * (node[i] + node[(i + 1) % 3])));
+            }
+            CellKind::Q8 | CellKind::Q9 => {
+                // Degree 3 in each direction, from values at 4 × 4 equal distances.
+                let third = |i: usize| 2.0 / 3.0 * i as f64 - 1.0;
+                let rows = [0, 1, 2, 3].map(|j| bernstein([0, 1, 2, 3].map(|i| at([third(i), third(j), 0.0]))));
+                (0..4).for_each(|i| bernstein([0, 1, 2, 3].map(|j: usize| rows[j][i])).into_iter().for_each(&mut take));
+            }
+            // Constant on a T3, linear in each direction on a Q4: the corners tell.
+            _ => kind.node_coordinates().iter().for_each(|&xi| take(at(xi))),
         }
-        CellKind::Q8 | CellKind::Q9 => {
-            // Degree 3 in each direction, from values at 4 × 4 equal distances.
-            let third = |i: usize| 2.0 / 3.0 * i as f64 - 1.0;
-            let rows = [0, 1, 2, 3].map(|j| bernstein([0, 1, 2, 3].map(|i| at([third(i), third(j), 0.0]))));
-            (0..4).flat_map(|i| bernstein([0, 1, 2, 3].map(|j: usize| rows[j][i]))).collect()
-        }
-        // Constant on a T3, linear on a Q4: the corners tell.
-        _ => kind.node_coordinates().iter().map(|&xi| at(xi)).collect(),
-    };
-    coefficients.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), &b| (low.min(b), high.max(b)))
+        Self { value, count }
+    }
+
+    fn range(&self) -> (f64, f64) {
+        let range = (f64::INFINITY, f64::NEG_INFINITY);
+        self.value[..self.count].iter().fold(range, |(low, high), &b| (low.min(b), high.max(b)))
+    }
+
+    /// The area of the cell (m²): all Bernstein polynomials of a degree have the same integral.
+    fn integral(&self, kind: CellKind) -> f64 {
+        let reference = if kind.is_simplex() { 0.5 } else { 4.0 };
+        reference * self.value[..self.count].iter().sum::<f64>() / self.count as f64
+    }
 }
 
 /// Bernstein coefficients of the cubic with the values `f` at four equal distances.
@@ -248,7 +278,8 @@ mod tests {
             let mut x = Vec::new();
             for c in 0..mesh.cells.len() {
                 mesh.cell_coordinates(c, &mut x);
-                let (least, largest) = jacobian_range(kind, &x);
+                let coefficients = Coefficients::of(kind, &x);
+                let (least, largest) = coefficients.range();
                 let mut seen = (f64::INFINITY, f64::NEG_INFINITY);
                 for i in 0..=20 {
                     for j in 0..=20 {

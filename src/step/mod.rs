@@ -9,6 +9,7 @@ mod contact;
 mod control;
 mod distortion;
 mod fem;
+mod free;
 mod ghost_faces;
 mod grid;
 mod guess;

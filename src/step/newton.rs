@@ -3,6 +3,7 @@
 mod search;
 
 use super::balance::{Evaluation, evaluate};
+use super::free;
 use super::grid::{Family, Grid};
 use super::scene::Scene;
 use super::state::State;
@@ -298,12 +299,18 @@ impl<'a, const D: usize> Newton<'a, D> {
             self.target = whole;
         }
         let (pattern, matrix) = (&motion.pattern, &motion.matrix);
-        self.method = if matrix.beyond.is_empty() {
-            motion.solver.solve(pattern, matrix, delta)?
+        let method = if matrix.beyond.is_empty() {
+            motion.solver.solve(pattern, matrix, delta)
         } else {
             let tolerance = forcing(&self.history, self.problem.scene.numerics.tolerance);
-            motion.solver.solve_beyond(pattern, matrix, tolerance, delta)?
+            motion.solver.solve_beyond(pattern, matrix, tolerance, delta)
         };
+        let Problem { scene, state, .. } = self.problem;
+        let position = |n: u32| {
+            let from = state.nodes.get(n as usize).unwrap_or(&scene.mesh.nodes[n as usize]);
+            std::array::from_fn(|d| from[d] + now.at.displacement[n as usize][d])
+        };
+        self.method = method.map_err(|e| free::name(e, scene, state, self.grid, fixed, &position))?;
         Ok(())
     }
 

@@ -18,7 +18,7 @@ mod supernodes;
 pub use assembly::{Beyond, Matrix};
 pub use pattern::{Cliques, Pattern};
 pub use scatter::{Local, Workspace, scatter};
-pub use solver::{Method, Solver};
+pub use solver::{Method, Solver, is_singular};
 
 #[cfg(test)]
 mod tests;

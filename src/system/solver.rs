@@ -278,10 +278,18 @@ impl Solver {
     }
 }
 
+/// What is said of a singular system.
+const OF_SINGULAR: &str = "the system is singular";
+
+/// Whether an error is that of a singular system.
+pub fn is_singular(error: &Error) -> bool {
+    error.problem == OF_SINGULAR
+}
+
 pub(super) fn singular() -> Error {
     Error::analysis(
         "linear solver",
-        "the system is singular",
+        OF_SINGULAR,
         "without inertia a body must not move freely: hold it by supports, prescribe it, or lay it on what it touches",
     )
 }

@@ -9,17 +9,22 @@ mod readers;
 mod scenes;
 
 use harness::fuzz;
-use readers::{Cases, Checkpoints, Frames, Histories, Points};
+use readers::{Cases, Checkpoints, Frames, Histories, Meshes, Points};
 
 #[global_allocator]
 static ALLOCATOR: memory::Counting = memory::Counting;
 
 /// The readers that `FUZZ_SECONDS` is shared among.
-const READERS: u32 = 5;
+const READERS: u32 = 6;
 
 #[test]
 fn cases() {
     fuzz(&Cases::new());
+}
+
+#[test]
+fn meshes() {
+    fuzz(&Meshes::new());
 }
 
 #[test]

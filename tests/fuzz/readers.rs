@@ -13,6 +13,7 @@ use mpm::io::points_vtu::{Seeded, Source};
 use mpm::io::provenance::Origin;
 use mpm::io::vtu::Encoding;
 use mpm::io::{columns, export, points_vtu};
+use mpm::mesh::{msh, quality};
 use mpm::run::checkpoint;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -74,6 +75,76 @@ impl Reader for Cases {
         fs::write(&path, bytes).unwrap();
         let loaded = case::load(&path, &[]).map_err(|mut errors| errors.remove(0))?;
         Ok(meaning(&loaded.source.tree()))
+    }
+}
+
+/// `mesh.msh`, and the first step on it.
+pub struct Meshes {
+    folder: TempDir,
+    plain: Vec<Vec<u8>>,
+    sealed: Vec<Vec<u8>>,
+}
+
+impl Meshes {
+    pub fn new() -> Self {
+        let folder = tempfile::tempdir().unwrap();
+        let corpus = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("tests/fuzz/corpus/mesh");
+        let mut paths: Vec<PathBuf> = fs::read_dir(corpus).unwrap().map(|entry| entry.unwrap().path()).collect();
+        paths.sort();
+        let plain: Vec<Vec<u8>> = paths.iter().map(|path| fs::read(path).unwrap()).collect();
+        let sealed = plain.iter().map(|file| Self::seal(folder.path(), file)).collect();
+        Self { folder, plain, sealed }
+    }
+
+    fn seal(folder: &Path, file: &[u8]) -> Vec<u8> {
+        let path = folder.join("sealed.msh");
+        fs::write(&path, file).unwrap();
+        msh::seal(&path).unwrap();
+        fs::read(&path).unwrap()
+    }
+}
+
+impl Reader for Meshes {
+    fn name(&self) -> &'static str {
+        "mesh"
+    }
+
+    fn corpus(&self) -> &[Vec<u8>] {
+        &self.sealed
+    }
+
+    fn mutate(&self, random: &mut Random, number: usize) -> (Vec<u8>, bool) {
+        let mut file = self.plain[number].clone();
+        match random.below(3) {
+            0 => {
+                mutate::bytes(random, &mut file, &self.plain);
+                (Self::seal(self.folder.path(), &file), true)
+            }
+            1 => {
+                mutate::bytes(random, &mut file, &self.plain);
+                (file, true)
+            }
+            _ => {
+                let sealed = &self.sealed[number];
+                file.clone_from(sealed);
+                mutate::bytes(random, &mut file, &self.sealed);
+                // A file whose seal is gone is one that was never sealed.
+                let gone = !file.ends_with(&sealed[self.plain[number].len()..]);
+                (file, gone)
+            }
+        }
+    }
+
+    fn fault(&self, text: &[u8]) -> Vec<u8> {
+        text.to_vec()
+    }
+
+    fn read(&self, bytes: &[u8]) -> Read {
+        let mesh = msh::parse(bytes, "mesh.msh")?;
+        quality::check(&mesh, Path::new("mesh.msh"))?;
+        let meaning = meaning(&mesh);
+        scenes::on_mesh(mesh)?;
+        Ok(meaning)
     }
 }
 
@@ -260,7 +331,7 @@ impl Histories {
         Log::resume(&path, mark)?.line("and so on")?;
         fs::write(&path, bytes).unwrap();
         let mut history = History::resume(&path, &Self::columns(), mark)?;
-        history.again("no_equilibrium_at [-]", 1.5)?;
+        history.row(&[1.0, 0.0, 0.5])?;
         Ok(meaning(&fs::read(&path).unwrap()))
     }
 }

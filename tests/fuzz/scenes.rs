@@ -1,6 +1,7 @@
 //! Small scenes, made without Gmsh, that together use what a checkpoint can hold, and the states of runs in them.
 
-use mpm::case::{self, Case, parts, scene, seeded, seeding};
+use mpm::case::names::Groups;
+use mpm::case::{self, Case, Loaded, parts, scene, seeded, seeding};
 use mpm::kinematics::{Axisymmetric, Kinematics, PlaneStrain};
 use mpm::mesh::builder::rectangle;
 use mpm::mesh::shape::CellKind;
@@ -8,6 +9,7 @@ use mpm::mesh::{Group, Mesh};
 use mpm::points::Points;
 use mpm::step::{Controller, Limits, Scene, Simulation, State};
 use std::fs;
+use std::sync::OnceLock;
 
 /// Loads on a surface that is followed, dynamic.
 const SLUMP: &str = "\
@@ -57,7 +59,7 @@ phases:
     prescribe: {strip: {ux: 0, rotation: 0, uy: {rate: -0.02}}}
   - name: go_on
     analysis: quasi_static
-    duration: 0.2
+    duration: 0.4
     step: {initial: 0.1, min: 0.05}
     materials: {soil: firm}
     reset_displacements: true
@@ -82,10 +84,29 @@ numerics: {quadrature: points}
 phases:
   - name: drain
     analysis: consolidation
-    duration: 4
+    duration: 8
     step: {initial: 1, min: 0.5}
     tractions: [{surface: all, pressure: 1}]
 output: {fields: [pore_pressure, displacement]}
+";
+
+/// The case of the meshes in the corpus.
+const BLOCK: &str = "\
+title: A block
+geometry: plane_strain
+mesh: {geo: scene.geo}
+regions:
+  soil: {kind: mpm, material: clay, points_per_cell: 4}
+  air: {kind: buffer}
+materials:
+  clay: {model: linear_elastic, young: 1000, poisson: 0.3, density: 1.8}
+supports: {bottom: {ux: 0, uy: 0}, side: {ux: 0}}
+gravity: {y: -9.81}
+phases:
+  - {name: load, analysis: quasi_static, duration: 1, step: {initial: 1, min: 0.5}}
+output:
+  fields: [stress]
+  history: [{name: corner, on: corner, quantities: [uy]}]
 ";
 
 /// A scene with states of a run in it.
@@ -118,11 +139,38 @@ pub fn texts() -> Vec<Vec<u8>> {
     [SLUMP, STRIP, DRAIN].map(|text| text.as_bytes().to_vec()).to_vec()
 }
 
-fn ready(name: &'static str, text: &str, mesh: Mesh<2>) -> Ready {
+/// The case of a text.
+fn loaded(text: &str) -> Loaded {
     let folder = tempfile::tempdir().unwrap();
     fs::write(folder.path().join("scene.geo"), "").unwrap();
     fs::write(folder.path().join("case.yaml"), text).unwrap();
-    let case = case::load(folder.path(), &[]).unwrap_or_else(|e| panic!("{name}: {e:?}")).case;
+    case::load(folder.path(), &[]).unwrap_or_else(|e| panic!("{e:?}"))
+}
+
+/// Fills a mesh of the corpus with points and does a step.
+///
+/// # Errors
+/// A mesh that the case does not fit.
+pub fn on_mesh(mesh: Mesh<2>) -> mpm::error::Result<()> {
+    static LOADED: OnceLock<Loaded> = OnceLock::new();
+    let loaded = LOADED.get_or_init(|| loaded(BLOCK));
+    let named = |dimension| mesh.groups.iter().filter(move |g| g.dimension == dimension).map(|g| g.name.clone());
+    let (curves, points) = (named(1).collect(), named(0).collect());
+    let groups = Groups { surfaces: mesh.regions.clone(), curves, points, meshed: true };
+    loaded.check_names(&groups).map_err(|mut errors| errors.remove(0))?;
+    let case = loaded.case.clone();
+    let seeds = seeding::points(&case, &mesh)?;
+    seeded::check(&case, &mesh, &seeds)?;
+    let scene = scene::scene::<PlaneStrain>(&case, mesh.clone())?;
+    let first = scene::first(&case, &scene, parts::points(&case, &mesh, seeds.clone()))?;
+    let ready = Ready { name: "block", case, mesh, seeds, scene, first, states: Vec::new() };
+    // That the analysis cannot go on from there may be.
+    let _ = ready.step(ready.first.clone());
+    Ok(())
+}
+
+fn ready(name: &'static str, text: &str, mesh: Mesh<2>) -> Ready {
+    let case = loaded(text).case;
     let seeds = seeding::points(&case, &mesh).unwrap();
     let scene = scene_of(&case, &mesh);
     let first = scene::first(&case, &scene, parts::points(&case, &mesh, seeds.clone())).unwrap();

@@ -6,7 +6,7 @@ use crate::error::{Error, Result};
 use std::path::Path;
 
 /// The most segments of all curves that Gmsh is asked for.
-const MOST_SEGMENTS: f64 = 1e8;
+const MOST_SEGMENTS: f64 = 1e7;
 
 /// A mesh size must be larger than this part of the size of the geometry: smaller ones are below Gmsh's tolerance.
 const TOLERANCE: f64 = 1e-9;
@@ -68,18 +68,18 @@ pub fn check_sizes(session: &Session, geo: &Path) -> Result<()> {
 /// segment around it. Nothing where the sizes are not extended from the boundary, which says little then.
 ///
 /// # Errors
-/// Input: what Gmsh says of the segments.
-pub fn cells(session: &Session, geo: &Path) -> Result<f64> {
+/// Machine: a Gmsh without the option that says so.
+pub fn cells(session: &Session) -> Result<f64> {
     if session.option("Mesh.MeshSizeExtendFromBoundary")? == 0.0 {
         return Ok(0.0);
     }
-    let nodes = session.nodes(geo)?;
+    let nodes = session.nodes();
     let mut cells = 0.0;
     for surface in session.entities(2) {
         // Twice the area, the length around it and the sum of the squares of its segments.
         let (mut doubled, mut length, mut squares) = (0.0, 0.0, 0.0);
         for curve in session.boundary(2, surface) {
-            for (_, ends) in session.elements(geo, 1, curve.abs())? {
+            for ends in session.elements(1, curve.abs()) {
                 let [Some(a), Some(b)] = [0, 1].map(|end| ends.get(end).and_then(|tag| nodes.get(tag))) else {
                     continue;
                 };

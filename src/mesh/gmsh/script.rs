@@ -54,7 +54,7 @@ const ALLOW: &str = "delete the statement, or allow it with --allow-system-calls
 const GEOMETRIES: [&str; 5] = ["step", "stp", "iges", "igs", "brep"];
 
 /// Ends of the names of scripts; for others Gmsh may start a program (`.gz`, `.py`, …).
-const SCRIPTS: [&str; 8] = ["", "geo", "geo_unrolled", "opt", "txt", "inc", "par", "dat"];
+const SCRIPTS: [&str; 9] = ["", "geo", "geo_unrolled", "opt", "txt", "inc", "par", "dat", "pos"];
 
 /// Reads the geometry `geo` and all that it includes or merges.
 ///
@@ -81,7 +81,12 @@ impl Scan {
     /// A file that Gmsh takes by its kind, and the options beside it, which Gmsh takes by itself.
     fn merge(&mut self, path: &Path) -> Result<()> {
         let extension = path.extension().unwrap_or_default().to_string_lossy().into_owned();
-        if GEOMETRIES.contains(&extension.as_str()) || extension == "msh" && has_msh_header(path) {
+        let is_data = match extension.as_str() {
+            "msh" => begins_with(path, b"$MeshFormat"),
+            "pos" => begins_with(path, b"$PostFormat"),
+            extension => GEOMETRIES.contains(&extension),
+        };
+        if is_data {
             self.files.insert(path.to_owned());
         } else if SCRIPTS.contains(&extension.as_str()) {
             self.script(path)?;
@@ -89,7 +94,7 @@ impl Scan {
             return Err(Error::input(
                 path.display(),
                 "it is neither a script of Gmsh nor a geometry in a known format",
-                format!("use a file that ends in .geo, .{} or .msh", GEOMETRIES.join(", .")),
+                format!("use a file that ends in .geo, .pos, .{} or .msh", GEOMETRIES.join(", .")),
             ));
         }
         let mut options = path.as_os_str().to_owned();
@@ -186,11 +191,11 @@ fn named(path: &Path, tokens: &[Token], i: usize) -> Result<PathBuf> {
     }
 }
 
-/// Gmsh takes a file without this header for a script, whatever its name.
-fn has_msh_header(path: &Path) -> bool {
+/// Whether a file begins with the `header` of its format: without it Gmsh takes it for a script, whatever its name.
+fn begins_with(path: &Path, header: &[u8; 11]) -> bool {
     use std::io::Read;
-    let mut header = [0; 11];
-    fs::File::open(path).and_then(|mut file| file.read_exact(&mut header)).is_ok() && &header == b"$MeshFormat"
+    let mut found = [0; 11];
+    fs::File::open(path).and_then(|mut file| file.read_exact(&mut found)).is_ok() && found == *header
 }
 
 /// A word of the language, where it begins.
@@ -294,10 +299,13 @@ fn number_length(text: &[u8]) -> usize {
 /// it drops the character behind a letter with which `EndIf`, `If`, `For` or `Return` could begin, and as many behind
 /// `If` and `For` as `EndFor` is longer.
 fn is_overlooked(text: &[u8], i: usize) -> bool {
-    let near = &text[i.saturating_sub(5)..i];
-    matches!(near.last(), Some(b'E' | b'I' | b'F' | b'R'))
-        || near.windows(2).any(|word| word == b"If")
-        || near.windows(3).any(|word| word == b"For")
+    let swallows = |back: usize| {
+        let Some(before) = i.checked_sub(back).map(|at| text.split_at(at)) else { return false };
+        let ends = before.0.ends_with(b"End") || before.0.ends_with(b"Else");
+        !ends && (before.1.starts_with(b"If") || back > 2 && before.1.starts_with(b"For"))
+    };
+    let last = i.checked_sub(1).map(|last| text[last]);
+    matches!(last, Some(b'E' | b'I' | b'F' | b'R')) || (2..=5).any(swallows)
 }
 
 /// The statements that a script may not have.
@@ -314,6 +322,20 @@ fn check_statements(path: &Path, tokens: &[Token]) -> Result<()> {
             && matches!(kind(i + 1), Some(Kind::Text(_) | Kind::Word(_)))
         {
             return refuse(does, ALLOW);
+        }
+        // Gmsh has read the line to its end when it goes on elsewhere, and joins what follows to what stands there.
+        let left = match word {
+            b"EndFor" | b"Return" => Some(i),
+            b"Include" | b"Merge" | b"MergeWithBoundingBox" | b"Call" => {
+                (i..tokens.len()).find(|&j| tokens[j].kind == Kind::Symbol(b';'))
+            }
+            _ => None,
+        };
+        if let Some(last) = left
+            && tokens.get(last + 1).is_some_and(|next| next.line == tokens[last].line)
+        {
+            let remedy = "put what follows on a line of its own";
+            return refuse("is followed by more on its line, which Gmsh reads in another order", remedy);
         }
         match word {
             b"General" if kind(i + 1) == Some(Kind::Symbol(b'.')) => {
@@ -368,7 +390,7 @@ fn check_print(path: &Path, tokens: &[Token]) -> Result<()> {
             Kind::Text(text) if first && depth > 0 => {
                 if let Some(conversion) = bad_conversion(text) {
                     let problem = format!("the conversion {conversion} makes Gmsh read or write where it may not");
-                    return Err(at(path, token.line, problem, "use %g for numbers and %% for a percent sign"));
+                    return Err(at(path, token.line, problem, "use %g for numbers"));
                 }
             }
             _ => (),

@@ -1,10 +1,8 @@
 //! Gmsh itself: a session with its one global model, by its C interface. All foreign functions of the program are called here.
 
-use super::super::shape::CellKind;
-use super::AGAIN;
 use super::check::check_complete;
 use crate::error::{Error, Result};
-use std::collections::BTreeMap;
+use std::collections::HashMap;
 use std::ffi::{CStr, CString, c_char, c_int};
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -171,13 +169,38 @@ impl Session {
         self.checked(geo, status, "the mesh has no second order; use order: 1 or mend the geometry")
     }
 
-    /// The number of surface cells.
-    pub fn cell_count(&self) -> usize {
-        let (mut types, mut type_count, mut tags, mut tag_counts, mut tag_lists) =
-            (null_mut(), 0, null_mut(), null_mut(), 0);
-        let (mut nodes, mut node_counts, mut node_lists, mut status) = (null_mut(), null_mut(), 0, 0);
+    /// The coordinates of all nodes by their tags.
+    pub fn nodes(&self) -> HashMap<usize, [f64; 3]> {
+        let (mut tags, mut tag_count, mut coordinates, mut coordinate_count) = (null_mut(), 0, null_mut(), 0);
+        let (mut parameters, mut parameter_count, mut status) = (null_mut(), 0, 0);
+        // SAFETY: Gmsh hands out three arrays of the counts it gives.
+        let (tags, coordinates) = unsafe {
+            ffi::model_mesh_get_nodes(
+                &mut tags,
+                &mut tag_count,
+                &mut coordinates,
+                &mut coordinate_count,
+                &mut parameters,
+                &mut parameter_count,
+                -1,
+                -1,
+                0,
+                0,
+                &mut status,
+            );
+            take(parameters, parameter_count);
+            (take(tags, tag_count), take(coordinates, coordinate_count))
+        };
+        tags.into_iter().zip(coordinates.chunks_exact(3).map(|x| [x[0], x[1], x[2]])).collect()
+    }
+
+    /// The elements of an entity, or of all of a dimension for the tag −1: the tags of their nodes.
+    pub fn elements(&self, dimension: c_int, entity: c_int) -> Vec<Vec<usize>> {
+        let (mut types, mut type_count, mut status) = (null_mut(), 0, 0);
+        let (mut tags, mut tag_counts, mut tag_lists) = (null_mut(), null_mut(), 0);
+        let (mut nodes, mut node_counts, mut node_lists) = (null_mut(), null_mut(), 0);
         // SAFETY: Gmsh hands out an array of types and two lists of arrays.
-        let tags = unsafe {
+        let (tags, nodes) = unsafe {
             ffi::model_mesh_get_elements(
                 &mut types,
                 &mut type_count,
@@ -187,15 +210,17 @@ impl Session {
                 &mut nodes,
                 &mut node_counts,
                 &mut node_lists,
-                2,
-                -1,
+                dimension,
+                entity,
                 &mut status,
             );
             take(types, type_count);
-            take_lists(nodes, node_counts, node_lists);
-            take_lists(tags, tag_counts, tag_lists)
+            (take_lists(tags, tag_counts, tag_lists), take_lists(nodes, node_counts, node_lists))
         };
-        tags.iter().map(Vec::len).sum()
+        let by_type = tags.iter().zip(&nodes).filter(|(tags, _)| !tags.is_empty());
+        by_type
+            .flat_map(|(tags, nodes)| nodes.chunks_exact((nodes.len() / tags.len()).max(1)).map(<[usize]>::to_vec))
+            .collect()
     }
 
     /// Writes the mesh beside `out`, checks that it is all there and renames it.
@@ -265,75 +290,6 @@ impl Session {
             take(data, count)
         };
         pairs.chunks_exact(2).map(|pair| pair[1]).collect()
-    }
-
-    /// The coordinates of all nodes by their tags.
-    ///
-    /// # Errors
-    /// Input: what Gmsh says of the file.
-    pub fn nodes(&self, path: &Path) -> Result<BTreeMap<usize, [f64; 3]>> {
-        let (mut tags, mut tag_count) = (null_mut(), 0);
-        let (mut coordinates, mut coordinate_count) = (null_mut(), 0);
-        let (mut parameters, mut parameter_count) = (null_mut(), 0);
-        let mut status = 0;
-        // SAFETY: Gmsh hands out three arrays of the counts it gives.
-        let (tags, coordinates) = unsafe {
-            ffi::model_mesh_get_nodes(
-                &mut tags,
-                &mut tag_count,
-                &mut coordinates,
-                &mut coordinate_count,
-                &mut parameters,
-                &mut parameter_count,
-                -1,
-                -1,
-                0,
-                0,
-                &mut status,
-            );
-            take(parameters, parameter_count);
-            (take(tags, tag_count), take(coordinates, coordinate_count))
-        };
-        self.checked(path, status, AGAIN)?;
-        Ok(tags.into_iter().zip(coordinates.chunks_exact(3).map(|x| [x[0], x[1], x[2]])).collect())
-    }
-
-    /// The elements of an entity, each with its kind and the tags of its nodes.
-    ///
-    /// # Errors
-    /// Input: elements of a type that there are no cells for, and what Gmsh says of the file.
-    pub fn elements(&self, path: &Path, dimension: c_int, entity: c_int) -> Result<Vec<(CellKind, Vec<usize>)>> {
-        let (mut types, mut type_count) = (null_mut(), 0);
-        let (mut tags, mut tag_counts, mut tag_lists) = (null_mut(), null_mut(), 0);
-        let (mut nodes, mut node_counts, mut node_lists) = (null_mut(), null_mut(), 0);
-        let mut status = 0;
-        // SAFETY: Gmsh hands out an array of types and, a type each, lists of elements and of their nodes.
-        let (types, nodes) = unsafe {
-            ffi::model_mesh_get_elements(
-                &mut types,
-                &mut type_count,
-                &mut tags,
-                &mut tag_counts,
-                &mut tag_lists,
-                &mut nodes,
-                &mut node_counts,
-                &mut node_lists,
-                dimension,
-                entity,
-                &mut status,
-            );
-            take_lists(tags, tag_counts, tag_lists);
-            (take(types, type_count), take_lists(nodes, node_counts, node_lists))
-        };
-        self.checked(path, status, AGAIN)?;
-        let mut elements = Vec::new();
-        for (kind, nodes) in types.into_iter().zip(nodes) {
-            let kind = kind_of(kind).ok_or_else(|| {
-                Error::input(path.display(), format!("elements of Gmsh's type {kind}"), "mesh it with order 1 or 2")
-            })?;
-            elements.extend(nodes.chunks_exact(kind.node_count()).map(|n| (kind, n.to_vec())));
-        }
-        Ok(elements)
     }
 
     /// An error if the last call failed or Gmsh has logged one.
@@ -416,21 +372,6 @@ impl Drop for Session {
 
 fn no_option(name: &str) -> Error {
     Error::machine("Gmsh", format!("it has no option {name}"), "run `make setup`")
-}
-
-/// The cell kind of a Gmsh element type.
-pub fn kind_of(element: c_int) -> Option<CellKind> {
-    Some(match element {
-        15 => CellKind::Point1,
-        1 => CellKind::Line2,
-        8 => CellKind::Line3,
-        2 => CellKind::T3,
-        9 => CellKind::T6,
-        3 => CellKind::Q4,
-        16 => CellKind::Q8,
-        10 => CellKind::Q9,
-        _ => return None,
-    })
 }
 
 fn c_string(text: &str) -> Result<CString> {

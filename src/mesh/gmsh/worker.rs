@@ -256,7 +256,7 @@ impl Session<'_> {
             Some(signal) => Error::input(
                 place,
                 format!("Gmsh crashed (signal {signal}){}{said}", if said.is_empty() { "" } else { ": " }),
-                "open the file in Gmsh to see where; correct or simplify it",
+                format!("correct or simplify the file, or allow more memory than {gib:.1} GiB with --mesh-memory GIB"),
             ),
             None if status.is_some_and(|status: ExitStatus| status.success()) => Error::input(
                 place,

@@ -176,3 +176,17 @@ fn queries_run_in_parallel_and_an_empty_mesh_holds_nothing() {
     shared(&locator);
     assert_eq!(locator.locate(&mesh, &[0.0, 0.0], Some(3)), None);
 }
+
+/// Bins as small as a share of each cell would take memory that grows as the square of the cells.
+#[test]
+fn cells_that_all_lie_on_one_another_take_no_more_bins_than_others() {
+    let mut mesh = rectangle(CellKind::T3, 3.0, 2.0, 1, 1, 0.0, 0);
+    for _ in 0..5000 {
+        let nodes = mesh.cells.nodes(0).to_vec();
+        mesh.cells.push(CellKind::T3, 0, &nodes);
+    }
+    let locator = Locator::new(&mesh);
+    assert!(locator.bins.cells.len() <= MOST * mesh.cells.len());
+    assert_eq!(locator.holders(&mesh, &[2.0, 0.6], 0.1).count(), 5001);
+    assert_eq!(locator.holders(&mesh, &[2.0, 0.1], 0.1).count(), 0);
+}

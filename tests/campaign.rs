@@ -1,0 +1,258 @@
+//! Disturbed processes: kills, signals and full disks in every stage, and pairs of processes in one folder. What follows
+//! gives the same bytes as an undisturbed run, or the earlier results are as they were.
+//!
+//! The tests disturb a few; `make campaign` disturbs as many as `CAMPAIGN` times that.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output, Stdio};
+use std::sync::OnceLock;
+use std::time::{Duration, Instant};
+use tempfile::TempDir;
+
+const GEO: &str = r#"DefineConstant[ h = {0.25, Name "Parameters/h"} ];
+Point(1) = {0, 0, 0, h};
+Point(2) = {1, 0, 0, h};
+Point(3) = {1, 2, 0, h};
+Point(4) = {0, 2, 0, h};
+Line(1) = {1, 2};
+Line(2) = {2, 3};
+Line(3) = {3, 4};
+Line(4) = {4, 1};
+Curve Loop(1) = {1, 2, 3, 4};
+Plane Surface(1) = {1};
+Physical Surface("block") = {1};
+Physical Curve("bottom") = {1};
+"#;
+
+const CASE: &str = "\
+geometry: plane_strain
+mesh: {geo: scene.geo}
+regions: {block: {kind: mpm, material: rock, points_per_cell: 4}}
+materials: {rock: {model: linear_elastic, young: 100, poisson: 0.2, density: 2}}
+supports: {bottom: {ux: 0, uy: 0}}
+gravity: {y: -10}
+numerics: {restore: never}
+phases:
+  - {name: load, analysis: quasi_static, duration: 1, step: {initial: 0.005, max: 0.005}, gravity: {rate: 1}}
+output: {every: 0.05}
+";
+
+/// The case that left results before.
+const EARLIER: [&str; 2] = ["--set", "phases.load.duration=0.5"];
+
+const STAGES: [&str; 4] = ["mesh", "seed", "solve", "export"];
+
+/// How many times the few of a test.
+fn times() -> u64 {
+    std::env::var("CAMPAIGN").ok().and_then(|times| times.parse().ok()).unwrap_or(1)
+}
+
+type Files = BTreeMap<PathBuf, Vec<u8>>;
+
+/// The files of an output folder that the same inputs give again to the bit, and how long each stage takes.
+struct Whole {
+    files: Files,
+    earlier: Files,
+    seconds: [f64; 4],
+}
+
+fn whole() -> &'static Whole {
+    static WHOLE: OnceLock<Whole> = OnceLock::new();
+    WHOLE.get_or_init(|| {
+        let earlier = scene();
+        done(&mpm(earlier.path(), &[&["run", "."], &EARLIER[..]].concat()));
+        let whole = scene();
+        let seconds = STAGES.map(|stage| {
+            let start = Instant::now();
+            done(&mpm(whole.path(), &[stage, "."]));
+            start.elapsed().as_secs_f64()
+        });
+        Whole { files: files(whole.path()), earlier: files(earlier.path()), seconds }
+    })
+}
+
+fn scene() -> TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("case.yaml"), CASE).unwrap();
+    fs::write(folder.path().join("scene.geo"), GEO).unwrap();
+    folder
+}
+
+fn command(folder: &Path, arguments: &[&str]) -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_mpm"));
+    command.args(arguments).current_dir(folder).stdout(Stdio::piped()).stderr(Stdio::piped());
+    command
+}
+
+fn mpm(folder: &Path, arguments: &[&str]) -> Output {
+    command(folder, arguments).output().unwrap()
+}
+
+fn said(output: &Output) -> String {
+    format!(
+        "{:?}: {}{}",
+        output.status,
+        String::from_utf8_lossy(&output.stdout),
+        String::from_utf8_lossy(&output.stderr)
+    )
+}
+
+fn done(output: &Output) {
+    assert!(output.status.success(), "{}", said(output));
+}
+
+/// All files below the output folder but the records, which have times, and what is hidden or beside the results.
+fn files(folder: &Path) -> Files {
+    let (mut files, mut open) = (Files::new(), vec![folder.join("out")]);
+    while let Some(path) = open.pop() {
+        let name = path.file_name().unwrap().to_string_lossy().into_owned();
+        if name.starts_with('.') || name == "provenance" || name == "unfinished" {
+            continue;
+        }
+        if path.is_dir() {
+            open.extend(fs::read_dir(&path).unwrap().map(|entry| entry.unwrap().path()));
+        } else {
+            files.insert(path.strip_prefix(folder).unwrap().to_owned(), fs::read(&path).unwrap());
+        }
+    }
+    files
+}
+
+fn same(found: &Files, expected: &Files, what: &str) {
+    let names = |files: &Files| files.keys().cloned().collect::<Vec<_>>();
+    assert_eq!(names(found), names(expected), "{what}");
+    for (name, bytes) in found {
+        assert!(expected[name] == *bytes, "{what}: {} differs", name.display());
+    }
+}
+
+/// Whole numbers below `below`, the same every time (SplitMix64).
+struct Random(u64);
+
+impl Random {
+    fn below(&mut self, below: u64) -> u64 {
+        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+        (z ^ (z >> 31)) % below
+    }
+}
+
+/// A folder in which the stages before number `stage` are done, with the results of another run in every second.
+fn prepared(stage: usize, with_earlier: bool) -> TempDir {
+    let folder = scene();
+    if with_earlier {
+        done(&mpm(folder.path(), &[&["run", "."], &EARLIER[..]].concat()));
+    }
+    for stage in &STAGES[..stage] {
+        done(&mpm(folder.path(), &[stage, "."]));
+    }
+    folder
+}
+
+/// After a disturbance: results are the earlier ones or new ones, and the next run gives what an undisturbed one gives.
+fn recovers(folder: &Path, stage: usize, with_earlier: bool, what: &str) {
+    if with_earlier && stage == 2 {
+        let run = |files: &Files| {
+            let of_run = |name: &PathBuf| {
+                ["results", "history", "solve.log"]
+                    .iter()
+                    .any(|p| name.starts_with("out") && name.to_string_lossy().contains(p))
+            };
+            files
+                .iter()
+                .filter(|(name, _)| of_run(name))
+                .map(|(name, bytes)| (name.clone(), bytes.clone()))
+                .collect::<Files>()
+        };
+        let found = run(&files(folder));
+        if found != run(&whole().files) {
+            same(&found, &run(&whole().earlier), what);
+        }
+    }
+    let again = mpm(folder, &["run", ".", "--resume"]);
+    assert!(again.status.success(), "{what}: {}", said(&again));
+    same(&files(folder), &whole().files, what);
+    let skipped = mpm(folder, &["run", "."]);
+    done(&skipped);
+    for stage in STAGES {
+        assert!(said(&skipped).contains(&format!("{stage}: nothing has changed")), "{what}: {}", said(&skipped));
+    }
+}
+
+/// Sends a signal to a stage at some moment.
+fn disturb(signal: &str, count: u64, seed: u64) {
+    let mut random = Random(seed);
+    for number in 0..count {
+        let (stage, with_earlier) = (number as usize % 4, number / 4 % 2 == 1);
+        let folder = prepared(stage, with_earlier);
+        let mut child = command(folder.path(), &[STAGES[stage], "."]).spawn().unwrap();
+        let after = whole().seconds[stage] * random.below(1000) as f64 / 1000.0;
+        std::thread::sleep(Duration::from_secs_f64(after));
+        // A shell has `kill` built in; the process may have ended by itself.
+        let _ = Command::new("sh").args(["-c", &format!("kill -{signal} {} 2>/dev/null", child.id())]).status();
+        let deadline = Instant::now() + Duration::from_secs(60);
+        while child.try_wait().unwrap().is_none() {
+            assert!(Instant::now() < deadline, "SIG{signal} does not end `mpm {}`", STAGES[stage]);
+            std::thread::sleep(Duration::from_millis(5));
+        }
+        recovers(
+            folder.path(),
+            stage,
+            with_earlier,
+            &format!("SIG{signal} number {number} after {after} s of {}", STAGES[stage]),
+        );
+    }
+}
+
+#[test]
+fn kills_in_all_stages_lose_nothing() {
+    disturb("KILL", 8 * times(), 1);
+}
+
+#[test]
+fn signals_in_all_stages_lose_nothing() {
+    for (signal, seed) in [("INT", 2), ("TERM", 3), ("HUP", 4)] {
+        disturb(signal, 2 * times(), seed);
+    }
+}
+
+#[test]
+fn disks_that_fill_in_all_stages_lose_nothing() {
+    let mut random = Random(5);
+    for number in 0..4 * times() {
+        let (stage, with_earlier) = (number as usize % 4, number / 4 % 2 == 1);
+        let folder = prepared(stage, with_earlier);
+        let before = files(folder.path());
+        // No file may grow beyond so many blocks of 512 bytes: writing fails as on a full disk.
+        let blocks = random.below(12);
+        let program = env!("CARGO_BIN_EXE_mpm");
+        let script = format!("trap '' XFSZ; ulimit -f {blocks}; exec '{program}' {} .", STAGES[stage]);
+        let output = Command::new("sh").args(["-c", &script]).current_dir(folder.path()).output().unwrap();
+        let what = format!("{blocks} blocks for {}: {}", STAGES[stage], said(&output));
+        assert!(output.status.success() || output.status.code() == Some(3), "{what}");
+        if !output.status.success() && stage != 2 {
+            same(&files(folder.path()), &before, &what);
+        }
+        recovers(folder.path(), stage, with_earlier, &what);
+    }
+}
+
+#[test]
+fn pairs_of_processes_do_not_mix() {
+    for number in 0..4 * times() {
+        let (stage, with_earlier) = (number as usize % 4, number / 4 % 2 == 1);
+        let folder = prepared(stage, with_earlier);
+        let pair = [(); 2].map(|()| command(folder.path(), &[STAGES[stage], "."]).spawn().unwrap());
+        let ended = pair.map(|child| child.wait_with_output().unwrap());
+        assert!(ended.iter().any(|output| output.status.success()), "{} {}", said(&ended[0]), said(&ended[1]));
+        for output in ended.iter().filter(|output| !output.status.success()) {
+            let said = said(output);
+            assert!(output.status.code() == Some(3) && said.contains("is at work in this folder"), "{said}");
+        }
+        recovers(folder.path(), stage, with_earlier, &format!("pair {number} of {}", STAGES[stage]));
+    }
+}

@@ -1,0 +1,143 @@
+//! What people expect of a Unix program: pipes that close, `nohup`, Ctrl-C.
+
+use std::fs;
+use std::os::unix::process::{CommandExt, ExitStatusExt};
+use std::path::Path;
+use std::process::{Child, Command, Output, Stdio};
+use std::time::{Duration, Instant};
+use tempfile::TempDir;
+
+const GEO: &str = r#"Point(1) = {0, 0, 0, 1}; Point(2) = {2, 0, 0, 1}; Point(3) = {2, 1, 0, 1}; Point(4) = {0, 1, 0, 1};
+Line(1) = {1, 2}; Line(2) = {2, 3}; Line(3) = {3, 4}; Line(4) = {4, 1};
+Curve Loop(1) = {1:4}; Plane Surface(1) = {1};
+Physical Surface("soil") = {1}; Physical Curve("bottom") = {1}; Physical Curve("top") = {3};
+"#;
+
+const CASE: &str = "\
+title: Block
+geometry: plane_strain
+mesh: {geo: scene.geo, order: 2}
+regions:
+  soil: {kind: mpm, material: clay, points_per_cell: 4}
+materials:
+  clay: {model: tresca, young: 100, poisson: 0.3, shear_strength: 1, density: 1.8}
+supports:
+  bottom: {ux: 0, uy: 0}
+phases:
+  - name: load
+    analysis: quasi_static
+    duration: 1
+    step: {initial: STEP, max: STEP}
+    prescribe: {top: {uy: {table: [[0, 0], [1, -0.001]]}}}
+output: {every: 0.5, fields: [stress]}
+";
+
+fn scene(statement: &str, step: &str) -> TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("case.yaml"), CASE.replace("STEP", step)).unwrap();
+    fs::write(folder.path().join("scene.geo"), format!("{GEO}{statement}\n")).unwrap();
+    folder
+}
+
+fn mpm(arguments: &[&str], folder: &Path) -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_mpm"));
+    command.args(arguments).current_dir(folder).stdout(Stdio::piped()).stderr(Stdio::piped());
+    command
+}
+
+fn signal(name: &str, process: &Child) {
+    // A shell has `kill` built in; the program of that name may be missing.
+    let kill = format!("kill -{name} {}", process.id());
+    assert!(Command::new("sh").args(["-c", &kill]).status().unwrap().success());
+}
+
+/// Waits until `done`, for a minute at most.
+fn until(what: &str, mut done: impl FnMut() -> bool) {
+    let start = Instant::now();
+    while !done() {
+        assert!(start.elapsed() < Duration::from_secs(60), "{what}");
+        std::thread::sleep(Duration::from_millis(5));
+    }
+}
+
+fn text(bytes: &[u8]) -> String {
+    String::from_utf8_lossy(bytes).into_owned()
+}
+
+/// The processes with `command` among their arguments that work in `folder`.
+fn workers(folder: &Path) -> usize {
+    let here = folder.canonicalize().unwrap();
+    let processes = fs::read_dir("/proc").unwrap().flatten().filter(|process| {
+        let arguments = fs::read(process.path().join("cmdline")).unwrap_or_default();
+        let place = fs::read_link(process.path().join("cwd")).unwrap_or_default();
+        text(&arguments).contains("gmsh-worker") && place == here
+    });
+    processes.count()
+}
+
+#[test]
+fn ctrl_c_while_gmsh_works_ends_both_and_leaves_nothing() {
+    for name in ["INT", "TERM", "HUP"] {
+        let scene = scene("Sleep 1000;", "0.5");
+        let mut process = mpm(&["mesh", "."], scene.path()).spawn().unwrap();
+        until("Gmsh does not start", || workers(scene.path()) == 1);
+        // The output folder of the process shows that it catches signals; a moment for the rest.
+        std::thread::sleep(Duration::from_millis(200));
+        signal(name, &process);
+        assert_eq!(process.wait().unwrap().code(), Some(130), "{name}");
+        until("Gmsh goes on", || workers(scene.path()) == 0);
+        assert!(!scene.path().join("out").exists(), "{name}");
+    }
+}
+
+#[test]
+fn gmsh_ends_with_a_program_that_is_killed() {
+    let scene = scene("Sleep 1000;", "0.5");
+    let mut process = mpm(&["check", "."], scene.path()).spawn().unwrap();
+    until("Gmsh does not start", || workers(scene.path()) == 1);
+    std::thread::sleep(Duration::from_millis(200));
+    signal("KILL", &process);
+    assert_eq!(process.wait().unwrap().signal(), Some(9));
+    until("Gmsh goes on", || workers(scene.path()) == 0);
+}
+
+#[test]
+fn a_reader_that_has_gone_stops_nothing() {
+    let scene = scene("", "0.5");
+    for command in ["mesh", "run"] {
+        let mut process = mpm(&[command, "."], scene.path()).spawn().unwrap();
+        drop(process.stdout.take());
+        let Output { status, stderr, .. } = process.wait_with_output().unwrap();
+        assert!(status.success(), "{command}: {status} {}", text(&stderr));
+    }
+    let again = mpm(&["run", "."], scene.path()).output().unwrap();
+    assert_eq!(text(&again.stdout).matches("nothing has changed").count(), 4, "{}", text(&again.stdout));
+}
+
+#[test]
+fn nohup_goes_on_when_the_terminal_closes() {
+    let scene = scene("", "0.002");
+    for command in ["mesh", "seed"] {
+        assert!(mpm(&[command, "."], scene.path()).status().unwrap().success());
+    }
+    let script = "trap '' HUP; exec \"$0\" solve .";
+    let mut process = Command::new("sh");
+    process.args(["-c", script, env!("CARGO_BIN_EXE_mpm")]).current_dir(scene.path()).process_group(0);
+    let mut process = process.stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
+    let history = scene.path().join("out/history.csv");
+    until("it does not solve", || {
+        assert!(process.try_wait().unwrap().is_none(), "it ended before the signal");
+        fs::read_to_string(&history).unwrap_or_default().lines().count() > 5
+    });
+    signal("HUP", &process);
+    assert!(process.wait().unwrap().success());
+    // Without nohup the same signal ends the run in an orderly way.
+    fs::remove_dir_all(scene.path().join("out")).unwrap();
+    for command in ["mesh", "seed"] {
+        assert!(mpm(&[command, "."], scene.path()).status().unwrap().success());
+    }
+    let mut process = mpm(&["solve", "."], scene.path()).spawn().unwrap();
+    until("it does not solve", || fs::read_to_string(&history).unwrap_or_default().lines().count() > 5);
+    signal("HUP", &process);
+    assert_eq!(process.wait().unwrap().code(), Some(130));
+}
