@@ -101,8 +101,29 @@ fn an_edited_file_with_a_right_checksum_is_checked_too() {
     let (_folder, path) = written(10, true);
     let e = edited(&path, |xml| xml.replace("Name=\"mass [t]\"", "Name=\"weight\""));
     assert!(e.problem.contains("`mass` is missing"), "{e}");
-    let e = edited(&path, |xml| xml.replace("UnstructuredGrid", "PolyData"));
-    assert!(!e.problem.is_empty());
     let e = edited(&path, |xml| xml.replace("Name=\"cell [-]\"", "Name=\"region [-]\""));
-    assert!(!e.problem.is_empty());
+    assert!(e.problem.contains("`region` twice"), "{e}");
+    let forged: [(&str, &str, &str); 9] = [
+        ("UnstructuredGrid", "PolyData", "unstructured grid"),
+        ("</Piece>", "</Piece>\n<Piece>\n<PointData>\n</PointData>\n</Piece>", "`PointData`"),
+        ("<Points>", "<Points a=\"\" b=\"\">", "`Points`"),
+        ("</PointData>", "<z>\n</z>\n</PointData>", "no array"),
+        ("Name=\"mass [t]\" ", "", "without a name"),
+        (
+            "Name=\"stress [kPa]\" NumberOfComponents=\"6\"",
+            "Name=\"stress [kPa]\" NumberOfComponents=\"7\"",
+            "`stress`",
+        ),
+        (
+            "Name=\"stress [kPa]\" NumberOfComponents=\"6\"",
+            "Name=\"stress [kPa]\" NumberOfComponents=\"0\"",
+            "`stress`",
+        ),
+        ("type=\"Float64\" Name=\"mass", "type=\"Int64\" Name=\"mass", "`mass`"),
+        ("Name=\"mass [t]\" format=\"binary\">", "Name=\"mass [t]\" format=\"binary\">AAAA", "`mass`"),
+    ];
+    for (from, to, problem) in forged {
+        let e = edited(&path, |xml| xml.replace(from, to));
+        assert!(e.problem.contains(problem), "{from} -> {to}: {e}");
+    }
 }
