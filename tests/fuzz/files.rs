@@ -213,7 +213,10 @@ pub fn repair_points(file: Vec<u8>) -> Vec<u8> {
         let open = b"<!-- mpm points ";
         let mut trailer: Value = serde_json::from_slice(end[start..].strip_prefix(open)?).ok()?;
         let regions: Vec<&str> = trailer["regions"].as_array()?.iter().map(Value::as_str).collect::<Option<_>>()?;
-        let head = format!("{} {} {regions:?}", trailer["points"].as_u64()?, trailer["dimension"].as_u64()?);
+        let (program, source) = (trailer["program"].as_str()?, &trailer["source"]);
+        let (mesh, case) = (source["mesh"].as_str()?, source["case"].as_str()?);
+        let (points, dimension) = (trailer["points"].as_u64()?, trailer["dimension"].as_u64()?);
+        let head = format!("{points} {dimension} {regions:?} {program:?} {mesh} {case}");
         let checksum = XxHash64::oneshot(XxHash64::oneshot(0, head.as_bytes()), &file[..start]);
         trailer["checksum"] = json!(checksum);
         let mut out = file[..start].to_vec();

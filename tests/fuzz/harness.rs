@@ -36,6 +36,11 @@ pub trait Reader: Sync {
     /// Changes file `number` of the corpus; true where its checksums are right.
     fn mutate(&self, random: &mut Random, number: usize) -> (Vec<u8>, bool);
 
+    /// File `number` of the corpus, its checksums made anew as those of mutants are.
+    fn again(&self, number: usize) -> Vec<u8> {
+        self.corpus()[number].clone()
+    }
+
     /// The file that a text in the folder of faults describes.
     fn fault(&self, text: &[u8]) -> Vec<u8>;
 
@@ -64,6 +69,10 @@ pub fn fuzz(reader: &dyn Reader) {
 fn run(reader: &dyn Reader) -> Vec<String> {
     let mut wrong = Vec::new();
     let sound: Vec<u64> = reader.corpus().iter().map(|file| reader.read(file).expect("a sound file")).collect();
+    for (number, sound) in sound.iter().enumerate() {
+        let again = reader.read(&reader.again(number)).expect("checksums that are right");
+        assert_eq!(again, *sound, "file {number} means something else with its checksums made anew");
+    }
     let folder = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("tests/fuzz/faults").join(reader.name());
     let mut faults: Vec<PathBuf> = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect();
     faults.sort();

@@ -191,6 +191,10 @@ impl Reader for Points {
         (file, false)
     }
 
+    fn again(&self, number: usize) -> Vec<u8> {
+        files::repair_points(self.corpus[number].clone())
+    }
+
     fn fault(&self, text: &[u8]) -> Vec<u8> {
         let (name, edits) = edits(text);
         let number = self.scenes.iter().position(|ready| ready.name == name).unwrap();
@@ -277,6 +281,10 @@ impl Reader for Frames {
 
     fn mutate(&self, random: &mut Random, number: usize) -> (Vec<u8>, bool) {
         mutate_container(random, &self.corpus, number, "frame", self.folder.path())
+    }
+
+    fn again(&self, number: usize) -> Vec<u8> {
+        edited(&self.corpus[number], &[], "frame", self.folder.path())
     }
 
     fn fault(&self, text: &[u8]) -> Vec<u8> {
@@ -415,6 +423,10 @@ impl Reader for Checkpoints {
 
     fn mutate(&self, random: &mut Random, number: usize) -> (Vec<u8>, bool) {
         mutate_container(random, &self.corpus, number, "checkpoint", self.folder.path())
+    }
+
+    fn again(&self, number: usize) -> Vec<u8> {
+        edited(&self.corpus[number], &[], "checkpoint", self.folder.path())
     }
 
     fn fault(&self, text: &[u8]) -> Vec<u8> {
