@@ -11,7 +11,7 @@ include pipeline/mpm.mk
 
 SECONDS := 600
 
-.PHONY: help setup build demo pile pile-variants pipeline pipeline-study test fuzz campaign check fmt clean bench bench-block bench-unused sbom stress verification
+.PHONY: help setup build demo pile pile-variants pipeline pipeline-study test fuzz sanitize campaign check fmt clean bench bench-block bench-unused sbom stress verification
 
 help: ## List the targets
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / {printf "  %-14s %s\n", $$1, $$2}' $(firstword $(MAKEFILE_LIST))
@@ -55,6 +55,11 @@ test: setup ## Set up and run all tests
 
 fuzz: ## Mutated files through every reader for a time: make fuzz SECONDS=600 (SEED=1; tests/fuzz/README.md)
 	FUZZ_SECONDS=$(SECONDS) FUZZ_SEED=$(or $(SEED),$(shell date +%s)) cargo test --release --test fuzz -- --nocapture
+
+sanitize: build ## The boundary to Gmsh under valgrind, where that is installed: reads and writes out of bounds end it
+	@command -v valgrind >/dev/null || { echo "sanitize: valgrind is missing; install it and run this again" >&2; exit 3; }
+	for case in cases/* tests/data/*; do out=$$(mktemp -d); echo "$$case"; \
+	  valgrind -q --trace-children=yes --undef-value-errors=no --error-exitcode=9 $(MPM) mesh $$case -o $$out >/dev/null; rm -rf $$out; done
 
 campaign: setup ## Kills, signals, full disks and pairs of processes in every stage, 25 times as many as in the tests
 	CAMPAIGN=25 cargo test --release --test campaign -- --nocapture

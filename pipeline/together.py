@@ -17,7 +17,7 @@ ROOT = Path(__file__).resolve().parents[1]
 PROGRAM = os.environ.get("MPM", str(ROOT / "target/release/mpm"))
 
 # The mesh and the points, and what says that they are up to date.
-SHARED = ("mesh.msh", "points.vtu", ".stamp-mesh", ".stamp-seed")
+SHARED = ("mesh.msh", "points.vtu", "provenance/mesh.json", "provenance/seed.json")
 
 
 def folder(out, name):
@@ -39,8 +39,8 @@ class Together:
         self.out, self.names = given.out.resolve(), given.names or list(variants)
         self.settings = [entry.split("=", 1) for entry in given.set]
 
-    def mpm(self, stage, out, settings):
-        command = [PROGRAM, stage, str(self.case), "-o", str(out)]
+    def mpm(self, stage, out, settings, *options):
+        command = [PROGRAM, stage, str(self.case), "-o", str(out), *options]
         command += ["--threads", str(self.threads)] if self.threads else []
         command += [f"--set={path}={value}" for path, value in settings]
         try:
@@ -53,11 +53,11 @@ class Together:
         target = folder(self.out, name)
         settings = self.settings + list(self.variants.get(name, {}).items())
         if name:
-            target.mkdir(parents=True, exist_ok=True)
+            (target / "provenance").mkdir(parents=True, exist_ok=True)
             for file in SHARED:
                 shutil.copy2(self.out / file, target / file)
         print(f"--- {target}", flush=True)
-        done = self.mpm("run", target, settings)
+        done = self.mpm("run", target, settings, "--fresh")
         print(done.stdout, end="", flush=True)
         if done.returncode not in (0, 1):
             sys.exit(done.returncode)
@@ -67,6 +67,8 @@ class Together:
             (target / "run.txt").write_text(times[-1] + "\n")
         if done.returncode == 0:
             return True
+        if (target / "unfinished").exists():
+            sys.exit(f"{target} has results of an earlier run, which this one does not replace; remove it and run again")
         exported = self.mpm("export", target, settings)
         if exported.returncode:
             sys.exit(exported.returncode)

@@ -209,7 +209,7 @@ fn honest_scripts_pass() {
         let folder = scene(statement);
         let output = mpm(folder.path(), &["mesh", "."]);
         assert!(output.status.success(), "{statement}: {}", String::from_utf8_lossy(&output.stderr));
-        assert_eq!(names(&folder.path().join("out")), [".stamp-mesh", "mesh.msh"], "{statement}");
+        assert_eq!(names(&folder.path().join("out")), ["mesh.msh", "provenance"], "{statement}");
     }
 }
 

@@ -141,3 +141,40 @@ fn nohup_goes_on_when_the_terminal_closes() {
     signal("HUP", &process);
     assert_eq!(process.wait().unwrap().code(), Some(130));
 }
+
+#[test]
+fn ctrl_c_ends_an_export_and_leaves_the_earlier_one() {
+    let scene = scene("", "0.002");
+    assert!(mpm(&["run", "."], scene.path()).status().unwrap().success());
+    let series = || fs::read(scene.path().join("out/points.pvd")).unwrap();
+    let before = series();
+    let all = ["export", ".", "--set", "output.encoding=plain"];
+    for name in ["INT", "TERM"] {
+        let mut process = mpm(&all, scene.path()).spawn().unwrap();
+        until("it does not export", || {
+            scene.path().join("out/.vtu-new").exists() || process.try_wait().unwrap().is_some()
+        });
+        signal(name, &process);
+        let status = process.wait().unwrap();
+        assert!(status.success() || status.signal().is_some(), "{name}: {status}");
+        assert!(scene.path().join("out/vtu").exists() && series().len() == before.len());
+    }
+    assert!(mpm(&all, scene.path()).status().unwrap().success());
+    assert!(!scene.path().join("out/.vtu-new").exists());
+}
+
+/// Progress is drawn where the terminal can, and told in lines where it cannot.
+#[test]
+fn a_terminal_that_can_draw_nothing_gets_plain_lines() {
+    let python = Path::new(env!("CARGO_MANIFEST_DIR")).join(".venv/bin/python");
+    for (term, drawn) in [("xterm", true), ("dumb", false)] {
+        let scene = scene("", "0.01");
+        let script = "import os, pty, sys; sys.exit(os.waitstatus_to_exitcode(pty.spawn(sys.argv[1:])))";
+        let mut process = Command::new(&python);
+        process.args(["-c", script, env!("CARGO_BIN_EXE_mpm"), "run", "."]).current_dir(scene.path()).env("TERM", term);
+        let Output { status, stdout, .. } = process.stdin(Stdio::null()).output().unwrap();
+        let said = text(&stdout);
+        assert!(status.success() && said.contains("solved in"), "{term}: {status} {said}");
+        assert_eq!(said.contains('\u{1b}'), drawn, "{term}: {said:?}");
+    }
+}

@@ -52,8 +52,6 @@ fn work(stage: &Stage, run: &RunFolder) -> Outcome {
     let mut record = inputs(stage, run)?.begin();
     check_run(stage, run)?;
     let of_elements = parts::of_elements(case, &mesh);
-    // The collections change file by file: until all of them are there they are nobody's.
-    record.write(stage.folder())?;
     let frames = export::export(&run.results(), &mesh, &of_elements, stage.folder(), &fields, encoding)?;
     record.finish(stage.folder(), &series(stage))?;
     record.write(stage.folder())?;

@@ -1,6 +1,6 @@
 //! Ctrl-C and its like: work that can be stopped in an orderly way looks at [`stop`], all other work ends at once.
 //!
-//! What the process was told to ignore stays ignored: `nohup` goes on when its terminal closes.
+//! The closing of the terminal stays ignored where it was at the start: `nohup` goes on.
 
 use crate::error::{Error, Result};
 use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
@@ -47,8 +47,8 @@ impl Drop for Caught {
 }
 
 fn start() -> std::result::Result<(), String> {
-    let ignored = ignored();
-    let wanted = [SIGINT, SIGTERM, SIGHUP].into_iter().filter(|signal| ignored & 1 << (signal - 1) == 0);
+    let hang_up = (ignored() & 1 << (SIGHUP - 1) == 0).then_some(SIGHUP);
+    let wanted = [SIGINT, SIGTERM].into_iter().chain(hang_up);
     let mut signals = Signals::new(wanted).map_err(|e| e.to_string())?;
     thread::Builder::new()
         .spawn(move || {

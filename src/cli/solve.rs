@@ -3,7 +3,7 @@
 use super::stage::{Inputs, Stage};
 use super::{Outcome, StageArgs, mesh, note, print, seed, signals};
 use crate::case::scene;
-use crate::error::{Error, Kind, Result};
+use crate::error::{Error, Kind, Result, plain_lines};
 use crate::io::checkpoint::Checkpoints;
 use crate::io::hash;
 use crate::io::points_vtu::{self, Seeded};
@@ -146,13 +146,20 @@ fn choose(stage: &Stage, start: Start, origin: Origin, inputs: &Inputs) -> Resul
         None if start.resume && runs.main.standing()? == Standing::Finished => {
             let changed =
                 runs.main.record().map_or(Ok(None), |r| r.changed(runs.main.path(), &runs.main.outputs()?))?;
-            return match changed {
-                Some(name) => {
-                    let place = runs.main.path().join(name);
-                    Err(Error::input(place.display(), "it is not as the run left it", "begin anew with `--fresh`"))
+            if let Some(name) = changed {
+                let place = runs.main.path().join(name);
+                let remedy = "begin anew with `--fresh`";
+                return Err(Error::input(place.display(), "it is not as the run left it", remedy));
+            }
+            let loaded = Checkpoints::new(runs.main.checkpoints(), origin.run).latest()?;
+            return Ok(match (loaded, runs.main.record()) {
+                // The last checkpoint is damaged: what came after the one before is done again.
+                (Some(loaded), Some(mut record)) if !loaded.warnings.is_empty() => {
+                    record.go_on();
+                    Some((runs.main.clone(), record))
                 }
-                None => Ok(None),
-            };
+                _ => None,
+            });
         }
         _ => {}
     }
@@ -195,7 +202,9 @@ struct Meter {
 
 impl Meter {
     fn new() -> Self {
-        let bar = std::io::stderr().is_terminal().then(|| {
+        // A terminal that cannot go back to the beginning of a line gets plain lines, too.
+        let can_draw = std::io::stderr().is_terminal() && std::env::var_os("TERM").is_none_or(|term| term != "dumb");
+        let bar = can_draw.then(|| {
             let style = ProgressStyle::with_template("{bar:40} {percent:>3} % {msg}");
             ProgressBar::new(1000).with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()))
         });
@@ -209,10 +218,10 @@ impl Meter {
         let left = if left.is_finite() { format!(", about {left:.0} s left") } else { String::new() };
         let line = format!("step {}, {} t = {:.4} of {} s{left}", p.step, p.phase, p.time, p.end);
         match (&self.bar, p.note) {
-            (Some(bar), Some(note)) => bar.println(note),
+            (Some(bar), Some(note)) => bar.println(&*plain_lines(note)),
             (Some(bar), None) => {
                 bar.set_position((1000.0 * p.time / p.end) as u64);
-                bar.set_message(line);
+                bar.set_message(plain_lines(&line).into_owned());
             }
             (None, Some(note)) => super::note(note),
             (None, None) if elapsed >= self.due => {

@@ -109,12 +109,10 @@ impl Stage {
     /// # Errors
     /// `Input` when a file is missing, `Machine` when it cannot be read.
     pub fn inputs(&self, name: &'static str, keys: &[&str], files: &[PathBuf]) -> Result<Inputs> {
-        let hashes = hash::files(files, MISSING)?;
-        let files: BTreeMap<_, _> =
-            files.iter().zip(hashes).map(|(path, hash)| (path.display().to_string(), hash::text(hash))).collect();
+        let hashes: Vec<String> = hash::files(files, MISSING)?.into_iter().map(hash::text).collect();
         let case = Value::Object(self.entries(keys)).to_string();
-        let contents: Vec<&str> = files.values().map(String::as_str).collect();
-        let all = [program::SOURCE, program::GMSH, &case, &contents.join(" ")].join("\n");
+        let all = [program::SOURCE, program::GMSH, &case, &hashes.join(" ")].join("\n");
+        let files = files.iter().map(|path| path.display().to_string()).zip(hashes).collect();
         Ok(Inputs { stage: name, hash: hash::bytes(all.as_bytes()), files })
     }
 }

@@ -54,6 +54,7 @@ pub fn export<const D: usize>(
     let folder = out.join(NEW);
     prepare(out)?;
     atomic::prepare_folder(&folder)?;
+    let _in_hand = InHand(&folder);
     let note = infos.first().map(|info| note(info.origin)).unwrap_or_default();
     let write = |series: &str, index: usize, grid: Grid| {
         let (path, grid) = (folder.join(file_name(series, index)), Grid { note: note.clone(), ..grid });
@@ -150,6 +151,16 @@ pub fn export<const D: usize>(
 const FOLDER: &str = "vtu";
 const NEW: &str = ".vtu-new";
 const OLD: &str = ".vtu-old";
+
+/// The folder of an export in hand: what is left of it goes when this does.
+struct InHand<'a>(&'a Path);
+
+impl Drop for InHand<'_> {
+    fn drop(&mut self) {
+        // Only tidiness: the next export does it again, and says where it cannot.
+        let _ = fs::remove_dir_all(self.0);
+    }
+}
 
 /// What the files of a series say of themselves.
 fn note(origin: Origin) -> String {

@@ -96,8 +96,9 @@ impl Record {
         record
     }
 
-    /// A session of this process on a stage that an earlier one began.
+    /// A session of this process on a stage that an earlier one began; it is not finished until then.
     pub fn go_on(&mut self) {
+        self.finished = false;
         let command = std::env::args_os().map(|word| word.to_string_lossy().into_owned()).collect();
         self.sessions.push(Session { command, started: now(), ended: None, reason: None });
     }

@@ -60,7 +60,10 @@ pub fn check(mesh: &Mesh<2>, file: &Path) -> Result<()> {
             [a, b] if a.middle != b.middle => {
                 return Err(wrong("it and its neighbour have different nodes on an edge"));
             }
-            [a, b] if a.ascending == b.ascending => return Err(wrong("it and its neighbour lie on one another")),
+            [a, b] if a.ascending == b.ascending => {
+                let region = &mesh.regions[usize::from(mesh.cells.region[b.cell as usize])];
+                return Err(wrong(&format!("it and its neighbour of region {region} lie on one another")));
+            }
             [a, b] => join(&mut joined, mesh.cells.region[a.cell as usize], mesh.cells.region[b.cell as usize]),
             _ => return Err(wrong("more than two cells share one of its edges")),
         }

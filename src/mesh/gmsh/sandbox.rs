@@ -1,4 +1,4 @@
-//! What the child process that runs Gmsh takes from itself before Gmsh opens a file: limits of memory, time and file
+//! What the child process that runs Gmsh takes from itself before Gmsh opens a file: limits of memory and file
 //! size, and with Landlock (Linux 5.13 or newer) all files but those of the geometry, all programs and all of the network.
 
 use landlock::{
@@ -8,18 +8,16 @@ use landlock::{
 use rustix::process::{Resource, Rlimit, Signal, getppid, set_parent_process_death_signal, setrlimit};
 use std::path::{Path, PathBuf};
 
-/// The process ends with its parent, of number `parent`, and stays below `memory` (bytes) and `seconds` of its own time.
+/// The process ends with its parent, of number `parent`, which looks after its time, and stays below `memory` (bytes).
 ///
 /// # Errors
 /// Limits that the system does not set; a parent that has ended already.
-pub fn limit(parent: u32, memory: u64, seconds: u64) -> std::io::Result<()> {
+pub fn limit(parent: u32, memory: u64) -> std::io::Result<()> {
     set_parent_process_death_signal(Some(Signal::KILL))?;
     if getppid().map(|parent| parent.as_raw_nonzero().get().unsigned_abs()) != Some(parent) {
         return Err(std::io::Error::other("the program that started it has ended"));
     }
-    for (resource, most) in
-        [(Resource::As, memory), (Resource::Fsize, memory), (Resource::Cpu, seconds), (Resource::Core, 0)]
-    {
+    for (resource, most) in [(Resource::As, memory), (Resource::Fsize, memory), (Resource::Core, 0)] {
         let most = rustix::process::getrlimit(resource).maximum.map_or(most, |maximum| maximum.min(most));
         setrlimit(resource, Rlimit { current: Some(most), maximum: Some(most) })?;
     }

@@ -50,7 +50,6 @@ struct Request {
     files: Vec<PathBuf>,
     sandbox: bool,
     memory: u64,
-    seconds: u64,
     analysis: u64,
 }
 
@@ -149,7 +148,6 @@ impl Worker<'_> {
             files,
             sandbox: self.sandbox,
             memory: self.memory,
-            seconds: self.seconds,
             analysis: self.analysis,
         };
         let request =
@@ -252,7 +250,6 @@ impl Session<'_> {
             );
         }
         match signal {
-            Some(XCPU) => self.too_slow(),
             Some(signal) => Error::input(
                 place,
                 format!("Gmsh crashed (signal {signal}){}{said}", if said.is_empty() { "" } else { ": " }),
@@ -271,9 +268,6 @@ impl Session<'_> {
         }
     }
 }
-
-/// The signal of a process that has used up its time.
-const XCPU: i32 = Signal::XCPU.as_raw();
 
 impl Drop for Session<'_> {
     fn drop(&mut self) {
@@ -313,7 +307,7 @@ pub fn serve() -> Result<()> {
 /// Does what is asked; `agree` sends the names of the groups and waits whether the parent wants the mesh.
 fn work(request: &Request, agree: &mut dyn FnMut(Groups) -> Result<bool>) -> Result<()> {
     let failed = |error: &dyn std::fmt::Display| Error::machine("Gmsh", error, "see `ulimit -a` and the user guide");
-    sandbox::limit(request.parent, request.memory, request.seconds).map_err(|error| failed(&error))?;
+    sandbox::limit(request.parent, request.memory).map_err(|error| failed(&error))?;
     if request.sandbox {
         let folder = request.out.as_deref().and_then(Path::parent);
         sandbox::enter(&request.files, folder).map_err(|error| failed(&error))?;
