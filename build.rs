@@ -114,7 +114,7 @@ fn identify() {
     let commit = git(&["rev-parse", "--short=12", "HEAD"]).unwrap_or_else(|| "unknown".to_owned());
     println!("cargo::rustc-env=MPM_COMMIT={commit}{}", if changed { "+" } else { "" });
     let variable = |name: &str| env::var(name).unwrap_or_default();
-    println!("cargo::rustc-env=MPM_BUILD={} {}", variable("TARGET"), variable("PROFILE"));
+    println!("cargo::rustc-env=MPM_PROFILE={} {}", variable("TARGET"), variable("PROFILE"));
 }
 
 /// The files of a folder and those below it, or the one file.

@@ -7,7 +7,7 @@ pub const COMMIT: &str = env!("MPM_COMMIT");
 /// XXH64 of its sources: two builds with the same number compute the same.
 pub const SOURCE: &str = env!("MPM_SOURCE");
 /// Target and profile of the build.
-pub const BUILD: &str = env!("MPM_BUILD");
+pub const BUILD: &str = env!("MPM_PROFILE");
 /// Version of the Gmsh that it is linked with.
 pub const GMSH: &str = env!("MPM_GMSH");
 

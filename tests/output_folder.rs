@@ -219,7 +219,8 @@ fn what_a_run_wrote_before_is_not_continued_when_it_was_changed() {
     let solve = ["solve", ".", LONG[0], LONG[1], "--set", "output.every=0.005"];
     kill(start(scene.path(), &solve, "out/history.csv", 40));
     let resume = [&solve[..], &["--resume"]].concat();
-    let damages: [(&str, fn(&mut Vec<u8>)); 4] = [
+    type Damage = (&'static str, fn(&mut Vec<u8>));
+    let damages: [Damage; 4] = [
         ("history.csv", |bytes| bytes[30] = b'7'),
         ("solve.log", |bytes| bytes[10] ^= 1),
         ("results/frame-000001.mpmf", |bytes| bytes.truncate(100)),

@@ -355,7 +355,8 @@ impl Checker {
     /// Gravity must act on something, and an initial stress be that of soil with weight. Soil without weight under a
     /// heavy structure is an idealisation.
     fn weight(&mut self, case: &Case, file: &raw::CaseFile) {
-        if case.gravity == [0.0; 2] {
+        // Water has a weight of its own.
+        if case.gravity == [0.0; 2] || case.water.is_some() {
             return;
         }
         let begun = file.regions.iter().filter_map(|(name, region)| Some((name, region.material.as_ref()?)));
