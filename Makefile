@@ -54,7 +54,7 @@ test: setup ## Set up and run all tests
 	cargo test --release --no-fail-fast
 
 fuzz: ## Mutated files through every reader for a time: make fuzz SECONDS=600 (SEED=1; tests/fuzz/README.md)
-	FUZZ_SECONDS=$(SECONDS) FUZZ_SEED=$(or $(SEED),$(shell date +%s)) cargo test --release --test fuzz -- --nocapture
+	FUZZ_SECONDS=$(SECONDS) FUZZ_SEED=$(or $(SEED),$(shell date +%s)) cargo test --release --config profile.release.package.mpm.overflow-checks=true --test fuzz -- --nocapture
 
 sanitize: build ## The boundary to Gmsh under valgrind, where that is installed: reads and writes out of bounds end it
 	@command -v valgrind >/dev/null || { echo "sanitize: valgrind is missing; install it and run this again" >&2; exit 3; }
