@@ -249,7 +249,7 @@ fn disks_that_fill_in_all_stages_lose_nothing() {
 
 #[test]
 fn pairs_of_processes_do_not_mix() {
-    for number in 0..4 * times() {
+    for number in 0..8 * times() {
         let (stage, with_earlier) = (number as usize % 4, number / 4 % 2 == 1);
         let folder = prepared(stage, with_earlier);
         let pair = [(); 2].map(|()| command(folder.path(), &[STAGES[stage], "."]).spawn().unwrap());
