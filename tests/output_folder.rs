@@ -395,3 +395,14 @@ fn info_tells_what_every_file_was_made_from() {
     says(&mpm(scene.path(), &["info", "scene.geo"]), 2, &["not written by mpm"]);
     says(&mpm(scene.path(), &["info", "nowhere"]), 2, &["no such file"]);
 }
+
+#[test]
+fn results_whose_checkpoints_were_removed_are_not_lost() {
+    let scene = done();
+    fs::remove_dir_all(scene.path().join("out/checkpoints")).unwrap();
+    let before = run_files(scene.path());
+    says(&mpm(scene.path(), &[&["solve", "."], &FAILING[..]].concat()), 1, &["the earlier results are as they were"]);
+    assert_eq!(run_files(scene.path()), before);
+    says(&mpm(scene.path(), &["solve", ".", "--resume"]), 0, &["is finished"]);
+    says(&mpm(scene.path(), &["export", "."]), 0, &["5 frames\n"]);
+}

@@ -131,7 +131,7 @@ fn choose(stage: &Stage, start: Start, origin: Origin, inputs: &Inputs) -> Resul
     let runs = stage.runs();
     let unfinished = runs.unfinished()?;
     match unfinished {
-        Some(run) if start.resume => {
+        Some(run) if start.resume && run.has_checkpoints()? => {
             let mut record = run.record().unwrap_or_else(|| inputs.begin());
             record.go_on();
             return Ok(Some((run.clone(), record)));

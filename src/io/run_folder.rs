@@ -34,7 +34,7 @@ pub struct RunFolder {
 /// How far the run in a folder has come.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Standing {
-    /// No step has converged.
+    /// No step has converged: there is nothing to lose.
     Nothing,
     Unfinished,
     Finished,
@@ -70,16 +70,25 @@ impl RunFolder {
         Record::read(&self.path, STAGE)
     }
 
-    /// How far the run has come.
+    /// How far the run has come. Results count also where somebody has removed the checkpoints.
     ///
     /// # Errors
     /// `Machine` when the folder cannot be read.
     pub fn standing(&self) -> Result<Standing> {
-        if !Checkpoints::exist(&self.checkpoints())? {
-            return Ok(Standing::Nothing);
+        if self.has_frames() && self.record().is_some_and(|record| record.finished) {
+            return Ok(Standing::Finished);
         }
-        let finished = self.record().is_some_and(|record| record.finished) && self.has_frames();
-        Ok(if finished { Standing::Finished } else { Standing::Unfinished })
+        // The first frame is of the initial state.
+        let converged = self.has_checkpoints()? || frame::path(&self.results(), 1).exists();
+        Ok(if converged { Standing::Unfinished } else { Standing::Nothing })
+    }
+
+    /// Whether there is a checkpoint to continue from.
+    ///
+    /// # Errors
+    /// `Machine` when the folder cannot be read.
+    pub fn has_checkpoints(&self) -> Result<bool> {
+        Checkpoints::exist(&self.checkpoints())
     }
 
     /// Whether there is at least one frame to show.

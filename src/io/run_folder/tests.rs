@@ -104,3 +104,20 @@ fn links_in_place_of_folders_are_refused_and_not_emptied() {
         assert_eq!(fs::read(elsewhere.path().join("frame-000000.mpmf")).unwrap(), b"precious");
     }
 }
+
+#[test]
+fn results_without_checkpoints_are_results_all_the_same() {
+    for finished in [true, false] {
+        let (_folder, runs) = runs();
+        write_run(&runs.main, "old", finished);
+        fs::write(frame::path(&runs.main.results(), 1), "old").unwrap();
+        let mut record = runs.main.record().unwrap();
+        if finished {
+            record.finish(runs.main.path(), &runs.main.outputs().unwrap()).unwrap();
+            record.write(runs.main.path()).unwrap();
+        }
+        fs::remove_dir_all(runs.main.checkpoints()).unwrap();
+        assert_eq!(runs.start().unwrap(), &runs.beside, "{finished}");
+        assert_eq!(history(&runs.main), "old");
+    }
+}
