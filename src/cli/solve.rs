@@ -143,7 +143,7 @@ fn choose(stage: &Stage, start: Start, origin: Origin, inputs: &Inputs) -> Resul
                 "continue it with `--resume`, or begin anew with `--fresh`",
             ));
         }
-        None if start.resume && runs.main.standing()? == Standing::Finished => {
+        None if start.resume && runs.main.standing()? == Standing::Finished && runs.main.has_checkpoints()? => {
             let changed =
                 runs.main.record().map_or(Ok(None), |r| r.changed(runs.main.path(), &runs.main.outputs()?))?;
             if let Some(name) = changed {
