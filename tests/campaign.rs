@@ -3,41 +3,18 @@
 //!
 //! The tests disturb a few; `make campaign` disturbs as many as `CAMPAIGN` times that.
 
+mod block;
+mod random;
+
+use block::{command, mpm, said};
+use random::Random;
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Output, Stdio};
+use std::process::{Command, Output};
 use std::sync::OnceLock;
 use std::time::{Duration, Instant};
 use tempfile::TempDir;
-
-const GEO: &str = r#"DefineConstant[ h = {0.25, Name "Parameters/h"} ];
-Point(1) = {0, 0, 0, h};
-Point(2) = {1, 0, 0, h};
-Point(3) = {1, 2, 0, h};
-Point(4) = {0, 2, 0, h};
-Line(1) = {1, 2};
-Line(2) = {2, 3};
-Line(3) = {3, 4};
-Line(4) = {4, 1};
-Curve Loop(1) = {1, 2, 3, 4};
-Plane Surface(1) = {1};
-Physical Surface("block") = {1};
-Physical Curve("bottom") = {1};
-"#;
-
-const CASE: &str = "\
-geometry: plane_strain
-mesh: {geo: scene.geo}
-regions: {block: {kind: mpm, material: rock, points_per_cell: 4}}
-materials: {rock: {model: linear_elastic, young: 100, poisson: 0.2, density: 2}}
-supports: {bottom: {ux: 0, uy: 0}}
-gravity: {y: -10}
-numerics: {restore: never}
-phases:
-  - {name: load, analysis: quasi_static, duration: 1, step: {initial: 0.005, max: 0.005}, gravity: {rate: 1}}
-output: {every: 0.05}
-";
 
 /// The case that left results before.
 const EARLIER: [&str; 2] = ["--set", "phases.load.duration=0.5"];
@@ -74,33 +51,11 @@ fn whole() -> &'static Whole {
 }
 
 fn scene() -> TempDir {
-    let folder = tempfile::tempdir().unwrap();
-    fs::write(folder.path().join("case.yaml"), CASE).unwrap();
-    fs::write(folder.path().join("scene.geo"), GEO).unwrap();
-    folder
-}
-
-fn command(folder: &Path, arguments: &[&str]) -> Command {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_mpm"));
-    command.args(arguments).current_dir(folder).stdout(Stdio::piped()).stderr(Stdio::piped());
-    command
-}
-
-fn mpm(folder: &Path, arguments: &[&str]) -> Output {
-    command(folder, arguments).output().unwrap()
-}
-
-fn said(output: &Output) -> String {
-    format!(
-        "{:?}: {}{}",
-        output.status,
-        String::from_utf8_lossy(&output.stdout),
-        String::from_utf8_lossy(&output.stderr)
-    )
+    block::scene("0.25", "0.005", "0.05")
 }
 
 fn done(output: &Output) {
-    assert!(output.status.success(), "{}", said(output));
+    assert_eq!(output.status.code(), Some(0), "{}", said(output));
 }
 
 /// All files below the output folder but the records, which have times, and what is hidden or beside the results.
@@ -128,19 +83,6 @@ fn same(found: &Files, expected: &Files, what: &str) {
     assert_eq!(names(found), names(expected), "{what}");
     for (name, bytes) in found {
         assert!(expected[name] == *bytes, "{what}: {} differs", name.display());
-    }
-}
-
-/// Whole numbers below `below`, the same every time (SplitMix64).
-struct Random(u64);
-
-impl Random {
-    fn below(&mut self, below: u64) -> u64 {
-        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-        (z ^ (z >> 31)) % below
     }
 }
 
@@ -180,7 +122,7 @@ fn recovers(folder: &Path, stage: usize, with_earlier: bool, what: &str) {
     if again.status.code() == Some(2) && said(&again).contains("can be continued") {
         again = mpm(folder, &["run", ".", "--resume"]);
     }
-    assert!(again.status.success(), "{what}: {}", said(&again));
+    assert!(again.status.success(), "{what}: {}: {}", again.status, said(&again));
     same(&files(folder), &whole().files, what);
     let skipped = mpm(folder, &["run", "."]);
     done(&skipped);
@@ -238,7 +180,7 @@ fn disks_that_fill_in_all_stages_lose_nothing() {
         let program = env!("CARGO_BIN_EXE_mpm");
         let script = format!("trap '' XFSZ; ulimit -f {blocks}; exec '{program}' {} .", STAGES[stage]);
         let output = Command::new("sh").args(["-c", &script]).current_dir(folder.path()).output().unwrap();
-        let what = format!("{blocks} blocks for {}: {}", STAGES[stage], said(&output));
+        let what = format!("{blocks} blocks for {}, {}: {}", STAGES[stage], output.status, said(&output));
         assert!(output.status.success() || output.status.code() == Some(3), "{what}");
         if !output.status.success() && stage != 2 {
             same(&files(folder.path()), &before, &what);
@@ -257,7 +199,11 @@ fn pairs_of_processes_do_not_mix() {
         assert!(ended.iter().any(|output| output.status.success()), "{} {}", said(&ended[0]), said(&ended[1]));
         for output in ended.iter().filter(|output| !output.status.success()) {
             let said = said(output);
-            assert!(output.status.code() == Some(3) && said.contains("is at work in this folder"), "{said}");
+            assert!(
+                output.status.code() == Some(3) && said.contains("is at work in this folder"),
+                "{}: {said}",
+                output.status
+            );
         }
         recovers(folder.path(), stage, with_earlier, &format!("pair {number} of {}", STAGES[stage]));
     }

@@ -1,36 +1,12 @@
 //! The command line: overrides, the output folder, and which stages `mpm run` skips.
 
+mod block;
+
+use block::{GEO, mpm, said};
 use std::fs;
 use std::path::Path;
 use std::process::{Command, Output};
 use tempfile::TempDir;
-
-const GEO: &str = r#"DefineConstant[ h = {1, Name "Parameters/h"} ];
-Point(1) = {0, 0, 0, h};
-Point(2) = {1, 0, 0, h};
-Point(3) = {1, 2, 0, h};
-Point(4) = {0, 2, 0, h};
-Line(1) = {1, 2};
-Line(2) = {2, 3};
-Line(3) = {3, 4};
-Line(4) = {4, 1};
-Curve Loop(1) = {1, 2, 3, 4};
-Plane Surface(1) = {1};
-Physical Surface("block") = {1};
-Physical Curve("bottom") = {1};
-"#;
-
-const CASE: &str = "\
-geometry: plane_strain
-mesh: {geo: scene.geo, parameters: {h: 1}}
-regions: {block: {kind: mpm, material: rock, points_per_cell: 4}}
-materials: {rock: {model: linear_elastic, young: 1000, poisson: 0.2, density: 2}}
-supports: {bottom: {ux: 0, uy: 0}}
-gravity: {y: -10}
-numerics: {restore: never}
-phases:
-  - {name: load, analysis: quasi_static, duration: 1, step: {initial: 1}}
-";
 
 const STAGES: [&str; 4] = ["mesh", "seed", "solve", "export"];
 
@@ -57,7 +33,7 @@ fn a_change_runs_the_stages_it_reaches() {
         let scene = scene();
         mpm(scene.path(), &["run", "."]);
         let output = mpm(scene.path(), &[&["run", "."], arguments].concat());
-        assert_eq!(skipped(&output), expected, "{arguments:?}: {}", text(&output.stdout));
+        assert_eq!(skipped(&output), expected, "{arguments:?}: {}", said(&output));
     }
 }
 
@@ -68,7 +44,7 @@ fn another_first_level_of_the_water_seeds_again() {
     let water = ["run", ".", "--set", "water={level: 1}"];
     assert_eq!(skipped(&mpm(scene.path(), &water)), [false; 4]);
     let output = mpm(scene.path(), &[&water[..], &["--set", "phases.load.water_level=2"]].concat());
-    assert_eq!(skipped(&output), [true, false, false, false], "{}", text(&output.stdout));
+    assert_eq!(skipped(&output), [true, false, false, false], "{}", said(&output));
 }
 
 /// Soil of 20 kN/m³ and K₀ = 0.5 has the shear stress 5 kPa/m times the depth: a strength of 4 kPa bears it down to 0.8 m of 2 m.
@@ -80,7 +56,7 @@ fn an_initial_stress_beyond_yield_is_told() {
             "materials.rock={{model: tresca, young: 1000, poisson: 0.2, density: 2, shear_strength: {strength}}}"
         );
         let arguments = ["--set", &material, "--set", "initial_stress={k0: 0.5}", "--set", "mesh.parameters.h=0.2"];
-        text(&mpm(scene.path(), &[&["run", "."], &arguments[..]].concat()).stdout)
+        said(&mpm(scene.path(), &[&["run", "."], &arguments[..]].concat()))
     };
     let said = seed("4");
     let line = said.lines().find(|line| line.contains("initial stress")).unwrap_or_else(|| panic!("{said}"));
@@ -153,7 +129,7 @@ fn an_interrupt_ends_the_step_in_hand_and_resume_goes_on_bit_by_bit() {
     let rows = fs::read_to_string(&history).unwrap().lines().count();
     assert!(rows < 1001, "{rows} rows: it was not stopped");
     let output = mpm(scene.path(), &[&["solve", ".", "--resume"], &short[..]].concat());
-    assert!(output.status.success(), "{}", text(&output.stderr));
+    assert!(output.status.success(), "{}", said(&output));
     for file in ["out/history.csv", "out/results/frame-000001.mpmf"] {
         let read = |folder: &Path| fs::read(folder.join(file)).unwrap();
         assert!(read(scene.path()) == read(whole.path()), "{file} is another one");
@@ -191,7 +167,7 @@ fn the_cases_of_the_repository_are_sound() {
     for entry in fs::read_dir(cases).unwrap() {
         let case = entry.unwrap().path();
         let output = mpm(&case, &["check", "."]);
-        assert!(output.status.success(), "{}: {}", case.display(), text(&output.stderr));
+        assert!(output.status.success(), "{}: {}", case.display(), said(&output));
         assert!(case.join("README.md").is_file(), "{} has no README.md", case.display());
         count += 1;
     }
@@ -218,22 +194,11 @@ fn properties<'a>(schema: &'a serde_json::Value, see: &mut impl FnMut(&'a str, &
 }
 
 fn scene() -> TempDir {
-    let folder = tempfile::tempdir().unwrap();
-    fs::write(folder.path().join("case.yaml"), CASE).unwrap();
-    fs::write(folder.path().join("scene.geo"), GEO).unwrap();
-    folder
-}
-
-fn mpm(folder: &Path, arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_mpm")).args(arguments).current_dir(folder).output().unwrap()
+    block::scene("1", "1", "1")
 }
 
 /// Which of the stages a run has skipped.
 fn skipped(output: &Output) -> [bool; 4] {
-    assert!(output.status.success(), "{}", text(&output.stderr));
-    STAGES.map(|stage| text(&output.stdout).contains(&format!("{stage}: nothing has changed")))
-}
-
-fn text(bytes: &[u8]) -> String {
-    String::from_utf8_lossy(bytes).into_owned()
+    assert!(output.status.success(), "{}", said(output));
+    STAGES.map(|stage| said(output).contains(&format!("{stage}: nothing has changed")))
 }

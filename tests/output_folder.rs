@@ -1,42 +1,17 @@
 //! The output folder: results outlive a run that fails beside them, one process at a time works there, every file knows
 //! what it was made from, and what does not belong together is refused.
 
+mod block;
+
+use block::{command, mpm, said};
 use std::collections::BTreeMap;
 use std::fs;
 use std::os::unix::fs::symlink;
 use std::path::{Path, PathBuf};
-use std::process::{Child, Command, Output, Stdio};
+use std::process::{Child, Command, Output};
 use std::sync::OnceLock;
 use std::time::Duration;
 use tempfile::TempDir;
-
-const GEO: &str = r#"DefineConstant[ h = {1, Name "Parameters/h"} ];
-Point(1) = {0, 0, 0, h};
-Point(2) = {1, 0, 0, h};
-Point(3) = {1, 2, 0, h};
-Point(4) = {0, 2, 0, h};
-Line(1) = {1, 2};
-Line(2) = {2, 3};
-Line(3) = {3, 4};
-Line(4) = {4, 1};
-Curve Loop(1) = {1, 2, 3, 4};
-Plane Surface(1) = {1};
-Physical Surface("block") = {1};
-Physical Curve("bottom") = {1};
-"#;
-
-const CASE: &str = "\
-geometry: plane_strain
-mesh: {geo: scene.geo, parameters: {h: 1}}
-regions: {block: {kind: mpm, material: rock, points_per_cell: 4}}
-materials: {rock: {model: linear_elastic, young: 100, poisson: 0.2, density: 2}}
-supports: {bottom: {ux: 0, uy: 0}}
-gravity: {y: -10}
-numerics: {restore: never}
-phases:
-  - {name: load, analysis: quasi_static, duration: 1, step: {initial: 0.25}, gravity: {rate: 1}}
-output: {every: 0.25}
-";
 
 /// Arguments with which no step converges.
 const FAILING: [&str; 4] = ["--set", "numerics.max_iterations=1", "--set", "phases.load.step={initial: 1, min: 1}"];
@@ -63,25 +38,12 @@ fn done() -> TempDir {
 }
 
 fn scene() -> TempDir {
-    let folder = tempfile::tempdir().unwrap();
-    fs::write(folder.path().join("case.yaml"), CASE).unwrap();
-    fs::write(folder.path().join("scene.geo"), GEO).unwrap();
-    folder
-}
-
-fn command(folder: &Path, arguments: &[&str]) -> Command {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_mpm"));
-    command.args(arguments).current_dir(folder).stdout(Stdio::piped()).stderr(Stdio::piped());
-    command
-}
-
-fn mpm(folder: &Path, arguments: &[&str]) -> Output {
-    command(folder, arguments).output().unwrap()
+    block::scene("1", "0.25", "0.25")
 }
 
 /// What the program said, after a check of its exit status and of parts of that.
 fn says(output: &Output, status: i32, parts: &[&str]) -> String {
-    let said = format!("{}{}", String::from_utf8_lossy(&output.stdout), String::from_utf8_lossy(&output.stderr));
+    let said = said(output);
     assert_eq!(output.status.code(), Some(status), "{said}");
     for part in parts {
         assert!(said.contains(part), "`{part}` is not in: {said}");

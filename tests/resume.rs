@@ -1,6 +1,9 @@
 //! A run that is killed and continued, or given another number of threads, ends with the same bytes as an
 //! undisturbed one: frames, history, log and the exported series.
 
+mod random;
+
+use random::Random;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Output, Stdio};
@@ -263,19 +266,6 @@ fn reach(child: &mut Child, folder: &Path, step: u64) {
     while rows(folder) < step {
         assert!(child.try_wait().unwrap().is_none(), "the run ended by itself before step {step}");
         std::thread::sleep(Duration::from_micros(100));
-    }
-}
-
-/// Whole numbers below `below`, the same every time (SplitMix64).
-struct Random(u64);
-
-impl Random {
-    fn below(&mut self, below: u64) -> u64 {
-        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-        (z ^ (z >> 31)) % below
     }
 }
 
