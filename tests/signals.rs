@@ -1,9 +1,10 @@
 //! What people expect of a Unix program: pipes that close, `nohup`, Ctrl-C.
 
+use std::collections::BTreeMap;
 use std::fs;
 use std::os::unix::process::{CommandExt, ExitStatusExt};
-use std::path::Path;
-use std::process::{Child, Command, Output, Stdio};
+use std::path::{Path, PathBuf};
+use std::process::{Child, Command, ExitStatus, Output, Stdio};
 use std::time::{Duration, Instant};
 use tempfile::TempDir;
 
@@ -142,26 +143,73 @@ fn nohup_goes_on_when_the_terminal_closes() {
     assert_eq!(process.wait().unwrap().code(), Some(130));
 }
 
+/// So many frames that their export takes longer than a signal to it.
+const LONG: [&str; 3] = [".", "--set", "output.every=0.002"];
+
+/// The numbers of the signals that end a program by themselves.
+const SIGNALS: [(&str, i32); 2] = [("INT", 2), ("TERM", 15)];
+
+/// Sends a signal while the frames are being written, and returns how the process ended.
+fn interrupt_export(arguments: &[&str], folder: &Path, name: &str) -> ExitStatus {
+    let frames = folder.join("out/.vtu-new");
+    let _ = fs::remove_dir_all(&frames);
+    let mut process = mpm(arguments, folder).stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
+    until("it does not export", || frames.exists() || process.try_wait().unwrap().is_some());
+    // It may have come to its end by now.
+    let _ = Command::new("sh").args(["-c", &format!("kill -{name} {} 2>/dev/null", process.id())]).status();
+    process.wait().unwrap()
+}
+
+/// Tries until a signal came in time: on a busy machine it may come after the end. 20 times at most.
+fn in_time(mut interrupted: impl FnMut() -> bool) {
+    assert!((0..20).any(|_| interrupted()), "no signal came in time, or none did anything");
+}
+
 #[test]
 fn ctrl_c_ends_an_export_and_leaves_the_earlier_one() {
     let scene = scene("", "0.002");
-    assert!(mpm(&["run", "."], scene.path()).status().unwrap().success());
-    let series = || fs::read(scene.path().join("out/points.pvd")).unwrap();
-    let before = series();
-    let all = ["export", ".", "--set", "output.encoding=plain"];
-    for name in ["INT", "TERM"] {
-        let mut process = mpm(&all, scene.path()).spawn().unwrap();
-        until("it does not export", || {
-            scene.path().join("out/.vtu-new").exists() || process.try_wait().unwrap().is_some()
+    assert!(mpm(&[&["run"], &LONG[..]].concat(), scene.path()).output().unwrap().status.success());
+    let plain = [&["export"], &LONG[..], &["--set", "output.encoding=plain"]].concat();
+    for (name, number) in SIGNALS {
+        in_time(|| {
+            let before = series(scene.path());
+            let status = interrupt_export(&plain, scene.path(), name);
+            assert!(status.success() || status.signal() == Some(number), "{name}: {status}");
+            !status.success() && series(scene.path()) == before
         });
-        // It may have come to its end by now.
-        let _ = Command::new("sh").args(["-c", &format!("kill -{name} {} 2>/dev/null", process.id())]).status();
-        let status = process.wait().unwrap();
-        assert!(status.success() || status.signal().is_some(), "{name}: {status}");
-        assert!(scene.path().join("out/vtu").exists() && series().len() == before.len());
     }
-    assert!(mpm(&all, scene.path()).status().unwrap().success());
+    assert!(mpm(&plain, scene.path()).output().unwrap().status.success());
     assert!(!scene.path().join("out/.vtu-new").exists());
+}
+
+/// The solution before it catches signals; the export after it must not keep them.
+#[test]
+fn ctrl_c_ends_the_export_of_a_run() {
+    let run = [&["run"], &LONG[..]].concat();
+    for (name, _) in SIGNALS {
+        let scene = scene("", "0.002");
+        in_time(|| {
+            // Only a process that has solved has caught signals before.
+            let _ = fs::remove_dir_all(scene.path().join("out"));
+            let status = interrupt_export(&run, scene.path(), name);
+            assert!(status.success() || status.code() == Some(130), "{name}: {status}");
+            !status.success()
+        });
+        let again = mpm(&run, scene.path()).output().unwrap();
+        assert!(again.status.success() && text(&again.stdout).contains("solve: nothing has changed"), "{name}");
+        assert_eq!(series(scene.path()).len(), 2 * 501 + 2, "{name}");
+    }
+}
+
+/// The files of the series, with their bytes.
+fn series(folder: &Path) -> BTreeMap<PathBuf, Vec<u8>> {
+    let folders = [folder.join("out"), folder.join("out/vtu")].map(fs::read_dir);
+    let paths = folders.into_iter().flatten().flatten().map(|entry| entry.unwrap().path());
+    let is_of_series = |path: &PathBuf| {
+        path.extension().is_some_and(|kind| kind == "pvd")
+            || path.parent().is_some_and(|folder| folder.ends_with("vtu"))
+    };
+    paths.filter(is_of_series).map(|path| (path.clone(), fs::read(path).unwrap())).collect()
 }
 
 /// Progress is drawn where the terminal can, and told in lines where it cannot.
