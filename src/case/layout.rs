@@ -23,9 +23,6 @@ fn is_structure(case: &Case, name: &str) -> bool {
     case.regions.iter().any(|region| region.name == name && region.content.is_structure())
 }
 
-/// A place this deep in another cell (parametric) is no matter of curved boundaries that are drawn twice.
-const DEEP: f64 = 0.05;
-
 /// Refuses cells that lie upon each other: a point would be in two of them. Structures lie above the grid, and
 /// may be drawn upon it.
 fn apart(grid: &Mesh<2>) -> Result<()> {
@@ -39,7 +36,7 @@ fn apart(grid: &Mesh<2>) -> Result<()> {
         let centre = [0, 1].map(|d| corners.iter().map(|x| x[d]).sum::<f64>() / count);
         let inwards = corners.iter().map(|x| [0, 1].map(|d| 0.8 * x[d] + 0.2 * centre[d]));
         for x in inwards.chain([centre]) {
-            let Some(other) = locator.holders(grid, &x, DEEP).find(|&other| other as usize != c) else { continue };
+            let Some(other) = locator.holders(grid, &x).find(|&other| other as usize != c) else { continue };
             let name = |c: usize| &grid.regions[grid.cells.region[c] as usize];
             let (place, what) = match (name(c), name(other as usize)) {
                 (a, b) if a == b => (format!("region `{a}`"), "its cells"),

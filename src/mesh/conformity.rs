@@ -15,10 +15,6 @@ use std::path::Path;
 
 const REMEDY: &str = "mend the geometry there, or make the mesh again";
 
-/// A node this deep in a cell (least barycentric coordinate, half the distance to a side of a square) is not on its
-/// edge: curved edges that only touch differ by less.
-const DEEP: f64 = 0.1;
-
 /// An edge of a cell.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 struct Edge {
@@ -156,7 +152,7 @@ fn check_overlap(mesh: &Mesh<2>, boundary: &[Edge], joined: &[u16], file: &Path)
         let centre = [0, 1].map(|d| nodes.iter().zip(&n).map(|(&node, n)| n * mesh.nodes[node as usize][d]).sum());
         let of_edge = kind.facets().1[usize::from(edge.side)].iter().map(|&i| mesh.nodes[nodes[i] as usize]);
         for x in of_edge.chain([centre]) {
-            let mut holders = locator.holders(mesh, &x, DEEP).filter(|&c| c != edge.cell);
+            let mut holders = locator.holders(mesh, &x).filter(|&c| c != edge.cell);
             if let Some(other) = holders.find(|&c| part(c) == part(edge.cell)) {
                 let problem = format!(
                     "it lies on the cell of region {} that holds ({:.6}, {:.6})",

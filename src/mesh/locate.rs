@@ -18,6 +18,9 @@ const INSIDE: f64 = 1e-9;
 const ON_FACET: f64 = 1e-12;
 /// A point outside the mesh by less than this, relative to the mesh, is taken in.
 const TAKEN_IN: f64 = 1e-10;
+/// A point this deep (parametric) in a cell is inside it, not on its edge: the straight edges of an arc that is drawn
+/// twice differ by less, from 18 edges to a circle on.
+const DEEP: f64 = 0.05;
 /// Cells a walk visits before the bins take over.
 const WALK: usize = 24;
 /// Bins that a cell may touch in the mean.
@@ -109,11 +112,11 @@ impl<const D: usize> Locator<D> {
         self.nearest(mesh, x, bin)
     }
 
-    /// The cells in which `x` lies deeper than `depth` ([`CellKind::depth`]): in a sound mesh one at most.
-    pub fn holders(&self, mesh: &Mesh<D>, x: &[f64; D], depth: f64) -> impl Iterator<Item = u32> {
+    /// The cells in which `x` lies deep, not on their edges: in a sound mesh one at most.
+    pub fn holders(&self, mesh: &Mesh<D>, x: &[f64; D]) -> impl Iterator<Item = u32> {
         let candidates = self.bins.at(x).into_iter().flat_map(|bin| self.candidates(bin, x));
         candidates
-            .filter(move |&c| self.invert(mesh, c, x, true).is_some_and(|xi| self.kind(mesh, c).depth(&xi).0 > depth))
+            .filter(move |&c| self.invert(mesh, c, x, true).is_some_and(|xi| self.kind(mesh, c).depth(&xi).0 > DEEP))
     }
 
     /// The parametric coordinates of `x` in a cell that need not hold it.
