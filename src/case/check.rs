@@ -62,7 +62,7 @@ impl Checker {
             .map(|(name, region)| self.region(name, region, &names, &root.key("regions").key(name)))
             .collect();
         let contacts = self.contacts(file, &root.key("contacts"));
-        let numerics = self.numerics(&file.numerics, !contacts.is_empty(), &root.key("numerics"));
+        let numerics = self.numerics(file, !contacts.is_empty(), &root.key("numerics"));
         let phases = self.phases(file, &numerics, &root.key("phases"));
         let case = Case {
             title: file.title.clone(),
@@ -230,8 +230,19 @@ impl Checker {
         checked
     }
 
-    fn numerics(&mut self, numerics: &raw::Numerics, contacts: bool, path: &Path) -> Numerics {
-        let fitted = numerics.quadrature == raw::Quadrature::Fitted;
+    fn numerics(&mut self, file: &raw::CaseFile, contacts: bool, path: &Path) -> Numerics {
+        let numerics = &file.numerics;
+        let smooths = numerics.gradient == raw::Gradient::Ddmp;
+        let moves = |phase: &raw::Phase| matches!(phase.analysis, raw::Analysis::Dynamic | raw::Analysis::Auto);
+        let quadrature = numerics.quadrature.unwrap_or_else(|| {
+            if smooths || file.phases.iter().any(moves) { raw::Quadrature::Fitted } else { raw::Quadrature::Resampled }
+        });
+        if smooths && quadrature == raw::Quadrature::Resampled {
+            let problem =
+                "gradients are smoothed at the material points, and resampled quadrature does not sum over these";
+            self.issue(&path.key("quadrature"), At::Value, problem, "choose `quadrature: fitted`, or `gradient: mpm`");
+        }
+        let fitted = quadrature == raw::Quadrature::Fitted;
         let gradient = match numerics.gradient {
             raw::Gradient::Mpm => Scheme::Mpm,
             raw::Gradient::Ddmp => Scheme::Ddmp { fitted },
@@ -251,7 +262,7 @@ impl Checker {
         };
         Numerics {
             gradient,
-            fitted,
+            quadrature,
             restore,
             spectral_radius: numerics.spectral_radius,
             tolerance: numerics.tolerance,

@@ -248,8 +248,8 @@ impl InitialVelocity {
 pub struct Numerics {
     /// How gradients at the points are formed.
     pub gradient: Scheme,
-    /// Weights fitted to the filled part of each cell, in place of the volumes of the points.
-    pub fitted: bool,
+    /// What integrals are summed over.
+    pub quadrature: super::raw::Quadrature,
     pub restore: Restore,
     /// ρ∞ (-) of generalised-α.
     pub spectral_radius: f64,

@@ -1,13 +1,14 @@
 //! The structures and walls of a case and what they touch.
 
 use super::changes::{self, by_number};
-use super::checked::{Case, Contact, Content, Geometry, Region, Touched, Touching};
+use super::checked::{Case, Contact, Content, Region, Touched, Touching};
 use super::scene::region_index;
 use super::wall;
 use crate::contact::{Bodies, Boundary, Pair, Rigid, Skin, SoilSide, Surface};
 use crate::error::{Error, Result};
 use crate::kinematics::Kinematics;
 use crate::mesh::Mesh;
+use crate::mesh::faces::Faces;
 use crate::rigid::Body;
 use std::collections::BTreeMap;
 use std::marker::PhantomData;
@@ -38,6 +39,44 @@ pub fn pairs<K: Kinematics<2>>(
     case.contacts.iter().map(pair).collect()
 }
 
+/// A straight line along the boundary of the grid, with the grid on its left.
+struct Edge {
+    /// Out of the grid.
+    normal: [f64; 2],
+    /// Distance (m) of the line from the origin along the normal.
+    distance: f64,
+}
+
+impl Edge {
+    fn through(a: &[f64; 2], b: &[f64; 2]) -> Self {
+        let length = (b[0] - a[0]).hypot(b[1] - a[1]);
+        let normal = [(b[1] - a[1]) / length, -(b[0] - a[0]) / length];
+        Self { normal, distance: normal[0] * a[0] + normal[1] * a[1] }
+    }
+
+    /// Whether a side of a structure, which is on its left, lies on the line: an axis of symmetry or a wall, with nothing to touch
+    /// beyond. `size` (m) is what lengths are measured by.
+    fn is_along(&self, a: &[f64; 2], b: &[f64; 2], size: f64) -> bool {
+        let near = |x: &[f64; 2]| (self.normal[0] * x[0] + self.normal[1] * x[1] - self.distance).abs() < 1e-9 * size;
+        let own = Self::through(a, b).normal;
+        near(a) && near(b) && own[0] * self.normal[0] + own[1] * self.normal[1] > 0.0
+    }
+}
+
+/// The lines along which the boundary of a grid runs straight, given a length (m) to tell them apart by.
+fn edges(grid: &Mesh<2>, size: f64) -> Vec<Edge> {
+    let mut edges: Vec<Edge> = Vec::new();
+    for (cell, side) in Faces::of(grid).boundary {
+        let nodes = grid.cells.nodes(cell as usize);
+        let (_, facets) = grid.cells.kind[cell as usize].facets();
+        let [a, b] = [0, 1].map(|i| grid.nodes[nodes[facets[side as usize][i]] as usize]);
+        if !edges.iter().any(|edge| edge.is_along(&a, &b, size)) {
+            edges.push(Edge::through(&a, &b));
+        }
+    }
+    edges
+}
+
 /// What pairs are made from.
 struct Parts<'a> {
     case: &'a Case,
@@ -60,10 +99,12 @@ impl Parts<'_> {
 
     /// The boundary of a region beside the grid, with hats about `spacing` (m) apart.
     fn boundary(&self, region: u16, spacing: f64) -> Result<Surface> {
-        // The axis of symmetry is no boundary.
-        let on_axis = |nodes: &[u32]| nodes.iter().all(|&n| self.fem.nodes[n as usize][0].abs() < 1e-9 * spacing);
-        let skip = |nodes: &[u32]| self.case.geometry == Geometry::Axisymmetric && on_axis(nodes);
-        Surface::new(self.fem, region, spacing, skip)
+        let edges = edges(self.grid, spacing);
+        let beyond = |nodes: &[u32]| {
+            let x = |i: usize| self.fem.nodes[nodes[i] as usize];
+            edges.iter().any(|edge| edge.is_along(&x(0), &x(1), spacing))
+        };
+        Surface::new(self.fem, region, spacing, beyond)
     }
 
     /// The surface that all soil of material points begins with. Where it is joined to finite elements there is none.

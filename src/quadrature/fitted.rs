@@ -2,7 +2,7 @@
 //! surface of the material.
 
 use super::cells::{self, CellFit};
-use super::surface::{boundary, follow, smoothed};
+use super::surface::{boundary, follow, points_of, smoothed};
 use super::{Degree, MOMENTS, Quadrature, Restored, Tally, Weighing};
 use crate::kinematics::{Kinematics, PlaneStrain};
 use crate::mesh::Mesh;
@@ -157,7 +157,7 @@ impl<K: Kinematics<2>> Fitted<K> {
         };
         weighing.lost_front = lost_front;
         if self.bounded {
-            weighing.boundary = boundary(&self.geometry, grid, &level_set);
+            weighing.boundary = boundary(&self.geometry, grid, &level_set, points, |c| points_of(stencil, c));
             weighing.level_set = level_set;
         }
         weighing

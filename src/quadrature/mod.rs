@@ -9,6 +9,7 @@ mod dual;
 mod fit;
 mod fitted;
 mod least;
+mod resampled;
 mod surface;
 mod volumes;
 
@@ -17,6 +18,7 @@ mod tests;
 
 pub use fit::{Degree, Fitter, MOMENTS};
 pub use fitted::Fitted;
+pub use resampled::{Resampled, Samples};
 pub use surface::Bounded;
 pub use volumes::Volumes;
 
@@ -29,7 +31,9 @@ use crate::surface::{ActiveBoundary, Front};
 /// What the points of a restored grid weigh, and what follows from where they lie.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Weighing<const D: usize> {
-    /// What each point weighs in integrals (m³), as volume when seeded.
+    /// The points that integrals are summed over, where these are not the material points.
+    pub samples: Option<Samples<D>>,
+    /// What each of the points that integrals are summed over weighs (m³), as volume when seeded.
     pub weight: Vec<f64>,
     /// By cell, ascending, what is added to the gradients of its nodes (1/m) at all its points, so that a
     /// uniform stress exerts the forces it must where no weights do that; few cells need it.

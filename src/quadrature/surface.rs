@@ -2,6 +2,8 @@
 
 use super::{Quadrature, Restored, Volumes, Weighing};
 use crate::kinematics::Kinematics;
+use crate::points::Points;
+use crate::stencil::Stencil;
 use crate::surface::{ActiveBoundary, Behind, Contour, Distance, Fault, Front, Geometry, NO_REGION};
 
 /// Takes the front along with the grid: at first it goes around the cells with points.
@@ -60,20 +62,25 @@ pub fn smoothed<K: Kinematics<2>>(
 /// Rings of cells across faces in which points are sought that stand for what is behind a piece of the boundary.
 const RINGS: usize = 3;
 
-/// The boundary of where `level_set` is positive. What is behind a piece in a cell without points is borne by the nearest cell with
-/// points: where that is a neighbour, it is the one to which its active part is handed.
-pub fn boundary(geometry: &Geometry, grid: &Restored<2>, level_set: &[f64]) -> ActiveBoundary {
-    let Restored { mesh, points, stencil, .. } = *grid;
-    let patch = |c: u32| stencil.patches.binary_search_by_key(&c, |patch| patch.cell).ok();
-    let count = |c: u32| patch(c).map_or(0, |i| stencil.patches[i].point_count);
+/// The boundary of where `level_set` is positive, given the points that integrals are summed over and the numbers of those in a cell. What
+/// is behind a piece in a cell without points is borne by the nearest cell with points: where that is a neighbour, it is the one
+/// to which its active part is handed.
+pub fn boundary<N: IntoIterator<Item = usize>>(
+    geometry: &Geometry,
+    grid: &Restored<2>,
+    level_set: &[f64],
+    points: &Points<2>,
+    of_cell: impl Fn(u32) -> N,
+) -> ActiveBoundary {
+    let mesh = grid.mesh;
+    let count = |c: u32| of_cell(c).into_iter().count() as u32;
     let region = |cell: u32, x: &[f64; 2]| {
-        let distance = |p: u32| {
-            let y = &points.position[p as usize];
+        let distance = |p: usize| {
+            let y = &points.position[p];
             (x[0] - y[0]).powi(2) + (x[1] - y[1]).powi(2)
         };
-        let all = patch(cell).into_iter().flat_map(|i| stencil.points(&stencil.patches[i]));
-        let nearest = all.map(|&p| (distance(p), p)).min_by(|a, b| a.0.total_cmp(&b.0));
-        nearest.map_or(NO_REGION, |(_, p)| points.region[p as usize])
+        let nearest = of_cell(cell).into_iter().map(|p| (distance(p), p)).min_by(|a, b| a.0.total_cmp(&b.0));
+        nearest.map_or(NO_REGION, |(_, p)| points.region[p])
     };
     ActiveBoundary::of(mesh, geometry, level_set, grid.taking_part, |cell, x| {
         match geometry.bearer(cell, RINGS, count) {
@@ -81,6 +88,12 @@ pub fn boundary(geometry: &Geometry, grid: &Restored<2>, level_set: &[f64]) -> A
             None => Behind { region: NO_REGION, bearer: cell },
         }
     })
+}
+
+/// The numbers of the points of a cell.
+pub fn points_of(stencil: &Stencil<2>, c: u32) -> impl Iterator<Item = usize> {
+    let patch = stencil.patches.binary_search_by_key(&c, |patch| patch.cell).ok();
+    patch.into_iter().flat_map(|i| stencil.points(&stencil.patches[i])).map(|&p| p as usize)
 }
 
 /// Classical weights with the boundary of the material: followed, or the contour of the points.
@@ -106,10 +119,11 @@ impl<K: Kinematics<2>> Quadrature<2> for Bounded<K> {
             *front = None;
             weighing.lost_front = Some(fault.to_string());
         }
+        let bounded = |level_set: &[f64]| boundary(geometry, grid, level_set, points, |c| points_of(grid.stencil, c));
         let within = |front: &Front, cells: &[u32]| {
             let mut distance = Distance::default();
             distance.update(mesh, geometry, locator, front, cells, taking_part);
-            boundary(geometry, grid, &distance.level_set)
+            bounded(&distance.level_set)
         };
         weighing.boundary = match front {
             Some(front) => within(front, &points.cell),
@@ -117,10 +131,7 @@ impl<K: Kinematics<2>> Quadrature<2> for Bounded<K> {
                 let mut contour = Contour::default();
                 contour.update::<K>(mesh, geometry, points, parametric, taking_part);
                 let smoothed = smoothed::<K>(geometry, grid, &contour.level_set);
-                smoothed.map_or_else(
-                    || boundary(geometry, grid, &contour.level_set),
-                    |(front, cells)| within(&front, &cells),
-                )
+                smoothed.map_or_else(|| bounded(&contour.level_set), |(front, cells)| within(&front, &cells))
             }
         };
         weighing

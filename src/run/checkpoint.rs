@@ -8,13 +8,14 @@ use crate::error::Result;
 use crate::io::checkpoint::Checkpoints;
 use crate::io::columns;
 use crate::io::container::Store;
-use crate::quadrature::{Tally, Weighing};
+use crate::quadrature::{Samples, Tally, Weighing};
 use crate::stencil::SoftCell;
 use crate::step::{Release, Scene, State};
 use crate::surface::{ActiveBoundary, Front, Piece};
 
 const POINTS: &str = "points.";
 const FEM: &str = "fem.";
+const SAMPLES: &str = "sample.";
 
 /// Everything in a state.
 pub fn store<const D: usize>(state: &State<D>) -> Store {
@@ -81,19 +82,20 @@ pub fn store<const D: usize>(state: &State<D>) -> Store {
     store.put("front.position", 2, markers);
     store.put("front.first", 1, loops);
     store.put("front.weight", 1, front.iter().map(|f| f.weight).collect());
-    for (prefix, points) in [(POINTS, points), (FEM, fem)] {
-        for mut array in columns::to_arrays(points) {
-            array.name.insert_str(0, prefix);
-            store.put_array(array);
-        }
-    }
+    columns::put(&mut store, POINTS, points);
+    columns::put(&mut store, FEM, fem);
     store
 }
 
 fn put_weighing<const D: usize>(store: &mut Store, weighing: &Weighing<D>) {
     // Why a front was lost has been told when it was.
-    let Weighing { weight, shift, soft, poor, boundary, level_set, tally, lost_front: _, put_back: _ } = weighing;
+    let Weighing { samples, weight, shift, soft, poor, boundary, level_set, tally, lost_front: _, put_back: _ } =
+        weighing;
     let Tally { quadratic, linear, constant, volume, point_volume, fitted_volume, drift } = tally;
+    if let Some(Samples { points, parametric }) = samples {
+        columns::put(store, SAMPLES, points);
+        store.put("samples.parametric", 3, parametric.concat());
+    }
     store.put("weighing.weight", 1, weight.clone());
     store.put("weighing.shifted", 2, shift.iter().flat_map(|(cell, by)| [*cell, by.len() as u32]).collect());
     store.put("weighing.shift", D, shift.iter().flat_map(|(_, by)| by.concat()).collect());
@@ -115,6 +117,10 @@ fn put_weighing<const D: usize>(store: &mut Store, weighing: &Weighing<D>) {
 }
 
 fn take_weighing<const D: usize>(store: &mut Store) -> Result<Weighing<D>> {
+    let samples = match store.take_if_present::<f64>("samples.parametric", 3)? {
+        Some(parametric) => Some(Samples { points: columns::take(store, SAMPLES)?, parametric: vectors(&parametric) }),
+        None => None,
+    };
     let weight = store.take::<f64>("weighing.weight", 1)?;
     let shifted = store.take::<u32>("weighing.shifted", 2)?;
     let values = vectors::<D>(&store.take::<f64>("weighing.shift", D)?);
@@ -143,7 +149,7 @@ fn take_weighing<const D: usize>(store: &mut Store) -> Result<Weighing<D>> {
         fitted_volume: *fitted_volume,
         drift: *drift,
     };
-    Ok(Weighing { weight, shift, soft, poor, boundary, level_set, tally, lost_front: None, put_back: None })
+    Ok(Weighing { samples, weight, shift, soft, poor, boundary, level_set, tally, lost_front: None, put_back: None })
 }
 
 fn take_boundary(store: &mut Store) -> Result<ActiveBoundary> {

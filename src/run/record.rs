@@ -323,6 +323,9 @@ pub fn log_lines<const D: usize>(scene: &Scene<D>, state: &State<D>, report: &Re
             line.push_str(&format!(" pushed out {} by {:.1e} m", contact.pushed.points, contact.pushed.most));
         }
     }
+    if report.strained > 0 {
+        line.push_str(&format!(" {} points strained beyond measure resampled", report.strained));
+    }
     let (share, most) = (state.release.share(state.phase_time), state.release.most());
     if share > 0.0 && !dynamic {
         line.push_str(&format!(" held back {share:.4} of up to {most:.3e} kN at a node"));

@@ -17,6 +17,8 @@ use std::sync::OnceLock;
 pub struct Jump {
     /// Size (m) of the two cells across the face, the mean of both.
     pub size: f64,
+    /// The measure of the face times that size (m²; m³ in axisymmetry, for a full turn): the form of a jump of one.
+    pub measure: f64,
     /// `h ∫[∂_n N_I][∂_n N_J] + h³ ∫[∂_nn N_I][∂_nn N_J]` (-; m in axisymmetry, for a full turn) over the nodes
     /// in the order of [`Face::nodes`], row-major.
     pub form: Box<[f64]>,
@@ -34,7 +36,7 @@ impl Jump {
         let middle = place(facet, &x, &facet.centre());
         let size = 0.5 * (extent(&sides[0], &middle) + extent(&sides[1], &middle));
 
-        let count = both.len();
+        let (count, mut measure) = (both.len(), 0.0);
         let mut form = vec![0.0; count * count];
         let (mut values, mut grad, mut second) = ([0.0; MAX_NODES], [[0.0; D]; MAX_NODES], [[[0.0; D]; D]; MAX_NODES]);
         for (xi, weight) in rule(facet, 2 * facet.order() + 1) {
@@ -50,13 +52,14 @@ impl Jump {
                 }
             }
             let weight = weight * stretch * K::measure(&x) * size;
+            measure += weight;
             for i in 0..count {
                 for j in 0..count {
                     form[i * count + j] += weight * (kink[i] * kink[j] + size * size * bend[i] * bend[j]);
                 }
             }
         }
-        Self { size, form: form.into_boxed_slice() }
+        Self { size, measure, form: form.into_boxed_slice() }
     }
 }
 

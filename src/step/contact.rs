@@ -125,8 +125,8 @@ pub fn begin<const D: usize, K: Kinematics<D>>(
     touches.retain(takes_part);
     if !place(grid, state, &mut touches) {
         make_room(state, &touches);
-        let stencil = std::mem::take(&mut grid.stencil);
-        *grid = Grid::with::<K>(scene, state, stencil, grid.relaxed.take())?;
+        let stencils = std::mem::take(&mut grid.stencils);
+        *grid = Grid::with::<K>(scene, state, stencils, grid.relaxed.take())?;
         place(grid, state, &mut touches);
     }
     (grid.touches, grid.open) = (touches, open);

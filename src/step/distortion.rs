@@ -15,7 +15,7 @@ const FOLDED: f64 = 0.3;
 /// folding, or an edge is `stretch` times as long as at first, or as short.
 pub fn exceeds<const D: usize>(scene: &Scene<D>, state: &State<D>, grid: &Grid<D>, least: f64, stretch: f64) -> bool {
     let mesh = grid.relaxed.as_ref().map_or(&scene.mesh, |relaxed| &relaxed.mesh);
-    grid.stencil.patches.par_iter().any(|patch| {
+    grid.stencils.integration.patches.par_iter().any(|patch| {
         let cell = patch.cell as usize;
         let (kind, nodes) = (mesh.cells.kind[cell], mesh.cells.nodes(cell));
         let (mut before, mut now) = ([[0.0; 2]; MAX_NODES], [[0.0; 2]; MAX_NODES]);

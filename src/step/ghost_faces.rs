@@ -18,6 +18,7 @@ pub fn choose<const D: usize>(scene: &Scene<D>, state: &State<D>) -> Vec<u32> {
         holds[c as usize] = true;
         count[c as usize] += 1;
     }
+    state.integration().cell.iter().for_each(|&c| holds[c as usize] = true);
     // The mass of fewer points than nodes is singular.
     let dynamic = scene.dynamic();
     let few = (0u32..).zip(&count).filter(|&(c, &n)| dynamic && n > 0 && n < scene.mesh.cells.nodes(c as usize).len());

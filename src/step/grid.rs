@@ -7,7 +7,7 @@ use super::ghost_faces;
 use super::newton::Buffers;
 use super::pressure;
 use super::relax::{self, Relaxed};
-use super::restore::{begin_anew, fill};
+use super::restore::{begin_anew, fill, take_weights};
 use super::scene::{Fixed, Scene};
 use super::state::State;
 use super::water;
@@ -37,9 +37,18 @@ pub struct System {
     pub solver: Solver,
 }
 
+/// What the points see of a grid.
+#[derive(Debug, Default)]
+pub struct Stencils<const D: usize> {
+    /// Those that integrals are summed over.
+    pub integration: Stencil<D>,
+    /// The material points, where these are others.
+    pub material: Option<Stencil<D>>,
+}
+
 /// The grid of a run.
 pub struct Grid<const D: usize> {
-    pub stencil: Stencil<D>,
+    pub stencils: Stencils<D>,
     /// The grid where finite elements that share nodes with it have moved it; absent where it keeps its first shape.
     pub relaxed: Option<Relaxed<D>>,
     /// The finite elements; absent where the scene has none.
@@ -152,10 +161,11 @@ impl<const D: usize> Grid<D> {
     /// A machine error when memory does not suffice.
     pub fn new<K: Kinematics<D>>(scene: &Scene<D>, state: &State<D>) -> Result<Self> {
         let relaxed = relax::at(scene, state);
-        let mut stencil = Stencil::default();
-        fill::<D, K>(&mut stencil, scene, relaxed.as_ref().map_or(&scene.mesh, |r| &r.mesh), state);
-        stencil.weigh(&state.weighing.weight, &state.weighing.shift);
-        Self::with::<K>(scene, state, stencil, relaxed)
+        let mut stencils = Stencils::default();
+        let mesh = relaxed.as_ref().map_or(&scene.mesh, |r| &r.mesh);
+        fill::<D, K>(&mut stencils.integration, scene, mesh, state);
+        take_weights::<D, K>(&mut stencils, mesh, state);
+        Self::with::<K>(scene, state, stencils, relaxed)
     }
 
     /// The grid in its first shape, with the points on it.
@@ -163,13 +173,10 @@ impl<const D: usize> Grid<D> {
     /// # Errors
     /// When a point lies outside the grid, or memory does not suffice.
     pub fn first<K: Kinematics<D>>(scene: &Scene<D>, state: &mut State<D>) -> Result<Self> {
-        let mut stencil = Stencil::default();
-        if scene.terms.iter().any(|term| term.sees_flow()) {
-            state.points.plastic_increment.resize(state.points.len(), 0.0);
-        }
+        let mut stencils = Stencils::default();
         let mut relaxed = None;
-        begin_anew::<D, K>(scene, state, &mut stencil, &mut relaxed)?;
-        let grid = Self::with::<K>(scene, state, stencil, relaxed)?;
+        begin_anew::<D, K>(scene, state, &mut stencils, &mut relaxed)?;
+        let grid = Self::with::<K>(scene, state, stencils, relaxed)?;
         if scene.has_pressure_field() {
             grid.take_field_of_elements::<K>(scene, state);
         }
@@ -182,8 +189,8 @@ impl<const D: usize> Grid<D> {
     /// # Errors
     /// As [`Grid::first`].
     pub fn restore<K: Kinematics<D>>(&mut self, scene: &Scene<D>, state: &mut State<D>) -> Result<()> {
-        if begin_anew::<D, K>(scene, state, &mut self.stencil, &mut self.relaxed)? {
-            *self = Self::with::<K>(scene, state, std::mem::take(&mut self.stencil), self.relaxed.take())?;
+        if begin_anew::<D, K>(scene, state, &mut self.stencils, &mut self.relaxed)? {
+            *self = Self::with::<K>(scene, state, std::mem::take(&mut self.stencils), self.relaxed.take())?;
         } else {
             if let Some(elements) = &mut self.elements {
                 elements.place::<K>(state);
@@ -194,14 +201,14 @@ impl<const D: usize> Grid<D> {
         Ok(())
     }
 
-    /// The grid for a stencil.
+    /// The grid for its stencils.
     ///
     /// # Errors
     /// A machine error when memory does not suffice.
     pub fn with<K: Kinematics<D>>(
         scene: &Scene<D>,
         state: &State<D>,
-        stencil: Stencil<D>,
+        stencils: Stencils<D>,
         relaxed: Option<Relaxed<D>>,
     ) -> Result<Self> {
         let mesh = &scene.mesh;
@@ -284,7 +291,7 @@ impl<const D: usize> Grid<D> {
             }
         };
         let mut grid = Self {
-            stencil,
+            stencils,
             relaxed,
             elements,
             ghost: Vec::new(),
@@ -311,7 +318,9 @@ impl<const D: usize> Grid<D> {
     /// Takes the pressure field over from points whose materials have changed.
     pub fn take_field<K: Kinematics<D>>(&self, scene: &Scene<D>, state: &mut State<D>) {
         let mesh = self.relaxed.as_ref().map_or(&scene.mesh, |relaxed| &relaxed.mesh);
-        pressure::gather::<D, K>(mesh, &self.stencil, &state.points, mesh.nodes.len(), &mut state.pressure);
+        let mut field = std::mem::take(&mut state.pressure);
+        pressure::gather::<D, K>(mesh, &self.stencils.integration, state.integration(), mesh.nodes.len(), &mut field);
+        state.pressure = field;
         self.take_field_of_elements::<K>(scene, state);
     }
 
@@ -352,7 +361,7 @@ impl<const D: usize> Grid<D> {
         Frame {
             mesh: relaxed.unwrap_or(mesh),
             relaxed: relaxed.is_some(),
-            stencil: &self.stencil,
+            stencil: &self.stencils.integration,
             soft: &state.weighing.soft,
             ghost: &self.ghost,
             touches: &self.touches,
@@ -362,12 +371,18 @@ impl<const D: usize> Grid<D> {
             cells: &self.cells,
             constants: mesh.nodes.len(),
             water: self.water,
-            points: &state.points,
+            points: state.integration(),
             pattern: &self.motion.pattern,
             clique: &self.clique,
             block: &self.block,
             bodies: &self.body_clique,
         }
+    }
+
+    /// What the terms of the scene see of the material points, where others are summed over.
+    pub fn frame_of_material<'a>(&'a self, mesh: &'a Mesh<D>, state: &'a State<D>) -> Option<Frame<'a, D>> {
+        let stencil = self.stencils.material.as_ref()?;
+        Some(Frame { stencil, points: &state.points, ..self.frame(mesh, state) })
     }
 
     /// What the terms of the finite elements see.
@@ -398,9 +413,22 @@ impl<const D: usize> Grid<D> {
         }
     }
 
-    /// All that carries mass.
+    /// The stencil of the material points.
+    pub fn of_material(&self) -> &Stencil<D> {
+        self.stencils.material.as_ref().unwrap_or(&self.stencils.integration)
+    }
+
+    /// All that moves: the material points and those of the finite elements.
     pub fn families<'a>(&'a self, scene: &'a Scene<D>, state: &'a State<D>) -> impl Iterator<Item = Family<'a, D>> {
-        let soil = Family { mesh: &scene.mesh, stencil: &self.stencil, clique: &self.clique, points: &state.points };
+        let (mesh, stencil, clique) = (&scene.mesh, self.of_material(), &self.clique);
+        let soil = Family { mesh, stencil, clique, points: &state.points };
+        std::iter::once(soil).chain(self.elements.iter().map(|elements| elements.family(&state.fem)))
+    }
+
+    /// All that integrals are summed over.
+    pub fn integrated<'a>(&'a self, scene: &'a Scene<D>, state: &'a State<D>) -> impl Iterator<Item = Family<'a, D>> {
+        let (mesh, stencil, clique) = (&scene.mesh, &self.stencils.integration, &self.clique);
+        let soil = Family { mesh, stencil, clique, points: state.integration() };
         std::iter::once(soil).chain(self.elements.iter().map(|elements| elements.family(&state.fem)))
     }
 }

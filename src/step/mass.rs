@@ -51,7 +51,7 @@ impl<'a> Mass<'a> {
         };
         system.matrix.clear();
         let mut unused = vec![0.0; system.pattern.len()];
-        let (stencil, clique) = (&grid.stencil, &grid.clique);
+        let (stencil, clique) = (grid.stencils.material.as_ref().unwrap_or(&grid.stencils.integration), &grid.clique);
         let mesh = grid.relaxed.as_ref().map_or(&scene.mesh, |relaxed| &relaxed.mesh);
         let soil = Family { mesh: &scene.mesh, stencil, clique, points: &state.points };
         let elements = grid.elements.iter().map(|elements| elements.family(&state.fem));

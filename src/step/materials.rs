@@ -83,6 +83,9 @@ pub fn change<const D: usize>(scene: &Scene<D>, state: &mut State<D>) {
     let Some(phase) = scene.phases.get(state.phase) else { return };
     for change in &phase.changes {
         change.apply(&mut state.points);
+        if let Some(samples) = &mut state.weighing.samples {
+            change.apply(&mut samples.points);
+        }
         change.apply(&mut state.fem);
     }
 }

@@ -196,7 +196,13 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
         let Some(search) = &phase.search else { return Ok(found) };
         let from = self.state.phase_time;
         let more = phase.reduction_at(from + dt) - phase.reduction_at(from);
-        let nodes = self.grid.stencil.patches.iter().flat_map(|patch| self.scene.mesh.cells.nodes(patch.cell as usize));
+        let nodes = self
+            .grid
+            .stencils
+            .integration
+            .patches
+            .iter()
+            .flat_map(|patch| self.scene.mesh.cells.nodes(patch.cell as usize));
         let squared = |&n: &u32| {
             let (now, before) = (&found.1.displacement[n as usize], &self.state.displacement[n as usize]);
             now.iter().zip(before).map(|(now, before)| (now - before).powi(2)).sum::<f64>()
@@ -220,7 +226,7 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
         let content = water::content(scene, state);
         let drained = water::through_surfaces(scene, &self.grid, state, &solution, dt);
         let mut contacts = timed(Activity::Contact, || contact::commit(scene, &self.grid, state, &solution, dt));
-        transfer::commit(scene, &self.grid, state, &solution, dt)?;
+        let strained = transfer::commit(scene, &self.grid, state, &solution, dt);
         let water = water::balance(scene, &self.grid, state, &content, &solution, drained);
         transfer::move_points::<D, K>(scene, &self.grid, state, &solution.displacement);
         if let Some(start) = &start {
@@ -249,7 +255,8 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
         if state.release.share(state.phase_time) == 0.0 {
             state.release = Release::default();
         }
-        let report = Report { contacts, water, ..Report::new(scene, state, &self.grid, dt, solution, &momentum) };
+        let report =
+            Report { contacts, water, strained, ..Report::new(scene, state, &self.grid, dt, solution, &momentum) };
         state.peak = state.peak.max(report.motion.kinetic);
         Ok(report)
     }

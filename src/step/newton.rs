@@ -314,10 +314,24 @@ impl<'a, const D: usize> Newton<'a, D> {
         Ok(())
     }
 
+    /// Where (m) the forces of the state at hand are farthest from balance.
+    fn worst(&self) -> Option<[f64; D]> {
+        let size = |b: usize| {
+            let of_node = D * b..D * (b + 1);
+            let free = of_node.filter(|&e| !self.buffers.fixed[e]);
+            free.map(|e| self.buffers.now.force[e].powi(2)).sum::<f64>()
+        };
+        let blocks = 0..self.grid.node.len().min(self.buffers.now.force.len() / D);
+        let n = self.grid.node[blocks.max_by(|&a, &b| size(a).total_cmp(&size(b)))?] as usize;
+        let from = self.problem.state.nodes.get(n).unwrap_or(&self.problem.scene.mesh.nodes[n]);
+        Some(std::array::from_fn(|d| from[d] + self.buffers.now.at.displacement[n][d]))
+    }
+
     fn failure(&self, why: &str) -> Error {
+        let place = self.worst().map_or(String::new(), |x| format!(", most near {x:.3?} m"));
         Error::analysis(
             "Newton",
-            format!("{why} (residual {:.1e} after {} iterations)", self.error(), self.history.len() - 1),
+            format!("{why} (residual {:.1e} after {} iterations{place})", self.error(), self.history.len() - 1),
             "take smaller steps (step.min) or refine the mesh",
         )
     }
@@ -354,7 +368,7 @@ fn damped_equations<const D: usize>(scene: &Scene<D>, grid: &Grid<D>, out: &mut 
 /// typical cell, which are four times its volume over its diagonal (in axisymmetry those of its ring).
 fn floor<const D: usize>(problem: &Problem<D>, grid: &Grid<D>) -> f64 {
     let (mut volume, mut size) = (0.0, 0.0);
-    for Family { mesh, stencil, points, .. } in grid.families(problem.scene, problem.state) {
+    for Family { mesh, stencil, points, .. } in grid.integrated(problem.scene, problem.state) {
         volume += stencil.points.iter().map(|&p| points.initial_volume[p as usize]).sum::<f64>();
         size += stencil.patches.iter().map(|patch| cell_size(mesh, patch.cell as usize)).sum::<f64>();
     }

@@ -67,6 +67,8 @@ pub struct Report<const D: usize> {
     pub elastic: f64,
     /// Potential energy (kJ) of gravity at its full factor.
     pub potential: f64,
+    /// Material points that were strained beyond what their model answers to, and took the state of the nearest integration point.
+    pub strained: usize,
     /// What the pairs in contact exerted.
     pub contacts: Vec<Resultant<D>>,
     /// The water in the pores and what left them; absent without.
@@ -115,6 +117,7 @@ impl<const D: usize> Report<D> {
                 + scene.fem.as_ref().map_or(0.0, |fem| energy(&fem.terms, &state.fem)),
             potential: [&state.points, &state.fem].iter().flat_map(|p| p.position.iter().zip(&p.mass)).map(fall).sum(),
             motion,
+            strained: 0,
             contacts: Vec::new(),
             water: None,
             reaction,

@@ -4,6 +4,7 @@
 use super::contact;
 use super::fem;
 use super::ghost_faces;
+use super::grid::Stencils;
 use super::guess;
 use super::pressure;
 use super::put_back::put_back;
@@ -15,8 +16,8 @@ use crate::error::{Error, Result};
 use crate::kinematics::Kinematics;
 use crate::mesh::Mesh;
 use crate::mesh::locate::Locator;
-use crate::quadrature::Restored;
-use crate::stencil::Stencil;
+use crate::quadrature::{Restored, Samples, Weighing};
+use crate::stencil::{Scheme, Stencil};
 use rayon::prelude::*;
 
 /// Rings of cells around those with points that take part too, so that points can move on for a while
@@ -31,7 +32,7 @@ const RINGS: usize = 2;
 pub fn begin_anew<const D: usize, K: Kinematics<D>>(
     scene: &Scene<D>,
     state: &mut State<D>,
-    stencil: &mut Stencil<D>,
+    stencils: &mut Stencils<D>,
     relaxed: &mut Option<Relaxed<D>>,
 ) -> Result<bool> {
     let nodes = state.nodes.clone();
@@ -44,7 +45,8 @@ pub fn begin_anew<const D: usize, K: Kinematics<D>>(
     let (mesh, locator) = relaxed.as_ref().map_or((&scene.mesh, &scene.locator), |r| (&r.mesh, &r.locator));
     let changed = choose_cells(scene, state);
     let outlines = contact::outlines(scene, state);
-    fill::<D, K>(stencil, scene, mesh, state);
+    stencils.integration = stencils.material.take().unwrap_or_else(|| std::mem::take(&mut stencils.integration));
+    fill::<D, K>(&mut stencils.integration, scene, mesh, state);
     let grid = Restored {
         mesh,
         locator,
@@ -53,7 +55,7 @@ pub fn begin_anew<const D: usize, K: Kinematics<D>>(
         relaxed: relaxed.is_some(),
         points: &state.points,
         parametric: &state.parametric,
-        stencil,
+        stencil: &stencils.integration,
         taking_part: &state.taking_part,
         displacement: (state.restorations > 0).then_some(&state.displacement),
     };
@@ -71,10 +73,12 @@ pub fn begin_anew<const D: usize, K: Kinematics<D>>(
             state.weighing.poor.clear();
         }
     }
-    stencil.weigh(&state.weighing.weight, &state.weighing.shift);
+    take_weights::<D, K>(stencils, mesh, state);
     if scene.has_pressure_field() {
         let nodes = scene.mesh.nodes.len();
-        pressure::gather::<D, K>(&scene.mesh, stencil, &state.points, nodes, &mut state.pressure);
+        let mut field = std::mem::take(&mut state.pressure);
+        pressure::gather::<D, K>(&scene.mesh, &stencils.integration, state.integration(), nodes, &mut field);
+        state.pressure = field;
     }
     if let Some(faces) = &scene.faces {
         let chosen = ghost_faces::choose(scene, state);
@@ -107,7 +111,17 @@ fn place<const D: usize, K: Kinematics<D>>(
     Ok((before, note))
 }
 
-/// Fills the stencil for the points where they were last located.
+/// Gives the points that integrals are summed over their weights, given the stencil of the material points.
+pub fn take_weights<const D: usize, K: Kinematics<D>>(stencils: &mut Stencils<D>, mesh: &Mesh<D>, state: &State<D>) {
+    let Weighing { samples, weight, shift, .. } = &state.weighing;
+    if let Some(Samples { points, parametric }) = samples {
+        stencils.material = Some(std::mem::take(&mut stencils.integration));
+        stencils.integration.fill::<K>(Scheme::Mpm, mesh, &points.cell, parametric, &state.taking_part);
+    }
+    stencils.integration.weigh(weight, shift);
+}
+
+/// Fills the stencil for the material points where they were last located.
 pub fn fill<const D: usize, K: Kinematics<D>>(
     stencil: &mut Stencil<D>,
     scene: &Scene<D>,

@@ -106,6 +106,16 @@ impl<const D: usize> State<D> {
         }
     }
 
+    /// The points that integrals are summed over: those of the cells, or the material points themselves.
+    pub fn integration(&self) -> &Points<D> {
+        self.weighing.samples.as_ref().map_or(&self.points, |samples| &samples.points)
+    }
+
+    /// The points that integrals are summed over, to be changed.
+    pub fn integration_mut(&mut self) -> &mut Points<D> {
+        self.weighing.samples.as_mut().map_or(&mut self.points, |samples| &mut samples.points)
+    }
+
     /// Whether the step in hand has inertia.
     pub fn dynamic(&self, scene: &Scene<D>) -> bool {
         self.falling || scene.phases.get(self.phase).is_some_and(|phase| phase.dynamic)

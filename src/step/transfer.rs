@@ -13,7 +13,8 @@ use super::state::State;
 use crate::error::Result;
 use crate::kinematics::Kinematics;
 use crate::mesh::shape::MAX_NODES;
-use crate::term::{Frame, Term, Trial};
+use crate::points::Points;
+use crate::term::{Frame, Term, Trial, Update};
 use crate::time_integration::GeneralisedAlpha;
 use rayon::prelude::*;
 
@@ -118,17 +119,15 @@ fn first_acceleration<const D: usize, K: Kinematics<D>>(
     Ok(acceleration)
 }
 
-/// Writes the converged state of the terms into the points.
-///
-/// # Errors
-/// None for a solution that Newton's method has accepted.
+/// Writes the converged state of the terms into the points. Material points that integrals are not summed over may be strained
+/// beyond what a model answers to: they take the state of the nearest integration point. Returns how many did.
 pub fn commit<const D: usize>(
     scene: &Scene<D>,
     grid: &Grid<D>,
     state: &mut State<D>,
     solution: &Solution<D>,
     dt: f64,
-) -> Result<()> {
+) -> usize {
     let trial = Trial {
         displacement: &solution.displacement,
         between: &solution.displacement,
@@ -145,21 +144,49 @@ pub fn commit<const D: usize>(
         held: false,
         per_second: 1.0 / ((state.phase_time + dt) - state.phase_time),
     };
-    let of = |terms: &[Box<dyn Term<D>>], frame: &Frame<D>| {
-        terms.iter().map(|term| term.commit(frame, &trial)).collect::<Result<Vec<_>>>()
+    let of = |terms: &[Box<dyn Term<D>>], frame: &Frame<D>| -> Vec<Update> {
+        terms.iter().filter_map(|term| term.commit(frame, &trial)).collect()
     };
-    let updates = of(&scene.terms, &grid.frame(&scene.mesh, state))?;
+    let updates = of(&scene.terms, &grid.frame(&scene.mesh, state));
+    let of_material =
+        grid.frame_of_material(&scene.mesh, state).map_or_else(Vec::new, |frame| of(&scene.terms, &frame));
     let of_elements = match (&scene.fem, &grid.elements) {
-        (Some(fem), Some(elements)) => of(&fem.terms, &grid.frame_of_elements(scene, elements, state))?,
+        (Some(fem), Some(elements)) => of(&fem.terms, &grid.frame_of_elements(scene, elements, state)),
         _ => Vec::new(),
     };
-    for update in updates.into_iter().flatten() {
-        update.apply(&mut state.points);
+    let lost: Vec<usize> = of_material.iter().flat_map(|update| update.left_out(state.points.len())).collect();
+    updates.into_iter().for_each(|update| update.apply(state.integration_mut()));
+    of_material.into_iter().for_each(|update| update.apply(&mut state.points));
+    of_elements.into_iter().for_each(|update| update.apply(&mut state.fem));
+    if let Some(samples) = &state.weighing.samples {
+        lost.iter().for_each(|&p| take_from_nearest(&mut state.points, p, &samples.points));
     }
-    for update in of_elements.into_iter().flatten() {
-        update.apply(&mut state.fem);
+    lost.len()
+}
+
+/// Gives material point `p` the state of the integration point of its region that is nearest to it, in its cell if there is one.
+fn take_from_nearest<const D: usize>(points: &mut Points<D>, p: usize, samples: &Points<D>) {
+    let square =
+        |q: usize| points.position[p].iter().zip(&samples.position[q]).map(|(x, y)| (x - y).powi(2)).sum::<f64>();
+    let ours = (0..samples.len()).filter(|&q| samples.region[q] == points.region[p]);
+    let key = |q: usize| (samples.cell[q] != points.cell[p], square(q));
+    let nearest = ours.map(|q| (key(q), q)).min_by(|(a, _), (b, _)| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)));
+    let Some((_, q)) = nearest else { return };
+    let stretch = (samples.deformation[q].determinant() / points.deformation[p].determinant()).cbrt();
+    points.deformation[p] *= stretch;
+    points.elastic[p] = samples.elastic[q];
+    points.stress[p] = samples.stress[q];
+    points.plastic_strain[p] = samples.plastic_strain[q];
+    let columns = [
+        (&mut points.memory, &samples.memory),
+        (&mut points.pressure, &samples.pressure),
+        (&mut points.pore_pressure, &samples.pore_pressure),
+    ];
+    for (own, of_sample) in columns {
+        if let (Some(own), Some(value)) = (own.get_mut(p), of_sample.get(q)) {
+            *own = *value;
+        }
     }
-    Ok(())
 }
 
 /// Moves the points with the grid.
@@ -177,6 +204,11 @@ pub fn move_points<const D: usize, K: Kinematics<D>>(
     let [moved, fem] = to_points::<D, K>(scene, grid, state, &increment);
     add(&mut state.points.position, &moved);
     add(&mut state.fem.position, &fem);
+    if let Some(samples) = &mut state.weighing.samples {
+        let (mesh, stencil, clique) = (&scene.mesh, &grid.stencils.integration, &grid.clique);
+        let moved = interpolate::<D, K>(&Family { mesh, stencil, clique, points: &samples.points }, &increment);
+        add(&mut samples.points.position, &moved);
+    }
     rigid::move_points(scene, state, displacement);
 }
 
@@ -272,28 +304,34 @@ fn to_points<const D: usize, K: Kinematics<D>>(
 ) -> [Vec<[f64; D]>; 2] {
     let mut out = [Vec::new(), Vec::new()];
     for (out, family) in out.iter_mut().zip(grid.families(scene, state)) {
-        let Family { mesh, stencil, points, .. } = family;
-        let by_patch: Vec<Vec<(usize, [f64; D])>> = stencil
-            .patches
-            .par_iter()
-            .map(|patch| {
-                let nodes = mesh.cells.nodes(patch.cell as usize);
-                let interpolate = |entries: crate::stencil::Entries<'_, D>| {
-                    let mut value = [0.0; D];
-                    for (n, &node) in entries.value.iter().zip(nodes) {
-                        for d in 0..D {
-                            value[d] += n * field[node as usize][d];
-                        }
+        *out = interpolate::<D, K>(&family, field);
+    }
+    out
+}
+
+/// Interpolates a nodal field at points.
+fn interpolate<const D: usize, K: Kinematics<D>>(family: &Family<D>, field: &[[f64; D]]) -> Vec<[f64; D]> {
+    let Family { mesh, stencil, points, .. } = family;
+    let by_patch: Vec<Vec<(usize, [f64; D])>> = stencil
+        .patches
+        .par_iter()
+        .map(|patch| {
+            let nodes = mesh.cells.nodes(patch.cell as usize);
+            let interpolate = |entries: crate::stencil::Entries<'_, D>| {
+                let mut value = [0.0; D];
+                for (n, &node) in entries.value.iter().zip(nodes) {
+                    for d in 0..D {
+                        value[d] += n * field[node as usize][d];
                     }
-                    (entries.point, value)
-                };
-                stencil.entries::<K>(patch).map(interpolate).collect()
-            })
-            .collect();
-        out.resize(points.len(), [0.0; D]);
-        for (p, value) in by_patch.into_iter().flatten() {
-            out[p] = value;
-        }
+                }
+                (entries.point, value)
+            };
+            stencil.entries::<K>(patch).map(interpolate).collect()
+        })
+        .collect();
+    let mut out = vec![[0.0; D]; points.len()];
+    for (p, value) in by_patch.into_iter().flatten() {
+        out[p] = value;
     }
     out
 }

@@ -45,7 +45,7 @@ impl Balance {
 /// The water in the points of each family over their volume when seeded, but for a constant: `J + n/K_w p`.
 pub fn content<const D: usize>(scene: &Scene<D>, state: &State<D>) -> [Vec<f64>; 2] {
     let Some(water) = &scene.water else { return [Vec::new(), Vec::new()] };
-    [&state.points, &state.fem].map(|points| {
+    [state.integration(), &state.fem].map(|points| {
         let one = |p: usize| {
             let soil = soil(&water.porous, points, p);
             soil.map_or(0.0, |soil| {
@@ -85,7 +85,7 @@ pub fn balance<const D: usize>(
     let water = scene.water.as_ref()?;
     let after = content(scene, state);
     let mut balance = Balance { left: drained, ..Balance::default() };
-    for (family, (before, after)) in grid.families(scene, state).zip(before.iter().zip(&after)) {
+    for (family, (before, after)) in grid.integrated(scene, state).zip(before.iter().zip(&after)) {
         for (&p, weight) in family.stencil.points.iter().zip(&family.stencil.weight) {
             let taken_up = weight * (after[p as usize] - before[p as usize]);
             balance.taken_up += taken_up;

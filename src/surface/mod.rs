@@ -28,3 +28,5 @@ pub use distance::Distance;
 pub use front::{Fault, Front};
 pub use geometry::Geometry;
 pub use layers::visit_layers;
+pub use moments::CellFrame;
+pub use split::{corners, positive, triangles, twice_area};

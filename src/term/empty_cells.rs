@@ -24,7 +24,7 @@ pub struct EmptyCells<K> {
     /// `ε E` (kPa).
     stiffness: f64,
     /// `∫ ∇ˢN_I : ∇ˢN_J + τ ∇ᵃN_I : ∇ᵃN_J` of each cell, row-major, made when a cell is first not full: a restored grid keeps
-    /// its shape, so that it holds for the whole run.
+    /// its shape, so that it holds for the whole run, unless finite elements move it.
     unit: Vec<OnceLock<Box<[f64]>>>,
     kinematics: PhantomData<K>,
 }
@@ -62,7 +62,10 @@ impl<const D: usize, K: Kinematics<D>> Term<D> for EmptyCells<K> {
     fn assemble(&self, frame: &Frame<D>, trial: &Trial<D>, out: &mut Assembly) -> Result<()> {
         let compute = |soft: &SoftCell, local: &mut Local| {
             let cell = soft.cell as usize;
-            let unit = self.unit[cell].get_or_init(|| unit_stiffness::<D, K>(frame.mesh, cell));
+            let fresh = frame.relaxed.then(|| unit_stiffness::<D, K>(frame.mesh, cell));
+            let unit = fresh
+                .as_ref()
+                .unwrap_or_else(|| self.unit[cell].get_or_init(|| unit_stiffness::<D, K>(frame.mesh, cell)));
             let stiffness = self.stiffness * soft.emptiness;
             let size = D * frame.mesh.cells.nodes(cell).len();
             for (row, force) in unit.chunks_exact(size).zip(local.vector.iter_mut()) {

@@ -6,12 +6,12 @@
 //! at the beginning of every step and leaves alone what is one polynomial over both cells, rigid motion included.
 //!
 //! `E_f` is the harmonic mean of Young's modulus over the points of both cells, by volume: soft material beside
-//! stiff decides. In plastic flow a penalty on increments would act as a viscosity far stiffer than the soil:
-//! what yielded in the last step counts with its secant stiffness, `E c τ/(G Δγ)`, from its shear stress `τ` and
-//! plastic shear strain `Δγ`, so that what the penalty resists with is of the order `γ c τ` whatever the step.
+//! stiff decides. Soil that flows must not be held by more than it bears itself: the penalty is the slope of the energy
+//! `γ E_f j₀² (√(1 + j²/j₀²) − 1)` in the mean jump `j` of the face, quadratic in small jumps and linear in large ones, with
+//! `γ E_f j₀ = κ t`. The shear stress `t` is what the soil has and what it lacks of yield, its harmonic mean over the points.
 
 use super::{Assembly, Frame, GhostFace, Term, Trial};
-use crate::error::{Error, Result};
+use crate::error::Result;
 use crate::kinematics::Kinematics;
 use crate::material::Model;
 use crate::points::Points;
@@ -21,16 +21,36 @@ use crate::tensor::deviatoric;
 use std::marker::PhantomData;
 use std::sync::Arc;
 
-/// Part `c` (-) of the shear strength that the penalty may resist flow with, times `γ`.
-const SECANT: f64 = 0.005;
+/// κ (-): the part of its shear strength that the penalty may hold flowing soil with.
+const SHARE: f64 = 5e-4;
 
-/// Least part (-) of its elastic stiffness that a yielding point counts with, also where it bears no stress.
-const LEAST: f64 = 1e-4;
+/// The least shear stress (-), over Young's modulus, that it is measured by, for soil that has none and bears none.
+const LEAST: f64 = 1e-5;
+
+/// The penalty of a face.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Hold {
+    /// `γ E_f` (kPa).
+    pub stiffness: f64,
+    /// `κ t` (kPa); infinite where no soil beside it yields.
+    pub most: f64,
+}
+
+impl Hold {
+    /// What the form of a face counts with where the mean square of its jumps is `square`: the form itself, and in the tangent the
+    /// product of the forces of a unit with themselves, over the measure (m²) of the face and its cells.
+    fn factors(&self, square: f64) -> [f64; 2] {
+        let over = self.stiffness / self.most;
+        let share = 1.0 / (1.0 + square * over * over).sqrt();
+        [self.stiffness * share, -self.stiffness * (share * over).powi(2) * share]
+    }
+}
 
 /// The penalty of all faces that take one.
 pub struct GhostPenalty<K> {
-    /// γ (-).
+    /// γ and κ (-).
     factor: f64,
+    share: f64,
     /// The model of each material by number; `None` where a region holds no points.
     models: Vec<Option<Arc<dyn Model>>>,
     jumps: Jumps,
@@ -41,15 +61,21 @@ impl<K> GhostPenalty<K> {
     /// `factor` is γ (-), `models[m]` that of material `m` ([`Points::model_of`]), `faces` the number of inner faces of
     /// the mesh.
     pub fn new(factor: f64, models: Vec<Option<Arc<dyn Model>>>, faces: usize) -> Self {
-        Self { factor, models, jumps: Jumps::new(faces), kinematics: PhantomData }
+        Self { factor, share: SHARE, models, jumps: Jumps::new(faces), kinematics: PhantomData }
     }
 
-    /// `γ E_f` (kPa) of a face.
-    ///
-    /// # Errors
-    /// When neither of its cells holds points with a material.
-    pub fn stiffness<const D: usize>(&self, frame: &Frame<D>, face: &GhostFace) -> Result<f64> {
-        let (mut volume, mut compliance) = (0.0, 0.0);
+    /// With another κ (-).
+    #[must_use]
+    pub fn holding(self, share: f64) -> Self {
+        Self { share, ..self }
+    }
+
+    /// The penalty of a face; none where nothing beside it is summed over.
+    pub fn hold<const D: usize>(&self, frame: &Frame<D>, face: &GhostFace) -> Option<Hold>
+    where
+        K: Kinematics<D>,
+    {
+        let (mut volume, mut compliance, mut weakness) = (0.0, 0.0, 0.0);
         for cell in face.between.cells {
             let Ok(patch) = frame.stencil.patches.binary_search_by_key(&cell, |patch| patch.cell) else { continue };
             for &p in frame.stencil.points(&frame.stencil.patches[patch]) {
@@ -57,29 +83,22 @@ impl<K> GhostPenalty<K> {
                 let Some(model) = self.models.get(frame.points.model_of(p)).and_then(Option::as_ref) else {
                     continue;
                 };
-                let v = frame.points.initial_volume[p];
+                let (v, young) = (frame.points.initial_volume[p], model.young(frame.points.origin[p][1]));
                 volume += v;
-                compliance += v / (model.young(frame.points.origin[p][1]) * secant(frame.points, p, model.as_ref()));
+                compliance += v / young;
+                weakness += v / strength::<D, K>(frame.points, p, model.as_ref()).max(LEAST * young);
             }
         }
-        if compliance > 0.0 {
-            Ok(self.factor * volume / compliance)
-        } else {
-            let [a, b] = face.between.cells;
-            Err(Error::analysis(format!("the face between cells {a} and {b}"), "no material is beside it", ""))
-        }
+        let hold = Hold { stiffness: self.factor * volume / compliance, most: self.share * volume / weakness };
+        (volume > 0.0).then_some(hold)
     }
 }
 
-/// What part of its elastic stiffness a point had in the last step.
-fn secant<const D: usize>(points: &Points<D>, p: usize, model: &dyn Model) -> f64 {
-    let flow = points.plastic_increment.get(p).copied().unwrap_or(0.0);
-    if flow <= 0.0 {
-        return 1.0;
-    }
-    // With τ = q/√3 and Δγ = √3 Δε_p, both of which are the shear stress and strain in shear.
-    let modulus = model.elasticity().at(points.origin[p][1]).shear;
-    (SECANT * deviatoric(&points.stress[p]) / (3.0 * modulus * flow)).clamp(LEAST, 1.0)
+/// The shear stress (kPa) of point `p` and what it lacks of yield.
+fn strength<const D: usize, K: Kinematics<D>>(points: &Points<D>, p: usize, model: &dyn Model) -> f64 {
+    let stress = K::roots(&points.stress[p]);
+    let lacks = -model.yield_excess(points.origin[p][1], &stress, &points.state(p, 0.0));
+    deviatoric(&points.stress[p]) / 3f64.sqrt() + 0.5 * lacks.max(0.0)
 }
 
 impl<const D: usize, K: Kinematics<D>> Term<D> for GhostPenalty<K> {
@@ -87,53 +106,60 @@ impl<const D: usize, K: Kinematics<D>> Term<D> for GhostPenalty<K> {
         true
     }
 
-    fn sees_flow(&self) -> bool {
-        self.models.iter().flatten().any(|model| model.yields())
-    }
-
     fn assemble(&self, frame: &Frame<D>, trial: &Trial<D>, out: &mut Assembly) -> Result<()> {
-        let factors = |face: &GhostFace, _: &Jump| {
-            let stiffness = self.stiffness(frame, face)?;
-            Ok([stiffness, (1.0 - trial.alpha_f) * stiffness])
+        let factors = |face: &GhostFace, jump: &Jump, square: f64| {
+            let Some(hold) = self.hold::<D>(frame, face) else { return [0.0; 3] };
+            let [form, product] = hold.factors(square / jump.measure);
+            [form, (1.0 - trial.alpha_f) * form, (1.0 - trial.alpha_f) * product / jump.measure]
         };
         let increment = |n: usize| std::array::from_fn(|k| trial.between[n][k] - trial.converged[n][k]);
         penalise::<D, K>(frame, &self.jumps, factors, increment, out)
     }
 }
 
-/// Adds the penalty on the jumps of a nodal field, `value` by node: `factors` of a face are what its form counts with in the
-/// force and in the tangent.
+/// Adds the penalty on the jumps of a nodal field, `value` by node. `factors` of a face, given its form and that of the field, are what
+/// the form counts with in the force and in the tangent, and what the product of the forces of a unit with themselves counts with there.
 pub(super) fn penalise<const D: usize, K: Kinematics<D>>(
     frame: &Frame<D>,
     jumps: &Jumps,
-    factors: impl Fn(&GhostFace, &Jump) -> Result<[f64; 2]> + Sync,
+    factors: impl Fn(&GhostFace, &Jump, f64) -> [f64; 3] + Sync,
     value: impl Fn(usize) -> [f64; D] + Sync,
     out: &mut Assembly,
 ) -> Result<()> {
     let compute = |ghost: &GhostFace, local: &mut Local| {
         let fresh = frame.relaxed.then(|| Jump::of::<D, K>(frame.mesh, &ghost.between));
         let jump = fresh.as_ref().unwrap_or_else(|| jumps.of::<D, K>(frame.mesh, &ghost.between, ghost.face));
-        let [force, slope] = factors(ghost, jump)?;
         let form = &jump.form;
         let count = local.size / D;
+        let mut square = 0.0;
         for (b, n) in ghost.between.nodes(frame.mesh).enumerate() {
             let value = value(n as usize);
             for a in 0..count {
                 for k in 0..D {
-                    local.vector[a * D + k] += force * form[a * count + b] * value[k];
+                    local.vector[a * D + k] += form[a * count + b] * value[k];
                 }
             }
         }
-        if local.matrix.is_empty() {
-            return Ok(());
+        for (a, n) in ghost.between.nodes(frame.mesh).enumerate() {
+            let value = value(n as usize);
+            square += (0..D).map(|k| local.vector[a * D + k] * value[k]).sum::<f64>();
         }
-        for (a, row) in form.chunks_exact(count).enumerate() {
-            for (b, form) in row.iter().enumerate() {
-                for k in 0..D {
-                    local.matrix[(a * D + k) * local.size + b * D + k] = slope * form;
+        let [force, slope, product] = factors(ghost, jump, square);
+        if !local.matrix.is_empty() {
+            for (a, row) in form.chunks_exact(count).enumerate() {
+                for (b, form) in row.iter().enumerate() {
+                    for k in 0..D {
+                        local.matrix[(a * D + k) * local.size + b * D + k] = slope * form;
+                    }
+                }
+            }
+            if product != 0.0 {
+                for (row, own) in local.matrix.chunks_exact_mut(local.size).zip(local.vector.iter()) {
+                    row.iter_mut().zip(local.vector.iter()).for_each(|(entry, other)| *entry += product * own * other);
                 }
             }
         }
+        local.vector.iter_mut().for_each(|unit| *unit *= force);
         Ok(())
     };
     scatter(

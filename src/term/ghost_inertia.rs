@@ -41,9 +41,9 @@ impl<const D: usize, K: Kinematics<D>> Term<D> for GhostInertia<K> {
     }
 
     fn assemble(&self, frame: &Frame<D>, trial: &Trial<D>, out: &mut Assembly) -> Result<()> {
-        let factors = |_: &GhostFace, jump: &Jump| {
+        let factors = |_: &GhostFace, jump: &Jump, _: f64| {
             let mass = self.density * jump.size * jump.size;
-            Ok([mass, mass * trial.acceleration_slope])
+            [mass, mass * trial.acceleration_slope, 0.0]
         };
         penalise::<D, K>(frame, &self.jumps, factors, |n| trial.acceleration[n], out)
     }

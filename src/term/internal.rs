@@ -114,32 +114,24 @@ impl<K, S> Internal<K, S> {
         Cow::Owned(self.models.iter().zip(&self.reduces).map(reduced).collect())
     }
 
-    /// The answers of the models at the points of a patch, in order.
-    fn answers<const D: usize>(
+    /// The answer of the model at a point.
+    fn answer<const D: usize>(
         models: &[Option<Arc<dyn Model>>],
         points: &Points<D>,
-        numbers: &[u32],
-        strained: &[Strained],
+        p: usize,
+        strained: &Strained,
         per_second: f64,
-    ) -> Result<Vec<Spatial<K::Tangent>>>
+    ) -> Result<Spatial<K::Tangent>>
     where
         K: Kinematics<D>,
     {
-        let mut answers = Vec::with_capacity(numbers.len());
-        for (&p, strained) in numbers.iter().zip(strained) {
-            let p = p as usize;
-            let increment = &strained.increment;
-            let elastic = symmetric(&(increment * full(&points.elastic[p]) * increment.transpose()));
-            let Some(model) = models.get(points.model_of(p)).and_then(Option::as_ref) else {
-                return Err(Error::analysis(format!("material point {p}"), "it has no material", ""));
-            };
-            let state = points.state(p, per_second);
-            let Some(answer) = K::respond(model.as_ref(), points.origin[p][1], &elastic, &state) else {
-                return Err(inadmissible(points, p, "is strained beyond measure", increment));
-            };
-            answers.push(answer);
-        }
-        Ok(answers)
+        let increment = &strained.increment;
+        let elastic = symmetric(&(increment * full(&points.elastic[p]) * increment.transpose()));
+        let Some(model) = models.get(points.model_of(p)).and_then(Option::as_ref) else {
+            return Err(Error::analysis(format!("material point {p}"), "it has no material", ""));
+        };
+        let answer = K::respond(model.as_ref(), points.origin[p][1], &elastic, &points.state(p, per_second));
+        answer.ok_or_else(|| inadmissible(points, p, "is strained beyond measure", increment))
     }
 
     /// The points of a patch at a trial state.
@@ -160,9 +152,9 @@ impl<K, S> Internal<K, S> {
         for entries in frame.stencil.entries::<K>(patch) {
             strained.push(strain::<D, K>(frame.points, &entries, &now, moved.then_some(&before))?);
         }
-        let answers = timed_material(|| {
-            Self::answers(models, frame.points, frame.stencil.points(patch), &strained, trial.per_second)
-        })?;
+        let numbers = frame.stencil.points(patch).iter().zip(&strained);
+        let answer = |(&p, strained)| Self::answer(models, frame.points, p as usize, strained, trial.per_second);
+        let answers = timed_material(|| numbers.map(answer).collect::<Result<_>>())?;
         Ok((strained, answers))
     }
 }
@@ -274,12 +266,15 @@ impl<const D: usize, K: Kinematics<D>, S: Share<D, K>> Term<D> for Internal<K, S
         (0..points.len()).into_par_iter().map(energy).collect::<Vec<f64>>().iter().sum()
     }
 
-    fn commit(&self, frame: &Frame<D>, trial: &Trial<D>) -> Result<Option<Update>> {
+    fn commit(&self, frame: &Frame<D>, trial: &Trial<D>) -> Option<Update> {
         let models = self.models_in(trial);
         let new_of_patch = |patch: &Patch| {
-            let (strained, answers) = Self::evaluate(&models, frame, trial, patch)?;
+            let now = frame.stencil.gather(frame.mesh, patch, trial.displacement);
+            let before = frame.stencil.gather(frame.mesh, patch, trial.converged);
             let cell = self.share.over(frame, trial, patch);
-            let new = |((entries, point), answer): ((Entries<D>, &Strained), &Spatial<K::Tangent>)| {
+            let new = |entries: Entries<D>| {
+                let point = strain::<D, K>(frame.points, &entries, &now, Some(&before)).ok()?;
+                let answer = Self::answer(&models, frame.points, entries.point, &point, trial.per_second).ok()?;
                 let deformation = point.increment * frame.points.deformation[entries.point];
                 let volume_ratio = deformation.determinant();
                 let mut history = History {
@@ -293,10 +288,10 @@ impl<const D: usize, K: Kinematics<D>, S: Share<D, K>> Term<D> for Internal<K, S
                     pore_pressure: 0.0,
                 };
                 self.share.commit(&cell, frame.points, &entries, &mut history);
-                history
+                Some(history)
             };
-            Ok(frame.stencil.entries::<K>(patch).zip(&strained).zip(&answers).map(new).collect())
+            timed_material(|| frame.stencil.entries::<K>(patch).filter_map(new).collect())
         };
-        Ok(Some(Update(frame.stencil.patches.par_iter().map(new_of_patch).collect::<Result<_>>()?)))
+        Some(Update(frame.stencil.patches.par_iter().map(new_of_patch).collect()))
     }
 }

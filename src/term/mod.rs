@@ -222,18 +222,19 @@ pub struct History {
 pub struct Update(pub Vec<Vec<History>>);
 
 impl Update {
+    /// The points of some number that have no new values.
+    pub fn left_out(&self, count: usize) -> Vec<usize> {
+        let mut out = vec![true; count];
+        self.0.iter().flatten().for_each(|new| out[new.point] = false);
+        (0..count).filter(|&p| out[p]).collect()
+    }
+
     /// Writes the new values.
     pub fn apply<const D: usize>(self, points: &mut Points<D>) {
         let mut of_point: Vec<Option<&History>> = vec![None; points.len()];
         for new in self.0.iter().flatten() {
             of_point[new.point] = Some(new);
         }
-        let increment = &mut points.plastic_increment;
-        increment.par_iter_mut().zip(&points.plastic_strain).zip(&of_point).for_each(|((increment, before), new)| {
-            if let Some(new) = new {
-                *increment = new.plastic_strain - before;
-            }
-        });
         write(&mut points.deformation, &of_point, |new| new.deformation);
         write(&mut points.elastic, &of_point, |new| new.elastic);
         write(&mut points.stress, &of_point, |new| new.stress);
@@ -277,12 +278,10 @@ pub trait Term<const D: usize>: Send + Sync {
         true
     }
 
-    /// What the converged trial state makes of the points, if it changes them.
-    ///
-    /// # Errors
-    /// As [`Term::assemble`].
-    fn commit(&self, _frame: &Frame<D>, _trial: &Trial<D>) -> Result<Option<Update>> {
-        Ok(None)
+    /// What the converged trial state makes of the points, if it changes them. Points that integrals are not summed over may
+    /// have no answer to it: they are left out.
+    fn commit(&self, _frame: &Frame<D>, _trial: &Trial<D>) -> Option<Update> {
+        None
     }
 
     /// What kind of force the term is.
@@ -307,11 +306,6 @@ pub trait Term<const D: usize>: Send + Sync {
 
     /// Whether the term couples cells across the faces of [`Frame::ghost`].
     fn penalises_faces(&self) -> bool {
-        false
-    }
-
-    /// Whether the term needs [`Points::plastic_increment`].
-    fn sees_flow(&self) -> bool {
         false
     }
 

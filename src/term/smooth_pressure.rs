@@ -64,7 +64,8 @@ impl<const D: usize, K: Kinematics<D>> Term<D> for SmoothPressure<K> {
             let now = gather(kind, own, frame.constants + cell, trial.pressure);
             let before = gather(kind, own, frame.constants + cell, trial.converged_pressure);
             let gained: [f64; MOST] = std::array::from_fn(|a| now[a] - before[a]);
-            let volume = *self.volume[cell].get_or_init(|| integrate::<D, K>(frame.mesh, cell, |_, _, _| {}));
+            let volume = || integrate::<D, K>(frame.mesh, cell, |_, _, _| {});
+            let volume = if frame.relaxed { volume() } else { *self.volume[cell].get_or_init(volume) };
             let scale = (1.0 - trial.alpha_f) * self.unit * volume / self.shear;
             let share = (1.0 - if idle { IDLE } else { 0.0 }) / corners as f64;
             let mean = share * gained[..corners].iter().sum::<f64>();

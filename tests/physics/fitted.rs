@@ -1,7 +1,7 @@
 //! Weights fitted to the cells: second order where the plain method does not converge.
 
 use crate::bench::{Bench, constant, run};
-use crate::layout::{Random, at, describe, fit, lattice, seeded, straighten};
+use crate::layout::{Random, at, describe, fit, lattice, resample, seeded, straighten};
 use mpm::analytical::self_weight_column::Column;
 use mpm::kinematics::{Axisymmetric, Kinematics, PlaneStrain};
 use mpm::material::{Elasticity, LinearElastic};
@@ -24,18 +24,28 @@ fn elastic(young: f64, poisson: f64) -> Arc<LinearElastic> {
 
 /// A column 50 m high under its own weight, `ρ g H = 4 E`, confined, ν = 0; a ring in axisymmetry.
 #[derive(Clone, Copy, Debug)]
-struct Tall {
-    kind: CellKind,
-    cells: usize,
-    wide: usize,
-    steps: usize,
-    points: u32,
-    restore: Restore,
-    seed: u64,
+pub struct Tall {
+    pub kind: CellKind,
+    pub cells: usize,
+    pub wide: usize,
+    pub steps: usize,
+    pub points: u32,
+    pub restore: Restore,
+    pub seed: u64,
+    /// Whether its quadrature is resampled, and not its weights fitted.
+    pub resampled: bool,
 }
 
-const TALL: Tall =
-    Tall { kind: CellKind::T6, cells: 16, wide: 1, steps: 40, points: 16, restore: Restore::EveryStep, seed: 5 };
+pub const TALL: Tall = Tall {
+    kind: CellKind::T6,
+    cells: 16,
+    wide: 1,
+    steps: 40,
+    points: 16,
+    restore: Restore::EveryStep,
+    seed: 5,
+    resampled: false,
+};
 
 impl Tall {
     fn mesh(&self, inner: f64) -> Mesh<2> {
@@ -56,7 +66,7 @@ impl Tall {
     }
 
     /// Mean error of the vertical stress over `ρ g H`.
-    fn error<K: Kinematics<2> + 'static>(&self) -> f64 {
+    pub fn error<K: Kinematics<2> + 'static>(&self) -> f64 {
         let begin = Instant::now();
         let mesh = self.mesh(if K::HOOP { 20.0 } else { 0.0 });
         let density = 4.0 * YOUNG / (GRAVITY * HEIGHT);
@@ -66,7 +76,11 @@ impl Tall {
         bench.gravity_factor = TimeValue::Rate(1.0);
         bench.restore = self.restore;
         bench.steps = self.steps;
-        fit::<K>(&mut bench);
+        if self.resampled {
+            resample::<K>(&mut bench)
+        } else {
+            fit::<K>(&mut bench)
+        }
         bench.hold("left", &[0]).hold("right", &[0]).hold("bottom", &[1]);
         let points = at::<K>(&bench.mesh, &seeded(&bench.mesh, self.points), density);
         let scene = bench.scene::<K>();
@@ -96,7 +110,7 @@ impl Tall {
 }
 
 /// Per halving of the cells, over all of `errors`.
-fn order(errors: &[f64]) -> f64 {
+pub fn order(errors: &[f64]) -> f64 {
     (errors[0] / errors[errors.len() - 1]).log2() / (errors.len() - 1) as f64
 }
 

@@ -6,7 +6,7 @@ use mpm::mesh::Mesh;
 use mpm::mesh::faces::Faces;
 use mpm::mesh::locate::Locator;
 use mpm::points::Points;
-use mpm::quadrature::Fitted;
+use mpm::quadrature::{Fitted, Resampled};
 use mpm::seed::{RegionSeed, seed};
 use mpm::step::Restore;
 use mpm::tensor::{IDENTITY, Tensor};
@@ -20,6 +20,13 @@ pub fn fit<K: Kinematics<2> + 'static>(bench: &mut Bench) {
         let faces = Faces::of(&bench.background()).inner.len();
         bench.extra.push(Box::new(GhostPenalty::<K>::new(0.1, vec![Some(bench.model.clone())], faces)));
     }
+}
+
+/// Gives a scene resampled quadrature, as [`fit`] does fitted weights.
+pub fn resample<K: Kinematics<2> + 'static>(bench: &mut Bench) {
+    fit::<K>(bench);
+    let models = vec![Some(bench.model.clone())];
+    bench.quadrature = Some(Box::new(Resampled::<K>::new(&bench.background(), models, false)));
 }
 
 /// Numbers in [-1, 1), the same for the same seed (SplitMix64).

@@ -15,6 +15,7 @@ mod incompressible;
 mod layout;
 mod patch;
 mod put_back;
+mod resampled;
 mod rotation;
 mod slivers;
 mod surface;

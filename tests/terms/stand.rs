@@ -256,9 +256,9 @@ impl<K: Kinematics<2>> Stand<K> {
     /// Gives each point the elastic state that the trial takes to the left Cauchy–Green tensor
     /// `target(point)`.
     pub fn aim(&mut self, trial: &[[f64; 2]], converged: &[[f64; 2]], mut target: impl FnMut(usize) -> Tensor) {
-        for patch in &self.grid.stencil.patches {
+        for patch in &self.grid.stencils.integration.patches {
             let nodes = self.scene.mesh.cells.nodes(patch.cell as usize);
-            for entries in self.grid.stencil.entries::<K>(patch) {
+            for entries in self.grid.stencils.integration.entries::<K>(patch) {
                 let (mut now, mut before) = (Tensor::identity(), Tensor::identity());
                 for (i, &n) in nodes.iter().enumerate() {
                     K::deform(&mut now, &trial[n as usize], &entries.gradient(i));

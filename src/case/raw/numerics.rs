@@ -9,8 +9,10 @@ use serde::Deserialize;
 pub struct Numerics {
     /// How gradients at the points are formed: mpm (plain) or ddmp; gimp, cpdi, cpdi2 and bspline (not available yet).
     pub gradient: Gradient,
-    /// The integration weights: points (the volumes of the points) or fitted.
-    pub quadrature: Quadrature,
+    /// What integrals are summed over: resampled (integration points of the cells, which take their state from the material points
+    /// when the grid is restored), or the material points, by their volumes (points) or by weights fitted to the cells (fitted).
+    /// Default: resampled; fitted where a phase has inertia or with `gradient: ddmp`.
+    pub quadrature: Option<Quadrature>,
     /// Who carries the mean stress of nearly incompressible and undrained materials: a field of pressure unknowns, or
     /// none. Without it a field where Poisson's ratio is 0.45 or more (not in mohr_coulomb and cam_clay) or a material
     /// is undrained.
@@ -36,7 +38,7 @@ impl Default for Numerics {
     fn default() -> Self {
         Self {
             gradient: Gradient::Mpm,
-            quadrature: Quadrature::Fitted,
+            quadrature: None,
             pressure: None,
             restore: Restore::Quality(RestoreQuality { min_quality: 0.5, max_stretch: None }),
             spectral_radius: 0.9,
@@ -65,6 +67,7 @@ pub enum Gradient {
 pub enum Quadrature {
     Points,
     Fitted,
+    Resampled,
 }
 
 /// Who carries the mean stress.

@@ -6,7 +6,7 @@ use crate::contact::{Multipliers, Pair};
 use crate::error::{Error, Result};
 use crate::mesh::Mesh;
 use crate::points::Points;
-use crate::quadrature::Weighing;
+use crate::quadrature::{Samples, Weighing};
 use crate::step::{Controller, Limits, Scene, State, has_room_for_penalties};
 use crate::surface::{ActiveBoundary, Front, NO_REGION};
 use std::collections::HashSet;
@@ -27,6 +27,7 @@ pub fn check<const D: usize>(scene: &Scene<D>, first: &State<D>, state: &State<D
     check_cells(scene, state)?;
     check_points(scene, first, state)?;
     check_elements(scene, first, state)?;
+    check_samples(scene, state)?;
     check_weighing(scene, state)?;
     state.front.iter().try_for_each(check_front)?;
     check_contact(scene, state)?;
@@ -100,8 +101,7 @@ fn check_cells<const D: usize>(scene: &Scene<D>, state: &State<D>) -> Result<()>
 }
 
 fn check_points<const D: usize>(scene: &Scene<D>, first: &State<D>, state: &State<D>) -> Result<()> {
-    let sees_flow = scene.terms.iter().any(|term| term.sees_flow());
-    check_family(scene, state, &scene.mesh, &first.points, &state.points, sees_flow)?;
+    check_family(scene, state, &scene.mesh, &first.points, &state.points)?;
     let Points { cell, .. } = &state.points;
     ensure(cell.iter().all(|&c| state.taking_part[c as usize]), "the cell of a material point")?;
     let places = &state.parametric;
@@ -113,7 +113,7 @@ fn check_points<const D: usize>(scene: &Scene<D>, first: &State<D>, state: &Stat
 fn check_elements<const D: usize>(scene: &Scene<D>, first: &State<D>, state: &State<D>) -> Result<()> {
     let none = Mesh::default();
     let mesh = scene.fem.as_ref().map_or(&none, |fem| &fem.mesh);
-    check_family(scene, state, mesh, &first.fem, &state.fem, false)?;
+    check_family(scene, state, mesh, &first.fem, &state.fem)?;
     let (now, then) = (&state.fem, &first.fem);
     let same = now.cell == then.cell && now.origin == then.origin && state.fem_parametric == first.fem_parametric;
     ensure(same, "the place of a point of a finite element")
@@ -126,7 +126,6 @@ fn check_family<const D: usize>(
     mesh: &Mesh<D>,
     first: &Points<D>,
     points: &Points<D>,
-    sees_flow: bool,
 ) -> Result<()> {
     let count = first.len();
     ensure(points.len() == count, "the number of points")?;
@@ -140,7 +139,6 @@ fn check_family<const D: usize>(
         (points.reference.len(), begun(scene, state).any(|phase| phase.reset)),
         (points.velocity.len(), state.moving || began_moving && !points.velocity.is_empty()),
         (points.acceleration.len(), state.moving),
-        (points.plastic_increment.len(), sees_flow),
         (points.memory.len(), !first.memory.is_empty()),
         (points.pressure.len(), !first.pressure.is_empty()),
         (points.pore_pressure.len(), !first.pore_pressure.is_empty()),
@@ -165,11 +163,40 @@ fn is_inside<const D: usize>(mesh: &Mesh<D>, cell: u32, xi: &[f64; 3]) -> bool {
     mesh.cells.kind[cell as usize].depth(xi).0 >= -ROUNDING
 }
 
+/// The integration points of the cells.
+fn check_samples<const D: usize>(scene: &Scene<D>, state: &State<D>) -> Result<()> {
+    let Some(Samples { points, parametric }) = &state.weighing.samples else { return Ok(()) };
+    points
+        .check(scene.mesh.regions.len(), scene.mesh.cells.len())
+        .map_err(|problem| Error::input("checkpoint", problem, "start the analysis afresh, without --resume"))?;
+    let material = &state.points;
+    let columns = [
+        (points.reference.len(), 0),
+        (points.velocity.len(), 0),
+        (points.acceleration.len(), 0),
+        (points.memory.len(), material.memory.len()),
+        (points.pressure.len(), material.pressure.len()),
+        (points.pore_pressure.len(), material.pore_pressure.len()),
+        (points.model.len(), material.model.len()),
+    ];
+    let fits = |&(length, of_material): &(usize, usize)| length == if of_material > 0 { points.len() } else { 0 };
+    ensure(columns.iter().all(fits), "a column of its integration points")?;
+    let number = |region: u16| material.region.iter().position(|&r| r == region).and_then(|p| material.model.get(p));
+    let same = (0..points.model.len()).all(|q| number(points.region[q]) == Some(&points.model[q]));
+    ensure(same, "the material of an integration point")?;
+    let cell = &points.cell;
+    let takes_part = cell.iter().all(|&c| state.taking_part[c as usize]);
+    ensure(takes_part && cell.is_sorted(), "the cell of an integration point")?;
+    let inside = |(&c, xi): (&u32, &[f64; 3])| is_inside(&scene.mesh, c, xi);
+    let places = parametric.len() == cell.len() && cell.iter().zip(parametric).all(inside);
+    ensure(places, "the place of an integration point")
+}
+
 /// The weights of the points and what is known of the cells.
 fn check_weighing<const D: usize>(scene: &Scene<D>, state: &State<D>) -> Result<()> {
     let Weighing { weight, shift, soft, poor, boundary, level_set, .. } = &state.weighing;
     let nodes = scene.mesh.nodes.len();
-    ensure(weight.len() == state.points.len() && weight.iter().all(|w| *w > 0.0), "the weight of a point")?;
+    ensure(weight.len() == state.integration().len() && weight.iter().all(|w| *w > 0.0), "the weight of a point")?;
     let takes_part = |c: u32| state.taking_part.get(c as usize) == Some(&true);
     let ascend = |cells: &mut dyn Iterator<Item = u32>| cells.is_sorted_by(|a, b| a < b);
     let whole =

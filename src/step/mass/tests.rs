@@ -97,9 +97,9 @@ fn through_the_grid<K: Kinematics<2>>(kind: CellKind, points: Points<2>) -> Poin
     let mut grid = Grid::first::<K>(&scene, &mut state).unwrap();
     transfer::motion_to_grid::<2, K>(&scene, &mut grid, &mut state).unwrap();
     let mut mapped = state.points.clone();
-    for patch in &grid.stencil.patches {
-        let local = grid.stencil.gather(&scene.mesh, patch, &state.velocity);
-        for entries in grid.stencil.entries::<K>(patch) {
+    for patch in &grid.stencils.integration.patches {
+        let local = grid.stencils.integration.gather(&scene.mesh, patch, &state.velocity);
+        for entries in grid.stencils.integration.entries::<K>(patch) {
             let v = &mut mapped.velocity[entries.point];
             *v = [0.0; 2];
             for (n, nodal) in entries.value.iter().zip(&local) {

@@ -1,0 +1,299 @@
+//! The state of the material points as a linear function over each cell.
+//!
+//! `c = argmin Σ_p V_p ω_p |f_p − P(x_p) c|²` with `P = (1, x, y)` about the cell. The points of the cell count with `ω = 1`, those of
+//! ring `r` of the cells around it with `0.1^r`. A ring is taken in only as far as the function at the integration points depends on
+//! no more than three times the largest value at a material point, `Σ_p |R_qp| ≤ 3`: what is fitted to the points of a cell
+//! gives back every linear function of that cell, and with it the errors of a reset do not grow (docs/theory.md).
+
+use super::places::Place;
+use crate::mesh::Mesh;
+use crate::points::Points;
+use crate::surface::CellFrame;
+use nalgebra::{Matrix3, Vector3};
+
+/// Weight of a ring over that of the one within it.
+const RING: f64 = 0.1;
+/// Rings that a linear function may need.
+const RINGS: usize = 3;
+/// Rings in which any point at all is looked for.
+const FARTHEST: usize = 12;
+/// The largest `Σ_p |R_qp|`.
+const MOST: f64 = 3.0;
+
+/// The cells that share a corner with each cell.
+pub struct Around {
+    first: Vec<u32>,
+    cells: Vec<u32>,
+}
+
+impl Around {
+    pub fn of(mesh: &Mesh<2>) -> Self {
+        let mut at = vec![Vec::new(); mesh.nodes.len()];
+        let corners = |c: usize| &mesh.cells.nodes(c)[..mesh.cells.kind[c].corner_count()];
+        for c in 0..mesh.cells.len() {
+            corners(c).iter().for_each(|&n| at[n as usize].push(c as u32));
+        }
+        let (mut first, mut cells) = (vec![0], Vec::new());
+        for c in 0..mesh.cells.len() {
+            let mut own: Vec<u32> = corners(c).iter().flat_map(|&n| &at[n as usize]).copied().collect();
+            own.sort_unstable();
+            own.dedup();
+            cells.extend(own.into_iter().filter(|&other| other != c as u32));
+            first.push(cells.len() as u32);
+        }
+        Self { first, cells }
+    }
+
+    fn cells(&self, c: u32) -> &[u32] {
+        &self.cells[self.first[c as usize] as usize..self.first[c as usize + 1] as usize]
+    }
+}
+
+/// The material points by cell.
+pub struct Held {
+    first: Vec<u32>,
+    points: Vec<u32>,
+}
+
+impl Held {
+    pub fn new(cells: usize, cell: &[u32]) -> Self {
+        let mut first = vec![0; cells + 1];
+        cell.iter().for_each(|&c| first[c as usize + 1] += 1);
+        (0..cells).for_each(|c| first[c + 1] += first[c]);
+        let (mut next, mut points) = (first.clone(), vec![0; cell.len()]);
+        for (p, &c) in (0..).zip(cell) {
+            points[next[c as usize] as usize] = p;
+            next[c as usize] += 1;
+        }
+        Self { first, points }
+    }
+
+    pub fn points(&self, c: u32) -> &[u32] {
+        &self.points[self.first[c as usize] as usize..self.first[c as usize + 1] as usize]
+    }
+}
+
+/// A cell with the cells around it, ring after ring.
+pub struct Rings {
+    cells: Vec<u32>,
+    /// Ring `r` ends here.
+    end: Vec<usize>,
+}
+
+impl Rings {
+    pub fn of(cell: u32) -> Self {
+        Self { cells: vec![cell], end: vec![1] }
+    }
+
+    /// The cells of ring `r`, 0 the cell itself.
+    fn ring(&mut self, r: usize, around: &Around) -> &[u32] {
+        while self.end.len() <= r {
+            let begin = if self.end.len() > 1 { self.end[self.end.len() - 2] } else { 0 };
+            for i in begin..self.cells.len() {
+                for &other in around.cells(self.cells[i]) {
+                    if !self.cells.contains(&other) {
+                        self.cells.push(other);
+                    }
+                }
+            }
+            self.end.push(self.cells.len());
+        }
+        &self.cells[if r > 0 { self.end[r - 1] } else { 0 }..self.end[r]]
+    }
+
+    /// The points of the nearest ring that has any.
+    pub fn nearest(&mut self, around: &Around, held: &Held) -> Vec<u32> {
+        for r in 0..=FARTHEST {
+            let points: Vec<u32> = self.ring(r, around).iter().flat_map(|&c| held.points(c)).copied().collect();
+            if !points.is_empty() {
+                return points;
+            }
+        }
+        Vec::new()
+    }
+}
+
+/// How a cell's function follows from values at points.
+pub struct Fit {
+    pub points: Vec<u32>,
+    /// What the value at each point adds to the coefficients of `1, x, y` in the coordinates of the cell's frame.
+    shares: Vec<[f64; 3]>,
+    frame: CellFrame,
+    pub linear: bool,
+}
+
+impl Fit {
+    /// The fit of the points that `counts` picks, for the `places` in a cell; `None` where none is near.
+    pub fn new(
+        points: &Points<2>,
+        (around, held): (&Around, &Held),
+        rings: &mut Rings,
+        frame: &CellFrame,
+        places: &[Place],
+        counts: &dyn Fn(u32) -> bool,
+    ) -> Option<Self> {
+        let (mut numbers, mut weights) = (Vec::new(), Vec::new());
+        for r in 0..=RINGS {
+            let factor = RING.powi(r as i32);
+            let before = numbers.len();
+            for &c in rings.ring(r, around) {
+                numbers.extend(held.points(c).iter().copied().filter(|&p| counts(p)));
+            }
+            weights.extend(numbers[before..].iter().map(|&p| factor * points.volume(p as usize)));
+            if (numbers.len() > before || r == 0)
+                && let Some(shares) = linear(points, &numbers, &weights, frame, places)
+            {
+                return Some(Self { points: numbers, shares, frame: *frame, linear: true });
+            }
+        }
+        // The mean of the nearest points.
+        (numbers, weights) = (Vec::new(), Vec::new());
+        for r in 0..=FARTHEST {
+            for &c in rings.ring(r, around) {
+                numbers.extend(held.points(c).iter().copied().filter(|&p| counts(p)));
+            }
+            weights.extend(numbers.iter().map(|&p| points.volume(p as usize)));
+            if !numbers.is_empty() {
+                let sum: f64 = weights.iter().sum();
+                let shares = weights.iter().map(|w| [w / sum, 0.0, 0.0]).collect();
+                return Some(Self { points: numbers, shares, frame: *frame, linear: false });
+            }
+        }
+        None
+    }
+
+    /// The coefficients of the function that is nearest to `values`, given by point.
+    pub fn coefficients<const N: usize>(&self, values: &[[f64; N]]) -> [[f64; N]; 3] {
+        let mut sum = [[0.0; N]; 3];
+        for (&p, shares) in self.points.iter().zip(&self.shares) {
+            let value = &values[p as usize];
+            for (sum, share) in sum.iter_mut().zip(shares) {
+                for (sum, value) in sum.iter_mut().zip(value) {
+                    *sum += share * value;
+                }
+            }
+        }
+        sum
+    }
+
+    /// The function at a place (m).
+    pub fn at<const N: usize>(&self, coefficients: &[[f64; N]; 3], x: &[f64; 2]) -> [f64; N] {
+        let [x, y] = self.frame.local(x);
+        std::array::from_fn(|k| coefficients[0][k] + x * coefficients[1][k] + y * coefficients[2][k])
+    }
+}
+
+/// The shares of the points in a linear fit; `None` where they are too few or lie so that it depends on them too much.
+fn linear(
+    points: &Points<2>,
+    numbers: &[u32],
+    weights: &[f64],
+    frame: &CellFrame,
+    places: &[Place],
+) -> Option<Vec<[f64; 3]>> {
+    if numbers.len() < 4 {
+        return None;
+    }
+    let row = |x: &[f64; 2]| {
+        let [x, y] = frame.local(x);
+        Vector3::new(1.0, x, y)
+    };
+    let sum: f64 = weights.iter().sum();
+    let mut matrix = Matrix3::zeros();
+    for (&p, weight) in numbers.iter().zip(weights) {
+        let row = row(&points.position[p as usize]);
+        matrix += weight / sum * row * row.transpose();
+    }
+    let inverse = matrix.cholesky()?.inverse();
+    let share = |(&p, weight): (&u32, &f64)| weight / sum * (inverse * row(&points.position[p as usize]));
+    let shares: Vec<Vector3<f64>> = numbers.iter().zip(weights).map(share).collect();
+    for place in places {
+        let at = row(&place.x);
+        let most: f64 = shares.iter().map(|share| share.dot(&at).abs()).sum();
+        // It is not a number where the points are on a line.
+        if most.is_nan() || most > MOST {
+            return None;
+        }
+    }
+    Some(shares.into_iter().map(Into::into).collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::places::Places;
+    use super::*;
+    use crate::kinematics::PlaneStrain;
+    use crate::mesh::builder::rectangle;
+    use crate::mesh::locate::Locator;
+    use crate::mesh::shape::CellKind;
+
+    /// Points anywhere, as few as wanted in each cell.
+    fn scattered(mesh: &Mesh<2>, many: usize) -> Points<2> {
+        let at = |i: usize| [0.754_877_666_2, 0.569_840_290_9].map(|g| (0.5 + g * i as f64).fract());
+        let position: Vec<[f64; 2]> = (0..many).map(at).collect();
+        let locator = Locator::new(mesh);
+        Points {
+            cell: position.iter().map(|x| locator.locate(mesh, x, None).unwrap().0).collect(),
+            initial_volume: (0..many).map(|i| 1.0 + (0.3 * i as f64).sin().abs()).collect(),
+            deformation: vec![crate::tensor::Tensor::identity(); many],
+            position,
+            ..Points::default()
+        }
+    }
+
+    #[test]
+    fn linear_functions_come_back_however_the_points_lie_and_no_value_counts_more_than_three_times() {
+        for (kind, many) in [(CellKind::T6, 1500), (CellKind::T6, 300), (CellKind::Q9, 400), (CellKind::T3, 500)] {
+            let mesh = rectangle(kind, 1.0, 1.0, 8, 8, 0.2, 4);
+            let points = scattered(&mesh, many);
+            let values: Vec<[f64; 2]> = points
+                .position
+                .iter()
+                .map(|x| [3.0 - 2.0 * x[0] + x[1], if x[0] > 0.4 { 1.0 } else { -1.0 }])
+                .collect();
+            let (around, held) = (Around::of(&mesh), Held::new(mesh.cells.len(), &points.cell));
+            let (rule, mut linear) = (Places::new(), 0);
+            for c in 0..mesh.cells.len() {
+                let mut places = Vec::new();
+                rule.full::<PlaneStrain>(&mesh, c, &mut places);
+                let frame = CellFrame::of(&mesh, c);
+                let mut rings = Rings::of(c as u32);
+                let fit = Fit::new(&points, (&around, &held), &mut rings, &frame, &places, &|_| true).unwrap();
+                let coefficients = fit.coefficients(&values);
+                linear += usize::from(fit.linear);
+                for place in &places {
+                    let [line, jump] = fit.at(&coefficients, &place.x);
+                    assert!(!fit.linear || (line - (3.0 - 2.0 * place.x[0] + place.x[1])).abs() < 1e-12);
+                    assert!(jump.abs() <= MOST + 1e-12);
+                }
+            }
+            assert!(linear == mesh.cells.len(), "{kind:?}: {linear} of {} cells", mesh.cells.len());
+        }
+    }
+
+    #[test]
+    fn one_point_gives_its_value_and_points_on_a_line_take_neighbours_in() {
+        let mesh = rectangle(CellKind::T6, 1.0, 1.0, 2, 2, 0.0, 1);
+        let mut points = scattered(&mesh, 1);
+        let mut places = Vec::new();
+        Places::new().full::<PlaneStrain>(&mesh, 0, &mut places);
+        let (around, frame) = (Around::of(&mesh), CellFrame::of(&mesh, 0));
+        let held = Held::new(mesh.cells.len(), &points.cell);
+        let fit = Fit::new(&points, (&around, &held), &mut Rings::of(0), &frame, &places, &|_| true).unwrap();
+        assert_eq!(fit.at(&fit.coefficients(&[[7.0]]), &places[0].x), [7.0]);
+        assert!(Fit::new(&points, (&around, &held), &mut Rings::of(0), &frame, &places, &|_| false).is_none());
+
+        // Six on a line in the cell, and what is scattered in the others.
+        points = scattered(&mesh, 60);
+        let locator = Locator::new(&mesh);
+        for p in 0..60 {
+            if points.cell[p] == 0 {
+                points.position[p] = [0.1 + 0.02 * (p % 7) as f64; 2];
+                points.cell[p] = locator.locate(&mesh, &points.position[p], Some(0)).unwrap().0;
+            }
+        }
+        let held = Held::new(mesh.cells.len(), &points.cell);
+        let fit = Fit::new(&points, (&around, &held), &mut Rings::of(0), &frame, &places, &|_| true).unwrap();
+        assert!(fit.linear && fit.points.iter().any(|&p| points.cell[p as usize] != 0));
+    }
+}

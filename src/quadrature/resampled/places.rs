@@ -1,0 +1,159 @@
+//! Where the integration points of a cell are: at the Gauss points of a full cell, and at those of each triangle of the part
+//! inside where the surface cuts it or materials meet in it.
+
+use crate::kinematics::Kinematics;
+use crate::mesh::Mesh;
+use crate::mesh::shape::{self, CellKind, MAX_NODES, rule};
+use crate::surface::{corners, positive, triangles, twice_area};
+
+/// A smaller share of a cell is rounding.
+const ROUNDING: f64 = 1e-14;
+
+/// An integration point.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Place {
+    /// Parametric coordinates in its cell.
+    pub xi: [f64; 3],
+    /// Position (m).
+    pub x: [f64; 2],
+    /// The volume (m³) that it stands for.
+    pub weight: f64,
+}
+
+/// The degree that the points of a full cell integrate: the products of gradients of a cell that is affine, and its mass
+/// as exactly as the order of the cell can use.
+fn degree(kind: CellKind) -> usize {
+    match kind {
+        CellKind::T3 => 1,
+        CellKind::Q8 | CellKind::Q9 => 4,
+        _ => 2,
+    }
+}
+
+/// Parametric coordinates and weights.
+type Rule = Vec<([f64; 3], f64)>;
+
+/// Rules for full cells and for triangles of cut ones, made once.
+pub struct Places {
+    full: Vec<(CellKind, Rule)>,
+    triangle: Rule,
+}
+
+impl Places {
+    pub fn new() -> Self {
+        let plane = CellKind::ALL.into_iter().filter(|kind| kind.dimension() == 2);
+        Self { full: plane.map(|kind| (kind, rule(kind, degree(kind)))).collect(), triangle: rule(CellKind::T3, 2) }
+    }
+
+    /// The points of a cell that is full.
+    pub fn full<K: Kinematics<2>>(&self, mesh: &Mesh<2>, cell: usize, out: &mut Vec<Place>) {
+        let cell = Shape::new(mesh, cell);
+        for (_, rule) in self.full.iter().filter(|(kind, _)| *kind == cell.kind) {
+            out.extend(rule.iter().map(|(xi, weight)| cell.place::<K>(*xi, *weight)));
+        }
+    }
+
+    /// The points of the part of a cell in which the level set with the nodal `values` is positive, triangle by triangle.
+    pub fn cut<K: Kinematics<2>>(&self, mesh: &Mesh<2>, cell: usize, values: &[f64], out: &mut Vec<Place>) {
+        let cell = Shape::new(mesh, cell);
+        let whole: f64 = if cell.kind.is_simplex() { 0.5 } else { 4.0 };
+        for triangle in triangles(cell.kind) {
+            let at = corners(cell.kind, triangle);
+            let twice = twice_area(&at);
+            positive(&triangle.map(|i| values[i]), |piece, fraction| {
+                if 0.5 * twice * fraction <= ROUNDING * whole {
+                    return;
+                }
+                let [a, b, c] = piece.map(|l| [0, 1].map(|d| l[0] * at[0][d] + l[1] * at[1][d] + l[2] * at[2][d]));
+                for ([s, t, _], weight) in &self.triangle {
+                    let [x, y] = [0, 1].map(|d| a[d] + s * (b[d] - a[d]) + t * (c[d] - a[d]));
+                    out.push(cell.place::<K>([x, y, 0.0], weight * twice * fraction));
+                }
+            });
+        }
+    }
+}
+
+/// The nodes (m) of a cell.
+struct Shape {
+    kind: CellKind,
+    x: [[f64; 2]; MAX_NODES],
+}
+
+impl Shape {
+    fn new(mesh: &Mesh<2>, cell: usize) -> Self {
+        let mut x = [[0.0; 2]; MAX_NODES];
+        for (x, &n) in x.iter_mut().zip(mesh.cells.nodes(cell)) {
+            *x = mesh.nodes[n as usize];
+        }
+        Self { kind: mesh.cells.kind[cell], x }
+    }
+
+    fn place<K: Kinematics<2>>(&self, xi: [f64; 3], weight: f64) -> Place {
+        let count = self.kind.node_count();
+        let (mut n, mut gradient) = ([0.0; MAX_NODES], [[0.0; 2]; MAX_NODES]);
+        let det = shape::map(self.kind, &self.x[..count], &xi, &mut n, &mut gradient);
+        let x = [0, 1].map(|d| n.iter().zip(&self.x[..count]).map(|(n, x)| n * x[d]).sum());
+        Place { xi, x, weight: weight * det * K::measure(&x) }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::kinematics::{Axisymmetric, PlaneStrain};
+    use crate::mesh::builder::rectangle;
+    use crate::surface::Geometry;
+
+    /// A full cell, and the two parts of a cut one, hold the moments of the cell: to degree 2 in the plane and to degree 1
+    /// about the axis, where the radius comes on top.
+    fn check<K: Kinematics<2>>(degrees: usize) {
+        for kind in CellKind::ALL.into_iter().filter(|kind| kind.dimension() == 2) {
+            let mesh = rectangle(kind, 1.0, 1.0, 3, 3, 0.2, 4);
+            let geometry = Geometry::new::<K>(&mesh);
+            let places = Places::new();
+            for c in 0..mesh.cells.len() {
+                let values: Vec<f64> = mesh
+                    .cells
+                    .nodes(c)
+                    .iter()
+                    .map(|&n| mesh.nodes[n as usize])
+                    .map(|x| x[0] - 0.7 * x[1] - 0.1)
+                    .collect();
+                let other: Vec<f64> = values.iter().map(|v| -v).collect();
+                let (mut full, mut parts) = (Vec::new(), Vec::new());
+                places.full::<K>(&mesh, c, &mut full);
+                places.cut::<K>(&mesh, c, &values, &mut parts);
+                places.cut::<K>(&mesh, c, &other, &mut parts);
+                let exact = geometry.whole[c];
+                let moments = |places: &[Place]| {
+                    let mut sum = [0.0; 6];
+                    for place in places {
+                        let [x, y] = geometry.frame[c].local(&place.x);
+                        for (sum, m) in sum.iter_mut().zip([1.0, x, y, x * x, x * y, y * y]) {
+                            *sum += place.weight * m;
+                        }
+                    }
+                    sum
+                };
+                let holds = |places: &[Place], count: usize, part: &str| {
+                    let got = moments(places);
+                    let close = got.iter().zip(&exact).take(count).all(|(a, b)| (a - b).abs() < 1e-12 * exact[0]);
+                    assert!(close, "{kind:?} {part}: {got:?} {exact:?}");
+                };
+                // The centre of a three-node triangle has its first moments, without a radius on top.
+                holds(&full, if kind == CellKind::T3 { [1, 3][degrees - 1] } else { [3, 6][degrees - 1] }, "full");
+                // Cells that are not affine are cut along lines that are straight in their own coordinates.
+                if geometry.affine[c] {
+                    holds(&parts, [3, 6][degrees - 1], "parts");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn volumes_and_moments_of_full_and_cut_cells_are_exact() {
+        check::<PlaneStrain>(2);
+        check::<Axisymmetric>(1);
+    }
+}
