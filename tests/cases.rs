@@ -242,8 +242,8 @@ fn pile() {
     run.draw("pile");
 }
 
-/// Cells of B/5 bear up to 15 % more at a depth of B/4 than Salgado et al. give. A restored grid begins out of balance, and Newton's method brings it back
-/// without a halved step.
+/// Cells of B/5 bear up to 15 % more at a depth of B/4 than Salgado et al. give. A restored grid begins out of balance; the search along each direction brings
+/// it back in half the iterations that halving the residual alone takes (18).
 #[test]
 fn footing_deep() {
     let settings = ["mesh.parameters.h=0.2", "phases[0].duration=0.25", "phases[0].step.max=0.02"];
@@ -252,13 +252,11 @@ fn footing_deep() {
     let placed = 5.14 * (1.0 + 0.27 * 0.25f64.sqrt());
     let log = fs::read_to_string(run.folder.path().join("solve.log")).unwrap();
     let iterations = log.lines().filter_map(|line| line.split_once("iterations ")?.1.split(' ').next()?.parse().ok());
-    let mut iterations: Vec<u32> = iterations.collect();
-    iterations.sort_unstable();
-    let median = iterations[iterations.len() / 2];
-    println!("load {load:.3} kN/m, {placed:.3} of a footing placed there; {median} iterations in the median");
+    let most: u32 = iterations.max().unwrap();
+    println!("load {load:.3} kN/m, {placed:.3} of a footing placed there; {most} iterations at most");
     assert!((1.0..1.15).contains(&(load / placed)), "{load} {placed}");
     assert!(log.contains(" restored ") && !log.contains("halved"));
-    assert!(median <= 8, "{iterations:?}");
+    assert!(most <= 12, "{most}");
 }
 
 /// The bottom bears the clay less the water that it displaces, 125 m² of it; the slope stands in the pool (factor of safety
