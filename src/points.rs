@@ -4,7 +4,7 @@ use crate::material::State;
 use crate::tensor::{Symmetric, Tensor, full};
 
 /// All material points of a scene. Every column has one entry a point; `velocity` and `acceleration`
-/// are empty in a quasi-static analysis, `memory` where no model does,
+/// are empty in a quasi-static analysis, `plastic_increment` where no term needs it, `memory` where no model does,
 /// `pressure` without a pressure field, `pore_pressure` without pore water, `model` where no phase changes a material.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Points<const D: usize> {
@@ -30,6 +30,8 @@ pub struct Points<const D: usize> {
     pub stress: Vec<Symmetric>,
     /// Accumulated equivalent plastic strain (-).
     pub plastic_strain: Vec<f64>,
+    /// What the last converged step added to it (-).
+    pub plastic_increment: Vec<f64>,
     /// What hardens or softens the model of the point ([`crate::material::State::memory`]).
     pub memory: Vec<f64>,
     /// Kirchhoff mean stress (kPa), tension positive, that the pressure field carries.
@@ -94,6 +96,7 @@ impl<const D: usize> Points<D> {
             elastic: pick(&self.elastic, numbers),
             stress: pick(&self.stress, numbers),
             plastic_strain: pick(&self.plastic_strain, numbers),
+            plastic_increment: pick(&self.plastic_increment, numbers),
             memory: pick(&self.memory, numbers),
             pressure: pick(&self.pressure, numbers),
             pore_pressure: pick(&self.pore_pressure, numbers),

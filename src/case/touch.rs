@@ -1,7 +1,7 @@
 //! The structures and walls of a case and what they touch.
 
 use super::changes::{self, by_number};
-use super::checked::{Case, Contact, Content, Region, Touched, Touching};
+use super::checked::{Case, Contact, Content, Geometry, Region, Touched, Touching};
 use super::scene::region_index;
 use super::wall;
 use crate::contact::{Bodies, Boundary, Pair, Rigid, Skin, SoilSide, Surface};
@@ -97,9 +97,8 @@ impl Parts<'_> {
         }
     }
 
-    /// The boundary of a region beside the grid, with hats about `spacing` (m) apart.
-    fn boundary(&self, region: u16, spacing: f64) -> Result<Surface> {
-        let edges = edges(self.grid, spacing);
+    /// The boundary of a region beside the grid, without what lies along some `edges`, with hats about `spacing` (m) apart.
+    fn boundary(&self, region: u16, spacing: f64, edges: &[Edge]) -> Result<Surface> {
         let beyond = |nodes: &[u32]| {
             let x = |i: usize| self.fem.nodes[nodes[i] as usize];
             edges.iter().any(|edge| edge.is_along(&x(0), &x(1), spacing))
@@ -148,7 +147,7 @@ impl Parts<'_> {
                 let (kind, facets) = wall::facets(self.grid, body, &regions)?;
                 Surface::of(self.grid, kind, facets, HATS * edge)
             }
-            _ => self.boundary(structure, HATS * edge)?,
+            _ => self.boundary(structure, HATS * edge, &edges(self.grid, HATS * edge))?,
         };
         let skin = self.skin()?;
         Ok(Boundary { structure, surface, law: contact.law, regions, models, skin, kinematics: PhantomData })
@@ -167,11 +166,14 @@ impl Parts<'_> {
         let edge = edges.and_then(|edges| edges.into_iter().reduce(f64::max));
         let spacing = HATS * edge.ok_or_else(|| self.no_cells(contact, "a region"))?;
         let structure = self.region(sides[0])?;
-        let surface = self.boundary(structure, spacing)?;
+        // The axis of symmetry is no boundary.
+        let axis = Edge { normal: [-1.0, 0.0], distance: 0.0 };
+        let axis = if self.case.geometry == Geometry::Axisymmetric { vec![axis] } else { Vec::new() };
+        let surface = self.boundary(structure, spacing, &axis)?;
         let (against, other) = match &contact.structure {
             Touching::Structure(_) => {
                 let against = self.region(body)?;
-                (against, self.boundary(against, spacing)?)
+                (against, self.boundary(against, spacing, &axis)?)
             }
             Touching::Wall(curve) => {
                 let wall = region_index(self.grid, curve)?;

@@ -24,6 +24,7 @@ pub fn to_arrays<const D: usize>(points: &Points<D>) -> Vec<Array> {
         elastic,
         stress,
         plastic_strain,
+        plastic_increment,
         memory,
         pressure,
         pore_pressure,
@@ -31,7 +32,7 @@ pub fn to_arrays<const D: usize>(points: &Points<D>) -> Vec<Array> {
         model,
         cell,
     } = points;
-    let columns: [&(dyn Fn() -> Array + Sync); 17] = [
+    let columns: [&(dyn Fn() -> Array + Sync); 18] = [
         &|| array("position", "m", 3, padded(position)),
         &|| array("origin", "m", 3, padded(origin)),
         &|| array("reference", "m", 3, padded(reference)),
@@ -43,6 +44,7 @@ pub fn to_arrays<const D: usize>(points: &Points<D>) -> Vec<Array> {
         &|| array("elastic", "-", 6, elastic.concat()),
         &|| array("stress", "kPa", 6, stress.concat()),
         &|| array("plastic_strain", "-", 1, plastic_strain.clone()),
+        &|| array("plastic_increment", "-", 1, plastic_increment.clone()),
         &|| array("memory", "-", 1, memory.clone()),
         &|| array("pressure", "kPa", 1, pressure.clone()),
         &|| array("pore_pressure", "kPa", 1, pore_pressure.clone()),
@@ -51,8 +53,8 @@ pub fn to_arrays<const D: usize>(points: &Points<D>) -> Vec<Array> {
         &|| array("cell", "-", 1, cell.clone()),
     ];
     let mut arrays: Vec<Array> = columns.par_iter().map(|column| column()).collect();
-    const OPTIONAL: [&str; 7] =
-        ["reference", "velocity", "acceleration", "memory", "pressure", "pore_pressure", "model"];
+    const OPTIONAL: [&str; 8] =
+        ["reference", "velocity", "acceleration", "plastic_increment", "memory", "pressure", "pore_pressure", "model"];
     arrays.retain(|a| !(a.data.is_empty() && OPTIONAL.contains(&a.name.as_str())));
     arrays
 }
@@ -84,6 +86,7 @@ pub fn take<const D: usize>(store: &mut Store, prefix: &str) -> Result<Points<D>
         elastic: columns.symmetric("elastic")?,
         stress: columns.symmetric("stress")?,
         plastic_strain: columns.scalars("plastic_strain")?,
+        plastic_increment: columns.if_present("plastic_increment", 1)?.unwrap_or_default(),
         memory: columns.if_present("memory", 1)?.unwrap_or_default(),
         pressure: columns.if_present("pressure", 1)?.unwrap_or_default(),
         pore_pressure: columns.if_present("pore_pressure", 1)?.unwrap_or_default(),

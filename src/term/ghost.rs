@@ -8,7 +8,9 @@
 //! `E_f` is the harmonic mean of Young's modulus over the points of both cells, by volume: soft material beside
 //! stiff decides. Soil that flows must not be held by more than it bears itself: the penalty is the slope of the energy
 //! `γ E_f j₀² (√(1 + j²/j₀²) − 1)` in the mean jump `j` of the face, quadratic in small jumps and linear in large ones, with
-//! `γ E_f j₀ = κ t`. The shear stress `t` is what the soil has and what it lacks of yield, its harmonic mean over the points.
+//! `γ E_f j₀ = κ t`. The shear stress `t` is what the soil has and what it lacks of yield, its harmonic mean over the points. Without
+//! κ, what yielded in the last step counts with its secant stiffness, `E c τ/(G Δγ)`, from its shear stress `τ` and plastic shear
+//! strain `Δγ`, so that what the penalty resists with is of the order `γ c τ` whatever the step.
 
 use super::{Assembly, Frame, GhostFace, Term, Trial};
 use crate::error::Result;
@@ -21,8 +23,11 @@ use crate::tensor::deviatoric;
 use std::marker::PhantomData;
 use std::sync::Arc;
 
-/// κ (-): the part of its shear strength that the penalty may hold flowing soil with.
-const SHARE: f64 = 5e-4;
+/// Part `c` (-) of the shear strength that the penalty may resist flow with, times `γ`, where there is no κ.
+const SECANT: f64 = 0.005;
+
+/// Least part (-) of its elastic stiffness that a yielding point counts with there, also where it bears no stress.
+const LEAST_SECANT: f64 = 1e-4;
 
 /// The least shear stress (-), over Young's modulus, that it is measured by, for soil that has none and bears none.
 const LEAST: f64 = 1e-5;
@@ -48,9 +53,10 @@ impl Hold {
 
 /// The penalty of all faces that take one.
 pub struct GhostPenalty<K> {
-    /// γ and κ (-).
+    /// γ (-).
     factor: f64,
-    share: f64,
+    /// κ (-), where there is one.
+    share: Option<f64>,
     /// The model of each material by number; `None` where a region holds no points.
     models: Vec<Option<Arc<dyn Model>>>,
     jumps: Jumps,
@@ -61,13 +67,13 @@ impl<K> GhostPenalty<K> {
     /// `factor` is γ (-), `models[m]` that of material `m` ([`Points::model_of`]), `faces` the number of inner faces of
     /// the mesh.
     pub fn new(factor: f64, models: Vec<Option<Arc<dyn Model>>>, faces: usize) -> Self {
-        Self { factor, share: SHARE, models, jumps: Jumps::new(faces), kinematics: PhantomData }
+        Self { factor, share: None, models, jumps: Jumps::new(faces), kinematics: PhantomData }
     }
 
-    /// With another κ (-).
+    /// With κ (-): the part of its shear strength that the penalty may hold flowing soil with.
     #[must_use]
     pub fn holding(self, share: f64) -> Self {
-        Self { share, ..self }
+        Self { share: Some(share), ..self }
     }
 
     /// The penalty of a face; none where nothing beside it is summed over.
@@ -85,11 +91,19 @@ impl<K> GhostPenalty<K> {
                 };
                 let (v, young) = (frame.points.initial_volume[p], model.young(frame.points.origin[p][1]));
                 volume += v;
-                compliance += v / young;
-                weakness += v / strength::<D, K>(frame.points, p, model.as_ref()).max(LEAST * young);
+                match self.share {
+                    None => compliance += v / (young * secant(frame.points, p, model.as_ref())),
+                    Some(_) => {
+                        compliance += v / young;
+                        weakness += v / strength::<D, K>(frame.points, p, model.as_ref()).max(LEAST * young);
+                    }
+                }
             }
         }
-        let hold = Hold { stiffness: self.factor * volume / compliance, most: self.share * volume / weakness };
+        let hold = Hold {
+            stiffness: self.factor * volume / compliance,
+            most: self.share.map_or(f64::INFINITY, |share| share * volume / weakness),
+        };
         (volume > 0.0).then_some(hold)
     }
 }
@@ -101,9 +115,24 @@ fn strength<const D: usize, K: Kinematics<D>>(points: &Points<D>, p: usize, mode
     deviatoric(&points.stress[p]) / 3f64.sqrt() + 0.5 * lacks.max(0.0)
 }
 
+/// What part of its elastic stiffness a point had in the last step.
+fn secant<const D: usize>(points: &Points<D>, p: usize, model: &dyn Model) -> f64 {
+    let flow = points.plastic_increment.get(p).copied().unwrap_or(0.0);
+    if flow <= 0.0 {
+        return 1.0;
+    }
+    // With τ = q/√3 and Δγ = √3 Δε_p, both of which are the shear stress and strain in shear.
+    let modulus = model.elasticity().at(points.origin[p][1]).shear;
+    (SECANT * deviatoric(&points.stress[p]) / (3.0 * modulus * flow)).clamp(LEAST_SECANT, 1.0)
+}
+
 impl<const D: usize, K: Kinematics<D>> Term<D> for GhostPenalty<K> {
     fn penalises_faces(&self) -> bool {
         true
+    }
+
+    fn sees_flow(&self) -> bool {
+        self.share.is_none() && self.models.iter().flatten().any(|model| model.yields())
     }
 
     fn assemble(&self, frame: &Frame<D>, trial: &Trial<D>, out: &mut Assembly) -> Result<()> {

@@ -235,6 +235,12 @@ impl Update {
         for new in self.0.iter().flatten() {
             of_point[new.point] = Some(new);
         }
+        let increment = &mut points.plastic_increment;
+        increment.par_iter_mut().zip(&points.plastic_strain).zip(&of_point).for_each(|((increment, before), new)| {
+            if let Some(new) = new {
+                *increment = new.plastic_strain - before;
+            }
+        });
         write(&mut points.deformation, &of_point, |new| new.deformation);
         write(&mut points.elastic, &of_point, |new| new.elastic);
         write(&mut points.stress, &of_point, |new| new.stress);
@@ -306,6 +312,11 @@ pub trait Term<const D: usize>: Send + Sync {
 
     /// Whether the term couples cells across the faces of [`Frame::ghost`].
     fn penalises_faces(&self) -> bool {
+        false
+    }
+
+    /// Whether the term needs [`Points::plastic_increment`].
+    fn sees_flow(&self) -> bool {
         false
     }
 

@@ -182,7 +182,7 @@ fn soil_that_flows_is_held_by_no_more_than_a_share_of_its_strength() {
         let profile = |top: f64| Profile { top, gradient: 0.0, datum: 0.0 };
         let elasticity = Elasticity::new(profile(1000.0), 0.25).unwrap();
         let soil: Arc<dyn Model> = Arc::new(Tresca::new(elasticity, profile(1.0)).unwrap());
-        Box::new(of::<PlaneStrain>(mesh, vec![Some(soil)]))
+        Box::new(of::<PlaneStrain>(mesh, vec![Some(soil)]).holding(5e-4))
     }
     for kind in KINDS {
         let stand: Stand<PlaneStrain> = stand(kind, limited, false);
@@ -198,4 +198,24 @@ fn soil_that_flows_is_held_by_no_more_than_a_share_of_its_strength() {
         assert!((more / one - 1.0).abs() < 1e-2, "{kind:?}: {one} {more}");
         assert!(one < 1e-3 * 1e10 * tiny, "{kind:?}: {one} of {}", 1e10 * tiny);
     }
+}
+/// What flowed in the last step resists a step of the same kind with the same force, whatever its size.
+#[test]
+fn in_flow_it_resists_independently_of_the_step() {
+    let mut stand: Stand<PlaneStrain> = stand(CellKind::T6, penalty::<PlaneStrain>, false);
+    let (trial, converged) = anywhere(&stand);
+    let count = stand.state.points.len();
+    stand.state.points.stress = vec![[2.0, -2.0, 0.0, 0.0, 0.0, 0.0]; count];
+    let elastic = size(&stand.evaluate(&trial, &converged, 0, false).0);
+    let mut flow = |by: f64| {
+        stand.state.points.plastic_increment = vec![1e-2 * by; count];
+        let scaled: Vec<_> =
+            trial.iter().zip(&converged).map(|(u, c)| [0, 1].map(|d| c[d] + by * (u[d] - c[d]))).collect();
+        size(&stand.evaluate(&scaled, &converged, 0, false).0)
+    };
+    let (one, half, tenth) = (flow(1.0), flow(0.5), flow(0.1));
+    assert!((half - one).abs() < 1e-9 * one && (tenth - one).abs() < 1e-9 * one, "{one} {half} {tenth}");
+    assert!(one < 1e-2 * elastic, "{one} of {elastic}");
+    // As it was where the flow is too small to tell.
+    assert!((flow(1e-5) - 1e-5 * elastic).abs() < 1e-9 * 1e-5 * elastic);
 }

@@ -322,6 +322,7 @@ fn collect(points: &Points<2>, sampled: &[Sampled]) -> (Samples<2>, Tally) {
         elastic: all().map(|s| s.elastic).collect(),
         stress: all().map(|s| s.stress).collect(),
         plastic_strain: column(true, PLASTIC),
+        plastic_increment: Vec::new(),
         memory: column(!points.memory.is_empty(), MEMORY),
         pressure: column(!points.pressure.is_empty(), PRESSURE),
         pore_pressure: column(!points.pore_pressure.is_empty(), WATER),

@@ -101,7 +101,8 @@ fn check_cells<const D: usize>(scene: &Scene<D>, state: &State<D>) -> Result<()>
 }
 
 fn check_points<const D: usize>(scene: &Scene<D>, first: &State<D>, state: &State<D>) -> Result<()> {
-    check_family(scene, state, &scene.mesh, &first.points, &state.points)?;
+    let sees_flow = scene.terms.iter().any(|term| term.sees_flow());
+    check_family(scene, state, &scene.mesh, &first.points, &state.points, sees_flow)?;
     let Points { cell, .. } = &state.points;
     ensure(cell.iter().all(|&c| state.taking_part[c as usize]), "the cell of a material point")?;
     let places = &state.parametric;
@@ -113,7 +114,7 @@ fn check_points<const D: usize>(scene: &Scene<D>, first: &State<D>, state: &Stat
 fn check_elements<const D: usize>(scene: &Scene<D>, first: &State<D>, state: &State<D>) -> Result<()> {
     let none = Mesh::default();
     let mesh = scene.fem.as_ref().map_or(&none, |fem| &fem.mesh);
-    check_family(scene, state, mesh, &first.fem, &state.fem)?;
+    check_family(scene, state, mesh, &first.fem, &state.fem, false)?;
     let (now, then) = (&state.fem, &first.fem);
     let same = now.cell == then.cell && now.origin == then.origin && state.fem_parametric == first.fem_parametric;
     ensure(same, "the place of a point of a finite element")
@@ -126,6 +127,7 @@ fn check_family<const D: usize>(
     mesh: &Mesh<D>,
     first: &Points<D>,
     points: &Points<D>,
+    sees_flow: bool,
 ) -> Result<()> {
     let count = first.len();
     ensure(points.len() == count, "the number of points")?;
@@ -139,6 +141,7 @@ fn check_family<const D: usize>(
         (points.reference.len(), begun(scene, state).any(|phase| phase.reset)),
         (points.velocity.len(), state.moving || began_moving && !points.velocity.is_empty()),
         (points.acceleration.len(), state.moving),
+        (points.plastic_increment.len(), sees_flow),
         (points.memory.len(), !first.memory.is_empty()),
         (points.pressure.len(), !first.pressure.is_empty()),
         (points.pore_pressure.len(), !first.pore_pressure.is_empty()),
@@ -174,6 +177,7 @@ fn check_samples<const D: usize>(scene: &Scene<D>, state: &State<D>) -> Result<(
         (points.reference.len(), 0),
         (points.velocity.len(), 0),
         (points.acceleration.len(), 0),
+        (points.plastic_increment.len(), 0),
         (points.memory.len(), material.memory.len()),
         (points.pressure.len(), material.pressure.len()),
         (points.pore_pressure.len(), material.pore_pressure.len()),
