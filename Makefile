@@ -37,7 +37,7 @@ pile: ## From nothing to the pile that is pushed into clay, and the picture of t
 pile-variants: build ## The pile smooth, rough, as it is, and by mpm and ddmp: pictures, curves, tables of noise and ripple
 	$(PYTHON) cases/pile/variants.py $(if $(THREADS),--threads $(THREADS))
 	$(PYTHON) paraview/pile.py $(addprefix cases/pile/,out-smooth out out-rough) -o cases/pile/out/adhesion.png
-	$(PYTHON) paraview/pile.py $(addprefix cases/pile/,out-mpm out-ddmp out-ddmp-fitted out) -o cases/pile/out/schemes.png
+	$(PYTHON) paraview/pile.py $(addprefix cases/pile/,out-mpm out-ddmp out) -o cases/pile/out/schemes.png
 	$(PYTHON) cases/pile/study.py
 
 # A case like the others, that goes on with its variants and their pictures.

@@ -4,7 +4,7 @@ use crate::material::State;
 use crate::tensor::{Symmetric, Tensor, full};
 
 /// All material points of a scene. Every column has one entry a point; `velocity` and `acceleration`
-/// are empty in a quasi-static analysis, `plastic_increment` where no term needs it, `memory` where no model does,
+/// are empty in a quasi-static analysis, `plastic_increment` in finite elements and before the first step, `memory` where no model does,
 /// `pressure` without a pressure field, `pore_pressure` without pore water, `model` where no phase changes a material.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Points<const D: usize> {

@@ -100,7 +100,7 @@ fn later_loads_settle_by_the_stiffness_of_then() {
 /// less.
 #[test]
 fn a_column_on_a_restored_grid_goes_on_by_its_new_stiffness() {
-    for (poisson, quadrature) in [(0.3, "fitted"), (0.47, "fitted"), (0.3, "points")] {
+    for (poisson, quadrature) in [(0.3, "resampled"), (0.47, "resampled"), (0.3, "points")] {
         let confined = |young: f64| young * (1.0 - poisson) / ((1.0 + poisson) * (1.0 - 2.0 * poisson));
         let text = format!(
             "geometry: plane_strain\n\

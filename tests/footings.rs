@@ -116,10 +116,11 @@ const STRIP: f64 = 100.0 * (2.0 + PI);
 fn many_points_do_not_lock_with_the_pressure_field() {
     let graded = [MANY, ROUGH, "mesh.parameters.under=4", "mesh.parameters.coarse=20"];
     let at = |more: &[&str]| error_with("strip_footing", 0.03, STRIP, &[&graded, more].concat());
-    let field = at(&["materials.clay.poisson=0.4999"]);
-    let plain = at(&["materials.clay.poisson=0.4999", "numerics.pressure=none", "numerics.quadrature=points"]);
-    assert!(field.abs() < 0.02 && plain > 0.03, "{field} against {plain} without the field");
-    assert!((at(&["materials.clay.poisson=0.49"]) - field).abs() < 0.001);
+    let points = |more: &str| at(&["materials.clay.poisson=0.4999", "numerics.quadrature=points", more]);
+    let (field, plain) = (points("numerics.pressure=field"), points("numerics.pressure=none"));
+    assert!(field.abs() < 0.02 && plain > field + 0.02, "{field} against {plain} without the field");
+    let [nearly, more] = ["0.49", "0.4999"].map(|poisson| at(&[&format!("materials.clay.poisson={poisson}")]));
+    assert!(nearly.abs() < 0.015 && (more - nearly).abs() < 0.001, "{nearly} {more}");
 }
 
 #[test]

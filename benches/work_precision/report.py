@@ -12,13 +12,12 @@ PEERS = ["Kratos MPM"]
 STYLES = {
     "default": ("#000000", "o"),
     "plain": ("#d55e00", "s"),
-    "fitted": ("#0072b2", "^"),
+    "resampled": ("#0072b2", "^"),
     "ddmp": ("#009e73", "v"),
-    "ddmp, fitted": ("#004d40", "h"),
     "plain, quality": ("#e69f00", "D"),
-    "fitted, quality": ("#56b4e9", "P"),
-    "fitted, no pressure field": ("#cc79a7", "<"),
-    "fitted, pressure field": ("#7f3fbf", ">"),
+    "resampled, quality": ("#56b4e9", "P"),
+    "resampled, no pressure field": ("#cc79a7", "<"),
+    "resampled, pressure field": ("#7f3fbf", ">"),
     "never": ("#999999", "x"),
     "Kratos MPM": ("#8b0000", "*"),
 }

@@ -30,16 +30,13 @@ QUALITY = {"min_quality": 0.5}
 SCHEMES = [
     scheme("default", "what a case gets that says nothing"),
     scheme("plain", "V_p weights, plain gradients", quadrature="points", gradient="mpm", restore="every_step"),
-    scheme("fitted", "fitted weights", quadrature="fitted", gradient="mpm", restore="every_step"),
     scheme("resampled", "resampled quadrature", quadrature="resampled", gradient="mpm", restore="every_step"),
     scheme("ddmp", "V_p weights, smooth gradients", quadrature="points", gradient="ddmp", restore="every_step"),
-    scheme("ddmp, fitted", "fitted weights, smooth gradients", quadrature="fitted", gradient="ddmp", restore="every_step"),
     scheme("plain, quality", "plain, restored by quality", quadrature="points", gradient="mpm", restore=QUALITY),
-    scheme("fitted, quality", "fitted, restored by quality", quadrature="fitted", gradient="mpm", restore=QUALITY),
     scheme("resampled, quality", "resampled, restored by quality", quadrature="resampled", gradient="mpm", restore=QUALITY),
-    scheme("fitted, no pressure field", "fitted, displacements alone", quadrature="fitted", gradient="mpm",
+    scheme("resampled, no pressure field", "resampled, displacements alone", quadrature="resampled", gradient="mpm",
            restore="every_step", pressure="none"),
-    scheme("fitted, pressure field", "fitted, with a field of pressure", quadrature="fitted", gradient="mpm",
+    scheme("resampled, pressure field", "resampled, with a field of pressure", quadrature="resampled", gradient="mpm",
            restore="every_step", pressure="field"),
     scheme("never", "the grid is never restored: finite elements", points=3, restore="never"),
 ]  # fmt: skip

@@ -10,14 +10,12 @@ CASE = Path(__file__).resolve().parent
 sys.path.insert(0, str(CASE.parents[1] / "pipeline"))
 import together
 
-# What differs from case.yaml. `mpm` and `ddmp` are the methods of the literature, whose points weigh their volumes; `ddmp-fitted` has smooth gradients and
-# fitted weights.
+# What differs from case.yaml. `mpm` and `ddmp` are the methods of the literature, whose points weigh their volumes; the default is beside them.
 VARIANTS = {
     "smooth": {"contacts[0].adhesion_factor": 0},
     "rough": {"contacts[0].adhesion_factor": 1},
     "mpm": {"numerics.gradient": "mpm", "numerics.quadrature": "points"},
     "ddmp": {"numerics.gradient": "ddmp", "numerics.quadrature": "points"},
-    "ddmp-fitted": {"numerics.gradient": "ddmp"},
 }
 
 if __name__ == "__main__":

@@ -233,19 +233,16 @@ impl Checker {
     fn numerics(&mut self, file: &raw::CaseFile, contacts: bool, path: &Path) -> Numerics {
         let numerics = &file.numerics;
         let smooths = numerics.gradient == raw::Gradient::Ddmp;
-        let moves = |phase: &raw::Phase| matches!(phase.analysis, raw::Analysis::Dynamic | raw::Analysis::Auto);
-        let quadrature = numerics.quadrature.unwrap_or_else(|| {
-            if smooths || file.phases.iter().any(moves) { raw::Quadrature::Fitted } else { raw::Quadrature::Resampled }
-        });
+        let of_scheme = if smooths { raw::Quadrature::Points } else { raw::Quadrature::Resampled };
+        let quadrature = numerics.quadrature.unwrap_or(of_scheme);
         if smooths && quadrature == raw::Quadrature::Resampled {
             let problem =
                 "gradients are smoothed at the material points, and resampled quadrature does not sum over these";
-            self.issue(&path.key("quadrature"), At::Value, problem, "choose `quadrature: fitted`, or `gradient: mpm`");
+            self.issue(&path.key("quadrature"), At::Value, problem, "choose `quadrature: points`, or `gradient: mpm`");
         }
-        let fitted = quadrature == raw::Quadrature::Fitted;
         let gradient = match numerics.gradient {
             raw::Gradient::Mpm => Scheme::Mpm,
-            raw::Gradient::Ddmp => Scheme::Ddmp { fitted },
+            raw::Gradient::Ddmp => Scheme::Ddmp,
             _ => {
                 let problem = format!("this gradient {LATER}");
                 self.issue(&path.key("gradient"), At::Value, problem, "choose mpm or ddmp");

@@ -13,7 +13,7 @@ use crate::mesh::Mesh;
 use crate::mesh::faces::Faces;
 use crate::mesh::locate::Locator;
 use crate::points::Points;
-use crate::quadrature::{Bounded, Fitted, Quadrature, Resampled, Volumes};
+use crate::quadrature::{Bounded, Quadrature, Resampled, Volumes};
 use crate::run::{self, Ended, Progress};
 use crate::stencil::{Scheme, cell_size, smooths};
 use crate::step::{self, Fem, Numerics, Phase, Scene, Search, State, Stop, overlap};
@@ -26,8 +26,8 @@ use std::sync::atomic::AtomicBool;
 
 /// γ (-) of the ghost penalty: 1e-3 … 1 give the same results to the error of the grid.
 const GHOST: f64 = 0.1;
-/// κ (-) of the ghost penalty with resampled quadrature. A bar pushed through clay needs it: with 0.02 slivers beside the bar fold after three
-/// diameters. It is part of why the load of the bar is 5 % too high on cells of a seventh of its diameter.
+/// κ (-) of the ghost penalty in scenes without inertia. A bar pushed through clay needs it: with 0.02 it stops after three
+/// diameters, and with the secant stiffness of scenes with inertia after one and a half. These cannot have it: a coarse block that should fail would be held by it.
 const HOLD: f64 = 0.1;
 
 /// Solves a case in `folder`.
@@ -160,8 +160,7 @@ pub fn scene<K: Kinematics<2>>(case: &Case, mut whole: Mesh<2>) -> Result<Scene<
         if case.numerics.quadrature != raw::Quadrature::Points {
             let models = self::models(case, &mesh)?;
             let penalty = GhostPenalty::<K>::new(GHOST, models, faces.inner.len());
-            let resampled = case.numerics.quadrature == raw::Quadrature::Resampled;
-            terms.push(Box::new(if resampled { penalty.holding(HOLD) } else { penalty }));
+            terms.push(Box::new(if dynamic { penalty } else { penalty.holding(HOLD) }));
         }
         if dynamic && density_scale > 0.0 {
             terms.push(Box::new(GhostInertia::<K>::new(density_scale, faces.inner.len())));
@@ -290,8 +289,6 @@ fn quadrature<K: Kinematics<2>>(case: &Case, mesh: &Mesh<2>) -> Result<Box<dyn Q
     let bounded = water::needs_surface(case);
     Ok(match (case.numerics.quadrature, bounded) {
         (raw::Quadrature::Resampled, _) => Box::new(Resampled::<K>::new(mesh, models(case, mesh)?, bounded)),
-        (raw::Quadrature::Fitted, true) => Box::new(Fitted::<K>::new(mesh).with_boundary()),
-        (raw::Quadrature::Fitted, false) => Box::new(Fitted::<K>::new(mesh)),
         (raw::Quadrature::Points, true) => Box::new(Bounded::<K>::new(mesh)),
         (raw::Quadrature::Points, false) => Box::new(Volumes::<K>::default()),
     })

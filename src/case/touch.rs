@@ -8,7 +8,6 @@ use crate::contact::{Bodies, Boundary, Pair, Rigid, Skin, SoilSide, Surface};
 use crate::error::{Error, Result};
 use crate::kinematics::Kinematics;
 use crate::mesh::Mesh;
-use crate::mesh::faces::Faces;
 use crate::rigid::Body;
 use std::collections::BTreeMap;
 use std::marker::PhantomData;
@@ -39,42 +38,41 @@ pub fn pairs<K: Kinematics<2>>(
     case.contacts.iter().map(pair).collect()
 }
 
-/// A straight line along the boundary of the grid, with the grid on its left.
-struct Edge {
-    /// Out of the grid.
-    normal: [f64; 2],
-    /// Distance (m) of the line from the origin along the normal.
-    distance: f64,
+/// A line that supports hold the material at: an axis of symmetry, or a side of the domain.
+struct Held {
+    /// 0 where the line is `x = place`, 1 where it is `y = place` (m).
+    component: usize,
+    place: f64,
 }
 
-impl Edge {
-    fn through(a: &[f64; 2], b: &[f64; 2]) -> Self {
-        let length = (b[0] - a[0]).hypot(b[1] - a[1]);
-        let normal = [(b[1] - a[1]) / length, -(b[0] - a[0]) / length];
-        Self { normal, distance: normal[0] * a[0] + normal[1] * a[1] }
-    }
-
-    /// Whether a side of a structure, which is on its left, lies on the line: an axis of symmetry or a wall, with nothing to touch
-    /// beyond. `size` (m) is what lengths are measured by.
-    fn is_along(&self, a: &[f64; 2], b: &[f64; 2], size: f64) -> bool {
-        let near = |x: &[f64; 2]| (self.normal[0] * x[0] + self.normal[1] * x[1] - self.distance).abs() < 1e-9 * size;
-        let own = Self::through(a, b).normal;
-        near(a) && near(b) && own[0] * self.normal[0] + own[1] * self.normal[1] > 0.0
+impl Held {
+    /// Whether a side of a structure lies on the line, with nothing to touch beyond. `size` (m) is what lengths are measured by.
+    fn has(&self, a: &[f64; 2], b: &[f64; 2], size: f64) -> bool {
+        [a, b].iter().all(|x| (x[self.component] - self.place).abs() < 1e-6 * size)
     }
 }
 
-/// The lines along which the boundary of a grid runs straight, given a length (m) to tell them apart by.
-fn edges(grid: &Mesh<2>, size: f64) -> Vec<Edge> {
-    let mut edges: Vec<Edge> = Vec::new();
-    for (cell, side) in Faces::of(grid).boundary {
-        let nodes = grid.cells.nodes(cell as usize);
-        let (_, facets) = grid.cells.kind[cell as usize].facets();
-        let [a, b] = [0, 1].map(|i| grid.nodes[nodes[facets[side as usize][i]] as usize]);
-        if !edges.iter().any(|edge| edge.is_along(&a, &b, size)) {
-            edges.push(Edge::through(&a, &b));
+/// The lines of a case across which supports hold the grid, and the axis of axisymmetry.
+fn held(case: &Case, grid: &Mesh<2>, size: f64) -> Vec<Held> {
+    let mut lines = axis(case);
+    for support in &case.supports {
+        let facets = grid.group(&support.curve).map_or(&[][..], |group| &group.facets);
+        for component in (0..2).filter(|&component| support.fixed[component]) {
+            for (_, nodes) in facets.iter().filter(|(_, nodes)| nodes.len() > 1) {
+                let [a, b] = [0, 1].map(|i| grid.nodes[nodes[i] as usize]);
+                let line = Held { component, place: a[component] };
+                if line.has(&a, &b, size) && !lines.iter().any(|line| line.has(&a, &b, size)) {
+                    lines.push(line);
+                }
+            }
         }
     }
-    edges
+    lines
+}
+
+/// The axis of axisymmetry, where there is one.
+fn axis(case: &Case) -> Vec<Held> {
+    if case.geometry == Geometry::Axisymmetric { vec![Held { component: 0, place: 0.0 }] } else { Vec::new() }
 }
 
 /// What pairs are made from.
@@ -97,11 +95,11 @@ impl Parts<'_> {
         }
     }
 
-    /// The boundary of a region beside the grid, without what lies along some `edges`, with hats about `spacing` (m) apart.
-    fn boundary(&self, region: u16, spacing: f64, edges: &[Edge]) -> Result<Surface> {
+    /// The boundary of a region beside the grid, without what lies on some `lines`, with hats about `spacing` (m) apart.
+    fn boundary(&self, region: u16, spacing: f64, lines: &[Held]) -> Result<Surface> {
         let beyond = |nodes: &[u32]| {
             let x = |i: usize| self.fem.nodes[nodes[i] as usize];
-            edges.iter().any(|edge| edge.is_along(&x(0), &x(1), spacing))
+            lines.iter().any(|line| line.has(&x(0), &x(1), spacing))
         };
         Surface::new(self.fem, region, spacing, beyond)
     }
@@ -147,7 +145,7 @@ impl Parts<'_> {
                 let (kind, facets) = wall::facets(self.grid, body, &regions)?;
                 Surface::of(self.grid, kind, facets, HATS * edge)
             }
-            _ => self.boundary(structure, HATS * edge, &edges(self.grid, HATS * edge))?,
+            _ => self.boundary(structure, HATS * edge, &held(self.case, self.grid, HATS * edge))?,
         };
         let skin = self.skin()?;
         Ok(Boundary { structure, surface, law: contact.law, regions, models, skin, kinematics: PhantomData })
@@ -167,8 +165,7 @@ impl Parts<'_> {
         let spacing = HATS * edge.ok_or_else(|| self.no_cells(contact, "a region"))?;
         let structure = self.region(sides[0])?;
         // The axis of symmetry is no boundary.
-        let axis = Edge { normal: [-1.0, 0.0], distance: 0.0 };
-        let axis = if self.case.geometry == Geometry::Axisymmetric { vec![axis] } else { Vec::new() };
+        let axis = axis(self.case);
         let surface = self.boundary(structure, spacing, &axis)?;
         let (against, other) = match &contact.structure {
             Touching::Structure(_) => {

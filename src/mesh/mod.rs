@@ -1,5 +1,6 @@
 //! The mesh: nodes, cells of any mixture of kinds, and the named groups of the `.geo`.
 
+mod bodies;
 pub mod builder;
 pub mod conformity;
 pub mod faces;
@@ -8,6 +9,8 @@ pub mod locate;
 pub mod msh;
 pub mod quality;
 pub mod shape;
+
+pub use bodies::Bodies;
 
 use shape::CellKind;
 

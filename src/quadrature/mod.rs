@@ -1,23 +1,12 @@
-//! Integration weights of the material points: their volumes, or weights fitted to the part of each cell that
-//! is filled, so that polynomials are integrated exactly there.
+//! What the integrals of a step are sums over: integration points of the cells, or the material points with their volumes.
 //!
-//! Weights are found when the grid is restored and hold until it is again. Mass and momentum stay with the
+//! Weights are found when the grid is restored and hold until it is again. Mass and momentum stay with the material
 //! points.
 
-mod cells;
-mod dual;
-mod fit;
-mod fitted;
-mod least;
 mod resampled;
 mod surface;
 mod volumes;
 
-#[cfg(test)]
-mod tests;
-
-pub use fit::{Degree, Fitter, MOMENTS};
-pub use fitted::Fitted;
 pub use resampled::{Resampled, Samples};
 pub use surface::Bounded;
 pub use volumes::Volumes;
@@ -35,9 +24,6 @@ pub struct Weighing<const D: usize> {
     pub samples: Option<Samples<D>>,
     /// What each of the points that integrals are summed over weighs (m³), as volume when seeded.
     pub weight: Vec<f64>,
-    /// By cell, ascending, what is added to the gradients of its nodes (1/m) at all its points, so that a
-    /// uniform stress exerts the forces it must where no weights do that; few cells need it.
-    pub shift: Vec<(u32, Vec<[f64; D]>)>,
     /// Cells that take part and are not full, ascending.
     pub soft: Vec<SoftCell>,
     /// Cells with points that are cut or too poor in points to stand alone, ascending: their faces take a penalty.
@@ -73,20 +59,17 @@ pub struct Restored<'a, const D: usize> {
     pub displacement: Option<&'a [[f64; D]]>,
 }
 
-/// How the weights of the cells came out.
+/// How the integration points of the cells came out; zeros where integrals are sums over the material points.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Tally {
-    /// Cells with weights that integrate quadratic polynomials, linear ones and constants; by volume alone.
-    pub quadratic: u32,
+    /// Cells to whose points a linear function is fitted, and a constant.
     pub linear: u32,
     pub constant: u32,
-    pub volume: u32,
-    /// `Σ V_p` of the points and the volume that the weights stand for (m³).
+    /// Integration points that take the state of a material point, for no model answers to that which is fitted.
+    pub taken: u32,
+    /// The volume (m³) of the material points and that of the integration points.
     pub point_volume: f64,
-    pub fitted_volume: f64,
-    /// `Σ V_p / Σ w − 1` (-) of the cell inside the material in which it is farthest from zero: points crowd
-    /// (positive) or thin out there.
-    pub drift: f64,
+    pub volume: f64,
 }
 
 /// A rule for the weights of points.

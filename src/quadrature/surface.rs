@@ -47,7 +47,7 @@ pub fn smoothed<K: Kinematics<2>>(
     }
     let nothing = |bearer: u32, _: &[f64; 2]| Behind { region: NO_REGION, bearer };
     let boundary = ActiveBoundary::of(mesh, geometry, contour, grid.taking_part, nothing);
-    let front = Front::along::<K>(mesh, geometry, &boundary, points.initial_volume.iter().sum())?;
+    let front = Front::along::<K>(mesh, geometry, &boundary)?;
     let volume = (0..points.len()).map(|p| points.volume(p)).sum();
     match front.inspect::<K>(mesh, geometry, grid.locator, volume) {
         // Nothing follows it, so that it may touch itself.

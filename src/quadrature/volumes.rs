@@ -1,6 +1,6 @@
 //! The classical weights: each point stands for its volume.
 
-use super::{Quadrature, Restored, Tally, Weighing};
+use super::{Quadrature, Restored, Weighing};
 use crate::kinematics::Kinematics;
 use crate::stencil::{Patch, soft_cells};
 use crate::surface::Front;
@@ -19,24 +19,11 @@ pub struct Volumes<K> {
 impl<const D: usize, K: Kinematics<D>> Quadrature<D> for Volumes<K> {
     fn weigh(&self, grid: &Restored<D>, _front: &mut Option<Front>) -> Weighing<D> {
         let Restored { mesh, points, stencil, taking_part, .. } = *grid;
-        let volume = (0..points.len()).map(|p| points.volume(p)).sum();
         let soft = soft_cells::<D, K>(mesh, stencil, points, taking_part);
         let half_empty =
             |cell: u32| soft.binary_search_by_key(&cell, |s| s.cell).is_ok_and(|at| soft[at].emptiness > POOR);
         let poor = |patch: &&Patch| patch.point_count < FEW || half_empty(patch.cell);
         let poor = stencil.patches.iter().filter(poor).map(|patch| patch.cell).collect();
-        Weighing {
-            weight: points.initial_volume.clone(),
-            shift: Vec::new(),
-            soft,
-            poor,
-            tally: Tally {
-                volume: stencil.patches.len() as u32,
-                point_volume: volume,
-                fitted_volume: volume,
-                ..Tally::default()
-            },
-            ..Weighing::default()
-        }
+        Weighing { weight: points.initial_volume.clone(), soft, poor, ..Weighing::default() }
     }
 }

@@ -81,7 +81,6 @@ pub fn store<const D: usize>(state: &State<D>) -> Store {
     let (markers, loops) = front.as_ref().map_or((Vec::new(), Vec::new()), |f| (f.position.concat(), f.first.clone()));
     store.put("front.position", 2, markers);
     store.put("front.first", 1, loops);
-    store.put("front.weight", 1, front.iter().map(|f| f.weight).collect());
     columns::put(&mut store, POINTS, points);
     columns::put(&mut store, FEM, fem);
     store
@@ -89,16 +88,14 @@ pub fn store<const D: usize>(state: &State<D>) -> Store {
 
 fn put_weighing<const D: usize>(store: &mut Store, weighing: &Weighing<D>) {
     // Why a front was lost has been told when it was.
-    let Weighing { samples, weight, shift, soft, poor, boundary, level_set, tally, lost_front: _, put_back: _ } =
-        weighing;
-    let Tally { quadratic, linear, constant, volume, point_volume, fitted_volume, drift } = tally;
-    if let Some(Samples { points, parametric }) = samples {
+    let Weighing { samples, weight, soft, poor, boundary, level_set, tally, lost_front: _, put_back: _ } = weighing;
+    let Tally { linear, constant, taken, point_volume, volume } = tally;
+    if let Some(Samples { points, parametric, outside }) = samples {
         columns::put(store, SAMPLES, points);
         store.put("samples.parametric", 3, parametric.concat());
+        store.put("samples.outside", 1, outside.clone());
     }
     store.put("weighing.weight", 1, weight.clone());
-    store.put("weighing.shifted", 2, shift.iter().flat_map(|(cell, by)| [*cell, by.len() as u32]).collect());
-    store.put("weighing.shift", D, shift.iter().flat_map(|(_, by)| by.concat()).collect());
     store.put("weighing.soft", 1, soft.iter().map(|s| s.cell).collect());
     store.put("weighing.emptiness", 1, soft.iter().map(|s| s.emptiness).collect());
     store.put("weighing.poor", 1, poor.clone());
@@ -112,44 +109,35 @@ fn put_weighing<const D: usize>(store: &mut Store, weighing: &Weighing<D>) {
     );
     let numbers = |piece: &Piece| [piece.cell, piece.bearer, u32::from(piece.region), u32::from(piece.wall)];
     store.put("boundary.numbers", 4, pieces.iter().flat_map(numbers).collect());
-    store.put("weighing.cells", 1, vec![*quadratic, *linear, *constant, *volume]);
-    store.put("weighing.volume", 1, vec![*point_volume, *fitted_volume, *drift]);
+    store.put("weighing.cells", 1, vec![*linear, *constant, *taken]);
+    store.put("weighing.volume", 1, vec![*point_volume, *volume]);
 }
 
 fn take_weighing<const D: usize>(store: &mut Store) -> Result<Weighing<D>> {
     let samples = match store.take_if_present::<f64>("samples.parametric", 3)? {
-        Some(parametric) => Some(Samples { points: columns::take(store, SAMPLES)?, parametric: vectors(&parametric) }),
+        Some(parametric) => Some(Samples {
+            points: columns::take(store, SAMPLES)?,
+            parametric: vectors(&parametric),
+            outside: store.take::<u32>("samples.outside", 1)?,
+        }),
         None => None,
     };
     let weight = store.take::<f64>("weighing.weight", 1)?;
-    let shifted = store.take::<u32>("weighing.shifted", 2)?;
-    let values = vectors::<D>(&store.take::<f64>("weighing.shift", D)?);
-    let of_cells = shifted.chunks_exact(2).fold(0usize, |sum, s| sum.saturating_add(s[1] as usize));
     let (soft, emptiness) = (store.take::<u32>("weighing.soft", 1)?, store.take::<f64>("weighing.emptiness", 1)?);
-    if of_cells != values.len() || soft.len() != emptiness.len() {
+    if soft.len() != emptiness.len() {
         return Err(foreign("what it says of cells"));
     }
-    let mut values = values.into_iter();
-    let shift = shifted.chunks_exact(2).map(|s| (s[0], values.by_ref().take(s[1] as usize).collect())).collect();
     let soft = soft.into_iter().zip(emptiness).map(|(cell, emptiness)| SoftCell { cell, emptiness }).collect();
     let poor = store.take::<u32>("weighing.poor", 1)?;
     let level_set = store.take::<f64>("weighing.level_set", 1)?;
     let boundary = take_boundary(store)?;
     let (cells, volume) = (store.take::<u32>("weighing.cells", 1)?, store.take::<f64>("weighing.volume", 1)?);
-    let ([quadratic, linear, constant, volume_only], [point_volume, fitted_volume, drift]) = (&cells[..], &volume[..])
-    else {
+    let ([linear, constant, taken], [point_volume, volume]) = (&cells[..], &volume[..]) else {
         return Err(foreign("its weights"));
     };
-    let tally = Tally {
-        quadratic: *quadratic,
-        linear: *linear,
-        constant: *constant,
-        volume: *volume_only,
-        point_volume: *point_volume,
-        fitted_volume: *fitted_volume,
-        drift: *drift,
-    };
-    Ok(Weighing { samples, weight, shift, soft, poor, boundary, level_set, tally, lost_front: None, put_back: None })
+    let tally =
+        Tally { linear: *linear, constant: *constant, taken: *taken, point_volume: *point_volume, volume: *volume };
+    Ok(Weighing { samples, weight, soft, poor, boundary, level_set, tally, lost_front: None, put_back: None })
 }
 
 fn take_boundary(store: &mut Store) -> Result<ActiveBoundary> {
@@ -217,11 +205,8 @@ fn take_multipliers(store: &mut Store) -> Result<Vec<Multipliers>> {
 fn take_front(store: &mut Store) -> Result<Option<Front>> {
     let position = vectors(&store.take::<f64>("front.position", 2)?);
     let first = store.take::<u32>("front.first", 1)?;
-    match store.take::<f64>("front.weight", 1)?[..] {
-        [] if position.is_empty() && first.is_empty() => Ok(None),
-        [weight] => Ok(Some(Front { position, first, weight })),
-        _ => Err(foreign("its surface")),
-    }
+    let none = position.is_empty() && first.is_empty();
+    Ok((!none).then_some(Front { position, first }))
 }
 
 /// The state in a checkpoint of the run of `scene` that began with `first`.

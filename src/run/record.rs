@@ -324,7 +324,7 @@ pub fn log_lines<const D: usize>(scene: &Scene<D>, state: &State<D>, report: &Re
         }
     }
     if report.strained > 0 {
-        line.push_str(&format!(" {} points strained beyond measure resampled", report.strained));
+        line.push_str(&format!(" {} material points took the state of an integration point", report.strained));
     }
     let (share, most) = (state.release.share(state.phase_time), state.release.most());
     if share > 0.0 && !dynamic {
@@ -334,15 +334,16 @@ pub fn log_lines<const D: usize>(scene: &Scene<D>, state: &State<D>, report: &Re
         line.push_str(" restored");
     }
     let tally = &state.weighing.tally;
-    if report.restored && tally.volume == 0 {
-        line.push_str(&format!(
-            " cells {} quadratic {} linear {} constant volume drift {:.2e} in a cell {:.2e}",
-            tally.quadratic,
-            tally.linear,
-            tally.constant,
-            tally.point_volume / tally.fitted_volume - 1.0,
-            tally.drift
-        ));
+    if report.restored && tally.volume > 0.0 {
+        line.push_str(&format!(" cells fitted linear {} constant {}", tally.linear, tally.constant));
+        let outside = state.weighing.samples.as_ref().map_or(0, |samples| samples.outside.len());
+        if outside > 0 {
+            line.push_str(&format!(" outside the surface {outside}"));
+        }
+        if tally.taken > 0 {
+            line.push_str(&format!(" integration points with the state of a material point {}", tally.taken));
+        }
+        line.push_str(&format!(" volume drift {:.2e}", tally.point_volume / tally.volume - 1.0));
     }
     lines.push(line);
     if report.restored {

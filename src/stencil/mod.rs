@@ -24,8 +24,8 @@ use std::sync::Arc;
 pub enum Scheme {
     /// Those of the cell's own shape functions.
     Mpm,
-    /// Smoothed between cells; `fitted` where the points have weights fitted to the cells.
-    Ddmp { fitted: bool },
+    /// Smoothed between cells.
+    Ddmp,
 }
 
 /// The points of one cell and the nodes they act on.
@@ -63,8 +63,6 @@ pub struct Stencil<const D: usize> {
     pub weight: Vec<f64>,
     /// Where the gradients of a cell reach beyond its own nodes; absent where they do not.
     pub reach: Option<Arc<Reach>>,
-    /// What is to be done once the points have weights.
-    unweighed: Option<ddmp::Unweighed>,
 }
 
 /// The arrays of one patch, to be filled.
@@ -125,31 +123,16 @@ impl<const D: usize> Stencil<D> {
     ) {
         match scheme {
             Scheme::Mpm => mpm::fill::<D, K>(self, mesh, cell, xi),
-            Scheme::Ddmp { fitted } => ddmp::fill::<D, K>(self, mesh, cell, xi, taking_part, fitted),
+            Scheme::Ddmp => ddmp::fill::<D, K>(self, mesh, cell, xi, taking_part),
         }
         self.weight.resize(self.points.len(), 0.0);
     }
 
-    /// Gives the points their weights (m³), by number, and the cells in `shift` what is added to the gradients of
-    /// their nodes (1/m).
-    pub fn weigh(&mut self, weight: &[f64], shift: &[(u32, Vec<[f64; D]>)]) {
+    /// Gives the points their weights (m³), by number.
+    pub fn weigh(&mut self, weight: &[f64]) {
         for (own, &p) in self.weight.iter_mut().zip(&self.points) {
             *own = weight[p as usize];
         }
-        for (cell, shift) in shift {
-            let Ok(patch) = self.patches.binary_search_by_key(cell, |patch| patch.cell) else { continue };
-            let patch = self.patches[patch];
-            let count = patch.function_count as usize;
-            let begin = patch.first_gradient;
-            for gradient in self.gradient[begin..begin + patch.point_count as usize * count].chunks_exact_mut(count) {
-                for (gradient, shift) in gradient.iter_mut().zip(shift) {
-                    for d in 0..D {
-                        gradient[d] += shift[d];
-                    }
-                }
-            }
-        }
-        ddmp::weigh(self);
     }
 
     /// The arrays of each patch, so that patches can be filled in parallel.

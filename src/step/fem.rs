@@ -46,7 +46,7 @@ impl<const D: usize> Elements<D> {
         self.mesh.nodes.clone_from(&state.nodes);
         let count = self.points;
         self.stencil.fill::<K>(Scheme::Mpm, &self.mesh, &state.fem.cell[..count], &state.fem_parametric[..count], &[]);
-        self.stencil.weigh(&state.fem.initial_volume[..count], &[]);
+        self.stencil.weigh(&state.fem.initial_volume[..count]);
     }
 
     /// Appends a clique for each cell that deforms, given the block of each node.

@@ -21,7 +21,9 @@ pub fn choose<const D: usize>(scene: &Scene<D>, state: &State<D>) -> Vec<u32> {
     state.integration().cell.iter().for_each(|&c| holds[c as usize] = true);
     // The mass of fewer points than nodes is singular.
     let dynamic = scene.dynamic();
-    let few = (0u32..).zip(&count).filter(|&(c, &n)| dynamic && n > 0 && n < scene.mesh.cells.nodes(c as usize).len());
+    let few = (0u32..)
+        .zip(&count)
+        .filter(|&(c, &n)| dynamic && holds[c as usize] && n < scene.mesh.cells.nodes(c as usize).len());
     for c in few.map(|(c, _)| c).chain(state.weighing.poor.iter().copied()) {
         poor[c as usize] = true;
         for &other in faces.neighbours(c) {

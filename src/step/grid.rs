@@ -174,9 +174,7 @@ impl<const D: usize> Grid<D> {
     /// When a point lies outside the grid, or memory does not suffice.
     pub fn first<K: Kinematics<D>>(scene: &Scene<D>, state: &mut State<D>) -> Result<Self> {
         let mut stencils = Stencils::default();
-        if scene.terms.iter().any(|term| term.sees_flow()) {
-            state.points.plastic_increment.resize(state.points.len(), 0.0);
-        }
+        state.points.plastic_increment.resize(state.points.len(), 0.0);
         let mut relaxed = None;
         begin_anew::<D, K>(scene, state, &mut stencils, &mut relaxed)?;
         let grid = Self::with::<K>(scene, state, stencils, relaxed)?;

@@ -22,6 +22,13 @@ use crate::term::MASS_PENALTY;
 /// `ε` (-).
 const WEAK: f64 = 1e-10;
 
+/// Whose mass it is.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub enum Carrier {
+    MaterialPoints,
+    IntegrationPoints,
+}
+
 /// The mass of the points on the nodes, factorised.
 pub struct Mass<'a> {
     system: &'a mut System,
@@ -45,15 +52,20 @@ impl<'a> Mass<'a> {
         scene: &Scene<D>,
         grid: &'a mut Grid<D>,
         state: &State<D>,
+        carrier: Carrier,
     ) -> Result<Self> {
         let Some(system) = grid.mass.as_mut() else {
             return Err(Error::analysis("transfer", "a scene without dynamic phases has no mass system", ""));
         };
         system.matrix.clear();
         let mut unused = vec![0.0; system.pattern.len()];
-        let (stencil, clique) = (grid.stencils.material.as_ref().unwrap_or(&grid.stencils.integration), &grid.clique);
+        let (stencil, points) = match (carrier, &grid.stencils.material) {
+            (Carrier::MaterialPoints, Some(stencil)) => (stencil, &state.points),
+            _ => (&grid.stencils.integration, state.integration()),
+        };
+        let clique = &grid.clique;
         let mesh = grid.relaxed.as_ref().map_or(&scene.mesh, |relaxed| &relaxed.mesh);
-        let soil = Family { mesh: &scene.mesh, stencil, clique, points: &state.points };
+        let soil = Family { mesh: &scene.mesh, stencil, clique, points };
         let elements = grid.elements.iter().map(|elements| elements.family(&state.fem));
         for Family { stencil, clique, points, .. } in std::iter::once(soil).chain(elements) {
             scatter(

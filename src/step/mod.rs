@@ -16,6 +16,7 @@ mod guess;
 mod leaving;
 mod mass;
 mod materials;
+mod momentum;
 mod newton;
 pub mod overlap;
 mod pressure;

@@ -113,12 +113,12 @@ fn place<const D: usize, K: Kinematics<D>>(
 
 /// Gives the points that integrals are summed over their weights, given the stencil of the material points.
 pub fn take_weights<const D: usize, K: Kinematics<D>>(stencils: &mut Stencils<D>, mesh: &Mesh<D>, state: &State<D>) {
-    let Weighing { samples, weight, shift, .. } = &state.weighing;
-    if let Some(Samples { points, parametric }) = samples {
+    let Weighing { samples, weight, .. } = &state.weighing;
+    if let Some(Samples { points, parametric, .. }) = samples {
         stencils.material = Some(std::mem::take(&mut stencils.integration));
         stencils.integration.fill::<K>(Scheme::Mpm, mesh, &points.cell, parametric, &state.taking_part);
     }
-    stencils.integration.weigh(weight, shift);
+    stencils.integration.weigh(weight);
 }
 
 /// Fills the stencil for the material points where they were last located.

@@ -1,11 +1,13 @@
 //! Transfer of the motion between points and grid.
 //!
 //! To the grid by consistent mass, `Σ_p m_p N_I N_J v_J = Σ_p m_p N_I v_p`: it keeps linear and angular momentum
-//! and a linear velocity field exactly. To the points by increments of velocity (FLIP) and values of acceleration.
+//! and a linear velocity field exactly. To the points by increments of velocity (FLIP) and values of acceleration, with the momentum
+//! that these have at the integration points ([`momentum`]).
 
 use super::balance::static_force;
 use super::grid::{Family, Grid};
-use super::mass::Mass;
+use super::mass::{Carrier, Mass};
+use super::momentum;
 use super::newton::{Problem, Solution};
 use super::rigid;
 use super::scene::Scene;
@@ -68,7 +70,7 @@ impl<const D: usize> Start<D> {
     /// Momentum (t m/s) that the nodes take on at once, all together.
     pub fn impulse<K: Kinematics<D>>(&self, scene: &Scene<D>, grid: &Grid<D>, state: &State<D>) -> [f64; D] {
         let mut impulse = rigid::impulse(scene, state, self);
-        for Family { mesh, stencil, points, .. } in grid.families(scene, state) {
+        for Family { mesh, stencil, points, .. } in grid.integrated(scene, state) {
             for patch in &stencil.patches {
                 let nodes = mesh.cells.nodes(patch.cell as usize);
                 let mut jump = [[0.0; D]; MAX_NODES];
@@ -107,7 +109,7 @@ fn first_acceleration<const D: usize, K: Kinematics<D>>(
             fixed[n as usize][f.component] = true;
         }
     }
-    let mut mass = Mass::assemble::<D, K>(scene, grid, state)?;
+    let mut mass = Mass::assemble::<D, K>(scene, grid, state, Carrier::IntegrationPoints)?;
     for d in 0..D {
         let held: Vec<bool> = node.iter().map(|&n| fixed[n as usize][d]).collect();
         let mut x: Vec<f64> = (0..node.len()).map(|b| -force[b * D + d]).collect();
@@ -201,13 +203,14 @@ pub fn move_points<const D: usize, K: Kinematics<D>>(
         .zip(&state.displacement)
         .map(|(now, before)| std::array::from_fn(|d| now[d] - before[d]))
         .collect();
-    let [moved, fem] = to_points::<D, K>(scene, grid, state, &increment);
-    add(&mut state.points.position, &moved);
-    add(&mut state.fem.position, &fem);
-    if let Some(samples) = &mut state.weighing.samples {
-        let (mesh, stencil, clique) = (&scene.mesh, &grid.stencils.integration, &grid.clique);
-        let moved = interpolate::<D, K>(&Family { mesh, stencil, clique, points: &samples.points }, &increment);
+    let of = |family: Family<D>| interpolate::<D, K>(&family, &increment);
+    let moved: Vec<_> = grid.families(scene, state).map(of).collect();
+    let of_integration = state.weighing.samples.is_some().then(|| grid.integrated(scene, state).next().map(of));
+    if let (Some(Some(moved)), Some(samples)) = (of_integration, &mut state.weighing.samples) {
         add(&mut samples.points.position, &moved);
+    }
+    for (points, moved) in [&mut state.points, &mut state.fem].into_iter().zip(&moved) {
+        add(&mut points.position, moved);
     }
     rigid::move_points(scene, state, displacement);
 }
@@ -221,7 +224,9 @@ fn add<const D: usize>(to: &mut [[f64; D]], increment: &[[f64; D]]) {
 }
 
 fn accelerations_to_points<const D: usize, K: Kinematics<D>>(scene: &Scene<D>, grid: &Grid<D>, state: &mut State<D>) {
-    [state.points.acceleration, state.fem.acceleration] = to_points::<D, K>(scene, grid, state, &state.acceleration);
+    let nowhere = vec![[0.0; D]; state.acceleration.len()];
+    [state.points.acceleration, state.fem.acceleration] =
+        to_points::<D, K>(scene, grid, state, &state.acceleration, &nowhere);
 }
 
 /// Hands the motion at the end of the step that began with `start` to the points. They take on all that the
@@ -235,18 +240,19 @@ pub fn motion_to_points<const D: usize, K: Kinematics<D>>(
     dt: f64,
 ) {
     let integration = GeneralisedAlpha::new(scene.numerics.spectral_radius, dt);
-    let mut change = vec![[0.0; D]; displacement.len()];
+    let (mut change, mut half) = (vec![[0.0; D]; displacement.len()], vec![[0.0; D]; displacement.len()]);
     for n in 0..displacement.len() {
         for d in 0..D {
             let (v, a) = (start.velocity[n][d], start.acceleration[n][d]);
             let next = integration.acceleration(displacement[n][d] - state.displacement[n][d], v, a);
             let velocity = integration.velocity(v, a, next);
             change[n][d] = velocity - state.velocity[n][d];
+            half[n][d] = 0.5 * (displacement[n][d] - state.displacement[n][d]);
             state.velocity[n][d] = velocity;
             state.acceleration[n][d] = next;
         }
     }
-    let [gained, fem] = to_points::<D, K>(scene, grid, state, &change);
+    let [gained, fem] = to_points::<D, K>(scene, grid, state, &change, &half);
     add(&mut state.points.velocity, &gained);
     add(&mut state.fem.velocity, &fem);
     accelerations_to_points::<D, K>(scene, grid, state);
@@ -281,7 +287,7 @@ fn to_nodes<const D: usize, K: Kinematics<D>>(
     }
     rigid::momentum(scene, grid, state, &mut right);
     let node = grid.node.clone();
-    let mut mass = Mass::assemble::<D, K>(scene, grid, state)?;
+    let mut mass = Mass::assemble::<D, K>(scene, grid, state, Carrier::MaterialPoints)?;
     let mut nodal = [0, 1].map(|_| vec![[0.0; D]; scene.mesh.nodes.len()]);
     for (right, nodal) in right.iter().zip(&mut nodal) {
         for d in 0..D {
@@ -292,25 +298,29 @@ fn to_nodes<const D: usize, K: Kinematics<D>>(
             }
         }
     }
+    momentum::complete_nodes::<D, K>(scene, grid, state, &state.points.acceleration, &mut nodal[1]);
     Ok(nodal)
 }
 
-/// Interpolates a nodal field at the material points and at those of the finite elements.
+/// The value of a nodal field of motion at the material points, with its momentum, and at the points of the finite elements; its moment
+/// is taken less the nodal displacement `back` (m) from where they are.
 fn to_points<const D: usize, K: Kinematics<D>>(
     scene: &Scene<D>,
     grid: &Grid<D>,
     state: &State<D>,
     field: &[[f64; D]],
+    back: &[[f64; D]],
 ) -> [Vec<[f64; D]>; 2] {
     let mut out = [Vec::new(), Vec::new()];
     for (out, family) in out.iter_mut().zip(grid.families(scene, state)) {
         *out = interpolate::<D, K>(&family, field);
     }
+    momentum::complete_points::<D, K>(scene, grid, state, field, back, &mut out[0]);
     out
 }
 
 /// Interpolates a nodal field at points.
-fn interpolate<const D: usize, K: Kinematics<D>>(family: &Family<D>, field: &[[f64; D]]) -> Vec<[f64; D]> {
+pub fn interpolate<const D: usize, K: Kinematics<D>>(family: &Family<D>, field: &[[f64; D]]) -> Vec<[f64; D]> {
     let Family { mesh, stencil, points, .. } = family;
     let by_patch: Vec<Vec<(usize, [f64; D])>> = stencil
         .patches

@@ -1,5 +1,7 @@
 //! Points in simple bodies, for the tests.
 
+use super::geometry::Geometry;
+use crate::kinematics::Kinematics;
 use crate::mesh::Mesh;
 use crate::mesh::locate::Locator;
 use crate::points::Points;
@@ -34,6 +36,20 @@ pub fn taking_part(mesh: &Mesh<2>, cell: &[u32]) -> Vec<bool> {
         }
     }
     chosen
+}
+
+/// What of each cell (m³) is where `level_set` is positive, of those `taking_part`.
+pub fn volumes<K: Kinematics<2>>(
+    mesh: &Mesh<2>,
+    geometry: &Geometry,
+    level_set: &[f64],
+    taking_part: &[bool],
+) -> Vec<f64> {
+    let of_cell = |c: usize| {
+        let values: Vec<f64> = mesh.cells.nodes(c).iter().map(|&n| level_set[n as usize]).collect();
+        if taking_part[c] { geometry.filled::<K>(mesh, c, &values) } else { 0.0 }
+    };
+    (0..mesh.cells.len()).map(of_cell).collect()
 }
 
 /// The centres of the boxes of a lattice over `[0, lx] × [0, ly]` that satisfy

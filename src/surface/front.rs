@@ -35,8 +35,6 @@ pub struct Front {
     pub position: Vec<[f64; 2]>,
     /// Loop `l` has the markers `first[l]..first[l + 1]`.
     pub first: Vec<u32>,
-    /// What the points within weighed together when the front was made (m³, as when seeded).
-    pub weight: f64,
 }
 
 impl Front {

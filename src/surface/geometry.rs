@@ -60,6 +60,18 @@ impl Geometry {
         self.whole[c][0]
     }
 
+    /// The volume (m³) of the part of cell `c` where the level set with the nodal `values` is positive. Zero counts as inside where
+    /// anything is, for a surface through the nodes of a cell cuts nothing off it.
+    pub fn filled<K: Kinematics<2>>(&self, mesh: &Mesh<2>, c: usize, values: &[f64]) -> f64 {
+        if values.iter().all(|&v| v <= 0.0) {
+            0.0
+        } else if values.iter().all(|&v| v >= 0.0) {
+            self.volume(c)
+        } else {
+            self.cell(mesh, c, c).clipped_volume::<K>(values)
+        }
+    }
+
     /// The cell that stands for what is in `cell`, by the points that each cell has: itself, or the nearest one with points across
     /// faces, the one with most of several, the lowest of equals. `None` where there is none within `rings`.
     pub fn bearer(&self, cell: u32, rings: usize, points: impl Fn(u32) -> u32) -> Option<u32> {

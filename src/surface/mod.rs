@@ -1,11 +1,9 @@
 //! Where the material ends: its surface within the cells, reconstructed from the material points.
 //!
-//! A [`Contour`] makes a level set at the nodes from the points; [`Active`] cuts the cells along it and says how much
-//! of each holds material, with the [`moments`] of that part. [`Geometry`] is what both need of a grid. Where it holds, a
-//! [`Front`] of markers that move with the grid is better than the contour, and where none does, one that smooths it: [`Distance`] makes the level set. Loads and pictures
+//! A [`Contour`] makes a level set at the nodes from the points, along which cells are cut ([`positive`]). [`Geometry`] is what
+//! does not change of a grid. Where it holds, a [`Front`] of markers that move with the grid is better than the contour, and where none does, one that smooths it: [`Distance`] makes the level set. Loads and pictures
 //! take the surface as polylines, the [`ActiveBoundary`], of which structures [`Cover`] parts.
 
-mod active;
 mod bins;
 pub mod boundary;
 mod contour;
@@ -19,7 +17,6 @@ mod layers;
 pub mod moments;
 mod split;
 
-pub use active::{Active, Filling};
 pub use bins::Bins;
 pub use boundary::{ActiveBoundary, Behind, NO_REGION, Piece};
 pub use contour::Contour;

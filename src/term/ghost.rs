@@ -131,10 +131,6 @@ impl<const D: usize, K: Kinematics<D>> Term<D> for GhostPenalty<K> {
         true
     }
 
-    fn sees_flow(&self) -> bool {
-        self.share.is_none() && self.models.iter().flatten().any(|model| model.yields())
-    }
-
     fn assemble(&self, frame: &Frame<D>, trial: &Trial<D>, out: &mut Assembly) -> Result<()> {
         let factors = |face: &GhostFace, jump: &Jump, square: f64| {
             let Some(hold) = self.hold::<D>(frame, face) else { return [0.0; 3] };

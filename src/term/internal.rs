@@ -178,8 +178,14 @@ fn strain<const D: usize, K: Kinematics<D>>(
             now * before.try_inverse().ok_or_else(|| inadmissible(points, p, "was squeezed flat", &before))?
         }
     };
-    if !(increment.determinant() > LEAST_VOLUME_RATIO && now.determinant() > 0.0) {
-        return Err(inadmissible(points, p, "is turned inside out", &increment));
+    let (ratio, whole) = (increment.determinant(), now.determinant());
+    if !(ratio > LEAST_VOLUME_RATIO && whole > 0.0) {
+        let what = if ratio > 0.0 && whole > 0.0 {
+            format!("is compressed to {:.1} % of its volume in one step", 100.0 * ratio)
+        } else {
+            "is turned inside out".into()
+        };
+        return Err(inadmissible(points, p, &what, &increment));
     }
     Ok(Strained { increment, inverse })
 }
@@ -197,9 +203,9 @@ fn deformation<const D: usize, K: Kinematics<D>>(entries: &Entries<D>, u: &[[f64
 #[cold]
 fn inadmissible<const D: usize>(points: &Points<D>, p: usize, what: &str, deformation: &Tensor) -> Error {
     Error::analysis(
-        points.name(p),
+        format!("the material at {:.3?} m", points.position[p]),
         format!("{what} (det F {:.3})", deformation.determinant()),
-        "take smaller steps or refine the mesh",
+        "take smaller steps; where these do not help, finer cells there do, or a grid that is reset sooner (numerics.restore)",
     )
 }
 

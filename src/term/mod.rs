@@ -315,11 +315,6 @@ pub trait Term<const D: usize>: Send + Sync {
         false
     }
 
-    /// Whether the term needs [`Points::plastic_increment`].
-    fn sees_flow(&self) -> bool {
-        false
-    }
-
     /// Whether the term needs [`Frame::open`].
     fn sees_open_boundary(&self) -> bool {
         false

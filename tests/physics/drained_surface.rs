@@ -1,14 +1,13 @@
 //! The moving surface of soil as a drained boundary: Terzaghi's layer whose surface runs through the cells, and large strains.
 
 use crate::bench::{Bench, constant, run};
-use crate::layout::{at, fit, seeded};
+use crate::layout::{at, resample, resample_bounded, seeded};
 use mpm::analytical::self_weight_column::Column;
 use mpm::analytical::terzaghi::Layer;
 use mpm::kinematics::{Axisymmetric, Kinematics, PlaneStrain};
 use mpm::material::{Elasticity, LinearElastic, Model};
 use mpm::mesh::builder::rectangle;
 use mpm::mesh::shape::CellKind;
-use mpm::quadrature::Fitted;
 use mpm::stencil::cell_size;
 use mpm::step::Restore;
 use mpm::term::{DrainedSurface, Head, Porous, SurfaceLoad, SurfaceTraction, WaterStiffness};
@@ -37,7 +36,7 @@ fn pressed() -> SurfaceLoad {
 /// Lets the surface of the soil of a bench drain, and makes it known. After the rest of the bench is made.
 fn drain<K: Kinematics<2> + 'static>(bench: &mut Bench) {
     let unit = bench.model.elasticity().at(0.0).shear / cell_size(&bench.mesh, 0);
-    bench.quadrature = Some(Box::new(Fitted::<K>::new(&bench.background()).with_boundary()));
+    resample_bounded::<K>(bench);
     bench.extra.push(Box::new(DrainedSurface::<K>::new(vec![bench.porous.clone()], None, unit, vec![true])));
 }
 
@@ -67,7 +66,7 @@ fn layer<K: Kinematics<2> + 'static>(
     bench.restore = restore;
     bench.steps = steps;
     bench.duration = layer.time(factor);
-    fit::<K>(&mut bench);
+    resample::<K>(&mut bench);
     drain::<K>(&mut bench);
     bench.hold("left", &[0]).hold("right", &[0]).hold("bottom", &[0, 1]);
     bench.extra.push(Box::new(SurfaceTraction::<K>::new(vec![pressed()])));
@@ -128,7 +127,7 @@ fn large_strains_conserve_the_water() {
         bench.gravity = [0.0, -10.0];
         bench.gravity_factor = TimeValue::Table(vec![[0.0, 0.0], [2000.0, 1.0]]);
         (bench.steps, bench.duration) = (60, 20_000.0);
-        fit::<PlaneStrain>(&mut bench);
+        resample::<PlaneStrain>(&mut bench);
         drain::<PlaneStrain>(&mut bench);
         bench.hold("left", &[0]).hold("right", &[0]).hold("bottom", &[0, 1]);
         let points = at::<PlaneStrain>(&bench.mesh, &seeded(&soil, 16), 4.0);

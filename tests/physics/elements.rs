@@ -1,7 +1,7 @@
 //! Finite elements that share nodes with the grid: what passes between them and the points.
 
 use crate::bench::{Bench, constant, quadrature_points, run_parts};
-use crate::layout::{at, fit, seeded};
+use crate::layout::{at, resample, seeded};
 use mpm::analytical::self_weight_column::Column;
 use mpm::case::parts::places;
 use mpm::kinematics::PlaneStrain;
@@ -25,7 +25,7 @@ fn patch(kind: CellKind, restore: Restore, steps: usize, within: impl Fn(&[f64; 
     bench.elements_where(within);
     bench.restore = restore;
     bench.steps = steps;
-    fit::<PlaneStrain>(&mut bench);
+    resample::<PlaneStrain>(&mut bench);
     let mut boundary: Vec<u32> = bench.mesh.groups.iter().flat_map(|g| g.nodes.clone()).collect();
     boundary.sort_unstable();
     boundary.dedup();
@@ -92,7 +92,7 @@ fn a_wave_passes_the_interface() {
     bench.restore = Restore::EveryStep;
     bench.duration = 1.7;
     bench.steps = 425;
-    fit::<PlaneStrain>(&mut bench);
+    resample::<PlaneStrain>(&mut bench);
     bench.hold("bottom", &[1]).hold("top", &[1]);
     let moved = |t: f64| VELOCITY * (0.5 * t - WIDTH / (4.0 * PI) * (2.0 * PI * t / WIDTH).sin());
     let table = (0..=100).map(|k| f64::from(k) * WIDTH / 100.0).map(|t| [t, moved(t)]).collect();
@@ -146,7 +146,7 @@ fn column(kind: CellKind, cells: usize) -> (f64, f64) {
     bench.gravity_factor = TimeValue::Rate(1.0);
     bench.restore = Restore::EveryStep;
     bench.steps = 20;
-    fit::<PlaneStrain>(&mut bench);
+    resample::<PlaneStrain>(&mut bench);
     bench.hold("left", &[0]).hold("right", &[0]).hold("bottom", &[1]);
     let [points, _] = bench.split(at::<PlaneStrain>(&bench.mesh, &seeded(&bench.mesh, 16), bench.density));
     let [_, fem] = bench.split(quadrature_points::<PlaneStrain>(&bench.mesh, 4, bench.density));

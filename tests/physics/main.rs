@@ -7,7 +7,6 @@ mod column;
 mod ddmp;
 mod drained_surface;
 mod elements;
-mod fitted;
 mod general_position;
 mod ghost;
 mod held_out;

@@ -1,7 +1,7 @@
 //! Points that got beyond the boundary of the mesh: those next to a support are put back onto it.
 
 use crate::bench::{Bench, constant, quadrature_points};
-use crate::layout::fit;
+use crate::layout::resample;
 use mpm::error::Result;
 use mpm::kinematics::{Axisymmetric, Kinematics, PlaneStrain};
 use mpm::material::{Elasticity, LinearElastic};
@@ -16,14 +16,17 @@ const H: f64 = 0.25;
 
 /// A step at rest of a square of 1 m, smooth on the bottom, rough on the left, with the top's motion prescribed and the right
 /// free, once the points nearest to the places `from` have been taken to the places `to` (m). Returns their numbers as well.
-fn taken<K: Kinematics<2> + 'static>(fitted: bool, moves: &[([f64; 2], [f64; 2])]) -> (Vec<usize>, Result<State<2>>) {
+fn taken<K: Kinematics<2> + 'static>(
+    resampled: bool,
+    moves: &[([f64; 2], [f64; 2])],
+) -> (Vec<usize>, Result<State<2>>) {
     let model = LinearElastic::new(Elasticity::new(constant(100.0), 0.3).unwrap());
     let mut bench = Bench::new(rectangle(CellKind::Q9, 1.0, 1.0, 4, 4, 0.0, 1), Arc::new(model));
     bench.restore = Restore::EveryStep;
     bench.dynamic = true;
     bench.steps = 2;
-    if fitted {
-        fit::<K>(&mut bench);
+    if resampled {
+        resample::<K>(&mut bench);
     }
     bench.hold("bottom", &[1]).hold("left", &[0, 1]).hold("top", &[0, 1]);
     bench.prescribed.push(Prescribed { fixed: bench.on("top", 1), displacement: TimeValue::Constant(0.0) });
@@ -50,14 +53,14 @@ fn taken<K: Kinematics<2> + 'static>(fitted: bool, moves: &[([f64; 2], [f64; 2])
 
 #[test]
 fn points_a_little_beyond_a_support_are_put_onto_it() {
-    for fitted in [false, true] {
+    for resampled in [false, true] {
         let moves = [
             ([0.4, 0.0], [0.41, -0.14 * H]),
             ([0.0, 0.6], [-0.05 * H, 0.63]),
             ([0.0, 0.0], [-0.03 * H, -0.04 * H]),
             ([0.9, 0.1], [0.8, 0.1]),
         ];
-        let (numbers, end) = taken::<PlaneStrain>(fitted, &moves);
+        let (numbers, end) = taken::<PlaneStrain>(resampled, &moves);
         let end = end.unwrap_or_else(|error| panic!("{error}"));
         // Square to the side; at the corner there is one place; a point within stays where it is.
         for (p, expected) in numbers.iter().zip([[0.41, 0.0], [0.0, 0.63], [0.0, 0.0], [0.8, 0.1]]) {

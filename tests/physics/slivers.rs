@@ -1,14 +1,14 @@
 //! Thin parts of cells: what holds little material neither fails nor makes the rest fail.
 
 use crate::bench::{Bench, constant, run};
-use crate::layout::{at, fit, straighten};
+use crate::layout::{at, resample, straighten};
 use mpm::kinematics::PlaneStrain;
 use mpm::material::{Elasticity, LinearElastic, Model};
 use mpm::mesh::builder::rectangle;
 use mpm::mesh::faces::Faces;
 use mpm::mesh::shape::CellKind;
 use mpm::points::Points;
-use mpm::quadrature::Fitted;
+use mpm::quadrature::Resampled;
 use mpm::step::{Grid, Restore, Scene, State};
 use mpm::system::{Matrix, Workspace};
 use mpm::term::{Assembly, GhostPenalty, Internal, Trial};
@@ -104,7 +104,7 @@ fn shifted(shift: f64, points_at_the_edge: bool) -> (f64, f64, usize) {
         x[0] = 3.0;
     }
     straighten(&mut bench.mesh);
-    fit::<PlaneStrain>(&mut bench);
+    resample::<PlaneStrain>(&mut bench);
     bench.hold("bottom", &[0, 1]);
     let points = block(&bench, 3.0 + shift - if points_at_the_edge { 0.0 } else { 0.1 });
     let scene = bench.scene::<PlaneStrain>();
@@ -147,7 +147,7 @@ fn a_million_times_the_stiffness_beside_it() {
                 let (soft, stiff) = (Some(elastic(YOUNG)), Some(elastic(contrast * YOUNG)));
                 let models = if stiff_end { vec![soft, stiff] } else { vec![stiff, soft] };
                 let mut bench = bench();
-                bench.quadrature = Some(Box::new(Fitted::<PlaneStrain>::new(&bench.mesh)));
+                bench.quadrature = Some(Box::new(Resampled::<PlaneStrain>::new(&bench.mesh, models.clone(), false)));
                 let faces = Faces::of(&bench.mesh).inner.len();
                 bench.extra.push(Box::new(GhostPenalty::<PlaneStrain>::new(0.1, models.clone(), faces)));
                 bench.mesh.regions.push("end".into());
@@ -167,9 +167,9 @@ fn a_million_times_the_stiffness_beside_it() {
                 assert!(iterations <= 4);
                 most
             });
-            // What is a thousand times as stiff is as good as rigid: where it is the end, that moves along with the soft rest;
-            // where it is the rest, the soft end moves hardly, and of that much is the sliver's. Neither moves more than beside what is less stiff.
-            let least = if stiff_end { 0.95 } else { 0.3 };
+            // Neither moves more than beside what is less stiff. The cell in which both meet takes strains of the stiffer, so that the soft
+            // part is held by more of the cell the stiffer the other is.
+            let least = if stiff_end { 0.6 } else { 0.3 };
             assert!((least..1.0).contains(&(moved[1] / moved[0])), "{moved:?}");
         }
     }
@@ -180,7 +180,7 @@ fn a_single_point_in_a_cell() {
     for y in [0.5, 1.5, 2.5] {
         for x in [3.000001, 3.4, 4.4, 5.5] {
             let mut bench = bench();
-            fit::<PlaneStrain>(&mut bench);
+            resample::<PlaneStrain>(&mut bench);
             bench.hold("bottom", &[0, 1]);
             let block = block(&bench, 2.85);
             let mut places: Vec<_> = block.position.iter().map(|x| (*x, 0.04)).collect();
@@ -211,7 +211,7 @@ fn a_point_on_its_own_flies() {
         bench.gravity = [0.0, -10.0];
         bench.steps = 100;
         bench.spectral_radius = 0.8;
-        fit::<PlaneStrain>(&mut bench);
+        resample::<PlaneStrain>(&mut bench);
         bench.hold("bottom", &[0, 1]);
         let block = block(&bench, 3.15);
         let mut places: Vec<_> = block.position.iter().filter(|_| !alone).map(|x| (*x, 0.04)).collect();

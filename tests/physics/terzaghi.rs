@@ -1,7 +1,7 @@
 //! Terzaghi's consolidation of a layer under a load that is there at once: every time of the table, order, small steps.
 
 use crate::bench::{Bench, constant, quadrature_points, run, run_parts};
-use crate::layout::{at, fit, seeded};
+use crate::layout::{at, resample, seeded};
 use mpm::analytical::self_weight_column::Column;
 use mpm::analytical::terzaghi::Layer;
 use mpm::kinematics::{Axisymmetric, Kinematics, PlaneStrain};
@@ -26,13 +26,20 @@ struct Case {
     wide: usize,
     steps: usize,
     restore: Restore,
-    fitted: bool,
+    resampled: bool,
     /// `n/K_w` over the compliance of the skeleton.
     storage: f64,
 }
 
-const CASE: Case =
-    Case { kind: CellKind::T6, cells: 8, wide: 2, steps: 100, restore: Restore::Never, fitted: false, storage: 1e-4 };
+const CASE: Case = Case {
+    kind: CellKind::T6,
+    cells: 8,
+    wide: 2,
+    steps: 100,
+    restore: Restore::Never,
+    resampled: false,
+    storage: 1e-4,
+};
 
 /// Root mean square error of the pressure over the points (over p₀), and that of the settlement (relative).
 #[derive(Clone, Copy, Debug)]
@@ -63,8 +70,8 @@ impl Case {
         bench.restore = self.restore;
         bench.steps = self.steps;
         bench.duration = layer.time(factor);
-        if self.fitted {
-            fit::<K>(&mut bench);
+        if self.resampled {
+            resample::<K>(&mut bench);
         }
         bench.hold("left", &[0]).hold("right", &[0]).hold("bottom", &[0, 1]);
         let value = [0.0, -LOAD].map(TimeValue::Constant);
@@ -109,7 +116,7 @@ const FACTORS: [f64; 6] = [0.01, 0.05, 0.1, 0.197, 0.5, 1.0];
 /// fallen within a tenth of the height only, three of these uniform cells.
 #[test]
 fn every_time_is_within_half_a_per_cent() {
-    let cases = [CASE, Case { restore: Restore::EveryStep, fitted: true, ..CASE }];
+    let cases = [CASE, Case { restore: Restore::EveryStep, resampled: true, ..CASE }];
     for case in cases.map(|case| Case { cells: 32, ..case }) {
         for factor in FACTORS {
             let steps = if factor < 0.2 { 100 } else { 200 };
@@ -123,13 +130,13 @@ fn every_time_is_within_half_a_per_cent() {
 /// Errors of the pressure fall with the square of the size of the cells, whether the grid is restored or not.
 #[test]
 fn pressures_converge_at_second_order() {
-    for (restore, fitted, kind) in [
+    for (restore, resampled, kind) in [
         (Restore::Never, false, CellKind::T6),
         (Restore::EveryStep, true, CellKind::T6),
         (Restore::Never, false, CellKind::Q9),
         (Restore::Never, false, CellKind::T3),
     ] {
-        let error = |cells| Case { cells, restore, fitted, kind, steps: 300, ..CASE }.errors::<PlaneStrain>(0.1);
+        let error = |cells| Case { cells, restore, resampled, kind, steps: 300, ..CASE }.errors::<PlaneStrain>(0.1);
         let errors = [4, 8, 16].map(|cells| error(cells).pressure);
         let order = 0.5 * (errors[0] / errors[2]).log2();
         println!("{kind:?} {restore:?}: {errors:.6?}, order {order:.2}");
@@ -187,7 +194,7 @@ fn large_strains_conserve_the_water() {
         bench.gravity = [0.0, -10.0];
         bench.gravity_factor = TimeValue::Table(vec![[0.0, 0.0], [2000.0, 1.0]]);
         (bench.steps, bench.duration) = (60, 20_000.0);
-        fit::<PlaneStrain>(&mut bench);
+        resample::<PlaneStrain>(&mut bench);
         bench.hold("left", &[0]).hold("right", &[0]).hold("bottom", &[0, 1]);
         let points = at::<PlaneStrain>(&bench.mesh, &seeded(&bench.mesh, 16), 4.0);
         let scene = bench.scene::<PlaneStrain>();

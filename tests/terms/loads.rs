@@ -315,7 +315,7 @@ fn the_tangent_of_a_pressure_is_its_derivative_with_smooth_gradients() {
         let mesh = mesh(kind);
         let points = points(&mesh, |_| true);
         let term = Box::new(VirtualPressure::<Axisymmetric>::new(head()));
-        let scheme = Scheme::Ddmp { fitted: false };
+        let scheme = Scheme::Ddmp;
         let stand = Stand::<Axisymmetric>::with(scheme, mesh, points, term, false, true, None);
         let (trial, converged) = afloat(&stand);
         let error = stand.tangent_error(&trial, &converged);

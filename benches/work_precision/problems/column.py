@@ -74,7 +74,7 @@ PROBLEM = Problem(
             "every count of cells",
             "cells over the height",
             [variant(n, n, peer=False) for n in range(40, 81)],
-            schemes=["default", "fitted", "ddmp"],
+            schemes=["default", "resampled", "ddmp"],
             quick=(),
         ),
     ],

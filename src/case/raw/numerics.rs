@@ -10,8 +10,8 @@ pub struct Numerics {
     /// How gradients at the points are formed: mpm (plain) or ddmp; gimp, cpdi, cpdi2 and bspline (not available yet).
     pub gradient: Gradient,
     /// What integrals are summed over: resampled (integration points of the cells, which take their state from the material points
-    /// when the grid is restored), or the material points, by their volumes (points) or by weights fitted to the cells (fitted).
-    /// Default: resampled; fitted where a phase has inertia or with `gradient: ddmp`.
+    /// when the grid is restored), or points (the material points, by their volumes). Default: resampled; points with
+    /// `gradient: ddmp`.
     pub quadrature: Option<Quadrature>,
     /// Who carries the mean stress of nearly incompressible and undrained materials: a field of pressure unknowns, or
     /// none. Without it a field where Poisson's ratio is 0.45 or more (not in mohr_coulomb and cam_clay) or a material
@@ -61,12 +61,11 @@ pub enum Gradient {
     Bspline,
 }
 
-/// The integration weights.
+/// What integrals are summed over.
 #[derive(Clone, Copy, Debug, Deserialize, serde::Serialize, JsonSchema, PartialEq, Eq)]
 #[serde(rename_all = "snake_case")]
 pub enum Quadrature {
     Points,
-    Fitted,
     Resampled,
 }
 

@@ -9,14 +9,11 @@ use super::places::Place;
 use crate::mesh::Mesh;
 use crate::points::Points;
 use crate::surface::CellFrame;
-use nalgebra::{Matrix3, Vector3};
 
 /// Weight of a ring over that of the one within it.
 const RING: f64 = 0.1;
-/// Rings that a linear function may need.
+/// Rings that a linear function may need; cells that take part are nearer to points than that.
 const RINGS: usize = 3;
-/// Rings in which any point at all is looked for.
-const FARTHEST: usize = 12;
 /// The largest `Σ_p |R_qp|`.
 const MOST: f64 = 3.0;
 
@@ -103,7 +100,7 @@ impl Rings {
 
     /// The points of the nearest ring that has any.
     pub fn nearest(&mut self, around: &Around, held: &Held) -> Vec<u32> {
-        for r in 0..=FARTHEST {
+        for r in 0..=RINGS {
             let points: Vec<u32> = self.ring(r, around).iter().flat_map(|&c| held.points(c)).copied().collect();
             if !points.is_empty() {
                 return points;
@@ -148,7 +145,7 @@ impl Fit {
         }
         // The mean of the nearest points.
         (numbers, weights) = (Vec::new(), Vec::new());
-        for r in 0..=FARTHEST {
+        for r in 0..=RINGS {
             for &c in rings.ring(r, around) {
                 numbers.extend(held.points(c).iter().copied().filter(|&p| counts(p)));
             }
@@ -194,28 +191,34 @@ fn linear(
     if numbers.len() < 4 {
         return None;
     }
-    let row = |x: &[f64; 2]| {
-        let [x, y] = frame.local(x);
-        Vector3::new(1.0, x, y)
+    // Orthogonal functions, 1, x − x̄ and y − ȳ − a (x − x̄): what is little beside the others keeps its digits.
+    let local: Vec<[f64; 2]> = numbers.iter().map(|&p| frame.local(&points.position[p as usize])).collect();
+    let sum = |value: &dyn Fn(usize) -> f64| (0..local.len()).map(|i| weights[i] * value(i)).sum::<f64>();
+    let all = sum(&|_| 1.0);
+    let mean = [0, 1].map(|d| sum(&|i| local[i][d]) / all);
+    let off = |x: &[f64; 2]| [x[0] - mean[0], x[1] - mean[1]];
+    let along = sum(&|i| off(&local[i])[0].powi(2));
+    let slope = sum(&|i| off(&local[i])[0] * off(&local[i])[1]) / along;
+    let functions = |x: &[f64; 2]| {
+        let [x, y] = off(x);
+        [1.0, x, y - slope * x]
     };
-    let sum: f64 = weights.iter().sum();
-    let mut matrix = Matrix3::zeros();
-    for (&p, weight) in numbers.iter().zip(weights) {
-        let row = row(&points.position[p as usize]);
-        matrix += weight / sum * row * row.transpose();
-    }
-    let inverse = matrix.cholesky()?.inverse();
-    let share = |(&p, weight): (&u32, &f64)| weight / sum * (inverse * row(&points.position[p as usize]));
-    let shares: Vec<Vector3<f64>> = numbers.iter().zip(weights).map(share).collect();
+    let across = sum(&|i| functions(&local[i])[2].powi(2));
+    let share = |i: usize| {
+        let [one, x, y] = functions(&local[i]);
+        [one / all, x / along, y / across].map(|value| weights[i] * value)
+    };
+    let shares: Vec<[f64; 3]> = (0..local.len()).map(share).collect();
     for place in places {
-        let at = row(&place.x);
-        let most: f64 = shares.iter().map(|share| share.dot(&at).abs()).sum();
+        let at = functions(&frame.local(&place.x));
+        let most: f64 = shares.iter().map(|share| share.iter().zip(&at).map(|(s, a)| s * a).sum::<f64>().abs()).sum();
         // It is not a number where the points are on a line.
         if most.is_nan() || most > MOST {
             return None;
         }
     }
-    Some(shares.into_iter().map(Into::into).collect())
+    let of_frame = |[one, x, y]: [f64; 3]| [one - x * mean[0] - y * (mean[1] - slope * mean[0]), x - slope * y, y];
+    Some(shares.into_iter().map(of_frame).collect())
 }
 
 #[cfg(test)]

@@ -3,7 +3,8 @@
 //! When the grid is restored, each cell gets integration points where it is full of material and where the surface cuts
 //! it ([`places`]). They take their state from a linear function that is fitted to that of the material points around
 //! ([`fit`]), and until the grid is restored again they are ordinary points of finite elements. The material points move
-//! with the grid and answer for its deformation themselves; nothing is handed back to them.
+//! with the grid and answer for its deformation themselves; nothing is handed back to them. Material points
+//! outside the surface, as drops that are thrown out, are integration points themselves, with their volume and state.
 //!
 //! What is fitted are the Kirchhoff stress of the model, `ln J`, the density, and what the model remembers, which stays within the
 //! range of the points that it is fitted to. It is the stress and not the elastic strain, for it is the stress that is in balance: in
@@ -11,6 +12,7 @@
 //! the yield surface is brought back to it.
 
 mod fit;
+mod mass;
 mod places;
 
 use super::surface::{boundary, follow, smoothed};
@@ -23,7 +25,7 @@ use crate::mesh::shape::MAX_NODES;
 use crate::points::Points;
 use crate::stencil::SoftCell;
 use crate::surface::{Contour, Distance, Front, Geometry};
-use crate::tensor::{IDENTITY, Symmetric, Tensor, mean};
+use crate::tensor::{Symmetric, Tensor, mean};
 use fit::{Around, Fit, Held, Rings};
 use places::{Place, Places};
 use rayon::prelude::*;
@@ -31,21 +33,29 @@ use std::collections::BTreeSet;
 use std::marker::PhantomData;
 use std::sync::Arc;
 
-/// What is fitted: stress xx, yy, zz, xy; ln J; density; plastic strain and what the model remembers; the
+/// What is fitted: stress xx, yy, zz, xy; ln J; density; plastic strain, what the model remembers, and what the last step added to the former; the
 /// pressure of the field, the mean stress beside that of the model and the pore pressure; the place when seeded.
-const FIELDS: usize = 13;
+const FIELDS: usize = 14;
 type Fields = [f64; FIELDS];
 const STRESS: usize = 0;
 const VOLUME: usize = 4;
 const DENSITY: usize = 5;
 const PLASTIC: usize = 6;
 const MEMORY: usize = 7;
-const PRESSURE: usize = 8;
-const BESIDE: usize = 9;
-const WATER: usize = 10;
-const ORIGIN: usize = 11;
+const FLOW: usize = 8;
+const PRESSURE: usize = 9;
+const BESIDE: usize = 10;
+const WATER: usize = 11;
+const ORIGIN: usize = 12;
+/// The surface lies at most so far beside the markers of its front, as a share of a cell's size: as far as the front may
+/// be off before it is given up.
+const LARGEST_OFFSET: f64 = 0.05;
+/// Iterations, and the part (-) of the volume, to which the volume within the surface is that of the material points.
+const OFFSETS: usize = 6;
+const VOLUME_TOLERANCE: f64 = 1e-12;
+
 /// Those that stay within the range of the points.
-const BOUNDED: std::ops::RangeInclusive<usize> = DENSITY..=MEMORY;
+const BOUNDED: std::ops::RangeInclusive<usize> = DENSITY..=FLOW;
 
 /// The integration points of a grid.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -54,6 +64,8 @@ pub struct Samples<const D: usize> {
     pub points: Points<D>,
     /// Parametric coordinates in their cells.
     pub parametric: Vec<[f64; 3]>,
+    /// The cells outside the surface, ascending, whose integration points are the material points.
+    pub outside: Vec<u32>,
 }
 
 /// The model of each material by number.
@@ -68,6 +80,16 @@ pub struct Resampled<K> {
     /// Whether the boundary of the material is wanted.
     bounded: bool,
     kinematics: PhantomData<K>,
+}
+
+/// The surface of the material.
+struct Surface {
+    /// Its level set (m) at the nodes, positive inside.
+    level_set: Vec<f64>,
+    /// Cells with material points that are outside it.
+    outside: Vec<bool>,
+    /// Why the surface is followed no longer, where it just ceased to be.
+    lost: Option<String>,
 }
 
 /// An integration point with its state.
@@ -86,6 +108,10 @@ struct Sampled {
     samples: Vec<Sample>,
     linear: u32,
     constant: u32,
+    /// The cell, if it is outside the surface.
+    outside: Option<u32>,
+    /// Points that take the state of a material point, for no model answers to that which is fitted.
+    taken: u32,
 }
 
 impl<K: Kinematics<2>> Resampled<K> {
@@ -101,14 +127,8 @@ impl<K: Kinematics<2>> Resampled<K> {
         }
     }
 
-    /// The level set (m) of the material at the nodes: the distance to the surface that is followed, else to the smoothed
-    /// contour of the points, or that contour. Also why the surface is followed no longer, where it just ceased to be.
-    fn level_set(
-        &self,
-        geometry: &Geometry,
-        grid: &Restored<2>,
-        front: &mut Option<Front>,
-    ) -> (Vec<f64>, Option<String>) {
+    /// The surface of the material: one that is followed, else the smoothed contour of the points, or that contour.
+    fn surface(&self, geometry: &Geometry, grid: &Restored<2>, front: &mut Option<Front>) -> Surface {
         let Restored { mesh, locator, points, parametric, taking_part, .. } = *grid;
         let lost = follow::<K>(geometry, grid, front).err().map(|fault| {
             *front = None;
@@ -119,13 +139,92 @@ impl<K: Kinematics<2>> Resampled<K> {
             distance.update(mesh, geometry, locator, front, cells, taking_part);
             distance.level_set
         };
+        // Points that neither the surface nor the contour that it smooths reaches are outside.
+        let outside = |level_set: &[f64], within: &[u32]| {
+            let mut outside = vec![false; mesh.cells.len()];
+            points.cell.iter().for_each(|&c| outside[c as usize] = true);
+            let reached = |c: usize| mesh.cells.nodes(c).iter().any(|&n| level_set[n as usize] > 0.0);
+            (0..outside.len())
+                .filter(|&c| reached(c))
+                .chain(within.iter().map(|&c| c as usize))
+                .for_each(|c| outside[c] = false);
+            outside
+        };
+        let at = |front: &Front, level_set: Vec<f64>, within: &[u32]| {
+            let outside = outside(&level_set, within);
+            let level_set = self.keep_volume(geometry, grid, front, &outside, level_set);
+            Surface { level_set, outside, lost: lost.clone() }
+        };
         if let Some(front) = front {
-            return (to(front, &points.cell), lost);
+            return at(front, to(front, &points.cell), &[]);
         }
         let mut contour = Contour::default();
         contour.update::<K>(mesh, geometry, points, parametric, taking_part);
-        let smoothed = smoothed::<K>(geometry, grid, &contour.level_set);
-        (smoothed.map_or(contour.level_set, |(front, cells)| to(&front, &cells)), lost)
+        if let Some((front, cells)) = smoothed::<K>(geometry, grid, &contour.level_set) {
+            return at(&front, to(&front, &cells), &cells);
+        }
+        // A contour encloses the volume of all points that it is made of: those outside are not among them.
+        let (mut out, mut count) = (outside(&contour.level_set, &[]), points.len());
+        loop {
+            let numbers: Vec<usize> = (0..points.len()).filter(|&p| !out[points.cell[p] as usize]).collect();
+            if numbers.len() == count {
+                return Surface { level_set: contour.level_set, outside: out, lost };
+            }
+            count = numbers.len();
+            let places: Vec<_> = numbers.iter().map(|&p| parametric[p]).collect();
+            contour.update::<K>(mesh, geometry, &points.select(&numbers), &places, taking_part);
+            let more = outside(&contour.level_set, &[]);
+            out.iter_mut().zip(more).for_each(|(out, more)| *out |= more);
+        }
+    }
+
+    /// Shifts the level set (m) that is the distance to a front such that the volume inside is that of the material points that are not
+    /// outside: a front that only moves with the grid would sink or rise a little in every reset. Where structures touch
+    /// the material, the surface is theirs and stays.
+    fn keep_volume(
+        &self,
+        geometry: &Geometry,
+        grid: &Restored<2>,
+        front: &Front,
+        outside: &[bool],
+        mut level_set: Vec<f64>,
+    ) -> Vec<f64> {
+        let Restored { mesh, locator, points, taking_part, .. } = *grid;
+        let (surface, size) = front.surface::<K>(mesh, geometry, locator);
+        if !grid.outlines.is_empty() || surface <= 0.0 {
+            return level_set;
+        }
+        let inside = (0..points.len()).filter(|&p| !outside[points.cell[p] as usize]);
+        let wanted: f64 = inside.map(|p| points.volume(p)).sum();
+        let volume = |offset: f64| -> f64 {
+            let of_cell = |c: usize| {
+                let mut values = [0.0; MAX_NODES];
+                let nodes = mesh.cells.nodes(c);
+                values.iter_mut().zip(nodes).for_each(|(value, &n)| *value = level_set[n as usize] + offset);
+                let counts = taking_part[c] && !outside[c];
+                if counts { geometry.filled::<K>(mesh, c, &values[..nodes.len()]) } else { 0.0 }
+            };
+            (0..mesh.cells.len()).into_par_iter().with_min_len(64).map(of_cell).collect::<Vec<f64>>().iter().sum()
+        };
+        let most = LARGEST_OFFSET * size;
+        let (mut offset, mut lacks, mut slope) = (0.0, wanted - volume(0.0), surface);
+        for _ in 0..OFFSETS {
+            if lacks.abs() <= VOLUME_TOLERANCE * wanted {
+                break;
+            }
+            let next = (offset + lacks / slope).clamp(-most, most);
+            if next == offset {
+                break;
+            }
+            let now = wanted - volume(next);
+            let change = (lacks - now) / (next - offset);
+            if change > 0.1 * surface {
+                slope = change;
+            }
+            (offset, lacks) = (next, now);
+        }
+        level_set.iter_mut().for_each(|distance| *distance += offset);
+        level_set
     }
 
     /// The integration points of a cell with the nodal values of the level set.
@@ -133,7 +232,7 @@ impl<K: Kinematics<2>> Resampled<K> {
         &self,
         geometry: &Geometry,
         grid: &Restored<2>,
-        (held, fields): (&Held, &[Fields]),
+        (held, all_fields): (&Held, &[Fields]),
         cell: u32,
         values: &[f64],
     ) -> Sampled {
@@ -155,7 +254,8 @@ impl<K: Kinematics<2>> Resampled<K> {
             let own: Vec<Place> = if regions.len() == 1 {
                 places.clone()
             } else {
-                places.iter().copied().filter(|place| nearest(points, &near, &place.x) == Some(region)).collect()
+                let of_region = |place: &Place| points.region[nearest(points, &near, &place.x)] == region;
+                places.iter().copied().filter(of_region).collect()
             };
             let counts = |p: u32| points.region[p as usize] == region;
             let neighbours = (&self.around, held);
@@ -169,10 +269,10 @@ impl<K: Kinematics<2>> Resampled<K> {
             } else {
                 sampled.constant += 1;
             }
-            let coefficients = fit.coefficients(fields);
+            let coefficients = fit.coefficients(all_fields);
             let mut range = [[f64::INFINITY, f64::NEG_INFINITY]; FIELDS];
             for &p in &fit.points {
-                for (range, value) in range.iter_mut().zip(&fields[p as usize]) {
+                for (range, value) in range.iter_mut().zip(&all_fields[p as usize]) {
                     *range = [range[0].min(*value), range[1].max(*value)];
                 }
             }
@@ -182,27 +282,43 @@ impl<K: Kinematics<2>> Resampled<K> {
                 for k in BOUNDED {
                     fields[k] = fields[k].clamp(range[k][0], range[k][1]);
                 }
-                let (elastic, stress) = self.state(model, &fields);
+                let (elastic, stress) = self.state(model, &fields).unwrap_or_else(|| {
+                    // What no model answers to is not the state of the soil there: the nearest point's is.
+                    let p = nearest(points, &fit.points, &place.x);
+                    fields = all_fields[p];
+                    sampled.taken += 1;
+                    (points.elastic[p], points.stress[p])
+                });
                 sampled.samples.push(Sample { cell, place, region, fields, elastic, stress });
             }
         }
         sampled
     }
 
+    /// The material points of a cell that the surface leaves out, as integration points.
+    fn themselves(points: &Points<2>, parametric: &[[f64; 3]], held: &Held, fields: &[Fields], cell: u32) -> Sampled {
+        let sample = |&p: &u32| {
+            let p = p as usize;
+            let place = Place { xi: parametric[p], x: points.position[p], weight: points.volume(p) };
+            let (region, elastic, stress) = (points.region[p], points.elastic[p], points.stress[p]);
+            Sample { cell, place, region, fields: fields[p], elastic, stress }
+        };
+        let samples: Vec<Sample> = held.points(cell).iter().map(sample).collect();
+        Sampled { outside: (!samples.is_empty()).then_some(cell), samples, ..Sampled::default() }
+    }
+
     /// The elastic left Cauchy–Green tensor and the stress (kPa) that a model can have near the given fields.
-    fn state(&self, model: usize, fields: &Fields) -> (Symmetric, Symmetric) {
+    fn state(&self, model: usize, fields: &Fields) -> Option<(Symmetric, Symmetric)> {
         let kirchhoff = [fields[0], fields[1], fields[2], fields[3], 0.0, 0.0];
         let state = State { plastic_strain: fields[PLASTIC], memory: fields[MEMORY], per_second: 0.0 };
         let y = fields[ORIGIN + 1];
-        let answer = self.models.get(model).and_then(Option::as_ref).and_then(|model| {
-            let elastic = elastic_from_stress(model.as_ref(), y, &kirchhoff);
-            K::respond(model.as_ref(), y, &elastic, &state)
-        });
-        let Some(answer) = answer else { return (IDENTITY, [0.0; 6]) };
+        let model = self.models.get(model)?.as_ref()?;
+        let elastic = elastic_from_stress(model.as_ref(), y, &kirchhoff);
+        let answer = K::respond(model.as_ref(), y, &elastic, &state)?;
         let volume_ratio = fields[VOLUME].exp();
         let mut stress = answer.kirchhoff.map(|t| t / volume_ratio);
         stress[..3].iter_mut().for_each(|s| *s += fields[BESIDE] / volume_ratio);
-        (answer.elastic, stress)
+        Some((answer.elastic, stress))
     }
 
     /// What is fitted of each point.
@@ -215,6 +331,7 @@ impl<K: Kinematics<2>> Resampled<K> {
             fields[DENSITY] = points.mass[p] / points.initial_volume[p];
             fields[PLASTIC] = points.plastic_strain[p];
             fields[MEMORY] = at(&points.memory, p);
+            fields[FLOW] = at(&points.plastic_increment, p);
             fields[PRESSURE] = at(&points.pressure, p);
             fields[WATER] = at(&points.pore_pressure, p);
             fields[ORIGIN..].copy_from_slice(&points.origin[p]);
@@ -234,17 +351,24 @@ impl<K: Kinematics<2>> Resampled<K> {
 
     fn weigh_on(&self, geometry: &Geometry, grid: &Restored<2>, front: &mut Option<Front>) -> Weighing<2> {
         let Restored { mesh, points, taking_part, .. } = *grid;
-        let (level_set, lost_front) = self.level_set(geometry, grid, front);
+        let Surface { level_set, outside, lost: lost_front } = self.surface(geometry, grid, front);
         let values = |c: usize| -> Vec<f64> { mesh.cells.nodes(c).iter().map(|&n| level_set[n as usize]).collect() };
         let held = Held::new(mesh.cells.len(), &points.cell);
         let fields = self.fields(points);
         let work = |c: usize| {
             let values = values(c);
             let inside = taking_part[c] && values.iter().any(|&v| v > 0.0);
-            if inside { self.sample(geometry, grid, (&held, &fields), c as u32, &values) } else { Sampled::default() }
+            if outside[c] {
+                Self::themselves(points, grid.parametric, &held, &fields, c as u32)
+            } else if inside {
+                self.sample(geometry, grid, (&held, &fields), c as u32, &values)
+            } else {
+                Sampled::default()
+            }
         };
         let sampled: Vec<Sampled> = (0..mesh.cells.len()).into_par_iter().with_min_len(64).map(work).collect();
-        let (samples, tally) = collect(points, &sampled);
+        let (mut samples, tally) = collect(points, &sampled);
+        mass::conserve(mesh, points, &mut samples);
         let weight = samples.points.initial_volume.clone();
 
         let (mut soft, mut poor) = (Vec::new(), Vec::new());
@@ -278,34 +402,24 @@ impl<K: Kinematics<2>> Quadrature<2> for Resampled<K> {
     }
 }
 
-/// The region of the one of some points that is nearest to a place.
-fn nearest(points: &Points<2>, near: &[u32], x: &[f64; 2]) -> Option<u16> {
+/// The one of some points that is nearest to a place; the first point where there are none.
+fn nearest(points: &Points<2>, near: &[u32], x: &[f64; 2]) -> usize {
     let square = |p: u32| {
         let y = &points.position[p as usize];
         (x[0] - y[0]).powi(2) + (x[1] - y[1]).powi(2)
     };
     let best = near.iter().map(|&p| (square(p), p)).min_by(|a, b| a.0.total_cmp(&b.0));
-    best.map(|(_, p)| points.region[p as usize])
+    best.map_or(0, |(_, p)| p as usize)
 }
 
-/// The integration points of all cells, with the mass of the material points of each region.
+/// The integration points of all cells.
 fn collect(points: &Points<2>, sampled: &[Sampled]) -> (Samples<2>, Tally) {
     let all = || sampled.iter().flat_map(|cell| &cell.samples);
     let column = |filled: bool, k: usize| if filled { all().map(|s| s.fields[k]).collect() } else { Vec::new() };
     let initial_volume: Vec<f64> = all().map(|s| s.place.weight * (-s.fields[VOLUME]).exp()).collect();
-    let mut mass: Vec<f64> = all().zip(&initial_volume).map(|(s, volume)| s.fields[DENSITY] * volume).collect();
-    let regions = points.region.iter().max().map_or(0, |&r| usize::from(r) + 1);
-    let (mut wanted, mut got) = (vec![0.0; regions], vec![0.0; regions]);
-    points.region.iter().zip(&points.mass).for_each(|(&r, m)| wanted[usize::from(r)] += m);
-    all().zip(&mass).for_each(|(s, m)| got[usize::from(s.region)] += m);
-    for (sample, mass) in all().zip(&mut mass) {
-        let r = usize::from(sample.region);
-        if got[r] > 0.0 {
-            *mass *= wanted[r] / got[r];
-        }
-    }
     let mut model = Vec::new();
     if !points.model.is_empty() {
+        let regions = points.region.iter().max().map_or(0, |&r| usize::from(r) + 1);
         let mut of_region = vec![0; regions];
         points.region.iter().zip(&points.model).for_each(|(&r, &model)| of_region[usize::from(r)] = model);
         model = all().map(|s| of_region[usize::from(s.region)]).collect();
@@ -316,13 +430,13 @@ fn collect(points: &Points<2>, sampled: &[Sampled]) -> (Samples<2>, Tally) {
         reference: Vec::new(),
         velocity: Vec::new(),
         acceleration: Vec::new(),
-        mass,
+        mass: all().zip(&initial_volume).map(|(s, volume)| s.fields[DENSITY] * volume).collect(),
         initial_volume,
         deformation: all().map(|s| Tensor::identity() * (s.fields[VOLUME] / 3.0).exp()).collect(),
         elastic: all().map(|s| s.elastic).collect(),
         stress: all().map(|s| s.stress).collect(),
         plastic_strain: column(true, PLASTIC),
-        plastic_increment: Vec::new(),
+        plastic_increment: column(!points.plastic_increment.is_empty(), FLOW),
         memory: column(!points.memory.is_empty(), MEMORY),
         pressure: column(!points.pressure.is_empty(), PRESSURE),
         pore_pressure: column(!points.pore_pressure.is_empty(), WATER),
@@ -334,9 +448,10 @@ fn collect(points: &Points<2>, sampled: &[Sampled]) -> (Samples<2>, Tally) {
     let tally = Tally {
         linear: count(|cell| cell.linear),
         constant: count(|cell| cell.constant),
+        taken: count(|cell| cell.taken),
         point_volume: (0..points.len()).map(|p| points.volume(p)).sum(),
-        fitted_volume: all().map(|s| s.place.weight).sum(),
-        ..Tally::default()
+        volume: all().map(|s| s.place.weight).sum(),
     };
-    (Samples { points: samples, parametric: all().map(|s| s.place.xi).collect() }, tally)
+    let outside = sampled.iter().filter_map(|cell| cell.outside).collect();
+    (Samples { points: samples, parametric: all().map(|s| s.place.xi).collect(), outside }, tally)
 }

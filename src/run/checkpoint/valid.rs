@@ -101,8 +101,8 @@ fn check_cells<const D: usize>(scene: &Scene<D>, state: &State<D>) -> Result<()>
 }
 
 fn check_points<const D: usize>(scene: &Scene<D>, first: &State<D>, state: &State<D>) -> Result<()> {
-    let sees_flow = scene.terms.iter().any(|term| term.sees_flow());
-    check_family(scene, state, &scene.mesh, &first.points, &state.points, sees_flow)?;
+    check_family(scene, state, &scene.mesh, &first.points, &state.points)?;
+    ensure(state.points.plastic_increment.len() == state.points.len(), "a column of its points")?;
     let Points { cell, .. } = &state.points;
     ensure(cell.iter().all(|&c| state.taking_part[c as usize]), "the cell of a material point")?;
     let places = &state.parametric;
@@ -114,7 +114,7 @@ fn check_points<const D: usize>(scene: &Scene<D>, first: &State<D>, state: &Stat
 fn check_elements<const D: usize>(scene: &Scene<D>, first: &State<D>, state: &State<D>) -> Result<()> {
     let none = Mesh::default();
     let mesh = scene.fem.as_ref().map_or(&none, |fem| &fem.mesh);
-    check_family(scene, state, mesh, &first.fem, &state.fem, false)?;
+    check_family(scene, state, mesh, &first.fem, &state.fem)?;
     let (now, then) = (&state.fem, &first.fem);
     let same = now.cell == then.cell && now.origin == then.origin && state.fem_parametric == first.fem_parametric;
     ensure(same, "the place of a point of a finite element")
@@ -127,7 +127,6 @@ fn check_family<const D: usize>(
     mesh: &Mesh<D>,
     first: &Points<D>,
     points: &Points<D>,
-    sees_flow: bool,
 ) -> Result<()> {
     let count = first.len();
     ensure(points.len() == count, "the number of points")?;
@@ -141,7 +140,6 @@ fn check_family<const D: usize>(
         (points.reference.len(), begun(scene, state).any(|phase| phase.reset)),
         (points.velocity.len(), state.moving || began_moving && !points.velocity.is_empty()),
         (points.acceleration.len(), state.moving),
-        (points.plastic_increment.len(), sees_flow),
         (points.memory.len(), !first.memory.is_empty()),
         (points.pressure.len(), !first.pressure.is_empty()),
         (points.pore_pressure.len(), !first.pore_pressure.is_empty()),
@@ -168,7 +166,7 @@ fn is_inside<const D: usize>(mesh: &Mesh<D>, cell: u32, xi: &[f64; 3]) -> bool {
 
 /// The integration points of the cells.
 fn check_samples<const D: usize>(scene: &Scene<D>, state: &State<D>) -> Result<()> {
-    let Some(Samples { points, parametric }) = &state.weighing.samples else { return Ok(()) };
+    let Some(Samples { points, parametric, outside }) = &state.weighing.samples else { return Ok(()) };
     points
         .check(scene.mesh.regions.len(), scene.mesh.cells.len())
         .map_err(|problem| Error::input("checkpoint", problem, "start the analysis afresh, without --resume"))?;
@@ -177,7 +175,7 @@ fn check_samples<const D: usize>(scene: &Scene<D>, state: &State<D>) -> Result<(
         (points.reference.len(), 0),
         (points.velocity.len(), 0),
         (points.acceleration.len(), 0),
-        (points.plastic_increment.len(), 0),
+        (points.plastic_increment.len(), material.plastic_increment.len()),
         (points.memory.len(), material.memory.len()),
         (points.pressure.len(), material.pressure.len()),
         (points.pore_pressure.len(), material.pore_pressure.len()),
@@ -193,19 +191,19 @@ fn check_samples<const D: usize>(scene: &Scene<D>, state: &State<D>) -> Result<(
     ensure(takes_part && cell.is_sorted(), "the cell of an integration point")?;
     let inside = |(&c, xi): (&u32, &[f64; 3])| is_inside(&scene.mesh, c, xi);
     let places = parametric.len() == cell.len() && cell.iter().zip(parametric).all(inside);
-    ensure(places, "the place of an integration point")
+    ensure(places, "the place of an integration point")?;
+    let count = |of: &Points<D>, c: u32| of.cell.iter().filter(|&&d| d == c).count();
+    let same = |&c: &u32| count(points, c) > 0 && count(points, c) == count(material, c);
+    ensure(outside.is_sorted_by(|a, b| a < b) && outside.iter().all(same), "a cell outside the surface")
 }
 
 /// The weights of the points and what is known of the cells.
 fn check_weighing<const D: usize>(scene: &Scene<D>, state: &State<D>) -> Result<()> {
-    let Weighing { weight, shift, soft, poor, boundary, level_set, .. } = &state.weighing;
+    let Weighing { weight, soft, poor, boundary, level_set, .. } = &state.weighing;
     let nodes = scene.mesh.nodes.len();
     ensure(weight.len() == state.integration().len() && weight.iter().all(|w| *w > 0.0), "the weight of a point")?;
     let takes_part = |c: u32| state.taking_part.get(c as usize) == Some(&true);
     let ascend = |cells: &mut dyn Iterator<Item = u32>| cells.is_sorted_by(|a, b| a < b);
-    let whole =
-        |(c, by): &(u32, Vec<[f64; D]>)| takes_part(*c) && by.len() == scene.mesh.cells.nodes(*c as usize).len();
-    ensure(ascend(&mut shift.iter().map(|s| s.0)) && shift.iter().all(whole), "the gradients of a cell")?;
     ensure(
         ascend(&mut soft.iter().map(|s| s.cell)) && soft.iter().all(|s| takes_part(s.cell)),
         "the list of soft cells",
@@ -238,7 +236,7 @@ fn bounds_of_loops(first: &[u32], entries: usize, least: u32) -> bool {
 
 fn check_front(front: &Front) -> Result<()> {
     let loops = !front.first.is_empty() && bounds_of_loops(&front.first, front.position.len(), 3);
-    ensure(loops && front.weight >= 0.0, "its surface")
+    ensure(loops, "its surface")
 }
 
 fn check_contact<const D: usize>(scene: &Scene<D>, state: &State<D>) -> Result<()> {

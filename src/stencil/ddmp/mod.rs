@@ -13,7 +13,7 @@ use super::{Stencil, mpm};
 use crate::kinematics::Kinematics;
 use crate::mesh::Mesh;
 use crate::mesh::shape::{CellKind, MAX_NODES};
-use blend::{ByVolume, MAX_SMOOTHED, Orthogonal, Seen, smoothed_nodes};
+use blend::{Blend, smoothed_nodes};
 use rayon::prelude::*;
 use std::sync::Arc;
 
@@ -22,27 +22,17 @@ pub fn smooths(kind: CellKind) -> bool {
     smoothed_nodes(kind) > 0
 }
 
-/// What is kept until the points are weighed.
-#[derive(Clone, Debug, Default)]
-pub struct Unweighed {
-    /// The kind of the cell of each patch.
-    kind: Vec<CellKind>,
-    /// In the order of [`Stencil::points`].
-    seen: Vec<Seen>,
-}
-
-/// Fills `stencil` as [`Stencil::fill`] does. With `fitted` the blend waits for the weights of the points.
+/// Fills `stencil` as [`Stencil::fill`] does.
 pub fn fill<const D: usize, K: Kinematics<D>>(
     stencil: &mut Stencil<D>,
     mesh: &Mesh<D>,
     cell: &[u32],
     xi: &[[f64; 3]],
     taking_part: &[bool],
-    fitted: bool,
 ) {
     mpm::fill_with::<D, K>(stencil, mesh, cell, xi, |c| D * smoothed_nodes(mesh.cells.kind[c]));
     let kinds: Vec<CellKind> = stencil.patches.iter().map(|patch| mesh.cells.kind[patch.cell as usize]).collect();
-    let blends: Vec<(ByVolume, f64)> = stencil
+    let blends: Vec<(Blend, f64)> = stencil
         .patches
         .par_iter()
         .zip(&kinds)
@@ -52,7 +42,7 @@ pub fn fill<const D: usize, K: Kinematics<D>>(
             for (x, &n) in x.iter_mut().zip(nodes) {
                 *x = mesh.nodes[n as usize];
             }
-            ByVolume::new(kind, &x[..nodes.len()], K::measure)
+            Blend::new(kind, &x[..nodes.len()], K::measure)
         })
         .collect();
     let mut volume = vec![0.0; mesh.cells.len()];
@@ -64,44 +54,12 @@ pub fn fill<const D: usize, K: Kinematics<D>>(
         let (own, all) = (slot.patch.node_count as usize, slot.patch.function_count as usize);
         let numbers = &points[slot.patch.first_point as usize..];
         for ((n, gradient), &p) in slot.value.chunks_exact(own).zip(slot.gradient.chunks_exact_mut(all)).zip(numbers) {
-            let psi = if fitted { shapes(n) } else { blend.at(&xi[p as usize], n) };
+            let psi = blend.at(&xi[p as usize], n);
             write::<D>(&mut gradient[own..], |a| psi[a]);
         }
     });
     stencil.points = points;
-    stencil.unweighed = fitted.then(|| Unweighed {
-        seen: stencil
-            .points
-            .iter()
-            .map(|&p| Seen::new(mesh.cells.kind[cell[p as usize] as usize], &xi[p as usize]))
-            .collect(),
-        kind: kinds,
-    });
     stencil.reach = Some(Arc::new(smoothing::reach(mesh, taking_part, &volume)));
-}
-
-/// Blends by the weights that the points now have.
-pub fn weigh<const D: usize>(stencil: &mut Stencil<D>) {
-    let Some(Unweighed { kind, seen }) = stencil.unweighed.take() else { return };
-    let weight = std::mem::take(&mut stencil.weight);
-    stencil.slots().into_par_iter().zip(kind).for_each(|(slot, kind)| {
-        let (own, all) = (slot.patch.node_count as usize, slot.patch.function_count as usize);
-        let range = slot.patch.first_point as usize..(slot.patch.first_point + slot.patch.point_count) as usize;
-        let (seen, weight) = (&seen[range.clone()], &weight[range]);
-        let smoothed = (all - own) / D;
-        let shapes = slot.value.chunks_exact(own).map(|n| &n[..smoothed]);
-        let points = seen.iter().zip(weight).zip(shapes).map(|((&seen, &w), n)| (seen, w, n));
-        let blend = Orthogonal::new(kind, points);
-        for ((n, gradient), seen) in slot.value.chunks_exact(own).zip(slot.gradient.chunks_exact_mut(all)).zip(seen) {
-            write::<D>(&mut gradient[own..], |a| n[a] + blend.correction(a, seen));
-        }
-    });
-    stencil.weight = weight;
-}
-
-/// The shape functions of the smoothing nodes among those of a cell.
-fn shapes(n: &[f64]) -> [f64; MAX_SMOOTHED] {
-    std::array::from_fn(|a| n.get(a).copied().unwrap_or(0.0))
 }
 
 /// The gradients `ψ_a e_j` of the functions beyond the cell's nodes.

@@ -2,8 +2,7 @@ use super::*;
 use crate::kinematics::{Axisymmetric, PlaneStrain};
 use crate::mesh::builder::rectangle;
 use crate::mesh::shape::CellKind;
-use crate::surface::fixture::{lattice, points, taking_part};
-use crate::surface::{Active, Filling};
+use crate::surface::fixture::{lattice, points, taking_part, volumes};
 use std::f64::consts::TAU;
 
 /// The error of the active volume of cut cells that random points may cause, in the mean and at most, as a share of the
@@ -20,7 +19,8 @@ struct Found {
     mesh: Mesh<2>,
     geometry: Geometry,
     contour: Contour,
-    active: Active,
+    /// What of each cell is within the contour (m³).
+    volume: Vec<f64>,
     points: Points<2>,
 }
 
@@ -28,13 +28,13 @@ fn find<K: Kinematics<2>>(mesh: Mesh<2>, places: &[([f64; 2], f64)]) -> Found {
     let geometry = Geometry::new::<K>(&mesh);
     let (points, parametric) = points(&mesh, places);
     let taking_part = taking_part(&mesh, &points.cell);
-    let (mut contour, mut active) = (Contour::default(), Active::default());
+    let mut contour = Contour::default();
     // A second time, with used buffers.
     for _ in 0..2 {
         contour.update::<K>(&mesh, &geometry, &points, &parametric, &taking_part);
-        active.update::<K>(&mesh, &geometry, &contour.level_set, &points.cell, &taking_part);
     }
-    Found { mesh, geometry, contour, active, points }
+    let volume = volumes::<K>(&mesh, &geometry, &contour.level_set, &taking_part);
+    Found { mesh, geometry, contour, volume, points }
 }
 
 /// The mean error of the volume of the cells cut by the exact surface, the greatest of all cells, as shares of the
@@ -46,7 +46,7 @@ fn error<K: Kinematics<2>>(found: &Found, exact: impl Fn(&[f64; 2]) -> f64) -> (
         let values: Vec<f64> = mesh.cells.nodes(c).iter().map(|&n| exact(&mesh.nodes[n as usize])).collect();
         let wanted = geometry.cell(mesh, c, c).clipped::<K>(&values);
         let cut = wanted[0] > 0.0 && wanted[0] < geometry.volume(c);
-        let error = (found.active.volume[c] - wanted[0]).abs() / geometry.volume(c);
+        let error = (found.volume[c] - wanted[0]).abs() / geometry.volume(c);
         greatest = greatest.max(error);
         if cut {
             count += 1;
@@ -73,10 +73,8 @@ fn a_rectangle_may_end_at_any_height() {
                 let found = find::<PlaneStrain>(mesh(kind, 8), &places);
                 let contour = &found.contour;
                 assert!((contour.enclosed / (2.0 * height) - 1.0).abs() < 1e-12, "{kind:?} {height}: {contour:?}");
-                let total: f64 = found.active.volume.iter().sum();
+                let total: f64 = found.volume.iter().sum();
                 assert!((total / (2.0 * height) - 1.0).abs() < 1e-12);
-                let moments: f64 = found.active.moments.iter().map(|m| m[0]).sum();
-                assert!((moments + found.active.lost - total).abs() < 1e-12 && found.active.lost < 1e-3 * total);
                 let (mean, greatest, _) = error::<PlaneStrain>(&found, |x| height - x[1]);
                 sum += mean / 24.0;
                 worst = worst.max(greatest);
@@ -93,12 +91,13 @@ fn walls_of_the_mesh_are_no_surface() {
         // A mesh filled to the brim, and half a mesh: nothing is missing at the walls.
         let places = lattice([2.0, 2.0], [32, 32], 0.0, |_| true);
         let found = find::<PlaneStrain>(mesh(kind, 8), &places);
-        assert!(found.active.filling.iter().all(|f| *f == Filling::Full), "{kind:?} {:?}", found.contour.level);
+        let is_full = |found: &Found, c: usize| found.volume[c] == found.geometry.volume(c);
+        assert!((0..found.volume.len()).all(|c| is_full(&found, c)), "{kind:?} {:?}", found.contour.level);
         let places = lattice([2.0, 1.1], [32, 18], 0.3, |_| true);
         let found = find::<PlaneStrain>(mesh(kind, 8), &places);
         for c in 0..found.mesh.cells.len() {
             let top = found.mesh.cells.nodes(c).iter().map(|&n| found.mesh.nodes[n as usize][1]).fold(0.0, f64::max);
-            assert!(top > 0.9 || found.active.filling[c] == Filling::Full, "{kind:?} {c}");
+            assert!(top > 0.9 || is_full(&found, c), "{kind:?} {c}");
         }
     }
 }
@@ -115,7 +114,7 @@ fn disks_and_slopes_keep_their_volume_and_misplace_less_with_refinement() {
             let found = find::<PlaneStrain>(mesh(CellKind::T6, n), &places);
             let (mean, greatest, count) = error::<PlaneStrain>(&found, exact);
             println!("{name} {n}: mean {mean:.4} greatest {greatest:.4} of {count}, level {}", found.contour.level);
-            let total: f64 = found.active.moments.iter().map(|m| m[0]).sum::<f64>() + found.active.lost;
+            let total: f64 = found.volume.iter().sum();
             assert!((total / found.contour.wanted - 1.0).abs() < 1e-12);
             // Leaving points out of the lattice makes the edge a staircase of half a spacing, another tenth of a cell.
             assert!(mean < MEAN && greatest < GREATEST + 0.1, "{name} {n}: {mean} {greatest}");
@@ -162,6 +161,6 @@ fn a_single_point_and_no_point_at_all_have_a_contour() {
     assert!((found.contour.enclosed / 1e-3 - 1.0).abs() < 1e-12, "{}", found.contour.enclosed);
     assert!(found.contour.level > 0.0 && found.points.len() == 1);
     let found = find::<PlaneStrain>(mesh(CellKind::T6, 8), &[]);
-    assert_eq!((found.contour.enclosed, found.active.lost), (0.0, 0.0));
-    assert!(found.active.volume.iter().all(|&v| v == 0.0));
+    assert_eq!(found.contour.enclosed, 0.0);
+    assert!(found.volume.iter().all(|&v| v == 0.0));
 }

@@ -94,8 +94,7 @@ impl Front {
         let bins = Bins::new(pieces.iter().map(|&(k, i)| (outlines[k].x[i - 1], outlines[k].x[i])), side);
         let feet: Vec<Option<Foot>> =
             self.position.iter().zip(&size).map(|(x, h)| foot(&outlines, &pieces, &bins, x, *h)).collect();
-        let mut next =
-            Self { position: Vec::with_capacity(self.position.len() + 16), first: vec![0], weight: self.weight };
+        let mut next = Self { position: Vec::with_capacity(self.position.len() + 16), first: vec![0] };
         for l in 0..self.loops() {
             let range = self.first[l] as usize..self.first[l + 1] as usize;
             lean_loop(&outlines, &self.position[range.clone()], &feet[range.clone()], &size[range], &mut next.position);

@@ -30,7 +30,7 @@ impl Front {
             hint = Some(c);
         }
         let position = Vec::with_capacity(self.position.len() + 16);
-        let mut next = Self { position, first: vec![0], weight: self.weight };
+        let mut next = Self { position, first: vec![0] };
         for l in 0..self.loops() {
             let range = self.first[l] as usize..self.first[l + 1] as usize;
             resample_loop(&self.position[range.clone()], &wall[range.clone()], &wanted[range], &mut next.position);

@@ -25,7 +25,7 @@ impl Front {
             let (a, b) = (mesh.nodes[side.from as usize], mesh.nodes[side.to as usize]);
             [b[0] - a[0], b[1] - a[1]]
         };
-        let mut front = Self { position: Vec::new(), first: vec![0], weight: 0.0 };
+        let mut front = Self { position: Vec::new(), first: vec![0] };
         let mut used = vec![false; sides.len()];
         for start in 0..sides.len() {
             let mut at = start;

@@ -24,18 +24,13 @@ const LEAST: usize = 8 * PER_LENGTH;
 impl Front {
     /// The front along `boundary`, smoothed; `weight` is what the points within weigh together (m³, as when seeded). `None`
     /// where a body is too small for markers. Holes as small are left out.
-    pub fn along<K: Kinematics<2>>(
-        mesh: &Mesh<2>,
-        geometry: &Geometry,
-        boundary: &ActiveBoundary,
-        weight: f64,
-    ) -> Option<Self> {
-        let mut front = Self { position: Vec::new(), first: vec![0], weight };
+    pub fn along<K: Kinematics<2>>(mesh: &Mesh<2>, geometry: &Geometry, boundary: &ActiveBoundary) -> Option<Self> {
+        let mut front = Self { position: Vec::new(), first: vec![0] };
         for l in 0..boundary.loops() {
             let corners: Vec<[f64; 2]> = boundary.corners(mesh, &mesh.nodes, l).collect();
             let size = |i: usize| geometry.size(mesh, boundary.pieces(l)[i].cell as usize);
             let wall: Vec<bool> = boundary.pieces(l).iter().map(|piece| piece.wall).collect();
-            let mut rough = Self { first: vec![0, corners.len() as u32], position: corners, weight };
+            let mut rough = Self { first: vec![0, corners.len() as u32], position: corners };
             let volume = rough.volume::<K>();
             let Some(free) = rough.smoothen(&wall, size) else {
                 if volume > 0.0 {

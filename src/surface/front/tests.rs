@@ -238,7 +238,7 @@ fn smoothing_takes_what_is_rough_and_keeps_the_volume() {
         if turned {
             x.reverse();
         }
-        let mut front = Front { first: vec![0, 48], position: x, weight: 0.0 };
+        let mut front = Front { first: vec![0, 48], position: x };
         let volume = front.volume::<PlaneStrain>();
         let free = front.smoothen(&[false; 48], |_| 0.75).unwrap();
         assert!(free.iter().all(|&free| free) && front.position.len() == free.len());
@@ -253,7 +253,7 @@ fn smoothing_takes_what_is_rough_and_keeps_the_volume() {
         assert!(jump < 4e-3, "{jump}");
     }
     // Too small for the cells that it lies in.
-    let mut front = Front { first: vec![0, 48], position: rough_circle(), weight: 0.0 };
+    let mut front = Front { first: vec![0, 48], position: rough_circle() };
     assert!(front.smoothen(&[false; 48], |_| 0.85).is_none());
 }
 
@@ -262,7 +262,7 @@ fn a_straight_stretch_between_walls_stays() {
     // A rectangle on a floor, whose sides are walls, too.
     let corners = vec![[0.0, 0.0], [4.0, 0.0], [4.0, 1.0], [2.3, 1.0], [0.0, 1.0]];
     let wall = [true, true, false, false, true];
-    let mut front = Front { first: vec![0, 5], position: corners.clone(), weight: 0.0 };
+    let mut front = Front { first: vec![0, 5], position: corners.clone() };
     let free = front.smoothen(&wall, |_| 0.5).unwrap();
     front.offset::<PlaneStrain>(&free, 4.0);
     assert!((front.volume::<PlaneStrain>() - 4.0).abs() < 1e-13);

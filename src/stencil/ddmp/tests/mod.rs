@@ -8,7 +8,6 @@ use crate::mesh::shape::{CellKind, rule};
 use crate::stencil::{Scheme, Stencil, integrate};
 
 const KINDS: [CellKind; 4] = [CellKind::T3, CellKind::T6, CellKind::Q4, CellKind::Q9];
-const BOTH: [bool; 2] = [false, true];
 
 /// Points in the cells of a mesh.
 struct Points {
@@ -69,7 +68,7 @@ fn filled<K: Kinematics<2>>(mesh: &Mesh<2>, points: &Points, scheme: Scheme) -> 
     let mut taking_part = vec![false; mesh.cells.len()];
     points.cell.iter().for_each(|&c| taking_part[c as usize] = true);
     stencil.fill::<K>(scheme, mesh, &points.cell, &points.xi, &taking_part);
-    stencil.weigh(&points.weight, &[]);
+    stencil.weigh(&points.weight);
     stencil
 }
 
@@ -108,20 +107,18 @@ fn mesh(kind: CellKind) -> Mesh<2> {
 #[test]
 fn constants_vanish_and_fields_of_the_cells_order_are_exact() {
     for kind in KINDS {
-        for fitted in BOTH {
-            let mesh = mesh(kind);
-            let points = lattice(&mesh, 0.043);
-            let stencil = filled::<PlaneStrain>(&mesh, &points, Scheme::Ddmp { fitted });
-            let quadratic = if kind.order() == 2 { 1.0 } else { 0.0 };
-            let zero = gradient_of::<PlaneStrain>(&mesh, &stencil, |_| 1.0);
-            let field = |x: &[f64; 2]| 2.0 * x[0] - 3.0 * x[1] + quadratic * (x[0] * x[0] + 0.7 * x[0] * x[1]);
-            let found = gradient_of::<PlaneStrain>(&mesh, &stencil, field);
-            for (p, x) in points.place.iter().enumerate() {
-                let exact = [2.0 + quadratic * (2.0 * x[0] + 0.7 * x[1]), -3.0 + quadratic * 0.7 * x[0]];
-                for d in 0..2 {
-                    assert!(zero[p][d].abs() < 1e-11, "{kind:?}: {:?}", zero[p]);
-                    assert!((found[p][d] - exact[d]).abs() < 1e-10, "{kind:?}: {:?}, not {exact:?}", found[p]);
-                }
+        let mesh = mesh(kind);
+        let points = lattice(&mesh, 0.043);
+        let stencil = filled::<PlaneStrain>(&mesh, &points, Scheme::Ddmp);
+        let quadratic = if kind.order() == 2 { 1.0 } else { 0.0 };
+        let zero = gradient_of::<PlaneStrain>(&mesh, &stencil, |_| 1.0);
+        let field = |x: &[f64; 2]| 2.0 * x[0] - 3.0 * x[1] + quadratic * (x[0] * x[0] + 0.7 * x[0] * x[1]);
+        let found = gradient_of::<PlaneStrain>(&mesh, &stencil, field);
+        for (p, x) in points.place.iter().enumerate() {
+            let exact = [2.0 + quadratic * (2.0 * x[0] + 0.7 * x[1]), -3.0 + quadratic * 0.7 * x[0]];
+            for d in 0..2 {
+                assert!(zero[p][d].abs() < 1e-11, "{kind:?}: {:?}", zero[p]);
+                assert!((found[p][d] - exact[d]).abs() < 1e-10, "{kind:?}: {:?}, not {exact:?}", found[p]);
             }
         }
     }
@@ -133,37 +130,35 @@ fn constants_vanish_and_fields_of_the_cells_order_are_exact() {
 fn gradients_are_continuous_over_edges() {
     let rough = |x: &[f64; 2]| (7.0 * x[0]).sin() * (5.0 * x[1] + 1.0).cos();
     for kind in KINDS {
-        for fitted in BOTH {
-            let jitter = if kind.is_simplex() { 0.2 } else { 0.0 };
-            let mut mesh = rectangle(kind, 1.0, 1.0, 4, 4, jitter, 3);
-            mesh.nodes.iter_mut().for_each(|x| x[0] += 0.3 * x[1]);
-            let faces = crate::mesh::faces::Faces::of(&mesh);
-            let mut points = in_cells::<PlaneStrain>(&mesh, 0..mesh.cells.len() as u32);
-            let first = points.cell.len();
-            for face in &faces.inner {
-                for t in [0.2, 0.71] {
-                    let ends = mesh.cells.kind[face.cells[0] as usize].facets().1[face.sides[0] as usize];
-                    let x = [0, 1].map(|d| {
-                        let at = |k: usize| mesh.nodes[mesh.cells.nodes(face.cells[0] as usize)[ends[k]] as usize][d];
-                        (1.0 - t) * at(0) + t * at(1)
-                    });
-                    for cell in face.cells {
-                        points.cell.push(cell);
-                        points.xi.push(parametric(&mesh, cell, &x));
-                        points.place.push(x);
-                        points.weight.push(0.0);
-                    }
+        let jitter = if kind.is_simplex() { 0.2 } else { 0.0 };
+        let mut mesh = rectangle(kind, 1.0, 1.0, 4, 4, jitter, 3);
+        mesh.nodes.iter_mut().for_each(|x| x[0] += 0.3 * x[1]);
+        let faces = crate::mesh::faces::Faces::of(&mesh);
+        let mut points = in_cells::<PlaneStrain>(&mesh, 0..mesh.cells.len() as u32);
+        let first = points.cell.len();
+        for face in &faces.inner {
+            for t in [0.2, 0.71] {
+                let ends = mesh.cells.kind[face.cells[0] as usize].facets().1[face.sides[0] as usize];
+                let x = [0, 1].map(|d| {
+                    let at = |k: usize| mesh.nodes[mesh.cells.nodes(face.cells[0] as usize)[ends[k]] as usize][d];
+                    (1.0 - t) * at(0) + t * at(1)
+                });
+                for cell in face.cells {
+                    points.cell.push(cell);
+                    points.xi.push(parametric(&mesh, cell, &x));
+                    points.place.push(x);
+                    points.weight.push(0.0);
                 }
             }
-            let smooth = filled::<PlaneStrain>(&mesh, &points, Scheme::Ddmp { fitted });
-            let plain = filled::<PlaneStrain>(&mesh, &points, Scheme::Mpm);
-            let jump = |stencil: &Stencil<2>| -> f64 {
-                let g = gradient_of::<PlaneStrain>(&mesh, stencil, rough);
-                g[first..].chunks(2).map(|g| (g[0][0] - g[1][0]).hypot(g[0][1] - g[1][1])).fold(0.0, f64::max)
-            };
-            let (smooth, plain) = (jump(&smooth), jump(&plain));
-            assert!(smooth < 1e-11 && plain > 0.1, "{kind:?}: {smooth:e}, plain {plain:e}");
         }
+        let smooth = filled::<PlaneStrain>(&mesh, &points, Scheme::Ddmp);
+        let plain = filled::<PlaneStrain>(&mesh, &points, Scheme::Mpm);
+        let jump = |stencil: &Stencil<2>| -> f64 {
+            let g = gradient_of::<PlaneStrain>(&mesh, stencil, rough);
+            g[first..].chunks(2).map(|g| (g[0][0] - g[1][0]).hypot(g[0][1] - g[1][1])).fold(0.0, f64::max)
+        };
+        let (smooth, plain) = (jump(&smooth), jump(&plain));
+        assert!(smooth < 1e-11 && plain > 0.1, "{kind:?}: {smooth:e}, plain {plain:e}");
     }
 }
 
@@ -193,23 +188,21 @@ fn parametric(mesh: &Mesh<2>, cell: u32, x: &[f64; 2]) -> [f64; 3] {
 fn integrals_of_the_gradients_are_those_of_the_shape_functions() {
     fn check<K: Kinematics<2>>() {
         for kind in KINDS {
-            for fitted in BOTH {
-                let mesh = mesh(kind);
-                let full = (0..mesh.cells.len() as u32).filter(|c| c % 7 != 3);
-                let points = in_cells::<K>(&mesh, full.clone());
-                let stencil = filled::<K>(&mesh, &points, Scheme::Ddmp { fitted });
-                let mut sum = vec![[0.0; 2]; mesh.nodes.len()];
-                for_all::<K>(&mesh, &stencil, |_, w, node, g| (0..2).for_each(|d| sum[node][d] += w * g[d]));
-                for c in full {
-                    integrate::<2, K>(&mesh, c as usize, |w, _, gradient| {
-                        for (g, &n) in gradient.iter().zip(mesh.cells.nodes(c as usize)) {
-                            (0..2).for_each(|d| sum[n as usize][d] -= w * g[d]);
-                        }
-                    });
-                }
-                let error = sum.iter().flatten().fold(0.0, |e: f64, s| e.max(s.abs()));
-                assert!(error < 1e-12, "{kind:?} fitted {fitted}: {error:e}");
+            let mesh = mesh(kind);
+            let full = (0..mesh.cells.len() as u32).filter(|c| c % 7 != 3);
+            let points = in_cells::<K>(&mesh, full.clone());
+            let stencil = filled::<K>(&mesh, &points, Scheme::Ddmp);
+            let mut sum = vec![[0.0; 2]; mesh.nodes.len()];
+            for_all::<K>(&mesh, &stencil, |_, w, node, g| (0..2).for_each(|d| sum[node][d] += w * g[d]));
+            for c in full {
+                integrate::<2, K>(&mesh, c as usize, |w, _, gradient| {
+                    for (g, &n) in gradient.iter().zip(mesh.cells.nodes(c as usize)) {
+                        (0..2).for_each(|d| sum[n as usize][d] -= w * g[d]);
+                    }
+                });
             }
+            let error = sum.iter().flatten().fold(0.0, |e: f64, s| e.max(s.abs()));
+            assert!(error < 1e-12, "{kind:?}: {error:e}");
         }
     }
     check::<PlaneStrain>();

@@ -1,0 +1,175 @@
+//! Momentum between the integration points, over which inertia is summed, and the material points, which carry it.
+//!
+//! The masses of both agree in sum, but not node by node, so a field of the nodes has a momentum `Σ_q m_q N_I a_I` at the
+//! ones and a slightly different one at the others. What is handed from one to the other gets a rigid motion of
+//! each body on top, such that its linear momentum and the angular one about its centre are the same on both sides. A body is a set of cells with
+//! material that share nodes. About an axis of symmetry only the momentum along the axis is kept.
+//!
+//! Internal forces have no moment where they act, which is between the ends of a step. So the moment of what a step adds to the
+//! velocity is taken there.
+
+use super::grid::{Family, Grid};
+use super::scene::Scene;
+use super::state::State;
+use super::transfer::interpolate;
+use crate::kinematics::Kinematics;
+use crate::mesh::{Bodies, Mesh};
+use crate::points::Points;
+use crate::quadrature::Samples;
+
+/// Part (-) of `Σ m |x|²` that rounding may leave of the moment of inertia of a body whose mass is in one place.
+const ROUNDING: f64 = 1e-12;
+
+/// Moments of the mass of a body, and its momentum in some field.
+#[derive(Clone, Copy)]
+struct Momentum<const D: usize> {
+    /// `Σ m` (t), `Σ m x` (t m) and `Σ m |x|²` (t m²).
+    mass: f64,
+    first: [f64; D],
+    second: f64,
+    linear: [f64; D],
+    angular: f64,
+}
+
+/// `translation + rotation × x`.
+struct Rigid<const D: usize> {
+    translation: [f64; D],
+    rotation: f64,
+}
+
+impl<const D: usize> Rigid<D> {
+    fn at(&self, x: &[f64; D]) -> [f64; D] {
+        let mut value = self.translation;
+        value[0] -= self.rotation * x[1];
+        value[1] += self.rotation * x[0];
+        value
+    }
+}
+
+impl<const D: usize> Momentum<D> {
+    const ZERO: Self = Self { mass: 0.0, first: [0.0; D], second: 0.0, linear: [0.0; D], angular: 0.0 };
+
+    fn add(&mut self, mass: f64, x: &[f64; D], value: &[f64; D]) {
+        self.mass += mass;
+        for d in 0..D {
+            self.first[d] += mass * x[d];
+            self.second += mass * x[d] * x[d];
+            self.linear[d] += mass * value[d];
+        }
+        self.angular += mass * (x[0] * value[1] - x[1] * value[0]);
+    }
+
+    /// The angular momentum about the centre of mass.
+    fn spin(&self) -> f64 {
+        self.angular - (self.first[0] * self.linear[1] - self.first[1] * self.linear[0]) / self.mass
+    }
+
+    /// The rigid motion that brings the momentum of this body to that of `other`.
+    fn towards<K: Kinematics<D>>(&self, other: &Self) -> Rigid<D> {
+        let mut rigid = Rigid { translation: [0.0; D], rotation: 0.0 };
+        if self.mass <= 0.0 || other.mass <= 0.0 {
+            return rigid;
+        }
+        let lacks: [f64; D] = std::array::from_fn(|d| other.linear[d] - self.linear[d]);
+        if K::HOOP {
+            rigid.translation[1] = lacks[1] / self.mass;
+            return rigid;
+        }
+        let centre = self.first.map(|s| s / self.mass);
+        let inertia = self.second - centre.iter().zip(&self.first).map(|(c, s)| c * s).sum::<f64>();
+        if inertia > ROUNDING * self.second {
+            rigid.rotation = (other.spin() - self.spin()) / inertia;
+        }
+        rigid.translation = lacks.map(|l| l / self.mass);
+        rigid.translation[0] += rigid.rotation * centre[1];
+        rigid.translation[1] -= rigid.rotation * centre[0];
+        rigid
+    }
+}
+
+/// Adds to the `values` of a nodal field at the material points what these lack of its momentum at the integration points, both less
+/// the nodal displacement `back` (m) from where they are.
+pub fn complete_points<const D: usize, K: Kinematics<D>>(
+    scene: &Scene<D>,
+    grid: &Grid<D>,
+    state: &State<D>,
+    field: &[[f64; D]],
+    back: &[[f64; D]],
+    values: &mut [[f64; D]],
+) {
+    let Some(samples) = &state.weighing.samples else { return };
+    let places = |position: &[[f64; D]], moved: &[[f64; D]]| -> Vec<[f64; D]> {
+        position.iter().zip(moved).map(|(x, u)| std::array::from_fn(|d| x[d] - u[d])).collect()
+    };
+    let bodies = bodies(&scene.mesh, state, samples);
+    let moved = at_samples::<D, K>(scene, grid, samples, back);
+    let field = at_samples::<D, K>(scene, grid, samples, field);
+    let wanted = momentum(&bodies, &samples.points, &places(&samples.points.position, &moved), &field);
+    let stencil = grid.of_material();
+    let of_material = Family { mesh: &scene.mesh, stencil, clique: &grid.clique, points: &state.points };
+    let position = places(&state.points.position, &interpolate::<D, K>(&of_material, back));
+    let has = momentum(&bodies, &state.points, &position, values);
+    let rigid: Vec<Rigid<D>> = has.iter().zip(&wanted).map(|(has, wanted)| has.towards::<K>(wanted)).collect();
+    for ((value, x), &c) in values.iter_mut().zip(&position).zip(&state.points.cell) {
+        if let Some(body) = bodies.of_cell(c) {
+            let more = rigid[body].at(x);
+            (0..D).for_each(|d| value[d] += more[d]);
+        }
+    }
+}
+
+/// Adds to a nodal `field` what it lacks at the integration points of the momentum of `values` at the material points.
+pub fn complete_nodes<const D: usize, K: Kinematics<D>>(
+    scene: &Scene<D>,
+    grid: &Grid<D>,
+    state: &State<D>,
+    values: &[[f64; D]],
+    field: &mut [[f64; D]],
+) {
+    let Some(samples) = &state.weighing.samples else { return };
+    let bodies = bodies(&scene.mesh, state, samples);
+    let at_samples = at_samples::<D, K>(scene, grid, samples, field);
+    let has = momentum(&bodies, &samples.points, &samples.points.position, &at_samples);
+    let wanted = momentum(&bodies, &state.points, &state.points.position, values);
+    let rigid: Vec<Rigid<D>> = has.iter().zip(&wanted).map(|(has, wanted)| has.towards::<K>(wanted)).collect();
+    let mesh = grid.relaxed.as_ref().map_or(&scene.mesh, |relaxed| &relaxed.mesh);
+    for (n, value) in field.iter_mut().enumerate() {
+        if let Some(body) = bodies.of_node(n) {
+            let x: [f64; D] = std::array::from_fn(|d| mesh.nodes[n][d] + state.displacement[n][d]);
+            let more = rigid[body].at(&x);
+            (0..D).for_each(|d| value[d] += more[d]);
+        }
+    }
+}
+
+fn at_samples<const D: usize, K: Kinematics<D>>(
+    scene: &Scene<D>,
+    grid: &Grid<D>,
+    samples: &Samples<D>,
+    field: &[[f64; D]],
+) -> Vec<[f64; D]> {
+    let (mesh, stencil, clique) = (&scene.mesh, &grid.stencils.integration, &grid.clique);
+    interpolate::<D, K>(&Family { mesh, stencil, clique, points: &samples.points }, field)
+}
+
+/// The bodies within the surface. Material points outside it are integration points themselves, and lack nothing.
+fn bodies<'a, const D: usize>(mesh: &'a Mesh<D>, state: &State<D>, samples: &'a Samples<D>) -> Bodies<'a, D> {
+    let cells = samples.points.cell.iter().chain(&state.points.cell);
+    Bodies::of(mesh, cells.copied(), &samples.outside)
+}
+
+/// The momentum of each body in a field given at points, these being at `position`.
+fn momentum<const D: usize>(
+    bodies: &Bodies<D>,
+    points: &Points<D>,
+    position: &[[f64; D]],
+    values: &[[f64; D]],
+) -> Vec<Momentum<D>> {
+    let mut momentum = vec![Momentum::ZERO; bodies.count()];
+    for (p, (x, value)) in position.iter().zip(values).enumerate() {
+        if let Some(body) = bodies.of_cell(points.cell[p]) {
+            momentum[body].add(points.mass[p], x, value);
+        }
+    }
+    momentum
+}
