@@ -64,6 +64,14 @@ pub fn load(file: &Path, overrides: &[String]) -> Result<Loaded, Vec<Error>> {
     }
 }
 
+/// What there is to say of a case before it is meshed.
+#[derive(Clone, Debug)]
+pub struct Review {
+    pub mistakes: Vec<Error>,
+    /// Lines on what is no mistake.
+    pub notes: Vec<String>,
+}
+
 /// Every mistake in a case and, where it can be read at all, in its `.geo`; `groups` names those of the mesh.
 ///
 /// # Errors
@@ -72,21 +80,22 @@ pub fn review(
     file: &Path,
     overrides: &[String],
     groups: impl FnOnce(&checked::Mesh) -> error::Result<Groups>,
-) -> error::Result<Vec<Error>> {
+) -> error::Result<Review> {
     let source = Source::read(file, overrides)?;
     let (case, mut issues) = resolve(&source);
+    let notes = source.notes().to_vec();
     let mesh = locate::Path::default().key("mesh");
     let sound = !issues.iter().any(|issue| mesh.contains(&issue.path));
     match case.filter(|_| sound).map(|case| (groups(&case.mesh), case)) {
         Some((Ok(groups), case)) => issues.extend(names::check(&case, &groups)),
         Some((Err(e), _)) => {
-            let mut errors = errors(&source, &issues);
-            errors.push(e);
-            return Ok(errors);
+            let mut mistakes = errors(&source, &issues);
+            mistakes.push(e);
+            return Ok(Review { mistakes, notes });
         }
         None => {}
     }
-    Ok(errors(&source, &issues))
+    Ok(Review { mistakes: errors(&source, &issues), notes })
 }
 
 impl Loaded {
