@@ -120,8 +120,15 @@ pub fn run<const D: usize, K: Kinematics<D>>(
         // The largest step may have been lowered since the checkpoint.
         let wanted = simulation.state.step_size.min(limits.largest);
         let mut controller = Controller::new(limits, phase.stops.clone(), wanted);
+        let number = simulation.state.phase;
+        let until = outputs.until.get(number).map_or(&[][..], |until| until);
+        let mut stays = false;
         if simulation.state.phase_time == 0.0 {
-            let notes = match simulation.notes() {
+            let begun = simulation.notes().and_then(|notes| {
+                stays = ending::is_met_at_first(until, &mut simulation)?;
+                Ok(notes)
+            });
+            let notes = match begun {
                 Ok(notes) => notes,
                 Err(error) => return Err(files.fail(scene, &mut simulation.state, error)?),
             };
@@ -130,7 +137,6 @@ pub fn run<const D: usize, K: Kinematics<D>>(
                 files.log.line(&note)?;
             }
         }
-        let number = simulation.state.phase;
         while simulation.state.phase == number {
             if stop.load(Ordering::Relaxed) {
                 files.close()?;
@@ -168,8 +174,8 @@ pub fn run<const D: usize, K: Kinematics<D>>(
             }
             timed(Activity::Output, || {
                 files.step(scene, state, &report)?;
-                let until = outputs.until.get(number).map_or(&[][..], |until| until);
-                let met = ending::met(until, &outputs.watches, scene, state, &report);
+                let met = ending::met(until, &outputs.watches, scene, state, &report)
+                    .or_else(|| stays.then(|| ending::at_first(phase)));
                 if let Some(note) = met.filter(|_| controller.next_stop(state.phase_time).is_some()) {
                     tell(state, Some(&note));
                     return files.end_early(scene, state, &note);
