@@ -63,6 +63,29 @@ fn a_fall_ends_with_the_rest_that_is_asked_for() {
     assert!(time[time.len() - 1] < 60.0, "{time:?}");
 }
 
+/// Soil that fails and comes to stand in another shape without inertia is told, once; soil that stands, or is moved, is not.
+#[test]
+fn a_jump_to_another_equilibrium_is_told() {
+    for (analysis, cohesion, driven, jumps) in [
+        ("quasi_static", 5, "", true),
+        ("auto", 5, "", true),
+        ("quasi_static", 50, "", false),
+        ("quasi_static", 5, "prescribe: {end: {uy: {rate: 0.1}}}", false),
+    ] {
+        let phases = format!(
+            "phases=[{{name: gravity, analysis: {analysis}, duration: 1, step: {{initial: 0.05, min: 0.0001}}, \
+              gravity: {{rate: 1}}, {driven}}}]"
+        );
+        let strength = format!("materials.soil.cohesion={cohesion}");
+        let (folder, log) = run("cases/slump", &["mesh.parameters.h=2", &strength, &phases]);
+        // Half the height of the block; its points move farther than they do in the mean.
+        let moved = column(folder.path(), "block.ux [m]").pop().unwrap();
+        assert_eq!(moved > 4.0, cohesion == 5, "{moved}");
+        let told = "warning: phase `gravity`: without inertia the soil has moved by";
+        assert_eq!(log.matches(told).count(), usize::from(jumps), "{analysis} {cohesion} {driven}: {log}");
+    }
+}
+
 /// A phase with inertia that waits for equilibrium has nothing to wait for where it begins in equilibrium, and its loads stay. Where a load
 /// comes later, or the soil is out of balance, it goes on.
 #[test]

@@ -12,6 +12,7 @@
 mod boundary;
 pub mod checkpoint;
 mod ending;
+mod jump;
 mod record;
 mod surface;
 
@@ -124,6 +125,7 @@ pub fn run<const D: usize, K: Kinematics<D>>(
         let until = outputs.until.get(number).map_or(&[][..], |until| until);
         let mut stays = false;
         if simulation.state.phase_time == 0.0 {
+            jump::watch(scene, &mut simulation.state);
             let begun = simulation.notes().and_then(|notes| {
                 stays = ending::is_met_at_first(until, &mut simulation)?;
                 Ok(notes)
@@ -147,6 +149,7 @@ pub fn run<const D: usize, K: Kinematics<D>>(
                 Err(error) if ending::falls(phase, &simulation.state, &controller) => {
                     let state = &mut simulation.state;
                     let note = ending::let_fall(phase, state, &mut controller, &error);
+                    jump::watch(scene, state);
                     tell(state, Some(&note));
                     files.log.line(&note)?;
                     continue;
@@ -174,6 +177,10 @@ pub fn run<const D: usize, K: Kinematics<D>>(
             }
             timed(Activity::Output, || {
                 files.step(scene, state, &report)?;
+                if let Some(warning) = jump::found(scene, state) {
+                    tell(state, Some(&warning));
+                    files.log.line(&warning)?;
+                }
                 let met = ending::met(until, &outputs.watches, scene, state, &report)
                     .or_else(|| stays.then(|| ending::at_first(phase)));
                 if let Some(note) = met.filter(|_| controller.next_stop(state.phase_time).is_some()) {
@@ -183,6 +190,7 @@ pub fn run<const D: usize, K: Kinematics<D>>(
                 if let Some(note) = ending::let_rest(phase, until, state, &report, &mut controller) {
                     tell(state, Some(&note));
                     files.log.line(&note)?;
+                    jump::watch(scene, state);
                     state.step_size = controller.wanted;
                 }
                 if controller.stop_at(state.phase_time).is_some_and(|s| s.frame) {

@@ -39,7 +39,7 @@ pub use materials::Change;
 pub use newton::Solution;
 pub use release::Release;
 pub use report::Report;
-pub use scene::{Fem, Fixed, Numerics, Phase, Prescribed, Restore, Scene, Search, Stop, Water};
+pub use scene::{FARTHEST, Fem, Fixed, Numerics, Phase, Prescribed, Restore, Scene, Search, Stop, Water};
 pub use state::State;
 pub use water::Balance;
 

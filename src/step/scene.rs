@@ -193,6 +193,9 @@ impl Phase {
     }
 }
 
+/// How far soil may move without inertia and count as what it was (-), in its height.
+pub const FARTHEST: f64 = 0.5;
+
 /// What counts as equilibrium while strengths are reduced to failure.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Search {
