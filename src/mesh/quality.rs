@@ -18,6 +18,9 @@ use crate::error::{Error, Result};
 /// `det J` as folded: at the fourth root of the rounding of `f64` half of the digits of its stiffness are lost.
 const WORST: f64 = 1.2e-4;
 
+/// Places nearer to each other than this part of the extent of a mesh (-) are the same.
+pub const SAME: f64 = 1e-9;
+
 /// What a mesh is like.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Summary {
@@ -116,11 +119,11 @@ impl fmt::Display for Summary {
     }
 }
 
-/// Nodes nearer to another than 1e-9 of the mesh, by rounding to a lattice of that size.
+/// Nodes nearer to another than [`SAME`], by rounding to a lattice of that size.
 fn coincident(nodes: &[[f64; 2]]) -> usize {
     let bound = |d: usize| nodes.iter().fold((f64::MAX, f64::MIN), |(a, b), x| (a.min(x[d]), b.max(x[d])));
     let [(left, right), (bottom, top)] = [0, 1].map(bound);
-    let size = 1e-9 * (right - left).max(top - bottom);
+    let size = SAME * (right - left).max(top - bottom);
     let mut places: Vec<_> = nodes.iter().map(|x| x.map(|v| (v / size).round() as i64)).collect();
     places.sort_unstable();
     places.windows(2).filter(|pair| pair[0] == pair[1]).count()

@@ -42,6 +42,8 @@ const QUEUE: usize = 2;
 #[derive(Clone, Debug)]
 pub struct Outputs {
     pub folder: RunFolder,
+    /// What is told of the case as the run begins.
+    pub warnings: Vec<String>,
     pub fields: Vec<Field>,
     pub watches: Vec<Watch>,
     /// What ends each phase before its time.
@@ -111,7 +113,14 @@ pub fn run<const D: usize, K: Kinematics<D>>(
             (first, None)
         }
     };
+    let begins = written.is_none();
     let mut files = Files::open(scene, outputs, checkpoints, &state, written)?;
+    for warning in &outputs.warnings {
+        tell(&state, Some(warning));
+        if begins {
+            files.log.line(warning)?;
+        }
+    }
     let mut simulation = Simulation::<D, K>::new(scene, state)?;
     if simulation.state.step == 0 && simulation.state.frames == 0 {
         files.frame(scene, &mut simulation.state)?;
