@@ -4,7 +4,7 @@ use super::stage::{Inputs, Stage};
 use super::{Outcome, StageArgs, print, signals};
 use crate::case::checked;
 use crate::case::names::Groups;
-use crate::case::unconnected::Place;
+use crate::case::unconnected::{self, Place};
 use crate::error::{Error, Result};
 use crate::io::atomic;
 use crate::mesh::gmsh::{self, Options, Outline, Worker};
@@ -109,12 +109,14 @@ pub fn work(stage: &Stage, gmsh: &Gmsh) -> Outcome {
     })?;
     drop(caught);
     msh::seal(&candidate).map_err(|e| atomic::unwritable(&candidate, &e))?;
-    let summary = quality::check(&msh::read(&candidate)?, &case.mesh.geo)?;
+    let mesh = msh::read(&candidate)?;
+    let summary = quality::check(&mesh, &case.mesh.geo)?;
     fs::rename(&candidate, stage.mesh()).map_err(|e| atomic::unwritable(&stage.mesh(), &e))?;
     scratch.keep_folder();
     record.finish(stage.folder(), &[stage.mesh()])?;
     record.write(stage.folder())?;
-    print(&format!("{}\n{summary}\n", stage.mesh().display()))
+    print(&format!("{}\n{summary}\n", stage.mesh().display()))?;
+    unconnected::nodes(case, &mesh).iter().try_for_each(|note| print(&format!("{note}\n")))
 }
 
 /// The only folder that Gmsh writes in, `.gmsh-<process>` in the output folder. It goes away with this, and the output
