@@ -52,6 +52,41 @@ fn regions_in_contact_are_there_and_of_the_right_kind() {
     }
 }
 
+/// A structure in the grid that no contact names passes through the soil: that is told before it does. One that is beside the grid, held
+/// by shared curves or never there does not.
+#[test]
+fn a_structure_without_a_contact_is_told() {
+    let told = |folder: &Path, command: &[&str]| {
+        let output = mpm(folder, command);
+        let said = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert!(output.status.success(), "{said}");
+        said.matches("warning: no contact names the structure `plate`").count()
+    };
+    let contact = "contacts:\n  - {structure: plate, soil: soil}\n";
+    let loose = scene(&[(contact, "")]);
+    let step = ["run", "--set", "phases[0].step={initial: 1}"];
+    assert_eq!(told(loose.path(), &["check"]), 1);
+    assert_eq!(told(loose.path(), &step), 1);
+    let log = fs::read_to_string(loose.path().join("out/solve.log")).unwrap();
+    assert!(log.contains("no contact names the structure `plate`"), "{log}");
+    assert_eq!(told(loose.path(), &["check", "--set", "mesh.parameters={left: 3}"]), 0);
+    assert_eq!(told(loose.path(), &[&step[..], &["--set", "mesh.parameters={left: 3}"]].concat()), 0);
+    let never = ["check", "--set", "phases[0].deactivate=[plate]", "--set", "phases[0].prescribe={}"];
+    assert_eq!(told(loose.path(), &never), 0);
+
+    let bound = scene(&[]);
+    assert_eq!(told(bound.path(), &["check"]), 0);
+    assert_eq!(told(bound.path(), &step), 0);
+
+    // The plate on the curve of the surface of the soil.
+    let geo = fs::read_to_string(loose.path().join("plate.geo")).unwrap();
+    let own = "Line(13) = {12, 13}; Line(14) = {13, 14}; Line(15) = {14, 11};\n  Curve Loop(3) = {11, 13, 14, 15};";
+    assert_eq!(geo.matches(own).count(), 1);
+    let shared = "Line(13) = {3, 13}; Line(14) = {13, 14}; Line(15) = {14, 4};\n  Curve Loop(3) = {-3, 13, 14, 15};";
+    fs::write(loose.path().join("plate.geo"), geo.replace(own, shared)).unwrap();
+    assert_eq!(told(loose.path(), &["check"]), 0);
+}
+
 #[test]
 fn curves_of_a_structure_are_there() {
     let folder = scene(&[("prescribe: {top:", "prescribe: {head:")]);

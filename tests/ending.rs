@@ -63,6 +63,52 @@ fn a_fall_ends_with_the_rest_that_is_asked_for() {
     assert!(time[time.len() - 1] < 60.0, "{time:?}");
 }
 
+/// Soil that fails and comes to stand in another shape without inertia is told, once; soil that stands, or is moved, is not.
+#[test]
+fn a_jump_to_another_equilibrium_is_told() {
+    for (analysis, cohesion, driven, jumps) in [
+        ("quasi_static", 5, "", true),
+        ("auto", 5, "", true),
+        ("quasi_static", 50, "", false),
+        ("quasi_static", 5, "prescribe: {end: {uy: {rate: 0.1}}}", false),
+    ] {
+        let phases = format!(
+            "phases=[{{name: gravity, analysis: {analysis}, duration: 1, step: {{initial: 0.05, min: 0.0001}}, \
+              gravity: {{rate: 1}}, {driven}}}]"
+        );
+        let strength = format!("materials.soil.cohesion={cohesion}");
+        let (folder, log) = run("cases/slump", &["mesh.parameters.h=2", &strength, &phases]);
+        // Half the height of the block; its points move farther than they do in the mean.
+        let moved = column(folder.path(), "block.ux [m]").pop().unwrap();
+        assert_eq!(moved > 4.0, cohesion == 5, "{moved}");
+        let told = "warning: phase `gravity`: without inertia the soil has moved by";
+        assert_eq!(log.matches(told).count(), usize::from(jumps), "{analysis} {cohesion} {driven}: {log}");
+    }
+}
+
+/// A phase with inertia that waits for equilibrium has nothing to wait for where it begins in equilibrium, and its loads stay. Where a load
+/// comes later, or the soil is out of balance, it goes on.
+#[test]
+fn a_phase_that_begins_in_equilibrium_ends_with_its_first_step() {
+    let steps = |restore: &str, weight: &str, strength: &str| {
+        let phases = format!(
+            "phases=[{{name: gravity, analysis: quasi_static, duration: 1, step: {{initial: 0.25}}, gravity: {{rate: 1}}}}, \
+              {{name: wait, analysis: dynamic, duration: 0.4, step: {{initial: 0.02}}, {weight} {strength} \
+              until: [{{equilibrium: 1.0e-3}}]}}]"
+        );
+        let strong = "materials.soil.cohesion=50";
+        let settings = ["mesh.parameters.h=2", "supports.bottom={ux: 0, uy: 0}", strong, restore, &phases];
+        let (_, log) = run("cases/slump", &settings);
+        assert_eq!(log.contains("phase `wait` ends: it began at rest"), log.matches(" wait t ").count() == 1, "{log}");
+        log.matches(" wait t ").count()
+    };
+    for restore in ["numerics.restore=never", "numerics.restore={min_quality: 0.5}"] {
+        assert_eq!(steps(restore, "", ""), 1, "{restore}");
+        assert!(steps(restore, "gravity: {table: [[0, 1], [0.3, 1], [0.4, 1.1]]},", "") > 10, "{restore}");
+        assert!(steps(restore, "", "strength_reduction: 1.5,") > 10, "{restore}");
+    }
+}
+
 /// A plate that went through soil while their contact was away is not there again without a word.
 #[test]
 fn soil_in_a_structure_that_touches_again_is_told() {

@@ -330,7 +330,8 @@ pub struct Change {
 pub enum Until {
     /// A quantity of the entry of [`Output::history`] with this index is at least, or where `below` at most `bound`.
     Reached { history: usize, quantity: Quantity, bound: f64, below: bool },
-    /// The kinetic energy has fallen to this part (-) of its largest in the phase.
+    /// The kinetic energy has fallen to this part (-) of its largest in the phase, or all forces are in balance but for this part from its
+    /// beginning at rest on.
     Equilibrium(f64),
 }
 

@@ -53,15 +53,21 @@ fn apart(grid: &Mesh<2>) -> Result<()> {
 }
 
 /// Lowest and highest corner (m).
-type Bounds = [[f64; 2]; 2];
+pub type Bounds = [[f64; 2]; 2];
 
 /// The box around the cells of a mesh; `None` without cells.
-fn bounds(mesh: &Mesh<2>) -> Option<Bounds> {
+pub(super) fn bounds(mesh: &Mesh<2>) -> Option<Bounds> {
     let nodes = mesh.cells.nodes.iter().map(|&n| mesh.nodes[n as usize]);
     nodes.fold(None, |bounds, x| {
         let [low, high] = bounds.unwrap_or([x; 2]);
         Some([[0, 1].map(|d| low[d].min(x[d])), [0, 1].map(|d| high[d].max(x[d]))])
     })
+}
+
+/// How far (m) two boxes are apart; 0 where they meet.
+pub(super) fn gap(a: &Bounds, b: &Bounds) -> f64 {
+    let along = |d: usize| (a[0][d] - b[1][d]).max(b[0][d] - a[1][d]).max(0.0);
+    along(0).hypot(along(1))
 }
 
 /// Refuses a structure beside the grid that touches soil by a contact, and that nothing moves as far as to the grid.
@@ -73,8 +79,7 @@ fn within_reach(case: &Case, mesh: &Mesh<2>, grid: &Mesh<2>) -> Result<()> {
         let number = region_index(mesh, name)?;
         let part = mesh.part(|c| mesh.cells.region[c] == number);
         let Some(own) = bounds(&part) else { continue };
-        let gap = |d: usize| (own[0][d] - around[1][d]).max(around[0][d] - own[1][d]).max(0.0);
-        let gap = gap(0).hypot(gap(1));
+        let gap = gap(&own, &around);
         if gap > 0.0 && reach(case, mesh, &part, name).is_some_and(|reach| reach < gap) {
             return Err(Error::input(
                 format!("region `{name}`"),

@@ -30,6 +30,7 @@ pub mod structure;
 #[cfg(test)]
 mod tests;
 mod touch;
+pub mod unconnected;
 mod wall;
 mod water;
 mod yaml;
@@ -44,6 +45,7 @@ use serde_path_to_error::Segment;
 use source::{Issue, Source};
 use std::collections::HashSet;
 use std::path::Path;
+use unconnected::Place;
 
 /// A case together with the text it is from.
 #[derive(Clone, Debug)]
@@ -64,29 +66,42 @@ pub fn load(file: &Path, overrides: &[String]) -> Result<Loaded, Vec<Error>> {
     }
 }
 
-/// Every mistake in a case and, where it can be read at all, in its `.geo`; `groups` names those of the mesh.
+/// What there is to say of a case before it is meshed.
+#[derive(Clone, Debug)]
+pub struct Review {
+    pub mistakes: Vec<Error>,
+    /// Lines on what is no mistake.
+    pub notes: Vec<String>,
+}
+
+/// Every mistake in a case and, where it can be read at all, in its `.geo`; `groups` has the names of the mesh and where its regions
+/// lie.
 ///
 /// # Errors
 /// What cannot be read at all.
 pub fn review(
     file: &Path,
     overrides: &[String],
-    groups: impl FnOnce(&checked::Mesh) -> error::Result<Groups>,
-) -> error::Result<Vec<Error>> {
+    groups: impl FnOnce(&checked::Mesh) -> error::Result<(Groups, Vec<Place>)>,
+) -> error::Result<Review> {
     let source = Source::read(file, overrides)?;
     let (case, mut issues) = resolve(&source);
+    let mut notes = source.notes().to_vec();
     let mesh = locate::Path::default().key("mesh");
     let sound = !issues.iter().any(|issue| mesh.contains(&issue.path));
     match case.filter(|_| sound).map(|case| (groups(&case.mesh), case)) {
-        Some((Ok(groups), case)) => issues.extend(names::check(&case, &groups)),
+        Some((Ok((groups, places)), case)) => {
+            issues.extend(names::check(&case, &groups));
+            notes.extend(unconnected::structures(&case, &places));
+        }
         Some((Err(e), _)) => {
-            let mut errors = errors(&source, &issues);
-            errors.push(e);
-            return Ok(errors);
+            let mut mistakes = errors(&source, &issues);
+            mistakes.push(e);
+            return Ok(Review { mistakes, notes });
         }
         None => {}
     }
-    Ok(errors(&source, &issues))
+    Ok(Review { mistakes: errors(&source, &issues), notes })
 }
 
 impl Loaded {

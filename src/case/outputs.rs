@@ -10,11 +10,17 @@ use crate::rigid::Body;
 use crate::run::{self, Outputs, Watch, WatchedOn};
 use crate::step::Scene;
 
-/// The outputs of a case.
+/// The outputs of a case, and the `warnings` that its run begins with.
 ///
 /// # Errors
 /// Input: a region that the mesh has not.
-pub fn outputs(case: &Case, scene: &Scene<2>, folder: &RunFolder, origin: Origin) -> Result<Outputs> {
+pub fn outputs(
+    case: &Case,
+    scene: &Scene<2>,
+    folder: &RunFolder,
+    origin: Origin,
+    warnings: Vec<String>,
+) -> Result<Outputs> {
     let mesh = &scene.mesh;
     let mut fields = Vec::new();
     for field in &case.output.fields {
@@ -58,7 +64,7 @@ pub fn outputs(case: &Case, scene: &Scene<2>, folder: &RunFolder, origin: Origin
     };
     let until = case.phases.iter().map(|phase| phase.until.iter().map(until).collect()).collect();
     let surface = if water::needs_surface(case) { Some(water::acting(case, mesh)?) } else { None };
-    Ok(Outputs { folder: folder.clone(), fields, watches, until, surface, origin })
+    Ok(Outputs { folder: folder.clone(), warnings, fields, watches, until, surface, origin })
 }
 
 fn quantity(quantity: Quantity) -> run::Quantity {

@@ -4,7 +4,7 @@ use super::checked::{Analysis, Case, Geometry, Material, Region, Restore};
 use super::outputs::outputs;
 use super::raw;
 use super::rigid::{self, Holds};
-use super::{changes, layout, parts, pores, search, seeded, staged, touch, wall, water};
+use super::{changes, layout, parts, pores, search, seeded, staged, touch, unconnected, wall, water};
 use crate::error::{Error, Result};
 use crate::io::provenance::Origin;
 use crate::io::run_folder::RunFolder;
@@ -47,16 +47,17 @@ pub fn solve(
 ) -> Result<Ended> {
     seeded::check(case, &mesh, &points)?;
     layout::check_solving(&mesh, points.len())?;
+    let warnings = unconnected::structures(case, &unconnected::places(&mesh));
     let parts = parts::points(case, &mesh, points);
     match case.geometry {
         Geometry::PlaneStrain => {
             let scene = scene::<PlaneStrain>(case, mesh)?;
-            let outputs = outputs(case, &scene, folder, origin)?;
+            let outputs = outputs(case, &scene, folder, origin, warnings)?;
             run::run::<2, PlaneStrain>(&scene, first(case, &scene, parts)?, &outputs, resume, stop, progress)
         }
         Geometry::Axisymmetric => {
             let scene = scene::<Axisymmetric>(case, mesh)?;
-            let outputs = outputs(case, &scene, folder, origin)?;
+            let outputs = outputs(case, &scene, folder, origin, warnings)?;
             run::run::<2, Axisymmetric>(&scene, first(case, &scene, parts)?, &outputs, resume, stop, progress)
         }
     }

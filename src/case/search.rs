@@ -4,10 +4,7 @@ use super::checked::{Analysis, Case};
 use super::scene::{filled, region_index};
 use crate::error::Result;
 use crate::mesh::Mesh;
-use crate::step::Search;
-
-/// How far soil may move for a unit of the factor on its strength and count as what it was (-), in its height.
-const FARTHEST: f64 = 0.5;
+use crate::step::{FARTHEST, Search};
 
 /// What the phases of the case that look for failure go by; `None` without such phases.
 ///

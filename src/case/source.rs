@@ -42,6 +42,8 @@ pub struct Source {
     tree: Value,
     /// What the tree leaves out.
     faults: Vec<Issue>,
+    /// What the overrides change beyond the entries that they name.
+    notes: Vec<String>,
 }
 
 /// An entry of the case set on the command line.
@@ -95,11 +97,36 @@ impl Source {
             let remedy = "write a case: `mpm schema` describes it, the folder cases/ has examples";
             return Err(Error::input(file.display(), "the file is empty", remedy));
         }
-        let mut source = Self { file, text, root, overrides: Vec::new(), tree, faults };
+        let mut source = Self { file, text, root, overrides: Vec::new(), tree, faults, notes: Vec::new() };
         for argument in overrides {
             source.set(argument)?;
         }
+        source.lower_first_steps();
         Ok(source)
+    }
+
+    /// Lowers the first step of each phase to the largest step, where the command line sets the largest below it and says nothing of
+    /// the first.
+    fn lower_first_steps(&mut self) {
+        let phases = self.tree.get_mut("phases").and_then(Value::as_array_mut);
+        for (i, phase) in phases.into_iter().flatten().enumerate() {
+            let step = Path::default().key("phases").index(i).key("step");
+            let (first, largest) = (step.key("initial"), step.key("max"));
+            let is_set = |path: &Path| self.overrides.iter().any(|given| given.path.contains(path));
+            if !is_set(&largest) || is_set(&first) {
+                continue;
+            }
+            let Some(entries) = phase.get_mut("step").and_then(Value::as_object_mut) else { continue };
+            let number = |key: &str| entries.get(key).and_then(Value::as_f64);
+            let (Some(initial), Some(max)) = (number("initial"), number("max")) else { continue };
+            // A largest step that is not positive is a mistake of its own.
+            if 0.0 < max && max < initial {
+                self.notes.push(format!(
+                    "note: {first} is lowered from {initial} s to {max} s, the `max` given on the command line"
+                ));
+                entries.insert("initial".to_owned(), entries["max"].clone());
+            }
+        }
     }
 
     /// Sets the entry `PATH` of the tree to `VALUE` for an argument `PATH=VALUE`.
@@ -176,6 +203,11 @@ impl Source {
     /// Numbers that are not finite, tags and keys that are not names: the tree does without them.
     pub fn faults(&self) -> &[Issue] {
         &self.faults
+    }
+
+    /// Lines for the user on what the overrides change beyond the entries that they name.
+    pub fn notes(&self) -> &[String] {
+        &self.notes
     }
 
     /// Line and column of a mistake, or of the nearest block around it that the file has.

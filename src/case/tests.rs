@@ -88,6 +88,36 @@ fn overrides_set_entries_by_keys_numbers_and_names() {
     assert_eq!(case.materials[0].model.young(-4.0), 3.0);
 }
 
+/// `--set phases.b.step.max=…` below the first step lowers that too, unless the command line gives it.
+#[test]
+fn a_largest_step_of_the_command_line_lowers_the_first() {
+    let read = |overrides: &[&str]| {
+        let overrides: Vec<String> = overrides.iter().map(|&text| text.to_owned()).collect();
+        Source::parse(PathBuf::from("case.yaml"), CASE.to_owned(), &overrides).unwrap()
+    };
+    for (overrides, lowered) in [
+        (&["phases.b.step.max=0.004"][..], Some([0.004, 0.001, 0.004])),
+        (&["phases[1].step.max=0.5", "phases.b.step.max=0.004"], Some([0.004, 0.001, 0.004])),
+        (&["phases.a.step.max=0.01"], None),
+        (&["phases.b.step.max=0.02"], None),
+    ] {
+        let (source, step) = (read(overrides), case(CASE, overrides).phases[1].step);
+        assert_eq!([step.initial, step.min, step.max], lowered.unwrap_or([0.01, 0.001, 0.02]), "{overrides:?}");
+        let of_b: Vec<_> = source.notes().iter().filter(|note| note.contains("phases[1].step.initial")).collect();
+        assert_eq!(of_b.len(), usize::from(lowered.is_some()), "{:?}", source.notes());
+    }
+    assert!(read(&["phases.a.step.max=0.01"]).notes()[0].contains("from 0.1 s to 0.01 s"));
+    for overrides in [
+        &["phases.b.step.max=0.004", "phases.b.step.initial=0.01"][..],
+        &["phases.b.step={initial: 0.01, max: 0.004}"],
+        &["phases.b.step.initial=0.04"],
+        &["phases.b.step.max=-1"],
+    ] {
+        let source = read(overrides);
+        assert!(!resolve(&source).1.is_empty() && source.notes().is_empty(), "{overrides:?}");
+    }
+}
+
 #[test]
 fn a_later_override_wins() {
     assert_eq!(case(CASE, &["title=a", "title=b"]).title, "b");

@@ -1,7 +1,7 @@
 //! `mpm check`: every mistake of a case that shows without its mesh, in one go.
 
-use super::{CaseArgs, Outcome, mesh, print};
-use crate::case;
+use super::{CaseArgs, Outcome, mesh, note, print};
+use crate::case::{self, Review};
 
 #[derive(clap::Args)]
 #[group(skip)]
@@ -14,6 +14,7 @@ pub struct Args {
 
 pub fn run(args: &Args) -> Outcome {
     let CaseArgs { case, overrides } = &args.case;
-    let errors = case::review(case, overrides, |mesh| mesh::groups(mesh, &args.limits))?;
-    if errors.is_empty() { print(&format!("{}: no mistakes\n", case.display())) } else { Err(errors) }
+    let Review { mistakes, notes } = case::review(case, overrides, |mesh| mesh::groups(mesh, &args.limits))?;
+    notes.iter().for_each(|text| note(text));
+    if mistakes.is_empty() { print(&format!("{}: no mistakes\n", case.display())) } else { Err(mistakes) }
 }

@@ -4,9 +4,10 @@ use super::stage::{Inputs, Stage};
 use super::{Outcome, StageArgs, print, signals};
 use crate::case::checked;
 use crate::case::names::Groups;
+use crate::case::unconnected::{self, Place};
 use crate::error::{Error, Result};
 use crate::io::atomic;
-use crate::mesh::gmsh::{self, Options, Worker};
+use crate::mesh::gmsh::{self, Options, Outline, Worker};
 use crate::mesh::{Mesh, msh, quality};
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -108,12 +109,14 @@ pub fn work(stage: &Stage, gmsh: &Gmsh) -> Outcome {
     })?;
     drop(caught);
     msh::seal(&candidate).map_err(|e| atomic::unwritable(&candidate, &e))?;
-    let summary = quality::check(&msh::read(&candidate)?, &case.mesh.geo)?;
+    let mesh = msh::read(&candidate)?;
+    let summary = quality::check(&mesh, &case.mesh.geo)?;
     fs::rename(&candidate, stage.mesh()).map_err(|e| atomic::unwritable(&stage.mesh(), &e))?;
     scratch.keep_folder();
     record.finish(stage.folder(), &[stage.mesh()])?;
     record.write(stage.folder())?;
-    print(&format!("{}\n{summary}\n", stage.mesh().display()))
+    print(&format!("{}\n{summary}\n", stage.mesh().display()))?;
+    unconnected::nodes(case, &mesh).iter().try_for_each(|note| print(&format!("{note}\n")))
 }
 
 /// The only folder that Gmsh writes in, `.gmsh-<process>` in the output folder. It goes away with this, and the output
@@ -178,16 +181,24 @@ pub fn read(stage: &Stage) -> std::result::Result<Mesh<2>, Vec<Error>> {
     Ok(mesh)
 }
 
-/// The names of the groups of the `.geo`, without meshing it.
+/// The names of the groups of the `.geo`, and where its regions lie, without meshing it.
 ///
 /// # Errors
 /// Input: a `.geo` that Gmsh does not read, that does what it may not, or that lacks a parameter.
-pub fn groups(mesh: &checked::Mesh, limits: &Limits) -> Result<Groups> {
-    limits.worker(&program()?, NAMING).groups(&mesh.geo, &options(mesh)).map(named)
+pub fn groups(mesh: &checked::Mesh, limits: &Limits) -> Result<(Groups, Vec<Place>)> {
+    let groups = limits.worker(&program()?, NAMING).groups(&mesh.geo, &options(mesh))?;
+    let outlines = groups.surfaces.iter().zip(&groups.outlines);
+    let place = |(name, Outline { bounds, curves }): (&String, &Outline)| Place {
+        name: name.clone(),
+        bounds: *bounds,
+        parts: curves.clone(),
+    };
+    let places = outlines.map(place).collect();
+    Ok((named(groups), places))
 }
 
 fn named(groups: gmsh::Groups) -> Groups {
-    let gmsh::Groups { surfaces, curves, points } = groups;
+    let gmsh::Groups { surfaces, curves, points, .. } = groups;
     Groups { surfaces, curves, points, meshed: false }
 }
 

@@ -33,6 +33,7 @@ impl Stage {
         let CaseArgs { case, overrides } = &args.case;
         use_threads(args.threads)?;
         let loaded = case::load(case, overrides)?;
+        loaded.source.notes().iter().for_each(|text| note(text));
         let folder = args.output.clone().unwrap_or_else(|| loaded.source.folder().join("out"));
         Ok(Self { loaded, folder, lock: OnceCell::new() })
     }

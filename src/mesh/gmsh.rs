@@ -89,10 +89,21 @@ fn generate_when(
     session.write(out)
 }
 
-/// The names of the physical groups of a `.geo`.
-#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+/// Where a physical surface lies.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Outline {
+    /// Lowest and highest corner (m) of the box around it.
+    pub bounds: [[f64; 2]; 2],
+    /// The numbers of the curves around its surfaces, ascending.
+    pub curves: Vec<u32>,
+}
+
+/// The physical groups of a `.geo`, by their names.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Groups {
     pub surfaces: Vec<String>,
+    /// Where each of the surfaces lies.
+    pub outlines: Vec<Outline>,
     pub curves: Vec<String>,
     pub points: Vec<String>,
 }
@@ -107,7 +118,24 @@ pub fn groups(geo: &Path, options: &Options) -> Result<Groups> {
 
 fn names(session: &Session) -> Groups {
     let names = |dimension| session.physical_groups(dimension).into_iter().map(|group| group.name).collect();
-    Groups { surfaces: names(2), curves: names(1), points: names(0) }
+    let outlines = session.physical_groups(2).iter().map(|group| outline(session, &group.entities)).collect();
+    Groups { surfaces: names(2), outlines, curves: names(1), points: names(0) }
+}
+
+/// Where some surfaces lie, taken together.
+fn outline(session: &Session, surfaces: &[i32]) -> Outline {
+    let mut outline = Outline { bounds: [[f64::INFINITY; 2], [f64::NEG_INFINITY; 2]], curves: Vec::new() };
+    for &surface in surfaces {
+        let [low, high] = session.bounds(2, surface);
+        for d in 0..2 {
+            // What is not a number bounds nothing.
+            outline.bounds[0][d] = outline.bounds[0][d].min(low[d]);
+            outline.bounds[1][d] = outline.bounds[1][d].max(high[d]);
+        }
+        outline.curves.extend(session.boundary(2, surface).iter().map(|curve| curve.unsigned_abs()));
+    }
+    outline.curves.sort_unstable();
+    outline
 }
 
 /// A session with the geometry in `geo`, its parameters and surfaces checked.

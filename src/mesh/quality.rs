@@ -18,6 +18,9 @@ use crate::error::{Error, Result};
 /// `det J` as folded: at the fourth root of the rounding of `f64` half of the digits of its stiffness are lost.
 const WORST: f64 = 1.2e-4;
 
+/// Places nearer to each other than this part of the extent of a mesh (-) are the same.
+pub const SAME: f64 = 1e-9;
+
 /// What a mesh is like.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Summary {
@@ -32,8 +35,6 @@ pub struct Summary {
     /// Least ratio, over the cells, of the least to the largest Bernstein coefficient of `det J`: 1 where
     /// every cell is an affine image.
     pub jacobian: f64,
-    /// Nodes at the place of another node: parts of the mesh that touch there without being joined.
-    pub coincident: usize,
 }
 
 /// Checks `mesh`, read from `file`, and sums it up.
@@ -78,7 +79,7 @@ pub fn check(mesh: &Mesh<2>, file: &Path) -> Result<Summary> {
     let count = |kind| mesh.cells.kind.iter().filter(|&&k| k == kind).count();
     let cells = CellKind::ALL.into_iter().map(|k| (k, count(k))).filter(|(_, n)| *n > 0).collect();
     let mean = sum / mesh.cells.len() as f64;
-    Ok(Summary { nodes: mesh.nodes.len(), cells, regions, worst, mean, jacobian, coincident: coincident(&mesh.nodes) })
+    Ok(Summary { nodes: mesh.nodes.len(), cells, regions, worst, mean, jacobian })
 }
 
 /// The name of cell `c` in a message.
@@ -103,27 +104,19 @@ impl fmt::Display for Summary {
         }
         let (least, cell, [x, y]) = self.worst;
         writeln!(f, "quality: least {least:.3} (cell {cell} near ({x:.3}, {y:.3})), mean {:.3}", self.mean)?;
-        write!(f, "det J, least to largest in a cell: {:.3}", self.jacobian)?;
-        if self.coincident > 0 {
-            write!(
-                f,
-                "\nnote: {} nodes lie on others without being joined; surfaces that should hold together must share \
-                 their curves (Coherence; in the .geo)",
-                self.coincident
-            )?;
-        }
-        Ok(())
+        write!(f, "det J, least to largest in a cell: {:.3}", self.jacobian)
     }
 }
 
-/// Nodes nearer to another than 1e-9 of the mesh, by rounding to a lattice of that size.
-fn coincident(nodes: &[[f64; 2]]) -> usize {
+/// The nodes at each place where there are several: nearer to each other than [`SAME`], by rounding to a lattice of that size.
+pub fn coincident(nodes: &[[f64; 2]]) -> Vec<Vec<u32>> {
     let bound = |d: usize| nodes.iter().fold((f64::MAX, f64::MIN), |(a, b), x| (a.min(x[d]), b.max(x[d])));
     let [(left, right), (bottom, top)] = [0, 1].map(bound);
-    let size = 1e-9 * (right - left).max(top - bottom);
-    let mut places: Vec<_> = nodes.iter().map(|x| x.map(|v| (v / size).round() as i64)).collect();
+    let size = SAME * (right - left).max(top - bottom);
+    let mut places: Vec<_> = (0u32..).zip(nodes).map(|(n, x)| (x.map(|v| (v / size).round() as i64), n)).collect();
     places.sort_unstable();
-    places.windows(2).filter(|pair| pair[0] == pair[1]).count()
+    let same = places.chunk_by(|a, b| a.0 == b.0).filter(|same| same.len() > 1);
+    same.map(|same| same.iter().map(|(_, n)| *n).collect()).collect()
 }
 
 /// Quality of a triangle or quadrilateral with these corners (-): 1 at best, 0 if flat, negative if inverted.
@@ -237,7 +230,6 @@ mod tests {
         for kind in plane_kinds() {
             let mut mesh = rectangle(kind, 3.0, 2.0, 6, 4, 0.0, 0);
             let even = check(&mesh, Path::new("mesh.msh")).unwrap();
-            assert_eq!(even.coincident, 0);
             assert!((even.mean - even.worst.0).abs() < 1e-14 && (even.jacobian - 1.0).abs() < 1e-12);
             // Move a corner that six or four cells share.
             let moved = mesh.nodes.iter().position(|x| *x == [1.5, 1.0]).unwrap();
@@ -249,23 +241,6 @@ mod tests {
             assert!(summary.worst.0 < even.worst.0 && mesh.cells.nodes(summary.worst.1).contains(&(moved as u32)));
             assert!(summary.to_string().contains(&format!("{count} cells ({count} {kind:?})")), "{summary}");
         }
-    }
-
-    #[test]
-    fn parts_that_touch_without_being_joined_are_noted() {
-        let mut mesh = rectangle(CellKind::T6, 1.0, 1.0, 2, 1, 0.0, 0);
-        // Give the right half nodes of its own along the middle: two corners and a mid-side.
-        let shared: Vec<u32> = (0..mesh.nodes.len() as u32).filter(|&n| mesh.nodes[n as usize][0] == 0.5).collect();
-        let first = mesh.cells.offset[2] as usize;
-        for &old in &shared {
-            let new = mesh.nodes.len() as u32;
-            mesh.nodes.push(mesh.nodes[old as usize]);
-            mesh.cells.nodes[first..].iter_mut().filter(|n| **n == old).for_each(|n| *n = new);
-        }
-        mesh.groups.clear();
-        let summary = check(&mesh, Path::new("mesh.msh")).unwrap();
-        assert_eq!(summary.coincident, shared.len());
-        assert!(summary.to_string().contains("note: 3 nodes"), "{summary}");
     }
 
     #[test]

@@ -35,6 +35,7 @@ pub fn store<const D: usize>(state: &State<D>) -> Store {
         moving,
         falling,
         peak,
+        start_position,
         release,
         parametric,
         displacement,
@@ -68,6 +69,7 @@ pub fn store<const D: usize>(state: &State<D>) -> Store {
         ("acceleration", acceleration),
         ("nodes", nodes),
         ("increment", increment),
+        ("start_position", start_position),
         ("release", &release.force),
     ] {
         store.put(&format!("state.{name}"), D, field.concat());
@@ -224,7 +226,7 @@ pub fn take<const D: usize>(mut store: Store, scene: &Scene<D>, first: &State<D>
     let mut nodal = |name: &str| Ok(vectors(&store.take::<f64>(&format!("state.{name}"), D)?));
     let (displacement, travel, increment) = (nodal("displacement")?, nodal("travel")?, nodal("increment")?);
     let (velocity, acceleration, nodes) = (nodal("velocity")?, nodal("acceleration")?, nodal("nodes")?);
-    let (uncounted, force) = (nodal("uncounted")?, nodal("release")?);
+    let (uncounted, force, start_position) = (nodal("uncounted")?, nodal("release")?, nodal("start_position")?);
     let state = State {
         phase: usize::try_from(*phase).map_err(|_| foreign("the number of its phase"))?,
         time: *time,
@@ -240,6 +242,7 @@ pub fn take<const D: usize>(mut store: Store, scene: &Scene<D>, first: &State<D>
         moving: flag(*moving, "whether it moves")?,
         falling: flag(*falling, "whether it falls")?,
         peak: *peak,
+        start_position,
         release: Release { force, until: *until },
         parametric: vectors(&store.take::<f64>("state.parametric", 3)?),
         displacement,

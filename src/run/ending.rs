@@ -1,8 +1,9 @@
 //! How phases end: at their time, before it because what they look for is found, or because the analysis cannot go on.
 
 use super::record::{self, Quantity, Watch};
-use crate::error::{Error, Kind};
-use crate::step::{Controller, Phase, Report, Scene, State};
+use crate::error::{Error, Kind, Result};
+use crate::kinematics::Kinematics;
+use crate::step::{Controller, Phase, Report, Scene, Simulation, State};
 use crate::time_value::TimeValue;
 
 /// Part of the largest kinetic energy that counts as rest (-) where dynamics hands back to a quasi-static phase.
@@ -16,8 +17,29 @@ const TOLD: f64 = 1e-6;
 pub enum Until {
     /// A quantity of an entry of the history, by number, is this much or more, or where `below` this much or less.
     Reached { watch: usize, quantity: Quantity, bound: f64, below: bool },
-    /// The kinetic energy has fallen to this part (-) of its largest in the phase.
+    /// The kinetic energy has fallen to this part (-) of its largest in the phase; or the phase begins at rest and its forces are in
+    /// balance but for this part, so that there is no such energy to fall.
     Equilibrium(f64),
+}
+
+/// Whether the phase that begins waits for a rest that it will never leave.
+///
+/// # Errors
+/// When memory does not suffice.
+pub fn is_met_at_first<const D: usize, K: Kinematics<D>>(
+    until: &[Until],
+    simulation: &mut Simulation<D, K>,
+) -> Result<bool> {
+    let part = until.iter().find_map(|condition| match condition {
+        Until::Equilibrium(part) => Some(*part),
+        Until::Reached { .. } => None,
+    });
+    part.map_or(Ok(false), |part| simulation.stays_at_rest(part))
+}
+
+/// Why a phase ends with its first step that [`is_met_at_first`].
+pub fn at_first(phase: &Phase) -> String {
+    format!("phase `{}` ends: it began at rest, with its forces in balance", phase.name)
 }
 
 /// Why a phase ends with the step of the `report`, if one of its conditions holds.

@@ -12,6 +12,7 @@
 mod boundary;
 pub mod checkpoint;
 mod ending;
+mod jump;
 mod record;
 mod surface;
 
@@ -41,6 +42,8 @@ const QUEUE: usize = 2;
 #[derive(Clone, Debug)]
 pub struct Outputs {
     pub folder: RunFolder,
+    /// What is told of the case as the run begins.
+    pub warnings: Vec<String>,
     pub fields: Vec<Field>,
     pub watches: Vec<Watch>,
     /// What ends each phase before its time.
@@ -110,7 +113,14 @@ pub fn run<const D: usize, K: Kinematics<D>>(
             (first, None)
         }
     };
+    let begins = written.is_none();
     let mut files = Files::open(scene, outputs, checkpoints, &state, written)?;
+    for warning in &outputs.warnings {
+        tell(&state, Some(warning));
+        if begins {
+            files.log.line(warning)?;
+        }
+    }
     let mut simulation = Simulation::<D, K>::new(scene, state)?;
     if simulation.state.step == 0 && simulation.state.frames == 0 {
         files.frame(scene, &mut simulation.state)?;
@@ -120,8 +130,16 @@ pub fn run<const D: usize, K: Kinematics<D>>(
         // The largest step may have been lowered since the checkpoint.
         let wanted = simulation.state.step_size.min(limits.largest);
         let mut controller = Controller::new(limits, phase.stops.clone(), wanted);
+        let number = simulation.state.phase;
+        let until = outputs.until.get(number).map_or(&[][..], |until| until);
+        let mut stays = false;
         if simulation.state.phase_time == 0.0 {
-            let notes = match simulation.notes() {
+            jump::watch(scene, &mut simulation.state);
+            let begun = simulation.notes().and_then(|notes| {
+                stays = ending::is_met_at_first(until, &mut simulation)?;
+                Ok(notes)
+            });
+            let notes = match begun {
                 Ok(notes) => notes,
                 Err(error) => return Err(files.fail(scene, &mut simulation.state, error)?),
             };
@@ -130,7 +148,6 @@ pub fn run<const D: usize, K: Kinematics<D>>(
                 files.log.line(&note)?;
             }
         }
-        let number = simulation.state.phase;
         while simulation.state.phase == number {
             if stop.load(Ordering::Relaxed) {
                 files.close()?;
@@ -141,6 +158,7 @@ pub fn run<const D: usize, K: Kinematics<D>>(
                 Err(error) if ending::falls(phase, &simulation.state, &controller) => {
                     let state = &mut simulation.state;
                     let note = ending::let_fall(phase, state, &mut controller, &error);
+                    jump::watch(scene, state);
                     tell(state, Some(&note));
                     files.log.line(&note)?;
                     continue;
@@ -168,8 +186,12 @@ pub fn run<const D: usize, K: Kinematics<D>>(
             }
             timed(Activity::Output, || {
                 files.step(scene, state, &report)?;
-                let until = outputs.until.get(number).map_or(&[][..], |until| until);
-                let met = ending::met(until, &outputs.watches, scene, state, &report);
+                if let Some(warning) = jump::found(scene, state) {
+                    tell(state, Some(&warning));
+                    files.log.line(&warning)?;
+                }
+                let met = ending::met(until, &outputs.watches, scene, state, &report)
+                    .or_else(|| stays.then(|| ending::at_first(phase)));
                 if let Some(note) = met.filter(|_| controller.next_stop(state.phase_time).is_some()) {
                     tell(state, Some(&note));
                     return files.end_early(scene, state, &note);
@@ -177,6 +199,7 @@ pub fn run<const D: usize, K: Kinematics<D>>(
                 if let Some(note) = ending::let_rest(phase, until, state, &report, &mut controller) {
                     tell(state, Some(&note));
                     files.log.line(&note)?;
+                    jump::watch(scene, state);
                     state.step_size = controller.wanted;
                 }
                 if controller.stop_at(state.phase_time).is_some_and(|s| s.frame) {

@@ -40,7 +40,7 @@ pub use materials::Change;
 pub use newton::Solution;
 pub use release::Release;
 pub use report::Report;
-pub use scene::{Fem, Fixed, Numerics, Phase, Prescribed, Restore, Scene, Search, Stop, Water};
+pub use scene::{FARTHEST, Fem, Fixed, Numerics, Phase, Prescribed, Restore, Scene, Search, Stop, Water};
 pub use state::State;
 pub use water::Balance;
 
@@ -105,6 +105,24 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
         });
         let changes = materials::notes::<D, K>(self.scene, &self.state);
         Ok(changes.into_iter().chain(notes).chain(loads).collect())
+    }
+
+    /// Whether the phase that begins is one with inertia in which nothing will move: at rest, and under all of its loads in balance but
+    /// for the share `part` (-).
+    ///
+    /// # Errors
+    /// When memory does not suffice.
+    pub fn stays_at_rest(&mut self, part: f64) -> Result<bool> {
+        if !self.scene.phases.get(self.state.phase).is_some_and(|phase| phase.dynamic) {
+            return Ok(false);
+        }
+        let found = contact::begin::<D, K>(self.scene, &mut self.grid, &mut self.state)
+            .and_then(|()| release::stays_at_rest(self.scene, &mut self.grid, &self.state, part));
+        match found {
+            // What is at fault here is told by the step that comes.
+            Err(error) if error.kind == Kind::Analysis => Ok(false),
+            found => found,
+        }
     }
 
     /// One time step of the size that `controller` wants, halved until it converges.

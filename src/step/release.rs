@@ -8,6 +8,7 @@
 use super::balance::static_force;
 use super::grid::Grid;
 use super::newton::Problem;
+use super::report::Motion;
 use super::scene::Scene;
 use super::state::State;
 use crate::error::Result;
@@ -47,21 +48,62 @@ pub fn hold<const D: usize>(scene: &Scene<D>, grid: &mut Grid<D>, state: &mut St
     if looks_for_failure || state.dynamic(scene) || state.phase_time > 0.0 || !state.release.force.is_empty() {
         return Ok(());
     }
-    let now = static_force(&Problem { to: dt, ..Problem::at_rest(scene, state) }, grid)?;
-    let mut by_node = vec![[0.0; D]; scene.mesh.nodes.len()];
-    for (f, &n) in now.force.chunks_exact(D).zip(&grid.node) {
-        by_node[n as usize] = std::array::from_fn(|d| -f[d]);
-    }
-    for fixed in scene.fixed(state.phase) {
-        fixed.nodes.iter().for_each(|&n| by_node[n as usize][fixed.component] = 0.0);
-    }
-    let size = by_node.iter().flatten().map(|f| f * f).sum::<f64>().sqrt();
+    let Unbalanced { force, scale } = unbalanced(&Problem { to: dt, ..Problem::at_rest(scene, state) }, grid)?;
     // Newton's method does not feel less.
-    if size <= scene.numerics.tolerance * now.scale {
+    if norm(&force) <= scene.numerics.tolerance * scale {
         return Ok(());
     }
-    state.release = Release { force: by_node, until: dt };
+    state.release = Release { force: force.into_iter().map(|f| f.map(|f| -f)).collect(), until: dt };
     Ok(())
+}
+
+/// What is out of balance in a state without inertia.
+struct Unbalanced<const D: usize> {
+    /// By node (kN), zero where the displacement is given.
+    force: Vec<[f64; D]>,
+    /// Norm of the largest of the forces that balance (kN).
+    scale: f64,
+}
+
+fn unbalanced<const D: usize>(problem: &Problem<D>, grid: &mut Grid<D>) -> Result<Unbalanced<D>> {
+    let now = static_force(problem, grid)?;
+    let mut force = vec![[0.0; D]; problem.scene.mesh.nodes.len()];
+    for (f, &n) in now.force.chunks_exact(D).zip(&grid.node) {
+        force[n as usize] = std::array::from_fn(|d| f[d]);
+    }
+    for fixed in problem.scene.fixed(problem.phase) {
+        fixed.nodes.iter().for_each(|&n| force[n as usize][fixed.component] = 0.0);
+    }
+    Ok(Unbalanced { force, scale: now.scale })
+}
+
+fn norm<const D: usize>(force: &[[f64; D]]) -> f64 {
+    force.iter().flatten().map(|f| f * f).sum::<f64>().sqrt()
+}
+
+/// Whether a phase with inertia begins at rest, and stays there: nothing moves, no displacement is prescribed, no water flows, and
+/// under the loads of every time of the phase the forces are in balance but for the share `part` (-).
+///
+/// # Errors
+/// When the state is inadmissible.
+pub fn stays_at_rest<const D: usize>(
+    scene: &Scene<D>,
+    grid: &mut Grid<D>,
+    state: &State<D>,
+    part: f64,
+) -> Result<bool> {
+    let phase = &scene.phases[state.phase];
+    if phase.flows || phase.moves() || Motion::of(state).kinetic > 0.0 {
+        return Ok(false);
+    }
+    for time in phase.times() {
+        let problem = Problem { from: time, to: time, ..Problem::at_rest(scene, state) };
+        let Unbalanced { force, scale } = unbalanced(&problem, grid)?;
+        if norm(&force) > part * scale {
+            return Ok(false);
+        }
+    }
+    Ok(true)
 }
 
 /// Takes the forces that are held to a restored grid, given that `before`: those at its nodes, which have moved with the soil, go to the

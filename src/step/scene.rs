@@ -181,7 +181,20 @@ impl Phase {
     pub fn reduction_at(&self, time: f64) -> f64 {
         self.reduction.as_ref().map_or(1.0, |factor| factor.at(time))
     }
+
+    /// Times (s) since the phase began between which all that varies in it is linear.
+    pub fn times(&self) -> impl Iterator<Item = f64> {
+        std::iter::once(0.0).chain(self.stops.iter().map(|stop| stop.time))
+    }
+
+    /// Whether it prescribes a displacement that is not zero throughout.
+    pub fn moves(&self) -> bool {
+        self.prescribed.iter().any(|p| self.times().any(|time| p.displacement.at(time) != 0.0))
+    }
 }
+
+/// How far soil may move without inertia and count as what it was (-), in its height.
+pub const FARTHEST: f64 = 0.5;
 
 /// What counts as equilibrium while strengths are reduced to failure.
 #[derive(Clone, Debug, PartialEq)]

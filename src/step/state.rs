@@ -39,6 +39,9 @@ pub struct State<const D: usize> {
     pub falling: bool,
     /// Largest kinetic energy (kJ) since the phase began or inertia came in.
     pub peak: f64,
+    /// Where (m) the material points were as the phase, or the part of it without inertia, began; empty where nothing asks how far they
+    /// have moved since.
+    pub start_position: Vec<[f64; D]>,
     /// What is held of the forces that were out of balance as the phase began.
     pub release: Release<D>,
     /// Parametric coordinates of the points in their cells, as of the last restoration.
@@ -88,6 +91,7 @@ impl<const D: usize> State<D> {
             moving: false,
             falling: false,
             peak: 0.0,
+            start_position: Vec::new(),
             release: Release::default(),
             parametric: Vec::new(),
             displacement: vec![[0.0; D]; nodes],
@@ -127,6 +131,7 @@ impl<const D: usize> State<D> {
         self.phase += 1;
         self.phase_time = 0.0;
         (self.falling, self.peak, self.release) = (false, 0.0, Release::default());
+        self.start_position.clear();
         if moved && !self.dynamic(scene) {
             self.rest();
         }

@@ -128,12 +128,18 @@ impl Session {
 
     /// The diagonal of the box around an entity (m), or around all for the dimension −1; not a number where there is none.
     pub fn extent(&self, dimension: c_int, tag: c_int) -> f64 {
+        let [low, high] = self.bounds(dimension, tag);
+        (high[0] - low[0]).hypot(high[1] - low[1]).hypot(high[2] - low[2])
+    }
+
+    /// Lowest and highest corner of that box (m); no numbers where there is none.
+    pub fn bounds(&self, dimension: c_int, tag: c_int) -> [[f64; 3]; 2] {
         let ([mut x, mut y, mut z, mut x2, mut y2, mut z2], mut status) = ([f64::NAN; 6], 0);
         // SAFETY: places for six numbers.
         unsafe {
             ffi::model_get_bounding_box(dimension, tag, &mut x, &mut y, &mut z, &mut x2, &mut y2, &mut z2, &mut status);
         }
-        (x2 - x).hypot(y2 - y).hypot(z2 - z)
+        [[x, y, z], [x2, y2, z2]]
     }
 
     /// The entities that bound one, negative where they run against its sense.

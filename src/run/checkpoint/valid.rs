@@ -105,6 +105,7 @@ fn check_points<const D: usize>(scene: &Scene<D>, first: &State<D>, state: &Stat
     ensure(state.points.plastic_increment.len() == state.points.len(), "a column of its points")?;
     let Points { cell, .. } = &state.points;
     ensure(cell.iter().all(|&c| state.taking_part[c as usize]), "the cell of a material point")?;
+    ensure([0, cell.len()].contains(&state.start_position.len()), "where its material points began the phase")?;
     let places = &state.parametric;
     let inside = |(&c, xi): (&u32, &[f64; 3])| is_inside(&scene.mesh, c, xi);
     ensure(places.len() == cell.len() && cell.iter().zip(places).all(inside), "the place of a material point")
