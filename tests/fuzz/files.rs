@@ -109,14 +109,19 @@ pub fn repair_container(bytes: &mut [u8]) {
     bytes[16..24].copy_from_slice(&checksum.to_le_bytes());
 }
 
+/// Changes a number, or adds one behind the last.
 fn set(data: &mut Data, index: usize, value: &str) {
+    fn put<T: std::str::FromStr<Err: std::fmt::Debug>>(values: &mut Vec<T>, index: usize, value: &str) {
+        let value = value.parse().unwrap();
+        if index == values.len() { values.push(value) } else { values[index] = value }
+    }
     match data {
-        Data::F64(v) => v[index] = value.parse().unwrap(),
-        Data::U64(v) => v[index] = value.parse().unwrap(),
-        Data::I64(v) => v[index] = value.parse().unwrap(),
-        Data::U32(v) => v[index] = value.parse().unwrap(),
-        Data::U16(v) => v[index] = value.parse().unwrap(),
-        Data::U8(v) => v[index] = value.parse().unwrap(),
+        Data::F64(v) => put(v, index, value),
+        Data::U64(v) => put(v, index, value),
+        Data::I64(v) => put(v, index, value),
+        Data::U32(v) => put(v, index, value),
+        Data::U16(v) => put(v, index, value),
+        Data::U8(v) => put(v, index, value),
     }
 }
 

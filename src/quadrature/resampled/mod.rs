@@ -139,9 +139,13 @@ impl<K: Kinematics<2>> Resampled<K> {
             distance.update(mesh, geometry, locator, front, cells, taking_part);
             distance.level_set
         };
-        // Points that neither the surface nor the contour that it smooths reaches are outside.
+        // Points that neither the surface nor the contour that it smooths reaches are outside. Where structures touch the material,
+        // such points are in these, by as much as contact lets them.
         let outside = |level_set: &[f64], within: &[u32]| {
             let mut outside = vec![false; mesh.cells.len()];
+            if !grid.outlines.is_empty() {
+                return outside;
+            }
             points.cell.iter().for_each(|&c| outside[c as usize] = true);
             let reached = |c: usize| mesh.cells.nodes(c).iter().any(|&n| level_set[n as usize] > 0.0);
             (0..outside.len())
