@@ -1,8 +1,8 @@
 //! The active boundary (reference 1 of docs/theory.md, §2.5): where the material ends, as closed, oriented polylines.
 //!
 //! They are the zero of a level set that is linear on the triangles between the nodes of a cell, in the parametric
-//! domain: the surface that the [`super::Active`] part of a cell is cut along, so that weights fitted to that part and
-//! integrals over the boundary agree. Each piece lies within one cell. Loops run with the material on their left:
+//! domain: the surface that cells are cut along, so that integrals over the part inside and
+//! over the boundary agree. Each piece lies within one cell. Loops run with the material on their left:
 //! counter-clockwise around a body, clockwise around a hole. Where the material lies against the boundary of the mesh
 //! the loop runs along that, in pieces that are *wall* and not free surface.
 
