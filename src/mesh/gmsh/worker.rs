@@ -70,6 +70,9 @@ const MOST_ANSWER: u64 = 1 << 26;
 /// How often the parent looks whether it is to stop.
 const TICK: Duration = Duration::from_millis(50);
 
+/// How long the last answer of a process that has ended may take on a busy machine.
+const LAST: Duration = Duration::from_secs(5);
+
 impl Worker<'_> {
     /// The names of the physical groups of `geo`, which is not meshed.
     ///
@@ -210,9 +213,9 @@ impl Session<'_> {
             if Instant::now() > self.due {
                 return Err(self.too_slow());
             }
-            // A program that the .geo has started may keep the pipe open.
-            if matches!(self.child.try_wait(), Ok(Some(_))) && self.answers.recv_timeout(TICK).is_err() {
-                return Err(self.ended());
+            // Its last answer may still be on the way. A program that the .geo has started may keep the pipe open.
+            if matches!(self.child.try_wait(), Ok(Some(_))) {
+                break self.answers.recv_timeout(LAST).map_err(|_| self.ended())?;
             }
         };
         match serde_json::from_str(&line) {
