@@ -193,7 +193,7 @@ struct Sum {
     /// Excess pressure of the pore water, and height, times the area.
     water: f64,
     height: f64,
-    sides: [Vec<Entry<2>>; 2],
+    sides: [Vec<Entry<2, 2>>; 2],
 }
 
 impl<K: Kinematics<2>> Pair<2> for Bodies<K> {
@@ -259,7 +259,7 @@ impl<K: Kinematics<2>> Pair<2> for Bodies<K> {
                     for (side, (facet, values, sign)) in sum.sides.iter_mut().zip(&facets) {
                         for (&node, value) in facet.iter().zip(values) {
                             let by = sign * weight * value;
-                            add(side, node, &n.map(|n| by * n), &t.map(|t| by * t));
+                            add(side, node, &[n, t].map(|along| along.map(|a| by * a)));
                         }
                     }
                 }
@@ -269,6 +269,7 @@ impl<K: Kinematics<2>> Pair<2> for Bodies<K> {
         let row = |(hat, sum): (usize, Sum)| {
             let area = (sum.area > 0.0).then_some(sum.area)?;
             let entries = || sum.sides.iter().flatten();
+            let by = |k: usize| entries().map(|(_, by)| by[k].map(|by| by / area)).collect();
             Some(Row {
                 hat: hat as u32,
                 area,
@@ -277,8 +278,10 @@ impl<K: Kinematics<2>> Pair<2> for Bodies<K> {
                 height: self.soil.as_ref().map(|_| sum.height / area),
                 own: sum.sides[0].len(),
                 nodes: entries().map(|e| e.0).collect(),
-                by_normal: entries().map(|e| e.1.map(|n| n / area)).collect(),
-                by_tangent: entries().map(|e| e.2.map(|t| t / area)).collect(),
+                by_normal: by(0),
+                by_tangent: by(1),
+                curvature: 0.0,
+                by_arc: by(1),
                 penalty: Penalty {
                     pressure: held.pressure[hat],
                     shear: held.shear[hat],

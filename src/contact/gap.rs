@@ -258,6 +258,7 @@ mod tests {
             middle: [0.0, 0.0],
             normal: [0.0, 1.0],
             area: 0.2,
+            curvature: 0.0,
             along: 0.1,
             ends: [false; 2],
             value: [0.0; 3],

@@ -39,6 +39,8 @@ const SLIDE: f64 = 8.0;
 const KNOWN: f64 = 1.0;
 /// Share of its slip by which a gap may be corrected in a step.
 const RATE: f64 = 0.1;
+/// A boundary that turns by less (rad) from one point to the next is flat.
+const FLAT: f64 = 0.01;
 /// Where soil is looked for from a segment, in spacings of its points.
 const AWAY: [f64; 5] = [0.0, 0.05, 0.15, 0.3, 0.6];
 
@@ -56,7 +58,9 @@ pub struct Ground<'a, const D: usize> {
     pub excess: &'a dyn Fn(&Points<D>, usize) -> f64,
 }
 
-/// The condition of a hat: its mean gap and slip in the step, linear in the displacements since its beginning.
+/// The condition of a hat: its mean gap and slip in the step. The slip is linear in the displacements since its beginning, and so is the
+/// gap of a boundary that is flat. Soil that flows along a curved boundary turns with it: of what moves by `a` along the boundary the normal
+/// turns by `κ a`, and a way along the first normal would take it `½ κ a²` farther away.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Row<const D: usize> {
     pub hat: u32,
@@ -73,6 +77,10 @@ pub struct Row<const D: usize> {
     /// Derivatives of gap and slip (-) by the displacement of the nodes.
     pub by_normal: Vec<[f64; D]>,
     pub by_tangent: Vec<[f64; D]>,
+    /// Curvature κ (1/m) of the boundary, positive where the structure is convex, and the derivatives of the way `a` of the soil along it,
+    /// seen from the structure without its rotation.
+    pub curvature: f64,
+    pub by_arc: Vec<[f64; D]>,
     pub penalty: Penalty,
 }
 
@@ -82,18 +90,35 @@ impl<const D: usize> Row<D> {
         self.gap < self.penalty.fading
     }
 
-    /// Gap and slip (m) after the nodes moved by `increment`, given by node.
-    pub fn measure(&self, increment: impl Fn(u32) -> [f64; D]) -> (f64, f64) {
-        let (mut gap, mut slip) = (self.gap, 0.0);
+    /// What it comes to after the nodes moved by `increment` (m), given by node.
+    pub fn measure(&self, increment: impl Fn(u32) -> [f64; D]) -> Motion {
+        let (mut gap, mut slip, mut arc) = (self.gap, 0.0, 0.0);
         for (k, &n) in self.nodes.iter().enumerate() {
             let u = increment(n);
             for d in 0..D {
                 gap += self.by_normal[k][d] * u[d];
                 slip += self.by_tangent[k][d] * u[d];
+                arc += self.by_arc[k][d] * u[d];
             }
         }
-        (gap, slip)
+        let turn = self.curvature * arc;
+        Motion { gap: gap + 0.5 * turn * arc, slip, turn }
     }
+
+    /// The derivative (-) of the gap by the displacement of node `k` of the row, where the normal has turned by `turn` (rad).
+    pub fn normal(&self, k: usize, turn: f64) -> [f64; D] {
+        std::array::from_fn(|d| self.by_normal[k][d] + turn * self.by_arc[k][d])
+    }
+}
+
+/// What the soil did at a hat in a step.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Motion {
+    /// Mean gap and slip (m) at its end.
+    pub gap: f64,
+    pub slip: f64,
+    /// The angle (rad) by which the normal turned.
+    pub turn: f64,
 }
 
 /// What pushing points out of a structure did.
@@ -160,14 +185,18 @@ pub struct Boundary<K> {
 impl<K: Kinematics<2>> Boundary<K> {
     /// The gap (m) of a hat at the beginning of a step, given that `measured` from points and that of the `surface`.
     ///
-    /// What touched in the step before carries its gap on: as measured it jumps when points come and go, and every jump
+    /// On a curved boundary, along which soil flows, it is that of the surface, where this is followed. Else what touched in the step before carries its gap on: as measured it jumps when points come and go, and every jump
     /// has to be made up for by straining the soil. It becomes that measured as the hat slides, which evens the jumps out,
     /// and is corrected by what lies beyond their size. What did not touch has the gap of the surface; it may begin to
     /// touch, not to overlap. The second number is how much more the nearest points measure than that.
     fn begin(&self, measured: &Measured, surface: Option<f64>, held: &Multipliers, hat: usize) -> (f64, f64) {
-        let Measured { open, known, spacing } = *measured;
+        let Measured { open, known, spacing, curvature } = *measured;
+        let is_curved = (curvature * spacing).abs() > FLAT;
         let still = STILL * spacing;
         let offset = |gap: f64| (open - gap).clamp(-0.5 * spacing, 0.5 * spacing);
+        if let (true, Some(gap)) = (is_curved, surface) {
+            return (if held.touched(hat) { gap } else { gap.max(-still) }, offset(gap));
+        }
         if !held.touched(hat) {
             let gap = known.or(surface).unwrap_or(open);
             return (gap.max(-still), offset(gap));
@@ -229,12 +258,15 @@ struct Measured {
     known: Option<f64>,
     /// Spacing (m) of the points.
     spacing: f64,
+    /// Curvature (1/m) of the boundary.
+    curvature: f64,
 }
 
 /// What is summed up under a hat.
 struct Sum {
     area: f64,
     open: f64,
+    curvature: f64,
     /// Area that faces the surface of the soil, and its distance from there times the area.
     facing: f64,
     distance: f64,
@@ -312,6 +344,7 @@ impl<K: Kinematics<2>> Pair<2> for Boundary<K> {
                 let sum = sums[hat as usize].get_or_insert_with(|| Sum {
                     area: 0.0,
                     open: 0.0,
+                    curvature: 0.0,
                     facing: 0.0,
                     distance: 0.0,
                     sure: 0.0,
@@ -325,6 +358,7 @@ impl<K: Kinematics<2>> Pair<2> for Boundary<K> {
                 });
                 sum.area += weight;
                 sum.open += weight * open;
+                sum.curvature += weight * placed.curvature;
                 if let Some(distance) = across {
                     sum.facing += weight;
                     sum.distance += weight * distance;
@@ -349,12 +383,25 @@ impl<K: Kinematics<2>> Pair<2> for Boundary<K> {
             }
         }
         let row = |(hat, sum): (usize, Option<Sum>)| {
-            let Sum { area, open, facing, distance, sure, known, spacing, strength, water, height, point, mut entries } =
-                sum.filter(|sum| sum.area > 0.0)?;
+            let Sum {
+                area,
+                open,
+                curvature,
+                facing,
+                distance,
+                sure,
+                known,
+                spacing,
+                strength,
+                water,
+                height,
+                point,
+                mut entries,
+            } = sum.filter(|sum| sum.area > 0.0)?;
             let spacing = spacing / area;
             let surface = (facing > 0.5 * area).then_some(distance / facing);
             let known = (sure > 0.5 * area).then_some(known / sure);
-            let measured = Measured { open: open / area, known, spacing };
+            let measured = Measured { open: open / area, known, spacing, curvature: curvature / area };
             let (gap, offset) = self.begin(&measured, surface, held, hat);
             let of_structure = |n: &u32| self.surface.facets.iter().any(|f| f.contains(n));
             entries.sort_by_key(|(n, ..)| (!of_structure(n), *n));
@@ -368,6 +415,8 @@ impl<K: Kinematics<2>> Pair<2> for Boundary<K> {
                 nodes: entries.iter().map(|e| e.0).collect(),
                 by_normal: entries.iter().map(|e| e.1.map(|n| n / area)).collect(),
                 by_tangent: entries.iter().map(|e| e.2.map(|t| t / area)).collect(),
+                curvature: curvature / area,
+                by_arc: entries.iter().map(|e| e.2.map(|t| t / area)).collect(),
                 penalty: Penalty {
                     strength: strength / area,
                     water: water / area,

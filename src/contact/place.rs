@@ -15,6 +15,8 @@ pub struct Placed {
     pub normal: [f64; 2],
     /// Area (m², per metre or full turn).
     pub area: f64,
+    /// Curvature (1/m) of the boundary, positive where the structure is convex.
+    pub curvature: f64,
     /// Arc length (m) of the middle along its piece.
     pub along: f64,
     /// Whether the boundary has a corner or an end where the segment begins and where it ends.
@@ -30,6 +32,22 @@ impl Placed {
         let way = |from: &[f64; 2]| (0..2).map(|d| (x[d] - from[d]) * along[d]).sum::<f64>();
         self.ends[0] && way(&self.from) < 0.0 || self.ends[1] && way(&self.to) > 0.0
     }
+}
+
+/// An angle (rad) between segments that is rounding.
+const FLAT: f64 = 1e-6;
+
+/// Finds the curvature of the segments of a smooth piece, by how the normal turns between those beside each.
+fn bend(piece: &mut [Placed]) {
+    let curvature = |i: usize| {
+        let (a, b) = (&piece[i.saturating_sub(1)], &piece[(i + 1).min(piece.len() - 1)]);
+        let (n, m) = (a.normal, b.normal);
+        let way = b.along - a.along;
+        let turn = (n[0] * m[1] - n[1] * m[0]).atan2(n[0] * m[0] + n[1] * m[1]);
+        if way > 0.0 && turn.abs() > FLAT { turn / way } else { 0.0 }
+    };
+    let curvatures: Vec<f64> = (0..piece.len()).map(curvature).collect();
+    piece.iter_mut().zip(curvatures).for_each(|(placed, curvature)| placed.curvature = curvature);
 }
 
 fn distance(a: &[f64; 2], b: &[f64; 2]) -> f64 {
@@ -71,12 +89,14 @@ impl Segments {
                     middle,
                     normal: [chord[1] / length, -chord[0] / length],
                     area: length * K::measure(&middle),
+                    curvature: 0.0,
                     along: along + 0.5 * length,
                     ends: [false; 2],
                     value,
                 });
                 along += length;
             }
+            bend(&mut placed[piece.clone()]);
             if let [first, .., last] = &mut placed[piece.clone()]
                 && distance(&first.from, &last.to) > 1e-9 * along
             {

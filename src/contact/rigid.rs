@@ -35,22 +35,21 @@ impl<const D: usize> Rigid<D> {
     /// The row by the unknowns of the bodies: first the nodes of the structure that move it, then those that turn it,
     /// then those of the other side.
     fn condense(&self, row: Row<D>, position: &dyn Fn(u32) -> [f64; D]) -> Row<D> {
-        let mut sides: [Vec<Entry<D>>; 3] = Default::default();
+        let mut sides: [Vec<Entry<D, 3>>; 3] = Default::default();
         for (k, &n) in row.nodes.iter().enumerate() {
             let own = k < row.own;
             let [moving, turning] = if own { [0, 1] } else { [2, 2] };
-            let (normal, tangent) = (&row.by_normal[k], &row.by_tangent[k]);
+            let (normal, tangent, arc) = (&row.by_normal[k], &row.by_tangent[k], &row.by_arc[k]);
             let Some(body) = self.bodies.get(self.body[n as usize] as usize) else {
-                sides[moving].push((n, *normal, *tangent));
+                sides[moving].push((n, [*normal, *tangent, *arc]));
                 continue;
             };
             let (x, c) = (position(n), position(body.reference));
             let arm = std::array::from_fn(|d| x[d] - c[d]);
-            let (normal, tangent) = (body.hand_on(&arm, normal), body.hand_on(&arm, tangent));
-            for ((carrier, side), (normal, tangent)) in
-                body.carriers().zip([moving, turning]).zip(normal.into_iter().zip(tangent))
-            {
-                add(&mut sides[side], carrier, &normal, &tangent);
+            // A round body that turns takes no normal with it.
+            let handed = [body.hand_on(&arm, normal), body.hand_on(&arm, tangent), [*arc, [0.0; D]]];
+            for (i, (carrier, side)) in body.carriers().zip([moving, turning]).enumerate() {
+                add(&mut sides[side], carrier, &handed.map(|of| of[i]));
             }
         }
         let own = sides[0].len();
@@ -58,26 +57,22 @@ impl<const D: usize> Rigid<D> {
         Row {
             own,
             nodes: entries().map(|e| e.0).collect(),
-            by_normal: entries().map(|e| e.1).collect(),
-            by_tangent: entries().map(|e| e.2).collect(),
+            by_normal: entries().map(|e| e.1[0]).collect(),
+            by_tangent: entries().map(|e| e.1[1]).collect(),
+            by_arc: entries().map(|e| e.1[2]).collect(),
             ..row
         }
     }
 }
 
-/// A node, and the derivatives of gap and slip by its displacement.
-pub type Entry<const D: usize> = (u32, [f64; D], [f64; D]);
+/// A node, and the derivatives of gap, slip and maybe the way along the boundary by its displacement.
+pub type Entry<const D: usize, const N: usize> = (u32, [[f64; D]; N]);
 
 /// Adds to the entry of a node.
-pub fn add<const D: usize>(entries: &mut Vec<Entry<D>>, node: u32, normal: &[f64; D], tangent: &[f64; D]) {
-    match entries.iter_mut().find(|(n, ..)| *n == node) {
-        Some((_, n, t)) => {
-            for d in 0..D {
-                n[d] += normal[d];
-                t[d] += tangent[d];
-            }
-        }
-        None => entries.push((node, *normal, *tangent)),
+pub fn add<const D: usize, const N: usize>(entries: &mut Vec<Entry<D, N>>, node: u32, more: &[[f64; D]; N]) {
+    match entries.iter_mut().find(|(n, _)| *n == node) {
+        Some((_, by)) => by.iter_mut().flatten().zip(more.iter().flatten()).for_each(|(by, more)| *by += more),
+        None => entries.push((node, *more)),
     }
 }
 
@@ -185,6 +180,8 @@ mod tests {
             own: 2,
             by_normal: vec![[-0.2, -0.3], [-0.4, -0.1], [0.6, 0.4]],
             by_tangent: vec![[0.3, -0.2], [0.1, -0.4], [-0.4, 0.6]],
+            curvature: 0.0,
+            by_arc: vec![[0.3, -0.2], [0.1, -0.4], [-0.4, 0.6]],
             penalty: Penalty {
                 pressure: 0.0,
                 shear: 0.0,
@@ -222,7 +219,7 @@ mod tests {
             4 => moved,
             _ => [turned * body.arm, 0.0],
         });
-        assert!((by_nodes.0 - by_body.0).abs() < 1e-11 && (by_nodes.1 - by_body.1).abs() < 1e-11);
-        assert!((by_body.0 - 0.3).abs() > 1e-6 && by_body.1.abs() > 1e-6, "{by_body:?}");
+        assert!((by_nodes.gap - by_body.gap).abs() < 1e-11 && (by_nodes.slip - by_body.slip).abs() < 1e-11);
+        assert!((by_body.gap - 0.3).abs() > 1e-6 && by_body.slip.abs() > 1e-6, "{by_body:?}");
     }
 }

@@ -5,7 +5,7 @@ use super::leaving;
 use super::newton::Solution;
 use super::scene::Scene;
 use super::state::State;
-use crate::contact::{Ground, Multipliers, Pair, Pushed, Row};
+use crate::contact::{Ground, Motion, Multipliers, Pair, Pushed, Row};
 use crate::error::Result;
 use crate::kinematics::Kinematics;
 use crate::mesh::Mesh;
@@ -216,7 +216,8 @@ pub fn commit<const D: usize>(
     }
     for touch in &grid.touches {
         let (pair, hat, row) = (touch.pair as usize, touch.row.hat as usize, &touch.row);
-        let (answer, gap, slip) = contact_answer(scene.pairs[pair].law(), scene.levels.as_ref(), touch, &trial);
+        let (answer, Motion { gap, slip, turn }) =
+            contact_answer(scene.pairs[pair].law(), scene.levels.as_ref(), touch, &trial);
         let held = &mut state.multipliers[pair];
         (held.pressure[hat], held.shear[hat]) = (answer.pressure, answer.shear);
         (held.gap[hat], held.slip[hat], held.offset[hat]) = (gap, slip.abs(), row.offset);
@@ -227,7 +228,8 @@ pub fn commit<const D: usize>(
             held.slid[hat] += slip;
             resultant.overlap = resultant.overlap.max(-gap);
         }
-        for (k, ((n, t), &node)) in row.by_normal.iter().zip(&row.by_tangent).zip(&row.nodes).enumerate() {
+        for (k, (t, &node)) in row.by_tangent.iter().zip(&row.nodes).enumerate() {
+            let n = row.normal(k, turn);
             let force: [f64; D] = std::array::from_fn(|d| row.area * (answer.pressure * n[d] + answer.shear * t[d]));
             let turned = scene.turned_by(node);
             let moment = match turned {

@@ -8,6 +8,7 @@ mod balance;
 mod contact;
 mod control;
 mod distortion;
+mod equilibrate;
 mod fem;
 mod free;
 mod ghost_faces;
@@ -175,6 +176,9 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
         timed(Activity::Contact, || contact::begin::<D, K>(scene, &mut self.grid, state))?;
         if state.dynamic(scene) && (restore || !state.moving) {
             transfer::motion_to_grid::<D, K>(scene, &mut self.grid, state)?;
+        }
+        if restore && moved {
+            equilibrate::equilibrate(scene, &mut self.grid, state)?;
         }
         Ok(restore || !moved || scene.numerics.restore == Restore::Never)
     }

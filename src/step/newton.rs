@@ -19,8 +19,8 @@ const HELD: usize = 3;
 const LOOSEST: f64 = 1e-3;
 /// Share of what a direction balances from which on displacements still to be given count.
 const DUE: f64 = 1e-3;
-/// A residual this small relative to the forces that balance is rounding.
-const ROUNDING: f64 = 1e-14;
+/// A residual this small relative to the forces that balance is the rounding of their sums.
+const ROUNDING: f64 = 1e-12;
 
 /// What is to be solved.
 pub struct Problem<'a, const D: usize> {

@@ -121,6 +121,55 @@ fn first_acceleration<const D: usize, K: Kinematics<D>>(
     Ok(acceleration)
 }
 
+/// What the terms answer to a converged state.
+struct Answers {
+    of_integration: Vec<Update>,
+    /// Of the material points that integrals are not summed over.
+    of_material: Vec<Update>,
+    of_elements: Vec<Update>,
+}
+
+impl Answers {
+    /// Those to the `solution` of a step `from` a time (s) of the phase `to` another.
+    fn to<const D: usize>(
+        scene: &Scene<D>,
+        grid: &Grid<D>,
+        state: &State<D>,
+        solution: &Solution<D>,
+        [from, to]: [f64; 2],
+    ) -> Self {
+        let trial = Trial {
+            displacement: &solution.displacement,
+            between: &solution.displacement,
+            alpha_f: 0.0,
+            converged: &state.displacement,
+            pressure: &solution.pressure,
+            converged_pressure: &state.pressure,
+            flow_time: 0.0,
+            acceleration: &[],
+            acceleration_slope: 0.0,
+            phase: state.phase,
+            time: state.phase_time,
+            reduction: scene.phases[state.phase].reduction_at(to),
+            held: false,
+            per_second: 1.0 / (to - from),
+        };
+        let of = |terms: &[Box<dyn Term<D>>], frame: &Frame<D>| -> Vec<Update> {
+            terms.iter().filter_map(|term| term.commit(frame, &trial)).collect()
+        };
+        let material = grid.frame_of_material(&scene.mesh, state);
+        let elements = match (&scene.fem, &grid.elements) {
+            (Some(fem), Some(elements)) => of(&fem.terms, &grid.frame_of_elements(scene, elements, state)),
+            _ => Vec::new(),
+        };
+        Self {
+            of_integration: of(&scene.terms, &grid.frame(&scene.mesh, state)),
+            of_material: material.map_or_else(Vec::new, |frame| of(&scene.terms, &frame)),
+            of_elements: elements,
+        }
+    }
+}
+
 /// Writes the converged state of the terms into the points. Material points that integrals are not summed over may be strained
 /// beyond what a model answers to: they take the state of the nearest integration point. Returns how many did.
 pub fn commit<const D: usize>(
@@ -130,40 +179,29 @@ pub fn commit<const D: usize>(
     solution: &Solution<D>,
     dt: f64,
 ) -> usize {
-    let trial = Trial {
-        displacement: &solution.displacement,
-        between: &solution.displacement,
-        alpha_f: 0.0,
-        converged: &state.displacement,
-        pressure: &solution.pressure,
-        converged_pressure: &state.pressure,
-        flow_time: 0.0,
-        acceleration: &[],
-        acceleration_slope: 0.0,
-        phase: state.phase,
-        time: state.phase_time,
-        reduction: scene.phases[state.phase].reduction_at(state.phase_time + dt),
-        held: false,
-        per_second: 1.0 / ((state.phase_time + dt) - state.phase_time),
-    };
-    let of = |terms: &[Box<dyn Term<D>>], frame: &Frame<D>| -> Vec<Update> {
-        terms.iter().filter_map(|term| term.commit(frame, &trial)).collect()
-    };
-    let updates = of(&scene.terms, &grid.frame(&scene.mesh, state));
-    let of_material =
-        grid.frame_of_material(&scene.mesh, state).map_or_else(Vec::new, |frame| of(&scene.terms, &frame));
-    let of_elements = match (&scene.fem, &grid.elements) {
-        (Some(fem), Some(elements)) => of(&fem.terms, &grid.frame_of_elements(scene, elements, state)),
-        _ => Vec::new(),
-    };
+    let times = [state.phase_time, state.phase_time + dt];
+    let Answers { of_integration, of_material, of_elements } = Answers::to(scene, grid, state, solution, times);
     let lost: Vec<usize> = of_material.iter().flat_map(|update| update.left_out(state.points.len())).collect();
-    updates.into_iter().for_each(|update| update.apply(state.integration_mut()));
+    of_integration.into_iter().for_each(|update| update.apply(state.integration_mut()));
     of_material.into_iter().for_each(|update| update.apply(&mut state.points));
     of_elements.into_iter().for_each(|update| update.apply(&mut state.fem));
     if let Some(samples) = &state.weighing.samples {
         lost.iter().for_each(|&p| take_from_nearest(&mut state.points, p, &samples.points));
     }
     lost.len()
+}
+
+/// Writes the stresses of the end of a step between two `times` (s) of the phase into the points of the soil, and what the material remembers, but not its deformation.
+pub fn commit_stresses<const D: usize>(
+    scene: &Scene<D>,
+    grid: &Grid<D>,
+    state: &mut State<D>,
+    solution: &Solution<D>,
+    times: [f64; 2],
+) {
+    let Answers { of_integration, of_material, .. } = Answers::to(scene, grid, state, solution, times);
+    of_integration.into_iter().for_each(|update| update.apply_stresses(state.integration_mut()));
+    of_material.into_iter().for_each(|update| update.apply_stresses(&mut state.points));
 }
 
 /// Gives material point `p` the state of the integration point of its region that is nearest to it, in its cell if there is one.

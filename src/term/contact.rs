@@ -1,12 +1,12 @@
 //! Contact: `−Σ_k A_k (p_k ∂g_k/∂u + τ_k ∂s_k/∂u)` over the hats of a pair, `p_k`, `τ_k` by its law from the mean gap
 //! `g_k` and slip `s_k` at the end of the step (theory, Contact).
 //!
-//! Within a step gap and slip are linear in the displacements, so that the tangent is exact and Newton's method ends at
-//! a fixed set of hats that touch, stick or slide.
+//! Within a step the slip is linear in the displacements and the gap quadratic at most, so that the tangent is exact and Newton's method
+//! ends at a fixed set of hats that touch, stick or slide.
 
 use super::levels::Levels;
 use super::{Assembly, Frame, Term, Touch, Trial};
-use crate::contact::{Answer, Law};
+use crate::contact::{Answer, Law, Motion};
 use crate::error::Result;
 use crate::system::{Local, scatter};
 
@@ -31,19 +31,19 @@ pub fn answer<const D: usize>(
     levels: Option<&Levels>,
     touch: &Touch<D>,
     trial: &Trial<D>,
-) -> (Answer, f64, f64) {
+) -> (Answer, Motion) {
     let since = |n: u32| {
         let (now, before) = (&trial.displacement[n as usize], &trial.converged[n as usize]);
         std::array::from_fn(|d| now[d] - before[d])
     };
-    let (gap, slip) = touch.row.measure(since);
+    let motion = touch.row.measure(since);
     let law = law.reduced(trial.reduction);
     let held = trial.held && (touch.laid || touch.row.penalty.pressure > 0.0);
     // What lies there without pressure would have no friction to hold it along the contact.
     let adhesion = if held && touch.laid && law.friction > 0.0 { f64::INFINITY } else { law.adhesion };
     let law = Law { separates: law.separates && !held, adhesion, ..law };
     let beyond = levels.zip(touch.row.height).map_or(0.0, |(levels, y)| levels.beyond(trial.phase, trial.time, y));
-    (law.respond(&touch.row.penalty.within(beyond), gap, slip), gap, slip)
+    (law.respond(&touch.row.penalty.within(beyond), motion.gap, motion.slip), motion)
 }
 
 impl<const D: usize> Term<D> for Contact {
@@ -57,11 +57,12 @@ impl<const D: usize> Term<D> for Contact {
                 return Ok(());
             }
             let row = &touch.row;
-            let (answer, ..) = answer(&self.law, self.levels.as_ref(), touch, trial);
+            let (answer, Motion { turn, .. }) = answer(&self.law, self.levels.as_ref(), touch, trial);
             let (pressure, shear) = (row.area * answer.pressure, row.area * answer.shear);
             for (k, &at) in touch.place.iter().enumerate() {
+                let normal = row.normal(k, turn);
                 for d in 0..D {
-                    local.vector[at as usize * D + d] -= pressure * row.by_normal[k][d] + shear * row.by_tangent[k][d];
+                    local.vector[at as usize * D + d] -= pressure * normal[d] + shear * row.by_tangent[k][d];
                 }
             }
             if local.matrix.is_empty() {
@@ -69,14 +70,17 @@ impl<const D: usize> Term<D> for Contact {
             }
             let [nn, tn, tt] =
                 [answer.pressure_by_gap, answer.shear_by_gap, answer.shear_by_slip].map(|slope| row.area * slope);
+            let turning = pressure * row.curvature;
             for (a, &i) in touch.place.iter().enumerate() {
+                let normal = row.normal(a, turn);
                 for (b, &j) in touch.place.iter().enumerate() {
+                    let other = row.normal(b, turn);
                     for d in 0..D {
-                        let (n, t) = (row.by_normal[a][d], row.by_tangent[a][d]);
+                        let (n, t, c) = (normal[d], row.by_tangent[a][d], turning * row.by_arc[a][d]);
                         let entry = (i as usize * D + d) * local.size + j as usize * D;
                         for e in 0..D {
-                            let (m, s) = (row.by_normal[b][e], row.by_tangent[b][e]);
-                            local.matrix[entry + e] -= nn * n * m + tn * t * m + tt * t * s;
+                            let (m, s) = (other[e], row.by_tangent[b][e]);
+                            local.matrix[entry + e] -= nn * n * m + tn * t * m + tt * t * s + c * row.by_arc[b][e];
                         }
                     }
                 }

@@ -261,6 +261,10 @@ impl<const D: usize, K: Kinematics<D>, S: Share<D, K>> Term<D> for Internal<K, S
         scatter_functions(frame, Kept::Points(Layout::new::<D, K>), compute, out)
     }
 
+    fn yields(&self) -> bool {
+        self.models.iter().flatten().any(|model| model.yields())
+    }
+
     fn energy(&self, points: &Points<D>) -> f64 {
         let energy = |p: usize| {
             let Some(model) = self.models.get(points.model_of(p)).and_then(Option::as_ref) else { return 0.0 };

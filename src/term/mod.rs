@@ -229,12 +229,16 @@ impl Update {
         (0..count).filter(|&p| out[p]).collect()
     }
 
+    /// The new values of each point of some number.
+    fn by_point(&self, count: usize) -> Vec<Option<&History>> {
+        let mut of_point = vec![None; count];
+        self.0.iter().flatten().for_each(|new| of_point[new.point] = Some(new));
+        of_point
+    }
+
     /// Writes the new values.
     pub fn apply<const D: usize>(self, points: &mut Points<D>) {
-        let mut of_point: Vec<Option<&History>> = vec![None; points.len()];
-        for new in self.0.iter().flatten() {
-            of_point[new.point] = Some(new);
-        }
+        let of_point = self.by_point(points.len());
         let increment = &mut points.plastic_increment;
         increment.par_iter_mut().zip(&points.plastic_strain).zip(&of_point).for_each(|((increment, before), new)| {
             if let Some(new) = new {
@@ -242,13 +246,31 @@ impl Update {
             }
         });
         write(&mut points.deformation, &of_point, |new| new.deformation);
-        write(&mut points.elastic, &of_point, |new| new.elastic);
         write(&mut points.stress, &of_point, |new| new.stress);
-        write(&mut points.plastic_strain, &of_point, |new| new.plastic_strain);
-        write(&mut points.memory, &of_point, |new| new.memory);
-        write(&mut points.pressure, &of_point, |new| new.pressure);
-        write(&mut points.pore_pressure, &of_point, |new| new.pore_pressure);
+        write_state(points, &of_point);
     }
+
+    /// Writes the new values but for the deformation: the same Kirchhoff stresses in the volume that there was.
+    pub fn apply_stresses<const D: usize>(self, points: &mut Points<D>) {
+        let of_point = self.by_point(points.len());
+        let columns = points.stress.par_iter_mut().zip(&points.deformation).zip(&of_point);
+        columns.with_min_len(1024).for_each(|((stress, deformation), new)| {
+            if let Some(new) = new {
+                let over = new.deformation.determinant() / deformation.determinant();
+                *stress = new.stress.map(|s| s * over);
+            }
+        });
+        write_state(points, &of_point);
+    }
+}
+
+/// Writes all but the deformation, and what depends on that.
+fn write_state<const D: usize>(points: &mut Points<D>, of_point: &[Option<&History>]) {
+    write(&mut points.elastic, of_point, |new| new.elastic);
+    write(&mut points.plastic_strain, of_point, |new| new.plastic_strain);
+    write(&mut points.memory, of_point, |new| new.memory);
+    write(&mut points.pressure, of_point, |new| new.pressure);
+    write(&mut points.pore_pressure, of_point, |new| new.pore_pressure);
 }
 
 /// Writes the new values of the points that have one into a column, which may be empty.
@@ -308,6 +330,11 @@ pub trait Term<const D: usize>: Send + Sync {
     /// Water (m³) that leaves the soil through it in the step to a converged state.
     fn outflow(&self, _frame: &Frame<D>, _trial: &Trial<D>) -> f64 {
         0.0
+    }
+
+    /// Whether there is a limit to the stresses that it sums.
+    fn yields(&self) -> bool {
+        false
     }
 
     /// Whether the term couples cells across the faces of [`Frame::ghost`].

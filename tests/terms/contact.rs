@@ -43,6 +43,8 @@ fn stand_in_water(law: Law, apart: f64, levels: Option<Levels>) -> Stand<PlaneSt
             gap: if hat == 0 { apart } else { -1e-3 * angle },
             by_normal: weights.iter().map(|w| normal.map(|n| w * n)).collect(),
             by_tangent: weights.iter().map(|w| [-normal[1] * w, normal[0] * w]).collect(),
+            curvature: 40.0 * (angle - 1.0),
+            by_arc: weights.iter().map(|w| [-normal[1] * w, 1.1 * normal[0] * w]).collect(),
             own: 3,
             nodes,
             penalty: Penalty {

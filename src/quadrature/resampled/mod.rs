@@ -20,8 +20,8 @@ use super::{Quadrature, Restored, Tally, Weighing};
 use crate::kinematics::Kinematics;
 use crate::material::spatial::elastic_from_stress;
 use crate::material::{Model, State, spectral};
-use crate::mesh::Mesh;
 use crate::mesh::shape::MAX_NODES;
+use crate::mesh::{Bodies, Mesh};
 use crate::points::Points;
 use crate::stencil::SoftCell;
 use crate::surface::{Contour, Distance, Front, Geometry};
@@ -51,7 +51,9 @@ const ORIGIN: usize = 12;
 /// be off before it is given up.
 const LARGEST_OFFSET: f64 = 0.05;
 /// Iterations, and the part (-) of the volume, to which the volume within the surface is that of the material points.
-const OFFSETS: usize = 6;
+const OFFSETS: usize = 8;
+/// The first offset tried, as a share of the largest.
+const FIRST_OFFSET: f64 = 1e-3;
 const VOLUME_TOLERANCE: f64 = 1e-12;
 
 /// Those that stay within the range of the points.
@@ -182,8 +184,8 @@ impl<K: Kinematics<2>> Resampled<K> {
         }
     }
 
-    /// Shifts the level set (m) that is the distance to a front such that the volume inside is that of the material points that are not
-    /// outside: a front that only moves with the grid would sink or rise a little in every reset. Where structures touch
+    /// Shifts the level set (m) that is the distance to a front such that the volume inside each body is that of its material points that
+    /// are not outside: a front that only moves with the grid would sink or rise a little in every reset. Where structures touch
     /// the material, the surface is theirs and stays.
     fn keep_volume(
         &self,
@@ -191,44 +193,63 @@ impl<K: Kinematics<2>> Resampled<K> {
         grid: &Restored<2>,
         front: &Front,
         outside: &[bool],
-        mut level_set: Vec<f64>,
+        level_set: Vec<f64>,
     ) -> Vec<f64> {
         let Restored { mesh, locator, points, taking_part, .. } = *grid;
         let (surface, size) = front.surface::<K>(mesh, geometry, locator);
         if !grid.outlines.is_empty() || surface <= 0.0 {
             return level_set;
         }
-        let inside = (0..points.len()).filter(|&p| !outside[points.cell[p] as usize]);
-        let wanted: f64 = inside.map(|p| points.volume(p)).sum();
-        let volume = |offset: f64| -> f64 {
-            let of_cell = |c: usize| {
-                let mut values = [0.0; MAX_NODES];
-                let nodes = mesh.cells.nodes(c);
-                values.iter_mut().zip(nodes).for_each(|(value, &n)| *value = level_set[n as usize] + offset);
-                let counts = taking_part[c] && !outside[c];
-                if counts { geometry.filled::<K>(mesh, c, &values[..nodes.len()]) } else { 0.0 }
-            };
-            (0..mesh.cells.len()).into_par_iter().with_min_len(64).map(of_cell).collect::<Vec<f64>>().iter().sum()
-        };
         let most = LARGEST_OFFSET * size;
-        let (mut offset, mut lacks, mut slope) = (0.0, wanted - volume(0.0), surface);
+        let counts = |c: u32| taking_part[c as usize] && !outside[c as usize];
+        let near = |c: &u32| mesh.cells.nodes(*c as usize).iter().any(|&n| level_set[n as usize] > -most);
+        let cells: Vec<u32> = (0..mesh.cells.len() as u32).filter(|c| counts(*c) && near(c)).collect();
+        let of_points = points.cell.iter().copied().filter(|&c| counts(c));
+        let bodies = Bodies::of(mesh, cells.iter().copied().chain(of_points), &[]);
+        let by_body = |volumes: &mut dyn Iterator<Item = (u32, f64)>| {
+            let mut sums = vec![0.0; bodies.count()];
+            volumes.filter(|(c, _)| counts(*c)).for_each(|(c, volume)| {
+                bodies.of_cell(c).into_iter().for_each(|body| sums[body] += volume);
+            });
+            sums
+        };
+        let wanted = by_body(&mut points.cell.iter().enumerate().map(|(p, &c)| (c, points.volume(p))));
+        let shifted = |offsets: &[f64], n: usize| level_set[n] + bodies.of_node(n).map_or(0.0, |body| offsets[body]);
+        let lacking = |offsets: &[f64]| -> Vec<f64> {
+            let of_cell = |&c: &u32| {
+                let mut values = [0.0; MAX_NODES];
+                let nodes = mesh.cells.nodes(c as usize);
+                values.iter_mut().zip(nodes).for_each(|(value, &n)| *value = shifted(offsets, n as usize));
+                (c, geometry.filled::<K>(mesh, c as usize, &values[..nodes.len()]))
+            };
+            let volumes: Vec<(u32, f64)> = cells.par_iter().with_min_len(64).map(of_cell).collect();
+            by_body(&mut volumes.into_iter()).iter().zip(&wanted).map(|(has, wanted)| wanted - has).collect()
+        };
+        // The secant method, body by body.
+        let (mut before, mut offsets) = (vec![0.0; bodies.count()], vec![FIRST_OFFSET * most; bodies.count()]);
+        let mut lacked = lacking(&before);
         for _ in 0..OFFSETS {
-            if lacks.abs() <= VOLUME_TOLERANCE * wanted {
+            let lacks = lacking(&offsets);
+            let mut done = true;
+            for b in 0..bodies.count() {
+                let slope = (lacked[b] - lacks[b]) / (offsets[b] - before[b]);
+                if lacks[b].abs() <= VOLUME_TOLERANCE * wanted[b] {
+                    continue;
+                }
+                if !(slope > 0.0 && slope.is_finite()) {
+                    // No free surface.
+                    (before[b], offsets[b]) = (0.0, 0.0);
+                    continue;
+                }
+                let next = (offsets[b] + lacks[b] / slope).clamp(-most, most);
+                done &= next == offsets[b];
+                (before[b], lacked[b], offsets[b]) = (offsets[b], lacks[b], next);
+            }
+            if done {
                 break;
             }
-            let next = (offset + lacks / slope).clamp(-most, most);
-            if next == offset {
-                break;
-            }
-            let now = wanted - volume(next);
-            let change = (lacks - now) / (next - offset);
-            if change > 0.1 * surface {
-                slope = change;
-            }
-            (offset, lacks) = (next, now);
         }
-        level_set.iter_mut().for_each(|distance| *distance += offset);
-        level_set
+        (0..level_set.len()).map(|n| shifted(&offsets, n)).collect()
     }
 
     /// The integration points of a cell with the nodal values of the level set.

@@ -1,0 +1,69 @@
+//! Balance on a restored grid, before a step without inertia.
+//!
+//! The stresses that integration points take from the material points balance the forces of the step before only as well as the cells
+//! can tell. In soil that yields, what is missing becomes displacement in every restoration: a load that is held creeps, and a body that
+//! is pushed meets less for a while. So the soil is brought to balance first, under the loads of the step before, with nothing moving that is
+//! prescribed and the finite elements held. It keeps the stresses, contacts keep their pressures, and the displacements are discarded.
+
+use super::grid::{self, Grid};
+use super::newton::{self, Problem};
+use super::scene::Scene;
+use super::state::State;
+use super::transfer;
+use crate::error::{Kind, Result};
+use crate::term::{Trial, contact_answer};
+
+/// Whether restoring the grid leaves what is to be brought to balance: soil that yields, in a phase without inertia and without water that
+/// flows, that is under way.
+fn is_due<const D: usize>(scene: &Scene<D>, state: &State<D>) -> bool {
+    let phase = &scene.phases[state.phase];
+    scene.terms.iter().any(|term| term.yields()) && !state.dynamic(scene) && !phase.flows && state.phase_time > 0.0
+}
+
+/// Brings the soil to balance on the restored grid. Where there is no balance, it stays as it is, and the step that comes says why.
+/// Returns the number of iterations.
+///
+/// # Errors
+/// When memory does not suffice.
+pub fn equilibrate<const D: usize>(scene: &Scene<D>, grid: &mut Grid<D>, state: &mut State<D>) -> Result<usize> {
+    if !is_due(scene, state) {
+        return Ok(0);
+    }
+    let mut given = grid::given_increments(scene, state, grid, 0.0);
+    if let Some(fem) = &scene.fem {
+        for &n in fem.deforming().flat_map(|c| fem.mesh.cells.nodes(c)) {
+            let first = grid.block[n as usize] as usize * D;
+            given.iter_mut().skip(first).take(D).for_each(|given| *given = Some(0.0));
+        }
+    }
+    let times @ [from, to] = [state.phase_time - state.last_step, state.phase_time];
+    let problem = Problem { given: &given, from, to, ..Problem::at_rest(scene, state) };
+    let solution = match newton::solve(&problem, grid) {
+        Ok(solution) => solution,
+        Err(error) if error.kind == Kind::Analysis => return Ok(0),
+        Err(error) => return Err(error),
+    };
+    hold_pressures(scene, grid, state, &solution.displacement);
+    transfer::commit_stresses(scene, grid, state, &solution, times);
+    state.pressure.clone_from(&solution.pressure);
+    Ok(solution.history.len() - 1)
+}
+
+/// Gives contacts the pressures that they have after the displacement (m) of the nodes as those that they have before it.
+fn hold_pressures<const D: usize>(scene: &Scene<D>, grid: &mut Grid<D>, state: &State<D>, displacement: &[[f64; D]]) {
+    let trial = Trial {
+        phase: state.phase,
+        time: state.phase_time,
+        reduction: scene.phases[state.phase].reduction_at(state.phase_time),
+        ..Trial::at_rest(displacement, &state.displacement)
+    };
+    for touch in &mut grid.touches {
+        let law = scene.pairs[touch.pair as usize].law();
+        let (answer, ..) = contact_answer(law, scene.levels.as_ref(), touch, &trial);
+        if answer.pressure != 0.0 {
+            let penalty = &mut touch.row.penalty;
+            penalty.pressure = answer.pressure + penalty.normal * touch.row.gap;
+            penalty.shear = answer.shear;
+        }
+    }
+}
