@@ -106,3 +106,35 @@ impl Segments {
         Self(placed)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::kinematics::PlaneStrain;
+    use crate::mesh::Mesh;
+    use crate::mesh::shape::CellKind;
+
+    /// The middle and the corners of a cell, of which two nodes of second order lie on each side.
+    fn square(bulge: f64) -> Mesh<2> {
+        let corners = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
+        let sides = [[0.0, -bulge], [bulge, 0.0], [0.0, bulge], [-bulge, 0.0]];
+        let nodes = corners.into_iter().chain(sides).collect();
+        let mut mesh = Mesh { nodes, regions: vec!["body".to_string()], ..Mesh::default() };
+        mesh.cells.push(CellKind::Q8, 0, &[0, 1, 2, 3, 4, 5, 6, 7]);
+        mesh
+    }
+
+    #[test]
+    fn flat_sides_have_no_curvature_and_round_ones_that_of_their_circle() {
+        for (bulge, curvature) in [(1.0, 0.0), (std::f64::consts::SQRT_2, 1.0 / std::f64::consts::SQRT_2)] {
+            let mesh = square(bulge);
+            let surface = Surface::new(&mesh, 0, 0.05, |_| false).unwrap();
+            let segments = Segments::new::<PlaneStrain>(&surface, |n| mesh.nodes[n as usize]);
+            let found: Vec<f64> = segments.0.iter().map(|segment| segment.curvature).collect();
+            let mean = found.iter().sum::<f64>() / found.len() as f64;
+            // A parabola through the corner and the middle of a side is a quarter of a circle but for some per cent.
+            assert!((mean - curvature).abs() <= 0.03 * curvature, "{mean} {curvature}");
+            assert!(curvature > 0.0 || found.iter().all(|&found| found == 0.0), "{found:?}");
+        }
+    }
+}

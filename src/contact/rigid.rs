@@ -222,4 +222,36 @@ mod tests {
         assert!((by_nodes.gap - by_body.gap).abs() < 1e-11 && (by_nodes.slip - by_body.slip).abs() < 1e-11);
         assert!((by_body.gap - 0.3).abs() > 1e-6 && by_body.slip.abs() > 1e-6, "{by_body:?}");
     }
+
+    /// Soil that goes along a round body keeps its distance to third order in the way, seen from the body; the body may turn meanwhile.
+    #[test]
+    fn soil_that_flows_around_a_round_body_opens_no_gap() {
+        let radius = 2.0;
+        let round = Row {
+            gap: 0.0,
+            nodes: vec![0, 1],
+            own: 1,
+            by_normal: vec![[-1.0, 0.0], [1.0, 0.0]],
+            by_tangent: vec![[0.0, -1.0], [0.0, 1.0]],
+            curvature: 1.0 / radius,
+            by_arc: vec![[0.0, -1.0], [0.0, 1.0]],
+            ..row()
+        };
+        let gap_after = |angle: f64| {
+            let along = [radius * (angle.cos() - 1.0), radius * angle.sin()];
+            let motion = round.measure(|n| if n == 1 { along } else { [0.0; 2] });
+            assert!((motion.turn - angle).abs() < angle.powi(2));
+            motion.gap
+        };
+        let [coarse, fine] = [0.1, 0.05].map(gap_after);
+        assert!(coarse.abs() < 1e-4 * radius && fine.abs() < coarse.abs() / 7.0, "{coarse} {fine}");
+
+        let mut mesh = Mesh { nodes: vec![[radius, 0.0], [radius, 0.0], [-radius, 0.0]], ..Mesh::default() };
+        let body = Body::append(&mut mesh, 0, vec![0, 2], &Points::default(), true);
+        let law = Law { friction: 0.0, adhesion: 0.0, factor: None, separates: true };
+        let pair = Rigid::new(Box::new(One(law)), std::slice::from_ref(&body), mesh.nodes.len());
+        let condensed = pair.condense(round.clone(), &|n| mesh.nodes[n as usize]);
+        let turned = condensed.measure(|n| if Some(n) == body.turning { [0.1 * body.arm, 0.0] } else { [0.0; 2] });
+        assert!(turned.gap == 0.0 && turned.turn == 0.0 && turned.slip != 0.0, "{turned:?}");
+    }
 }

@@ -10,7 +10,7 @@ use crate::io::columns;
 use crate::io::container::Store;
 use crate::quadrature::{Samples, Tally, Weighing};
 use crate::stencil::SoftCell;
-use crate::step::{Release, Scene, State};
+use crate::step::{Release, Scene, Span, State};
 use crate::surface::{ActiveBoundary, Front, Piece};
 
 const POINTS: &str = "points.";
@@ -41,6 +41,7 @@ pub fn store<const D: usize>(state: &State<D>) -> Store {
         displacement,
         increment,
         last_step,
+        balanced,
         travel,
         uncounted,
         pressure,
@@ -59,6 +60,8 @@ pub fn store<const D: usize>(state: &State<D>) -> Store {
         vec![*phase as u64, *step, *frames, u64::from(*moving), *restorations, u64::from(*falling)],
     );
     store.put("state.times", 1, vec![*time, *phase_time, *step_size, *last_step, *peak, release.until]);
+    let last = balanced.map_or_else(Vec::new, |last| vec![last.phase as f64, last.from, last.to]);
+    store.put("state.balanced", 1, last);
     store.put("state.parametric", 3, parametric.concat());
     store.put("state.fem_parametric", 3, fem_parametric.concat());
     for (name, field) in [
@@ -204,6 +207,14 @@ fn take_multipliers(store: &mut Store) -> Result<Vec<Multipliers>> {
     (0..count).map(pair).collect()
 }
 
+fn take_balanced(store: &mut Store) -> Result<Option<Span>> {
+    match store.take::<f64>("state.balanced", 1)?[..] {
+        [] => Ok(None),
+        [phase, from, to] => Ok(Some(Span { phase: phase as usize, from, to })),
+        _ => Err(foreign("its last step")),
+    }
+}
+
 fn take_front(store: &mut Store) -> Result<Option<Front>> {
     let position = vectors(&store.take::<f64>("front.position", 2)?);
     let first = store.take::<u32>("front.first", 1)?;
@@ -248,6 +259,7 @@ pub fn take<const D: usize>(mut store: Store, scene: &Scene<D>, first: &State<D>
         displacement,
         increment,
         last_step: *last_step,
+        balanced: take_balanced(&mut store)?,
         travel,
         uncounted,
         pressure: store.take::<f64>("state.pressure", 1)?,

@@ -8,25 +8,32 @@
 use super::grid::{self, Grid};
 use super::newton::{self, Problem};
 use super::scene::Scene;
-use super::state::State;
+use super::state::{Span, State};
 use super::transfer;
 use crate::error::{Kind, Result};
 use crate::term::{Trial, contact_answer};
 
-/// Whether restoring the grid leaves what is to be brought to balance: soil that yields, in a phase without inertia and without water that
-/// flows, that is under way.
-fn is_due<const D: usize>(scene: &Scene<D>, state: &State<D>) -> bool {
-    let phase = &scene.phases[state.phase];
-    scene.terms.iter().any(|term| term.yields()) && !state.dynamic(scene) && !phase.flows && state.phase_time > 0.0
+/// Whether restoring the grid leaves what is to be brought to balance under the loads of the `last` step: soil that yields, in a phase
+/// without inertia and without water that flows, that has the materials and structures which that step had.
+fn is_due<const D: usize>(scene: &Scene<D>, state: &State<D>, last: Span) -> bool {
+    let [now, then] = [state.phase, last.phase].map(|phase| &scene.phases[phase]);
+    let changes = scene.phases[last.phase + 1..=state.phase].iter().any(|phase| !phase.changes.is_empty());
+    let same = !changes && now.held == then.held && now.apart == then.apart;
+    scene.terms.iter().any(|term| term.yields()) && !state.dynamic(scene) && !now.flows && same
 }
 
-/// Brings the soil to balance on the restored grid. Where there is no balance, it stays as it is, and the step that comes says why.
-/// Returns the number of iterations.
+/// Brings the soil to balance under the loads of the `last` step on the restored grid. Where there is no balance, it stays as it is, and the
+/// step that comes says why. Returns the number of iterations.
 ///
 /// # Errors
 /// When memory does not suffice.
-pub fn equilibrate<const D: usize>(scene: &Scene<D>, grid: &mut Grid<D>, state: &mut State<D>) -> Result<usize> {
-    if !is_due(scene, state) {
+pub fn equilibrate<const D: usize>(
+    scene: &Scene<D>,
+    grid: &mut Grid<D>,
+    state: &mut State<D>,
+    last: Span,
+) -> Result<usize> {
+    if !is_due(scene, state, last) {
         return Ok(0);
     }
     let mut given = grid::given_increments(scene, state, grid, 0.0);
@@ -36,25 +43,30 @@ pub fn equilibrate<const D: usize>(scene: &Scene<D>, grid: &mut Grid<D>, state: 
             given.iter_mut().skip(first).take(D).for_each(|given| *given = Some(0.0));
         }
     }
-    let times @ [from, to] = [state.phase_time - state.last_step, state.phase_time];
-    let problem = Problem { given: &given, from, to, ..Problem::at_rest(scene, state) };
+    let Span { phase, from, to } = last;
+    let problem = Problem { given: &given, phase, from, to, ..Problem::at_rest(scene, state) };
     let solution = match newton::solve(&problem, grid) {
         Ok(solution) => solution,
         Err(error) if error.kind == Kind::Analysis => return Ok(0),
         Err(error) => return Err(error),
     };
-    hold_pressures(scene, grid, state, &solution.displacement);
-    transfer::commit_stresses(scene, grid, state, &solution, times);
+    hold_pressures(scene, grid, state, (&solution.displacement, last));
+    transfer::commit_stresses(scene, grid, state, &solution, last);
     state.pressure.clone_from(&solution.pressure);
     Ok(solution.history.len() - 1)
 }
 
 /// Gives contacts the pressures that they have after the displacement (m) of the nodes as those that they have before it.
-fn hold_pressures<const D: usize>(scene: &Scene<D>, grid: &mut Grid<D>, state: &State<D>, displacement: &[[f64; D]]) {
+fn hold_pressures<const D: usize>(
+    scene: &Scene<D>,
+    grid: &mut Grid<D>,
+    state: &State<D>,
+    (displacement, Span { phase, to, .. }): (&[[f64; D]], Span),
+) {
     let trial = Trial {
-        phase: state.phase,
-        time: state.phase_time,
-        reduction: scene.phases[state.phase].reduction_at(state.phase_time),
+        phase,
+        time: to,
+        reduction: scene.phases[phase].reduction_at(to),
         ..Trial::at_rest(displacement, &state.displacement)
     };
     for touch in &mut grid.touches {

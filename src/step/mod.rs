@@ -42,7 +42,7 @@ pub use newton::Solution;
 pub use release::Release;
 pub use report::Report;
 pub use scene::{FARTHEST, Fem, Fixed, Numerics, Phase, Prescribed, Restore, Scene, Search, Stop, Water};
-pub use state::State;
+pub use state::{Span, State};
 pub use water::Balance;
 
 use crate::error::{Error, Kind, Result};
@@ -177,8 +177,8 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
         if state.dynamic(scene) && (restore || !state.moving) {
             transfer::motion_to_grid::<D, K>(scene, &mut self.grid, state)?;
         }
-        if restore && moved {
-            equilibrate::equilibrate(scene, &mut self.grid, state)?;
+        if let Some(last) = state.balanced.filter(|_| restore && moved) {
+            equilibrate::equilibrate(scene, &mut self.grid, state, last)?;
         }
         Ok(restore || !moved || scene.numerics.restore == Restore::Never)
     }
@@ -266,6 +266,9 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
             }
         }
         state.last_step = dt;
+        let balanced = start.is_none() && !scene.phases[state.phase].flows;
+        state.balanced =
+            balanced.then_some(Span { phase: state.phase, from: state.phase_time, to: state.phase_time + dt });
         state.displacement.clone_from(&solution.displacement);
         state.pressure.clone_from(&solution.pressure);
         if start.is_some() {

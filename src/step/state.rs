@@ -8,6 +8,16 @@ use crate::points::Points;
 use crate::quadrature::Weighing;
 use crate::surface::Front;
 
+/// A step between two times of a phase: its loads are those of the second.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Span {
+    /// Number of the phase.
+    pub phase: usize,
+    /// Times (s) since the phase began.
+    pub from: f64,
+    pub to: f64,
+}
+
 /// The state at the last converged step.
 #[derive(Clone, Debug, PartialEq)]
 pub struct State<const D: usize> {
@@ -51,6 +61,8 @@ pub struct State<const D: usize> {
     /// What the last step added to it, and the size (s) of that step; empty where no step begins with a guess.
     pub increment: Vec<[f64; D]>,
     pub last_step: f64,
+    /// The last step, if it balanced its loads without inertia and without water that flows.
+    pub balanced: Option<Span>,
     /// Displacement (m) of the nodes since the run began: what passes a node of a grid that is restored.
     pub travel: Vec<[f64; D]>,
     /// What of it the history does not count, as of the last reset; empty before one.
@@ -97,6 +109,7 @@ impl<const D: usize> State<D> {
             displacement: vec![[0.0; D]; nodes],
             increment: Vec::new(),
             last_step: 0.0,
+            balanced: None,
             travel: vec![[0.0; D]; nodes],
             uncounted: Vec::new(),
             pressure: Vec::new(),

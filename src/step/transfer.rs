@@ -11,7 +11,7 @@ use super::momentum;
 use super::newton::{Problem, Solution};
 use super::rigid;
 use super::scene::Scene;
-use super::state::State;
+use super::state::{Span, State};
 use crate::error::Result;
 use crate::kinematics::Kinematics;
 use crate::mesh::shape::MAX_NODES;
@@ -130,13 +130,13 @@ struct Answers {
 }
 
 impl Answers {
-    /// Those to the `solution` of a step `from` a time (s) of the phase `to` another.
+    /// Those to the `solution` of a step.
     fn to<const D: usize>(
         scene: &Scene<D>,
         grid: &Grid<D>,
         state: &State<D>,
         solution: &Solution<D>,
-        [from, to]: [f64; 2],
+        Span { phase, from, to }: Span,
     ) -> Self {
         let trial = Trial {
             displacement: &solution.displacement,
@@ -148,9 +148,9 @@ impl Answers {
             flow_time: 0.0,
             acceleration: &[],
             acceleration_slope: 0.0,
-            phase: state.phase,
-            time: state.phase_time,
-            reduction: scene.phases[state.phase].reduction_at(to),
+            phase,
+            time: from,
+            reduction: scene.phases[phase].reduction_at(to),
             held: false,
             per_second: 1.0 / (to - from),
         };
@@ -179,8 +179,8 @@ pub fn commit<const D: usize>(
     solution: &Solution<D>,
     dt: f64,
 ) -> usize {
-    let times = [state.phase_time, state.phase_time + dt];
-    let Answers { of_integration, of_material, of_elements } = Answers::to(scene, grid, state, solution, times);
+    let step = Span { phase: state.phase, from: state.phase_time, to: state.phase_time + dt };
+    let Answers { of_integration, of_material, of_elements } = Answers::to(scene, grid, state, solution, step);
     let lost: Vec<usize> = of_material.iter().flat_map(|update| update.left_out(state.points.len())).collect();
     of_integration.into_iter().for_each(|update| update.apply(state.integration_mut()));
     of_material.into_iter().for_each(|update| update.apply(&mut state.points));
@@ -191,15 +191,15 @@ pub fn commit<const D: usize>(
     lost.len()
 }
 
-/// Writes the stresses of the end of a step between two `times` (s) of the phase into the points of the soil, and what the material remembers, but not its deformation.
+/// Writes the stresses of the solution of a `step` into the points of the soil, and what the material remembers, but not its deformation.
 pub fn commit_stresses<const D: usize>(
     scene: &Scene<D>,
     grid: &Grid<D>,
     state: &mut State<D>,
     solution: &Solution<D>,
-    times: [f64; 2],
+    step: Span,
 ) {
-    let Answers { of_integration, of_material, .. } = Answers::to(scene, grid, state, solution, times);
+    let Answers { of_integration, of_material, .. } = Answers::to(scene, grid, state, solution, step);
     of_integration.into_iter().for_each(|update| update.apply_stresses(state.integration_mut()));
     of_material.into_iter().for_each(|update| update.apply_stresses(&mut state.points));
 }

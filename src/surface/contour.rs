@@ -13,7 +13,7 @@ use rayon::prelude::*;
 
 /// The highest level: below what irregular points leave of a full cell, so that a body that fills its surroundings but
 /// whose points have lost volume does not fall into holes. A flat surface is near ½, a convex corner near ¼.
-const HIGHEST: f64 = 0.75;
+pub const HIGHEST: f64 = 0.75;
 /// Enclosed volume and `Σ V_p` agree to this share of it, or the level is found to [`CLOSE`].
 const MATCHED: f64 = 1e-13;
 /// Values so near to the level are on it.

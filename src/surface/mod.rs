@@ -19,7 +19,7 @@ mod split;
 
 pub use bins::Bins;
 pub use boundary::{ActiveBoundary, Behind, NO_REGION, Piece};
-pub use contour::Contour;
+pub use contour::{Contour, HIGHEST};
 pub use cover::{Cover, join, open};
 pub use distance::Distance;
 pub use front::{Fault, Front};

@@ -24,7 +24,7 @@ use crate::mesh::shape::MAX_NODES;
 use crate::mesh::{Bodies, Mesh};
 use crate::points::Points;
 use crate::stencil::SoftCell;
-use crate::surface::{Contour, Distance, Front, Geometry};
+use crate::surface::{Contour, Distance, Front, Geometry, HIGHEST};
 use crate::tensor::{Symmetric, Tensor, mean};
 use fit::{Around, Fit, Held, Rings};
 use places::{Place, Places};
@@ -52,7 +52,7 @@ const ORIGIN: usize = 12;
 const LARGEST_OFFSET: f64 = 0.05;
 /// Iterations, and the part (-) of the volume, to which the volume within the surface is that of the material points.
 const OFFSETS: usize = 8;
-/// The first offset tried, as a share of the largest.
+/// The first offset tried, as a share of the range.
 const FIRST_OFFSET: f64 = 1e-3;
 const VOLUME_TOLERANCE: f64 = 1e-12;
 
@@ -158,7 +158,9 @@ impl<K: Kinematics<2>> Resampled<K> {
         };
         let at = |front: &Front, level_set: Vec<f64>, within: &[u32]| {
             let outside = outside(&level_set, within);
-            let level_set = self.keep_volume(geometry, grid, front, &outside, level_set);
+            let (area, size) = front.surface::<K>(mesh, geometry, locator);
+            let most = LARGEST_OFFSET * if area > 0.0 { size } else { 0.0 };
+            let level_set = self.keep_volume(geometry, grid, [-most, most], &outside, level_set);
             Surface { level_set, outside, lost: lost.clone() }
         };
         if let Some(front) = front {
@@ -174,7 +176,9 @@ impl<K: Kinematics<2>> Resampled<K> {
         loop {
             let numbers: Vec<usize> = (0..points.len()).filter(|&p| !out[points.cell[p] as usize]).collect();
             if numbers.len() == count {
-                return Surface { level_set: contour.level_set, outside: out, lost };
+                let limits = [contour.level - HIGHEST, contour.level];
+                let level_set = self.keep_volume(geometry, grid, limits, &out, contour.level_set);
+                return Surface { level_set, outside: out, lost };
             }
             count = numbers.len();
             let places: Vec<_> = numbers.iter().map(|&p| parametric[p]).collect();
@@ -184,32 +188,32 @@ impl<K: Kinematics<2>> Resampled<K> {
         }
     }
 
-    /// Shifts the level set (m) that is the distance to a front such that the volume inside each body is that of its material points that
-    /// are not outside: a front that only moves with the grid would sink or rise a little in every reset. Where structures touch
-    /// the material, the surface is theirs and stays.
+    /// Adds an offset within `limits` to the level set of each body such that the volume inside is that of its material points that are not
+    /// outside: a front that only moves with the grid would sink or rise a little in every reset. Where structures touch the
+    /// material, the surface is theirs and stays.
     fn keep_volume(
         &self,
         geometry: &Geometry,
         grid: &Restored<2>,
-        front: &Front,
+        [least, most]: [f64; 2],
         outside: &[bool],
         level_set: Vec<f64>,
     ) -> Vec<f64> {
-        let Restored { mesh, locator, points, taking_part, .. } = *grid;
-        let (surface, size) = front.surface::<K>(mesh, geometry, locator);
-        if !grid.outlines.is_empty() || surface <= 0.0 {
+        let Restored { mesh, points, taking_part, .. } = *grid;
+        if !grid.outlines.is_empty() || most <= least {
             return level_set;
         }
-        let most = LARGEST_OFFSET * size;
         let counts = |c: u32| taking_part[c as usize] && !outside[c as usize];
         let near = |c: &u32| mesh.cells.nodes(*c as usize).iter().any(|&n| level_set[n as usize] > -most);
         let cells: Vec<u32> = (0..mesh.cells.len() as u32).filter(|c| counts(*c) && near(c)).collect();
-        let of_points = points.cell.iter().copied().filter(|&c| counts(c));
-        let bodies = Bodies::of(mesh, cells.iter().copied().chain(of_points), &[]);
+        let inside = |c: &u32| mesh.cells.nodes(*c as usize).iter().any(|&n| level_set[n as usize] > 0.0);
+        let held = cells.iter().filter(|c| inside(c)).chain(&points.cell).copied().filter(|&c| counts(c));
+        let bodies = Bodies::of(mesh, held, &[]);
+        let body_of = |c: u32| mesh.cells.nodes(c as usize).iter().find_map(|&n| bodies.of_node(n as usize));
         let by_body = |volumes: &mut dyn Iterator<Item = (u32, f64)>| {
             let mut sums = vec![0.0; bodies.count()];
             volumes.filter(|(c, _)| counts(*c)).for_each(|(c, volume)| {
-                bodies.of_cell(c).into_iter().for_each(|body| sums[body] += volume);
+                body_of(c).into_iter().for_each(|body| sums[body] += volume);
             });
             sums
         };
@@ -225,28 +229,29 @@ impl<K: Kinematics<2>> Resampled<K> {
             let volumes: Vec<(u32, f64)> = cells.par_iter().with_min_len(64).map(of_cell).collect();
             by_body(&mut volumes.into_iter()).iter().zip(&wanted).map(|(has, wanted)| wanted - has).collect()
         };
-        // The secant method, body by body.
-        let (mut before, mut offsets) = (vec![0.0; bodies.count()], vec![FIRST_OFFSET * most; bodies.count()]);
-        let mut lacked = lacking(&before);
+        // The secant method, body by body; a slope that is far from the first one is one of rounding.
+        let first = FIRST_OFFSET * (most - least);
+        let mut lacks = lacking(&vec![0.0; bodies.count()]);
+        let shifted_first = lacking(&vec![first; bodies.count()]);
+        let slopes: Vec<f64> = shifted_first.iter().zip(&lacks).map(|(then, now)| (now - then) / first).collect();
+        let (mut offsets, mut now) = (vec![0.0; bodies.count()], slopes.clone());
         for _ in 0..OFFSETS {
-            let lacks = lacking(&offsets);
-            let mut done = true;
-            for b in 0..bodies.count() {
-                let slope = (lacked[b] - lacks[b]) / (offsets[b] - before[b]);
-                if lacks[b].abs() <= VOLUME_TOLERANCE * wanted[b] {
-                    continue;
-                }
-                if !(slope > 0.0 && slope.is_finite()) {
-                    // No free surface.
-                    (before[b], offsets[b]) = (0.0, 0.0);
-                    continue;
-                }
-                let next = (offsets[b] + lacks[b] / slope).clamp(-most, most);
-                done &= next == offsets[b];
-                (before[b], lacked[b], offsets[b]) = (offsets[b], lacks[b], next);
-            }
-            if done {
+            let next = |b: usize| {
+                let has_surface = slopes[b] > 0.0 && lacks[b].abs() > VOLUME_TOLERANCE * wanted[b];
+                if has_surface { (offsets[b] + lacks[b] / now[b]).clamp(least, most) } else { offsets[b] }
+            };
+            let tried: Vec<f64> = (0..bodies.count()).map(next).collect();
+            if tried == offsets {
                 break;
+            }
+            for (b, then) in lacking(&tried).into_iter().enumerate() {
+                let slope = (lacks[b] - then) / (tried[b] - offsets[b]);
+                if (0.1..10.0).contains(&(slope / slopes[b])) {
+                    now[b] = slope;
+                }
+                if then.abs() < lacks[b].abs() {
+                    (offsets[b], lacks[b]) = (tried[b], then);
+                }
             }
         }
         (0..level_set.len()).map(|n| shifted(&offsets, n)).collect()

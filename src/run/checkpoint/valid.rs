@@ -7,7 +7,7 @@ use crate::error::{Error, Result};
 use crate::mesh::Mesh;
 use crate::points::Points;
 use crate::quadrature::{Samples, Weighing};
-use crate::step::{Controller, Limits, Scene, State, has_room_for_penalties};
+use crate::step::{Controller, Limits, Scene, Span, State, has_room_for_penalties};
 use crate::surface::{ActiveBoundary, Front, NO_REGION};
 use std::collections::HashSet;
 
@@ -50,6 +50,11 @@ fn check_times<const D: usize>(scene: &Scene<D>, state: &State<D>) -> Result<()>
     ensure(phase_time >= 0.0 && (1.0 - ROUNDING) * phase_time <= time && time <= longest, "its time")?;
     // Steps that the clock does not feel would never end.
     ensure(last_step > 0.0 && time + last_step > time && last_step <= (1.0 + ROUNDING) * time, "its last step")?;
+    let of_phase = |last: Span| {
+        let latest = scene.phases.get(last.phase).map_or(0.0, |phase| (1.0 + ROUNDING) * phase.duration);
+        last.phase <= phase && last.from >= 0.0 && last.from < last.to && last.to <= latest
+    };
+    ensure(state.balanced.is_none_or(of_phase), "its last step")?;
     ensure(step_size > 0.0 && peak >= 0.0, "the size of its steps")?;
     let Some(next) = scene.phases.get(phase) else {
         return ensure(phase_time == 0.0 && !state.moving && !state.falling, "its end");
