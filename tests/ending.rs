@@ -73,7 +73,7 @@ fn a_jump_to_another_equilibrium_is_told() {
         ("quasi_static", 5, "prescribe: {end: {uy: {rate: 0.1}}}", false),
     ] {
         let phases = format!(
-            "phases=[{{name: gravity, analysis: {analysis}, duration: 1, step: {{initial: 0.05, min: 0.0001}}, \
+            "phases=[{{name: gravity, analysis: {analysis}, duration: 0.6, step: {{initial: 0.05, min: 0.0001}}, \
               gravity: {{rate: 1}}, {driven}}}]"
         );
         let strength = format!("materials.soil.cohesion={cohesion}");
