@@ -3,7 +3,7 @@
 //! The stresses that integration points take from the material points balance the forces of the step before only as well as the cells
 //! can tell. In soil that yields, what is missing becomes displacement in every restoration: a load that is held creeps, and a body that
 //! is pushed meets less for a while. So the soil is brought to balance first, under the loads of the step before, with nothing moving that is
-//! prescribed and the finite elements held. It keeps the stresses, contacts keep their pressures, and the displacements are discarded.
+//! prescribed. It keeps the stresses, contacts keep their pressures, and the displacements are discarded.
 
 use super::grid::{self, Grid};
 use super::newton::{self, Problem};
@@ -23,7 +23,7 @@ fn is_due<const D: usize>(scene: &Scene<D>, state: &State<D>, last: Span) -> boo
 }
 
 /// Brings the soil to balance under the loads of the `last` step on the restored grid. Where there is no balance, it stays as it is, and the
-/// step that comes says why. Returns the number of iterations.
+/// step that comes says why.
 ///
 /// # Errors
 /// When memory does not suffice.
@@ -32,28 +32,22 @@ pub fn equilibrate<const D: usize>(
     grid: &mut Grid<D>,
     state: &mut State<D>,
     last: Span,
-) -> Result<usize> {
+) -> Result<()> {
     if !is_due(scene, state, last) {
-        return Ok(0);
+        return Ok(());
     }
-    let mut given = grid::given_increments(scene, state, grid, 0.0);
-    if let Some(fem) = &scene.fem {
-        for &n in fem.deforming().flat_map(|c| fem.mesh.cells.nodes(c)) {
-            let first = grid.block[n as usize] as usize * D;
-            given.iter_mut().skip(first).take(D).for_each(|given| *given = Some(0.0));
-        }
-    }
+    let given = grid::given_increments(scene, state, grid, 0.0);
     let Span { phase, from, to } = last;
     let problem = Problem { given: &given, phase, from, to, ..Problem::at_rest(scene, state) };
     let solution = match newton::solve(&problem, grid) {
         Ok(solution) => solution,
-        Err(error) if error.kind == Kind::Analysis => return Ok(0),
+        Err(error) if error.kind == Kind::Analysis => return Ok(()),
         Err(error) => return Err(error),
     };
     hold_pressures(scene, grid, state, (&solution.displacement, last));
     transfer::commit_stresses(scene, grid, state, &solution, last);
     state.pressure.clone_from(&solution.pressure);
-    Ok(solution.history.len() - 1)
+    Ok(())
 }
 
 /// Gives contacts the pressures that they have after the displacement (m) of the nodes as those that they have before it.
