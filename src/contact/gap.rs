@@ -182,6 +182,8 @@ pub fn raw_gaps<K: Kinematics<2>>(
 /// The surface of the soil, to be seen from segments.
 pub struct Facing {
     pieces: Vec<[[f64; 2]; 2]>,
+    /// The mean curvature (1/m) of the surface at the ends of each piece, positive where the soil is convex.
+    curvature: Vec<f64>,
     bins: Bins,
 }
 
@@ -190,10 +192,23 @@ impl Facing {
     pub fn new(loops: &[Vec<[f64; 2]>]) -> Self {
         let pieces: Vec<[[f64; 2]; 2]> =
             loops.iter().flat_map(|x| (0..x.len()).map(|i| [x[i], x[(i + 1) % x.len()]])).collect();
+        let turn = |a: &[f64; 2], b: &[f64; 2], c: &[f64; 2]| {
+            let (u, v) = ([b[0] - a[0], b[1] - a[1]], [c[0] - b[0], c[1] - b[1]]);
+            (u[0] * v[1] - u[1] * v[0]).atan2(u[0] * v[0] + u[1] * v[1])
+        };
+        let curved = |x: &Vec<[f64; 2]>| {
+            let n = x.len();
+            let length = |i: usize| (x[(i + 1) % n][0] - x[i % n][0]).hypot(x[(i + 1) % n][1] - x[i % n][1]);
+            let at = |i: usize| {
+                turn(&x[(i + n - 1) % n], &x[i % n], &x[(i + 1) % n]) / (0.5 * (length(i + n - 1) + length(i)))
+            };
+            (0..n).map(|i| 0.5 * (at(i) + at(i + 1))).collect::<Vec<_>>()
+        };
+        let curvature = loops.iter().flat_map(curved).collect();
         let longest = pieces.iter().map(|[a, b]| (b[0] - a[0]).hypot(b[1] - a[1])).collect::<Vec<_>>();
         let side = longest.iter().sum::<f64>() / longest.len().max(1) as f64;
         let bins = Bins::new(pieces.iter().map(|[a, b]| (*a, *b)), 4.0 * side);
-        Self { pieces, bins }
+        Self { pieces, curvature, bins }
     }
 
     /// Distance (m) from the middle of a segment along its normal to a surface that faces it, within `REACH` spacings,
@@ -205,14 +220,18 @@ impl Facing {
             let [a, b] = self.pieces[piece as usize];
             let along = [b[0] - a[0], b[1] - a[1]];
             // The soil is on the left of its surface: its normal out of the soil is to face the segment.
+            let length = along[0].hypot(along[1]);
             let facing = along[1] * n[0] - along[0] * n[1];
-            if facing > -0.3 * along[0].hypot(along[1]) {
+            if facing > -0.3 * length {
                 continue;
             }
             let to = [a[0] - x[0], a[1] - x[1]];
             // x + t n = a + s along
             let s = (to[1] * n[0] - to[0] * n[1]) / (along[0] * n[1] - along[1] * n[0]);
-            let t = (to[0] + s * along[0]) * n[0] + (to[1] + s * along[1]) * n[1];
+            let across = (to[0] + s * along[0]) * n[0] + (to[1] + s * along[1]) * n[1];
+            // The surface bulges between its markers; what it bulges by goes against the normal, nearly.
+            let bulge = 0.5 * self.curvature[piece as usize] * s * (1.0 - s) * length * facing;
+            let t = across + bulge;
             let inside = (-1e-9..=1.0 + 1e-9).contains(&s) && t.abs() <= REACH * spacing;
             if inside && best.is_none_or(|best| t.abs() < best.abs()) {
                 best = Some(t);
@@ -247,6 +266,33 @@ mod tests {
     use super::*;
     use crate::kinematics::PlaneStrain;
     use crate::tensor::Tensor;
+
+    /// Soil around a round structure touches it all along: between the markers of its surface as much as at them.
+    #[test]
+    fn a_surface_is_curved_between_its_markers() {
+        let (radius, count) = (0.5, 24);
+        let at = |t: f64| [radius * t.cos(), radius * t.sin()];
+        let angle = |i: f64| -std::f64::consts::TAU * i / f64::from(count);
+        // A hole in the soil: clockwise.
+        let facing = Facing::new(&[(0..count).map(|i| at(angle(f64::from(i)))).collect()]);
+        let sagitta = radius * (1.0 - (0.5 * angle(1.0)).cos());
+        for i in 0..100 {
+            let x = at(angle(0.237 * f64::from(i)));
+            let placed = Placed {
+                from: x,
+                to: x,
+                middle: x,
+                normal: x.map(|x| x / radius),
+                area: 1.0,
+                curvature: 1.0 / radius,
+                along: 0.0,
+                ends: [false; 2],
+                value: [0.0; 3],
+            };
+            let gap = facing.distance(&placed, 0.1).unwrap();
+            assert!(gap.abs() < 0.01 * sagitta, "{i}: {gap} of {sagitta}");
+        }
+    }
 
     /// A point below a flat boundary that faces up is moved to where a quarter of its width is above it, at most one and a half times that however
     /// it was sheared before the boundary came.

@@ -52,6 +52,8 @@ pub struct Ground<'a, const D: usize> {
     pub points: &'a Points<D>,
     /// The surface of the soil, where it is followed: loops of markers with the soil on their left.
     pub surface: &'a [Vec<[f64; D]>],
+    /// How far (m) the nodes moved in the last step; empty before the first.
+    pub increment: &'a [[f64; D]],
     /// The points of the finite elements.
     pub elements: &'a Points<D>,
     /// The excess pressure (kPa) of the water in the pores at one of some points, by its number.
@@ -103,6 +105,14 @@ impl<const D: usize> Row<D> {
         }
         let turn = self.curvature * arc;
         Motion { gap: gap + 0.5 * turn * arc, slip, turn }
+    }
+
+    /// Begins where a `motion` led to.
+    pub fn go_on(&mut self, motion: Motion) {
+        self.gap = motion.gap;
+        for k in 0..self.nodes.len() {
+            self.by_normal[k] = self.normal(k, motion.turn);
+        }
     }
 
     /// The derivative (-) of the gap by the displacement of node `k` of the row, where the normal has turned by `turn` (rad).
@@ -190,12 +200,14 @@ impl<K: Kinematics<2>> Boundary<K> {
     /// and is corrected by what lies beyond their size. What did not touch has the gap of the surface; it may begin to
     /// touch, not to overlap. The second number is how much more the nearest points measure than that.
     fn begin(&self, measured: &Measured, surface: Option<f64>, held: &Multipliers, hat: usize) -> (f64, f64) {
-        let Measured { open, known, spacing, curvature } = *measured;
+        let Measured { open, known, spacing, curvature, moved } = *measured;
         let is_curved = (curvature * spacing).abs() > FLAT;
         let still = STILL * spacing;
         let offset = |gap: f64| (open - gap).clamp(-0.5 * spacing, 0.5 * spacing);
         if let (true, Some(gap)) = (is_curved, surface) {
-            return (if held.touched(hat) { gap } else { gap.max(-still) }, offset(gap));
+            let before = held.gap[hat];
+            let gap = if held.touched(hat) { gap.clamp(before - moved, before + moved) } else { gap.max(-still) };
+            return (gap, offset(gap));
         }
         if !held.touched(hat) {
             let gap = known.or(surface).unwrap_or(open);
@@ -260,6 +272,8 @@ struct Measured {
     spacing: f64,
     /// Curvature (1/m) of the boundary.
     curvature: f64,
+    /// How far (m) the soil went in the last step.
+    moved: f64,
 }
 
 /// What is summed up under a hat.
@@ -267,6 +281,8 @@ struct Sum {
     area: f64,
     open: f64,
     curvature: f64,
+    /// The way (m) of the soil in the last step times the area.
+    moved: [f64; 2],
     /// Area that faces the surface of the soil, and its distance from there times the area.
     facing: f64,
     distance: f64,
@@ -345,6 +361,7 @@ impl<K: Kinematics<2>> Pair<2> for Boundary<K> {
                     area: 0.0,
                     open: 0.0,
                     curvature: 0.0,
+                    moved: [0.0; 2],
                     facing: 0.0,
                     distance: 0.0,
                     sure: 0.0,
@@ -378,6 +395,9 @@ impl<K: Kinematics<2>> Pair<2> for Boundary<K> {
                     sum.add(node, n.map(|n| -weight * n_s * n), t.map(|t| -weight * n_s * t));
                 }
                 for (&node, n_c) in soil.iter().zip(&value) {
+                    if let Some(by) = ground.increment.get(node as usize) {
+                        sum.moved = [0, 1].map(|d| sum.moved[d] + weight * n_c * by[d]);
+                    }
                     sum.add(node, n.map(|n| weight * n_c * n), t.map(|t| weight * n_c * t));
                 }
             }
@@ -387,6 +407,7 @@ impl<K: Kinematics<2>> Pair<2> for Boundary<K> {
                 area,
                 open,
                 curvature,
+                moved,
                 facing,
                 distance,
                 sure,
@@ -401,7 +422,8 @@ impl<K: Kinematics<2>> Pair<2> for Boundary<K> {
             let spacing = spacing / area;
             let surface = (facing > 0.5 * area).then_some(distance / facing);
             let known = (sure > 0.5 * area).then_some(known / sure);
-            let measured = Measured { open: open / area, known, spacing, curvature: curvature / area };
+            let [open, curvature, moved] = [open, curvature, moved[0].hypot(moved[1])].map(|sum| sum / area);
+            let measured = Measured { open, known, spacing, curvature, moved };
             let (gap, offset) = self.begin(&measured, surface, held, hat);
             let of_structure = |n: &u32| self.surface.facets.iter().any(|f| f.contains(n));
             entries.sort_by_key(|(n, ..)| (!of_structure(n), *n));
@@ -415,7 +437,7 @@ impl<K: Kinematics<2>> Pair<2> for Boundary<K> {
                 nodes: entries.iter().map(|e| e.0).collect(),
                 by_normal: entries.iter().map(|e| e.1.map(|n| n / area)).collect(),
                 by_tangent: entries.iter().map(|e| e.2.map(|t| t / area)).collect(),
-                curvature: curvature / area,
+                curvature,
                 by_arc: entries.iter().map(|e| e.2.map(|t| t / area)).collect(),
                 penalty: Penalty {
                     strength: strength / area,

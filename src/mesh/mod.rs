@@ -9,6 +9,7 @@ pub mod locate;
 pub mod msh;
 pub mod quality;
 pub mod shape;
+pub mod side;
 
 pub use bodies::Bodies;
 
@@ -99,4 +100,16 @@ impl<const D: usize> Mesh<D> {
         out.clear();
         out.extend(self.cells.nodes(c).iter().map(|&n| self.nodes[n as usize]));
     }
+}
+
+/// The diagonal of the box around a cell's nodes (m).
+pub fn cell_size<const D: usize>(mesh: &Mesh<D>, cell: usize) -> f64 {
+    let (mut low, mut high) = ([f64::INFINITY; D], [f64::NEG_INFINITY; D]);
+    for &n in mesh.cells.nodes(cell) {
+        for d in 0..D {
+            low[d] = low[d].min(mesh.nodes[n as usize][d]);
+            high[d] = high[d].max(mesh.nodes[n as usize][d]);
+        }
+    }
+    (0..D).map(|d| (high[d] - low[d]).powi(2)).sum::<f64>().sqrt()
 }

@@ -333,6 +333,12 @@ pub fn log_lines<const D: usize>(scene: &Scene<D>, state: &State<D>, report: &Re
     if report.restored && scene.numerics.restore != Restore::EveryStep {
         line.push_str(" restored");
     }
+    let balanced = report.balanced;
+    if balanced.left > 0.0 {
+        line.push_str(&format!(" {:.2} of what was out of balance on the restored grid is left", balanced.left));
+    } else if balanced.parts > 1 {
+        line.push_str(&format!(" balanced in {} parts", balanced.parts));
+    }
     let tally = &state.weighing.tally;
     if report.restored && tally.volume > 0.0 {
         line.push_str(&format!(" cells fitted linear {} constant {}", tally.linear, tally.constant));

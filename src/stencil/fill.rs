@@ -70,15 +70,3 @@ pub fn integrate<const D: usize, K: Kinematics<D>>(
     }
     volume
 }
-
-/// The diagonal of the box around a cell's nodes (m).
-pub fn cell_size<const D: usize>(mesh: &Mesh<D>, cell: usize) -> f64 {
-    let (mut low, mut high) = ([f64::INFINITY; D], [f64::NEG_INFINITY; D]);
-    for &n in mesh.cells.nodes(cell) {
-        for d in 0..D {
-            low[d] = low[d].min(mesh.nodes[n as usize][d]);
-            high[d] = high[d].max(mesh.nodes[n as usize][d]);
-        }
-    }
-    (0..D).map(|d| (high[d] - low[d]).powi(2)).sum::<f64>().sqrt()
-}

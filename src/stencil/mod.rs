@@ -10,7 +10,7 @@ mod mpm;
 mod reach;
 
 pub use ddmp::smooths;
-pub use fill::{SoftCell, cell_size, integrate, soft_cells};
+pub use fill::{SoftCell, integrate, soft_cells};
 pub use jumps::{Jump, Jumps};
 pub use reach::Reach;
 

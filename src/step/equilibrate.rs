@@ -3,15 +3,19 @@
 //! The stresses that integration points take from the material points balance the forces of the step before only as well as the cells
 //! can tell. In soil that yields, what is missing becomes displacement in every restoration: a load that is held creeps, and a body that
 //! is pushed meets less for a while. So the soil is brought to balance first, under the loads of the step before, with nothing moving that is
-//! prescribed. It keeps the stresses, contacts keep their pressures, and the displacements are discarded.
+//! prescribed. It keeps the stresses, contacts go on from where they are then, and the displacements are discarded.
 
 use super::grid::{self, Grid};
 use super::newton::{self, Problem};
+use super::release;
 use super::scene::Scene;
 use super::state::{Span, State};
 use super::transfer;
 use crate::error::{Kind, Result};
 use crate::term::{Trial, contact_answer};
+
+/// The least part (-) of what is out of balance that is released at a time.
+const LEAST: f64 = 0.01;
 
 /// Whether restoring the grid leaves what is to be brought to balance under the loads of the `last` step: soil that yields, in a phase
 /// without inertia and without water that flows, that has the materials and structures which that step had.
@@ -22,8 +26,17 @@ fn is_due<const D: usize>(scene: &Scene<D>, state: &State<D>, last: Span) -> boo
     scene.terms.iter().any(|term| term.yields()) && !state.dynamic(scene) && !now.flows && same
 }
 
-/// Brings the soil to balance under the loads of the `last` step on the restored grid. Where there is no balance, it stays as it is, and the
-/// step that comes says why.
+/// How the balance on a restored grid was found.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Balanced {
+    /// Solutions that led to it; zero where none was due.
+    pub parts: usize,
+    /// The part (-) of what was out of balance that is left.
+    pub left: f64,
+}
+
+/// Brings the soil to balance under the loads of the `last` step on the restored grid: at once or, where that fails, by releasing what is
+/// out of balance in parts. What cannot be released is left to the step that comes.
 ///
 /// # Errors
 /// When memory does not suffice.
@@ -32,25 +45,39 @@ pub fn equilibrate<const D: usize>(
     grid: &mut Grid<D>,
     state: &mut State<D>,
     last: Span,
-) -> Result<()> {
+) -> Result<Balanced> {
+    let mut found = Balanced::default();
     if !is_due(scene, state, last) {
-        return Ok(());
+        return Ok(found);
     }
     let given = grid::given_increments(scene, state, grid, 0.0);
     let Span { phase, from, to } = last;
-    let problem = Problem { given: &given, phase, from, to, ..Problem::at_rest(scene, state) };
-    let solution = match newton::solve(&problem, grid) {
-        Ok(solution) => solution,
-        Err(error) if error.kind == Kind::Analysis => return Ok(()),
-        Err(error) => return Err(error),
-    };
-    hold_pressures(scene, grid, state, (&solution.displacement, last));
-    transfer::commit_stresses(scene, grid, state, &solution, last);
-    state.pressure.clone_from(&solution.pressure);
-    Ok(())
+    let (mut held, mut part) = (Vec::new(), 1.0);
+    found.left = 1.0;
+    while found.left > 0.0 {
+        let left = if found.left > part { found.left - part } else { 0.0 };
+        let problem = Problem { given: &given, phase, from, to, held: (&held, left), ..Problem::at_rest(scene, state) };
+        let solution = match newton::solve(&problem, grid) {
+            Ok(solution) => solution,
+            Err(error) if error.kind != Kind::Analysis => return Err(error),
+            Err(_) if part <= LEAST => break,
+            Err(_) => {
+                if held.is_empty() {
+                    held = release::holding(&problem, grid)?;
+                }
+                part *= 0.25;
+                continue;
+            }
+        };
+        hold_pressures(scene, grid, state, (&solution.displacement, last));
+        transfer::commit_stresses(scene, grid, state, &solution, last);
+        state.pressure.clone_from(&solution.pressure);
+        found = Balanced { parts: found.parts + 1, left };
+    }
+    Ok(found)
 }
 
-/// Gives contacts the pressures that they have after the displacement (m) of the nodes as those that they have before it.
+/// Lets contacts begin with the gaps, the normals and the pressures that they have after the displacement (m) of the nodes.
 fn hold_pressures<const D: usize>(
     scene: &Scene<D>,
     grid: &mut Grid<D>,
@@ -65,11 +92,14 @@ fn hold_pressures<const D: usize>(
     };
     for touch in &mut grid.touches {
         let law = scene.pairs[touch.pair as usize].law();
-        let (answer, ..) = contact_answer(law, scene.levels.as_ref(), touch, &trial);
-        if answer.pressure != 0.0 {
+        let (answer, motion) = contact_answer(law, scene.levels.as_ref(), touch, &trial);
+        if answer.pressure != 0.0 || answer.shear != 0.0 {
+            touch.row.go_on(motion);
             let penalty = &mut touch.row.penalty;
-            penalty.pressure = answer.pressure + penalty.normal * touch.row.gap;
             penalty.shear = answer.shear;
+            if answer.pressure != 0.0 {
+                penalty.pressure = law.multiplier(penalty, answer.pressure, touch.row.gap);
+            }
         }
     }
 }

@@ -15,7 +15,8 @@ use super::scene::Scene;
 use super::state::State;
 use crate::error::{Error, Result};
 use crate::kinematics::Kinematics;
-use crate::stencil::{Jump, cell_size, integrate};
+use crate::mesh::cell_size;
+use crate::stencil::{Jump, integrate};
 use crate::system::{Method, scatter};
 use crate::term::MASS_PENALTY;
 

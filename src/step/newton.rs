@@ -9,7 +9,7 @@ use super::scene::Scene;
 use super::state::State;
 use super::unknowns::Unknowns;
 use crate::error::{Error, Result};
-use crate::stencil::cell_size;
+use crate::mesh::cell_size;
 use crate::system::Method;
 use crate::time_integration::GeneralisedAlpha;
 
@@ -38,6 +38,8 @@ pub struct Problem<'a, const D: usize> {
     /// Time (s) in the phase at the beginning and the end of the step.
     pub from: f64,
     pub to: f64,
+    /// The negative of what is out of balance at each node (kN) of a restored grid, and the share (-) of it that is held.
+    pub held: (&'a [[f64; D]], f64),
     /// Increment (m, kPa) of the displacements and pore pressures that are given, `None` where free. One entry an equation.
     pub given: &'a [Option<f64>],
     /// Present in dynamic analysis.
@@ -60,6 +62,7 @@ impl<'a, const D: usize> Problem<'a, D> {
             phase: state.phase,
             from: state.phase_time,
             to: state.phase_time,
+            held: (&[], 0.0),
             given: &[],
             integration: None,
             flow_time: 0.0,

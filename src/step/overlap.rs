@@ -6,9 +6,9 @@ use super::state::State;
 use crate::contact::{Mark, Pair};
 use crate::error::{Error, Result};
 use crate::mesh::Mesh;
+use crate::mesh::cell_size;
 use crate::mesh::locate::Locator;
 use crate::points::Points;
-use crate::stencil::cell_size;
 
 /// Refuses structures that begin with points of soil in them farther from the boundary than a cell is long: contact moves
 /// points out of a structure that are near its boundary, and would never see these. Walls have no inside.

@@ -9,30 +9,11 @@ use super::state::State;
 use crate::kinematics::Kinematics;
 use crate::mesh::Mesh;
 use crate::mesh::locate::Locator;
-use crate::stencil::cell_size;
+use crate::mesh::side::Side;
 use rayon::prelude::*;
 
 /// How far beyond a side a point may be (-), in the diagonal of the cell there.
 const FARTHEST: f64 = 0.1;
-
-/// A side of the mesh whose nodes cannot move across it, with its ends (m) and the diagonal (m) of its cell.
-struct Side<const D: usize> {
-    ends: [[f64; D]; 2],
-    size: f64,
-}
-
-impl<const D: usize> Side<D> {
-    /// The nearest place (m) to `x` on it, and its distance (m).
-    fn nearest(&self, x: &[f64; D]) -> ([f64; D], f64) {
-        let [a, b] = &self.ends;
-        let along: [f64; D] = std::array::from_fn(|d| b[d] - a[d]);
-        let square: f64 = along.iter().map(|t| t * t).sum();
-        let t = (0..D).map(|d| (x[d] - a[d]) * along[d]).sum::<f64>() / square;
-        let place: [f64; D] = std::array::from_fn(|d| a[d] + t.clamp(0.0, 1.0) * along[d]);
-        let distance = place.iter().zip(x).map(|(p, x)| (p - x).powi(2)).sum::<f64>().sqrt();
-        (place, distance)
-    }
-}
 
 /// Puts points back onto the sides that hold them, but none onto the axis of a ring, where it would have no volume. Returns
 /// a note on how many and how far, where there are any.
@@ -52,9 +33,11 @@ pub fn put_back<const D: usize, K: Kinematics<D>>(
     let (mut count, mut most) = (0, 0.0f64);
     for p in lost {
         let x = &mut state.points.position[p];
-        let near = sides.iter().map(|side| (side.nearest(x), side.size));
-        let near = near.filter(|((place, d), size)| *d <= FARTHEST * size && !(K::HOOP && place[0] <= 0.0));
-        if let Some(((place, distance), _)) = near.min_by(|a, b| a.0.1.total_cmp(&b.0.1)) {
+        let near = sides
+            .iter()
+            .filter_map(|side| side.nearest(x, FARTHEST))
+            .filter(|(place, _)| !(K::HOOP && place[0] <= 0.0));
+        if let Some((place, distance)) = near.min_by(|a, b| a.1.total_cmp(&b.1)) {
             *x = place;
             (count, most) = (count + 1, most.max(distance));
         }
@@ -78,16 +61,16 @@ fn holding<const D: usize>(scene: &Scene<D>, mesh: &Mesh<D>, phase: usize) -> Ve
         }
     }
     let boundary = scene.faces.iter().flat_map(|faces| &faces.boundary);
-    let side = |&(cell, side): &(u32, u8)| {
+    let side = |&(cell, number): &(u32, u8)| {
         let nodes = mesh.cells.nodes(cell as usize);
         let (_, facets) = mesh.cells.kind[cell as usize].facets();
-        let facet = &facets[side as usize];
-        let ends = [facet[0], facet[1]].map(|i| mesh.nodes[nodes[i] as usize]);
-        let size = cell_size(mesh, cell as usize);
+        let facet = &facets[number as usize];
+        let side = Side::of(mesh, (cell, number));
+        let Side { ends, size } = side;
         // In the plane, a side along one axis is crossed along the other; one at a slant along both.
         let crossed = |d: usize| (ends[1][1 - d] - ends[0][1 - d]).abs() > 1e-9 * size;
         let holds = (0..D).all(|d| !crossed(d) || facet.iter().all(|&i| held[nodes[i] as usize][d]));
-        holds.then_some(Side { ends, size })
+        holds.then_some(side)
     };
     boundary.filter_map(side).collect()
 }

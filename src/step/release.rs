@@ -57,6 +57,22 @@ pub fn hold<const D: usize>(scene: &Scene<D>, grid: &mut Grid<D>, state: &mut St
     Ok(())
 }
 
+/// The forces (kN) by node that hold the last converged state under the loads that `problem` ends with, beyond those held already.
+///
+/// # Errors
+/// When the state is inadmissible.
+pub fn holding<const D: usize>(problem: &Problem<D>, grid: &mut Grid<D>) -> Result<Vec<[f64; D]>> {
+    let Unbalanced { mut force, .. } = unbalanced(&Problem { from: problem.to, ..*problem }, grid)?;
+    let release = &problem.state.release;
+    let share = release.share(problem.to);
+    let mut already = release.force.iter();
+    for force in &mut force {
+        let already = already.next().map_or([0.0; D], |f| f.map(|f| share * f));
+        *force = std::array::from_fn(|d| -force[d] - already[d]);
+    }
+    Ok(force)
+}
+
 /// What is out of balance in a state without inertia.
 struct Unbalanced<const D: usize> {
     /// By node (kN), zero where the displacement is given.
@@ -65,6 +81,7 @@ struct Unbalanced<const D: usize> {
     scale: f64,
 }
 
+/// What is out of balance at the last converged step, under the loads that `problem` begins with.
 fn unbalanced<const D: usize>(problem: &Problem<D>, grid: &mut Grid<D>) -> Result<Unbalanced<D>> {
     let now = static_force(problem, grid)?;
     let mut force = vec![[0.0; D]; problem.scene.mesh.nodes.len()];

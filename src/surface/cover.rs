@@ -3,7 +3,7 @@
 use super::bins::Bins;
 use super::boundary::{Piece, place};
 use crate::mesh::Mesh;
-use crate::stencil::cell_size;
+use crate::mesh::cell_size;
 use std::f64::consts::FRAC_1_SQRT_2;
 
 /// Cosine of the angle between the ways of a piece and of a cover from which on they face each other.

@@ -74,7 +74,7 @@ impl Distance {
         let (mut reach, mut hint) = (0.0f64, None);
         for (x, _) in front.position.iter().zip(wall).filter(|(_, wall)| !**wall) {
             if let Some((c, _)) = locator.locate(mesh, x, hint) {
-                reach = reach.max(1.25 * crate::stencil::cell_size(mesh, c as usize));
+                reach = reach.max(1.25 * crate::mesh::cell_size(mesh, c as usize));
                 hint = Some(c);
             }
         }

@@ -23,10 +23,15 @@ use crate::mesh::Mesh;
 use crate::mesh::faces::BOUNDARY;
 use crate::mesh::locate::Locator;
 use crate::mesh::shape::MAX_NODES;
+use crate::mesh::side::Side;
 use std::f64::consts::PI;
 
 /// Markers per length of a cell along the free surface.
 const PER_LENGTH: usize = 6;
+
+/// How far across the boundary of the mesh a marker may get (-), in the diagonal of the cell there: where soil closes an empty cell
+/// before a wall, that is squeezed to nothing.
+const FARTHEST: f64 = 0.5;
 
 /// The loops of markers at the last restoration: part of the state of a run.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -90,7 +95,7 @@ impl Front {
     /// their spacing on the grid that is restored now, with its `geometry`.
     ///
     /// # Errors
-    /// When a marker is or gets outside the mesh: the front is of no use then.
+    /// When a marker was outside the mesh, or gets far outside it: the front is of no use then.
     pub fn advance(
         &mut self,
         before: (&Mesh<2>, &Locator<2>),
@@ -109,8 +114,28 @@ impl Front {
             }
             hint = Some(c);
         }
+        self.put_back((mesh, locator), geometry)?;
         let wall = self.walls(mesh, geometry, locator);
-        self.resample(mesh, geometry, locator, &wall)
+        self.resample(mesh, geometry, locator, &wall)?;
+        self.put_back((mesh, locator), geometry)
+    }
+
+    /// Puts markers that got a little across the boundary of the mesh back onto it.
+    ///
+    /// # Errors
+    /// When one got farther.
+    fn put_back(&mut self, (mesh, locator): (&Mesh<2>, &Locator<2>), geometry: &Geometry) -> Result<(), Fault> {
+        let mut hint = None;
+        for x in &mut self.position {
+            if let Some((cell, _)) = locator.locate(mesh, x, hint) {
+                hint = Some(cell);
+                continue;
+            }
+            let near = geometry.faces.boundary.iter().filter_map(|&side| Side::of(mesh, side).nearest(x, FARTHEST));
+            let (place, _) = near.min_by(|a, b| a.1.total_cmp(&b.1)).ok_or(Fault::Outside { place: *x })?;
+            *x = place;
+        }
+        Ok(())
     }
 
     /// Whether the segment from each marker to the next one lies on the boundary of the mesh.

@@ -4,12 +4,13 @@ use mpm::case::parts::places;
 use mpm::kinematics::Kinematics;
 use mpm::material::{Model, Profile};
 use mpm::mesh::Mesh;
+use mpm::mesh::cell_size;
 use mpm::mesh::faces::Faces;
 use mpm::mesh::locate::Locator;
 use mpm::mesh::shape::{MAX_NODES, map, rule};
 use mpm::points::Points;
 use mpm::quadrature::{Quadrature, Volumes};
-use mpm::stencil::{Scheme, cell_size};
+use mpm::stencil::Scheme;
 use mpm::step::{
     Controller, Fem, Fixed, Limits, Numerics, Phase, Prescribed, Report, Restore, Scene, Simulation, State, Stop, Water,
 };

@@ -68,7 +68,7 @@ impl Front {
     /// Takes the markers that lie against `outlines` anew from these.
     ///
     /// # Errors
-    /// When a marker is outside the mesh.
+    /// When a marker was outside the mesh, or gets far outside it.
     pub fn lean(
         &mut self,
         mesh: &Mesh<2>,
@@ -101,7 +101,7 @@ impl Front {
             next.first.push(next.position.len() as u32);
         }
         *self = next;
-        Ok(())
+        self.put_back((mesh, locator), geometry)
     }
 }
 

@@ -224,6 +224,21 @@ fn what_meets_folds_or_shrinks_is_found() {
     assert!(matches!(grid.advance(&mut lost, |_| [0.0; 2]), Err(Fault::Outside { .. })));
 }
 
+/// What crosses the boundary of the mesh by less than half a cell is put back onto it; what goes farther is not.
+#[test]
+fn markers_return_to_the_boundary() {
+    for kind in plane_kinds() {
+        let grid = grid(rectangle(kind, 2.0, 1.0, 16, 8, 0.0, 0));
+        let first = grid.front(|x| x[0] < 1.0);
+        let mut front = first.clone();
+        grid.advance(&mut front, |_| [-0.04, 0.0]).unwrap();
+        let least = front.position.iter().map(|x| x[0]).fold(1.0, f64::min);
+        assert!(least == 0.0 && (front.volume::<PlaneStrain>() - 0.96).abs() < 1e-12, "{kind:?}");
+        assert_eq!(grid.inspect(&front, 0.96), Ok(()));
+        assert!(matches!(grid.advance(&mut front, |_| [-0.15, 0.0]), Err(Fault::Outside { .. })));
+    }
+}
+
 /// The radii of a rough circle of 48 markers.
 fn rough_circle() -> Vec<[f64; 2]> {
     let radius = |k: usize| 1.0 + 0.02 * (((k * 7919 + 13) % 101) as f64 / 50.0 - 1.0);
