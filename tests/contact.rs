@@ -200,7 +200,7 @@ fn a_load_is_held_while_the_grid_is_restored() {
     let (loaded, held, log) = settled(-46.0, 100.0, "");
     assert!((held / loaded - 1.0).abs() < 0.06 && !log.contains("balanced in"), "{loaded} {held}");
     let (_, in_parts, log) = settled(-46.0, 20.0, ", max_iterations: 4");
-    assert!(log.contains("balanced in") && (in_parts / loaded - 1.0).abs() < 0.05, "{in_parts} {held}");
+    assert!(log.contains("balanced in") && (in_parts / loaded - 1.0).abs() < 0.05, "{in_parts} {loaded}");
 }
 
 /// The same on soil that presses on a wall already: what presses elsewhere is nothing to the plate.

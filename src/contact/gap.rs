@@ -179,6 +179,9 @@ pub fn raw_gaps<K: Kinematics<2>>(
     around.iter().map(gap).collect()
 }
 
+/// The cosine of the turn between two pieces of the surface below which there is a corner.
+const CORNER: f64 = 0.8;
+
 /// The surface of the soil, to be seen from segments.
 pub struct Facing {
     pieces: Vec<[[f64; 2]; 2]>,
@@ -192,17 +195,17 @@ impl Facing {
     pub fn new(loops: &[Vec<[f64; 2]>]) -> Self {
         let pieces: Vec<[[f64; 2]; 2]> =
             loops.iter().flat_map(|x| (0..x.len()).map(|i| [x[i], x[(i + 1) % x.len()]])).collect();
-        let turn = |a: &[f64; 2], b: &[f64; 2], c: &[f64; 2]| {
-            let (u, v) = ([b[0] - a[0], b[1] - a[1]], [c[0] - b[0], c[1] - b[1]]);
-            (u[0] * v[1] - u[1] * v[0]).atan2(u[0] * v[0] + u[1] * v[1])
-        };
         let curved = |x: &Vec<[f64; 2]>| {
-            let n = x.len();
-            let length = |i: usize| (x[(i + 1) % n][0] - x[i % n][0]).hypot(x[(i + 1) % n][1] - x[i % n][1]);
+            let count = x.len();
+            let way = |i: usize| [0, 1].map(|d| x[(i + 1) % count][d] - x[i % count][d]);
             let at = |i: usize| {
-                turn(&x[(i + n - 1) % n], &x[i % n], &x[(i + 1) % n]) / (0.5 * (length(i + n - 1) + length(i)))
+                let ([a, b], [c, d]) = (way(i + count - 1), way(i));
+                let (sine, cosine, lengths) = (a * d - b * c, a * c + b * d, [a.hypot(b), c.hypot(d)]);
+                // A corner bends nothing.
+                let smooth = cosine > CORNER * lengths[0] * lengths[1];
+                if smooth { 2.0 * sine.atan2(cosine) / (lengths[0] + lengths[1]) } else { 0.0 }
             };
-            (0..n).map(|i| 0.5 * (at(i) + at(i + 1))).collect::<Vec<_>>()
+            (0..count).map(|i| 0.5 * (at(i) + at(i + 1))).collect::<Vec<_>>()
         };
         let curvature = loops.iter().flat_map(curved).collect();
         let longest = pieces.iter().map(|[a, b]| (b[0] - a[0]).hypot(b[1] - a[1])).collect::<Vec<_>>();
@@ -292,6 +295,21 @@ mod tests {
             let gap = facing.distance(&placed, 0.1).unwrap();
             assert!(gap.abs() < 0.01 * sagitta, "{i}: {gap} of {sagitta}");
         }
+        // Straight pieces stay straight up to a corner.
+        let facing = Facing::new(&[vec![[0.0, 0.0], [0.0, -1.0], [1.0, -1.0], [1.0, 0.0], [0.9, 0.0], [0.8, 0.0]]]);
+        let normal = [0.0, -1.0];
+        let placed = Placed {
+            from: [0.95, 0.0],
+            to: [0.95, 0.0],
+            middle: [0.95, 0.0],
+            normal,
+            area: 1.0,
+            curvature: 0.0,
+            along: 0.0,
+            ends: [false; 2],
+            value: [0.0; 3],
+        };
+        assert_eq!(facing.distance(&placed, 0.1), Some(0.0));
     }
 
     /// A point below a flat boundary that faces up is moved to where a quarter of its width is above it, at most one and a half times that however

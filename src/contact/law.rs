@@ -129,14 +129,6 @@ impl Law {
         }
     }
 
-    /// The multiplier (kPa) with which surfaces that touch exert a `pressure` (kPa) at a gap (m).
-    pub fn multiplier(&self, at: &Penalty, pressure: f64, gap: f64) -> f64 {
-        let around = at.rounding;
-        let before =
-            if self.separates && pressure < around { 2.0 * (around * pressure).sqrt() - around } else { pressure };
-        before + at.normal * gap
-    }
-
     /// The part that an open gap leaves (-) of what does not come of the pressure, and its slope by the gap (1/m).
     fn share(&self, at: &Penalty, gap: f64) -> (f64, f64) {
         if !self.separates || gap <= 0.0 {
@@ -201,20 +193,6 @@ mod tests {
                     let [up, down] = [step, -step].map(|d| law.respond(&at, gap, slip + d));
                     let by_slip = (up.shear - down.shear) / (2.0 * step);
                     assert!((by_slip - answer.shear_by_slip).abs() < 1e-5, "{law:?} {gap} {slip}");
-                }
-            }
-        }
-    }
-
-    /// A multiplier brings the pressure that it is asked for, at any gap.
-    #[test]
-    fn multipliers_bring_the_pressure() {
-        for law in laws() {
-            for pressure in [1e-6, 0.01, 0.05, 0.2, 3.0] {
-                for gap in [-0.02, 0.0, 0.011] {
-                    let at = Penalty { pressure: law.multiplier(&AT, pressure, gap), ..AT };
-                    let found = law.respond(&at, gap, 0.0).pressure;
-                    assert!((found - pressure).abs() < 1e-12, "{law:?} {pressure} {gap}: {found}");
                 }
             }
         }

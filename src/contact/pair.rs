@@ -195,7 +195,8 @@ pub struct Boundary<K> {
 impl<K: Kinematics<2>> Boundary<K> {
     /// The gap (m) of a hat at the beginning of a step, given that `measured` from points and that of the `surface`.
     ///
-    /// On a curved boundary, along which soil flows, it is that of the surface, where this is followed. Else what touched in the step
+    /// On a curved boundary, along which soil flows, it is that of the surface, where this is followed; what touched goes on from the gap that it
+    /// had, by no more than the soil went in the last step. Else what touched in the step
     /// before carries its gap on: as measured it jumps when points come and go, and every jump has to be made up for by straining the soil. It becomes that measured as the hat slides, which evens the jumps out,
     /// and is corrected by what lies beyond their size. What did not touch has the gap of the surface; it may begin to
     /// touch, not to overlap. The second number is how much more the nearest points measure than that.

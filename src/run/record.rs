@@ -334,10 +334,11 @@ pub fn log_lines<const D: usize>(scene: &Scene<D>, state: &State<D>, report: &Re
         line.push_str(" restored");
     }
     let balanced = report.balanced;
-    if balanced.left > 0.0 {
-        line.push_str(&format!(" {:.2} of what was out of balance on the restored grid is left", balanced.left));
-    } else if balanced.parts > 1 {
+    if balanced.parts > 1 {
         line.push_str(&format!(" balanced in {} parts", balanced.parts));
+    }
+    if balanced.left > 0.0 {
+        line.push_str(&format!(" but for {:.3} of what was out of balance on the restored grid", balanced.left));
     }
     let tally = &state.weighing.tally;
     if report.restored && tally.volume > 0.0 {

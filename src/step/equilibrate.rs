@@ -15,14 +15,16 @@ use crate::error::{Kind, Result};
 use crate::term::{Trial, contact_answer};
 
 /// The least part (-) of what is out of balance that is released at a time.
-const LEAST: f64 = 0.01;
+const LEAST: f64 = 1.0 / 256.0;
 
 /// Whether restoring the grid leaves what is to be brought to balance under the loads of the `last` step: soil that yields, in a phase
-/// without inertia and without water that flows, that has the materials and structures which that step had.
+/// without inertia and without water that flows, that has the materials, the structures and the supports which that step had.
 fn is_due<const D: usize>(scene: &Scene<D>, state: &State<D>, last: Span) -> bool {
     let [now, then] = [state.phase, last.phase].map(|phase| &scene.phases[phase]);
     let changes = scene.phases[last.phase + 1..=state.phase].iter().any(|phase| !phase.changes.is_empty());
-    let same = !changes && now.held == then.held && now.apart == then.apart;
+    let fixed = |phase| scene.fixed(phase).map(|fixed| (&fixed.nodes, fixed.component)).collect::<Vec<_>>();
+    let alike = last.phase == state.phase || fixed(last.phase) == fixed(state.phase);
+    let same = !changes && now.held == then.held && now.apart == then.apart && alike;
     scene.terms.iter().any(|term| term.yields()) && !state.dynamic(scene) && !now.flows && same
 }
 
@@ -63,13 +65,17 @@ pub fn equilibrate<const D: usize>(
             Err(_) if part <= LEAST => break,
             Err(_) => {
                 if held.is_empty() {
-                    held = release::holding(&problem, grid)?;
+                    held = match release::holding(&problem, grid) {
+                        Ok(held) => held,
+                        Err(error) if error.kind == Kind::Analysis => break,
+                        Err(error) => return Err(error),
+                    };
                 }
                 part *= 0.25;
                 continue;
             }
         };
-        hold_pressures(scene, grid, state, (&solution.displacement, last));
+        go_on(scene, grid, state, (&solution.displacement, last));
         transfer::commit_stresses(scene, grid, state, &solution, last);
         state.pressure.clone_from(&solution.pressure);
         found = Balanced { parts: found.parts + 1, left };
@@ -77,8 +83,9 @@ pub fn equilibrate<const D: usize>(
     Ok(found)
 }
 
-/// Lets contacts begin with the gaps, the normals and the pressures that they have after the displacement (m) of the nodes.
-fn hold_pressures<const D: usize>(
+/// Lets contacts begin with the gaps, the normals and the shear that they have after the displacement (m) of the nodes: with the multipliers
+/// that there are the pressures are the same then, too.
+fn go_on<const D: usize>(
     scene: &Scene<D>,
     grid: &mut Grid<D>,
     state: &State<D>,
@@ -94,12 +101,8 @@ fn hold_pressures<const D: usize>(
         let law = scene.pairs[touch.pair as usize].law();
         let (answer, motion) = contact_answer(law, scene.levels.as_ref(), touch, &trial);
         if answer.pressure != 0.0 || answer.shear != 0.0 {
+            touch.row.penalty.shear = answer.shear;
             touch.row.go_on(motion);
-            let penalty = &mut touch.row.penalty;
-            penalty.shear = answer.shear;
-            if answer.pressure != 0.0 {
-                penalty.pressure = law.multiplier(penalty, answer.pressure, touch.row.gap);
-            }
         }
     }
 }

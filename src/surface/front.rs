@@ -29,8 +29,8 @@ use std::f64::consts::PI;
 /// Markers per length of a cell along the free surface.
 const PER_LENGTH: usize = 6;
 
-/// How far across the boundary of the mesh a marker may get (-), in the diagonal of the cell there: where soil closes an empty cell
-/// before a wall, that is squeezed to nothing.
+/// How far across the boundary of the mesh a marker may get (-), in the diagonal of the cell there: an empty cell between soil and a wall
+/// is squeezed to nothing as the soil closes.
 const FARTHEST: f64 = 0.5;
 
 /// The loops of markers at the last restoration: part of the state of a run.

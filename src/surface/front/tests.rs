@@ -224,7 +224,7 @@ fn what_meets_folds_or_shrinks_is_found() {
     assert!(matches!(grid.advance(&mut lost, |_| [0.0; 2]), Err(Fault::Outside { .. })));
 }
 
-/// What crosses the boundary of the mesh by less than half a cell is put back onto it; what goes farther is not.
+/// What crosses the boundary of the mesh by less than half the diagonal of a cell is put back onto it; what goes farther is not.
 #[test]
 fn markers_return_to_the_boundary() {
     for kind in plane_kinds() {
