@@ -92,6 +92,11 @@ pub trait Model: Send + Sync {
         false
     }
 
+    /// Whether [`State::memory`] is how far (-) the soil has opened, as a volume strain, and must close before it bears again.
+    fn opens(&self) -> bool {
+        false
+    }
+
     /// How far principal Kirchhoff stresses, in any order, lie outside the yield surface at height `y` in a state, at
     /// rest, as a stress (kPa); negative inside.
     fn yield_excess(&self, y: f64, stress: &[f64; 3], state: &State) -> f64;

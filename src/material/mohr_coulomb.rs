@@ -153,7 +153,28 @@ impl MohrCoulomb {
 
 impl Model for MohrCoulomb {
     fn respond(&self, y: f64, trial: &[f64; 3], state: &State) -> Response {
-        self.planes(y).respond(&self.elasticity.at(y), trial, state)
+        let (planes, moduli) = (self.planes(y), self.elasticity.at(y));
+        let opening = state.memory;
+        if opening == 0.0 && planes.excess(&moduli.stress(trial)) <= 0.0 {
+            return Response::elastic(&moduli, trial, state);
+        }
+        let whole = trial.map(|e| e + opening / 3.0);
+        let mut response = planes.respond(&moduli, &whole, state);
+        response.yielding |= opening != 0.0;
+        // At the apex nothing holds the soil together, or its parts.
+        let is_apart = response.yielding && response.tangent == [[0.0; 3]; 3];
+        let volume = |e: &[f64; 3]| e.iter().sum::<f64>();
+        response.state.memory =
+            if is_apart { (volume(&whole) - volume(&response.elastic_strain)).max(0.0) } else { 0.0 };
+        response
+    }
+
+    fn remembers(&self) -> bool {
+        true
+    }
+
+    fn opens(&self) -> bool {
+        true
     }
 
     fn elasticity(&self) -> &Elasticity {

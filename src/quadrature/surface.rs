@@ -4,22 +4,19 @@ use super::{Quadrature, Restored, Volumes, Weighing};
 use crate::kinematics::Kinematics;
 use crate::points::Points;
 use crate::stencil::Stencil;
-use crate::surface::{ActiveBoundary, Behind, Contour, Distance, Fault, Front, Geometry, NO_REGION};
+use crate::surface::{ActiveBoundary, Behind, Contour, Distance, Front, Geometry, NO_REGION, Outside};
 
 /// Takes the front along with the grid: at first it goes around the cells with points.
 ///
 /// # Errors
 /// Why the surface so followed is not that of the material.
-pub fn follow<K: Kinematics<2>>(
-    geometry: &Geometry,
-    grid: &Restored<2>,
-    front: &mut Option<Front>,
-) -> Result<(), Fault> {
+pub fn follow(geometry: &Geometry, grid: &Restored<2>, front: &mut Option<Front>) -> Result<(), Outside> {
     let (mesh, points) = (grid.mesh, grid.points);
     match (grid.displacement, front.as_mut()) {
         (Some(displacement), Some(front)) => {
             front.advance(grid.before, (mesh, grid.locator), geometry, displacement)?;
             front.lean(mesh, geometry, grid.locator, grid.outlines)?;
+            front.join(mesh, geometry, grid.locator)?;
         }
         (Some(_), None) => return Ok(()),
         (None, _) => {
@@ -28,9 +25,7 @@ pub fn follow<K: Kinematics<2>>(
             *front = Some(Front::around(mesh, &geometry.faces, &filled));
         }
     }
-    let Some(front) = front else { return Ok(()) };
-    let volume = (0..points.len()).map(|p| points.volume(p)).sum();
-    front.inspect::<K>(mesh, geometry, grid.locator, volume)
+    Ok(())
 }
 
 /// The contour of the points, whose level set is `contour`, smoothed: a front for this restoration alone, and the cells with
@@ -47,16 +42,10 @@ pub fn smoothed<K: Kinematics<2>>(
     }
     let nothing = |bearer: u32, _: &[f64; 2]| Behind { region: NO_REGION, bearer };
     let boundary = ActiveBoundary::of(mesh, geometry, contour, grid.taking_part, nothing);
-    let front = Front::along::<K>(mesh, geometry, &boundary)?;
-    let volume = (0..points.len()).map(|p| points.volume(p)).sum();
-    match front.inspect::<K>(mesh, geometry, grid.locator, volume) {
-        // Nothing follows it, so that it may touch itself.
-        Ok(()) | Err(Fault::Touch { .. }) => {
-            let inside = |c: &u32| mesh.cells.nodes(*c as usize).iter().any(|&n| contour[n as usize] > 0.0);
-            Some((front, points.cell.iter().copied().filter(inside).collect()))
-        }
-        Err(_) => None,
-    }
+    let mut front = Front::along::<K>(mesh, geometry, &boundary)?;
+    front.join(mesh, geometry, grid.locator).ok()?;
+    let inside = |c: &u32| mesh.cells.nodes(*c as usize).iter().any(|&n| contour[n as usize] > 0.0);
+    Some((front, points.cell.iter().copied().filter(inside).collect()))
 }
 
 /// Rings of cells across faces in which points are sought that stand for what is behind a piece of the boundary.
@@ -115,7 +104,7 @@ impl<K: Kinematics<2>> Quadrature<2> for Bounded<K> {
         let geometry = relaxed.as_ref().unwrap_or(&self.geometry);
         let Restored { mesh, locator, points, parametric, taking_part, .. } = *grid;
         let mut weighing = self.volumes.weigh(grid, front);
-        if let Err(fault) = follow::<K>(geometry, grid, front) {
+        if let Err(fault) = follow(geometry, grid, front) {
             *front = None;
             weighing.lost_front = Some(fault.to_string());
         }

@@ -91,6 +91,11 @@ impl System {
         let solver = Solver::new(&pattern, places)?;
         Ok(Self { pattern, matrix, solver })
     }
+
+    /// As [`Solver::regular`].
+    fn regular(self) -> Self {
+        Self { solver: self.solver.regular(), ..self }
+    }
 }
 
 /// The unknowns of a pressure field.
@@ -254,8 +259,11 @@ impl<const D: usize> Grid<D> {
         }
         let dynamic = scene.dynamic();
         let places: Vec<_> = node.iter().map(|&n| mesh.nodes[n as usize]).collect();
-        let mass =
-            if dynamic { Some(System::new(&vec![1; node.len()], cliques.clone(), true, &places)?) } else { None };
+        let mass = if dynamic {
+            Some(System::new(&vec![1; node.len()], cliques.clone(), true, &places)?.regular())
+        } else {
+            None
+        };
         // The mass always takes a penalty on faces, the motion only where a term says so.
         let mut cliques = if scene.terms.iter().any(|t| t.penalises_faces()) { cliques } else { cells_only };
         let touch_clique = contact::couple(state, &block, &mut cliques);

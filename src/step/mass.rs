@@ -5,9 +5,9 @@
 //! what the neighbours move like. It leaves linear velocity fields alone, so that what is mapped keeps linear and
 //! angular momentum. Nodes that no point and no such face reaches have nothing to move and stay at rest.
 //!
-//! Few points on their own leave polynomials of low degree undetermined also then. A far weaker gradient penalty
-//! `ε ρ h² ∫ ∇N_I·∇N_J` in cells with fewer points than nodes decides these, and a second solution that takes it
-//! back to the first one (iterated Tikhonov regularisation) removes it from all that the points do determine.
+//! Few points, and points that crowd in a part of a cell, leave polynomials of low degree undetermined also then. A far weaker gradient
+//! penalty `ε ρ h² ∫ ∇N_I·∇N_J` in cells with points decides these, and further solutions that take it back to the one before
+//! (iterated Tikhonov regularisation) remove it from all that the points do determine.
 
 use super::grid::{Family, Grid, System};
 use super::rigid;
@@ -21,7 +21,9 @@ use crate::system::{Method, scatter};
 use crate::term::MASS_PENALTY;
 
 /// `ε` (-).
-const WEAK: f64 = 1e-10;
+const WEAK: f64 = 1e-4;
+/// Solutions that take the weak penalty back: each leaves `ε` over what the points determine of the error of the one before.
+const TAKEN_BACK: usize = 2;
 
 /// Whose mass it is.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -106,9 +108,9 @@ impl<'a> Mass<'a> {
             &mut grid.workspace,
         )?;
         rigid::add_mass(scene, &grid.block, &system.pattern, &mut system.matrix);
-        let few =
-            stencil.patches.iter().filter(|p| p.point_count < scene.mesh.cells.nodes(p.cell as usize).len() as u32);
-        let weak: Vec<Weak> = few
+        let weak: Vec<Weak> = stencil
+            .patches
+            .iter()
             .map(|patch| Weak {
                 clique: clique[patch.cell as usize] as usize,
                 form: weak_form::<D, K>(scene, patch.cell as usize),
@@ -140,20 +142,20 @@ impl<'a> Mass<'a> {
     /// # Errors
     /// An analysis error when the mass is singular.
     pub fn solve(&mut self, x: &mut [f64]) -> Result<()> {
-        let mut again = x.to_vec();
+        let b = x.to_vec();
         self.solve_once(x)?;
-        if self.weak.is_empty() {
-            return Ok(());
-        }
-        for Weak { clique, form } in &self.weak {
-            let blocks = self.system.pattern.cliques.blocks(*clique);
-            let own = form.len().isqrt();
-            for (row, &a) in form.chunks_exact(own).zip(blocks) {
-                again[a as usize] += row.iter().zip(blocks).map(|(form, &b)| form * x[b as usize]).sum::<f64>();
+        for _ in 0..TAKEN_BACK {
+            let mut again = b.clone();
+            for Weak { clique, form } in &self.weak {
+                let blocks = self.system.pattern.cliques.blocks(*clique);
+                let own = form.len().isqrt();
+                for (row, &a) in form.chunks_exact(own).zip(blocks) {
+                    again[a as usize] += row.iter().zip(blocks).map(|(form, &b)| form * x[b as usize]).sum::<f64>();
+                }
             }
+            self.solve_once(&mut again)?;
+            x.copy_from_slice(&again);
         }
-        self.solve_once(&mut again)?;
-        x.copy_from_slice(&again);
         Ok(())
     }
 

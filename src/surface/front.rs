@@ -6,16 +6,14 @@
 //! rest free surface; which is which is seen anew from the places of the markers, so that the places are all the state
 //! there is. Markers on a wall slide along it because the displacement of the grid does.
 //!
-//! A front that folds, touches itself or another loop, or loses volume holds no longer ([`Front::inspect`]): there is no
-//! surgery, the [`super::Contour`] takes over, smoothed anew at every restoration ([`Front::along`]). It leaves out slip along curved walls, which no support can ask for.
+//! Loops that cross or come near each other are joined anew ([`Front::join`]). Where a marker leaves the mesh the [`super::Contour`] takes over, smoothed
+//! anew at every restoration ([`Front::along`]). It leaves out slip along curved walls, which no support can ask for.
 
-mod inspect;
+mod join;
 mod lean;
 mod resample;
 mod seed;
 mod smooth;
-
-pub use inspect::Fault;
 
 use super::geometry::Geometry;
 use crate::kinematics::Kinematics;
@@ -25,6 +23,7 @@ use crate::mesh::locate::Locator;
 use crate::mesh::shape::MAX_NODES;
 use crate::mesh::side::Side;
 use std::f64::consts::PI;
+use std::fmt;
 
 /// Markers per length of a cell along the free surface.
 const PER_LENGTH: usize = 6;
@@ -40,6 +39,16 @@ pub struct Front {
     pub position: Vec<[f64; 2]>,
     /// Loop `l` has the markers `first[l]..first[l + 1]`.
     pub first: Vec<u32>,
+}
+
+/// Why a front is followed no longer: a marker left the mesh at this place (m).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Outside(pub [f64; 2]);
+
+impl fmt::Display for Outside {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "it left the mesh at {:.4?} m", self.0)
+    }
 }
 
 impl Front {
@@ -102,10 +111,10 @@ impl Front {
         (mesh, locator): (&Mesh<2>, &Locator<2>),
         geometry: &Geometry,
         displacement: &[[f64; 2]],
-    ) -> Result<(), Fault> {
+    ) -> Result<(), Outside> {
         let (mut n, mut hint) = ([0.0; MAX_NODES], None);
         for x in &mut self.position {
-            let (c, xi) = before.1.locate(before.0, x, hint).ok_or(Fault::Outside { place: *x })?;
+            let (c, xi) = before.1.locate(before.0, x, hint).ok_or(Outside(*x))?;
             before.0.cells.kind[c as usize].values(&xi, &mut n);
             for (&node, n) in before.0.cells.nodes(c as usize).iter().zip(&n) {
                 for d in 0..2 {
@@ -124,7 +133,7 @@ impl Front {
     ///
     /// # Errors
     /// When one got farther.
-    fn put_back(&mut self, (mesh, locator): (&Mesh<2>, &Locator<2>), geometry: &Geometry) -> Result<(), Fault> {
+    fn put_back(&mut self, (mesh, locator): (&Mesh<2>, &Locator<2>), geometry: &Geometry) -> Result<(), Outside> {
         let mut hint = None;
         for x in &mut self.position {
             if let Some((cell, _)) = locator.locate(mesh, x, hint) {
@@ -132,7 +141,7 @@ impl Front {
                 continue;
             }
             let near = geometry.faces.boundary.iter().filter_map(|&side| Side::of(mesh, side).nearest(x, FARTHEST));
-            let (place, _) = near.min_by(|a, b| a.1.total_cmp(&b.1)).ok_or(Fault::Outside { place: *x })?;
+            let (place, _) = near.min_by(|a, b| a.1.total_cmp(&b.1)).ok_or(Outside(*x))?;
             *x = place;
         }
         Ok(())

@@ -35,6 +35,8 @@ pub struct Solver {
     factor: Factor,
     /// Whether the matrices are definite, if they are symmetric.
     definite: bool,
+    /// Pivots below this (-) are rounding.
+    rounding: f64,
     /// Symbolic LU with its full pattern, made when first needed.
     general: Option<General>,
     work: Vec<Vec<f64>>,
@@ -48,13 +50,18 @@ impl Solver {
     /// A machine error when memory does not suffice.
     pub fn new<const D: usize>(pattern: &Pattern, places: &[[f64; D]]) -> Result<Self> {
         let factor = timed(Activity::Analysis, || Factor::new(pattern, places))?;
-        Ok(Self { factor, definite: true, general: None, work: Vec::new() })
+        Ok(Self { factor, definite: true, rounding: SINGULAR, general: None, work: Vec::new() })
     }
 
     /// The solver for saddles: quasi-definite matrices, which have an LDLᵀ factor in any order of the equations
     /// (Vanderbei 1995), but no Cholesky factor.
     pub fn saddle(self) -> Self {
         Self { definite: false, ..self }
+    }
+
+    /// The solver for matrices that are regular by construction, however small their pivots are.
+    pub fn regular(self) -> Self {
+        Self { rounding: 0.0, ..self }
     }
 
     /// Nonzeros of the Cholesky factor.
@@ -171,7 +178,7 @@ impl Solver {
     /// When a pivot is nothing but rounding: the system is singular, though it may have a solution.
     fn factorize(&mut self, matrix: &Matrix, pattern: &Pattern, llt: bool) -> Result<bool> {
         match self.factor.factorize(pattern, matrix, llt) {
-            Some(least_pivot) if least_pivot < SINGULAR => Err(singular()),
+            Some(least_pivot) if least_pivot < self.rounding => Err(singular()),
             found => Ok(found.is_some()),
         }
     }

@@ -132,7 +132,7 @@ impl<K: Kinematics<2>> Resampled<K> {
     /// The surface of the material: one that is followed, else the smoothed contour of the points, or that contour.
     fn surface(&self, geometry: &Geometry, grid: &Restored<2>, front: &mut Option<Front>) -> Surface {
         let Restored { mesh, locator, points, parametric, taking_part, .. } = *grid;
-        let lost = follow::<K>(geometry, grid, front).err().map(|fault| {
+        let lost = follow(geometry, grid, front).err().map(|fault| {
             *front = None;
             fault.to_string()
         });
@@ -306,13 +306,19 @@ impl<K: Kinematics<2>> Resampled<K> {
                     *range = [range[0].min(*value), range[1].max(*value)];
                 }
             }
-            let model = fit.points.first().map_or(usize::from(region), |&p| points.model_of(p as usize));
+            let number = fit.points.first().map_or(usize::from(region), |&p| points.model_of(p as usize));
+            let model = self.models.get(number).and_then(Option::as_ref);
+            // A cell bears again as soon as the least open part of it does.
+            if model.is_some_and(|model| model.opens()) {
+                range[MEMORY][1] = range[MEMORY][0];
+            }
             for place in own {
                 let mut fields = fit.at(&coefficients, &place.x);
                 for k in BOUNDED {
                     fields[k] = fields[k].clamp(range[k][0], range[k][1]);
                 }
-                let (elastic, stress) = self.state(model, &fields).unwrap_or_else(|| {
+                let found = model.and_then(|model| Self::state(model.as_ref(), &fields));
+                let (elastic, stress) = found.unwrap_or_else(|| {
                     // What no model answers to is not the state of the soil there: the nearest point's is.
                     let p = nearest(points, &fit.points, &place.x);
                     fields = all_fields[p];
@@ -338,13 +344,12 @@ impl<K: Kinematics<2>> Resampled<K> {
     }
 
     /// The elastic left Cauchy–Green tensor and the stress (kPa) that a model can have near the given fields.
-    fn state(&self, model: usize, fields: &Fields) -> Option<(Symmetric, Symmetric)> {
+    fn state(model: &dyn Model, fields: &Fields) -> Option<(Symmetric, Symmetric)> {
         let kirchhoff = [fields[0], fields[1], fields[2], fields[3], 0.0, 0.0];
         let state = State { plastic_strain: fields[PLASTIC], memory: fields[MEMORY], per_second: 0.0 };
         let y = fields[ORIGIN + 1];
-        let model = self.models.get(model)?.as_ref()?;
-        let elastic = elastic_from_stress(model.as_ref(), y, &kirchhoff);
-        let answer = K::respond(model.as_ref(), y, &elastic, &state)?;
+        let elastic = elastic_from_stress(model, y, &kirchhoff);
+        let answer = K::respond(model, y, &elastic, &state)?;
         let volume_ratio = fields[VOLUME].exp();
         let mut stress = answer.kirchhoff.map(|t| t / volume_ratio);
         stress[..3].iter_mut().for_each(|s| *s += fields[BESIDE] / volume_ratio);

@@ -88,7 +88,6 @@ fn the_level_set_of_a_sliding_slab_is_linear_up_to_the_wall() {
         let total: f64 = scene.volume.iter().sum();
         assert!((total - 1.5).abs() < 1e-12, "{slope} {total}");
         assert!((scene.front.volume::<PlaneStrain>() - 1.5).abs() < 1e-12);
-        assert_eq!(scene.front.inspect::<PlaneStrain>(&scene.mesh, &scene.geometry, &scene.locator, 1.5), Ok(()));
     }
 }
 
