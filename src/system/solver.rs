@@ -67,6 +67,14 @@ impl Solver {
     /// # Errors
     /// An analysis error when no method gives a finite solution with a small residual: the system is singular.
     pub fn solve(&mut self, pattern: &Pattern, matrix: &Matrix, x: &mut [f64]) -> Result<Method> {
+        self.solve_to(pattern, matrix, AIM, x)
+    }
+
+    /// As [`Solver::solve`]; where that takes an iteration, to the relative residual `tolerance`.
+    ///
+    /// # Errors
+    /// As there.
+    pub fn solve_to(&mut self, pattern: &Pattern, matrix: &Matrix, tolerance: f64, x: &mut [f64]) -> Result<Method> {
         if !matrix.is_finite() || x.iter().any(|v| !v.is_finite()) {
             return Err(Error::analysis("linear system", "a coefficient is not finite", "take smaller steps"));
         }
@@ -86,7 +94,7 @@ impl Solver {
                 }
             }
         } else if timed(Activity::Factorisation, || self.factorize(matrix, pattern, self.definite))?
-            && timed(Activity::Solution, || self.iterate(pattern, matrix, &b, x))
+            && timed(Activity::Solution, || self.iterate(pattern, matrix, tolerance, &b, x))
         {
             return Ok(Method::Iterative);
         }
@@ -205,7 +213,7 @@ impl Solver {
     }
 
     /// BiCGSTAB preconditioned by the factor of the symmetric part.
-    fn iterate(&mut self, pattern: &Pattern, matrix: &Matrix, b: &[f64], x: &mut [f64]) -> bool {
+    fn iterate(&mut self, pattern: &Pattern, matrix: &Matrix, tolerance: f64, b: &[f64], x: &mut [f64]) -> bool {
         let n = b.len();
         let mut work = std::mem::take(&mut self.work);
         work.resize(7, Vec::new());
@@ -213,7 +221,7 @@ impl Solver {
             w.clear();
             w.resize(n, 0.0);
         }
-        let converged = self.bicgstab(pattern, matrix, b, x, &mut work);
+        let converged = self.bicgstab(pattern, matrix, tolerance, b, x, &mut work);
         self.work = work;
         converged
     }
@@ -222,6 +230,7 @@ impl Solver {
         &mut self,
         pattern: &Pattern,
         matrix: &Matrix,
+        tolerance: f64,
         b: &[f64],
         x: &mut [f64],
         work: &mut [Vec<f64>],
@@ -235,10 +244,11 @@ impl Solver {
         }
         shadow.copy_from_slice(r);
         p.copy_from_slice(r);
-        let size = norm(b);
+        // What is taken out is known, and solved for by the factor.
+        let size = if matrix.norm_free(b) > 0.0 { matrix.norm_free(b) } else { norm(b) };
         let mut rho = dot(shadow, r);
         for _ in 0..ITERATIONS {
-            if norm(r) <= AIM * size {
+            if norm(r) <= tolerance * size {
                 return true;
             }
             y.copy_from_slice(p);
@@ -274,7 +284,7 @@ impl Solver {
         // What counts is the true residual, not the recursive one.
         matrix.multiply(pattern, x, t);
         let residual = t.iter().zip(b).map(|(t, b)| (b - t).powi(2)).sum::<f64>().sqrt();
-        residual.is_finite() && residual <= ACCEPTED * size
+        residual.is_finite() && residual <= ACCEPTED.max(tolerance) * size
     }
 }
 
