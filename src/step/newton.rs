@@ -267,7 +267,9 @@ impl<'a, const D: usize> Newton<'a, D> {
         let (pattern, matrix) = (&motion.pattern, &motion.matrix);
         let tolerance = forcing(&self.history, self.problem.scene.numerics.tolerance);
         let method = if matrix.beyond.is_empty() {
-            motion.solver.solve_to(pattern, matrix, tolerance, delta)
+            // Where the residual has fallen to a tenth, the tangent is much the same as before.
+            let again = self.method == Method::Iterative && tolerance < LOOSEST;
+            motion.solver.solve_to(pattern, matrix, (tolerance, again), delta)
         } else {
             motion.solver.solve_beyond(pattern, matrix, tolerance, delta)
         };
