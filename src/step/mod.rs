@@ -187,7 +187,7 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
     }
 
     /// The solution on the grid and, with inertia, the motion that it starts from.
-    /// Where nodes go on as they did, they are a good `guess` of the end of the step.
+    /// The `guess` of the end of the step is that nodes go on as they did; the first step of a phase has none.
     fn lagrange(&mut self, dt: f64, guess: bool) -> Result<Lagrange<D>> {
         let (scene, state) = (self.scene, &self.state);
         let dynamic = state.dynamic(scene);
@@ -195,8 +195,7 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
         let start = dynamic.then(|| Start::of(&self.grid, state, &given, dt));
         let (velocity, acceleration): (&[_], &[_]) =
             start.as_ref().map_or((&[], &[]), |s| (&s.velocity, &s.acceleration));
-        let guess = (guess && state.last_step > 0.0 && !dynamic && !scene.pairs.is_empty())
-            .then(|| guess::going_on(state, dt / state.last_step));
+        let guess = (guess && state.phase_time > 0.0).then(|| guess::going_on(state, dt / state.last_step));
         let problem = Problem {
             scene,
             state,

@@ -20,6 +20,8 @@ pub(super) const SINGULAR: f64 = 1e-12;
 const AIM: f64 = 1e-12;
 /// Iterations of BiCGSTAB before LU is taken.
 const ITERATIONS: usize = 40;
+/// Iterations of BiCGSTAB with the factor of the matrix before, until a new factor is made.
+const FEW_ITERATIONS: usize = 8;
 
 /// How a solution was found.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -74,6 +76,21 @@ impl Solver {
     /// # Errors
     /// An analysis error when no method gives a finite solution with a small residual: the system is singular.
     pub fn solve(&mut self, pattern: &Pattern, matrix: &Matrix, x: &mut [f64]) -> Result<Method> {
+        self.solve_to(pattern, matrix, (AIM, false), x)
+    }
+
+    /// As [`Solver::solve`]; where that takes an iteration, to the relative residual `tolerance`, and `again` with the factor
+    /// of the matrix before as long as few iterations do.
+    ///
+    /// # Errors
+    /// As there.
+    pub fn solve_to(
+        &mut self,
+        pattern: &Pattern,
+        matrix: &Matrix,
+        (tolerance, again): (f64, bool),
+        x: &mut [f64],
+    ) -> Result<Method> {
         if !matrix.is_finite() || x.iter().any(|v| !v.is_finite()) {
             return Err(Error::analysis("linear system", "a coefficient is not finite", "take smaller steps"));
         }
@@ -92,8 +109,12 @@ impl Solver {
                     return Ok(method);
                 }
             }
+        } else if again
+            && timed(Activity::Solution, || self.iterate(pattern, matrix, (tolerance, FEW_ITERATIONS), &b, x))
+        {
+            return Ok(Method::Iterative);
         } else if timed(Activity::Factorisation, || self.factorize(matrix, pattern, self.definite))?
-            && timed(Activity::Solution, || self.iterate(pattern, matrix, &b, x))
+            && timed(Activity::Solution, || self.iterate(pattern, matrix, (tolerance, ITERATIONS), &b, x))
         {
             return Ok(Method::Iterative);
         }
@@ -212,7 +233,7 @@ impl Solver {
     }
 
     /// BiCGSTAB preconditioned by the factor of the symmetric part.
-    fn iterate(&mut self, pattern: &Pattern, matrix: &Matrix, b: &[f64], x: &mut [f64]) -> bool {
+    fn iterate(&mut self, pattern: &Pattern, matrix: &Matrix, aim: (f64, usize), b: &[f64], x: &mut [f64]) -> bool {
         let n = b.len();
         let mut work = std::mem::take(&mut self.work);
         work.resize(7, Vec::new());
@@ -220,7 +241,7 @@ impl Solver {
             w.clear();
             w.resize(n, 0.0);
         }
-        let converged = self.bicgstab(pattern, matrix, b, x, &mut work);
+        let converged = self.bicgstab(pattern, matrix, aim, b, x, &mut work);
         self.work = work;
         converged
     }
@@ -229,6 +250,7 @@ impl Solver {
         &mut self,
         pattern: &Pattern,
         matrix: &Matrix,
+        (tolerance, most): (f64, usize),
         b: &[f64],
         x: &mut [f64],
         work: &mut [Vec<f64>],
@@ -242,10 +264,11 @@ impl Solver {
         }
         shadow.copy_from_slice(r);
         p.copy_from_slice(r);
-        let size = norm(b);
+        // What is taken out is known, and solved for by the factor.
+        let size = if matrix.norm_free(b) > 0.0 { matrix.norm_free(b) } else { norm(b) };
         let mut rho = dot(shadow, r);
-        for _ in 0..ITERATIONS {
-            if norm(r) <= AIM * size {
+        for _ in 0..most {
+            if norm(r) <= tolerance * size {
                 return true;
             }
             y.copy_from_slice(p);
@@ -281,7 +304,7 @@ impl Solver {
         // What counts is the true residual, not the recursive one.
         matrix.multiply(pattern, x, t);
         let residual = t.iter().zip(b).map(|(t, b)| (b - t).powi(2)).sum::<f64>().sqrt();
-        residual.is_finite() && residual <= ACCEPTED * size
+        residual.is_finite() && residual <= ACCEPTED.max(tolerance) * size
     }
 }
 
