@@ -70,6 +70,23 @@ fn references_are_the_closed_forms() {
     }
 }
 
+/// Half of the way in time: 0.1 % of the way, 0.1 % of the mean of the normal force, and 7 % of it at any time.
+#[test]
+fn rolling_disc() {
+    let run = Run::new("rolling_disc", &["phases.roll.duration=0.5"]);
+    let [time, ux, uy, along, up] =
+        ["time", "disc.ux", "disc.uy", "disc.contact_x", "disc.contact_y"].map(|name| run.history.column(name));
+    let (sin, cos) = (20.0 * PI / 180.0).sin_cos();
+    let rolling = time.iter().position(|t| *t > 1.0 + 1e-9).expect("steps of the second phase");
+    let (last, weight) = (time.len() - 1, 9.81 * PI * 0.25);
+    let way = (ux[last] * cos - uy[last] * sin) / (0.5 * 2.0 / 3.0 * 9.81 * sin * (time[last] - 1.0).powi(2)) - 1.0;
+    let normal: Vec<f64> = (rolling..=last).map(|k| (along[k] * sin + up[k] * cos) / (weight * cos)).collect();
+    let mean = normal.iter().sum::<f64>() / normal.len() as f64;
+    let most = normal.iter().fold(0.0f64, |most, n| most.max((n - 1.0).abs()));
+    println!("way {:+.2} %, mean normal force {mean:.4}, off by {:.1} % at most", 100.0 * way, 100.0 * most);
+    assert!(way.abs() < 0.01 && (mean - 1.0).abs() < 0.05 && most < 0.1, "{way} {mean} {most}");
+}
+
 /// Cells of 2 cm at the top: the settlement errs by 0.1 % at most, the pressure at the base by 0.15 % of p₀.
 #[test]
 fn terzaghi() {

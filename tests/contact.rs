@@ -289,6 +289,31 @@ fn a_plate_that_cannot_part_pulls_the_soil() {
     assert!((force / (-2.0 * stress) - 1.0).abs() < 1e-3, "{force} {}", -2.0 * stress);
 }
 
+/// Where a tension has a limit, the plate pulls with what the soil is strained by up to that, and with nothing from the step after that in
+/// which it comes to it.
+#[test]
+fn a_plate_parts_where_the_tension_exceeds_its_limit() {
+    let upwards = "phases[0].prescribe.top.uy={rate: 0.1}";
+    let folder = run("tests/data/plate", &["contacts[0].tension={limit: 50}", upwards]);
+    let modulus = 1000.0 * 0.7 / (1.3 * 0.4);
+    let (mut pulled, mut parted) = (0, 0);
+    for row in history(folder.path()).iter().filter(|row| row[2] > 0.0) {
+        let stretch = 1.0 + row[2];
+        let stress = modulus * stretch.ln() / stretch;
+        println!("stretched by {:.3}: {:.3} kN, bonded {:.3}", stretch, row[4], -2.0 * stress);
+        if stress < 50.0 {
+            // Of the force at the limit.
+            assert!((row[4] + 2.0 * stress).abs() < 1e-3 * 100.0, "{row:?} {stress}");
+            pulled += 1;
+        } else {
+            let left = if parted == 0 { -100.0 } else { 0.0 };
+            assert!((row[4] - left).abs() < 1e-6, "{row:?} {stress}");
+            parted += 1;
+        }
+    }
+    assert!(pulled >= 3 && parted >= 3, "{pulled} {parted}");
+}
+
 /// One that can part leaves the soil, with adhesion too: no force and no stress stay behind.
 #[test]
 fn a_plate_lifts_off_and_nothing_sticks() {

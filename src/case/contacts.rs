@@ -18,7 +18,7 @@ impl Checker {
                 friction: contact.friction,
                 adhesion: contact.adhesion,
                 factor: contact.adhesion_factor,
-                separates: contact.tension == raw::Tension::CutOff,
+                tension: contact.tension.limit(),
             };
             if contact.against.is_some() && contact.adhesion_factor.is_some() {
                 let remedy = "give the contact an `adhesion` (kPa)";

@@ -193,18 +193,52 @@ pub struct Contact {
     /// just that.
     #[schemars(range(min = 0, max = 1))]
     pub adhesion_factor: Option<f64>,
-    /// Whether the two part where they are pulled: cut_off (they do) or no_separation (they do not).
+    /// Whether the two part where they are pulled: cut_off (they do), no_separation (they do not), or {limit: t}, where the tension
+    /// would exceed t.
     #[serde(default)]
     pub tension: Tension,
 }
 
 /// What pulling does to a contact.
-#[derive(Clone, Copy, Debug, Default, Deserialize, JsonSchema, PartialEq, Eq)]
-#[serde(rename_all = "snake_case")]
+#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
+#[serde(untagged)]
 pub enum Tension {
-    #[default]
+    Named(TensionName),
+    Limited(TensionLimit),
+}
+
+impl Default for Tension {
+    fn default() -> Self {
+        Self::Named(TensionName::CutOff)
+    }
+}
+
+/// What needs no number.
+#[derive(Clone, Copy, Debug, Deserialize, JsonSchema, PartialEq, Eq)]
+#[serde(rename_all = "snake_case")]
+pub enum TensionName {
     CutOff,
     NoSeparation,
+}
+
+/// A tensile strength.
+#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct TensionLimit {
+    /// The largest tension (kPa).
+    #[schemars(range(min = 0))]
+    pub limit: f64,
+}
+
+impl Tension {
+    /// The largest tension (kPa).
+    pub fn limit(self) -> f64 {
+        match self {
+            Self::Named(TensionName::CutOff) => 0.0,
+            Self::Named(TensionName::NoSeparation) => f64::INFINITY,
+            Self::Limited(TensionLimit { limit }) => limit,
+        }
+    }
 }
 
 /// A name or a list of names.

@@ -9,7 +9,7 @@
 use super::along::{Mark, lines};
 use super::law::{Law, Penalty};
 use super::multipliers::Multipliers;
-use super::pair::{FADING, Ground, NORMAL, Pair, Pushed, Row, TANGENTIAL};
+use super::pair::{FADING, Ground, NORMAL, Pair, Pushed, Row, Spot, TANGENTIAL};
 use super::place::{Placed, Segments};
 use super::rigid::{Entry, add};
 use super::surface::{Segment, Surface};
@@ -70,21 +70,26 @@ impl SoilSide {
 /// Places of Gauss's rule of two points in [0, 1].
 const GAUSS: [f64; 2] = [0.211_324_865_405_187_1, 0.788_675_134_594_812_9];
 
+/// Places in [0, 1] at which the gap is measured where it may vary under a hat.
+const PARTS: [f64; 4] = [0.125, 0.375, 0.625, 0.875];
+
 /// A point of the boundary with the hats.
 struct Point {
     x: [f64; 2],
     /// Unit normal out of the structure.
     normal: [f64; 2],
-    /// The area (m²) that it stands for.
+    /// The area (m²) that it stands for, and its arc length (m) from the middle of the segment.
     area: f64,
+    along: f64,
     /// Shape functions of the facet.
     value: [f64; 3],
 }
 
-/// What is across a point: a facet of the other boundary, its shape functions there and the gap (m).
+/// What is across a point: a facet of the other boundary, its shape functions and unit normal there, and the gap (m).
 struct Across {
     facet: u32,
     value: [f64; 3],
+    normal: [f64; 2],
     gap: f64,
 }
 
@@ -109,8 +114,14 @@ impl<K: Kinematics<2>> Bodies<K> {
         cuts
     }
 
-    /// The points of a segment between its cuts.
-    fn points(&self, segment: &Segment, cuts: &[f64], position: &dyn Fn(u32) -> [f64; 2]) -> Vec<Point> {
+    /// The points of a segment at `places` in [0, 1], of equal weight, between its cuts.
+    fn points(
+        &self,
+        segment: &Segment,
+        cuts: &[f64],
+        places: &[f64],
+        position: &dyn Fn(u32) -> [f64; 2],
+    ) -> Vec<Point> {
         let facet = &self.surface.facets[segment.facet as usize];
         let point = |share: f64, part: f64| {
             let xi = segment.from + share * (segment.to - segment.from);
@@ -120,11 +131,16 @@ impl<K: Kinematics<2>> Bodies<K> {
                 x,
                 normal: [tangent[1] / length, -tangent[0] / length],
                 area: part * (segment.to - segment.from) * length * K::measure(&x),
+                along: (share - 0.5) * (segment.to - segment.from) * length,
                 value,
             }
         };
-        let between = cuts.windows(2).flat_map(|cut| GAUSS.map(|g| (cut[0] + g * (cut[1] - cut[0]), cut[1] - cut[0])));
-        between.map(|(share, part)| point(share, 0.5 * part)).collect()
+        let part = 1.0 / places.len() as f64;
+        let between = |cut: &[f64]| -> Vec<_> {
+            let (from, whole) = (cut[0], cut[1] - cut[0]);
+            places.iter().map(|place| (from + place * whole, whole)).collect()
+        };
+        cuts.windows(2).flat_map(between).map(|(share, whole)| point(share, part * whole)).collect()
     }
 
     /// What a point sees along its normal.
@@ -156,15 +172,17 @@ impl<K: Kinematics<2>> Bodies<K> {
         let segment = &self.other.segments[s];
         let facet = &self.other.facets[segment.facet as usize];
         let mut xi = segment.from + share * (segment.to - segment.from);
-        let (mut value, mut away) = ([0.0; 3], [0.0; 2]);
+        let (mut value, mut away, mut way) = ([0.0; 3], [0.0; 2], [0.0; 2]);
         for _ in 0..ITERATIONS {
             let (y, tangent, values) = at(&self.other, facet, xi, position);
-            (away, value) = ([y[0] - x[0], y[1] - x[1]], values);
+            (away, value, way) = ([y[0] - x[0], y[1] - x[1]], values, tangent);
             // Along the normal there is nothing across it.
             let off = away[1] * n[0] - away[0] * n[1];
             xi = (xi - off / (tangent[1] * n[0] - tangent[0] * n[1])).clamp(-1.0, 1.0);
         }
-        Some(Across { facet: segment.facet, value, gap: away[0] * n[0] + away[1] * n[1] })
+        let length = way[0].hypot(way[1]);
+        let normal = [way[1] / length, -way[0] / length];
+        Some(Across { facet: segment.facet, value, normal, gap: away[0] * n[0] + away[1] * n[1] })
     }
 }
 
@@ -185,6 +203,17 @@ fn at(surface: &Surface, facet: &[u32], xi: f64, position: &dyn Fn(u32) -> [f64;
     (x, tangent, values)
 }
 
+/// The length (m) of the piece of each hat, where that closes.
+fn loops(surface: &Surface, segments: &Segments) -> Vec<Option<f64>> {
+    let mut loops = vec![None; surface.hats];
+    for ((hats, is_loop), piece) in surface.runs.iter().zip(&surface.pieces) {
+        if let (true, [first, .., last]) = (*is_loop, &segments.0[piece.clone()]) {
+            loops[hats.clone()].fill(Some(last.along + first.along));
+        }
+    }
+    loops
+}
+
 /// What is summed up under a hat: on both sides.
 #[derive(Clone, Default)]
 struct Sum {
@@ -193,7 +222,25 @@ struct Sum {
     /// Excess pressure of the pore water, and height, times the area.
     water: f64,
     height: f64,
+    /// Of the parts: area, arc length along the boundary, and gap (m).
+    spots: Vec<Spot>,
     sides: [Vec<Entry<2, 2>>; 2],
+}
+
+impl Sum {
+    /// The spots about the mean of the hat, on a loop of so many metres.
+    fn spots(&self, around: Option<f64>) -> Vec<Spot> {
+        let Some(first) = self.spots.first() else { return Vec::new() };
+        let near = |along: f64| match around {
+            Some(whole) => along - whole * ((along - first.along) / whole).round(),
+            None => along,
+        };
+        let area: f64 = self.spots.iter().map(|spot| spot.share).sum();
+        let mean = |of: &dyn Fn(&Spot) -> f64| self.spots.iter().map(|s| s.share * of(s)).sum::<f64>() / area;
+        let (along, open) = (mean(&|spot| near(spot.along)), mean(&|spot| spot.open));
+        let about = |s: &Spot| Spot { share: s.share / area, along: near(s.along) - along, open: s.open - open };
+        self.spots.iter().map(about).collect()
+    }
 }
 
 impl<K: Kinematics<2>> Pair<2> for Bodies<K> {
@@ -227,13 +274,15 @@ impl<K: Kinematics<2>> Pair<2> for Bodies<K> {
         let longest = other.0.iter().map(|s| (s.to[0] - s.from[0]).hypot(s.to[1] - s.from[1])).fold(0.0, f64::max);
         let bins = Bins::new(other.0.iter().map(|s| (s.from, s.to)), REACH * self.surface.spacing + longest);
         let mut sums = vec![Sum::default(); self.surface.hats];
+        let loops = loops(&self.surface, &segments);
         // Nothing else depends on it.
         let wet = self.soil.as_ref().filter(|soil| soil.undrained && self.law.friction > 0.0);
         let wet = wet.map(|soil| (soil, soil.points(ground.elements)));
         for (segment, placed) in self.surface.segments.iter().zip(&segments.0) {
             let own = &self.surface.facets[segment.facet as usize];
             let cuts = self.cuts(placed, &bins, position);
-            for point in self.points(segment, &cuts, position) {
+            let mut nearest = f64::INFINITY;
+            for point in self.points(segment, &cuts, &GAUSS, position) {
                 let Some(across) = self.across(&point, &other, &bins, position) else { continue };
                 let facets = [(own, point.value, -1.0), (&self.other.facets[across.facet as usize], across.value, 1.0)];
                 let water = wet.as_ref().map_or(0.0, |(soil, points)| {
@@ -249,6 +298,10 @@ impl<K: Kinematics<2>> Pair<2> for Bodies<K> {
                 });
                 let n = point.normal;
                 let t = [-n[1], n[0]];
+                // Along the normal of the structure the distance to the other body changes by what goes along the normal of that.
+                let slant = across.normal[0] * n[0] + across.normal[1] * n[1];
+                let normal = across.normal.map(|m| m / slant);
+                nearest = nearest.min(across.gap);
                 for (hat, share) in segment.hats {
                     let weight = share * point.area;
                     let sum = &mut sums[hat as usize];
@@ -259,8 +312,18 @@ impl<K: Kinematics<2>> Pair<2> for Bodies<K> {
                     for (side, (facet, values, sign)) in sum.sides.iter_mut().zip(&facets) {
                         for (&node, value) in facet.iter().zip(values) {
                             let by = sign * weight * value;
-                            add(side, node, &[n, t].map(|along| along.map(|a| by * a)));
+                            add(side, node, &[normal, t].map(|along| along.map(|a| by * a)));
                         }
+                    }
+                }
+            }
+            if nearest < self.surface.spacing {
+                for point in self.points(segment, &cuts, &PARTS, position) {
+                    let Some(across) = self.across(&point, &other, &bins, position) else { continue };
+                    for (hat, share) in segment.hats {
+                        let spot =
+                            Spot { share: share * point.area, along: placed.along + point.along, open: across.gap };
+                        sums[hat as usize].spots.push(spot);
                     }
                 }
             }
@@ -281,7 +344,8 @@ impl<K: Kinematics<2>> Pair<2> for Bodies<K> {
                 by_normal: by(0),
                 by_tangent: by(1),
                 curvature: 0.0,
-                by_arc: by(1),
+                by_arc: entries().map(|_| [0.0; 2]).collect(),
+                spots: sum.spots(loops.get(hat).copied().flatten()),
                 penalty: Penalty {
                     pressure: held.pressure[hat],
                     shear: held.shear[hat],
@@ -289,6 +353,7 @@ impl<K: Kinematics<2>> Pair<2> for Bodies<K> {
                     tangential: TANGENTIAL * stiffness,
                     rounding: 0.0,
                     fading: FADING * self.surface.spacing,
+                    bonded: held.bonded(hat, self.law.tension, sum.gap / area < FADING * self.surface.spacing),
                     strength: f64::INFINITY,
                     water: sum.water / area,
                 },

@@ -9,6 +9,11 @@
 //! neither bears nor is open; without the other there may be no equilibrium: soil that touches is dragged away, and
 //! soil that is not dragged touches.
 
+use super::pair::{Motion, Spot};
+
+/// What is not much farther apart than the nearest place (-), in the gap over which adhesion fades.
+const NEAREST: f64 = 0.02;
+
 /// What two surfaces exert on each other.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Law {
@@ -18,8 +23,8 @@ pub struct Law {
     pub adhesion: f64,
     /// α (-): the shear is at most α times the shear strength of the soil, and without friction and adhesion just that.
     pub factor: Option<f64>,
-    /// Whether the surfaces part where they are pulled.
-    pub separates: bool,
+    /// The tension (kPa) at which the surfaces part, without end where they cannot.
+    pub tension: f64,
 }
 
 /// Multipliers and penalties of a hat.
@@ -35,6 +40,8 @@ pub struct Penalty {
     pub rounding: f64,
     /// Gap `w` (m) over which adhesion fades.
     pub fading: f64,
+    /// Whether the surfaces bear the tension that they can.
+    pub bonded: bool,
     /// Shear strength of the soil (kPa) as the step begins.
     pub strength: f64,
     /// What of the pressure (kPa) the water in the pores bears beyond the water outside: friction has no share in it. Negative where
@@ -51,6 +58,26 @@ pub struct Answer {
     pub pressure_by_gap: f64,
     pub shear_by_gap: f64,
     pub shear_by_slip: f64,
+    /// The first moment of the pressure under the hat (kN/m), and the slopes of pressure (kPa) and moment (kN/m) by the angle by which the
+    /// boundary turns.
+    pub moment: f64,
+    pub moment_by_gap: f64,
+    pub pressure_by_turn: f64,
+    pub moment_by_turn: f64,
+    /// The slope of the shear (kPa) by that angle.
+    pub shear_by_turn: f64,
+}
+
+/// Where under a hat (m, along it) the two are nearest, and how that goes with the angle (m): the mean over what is not much farther apart.
+fn nearest(fading: f64, spots: &[Spot], open: &dyn Fn(&Spot) -> f64) -> (f64, f64) {
+    let (width, least) = (NEAREST * fading, spots.iter().map(open).fold(f64::INFINITY, f64::min));
+    let (mut sum, mut first, mut second) = (0.0, 0.0, 0.0);
+    for spot in spots {
+        let weight = (-(open(spot) - least) / width).exp();
+        (sum, first, second) = (sum + weight, first + weight * spot.along, second + weight * spot.along.powi(2));
+    }
+    let place = first / sum;
+    (place, (place * place - second / sum) / width)
 }
 
 impl Penalty {
@@ -64,14 +91,18 @@ impl Penalty {
 impl Law {
     /// Whether the tangent is symmetric in every state.
     pub fn symmetric(&self) -> bool {
-        self.friction == 0.0 && !(self.separates && self.adheres())
+        self.friction == 0.0 && !(self.separates() && self.adheres())
     }
 
     /// The law with friction, adhesion and the part of the soil's strength divided by `factor` (-).
     pub fn reduced(&self, factor: f64) -> Self {
-        let Self { friction, adhesion, separates, .. } = *self;
+        let Self { friction, adhesion, .. } = *self;
         let part = self.factor.map(|part| part / factor);
-        Self { friction: friction / factor, adhesion: adhesion / factor, factor: part, separates }
+        Self { friction: friction / factor, adhesion: adhesion / factor, factor: part, ..*self }
+    }
+
+    fn separates(&self) -> bool {
+        self.tension.is_finite()
     }
 
     /// Whether the surfaces bear shear without pressure in any water.
@@ -81,9 +112,43 @@ impl Law {
 
     /// The answer to a mean gap and slip (m).
     pub fn respond(&self, at: &Penalty, gap: f64, slip: f64) -> Answer {
-        let (pressure, by_gap) = self.pressure(at, gap);
-        let mut answer = Answer { pressure, pressure_by_gap: by_gap, ..Answer::default() };
-        let (effective, effective_by_gap) = self.effective(at, gap, (pressure, by_gap));
+        let (pressure, pressure_by_gap) = self.pressure(at, gap);
+        self.shear(at, (gap, 0.0), slip, Answer { pressure, pressure_by_gap, ..Answer::default() })
+    }
+
+    /// The answer half a step after a motion, `slope` (-) being what a motion adds to itself until then. The gap varies under the hat:
+    /// a part of it may bear while the rest is apart.
+    pub fn respond_over(&self, at: &Penalty, spots: &[Spot], motion: &Motion, slope: f64) -> Answer {
+        let &Motion { gap, slip, turn, ahead, ahead_turn } = motion;
+        if spots.is_empty() {
+            return self.respond(at, gap + ahead, slip);
+        }
+        let open = |spot: &Spot| spot.open + turn * spot.along;
+        let (place, place_by_turn) = nearest(at.fading, spots, &open);
+        let mut answer = Answer::default();
+        let gap = gap + ahead + ahead_turn * place;
+        for spot in spots {
+            let (pressure, by_gap) = self.pressure(at, gap + open(spot));
+            let (share, lever) = (spot.share, spot.share * spot.along);
+            let by_turn = by_gap * (spot.along + ahead_turn * place_by_turn + slope * place);
+            answer.pressure += share * pressure;
+            answer.moment += lever * pressure;
+            answer.pressure_by_gap += share * by_gap;
+            answer.pressure_by_turn += share * by_turn;
+            answer.moment_by_gap += lever * by_gap;
+            answer.moment_by_turn += lever * by_turn;
+        }
+        let least = spots
+            .iter()
+            .map(|spot| (open(spot), spot.along))
+            .fold((f64::INFINITY, 0.0), |a, b| if b.0 < a.0 { b } else { a });
+        let by_turn = least.1 + ahead_turn * place_by_turn + slope * place;
+        self.shear(at, (gap + least.0, by_turn), slip, answer)
+    }
+
+    /// The answer with the shear that its pressure allows, given the least gap (m) and the slope of that by the turn (m).
+    fn shear(&self, at: &Penalty, (gap, gap_by_turn): (f64, f64), slip: f64, mut answer: Answer) -> Answer {
+        let (effective, by_pressure, by_gap) = self.effective(at, gap, answer.pressure);
         let (full, slope) = self.limit(effective, at.strength);
         let (share, share_by_gap) = if self.adheres() { self.share(at, gap) } else { (1.0, 0.0) };
         // The full one may be infinite: soil without limit of strength.
@@ -97,30 +162,35 @@ impl Law {
             answer.shear_by_slip = -at.tangential;
         } else {
             answer.shear = limit.copysign(shear);
-            answer.shear_by_gap = (slope * share * effective_by_gap + full * share_by_gap) * shear.signum();
+            let [by_pressure, by_gap] = [slope * share * by_pressure, slope * share * by_gap + full * share_by_gap]
+                .map(|by| by * shear.signum());
+            answer.shear_by_gap = by_pressure * answer.pressure_by_gap + by_gap;
+            answer.shear_by_turn = by_pressure * answer.pressure_by_turn + by_gap * gap_by_turn;
         }
         answer
     }
 
-    /// What of the pressure (kPa) the grains bear, and its slope by the gap (kPa/m), of the pressure and its own. What water that stands higher
+    /// What of the pressure (kPa) the grains bear, and its slopes by the pressure (-) and by the gap (kPa/m). What water that stands higher
     /// outside presses them together by is lost as they part; where the surfaces adhere all of the shear is.
-    fn effective(&self, at: &Penalty, gap: f64, (pressure, by_gap): (f64, f64)) -> (f64, f64) {
+    fn effective(&self, at: &Penalty, gap: f64, pressure: f64) -> (f64, f64, f64) {
         let borne = pressure - at.water;
-        let (borne, by_gap) = if borne > 0.0 { (borne, by_gap) } else { (0.0, 0.0) };
+        let (borne, by_pressure) = if borne > 0.0 { (borne, 1.0) } else { (0.0, 0.0) };
         if self.adheres() {
-            return (borne, by_gap);
+            return (borne, by_pressure, 0.0);
         }
         let drawn = (-at.water).max(0.0);
         let (share, share_by_gap) = self.share(at, gap);
-        (borne - (1.0 - share) * drawn, by_gap + share_by_gap * drawn)
+        (borne - (1.0 - share) * drawn, by_pressure, share_by_gap * drawn)
     }
 
     /// The pressure (kPa) and its slope by the gap (kPa/m).
     fn pressure(&self, at: &Penalty, gap: f64) -> (f64, f64) {
         let pressure = at.pressure - at.normal * gap;
         let around = at.rounding;
-        if !self.separates || pressure >= around {
+        if !self.separates() || pressure >= around {
             (pressure, -at.normal)
+        } else if at.bonded && self.tension > 0.0 {
+            if pressure >= -self.tension { (pressure, -at.normal) } else { (-self.tension, 0.0) }
         } else if pressure <= -around {
             (0.0, 0.0)
         } else {
@@ -131,7 +201,7 @@ impl Law {
 
     /// The part that an open gap leaves (-) of what does not come of the pressure, and its slope by the gap (1/m).
     fn share(&self, at: &Penalty, gap: f64) -> (f64, f64) {
-        if !self.separates || gap <= 0.0 {
+        if !self.separates() || gap <= 0.0 {
             (1.0, 0.0)
         } else if gap >= at.fading {
             (0.0, 0.0)
@@ -162,19 +232,21 @@ mod tests {
         tangential: 50.0,
         rounding: 0.2,
         fading: 0.045,
+        bonded: true,
         strength: 2.0,
         water: 0.0,
     };
 
     fn laws() -> Vec<Law> {
-        let law = |friction, adhesion, factor, separates| Law { friction, adhesion, factor, separates };
+        let law = |friction, adhesion, factor, tension| Law { friction, adhesion, factor, tension };
         vec![
-            law(0.0, 0.0, None, true),
-            law(0.4, 0.0, None, true),
-            law(0.4, 0.3, Some(0.5), true),
-            law(0.0, 0.0, Some(0.5), true),
-            law(0.2, 0.1, None, false),
-            law(0.4, 0.0, Some(0.6), true),
+            law(0.0, 0.0, None, 0.0),
+            law(0.4, 0.0, None, 0.0),
+            law(0.4, 0.3, Some(0.5), 0.0),
+            law(0.0, 0.0, Some(0.5), 0.0),
+            law(0.2, 0.1, None, f64::INFINITY),
+            law(0.4, 0.0, Some(0.6), 0.0),
+            law(0.0, 0.0, None, 0.7),
         ]
     }
 
@@ -227,7 +299,7 @@ mod tests {
 
     #[test]
     fn shear_has_its_limits() {
-        let [smooth, rough, capped, clay, bonded, _] = laws().try_into().unwrap();
+        let [smooth, rough, capped, clay, bonded, _, glued] = laws().try_into().unwrap();
         assert_eq!(smooth.respond(&AT, 0.0, 1.0).shear, 0.0);
         assert!((rough.respond(&AT, 0.0, 1.0).shear + 0.4 * 3.0).abs() < 1e-15);
         assert!((rough.respond(&Penalty { water: 1.0, ..AT }, 0.0, 1.0).shear + 0.4 * 2.0).abs() < 1e-15);
@@ -243,6 +315,10 @@ mod tests {
         assert_eq!(clay.respond(&AT, 0.05, 1.0), Answer::default());
         assert_eq!(clay.respond(&Penalty { strength: f64::INFINITY, ..AT }, 0.05, 1.0), Answer::default());
         assert_eq!(bonded.respond(&AT, 0.05, 0.0).pressure, -2.0);
+        // Tension up to its limit, until they have parted.
+        assert_eq!(glued.respond(&Penalty { pressure: -0.5, ..AT }, 0.0, 0.0).pressure, -0.5);
+        assert_eq!(glued.respond(&Penalty { pressure: -3.0, ..AT }, 0.0, 0.0).pressure, -0.7);
+        assert_eq!(glued.respond(&Penalty { bonded: false, ..AT }, 0.05, 0.0).pressure, 0.0);
         // Parted, but not far: adhesion has faded by a fifth.
         let parted = clay.respond(&AT, 0.036, 1.0);
         assert!(parted.pressure == 0.0 && (parted.shear + 0.2).abs() < 1e-12, "{parted:?}");

@@ -23,7 +23,7 @@ pub use along::Mark;
 pub use bodies::{Bodies, SoilSide};
 pub use law::{Answer, Law, Penalty};
 pub use multipliers::Multipliers;
-pub use pair::{Boundary, Ground, Motion, Pair, Pushed, Row};
+pub use pair::{Boundary, Ground, Motion, Pair, Pushed, Row, Spot};
 pub use rigid::Rigid;
 pub use skin::Skin;
 pub use surface::Surface;

@@ -76,6 +76,11 @@ impl Multipliers {
         self.pressure[k] != 0.0 || self.shear[k] != 0.0
     }
 
+    /// Whether hat `k` bears tension up to `limit` (kPa): it did not come to that in the last step or, where it did not touch, lies there.
+    pub fn bonded(&self, k: usize, limit: f64, lies: bool) -> bool {
+        if self.touched(k) { self.pressure[k] > -limit * (1.0 - 1e-6) } else { lies }
+    }
+
     /// The nodes that hat `k` has room for.
     pub fn room(&self, k: usize) -> &[u32] {
         &self.room[self.first[k] as usize..self.first[k + 1] as usize]

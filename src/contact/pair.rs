@@ -83,10 +83,27 @@ pub struct Row<const D: usize> {
     /// seen from the structure without its rotation.
     pub curvature: f64,
     pub by_arc: Vec<[f64; D]>,
+    /// How the gap varies under the hat as the step begins; empty where only its mean is known.
+    pub spots: Vec<Spot>,
     pub penalty: Penalty,
 }
 
+/// A part of the area under a hat.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Spot {
+    /// Share of the area (-).
+    pub share: f64,
+    /// Arc length (m) from the mean place of the hat, and how much more than the mean the gap (m) is.
+    pub along: f64,
+    pub open: f64,
+}
+
 impl<const D: usize> Row<D> {
+    /// Whether with inertia the gap counts half a step ahead: that to material points on a restored grid, whose velocities are mapped, does not.
+    pub fn looks_ahead(&self) -> bool {
+        !self.spots.is_empty()
+    }
+
     /// Whether the two lie on each other as the step begins, pressed or not.
     pub fn lies(&self) -> bool {
         self.gap < self.penalty.fading
@@ -104,7 +121,19 @@ impl<const D: usize> Row<D> {
             }
         }
         let turn = self.curvature * arc;
-        Motion { gap: gap + 0.5 * turn * arc, slip, turn }
+        Motion { gap: gap + 0.5 * turn * arc, slip, turn, ..Motion::default() }
+    }
+
+    /// The motion with what the nodes move by `ahead` (m) after it.
+    pub fn ahead(&self, mut motion: Motion, ahead: &[[f64; D]]) -> Motion {
+        for (k, &n) in self.nodes.iter().enumerate() {
+            let normal = self.normal(k, motion.turn);
+            for (d, u) in ahead[n as usize].iter().enumerate() {
+                motion.ahead += normal[d] * u;
+                motion.ahead_turn += self.curvature * self.by_arc[k][d] * u;
+            }
+        }
+        motion
     }
 
     /// Begins where a `motion` led to.
@@ -113,6 +142,7 @@ impl<const D: usize> Row<D> {
         for k in 0..self.nodes.len() {
             self.by_normal[k] = self.normal(k, motion.turn);
         }
+        self.spots.iter_mut().for_each(|spot| spot.open += motion.turn * spot.along);
     }
 
     /// The derivative (-) of the gap by the displacement of node `k` of the row, where the normal has turned by `turn` (rad).
@@ -122,13 +152,16 @@ impl<const D: usize> Row<D> {
 }
 
 /// What the soil did at a hat in a step.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Motion {
     /// Mean gap and slip (m) at its end.
     pub gap: f64,
     pub slip: f64,
     /// The angle (rad) by which the normal turned.
     pub turn: f64,
+    /// How far the gap (m) opens and the normal turns (rad) in half a step more.
+    pub ahead: f64,
+    pub ahead_turn: f64,
 }
 
 /// What pushing points out of a structure did.
@@ -236,6 +269,7 @@ impl<K: Kinematics<2>> Boundary<K> {
             tangential: TANGENTIAL * stiffness,
             rounding: if yields { ROUNDING * held.mean_pressure() } else { 0.0 },
             fading: FADING * self.surface.spacing,
+            bonded: true,
             strength: 0.0,
             water: 0.0,
         }
@@ -440,7 +474,9 @@ impl<K: Kinematics<2>> Pair<2> for Boundary<K> {
                 by_tangent: entries.iter().map(|e| e.2.map(|t| t / area)).collect(),
                 curvature,
                 by_arc: entries.iter().map(|e| e.2.map(|t| t / area)).collect(),
+                spots: Vec::new(),
                 penalty: Penalty {
+                    bonded: held.bonded(hat, self.law.tension, gap < FADING * self.surface.spacing),
                     strength: strength / area,
                     water: water / area,
                     ..self.penalty(ground.points, point as usize, hat, held)

@@ -32,6 +32,17 @@ impl<const D: usize> Rigid<D> {
         Self { pair, bodies: bodies.to_vec(), body }
     }
 
+    /// How far (m) in front of the reference point of the structure its boundary is at a hat, if that turns with it.
+    fn distance(&self, row: &Row<D>, position: &dyn Fn(u32) -> [f64; D]) -> Option<f64> {
+        let mut distance = 0.0;
+        for (&n, normal) in row.nodes.iter().zip(&row.by_normal).take(row.own) {
+            let body = self.bodies.get(self.body[n as usize] as usize)?;
+            let (x, c) = (position(n), position(body.reference));
+            distance -= (0..D).map(|d| normal[d] * (x[d] - c[d])).sum::<f64>();
+        }
+        (distance > 0.0).then_some(distance)
+    }
+
     /// The row by the unknowns of the bodies: first the nodes of the structure that move it, then those that turn it,
     /// then those of the other side.
     fn condense(&self, row: Row<D>, position: &dyn Fn(u32) -> [f64; D]) -> Row<D> {
@@ -52,10 +63,24 @@ impl<const D: usize> Rigid<D> {
                 add(&mut sides[side], carrier, &handed.map(|of| of[i]));
             }
         }
+        // Where the other side is a body: how the gap varies under the hat is by how the two turn to each other, and a place at the
+        // distance ρ in front of the reference point gets ½ ρ Δθ² farther away as the body turns.
+        let mut curvature = row.curvature;
+        if let (Some(distance), true) = (self.distance(&row, position), self.pair.against().is_some()) {
+            curvature = 1.0 / distance;
+            for (side, sign) in sides.iter_mut().zip([1.0, 1.0, -1.0]) {
+                for (n, by) in side {
+                    if let Some(body) = self.bodies.iter().find(|body| body.turning == Some(*n)) {
+                        by[2] = std::array::from_fn(|d| if d == 0 { sign * distance / body.arm } else { 0.0 });
+                    }
+                }
+            }
+        }
         let own = sides[0].len();
         let entries = || sides.iter().flatten();
         Row {
             own,
+            curvature,
             nodes: entries().map(|e| e.0).collect(),
             by_normal: entries().map(|e| e.1[0]).collect(),
             by_tangent: entries().map(|e| e.1[1]).collect(),
@@ -182,6 +207,7 @@ mod tests {
             by_tangent: vec![[0.3, -0.2], [0.1, -0.4], [-0.4, 0.6]],
             curvature: 0.0,
             by_arc: vec![[0.3, -0.2], [0.1, -0.4], [-0.4, 0.6]],
+            spots: Vec::new(),
             penalty: Penalty {
                 pressure: 0.0,
                 shear: 0.0,
@@ -189,6 +215,7 @@ mod tests {
                 tangential: 1.0,
                 rounding: 0.0,
                 fading: 0.0,
+                bonded: true,
                 strength: 0.0,
                 water: 0.0,
             },
@@ -200,7 +227,7 @@ mod tests {
     fn a_body_opens_the_gap_as_its_nodes_do() {
         let mut mesh = Mesh { nodes: vec![[1.0, 0.5], [2.0, -0.5], [1.0, -2.0], [3.0, 1.5]], ..Mesh::default() };
         let body = Body::append(&mut mesh, 0, vec![0, 1, 3], &Points::default(), true);
-        let law = Law { friction: 0.0, adhesion: 0.0, factor: None, separates: true };
+        let law = Law { friction: 0.0, adhesion: 0.0, factor: None, tension: 0.0 };
         let pair = Rigid::new(Box::new(One(law)), std::slice::from_ref(&body), mesh.nodes.len());
         let condensed = pair.condense(row(), &|n| mesh.nodes[n as usize]);
         assert_eq!((condensed.own, &condensed.nodes[..]), (1, &[4, 5, 2][..]));
@@ -248,7 +275,7 @@ mod tests {
 
         let mut mesh = Mesh { nodes: vec![[radius, 0.0], [radius, 0.0], [-radius, 0.0]], ..Mesh::default() };
         let body = Body::append(&mut mesh, 0, vec![0, 2], &Points::default(), true);
-        let law = Law { friction: 0.0, adhesion: 0.0, factor: None, separates: true };
+        let law = Law { friction: 0.0, adhesion: 0.0, factor: None, tension: 0.0 };
         let pair = Rigid::new(Box::new(One(law)), std::slice::from_ref(&body), mesh.nodes.len());
         let condensed = pair.condense(round.clone(), &|n| mesh.nodes[n as usize]);
         let turned = condensed.measure(|n| if Some(n) == body.turning { [0.1 * body.arm, 0.0] } else { [0.0; 2] });

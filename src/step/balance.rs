@@ -38,6 +38,8 @@ pub fn static_force<const D: usize>(problem: &Problem<D>, grid: &mut Grid<D>) ->
         flow_time: 0.0,
         acceleration: &[],
         acceleration_slope: 0.0,
+        ahead: &[],
+        ahead_slope: 0.0,
         phase: problem.phase,
         time: problem.from,
         reduction: problem.scene.phases[problem.phase].reduction_at(problem.from),
@@ -63,11 +65,12 @@ pub fn evaluate<const D: usize>(
     tangent: bool,
 ) -> Result<()> {
     let at = std::mem::take(&mut state.at);
-    let Buffers { own, between, acceleration, held, .. } = buffers;
+    let Buffers { own, between, acceleration, ahead, held, .. } = buffers;
     let u = &at.displacement;
     if let Some(integration) = &problem.integration {
         blend(u, problem.converged, integration.alpha_f, between);
         weighted_acceleration(problem, integration, u, acceleration);
+        go_ahead(integration, (u, problem.converged), (problem.velocity, problem.acceleration), ahead);
     }
     let dynamic = problem.integration.is_some();
     let alpha_f = problem.integration.map_or(0.0, |i| i.alpha_f);
@@ -81,6 +84,8 @@ pub fn evaluate<const D: usize>(
         flow_time: problem.flow_time,
         acceleration,
         acceleration_slope: problem.integration.map_or(0.0, |i| i.slope()),
+        ahead: if dynamic { ahead } else { &[] },
+        ahead_slope: problem.integration.map_or(0.0, |i| 0.5 * i.gamma / i.beta),
         phase: problem.phase,
         time: (1.0 - alpha_f) * problem.to + alpha_f * problem.from,
         reduction: problem.scene.phases[problem.phase].reduction_at(problem.to),
@@ -183,6 +188,23 @@ fn weighted_acceleration<const D: usize>(
         std::array::from_fn(|d| {
             let (v, a) = (problem.velocity[n][d], problem.acceleration[n][d]);
             integration.weighted(a, integration.acceleration(u[n][d] - problem.converged[n][d], v, a))
+        })
+    };
+    out.clear();
+    out.extend((0..u.len()).map(at));
+}
+
+/// How far nodes that are displaced by `u` (m), from `from`, go in half a step more, given velocity and acceleration as the step begins.
+pub fn go_ahead<const D: usize>(
+    integration: &GeneralisedAlpha,
+    (u, from): (&[[f64; D]], &[[f64; D]]),
+    (velocity, acceleration): (&[[f64; D]], &[[f64; D]]),
+    out: &mut Vec<[f64; D]>,
+) {
+    let at = |n: usize| {
+        std::array::from_fn(|d| {
+            let (v, a) = (velocity[n][d], acceleration[n][d]);
+            0.5 * integration.dt * integration.velocity(v, a, integration.acceleration(u[n][d] - from[n][d], v, a))
         })
     };
     out.clear();

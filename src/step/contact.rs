@@ -1,10 +1,12 @@
 //! Contact in a step: which hats face soil where the step begins, what of the surface they cover, and what they come to in its end.
 
+use super::balance::go_ahead;
 use super::grid::Grid;
 use super::leaving;
 use super::newton::Solution;
 use super::scene::Scene;
 use super::state::State;
+use super::transfer::Start;
 use crate::contact::{Ground, Motion, Multipliers, Pair, Pushed, Row};
 use crate::error::Result;
 use crate::kinematics::Kinematics;
@@ -189,7 +191,7 @@ pub fn commit<const D: usize>(
     scene: &Scene<D>,
     grid: &Grid<D>,
     state: &mut State<D>,
-    solution: &Solution<D>,
+    (solution, start): (&Solution<D>, Option<&Start<D>>),
     dt: f64,
 ) -> Vec<Resultant<D>> {
     let none = |pair: &dyn Pair<D>| Resultant {
@@ -204,11 +206,15 @@ pub fn commit<const D: usize>(
     };
     let mut resultants: Vec<_> = scene.pairs.iter().map(|pair| none(pair.as_ref())).collect();
     let reduction = scene.phases[state.phase].reduction_at(state.phase_time + dt);
-    let alpha_f =
-        if state.dynamic(scene) { GeneralisedAlpha::new(scene.numerics.spectral_radius, dt).alpha_f } else { 0.0 };
+    let integration = GeneralisedAlpha::new(scene.numerics.spectral_radius, dt);
+    let alpha_f = start.map_or(0.0, |_| integration.alpha_f);
+    let mut ahead = Vec::new();
+    if let Some(Start { velocity, acceleration }) = start {
+        go_ahead(&integration, (&solution.displacement, &state.displacement), (velocity, acceleration), &mut ahead);
+    }
     let (phase, time) = (state.phase, state.phase_time + (1.0 - alpha_f) * dt);
     let at_rest = Trial::at_rest(&solution.displacement, &state.displacement);
-    let trial = Trial { reduction, phase, time, ..at_rest };
+    let trial = Trial { reduction, phase, time, ahead: &ahead, ..at_rest };
     for multipliers in &mut state.multipliers {
         let Multipliers { pressure, shear, gap, slip, offset, .. } = multipliers;
         [pressure, shear, gap, slip, offset].into_iter().for_each(|values| values.fill(0.0));
@@ -216,7 +222,7 @@ pub fn commit<const D: usize>(
     }
     for touch in &grid.touches {
         let (pair, hat, row) = (touch.pair as usize, touch.row.hat as usize, &touch.row);
-        let (answer, Motion { gap, slip, turn }) =
+        let (answer, Motion { gap, slip, turn, .. }) =
             contact_answer(scene.pairs[pair].law(), scene.levels.as_ref(), touch, &trial);
         let held = &mut state.multipliers[pair];
         (held.pressure[hat], held.shear[hat]) = (answer.pressure, answer.shear);
@@ -230,7 +236,10 @@ pub fn commit<const D: usize>(
         }
         for (k, (t, &node)) in row.by_tangent.iter().zip(&row.nodes).enumerate() {
             let n = row.normal(k, turn);
-            let force: [f64; D] = std::array::from_fn(|d| row.area * (answer.pressure * n[d] + answer.shear * t[d]));
+            let lever = row.curvature * answer.moment;
+            let force: [f64; D] = std::array::from_fn(|d| {
+                row.area * (answer.pressure * n[d] + answer.shear * t[d] + lever * row.by_arc[k][d])
+            });
             let turned = scene.turned_by(node);
             let moment = match turned {
                 // A moment over the arm.

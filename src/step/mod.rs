@@ -251,7 +251,8 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
         let mut momentum = report::Motion::of(state).linear;
         let content = water::content(scene, state);
         let drained = water::through_surfaces(scene, &self.grid, state, &solution, dt);
-        let mut contacts = timed(Activity::Contact, || contact::commit(scene, &self.grid, state, &solution, dt));
+        let mut contacts =
+            timed(Activity::Contact, || contact::commit(scene, &self.grid, state, (&solution, start.as_ref()), dt));
         let strained = transfer::commit(scene, &self.grid, state, &solution, dt);
         let water = water::balance(scene, &self.grid, state, &content, &solution, drained);
         transfer::move_points::<D, K>(scene, &self.grid, state, &solution.displacement);

@@ -99,6 +99,7 @@ pub struct Buffers<const D: usize> {
     pub own: Vec<f64>,
     pub between: Vec<[f64; D]>,
     pub acceleration: Vec<[f64; D]>,
+    pub ahead: Vec<[f64; D]>,
     /// As [`crate::term::Trial::held`].
     pub held: bool,
 }

@@ -148,6 +148,8 @@ impl Answers {
             flow_time: 0.0,
             acceleration: &[],
             acceleration_slope: 0.0,
+            ahead: &[],
+            ahead_slope: 0.0,
             phase,
             time: from,
             reduction: scene.phases[phase].reduction_at(to),

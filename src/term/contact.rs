@@ -36,14 +36,18 @@ pub fn answer<const D: usize>(
         let (now, before) = (&trial.displacement[n as usize], &trial.converged[n as usize]);
         std::array::from_fn(|d| now[d] - before[d])
     };
-    let motion = touch.row.measure(since);
+    let mut motion = touch.row.measure(since);
+    if !trial.ahead.is_empty() && touch.row.looks_ahead() {
+        motion = touch.row.ahead(motion, trial.ahead);
+    }
     let law = law.reduced(trial.reduction);
     let held = trial.held && (touch.laid || touch.row.penalty.pressure > 0.0);
     // What lies there without pressure would have no friction to hold it along the contact.
     let adhesion = if held && touch.laid && law.friction > 0.0 { f64::INFINITY } else { law.adhesion };
-    let law = Law { separates: law.separates && !held, adhesion, ..law };
+    let law = Law { tension: if held { f64::INFINITY } else { law.tension }, adhesion, ..law };
     let beyond = levels.zip(touch.row.height).map_or(0.0, |(levels, y)| levels.beyond(trial.phase, trial.time, y));
-    (law.respond(&touch.row.penalty.within(beyond), motion.gap, motion.slip), motion)
+    let penalty = touch.row.penalty.within(beyond);
+    (law.respond_over(&penalty, &touch.row.spots, &motion, trial.ahead_slope), motion)
 }
 
 impl<const D: usize> Term<D> for Contact {
@@ -57,12 +61,15 @@ impl<const D: usize> Term<D> for Contact {
                 return Ok(());
             }
             let row = &touch.row;
-            let (answer, Motion { turn, .. }) = answer(&self.law, self.levels.as_ref(), touch, trial);
+            let (answer, Motion { turn, ahead_turn, .. }) = answer(&self.law, self.levels.as_ref(), touch, trial);
             let (pressure, shear) = (row.area * answer.pressure, row.area * answer.shear);
+            let ahead_slope = if row.looks_ahead() { trial.ahead_slope } else { 0.0 };
+            let moment = row.area * row.curvature * answer.moment;
             for (k, &at) in touch.place.iter().enumerate() {
                 let normal = row.normal(k, turn);
                 for d in 0..D {
-                    local.vector[at as usize * D + d] -= pressure * normal[d] + shear * row.by_tangent[k][d];
+                    local.vector[at as usize * D + d] -=
+                        pressure * normal[d] + shear * row.by_tangent[k][d] + moment * row.by_arc[k][d];
                 }
             }
             if local.matrix.is_empty() {
@@ -70,17 +77,23 @@ impl<const D: usize> Term<D> for Contact {
             }
             let [nn, tn, tt] =
                 [answer.pressure_by_gap, answer.shear_by_gap, answer.shear_by_slip].map(|slope| row.area * slope);
-            let turning = pressure * row.curvature;
+            let bend = |slope: f64| row.area * row.curvature * slope;
+            let [nc, tc, cn] = [answer.pressure_by_turn, answer.shear_by_turn, answer.moment_by_gap].map(bend);
+            let cc = row.curvature * (bend(answer.moment_by_turn) + pressure);
             for (a, &i) in touch.place.iter().enumerate() {
                 let normal = row.normal(a, turn);
                 for (b, &j) in touch.place.iter().enumerate() {
-                    let other = row.normal(b, turn);
+                    // Of the gap half a step later.
+                    let (normal_b, arc) = (row.normal(b, turn), row.by_arc[b]);
+                    let other: [f64; D] =
+                        std::array::from_fn(|d| (1.0 + ahead_slope) * normal_b[d] + ahead_turn * arc[d]);
                     for d in 0..D {
-                        let (n, t, c) = (normal[d], row.by_tangent[a][d], turning * row.by_arc[a][d]);
+                        let (n, t, c) = (normal[d], row.by_tangent[a][d], row.by_arc[a][d]);
                         let entry = (i as usize * D + d) * local.size + j as usize * D;
                         for e in 0..D {
-                            let (m, s) = (other[e], row.by_tangent[b][e]);
-                            local.matrix[entry + e] -= nn * n * m + tn * t * m + tt * t * s + c * row.by_arc[b][e];
+                            let (m, s, o) = (other[e], row.by_tangent[b][e], arc[e]);
+                            local.matrix[entry + e] -=
+                                (nn * n + tn * t + cn * c) * m + tt * t * s + (nc * n + tc * t + cc * c) * o;
                         }
                     }
                 }

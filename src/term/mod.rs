@@ -146,6 +146,10 @@ pub struct Trial<'a, const D: usize> {
     pub acceleration: &'a [[f64; D]],
     /// Its derivative by the displacement at the end of the step (1/s²).
     pub acceleration_slope: f64,
+    /// How far the nodes go in half a step after its end (m), as fast as they are then; empty without inertia.
+    pub ahead: &'a [[f64; D]],
+    /// Its derivative by the displacement at the end of the step (-).
+    pub ahead_slope: f64,
     /// Number of the phase, from 0.
     pub phase: usize,
     /// Time (s) since the phase began, between the ends of the step as `between` is.
@@ -171,6 +175,8 @@ impl<'a, const D: usize> Trial<'a, D> {
             flow_time: 0.0,
             acceleration: &[],
             acceleration_slope: 0.0,
+            ahead: &[],
+            ahead_slope: 0.0,
             phase: 0,
             time: 0.0,
             reduction: 1.0,

@@ -52,6 +52,8 @@ fn condition(scene: &Scene<2>, points: Points<2>) -> f64 {
         acceleration: &[],
         flow_time: 0.0,
         acceleration_slope: 0.0,
+        ahead: &[],
+        ahead_slope: 0.0,
         phase: 0,
         time: 1.0,
         reduction: 1.0,

@@ -2,14 +2,14 @@
 
 use crate::loads::anywhere;
 use crate::stand::{Field, Random, Stand, mesh, points, resultant, size};
-use mpm::contact::{Law, Penalty, Row};
+use mpm::contact::{Law, Penalty, Row, Spot};
 use mpm::kinematics::PlaneStrain;
 use mpm::mesh::shape::CellKind;
 use mpm::term::{Contact, Head, Levels, Touch};
 use mpm::time_value::TimeValue;
 
 fn law(friction: f64, adhesion: f64, factor: Option<f64>) -> Law {
-    Law { friction, adhesion, factor, separates: true }
+    Law { friction, adhesion, factor, tension: 0.0 }
 }
 
 /// A stand with hats between the first nodes of a cell, as a structure, and the rest of them: each moves as one where
@@ -45,6 +45,8 @@ fn stand_in_water(law: Law, apart: f64, levels: Option<Levels>) -> Stand<PlaneSt
             by_tangent: weights.iter().map(|w| [-normal[1] * w, normal[0] * w]).collect(),
             curvature: 40.0 * (angle - 1.0),
             by_arc: weights.iter().map(|w| [-normal[1] * w, 1.1 * normal[0] * w]).collect(),
+            // A part of the hat may bear while the rest is apart.
+            spots: [-1.0, 1.0].map(|side| Spot { share: 0.5, along: 0.02 * side, open: 1e-3 * side }).to_vec(),
             own: 3,
             nodes,
             penalty: Penalty {
@@ -54,6 +56,7 @@ fn stand_in_water(law: Law, apart: f64, levels: Option<Levels>) -> Stand<PlaneSt
                 tangential: 5e2,
                 rounding: 0.5,
                 fading: 5e-3,
+                bonded: true,
                 strength: 30.0,
                 water: 0.0,
             },
@@ -127,7 +130,7 @@ fn hats_that_are_laid_down_stick() {
     let held = unpressed(rough, true);
     let (trial, converged) = small(&held, 1e-3);
     let answer = |stand: &Stand<PlaneStrain>| stand.evaluate(&trial, &converged, 0, false).0;
-    let bonded = unpressed(Law { separates: false, adhesion: 1e9, ..rough }, false);
+    let bonded = unpressed(Law { tension: f64::INFINITY, adhesion: 1e9, ..rough }, false);
     assert_eq!(answer(&held), answer(&bonded));
     assert_ne!(answer(&held), answer(&unpressed(law(0.0, 0.0, None), true)));
     assert!(held.tangent_error(&trial, &converged) < 1e-6);
@@ -144,7 +147,7 @@ fn hats_that_touched_are_held_together() {
         };
         let (trial, converged) = anywhere(&held());
         let answer = |stand: &Stand<PlaneStrain>| stand.evaluate(&trial, &converged, 0, false).0;
-        let bonded = stand(Law { separates: false, ..law }, 10.0);
+        let bonded = stand(Law { tension: f64::INFINITY, ..law }, 10.0);
         assert_eq!(answer(&held()), answer(&bonded));
         assert_ne!(answer(&held()), answer(&stand(law, 10.0)));
         assert!(held().tangent_error(&trial, &converged) < 1e-6, "{law:?}");

@@ -316,6 +316,8 @@ impl<K: Kinematics<2>> Stand<K> {
             flow_time: self.flow_time,
             acceleration: &acceleration,
             acceleration_slope: SLOPE,
+            ahead: &[],
+            ahead_slope: 0.0,
             phase,
             time: 0.5,
             reduction: 1.0,
