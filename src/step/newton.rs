@@ -129,6 +129,8 @@ struct Newton<'a, const D: usize> {
     /// Relative residuals so far; the last is that of the state at hand.
     history: Vec<f64>,
     method: Method,
+    /// Whether the residual must fall in every iteration: in quasi-static steps with contact.
+    strict: bool,
     /// Whether displacements still to be given have a share in what the direction balances.
     due: bool,
     /// Length of the last trial step, in those of `δ`.
@@ -151,6 +153,7 @@ impl<'a, const D: usize> Newton<'a, D> {
             floor,
             history: Vec::new(),
             method: Method::Cholesky,
+            strict: !problem.scene.pairs.is_empty() && problem.integration.is_none(),
             due: false,
             length: 0.0,
             refused: None,

@@ -19,26 +19,30 @@ impl<const D: usize> Newton<'_, D> {
     }
 
     /// Goes along `δ`: the full step, unless the residual does much work beyond it. Then the length is sought where
-    /// the work vanishes, by regula falsi with halved ends (Matthies & Strang 1979; Dowell & Jarratt 1971).
+    /// the work vanishes, by regula falsi with halved ends (Matthies & Strang 1979; Dowell & Jarratt 1971). Where contacts
+    /// open and close on the way the residual must fall, too.
     pub(super) fn search(&mut self) -> Result<()> {
         let tangent = !self.near_the_end();
         let first = self.work(&self.buffers.wanted);
+        let before = self.size(&self.buffers.now);
         let full = self.attempt(1.0, tangent);
         // What is given unbalances more than the residual at hand, and along ascent there is no such length.
         let any = self.due || first <= 0.0;
-        if full.is_some_and(|work| any || work <= SLACK * first || self.balanced()) {
+        let too_large = |newton: &Self| newton.strict && !newton.due && newton.size(&newton.buffers.trial) > before;
+        let falls = !too_large(self);
+        if full.is_some_and(|work| any || falls && work <= SLACK * first || self.balanced()) {
             self.take(tangent);
             return Ok(());
         }
         // Beyond an inadmissible state the work is taken to be large.
-        let (mut low, mut high) = ((0.0, -first), (1.0, full.unwrap_or(first)));
+        let (mut low, mut high) = ((0.0, -first), (1.0, full.filter(|_| falls).unwrap_or(first)));
         let (mut below, mut admissible) = (None, false);
         for _ in 0..TRIALS {
             let root = if any { 0.5 } else { low.1 / (low.1 - high.1) };
             let length = low.0 + (high.0 - low.0) * root.clamp(INWARDS, 1.0 - INWARDS);
             let found = self.attempt(length, false);
             admissible = found.is_some();
-            let work = found.unwrap_or(first);
+            let work = found.filter(|_| !too_large(self)).unwrap_or(first);
             if admissible && (any || work.abs() <= SLACK * first) {
                 break;
             }
