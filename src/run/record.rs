@@ -333,12 +333,8 @@ pub fn log_lines<const D: usize>(scene: &Scene<D>, state: &State<D>, report: &Re
     if report.restored && scene.numerics.restore != Restore::EveryStep {
         line.push_str(" restored");
     }
-    let balanced = report.balanced;
-    if balanced.parts > 1 {
-        line.push_str(&format!(" balanced in {} parts", balanced.parts));
-    }
-    if balanced.left > 0.0 {
-        line.push_str(&format!(" but for {:.3} of what was out of balance on the restored grid", balanced.left));
+    if report.unbalanced {
+        line.push_str(" no balance on the restored grid");
     }
     let tally = &state.weighing.tally;
     if report.restored && tally.volume > 0.0 {

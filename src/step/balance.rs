@@ -102,18 +102,17 @@ pub fn evaluate<const D: usize>(
     result
 }
 
-/// Takes off what is held of the forces that were out of balance: as the phase began, and on the restored grid.
+/// Takes off what is held of the forces that were out of balance as the phase began.
 fn hold_back<const D: usize>(problem: &Problem<D>, grid: &Grid<D>, force: &mut [f64]) {
     let release = &problem.state.release;
-    for (held, share) in [(&release.force[..], release.share(problem.to)), problem.held] {
-        if share == 0.0 {
-            continue;
-        }
-        let held = grid.node.iter().flat_map(|&n| held[n as usize]);
-        for ((f, held), given) in force.iter_mut().zip(held).zip(problem.given) {
-            if given.is_none() {
-                *f += share * held;
-            }
+    let share = release.share(problem.to);
+    if share == 0.0 {
+        return;
+    }
+    let held = grid.node.iter().flat_map(|&n| release.force[n as usize]);
+    for ((f, held), given) in force.iter_mut().zip(held).zip(problem.given) {
+        if given.is_none() {
+            *f += share * held;
         }
     }
 }

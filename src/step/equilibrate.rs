@@ -7,15 +7,11 @@
 
 use super::grid::{self, Grid};
 use super::newton::{self, Problem};
-use super::release;
 use super::scene::Scene;
 use super::state::{Span, State};
 use super::transfer;
 use crate::error::{Kind, Result};
 use crate::term::{Trial, contact_answer};
-
-/// The least part (-) of what is out of balance that is released at a time.
-const LEAST: f64 = 1.0 / 256.0;
 
 /// Whether restoring the grid leaves what is to be brought to balance under the loads of the `last` step: soil that yields, in a phase
 /// without inertia and without water that flows, that has the materials, the structures and the supports which that step had.
@@ -28,17 +24,8 @@ fn is_due<const D: usize>(scene: &Scene<D>, state: &State<D>, last: Span) -> boo
     scene.terms.iter().any(|term| term.yields()) && !state.dynamic(scene) && !now.flows && same
 }
 
-/// How the balance on a restored grid was found.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Balanced {
-    /// Solutions that led to it; zero where none was due.
-    pub parts: usize,
-    /// The part (-) of what was out of balance that is left.
-    pub left: f64,
-}
-
-/// Brings the soil to balance under the loads of the `last` step on the restored grid: at once or, where that fails, by releasing what is
-/// out of balance in parts. What cannot be released is left to the step that comes.
+/// Brings the soil to balance under the loads of the `last` step on the restored grid. Returns whether it was due and not found: the step
+/// that comes begins out of balance then.
 ///
 /// # Errors
 /// When memory does not suffice.
@@ -47,40 +34,22 @@ pub fn equilibrate<const D: usize>(
     grid: &mut Grid<D>,
     state: &mut State<D>,
     last: Span,
-) -> Result<Balanced> {
-    let mut found = Balanced::default();
+) -> Result<bool> {
     if !is_due(scene, state, last) {
-        return Ok(found);
+        return Ok(false);
     }
     let given = grid::given_increments(scene, state, grid, 0.0);
     let Span { phase, from, to } = last;
-    let (mut held, mut part) = (Vec::new(), 1.0);
-    found.left = 1.0;
-    while found.left > 0.0 {
-        let left = if found.left > part { found.left - part } else { 0.0 };
-        let problem = Problem { given: &given, phase, from, to, held: (&held, left), ..Problem::at_rest(scene, state) };
-        let solution = match newton::solve(&problem, grid) {
-            Ok(solution) => solution,
-            Err(error) if error.kind != Kind::Analysis => return Err(error),
-            Err(_) if part <= LEAST => break,
-            Err(_) => {
-                if held.is_empty() {
-                    held = match release::holding(&problem, grid) {
-                        Ok(held) => held,
-                        Err(error) if error.kind == Kind::Analysis => break,
-                        Err(error) => return Err(error),
-                    };
-                }
-                part *= 0.25;
-                continue;
-            }
-        };
-        go_on(scene, grid, state, (&solution.displacement, last));
-        transfer::commit_stresses(scene, grid, state, &solution, last);
-        state.pressure.clone_from(&solution.pressure);
-        found = Balanced { parts: found.parts + 1, left };
-    }
-    Ok(found)
+    let problem = Problem { given: &given, phase, from, to, ..Problem::at_rest(scene, state) };
+    let solution = match newton::solve(&problem, grid) {
+        Ok(solution) => solution,
+        Err(error) if error.kind != Kind::Analysis => return Err(error),
+        Err(_) => return Ok(true),
+    };
+    go_on(scene, grid, state, (&solution.displacement, last));
+    transfer::commit_stresses(scene, grid, state, &solution, last);
+    state.pressure.clone_from(&solution.pressure);
+    Ok(false)
 }
 
 /// Lets contacts begin with the gaps, the normals and the shear that they have after the displacement (m) of the nodes: with the multipliers

@@ -35,7 +35,6 @@ mod water;
 
 pub use contact::Resultant;
 pub use control::{Controller, Limits};
-pub use equilibrate::Balanced;
 pub use ghost_faces::has_room_for_penalties;
 pub use grid::Grid;
 pub use materials::Change;
@@ -133,7 +132,7 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
     /// When a point left the grid, the step falls below the least one, or memory does not suffice.
     pub fn advance(&mut self, controller: &mut Controller) -> Result<Report<D>> {
         let before = self.state.restorations;
-        let (mut fresh, mut balanced) = timed(Activity::Transfer, || self.initialise(false))?;
+        let (mut fresh, mut unbalanced) = timed(Activity::Transfer, || self.initialise(false))?;
         let mut guess = true;
         let (dt, start, solution) = loop {
             let dt = controller.size(self.state.phase_time);
@@ -145,7 +144,7 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
                         controller.halve(dt, error)?;
                     } else {
                         // A distorted grid is the first thing to blame.
-                        (fresh, balanced) = timed(Activity::Transfer, || self.initialise(true))?;
+                        (fresh, unbalanced) = timed(Activity::Transfer, || self.initialise(true))?;
                     }
                 }
                 // No step is small enough for a machine without memory.
@@ -154,14 +153,14 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
         };
         let mut report = timed(Activity::Transfer, || self.convect(dt, start, solution))?;
         report.restored = self.state.restorations > before;
-        report.balanced = balanced;
+        report.unbalanced = unbalanced;
         report.halvings = controller.accept(dt, report.iterations());
         Ok(report)
     }
 
     /// Points to grid, where the grid is to be restored or `forced` to be. True where another restoration would change
-    /// nothing: the grid is fresh, or is never restored; and how the balance on the grid was found.
-    fn initialise(&mut self, forced: bool) -> Result<(bool, Balanced)> {
+    /// nothing: the grid is fresh, or is never restored; and whether no balance on it was found.
+    fn initialise(&mut self, forced: bool) -> Result<(bool, bool)> {
         let (scene, state) = (self.scene, &mut self.state);
         let moved = state.displacement.iter().flatten().any(|&u| u != 0.0);
         let restore = match scene.numerics.restore {
@@ -179,11 +178,11 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
         if state.dynamic(scene) && (restore || !state.moving) {
             transfer::motion_to_grid::<D, K>(scene, &mut self.grid, state)?;
         }
-        let balanced = match state.balanced.filter(|_| restore && moved) {
+        let unbalanced = match state.balanced.filter(|_| restore && moved) {
             Some(last) => equilibrate::equilibrate(scene, &mut self.grid, state, last)?,
-            None => Balanced::default(),
+            None => false,
         };
-        Ok((restore || !moved || scene.numerics.restore == Restore::Never, balanced))
+        Ok((restore || !moved || scene.numerics.restore == Restore::Never, unbalanced))
     }
 
     /// The solution on the grid and, with inertia, the motion that it starts from.
@@ -207,7 +206,6 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
             phase: state.phase,
             from: state.phase_time,
             to: state.phase_time + dt,
-            held: (&[], 0.0),
             given: &given,
             integration: dynamic.then(|| GeneralisedAlpha::new(scene.numerics.spectral_radius, dt)),
             flow_time: if scene.phases[state.phase].flows { dt } else { 0.0 },

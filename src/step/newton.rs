@@ -38,8 +38,6 @@ pub struct Problem<'a, const D: usize> {
     /// Time (s) in the phase at the beginning and the end of the step.
     pub from: f64,
     pub to: f64,
-    /// The negative of what is out of balance at each node (kN) of a restored grid, and the share (-) of it that is held.
-    pub held: (&'a [[f64; D]], f64),
     /// Increment (m, kPa) of the displacements and pore pressures that are given, `None` where free. One entry an equation.
     pub given: &'a [Option<f64>],
     /// Present in dynamic analysis.
@@ -62,7 +60,6 @@ impl<'a, const D: usize> Problem<'a, D> {
             phase: state.phase,
             from: state.phase_time,
             to: state.phase_time,
-            held: (&[], 0.0),
             given: &[],
             integration: None,
             flow_time: 0.0,

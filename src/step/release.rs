@@ -57,22 +57,6 @@ pub fn hold<const D: usize>(scene: &Scene<D>, grid: &mut Grid<D>, state: &mut St
     Ok(())
 }
 
-/// The forces (kN) by node that hold the last converged state under the loads that `problem` ends with, beyond those held already.
-///
-/// # Errors
-/// When the state is inadmissible.
-pub fn holding<const D: usize>(problem: &Problem<D>, grid: &mut Grid<D>) -> Result<Vec<[f64; D]>> {
-    let Unbalanced { mut force, .. } = unbalanced(&Problem { from: problem.to, ..*problem }, grid)?;
-    let release = &problem.state.release;
-    let share = release.share(problem.to);
-    let mut already = release.force.iter();
-    for force in &mut force {
-        let already = already.next().map_or([0.0; D], |f| f.map(|f| share * f));
-        *force = std::array::from_fn(|d| -force[d] - already[d]);
-    }
-    Ok(force)
-}
-
 /// What is out of balance in a state without inertia.
 struct Unbalanced<const D: usize> {
     /// By node (kN), zero where the displacement is given.

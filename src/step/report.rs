@@ -1,7 +1,6 @@
 //! What a step reports: for the log, the history and the progress.
 
 use super::contact::Resultant;
-use super::equilibrate::Balanced;
 use super::grid::Grid;
 use super::newton::Solution;
 use super::scene::Scene;
@@ -59,8 +58,8 @@ pub struct Report<const D: usize> {
     pub method: Method,
     /// Whether the grid was restored before the step.
     pub restored: bool,
-    /// How the balance on the restored grid was found.
-    pub balanced: Balanced,
+    /// Whether the restored grid had to be brought to balance and could not be.
+    pub unbalanced: bool,
     /// Why the step was halved before, each time.
     pub halvings: Vec<String>,
     pub motion: Motion<D>,
@@ -114,7 +113,7 @@ impl<const D: usize> Report<D> {
             residuals: solution.history,
             method: solution.method,
             restored: false,
-            balanced: Balanced::default(),
+            unbalanced: false,
             halvings: Vec::new(),
             imbalance,
             elastic: energy(&scene.terms, &state.points)
