@@ -109,14 +109,15 @@ impl Solver {
                     return Ok(method);
                 }
             }
-        } else if again
-            && timed(Activity::Solution, || self.iterate(pattern, matrix, (tolerance, FEW_ITERATIONS), &b, x))
-        {
-            return Ok(Method::Iterative);
-        } else if timed(Activity::Factorisation, || self.factorize(matrix, pattern, self.definite))?
-            && timed(Activity::Solution, || self.iterate(pattern, matrix, (tolerance, ITERATIONS), &b, x))
-        {
-            return Ok(Method::Iterative);
+        } else {
+            let with_last = again
+                && timed(Activity::Solution, || self.iterate(pattern, matrix, (tolerance, FEW_ITERATIONS), &b, x));
+            if with_last
+                || timed(Activity::Factorisation, || self.factorize(matrix, pattern, self.definite))?
+                    && timed(Activity::Solution, || self.iterate(pattern, matrix, (tolerance, ITERATIONS), &b, x))
+            {
+                return Ok(Method::Iterative);
+            }
         }
         timed(Activity::Factorisation, || match &mut self.general {
             Some(general) => general.solve(pattern, matrix, &b, x),

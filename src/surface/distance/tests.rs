@@ -7,8 +7,6 @@ use std::f64::consts::PI;
 
 struct Scene {
     mesh: Mesh<2>,
-    geometry: Geometry,
-    locator: Locator<2>,
     front: Front,
     distance: Distance,
     /// What of each cell is within the front (m³).
@@ -39,7 +37,7 @@ fn scene(
         distance.update(&mesh, &geometry, &locator, &front, &cell, &all);
     }
     let volume = volumes::<PlaneStrain>(&mesh, &geometry, &distance.level_set, &all);
-    Scene { mesh, geometry, locator, front, distance, volume }
+    Scene { mesh, front, distance, volume }
 }
 
 #[test]
