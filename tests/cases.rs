@@ -324,7 +324,7 @@ fn pipeline() {
 }
 
 /// Coarse cells: what the soil exerts is held by what moves the structure, and is near the references of the README files, over which such cells bear up to
-/// a seventh more. The caisson is pulled in the end, before its lid is on the clay.
+/// a seventh more.
 #[test]
 fn penetration() {
     let load = |case: &str, body: &str, settings: &[&str], expected: std::ops::Range<f64>| {
@@ -341,8 +341,6 @@ fn penetration() {
     let short = ["mesh.parameters.h=0.5", "phases[0].duration=0.25"];
     load("embedded_footing", "footing", &short, 60.0 * area..85.0 * area);
     load("cone", "cone", &["mesh.parameters.h=0.4", "phases[0].duration=1"], 60.0..100.0);
-    let short = ["mesh.parameters.h=0.3", "phases.push.duration=0.2", "phases.pull.duration=0.1"];
-    load("suction_anchor", "caisson", &short, -170.0..-80.0);
 }
 
 /// What the four stages wrote.

@@ -154,10 +154,8 @@ const LAID: Case = Case {
 };
 
 /// Grains that come apart: the inertia of nodes that hold next to no mass.
-const GRAINS: Case = Case {
-    file: "cases/sand_column",
-    overrides: &["mesh.parameters.h=0.025", "phases.collapse.duration=0.3", "output.every=0.1"],
-};
+const GRAINS: Case =
+    Case { file: "cases/sand_column", overrides: &["phases.collapse.duration=0.1", "output.every=0.1"] };
 
 /// Water that leaves a surface beside a strip that covers a part of it.
 const STRIP: Case = Case { file: "tests/data/strip", overrides: &["phases.wait.step.initial=40"] };

@@ -16,7 +16,7 @@ pub fn follow(geometry: &Geometry, grid: &Restored<2>, front: &mut Option<Front>
         (Some(displacement), Some(front)) => {
             front.advance(grid.before, (mesh, grid.locator), geometry, displacement)?;
             front.lean(mesh, geometry, grid.locator, grid.outlines)?;
-            front.join(mesh, geometry, grid.locator)?;
+            front.join(mesh, geometry, grid.locator, grid.outlines)?;
         }
         (Some(_), None) => return Ok(()),
         (None, _) => {
@@ -43,7 +43,7 @@ pub fn smoothed<K: Kinematics<2>>(
     let nothing = |bearer: u32, _: &[f64; 2]| Behind { region: NO_REGION, bearer };
     let boundary = ActiveBoundary::of(mesh, geometry, contour, grid.taking_part, nothing);
     let mut front = Front::along::<K>(mesh, geometry, &boundary)?;
-    front.join(mesh, geometry, grid.locator).ok()?;
+    front.join(mesh, geometry, grid.locator, &[]).ok()?;
     let inside = |c: &u32| mesh.cells.nodes(*c as usize).iter().any(|&n| contour[n as usize] > 0.0);
     Some((front, points.cell.iter().copied().filter(inside).collect()))
 }

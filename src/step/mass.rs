@@ -6,8 +6,8 @@
 //! angular momentum. Nodes that no point and no such face reaches have nothing to move and stay at rest.
 //!
 //! Few points, and points that crowd in a part of a cell, leave polynomials of low degree undetermined also then. A far weaker gradient
-//! penalty `ε ρ h² ∫ ∇N_I·∇N_J` in cells with points decides these, and further solutions that take it back to the one before
-//! (iterated Tikhonov regularisation) remove it from all that the points do determine.
+//! penalty `ε ρ h² ∫ ∇N_I·∇N_J` in cells with points decides these, and a second solution that takes it back
+//! to the first one (iterated Tikhonov regularisation) removes it from all that the points do determine.
 
 use super::grid::{Family, Grid, System};
 use super::rigid;
@@ -21,9 +21,7 @@ use crate::system::{Method, scatter};
 use crate::term::MASS_PENALTY;
 
 /// `ε` (-).
-const WEAK: f64 = 1e-4;
-/// Solutions that take the weak penalty back: each leaves `ε` over what the points determine of the error of the one before.
-const TAKEN_BACK: usize = 2;
+const WEAK: f64 = 1e-10;
 
 /// Whose mass it is.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -142,20 +140,17 @@ impl<'a> Mass<'a> {
     /// # Errors
     /// An analysis error when the mass is singular.
     pub fn solve(&mut self, x: &mut [f64]) -> Result<()> {
-        let b = x.to_vec();
+        let mut again = x.to_vec();
         self.solve_once(x)?;
-        for _ in 0..TAKEN_BACK {
-            let mut again = b.clone();
-            for Weak { clique, form } in &self.weak {
-                let blocks = self.system.pattern.cliques.blocks(*clique);
-                let own = form.len().isqrt();
-                for (row, &a) in form.chunks_exact(own).zip(blocks) {
-                    again[a as usize] += row.iter().zip(blocks).map(|(form, &b)| form * x[b as usize]).sum::<f64>();
-                }
+        for Weak { clique, form } in &self.weak {
+            let blocks = self.system.pattern.cliques.blocks(*clique);
+            let own = form.len().isqrt();
+            for (row, &a) in form.chunks_exact(own).zip(blocks) {
+                again[a as usize] += row.iter().zip(blocks).map(|(form, &b)| form * x[b as usize]).sum::<f64>();
             }
-            self.solve_once(&mut again)?;
-            x.copy_from_slice(&again);
         }
+        self.solve_once(&mut again)?;
+        x.copy_from_slice(&again);
         Ok(())
     }
 

@@ -87,11 +87,15 @@ pub struct Solution<const D: usize> {
 pub struct Buffers<const D: usize> {
     now: Evaluation<D>,
     trial: Evaluation<D>,
+    best: Unknowns<D>,
     delta: Vec<f64>,
     /// What `delta` balances in the linear system (kN).
     wanted: Vec<f64>,
     gap: Vec<f64>,
     fixed: Vec<bool>,
+    /// The equations whose diagonal is raised where steps go astray: those of nodes that no structure has. Empty
+    /// until then.
+    damped: Vec<bool>,
     /// The residual of one term.
     pub own: Vec<f64>,
     pub between: Vec<[f64; D]>,
@@ -126,12 +130,18 @@ struct Newton<'a, const D: usize> {
     /// Relative residuals so far; the last is that of the state at hand.
     history: Vec<f64>,
     method: Method,
-    /// Whether the residual must fall in every iteration: in quasi-static steps with contact.
+    /// The residual (kN) to beat, and how many iterations have not.
+    target: f64,
+    relaxed: usize,
+    /// Whether every iteration must lessen the residual: set when full steps have failed to.
     strict: bool,
+    stalled: usize,
     /// Whether displacements still to be given have a share in what the direction balances.
     due: bool,
     /// Length of the last trial step, in those of `δ`.
     length: f64,
+    /// Share by which the diagonal of the tangent is raised: not zero while its steps go astray.
+    damping: f64,
     /// Why the last trial state that was not admissible is not.
     refused: Option<Error>,
 }
@@ -141,6 +151,8 @@ impl<'a, const D: usize> Newton<'a, D> {
         buffers.fixed.clear();
         buffers.fixed.extend(problem.given.iter().map(Option::is_some));
         buffers.now.at.set(problem.converged, problem.pressure);
+        buffers.best.clone_from(&buffers.now.at);
+        buffers.damped.clear();
         let floor = floor(problem, grid);
         Self {
             problem,
@@ -150,9 +162,14 @@ impl<'a, const D: usize> Newton<'a, D> {
             floor,
             history: Vec::new(),
             method: Method::Cholesky,
+            target: f64::INFINITY,
+            relaxed: 0,
+            // Hats touch or part on the way of a full step, and what follows is no better for it.
             strict: !problem.scene.pairs.is_empty() && problem.integration.is_none(),
+            stalled: 0,
             due: false,
             length: 0.0,
+            damping: 0.0,
             refused: None,
         }
     }
@@ -184,11 +201,14 @@ impl<'a, const D: usize> Newton<'a, D> {
             if self.evaluate(!contact).is_ok() {
                 self.note();
                 if !contact || self.set_out().is_ok() {
+                    self.buffers.best.clone_from(&self.buffers.now.at);
                     return Ok(());
                 }
             }
             self.buffers.held = false;
             self.buffers.now.at.set(self.problem.converged, self.problem.pressure);
+            self.buffers.best.clone_from(&self.buffers.now.at);
+            (self.target, self.damping, self.stalled) = (f64::INFINITY, 0.0, 0);
         }
         self.evaluate(true)?;
         self.note();
@@ -199,14 +219,21 @@ impl<'a, const D: usize> Newton<'a, D> {
     /// the end; nothing holds the soil beneath them then, and what the tangent says flies through the structure, or
     /// nothing holds the structure. The directions hold such hats together until one is worth its full length.
     fn set_out(&mut self) -> Result<()> {
+        let mut size = self.size(&self.buffers.now);
         for _ in 0..HELD {
+            let noted = self.history.len();
             if self.converged() {
                 break;
             }
             self.buffers.held = true;
             self.direction()?;
             self.buffers.held = false;
+            // The residual that is to fall is the true one.
+            self.target = if self.due { self.target.max(size) } else { size };
             self.search()?;
+            if self.history.len() > noted {
+                size = self.size(&self.buffers.now);
+            }
             if self.length == 1.0 {
                 break;
             }
@@ -255,16 +282,26 @@ impl<'a, const D: usize> Newton<'a, D> {
             self.evaluate(true)?;
         }
         self.tangent = false;
-        let Buffers { now, delta, wanted, gap, fixed, .. } = &mut self.buffers;
+        let Buffers { now, delta, wanted, gap, fixed, damped, .. } = &mut self.buffers;
         delta.clear();
         delta.extend(now.force.iter().map(|r| -r));
+        if self.damping > 0.0 && damped.is_empty() {
+            damped_equations(self.problem.scene, self.grid, damped);
+        }
         let motion = &mut self.grid.motion;
+        if self.damping > 0.0 {
+            motion.matrix.dampen(&motion.pattern, damped, self.damping);
+        }
         let diagonal = motion.matrix.scale(&motion.pattern);
         motion.matrix.constrain(&motion.pattern, fixed, gap, diagonal, delta);
         wanted.clone_from(delta);
         // Displacements still to be given unbalance the system beyond the residual at hand.
         let beyond = wanted.iter().zip(&now.force).zip(&*fixed).map(|((w, f), fixed)| if *fixed { 0.0 } else { w + f });
-        self.due = beyond.map(|b| b * b).sum::<f64>().sqrt() > DUE * norm_free(wanted, fixed);
+        let whole = norm_free(wanted, fixed);
+        self.due = beyond.map(|b| b * b).sum::<f64>().sqrt() > DUE * whole;
+        if self.target.is_infinite() || self.due {
+            self.target = whole;
+        }
         let (pattern, matrix) = (&motion.pattern, &motion.matrix);
         let tolerance = forcing(&self.history, self.problem.scene.numerics.tolerance);
         let method = if matrix.beyond.is_empty() {
@@ -316,6 +353,21 @@ fn forcing(history: &[f64], tolerance: f64) -> f64 {
         _ => LOOSEST,
     };
     quadratic.max(enough).clamp(1e-10, LOOSEST)
+}
+
+/// Which equations of nodes are damped. A structure as a whole may have no more to hold it than soil that flows: a share of
+/// its own stiffness would be a far stiffer hold on it, and its balance would come in tiny steps.
+fn damped_equations<const D: usize>(scene: &Scene<D>, grid: &Grid<D>, out: &mut Vec<bool>) {
+    out.extend(grid.node.iter().flat_map(|&n| [(n as usize) < scene.mesh_nodes(); D]));
+    let Some(fem) = &scene.fem else { return };
+    for c in fem.deforming() {
+        if scene.pairs.iter().any(|pair| pair.structure() == fem.mesh.cells.region[c]) {
+            for &n in fem.mesh.cells.nodes(c) {
+                let block = grid.block[n as usize] as usize;
+                out.iter_mut().skip(D * block).take(D).for_each(|damped| *damped = false);
+            }
+        }
+    }
 }
 
 /// A force (kN) below which nothing counts: rounding in stresses of the order of the stiffness, on the sides of a

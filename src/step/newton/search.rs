@@ -4,10 +4,24 @@ use super::super::balance::evaluate;
 use super::{Buffers, Newton};
 use crate::error::Result;
 
-/// Share of the work of the residual along a direction that a step length may leave.
-const SLACK: f64 = 0.5;
-/// Trial lengths after the full one, and the least share of a bracket that the next goes into it.
-const TRIALS: usize = 5;
+/// Sufficient decrease of the residual for a step length `s`: by a factor `1 − ARMIJO · s`.
+const ARMIJO: f64 = 1e-4;
+/// Halvings of the step length before the best one is taken.
+const BACKTRACKS: i32 = 6;
+/// Line searches that may end without a decrease before the step is given up.
+const STALLED: usize = 4;
+/// Shares by which the diagonal of the tangent is raised where its steps go astray (Levenberg 1944).
+const LEAST_DAMPING: f64 = 1e-4;
+const MOST_DAMPING: f64 = 0.2;
+/// Halvings of an accepted step length from which its tangent is not to be trusted so far.
+const ASTRAY: i32 = 3;
+/// Full steps that may raise the residual before the iteration returns to its best state.
+const WATCH: usize = 3;
+/// Share of the residual from which on a full step may have gone too far, and of the work that it may leave.
+const WORTH: f64 = 0.25;
+const LEVEL: f64 = 0.5;
+/// States looked at for a length that leaves less work, and the least share of a bracket that the next goes into it.
+const LEVELS: usize = 5;
 const INWARDS: f64 = 0.1;
 
 impl<const D: usize> Newton<'_, D> {
@@ -18,50 +32,38 @@ impl<const D: usize> Newton<'_, D> {
         last < before && last * (last / before).powi(2) < self.tolerance()
     }
 
-    /// Goes along `δ`: the full step, unless the residual does much work beyond it. Then the length is sought where
-    /// the work vanishes, by regula falsi with halved ends (Matthies & Strang 1979; Dowell & Jarratt 1971). Where contacts
-    /// open and close on the way the residual must fall, too.
+    /// Goes along `δ`. A full step is taken even if the residual grows, for a few iterations on trial:
+    /// bending structures converge so, and only so. If that does not pay, the iteration returns to its best
+    /// state and from then on backtracks until the residual falls (a watchdog, Chamberlain et al. 1982). A step that lessens
+    /// the residual little and goes beyond where it does no more work is shortened to about there (Matthies & Strang 1979):
+    /// where soil yields or hats part, iterations would else go to and fro.
     pub(super) fn search(&mut self) -> Result<()> {
-        let tangent = !self.near_the_end();
-        let first = self.work(&self.buffers.wanted);
-        let before = self.size(&self.buffers.now);
-        let full = self.attempt(1.0, tangent);
-        // What is given unbalances more than the residual at hand, and along ascent there is no such length.
-        let any = self.due || first <= 0.0;
-        let too_large = |newton: &Self| newton.strict && !newton.due && newton.size(&newton.buffers.trial) > before;
-        let falls = !too_large(self);
-        if full.is_some_and(|work| any || falls && work <= SLACK * first || self.balanced()) {
-            self.take(tangent);
+        let with_tangent = !self.near_the_end();
+        if let Some(size) = self.attempt(1.0, with_tangent) {
+            let better = self.better(size, 1.0);
+            let far = (self.strict || better && self.relaxed == 0) && self.too_far(size);
+            if far && self.level() {
+                return Ok(());
+            }
+            if better && (!far || self.attempt(1.0, with_tangent).is_some()) {
+                self.damping = if self.damping > LEAST_DAMPING { 0.1 * self.damping } else { 0.0 };
+                self.accept(with_tangent);
+                return Ok(());
+            }
+            if !self.strict && self.relaxed < WATCH {
+                self.relaxed += 1;
+                self.take(with_tangent);
+                return Ok(());
+            }
+        }
+        if !self.strict && self.relaxed > 0 {
+            self.strict = true;
+            self.buffers.now.at.clone_from(&self.buffers.best);
+            self.evaluate(true)?;
+            self.note();
             return Ok(());
         }
-        // Beyond an inadmissible state the work is taken to be large.
-        let (mut low, mut high) = ((0.0, -first), (1.0, full.filter(|_| falls).unwrap_or(first)));
-        let (mut below, mut admissible) = (None, false);
-        for _ in 0..TRIALS {
-            let root = if any { 0.5 } else { low.1 / (low.1 - high.1) };
-            let length = low.0 + (high.0 - low.0) * root.clamp(INWARDS, 1.0 - INWARDS);
-            let found = self.attempt(length, false);
-            admissible = found.is_some();
-            let work = found.filter(|_| !too_large(self)).unwrap_or(first);
-            if admissible && (any || work.abs() <= SLACK * first) {
-                break;
-            }
-            // An end that stays a second time weighs half.
-            let again = if below.replace(work < 0.0) == Some(work < 0.0) { 0.5 } else { 1.0 };
-            if work < 0.0 {
-                low = (length, work);
-                high.1 *= again;
-            } else {
-                high = (length, work);
-                low.1 *= again;
-            }
-        }
-        if !admissible && (low.0 == 0.0 || self.attempt(low.0, false).is_none()) {
-            let why = self.refused.take().map_or(String::new(), |error| format!(": {} {}", error.place, error.problem));
-            return Err(self.failure(&format!("no trial state is admissible{why}")));
-        }
-        self.take(false);
-        Ok(())
+        self.backtrack()
     }
 
     /// The work (kJ) of a force along `δ`, that of what is given and of pressures left out.
@@ -71,28 +73,114 @@ impl<const D: usize> Newton<'_, D> {
         each.map(|((f, d), fixed)| if *fixed { 0.0 } else { f * d }).sum()
     }
 
-    /// Whether the residual of the trial state is small enough.
-    fn balanced(&self) -> bool {
-        let trial = &self.buffers.trial;
-        self.size(trial) <= self.problem.scene.numerics.tolerance * trial.scale.max(self.floor)
+    /// Whether the residual of the full step, of this size (kN), does work against the rest of the way, and is worth another.
+    fn too_far(&self, size: f64) -> bool {
+        let done = self.problem.scene.numerics.tolerance * self.buffers.trial.scale.max(self.floor);
+        let before = self.work(&self.buffers.wanted);
+        let worth = size > done && size > WORTH * self.target && !self.due;
+        worth && before > 0.0 && self.work(&self.buffers.trial.force) > LEVEL * before
     }
 
-    /// The work (kJ) of the residual of the trial state at a step length, if it is admissible.
+    /// Shortens the full step to where the residual does little work along `δ`, by regula falsi with halved ends
+    /// (Dowell & Jarratt 1971); false where that does not lessen the residual.
+    fn level(&mut self) -> bool {
+        let first = -self.work(&self.buffers.wanted);
+        let (mut low, mut high) = ((0.0, first), (1.0, self.work(&self.buffers.trial.force)));
+        let mut below = None;
+        for _ in 0..LEVELS {
+            let (whole, root) = (high.0 - low.0, low.1 / (low.1 - high.1));
+            let length = low.0 + whole * root.clamp(INWARDS, 1.0 - INWARDS);
+            let Some(size) = self.attempt(length, false) else { return false };
+            let work = self.work(&self.buffers.trial.force);
+            if work.abs() <= -LEVEL * first {
+                let better = self.better(size, length);
+                if better {
+                    self.stalled = 0;
+                    self.accept(false);
+                }
+                return better;
+            }
+            // An end that stays a second time weighs half.
+            let again = below == Some(work < 0.0);
+            if work < 0.0 {
+                low = (length, work);
+                high.1 *= if again { 0.5 } else { 1.0 };
+            } else {
+                high = (length, work);
+                low.1 *= if again { 0.5 } else { 1.0 };
+            }
+            below = Some(work < 0.0);
+        }
+        false
+    }
+
+    /// Raises the diagonal more from here on; false where it is raised enough.
+    fn dampen(&mut self) -> bool {
+        let more = (10.0 * self.damping).max(LEAST_DAMPING);
+        let can = more <= MOST_DAMPING;
+        if can {
+            self.damping = more;
+        }
+        can
+    }
+
+    /// Halves the step length until the residual falls; takes the least one a few times where it never does.
+    fn backtrack(&mut self) -> Result<()> {
+        let mut least: Option<(f64, f64)> = None;
+        for halvings in 1..=BACKTRACKS {
+            let length = 0.5f64.powi(halvings);
+            if let Some(size) = self.attempt(length, false) {
+                if self.better(size, length) {
+                    self.stalled = 0;
+                    if halvings >= ASTRAY {
+                        self.dampen();
+                    }
+                    self.accept(false);
+                    return Ok(());
+                }
+                if least.is_none_or(|(other, _)| size < other) {
+                    least = Some((size, length));
+                }
+            }
+        }
+        // A direction that leads nowhere at any length: the next, from the same state, is shorter and turned downhill.
+        if self.dampen() {
+            return Ok(());
+        }
+        let Some((_, length)) = least else {
+            let why = self.refused.take().map_or("no trial state is admissible".to_string(), |error| {
+                format!("no trial state is admissible: {} {}", error.place, error.problem)
+            });
+            return Err(self.failure(&why));
+        };
+        self.stalled += 1;
+        if self.stalled <= STALLED && self.attempt(length, true).is_some() {
+            self.accept(true);
+            return Ok(());
+        }
+        Err(self.failure("the line search finds no smaller residual"))
+    }
+
+    /// The residual (kN) of the trial state at a step length, if it is admissible.
     fn attempt(&mut self, length: f64, tangent: bool) -> Option<f64> {
         self.length = length;
         let mut trial = std::mem::take(&mut self.buffers.trial);
         trial.at.clone_from(&self.buffers.now.at);
         trial.at.advance(self.problem, self.grid, &self.buffers.delta, length);
         let done = evaluate(self.problem, self.grid, &mut self.buffers, &mut trial, tangent);
-        let finite = self.size(&trial).is_finite();
+        let size = self.size(&trial);
         self.buffers.trial = trial;
         match done {
-            Ok(()) => finite.then(|| self.work(&self.buffers.trial.force)),
+            Ok(()) => size.is_finite().then_some(size),
             Err(error) => {
                 self.refused = Some(error);
                 None
             }
         }
+    }
+
+    fn better(&self, size: f64, length: f64) -> bool {
+        size <= (1.0 - ARMIJO * length) * self.target || size <= self.problem.scene.numerics.tolerance * self.floor
     }
 
     /// Makes the trial state the one at hand; `tangent` where the matrix of the grid is its tangent.
@@ -101,5 +189,12 @@ impl<const D: usize> Newton<'_, D> {
         std::mem::swap(now, trial);
         self.tangent = tangent;
         self.note();
+    }
+
+    fn accept(&mut self, tangent: bool) {
+        self.take(tangent);
+        let Buffers { now, best, .. } = &mut self.buffers;
+        best.clone_from(&now.at);
+        (self.target, self.relaxed) = (self.size(&self.buffers.now), 0);
     }
 }

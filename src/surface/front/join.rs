@@ -52,14 +52,20 @@ impl Chain {
 }
 
 impl Front {
-    /// Joins the loops anew where they cross and where gaps have closed. What is thinner than the spacing of the markers goes: crumbs, and the
-    /// voids that are left of gaps.
+    /// Joins the loops anew where they cross and where gaps have closed, but across structures, which `outlines` bound. What is thinner than the
+    /// spacing of the markers goes: crumbs, and the voids that are left of gaps.
     ///
     /// # Errors
     /// When a marker is outside the mesh.
-    pub fn join(&mut self, mesh: &Mesh<2>, geometry: &Geometry, locator: &Locator<2>) -> Result<(), Outside> {
+    pub fn join(
+        &mut self,
+        mesh: &Mesh<2>,
+        geometry: &Geometry,
+        locator: &Locator<2>,
+        outlines: &[Vec<[f64; 2]>],
+    ) -> Result<(), Outside> {
         self.uncross();
-        self.close(mesh, geometry, locator)
+        self.close(mesh, geometry, locator, outlines)
     }
 
     /// Cuts loops where they cross, and goes on from each end to the other loop there. Of the loops that this makes those bound the material on
@@ -124,7 +130,13 @@ impl Front {
     }
 
     /// Closes gaps between free parts of the surface that are narrower than a share of a cell.
-    fn close(&mut self, mesh: &Mesh<2>, geometry: &Geometry, locator: &Locator<2>) -> Result<(), Outside> {
+    fn close(
+        &mut self,
+        mesh: &Mesh<2>,
+        geometry: &Geometry,
+        locator: &Locator<2>,
+        outlines: &[Vec<[f64; 2]>],
+    ) -> Result<(), Outside> {
         let wall = self.walls(mesh, geometry, locator);
         let count = self.position.len();
         // Of each marker the loop, the length of the loop up to there, and the size of the cell.
@@ -146,6 +158,12 @@ impl Front {
         let mut chain = Chain::of(self);
         let mut before = vec![0; count];
         chain.next.iter().enumerate().for_each(|(i, &next)| before[next] = i);
+        // Soil against both sides of a thin wall is nothing that meets.
+        let on_structure = |x: &[f64; 2], size: f64| {
+            let near = |piece: &[[f64; 2]]| away(x, &piece[0], &piece[1]) < ON * size;
+            outlines.iter().any(|outline| outline.windows(2).any(near))
+        };
+        let against: Vec<bool> = x.iter().zip(&size).map(|(x, size)| on_structure(x, *size)).collect();
         let free: Vec<usize> = (0..count).filter(|&i| !wall[i] && !wall[before[i]]).collect();
         let greatest = free.iter().map(|&i| size[i]).fold(0.0, f64::max);
         let bins = Bins::new(free.iter().map(|&i| (x[i], x[i])), GAP * greatest);
@@ -156,7 +174,8 @@ impl Front {
                 let apart = if of[i] == of[j] { apart.min(lengths[of[i]] - apart) } else { f64::INFINITY };
                 // The material is on the left of the surface: a gap is on the right.
                 let on_right = twice_area(&[x[before[i]], x[chain.next[i]], x[j]]) < 0.0;
-                (gap < GAP * size[i] && apart > ALONG * gap + 0.5 * size[i] && on_right).then_some((gap, j))
+                let parted = against[i] && against[j];
+                (!parted && gap < GAP * size[i] && apart > ALONG * gap + 0.5 * size[i] && on_right).then_some((gap, j))
             };
             let near = bins.around(&x[i]).flatten().filter_map(|&k| facing(free[k as usize]));
             near.min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, j)| j)
@@ -170,12 +189,23 @@ impl Front {
         }
         let spacing = |x: &[f64; 2]| {
             let cell = locator.locate(mesh, x, None);
-            cell.map_or(f64::INFINITY, |(cell, _)| geometry.size(mesh, cell as usize) / PER_LENGTH as f64)
+            cell.map_or(0.0, |(cell, _)| geometry.size(mesh, cell as usize) / PER_LENGTH as f64)
         };
         let next = chain.front(|x| area(x).abs() > spacing(&x[0]).powi(2));
         *self = next;
         Ok(())
     }
+}
+
+/// Markers nearer to a structure than this share of a cell lie on it.
+const ON: f64 = 1e-6;
+
+/// How far (m) a place is from a segment.
+fn away(x: &[f64; 2], a: &[f64; 2], b: &[f64; 2]) -> f64 {
+    let (along, to) = ([b[0] - a[0], b[1] - a[1]], [x[0] - a[0], x[1] - a[1]]);
+    let share = (to[0] * along[0] + to[1] * along[1]) / (along[0] * along[0] + along[1] * along[1]);
+    let share = share.clamp(0.0, 1.0);
+    distance(x, &[a[0] + share * along[0], a[1] + share * along[1]])
 }
 
 /// How far beside a segment (-), in its length, it is seen what lies there.
