@@ -217,6 +217,20 @@ fn copy(seeded: &Path) -> tempfile::TempDir {
     folder
 }
 
+/// Everything that a killed run has left in `from`.
+fn copy_all(from: &Path, to: &Path) {
+    fs::create_dir_all(to).unwrap();
+    for entry in fs::read_dir(from).unwrap() {
+        let path = entry.unwrap().path();
+        let copy = to.join(path.file_name().unwrap());
+        if path.is_dir() {
+            copy_all(&path, &copy);
+        } else {
+            fs::copy(&path, copy).unwrap();
+        }
+    }
+}
+
 /// Every file that a finished run and its export leave for the user, with its bytes.
 fn results(case: &Case, folder: &Path) -> Vec<(PathBuf, Vec<u8>)> {
     ends(mpm("export", case, folder, &[]), 0);
@@ -269,12 +283,30 @@ fn reach(child: &mut Child, folder: &Path, step: u64) {
     }
 }
 
+/// Continues a run in a copy of `folder` and kills it somewhere in the step after `step`, or in the next one.
+///
+/// A run that came to its end before the signal is continued once more, from the same state: on a busy machine this
+/// test may sleep longer than the rest of the run takes.
+fn kill_after(case: &Case, folder: &Path, step: u64, random: &mut Random) -> tempfile::TempDir {
+    for _ in 0..20 {
+        let killed = tempfile::tempdir().unwrap();
+        copy_all(folder, killed.path());
+        let mut child = mpm("solve", case, killed.path(), &["--resume"]).spawn().unwrap();
+        reach(&mut child, killed.path(), step);
+        std::thread::sleep(Duration::from_micros(random.below(20_000)));
+        child.kill().unwrap();
+        if !child.wait().unwrap().success() {
+            return killed;
+        }
+    }
+    panic!("the run always ended by itself after step {step}");
+}
+
 /// Kills a run ten times and continues it to the end.
 fn kill_ten_times(case: &Case, undisturbed: &Path, seed: u64) -> tempfile::TempDir {
     let steps = rows(undisturbed);
     assert!(steps >= 30, "{steps} steps leave no room for ten kills");
-    let killed = copy(undisturbed);
-    let folder = killed.path();
+    let mut killed = copy(undisturbed);
     let mut random = Random(seed);
     // The last moments are left out: a run that ends by itself cannot be killed.
     let mut moments: Vec<u64> = (0..10).map(|_| 1 + random.below(3 * steps / 4)).collect();
@@ -283,18 +315,13 @@ fn kill_ten_times(case: &Case, undisturbed: &Path, seed: u64) -> tempfile::TempD
     moments.sort_unstable();
     println!("killed after steps {moments:?} of {steps}");
     for moment in moments {
-        let before = newest(folder);
-        let mut child = mpm("solve", case, folder, &["--resume"]).spawn().unwrap();
-        reach(&mut child, folder, moment);
-        // Somewhere in the step or the next one.
-        std::thread::sleep(Duration::from_micros(random.below(20_000)));
-        child.kill().unwrap();
-        assert!(!child.wait().unwrap().success(), "the run ended by itself");
-        let (told, kept) = (rows(folder), newest(folder));
+        let before = newest(killed.path());
+        killed = kill_after(case, killed.path(), moment, &mut random);
+        let (told, kept) = (rows(killed.path()), newest(killed.path()));
         assert!(kept + 1 >= told, "the history tells of {told} steps, the checkpoint is of step {kept}");
         assert!(kept >= before && kept + 1 >= moment, "killed after step {moment}, went back to {kept}");
     }
-    ends(mpm("solve", case, folder, &["--resume"]), 0);
+    ends(mpm("solve", case, killed.path(), &["--resume"]), 0);
     killed
 }
 
