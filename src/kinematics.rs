@@ -7,7 +7,7 @@
 
 use crate::material::spatial::{self, PlaneTangent, Spatial};
 use crate::material::{Model, State, spectral};
-use crate::tensor::{Symmetric, Tensor, full};
+use crate::tensor::{Symmetric, Tensor, full, symmetric};
 use std::f64::consts::TAU;
 
 /// The gradient of a shape function at a point.
@@ -36,6 +36,10 @@ pub trait Kinematics<const D: usize>: Copy + Default + Send + Sync + 'static {
 
     /// Principal values of a symmetric tensor.
     fn roots(t: &Symmetric) -> [f64; 3];
+
+    /// Takes an answer from one configuration to another, `Q` from the first to the second: the stress `τ` becomes `Q τ Qᵀ` and
+    /// the tangent that of it, where the second is strained by `l` and the first by `Qᵀ ½(l + lᵀ) Q`.
+    fn convect(answer: &mut Spatial<Self::Tangent>, q: &Tensor);
 
     /// The tangent of `A W` from that of `τ`: `A_im (a_mjkl − δ_mk τ_jl) + δ_ik W_jl` (theory, eq. 9).
     fn weight(tangent: &mut Self::Tangent, a: &Tensor, kirchhoff: &Symmetric, w: &Tensor);
@@ -118,6 +122,10 @@ impl<const HOOP: bool> Kinematics<2> for Plane<HOOP> {
         spectral::Plane::of(t).roots()
     }
 
+    fn convect(answer: &mut Spatial<Self::Tangent>, q: &Tensor) {
+        convect_plane(answer, q);
+    }
+
     fn weight(tangent: &mut Self::Tangent, a: &Tensor, kirchhoff: &Symmetric, w: &Tensor) {
         weight_plane(tangent, a, kirchhoff, w);
     }
@@ -162,6 +170,49 @@ impl<const HOOP: bool> Kinematics<2> for Plane<HOOP> {
         }
         block
     }
+}
+
+/// [`Kinematics::convect`] in the plane, rows and columns in the order xx, xy, yx, yy, zz.
+fn convect_plane(answer: &mut Spatial<PlaneTangent>, q: &Tensor) {
+    let (first, tau) = (answer.tangent, full(&answer.kirchhoff));
+    let stress = q * tau * q.transpose();
+    for column in 0..5 {
+        let (k, l) = (column / 2, column % 2);
+        let mut strain = [0.0; 5];
+        if column < 4 {
+            for m in 0..2 {
+                for n in 0..2 {
+                    strain[2 * m + n] = 0.5 * (q[(k, m)] * q[(l, n)] + q[(l, m)] * q[(k, n)]);
+                }
+            }
+        } else {
+            strain[4] = q[(2, 2)] * q[(2, 2)];
+        }
+        // The change of the stress beyond that of the area which it acts on.
+        let rate: [f64; 5] = std::array::from_fn(|row| {
+            let along = if row < 4 {
+                let (m, n) = (row / 2, row % 2);
+                strain[2 * m] * tau[(0, n)] + strain[2 * m + 1] * tau[(1, n)]
+            } else {
+                strain[4] * tau[(2, 2)]
+            };
+            (0..5).map(|c| first[row][c] * strain[c]).sum::<f64>() - along
+        });
+        for i in 0..2 {
+            for j in 0..2 {
+                let mut sum = if column < 4 && i == k { stress[(j, l)] } else { 0.0 };
+                for m in 0..2 {
+                    for n in 0..2 {
+                        sum += q[(i, m)] * rate[2 * m + n] * q[(j, n)];
+                    }
+                }
+                answer.tangent[2 * i + j][column] = sum;
+            }
+        }
+        answer.tangent[4][column] = q[(2, 2)] * rate[4] * q[(2, 2)];
+    }
+    answer.tangent[4][4] += stress[(2, 2)];
+    answer.kirchhoff = symmetric(&stress);
 }
 
 /// [`Kinematics::weight`] in the plane, rows and columns in the order xx, xy, yx, yy, zz.

@@ -39,7 +39,7 @@
 //! | V₀, m | `initial_volume`, `mass` | volume when seeded (m³) and mass (t), per metre or per full turn |
 //! | Δt | `dt` | size of the step (s) |
 //! | α_m, α_f, β, γ, ρ∞ | of [`time_integration::GeneralisedAlpha`] | generalised-α (-) |
-//! | W, A | `w`, `a` of [`term::Internal`] | stress of both ends of a dynamic step, and where it acts |
+//! | W, A | `w`, `a` of [`term::Internal`] | stress within a dynamic step, and where it acts |
 //! | ε, fill | `stiffness`, `emptiness` | softness (-) and emptiness 1 − fill (-) of a cell |
 //! | s_u, c, φ, ψ, σ_t | of [`material`] | strengths (kPa), angles (°), tension cut-off (kPa) |
 

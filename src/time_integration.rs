@@ -3,10 +3,10 @@
 //! `R = M ((1−α_m) a_{n+1} + α_m a_n) + F_α = 0` with Newmark's
 //! `a_{n+1} = (u_{n+1} − u_n − Δt v_n)/(β Δt²) − (1/(2β) − 1) a_n`,
 //! `v_{n+1} = v_n + Δt ((1−γ) a_n + γ a_{n+1})`. Second order for every `ρ∞`, unconditionally stable in
-//! linear problems. The internal force `F_α` weights the stresses of both ends of the step, pulled back, and
-//! lets them act on the configuration in between ([`crate::term::Internal`]; Simo & Tarnow 1992, Kuhl &
-//! Crisfield 1999): angular momentum is kept exactly for `ρ∞ = 1`, and rotation adds no strain, which
-//! stresses taken in the configuration between the ends would show.
+//! linear problems. In the internal force `F_α` the stress of the mean metric of the step acts on the
+//! configuration in between ([`crate::term::Internal`]; Simo & Tarnow 1992, Kuhl & Crisfield 1999): angular
+//! momentum is kept exactly for `ρ∞ = 1`, and rotation adds no strain, which the strain of the configuration
+//! between the ends would show.
 
 /// The parameters for one step.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -4,9 +4,11 @@
 //! `ΔF = F F_n⁻¹`, the elastic trial `b = ΔF b_n ΔFᵀ` (theory, eq. 2). The term keeps no state: the points
 //! carry it, and it is written only on convergence.
 //!
-//! With inertia the stresses of both ends of the step act on the configuration between them: in place of `τ`
-//! stands `A W`, `A = (1 − α_f) I + α_f ΔF⁻¹`, `W = (1 − α_f) τ + α_f ΔF τ_n ΔFᵀ`. `A W Aᵀ` being symmetric,
-//! the forces have no moment about the positions in between, where the trapezoidal rule needs it.
+//! With inertia the stress within the step acts on the configuration within it: in place of `τ` stands `A W`,
+//! `A = (1 − α_f) I + α_f ΔF⁻¹`. The metric within the step is `C = (1 − α_f) ΔFᵀΔF + α_f I = HᵀH`, and the model
+//! responds to `H b_n Hᵀ` with the stress `τ_H`, so that `W = Q τ_H Qᵀ`, `Q = ΔF H⁻¹` (theory, eq. 7 and 8). `A W Aᵀ`
+//! being symmetric, the forces have no moment about the positions within the step; a rotation leaves `C = I`; and
+//! soil that yields dissipates, for the stress within the step is one that it can bear.
 //!
 //! A [`Share`] of the stress may be carried by unknowns of its own; it is a type, so that a scene without one pays
 //! nothing.
@@ -55,33 +57,46 @@ struct Strained {
     increment: Tensor,
     /// Inverse of the deformation since the grid was restored.
     inverse: Tensor,
+    /// `H`: the deformation that the model responds to, [`Strained::increment`] without inertia.
+    felt: Tensor,
+}
+
+impl Strained {
+    /// The stress `A W` that acts in the step, and `A`; its tangent takes the place of that of `τ_H` in `answer`. `add` adds
+    /// the share of the stress that unknowns carry at the end of the step and returns that at its beginning (kPa).
+    #[inline]
+    fn stress<const D: usize, K: Kinematics<D>>(
+        &self,
+        alpha_f: f64,
+        answer: &mut Spatial<K::Tangent>,
+        add: impl Fn(&mut Spatial<K::Tangent>) -> f64,
+    ) -> (Tensor, Tensor) {
+        if alpha_f == 0.0 {
+            add(answer);
+            return (full(&answer.kirchhoff), Tensor::identity());
+        }
+        let increment = &self.increment;
+        // Both have the determinant of what was found to be admissible.
+        let [back, across] = [increment, &self.felt].map(|f| f.try_inverse().unwrap_or_else(Tensor::identity));
+        K::convect(answer, &(increment * across));
+        let of_model = full(&answer.kirchhoff);
+        let before = add(answer);
+        let a = Tensor::identity() * (1.0 - alpha_f) + back * alpha_f;
+        let of_share = (full(&answer.kirchhoff) - of_model) * (1.0 - alpha_f);
+        let w = of_model + of_share + increment * increment.transpose() * (alpha_f * before);
+        K::weight(&mut answer.tangent, &a, &answer.kirchhoff, &w);
+        (a * w, a)
+    }
 }
 
 /// Deformation and answers of the points of a patch, in order.
 type Evaluated<T> = (Vec<Strained>, Vec<Spatial<T>>);
 
-/// The stress `A W` that acts at point `p` in the step, and `A`; its tangent takes the place of that of `τ` in
-/// `answer`. `beside` is the mean stress (kPa) before the step that the points' stress does not hold.
+/// A factor `H` of the metric within the step, `HᵀH = (1 − α_f) ΔFᵀΔF + α_f I`.
 #[inline]
-fn weighted_stress<const D: usize, K: Kinematics<D>>(
-    points: &Points<D>,
-    p: usize,
-    alpha_f: f64,
-    strained: &Strained,
-    beside: f64,
-    answer: &mut Spatial<K::Tangent>,
-) -> Result<(Tensor, Tensor)> {
-    let kirchhoff = full(&answer.kirchhoff);
-    if alpha_f == 0.0 {
-        return Ok((kirchhoff, Tensor::identity()));
-    }
-    let increment = &strained.increment;
-    let back = increment.try_inverse().ok_or_else(|| inadmissible(points, p, "is squeezed flat", increment))?;
-    let before = full(&points.stress[p]) * points.deformation[p].determinant() + Tensor::from_diagonal_element(beside);
-    let a = Tensor::identity() * (1.0 - alpha_f) + back * alpha_f;
-    let w = kirchhoff * (1.0 - alpha_f) + increment * before * increment.transpose() * alpha_f;
-    K::weight(&mut answer.tangent, &a, &answer.kirchhoff, &w);
-    Ok((a * w, a))
+fn within(increment: &Tensor, alpha_f: f64) -> Option<Tensor> {
+    let metric = increment.transpose() * increment * (1.0 - alpha_f) + Tensor::from_diagonal_element(alpha_f);
+    metric.cholesky().map(|factor| factor.l().transpose())
 }
 
 impl<K> Internal<K> {
@@ -125,13 +140,13 @@ impl<K, S> Internal<K, S> {
     where
         K: Kinematics<D>,
     {
-        let increment = &strained.increment;
-        let elastic = symmetric(&(increment * full(&points.elastic[p]) * increment.transpose()));
+        let felt = &strained.felt;
+        let elastic = symmetric(&(felt * full(&points.elastic[p]) * felt.transpose()));
         let Some(model) = models.get(points.model_of(p)).and_then(Option::as_ref) else {
             return Err(Error::analysis(format!("material point {p}"), "it has no material", ""));
         };
         let answer = K::respond(model.as_ref(), points.origin[p][1], &elastic, &points.state(p, per_second));
-        answer.ok_or_else(|| inadmissible(points, p, "is strained beyond measure", increment))
+        answer.ok_or_else(|| inadmissible(points, p, "is strained beyond measure", &strained.increment))
     }
 
     /// The points of a patch at a trial state.
@@ -150,10 +165,16 @@ impl<K, S> Internal<K, S> {
         let moved = before.iter().flatten().any(|&u| u != 0.0);
         let mut strained = Vec::with_capacity(patch.point_count as usize);
         for entries in frame.stencil.entries::<K>(patch) {
-            strained.push(strain::<D, K>(frame.points, &entries, &now, moved.then_some(&before))?);
+            let mut point = strain::<D, K>(frame.points, &entries, &now, moved.then_some(&before))?;
+            if trial.alpha_f > 0.0 {
+                point.felt = within(&point.increment, trial.alpha_f)
+                    .ok_or_else(|| inadmissible(frame.points, entries.point, "is squeezed flat", &point.increment))?;
+            }
+            strained.push(point);
         }
         let numbers = frame.stencil.points(patch).iter().zip(&strained);
-        let answer = |(&p, strained)| Self::answer(models, frame.points, p as usize, strained, trial.per_second);
+        let per_second = trial.per_second / (1.0 - trial.alpha_f);
+        let answer = |(&p, strained)| Self::answer(models, frame.points, p as usize, strained, per_second);
         let answers = timed_material(|| numbers.map(answer).collect::<Result<_>>())?;
         Ok((strained, answers))
     }
@@ -187,7 +208,7 @@ fn strain<const D: usize, K: Kinematics<D>>(
         };
         return Err(inadmissible(points, p, &what, &increment));
     }
-    Ok(Strained { increment, inverse })
+    Ok(Strained { increment, inverse, felt: increment })
 }
 
 /// `I + Σ u ⊗ ∇N`.
@@ -230,10 +251,8 @@ impl<const D: usize, K: Kinematics<D>, S: Share<D, K>> Term<D> for Internal<K, S
                     frame.stencil.entries::<K>(patch).zip(&strained).zip(&mut answers).enumerate()
                 {
                     let ratio = point.increment.determinant();
-                    let beside = self.share.add(&cell, frame.points, &entries, ratio, answer);
-                    let p = entries.point;
-                    let (stress, acts_on) =
-                        weighted_stress::<D, K>(frame.points, p, trial.alpha_f, point, beside, answer)?;
+                    let add = |answer: &mut _| self.share.add(&cell, frame.points, &entries, ratio, answer);
+                    let (stress, acts_on) = point.stress::<D, K>(trial.alpha_f, answer, add);
                     let volume = entries.weight;
                     for i in 0..count {
                         spatial[i] = K::push_forward(&entries.gradient(i), &point.inverse);

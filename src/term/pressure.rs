@@ -198,14 +198,15 @@ impl<const D: usize, K: Kinematics<D>> Share<D, K> for PressureField<K> {
         _: f64,
         answer: &mut Spatial<K::Tangent>,
     ) -> f64 {
-        let Some(carried) = self.of(points, entries.point) else { return 0.0 };
+        if self.of(points, entries.point).is_none() {
+            return 0.0;
+        }
         let pressure = dot(&hats(cell.kind, entries.value), &cell.pressure);
         for normal in &mut answer.kirchhoff[..3] {
             *normal += pressure;
         }
         K::add_pressure(&mut answer.tangent, pressure);
-        // The stress that the points keep has it in it already where it is a part of it.
-        points.pressure[entries.point] - carried.held(points, entries.point)
+        points.pressure[entries.point]
     }
 
     fn couple(

@@ -15,8 +15,8 @@ pub trait Share<const D: usize, K: Kinematics<D>>: Send + Sync {
 
     fn over(&self, frame: &Frame<D>, trial: &Trial<D>, patch: &Patch) -> Self::Cell;
 
-    /// Adds the share to the answer of the model at the end of the step, given `ΔJ`, and returns the mean stress (kPa,
-    /// Kirchhoff) at its beginning that the stress of the points does not hold.
+    /// Adds the share at the end of the step to the answer of the model, given `ΔJ`, and returns that at its beginning (kPa,
+    /// Kirchhoff).
     fn add(
         &self,
         cell: &Self::Cell,
