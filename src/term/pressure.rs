@@ -1,14 +1,16 @@
 //! A field of unknowns that carries most of the mean stress, so that cells with many points do not lock.
 //!
-//! The points keep the shear modulus and a moderate bulk modulus `K_m`; the field `π` (Kirchhoff, tension positive)
-//! carries the rest: `K_f = K − K_m` in total stress, and with it the `K_w/n` of the pore water in effective stress. Both are stationary points of
-//! `Σ w₀ [W_m + π ln J − π²/(2 K_f)]` (theory, eq. 24):
+//! The points keep the shear modulus and a small bulk modulus `K_m`; the field `π` (Cauchy, tension positive)
+//! carries the rest: `K_f = K − K_m` in total stress, and with it the `K_w/n` of the pore water in effective stress. With the volume
+//! `w_n = w₀ J_n` of each point as the step begins they make stationary (theory, eq. 24)
+//! `Σ w₀ W_m + Σ w_n [π (ΔJ − 1) − (π − π_n)²/(2 K_f)]`:
 //!
 //! ```text
-//! R_u += Σ w₀ π 1 : ∇_x N          R_π = Σ w₀ L [ln ΔJ − (π − π_n)/K_f]
+//! R_u += Σ w_n ΔJ π 1 : ∇_x N          R_π = Σ w_n L [ΔJ − 1 − (π − π_n)/K_f]
 //! ```
 //!
-//! The second is in increments: the points carry `π_n`. The volume strain of single points is only loosely bound to
+//! It is the volume of a cell that the second keeps. The sum of `ln ΔJ` in its place, which is the same for small strains, lets cells grow in which
+//! single points swell and shrink. It is in increments: the points carry `π_n`. The volume strain of single points is only loosely bound to
 //! the field; were it summed up, a restored grid would have to undo what other cells make of it, in every step.
 //!
 //! `L` are the corner hats, continuous from cell to cell, and in cells of second order a constant a cell (Taylor–Hood
@@ -65,7 +67,7 @@ impl Carried {
     /// What the stress of point `p` holds of the field (kPa, Kirchhoff).
     pub fn held<const D: usize>(&self, points: &Points<D>, p: usize) -> f64 {
         if self.water == 0.0 {
-            return points.pressure[p];
+            return points.pressure[p] * points.deformation[p].determinant();
         }
         let of_model = self.model.mean_stress(points.origin[p][1], volume_strain(&points.elastic[p]));
         points.deformation[p].determinant() * mean(&points.stress[p]) - of_model
@@ -73,7 +75,7 @@ impl Carried {
 
     /// Excess pressure of the pore water (kPa, Cauchy, compression positive) at point `p`.
     pub fn pore_pressure<const D: usize>(&self, points: &Points<D>, p: usize) -> f64 {
-        (self.held(points, p) - points.pressure[p]) / points.deformation[p].determinant()
+        self.held(points, p) / points.deformation[p].determinant() - points.pressure[p]
     }
 
     /// What the field begins with (kPa) at a point whose elastic tensor is that of `whole`, the model that answers for
@@ -81,6 +83,7 @@ impl Carried {
     pub fn begin<const D: usize>(&self, whole: &dyn Model, points: &Points<D>, p: usize) -> f64 {
         let bulk = |model: &dyn Model| model.elasticity().at(points.origin[p][1]).bulk();
         (bulk(whole) - bulk(self.model.as_ref())) * volume_strain(&points.elastic[p])
+            / points.deformation[p].determinant()
     }
 }
 
@@ -195,18 +198,21 @@ impl<const D: usize, K: Kinematics<D>> Share<D, K> for PressureField<K> {
         cell: &Cell,
         points: &Points<D>,
         entries: &Entries<D>,
-        _: f64,
+        volume_ratio: f64,
         answer: &mut Spatial<K::Tangent>,
     ) -> f64 {
-        if self.of(points, entries.point).is_none() {
+        let p = entries.point;
+        if self.of(points, p).is_none() {
             return 0.0;
         }
-        let pressure = dot(&hats(cell.kind, entries.value), &cell.pressure);
+        let before = points.deformation[p].determinant();
+        let pressure = dot(&hats(cell.kind, entries.value), &cell.pressure) * before * volume_ratio;
         for normal in &mut answer.kirchhoff[..3] {
             *normal += pressure;
         }
         K::add_pressure(&mut answer.tangent, pressure);
-        points.pressure[entries.point]
+        K::add_volumetric(&mut answer.tangent, pressure);
+        points.pressure[p] * before
     }
 
     fn couple(
@@ -237,8 +243,8 @@ impl<const D: usize, K: Kinematics<D>> Share<D, K> for PressureField<K> {
             }
         };
         let gained = dot(&hats, &cell.pressure) - points.pressure[p];
-        let strain = volume_ratio.ln() - compliance * gained;
-        let weight = later * self.unit * entries.weight;
+        let strain = volume_ratio - 1.0 - compliance * gained;
+        let weight = later * self.unit * entries.weight * points.deformation[p].determinant();
         for a in 0..count {
             local.vector[begin + a] += weight * (hats[a] * strain - stabilised[a] * gained);
         }
@@ -250,8 +256,8 @@ impl<const D: usize, K: Kinematics<D>> Share<D, K> for PressureField<K> {
             let (volume, force) = (K::force(&one, gradient), K::force(acts_on, gradient));
             for (a, hat) in hats.iter().enumerate().take(count) {
                 for d in 0..D {
-                    local.matrix[(begin + a) * size + i * D + d] += weight * hat * volume[d];
-                    local.matrix[(i * D + d) * size + begin + a] += weight * hat * force[d];
+                    local.matrix[(begin + a) * size + i * D + d] += weight * hat * volume_ratio * volume[d];
+                    local.matrix[(i * D + d) * size + begin + a] += weight * hat * volume_ratio * force[d];
                 }
             }
         }
@@ -267,9 +273,10 @@ impl<const D: usize, K: Kinematics<D>> Share<D, K> for PressureField<K> {
         let Some(carried) = self.of(points, entries.point) else { return };
         history.pressure = dot(&hats(cell.kind, entries.value), &cell.pressure);
         let gained = history.pressure - points.pressure[entries.point];
-        let held = carried.held(points, entries.point) + (1.0 - carried.water) * gained;
+        let before = points.deformation[entries.point].determinant();
+        let held = carried.held(points, entries.point) / before + (1.0 - carried.water) * gained;
         for normal in &mut history.stress[..3] {
-            *normal += held / history.deformation.determinant();
+            *normal += held;
         }
     }
 
