@@ -3,10 +3,10 @@
 //! The points keep the shear modulus and a small bulk modulus `K_m`; the field `π` (Cauchy, tension positive)
 //! carries the rest: `K_f = K − K_m` in total stress, and with it the `K_w/n` of the pore water in effective stress. With the volume
 //! `w_n = w₀ J_n` of each point as the step begins they make stationary (theory, eq. 24)
-//! `Σ w₀ W_m + Σ w_n [π (ΔJ − 1) − (π − π_n)²/(2 K_f)]`:
+//! `Σ w₀ W_m + Σ w_n [π (ΔJ − 1) − U*(π)]`, `U*` the complementary energy of Hencky's law from the state before:
 //!
 //! ```text
-//! R_u += Σ w_n ΔJ π 1 : ∇_x N          R_π = Σ w_n L [ΔJ − 1 − (π − π_n)/K_f]
+//! R_u += Σ w_n ΔJ π 1 : ∇_x N          R_π = Σ w_n L [ΔJ − ΔJ(π)],     J π = J_n π_n + K_f ln ΔJ(π)
 //! ```
 //!
 //! It is the volume of a cell that the second keeps. The sum of `ln ΔJ` in its place, which is the same for small strains, lets cells grow in which
@@ -33,6 +33,9 @@ use std::sync::Arc;
 /// Most unknowns of a cell.
 pub const MOST: usize = 5;
 
+/// Iterations for the volume at a pressure: from a few per cent of strain on it takes more than three.
+const ITERATIONS: usize = 20;
+
 /// Values of the functions of the field at a point: corners, then the constant.
 pub type Hats = [f64; MOST];
 
@@ -57,6 +60,23 @@ impl Carried {
     /// `1 / K_f` (1/kPa) at a point seeded at height `y` (m).
     pub fn compliance(&self, y: f64) -> f64 {
         1.0 / (self.ratio * self.model.elasticity().at(y).shear)
+    }
+
+    /// `ΔJ` of point `p` at the pressure `pressure` (kPa, Cauchy, tension positive), and its slope (1/kPa): the Kirchhoff pressure grows
+    /// by `K_f ln ΔJ`, as in Hencky's law.
+    fn volume_ratio<const D: usize>(&self, points: &Points<D>, p: usize, pressure: f64) -> [f64; 2] {
+        let (before, compliance) = (points.deformation[p].determinant(), self.compliance(points.origin[p][1]));
+        let [then, now] = [points.pressure[p], pressure].map(|pressure| compliance * before * pressure);
+        // Newton's method for `now x = then + ln x`, from the volume that the grid had.
+        let mut x = 1.0;
+        for _ in 0..ITERATIONS {
+            let change = (then + f64::ln(x) - now * x) / (1.0 / x - now);
+            x = (x - change).clamp(0.5 * x, 2.0 * x);
+            if change.abs() < 1e-15 * x {
+                break;
+            }
+        }
+        [x, compliance * before * x / (1.0 / x - now)]
     }
 
     /// `1 / 2G` (1/kPa) at a point seeded at height `y` (m).
@@ -232,7 +252,6 @@ impl<const D: usize, K: Kinematics<D>> Share<D, K> for PressureField<K> {
         // They are the last ones of a clique.
         let begin = local.size - count;
         let y = points.origin[p][1];
-        let compliance = carried.compliance(y);
         let hats = hats(cell.kind, entries.value);
         // Cells of first order: only what varies within the cell is stabilised.
         let stabilised: Hats = match &cell.mean {
@@ -242,8 +261,10 @@ impl<const D: usize, K: Kinematics<D>> Share<D, K> for PressureField<K> {
                 std::array::from_fn(|a| softness * (hats[a] - mean[a]))
             }
         };
-        let gained = dot(&hats, &cell.pressure) - points.pressure[p];
-        let strain = volume_ratio - 1.0 - compliance * gained;
+        let pressure = dot(&hats, &cell.pressure);
+        let gained = pressure - points.pressure[p];
+        let [wanted, compliance] = carried.volume_ratio(points, p, pressure);
+        let strain = volume_ratio - wanted;
         let weight = later * self.unit * entries.weight * points.deformation[p].determinant();
         for a in 0..count {
             local.vector[begin + a] += weight * (hats[a] * strain - stabilised[a] * gained);
@@ -282,6 +303,7 @@ impl<const D: usize, K: Kinematics<D>> Share<D, K> for PressureField<K> {
 
     fn energy(&self, points: &Points<D>, p: usize) -> f64 {
         let Some(carried) = self.of(points, p) else { return 0.0 };
-        0.5 * points.initial_volume[p] * carried.compliance(points.origin[p][1]) * points.pressure[p].powi(2)
+        let kirchhoff = points.deformation[p].determinant() * points.pressure[p];
+        0.5 * points.initial_volume[p] * carried.compliance(points.origin[p][1]) * kirchhoff.powi(2)
     }
 }
