@@ -201,7 +201,9 @@ impl<const D: usize, K: Kinematics<D>> Share<D, K> for PressureField<K> {
             for entries in frame.stencil.entries::<K>(patch) {
                 if let Some(carried) = self.of(frame.points, entries.point) {
                     // As the differences from them are weighted: the projection is symmetric.
-                    let own = entries.weight * carried.softness(frame.points.origin[entries.point][1]);
+                    let p = entries.point;
+                    let volume = entries.weight * frame.points.deformation[p].determinant();
+                    let own = volume * carried.softness(frame.points.origin[p][1]);
                     weight += own;
                     for (sum, hat) in sum.iter_mut().zip(hats(kind, entries.value)) {
                         *sum += own * hat;
