@@ -33,7 +33,7 @@ use std::sync::Arc;
 /// Most unknowns of a cell.
 pub const MOST: usize = 5;
 
-/// Iterations for the volume at a pressure: from a few per cent of strain on it takes more than three.
+/// Most iterations for the volume at a pressure; it takes two or three.
 const ITERATIONS: usize = 20;
 
 /// Values of the functions of the field at a point: corners, then the constant.
@@ -63,20 +63,21 @@ impl Carried {
     }
 
     /// `ΔJ` of point `p` at the pressure `pressure` (kPa, Cauchy, tension positive), and its slope (1/kPa): the Kirchhoff pressure grows
-    /// by `K_f ln ΔJ`, as in Hencky's law.
+    /// by `K_f ln ΔJ`, as in Hencky's law. Not a number beyond the largest tension that the law has, `K_f/(e J_n)` from no stress: such a
+    /// trial state is refused.
     fn volume_ratio<const D: usize>(&self, points: &Points<D>, p: usize, pressure: f64) -> [f64; 2] {
         let (before, compliance) = (points.deformation[p].determinant(), self.compliance(points.origin[p][1]));
         let [then, now] = [points.pressure[p], pressure].map(|pressure| compliance * before * pressure);
-        // Newton's method for `now x = then + ln x`, from the volume that the grid had.
+        // Newton's method for `now x = then + ln x`. The last change is squared in what is left.
         let mut x = 1.0;
         for _ in 0..ITERATIONS {
             let change = (then + f64::ln(x) - now * x) / (1.0 / x - now);
             x = (x - change).clamp(0.5 * x, 2.0 * x);
-            if change.abs() < 1e-15 * x {
-                break;
+            if change.abs() < 1e-9 * x {
+                return [x, compliance * before * x / (1.0 / x - now)];
             }
         }
-        [x, compliance * before * x / (1.0 / x - now)]
+        [f64::NAN; 2]
     }
 
     /// `1 / 2G` (1/kPa) at a point seeded at height `y` (m).
