@@ -63,7 +63,7 @@ impl Change {
             if !points.pressure.is_empty() {
                 points.pressure[p] = self.carried.as_ref().map_or(0.0, |carried| {
                     if shares(&carried) {
-                        carried.held(points, p) / volume_ratio - pore_pressure
+                        carried.held(points, p) - volume_ratio * pore_pressure
                     } else {
                         carried.begin(self.model.as_ref(), points, p)
                     }

@@ -1,16 +1,14 @@
 //! A field of unknowns that carries most of the mean stress, so that cells with many points do not lock.
 //!
-//! The points keep the shear modulus and a small bulk modulus `K_m`; the field `π` (Cauchy, tension positive)
-//! carries the rest: `K_f = K − K_m` in total stress, and with it the `K_w/n` of the pore water in effective stress. With the volume
-//! `w_n = w₀ J_n` of each point as the step begins they make stationary (theory, eq. 24)
-//! `Σ w₀ W_m + Σ w_n [π (ΔJ − 1) − U*(π)]`, `U*` the complementary energy of Hencky's law from the state before:
+//! The points keep the shear modulus and a moderate bulk modulus `K_m`; the field `π` (Kirchhoff, tension positive)
+//! carries the rest: `K_f = K − K_m` in total stress, and with it the `K_w/n` of the pore water in effective stress. Both are stationary points of
+//! `Σ w₀ [W_m + π ln J − π²/(2 K_f)]` (theory, eq. 24):
 //!
 //! ```text
-//! R_u += Σ w_n ΔJ π 1 : ∇_x N          R_π = Σ w_n L [ΔJ − ΔJ(π)],     J π = J_n π_n + K_f ln ΔJ(π)
+//! R_u += Σ w₀ π 1 : ∇_x N          R_π = Σ w₀ L [ln ΔJ − (π − π_n)/K_f]
 //! ```
 //!
-//! It is the volume of a cell that the second keeps. The sum of `ln ΔJ` in its place, which is the same for small strains, lets cells grow in which
-//! single points swell and shrink. It is in increments: the points carry `π_n`. The volume strain of single points is only loosely bound to
+//! The second is in increments: the points carry `π_n`. The volume strain of single points is only loosely bound to
 //! the field; were it summed up, a restored grid would have to undo what other cells make of it, in every step.
 //!
 //! `L` are the corner hats, continuous from cell to cell, and in cells of second order a constant a cell (Taylor–Hood
@@ -32,9 +30,6 @@ use std::sync::Arc;
 
 /// Most unknowns of a cell.
 pub const MOST: usize = 5;
-
-/// Most iterations for the volume at a pressure; it takes two or three.
-const ITERATIONS: usize = 20;
 
 /// Values of the functions of the field at a point: corners, then the constant.
 pub type Hats = [f64; MOST];
@@ -62,24 +57,6 @@ impl Carried {
         1.0 / (self.ratio * self.model.elasticity().at(y).shear)
     }
 
-    /// `ΔJ` of point `p` at the pressure `pressure` (kPa, Cauchy, tension positive), and its slope (1/kPa): the Kirchhoff pressure grows
-    /// by `K_f ln ΔJ`, as in Hencky's law. Not a number beyond the largest tension that the law has, `K_f/(e J_n)` from no stress: such a
-    /// trial state is refused.
-    fn volume_ratio<const D: usize>(&self, points: &Points<D>, p: usize, pressure: f64) -> [f64; 2] {
-        let (before, compliance) = (points.deformation[p].determinant(), self.compliance(points.origin[p][1]));
-        let [then, now] = [points.pressure[p], pressure].map(|pressure| compliance * before * pressure);
-        // Newton's method for `now x = then + ln x`. The last change is squared in what is left.
-        let mut x = 1.0;
-        for _ in 0..ITERATIONS {
-            let change = (then + f64::ln(x) - now * x) / (1.0 / x - now);
-            x = (x - change).clamp(0.5 * x, 2.0 * x);
-            if change.abs() < 1e-9 * x {
-                return [x, compliance * before * x / (1.0 / x - now)];
-            }
-        }
-        [f64::NAN; 2]
-    }
-
     /// `1 / 2G` (1/kPa) at a point seeded at height `y` (m).
     fn softness(&self, y: f64) -> f64 {
         0.5 / self.model.elasticity().at(y).shear
@@ -88,7 +65,7 @@ impl Carried {
     /// What the stress of point `p` holds of the field (kPa, Kirchhoff).
     pub fn held<const D: usize>(&self, points: &Points<D>, p: usize) -> f64 {
         if self.water == 0.0 {
-            return points.pressure[p] * points.deformation[p].determinant();
+            return points.pressure[p];
         }
         let of_model = self.model.mean_stress(points.origin[p][1], volume_strain(&points.elastic[p]));
         points.deformation[p].determinant() * mean(&points.stress[p]) - of_model
@@ -96,7 +73,7 @@ impl Carried {
 
     /// Excess pressure of the pore water (kPa, Cauchy, compression positive) at point `p`.
     pub fn pore_pressure<const D: usize>(&self, points: &Points<D>, p: usize) -> f64 {
-        self.held(points, p) / points.deformation[p].determinant() - points.pressure[p]
+        (self.held(points, p) - points.pressure[p]) / points.deformation[p].determinant()
     }
 
     /// What the field begins with (kPa) at a point whose elastic tensor is that of `whole`, the model that answers for
@@ -104,7 +81,6 @@ impl Carried {
     pub fn begin<const D: usize>(&self, whole: &dyn Model, points: &Points<D>, p: usize) -> f64 {
         let bulk = |model: &dyn Model| model.elasticity().at(points.origin[p][1]).bulk();
         (bulk(whole) - bulk(self.model.as_ref())) * volume_strain(&points.elastic[p])
-            / points.deformation[p].determinant()
     }
 }
 
@@ -202,9 +178,7 @@ impl<const D: usize, K: Kinematics<D>> Share<D, K> for PressureField<K> {
             for entries in frame.stencil.entries::<K>(patch) {
                 if let Some(carried) = self.of(frame.points, entries.point) {
                     // As the differences from them are weighted: the projection is symmetric.
-                    let p = entries.point;
-                    let volume = entries.weight * frame.points.deformation[p].determinant();
-                    let own = volume * carried.softness(frame.points.origin[p][1]);
+                    let own = entries.weight * carried.softness(frame.points.origin[entries.point][1]);
                     weight += own;
                     for (sum, hat) in sum.iter_mut().zip(hats(kind, entries.value)) {
                         *sum += own * hat;
@@ -221,21 +195,18 @@ impl<const D: usize, K: Kinematics<D>> Share<D, K> for PressureField<K> {
         cell: &Cell,
         points: &Points<D>,
         entries: &Entries<D>,
-        volume_ratio: f64,
+        _: f64,
         answer: &mut Spatial<K::Tangent>,
     ) -> f64 {
-        let p = entries.point;
-        if self.of(points, p).is_none() {
+        if self.of(points, entries.point).is_none() {
             return 0.0;
         }
-        let before = points.deformation[p].determinant();
-        let pressure = dot(&hats(cell.kind, entries.value), &cell.pressure) * before * volume_ratio;
+        let pressure = dot(&hats(cell.kind, entries.value), &cell.pressure);
         for normal in &mut answer.kirchhoff[..3] {
             *normal += pressure;
         }
         K::add_pressure(&mut answer.tangent, pressure);
-        K::add_volumetric(&mut answer.tangent, pressure);
-        points.pressure[p] * before
+        points.pressure[entries.point]
     }
 
     fn couple(
@@ -255,6 +226,7 @@ impl<const D: usize, K: Kinematics<D>> Share<D, K> for PressureField<K> {
         // They are the last ones of a clique.
         let begin = local.size - count;
         let y = points.origin[p][1];
+        let compliance = carried.compliance(y);
         let hats = hats(cell.kind, entries.value);
         // Cells of first order: only what varies within the cell is stabilised.
         let stabilised: Hats = match &cell.mean {
@@ -264,11 +236,9 @@ impl<const D: usize, K: Kinematics<D>> Share<D, K> for PressureField<K> {
                 std::array::from_fn(|a| softness * (hats[a] - mean[a]))
             }
         };
-        let pressure = dot(&hats, &cell.pressure);
-        let gained = pressure - points.pressure[p];
-        let [wanted, compliance] = carried.volume_ratio(points, p, pressure);
-        let strain = volume_ratio - wanted;
-        let weight = later * self.unit * entries.weight * points.deformation[p].determinant();
+        let gained = dot(&hats, &cell.pressure) - points.pressure[p];
+        let strain = volume_ratio.ln() - compliance * gained;
+        let weight = later * self.unit * entries.weight;
         for a in 0..count {
             local.vector[begin + a] += weight * (hats[a] * strain - stabilised[a] * gained);
         }
@@ -280,8 +250,8 @@ impl<const D: usize, K: Kinematics<D>> Share<D, K> for PressureField<K> {
             let (volume, force) = (K::force(&one, gradient), K::force(acts_on, gradient));
             for (a, hat) in hats.iter().enumerate().take(count) {
                 for d in 0..D {
-                    local.matrix[(begin + a) * size + i * D + d] += weight * hat * volume_ratio * volume[d];
-                    local.matrix[(i * D + d) * size + begin + a] += weight * hat * volume_ratio * force[d];
+                    local.matrix[(begin + a) * size + i * D + d] += weight * hat * volume[d];
+                    local.matrix[(i * D + d) * size + begin + a] += weight * hat * force[d];
                 }
             }
         }
@@ -297,16 +267,14 @@ impl<const D: usize, K: Kinematics<D>> Share<D, K> for PressureField<K> {
         let Some(carried) = self.of(points, entries.point) else { return };
         history.pressure = dot(&hats(cell.kind, entries.value), &cell.pressure);
         let gained = history.pressure - points.pressure[entries.point];
-        let before = points.deformation[entries.point].determinant();
-        let held = carried.held(points, entries.point) / before + (1.0 - carried.water) * gained;
+        let held = carried.held(points, entries.point) + (1.0 - carried.water) * gained;
         for normal in &mut history.stress[..3] {
-            *normal += held;
+            *normal += held / history.deformation.determinant();
         }
     }
 
     fn energy(&self, points: &Points<D>, p: usize) -> f64 {
         let Some(carried) = self.of(points, p) else { return 0.0 };
-        let kirchhoff = points.deformation[p].determinant() * points.pressure[p];
-        0.5 * points.initial_volume[p] * carried.compliance(points.origin[p][1]) * kirchhoff.powi(2)
+        0.5 * points.initial_volume[p] * carried.compliance(points.origin[p][1]) * points.pressure[p].powi(2)
     }
 }
