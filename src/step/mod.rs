@@ -126,25 +126,26 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
         }
     }
 
-    /// One time step of the size that `controller` wants, halved until it converges.
+    /// One time step of the size that `controller` wants, tried with the predicted state first, halved until it converges.
     ///
     /// # Errors
     /// When a point left the grid, the step falls below the least one, or memory does not suffice.
     pub fn advance(&mut self, controller: &mut Controller) -> Result<Report<D>> {
         let before = self.state.restorations;
         let (mut fresh, mut unbalanced) = timed(Activity::Transfer, || self.initialise(false))?;
-        let mut guess = true;
+        let mut predict = true;
         let (dt, start, solution) = loop {
             let dt = controller.size(self.state.phase_time);
-            match self.lagrange(dt, std::mem::take(&mut guess)).and_then(|found| self.stands(dt, found)) {
+            let guess = std::mem::take(&mut predict).then(|| guess::going_on(&self.state, dt)).flatten();
+            match self.lagrange(dt, guess.as_deref()).and_then(|found| self.stands(dt, found)) {
                 Ok((start, solution)) => break (dt, start, solution),
                 Err(error) if error.kind == Kind::Analysis => {
-                    if fresh {
-                        release::hold(self.scene, &mut self.grid, &mut self.state, dt)?;
-                        controller.halve(dt, error)?;
-                    } else {
+                    if !fresh {
                         // A distorted grid is the first thing to blame.
                         (fresh, unbalanced) = timed(Activity::Transfer, || self.initialise(true))?;
+                    } else if guess.is_none() {
+                        release::hold(self.scene, &mut self.grid, &mut self.state, dt)?;
+                        controller.halve(dt, error)?;
                     }
                 }
                 // No step is small enough for a machine without memory.
@@ -186,20 +187,17 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
     }
 
     /// The solution on the grid and, with inertia, the motion that it starts from.
-    /// Where nodes go on as they did, they are a good `guess` of the end of the step.
-    fn lagrange(&mut self, dt: f64, guess: bool) -> Result<Lagrange<D>> {
+    fn lagrange(&mut self, dt: f64, guess: Option<&[[f64; D]]>) -> Result<Lagrange<D>> {
         let (scene, state) = (self.scene, &self.state);
         let dynamic = state.dynamic(scene);
         let given = grid::given_increments(scene, state, &self.grid, dt);
         let start = dynamic.then(|| Start::of(&self.grid, state, &given, dt));
         let (velocity, acceleration): (&[_], &[_]) =
             start.as_ref().map_or((&[], &[]), |s| (&s.velocity, &s.acceleration));
-        let guess = (guess && state.last_step > 0.0 && !dynamic && !scene.pairs.is_empty())
-            .then(|| guess::going_on(state, dt / state.last_step));
         let problem = Problem {
             scene,
             state,
-            guess: guess.as_deref(),
+            guess,
             converged: &state.displacement,
             pressure: &state.pressure,
             velocity,

@@ -192,22 +192,52 @@ impl<'a, const D: usize> Newton<'a, D> {
         })
     }
 
-    /// The state that the iteration begins with.
+    /// The state that the iteration begins with: the predicted one or the converged one.
     fn begin(&mut self) -> Result<()> {
-        let laid = self.problem.integration.is_none() && self.grid.touches.iter().any(|touch| touch.laid);
+        let contact = self.problem.integration.is_none() && !self.grid.touches.is_empty();
+        if !contact {
+            return self.predict();
+        }
+        let laid = self.grid.touches.iter().any(|touch| touch.laid);
         for start in self.problem.guess.into_iter().chain(laid.then_some(self.problem.converged)) {
             self.buffers.now.at.set(start, self.problem.pressure);
             if self.set_out().is_ok() {
                 return Ok(());
             }
             self.buffers.held = false;
-            self.buffers.now.at.set(self.problem.converged, self.problem.pressure);
-            self.buffers.best.clone_from(&self.buffers.now.at);
-            (self.target, self.damping, self.stalled) = (f64::INFINITY, 0.0, 0);
+            self.restart();
         }
         self.evaluate(true)?;
         self.note();
         Ok(())
+    }
+
+    /// Begins with the predicted state where, with what is given reached in both, its residual is less than that of the converged one.
+    fn predict(&mut self) -> Result<()> {
+        let residual = |newton: &mut Self, start: &[[f64; D]]| {
+            newton.buffers.now.at.set(start, newton.problem.pressure);
+            gaps(newton.problem, newton.grid, &newton.buffers.now.at, &mut newton.buffers.gap);
+            newton.buffers.now.at.advance(newton.problem, newton.grid, &newton.buffers.gap, 1.0);
+            let found = newton.evaluate(false).map(|()| newton.size(&newton.buffers.now));
+            found.ok().filter(|size| size.is_finite()).unwrap_or(f64::INFINITY)
+        };
+        if let Some(guess) = self.problem.guess {
+            let without = residual(self, self.problem.converged);
+            if residual(self, guess) >= without {
+                self.restart();
+            }
+        }
+        self.buffers.best.clone_from(&self.buffers.now.at);
+        self.evaluate(true)?;
+        self.note();
+        Ok(())
+    }
+
+    /// Goes back to the converged state.
+    fn restart(&mut self) {
+        self.buffers.now.at.set(self.problem.converged, self.problem.pressure);
+        self.buffers.best.clone_from(&self.buffers.now.at);
+        (self.target, self.damping, self.stalled) = (f64::INFINITY, 0.0, 0);
     }
 
     /// The first iterations from a guess, or of bodies laid on each other. They leave hats a little apart that bear in
@@ -300,11 +330,15 @@ impl<'a, const D: usize> Newton<'a, D> {
             self.target = whole;
         }
         let (pattern, matrix) = (&motion.pattern, &motion.matrix);
-        let method = if matrix.beyond.is_empty() {
-            motion.solver.solve(pattern, matrix, delta)
-        } else {
+        // Where the residual has fallen to a tenth the tangent is much the same as before.
+        let near = matches!(self.history[..], [.., before, last] if last < 0.1 * before);
+        let method = if !matrix.beyond.is_empty() {
             let tolerance = forcing(&self.history, self.problem.scene.numerics.tolerance);
             motion.solver.solve_beyond(pattern, matrix, tolerance, delta)
+        } else if near && self.method == Method::Iterative {
+            motion.solver.solve_near(pattern, matrix, delta)
+        } else {
+            motion.solver.solve(pattern, matrix, delta)
         };
         let Problem { scene, state, .. } = self.problem;
         let position = |n: u32| {

@@ -61,8 +61,9 @@ pub fn begin_anew<const D: usize, K: Kinematics<D>>(
     };
     state.weighing = scene.quadrature.weigh(&grid, &mut state.front);
     state.weighing.put_back = put_back;
-    let before = before.as_ref().map_or(&scene.mesh, |r| &r.mesh);
-    guess::carry(scene, before, mesh, state);
+    let here = before.as_ref().map_or((&scene.mesh, &scene.locator), |r| (&r.mesh, &r.locator));
+    let before = here.0;
+    guess::carry(here, mesh, state);
     release::carry(scene, before, (mesh, locator), state);
     state.displacement.fill([0.0; D]);
     state.restorations += 1;

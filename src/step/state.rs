@@ -58,7 +58,8 @@ pub struct State<const D: usize> {
     pub parametric: Vec<[f64; 3]>,
     /// Displacement (m) of the nodes since the last restoration.
     pub displacement: Vec<[f64; D]>,
-    /// What the last step added to it, and the size (s) of that step; empty where no step begins with a guess.
+    /// What the last step added to it, and the size (s) of that step; empty before the first one, zero where inertia has come in or
+    /// gone since.
     pub increment: Vec<[f64; D]>,
     pub last_step: f64,
     /// The last step, if it balanced its loads without inertia and without water that flows.
@@ -169,5 +170,6 @@ impl<const D: usize> State<D> {
         }
         self.velocity.clear();
         self.acceleration.clear();
+        self.increment.fill([0.0; D]);
     }
 }

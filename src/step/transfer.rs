@@ -41,6 +41,8 @@ pub fn motion_to_grid<const D: usize, K: Kinematics<D>>(
         accelerations_to_points::<D, K>(scene, grid, state);
         rigid::motion_to_points(scene, state);
         state.moving = true;
+        // What came without inertia is no motion that goes on with it.
+        state.increment.fill([0.0; D]);
     }
     Ok(())
 }

@@ -18,8 +18,9 @@ pub(super) const ACCEPTED: f64 = 1e-8;
 pub(super) const SINGULAR: f64 = 1e-12;
 /// Relative residual that refinement and iteration aim at.
 const AIM: f64 = 1e-12;
-/// Iterations of BiCGSTAB before LU is taken.
+/// Iterations of BiCGSTAB before LU is taken, and with the factor of another matrix before a new one is made.
 const ITERATIONS: usize = 40;
+const FEW_ITERATIONS: usize = 8;
 
 /// How a solution was found.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -86,7 +87,7 @@ impl Solver {
                 }
             }
         } else if timed(Activity::Factorisation, || self.factorize(matrix, pattern, self.definite))?
-            && timed(Activity::Solution, || self.iterate(pattern, matrix, &b, x))
+            && timed(Activity::Solution, || self.iterate(pattern, matrix, ITERATIONS, &b, x))
         {
             return Ok(Method::Iterative);
         }
@@ -95,6 +96,21 @@ impl Solver {
             none => none.insert(General::new(pattern)?).solve(pattern, matrix, &b, x),
         })?;
         Ok(Method::Lu)
+    }
+
+    /// As [`Solver::solve`]. If the matrix is not symmetric and much the same as the last one, the factor of that is used again.
+    ///
+    /// # Errors
+    /// As there.
+    pub fn solve_near(&mut self, pattern: &Pattern, matrix: &Matrix, x: &mut [f64]) -> Result<Method> {
+        let b = x.to_vec();
+        let found =
+            !pattern.symmetric && timed(Activity::Solution, || self.iterate(pattern, matrix, FEW_ITERATIONS, &b, x));
+        if found {
+            return Ok(Method::Iterative);
+        }
+        x.copy_from_slice(&b);
+        self.solve(pattern, matrix, x)
     }
 
     /// Solves `A x = b` where the matrix has parts beyond its pattern: by GMRES, to the relative residual `tolerance`,
@@ -205,7 +221,7 @@ impl Solver {
     }
 
     /// BiCGSTAB preconditioned by the factor of the symmetric part.
-    fn iterate(&mut self, pattern: &Pattern, matrix: &Matrix, b: &[f64], x: &mut [f64]) -> bool {
+    fn iterate(&mut self, pattern: &Pattern, matrix: &Matrix, most: usize, b: &[f64], x: &mut [f64]) -> bool {
         let n = b.len();
         let mut work = std::mem::take(&mut self.work);
         work.resize(7, Vec::new());
@@ -213,7 +229,7 @@ impl Solver {
             w.clear();
             w.resize(n, 0.0);
         }
-        let converged = self.bicgstab(pattern, matrix, b, x, &mut work);
+        let converged = self.bicgstab(pattern, matrix, most, b, x, &mut work);
         self.work = work;
         converged
     }
@@ -222,6 +238,7 @@ impl Solver {
         &mut self,
         pattern: &Pattern,
         matrix: &Matrix,
+        most: usize,
         b: &[f64],
         x: &mut [f64],
         work: &mut [Vec<f64>],
@@ -237,7 +254,7 @@ impl Solver {
         p.copy_from_slice(r);
         let size = norm(b);
         let mut rho = dot(shadow, r);
-        for _ in 0..ITERATIONS {
+        for _ in 0..most {
             if norm(r) <= AIM * size {
                 return true;
             }

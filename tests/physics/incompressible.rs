@@ -61,7 +61,9 @@ fn patch<K: Kinematics<2>>(kind: CellKind, gradient: [[f64; 2]; 2], restore: boo
     }
     let points = quadrature_points::<K>(&bench.mesh, 4, bench.density);
     let hoop = if K::HOOP { gradient[0][0] } else { 0.0 };
-    let scene = bench.scene::<K>();
+    let mut scene = bench.scene::<K>();
+    // The second step begins with the predicted state, and so ends close to the tolerance, not far below it.
+    scene.numerics.tolerance = 1e-12;
     let state = run::<K>(&scene, points, |_, report| assert!(report.iterations() <= 8));
     let mut error = [0f64; 2];
     for (f, stress) in state.points.deformation.iter().zip(&state.points.stress) {

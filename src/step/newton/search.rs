@@ -32,27 +32,29 @@ impl<const D: usize> Newton<'_, D> {
         last < before && last * (last / before).powi(2) < self.tolerance()
     }
 
-    /// Goes along `δ`. A full step is taken even if the residual grows, for a few iterations on trial:
-    /// bending structures converge so, and only so. If that does not pay, the iteration returns to its best
-    /// state and from then on backtracks until the residual falls (a watchdog, Chamberlain et al. 1982). A step that lessens
-    /// the residual little and goes beyond where it does no more work is shortened to about there (Matthies & Strang 1979):
-    /// where soil yields or hats part, iterations would else go to and fro.
+    /// Goes along `δ`. A step that lessens the residual little, or not, and goes beyond where it does no more work is shortened to
+    /// about there, if that lessens it (Matthies & Strang 1979): where soil yields or hats part, iterations would else go to and fro.
+    /// Else a full step is taken even if the residual grows, for a few iterations on trial: bending structures converge so, and only
+    /// so. If that does not pay, the iteration returns to its best state and from then on backtracks until the residual falls (a
+    /// watchdog, Chamberlain et al. 1982).
     pub(super) fn search(&mut self) -> Result<()> {
         let with_tangent = !self.near_the_end();
         if let Some(size) = self.attempt(1.0, with_tangent) {
-            let better = self.better(size, 1.0);
-            let far = (self.strict || better && self.relaxed == 0) && self.too_far(size);
+            let far = self.too_far(size);
             if far && self.level() {
                 return Ok(());
             }
-            if better && (!far || self.attempt(1.0, with_tangent).is_some()) {
-                self.damping = if self.damping > LEAST_DAMPING { 0.1 * self.damping } else { 0.0 };
-                self.accept(with_tangent);
-                return Ok(());
-            }
-            if !self.strict && self.relaxed < WATCH {
-                self.relaxed += 1;
-                self.take(with_tangent);
+            let better = self.better(size, 1.0);
+            let on_trial = !better && !self.strict && self.relaxed < WATCH;
+            // Where the step was shortened in vain another state was tried since.
+            if (better || on_trial) && (!far || self.attempt(1.0, with_tangent).is_some()) {
+                if on_trial {
+                    self.relaxed += 1;
+                    self.take(with_tangent);
+                } else {
+                    self.damping = if self.damping > LEAST_DAMPING { 0.1 * self.damping } else { 0.0 };
+                    self.accept(with_tangent);
+                }
                 return Ok(());
             }
         }
