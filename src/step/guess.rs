@@ -12,6 +12,9 @@ use crate::mesh::shape::MAX_NODES;
 /// count its time on another scale.
 const LONGEST: f64 = 4.0;
 
+/// Passes of the search for where the material at a node was.
+const PASSES: usize = 4;
+
 /// The predicted displacement (m) of the nodes at the end of a step of size `dt` (s): linear extrapolation of the last increment. None
 /// where nothing has moved, and in a step that is far longer than the last.
 pub fn going_on<const D: usize>(state: &State<D>, dt: f64) -> Option<Vec<[f64; D]>> {
@@ -35,9 +38,9 @@ pub fn carry<const D: usize>((before, locator): (&Mesh<D>, &Locator<D>), after: 
         if std::mem::replace(&mut done[n], true) {
             continue;
         }
-        // Two steps of the fixed-point iteration for where the material at the node was.
+        // Fixed-point iteration for where the material at the node was.
         let mut back = state.displacement[n];
-        for _ in 0..2 {
+        for _ in 0..PASSES {
             let from = std::array::from_fn(|d| after.nodes[n][d] - back[d]);
             let Some((c, xi)) = locator.locate(before, &from, hint) else { break };
             hint = Some(c);

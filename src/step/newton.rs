@@ -214,21 +214,23 @@ impl<'a, const D: usize> Newton<'a, D> {
 
     /// Begins with the predicted state where, with what is given reached in both, its residual is less than that of the converged one.
     fn predict(&mut self) -> Result<()> {
-        let residual = |newton: &mut Self, start: &[[f64; D]]| {
+        let residual = |newton: &mut Self, start: &[[f64; D]], tangent: bool| {
             newton.buffers.now.at.set(start, newton.problem.pressure);
             gaps(newton.problem, newton.grid, &newton.buffers.now.at, &mut newton.buffers.gap);
             newton.buffers.now.at.advance(newton.problem, newton.grid, &newton.buffers.gap, 1.0);
-            let found = newton.evaluate(false).map(|()| newton.size(&newton.buffers.now));
+            let found = newton.evaluate(tangent).map(|()| newton.size(&newton.buffers.now));
             found.ok().filter(|size| size.is_finite()).unwrap_or(f64::INFINITY)
         };
-        if let Some(guess) = self.problem.guess {
-            let without = residual(self, self.problem.converged);
-            if residual(self, guess) >= without {
-                self.restart();
-            }
+        let predicted = self.problem.guess.is_some_and(|guess| {
+            let without = residual(self, self.problem.converged, false);
+            residual(self, guess, true) < without
+        });
+        if predicted {
+            self.buffers.best.clone_from(&self.buffers.now.at);
+        } else {
+            self.restart();
+            self.evaluate(true)?;
         }
-        self.buffers.best.clone_from(&self.buffers.now.at);
-        self.evaluate(true)?;
         self.note();
         Ok(())
     }

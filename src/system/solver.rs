@@ -16,8 +16,9 @@ pub(super) const ACCEPTED: f64 = 1e-8;
 /// A pivot this small beside the diagonal entry it began as is rounding. A body free to move leaves at most
 /// 1e-14; all the cases of the repository, and ν = 0.499999, more than 1e-6.
 pub(super) const SINGULAR: f64 = 1e-12;
-/// Relative residual that refinement and iteration aim at.
+/// Relative residuals that refinement and iteration aim at.
 const AIM: f64 = 1e-12;
+const ITERATION_AIM: f64 = 1e-9;
 /// Iterations of BiCGSTAB before LU is taken, and with the factor of another matrix before a new one is made.
 const ITERATIONS: usize = 40;
 const FEW_ITERATIONS: usize = 8;
@@ -255,7 +256,7 @@ impl Solver {
         let size = norm(b);
         let mut rho = dot(shadow, r);
         for _ in 0..most {
-            if norm(r) <= AIM * size {
+            if norm(r) <= ITERATION_AIM * size {
                 return true;
             }
             y.copy_from_slice(p);
