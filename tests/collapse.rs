@@ -35,16 +35,19 @@ fn a_column_without_cohesion_runs_out_and_comes_to_rest() {
     let mass = DENSITY * WIDTH * HEIGHT;
     assert!(steps.iter().all(|line| (after(line, "mass") / mass - 1.0).abs() < 1e-12));
 
-    // Friction takes energy, and nothing makes any beyond what restoration leaves of noise.
+    // Friction takes energy, and nothing makes any beyond what restoration leaves of noise. The force of a step is that of its middle, and what its end stores
+    // is no part of a balance: where points are hit and turn at once that may be a hundredth of the kinetic energy too much, and is gone a step later. So
+    // energy is the mean of two steps.
     let peak = steps.iter().map(|line| after(line, "kinetic")).fold(0.0, f64::max);
     let (mut least, mut made) = (f64::INFINITY, 0.0f64);
-    for line in &steps {
-        made = made.max((energy(line) - least) / peak);
-        least = least.min(energy(line));
+    for pair in steps.windows(2) {
+        let mean = 0.5 * (energy(pair[0]) + energy(pair[1]));
+        made = made.max((mean - least) / peak);
+        least = least.min(mean);
     }
     let rest = after(steps[steps.len() - 1], "kinetic") / peak;
     println!("kinetic energy {rest:.2e} of its peak {peak:.2e} kJ, {made:.1e} of it made");
-    assert!(rest < 0.02 && made < 0.01);
+    assert!(rest < 0.02 && made < 0.005);
 
     // The toe has 99 % of the bars behind it; the README has it at 1.2 to 1.5 widths on finer cells.
     let frames = frame::list(&folder.path().join("results")).unwrap();

@@ -13,11 +13,11 @@
 //! A [`Share`] of the stress may be carried by unknowns of its own; it is a type, so that a scene without one pays
 //! nothing.
 
-use super::Share;
 use super::beyond::{Kept, scatter_functions};
 use super::smoothed::{self, Layout};
 use super::stiffness::Stiffness;
 use super::{Assembly, Frame, History, Term, Trial, Update};
+use super::{Ratios, Share};
 use crate::error::{Error, Result};
 use crate::kinematics::{Gradient, Kinematics};
 use crate::material::Model;
@@ -59,6 +59,7 @@ struct Strained {
     inverse: Tensor,
     /// `H`: the deformation that the model responds to, [`Strained::increment`] without inertia.
     felt: Tensor,
+    ratios: Ratios,
 }
 
 impl Strained {
@@ -199,16 +200,16 @@ fn strain<const D: usize, K: Kinematics<D>>(
             now * before.try_inverse().ok_or_else(|| inadmissible(points, p, "was squeezed flat", &before))?
         }
     };
-    let (ratio, whole) = (increment.determinant(), now.determinant());
-    if !(ratio > LEAST_VOLUME_RATIO && whole > 0.0) {
-        let what = if ratio > 0.0 && whole > 0.0 {
-            format!("is compressed to {:.1} % of its volume in one step", 100.0 * ratio)
+    let ratios = Ratios { step: increment.determinant(), grid: now.determinant() };
+    if !(ratios.step > LEAST_VOLUME_RATIO && ratios.grid > 0.0) {
+        let what = if ratios.step > 0.0 && ratios.grid > 0.0 {
+            format!("is compressed to {:.1} % of its volume in one step", 100.0 * ratios.step)
         } else {
             "is turned inside out".into()
         };
         return Err(inadmissible(points, p, &what, &increment));
     }
-    Ok(Strained { increment, inverse, felt: increment })
+    Ok(Strained { increment, inverse, felt: increment, ratios })
 }
 
 /// `I + Σ u ⊗ ∇N`.
@@ -250,8 +251,8 @@ impl<const D: usize, K: Kinematics<D>, S: Share<D, K>> Term<D> for Internal<K, S
                 for (k, ((entries, point), answer)) in
                     frame.stencil.entries::<K>(patch).zip(&strained).zip(&mut answers).enumerate()
                 {
-                    let ratio = point.increment.determinant();
-                    let add = |answer: &mut _| self.share.add(&cell, frame.points, &entries, ratio, answer);
+                    let ratios = point.ratios;
+                    let add = |answer: &mut _| self.share.add(&cell, frame.points, &entries, ratios, answer);
                     let (stress, acts_on) = point.stress::<D, K>(trial.alpha_f, answer, add);
                     let volume = entries.weight;
                     for i in 0..count {
@@ -269,7 +270,7 @@ impl<const D: usize, K: Kinematics<D>, S: Share<D, K>> Term<D> for Internal<K, S
                             smoothed::keep::<D, K>(&layout, tangent, &entries, &point.inverse, weight, k, kept);
                         }
                     }
-                    self.share.couple(&cell, frame.points, &entries, spatial, ratio, &acts_on, later, local);
+                    self.share.couple(&cell, frame.points, &entries, spatial, ratios, &acts_on, later, local);
                 }
                 if wanted {
                     stiffness.add_to::<D, K>(local);
@@ -316,7 +317,7 @@ impl<const D: usize, K: Kinematics<D>, S: Share<D, K>> Term<D> for Internal<K, S
                     pressure: 0.0,
                     pore_pressure: 0.0,
                 };
-                self.share.commit(&cell, frame.points, &entries, &mut history);
+                self.share.commit(&cell, frame.points, &entries, point.ratios, &mut history);
                 Some(history)
             };
             timed_material(|| frame.stencil.entries::<K>(patch).filter_map(new).collect())

@@ -43,7 +43,7 @@ pub use levels::Levels;
 pub use pressure::{Carried, PressureField, excess_pressure, hats as pressure_hats};
 pub use rigid::{RigidInertia, RigidTraction, RigidWeight};
 pub use rigid_pressure::RigidPressure;
-pub use share::Share;
+pub use share::{Ratios, Share};
 pub use smooth_pressure::SmoothPressure;
 pub use surface_traction::{SurfaceLoad, SurfaceTraction};
 pub use traction::Traction;

@@ -1,21 +1,26 @@
 //! A field of unknowns that carries most of the mean stress, so that cells with many points do not lock.
 //!
-//! The points keep the shear modulus and a moderate bulk modulus `K_m`; the field `π` (Kirchhoff, tension positive)
-//! carries the rest: `K_f = K − K_m` in total stress, and with it the `K_w/n` of the pore water in effective stress. Both are stationary points of
-//! `Σ w₀ [W_m + π ln J − π²/(2 K_f)]` (theory, eq. 24):
+//! The points keep the shear modulus and a small bulk modulus `K_m`; the field `π` (tension positive) carries the rest:
+//! `K_f = K − K_m` in total stress, and with it the `K_w/n` of the pore water in effective stress. Both are stationary points of
+//! `Σ w₀ [W_m + π g(j) − U*(π)]` (theory, eq. 24), `j` the volume over that when the grid was restored, `U*` the complementary energy
+//! of Hencky's law:
 //!
 //! ```text
-//! R_u += Σ w₀ π 1 : ∇_x N          R_π = Σ w₀ L [ln ΔJ − (π − π_n)/K_f]
+//! R_u += Σ w₀ τ_f 1 : ∇_x N        R_π = Σ w₀ L [Δg(j) − Δg(j(π))]        τ_f = π dg/d ln j,   Δτ_f = K_f Δ ln j(π)
 //! ```
 //!
-//! The second is in increments: the points carry `π_n`. The volume strain of single points is only loosely bound to
+//! `g = ln j` at points of which the field is in compression or nothing as the step begins, and `τ_f = π`; where it is in tension, `g = j`. The second
+//! is in increments: the points carry `τ_f`. The volume strain of single points is only loosely bound to
 //! the field; were it summed up, a restored grid would have to undo what other cells make of it, in every step.
+//!
+//! Why two measures: `π (j − 1)` of a uniform `π` is the same for all states of the same outline. Beside that `π ln j` resists a
+//! volume strain of single points by a bulk modulus of `−π`: it holds them together in compression, and in tension it would drive them apart.
 //!
 //! `L` are the corner hats, continuous from cell to cell, and in cells of second order a constant a cell (Taylor–Hood
 //! with cell-wise volume balance; Boffi et al. 2012). Cells of first order have no room for the constant; there the
 //! projection `Σ w₀ (L − L̄)(π − π_n)/2G` of Bochev, Dohrmann & Gunzburger (2006) makes the hats stable.
 
-use super::{Frame, History, Share, Trial};
+use super::{Frame, History, Ratios, Share, Trial};
 use crate::kinematics::{Gradient, Kinematics};
 use crate::material::Model;
 use crate::material::spatial::Spatial;
@@ -30,6 +35,9 @@ use std::sync::Arc;
 
 /// Most unknowns of a cell.
 pub const MOST: usize = 5;
+
+/// Most iterations for the volume at a pressure; it takes two or three.
+const ITERATIONS: usize = 20;
 
 /// Values of the functions of the field at a point: corners, then the constant.
 pub type Hats = [f64; MOST];
@@ -132,6 +140,56 @@ pub fn gather(kind: CellKind, nodes: &[u32], constant: usize, pressure: &[f64]) 
     own
 }
 
+/// How the field measures the volume of a point: with `j`, its ratio since the grid was restored, by `ln j`, or by `j` where the
+/// field is in tension as the step begins.
+#[derive(Clone, Copy)]
+enum Measure {
+    Logarithm,
+    Ratio,
+}
+
+impl Measure {
+    fn of<const D: usize>(points: &Points<D>, p: usize) -> Self {
+        if points.pressure[p] > 0.0 { Self::Ratio } else { Self::Logarithm }
+    }
+
+    /// The slope of the measure in `ln j`: the Kirchhoff stress of a unit of the field.
+    fn slope(self, ratio: f64) -> f64 {
+        match self {
+            Self::Logarithm => 1.0,
+            Self::Ratio => ratio,
+        }
+    }
+
+    /// What a step of the given ratios adds to the measure.
+    fn strain(self, ratios: Ratios) -> f64 {
+        match self {
+            Self::Logarithm => ratios.step.ln(),
+            Self::Ratio => ratios.grid - ratios.grid / ratios.step,
+        }
+    }
+
+    /// What the field adds to it in a step that takes it from `before` (Kirchhoff) to `pressure` (kPa), and the slope of that (1/kPa),
+    /// where the slope of the measure was `slope`: the Kirchhoff stress grows by the logarithm of the volume over `compliance` (1/kPa).
+    /// Not a number beyond the largest tension that has a volume, `1/(e compliance)` from no stress: such a trial state is refused.
+    fn elastic(self, compliance: f64, before: f64, pressure: f64, slope: f64) -> [f64; 2] {
+        if let Self::Logarithm = self {
+            return [compliance * (pressure - before), compliance];
+        }
+        // Newton's method for `ln x = now x − then`. The last change is squared in what is left.
+        let (then, now) = (compliance * before, compliance * pressure * slope);
+        let mut x = 1.0;
+        for _ in 0..ITERATIONS {
+            let change = (then + f64::ln(x) - now * x) / (1.0 / x - now);
+            x = (x - change).clamp(0.5 * x, 2.0 * x);
+            if change.abs() < 1e-9 * x {
+                return [slope * (x - 1.0), compliance * slope * slope * x / (1.0 / x - now)];
+            }
+        }
+        [f64::NAN; 2]
+    }
+}
+
 fn dot(a: &Hats, b: &Hats) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
@@ -195,17 +253,21 @@ impl<const D: usize, K: Kinematics<D>> Share<D, K> for PressureField<K> {
         cell: &Cell,
         points: &Points<D>,
         entries: &Entries<D>,
-        _: f64,
+        ratios: Ratios,
         answer: &mut Spatial<K::Tangent>,
     ) -> f64 {
         if self.of(points, entries.point).is_none() {
             return 0.0;
         }
-        let pressure = dot(&hats(cell.kind, entries.value), &cell.pressure);
+        let measure = Measure::of(points, entries.point);
+        let pressure = measure.slope(ratios.grid) * dot(&hats(cell.kind, entries.value), &cell.pressure);
         for normal in &mut answer.kirchhoff[..3] {
             *normal += pressure;
         }
         K::add_pressure(&mut answer.tangent, pressure);
+        if let Measure::Ratio = measure {
+            K::add_volumetric(&mut answer.tangent, pressure);
+        }
         points.pressure[entries.point]
     }
 
@@ -215,7 +277,7 @@ impl<const D: usize, K: Kinematics<D>> Share<D, K> for PressureField<K> {
         points: &Points<D>,
         entries: &Entries<D>,
         spatial: &[Gradient<D>],
-        volume_ratio: f64,
+        ratios: Ratios,
         acts_on: &Tensor,
         later: f64,
         local: &mut Local,
@@ -226,7 +288,6 @@ impl<const D: usize, K: Kinematics<D>> Share<D, K> for PressureField<K> {
         // They are the last ones of a clique.
         let begin = local.size - count;
         let y = points.origin[p][1];
-        let compliance = carried.compliance(y);
         let hats = hats(cell.kind, entries.value);
         // Cells of first order: only what varies within the cell is stabilised.
         let stabilised: Hats = match &cell.mean {
@@ -236,8 +297,12 @@ impl<const D: usize, K: Kinematics<D>> Share<D, K> for PressureField<K> {
                 std::array::from_fn(|a| softness * (hats[a] - mean[a]))
             }
         };
-        let gained = dot(&hats, &cell.pressure) - points.pressure[p];
-        let strain = volume_ratio.ln() - compliance * gained;
+        let measure = Measure::of(points, p);
+        let [before, slope] = [ratios.grid / ratios.step, ratios.grid].map(|ratio| measure.slope(ratio));
+        let pressure = dot(&hats, &cell.pressure);
+        let gained = pressure - points.pressure[p] / before;
+        let [elastic, compliance] = measure.elastic(carried.compliance(y), points.pressure[p], pressure, before);
+        let strain = measure.strain(ratios) - elastic;
         let weight = later * self.unit * entries.weight;
         for a in 0..count {
             local.vector[begin + a] += weight * (hats[a] * strain - stabilised[a] * gained);
@@ -250,8 +315,8 @@ impl<const D: usize, K: Kinematics<D>> Share<D, K> for PressureField<K> {
             let (volume, force) = (K::force(&one, gradient), K::force(acts_on, gradient));
             for (a, hat) in hats.iter().enumerate().take(count) {
                 for d in 0..D {
-                    local.matrix[(begin + a) * size + i * D + d] += weight * hat * volume[d];
-                    local.matrix[(i * D + d) * size + begin + a] += weight * hat * force[d];
+                    local.matrix[(begin + a) * size + i * D + d] += weight * slope * hat * volume[d];
+                    local.matrix[(i * D + d) * size + begin + a] += weight * slope * hat * force[d];
                 }
             }
         }
@@ -263,9 +328,10 @@ impl<const D: usize, K: Kinematics<D>> Share<D, K> for PressureField<K> {
         }
     }
 
-    fn commit(&self, cell: &Cell, points: &Points<D>, entries: &Entries<D>, history: &mut History) {
+    fn commit(&self, cell: &Cell, points: &Points<D>, entries: &Entries<D>, ratios: Ratios, history: &mut History) {
         let Some(carried) = self.of(points, entries.point) else { return };
-        history.pressure = dot(&hats(cell.kind, entries.value), &cell.pressure);
+        let slope = Measure::of(points, entries.point).slope(ratios.grid);
+        history.pressure = slope * dot(&hats(cell.kind, entries.value), &cell.pressure);
         let gained = history.pressure - points.pressure[entries.point];
         let held = carried.held(points, entries.point) + (1.0 - carried.water) * gained;
         for normal in &mut history.stress[..3] {

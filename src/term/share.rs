@@ -8,6 +8,15 @@ use crate::stencil::{Entries, Patch};
 use crate::system::Local;
 use crate::tensor::Tensor;
 
+/// Ratios of volumes (-) at a point.
+#[derive(Clone, Copy)]
+pub struct Ratios {
+    /// To that at the last converged step, `ΔJ`.
+    pub step: f64,
+    /// To that when the grid was restored, `det Φ`.
+    pub grid: f64,
+}
+
 /// A share of the stress of the points that unknowns of its own carry.
 pub trait Share<const D: usize, K: Kinematics<D>>: Send + Sync {
     /// Its unknowns over a patch.
@@ -15,19 +24,19 @@ pub trait Share<const D: usize, K: Kinematics<D>>: Send + Sync {
 
     fn over(&self, frame: &Frame<D>, trial: &Trial<D>, patch: &Patch) -> Self::Cell;
 
-    /// Adds the share at the end of the step to the answer of the model, given `ΔJ`, and returns that at its beginning (kPa,
+    /// Adds the share at the end of the step to the answer of the model, given the ratios of volumes, and returns that at its beginning (kPa,
     /// Kirchhoff).
     fn add(
         &self,
         cell: &Self::Cell,
         points: &Points<D>,
         entries: &Entries<D>,
-        volume_ratio: f64,
+        ratios: Ratios,
         answer: &mut Spatial<K::Tangent>,
     ) -> f64;
 
     /// Adds the equations of the unknowns and what couples them with the displacements to the end of `local`, given
-    /// the gradients on the deformed grid, `ΔJ`, the tensor through which the stress acts and the weight of the end
+    /// the gradients on the deformed grid, the ratios of volumes, the tensor through which the stress acts and the weight of the end
     /// of the step.
     #[expect(clippy::too_many_arguments, reason = "a point, and where it goes")]
     fn couple(
@@ -36,14 +45,21 @@ pub trait Share<const D: usize, K: Kinematics<D>>: Send + Sync {
         points: &Points<D>,
         entries: &Entries<D>,
         spatial: &[Gradient<D>],
-        volume_ratio: f64,
+        ratios: Ratios,
         acts_on: &Tensor,
         later: f64,
         local: &mut Local,
     );
 
     /// Completes what a point keeps.
-    fn commit(&self, cell: &Self::Cell, points: &Points<D>, entries: &Entries<D>, history: &mut History);
+    fn commit(
+        &self,
+        cell: &Self::Cell,
+        points: &Points<D>,
+        entries: &Entries<D>,
+        ratios: Ratios,
+        history: &mut History,
+    );
 
     /// Energy (kJ) stored at point `p`.
     fn energy(&self, points: &Points<D>, p: usize) -> f64;
@@ -57,7 +73,7 @@ impl<const D: usize, K: Kinematics<D>> Share<D, K> for () {
     fn over(&self, _: &Frame<D>, _: &Trial<D>, _: &Patch) {}
 
     #[inline]
-    fn add(&self, (): &(), _: &Points<D>, _: &Entries<D>, _: f64, _: &mut Spatial<K::Tangent>) -> f64 {
+    fn add(&self, (): &(), _: &Points<D>, _: &Entries<D>, _: Ratios, _: &mut Spatial<K::Tangent>) -> f64 {
         0.0
     }
 
@@ -68,7 +84,7 @@ impl<const D: usize, K: Kinematics<D>> Share<D, K> for () {
         _: &Points<D>,
         _: &Entries<D>,
         _: &[Gradient<D>],
-        _: f64,
+        _: Ratios,
         _: &Tensor,
         _: f64,
         _: &mut Local,
@@ -76,7 +92,7 @@ impl<const D: usize, K: Kinematics<D>> Share<D, K> for () {
     }
 
     #[inline]
-    fn commit(&self, (): &(), _: &Points<D>, _: &Entries<D>, _: &mut History) {}
+    fn commit(&self, (): &(), _: &Points<D>, _: &Entries<D>, _: Ratios, _: &mut History) {}
 
     #[inline]
     fn energy(&self, _: &Points<D>, _: usize) -> f64 {
@@ -97,11 +113,10 @@ impl<const D: usize, K: Kinematics<D>, A: Share<D, K>, B: Share<D, K>> Share<D, 
         cell: &Self::Cell,
         points: &Points<D>,
         entries: &Entries<D>,
-        volume_ratio: f64,
+        ratios: Ratios,
         answer: &mut Spatial<K::Tangent>,
     ) -> f64 {
-        self.0.add(&cell.0, points, entries, volume_ratio, answer)
-            + self.1.add(&cell.1, points, entries, volume_ratio, answer)
+        self.0.add(&cell.0, points, entries, ratios, answer) + self.1.add(&cell.1, points, entries, ratios, answer)
     }
 
     fn couple(
@@ -110,18 +125,25 @@ impl<const D: usize, K: Kinematics<D>, A: Share<D, K>, B: Share<D, K>> Share<D, 
         points: &Points<D>,
         entries: &Entries<D>,
         spatial: &[Gradient<D>],
-        volume_ratio: f64,
+        ratios: Ratios,
         acts_on: &Tensor,
         later: f64,
         local: &mut Local,
     ) {
-        self.0.couple(&cell.0, points, entries, spatial, volume_ratio, acts_on, later, local);
-        self.1.couple(&cell.1, points, entries, spatial, volume_ratio, acts_on, later, local);
+        self.0.couple(&cell.0, points, entries, spatial, ratios, acts_on, later, local);
+        self.1.couple(&cell.1, points, entries, spatial, ratios, acts_on, later, local);
     }
 
-    fn commit(&self, cell: &Self::Cell, points: &Points<D>, entries: &Entries<D>, history: &mut History) {
-        self.0.commit(&cell.0, points, entries, history);
-        self.1.commit(&cell.1, points, entries, history);
+    fn commit(
+        &self,
+        cell: &Self::Cell,
+        points: &Points<D>,
+        entries: &Entries<D>,
+        ratios: Ratios,
+        history: &mut History,
+    ) {
+        self.0.commit(&cell.0, points, entries, ratios, history);
+        self.1.commit(&cell.1, points, entries, ratios, history);
     }
 
     fn energy(&self, points: &Points<D>, p: usize) -> f64 {

@@ -18,7 +18,7 @@
 //! Verruijt 1981); `s` is what is missing to keep neighbours from pushing each other, `1/M + 1/Q − 6 κ Δt/h²`, and zero in
 //! longer steps (Aguilar et al. 2008). In cells of first order it makes the pair stable, too, and stays.
 
-use super::{Frame, History, Share, Trial};
+use super::{Frame, History, Ratios, Share, Trial};
 use crate::kinematics::{Gradient, Kinematics};
 use crate::material::Model;
 use crate::material::spatial::Spatial;
@@ -201,7 +201,7 @@ impl<const D: usize, K: Kinematics<D>> Share<D, K> for PoreWater<K> {
         cell: &Cell<D>,
         points: &Points<D>,
         entries: &Entries<D>,
-        volume_ratio: f64,
+        ratios: Ratios,
         answer: &mut Spatial<K::Tangent>,
     ) -> f64 {
         let p = entries.point;
@@ -209,7 +209,7 @@ impl<const D: usize, K: Kinematics<D>> Share<D, K> for PoreWater<K> {
             return 0.0;
         }
         let before = points.deformation[p].determinant();
-        let stress = -before * volume_ratio * dot(&cell.hats(entries.value), &cell.pressure);
+        let stress = -before * ratios.step * dot(&cell.hats(entries.value), &cell.pressure);
         for normal in &mut answer.kirchhoff[..3] {
             *normal += stress;
         }
@@ -224,7 +224,7 @@ impl<const D: usize, K: Kinematics<D>> Share<D, K> for PoreWater<K> {
         points: &Points<D>,
         entries: &Entries<D>,
         spatial: &[Gradient<D>],
-        volume_ratio: f64,
+        ratios: Ratios,
         acts_on: &Tensor,
         later: f64,
         local: &mut Local,
@@ -236,7 +236,7 @@ impl<const D: usize, K: Kinematics<D>> Share<D, K> for PoreWater<K> {
         let before = points.deformation[p].determinant();
         let hats = cell.hats(entries.value);
         let storage = porous.storage(y);
-        let taken_up = before * (volume_ratio - 1.0) + storage * (dot(&hats, &cell.pressure) - points.pore_pressure[p]);
+        let taken_up = before * (ratios.step - 1.0) + storage * (dot(&hats, &cell.pressure) - points.pore_pressure[p]);
         let weight = later * self.unit * entries.weight;
         let flows = cell.flow_time > 0.0;
         let gradients = if flows { cell.gradients::<K>(entries) } else { [[0.0; D]; MOST] };
@@ -264,7 +264,7 @@ impl<const D: usize, K: Kinematics<D>> Share<D, K> for PoreWater<K> {
             return;
         }
         let (size, one) = (local.size, Tensor::identity());
-        let volume = -weight * before * volume_ratio;
+        let volume = -weight * before * ratios.step;
         for (i, gradient) in spatial.iter().enumerate() {
             let (swelling, force) = (K::force(&one, gradient), K::force(acts_on, gradient));
             for (a, hat) in hats.iter().enumerate().take(cell.corners) {
@@ -281,7 +281,7 @@ impl<const D: usize, K: Kinematics<D>> Share<D, K> for PoreWater<K> {
         }
     }
 
-    fn commit(&self, cell: &Cell<D>, points: &Points<D>, entries: &Entries<D>, history: &mut History) {
+    fn commit(&self, cell: &Cell<D>, points: &Points<D>, entries: &Entries<D>, _: Ratios, history: &mut History) {
         if self.of(points, entries.point).is_some() {
             history.pore_pressure = dot(&cell.hats(entries.value), &cell.pressure);
         }
