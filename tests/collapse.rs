@@ -35,9 +35,8 @@ fn a_column_without_cohesion_runs_out_and_comes_to_rest() {
     let mass = DENSITY * WIDTH * HEIGHT;
     assert!(steps.iter().all(|line| (after(line, "mass") / mass - 1.0).abs() < 1e-12));
 
-    // Friction takes energy, and nothing makes any beyond what restoration leaves of noise. The force of a step is that of its middle, and what its end stores
-    // is no part of a balance: where points are hit and turn at once that may be a hundredth of the kinetic energy too much, and is gone a step later. So
-    // energy is the mean of two steps.
+    // Friction takes energy, and restoration makes no more of it than noise. Energy is here the mean of two steps: generalised-α balances forces between
+    // the ends of a step, and the energy stored at one end may be a hundredth of the kinetic energy too large for a single step.
     let peak = steps.iter().map(|line| after(line, "kinetic")).fold(0.0, f64::max);
     let (mut least, mut made) = (f64::INFINITY, 0.0f64);
     for pair in steps.windows(2) {

@@ -9,12 +9,12 @@
 //! R_u += Σ w₀ τ_f 1 : ∇_x N        R_π = Σ w₀ L [Δg(j) − Δg(j(π))]        τ_f = π dg/d ln j,   Δτ_f = K_f Δ ln j(π)
 //! ```
 //!
-//! `g = ln j` at points of which the field is in compression or nothing as the step begins, and `τ_f = π`; where it is in tension, `g = j`. The second
-//! is in increments: the points carry `τ_f`. The volume strain of single points is only loosely bound to
+//! Where the field is in tension as the step begins, `g = j`; elsewhere `g = ln j`, and with it `τ_f = π`. The second equation is in
+//! increments: the points carry `τ_f`. The volume strain of single points is only loosely bound to
 //! the field; were it summed up, a restored grid would have to undo what other cells make of it, in every step.
 //!
-//! Why two measures: `π (j − 1)` of a uniform `π` is the same for all states of the same outline. Beside that `π ln j` resists a
-//! volume strain of single points by a bulk modulus of `−π`: it holds them together in compression, and in tension it would drive them apart.
+//! Why two measures: with a uniform `π` the sum of `π j` is `π` times the volume of the body, whatever single points do inside. To that `π ln j`
+//! adds a bulk modulus of `−π` for the volume strain of single points. In compression it is a stiffness; in tension it would be a negative one.
 //!
 //! `L` are the corner hats, continuous from cell to cell, and in cells of second order a constant a cell (Taylor–Hood
 //! with cell-wise volume balance; Boffi et al. 2012). Cells of first order have no room for the constant; there the
@@ -140,8 +140,8 @@ pub fn gather(kind: CellKind, nodes: &[u32], constant: usize, pressure: &[f64]) 
     own
 }
 
-/// How the field measures the volume of a point: with `j`, its ratio since the grid was restored, by `ln j`, or by `j` where the
-/// field is in tension as the step begins.
+/// What the field is conjugate to at a point: `ln j`, or `j` where the field is in tension as the step begins. `j` is the volume over that
+/// when the grid was restored.
 #[derive(Clone, Copy)]
 enum Measure {
     Logarithm,
@@ -169,19 +169,20 @@ impl Measure {
         }
     }
 
-    /// What the field adds to it in a step that takes it from `before` (Kirchhoff) to `pressure` (kPa), and the slope of that (1/kPa),
-    /// where the slope of the measure was `slope`: the Kirchhoff stress grows by the logarithm of the volume over `compliance` (1/kPa).
-    /// Not a number beyond the largest tension that has a volume, `1/(e compliance)` from no stress: such a trial state is refused.
+    /// The volume strain of Hencky's law, by this measure, as the field goes from the Kirchhoff stress `before` to `pressure` (kPa), and its
+    /// slope (1/kPa): `Δτ_f = Δ ln j / compliance`. `slope` is that of the measure as the step begins. Not a number at a tension for which the law has no volume,
+    /// as at the bulk modulus and above; such a trial state is refused.
     fn elastic(self, compliance: f64, before: f64, pressure: f64, slope: f64) -> [f64; 2] {
         if let Self::Logarithm = self {
             return [compliance * (pressure - before), compliance];
         }
-        // Newton's method for `ln x = now x − then`. The last change is squared in what is left.
+        // Newton's method for the least root of `then + ln x = now x`. From the second iterate on it comes from below.
         let (then, now) = (compliance * before, compliance * pressure * slope);
-        let mut x = 1.0;
+        let mut x = if then < 1.0 && now < 1.0 { 1.0 } else { f64::NAN };
         for _ in 0..ITERATIONS {
             let change = (then + f64::ln(x) - now * x) / (1.0 / x - now);
-            x = (x - change).clamp(0.5 * x, 2.0 * x);
+            x -= change;
+            // What is left is the square of the last change.
             if change.abs() < 1e-9 * x {
                 return [slope * (x - 1.0), compliance * slope * slope * x / (1.0 / x - now)];
             }
@@ -298,10 +299,10 @@ impl<const D: usize, K: Kinematics<D>> Share<D, K> for PressureField<K> {
             }
         };
         let measure = Measure::of(points, p);
-        let [before, slope] = [ratios.grid / ratios.step, ratios.grid].map(|ratio| measure.slope(ratio));
-        let pressure = dot(&hats, &cell.pressure);
-        let gained = pressure - points.pressure[p] / before;
-        let [elastic, compliance] = measure.elastic(carried.compliance(y), points.pressure[p], pressure, before);
+        let [slope_before, slope] = [ratios.grid / ratios.step, ratios.grid].map(|ratio| measure.slope(ratio));
+        let (before, pressure) = (points.pressure[p], dot(&hats, &cell.pressure));
+        let gained = pressure - before / slope_before;
+        let [elastic, compliance] = measure.elastic(carried.compliance(y), before, pressure, slope_before);
         let strain = measure.strain(ratios) - elastic;
         let weight = later * self.unit * entries.weight;
         for a in 0..count {
