@@ -336,11 +336,12 @@ fn penetration() {
     };
     let short = ["mesh.parameters.h=0.2", "phases[0].duration=0.1"];
     load("plate_anchor", "plate", &short, -0.5 * 6.0..-0.5 * 5.41);
-    // Where plate and clay cannot part the load lasts, without weight and beneath 80 s_u, of which half of 20 · 0.2 lifts the plate.
-    let mut bonded = vec!["mesh.parameters.h=0.2", "phases[0].step.max=0.04", "contacts[0].tension=no_separation"];
+    // Where plate and clay cannot part the load lasts: in plane strain, round, and beneath 80 s_u, where the clay that the plate displaces lifts it.
+    let bonded = ["mesh.parameters.h=0.2", "phases[0].step.max=0.04", "contacts[0].tension=no_separation"];
     load("plate_anchor", "plate", &bonded, -0.5 * 14.4..-0.5 * 12.0);
-    bonded.extend(["materials.clay.density=2.0387", "gravity={y: -9.81}", "initial_stress={k0: 1}"]);
-    load("plate_anchor", "plate", &bonded, -0.5 * 15.2 + 2.0..-0.5 * 12.0 + 2.0);
+    load("plate_anchor", "plate", &[&bonded[..], &["geometry=axisymmetric"]].concat(), -15.6..-13.0);
+    let heavy = ["materials.clay.density=2.0387", "gravity={y: -9.81}", "initial_stress={k0: 1}"];
+    load("plate_anchor", "plate", &[&bonded[..], &heavy].concat(), -0.5 * 15.2 + 2.0..-0.5 * 12.0 + 2.0);
     load("punch_through", "footing", &short, 3.71..4.3);
     let area = PI * 1.5 * 1.5;
     let short = ["mesh.parameters.h=0.5", "phases[0].duration=0.25"];

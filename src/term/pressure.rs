@@ -9,12 +9,12 @@
 //! R_u += Σ w₀ τ_f 1 : ∇_x N        R_π = Σ w₀ L [Δg(j) − Δg(j(π))]        τ_f = π dg/d ln j,   Δτ_f = K_f Δ ln j(π)
 //! ```
 //!
-//! Where the field is in tension as the step begins, `g = j`; elsewhere `g = ln j`, and with it `τ_f = π`. The second equation is in
+//! Where the field is in tension as the step begins, `g = ½ j²`; elsewhere `g = ln j`, and with it `τ_f = π`. The second equation is in
 //! increments: the points carry `τ_f`. The volume strain of single points is only loosely bound to
 //! the field; were it summed up, a restored grid would have to undo what other cells make of it, in every step.
 //!
 //! Why two measures: with a uniform `π` the sum of `π j` is `π` times the volume of the body, whatever single points do inside. To that `π ln j`
-//! adds a bulk modulus of `−π` for the volume strain of single points. In compression it is a stiffness; in tension it would be a negative one.
+//! adds a bulk modulus of `−π` for the volume strain of single points, and `½ π j²` one of `π`: each is a stiffness on its side of zero.
 //!
 //! `L` are the corner hats, continuous from cell to cell, and in cells of second order a constant a cell (Taylor–Hood
 //! with cell-wise volume balance; Boffi et al. 2012). Cells of first order have no room for the constant; there the
@@ -140,24 +140,24 @@ pub fn gather(kind: CellKind, nodes: &[u32], constant: usize, pressure: &[f64]) 
     own
 }
 
-/// What the field is conjugate to at a point: `ln j`, or `j` where the field is in tension as the step begins. `j` is the volume over that
+/// What the field is conjugate to at a point: `ln j`, or `½ j²` where the field is in tension as the step begins. `j` is the volume over that
 /// when the grid was restored.
 #[derive(Clone, Copy)]
 enum Measure {
     Logarithm,
-    Ratio,
+    Square,
 }
 
 impl Measure {
     fn of<const D: usize>(points: &Points<D>, p: usize) -> Self {
-        if points.pressure[p] > 0.0 { Self::Ratio } else { Self::Logarithm }
+        if points.pressure[p] > 0.0 { Self::Square } else { Self::Logarithm }
     }
 
     /// The slope of the measure in `ln j`: the Kirchhoff stress of a unit of the field.
     fn slope(self, ratio: f64) -> f64 {
         match self {
             Self::Logarithm => 1.0,
-            Self::Ratio => ratio,
+            Self::Square => ratio * ratio,
         }
     }
 
@@ -165,26 +165,29 @@ impl Measure {
     fn strain(self, ratios: Ratios) -> f64 {
         match self {
             Self::Logarithm => ratios.step.ln(),
-            Self::Ratio => ratios.grid - ratios.grid / ratios.step,
+            Self::Square => 0.5 * (ratios.grid.powi(2) - (ratios.grid / ratios.step).powi(2)),
         }
     }
 
     /// The volume strain of Hencky's law, by this measure, as the field goes from the Kirchhoff stress `before` to `pressure` (kPa), and its
     /// slope (1/kPa): `Δτ_f = Δ ln j / compliance`. `slope` is that of the measure as the step begins. Not a number at a tension for which the law has no volume,
-    /// as at the bulk modulus and above; such a trial state is refused.
+    /// as at half the bulk modulus and above; such a trial state is refused.
     fn elastic(self, compliance: f64, before: f64, pressure: f64, slope: f64) -> [f64; 2] {
         if let Self::Logarithm = self {
             return [compliance * (pressure - before), compliance];
         }
-        // Newton's method for the least root of `then + ln x = now x`. From the second iterate on it comes from below.
+        // Newton's method for the least root of `then + ln x = now x²`. From the second iterate on it comes from below.
         let (then, now) = (compliance * before, compliance * pressure * slope);
-        let mut x = if then < 1.0 && now < 1.0 { 1.0 } else { f64::NAN };
+        let mut x = if then < 0.5 && now < 0.5 { 1.0 } else { f64::NAN };
         for _ in 0..ITERATIONS {
-            let change = (then + f64::ln(x) - now * x) / (1.0 / x - now);
+            let change = (then + f64::ln(x) - now * x * x) / (1.0 / x - 2.0 * now * x);
             x -= change;
             // What is left is the square of the last change.
             if change.abs() < 1e-9 * x {
-                return [slope * (x - 1.0), compliance * slope * slope * x / (1.0 / x - now)];
+                return [
+                    0.5 * slope * (x * x - 1.0),
+                    compliance * slope * slope * x.powi(3) / (1.0 / x - 2.0 * now * x),
+                ];
             }
         }
         [f64::NAN; 2]
@@ -266,8 +269,8 @@ impl<const D: usize, K: Kinematics<D>> Share<D, K> for PressureField<K> {
             *normal += pressure;
         }
         K::add_pressure(&mut answer.tangent, pressure);
-        if let Measure::Ratio = measure {
-            K::add_volumetric(&mut answer.tangent, pressure);
+        if let Measure::Square = measure {
+            K::add_volumetric(&mut answer.tangent, 2.0 * pressure);
         }
         points.pressure[entries.point]
     }
