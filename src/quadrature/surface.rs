@@ -4,33 +4,57 @@ use super::{Quadrature, Restored, Volumes, Weighing};
 use crate::kinematics::Kinematics;
 use crate::points::Points;
 use crate::stencil::Stencil;
-use crate::surface::{ActiveBoundary, Behind, Contour, Distance, Fault, Front, Geometry, NO_REGION};
+use crate::surface::{ActiveBoundary, Behind, Contour, Distance, Front, Geometry, Lost, NO_REGION};
+
+/// The surface lies at most so far beside the markers of its front, as a share of a cell's size.
+const LARGEST_OFFSET: f64 = 0.05;
 
 /// Takes the front along with the grid: at first it goes around the cells with points.
 ///
 /// # Errors
-/// Why the surface so followed is not that of the material.
+/// Why the surface is not followed.
 pub fn follow<K: Kinematics<2>>(
     geometry: &Geometry,
     grid: &Restored<2>,
     front: &mut Option<Front>,
-) -> Result<(), Fault> {
+) -> Result<(), Lost> {
     let (mesh, points) = (grid.mesh, grid.points);
     match (grid.displacement, front.as_mut()) {
         (Some(displacement), Some(front)) => {
             front.advance(grid.before, (mesh, grid.locator), geometry, displacement)?;
             front.lean(mesh, geometry, grid.locator, grid.outlines)?;
+            front.join(mesh, geometry, grid.locator, grid.outlines)?;
         }
         (Some(_), None) => return Ok(()),
         (None, _) => {
             let mut filled = vec![false; mesh.cells.len()];
             points.cell.iter().for_each(|&c| filled[c as usize] = true);
-            *front = Some(Front::around(mesh, &geometry.faces, &filled));
+            let front = front.insert(Front::around(mesh, &geometry.faces, &filled));
+            is_theirs::<K>(front, geometry, grid)?;
         }
     }
-    let Some(front) = front else { return Ok(()) };
-    let volume = (0..points.len()).map(|p| points.volume(p)).sum();
-    front.inspect::<K>(mesh, geometry, grid.locator, volume)
+    Ok(())
+}
+
+/// Says whether a front that begins encloses the volume of the points, but for what the offset makes up for.
+///
+/// # Errors
+/// Where it does not, as where the points lie in cells that they do not fill.
+fn is_theirs<K: Kinematics<2>>(front: &Front, geometry: &Geometry, grid: &Restored<2>) -> Result<(), Lost> {
+    let (enclosed, points) = (front.volume::<K>(), (0..grid.points.len()).map(|p| grid.points.volume(p)).sum::<f64>());
+    let (area, size) = front.surface::<K>(grid.mesh, geometry, grid.locator);
+    // Where no surface is free, the points may fill their box a little more or less than all.
+    if area > 0.0 && (enclosed - points).abs() > LARGEST_OFFSET * size * area {
+        Err(Lost::Volume { enclosed, points })
+    } else {
+        Ok(())
+    }
+}
+
+/// How far (m) beside the markers of a front the surface may lie.
+pub fn largest_offset<K: Kinematics<2>>(front: &Front, geometry: &Geometry, grid: &Restored<2>) -> f64 {
+    let (_, size) = front.surface::<K>(grid.mesh, geometry, grid.locator);
+    LARGEST_OFFSET * size
 }
 
 /// The contour of the points, whose level set is `contour`, smoothed: a front for this restoration alone, and the cells with
@@ -47,16 +71,11 @@ pub fn smoothed<K: Kinematics<2>>(
     }
     let nothing = |bearer: u32, _: &[f64; 2]| Behind { region: NO_REGION, bearer };
     let boundary = ActiveBoundary::of(mesh, geometry, contour, grid.taking_part, nothing);
-    let front = Front::along::<K>(mesh, geometry, &boundary)?;
-    let volume = (0..points.len()).map(|p| points.volume(p)).sum();
-    match front.inspect::<K>(mesh, geometry, grid.locator, volume) {
-        // Nothing follows it, so that it may touch itself.
-        Ok(()) | Err(Fault::Touch { .. }) => {
-            let inside = |c: &u32| mesh.cells.nodes(*c as usize).iter().any(|&n| contour[n as usize] > 0.0);
-            Some((front, points.cell.iter().copied().filter(inside).collect()))
-        }
-        Err(_) => None,
-    }
+    let mut front = Front::along::<K>(mesh, geometry, &boundary)?;
+    front.join(mesh, geometry, grid.locator, &[]).ok()?;
+    is_theirs::<K>(&front, geometry, grid).ok()?;
+    let inside = |c: &u32| mesh.cells.nodes(*c as usize).iter().any(|&n| contour[n as usize] > 0.0);
+    Some((front, points.cell.iter().copied().filter(inside).collect()))
 }
 
 /// Rings of cells across faces in which points are sought that stand for what is behind a piece of the boundary.
@@ -115,9 +134,9 @@ impl<K: Kinematics<2>> Quadrature<2> for Bounded<K> {
         let geometry = relaxed.as_ref().unwrap_or(&self.geometry);
         let Restored { mesh, locator, points, parametric, taking_part, .. } = *grid;
         let mut weighing = self.volumes.weigh(grid, front);
-        if let Err(fault) = follow::<K>(geometry, grid, front) {
+        if let Err(lost) = follow::<K>(geometry, grid, front) {
             *front = None;
-            weighing.lost_front = Some(fault.to_string());
+            weighing.lost_front = Some(lost.to_string());
         }
         let bounded = |level_set: &[f64]| boundary(geometry, grid, level_set, points, |c| points_of(grid.stencil, c));
         let within = |front: &Front, cells: &[u32]| {

@@ -62,6 +62,11 @@ impl Bins {
             .map(|bin| &self.items[self.offset[bin] as usize..self.offset[bin + 1] as usize])
     }
 
+    /// The items of the bins that a box touches: all that overlap it. An item may be in several.
+    pub fn beside(&self, item: ([f64; 2], [f64; 2])) -> impl Iterator<Item = &[u32]> {
+        self.touched(item).map(|bin| &self.items[self.offset[bin] as usize..self.offset[bin + 1] as usize])
+    }
+
     fn touched(&self, (a, b): ([f64; 2], [f64; 2])) -> impl Iterator<Item = usize> + use<> {
         let index = |d: usize, x: f64| (((x - self.low[d]) / self.side) as usize).min(self.count[d] - 1);
         let range = |d: usize| index(d, a[d].min(b[d]))..index(d, a[d].max(b[d])) + 1;

@@ -6,16 +6,15 @@
 //! rest free surface; which is which is seen anew from the places of the markers, so that the places are all the state
 //! there is. Markers on a wall slide along it because the displacement of the grid does.
 //!
-//! A front that folds, touches itself or another loop, or loses volume holds no longer ([`Front::inspect`]): there is no
-//! surgery, the [`super::Contour`] takes over, smoothed anew at every restoration ([`Front::along`]). It leaves out slip along curved walls, which no support can ask for.
+//! Loops that cross or come near each other are joined anew ([`Front::join`]). Where the cells that are filled at first hold another volume than the
+//! points, and where a marker leaves the mesh, the [`super::Contour`] takes over, smoothed anew at every restoration ([`Front::along`]). It leaves
+//! out slip along curved walls, which no support can ask for.
 
-mod inspect;
+mod join;
 mod lean;
 mod resample;
 mod seed;
 mod smooth;
-
-pub use inspect::Fault;
 
 use super::geometry::Geometry;
 use crate::kinematics::Kinematics;
@@ -25,6 +24,7 @@ use crate::mesh::locate::Locator;
 use crate::mesh::shape::MAX_NODES;
 use crate::mesh::side::Side;
 use std::f64::consts::PI;
+use std::fmt;
 
 /// Markers per length of a cell along the free surface.
 const PER_LENGTH: usize = 6;
@@ -40,6 +40,26 @@ pub struct Front {
     pub position: Vec<[f64; 2]>,
     /// Loop `l` has the markers `first[l]..first[l + 1]`.
     pub first: Vec<u32>,
+}
+
+/// Why a front is not followed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Lost {
+    /// A marker left the mesh at this place (m).
+    Outside([f64; 2]),
+    /// Where it began it enclosed another volume (m³) than the points have: it is not their surface.
+    Volume { enclosed: f64, points: f64 },
+}
+
+impl fmt::Display for Lost {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Outside(place) => write!(f, "it left the mesh at {place:.4?} m"),
+            Self::Volume { enclosed, points } => {
+                write!(f, "at first it enclosed {enclosed:.6} m³ where the points have {points:.6} m³")
+            }
+        }
+    }
 }
 
 impl Front {
@@ -102,10 +122,10 @@ impl Front {
         (mesh, locator): (&Mesh<2>, &Locator<2>),
         geometry: &Geometry,
         displacement: &[[f64; 2]],
-    ) -> Result<(), Fault> {
+    ) -> Result<(), Lost> {
         let (mut n, mut hint) = ([0.0; MAX_NODES], None);
         for x in &mut self.position {
-            let (c, xi) = before.1.locate(before.0, x, hint).ok_or(Fault::Outside { place: *x })?;
+            let (c, xi) = before.1.locate(before.0, x, hint).ok_or(Lost::Outside(*x))?;
             before.0.cells.kind[c as usize].values(&xi, &mut n);
             for (&node, n) in before.0.cells.nodes(c as usize).iter().zip(&n) {
                 for d in 0..2 {
@@ -124,7 +144,7 @@ impl Front {
     ///
     /// # Errors
     /// When one got farther.
-    fn put_back(&mut self, (mesh, locator): (&Mesh<2>, &Locator<2>), geometry: &Geometry) -> Result<(), Fault> {
+    fn put_back(&mut self, (mesh, locator): (&Mesh<2>, &Locator<2>), geometry: &Geometry) -> Result<(), Lost> {
         let mut hint = None;
         for x in &mut self.position {
             if let Some((cell, _)) = locator.locate(mesh, x, hint) {
@@ -132,7 +152,7 @@ impl Front {
                 continue;
             }
             let near = geometry.faces.boundary.iter().filter_map(|&side| Side::of(mesh, side).nearest(x, FARTHEST));
-            let (place, _) = near.min_by(|a, b| a.1.total_cmp(&b.1)).ok_or(Fault::Outside { place: *x })?;
+            let (place, _) = near.min_by(|a, b| a.1.total_cmp(&b.1)).ok_or(Lost::Outside(*x))?;
             *x = place;
         }
         Ok(())

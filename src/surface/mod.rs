@@ -22,7 +22,7 @@ pub use boundary::{ActiveBoundary, Behind, NO_REGION, Piece};
 pub use contour::{Contour, HIGHEST};
 pub use cover::{Cover, join, open};
 pub use distance::Distance;
-pub use front::{Fault, Front};
+pub use front::{Front, Lost};
 pub use geometry::Geometry;
 pub use layers::visit_layers;
 pub use moments::CellFrame;

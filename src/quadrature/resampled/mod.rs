@@ -15,7 +15,7 @@ mod fit;
 mod mass;
 mod places;
 
-use super::surface::{boundary, follow, smoothed};
+use super::surface::{boundary, follow, largest_offset, smoothed};
 use super::{Quadrature, Restored, Tally, Weighing};
 use crate::kinematics::Kinematics;
 use crate::material::spatial::elastic_from_stress;
@@ -47,9 +47,6 @@ const PRESSURE: usize = 9;
 const BESIDE: usize = 10;
 const WATER: usize = 11;
 const ORIGIN: usize = 12;
-/// The surface lies at most so far beside the markers of its front, as a share of a cell's size: as far as the front may
-/// be off before it is given up.
-const LARGEST_OFFSET: f64 = 0.05;
 /// Iterations, and the part (-) of the volume, to which the volume within the surface is that of the material points.
 const OFFSETS: usize = 8;
 /// The first offset tried, as a share of the range.
@@ -132,9 +129,9 @@ impl<K: Kinematics<2>> Resampled<K> {
     /// The surface of the material: one that is followed, else the smoothed contour of the points, or that contour.
     fn surface(&self, geometry: &Geometry, grid: &Restored<2>, front: &mut Option<Front>) -> Surface {
         let Restored { mesh, locator, points, parametric, taking_part, .. } = *grid;
-        let lost = follow::<K>(geometry, grid, front).err().map(|fault| {
+        let lost = follow::<K>(geometry, grid, front).err().map(|lost| {
             *front = None;
-            fault.to_string()
+            lost.to_string()
         });
         let to = |front: &Front, cells: &[u32]| {
             let mut distance = Distance::default();
@@ -158,8 +155,7 @@ impl<K: Kinematics<2>> Resampled<K> {
         };
         let at = |front: &Front, level_set: Vec<f64>, within: &[u32]| {
             let outside = outside(&level_set, within);
-            let (area, size) = front.surface::<K>(mesh, geometry, locator);
-            let most = LARGEST_OFFSET * if area > 0.0 { size } else { 0.0 };
+            let most = largest_offset::<K>(front, geometry, grid);
             let level_set = self.keep_volume(geometry, grid, [-most, most], &outside, level_set);
             Surface { level_set, outside, lost: lost.clone() }
         };

@@ -2,7 +2,7 @@
 //!
 //! The structure slides along the material, and markers that went with the material would crowd and fold at its edges.
 
-use super::{Fault, Front, PER_LENGTH, distance};
+use super::{Front, Lost, PER_LENGTH, distance};
 use crate::mesh::Mesh;
 use crate::mesh::locate::Locator;
 use crate::surface::bins::Bins;
@@ -75,7 +75,7 @@ impl Front {
         geometry: &Geometry,
         locator: &Locator<2>,
         outlines: &[Vec<[f64; 2]>],
-    ) -> Result<(), Fault> {
+    ) -> Result<(), Lost> {
         if outlines.is_empty() {
             return Ok(());
         }
@@ -85,7 +85,7 @@ impl Front {
         let mut hint = None;
         let mut size = Vec::with_capacity(self.position.len());
         for x in &self.position {
-            let (c, _) = locator.locate(mesh, x, hint).ok_or(Fault::Outside { place: *x })?;
+            let (c, _) = locator.locate(mesh, x, hint).ok_or(Lost::Outside(*x))?;
             size.push(geometry.size(mesh, c as usize));
             hint = Some(c);
         }

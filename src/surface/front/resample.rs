@@ -1,6 +1,6 @@
 //! Markers come and go as the free surface stretches and shrinks.
 
-use super::{Fault, Front, PER_LENGTH, distance};
+use super::{Front, Lost, PER_LENGTH, distance};
 use crate::mesh::Mesh;
 use crate::mesh::locate::Locator;
 use crate::surface::geometry::Geometry;
@@ -21,11 +21,11 @@ impl Front {
         geometry: &Geometry,
         locator: &Locator<2>,
         wall: &[bool],
-    ) -> Result<(), Fault> {
+    ) -> Result<(), Lost> {
         let mut wanted = Vec::with_capacity(self.position.len());
         let mut hint = None;
         for x in &self.position {
-            let (c, _) = locator.locate(mesh, x, hint).ok_or(Fault::Outside { place: *x })?;
+            let (c, _) = locator.locate(mesh, x, hint).ok_or(Lost::Outside(*x))?;
             wanted.push(geometry.size(mesh, c as usize) / PER_LENGTH as f64);
             hint = Some(c);
         }
