@@ -187,7 +187,7 @@ impl Law {
     fn pressure(&self, at: &Penalty, gap: f64) -> (f64, f64) {
         let pressure = at.pressure - at.normal * gap;
         let around = at.rounding;
-        if !self.separates() || pressure >= around {
+        if pressure >= around {
             (pressure, -at.normal)
         } else if at.bonded && self.tension > 0.0 {
             if pressure >= -self.tension { (pressure, -at.normal) } else { (-self.tension, 0.0) }
@@ -201,7 +201,9 @@ impl Law {
 
     /// The part that an open gap leaves (-) of what does not come of the pressure, and its slope by the gap (1/m).
     fn share(&self, at: &Penalty, gap: f64) -> (f64, f64) {
-        if !self.separates() || gap <= 0.0 {
+        if !self.separates() {
+            (f64::from(u8::from(at.bonded)), 0.0)
+        } else if gap <= 0.0 {
             (1.0, 0.0)
         } else if gap >= at.fading {
             (0.0, 0.0)
