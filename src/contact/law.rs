@@ -40,7 +40,7 @@ pub struct Penalty {
     pub rounding: f64,
     /// Gap `w` (m) over which adhesion fades.
     pub fading: f64,
-    /// Whether the surfaces bear the tension that they can.
+    /// Whether the surfaces bear the tension that they can: not before they have touched.
     pub bonded: bool,
     /// Shear strength of the soil (kPa) as the step begins.
     pub strength: f64,
@@ -317,6 +317,8 @@ mod tests {
         assert_eq!(clay.respond(&AT, 0.05, 1.0), Answer::default());
         assert_eq!(clay.respond(&Penalty { strength: f64::INFINITY, ..AT }, 0.05, 1.0), Answer::default());
         assert_eq!(bonded.respond(&AT, 0.05, 0.0).pressure, -2.0);
+        // What has not touched yet is pulled by nothing.
+        assert_eq!(bonded.respond(&Penalty { bonded: false, ..AT }, 0.05, 1.0), Answer::default());
         // Tension up to its limit, until they have parted.
         assert_eq!(glued.respond(&Penalty { pressure: -0.5, ..AT }, 0.0, 0.0).pressure, -0.5);
         assert_eq!(glued.respond(&Penalty { pressure: -3.0, ..AT }, 0.0, 0.0).pressure, -0.7);
