@@ -342,6 +342,10 @@ fn penetration() {
     load("plate_anchor", "plate", &[&bonded[..], &["geometry=axisymmetric"]].concat(), -15.6..-13.0);
     let heavy = ["materials.clay.density=2.0387", "gravity={y: -9.81}", "initial_stress={k0: 1}"];
     load("plate_anchor", "plate", &[&bonded[..], &heavy].concat(), -0.5 * 15.2 + 2.0..-0.5 * 12.0 + 2.0);
+    // A thin wall that cannot part from clay goes in, and is held by both its sides and its tip as it comes out.
+    let wall = ["mesh.parameters.h=0.08", "mesh.parameters.thickness=0.08", "phases.push.step.max=0.016"];
+    let short_way = ["phases.push.duration=0.3", "phases.pull.duration=0.1"];
+    load("suction_anchor", "wall", &[&wall[..], &short_way].concat(), -80.0..-55.0);
     load("punch_through", "footing", &short, 3.71..4.3);
     let area = PI * 1.5 * 1.5;
     let short = ["mesh.parameters.h=0.5", "phases[0].duration=0.25"];

@@ -40,7 +40,7 @@ pub struct Penalty {
     pub rounding: f64,
     /// Gap `w` (m) over which adhesion fades.
     pub fading: f64,
-    /// Whether the surfaces bear the tension that they can.
+    /// Whether the surfaces bear the tension that they can: not before they have touched.
     pub bonded: bool,
     /// Shear strength of the soil (kPa) as the step begins.
     pub strength: f64,
@@ -187,7 +187,7 @@ impl Law {
     fn pressure(&self, at: &Penalty, gap: f64) -> (f64, f64) {
         let pressure = at.pressure - at.normal * gap;
         let around = at.rounding;
-        if !self.separates() || pressure >= around {
+        if pressure >= around {
             (pressure, -at.normal)
         } else if at.bonded && self.tension > 0.0 {
             if pressure >= -self.tension { (pressure, -at.normal) } else { (-self.tension, 0.0) }
@@ -201,7 +201,9 @@ impl Law {
 
     /// The part that an open gap leaves (-) of what does not come of the pressure, and its slope by the gap (1/m).
     fn share(&self, at: &Penalty, gap: f64) -> (f64, f64) {
-        if !self.separates() || gap <= 0.0 {
+        if !self.separates() {
+            (f64::from(u8::from(at.bonded)), 0.0)
+        } else if gap <= 0.0 {
             (1.0, 0.0)
         } else if gap >= at.fading {
             (0.0, 0.0)
@@ -315,6 +317,8 @@ mod tests {
         assert_eq!(clay.respond(&AT, 0.05, 1.0), Answer::default());
         assert_eq!(clay.respond(&Penalty { strength: f64::INFINITY, ..AT }, 0.05, 1.0), Answer::default());
         assert_eq!(bonded.respond(&AT, 0.05, 0.0).pressure, -2.0);
+        // What has not touched yet is pulled by nothing.
+        assert_eq!(bonded.respond(&Penalty { bonded: false, ..AT }, 0.05, 1.0), Answer::default());
         // Tension up to its limit, until they have parted.
         assert_eq!(glued.respond(&Penalty { pressure: -0.5, ..AT }, 0.0, 0.0).pressure, -0.5);
         assert_eq!(glued.respond(&Penalty { pressure: -3.0, ..AT }, 0.0, 0.0).pressure, -0.7);

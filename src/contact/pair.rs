@@ -376,8 +376,19 @@ impl<K: Kinematics<2>> Pair<2> for Boundary<K> {
         let mut holds = vec![false; ground.grid.cells.len()];
         ground.points.cell.iter().for_each(|&c| holds[c as usize] = true);
         let mut sums: Vec<Option<Sum>> = (0..self.surface.hats).map(|_| None).collect();
-        for ((segment, placed), gap) in self.surface.segments.iter().zip(&segments.0).zip(&gaps) {
-            let Some(Gap { open, known, point, spacing }) = *gap else { continue };
+        // Soil that a boundary pulls stretches without end, and its points leave: its surface tells that it is there still.
+        let nearest = |s: usize| {
+            let chain = self.surface.chains.iter().find(|chain| chain.contains(&s))?;
+            let known = |at: &usize| gaps[*at].map(|gap| (at.abs_diff(s), gap));
+            chain.clone().filter_map(|at| known(&at)).min_by_key(|(away, _)| *away).map(|(_, gap)| gap)
+        };
+        let by_surface = |s: usize| {
+            let beside = nearest(s)?;
+            let open = surface.distance(&segments.0[s], beside.spacing)?;
+            Some(Gap { open, known: None, ..beside })
+        };
+        for (s, (segment, placed)) in self.surface.segments.iter().zip(&segments.0).enumerate() {
+            let Some(Gap { open, known, point, spacing }) = gaps[s].or_else(|| by_surface(s)) else { continue };
             let Some((cell, xi)) = ground.find(placed, spacing, point, &holds) else { continue };
             let across = surface.distance(placed, spacing);
             // Nothing else depends on them.

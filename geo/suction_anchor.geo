@@ -1,0 +1,70 @@
+// A thin tube, open below, on clay: half a section from its axis of symmetry on. In plane strain the same section is two sheets.
+//
+//   |        | |
+//   |    wall| |
+//   |  air   | |                regions  clay, air, wall
+//   +--------+-+-------+ 0      curves   axis, side, bottom
+//   |                  |
+//   |  clay            | side
+//   +------------------+ -way - beneath
+//         bottom
+//
+// Cells are of size h along the way of the wall and grow with the distance from it, to h * coarse at most. The wall is meshed as
+// finely: a structure needs edges like those of the soil beside it.
+DefineConstant[
+  radius    = {1,    Min 1e-6, Name "Parameters/radius"},    // to the outside of the wall [m]
+  thickness = {0.04, Min 1e-6, Name "Parameters/thickness"}, // of the wall [m]
+  length    = {2.2,  Min 1e-6, Name "Parameters/length"},    // of the wall [m]
+  way       = {2,    Min 1e-6, Name "Parameters/way"},       // that the tip will go below the surface [m]
+  beneath   = {2,    Min 1e-6, Name "Parameters/beneath"},   // clay beneath the end of the way [m]
+  width     = {5,    Min 1e-6, Name "Parameters/width"},     // of the clay from the axis on [m]
+  air       = {0.4,  Min 1e-6, Name "Parameters/air"},       // height that soil may heave into [m]
+  h         = {0.04, Min 1e-6, Name "Parameters/h"},         // size of the cells at the wall [m]
+  coarse    = {10,   Min 1,    Name "Parameters/coarse"}     // largest size, in h
+];
+depth = way + beneath;
+inner = radius - thickness;
+Point(1) = {0, -depth, 0};
+Point(2) = {width, -depth, 0};
+Point(3) = {width, 0, 0};
+Point(4) = {0, 0, 0};
+Point(5) = {width, air, 0};
+Point(6) = {0, air, 0};
+Line(1) = {1, 2};
+Line(2) = {2, 3};
+Line(3) = {3, 4};
+Line(4) = {4, 1};
+Line(5) = {3, 5};
+Line(6) = {5, 6};
+Line(7) = {6, 4};
+Curve Loop(1) = {1, 2, 3, 4};
+Plane Surface(1) = {1};
+Curve Loop(2) = {-3, 5, 6, 7};
+Plane Surface(2) = {2};
+Point(11) = {inner, 0, 0};
+Point(12) = {radius, 0, 0};
+Point(13) = {radius, length, 0};
+Point(14) = {inner, length, 0};
+Line(11) = {11, 12};
+Line(12) = {12, 13};
+Line(13) = {13, 14};
+Line(14) = {14, 11};
+Curve Loop(3) = {11, 12, 13, 14};
+Plane Surface(3) = {3};
+Field[1] = Box;
+Field[1].VIn = h;
+Field[1].VOut = coarse * h;
+Field[1].XMin = inner - 2 * h;
+Field[1].XMax = radius + 2 * h;
+Field[1].YMin = -way - 4 * h;
+Field[1].YMax = length;
+Field[1].Thickness = 3 * coarse * h;
+Background Field = 1;
+Mesh.MeshSizeExtendFromBoundary = 0;
+Mesh.MeshSizeFromPoints = 0;
+Physical Surface("clay") = {1};
+Physical Surface("air") = {2};
+Physical Surface("wall") = {3};
+Physical Curve("axis") = {4, 7};
+Physical Curve("side") = {2, 5};
+Physical Curve("bottom") = {1};
