@@ -1,5 +1,6 @@
 //! Which faces take a ghost penalty, and which the system has room for.
 
+use super::determined::undetermined;
 use super::scene::Scene;
 use super::state::State;
 use crate::mesh::faces::{Face, Faces};
@@ -7,24 +8,18 @@ use crate::mesh::faces::{Face, Faces};
 /// Rings of cells beyond those in need for which the system has room too, so that its pattern seldom changes.
 const RINGS: usize = 2;
 
-/// The faces that take a penalty, ascending: those of poor cells and, with inertia, of cells with fewer
-/// points than nodes, and those of the empty cells beside these, as far as one of the two cells holds points.
+/// The faces that take a penalty, ascending: those of poor cells and, with inertia, of cells whose
+/// points do not determine the motion of their nodes, and those of the empty cells beside these, as far as one of the two cells holds points.
 pub fn choose<const D: usize>(scene: &Scene<D>, state: &State<D>) -> Vec<u32> {
     let Some(faces) = &scene.faces else { return Vec::new() };
     let cells = scene.mesh.cells.len();
     let (mut holds, mut poor, mut ring) = (vec![false; cells], vec![false; cells], vec![false; cells]);
-    let mut count = vec![0; cells];
-    for &c in &state.points.cell {
+    for &c in state.points.cell.iter().chain(&state.integration().cell) {
         holds[c as usize] = true;
-        count[c as usize] += 1;
     }
-    state.integration().cell.iter().for_each(|&c| holds[c as usize] = true);
-    // The mass of fewer points than nodes is singular.
-    let dynamic = scene.dynamic();
-    let few = (0u32..)
-        .zip(&count)
-        .filter(|&(c, &n)| dynamic && holds[c as usize] && n < scene.mesh.cells.nodes(c as usize).len());
-    for c in few.map(|(c, _)| c).chain(state.weighing.poor.iter().copied()) {
+    let undetermined =
+        if scene.dynamic() { undetermined(&scene.mesh, &state.points.cell, &state.parametric) } else { Vec::new() };
+    for c in undetermined.into_iter().chain(state.weighing.poor.iter().copied()) {
         poor[c as usize] = true;
         for &other in faces.neighbours(c) {
             ring[other as usize] = true;

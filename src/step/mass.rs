@@ -9,6 +9,7 @@
 //! `ε ρ h² ∫ ∇N_I·∇N_J` in cells with fewer points than nodes decides these, and a second solution that takes it
 //! back to the first one (iterated Tikhonov regularisation) removes it from all that the points do determine.
 
+use super::determined::undetermined;
 use super::grid::{Family, Grid, System};
 use super::rigid;
 use super::scene::Scene;
@@ -60,9 +61,11 @@ impl<'a> Mass<'a> {
         };
         system.matrix.clear();
         let mut unused = vec![0.0; system.pattern.len()];
-        let (stencil, points) = match (carrier, &grid.stencils.material) {
-            (Carrier::MaterialPoints, Some(stencil)) => (stencil, &state.points),
-            _ => (&grid.stencils.integration, state.integration()),
+        let integration = &grid.stencils.integration;
+        let (stencil, points, parametric) = match (carrier, &grid.stencils.material, &state.weighing.samples) {
+            (Carrier::MaterialPoints, Some(stencil), _) => (stencil, &state.points, &state.parametric),
+            (_, _, Some(samples)) => (integration, &samples.points, &samples.parametric),
+            _ => (integration, &state.points, &state.parametric),
         };
         let clique = &grid.clique;
         let mesh = grid.relaxed.as_ref().map_or(&scene.mesh, |relaxed| &relaxed.mesh);
@@ -106,12 +109,11 @@ impl<'a> Mass<'a> {
             &mut grid.workspace,
         )?;
         rigid::add_mass(scene, &grid.block, &system.pattern, &mut system.matrix);
-        let few =
-            stencil.patches.iter().filter(|p| p.point_count < scene.mesh.cells.nodes(p.cell as usize).len() as u32);
-        let weak: Vec<Weak> = few
-            .map(|patch| Weak {
-                clique: clique[patch.cell as usize] as usize,
-                form: weak_form::<D, K>(scene, patch.cell as usize),
+        let weak: Vec<Weak> = undetermined(&scene.mesh, &points.cell, parametric)
+            .into_iter()
+            .map(|cell| Weak {
+                clique: clique[cell as usize] as usize,
+                form: weak_form::<D, K>(scene, cell as usize),
             })
             .collect();
         for Weak { clique, form } in &weak {

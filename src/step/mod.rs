@@ -7,6 +7,7 @@
 mod balance;
 mod contact;
 mod control;
+mod determined;
 mod distortion;
 mod equilibrate;
 mod fem;
