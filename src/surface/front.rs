@@ -49,6 +49,8 @@ pub enum Lost {
     Outside([f64; 2]),
     /// Where it began it enclosed another volume (m³) than the points have: it is not their surface.
     Volume { enclosed: f64, points: f64 },
+    /// Every loop of it was thinner than the spacing of its markers.
+    Vanished,
 }
 
 impl fmt::Display for Lost {
@@ -58,6 +60,7 @@ impl fmt::Display for Lost {
             Self::Volume { enclosed, points } => {
                 write!(f, "at first it enclosed {enclosed:.6} m³ where the points have {points:.6} m³")
             }
+            Self::Vanished => write!(f, "it became thinner than the spacing of its markers"),
         }
     }
 }
@@ -109,6 +112,17 @@ impl Front {
             }
         }
         if area > 0.0 { (area, sizes / area) } else { (0.0, 0.0) }
+    }
+
+    /// The size (m) of the cell at each marker.
+    fn sizes(&self, mesh: &Mesh<2>, geometry: &Geometry, locator: &Locator<2>) -> Result<Vec<f64>, Lost> {
+        let mut hint = None;
+        let size = |x: &[f64; 2]| {
+            let (cell, _) = locator.locate(mesh, x, hint).ok_or(Lost::Outside(*x))?;
+            hint = Some(cell);
+            Ok(geometry.size(mesh, cell as usize))
+        };
+        self.position.iter().map(size).collect()
     }
 
     /// Moves the markers with the `displacement` (m) of the nodes since the grid was restored to `before`, and evens out
@@ -199,6 +213,14 @@ fn on_boundary(mesh: &Mesh<2>, geometry: &Geometry, c: usize, xi: &[f64; 3]) -> 
 
 fn distance(a: &[f64; 2], b: &[f64; 2]) -> f64 {
     (a[0] - b[0]).hypot(a[1] - b[1])
+}
+
+/// The share of the length of a segment at which it is nearest to a place, and how far (m) that is.
+fn nearest(x: &[f64; 2], [a, b]: [&[f64; 2]; 2]) -> (f64, f64) {
+    let (along, to) = ([b[0] - a[0], b[1] - a[1]], [x[0] - a[0], x[1] - a[1]]);
+    let share = (to[0] * along[0] + to[1] * along[1]) / (along[0] * along[0] + along[1] * along[1]);
+    let share = share.clamp(0.0, 1.0);
+    (share, distance(x, &[a[0] + share * along[0], a[1] + share * along[1]]))
 }
 
 #[cfg(test)]

@@ -1,6 +1,6 @@
 //! Loops that cross, or come near each other across a gap, are joined anew: soil closes over a body and on itself, heaps, and comes apart.
 
-use super::{Front, Lost, PER_LENGTH, distance};
+use super::{Front, Lost, PER_LENGTH, distance, nearest};
 use crate::mesh::Mesh;
 use crate::mesh::locate::Locator;
 use crate::surface::bins::Bins;
@@ -13,7 +13,6 @@ const GAP: f64 = 0.2;
 const ALONG: f64 = 5.0;
 
 /// Markers with the one that follows each.
-#[derive(Default)]
 struct Chain {
     position: Vec<[f64; 2]>,
     next: Vec<usize>,
@@ -30,8 +29,8 @@ impl Chain {
         Self { position: front.position.clone(), next }
     }
 
-    /// The loops that the markers make now: those that are `kept`, given their markers.
-    fn front(&self, kept: impl Fn(&[[f64; 2]]) -> bool) -> Front {
+    /// The loops that the markers make now: those that are `kept`, given the number of their first marker, and their markers.
+    fn front(&self, kept: impl Fn(usize, &[[f64; 2]]) -> bool) -> Front {
         let mut front = Front { position: Vec::with_capacity(self.position.len()), first: vec![0] };
         let mut taken = vec![false; self.next.len()];
         for start in 0..self.next.len() {
@@ -41,7 +40,7 @@ impl Chain {
                 front.position.push(self.position[i]);
                 i = self.next[i];
             }
-            if front.position.len() - from < 3 || !kept(&front.position[from..]) {
+            if front.position.len() - from < 3 || !kept(start, &front.position[from..]) {
                 front.position.truncate(from);
             } else {
                 front.first.push(front.position.len() as u32);
@@ -56,7 +55,7 @@ impl Front {
     /// spacing of the markers goes: crumbs, and the voids that are left of gaps.
     ///
     /// # Errors
-    /// When a marker is outside the mesh.
+    /// When a marker is outside the mesh, or nothing of the front is left.
     pub fn join(
         &mut self,
         mesh: &Mesh<2>,
@@ -64,8 +63,10 @@ impl Front {
         locator: &Locator<2>,
         outlines: &[Vec<[f64; 2]>],
     ) -> Result<(), Lost> {
+        let loops = self.loops();
         self.uncross();
-        self.close(mesh, geometry, locator, outlines)
+        self.close(mesh, geometry, locator, outlines)?;
+        if self.loops() == 0 && loops > 0 { Err(Lost::Vanished) } else { Ok(()) }
     }
 
     /// Cuts loops where they cross, and goes on from each end to the other loop there. Of the loops that this makes those bound the material on
@@ -116,7 +117,7 @@ impl Front {
         for [a, b] in after {
             cut.next.swap(a, b);
         }
-        let lies_once = |x: &[[f64; 2]]| {
+        let lies_once = |_: usize, x: &[[f64; 2]]| {
             let longest = (0..x.len()).max_by(|&i, &j| {
                 let length = |i: usize| distance(&x[i], &x[(i + 1) % x.len()]);
                 length(i).total_cmp(&length(j))
@@ -139,17 +140,14 @@ impl Front {
     ) -> Result<(), Lost> {
         let wall = self.walls(mesh, geometry, locator);
         let count = self.position.len();
-        // Of each marker the loop, the length of the loop up to there, and the size of the cell.
-        let (mut of, mut along, mut size) = (vec![0; count], vec![0.0; count], vec![0.0; count]);
-        let (mut lengths, mut hint) = (Vec::new(), None);
+        // Of each marker the size of the cell, the loop, and the length of the loop up to there.
+        let size = self.sizes(mesh, geometry, locator)?;
+        let (mut of, mut along, mut lengths) = (vec![0; count], vec![0.0; count], Vec::new());
         for l in 0..self.loops() {
             let (x, first) = (self.markers(l), self.first[l] as usize);
             let mut length = 0.0;
             for i in 0..x.len() {
-                let (cell, _) = locator.locate(mesh, &x[i], hint).ok_or(Lost::Outside(x[i]))?;
-                hint = Some(cell);
                 (of[first + i], along[first + i]) = (l, length);
-                size[first + i] = geometry.size(mesh, cell as usize);
                 length += distance(&x[i], &x[(i + 1) % x.len()]);
             }
             lengths.push(length);
@@ -160,7 +158,7 @@ impl Front {
         chain.next.iter().enumerate().for_each(|(i, &next)| before[next] = i);
         // Soil against both sides of a thin wall is nothing that meets.
         let on_structure = |x: &[f64; 2], size: f64| {
-            let near = |piece: &[[f64; 2]]| away(x, &piece[0], &piece[1]) < ON * size;
+            let near = |piece: &[[f64; 2]]| nearest(x, [&piece[0], &piece[1]]).1 < ON * size;
             outlines.iter().any(|outline| outline.windows(2).any(near))
         };
         let against: Vec<bool> = x.iter().zip(&size).map(|(x, size)| on_structure(x, *size)).collect();
@@ -187,26 +185,14 @@ impl Front {
         for [i, j] in pairs {
             chain.next.swap(i, j);
         }
-        let spacing = |x: &[f64; 2]| {
-            let cell = locator.locate(mesh, x, None);
-            cell.map_or(0.0, |(cell, _)| geometry.size(mesh, cell as usize) / PER_LENGTH as f64)
-        };
-        let next = chain.front(|x| area(x).abs() > spacing(&x[0]).powi(2));
-        *self = next;
+        let spacing = |first: usize| size[first] / PER_LENGTH as f64;
+        *self = chain.front(|first, x| area(x).abs() > spacing(first).powi(2));
         Ok(())
     }
 }
 
 /// Markers nearer to a structure than this share of a cell lie on it.
 const ON: f64 = 1e-6;
-
-/// How far (m) a place is from a segment.
-fn away(x: &[f64; 2], a: &[f64; 2], b: &[f64; 2]) -> f64 {
-    let (along, to) = ([b[0] - a[0], b[1] - a[1]], [x[0] - a[0], x[1] - a[1]]);
-    let share = (to[0] * along[0] + to[1] * along[1]) / (along[0] * along[0] + along[1] * along[1]);
-    let share = share.clamp(0.0, 1.0);
-    distance(x, &[a[0] + share * along[0], a[1] + share * along[1]])
-}
 
 /// How far beside a segment (-), in its length, it is seen what lies there.
 const BESIDE: f64 = 1e-6;

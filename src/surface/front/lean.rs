@@ -2,11 +2,12 @@
 //!
 //! The structure slides along the material, and markers that went with the material would crowd and fold at its edges.
 
-use super::{Front, Lost, PER_LENGTH, distance};
+use super::{Front, Lost, PER_LENGTH, distance, nearest};
 use crate::mesh::Mesh;
 use crate::mesh::locate::Locator;
 use crate::surface::bins::Bins;
 use crate::surface::geometry::Geometry;
+use crate::surface::split::twice_area;
 
 /// Markers lie against a structure that are nearer to it than this share of a cell, or less than `DEEP` in it.
 const NEAR: f64 = 0.15;
@@ -82,13 +83,7 @@ impl Front {
         let outlines: Vec<Outline> = outlines.iter().filter(|x| x.len() > 1).map(|x| Outline::new(x)).collect();
         let pieces: Vec<(usize, usize)> =
             outlines.iter().enumerate().flat_map(|(k, o)| (1..o.x.len()).map(move |i| (k, i))).collect();
-        let mut hint = None;
-        let mut size = Vec::with_capacity(self.position.len());
-        for x in &self.position {
-            let (c, _) = locator.locate(mesh, x, hint).ok_or(Lost::Outside(*x))?;
-            size.push(geometry.size(mesh, c as usize));
-            hint = Some(c);
-        }
+        let size = self.sizes(mesh, geometry, locator)?;
         let longest = outlines.iter().flat_map(|o| o.along.windows(2).map(|a| a[1] - a[0])).fold(0.0, f64::max);
         let side = DEEP * size.iter().fold(0.0f64, |a, b| a.max(*b)) + longest;
         let bins = Bins::new(pieces.iter().map(|&(k, i)| (outlines[k].x[i - 1], outlines[k].x[i])), side);
@@ -111,14 +106,12 @@ fn foot(outlines: &[Outline], pieces: &[(usize, usize)], bins: &Bins, x: &[f64; 
     for &piece in bins.around(x).flatten() {
         let (outline, i) = pieces[piece as usize];
         let (a, b) = (outlines[outline].x[i - 1], outlines[outline].x[i]);
-        let (along, to) = ([0, 1].map(|d| b[d] - a[d]), [0, 1].map(|d| x[d] - a[d]));
-        let length = along[0].hypot(along[1]);
-        let t = ((to[0] * along[0] + to[1] * along[1]) / (length * length)).clamp(0.0, 1.0);
-        let away = distance(x, &[0, 1].map(|d| a[d] + t * along[d]));
+        let (share, away) = nearest(x, [&a, &b]);
         if best.as_ref().is_none_or(|(least, ..)| away < *least) {
             // The structure is on the left.
-            let left = (along[0] * to[1] - along[1] * to[0]) / length;
-            best = Some((away, left, Foot { outline, along: outlines[outline].along[i - 1] + t * length }));
+            let left = twice_area(&[a, b, *x]);
+            let along = outlines[outline].along[i - 1] + share * distance(&a, &b);
+            best = Some((away, left, Foot { outline, along }));
         }
     }
     let (away, left, foot) = best?;

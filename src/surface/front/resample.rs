@@ -22,13 +22,8 @@ impl Front {
         locator: &Locator<2>,
         wall: &[bool],
     ) -> Result<(), Lost> {
-        let mut wanted = Vec::with_capacity(self.position.len());
-        let mut hint = None;
-        for x in &self.position {
-            let (c, _) = locator.locate(mesh, x, hint).ok_or(Lost::Outside(*x))?;
-            wanted.push(geometry.size(mesh, c as usize) / PER_LENGTH as f64);
-            hint = Some(c);
-        }
+        let sizes = self.sizes(mesh, geometry, locator)?;
+        let wanted: Vec<f64> = sizes.iter().map(|size| size / PER_LENGTH as f64).collect();
         let position = Vec::with_capacity(self.position.len() + 16);
         let mut next = Self { position, first: vec![0] };
         for l in 0..self.loops() {

@@ -244,6 +244,15 @@ fn loops_that_cross_bound_what_lies_on_their_left() {
     let mut holed = front(&[square([0.3, 0.2], [1.0, 0.7]), void]);
     grid.join(&mut holed);
     assert!(holed.loops() == 1 && (holed.volume::<PlaneStrain>() - 0.35).abs() < 1e-12, "{}", holed.loops());
+
+    // A body that is thinner than the spacing of the markers is none, and that nothing is left is said.
+    let join = |front: &mut Front| front.join(&grid.mesh, &grid.geometry, &grid.locator, &[]);
+    let crumb = square([0.6, 0.4], [0.61, 0.42]);
+    let mut crumbs = front(&[square([0.8, 0.2], [1.4, 0.7]), crumb.clone()]);
+    grid.join(&mut crumbs);
+    assert_eq!(crumbs.loops(), 1);
+    assert_eq!(join(&mut front(&[crumb])), Err(Lost::Vanished));
+    assert_eq!(join(&mut Front::default()), Ok(()));
 }
 
 #[test]
