@@ -50,6 +50,8 @@ pub struct Ground<'a, const D: usize> {
     pub grid: &'a Mesh<D>,
     pub locator: &'a Locator<D>,
     pub points: &'a Points<D>,
+    /// The cell of each point that integrals over the soil are summed over.
+    pub integration: &'a [u32],
     /// The surface of the soil, where it is followed: loops of markers with the soil on their left.
     pub surface: &'a [Vec<[f64; D]>],
     /// How far (m) the nodes moved in the last step; empty before the first.
@@ -283,7 +285,7 @@ fn strength(models: &[Option<Arc<dyn Model>>], points: &Points<2>, p: usize) -> 
 }
 
 impl Ground<'_, 2> {
-    /// The cell of the soil that a segment lies on and where in it its middle is: outside it where no point is in the
+    /// The cell of the soil that a segment lies on and where in it its middle is: outside it where no point of either kind is in the
     /// cell there, and the nearest out of the structure with points goes on to the segment. The nodes of an empty cell
     /// would give way in place of the soil.
     fn find(&self, segment: &Placed, spacing: f64, point: u32, holds: &[bool]) -> Option<(u32, [f64; 3])> {
@@ -374,7 +376,7 @@ impl<K: Kinematics<2>> Pair<2> for Boundary<K> {
         let gaps = raw_gaps::<K>(&self.surface, &segments, &soil, &self.skin);
         let surface = Facing::new(ground.surface);
         let mut holds = vec![false; ground.grid.cells.len()];
-        ground.points.cell.iter().for_each(|&c| holds[c as usize] = true);
+        ground.points.cell.iter().chain(ground.integration).for_each(|&c| holds[c as usize] = true);
         let mut sums: Vec<Option<Sum>> = (0..self.surface.hats).map(|_| None).collect();
         // Soil that a boundary pulls stretches without end, and its points leave: its surface tells that it is there still.
         let nearest = |s: usize| {

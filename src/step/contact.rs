@@ -106,7 +106,9 @@ pub fn begin<const D: usize, K: Kinematics<D>>(
     let surface = surface(restored, state);
     let excess = |points: &Points<D>, p: usize| excess_pressure(&scene.carried, points, p);
     let (points, elements, increment) = (&state.points, &state.fem, &state.increment);
-    let ground = Ground { grid: mesh, locator, points, surface: &surface, increment, elements, excess: &excess };
+    let integration = &state.integration().cell;
+    let ground =
+        Ground { grid: mesh, locator, points, integration, surface: &surface, increment, elements, excess: &excess };
     let (mut touches, mut covers) = (Vec::new(), Vec::new());
     let covered = scene.terms.iter().any(|term| term.sees_open_boundary());
     for (number, pair) in scene.touching(state.phase) {
