@@ -46,7 +46,7 @@ pub fn found<const D: usize>(scene: &Scene<D>, state: &mut State<D>, report: &Re
         let (place, cure) = if bound.is_empty() {
             (
                 "within the soil".to_string(),
-                "nothing acts on its sides; if water or tension is to open it at a pressure, give the soil a limit of tension",
+                "nothing acts on its sides; if water or tension is to open it at a pressure, give the soil a `tension_limit`",
             )
         } else {
             (

@@ -10,15 +10,15 @@ use std::collections::{BTreeMap, BTreeSet};
 /// How much (-) a void has grown when that is reported.
 const MUCH: f64 = 2.0;
 
-/// The label of what is empty and no news.
-const KNOWN: u32 = 1;
+/// Stands for the area of what is empty and no news.
+const KNOWN: f64 = -1.0;
 
 /// The voids so far: part of the state of a run.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Voids {
-    /// A label a cell: 0 where it is none of a void, 1 where it is empty and that is no news, `k + 2` in void `k`. Empty before the first look.
+    /// A label a cell: 0 where it is none of a void, `k + 1` in void `k`. Empty before the first look.
     pub of_cell: Vec<u32>,
-    /// The area (m²) of each void when it was last reported; 0 of one that has closed.
+    /// The area (m²) of each void when it was last reported; 0 of one that has closed, -1 of one that is no news.
     pub reported: Vec<f64>,
 }
 
@@ -60,11 +60,16 @@ impl Voids {
     ) -> Vec<Void<D>> {
         let count = mesh.cells.len();
         if self.of_cell.len() != count {
-            self.of_cell = emptiness.iter().map(|&e| if e >= 1.0 { KNOWN } else { 0 }).collect();
+            *self = Self { of_cell: vec![0; count], reported: Vec::new() };
+            let open: Vec<bool> = emptiness.iter().map(|&e| e >= 1.0).collect();
+            for group in self.groups(mesh, &open) {
+                let label = self.label(KNOWN);
+                group.cells.iter().for_each(|&c| self.of_cell[c as usize] = label);
+            }
             return Vec::new();
         }
-        let open: Vec<bool> =
-            (0..count).map(|c| emptiness[c] >= 1.0 || self.of_cell[c] > KNOWN && emptiness[c] > 0.0).collect();
+        let stays = |c: usize| emptiness[c] > 0.0 && self.area(self.of_cell[c]).is_some_and(|area| area > 0.0);
+        let open: Vec<bool> = (0..count).map(|c| emptiness[c] >= 1.0 || stays(c)).collect();
         let groups = self.groups(mesh, &open);
         // What a label stood for goes on in the group with most of its nodes.
         let mut heirs: BTreeMap<u32, usize> = BTreeMap::new();
@@ -82,22 +87,21 @@ impl Voids {
         for (g, group) in groups.iter().enumerate() {
             let own: Vec<u32> = group.before.keys().copied().filter(|label| heirs[label] == g).collect();
             goes_on.extend(&own);
-            let label = match own.first() {
-                Some(&label) => label,
-                None if is_news(&group.cells, !group.before.is_empty()) => {
-                    self.reported.push(0.0);
-                    self.reported.len() as u32 + KNOWN
-                }
-                None => KNOWN,
+            let is_known = |label: &u32| self.area(*label) == Some(KNOWN);
+            let label = match own.iter().copied().find(is_known).or(own.first().copied()) {
+                Some(label) => label,
+                None if is_news(&group.cells, !group.before.is_empty()) => self.label(0.0),
+                None => self.label(KNOWN),
             };
+            goes_on.insert(label);
             group.cells.iter().for_each(|&c| now[c as usize] = label);
             // Those that it has taken in are no voids of their own any longer.
-            own.iter().skip(1).for_each(|&other| self.reported[(other - KNOWN - 1) as usize] = 0.0);
-            if label == KNOWN {
+            own.iter().filter(|&&other| other != label).for_each(|&other| self.reported[other as usize - 1] = 0.0);
+            let reported = &mut self.reported[label as usize - 1];
+            if *reported == KNOWN {
                 continue;
             }
             let (area, place) = extent(mesh, &group.cells, emptiness);
-            let reported = &mut self.reported[(label - KNOWN - 1) as usize];
             if area > MUCH * *reported {
                 let kind = if *reported > 0.0 { News::Grown } else { News::Opened };
                 news.push(Void { news: kind, area, place, cells: group.cells.clone() });
@@ -105,7 +109,7 @@ impl Voids {
             }
         }
         for (k, area) in self.reported.iter_mut().enumerate() {
-            let label = k as u32 + KNOWN + 1;
+            let label = k as u32 + 1;
             if *area > 0.0 && !goes_on.contains(&label) {
                 let cells: Vec<u32> = (0..count as u32).filter(|&c| self.of_cell[c as usize] == label).collect();
                 let (_, place) = extent(mesh, &cells, &vec![1.0; count]);
@@ -115,6 +119,17 @@ impl Voids {
         }
         self.of_cell = now;
         news
+    }
+
+    /// The area (m²) that was reported of the void of a label.
+    fn area(&self, label: u32) -> Option<f64> {
+        self.reported.get((label as usize).checked_sub(1)?).copied()
+    }
+
+    /// The label of a new void.
+    fn label(&mut self, reported: f64) -> u32 {
+        self.reported.push(reported);
+        self.reported.len() as u32
     }
 
     /// The groups of `open` cells that share nodes.
@@ -271,6 +286,8 @@ mod tests {
         assert_eq!(found[2], [(News::Opened, 1.0)]);
         // Part of the air again.
         assert_eq!([found[1].len(), found[3].len()], [0, 0], "{found:?}");
+        // Two spaces from the start, of which one is smaller.
+        assert_eq!(news(&[&[AIR, hole], &[AIR, hole], &[AIR, [2.0, 1.0, 3.0, 2.5]]], true), vec![vec![]; 3]);
         assert_eq!(news(&states, false), vec![vec![]; 4]);
         // A void drifts on by less than a cell.
         let at = |x: f64| [x, 1.0, x + 1.0, 2.0];

@@ -104,8 +104,8 @@ fn check_cells<const D: usize>(scene: &Scene<D>, state: &State<D>) -> Result<()>
     ensure(state.taking_part.len() == cells, "the number of cells")?;
     ensure([0, cells].contains(&state.penalised.len()), "the list of penalised cells")?;
     let Voids { of_cell, reported } = &state.voids;
-    let known = of_cell.iter().all(|&label| (label as usize) < reported.len() + 2);
-    let areas = reported.iter().all(|area| area.is_finite() && *area >= 0.0);
+    let known = of_cell.iter().all(|&label| (label as usize) <= reported.len());
+    let areas = reported.iter().all(|area| *area >= 0.0 || *area == -1.0);
     ensure([0, cells].contains(&of_cell.len()) && known && areas, "its voids")
 }
 
