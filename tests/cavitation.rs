@@ -80,8 +80,9 @@ fn a_confined_column_cavitates_and_closes_again() {
                     let which = usize::from(closes) + usize::from(is_closed);
                     errors[which] = errors[which].max(error);
                 }
-                println!("{geometry} {poisson} {field} {restore}: {errors:.1e?}");
-                assert!((top - 0.08).abs() < 1e-9, "{top}");
+                println!("{geometry} {poisson} {field} {restore}: {errors:?}");
+                // Less what the plate itself is stretched.
+                assert!((top - 0.08).abs() < 1e-6, "{top}");
                 let bounds = errors[0] < 0.02 && errors[1] < 0.05 && errors[2] < CLOSED;
                 assert!(bounds, "{geometry} {poisson} {field} {restore}: {errors:?}");
             }
