@@ -35,7 +35,7 @@ pub fn found<const D: usize>(scene: &Scene<D>, state: &mut State<D>, report: &Re
     let beside = |cells: &[u32]| structures.iter().filter(|s| lies_near(&mesh, cells, &s.places)).collect::<Vec<_>>();
     let mut is_news = |cells: &[u32], cut_off: bool| {
         let may_part = beside(cells).iter().any(|structure| structure.may_part);
-        !may_part && !(cut_off && reaches_boundary(&mesh, cells))
+        !(may_part || cut_off && reaches_boundary(&mesh, cells))
     };
     let mut voids = std::mem::take(&mut state.voids);
     let news = voids.look(&mesh, &emptiness, &mut is_news);
