@@ -29,26 +29,25 @@ fn a_column_without_cohesion_runs_out_and_comes_to_rest() {
     let log = fs::read_to_string(folder.path().join("solve.log")).unwrap();
     let steps: Vec<&str> =
         log.lines().filter(|line| line.starts_with("step ") && line.contains(" collapse ")).collect();
-    let energy = |line: &str| ["elastic", "potential", "kinetic"].iter().map(|of| after(line, of)).sum::<f64>();
+    let energy = |line: &str| after(line, "potential") + after(line, "kinetic");
 
     // Mass: that of the drawing, in every step.
     let mass = DENSITY * WIDTH * HEIGHT;
     assert!(steps.iter().all(|line| (after(line, "mass") / mass - 1.0).abs() < 1e-12));
 
-    // Friction takes energy, and restoration makes no more of it than noise. Energy is here the mean of two steps: generalised-α balances forces between
-    // the ends of a step, and the energy stored at one end may be a hundredth of the kinetic energy too large for a single step.
+    // Friction takes energy, and restoration makes no more of it than noise. What the bars store is a thousandth of the rest, and is left out: single
+    // points that are squeezed for a step store more than the forces know of.
     let peak = steps.iter().map(|line| after(line, "kinetic")).fold(0.0, f64::max);
     let (mut least, mut made) = (f64::INFINITY, 0.0f64);
-    for pair in steps.windows(2) {
-        let mean = 0.5 * (energy(pair[0]) + energy(pair[1]));
-        made = made.max((mean - least) / peak);
-        least = least.min(mean);
+    for line in &steps {
+        made = made.max((energy(line) - least) / peak);
+        least = least.min(energy(line));
     }
     let rest = after(steps[steps.len() - 1], "kinetic") / peak;
     println!("kinetic energy {rest:.2e} of its peak {peak:.2e} kJ, {made:.1e} of it made");
-    assert!(rest < 0.02 && made < 0.005);
+    assert!(rest < 0.005 && made < 0.002);
 
-    // The toe has 99 % of the bars behind it; the README has it at 1.2 to 1.5 widths on finer cells.
+    // The toe has 99 % of the bars behind it; the README has it at 1.3 to 1.5 widths on finer cells.
     let frames = frame::list(&folder.path().join("results")).unwrap();
     let end = Frame::read(&frames[frames.len() - 1].path).unwrap();
     let mut place: Vec<f64> = end.points.position.iter().map(|x| x[0]).collect();
