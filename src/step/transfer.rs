@@ -36,6 +36,12 @@ pub fn motion_to_grid<const D: usize, K: Kinematics<D>>(
         points.acceleration.resize(count, [0.0; D]);
     }
     [state.velocity, state.acceleration] = to_nodes::<D, K>(scene, grid, state)?;
+    // What the grid does not see of their velocities moves nothing, and would stay with them, at rest too, until it is seen elsewhere as motion.
+    let seen = grid.families(scene, state).map(|family| interpolate::<D, K>(&family, &state.velocity));
+    let seen: Vec<_> = seen.collect();
+    for (points, seen) in [&mut state.points, &mut state.fem].into_iter().zip(seen) {
+        points.velocity = seen;
+    }
     if !state.moving {
         state.acceleration = first_acceleration::<D, K>(scene, grid, state)?;
         accelerations_to_points::<D, K>(scene, grid, state);
