@@ -4,7 +4,7 @@ use super::check::Checker;
 use super::locate::{At, Path};
 use super::pores::has_water_of_its_own;
 use super::raw;
-use crate::material::{Kind, Model, Profile};
+use crate::material::{Kind, Model, Profile, cavitation};
 use crate::term::Carried;
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -35,6 +35,12 @@ impl Checker {
     ) -> Option<Carried> {
         let poisson = model.elasticity().poisson();
         if material.drainage == Some(raw::Drainage::Undrained) && has_water_of_its_own(material) {
+            if values.contains_key(cavitation::NAME) {
+                let problem = "the limit is one of the whole stress, and the water of this soil has a pressure field of its own without a limit";
+                let remedy =
+                    "take `permeability` out of the material: its water then stays, and cavitates with the soil";
+                self.issue(&path.key(cavitation::NAME), At::Key, problem, remedy);
+            }
             // A skeleton that yields locks as well as one that is nearly incompressible.
             let split = match pressure {
                 Some(raw::Pressure::None) => false,
@@ -47,6 +53,7 @@ impl Checker {
                 model,
                 ratio,
                 water: 0.0,
+                limit: None,
             });
         }
         if material.drainage == Some(raw::Drainage::Undrained) {
@@ -66,7 +73,8 @@ impl Checker {
             return None;
         }
         let model = deviatoric(kind, values, poisson)?;
-        Some(Carried { model, ratio: bulk(poisson) - KEPT, water: 0.0 })
+        let ratio = bulk(poisson) - KEPT;
+        Some(Carried { model, ratio, water: 0.0, limit: share(values, ratio) })
     }
 
     fn pore_water(
@@ -87,17 +95,24 @@ impl Checker {
         let poisson = model.elasticity().poisson();
         let water = bulk(undrained) - bulk(poisson);
         if !kind.keeps_volume {
-            return Some(Carried { model: model.clone(), ratio: water, water: 1.0 });
+            return Some(Carried { model: model.clone(), ratio: water, water: 1.0, limit: None });
         }
         let ratio = bulk(undrained) - KEPT;
-        Some(Carried { model: deviatoric(kind, values, poisson)?, ratio, water: water / ratio })
+        let (model, limit) = (deviatoric(kind, values, poisson)?, share(values, ratio));
+        Some(Carried { model, ratio, water: water / ratio, limit })
     }
 }
 
-/// The model with the same shear modulus and nearly no bulk modulus.
+/// What of the limit of the mean tension the field bears with a bulk modulus of `ratio` (-), in shear moduli, beside that of the points.
+fn share(values: &BTreeMap<&str, Profile>, ratio: f64) -> Option<Profile> {
+    values.get(cavitation::NAME).map(|limit| limit.scaled(ratio / (ratio + KEPT)))
+}
+
+/// The model with the same shear modulus and nearly no bulk modulus, and no limit of its mean stress.
 fn deviatoric(kind: &Kind, values: &BTreeMap<&str, Profile>, poisson: f64) -> Option<Arc<dyn Model>> {
     let of_points = (3.0 * KEPT - 2.0) / (6.0 * KEPT + 2.0);
     let mut values = values.clone();
+    values.remove(cavitation::NAME);
     let stretch = (1.0 + of_points) / (1.0 + poisson);
     if let Some(young) = values.get_mut("young") {
         (young.top, young.gradient) = (stretch * young.top, stretch * young.gradient);

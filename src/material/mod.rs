@@ -7,6 +7,7 @@
 //! a point ([`State::memory`]).
 
 pub mod cam_clay;
+pub mod cavitation;
 pub mod driver;
 pub mod elasticity;
 pub mod linear_elastic;

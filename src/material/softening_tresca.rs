@@ -19,7 +19,7 @@
 //! shear bands as narrow as the cells allow: results depend on their size.
 
 use super::polyhedral::Planes;
-use super::{Elasticity, Kind, Model, Moduli, Parameter, Parameters, Profile, Response, State};
+use super::{Elasticity, Kind, Model, Moduli, Parameter, Parameters, Profile, Response, State, cavitation};
 use crate::error::{Error, Result};
 use std::f64::consts::LN_10;
 use std::sync::Arc;
@@ -93,12 +93,21 @@ pub const KIND: Kind = Kind {
             varies: false,
             meaning: "rate of shear from which the strength grows; needed with a rate",
         },
+        cavitation::PARAMETER,
     ],
     build,
     examples: &[
         &[("young", 1000.0), ("poisson", 0.49), ("shear_strength", 2.0), ("remoulded", 0.3), ("ductility", 2.0)],
         &[("young", 100.0), ("poisson", 0.3), ("shear_strength", 1.0), ("remoulded", 0.2), ("ductility", 0.5)],
         &[("young", 5e4), ("poisson", 0.0), ("shear_strength", 50.0), ("remoulded", 1.0), ("ductility", 10.0)],
+        &[
+            ("young", 500.0),
+            ("poisson", 0.45),
+            ("shear_strength", 2.0),
+            ("remoulded", 0.5),
+            ("ductility", 5.0),
+            ("tension_limit", 10.0),
+        ],
     ],
 };
 
@@ -108,7 +117,8 @@ fn build(parameters: &Parameters) -> Result<Arc<dyn Model>> {
         if rate == 0.0 { parameters.number_or("reference_rate", 1.0)? } else { parameters.number("reference_rate")? };
     let (remoulded, ductility) = (parameters.number("remoulded")?, parameters.number("ductility")?);
     let softening = Softening { remoulded, ductility, rate, reference_rate };
-    Ok(Arc::new(SofteningTresca::new(parameters.elasticity()?, parameters.profile("shear_strength")?, softening)?))
+    let strength = parameters.profile("shear_strength")?;
+    cavitation::limited(SofteningTresca::new(parameters.elasticity()?, strength, softening)?, parameters)
 }
 
 impl Softening {

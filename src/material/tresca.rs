@@ -3,7 +3,7 @@
 //! The return is that of [`super::polyhedral`] without friction.
 
 use super::polyhedral::Planes;
-use super::{Elasticity, Kind, Model, Parameter, Parameters, Profile, Response, State};
+use super::{Elasticity, Kind, Model, Parameter, Parameters, Profile, Response, State, cavitation};
 use crate::error::Result;
 use std::sync::Arc;
 
@@ -28,17 +28,19 @@ pub const KIND: Kind = Kind {
             varies: true,
             meaning: "undrained shear strength s_u, half the largest difference of principal stresses",
         },
+        cavitation::PARAMETER,
     ],
     build,
     examples: &[
         &[("young", 100.0), ("poisson", 0.49), ("shear_strength", 0.5)],
         &[("young", 1000.0), ("poisson", 0.4999), ("shear_strength", 1.0)],
         &[("young", 50_000.0), ("poisson", 0.0), ("shear_strength", 100.0)],
+        &[("young", 1000.0), ("poisson", 0.49), ("shear_strength", 5.0), ("tension_limit", 20.0)],
     ],
 };
 
 fn build(parameters: &Parameters) -> Result<Arc<dyn Model>> {
-    Ok(Arc::new(Tresca::new(parameters.elasticity()?, parameters.profile("shear_strength")?)?))
+    cavitation::limited(Tresca::new(parameters.elasticity()?, parameters.profile("shear_strength")?)?, parameters)
 }
 
 impl Tresca {

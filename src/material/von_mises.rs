@@ -4,7 +4,7 @@
 //! §7.3.4) and its consistent tangent, in principal axes. `yield_stress` is the strength in uniaxial
 //! tension; the strength in simple shear is `yield_stress/√3`. No hardening.
 
-use super::{Elasticity, Kind, Model, Parameter, Parameters, Profile, Response, State, equivalent_plastic};
+use super::{Elasticity, Kind, Model, Parameter, Parameters, Profile, Response, State, cavitation, equivalent_plastic};
 use crate::error::Result;
 use std::sync::Arc;
 
@@ -32,17 +32,19 @@ pub const KIND: Kind = Kind {
             varies: true,
             meaning: "strength in uniaxial tension, sqrt(3 J2) at yield",
         },
+        cavitation::PARAMETER,
     ],
     build,
     examples: &[
         &[("young", 1000.0), ("poisson", 0.3), ("yield_stress", 2.0)],
         &[("young", 100.0), ("poisson", 0.4999), ("yield_stress", 1.0)],
         &[("young", 2.1e8), ("poisson", 0.2), ("yield_stress", 2.4e5)],
+        &[("young", 1000.0), ("poisson", 0.3), ("yield_stress", 10.0), ("tension_limit", 5.0)],
     ],
 };
 
 fn build(parameters: &Parameters) -> Result<Arc<dyn Model>> {
-    Ok(Arc::new(VonMises::new(parameters.elasticity()?, parameters.profile("yield_stress")?)?))
+    cavitation::limited(VonMises::new(parameters.elasticity()?, parameters.profile("yield_stress")?)?, parameters)
 }
 
 impl VonMises {

@@ -11,7 +11,7 @@ use crate::io::container::Store;
 use crate::quadrature::{Samples, Tally, Weighing};
 use crate::stencil::SoftCell;
 use crate::step::{Release, Scene, Span, State};
-use crate::surface::{ActiveBoundary, Front, Piece};
+use crate::surface::{ActiveBoundary, Front, Piece, Voids};
 
 const POINTS: &str = "points.";
 const FEM: &str = "fem.";
@@ -51,6 +51,7 @@ pub fn store<const D: usize>(state: &State<D>) -> Store {
         penalised,
         weighing,
         front,
+        voids,
         restorations,
     } = state;
     let mut store = Checkpoints::store();
@@ -86,6 +87,8 @@ pub fn store<const D: usize>(state: &State<D>) -> Store {
     let (markers, loops) = front.as_ref().map_or((Vec::new(), Vec::new()), |f| (f.position.concat(), f.first.clone()));
     store.put("front.position", 2, markers);
     store.put("front.first", 1, loops);
+    store.put("voids.of_cell", 1, voids.of_cell.clone());
+    store.put("voids.reported", 1, voids.reported.clone());
     columns::put(&mut store, POINTS, points);
     columns::put(&mut store, FEM, fem);
     store
@@ -269,6 +272,10 @@ pub fn take<const D: usize>(mut store: Store, scene: &Scene<D>, first: &State<D>
         penalised: flags(&mut store, "state.penalised")?,
         weighing: take_weighing(&mut store)?,
         front: take_front(&mut store)?,
+        voids: Voids {
+            of_cell: store.take::<u32>("voids.of_cell", 1)?,
+            reported: store.take::<f64>("voids.reported", 1)?,
+        },
         restorations: *restorations,
     };
     if let Some(array) = store.into_arrays().first() {

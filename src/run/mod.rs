@@ -15,6 +15,7 @@ mod ending;
 mod jump;
 mod record;
 mod surface;
+mod voids;
 
 pub use ending::Until;
 pub use record::{Field, Quantity, Watch, WatchedOn};
@@ -187,6 +188,10 @@ pub fn run<const D: usize, K: Kinematics<D>>(
             timed(Activity::Output, || {
                 files.step(scene, state, &report)?;
                 if let Some(warning) = jump::found(scene, state) {
+                    tell(state, Some(&warning));
+                    files.log.line(&warning)?;
+                }
+                for warning in voids::found(scene, state, &report) {
                     tell(state, Some(&warning));
                     files.log.line(&warning)?;
                 }

@@ -6,7 +6,7 @@ use super::scene::Scene;
 use crate::contact::Multipliers;
 use crate::points::Points;
 use crate::quadrature::Weighing;
-use crate::surface::Front;
+use crate::surface::{Front, Voids};
 
 /// A step between two times of a phase: its loads are those of the second.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -82,6 +82,8 @@ pub struct State<const D: usize> {
     pub weighing: Weighing<D>,
     /// The surface of the material, while it is followed.
     pub front: Option<Front>,
+    /// The voids that have opened, while the surface is followed.
+    pub voids: Voids,
     /// Restorations so far.
     pub restorations: u64,
 }
@@ -120,6 +122,7 @@ impl<const D: usize> State<D> {
             penalised: Vec::new(),
             weighing: Weighing::default(),
             front: None,
+            voids: Voids::default(),
             restorations: 0,
         }
     }

@@ -2,7 +2,7 @@
 //!
 //! A [`Contour`] makes a level set at the nodes from the points, along which cells are cut ([`positive`]). [`Geometry`] is what
 //! does not change of a grid. Where it holds, a [`Front`] of markers that move with the grid is better than the contour, and where none does, one that smooths it: [`Distance`] makes the level set. Loads and pictures
-//! take the surface as polylines, the [`ActiveBoundary`], of which structures [`Cover`] parts.
+//! take the surface as polylines, the [`ActiveBoundary`], of which structures [`Cover`] parts. [`Voids`] are empty cells where there was soil.
 
 mod bins;
 pub mod boundary;
@@ -16,6 +16,7 @@ mod geometry;
 mod layers;
 pub mod moments;
 mod split;
+mod voids;
 
 pub use bins::Bins;
 pub use boundary::{ActiveBoundary, Behind, NO_REGION, Piece};
@@ -27,3 +28,4 @@ pub use geometry::Geometry;
 pub use layers::visit_layers;
 pub use moments::CellFrame;
 pub use split::{corners, positive, triangles, twice_area};
+pub use voids::{News, Void, Voids, lies_near};

@@ -9,7 +9,8 @@
 //! R_u += Σ w₀ τ_f 1 : ∇_x N        R_π = Σ w₀ L [Δg(j) − Δg(j(π))]        τ_f = π dg/d ln j,   Δτ_f = K_f Δ ln j(π)
 //! ```
 //!
-//! Where the field is in tension as the step begins, `g = ½ j²`; elsewhere `g = ln j`, and with it `τ_f = π`. The second equation is in
+//! Where the field is in tension as the step begins, `g = ½ j²`, and `g = j` where its tension has a limit; elsewhere `g = ln j`, and with it `τ_f = π`.
+//! Beyond a limit the law is that of cavitation ([`crate::material::cavitation`]) in place of Hencky's. The second equation is in
 //! increments: the points carry `τ_f`. The volume strain of single points is only loosely bound to
 //! the field; were it summed up, a restored grid would have to undo what other cells make of it, in every step.
 //!
@@ -22,8 +23,9 @@
 
 use super::{Frame, History, Ratios, Share, Trial};
 use crate::kinematics::{Gradient, Kinematics};
-use crate::material::Model;
+use crate::material::cavitation::Volumetric;
 use crate::material::spatial::Spatial;
+use crate::material::{Model, Profile};
 use crate::mesh::shape::CellKind;
 use crate::points::Points;
 use crate::stencil::{Entries, Patch};
@@ -51,6 +53,8 @@ pub struct Carried {
     pub ratio: f64,
     /// Share (-) of its increments that is pressure of the pore water and not stress of the points: 0 in total stress.
     pub water: f64,
+    /// Limit (kPa) of the field in tension, at which the volume of the soil grows.
+    pub limit: Option<Profile>,
 }
 
 impl fmt::Debug for Carried {
@@ -60,9 +64,11 @@ impl fmt::Debug for Carried {
 }
 
 impl Carried {
-    /// `1 / K_f` (1/kPa) at a point seeded at height `y` (m).
-    pub fn compliance(&self, y: f64) -> f64 {
-        1.0 / (self.ratio * self.model.elasticity().at(y).shear)
+    /// The law of the volume at a point seeded at height `y` (m): with `K_f`, and a limit where it has one.
+    fn law(&self, y: f64) -> Volumetric {
+        let shear = self.model.elasticity().at(y).shear;
+        let limit = self.limit.map_or(f64::INFINITY, |limit| limit.at(y));
+        Volumetric::of(self.model.as_ref(), self.ratio * shear, limit, y)
     }
 
     /// `1 / 2G` (1/kPa) at a point seeded at height `y` (m).
@@ -87,8 +93,9 @@ impl Carried {
     /// What the field begins with (kPa) at a point whose elastic tensor is that of `whole`, the model that answers for
     /// the whole stress.
     pub fn begin<const D: usize>(&self, whole: &dyn Model, points: &Points<D>, p: usize) -> f64 {
-        let bulk = |model: &dyn Model| model.elasticity().at(points.origin[p][1]).bulk();
-        (bulk(whole) - bulk(self.model.as_ref())) * volume_strain(&points.elastic[p])
+        let strain = volume_strain(&points.elastic[p]);
+        let mean = |model: &dyn Model| model.mean_stress(points.origin[p][1], strain);
+        mean(whole) - mean(self.model.as_ref())
     }
 }
 
@@ -140,58 +147,86 @@ pub fn gather(kind: CellKind, nodes: &[u32], constant: usize, pressure: &[f64]) 
     own
 }
 
-/// What the field is conjugate to at a point: `ln j`, or `½ j²` where the field is in tension as the step begins. `j` is the volume over that
-/// when the grid was restored.
+/// What the field is conjugate to at a point: `ln j`, or where the field is in tension as the step begins `½ j²`, and `j` where the tension has a
+/// limit. `j` is the volume over that when the grid was restored.
 #[derive(Clone, Copy)]
 enum Measure {
     Logarithm,
+    Volume,
     Square,
 }
 
 impl Measure {
-    fn of<const D: usize>(points: &Points<D>, p: usize) -> Self {
-        if points.pressure[p] > 0.0 { Self::Square } else { Self::Logarithm }
+    fn of<const D: usize>(carried: &Carried, points: &Points<D>, p: usize) -> Self {
+        match points.pressure[p] > 0.0 {
+            false => Self::Logarithm,
+            true if carried.limit.is_some() => Self::Volume,
+            true => Self::Square,
+        }
+    }
+
+    /// The power `n` of the measure `jⁿ/n`; 0 of the logarithm.
+    fn power(self) -> i32 {
+        self as i32
     }
 
     /// The slope of the measure in `ln j`: the Kirchhoff stress of a unit of the field.
     fn slope(self, ratio: f64) -> f64 {
-        match self {
-            Self::Logarithm => 1.0,
-            Self::Square => ratio * ratio,
-        }
+        ratio.powi(self.power())
     }
 
     /// What a step of the given ratios adds to the measure.
     fn strain(self, ratios: Ratios) -> f64 {
+        let before = ratios.grid / ratios.step;
         match self {
             Self::Logarithm => ratios.step.ln(),
-            Self::Square => 0.5 * (ratios.grid.powi(2) - (ratios.grid / ratios.step).powi(2)),
+            Self::Volume => ratios.grid - before,
+            Self::Square => 0.5 * (ratios.grid.powi(2) - before.powi(2)),
         }
     }
 
-    /// The volume strain of Hencky's law, by this measure, as the field goes from the Kirchhoff stress `before` to `pressure` (kPa), and its
-    /// slope (1/kPa): `Δτ_f = Δ ln j / compliance`. `slope` is that of the measure as the step begins. Not a number at a tension for which the law has no volume,
+    /// The volume strain of a law, by this measure, as the field goes from the Kirchhoff stress `before` to `pressure` (kPa), and its
+    /// slope (1/kPa). `slope` is that of the measure as the step begins. Not a number at a tension for which the law has no volume,
     /// as at half the bulk modulus and above; such a trial state is refused.
-    fn elastic(self, compliance: f64, before: f64, pressure: f64, slope: f64) -> [f64; 2] {
-        if let Self::Logarithm = self {
-            return [compliance * (pressure - before), compliance];
-        }
-        // Newton's method for the least root of `then + ln x = now x²`. From the second iterate on it comes from below.
-        let (then, now) = (compliance * before, compliance * pressure * slope);
-        let mut x = if then < 0.5 && now < 0.5 { 1.0 } else { f64::NAN };
-        for _ in 0..ITERATIONS {
-            let change = (then + f64::ln(x) - now * x * x) / (1.0 / x - 2.0 * now * x);
-            x -= change;
-            // What is left is the square of the last change.
-            if change.abs() < 1e-9 * x {
-                return [
-                    0.5 * slope * (x * x - 1.0),
-                    compliance * slope * slope * x.powi(3) / (1.0 / x - 2.0 * now * x),
-                ];
+    fn elastic(self, law: &Volumetric, before: f64, pressure: f64, slope: f64) -> [f64; 2] {
+        let (then, compliance) = (law.strain(before)[0], 1.0 / law.bulk);
+        match self {
+            Self::Logarithm => {
+                let [strain, compliance] = law.strain(pressure);
+                [strain - then, compliance]
+            }
+            Self::Volume => {
+                // The Cauchy stress is linear in the volume beyond the limit. `first` is the volume, over that without stress, as the step begins.
+                let (first, (least, cauchy)) = (then.exp(), law.at_limit());
+                let more = pressure * slope / first - cauchy;
+                if more > 0.0 {
+                    let x = (least + more / law.rise) / first;
+                    return [slope * (x - 1.0), slope * slope / (first * first * law.rise)];
+                }
+                let now = compliance * pressure * slope;
+                let x = least_root(1, then, now, (-then).exp());
+                [slope * (x - 1.0), compliance * slope * slope * x / (1.0 / x - now)]
+            }
+            Self::Square => {
+                let now = compliance * pressure * slope;
+                let x = least_root(2, then, now, if then < 0.5 && now < 0.5 { 1.0 } else { f64::NAN });
+                [0.5 * slope * (x * x - 1.0), compliance * slope * slope * x.powi(3) / (1.0 / x - 2.0 * now * x)]
             }
         }
-        [f64::NAN; 2]
     }
+}
+
+/// The least root of `then + ln x = now xⁿ` by Newton's method from `x`; not a number where it finds none. From the second iterate on it comes from below.
+fn least_root(n: i32, then: f64, now: f64, mut x: f64) -> f64 {
+    for _ in 0..ITERATIONS {
+        let change = (then + f64::ln(x) - now * x.powi(n)) / (1.0 / x - f64::from(n) * now * x.powi(n - 1));
+        x -= change;
+        // What is left is the square of the last change.
+        if change.abs() < 1e-9 * x {
+            return x;
+        }
+    }
+    f64::NAN
 }
 
 fn dot(a: &Hats, b: &Hats) -> f64 {
@@ -260,17 +295,15 @@ impl<const D: usize, K: Kinematics<D>> Share<D, K> for PressureField<K> {
         ratios: Ratios,
         answer: &mut Spatial<K::Tangent>,
     ) -> f64 {
-        if self.of(points, entries.point).is_none() {
-            return 0.0;
-        }
-        let measure = Measure::of(points, entries.point);
+        let Some(carried) = self.of(points, entries.point) else { return 0.0 };
+        let measure = Measure::of(carried, points, entries.point);
         let pressure = measure.slope(ratios.grid) * dot(&hats(cell.kind, entries.value), &cell.pressure);
         for normal in &mut answer.kirchhoff[..3] {
             *normal += pressure;
         }
         K::add_pressure(&mut answer.tangent, pressure);
-        if let Measure::Square = measure {
-            K::add_volumetric(&mut answer.tangent, 2.0 * pressure);
+        if measure.power() > 0 {
+            K::add_volumetric(&mut answer.tangent, f64::from(measure.power()) * pressure);
         }
         points.pressure[entries.point]
     }
@@ -301,11 +334,11 @@ impl<const D: usize, K: Kinematics<D>> Share<D, K> for PressureField<K> {
                 std::array::from_fn(|a| softness * (hats[a] - mean[a]))
             }
         };
-        let measure = Measure::of(points, p);
+        let measure = Measure::of(carried, points, p);
         let [slope_before, slope] = [ratios.grid / ratios.step, ratios.grid].map(|ratio| measure.slope(ratio));
         let (before, pressure) = (points.pressure[p], dot(&hats, &cell.pressure));
         let gained = pressure - before / slope_before;
-        let [elastic, compliance] = measure.elastic(carried.compliance(y), before, pressure, slope_before);
+        let [elastic, compliance] = measure.elastic(&carried.law(y), before, pressure, slope_before);
         let strain = measure.strain(ratios) - elastic;
         let weight = later * self.unit * entries.weight;
         for a in 0..count {
@@ -334,7 +367,7 @@ impl<const D: usize, K: Kinematics<D>> Share<D, K> for PressureField<K> {
 
     fn commit(&self, cell: &Cell, points: &Points<D>, entries: &Entries<D>, ratios: Ratios, history: &mut History) {
         let Some(carried) = self.of(points, entries.point) else { return };
-        let slope = Measure::of(points, entries.point).slope(ratios.grid);
+        let slope = Measure::of(carried, points, entries.point).slope(ratios.grid);
         history.pressure = slope * dot(&hats(cell.kind, entries.value), &cell.pressure);
         let gained = history.pressure - points.pressure[entries.point];
         let held = carried.held(points, entries.point) + (1.0 - carried.water) * gained;
@@ -345,6 +378,6 @@ impl<const D: usize, K: Kinematics<D>> Share<D, K> for PressureField<K> {
 
     fn energy(&self, points: &Points<D>, p: usize) -> f64 {
         let Some(carried) = self.of(points, p) else { return 0.0 };
-        0.5 * points.initial_volume[p] * carried.compliance(points.origin[p][1]) * points.pressure[p].powi(2)
+        points.initial_volume[p] * carried.law(points.origin[p][1]).energy(points.pressure[p])
     }
 }

@@ -22,22 +22,27 @@ fn elasticity() -> Elasticity {
 
 /// The share at Poisson's ratio 0.4999, with water in the pores or without.
 fn carried(model: Arc<dyn Model>, water: f64) -> Carried {
-    Carried { model, ratio: 2.0 * 1.4999 / (3.0 * 0.0002), water }
+    Carried { model, ratio: 2.0 * 1.4999 / (3.0 * 0.0002), water, limit: None }
+}
+
+/// The same with a limit of the tension within the range of the noise.
+fn limited(model: Arc<dyn Model>, water: f64) -> Carried {
+    Carried { limit: Some(Profile::constant(9.0)), ..carried(model, water) }
 }
 
 /// A stand in large strain, with noise in all unknowns.
 fn set<K: Kinematics<2>>(
     scheme: Scheme,
     kind: CellKind,
-    model: Arc<dyn Model>,
-    water: f64,
+    carried: Carried,
     alpha_f: f64,
 ) -> (Stand<K>, [Vec<[f64; 2]>; 2]) {
     let mesh = mesh(kind);
     let mut points = points(&mesh, |_| true);
     let mut random = Random(17);
     points.pressure = (0..points.len()).map(|_| 30.0 * random.next()).collect();
-    let field = PressureField::<K>::new(vec![Some(carried(model.clone(), water))], UNIT);
+    let model = carried.model.clone();
+    let field = PressureField::<K>::new(vec![Some(carried)], UNIT);
     let term = Box::new(Internal::<K, _>::sharing(vec![Some(model)], alpha_f > 0.0, field));
     let mut stand = Stand::<K>::with(scheme, mesh, points, term, false, true, Some(UNIT));
     stand.alpha_f = alpha_f;
@@ -57,7 +62,7 @@ fn tangent_is_the_derivative<K: Kinematics<2>>(scheme: Scheme, kinds: &[CellKind
         for model in [&elastic, &tresca] {
             for water in [0.0, 0.7, 1.0] {
                 for alpha_f in [0.0, 0.4] {
-                    let (stand, [trial, converged]) = set::<K>(scheme, kind, model.clone(), water, alpha_f);
+                    let (stand, [trial, converged]) = set::<K>(scheme, kind, carried(model.clone(), water), alpha_f);
                     let name = format!("{scheme:?}, {kind:?}, water {water}, α_f = {alpha_f}");
                     let error = stand.tangent_error(&trial, &converged);
                     assert!(error < 1e-6, "{name}: {error:.1e}");
@@ -69,6 +74,27 @@ fn tangent_is_the_derivative<K: Kinematics<2>>(scheme: Scheme, kinds: &[CellKind
             }
         }
     }
+}
+
+/// Beyond a limit and below it, from states of points on both sides of it and in compression.
+fn tangent_with_a_limit_is_the_derivative<K: Kinematics<2>>() {
+    let tresca: Arc<dyn Model> = Arc::new(Tresca::new(elasticity(), Profile::constant(5.0)).unwrap());
+    for kind in KINDS {
+        for level in [-40.0, 0.0, 9.0, 15.0] {
+            let (mut stand, [trial, converged]) = set::<K>(Scheme::Mpm, kind, limited(tresca.clone(), 0.7), 0.0);
+            stand.pressure.iter_mut().for_each(|pressure| *pressure += level - 40.0);
+            let error = stand.tangent_error(&trial, &converged);
+            assert!(error < 1e-6, "{kind:?}, {level}: {error:.1e}");
+            let asymmetry = stand.asymmetry(&trial, &converged);
+            assert!(asymmetry < 1e-12, "{kind:?}, {level}: {asymmetry:.1e}");
+        }
+    }
+}
+
+#[test]
+fn the_tangent_of_cavitating_soil_is_the_derivative() {
+    tangent_with_a_limit_is_the_derivative::<PlaneStrain>();
+    tangent_with_a_limit_is_the_derivative::<Axisymmetric>();
 }
 
 #[test]
@@ -169,7 +195,7 @@ fn blocks(kind: CellKind, n: usize, ratio: f64) -> [DMatrix<f64>; 3] {
     }
     // Poisson's ratio 0: A is ∫ ε : ε.
     let model: Arc<dyn Model> = Arc::new(LinearElastic::new(Elasticity::new(Profile::constant(1.0), 0.0).unwrap()));
-    let carried = Carried { model: model.clone(), ratio, water: 0.0 };
+    let carried = Carried { model: model.clone(), ratio, water: 0.0, limit: None };
     let field = PressureField::<PlaneStrain>::new(vec![Some(carried)], 1.0);
     let term = Box::new(Internal::<PlaneStrain, _>::sharing(vec![Some(model)], false, field));
     let points = lattice(&mesh);

@@ -8,7 +8,7 @@ use crate::mesh::Mesh;
 use crate::points::Points;
 use crate::quadrature::{Samples, Weighing};
 use crate::step::{Controller, Limits, Scene, Span, State, has_room_for_penalties};
-use crate::surface::{ActiveBoundary, Front, NO_REGION};
+use crate::surface::{ActiveBoundary, Front, NO_REGION, Voids};
 use std::collections::HashSet;
 
 /// What rounding leaves of times that are sums over steps, and of parametric coordinates (-).
@@ -102,7 +102,11 @@ fn begun<'a, const D: usize>(
 fn check_cells<const D: usize>(scene: &Scene<D>, state: &State<D>) -> Result<()> {
     let cells = scene.mesh.cells.len();
     ensure(state.taking_part.len() == cells, "the number of cells")?;
-    ensure([0, cells].contains(&state.penalised.len()), "the list of penalised cells")
+    ensure([0, cells].contains(&state.penalised.len()), "the list of penalised cells")?;
+    let Voids { of_cell, reported } = &state.voids;
+    let known = of_cell.iter().all(|&label| (label as usize) <= reported.len());
+    let areas = reported.iter().all(|area| *area >= 0.0 || *area == -1.0);
+    ensure([0, cells].contains(&of_cell.len()) && known && areas, "its voids")
 }
 
 fn check_points<const D: usize>(scene: &Scene<D>, first: &State<D>, state: &State<D>) -> Result<()> {

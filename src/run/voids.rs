@@ -1,0 +1,122 @@
+//! Warnings of voids that open within soil, or under a structure that cannot part from it, where the surface of the soil is followed.
+//!
+//! What opens beside a structure that may part from the soil is what its contact says, and no news.
+
+use crate::contact::Pair;
+use crate::mesh::Mesh;
+use crate::mesh::faces::Faces;
+use crate::step::{Fem, Report, Scene, State};
+use crate::surface::{News, Void, lies_near};
+
+/// What rounding leaves empty (-) of a cell that is full.
+const ROUNDING: f64 = 1e-9;
+
+/// A boundary that touches soil in this phase.
+struct Structure<const D: usize> {
+    name: String,
+    may_part: bool,
+    /// Places (m) along it.
+    places: Vec<[f64; D]>,
+}
+
+/// The warnings of a step, by the grid as it was restored before.
+pub fn found<const D: usize>(scene: &Scene<D>, state: &mut State<D>, report: &Report<D>) -> Vec<String> {
+    if !report.restored || state.front.is_none() {
+        return Vec::new();
+    }
+    let nodes = if state.nodes.is_empty() { scene.mesh.nodes.clone() } else { state.nodes.clone() };
+    let mesh = Mesh { nodes, ..scene.mesh.clone() };
+    let emptiness = emptiness(scene, state, &mesh);
+    let structures: Vec<Structure<D>> = scene
+        .touching(state.phase)
+        .filter(|(_, pair)| !pair.soils().is_empty())
+        .map(|(_, pair)| structure(&mesh, pair))
+        .collect();
+    let beside = |cells: &[u32]| structures.iter().filter(|s| lies_near(&mesh, cells, &s.places)).collect::<Vec<_>>();
+    let mut is_news = |cells: &[u32], cut_off: bool| {
+        let may_part = beside(cells).iter().any(|structure| structure.may_part);
+        !(may_part || cut_off && reaches_boundary(&mesh, cells))
+    };
+    let mut voids = std::mem::take(&mut state.voids);
+    let news = voids.look(&mesh, &emptiness, &mut is_news);
+    state.voids = voids;
+    let phase = scene.phases.get(state.phase).map_or("", |phase| phase.name.as_str());
+    let line = |void: &Void<D>| {
+        let bound = beside(&void.cells).into_iter().map(|s| format!("`{}`", s.name)).collect::<Vec<_>>().join(" and ");
+        let (place, cure) = if bound.is_empty() {
+            (
+                "within the soil".to_string(),
+                "nothing acts on its sides; if water or tension is to open it at a pressure, give the soil a `tension_limit`",
+            )
+        } else {
+            (
+                format!("at {bound}, which cannot part from the soil"),
+                "the contact bears tension without limit; set `tension: {limit: …}`, or `tension: cut_off` if it may part",
+            )
+        };
+        let (at, area, time) = (&void.place, void.area, state.time);
+        match void.news {
+            News::Opened => format!(
+                "warning: phase `{phase}`: a void has opened {place}, at {at:.3?} m, of {area:.3e} m² at {time:.6} s: {cure}"
+            ),
+            News::Grown => format!(
+                "warning: phase `{phase}`: the void {place}, at {at:.3?} m, has grown to {area:.3e} m² at {time:.6} s"
+            ),
+            News::Closed => format!(
+                "warning: phase `{phase}`: the void {place}, at {at:.3?} m, has closed at {time:.6} s; it was {area:.3e} m²"
+            ),
+        }
+    };
+    news.iter().map(line).collect()
+}
+
+/// A pair and its boundary on the grid as restored.
+fn structure<const D: usize>(mesh: &Mesh<D>, pair: &dyn Pair<D>) -> Structure<D> {
+    Structure {
+        name: mesh.regions.get(usize::from(pair.structure())).cloned().unwrap_or_default(),
+        may_part: pair.law().tension.is_finite(),
+        places: pair.outlines(&|n| mesh.nodes[n as usize]).concat(),
+    }
+}
+
+/// The part (-) of each cell that is empty; none of one into which a structure or finite element reaches.
+fn emptiness<const D: usize>(scene: &Scene<D>, state: &State<D>, mesh: &Mesh<D>) -> Vec<f64> {
+    let mut emptiness = vec![1.0f64; mesh.cells.len()];
+    for &c in state.points.cell.iter().chain(&state.integration().cell) {
+        emptiness[c as usize] = 0.0;
+    }
+    for soft in state.weighing.soft.iter().filter(|soft| soft.emptiness > ROUNDING) {
+        let own = &mut emptiness[soft.cell as usize];
+        *own = own.max(soft.emptiness.min(1.0 - ROUNDING));
+    }
+    let Some(fem) = &scene.fem else { return emptiness };
+    let mut occupied: Vec<Option<bool>> = vec![None; mesh.nodes.len()];
+    let elements: Vec<Vec<[f64; D]>> = (0..fem.mesh.cells.len()).map(|c| outline(fem, mesh, c)).collect();
+    for (c, emptiness) in emptiness.iter_mut().enumerate().filter(|(_, emptiness)| **emptiness > 0.0) {
+        let reaches = mesh.cells.nodes(c).iter().any(|&n| {
+            let x = &mesh.nodes[n as usize];
+            *occupied[n as usize].get_or_insert_with(|| elements.iter().any(|element| holds(element, x)))
+        });
+        if reaches {
+            *emptiness = 0.0;
+        }
+    }
+    emptiness
+}
+
+/// The corners of an element where it is, counter-clockwise.
+fn outline<const D: usize>(fem: &Fem<D>, mesh: &Mesh<D>, c: usize) -> Vec<[f64; D]> {
+    let corners = &fem.mesh.cells.nodes(c)[..fem.mesh.cells.kind[c].corner_count()];
+    corners.iter().map(|&n| mesh.nodes[n as usize]).collect()
+}
+
+/// Whether a place (m) is in a convex polygon.
+fn holds<const D: usize>(corners: &[[f64; D]], x: &[f64; D]) -> bool {
+    let left = |(a, b): (&[f64; D], &[f64; D])| (b[0] - a[0]) * (x[1] - a[1]) - (b[1] - a[1]) * (x[0] - a[0]) >= 0.0;
+    corners.iter().zip(corners.iter().cycle().skip(1)).all(left)
+}
+
+/// Whether some cells reach to the boundary of the grid.
+fn reaches_boundary<const D: usize>(mesh: &Mesh<D>, cells: &[u32]) -> bool {
+    Faces::of(mesh).boundary.iter().any(|(cell, _)| cells.binary_search(cell).is_ok())
+}
