@@ -11,7 +11,7 @@
 DefineConstant[
   width  = {0.1,  Min 1e-6, Name "Parameters/width"},  // of the column [m]
   height = {0.1,  Min 1e-6, Name "Parameters/height"}, // of the column [m]
-  room   = {0.3,  Min 1e-6, Name "Parameters/room"},   // beside it [m]
+  room   = {0.4,  Min 1e-6, Name "Parameters/room"},   // beside it [m]
   above  = {0.05, Min 1e-6, Name "Parameters/above"},  // above it [m]
   h      = {0.0125, Min 1e-6, Name "Parameters/h"}       // size of the cells [m]
 ];
