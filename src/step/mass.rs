@@ -6,8 +6,8 @@
 //! angular momentum. Nodes that no point and no such face reaches have nothing to move and stay at rest.
 //!
 //! Points that are few, or crowd in a part of a cell, leave polynomials of low degree undetermined also then, or nearly so: what is small at the
-//! points may be large at nodes far from them. A penalty on the curvature and a far weaker one on value and gradient,
-//! `ρ ∫ (ε₂ h⁴ ∇∇N_I:∇∇N_J + ε₁ (N_I N_J + h² ∇N_I·∇N_J))`, in the cells with points and those beside such faces decides these. A second solution that takes it
+//! points may be large at nodes far from them. A penalty on the curvature and a far weaker one on the gradient,
+//! `ρ ∫ (ε₂ h⁴ ∇∇N_I:∇∇N_J + ε₁ h² ∇N_I·∇N_J)`, in the cells with points and those beside such faces decides these. A second solution that takes it
 //! back to the first one (iterated Tikhonov regularisation) removes it from all that the points do determine. Of a motion that is quadratic
 //! in a cell, evenly spread points determine `1/720 ρ h⁴` times its squared curvature, so that they lose the square of `720 ε₂` of it; points in a third of the
 //! cell determine a hundredth of that, and there the motion is linear by half.
@@ -26,7 +26,7 @@ use crate::term::MASS_PENALTY;
 use rayon::prelude::*;
 
 /// `ε₁` and `ε₂` (-).
-const LITTLE: f64 = 1e-10;
+const GRADIENT: f64 = 1e-10;
 const CURVATURE: f64 = 1e-5;
 
 /// Whose mass it is.
@@ -189,7 +189,7 @@ impl<'a> Mass<'a> {
     }
 }
 
-/// `ρ ∫ (ε₂ h⁴ ∇∇N_I:∇∇N_J + ε₁ (N_I N_J + h² ∇N_I·∇N_J))` of a cell, row-major, given the density (t/m³).
+/// `ρ ∫ (ε₂ h⁴ ∇∇N_I:∇∇N_J + ε₁ h² ∇N_I·∇N_J)` of a cell, row-major, given the density (t/m³).
 fn weak_form<const D: usize, K: Kinematics<D>>(mesh: &Mesh<D>, density: f64, cell: usize) -> Vec<f64> {
     let (kind, nodes) = (mesh.cells.kind[cell], mesh.cells.nodes(cell));
     let square = cell_size(mesh, cell).powi(2);
@@ -206,12 +206,11 @@ fn weak_form<const D: usize, K: Kinematics<D>>(mesh: &Mesh<D>, density: f64, cel
         for a in 0..count {
             for b in 0..count {
                 let slope: f64 = (0..D).map(|i| gradient[a][i] * gradient[b][i]).sum();
-                let own = value[a] * value[b];
                 let bend: f64 = (0..D)
                     .flat_map(|i| (0..D).map(move |j| (i, j)))
                     .map(|(i, j)| second[a][i][j] * second[b][i][j])
                     .sum();
-                form[a * count + b] += scale * (LITTLE * (own / square + slope) + CURVATURE * square * bend);
+                form[a * count + b] += scale * (GRADIENT * slope + CURVATURE * square * bend);
             }
         }
     }
