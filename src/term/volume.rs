@@ -10,6 +10,9 @@ use crate::tensor::Tensor;
 /// A linear fit whose weights at a point are, in sum of their sizes, more than this extrapolates too far: the mean is taken there.
 const MOST: f64 = 3.0;
 
+/// The weight (m³) of an integration point, its place (m) and the value there.
+pub type Weighed<const D: usize> = (f64, [f64; D], f64);
+
 /// A value at an integration point.
 #[derive(Clone, Copy)]
 struct Sample<const D: usize> {
@@ -31,15 +34,14 @@ pub struct LinearFit<const D: usize> {
 
 impl<const D: usize> LinearFit<D> {
     /// That through `values`, each with its weight and its place (m); `None` of no values.
-    pub fn of(values: &[(f64, [f64; D], f64)]) -> Option<Self> {
+    pub fn of(values: &[Weighed<D>]) -> Option<Self> {
         let whole: f64 = values.iter().map(|v| v.0).sum();
         if values.is_empty() || whole <= 0.0 {
             return None;
         }
-        let mean_of =
-            |of: &dyn Fn(&(f64, [f64; D], f64)) -> f64| values.iter().map(|v| v.0 * of(v)).sum::<f64>() / whole;
+        let mean_of = |of: &dyn Fn(&Weighed<D>) -> f64| values.iter().map(|v| v.0 * of(v)).sum::<f64>() / whole;
         let centre: [f64; D] = std::array::from_fn(|d| mean_of(&|v| v.1[d]));
-        let sample = |(weight, place, value): &(f64, [f64; D], f64)| Sample {
+        let sample = |(weight, place, value): &Weighed<D>| Sample {
             share: weight / whole,
             from_centre: std::array::from_fn(|d| place[d] - centre[d]),
             value: *value,
