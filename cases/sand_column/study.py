@@ -44,7 +44,6 @@ VARIANTS = {
     "a = 2": (2, False, settings(2)),
     "a = 4": (4, False, settings(4)),
     "round, a = 0.5": (0.5, True, settings(0.5, True)),
-    "round, a = 1": (1, True, settings(1, True)),
 }
 
 
