@@ -152,16 +152,19 @@ impl<'a> Mass<'a> {
         let b = x.to_vec();
         self.solve_once(x)?;
         for _ in 0..REPETITIONS {
-            let mut right = b.clone();
+            // What is left of the right-hand side without the weak penalties.
+            let mut left = vec![0.0; x.len()];
+            self.system.matrix.multiply(&self.system.pattern, x, &mut left);
+            left.iter_mut().zip(&b).for_each(|(left, b)| *left = b - *left);
             for Weak { clique, form } in &self.weak {
                 let blocks = self.system.pattern.cliques.blocks(*clique);
                 let own = form.len().isqrt();
                 for (row, &a) in form.chunks_exact(own).zip(blocks) {
-                    right[a as usize] += row.iter().zip(blocks).map(|(form, &b)| form * x[b as usize]).sum::<f64>();
+                    left[a as usize] += row.iter().zip(blocks).map(|(form, &b)| form * x[b as usize]).sum::<f64>();
                 }
             }
-            self.solve_once(&mut right)?;
-            x.copy_from_slice(&right);
+            self.solve_once(&mut left)?;
+            x.iter_mut().zip(&left).for_each(|(x, more)| *x += more);
         }
         Ok(())
     }
