@@ -26,7 +26,7 @@ use crate::term::MASS_PENALTY;
 use rayon::prelude::*;
 
 /// `ε₁` and `ε₂` (-).
-const GRADIENT: f64 = 1e-10;
+const GRADIENT: f64 = 1e-8;
 const CURVATURE: f64 = 1e-5;
 /// Solutions after the first one.
 const REPETITIONS: usize = 2;
