@@ -7,10 +7,10 @@
 //!
 //! Points that are few, or crowd in a part of a cell, leave polynomials of low degree undetermined also then, or nearly so: what is small at the
 //! points may be large at nodes far from them. A penalty on the curvature and a far weaker one on the gradient,
-//! `ρ ∫ (ε₂ h⁴ ∇∇N_I:∇∇N_J + ε₁ h² ∇N_I·∇N_J)`, in the cells with points and those beside such faces decides these. Two more solutions, each of which takes it
-//! back to the one before (iterated Tikhonov regularisation), remove it from all that the points do determine. Of a motion that is quadratic
-//! in a cell, evenly spread points determine `1/720 ρ h⁴` times its squared curvature, so that they lose the cube of `720 ε₂` of it; points in a third of the
-//! cell determine a hundredth of that, and an eighth is lost.
+//! `ρ ∫ (ε₂ h⁴ ∇∇N_I:∇∇N_J + ε₁ h² ∇N_I·∇N_J)`, in the cells with points and those beside such faces decides these. A second solution that takes it
+//! back to the first one (iterated Tikhonov regularisation) removes it from all that the points do determine. Of a motion that is quadratic
+//! in a cell, evenly spread points determine `1/720 ρ h⁴` times its squared curvature, so that they lose the square of `720 ε₂` of it; points in a third of the
+//! cell determine a hundredth of that, and there the motion is linear by half.
 
 use super::grid::{Family, Grid, System};
 use super::rigid;
@@ -26,10 +26,8 @@ use crate::term::MASS_PENALTY;
 use rayon::prelude::*;
 
 /// `ε₁` and `ε₂` (-).
-const GRADIENT: f64 = 1e-8;
+const GRADIENT: f64 = 3e-11;
 const CURVATURE: f64 = 1e-5;
-/// Solutions after the first one.
-const REPETITIONS: usize = 2;
 
 /// Whose mass it is.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -149,23 +147,20 @@ impl<'a> Mass<'a> {
     /// # Errors
     /// An analysis error when the mass is singular.
     pub fn solve(&mut self, x: &mut [f64]) -> Result<()> {
-        let b = x.to_vec();
+        let mut again = x.to_vec();
         self.solve_once(x)?;
-        for _ in 0..REPETITIONS {
-            // What is left of the right-hand side without the weak penalties.
-            let mut left = vec![0.0; x.len()];
-            self.system.matrix.multiply(&self.system.pattern, x, &mut left);
-            left.iter_mut().zip(&b).for_each(|(left, b)| *left = b - *left);
-            for Weak { clique, form } in &self.weak {
-                let blocks = self.system.pattern.cliques.blocks(*clique);
-                let own = form.len().isqrt();
-                for (row, &a) in form.chunks_exact(own).zip(blocks) {
-                    left[a as usize] += row.iter().zip(blocks).map(|(form, &b)| form * x[b as usize]).sum::<f64>();
-                }
-            }
-            self.solve_once(&mut left)?;
-            x.iter_mut().zip(&left).for_each(|(x, more)| *x += more);
+        if self.weak.is_empty() {
+            return Ok(());
         }
+        for Weak { clique, form } in &self.weak {
+            let blocks = self.system.pattern.cliques.blocks(*clique);
+            let own = form.len().isqrt();
+            for (row, &a) in form.chunks_exact(own).zip(blocks) {
+                again[a as usize] += row.iter().zip(blocks).map(|(form, &b)| form * x[b as usize]).sum::<f64>();
+            }
+        }
+        self.solve_once(&mut again)?;
+        x.copy_from_slice(&again);
         Ok(())
     }
 
