@@ -26,7 +26,7 @@ use crate::term::MASS_PENALTY;
 use rayon::prelude::*;
 
 /// `ε₁` and `ε₂` (-).
-const GRADIENT: f64 = 3e-11;
+const GRADIENT: f64 = 1e-10;
 const CURVATURE: f64 = 1e-5;
 
 /// Whose mass it is.

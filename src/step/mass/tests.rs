@@ -126,7 +126,8 @@ fn a_linear_velocity_field_passes_untouched() {
                 for (v, &x) in mapped.velocity.iter().zip(&mapped.position).take(body) {
                     let exact = spin(x);
                     let error = (v[0] - exact[0]).abs().max((v[1] - exact[1]).abs());
-                    assert!(error < 1e-9, "{kind:?}, {spacing}: {error:.1e}");
+                    // Up to 6 m/s; rounding and what the weak penalty takes are alike, at a few 1e-10 of it.
+                    assert!(error < 4e-9, "{kind:?}, {spacing}: {error:.1e}");
                 }
             }
         }
