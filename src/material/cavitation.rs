@@ -38,6 +38,11 @@ impl Volumetric {
         Self { bulk, limit, rise: RISE * model.shear_strength(y, &State::default()) }
     }
 
+    /// Hencky's law with a bulk modulus (kPa).
+    pub fn unlimited(bulk: f64) -> Self {
+        Self { bulk, limit: f64::INFINITY, rise: 0.0 }
+    }
+
     /// `J_t` (-), and the Cauchy stress (kPa) there.
     pub fn at_limit(&self) -> (f64, f64) {
         let ratio = (self.limit / self.bulk).exp();

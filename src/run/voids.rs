@@ -35,7 +35,7 @@ pub fn found<const D: usize>(scene: &Scene<D>, state: &mut State<D>, report: &Re
     let beside = |cells: &[u32]| structures.iter().filter(|s| lies_near(&mesh, cells, &s.places)).collect::<Vec<_>>();
     let mut is_news = |cells: &[u32], cut_off: bool| {
         let may_part = beside(cells).iter().any(|structure| structure.may_part);
-        !(may_part || cut_off && reaches_boundary(&mesh, cells))
+        !(may_part || cut_off && reaches_boundary(scene, cells))
     };
     let mut voids = std::mem::take(&mut state.voids);
     let news = voids.look(&mesh, &emptiness, &mut is_news);
@@ -46,7 +46,7 @@ pub fn found<const D: usize>(scene: &Scene<D>, state: &mut State<D>, report: &Re
         let (place, cure) = if bound.is_empty() {
             (
                 "within the soil".to_string(),
-                "nothing acts on its sides; if water or tension is to open it at a pressure, give the soil a `tension_limit`",
+                "its sides bear neither stress nor water pressure; smaller cells there show whether it stays",
             )
         } else {
             (
@@ -117,6 +117,7 @@ fn holds<const D: usize>(corners: &[[f64; D]], x: &[f64; D]) -> bool {
 }
 
 /// Whether some cells reach to the boundary of the grid.
-fn reaches_boundary<const D: usize>(mesh: &Mesh<D>, cells: &[u32]) -> bool {
-    Faces::of(mesh).boundary.iter().any(|(cell, _)| cells.binary_search(cell).is_ok())
+fn reaches_boundary<const D: usize>(scene: &Scene<D>, cells: &[u32]) -> bool {
+    let reaches = |faces: &Faces| faces.boundary.iter().any(|(cell, _)| cells.binary_search(cell).is_ok());
+    scene.faces.as_ref().map_or_else(|| reaches(&Faces::of(&scene.mesh)), reaches)
 }

@@ -67,8 +67,9 @@ impl Carried {
     /// The law of the volume at a point seeded at height `y` (m): with `K_f`, and a limit where it has one.
     fn law(&self, y: f64) -> Volumetric {
         let shear = self.model.elasticity().at(y).shear;
-        let limit = self.limit.map_or(f64::INFINITY, |limit| limit.at(y));
-        Volumetric::of(self.model.as_ref(), self.ratio * shear, limit, y)
+        let bulk = self.ratio * shear;
+        let limited = |limit: Profile| Volumetric::of(self.model.as_ref(), bulk, limit.at(y), y);
+        self.limit.map_or_else(|| Volumetric::unlimited(bulk), limited)
     }
 
     /// `1 / 2G` (1/kPa) at a point seeded at height `y` (m).
