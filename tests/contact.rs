@@ -251,6 +251,28 @@ fn pressure_is_shown_along_the_boundary() {
     assert_eq!(text.matches("vtu/contact_").count(), 2);
 }
 
+/// Along a round bar, which soil flows past, the traction adds up to the force of the history.
+#[test]
+fn traction_adds_up_to_the_force() {
+    let overrides = ["mesh.parameters={h: 0.25}", "phases[0].duration=0.3", "output.every=0.1"];
+    let folder = run("cases/tbar", &overrides);
+    let rows = history(folder.path());
+    for number in 1..=3 {
+        let frame = Frame::read(&folder.path().join(format!("results/frame-{number:06}.mpmf"))).unwrap();
+        let column = |name: &str| &frame.contact.columns.iter().find(|c| c.name == name).unwrap().values;
+        let (traction, line) = (column("contact_traction"), column(LINE));
+        let mut sum = [0.0; 2];
+        for i in (1..line.len()).filter(|&i| line[i] == line[i - 1]) {
+            let [a, b] = [i - 1, i].map(|i| frame.contact.position[i]);
+            let length = (b[0] - a[0]).hypot(b[1] - a[1]);
+            (0..2).for_each(|d| sum[d] += 0.5 * length * (traction[3 * i - 3 + d] + traction[3 * i + d]));
+        }
+        let row = rows.iter().find(|row| (row[0] - frame.time).abs() < 1e-9).unwrap();
+        println!("{sum:?} kN of {:?} at {} s", &row[3..5], frame.time);
+        assert!(row[4] > 1.0 && (0..2).all(|d| (sum[d] - row[3 + d]).abs() < 1e-9 * row[4]), "{sum:?} {row:?}");
+    }
+}
+
 /// A plate that reaches beyond the soil has the force in the middle of the soil, and so a moment about its own middle.
 #[test]
 fn the_moment_is_about_the_centroid() {

@@ -2,6 +2,7 @@
 
 use super::place::Segments;
 use super::surface::Surface;
+use crate::kinematics::Kinematics;
 
 /// A place on a boundary: the two hats over it, with their values there (-), which add up to one.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -9,6 +10,9 @@ pub struct Mark<const D: usize> {
     /// (m)
     pub place: [f64; D],
     pub hats: [(u32, f64); 2],
+    /// Its area (m², per metre or full turn): what is linear between marks has the integral over the line that its values times these
+    /// add up to.
+    pub area: f64,
 }
 
 impl<const D: usize> Mark<D> {
@@ -16,11 +20,27 @@ impl<const D: usize> Mark<D> {
     pub fn value(&self, values: &[f64]) -> f64 {
         self.hats.iter().map(|&(hat, share)| share * values[hat as usize]).sum()
     }
+
+    /// The same of a function with three components.
+    pub fn vector(&self, values: &[[f64; 3]]) -> [f64; 3] {
+        std::array::from_fn(|d| self.hats.iter().map(|&(hat, share)| share * values[hat as usize][d]).sum())
+    }
+}
+
+/// Force (kN) of each hat over the area (kPa) that `lines` have under it. As a function along them it has the integral that the forces add
+/// up to, also where they are of a part of their hat only, or not along the normal of the place.
+pub fn traction<const D: usize>(lines: &[Vec<Mark<D>>], force: &[[f64; 3]]) -> Vec<[f64; 3]> {
+    let mut area = vec![0.0; force.len()];
+    for mark in lines.iter().flatten() {
+        mark.hats.iter().for_each(|&(hat, share)| area[hat as usize] += share * mark.area);
+    }
+    let over = |(force, area): (&[f64; 3], f64)| if area > 0.0 { force.map(|f| f / area) } else { [0.0; 3] };
+    force.iter().zip(area).map(over).collect()
 }
 
 /// A line for each smooth stretch of the boundary, with a mark where segments meet and at both ends; one without ends
 /// is closed by a last mark at the place of the first. The structure is on the left of the way along them.
-pub fn lines(surface: &Surface, segments: &Segments) -> Vec<Vec<Mark<2>>> {
+pub fn lines<K: Kinematics<2>>(surface: &Surface, segments: &Segments) -> Vec<Vec<Mark<2>>> {
     let line = |piece: &std::ops::Range<usize>| {
         let cut = &surface.segments[piece.clone()];
         let (Some(first), Some(last)) = (cut.first(), cut.last()) else { return Vec::new() };
@@ -32,7 +52,7 @@ pub fn lines(surface: &Surface, segments: &Segments) -> Vec<Vec<Mark<2>>> {
             let left = (at.max(0.0) as u32).min(intervals - 1);
             let right = if closed && left + 1 == intervals { 0 } else { left + 1 };
             let share = at - f64::from(left);
-            Mark { place, hats: [(base + left, 1.0 - share), (base + right, share)] }
+            Mark { place, hats: [(base + left, 1.0 - share), (base + right, share)], area: 0.0 }
         };
         let mut at = 0.0;
         let mut marks = Vec::with_capacity(cut.len() + 1);
@@ -41,6 +61,12 @@ pub fn lines(surface: &Surface, segments: &Segments) -> Vec<Vec<Mark<2>>> {
             at = 2.0 * (f64::from(segment.hats[0].0 - base) + segment.hats[1].1) - at;
         }
         marks.push(mark(at, segments.0[piece.end - 1].to));
+        for i in 1..marks.len() {
+            let [a, b] = [i - 1, i].map(|i| marks[i].place);
+            let (length, [m, n]) = ((b[0] - a[0]).hypot(b[1] - a[1]), [a, b].map(|x| K::measure(&x)));
+            marks[i - 1].area += length * (2.0 * m + n) / 6.0;
+            marks[i].area += length * (m + 2.0 * n) / 6.0;
+        }
         marks
     };
     surface.pieces.iter().map(line).collect()
@@ -49,14 +75,14 @@ pub fn lines(surface: &Surface, segments: &Segments) -> Vec<Vec<Mark<2>>> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::kinematics::PlaneStrain;
+    use crate::kinematics::{Axisymmetric, PlaneStrain};
     use crate::mesh::Mesh;
     use crate::mesh::shape::CellKind;
 
     fn lines_of(mesh: &Mesh<2>, spacing: f64) -> (Surface, Vec<Vec<Mark<2>>>) {
         let surface = Surface::new(mesh, 0, spacing, |_| false).unwrap();
         let segments = Segments::new::<PlaneStrain>(&surface, |n| mesh.nodes[n as usize]);
-        let lines = lines(&surface, &segments);
+        let lines = lines::<PlaneStrain>(&surface, &segments);
         (surface, lines)
     }
 
@@ -82,6 +108,36 @@ mod tests {
             }
             assert!((end.value(&values) - begin.value(&values) - 1.0).abs() < 1e-14);
         }
+    }
+
+    /// The traction is linear between hats, and its integral over a full turn is the sum of the forces, also that of a hat with soil under a part of it.
+    #[test]
+    fn traction_adds_up_to_the_forces() {
+        let mut mesh = Mesh {
+            nodes: vec![[0., 0.], [1., 0.5], [1., 2.], [0., 2.]],
+            regions: vec!["cone".to_string()],
+            ..Mesh::default()
+        };
+        mesh.cells.push(CellKind::Q4, 0, &[0, 1, 2, 3]);
+        let surface = Surface::new(&mesh, 0, 0.3, |_| false).unwrap();
+        let segments = Segments::new::<Axisymmetric>(&surface, |n| mesh.nodes[n as usize]);
+        let lines = lines::<Axisymmetric>(&surface, &segments);
+        let force: Vec<[f64; 3]> = (0..surface.hats).map(|k| [(k as f64).sin(), 1.0 + (k % 3) as f64, 0.0]).collect();
+        let traction = traction(&lines, &force);
+        let mut sum = [0.0; 3];
+        for ends in lines.iter().flat_map(|line| line.windows(2)) {
+            let [a, b] = [&ends[0], &ends[1]];
+            let length = (b.place[0] - a.place[0]).hypot(b.place[1] - a.place[1]);
+            let (from, to) = (a.vector(&traction), b.vector(&traction));
+            // Simpson's rule is exact for what is quadratic.
+            for (weight, t) in [(1.0, 0.0), (4.0, 0.5), (1.0, 1.0)] {
+                let radius = a.place[0] + t * (b.place[0] - a.place[0]);
+                let area = std::f64::consts::TAU * radius * length * weight / 6.0;
+                (0..3).for_each(|d| sum[d] += area * (from[d] + t * (to[d] - from[d])));
+            }
+        }
+        let whole = force.iter().fold([0.0; 3], |sum, f| [sum[0] + f[0], sum[1] + f[1], 0.0]);
+        assert!((0..3).all(|d| (sum[d] - whole[d]).abs() < 1e-12 * whole[1]), "{sum:?} {whole:?}");
     }
 
     /// A disc has one line that ends where it begins.

@@ -367,7 +367,7 @@ impl<K: Kinematics<2>> Pair<2> for Bodies<K> {
     }
 
     fn lines(&self, position: &dyn Fn(u32) -> [f64; 2]) -> Vec<Vec<Mark<2>>> {
-        lines(&self.surface, &Segments::new::<K>(&self.surface, position))
+        lines::<K>(&self.surface, &Segments::new::<K>(&self.surface, position))
     }
 
     fn push_out(&self, _: &mut Points<2>, _: &dyn Fn(u32) -> [f64; 2]) -> Pushed {

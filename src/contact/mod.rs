@@ -19,7 +19,7 @@ mod rigid;
 mod skin;
 mod surface;
 
-pub use along::Mark;
+pub use along::{Mark, traction};
 pub use bodies::{Bodies, SoilSide};
 pub use law::{Answer, Law, Penalty};
 pub use multipliers::Multipliers;

@@ -18,6 +18,8 @@ pub struct Multipliers {
     pub offset: Vec<f64>,
     /// Slip (m) of the soil while it touched since the run began, along the boundary with the structure on the left.
     pub slid: Vec<f64>,
+    /// Force (kN) on the structure in the last step.
+    pub force: Vec<[f64; 3]>,
     /// Whether there was before the hat, in the last step, what it touches.
     pub faces: Vec<bool>,
     /// The nodes that the system has room to couple: those of hat `k` are `room[first[k]..first[k + 1]]`.
@@ -36,6 +38,7 @@ impl Multipliers {
             slip: zero.clone(),
             offset: zero.clone(),
             slid: zero,
+            force: vec![[0.0; 3]; hats],
             faces: vec![false; hats],
             room: Vec::new(),
             first: vec![0; hats + 1],

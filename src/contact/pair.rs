@@ -509,7 +509,7 @@ impl<K: Kinematics<2>> Pair<2> for Boundary<K> {
     }
 
     fn lines(&self, position: &dyn Fn(u32) -> [f64; 2]) -> Vec<Vec<Mark<2>>> {
-        lines(&self.surface, &Segments::new::<K>(&self.surface, position))
+        lines::<K>(&self.surface, &Segments::new::<K>(&self.surface, position))
     }
 
     fn covers(&self, rows: &[Row<2>], position: &dyn Fn(u32) -> [f64; 2]) -> Vec<Cover<2>> {

@@ -1,6 +1,7 @@
 //! What frames hold of contact: the values of the hats along the boundaries of structures, as lines.
 
 use super::record::{column, triples};
+use crate::contact::traction;
 use crate::io::frame::{FACES, LINE, Part, REGION};
 use crate::step::{Scene, State};
 
@@ -8,7 +9,7 @@ use crate::step::{Scene, State};
 ///
 /// Pressure (kPa, compression positive), shear (kPa) on the soil and slip (m) since the run began, positive along the
 /// boundary with the structure on the left, and gap (m, positive where they are apart). Between hats they are
-/// linear. The gap of a hat that has no soil before it is not known: [`FACES`] is 0 wherever it counts.
+/// linear. Traction (kPa) on the structure: its integral along the lines is the force of the contact, see [`traction`]. The gap of a hat that has no soil before it is not known: [`FACES`] is 0 wherever it counts.
 pub fn part<const D: usize>(scene: &Scene<D>, state: &State<D>) -> Part {
     if scene.pairs.is_empty() {
         return Part::default();
@@ -20,13 +21,16 @@ pub fn part<const D: usize>(scene: &Scene<D>, state: &State<D>) -> Part {
     };
     let mut place = Vec::new();
     let [mut pressure, mut shear, mut gap, mut slip] = [const { Vec::new() }; 4];
+    let mut tractions = Vec::new();
     let [mut number, mut region, mut faces] = [const { Vec::new() }; 3];
-    let mut lines = 0;
+    let mut count = 0;
     for (i, pair) in scene.pairs.iter().enumerate() {
         // Before the first step nothing is known yet.
         let held = state.multipliers.get(i);
-        for line in pair.lines(&position) {
-            for mark in &line {
+        let lines = pair.lines(&position);
+        let of_hats = held.map(|h| traction(&lines, &h.force));
+        for line in &lines {
+            for mark in line {
                 let known =
                     held.is_some_and(|h| mark.hats.iter().all(|&(k, share)| share == 0.0 || h.faces[k as usize]));
                 place.push(mark.place);
@@ -34,16 +38,18 @@ pub fn part<const D: usize>(scene: &Scene<D>, state: &State<D>) -> Part {
                 shear.push(held.map_or(0.0, |h| mark.value(&h.shear)));
                 gap.push(held.filter(|_| known).map_or(0.0, |h| mark.value(&h.gap)));
                 slip.push(held.map_or(0.0, |h| mark.value(&h.slid)));
-                number.push(f64::from(lines));
+                tractions.extend(of_hats.as_ref().map_or([0.0; 3], |t| mark.vector(t)));
+                number.push(f64::from(count));
                 region.push(f64::from(pair.structure()));
                 faces.push(f64::from(u8::from(known)));
             }
-            lines += 1;
+            count += 1;
         }
     }
     let columns = vec![
         column("contact_pressure", "kPa", 1, pressure),
         column("contact_shear", "kPa", 1, shear),
+        column("contact_traction", "kPa", 3, tractions),
         column("contact_gap", "m", 1, gap),
         column("contact_slip", "m", 1, slip),
         column(LINE, "-", 1, number),

@@ -184,12 +184,15 @@ fn flags(store: &mut Store, name: &str) -> Result<Vec<bool>> {
 
 fn put_multipliers(store: &mut Store, pairs: &[Multipliers]) {
     store.put("contact.pairs", 1, vec![pairs.len() as u64]);
-    for (i, Multipliers { pressure, shear, gap, slip, offset, slid, faces, room, first }) in pairs.iter().enumerate() {
+    for (i, Multipliers { pressure, shear, gap, slip, offset, slid, force, faces, room, first }) in
+        pairs.iter().enumerate()
+    {
         for (name, values) in
             [("pressure", pressure), ("shear", shear), ("gap", gap), ("slip", slip), ("offset", offset), ("slid", slid)]
         {
             store.put(&format!("contact.{i}.{name}"), 1, values.clone());
         }
+        store.put(&format!("contact.{i}.force"), 3, force.concat());
         store.put(&format!("contact.{i}.faces"), 1, faces.iter().map(|&b| u8::from(b)).collect());
         store.put(&format!("contact.{i}.room"), 1, room.clone());
         store.put(&format!("contact.{i}.first"), 1, first.clone());
@@ -202,10 +205,12 @@ fn take_multipliers(store: &mut Store) -> Result<Vec<Multipliers>> {
         let mut values = |name: &str| store.take::<f64>(&format!("contact.{i}.{name}"), 1);
         let (pressure, shear, gap) = (values("pressure")?, values("shear")?, values("gap")?);
         let (slip, offset, slid) = (values("slip")?, values("offset")?, values("slid")?);
+        let force = store.take::<f64>(&format!("contact.{i}.force"), 3)?;
+        let force = force.chunks_exact(3).map(|f| [f[0], f[1], f[2]]).collect();
         let faces = flags(store, &format!("contact.{i}.faces"))?;
         let mut numbers = |name: &str| store.take::<u32>(&format!("contact.{i}.{name}"), 1);
         let (room, first) = (numbers("room")?, numbers("first")?);
-        Ok(Multipliers { pressure, shear, gap, slip, offset, slid, faces, room, first })
+        Ok(Multipliers { pressure, shear, gap, slip, offset, slid, force, faces, room, first })
     };
     (0..count).map(pair).collect()
 }

@@ -220,6 +220,7 @@ pub fn commit<const D: usize>(
     for multipliers in &mut state.multipliers {
         let Multipliers { pressure, shear, gap, slip, offset, .. } = multipliers;
         [pressure, shear, gap, slip, offset].into_iter().for_each(|values| values.fill(0.0));
+        multipliers.force.fill([0.0; 3]);
         multipliers.faces.fill(false);
     }
     for touch in &grid.touches {
@@ -253,7 +254,10 @@ pub fn commit<const D: usize>(
                 }
             };
             if k < row.own {
-                resultant.force = std::array::from_fn(|d| resultant.force[d] + force[d]);
+                for d in 0..D {
+                    resultant.force[d] += force[d];
+                    held.force[hat][d] += force[d];
+                }
             }
             if k < row.own || turned.is_some_and(|body| body.region == resultant.structure) {
                 resultant.moment += moment;

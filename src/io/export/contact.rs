@@ -22,12 +22,12 @@ pub fn grid(part: &Part, time: Option<f64>) -> Option<Grid> {
     }
     let shown = |c: &&Column| ![LINE, REGION, FACES].contains(&c.name.as_str());
     let array = |c: &Column| {
-        let known =
-            |(value, faces): (&f64, &f64)| if c.name == "contact_gap" && *faces == 0.0 { f64::NAN } else { *value };
+        let of_gap = c.name == "contact_gap";
+        let known = |(i, &value): (usize, &f64)| if of_gap && faces[i] == 0.0 { f64::NAN } else { value };
         Array {
             name: format!("{} [{}]", c.name, c.unit),
             components: c.components,
-            data: Data::F64(c.values.iter().zip(faces).map(known).collect()),
+            data: Data::F64(c.values.iter().enumerate().map(known).collect()),
         }
     };
     Some(Grid {

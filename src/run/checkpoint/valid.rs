@@ -252,11 +252,12 @@ fn check_front(front: &Front) -> Result<()> {
 fn check_contact<const D: usize>(scene: &Scene<D>, state: &State<D>) -> Result<()> {
     ensure(state.multipliers.len() == scene.pairs.len(), "the number of its contacts")?;
     let fits = |(pair, held): (&dyn Pair<D>, &Multipliers)| {
-        let Multipliers { pressure, shear, gap, slip, offset, slid, faces, room, first } = held;
+        let Multipliers { pressure, shear, gap, slip, offset, slid, force, faces, room, first } = held;
         let lengths = [pressure, shear, gap, slip, offset, slid].iter().all(|v| v.len() == pair.hats());
+        let lengths = lengths && [force.len(), faces.len()] == [pair.hats(); 2];
         let bounds = first.len() == pair.hats() + 1 && bounds_of_loops(first, room.len(), 0);
         let nodes = room.iter().all(|&n| (n as usize) < scene.mesh.nodes.len());
-        lengths && bounds && nodes && faces.len() == pair.hats() && slip.iter().all(|slip| *slip >= 0.0) && {
+        lengths && bounds && nodes && slip.iter().all(|slip| *slip >= 0.0) && {
             let mut seen = HashSet::new();
             (0..pair.hats()).all(|k| {
                 seen.clear();
