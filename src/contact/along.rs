@@ -119,7 +119,8 @@ mod tests {
             ..Mesh::default()
         };
         mesh.cells.push(CellKind::Q4, 0, &[0, 1, 2, 3]);
-        let surface = Surface::new(&mesh, 0, 0.3, |_| false).unwrap();
+        let on_axis = |facet: &[u32]| facet.iter().all(|&n| mesh.nodes[n as usize][0] == 0.0);
+        let surface = Surface::new(&mesh, 0, 0.3, on_axis).unwrap();
         let segments = Segments::new::<Axisymmetric>(&surface, |n| mesh.nodes[n as usize]);
         let lines = lines::<Axisymmetric>(&surface, &segments);
         let force: Vec<[f64; 3]> = (0..surface.hats).map(|k| [(k as f64).sin(), 1.0 + (k % 3) as f64, 0.0]).collect();

@@ -9,7 +9,8 @@ use crate::step::{Scene, State};
 ///
 /// Pressure (kPa, compression positive), shear (kPa) on the soil and slip (m) since the run began, positive along the
 /// boundary with the structure on the left, and gap (m, positive where they are apart). Between hats they are
-/// linear. Traction (kPa) on the structure: its integral along the lines is the force of the contact, see [`traction`]. The gap of a hat that has no soil before it is not known: [`FACES`] is 0 wherever it counts.
+/// linear. Traction (kPa) on the structure: its integral along the lines is the force of the contact, see [`traction`].
+/// The gap of a hat that has no soil before it is not known: [`FACES`] is 0 wherever it counts.
 pub fn part<const D: usize>(scene: &Scene<D>, state: &State<D>) -> Part {
     if scene.pairs.is_empty() {
         return Part::default();
