@@ -415,7 +415,8 @@ fn a_contact_is_taken_away_by_its_name() {
         println!("{} m: {:+.1e}", uy[i], force[i] / pressed(-uy[i]) - 1.0);
         assert!(near(force[i], pressed(-uy[i]), 2e-3), "{} {}", force[i], pressed(-uy[i]));
     }
-    assert!(force[8].abs() < 1e-9, "it is back where it just touches");
+    // What the equilibrium of the step before it left out of balance, at most a hundred millionth of the forces, may be found here.
+    assert!(force[8].abs() < 1e-9 * force[3], "it is back where it just touches");
     assert!(uy[4] < -0.03, "it is in the soil");
     for i in 4..8 {
         assert!(force[i] == 0.0 && held[i].abs() < 1e-7 && soil[i].abs() < 1e-8, "{force:?} {held:?} {soil:?}");

@@ -155,8 +155,8 @@ const LAID: Case = Case {
 
 /// Grains that come apart: the inertia of nodes that hold next to no mass.
 const GRAINS: Case = Case {
-    file: "cases/column_collapse",
-    overrides: &["mesh.parameters.h=0.05", "phases.collapse.duration=0.3", "output.every=0.1"],
+    file: "cases/sand_column",
+    overrides: &["mesh.parameters.h=0.025", "phases.collapse.duration=0.2", "output.every=0.1"],
 };
 
 /// Water that leaves a surface beside a strip that covers a part of it.

@@ -31,6 +31,7 @@ pub fn outputs(
             Field::PlasticStrain => run::Field::PlasticStrain,
             Field::DeformationGradient => run::Field::DeformationGradient,
             Field::PorePressure => run::Field::PorePressure(carried(case, mesh)?),
+            Field::Mass => run::Field::Mass,
         };
         // Invariants come with the stress.
         if !(matches!(field, run::Field::Stress) && fields.iter().any(|f| matches!(f, run::Field::Stress))) {

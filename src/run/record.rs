@@ -18,6 +18,7 @@ pub enum Field {
     /// Excess pressure of pore water, given what the pressure field carries of each material where the water has no field of its
     /// own.
     PorePressure(Vec<Option<Carried>>),
+    Mass,
 }
 
 /// A quantity of the history, with its component.
@@ -255,6 +256,7 @@ fn part<const D: usize>(points: &Points<D>, fields: &[Field]) -> Part {
             let excess = (0..points.len()).map(|p| excess_pressure(carried, points, p));
             column("pore_pressure", "kPa", 1, excess.collect())
         }
+        Field::Mass => column("mass", "t", 1, points.mass.clone()),
     });
     Part { columns: columns.collect(), position: triples(&points.position) }
 }

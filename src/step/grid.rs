@@ -373,6 +373,7 @@ impl<const D: usize> Grid<D> {
             constants: mesh.nodes.len(),
             water: self.water,
             points: state.integration(),
+            integration: None,
             pattern: &self.motion.pattern,
             clique: &self.clique,
             block: &self.block,
@@ -383,7 +384,8 @@ impl<const D: usize> Grid<D> {
     /// What the terms of the scene see of the material points, where others are summed over.
     pub fn frame_of_material<'a>(&'a self, mesh: &'a Mesh<D>, state: &'a State<D>) -> Option<Frame<'a, D>> {
         let stencil = self.stencils.material.as_ref()?;
-        Some(Frame { stencil, points: &state.points, ..self.frame(mesh, state) })
+        let frame = self.frame(mesh, state);
+        Some(Frame { stencil, points: &state.points, integration: Some((frame.stencil, frame.points)), ..frame })
     }
 
     /// What the terms of the finite elements see.
@@ -407,6 +409,7 @@ impl<const D: usize> Grid<D> {
             constants: scene.mesh.nodes.len() + scene.mesh.cells.len(),
             water: self.water,
             points: &state.fem,
+            integration: None,
             pattern: &self.motion.pattern,
             clique: &elements.clique,
             block: &self.block,

@@ -5,9 +5,12 @@
 //! what the neighbours move like. It leaves linear velocity fields alone, so that what is mapped keeps linear and
 //! angular momentum. Nodes that no point and no such face reaches have nothing to move and stay at rest.
 //!
-//! Few points on their own leave polynomials of low degree undetermined also then. A far weaker gradient penalty
-//! `ε ρ h² ∫ ∇N_I·∇N_J` in cells with fewer points than nodes decides these, and a second solution that takes it
-//! back to the first one (iterated Tikhonov regularisation) removes it from all that the points do determine.
+//! Points that are few, or crowd in a part of a cell, leave polynomials of low degree undetermined also then, or nearly so: what is small at the
+//! points may be large at nodes far from them. A penalty on the curvature, in cells with fewer points than nodes also a far weaker one on the gradient,
+//! `ρ ∫ (ε₂ h⁴ ∇∇N_I:∇∇N_J + ε₁ h² ∇N_I·∇N_J)`, in the cells with points and those beside such faces decides these. A second solution that takes it
+//! back to the first one (iterated Tikhonov regularisation) removes it from all that the points do determine. Of a motion that is quadratic
+//! in a cell, evenly spread points determine `1/720 ρ h⁴` times its squared curvature, so that they lose the square of `720 ε₂` of it; points in a third of the
+//! cell determine a hundredth of that, and there the motion is linear by half.
 
 use super::grid::{Family, Grid, System};
 use super::rigid;
@@ -15,13 +18,16 @@ use super::scene::Scene;
 use super::state::State;
 use crate::error::{Error, Result};
 use crate::kinematics::Kinematics;
-use crate::mesh::cell_size;
-use crate::stencil::{Jump, integrate};
+use crate::mesh::shape::{MAX_NODES, map_second, rule};
+use crate::mesh::{Mesh, cell_size};
+use crate::stencil::Jump;
 use crate::system::{Method, scatter};
 use crate::term::MASS_PENALTY;
+use rayon::prelude::*;
 
-/// `ε` (-).
-const WEAK: f64 = 1e-10;
+/// `ε₁` and `ε₂` (-).
+const GRADIENT: f64 = 1e-10;
+const CURVATURE: f64 = 1e-5;
 
 /// Whose mass it is.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -106,14 +112,22 @@ impl<'a> Mass<'a> {
             &mut grid.workspace,
         )?;
         rigid::add_mass(scene, &grid.block, &system.pattern, &mut system.matrix);
-        let few =
-            stencil.patches.iter().filter(|p| p.point_count < scene.mesh.cells.nodes(p.cell as usize).len() as u32);
-        let weak: Vec<Weak> = few
-            .map(|patch| Weak {
-                clique: clique[patch.cell as usize] as usize,
-                form: weak_form::<D, K>(scene, patch.cell as usize),
-            })
-            .collect();
+        let points_in = |cell: u32| {
+            let patch = stencil.patches.binary_search_by_key(&cell, |patch| patch.cell);
+            patch.map_or(0, |number| stencil.patches[number].point_count as usize)
+        };
+        let mut cells: Vec<u32> = stencil.patches.iter().map(|patch| patch.cell).collect();
+        cells.extend(grid.ghost.iter().flat_map(|ghost| ghost.between.cells));
+        cells.sort_unstable();
+        cells.dedup();
+        let of_cell = |&cell: &u32| {
+            let few = points_in(cell) < mesh.cells.nodes(cell as usize).len();
+            let gradient = if few { GRADIENT } else { 0.0 };
+            let form =
+                weak_form::<D, K>(mesh, cell as usize, [gradient, CURVATURE].map(|share| share * scene.density_scale));
+            Weak { clique: clique[cell as usize] as usize, form }
+        };
+        let weak: Vec<Weak> = cells.par_iter().with_min_len(64).map(of_cell).collect();
         for Weak { clique, form } in &weak {
             // The clique may hold more nodes, behind those of the cell.
             let size = system.pattern.clique_size(*clique);
@@ -182,19 +196,31 @@ impl<'a> Mass<'a> {
     }
 }
 
-/// `ε ρ h² ∫ ∇N_I·∇N_J` of a cell, row-major.
-fn weak_form<const D: usize, K: Kinematics<D>>(scene: &Scene<D>, cell: usize) -> Vec<f64> {
-    let scale = WEAK * scene.density_scale * cell_size(&scene.mesh, cell).powi(2);
-    let count = scene.mesh.cells.nodes(cell).len();
+/// `∫ (b h⁴ ∇∇N_I:∇∇N_J + a h² ∇N_I·∇N_J)` of a cell, row-major, given `a` and `b` (t/m³).
+fn weak_form<const D: usize, K: Kinematics<D>>(mesh: &Mesh<D>, cell: usize, [a, b]: [f64; 2]) -> Vec<f64> {
+    let (kind, nodes) = (mesh.cells.kind[cell], mesh.cells.nodes(cell));
+    let square = cell_size(mesh, cell).powi(2);
+    let mut x = [[0.0; D]; MAX_NODES];
+    x.iter_mut().zip(nodes).for_each(|(x, &n)| *x = mesh.nodes[n as usize]);
+    let (mut value, mut gradient, mut second) = ([0.0; MAX_NODES], [[0.0; D]; MAX_NODES], [[[0.0; D]; D]; MAX_NODES]);
+    let count = nodes.len();
     let mut form = vec![0.0; count * count];
-    integrate::<D, K>(&scene.mesh, cell, |weight, _, g| {
-        for a in 0..count {
-            for b in 0..count {
-                let dot: f64 = (0..D).map(|d| g[a][d] * g[b][d]).sum();
-                form[a * count + b] += scale * weight * dot;
+    for (xi, weight) in rule(kind, 2 * kind.order()) {
+        kind.values(&xi, &mut value);
+        let determinant = map_second(kind, &x[..count], &xi, &mut gradient, &mut second);
+        let place: [f64; D] = std::array::from_fn(|d| value.iter().zip(&x).take(count).map(|(n, x)| n * x[d]).sum());
+        let scale = square * weight * determinant * K::measure(&place);
+        for i in 0..count {
+            for j in 0..count {
+                let slope: f64 = gradient[i].iter().zip(&gradient[j]).map(|(p, q)| p * q).sum();
+                let bend: f64 = (0..D)
+                    .flat_map(|k| (0..D).map(move |l| (k, l)))
+                    .map(|(k, l)| second[i][k][l] * second[j][k][l])
+                    .sum();
+                form[i * count + j] += scale * (a * slope + b * square * bend);
             }
         }
-    });
+    }
     form
 }
 

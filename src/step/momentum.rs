@@ -132,6 +132,35 @@ pub fn complete_nodes<const D: usize, K: Kinematics<D>>(
     let has = momentum(&bodies, &samples.points, &samples.points.position, &at_samples);
     let wanted = momentum(&bodies, &state.points, &state.points.position, values);
     let rigid: Vec<Rigid<D>> = has.iter().zip(&wanted).map(|(has, wanted)| has.towards::<K>(wanted)).collect();
+    add_to_nodes(scene, grid, state, &bodies, &rigid, field);
+}
+
+/// Adds to a nodal `field` what it lacks at the material points of the momentum of `values` there.
+pub fn keep_at_nodes<const D: usize, K: Kinematics<D>>(
+    scene: &Scene<D>,
+    grid: &Grid<D>,
+    state: &State<D>,
+    values: &[[f64; D]],
+    field: &mut [[f64; D]],
+) {
+    let points = &state.points;
+    let bodies = Bodies::of(&scene.mesh, points.cell.iter().copied(), &[]);
+    let of_material = Family { mesh: &scene.mesh, stencil: grid.of_material(), clique: &grid.clique, points };
+    let mapped = interpolate::<D, K>(&of_material, field);
+    let [has, wanted] = [&mapped[..], values].map(|values| momentum(&bodies, points, &points.position, values));
+    let rigid: Vec<Rigid<D>> = has.iter().zip(&wanted).map(|(has, wanted)| has.towards::<K>(wanted)).collect();
+    add_to_nodes(scene, grid, state, &bodies, &rigid, field);
+}
+
+/// Adds a rigid motion of each body to a nodal `field`.
+fn add_to_nodes<const D: usize>(
+    scene: &Scene<D>,
+    grid: &Grid<D>,
+    state: &State<D>,
+    bodies: &Bodies<D>,
+    rigid: &[Rigid<D>],
+    field: &mut [[f64; D]],
+) {
     let mesh = grid.relaxed.as_ref().map_or(&scene.mesh, |relaxed| &relaxed.mesh);
     for (n, value) in field.iter_mut().enumerate() {
         if let Some(body) = bodies.of_node(n) {

@@ -36,6 +36,7 @@ pub fn motion_to_grid<const D: usize, K: Kinematics<D>>(
         points.acceleration.resize(count, [0.0; D]);
     }
     [state.velocity, state.acceleration] = to_nodes::<D, K>(scene, grid, state)?;
+    take_what_is_seen::<D, K>(scene, grid, state);
     if !state.moving {
         state.acceleration = first_acceleration::<D, K>(scene, grid, state)?;
         accelerations_to_points::<D, K>(scene, grid, state);
@@ -45,6 +46,19 @@ pub fn motion_to_grid<const D: usize, K: Kinematics<D>>(
         state.increment.fill([0.0; D]);
     }
     Ok(())
+}
+
+/// Gives the material points in cells of second order the velocity that the grid has there. What it does not see moves nothing, and would stay with them, at
+/// rest too, until it is seen elsewhere as motion. In cells of first order that is bending, and stays.
+fn take_what_is_seen<const D: usize, K: Kinematics<D>>(scene: &Scene<D>, grid: &Grid<D>, state: &mut State<D>) {
+    let (mesh, stencil, clique) = (&scene.mesh, grid.of_material(), &grid.clique);
+    let seen = interpolate::<D, K>(&Family { mesh, stencil, clique, points: &state.points }, &state.velocity);
+    let Points { velocity, cell, .. } = &mut state.points;
+    for ((own, seen), &cell) in velocity.iter_mut().zip(seen).zip(&*cell) {
+        if mesh.cells.kind[cell as usize].order() == 2 {
+            *own = seen;
+        }
+    }
 }
 
 /// Velocity (m/s) and acceleration (m/s²) of the nodes at the beginning of a step.
@@ -340,6 +354,7 @@ fn to_nodes<const D: usize, K: Kinematics<D>>(
             }
         }
     }
+    momentum::keep_at_nodes::<D, K>(scene, grid, state, &state.points.velocity, &mut nodal[0]);
     momentum::complete_nodes::<D, K>(scene, grid, state, &state.points.acceleration, &mut nodal[1]);
     Ok(nodal)
 }

@@ -16,6 +16,7 @@
 use super::beyond::{Kept, scatter_functions};
 use super::smoothed::{self, Layout};
 use super::stiffness::Stiffness;
+use super::volume::LinearFit;
 use super::{Assembly, Frame, History, Term, Trial, Update};
 use super::{Ratios, Share};
 use crate::error::{Error, Result};
@@ -63,6 +64,19 @@ struct Strained {
 }
 
 impl Strained {
+    /// Stretches the point in its plane, about an axis in all directions, so that its volume changes by `ratio` in the step.
+    fn take_volume<const D: usize, K: Kinematics<D>>(&mut self, ratio: f64) {
+        let more = ratio / self.ratios.step;
+        if K::HOOP || D == 3 {
+            self.increment *= more.cbrt();
+        } else {
+            let stretch = more.sqrt();
+            (0..3).for_each(|i| (0..D).for_each(|j| self.increment[(i, j)] *= stretch));
+        }
+        self.felt = self.increment;
+        self.ratios = Ratios { step: ratio, grid: self.ratios.grid * more };
+    }
+
     /// The stress `A W` that acts in the step, and `A`; its tangent takes the place of that of `τ_H` in `answer`. `add` adds
     /// the share of the stress that unknowns carry at the end of the step and returns that at its beginning (kPa).
     #[inline]
@@ -302,8 +316,21 @@ impl<const D: usize, K: Kinematics<D>, S: Share<D, K>> Term<D> for Internal<K, S
             let now = frame.stencil.gather(frame.mesh, patch, trial.displacement);
             let before = frame.stencil.gather(frame.mesh, patch, trial.converged);
             let cell = self.share.over(frame, trial, patch);
+            let volume = frame.integration.and_then(|(stencil, points)| {
+                let number = stencil.patches.binary_search_by_key(&patch.cell, |patch| patch.cell).ok()?;
+                let patch = &stencil.patches[number];
+                let [now, before] = [trial.displacement, trial.converged].map(|u| stencil.gather(frame.mesh, patch, u));
+                let ratio = |entries: Entries<D>| {
+                    let point = strain::<D, K>(points, &entries, &now, Some(&before)).ok()?;
+                    Some((entries.weight, points.position[entries.point], point.ratios.step.ln()))
+                };
+                LinearFit::of(&stencil.entries::<K>(patch).filter_map(ratio).collect::<Vec<_>>())
+            });
             let new = |entries: Entries<D>| {
-                let point = strain::<D, K>(frame.points, &entries, &now, Some(&before)).ok()?;
+                let mut point = strain::<D, K>(frame.points, &entries, &now, Some(&before)).ok()?;
+                if let Some(fit) = &volume {
+                    point.take_volume::<D, K>(fit.at(&frame.points.position[entries.point]).exp());
+                }
                 let answer = Self::answer(&models, frame.points, entries.point, &point, trial.per_second).ok()?;
                 let deformation = point.increment * frame.points.deformation[entries.point];
                 let volume_ratio = deformation.determinant();

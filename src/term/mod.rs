@@ -26,6 +26,7 @@ mod stiffness;
 mod surface_traction;
 mod traction;
 mod virtual_pressure;
+mod volume;
 mod water;
 mod water_bond;
 
@@ -114,6 +115,8 @@ pub struct Frame<'a, const D: usize> {
     pub water: usize,
     /// The points at the last converged step.
     pub points: &'a Points<D>,
+    /// What integrals are summed over, where `points` are others.
+    pub integration: Option<(&'a Stencil<D>, &'a Points<D>)>,
     /// One block a node that takes part, one clique a cell that does. With pore water, one more block for each corner,
     /// which follow in a clique, and with a pressure field one for each corner and each cell with a constant of its
     /// own; they are the last ones of a clique.

@@ -32,6 +32,7 @@ pub enum Field {
     PlasticStrain,
     DeformationGradient,
     PorePressure,
+    Mass,
 }
 
 impl Field {
@@ -46,6 +47,7 @@ impl Field {
             Self::PlasticStrain => "plastic_strain",
             Self::DeformationGradient => "deformation_gradient",
             Self::PorePressure => "pore_pressure",
+            Self::Mass => "mass",
         }
     }
 }

@@ -9,11 +9,11 @@
 // s +-----------+---------------+  y = 0
 //            bottom
 DefineConstant[
-  width  = {0.2,  Min 1e-6, Name "Parameters/width"},  // of the column [m]
+  width  = {0.1,  Min 1e-6, Name "Parameters/width"},  // of the column [m]
   height = {0.1,  Min 1e-6, Name "Parameters/height"}, // of the column [m]
-  room   = {0.6,  Min 1e-6, Name "Parameters/room"},   // beside it [m]
-  above  = {0.2,  Min 1e-6, Name "Parameters/above"},  // above it [m]
-  h      = {0.01, Min 1e-6, Name "Parameters/h"}       // size of the cells [m]
+  room   = {0.4,  Min 1e-6, Name "Parameters/room"},   // beside it [m]
+  above  = {0.05, Min 1e-6, Name "Parameters/above"},  // above it [m]
+  h      = {0.0125, Min 1e-6, Name "Parameters/h"}       // size of the cells [m]
 ];
 Point(1) = {0, 0, 0, h};
 Point(2) = {width, 0, 0, h};

@@ -1,0 +1,94 @@
+//! How the volume of material points changes that integrals are not summed over.
+//!
+//! A step brings the volume to balance where it is summed over. Elsewhere in a cell the determinant of the deformation has terms of second order
+//! in the strain of a step that nothing has balanced, and soil that resists a change of its volume, and flows otherwise, would answer to
+//! them with a pressure; where it cannot bear tension, with the half of them that presses. So the volume of a material point changes as the linear function of place does
+//! that is fitted to `ln ΔJ` at the integration points of its cell.
+
+use crate::tensor::Tensor;
+
+/// A linear fit whose weights at a point are, in sum of their sizes, more than this extrapolates too far: the mean is taken there.
+const MOST: f64 = 3.0;
+
+/// The weight (m³) of an integration point, its place (m) and the value there.
+pub type Weighed<const D: usize> = (f64, [f64; D], f64);
+
+/// A value at an integration point.
+#[derive(Clone, Copy)]
+struct Sample<const D: usize> {
+    /// Share of the weight of all (-).
+    share: f64,
+    /// From the centre of all (m).
+    from_centre: [f64; D],
+    value: f64,
+}
+
+/// A linear function of place through values at the integration points of a cell.
+pub struct LinearFit<const D: usize> {
+    samples: Vec<Sample<D>>,
+    centre: [f64; D],
+    mean: f64,
+    /// Inverse of the second moments (1/m²), if there is one.
+    inverse: Option<Tensor>,
+}
+
+impl<const D: usize> LinearFit<D> {
+    /// That through `values`, each with its weight and its place (m); `None` of no values.
+    pub fn of(values: &[Weighed<D>]) -> Option<Self> {
+        let whole: f64 = values.iter().map(|v| v.0).sum();
+        if values.is_empty() || whole <= 0.0 {
+            return None;
+        }
+        let mean_of = |of: &dyn Fn(&Weighed<D>) -> f64| values.iter().map(|v| v.0 * of(v)).sum::<f64>() / whole;
+        let centre: [f64; D] = std::array::from_fn(|d| mean_of(&|v| v.1[d]));
+        let sample = |(weight, place, value): &Weighed<D>| Sample {
+            share: weight / whole,
+            from_centre: std::array::from_fn(|d| place[d] - centre[d]),
+            value: *value,
+        };
+        let samples: Vec<Sample<D>> = values.iter().map(sample).collect();
+        let mut moments = Tensor::identity();
+        for i in 0..D {
+            for j in 0..D {
+                moments[(i, j)] = samples.iter().map(|s| s.share * s.from_centre[i] * s.from_centre[j]).sum();
+            }
+        }
+        Some(Self { mean: mean_of(&|v| v.2), inverse: moments.try_inverse(), samples, centre })
+    }
+
+    /// The value at a place (m).
+    pub fn at(&self, place: &[f64; D]) -> f64 {
+        let Some(inverse) = &self.inverse else { return self.mean };
+        let to: [f64; D] = std::array::from_fn(|d| place[d] - self.centre[d]);
+        let slope: [f64; D] = std::array::from_fn(|i| (0..D).map(|j| inverse[(i, j)] * to[j]).sum());
+        let (mut value, mut size) = (0.0, 0.0);
+        for sample in &self.samples {
+            let weight = sample.share * (1.0 + (0..D).map(|d| slope[d] * sample.from_centre[d]).sum::<f64>());
+            value += weight * sample.value;
+            size += weight.abs();
+        }
+        if size <= MOST { value } else { self.mean }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn linear_values_are_met_and_far_places_take_the_mean() {
+        let line = |x: &[f64; 2]| 0.3 - 2.0 * x[0] + x[1];
+        let places = [[0.2, 0.1], [0.7, 0.15], [0.15, 0.8]];
+        let values = places.map(|x| (0.5, x, line(&x)));
+        let fit = LinearFit::of(&values).unwrap();
+        for x in [[0.3, 0.3], [0.0, 0.0], [1.0, 0.0]] {
+            assert!((fit.at(&x) - line(&x)).abs() < 1e-14);
+        }
+        let mean = values.iter().map(|v| v.2).sum::<f64>() / 3.0;
+        assert!((fit.at(&[4.0, 4.0]) - mean).abs() < 1e-14);
+        // On a line there is no linear function of the plane.
+        let flat = [[0.0, 0.0], [0.5, 0.0], [1.0, 0.0]].map(|x| (1.0, x, line(&x)));
+        assert!((LinearFit::of(&flat).unwrap().at(&[0.2, 0.4]) + 0.7).abs() < 1e-14);
+        assert!(LinearFit::<2>::of(&[]).is_none());
+    }
+}
