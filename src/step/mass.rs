@@ -7,8 +7,8 @@
 //!
 //! Points that are few, or crowd in a part of a cell, leave polynomials of low degree undetermined also then, or nearly so: what is small at the
 //! points may be large at nodes far from them. A penalty on the curvature, in cells with fewer points than nodes also a far weaker one on the gradient,
-//! `ρ ∫ (ε₂ h⁴ ∇∇N_I:∇∇N_J + ε₁ h² ∇N_I·∇N_J)`, in the cells with points and those beside such faces decides these. A second solution that takes it
-//! back to the first one (iterated Tikhonov regularisation) removes it from all that the points do determine. Of a motion that is quadratic
+//! `ρ ∫ (ε₂ h⁴ ∇∇N_I:∇∇N_J + ε₁ h² ∇N_I·∇N_J)`, in the cells with points and those beside such faces decides these. Further solutions take it back from
+//! what the points do determine (iterated Tikhonov regularisation). Of a motion that is quadratic
 //! in a cell, evenly spread points determine `1/720 ρ h⁴` times its squared curvature, so that they lose the square of `720 ε₂` of it; points in a third of the
 //! cell determine a hundredth of that, and there the motion is linear by half.
 
@@ -40,7 +40,8 @@ pub enum Carrier {
 pub struct Mass<'a> {
     system: &'a mut System,
     factorised: bool,
-    weak: Vec<Weak>,
+    /// The weak penalty on the gradient, cell by cell, and that on the curvature.
+    weak: [Vec<Weak>; 2],
 }
 
 /// The weak penalty of a cell.
@@ -120,15 +121,17 @@ impl<'a> Mass<'a> {
         cells.extend(grid.ghost.iter().flat_map(|ghost| ghost.between.cells));
         cells.sort_unstable();
         cells.dedup();
-        let of_cell = |&cell: &u32| {
-            let few = points_in(cell) < mesh.cells.nodes(cell as usize).len();
-            let gradient = if few { GRADIENT } else { 0.0 };
-            let form =
-                weak_form::<D, K>(mesh, cell as usize, [gradient, CURVATURE].map(|share| share * scene.density_scale));
-            Weak { clique: clique[cell as usize] as usize, form }
-        };
-        let weak: Vec<Weak> = cells.par_iter().with_min_len(64).map(of_cell).collect();
-        for Weak { clique, form } in &weak {
+        let few: Vec<u32> =
+            cells.iter().copied().filter(|&c| points_in(c) < mesh.cells.nodes(c as usize).len()).collect();
+        let weak = [(&few, [GRADIENT, 0.0]), (&cells, [0.0, CURVATURE])].map(|(cells, shares)| {
+            let factors = shares.map(|share| share * scene.density_scale);
+            let of_cell = |&cell: &u32| Weak {
+                clique: clique[cell as usize] as usize,
+                form: weak_form::<D, K>(mesh, cell as usize, factors),
+            };
+            cells.par_iter().with_min_len(64).map(of_cell).collect::<Vec<_>>()
+        });
+        for Weak { clique, form } in weak.iter().flatten() {
             // The clique may hold more nodes, behind those of the cell.
             let size = system.pattern.clique_size(*clique);
             let mut padded = vec![0.0; size * size];
@@ -151,23 +154,25 @@ impl<'a> Mass<'a> {
 
     /// Solves `M x = b` for one component, `b` given in `x`, one entry a node that takes part.
     ///
+    /// That the gradient is penalised is taken back first: what it has left at nodes that the penalty on the curvature governs would stay there.
+    ///
     /// # Errors
     /// An analysis error when the mass is singular.
     pub fn solve(&mut self, x: &mut [f64]) -> Result<()> {
-        let mut again = x.to_vec();
+        let given = x.to_vec();
         self.solve_once(x)?;
-        if self.weak.is_empty() {
-            return Ok(());
-        }
-        for Weak { clique, form } in &self.weak {
-            let blocks = self.system.pattern.cliques.blocks(*clique);
-            let own = form.len().isqrt();
-            for (row, &a) in form.chunks_exact(own).zip(blocks) {
-                again[a as usize] += row.iter().zip(blocks).map(|(form, &b)| form * x[b as usize]).sum::<f64>();
+        for parts in [..1, ..2] {
+            let mut right = given.clone();
+            for Weak { clique, form } in self.weak[parts].iter().flatten() {
+                let blocks = self.system.pattern.cliques.blocks(*clique);
+                let own = form.len().isqrt();
+                for (row, &a) in form.chunks_exact(own).zip(blocks) {
+                    right[a as usize] += row.iter().zip(blocks).map(|(form, &b)| form * x[b as usize]).sum::<f64>();
+                }
             }
+            x.copy_from_slice(&right);
+            self.solve_once(x)?;
         }
-        self.solve_once(&mut again)?;
-        x.copy_from_slice(&again);
         Ok(())
     }
 
