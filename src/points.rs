@@ -1,5 +1,6 @@
 //! The material points: a struct of arrays.
 
+use crate::kinematics::Kinematics;
 use crate::material::State;
 use crate::tensor::{Symmetric, Tensor, full};
 
@@ -106,8 +107,106 @@ impl<const D: usize> Points<D> {
         }
     }
 
+    /// Splits point `p` into halves at `by` and `-by` (m) from it; that at `-by` keeps its number. They have its state and its velocity, and half of its mass
+    /// and volume, and were seeded on both sides of its origin. Returns the number of the other.
+    pub fn split<K: Kinematics<D>>(&mut self, p: usize, by: [f64; D]) -> usize {
+        self.mass[p] *= 0.5;
+        // Half of it is seeded within the point's own domain, however far it has been sheared.
+        let width = (self.initial_volume[p] / K::measure(&self.origin[p])).sqrt();
+        self.initial_volume[p] *= 0.5;
+        let seeded = self.deformation[p]
+            .try_inverse()
+            .map_or([0.0; D], |inverse| std::array::from_fn(|i| (0..D).map(|j| inverse[(i, j)] * by[j]).sum::<f64>()));
+        let length = seeded.iter().map(|s| s * s).sum::<f64>().sqrt();
+        let seeded = seeded.map(|s| s * (0.25 * width / length.max(0.25 * width)));
+        let other = self.select(&[p]);
+        let q = self.len();
+        self.append(other);
+        for (half, sign) in [(q, 1.0), (p, -1.0)] {
+            for d in 0..D {
+                self.position[half][d] += sign * by[d];
+                self.origin[half][d] += sign * seeded[d];
+            }
+            if let Some(reference) = self.reference.get_mut(half) {
+                (0..D).for_each(|d| reference[d] += sign * by[d]);
+            }
+        }
+        q
+    }
+
+    /// The point that `p` and `q` become together, of the material and in the cell of `p`, but for its elastic strain and stress, which are those of `p`; and the
+    /// moments of momentum (t m²/s) and of its rate about their centre that it lacks, in the plane.
+    pub fn joined(&self, p: usize, q: usize) -> (Self, [f64; 2]) {
+        let mut one = self.select(&[p]);
+        let mass = self.mass[p] + self.mass[q];
+        let initial_volume = self.initial_volume[p] + self.initial_volume[q];
+        let volume = self.volume(p) + self.volume(q);
+        let share = self.initial_volume[q] / initial_volume;
+        // Without mass, by volume.
+        let by_mass = if mass > 0.0 { self.mass[q] / mass } else { share };
+        let by_volume = self.volume(q) / volume;
+        let mix = |share: f64, a: f64, b: f64| a + share * (b - a);
+        let vectors = |of: &[[f64; D]]| -> Vec<[f64; D]> {
+            let one = |p: &[f64; D], q: &[f64; D]| std::array::from_fn(|d| mix(by_mass, p[d], q[d]));
+            of.get(p).map(|at| one(at, &of[q])).into_iter().collect()
+        };
+        let scalars =
+            |of: &[f64], share: f64| -> Vec<f64> { of.get(p).map(|&at| mix(share, at, of[q])).into_iter().collect() };
+        one.position = vectors(&self.position);
+        one.origin = vectors(&self.origin);
+        one.reference = vectors(&self.reference);
+        one.velocity = vectors(&self.velocity);
+        one.acceleration = vectors(&self.acceleration);
+        one.mass = vec![mass];
+        one.initial_volume = vec![initial_volume];
+        one.plastic_strain = scalars(&self.plastic_strain, share);
+        one.plastic_increment = scalars(&self.plastic_increment, share);
+        one.memory = scalars(&self.memory, share);
+        one.pressure = scalars(&self.pressure, share);
+        one.pore_pressure = scalars(&self.pore_pressure, by_volume);
+        let mean = self.deformation[p] + (self.deformation[q] - self.deformation[p]) * share;
+        // Points that have turned against each other have no mean: the larger one's then.
+        let larger = if share > 0.5 { q } else { p };
+        let mut deformation = if mean.determinant() > 0.0 { mean } else { self.deformation[larger] };
+        let stretch = (volume / initial_volume / deformation.determinant()).sqrt();
+        for (i, j) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
+            deformation[(i, j)] *= stretch;
+        }
+        one.deformation = vec![deformation];
+        let apart = |of: &[[f64; D]], d: usize| of.get(q).map_or(0.0, |at| at[d] - of[p][d]);
+        let reduced = self.mass[p] * by_mass;
+        let spin = |of: &[[f64; D]]| {
+            let x = &self.position;
+            reduced * (apart(x, 0) * apart(of, 1) - apart(x, 1) * apart(of, 0))
+        };
+        let spins = [spin(&self.velocity), spin(&self.acceleration)];
+        (one, spins)
+    }
+
     pub fn is_empty(&self) -> bool {
         self.position.is_empty()
+    }
+
+    /// Puts `other` behind these points; both have the same columns.
+    pub fn append(&mut self, mut other: Self) {
+        self.position.append(&mut other.position);
+        self.origin.append(&mut other.origin);
+        self.reference.append(&mut other.reference);
+        self.velocity.append(&mut other.velocity);
+        self.acceleration.append(&mut other.acceleration);
+        self.mass.append(&mut other.mass);
+        self.initial_volume.append(&mut other.initial_volume);
+        self.deformation.append(&mut other.deformation);
+        self.elastic.append(&mut other.elastic);
+        self.stress.append(&mut other.stress);
+        self.plastic_strain.append(&mut other.plastic_strain);
+        self.plastic_increment.append(&mut other.plastic_increment);
+        self.memory.append(&mut other.memory);
+        self.pressure.append(&mut other.pressure);
+        self.pore_pressure.append(&mut other.pore_pressure);
+        self.region.append(&mut other.region);
+        self.model.append(&mut other.model);
+        self.cell.append(&mut other.cell);
     }
 
     /// Checks points from a file, whose numbers are finite: that they are in regions and cells that exist, and that each

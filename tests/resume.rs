@@ -159,6 +159,16 @@ const GRAINS: Case = Case {
     overrides: &["mesh.parameters.h=0.025", "phases.collapse.duration=0.2", "output.every=0.1"],
 };
 
+/// Soft soil that flows apart, whose material points are split on the way.
+const FLOW: Case = Case {
+    file: "cases/slump",
+    overrides: &[
+        "mesh.parameters.h=2",
+        "materials.soil={model: tresca, young: 1000, poisson: 0.49, shear_strength: 2, density: 1}",
+        "phases=[{name: flow, analysis: dynamic, duration: 2, step: {initial: 0.05}, gravity: 1}]",
+    ],
+};
+
 /// Water that leaves a surface beside a strip that covers a part of it.
 const STRIP: Case = Case { file: "tests/data/strip", overrides: &["phases.wait.step.initial=40"] };
 
@@ -417,10 +427,17 @@ fn grains_that_come_apart_killed_ten_times_end_the_same() {
 }
 
 #[test]
+fn soil_whose_points_are_split_killed_ten_times_ends_the_same() {
+    let folder = survives_kills(&FLOW, 14);
+    let log = fs::read_to_string(folder.path().join("solve.log")).unwrap();
+    assert!(log.matches(" split 1 merged 0").count() >= 3, "{log}");
+}
+
+#[test]
 fn the_number_of_threads_changes_no_bit() {
     for case in [
-        SLOPE, RELEASE, SAND, PILE, BLOCK, WALL, BODIES, SAFETY, FALL, SOFT, POOL, WATER, CHANGE, LEVELS, GRAINS, LAID,
-        STRIP, STAGES,
+        SLOPE, RELEASE, SAND, PILE, BLOCK, WALL, BODIES, SAFETY, FALL, SOFT, POOL, WATER, CHANGE, LEVELS, GRAINS, FLOW,
+        LAID, STRIP, STAGES,
     ] {
         let one = seeded(&case);
         let three = copy(one.path());

@@ -1,6 +1,6 @@
 //! From a checked case to a scene: the only place that decides which terms exist.
 
-use super::checked::{Analysis, Case, Geometry, Material, Region, Restore};
+use super::checked::{Analysis, Case, Content, Geometry, Material, Region, Restore};
 use super::outputs::outputs;
 use super::raw;
 use super::rigid::{self, Holds};
@@ -290,10 +290,24 @@ fn gravity<K>(case: &Case) -> BodyForce<K, 2> {
 fn quadrature<K: Kinematics<2>>(case: &Case, mesh: &Mesh<2>) -> Result<Box<dyn Quadrature<2>>> {
     let bounded = water::needs_surface(case);
     Ok(match (case.numerics.quadrature, bounded) {
-        (raw::Quadrature::Resampled, _) => Box::new(Resampled::<K>::new(mesh, models(case, mesh)?, bounded)),
+        (raw::Quadrature::Resampled, _) => {
+            let resampled = Resampled::<K>::new(mesh, models(case, mesh)?, bounded);
+            Box::new(resampled.renewing(seeded(case, mesh)?))
+        }
         (raw::Quadrature::Points, true) => Box::new(Bounded::<K>::new(mesh)),
         (raw::Quadrature::Points, false) => Box::new(Volumes::<K>::default()),
     })
+}
+
+/// The points that the cells of each region of the mesh are seeded with.
+fn seeded(case: &Case, mesh: &Mesh<2>) -> Result<Vec<u32>> {
+    let mut seeded = vec![0; mesh.regions.len()];
+    for region in &case.regions {
+        if let Content::Mpm { points_per_cell, .. } = region.content {
+            seeded[usize::from(region_index(mesh, &region.name)?)] = points_per_cell as u32;
+        }
+    }
+    Ok(seeded)
 }
 
 fn restore(restore: Restore) -> step::Restore {

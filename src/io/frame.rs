@@ -193,7 +193,7 @@ impl Frame {
 ///
 /// # Errors
 /// `Input` when the folder is missing or empty, a frame is missing, cut or damaged, or the frames do not
-/// belong together: times or steps go back, numbers of points differ.
+/// belong together: times or steps go back, or they are of different runs.
 pub fn list(folder: &Path) -> Result<Vec<Info>> {
     let indices = indices(folder)?;
     if indices.is_empty() {
@@ -220,9 +220,6 @@ pub fn list(folder: &Path) -> Result<Vec<Info>> {
             };
             if time < before.time || step < before.step {
                 return mixed(format!("time {time} at step {step} after {} at {}", before.time, before.step));
-            }
-            if points != before.points {
-                return mixed(format!("{points} material points after {}", before.points));
             }
             if origin != before.origin {
                 return mixed("it is of another run".to_owned());

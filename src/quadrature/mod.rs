@@ -7,7 +7,7 @@ mod resampled;
 mod surface;
 mod volumes;
 
-pub use resampled::{Resampled, Samples};
+pub use resampled::{Count, Renewed, Resampled, Samples};
 pub use surface::Bounded;
 pub use volumes::Volumes;
 
@@ -37,6 +37,8 @@ pub struct Weighing<const D: usize> {
     pub lost_front: Option<String>,
     /// What points were put back onto supports that they had got beyond, in this restoration.
     pub put_back: Option<String>,
+    /// The material points as they are to be from this restoration on, where some are split or merged.
+    pub renewed: Option<Renewed<D>>,
 }
 
 /// A grid that is being restored: the points are found on it and `stencil` is filled.
@@ -70,6 +72,8 @@ pub struct Tally {
     /// The volume (m³) of the material points and that of the integration points.
     pub point_volume: f64,
     pub volume: f64,
+    /// Material points that were split and merged.
+    pub population: Count,
 }
 
 /// A rule for the weights of points.

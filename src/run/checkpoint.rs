@@ -8,7 +8,7 @@ use crate::error::Result;
 use crate::io::checkpoint::Checkpoints;
 use crate::io::columns;
 use crate::io::container::Store;
-use crate::quadrature::{Samples, Tally, Weighing};
+use crate::quadrature::{Count, Samples, Tally, Weighing};
 use crate::stencil::SoftCell;
 use crate::step::{Release, Scene, Span, State};
 use crate::surface::{ActiveBoundary, Front, Piece, Voids};
@@ -96,8 +96,9 @@ pub fn store<const D: usize>(state: &State<D>) -> Store {
 
 fn put_weighing<const D: usize>(store: &mut Store, weighing: &Weighing<D>) {
     // Why a front was lost has been told when it was.
-    let Weighing { samples, weight, soft, poor, boundary, level_set, tally, lost_front: _, put_back: _ } = weighing;
-    let Tally { linear, constant, taken, point_volume, volume } = tally;
+    let Weighing { samples, weight, soft, poor, boundary, level_set, tally, lost_front: _, put_back: _, renewed: _ } =
+        weighing;
+    let Tally { linear, constant, taken, point_volume, volume, population: Count { split, merged, starved } } = tally;
     if let Some(Samples { points, parametric, outside }) = samples {
         columns::put(store, SAMPLES, points);
         store.put("samples.parametric", 3, parametric.concat());
@@ -117,7 +118,7 @@ fn put_weighing<const D: usize>(store: &mut Store, weighing: &Weighing<D>) {
     );
     let numbers = |piece: &Piece| [piece.cell, piece.bearer, u32::from(piece.region), u32::from(piece.wall)];
     store.put("boundary.numbers", 4, pieces.iter().flat_map(numbers).collect());
-    store.put("weighing.cells", 1, vec![*linear, *constant, *taken]);
+    store.put("weighing.cells", 1, vec![*linear, *constant, *taken, *split, *merged, *starved]);
     store.put("weighing.volume", 1, vec![*point_volume, *volume]);
 }
 
@@ -140,12 +141,14 @@ fn take_weighing<const D: usize>(store: &mut Store) -> Result<Weighing<D>> {
     let level_set = store.take::<f64>("weighing.level_set", 1)?;
     let boundary = take_boundary(store)?;
     let (cells, volume) = (store.take::<u32>("weighing.cells", 1)?, store.take::<f64>("weighing.volume", 1)?);
-    let ([linear, constant, taken], [point_volume, volume]) = (&cells[..], &volume[..]) else {
+    let ([linear, constant, taken, split, merged, starved], [point_volume, volume]) = (&cells[..], &volume[..]) else {
         return Err(foreign("its weights"));
     };
-    let tally =
-        Tally { linear: *linear, constant: *constant, taken: *taken, point_volume: *point_volume, volume: *volume };
-    Ok(Weighing { samples, weight, soft, poor, boundary, level_set, tally, lost_front: None, put_back: None })
+    let population = Count { split: *split, merged: *merged, starved: *starved };
+    let (point_volume, volume) = (*point_volume, *volume);
+    let tally = Tally { linear: *linear, constant: *constant, taken: *taken, point_volume, volume, population };
+    let (lost_front, put_back, renewed) = (None, None, None);
+    Ok(Weighing { samples, weight, soft, poor, boundary, level_set, tally, lost_front, put_back, renewed })
 }
 
 fn take_boundary(store: &mut Store) -> Result<ActiveBoundary> {

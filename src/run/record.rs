@@ -4,6 +4,7 @@ use super::{Outputs, boundary, surface};
 use crate::io::columns::padded;
 use crate::io::frame::{CELL, Column, Frame, Part, UNCOUNTED};
 use crate::points::Points;
+use crate::quadrature::Count;
 use crate::step::{Report, Restore, Scene, State};
 use crate::term::{Carried, excess_pressure};
 
@@ -152,13 +153,13 @@ pub fn value<const D: usize>(
             mean(nodes.iter().map(|&n| state.pressure.get(water + n as usize).copied().unwrap_or(0.0)))
         }
         (WatchedOn::Region(region), Quantity::PorePressure) => {
-            mean(members(state, *region).map(|(points, p)| points.pore_pressure.get(p).copied().unwrap_or(0.0)))
+            mean_over(members(state, *region), |points, p| points.pore_pressure.get(p).copied().unwrap_or(0.0))
         }
         (WatchedOn::Region(region), Quantity::Displacement(d)) => {
-            mean(members(state, *region).map(|(points, p)| points.displacement(p)[d]))
+            mean_over(members(state, *region), |points, p| points.displacement(p)[d])
         }
         (WatchedOn::Region(region), Quantity::Velocity(d)) => {
-            mean(members(state, *region).map(|(points, p)| points.velocity.get(p).map_or(0.0, |v| v[d])))
+            mean_over(members(state, *region), |points, p| points.velocity.get(p).map_or(0.0, |v| v[d]))
         }
         (WatchedOn::Region(region), Quantity::Contact(d)) => contact(*region).map(|(force, _)| force[d]).sum(),
         (WatchedOn::Region(region), Quantity::ContactMoment) => {
@@ -196,6 +197,18 @@ fn members<const D: usize>(state: &State<D>, region: u16) -> impl Iterator<Item 
 fn mean(values: impl Iterator<Item = f64>) -> f64 {
     let (count, sum) = values.fold((0usize, 0.0), |(n, s), v| (n + 1, s + v));
     if count > 0 { sum / count as f64 } else { 0.0 }
+}
+
+/// The mean of a value over points, by the volume that each had when seeded: points that are split and merged leave it.
+fn mean_over<'a, const D: usize>(
+    points: impl Iterator<Item = (&'a Points<D>, usize)>,
+    value: impl Fn(&Points<D>, usize) -> f64,
+) -> f64 {
+    let (volume, sum) = points.fold((0.0, 0.0), |(volume, sum), (points, p)| {
+        let v = points.initial_volume[p];
+        (volume + v, sum + v * value(points, p))
+    });
+    if volume > 0.0 { sum / volume } else { 0.0 }
 }
 
 /// The state at one moment.
@@ -347,6 +360,13 @@ pub fn log_lines<const D: usize>(scene: &Scene<D>, state: &State<D>, report: &Re
         }
         if tally.taken > 0 {
             line.push_str(&format!(" integration points with the state of a material point {}", tally.taken));
+        }
+        let Count { split, merged, starved } = tally.population;
+        if split + merged > 0 {
+            line.push_str(&format!(" points {} split {split} merged {merged}", state.points.len()));
+        }
+        if starved > 0 {
+            line.push_str(&format!(" cells short of points {starved}"));
         }
         line.push_str(&format!(" volume drift {:.2e}", tally.point_volume / tally.volume - 1.0));
     }

@@ -16,7 +16,7 @@ use crate::error::{Error, Result};
 use crate::kinematics::Kinematics;
 use crate::mesh::Mesh;
 use crate::mesh::locate::Locator;
-use crate::quadrature::{Restored, Samples, Weighing};
+use crate::quadrature::{Renewed, Restored, Samples, Weighing};
 use crate::stencil::{Scheme, Stencil};
 use rayon::prelude::*;
 
@@ -61,6 +61,7 @@ pub fn begin_anew<const D: usize, K: Kinematics<D>>(
     };
     state.weighing = scene.quadrature.weigh(&grid, &mut state.front);
     state.weighing.put_back = put_back;
+    renew::<D, K>(&mut stencils.integration, scene, mesh, state);
     let here = before.as_ref().map_or((&scene.mesh, &scene.locator), |r| (&r.mesh, &r.locator));
     let before = here.0;
     guess::carry(here, mesh, state);
@@ -120,6 +121,26 @@ pub fn take_weights<const D: usize, K: Kinematics<D>>(stencils: &mut Stencils<D>
         stencils.integration.fill::<K>(Scheme::Mpm, mesh, &points.cell, parametric, &state.taking_part);
     }
     stencils.integration.weigh(weight);
+}
+
+/// Takes the material points that a weighed grid asks for, and fills their stencil.
+fn renew<const D: usize, K: Kinematics<D>>(
+    stencil: &mut Stencil<D>,
+    scene: &Scene<D>,
+    mesh: &Mesh<D>,
+    state: &mut State<D>,
+) {
+    let Some(Renewed { points, parametric, from }) = state.weighing.renewed.take() else { return };
+    if !state.start_position.is_empty() {
+        // Each has moved as far as the one that it was before.
+        let start = |(x, &p): (&[f64; D], &u32)| {
+            let (start, before) = (&state.start_position[p as usize], &state.points.position[p as usize]);
+            std::array::from_fn(|d| start[d] + x[d] - before[d])
+        };
+        state.start_position = points.position.iter().zip(&from).map(start).collect();
+    }
+    (state.points, state.parametric) = (points, parametric);
+    fill::<D, K>(stencil, scene, mesh, state);
 }
 
 /// Fills the stencil for the material points where they were last located.

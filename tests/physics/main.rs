@@ -13,6 +13,7 @@ mod held_out;
 mod incompressible;
 mod layout;
 mod patch;
+mod population;
 mod put_back;
 mod resampled;
 mod rotation;

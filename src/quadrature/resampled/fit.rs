@@ -41,7 +41,7 @@ impl Around {
         Self { first, cells }
     }
 
-    fn cells(&self, c: u32) -> &[u32] {
+    pub fn cells(&self, c: u32) -> &[u32] {
         &self.cells[self.first[c as usize] as usize..self.first[c as usize + 1] as usize]
     }
 }

@@ -14,6 +14,7 @@
 mod fit;
 mod mass;
 mod places;
+mod population;
 
 use super::surface::{boundary, follow, largest_offset, smoothed};
 use super::{Quadrature, Restored, Tally, Weighing};
@@ -28,6 +29,8 @@ use crate::surface::{Contour, Distance, Front, Geometry, HIGHEST};
 use crate::tensor::{Symmetric, Tensor, mean};
 use fit::{Around, Fit, Held, Rings};
 use places::{Place, Places};
+pub use population::{Count, Renewed};
+use population::{Ground, Part, renew};
 use rayon::prelude::*;
 use std::collections::BTreeSet;
 use std::marker::PhantomData;
@@ -78,6 +81,8 @@ pub struct Resampled<K> {
     models: Models,
     /// Whether the boundary of the material is wanted.
     bounded: bool,
+    /// The points that a cell of each region was seeded with; empty where their number stays.
+    seeded: Vec<u32>,
     kinematics: PhantomData<K>,
 }
 
@@ -122,8 +127,15 @@ impl<K: Kinematics<2>> Resampled<K> {
             places: Places::new(),
             models,
             bounded,
+            seeded: Vec::new(),
             kinematics: PhantomData,
         }
+    }
+
+    /// Lets material points be split and merged, given how many a cell of each region was seeded with (0: none).
+    #[must_use]
+    pub fn renewing(self, seeded: Vec<u32>) -> Self {
+        Self { seeded, ..self }
     }
 
     /// The surface of the material: one that is followed, else the smoothed contour of the points, or that contour.
@@ -349,30 +361,31 @@ impl<K: Kinematics<2>> Resampled<K> {
 
     /// What is fitted of each point.
     fn fields(&self, points: &Points<2>) -> Vec<Fields> {
+        (0..points.len()).into_par_iter().with_min_len(256).map(|p| self.fields_of(points, p)).collect()
+    }
+
+    fn fields_of(&self, points: &Points<2>, p: usize) -> Fields {
         let at = |column: &[f64], p: usize| column.get(p).copied().unwrap_or(0.0);
-        let one = |p: usize| {
-            let volume_ratio = points.deformation[p].determinant();
-            let mut fields = [0.0; FIELDS];
-            fields[VOLUME] = volume_ratio.ln();
-            fields[DENSITY] = points.mass[p] / points.initial_volume[p];
-            fields[PLASTIC] = points.plastic_strain[p];
-            fields[MEMORY] = at(&points.memory, p);
-            fields[FLOW] = at(&points.plastic_increment, p);
-            fields[PRESSURE] = at(&points.pressure, p);
-            fields[WATER] = at(&points.pore_pressure, p);
-            fields[ORIGIN..].copy_from_slice(&points.origin[p]);
-            if let Some(model) = self.models.get(points.model_of(p)).and_then(Option::as_ref) {
-                let y = points.origin[p][1];
-                let stress = |b: &[f64; 3]| model.elastic_stress(y, &b.map(|b| 0.5 * b.ln()));
-                let stress = spectral::map_roots(&points.elastic[p], stress);
-                fields[STRESS..STRESS + 4].copy_from_slice(&stress[..4]);
-                if !points.pressure.is_empty() {
-                    fields[BESIDE] = volume_ratio * mean(&points.stress[p]) - mean(&stress);
-                }
+        let volume_ratio = points.deformation[p].determinant();
+        let mut fields = [0.0; FIELDS];
+        fields[VOLUME] = volume_ratio.ln();
+        fields[DENSITY] = points.mass[p] / points.initial_volume[p];
+        fields[PLASTIC] = points.plastic_strain[p];
+        fields[MEMORY] = at(&points.memory, p);
+        fields[FLOW] = at(&points.plastic_increment, p);
+        fields[PRESSURE] = at(&points.pressure, p);
+        fields[WATER] = at(&points.pore_pressure, p);
+        fields[ORIGIN..].copy_from_slice(&points.origin[p]);
+        if let Some(model) = self.models.get(points.model_of(p)).and_then(Option::as_ref) {
+            let y = points.origin[p][1];
+            let stress = |b: &[f64; 3]| model.elastic_stress(y, &b.map(|b| 0.5 * b.ln()));
+            let stress = spectral::map_roots(&points.elastic[p], stress);
+            fields[STRESS..STRESS + 4].copy_from_slice(&stress[..4]);
+            if !points.pressure.is_empty() {
+                fields[BESIDE] = volume_ratio * mean(&points.stress[p]) - mean(&stress);
             }
-            fields
-        };
-        (0..points.len()).into_par_iter().with_min_len(256).map(one).collect()
+        }
+        fields
     }
 
     fn weigh_on(&self, geometry: &Geometry, grid: &Restored<2>, front: &mut Option<Front>) -> Weighing<2> {
@@ -393,7 +406,7 @@ impl<K: Kinematics<2>> Resampled<K> {
             }
         };
         let sampled: Vec<Sampled> = (0..mesh.cells.len()).into_par_iter().with_min_len(64).map(work).collect();
-        let (mut samples, tally) = collect(points, &sampled);
+        let (mut samples, mut tally) = collect(points, &sampled);
         mass::conserve(mesh, points, &mut samples);
         let weight = samples.points.initial_volume.clone();
 
@@ -409,7 +422,15 @@ impl<K: Kinematics<2>> Resampled<K> {
             }
         }
         soft.retain(|soft| soft.emptiness > 0.0);
-        let mut weighing = Weighing { weight, soft, poor, tally, lost_front, ..Weighing::default() };
+        let mut renewed = None;
+        if !self.seeded.is_empty() && grid.displacement.is_some() {
+            let parts = parts(geometry, &sampled);
+            let (around, seeded) = (&self.around, &self.seeded[..]);
+            let (level_set, outside) = (&level_set[..], &outside[..]);
+            let ground = Ground { geometry, around, grid, level_set, outside, parts: &parts, seeded, held: &held };
+            (renewed, tally.population) = renew(&ground, self);
+        }
+        let mut weighing = Weighing { weight, soft, poor, tally, lost_front, renewed, ..Weighing::default() };
         if self.bounded {
             let cells = &samples.points.cell;
             let of_cell = |c: u32| cells.partition_point(|&d| d < c)..cells.partition_point(|&d| d <= c);
@@ -436,6 +457,31 @@ fn nearest(points: &Points<2>, near: &[u32], x: &[f64; 2]) -> usize {
     };
     let best = near.iter().map(|&p| (square(p), p)).min_by(|a, b| a.0.total_cmp(&b.0));
     best.map_or(0, |(_, p)| p as usize)
+}
+
+/// What each material fills of the cells.
+fn parts(geometry: &Geometry, sampled: &[Sampled]) -> Vec<Part> {
+    let mut parts: Vec<Part> = Vec::new();
+    for cell in sampled.iter().filter(|cell| cell.outside.is_none()) {
+        let first = parts.len();
+        for sample in &cell.samples {
+            let share = sample.place.weight / geometry.volume(sample.cell as usize);
+            match parts[first..].last_mut().filter(|part| part.region == sample.region) {
+                Some(part) => {
+                    part.share += share;
+                    part.places.push(sample.place);
+                }
+                None => {
+                    let (cell, region) = (sample.cell, sample.region);
+                    parts.push(Part { cell, region, share, full: false, places: vec![sample.place] });
+                }
+            }
+        }
+        if let [part] = &mut parts[first..] {
+            part.full = part.share > 1.0 - 1e-9;
+        }
+    }
+    parts
 }
 
 /// The integration points of all cells.
@@ -477,6 +523,7 @@ fn collect(points: &Points<2>, sampled: &[Sampled]) -> (Samples<2>, Tally) {
         taken: count(|cell| cell.taken),
         point_volume: (0..points.len()).map(|p| points.volume(p)).sum(),
         volume: all().map(|s| s.place.weight).sum(),
+        population: Count::default(),
     };
     let outside = sampled.iter().filter_map(|cell| cell.outside).collect();
     (Samples { points: samples, parametric: all().map(|s| s.place.xi).collect(), outside }, tally)

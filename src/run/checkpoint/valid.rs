@@ -111,6 +111,11 @@ fn check_cells<const D: usize>(scene: &Scene<D>, state: &State<D>) -> Result<()>
 
 fn check_points<const D: usize>(scene: &Scene<D>, first: &State<D>, state: &State<D>) -> Result<()> {
     check_family(scene, state, &scene.mesh, &first.points, &state.points)?;
+    if state.weighing.samples.is_some() {
+        check_sums(scene, state, &first.points, &state.points)?;
+    } else {
+        check_kept(scene, state, &first.points, &state.points)?;
+    }
     ensure(state.points.plastic_increment.len() == state.points.len(), "a column of its points")?;
     let Points { cell, .. } = &state.points;
     ensure(cell.iter().all(|&c| state.taking_part[c as usize]), "the cell of a material point")?;
@@ -125,12 +130,39 @@ fn check_elements<const D: usize>(scene: &Scene<D>, first: &State<D>, state: &St
     let none = Mesh::default();
     let mesh = scene.fem.as_ref().map_or(&none, |fem| &fem.mesh);
     check_family(scene, state, mesh, &first.fem, &state.fem)?;
+    check_kept(scene, state, &first.fem, &state.fem)?;
     let (now, then) = (&state.fem, &first.fem);
     let same = now.cell == then.cell && now.origin == then.origin && state.fem_parametric == first.fem_parametric;
     ensure(same, "the place of a point of a finite element")
 }
 
-/// Points against those that the run began with.
+/// Points that stay those that the run began with.
+fn check_kept<const D: usize>(scene: &Scene<D>, state: &State<D>, first: &Points<D>, points: &Points<D>) -> Result<()> {
+    ensure(points.len() == first.len(), "the number of points")?;
+    let same = points.region == first.region && points.initial_volume == first.initial_volume;
+    ensure(same, "the region or the volume of a point")?;
+    let changed = |p: usize| begun(scene, state).flat_map(|phase| &phase.changes).any(|c| c.region == points.region[p]);
+    ensure((0..points.len()).all(|p| points.mass[p] == first.mass[p] || changed(p)), "the mass of a point")
+}
+
+/// The volume when seeded and the mass of the material points of each region, which may have been split and merged.
+fn check_sums<const D: usize>(scene: &Scene<D>, state: &State<D>, first: &Points<D>, points: &Points<D>) -> Result<()> {
+    let changes: Vec<_> = begun(scene, state).flat_map(|phase| &phase.changes).map(|change| change.region).collect();
+    let sums = |points: &Points<D>| {
+        let mut sums = vec![[0.0; 2]; scene.mesh.regions.len()];
+        for (p, &region) in points.region.iter().enumerate() {
+            let [volume, mass] = &mut sums[usize::from(region)];
+            *volume += points.initial_volume[p];
+            *mass += if changes.contains(&region) { 0.0 } else { points.mass[p] };
+        }
+        sums
+    };
+    let close = |(a, b): (&f64, &f64)| (a - b).abs() <= ROUNDING * b;
+    let (now, then) = (sums(points).concat(), sums(first).concat());
+    ensure(now.iter().zip(&then).all(close), "the volume or the mass of a region")
+}
+
+/// Points against those that the run began with: their columns and materials.
 fn check_family<const D: usize>(
     scene: &Scene<D>,
     state: &State<D>,
@@ -138,13 +170,10 @@ fn check_family<const D: usize>(
     first: &Points<D>,
     points: &Points<D>,
 ) -> Result<()> {
-    let count = first.len();
-    ensure(points.len() == count, "the number of points")?;
+    let count = points.len();
     points
         .check(mesh.regions.len(), mesh.cells.len())
         .map_err(|problem| Error::input("checkpoint", problem, "start the analysis afresh, without --resume"))?;
-    let same = points.region == first.region && points.initial_volume == first.initial_volume;
-    ensure(same, "the region or the volume of a point")?;
     let began_moving = !first.velocity.is_empty();
     let columns = [
         (points.reference.len(), begun(scene, state).any(|phase| phase.reset)),
@@ -164,7 +193,6 @@ fn check_family<const D: usize>(
         let change = changes.iter().rev().find(|change| change.region == region);
         let number = change.map_or(region, |change| change.number);
         ensure(points.model.is_empty() || points.model[p] == number, "the material of a point")?;
-        ensure(change.is_some() || points.mass[p] == first.mass[p], "the mass of a point")?;
     }
     Ok(())
 }
