@@ -1,7 +1,7 @@
 """Random scenes for the stability campaign, each wholly determined by the seed and its number.
 
 A class of scenes is a function of a random generator that returns a case; the entries that all share (mesh, kind of cells,
-scheme) are drawn here. Sizes are small: a scene takes a second or less.
+scheme) are drawn here. Sizes are small: a scene takes a second or less, one with a body that goes deep a few.
 """
 
 import math
@@ -366,6 +366,198 @@ def clay(r):
         case["materials"]["matter"] |= {"swelling": 10 ** r.uniform(-3, -1.3), "least_pressure": r.choice([0.1, 1])}
         if r.random() < 0.3:
             del case["initial_stress"]
+    return case
+
+
+def undrained(r, strength, growth=0.0, model=None, **more):
+    """Undrained clay of the strength (kPa) at the surface, which grows by `growth` (kPa/m) with the depth."""
+    stiffness = r.choice([50, 200, 500])
+    model = model or r.choice(["tresca", "tresca", "von_mises"])
+    factor = math.sqrt(3) if model == "von_mises" else 1
+
+    def profile(scale):
+        return {"top": scale * strength, "gradient": scale * growth, "datum": 0} if growth else scale * strength
+
+    name = "yield_stress" if model == "von_mises" else "shear_strength"
+    common = {"young": profile(stiffness), "poisson": r.choice([0.49, 0.49, 0.49, 0.499, 0.45]), "density": 0.6}
+    return {"model": model, name: profile(factor), **common, **more}
+
+
+def interface(r, strength):
+    """What acts between the body and the clay: nothing, friction, adhesion; they part, do not, or do at a tension."""
+    shear = r.choice(
+        [
+            {},
+            {"friction": round(r.uniform(0.1, 0.6), 2)},
+            {"adhesion": round(r.uniform(0.2, 1) * strength, 3)},
+            {"adhesion_factor": r.choice([0.3, 0.5, 0.7])},
+            {"adhesion_factor": 1},
+            {"friction": 0.3, "adhesion_factor": 0.5},
+        ]
+    )
+    return {**shear, "tension": r.choice(["cut_off", "cut_off", "no_separation", "no_separation", {"limit": round(r.uniform(0.5, 5) * strength, 3)}])}
+
+
+def ground(r, shape, way, **more):
+    """Level clay, half of it heavy, and a rigid body one metre wide of the shape of ground.geo, which is to go `way` (m)."""
+    mesh = choose_mesh(r)
+    h = r.choice([0.2, 0.25, 0.25])
+    sizes = {"width": 2, "depth": way + 1.25, "air": 0.5 + 0.3 * way, "cover": 1, "thickness": h, "layer": 0, **more}
+    lengths = {name: round(h * math.ceil(size / h - 1e-9), 4) for name, size in sizes.items() if name != "buried"}
+    if shape == 3:
+        lengths["thickness"] = round(r.uniform(0.3, 1) * h, 3)
+    angle = r.choice([30, 60, 60, 90, 120])
+    if sizes.get("buried"):
+        lengths["depth"] = round(lengths["cover"] + 1.25 + (1 if shape == 0 else 2 * h), 4)
+        if shape == 0:
+            mesh["parameters"]["kind"] %= 2
+    mesh["parameters"] |= {"shape": shape, "way": way, "angle": angle, "h": h, "coarse": r.choice([1, 2, 3]), **sizes, **lengths}
+    mesh["geo"] = "ground.geo"
+    strength = 10 ** r.uniform(0.3, 1.5)
+    growth = strength * r.choice([0, 0, 0.5, 2])
+    points = r.choice([3, 6, 7, 12, 4, 9, 16, 16, 16]) if mesh["parameters"]["kind"] in (0, 2) else r.choice([4, 9, 16, 16])
+    case = {
+        "geometry": r.choice(["plane_strain", "axisymmetric"]),
+        "mesh": mesh,
+        "regions": {
+            "clay": {"kind": "mpm", "material": "clay", "points_per_cell": points},
+            "air": {"kind": "buffer"},
+            "body": {"kind": "structure", "material": "steel", "rigid": True},
+        },
+        "materials": {
+            "clay": undrained(r, strength, growth),
+            "steel": {"model": "linear_elastic", "young": 2e8, "poisson": 0.2, "density": 7.8},
+        },
+        "contacts": [{"structure": "body", "soil": "clay", **interface(r, strength)}],
+        "supports": {"axis": {"ux": 0}, "side": {"ux": 0}, "bottom": {"ux": 0, "uy": 0}},
+        "output": {
+            "fields": ["stress", "displacement", "velocity", "deformation_gradient"],
+            "history": [{"name": "body", "on": "body", "quantities": ["uy", "reaction_y", "contact_y"]}],
+        },
+    }
+    if sizes.get("buried"):
+        case["regions"]["hole"] = {"kind": "buffer"}
+    if r.random() < 0.6:
+        case["gravity"] = {"y": -10}
+        case["initial_stress"] = {"k0": 1}
+    return case, strength, growth
+
+
+def move(r, case, way, name="push", analysis=None):
+    """The body moves up by `way` (m), without inertia or, with it, by 0.3 to 3 m/s; in steps of a fifth of a cell or two."""
+    analysis = analysis or r.choice(["quasi_static"] * 5 + ["dynamic"])
+    speed = 10 ** r.uniform(-0.5, 0.5) if analysis == "dynamic" else 1.0
+    step = r.choice([0.2, 0.4]) * case["mesh"]["parameters"]["h"] / speed
+    plane = {} if case["geometry"] == "axisymmetric" else {"ux": 0, "rotation": 0}
+    return {
+        "name": name,
+        "analysis": analysis,
+        "duration": abs(way) / speed,
+        "step": {"initial": step / 4, "min": step / 120, "max": step},
+        "prescribe": {"body": {**plane, "uy": {"rate": math.copysign(speed, way)}}},
+    }
+
+
+def penetrate(r, shape):
+    way = r.choice([0.5, 1, 1, 1.5])
+    case, _, _ = ground(r, shape, way)
+    case["phases"] = [move(r, case, -way)]
+    return case
+
+
+@kind_of_scene
+def round_body(r):
+    """A rigid bar or ball pushed 0.5 to 1.5 times its width into clay."""
+    return penetrate(r, 0)
+
+
+@kind_of_scene
+def flat_body(r):
+    """The same of a flat strip or disc with a shaft."""
+    return penetrate(r, 1)
+
+
+@kind_of_scene
+def pointed_body(r):
+    """The same of a wedge or cone of 30 to 120° with a shaft."""
+    return penetrate(r, 2)
+
+
+@kind_of_scene
+def thin_body(r):
+    """The same of two sheets or a tube, 0.3 to 1 cell thick."""
+    return penetrate(r, 3)
+
+
+@kind_of_scene
+def layers(r):
+    """The same of all these shapes into clay upon clay of 0.2 to 5 times its strength."""
+    way = r.choice([0.5, 1])
+    case, strength, _ = ground(r, r.randrange(4), way, layer=r.choice([0.25, 0.5, 1]))
+    case["regions"]["lower"] = {**case["regions"]["clay"], "material": "lower"}
+    case["materials"]["lower"] = undrained(r, strength * r.choice([0.2, 0.5, 2, 5]))
+    case["contacts"][0]["soil"] = ["clay", "lower"]
+    case["phases"] = [move(r, case, -way)]
+    return case
+
+
+@kind_of_scene
+def sensitive(r):
+    """The same into clay that softens as it shears to a third to a twentieth of its strength, and is stronger where it shears fast."""
+    way = r.choice([0.5, 1])
+    case, strength, growth = ground(r, r.randrange(4), way)
+    more = {"remoulded": r.choice([0.05, 0.1, 0.2, 0.33]), "ductility": 10 ** r.uniform(-0.5, 1.5)}
+    if r.random() < 0.4:
+        more |= {"rate": r.uniform(0.02, 0.2), "reference_rate": 10 ** r.uniform(-6, -1)}
+    case["materials"]["clay"] = undrained(r, strength, growth, model="tresca_softening", **more)
+    case["phases"] = [move(r, case, -way)]
+    return case
+
+
+@kind_of_scene
+def pull_out(r):
+    """A buried plate or bar, round or not, bonded to the clay or parting from it, pulled upwards, some until it is out, or pushed down."""
+    way, cover = r.choice([0.25, 0.5]), r.choice([0.5, 1])
+    shape = r.choice([0, 1, 1])
+    if r.random() < 0.2:
+        way = cover + 0.75
+    case, _, _ = ground(r, shape, way, buried=1, cover=cover, air=0.5 + max(0, way - cover + 0.5))
+    case["phases"] = [move(r, case, way if r.random() < 0.8 else -min(way, 0.5), "pull")]
+    return case
+
+
+@kind_of_scene
+def back(r):
+    """A body of any of these shapes pushed in, pulled back or out, and pushed in again."""
+    way = r.choice([0.25, 0.5])
+    case, _, _ = ground(r, r.randrange(4), way)
+    up = way * r.choice([0.1, 0.5, 1, 1.2])
+    analysis = "quasi_static"
+    case["phases"] = [move(r, case, -way, "push", analysis), move(r, case, up, "pull", analysis), move(r, case, -up, "again", analysis)]
+    return case
+
+
+@kind_of_scene
+def sand(r):
+    """A column of dry sand without cohesion, φ from 20 to 45°, that falls and runs out to rest, over two to four times the time of its fall."""
+    height = r.choice([0.5, 1, 1, 2])
+    friction = round(r.uniform(20, 45), 1)
+    matter = {"model": "mohr_coulomb", "cohesion": 0, "friction": friction, "dilation": r.choice([0, 0, 0, 5])}
+    matter |= {"young": 20 * height * 10 ** r.uniform(1.5, 3), "poisson": r.choice([0.2, 0.3]), "density": 2.0}
+    case = body(r, choose_mesh(r), 1, height, (2 + 2 * height, 1.2 * height, 0, 0), **matter)
+    case["mesh"]["parameters"]["h"] = round(r.uniform(0.15, 0.3) * min(1, height), 3)
+    case["supports"] = {"lower": {"ux": 0, "uy": 0}, "left": {"ux": 0}, "right": {"ux": 0}}
+    case["gravity"] = {"y": -10}
+    if r.random() < 0.8:
+        case["initial_stress"] = {"k0": round(1 - math.sin(math.radians(friction)), 3)}
+    if r.random() < 0.2:
+        # The floor is a rigid wall.
+        case["supports"].pop("lower")
+        case["contacts"] = [{"wall": "lower", "soil": "body", "friction": r.choice([0.2, 0.5])}]
+    fall = math.sqrt(2 * height / 10)
+    case["phases"] = [phase("dynamic", r.choice([2, 3, 4]) * fall, r.choice([60, 100])) | {"name": "fall"}]
+    if r.random() < 0.4:
+        case["phases"].append(phase("quasi_static", 1, 2) | {"name": "rest"})
     return case
 
 
