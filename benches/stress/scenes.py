@@ -453,7 +453,7 @@ def move(r, case, way, name="push", analysis=None):
         "name": name,
         "analysis": analysis,
         "duration": abs(way) / speed,
-        "step": {"initial": step / 4, "min": step / 120, "max": step},
+        "step": {"initial": step / 4, "min": step / 30, "max": step},
         "prescribe": {"body": {**plane, "uy": {"rate": math.copysign(speed, way)}}},
     }
 
