@@ -42,7 +42,7 @@ def body(r, mesh, width, height, room=None, **material):
         "mesh": mesh,
         "regions": regions,
         "materials": {"matter": material},
-        "output": {"fields": ["stress", "displacement", "velocity", "deformation_gradient"]},
+        "output": {"fields": ["mass", "stress", "displacement", "velocity", "deformation_gradient"]},
     }
 
 
@@ -431,7 +431,7 @@ def ground(r, shape, way, **more):
         "contacts": [{"structure": "body", "soil": "clay", **interface(r, strength)}],
         "supports": {"axis": {"ux": 0}, "side": {"ux": 0}, "bottom": {"ux": 0, "uy": 0}},
         "output": {
-            "fields": ["stress", "displacement", "velocity", "deformation_gradient"],
+            "fields": ["mass", "stress", "displacement", "velocity", "deformation_gradient"],
             "history": [{"name": "body", "on": "body", "quantities": ["uy", "reaction_y", "contact_y"]}],
         },
     }
