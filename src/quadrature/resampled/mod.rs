@@ -4,7 +4,9 @@
 //! it ([`places`]). They take their state from a linear function that is fitted to that of the material points around
 //! ([`fit`]), and until the grid is restored again they are ordinary points of finite elements. The material points move
 //! with the grid and answer for its deformation themselves; nothing is handed back to them. Material points
-//! outside the surface, as drops that are thrown out, are integration points themselves, with their volume and state.
+//! outside the surface, as drops that are thrown out, are integration points themselves, with their volume and state. So are those of a cell in which all
+//! have come apart: there is no stress to sum up, and what moves is the mass of each, where it is. Fitted masses are those of the points in sum only, and
+//! points that fly by themselves would be mapped with one mass and moved with another.
 //!
 //! What is fitted are the Kirchhoff stress of the model, `ln J`, the density, and what the model remembers, which stays within the
 //! range of the points that it is fitted to. It is the stress and not the elastic strain, for it is the stress that is in balance: in
@@ -26,7 +28,7 @@ use crate::mesh::{Bodies, Mesh};
 use crate::points::Points;
 use crate::stencil::SoftCell;
 use crate::surface::{Contour, Distance, Front, Geometry, HIGHEST};
-use crate::tensor::{Symmetric, Tensor, mean};
+use crate::tensor::{IDENTITY, Symmetric, Tensor, mean};
 use fit::{Around, Fit, Held, Rings};
 use places::{Place, Places};
 pub use population::{Count, Renewed};
@@ -55,6 +57,8 @@ const OFFSETS: usize = 8;
 /// The first offset tried, as a share of the range.
 const FIRST_OFFSET: f64 = 1e-3;
 const VOLUME_TOLERANCE: f64 = 1e-12;
+/// Strain (-) up to which is rounding.
+const STRAINED: f64 = 1e-9;
 
 /// Those that stay within the range of the points.
 const BOUNDED: std::ops::RangeInclusive<usize> = DENSITY..=FLOW;
@@ -152,6 +156,7 @@ impl<K: Kinematics<2>> Resampled<K> {
         };
         // Points that neither the surface nor the contour that it smooths reaches are outside. Where structures touch the material,
         // such points are in these, by as much as contact lets them.
+        let apart = apart(mesh.cells.len(), points);
         let outside = |level_set: &[f64], within: &[u32]| {
             let mut outside = vec![false; mesh.cells.len()];
             if !grid.outlines.is_empty() {
@@ -163,6 +168,7 @@ impl<K: Kinematics<2>> Resampled<K> {
                 .filter(|&c| reached(c))
                 .chain(within.iter().map(|&c| c as usize))
                 .for_each(|c| outside[c] = false);
+            outside.iter_mut().zip(&apart).for_each(|(outside, apart)| *outside |= apart);
             outside
         };
         let at = |front: &Front, level_set: Vec<f64>, within: &[u32]| {
@@ -413,7 +419,7 @@ impl<K: Kinematics<2>> Resampled<K> {
         let (mut soft, mut poor) = (Vec::new(), Vec::new());
         for c in (0..mesh.cells.len()).filter(|&c| taking_part[c]) {
             let (inside, whole) = (sampled[c].samples.iter().map(|s| s.place.weight).sum::<f64>(), geometry.volume(c));
-            let is_full = inside > 0.0 && values(c).iter().all(|&v| v >= 0.0);
+            let is_full = inside > 0.0 && !outside[c] && values(c).iter().all(|&v| v >= 0.0);
             if !is_full {
                 soft.push(SoftCell { cell: c as u32, emptiness: (1.0 - inside / whole).clamp(0.0, 1.0) });
             }
@@ -457,6 +463,17 @@ fn nearest(points: &Points<2>, near: &[u32], x: &[f64; 2]) -> usize {
     };
     let best = near.iter().map(|&p| (square(p), p)).min_by(|a, b| a.0.total_cmp(&b.0));
     best.map_or(0, |(_, p)| p as usize)
+}
+
+/// The cells whose material points have all come apart: without elastic strain, in more room than they were seeded in.
+fn apart(cells: usize, points: &Points<2>) -> Vec<bool> {
+    let (mut holds, mut bears) = (vec![false; cells], vec![false; cells]);
+    for (p, &c) in points.cell.iter().enumerate() {
+        let strained = points.elastic[p].iter().zip(&IDENTITY).any(|(b, one)| (b - one).abs() > STRAINED);
+        holds[c as usize] = true;
+        bears[c as usize] |= strained || points.deformation[p].determinant() <= 1.0 + STRAINED;
+    }
+    holds.iter().zip(bears).map(|(holds, bears)| *holds && !bears).collect()
 }
 
 /// What each material fills of the cells.
