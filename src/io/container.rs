@@ -174,33 +174,37 @@ impl Store {
     /// # Errors
     /// `Analysis` when a number is not finite (then nothing is written), `Machine` when the file cannot be
     /// written.
-    pub fn write(&self, path: &Path, durable: bool) -> Result<u64> {
+    pub fn write(self, path: &Path, durable: bool) -> Result<u64> {
         let mut entries = Vec::with_capacity(self.arrays.len());
-        let mut blocks = Vec::new();
-        for array in &self.arrays {
-            check_finite(array, "entry")?;
-            let start = blocks.len();
+        let mut stored: Vec<Vec<u8>> = Vec::with_capacity(self.arrays.len());
+        // An array is dropped as soon as its blocks are made: a file as large as the state is in memory once.
+        for array in self.arrays {
+            check_finite(&array, "entry")?;
+            let mut blocks = Vec::new();
             with_values!(&array.data, v => compress(v, array.components, &mut blocks));
+            blocks.shrink_to_fit();
             entries.push(Entry {
-                name: array.name.clone(),
-                unit: array.unit.clone(),
                 scalar: array.data.type_name().to_string(),
-                components: array.components,
                 count: array.data.len(),
-                stored: blocks.len() - start,
-                checksum: XxHash64::oneshot(0, &blocks[start..]),
+                stored: blocks.len(),
+                checksum: XxHash64::oneshot(0, &blocks),
+                name: array.name,
+                unit: array.unit,
+                components: array.components,
             });
+            stored.push(blocks);
         }
-        let header = Header { kind: self.kind.clone(), texts: self.texts.clone(), arrays: entries };
+        let header = Header { kind: self.kind, texts: self.texts, arrays: entries };
         let header = serde_json::to_vec(&header)
             .map_err(|e| Error::analysis(path.display(), format!("header: {e}"), "report this as a mistake of mpm"))?;
         let length = (header.len() as u32).to_le_bytes();
         let checksum = XxHash64::oneshot(0, &header).to_le_bytes();
-        let parts: [&[u8]; 6] = [&MAGIC, &VERSION.to_le_bytes(), &length, &checksum, &header, &blocks];
-        let fill = |out: &mut dyn Write| parts.iter().try_for_each(|part| out.write_all(part));
+        let start: [&[u8]; 5] = [&MAGIC, &VERSION.to_le_bytes(), &length, &checksum, &header];
+        let parts = || start.into_iter().chain(stored.iter().map(Vec::as_slice));
+        let fill = |out: &mut dyn Write| parts().try_for_each(|part| out.write_all(part));
         if durable { atomic::write_durable(path, fill) } else { atomic::write(path, fill) }?;
         let mut hasher = XxHash64::with_seed(0);
-        parts.iter().for_each(|part| hasher.write(part));
+        parts().for_each(|part| hasher.write(part));
         Ok(hasher.finish())
     }
 

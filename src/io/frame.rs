@@ -100,7 +100,7 @@ impl Frame {
     /// # Errors
     /// `Analysis` naming the material point or node whose value is not finite (then nothing is written);
     /// `Machine` when the file cannot be written.
-    pub fn write(&self, folder: &Path, index: usize) -> Result<u64> {
+    pub fn write(self, folder: &Path, index: usize) -> Result<u64> {
         let mut store = Store::new(KIND);
         // Rust prints a float with as many digits as tell it from all others.
         store.put_text("time", format!("{:?}", self.time));
@@ -110,24 +110,19 @@ impl Frame {
         store.put_text("run", self.origin.run.to_string());
         store.put_text("mesh", hash::text(self.origin.mesh));
         let parts = [
-            ("points/", "material point", &self.points),
-            ("grid/", "grid node", &self.grid),
-            ("elements/", "point of a finite element", &self.elements),
-            ("contact/", "node of a boundary in contact", &self.contact),
-            ("surface/", "corner of the surface", &self.surface),
+            ("points/", "material point", self.points),
+            ("grid/", "grid node", self.grid),
+            ("elements/", "point of a finite element", self.elements),
+            ("contact/", "node of a boundary in contact", self.contact),
+            ("surface/", "corner of the surface", self.surface),
         ];
         let optional = |prefix: &str| matches!(prefix, "elements/" | "contact/" | "surface/");
         let written = parts.into_iter().filter(|(prefix, _, part)| !optional(prefix) || !part.position.is_empty());
         for (prefix, item, part) in written {
             let position =
                 Column { name: POSITION.into(), unit: "m".into(), components: 3, values: part.position.concat() };
-            for Column { name, unit, components, values } in std::iter::once(&position).chain(&part.columns) {
-                let mut array = Array {
-                    name: name.clone(),
-                    unit: unit.clone(),
-                    components: *components,
-                    data: Data::F64(values.clone()),
-                };
+            for Column { name, unit, components, values } in std::iter::once(position).chain(part.columns) {
+                let mut array = Array { name, unit, components, data: Data::F64(values) };
                 check_finite(&array, item)?;
                 array.name.insert_str(0, prefix);
                 store.put_array(array);

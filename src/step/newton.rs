@@ -351,7 +351,8 @@ impl<'a, const D: usize> Newton<'a, D> {
         Ok(())
     }
 
-    /// Where (m) the forces of the state at hand are farthest from balance.
+    /// Where (m) as the step begins the forces of the state at hand are farthest from balance: a state that diverges may have carried the
+    /// node out of the grid.
     fn worst(&self) -> Option<[f64; D]> {
         let size = |b: usize| {
             let of_node = D * b..D * (b + 1);
@@ -361,7 +362,7 @@ impl<'a, const D: usize> Newton<'a, D> {
         let blocks = 0..self.grid.node.len().min(self.buffers.now.force.len() / D);
         let n = self.grid.node[blocks.max_by(|&a, &b| size(a).total_cmp(&size(b)))?] as usize;
         let from = self.problem.state.nodes.get(n).unwrap_or(&self.problem.scene.mesh.nodes[n]);
-        Some(std::array::from_fn(|d| from[d] + self.buffers.now.at.displacement[n][d]))
+        Some(std::array::from_fn(|d| from[d] + self.problem.converged[n][d]))
     }
 
     fn failure(&self, why: &str) -> Error {
