@@ -7,7 +7,7 @@
 
 use crate::material::spatial::{self, PlaneTangent, Spatial};
 use crate::material::{Model, State, spectral};
-use crate::tensor::{Symmetric, Tensor, full, symmetric};
+use crate::tensor::{IDENTITY, Symmetric, Tensor, full, symmetric};
 use std::f64::consts::TAU;
 
 /// The gradient of a shape function at a point.
@@ -47,8 +47,16 @@ pub trait Kinematics<const D: usize>: Copy + Default + Send + Sync + 'static {
     /// Adds to the tangent that of the stress `π 1` at a fixed `π` (kPa): `−π δ_il δ_jk`.
     fn add_pressure(tangent: &mut Self::Tangent, pressure: f64);
 
+    /// Adds `s l_ij r_kl` to the tangent.
+    fn add_product(tangent: &mut Self::Tangent, s: f64, left: &Symmetric, right: &Symmetric);
+
     /// Adds to the tangent that of a stress `s 1` with `s` (kPa) proportional to the volume: `s δ_ij δ_kl`.
-    fn add_volumetric(tangent: &mut Self::Tangent, stress: f64);
+    fn add_volumetric(tangent: &mut Self::Tangent, stress: f64) {
+        Self::add_product(tangent, stress, &IDENTITY, &IDENTITY);
+    }
+
+    /// What the volume strain changes of the stress, `⅓ C_ijkk`, and the strain of the mean stress, `⅓ C_kkij`.
+    fn volumetric(answer: &Spatial<Self::Tangent>) -> [Symmetric; 2];
 
     /// `a : (e_k ⊗ ∇N)` for each component `k`.
     fn column(tangent: &Self::Tangent, gradient: &Gradient<D>) -> Self::Column;
@@ -99,6 +107,9 @@ pub trait Kinematics<const D: usize>: Copy + Default + Send + Sync + 'static {
     }
 }
 
+/// The components of a symmetric tensor in the order of a [`PlaneTangent`].
+const IN_PLANE: [usize; 5] = [0, 3, 3, 1, 2];
+
 /// A plane of points, with or without hoop strain.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Plane<const HOOP: bool>;
@@ -136,12 +147,22 @@ impl<const HOOP: bool> Kinematics<2> for Plane<HOOP> {
         }
     }
 
-    fn add_volumetric(tangent: &mut Self::Tangent, stress: f64) {
-        for ij in [0, 3, 4] {
-            for kl in [0, 3, 4] {
-                tangent[ij][kl] += stress;
+    fn add_product(tangent: &mut Self::Tangent, s: f64, left: &Symmetric, right: &Symmetric) {
+        for (row, l) in tangent.iter_mut().zip(&IN_PLANE) {
+            for (entry, r) in row.iter_mut().zip(&IN_PLANE) {
+                *entry += s * left[*l] * right[*r];
             }
         }
+    }
+
+    fn volumetric(answer: &Spatial<Self::Tangent>) -> [Symmetric; 2] {
+        let a = &answer.tangent;
+        let mut sums = [answer.kirchhoff; 2];
+        for (k, component) in IN_PLANE.into_iter().enumerate().filter(|&(k, _)| k != 2) {
+            sums[0][component] += a[k][0] + a[k][3] + a[k][4];
+            sums[1][component] += a[0][k] + a[3][k] + a[4][k];
+        }
+        sums.map(|sum| sum.map(|s| s / 3.0))
     }
 
     fn column(tangent: &Self::Tangent, gradient: &Gradient<2>) -> Self::Column {

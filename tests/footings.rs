@@ -139,3 +139,28 @@ fn undrained_is_total_stress() {
     let undrained = error_with("strip_footing", 0.1, STRIP, &set);
     assert!((undrained - total).abs() < 0.001, "{undrained} against {total}");
 }
+
+/// The undrained strength of soil that does not dilate, in plane strain from K₀ = 1, is `c cos φ + p′ sin φ`: Mohr–Coulomb soil under its weight
+/// bears what Tresca soil of that strength does. Tolerance: 2 %, 0.1 % without friction.
+#[test]
+fn undrained_mohr_coulomb_is_tresca() {
+    for (cohesion, friction, tolerance) in [(100.0, 0.0, 0.001), (20.0, 25.0, 0.02), (5.0, 35.0, 0.02)] {
+        let (sin, cos) = f64::to_radians(friction).sin_cos();
+        let (top, gradient) = (cohesion * cos, 9.81 * sin);
+        let [coulomb, tresca] = [
+            format!("mohr_coulomb, cohesion: {cohesion}, friction: {friction}"),
+            format!("tresca, shear_strength: {{top: {top}, gradient: {gradient}, datum: 0}}"),
+        ]
+        .map(|model| {
+            let clay = format!(
+                "materials.clay={{model: {model}, young: {}, poisson: 0.3, density: 1, drainage: undrained, undrained_poisson: 0.4999}}",
+                8667.0 * top
+            );
+            let weight = ["gravity={x: 0, y: -9.81}", "initial_stress={k0: 1}"];
+            error_with("strip_footing", 0.1, top * (2.0 + PI), &[MANY, ROUGH, &clay, weight[0], weight[1]])
+        });
+        let beyond = (1.0 + coulomb) / (1.0 + tresca) - 1.0;
+        println!("c {cohesion} kPa, φ {friction}°: {:+.2} % of Tresca", 100.0 * beyond);
+        assert!(beyond.abs() < tolerance, "{cohesion} {friction}: {beyond}");
+    }
+}

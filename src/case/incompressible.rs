@@ -53,6 +53,7 @@ impl Checker {
                 model,
                 ratio,
                 water: 0.0,
+                bound: None,
                 limit: None,
             });
         }
@@ -74,7 +75,7 @@ impl Checker {
         }
         let model = deviatoric(kind, values, poisson)?;
         let ratio = bulk(poisson) - KEPT;
-        Some(Carried { model, ratio, water: 0.0, limit: share(values, ratio) })
+        Some(Carried { model, ratio, water: 0.0, bound: None, limit: share(values, ratio) })
     }
 
     fn pore_water(
@@ -95,11 +96,11 @@ impl Checker {
         let poisson = model.elasticity().poisson();
         let water = bulk(undrained) - bulk(poisson);
         if !kind.keeps_volume {
-            return Some(Carried { model: model.clone(), ratio: water, water: 1.0, limit: None });
+            return Some(Carried { model: model.clone(), ratio: water, water: 1.0, bound: Some(KEPT), limit: None });
         }
         let ratio = bulk(undrained) - KEPT;
         let (model, limit) = (deviatoric(kind, values, poisson)?, share(values, ratio));
-        Some(Carried { model, ratio, water: water / ratio, limit })
+        Some(Carried { model, ratio, water: water / ratio, bound: None, limit })
     }
 }
 

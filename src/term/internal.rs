@@ -14,6 +14,7 @@
 //! nothing.
 
 use super::beyond::{Kept, scatter_functions};
+use super::share::{Answer, Within};
 use super::smoothed::{self, Layout};
 use super::stiffness::Stiffness;
 use super::volume::LinearFit;
@@ -83,7 +84,7 @@ impl Strained {
     fn stress<const D: usize, K: Kinematics<D>>(
         &self,
         alpha_f: f64,
-        answer: &mut Spatial<K::Tangent>,
+        (answer, seen): &mut Answer<K, D>,
         add: impl Fn(&mut Spatial<K::Tangent>) -> f64,
     ) -> (Tensor, Tensor) {
         if alpha_f == 0.0 {
@@ -93,7 +94,11 @@ impl Strained {
         let increment = &self.increment;
         // Both have the determinant of what was found to be admissible.
         let [back, across] = [increment, &self.felt].map(|f| f.try_inverse().unwrap_or_else(Tensor::identity));
-        K::convect(answer, &(increment * across));
+        let q = increment * across;
+        K::convect(answer, &q);
+        if let Some(seen) = seen {
+            seen.convect(&q);
+        }
         let of_model = full(&answer.kirchhoff);
         let before = add(answer);
         let a = Tensor::identity() * (1.0 - alpha_f) + back * alpha_f;
@@ -105,7 +110,7 @@ impl Strained {
 }
 
 /// Deformation and answers of the points of a patch, in order.
-type Evaluated<T> = (Vec<Strained>, Vec<Spatial<T>>);
+type Evaluated<K, const D: usize> = (Vec<Strained>, Vec<Answer<K, D>>);
 
 /// A factor `H` of the metric within the step, `HᵀH = (1 − α_f) ΔFᵀΔF + α_f I`.
 #[inline]
@@ -144,35 +149,43 @@ impl<K, S> Internal<K, S> {
         Cow::Owned(self.models.iter().zip(&self.reduces).map(reduced).collect())
     }
 
-    /// The answer of the model at a point.
+    /// The answer of the model at a point, of whose strain a part `later` is felt.
     fn answer<const D: usize>(
+        &self,
         models: &[Option<Arc<dyn Model>>],
-        points: &Points<D>,
-        p: usize,
+        (points, entries): (&Points<D>, &Entries<D>),
+        cell: &S::Cell,
         strained: &Strained,
-        per_second: f64,
-    ) -> Result<Spatial<K::Tangent>>
+        (per_second, later): (f64, f64),
+    ) -> Result<Answer<K, D>>
     where
         K: Kinematics<D>,
+        S: Share<D, K>,
     {
+        let p = entries.point;
         let felt = &strained.felt;
-        let elastic = symmetric(&(felt * full(&points.elastic[p]) * felt.transpose()));
+        let trial = symmetric(&(felt * full(&points.elastic[p]) * felt.transpose()));
         let Some(model) = models.get(points.model_of(p)).and_then(Option::as_ref) else {
             return Err(Error::analysis(format!("material point {p}"), "it has no material", ""));
         };
-        let answer = K::respond(model.as_ref(), points.origin[p][1], &elastic, &points.state(p, per_second));
+        let (state, ratios) = (points.state(p, per_second), strained.ratios);
+        let answer =
+            self.share.respond(cell, points, entries, &Within { model: model.as_ref(), trial, state, ratios, later });
         answer.ok_or_else(|| inadmissible(points, p, "is strained beyond measure", &strained.increment))
     }
 
     /// The points of a patch at a trial state.
     fn evaluate<const D: usize>(
+        &self,
         models: &[Option<Arc<dyn Model>>],
         frame: &Frame<D>,
         trial: &Trial<D>,
         patch: &Patch,
-    ) -> Result<Evaluated<K::Tangent>>
+        cell: &S::Cell,
+    ) -> Result<Evaluated<K, D>>
     where
         K: Kinematics<D>,
+        S: Share<D, K>,
     {
         let now = frame.stencil.gather(frame.mesh, patch, trial.displacement);
         let before = frame.stencil.gather(frame.mesh, patch, trial.converged);
@@ -187,10 +200,12 @@ impl<K, S> Internal<K, S> {
             }
             strained.push(point);
         }
-        let numbers = frame.stencil.points(patch).iter().zip(&strained);
-        let per_second = trial.per_second / (1.0 - trial.alpha_f);
-        let answer = |(&p, strained)| Self::answer(models, frame.points, p as usize, strained, per_second);
-        let answers = timed_material(|| numbers.map(answer).collect::<Result<_>>())?;
+        let later = 1.0 - trial.alpha_f;
+        let answer = |(entries, strained): (Entries<D>, &Strained)| {
+            self.answer(models, (frame.points, &entries), cell, strained, (trial.per_second / later, later))
+        };
+        let entries = frame.stencil.entries::<K>(patch).zip(&strained);
+        let answers = timed_material(|| entries.map(answer).collect::<Result<_>>())?;
         Ok((strained, answers))
     }
 }
@@ -254,9 +269,9 @@ impl<const D: usize, K: Kinematics<D>, S: Share<D, K>> Term<D> for Internal<K, S
         let wanted = out.tangent.is_some();
         let models = self.models_in(trial);
         let compute = |patch: &Patch, local: &mut Local, kept: &mut [f64]| {
-            let (strained, mut answers) = Self::evaluate(&models, frame, trial, patch)?;
-            let count = patch.function_count as usize;
             let cell = self.share.over(frame, trial, patch);
+            let (strained, mut answers) = self.evaluate(&models, frame, trial, patch, &cell)?;
+            let count = patch.function_count as usize;
             let later = 1.0 - trial.alpha_f;
             let mut spatial = [Gradient { g: [0.0; D], hoop: 0.0 }; MAX_NODES];
             let own = patch.node_count as usize;
@@ -278,13 +293,14 @@ impl<const D: usize, K: Kinematics<D>, S: Share<D, K>> Term<D> for Internal<K, S
                     }
                     let spatial = &spatial[..count];
                     if wanted {
-                        let (tangent, weight) = (&answer.tangent, later * volume);
+                        let (tangent, weight) = (&answer.0.tangent, later * volume);
                         stiffness.push::<D, K>(tangent, &spatial[..own], weight, local);
                         if !kept.is_empty() {
                             smoothed::keep::<D, K>(&layout, tangent, &entries, &point.inverse, weight, k, kept);
                         }
                     }
-                    self.share.couple(&cell, frame.points, &entries, spatial, ratios, &acts_on, later, local);
+                    let seen = answer.1.as_ref();
+                    self.share.couple(&cell, frame.points, &entries, spatial, ratios, seen, &acts_on, later, local);
                 }
                 if wanted {
                     stiffness.add_to::<D, K>(local);
@@ -331,7 +347,8 @@ impl<const D: usize, K: Kinematics<D>, S: Share<D, K>> Term<D> for Internal<K, S
                 if let Some(fit) = &volume {
                     point.take_volume::<D, K>(fit.at(&frame.points.position[entries.point]).exp());
                 }
-                let answer = Self::answer(&models, frame.points, entries.point, &point, trial.per_second).ok()?;
+                let of_point = (frame.points, &entries);
+                let (answer, _) = self.answer(&models, of_point, &cell, &point, (trial.per_second, 1.0)).ok()?;
                 let deformation = point.increment * frame.points.deformation[entries.point];
                 let volume_ratio = deformation.determinant();
                 let mut history = History {

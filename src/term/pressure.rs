@@ -14,6 +14,9 @@
 //! increments: the points carry `τ_f`. The volume strain of single points is only loosely bound to
 //! the field; were it summed up, a restored grid would have to undo what other cells make of it, in every step.
 //!
+//! Where yield knows the mean stress, the field is the mean stress of soil and water together, and the model sees in place of the volume strain of the
+//! point that at which both bear it (theory, eq. 25a): a scalar equation a point. The points carry the elastic tensor that their model has seen.
+//!
 //! Why two measures: with a uniform `π` the sum of `π j` is `π` times the volume of the body, whatever single points do inside. To that `π ln j`
 //! adds a bulk modulus of `−π` for the volume strain of single points, and `½ π j²` one of `π`: each is a stiffness on its side of zero.
 //!
@@ -21,6 +24,7 @@
 //! with cell-wise volume balance; Boffi et al. 2012). Cells of first order have no room for the constant; there the
 //! projection `Σ w₀ (L − L̄)(π − π_n)/2G` of Bochev, Dohrmann & Gunzburger (2006) makes the hats stable.
 
+use super::share::{Answer, Seen, Within};
 use super::{Frame, History, Ratios, Share, Trial};
 use crate::kinematics::{Gradient, Kinematics};
 use crate::material::cavitation::Volumetric;
@@ -30,7 +34,7 @@ use crate::mesh::shape::CellKind;
 use crate::points::Points;
 use crate::stencil::{Entries, Patch};
 use crate::system::Local;
-use crate::tensor::{Symmetric, Tensor, full, mean};
+use crate::tensor::{IDENTITY, Symmetric, Tensor, full, mean};
 use std::fmt;
 use std::marker::PhantomData;
 use std::sync::Arc;
@@ -40,6 +44,9 @@ pub const MOST: usize = 5;
 
 /// Most iterations for the volume at a pressure; it takes two or three.
 const ITERATIONS: usize = 20;
+
+/// Largest error (-) of the volume strain that a model sees.
+const SMALLEST: f64 = 1e-12;
 
 /// Values of the functions of the field at a point: corners, then the constant.
 pub type Hats = [f64; MOST];
@@ -53,6 +60,9 @@ pub struct Carried {
     pub ratio: f64,
     /// Share (-) of its increments that is pressure of the pore water and not stress of the points: 0 in total stress.
     pub water: f64,
+    /// Where the model sees the volume strain of the field in place of its own: bulk modulus over the shear modulus (-) that binds the one to the
+    /// other in a step. `None` where the model answers for its own and the field carries the rest.
+    pub bound: Option<f64>,
     /// Limit (kPa) of the field in tension, at which the volume of the soil grows.
     pub limit: Option<Profile>,
 }
@@ -82,8 +92,15 @@ impl Carried {
         if self.water == 0.0 {
             return points.pressure[p];
         }
-        let of_model = self.model.mean_stress(points.origin[p][1], volume_strain(&points.elastic[p]));
-        points.deformation[p].determinant() * mean(&points.stress[p]) - of_model
+        points.deformation[p].determinant() * mean(&points.stress[p]) - self.of_model(points, p)
+    }
+
+    /// What the model bears of the mean stress of point `p` beside the field (kPa, Kirchhoff).
+    fn of_model<const D: usize>(&self, points: &Points<D>, p: usize) -> f64 {
+        match self.bound {
+            Some(_) => 0.0,
+            None => self.model.mean_stress(points.origin[p][1], volume_strain(&points.elastic[p])),
+        }
     }
 
     /// Excess pressure of the pore water (kPa, Cauchy, compression positive) at point `p`.
@@ -94,9 +111,7 @@ impl Carried {
     /// What the field begins with (kPa) at a point whose elastic tensor is that of `whole`, the model that answers for
     /// the whole stress.
     pub fn begin<const D: usize>(&self, whole: &dyn Model, points: &Points<D>, p: usize) -> f64 {
-        let strain = volume_strain(&points.elastic[p]);
-        let mean = |model: &dyn Model| model.mean_stress(points.origin[p][1], strain);
-        mean(whole) - mean(self.model.as_ref())
+        whole.mean_stress(points.origin[p][1], volume_strain(&points.elastic[p])) - self.of_model(points, p)
     }
 }
 
@@ -288,6 +303,58 @@ impl<const D: usize, K: Kinematics<D>> Share<D, K> for PressureField<K> {
         Cell { kind, pressure, mean }
     }
 
+    fn respond(&self, cell: &Cell, points: &Points<D>, entries: &Entries<D>, at: &Within) -> Option<Answer<K, D>> {
+        let (p, y) = (entries.point, points.origin[entries.point][1]);
+        let bound = self.of(points, p).and_then(|carried| Some((carried, carried.bound?)));
+        let Some((carried, bound)) = bound else { return Some((K::respond(at.model, y, &at.trial, &at.state)?, None)) };
+        let (measure, bound) = (Measure::of(carried, points, p), bound * at.model.elasticity().at(y).shear);
+        let (water, grid) = (carried.law(y).bulk, at.ratios.grid / at.ratios.step);
+        let (before, slope) = (points.pressure[p], measure.slope(grid));
+        let pressure =
+            at.later * dot(&hats(cell.kind, entries.value), &cell.pressure) + (1.0 - at.later) * before / slope;
+        let strain = volume_strain(&points.elastic[p]);
+        let (local, mean_before) = (volume_strain(&at.trial) - strain, at.model.mean_stress(y, strain));
+        // `gained` is the volume strain of the field in the step; at first as if nothing yields.
+        let mut gained = (pressure * slope - before) / (water + at.model.bulk_modulus(y, mean_before));
+        for _ in 0..ITERATIONS {
+            let stretch = f64::exp(2.0 / 3.0 * (gained - local));
+            let mut answer = K::respond(at.model, y, &at.trial.map(|b| stretch * b), &at.state)?;
+            let [stress, strain] = K::volumetric(&answer);
+            let (of_model, binding, ratio) = (mean(&answer.kirchhoff), bound * (local - gained), gained.exp());
+            let (bulk, slope) = (bound + mean(&stress), measure.slope(grid * ratio));
+            let missing = pressure * slope + binding - before - water * gained - (of_model - mean_before);
+            let stiffness = water + bulk - f64::from(measure.power()) * pressure * slope;
+            let change = missing / stiffness;
+            if stiffness <= 0.0 || !change.is_finite() {
+                return None;
+            }
+            if change.abs() > SMALLEST {
+                gained += change;
+                continue;
+            }
+            let beside = |of: &Symmetric| std::array::from_fn(|i| of[i] - bulk * IDENTITY[i]);
+            let (stress, strain): (Symmetric, Symmetric) = (beside(&stress), beside(&strain));
+            for normal in &mut answer.kirchhoff[..3] {
+                *normal += binding - of_model;
+            }
+            let tangent = &mut answer.tangent;
+            K::add_pressure(tangent, binding - of_model);
+            K::add_product(tangent, -1.0, &stress, &IDENTITY);
+            K::add_product(tangent, -1.0, &IDENTITY, &strain);
+            K::add_volumetric(tangent, -bulk);
+            K::add_product(tangent, -1.0 / stiffness, &stress, &strain);
+            let coupled = |of: &Symmetric| full(of) * (slope / stiffness);
+            let seen = Seen {
+                strain: measure.strain(Ratios { step: ratio, grid: grid * ratio }) / at.later,
+                compliance: slope * slope / stiffness,
+                stress: coupled(&stress),
+                taken: coupled(&strain),
+            };
+            return Some((answer, Some(seen)));
+        }
+        None
+    }
+
     fn add(
         &self,
         cell: &Cell,
@@ -316,6 +383,7 @@ impl<const D: usize, K: Kinematics<D>> Share<D, K> for PressureField<K> {
         entries: &Entries<D>,
         spatial: &[Gradient<D>],
         ratios: Ratios,
+        seen: Option<&Seen>,
         acts_on: &Tensor,
         later: f64,
         local: &mut Local,
@@ -339,7 +407,10 @@ impl<const D: usize, K: Kinematics<D>> Share<D, K> for PressureField<K> {
         let [slope_before, slope] = [ratios.grid / ratios.step, ratios.grid].map(|ratio| measure.slope(ratio));
         let (before, pressure) = (points.pressure[p], dot(&hats, &cell.pressure));
         let gained = pressure - before / slope_before;
-        let [elastic, compliance] = measure.elastic(&carried.law(y), before, pressure, slope_before);
+        let [elastic, compliance] = match seen {
+            Some(seen) => [seen.strain, seen.compliance],
+            None => measure.elastic(&carried.law(y), before, pressure, slope_before),
+        };
         let strain = measure.strain(ratios) - elastic;
         let weight = later * self.unit * entries.weight;
         for a in 0..count {
@@ -348,13 +419,19 @@ impl<const D: usize, K: Kinematics<D>> Share<D, K> for PressureField<K> {
         if local.matrix.is_empty() {
             return;
         }
-        let (size, one) = (local.size, Tensor::identity());
+        let size = local.size;
+        let [mut by_strain, mut by_field] = [Tensor::identity() * slope; 2];
+        if let Some(seen) = seen {
+            by_strain += seen.taken;
+            by_field += seen.stress;
+        }
+        let acting = acts_on * by_field;
         for (i, gradient) in spatial.iter().enumerate() {
-            let (volume, force) = (K::force(&one, gradient), K::force(acts_on, gradient));
+            let (volume, force) = (K::force(&by_strain, gradient), K::force(&acting, gradient));
             for (a, hat) in hats.iter().enumerate().take(count) {
                 for d in 0..D {
-                    local.matrix[(begin + a) * size + i * D + d] += weight * slope * hat * volume[d];
-                    local.matrix[(i * D + d) * size + begin + a] += weight * slope * hat * force[d];
+                    local.matrix[(begin + a) * size + i * D + d] += weight * hat * volume[d];
+                    local.matrix[(i * D + d) * size + begin + a] += weight * hat * force[d];
                 }
             }
         }
@@ -371,14 +448,21 @@ impl<const D: usize, K: Kinematics<D>> Share<D, K> for PressureField<K> {
         let slope = Measure::of(carried, points, entries.point).slope(ratios.grid);
         history.pressure = slope * dot(&hats(cell.kind, entries.value), &cell.pressure);
         let gained = history.pressure - points.pressure[entries.point];
-        let held = carried.held(points, entries.point) + (1.0 - carried.water) * gained;
+        let volume_ratio = history.deformation.determinant();
+        let held = if carried.bound.is_some() {
+            let of_model = carried.model.mean_stress(points.origin[entries.point][1], volume_strain(&history.elastic));
+            of_model - volume_ratio * mean(&history.stress)
+        } else {
+            carried.held(points, entries.point) + (1.0 - carried.water) * gained
+        };
         for normal in &mut history.stress[..3] {
-            *normal += held / history.deformation.determinant();
+            *normal += held / volume_ratio;
         }
     }
 
     fn energy(&self, points: &Points<D>, p: usize) -> f64 {
         let Some(carried) = self.of(points, p) else { return 0.0 };
-        points.initial_volume[p] * carried.law(points.origin[p][1]).energy(points.pressure[p])
+        let of_model = if carried.bound.is_some() { carried.held(points, p) } else { 0.0 };
+        points.initial_volume[p] * carried.law(points.origin[p][1]).energy(points.pressure[p] - of_model)
     }
 }

@@ -3,10 +3,11 @@
 use super::{Frame, History, Trial};
 use crate::kinematics::{Gradient, Kinematics};
 use crate::material::spatial::Spatial;
+use crate::material::{Model, State};
 use crate::points::Points;
 use crate::stencil::{Entries, Patch};
 use crate::system::Local;
-use crate::tensor::Tensor;
+use crate::tensor::{Symmetric, Tensor};
 
 /// Ratios of volumes (-) at a point.
 #[derive(Clone, Copy)]
@@ -17,12 +18,55 @@ pub struct Ratios {
     pub grid: f64,
 }
 
+/// A point within the step.
+pub struct Within<'a> {
+    pub model: &'a dyn Model,
+    /// Elastic trial left Cauchy–Green tensor (-).
+    pub trial: Symmetric,
+    pub state: State,
+    /// Of the end of the step.
+    pub ratios: Ratios,
+    /// Weight of the end of the step.
+    pub later: f64,
+}
+
+/// What the model of a point sees of unknowns that tell it its volume.
+#[derive(Clone, Copy)]
+pub struct Seen {
+    /// The measure of the volume strain that the unknowns stand for, and its slope (1/kPa) in them.
+    pub strain: f64,
+    pub compliance: f64,
+    /// What they change of the stress of the model (-).
+    pub stress: Tensor,
+    /// What the strain of the point takes off that measure (-).
+    pub taken: Tensor,
+}
+
+impl Seen {
+    /// Takes it from one configuration to another as a stress.
+    pub fn convect(&mut self, q: &Tensor) {
+        self.stress = q * self.stress * q.transpose();
+        self.taken = q * self.taken * q.transpose();
+    }
+}
+
+/// The answer of a model, and what it sees of the share.
+pub type Answer<K, const D: usize> = (Spatial<<K as Kinematics<D>>::Tangent>, Option<Seen>);
+
 /// A share of the stress of the points that unknowns of its own carry.
 pub trait Share<const D: usize, K: Kinematics<D>>: Send + Sync {
     /// Its unknowns over a patch.
     type Cell;
 
     fn over(&self, frame: &Frame<D>, trial: &Trial<D>, patch: &Patch) -> Self::Cell;
+
+    /// The response of the model of a point to an elastic trial left Cauchy–Green tensor within the step, and what it sees of the share.
+    /// `None` where that is out of its range.
+    #[inline]
+    fn respond(&self, _: &Self::Cell, points: &Points<D>, entries: &Entries<D>, at: &Within) -> Option<Answer<K, D>> {
+        let y = points.origin[entries.point][1];
+        Some((K::respond(at.model, y, &at.trial, &at.state)?, None))
+    }
 
     /// Adds the share at the end of the step to the answer of the model, given the ratios of volumes, and returns that at its beginning (kPa,
     /// Kirchhoff).
@@ -35,7 +79,7 @@ pub trait Share<const D: usize, K: Kinematics<D>>: Send + Sync {
         answer: &mut Spatial<K::Tangent>,
     ) -> f64;
 
-    /// Adds the equations of the unknowns and what couples them with the displacements to the end of `local`, given
+    /// Adds the equations of the unknowns and what couples them with the displacements to the end of `local`, given what the model sees of them,
     /// the gradients on the deformed grid, the ratios of volumes, the tensor through which the stress acts and the weight of the end
     /// of the step.
     #[expect(clippy::too_many_arguments, reason = "a point, and where it goes")]
@@ -46,6 +90,7 @@ pub trait Share<const D: usize, K: Kinematics<D>>: Send + Sync {
         entries: &Entries<D>,
         spatial: &[Gradient<D>],
         ratios: Ratios,
+        seen: Option<&Seen>,
         acts_on: &Tensor,
         later: f64,
         local: &mut Local,
@@ -85,6 +130,7 @@ impl<const D: usize, K: Kinematics<D>> Share<D, K> for () {
         _: &Entries<D>,
         _: &[Gradient<D>],
         _: Ratios,
+        _: Option<&Seen>,
         _: &Tensor,
         _: f64,
         _: &mut Local,
@@ -108,6 +154,16 @@ impl<const D: usize, K: Kinematics<D>, A: Share<D, K>, B: Share<D, K>> Share<D, 
         (self.0.over(frame, trial, patch), self.1.over(frame, trial, patch))
     }
 
+    fn respond(
+        &self,
+        cell: &Self::Cell,
+        points: &Points<D>,
+        entries: &Entries<D>,
+        at: &Within,
+    ) -> Option<Answer<K, D>> {
+        self.0.respond(&cell.0, points, entries, at)
+    }
+
     fn add(
         &self,
         cell: &Self::Cell,
@@ -126,12 +182,13 @@ impl<const D: usize, K: Kinematics<D>, A: Share<D, K>, B: Share<D, K>> Share<D, 
         entries: &Entries<D>,
         spatial: &[Gradient<D>],
         ratios: Ratios,
+        seen: Option<&Seen>,
         acts_on: &Tensor,
         later: f64,
         local: &mut Local,
     ) {
-        self.0.couple(&cell.0, points, entries, spatial, ratios, acts_on, later, local);
-        self.1.couple(&cell.1, points, entries, spatial, ratios, acts_on, later, local);
+        self.0.couple(&cell.0, points, entries, spatial, ratios, seen, acts_on, later, local);
+        self.1.couple(&cell.1, points, entries, spatial, ratios, seen, acts_on, later, local);
     }
 
     fn commit(

@@ -18,6 +18,7 @@
 //! Verruijt 1981); `s` is what is missing to keep neighbours from pushing each other, `1/M + 1/Q − 6 κ Δt/h²`, and zero in
 //! longer steps (Aguilar et al. 2008). In cells of first order it makes the pair stable, too, and stays.
 
+use super::share::Seen;
 use super::{Frame, History, Ratios, Share, Trial};
 use crate::kinematics::{Gradient, Kinematics};
 use crate::material::Model;
@@ -225,6 +226,7 @@ impl<const D: usize, K: Kinematics<D>> Share<D, K> for PoreWater<K> {
         entries: &Entries<D>,
         spatial: &[Gradient<D>],
         ratios: Ratios,
+        _: Option<&Seen>,
         acts_on: &Tensor,
         later: f64,
         local: &mut Local,

@@ -221,7 +221,8 @@ fn with_pressure<K: Kinematics<2> + 'static>(scene: &mut Scene<2>, model: Arc<dy
     let cells = scene.mesh.cells.len();
     let size = (0..cells).map(|c| cell_size(&scene.mesh, c)).sum::<f64>() / cells as f64;
     let unit = SHEAR / size;
-    let carried = Carried { model: model.clone(), ratio: bulk(POISSON) - bulk(of_points), water: 0.0, limit: None };
+    let carried =
+        Carried { model: model.clone(), ratio: bulk(POISSON) - bulk(of_points), water: 0.0, bound: None, limit: None };
     let field = PressureField::<K>::new(vec![Some(carried)], unit);
     scene.terms[0] = Box::new(Internal::<K, _>::sharing(vec![Some(model)], false, field));
     scene.terms.push(Box::new(SmoothPressure::<K>::new(vec![true], unit, SHEAR, cells)));

@@ -27,7 +27,7 @@ fn elastic(poisson: f64) -> Arc<dyn Model> {
 fn bench(mesh: mpm::mesh::Mesh<2>, kept: f64) -> Bench {
     let model = elastic(kept);
     let mut bench = Bench::new(mesh, model.clone());
-    bench.carried = Some(Carried { model, ratio: bulk(POISSON) - bulk(kept), water: 0.0, limit: None });
+    bench.carried = Some(Carried { model, ratio: bulk(POISSON) - bulk(kept), water: 0.0, bound: None, limit: None });
     bench
 }
 
@@ -157,7 +157,8 @@ fn thick_cylinder() {
 #[test]
 fn undrained_is_total_stress_less_the_pore_pressure() {
     let [total, undrained] = [0.0, 0.8].map(|water| cylinder(CellKind::T6, 4, water));
-    let carried = Carried { model: elastic(-0.9), ratio: bulk(POISSON) - bulk(-0.9), water: 0.8, limit: None };
+    let carried =
+        Carried { model: elastic(-0.9), ratio: bulk(POISSON) - bulk(-0.9), water: 0.8, bound: None, limit: None };
     let largest = total.points.stress.iter().fold(0f64, |a, s| a.max(s[0].abs()));
     for p in 0..total.points.len() {
         let pore = carried.pore_pressure(&undrained.points, p);

@@ -2,7 +2,7 @@
 
 use crate::stand::{KINDS, Random, SMOOTHED, Stand, mesh, points};
 use mpm::kinematics::{Axisymmetric, Kinematics, PlaneStrain};
-use mpm::material::{Elasticity, LinearElastic, Model, Profile, Tresca};
+use mpm::material::{CamClay, Elasticity, Friction, LinearElastic, Model, MohrCoulomb, Profile, Tresca};
 use mpm::mesh::builder::rectangle;
 use mpm::mesh::shape::{CellKind, MAX_NODES, map, rule};
 use mpm::points::Points;
@@ -22,7 +22,7 @@ fn elasticity() -> Elasticity {
 
 /// The share at Poisson's ratio 0.4999, with water in the pores or without.
 fn carried(model: Arc<dyn Model>, water: f64) -> Carried {
-    Carried { model, ratio: 2.0 * 1.4999 / (3.0 * 0.0002), water, limit: None }
+    Carried { model, ratio: 2.0 * 1.4999 / (3.0 * 0.0002), water, bound: None, limit: None }
 }
 
 /// The same with a limit of the tension within the range of the noise.
@@ -89,6 +89,40 @@ fn tangent_with_a_limit_is_the_derivative<K: Kinematics<2>>() {
             assert!(asymmetry < 1e-12, "{kind:?}, {level}: {asymmetry:.1e}");
         }
     }
+}
+
+/// Models that need their mean stress, and see the volume strain of the field in place of their own.
+fn tangent_where_the_field_tells_the_volume_is_the_derivative<K: Kinematics<2>>() {
+    let elasticity = || Elasticity::new(Profile::constant(1000.0), 0.25).unwrap();
+    let mohr_coulomb = |dilation, tension: Option<f64>| -> Arc<dyn Model> {
+        let friction = Friction::degrees(25.0, dilation).unwrap();
+        let tension = tension.map(Profile::constant);
+        Arc::new(MohrCoulomb::new(elasticity(), Profile::constant(20.0), friction, tension).unwrap())
+    };
+    let clay: Arc<dyn Model> = Arc::new(CamClay::new(elasticity(), 1.0, Profile::constant(60.0), 0.1).unwrap());
+    let models = [mohr_coulomb(0.0, None), mohr_coulomb(25.0, None), mohr_coulomb(10.0, Some(2.0)), clay];
+    for kind in KINDS {
+        for (number, model) in models.iter().enumerate() {
+            for (bound, alpha_f) in [(1e-3, 0.0), (0.5, 0.0), (0.5, 0.4)] {
+                let carried =
+                    Carried { model: model.clone(), ratio: 80.0, water: 1.0, bound: Some(bound), limit: None };
+                let (stand, [trial, converged]) = set::<K>(Scheme::Mpm, kind, carried, alpha_f);
+                let name = format!("{kind:?}, model {number}, bound by {bound}, α_f = {alpha_f}");
+                let error = stand.tangent_error(&trial, &converged);
+                assert!(error < 1e-6, "{name}: {error:.1e}");
+                if alpha_f == 0.0 && model.symmetric() {
+                    let asymmetry = stand.asymmetry(&trial, &converged);
+                    assert!(asymmetry < 1e-12, "{name}: {asymmetry:.1e}");
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn the_tangent_where_the_field_tells_the_volume_is_the_derivative() {
+    tangent_where_the_field_tells_the_volume_is_the_derivative::<PlaneStrain>();
+    tangent_where_the_field_tells_the_volume_is_the_derivative::<Axisymmetric>();
 }
 
 #[test]
@@ -195,7 +229,7 @@ fn blocks(kind: CellKind, n: usize, ratio: f64) -> [DMatrix<f64>; 3] {
     }
     // Poisson's ratio 0: A is ∫ ε : ε.
     let model: Arc<dyn Model> = Arc::new(LinearElastic::new(Elasticity::new(Profile::constant(1.0), 0.0).unwrap()));
-    let carried = Carried { model: model.clone(), ratio, water: 0.0, limit: None };
+    let carried = Carried { model: model.clone(), ratio, water: 0.0, bound: None, limit: None };
     let field = PressureField::<PlaneStrain>::new(vec![Some(carried)], 1.0);
     let term = Box::new(Internal::<PlaneStrain, _>::sharing(vec![Some(model)], false, field));
     let points = lattice(&mesh);

@@ -27,7 +27,10 @@ fn set<K: Kinematics<2>>(kind: CellKind, beside: bool, alpha_f: f64, flow_time: 
     let water = PoreWater::<K>::new(porous([3e-5, 1e-5]), UNIT);
     let (models, dynamic) = (vec![Some(model.clone())], alpha_f > 0.0);
     let term: Box<dyn Term<2>> = if beside {
-        let field = PressureField::<K>::new(vec![Some(Carried { model, ratio: 3.0, water: 0.0, limit: None })], UNIT);
+        let field = PressureField::<K>::new(
+            vec![Some(Carried { model, ratio: 3.0, water: 0.0, bound: None, limit: None })],
+            UNIT,
+        );
         Box::new(Internal::<K, _>::sharing(models, dynamic, (field, water)))
     } else {
         Box::new(Internal::<K, _>::sharing(models, dynamic, water))
