@@ -97,7 +97,7 @@ fn tangent_where_the_field_tells_the_volume_is_the_derivative<K: Kinematics<2>>(
     let mohr_coulomb = |dilation, tension: Option<f64>| -> Arc<dyn Model> {
         let friction = Friction::degrees(25.0, dilation).unwrap();
         let tension = tension.map(Profile::constant);
-        Arc::new(MohrCoulomb::new(elasticity(), Profile::constant(18.0), friction, tension).unwrap())
+        Arc::new(MohrCoulomb::new(elasticity(), Profile::constant(20.0), friction, tension).unwrap())
     };
     let clay: Arc<dyn Model> = Arc::new(CamClay::new(elasticity(), 1.0, Profile::constant(60.0), 0.1).unwrap());
     let models = [mohr_coulomb(0.0, None), mohr_coulomb(25.0, None), mohr_coulomb(10.0, Some(2.0)), clay];
