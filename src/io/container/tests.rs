@@ -193,7 +193,7 @@ proptest! {
         store.put("u32", components, values.iter().map(|&v| v as u32).collect());
         store.put("u16", components, values.iter().map(|&v| v as u16).collect());
         store.put("u8", components, values.iter().map(|&v| v as u8).collect());
-        store.write(&path, false).unwrap();
+        store.clone().write(&path, false).unwrap();
         prop_assert_eq!(bits(Store::read(&path, "frame", "").unwrap()), bits(store));
     }
 }

@@ -114,7 +114,7 @@ fn finite_elements_are_a_series_of_their_own() {
     let grid = Part { position: now.clone(), ..Part::default() };
     let full = Frame { grid, elements, ..Frame::default() };
     frame::prepare(&results, 0).unwrap();
-    full.write(&results, 0).unwrap();
+    full.clone().write(&results, 0).unwrap();
     assert_eq!(Frame::read(&frame::path(&results, 0)).unwrap(), full);
 
     let pieces = Piece::by_region(&mesh.part(|c| c != 1));
@@ -190,7 +190,7 @@ fn boundaries_in_contact_are_a_series_of_their_own() {
 
     let with = Frame { contact, ..frame::tests::sample(0) };
     frame::prepare(&results, 0).unwrap();
-    with.write(&results, 0).unwrap();
+    with.clone().write(&results, 0).unwrap();
     assert_eq!(Frame::read(&frame::path(&results, 0)).unwrap(), with);
     export(&results, &mesh(), &[false], &out, &[], Encoding::Plain).unwrap();
     assert!(out.join("contact.pvd").exists() && out.join("vtu/contact_000000.vtu").exists());
