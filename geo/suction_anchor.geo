@@ -19,6 +19,7 @@ DefineConstant[
   beneath   = {2,    Min 1e-6, Name "Parameters/beneath"},   // clay beneath the end of the way [m]
   width     = {5,    Min 1e-6, Name "Parameters/width"},     // of the clay from the axis on [m]
   air       = {0.4,  Min 1e-6, Name "Parameters/air"},       // height that soil may heave into [m]
+  edge      = {0,    Min 0,    Name "Parameters/edge"},      // radius of the edges of the tip, 0: sharp [m]
   h         = {0.04, Min 1e-6, Name "Parameters/h"},         // size of the cells at the wall [m]
   coarse    = {10,   Min 1,    Name "Parameters/coarse"}     // largest size, in h
 ];
@@ -41,15 +42,30 @@ Curve Loop(1) = {1, 2, 3, 4};
 Plane Surface(1) = {1};
 Curve Loop(2) = {-3, 5, 6, 7};
 Plane Surface(2) = {2};
-Point(11) = {inner, 0, 0};
-Point(12) = {radius, 0, 0};
 Point(13) = {radius, length, 0};
 Point(14) = {inner, length, 0};
-Line(11) = {11, 12};
-Line(12) = {12, 13};
 Line(13) = {13, 14};
-Line(14) = {14, 11};
-Curve Loop(3) = {11, 12, 13, 14};
+If (edge > 0)
+  Point(11) = {inner + edge, 0, 0};
+  Point(12) = {radius - edge, 0, 0};
+  Point(15) = {inner, edge, 0};
+  Point(16) = {inner + edge, edge, 0};
+  Point(17) = {radius, edge, 0};
+  Point(18) = {radius - edge, edge, 0};
+  Line(11) = {11, 12};
+  Circle(15) = {12, 18, 17};
+  Line(12) = {17, 13};
+  Line(14) = {14, 15};
+  Circle(16) = {15, 16, 11};
+  Curve Loop(3) = {11, 15, 12, 13, 14, 16};
+Else
+  Point(11) = {inner, 0, 0};
+  Point(12) = {radius, 0, 0};
+  Line(11) = {11, 12};
+  Line(12) = {12, 13};
+  Line(14) = {14, 11};
+  Curve Loop(3) = {11, 12, 13, 14};
+EndIf
 Plane Surface(3) = {3};
 Field[1] = Box;
 Field[1].VIn = h;

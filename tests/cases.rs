@@ -334,18 +334,19 @@ fn penetration() {
         assert!(expected.contains(&contact), "{case}: {contact} kN");
         assert!((held / contact + 1.0).abs() < 1e-6, "{case}: {contact} kN from the soil, {held} kN held");
     };
-    let short = ["mesh.parameters.h=0.2", "phases[0].duration=0.1"];
+    let short = ["mesh.parameters={h: 0.2}", "phases[0].duration=0.1"];
     load("plate_anchor", "plate", &short, -0.5 * 6.0..-0.5 * 5.41);
     // Where plate and clay cannot part the load lasts: in plane strain, round, and beneath 80 s_u, where the clay that the plate displaces lifts it.
-    let bonded = ["mesh.parameters.h=0.2", "phases[0].step.max=0.04", "contacts[0].tension=no_separation"];
+    let bonded = ["mesh.parameters={h: 0.2}", "phases[0].step.max=0.04", "contacts[0].tension=no_separation"];
     load("plate_anchor", "plate", &bonded, -0.5 * 14.4..-0.5 * 12.0);
     load("plate_anchor", "plate", &[&bonded[..], &["geometry=axisymmetric"]].concat(), -15.6..-13.0);
     let heavy = ["materials.clay.density=2.0387", "gravity={y: -9.81}", "initial_stress={k0: 1}"];
     load("plate_anchor", "plate", &[&bonded[..], &heavy].concat(), -0.5 * 15.2 + 2.0..-0.5 * 12.0 + 2.0);
     // A thin wall that cannot part from clay goes in, and is held by both its sides and its tip as it comes out.
-    let wall = ["mesh.parameters.h=0.08", "mesh.parameters.thickness=0.08", "phases.push.step.max=0.016"];
+    let wall = ["mesh.parameters={h: 0.08, thickness: 0.08}", "phases.push.step.max=0.016"];
     let short_way = ["phases.push.duration=0.3", "phases.pull.duration=0.1"];
     load("suction_anchor", "wall", &[&wall[..], &short_way].concat(), -80.0..-55.0);
+    let short = ["mesh.parameters.h=0.2", "phases[0].duration=0.1"];
     load("punch_through", "footing", &short, 3.71..4.3);
     let area = PI * 1.5 * 1.5;
     let short = ["mesh.parameters.h=0.5", "phases[0].duration=0.25"];
