@@ -265,7 +265,7 @@ impl Frames {
 
     fn write(folder: &Path, frame: &Frame) -> Vec<u8> {
         frame::prepare(folder, 0).unwrap();
-        frame.write(folder, 0).unwrap();
+        frame.clone().write(folder, 0).unwrap();
         fs::read(frame::path(folder, 0)).unwrap()
     }
 }
