@@ -1,9 +1,8 @@
 //! The boundary of a structure as lines along which the values of its hats are drawn.
 
 use super::place::Segments;
-use super::surface::{Run, Surface};
+use super::surface::Surface;
 use crate::kinematics::Kinematics;
-use std::ops::Range;
 
 /// A place on a boundary: the two hats over it, with their values there (-), which add up to one.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -42,15 +41,24 @@ pub fn traction<const D: usize>(lines: &[Vec<Mark<D>>], force: &[[f64; 3]]) -> V
 /// A line for each smooth stretch of the boundary, with a mark where segments meet and at both ends; one without ends
 /// is closed by a last mark at the place of the first. The structure is on the left of the way along them.
 pub fn lines<K: Kinematics<2>>(surface: &Surface, segments: &Segments) -> Vec<Vec<Mark<2>>> {
-    let line = |(piece, run): (&Range<usize>, &Run)| {
+    let line = |piece: &std::ops::Range<usize>| {
         let cut = &surface.segments[piece.clone()];
-        let mark = |at: f64, place| Mark { place, hats: run.hats(at), area: 0.0 };
-        // The middle of a segment is the mean of its ends.
+        let (Some(first), Some(last)) = (cut.first(), cut.last()) else { return Vec::new() };
+        let base = first.hats[0].0;
+        let closed = last.hats[1].0 == base;
+        // Distances are in hats from the beginning. The middle of a segment, whose hats are known, is the mean of its ends.
+        let intervals = last.hats[0].0 + 1 - base;
+        let mark = |at: f64, place| {
+            let left = (at.max(0.0) as u32).min(intervals - 1);
+            let right = if closed && left + 1 == intervals { 0 } else { left + 1 };
+            let share = at - f64::from(left);
+            Mark { place, hats: [(base + left, 1.0 - share), (base + right, share)], area: 0.0 }
+        };
         let mut at = 0.0;
         let mut marks = Vec::with_capacity(cut.len() + 1);
         for (segment, placed) in cut.iter().zip(&segments.0[piece.clone()]) {
             marks.push(mark(at, placed.from));
-            at = 2.0 * segment.at - at;
+            at = 2.0 * (f64::from(segment.hats[0].0 - base) + segment.hats[1].1) - at;
         }
         marks.push(mark(at, segments.0[piece.end - 1].to));
         for i in 1..marks.len() {
@@ -61,7 +69,7 @@ pub fn lines<K: Kinematics<2>>(surface: &Surface, segments: &Segments) -> Vec<Ve
         }
         marks
     };
-    surface.pieces.iter().zip(&surface.runs).map(line).collect()
+    surface.pieces.iter().map(line).collect()
 }
 
 #[cfg(test)]
@@ -78,7 +86,7 @@ mod tests {
         (surface, lines)
     }
 
-    /// On each side of a square a function that is linear between its first hat and its last is found again, and goes on to the corners as it is there.
+    /// On each side of a square a function that is linear along it is found again, up to the corners.
     #[test]
     fn values_are_linear_between_hats_and_break_at_corners() {
         let mut mesh = Mesh {
@@ -87,18 +95,18 @@ mod tests {
             ..Mesh::default()
         };
         mesh.cells.push(CellKind::Q4, 0, &[0, 1, 2, 3]);
-        let (surface, lines) = lines_of(&mesh, 0.25);
-        // Four intervals a side, with a hat between each two.
-        assert_eq!((lines.len(), surface.hats), (4, 12));
-        let values: Vec<f64> = (0..12).map(|k| f64::from(k / 3) + f64::from(k % 3 + 1) / 4.0).collect();
+        let (surface, lines) = lines_of(&mesh, 0.3);
+        assert_eq!((lines.len(), surface.hats), (4, 16));
+        // Four hats a side, the first and last at its corners.
+        let values: Vec<f64> = (0..16).map(|k| f64::from(k / 4) + f64::from(k % 4) / 3.0).collect();
         for line in &lines {
-            let begin = line[0];
+            let (begin, end) = (line[0], line[line.len() - 1]);
             for mark in line {
                 let along = (0..2).map(|d| (mark.place[d] - begin.place[d]).abs()).sum::<f64>();
-                let rise = along.clamp(0.25, 0.75) - 0.25;
-                assert!((mark.value(&values) - begin.value(&values) - rise).abs() < 1e-14, "{mark:?}");
+                assert!((mark.value(&values) - begin.value(&values) - along).abs() < 1e-14, "{mark:?}");
                 assert!((mark.hats[0].1 + mark.hats[1].1 - 1.0).abs() < 1e-15);
             }
+            assert!((end.value(&values) - begin.value(&values) - 1.0).abs() < 1e-14);
         }
     }
 

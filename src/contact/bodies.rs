@@ -9,16 +9,17 @@
 use super::along::{Mark, lines};
 use super::law::{Law, Penalty};
 use super::multipliers::Multipliers;
-use super::pair::{FADING, Ground, PENALTY, Pair, Pushed, Row, Spot};
+use super::pair::{FADING, Ground, NORMAL, Pair, Pushed, Row, Spot, TANGENTIAL};
 use super::place::{Placed, Segments};
 use super::rigid::{Entry, add};
-use super::surface::{Run, Segment, Surface};
+use super::surface::{Segment, Surface};
 use crate::kinematics::Kinematics;
 use crate::mesh::shape::MAX_NODES;
 use crate::points::Points;
 use crate::surface::Bins;
 use std::collections::BTreeMap;
 use std::marker::PhantomData;
+use std::ops::Range;
 
 /// How far (-) across a segment the other boundary is looked for, in distances of the hats.
 const REACH: f64 = 2.5;
@@ -205,9 +206,9 @@ fn at(surface: &Surface, facet: &[u32], xi: f64, position: &dyn Fn(u32) -> [f64;
 /// The length (m) of the piece of each hat, where that closes.
 fn loops(surface: &Surface, segments: &Segments) -> Vec<Option<f64>> {
     let mut loops = vec![None; surface.hats];
-    for (run, piece) in surface.runs.iter().zip(&surface.pieces) {
-        if let (true, [first, .., last]) = (run.is_loop, &segments.0[piece.clone()]) {
-            loops[run.numbers()].fill(Some(last.along + first.along));
+    for ((hats, is_loop), piece) in surface.runs.iter().zip(&surface.pieces) {
+        if let (true, [first, .., last]) = (*is_loop, &segments.0[piece.clone()]) {
+            loops[hats.clone()].fill(Some(last.along + first.along));
         }
     }
     loops
@@ -259,7 +260,7 @@ impl<K: Kinematics<2>> Pair<2> for Bodies<K> {
         self.surface.hats
     }
 
-    fn runs(&self) -> &[Run] {
+    fn runs(&self) -> &[(Range<usize>, bool)] {
         &self.surface.runs
     }
 
@@ -348,8 +349,8 @@ impl<K: Kinematics<2>> Pair<2> for Bodies<K> {
                 penalty: Penalty {
                     pressure: held.pressure[hat],
                     shear: held.shear[hat],
-                    normal: PENALTY * stiffness,
-                    tangential: PENALTY * stiffness,
+                    normal: NORMAL * stiffness,
+                    tangential: TANGENTIAL * stiffness,
                     rounding: 0.0,
                     fading: FADING * self.surface.spacing,
                     bonded: held.bonded(hat, self.law.tension, sum.gap / area < FADING * self.surface.spacing),

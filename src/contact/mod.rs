@@ -26,4 +26,4 @@ pub use multipliers::Multipliers;
 pub use pair::{Boundary, Ground, Motion, Pair, Pushed, Row, Spot};
 pub use rigid::Rigid;
 pub use skin::Skin;
-pub use surface::{Run, Surface};
+pub use surface::Surface;

@@ -1,6 +1,6 @@
 //! What hats carry from step to step.
 
-use super::surface::Run;
+use std::ops::Range;
 
 /// Share of a multiplier that its neighbours' mean takes the place of in each step.
 const EVEN: f64 = 0.5;
@@ -48,20 +48,19 @@ impl Multipliers {
     /// These with the pressure evened out along the `runs`, where hats and both their neighbours touch. Hats as close as nodes have
     /// more conditions than the soil can meet: waves of pressure that it hardly feels would grow from step to step. What
     /// is taken from a wave here, a gap has to make up for (a stabilised multiplier, Burman & Hansbo 2010).
-    pub fn evened(&self, runs: &[Run]) -> Self {
+    pub fn evened(&self, runs: &[(Range<usize>, bool)]) -> Self {
         let mut evened = self.clone();
-        for run in runs {
-            let (is_loop, first) = (run.is_loop, run.numbers().start);
-            let hats = &self.pressure[run.numbers()];
+        for (run, is_loop) in runs {
+            let hats = &self.pressure[run.clone()];
             let beside = |k: usize, by: usize| match k + by {
-                at if is_loop => Some(hats[at % hats.len()]),
+                at if *is_loop => Some(hats[at % hats.len()]),
                 at => hats.get(at).copied(),
             };
             for k in 0..hats.len() {
-                let left = if is_loop { beside(k, hats.len() - 1) } else { k.checked_sub(1).map(|k| hats[k]) };
+                let left = if *is_loop { beside(k, hats.len() - 1) } else { k.checked_sub(1).map(|k| hats[k]) };
                 let (Some(left), Some(right)) = (left, beside(k, 1)) else { continue };
                 if [left, hats[k], right].iter().all(|&pressure| pressure != 0.0) {
-                    evened.pressure[first + k] += EVEN * (0.5 * (left + right) - hats[k]);
+                    evened.pressure[run.start + k] += EVEN * (0.5 * (left + right) - hats[k]);
                 }
             }
         }

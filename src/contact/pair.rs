@@ -7,7 +7,7 @@ use super::law::{Law, Penalty};
 use super::multipliers::Multipliers;
 use super::place::{Placed, Segments};
 use super::skin::Skin;
-use super::surface::{Run, Surface};
+use super::surface::Surface;
 use crate::kinematics::Kinematics;
 use crate::material::Model;
 use crate::mesh::Mesh;
@@ -16,12 +16,15 @@ use crate::mesh::shape::MAX_NODES;
 use crate::points::Points;
 use crate::surface::Cover;
 use std::marker::PhantomData;
+use std::ops::Range;
 use std::sync::Arc;
 
 /// ε_n and ε_t (-), in Young's modulus over the spacing of the hats.
-pub(super) const PENALTY: f64 = 5.0;
-/// Share of them over soil that may yield, and then gives way however little presses on it.
-const YIELDING: f64 = 0.1;
+pub(super) const NORMAL: f64 = 50.0;
+pub(super) const TANGENTIAL: f64 = 5.0;
+/// Both over soil that may yield, and then gives way however little presses on it. With ten times as much the pressure of one hat goes up where
+/// that of the next goes down.
+const YIELDING: f64 = 0.5;
 /// Pressure over which parting is rounded (-), in the mean pressure of the hats, and gap over which adhesion fades (-),
 /// in their spacing.
 const ROUNDING: f64 = 0.1;
@@ -193,8 +196,8 @@ pub trait Pair<const D: usize>: Send + Sync {
     /// The conditions of the hats that face soil; `position` tells where the nodes are.
     fn rows(&self, ground: &Ground<D>, position: &dyn Fn(u32) -> [f64; D], held: &Multipliers) -> Vec<Row<D>>;
 
-    /// The hats along each smooth piece of the boundary.
-    fn runs(&self) -> &[Run];
+    /// The hats in order along each smooth piece of the boundary, and whether the last is beside the first.
+    fn runs(&self) -> &[(Range<usize>, bool)];
 
     /// The boundary as polylines with the structure on their left; closed ones end where they begin.
     fn outlines(&self, position: &dyn Fn(u32) -> [f64; D]) -> Vec<Vec<[f64; D]>>;
@@ -260,13 +263,13 @@ impl<K: Kinematics<2>> Boundary<K> {
         let y = points.origin[point][1];
         let model = self.models.get(points.model_of(point)).and_then(Option::as_ref);
         let yields = model.is_some_and(|m| m.yields());
-        let share = if yields { YIELDING } else { 1.0 };
-        let stiffness = share * model.map_or(0.0, |m| m.young(y)) / self.surface.spacing;
+        let [normal, tangential] = if yields { [YIELDING; 2] } else { [NORMAL, TANGENTIAL] };
+        let stiffness = model.map_or(0.0, |m| m.young(y)) / self.surface.spacing;
         Penalty {
             pressure: held.pressure[hat],
             shear: held.shear[hat],
-            normal: PENALTY * stiffness,
-            tangential: PENALTY * stiffness,
+            normal: normal * stiffness,
+            tangential: tangential * stiffness,
             rounding: if yields { ROUNDING * held.mean_pressure() } else { 0.0 },
             fading: FADING * self.surface.spacing,
             bonded: true,
@@ -360,7 +363,7 @@ impl<K: Kinematics<2>> Pair<2> for Boundary<K> {
         self.surface.hats
     }
 
-    fn runs(&self) -> &[Run] {
+    fn runs(&self) -> &[(Range<usize>, bool)] {
         &self.surface.runs
     }
 

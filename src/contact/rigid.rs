@@ -7,10 +7,10 @@ use super::along::Mark;
 use super::law::Law;
 use super::multipliers::Multipliers;
 use super::pair::{Ground, Pair, Pushed, Row};
-use super::surface::Run;
 use crate::points::Points;
 use crate::rigid::Body;
 use crate::surface::Cover;
+use std::ops::Range;
 
 /// A pair with a rigid side, or two.
 pub struct Rigid<const D: usize> {
@@ -118,7 +118,7 @@ impl<const D: usize> Pair<D> for Rigid<D> {
         self.pair.hats()
     }
 
-    fn runs(&self) -> &[Run] {
+    fn runs(&self) -> &[(Range<usize>, bool)] {
         self.pair.runs()
     }
 
@@ -169,7 +169,7 @@ mod tests {
             1
         }
 
-        fn runs(&self) -> &[Run] {
+        fn runs(&self) -> &[(Range<usize>, bool)] {
             &[]
         }
 

@@ -4,7 +4,6 @@ use crate::error::{Error, Result};
 use crate::mesh::Mesh;
 use crate::mesh::faces::Faces;
 use crate::mesh::shape::{CellKind, MAX_NODES, rule};
-use std::ops::Range;
 
 /// Segments per hat.
 const SEGMENTS: f64 = 5.0;
@@ -18,40 +17,8 @@ pub struct Segment {
     /// Where it begins and ends on the facet, in [-1, 1].
     pub from: f64,
     pub to: f64,
-    /// The hats over it and their values at its middle.
+    /// The two hats over it and their values at its middle.
     pub hats: [(u32, f64); 2],
-    /// Where on its piece its middle is, in intervals of the run.
-    pub at: f64,
-}
-
-/// The hats of a smooth stretch of a boundary: one where two intervals of it meet, at least one. At its ends they go on as they are at their
-/// own places, as the multipliers of mortar elements do (Wohlmuth 2000): one at a corner would bind soil that leaves the structure there.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Run {
-    first: u32,
-    intervals: u32,
-    pub is_loop: bool,
-}
-
-impl Run {
-    fn count(&self) -> u32 {
-        if self.is_loop { self.intervals } else { (self.intervals - 1).max(1) }
-    }
-
-    pub fn numbers(&self) -> Range<usize> {
-        self.first as usize..(self.first + self.count()) as usize
-    }
-
-    /// The hats over a place, given in intervals from the beginning, and their values there (-), which add up to one.
-    pub fn hats(&self, at: f64) -> [(u32, f64); 2] {
-        let left = (at.max(0.0) as u32).min(self.intervals - 1);
-        let share = at - f64::from(left);
-        let hat = |k: u32| {
-            let k = if self.is_loop { k % self.intervals } else { k.clamp(1, self.count()) - 1 };
-            self.first + k
-        };
-        [(hat(left), 1.0 - share), (hat(left + 1), share)]
-    }
 }
 
 /// The boundary of a structure.
@@ -63,12 +30,12 @@ pub struct Surface {
     /// In order along the boundary, piece after piece.
     pub segments: Vec<Segment>,
     /// Pieces: smooth stretches of the boundary, by their segments.
-    pub pieces: Vec<Range<usize>>,
+    pub pieces: Vec<std::ops::Range<usize>>,
     /// Pieces that follow each other without a gap, by their segments.
-    pub chains: Vec<Range<usize>>,
+    pub chains: Vec<std::ops::Range<usize>>,
     pub hats: usize,
-    /// The hats of each piece.
-    pub runs: Vec<Run>,
+    /// Hats of each piece, and whether the last is beside the first.
+    pub runs: Vec<(std::ops::Range<usize>, bool)>,
     /// Length (m) between hats.
     pub spacing: f64,
 }
@@ -155,7 +122,6 @@ impl Surface {
         let whole: f64 = lengths.iter().sum();
         let least = if is_loop { 3.0 } else { 1.0 };
         let intervals = (whole / self.spacing).round().max(least);
-        let run = Run { first: self.hats as u32, intervals: intervals as u32, is_loop };
         let first_segment = self.segments.len();
         let mut along = 0.0;
         for (nodes, length) in facets.iter().zip(&lengths) {
@@ -164,13 +130,18 @@ impl Surface {
             for k in 0..parts {
                 let [from, to] = [k, k + 1].map(|k| 2.0 * k as f64 / parts as f64 - 1.0);
                 let at = (along + length * 0.25 * (from + to + 2.0)) / whole * intervals;
-                self.segments.push(Segment { facet, from, to, hats: run.hats(at), at });
+                let left = at.floor().min(intervals - 1.0);
+                let right = if is_loop && left + 1.0 == intervals { 0 } else { left as u32 + 1 };
+                let hat = |k: u32| self.hats as u32 + k;
+                let hats = [(hat(left as u32), 1.0 - (at - left)), (hat(right), at - left)];
+                self.segments.push(Segment { facet, from, to, hats });
             }
             self.facets.push(nodes.clone());
             along += length;
         }
-        self.hats += run.count() as usize;
-        self.runs.push(run);
+        let first = self.hats;
+        self.hats += intervals as usize + usize::from(!is_loop);
+        self.runs.push((first..self.hats, is_loop));
         self.pieces.push(first_segment..self.segments.len());
     }
 }
