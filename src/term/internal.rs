@@ -364,11 +364,9 @@ impl<const D: usize, K: Kinematics<D>, S: Share<D, K>> Term<D> for Internal<K, S
                 self.share.commit(&cell, frame.points, &entries, point.ratios, &mut history);
                 Some(history)
             };
-            timed_material(|| {
-                let mut out = Vec::with_capacity(patch.point_count as usize);
-                out.extend(frame.stencil.entries::<K>(patch).filter_map(new));
-                out
-            })
+            let mut out = Vec::with_capacity(patch.point_count as usize);
+            out.extend(frame.stencil.entries::<K>(patch).filter_map(new));
+            out
         };
         Some(Update(frame.stencil.patches.par_iter().map(new_of_patch).collect()))
     }
