@@ -1,6 +1,6 @@
 """Upper bound of the load on a rigid body of rectangular section in weightless clay (Tresca, s_u = 1 kPa) that it cannot part from.
 
-    python benches/verification/limit_analysis.py --body X0 X1 Y0 Y1 [--round] [--adhesion A] [--size H] [--growth G] [--width W] [--beneath D]
+    .venv/bin/python benches/verification/limit_analysis.py --body X0 X1 Y0 Y1 [--round] [--adhesion A] [--size H] [--growth G] [--width W] [--beneath D]
 
 The body lies between X0 and X1 and between Y0 and Y1 (m); clay lies from the axis of symmetry x = 0 to W and from D below the body to its surface y = 0.
 A body that ends at y = 0 goes through the surface. It moves by one downwards; the load upwards is the same.
@@ -9,7 +9,7 @@ Velocities are quadratic in triangles, with sizes H at the corners of the body t
 that keep the volume (at the corners of straight triangles in plane strain, which makes it a strict bound; at three points within them with --round)
 and is `s_u |γ|`, and `A s_u` times the slip on the body (Makrodimopoulos & Martin 2007). A second-order cone programme finds it. It lies above the exact load by a part
 proportional to H: twice the value with H/2 less that with H is nearer. Prints the load over s_u (m², per metre or full turn), of both halves in plane strain.
-Needs numpy, scipy and clarabel.
+Needs numpy, scipy and clarabel: .venv/bin/pip install scipy clarabel
 """
 
 import argparse
