@@ -5,6 +5,7 @@ use super::contact;
 use super::fem::Elements;
 use super::ghost_faces;
 use super::newton::Buffers;
+use super::nodal_fit::Filled;
 use super::pressure;
 use super::relax::{self, Relaxed};
 use super::restore::{begin_anew, fill, take_weights};
@@ -320,7 +321,8 @@ impl<const D: usize> Grid<D> {
     pub fn take_field<K: Kinematics<D>>(&self, scene: &Scene<D>, state: &mut State<D>) {
         let mesh = self.relaxed.as_ref().map_or(&scene.mesh, |relaxed| &relaxed.mesh);
         let mut field = std::mem::take(&mut state.pressure);
-        pressure::gather::<D, K>(mesh, &self.stencils.integration, state.integration(), mesh.nodes.len(), &mut field);
+        let soil = Filled { mesh, stencil: &self.stencils.integration, points: state.integration() };
+        pressure::gather::<D, K>(soil, mesh.nodes.len(), &mut field);
         state.pressure = field;
         self.take_field_of_elements::<K>(scene, state);
     }
@@ -328,7 +330,8 @@ impl<const D: usize> Grid<D> {
     fn take_field_of_elements<K: Kinematics<D>>(&self, scene: &Scene<D>, state: &mut State<D>) {
         if let Some(Elements { mesh, stencil, .. }) = &self.elements {
             let [constants, _] = scene.pressure_places();
-            pressure::gather::<D, K>(mesh, stencil, &state.fem, constants, &mut state.pressure);
+            let elements = Filled { mesh, stencil, points: &state.fem };
+            pressure::gather::<D, K>(elements, constants, &mut state.pressure);
         }
     }
 
@@ -337,10 +340,10 @@ impl<const D: usize> Grid<D> {
         if let Some(water) = &scene.water {
             state.pressure.resize(self.water + scene.mesh.nodes.len(), 0.0);
             let mut field = state.pressure.split_off(self.water);
-            let soil = self.frame(&scene.mesh, state);
-            let elements = self.elements.as_ref().map(|elements| self.frame_of_elements(scene, elements, state));
-            let frames: Vec<_> = std::iter::once(soil).chain(elements).collect();
-            water::gather::<D, K>(&frames, &water.porous, &mut field);
+            let soil = self.frame(&scene.mesh, state).into();
+            let elements = self.elements.as_ref().map(|elements| self.frame_of_elements(scene, elements, state).into());
+            let cells: Vec<_> = std::iter::once(soil).chain(elements).collect();
+            water::gather::<D, K>(&cells, &water.porous, &mut field);
             state.pressure.extend(field);
         }
     }

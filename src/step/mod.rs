@@ -19,6 +19,7 @@ mod mass;
 mod materials;
 mod momentum;
 mod newton;
+mod nodal_fit;
 pub mod overlap;
 mod pressure;
 mod put_back;

@@ -93,9 +93,6 @@ pub struct Buffers<const D: usize> {
     wanted: Vec<f64>,
     gap: Vec<f64>,
     fixed: Vec<bool>,
-    /// The equations whose diagonal is raised where steps go astray: those of nodes that no structure has. Empty
-    /// until then.
-    damped: Vec<bool>,
     /// The residual of one term.
     pub own: Vec<f64>,
     pub between: Vec<[f64; D]>,
@@ -140,8 +137,6 @@ struct Newton<'a, const D: usize> {
     due: bool,
     /// Length of the last trial step, in those of `δ`.
     length: f64,
-    /// Share by which the diagonal of the tangent is raised: not zero while its steps go astray.
-    damping: f64,
     /// Why the last trial state that was not admissible is not.
     refused: Option<Error>,
 }
@@ -152,7 +147,6 @@ impl<'a, const D: usize> Newton<'a, D> {
         buffers.fixed.extend(problem.given.iter().map(Option::is_some));
         buffers.now.at.set(problem.converged, problem.pressure);
         buffers.best.clone_from(&buffers.now.at);
-        buffers.damped.clear();
         let floor = floor(problem, grid);
         Self {
             problem,
@@ -169,7 +163,6 @@ impl<'a, const D: usize> Newton<'a, D> {
             stalled: 0,
             due: false,
             length: 0.0,
-            damping: 0.0,
             refused: None,
         }
     }
@@ -239,7 +232,7 @@ impl<'a, const D: usize> Newton<'a, D> {
     fn restart(&mut self) {
         self.buffers.now.at.set(self.problem.converged, self.problem.pressure);
         self.buffers.best.clone_from(&self.buffers.now.at);
-        (self.target, self.damping, self.stalled) = (f64::INFINITY, 0.0, 0);
+        (self.target, self.stalled) = (f64::INFINITY, 0);
     }
 
     /// The first iterations from a guess, or of bodies laid on each other. They leave hats a little apart that bear in
@@ -311,16 +304,10 @@ impl<'a, const D: usize> Newton<'a, D> {
             self.evaluate(true)?;
         }
         self.tangent = false;
-        let Buffers { now, delta, wanted, gap, fixed, damped, .. } = &mut self.buffers;
+        let Buffers { now, delta, wanted, gap, fixed, .. } = &mut self.buffers;
         delta.clear();
         delta.extend(now.force.iter().map(|r| -r));
-        if self.damping > 0.0 && damped.is_empty() {
-            damped_equations(self.problem.scene, self.grid, damped);
-        }
         let motion = &mut self.grid.motion;
-        if self.damping > 0.0 {
-            motion.matrix.dampen(&motion.pattern, damped, self.damping);
-        }
         let diagonal = motion.matrix.scale(&motion.pattern);
         motion.matrix.constrain(&motion.pattern, fixed, gap, diagonal, delta);
         wanted.clone_from(delta);
@@ -385,21 +372,6 @@ fn forcing(history: &[f64], tolerance: f64) -> f64 {
         _ => LOOSEST,
     };
     quadratic.max(enough).clamp(1e-10, LOOSEST)
-}
-
-/// Which equations of nodes are damped. A structure as a whole may have no more to hold it than soil that flows: a share of
-/// its own stiffness would be a far stiffer hold on it, and its balance would come in tiny steps.
-fn damped_equations<const D: usize>(scene: &Scene<D>, grid: &Grid<D>, out: &mut Vec<bool>) {
-    out.extend(grid.node.iter().flat_map(|&n| [(n as usize) < scene.mesh_nodes(); D]));
-    let Some(fem) = &scene.fem else { return };
-    for c in fem.deforming() {
-        if scene.pairs.iter().any(|pair| pair.structure() == fem.mesh.cells.region[c]) {
-            for &n in fem.mesh.cells.nodes(c) {
-                let block = grid.block[n as usize] as usize;
-                out.iter_mut().skip(D * block).take(D).for_each(|damped| *damped = false);
-            }
-        }
-    }
 }
 
 /// A force (kN) below which nothing counts: rounding in stresses of the order of the stiffness, on the sides of a

@@ -1,9 +1,8 @@
 //! The pressure field on a restored grid: its unknowns, and what the points bring to them.
 
+use super::nodal_fit::{self, Filled};
 use crate::kinematics::Kinematics;
 use crate::mesh::Mesh;
-use crate::points::Points;
-use crate::stencil::Stencil;
 use crate::term::pressure_hats;
 
 /// Where the unknowns of a cell stand in [`super::State::pressure`]: its corners by node, and the constant of the cell.
@@ -14,35 +13,13 @@ pub fn unknowns_of<const D: usize>(mesh: &Mesh<D>, constants: usize, cell: usize
     mesh.cells.nodes(cell)[..kind.corner_count()].iter().copied().chain(constant)
 }
 
-/// Takes the field over a family of cells from their points: weighted means at the corners, and what is left of the mean of each cell. It is
+/// Takes the field over a family of cells from their points: a linear fit at the corners, and what is left of the mean of each cell. It is
 /// where the next step begins; what the step makes of it follows from the points themselves.
-pub fn gather<const D: usize, K: Kinematics<D>>(
-    mesh: &Mesh<D>,
-    stencil: &Stencil<D>,
-    points: &Points<D>,
-    constants: usize,
-    field: &mut Vec<f64>,
-) {
-    let nodes = mesh.nodes.len();
-    let (mut sum, mut weight) = (vec![0.0; nodes], vec![0.0; nodes]);
+pub fn gather<const D: usize, K: Kinematics<D>>(cells: Filled<D>, constants: usize, field: &mut Vec<f64>) {
+    let Filled { mesh, stencil, points } = cells;
     let end = constants + mesh.cells.len();
     field.resize(end.max(field.len()), 0.0);
-    for patch in &stencil.patches {
-        let cell = patch.cell as usize;
-        let kind = mesh.cells.kind[cell];
-        for entries in stencil.entries::<K>(patch) {
-            let hats = pressure_hats(kind, entries.value);
-            for (hat, &n) in hats.iter().zip(&mesh.cells.nodes(cell)[..kind.corner_count()]) {
-                sum[n as usize] += entries.weight * hat * points.pressure[entries.point];
-                weight[n as usize] += entries.weight * hat;
-            }
-        }
-    }
-    for ((pressure, sum), weight) in field.iter_mut().zip(&sum).zip(&weight) {
-        if *weight > 0.0 {
-            *pressure = sum / weight;
-        }
-    }
+    nodal_fit::fit::<D, K>(&[cells], |points, p| Some(points.pressure[p]), &mut field[..mesh.nodes.len()]);
     field[constants..end].fill(0.0);
     for patch in &stencil.patches {
         let cell = patch.cell as usize;

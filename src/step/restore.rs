@@ -6,6 +6,7 @@ use super::fem;
 use super::ghost_faces;
 use super::grid::Stencils;
 use super::guess;
+use super::nodal_fit::Filled;
 use super::pressure;
 use super::put_back::put_back;
 use super::relax::{self, Relaxed};
@@ -79,7 +80,8 @@ pub fn begin_anew<const D: usize, K: Kinematics<D>>(
     if scene.has_pressure_field() {
         let nodes = scene.mesh.nodes.len();
         let mut field = std::mem::take(&mut state.pressure);
-        pressure::gather::<D, K>(&scene.mesh, &stencils.integration, state.integration(), nodes, &mut field);
+        let soil = Filled { mesh, stencil: &stencils.integration, points: state.integration() };
+        pressure::gather::<D, K>(soil, nodes, &mut field);
         state.pressure = field;
     }
     if let Some(faces) = &scene.faces {

@@ -3,22 +3,14 @@
 
 use super::grid::Grid;
 use super::newton::Solution;
+use super::nodal_fit::{self, Filled};
 use super::scene::Scene;
 use super::state::State;
 use crate::kinematics::Kinematics;
 use crate::mesh::Mesh;
-use crate::mesh::cell_size;
 use crate::points::Points;
-use crate::term::{Frame, Porous, Trial, corner_hats};
+use crate::term::{Porous, Trial};
 use crate::time_integration::GeneralisedAlpha;
-use nalgebra::{SMatrix, SVector};
-
-/// Share of the size of a cell squared that the points of a node are taken to be apart at least: a gradient that they are
-/// too close to tell is zero.
-const SPREAD: f64 = 1e-6;
-
-/// Times that the difference is mapped: what one leaves the next takes up.
-const ROUNDS: usize = 3;
 
 /// The porous soil of point `p`.
 fn soil<'a, const D: usize>(porous: &'a [Option<Porous>], points: &Points<D>, p: usize) -> Option<&'a Porous> {
@@ -116,89 +108,8 @@ pub fn unknowns_of<const D: usize>(mesh: &Mesh<D>, water: usize, cell: usize) ->
     corners.iter().map(move |&n| water as u32 + n)
 }
 
-/// What the points around a node tell of it, weighted by its hat: sums that are moments about their centre in the end.
-#[derive(Clone)]
-struct Around<const D: usize> {
-    weight: f64,
-    place: SVector<f64, D>,
-    pressure: f64,
-    spread: SMatrix<f64, D, D>,
-    slope: SVector<f64, D>,
-    node: SVector<f64, D>,
-    size: f64,
-}
-
-/// Takes the pressures (kPa) of the nodes over from the points of all `frames` that are in regions with water. What is mapped is by
-/// how much those differ from the field of the nodes so far: at each node the linear function that fits it best around it,
-/// weighted by its hat. A field whose points have not moved stays what it is, and so does a linear one wherever they are, at the edges
-/// of a body, too. Nodes without points keep theirs.
-pub fn gather<const D: usize, K: Kinematics<D>>(frames: &[Frame<D>], porous: &[Option<Porous>], field: &mut [f64]) {
-    for _ in 0..ROUNDS {
-        correct::<D, K>(frames, porous, field);
-    }
-}
-
-fn correct<const D: usize, K: Kinematics<D>>(frames: &[Frame<D>], porous: &[Option<Porous>], field: &mut [f64]) {
-    let nothing = Around {
-        weight: 0.0,
-        place: SVector::zeros(),
-        pressure: 0.0,
-        spread: SMatrix::zeros(),
-        slope: SVector::zeros(),
-        node: SVector::zeros(),
-        size: 0.0,
-    };
-    let mut around = vec![nothing; field.len()];
-    visit::<D, K>(frames, porous, field, |frame, cell, n, weight, p, missing| {
-        let around = &mut around[n];
-        around.node = SVector::from(frame.mesh.nodes[n]);
-        around.size = around.size.max(cell_size(frame.mesh, cell));
-        around.weight += weight;
-        around.place += weight * SVector::from(frame.points.position[p]);
-        around.pressure += weight * missing;
-    });
-    for around in around.iter_mut().filter(|around| around.weight > 0.0) {
-        around.place /= around.weight;
-        around.pressure /= around.weight;
-        around.spread = SMatrix::identity() * (SPREAD * around.size.powi(2) * around.weight);
-    }
-    visit::<D, K>(frames, porous, field, |frame, _, n, weight, p, missing| {
-        let around = &mut around[n];
-        let from = SVector::from(frame.points.position[p]) - around.place;
-        around.spread += weight * from * from.transpose();
-        around.slope += weight * (missing - around.pressure) * from;
-    });
-    for (pressure, around) in field.iter_mut().zip(&around).filter(|(_, around)| around.weight > 0.0) {
-        let gradient = around.spread.try_inverse().map_or(SVector::zeros(), |inverse| inverse * around.slope);
-        *pressure += around.pressure + gradient.dot(&(around.node - around.place));
-    }
-}
-
-/// Calls `see` with each cell, corner and point in it that has water, the weight of the point in the hat of the corner, and what
-/// the field lacks of its pressure (kPa).
-fn visit<const D: usize, K: Kinematics<D>>(
-    frames: &[Frame<D>],
-    porous: &[Option<Porous>],
-    field: &[f64],
-    mut see: impl FnMut(&Frame<D>, usize, usize, f64, usize, f64),
-) {
-    for frame in frames {
-        for patch in &frame.stencil.patches {
-            let cell = patch.cell as usize;
-            let kind = frame.mesh.cells.kind[cell];
-            for entries in frame.stencil.entries::<K>(patch) {
-                let p = entries.point;
-                if soil(porous, frame.points, p).is_none() {
-                    continue;
-                }
-                let hats = corner_hats(kind, entries.value);
-                let corners = || hats.iter().zip(&frame.mesh.cells.nodes(cell)[..kind.corner_count()]);
-                let there: f64 = corners().map(|(hat, &n)| hat * field[n as usize]).sum();
-                let missing = frame.points.pore_pressure[p] - there;
-                for (hat, &n) in corners() {
-                    see(frame, cell, n as usize, entries.weight * hat, p, missing);
-                }
-            }
-        }
-    }
+/// Takes the pressures (kPa) of the nodes over from the points of all `cells` that are in regions with water.
+pub fn gather<const D: usize, K: Kinematics<D>>(cells: &[Filled<D>], porous: &[Option<Porous>], field: &mut [f64]) {
+    let value = |points: &Points<D>, p: usize| soil(porous, points, p).map(|_| points.pore_pressure[p]);
+    nodal_fit::fit::<D, K>(cells, value, field);
 }

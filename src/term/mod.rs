@@ -49,7 +49,7 @@ pub use smooth_pressure::SmoothPressure;
 pub use surface_traction::{SurfaceLoad, SurfaceTraction};
 pub use traction::Traction;
 pub use virtual_pressure::VirtualPressure;
-pub use water::{PoreWater, Porous, WaterStiffness, corner_hats};
+pub use water::{PoreWater, Porous, WaterStiffness};
 pub use water_bond::WaterBond;
 
 use crate::contact::Row;

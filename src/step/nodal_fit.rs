@@ -1,0 +1,120 @@
+//! Continuous fields of the corners of cells, taken over from points: at each node the linear function that fits the points around it
+//! best, weighted by its hat (weighted least squares).
+
+use crate::kinematics::Kinematics;
+use crate::mesh::{Mesh, cell_size};
+use crate::points::Points;
+use crate::stencil::Stencil;
+use crate::term::{Frame, pressure_hats};
+use nalgebra::{SMatrix, SVector};
+
+/// Share of the size of a cell squared that the points of a node are taken to be apart at least: a gradient that they are
+/// too close to tell is zero.
+const SPREAD: f64 = 1e-6;
+
+/// Times that the difference is mapped: what one leaves the next takes up.
+const ROUNDS: usize = 3;
+
+/// Cells and the points in them.
+#[derive(Clone, Copy)]
+pub struct Filled<'a, const D: usize> {
+    pub mesh: &'a Mesh<D>,
+    pub stencil: &'a Stencil<D>,
+    pub points: &'a Points<D>,
+}
+
+impl<'a, const D: usize> From<Frame<'a, D>> for Filled<'a, D> {
+    fn from(Frame { mesh, stencil, points, .. }: Frame<'a, D>) -> Self {
+        Self { mesh, stencil, points }
+    }
+}
+
+/// What the points around a node tell of it, weighted by its hat: sums that are moments about their centre in the end.
+#[derive(Clone)]
+struct Around<const D: usize> {
+    weight: f64,
+    place: SVector<f64, D>,
+    value: f64,
+    spread: SMatrix<f64, D, D>,
+    slope: SVector<f64, D>,
+    node: SVector<f64, D>,
+    size: f64,
+}
+
+/// Takes a field, one value a node, over from the points that have a `value`. What is mapped is by how much those differ from the field
+/// so far. A field whose points have not moved stays what it is, and so does a linear one wherever they are, at the edges of a body,
+/// too. Nodes without points keep their values.
+pub fn fit<const D: usize, K: Kinematics<D>>(
+    cells: &[Filled<D>],
+    value: impl Fn(&Points<D>, usize) -> Option<f64>,
+    field: &mut [f64],
+) {
+    for _ in 0..ROUNDS {
+        correct::<D, K>(cells, &value, field);
+    }
+}
+
+fn correct<const D: usize, K: Kinematics<D>>(
+    cells: &[Filled<D>],
+    value: &impl Fn(&Points<D>, usize) -> Option<f64>,
+    field: &mut [f64],
+) {
+    let nothing = Around {
+        weight: 0.0,
+        place: SVector::zeros(),
+        value: 0.0,
+        spread: SMatrix::zeros(),
+        slope: SVector::zeros(),
+        node: SVector::zeros(),
+        size: 0.0,
+    };
+    let mut around = vec![nothing; field.len()];
+    visit::<D, K>(cells, value, field, |filled, cell, n, weight, p, missing| {
+        let around = &mut around[n];
+        around.node = SVector::from(filled.mesh.nodes[n]);
+        around.size = around.size.max(cell_size(filled.mesh, cell));
+        around.weight += weight;
+        around.place += weight * SVector::from(filled.points.position[p]);
+        around.value += weight * missing;
+    });
+    for around in around.iter_mut().filter(|around| around.weight > 0.0) {
+        around.place /= around.weight;
+        around.value /= around.weight;
+        around.spread = SMatrix::identity() * (SPREAD * around.size.powi(2) * around.weight);
+    }
+    visit::<D, K>(cells, value, field, |filled, _, n, weight, p, missing| {
+        let around = &mut around[n];
+        let from = SVector::from(filled.points.position[p]) - around.place;
+        around.spread += weight * from * from.transpose();
+        around.slope += weight * (missing - around.value) * from;
+    });
+    for (value, around) in field.iter_mut().zip(&around).filter(|(_, around)| around.weight > 0.0) {
+        let gradient = around.spread.try_inverse().map_or(SVector::zeros(), |inverse| inverse * around.slope);
+        *value += around.value + gradient.dot(&(around.node - around.place));
+    }
+}
+
+/// Calls `see` with each cell, corner and point in it that has a value, the weight of the point in the hat of the corner, and what
+/// the field lacks of its value.
+fn visit<const D: usize, K: Kinematics<D>>(
+    cells: &[Filled<D>],
+    value: &impl Fn(&Points<D>, usize) -> Option<f64>,
+    field: &[f64],
+    mut see: impl FnMut(&Filled<D>, usize, usize, f64, usize, f64),
+) {
+    for filled in cells {
+        for patch in &filled.stencil.patches {
+            let cell = patch.cell as usize;
+            let kind = filled.mesh.cells.kind[cell];
+            for entries in filled.stencil.entries::<K>(patch) {
+                let Some(value) = value(filled.points, entries.point) else { continue };
+                let hats = pressure_hats(kind, entries.value);
+                let corners = || hats.iter().zip(&filled.mesh.cells.nodes(cell)[..kind.corner_count()]);
+                let there: f64 = corners().map(|(hat, &n)| hat * field[n as usize]).sum();
+                for (hat, &n) in corners() {
+                    see(filled, cell, n as usize, entries.weight * hat, entries.point, value - there);
+                }
+            }
+        }
+    }
+}
