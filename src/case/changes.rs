@@ -5,15 +5,16 @@
 
 use super::check::Checker;
 use super::checked::{Case, Change, Material, Phase, Region};
+use super::find::{filled, region_index};
+use super::incompressible::has_water_of_its_own;
 use super::locate::{At, Path};
-use super::pores::has_water_of_its_own;
 use super::raw;
-use super::scene::{filled, region_index};
 use super::seeding::check_over_depth;
 use super::structure::suggest;
 use crate::error::Result;
 use crate::mesh::Mesh;
 use crate::step;
+use crate::term::Carried;
 use std::collections::BTreeMap;
 
 /// How a material has the pressure of its pore water.
@@ -159,4 +160,9 @@ pub fn of_phase(case: &Case, meshes: [&Mesh<2>; 2], phase: usize) -> Result<Vec<
         })
     };
     case.phases[phase].changes.iter().enumerate().map(change).collect()
+}
+
+/// What the pressure field carries of each material by number.
+pub fn carried(case: &Case, mesh: &Mesh<2>) -> Result<Vec<Option<Carried>>> {
+    by_number(case, mesh, |material| material.carried.clone())
 }

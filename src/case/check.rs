@@ -1,9 +1,9 @@
 //! From the case file as written to a [`Case`] that cannot be wrong; every mistake is kept, none ends the search.
 
 use super::checked::{self, *};
+use super::issue::{Issue, MOST_FOUND};
 use super::locate::{At, Path};
 use super::raw;
-use super::source::{Issue, MOST_FOUND};
 use super::structure::{list, suggest};
 use crate::material::MODELS;
 use crate::stencil::Scheme;

@@ -2,7 +2,6 @@
 
 use super::check::Checker;
 use super::locate::{At, Path};
-use super::pores::has_water_of_its_own;
 use super::raw;
 use crate::material::{Kind, Model, Profile, cavitation};
 use crate::term::Carried;
@@ -120,4 +119,9 @@ fn deviatoric(kind: &Kind, values: &BTreeMap<&str, Profile>, poisson: f64) -> Op
     }
     values.insert("poisson", Profile::constant(of_points));
     super::materials::build(kind, &values).ok()
+}
+
+/// Whether the pressure of the water is a field of its own, and no share of one with the skeleton.
+pub(super) fn has_water_of_its_own(material: &raw::Material) -> bool {
+    material.permeability.is_some() || material.porosity.is_some() || material.water_bulk_modulus.is_some()
 }

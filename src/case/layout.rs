@@ -1,7 +1,7 @@
 //! Where the regions of a case lie: what no mesh can be right with, and what would not fit into the machine.
 
 use super::checked::{Case, Content, Touched, Touching};
-use super::scene::region_index;
+use super::find::region_index;
 use crate::error::{Error, Result};
 use crate::mesh::Mesh;
 use crate::mesh::locate::Locator;

@@ -8,7 +8,9 @@ mod changes;
 mod check;
 pub mod checked;
 mod contacts;
+mod find;
 mod incompressible;
+pub mod issue;
 mod layout;
 mod loads;
 pub mod locate;
@@ -38,11 +40,12 @@ mod yaml;
 pub use checked::Case;
 
 use crate::error::{self, Error};
+use issue::Issue;
 use locate::Step;
 use names::Groups;
 use serde_json::Value;
 use serde_path_to_error::Segment;
-use source::{Issue, Source};
+use source::Source;
 use std::collections::HashSet;
 use std::path::Path;
 use unconnected::Place;
@@ -182,7 +185,7 @@ fn errors(source: &Source, issues: &[Issue]) -> Vec<Error> {
     let mut errors: Vec<Error> = placed.iter().take(TOLD).map(|(_, issue)| source.error(issue)).collect();
     let more = issues.len().saturating_sub(TOLD);
     if more > 0 {
-        let least = if issues.len() >= source::MOST_FOUND { "at least " } else { "" };
+        let least = if issues.len() >= issue::MOST_FOUND { "at least " } else { "" };
         let problem = format!("there are {least}{more} more mistakes");
         errors.push(Error::input(source.file().display(), problem, "correct these first, and check again"));
     }

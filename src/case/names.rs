@@ -1,8 +1,8 @@
 //! The names in a case against the physical groups of its mesh.
 
 use super::checked::{Case, Content, Quantity, Touched, Touching};
+use super::issue::Issue;
 use super::locate::{At, Path};
-use super::source::Issue;
 use super::structure::{nearest, suggest};
 
 /// The names of the physical groups of a mesh.

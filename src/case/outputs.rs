@@ -1,7 +1,8 @@
 //! What a case asks to be written, in the terms of a run.
 
+use super::changes::carried;
 use super::checked::{Case, Field, History, Quantity, Until};
-use super::scene::{carried, region_index};
+use super::find::region_index;
 use super::{pores, rigid, water};
 use crate::error::Result;
 use crate::io::provenance::Origin;

@@ -3,10 +3,10 @@
 use super::changes;
 use super::check::Checker;
 use super::checked::{Case, Numerics, Restore, Surface};
-use super::incompressible::bulk;
+use super::find;
+use super::incompressible::{bulk, has_water_of_its_own};
 use super::locate::{At, Path};
 use super::raw;
-use super::scene;
 use super::structure::suggest;
 use crate::error::Result;
 use crate::material::{Model, Profile};
@@ -21,11 +21,6 @@ use std::sync::Arc;
 const UNDRAINED: f64 = 0.495;
 /// Unit weight of water (kN/m³) where none is given.
 const UNIT_WEIGHT: f64 = 9.81;
-
-/// Whether the pressure of the water is a field of its own, and no share of one with the skeleton.
-pub(super) fn has_water_of_its_own(material: &raw::Material) -> bool {
-    material.permeability.is_some() || material.porosity.is_some() || material.water_bulk_modulus.is_some()
-}
 
 impl Checker {
     /// Refuses what only an undrained material has.
@@ -210,7 +205,7 @@ pub(super) fn water(case: &Case, mesh: &Mesh<2>) -> Result<Option<Water>> {
     }
     let mut drained = Vec::new();
     for support in case.supports.iter().filter(|support| support.drained) {
-        drained.extend_from_slice(&scene::group(mesh, &support.curve)?.nodes);
+        drained.extend_from_slice(&find::group(mesh, &support.curve)?.nodes);
     }
     drained.sort_unstable();
     drained.dedup();

@@ -1,7 +1,7 @@
 //! The rigid structures of a case: their nodes in the mesh, and what holds and moves them.
 
 use super::checked::{self, Case, Geometry, Phase};
-use super::scene::{group, region_index};
+use super::find::{group, region_index};
 use crate::error::{Error, Result};
 use crate::kinematics::Kinematics;
 use crate::mesh::Mesh;

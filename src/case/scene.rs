@@ -1,6 +1,7 @@
 //! From a checked case to a scene: the only place that decides which terms exist.
 
 use super::checked::{Analysis, Case, Content, Geometry, Material, Region, Restore};
+use super::find::{filled, group, mean_size, region_index};
 use super::outputs::outputs;
 use super::raw;
 use super::rigid::{self, Holds};
@@ -10,7 +11,6 @@ use crate::io::provenance::Origin;
 use crate::io::run_folder::RunFolder;
 use crate::kinematics::{Axisymmetric, Kinematics, PlaneStrain};
 use crate::mesh::Mesh;
-use crate::mesh::cell_size;
 use crate::mesh::faces::Faces;
 use crate::mesh::locate::Locator;
 use crate::points::Points;
@@ -19,7 +19,7 @@ use crate::run::{self, Ended, Progress};
 use crate::stencil::{Scheme, smooths};
 use crate::step::{self, Fem, Numerics, Phase, Scene, Search, State, Stop, overlap};
 use crate::term::{
-    BodyForce, Carried, Contact, DrainedSurface, EmptyCells, GhostInertia, GhostPenalty, Inertia, Internal, PoreWater,
+    BodyForce, Contact, DrainedSurface, EmptyCells, GhostInertia, GhostPenalty, Inertia, Internal, PoreWater,
     PressureField, SmoothPressure, Term, Traction, WaterBond,
 };
 use crate::time_value::TimeValue;
@@ -215,7 +215,7 @@ pub fn scene<K: Kinematics<2>>(case: &Case, mut whole: Mesh<2>) -> Result<Scene<
     for (number, pair) in (0..).zip(&pairs) {
         terms.push(Box::new(Contact::new(number, *pair.law(), levels.clone())));
     }
-    let carried = carried(case, &mesh)?;
+    let carried = changes::carried(case, &mesh)?;
     let holds = Holds::new(case, &mesh, &bodies);
     let supports = holds.supports()?;
     let search = search::search(case, &mesh, fem.as_ref().map(|fem| &fem.mesh))?;
@@ -267,7 +267,7 @@ fn internal<K: Kinematics<2>>(
     let Some(unit) = pressure_unit else {
         return Ok(vec![Box::new(Internal::<K>::new(models, dynamic).keeping(&kept))]);
     };
-    let carried = carried(case, mesh)?;
+    let carried = changes::carried(case, mesh)?;
     let carries = carried.iter().map(Option::is_some).collect();
     let field = PressureField::<K>::new(carried, unit);
     let bond = SmoothPressure::<K>::new(carries, unit, shear, mesh.cells.len());
@@ -381,41 +381,10 @@ fn stops(duration: f64, every: Option<f64>, kinks: impl Iterator<Item = f64>) ->
     stops
 }
 
-/// The regions with points and their materials.
-pub(super) fn filled(case: &Case) -> impl Iterator<Item = (&Region, &Material)> {
-    case.regions.iter().filter_map(|region| Some((region, &case.materials[region.content.material()?])))
-}
-
 /// The model of each material by number.
 fn models(case: &Case, mesh: &Mesh<2>) -> Result<Vec<Option<std::sync::Arc<dyn crate::material::Model>>>> {
     let model = |m: &Material| Some(m.carried.as_ref().map_or(&m.model, |carried| &carried.model).clone());
     changes::by_number(case, mesh, model)
-}
-
-/// What the pressure field carries of each material by number.
-pub(super) fn carried(case: &Case, mesh: &Mesh<2>) -> Result<Vec<Option<Carried>>> {
-    changes::by_number(case, mesh, |material| material.carried.clone())
-}
-
-/// The mean size of the cells of a mesh (m).
-pub(super) fn mean_size(mesh: &Mesh<2>) -> f64 {
-    let cells = mesh.cells.len();
-    (0..cells).map(|c| cell_size(mesh, c)).sum::<f64>() / cells as f64
-}
-
-pub(super) fn region_index(mesh: &Mesh<2>, name: &str) -> Result<u16> {
-    mesh.regions.iter().position(|r| r == name).map(|i| i as u16).ok_or_else(|| {
-        Error::input(
-            "mesh.msh",
-            format!("it has no region `{name}`; it has {}", mesh.regions.join(", ")),
-            "run `mpm mesh` again",
-        )
-    })
-}
-
-pub(super) fn group<'a>(mesh: &'a Mesh<2>, name: &str) -> Result<&'a crate::mesh::Group> {
-    mesh.group(name)
-        .ok_or_else(|| Error::input("mesh.msh", format!("it has no curve `{name}`"), "run `mpm mesh` again"))
 }
 
 #[cfg(test)]

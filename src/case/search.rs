@@ -1,7 +1,7 @@
 //! What counts as failure of the soil where a phase reduces strengths until there is no equilibrium.
 
 use super::checked::{Analysis, Case};
-use super::scene::{filled, region_index};
+use super::find::{filled, region_index};
 use crate::error::Result;
 use crate::mesh::Mesh;
 use crate::step::{FARTHEST, Search};

@@ -1,7 +1,7 @@
 //! Whether the points of `points.vtu` are ones that `mpm seed` puts into this case and mesh: the analysis takes it for granted.
 
 use super::checked::Case;
-use super::scene::filled;
+use super::find::filled;
 use crate::error::{Error, Result};
 use crate::mesh::Mesh;
 use crate::mesh::locate::Locator;

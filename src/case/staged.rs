@@ -1,7 +1,7 @@
 //! What is not there in a phase: structures that stay where they are, and contacts that do not touch.
 
 use super::checked::{Case, Contact, Phase, Touched, Touching};
-use super::scene::region_index;
+use super::find::region_index;
 use crate::error::Result;
 use crate::mesh::Mesh;
 use crate::rigid::Body;

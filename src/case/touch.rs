@@ -2,7 +2,7 @@
 
 use super::changes::{self, by_number};
 use super::checked::{Case, Contact, Content, Geometry, Region, Touched, Touching};
-use super::scene::region_index;
+use super::find::region_index;
 use super::wall;
 use crate::contact::{Bodies, Boundary, Pair, Rigid, Skin, SoilSide, Surface};
 use crate::error::{Error, Result};

@@ -4,7 +4,7 @@
 //! has a region without cells, by which it is known as structures are. What touches it is on the side where its cells are.
 
 use super::checked::{Case, Geometry, Touching};
-use super::scene::group;
+use super::find::group;
 use crate::error::{Error, Result};
 use crate::mesh::Mesh;
 use crate::mesh::shape::CellKind;

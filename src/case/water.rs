@@ -3,8 +3,8 @@
 use super::changes;
 use super::check::Checker;
 use super::checked::{Case, Phase, Pressure, SurfaceLoad, Water};
+use super::find::{mean_size, region_index};
 use super::locate::{At, Path};
-use super::scene::{mean_size, region_index};
 use super::{raw, rigid};
 use crate::error::Result;
 use crate::kinematics::Kinematics;

@@ -5,8 +5,8 @@
 //! means (nothing, a truth value, a number or text) is what `serde_yaml` reads it as. An alias shares the tree of its
 //! anchor. Left out: several documents in a file, and merge keys (`<<` is a key).
 
+use super::issue::{Issue, MOST_FOUND};
 use super::locate::{At, Path, Step};
-use super::source::{Issue, MOST_FOUND};
 use saphyr_parser::{Event, Marker, Parser, ScalarStyle};
 use serde_json::{Map, Number, Value};
 use std::borrow::Cow;

@@ -1,6 +1,8 @@
 //! `mpm check`: every mistake of a case that shows without its mesh, in one go.
 
-use super::{CaseArgs, Outcome, mesh, note, print};
+use super::args::CaseArgs;
+use super::mesh;
+use super::print::{Outcome, note, print};
 use crate::case::{self, Review};
 
 #[derive(clap::Args)]

@@ -1,7 +1,9 @@
 //! `mpm export`: from `results/` to series of `.vtu` with their `.pvd`.
 
+use super::args::StageArgs;
+use super::mesh;
+use super::print::{Outcome, print};
 use super::stage::{Inputs, Stage};
-use super::{Outcome, StageArgs, mesh, print};
 use crate::case::checked::Encoding;
 use crate::case::parts;
 use crate::error::{Error, Result};

@@ -1,6 +1,6 @@
 //! `mpm info`: what a file was made from, or the files of an output folder.
 
-use super::{Outcome, print};
+use super::print::{Outcome, print};
 use crate::error::{Error, Result};
 use crate::io::provenance::{Program, Record};
 use crate::io::run_folder::{BESIDE, STAGE};

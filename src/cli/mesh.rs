@@ -1,7 +1,9 @@
 //! `mpm mesh`: from the `.geo` to `mesh.msh`.
 
+use super::args::StageArgs;
+use super::print::{Outcome, print};
+use super::signals;
 use super::stage::{Inputs, Stage};
-use super::{Outcome, StageArgs, print, signals};
 use crate::case::checked;
 use crate::case::names::Groups;
 use crate::case::unconnected::{self, Place};

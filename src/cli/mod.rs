@@ -1,9 +1,11 @@
 //! The command line: one file a subcommand. Only [`main`] prints errors and decides the exit status.
 
+mod args;
 mod check;
 mod export;
 mod info;
 mod mesh;
+mod print;
 mod run;
 mod schema;
 mod seed;
@@ -11,12 +13,12 @@ mod signals;
 mod solve;
 mod stage;
 
-use crate::error::{Error, plain_lines};
+use crate::error::Error;
 use crate::mesh::gmsh;
 use crate::program;
-use clap::{Args, Parser, Subcommand};
+use args::StageArgs;
+use clap::{Parser, Subcommand};
 use std::io::{self, Write};
-use std::path::PathBuf;
 use std::process::ExitCode;
 
 /// Implicit second-order Material Point Method for geotechnics, from a Gmsh .geo file to ParaView.
@@ -53,32 +55,6 @@ enum Command {
     GmshWorker,
 }
 
-/// What every subcommand that reads a case takes.
-#[derive(Args, Clone)]
-struct CaseArgs {
-    /// A case.yaml, or the folder that holds one
-    case: PathBuf,
-    /// Override an entry of the case, e.g. mesh.parameters.h=0.1 or phases[0].duration=2
-    #[arg(long = "set", value_name = "PATH=VALUE")]
-    overrides: Vec<String>,
-}
-
-/// What every subcommand that writes takes.
-#[derive(Args, Clone)]
-struct StageArgs {
-    #[command(flatten)]
-    case: CaseArgs,
-    /// The output folder [default: out/ beside the case]
-    #[arg(short, long, value_name = "DIR")]
-    output: Option<PathBuf>,
-    /// The number of threads [default: one a core]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
-    threads: Option<u16>,
-}
-
-/// What went wrong, and all of it.
-type Outcome = Result<(), Vec<Error>>;
-
 /// Runs the program on the arguments of the process.
 pub fn main() -> ExitCode {
     let outcome = match Cli::parse().command {
@@ -102,23 +78,4 @@ pub fn main() -> ExitCode {
             ExitCode::from(errors.iter().map(Error::exit_status).max().unwrap_or(1))
         }
     }
-}
-
-/// Prints to standard output, without what a terminal would obey; a reader that has gone (`| head`) is no error.
-///
-/// # Errors
-/// Standard output that cannot be written, such as a full disk behind it.
-fn print(text: &str) -> Outcome {
-    let mut out = io::stdout().lock();
-    match out.write_all(plain_lines(text).as_bytes()).and_then(|()| out.flush()) {
-        Err(e) if e.kind() != io::ErrorKind::BrokenPipe => {
-            Err(vec![Error::machine("standard output", e, "make room, or send it elsewhere")])
-        }
-        _ => Ok(()),
-    }
-}
-
-/// Prints a line on standard error, where progress and notes go; nobody may be listening.
-fn note(text: &str) {
-    let _ = writeln!(io::stderr(), "{}", plain_lines(text));
 }

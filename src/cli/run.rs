@@ -1,7 +1,8 @@
 //! `mpm run`: all stages in turn, but those whose inputs have not changed.
 
+use super::print::{Outcome, print};
 use super::stage::Stage;
-use super::{Outcome, export, mesh, print, seed, solve};
+use super::{export, mesh, seed, solve};
 use crate::error::Result;
 
 #[derive(clap::Args)]

@@ -1,6 +1,6 @@
 //! `mpm schema`: the JSON schema of `case.yaml`.
 
-use super::{Outcome, print};
+use super::print::{Outcome, print};
 use crate::case;
 
 pub fn run() -> Outcome {

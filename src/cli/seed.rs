@@ -1,7 +1,9 @@
 //! `mpm seed`: from `mesh.msh` to `points.vtu`.
 
+use super::args::StageArgs;
+use super::mesh;
+use super::print::{Outcome, print};
 use super::stage::{Inputs, Stage};
-use super::{Outcome, StageArgs, mesh, print};
 use crate::case::seeding;
 use crate::error::Result;
 use crate::io::hash;

@@ -1,7 +1,9 @@
 //! `mpm solve`: from `mesh.msh` and `points.vtu` to results, history, log and checkpoints.
 
+use super::args::StageArgs;
+use super::print::{Outcome, note, print};
 use super::stage::{Inputs, Stage};
-use super::{Outcome, StageArgs, mesh, note, print, seed, signals};
+use super::{mesh, seed, signals};
 use crate::case::scene;
 use crate::error::{Error, Kind, Result, plain_lines};
 use crate::io::checkpoint::Checkpoints;
@@ -223,10 +225,10 @@ impl Meter {
                 bar.set_position((1000.0 * p.time / p.end) as u64);
                 bar.set_message(plain_lines(&line).into_owned());
             }
-            (None, Some(note)) => super::note(note),
+            (None, Some(line)) => note(line),
             (None, None) if elapsed >= self.due => {
                 self.due = elapsed + INTERVAL;
-                super::note(&line);
+                note(&line);
             }
             (None, None) => {}
         }

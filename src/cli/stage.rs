@@ -3,7 +3,8 @@
 //! A stage is current when its record (`io::provenance`) was made from the same inputs, by the same program, and its outputs
 //! are as it left them: `mpm run` skips it then.
 
-use super::{CaseArgs, StageArgs, note};
+use super::args::{CaseArgs, StageArgs};
+use super::print::note;
 use crate::case::{self, Loaded};
 use crate::error::{Error, Result};
 use crate::io::checkpoint::Fingerprint;

@@ -8,10 +8,12 @@
 
 use super::along::{Mark, lines};
 use super::law::{Law, Penalty};
+use super::motion::Spot;
 use super::multipliers::Multipliers;
-use super::pair::{FADING, Ground, NORMAL, Pair, Pushed, Row, Spot, TANGENTIAL};
+use super::pair::{Ground, NORMAL, Pair, Pushed, TANGENTIAL};
 use super::place::{Placed, Segments};
 use super::rigid::{Entry, add};
+use super::row::{FADING, Row};
 use super::surface::{Segment, Surface};
 use crate::kinematics::Kinematics;
 use crate::mesh::shape::MAX_NODES;

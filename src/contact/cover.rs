@@ -1,7 +1,7 @@
 //! What of the boundary of a structure lies on the soil, so that its surface there is not open.
 
-use super::pair::{FADING, Row};
 use super::place::Segments;
+use super::row::{FADING, Row};
 use super::surface::Surface;
 use crate::surface::Cover;
 

@@ -9,7 +9,7 @@
 //! neither bears nor is open; without the other there may be no equilibrium: soil that touches is dragged away, and
 //! soil that is not dragged touches.
 
-use super::pair::{Motion, Spot};
+use super::motion::{Motion, Spot};
 
 /// What is not much farther apart than the nearest place (-), in the gap over which adhesion fades.
 const NEAREST: f64 = 0.02;

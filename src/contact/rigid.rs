@@ -6,7 +6,8 @@
 use super::along::Mark;
 use super::law::Law;
 use super::multipliers::Multipliers;
-use super::pair::{Ground, Pair, Pushed, Row};
+use super::pair::{Ground, Pair, Pushed};
+use super::row::Row;
 use crate::points::Points;
 use crate::rigid::Body;
 use crate::surface::Cover;

@@ -11,20 +11,20 @@ use std::path::Path;
 
 use rayon::prelude::*;
 
-use super::container::Data;
-use super::frame::{self, Column, Frame, Part};
+use super::frame::{self, Frame, Part};
 use super::provenance::Origin;
-use super::vtu::{self, Array, Encoding, Grid, Topology};
+use super::vtu::{self, Encoding, Grid, Topology};
 use super::{atomic, hash, pvd};
 use crate::error::{Error, Result};
 use crate::mesh::Mesh;
 use crate::program;
-use crate::tensor::Symmetric;
 
 mod contact;
+mod fields;
 mod pieces;
 mod surface;
 
+use fields::{column, select};
 use pieces::Piece;
 
 /// The kinds of files, each with a `.pvd`.
@@ -225,31 +225,6 @@ fn file_name(series: &str, index: usize) -> String {
     format!("{series}_{index:06}.{kind}")
 }
 
-/// The fields that a part has or that follow from what it has.
-fn select(part: &Part, fields: &[String]) -> Vec<Array> {
-    fields.iter().filter_map(|name| column(part, name)).collect()
-}
-
-fn column(part: &Part, name: &str) -> Option<Array> {
-    let find = |name: &str| part.columns.iter().find(|c| c.name == name);
-    let array = |unit: &str, components, values| Array {
-        name: format!("{name} [{unit}]"),
-        components,
-        data: Data::F64(values),
-    };
-    if let Some(Column { unit, components, values, .. }) = find(name) {
-        return Some(array(unit, *components, values.clone()));
-    }
-    let derive: fn(&Symmetric) -> f64 = match name {
-        "mean_stress" => mean,
-        "deviatoric_stress" => deviatoric,
-        _ => return None,
-    };
-    let Column { unit, components: 6, values, .. } = find("stress")? else { return None };
-    let values = values.chunks_exact(6).map(|s| derive(&[s[0], s[1], s[2], s[3], s[4], s[5]])).collect();
-    Some(array(unit, 1, values))
-}
-
 /// Every field must be somewhere in the frame.
 fn check_fields(path: &Path, frame: &Frame, fields: &[String]) -> Result<()> {
     let parts = [&frame.points, &frame.grid, &frame.elements];
@@ -266,17 +241,6 @@ fn check_fields(path: &Path, frame: &Frame, fields: &[String]) -> Result<()> {
         format!("the field `{missing}` of output.fields is not in the results; they have {}", names.join(", ")),
         "run `mpm solve` again, or ask for another field",
     ))
-}
-
-/// Mean stress, tension positive.
-fn mean(s: &Symmetric) -> f64 {
-    (s[0] + s[1] + s[2]) / 3.0
-}
-
-/// √(3/2 s:s) of the deviator s: the von Mises stress, q of the triaxial test.
-fn deviatoric(s: &Symmetric) -> f64 {
-    let (a, b, c) = (s[0] - s[1], s[1] - s[2], s[2] - s[0]);
-    (0.5 * (a * a + b * b + c * c) + 3.0 * (s[3] * s[3] + s[4] * s[4] + s[5] * s[5])).sqrt()
 }
 
 #[cfg(test)]

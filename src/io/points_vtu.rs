@@ -19,9 +19,9 @@ use super::{atomic, columns, hash};
 use crate::error::{Error, Result};
 use crate::points::Points;
 use crate::program;
+use plain::POSITION;
 
 const AGAIN: &str = "run `mpm seed` again";
-const POSITION: &str = "position";
 const OPEN: &str = "<!-- mpm points ";
 const CLOSE: &str = " -->\n";
 

@@ -32,7 +32,8 @@ mod parameters;
 pub use bulk::Swelling;
 pub use parameters::KIND;
 
-use super::{Elasticity, Model, Moduli, Profile, Response, State, equivalent_plastic};
+use super::model::equivalent_plastic;
+use super::{Elasticity, Model, Moduli, Profile, Response, State};
 use crate::error::{Error, Result};
 use bulk::Bulk;
 use std::sync::Arc;

@@ -3,7 +3,7 @@
 //! Energy `W(ε) = ½ λ tr(ε)² + G ε·ε` with `ε_A = ½ ln b_A` (Hencky 1928; Simo & Hughes, *Computational
 //! Inelasticity*, 1998, §9.3): the law of small strains between Kirchhoff stress and logarithmic strain.
 
-use super::Profile;
+use super::profile::Profile;
 use crate::error::{Error, Result};
 
 /// Young's modulus (kPa), possibly varying with depth, and Poisson's ratio (-), within their ranges.

@@ -22,7 +22,8 @@
 //! always found, and in it every active plane holds to rounding. At a corner, where more planes meet than
 //! there are multipliers, what is checked is that the plastic strain lies in the cone of all their flows.
 
-use super::{Moduli, Response, State, equivalent_plastic};
+use super::model::equivalent_plastic;
+use super::{Moduli, Response, State};
 
 /// Planes of a polyhedral model at one height. Stresses in kPa, tension positive.
 #[derive(Clone, Copy, Debug, PartialEq)]

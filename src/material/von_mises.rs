@@ -4,7 +4,8 @@
 //! §7.3.4) and its consistent tangent, in principal axes. `yield_stress` is the strength in uniaxial
 //! tension; the strength in simple shear is `yield_stress/√3`. No hardening.
 
-use super::{Elasticity, Kind, Model, Parameter, Parameters, Profile, Response, State, cavitation, equivalent_plastic};
+use super::model::equivalent_plastic;
+use super::{Elasticity, Kind, Model, Parameter, Parameters, Profile, Response, State, cavitation};
 use crate::error::Result;
 use std::sync::Arc;
 

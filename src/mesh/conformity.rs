@@ -8,7 +8,6 @@
 
 use super::Mesh;
 use super::locate::Locator;
-use super::quality::place_of;
 use super::shape::{CellKind, MAX_NODES};
 use crate::error::{Error, Result};
 use std::path::Path;
@@ -185,6 +184,18 @@ fn root(joined: &mut [u16], mut region: u16) -> u16 {
         region = joined[usize::from(region)];
     }
     region
+}
+
+/// The name of cell `c` in a message.
+pub fn place_of(mesh: &Mesh<2>, c: usize, file: &Path) -> String {
+    let (region, [x, y]) = (&mesh.regions[usize::from(mesh.cells.region[c])], centre(mesh, c));
+    format!("{}, cell {c} of region {region} near ({x:.6}, {y:.6})", file.display())
+}
+
+/// The mean place of the corners of cell `c` (m).
+pub(super) fn centre(mesh: &Mesh<2>, c: usize) -> [f64; 2] {
+    let corners = &mesh.cells.nodes(c)[..mesh.cells.kind[c].corner_count()];
+    [0, 1].map(|d| corners.iter().map(|&n| mesh.nodes[n as usize][d]).sum::<f64>() / corners.len() as f64)
 }
 
 #[cfg(test)]

@@ -8,6 +8,7 @@
 
 mod check;
 mod estimate;
+mod files;
 mod sandbox;
 mod script;
 mod session;
@@ -17,13 +18,12 @@ pub use script::{Sources, sources};
 pub use worker::{COMMAND, Worker, serve};
 
 use crate::error::{Error, Result};
-use check::{check_parameters, check_readable, check_surfaces};
+use check::{check_parameters, check_surfaces};
+use files::check_readable;
 use serde::{Deserialize, Serialize};
 use session::Session;
 use std::fs;
 use std::path::Path;
-
-const AGAIN: &str = "make the file again with `mpm mesh`";
 
 /// What the case decides about the mesh.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

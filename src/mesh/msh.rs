@@ -15,14 +15,12 @@ use super::shape::CellKind;
 use super::{Cells, Group, Mesh};
 use crate::error::{Error, Result};
 use sections::{Block, Nodes, Sections};
-use source::Source;
+use source::{AGAIN, Source};
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs::{self, OpenOptions};
 use std::io::{self, Write};
 use std::path::Path;
 use twox_hash::XxHash64;
-
-const AGAIN: &str = "make the file again with `mpm mesh`";
 
 /// The words before the number of the seal.
 const SEAL: [&str; 2] = ["mpm mesh", "xxh64="];

@@ -63,7 +63,7 @@ pub fn check(mesh: &Mesh<2>, file: &Path) -> Result<Summary> {
             } else {
                 ("it is inverted or flat", "mend the geometry there, or refine the mesh")
             };
-            let place = place_of(mesh, c, file);
+            let place = conformity::place_of(mesh, c, file);
             let problem = format!("{problem} (quality {quality:.1e}, det J {least:.3e} to {largest:.3e})");
             return Err(Error::input(place, problem, remedy));
         }
@@ -72,7 +72,7 @@ pub fn check(mesh: &Mesh<2>, file: &Path) -> Result<Summary> {
         sum += quality;
         jacobian = jacobian.min(least / largest);
         if quality < worst.0 {
-            worst = (quality, c, centre(mesh, c));
+            worst = (quality, c, conformity::centre(mesh, c));
         }
     }
     conformity::check(mesh, file)?;
@@ -80,18 +80,6 @@ pub fn check(mesh: &Mesh<2>, file: &Path) -> Result<Summary> {
     let cells = CellKind::ALL.into_iter().map(|k| (k, count(k))).filter(|(_, n)| *n > 0).collect();
     let mean = sum / mesh.cells.len() as f64;
     Ok(Summary { nodes: mesh.nodes.len(), cells, regions, worst, mean, jacobian })
-}
-
-/// The name of cell `c` in a message.
-pub fn place_of(mesh: &Mesh<2>, c: usize, file: &Path) -> String {
-    let (region, [x, y]) = (&mesh.regions[usize::from(mesh.cells.region[c])], centre(mesh, c));
-    format!("{}, cell {c} of region {region} near ({x:.6}, {y:.6})", file.display())
-}
-
-/// The mean place of the corners of cell `c` (m).
-fn centre(mesh: &Mesh<2>, c: usize) -> [f64; 2] {
-    let corners = &mesh.cells.nodes(c)[..mesh.cells.kind[c].corner_count()];
-    [0, 1].map(|d| corners.iter().map(|&n| mesh.nodes[n as usize][d]).sum::<f64>() / corners.len() as f64)
 }
 
 impl fmt::Display for Summary {

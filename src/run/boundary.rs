@@ -1,6 +1,6 @@
 //! What frames hold of contact: the values of the hats along the boundaries of structures, as lines.
 
-use super::record::{column, triples};
+use super::columns::{column, triples};
 use crate::contact::traction;
 use crate::io::frame::{FACES, LINE, Part, REGION};
 use crate::step::{Scene, State};

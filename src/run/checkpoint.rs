@@ -2,7 +2,7 @@
 
 mod valid;
 
-use super::foreign;
+use super::foreign::foreign;
 use crate::contact::Multipliers;
 use crate::error::Result;
 use crate::io::checkpoint::Checkpoints;

@@ -11,13 +11,17 @@
 
 mod boundary;
 pub mod checkpoint;
+mod columns;
 mod ending;
+mod foreign;
 mod jump;
+mod outputs;
 mod record;
 mod surface;
 mod voids;
 
 pub use ending::Until;
+pub use outputs::Outputs;
 pub use record::{Field, Quantity, Watch, WatchedOn};
 pub use surface::Acting;
 
@@ -28,32 +32,16 @@ use crate::io::container::Store;
 use crate::io::frame::{self, Frame};
 use crate::io::hash;
 use crate::io::history::{History, Log, Mark};
-use crate::io::provenance::Origin;
 use crate::io::run_folder::RunFolder;
 use crate::kinematics::Kinematics;
 use crate::profile::{Activity, timed};
 use crate::step::{Controller, Limits, Scene, Simulation, State};
+use foreign::{AFRESH, foreign};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 
 /// Jobs that may wait for the writer: the frame and the checkpoint of a step.
 const QUEUE: usize = 2;
-
-/// What a run writes, and where.
-#[derive(Clone, Debug)]
-pub struct Outputs {
-    pub folder: RunFolder,
-    /// What is told of the case as the run begins.
-    pub warnings: Vec<String>,
-    pub fields: Vec<Field>,
-    pub watches: Vec<Watch>,
-    /// What ends each phase before its time.
-    pub until: Vec<Vec<Until>>,
-    /// What acts on the surface of the material, where that is shown.
-    pub surface: Option<Acting>,
-    /// What the run is made from: whether a checkpoint belongs to the case, and a frame to the mesh.
-    pub origin: Origin,
-}
 
 /// How far a run has come.
 #[derive(Clone, Copy, Debug)]
@@ -324,7 +312,8 @@ impl<'a> Files<'a> {
 
     /// Hands a frame to the writer.
     fn frame<const D: usize>(&mut self, scene: &Scene<D>, state: &mut State<D>) -> Result<()> {
-        let frame = record::frame(scene, state, self.outputs);
+        let frame =
+            record::frame(scene, state, &self.outputs.fields, self.outputs.origin, self.outputs.surface.as_ref());
         let (folder, frames, index) = (self.outputs.folder.results(), Arc::clone(&self.frames), state.frames as usize);
         state.frames += 1;
         self.framed = Some(state.step);
@@ -378,11 +367,4 @@ fn check_frames(folder: &RunFolder, known: &[u64], count: u64) -> Result<()> {
         Some(i) => Err(Error::input(paths[i].display(), "was changed after it was written", AFRESH)),
         None => Ok(()),
     }
-}
-
-const AFRESH: &str = "start the analysis afresh, with --fresh in place of --resume";
-
-/// The error of a checkpoint whose arrays do not fit the scene.
-fn foreign(what: &str) -> Error {
-    Error::input("checkpoint", format!("{what} does not fit the mesh and the points"), AFRESH)
 }

@@ -1,8 +1,11 @@
 //! What a run writes down: frames, rows of the history, lines of the log.
 
-use super::{Outputs, boundary, surface};
+use super::boundary;
+use super::columns::{column, triples};
+use super::surface::{self, Acting};
 use crate::io::columns::padded;
-use crate::io::frame::{CELL, Column, Frame, Part, UNCOUNTED};
+use crate::io::frame::{CELL, Frame, Part, UNCOUNTED};
+use crate::io::provenance::Origin;
 use crate::points::Points;
 use crate::quadrature::Count;
 use crate::step::{Report, Restore, Scene, State};
@@ -212,8 +215,13 @@ fn mean_over<'a, const D: usize>(
 }
 
 /// The state at one moment.
-pub fn frame<const D: usize>(scene: &Scene<D>, state: &State<D>, outputs: &Outputs) -> Frame {
-    let fields = &outputs.fields[..];
+pub fn frame<const D: usize>(
+    scene: &Scene<D>,
+    state: &State<D>,
+    fields: &[Field],
+    origin: Origin,
+    acting: Option<&Acting>,
+) -> Frame {
     let nodes = scene.mesh_nodes();
     // A grid that is restored stays where the mesh has it.
     let grid = if scene.numerics.restore == Restore::EveryStep && scene.fem.is_none() {
@@ -238,12 +246,12 @@ pub fn frame<const D: usize>(scene: &Scene<D>, state: &State<D>, outputs: &Outpu
         time: state.time,
         phase: scene.phases.get(state.phase).map_or_else(String::new, |p| p.name.clone()),
         step: state.step,
-        origin: outputs.origin,
+        origin,
         points: part(&state.points, fields),
         grid,
         elements: if scene.fem.is_some() { elements } else { Part::default() },
         contact: boundary::part(scene, state),
-        surface: outputs.surface.as_ref().map_or_else(Part::default, |acting| surface::part(scene, state, acting)),
+        surface: acting.map_or_else(Part::default, |acting| surface::part(scene, state, acting)),
     }
 }
 
@@ -272,14 +280,6 @@ fn part<const D: usize>(points: &Points<D>, fields: &[Field]) -> Part {
         Field::Mass => column("mass", "t", 1, points.mass.clone()),
     });
     Part { columns: columns.collect(), position: triples(&points.position) }
-}
-
-pub(super) fn column(name: &str, unit: &str, components: usize, values: Vec<f64>) -> Column {
-    Column { name: name.into(), unit: unit.into(), components, values }
-}
-
-pub(super) fn triples<const D: usize>(x: &[[f64; D]]) -> Vec<[f64; 3]> {
-    x.iter().map(|x| std::array::from_fn(|d| x.get(d).copied().unwrap_or(0.0))).collect()
 }
 
 /// The first lines of the log.

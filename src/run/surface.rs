@@ -1,6 +1,6 @@
 //! What frames hold of the surface of the material: the corners of its loops, with what acts there.
 
-use super::record::{column, triples};
+use super::columns::{column, triples};
 use crate::io::frame::{LINE, Part, REGION};
 use crate::mesh::shape::MAX_NODES;
 use crate::step::{Scene, State};

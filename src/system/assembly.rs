@@ -1,8 +1,8 @@
 //! The matrix of a system.
 
 use super::Pattern;
-use super::scatter::Columns;
 use rayon::prelude::*;
+use std::ops::Range;
 
 /// Groups of columns that are worked on side by side, whatever the threads.
 const COLUMNS: usize = 4;
@@ -197,5 +197,56 @@ impl Matrix {
     /// The largest diagonal entry, at least the smallest positive number.
     pub fn scale(&self, pattern: &Pattern) -> f64 {
         self.diagonal(pattern).iter().fold(f64::MIN_POSITIVE, |scale, d| scale.max(d.abs()))
+    }
+}
+
+/// Some columns of a matrix.
+pub(super) struct Columns<'a> {
+    /// The blocks they belong to.
+    pub blocks: Range<u32>,
+    /// Where their values begin in the matrix.
+    pub first: usize,
+    pub values: &'a mut [f64],
+}
+
+impl Columns<'_> {
+    /// The equations they belong to.
+    pub fn equations(&self, pattern: &Pattern) -> Range<usize> {
+        pattern.start[self.blocks.start as usize] as usize..pattern.start[self.blocks.end as usize] as usize
+    }
+
+    /// Adds what the dense matrix of clique `k` has in these columns.
+    pub fn add(&mut self, pattern: &Pattern, k: usize, local: &[f64], size: usize) {
+        let blocks = pattern.cliques.blocks(k);
+        let first_pair = pattern.pairs[k] as usize;
+        let mut column = 0;
+        for (b, &cb) in blocks.iter().enumerate() {
+            let width = (pattern.start[cb as usize + 1] - pattern.start[cb as usize]) as usize;
+            if !self.blocks.contains(&cb) {
+                column += width;
+                continue;
+            }
+            let mut row = 0;
+            for (a, &ra) in blocks.iter().enumerate() {
+                let height = (pattern.start[ra as usize + 1] - pattern.start[ra as usize]) as usize;
+                if !pattern.symmetric || ra >= cb {
+                    let offset = pattern.offset[first_pair + a * blocks.len() + b] as usize;
+                    for j in 0..width {
+                        let begin = pattern.column[pattern.start[cb as usize] as usize + j] as usize - self.first;
+                        // In the lower triangle column j of the diagonal block has lost its first j rows.
+                        let (skip, lost) = match (pattern.symmetric, ra == cb) {
+                            (true, true) => (j, j),
+                            (true, false) => (0, j),
+                            _ => (0, 0),
+                        };
+                        for i in skip..height {
+                            self.values[begin + offset + i - lost] += local[(row + i) * size + column + j];
+                        }
+                    }
+                }
+                row += height;
+            }
+            column += width;
+        }
     }
 }

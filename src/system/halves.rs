@@ -9,9 +9,9 @@
 //! and `S₁ + S₂ − S` is what both leave of the separator. A principal submatrix of a definite matrix is definite, one of a
 //! quasi-definite matrix quasi-definite, and so is what is left. Threads only decide who does a half: the bits are the same.
 
-use super::factor::{equations, factorize, least_pivot, lower, ordering, out_of_memory, scratch};
 use super::separator::halve;
 use super::supernodes::{backward, forward, supernodes};
+use super::whole::{equations, factorize, least_pivot, lower, ordering, out_of_memory, scratch};
 use super::{Matrix, Pattern};
 use crate::error::Result;
 use faer::dyn_stack::{MemBuffer, MemStack, StackReq};

@@ -1,7 +1,7 @@
 //! LU of a matrix by faer: the last resort.
 
-use super::factor::out_of_memory;
-use super::solver::{ACCEPTED, SINGULAR, norm, singular};
+use super::accuracy::{ACCEPTED, SINGULAR, norm, singular};
+use super::whole::out_of_memory;
 use super::{Matrix, Pattern};
 use crate::error::Result;
 use faer::dyn_stack::{MemBuffer, MemStack, StackReq};

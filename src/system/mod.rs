@@ -4,6 +4,7 @@
 //! over *cliques* of blocks (the nodes of a cell, say). The pattern is the union of the cliques; it and
 //! its symbolic factorisation stay fixed until the cliques change.
 
+mod accuracy;
 mod assembly;
 mod factor;
 mod halves;
@@ -14,11 +15,13 @@ mod scatter;
 mod separator;
 mod solver;
 mod supernodes;
+mod whole;
 
+pub use accuracy::is_singular;
 pub use assembly::{Beyond, Matrix};
 pub use pattern::{Cliques, Pattern};
 pub use scatter::{Local, Workspace, scatter};
-pub use solver::{Method, Solver, is_singular};
+pub use solver::{Method, Solver};
 
 #[cfg(test)]
 mod tests;

@@ -4,6 +4,7 @@
 //! 1992) on that factor of its symmetric part; LU is the last resort of both. faer can return a
 //! solution that is not finite, or one that does not solve, without an error: every solution is checked.
 
+use super::accuracy::{ACCEPTED, SINGULAR, dot, norm, singular};
 use super::factor::Factor;
 use super::iterative::gmres;
 use super::lu::General;
@@ -11,11 +12,6 @@ use super::{Matrix, Pattern};
 use crate::error::{Error, Result};
 use crate::profile::{Activity, timed};
 
-/// Relative residual beyond which a solution is refused.
-pub(super) const ACCEPTED: f64 = 1e-8;
-/// A pivot this small beside the diagonal entry it began as is rounding. A body free to move leaves at most
-/// 1e-14; all the cases of the repository, and ν = 0.499999, more than 1e-6.
-pub(super) const SINGULAR: f64 = 1e-12;
 /// Relative residuals that refinement and iteration aim at.
 const AIM: f64 = 1e-12;
 const ITERATION_AIM: f64 = 1e-9;
@@ -294,28 +290,4 @@ impl Solver {
         let residual = t.iter().zip(b).map(|(t, b)| (b - t).powi(2)).sum::<f64>().sqrt();
         residual.is_finite() && residual <= ACCEPTED * size
     }
-}
-
-/// What is said of a singular system.
-const OF_SINGULAR: &str = "the system is singular";
-
-/// Whether an error is that of a singular system.
-pub fn is_singular(error: &Error) -> bool {
-    error.problem == OF_SINGULAR
-}
-
-pub(super) fn singular() -> Error {
-    Error::analysis(
-        "linear solver",
-        OF_SINGULAR,
-        "without inertia a body must not move freely: hold it by supports, prescribe it, or lay it on what it touches",
-    )
-}
-
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
-}
-
-pub(super) fn norm(a: &[f64]) -> f64 {
-    dot(a, a).sqrt()
 }

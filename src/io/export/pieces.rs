@@ -7,7 +7,7 @@
 use super::super::container::Data;
 use super::super::frame::{CELL, Column, Part};
 use super::super::vtu::{Array, Grid, Topology};
-use super::select;
+use super::fields::select;
 use crate::mesh::Mesh;
 use std::collections::HashMap;
 

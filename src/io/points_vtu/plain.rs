@@ -10,8 +10,10 @@ use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use rayon::prelude::*;
 
-use super::POSITION;
 use crate::io::container::{Array, Data, Scalar};
+
+/// The name of the array of places.
+pub const POSITION: &str = "position";
 
 /// Numbers in the largest tuple, a tensor.
 const MAX_COMPONENTS: usize = 9;

@@ -7,7 +7,7 @@
 //!
 //! `--allow-system-calls` leaves this out; the sandbox of the worker protects beside it.
 
-use super::check::check_readable;
+use super::files::check_readable;
 use crate::error::{Error, Result};
 use std::collections::BTreeSet;
 use std::ffi::OsStr;

@@ -1,6 +1,6 @@
 //! Gmsh itself: a session with its one global model, by its C interface. All foreign functions of the program are called here.
 
-use super::check::check_complete;
+use super::files::check_complete;
 use crate::error::{Error, Result};
 use std::collections::HashMap;
 use std::ffi::{CStr, CString, c_char, c_int};

@@ -105,7 +105,7 @@ impl Worker<'_> {
     }
 
     fn start<'a>(&'a self, geo: &'a Path, options: &Options, out: Option<&Path>) -> Result<Session<'a>> {
-        super::check::check_readable(geo)?;
+        super::files::check_readable(geo)?;
         let files = if self.filter { script::sources(geo)?.files } else { vec![geo.to_owned()] };
         let mut command = Command::new(self.program);
         command.arg(COMMAND).stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped()).process_group(0);

@@ -1,8 +1,9 @@
 //! The numbers and sections of an MSH file, from text or from binary data, with the place of what is wrong.
 
-use super::AGAIN;
 use crate::error::{Error, Result};
 use std::str;
+
+pub const AGAIN: &str = "make the file again with `mpm mesh`";
 
 /// How the numbers of a file are written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

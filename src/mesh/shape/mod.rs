@@ -1,5 +1,6 @@
 //! Shape functions, one cell kind a file, in Gmsh's node order and parametric coordinates.
 
+mod functions;
 mod line;
 mod q4;
 mod q8;
@@ -9,11 +10,9 @@ mod second;
 mod t3;
 mod t6;
 
+pub use functions::{MAX_NODES, Shape, invert};
 pub use quadrature::rule;
 pub use second::map_second;
-
-/// Upper bound of the nodes of a cell, for buffers on the stack (27: a quadratic brick).
-pub const MAX_NODES: usize = 27;
 
 /// The kinds of cells and facets. Adding one: a file beside this one, a variant, a line in each `match`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -26,16 +25,6 @@ pub enum CellKind {
     Q4,
     Q8,
     Q9,
-}
-
-/// One kind of cell.
-pub trait Shape {
-    const NODES: usize;
-    const DIMENSION: usize;
-    /// Shape functions at `xi` (the first `DIMENSION` entries count) into `n[..NODES]`.
-    fn values(xi: &[f64; 3], n: &mut [f64]);
-    /// Their derivatives with respect to `xi` into `dn[..NODES]`.
-    fn derivatives(xi: &[f64; 3], dn: &mut [[f64; 3]]);
 }
 
 /// Runs an expression with `$S` standing for the shape of a kind.
@@ -211,41 +200,6 @@ pub fn map<const D: usize>(kind: CellKind, x: &[[f64; D]], xi: &[f64; 3], n: &mu
         }
     }
     determinant
-}
-
-/// Inverse and determinant of a small matrix (`D` ≤ 3).
-pub fn invert<const D: usize>(a: &[[f64; D]; D]) -> ([[f64; D]; D], f64) {
-    let mut inverse = [[0.0; D]; D];
-    let determinant;
-    match D {
-        1 => {
-            determinant = a[0][0];
-            inverse[0][0] = 1.0 / a[0][0];
-        }
-        2 => {
-            determinant = a[0][0] * a[1][1] - a[0][1] * a[1][0];
-            let r = 1.0 / determinant;
-            inverse[0][0] = a[1][1] * r;
-            inverse[0][1] = -a[0][1] * r;
-            inverse[1][0] = -a[1][0] * r;
-            inverse[1][1] = a[0][0] * r;
-        }
-        _ => {
-            let cofactor = |i: usize, j: usize| {
-                let (r, s) = ((i + 1) % 3, (i + 2) % 3);
-                let (p, q) = ((j + 1) % 3, (j + 2) % 3);
-                a[r][p] * a[s][q] - a[r][q] * a[s][p]
-            };
-            determinant = (0..3).map(|j| a[0][j] * cofactor(0, j)).sum();
-            let r = 1.0 / determinant;
-            for i in 0..3 {
-                for j in 0..3 {
-                    inverse[i][j] = cofactor(j, i) * r;
-                }
-            }
-        }
-    }
-    (inverse, determinant)
 }
 
 #[cfg(test)]

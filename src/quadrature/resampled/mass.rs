@@ -4,7 +4,7 @@
 //! the masses of each material of a body are multiplied by one factor, close to one, and those of the body by another where
 //! a material has no integration point in it.
 
-use super::Samples;
+use super::samples::Samples;
 use crate::mesh::{Bodies, Mesh};
 use crate::points::Points;
 use std::collections::BTreeMap;

@@ -1,7 +1,7 @@
 //! Whether the state in a checkpoint is one that the scene can be in: the step takes its indices, lengths and ranges for
 //! granted. That numbers are finite was checked as they were read.
 
-use super::super::foreign;
+use super::super::foreign::foreign;
 use crate::contact::{Multipliers, Pair};
 use crate::error::{Error, Result};
 use crate::mesh::Mesh;

@@ -1,0 +1,59 @@
+//! Checks of the files that Gmsh reads and writes.
+
+use crate::error::{Error, Result};
+use std::fs;
+use std::io::{Read, Seek, SeekFrom};
+use std::path::Path;
+
+const AGAIN: &str = "make the file again with `mpm mesh`";
+
+/// The path must be that of a file that opens.
+///
+/// # Errors
+/// Input: one that does not.
+pub fn check_readable(path: &Path) -> Result<()> {
+    // A pipe without a writer would not even open.
+    match fs::metadata(path) {
+        Ok(metadata) if metadata.is_file() => {
+            fs::File::open(path).map(drop).map_err(|error| Error::input(path.display(), error, "check the path"))
+        }
+        Ok(metadata) if metadata.is_dir() => Err(Error::input(path.display(), "it is a folder", "name a file")),
+        Ok(_) => Err(Error::input(path.display(), "it is no regular file", "name a file")),
+        Err(error) => Err(Error::input(path.display(), error, "check the path")),
+    }
+}
+
+/// The sections an MSH file can end with.
+const LAST_SECTIONS: [&str; 8] = [
+    "Elements",
+    "Periodic",
+    "GhostElements",
+    "Parametrizations",
+    "NodeData",
+    "ElementData",
+    "ElementNodeData",
+    "InterpolationScheme",
+];
+
+/// A mesh file that was cut short does not end with the end of a section.
+///
+/// # Errors
+/// Input: such a file, or one that cannot be read.
+pub fn check_complete(path: &Path) -> Result<()> {
+    let tail = || -> std::io::Result<Vec<u8>> {
+        let mut file = fs::File::open(path)?;
+        let length = file.metadata()?.len();
+        file.seek(SeekFrom::Start(length.saturating_sub(64)))?;
+        let mut tail = Vec::new();
+        file.read_to_end(&mut tail)?;
+        Ok(tail)
+    };
+    let tail = tail().map_err(|error| Error::input(path.display(), error, AGAIN))?;
+    let tail = String::from_utf8_lossy(&tail);
+    let last = tail.trim_end().lines().last().and_then(|line| line.trim().strip_prefix("$End")).unwrap_or_default();
+    if LAST_SECTIONS.contains(&last) {
+        Ok(())
+    } else {
+        Err(Error::input(path.display(), "it is cut short or no MSH file", AGAIN))
+    }
+}

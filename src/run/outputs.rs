@@ -1,0 +1,23 @@
+//! What a run writes.
+
+use super::ending::Until;
+use super::record::{Field, Watch};
+use super::surface::Acting;
+use crate::io::provenance::Origin;
+use crate::io::run_folder::RunFolder;
+
+/// What a run writes, and where.
+#[derive(Clone, Debug)]
+pub struct Outputs {
+    pub folder: RunFolder,
+    /// What is told of the case as the run begins.
+    pub warnings: Vec<String>,
+    pub fields: Vec<Field>,
+    pub watches: Vec<Watch>,
+    /// What ends each phase before its time.
+    pub until: Vec<Vec<Until>>,
+    /// What acts on the surface of the material, where that is shown.
+    pub surface: Option<Acting>,
+    /// What the run is made from: whether a checkpoint belongs to the case, and a frame to the mesh.
+    pub origin: Origin,
+}
