@@ -2,7 +2,7 @@
 //!
 //! # Where things are
 //!
-//! A module imports from its own layer and lower ones only; `tests/architecture.rs` keeps it so.
+//! A module imports from its own layer and lower ones only; `tests/architecture` keeps it so.
 //!
 //! | layer | modules | what |
 //! |---|---|---|

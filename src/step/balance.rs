@@ -1,27 +1,12 @@
 //! The balance of a step: the sum of the terms of the scene, and its tangent, at a trial state.
 
 use super::grid::Grid;
-use super::newton::{Buffers, Problem};
-use super::unknowns::Unknowns;
+use super::problem::Problem;
+use super::unknowns::{Buffers, Evaluation};
 use crate::error::Result;
 use crate::profile::{Activity, timed};
 use crate::term::{Assembly, Role, Trial};
 use crate::time_integration::GeneralisedAlpha;
-
-/// A state and its residual.
-pub struct Evaluation<const D: usize> {
-    pub at: Unknowns<D>,
-    pub force: Vec<f64>,
-    pub applied: [f64; D],
-    /// Norm of the largest term on the displacements: what the residual is measured against.
-    pub scale: f64,
-}
-
-impl<const D: usize> Default for Evaluation<D> {
-    fn default() -> Self {
-        Self { at: Unknowns::default(), force: Vec::new(), applied: [0.0; D], scale: 0.0 }
-    }
-}
 
 /// The sum of all terms but inertia at the last converged step, and what it is measured against.
 ///

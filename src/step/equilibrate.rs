@@ -6,7 +6,8 @@
 //! prescribed. It keeps the stresses, contacts go on from where they are then, and the displacements are discarded.
 
 use super::grid::{self, Grid};
-use super::newton::{self, Problem};
+use super::newton;
+use super::problem::Problem;
 use super::scene::Scene;
 use super::state::{Span, State};
 use super::transfer;

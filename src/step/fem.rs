@@ -3,7 +3,7 @@
 //! When the grid is restored they go on from where they are: their nodes stay, the displacement begins at zero again,
 //! and the points carry the deformation so far (updated Lagrangian).
 
-use super::grid::Family;
+use super::family::Family;
 use super::scene::{Fem, Scene};
 use super::state::State;
 use crate::kinematics::Kinematics;

@@ -1,51 +1,26 @@
 //! The grid of a run: which cells take part, the numbering of the unknowns and the stencil of the points.
 //! All of it follows from the scene and the state, and is made anew only as far as they changed.
 
-use super::contact;
+use super::facing;
+use super::family::{Family, Stencils, System};
 use super::fem::Elements;
 use super::ghost_faces;
-use super::newton::Buffers;
 use super::nodal_fit::Filled;
+use super::pore_pressure;
 use super::pressure;
 use super::relax::{self, Relaxed};
 use super::restore::{begin_anew, fill, take_weights};
 use super::scene::{Fixed, Scene};
 use super::state::State;
-use super::water;
+use super::unknowns::Buffers;
 use crate::error::Result;
 use crate::kinematics::Kinematics;
 use crate::mesh::Mesh;
-use crate::points::Points;
 use crate::rigid::Body;
 use crate::stencil::Stencil;
 use crate::surface::Piece;
-use crate::system::{Cliques, Matrix, Pattern, Solver, Workspace};
+use crate::system::{Cliques, Workspace};
 use crate::term::{Frame, GhostFace, Touch};
-
-/// Points with the cells they act on: the material points on the grid, or those of the finite elements.
-pub struct Family<'a, const D: usize> {
-    pub mesh: &'a Mesh<D>,
-    pub stencil: &'a Stencil<D>,
-    /// The clique of each cell.
-    pub clique: &'a [u32],
-    pub points: &'a Points<D>,
-}
-
-/// A system of equations over the nodes that take part.
-pub struct System {
-    pub pattern: Pattern,
-    pub matrix: Matrix,
-    pub solver: Solver,
-}
-
-/// What the points see of a grid.
-#[derive(Debug, Default)]
-pub struct Stencils<const D: usize> {
-    /// Those that integrals are summed over.
-    pub integration: Stencil<D>,
-    /// The material points, where these are others.
-    pub material: Option<Stencil<D>>,
-}
 
 /// The grid of a run.
 pub struct Grid<const D: usize> {
@@ -82,16 +57,6 @@ pub struct Grid<const D: usize> {
     pub mass: Option<System>,
     pub workspace: Workspace,
     pub buffers: Buffers<D>,
-}
-
-impl System {
-    /// A system of blocks of `sizes` unknowns; `places` as for [`Solver::new`].
-    fn new<const D: usize>(sizes: &[u8], cliques: Cliques, symmetric: bool, places: &[[f64; D]]) -> Result<Self> {
-        let pattern = Pattern::new(sizes, cliques, symmetric);
-        let matrix = Matrix::new(&pattern);
-        let solver = Solver::new(&pattern, places)?;
-        Ok(Self { pattern, matrix, solver })
-    }
 }
 
 /// The unknowns of a pressure field.
@@ -149,7 +114,7 @@ impl<const D: usize> Carrying<'_, D> {
     fn unknowns(&self, cell: u32) -> impl Iterator<Item = u32> {
         let [water, field] = (self.with)(cell);
         let cell = cell as usize;
-        let of_water = water.then(|| water::unknowns_of(self.mesh, self.water, cell));
+        let of_water = water.then(|| pore_pressure::unknowns_of(self.mesh, self.water, cell));
         let of_field = field.then(|| pressure::unknowns_of(self.mesh, self.constants, cell));
         of_water.into_iter().flatten().chain(of_field.into_iter().flatten())
     }
@@ -259,7 +224,7 @@ impl<const D: usize> Grid<D> {
             if dynamic { Some(System::new(&vec![1; node.len()], cliques.clone(), true, &places)?) } else { None };
         // The mass always takes a penalty on faces, the motion only where a term says so.
         let mut cliques = if scene.terms.iter().any(|t| t.penalises_faces()) { cliques } else { cells_only };
-        let touch_clique = contact::couple(state, &block, &mut cliques);
+        let touch_clique = facing::couple(state, &block, &mut cliques);
         let with_pressure = scene.pressure_unit.map(|_| {
             let [constants, of_water] = scene.pressure_places();
             let (with_water, with_field) = (scene.water.is_some(), scene.has_pressure_field());
@@ -343,7 +308,7 @@ impl<const D: usize> Grid<D> {
             let soil = self.frame(&scene.mesh, state).into();
             let elements = self.elements.as_ref().map(|elements| self.frame_of_elements(scene, elements, state).into());
             let cells: Vec<_> = std::iter::once(soil).chain(elements).collect();
-            water::gather::<D, K>(&cells, &water.porous, &mut field);
+            pore_pressure::gather::<D, K>(&cells, &water.porous, &mut field);
             state.pressure.extend(field);
         }
     }

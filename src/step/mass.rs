@@ -12,7 +12,8 @@
 //! in a cell, evenly spread points determine `1/720 ρ h⁴` times its squared curvature, so that they lose the square of `720 ε₂` of it; points in a third of the
 //! cell determine a hundredth of that, and there the motion is linear by half.
 
-use super::grid::{Family, Grid, System};
+use super::family::{Family, System};
+use super::grid::Grid;
 use super::rigid;
 use super::scene::Scene;
 use super::state::State;

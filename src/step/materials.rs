@@ -1,94 +1,11 @@
-//! Materials that change as a phase begins: what the points of a region take over into the new one.
-//!
-//! The stress stays, and so does the excess pore pressure: the new material gets the elastic strain and the share of the pressure field that
-//! carry them. The deformation, the volume and the accumulated plastic strain of the points go on. Their mass becomes that of the new density. What hardens
-//! or softens a model goes on where it is the same quantity, and begins anew elsewhere.
+//! Materials that change as a phase begins: the pressure field, and what the log says.
 
+use super::change::Change;
 use super::grid::Grid;
 use super::scene::Scene;
 use super::state::State;
 use crate::kinematics::Kinematics;
-use crate::material::{Model, Profile, State as Memory, is_beyond_yield, odd_poisson, on_poisson, spatial};
-use crate::points::Points;
-use crate::term::Carried;
-use std::fmt;
-use std::sync::Arc;
-
-/// A material that a region takes as a phase begins.
-#[derive(Clone)]
-pub struct Change {
-    /// Index into the regions of the mesh, and its name.
-    pub region: u16,
-    pub of: String,
-    /// The number of the material among those of the scene ([`Points::model_of`]), and its name.
-    pub number: u16,
-    pub into: String,
-    /// The model that answers for the whole stress, and what the pressure field carries of it.
-    pub model: Arc<dyn Model>,
-    pub carried: Option<Carried>,
-    /// What the field carried before.
-    pub before: Option<Carried>,
-    /// Density (t/m³).
-    pub density: Profile,
-    /// Whether what the model remembers is the quantity that the one before remembered.
-    pub goes_on: bool,
-}
-
-impl fmt::Debug for Change {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("Change").field("of", &self.of).field("into", &self.into).finish_non_exhaustive()
-    }
-}
-
-impl Change {
-    /// The points of the region among `points`.
-    fn of<'a, const D: usize>(&self, points: &'a Points<D>) -> impl Iterator<Item = usize> + use<'a, D> {
-        let region = self.region;
-        (0..points.len()).filter(move |&p| points.region[p] == region)
-    }
-
-    fn apply<const D: usize>(&self, points: &mut Points<D>) {
-        if points.model.is_empty() {
-            points.model.clone_from(&points.region);
-        }
-        let numbers: Vec<usize> = self.of(points).collect();
-        for p in numbers {
-            let y = points.origin[p][1];
-            let volume_ratio = points.deformation[p].determinant();
-            // Pore water that shares the pressure field has its pressure there.
-            let shares = |carried: &&Carried| carried.water > 0.0;
-            let pore_pressure = self.before.as_ref().filter(shares).map_or(0.0, |c| c.pore_pressure(points, p));
-            let kirchhoff = points.stress[p].map(|s| volume_ratio * s);
-            points.elastic[p] = spatial::elastic_from_stress(self.model.as_ref(), y, &kirchhoff);
-            if !points.pressure.is_empty() {
-                points.pressure[p] = self.carried.as_ref().map_or(0.0, |carried| {
-                    if shares(&carried) {
-                        carried.held(points, p) - volume_ratio * pore_pressure
-                    } else {
-                        carried.begin(self.model.as_ref(), points, p)
-                    }
-                });
-            }
-            if let Some(memory) = points.memory.get_mut(p).filter(|_| !self.goes_on) {
-                *memory = 0.0;
-            }
-            points.mass[p] = self.density.at(y) * points.initial_volume[p];
-            points.model[p] = self.number;
-        }
-    }
-}
-
-/// Gives the points the materials of the phase that begins.
-pub fn change<const D: usize>(scene: &Scene<D>, state: &mut State<D>) {
-    let Some(phase) = scene.phases.get(state.phase) else { return };
-    for change in &phase.changes {
-        change.apply(&mut state.points);
-        if let Some(samples) = &mut state.weighing.samples {
-            change.apply(&mut samples.points);
-        }
-        change.apply(&mut state.fem);
-    }
-}
+use crate::material::{State as Memory, is_beyond_yield, odd_poisson, on_poisson};
 
 /// Takes the pressure field of a phase that begins with other materials over from the points.
 pub fn take_field<const D: usize, K: Kinematics<D>>(scene: &Scene<D>, grid: &Grid<D>, state: &mut State<D>) {

@@ -5,10 +5,13 @@
 //! implicitly. *Convect* moves the points with the grid and hands them its motion and the converged state.
 
 mod balance;
+mod change;
 mod contact;
 mod control;
 mod distortion;
 mod equilibrate;
+mod facing;
+mod family;
 mod fem;
 mod free;
 mod ghost_faces;
@@ -21,7 +24,9 @@ mod momentum;
 mod newton;
 mod nodal_fit;
 pub mod overlap;
+mod pore_pressure;
 mod pressure;
+mod problem;
 mod put_back;
 mod relax;
 mod release;
@@ -31,15 +36,16 @@ mod rigid;
 mod scene;
 mod state;
 mod transfer;
+mod unbalanced;
 mod unknowns;
 mod water;
 
+pub use change::Change;
 pub use contact::Resultant;
 pub use control::{Controller, Limits};
 pub use ghost_faces::has_room_for_penalties;
 pub use grid::Grid;
-pub use materials::Change;
-pub use newton::Solution;
+pub use problem::Solution;
 pub use release::Release;
 pub use report::Report;
 pub use scene::{FARTHEST, Fem, Fixed, Numerics, Phase, Prescribed, Restore, Scene, Search, Stop, Water};
@@ -50,7 +56,7 @@ use crate::error::{Error, Kind, Result};
 use crate::kinematics::Kinematics;
 use crate::profile::{Activity, timed};
 use crate::time_integration::GeneralisedAlpha;
-use newton::Problem;
+use problem::Problem;
 use std::marker::PhantomData;
 use transfer::Start;
 
@@ -119,7 +125,7 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
             return Ok(false);
         }
         let found = contact::begin::<D, K>(self.scene, &mut self.grid, &mut self.state)
-            .and_then(|()| release::stays_at_rest(self.scene, &mut self.grid, &self.state, part));
+            .and_then(|()| unbalanced::stays_at_rest(self.scene, &mut self.grid, &self.state, part));
         match found {
             // What is at fault here is told by the step that comes.
             Err(error) if error.kind == Kind::Analysis => Ok(false),
@@ -145,7 +151,7 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
                         // A distorted grid is the first thing to blame.
                         (fresh, unbalanced) = timed(Activity::Transfer, || self.initialise(true))?;
                     } else if guess.is_none() {
-                        release::hold(self.scene, &mut self.grid, &mut self.state, dt)?;
+                        unbalanced::hold(self.scene, &mut self.grid, &mut self.state, dt)?;
                         controller.halve(dt, error)?;
                     }
                 }

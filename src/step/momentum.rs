@@ -8,10 +8,10 @@
 //! Internal forces have no moment where they act, which is between the ends of a step. So the moment of what a step adds to the
 //! velocity is taken there.
 
-use super::grid::{Family, Grid};
+use super::family::{Family, interpolate};
+use super::grid::Grid;
 use super::scene::Scene;
 use super::state::State;
-use super::transfer::interpolate;
 use crate::kinematics::Kinematics;
 use crate::mesh::{Bodies, Mesh};
 use crate::points::Points;

@@ -2,16 +2,15 @@
 
 mod search;
 
-use super::balance::{Evaluation, evaluate};
+use super::balance::evaluate;
+use super::family::Family;
 use super::free;
-use super::grid::{Family, Grid};
-use super::scene::Scene;
-use super::state::State;
-use super::unknowns::Unknowns;
+use super::grid::Grid;
+use super::problem::{Problem, Solution};
+use super::unknowns::{Buffers, Evaluation, Unknowns};
 use crate::error::{Error, Result};
 use crate::mesh::cell_size;
 use crate::system::Method;
-use crate::time_integration::GeneralisedAlpha;
 
 /// Directions from a guess that hold hats together.
 const HELD: usize = 3;
@@ -21,86 +20,6 @@ const LOOSEST: f64 = 1e-3;
 const DUE: f64 = 1e-3;
 /// A residual this small relative to the forces that balance is the rounding of their sums.
 const ROUNDING: f64 = 1e-12;
-
-/// What is to be solved.
-pub struct Problem<'a, const D: usize> {
-    pub scene: &'a Scene<D>,
-    pub state: &'a State<D>,
-    /// Displacement (m) of the nodes that the iteration begins with, if not the converged one.
-    pub guess: Option<&'a [[f64; D]]>,
-    /// State of the nodes at the last converged step.
-    pub converged: &'a [[f64; D]],
-    /// The pressure field (kPa) there; empty without one.
-    pub pressure: &'a [f64],
-    pub velocity: &'a [[f64; D]],
-    pub acceleration: &'a [[f64; D]],
-    pub phase: usize,
-    /// Time (s) in the phase at the beginning and the end of the step.
-    pub from: f64,
-    pub to: f64,
-    /// Increment (m, kPa) of the displacements and pore pressures that are given, `None` where free. One entry an equation.
-    pub given: &'a [Option<f64>],
-    /// Present in dynamic analysis.
-    pub integration: Option<GeneralisedAlpha>,
-    /// Time (s) that water flows for.
-    pub flow_time: f64,
-}
-
-impl<'a, const D: usize> Problem<'a, D> {
-    /// The last converged step, where nothing is given.
-    pub fn at_rest(scene: &'a Scene<D>, state: &'a State<D>) -> Self {
-        Self {
-            scene,
-            state,
-            guess: None,
-            converged: &state.displacement,
-            pressure: &state.pressure,
-            velocity: &state.velocity,
-            acceleration: &state.acceleration,
-            phase: state.phase,
-            from: state.phase_time,
-            to: state.phase_time,
-            given: &[],
-            integration: None,
-            flow_time: 0.0,
-        }
-    }
-}
-
-/// A converged step.
-pub struct Solution<const D: usize> {
-    /// Displacement of the nodes (m) since the last restoration.
-    pub displacement: Vec<[f64; D]>,
-    /// The pressure field (kPa); empty without one.
-    pub pressure: Vec<f64>,
-    /// Residual (kN), one entry an equation: zero where free, the force of the support where given.
-    pub residual: Vec<f64>,
-    /// Relative residuals, the first before the first iteration.
-    pub history: Vec<f64>,
-    /// Resultant (kN) of the applied forces, weighted in time as the step does.
-    pub applied: [f64; D],
-    pub method: Method,
-}
-
-/// Vectors that the iterations of all steps use.
-#[derive(Default)]
-pub struct Buffers<const D: usize> {
-    now: Evaluation<D>,
-    trial: Evaluation<D>,
-    best: Unknowns<D>,
-    delta: Vec<f64>,
-    /// What `delta` balances in the linear system (kN).
-    wanted: Vec<f64>,
-    gap: Vec<f64>,
-    fixed: Vec<bool>,
-    /// The residual of one term.
-    pub own: Vec<f64>,
-    pub between: Vec<[f64; D]>,
-    pub acceleration: Vec<[f64; D]>,
-    pub ahead: Vec<[f64; D]>,
-    /// As [`crate::term::Trial::held`].
-    pub held: bool,
-}
 
 /// Solves a step.
 ///
@@ -210,7 +129,7 @@ impl<'a, const D: usize> Newton<'a, D> {
         let residual = |newton: &mut Self, start: &[[f64; D]], tangent: bool| {
             newton.buffers.now.at.set(start, newton.problem.pressure);
             gaps(newton.problem, newton.grid, &newton.buffers.now.at, &mut newton.buffers.gap);
-            newton.buffers.now.at.advance(newton.problem, newton.grid, &newton.buffers.gap, 1.0);
+            newton.problem.advance(newton.grid, &mut newton.buffers.now.at, &newton.buffers.gap, 1.0);
             let found = newton.evaluate(tangent).map(|()| newton.size(&newton.buffers.now));
             found.ok().filter(|size| size.is_finite()).unwrap_or(f64::INFINITY)
         };

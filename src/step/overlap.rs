@@ -1,6 +1,6 @@
 //! Structures that come to be, at first or in a later phase, within the soil they are to touch.
 
-use super::contact::position;
+use super::facing::position;
 use super::scene::Scene;
 use super::state::State;
 use crate::contact::{Mark, Pair};

@@ -5,13 +5,7 @@
 //! that step would have ended: steps that are halved then have less to bear. From there on there is nothing of them. Phases that look for
 //! failure, or hand it to dynamics, hold nothing.
 
-use super::balance::static_force;
-use super::grid::Grid;
-use super::newton::Problem;
-use super::report::Motion;
 use super::scene::Scene;
-use super::state::State;
-use crate::error::Result;
 use crate::mesh::Mesh;
 use crate::mesh::locate::Locator;
 use crate::mesh::shape::MAX_NODES;
@@ -38,96 +32,31 @@ impl<const D: usize> Release<D> {
     }
 }
 
-/// Holds what is out of balance, if anything is, after a first step of the size `dt` (s) that failed.
-///
-/// # Errors
-/// When the state is inadmissible on the restored grid.
-pub fn hold<const D: usize>(scene: &Scene<D>, grid: &mut Grid<D>, state: &mut State<D>, dt: f64) -> Result<()> {
-    let phase = &scene.phases[state.phase];
-    let looks_for_failure = phase.auto || phase.search.is_some();
-    if looks_for_failure || state.dynamic(scene) || state.phase_time > 0.0 || !state.release.force.is_empty() {
-        return Ok(());
-    }
-    let Unbalanced { force, scale } = unbalanced(&Problem { to: dt, ..Problem::at_rest(scene, state) }, grid)?;
-    // Newton's method does not feel less.
-    if norm(&force) <= scene.numerics.tolerance * scale {
-        return Ok(());
-    }
-    state.release = Release { force: force.into_iter().map(|f| f.map(|f| -f)).collect(), until: dt };
-    Ok(())
-}
-
-/// What is out of balance in a state without inertia.
-struct Unbalanced<const D: usize> {
-    /// By node (kN), zero where the displacement is given.
-    force: Vec<[f64; D]>,
-    /// Norm of the largest of the forces that balance (kN).
-    scale: f64,
-}
-
-/// What is out of balance at the last converged step, under the loads that `problem` begins with.
-fn unbalanced<const D: usize>(problem: &Problem<D>, grid: &mut Grid<D>) -> Result<Unbalanced<D>> {
-    let now = static_force(problem, grid)?;
-    let mut force = vec![[0.0; D]; problem.scene.mesh.nodes.len()];
-    for (f, &n) in now.force.chunks_exact(D).zip(&grid.node) {
-        force[n as usize] = std::array::from_fn(|d| f[d]);
-    }
-    for fixed in problem.scene.fixed(problem.phase) {
-        fixed.nodes.iter().for_each(|&n| force[n as usize][fixed.component] = 0.0);
-    }
-    Ok(Unbalanced { force, scale: now.scale })
-}
-
-fn norm<const D: usize>(force: &[[f64; D]]) -> f64 {
-    force.iter().flatten().map(|f| f * f).sum::<f64>().sqrt()
-}
-
-/// Whether a phase with inertia begins at rest, and stays there: nothing moves, no displacement is prescribed, no water flows, and
-/// under the loads of every time of the phase the forces are in balance but for the share `part` (-).
-///
-/// # Errors
-/// When the state is inadmissible.
-pub fn stays_at_rest<const D: usize>(
-    scene: &Scene<D>,
-    grid: &mut Grid<D>,
-    state: &State<D>,
-    part: f64,
-) -> Result<bool> {
-    let phase = &scene.phases[state.phase];
-    if phase.flows || phase.moves() || Motion::of(state).kinetic > 0.0 {
-        return Ok(false);
-    }
-    for time in phase.times() {
-        let problem = Problem { from: time, to: time, ..Problem::at_rest(scene, state) };
-        let Unbalanced { force, scale } = unbalanced(&problem, grid)?;
-        if norm(&force) > part * scale {
-            return Ok(false);
+impl<const D: usize> Release<D> {
+    /// Takes the forces to a restored grid, given that `before`, the displacement (m) of its nodes since, and the cells that are `filled`:
+    /// those at its nodes, which have moved with the soil, go to the nodes around where they are, so that resultants stay. Finite elements and
+    /// bodies keep theirs.
+    pub fn carry(
+        &mut self,
+        scene: &Scene<D>,
+        (before, displacement): (&Mesh<D>, &[[f64; D]]),
+        after: (&Mesh<D>, &Locator<D>),
+        filled: &[u32],
+    ) {
+        if self.force.is_empty() {
+            return;
         }
+        let mut own = vec![false; self.force.len()];
+        let elements = scene.fem.iter().flat_map(|fem| &fem.mesh.cells.nodes);
+        let bodies = scene.bodies.iter().flat_map(Body::carriers);
+        elements.copied().chain(bodies).for_each(|n| own[n as usize] = true);
+        let moved = |(n, x): (usize, &[f64; D])| {
+            let place = std::array::from_fn(|d| x[d] + displacement[n][d]);
+            (!own[n]).then_some(place)
+        };
+        let places: Vec<_> = before.nodes.iter().enumerate().map(moved).collect();
+        self.force = spread(&self.force, &places, after, filled);
     }
-    Ok(true)
-}
-
-/// Takes the forces that are held to a restored grid, given that `before`: those at its nodes, which have moved with the soil, go to the
-/// nodes around where they are, so that resultants stay. Finite elements and bodies keep theirs.
-pub fn carry<const D: usize>(
-    scene: &Scene<D>,
-    before: &Mesh<D>,
-    (after, locator): (&Mesh<D>, &Locator<D>),
-    state: &mut State<D>,
-) {
-    if state.release.force.is_empty() {
-        return;
-    }
-    let mut own = vec![false; state.release.force.len()];
-    let elements = scene.fem.iter().flat_map(|fem| &fem.mesh.cells.nodes);
-    let bodies = scene.bodies.iter().flat_map(Body::carriers);
-    elements.copied().chain(bodies).for_each(|n| own[n as usize] = true);
-    let moved = |(n, x): (usize, &[f64; D])| {
-        let place = std::array::from_fn(|d| x[d] + state.displacement[n][d]);
-        (!own[n]).then_some(place)
-    };
-    let places: Vec<_> = before.nodes.iter().enumerate().map(moved).collect();
-    state.release.force = spread(&state.release.force, &places, (after, locator), &state.points.cell);
 }
 
 /// Forces at the nodes of a grid with points in the cells `filled` that are equivalent to others at `places` (m), which are near the

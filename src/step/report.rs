@@ -2,7 +2,7 @@
 
 use super::contact::Resultant;
 use super::grid::Grid;
-use super::newton::Solution;
+use super::problem::Solution;
 use super::scene::Scene;
 use super::state::State;
 use super::water::Balance;

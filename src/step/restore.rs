@@ -1,16 +1,15 @@
 //! The restored grid: its nodes where it has them at first, or relaxed between finite elements that moved, the cells of the points, and
 //! what these weigh.
 
-use super::contact;
+use super::facing;
+use super::family::Stencils;
 use super::fem;
 use super::ghost_faces;
-use super::grid::Stencils;
 use super::guess;
 use super::nodal_fit::Filled;
 use super::pressure;
 use super::put_back::put_back;
 use super::relax::{self, Relaxed};
-use super::release;
 use super::scene::{Restore, Scene};
 use super::state::State;
 use crate::error::{Error, Result};
@@ -45,7 +44,7 @@ pub fn begin_anew<const D: usize, K: Kinematics<D>>(
     let (before, put_back) = placed?;
     let (mesh, locator) = relaxed.as_ref().map_or((&scene.mesh, &scene.locator), |r| (&r.mesh, &r.locator));
     let changed = choose_cells(scene, state);
-    let outlines = contact::outlines(scene, state);
+    let outlines = facing::outlines(scene, state);
     stencils.integration = stencils.material.take().unwrap_or_else(|| std::mem::take(&mut stencils.integration));
     fill::<D, K>(&mut stencils.integration, scene, mesh, state);
     let grid = Restored {
@@ -66,7 +65,7 @@ pub fn begin_anew<const D: usize, K: Kinematics<D>>(
     let here = before.as_ref().map_or((&scene.mesh, &scene.locator), |r| (&r.mesh, &r.locator));
     let before = here.0;
     guess::carry(here, mesh, state);
-    release::carry(scene, before, (mesh, locator), state);
+    state.release.carry(scene, (before, &state.displacement), (mesh, locator), &state.points.cell);
     state.displacement.fill([0.0; D]);
     state.restorations += 1;
     if scene.numerics.restore == Restore::Never {

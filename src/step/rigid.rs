@@ -6,7 +6,6 @@
 use super::grid::Grid;
 use super::scene::Scene;
 use super::state::State;
-use super::transfer::Start;
 use crate::rigid::{Body, Pose};
 use crate::system::{Matrix, Pattern};
 use crate::tensor::Tensor;
@@ -111,11 +110,11 @@ pub fn add_mass<const D: usize>(scene: &Scene<D>, block: &[u32], pattern: &Patte
 }
 
 /// Momentum (t m/s) that bodies take on at once where the step prescribes their motion.
-pub fn impulse<const D: usize>(scene: &Scene<D>, state: &State<D>, start: &Start<D>) -> [f64; D] {
+pub fn impulse<const D: usize>(scene: &Scene<D>, state: &State<D>, velocity: &[[f64; D]]) -> [f64; D] {
     let mut impulse = [0.0; D];
     for body in &scene.bodies {
         let n = body.reference as usize;
-        impulse = std::array::from_fn(|d| impulse[d] + body.mass * (start.velocity[n][d] - state.velocity[n][d]));
+        impulse = std::array::from_fn(|d| impulse[d] + body.mass * (velocity[n][d] - state.velocity[n][d]));
     }
     impulse
 }

@@ -1,6 +1,6 @@
 //! A scene: everything that does not change while it is solved.
 
-use super::materials::Change;
+use super::change::Change;
 use crate::contact::Pair;
 use crate::mesh::Mesh;
 use crate::mesh::faces::Faces;

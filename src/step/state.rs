@@ -1,6 +1,5 @@
 //! The state of a run: all that a checkpoint holds. Everything else follows from it and the scene.
 
-use super::materials;
 use super::release::Release;
 use super::scene::Scene;
 use crate::contact::Multipliers;
@@ -152,8 +151,14 @@ impl<const D: usize> State<D> {
         if moved && !self.dynamic(scene) {
             self.rest();
         }
-        materials::change(scene, self);
         if let Some(next) = scene.phases.get(self.phase) {
+            for change in &next.changes {
+                change.apply(&mut self.points);
+                if let Some(samples) = &mut self.weighing.samples {
+                    change.apply(&mut samples.points);
+                }
+                change.apply(&mut self.fem);
+            }
             self.step_size = next.first_step;
             if next.reset {
                 self.uncounted.clone_from(&self.travel);

@@ -5,10 +5,11 @@
 //! that these have at the integration points ([`momentum`]).
 
 use super::balance::static_force;
-use super::grid::{Family, Grid};
+use super::family::{Family, interpolate};
+use super::grid::Grid;
 use super::mass::{Carrier, Mass};
 use super::momentum;
-use super::newton::{Problem, Solution};
+use super::problem::{Problem, Solution};
 use super::rigid;
 use super::scene::Scene;
 use super::state::{Span, State};
@@ -18,7 +19,6 @@ use crate::mesh::shape::MAX_NODES;
 use crate::points::Points;
 use crate::term::{Frame, Term, Trial, Update};
 use crate::time_integration::GeneralisedAlpha;
-use rayon::prelude::*;
 
 /// Brings velocity and acceleration to the nodes: from the points, and from the forces at the first step of a
 /// motion.
@@ -85,7 +85,7 @@ impl<const D: usize> Start<D> {
 
     /// Momentum (t m/s) that the nodes take on at once, all together.
     pub fn impulse<K: Kinematics<D>>(&self, scene: &Scene<D>, grid: &Grid<D>, state: &State<D>) -> [f64; D] {
-        let mut impulse = rigid::impulse(scene, state, self);
+        let mut impulse = rigid::impulse(scene, state, &self.velocity);
         for Family { mesh, stencil, points, .. } in grid.integrated(scene, state) {
             for patch in &stencil.patches {
                 let nodes = mesh.cells.nodes(patch.cell as usize);
@@ -373,32 +373,5 @@ fn to_points<const D: usize, K: Kinematics<D>>(
         *out = interpolate::<D, K>(&family, field);
     }
     momentum::complete_points::<D, K>(scene, grid, state, field, back, &mut out[0]);
-    out
-}
-
-/// Interpolates a nodal field at points.
-pub fn interpolate<const D: usize, K: Kinematics<D>>(family: &Family<D>, field: &[[f64; D]]) -> Vec<[f64; D]> {
-    let Family { mesh, stencil, points, .. } = family;
-    let by_patch: Vec<Vec<(usize, [f64; D])>> = stencil
-        .patches
-        .par_iter()
-        .map(|patch| {
-            let nodes = mesh.cells.nodes(patch.cell as usize);
-            let interpolate = |entries: crate::stencil::Entries<'_, D>| {
-                let mut value = [0.0; D];
-                for (n, &node) in entries.value.iter().zip(nodes) {
-                    for d in 0..D {
-                        value[d] += n * field[node as usize][d];
-                    }
-                }
-                (entries.point, value)
-            };
-            stencil.entries::<K>(patch).map(interpolate).collect()
-        })
-        .collect();
-    let mut out = vec![[0.0; D]; points.len()];
-    for (p, value) in by_patch.into_iter().flatten() {
-        out[p] = value;
-    }
     out
 }

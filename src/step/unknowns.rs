@@ -1,7 +1,4 @@
-//! The unknowns of a step, by node and cell as the state has them.
-
-use super::grid::Grid;
-use super::newton::Problem;
+//! The unknowns of a step, by node and cell as the state has them, and what the iterations keep of them.
 
 /// Displacement of the nodes and, where there is one, the pressure field.
 #[derive(Default)]
@@ -23,25 +20,39 @@ impl<const D: usize> Unknowns<D> {
     pub fn clone_from(&mut self, other: &Self) {
         self.set(&other.displacement, &other.pressure);
     }
+}
 
-    /// Adds `length · δ`, one entry an equation; a full step lands on what is given to the last bit.
-    pub fn advance(&mut self, problem: &Problem<D>, grid: &Grid<D>, delta: &[f64], length: f64) {
-        let (of_nodes, of_pressure) = delta.split_at(D * grid.node.len());
-        for (e, delta) in of_nodes.iter().enumerate() {
-            let (n, d) = (grid.node[e / D] as usize, e % D);
-            match problem.given[e] {
-                Some(increment) if length == 1.0 => self.displacement[n][d] = problem.converged[n][d] + increment,
-                _ => self.displacement[n][d] += length * delta,
-            }
-        }
-        let unit = problem.scene.pressure_unit.unwrap_or(0.0);
-        let given = problem.given[of_nodes.len()..].iter();
-        for ((delta, &unknown), given) in of_pressure.iter().zip(&grid.carrier).zip(given) {
-            let unknown = unknown as usize;
-            match given {
-                Some(increment) if length == 1.0 => self.pressure[unknown] = problem.pressure[unknown] + increment,
-                _ => self.pressure[unknown] += length * unit * delta,
-            }
-        }
+/// A state and its residual.
+pub struct Evaluation<const D: usize> {
+    pub at: Unknowns<D>,
+    pub force: Vec<f64>,
+    pub applied: [f64; D],
+    /// Norm of the largest term on the displacements: what the residual is measured against.
+    pub scale: f64,
+}
+
+impl<const D: usize> Default for Evaluation<D> {
+    fn default() -> Self {
+        Self { at: Unknowns::default(), force: Vec::new(), applied: [0.0; D], scale: 0.0 }
     }
+}
+
+/// Vectors that the iterations of all steps use.
+#[derive(Default)]
+pub struct Buffers<const D: usize> {
+    pub now: Evaluation<D>,
+    pub trial: Evaluation<D>,
+    pub best: Unknowns<D>,
+    pub delta: Vec<f64>,
+    /// What `delta` balances in the linear system (kN).
+    pub wanted: Vec<f64>,
+    pub gap: Vec<f64>,
+    pub fixed: Vec<bool>,
+    /// The residual of one term.
+    pub own: Vec<f64>,
+    pub between: Vec<[f64; D]>,
+    pub acceleration: Vec<[f64; D]>,
+    pub ahead: Vec<[f64; D]>,
+    /// As [`crate::term::Trial::held`].
+    pub held: bool,
 }

@@ -1,21 +1,12 @@
-//! The pore water on the grid: where the pressures of the nodes stand, what the points bring to a restored grid, and the balance of
-//! a step.
+//! The balance of the pore water in a step.
 
 use super::grid::Grid;
-use super::newton::Solution;
-use super::nodal_fit::{self, Filled};
+use super::pore_pressure::soil;
+use super::problem::Solution;
 use super::scene::Scene;
 use super::state::State;
-use crate::kinematics::Kinematics;
-use crate::mesh::Mesh;
-use crate::points::Points;
-use crate::term::{Porous, Trial};
+use crate::term::Trial;
 use crate::time_integration::GeneralisedAlpha;
-
-/// The porous soil of point `p`.
-fn soil<'a, const D: usize>(porous: &'a [Option<Porous>], points: &Points<D>, p: usize) -> Option<&'a Porous> {
-    porous.get(points.model_of(p)).and_then(Option::as_ref)
-}
 
 /// The water of a step.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -100,16 +91,4 @@ pub fn balance<const D: usize>(
 
 fn alpha_f(spectral_radius: f64) -> f64 {
     GeneralisedAlpha::new(spectral_radius, 1.0).alpha_f
-}
-
-/// Where the pore pressures of a cell stand in [`super::State::pressure`]: those of its corners, counted from `water` on.
-pub fn unknowns_of<const D: usize>(mesh: &Mesh<D>, water: usize, cell: usize) -> impl Iterator<Item = u32> {
-    let corners = &mesh.cells.nodes(cell)[..mesh.cells.kind[cell].corner_count()];
-    corners.iter().map(move |&n| water as u32 + n)
-}
-
-/// Takes the pressures (kPa) of the nodes over from the points of all `cells` that are in regions with water.
-pub fn gather<const D: usize, K: Kinematics<D>>(cells: &[Filled<D>], porous: &[Option<Porous>], field: &mut [f64]) {
-    let value = |points: &Points<D>, p: usize| soil(porous, points, p).map(|_| points.pore_pressure[p]);
-    nodal_fit::fit::<D, K>(cells, value, field);
 }

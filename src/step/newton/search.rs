@@ -1,7 +1,8 @@
 //! How far to go along the direction of an iteration.
 
 use super::super::balance::evaluate;
-use super::{Buffers, Newton};
+use super::super::unknowns::Buffers;
+use super::Newton;
 use crate::error::Result;
 
 /// Sufficient decrease of the residual for a step length `s`: by a factor `1 − ARMIJO · s`.
@@ -145,7 +146,7 @@ impl<const D: usize> Newton<'_, D> {
         self.length = length;
         let mut trial = std::mem::take(&mut self.buffers.trial);
         trial.at.clone_from(&self.buffers.now.at);
-        trial.at.advance(self.problem, self.grid, &self.buffers.delta, length);
+        self.problem.advance(self.grid, &mut trial.at, &self.buffers.delta, length);
         let done = evaluate(self.problem, self.grid, &mut self.buffers, &mut trial, tangent);
         let size = self.size(&trial);
         self.buffers.trial = trial;

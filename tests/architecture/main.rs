@@ -1,6 +1,8 @@
 //! The layers of the crate (see the table in `src/lib.rs`): a module imports from its own layer and lower
 //! ones only. Also which files alone may name the sparse solver's crate and call foreign code.
 
+mod circles;
+
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -26,7 +28,7 @@ fn modules_import_from_their_own_layer_and_lower_ones() {
     for (file, code) in sources() {
         let module = module(&file);
         let Some(own) = layer(&module) else {
-            wrong.push(format!("{}: `{module}` has no layer; give it one in tests/architecture.rs", file.display()));
+            wrong.push(format!("{}: `{module}` has no layer; give it one in tests/architecture", file.display()));
             continue;
         };
         // The program sees the crate from outside; elsewhere `mpm` may be a module of the scheme.
@@ -39,6 +41,21 @@ fn modules_import_from_their_own_layer_and_lower_ones() {
         }
     }
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+#[test]
+fn no_files_import_each_other_in_a_circle() {
+    let module = |file: &Path| {
+        let names = file.strip_prefix(root()).unwrap().with_extension("");
+        let mut names: Vec<String> = names.iter().map(|name| name.to_string_lossy().into_owned()).collect();
+        names.pop_if(|name| name == "mod");
+        names
+    };
+    let tests = |file: &Path| file.components().any(|part| part.as_os_str().to_string_lossy().starts_with("tests"));
+    let code = sources().into_iter().filter(|(file, _)| !tests(file.strip_prefix(root()).unwrap()));
+    let code = code.map(|(file, code)| (module(&file), without_tests(&code).to_owned())).collect();
+    let circles = circles::circles(&code);
+    assert!(circles.is_empty(), "{circles:#?}");
 }
 
 #[test]
@@ -64,7 +81,7 @@ fn factors_alone_name_the_sparse_solver_and_one_file_calls_gmsh() {
         files.sort();
         files
     };
-    assert_eq!(holds("faer"), ["factor", "halves", "lu", "supernodes"].map(|file| format!("system/{file}.rs")));
+    assert_eq!(holds("faer"), ["halves", "lu", "supernodes", "whole"].map(|file| format!("system/{file}.rs")));
     assert_eq!(holds("unsafe"), ["mesh/gmsh/session.rs"]);
     assert_eq!(holds("OUT_DIR"), ["mesh/gmsh/session.rs"], "the bindings that build.rs makes");
     assert_eq!(holds("extern"), [""; 0]);
@@ -102,6 +119,11 @@ fn sources() -> Vec<(PathBuf, String)> {
 /// A line comment ends the code of its line; `//` in a string does too, and costs nothing here.
 fn without_comments(text: &str) -> String {
     text.lines().map(|line| line.split("//").next().unwrap_or_default()).collect::<Vec<_>>().join("\n")
+}
+
+/// The code before the tests of the file.
+fn without_tests(code: &str) -> &str {
+    code.split("#[cfg(test)]").next().unwrap_or_default()
 }
 
 /// The module of the crate that a file belongs to.

@@ -1,0 +1,35 @@
+//! Where structures are, and what they may touch, before contact begins.
+
+use super::scene::Scene;
+use super::state::State;
+use crate::contact::Multipliers;
+use crate::system::Cliques;
+
+/// Where a node is at the last converged step.
+pub(super) fn position<const D: usize>(scene: &Scene<D>, state: &State<D>, n: u32) -> [f64; D] {
+    let n = n as usize;
+    let from = state.nodes.get(n).unwrap_or(&scene.mesh.nodes[n]);
+    std::array::from_fn(|d| from[d] + state.displacement[n][d])
+}
+
+/// The boundaries of the structures that touch soil, when the grid is restored: the nodes are in place already, the
+/// displacement is still that of the grid before.
+pub fn outlines<const D: usize>(scene: &Scene<D>, state: &State<D>) -> Vec<Vec<[f64; D]>> {
+    let place = |n: u32| *state.nodes.get(n as usize).unwrap_or(&scene.mesh.nodes[n as usize]);
+    scene.touching(state.phase).flat_map(|(_, pair)| pair.outlines(&place)).collect()
+}
+
+/// Appends a clique for each hat with room, given the block of each node.
+pub fn couple<const D: usize>(state: &State<D>, block: &[u32], cliques: &mut Cliques) -> Vec<Vec<u32>> {
+    let of_pair = |multipliers: &Multipliers| {
+        let hats = multipliers.first.len() - 1;
+        let clique = |k: usize| {
+            let room = multipliers.room(k);
+            // Cells that no longer take part leave nothing to couple.
+            let blocks: Vec<u32> = room.iter().map(|&n| block[n as usize]).filter(|b| *b != u32::MAX).collect();
+            if blocks.len() < room.len() || room.is_empty() { u32::MAX } else { cliques.push(blocks) }
+        };
+        (0..hats).map(clique).collect()
+    };
+    state.multipliers.iter().map(of_pair).collect()
+}

@@ -1,0 +1,71 @@
+//! Points with the cells they act on, and systems of equations over their nodes.
+
+use crate::error::Result;
+use crate::kinematics::Kinematics;
+use crate::mesh::Mesh;
+use crate::points::Points;
+use crate::stencil::{Entries, Stencil};
+use crate::system::{Cliques, Matrix, Pattern, Solver};
+use rayon::prelude::*;
+
+/// Points with the cells they act on: the material points on the grid, or those of the finite elements.
+pub struct Family<'a, const D: usize> {
+    pub mesh: &'a Mesh<D>,
+    pub stencil: &'a Stencil<D>,
+    /// The clique of each cell.
+    pub clique: &'a [u32],
+    pub points: &'a Points<D>,
+}
+
+/// A system of equations over the nodes that take part.
+pub struct System {
+    pub pattern: Pattern,
+    pub matrix: Matrix,
+    pub solver: Solver,
+}
+
+/// What the points see of a grid.
+#[derive(Debug, Default)]
+pub struct Stencils<const D: usize> {
+    /// Those that integrals are summed over.
+    pub integration: Stencil<D>,
+    /// The material points, where these are others.
+    pub material: Option<Stencil<D>>,
+}
+
+impl System {
+    /// A system of blocks of `sizes` unknowns; `places` as for [`Solver::new`].
+    pub fn new<const D: usize>(sizes: &[u8], cliques: Cliques, symmetric: bool, places: &[[f64; D]]) -> Result<Self> {
+        let pattern = Pattern::new(sizes, cliques, symmetric);
+        let matrix = Matrix::new(&pattern);
+        let solver = Solver::new(&pattern, places)?;
+        Ok(Self { pattern, matrix, solver })
+    }
+}
+
+/// Interpolates a nodal field at points.
+pub fn interpolate<const D: usize, K: Kinematics<D>>(family: &Family<D>, field: &[[f64; D]]) -> Vec<[f64; D]> {
+    let Family { mesh, stencil, points, .. } = family;
+    let by_patch: Vec<Vec<(usize, [f64; D])>> = stencil
+        .patches
+        .par_iter()
+        .map(|patch| {
+            let nodes = mesh.cells.nodes(patch.cell as usize);
+            let interpolate = |entries: Entries<'_, D>| {
+                let mut value = [0.0; D];
+                for (n, &node) in entries.value.iter().zip(nodes) {
+                    for d in 0..D {
+                        value[d] += n * field[node as usize][d];
+                    }
+                }
+                (entries.point, value)
+            };
+            stencil.entries::<K>(patch).map(interpolate).collect()
+        })
+        .collect();
+    let mut out = vec![[0.0; D]; points.len()];
+    for (p, value) in by_patch.into_iter().flatten() {
+        out[p] = value;
+    }
+    out
+}

@@ -1,0 +1,79 @@
+//! What is out of balance as a phase begins: held where it cannot be borne at once ([`Release`]), or nothing.
+
+use super::balance::static_force;
+use super::grid::Grid;
+use super::problem::Problem;
+use super::release::Release;
+use super::report::Motion;
+use super::scene::Scene;
+use super::state::State;
+use crate::error::Result;
+
+/// Holds what is out of balance, if anything is, after a first step of the size `dt` (s) that failed.
+///
+/// # Errors
+/// When the state is inadmissible on the restored grid.
+pub fn hold<const D: usize>(scene: &Scene<D>, grid: &mut Grid<D>, state: &mut State<D>, dt: f64) -> Result<()> {
+    let phase = &scene.phases[state.phase];
+    let looks_for_failure = phase.auto || phase.search.is_some();
+    if looks_for_failure || state.dynamic(scene) || state.phase_time > 0.0 || !state.release.force.is_empty() {
+        return Ok(());
+    }
+    let Unbalanced { force, scale } = unbalanced(&Problem { to: dt, ..Problem::at_rest(scene, state) }, grid)?;
+    // Newton's method does not feel less.
+    if norm(&force) <= scene.numerics.tolerance * scale {
+        return Ok(());
+    }
+    state.release = Release { force: force.into_iter().map(|f| f.map(|f| -f)).collect(), until: dt };
+    Ok(())
+}
+
+/// What is out of balance in a state without inertia.
+struct Unbalanced<const D: usize> {
+    /// By node (kN), zero where the displacement is given.
+    force: Vec<[f64; D]>,
+    /// Norm of the largest of the forces that balance (kN).
+    scale: f64,
+}
+
+/// What is out of balance at the last converged step, under the loads that `problem` begins with.
+fn unbalanced<const D: usize>(problem: &Problem<D>, grid: &mut Grid<D>) -> Result<Unbalanced<D>> {
+    let now = static_force(problem, grid)?;
+    let mut force = vec![[0.0; D]; problem.scene.mesh.nodes.len()];
+    for (f, &n) in now.force.chunks_exact(D).zip(&grid.node) {
+        force[n as usize] = std::array::from_fn(|d| f[d]);
+    }
+    for fixed in problem.scene.fixed(problem.phase) {
+        fixed.nodes.iter().for_each(|&n| force[n as usize][fixed.component] = 0.0);
+    }
+    Ok(Unbalanced { force, scale: now.scale })
+}
+
+fn norm<const D: usize>(force: &[[f64; D]]) -> f64 {
+    force.iter().flatten().map(|f| f * f).sum::<f64>().sqrt()
+}
+
+/// Whether a phase with inertia begins at rest, and stays there: nothing moves, no displacement is prescribed, no water flows, and
+/// under the loads of every time of the phase the forces are in balance but for the share `part` (-).
+///
+/// # Errors
+/// When the state is inadmissible.
+pub fn stays_at_rest<const D: usize>(
+    scene: &Scene<D>,
+    grid: &mut Grid<D>,
+    state: &State<D>,
+    part: f64,
+) -> Result<bool> {
+    let phase = &scene.phases[state.phase];
+    if phase.flows || phase.moves() || Motion::of(state).kinetic > 0.0 {
+        return Ok(false);
+    }
+    for time in phase.times() {
+        let problem = Problem { from: time, to: time, ..Problem::at_rest(scene, state) };
+        let Unbalanced { force, scale } = unbalanced(&problem, grid)?;
+        if norm(&force) > part * scale {
+            return Ok(false);
+        }
+    }
+    Ok(true)
+}
