@@ -29,6 +29,8 @@ pub struct Problem<'a, const D: usize> {
     pub integration: Option<GeneralisedAlpha>,
     /// Time (s) that water flows for.
     pub flow_time: f64,
+    /// As [`crate::term::Trial::discarded`].
+    pub discarded: bool,
 }
 
 impl<'a, const D: usize> Problem<'a, D> {
@@ -48,6 +50,7 @@ impl<'a, const D: usize> Problem<'a, D> {
             given: &[],
             integration: None,
             flow_time: 0.0,
+            discarded: false,
         }
     }
 

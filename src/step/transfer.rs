@@ -170,6 +170,7 @@ impl Answers {
             time: from,
             reduction: scene.phases[phase].reduction_at(to),
             held: false,
+            discarded: false,
             per_second: 1.0 / (to - from),
         };
         let of = |terms: &[Box<dyn Term<D>>], frame: &Frame<D>| -> Vec<Update> {

@@ -161,6 +161,8 @@ pub struct Trial<'a, const D: usize> {
     pub reduction: f64,
     /// Whether hats that touched in the step before, or are laid on what they face, touch here, pressed or pulled.
     pub held: bool,
+    /// Whether the displacements are discarded once the forces balance: what bears them then is to be the material.
+    pub discarded: bool,
     /// One over the size of the step (1/s), for strength that depends on the rate of strain.
     pub per_second: f64,
 }
@@ -184,6 +186,7 @@ impl<'a, const D: usize> Trial<'a, D> {
             time: 0.0,
             reduction: 1.0,
             held: false,
+            discarded: false,
             per_second: 0.0,
         }
     }

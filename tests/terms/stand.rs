@@ -222,6 +222,7 @@ impl<K: Kinematics<2>> Stand<K> {
             alpha_f: 0.0,
             flow_time: 0.0,
             held: false,
+            discarded: false,
             converged_pressure: state.pressure.clone(),
             pressure: state.pressure.clone(),
             grid,
