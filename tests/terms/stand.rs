@@ -222,7 +222,6 @@ impl<K: Kinematics<2>> Stand<K> {
             alpha_f: 0.0,
             flow_time: 0.0,
             held: false,
-            discarded: false,
             converged_pressure: state.pressure.clone(),
             pressure: state.pressure.clone(),
             grid,
@@ -323,6 +322,7 @@ impl<K: Kinematics<2>> Stand<K> {
             time: 0.5,
             reduction: 1.0,
             held: self.held,
+            discarded: false,
             per_second: 0.0,
         };
         let mut force = vec![0.0; frame.pattern.len()];
