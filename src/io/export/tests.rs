@@ -1,7 +1,10 @@
+use super::super::container::Data;
+use super::super::frame::Column;
 use super::*;
 use crate::error::Kind;
 use crate::io::export::pieces::Piece;
 use crate::mesh::shape::CellKind;
+use crate::tensor::{deviatoric, mean};
 
 fn mesh() -> Mesh<2> {
     let mut mesh = Mesh {

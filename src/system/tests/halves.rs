@@ -1,8 +1,9 @@
 //! Factors by halves against whole ones.
 
-use super::super::factor::{Factor, Whole};
+use super::super::factor::Factor;
 use super::super::halves::Halves;
 use super::super::separator::{Parts, halve};
+use super::super::whole::Whole;
 use super::*;
 
 /// Cells of `wide × high` squares beside each other from block `first` on, and where their nodes are from `x` on.
