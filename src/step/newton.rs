@@ -7,6 +7,7 @@ use super::family::Family;
 use super::free;
 use super::grid::Grid;
 use super::problem::{Problem, Solution};
+use super::scene::Scene;
 use super::unknowns::{Buffers, Evaluation, Unknowns};
 use crate::error::{Error, Result};
 use crate::mesh::cell_size;
@@ -56,6 +57,8 @@ struct Newton<'a, const D: usize> {
     due: bool,
     /// Length of the last trial step, in those of `δ`.
     length: f64,
+    /// Share by which the diagonal of the tangent is raised: not zero while its steps go astray.
+    damping: f64,
     /// Why the last trial state that was not admissible is not.
     refused: Option<Error>,
 }
@@ -66,6 +69,7 @@ impl<'a, const D: usize> Newton<'a, D> {
         buffers.fixed.extend(problem.given.iter().map(Option::is_some));
         buffers.now.at.set(problem.converged, problem.pressure);
         buffers.best.clone_from(&buffers.now.at);
+        buffers.damped.clear();
         let floor = floor(problem, grid);
         Self {
             problem,
@@ -82,6 +86,7 @@ impl<'a, const D: usize> Newton<'a, D> {
             stalled: 0,
             due: false,
             length: 0.0,
+            damping: 0.0,
             refused: None,
         }
     }
@@ -151,7 +156,7 @@ impl<'a, const D: usize> Newton<'a, D> {
     fn restart(&mut self) {
         self.buffers.now.at.set(self.problem.converged, self.problem.pressure);
         self.buffers.best.clone_from(&self.buffers.now.at);
-        (self.target, self.stalled) = (f64::INFINITY, 0);
+        (self.target, self.damping, self.stalled) = (f64::INFINITY, 0.0, 0);
     }
 
     /// The first iterations from a guess, or of bodies laid on each other. They leave hats a little apart that bear in
@@ -223,10 +228,16 @@ impl<'a, const D: usize> Newton<'a, D> {
             self.evaluate(true)?;
         }
         self.tangent = false;
-        let Buffers { now, delta, wanted, gap, fixed, .. } = &mut self.buffers;
+        let Buffers { now, delta, wanted, gap, fixed, damped, .. } = &mut self.buffers;
         delta.clear();
         delta.extend(now.force.iter().map(|r| -r));
+        if self.damping > 0.0 && damped.is_empty() {
+            damped_equations(self.problem.scene, self.grid, damped);
+        }
         let motion = &mut self.grid.motion;
+        if self.damping > 0.0 {
+            motion.matrix.dampen(&motion.pattern, damped, self.damping);
+        }
         let diagonal = motion.matrix.scale(&motion.pattern);
         motion.matrix.constrain(&motion.pattern, fixed, gap, diagonal, delta);
         wanted.clone_from(delta);
@@ -291,6 +302,21 @@ fn forcing(history: &[f64], tolerance: f64) -> f64 {
         _ => LOOSEST,
     };
     quadratic.max(enough).clamp(1e-10, LOOSEST)
+}
+
+/// Which equations of nodes are damped. A structure as a whole may have no more to hold it than soil that flows: a share of
+/// its own stiffness would be a far stiffer hold on it, and its balance would come in tiny steps.
+fn damped_equations<const D: usize>(scene: &Scene<D>, grid: &Grid<D>, out: &mut Vec<bool>) {
+    out.extend(grid.node.iter().flat_map(|&n| [(n as usize) < scene.mesh_nodes(); D]));
+    let Some(fem) = &scene.fem else { return };
+    for c in fem.deforming() {
+        if scene.pairs.iter().any(|pair| pair.structure() == fem.mesh.cells.region[c]) {
+            for &n in fem.mesh.cells.nodes(c) {
+                let block = grid.block[n as usize] as usize;
+                out.iter_mut().skip(D * block).take(D).for_each(|damped| *damped = false);
+            }
+        }
+    }
 }
 
 /// A force (kN) below which nothing counts: rounding in stresses of the order of the stiffness, on the sides of a

@@ -48,6 +48,9 @@ pub struct Buffers<const D: usize> {
     pub wanted: Vec<f64>,
     pub gap: Vec<f64>,
     pub fixed: Vec<bool>,
+    /// The equations whose diagonal is raised where steps go astray: those of nodes that no structure has. Empty
+    /// until then.
+    pub damped: Vec<bool>,
     /// The residual of one term.
     pub own: Vec<f64>,
     pub between: Vec<[f64; D]>,

@@ -11,6 +11,11 @@ const ARMIJO: f64 = 1e-4;
 const BACKTRACKS: i32 = 6;
 /// Line searches that may end without a decrease before the step is given up.
 const STALLED: usize = 4;
+/// Shares by which the diagonal of the tangent is raised where its steps go astray (Levenberg 1944).
+const LEAST_DAMPING: f64 = 1e-4;
+const MOST_DAMPING: f64 = 0.2;
+/// Halvings of an accepted step length from which its tangent is not to be trusted so far.
+const ASTRAY: i32 = 3;
 /// Full steps that may raise the residual before the iteration returns to its best state.
 const WATCH: usize = 3;
 /// Share of the residual from which on a full step may have gone too far, and of the work that it may leave.
@@ -48,6 +53,7 @@ impl<const D: usize> Newton<'_, D> {
                     self.relaxed += 1;
                     self.take(with_tangent);
                 } else {
+                    self.damping = if self.damping > LEAST_DAMPING { 0.1 * self.damping } else { 0.0 };
                     self.accept(with_tangent);
                 }
                 return Ok(());
@@ -111,6 +117,16 @@ impl<const D: usize> Newton<'_, D> {
         false
     }
 
+    /// Raises the diagonal more from here on; false where it is raised enough.
+    fn dampen(&mut self) -> bool {
+        let more = (10.0 * self.damping).max(LEAST_DAMPING);
+        let can = more <= MOST_DAMPING;
+        if can {
+            self.damping = more;
+        }
+        can
+    }
+
     /// Halves the step length until the residual falls; takes the least one a few times where it never does.
     fn backtrack(&mut self) -> Result<()> {
         let mut least: Option<(f64, f64)> = None;
@@ -119,6 +135,9 @@ impl<const D: usize> Newton<'_, D> {
             if let Some(size) = self.attempt(length, false) {
                 if self.better(size, length) {
                     self.stalled = 0;
+                    if halvings >= ASTRAY {
+                        self.dampen();
+                    }
                     self.accept(false);
                     return Ok(());
                 }
@@ -126,6 +145,10 @@ impl<const D: usize> Newton<'_, D> {
                     least = Some((size, length));
                 }
             }
+        }
+        // A direction that leads nowhere at any length: the next, from the same state, is shorter and turned downhill.
+        if self.dampen() {
+            return Ok(());
         }
         let Some((_, length)) = least else {
             let why = self.refused.take().map_or("no trial state is admissible".to_string(), |error| {
