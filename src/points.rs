@@ -69,10 +69,10 @@ impl<const D: usize> Points<D> {
         usize::from(*self.model.get(p).unwrap_or(&self.region[p]))
     }
 
-    /// What the model of point `p` remembers, in a step of which `per_second` (1/s) make a second; 0 at rest.
+    /// What the model of point `p` remembers, in a step of which `inverse_dt` (1/s) make a second; 0 at rest.
     #[inline]
-    pub fn state(&self, p: usize, per_second: f64) -> State {
-        State { plastic_strain: self.plastic_strain[p], memory: self.memory.get(p).copied().unwrap_or(0.0), per_second }
+    pub fn state(&self, p: usize, inverse_dt: f64) -> State {
+        State { plastic_strain: self.plastic_strain[p], memory: self.memory.get(p).copied().unwrap_or(0.0), inverse_dt }
     }
 
     /// Current volume (m³) of point `p`, by the measure of `initial_volume`.

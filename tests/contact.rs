@@ -61,7 +61,7 @@ fn a_plate_laid_on_soil_bears_a_load() {
     assert!((last[2] / (low - 1.0) - 1.0).abs() < 1e-3, "{last:?}, {}", low - 1.0);
 }
 
-/// A free body with friction alone, laid on the soil or a little above it: nothing presses yet, and still it is held along the soil, too.
+/// A free body with friction alone, initially closed on the soil or a little above it: nothing presses yet, and still it is held along the soil, too.
 #[test]
 fn a_free_body_with_friction_is_laid_on_soil() {
     for gap in [0.0, 5e-4, 2e-3] {
@@ -138,7 +138,7 @@ fn adhesion_grows_as_clay_hardens() {
     assert!(mean > 30.0 && (force / wanted - 1.0).abs() < 3e-2, "{mean} {force} {wanted}");
 }
 
-/// A plate near the limit of what clay bears, laid on it at once: the step fails, and halves of it bear a half. It
+/// A plate near the limit of what clay bears, initially closed on it at once: the step fails, and halves of it bear a half. It
 /// ends where a load that grows does.
 #[test]
 fn what_cannot_be_borne_at_once_is_released_by_halved_steps() {
@@ -368,7 +368,7 @@ fn slide(limit: f64, way: f64, overrides: &[&str]) -> Vec<f64> {
 }
 
 /// Where a plate slides, its shear is the limit over the length L that is on soil: `∫τ = α s_u L` on clay, `c_a L` on elastic
-/// soil. It slides off one end of the soil by what it comes to lie beyond the other, less than a hat.
+/// soil. It slides off one end of the soil by what it comes to lie beyond the other, less than a contact node.
 #[test]
 fn a_plate_that_slides_is_held_by_adhesion() {
     let clay = "materials.soil={model: tresca, young: 1000, poisson: 0.3, shear_strength: 30, density: 0}";

@@ -150,7 +150,7 @@ fn a_structure_that_begins_within_the_soil_is_refused() {
     }
 }
 
-/// A plate slides over the side of the grid: its hats there go on feeling soil that the grid has no cells for.
+/// A plate slides over the side of the grid: its contact nodes there go on feeling soil that the grid has no cells for.
 #[test]
 fn a_structure_that_leaves_the_grid_is_named() {
     let phases = "phases=[{name: press, analysis: quasi_static, duration: 1, step: {initial: 0.2}, \

@@ -75,7 +75,7 @@ fn a_round_plate_over_all_of_a_layer_keeps_it_from_draining() {
     assert!(pressure < 1e-3 && settlement < 1e-2, "{pressure} {settlement}");
 }
 
-/// One that lies above the soil covers it while the gap is a twentieth of the distance of its hats, 2.5 mm here, and no longer.
+/// One that lies above the soil covers it while the gap is a twentieth of the distance of its contact nodes, 2.5 mm here, and no longer.
 #[test]
 fn a_plate_that_has_parted_lets_the_surface_drain() {
     let pressed = "phases=[{name: wait, analysis: consolidation, duration: 1000, step: {initial: 10}, \

@@ -12,7 +12,7 @@ use crate::rigid::Body;
 use std::collections::BTreeMap;
 use std::marker::PhantomData;
 
-/// Distance of the hats (-), in the length of an edge of the grid: that of its nodes.
+/// Distance of the contact nodes (-), in the length of an edge of the grid: that of its nodes.
 const HATS: f64 = 0.5;
 
 /// The pairs of a case, given the grid, the cells beside it and the rigid bodies.
@@ -95,7 +95,7 @@ impl Parts<'_> {
         }
     }
 
-    /// The boundary of a region beside the grid, without what lies on some `lines`, with hats about `spacing` (m) apart.
+    /// The boundary of a region beside the grid, without what lies on some `lines`, with contact nodes about `spacing` (m) apart.
     fn boundary(&self, region: u16, spacing: f64, lines: &[Held]) -> Result<Surface> {
         let beyond = |nodes: &[u32]| {
             let x = |i: usize| self.fem.nodes[nodes[i] as usize];
@@ -151,7 +151,7 @@ impl Parts<'_> {
         Ok(Boundary { structure, surface, law: contact.law, regions, models, skin, kinematics: PhantomData })
     }
 
-    /// The hats are as far apart as the coarser of the boundaries that can give way has its nodes. Against a wall they are the body's.
+    /// The contact nodes are as far apart as the coarser of the boundaries that can give way has its nodes. Against a wall they are the body's.
     fn on_body<K: Kinematics<2>>(&self, contact: &Contact, body: usize) -> Result<Bodies<K>> {
         let sides = match &contact.structure {
             Touching::Structure(structure) => vec![*structure, body],

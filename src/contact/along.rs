@@ -1,38 +1,40 @@
-//! The boundary of a structure as lines along which the values of its hats are drawn.
+//! The boundary of a structure as lines along which the values of its contact nodes are drawn.
 
 use super::place::Segments;
 use super::surface::Surface;
 use crate::kinematics::Kinematics;
 
-/// A place on a boundary: the two hats over it, with their values there (-), which add up to one.
+/// A place on a boundary: the two contact nodes over it, with their values there (-), which add up to one.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Mark<const D: usize> {
     /// (m)
     pub place: [f64; D],
-    pub hats: [(u32, f64); 2],
+    pub contact_nodes: [(u32, f64); 2],
     /// Its area (m², per metre or full turn): what is linear between marks has the integral over the line that its values times these
     /// add up to.
     pub area: f64,
 }
 
 impl<const D: usize> Mark<D> {
-    /// The function that is `values` at the hats, here.
+    /// The function that is `values` at the contact nodes, here.
     pub fn value(&self, values: &[f64]) -> f64 {
-        self.hats.iter().map(|&(hat, share)| share * values[hat as usize]).sum()
+        self.contact_nodes.iter().map(|&(contact_node, share)| share * values[contact_node as usize]).sum()
     }
 
     /// The same of a function with three components.
     pub fn vector(&self, values: &[[f64; 3]]) -> [f64; 3] {
-        std::array::from_fn(|d| self.hats.iter().map(|&(hat, share)| share * values[hat as usize][d]).sum())
+        std::array::from_fn(|d| {
+            self.contact_nodes.iter().map(|&(contact_node, share)| share * values[contact_node as usize][d]).sum()
+        })
     }
 }
 
-/// Force (kN) of each hat over the area (kPa) that `lines` have under it. As a function along them it has the integral that the forces add
-/// up to, also where they are of a part of their hat only, or not along the normal of the place.
+/// Force (kN) of each contact node over the area (kPa) that `lines` have under it. As a function along them it has the integral that the forces add
+/// up to, also where they are of a part of their contact node only, or not along the normal of the place.
 pub fn traction<const D: usize>(lines: &[Vec<Mark<D>>], force: &[[f64; 3]]) -> Vec<[f64; 3]> {
     let mut area = vec![0.0; force.len()];
     for mark in lines.iter().flatten() {
-        mark.hats.iter().for_each(|&(hat, share)| area[hat as usize] += share * mark.area);
+        mark.contact_nodes.iter().for_each(|&(contact_node, share)| area[contact_node as usize] += share * mark.area);
     }
     let over = |(force, area): (&[f64; 3], f64)| if area > 0.0 { force.map(|f| f / area) } else { [0.0; 3] };
     force.iter().zip(area).map(over).collect()
@@ -44,21 +46,21 @@ pub fn lines<K: Kinematics<2>>(surface: &Surface, segments: &Segments) -> Vec<Ve
     let line = |piece: &std::ops::Range<usize>| {
         let cut = &surface.segments[piece.clone()];
         let (Some(first), Some(last)) = (cut.first(), cut.last()) else { return Vec::new() };
-        let base = first.hats[0].0;
-        let closed = last.hats[1].0 == base;
-        // Distances are in hats from the beginning. The middle of a segment, whose hats are known, is the mean of its ends.
-        let intervals = last.hats[0].0 + 1 - base;
+        let base = first.contact_nodes[0].0;
+        let closed = last.contact_nodes[1].0 == base;
+        // Distances are in contact nodes from the beginning. The middle of a segment, whose contact nodes are known, is the mean of its ends.
+        let intervals = last.contact_nodes[0].0 + 1 - base;
         let mark = |at: f64, place| {
             let left = (at.max(0.0) as u32).min(intervals - 1);
             let right = if closed && left + 1 == intervals { 0 } else { left + 1 };
             let share = at - f64::from(left);
-            Mark { place, hats: [(base + left, 1.0 - share), (base + right, share)], area: 0.0 }
+            Mark { place, contact_nodes: [(base + left, 1.0 - share), (base + right, share)], area: 0.0 }
         };
         let mut at = 0.0;
         let mut marks = Vec::with_capacity(cut.len() + 1);
         for (segment, placed) in cut.iter().zip(&segments.0[piece.clone()]) {
             marks.push(mark(at, placed.from));
-            at = 2.0 * (f64::from(segment.hats[0].0 - base) + segment.hats[1].1) - at;
+            at = 2.0 * (f64::from(segment.contact_nodes[0].0 - base) + segment.contact_nodes[1].1) - at;
         }
         marks.push(mark(at, segments.0[piece.end - 1].to));
         for i in 1..marks.len() {
@@ -96,21 +98,21 @@ mod tests {
         };
         mesh.cells.push(CellKind::Q4, 0, &[0, 1, 2, 3]);
         let (surface, lines) = lines_of(&mesh, 0.3);
-        assert_eq!((lines.len(), surface.hats), (4, 16));
-        // Four hats a side, the first and last at its corners.
+        assert_eq!((lines.len(), surface.contact_nodes), (4, 16));
+        // Four contact nodes a side, the first and last at its corners.
         let values: Vec<f64> = (0..16).map(|k| f64::from(k / 4) + f64::from(k % 4) / 3.0).collect();
         for line in &lines {
             let (begin, end) = (line[0], line[line.len() - 1]);
             for mark in line {
                 let along = (0..2).map(|d| (mark.place[d] - begin.place[d]).abs()).sum::<f64>();
                 assert!((mark.value(&values) - begin.value(&values) - along).abs() < 1e-14, "{mark:?}");
-                assert!((mark.hats[0].1 + mark.hats[1].1 - 1.0).abs() < 1e-15);
+                assert!((mark.contact_nodes[0].1 + mark.contact_nodes[1].1 - 1.0).abs() < 1e-15);
             }
             assert!((end.value(&values) - begin.value(&values) - 1.0).abs() < 1e-14);
         }
     }
 
-    /// The traction is linear between hats, and its integral over a full turn is the sum of the forces, also that of a hat with soil under a part of it.
+    /// The traction is linear between contact nodes, and its integral over a full turn is the sum of the forces, also that of a contact node with soil under a part of it.
     #[test]
     fn traction_adds_up_to_the_forces() {
         let mut mesh = Mesh {
@@ -123,7 +125,8 @@ mod tests {
         let surface = Surface::new(&mesh, 0, 0.3, on_axis).unwrap();
         let segments = Segments::new::<Axisymmetric>(&surface, |n| mesh.nodes[n as usize]);
         let lines = lines::<Axisymmetric>(&surface, &segments);
-        let force: Vec<[f64; 3]> = (0..surface.hats).map(|k| [(k as f64).sin(), 1.0 + (k % 3) as f64, 0.0]).collect();
+        let force: Vec<[f64; 3]> =
+            (0..surface.contact_nodes).map(|k| [(k as f64).sin(), 1.0 + (k % 3) as f64, 0.0]).collect();
         let traction = traction(&lines, &force);
         let mut sum = [0.0; 3];
         for ends in lines.iter().flat_map(|line| line.windows(2)) {
@@ -157,7 +160,7 @@ mod tests {
         }
         let (surface, lines) = lines_of(&mesh, 0.4);
         let [line] = &lines[..] else { panic!("{} lines", lines.len()) };
-        let values: Vec<f64> = (0..surface.hats).map(|k| k as f64).collect();
+        let values: Vec<f64> = (0..surface.contact_nodes).map(|k| k as f64).collect();
         let (first, last) = (line[0], line[line.len() - 1]);
         assert!((0..2).all(|d| (first.place[d] - last.place[d]).abs() < 1e-15), "{last:?}");
         assert!((first.value(&values) - last.value(&values)).abs() < 1e-12);

@@ -1,6 +1,6 @@
 //! Contact between two bodies: the boundary of one and, seen from it along its normal, that of the other.
 //!
-//! Segments, hats and their conditions are those of the first. Segments are cut where a facet of the other boundary ends
+//! Segments, contact nodes and their conditions are those of the first. Segments are cut where a facet of the other boundary ends
 //! across them, and have two points of Gauss's rule between cuts: then a uniform pressure is handed on exactly between straight
 //! boundaries, whatever their meshes. What is across a point is a place on a facet of the other boundary, found where
 //! the two are at the beginning of the step: gap and slip are those of the displacements there, interpolated by its
@@ -23,7 +23,7 @@ use std::collections::BTreeMap;
 use std::marker::PhantomData;
 use std::ops::Range;
 
-/// How far (-) across a segment the other boundary is looked for, in distances of the hats.
+/// How far (-) across a segment the other boundary is looked for, in distances of the contact nodes.
 const REACH: f64 = 2.5;
 /// Cosine of the angle between the two normals from which on the boundaries face each other.
 const FACING: f64 = -0.3;
@@ -35,7 +35,7 @@ pub struct Bodies<K> {
     /// The regions of both.
     pub structure: u16,
     pub against: u16,
-    /// The boundary with the hats, and the other one.
+    /// The boundary with the contact nodes, and the other one.
     pub surface: Surface,
     pub other: Surface,
     pub law: Law,
@@ -48,7 +48,7 @@ pub struct Bodies<K> {
 
 /// The side of a contact of bodies that is soil.
 pub struct SoilSide {
-    /// Whether it is the one with the hats.
+    /// Whether it is the one with the contact nodes.
     pub has_hats: bool,
     /// Whether its pores ever hold an excess pressure.
     pub undrained: bool,
@@ -72,10 +72,10 @@ impl SoilSide {
 /// Places of Gauss's rule of two points in [0, 1].
 const GAUSS: [f64; 2] = [0.211_324_865_405_187_1, 0.788_675_134_594_812_9];
 
-/// Places in [0, 1] at which the gap is measured where it may vary under a hat.
+/// Places in [0, 1] at which the gap is measured where it may vary under a contact node.
 const PARTS: [f64; 4] = [0.125, 0.375, 0.625, 0.875];
 
-/// A point of the boundary with the hats.
+/// A point of the boundary with the contact nodes.
 struct Point {
     x: [f64; 2],
     /// Unit normal out of the structure.
@@ -205,18 +205,18 @@ fn at(surface: &Surface, facet: &[u32], xi: f64, position: &dyn Fn(u32) -> [f64;
     (x, tangent, values)
 }
 
-/// The length (m) of the piece of each hat, where that closes.
+/// The length (m) of the piece of each contact node, where that closes.
 fn loops(surface: &Surface, segments: &Segments) -> Vec<Option<f64>> {
-    let mut loops = vec![None; surface.hats];
-    for ((hats, is_loop), piece) in surface.runs.iter().zip(&surface.pieces) {
+    let mut loops = vec![None; surface.contact_nodes];
+    for ((contact_nodes, is_loop), piece) in surface.runs.iter().zip(&surface.pieces) {
         if let (true, [first, .., last]) = (*is_loop, &segments.0[piece.clone()]) {
-            loops[hats.clone()].fill(Some(last.along + first.along));
+            loops[contact_nodes.clone()].fill(Some(last.along + first.along));
         }
     }
     loops
 }
 
-/// What is summed up under a hat: on both sides.
+/// What is summed up under a contact node: on both sides.
 #[derive(Clone, Default)]
 struct Sum {
     area: f64,
@@ -230,7 +230,7 @@ struct Sum {
 }
 
 impl Sum {
-    /// The spots about the mean of the hat, on a loop of so many metres.
+    /// The spots about the mean of the contact node, on a loop of so many metres.
     fn spots(&self, around: Option<f64>) -> Vec<Spot> {
         let Some(first) = self.spots.first() else { return Vec::new() };
         let near = |along: f64| match around {
@@ -258,8 +258,8 @@ impl<K: Kinematics<2>> Pair<2> for Bodies<K> {
         &[]
     }
 
-    fn hats(&self) -> usize {
-        self.surface.hats
+    fn contact_nodes(&self) -> usize {
+        self.surface.contact_nodes
     }
 
     fn runs(&self) -> &[(Range<usize>, bool)] {
@@ -275,7 +275,7 @@ impl<K: Kinematics<2>> Pair<2> for Bodies<K> {
         let other = Segments::new::<K>(&self.other, position);
         let longest = other.0.iter().map(|s| (s.to[0] - s.from[0]).hypot(s.to[1] - s.from[1])).fold(0.0, f64::max);
         let bins = Bins::new(other.0.iter().map(|s| (s.from, s.to)), REACH * self.surface.spacing + longest);
-        let mut sums = vec![Sum::default(); self.surface.hats];
+        let mut sums = vec![Sum::default(); self.surface.contact_nodes];
         let loops = loops(&self.surface, &segments);
         // Nothing else depends on it.
         let wet = self.soil.as_ref().filter(|soil| soil.undrained && self.law.friction > 0.0);
@@ -304,9 +304,9 @@ impl<K: Kinematics<2>> Pair<2> for Bodies<K> {
                 let slant = across.normal[0] * n[0] + across.normal[1] * n[1];
                 let normal = across.normal.map(|m| m / slant);
                 nearest = nearest.min(across.gap);
-                for (hat, share) in segment.hats {
+                for (contact_node, share) in segment.contact_nodes {
                     let weight = share * point.area;
-                    let sum = &mut sums[hat as usize];
+                    let sum = &mut sums[contact_node as usize];
                     sum.area += weight;
                     sum.gap += weight * across.gap;
                     sum.water += weight * water;
@@ -322,21 +322,21 @@ impl<K: Kinematics<2>> Pair<2> for Bodies<K> {
             if nearest < self.surface.spacing {
                 for point in self.points(segment, &cuts, &PARTS, position) {
                     let Some(across) = self.across(&point, &other, &bins, position) else { continue };
-                    for (hat, share) in segment.hats {
+                    for (contact_node, share) in segment.contact_nodes {
                         let spot =
                             Spot { share: share * point.area, along: placed.along + point.along, open: across.gap };
-                        sums[hat as usize].spots.push(spot);
+                        sums[contact_node as usize].spots.push(spot);
                     }
                 }
             }
         }
         let stiffness = self.young / self.surface.spacing;
-        let row = |(hat, sum): (usize, Sum)| {
+        let row = |(contact_node, sum): (usize, Sum)| {
             let area = (sum.area > 0.0).then_some(sum.area)?;
             let entries = || sum.sides.iter().flatten();
             let by = |k: usize| entries().map(|(_, by)| by[k].map(|by| by / area)).collect();
             Some(Row {
-                hat: hat as u32,
+                contact_node: contact_node as u32,
                 area,
                 gap: sum.gap / area,
                 offset: 0.0,
@@ -347,15 +347,15 @@ impl<K: Kinematics<2>> Pair<2> for Bodies<K> {
                 by_tangent: by(1),
                 curvature: 0.0,
                 by_arc: entries().map(|_| [0.0; 2]).collect(),
-                spots: sum.spots(loops.get(hat).copied().flatten()),
+                spots: sum.spots(loops.get(contact_node).copied().flatten()),
                 penalty: Penalty {
-                    pressure: held.pressure[hat],
-                    shear: held.shear[hat],
+                    pressure: held.pressure[contact_node],
+                    shear: held.shear[contact_node],
                     normal: NORMAL * stiffness,
                     tangential: TANGENTIAL * stiffness,
                     rounding: 0.0,
                     fading: FADING * self.surface.spacing,
-                    bonded: held.bonded(hat, self.law.tension, sum.gap / area < FADING * self.surface.spacing),
+                    bonded: held.bonded(contact_node, self.law.tension, sum.gap / area < FADING * self.surface.spacing),
                     strength: f64::INFINITY,
                     water: sum.water / area,
                 },

@@ -5,17 +5,17 @@ use super::row::{FADING, Row};
 use super::surface::Surface;
 use crate::surface::Cover;
 
-/// The segments under hats whose gap, as the `rows` have it, is closed: less than that over which adhesion fades.
+/// The segments under contact nodes whose gap, as the `rows` have it, is closed: less than that over which adhesion fades.
 pub fn covers(surface: &Surface, segments: &Segments, rows: &[Row<2>]) -> Vec<Cover<2>> {
-    let mut gaps = vec![None; surface.hats];
+    let mut gaps = vec![None; surface.contact_nodes];
     for row in rows {
-        gaps[row.hat as usize] = Some(row.gap);
+        gaps[row.contact_node as usize] = Some(row.gap);
     }
     let closed = |s: usize| {
-        // Of two hats one may have no soil under it.
+        // Of two contact nodes one may have no soil under it.
         let (mut sum, mut gap) = (0.0, 0.0);
-        for (hat, share) in surface.segments[s].hats {
-            if let Some(of_hat) = gaps[hat as usize] {
+        for (contact_node, share) in surface.segments[s].contact_nodes {
+            if let Some(of_hat) = gaps[contact_node as usize] {
                 (sum, gap) = (sum + share, gap + share * of_hat);
             }
         }

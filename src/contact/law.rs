@@ -5,7 +5,7 @@
 //!
 //! Surfaces part smoothly: `⟨q⟩` is rounded over `|q| < d`, and adhesion, which would vanish at once where they
 //! part, fades over a gap `w`, `τ_max (1 − ⟨g⟩/w)`; without adhesion only friction without pressure does, `⟨−w_p⟩ tan δ`
-//! of water that presses the two together from outside. Without the one Newton's method may go back and forth at a hat that
+//! of water that presses the two together from outside. Without the one Newton's method may go back and forth at a contact node that
 //! neither bears nor is open; without the other there may be no equilibrium: soil that touches is dragged away, and
 //! soil that is not dragged touches.
 
@@ -27,7 +27,7 @@ pub struct Law {
     pub tension: f64,
 }
 
-/// Multipliers and penalties of a hat.
+/// Multipliers and penalties of a contact node.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Penalty {
     /// Pressure and shear (kPa) so far.
@@ -58,7 +58,7 @@ pub struct Answer {
     pub pressure_by_gap: f64,
     pub shear_by_gap: f64,
     pub shear_by_slip: f64,
-    /// The first moment of the pressure under the hat (kN/m), and the slopes of pressure (kPa) and moment (kN/m) by the angle by which the
+    /// The first moment of the pressure under the contact node (kN/m), and the slopes of pressure (kPa) and moment (kN/m) by the angle by which the
     /// boundary turns.
     pub moment: f64,
     pub moment_by_gap: f64,
@@ -68,7 +68,7 @@ pub struct Answer {
     pub shear_by_turn: f64,
 }
 
-/// Where under a hat (m, along it) the two are nearest, and how that goes with the angle (m): the mean over what is not much farther apart.
+/// Where under a contact node (m, along it) the two are nearest, and how that goes with the angle (m): the mean over what is not much farther apart.
 fn nearest(fading: f64, spots: &[Spot], open: &dyn Fn(&Spot) -> f64) -> (f64, f64) {
     let (width, least) = (NEAREST * fading, spots.iter().map(open).fold(f64::INFINITY, f64::min));
     let (mut sum, mut first, mut second) = (0.0, 0.0, 0.0);
@@ -116,7 +116,7 @@ impl Law {
         self.shear(at, (gap, 0.0), slip, Answer { pressure, pressure_by_gap, ..Answer::default() })
     }
 
-    /// The answer half a step after a motion, `slope` (-) being what a motion adds to itself until then. The gap varies under the hat:
+    /// The answer half a step after a motion, `slope` (-) being what a motion adds to itself until then. The gap varies under the contact node:
     /// a part of it may bear while the rest is apart.
     pub fn respond_over(&self, at: &Penalty, spots: &[Spot], motion: &Motion, slope: f64) -> Answer {
         let &Motion { gap, slip, turn, ahead, ahead_turn } = motion;

@@ -2,7 +2,7 @@
 //! exert on each other.
 //!
 //! The boundary is where contact is integrated, for there area and normal are exact. Pressure and shear are combinations
-//! of hats along it, about half an edge of the soil's cells apart (`case/touch.rs`), and each hat has one condition: its
+//! of contact nodes along it, about half an edge of the soil's cells apart (`case/touch.rs`), and each contact node has one condition: its
 //! mean gap. It is summed over segments of a fifth of that distance. The gap of a segment is that to the surface which the
 //! soil began with, where the points just below it know it (`skin.rs`); elsewhere it is the signed distance of the nearest
 //! point to the boundary (its level set), less the half width of that point.

@@ -1,16 +1,16 @@
-//! What soil and structure do at a hat.
+//! What soil and structure do at a contact node.
 
-/// A part of the area under a hat.
+/// A part of the area under a contact node.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Spot {
     /// Share of the area (-).
     pub share: f64,
-    /// Arc length (m) from the mean place of the hat, and how much more than the mean the gap (m) is.
+    /// Arc length (m) from the mean place of the contact node, and how much more than the mean the gap (m) is.
     pub along: f64,
     pub open: f64,
 }
 
-/// What the soil did at a hat in a step.
+/// What the soil did at a contact node in a step.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Motion {
     /// Mean gap and slip (m) at its end.

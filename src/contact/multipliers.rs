@@ -1,11 +1,11 @@
-//! What hats carry from step to step.
+//! What contact nodes carry from step to step.
 
 use std::ops::Range;
 
 /// Share of a multiplier that its neighbours' mean takes the place of in each step.
 const EVEN: f64 = 0.5;
 
-/// What the hats of a pair carry from step to step; one entry a hat.
+/// What the contact nodes of a pair carry from step to step; one entry a contact node.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Multipliers {
     /// Pressure and shear (kPa).
@@ -20,17 +20,17 @@ pub struct Multipliers {
     pub slid: Vec<f64>,
     /// Force (kN) on the structure in the last step.
     pub force: Vec<[f64; 3]>,
-    /// Whether there was before the hat, in the last step, what it touches.
+    /// Whether there was before the contact node, in the last step, what it touches.
     pub faces: Vec<bool>,
-    /// The nodes that the system has room to couple: those of hat `k` are `room[first[k]..first[k + 1]]`.
+    /// The nodes that the system has room to couple: those of contact node `k` are `room[first[k]..first[k + 1]]`.
     pub room: Vec<u32>,
     pub first: Vec<u32>,
 }
 
 impl Multipliers {
-    /// Those of `hats` hats that touch nothing yet.
-    pub fn new(hats: usize) -> Self {
-        let zero = vec![0.0; hats];
+    /// Those of `contact_nodes` contact nodes that touch nothing yet.
+    pub fn new(contact_nodes: usize) -> Self {
+        let zero = vec![0.0; contact_nodes];
         Self {
             pressure: zero.clone(),
             shear: zero.clone(),
@@ -38,53 +38,57 @@ impl Multipliers {
             slip: zero.clone(),
             offset: zero.clone(),
             slid: zero,
-            force: vec![[0.0; 3]; hats],
-            faces: vec![false; hats],
+            force: vec![[0.0; 3]; contact_nodes],
+            faces: vec![false; contact_nodes],
             room: Vec::new(),
-            first: vec![0; hats + 1],
+            first: vec![0; contact_nodes + 1],
         }
     }
 
-    /// These with the pressure evened out along the `runs`, where hats and both their neighbours touch. Hats as close as nodes have
+    /// These with the pressure evened out along the `runs`, where contact nodes and both their neighbours touch. Hats as close as nodes have
     /// more conditions than the soil can meet: waves of pressure that it hardly feels would grow from step to step. What
     /// is taken from a wave here, a gap has to make up for (a stabilised multiplier, Burman & Hansbo 2010).
     pub fn evened(&self, runs: &[(Range<usize>, bool)]) -> Self {
         let mut evened = self.clone();
         for (run, is_loop) in runs {
-            let hats = &self.pressure[run.clone()];
+            let contact_nodes = &self.pressure[run.clone()];
             let beside = |k: usize, by: usize| match k + by {
-                at if *is_loop => Some(hats[at % hats.len()]),
-                at => hats.get(at).copied(),
+                at if *is_loop => Some(contact_nodes[at % contact_nodes.len()]),
+                at => contact_nodes.get(at).copied(),
             };
-            for k in 0..hats.len() {
-                let left = if *is_loop { beside(k, hats.len() - 1) } else { k.checked_sub(1).map(|k| hats[k]) };
+            for k in 0..contact_nodes.len() {
+                let left = if *is_loop {
+                    beside(k, contact_nodes.len() - 1)
+                } else {
+                    k.checked_sub(1).map(|k| contact_nodes[k])
+                };
                 let (Some(left), Some(right)) = (left, beside(k, 1)) else { continue };
-                if [left, hats[k], right].iter().all(|&pressure| pressure != 0.0) {
-                    evened.pressure[run.start + k] += EVEN * (0.5 * (left + right) - hats[k]);
+                if [left, contact_nodes[k], right].iter().all(|&pressure| pressure != 0.0) {
+                    evened.pressure[run.start + k] += EVEN * (0.5 * (left + right) - contact_nodes[k]);
                 }
             }
         }
         evened
     }
 
-    /// The mean pressure (kPa) of the hats that press.
+    /// The mean pressure (kPa) of the contact nodes that press.
     pub fn mean_pressure(&self) -> f64 {
         let pressing = self.pressure.iter().filter(|pressure| **pressure > 0.0);
         let (sum, count) = pressing.fold((0.0, 0), |(sum, count), pressure| (sum + pressure, count + 1));
         sum / f64::from(count.max(1))
     }
 
-    /// Whether hat `k` touched in the last step.
+    /// Whether contact node `k` touched in the last step.
     pub fn touched(&self, k: usize) -> bool {
         self.pressure[k] != 0.0 || self.shear[k] != 0.0
     }
 
-    /// Whether hat `k` bears tension up to `limit` (kPa): it did not come to that in the last step or, where it did not touch, lies there.
+    /// Whether contact node `k` bears tension up to `limit` (kPa): it did not come to that in the last step or, where it did not touch, lies there.
     pub fn bonded(&self, k: usize, limit: f64, lies: bool) -> bool {
         if self.touched(k) { self.pressure[k] > -limit * (1.0 - 1e-6) } else { lies }
     }
 
-    /// The nodes that hat `k` has room for.
+    /// The nodes that contact node `k` has room for.
     pub fn room(&self, k: usize) -> &[u32] {
         &self.room[self.first[k] as usize..self.first[k + 1] as usize]
     }

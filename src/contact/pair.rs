@@ -1,4 +1,4 @@
-//! A structure and the soil it touches: the condition of each hat in a step.
+//! A structure and the soil it touches: the condition of each contact node in a step.
 
 use super::along::{Mark, lines};
 use super::cover::covers;
@@ -20,15 +20,15 @@ use std::marker::PhantomData;
 use std::ops::Range;
 use std::sync::Arc;
 
-/// ε_n and ε_t (-), in Young's modulus over the spacing of the hats.
+/// ε_n and ε_t (-), in Young's modulus over the spacing of the contact nodes.
 pub(super) const NORMAL: f64 = 50.0;
 pub(super) const TANGENTIAL: f64 = 5.0;
 /// Share of them over soil that may yield, and then gives way however little presses on it.
 const YIELDING: f64 = 0.1;
-/// Pressure over which parting is rounded (-), in the mean pressure of the hats.
+/// Pressure over which parting is rounded (-), in the mean pressure of the contact nodes.
 const ROUNDING: f64 = 0.1;
 
-/// Overlap (-), in spacings of the points, that a hat may begin to touch with, and correct in a step, without sliding.
+/// Overlap (-), in spacings of the points, that a contact node may begin to touch with, and correct in a step, without sliding.
 const STILL: f64 = 1e-3;
 /// Error (-) of a measured gap, in spacings: what points that come and go make of it.
 const BAND: f64 = 0.15;
@@ -82,21 +82,21 @@ pub trait Pair<const D: usize>: Send + Sync {
     /// The regions of the soil that it touches; none of a body.
     fn soils(&self) -> &[u16];
 
-    /// The number of hats.
-    fn hats(&self) -> usize;
+    /// The number of contact nodes.
+    fn contact_nodes(&self) -> usize;
 
     fn law(&self) -> &Law;
 
-    /// The conditions of the hats that face soil; `position` tells where the nodes are.
+    /// The conditions of the contact nodes that face soil; `position` tells where the nodes are.
     fn rows(&self, ground: &Ground<D>, position: &dyn Fn(u32) -> [f64; D], held: &Multipliers) -> Vec<Row<D>>;
 
-    /// The hats in order along each smooth piece of the boundary, and whether the last is beside the first.
+    /// The contact nodes in order along each smooth piece of the boundary, and whether the last is beside the first.
     fn runs(&self) -> &[(Range<usize>, bool)];
 
     /// The boundary as polylines with the structure on their left; closed ones end where they begin.
     fn outlines(&self, position: &dyn Fn(u32) -> [f64; D]) -> Vec<Vec<[f64; D]>>;
 
-    /// The boundary as lines with its hats, one a smooth stretch.
+    /// The boundary as lines with its contact nodes, one a smooth stretch.
     fn lines(&self, position: &dyn Fn(u32) -> [f64; D]) -> Vec<Vec<Mark<D>>>;
 
     /// What of the boundary lies on soil as a step begins, given its conditions; nothing of one on a body.
@@ -123,45 +123,47 @@ pub struct Boundary<K> {
 }
 
 impl<K: Kinematics<2>> Boundary<K> {
-    /// The gap (m) of a hat at the beginning of a step, given that `measured` from points and that of the `surface`.
+    /// The gap (m) of a contact node at the beginning of a step, given that `measured` from points and that of the `surface`.
     ///
     /// On a curved boundary, along which soil flows, it is that of the surface, where this is followed; what touched goes on from the gap that it
     /// had, by no more than the soil went in the last step. Else what touched in the step
-    /// before carries its gap on: as measured it jumps when points come and go, and every jump has to be made up for by straining the soil. It becomes that measured as the hat slides, which evens the jumps out,
+    /// before carries its gap on: as measured it jumps when points come and go, and every jump has to be made up for by straining the soil. It becomes that measured as the contact node slides, which evens the jumps out,
     /// and is corrected by what lies beyond their size. What did not touch has the gap of the surface; it may begin to
     /// touch, not to overlap. The second number is how much more the nearest points measure than that.
-    fn begin(&self, measured: &Measured, surface: Option<f64>, held: &Multipliers, hat: usize) -> (f64, f64) {
+    fn begin(&self, measured: &Measured, surface: Option<f64>, held: &Multipliers, contact_node: usize) -> (f64, f64) {
         let Measured { open, known, spacing, curvature, moved } = *measured;
         let is_curved = (curvature * spacing).abs() > FLAT;
         let still = STILL * spacing;
         let offset = |gap: f64| (open - gap).clamp(-0.5 * spacing, 0.5 * spacing);
         if let (true, Some(gap)) = (is_curved, surface) {
-            let before = held.gap[hat];
-            let gap = if held.touched(hat) { gap.clamp(before - moved, before + moved) } else { gap.max(-still) };
+            let before = held.gap[contact_node];
+            let gap =
+                if held.touched(contact_node) { gap.clamp(before - moved, before + moved) } else { gap.max(-still) };
             return (gap, offset(gap));
         }
-        if !held.touched(hat) {
+        if !held.touched(contact_node) {
             let gap = known.or(surface).unwrap_or(open);
             return (gap.max(-still), offset(gap));
         }
-        let before = held.gap[hat];
-        let (error, slide) = known.map_or((open - held.offset[hat] - before, SLIDE), |gap| (gap - before, KNOWN));
-        let (share, band) = ((held.slip[hat] / (slide * spacing)).min(1.0), BAND * spacing);
-        let most = RATE * held.slip[hat] + still;
+        let before = held.gap[contact_node];
+        let (error, slide) =
+            known.map_or((open - held.offset[contact_node] - before, SLIDE), |gap| (gap - before, KNOWN));
+        let (share, band) = ((held.slip[contact_node] / (slide * spacing)).min(1.0), BAND * spacing);
+        let most = RATE * held.slip[contact_node] + still;
         let gap = before + share * error + ((1.0 - share) * (error - error.clamp(-band, band))).clamp(-most, most);
-        (gap, if known.is_some() { offset(gap) } else { held.offset[hat] })
+        (gap, if known.is_some() { offset(gap) } else { held.offset[contact_node] })
     }
 
-    /// Penalties and multipliers of a hat over soil like that at `point`, without its strength and water.
-    fn penalty(&self, points: &Points<2>, point: usize, hat: usize, held: &Multipliers) -> Penalty {
+    /// Penalties and multipliers of a contact node over soil like that at `point`, without its strength and water.
+    fn penalty(&self, points: &Points<2>, point: usize, contact_node: usize, held: &Multipliers) -> Penalty {
         let y = points.origin[point][1];
         let model = self.models.get(points.model_of(point)).and_then(Option::as_ref);
         let yields = model.is_some_and(|m| m.yields());
         let share = if yields { YIELDING } else { 1.0 };
         let stiffness = share * model.map_or(0.0, |m| m.young(y)) / self.surface.spacing;
         Penalty {
-            pressure: held.pressure[hat],
-            shear: held.shear[hat],
+            pressure: held.pressure[contact_node],
+            shear: held.shear[contact_node],
             normal: NORMAL * stiffness,
             tangential: TANGENTIAL * stiffness,
             rounding: if yields { ROUNDING * held.mean_pressure() } else { 0.0 },
@@ -194,7 +196,7 @@ impl Ground<'_, 2> {
     }
 }
 
-/// The gap (m) of a hat as points measure it.
+/// The gap (m) of a contact node as points measure it.
 struct Measured {
     /// That of the nearest points.
     open: f64,
@@ -208,7 +210,7 @@ struct Measured {
     moved: f64,
 }
 
-/// What is summed up under a hat.
+/// What is summed up under a contact node.
 struct Sum {
     area: f64,
     open: f64,
@@ -253,8 +255,8 @@ impl<K: Kinematics<2>> Pair<2> for Boundary<K> {
         &self.regions
     }
 
-    fn hats(&self) -> usize {
-        self.surface.hats
+    fn contact_nodes(&self) -> usize {
+        self.surface.contact_nodes
     }
 
     fn runs(&self) -> &[(Range<usize>, bool)] {
@@ -272,7 +274,7 @@ impl<K: Kinematics<2>> Pair<2> for Boundary<K> {
         let surface = Facing::new(ground.surface);
         let mut holds = vec![false; ground.grid.cells.len()];
         ground.points.cell.iter().chain(ground.integration).for_each(|&c| holds[c as usize] = true);
-        let mut sums: Vec<Option<Sum>> = (0..self.surface.hats).map(|_| None).collect();
+        let mut sums: Vec<Option<Sum>> = (0..self.surface.contact_nodes).map(|_| None).collect();
         // Soil that a boundary pulls stretches without end, and its points leave: its surface tells that it is there still.
         let nearest = |s: usize| {
             let chain = self.surface.chains.iter().find(|chain| chain.contains(&s))?;
@@ -298,9 +300,9 @@ impl<K: Kinematics<2>> Pair<2> for Boundary<K> {
             let structure = &self.surface.facets[segment.facet as usize];
             let n = placed.normal;
             let t = [-n[1], n[0]];
-            for (hat, share) in segment.hats {
+            for (contact_node, share) in segment.contact_nodes {
                 let weight = share * placed.area;
-                let sum = sums[hat as usize].get_or_insert_with(|| Sum {
+                let sum = sums[contact_node as usize].get_or_insert_with(|| Sum {
                     area: 0.0,
                     open: 0.0,
                     curvature: 0.0,
@@ -345,7 +347,7 @@ impl<K: Kinematics<2>> Pair<2> for Boundary<K> {
                 }
             }
         }
-        let row = |(hat, sum): (usize, Option<Sum>)| {
+        let row = |(contact_node, sum): (usize, Option<Sum>)| {
             let Sum {
                 area,
                 open,
@@ -367,11 +369,11 @@ impl<K: Kinematics<2>> Pair<2> for Boundary<K> {
             let known = (sure > 0.5 * area).then_some(known / sure);
             let [open, curvature, moved] = [open, curvature, moved[0].hypot(moved[1])].map(|sum| sum / area);
             let measured = Measured { open, known, spacing, curvature, moved };
-            let (gap, offset) = self.begin(&measured, surface, held, hat);
+            let (gap, offset) = self.begin(&measured, surface, held, contact_node);
             let of_structure = |n: &u32| self.surface.facets.iter().any(|f| f.contains(n));
             entries.sort_by_key(|(n, ..)| (!of_structure(n), *n));
             Some(Row {
-                hat: hat as u32,
+                contact_node: contact_node as u32,
                 area,
                 gap,
                 offset,
@@ -384,10 +386,10 @@ impl<K: Kinematics<2>> Pair<2> for Boundary<K> {
                 by_arc: entries.iter().map(|e| e.2.map(|t| t / area)).collect(),
                 spots: Vec::new(),
                 penalty: Penalty {
-                    bonded: held.bonded(hat, self.law.tension, gap < FADING * self.surface.spacing),
+                    bonded: held.bonded(contact_node, self.law.tension, gap < FADING * self.surface.spacing),
                     strength: strength / area,
                     water: water / area,
-                    ..self.penalty(ground.points, point as usize, hat, held)
+                    ..self.penalty(ground.points, point as usize, contact_node, held)
                 },
             })
         };

@@ -33,7 +33,7 @@ impl<const D: usize> Rigid<D> {
         Self { pair, bodies: bodies.to_vec(), body }
     }
 
-    /// How far (m) in front of the reference point of the structure its boundary is at a hat, if that turns with it.
+    /// How far (m) in front of the reference point of the structure its boundary is at a contact node, if that turns with it.
     fn distance(&self, row: &Row<D>, position: &dyn Fn(u32) -> [f64; D]) -> Option<f64> {
         let mut distance = 0.0;
         for (&n, normal) in row.nodes.iter().zip(&row.by_normal).take(row.own) {
@@ -64,7 +64,7 @@ impl<const D: usize> Rigid<D> {
                 add(&mut sides[side], carrier, &handed.map(|of| of[i]));
             }
         }
-        // Where the other side is a body: how the gap varies under the hat is by how the two turn to each other, and a place at the
+        // Where the other side is a body: how the gap varies under the contact node is by how the two turn to each other, and a place at the
         // distance ρ in front of the reference point gets ½ ρ Δθ² farther away as the body turns.
         let mut curvature = row.curvature;
         if let (Some(distance), true) = (self.distance(&row, position), self.pair.against().is_some()) {
@@ -115,8 +115,8 @@ impl<const D: usize> Pair<D> for Rigid<D> {
         self.pair.soils()
     }
 
-    fn hats(&self) -> usize {
-        self.pair.hats()
+    fn contact_nodes(&self) -> usize {
+        self.pair.contact_nodes()
     }
 
     fn runs(&self) -> &[(Range<usize>, bool)] {
@@ -166,7 +166,7 @@ mod tests {
             &[]
         }
 
-        fn hats(&self) -> usize {
+        fn contact_nodes(&self) -> usize {
             1
         }
 
@@ -197,7 +197,7 @@ mod tests {
 
     fn row() -> Row<2> {
         Row {
-            hat: 0,
+            contact_node: 0,
             area: 1.0,
             gap: 0.3,
             offset: 0.0,

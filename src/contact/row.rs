@@ -1,18 +1,18 @@
-//! The condition of a hat in a step.
+//! The condition of a contact node in a step.
 
 use super::law::Penalty;
 use super::motion::{Motion, Spot};
 
-/// Gap over which adhesion fades (-), in the spacing of the hats.
+/// Gap over which adhesion fades (-), in the spacing of the contact nodes.
 pub(super) const FADING: f64 = 0.05;
 
-/// The condition of a hat: its mean gap and slip in the step. The slip is linear in the displacements since its beginning, and so is the
+/// The condition of a contact node: its mean gap and slip in the step. The slip is linear in the displacements since its beginning, and so is the
 /// gap of a boundary that is flat. Soil that flows along a curved boundary turns with it: of what moves by `a` along the boundary the normal
 /// turns by `κ a`, and a way along the first normal would take it `½ κ a²` farther away.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Row<const D: usize> {
-    pub hat: u32,
-    /// Area (m²) under the hat where there is soil.
+    pub contact_node: u32,
+    /// Area (m²) under the contact node where there is soil.
     pub area: f64,
     /// Mean gap (m) at the beginning of the step, and how much more the points measure.
     pub gap: f64,
@@ -29,7 +29,7 @@ pub struct Row<const D: usize> {
     /// seen from the structure without its rotation.
     pub curvature: f64,
     pub by_arc: Vec<[f64; D]>,
-    /// How the gap varies under the hat as the step begins; empty where only its mean is known.
+    /// How the gap varies under the contact node as the step begins; empty where only its mean is known.
     pub spots: Vec<Spot>,
     pub penalty: Penalty,
 }

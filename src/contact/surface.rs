@@ -1,11 +1,11 @@
-//! The boundary of a structure, its segments and its hats: what does not change as it moves.
+//! The boundary of a structure, its segments and its contact nodes: what does not change as it moves.
 
 use crate::error::{Error, Result};
 use crate::mesh::Mesh;
 use crate::mesh::faces::Faces;
 use crate::mesh::shape::{CellKind, MAX_NODES, rule};
 
-/// Segments per hat.
+/// Segments per contact node.
 const SEGMENTS: f64 = 5.0;
 /// Cosine of the angle (40°) by which the boundary turns at a corner where pressure and normal may jump.
 const CORNER: f64 = 0.766;
@@ -17,8 +17,8 @@ pub struct Segment {
     /// Where it begins and ends on the facet, in [-1, 1].
     pub from: f64,
     pub to: f64,
-    /// The two hats over it and their values at its middle.
-    pub hats: [(u32, f64); 2],
+    /// The two contact nodes over it and their values at its middle.
+    pub contact_nodes: [(u32, f64); 2],
 }
 
 /// The boundary of a structure.
@@ -33,16 +33,16 @@ pub struct Surface {
     pub pieces: Vec<std::ops::Range<usize>>,
     /// Pieces that follow each other without a gap, by their segments.
     pub chains: Vec<std::ops::Range<usize>>,
-    pub hats: usize,
+    pub contact_nodes: usize,
     /// Hats of each piece, and whether the last is beside the first.
     pub runs: Vec<(std::ops::Range<usize>, bool)>,
-    /// Length (m) between hats.
+    /// Length (m) between contact nodes.
     pub spacing: f64,
 }
 
 impl Surface {
     /// The boundary of the cells of `mesh` in `region`, without facets that `skip` is true for, given their nodes;
-    /// hats are about `spacing` (m) apart.
+    /// contact nodes are about `spacing` (m) apart.
     ///
     /// # Errors
     /// Input: a region without boundary.
@@ -78,7 +78,7 @@ impl Surface {
             segments: Vec::new(),
             pieces: Vec::new(),
             chains: Vec::new(),
-            hats: 0,
+            contact_nodes: 0,
             runs: Vec::new(),
             spacing,
         };
@@ -116,7 +116,7 @@ impl Surface {
         self.chains.push(first_segment..self.segments.len());
     }
 
-    /// Adds a smooth stretch with its hats; those of a loop have no end.
+    /// Adds a smooth stretch with its contact nodes; those of a loop have no end.
     fn add_piece(&mut self, mesh: &Mesh<2>, facets: &[Vec<u32>], is_loop: bool) {
         let lengths: Vec<f64> = facets.iter().map(|f| length(mesh, self.kind, f)).collect();
         let whole: f64 = lengths.iter().sum();
@@ -132,16 +132,16 @@ impl Surface {
                 let at = (along + length * 0.25 * (from + to + 2.0)) / whole * intervals;
                 let left = at.floor().min(intervals - 1.0);
                 let right = if is_loop && left + 1.0 == intervals { 0 } else { left as u32 + 1 };
-                let hat = |k: u32| self.hats as u32 + k;
-                let hats = [(hat(left as u32), 1.0 - (at - left)), (hat(right), at - left)];
-                self.segments.push(Segment { facet, from, to, hats });
+                let contact_node = |k: u32| self.contact_nodes as u32 + k;
+                let contact_nodes = [(contact_node(left as u32), 1.0 - (at - left)), (contact_node(right), at - left)];
+                self.segments.push(Segment { facet, from, to, contact_nodes });
             }
             self.facets.push(nodes.clone());
             along += length;
         }
-        let first = self.hats;
-        self.hats += intervals as usize + usize::from(!is_loop);
-        self.runs.push((first..self.hats, is_loop));
+        let first = self.contact_nodes;
+        self.contact_nodes += intervals as usize + usize::from(!is_loop);
+        self.runs.push((first..self.contact_nodes, is_loop));
         self.pieces.push(first_segment..self.segments.len());
     }
 }

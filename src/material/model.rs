@@ -15,7 +15,7 @@ pub struct State {
     pub memory: f64,
     /// Steps a second (1/s), which is no memory but comes along: one over the size of the step in hand, 0 where time plays no
     /// part.
-    pub per_second: f64,
+    pub inverse_dt: f64,
 }
 
 /// The answer of a model, in principal axes, in the order of the trial strains.

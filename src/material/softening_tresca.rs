@@ -122,12 +122,12 @@ fn build(parameters: &Parameters) -> Result<Arc<dyn Model>> {
 }
 
 impl Softening {
-    /// `s_u/s_u0` and its derivative by ξ at the accumulated strain `before + more`, of which `more` came at `per_second`
+    /// `s_u/s_u0` and its derivative by ξ at the accumulated strain `before + more`, of which `more` came at `inverse_dt`
     /// steps a second.
-    fn factor(&self, before: f64, more: f64, per_second: f64) -> (f64, f64) {
+    fn factor(&self, before: f64, more: f64, inverse_dt: f64) -> (f64, f64) {
         let lost = (1.0 - self.remoulded) * (-3.0 * (before + more) / self.ductility).exp();
         let (kept, kept_slope) = (self.remoulded + lost, -3.0 * lost / self.ductility);
-        let times = more * per_second / self.reference_rate;
+        let times = more * inverse_dt / self.reference_rate;
         let (fast, fast_slope) =
             if times > 1.0 { (1.0 + self.rate * times.log10(), self.rate / (LN_10 * more)) } else { (1.0, 0.0) };
         (kept * fast, kept_slope * fast + kept * fast_slope)
@@ -207,7 +207,7 @@ impl Model for SofteningTresca {
     fn respond(&self, y: f64, trial: &[f64; 3], state: &State) -> Response {
         let moduli = self.elasticity.at(y);
         let at = |more: f64| {
-            let (factor, slope) = self.softening.factor(state.memory, more, state.per_second);
+            let (factor, slope) = self.softening.factor(state.memory, more, state.inverse_dt);
             (self.planes(y, factor).respond(&moduli, trial, state), self.shear_strength.at(y) * slope)
         };
         // The strength at the end lies between that before and that of remoulded soil, at whatever rate.

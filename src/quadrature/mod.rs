@@ -14,7 +14,7 @@ pub use volumes::Volumes;
 use crate::mesh::Mesh;
 use crate::mesh::locate::Locator;
 use crate::points::Points;
-use crate::stencil::{SoftCell, Stencil};
+use crate::stencil::{PartlyFilled, Stencil};
 use crate::surface::{ActiveBoundary, Front};
 
 /// What the points of a restored grid weigh, and what follows from where they lie.
@@ -25,9 +25,9 @@ pub struct Weighing<const D: usize> {
     /// What each of the points that integrals are summed over weighs (m³), as volume when seeded.
     pub weight: Vec<f64>,
     /// Cells that take part and are not full, ascending.
-    pub soft: Vec<SoftCell>,
-    /// Cells with points that are cut or too poor in points to stand alone, ascending: their faces take a penalty.
-    pub poor: Vec<u32>,
+    pub partly_filled: Vec<PartlyFilled>,
+    /// Cells with points that are cut or too ill-conditioned in points to stand alone, ascending: their faces take a penalty.
+    pub ill_conditioned: Vec<u32>,
     /// The boundary of the material; empty where nothing needs it.
     pub boundary: ActiveBoundary,
     /// The level set that the cells were cut along, one value a node; empty where they were not, or nothing needs the boundary.
@@ -50,7 +50,7 @@ pub struct Restored<'a, const D: usize> {
     pub parametric: &'a [[f64; 3]],
     pub stencil: &'a Stencil<D>,
     /// The cells of the grid.
-    pub taking_part: &'a [bool],
+    pub active: &'a [bool],
     /// The grid as it was restored before, on which `displacement` began.
     pub before: (&'a Mesh<D>, &'a Locator<D>),
     /// The boundaries of structures that touch the material, as polylines with the structure on their left.

@@ -70,7 +70,7 @@ pub fn smoothed<K: Kinematics<2>>(
         return None;
     }
     let nothing = |bearer: u32, _: &[f64; 2]| Behind { region: NO_REGION, bearer };
-    let boundary = ActiveBoundary::of(mesh, geometry, contour, grid.taking_part, nothing);
+    let boundary = ActiveBoundary::of(mesh, geometry, contour, grid.active, nothing);
     let mut front = Front::along::<K>(mesh, geometry, &boundary)?;
     front.join(mesh, geometry, grid.locator, &[]).ok()?;
     is_theirs::<K>(&front, geometry, grid).ok()?;
@@ -101,11 +101,9 @@ pub fn boundary<N: IntoIterator<Item = usize>>(
         let nearest = of_cell(cell).into_iter().map(|p| (distance(p), p)).min_by(|a, b| a.0.total_cmp(&b.0));
         nearest.map_or(NO_REGION, |(_, p)| points.region[p])
     };
-    ActiveBoundary::of(mesh, geometry, level_set, grid.taking_part, |cell, x| {
-        match geometry.bearer(cell, RINGS, count) {
-            Some(bearer) => Behind { region: region(bearer, x), bearer },
-            None => Behind { region: NO_REGION, bearer: cell },
-        }
+    ActiveBoundary::of(mesh, geometry, level_set, grid.active, |cell, x| match geometry.bearer(cell, RINGS, count) {
+        Some(bearer) => Behind { region: region(bearer, x), bearer },
+        None => Behind { region: NO_REGION, bearer: cell },
     })
 }
 
@@ -132,7 +130,7 @@ impl<K: Kinematics<2>> Quadrature<2> for Bounded<K> {
     fn weigh(&self, grid: &Restored<2>, front: &mut Option<Front>) -> Weighing<2> {
         let relaxed = grid.relaxed.then(|| Geometry::new::<K>(grid.mesh));
         let geometry = relaxed.as_ref().unwrap_or(&self.geometry);
-        let Restored { mesh, locator, points, parametric, taking_part, .. } = *grid;
+        let Restored { mesh, locator, points, parametric, active, .. } = *grid;
         let mut weighing = self.volumes.weigh(grid, front);
         if let Err(lost) = follow::<K>(geometry, grid, front) {
             *front = None;
@@ -141,14 +139,14 @@ impl<K: Kinematics<2>> Quadrature<2> for Bounded<K> {
         let bounded = |level_set: &[f64]| boundary(geometry, grid, level_set, points, |c| points_of(grid.stencil, c));
         let within = |front: &Front, cells: &[u32]| {
             let mut distance = Distance::default();
-            distance.update(mesh, geometry, locator, front, cells, taking_part);
+            distance.update(mesh, geometry, locator, front, cells, active);
             bounded(&distance.level_set)
         };
         weighing.boundary = match front {
             Some(front) => within(front, &points.cell),
             None => {
                 let mut contour = Contour::default();
-                contour.update::<K>(mesh, geometry, points, parametric, taking_part);
+                contour.update::<K>(mesh, geometry, points, parametric, active);
                 let smoothed = smoothed::<K>(geometry, grid, &contour.level_set);
                 smoothed.map_or_else(|| bounded(&contour.level_set), |(front, cells)| within(&front, &cells))
             }

@@ -2,13 +2,13 @@
 
 use super::{Quadrature, Restored, Weighing};
 use crate::kinematics::Kinematics;
-use crate::stencil::{Patch, soft_cells};
+use crate::stencil::{Patch, partly_filled_cells};
 use crate::surface::Front;
 use std::marker::PhantomData;
 
 /// Fewer points than this, or more emptiness (-), do not hold a cell's nodes by themselves.
 const FEW: u32 = 4;
-const POOR: f64 = 0.5;
+const ILL_CONDITIONED: f64 = 0.5;
 
 /// Points weigh what their volume is. Cells are as full as the volumes of their points say.
 #[derive(Default)]
@@ -18,12 +18,15 @@ pub struct Volumes<K> {
 
 impl<const D: usize, K: Kinematics<D>> Quadrature<D> for Volumes<K> {
     fn weigh(&self, grid: &Restored<D>, _front: &mut Option<Front>) -> Weighing<D> {
-        let Restored { mesh, points, stencil, taking_part, .. } = *grid;
-        let soft = soft_cells::<D, K>(mesh, stencil, points, taking_part);
-        let half_empty =
-            |cell: u32| soft.binary_search_by_key(&cell, |s| s.cell).is_ok_and(|at| soft[at].emptiness > POOR);
-        let poor = |patch: &&Patch| patch.point_count < FEW || half_empty(patch.cell);
-        let poor = stencil.patches.iter().filter(poor).map(|patch| patch.cell).collect();
-        Weighing { weight: points.initial_volume.clone(), soft, poor, ..Weighing::default() }
+        let Restored { mesh, points, stencil, active, .. } = *grid;
+        let partly_filled = partly_filled_cells::<D, K>(mesh, stencil, points, active);
+        let half_empty = |cell: u32| {
+            partly_filled
+                .binary_search_by_key(&cell, |s| s.cell)
+                .is_ok_and(|at| partly_filled[at].emptiness > ILL_CONDITIONED)
+        };
+        let ill_conditioned = |patch: &&Patch| patch.point_count < FEW || half_empty(patch.cell);
+        let ill_conditioned = stencil.patches.iter().filter(ill_conditioned).map(|patch| patch.cell).collect();
+        Weighing { weight: points.initial_volume.clone(), partly_filled, ill_conditioned, ..Weighing::default() }
     }
 }

@@ -1,16 +1,16 @@
-//! What frames hold of contact: the values of the hats along the boundaries of structures, as lines.
+//! What frames hold of contact: the values of the contact nodes along the boundaries of structures, as lines.
 
 use super::columns::{column, triples};
 use crate::contact::traction;
 use crate::io::frame::{FACES, LINE, Part, REGION};
 use crate::step::{Scene, State};
 
-/// The lines of all pairs in contact, with what their hats came to in the last step; empty without contact.
+/// The lines of all pairs in contact, with what their contact nodes came to in the last step; empty without contact.
 ///
 /// Pressure (kPa, compression positive), shear (kPa) on the soil and slip (m) since the run began, positive along the
-/// boundary with the structure on the left, and gap (m, positive where they are apart). Between hats they are
+/// boundary with the structure on the left, and gap (m, positive where they are apart). Between contact nodes they are
 /// linear. Traction (kPa) on the structure: its integral along the lines is the force of the contact, see [`traction`].
-/// The gap of a hat that has no soil before it is not known: [`FACES`] is 0 wherever it counts.
+/// The gap of a contact node that has no soil before it is not known: [`FACES`] is 0 wherever it counts.
 pub fn part<const D: usize>(scene: &Scene<D>, state: &State<D>) -> Part {
     if scene.pairs.is_empty() {
         return Part::default();
@@ -32,8 +32,8 @@ pub fn part<const D: usize>(scene: &Scene<D>, state: &State<D>) -> Part {
         let of_hats = held.map(|h| traction(&lines, &h.force));
         for line in &lines {
             for mark in line {
-                let known =
-                    held.is_some_and(|h| mark.hats.iter().all(|&(k, share)| share == 0.0 || h.faces[k as usize]));
+                let known = held
+                    .is_some_and(|h| mark.contact_nodes.iter().all(|&(k, share)| share == 0.0 || h.faces[k as usize]));
                 place.push(mark.place);
                 pressure.push(held.map_or(0.0, |h| mark.value(&h.pressure)));
                 shear.push(held.map_or(0.0, |h| mark.value(&h.shear)));

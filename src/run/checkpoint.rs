@@ -9,8 +9,8 @@ use crate::io::checkpoint::Checkpoints;
 use crate::io::columns;
 use crate::io::container::Store;
 use crate::quadrature::{Count, Samples, Tally, Weighing};
-use crate::stencil::SoftCell;
-use crate::step::{Release, Scene, Span, State};
+use crate::stencil::PartlyFilled;
+use crate::step::{Scene, Span, State, UnbalancedRamp};
 use crate::surface::{ActiveBoundary, Front, Piece, Voids};
 
 const POINTS: &str = "points.";
@@ -33,10 +33,10 @@ pub fn store<const D: usize>(state: &State<D>) -> Store {
         nodes,
         multipliers,
         moving,
-        falling,
+        switched_to_dynamics,
         peak,
         start_position,
-        release,
+        ramp,
         parametric,
         displacement,
         increment,
@@ -47,7 +47,7 @@ pub fn store<const D: usize>(state: &State<D>) -> Store {
         pressure,
         velocity,
         acceleration,
-        taking_part,
+        active,
         penalised,
         weighing,
         front,
@@ -58,9 +58,9 @@ pub fn store<const D: usize>(state: &State<D>) -> Store {
     store.put(
         "state.counts",
         1,
-        vec![*phase as u64, *step, *frames, u64::from(*moving), *restorations, u64::from(*falling)],
+        vec![*phase as u64, *step, *frames, u64::from(*moving), *restorations, u64::from(*switched_to_dynamics)],
     );
-    store.put("state.times", 1, vec![*time, *phase_time, *step_size, *last_step, *peak, release.until]);
+    store.put("state.times", 1, vec![*time, *phase_time, *step_size, *last_step, *peak, ramp.until]);
     let last = balanced.map_or_else(Vec::new, |last| vec![last.phase as f64, last.from, last.to]);
     store.put("state.balanced", 1, last);
     store.put("state.parametric", 3, parametric.concat());
@@ -74,12 +74,12 @@ pub fn store<const D: usize>(state: &State<D>) -> Store {
         ("nodes", nodes),
         ("increment", increment),
         ("start_position", start_position),
-        ("release", &release.force),
+        ("ramp", &ramp.force),
     ] {
         store.put(&format!("state.{name}"), D, field.concat());
     }
     store.put("state.pressure", 1, pressure.clone());
-    store.put("state.taking_part", 1, taking_part.iter().map(|&b| u8::from(b)).collect());
+    store.put("state.active", 1, active.iter().map(|&b| u8::from(b)).collect());
     store.put("state.penalised", 1, penalised.iter().map(|&b| u8::from(b)).collect());
     put_weighing(&mut store, weighing);
     put_multipliers(&mut store, multipliers);
@@ -96,8 +96,18 @@ pub fn store<const D: usize>(state: &State<D>) -> Store {
 
 fn put_weighing<const D: usize>(store: &mut Store, weighing: &Weighing<D>) {
     // Why a front was lost has been told when it was.
-    let Weighing { samples, weight, soft, poor, boundary, level_set, tally, lost_front: _, put_back: _, renewed: _ } =
-        weighing;
+    let Weighing {
+        samples,
+        weight,
+        partly_filled,
+        ill_conditioned,
+        boundary,
+        level_set,
+        tally,
+        lost_front: _,
+        put_back: _,
+        renewed: _,
+    } = weighing;
     let Tally { linear, constant, taken, point_volume, volume, population: Count { split, merged, starved } } = tally;
     if let Some(Samples { points, parametric, outside }) = samples {
         columns::put(store, SAMPLES, points);
@@ -105,9 +115,9 @@ fn put_weighing<const D: usize>(store: &mut Store, weighing: &Weighing<D>) {
         store.put("samples.outside", 1, outside.clone());
     }
     store.put("weighing.weight", 1, weight.clone());
-    store.put("weighing.soft", 1, soft.iter().map(|s| s.cell).collect());
-    store.put("weighing.emptiness", 1, soft.iter().map(|s| s.emptiness).collect());
-    store.put("weighing.poor", 1, poor.clone());
+    store.put("weighing.partly_filled", 1, partly_filled.iter().map(|s| s.cell).collect());
+    store.put("weighing.emptiness", 1, partly_filled.iter().map(|s| s.emptiness).collect());
+    store.put("weighing.ill_conditioned", 1, ill_conditioned.clone());
     store.put("weighing.level_set", 1, level_set.clone());
     let ActiveBoundary { pieces, first } = boundary;
     store.put("boundary.first", 1, first.clone());
@@ -132,12 +142,14 @@ fn take_weighing<const D: usize>(store: &mut Store) -> Result<Weighing<D>> {
         None => None,
     };
     let weight = store.take::<f64>("weighing.weight", 1)?;
-    let (soft, emptiness) = (store.take::<u32>("weighing.soft", 1)?, store.take::<f64>("weighing.emptiness", 1)?);
-    if soft.len() != emptiness.len() {
+    let (partly_filled, emptiness) =
+        (store.take::<u32>("weighing.partly_filled", 1)?, store.take::<f64>("weighing.emptiness", 1)?);
+    if partly_filled.len() != emptiness.len() {
         return Err(foreign("what it says of cells"));
     }
-    let soft = soft.into_iter().zip(emptiness).map(|(cell, emptiness)| SoftCell { cell, emptiness }).collect();
-    let poor = store.take::<u32>("weighing.poor", 1)?;
+    let partly_filled =
+        partly_filled.into_iter().zip(emptiness).map(|(cell, emptiness)| PartlyFilled { cell, emptiness }).collect();
+    let ill_conditioned = store.take::<u32>("weighing.ill_conditioned", 1)?;
     let level_set = store.take::<f64>("weighing.level_set", 1)?;
     let boundary = take_boundary(store)?;
     let (cells, volume) = (store.take::<u32>("weighing.cells", 1)?, store.take::<f64>("weighing.volume", 1)?);
@@ -148,7 +160,18 @@ fn take_weighing<const D: usize>(store: &mut Store) -> Result<Weighing<D>> {
     let (point_volume, volume) = (*point_volume, *volume);
     let tally = Tally { linear: *linear, constant: *constant, taken: *taken, point_volume, volume, population };
     let (lost_front, put_back, renewed) = (None, None, None);
-    Ok(Weighing { samples, weight, soft, poor, boundary, level_set, tally, lost_front, put_back, renewed })
+    Ok(Weighing {
+        samples,
+        weight,
+        partly_filled,
+        ill_conditioned,
+        boundary,
+        level_set,
+        tally,
+        lost_front,
+        put_back,
+        renewed,
+    })
 }
 
 fn take_boundary(store: &mut Store) -> Result<ActiveBoundary> {
@@ -240,15 +263,17 @@ fn take_front(store: &mut Store) -> Result<Option<Front>> {
 pub fn take<const D: usize>(mut store: Store, scene: &Scene<D>, first: &State<D>) -> Result<State<D>> {
     let counts = store.take::<u64>("state.counts", 1)?;
     let times = store.take::<f64>("state.times", 1)?;
-    let ([phase, step, frames, moving, restorations, falling], [time, phase_time, step_size, last_step, peak, until]) =
-        (&counts[..], &times[..])
+    let (
+        [phase, step, frames, moving, restorations, switched_to_dynamics],
+        [time, phase_time, step_size, last_step, peak, until],
+    ) = (&counts[..], &times[..])
     else {
         return Err(foreign("its list of counts"));
     };
     let mut nodal = |name: &str| Ok(vectors(&store.take::<f64>(&format!("state.{name}"), D)?));
     let (displacement, travel, increment) = (nodal("displacement")?, nodal("travel")?, nodal("increment")?);
     let (velocity, acceleration, nodes) = (nodal("velocity")?, nodal("acceleration")?, nodal("nodes")?);
-    let (uncounted, force, start_position) = (nodal("uncounted")?, nodal("release")?, nodal("start_position")?);
+    let (uncounted, force, start_position) = (nodal("uncounted")?, nodal("ramp")?, nodal("start_position")?);
     let state = State {
         phase: usize::try_from(*phase).map_err(|_| foreign("the number of its phase"))?,
         time: *time,
@@ -262,10 +287,10 @@ pub fn take<const D: usize>(mut store: Store, scene: &Scene<D>, first: &State<D>
         nodes,
         multipliers: take_multipliers(&mut store)?,
         moving: flag(*moving, "whether it moves")?,
-        falling: flag(*falling, "whether it falls")?,
+        switched_to_dynamics: flag(*switched_to_dynamics, "whether it falls")?,
         peak: *peak,
         start_position,
-        release: Release { force, until: *until },
+        ramp: UnbalancedRamp { force, until: *until },
         parametric: vectors(&store.take::<f64>("state.parametric", 3)?),
         displacement,
         increment,
@@ -276,7 +301,7 @@ pub fn take<const D: usize>(mut store: Store, scene: &Scene<D>, first: &State<D>
         pressure: store.take::<f64>("state.pressure", 1)?,
         velocity,
         acceleration,
-        taking_part: flags(&mut store, "state.taking_part")?,
+        active: flags(&mut store, "state.active")?,
         penalised: flags(&mut store, "state.penalised")?,
         weighing: take_weighing(&mut store)?,
         front: take_front(&mut store)?,

@@ -51,7 +51,7 @@ pub fn met<const D: usize>(
     report: &Report<D>,
 ) -> Option<String> {
     let name = &scene.phases[state.phase].name;
-    let held = state.release.share(state.phase_time);
+    let held = state.ramp.share(state.phase_time);
     let note = until.iter().find_map(|condition| match *condition {
         Until::Reached { watch, quantity, bound, below } => {
             let watch = &watches[watch];
@@ -70,7 +70,7 @@ pub fn met<const D: usize>(
     if held <= TOLD {
         return Some(note);
     }
-    let (share, most) = (100.0 * held, state.release.most());
+    let (share, most) = (100.0 * held, state.ramp.most());
     let next = if scene.phases.len() > state.phase + 1 { ", and comes on in the next" } else { "" };
     Some(format!(
         "{note}; {share:.1} % of what was out of balance as it began, up to {most:.3e} kN at a node, is not released{next}"
@@ -79,24 +79,24 @@ pub fn met<const D: usize>(
 
 /// Whether a step that failed hands over to dynamics.
 pub fn falls<const D: usize>(phase: &Phase, state: &State<D>, controller: &Controller) -> bool {
-    phase.auto && controller.exhausted && !state.falling
+    phase.auto && controller.exhausted && !state.switched_to_dynamics
 }
 
 /// Goes on with inertia after a step that failed with `error`: the note for the log.
-pub fn let_fall<const D: usize>(
+pub fn switch_to_dynamics<const D: usize>(
     phase: &Phase,
     state: &mut State<D>,
     controller: &mut Controller,
     error: &Error,
 ) -> String {
     controller.exhausted = false;
-    (state.falling, state.peak) = (true, 0.0);
+    (state.switched_to_dynamics, state.peak) = (true, 0.0);
     format!("phase `{}` goes on with inertia from t = {:.6} s: {}", phase.name, state.time, error.problem)
 }
 
 /// Goes back to equilibrium where such a phase has come to rest, not before it ends by what it waits `until`: the note for the
 /// log.
-pub fn let_rest<const D: usize>(
+pub fn switch_to_quasi_static<const D: usize>(
     phase: &Phase,
     until: &[Until],
     state: &mut State<D>,
@@ -106,7 +106,7 @@ pub fn let_rest<const D: usize>(
     let kinetic = report.motion.kinetic;
     let part = |condition: &Until| if let Until::Equilibrium(part) = condition { *part } else { REST };
     let rest = until.iter().map(part).fold(REST, f64::min);
-    if !state.falling || state.peak <= 0.0 || kinetic > rest * state.peak {
+    if !state.switched_to_dynamics || state.peak <= 0.0 || kinetic > rest * state.peak {
         return None;
     }
     let note = format!(
@@ -114,7 +114,7 @@ pub fn let_rest<const D: usize>(
         phase.name, state.time, state.peak
     );
     state.rest();
-    (state.falling, state.peak) = (false, 0.0);
+    (state.switched_to_dynamics, state.peak) = (false, 0.0);
     controller.wanted = phase.first_step;
     Some(note)
 }
@@ -173,7 +173,7 @@ fn loads_reached<const D: usize>(scene: &Scene<D>, phase: &Phase, state: &State<
     });
     let reduction = phase.reduction.iter().filter(|value| varies(value));
     let reduction = reduction.map(|value| format!("strengths divided by {:.4} of {:.4}", value.at(now), value.at(end)));
-    let held = state.release.share(now);
+    let held = state.ramp.share(now);
     let released = (held > 0.0 && now > 0.0)
         .then(|| format!("{:.1} % of what was out of balance as the phase began", 100.0 * (1.0 - held)));
     factors.chain(moved).chain(reduction).chain(released).collect()

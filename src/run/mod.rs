@@ -146,7 +146,7 @@ pub fn run<const D: usize, K: Kinematics<D>>(
                 Ok(report) => report,
                 Err(error) if ending::falls(phase, &simulation.state, &controller) => {
                     let state = &mut simulation.state;
-                    let note = ending::let_fall(phase, state, &mut controller, &error);
+                    let note = ending::switch_to_dynamics(phase, state, &mut controller, &error);
                     jump::watch(scene, state);
                     tell(state, Some(&note));
                     files.log.line(&note)?;
@@ -189,7 +189,7 @@ pub fn run<const D: usize, K: Kinematics<D>>(
                     tell(state, Some(&note));
                     return files.end_early(scene, state, &note);
                 }
-                if let Some(note) = ending::let_rest(phase, until, state, &report, &mut controller) {
+                if let Some(note) = ending::switch_to_quasi_static(phase, until, state, &report, &mut controller) {
                     tell(state, Some(&note));
                     files.log.line(&note)?;
                     jump::watch(scene, state);

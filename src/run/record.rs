@@ -333,7 +333,10 @@ pub fn log_lines<const D: usize>(scene: &Scene<D>, state: &State<D>, report: &Re
     }
     for contact in &report.contacts {
         let force = contact.force.map(|f| format!("{f:.6e}")).join(" ");
-        line.push_str(&format!(" contact {force} kN on {} hats overlap {:.1e} m", contact.hats, contact.overlap));
+        line.push_str(&format!(
+            " contact {force} kN on {} contact nodes, overlap {:.1e} m",
+            contact.contact_nodes, contact.overlap
+        ));
         if contact.pushed.points > 0 {
             line.push_str(&format!(" pushed out {} by {:.1e} m", contact.pushed.points, contact.pushed.most));
         }
@@ -341,7 +344,7 @@ pub fn log_lines<const D: usize>(scene: &Scene<D>, state: &State<D>, report: &Re
     if report.strained > 0 {
         line.push_str(&format!(" {} material points took the state of an integration point", report.strained));
     }
-    let (share, most) = (state.release.share(state.phase_time), state.release.most());
+    let (share, most) = (state.ramp.share(state.phase_time), state.ramp.most());
     if share > 0.0 && !dynamic {
         line.push_str(&format!(" held back {share:.4} of up to {most:.3e} kN at a node"));
     }

@@ -85,9 +85,9 @@ fn emptiness<const D: usize>(scene: &Scene<D>, state: &State<D>, mesh: &Mesh<D>)
     for &c in state.points.cell.iter().chain(&state.integration().cell) {
         emptiness[c as usize] = 0.0;
     }
-    for soft in state.weighing.soft.iter().filter(|soft| soft.emptiness > ROUNDING) {
-        let own = &mut emptiness[soft.cell as usize];
-        *own = own.max(soft.emptiness.min(1.0 - ROUNDING));
+    for partly_filled in state.weighing.partly_filled.iter().filter(|cell| cell.emptiness > ROUNDING) {
+        let own = &mut emptiness[partly_filled.cell as usize];
+        *own = own.max(partly_filled.emptiness.min(1.0 - ROUNDING));
     }
     let Some(fem) = &scene.fem else { return emptiness };
     let mut occupied: Vec<Option<bool>> = vec![None; mesh.nodes.len()];

@@ -8,7 +8,7 @@ use crate::points::Points;
 
 /// A cell that takes part in the solution without being full of material points.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct SoftCell {
+pub struct PartlyFilled {
     pub cell: u32,
     /// `1 − Σ V_p / V_cell`, in (0, 1].
     pub emptiness: f64,
@@ -17,28 +17,28 @@ pub struct SoftCell {
 /// Emptiness below which a cell counts as full: rounding, and the last percent that compression frees.
 const FULL: f64 = 0.01;
 
-/// The cells among those marked in `taking_part` that are not full.
-pub fn soft_cells<const D: usize, K: Kinematics<D>>(
+/// The cells among those marked in `active` that are not full.
+pub fn partly_filled_cells<const D: usize, K: Kinematics<D>>(
     mesh: &Mesh<D>,
     stencil: &Stencil<D>,
     points: &Points<D>,
-    taking_part: &[bool],
-) -> Vec<SoftCell> {
+    active: &[bool],
+) -> Vec<PartlyFilled> {
     let mut held = vec![0.0; mesh.cells.len()];
     for patch in &stencil.patches {
         for &p in stencil.points(patch) {
             held[patch.cell as usize] += points.volume(p as usize);
         }
     }
-    let soft = |c: usize| {
-        if !taking_part[c] {
+    let partly_filled = |c: usize| {
+        if !active[c] {
             return None;
         }
         let volume = || integrate::<D, K>(mesh, c, |_, _, _| {});
         let emptiness = if held[c] > 0.0 { 1.0 - held[c] / volume() } else { 1.0 };
-        (emptiness > FULL).then_some(SoftCell { cell: c as u32, emptiness })
+        (emptiness > FULL).then_some(PartlyFilled { cell: c as u32, emptiness })
     };
-    (0..mesh.cells.len()).filter_map(soft).collect()
+    (0..mesh.cells.len()).filter_map(partly_filled).collect()
 }
 
 /// Calls `f(weight, N, ∇N)` at the quadrature points of a cell and returns the sum of the weights, its volume.

@@ -12,7 +12,7 @@ mod reach;
 
 pub use ddmp::smooths;
 pub use entries::{Entries, Patch, Stencil};
-pub use fill::{SoftCell, integrate, soft_cells};
+pub use fill::{PartlyFilled, integrate, partly_filled_cells};
 pub use jumps::{Jump, Jumps};
 pub use reach::Reach;
 
@@ -29,7 +29,7 @@ pub enum Scheme {
 }
 
 impl<const D: usize> Stencil<D> {
-    /// Fills the stencil for points in `cell` at the parametric coordinates `xi`, given per point. `taking_part`
+    /// Fills the stencil for points in `cell` at the parametric coordinates `xi`, given per point. `active`
     /// marks the cells of the grid. The weights are for the caller to write.
     pub fn fill<K: Kinematics<D>>(
         &mut self,
@@ -37,11 +37,11 @@ impl<const D: usize> Stencil<D> {
         mesh: &Mesh<D>,
         cell: &[u32],
         xi: &[[f64; 3]],
-        taking_part: &[bool],
+        active: &[bool],
     ) {
         match scheme {
             Scheme::Mpm => mpm::fill::<D, K>(self, mesh, cell, xi),
-            Scheme::Ddmp => ddmp::fill::<D, K>(self, mesh, cell, xi, taking_part),
+            Scheme::Ddmp => ddmp::fill::<D, K>(self, mesh, cell, xi, active),
         }
         self.weight.resize(self.points.len(), 0.0);
     }

@@ -30,7 +30,7 @@ pub fn static_force<const D: usize>(problem: &Problem<D>, grid: &mut Grid<D>) ->
         reduction: problem.scene.phases[problem.phase].reduction_at(problem.from),
         held: false,
         discarded: false,
-        per_second: if problem.to > problem.from { 1.0 / (problem.to - problem.from) } else { 0.0 },
+        inverse_dt: if problem.to > problem.from { 1.0 / (problem.to - problem.from) } else { 0.0 },
     };
     let (mut own, mut sum) = (Vec::new(), Evaluation::default());
     timed(Activity::Assembly, || {
@@ -77,7 +77,7 @@ pub fn evaluate<const D: usize>(
         reduction: problem.scene.phases[problem.phase].reduction_at(problem.to),
         held: *held,
         discarded: problem.discarded,
-        per_second: 1.0 / (problem.to - problem.from),
+        inverse_dt: 1.0 / (problem.to - problem.from),
     };
     let result = timed(Activity::Assembly, || {
         add_terms(problem, grid, &trial, tangent, &|role| dynamic || role != Role::Inertia, own, state)
@@ -91,12 +91,12 @@ pub fn evaluate<const D: usize>(
 
 /// Takes off what is held of the forces that were out of balance as the phase began.
 fn hold_back<const D: usize>(problem: &Problem<D>, grid: &Grid<D>, force: &mut [f64]) {
-    let release = &problem.state.release;
-    let share = release.share(problem.to);
+    let ramp = &problem.state.ramp;
+    let share = ramp.share(problem.to);
     if share == 0.0 {
         return;
     }
-    let held = grid.node.iter().flat_map(|&n| release.force[n as usize]);
+    let held = grid.node.iter().flat_map(|&n| ramp.force[n as usize]);
     for ((f, held), given) in force.iter_mut().zip(held).zip(problem.given) {
         if given.is_none() {
             *f += share * held;

@@ -1,4 +1,4 @@
-//! Contact in a step: which hats face soil where the step begins, what of the surface they cover, and what they come to in its end.
+//! Contact in a step: which contact nodes face soil where the step begins, what of the surface they cover, and what they come to in its end.
 
 use super::balance::go_ahead;
 use super::facing::position;
@@ -31,7 +31,7 @@ pub struct Resultant<const D: usize> {
     pub moment: f64,
     pub moment_against: f64,
     /// Hats that touch, and the deepest mean overlap (m) of one.
-    pub hats: usize,
+    pub contact_nodes: usize,
     pub overlap: f64,
     pub pushed: Pushed,
 }
@@ -49,7 +49,7 @@ impl<const D: usize> Resultant<D> {
     }
 }
 
-/// Finds the hats that face soil and makes room for them in the system.
+/// Finds the contact nodes that face soil and makes room for them in the system.
 ///
 /// # Errors
 /// As [`Grid::new`], and analysis: a structure that left the grid.
@@ -62,7 +62,7 @@ pub fn begin<const D: usize, K: Kinematics<D>>(
         return Ok(());
     }
     if state.multipliers.is_empty() {
-        state.multipliers = scene.pairs.iter().map(|pair| Multipliers::new(pair.hats())).collect();
+        state.multipliers = scene.pairs.iter().map(|pair| Multipliers::new(pair.contact_nodes())).collect();
     }
     let at = |n: u32| position(scene, state, n);
     let moved = state.displacement.iter().flatten().any(|&u| u != 0.0);
@@ -91,7 +91,8 @@ pub fn begin<const D: usize, K: Kinematics<D>>(
         }
         let pair = number as u32;
         let presses = rows.iter().any(|row| row.penalty.pressure > 0.0);
-        let touch = |row: Row<D>| Touch { pair, laid: !presses && row.lies(), row, clique: 0, place: Vec::new() };
+        let touch =
+            |row: Row<D>| Touch { pair, initially_closed: !presses && row.lies(), row, clique: 0, place: Vec::new() };
         touches.extend(rows.into_iter().map(touch));
     }
     join(&mut covers);
@@ -131,9 +132,9 @@ fn surface<const D: usize>((mesh, locator): (&Mesh<D>, &Locator<D>), state: &Sta
 /// Finds the places of the rows in their cliques; false where one has none.
 fn place<const D: usize>(grid: &Grid<D>, state: &State<D>, touches: &mut [Touch<D>]) -> bool {
     for touch in touches {
-        let (pair, hat) = (touch.pair as usize, touch.row.hat as usize);
-        let clique = grid.touch_clique.get(pair).map_or(u32::MAX, |cliques| cliques[hat]);
-        let room = state.multipliers[pair].room(hat);
+        let (pair, contact_node) = (touch.pair as usize, touch.row.contact_node as usize);
+        let clique = grid.touch_clique.get(pair).map_or(u32::MAX, |cliques| cliques[contact_node]);
+        let room = state.multipliers[pair].room(contact_node);
         let found = touch.row.nodes.iter().map(|n| room.iter().position(|other| other == n).map(|at| at as u32));
         match found.collect::<Option<Vec<_>>>() {
             Some(place) if clique != u32::MAX => (touch.clique, touch.place) = (clique, place),
@@ -146,20 +147,20 @@ fn place<const D: usize>(grid: &Grid<D>, state: &State<D>, touches: &mut [Touch<
 /// Makes room for just these rows.
 fn make_room<const D: usize>(state: &mut State<D>, touches: &[Touch<D>]) {
     for (multipliers, number) in state.multipliers.iter_mut().zip(0..) {
-        let hats = multipliers.first.len() - 1;
+        let contact_nodes = multipliers.first.len() - 1;
         let mut rows = touches.iter().filter(|touch| touch.pair == number).peekable();
         multipliers.room.clear();
-        for hat in 0..hats {
-            multipliers.first[hat] = multipliers.room.len() as u32;
-            if let Some(touch) = rows.next_if(|touch| touch.row.hat as usize == hat) {
+        for contact_node in 0..contact_nodes {
+            multipliers.first[contact_node] = multipliers.room.len() as u32;
+            if let Some(touch) = rows.next_if(|touch| touch.row.contact_node as usize == contact_node) {
                 multipliers.room.extend(&touch.row.nodes);
             }
         }
-        multipliers.first[hats] = multipliers.room.len() as u32;
+        multipliers.first[contact_nodes] = multipliers.room.len() as u32;
     }
 }
 
-/// Hands what the hats came to on to the next step.
+/// Hands what the contact nodes came to on to the next step.
 pub fn commit<const D: usize>(
     scene: &Scene<D>,
     grid: &Grid<D>,
@@ -173,7 +174,7 @@ pub fn commit<const D: usize>(
         force: [0.0; D],
         moment: 0.0,
         moment_against: 0.0,
-        hats: 0,
+        contact_nodes: 0,
         overlap: 0.0,
         pushed: Pushed::default(),
     };
@@ -195,17 +196,17 @@ pub fn commit<const D: usize>(
         multipliers.faces.fill(false);
     }
     for touch in &grid.touches {
-        let (pair, hat, row) = (touch.pair as usize, touch.row.hat as usize, &touch.row);
+        let (pair, contact_node, row) = (touch.pair as usize, touch.row.contact_node as usize, &touch.row);
         let (answer, Motion { gap, slip, turn, .. }) =
             contact_answer(scene.pairs[pair].law(), scene.levels.as_ref(), touch, &trial);
         let held = &mut state.multipliers[pair];
-        (held.pressure[hat], held.shear[hat]) = (answer.pressure, answer.shear);
-        (held.gap[hat], held.slip[hat], held.offset[hat]) = (gap, slip.abs(), row.offset);
-        held.faces[hat] = true;
+        (held.pressure[contact_node], held.shear[contact_node]) = (answer.pressure, answer.shear);
+        (held.gap[contact_node], held.slip[contact_node], held.offset[contact_node]) = (gap, slip.abs(), row.offset);
+        held.faces[contact_node] = true;
         let resultant = &mut resultants[pair];
-        if held.touched(hat) {
-            resultant.hats += 1;
-            held.slid[hat] += slip;
+        if held.touched(contact_node) {
+            resultant.contact_nodes += 1;
+            held.slid[contact_node] += slip;
             resultant.overlap = resultant.overlap.max(-gap);
         }
         for (k, (t, &node)) in row.by_tangent.iter().zip(&row.nodes).enumerate() {
@@ -227,7 +228,7 @@ pub fn commit<const D: usize>(
             if k < row.own {
                 for d in 0..D {
                     resultant.force[d] += force[d];
-                    held.force[hat][d] += force[d];
+                    held.force[contact_node][d] += force[d];
                 }
             }
             if k < row.own || turned.is_some_and(|body| body.region == resultant.structure) {

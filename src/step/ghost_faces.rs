@@ -7,12 +7,12 @@ use crate::mesh::faces::{Face, Faces};
 /// Rings of cells beyond those in need for which the system has room too, so that its pattern seldom changes.
 const RINGS: usize = 2;
 
-/// The faces that take a penalty, ascending: those of poor cells and, with inertia, of cells with fewer
+/// The faces that take a penalty, ascending: those of ill-conditioned cells and, with inertia, of cells with fewer
 /// points than nodes, and those of the empty cells beside these, as far as one of the two cells holds points.
 pub fn choose<const D: usize>(scene: &Scene<D>, state: &State<D>) -> Vec<u32> {
     let Some(faces) = &scene.faces else { return Vec::new() };
     let cells = scene.mesh.cells.len();
-    let (mut holds, mut poor, mut ring) = (vec![false; cells], vec![false; cells], vec![false; cells]);
+    let (mut holds, mut ill_conditioned, mut ring) = (vec![false; cells], vec![false; cells], vec![false; cells]);
     let mut count = vec![0; cells];
     for &c in &state.points.cell {
         holds[c as usize] = true;
@@ -24,16 +24,16 @@ pub fn choose<const D: usize>(scene: &Scene<D>, state: &State<D>) -> Vec<u32> {
     let few = (0u32..)
         .zip(&count)
         .filter(|&(c, &n)| dynamic && holds[c as usize] && n < scene.mesh.cells.nodes(c as usize).len());
-    for c in few.map(|(c, _)| c).chain(state.weighing.poor.iter().copied()) {
-        poor[c as usize] = true;
+    for c in few.map(|(c, _)| c).chain(state.weighing.ill_conditioned.iter().copied()) {
+        ill_conditioned[c as usize] = true;
         for &other in faces.neighbours(c) {
             ring[other as usize] = true;
         }
     }
     let wanted = |face: &Face| {
         let [a, b] = face.cells.map(|c| c as usize);
-        let near = |c: usize| poor[c] || ring[c] && !holds[c];
-        let inside = |c: usize| state.taking_part[c] && (holds[c] || ring[c]);
+        let near = |c: usize| ill_conditioned[c] || ring[c] && !holds[c];
+        let inside = |c: usize| state.active[c] && (holds[c] || ring[c]);
         (holds[a] || holds[b]) && inside(a) && inside(b) && (near(a) || near(b))
     };
     (0u32..).zip(&faces.inner).filter(|(_, face)| wanted(face)).map(|(number, _)| number).collect()
@@ -42,7 +42,7 @@ pub fn choose<const D: usize>(scene: &Scene<D>, state: &State<D>) -> Vec<u32> {
 /// Whether the system has room for a penalty at a face.
 pub fn has_room<const D: usize>(state: &State<D>, face: &Face) -> bool {
     face.cells.iter().any(|&c| state.penalised.get(c as usize).copied().unwrap_or(false))
-        && face.cells.iter().all(|&c| state.taking_part[c as usize])
+        && face.cells.iter().all(|&c| state.active[c as usize])
 }
 
 /// Whether the system has room for all penalties that the cells of a state, which exist and take part, ask for.
@@ -56,7 +56,7 @@ pub fn make_room<const D: usize>(faces: &Faces, state: &mut State<D>, chosen: &[
     if chosen.iter().all(|&f| has_room(state, &faces.inner[f as usize])) {
         return false;
     }
-    let mut marked = vec![false; state.taking_part.len()];
+    let mut marked = vec![false; state.active.len()];
     for &f in chosen {
         for c in faces.inner[f as usize].cells {
             marked[c as usize] = true;

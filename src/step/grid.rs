@@ -31,11 +31,11 @@ pub struct Grid<const D: usize> {
     pub elements: Option<Elements<D>>,
     /// The faces that take a ghost penalty.
     pub ghost: Vec<GhostFace>,
-    /// The hats that face something.
+    /// The contact nodes that face something.
     pub touches: Vec<Touch<D>>,
     /// The parts of the boundary of the material that no structure covers; absent where all of it is open or nothing asks.
     pub open: Option<Vec<Piece>>,
-    /// The clique of each hat of each pair that the system has room for, else `u32::MAX`.
+    /// The clique of each contact node of each pair that the system has room for, else `u32::MAX`.
     pub touch_clique: Vec<Vec<u32>>,
     /// The clique of each face that the system has room for a penalty at, else `u32::MAX`; empty without faces.
     face_clique: Vec<u32>,
@@ -145,9 +145,9 @@ impl<const D: usize> Grid<D> {
         begin_anew::<D, K>(scene, state, &mut stencils, &mut relaxed)?;
         let grid = Self::with::<K>(scene, state, stencils, relaxed)?;
         if scene.has_pressure_field() {
-            grid.take_field_of_elements::<K>(scene, state);
+            grid.project_pressure_of_elements::<K>(scene, state);
         }
-        grid.take_water::<K>(scene, state);
+        grid.project_pore_pressure::<K>(scene, state);
         Ok(grid)
     }
 
@@ -164,7 +164,7 @@ impl<const D: usize> Grid<D> {
             }
             self.penalise(scene, state);
         }
-        self.take_water::<K>(scene, state);
+        self.project_pore_pressure::<K>(scene, state);
         Ok(())
     }
 
@@ -181,7 +181,7 @@ impl<const D: usize> Grid<D> {
         let mesh = &scene.mesh;
         let (mut clique, mut block) = (vec![u32::MAX; mesh.cells.len()], vec![u32::MAX; mesh.nodes.len()]);
         let (mut cliques, mut node) = (Cliques::default(), Vec::new());
-        for c in (0..mesh.cells.len()).filter(|&c| state.taking_part[c]) {
+        for c in (0..mesh.cells.len()).filter(|&c| state.active[c]) {
             for &n in mesh.cells.nodes(c) {
                 block[n as usize] = 0;
             }
@@ -198,7 +198,7 @@ impl<const D: usize> Grid<D> {
             *block = node.len() as u32;
             node.push(n as u32);
         }
-        let cells: Vec<u32> = (0u32..).zip(&state.taking_part).filter(|(_, part)| **part).map(|(c, _)| c).collect();
+        let cells: Vec<u32> = (0u32..).zip(&state.active).filter(|(_, part)| **part).map(|(c, _)| c).collect();
         for &c in &cells {
             clique[c as usize] = cliques.push(mesh.cells.nodes(c as usize).iter().map(|&n| block[n as usize]));
         }
@@ -228,7 +228,7 @@ impl<const D: usize> Grid<D> {
         let with_pressure = scene.pressure_unit.map(|_| {
             let [constants, of_water] = scene.pressure_places();
             let (with_water, with_field) = (scene.water.is_some(), scene.has_pressure_field());
-            let part = &state.taking_part;
+            let part = &state.active;
             let mut families = vec![Carrying {
                 mesh,
                 constants: mesh.nodes.len(),
@@ -283,16 +283,16 @@ impl<const D: usize> Grid<D> {
     }
 
     /// Takes the pressure field over from points whose materials have changed.
-    pub fn take_field<K: Kinematics<D>>(&self, scene: &Scene<D>, state: &mut State<D>) {
+    pub fn project_pressure<K: Kinematics<D>>(&self, scene: &Scene<D>, state: &mut State<D>) {
         let mesh = self.relaxed.as_ref().map_or(&scene.mesh, |relaxed| &relaxed.mesh);
         let mut field = std::mem::take(&mut state.pressure);
         let soil = Filled { mesh, stencil: &self.stencils.integration, points: state.integration() };
         pressure::gather::<D, K>(soil, mesh.nodes.len(), &mut field);
         state.pressure = field;
-        self.take_field_of_elements::<K>(scene, state);
+        self.project_pressure_of_elements::<K>(scene, state);
     }
 
-    fn take_field_of_elements<K: Kinematics<D>>(&self, scene: &Scene<D>, state: &mut State<D>) {
+    fn project_pressure_of_elements<K: Kinematics<D>>(&self, scene: &Scene<D>, state: &mut State<D>) {
         if let Some(Elements { mesh, stencil, .. }) = &self.elements {
             let [constants, _] = scene.pressure_places();
             let elements = Filled { mesh, stencil, points: &state.fem };
@@ -301,7 +301,7 @@ impl<const D: usize> Grid<D> {
     }
 
     /// Takes the pore pressures over from the points.
-    fn take_water<K: Kinematics<D>>(&self, scene: &Scene<D>, state: &mut State<D>) {
+    fn project_pore_pressure<K: Kinematics<D>>(&self, scene: &Scene<D>, state: &mut State<D>) {
         if let Some(water) = &scene.water {
             state.pressure.resize(self.water + scene.mesh.nodes.len(), 0.0);
             let mut field = state.pressure.split_off(self.water);
@@ -331,7 +331,7 @@ impl<const D: usize> Grid<D> {
             mesh: relaxed.unwrap_or(mesh),
             relaxed: relaxed.is_some(),
             stencil: &self.stencils.integration,
-            soft: &state.weighing.soft,
+            partly_filled: &state.weighing.partly_filled,
             ghost: &self.ghost,
             touches: &self.touches,
             boundary: &state.weighing.boundary.pieces,
@@ -367,7 +367,7 @@ impl<const D: usize> Grid<D> {
             mesh: &elements.mesh,
             relaxed: true,
             stencil: &elements.stencil,
-            soft: &[],
+            partly_filled: &[],
             ghost: &[],
             touches: &[],
             boundary: &[],

@@ -4,7 +4,7 @@ use super::scene::Scene;
 use crate::contact::{Ground, Multipliers, Pair, Row};
 use crate::error::{Error, Result};
 
-/// Refuses a hat that touched soil in the step before, as `held` has it, has no condition among the `rows` of this one, and
+/// Refuses a contact node that touched soil in the step before, as `held` has it, has no condition among the `rows` of this one, and
 /// is where the grid has no cells: the soil there has no freedom to answer with, and contact would be lost without a word.
 /// Two bodies need no grid between them, and a wall may leave it: its curve is often the end of it, and soil that follows
 /// leaves the grid itself.
@@ -19,18 +19,18 @@ pub fn check<const D: usize>(
     ground: &Ground<D>,
     position: &dyn Fn(u32) -> [f64; D],
 ) -> Result<()> {
-    let mut lost: Vec<bool> = (0..pair.hats()).map(|k| held.touched(k)).collect();
-    rows.iter().for_each(|row| lost[row.hat as usize] = false);
+    let mut lost: Vec<bool> = (0..pair.contact_nodes()).map(|k| held.touched(k)).collect();
+    rows.iter().for_each(|row| lost[row.contact_node as usize] = false);
     let is_wall = || !scene.fem.as_ref().is_some_and(|fem| fem.mesh.cells.region.contains(&pair.structure()));
     if !lost.contains(&true) || pair.against().is_some() || is_wall() {
         return Ok(());
     }
-    // Where a hat is: the mark at which it is largest.
+    // Where a contact node is: the mark at which it is largest.
     let mut places = vec![(0.0, [0.0; D]); lost.len()];
     for mark in pair.lines(position).iter().flatten() {
-        for (hat, share) in mark.hats {
-            if share > places[hat as usize].0 {
-                places[hat as usize] = (share, mark.place);
+        for (contact_node, share) in mark.contact_nodes {
+            if share > places[contact_node as usize].0 {
+                places[contact_node as usize] = (share, mark.place);
             }
         }
     }

@@ -8,10 +8,10 @@ use crate::kinematics::Kinematics;
 use crate::material::{State as Memory, is_beyond_yield, odd_poisson, on_poisson};
 
 /// Takes the pressure field of a phase that begins with other materials over from the points.
-pub fn take_field<const D: usize, K: Kinematics<D>>(scene: &Scene<D>, grid: &Grid<D>, state: &mut State<D>) {
+pub fn project_pressure<const D: usize, K: Kinematics<D>>(scene: &Scene<D>, grid: &Grid<D>, state: &mut State<D>) {
     let changed = scene.phases.get(state.phase).is_some_and(|phase| !phase.changes.is_empty());
     if changed && state.phase_time == 0.0 && scene.has_pressure_field() {
-        grid.take_field::<K>(scene, state);
+        grid.project_pressure::<K>(scene, state);
     }
 }
 
@@ -25,7 +25,7 @@ pub fn notes<const D: usize, K: Kinematics<D>>(scene: &Scene<D>, state: &State<D
                 let volume_ratio = points.deformation[p].determinant();
                 let stress = K::roots(&points.stress[p].map(|s| volume_ratio * s));
                 let memory = points.memory.get(p).copied().unwrap_or(0.0);
-                let memory = Memory { plastic_strain: points.plastic_strain[p], memory, per_second: 0.0 };
+                let memory = Memory { plastic_strain: points.plastic_strain[p], memory, inverse_dt: 0.0 };
                 all += 1;
                 odd.extend(odd_poisson(change.model.as_ref(), points.origin[p][1], &stress));
                 beyond += usize::from(is_beyond_yield(change.model.as_ref(), points.origin[p][1], &stress, &memory));

@@ -5,6 +5,7 @@
 //! implicitly. *Convect* moves the points with the grid and hands them its motion and the converged state.
 
 mod balance;
+mod boundary_projection;
 mod change;
 mod contact;
 mod control;
@@ -16,7 +17,6 @@ mod fem;
 mod free;
 mod ghost_faces;
 mod grid;
-mod guess;
 mod leaving;
 mod mass;
 mod materials;
@@ -25,11 +25,11 @@ mod newton;
 mod nodal_fit;
 pub mod overlap;
 mod pore_pressure;
+mod predictor;
 mod pressure;
 mod problem;
-mod put_back;
+mod ramp;
 mod relax;
-mod release;
 mod report;
 mod restore;
 mod rigid;
@@ -46,7 +46,7 @@ pub use control::{Controller, Limits};
 pub use ghost_faces::has_room_for_penalties;
 pub use grid::Grid;
 pub use problem::Solution;
-pub use release::Release;
+pub use ramp::UnbalancedRamp;
 pub use report::Report;
 pub use scene::{FARTHEST, Fem, Fixed, Numerics, Phase, Prescribed, Restore, Scene, Search, Stop, Water};
 pub use state::{Span, State};
@@ -143,14 +143,14 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
         let mut predict = true;
         let (dt, start, solution) = loop {
             let dt = controller.size(self.state.phase_time);
-            let guess = std::mem::take(&mut predict).then(|| guess::going_on(&self.state, dt)).flatten();
-            match self.lagrange(dt, guess.as_deref()).and_then(|found| self.stands(dt, found)) {
+            let predictor = std::mem::take(&mut predict).then(|| predictor::extrapolated(&self.state, dt)).flatten();
+            match self.lagrange(dt, predictor.as_deref()).and_then(|found| self.stands(dt, found)) {
                 Ok((start, solution)) => break (dt, start, solution),
                 Err(error) if error.kind == Kind::Analysis => {
                     if !fresh {
                         // A distorted grid is the first thing to blame.
                         (fresh, unbalanced) = timed(Activity::Transfer, || self.initialise(true))?;
-                    } else if guess.is_none() {
+                    } else if predictor.is_none() {
                         unbalanced::hold(self.scene, &mut self.grid, &mut self.state, dt)?;
                         controller.halve(dt, error)?;
                     }
@@ -181,7 +181,7 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
         if restore {
             self.grid.restore::<K>(scene, state)?;
         }
-        materials::take_field::<D, K>(scene, &self.grid, state);
+        materials::project_pressure::<D, K>(scene, &self.grid, state);
         timed(Activity::Contact, || contact::begin::<D, K>(scene, &mut self.grid, state))?;
         if state.dynamic(scene) && (restore || !state.moving) {
             transfer::motion_to_grid::<D, K>(scene, &mut self.grid, state)?;
@@ -194,7 +194,7 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
     }
 
     /// The solution on the grid and, with inertia, the motion that it starts from.
-    fn lagrange(&mut self, dt: f64, guess: Option<&[[f64; D]]>) -> Result<Lagrange<D>> {
+    fn lagrange(&mut self, dt: f64, predictor: Option<&[[f64; D]]>) -> Result<Lagrange<D>> {
         let (scene, state) = (self.scene, &self.state);
         let dynamic = state.dynamic(scene);
         let given = grid::given_increments(scene, state, &self.grid, dt);
@@ -204,7 +204,7 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
         let problem = Problem {
             scene,
             state,
-            guess,
+            predictor,
             converged: &state.displacement,
             pressure: &state.pressure,
             velocity,
@@ -287,8 +287,8 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
         state.step += 1;
         state.time += dt;
         state.phase_time += dt;
-        if state.release.share(state.phase_time) == 0.0 {
-            state.release = Release::default();
+        if state.ramp.share(state.phase_time) == 0.0 {
+            state.ramp = UnbalancedRamp::default();
         }
         let report =
             Report { contacts, water, strained, ..Report::new(scene, state, &self.grid, dt, solution, &momentum) };

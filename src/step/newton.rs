@@ -13,7 +13,7 @@ use crate::error::{Error, Result};
 use crate::mesh::cell_size;
 use crate::system::Method;
 
-/// Directions from a guess that hold hats together.
+/// Directions from a predictor that hold contact nodes together.
 const HELD: usize = 3;
 /// Largest relative residual that the linear systems of an iteration are solved to.
 const LOOSEST: f64 = 1e-3;
@@ -115,10 +115,10 @@ impl<'a, const D: usize> Newton<'a, D> {
         if !contact {
             return self.predict();
         }
-        let laid = self.grid.touches.iter().any(|touch| touch.laid);
-        for start in self.problem.guess.into_iter().chain(laid.then_some(self.problem.converged)) {
+        let initially_closed = self.grid.touches.iter().any(|touch| touch.initially_closed);
+        for start in self.problem.predictor.into_iter().chain(initially_closed.then_some(self.problem.converged)) {
             self.buffers.now.at.set(start, self.problem.pressure);
-            if self.set_out().is_ok() {
+            if self.first_iterations().is_ok() {
                 return Ok(());
             }
             self.buffers.held = false;
@@ -138,9 +138,9 @@ impl<'a, const D: usize> Newton<'a, D> {
             let found = newton.evaluate(tangent).map(|()| newton.size(&newton.buffers.now));
             found.ok().filter(|size| size.is_finite()).unwrap_or(f64::INFINITY)
         };
-        let predicted = self.problem.guess.is_some_and(|guess| {
+        let predicted = self.problem.predictor.is_some_and(|predictor| {
             let without = residual(self, self.problem.converged, false);
-            residual(self, guess, true) < without
+            residual(self, predictor, true) < without
         });
         if predicted {
             self.buffers.best.clone_from(&self.buffers.now.at);
@@ -159,10 +159,10 @@ impl<'a, const D: usize> Newton<'a, D> {
         (self.target, self.damping, self.stalled) = (f64::INFINITY, 0.0, 0);
     }
 
-    /// The first iterations from a guess, or of bodies laid on each other. They leave hats a little apart that bear in
+    /// The first iterations from a predictor, or of bodies initially closed on each other. They leave contact nodes a little apart that bear in
     /// the end; nothing holds the soil beneath them then, and what the tangent says flies through the structure, or
-    /// nothing holds the structure. The directions hold such hats together until one is worth its full length.
-    fn set_out(&mut self) -> Result<()> {
+    /// nothing holds the structure. The directions hold such contact nodes together until one is worth its full length.
+    fn first_iterations(&mut self) -> Result<()> {
         self.evaluate(false)?;
         self.note();
         let mut size = self.size(&self.buffers.now);

@@ -12,7 +12,7 @@ pub struct Problem<'a, const D: usize> {
     pub scene: &'a Scene<D>,
     pub state: &'a State<D>,
     /// Displacement (m) of the nodes that the iteration begins with, if not the converged one.
-    pub guess: Option<&'a [[f64; D]]>,
+    pub predictor: Option<&'a [[f64; D]]>,
     /// State of the nodes at the last converged step.
     pub converged: &'a [[f64; D]],
     /// The pressure field (kPa) there; empty without one.
@@ -39,7 +39,7 @@ impl<'a, const D: usize> Problem<'a, D> {
         Self {
             scene,
             state,
-            guess: None,
+            predictor: None,
             converged: &state.displacement,
             pressure: &state.pressure,
             velocity: &state.velocity,

@@ -1,14 +1,14 @@
 //! The restored grid: its nodes where it has them at first, or relaxed between finite elements that moved, the cells of the points, and
 //! what these weigh.
 
+use super::boundary_projection::put_back;
 use super::facing;
 use super::family::Stencils;
 use super::fem;
 use super::ghost_faces;
-use super::guess;
 use super::nodal_fit::Filled;
+use super::predictor;
 use super::pressure;
-use super::put_back::put_back;
 use super::relax::{self, Relaxed};
 use super::scene::{Restore, Scene};
 use super::state::State;
@@ -56,7 +56,7 @@ pub fn begin_anew<const D: usize, K: Kinematics<D>>(
         points: &state.points,
         parametric: &state.parametric,
         stencil: &stencils.integration,
-        taking_part: &state.taking_part,
+        active: &state.active,
         displacement: (state.restorations > 0).then_some(&state.displacement),
     };
     state.weighing = scene.quadrature.weigh(&grid, &mut state.front);
@@ -64,15 +64,15 @@ pub fn begin_anew<const D: usize, K: Kinematics<D>>(
     renew::<D, K>(&mut stencils.integration, scene, mesh, state);
     let here = before.as_ref().map_or((&scene.mesh, &scene.locator), |r| (&r.mesh, &r.locator));
     let before = here.0;
-    guess::carry(here, mesh, state);
-    state.release.carry(scene, (before, &state.displacement), (mesh, locator), &state.points.cell);
+    predictor::carry(here, mesh, state);
+    state.ramp.carry(scene, (before, &state.displacement), (mesh, locator), &state.points.cell);
     state.displacement.fill([0.0; D]);
     state.restorations += 1;
     if scene.numerics.restore == Restore::Never {
         // A grid that is never restored carries its points along: its cells stay as full as seeded.
-        state.weighing.soft.clear();
+        state.weighing.partly_filled.clear();
         if !scene.terms.iter().any(|t| t.penalises_faces()) {
-            state.weighing.poor.clear();
+            state.weighing.ill_conditioned.clear();
         }
     }
     take_weights::<D, K>(stencils, mesh, state);
@@ -119,7 +119,7 @@ pub fn take_weights<const D: usize, K: Kinematics<D>>(stencils: &mut Stencils<D>
     let Weighing { samples, weight, .. } = &state.weighing;
     if let Some(Samples { points, parametric, .. }) = samples {
         stencils.material = Some(std::mem::take(&mut stencils.integration));
-        stencils.integration.fill::<K>(Scheme::Mpm, mesh, &points.cell, parametric, &state.taking_part);
+        stencils.integration.fill::<K>(Scheme::Mpm, mesh, &points.cell, parametric, &state.active);
     }
     stencils.integration.weigh(weight);
 }
@@ -152,7 +152,7 @@ pub fn fill<const D: usize, K: Kinematics<D>>(
     state: &State<D>,
 ) {
     let (cell, scheme) = (&state.points.cell, scene.numerics.scheme);
-    stencil.fill::<K>(scheme, mesh, cell, &state.parametric, &state.taking_part);
+    stencil.fill::<K>(scheme, mesh, cell, &state.parametric, &state.active);
 }
 
 /// Finds the cell of every point of the restored grid.
@@ -195,9 +195,9 @@ fn choose_cells<const D: usize>(scene: &Scene<D>, state: &mut State<D>) -> bool 
     // A face to a cell beyond would have no place in the system.
     let surrounded = |&c: &u32| {
         let across = scene.faces.as_ref().map_or(&[][..], |faces| faces.neighbours(c));
-        state.taking_part[c as usize] && across.iter().all(|&other| state.taking_part[other as usize])
+        state.active[c as usize] && across.iter().all(|&other| state.active[other as usize])
     };
-    if state.taking_part.len() == cells && state.points.cell.iter().all(surrounded) {
+    if state.active.len() == cells && state.points.cell.iter().all(surrounded) {
         return false;
     }
     let mut chosen = vec![false; cells];
@@ -217,6 +217,6 @@ fn choose_cells<const D: usize>(scene: &Scene<D>, state: &mut State<D>) -> bool 
             }
         }
     }
-    state.taking_part = chosen;
+    state.active = chosen;
     true
 }

@@ -1,6 +1,6 @@
 //! The state of a run: all that a checkpoint holds. Everything else follows from it and the scene.
 
-use super::release::Release;
+use super::ramp::UnbalancedRamp;
 use super::scene::Scene;
 use crate::contact::Multipliers;
 use crate::points::Points;
@@ -39,20 +39,20 @@ pub struct State<const D: usize> {
     /// Coordinates (m) of the nodes when the grid was last restored; empty without finite elements and rigid bodies,
     /// which alone change them.
     pub nodes: Vec<[f64; D]>,
-    /// What the hats of each pair in contact carry.
+    /// What the contact nodes of each pair in contact carry.
     pub multipliers: Vec<Multipliers>,
     /// Whether the velocities and accelerations of the points are those of the motion: false until the first
     /// dynamic step has computed the accelerations from the forces.
     pub moving: bool,
     /// Whether a phase that is quasi-static as long as it can be goes on with inertia.
-    pub falling: bool,
+    pub switched_to_dynamics: bool,
     /// Largest kinetic energy (kJ) since the phase began or inertia came in.
     pub peak: f64,
     /// Where (m) the material points were as the phase, or the part of it without inertia, began; empty where nothing asks how far they
     /// have moved since.
     pub start_position: Vec<[f64; D]>,
     /// What is held of the forces that were out of balance as the phase began.
-    pub release: Release<D>,
+    pub ramp: UnbalancedRamp<D>,
     /// Parametric coordinates of the points in their cells, as of the last restoration.
     pub parametric: Vec<[f64; 3]>,
     /// Displacement (m) of the nodes since the last restoration.
@@ -74,7 +74,7 @@ pub struct State<const D: usize> {
     pub velocity: Vec<[f64; D]>,
     pub acceleration: Vec<[f64; D]>,
     /// Cells that take part in the solution; empty before the first step.
-    pub taking_part: Vec<bool>,
+    pub active: Vec<bool>,
     /// Cells whose faces the system has room for a ghost penalty at; empty where the scene has none.
     pub penalised: Vec<bool>,
     /// What the points weigh, as of the last restoration.
@@ -103,10 +103,10 @@ impl<const D: usize> State<D> {
             nodes: Vec::new(),
             multipliers: Vec::new(),
             moving: false,
-            falling: false,
+            switched_to_dynamics: false,
             peak: 0.0,
             start_position: Vec::new(),
-            release: Release::default(),
+            ramp: UnbalancedRamp::default(),
             parametric: Vec::new(),
             displacement: vec![[0.0; D]; nodes],
             increment: Vec::new(),
@@ -117,7 +117,7 @@ impl<const D: usize> State<D> {
             pressure: Vec::new(),
             velocity: Vec::new(),
             acceleration: Vec::new(),
-            taking_part: Vec::new(),
+            active: Vec::new(),
             penalised: Vec::new(),
             weighing: Weighing::default(),
             front: None,
@@ -138,7 +138,7 @@ impl<const D: usize> State<D> {
 
     /// Whether the step in hand has inertia.
     pub fn dynamic(&self, scene: &Scene<D>) -> bool {
-        self.falling || scene.phases.get(self.phase).is_some_and(|phase| phase.dynamic)
+        self.switched_to_dynamics || scene.phases.get(self.phase).is_some_and(|phase| phase.dynamic)
     }
 
     /// Begins the next phase where this one ended.
@@ -146,7 +146,7 @@ impl<const D: usize> State<D> {
         let moved = self.dynamic(scene);
         self.phase += 1;
         self.phase_time = 0.0;
-        (self.falling, self.peak, self.release) = (false, 0.0, Release::default());
+        (self.switched_to_dynamics, self.peak, self.ramp) = (false, 0.0, UnbalancedRamp::default());
         self.start_position.clear();
         if moved && !self.dynamic(scene) {
             self.rest();

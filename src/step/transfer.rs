@@ -171,7 +171,7 @@ impl Answers {
             reduction: scene.phases[phase].reduction_at(to),
             held: false,
             discarded: false,
-            per_second: 1.0 / (to - from),
+            inverse_dt: 1.0 / (to - from),
         };
         let of = |terms: &[Box<dyn Term<D>>], frame: &Frame<D>| -> Vec<Update> {
             terms.iter().filter_map(|term| term.commit(frame, &trial)).collect()

@@ -1,9 +1,9 @@
-//! What is out of balance as a phase begins: held where it cannot be borne at once ([`Release`]), or nothing.
+//! What is out of balance as a phase begins: held where it cannot be borne at once ([`UnbalancedRamp`]), or nothing.
 
 use super::balance::static_force;
 use super::grid::Grid;
 use super::problem::Problem;
-use super::release::Release;
+use super::ramp::UnbalancedRamp;
 use super::report::Motion;
 use super::scene::Scene;
 use super::state::State;
@@ -16,7 +16,7 @@ use crate::error::Result;
 pub fn hold<const D: usize>(scene: &Scene<D>, grid: &mut Grid<D>, state: &mut State<D>, dt: f64) -> Result<()> {
     let phase = &scene.phases[state.phase];
     let looks_for_failure = phase.auto || phase.search.is_some();
-    if looks_for_failure || state.dynamic(scene) || state.phase_time > 0.0 || !state.release.force.is_empty() {
+    if looks_for_failure || state.dynamic(scene) || state.phase_time > 0.0 || !state.ramp.force.is_empty() {
         return Ok(());
     }
     let Unbalanced { force, scale } = unbalanced(&Problem { to: dt, ..Problem::at_rest(scene, state) }, grid)?;
@@ -24,7 +24,7 @@ pub fn hold<const D: usize>(scene: &Scene<D>, grid: &mut Grid<D>, state: &mut St
     if norm(&force) <= scene.numerics.tolerance * scale {
         return Ok(());
     }
-    state.release = Release { force: force.into_iter().map(|f| f.map(|f| -f)).collect(), until: dt };
+    state.ramp = UnbalancedRamp { force: force.into_iter().map(|f| f.map(|f| -f)).collect(), until: dt };
     Ok(())
 }
 

@@ -53,17 +53,17 @@ pub struct ActiveBoundary {
 type Vertex = [u32; 2];
 
 impl ActiveBoundary {
-    /// The boundary of where `level_set` (one value a node) is positive, over the cells `taking_part`. `behind` tells
+    /// The boundary of where `level_set` (one value a node) is positive, over the cells `active`. `behind` tells
     /// what material is near a place of a cell.
     pub fn of(
         mesh: &Mesh<2>,
         geometry: &Geometry,
         level_set: &[f64],
-        taking_part: &[bool],
+        active: &[bool],
         mut behind: impl FnMut(u32, &[f64; 2]) -> Behind,
     ) -> Self {
         let mut found: Vec<(Vertex, Vertex, Piece)> = Vec::new();
-        for c in (0..mesh.cells.len()).filter(|&c| taking_part[c]) {
+        for c in (0..mesh.cells.len()).filter(|&c| active[c]) {
             add_cell(mesh, geometry, level_set, c, &mut found);
         }
         let mut boundary = Self { pieces: Vec::with_capacity(found.len()), first: vec![0] };

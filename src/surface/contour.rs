@@ -39,18 +39,18 @@ pub struct Contour {
 
 impl Contour {
     /// Finds the contour of points at `parametric` coordinates in their cells. All cells with a point, and their
-    /// neighbours over nodes, must be among those `taking_part`.
+    /// neighbours over nodes, must be among those `active`.
     pub fn update<K: Kinematics<2>>(
         &mut self,
         mesh: &Mesh<2>,
         geometry: &Geometry,
         points: &Points<2>,
         parametric: &[[f64; 3]],
-        taking_part: &[bool],
+        active: &[bool],
     ) {
         self.fill(mesh, geometry, points, parametric);
         self.wanted = self.shares.iter().map(|(_, volume)| volume.iter().sum::<f64>()).sum();
-        self.find_level::<K>(mesh, geometry, taking_part);
+        self.find_level::<K>(mesh, geometry, active);
         for value in &mut self.level_set {
             *value -= self.level;
             if value.abs() <= CLOSE {
@@ -84,11 +84,11 @@ impl Contour {
 
     /// The level that encloses `wanted`: the method of the false position in the variant of Anderson and Björck
     /// (1973), with a bisection in every third step; cells leave the list when the bracket no longer cuts them.
-    fn find_level<K: Kinematics<2>>(&mut self, mesh: &Mesh<2>, geometry: &Geometry, taking_part: &[bool]) {
+    fn find_level<K: Kinematics<2>>(&mut self, mesh: &Mesh<2>, geometry: &Geometry, active: &[bool]) {
         let phi = &self.level_set;
         let undecided = &mut self.undecided;
         undecided.clear();
-        for c in (0..mesh.cells.len()).filter(|&c| taking_part[c]) {
+        for c in (0..mesh.cells.len()).filter(|&c| active[c]) {
             let values = mesh.cells.nodes(c).iter().map(|&n| phi[n as usize]);
             let (low, high) = values.fold((f64::INFINITY, 0.0f64), |(l, h), v| (l.min(v), h.max(v)));
             if high > 0.0 {

@@ -38,7 +38,7 @@ struct Segment {
 const ROUNDING: f64 = 1e-13;
 
 impl Distance {
-    /// Measures the nodes of the cells `taking_part`; `cell` is the cell of each point. The markers must be in the mesh.
+    /// Measures the nodes of the cells `active`; `cell` is the cell of each point. The markers must be in the mesh.
     pub fn update(
         &mut self,
         mesh: &Mesh<2>,
@@ -46,7 +46,7 @@ impl Distance {
         locator: &Locator<2>,
         front: &Front,
         cell: &[u32],
-        taking_part: &[bool],
+        active: &[bool],
     ) {
         let wall = front.walls(mesh, geometry, locator);
         let reach = self.reach(mesh, locator, front, &wall);
@@ -60,7 +60,7 @@ impl Distance {
             });
         }
         let bins = Bins::new(self.segments.iter().map(|s| (s.from, s.to)), reach);
-        self.mark(mesh, cell, taking_part);
+        self.mark(mesh, cell, active);
         let (segments, material, wanted) = (&self.segments, &self.material, &self.wanted);
         let measure = |n: usize| {
             let far = if material[n] { reach } else { -reach };
@@ -82,7 +82,7 @@ impl Distance {
         if reach > 0.0 { reach } else { 1.0 }
     }
 
-    fn mark(&mut self, mesh: &Mesh<2>, cell: &[u32], taking_part: &[bool]) {
+    fn mark(&mut self, mesh: &Mesh<2>, cell: &[u32], active: &[bool]) {
         for marks in [&mut self.material, &mut self.wanted] {
             marks.clear();
             marks.resize(mesh.nodes.len(), false);
@@ -90,7 +90,7 @@ impl Distance {
         for &c in cell {
             mesh.cells.nodes(c as usize).iter().for_each(|&n| self.material[n as usize] = true);
         }
-        for c in (0..mesh.cells.len()).filter(|&c| taking_part[c]) {
+        for c in (0..mesh.cells.len()).filter(|&c| active[c]) {
             mesh.cells.nodes(c).iter().for_each(|&n| self.wanted[n as usize] = true);
         }
     }

@@ -23,7 +23,7 @@ pub fn points(mesh: &Mesh<2>, places: &[([f64; 2], f64)]) -> (Points<2>, Vec<[f6
 }
 
 /// Cells with points and two rings around them.
-pub fn taking_part(mesh: &Mesh<2>, cell: &[u32]) -> Vec<bool> {
+pub fn active(mesh: &Mesh<2>, cell: &[u32]) -> Vec<bool> {
     let mut chosen = vec![false; mesh.cells.len()];
     cell.iter().for_each(|&c| chosen[c as usize] = true);
     for _ in 0..2 {
@@ -38,16 +38,11 @@ pub fn taking_part(mesh: &Mesh<2>, cell: &[u32]) -> Vec<bool> {
     chosen
 }
 
-/// What of each cell (m³) is where `level_set` is positive, of those `taking_part`.
-pub fn volumes<K: Kinematics<2>>(
-    mesh: &Mesh<2>,
-    geometry: &Geometry,
-    level_set: &[f64],
-    taking_part: &[bool],
-) -> Vec<f64> {
+/// What of each cell (m³) is where `level_set` is positive, of those `active`.
+pub fn volumes<K: Kinematics<2>>(mesh: &Mesh<2>, geometry: &Geometry, level_set: &[f64], active: &[bool]) -> Vec<f64> {
     let of_cell = |c: usize| {
         let values: Vec<f64> = mesh.cells.nodes(c).iter().map(|&n| level_set[n as usize]).collect();
-        if taking_part[c] { geometry.filled::<K>(mesh, c, &values) } else { 0.0 }
+        if active[c] { geometry.filled::<K>(mesh, c, &values) } else { 0.0 }
     };
     (0..mesh.cells.len()).map(of_cell).collect()
 }

@@ -1,6 +1,6 @@
 //! LLᵀ and LDLᵀ factors of symmetric matrices, whole or by halves.
 
-use super::halves::Halves;
+use super::dissection::Dissection;
 use super::whole::Whole;
 use super::{Matrix, Pattern};
 use crate::error::Result;
@@ -11,7 +11,7 @@ const MANY: usize = 20_000;
 /// A factor of the symmetric part of the matrices of one pattern.
 pub enum Factor {
     Whole(Box<Whole>),
-    Halves(Box<Halves>),
+    Dissection(Box<Dissection>),
 }
 
 impl Factor {
@@ -20,9 +20,9 @@ impl Factor {
     /// # Errors
     /// A machine error when memory does not suffice.
     pub fn new<const D: usize>(pattern: &Pattern, places: &[[f64; D]]) -> Result<Self> {
-        let halves = if pattern.len() < MANY { None } else { Halves::new(pattern, places)? };
+        let halves = if pattern.len() < MANY { None } else { Dissection::new(pattern, places)? };
         Ok(match halves {
-            Some(halves) => Self::Halves(Box::new(halves)),
+            Some(halves) => Self::Dissection(Box::new(halves)),
             None => Self::Whole(Box::new(Whole::new(pattern)?)),
         })
     }
@@ -31,7 +31,7 @@ impl Factor {
     pub fn fill(&self) -> usize {
         match self {
             Self::Whole(whole) => whole.fill(),
-            Self::Halves(halves) => halves.fill(),
+            Self::Dissection(halves) => halves.fill(),
         }
     }
 
@@ -40,7 +40,7 @@ impl Factor {
     pub fn factorize(&mut self, pattern: &Pattern, matrix: &Matrix, llt: bool) -> Option<f64> {
         match self {
             Self::Whole(whole) => whole.factorize(pattern, matrix, llt),
-            Self::Halves(halves) => halves.factorize(matrix, llt),
+            Self::Dissection(halves) => halves.factorize(matrix, llt),
         }
     }
 
@@ -48,7 +48,7 @@ impl Factor {
     pub fn solve(&mut self, x: &mut [f64], llt: bool) {
         match self {
             Self::Whole(whole) => whole.solve(x, llt),
-            Self::Halves(halves) => halves.solve(x, llt),
+            Self::Dissection(halves) => halves.solve(x, llt),
         }
     }
 }

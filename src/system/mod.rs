@@ -6,8 +6,8 @@
 
 mod accuracy;
 mod assembly;
+mod dissection;
 mod factor;
-mod halves;
 mod iterative;
 mod lu;
 mod pattern;

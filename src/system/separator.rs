@@ -26,7 +26,7 @@ pub struct Parts {
     pub separator: Vec<u32>,
 }
 
-/// Halves the blocks of `pattern` where that is worth while. `places` has where the first of them are; the others are
+/// Dissection the blocks of `pattern` where that is worth while. `places` has where the first of them are; the others are
 /// taken to be amid those beside them.
 pub fn halve<const D: usize>(pattern: &Pattern, places: &[[f64; D]]) -> Option<Parts> {
     let parts = (0..D).filter_map(|axis| across(pattern, &along(pattern, places, axis)?));

@@ -2,7 +2,7 @@
 
 use super::*;
 
-mod halves;
+mod dissection;
 
 /// A chain of blocks with mixed sizes and three cliques, one of them unordered.
 fn chain(symmetric: bool) -> Pattern {

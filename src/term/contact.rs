@@ -1,8 +1,8 @@
-//! Contact: `−Σ_k A_k (p_k ∂g_k/∂u + τ_k ∂s_k/∂u)` over the hats of a pair, `p_k`, `τ_k` by its law from the mean gap
+//! Contact: `−Σ_k A_k (p_k ∂g_k/∂u + τ_k ∂s_k/∂u)` over the contact nodes of a pair, `p_k`, `τ_k` by its law from the mean gap
 //! `g_k` and slip `s_k` at the end of the step (theory, Contact).
 //!
 //! Within a step the slip is linear in the displacements and the gap quadratic at most, so that the tangent is exact and Newton's method
-//! ends at a fixed set of hats that touch, stick or slide.
+//! ends at a fixed set of contact nodes that touch, stick or slide.
 
 use super::levels::Levels;
 use super::{Assembly, Frame, Term, Touch, Trial};
@@ -25,7 +25,7 @@ impl Contact {
     }
 }
 
-/// What a hat answers to the displacements of a trial state.
+/// What a contact node answers to the displacements of a trial state.
 pub fn answer<const D: usize>(
     law: &Law,
     levels: Option<&Levels>,
@@ -41,9 +41,9 @@ pub fn answer<const D: usize>(
         motion = touch.row.ahead(motion, trial.ahead);
     }
     let law = law.reduced(trial.reduction);
-    let held = trial.held && (touch.laid || touch.row.penalty.pressure > 0.0);
+    let held = trial.held && (touch.initially_closed || touch.row.penalty.pressure > 0.0);
     // What lies there without pressure would have no friction to hold it along the contact.
-    let adhesion = if held && touch.laid && law.friction > 0.0 { f64::INFINITY } else { law.adhesion };
+    let adhesion = if held && touch.initially_closed && law.friction > 0.0 { f64::INFINITY } else { law.adhesion };
     let law = Law { tension: if held { f64::INFINITY } else { law.tension }, adhesion, ..law };
     let beyond = levels.zip(touch.row.height).map_or(0.0, |(levels, y)| levels.beyond(trial.phase, trial.time, y));
     let penalty = touch.row.penalty.within(beyond);

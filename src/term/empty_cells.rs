@@ -11,7 +11,7 @@ use super::{Assembly, Frame, Term, Trial};
 use crate::error::Result;
 use crate::kinematics::Kinematics;
 use crate::mesh::Mesh;
-use crate::stencil::{SoftCell, integrate};
+use crate::stencil::{PartlyFilled, integrate};
 use crate::system::{Local, scatter};
 use std::marker::PhantomData;
 use std::sync::OnceLock;
@@ -60,13 +60,13 @@ fn unit_stiffness<const D: usize, K: Kinematics<D>>(mesh: &Mesh<D>, cell: usize)
 
 impl<const D: usize, K: Kinematics<D>> Term<D> for EmptyCells<K> {
     fn assemble(&self, frame: &Frame<D>, trial: &Trial<D>, out: &mut Assembly) -> Result<()> {
-        let compute = |soft: &SoftCell, local: &mut Local| {
-            let cell = soft.cell as usize;
+        let compute = |partly_filled: &PartlyFilled, local: &mut Local| {
+            let cell = partly_filled.cell as usize;
             let fresh = frame.relaxed.then(|| unit_stiffness::<D, K>(frame.mesh, cell));
             let unit = fresh
                 .as_ref()
                 .unwrap_or_else(|| self.unit[cell].get_or_init(|| unit_stiffness::<D, K>(frame.mesh, cell)));
-            let stiffness = self.stiffness * soft.emptiness;
+            let stiffness = self.stiffness * partly_filled.emptiness;
             let size = D * frame.mesh.cells.nodes(cell).len();
             for (row, force) in unit.chunks_exact(size).zip(local.vector.iter_mut()) {
                 for (columns, &n) in row.chunks_exact(D).zip(frame.mesh.cells.nodes(cell)) {
@@ -85,8 +85,8 @@ impl<const D: usize, K: Kinematics<D>> Term<D> for EmptyCells<K> {
         };
         scatter(
             frame.pattern,
-            frame.soft,
-            |soft| frame.clique[soft.cell as usize] as usize,
+            frame.partly_filled,
+            |partly_filled| frame.clique[partly_filled.cell as usize] as usize,
             compute,
             out.force,
             out.tangent.as_deref_mut(),

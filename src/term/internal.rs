@@ -156,7 +156,7 @@ impl<K, S> Internal<K, S> {
         (points, entries): (&Points<D>, &Entries<D>),
         cell: &S::Cell,
         strained: &Strained,
-        (per_second, later): (f64, f64),
+        (inverse_dt, later): (f64, f64),
     ) -> Result<Answer<K, D>>
     where
         K: Kinematics<D>,
@@ -168,7 +168,7 @@ impl<K, S> Internal<K, S> {
         let Some(model) = models.get(points.model_of(p)).and_then(Option::as_ref) else {
             return Err(Error::analysis(format!("material point {p}"), "it has no material", ""));
         };
-        let (state, ratios) = (points.state(p, per_second), strained.ratios);
+        let (state, ratios) = (points.state(p, inverse_dt), strained.ratios);
         let answer =
             self.share.respond(cell, points, entries, &Within { model: model.as_ref(), trial, state, ratios, later });
         answer.ok_or_else(|| inadmissible(points, p, "is strained beyond measure", &strained.increment))
@@ -202,7 +202,7 @@ impl<K, S> Internal<K, S> {
         }
         let later = 1.0 - trial.alpha_f;
         let answer = |(entries, strained): (Entries<D>, &Strained)| {
-            self.answer(models, (frame.points, &entries), cell, strained, (trial.per_second / later, later))
+            self.answer(models, (frame.points, &entries), cell, strained, (trial.inverse_dt / later, later))
         };
         let entries = frame.stencil.entries::<K>(patch).zip(&strained);
         let answers = timed_material(|| entries.map(answer).collect::<Result<_>>())?;
@@ -348,7 +348,7 @@ impl<const D: usize, K: Kinematics<D>, S: Share<D, K>> Term<D> for Internal<K, S
                     point.take_volume::<D, K>(fit.at(&frame.points.position[entries.point]).exp());
                 }
                 let of_point = (frame.points, &entries);
-                let (answer, _) = self.answer(&models, of_point, &cell, &point, (trial.per_second, 1.0)).ok()?;
+                let (answer, _) = self.answer(&models, of_point, &cell, &point, (trial.inverse_dt, 1.0)).ok()?;
                 let deformation = point.increment * frame.points.deformation[entries.point];
                 let volume_ratio = deformation.determinant();
                 let mut history = History {

@@ -57,7 +57,7 @@ use crate::error::Result;
 use crate::mesh::Mesh;
 use crate::mesh::faces::Face;
 use crate::points::Points;
-use crate::stencil::{Patch, SoftCell, Stencil};
+use crate::stencil::{PartlyFilled, Patch, Stencil};
 use crate::surface::Piece;
 use crate::system::{Local, Matrix, Pattern, Workspace, scatter};
 use crate::tensor::{Symmetric, Tensor};
@@ -74,14 +74,14 @@ pub struct GhostFace {
     pub clique: u32,
 }
 
-/// A hat of a pair in contact.
+/// A contact node of a pair in contact.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Touch<const D: usize> {
     /// The number of the pair in the scene.
     pub pair: u32,
     pub row: Row<D>,
-    /// Whether it lies on what it faces, and no hat of the pair presses yet.
-    pub laid: bool,
+    /// Whether it lies on what it faces, and no contact node of the pair presses yet.
+    pub initially_closed: bool,
     /// Its clique, and the place of each node of the row among the blocks of that.
     pub clique: u32,
     pub place: Vec<u32>,
@@ -95,10 +95,10 @@ pub struct Frame<'a, const D: usize> {
     pub relaxed: bool,
     pub stencil: &'a Stencil<D>,
     /// Cells that take part and are not full of points.
-    pub soft: &'a [SoftCell],
+    pub partly_filled: &'a [PartlyFilled],
     /// Faces beside cells that cannot stand alone; empty where the scene has no such penalty.
     pub ghost: &'a [GhostFace],
-    /// The hats that face something; empty where the scene has no contact.
+    /// The contact nodes that face something; empty where the scene has no contact.
     pub touches: &'a [Touch<D>],
     /// The pieces of the boundary of the material; empty where the scene has no use for them.
     pub boundary: &'a [Piece],
@@ -159,12 +159,12 @@ pub struct Trial<'a, const D: usize> {
     pub time: f64,
     /// What strengths are divided by (-) at the end of the step.
     pub reduction: f64,
-    /// Whether hats that touched in the step before, or are laid on what they face, touch here, pressed or pulled.
+    /// Whether contact nodes that touched in the step before, or are initially closed on what they face, touch here, pressed or pulled.
     pub held: bool,
     /// Whether the displacements are discarded once the forces balance: what bears them then is to be the material.
     pub discarded: bool,
     /// One over the size of the step (1/s), for strength that depends on the rate of strain.
-    pub per_second: f64,
+    pub inverse_dt: f64,
 }
 
 impl<'a, const D: usize> Trial<'a, D> {
@@ -187,7 +187,7 @@ impl<'a, const D: usize> Trial<'a, D> {
             reduction: 1.0,
             held: false,
             discarded: false,
-            per_second: 0.0,
+            inverse_dt: 0.0,
         }
     }
 }

@@ -1,6 +1,6 @@
 //! A limit load with the ghost penalty on every face: in flow it must hardly be felt.
 //!
-//! Half of a rough strip footing on Tresca soil, h = B/4, by cells that are all marked as poor. The exact value
+//! Half of a rough strip footing on Tresca soil, h = B/4, by cells that are all marked as ill-conditioned. The exact value
 //! for a rigid footing is 2 + π; coarse cells of so few constraints are above it, with or without the penalty.
 
 use crate::bench::{Bench, constant, quadrature_points, run};
@@ -16,13 +16,13 @@ use mpm::term::GhostPenalty;
 use mpm::time_value::TimeValue;
 use std::sync::Arc;
 
-/// Volumes as weights, and all cells poor.
+/// Volumes as weights, and all cells ill-conditioned.
 struct AllPoor(Volumes<PlaneStrain>);
 
 impl Quadrature<2> for AllPoor {
     fn weigh(&self, grid: &Restored<2>, front: &mut Option<Front>) -> Weighing<2> {
         let mut weighing = self.0.weigh(grid, front);
-        weighing.poor = (0..grid.mesh.cells.len() as u32).collect();
+        weighing.ill_conditioned = (0..grid.mesh.cells.len() as u32).collect();
         weighing
     }
 }

@@ -59,7 +59,7 @@ fn condition(scene: &Scene<2>, points: Points<2>) -> f64 {
         reduction: 1.0,
         held: false,
         discarded: false,
-        per_second: 0.0,
+        inverse_dt: 0.0,
     };
     let pattern = &grid.motion.pattern;
     let (mut matrix, mut workspace) = (Matrix::new(pattern), Workspace::default());

@@ -1,4 +1,4 @@
-//! Contact: the forces of hats that are apart, stick, slide and are limited, and their tangent.
+//! Contact: the forces of contact nodes that are apart, stick, slide and are limited, and their tangent.
 
 use crate::loads::anywhere;
 use crate::stand::{Field, Random, Stand, mesh, points, resultant, size};
@@ -12,8 +12,8 @@ fn law(friction: f64, adhesion: f64, factor: Option<f64>) -> Law {
     Law { friction, adhesion, factor, tension: 0.0 }
 }
 
-/// A stand with hats between the first nodes of a cell, as a structure, and the rest of them: each moves as one where
-/// the weights of each sum to one. The first hat is `apart`, the others overlap by up to a millimetre.
+/// A stand with contact nodes between the first nodes of a cell, as a structure, and the rest of them: each moves as one where
+/// the weights of each sum to one. The first contact node is `apart`, the others overlap by up to a millimetre.
 fn stand(law: Law, apart: f64) -> Stand<PlaneStrain> {
     stand_in_water(law, apart, None)
 }
@@ -24,8 +24,8 @@ fn stand_in_water(law: Law, apart: f64, levels: Option<Levels>) -> Stand<PlaneSt
     let points = points(&mesh, |_| true);
     let mut stand = Stand::new(mesh, points, Box::new(Contact::new(0, law, levels)), true, law.friction > 0.0);
     let mut random = Random(7);
-    for hat in 0..4u32 {
-        let cell = 2 * hat;
+    for contact_node in 0..4u32 {
+        let cell = 2 * contact_node;
         let nodes = stand.scene.mesh.cells.nodes(cell as usize).to_vec();
         let mut share = || {
             let values: Vec<f64> = (0..3).map(|_| 1.5 + random.next()).collect();
@@ -33,19 +33,19 @@ fn stand_in_water(law: Law, apart: f64, levels: Option<Levels>) -> Stand<PlaneSt
             values.into_iter().map(move |v| v / sum)
         };
         let weights: Vec<f64> = share().map(|v| -v).collect::<Vec<_>>().into_iter().chain(share()).collect();
-        let angle = f64::from(hat);
+        let angle = f64::from(contact_node);
         let normal = [angle.cos(), angle.sin()];
         let row = Row {
-            hat,
+            contact_node,
             area: 0.3 + 0.1 * angle,
             offset: 0.0,
             height: Some(angle),
-            gap: if hat == 0 { apart } else { -1e-3 * angle },
+            gap: if contact_node == 0 { apart } else { -1e-3 * angle },
             by_normal: weights.iter().map(|w| normal.map(|n| w * n)).collect(),
             by_tangent: weights.iter().map(|w| [-normal[1] * w, normal[0] * w]).collect(),
             curvature: 40.0 * (angle - 1.0),
             by_arc: weights.iter().map(|w| [-normal[1] * w, 1.1 * normal[0] * w]).collect(),
-            // A part of the hat may bear while the rest is apart.
+            // A part of the contact node may bear while the rest is apart.
             spots: [-1.0, 1.0].map(|side| Spot { share: 0.5, along: 0.02 * side, open: 1e-3 * side }).to_vec(),
             own: 3,
             nodes,
@@ -63,7 +63,7 @@ fn stand_in_water(law: Law, apart: f64, levels: Option<Levels>) -> Stand<PlaneSt
         };
         let clique = stand.grid.clique[cell as usize];
         let place = (0..6).collect();
-        stand.grid.touches.push(Touch { pair: 0, row, laid: false, clique, place });
+        stand.grid.touches.push(Touch { pair: 0, row, initially_closed: false, clique, place });
     }
     stand
 }
@@ -114,14 +114,14 @@ fn water_levels_do_not_change_with_the_motion() {
     }
 }
 
-/// Held hats that lie there without pressure stick by the friction that they have none of yet, as those with adhesion enough do.
+/// Held contact nodes that lie there without pressure stick by the friction that they have none of yet, as those with adhesion enough do.
 #[test]
 fn hats_that_are_laid_down_stick() {
     let unpressed = |law: Law, held: bool| {
         let mut stand = stand(law, 10.0);
         stand.held = held;
         for touch in &mut stand.grid.touches {
-            (touch.laid, touch.row.penalty.pressure, touch.row.penalty.shear) = (true, 0.0, 0.0);
+            (touch.initially_closed, touch.row.penalty.pressure, touch.row.penalty.shear) = (true, 0.0, 0.0);
             touch.row.gap = touch.row.gap.abs();
         }
         stand
@@ -136,7 +136,7 @@ fn hats_that_are_laid_down_stick() {
     assert!(held.tangent_error(&trial, &converged) < 1e-6);
 }
 
-/// Held together, hats that pressed bear what those that cannot part bear, with its tangent; others do as ever.
+/// Held together, contact nodes that pressed bear what those that cannot part bear, with its tangent; others do as ever.
 #[test]
 fn hats_that_touched_are_held_together() {
     for law in [law(0.0, 0.0, None), law(0.3, 2.0, Some(0.3)), law(0.0, 0.0, Some(0.5))] {
@@ -166,7 +166,7 @@ fn what_the_soil_bears_the_structure_gives() {
     let force = stand.evaluate(&converged, &converged, 0, false).0;
     let (sum, whole) = (resultant(&force), size(&force));
     assert!(whole > 1.0 && sum[0].hypot(sum[1]) < 1e-12 * whole, "{sum:?} {whole}");
-    // Of the hat that is apart nothing comes.
+    // Of the contact node that is apart nothing comes.
     let mut alone = self::stand(law(0.4, 0.0, None), 10.0);
     alone.grid.touches.truncate(1);
     assert_eq!(size(&alone.evaluate(&converged, &converged, 0, false).0), 0.0);

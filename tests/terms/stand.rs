@@ -112,7 +112,7 @@ pub struct Stand<K> {
     pub alpha_f: f64,
     /// Time (s) that water flows for in them.
     pub flow_time: f64,
-    /// Whether hats that touched before are held together in them.
+    /// Whether contact nodes that touched before are held together in them.
     pub held: bool,
     /// The pressure field of the trial states, in the unknowns of the state, and the one before.
     pub pressure: Vec<f64>,
@@ -243,8 +243,8 @@ impl<K: Kinematics<2>> Stand<K> {
         self.grid.frame(&self.scene.mesh, &self.state)
     }
 
-    pub fn soft_cells(&self) -> usize {
-        self.state.weighing.soft.len()
+    pub fn partly_filled_cells(&self) -> usize {
+        self.state.weighing.partly_filled.len()
     }
 
     /// A field given by the place of a node, with noise of the size `noise` (m).
@@ -323,7 +323,7 @@ impl<K: Kinematics<2>> Stand<K> {
             reduction: 1.0,
             held: self.held,
             discarded: false,
-            per_second: 0.0,
+            inverse_dt: 0.0,
         };
         let mut force = vec![0.0; frame.pattern.len()];
         let mut matrix = Matrix::new(frame.pattern);

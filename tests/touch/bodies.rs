@@ -40,7 +40,7 @@ fn blocks_pressed_together_hand_on_a_uniform_pressure() {
     assert!(off < 1e-3, "{off}");
 }
 
-/// Either side may have the hats, and either may be rigid.
+/// Either side may have the contact nodes, and either may be rigid.
 #[test]
 fn the_sides_of_a_contact_may_change_places() {
     let force = |overrides: &[&str]| history(BLOCKS, overrides).pop().unwrap()[2];

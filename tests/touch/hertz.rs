@@ -9,7 +9,7 @@ use std::path::Path;
 const HERTZ: &str = "cases/hertz";
 const RADIUS: f64 = 50.0;
 
-/// The pressures (kPa) of the hats in the last step.
+/// The pressures (kPa) of the contact nodes in the last step.
 fn pressures(folder: &Path) -> Vec<f64> {
     let mut files: Vec<_> = std::fs::read_dir(folder.join("checkpoints")).unwrap().map(|e| e.unwrap().path()).collect();
     files.sort();
@@ -29,7 +29,7 @@ struct Contact {
     variation: f64,
 }
 
-/// The hats are as far apart as makes their pressures the force.
+/// The contact nodes are as far apart as makes their pressures the force.
 fn contact(overrides: &[&str], modulus: f64) -> Contact {
     let folder = run(HERTZ, overrides);
     let force = rows(folder.path()).last().unwrap()[2];
@@ -40,10 +40,10 @@ fn contact(overrides: &[&str], modulus: f64) -> Contact {
     let place = |k: usize| (k as f64 - middle) * spacing;
     let half_width = (4.0 * force * RADIUS / (PI * modulus)).sqrt();
     let peak = 2.0 * force / (PI * half_width);
-    let hats = || 0..pressure.len();
-    let second = hats().map(|k| place(k).powi(2) * pressure[k]).sum::<f64>() / sum;
+    let contact_nodes = || 0..pressure.len();
+    let second = contact_nodes().map(|k| place(k).powi(2) * pressure[k]).sum::<f64>() / sum;
     let ellipse = |k: usize| peak * (1.0 - (place(k) / half_width).powi(2)).sqrt();
-    let inside = hats().filter(|&k| place(k).abs() < 0.8 * half_width);
+    let inside = contact_nodes().filter(|&k| place(k).abs() < 0.8 * half_width);
     let share: Vec<f64> = inside.map(|k| pressure[k] / ellipse(k)).collect();
     let count = share.len() as f64;
     let mean = share.iter().sum::<f64>() / count;
@@ -72,7 +72,7 @@ fn check(name: &str, h: f64, contact: &Contact) {
         100.0 * variation
     );
     assert!((width - 1.0).abs() < 0.02 && (peak - 1.0).abs() < 0.02, "{name}");
-    // Where the contact ends between hats the pressures next to it ripple; it is most of the contact in few cells.
+    // Where the contact ends between contact nodes the pressures next to it ripple; it is most of the contact in few cells.
     assert!(*variation < if cells > 5.0 { 0.03 } else { 0.05 }, "{name}");
 }
 

@@ -8,9 +8,9 @@ fn model(rate: f64) -> SofteningTresca {
     SofteningTresca::new(elasticity, Profile { top: 4.0, gradient: 1.0, datum: 0.0 }, softening).unwrap()
 }
 
-/// Leads a point through pure shear in steps of `step`, each of which takes `1/per_second`.
-fn shear(model: &SofteningTresca, step: f64, count: usize, per_second: f64) -> Vec<(f64, f64, State)> {
-    let (mut elastic, mut state, mut path) = ([0.0; 3], State { per_second, ..State::default() }, Vec::new());
+/// Leads a point through pure shear in steps of `step`, each of which takes `1/inverse_dt`.
+fn shear(model: &SofteningTresca, step: f64, count: usize, inverse_dt: f64) -> Vec<(f64, f64, State)> {
+    let (mut elastic, mut state, mut path) = ([0.0; 3], State { inverse_dt, ..State::default() }, Vec::new());
     for n in 1..=count {
         let trial = [elastic[0] + 0.5 * step, elastic[1], elastic[2] - 0.5 * step];
         let r = model.respond(-6.0, &trial, &state);
@@ -46,8 +46,8 @@ fn strength_grows_with_the_rate() {
     for (times, gained) in [(0.1, 1.0), (10.0, 1.1), (1000.0, 1.3)] {
         // A plastic rate that does not change: the steps far from the first yield are all alike.
         let step = 1e-3;
-        let per_second = times * 0.01 / step;
-        let path = shear(&model, step, 4000, per_second);
+        let inverse_dt = times * 0.01 / step;
+        let path = shear(&model, step, 4000, inverse_dt);
         let (gamma, tau, state) = path[3999];
         let soft = 10.0 * (0.25 + 0.75 * (-3.0 * state.memory / 4.0f64).exp());
         // What the falling stress gives back adds to the plastic rate: 1e-3 of it.
@@ -59,7 +59,7 @@ fn strength_grows_with_the_rate() {
 #[test]
 fn the_tangent_is_that_of_the_implicit_return() {
     let model = model(0.2);
-    let state = State { memory: 0.3, per_second: 10.0, ..State::default() };
+    let state = State { memory: 0.3, inverse_dt: 10.0, ..State::default() };
     let mut edges = 0;
     for trial in
         [[0.02, 0.001, -0.03], [0.5, 0.1, -0.6], [0.03, -0.0148, -0.0152], [0.0151, 0.0149, -0.03], [0.2, 0.2, -0.3]]

@@ -44,7 +44,7 @@ impl<K: Kinematics<2>> Materials<K> {
     /// The elastic left Cauchy–Green tensor and the stress (kPa) that a model can have near the given fields.
     pub fn state(&self, model: usize, fields: &Fields) -> Option<(Symmetric, Symmetric)> {
         let kirchhoff = [fields[0], fields[1], fields[2], fields[3], 0.0, 0.0];
-        let state = State { plastic_strain: fields[PLASTIC], memory: fields[MEMORY], per_second: 0.0 };
+        let state = State { plastic_strain: fields[PLASTIC], memory: fields[MEMORY], inverse_dt: 0.0 };
         let y = fields[ORIGIN + 1];
         let model = self.models.get(model)?.as_ref()?;
         let elastic = elastic_from_stress(model.as_ref(), y, &kirchhoff);

@@ -31,14 +31,14 @@ pub struct Surface {
 impl Surface {
     /// The surface of the material: one that is followed, else the smoothed contour of the points, or that contour.
     pub fn of<K: Kinematics<2>>(geometry: &Geometry, grid: &Restored<2>, front: &mut Option<Front>) -> Self {
-        let Restored { mesh, locator, points, parametric, taking_part, .. } = *grid;
+        let Restored { mesh, locator, points, parametric, active, .. } = *grid;
         let lost = follow::<K>(geometry, grid, front).err().map(|lost| {
             *front = None;
             lost.to_string()
         });
         let to = |front: &Front, cells: &[u32]| {
             let mut distance = Distance::default();
-            distance.update(mesh, geometry, locator, front, cells, taking_part);
+            distance.update(mesh, geometry, locator, front, cells, active);
             distance.level_set
         };
         // Points that neither the surface nor the contour that it smooths reaches are outside. Where structures touch the material,
@@ -68,7 +68,7 @@ impl Surface {
             return at(front, to(front, &points.cell), &[]);
         }
         let mut contour = Contour::default();
-        contour.update::<K>(mesh, geometry, points, parametric, taking_part);
+        contour.update::<K>(mesh, geometry, points, parametric, active);
         if let Some((front, cells)) = smoothed::<K>(geometry, grid, &contour.level_set) {
             return at(&front, to(&front, &cells), &cells);
         }
@@ -83,7 +83,7 @@ impl Surface {
             }
             count = numbers.len();
             let places: Vec<_> = numbers.iter().map(|&p| parametric[p]).collect();
-            contour.update::<K>(mesh, geometry, &points.select(&numbers), &places, taking_part);
+            contour.update::<K>(mesh, geometry, &points.select(&numbers), &places, active);
             let more = outside(&contour.level_set, &[]);
             out.iter_mut().zip(more).for_each(|(out, more)| *out |= more);
         }
@@ -100,11 +100,11 @@ fn keep_volume<K: Kinematics<2>>(
     outside: &[bool],
     level_set: Vec<f64>,
 ) -> Vec<f64> {
-    let Restored { mesh, points, taking_part, .. } = *grid;
+    let Restored { mesh, points, active, .. } = *grid;
     if !grid.outlines.is_empty() || most <= least {
         return level_set;
     }
-    let counts = |c: u32| taking_part[c as usize] && !outside[c as usize];
+    let counts = |c: u32| active[c as usize] && !outside[c as usize];
     let near = |c: &u32| mesh.cells.nodes(*c as usize).iter().any(|&n| level_set[n as usize] > -most);
     let cells: Vec<u32> = (0..mesh.cells.len() as u32).filter(|c| counts(*c) && near(c)).collect();
     let inside = |c: &u32| mesh.cells.nodes(*c as usize).iter().any(|&n| level_set[n as usize] > 0.0);

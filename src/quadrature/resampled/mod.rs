@@ -27,7 +27,7 @@ use crate::kinematics::Kinematics;
 use crate::mesh::Mesh;
 use crate::mesh::shape::MAX_NODES;
 use crate::points::Points;
-use crate::stencil::SoftCell;
+use crate::stencil::PartlyFilled;
 use crate::surface::{Front, Geometry};
 use crate::tensor::{Symmetric, Tensor};
 use fields::{
@@ -176,14 +176,14 @@ impl<K: Kinematics<2>> Resampled<K> {
     }
 
     fn weigh_on(&self, geometry: &Geometry, grid: &Restored<2>, front: &mut Option<Front>) -> Weighing<2> {
-        let Restored { mesh, points, taking_part, .. } = *grid;
+        let Restored { mesh, points, active, .. } = *grid;
         let Surface { level_set, outside, lost: lost_front } = Surface::of::<K>(geometry, grid, front);
         let values = |c: usize| -> Vec<f64> { mesh.cells.nodes(c).iter().map(|&n| level_set[n as usize]).collect() };
         let held = Held::new(mesh.cells.len(), &points.cell);
         let fields = self.materials.all(points);
         let work = |c: usize| {
             let values = values(c);
-            let inside = taking_part[c] && values.iter().any(|&v| v > 0.0);
+            let inside = active[c] && values.iter().any(|&v| v > 0.0);
             if outside[c] {
                 Self::themselves(points, grid.parametric, &held, &fields, c as u32)
             } else if inside {
@@ -197,18 +197,18 @@ impl<K: Kinematics<2>> Resampled<K> {
         mass::conserve(mesh, points, &mut samples);
         let weight = samples.points.initial_volume.clone();
 
-        let (mut soft, mut poor) = (Vec::new(), Vec::new());
-        for c in (0..mesh.cells.len()).filter(|&c| taking_part[c]) {
+        let (mut partly_filled, mut ill_conditioned) = (Vec::new(), Vec::new());
+        for c in (0..mesh.cells.len()).filter(|&c| active[c]) {
             let (inside, whole) = (sampled[c].samples.iter().map(|s| s.place.weight).sum::<f64>(), geometry.volume(c));
             let is_full = inside > 0.0 && !outside[c] && values(c).iter().all(|&v| v >= 0.0);
             if !is_full {
-                soft.push(SoftCell { cell: c as u32, emptiness: (1.0 - inside / whole).clamp(0.0, 1.0) });
+                partly_filled.push(PartlyFilled { cell: c as u32, emptiness: (1.0 - inside / whole).clamp(0.0, 1.0) });
             }
             if !is_full && inside > 0.0 {
-                poor.push(c as u32);
+                ill_conditioned.push(c as u32);
             }
         }
-        soft.retain(|soft| soft.emptiness > 0.0);
+        partly_filled.retain(|partly_filled| partly_filled.emptiness > 0.0);
         let mut renewed = None;
         if !self.seeded.is_empty() && grid.displacement.is_some() {
             let parts = parts(geometry, &sampled);
@@ -217,7 +217,8 @@ impl<K: Kinematics<2>> Resampled<K> {
             let ground = Ground { geometry, around, grid, level_set, outside, parts: &parts, seeded, held: &held };
             (renewed, tally.population) = renew(&ground, &self.materials);
         }
-        let mut weighing = Weighing { weight, soft, poor, tally, lost_front, renewed, ..Weighing::default() };
+        let mut weighing =
+            Weighing { weight, partly_filled, ill_conditioned, tally, lost_front, renewed, ..Weighing::default() };
         if self.bounded {
             let cells = &samples.points.cell;
             let of_cell = |c: u32| cells.partition_point(|&d| d < c)..cells.partition_point(|&d| d <= c);

@@ -123,11 +123,10 @@ impl Ground<'_> {
     /// The cell of a place (m) at which a point of a region can be, and its coordinates there: within the surface, where the region is, and
     /// no nearer to the end of the grid than the faces of cells reach.
     fn room_at(&self, x: &[f64; 2], region: u16, hint: u32) -> Option<(u32, [f64; 3])> {
-        let Restored { mesh, locator, taking_part, .. } = *self.grid;
+        let Restored { mesh, locator, active, .. } = *self.grid;
         let (cell, xi) = locator.locate(mesh, x, Some(hint))?;
         let c = cell as usize;
-        let takes_part =
-            taking_part[c] && self.geometry.faces.neighbours(cell).iter().all(|&o| taking_part[o as usize]);
+        let takes_part = active[c] && self.geometry.faces.neighbours(cell).iter().all(|&o| active[o as usize]);
         let filled = self.parts.binary_search_by_key(&(cell, region), |part| (part.cell, part.region)).is_ok();
         if !takes_part || !filled || self.outside[c] {
             return None;

@@ -57,13 +57,13 @@ fn check_times<const D: usize>(scene: &Scene<D>, state: &State<D>) -> Result<()>
     ensure(state.balanced.is_none_or(of_phase), "its last step")?;
     ensure(step_size > 0.0 && peak >= 0.0, "the size of its steps")?;
     let Some(next) = scene.phases.get(phase) else {
-        return ensure(phase_time == 0.0 && !state.moving && !state.falling, "its end");
+        return ensure(phase_time == 0.0 && !state.moving && !state.switched_to_dynamics, "its end");
     };
     ensure(next.duration + step_size > next.duration, "the size of its steps")?;
     let limits = Limits { least: next.least_step, largest: next.largest_step };
     let more = Controller::new(limits, next.stops.clone(), step_size).next_stop(phase_time).is_some();
     ensure(more, "its time in the phase")?;
-    ensure(next.auto || !state.falling, "its fall")?;
+    ensure(next.auto || !state.switched_to_dynamics, "its fall")?;
     ensure(state.dynamic(scene) || !state.moving, "its motion")
 }
 
@@ -81,10 +81,10 @@ fn check_fields<const D: usize>(scene: &Scene<D>, state: &State<D>) -> Result<()
     exact(&state.velocity, state.moving, "velocity")?;
     exact(&state.acceleration, state.moving, "acceleration")?;
     exact(&state.nodes, scene.fem.is_some() || !scene.bodies.is_empty(), "nodes")?;
-    let held = !state.release.force.is_empty();
-    exact(&state.release.force, held, "release")?;
-    let until = state.release.until;
-    ensure(if held { state.phase_time < until } else { until == 0.0 }, "the time of its release")?;
+    let held = !state.ramp.force.is_empty();
+    exact(&state.ramp.force, held, "ramp")?;
+    let until = state.ramp.until;
+    ensure(if held { state.phase_time < until } else { until == 0.0 }, "the time of its ramp")?;
     let of_water = if scene.water.is_some() { nodes } else { 0 };
     let pressures = scene.pressure_unit.map_or(0, |_| scene.pressure_places()[1] + of_water);
     ensure(state.pressure.len() == pressures, "its pressure field")
@@ -101,7 +101,7 @@ fn begun<'a, const D: usize>(
 /// The cells that take part.
 fn check_cells<const D: usize>(scene: &Scene<D>, state: &State<D>) -> Result<()> {
     let cells = scene.mesh.cells.len();
-    ensure(state.taking_part.len() == cells, "the number of cells")?;
+    ensure(state.active.len() == cells, "the number of cells")?;
     ensure([0, cells].contains(&state.penalised.len()), "the list of penalised cells")?;
     let Voids { of_cell, reported } = &state.voids;
     let known = of_cell.iter().all(|&label| (label as usize) <= reported.len());
@@ -118,7 +118,7 @@ fn check_points<const D: usize>(scene: &Scene<D>, first: &State<D>, state: &Stat
     }
     ensure(state.points.plastic_increment.len() == state.points.len(), "a column of its points")?;
     let Points { cell, .. } = &state.points;
-    ensure(cell.iter().all(|&c| state.taking_part[c as usize]), "the cell of a material point")?;
+    ensure(cell.iter().all(|&c| state.active[c as usize]), "the cell of a material point")?;
     ensure([0, cell.len()].contains(&state.start_position.len()), "where its material points began the phase")?;
     let places = &state.parametric;
     let inside = |(&c, xi): (&u32, &[f64; 3])| is_inside(&scene.mesh, c, xi);
@@ -225,7 +225,7 @@ fn check_samples<const D: usize>(scene: &Scene<D>, state: &State<D>) -> Result<(
     let same = (0..points.model.len()).all(|q| number(points.region[q]) == Some(&points.model[q]));
     ensure(same, "the material of an integration point")?;
     let cell = &points.cell;
-    let takes_part = cell.iter().all(|&c| state.taking_part[c as usize]);
+    let takes_part = cell.iter().all(|&c| state.active[c as usize]);
     ensure(takes_part && cell.is_sorted(), "the cell of an integration point")?;
     let inside = |(&c, xi): (&u32, &[f64; 3])| is_inside(&scene.mesh, c, xi);
     let places = parametric.len() == cell.len() && cell.iter().zip(parametric).all(inside);
@@ -237,17 +237,20 @@ fn check_samples<const D: usize>(scene: &Scene<D>, state: &State<D>) -> Result<(
 
 /// The weights of the points and what is known of the cells.
 fn check_weighing<const D: usize>(scene: &Scene<D>, state: &State<D>) -> Result<()> {
-    let Weighing { weight, soft, poor, boundary, level_set, .. } = &state.weighing;
+    let Weighing { weight, partly_filled, ill_conditioned, boundary, level_set, .. } = &state.weighing;
     let nodes = scene.mesh.nodes.len();
     ensure(weight.len() == state.integration().len() && weight.iter().all(|w| *w > 0.0), "the weight of a point")?;
-    let takes_part = |c: u32| state.taking_part.get(c as usize) == Some(&true);
+    let takes_part = |c: u32| state.active.get(c as usize) == Some(&true);
     let ascend = |cells: &mut dyn Iterator<Item = u32>| cells.is_sorted_by(|a, b| a < b);
     ensure(
-        ascend(&mut soft.iter().map(|s| s.cell)) && soft.iter().all(|s| takes_part(s.cell)),
-        "the list of soft cells",
+        ascend(&mut partly_filled.iter().map(|s| s.cell)) && partly_filled.iter().all(|s| takes_part(s.cell)),
+        "the list of partly filled cells",
     )?;
-    ensure(soft.iter().all(|s| s.emptiness > 0.0 && s.emptiness <= 1.0), "the emptiness of a cell")?;
-    ensure(ascend(&mut poor.iter().copied()) && poor.iter().all(|&c| takes_part(c)), "the list of poor cells")?;
+    ensure(partly_filled.iter().all(|s| s.emptiness > 0.0 && s.emptiness <= 1.0), "the emptiness of a cell")?;
+    ensure(
+        ascend(&mut ill_conditioned.iter().copied()) && ill_conditioned.iter().all(|&c| takes_part(c)),
+        "the list of ill-conditioned cells",
+    )?;
     ensure([0, nodes].contains(&level_set.len()), "its level set")?;
     let ActiveBoundary { pieces, first } = boundary;
     ensure(bounds_of_loops(first, pieces.len(), 1), "a loop of its boundary")?;
@@ -281,13 +284,13 @@ fn check_contact<const D: usize>(scene: &Scene<D>, state: &State<D>) -> Result<(
     ensure(state.multipliers.len() == scene.pairs.len(), "the number of its contacts")?;
     let fits = |(pair, held): (&dyn Pair<D>, &Multipliers)| {
         let Multipliers { pressure, shear, gap, slip, offset, slid, force, faces, room, first } = held;
-        let lengths = [pressure, shear, gap, slip, offset, slid].iter().all(|v| v.len() == pair.hats());
-        let lengths = lengths && [force.len(), faces.len()] == [pair.hats(); 2];
-        let bounds = first.len() == pair.hats() + 1 && bounds_of_loops(first, room.len(), 0);
+        let lengths = [pressure, shear, gap, slip, offset, slid].iter().all(|v| v.len() == pair.contact_nodes());
+        let lengths = lengths && [force.len(), faces.len()] == [pair.contact_nodes(); 2];
+        let bounds = first.len() == pair.contact_nodes() + 1 && bounds_of_loops(first, room.len(), 0);
         let nodes = room.iter().all(|&n| (n as usize) < scene.mesh.nodes.len());
         lengths && bounds && nodes && slip.iter().all(|slip| *slip >= 0.0) && {
             let mut seen = HashSet::new();
-            (0..pair.hats()).all(|k| {
+            (0..pair.contact_nodes()).all(|k| {
                 seen.clear();
                 held.room(k).iter().all(|n| seen.insert(*n))
             })

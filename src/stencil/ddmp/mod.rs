@@ -28,7 +28,7 @@ pub fn fill<const D: usize, K: Kinematics<D>>(
     mesh: &Mesh<D>,
     cell: &[u32],
     xi: &[[f64; 3]],
-    taking_part: &[bool],
+    active: &[bool],
 ) {
     mpm::fill_with::<D, K>(stencil, mesh, cell, xi, |c| D * smoothed_nodes(mesh.cells.kind[c]));
     let kinds: Vec<CellKind> = stencil.patches.iter().map(|patch| mesh.cells.kind[patch.cell as usize]).collect();
@@ -59,7 +59,7 @@ pub fn fill<const D: usize, K: Kinematics<D>>(
         }
     });
     stencil.points = points;
-    stencil.reach = Some(Arc::new(smoothing::reach(mesh, taking_part, &volume)));
+    stencil.reach = Some(Arc::new(smoothing::reach(mesh, active, &volume)));
 }
 
 /// The gradients `ψ_a e_j` of the functions beyond the cell's nodes.

@@ -17,10 +17,10 @@ struct Around {
 }
 
 impl Around {
-    /// The cells in `taking_part` around each node, ascending.
-    fn new<const D: usize>(mesh: &Mesh<D>, taking_part: &[bool]) -> Self {
+    /// The cells in `active` around each node, ascending.
+    fn new<const D: usize>(mesh: &Mesh<D>, active: &[bool]) -> Self {
         let mut start = vec![0; mesh.nodes.len() + 1];
-        let cells = || (0..mesh.cells.len()).filter(|&c| taking_part[c]);
+        let cells = || (0..mesh.cells.len()).filter(|&c| active[c]);
         for c in cells() {
             for &n in mesh.cells.nodes(c) {
                 start[n as usize + 1] += 1;
@@ -65,9 +65,9 @@ const ABSENT: u32 = u32::MAX;
 
 /// The functions of all cells: for each smoothing node `a` and direction `j` the combination
 /// `(G_aI − g_aI)·e_j` of nodal values. `volume` is that of the cells with points, zero for the others; cells in
-/// `taking_part` without points act on the same nodes as if they had some, so that they can take them up.
-pub fn reach<const D: usize>(mesh: &Mesh<D>, taking_part: &[bool], volume: &[f64]) -> Reach {
-    let around = Around::new(mesh, taking_part);
+/// `active` without points act on the same nodes as if they had some, so that they can take them up.
+pub fn reach<const D: usize>(mesh: &Mesh<D>, active: &[bool], volume: &[f64]) -> Reach {
+    let around = Around::new(mesh, active);
     let own: Vec<Vec<[f64; D]>> = (0..mesh.cells.len())
         .into_par_iter()
         .map(|c| if volume[c] > 0.0 { own_gradients(mesh, c) } else { Vec::new() })
@@ -77,7 +77,7 @@ pub fn reach<const D: usize>(mesh: &Mesh<D>, taking_part: &[bool], volume: &[f64
     let scratch = || vec![ABSENT; mesh.nodes.len()];
     let cell = |place: &mut Vec<u32>, c: usize| {
         let mut nodes = Vec::new();
-        if taking_part[c] {
+        if active[c] {
             gather_nodes(mesh, &around, c, place, &mut nodes);
         }
         let mut rows = Vec::new();

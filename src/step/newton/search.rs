@@ -17,13 +17,13 @@ const MOST_DAMPING: f64 = 0.2;
 /// Halvings of an accepted step length from which its tangent is not to be trusted so far.
 const ASTRAY: i32 = 3;
 /// Full steps that may raise the residual before the iteration returns to its best state.
-const WATCH: usize = 3;
+const WATCHDOG: usize = 3;
 /// Share of the residual from which on a full step may have gone too far, and of the work that it may leave.
 const WORTH: f64 = 0.25;
-const LEVEL: f64 = 0.5;
+const ENERGY_LEFT: f64 = 0.5;
 /// States looked at for a length that leaves less work, and the least share of a bracket that the next goes into it.
-const LEVELS: usize = 5;
-const INWARDS: f64 = 0.1;
+const ENERGY_TRIALS: usize = 5;
+const LEAST_INWARDS: f64 = 0.1;
 
 impl<const D: usize> Newton<'_, D> {
     /// Whether the next full step will end the iteration, if it converges as the last ones did: its tangent is then
@@ -41,12 +41,12 @@ impl<const D: usize> Newton<'_, D> {
     pub(super) fn search(&mut self) -> Result<()> {
         let with_tangent = !self.near_the_end();
         if let Some(size) = self.attempt(1.0, with_tangent) {
-            let far = self.too_far(size);
-            if far && self.level() {
+            let far = self.overshoots(size);
+            if far && self.energy_search() {
                 return Ok(());
             }
             let better = self.better(size, 1.0);
-            let on_trial = !better && !self.strict && self.relaxed < WATCH;
+            let on_trial = !better && !self.strict && self.relaxed < WATCHDOG;
             // Where the step was shortened in vain another state was tried since.
             if (better || on_trial) && (!far || self.attempt(1.0, with_tangent).is_some()) {
                 if on_trial {
@@ -77,25 +77,25 @@ impl<const D: usize> Newton<'_, D> {
     }
 
     /// Whether the residual of the full step, of this size (kN), does work against the rest of the way, and is worth another.
-    fn too_far(&self, size: f64) -> bool {
+    fn overshoots(&self, size: f64) -> bool {
         let done = self.problem.scene.numerics.tolerance * self.buffers.trial.scale.max(self.floor);
         let before = self.work(&self.buffers.wanted);
         let worth = size > done && size > WORTH * self.target && !self.due;
-        worth && before > 0.0 && self.work(&self.buffers.trial.force) > LEVEL * before
+        worth && before > 0.0 && self.work(&self.buffers.trial.force) > ENERGY_LEFT * before
     }
 
     /// Shortens the full step to where the residual does little work along `δ`, by regula falsi with halved ends
     /// (Dowell & Jarratt 1971); false where that does not lessen the residual.
-    fn level(&mut self) -> bool {
+    fn energy_search(&mut self) -> bool {
         let first = -self.work(&self.buffers.wanted);
         let (mut low, mut high) = ((0.0, first), (1.0, self.work(&self.buffers.trial.force)));
         let mut below = None;
-        for _ in 0..LEVELS {
+        for _ in 0..ENERGY_TRIALS {
             let (whole, root) = (high.0 - low.0, low.1 / (low.1 - high.1));
-            let length = low.0 + whole * root.clamp(INWARDS, 1.0 - INWARDS);
+            let length = low.0 + whole * root.clamp(LEAST_INWARDS, 1.0 - LEAST_INWARDS);
             let Some(size) = self.attempt(length, false) else { return false };
             let work = self.work(&self.buffers.trial.force);
-            if work.abs() <= -LEVEL * first {
+            if work.abs() <= -ENERGY_LEFT * first {
                 let better = self.better(size, length);
                 if better {
                     self.stalled = 0;

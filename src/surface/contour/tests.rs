@@ -2,7 +2,7 @@ use super::*;
 use crate::kinematics::{Axisymmetric, PlaneStrain};
 use crate::mesh::builder::rectangle;
 use crate::mesh::shape::CellKind;
-use crate::surface::fixture::{lattice, points, taking_part, volumes};
+use crate::surface::fixture::{active, lattice, points, volumes};
 use std::f64::consts::TAU;
 
 /// The error of the active volume of cut cells that random points may cause, in the mean and at most, as a share of the
@@ -27,13 +27,13 @@ struct Found {
 fn find<K: Kinematics<2>>(mesh: Mesh<2>, places: &[([f64; 2], f64)]) -> Found {
     let geometry = Geometry::new::<K>(&mesh);
     let (points, parametric) = points(&mesh, places);
-    let taking_part = taking_part(&mesh, &points.cell);
+    let active = active(&mesh, &points.cell);
     let mut contour = Contour::default();
     // A second time, with used buffers.
     for _ in 0..2 {
-        contour.update::<K>(&mesh, &geometry, &points, &parametric, &taking_part);
+        contour.update::<K>(&mesh, &geometry, &points, &parametric, &active);
     }
-    let volume = volumes::<K>(&mesh, &geometry, &contour.level_set, &taking_part);
+    let volume = volumes::<K>(&mesh, &geometry, &contour.level_set, &active);
     Found { mesh, geometry, contour, volume, points }
 }
 

@@ -58,7 +58,7 @@ fn renewed<K: Kinematics<2>>(mesh: &Mesh<2>, points: &Points<2>, seeded: u32) ->
         points,
         parametric: &parametric,
         stencil: &crate::stencil::Stencil::default(),
-        taking_part: &vec![true; cells],
+        active: &vec![true; cells],
         before: (mesh, &locator),
         outlines: &[],
         relaxed: false,

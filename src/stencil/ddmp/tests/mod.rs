@@ -65,9 +65,9 @@ fn lattice(mesh: &Mesh<2>, spacing: f64) -> Points {
 
 fn filled<K: Kinematics<2>>(mesh: &Mesh<2>, points: &Points, scheme: Scheme) -> Stencil<2> {
     let mut stencil = Stencil::default();
-    let mut taking_part = vec![false; mesh.cells.len()];
-    points.cell.iter().for_each(|&c| taking_part[c as usize] = true);
-    stencil.fill::<K>(scheme, mesh, &points.cell, &points.xi, &taking_part);
+    let mut active = vec![false; mesh.cells.len()];
+    points.cell.iter().for_each(|&c| active[c as usize] = true);
+    stencil.fill::<K>(scheme, mesh, &points.cell, &points.xi, &active);
     stencil.weigh(&points.weight);
     stencil
 }

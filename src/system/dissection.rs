@@ -21,7 +21,7 @@ use faer::sparse::{SparseColMatRef, SymbolicSparseColMatRef};
 use faer::{Conj, Mat, MatMut, Par, Side};
 
 /// The factor of the symmetric part of the matrices of one pattern.
-pub struct Halves {
+pub struct Dissection {
     halves: [Half; 2],
     /// The equations of the separator.
     separator: Vec<u32>,
@@ -55,7 +55,7 @@ struct Half {
     memory: Vec<f64>,
 }
 
-impl Halves {
+impl Dissection {
     /// The halves of a pattern, where they pay; `places` as for [`super::Solver::new`].
     ///
     /// # Errors

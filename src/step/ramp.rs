@@ -13,14 +13,14 @@ use crate::rigid::Body;
 
 /// Forces that are held.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Release<const D: usize> {
+pub struct UnbalancedRamp<const D: usize> {
     /// The negative of what is out of balance at each node (kN) as the phase begins; empty where nothing is held.
     pub force: Vec<[f64; D]>,
     /// Time (s) in the phase at which all of it is released.
     pub until: f64,
 }
 
-impl<const D: usize> Release<D> {
+impl<const D: usize> UnbalancedRamp<D> {
     /// The part (-) that is held at a time (s) of the phase.
     pub fn share(&self, time: f64) -> f64 {
         if self.force.is_empty() { 0.0 } else { (1.0 - time / self.until).max(0.0) }
@@ -32,7 +32,7 @@ impl<const D: usize> Release<D> {
     }
 }
 
-impl<const D: usize> Release<D> {
+impl<const D: usize> UnbalancedRamp<D> {
     /// Takes the forces to a restored grid, given that `before`, the displacement (m) of its nodes since, and the cells that are `filled`:
     /// those at its nodes, which have moved with the soil, go to the nodes around where they are, so that resultants stay. Finite elements and
     /// bodies keep theirs.

@@ -1,7 +1,7 @@
 //! The predictor: the motion of the step before goes on.
 //!
 //! Where soil flows, or a structure moves on, the end of a step is much the same as before, a step farther on. The iteration that begins
-//! there finds soil that yields where it did, with its elasto-plastic tangent, and hats that touch as they did.
+//! there finds soil that yields where it did, with its elasto-plastic tangent, and contact nodes that touch as they did.
 
 use super::state::State;
 use crate::mesh::Mesh;
@@ -17,7 +17,7 @@ const PASSES: usize = 4;
 
 /// The predicted displacement (m) of the nodes at the end of a step of size `dt` (s): linear extrapolation of the last increment. None
 /// where nothing has moved, and in a step that is far longer than the last.
-pub fn going_on<const D: usize>(state: &State<D>, dt: f64) -> Option<Vec<[f64; D]>> {
+pub fn extrapolated<const D: usize>(state: &State<D>, dt: f64) -> Option<Vec<[f64; D]>> {
     let share = dt / state.last_step;
     let goes_on = share <= LONGEST && state.increment.iter().flatten().any(|&by| by != 0.0);
     let ends = state.displacement.iter().zip(&state.increment);

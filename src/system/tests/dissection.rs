@@ -1,7 +1,7 @@
 //! Factors by halves against whole ones.
 
+use super::super::dissection::Dissection;
 use super::super::factor::Factor;
-use super::super::halves::Halves;
 use super::super::separator::{Parts, halve};
 use super::super::whole::Whole;
 use super::*;
@@ -53,7 +53,7 @@ fn compare(pattern: &Pattern, matrix: &Matrix, places: &[[f64; 2]], llt: bool) {
     let run = |threads: usize| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
         pool.install(|| {
-            let mut halves = Factor::Halves(Box::new(Halves::new(pattern, places).unwrap().unwrap()));
+            let mut halves = Factor::Dissection(Box::new(Dissection::new(pattern, places).unwrap().unwrap()));
             let pivot = halves.factorize(pattern, matrix, llt).unwrap();
             let (mut x, mut again) = (b.clone(), b.clone());
             halves.solve(&mut x, llt);
@@ -182,7 +182,7 @@ fn a_factor_that_breaks_down_says_so() {
     let separator = halve(&pattern, &places).unwrap().separator[3] as usize;
     for block in [0, separator] {
         matrix.add_diagonal(&pattern, 2 * block, -1e4);
-        let mut halves = Halves::new(&pattern, &places).unwrap().unwrap();
+        let mut halves = Dissection::new(&pattern, &places).unwrap().unwrap();
         assert_eq!(halves.factorize(&matrix, true), None);
         assert!(halves.factorize(&matrix, false).is_some());
         matrix.add_diagonal(&pattern, 2 * block, 1e4);
