@@ -7,6 +7,7 @@
 mod changes;
 mod check;
 pub mod checked;
+mod contact_interfaces;
 mod contacts;
 mod find;
 mod incompressible;
@@ -31,7 +32,6 @@ mod staged;
 pub mod structure;
 #[cfg(test)]
 mod tests;
-mod touch;
 pub mod unconnected;
 mod wall;
 mod water;

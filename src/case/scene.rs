@@ -5,7 +5,7 @@ use super::find::{filled, group, mean_size, region_index};
 use super::outputs::outputs;
 use super::raw;
 use super::rigid::{self, Holds};
-use super::{changes, layout, parts, pores, search, seeded, staged, touch, unconnected, wall, water};
+use super::{changes, contact_interfaces, layout, parts, pores, search, seeded, staged, unconnected, wall, water};
 use crate::error::{Error, Result};
 use crate::io::provenance::Origin;
 use crate::io::run_folder::RunFolder;
@@ -211,9 +211,10 @@ pub fn scene<K: Kinematics<2>>(case: &Case, mut whole: Mesh<2>) -> Result<Scene<
         None => None,
     };
     let levels = case.water.as_ref().and_then(|water| water.levels(size));
-    let pairs = touch::pairs::<K>(case, &mesh, fem.as_ref().map_or(&mesh, |fem| &fem.mesh), &bodies)?;
-    for (number, pair) in (0..).zip(&pairs) {
-        terms.push(Box::new(Contact::new(number, *pair.law(), levels.clone())));
+    let interfaces =
+        contact_interfaces::interfaces::<K>(case, &mesh, fem.as_ref().map_or(&mesh, |fem| &fem.mesh), &bodies)?;
+    for (number, interface) in (0..).zip(&interfaces) {
+        terms.push(Box::new(Contact::new(number, *interface.law(), levels.clone())));
     }
     let carried = changes::carried(case, &mesh)?;
     let holds = Holds::new(case, &mesh, &bodies);
@@ -234,7 +235,7 @@ pub fn scene<K: Kinematics<2>>(case: &Case, mut whole: Mesh<2>) -> Result<Scene<
         terms,
         fem,
         bodies,
-        pairs,
+        interfaces,
         levels,
         pressure_unit,
         carried,

@@ -7,13 +7,13 @@
 //! shape functions.
 
 use super::along::{Mark, lines};
+use super::constraint::{Constraint, FADING};
+use super::interface::{Ground, Interface, NORMAL, Pushed, TANGENTIAL};
 use super::law::{Law, Penalty};
 use super::motion::Spot;
 use super::multipliers::Multipliers;
-use super::pair::{Ground, NORMAL, Pair, Pushed, TANGENTIAL};
 use super::place::{Placed, Segments};
 use super::rigid::{Entry, add};
-use super::row::{FADING, Row};
 use super::surface::{Segment, Surface};
 use crate::kinematics::Kinematics;
 use crate::mesh::shape::MAX_NODES;
@@ -245,7 +245,7 @@ impl Sum {
     }
 }
 
-impl<K: Kinematics<2>> Pair<2> for Bodies<K> {
+impl<K: Kinematics<2>> Interface<2> for Bodies<K> {
     fn structure(&self) -> u16 {
         self.structure
     }
@@ -270,7 +270,12 @@ impl<K: Kinematics<2>> Pair<2> for Bodies<K> {
         &self.law
     }
 
-    fn rows(&self, ground: &Ground<2>, position: &dyn Fn(u32) -> [f64; 2], held: &Multipliers) -> Vec<Row<2>> {
+    fn constraints(
+        &self,
+        ground: &Ground<2>,
+        position: &dyn Fn(u32) -> [f64; 2],
+        held: &Multipliers,
+    ) -> Vec<Constraint<2>> {
         let segments = Segments::new::<K>(&self.surface, position);
         let other = Segments::new::<K>(&self.other, position);
         let longest = other.0.iter().map(|s| (s.to[0] - s.from[0]).hypot(s.to[1] - s.from[1])).fold(0.0, f64::max);
@@ -331,11 +336,11 @@ impl<K: Kinematics<2>> Pair<2> for Bodies<K> {
             }
         }
         let stiffness = self.young / self.surface.spacing;
-        let row = |(contact_node, sum): (usize, Sum)| {
+        let constraint = |(contact_node, sum): (usize, Sum)| {
             let area = (sum.area > 0.0).then_some(sum.area)?;
             let entries = || sum.sides.iter().flatten();
             let by = |k: usize| entries().map(|(_, by)| by[k].map(|by| by / area)).collect();
-            Some(Row {
+            Some(Constraint {
                 contact_node: contact_node as u32,
                 area,
                 gap: sum.gap / area,
@@ -361,7 +366,7 @@ impl<K: Kinematics<2>> Pair<2> for Bodies<K> {
                 },
             })
         };
-        sums.into_iter().enumerate().filter_map(row).collect()
+        sums.into_iter().enumerate().filter_map(constraint).collect()
     }
 
     fn outlines(&self, _: &dyn Fn(u32) -> [f64; 2]) -> Vec<Vec<[f64; 2]>> {

@@ -1,15 +1,15 @@
 //! What of the boundary of a structure lies on the soil, so that its surface there is not open.
 
+use super::constraint::{Constraint, FADING};
 use super::place::Segments;
-use super::row::{FADING, Row};
 use super::surface::Surface;
 use crate::surface::Cover;
 
-/// The segments under contact nodes whose gap, as the `rows` have it, is closed: less than that over which adhesion fades.
-pub fn covers(surface: &Surface, segments: &Segments, rows: &[Row<2>]) -> Vec<Cover<2>> {
+/// The segments under contact nodes whose gap, as the `constraints` have it, is closed: less than that over which adhesion fades.
+pub fn covers(surface: &Surface, segments: &Segments, constraints: &[Constraint<2>]) -> Vec<Cover<2>> {
     let mut gaps = vec![None; surface.contact_nodes];
-    for row in rows {
-        gaps[row.contact_node as usize] = Some(row.gap);
+    for constraint in constraints {
+        gaps[constraint.contact_node as usize] = Some(constraint.gap);
     }
     let closed = |s: usize| {
         // Of two contact nodes one may have no soil under it.

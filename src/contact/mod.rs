@@ -2,32 +2,32 @@
 //! exert on each other.
 //!
 //! The boundary is where contact is integrated, for there area and normal are exact. Pressure and shear are combinations
-//! of contact nodes along it, about half an edge of the soil's cells apart (`case/touch.rs`), and each contact node has one condition: its
+//! of contact nodes along it, about half an edge of the soil's cells apart (`case/contact_interfaces.rs`), and each contact node has one condition: its
 //! mean gap. It is summed over segments of a fifth of that distance. The gap of a segment is that to the surface which the
 //! soil began with, where the points just below it know it (`skin.rs`); elsewhere it is the signed distance of the nearest
 //! point to the boundary (its level set), less the half width of that point.
 
 mod along;
 mod bodies;
+mod constraint;
 mod cover;
 mod gap;
+mod interface;
 mod law;
 mod motion;
 mod multipliers;
-mod pair;
 mod place;
 mod rigid;
-mod row;
 mod skin;
 mod surface;
 
 pub use along::{Mark, traction};
 pub use bodies::{Bodies, SoilSide};
+pub use constraint::Constraint;
+pub use interface::{Boundary, Ground, Interface, Pushed};
 pub use law::{Answer, Law, Penalty};
 pub use motion::{Motion, Spot};
 pub use multipliers::Multipliers;
-pub use pair::{Boundary, Ground, Pair, Pushed};
 pub use rigid::Rigid;
-pub use row::Row;
 pub use skin::Skin;
 pub use surface::Surface;

@@ -5,7 +5,7 @@ use std::ops::Range;
 /// Share of a multiplier that its neighbours' mean takes the place of in each step.
 const EVEN: f64 = 0.5;
 
-/// What the contact nodes of a pair carry from step to step; one entry a contact node.
+/// What the contact nodes of an interface carry from step to step; one entry a contact node.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Multipliers {
     /// Pressure and shear (kPa).
@@ -45,7 +45,7 @@ impl Multipliers {
         }
     }
 
-    /// These with the pressure evened out along the `runs`, where contact nodes and both their neighbours touch. Hats as close as nodes have
+    /// These with the pressure evened out along the `runs`, where contact nodes and both their neighbours touch. Contact nodes as close as nodes have
     /// more conditions than the soil can meet: waves of pressure that it hardly feels would grow from step to step. What
     /// is taken from a wave here, a gap has to make up for (a stabilised multiplier, Burman & Hansbo 2010).
     pub fn evened(&self, runs: &[(Range<usize>, bool)]) -> Self {

@@ -1,42 +1,42 @@
-//! Contact of rigid bodies: the conditions of a pair by the unknowns of the bodies in place of their nodes.
+//! Contact of rigid bodies: the conditions of an interface by the unknowns of the bodies in place of their nodes.
 //!
 //! A node at `r` from the reference point moves by `Δc + Δθ e_z × r`, so that the derivatives of gap and slip by its
 //! displacement add up to one by that of the reference point and one by the rotation.
 
 use super::along::Mark;
+use super::constraint::Constraint;
+use super::interface::{Ground, Interface, Pushed};
 use super::law::Law;
 use super::multipliers::Multipliers;
-use super::pair::{Ground, Pair, Pushed};
-use super::row::Row;
 use crate::points::Points;
 use crate::rigid::Body;
 use crate::surface::Cover;
 use std::ops::Range;
 
-/// A pair with a rigid side, or two.
+/// An interface with a rigid side, or two.
 pub struct Rigid<const D: usize> {
-    pair: Box<dyn Pair<D>>,
+    interface: Box<dyn Interface<D>>,
     bodies: Vec<Body<D>>,
     /// The number of the body of each node, else `u32::MAX`.
     body: Vec<u32>,
 }
 
 impl<const D: usize> Rigid<D> {
-    /// `pair` with `bodies` that keep their shape, in a mesh with so many nodes.
-    pub fn new(pair: Box<dyn Pair<D>>, bodies: &[Body<D>], nodes: usize) -> Self {
+    /// `interface` with `bodies` that keep their shape, in a mesh with so many nodes.
+    pub fn new(interface: Box<dyn Interface<D>>, bodies: &[Body<D>], nodes: usize) -> Self {
         let mut body = vec![u32::MAX; nodes];
         for (b, of) in (0..).zip(bodies) {
             for &n in &of.nodes {
                 body[n as usize] = b;
             }
         }
-        Self { pair, bodies: bodies.to_vec(), body }
+        Self { interface, bodies: bodies.to_vec(), body }
     }
 
     /// How far (m) in front of the reference point of the structure its boundary is at a contact node, if that turns with it.
-    fn distance(&self, row: &Row<D>, position: &dyn Fn(u32) -> [f64; D]) -> Option<f64> {
+    fn distance(&self, constraint: &Constraint<D>, position: &dyn Fn(u32) -> [f64; D]) -> Option<f64> {
         let mut distance = 0.0;
-        for (&n, normal) in row.nodes.iter().zip(&row.by_normal).take(row.own) {
+        for (&n, normal) in constraint.nodes.iter().zip(&constraint.by_normal).take(constraint.own) {
             let body = self.bodies.get(self.body[n as usize] as usize)?;
             let (x, c) = (position(n), position(body.reference));
             distance -= (0..D).map(|d| normal[d] * (x[d] - c[d])).sum::<f64>();
@@ -44,14 +44,14 @@ impl<const D: usize> Rigid<D> {
         (distance > 0.0).then_some(distance)
     }
 
-    /// The row by the unknowns of the bodies: first the nodes of the structure that move it, then those that turn it,
+    /// The constraint by the unknowns of the bodies: first the nodes of the structure that move it, then those that turn it,
     /// then those of the other side.
-    fn condense(&self, row: Row<D>, position: &dyn Fn(u32) -> [f64; D]) -> Row<D> {
+    fn condense(&self, constraint: Constraint<D>, position: &dyn Fn(u32) -> [f64; D]) -> Constraint<D> {
         let mut sides: [Vec<Entry<D, 3>>; 3] = Default::default();
-        for (k, &n) in row.nodes.iter().enumerate() {
-            let own = k < row.own;
+        for (k, &n) in constraint.nodes.iter().enumerate() {
+            let own = k < constraint.own;
             let [moving, turning] = if own { [0, 1] } else { [2, 2] };
-            let (normal, tangent, arc) = (&row.by_normal[k], &row.by_tangent[k], &row.by_arc[k]);
+            let (normal, tangent, arc) = (&constraint.by_normal[k], &constraint.by_tangent[k], &constraint.by_arc[k]);
             let Some(body) = self.bodies.get(self.body[n as usize] as usize) else {
                 sides[moving].push((n, [*normal, *tangent, *arc]));
                 continue;
@@ -66,8 +66,8 @@ impl<const D: usize> Rigid<D> {
         }
         // Where the other side is a body: how the gap varies under the contact node is by how the two turn to each other, and a place at the
         // distance ρ in front of the reference point gets ½ ρ Δθ² farther away as the body turns.
-        let mut curvature = row.curvature;
-        if let (Some(distance), true) = (self.distance(&row, position), self.pair.against().is_some()) {
+        let mut curvature = constraint.curvature;
+        if let (Some(distance), true) = (self.distance(&constraint, position), self.interface.against().is_some()) {
             curvature = 1.0 / distance;
             for (side, sign) in sides.iter_mut().zip([1.0, 1.0, -1.0]) {
                 for (n, by) in side {
@@ -79,14 +79,14 @@ impl<const D: usize> Rigid<D> {
         }
         let own = sides[0].len();
         let entries = || sides.iter().flatten();
-        Row {
+        Constraint {
             own,
             curvature,
             nodes: entries().map(|e| e.0).collect(),
             by_normal: entries().map(|e| e.1[0]).collect(),
             by_tangent: entries().map(|e| e.1[1]).collect(),
             by_arc: entries().map(|e| e.1[2]).collect(),
-            ..row
+            ..constraint
         }
     }
 }
@@ -102,49 +102,58 @@ pub fn add<const D: usize, const N: usize>(entries: &mut Vec<Entry<D, N>>, node:
     }
 }
 
-impl<const D: usize> Pair<D> for Rigid<D> {
+impl<const D: usize> Interface<D> for Rigid<D> {
     fn structure(&self) -> u16 {
-        self.pair.structure()
+        self.interface.structure()
     }
 
     fn against(&self) -> Option<u16> {
-        self.pair.against()
+        self.interface.against()
     }
 
     fn soils(&self) -> &[u16] {
-        self.pair.soils()
+        self.interface.soils()
     }
 
     fn contact_nodes(&self) -> usize {
-        self.pair.contact_nodes()
+        self.interface.contact_nodes()
     }
 
     fn runs(&self) -> &[(Range<usize>, bool)] {
-        self.pair.runs()
+        self.interface.runs()
     }
 
     fn law(&self) -> &Law {
-        self.pair.law()
+        self.interface.law()
     }
 
-    fn rows(&self, ground: &Ground<D>, position: &dyn Fn(u32) -> [f64; D], held: &Multipliers) -> Vec<Row<D>> {
-        self.pair.rows(ground, position, held).into_iter().map(|row| self.condense(row, position)).collect()
+    fn constraints(
+        &self,
+        ground: &Ground<D>,
+        position: &dyn Fn(u32) -> [f64; D],
+        held: &Multipliers,
+    ) -> Vec<Constraint<D>> {
+        self.interface
+            .constraints(ground, position, held)
+            .into_iter()
+            .map(|constraint| self.condense(constraint, position))
+            .collect()
     }
 
     fn outlines(&self, position: &dyn Fn(u32) -> [f64; D]) -> Vec<Vec<[f64; D]>> {
-        self.pair.outlines(position)
+        self.interface.outlines(position)
     }
 
     fn lines(&self, position: &dyn Fn(u32) -> [f64; D]) -> Vec<Vec<Mark<D>>> {
-        self.pair.lines(position)
+        self.interface.lines(position)
     }
 
-    fn covers(&self, rows: &[Row<D>], position: &dyn Fn(u32) -> [f64; D]) -> Vec<Cover<D>> {
-        self.pair.covers(rows, position)
+    fn covers(&self, constraints: &[Constraint<D>], position: &dyn Fn(u32) -> [f64; D]) -> Vec<Cover<D>> {
+        self.interface.covers(constraints, position)
     }
 
     fn push_out(&self, points: &mut Points<D>, position: &dyn Fn(u32) -> [f64; D]) -> Pushed {
-        self.pair.push_out(points, position)
+        self.interface.push_out(points, position)
     }
 }
 
@@ -154,10 +163,10 @@ mod tests {
     use super::*;
     use crate::mesh::Mesh;
 
-    /// A pair with one row, between nodes 0 and 1 of a body and node 2 of soil.
+    /// An interface with one constraint, between nodes 0 and 1 of a body and node 2 of soil.
     struct One(Law);
 
-    impl Pair<2> for One {
+    impl Interface<2> for One {
         fn structure(&self) -> u16 {
             0
         }
@@ -178,8 +187,8 @@ mod tests {
             &self.0
         }
 
-        fn rows(&self, _: &Ground<2>, _: &dyn Fn(u32) -> [f64; 2], _: &Multipliers) -> Vec<Row<2>> {
-            vec![row()]
+        fn constraints(&self, _: &Ground<2>, _: &dyn Fn(u32) -> [f64; 2], _: &Multipliers) -> Vec<Constraint<2>> {
+            vec![constraint()]
         }
 
         fn outlines(&self, _: &dyn Fn(u32) -> [f64; 2]) -> Vec<Vec<[f64; 2]>> {
@@ -195,8 +204,8 @@ mod tests {
         }
     }
 
-    fn row() -> Row<2> {
-        Row {
+    fn constraint() -> Constraint<2> {
+        Constraint {
             contact_node: 0,
             area: 1.0,
             gap: 0.3,
@@ -229,12 +238,12 @@ mod tests {
         let mut mesh = Mesh { nodes: vec![[1.0, 0.5], [2.0, -0.5], [1.0, -2.0], [3.0, 1.5]], ..Mesh::default() };
         let body = Body::append(&mut mesh, 0, vec![0, 1, 3], &Points::default(), true);
         let law = Law { friction: 0.0, adhesion: 0.0, factor: None, tension: 0.0 };
-        let pair = Rigid::new(Box::new(One(law)), std::slice::from_ref(&body), mesh.nodes.len());
-        let condensed = pair.condense(row(), &|n| mesh.nodes[n as usize]);
+        let interface = Rigid::new(Box::new(One(law)), std::slice::from_ref(&body), mesh.nodes.len());
+        let condensed = interface.condense(constraint(), &|n| mesh.nodes[n as usize]);
         assert_eq!((condensed.own, &condensed.nodes[..]), (1, &[4, 5, 2][..]));
         let (moved, turned, soil) = ([2e-6, -3e-6], 1e-6, [1e-6, 5e-6]);
         let pose = crate::rigid::Pose { moved, turned };
-        let by_nodes = row().measure(|n| match n {
+        let by_nodes = constraint().measure(|n| match n {
             2 => soil,
             n => {
                 let x = mesh.nodes[n as usize];
@@ -255,7 +264,7 @@ mod tests {
     #[test]
     fn soil_that_flows_around_a_round_body_opens_no_gap() {
         let radius = 2.0;
-        let round = Row {
+        let round = Constraint {
             gap: 0.0,
             nodes: vec![0, 1],
             own: 1,
@@ -263,7 +272,7 @@ mod tests {
             by_tangent: vec![[0.0, -1.0], [0.0, 1.0]],
             curvature: 1.0 / radius,
             by_arc: vec![[0.0, -1.0], [0.0, 1.0]],
-            ..row()
+            ..constraint()
         };
         let gap_after = |angle: f64| {
             let along = [radius * (angle.cos() - 1.0), radius * angle.sin()];
@@ -277,8 +286,8 @@ mod tests {
         let mut mesh = Mesh { nodes: vec![[radius, 0.0], [radius, 0.0], [-radius, 0.0]], ..Mesh::default() };
         let body = Body::append(&mut mesh, 0, vec![0, 2], &Points::default(), true);
         let law = Law { friction: 0.0, adhesion: 0.0, factor: None, tension: 0.0 };
-        let pair = Rigid::new(Box::new(One(law)), std::slice::from_ref(&body), mesh.nodes.len());
-        let condensed = pair.condense(round.clone(), &|n| mesh.nodes[n as usize]);
+        let interface = Rigid::new(Box::new(One(law)), std::slice::from_ref(&body), mesh.nodes.len());
+        let condensed = interface.condense(round.clone(), &|n| mesh.nodes[n as usize]);
         let turned = condensed.measure(|n| if Some(n) == body.turning { [0.1 * body.arm, 0.0] } else { [0.0; 2] });
         assert!(turned.gap == 0.0 && turned.turn == 0.0 && turned.slip != 0.0, "{turned:?}");
     }

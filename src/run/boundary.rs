@@ -5,14 +5,14 @@ use crate::contact::traction;
 use crate::io::frame::{FACES, LINE, Part, REGION};
 use crate::step::{Scene, State};
 
-/// The lines of all pairs in contact, with what their contact nodes came to in the last step; empty without contact.
+/// The lines of all interfaces in contact, with what their contact nodes came to in the last step; empty without contact.
 ///
 /// Pressure (kPa, compression positive), shear (kPa) on the soil and slip (m) since the run began, positive along the
 /// boundary with the structure on the left, and gap (m, positive where they are apart). Between contact nodes they are
 /// linear. Traction (kPa) on the structure: its integral along the lines is the force of the contact, see [`traction`].
 /// The gap of a contact node that has no soil before it is not known: [`FACES`] is 0 wherever it counts.
 pub fn part<const D: usize>(scene: &Scene<D>, state: &State<D>) -> Part {
-    if scene.pairs.is_empty() {
+    if scene.interfaces.is_empty() {
         return Part::default();
     }
     let from = if state.nodes.is_empty() { &scene.mesh.nodes } else { &state.nodes };
@@ -25,10 +25,10 @@ pub fn part<const D: usize>(scene: &Scene<D>, state: &State<D>) -> Part {
     let mut tractions = Vec::new();
     let [mut number, mut region, mut faces] = [const { Vec::new() }; 3];
     let mut count = 0;
-    for (i, pair) in scene.pairs.iter().enumerate() {
+    for (i, interface) in scene.interfaces.iter().enumerate() {
         // Before the first step nothing is known yet.
         let held = state.multipliers.get(i);
-        let lines = pair.lines(&position);
+        let lines = interface.lines(&position);
         let of_hats = held.map(|h| traction(&lines, &h.force));
         for line in &lines {
             for mark in line {
@@ -41,7 +41,7 @@ pub fn part<const D: usize>(scene: &Scene<D>, state: &State<D>) -> Part {
                 slip.push(held.map_or(0.0, |h| mark.value(&h.slid)));
                 tractions.extend(of_hats.as_ref().map_or([0.0; 3], |t| mark.vector(t)));
                 number.push(f64::from(count));
-                region.push(f64::from(pair.structure()));
+                region.push(f64::from(interface.structure()));
                 faces.push(f64::from(u8::from(known)));
             }
             count += 1;

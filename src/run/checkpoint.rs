@@ -208,10 +208,10 @@ fn flags(store: &mut Store, name: &str) -> Result<Vec<bool>> {
     store.take::<u8>(name, 1)?.into_iter().map(|value| flag(value, name)).collect()
 }
 
-fn put_multipliers(store: &mut Store, pairs: &[Multipliers]) {
-    store.put("contact.pairs", 1, vec![pairs.len() as u64]);
+fn put_multipliers(store: &mut Store, interfaces: &[Multipliers]) {
+    store.put("contact.interfaces", 1, vec![interfaces.len() as u64]);
     for (i, Multipliers { pressure, shear, gap, slip, offset, slid, force, faces, room, first }) in
-        pairs.iter().enumerate()
+        interfaces.iter().enumerate()
     {
         for (name, values) in
             [("pressure", pressure), ("shear", shear), ("gap", gap), ("slip", slip), ("offset", offset), ("slid", slid)]
@@ -226,8 +226,8 @@ fn put_multipliers(store: &mut Store, pairs: &[Multipliers]) {
 }
 
 fn take_multipliers(store: &mut Store) -> Result<Vec<Multipliers>> {
-    let [count] = store.take::<u64>("contact.pairs", 1)?[..] else { return Err(foreign("its contact")) };
-    let pair = |i: u64| {
+    let [count] = store.take::<u64>("contact.interfaces", 1)?[..] else { return Err(foreign("its contact")) };
+    let interface = |i: u64| {
         let mut values = |name: &str| store.take::<f64>(&format!("contact.{i}.{name}"), 1);
         let (pressure, shear, gap) = (values("pressure")?, values("shear")?, values("gap")?);
         let (slip, offset, slid) = (values("slip")?, values("offset")?, values("slid")?);
@@ -238,7 +238,7 @@ fn take_multipliers(store: &mut Store) -> Result<Vec<Multipliers>> {
         let (room, first) = (numbers("room")?, numbers("first")?);
         Ok(Multipliers { pressure, shear, gap, slip, offset, slid, force, faces, room, first })
     };
-    (0..count).map(pair).collect()
+    (0..count).map(interface).collect()
 }
 
 fn take_balanced(store: &mut Store) -> Result<Option<Span>> {

@@ -2,7 +2,7 @@
 //!
 //! What opens beside a structure that may part from the soil is what its contact says, and no news.
 
-use crate::contact::Pair;
+use crate::contact::Interface;
 use crate::mesh::Mesh;
 use crate::mesh::faces::Faces;
 use crate::step::{Fem, Report, Scene, State};
@@ -29,8 +29,8 @@ pub fn found<const D: usize>(scene: &Scene<D>, state: &mut State<D>, report: &Re
     let emptiness = emptiness(scene, state, &mesh);
     let structures: Vec<Structure<D>> = scene
         .touching(state.phase)
-        .filter(|(_, pair)| !pair.soils().is_empty())
-        .map(|(_, pair)| structure(&mesh, pair))
+        .filter(|(_, interface)| !interface.soils().is_empty())
+        .map(|(_, interface)| structure(&mesh, interface))
         .collect();
     let beside = |cells: &[u32]| structures.iter().filter(|s| lies_near(&mesh, cells, &s.places)).collect::<Vec<_>>();
     let mut is_news = |cells: &[u32], cut_off: bool| {
@@ -70,12 +70,12 @@ pub fn found<const D: usize>(scene: &Scene<D>, state: &mut State<D>, report: &Re
     news.iter().map(line).collect()
 }
 
-/// A pair and its boundary on the grid as restored.
-fn structure<const D: usize>(mesh: &Mesh<D>, pair: &dyn Pair<D>) -> Structure<D> {
+/// An interface and its boundary on the grid as restored.
+fn structure<const D: usize>(mesh: &Mesh<D>, interface: &dyn Interface<D>) -> Structure<D> {
     Structure {
-        name: mesh.regions.get(usize::from(pair.structure())).cloned().unwrap_or_default(),
-        may_part: pair.law().tension.is_finite(),
-        places: pair.outlines(&|n| mesh.nodes[n as usize]).concat(),
+        name: mesh.regions.get(usize::from(interface.structure())).cloned().unwrap_or_default(),
+        may_part: interface.law().tension.is_finite(),
+        places: interface.outlines(&|n| mesh.nodes[n as usize]).concat(),
     }
 }
 

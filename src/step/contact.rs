@@ -8,7 +8,7 @@ use super::problem::Solution;
 use super::scene::Scene;
 use super::state::State;
 use super::transfer::Start;
-use crate::contact::{Ground, Motion, Multipliers, Pair, Pushed, Row};
+use crate::contact::{Constraint, Ground, Interface, Motion, Multipliers, Pushed};
 use crate::error::Result;
 use crate::kinematics::Kinematics;
 use crate::mesh::Mesh;
@@ -16,10 +16,10 @@ use crate::mesh::locate::Locator;
 use crate::mesh::shape::MAX_NODES;
 use crate::points::Points;
 use crate::surface::{join, open};
-use crate::term::{Touch, Trial, contact_answer, excess_pressure};
+use crate::term::{PlacedConstraint, Trial, contact_answer, excess_pressure};
 use crate::time_integration::GeneralisedAlpha;
 
-/// What a pair exerted in a step.
+/// What an interface exerted in a step.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Resultant<const D: usize> {
     /// The region of the structure, and that of the body it touches.
@@ -30,7 +30,7 @@ pub struct Resultant<const D: usize> {
     /// Its moment (kN m) about the origin, in the plane, anticlockwise, and that of the opposite force on what it touches.
     pub moment: f64,
     pub moment_against: f64,
-    /// Hats that touch, and the deepest mean overlap (m) of one.
+    /// Contact nodes that touch, and the deepest mean overlap (m) of one.
     pub contact_nodes: usize,
     pub overlap: f64,
     pub pushed: Pushed,
@@ -58,11 +58,12 @@ pub fn begin<const D: usize, K: Kinematics<D>>(
     grid: &mut Grid<D>,
     state: &mut State<D>,
 ) -> Result<()> {
-    if scene.pairs.is_empty() {
+    if scene.interfaces.is_empty() {
         return Ok(());
     }
     if state.multipliers.is_empty() {
-        state.multipliers = scene.pairs.iter().map(|pair| Multipliers::new(pair.contact_nodes())).collect();
+        state.multipliers =
+            scene.interfaces.iter().map(|interface| Multipliers::new(interface.contact_nodes())).collect();
     }
     let at = |n: u32| position(scene, state, n);
     let moved = state.displacement.iter().flatten().any(|&u| u != 0.0);
@@ -80,32 +81,39 @@ pub fn begin<const D: usize, K: Kinematics<D>>(
     let integration = &state.integration().cell;
     let ground =
         Ground { grid: mesh, locator, points, integration, surface: &surface, increment, elements, excess: &excess };
-    let (mut touches, mut covers) = (Vec::new(), Vec::new());
+    let (mut placed, mut covers) = (Vec::new(), Vec::new());
     let covered = scene.terms.iter().any(|term| term.sees_open_boundary());
-    for (number, pair) in scene.touching(state.phase) {
+    for (number, interface) in scene.touching(state.phase) {
         let held = &state.multipliers[number];
-        let rows = pair.rows(&ground, &at, &held.evened(pair.runs()));
-        leaving::check(scene, pair, held, &rows, &ground, &at)?;
+        let constraints = interface.constraints(&ground, &at, &held.evened(interface.runs()));
+        leaving::check(scene, interface, held, &constraints, &ground, &at)?;
         if covered {
-            covers.extend(pair.covers(&rows, &at));
+            covers.extend(interface.covers(&constraints, &at));
         }
-        let pair = number as u32;
-        let presses = rows.iter().any(|row| row.penalty.pressure > 0.0);
-        let touch =
-            |row: Row<D>| Touch { pair, initially_closed: !presses && row.lies(), row, clique: 0, place: Vec::new() };
-        touches.extend(rows.into_iter().map(touch));
+        let interface = number as u32;
+        let presses = constraints.iter().any(|constraint| constraint.penalty.pressure > 0.0);
+        let to_place = |condition: Constraint<D>| PlacedConstraint {
+            interface,
+            initially_closed: !presses && condition.lies(),
+            condition,
+            clique: 0,
+            place: Vec::new(),
+        };
+        placed.extend(constraints.into_iter().map(to_place));
     }
     join(&mut covers);
     let open = covered.then(|| open(mesh, &state.weighing.boundary.pieces, &covers));
-    let takes_part = |touch: &Touch<D>| touch.row.nodes.iter().all(|&n| grid.block[n as usize] != u32::MAX);
-    touches.retain(takes_part);
-    if !place(grid, state, &mut touches) {
-        make_room(state, &touches);
+    let takes_part = |constraint: &PlacedConstraint<D>| {
+        constraint.condition.nodes.iter().all(|&n| grid.block[n as usize] != u32::MAX)
+    };
+    placed.retain(takes_part);
+    if !place(grid, state, &mut placed) {
+        make_room(state, &placed);
         let stencils = std::mem::take(&mut grid.stencils);
         *grid = Grid::with::<K>(scene, state, stencils, grid.relaxed.take())?;
-        place(grid, state, &mut touches);
+        place(grid, state, &mut placed);
     }
-    (grid.touches, grid.open) = (touches, open);
+    (grid.constraints, grid.open) = (placed, open);
     Ok(())
 }
 
@@ -129,31 +137,34 @@ fn surface<const D: usize>((mesh, locator): (&Mesh<D>, &Locator<D>), state: &Sta
     (0..front.loops()).map(|l| front.markers(l).iter().map(&mut moved).collect()).collect()
 }
 
-/// Finds the places of the rows in their cliques; false where one has none.
-fn place<const D: usize>(grid: &Grid<D>, state: &State<D>, touches: &mut [Touch<D>]) -> bool {
-    for touch in touches {
-        let (pair, contact_node) = (touch.pair as usize, touch.row.contact_node as usize);
-        let clique = grid.touch_clique.get(pair).map_or(u32::MAX, |cliques| cliques[contact_node]);
-        let room = state.multipliers[pair].room(contact_node);
-        let found = touch.row.nodes.iter().map(|n| room.iter().position(|other| other == n).map(|at| at as u32));
+/// Finds the places of the constraints in their cliques; false where one has none.
+fn place<const D: usize>(grid: &Grid<D>, state: &State<D>, constraints: &mut [PlacedConstraint<D>]) -> bool {
+    for constraint in constraints {
+        let (interface, contact_node) = (constraint.interface as usize, constraint.condition.contact_node as usize);
+        let clique = grid.constraint_clique.get(interface).map_or(u32::MAX, |cliques| cliques[contact_node]);
+        let room = state.multipliers[interface].room(contact_node);
+        let found =
+            constraint.condition.nodes.iter().map(|n| room.iter().position(|other| other == n).map(|at| at as u32));
         match found.collect::<Option<Vec<_>>>() {
-            Some(place) if clique != u32::MAX => (touch.clique, touch.place) = (clique, place),
+            Some(place) if clique != u32::MAX => (constraint.clique, constraint.place) = (clique, place),
             _ => return false,
         }
     }
     true
 }
 
-/// Makes room for just these rows.
-fn make_room<const D: usize>(state: &mut State<D>, touches: &[Touch<D>]) {
+/// Makes room for just these constraints.
+fn make_room<const D: usize>(state: &mut State<D>, constraints: &[PlacedConstraint<D>]) {
     for (multipliers, number) in state.multipliers.iter_mut().zip(0..) {
         let contact_nodes = multipliers.first.len() - 1;
-        let mut rows = touches.iter().filter(|touch| touch.pair == number).peekable();
+        let mut constraints = constraints.iter().filter(|constraint| constraint.interface == number).peekable();
         multipliers.room.clear();
         for contact_node in 0..contact_nodes {
             multipliers.first[contact_node] = multipliers.room.len() as u32;
-            if let Some(touch) = rows.next_if(|touch| touch.row.contact_node as usize == contact_node) {
-                multipliers.room.extend(&touch.row.nodes);
+            if let Some(constraint) =
+                constraints.next_if(|constraint| constraint.condition.contact_node as usize == contact_node)
+            {
+                multipliers.room.extend(&constraint.condition.nodes);
             }
         }
         multipliers.first[contact_nodes] = multipliers.room.len() as u32;
@@ -168,9 +179,9 @@ pub fn commit<const D: usize>(
     (solution, start): (&Solution<D>, Option<&Start<D>>),
     dt: f64,
 ) -> Vec<Resultant<D>> {
-    let none = |pair: &dyn Pair<D>| Resultant {
-        structure: pair.structure(),
-        against: pair.against(),
+    let none = |interface: &dyn Interface<D>| Resultant {
+        structure: interface.structure(),
+        against: interface.against(),
         force: [0.0; D],
         moment: 0.0,
         moment_against: 0.0,
@@ -178,7 +189,7 @@ pub fn commit<const D: usize>(
         overlap: 0.0,
         pushed: Pushed::default(),
     };
-    let mut resultants: Vec<_> = scene.pairs.iter().map(|pair| none(pair.as_ref())).collect();
+    let mut resultants: Vec<_> = scene.interfaces.iter().map(|interface| none(interface.as_ref())).collect();
     let reduction = scene.phases[state.phase].reduction_at(state.phase_time + dt);
     let integration = GeneralisedAlpha::new(scene.numerics.spectral_radius, dt);
     let alpha_f = start.map_or(0.0, |_| integration.alpha_f);
@@ -195,25 +206,27 @@ pub fn commit<const D: usize>(
         multipliers.force.fill([0.0; 3]);
         multipliers.faces.fill(false);
     }
-    for touch in &grid.touches {
-        let (pair, contact_node, row) = (touch.pair as usize, touch.row.contact_node as usize, &touch.row);
+    for constraint in &grid.constraints {
+        let condition = &constraint.condition;
+        let (interface, contact_node) = (constraint.interface as usize, condition.contact_node as usize);
         let (answer, Motion { gap, slip, turn, .. }) =
-            contact_answer(scene.pairs[pair].law(), scene.levels.as_ref(), touch, &trial);
-        let held = &mut state.multipliers[pair];
+            contact_answer(scene.interfaces[interface].law(), scene.levels.as_ref(), constraint, &trial);
+        let held = &mut state.multipliers[interface];
         (held.pressure[contact_node], held.shear[contact_node]) = (answer.pressure, answer.shear);
-        (held.gap[contact_node], held.slip[contact_node], held.offset[contact_node]) = (gap, slip.abs(), row.offset);
+        (held.gap[contact_node], held.slip[contact_node], held.offset[contact_node]) =
+            (gap, slip.abs(), condition.offset);
         held.faces[contact_node] = true;
-        let resultant = &mut resultants[pair];
+        let resultant = &mut resultants[interface];
         if held.touched(contact_node) {
             resultant.contact_nodes += 1;
             held.slid[contact_node] += slip;
             resultant.overlap = resultant.overlap.max(-gap);
         }
-        for (k, (t, &node)) in row.by_tangent.iter().zip(&row.nodes).enumerate() {
-            let n = row.normal(k, turn);
-            let lever = row.curvature * answer.moment;
+        for (k, (t, &node)) in condition.by_tangent.iter().zip(&condition.nodes).enumerate() {
+            let n = condition.normal(k, turn);
+            let lever = condition.curvature * answer.moment;
             let force: [f64; D] = std::array::from_fn(|d| {
-                row.area * (answer.pressure * n[d] + answer.shear * t[d] + lever * row.by_arc[k][d])
+                condition.area * (answer.pressure * n[d] + answer.shear * t[d] + lever * condition.by_arc[k][d])
             });
             let turned = scene.turned_by(node);
             let moment = match turned {
@@ -225,13 +238,13 @@ pub fn commit<const D: usize>(
                     x[0] * force[1] - x[1] * force[0]
                 }
             };
-            if k < row.own {
+            if k < condition.own {
                 for d in 0..D {
                     resultant.force[d] += force[d];
                     held.force[contact_node][d] += force[d];
                 }
             }
-            if k < row.own || turned.is_some_and(|body| body.region == resultant.structure) {
+            if k < condition.own || turned.is_some_and(|body| body.region == resultant.structure) {
                 resultant.moment += moment;
             } else {
                 resultant.moment_against += moment;
@@ -243,10 +256,10 @@ pub fn commit<const D: usize>(
 
 /// Moves points out of the structures, once all is where the step takes it.
 pub fn push_out<const D: usize>(scene: &Scene<D>, state: &mut State<D>, resultants: &mut [Resultant<D>]) {
-    for (number, pair) in scene.touching(state.phase) {
+    for (number, interface) in scene.touching(state.phase) {
         let resultant = &mut resultants[number];
         let mut points = std::mem::take(&mut state.points);
-        resultant.pushed = pair.push_out(&mut points, &|n| position(scene, state, n));
+        resultant.pushed = interface.push_out(&mut points, &|n| position(scene, state, n));
         state.points = points;
     }
 }

@@ -75,12 +75,12 @@ fn go_on<const D: usize>(
         reduction: scene.phases[phase].reduction_at(to),
         ..Trial::at_rest(displacement, &state.displacement)
     };
-    for touch in &mut grid.touches {
-        let law = scene.pairs[touch.pair as usize].law();
-        let (answer, motion) = contact_answer(law, scene.levels.as_ref(), touch, &trial);
+    for constraint in &mut grid.constraints {
+        let law = scene.interfaces[constraint.interface as usize].law();
+        let (answer, motion) = contact_answer(law, scene.levels.as_ref(), constraint, &trial);
         if answer.pressure != 0.0 || answer.shear != 0.0 {
-            touch.row.penalty.shear = answer.shear;
-            touch.row.go_on(motion);
+            constraint.condition.penalty.shear = answer.shear;
+            constraint.condition.go_on(motion);
         }
     }
 }

@@ -16,7 +16,7 @@ pub(super) fn position<const D: usize>(scene: &Scene<D>, state: &State<D>, n: u3
 /// displacement is still that of the grid before.
 pub fn outlines<const D: usize>(scene: &Scene<D>, state: &State<D>) -> Vec<Vec<[f64; D]>> {
     let place = |n: u32| *state.nodes.get(n as usize).unwrap_or(&scene.mesh.nodes[n as usize]);
-    scene.touching(state.phase).flat_map(|(_, pair)| pair.outlines(&place)).collect()
+    scene.touching(state.phase).flat_map(|(_, interface)| interface.outlines(&place)).collect()
 }
 
 /// Appends a clique for each contact node with room, given the block of each node.

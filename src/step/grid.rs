@@ -20,7 +20,7 @@ use crate::rigid::Body;
 use crate::stencil::Stencil;
 use crate::surface::Piece;
 use crate::system::{Cliques, Workspace};
-use crate::term::{Frame, GhostFace, Touch};
+use crate::term::{Frame, GhostFace, PlacedConstraint};
 
 /// The grid of a run.
 pub struct Grid<const D: usize> {
@@ -32,11 +32,11 @@ pub struct Grid<const D: usize> {
     /// The faces that take a ghost penalty.
     pub ghost: Vec<GhostFace>,
     /// The contact nodes that face something.
-    pub touches: Vec<Touch<D>>,
+    pub constraints: Vec<PlacedConstraint<D>>,
     /// The parts of the boundary of the material that no structure covers; absent where all of it is open or nothing asks.
     pub open: Option<Vec<Piece>>,
-    /// The clique of each contact node of each pair that the system has room for, else `u32::MAX`.
-    pub touch_clique: Vec<Vec<u32>>,
+    /// The clique of each contact node of each interface that the system has room for, else `u32::MAX`.
+    pub constraint_clique: Vec<Vec<u32>>,
     /// The clique of each face that the system has room for a penalty at, else `u32::MAX`; empty without faces.
     face_clique: Vec<u32>,
     /// The clique of each rigid body: the nodes with its unknowns.
@@ -224,7 +224,7 @@ impl<const D: usize> Grid<D> {
             if dynamic { Some(System::new(&vec![1; node.len()], cliques.clone(), true, &places)?) } else { None };
         // The mass always takes a penalty on faces, the motion only where a term says so.
         let mut cliques = if scene.terms.iter().any(|t| t.penalises_faces()) { cliques } else { cells_only };
-        let touch_clique = facing::couple(state, &block, &mut cliques);
+        let constraint_clique = facing::couple(state, &block, &mut cliques);
         let with_pressure = scene.pressure_unit.map(|_| {
             let [constants, of_water] = scene.pressure_places();
             let (with_water, with_field) = (scene.water.is_some(), scene.has_pressure_field());
@@ -262,9 +262,9 @@ impl<const D: usize> Grid<D> {
             relaxed,
             elements,
             ghost: Vec::new(),
-            touches: Vec::new(),
+            constraints: Vec::new(),
             open: None,
-            touch_clique,
+            constraint_clique,
             face_clique,
             body_clique,
             clique,
@@ -333,7 +333,7 @@ impl<const D: usize> Grid<D> {
             stencil: &self.stencils.integration,
             partly_filled: &state.weighing.partly_filled,
             ghost: &self.ghost,
-            touches: &self.touches,
+            constraints: &self.constraints,
             boundary: &state.weighing.boundary.pieces,
             open: self.open.as_deref().unwrap_or(&state.weighing.boundary.pieces),
             level_set: &state.weighing.level_set,
@@ -369,7 +369,7 @@ impl<const D: usize> Grid<D> {
             stencil: &elements.stencil,
             partly_filled: &[],
             ghost: &[],
-            touches: &[],
+            constraints: &[],
             boundary: &[],
             open: &[],
             level_set: &[],

@@ -81,8 +81,8 @@ impl<'a, const D: usize> Newton<'a, D> {
             method: Method::Cholesky,
             target: f64::INFINITY,
             relaxed: 0,
-            // Hats touch or part on the way of a full step, and what follows is no better for it.
-            strict: !problem.scene.pairs.is_empty() && problem.integration.is_none(),
+            // Contact nodes touch or part on the way of a full step, and what follows is no better for it.
+            strict: !problem.scene.interfaces.is_empty() && problem.integration.is_none(),
             stalled: 0,
             due: false,
             length: 0.0,
@@ -111,11 +111,11 @@ impl<'a, const D: usize> Newton<'a, D> {
 
     /// The state that the iteration begins with: the predicted one or the converged one.
     fn begin(&mut self) -> Result<()> {
-        let contact = self.problem.integration.is_none() && !self.grid.touches.is_empty();
+        let contact = self.problem.integration.is_none() && !self.grid.constraints.is_empty();
         if !contact {
             return self.predict();
         }
-        let initially_closed = self.grid.touches.iter().any(|touch| touch.initially_closed);
+        let initially_closed = self.grid.constraints.iter().any(|constraint| constraint.initially_closed);
         for start in self.problem.predictor.into_iter().chain(initially_closed.then_some(self.problem.converged)) {
             self.buffers.now.at.set(start, self.problem.pressure);
             if self.first_iterations().is_ok() {
@@ -310,7 +310,7 @@ fn damped_equations<const D: usize>(scene: &Scene<D>, grid: &Grid<D>, out: &mut 
     out.extend(grid.node.iter().flat_map(|&n| [(n as usize) < scene.mesh_nodes(); D]));
     let Some(fem) = &scene.fem else { return };
     for c in fem.deforming() {
-        if scene.pairs.iter().any(|pair| pair.structure() == fem.mesh.cells.region[c]) {
+        if scene.interfaces.iter().any(|interface| interface.structure() == fem.mesh.cells.region[c]) {
             for &n in fem.mesh.cells.nodes(c) {
                 let block = grid.block[n as usize] as usize;
                 out.iter_mut().skip(D * block).take(D).for_each(|damped| *damped = false);

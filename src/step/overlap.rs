@@ -3,7 +3,7 @@
 use super::facing::position;
 use super::scene::Scene;
 use super::state::State;
-use crate::contact::{Mark, Pair};
+use crate::contact::{Interface, Mark};
 use crate::error::{Error, Result};
 use crate::mesh::Mesh;
 use crate::mesh::cell_size;
@@ -17,7 +17,8 @@ use crate::points::Points;
 /// Input: such a structure.
 pub fn at_first<const D: usize>(scene: &Scene<D>, points: &Points<D>) -> Result<()> {
     let at = |n: u32| scene.mesh.nodes[n as usize];
-    let Some(found) = scene.pairs.iter().find_map(|pair| within(scene, points, pair.as_ref(), &at)) else {
+    let Some(found) = scene.interfaces.iter().find_map(|interface| within(scene, points, interface.as_ref(), &at))
+    else {
         return Ok(());
     };
     let remedy = "in the .geo, move the structure out of the soil, or make its place a region of kind buffer";
@@ -32,7 +33,9 @@ pub fn on_return<const D: usize>(scene: &Scene<D>, state: &State<D>) -> Result<(
     let Some(before) = state.phase.checked_sub(1) else { return Ok(()) };
     let at = |n: u32| position(scene, state, n);
     let mut back = scene.touching(state.phase).filter(|(number, _)| scene.phases[before].apart.contains(number));
-    let Some(found) = back.find_map(|(_, pair)| within(scene, &state.points, pair, &at)) else { return Ok(()) };
+    let Some(found) = back.find_map(|(_, interface)| within(scene, &state.points, interface, &at)) else {
+        return Ok(());
+    };
     let problem = format!(
         "phase `{}` brings the structure back into soil that has come to its place: {}",
         scene.phases[state.phase].name, found.problem
@@ -47,21 +50,21 @@ struct Found {
     problem: String,
 }
 
-/// The deepest of the soil that a pair touches within its structure, with the nodes as `at` tells.
+/// The deepest of the soil that an interface touches within its structure, with the nodes as `at` tells.
 fn within<const D: usize>(
     scene: &Scene<D>,
     points: &Points<D>,
-    pair: &dyn Pair<D>,
+    interface: &dyn Interface<D>,
     at: &dyn Fn(u32) -> [f64; D],
 ) -> Option<Found> {
-    let (fem, structure) = (scene.fem.as_ref()?, pair.structure());
+    let (fem, structure) = (scene.fem.as_ref()?, interface.structure());
     let drawn = fem.mesh.part(|c| fem.mesh.cells.region[c] == structure);
-    if pair.soils().is_empty() || drawn.cells.is_empty() {
+    if interface.soils().is_empty() || drawn.cells.is_empty() {
         return None;
     }
     let body = Mesh { nodes: (0..drawn.nodes.len() as u32).map(at).collect(), ..drawn };
-    let (locator, lines) = (Locator::new(&body), pair.lines(at));
-    for &soil in pair.soils() {
+    let (locator, lines) = (Locator::new(&body), interface.lines(at));
+    for &soil in interface.soils() {
         let (mut count, mut deepest) = (0, (0.0, 0.0));
         for p in (0..points.len()).filter(|&p| points.region[p] == soil) {
             let x = &points.position[p];
@@ -91,8 +94,8 @@ fn within<const D: usize>(
 
 /// How far (m) a place is from the nearest line, in the plane.
 fn distance<const D: usize>(x: &[f64; D], lines: &[Vec<Mark<D>>]) -> f64 {
-    let to_segment = |pair: &[Mark<D>]| {
-        let [a, b] = [&pair[0].place, &pair[1].place];
+    let to_segment = |interface: &[Mark<D>]| {
+        let [a, b] = [&interface[0].place, &interface[1].place];
         let along = [b[0] - a[0], b[1] - a[1]];
         let way = [x[0] - a[0], x[1] - a[1]];
         let square = along[0] * along[0] + along[1] * along[1];

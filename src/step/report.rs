@@ -71,7 +71,7 @@ pub struct Report<const D: usize> {
     pub potential: f64,
     /// Material points that were strained beyond what their model answers to, and took the state of the nearest integration point.
     pub strained: usize,
-    /// What the pairs in contact exerted.
+    /// What the interfaces in contact exerted.
     pub contacts: Vec<Resultant<D>>,
     /// The water in the pores and what left them; absent without.
     pub water: Option<Balance>,

@@ -1,7 +1,7 @@
 //! A scene: everything that does not change while it is solved.
 
 use super::change::Change;
-use crate::contact::Pair;
+use crate::contact::Interface;
 use crate::mesh::Mesh;
 use crate::mesh::faces::Faces;
 use crate::mesh::locate::Locator;
@@ -22,7 +22,7 @@ pub struct Scene<const D: usize> {
     /// The rigid bodies: their unknowns are those of nodes at the end of [`Scene::mesh`], which no cell has.
     pub bodies: Vec<Body<D>>,
     /// The structures and what they touch.
-    pub pairs: Vec<Box<dyn Pair<D>>>,
+    pub interfaces: Vec<Box<dyn Interface<D>>>,
     /// The levels of the water that friction tells apart: where those outside and in the pores differ.
     pub levels: Option<Levels>,
     /// The faces between the cells; absent where none takes a ghost penalty, on displacement or on mass.
@@ -87,10 +87,10 @@ impl<const D: usize> Scene<D> {
         self.phases.iter().any(|phase| phase.dynamic || phase.auto)
     }
 
-    /// The pairs that may touch in a phase, with their numbers.
-    pub fn touching(&self, phase: usize) -> impl Iterator<Item = (usize, &dyn Pair<D>)> {
+    /// The interfaces that may touch in a phase, with their numbers.
+    pub fn touching(&self, phase: usize) -> impl Iterator<Item = (usize, &dyn Interface<D>)> {
         let apart = self.phases.get(phase).map_or(&[][..], |phase| &phase.apart);
-        let all = self.pairs.iter().map(|pair| pair.as_ref()).enumerate();
+        let all = self.interfaces.iter().map(|interface| interface.as_ref()).enumerate();
         all.filter(move |(number, _)| !apart.contains(number))
     }
 }
@@ -166,7 +166,7 @@ pub struct Phase {
     pub search: Option<Search>,
     /// Nodes of structures that are not there: they stay where they are.
     pub held: Vec<Fixed>,
-    /// The pairs that do not touch, by number.
+    /// The interfaces that do not touch, by number.
     pub apart: Vec<usize>,
     /// The materials that regions take as it begins; none in the first phase.
     pub changes: Vec<Change>,

@@ -39,7 +39,7 @@ pub struct State<const D: usize> {
     /// Coordinates (m) of the nodes when the grid was last restored; empty without finite elements and rigid bodies,
     /// which alone change them.
     pub nodes: Vec<[f64; D]>,
-    /// What the contact nodes of each pair in contact carry.
+    /// What the contact nodes of each interface in contact carry.
     pub multipliers: Vec<Multipliers>,
     /// Whether the velocities and accelerations of the points are those of the motion: false until the first
     /// dynamic step has computed the accelerations from the forces.

@@ -1,27 +1,27 @@
-//! Contact: `−Σ_k A_k (p_k ∂g_k/∂u + τ_k ∂s_k/∂u)` over the contact nodes of a pair, `p_k`, `τ_k` by its law from the mean gap
+//! Contact: `−Σ_k A_k (p_k ∂g_k/∂u + τ_k ∂s_k/∂u)` over the contact nodes of an interface, `p_k`, `τ_k` by its law from the mean gap
 //! `g_k` and slip `s_k` at the end of the step (theory, Contact).
 //!
 //! Within a step the slip is linear in the displacements and the gap quadratic at most, so that the tangent is exact and Newton's method
 //! ends at a fixed set of contact nodes that touch, stick or slide.
 
 use super::levels::Levels;
-use super::{Assembly, Frame, Term, Touch, Trial};
+use super::{Assembly, Frame, PlacedConstraint, Term, Trial};
 use crate::contact::{Answer, Law, Motion};
 use crate::error::Result;
 use crate::system::{Local, scatter};
 
-/// The contact of one pair.
+/// The contact of one interface.
 pub struct Contact {
-    /// The number of the pair in the scene.
-    pair: u32,
+    /// The number of the interface in the scene.
+    interface: u32,
     law: Law,
     /// The levels of the water, where those outside and in the pores differ.
     levels: Option<Levels>,
 }
 
 impl Contact {
-    pub fn new(pair: u32, law: Law, levels: Option<Levels>) -> Self {
-        Self { pair, law, levels }
+    pub fn new(interface: u32, law: Law, levels: Option<Levels>) -> Self {
+        Self { interface, law, levels }
     }
 }
 
@@ -29,25 +29,26 @@ impl Contact {
 pub fn answer<const D: usize>(
     law: &Law,
     levels: Option<&Levels>,
-    touch: &Touch<D>,
+    constraint: &PlacedConstraint<D>,
     trial: &Trial<D>,
 ) -> (Answer, Motion) {
     let since = |n: u32| {
         let (now, before) = (&trial.displacement[n as usize], &trial.converged[n as usize]);
         std::array::from_fn(|d| now[d] - before[d])
     };
-    let mut motion = touch.row.measure(since);
-    if !trial.ahead.is_empty() && touch.row.looks_ahead() {
-        motion = touch.row.ahead(motion, trial.ahead);
+    let mut motion = constraint.condition.measure(since);
+    if !trial.ahead.is_empty() && constraint.condition.looks_ahead() {
+        motion = constraint.condition.ahead(motion, trial.ahead);
     }
     let law = law.reduced(trial.reduction);
-    let held = trial.held && (touch.initially_closed || touch.row.penalty.pressure > 0.0);
+    let held = trial.held && (constraint.initially_closed || constraint.condition.penalty.pressure > 0.0);
     // What lies there without pressure would have no friction to hold it along the contact.
-    let adhesion = if held && touch.initially_closed && law.friction > 0.0 { f64::INFINITY } else { law.adhesion };
+    let adhesion = if held && constraint.initially_closed && law.friction > 0.0 { f64::INFINITY } else { law.adhesion };
     let law = Law { tension: if held { f64::INFINITY } else { law.tension }, adhesion, ..law };
-    let beyond = levels.zip(touch.row.height).map_or(0.0, |(levels, y)| levels.beyond(trial.phase, trial.time, y));
-    let penalty = touch.row.penalty.within(beyond);
-    (law.respond_over(&penalty, &touch.row.spots, &motion, trial.ahead_slope), motion)
+    let beyond =
+        levels.zip(constraint.condition.height).map_or(0.0, |(levels, y)| levels.beyond(trial.phase, trial.time, y));
+    let penalty = constraint.condition.penalty.within(beyond);
+    (law.respond_over(&penalty, &constraint.condition.spots, &motion, trial.ahead_slope), motion)
 }
 
 impl<const D: usize> Term<D> for Contact {
@@ -56,42 +57,42 @@ impl<const D: usize> Term<D> for Contact {
     }
 
     fn assemble(&self, frame: &Frame<D>, trial: &Trial<D>, out: &mut Assembly) -> Result<()> {
-        let compute = |touch: &Touch<D>, local: &mut Local| {
-            if touch.pair != self.pair {
+        let compute = |constraint: &PlacedConstraint<D>, local: &mut Local| {
+            if constraint.interface != self.interface {
                 return Ok(());
             }
-            let row = &touch.row;
-            let (answer, Motion { turn, ahead_turn, .. }) = answer(&self.law, self.levels.as_ref(), touch, trial);
-            let (pressure, shear) = (row.area * answer.pressure, row.area * answer.shear);
-            let ahead_slope = if row.looks_ahead() { trial.ahead_slope } else { 0.0 };
-            let moment = row.area * row.curvature * answer.moment;
-            for (k, &at) in touch.place.iter().enumerate() {
-                let normal = row.normal(k, turn);
+            let condition = &constraint.condition;
+            let (answer, Motion { turn, ahead_turn, .. }) = answer(&self.law, self.levels.as_ref(), constraint, trial);
+            let (pressure, shear) = (condition.area * answer.pressure, condition.area * answer.shear);
+            let ahead_slope = if condition.looks_ahead() { trial.ahead_slope } else { 0.0 };
+            let moment = condition.area * condition.curvature * answer.moment;
+            for (k, &at) in constraint.place.iter().enumerate() {
+                let normal = condition.normal(k, turn);
                 for d in 0..D {
                     local.vector[at as usize * D + d] -=
-                        pressure * normal[d] + shear * row.by_tangent[k][d] + moment * row.by_arc[k][d];
+                        pressure * normal[d] + shear * condition.by_tangent[k][d] + moment * condition.by_arc[k][d];
                 }
             }
             if local.matrix.is_empty() {
                 return Ok(());
             }
             let [nn, tn, tt] =
-                [answer.pressure_by_gap, answer.shear_by_gap, answer.shear_by_slip].map(|slope| row.area * slope);
-            let bend = |slope: f64| row.area * row.curvature * slope;
+                [answer.pressure_by_gap, answer.shear_by_gap, answer.shear_by_slip].map(|slope| condition.area * slope);
+            let bend = |slope: f64| condition.area * condition.curvature * slope;
             let [nc, tc, cn] = [answer.pressure_by_turn, answer.shear_by_turn, answer.moment_by_gap].map(bend);
-            let cc = row.curvature * (bend(answer.moment_by_turn) + pressure);
-            for (a, &i) in touch.place.iter().enumerate() {
-                let normal = row.normal(a, turn);
-                for (b, &j) in touch.place.iter().enumerate() {
+            let cc = condition.curvature * (bend(answer.moment_by_turn) + pressure);
+            for (a, &i) in constraint.place.iter().enumerate() {
+                let normal = condition.normal(a, turn);
+                for (b, &j) in constraint.place.iter().enumerate() {
                     // Of the gap half a step later.
-                    let (normal_b, arc) = (row.normal(b, turn), row.by_arc[b]);
+                    let (normal_b, arc) = (condition.normal(b, turn), condition.by_arc[b]);
                     let other: [f64; D] =
                         std::array::from_fn(|d| (1.0 + ahead_slope) * normal_b[d] + ahead_turn * arc[d]);
                     for d in 0..D {
-                        let (n, t, c) = (normal[d], row.by_tangent[a][d], row.by_arc[a][d]);
+                        let (n, t, c) = (normal[d], condition.by_tangent[a][d], condition.by_arc[a][d]);
                         let entry = (i as usize * D + d) * local.size + j as usize * D;
                         for e in 0..D {
-                            let (m, s, o) = (other[e], row.by_tangent[b][e], arc[e]);
+                            let (m, s, o) = (other[e], condition.by_tangent[b][e], arc[e]);
                             local.matrix[entry + e] -=
                                 (nn * n + tn * t + cn * c) * m + tt * t * s + (nc * n + tc * t + cc * c) * o;
                         }
@@ -100,7 +101,7 @@ impl<const D: usize> Term<D> for Contact {
             }
             Ok(())
         };
-        let clique = |touch: &Touch<D>| touch.clique as usize;
-        scatter(frame.pattern, frame.touches, clique, compute, out.force, out.tangent.as_deref_mut(), out.workspace)
+        let clique = |constraint: &PlacedConstraint<D>| constraint.clique as usize;
+        scatter(frame.pattern, frame.constraints, clique, compute, out.force, out.tangent.as_deref_mut(), out.workspace)
     }
 }

@@ -52,7 +52,7 @@ pub use virtual_pressure::VirtualPressure;
 pub use water::{PoreWater, Porous, WaterStiffness};
 pub use water_bond::WaterBond;
 
-use crate::contact::Row;
+use crate::contact::Constraint;
 use crate::error::Result;
 use crate::mesh::Mesh;
 use crate::mesh::faces::Face;
@@ -74,15 +74,15 @@ pub struct GhostFace {
     pub clique: u32,
 }
 
-/// A contact node of a pair in contact.
+/// The constraint of a contact node with its place in the system.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Touch<const D: usize> {
-    /// The number of the pair in the scene.
-    pub pair: u32,
-    pub row: Row<D>,
-    /// Whether it lies on what it faces, and no contact node of the pair presses yet.
+pub struct PlacedConstraint<const D: usize> {
+    /// The number of the interface in the scene.
+    pub interface: u32,
+    pub condition: Constraint<D>,
+    /// Whether it lies on what it faces, and no contact node of the interface presses yet.
     pub initially_closed: bool,
-    /// Its clique, and the place of each node of the row among the blocks of that.
+    /// Its clique, and the place of each node of the constraint among the blocks of that.
     pub clique: u32,
     pub place: Vec<u32>,
 }
@@ -99,7 +99,7 @@ pub struct Frame<'a, const D: usize> {
     /// Faces beside cells that cannot stand alone; empty where the scene has no such penalty.
     pub ghost: &'a [GhostFace],
     /// The contact nodes that face something; empty where the scene has no contact.
-    pub touches: &'a [Touch<D>],
+    pub constraints: &'a [PlacedConstraint<D>],
     /// The pieces of the boundary of the material; empty where the scene has no use for them.
     pub boundary: &'a [Piece],
     /// The parts of these that no structure covers as the step begins.

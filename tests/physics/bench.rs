@@ -223,7 +223,7 @@ impl Bench {
         Scene {
             fem,
             bodies: Vec::new(),
-            pairs: Vec::new(),
+            interfaces: Vec::new(),
             levels: None,
             locator: Locator::new(&background),
             faces: Some(Faces::of(&background)),

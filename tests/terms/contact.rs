@@ -2,10 +2,10 @@
 
 use crate::loads::anywhere;
 use crate::stand::{Field, Random, Stand, mesh, points, resultant, size};
-use mpm::contact::{Law, Penalty, Row, Spot};
+use mpm::contact::{Constraint, Law, Penalty, Spot};
 use mpm::kinematics::PlaneStrain;
 use mpm::mesh::shape::CellKind;
-use mpm::term::{Contact, Head, Levels, Touch};
+use mpm::term::{Contact, Head, Levels, PlacedConstraint};
 use mpm::time_value::TimeValue;
 
 fn law(friction: f64, adhesion: f64, factor: Option<f64>) -> Law {
@@ -35,7 +35,7 @@ fn stand_in_water(law: Law, apart: f64, levels: Option<Levels>) -> Stand<PlaneSt
         let weights: Vec<f64> = share().map(|v| -v).collect::<Vec<_>>().into_iter().chain(share()).collect();
         let angle = f64::from(contact_node);
         let normal = [angle.cos(), angle.sin()];
-        let row = Row {
+        let constraint = Constraint {
             contact_node,
             area: 0.3 + 0.1 * angle,
             offset: 0.0,
@@ -63,7 +63,13 @@ fn stand_in_water(law: Law, apart: f64, levels: Option<Levels>) -> Stand<PlaneSt
         };
         let clique = stand.grid.clique[cell as usize];
         let place = (0..6).collect();
-        stand.grid.touches.push(Touch { pair: 0, row, initially_closed: false, clique, place });
+        stand.grid.constraints.push(PlacedConstraint {
+            interface: 0,
+            condition: constraint,
+            initially_closed: false,
+            clique,
+            place,
+        });
     }
     stand
 }
@@ -116,13 +122,14 @@ fn water_levels_do_not_change_with_the_motion() {
 
 /// Held contact nodes that lie there without pressure stick by the friction that they have none of yet, as those with adhesion enough do.
 #[test]
-fn hats_that_are_laid_down_stick() {
+fn initially_closed_contact_nodes_stick() {
     let unpressed = |law: Law, held: bool| {
         let mut stand = stand(law, 10.0);
         stand.held = held;
-        for touch in &mut stand.grid.touches {
-            (touch.initially_closed, touch.row.penalty.pressure, touch.row.penalty.shear) = (true, 0.0, 0.0);
-            touch.row.gap = touch.row.gap.abs();
+        for constraint in &mut stand.grid.constraints {
+            (constraint.initially_closed, constraint.condition.penalty.pressure, constraint.condition.penalty.shear) =
+                (true, 0.0, 0.0);
+            constraint.condition.gap = constraint.condition.gap.abs();
         }
         stand
     };
@@ -138,7 +145,7 @@ fn hats_that_are_laid_down_stick() {
 
 /// Held together, contact nodes that pressed bear what those that cannot part bear, with its tangent; others do as ever.
 #[test]
-fn hats_that_touched_are_held_together() {
+fn contact_nodes_that_touched_are_held_together() {
     for law in [law(0.0, 0.0, None), law(0.3, 2.0, Some(0.3)), law(0.0, 0.0, Some(0.5))] {
         let held = || {
             let mut stand = stand(law, 10.0);
@@ -152,8 +159,8 @@ fn hats_that_touched_are_held_together() {
         assert_ne!(answer(&held()), answer(&stand(law, 10.0)));
         assert!(held().tangent_error(&trial, &converged) < 1e-6, "{law:?}");
         let [mut strange, mut free] = [held(), stand(law, 10.0)];
-        for touch in strange.grid.touches.iter_mut().chain(&mut free.grid.touches) {
-            touch.row.penalty.pressure = 0.0;
+        for constraint in strange.grid.constraints.iter_mut().chain(&mut free.grid.constraints) {
+            constraint.condition.penalty.pressure = 0.0;
         }
         assert_eq!(answer(&strange), answer(&free));
     }
@@ -168,6 +175,6 @@ fn what_the_soil_bears_the_structure_gives() {
     assert!(whole > 1.0 && sum[0].hypot(sum[1]) < 1e-12 * whole, "{sum:?} {whole}");
     // Of the contact node that is apart nothing comes.
     let mut alone = self::stand(law(0.4, 0.0, None), 10.0);
-    alone.grid.touches.truncate(1);
+    alone.grid.constraints.truncate(1);
     assert_eq!(size(&alone.evaluate(&converged, &converged, 0, false).0), 0.0);
 }

@@ -190,7 +190,7 @@ impl<K: Kinematics<2>> Stand<K> {
         let scene = Scene {
             fem: None,
             bodies: Vec::new(),
-            pairs: Vec::new(),
+            interfaces: Vec::new(),
             levels: None,
             locator: Locator::new(&mesh),
             mesh,
@@ -377,8 +377,8 @@ impl<K: Kinematics<2>> Stand<K> {
     /// Largest difference of the tangent from its transpose, relative to its largest entry.
     pub fn asymmetry(&self, trial: &[[f64; 2]], converged: &[[f64; 2]]) -> f64 {
         let (_, k) = self.evaluate(trial, converged, 0, true);
-        let pairs = (0..k.len()).flat_map(|i| (0..i).map(move |j| (i, j)));
-        pairs.map(|(i, j)| (k[i][j] - k[j][i]).abs()).fold(0.0, f64::max) / largest(&k)
+        let interfaces = (0..k.len()).flat_map(|i| (0..i).map(move |j| (i, j)));
+        interfaces.map(|(i, j)| (k[i][j] - k[j][i]).abs()).fold(0.0, f64::max) / largest(&k)
     }
 }
 

@@ -2,7 +2,7 @@
 //! granted. That numbers are finite was checked as they were read.
 
 use super::super::foreign::foreign;
-use crate::contact::{Multipliers, Pair};
+use crate::contact::{Interface, Multipliers};
 use crate::error::{Error, Result};
 use crate::mesh::Mesh;
 use crate::points::Points;
@@ -281,20 +281,20 @@ fn check_front(front: &Front) -> Result<()> {
 }
 
 fn check_contact<const D: usize>(scene: &Scene<D>, state: &State<D>) -> Result<()> {
-    ensure(state.multipliers.len() == scene.pairs.len(), "the number of its contacts")?;
-    let fits = |(pair, held): (&dyn Pair<D>, &Multipliers)| {
+    ensure(state.multipliers.len() == scene.interfaces.len(), "the number of its contacts")?;
+    let fits = |(interface, held): (&dyn Interface<D>, &Multipliers)| {
         let Multipliers { pressure, shear, gap, slip, offset, slid, force, faces, room, first } = held;
-        let lengths = [pressure, shear, gap, slip, offset, slid].iter().all(|v| v.len() == pair.contact_nodes());
-        let lengths = lengths && [force.len(), faces.len()] == [pair.contact_nodes(); 2];
-        let bounds = first.len() == pair.contact_nodes() + 1 && bounds_of_loops(first, room.len(), 0);
+        let lengths = [pressure, shear, gap, slip, offset, slid].iter().all(|v| v.len() == interface.contact_nodes());
+        let lengths = lengths && [force.len(), faces.len()] == [interface.contact_nodes(); 2];
+        let bounds = first.len() == interface.contact_nodes() + 1 && bounds_of_loops(first, room.len(), 0);
         let nodes = room.iter().all(|&n| (n as usize) < scene.mesh.nodes.len());
         lengths && bounds && nodes && slip.iter().all(|slip| *slip >= 0.0) && {
             let mut seen = HashSet::new();
-            (0..pair.contact_nodes()).all(|k| {
+            (0..interface.contact_nodes()).all(|k| {
                 seen.clear();
                 held.room(k).iter().all(|n| seen.insert(*n))
             })
         }
     };
-    ensure(scene.pairs.iter().map(AsRef::as_ref).zip(&state.multipliers).all(fits), "its contact")
+    ensure(scene.interfaces.iter().map(AsRef::as_ref).zip(&state.multipliers).all(fits), "its contact")
 }

@@ -26,7 +26,7 @@ fn scene<K: Kinematics<2>>(kind: CellKind) -> Scene<2> {
         terms: Vec::new(),
         fem: None,
         bodies: Vec::new(),
-        pairs: Vec::new(),
+        interfaces: Vec::new(),
         levels: None,
         quadrature: Box::new(Volumes::<K>::default()),
         supports: Vec::new(),

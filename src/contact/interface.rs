@@ -1,12 +1,12 @@
 //! A structure and the soil it touches: the condition of each contact node in a step.
 
 use super::along::{Mark, lines};
+use super::constraint::{Constraint, FADING};
 use super::cover::covers;
 use super::gap::{Facing, Gap, Soil, push_out, raw_gaps};
 use super::law::{Law, Penalty};
 use super::multipliers::Multipliers;
 use super::place::{Placed, Segments};
-use super::row::{FADING, Row};
 use super::skin::Skin;
 use super::surface::Surface;
 use crate::kinematics::Kinematics;
@@ -70,7 +70,7 @@ pub struct Pushed {
 }
 
 /// A structure and what it touches.
-pub trait Pair<const D: usize>: Send + Sync {
+pub trait Interface<const D: usize>: Send + Sync {
     /// The region of the structure.
     fn structure(&self) -> u16;
 
@@ -88,7 +88,12 @@ pub trait Pair<const D: usize>: Send + Sync {
     fn law(&self) -> &Law;
 
     /// The conditions of the contact nodes that face soil; `position` tells where the nodes are.
-    fn rows(&self, ground: &Ground<D>, position: &dyn Fn(u32) -> [f64; D], held: &Multipliers) -> Vec<Row<D>>;
+    fn constraints(
+        &self,
+        ground: &Ground<D>,
+        position: &dyn Fn(u32) -> [f64; D],
+        held: &Multipliers,
+    ) -> Vec<Constraint<D>>;
 
     /// The contact nodes in order along each smooth piece of the boundary, and whether the last is beside the first.
     fn runs(&self) -> &[(Range<usize>, bool)];
@@ -100,7 +105,7 @@ pub trait Pair<const D: usize>: Send + Sync {
     fn lines(&self, position: &dyn Fn(u32) -> [f64; D]) -> Vec<Vec<Mark<D>>>;
 
     /// What of the boundary lies on soil as a step begins, given its conditions; nothing of one on a body.
-    fn covers(&self, _rows: &[Row<D>], _position: &dyn Fn(u32) -> [f64; D]) -> Vec<Cover<D>> {
+    fn covers(&self, _rows: &[Constraint<D>], _position: &dyn Fn(u32) -> [f64; D]) -> Vec<Cover<D>> {
         Vec::new()
     }
 
@@ -246,7 +251,7 @@ impl Sum {
     }
 }
 
-impl<K: Kinematics<2>> Pair<2> for Boundary<K> {
+impl<K: Kinematics<2>> Interface<2> for Boundary<K> {
     fn structure(&self) -> u16 {
         self.structure
     }
@@ -267,7 +272,12 @@ impl<K: Kinematics<2>> Pair<2> for Boundary<K> {
         &self.law
     }
 
-    fn rows(&self, ground: &Ground<2>, position: &dyn Fn(u32) -> [f64; 2], held: &Multipliers) -> Vec<Row<2>> {
+    fn constraints(
+        &self,
+        ground: &Ground<2>,
+        position: &dyn Fn(u32) -> [f64; 2],
+        held: &Multipliers,
+    ) -> Vec<Constraint<2>> {
         let segments = Segments::new::<K>(&self.surface, position);
         let soil = Soil { points: ground.points, regions: &self.regions };
         let gaps = raw_gaps::<K>(&self.surface, &segments, &soil, &self.skin);
@@ -347,7 +357,7 @@ impl<K: Kinematics<2>> Pair<2> for Boundary<K> {
                 }
             }
         }
-        let row = |(contact_node, sum): (usize, Option<Sum>)| {
+        let constraint = |(contact_node, sum): (usize, Option<Sum>)| {
             let Sum {
                 area,
                 open,
@@ -372,7 +382,7 @@ impl<K: Kinematics<2>> Pair<2> for Boundary<K> {
             let (gap, offset) = self.begin(&measured, surface, held, contact_node);
             let of_structure = |n: &u32| self.surface.facets.iter().any(|f| f.contains(n));
             entries.sort_by_key(|(n, ..)| (!of_structure(n), *n));
-            Some(Row {
+            Some(Constraint {
                 contact_node: contact_node as u32,
                 area,
                 gap,
@@ -393,7 +403,7 @@ impl<K: Kinematics<2>> Pair<2> for Boundary<K> {
                 },
             })
         };
-        sums.into_iter().enumerate().filter_map(row).collect()
+        sums.into_iter().enumerate().filter_map(constraint).collect()
     }
 
     fn outlines(&self, position: &dyn Fn(u32) -> [f64; 2]) -> Vec<Vec<[f64; 2]>> {
@@ -409,8 +419,8 @@ impl<K: Kinematics<2>> Pair<2> for Boundary<K> {
         lines::<K>(&self.surface, &Segments::new::<K>(&self.surface, position))
     }
 
-    fn covers(&self, rows: &[Row<2>], position: &dyn Fn(u32) -> [f64; 2]) -> Vec<Cover<2>> {
-        covers(&self.surface, &Segments::new::<K>(&self.surface, position), rows)
+    fn covers(&self, constraints: &[Constraint<2>], position: &dyn Fn(u32) -> [f64; 2]) -> Vec<Cover<2>> {
+        covers(&self.surface, &Segments::new::<K>(&self.surface, position), constraints)
     }
 
     fn push_out(&self, points: &mut Points<2>, position: &dyn Fn(u32) -> [f64; 2]) -> Pushed {

@@ -4,7 +4,7 @@ use super::changes::{self, by_number};
 use super::checked::{Case, Contact, Content, Geometry, Region, Touched, Touching};
 use super::find::region_index;
 use super::wall;
-use crate::contact::{Bodies, Boundary, Pair, Rigid, Skin, SoilSide, Surface};
+use crate::contact::{Bodies, Boundary, Interface, Rigid, Skin, SoilSide, Surface};
 use crate::error::{Error, Result};
 use crate::kinematics::Kinematics;
 use crate::mesh::Mesh;
@@ -15,27 +15,27 @@ use std::marker::PhantomData;
 /// Distance of the contact nodes (-), in the length of an edge of the grid: that of its nodes.
 const HATS: f64 = 0.5;
 
-/// The pairs of a case, given the grid, the cells beside it and the rigid bodies.
+/// The interfaces of a case, given the grid, the cells beside it and the rigid bodies.
 ///
 /// # Errors
 /// Input: a region that the mesh has not, a soil without cells, a wall that [`wall::facets`] refuses.
-pub fn pairs<K: Kinematics<2>>(
+pub fn interfaces<K: Kinematics<2>>(
     case: &Case,
     grid: &Mesh<2>,
     fem: &Mesh<2>,
     bodies: &[Body<2>],
-) -> Result<Vec<Box<dyn Pair<2>>>> {
+) -> Result<Vec<Box<dyn Interface<2>>>> {
     let parts = Parts { case, grid, fem, bodies };
-    let pair = |contact: &Contact| {
-        let pair: Box<dyn Pair<2>> = match &contact.on {
+    let interface = |contact: &Contact| {
+        let interface: Box<dyn Interface<2>> = match &contact.on {
             Touched::Soil(soil) => Box::new(parts.on_soil::<K>(contact, soil)?),
             Touched::Body(body) => Box::new(parts.on_body::<K>(contact, *body)?),
         };
         let rigid = |region: u16| bodies.iter().any(|body| body.region == region);
-        let keeps_shape = rigid(pair.structure()) || pair.against().is_some_and(rigid);
-        Ok(if keeps_shape { Box::new(Rigid::new(pair, bodies, grid.nodes.len())) } else { pair })
+        let keeps_shape = rigid(interface.structure()) || interface.against().is_some_and(rigid);
+        Ok(if keeps_shape { Box::new(Rigid::new(interface, bodies, grid.nodes.len())) } else { interface })
     };
-    case.contacts.iter().map(pair).collect()
+    case.contacts.iter().map(interface).collect()
 }
 
 /// A line that supports hold the material at: an axis of symmetry, or a side of the domain.
@@ -75,7 +75,7 @@ fn axis(case: &Case) -> Vec<Held> {
     if case.geometry == Geometry::Axisymmetric { vec![Held { component: 0, place: 0.0 }] } else { Vec::new() }
 }
 
-/// What pairs are made from.
+/// What interfaces are made from.
 struct Parts<'a> {
     case: &'a Case,
     grid: &'a Mesh<2>,

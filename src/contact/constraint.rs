@@ -10,7 +10,7 @@ pub(super) const FADING: f64 = 0.05;
 /// gap of a boundary that is flat. Soil that flows along a curved boundary turns with it: of what moves by `a` along the boundary the normal
 /// turns by `κ a`, and a way along the first normal would take it `½ κ a²` farther away.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Row<const D: usize> {
+pub struct Constraint<const D: usize> {
     pub contact_node: u32,
     /// Area (m²) under the contact node where there is soil.
     pub area: f64,
@@ -34,7 +34,7 @@ pub struct Row<const D: usize> {
     pub penalty: Penalty,
 }
 
-impl<const D: usize> Row<D> {
+impl<const D: usize> Constraint<D> {
     /// Whether with inertia the gap counts half a step ahead: that to material points on a restored grid, whose velocities are mapped, does not.
     pub fn looks_ahead(&self) -> bool {
         !self.spots.is_empty()
@@ -81,7 +81,7 @@ impl<const D: usize> Row<D> {
         self.spots.iter_mut().for_each(|spot| spot.open += motion.turn * spot.along);
     }
 
-    /// The derivative (-) of the gap by the displacement of node `k` of the row, where the normal has turned by `turn` (rad).
+    /// The derivative (-) of the gap by the displacement of node `k` of the constraint, where the normal has turned by `turn` (rad).
     pub fn normal(&self, k: usize, turn: f64) -> [f64; D] {
         std::array::from_fn(|d| self.by_normal[k][d] + turn * self.by_arc[k][d])
     }
