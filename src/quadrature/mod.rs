@@ -15,11 +15,11 @@ use crate::mesh::Mesh;
 use crate::mesh::locate::Locator;
 use crate::points::Points;
 use crate::stencil::{PartlyFilled, Stencil};
-use crate::surface::{ActiveBoundary, Front};
+use crate::surface::{ActiveBoundary, MarkerFront};
 
 /// What the points of a restored grid weigh, and what follows from where they lie.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Weighing<const D: usize> {
+pub struct Weights<const D: usize> {
     /// The points that integrals are summed over, where these are not the material points.
     pub samples: Option<Samples<D>>,
     /// What each of the points that integrals are summed over weighs (m³), as volume when seeded.
@@ -36,7 +36,7 @@ pub struct Weighing<const D: usize> {
     /// Why the surface is followed no longer, where it ceased to be in this restoration.
     pub lost_front: Option<String>,
     /// What points were put back onto supports that they had got beyond, in this restoration.
-    pub put_back: Option<String>,
+    pub projected: Option<String>,
     /// The material points as they are to be from this restoration on, where some are split or merged.
     pub renewed: Option<Renewed<D>>,
 }
@@ -80,5 +80,5 @@ pub struct Tally {
 pub trait Quadrature<const D: usize>: Send + Sync {
     /// Weighs the points of a restored grid. `front` is the surface of the material as followed so far, for rules
     /// that need it.
-    fn weigh(&self, grid: &Restored<D>, front: &mut Option<Front>) -> Weighing<D>;
+    fn weigh(&self, grid: &Restored<D>, front: &mut Option<MarkerFront>) -> Weights<D>;
 }

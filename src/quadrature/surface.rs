@@ -1,10 +1,10 @@
 //! The surface of the material from one restoration to the next, for weights and for loads on it.
 
-use super::{Quadrature, Restored, Volumes, Weighing};
+use super::{Quadrature, Restored, Volumes, Weights};
 use crate::kinematics::Kinematics;
 use crate::points::Points;
 use crate::stencil::Stencil;
-use crate::surface::{ActiveBoundary, Behind, Contour, Distance, Front, Geometry, Lost, NO_REGION};
+use crate::surface::{ActiveBoundary, Behind, Contour, Distance, Geometry, Lost, MarkerFront, NO_REGION};
 
 /// The surface lies at most so far beside the markers of its front, as a share of a cell's size.
 const LARGEST_OFFSET: f64 = 0.05;
@@ -16,20 +16,20 @@ const LARGEST_OFFSET: f64 = 0.05;
 pub fn follow<K: Kinematics<2>>(
     geometry: &Geometry,
     grid: &Restored<2>,
-    front: &mut Option<Front>,
+    front: &mut Option<MarkerFront>,
 ) -> Result<(), Lost> {
     let (mesh, points) = (grid.mesh, grid.points);
     match (grid.displacement, front.as_mut()) {
         (Some(displacement), Some(front)) => {
             front.advance(grid.before, (mesh, grid.locator), geometry, displacement)?;
-            front.lean(mesh, geometry, grid.locator, grid.outlines)?;
+            front.conform(mesh, geometry, grid.locator, grid.outlines)?;
             front.join(mesh, geometry, grid.locator, grid.outlines)?;
         }
         (Some(_), None) => return Ok(()),
         (None, _) => {
             let mut filled = vec![false; mesh.cells.len()];
             points.cell.iter().for_each(|&c| filled[c as usize] = true);
-            let front = front.insert(Front::around(mesh, &geometry.faces, &filled));
+            let front = front.insert(MarkerFront::around(mesh, &geometry.faces, &filled));
             is_theirs::<K>(front, geometry, grid)?;
         }
     }
@@ -40,7 +40,7 @@ pub fn follow<K: Kinematics<2>>(
 ///
 /// # Errors
 /// Where it does not, as where the points lie in cells that they do not fill.
-fn is_theirs<K: Kinematics<2>>(front: &Front, geometry: &Geometry, grid: &Restored<2>) -> Result<(), Lost> {
+fn is_theirs<K: Kinematics<2>>(front: &MarkerFront, geometry: &Geometry, grid: &Restored<2>) -> Result<(), Lost> {
     let (enclosed, points) = (front.volume::<K>(), (0..grid.points.len()).map(|p| grid.points.volume(p)).sum::<f64>());
     let (area, size) = front.surface::<K>(grid.mesh, geometry, grid.locator);
     // Where no surface is free, the points may fill their box a little more or less than all.
@@ -52,7 +52,7 @@ fn is_theirs<K: Kinematics<2>>(front: &Front, geometry: &Geometry, grid: &Restor
 }
 
 /// How far (m) beside the markers of a front the surface may lie.
-pub fn largest_offset<K: Kinematics<2>>(front: &Front, geometry: &Geometry, grid: &Restored<2>) -> f64 {
+pub fn largest_offset<K: Kinematics<2>>(front: &MarkerFront, geometry: &Geometry, grid: &Restored<2>) -> f64 {
     let (_, size) = front.surface::<K>(grid.mesh, geometry, grid.locator);
     LARGEST_OFFSET * size
 }
@@ -64,14 +64,14 @@ pub fn smoothed<K: Kinematics<2>>(
     geometry: &Geometry,
     grid: &Restored<2>,
     contour: &[f64],
-) -> Option<(Front, Vec<u32>)> {
+) -> Option<(MarkerFront, Vec<u32>)> {
     let Restored { mesh, points, .. } = *grid;
     if !grid.outlines.is_empty() {
         return None;
     }
     let nothing = |bearer: u32, _: &[f64; 2]| Behind { region: NO_REGION, bearer };
     let boundary = ActiveBoundary::of(mesh, geometry, contour, grid.active, nothing);
-    let mut front = Front::along::<K>(mesh, geometry, &boundary)?;
+    let mut front = MarkerFront::along::<K>(mesh, geometry, &boundary)?;
     front.join(mesh, geometry, grid.locator, &[]).ok()?;
     is_theirs::<K>(&front, geometry, grid).ok()?;
     let inside = |c: &u32| mesh.cells.nodes(*c as usize).iter().any(|&n| contour[n as usize] > 0.0);
@@ -127,22 +127,22 @@ impl<K: Kinematics<2>> Bounded<K> {
 }
 
 impl<K: Kinematics<2>> Quadrature<2> for Bounded<K> {
-    fn weigh(&self, grid: &Restored<2>, front: &mut Option<Front>) -> Weighing<2> {
+    fn weigh(&self, grid: &Restored<2>, front: &mut Option<MarkerFront>) -> Weights<2> {
         let relaxed = grid.relaxed.then(|| Geometry::new::<K>(grid.mesh));
         let geometry = relaxed.as_ref().unwrap_or(&self.geometry);
         let Restored { mesh, locator, points, parametric, active, .. } = *grid;
-        let mut weighing = self.volumes.weigh(grid, front);
+        let mut weights = self.volumes.weigh(grid, front);
         if let Err(lost) = follow::<K>(geometry, grid, front) {
             *front = None;
-            weighing.lost_front = Some(lost.to_string());
+            weights.lost_front = Some(lost.to_string());
         }
         let bounded = |level_set: &[f64]| boundary(geometry, grid, level_set, points, |c| points_of(grid.stencil, c));
-        let within = |front: &Front, cells: &[u32]| {
+        let within = |front: &MarkerFront, cells: &[u32]| {
             let mut distance = Distance::default();
             distance.update(mesh, geometry, locator, front, cells, active);
             bounded(&distance.level_set)
         };
-        weighing.boundary = match front {
+        weights.boundary = match front {
             Some(front) => within(front, &points.cell),
             None => {
                 let mut contour = Contour::default();
@@ -151,6 +151,6 @@ impl<K: Kinematics<2>> Quadrature<2> for Bounded<K> {
                 smoothed.map_or_else(|| bounded(&contour.level_set), |(front, cells)| within(&front, &cells))
             }
         };
-        weighing
+        weights
     }
 }

@@ -1,9 +1,9 @@
 //! The classical weights: each point stands for its volume.
 
-use super::{Quadrature, Restored, Weighing};
+use super::{Quadrature, Restored, Weights};
 use crate::kinematics::Kinematics;
 use crate::stencil::{Patch, partly_filled_cells};
-use crate::surface::Front;
+use crate::surface::MarkerFront;
 use std::marker::PhantomData;
 
 /// Fewer points than this, or more emptiness (-), do not hold a cell's nodes by themselves.
@@ -17,7 +17,7 @@ pub struct Volumes<K> {
 }
 
 impl<const D: usize, K: Kinematics<D>> Quadrature<D> for Volumes<K> {
-    fn weigh(&self, grid: &Restored<D>, _front: &mut Option<Front>) -> Weighing<D> {
+    fn weigh(&self, grid: &Restored<D>, _front: &mut Option<MarkerFront>) -> Weights<D> {
         let Restored { mesh, points, stencil, active, .. } = *grid;
         let partly_filled = partly_filled_cells::<D, K>(mesh, stencil, points, active);
         let half_empty = |cell: u32| {
@@ -27,6 +27,6 @@ impl<const D: usize, K: Kinematics<D>> Quadrature<D> for Volumes<K> {
         };
         let ill_conditioned = |patch: &&Patch| patch.point_count < FEW || half_empty(patch.cell);
         let ill_conditioned = stencil.patches.iter().filter(ill_conditioned).map(|patch| patch.cell).collect();
-        Weighing { weight: points.initial_volume.clone(), partly_filled, ill_conditioned, ..Weighing::default() }
+        Weights { weight: points.initial_volume.clone(), partly_filled, ill_conditioned, ..Weights::default() }
     }
 }

@@ -8,10 +8,10 @@ use crate::error::Result;
 use crate::io::checkpoint::Checkpoints;
 use crate::io::columns;
 use crate::io::container::Store;
-use crate::quadrature::{Count, Samples, Tally, Weighing};
+use crate::quadrature::{Count, Samples, Tally, Weights};
 use crate::stencil::PartlyFilled;
 use crate::step::{Scene, Span, State, UnbalancedRamp};
-use crate::surface::{ActiveBoundary, Front, Piece, Voids};
+use crate::surface::{ActiveBoundary, MarkerFront, Piece, Voids};
 
 const POINTS: &str = "points.";
 const FEM: &str = "fem.";
@@ -49,7 +49,7 @@ pub fn store<const D: usize>(state: &State<D>) -> Store {
         acceleration,
         active,
         penalised,
-        weighing,
+        weights,
         front,
         voids,
         restorations,
@@ -81,7 +81,7 @@ pub fn store<const D: usize>(state: &State<D>) -> Store {
     store.put("state.pressure", 1, pressure.clone());
     store.put("state.active", 1, active.iter().map(|&b| u8::from(b)).collect());
     store.put("state.penalised", 1, penalised.iter().map(|&b| u8::from(b)).collect());
-    put_weighing(&mut store, weighing);
+    put_weighing(&mut store, weights);
     put_multipliers(&mut store, multipliers);
     // Without loops where the surface is not followed.
     let (markers, loops) = front.as_ref().map_or((Vec::new(), Vec::new()), |f| (f.position.concat(), f.first.clone()));
@@ -94,9 +94,9 @@ pub fn store<const D: usize>(state: &State<D>) -> Store {
     store
 }
 
-fn put_weighing<const D: usize>(store: &mut Store, weighing: &Weighing<D>) {
+fn put_weighing<const D: usize>(store: &mut Store, weights: &Weights<D>) {
     // Why a front was lost has been told when it was.
-    let Weighing {
+    let Weights {
         samples,
         weight,
         partly_filled,
@@ -105,20 +105,20 @@ fn put_weighing<const D: usize>(store: &mut Store, weighing: &Weighing<D>) {
         level_set,
         tally,
         lost_front: _,
-        put_back: _,
+        projected: _,
         renewed: _,
-    } = weighing;
+    } = weights;
     let Tally { linear, constant, taken, point_volume, volume, population: Count { split, merged, starved } } = tally;
     if let Some(Samples { points, parametric, outside }) = samples {
         columns::put(store, SAMPLES, points);
         store.put("samples.parametric", 3, parametric.concat());
         store.put("samples.outside", 1, outside.clone());
     }
-    store.put("weighing.weight", 1, weight.clone());
-    store.put("weighing.partly_filled", 1, partly_filled.iter().map(|s| s.cell).collect());
-    store.put("weighing.emptiness", 1, partly_filled.iter().map(|s| s.emptiness).collect());
-    store.put("weighing.ill_conditioned", 1, ill_conditioned.clone());
-    store.put("weighing.level_set", 1, level_set.clone());
+    store.put("weights.weight", 1, weight.clone());
+    store.put("weights.partly_filled", 1, partly_filled.iter().map(|s| s.cell).collect());
+    store.put("weights.emptiness", 1, partly_filled.iter().map(|s| s.emptiness).collect());
+    store.put("weights.ill_conditioned", 1, ill_conditioned.clone());
+    store.put("weights.level_set", 1, level_set.clone());
     let ActiveBoundary { pieces, first } = boundary;
     store.put("boundary.first", 1, first.clone());
     store.put(
@@ -128,11 +128,11 @@ fn put_weighing<const D: usize>(store: &mut Store, weighing: &Weighing<D>) {
     );
     let numbers = |piece: &Piece| [piece.cell, piece.bearer, u32::from(piece.region), u32::from(piece.wall)];
     store.put("boundary.numbers", 4, pieces.iter().flat_map(numbers).collect());
-    store.put("weighing.cells", 1, vec![*linear, *constant, *taken, *split, *merged, *starved]);
-    store.put("weighing.volume", 1, vec![*point_volume, *volume]);
+    store.put("weights.cells", 1, vec![*linear, *constant, *taken, *split, *merged, *starved]);
+    store.put("weights.volume", 1, vec![*point_volume, *volume]);
 }
 
-fn take_weighing<const D: usize>(store: &mut Store) -> Result<Weighing<D>> {
+fn take_weighing<const D: usize>(store: &mut Store) -> Result<Weights<D>> {
     let samples = match store.take_if_present::<f64>("samples.parametric", 3)? {
         Some(parametric) => Some(Samples {
             points: columns::take(store, SAMPLES)?,
@@ -141,26 +141,26 @@ fn take_weighing<const D: usize>(store: &mut Store) -> Result<Weighing<D>> {
         }),
         None => None,
     };
-    let weight = store.take::<f64>("weighing.weight", 1)?;
+    let weight = store.take::<f64>("weights.weight", 1)?;
     let (partly_filled, emptiness) =
-        (store.take::<u32>("weighing.partly_filled", 1)?, store.take::<f64>("weighing.emptiness", 1)?);
+        (store.take::<u32>("weights.partly_filled", 1)?, store.take::<f64>("weights.emptiness", 1)?);
     if partly_filled.len() != emptiness.len() {
         return Err(foreign("what it says of cells"));
     }
     let partly_filled =
         partly_filled.into_iter().zip(emptiness).map(|(cell, emptiness)| PartlyFilled { cell, emptiness }).collect();
-    let ill_conditioned = store.take::<u32>("weighing.ill_conditioned", 1)?;
-    let level_set = store.take::<f64>("weighing.level_set", 1)?;
+    let ill_conditioned = store.take::<u32>("weights.ill_conditioned", 1)?;
+    let level_set = store.take::<f64>("weights.level_set", 1)?;
     let boundary = take_boundary(store)?;
-    let (cells, volume) = (store.take::<u32>("weighing.cells", 1)?, store.take::<f64>("weighing.volume", 1)?);
+    let (cells, volume) = (store.take::<u32>("weights.cells", 1)?, store.take::<f64>("weights.volume", 1)?);
     let ([linear, constant, taken, split, merged, starved], [point_volume, volume]) = (&cells[..], &volume[..]) else {
         return Err(foreign("its weights"));
     };
     let population = Count { split: *split, merged: *merged, starved: *starved };
     let (point_volume, volume) = (*point_volume, *volume);
     let tally = Tally { linear: *linear, constant: *constant, taken: *taken, point_volume, volume, population };
-    let (lost_front, put_back, renewed) = (None, None, None);
-    Ok(Weighing {
+    let (lost_front, projected, renewed) = (None, None, None);
+    Ok(Weights {
         samples,
         weight,
         partly_filled,
@@ -169,7 +169,7 @@ fn take_weighing<const D: usize>(store: &mut Store) -> Result<Weighing<D>> {
         level_set,
         tally,
         lost_front,
-        put_back,
+        projected,
         renewed,
     })
 }
@@ -249,11 +249,11 @@ fn take_balanced(store: &mut Store) -> Result<Option<Span>> {
     }
 }
 
-fn take_front(store: &mut Store) -> Result<Option<Front>> {
+fn take_front(store: &mut Store) -> Result<Option<MarkerFront>> {
     let position = vectors(&store.take::<f64>("front.position", 2)?);
     let first = store.take::<u32>("front.first", 1)?;
     let none = position.is_empty() && first.is_empty();
-    Ok((!none).then_some(Front { position, first }))
+    Ok((!none).then_some(MarkerFront { position, first }))
 }
 
 /// The state in a checkpoint of the run of `scene` that began with `first`.
@@ -303,7 +303,7 @@ pub fn take<const D: usize>(mut store: Store, scene: &Scene<D>, first: &State<D>
         acceleration,
         active: flags(&mut store, "state.active")?,
         penalised: flags(&mut store, "state.penalised")?,
-        weighing: take_weighing(&mut store)?,
+        weights: take_weighing(&mut store)?,
         front: take_front(&mut store)?,
         voids: Voids {
             of_cell: store.take::<u32>("voids.of_cell", 1)?,

@@ -354,10 +354,10 @@ pub fn log_lines<const D: usize>(scene: &Scene<D>, state: &State<D>, report: &Re
     if report.unbalanced {
         line.push_str(" no balance on the restored grid");
     }
-    let tally = &state.weighing.tally;
+    let tally = &state.weights.tally;
     if report.restored && tally.volume > 0.0 {
         line.push_str(&format!(" cells fitted linear {} constant {}", tally.linear, tally.constant));
-        let outside = state.weighing.samples.as_ref().map_or(0, |samples| samples.outside.len());
+        let outside = state.weights.samples.as_ref().map_or(0, |samples| samples.outside.len());
         if outside > 0 {
             line.push_str(&format!(" outside the surface {outside}"));
         }
@@ -375,9 +375,9 @@ pub fn log_lines<const D: usize>(scene: &Scene<D>, state: &State<D>, report: &Re
     }
     lines.push(line);
     if report.restored {
-        lines.extend(state.weighing.put_back.iter().map(|note| format!("  {note}")));
+        lines.extend(state.weights.projected.iter().map(|note| format!("  {note}")));
         lines.extend(
-            state.weighing.lost_front.iter().map(|why| {
+            state.weights.lost_front.iter().map(|why| {
                 format!("  the surface is from now on the contour of the points: following it failed, {why}")
             }),
         );

@@ -85,7 +85,7 @@ fn emptiness<const D: usize>(scene: &Scene<D>, state: &State<D>, mesh: &Mesh<D>)
     for &c in state.points.cell.iter().chain(&state.integration().cell) {
         emptiness[c as usize] = 0.0;
     }
-    for partly_filled in state.weighing.partly_filled.iter().filter(|cell| cell.emptiness > ROUNDING) {
+    for partly_filled in state.weights.partly_filled.iter().filter(|cell| cell.emptiness > ROUNDING) {
         let own = &mut emptiness[partly_filled.cell as usize];
         *own = own.max(partly_filled.emptiness.min(1.0 - ROUNDING));
     }

@@ -17,7 +17,7 @@ const FARTHEST: f64 = 0.1;
 
 /// Puts points back onto the sides that hold them, but none onto the axis of a ring, where it would have no volume. Returns
 /// a note on how many and how far, where there are any.
-pub fn put_back<const D: usize, K: Kinematics<D>>(
+pub fn project_onto_boundary<const D: usize, K: Kinematics<D>>(
     scene: &Scene<D>,
     mesh: &Mesh<D>,
     locator: &Locator<D>,

@@ -102,7 +102,7 @@ pub fn begin<const D: usize, K: Kinematics<D>>(
         placed.extend(constraints.into_iter().map(to_place));
     }
     join(&mut covers);
-    let open = covered.then(|| open(mesh, &state.weighing.boundary.pieces, &covers));
+    let open = covered.then(|| open(mesh, &state.weights.boundary.pieces, &covers));
     let takes_part = |constraint: &PlacedConstraint<D>| {
         constraint.condition.nodes.iter().all(|&n| grid.block[n as usize] != u32::MAX)
     };

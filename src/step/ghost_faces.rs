@@ -24,7 +24,7 @@ pub fn choose<const D: usize>(scene: &Scene<D>, state: &State<D>) -> Vec<u32> {
     let few = (0u32..)
         .zip(&count)
         .filter(|&(c, &n)| dynamic && holds[c as usize] && n < scene.mesh.cells.nodes(c as usize).len());
-    for c in few.map(|(c, _)| c).chain(state.weighing.ill_conditioned.iter().copied()) {
+    for c in few.map(|(c, _)| c).chain(state.weights.ill_conditioned.iter().copied()) {
         ill_conditioned[c as usize] = true;
         for &other in faces.neighbours(c) {
             ring[other as usize] = true;

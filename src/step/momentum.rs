@@ -97,7 +97,7 @@ pub fn complete_points<const D: usize, K: Kinematics<D>>(
     back: &[[f64; D]],
     values: &mut [[f64; D]],
 ) {
-    let Some(samples) = &state.weighing.samples else { return };
+    let Some(samples) = &state.weights.samples else { return };
     let places = |position: &[[f64; D]], moved: &[[f64; D]]| -> Vec<[f64; D]> {
         position.iter().zip(moved).map(|(x, u)| std::array::from_fn(|d| x[d] - u[d])).collect()
     };
@@ -126,7 +126,7 @@ pub fn complete_nodes<const D: usize, K: Kinematics<D>>(
     values: &[[f64; D]],
     field: &mut [[f64; D]],
 ) {
-    let Some(samples) = &state.weighing.samples else { return };
+    let Some(samples) = &state.weights.samples else { return };
     let bodies = bodies(&scene.mesh, state, samples);
     let at_samples = at_samples::<D, K>(scene, grid, samples, field);
     let has = momentum(&bodies, &samples.points, &samples.points.position, &at_samples);

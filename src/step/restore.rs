@@ -1,7 +1,7 @@
 //! The restored grid: its nodes where it has them at first, or relaxed between finite elements that moved, the cells of the points, and
 //! what these weigh.
 
-use super::boundary_projection::put_back;
+use super::boundary_projection::project_onto_boundary;
 use super::facing;
 use super::family::Stencils;
 use super::fem;
@@ -16,7 +16,7 @@ use crate::error::{Error, Result};
 use crate::kinematics::Kinematics;
 use crate::mesh::Mesh;
 use crate::mesh::locate::Locator;
-use crate::quadrature::{Renewed, Restored, Samples, Weighing};
+use crate::quadrature::{Renewed, Restored, Samples, Weights};
 use crate::stencil::{Scheme, Stencil};
 use rayon::prelude::*;
 
@@ -41,7 +41,7 @@ pub fn begin_anew<const D: usize, K: Kinematics<D>>(
         // The displacement is still that of the last converged step.
         state.nodes = nodes;
     }
-    let (before, put_back) = placed?;
+    let (before, projected) = placed?;
     let (mesh, locator) = relaxed.as_ref().map_or((&scene.mesh, &scene.locator), |r| (&r.mesh, &r.locator));
     let changed = choose_cells(scene, state);
     let outlines = facing::outlines(scene, state);
@@ -59,8 +59,8 @@ pub fn begin_anew<const D: usize, K: Kinematics<D>>(
         active: &state.active,
         displacement: (state.restorations > 0).then_some(&state.displacement),
     };
-    state.weighing = scene.quadrature.weigh(&grid, &mut state.front);
-    state.weighing.put_back = put_back;
+    state.weights = scene.quadrature.weigh(&grid, &mut state.front);
+    state.weights.projected = projected;
     renew::<D, K>(&mut stencils.integration, scene, mesh, state);
     let here = before.as_ref().map_or((&scene.mesh, &scene.locator), |r| (&r.mesh, &r.locator));
     let before = here.0;
@@ -70,9 +70,9 @@ pub fn begin_anew<const D: usize, K: Kinematics<D>>(
     state.restorations += 1;
     if scene.numerics.restore == Restore::Never {
         // A grid that is never restored carries its points along: its cells stay as full as seeded.
-        state.weighing.partly_filled.clear();
+        state.weights.partly_filled.clear();
         if !scene.terms.iter().any(|t| t.penalises_faces()) {
-            state.weighing.ill_conditioned.clear();
+            state.weights.ill_conditioned.clear();
         }
     }
     take_weights::<D, K>(stencils, mesh, state);
@@ -105,7 +105,7 @@ fn place<const D: usize, K: Kinematics<D>>(
     let (mesh, locator) = relaxed.as_ref().map_or((&scene.mesh, &scene.locator), |r| (&r.mesh, &r.locator));
     let mut note = None;
     if let Err(lost) = locate_points(mesh, locator, state) {
-        note = put_back::<D, K>(scene, mesh, locator, state);
+        note = project_onto_boundary::<D, K>(scene, mesh, locator, state);
         if note.is_none() {
             return Err(lost);
         }
@@ -116,7 +116,7 @@ fn place<const D: usize, K: Kinematics<D>>(
 
 /// Gives the points that integrals are summed over their weights, given the stencil of the material points.
 pub fn take_weights<const D: usize, K: Kinematics<D>>(stencils: &mut Stencils<D>, mesh: &Mesh<D>, state: &State<D>) {
-    let Weighing { samples, weight, .. } = &state.weighing;
+    let Weights { samples, weight, .. } = &state.weights;
     if let Some(Samples { points, parametric, .. }) = samples {
         stencils.material = Some(std::mem::take(&mut stencils.integration));
         stencils.integration.fill::<K>(Scheme::Mpm, mesh, &points.cell, parametric, &state.active);
@@ -131,7 +131,7 @@ fn renew<const D: usize, K: Kinematics<D>>(
     mesh: &Mesh<D>,
     state: &mut State<D>,
 ) {
-    let Some(Renewed { points, parametric, from }) = state.weighing.renewed.take() else { return };
+    let Some(Renewed { points, parametric, from }) = state.weights.renewed.take() else { return };
     if !state.start_position.is_empty() {
         // Each has moved as far as the one that it was before.
         let start = |(x, &p): (&[f64; D], &u32)| {

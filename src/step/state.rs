@@ -4,8 +4,8 @@ use super::ramp::UnbalancedRamp;
 use super::scene::Scene;
 use crate::contact::Multipliers;
 use crate::points::Points;
-use crate::quadrature::Weighing;
-use crate::surface::{Front, Voids};
+use crate::quadrature::Weights;
+use crate::surface::{MarkerFront, Voids};
 
 /// A step between two times of a phase: its loads are those of the second.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -78,9 +78,9 @@ pub struct State<const D: usize> {
     /// Cells whose faces the system has room for a ghost penalty at; empty where the scene has none.
     pub penalised: Vec<bool>,
     /// What the points weigh, as of the last restoration.
-    pub weighing: Weighing<D>,
+    pub weights: Weights<D>,
     /// The surface of the material, while it is followed.
-    pub front: Option<Front>,
+    pub front: Option<MarkerFront>,
     /// The voids that have opened, while the surface is followed.
     pub voids: Voids,
     /// Restorations so far.
@@ -119,7 +119,7 @@ impl<const D: usize> State<D> {
             acceleration: Vec::new(),
             active: Vec::new(),
             penalised: Vec::new(),
-            weighing: Weighing::default(),
+            weights: Weights::default(),
             front: None,
             voids: Voids::default(),
             restorations: 0,
@@ -128,12 +128,12 @@ impl<const D: usize> State<D> {
 
     /// The points that integrals are summed over: those of the cells, or the material points themselves.
     pub fn integration(&self) -> &Points<D> {
-        self.weighing.samples.as_ref().map_or(&self.points, |samples| &samples.points)
+        self.weights.samples.as_ref().map_or(&self.points, |samples| &samples.points)
     }
 
     /// The points that integrals are summed over, to be changed.
     pub fn integration_mut(&mut self) -> &mut Points<D> {
-        self.weighing.samples.as_mut().map_or(&mut self.points, |samples| &mut samples.points)
+        self.weights.samples.as_mut().map_or(&mut self.points, |samples| &mut samples.points)
     }
 
     /// Whether the step in hand has inertia.
@@ -154,7 +154,7 @@ impl<const D: usize> State<D> {
         if let Some(next) = scene.phases.get(self.phase) {
             for change in &next.changes {
                 change.apply(&mut self.points);
-                if let Some(samples) = &mut self.weighing.samples {
+                if let Some(samples) = &mut self.weights.samples {
                     change.apply(&mut samples.points);
                 }
                 change.apply(&mut self.fem);

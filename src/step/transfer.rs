@@ -204,7 +204,7 @@ pub fn commit<const D: usize>(
     of_integration.into_iter().for_each(|update| update.apply(state.integration_mut()));
     of_material.into_iter().for_each(|update| update.apply(&mut state.points));
     of_elements.into_iter().for_each(|update| update.apply(&mut state.fem));
-    if let Some(samples) = &state.weighing.samples {
+    if let Some(samples) = &state.weights.samples {
         lost.iter().for_each(|&p| take_from_nearest(&mut state.points, p, &samples.points));
     }
     lost.len()
@@ -262,8 +262,8 @@ pub fn move_points<const D: usize, K: Kinematics<D>>(
         .collect();
     let of = |family: Family<D>| interpolate::<D, K>(&family, &increment);
     let moved: Vec<_> = grid.families(scene, state).map(of).collect();
-    let of_integration = state.weighing.samples.is_some().then(|| grid.integrated(scene, state).next().map(of));
-    if let (Some(Some(moved)), Some(samples)) = (of_integration, &mut state.weighing.samples) {
+    let of_integration = state.weights.samples.is_some().then(|| grid.integrated(scene, state).next().map(of));
+    if let (Some(Some(moved)), Some(samples)) = (of_integration, &mut state.weights.samples) {
         add(&mut samples.points.position, &moved);
     }
     for (points, moved) in [&mut state.points, &mut state.fem].into_iter().zip(&moved) {

@@ -6,7 +6,7 @@
 //! of them a node is in the material if a cell around it holds points.
 
 use super::bins::Bins;
-use super::front::Front;
+use super::front::MarkerFront;
 use super::geometry::Geometry;
 use crate::mesh::Mesh;
 use crate::mesh::locate::Locator;
@@ -44,7 +44,7 @@ impl Distance {
         mesh: &Mesh<2>,
         geometry: &Geometry,
         locator: &Locator<2>,
-        front: &Front,
+        front: &MarkerFront,
         cell: &[u32],
         active: &[bool],
     ) {
@@ -70,7 +70,7 @@ impl Distance {
     }
 
     /// More than the diameter of every cell that holds a free marker, with the length of the segments in it.
-    fn reach(&self, mesh: &Mesh<2>, locator: &Locator<2>, front: &Front, wall: &[bool]) -> f64 {
+    fn reach(&self, mesh: &Mesh<2>, locator: &Locator<2>, front: &MarkerFront, wall: &[bool]) -> f64 {
         let (mut reach, mut hint) = (0.0f64, None);
         for (x, _) in front.position.iter().zip(wall).filter(|(_, wall)| !**wall) {
             if let Some((c, _)) = locator.locate(mesh, x, hint) {

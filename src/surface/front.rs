@@ -6,12 +6,12 @@
 //! rest free surface; which is which is seen anew from the places of the markers, so that the places are all the state
 //! there is. Markers on a wall slide along it because the displacement of the grid does.
 //!
-//! Loops that cross or come near each other are joined anew ([`Front::join`]). Where the cells that are filled at first hold another volume than the
-//! points, and where a marker leaves the mesh, the [`super::Contour`] takes over, smoothed anew at every restoration ([`Front::along`]). It leaves
+//! Loops that cross or come near each other are joined anew ([`MarkerFront::join`]). Where the cells that are filled at first hold another volume than the
+//! points, and where a marker leaves the mesh, the [`super::Contour`] takes over, smoothed anew at every restoration ([`MarkerFront::along`]). It leaves
 //! out slip along curved walls, which no support can ask for.
 
+mod conform;
 mod join;
-mod lean;
 mod resample;
 mod seed;
 mod smooth;
@@ -35,7 +35,7 @@ const FARTHEST: f64 = 0.5;
 
 /// The loops of markers at the last restoration: part of the state of a run.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Front {
+pub struct MarkerFront {
     /// Places (m) of the markers, loop after loop.
     pub position: Vec<[f64; 2]>,
     /// Loop `l` has the markers `first[l]..first[l + 1]`.
@@ -65,7 +65,7 @@ impl fmt::Display for Lost {
     }
 }
 
-impl Front {
+impl MarkerFront {
     /// The number of loops.
     pub fn loops(&self) -> usize {
         self.first.len().saturating_sub(1)
@@ -148,17 +148,17 @@ impl Front {
             }
             hint = Some(c);
         }
-        self.put_back((mesh, locator), geometry)?;
+        self.project_onto_mesh((mesh, locator), geometry)?;
         let wall = self.walls(mesh, geometry, locator);
         self.resample(mesh, geometry, locator, &wall)?;
-        self.put_back((mesh, locator), geometry)
+        self.project_onto_mesh((mesh, locator), geometry)
     }
 
     /// Puts markers that got a little across the boundary of the mesh back onto it.
     ///
     /// # Errors
     /// When one got farther.
-    fn put_back(&mut self, (mesh, locator): (&Mesh<2>, &Locator<2>), geometry: &Geometry) -> Result<(), Lost> {
+    fn project_onto_mesh(&mut self, (mesh, locator): (&Mesh<2>, &Locator<2>), geometry: &Geometry) -> Result<(), Lost> {
         let mut hint = None;
         for x in &mut self.position {
             if let Some((cell, _)) = locator.locate(mesh, x, hint) {

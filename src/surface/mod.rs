@@ -1,7 +1,7 @@
 //! Where the material ends: its surface within the cells, reconstructed from the material points.
 //!
 //! A [`Contour`] makes a level set at the nodes from the points, along which cells are cut ([`positive`]). [`Geometry`] is what
-//! does not change of a grid. Where it holds, a [`Front`] of markers that move with the grid is better than the contour, and where none does, one that smooths it: [`Distance`] makes the level set. Loads and pictures
+//! does not change of a grid. Where it holds, a [`MarkerFront`] of markers that move with the grid is better than the contour, and where none does, one that smooths it: [`Distance`] makes the level set. Loads and pictures
 //! take the surface as polylines, the [`ActiveBoundary`], of which structures [`Cover`] parts. [`Voids`] are empty cells where there was soil.
 
 mod bins;
@@ -23,7 +23,7 @@ pub use boundary::{ActiveBoundary, Behind, NO_REGION, Piece};
 pub use contour::{Contour, HIGHEST};
 pub use cover::{Cover, join, open};
 pub use distance::Distance;
-pub use front::{Front, Lost};
+pub use front::{Lost, MarkerFront};
 pub use geometry::Geometry;
 pub use layers::visit_layers;
 pub use moments::CellFrame;

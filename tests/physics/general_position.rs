@@ -199,7 +199,7 @@ impl Footing {
             iterations += report.iterations();
             halvings += report.halvings.len();
             if loads.len() == 1 {
-                told = describe(&state.weighing.tally, state.weighing.lost_front.as_ref());
+                told = describe(&state.weights.tally, state.weights.lost_front.as_ref());
             }
         });
         println!(

@@ -9,9 +9,9 @@ use mpm::material::{Elasticity, Tresca};
 use mpm::mesh::builder::rectangle;
 use mpm::mesh::faces::Faces;
 use mpm::mesh::shape::CellKind;
-use mpm::quadrature::{Quadrature, Restored, Volumes, Weighing};
+use mpm::quadrature::{Quadrature, Restored, Volumes, Weights};
 use mpm::step::{Fixed, Prescribed};
-use mpm::surface::Front;
+use mpm::surface::MarkerFront;
 use mpm::term::GhostPenalty;
 use mpm::time_value::TimeValue;
 use std::sync::Arc;
@@ -20,10 +20,10 @@ use std::sync::Arc;
 struct AllPoor(Volumes<PlaneStrain>);
 
 impl Quadrature<2> for AllPoor {
-    fn weigh(&self, grid: &Restored<2>, front: &mut Option<Front>) -> Weighing<2> {
-        let mut weighing = self.0.weigh(grid, front);
-        weighing.ill_conditioned = (0..grid.mesh.cells.len() as u32).collect();
-        weighing
+    fn weigh(&self, grid: &Restored<2>, front: &mut Option<MarkerFront>) -> Weights<2> {
+        let mut weights = self.0.weigh(grid, front);
+        weights.ill_conditioned = (0..grid.mesh.cells.len() as u32).collect();
+        weights
     }
 }
 

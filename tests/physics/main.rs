@@ -2,6 +2,7 @@
 
 mod bar;
 mod bench;
+mod boundary_projection;
 mod cantilever;
 mod column;
 mod ddmp;
@@ -14,7 +15,6 @@ mod incompressible;
 mod layout;
 mod patch;
 mod population;
-mod put_back;
 mod resampled;
 mod rotation;
 mod slivers;

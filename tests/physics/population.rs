@@ -42,15 +42,15 @@ fn stretch(kind: CellKind, each: u32) {
         let now = [off, (motion.angular - *angular).abs() / mass, (motion.mass / mass - 1.0).abs()];
         (0..3).for_each(|k| errors[k] = errors[k].max(now[k]));
         if report.restored {
-            split += state.weighing.tally.population.split;
-            starved = starved.max(state.weighing.tally.population.starved);
+            split += state.weights.tally.population.split;
+            starved = starved.max(state.weights.tally.population.starved);
         }
     });
     let p = &state.points;
     let off = |i: usize| (p.velocity[i][0] - velocity(&p.position[i], state.time)).abs();
     let fastest = (0..p.len()).map(off).fold(0.0, f64::max);
     // Where the seeded points would be, and the cells that would have none.
-    let mut cells = state.weighing.samples.as_ref().unwrap().points.cell.clone();
+    let mut cells = state.weights.samples.as_ref().unwrap().points.cell.clone();
     cells.dedup();
     let alone: Vec<_> = seeded.position.iter().map(|[x, y]| ([0.5 + 20.0 * (x - 0.5), *y], 1.0)).collect();
     let alone = at::<PlaneStrain>(&scene.mesh, &alone, 1.0).cell;

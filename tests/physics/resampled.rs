@@ -77,7 +77,7 @@ impl Tall {
         let p = run::<K>(&scene, points, |state, report| {
             iterations += report.iterations();
             restored += usize::from(report.restored);
-            told = describe(&state.weighing.tally, state.weighing.lost_front.as_ref());
+            told = describe(&state.weights.tally, state.weights.lost_front.as_ref());
         })
         .points;
         let exact = Column { height: HEIGHT, unit_weight: density * GRAVITY, modulus: YOUNG };
@@ -232,9 +232,9 @@ fn crossing(kind: CellKind, each: u32, motion: impl Fn([f64; 2]) -> [f64; 2]) ->
     let (mut residual, mut degrees) = (f64::NAN, [0; 2]);
     run::<PlaneStrain>(&scene, points, |state, report| {
         residual = report.residuals[0];
-        let t = &state.weighing.tally;
+        let t = &state.weights.tally;
         degrees = [t.linear, t.constant];
-        println!("    {}", describe(t, state.weighing.lost_front.as_ref()));
+        println!("    {}", describe(t, state.weights.lost_front.as_ref()));
     });
     (residual, degrees)
 }

@@ -11,7 +11,7 @@ use mpm::mesh::shape::CellKind;
 use mpm::quadrature::Bounded;
 use mpm::step::{Grid, Restore, Simulation, State};
 use mpm::surface::boundary::place;
-use mpm::surface::{ActiveBoundary, Behind, Distance, Front, Geometry, Piece};
+use mpm::surface::{ActiveBoundary, Behind, Distance, Geometry, MarkerFront, Piece};
 use mpm::system::Workspace;
 use mpm::term::{Assembly, Head, SurfaceLoad, SurfaceTraction, Term, Trial, VirtualPressure};
 use mpm::time_value::TimeValue;
@@ -74,7 +74,7 @@ fn a_followed_disk_has_its_length_and_its_normals() {
         let count = (TAU * RADIUS / (2.0 / n as f64) * 6.0) as u32;
         let at = |k: u32| TAU * f64::from(k) / f64::from(count);
         let position = (0..count).map(|k| [1.0 + RADIUS * at(k).cos(), 1.0 + RADIUS * at(k).sin()]).collect();
-        let front = Front { position, first: vec![0, count] };
+        let front = MarkerFront { position, first: vec![0, count] };
         let cell: Vec<u32> = (0..mesh.cells.len() as u32)
             .filter(|&c| mesh.cells.nodes(c as usize).iter().any(|&n| disk(&mesh.nodes[n as usize])))
             .collect();
@@ -135,10 +135,10 @@ fn reconstructed(mesh: Mesh<2>, places: &[([f64; 2], f64)]) -> (Mesh<2>, ActiveB
     let state = State::new(points, scene.mesh.nodes.len(), 1.0);
     let state = Simulation::<2, PlaneStrain>::new(&scene, state).unwrap().state;
     assert!(state.front.is_none());
-    assert_closed(&state.weighing.boundary, &scene.mesh);
-    let outside = &state.weighing.samples.as_ref().unwrap().outside;
+    assert_closed(&state.weights.boundary, &scene.mesh);
+    let outside = &state.weights.samples.as_ref().unwrap().outside;
     let held = (0..places.len()).filter(|&p| !outside.contains(&state.points.cell[p])).map(|p| places[p].1).sum();
-    (scene.mesh, state.weighing.boundary, held)
+    (scene.mesh, state.weights.boundary, held)
 }
 
 /// What takes over where a disk cannot be followed is the smoothed contour of its points.
@@ -388,13 +388,13 @@ fn over_loops<K: Kinematics<2>>(
 ) -> Vec<([f64; 3], f64)> {
     let grid = Grid::new::<K>(scene, state).unwrap();
     let mut alone = state.clone();
-    let boundary = &state.weighing.boundary;
+    let boundary = &state.weights.boundary;
     let mut sums = Vec::new();
     for l in 0..boundary.loops() {
         let pieces: Vec<_> =
             boundary.pieces(l).iter().map(|piece| Piece { wall: false, region: 0, ..*piece }).collect();
         let first = vec![0, pieces.len() as u32];
-        alone.weighing.boundary = ActiveBoundary { pieces, first };
+        alone.weights.boundary = ActiveBoundary { pieces, first };
         let frame = grid.frame(&scene.mesh, &alone);
         let sum = |load: SurfaceLoad| {
             let mut force = vec![0.0; frame.pattern.len()];
@@ -445,7 +445,7 @@ fn collapse(resampled: bool, beside: bool) {
     let still = vec![[0.0; 2]; scene.mesh.nodes.len()];
     let (mut force, mut moment, mut off, mut fewest) = (0f64, 0f64, 0f64, usize::MAX);
     let state = run::<PlaneStrain>(&scene, points, |state, _| {
-        let boundary = &state.weighing.boundary;
+        let boundary = &state.weights.boundary;
         assert_closed(boundary, &scene.mesh);
         let lines = polylines(boundary, &scene.mesh);
         let held: f64 = (0..state.points.len()).map(|p| state.points.volume(p)).sum();

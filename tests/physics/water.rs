@@ -175,10 +175,10 @@ fn archimedes(inside: fn(&[f64; 2]) -> bool, levels: [f64; 2], cells: usize) -> 
         let first = State::new(points, scene.mesh.nodes.len(), 1.0);
         let state = Simulation::<2, PlaneStrain>::new(&scene, first).unwrap().state;
         let grid = Grid::new::<PlaneStrain>(&scene, &state).unwrap();
-        let boundary = &state.weighing.boundary;
+        let boundary = &state.weights.boundary;
         let lines: Vec<Vec<_>> =
             (0..boundary.loops()).map(|l| boundary.corners(&scene.mesh, &scene.mesh.nodes, l).collect()).collect();
-        let cells_outside = &state.weighing.samples.as_ref().unwrap().outside;
+        let cells_outside = &state.weights.samples.as_ref().unwrap().outside;
         let outside: Vec<usize> =
             (0..state.points.len()).filter(|&p| cells_outside.contains(&state.points.cell[p])).collect();
         let buoyancy = |level: f64| {

@@ -238,7 +238,7 @@ fn filled<K: Kinematics<2>>(kind: CellKind, make: Make, inside: fn(&[f64; 2]) ->
     }
     let term = make(&mesh);
     let mut stand = Stand::new(mesh, points, term, true, true);
-    stand.state.weighing.level_set = stand.scene.mesh.nodes.iter().map(inside).collect();
+    stand.state.weights.level_set = stand.scene.mesh.nodes.iter().map(inside).collect();
     stand
 }
 
@@ -262,7 +262,7 @@ fn in_layers<K: Kinematics<2>>() {
                     assert!(asymmetry < 1e-11, "{kind:?}: {asymmetry:.1e}");
                 }
                 let by_places = stand.evaluate(&trial, &converged, 0, false).0;
-                stand.state.weighing.level_set.clear();
+                stand.state.weights.level_set.clear();
                 let by_points = stand.evaluate(&trial, &converged, 0, false).0;
                 let difference = by_places.iter().zip(&by_points).map(|(a, b)| [a[0] - b[0], a[1] - b[1]]);
                 let difference = size(&difference.collect::<Vec<_>>()) / size(&by_points);
@@ -356,7 +356,7 @@ fn on_pieces<K: Kinematics<2>>() {
                     let borne = if cell == 0 { [[1.1, -0.2], [0.4, 0.9]] } else { [[0.2, 0.1], [0.3, 0.6]] };
                     Piece { cell, ends: [[0.2, 0.1], [0.3, 0.6]], wall: false, region: 0, bearer: cell, borne }
                 };
-                stand.state.weighing.boundary =
+                stand.state.weights.boundary =
                     ActiveBoundary { pieces: (0..cells).map(piece).collect(), first: vec![0, cells] };
                 let (trial, converged) = anywhere(&stand);
                 let error = stand.tangent_error(&trial, &converged);

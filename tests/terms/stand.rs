@@ -244,7 +244,7 @@ impl<K: Kinematics<2>> Stand<K> {
     }
 
     pub fn partly_filled_cells(&self) -> usize {
-        self.state.weighing.partly_filled.len()
+        self.state.weights.partly_filled.len()
     }
 
     /// A field given by the place of a node, with noise of the size `noise` (m).

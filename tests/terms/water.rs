@@ -141,7 +141,7 @@ fn a_surface_drains<K: Kinematics<2>>() {
                 borne,
             }
         };
-        stand.state.weighing.boundary =
+        stand.state.weights.boundary =
             ActiveBoundary { pieces: (0..cells).map(piece).collect(), first: vec![0, cells] };
         let mut random = Random(9);
         for pressure in &mut stand.pressure {
@@ -159,7 +159,7 @@ fn a_surface_drains<K: Kinematics<2>>() {
         let (lost, out) = (-force.iter().sum::<f64>() / UNIT, stand.outflow(&trial, &converged));
         let nothing = |stand: &Stand<K>| stand.term().idle(&stand.frame(), &converged, 0);
         assert_eq!(nothing(&stand), None);
-        stand.state.weighing.boundary.pieces.retain(|piece| piece.wall || piece.region != 3);
+        stand.state.weights.boundary.pieces.retain(|piece| piece.wall || piece.region != 3);
         assert!(stand.outflow(&trial, &converged) == 0.0 && nothing(&stand).is_some(), "{kind:?}");
         assert!(out.abs() > 1e-3 && (lost / out - 1.0).abs() < 1e-12, "{kind:?}: {lost} {out}");
     }

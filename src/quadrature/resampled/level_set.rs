@@ -6,7 +6,7 @@ use crate::kinematics::Kinematics;
 use crate::mesh::Bodies;
 use crate::mesh::shape::MAX_NODES;
 use crate::points::Points;
-use crate::surface::{Contour, Distance, Front, Geometry, HIGHEST};
+use crate::surface::{Contour, Distance, Geometry, HIGHEST, MarkerFront};
 use crate::tensor::IDENTITY;
 use rayon::prelude::*;
 
@@ -30,13 +30,13 @@ pub struct Surface {
 
 impl Surface {
     /// The surface of the material: one that is followed, else the smoothed contour of the points, or that contour.
-    pub fn of<K: Kinematics<2>>(geometry: &Geometry, grid: &Restored<2>, front: &mut Option<Front>) -> Self {
+    pub fn of<K: Kinematics<2>>(geometry: &Geometry, grid: &Restored<2>, front: &mut Option<MarkerFront>) -> Self {
         let Restored { mesh, locator, points, parametric, active, .. } = *grid;
         let lost = follow::<K>(geometry, grid, front).err().map(|lost| {
             *front = None;
             lost.to_string()
         });
-        let to = |front: &Front, cells: &[u32]| {
+        let to = |front: &MarkerFront, cells: &[u32]| {
             let mut distance = Distance::default();
             distance.update(mesh, geometry, locator, front, cells, active);
             distance.level_set
@@ -58,7 +58,7 @@ impl Surface {
             outside.iter_mut().zip(&apart).for_each(|(outside, apart)| *outside |= apart);
             outside
         };
-        let at = |front: &Front, level_set: Vec<f64>, within: &[u32]| {
+        let at = |front: &MarkerFront, level_set: Vec<f64>, within: &[u32]| {
             let outside = outside(&level_set, within);
             let most = largest_offset::<K>(front, geometry, grid);
             let level_set = keep_volume::<K>(geometry, grid, [-most, most], &outside, level_set);

@@ -22,13 +22,13 @@ mod population;
 mod samples;
 
 use super::surface::boundary;
-use super::{Quadrature, Restored, Tally, Weighing};
+use super::{Quadrature, Restored, Tally, Weights};
 use crate::kinematics::Kinematics;
 use crate::mesh::Mesh;
 use crate::mesh::shape::MAX_NODES;
 use crate::points::Points;
 use crate::stencil::PartlyFilled;
-use crate::surface::{Front, Geometry};
+use crate::surface::{Geometry, MarkerFront};
 use crate::tensor::{Symmetric, Tensor};
 use fields::{
     BOUNDED, DENSITY, FIELDS, FLOW, Fields, MEMORY, Materials, Models, ORIGIN, PLASTIC, PRESSURE, VOLUME, WATER,
@@ -175,7 +175,7 @@ impl<K: Kinematics<2>> Resampled<K> {
         Sampled { outside: (!samples.is_empty()).then_some(cell), samples, ..Sampled::default() }
     }
 
-    fn weigh_on(&self, geometry: &Geometry, grid: &Restored<2>, front: &mut Option<Front>) -> Weighing<2> {
+    fn weigh_on(&self, geometry: &Geometry, grid: &Restored<2>, front: &mut Option<MarkerFront>) -> Weights<2> {
         let Restored { mesh, points, active, .. } = *grid;
         let Surface { level_set, outside, lost: lost_front } = Surface::of::<K>(geometry, grid, front);
         let values = |c: usize| -> Vec<f64> { mesh.cells.nodes(c).iter().map(|&n| level_set[n as usize]).collect() };
@@ -217,21 +217,21 @@ impl<K: Kinematics<2>> Resampled<K> {
             let ground = Ground { geometry, around, grid, level_set, outside, parts: &parts, seeded, held: &held };
             (renewed, tally.population) = renew(&ground, &self.materials);
         }
-        let mut weighing =
-            Weighing { weight, partly_filled, ill_conditioned, tally, lost_front, renewed, ..Weighing::default() };
+        let mut weights =
+            Weights { weight, partly_filled, ill_conditioned, tally, lost_front, renewed, ..Weights::default() };
         if self.bounded {
             let cells = &samples.points.cell;
             let of_cell = |c: u32| cells.partition_point(|&d| d < c)..cells.partition_point(|&d| d <= c);
-            weighing.boundary = boundary(geometry, grid, &level_set, &samples.points, of_cell);
-            weighing.level_set = level_set;
+            weights.boundary = boundary(geometry, grid, &level_set, &samples.points, of_cell);
+            weights.level_set = level_set;
         }
-        weighing.samples = Some(samples);
-        weighing
+        weights.samples = Some(samples);
+        weights
     }
 }
 
 impl<K: Kinematics<2>> Quadrature<2> for Resampled<K> {
-    fn weigh(&self, grid: &Restored<2>, front: &mut Option<Front>) -> Weighing<2> {
+    fn weigh(&self, grid: &Restored<2>, front: &mut Option<MarkerFront>) -> Weights<2> {
         let relaxed = grid.relaxed.then(|| Geometry::new::<K>(grid.mesh));
         self.weigh_on(relaxed.as_ref().unwrap_or(&self.geometry), grid, front)
     }

@@ -6,9 +6,9 @@ use crate::contact::{Interface, Multipliers};
 use crate::error::{Error, Result};
 use crate::mesh::Mesh;
 use crate::points::Points;
-use crate::quadrature::{Samples, Weighing};
+use crate::quadrature::{Samples, Weights};
 use crate::step::{Controller, Limits, Scene, Span, State, has_room_for_penalties};
-use crate::surface::{ActiveBoundary, Front, NO_REGION, Voids};
+use crate::surface::{ActiveBoundary, MarkerFront, NO_REGION, Voids};
 use std::collections::HashSet;
 
 /// What rounding leaves of times that are sums over steps, and of parametric coordinates (-).
@@ -111,7 +111,7 @@ fn check_cells<const D: usize>(scene: &Scene<D>, state: &State<D>) -> Result<()>
 
 fn check_points<const D: usize>(scene: &Scene<D>, first: &State<D>, state: &State<D>) -> Result<()> {
     check_family(scene, state, &scene.mesh, &first.points, &state.points)?;
-    if state.weighing.samples.is_some() {
+    if state.weights.samples.is_some() {
         check_sums(scene, state, &first.points, &state.points)?;
     } else {
         check_kept(scene, state, &first.points, &state.points)?;
@@ -204,7 +204,7 @@ fn is_inside<const D: usize>(mesh: &Mesh<D>, cell: u32, xi: &[f64; 3]) -> bool {
 
 /// The integration points of the cells.
 fn check_samples<const D: usize>(scene: &Scene<D>, state: &State<D>) -> Result<()> {
-    let Some(Samples { points, parametric, outside }) = &state.weighing.samples else { return Ok(()) };
+    let Some(Samples { points, parametric, outside }) = &state.weights.samples else { return Ok(()) };
     points
         .check(scene.mesh.regions.len(), scene.mesh.cells.len())
         .map_err(|problem| Error::input("checkpoint", problem, "start the analysis afresh, without --resume"))?;
@@ -237,7 +237,7 @@ fn check_samples<const D: usize>(scene: &Scene<D>, state: &State<D>) -> Result<(
 
 /// The weights of the points and what is known of the cells.
 fn check_weighing<const D: usize>(scene: &Scene<D>, state: &State<D>) -> Result<()> {
-    let Weighing { weight, partly_filled, ill_conditioned, boundary, level_set, .. } = &state.weighing;
+    let Weights { weight, partly_filled, ill_conditioned, boundary, level_set, .. } = &state.weights;
     let nodes = scene.mesh.nodes.len();
     ensure(weight.len() == state.integration().len() && weight.iter().all(|w| *w > 0.0), "the weight of a point")?;
     let takes_part = |c: u32| state.active.get(c as usize) == Some(&true);
@@ -275,7 +275,7 @@ fn bounds_of_loops(first: &[u32], entries: usize, least: u32) -> bool {
     }
 }
 
-fn check_front(front: &Front) -> Result<()> {
+fn check_front(front: &MarkerFront) -> Result<()> {
     let loops = !front.first.is_empty() && bounds_of_loops(&front.first, front.position.len(), 3);
     ensure(loops, "its surface")
 }

@@ -7,7 +7,7 @@ use std::f64::consts::PI;
 
 struct Scene {
     mesh: Mesh<2>,
-    front: Front,
+    front: MarkerFront,
     distance: Distance,
     /// What of each cell is within the front (m³).
     volume: Vec<f64>,
@@ -23,7 +23,7 @@ fn scene(
 ) -> Scene {
     let (geometry, locator) = (Geometry::new::<PlaneStrain>(&mesh), Locator::new(&mesh));
     let filled: Vec<bool> = geometry.frame.iter().map(|f| inside(&f.centre)).collect();
-    let mut front = Front::around(&mesh, &geometry.faces, &filled);
+    let mut front = MarkerFront::around(&mesh, &geometry.faces, &filled);
     let u: Vec<_> = mesh.nodes.iter().map(&step).collect();
     for _ in 0..steps {
         front.advance((&mesh, &locator), (&mesh, &locator), &geometry, &u).unwrap();
@@ -49,7 +49,7 @@ fn a_front_that_has_not_moved_cuts_nothing() {
         let cell: Vec<u32> =
             (0..mesh.cells.len()).filter(|&c| inside(&geometry.frame[c].centre)).map(|c| c as u32).collect();
         let filled: Vec<bool> = (0..mesh.cells.len()).map(|c| cell.contains(&(c as u32))).collect();
-        let front = Front::around(&mesh, &geometry.faces, &filled);
+        let front = MarkerFront::around(&mesh, &geometry.faces, &filled);
         let mut distance = Distance::default();
         let all = vec![true; mesh.cells.len()];
         distance.update(&mesh, &geometry, &Locator::new(&mesh), &front, &cell, &all);
@@ -150,7 +150,7 @@ fn the_underside_of_a_toe_says_nothing_of_its_outside() {
     };
     let mesh = rectangle(CellKind::T6, 3.0, 1.0, 24, 8, 0.0, 0);
     let (geometry, locator) = (Geometry::new::<PlaneStrain>(&mesh), Locator::new(&mesh));
-    let front = Front { position: body.to_vec(), first: vec![0, body.len() as u32] };
+    let front = MarkerFront { position: body.to_vec(), first: vec![0, body.len() as u32] };
     let holds = |c: &u32| within(&geometry.frame[*c as usize].centre);
     let cell: Vec<u32> = (0..mesh.cells.len() as u32).filter(holds).collect();
     let mut distance = Distance::default();

@@ -1,6 +1,6 @@
 //! Loops that cross, or come near each other across a gap, are joined anew: soil closes over a body and on itself, heaps, and comes apart.
 
-use super::{Front, Lost, PER_LENGTH, distance, nearest};
+use super::{Lost, MarkerFront, PER_LENGTH, distance, nearest};
 use crate::mesh::Mesh;
 use crate::mesh::locate::Locator;
 use crate::surface::bins::Bins;
@@ -20,7 +20,7 @@ struct Chain {
 
 impl Chain {
     /// The markers of a front, each followed by the next of its loop.
-    fn of(front: &Front) -> Self {
+    fn of(front: &MarkerFront) -> Self {
         let mut next = Vec::with_capacity(front.position.len());
         for l in 0..front.loops() {
             let (first, count) = (front.first[l] as usize, front.markers(l).len());
@@ -30,8 +30,8 @@ impl Chain {
     }
 
     /// The loops that the markers make now: those that are `kept`, given the number of their first marker, and their markers.
-    fn front(&self, kept: impl Fn(usize, &[[f64; 2]]) -> bool) -> Front {
-        let mut front = Front { position: Vec::with_capacity(self.position.len()), first: vec![0] };
+    fn front(&self, kept: impl Fn(usize, &[[f64; 2]]) -> bool) -> MarkerFront {
+        let mut front = MarkerFront { position: Vec::with_capacity(self.position.len()), first: vec![0] };
         let mut taken = vec![false; self.next.len()];
         for start in 0..self.next.len() {
             let (from, mut i) = (front.position.len(), start);
@@ -50,7 +50,7 @@ impl Chain {
     }
 }
 
-impl Front {
+impl MarkerFront {
     /// Joins the loops anew where they cross and where gaps have closed, but across structures, which `outlines` bound. What is thinner than the
     /// spacing of the markers goes: crumbs, and the voids that are left of gaps.
     ///

@@ -1,6 +1,6 @@
 //! Markers come and go as the free surface stretches and shrinks.
 
-use super::{Front, Lost, PER_LENGTH, distance};
+use super::{Lost, MarkerFront, PER_LENGTH, distance};
 use crate::mesh::Mesh;
 use crate::mesh::locate::Locator;
 use crate::surface::geometry::Geometry;
@@ -13,7 +13,7 @@ const CORNER: f64 = 0.8;
 /// The least markers of a loop.
 const LEAST: usize = 8;
 
-impl Front {
+impl MarkerFront {
     /// Evens out the spacing of the markers on free segments; `wall` says of each segment whether it is none.
     pub(super) fn resample(
         &mut self,

@@ -1,6 +1,6 @@
 //! The front of cells that are filled with points.
 
-use super::{Front, PER_LENGTH};
+use super::{MarkerFront, PER_LENGTH};
 use crate::mesh::Mesh;
 use crate::mesh::faces::{BOUNDARY, Faces};
 use crate::mesh::shape::CellKind;
@@ -13,7 +13,7 @@ struct Side {
     middle: Option<u32>,
 }
 
-impl Front {
+impl MarkerFront {
     /// The boundary of the union of the cells that are `filled`.
     pub fn around(mesh: &Mesh<2>, faces: &Faces, filled: &[bool]) -> Self {
         let sides = sides(mesh, faces, filled);

@@ -4,7 +4,7 @@
 //! the flow `ẋ = −∂⁴x/∂s⁴`, which keeps the area that it encloses and, unlike that of second order, takes little of
 //! what is longer than two cells; what area is lost all the same comes back by an even offset of the loop.
 
-use super::{Front, PER_LENGTH, distance};
+use super::{MarkerFront, PER_LENGTH, distance};
 use crate::kinematics::Kinematics;
 use crate::mesh::Mesh;
 use crate::surface::boundary::ActiveBoundary;
@@ -21,7 +21,7 @@ const SHRINKS: f64 = 0.1;
 /// and a thrown block of less than two cells would drift from its parabola by half as much again.
 const LEAST: usize = 8 * PER_LENGTH;
 
-impl Front {
+impl MarkerFront {
     /// The front along `boundary`, smoothed; `weight` is what the points within weigh together (m³, as when seeded). `None`
     /// where a body is too small for markers. Holes as small are left out.
     pub fn along<K: Kinematics<2>>(mesh: &Mesh<2>, geometry: &Geometry, boundary: &ActiveBoundary) -> Option<Self> {

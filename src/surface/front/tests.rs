@@ -16,12 +16,12 @@ fn grid(mesh: Mesh<2>) -> Grid {
 
 impl Grid {
     /// The front of the cells whose centres satisfy `inside`.
-    fn front(&self, inside: impl Fn(&[f64; 2]) -> bool) -> Front {
+    fn front(&self, inside: impl Fn(&[f64; 2]) -> bool) -> MarkerFront {
         let filled: Vec<bool> = self.geometry.frame.iter().map(|f| inside(&f.centre)).collect();
-        Front::around(&self.mesh, &self.geometry.faces, &filled)
+        MarkerFront::around(&self.mesh, &self.geometry.faces, &filled)
     }
 
-    fn advance(&self, front: &mut Front, displacement: impl Fn(&[f64; 2]) -> [f64; 2]) -> Result<(), Lost> {
+    fn advance(&self, front: &mut MarkerFront, displacement: impl Fn(&[f64; 2]) -> [f64; 2]) -> Result<(), Lost> {
         let u: Vec<_> = self.mesh.nodes.iter().map(displacement).collect();
         {
             let grid = (&self.mesh, &self.locator);
@@ -29,7 +29,7 @@ impl Grid {
         }
     }
 
-    fn join(&self, front: &mut Front) {
+    fn join(&self, front: &mut MarkerFront) {
         front.join(&self.mesh, &self.geometry, &self.locator, &[]).unwrap();
     }
 }
@@ -82,7 +82,7 @@ fn a_front_follows_curved_cells_and_parts_bodies_that_touch_in_a_node() {
     let grid = grid(rectangle(CellKind::Q4, 2.0, 2.0, 2, 2, 0.0, 0));
     let front = grid.front(|x| (x[0] < 1.0) == (x[1] < 1.0));
     assert_eq!((front.loops(), front.volume::<PlaneStrain>()), (2, 2.0));
-    assert_eq!(Front::default().volume::<PlaneStrain>(), 0.0);
+    assert_eq!(MarkerFront::default().volume::<PlaneStrain>(), 0.0);
 }
 
 #[test]
@@ -187,7 +187,7 @@ fn a_vortex_and_back_returns_the_front() {
 fn bodies_that_meet_are_joined() {
     let grid = grid(rectangle(CellKind::T6, 2.0, 1.0, 16, 8, 0.0, 0));
     let mut front = grid.front(|x| x[1] < 0.5 && (x[0] - 1.0).abs() > 0.25);
-    let gap = |front: &Front| {
+    let gap = |front: &MarkerFront| {
         let side = |left: bool| front.position.iter().filter(move |x| x[1] < 0.45 && (x[0] < 1.0) == left);
         let left = side(true).map(|x| x[0]).fold(0.0, f64::max);
         side(false).map(|x| x[0]).fold(2.0, f64::min) - left
@@ -221,7 +221,7 @@ fn loops_that_cross_bound_what_lies_on_their_left() {
     let front = |loops: &[Vec<[f64; 2]>]| {
         let mut first = vec![0];
         loops.iter().for_each(|x| first.push(first[first.len() - 1] + x.len() as u32));
-        Front { position: loops.concat(), first }
+        MarkerFront { position: loops.concat(), first }
     };
     let mut two = front(&[square([0.3, 0.2], [1.0, 0.7]), square([0.81, 0.33], [1.52, 0.84])]);
     grid.join(&mut two);
@@ -246,13 +246,13 @@ fn loops_that_cross_bound_what_lies_on_their_left() {
     assert!(holed.loops() == 1 && (holed.volume::<PlaneStrain>() - 0.35).abs() < 1e-12, "{}", holed.loops());
 
     // A body that is thinner than the spacing of the markers is none, and that nothing is left is said.
-    let join = |front: &mut Front| front.join(&grid.mesh, &grid.geometry, &grid.locator, &[]);
+    let join = |front: &mut MarkerFront| front.join(&grid.mesh, &grid.geometry, &grid.locator, &[]);
     let crumb = square([0.6, 0.4], [0.61, 0.42]);
     let mut crumbs = front(&[square([0.8, 0.2], [1.4, 0.7]), crumb.clone()]);
     grid.join(&mut crumbs);
     assert_eq!(crumbs.loops(), 1);
     assert_eq!(join(&mut front(&[crumb])), Err(Lost::Vanished));
-    assert_eq!(join(&mut Front::default()), Ok(()));
+    assert_eq!(join(&mut MarkerFront::default()), Ok(()));
 }
 
 #[test]
@@ -293,7 +293,7 @@ fn smoothing_takes_what_is_rough_and_keeps_the_volume() {
         if turned {
             x.reverse();
         }
-        let mut front = Front { first: vec![0, 48], position: x };
+        let mut front = MarkerFront { first: vec![0, 48], position: x };
         let volume = front.volume::<PlaneStrain>();
         let free = front.smoothen(&[false; 48], |_| 0.75).unwrap();
         assert!(free.iter().all(|&free| free) && front.position.len() == free.len());
@@ -308,7 +308,7 @@ fn smoothing_takes_what_is_rough_and_keeps_the_volume() {
         assert!(jump < 4e-3, "{jump}");
     }
     // Too small for the cells that it lies in.
-    let mut front = Front { first: vec![0, 48], position: rough_circle() };
+    let mut front = MarkerFront { first: vec![0, 48], position: rough_circle() };
     assert!(front.smoothen(&[false; 48], |_| 0.85).is_none());
 }
 
@@ -317,7 +317,7 @@ fn a_straight_stretch_between_walls_stays() {
     // A rectangle on a floor, whose sides are walls, too.
     let corners = vec![[0.0, 0.0], [4.0, 0.0], [4.0, 1.0], [2.3, 1.0], [0.0, 1.0]];
     let wall = [true, true, false, false, true];
-    let mut front = Front { first: vec![0, 5], position: corners.clone() };
+    let mut front = MarkerFront { first: vec![0, 5], position: corners.clone() };
     let free = front.smoothen(&wall, |_| 0.5).unwrap();
     front.offset::<PlaneStrain>(&free, 4.0);
     assert!((front.volume::<PlaneStrain>() - 4.0).abs() < 1e-13);

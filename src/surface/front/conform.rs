@@ -2,7 +2,7 @@
 //!
 //! The structure slides along the material, and markers that went with the material would crowd and fold at its edges.
 
-use super::{Front, Lost, PER_LENGTH, distance, nearest};
+use super::{Lost, MarkerFront, PER_LENGTH, distance, nearest};
 use crate::mesh::Mesh;
 use crate::mesh::locate::Locator;
 use crate::surface::bins::Bins;
@@ -65,12 +65,12 @@ impl<'a> Outline<'a> {
     }
 }
 
-impl Front {
+impl MarkerFront {
     /// Takes the markers that lie against `outlines` anew from these.
     ///
     /// # Errors
     /// When a marker was outside the mesh, or gets far outside it.
-    pub fn lean(
+    pub fn conform(
         &mut self,
         mesh: &Mesh<2>,
         geometry: &Geometry,
@@ -96,7 +96,7 @@ impl Front {
             next.first.push(next.position.len() as u32);
         }
         *self = next;
-        self.put_back((mesh, locator), geometry)
+        self.project_onto_mesh((mesh, locator), geometry)
     }
 }
 
