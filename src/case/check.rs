@@ -19,8 +19,9 @@ pub(super) fn check(file: &raw::CaseFile, folder: &FilePath) -> (Case, Vec<Issue
 }
 
 /// How many times an edge may become as long or short until the grid is restored, if the case does not say. A body
-/// far compressed wants fresh cells early, one that bends or slumps late; contact, whose contact nodes meet other cells after each restoration, later still.
+/// far compressed wants fresh cells early, one that bends or slumps late.
 const STRETCH: f64 = 1.3;
+/// The same where there is contact: its nodes meet other cells after each restoration, and their forces jump a little.
 const STRETCH_WITH_CONTACTS: f64 = 1.5;
 
 /// Frames are numbered by six digits.

@@ -20,8 +20,9 @@ use std::marker::PhantomData;
 use std::ops::Range;
 use std::sync::Arc;
 
-/// ε_n and ε_t (-), in Young's modulus over the spacing of the contact nodes.
+/// Normal penalty ε_n (-), in Young's modulus over the spacing of the contact nodes.
 pub(super) const NORMAL: f64 = 50.0;
+/// Tangential penalty ε_t (-), in the same.
 pub(super) const TANGENTIAL: f64 = 5.0;
 /// Share of them over soil that may yield, and then gives way however little presses on it.
 const YIELDING: f64 = 0.1;

@@ -6,8 +6,9 @@ use crate::stencil::{Patch, partly_filled_cells};
 use crate::surface::MarkerFront;
 use std::marker::PhantomData;
 
-/// Fewer points than this, or more emptiness (-), do not hold a cell's nodes by themselves.
+/// Fewer points than this do not hold a cell's nodes by themselves.
 const FEW: u32 = 4;
+/// Nor do points in a cell that is emptier (-) than this.
 const ILL_CONDITIONED: f64 = 0.5;
 
 /// Points weigh what their volume is. Cells are as full as the volumes of their points say.

@@ -5,6 +5,7 @@ use crate::error::{Error, Result};
 
 /// Iterations up to which the next step grows.
 const EASY: usize = 6;
+/// By how much (-): a step of usual length is reached within six after the first of a tenth of it.
 const GROWTH: f64 = 1.5;
 
 /// Bounds of the step size (s) in a phase.

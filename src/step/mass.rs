@@ -26,8 +26,9 @@ use crate::system::{Method, scatter};
 use crate::term::MASS_PENALTY;
 use rayon::prelude::*;
 
-/// `ε₁` and `ε₂` (-).
+/// `ε₁` (-).
 const GRADIENT: f64 = 1e-10;
+/// `ε₂` (-).
 const CURVATURE: f64 = 1e-5;
 
 /// Whose mass it is.

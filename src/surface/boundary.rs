@@ -201,8 +201,9 @@ fn continued(mesh: &Mesh<2>, c: usize, x: &[f64; 2]) -> Option<[f64; 2]> {
     None
 }
 
-/// Newton steps to find parametric coordinates, and how large these may be: a neighbour is not farther away.
+/// Newton steps to find parametric coordinates.
 const INVERSIONS: usize = 20;
+/// How large these may be: a neighbour is not farther away.
 const FARTHEST: f64 = 10.0;
 
 /// Whether a cell lies within the material: what is zero in it counts as inside, for a surface through its nodes cuts

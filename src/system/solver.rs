@@ -12,11 +12,13 @@ use super::{Matrix, Pattern};
 use crate::error::{Error, Result};
 use crate::profile::{Activity, timed};
 
-/// Relative residuals that refinement and iteration aim at.
+/// Relative residual that iterative refinement aims at.
 const AIM: f64 = 1e-12;
+/// Relative residual that BiCGSTAB aims at.
 const ITERATION_AIM: f64 = 1e-9;
-/// Iterations of BiCGSTAB before LU is taken, and with the factor of another matrix before a new one is made.
+/// Iterations of BiCGSTAB before LU is taken.
 const ITERATIONS: usize = 40;
+/// Iterations with the factor of another matrix before a new one is made.
 const FEW_ITERATIONS: usize = 8;
 
 /// How a solution was found.

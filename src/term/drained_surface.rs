@@ -21,8 +21,9 @@ use crate::system::{Local, scatter};
 use std::collections::BTreeMap;
 use std::marker::PhantomData;
 
-/// γ (-): twice what is needed in triangles, more where gradients vary within a cell.
+/// γ (-) in triangles: twice what is needed.
 const GAMMA: f64 = 2.0;
+/// γ (-) in quadrangles, where gradients vary within a cell.
 const GAMMA_OF_QUADRANGLES: f64 = 4.0;
 
 /// Pressures of the corners of a cell.

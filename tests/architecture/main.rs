@@ -87,6 +87,52 @@ fn factors_alone_name_the_sparse_solver_and_one_file_calls_gmsh() {
     assert_eq!(holds("extern"), [""; 0]);
 }
 
+/// Words of the code that have a standard name, and that name.
+const REPLACED: [(&str, &str); 13] = [
+    ("guess", "predictor"),
+    ("set_out", "first_iterations"),
+    ("laid", "initially_closed"),
+    ("put_back", "project_onto_boundary"),
+    ("let_fall", "switch_to_dynamics"),
+    ("let_rest", "switch_to_quasi_static"),
+    ("poor", "ill_conditioned"),
+    ("SoftCell", "PartlyFilled"),
+    ("soft_cells", "partly_filled_cells"),
+    ("taking_part", "active"),
+    ("per_second", "inverse_dt"),
+    ("lean", "conform"),
+    ("weighing", "weights"),
+];
+
+#[test]
+fn what_has_a_standard_name_is_called_by_it() {
+    let mut wrong = Vec::new();
+    for (file, code) in sources() {
+        for (word, standard) in REPLACED {
+            if words(&code).any(|found| found == word) {
+                wrong.push(format!("{}: `{word}` is `{standard}`", file.display()));
+            }
+        }
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+#[test]
+fn every_number_that_was_chosen_says_what_it_is() {
+    let mut wrong = Vec::new();
+    for (file, _) in sources() {
+        let text = fs::read_to_string(&file).unwrap();
+        let lines: Vec<&str> = without_tests(&text).lines().map(str::trim).collect();
+        for (above, line) in lines.iter().zip(&lines[1.min(lines.len())..]) {
+            let line = line.trim_start_matches("pub").trim_start_matches("(super)").trim_start();
+            if line.starts_with("const ") && line.contains(": f64 = ") && !above.starts_with("///") {
+                wrong.push(format!("{}: {line}", file.display()));
+            }
+        }
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
 #[test]
 fn imports_are_found_wherever_they_stand() {
     let code = "use crate::{error::{self, Error}, tensor::Tensor};\nuse crate::io::{\n    frame,\n};\n\

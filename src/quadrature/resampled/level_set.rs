@@ -10,10 +10,11 @@ use crate::surface::{Contour, Distance, Geometry, HIGHEST, MarkerFront};
 use crate::tensor::IDENTITY;
 use rayon::prelude::*;
 
-/// Iterations, and the part (-) of the volume, to which the volume within the surface is that of the material points.
+/// Iterations of the offset at most.
 const OFFSETS: usize = 8;
 /// The first offset tried, as a share of the range.
 const FIRST_OFFSET: f64 = 1e-3;
+/// The part (-) of the volume to which the volume within the surface is that of the material points.
 const VOLUME_TOLERANCE: f64 = 1e-12;
 /// Strain (-) up to which is rounding.
 const STRAINED: f64 = 1e-9;

@@ -11,18 +11,21 @@ const ARMIJO: f64 = 1e-4;
 const BACKTRACKS: i32 = 6;
 /// Line searches that may end without a decrease before the step is given up.
 const STALLED: usize = 4;
-/// Shares by which the diagonal of the tangent is raised where its steps go astray (Levenberg 1944).
+/// Least share by which the diagonal of the tangent is raised where its steps go astray (Levenberg 1944).
 const LEAST_DAMPING: f64 = 1e-4;
+/// Largest such share. Without damping a disc that is laid on an incline finds no balance (`cases::rolling_disc`).
 const MOST_DAMPING: f64 = 0.2;
 /// Halvings of an accepted step length from which its tangent is not to be trusted so far.
 const ASTRAY: i32 = 3;
 /// Full steps that may raise the residual before the iteration returns to its best state.
 const WATCHDOG: usize = 3;
-/// Share of the residual from which on a full step may have gone too far, and of the work that it may leave.
+/// Share of the residual from which on a full step may have gone too far.
 const WORTH: f64 = 0.25;
+/// Share of the work along the direction that a step may leave (Matthies & Strang 1979).
 const ENERGY_LEFT: f64 = 0.5;
-/// States looked at for a length that leaves less work, and the least share of a bracket that the next goes into it.
+/// States looked at for a length that leaves less work.
 const ENERGY_TRIALS: usize = 5;
+/// Least share of a bracket that the next length goes into it.
 const LEAST_INWARDS: f64 = 0.1;
 
 impl<const D: usize> Newton<'_, D> {

@@ -9,8 +9,9 @@ use crate::surface::bins::Bins;
 use crate::surface::geometry::Geometry;
 use crate::surface::split::twice_area;
 
-/// Markers lie against a structure that are nearer to it than this share of a cell, or less than `DEEP` in it.
+/// Markers lie against a structure that are nearer to it than this share of a cell.
 const NEAR: f64 = 0.15;
+/// So do those within it, by less than this share of a cell.
 const DEEP: f64 = 1.0;
 
 /// A marker against an outline.

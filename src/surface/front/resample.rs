@@ -5,8 +5,9 @@ use crate::mesh::Mesh;
 use crate::mesh::locate::Locator;
 use crate::surface::geometry::Geometry;
 
-/// Segments longer or shorter than these multiples of the wanted spacing are split or joined.
+/// Segments longer than this multiple of the wanted spacing are split.
 const LONG: f64 = 1.8;
+/// Segments shorter than this are joined.
 const SHORT: f64 = 0.4;
 /// The cosine of the turn between segments from which on a marker is a corner: it stays, and nothing is rounded there.
 const CORNER: f64 = 0.8;
