@@ -6,8 +6,11 @@
 //! Straight cells (and parallelograms) have an affine map with a stored inverse; curved and bilinear cells
 //! are inverted by Newton's method.
 
+mod bins;
+
 use super::Mesh;
 use super::shape::{CellKind, MAX_NODES, invert};
+use bins::{Bins, Bounds, bounds, enclose};
 
 /// Marks a facet without a neighbour.
 pub const OUTSIDE: u32 = u32::MAX;
@@ -23,8 +26,6 @@ const TAKEN_IN: f64 = 1e-10;
 const DEEP: f64 = 0.05;
 /// Cells a walk visits before the bins take over.
 const WALK: usize = 24;
-/// Bins that a cell may touch in the mean.
-const MOST: usize = 64;
 /// Newton iterations of the inverse map.
 const ITERATIONS: usize = 30;
 
@@ -43,25 +44,11 @@ pub struct Locator<const D: usize> {
     reach: f64,
 }
 
-/// Lowest and highest corner.
-type Bounds<const D: usize> = ([f64; D], [f64; D]);
-
 /// `ξ = ξ_0 + A (x − x_0)` with node 0 of the cell.
 #[derive(Clone, Debug)]
 struct Affine<const D: usize> {
     origin: [f64; D],
     inverse: [[f64; D]; D],
-}
-
-/// Cells by the boxes of a uniform grid they touch; each bin's cells in ascending order.
-#[derive(Clone, Debug)]
-struct Bins<const D: usize> {
-    low: [f64; D],
-    /// Bins per metre.
-    scale: [f64; D],
-    count: [usize; D],
-    offset: Vec<u32>,
-    cells: Vec<u32>,
 }
 
 impl<const D: usize> Locator<D> {
@@ -218,91 +205,6 @@ impl<const D: usize> Affine<D> {
     }
 }
 
-impl<const D: usize> Bins<D> {
-    /// About one bin a cell, and fewer where boxes are so large that they would touch many each.
-    fn new(boxes: &[Bounds<D>]) -> Self {
-        let (low, high) = enclose(boxes);
-        let extent: [f64; D] = std::array::from_fn(|d| (high[d] - low[d]).max(f64::MIN_POSITIVE));
-        let side = (extent.iter().product::<f64>() / boxes.len().max(1) as f64).powf(1.0 / D as f64);
-        let mut count = extent.map(|e| ((e / side) as usize).clamp(1, 4096));
-        let mut bins = loop {
-            let scale = std::array::from_fn(|d| count[d] as f64 / extent[d]);
-            let bins = Self { low, scale, count, offset: Vec::new(), cells: Vec::new() };
-            let touched = |(low, high): &Bounds<D>| -> usize {
-                (0..D).map(|d| 1 + bins.index(d, high[d]) - bins.index(d, low[d])).product()
-            };
-            // Cells of like size touch about four.
-            if boxes.iter().map(touched).sum::<usize>() <= MOST * boxes.len() || count.iter().all(|&n| n == 1) {
-                break bins;
-            }
-            count = count.map(|n| n.div_ceil(2));
-        };
-        let total = count.iter().product::<usize>();
-        bins.offset = vec![0; total + 1];
-        // Count, then fill in the order of the cells.
-        for b in boxes {
-            bins.touched(b, |bins, bin| bins.offset[bin + 1] += 1);
-        }
-        for i in 0..total {
-            bins.offset[i + 1] += bins.offset[i];
-        }
-        bins.cells = vec![0; bins.offset[total] as usize];
-        let mut next = bins.offset.clone();
-        for (c, b) in boxes.iter().enumerate() {
-            bins.touched(b, |bins, bin| {
-                bins.cells[next[bin] as usize] = c as u32;
-                next[bin] += 1;
-            });
-        }
-        bins
-    }
-
-    /// Calls `action` for every bin that the box touches.
-    fn touched(&mut self, (low, high): &Bounds<D>, mut action: impl FnMut(&mut Self, usize)) {
-        let first: [usize; D] = std::array::from_fn(|d| self.index(d, low[d]));
-        let last: [usize; D] = std::array::from_fn(|d| self.index(d, high[d]));
-        let mut at = first;
-        loop {
-            let bin = self.flat(&at);
-            action(self, bin);
-            let mut d = 0;
-            loop {
-                if d == D {
-                    return;
-                }
-                if at[d] < last[d] {
-                    at[d] += 1;
-                    break;
-                }
-                at[d] = first[d];
-                d += 1;
-            }
-        }
-    }
-
-    /// The cells that may hold `x`; `None` outside the grid.
-    fn at(&self, x: &[f64; D]) -> Option<&[u32]> {
-        let inside = (0..D).all(|d| {
-            let t = (x[d] - self.low[d]) * self.scale[d];
-            t >= 0.0 && t <= self.count[d] as f64
-        });
-        if !inside {
-            return None;
-        }
-        let bin = self.flat(&std::array::from_fn(|d| self.index(d, x[d])));
-        Some(&self.cells[self.offset[bin] as usize..self.offset[bin + 1] as usize])
-    }
-
-    fn index(&self, d: usize, x: f64) -> usize {
-        // A negative or NaN value casts to zero.
-        (((x - self.low[d]) * self.scale[d]) as usize).min(self.count[d] - 1)
-    }
-
-    fn flat(&self, at: &[usize; D]) -> usize {
-        (0..D).rev().fold(0, |flat, d| flat * self.count[d] + at[d])
-    }
-}
-
 /// Newton's method for `x(ξ) = x` in cell `c`, damped by halving; `None` where it does not converge.
 fn newton<const D: usize>(mesh: &Mesh<D>, c: u32, x: &[f64; D], start: [f64; 3]) -> Option<[f64; 3]> {
     let mut xi = start;
@@ -384,57 +286,6 @@ fn clamp(kind: CellKind, xi: &[f64; 3]) -> [f64; 3] {
         xi = xi.map(|t| t / sum);
     }
     xi
-}
-
-/// A box that holds the whole cell, curved edges included: that of its Bézier points where the cell is
-/// quadratic. Replacing the middle value `m` of a quadratic between `a` and `b` by `2m − (a + b)/2` along
-/// every parametric direction gives the Bernstein coefficients, whose hull holds the graph.
-fn bounds<const D: usize>(kind: CellKind, x: &[[f64; D]]) -> Bounds<D> {
-    let mut low = [f64::INFINITY; D];
-    let mut high = [f64::NEG_INFINITY; D];
-    let mut take = |y: &[f64; D]| {
-        for d in 0..D {
-            low[d] = low[d].min(y[d]);
-            high[d] = high[d].max(y[d]);
-        }
-    };
-    x.iter().for_each(&mut take);
-    if kind.order() == 2 {
-        let control: Vec<[f64; D]> = kind
-            .facets()
-            .1
-            .iter()
-            .filter_map(|facet| match facet {
-                [a, b, m] => Some(std::array::from_fn(|d| 2.0 * x[*m][d] - 0.5 * (x[*a][d] + x[*b][d]))),
-                _ => None,
-            })
-            .collect();
-        control.iter().for_each(&mut take);
-        if !kind.is_simplex() && D == 2 {
-            // The centre of the box: the node of a Q9, the value of the functions of a Q8.
-            let mut n = [0.0; MAX_NODES];
-            kind.values(&kind.centre(), &mut n);
-            let corners = &x[..kind.corner_count()];
-            take(&std::array::from_fn(|d| {
-                let centre: f64 = x.iter().zip(&n).map(|(y, n)| n * y[d]).sum();
-                let corner: f64 = corners.iter().map(|y| y[d]).sum();
-                let edge: f64 = control.iter().map(|y| y[d]).sum();
-                4.0 * centre - 0.25 * corner - 0.5 * edge
-            }));
-        }
-    }
-    (low, high)
-}
-
-fn enclose<const D: usize>(boxes: &[Bounds<D>]) -> Bounds<D> {
-    let mut all = boxes.first().copied().unwrap_or(([0.0; D], [0.0; D]));
-    for (low, high) in boxes {
-        for d in 0..D {
-            all.0[d] = all.0[d].min(low[d]);
-            all.1[d] = all.1[d].max(high[d]);
-        }
-    }
-    all
 }
 
 /// For every facet the cell on its other side, as offsets and a flat list.

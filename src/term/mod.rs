@@ -6,6 +6,7 @@
 
 mod beyond;
 mod body_force;
+mod carried;
 mod contact;
 mod drained_surface;
 mod empty_cells;
@@ -27,10 +28,12 @@ mod surface_traction;
 mod traction;
 mod virtual_pressure;
 mod volume;
+mod volume_measure;
 mod water;
 mod water_bond;
 
 pub use body_force::BodyForce;
+pub use carried::{Carried, excess_pressure};
 pub use contact::{Contact, answer as contact_answer};
 pub use drained_surface::DrainedSurface;
 pub use empty_cells::EmptyCells;
@@ -41,7 +44,7 @@ pub use head::Head;
 pub use inertia::Inertia;
 pub use internal::Internal;
 pub use levels::Levels;
-pub use pressure::{Carried, PressureField, excess_pressure, hats as pressure_hats};
+pub use pressure::{PressureField, hats as pressure_hats};
 pub use rigid::{RigidInertia, RigidTraction, RigidWeight};
 pub use rigid_pressure::RigidPressure;
 pub use share::{Ratios, Share};

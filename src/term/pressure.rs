@@ -24,110 +24,27 @@
 //! with cell-wise volume balance; Boffi et al. 2012). Cells of first order have no room for the constant; there the
 //! projection `Σ w₀ (L − L̄)(π − π_n)/2G` of Bochev, Dohrmann & Gunzburger (2006) makes the hats stable.
 
+use super::carried::{Carried, volume_strain};
 use super::share::{Answer, Seen, Within};
+use super::volume_measure::{ITERATIONS, Measure};
 use super::{Frame, History, Ratios, Share, Trial};
 use crate::kinematics::{Gradient, Kinematics};
-use crate::material::cavitation::Volumetric;
 use crate::material::spatial::Spatial;
-use crate::material::{Model, Profile};
 use crate::mesh::shape::CellKind;
 use crate::points::Points;
 use crate::stencil::{Entries, Patch};
 use crate::system::Local;
 use crate::tensor::{IDENTITY, Symmetric, Tensor, full, mean};
-use std::fmt;
 use std::marker::PhantomData;
-use std::sync::Arc;
 
 /// Most unknowns of a cell.
 pub const MOST: usize = 5;
-
-/// Most iterations for the volume at a pressure; it takes two or three.
-const ITERATIONS: usize = 20;
 
 /// Largest error (-) of the volume strain that a model sees.
 const SMALLEST: f64 = 1e-12;
 
 /// Values of the functions of the field at a point: corners, then the constant.
 pub type Hats = [f64; MOST];
-
-/// What the field carries in a region.
-#[derive(Clone)]
-pub struct Carried {
-    /// The model of the points of the region.
-    pub model: Arc<dyn Model>,
-    /// `K_f / G` (-).
-    pub ratio: f64,
-    /// Share (-) of its increments that is pressure of the pore water and not stress of the points: 0 in total stress.
-    pub water: f64,
-    /// Where the model sees the volume strain of the field in place of its own: bulk modulus over the shear modulus (-) that binds the one to the
-    /// other in a step. `None` where the model answers for its own and the field carries the rest.
-    pub bound: Option<f64>,
-    /// Limit (kPa) of the field in tension, at which the volume of the soil grows.
-    pub limit: Option<Profile>,
-}
-
-impl fmt::Debug for Carried {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("Carried").field("ratio", &self.ratio).field("water", &self.water).finish_non_exhaustive()
-    }
-}
-
-impl Carried {
-    /// The law of the volume at a point seeded at height `y` (m): with `K_f`, and a limit where it has one.
-    fn law(&self, y: f64) -> Volumetric {
-        let shear = self.model.elasticity().at(y).shear;
-        let bulk = self.ratio * shear;
-        let limited = |limit: Profile| Volumetric::of(self.model.as_ref(), bulk, limit.at(y), y);
-        self.limit.map_or_else(|| Volumetric::unlimited(bulk), limited)
-    }
-
-    /// `1 / 2G` (1/kPa) at a point seeded at height `y` (m).
-    fn softness(&self, y: f64) -> f64 {
-        0.5 / self.model.elasticity().at(y).shear
-    }
-
-    /// What the stress of point `p` holds of the field (kPa, Kirchhoff).
-    pub fn held<const D: usize>(&self, points: &Points<D>, p: usize) -> f64 {
-        if self.water == 0.0 {
-            return points.pressure[p];
-        }
-        points.deformation[p].determinant() * mean(&points.stress[p]) - self.of_model(points, p)
-    }
-
-    /// What the model bears of the mean stress of point `p` beside the field (kPa, Kirchhoff).
-    fn of_model<const D: usize>(&self, points: &Points<D>, p: usize) -> f64 {
-        match self.bound {
-            Some(_) => 0.0,
-            None => self.model.mean_stress(points.origin[p][1], volume_strain(&points.elastic[p])),
-        }
-    }
-
-    /// Excess pressure of the pore water (kPa, Cauchy, compression positive) at point `p`.
-    pub fn pore_pressure<const D: usize>(&self, points: &Points<D>, p: usize) -> f64 {
-        (self.held(points, p) - points.pressure[p]) / points.deformation[p].determinant()
-    }
-
-    /// What the field begins with (kPa) at a point whose elastic tensor is that of `whole`, the model that answers for
-    /// the whole stress.
-    pub fn begin<const D: usize>(&self, whole: &dyn Model, points: &Points<D>, p: usize) -> f64 {
-        whole.mean_stress(points.origin[p][1], volume_strain(&points.elastic[p])) - self.of_model(points, p)
-    }
-}
-
-/// Excess pressure of the pore water (kPa, Cauchy, compression positive) at point `p` of soil of which a pressure field carries the share of
-/// the water, or that has a field for the water alone, or neither.
-pub fn excess_pressure<const D: usize>(carried: &[Option<Carried>], points: &Points<D>, p: usize) -> f64 {
-    match carried.get(points.model_of(p)).and_then(Option::as_ref) {
-        Some(share) if share.water > 0.0 && !points.pressure.is_empty() => share.pore_pressure(points, p),
-        _ => points.pore_pressure.get(p).copied().unwrap_or(0.0),
-    }
-}
-
-/// Elastic volume strain `½ ln det b` (-).
-fn volume_strain(elastic: &Symmetric) -> f64 {
-    0.5 * full(elastic).determinant().ln()
-}
 
 /// How many unknowns the field has in a cell: one a corner, and the constant in cells of second order.
 pub fn unknowns(kind: CellKind) -> usize {
@@ -161,88 +78,6 @@ pub fn gather(kind: CellKind, nodes: &[u32], constant: usize, pressure: &[f64]) 
         own[corners] = pressure[constant];
     }
     own
-}
-
-/// What the field is conjugate to at a point: `ln j`, or where the field is in tension as the step begins `½ j²`, and `j` where the tension has a
-/// limit. `j` is the volume over that when the grid was restored.
-#[derive(Clone, Copy)]
-enum Measure {
-    Logarithm,
-    Volume,
-    Square,
-}
-
-impl Measure {
-    fn of<const D: usize>(carried: &Carried, points: &Points<D>, p: usize) -> Self {
-        match points.pressure[p] > 0.0 {
-            false => Self::Logarithm,
-            true if carried.limit.is_some() => Self::Volume,
-            true => Self::Square,
-        }
-    }
-
-    /// The power `n` of the measure `jⁿ/n`; 0 of the logarithm.
-    fn power(self) -> i32 {
-        self as i32
-    }
-
-    /// The slope of the measure in `ln j`: the Kirchhoff stress of a unit of the field.
-    fn slope(self, ratio: f64) -> f64 {
-        ratio.powi(self.power())
-    }
-
-    /// What a step of the given ratios adds to the measure.
-    fn strain(self, ratios: Ratios) -> f64 {
-        let before = ratios.grid / ratios.step;
-        match self {
-            Self::Logarithm => ratios.step.ln(),
-            Self::Volume => ratios.grid - before,
-            Self::Square => 0.5 * (ratios.grid.powi(2) - before.powi(2)),
-        }
-    }
-
-    /// The volume strain of a law, by this measure, as the field goes from the Kirchhoff stress `before` to `pressure` (kPa), and its
-    /// slope (1/kPa). `slope` is that of the measure as the step begins. Not a number at a tension for which the law has no volume,
-    /// as at half the bulk modulus and above; such a trial state is refused.
-    fn elastic(self, law: &Volumetric, before: f64, pressure: f64, slope: f64) -> [f64; 2] {
-        let (then, compliance) = (law.strain(before)[0], 1.0 / law.bulk);
-        match self {
-            Self::Logarithm => {
-                let [strain, compliance] = law.strain(pressure);
-                [strain - then, compliance]
-            }
-            Self::Volume => {
-                // The Cauchy stress is linear in the volume beyond the limit. `first` is the volume, over that without stress, as the step begins.
-                let (first, (least, cauchy)) = (then.exp(), law.at_limit());
-                let more = pressure * slope / first - cauchy;
-                if more > 0.0 {
-                    let x = (least + more / law.rise) / first;
-                    return [slope * (x - 1.0), slope * slope / (first * first * law.rise)];
-                }
-                let now = compliance * pressure * slope;
-                let x = least_root(1, then, now, (-then).exp());
-                [slope * (x - 1.0), compliance * slope * slope * x / (1.0 / x - now)]
-            }
-            Self::Square => {
-                let now = compliance * pressure * slope;
-                let x = least_root(2, then, now, if then < 0.5 && now < 0.5 { 1.0 } else { f64::NAN });
-                [0.5 * slope * (x * x - 1.0), compliance * slope * slope * x.powi(3) / (1.0 / x - 2.0 * now * x)]
-            }
-        }
-    }
-}
-
-/// The least root of `then + ln x = now xⁿ` by Newton's method from `x`; not a number where it finds none. From the second iterate on it comes from below.
-fn least_root(n: i32, then: f64, now: f64, mut x: f64) -> f64 {
-    for _ in 0..ITERATIONS {
-        let change = (then + f64::ln(x) - now * x.powi(n)) / (1.0 / x - f64::from(n) * now * x.powi(n - 1));
-        x -= change;
-        // What is left is the square of the last change.
-        if change.abs() < 1e-9 * x {
-            return x;
-        }
-    }
-    f64::NAN
 }
 
 fn dot(a: &Hats, b: &Hats) -> f64 {

@@ -117,6 +117,16 @@ fn what_has_a_standard_name_is_called_by_it() {
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
 
+/// Lines of a file: what is longer is two things.
+const LONGEST: usize = 450;
+
+#[test]
+fn no_file_is_long() {
+    let lines = |(file, code): (PathBuf, String)| (file.display().to_string(), code.lines().count());
+    let long: Vec<_> = sources().into_iter().map(lines).filter(|(_, lines)| *lines > LONGEST).collect();
+    assert!(long.is_empty(), "{long:?}");
+}
+
 #[test]
 fn every_number_that_was_chosen_says_what_it_is() {
     let mut wrong = Vec::new();

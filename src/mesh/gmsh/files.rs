@@ -3,7 +3,7 @@
 use crate::error::{Error, Result};
 use std::fs;
 use std::io::{Read, Seek, SeekFrom};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 const AGAIN: &str = "make the file again with `mpm mesh`";
 
@@ -56,4 +56,9 @@ pub fn check_complete(path: &Path) -> Result<()> {
     } else {
         Err(Error::input(path.display(), "it is cut short or no MSH file", AGAIN))
     }
+}
+
+/// Gmsh gets absolute paths: it reads a leading dash and a relative include in its own way.
+pub fn absolute(path: &Path) -> PathBuf {
+    std::path::absolute(path).unwrap_or_else(|_| path.to_path_buf())
 }

@@ -1,11 +1,11 @@
 //! Gmsh itself: a session with its one global model, by its C interface. All foreign functions of the program are called here.
 
-use super::files::check_complete;
+use super::files::{absolute, check_complete};
 use crate::error::{Error, Result};
 use std::collections::HashMap;
 use std::ffi::{CStr, CString, c_char, c_int};
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::ptr::null_mut;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
@@ -393,11 +393,6 @@ fn c_string(text: &str) -> Result<CString> {
 
 fn c_path(path: &Path) -> Result<CString> {
     c_string(&absolute(path).to_string_lossy())
-}
-
-/// Gmsh gets absolute paths: it reads a leading dash and a relative include in its own way.
-fn absolute(path: &Path) -> PathBuf {
-    std::path::absolute(path).unwrap_or_else(|_| path.to_path_buf())
 }
 
 /// Copies an array that Gmsh hands out, and frees it.

@@ -186,7 +186,7 @@ fn cells_that_all_lie_on_one_another_take_no_more_bins_than_others() {
         mesh.cells.push(CellKind::T3, 0, &nodes);
     }
     let locator = Locator::new(&mesh);
-    assert!(locator.bins.cells.len() <= MOST * mesh.cells.len());
+    assert!(locator.bins.cells.len() <= bins::MOST * mesh.cells.len());
     assert_eq!(locator.holders(&mesh, &[2.0, 0.6]).count(), 5001);
     assert_eq!(locator.holders(&mesh, &[2.0, 0.1]).count(), 0);
 }
