@@ -152,8 +152,8 @@ pub fn value<const D: usize>(
             }
         }
         (WatchedOn::Nodes(nodes), Quantity::PorePressure) => {
-            let [_, water] = scene.pressure_places();
-            mean(nodes.iter().map(|&n| state.pressure.get(water + n as usize).copied().unwrap_or(0.0)))
+            let [places, _] = scene.places();
+            mean(nodes.iter().map(|&n| state.pressure.get(places.pore_pressure(n)).copied().unwrap_or(0.0)))
         }
         (WatchedOn::Region(region), Quantity::PorePressure) => {
             mean_over(members(state, *region), |points, p| points.pore_pressure.get(p).copied().unwrap_or(0.0))

@@ -96,7 +96,7 @@ fn hold_back<const D: usize>(problem: &Problem<D>, grid: &Grid<D>, force: &mut [
     if share == 0.0 {
         return;
     }
-    let held = grid.node.iter().flat_map(|&n| ramp.force[n as usize]);
+    let held = grid.dofs.node.iter().flat_map(|&n| ramp.force[n as usize]);
     for ((f, held), given) in force.iter_mut().zip(held).zip(problem.given) {
         if given.is_none() {
             *f += share * held;
@@ -120,7 +120,7 @@ fn add_terms<const D: usize>(
         matrix.clear();
     }
     let scene = problem.scene;
-    let (equations, of_nodes) = (grid.motion.pattern.len(), D * grid.node.len());
+    let (equations, of_nodes) = (grid.motion.pattern.len(), grid.dofs.displacements());
     sum.force.clear();
     sum.force.resize(equations, 0.0);
     (sum.applied, sum.scale) = ([0.0; D], 0.0);
@@ -144,7 +144,7 @@ fn add_terms<const D: usize>(
         if term.role() == Role::External {
             // What turns a body is a moment.
             let forces =
-                own[..of_nodes].chunks_exact(D).zip(&grid.node).filter(|(_, n)| scene.turned_by(**n).is_none());
+                own[..of_nodes].chunks_exact(D).zip(&grid.dofs.node).filter(|(_, n)| scene.turned_by(**n).is_none());
             for (force, _) in forces {
                 for (applied, f) in sum.applied.iter_mut().zip(force) {
                     *applied -= f;

@@ -103,9 +103,7 @@ pub fn begin<const D: usize, K: Kinematics<D>>(
     }
     join(&mut covers);
     let open = covered.then(|| open(mesh, &state.weights.boundary.pieces, &covers));
-    let takes_part = |constraint: &PlacedConstraint<D>| {
-        constraint.condition.nodes.iter().all(|&n| grid.block[n as usize] != u32::MAX)
-    };
+    let takes_part = |constraint: &PlacedConstraint<D>| constraint.condition.nodes.iter().all(|&n| grid.dofs.has(n));
     placed.retain(takes_part);
     if !place(grid, state, &mut placed) {
         make_room(state, &placed);

@@ -73,7 +73,7 @@ fn bodies<const D: usize>(scene: &Scene<D>, state: &State<D>, grid: &Grid<D>) ->
         regions.entry(body).or_default().insert(&mesh.regions[mesh.cells.region[c] as usize]);
     }
     let mut bodies: BTreeMap<String, Vec<u32>> = BTreeMap::new();
-    for &n in &grid.node {
+    for &n in &grid.dofs.node {
         let rigid = scene.bodies.iter().find(|body| body.carriers().any(|carrier| carrier == n));
         let name = match (rigid, regions.get(&root(&mut to, n))) {
             (Some(body), _) => scene.mesh.regions.get(body.region as usize).map(|name| format!("`{name}`")),
@@ -164,7 +164,7 @@ impl<const D: usize> System<'_, D> {
         let mut given = vec![0.0; pattern.len()];
         let mut stiffest = f64::MIN_POSITIVE;
         for &n in nodes {
-            let block = self.grid.block[n as usize] as usize;
+            let block = self.grid.dofs.block[n as usize] as usize;
             let motion = match self.scene.turned_by(n) {
                 Some(body) => std::array::from_fn(|d| if d == 0 { rotation * body.arm } else { 0.0 }),
                 None => motion(n),

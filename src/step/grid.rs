@@ -13,6 +13,7 @@ use super::restore::{begin_anew, fill, take_weights};
 use super::scene::{Fixed, Scene};
 use super::state::State;
 use super::unknowns::Buffers;
+use crate::dofs::{DofMap, Places};
 use crate::error::Result;
 use crate::kinematics::Kinematics;
 use crate::mesh::Mesh;
@@ -41,15 +42,10 @@ pub struct Grid<const D: usize> {
     face_clique: Vec<u32>,
     /// The clique of each rigid body: the nodes with its unknowns.
     body_clique: Vec<u32>,
-    /// The clique of each cell and the block of each node; `u32::MAX` for those left out.
+    /// The clique of each cell; `u32::MAX` for those left out.
     pub clique: Vec<u32>,
-    pub block: Vec<u32>,
-    /// The node of each block.
-    pub node: Vec<u32>,
-    /// What each unknown of the pressure field, after those of the nodes, is in [`State::pressure`].
-    pub carrier: Vec<u32>,
-    /// Where the pore pressures of the nodes begin there.
-    pub water: usize,
+    /// The equations of [`Grid::motion`].
+    pub dofs: DofMap<D>,
     /// The cells that take part, ascending.
     pub cells: Vec<u32>,
     pub motion: System,
@@ -59,14 +55,15 @@ pub struct Grid<const D: usize> {
     pub buffers: Buffers<D>,
 }
 
-/// The unknowns of a pressure field.
-struct Carriers {
-    carrier: Vec<u32>,
+/// The unknowns of pressure.
+struct Pressures {
+    /// Their places.
+    pressure: Vec<u32>,
     /// The cliques of the nodes, those of cells with their unknowns of pressure.
     cliques: Cliques,
 }
 
-impl Carriers {
+impl Pressures {
     /// Numbers the unknowns of `families`, of which there are `most`, after `nodes` blocks.
     fn new<const D: usize>(families: &[Carrying<D>], nodes: usize, cliques: &Cliques, most: usize) -> Self {
         let mut block = vec![u32::MAX; most];
@@ -79,10 +76,10 @@ impl Carriers {
                 }
             }
         }
-        let mut carrier = Vec::new();
+        let mut pressure = Vec::new();
         for (unknown, block) in (0u32..).zip(&mut block).filter(|(_, b)| **b == 0) {
-            *block = (nodes + carrier.len()) as u32;
-            carrier.push(unknown);
+            *block = (nodes + pressure.len()) as u32;
+            pressure.push(unknown);
         }
         let mut extended = Cliques::default();
         for (k, of) in of_clique.iter().enumerate() {
@@ -90,16 +87,14 @@ impl Carriers {
             let carriers = of.iter().flat_map(|&(i, c)| families[i].unknowns(c));
             extended.push(own.chain(carriers.map(|unknown| block[unknown as usize])));
         }
-        Self { carrier, cliques: extended }
+        Self { pressure, cliques: extended }
     }
 }
 
 /// A family of cells with unknowns of pressure.
 struct Carrying<'a, const D: usize> {
     mesh: &'a Mesh<D>,
-    /// Where the constants of its cells begin, and the pore pressures of the nodes.
-    constants: usize,
-    water: usize,
+    places: Places,
     /// Whether a cell has pore water, and whether it has a pressure field.
     with: Box<dyn Fn(u32) -> [bool; 2] + 'a>,
     clique: &'a [u32],
@@ -114,8 +109,8 @@ impl<const D: usize> Carrying<'_, D> {
     fn unknowns(&self, cell: u32) -> impl Iterator<Item = u32> {
         let [water, field] = (self.with)(cell);
         let cell = cell as usize;
-        let of_water = water.then(|| pore_pressure::unknowns_of(self.mesh, self.water, cell));
-        let of_field = field.then(|| pressure::unknowns_of(self.mesh, self.constants, cell));
+        let of_water = water.then(|| self.places.of_water(self.mesh, cell));
+        let of_field = field.then(|| self.places.of_field(self.mesh, cell));
         of_water.into_iter().flatten().chain(of_field.into_iter().flatten())
     }
 }
@@ -219,42 +214,40 @@ impl<const D: usize> Grid<D> {
             }
         }
         let dynamic = scene.dynamic();
-        let places: Vec<_> = node.iter().map(|&n| mesh.nodes[n as usize]).collect();
+        let coordinates: Vec<_> = node.iter().map(|&n| mesh.nodes[n as usize]).collect();
         let mass =
-            if dynamic { Some(System::new(&vec![1; node.len()], cliques.clone(), true, &places)?) } else { None };
+            if dynamic { Some(System::new(&vec![1; node.len()], cliques.clone(), true, &coordinates)?) } else { None };
         // The mass always takes a penalty on faces, the motion only where a term says so.
         let mut cliques = if scene.terms.iter().any(|t| t.penalises_faces()) { cliques } else { cells_only };
         let constraint_clique = facing::couple(state, &block, &mut cliques);
+        let [places, of_elements] = scene.places();
         let with_pressure = scene.pressure_unit.map(|_| {
-            let [constants, of_water] = scene.pressure_places();
             let (with_water, with_field) = (scene.water.is_some(), scene.has_pressure_field());
             let part = &state.active;
             let mut families = vec![Carrying {
                 mesh,
-                constants: mesh.nodes.len(),
-                water: of_water,
+                places,
                 with: Box::new(move |c| [with_water, with_field].map(|with| with && part[c as usize])),
                 clique: &clique,
             }];
             families.extend(elements.iter().zip(&scene.fem).map(|(elements, fem)| Carrying {
                 mesh: &elements.mesh,
-                constants,
-                water: of_water,
+                places: of_elements,
                 with: Box::new(|c| [fem.with_water[c as usize], fem.with_pressure[c as usize]]),
                 clique: &elements.clique,
             }));
-            let most = of_water + if with_water { mesh.nodes.len() } else { 0 };
-            Carriers::new(&families, node.len(), &cliques, most)
+            let most = places.pore_pressures() + if with_water { mesh.nodes.len() } else { 0 };
+            Pressures::new(&families, node.len(), &cliques, most)
         });
         let symmetric = scene.terms.iter().all(|t| t.symmetric());
         let mut sizes = vec![D as u8; node.len()];
-        let (motion, carrier) = match with_pressure {
-            None => (System::new(&sizes, cliques, symmetric, &places)?, Vec::new()),
-            Some(Carriers { carrier, cliques }) => {
-                sizes.resize(node.len() + carrier.len(), 1);
-                let mut motion = System::new(&sizes, cliques, symmetric, &places)?;
+        let (motion, pressure) = match with_pressure {
+            None => (System::new(&sizes, cliques, symmetric, &coordinates)?, Vec::new()),
+            Some(Pressures { pressure, cliques }) => {
+                sizes.resize(node.len() + pressure.len(), 1);
+                let mut motion = System::new(&sizes, cliques, symmetric, &coordinates)?;
                 motion.solver = motion.solver.saddle();
-                (motion, carrier)
+                (motion, pressure)
             }
         };
         let mut grid = Self {
@@ -268,10 +261,7 @@ impl<const D: usize> Grid<D> {
             face_clique,
             body_clique,
             clique,
-            block,
-            node,
-            carrier,
-            water: scene.pressure_places()[1],
+            dofs: DofMap { node, pressure, block, places },
             cells,
             motion,
             mass,
@@ -287,24 +277,25 @@ impl<const D: usize> Grid<D> {
         let mesh = self.relaxed.as_ref().map_or(&scene.mesh, |relaxed| &relaxed.mesh);
         let mut field = std::mem::take(&mut state.pressure);
         let soil = Filled { mesh, stencil: &self.stencils.integration, points: state.integration() };
-        pressure::gather::<D, K>(soil, mesh.nodes.len(), &mut field);
+        pressure::gather::<D, K>(soil, scene.places()[0], &mut field);
         state.pressure = field;
         self.project_pressure_of_elements::<K>(scene, state);
     }
 
     fn project_pressure_of_elements<K: Kinematics<D>>(&self, scene: &Scene<D>, state: &mut State<D>) {
         if let Some(Elements { mesh, stencil, .. }) = &self.elements {
-            let [constants, _] = scene.pressure_places();
+            let [_, places] = scene.places();
             let elements = Filled { mesh, stencil, points: &state.fem };
-            pressure::gather::<D, K>(elements, constants, &mut state.pressure);
+            pressure::gather::<D, K>(elements, places, &mut state.pressure);
         }
     }
 
     /// Takes the pore pressures over from the points.
     fn project_pore_pressure<K: Kinematics<D>>(&self, scene: &Scene<D>, state: &mut State<D>) {
         if let Some(water) = &scene.water {
-            state.pressure.resize(self.water + scene.mesh.nodes.len(), 0.0);
-            let mut field = state.pressure.split_off(self.water);
+            let first = self.dofs.places.pore_pressures();
+            state.pressure.resize(first + scene.mesh.nodes.len(), 0.0);
+            let mut field = state.pressure.split_off(first);
             let soil = self.frame(&scene.mesh, state).into();
             let elements = self.elements.as_ref().map(|elements| self.frame_of_elements(scene, elements, state).into());
             let cells: Vec<_> = std::iter::once(soil).chain(elements).collect();
@@ -338,13 +329,12 @@ impl<const D: usize> Grid<D> {
             open: self.open.as_deref().unwrap_or(&state.weights.boundary.pieces),
             level_set: &state.weights.level_set,
             cells: &self.cells,
-            constants: mesh.nodes.len(),
-            water: self.water,
+            places: self.dofs.places,
             points: state.integration(),
             integration: None,
             pattern: &self.motion.pattern,
             clique: &self.clique,
-            block: &self.block,
+            block: &self.dofs.block,
             bodies: &self.body_clique,
         }
     }
@@ -374,13 +364,12 @@ impl<const D: usize> Grid<D> {
             open: &[],
             level_set: &[],
             cells: &elements.cells,
-            constants: scene.mesh.nodes.len() + scene.mesh.cells.len(),
-            water: self.water,
+            places: scene.places()[1],
             points: &state.fem,
             integration: None,
             pattern: &self.motion.pattern,
             clique: &elements.clique,
-            block: &self.block,
+            block: &self.dofs.block,
             bodies: &self.body_clique,
         }
     }
@@ -416,9 +405,8 @@ pub fn given_increments<const D: usize>(
     let mut given = vec![None; grid.motion.pattern.len()];
     let mut give = |fixed: &Fixed, increment: f64| {
         for &n in &fixed.nodes {
-            let block = grid.block[n as usize];
-            if block != u32::MAX {
-                given[block as usize * D + fixed.component] = Some(increment);
+            if let Some(equation) = grid.dofs.displacement(n, fixed.component) {
+                given[equation] = Some(increment);
             }
         }
     };
@@ -433,11 +421,9 @@ pub fn given_increments<const D: usize>(
         give(fixed, 0.0);
     }
     if let Some(water) = scene.water.as_ref().filter(|_| scene.phases[state.phase].flows) {
-        let first = D * grid.node.len();
-        for (&unknown, given) in grid.carrier.iter().zip(&mut given[first..]) {
-            let of_water = (unknown as usize).checked_sub(grid.water).map(|n| n as u32);
-            if of_water.is_some_and(|n| water.drained.binary_search(&n).is_ok()) {
-                *given = Some(-state.pressure[unknown as usize]);
+        for (equation, node) in grid.dofs.pore_pressures() {
+            if water.drained.binary_search(&node).is_ok() {
+                given[equation] = Some(-state.pressure[grid.dofs.places.pore_pressure(node)]);
             }
         }
     }

@@ -114,7 +114,7 @@ impl<'a> Mass<'a> {
             Some(&mut system.matrix),
             &mut grid.workspace,
         )?;
-        rigid::add_mass(scene, &grid.block, &system.pattern, &mut system.matrix);
+        rigid::add_mass(scene, &grid.dofs.block, &system.pattern, &mut system.matrix);
         let points_in = |cell: u32| {
             let patch = stencil.patches.binary_search_by_key(&cell, |patch| patch.cell);
             patch.map_or(0, |number| stencil.patches[number].point_count as usize)

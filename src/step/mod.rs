@@ -96,7 +96,7 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
                 _ => {}
             }
         }
-        let out = |n: &u32| self.grid.block[*n as usize] == u32::MAX;
+        let out = |n: &u32| !self.grid.dofs.has(*n);
         let idle = phase.prescribed.iter().filter(|p| p.fixed.nodes.iter().all(out));
         let frame = self.grid.frame(&self.scene.mesh, &self.state);
         let loads = self.scene.terms.iter().filter_map(|term| {

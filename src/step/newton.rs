@@ -9,6 +9,7 @@ use super::grid::Grid;
 use super::problem::{Problem, Solution};
 use super::scene::Scene;
 use super::unknowns::{Buffers, Evaluation, Unknowns};
+use crate::dofs::Dof;
 use crate::error::{Error, Result};
 use crate::mesh::cell_size;
 use crate::system::Method;
@@ -276,8 +277,8 @@ impl<'a, const D: usize> Newton<'a, D> {
             let free = of_node.filter(|&e| !self.buffers.fixed[e]);
             free.map(|e| self.buffers.now.force[e].powi(2)).sum::<f64>()
         };
-        let blocks = 0..self.grid.node.len().min(self.buffers.now.force.len() / D);
-        let n = self.grid.node[blocks.max_by(|&a, &b| size(a).total_cmp(&size(b)))?] as usize;
+        let blocks = 0..self.grid.dofs.node.len().min(self.buffers.now.force.len() / D);
+        let n = self.grid.dofs.node[blocks.max_by(|&a, &b| size(a).total_cmp(&size(b)))?] as usize;
         let from = self.problem.state.nodes.get(n).unwrap_or(&self.problem.scene.mesh.nodes[n]);
         Some(std::array::from_fn(|d| from[d] + self.problem.converged[n][d]))
     }
@@ -307,12 +308,12 @@ fn forcing(history: &[f64], tolerance: f64) -> f64 {
 /// Which equations of nodes are damped. A structure as a whole may have no more to hold it than soil that flows: a share of
 /// its own stiffness would be a far stiffer hold on it, and its balance would come in tiny steps.
 fn damped_equations<const D: usize>(scene: &Scene<D>, grid: &Grid<D>, out: &mut Vec<bool>) {
-    out.extend(grid.node.iter().flat_map(|&n| [(n as usize) < scene.mesh_nodes(); D]));
+    out.extend(grid.dofs.node.iter().flat_map(|&n| [(n as usize) < scene.mesh_nodes(); D]));
     let Some(fem) = &scene.fem else { return };
     for c in fem.deforming() {
         if scene.interfaces.iter().any(|interface| interface.structure() == fem.mesh.cells.region[c]) {
             for &n in fem.mesh.cells.nodes(c) {
-                let block = grid.block[n as usize] as usize;
+                let block = grid.dofs.block[n as usize] as usize;
                 out.iter_mut().skip(D * block).take(D).for_each(|damped| *damped = false);
             }
         }
@@ -333,16 +334,13 @@ fn floor<const D: usize>(problem: &Problem<D>, grid: &Grid<D>) -> f64 {
 
 /// What is missing to the given displacements and pore pressures, in the unit of the unknowns, one entry an equation.
 fn gaps<const D: usize>(problem: &Problem<D>, grid: &Grid<D>, at: &Unknowns<D>, out: &mut Vec<f64>) {
-    let of_nodes = D * grid.node.len();
-    let gap = |(e, given): (usize, &Option<f64>)| {
-        given.map_or(0.0, |increment| {
-            if e >= of_nodes {
-                let unknown = grid.carrier[e - of_nodes] as usize;
-                let missing = problem.pressure[unknown] + increment - at.pressure[unknown];
-                return missing / problem.scene.pressure_unit.unwrap_or(1.0);
+    let unit = problem.scene.pressure_unit.unwrap_or(1.0);
+    let gap = |(equation, given): (usize, &Option<f64>)| {
+        given.map_or(0.0, |increment| match grid.dofs.dof(equation) {
+            Dof::Displacement { node, component } => {
+                problem.converged[node][component] + increment - at.displacement[node][component]
             }
-            let (n, d) = (grid.node[e / D] as usize, e % D);
-            problem.converged[n][d] + increment - at.displacement[n][d]
+            Dof::Pressure(place) => (problem.pressure[place] + increment - at.pressure[place]) / unit,
         })
     };
     out.clear();

@@ -1,20 +1,13 @@
-//! The pore pressures of the nodes on a restored grid: where they stand, and what the points bring to them.
+//! The pore pressures of the nodes on a restored grid: what the points bring to them.
 
 use super::nodal_fit::{self, Filled};
 use crate::kinematics::Kinematics;
-use crate::mesh::Mesh;
 use crate::points::Points;
 use crate::term::Porous;
 
 /// The porous soil of point `p`.
 pub fn soil<'a, const D: usize>(porous: &'a [Option<Porous>], points: &Points<D>, p: usize) -> Option<&'a Porous> {
     porous.get(points.model_of(p)).and_then(Option::as_ref)
-}
-
-/// Where the pore pressures of a cell stand in [`super::State::pressure`]: those of its corners, counted from `water` on.
-pub fn unknowns_of<const D: usize>(mesh: &Mesh<D>, water: usize, cell: usize) -> impl Iterator<Item = u32> {
-    let corners = &mesh.cells.nodes(cell)[..mesh.cells.kind[cell].corner_count()];
-    corners.iter().map(move |&n| water as u32 + n)
 }
 
 /// Takes the pressures (kPa) of the nodes over from the points of all `cells` that are in regions with water.

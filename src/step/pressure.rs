@@ -1,23 +1,15 @@
 //! The pressure field on a restored grid: its unknowns, and what the points bring to them.
 
 use super::nodal_fit::{self, Filled};
+use crate::dofs::Places;
 use crate::kinematics::Kinematics;
-use crate::mesh::Mesh;
 use crate::term::pressure_hats;
-
-/// Where the unknowns of a cell stand in [`super::State::pressure`]: its corners by node, and the constant of the cell.
-/// `constants` is where those of its mesh begin.
-pub fn unknowns_of<const D: usize>(mesh: &Mesh<D>, constants: usize, cell: usize) -> impl Iterator<Item = u32> {
-    let kind = mesh.cells.kind[cell];
-    let constant = (kind.order() > 1).then_some((constants + cell) as u32);
-    mesh.cells.nodes(cell)[..kind.corner_count()].iter().copied().chain(constant)
-}
 
 /// Takes the field over a family of cells from their points: a linear fit at the corners, and what is left of the mean of each cell. It is
 /// where the next step begins; what the step makes of it follows from the points themselves.
-pub fn gather<const D: usize, K: Kinematics<D>>(cells: Filled<D>, constants: usize, field: &mut Vec<f64>) {
+pub fn gather<const D: usize, K: Kinematics<D>>(cells: Filled<D>, places: Places, field: &mut Vec<f64>) {
     let Filled { mesh, stencil, points } = cells;
-    let end = constants + mesh.cells.len();
+    let (constants, end) = (places.constant(0), places.constant(mesh.cells.len()));
     field.resize(end.max(field.len()), 0.0);
     nodal_fit::fit::<D, K>(&[cells], |points, p| Some(points.pressure[p]), &mut field[..mesh.nodes.len()]);
     field[constants..end].fill(0.0);
@@ -36,7 +28,7 @@ pub fn gather<const D: usize, K: Kinematics<D>>(cells: Filled<D>, constants: usi
             all += entries.weight;
         }
         if all > 0.0 {
-            field[constants + cell] = left / all;
+            field[places.constant(cell)] = left / all;
         }
     }
 }

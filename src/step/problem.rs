@@ -4,6 +4,7 @@ use super::grid::Grid;
 use super::scene::Scene;
 use super::state::State;
 use super::unknowns::Unknowns;
+use crate::dofs::Dof;
 use crate::system::Method;
 use crate::time_integration::GeneralisedAlpha;
 
@@ -56,21 +57,17 @@ impl<'a, const D: usize> Problem<'a, D> {
 
     /// Adds `length · δ`, one entry an equation, to the unknowns; a full step lands on what is given to the last bit.
     pub fn advance(&self, grid: &Grid<D>, at: &mut Unknowns<D>, delta: &[f64], length: f64) {
-        let (of_nodes, of_pressure) = delta.split_at(D * grid.node.len());
-        for (e, delta) in of_nodes.iter().enumerate() {
-            let (n, d) = (grid.node[e / D] as usize, e % D);
-            match self.given[e] {
-                Some(increment) if length == 1.0 => at.displacement[n][d] = self.converged[n][d] + increment,
-                _ => at.displacement[n][d] += length * delta,
-            }
-        }
         let unit = self.scene.pressure_unit.unwrap_or(0.0);
-        let given = self.given[of_nodes.len()..].iter();
-        for ((delta, &unknown), given) in of_pressure.iter().zip(&grid.carrier).zip(given) {
-            let unknown = unknown as usize;
+        for (equation, (delta, given)) in delta.iter().zip(self.given).enumerate() {
+            let (value, converged, by) = match grid.dofs.dof(equation) {
+                Dof::Displacement { node, component } => {
+                    (&mut at.displacement[node][component], self.converged[node][component], *delta)
+                }
+                Dof::Pressure(place) => (&mut at.pressure[place], self.pressure[place], unit * delta),
+            };
             match given {
-                Some(increment) if length == 1.0 => at.pressure[unknown] = self.pressure[unknown] + increment,
-                _ => at.pressure[unknown] += length * unit * delta,
+                Some(increment) if length == 1.0 => *value = converged + increment,
+                _ => *value += length * by,
             }
         }
     }

@@ -94,9 +94,8 @@ impl<const D: usize> Report<D> {
         let mut reaction = vec![[0.0; D]; scene.mesh.nodes.len()];
         for fixed in scene.fixed(state.phase) {
             for &n in &fixed.nodes {
-                if grid.block[n as usize] != u32::MAX {
-                    let e = grid.block[n as usize] as usize * D + fixed.component;
-                    reaction[n as usize][fixed.component] = solution.residual[e];
+                if let Some(equation) = grid.dofs.displacement(n, fixed.component) {
+                    reaction[n as usize][fixed.component] = solution.residual[equation];
                 }
             }
         }

@@ -77,10 +77,9 @@ pub fn begin_anew<const D: usize, K: Kinematics<D>>(
     }
     take_weights::<D, K>(stencils, mesh, state);
     if scene.has_pressure_field() {
-        let nodes = scene.mesh.nodes.len();
         let mut field = std::mem::take(&mut state.pressure);
         let soil = Filled { mesh, stencil: &stencils.integration, points: state.integration() };
-        pressure::gather::<D, K>(soil, nodes, &mut field);
+        pressure::gather::<D, K>(soil, scene.places()[0], &mut field);
         state.pressure = field;
     }
     if let Some(faces) = &scene.faces {

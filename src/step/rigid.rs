@@ -92,7 +92,7 @@ pub fn momentum<const D: usize>(scene: &Scene<D>, grid: &Grid<D>, state: &State<
             for (right, field) in right.iter_mut().zip([&state.fem.velocity, &state.fem.acceleration]) {
                 let share = body.hand_on(&arm, &field[p].map(|v| state.fem.mass[p] * v));
                 for (n, share) in body.carriers().zip(share) {
-                    let sum = &mut right[grid.block[n as usize] as usize];
+                    let sum = &mut right[grid.dofs.block[n as usize] as usize];
                     *sum = std::array::from_fn(|d| sum[d] + share[d]);
                 }
             }

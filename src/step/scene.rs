@@ -2,6 +2,7 @@
 
 use super::change::Change;
 use crate::contact::Interface;
+use crate::dofs::Places;
 use crate::mesh::Mesh;
 use crate::mesh::faces::Faces;
 use crate::mesh::locate::Locator;
@@ -59,11 +60,13 @@ impl<const D: usize> Scene<D> {
         self.pressure_unit.is_some() && self.water.as_ref().is_none_or(|water| !water.alone)
     }
 
-    /// Where the constants of the finite elements, and where the pore pressures of the nodes begin in
-    /// [`super::State::pressure`].
-    pub fn pressure_places(&self) -> [usize; 2] {
-        let constants = self.mesh.nodes.len() + self.mesh.cells.len();
-        [constants, constants + self.fem.as_ref().map_or(0, |fem| fem.mesh.cells.len())]
+    /// Where the pressures of the cells of the grid and of the finite elements stand in [`super::State::pressure`].
+    pub fn places(&self) -> [Places; 2] {
+        Places::of(
+            self.mesh.nodes.len(),
+            self.mesh.cells.len(),
+            self.fem.as_ref().map_or(0, |fem| fem.mesh.cells.len()),
+        )
     }
 
     /// The body whose region that is.

@@ -13,6 +13,7 @@ use super::problem::{Problem, Solution};
 use super::rigid;
 use super::scene::Scene;
 use super::state::{Span, State};
+use crate::dofs::Dof;
 use crate::error::Result;
 use crate::kinematics::Kinematics;
 use crate::mesh::shape::MAX_NODES;
@@ -73,11 +74,10 @@ impl<const D: usize> Start<D> {
     /// and [`motion_to_points`] hands it on with the rest.
     pub fn of(grid: &Grid<D>, state: &State<D>, given: &[Option<f64>], dt: f64) -> Self {
         let mut start = Self { velocity: state.velocity.clone(), acceleration: state.acceleration.clone() };
-        for (e, increment) in given.iter().enumerate().take(D * grid.node.len()) {
-            if let Some(increment) = increment {
-                let (n, d) = (grid.node[e / D] as usize, e % D);
-                start.velocity[n][d] = increment / dt;
-                start.acceleration[n][d] = 0.0;
+        for (equation, increment) in given.iter().enumerate() {
+            if let (Some(increment), Dof::Displacement { node, component }) = (increment, grid.dofs.dof(equation)) {
+                start.velocity[node][component] = increment / dt;
+                start.acceleration[node][component] = 0.0;
             }
         }
         start
@@ -117,7 +117,7 @@ fn first_acceleration<const D: usize, K: Kinematics<D>>(
     state: &State<D>,
 ) -> Result<Vec<[f64; D]>> {
     let force = static_force(&Problem::at_rest(scene, state), grid)?.force;
-    let node = grid.node.clone();
+    let node = grid.dofs.node.clone();
     let mut acceleration = vec![[0.0; D]; scene.mesh.nodes.len()];
     let mut fixed = vec![[false; D]; scene.mesh.nodes.len()];
     for f in scene.fixed(state.phase) {
@@ -324,14 +324,14 @@ fn to_nodes<const D: usize, K: Kinematics<D>>(
     grid: &mut Grid<D>,
     state: &State<D>,
 ) -> Result<[Vec<[f64; D]>; 2]> {
-    let mut right: [Vec<[f64; D]>; 2] = [0, 1].map(|_| vec![[0.0; D]; grid.node.len()]);
+    let mut right: [Vec<[f64; D]>; 2] = [0, 1].map(|_| vec![[0.0; D]; grid.dofs.node.len()]);
     for Family { mesh, stencil, points, .. } in grid.families(scene, state) {
         let fields = [&points.velocity, &points.acceleration];
         for patch in &stencil.patches {
             let nodes = mesh.cells.nodes(patch.cell as usize);
             for entries in stencil.entries::<K>(patch) {
                 for (n, &node) in entries.value.iter().zip(nodes) {
-                    let block = grid.block[node as usize] as usize;
+                    let block = grid.dofs.block[node as usize] as usize;
                     let weight = points.mass[entries.point] * n;
                     for (right, field) in right.iter_mut().zip(&fields) {
                         for d in 0..D {
@@ -343,7 +343,7 @@ fn to_nodes<const D: usize, K: Kinematics<D>>(
         }
     }
     rigid::momentum(scene, grid, state, &mut right);
-    let node = grid.node.clone();
+    let node = grid.dofs.node.clone();
     let mut mass = Mass::assemble::<D, K>(scene, grid, state, Carrier::MaterialPoints)?;
     let mut nodal = [0, 1].map(|_| vec![[0.0; D]; scene.mesh.nodes.len()]);
     for (right, nodal) in right.iter().zip(&mut nodal) {

@@ -40,7 +40,7 @@ struct Unbalanced<const D: usize> {
 fn unbalanced<const D: usize>(problem: &Problem<D>, grid: &mut Grid<D>) -> Result<Unbalanced<D>> {
     let now = static_force(problem, grid)?;
     let mut force = vec![[0.0; D]; problem.scene.mesh.nodes.len()];
-    for (f, &n) in now.force.chunks_exact(D).zip(&grid.node) {
+    for (f, &n) in now.force.chunks_exact(D).zip(&grid.dofs.node) {
         force[n as usize] = std::array::from_fn(|d| f[d]);
     }
     for fixed in problem.scene.fixed(problem.phase) {

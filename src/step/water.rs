@@ -78,11 +78,9 @@ pub fn balance<const D: usize>(
     if scene.phases[state.phase].flows {
         let alpha_f = if scene.phases[state.phase].dynamic { alpha_f(scene.numerics.spectral_radius) } else { 0.0 };
         let unit = scene.pressure_unit.unwrap_or(1.0) * (1.0 - alpha_f);
-        let of_nodes = D * grid.node.len();
-        for (&unknown, residual) in grid.carrier.iter().zip(&solution.residual[of_nodes..]) {
-            let node = (unknown as usize).checked_sub(grid.water).map(|n| n as u32);
-            if node.is_some_and(|n| water.drained.binary_search(&n).is_ok()) {
-                balance.left += residual / unit;
+        for (equation, node) in grid.dofs.pore_pressures() {
+            if water.drained.binary_search(&node).is_ok() {
+                balance.left += solution.residual[equation] / unit;
             }
         }
     }

@@ -159,7 +159,7 @@ impl<K: Kinematics<2>> DrainedSurface<K> {
         let corners = frame.mesh.cells.kind[piece.bearer as usize].corner_count();
         let mut pressure = [0.0; water::MOST];
         for (p, &n) in pressure.iter_mut().zip(&frame.mesh.cells.nodes(piece.bearer as usize)[..corners]) {
-            *p = trial.pressure[frame.water + n as usize];
+            *p = trial.pressure[frame.places.pore_pressure(n)];
         }
         (corners, pressure)
     }

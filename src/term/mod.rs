@@ -56,6 +56,7 @@ pub use water::{PoreWater, Porous, WaterStiffness};
 pub use water_bond::WaterBond;
 
 use crate::contact::Constraint;
+use crate::dofs::Places;
 use crate::error::Result;
 use crate::mesh::Mesh;
 use crate::mesh::faces::Face;
@@ -112,10 +113,8 @@ pub struct Frame<'a, const D: usize> {
     pub level_set: &'a [f64],
     /// The cells that take part, ascending; of finite elements those with unknowns of pressure.
     pub cells: &'a [u32],
-    /// Where the constants of the cells begin in [`Trial::pressure`].
-    pub constants: usize,
-    /// Where the pore pressures at the nodes begin there.
-    pub water: usize,
+    /// Where the pressures of its cells stand in [`Trial::pressure`].
+    pub places: Places,
     /// The points at the last converged step.
     pub points: &'a Points<D>,
     /// What integrals are summed over, where `points` are others.

@@ -120,7 +120,7 @@ impl<const D: usize, K: Kinematics<D>> Share<D, K> for PressureField<K> {
         let cell = patch.cell as usize;
         let kind = frame.mesh.cells.kind[cell];
         let nodes = frame.mesh.cells.nodes(cell);
-        let pressure = gather(kind, nodes, frame.constants + cell, trial.pressure);
+        let pressure = gather(kind, nodes, frame.places.constant(cell), trial.pressure);
         let mean = (kind.order() == 1).then(|| {
             let (mut sum, mut weight) = ([0.0; MOST], 0.0);
             for entries in frame.stencil.entries::<K>(patch) {

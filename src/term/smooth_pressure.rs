@@ -61,8 +61,8 @@ impl<const D: usize, K: Kinematics<D>> Term<D> for SmoothPressure<K> {
             let kind = frame.mesh.cells.kind[cell];
             let (corners, count) = (kind.corner_count(), unknowns(kind));
             let own = frame.mesh.cells.nodes(cell);
-            let now = gather(kind, own, frame.constants + cell, trial.pressure);
-            let before = gather(kind, own, frame.constants + cell, trial.converged_pressure);
+            let now = gather(kind, own, frame.places.constant(cell), trial.pressure);
+            let before = gather(kind, own, frame.places.constant(cell), trial.converged_pressure);
             let gained: [f64; MOST] = std::array::from_fn(|a| now[a] - before[a]);
             let volume = || integrate::<D, K>(frame.mesh, cell, |_, _, _| {});
             let volume = if frame.relaxed { volume() } else { *self.volume[cell].get_or_init(volume) };

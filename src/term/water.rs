@@ -179,7 +179,7 @@ impl<const D: usize, K: Kinematics<D>> Share<D, K> for PoreWater<K> {
         let corners = kind.corner_count();
         let (mut pressure, mut gained) = ([0.0; MOST], [0.0; MOST]);
         for (a, &n) in frame.mesh.cells.nodes(cell)[..corners].iter().enumerate() {
-            let unknown = frame.water + n as usize;
+            let unknown = frame.places.pore_pressure(n);
             pressure[a] = trial.pressure[unknown];
             gained[a] = pressure[a] - trial.converged_pressure[unknown];
         }

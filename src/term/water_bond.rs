@@ -50,7 +50,7 @@ impl<const D: usize, K: Kinematics<D>> Term<D> for WaterBond<K> {
             let nodes = frame.mesh.cells.nodes(cell);
             let corners = frame.mesh.cells.kind[cell].corner_count();
             let gained = |a: usize| {
-                let unknown = frame.water + nodes[a] as usize;
+                let unknown = frame.places.pore_pressure(nodes[a]);
                 trial.pressure[unknown] - trial.converged_pressure[unknown]
             };
             let share = (1.0 - if with { 0.0 } else { DRY }) / corners as f64;

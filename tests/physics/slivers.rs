@@ -71,8 +71,8 @@ fn condition(scene: &Scene<2>, points: Points<2>) -> f64 {
     }
     let mut free = vec![true; pattern.len()];
     for fixed in scene.fixed(0) {
-        for &n in fixed.nodes.iter().filter(|n| grid.block[**n as usize] != u32::MAX) {
-            free[grid.block[n as usize] as usize * 2 + fixed.component] = false;
+        for &n in fixed.nodes.iter().filter(|n| grid.dofs.block[**n as usize] != u32::MAX) {
+            free[grid.dofs.block[n as usize] as usize * 2 + fixed.component] = false;
         }
     }
     let free: Vec<usize> = (0..pattern.len()).filter(|&e| free[e]).collect();

@@ -403,7 +403,7 @@ fn over_loops<K: Kinematics<2>>(
             let trial = Trial::at_rest(displacement, displacement);
             SurfaceTraction::<K>::new(vec![load]).assemble(&frame, &trial, &mut out).unwrap();
             let mut sum = [0.0; 3];
-            for (force, &n) in force.chunks_exact(2).zip(&grid.node) {
+            for (force, &n) in force.chunks_exact(2).zip(&grid.dofs.node) {
                 let x = [0, 1].map(|d| scene.mesh.nodes[n as usize][d] + displacement[n as usize][d]);
                 let parts = [force[0], force[1], x[0] * force[1] - x[1] * force[0]];
                 sum.iter_mut().zip(parts).for_each(|(sum, part)| *sum -= part);

@@ -127,7 +127,7 @@ fn resultant(scene: &Scene<2>, grid: &Grid<2>, state: &State<2>, term: &dyn Term
     let mut out = Assembly { force: &mut force, tangent: None, workspace: &mut workspace };
     term.assemble(&frame, &Trial::at_rest(&at_rest, &at_rest), &mut out).unwrap();
     let mut sum = [0.0; 3];
-    for (force, &n) in force.chunks_exact(2).zip(&grid.node) {
+    for (force, &n) in force.chunks_exact(2).zip(&grid.dofs.node) {
         let x = scene.mesh.nodes[n as usize];
         let parts = [force[0], force[1], x[0] * force[1] - x[1] * force[0]];
         sum.iter_mut().zip(parts).for_each(|(sum, part)| *sum -= part);

@@ -1,5 +1,6 @@
 //! A test stand: one term on a small grid, with trial states of any size.
 
+use mpm::dofs::Dof;
 use mpm::error::Result;
 use mpm::kinematics::Kinematics;
 use mpm::material::LinearElastic;
@@ -216,7 +217,7 @@ impl<K: Kinematics<2>> Stand<K> {
         let state = State::new(points, scene.mesh.nodes.len(), 1.0);
         let state = Simulation::<2, K>::new(&scene, state).unwrap().state;
         let grid = Grid::new::<K>(&scene, &state).unwrap();
-        assert_eq!(grid.node.len(), scene.mesh.nodes.len(), "all nodes take part, in order");
+        assert_eq!(grid.dofs.node.len(), scene.mesh.nodes.len(), "all nodes take part, in order");
         Self {
             scene,
             alpha_f: 0.0,
@@ -359,9 +360,9 @@ impl<K: Kinematics<2>> Stand<K> {
         for (j, column) in tangent.iter().enumerate() {
             let at = |h: f64| {
                 let (mut u, mut pressure) = (trial.to_vec(), self.pressure.clone());
-                match j.checked_sub(2 * u.len()) {
-                    None => u[j / 2][j % 2] += h,
-                    Some(k) => pressure[self.grid.carrier[k] as usize] += h * unit,
+                match self.grid.dofs.dof(j) {
+                    Dof::Displacement { node, component } => u[node][component] += h,
+                    Dof::Pressure(place) => pressure[place] += h * unit,
                 }
                 self.system(&u, &pressure, converged, 0, false).0
             };

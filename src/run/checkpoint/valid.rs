@@ -86,7 +86,7 @@ fn check_fields<const D: usize>(scene: &Scene<D>, state: &State<D>) -> Result<()
     let until = state.ramp.until;
     ensure(if held { state.phase_time < until } else { until == 0.0 }, "the time of its ramp")?;
     let of_water = if scene.water.is_some() { nodes } else { 0 };
-    let pressures = scene.pressure_unit.map_or(0, |_| scene.pressure_places()[1] + of_water);
+    let pressures = scene.pressure_unit.map_or(0, |_| scene.places()[0].pore_pressures() + of_water);
     ensure(state.pressure.len() == pressures, "its pressure field")
 }
 

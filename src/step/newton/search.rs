@@ -74,7 +74,7 @@ impl<const D: usize> Newton<'_, D> {
 
     /// The work (kJ) of a force along `δ`, that of what is given and of pressures left out.
     fn work(&self, force: &[f64]) -> f64 {
-        let of_nodes = D * self.grid.node.len();
+        let of_nodes = self.grid.dofs.displacements();
         let each = force.iter().zip(&self.buffers.delta).zip(&self.buffers.fixed).take(of_nodes);
         each.map(|((f, d), fixed)| if *fixed { 0.0 } else { f * d }).sum()
     }

@@ -1,0 +1,150 @@
+//! The map of unknowns: where each field stands in the state, and which equation of the grid each unknown has.
+//!
+//! | field | unknowns | in the state | equations |
+//! |---|---|---|---|
+//! | displacement (m) | D a node, those of rigid bodies at nodes of their own | by node | first, node by node |
+//! | pressure (kPa) | one a corner, and in cells of second order one a cell | [`Places`] | one each, after them |
+//! | pore pressure (kPa) | one a corner | [`Places`] | among the former |
+
+use crate::mesh::Mesh;
+
+/// Where the pressures of a family of cells stand among all pressures of a state: the pressure field by node, the constants of the cells of
+/// the grid, those of the finite elements, the pore pressures by node.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Places {
+    /// Where the constants of the cells of the family begin, and the pore pressures of the nodes.
+    constants: usize,
+    pore_pressures: usize,
+}
+
+impl Places {
+    /// Those of the cells of the grid and of the finite elements, given how many nodes and cells there are.
+    pub fn of(nodes: usize, cells: usize, elements: usize) -> [Self; 2] {
+        let pore_pressures = nodes + cells + elements;
+        [nodes, nodes + cells].map(|constants| Self { constants, pore_pressures })
+    }
+
+    /// The constant of a cell.
+    pub fn constant(self, cell: usize) -> usize {
+        self.constants + cell
+    }
+
+    /// The pore pressure of a node.
+    pub fn pore_pressure(self, node: u32) -> usize {
+        self.pore_pressures + node as usize
+    }
+
+    /// Where the pore pressures of the nodes begin: how many there are of all others.
+    pub fn pore_pressures(self) -> usize {
+        self.pore_pressures
+    }
+
+    /// The node whose pore pressure a place is.
+    pub fn node_with_water(self, place: u32) -> Option<u32> {
+        (place as usize).checked_sub(self.pore_pressures).map(|n| n as u32)
+    }
+
+    /// The places of the pressure field of a cell: its corners, and its constant.
+    pub fn of_field<const D: usize>(self, mesh: &Mesh<D>, cell: usize) -> impl Iterator<Item = u32> {
+        let kind = mesh.cells.kind[cell];
+        let constant = (kind.order() > 1).then_some(self.constant(cell) as u32);
+        mesh.cells.nodes(cell)[..kind.corner_count()].iter().copied().chain(constant)
+    }
+
+    /// The places of the pore pressures of a cell: its corners.
+    pub fn of_water<const D: usize>(self, mesh: &Mesh<D>, cell: usize) -> impl Iterator<Item = u32> {
+        let corners = &mesh.cells.nodes(cell)[..mesh.cells.kind[cell].corner_count()];
+        corners.iter().map(move |&n| self.pore_pressure(n) as u32)
+    }
+}
+
+/// An unknown of an equation.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Dof {
+    Displacement {
+        node: usize,
+        component: usize,
+    },
+    /// By its place ([`Places`]).
+    Pressure(usize),
+}
+
+/// The equations of a grid.
+#[derive(Clone, Debug)]
+pub struct DofMap<const D: usize> {
+    /// The node of each block of displacements, and the place of each pressure.
+    pub node: Vec<u32>,
+    pub pressure: Vec<u32>,
+    /// The block of each node; `u32::MAX` for those left out.
+    pub block: Vec<u32>,
+    pub places: Places,
+}
+
+impl<const D: usize> DofMap<D> {
+    /// How many equations are those of displacements.
+    pub fn displacements(&self) -> usize {
+        D * self.node.len()
+    }
+
+    /// Whether a node takes part.
+    pub fn has(&self, node: u32) -> bool {
+        self.block[node as usize] != u32::MAX
+    }
+
+    /// The equation of a displacement, if the node takes part.
+    pub fn displacement(&self, node: u32, component: usize) -> Option<usize> {
+        self.has(node).then(|| self.block[node as usize] as usize * D + component)
+    }
+
+    /// The unknown of an equation.
+    pub fn dof(&self, equation: usize) -> Dof {
+        match equation.checked_sub(self.displacements()) {
+            None => Dof::Displacement { node: self.node[equation / D] as usize, component: equation % D },
+            Some(k) => Dof::Pressure(self.pressure[k] as usize),
+        }
+    }
+
+    /// The equations of pore pressures, with their nodes.
+    pub fn pore_pressures(&self) -> impl Iterator<Item = (usize, u32)> {
+        let first = self.displacements();
+        let all = self.pressure.iter().enumerate();
+        all.filter_map(move |(k, &place)| Some((first + k, self.places.node_with_water(place)?)))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mesh::builder::rectangle;
+    use crate::mesh::shape::CellKind;
+
+    /// All fields have places of their own, and every equation leads to its unknown and back.
+    #[test]
+    fn places_are_apart_and_equations_lead_back() {
+        let mesh = rectangle(CellKind::T6, 1.0, 1.0, 1, 1, 0.0, 0);
+        let (nodes, cells) = (mesh.nodes.len(), mesh.cells.len());
+        let [grid, elements] = Places::of(nodes, cells, 3);
+        let of_field = (0..cells).flat_map(|c| grid.of_field(&mesh, c));
+        let of_elements = (0..3).map(|c| elements.constant(c) as u32);
+        let of_water = (0..cells).flat_map(|c| grid.of_water(&mesh, c));
+        let mut all: Vec<u32> = of_field.chain(of_elements).chain(of_water).collect();
+        all.sort_unstable();
+        all.dedup();
+        // Four corners with both pressures, and a constant a cell.
+        assert_eq!(all.len(), 2 * 4 + cells + 3);
+        assert_eq!(grid.node_with_water(grid.pore_pressure(2) as u32), Some(2));
+        assert_eq!(grid.node_with_water(grid.constant(1) as u32), None);
+
+        let places = [grid.constant(0) as u32, grid.pore_pressure(1) as u32];
+        let dofs = DofMap::<2> {
+            node: vec![1, 3],
+            pressure: places.to_vec(),
+            block: vec![u32::MAX, 0, u32::MAX, 1],
+            places: grid,
+        };
+        assert_eq!(dofs.displacement(3, 1).map(|e| dofs.dof(e)), Some(Dof::Displacement { node: 3, component: 1 }));
+        assert_eq!(dofs.displacement(2, 0), None);
+        assert_eq!(dofs.dof(4), Dof::Pressure(grid.constant(0)));
+        assert_eq!(dofs.pore_pressures().collect::<Vec<_>>(), [(5, 1)]);
+    }
+}
