@@ -6,7 +6,7 @@ materials:
   clay: {model: tresca, young: {top: 1, gradient: 2}}
 phases:
   - name: one
-table: [[0, 1], [2, 3]]
+    table: [[0, 1], [2, 3]]
 more: &more {a: 1}
 again: *more
 ";

@@ -44,8 +44,8 @@ pub struct Block {
 impl Nodes {
     fn find(&self, tag: u64) -> Option<u32> {
         // Tags mostly count up without a gap.
-        let guess = tag.checked_sub(*self.tags.first()?).and_then(|i| usize::try_from(i).ok());
-        let index = match guess.filter(|&i| self.tags.get(i) == Some(&tag)) {
+        let hint = tag.checked_sub(*self.tags.first()?).and_then(|i| usize::try_from(i).ok());
+        let index = match hint.filter(|&i| self.tags.get(i) == Some(&tag)) {
             Some(index) => index,
             None => self.tags.binary_search(&tag).ok()?,
         };
