@@ -44,7 +44,7 @@ INTRODUCTION = """# Verification
 
 Made by `make verification` from runs that it makes. *Order* is log₂ of the ratio of errors on meshes that differ by two.
 A tolerance belongs to the last mesh of its row; **no** beside it means that it is not met, which the page does not hide. Seconds
-are wall time of the solve stage, on one thread; of whatever else the machine did they know nothing.
+are wall time of the solve stage, on one thread, and ignore other load on the machine.
 """
 
 
