@@ -12,6 +12,7 @@ use crate::quadrature::{Count, Samples, Tally, Weighing};
 use crate::stencil::SoftCell;
 use crate::step::{Release, Scene, Span, State};
 use crate::surface::{ActiveBoundary, Front, Piece, Voids};
+use crate::term::Borne;
 
 const POINTS: &str = "points.";
 const FEM: &str = "fem.";
@@ -49,6 +50,7 @@ pub fn store<const D: usize>(state: &State<D>) -> Store {
         acceleration,
         taking_part,
         penalised,
+        borne,
         weighing,
         front,
         voids,
@@ -81,6 +83,9 @@ pub fn store<const D: usize>(state: &State<D>) -> Store {
     store.put("state.pressure", 1, pressure.clone());
     store.put("state.taking_part", 1, taking_part.iter().map(|&b| u8::from(b)).collect());
     store.put("state.penalised", 1, penalised.iter().map(|&b| u8::from(b)).collect());
+    store.put("borne.faces", 1, borne.keys().copied().collect());
+    store.put("borne.sizes", 1, borne.values().map(|field| field.len() as u32).collect());
+    store.put("borne.field", D, borne.values().flatten().copied().collect::<Vec<_>>().concat());
     put_weighing(&mut store, weighing);
     put_multipliers(&mut store, multipliers);
     // Without loops where the surface is not followed.
@@ -226,6 +231,15 @@ fn take_balanced(store: &mut Store) -> Result<Option<Span>> {
     }
 }
 
+fn take_borne<const D: usize>(store: &mut Store) -> Result<Borne<D>> {
+    let (faces, sizes) = (store.take::<u32>("borne.faces", 1)?, store.take::<u32>("borne.sizes", 1)?);
+    let mut field = vectors(&store.take::<f64>("borne.field", D)?).into_iter();
+    let borne: Borne<D> =
+        faces.iter().zip(&sizes).map(|(&face, &size)| (face, field.by_ref().take(size as usize).collect())).collect();
+    let fits = borne.len() == faces.len() && faces.len() == sizes.len() && field.next().is_none();
+    if fits { Ok(borne) } else { Err(foreign("what its faces bear")) }
+}
+
 fn take_front(store: &mut Store) -> Result<Option<Front>> {
     let position = vectors(&store.take::<f64>("front.position", 2)?);
     let first = store.take::<u32>("front.first", 1)?;
@@ -278,6 +292,7 @@ pub fn take<const D: usize>(mut store: Store, scene: &Scene<D>, first: &State<D>
         acceleration,
         taking_part: flags(&mut store, "state.taking_part")?,
         penalised: flags(&mut store, "state.penalised")?,
+        borne: take_borne(&mut store)?,
         weighing: take_weighing(&mut store)?,
         front: take_front(&mut store)?,
         voids: Voids {

@@ -7,6 +7,7 @@ use crate::contact::Multipliers;
 use crate::points::Points;
 use crate::quadrature::Weighing;
 use crate::surface::{Front, Voids};
+use crate::term::Borne;
 
 /// A step between two times of a phase: its loads are those of the second.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -78,6 +79,8 @@ pub struct State<const D: usize> {
     pub taking_part: Vec<bool>,
     /// Cells whose faces the system has room for a ghost penalty at; empty where the scene has none.
     pub penalised: Vec<bool>,
+    /// What the faces with a ghost penalty bear.
+    pub borne: Borne<D>,
     /// What the points weigh, as of the last restoration.
     pub weighing: Weighing<D>,
     /// The surface of the material, while it is followed.
@@ -120,6 +123,7 @@ impl<const D: usize> State<D> {
             acceleration: Vec::new(),
             taking_part: Vec::new(),
             penalised: Vec::new(),
+            borne: Borne::new(),
             weighing: Weighing::default(),
             front: None,
             voids: Voids::default(),

@@ -16,7 +16,7 @@ use crate::error::Result;
 use crate::kinematics::Kinematics;
 use crate::mesh::shape::MAX_NODES;
 use crate::points::Points;
-use crate::term::{Frame, Term, Trial, Update};
+use crate::term::{Borne, Frame, Term, Trial, Update};
 use crate::time_integration::GeneralisedAlpha;
 use rayon::prelude::*;
 
@@ -138,16 +138,17 @@ fn first_acceleration<const D: usize, K: Kinematics<D>>(
 }
 
 /// What the terms answer to a converged state.
-struct Answers {
+struct Answers<const D: usize> {
     of_integration: Vec<Update>,
     /// Of the material points that integrals are not summed over.
     of_material: Vec<Update>,
     of_elements: Vec<Update>,
+    borne: Borne<D>,
 }
 
-impl Answers {
+impl<const D: usize> Answers<D> {
     /// Those to the `solution` of a step.
-    fn to<const D: usize>(
+    fn to(
         scene: &Scene<D>,
         grid: &Grid<D>,
         state: &State<D>,
@@ -180,8 +181,10 @@ impl Answers {
             (Some(fem), Some(elements)) => of(&fem.terms, &grid.frame_of_elements(scene, elements, state)),
             _ => Vec::new(),
         };
+        let frame = grid.frame(&scene.mesh, state);
         Self {
-            of_integration: of(&scene.terms, &grid.frame(&scene.mesh, state)),
+            borne: scene.terms.iter().filter_map(|term| term.bear(&frame, &trial)).flatten().collect(),
+            of_integration: of(&scene.terms, &frame),
             of_material: material.map_or_else(Vec::new, |frame| of(&scene.terms, &frame)),
             of_elements: elements,
         }
@@ -198,18 +201,19 @@ pub fn commit<const D: usize>(
     dt: f64,
 ) -> usize {
     let step = Span { phase: state.phase, from: state.phase_time, to: state.phase_time + dt };
-    let Answers { of_integration, of_material, of_elements } = Answers::to(scene, grid, state, solution, step);
+    let Answers { of_integration, of_material, of_elements, borne } = Answers::to(scene, grid, state, solution, step);
     let lost: Vec<usize> = of_material.iter().flat_map(|update| update.left_out(state.points.len())).collect();
     of_integration.into_iter().for_each(|update| update.apply(state.integration_mut()));
     of_material.into_iter().for_each(|update| update.apply(&mut state.points));
     of_elements.into_iter().for_each(|update| update.apply(&mut state.fem));
+    state.borne = borne;
     if let Some(samples) = &state.weighing.samples {
         lost.iter().for_each(|&p| take_from_nearest(&mut state.points, p, &samples.points));
     }
     lost.len()
 }
 
-/// Writes the stresses of the solution of a `step` into the points of the soil, and what the material remembers, but not its deformation.
+/// Writes the stresses of the solution of a `step` into the points of the soil, what the material remembers and what faces bear, but not its deformation.
 pub fn commit_stresses<const D: usize>(
     scene: &Scene<D>,
     grid: &Grid<D>,
@@ -217,9 +221,10 @@ pub fn commit_stresses<const D: usize>(
     solution: &Solution<D>,
     step: Span,
 ) {
-    let Answers { of_integration, of_material, .. } = Answers::to(scene, grid, state, solution, step);
+    let Answers { of_integration, of_material, borne, .. } = Answers::to(scene, grid, state, solution, step);
     of_integration.into_iter().for_each(|update| update.apply_stresses(state.integration_mut()));
     of_material.into_iter().for_each(|update| update.apply_stresses(&mut state.points));
+    state.borne = borne;
 }
 
 /// Gives material point `p` the state of the integration point of its region that is nearest to it, in its cell if there is one.

@@ -2,17 +2,18 @@
 //! (Burman 2010, *Ghost penalty*): such a cell then continues the polynomial of its neighbour, and its nodes are
 //! as stiff as the material however thin the sliver in it.
 //!
-//! `γ E_f ∫ (h [∂_n Δu]² + h³ [∂_nn Δu]²)` on the increment of the step, for each component. It is free of stress
-//! at the beginning of every step and leaves alone what is one polynomial over both cells, rigid motion included.
+//! `γ E_f ∫ (h [∂_n w]² + h³ [∂_nn w]²)`, for each component. It leaves alone what is one polynomial over both cells, rigid motion
+//! included. `E_f` is the harmonic mean of Young's modulus over the points of both cells, by volume: soft material beside
+//! stiff decides.
 //!
-//! `E_f` is the harmonic mean of Young's modulus over the points of both cells, by volume: soft material beside
-//! stiff decides. Soil that flows must not be held by more than it bears itself: the penalty is the slope of the energy
-//! `γ E_f j₀² (√(1 + j²/j₀²) − 1)` in the mean jump `j` of the face, quadratic in small jumps and linear in large ones, with
-//! `γ E_f j₀ = κ t`. The shear stress `t` is what the soil has and what it lacks of yield, its harmonic mean over the points. Without
-//! κ, what yielded in the last step counts with its secant stiffness, `E c τ/(G Δγ)`, from its shear stress `τ` and plastic shear
-//! strain `Δγ`, so that what the penalty resists with is of the order `γ c τ` whatever the step.
+//! Soil that flows must not be held by more than it bears itself. With κ the face is an elastic, perfectly plastic link: `w` is what it
+//! bears from the step before and the increment of the step, and the mean jump `j` of `w` is at most `j₀`, `γ E_f j₀ = κ t`; beyond,
+//! `w` goes back to `w j₀/j`, and the next step begins with that. The shear stress `t` is what the soil has and what it lacks of
+//! yield, its harmonic mean over the points. So a load that is held is borne by the faces as it was.
+//! Without κ, `w` is the increment alone, and what yielded in the last step counts with its secant stiffness, `E c τ/(G Δγ)`, from its
+//! shear stress `τ` and plastic shear strain `Δγ`, so that what the penalty resists with is of the order `γ c τ` whatever the step.
 
-use super::{Assembly, Frame, GhostFace, Term, Trial};
+use super::{Assembly, Borne, Frame, GhostFace, Term, Trial};
 use crate::error::Result;
 use crate::kinematics::Kinematics;
 use crate::material::Model;
@@ -20,6 +21,7 @@ use crate::points::Points;
 use crate::stencil::{Jump, Jumps};
 use crate::system::{Local, scatter};
 use crate::tensor::deviatoric;
+use std::borrow::Cow;
 use std::marker::PhantomData;
 use std::sync::Arc;
 
@@ -42,12 +44,17 @@ pub struct Hold {
 }
 
 impl Hold {
-    /// What the form of a face counts with where the mean square of its jumps is `square`: the form itself, and in the tangent the
-    /// product of the forces of a unit with themselves, over the measure (m²) of the face and its cells.
+    /// What is left of a field (-) of which the mean square of the jumps is `square`.
+    fn share(&self, square: f64) -> f64 {
+        (self.most / (self.stiffness * square.sqrt())).min(1.0)
+    }
+
+    /// What the form of a face counts with there: the form itself, and in the tangent the product of the forces of a unit with
+    /// themselves, over the measure (m²) of the face and its cells.
     fn factors(&self, square: f64) -> [f64; 2] {
-        let over = self.stiffness / self.most;
-        let share = 1.0 / (1.0 + square * over * over).sqrt();
-        [self.stiffness * share, -self.stiffness * (share * over).powi(2) * share]
+        let share = self.share(square);
+        let form = self.stiffness * share;
+        [form, if share < 1.0 { -form / square } else { 0.0 }]
     }
 }
 
@@ -70,7 +77,7 @@ impl<K> GhostPenalty<K> {
         Self { factor, share: None, models, jumps: Jumps::new(faces), kinematics: PhantomData }
     }
 
-    /// With κ (-): the part of its shear strength that the penalty may hold flowing soil with.
+    /// With κ (-): the part of its shear strength that the penalty may hold flowing soil with, from step to step.
     #[must_use]
     pub fn holding(self, share: f64) -> Self {
         Self { share: Some(share), ..self }
@@ -137,39 +144,73 @@ impl<const D: usize, K: Kinematics<D>> Term<D> for GhostPenalty<K> {
             let [form, product] = hold.factors(square / jump.measure);
             [form, (1.0 - trial.alpha_f) * form, (1.0 - trial.alpha_f) * product / jump.measure]
         };
-        let increment = |n: usize| std::array::from_fn(|k| trial.between[n][k] - trial.converged[n][k]);
-        penalise::<D, K>(frame, &self.jumps, factors, increment, out)
+        penalise::<D, K>(frame, &self.jumps, factors, |face| resisted(frame, trial, face), out)
+    }
+
+    fn bear(&self, frame: &Frame<D>, trial: &Trial<D>) -> Option<Borne<D>> {
+        self.share?;
+        let of_face = |face: &GhostFace| {
+            let hold = self.hold::<D>(frame, face)?;
+            let mut field = resisted(frame, trial, face);
+            let jump = jump_of::<D, K>(frame, &self.jumps, face);
+            let share = hold.share(unit(&jump.form, &field, &mut vec![0.0; D * field.len()]) / jump.measure);
+            field.iter_mut().flatten().for_each(|w| *w *= share);
+            Some((face.face, field))
+        };
+        Some(frame.ghost.iter().filter_map(of_face).collect())
     }
 }
 
-/// Adds the penalty on the jumps of a nodal field, `value` by node. `factors` of a face, given its form and that of the field, are what
+/// The field whose jumps a face resists, at its nodes: what it bears and the increment of the step.
+fn resisted<const D: usize>(frame: &Frame<D>, trial: &Trial<D>, face: &GhostFace) -> Vec<[f64; D]> {
+    let nodes = face.between.nodes(frame.mesh).map(|n| n as usize);
+    let mut field: Vec<[f64; D]> =
+        nodes.map(|n| std::array::from_fn(|k| trial.between[n][k] - trial.converged[n][k])).collect();
+    if let Some(borne) = frame.borne.get(&face.face) {
+        field.iter_mut().flatten().zip(borne.iter().flatten()).for_each(|(w, borne)| *w += borne);
+    }
+    field
+}
+
+/// The form of a face of the grid as it is.
+fn jump_of<'a, const D: usize, K: Kinematics<D>>(
+    frame: &Frame<D>,
+    jumps: &'a Jumps,
+    face: &GhostFace,
+) -> Cow<'a, Jump> {
+    if frame.relaxed {
+        return Cow::Owned(Jump::of::<D, K>(frame.mesh, &face.between));
+    }
+    Cow::Borrowed(jumps.of::<D, K>(frame.mesh, &face.between, face.face))
+}
+
+/// The forces of a unit of the penalty on `field`; returns the form of the field.
+fn unit<const D: usize>(form: &[f64], field: &[[f64; D]], out: &mut [f64]) -> f64 {
+    let mut square = 0.0;
+    for ((row, out), own) in form.chunks_exact(field.len()).zip(out.chunks_exact_mut(D)).zip(field) {
+        for k in 0..D {
+            out[k] = row.iter().zip(field).map(|(form, value)| form * value[k]).sum();
+            square += out[k] * own[k];
+        }
+    }
+    square
+}
+
+/// Adds the penalty on the jumps of a nodal field, given at the nodes of a face. `factors` of a face, given its form and that of the field, are what
 /// the form counts with in the force and in the tangent, and what the product of the forces of a unit with themselves counts with there.
 pub(super) fn penalise<const D: usize, K: Kinematics<D>>(
     frame: &Frame<D>,
     jumps: &Jumps,
     factors: impl Fn(&GhostFace, &Jump, f64) -> [f64; 3] + Sync,
-    value: impl Fn(usize) -> [f64; D] + Sync,
+    field: impl Fn(&GhostFace) -> Vec<[f64; D]> + Sync,
     out: &mut Assembly,
 ) -> Result<()> {
     let compute = |ghost: &GhostFace, local: &mut Local| {
-        let fresh = frame.relaxed.then(|| Jump::of::<D, K>(frame.mesh, &ghost.between));
-        let jump = fresh.as_ref().unwrap_or_else(|| jumps.of::<D, K>(frame.mesh, &ghost.between, ghost.face));
+        let jump = jump_of::<D, K>(frame, jumps, ghost);
         let form = &jump.form;
         let count = local.size / D;
-        let mut square = 0.0;
-        for (b, n) in ghost.between.nodes(frame.mesh).enumerate() {
-            let value = value(n as usize);
-            for a in 0..count {
-                for k in 0..D {
-                    local.vector[a * D + k] += form[a * count + b] * value[k];
-                }
-            }
-        }
-        for (a, n) in ghost.between.nodes(frame.mesh).enumerate() {
-            let value = value(n as usize);
-            square += (0..D).map(|k| local.vector[a * D + k] * value[k]).sum::<f64>();
-        }
-        let [force, slope, product] = factors(ghost, jump, square);
+        let square = unit(form, &field(ghost), local.vector);
+        let [force, slope, product] = factors(ghost, &jump, square);
         if !local.matrix.is_empty() {
             for (a, row) in form.chunks_exact(count).enumerate() {
                 for (b, form) in row.iter().enumerate() {

@@ -45,6 +45,7 @@ impl<const D: usize, K: Kinematics<D>> Term<D> for GhostInertia<K> {
             let mass = self.density * jump.size * jump.size;
             [mass, mass * trial.acceleration_slope, 0.0]
         };
-        penalise::<D, K>(frame, &self.jumps, factors, |n| trial.acceleration[n], out)
+        let field = |face: &GhostFace| face.between.nodes(frame.mesh).map(|n| trial.acceleration[n as usize]).collect();
+        penalise::<D, K>(frame, &self.jumps, factors, field, out)
     }
 }

@@ -63,6 +63,7 @@ use crate::system::{Local, Matrix, Pattern, Workspace, scatter};
 use crate::tensor::{Symmetric, Tensor};
 use crate::time_value::TimeValue;
 use rayon::prelude::*;
+use std::collections::BTreeMap;
 
 /// A face between two cells that takes a ghost penalty.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -73,6 +74,10 @@ pub struct GhostFace {
     /// Its clique: the nodes in the order of [`Face::nodes`].
     pub clique: u32,
 }
+
+/// What faces that take a ghost penalty bear, by their number among the inner faces: the field (m), at their nodes in the order of
+/// [`Face::nodes`], whose jumps they resist as the step begins.
+pub type Borne<const D: usize> = BTreeMap<u32, Vec<[f64; D]>>;
 
 /// A hat of a pair in contact.
 #[derive(Clone, Debug, PartialEq)]
@@ -98,6 +103,7 @@ pub struct Frame<'a, const D: usize> {
     pub soft: &'a [SoftCell],
     /// Faces beside cells that cannot stand alone; empty where the scene has no such penalty.
     pub ghost: &'a [GhostFace],
+    pub borne: &'a Borne<D>,
     /// The hats that face something; empty where the scene has no contact.
     pub touches: &'a [Touch<D>],
     /// The pieces of the boundary of the material; empty where the scene has no use for them.
@@ -318,6 +324,11 @@ pub trait Term<const D: usize>: Send + Sync {
     /// What the converged trial state makes of the points, if it changes them. Points that integrals are not summed over may
     /// have no answer to it: they are left out.
     fn commit(&self, _frame: &Frame<D>, _trial: &Trial<D>) -> Option<Update> {
+        None
+    }
+
+    /// What the faces bear in the converged trial state, if they bear it on from step to step.
+    fn bear(&self, _frame: &Frame<D>, _trial: &Trial<D>) -> Option<Borne<D>> {
         None
     }
 

@@ -175,7 +175,8 @@ fn the_condition_number_is_bounded_however_thin_the_sliver() {
     assert!(without[..6].iter().all(|&c| c > 1e12), "{without:?}");
 }
 
-/// Jumps far beyond what soil bears meet no more than a share of its strength, and the tangent is that of the force.
+/// Jumps far beyond what soil bears meet no more than a share of its strength, which the next step begins with, and the tangent is
+/// that of the force.
 #[test]
 fn soil_that_flows_is_held_by_no_more_than_a_share_of_its_strength() {
     fn limited(mesh: &Mesh<2>) -> Box<dyn Term<2>> {
@@ -185,7 +186,7 @@ fn soil_that_flows_is_held_by_no_more_than_a_share_of_its_strength() {
         Box::new(of::<PlaneStrain>(mesh, vec![Some(soil)]).holding(5e-4))
     }
     for kind in KINDS {
-        let stand: Stand<PlaneStrain> = stand(kind, limited, false);
+        let mut stand: Stand<PlaneStrain> = stand(kind, limited, false);
         let (trial, converged) = anywhere(&stand);
         let error = stand.tangent_error(&trial, &converged);
         assert!(error < 1e-6, "{kind:?}: {error:.1e}");
@@ -197,8 +198,15 @@ fn soil_that_flows_is_held_by_no_more_than_a_share_of_its_strength() {
         let (tiny, one, more) = (at(1e-7), at(1e3), at(1e4));
         assert!((more / one - 1.0).abs() < 1e-2, "{kind:?}: {one} {more}");
         assert!(one < 1e-3 * 1e10 * tiny, "{kind:?}: {one} of {}", 1e10 * tiny);
+        // The next step begins with what the faces bear at the end of this one.
+        let last = stand.evaluate(&trial, &converged, 0, false).0;
+        stand.state.borne = stand.term().bear(&stand.frame(), &Trial::at_rest(&trial, &converged)).unwrap();
+        let next = stand.evaluate(&trial, &trial, 0, false).0;
+        let error = size(&last.iter().zip(&next).map(|(a, b)| [a[0] - b[0], a[1] - b[1]]).collect::<Vec<_>>());
+        assert!(error < 1e-12 * size(&last), "{kind:?}: {error:.1e}");
     }
 }
+
 /// What flowed in the last step resists a step of the same kind with the same force, whatever its size.
 #[test]
 fn in_flow_it_resists_independently_of_the_step() {

@@ -103,6 +103,11 @@ fn check_cells<const D: usize>(scene: &Scene<D>, state: &State<D>) -> Result<()>
     let cells = scene.mesh.cells.len();
     ensure(state.taking_part.len() == cells, "the number of cells")?;
     ensure([0, cells].contains(&state.penalised.len()), "the list of penalised cells")?;
+    let inner = scene.faces.as_ref().map_or(&[][..], |faces| &faces.inner);
+    let of_face = |(&face, field): (&u32, &Vec<[f64; D]>)| {
+        inner.get(face as usize).is_some_and(|face| face.nodes(&scene.mesh).count() == field.len())
+    };
+    ensure(state.borne.iter().all(of_face), "what its faces bear")?;
     let Voids { of_cell, reported } = &state.voids;
     let known = of_cell.iter().all(|&label| (label as usize) <= reported.len());
     let areas = reported.iter().all(|area| *area >= 0.0 || *area == -1.0);
