@@ -30,7 +30,7 @@ const GHOST: f64 = 0.1;
 /// κ (-) of the ghost penalty in scenes without inertia. With 0.02 and 0.1 a bar pushed through clay goes five diameters deep under the same load, and with the
 /// secant stiffness of scenes with inertia it stops after one and a half. The load of thin walls grows with κ. Scenes with inertia could not have 0.1 of
 /// the increment of a step: a coarse block that should fail was held by it.
-const HOLD: f64 = 0.1;
+const HOLD: f64 = 0.02;
 
 /// Solves a case in `folder`.
 ///
