@@ -17,10 +17,12 @@ use super::{Assembly, Borne, Frame, GhostFace, Term, Trial};
 use crate::error::Result;
 use crate::kinematics::Kinematics;
 use crate::material::Model;
+use crate::mesh::shape::MAX_NODES;
 use crate::points::Points;
 use crate::stencil::{Jump, Jumps};
 use crate::system::{Local, scatter};
 use crate::tensor::deviatoric;
+use rayon::prelude::*;
 use std::borrow::Cow;
 use std::marker::PhantomData;
 use std::sync::Arc;
@@ -148,24 +150,34 @@ impl<const D: usize, K: Kinematics<D>> Term<D> for GhostPenalty<K> {
     }
 
     fn bear(&self, frame: &Frame<D>, trial: &Trial<D>) -> Option<Borne<D>> {
-        self.share?;
         let of_face = |face: &GhostFace| {
-            let hold = self.hold::<D>(frame, face)?;
-            let mut field = resisted(frame, trial, face);
+            let hold = self.hold::<D>(frame, face).filter(|hold| hold.most.is_finite())?;
             let jump = jump_of::<D, K>(frame, &self.jumps, face);
-            let share = hold.share(unit(&jump.form, &field, &mut vec![0.0; D * field.len()]) / jump.measure);
-            field.iter_mut().flatten().for_each(|w| *w *= share);
-            Some((face.face, field))
+            let (field, count) = (resisted(frame, trial, face), face.between.nodes(frame.mesh).count());
+            let share = hold.share(unit(&jump.form, &field[..count], &mut [0.0; 6 * MAX_NODES]) / jump.measure);
+            Some((face.face, field[..count].iter().map(|w| w.map(|w| w * share)).collect()))
         };
-        Some(frame.ghost.iter().filter_map(of_face).collect())
+        self.share.map(|_| frame.ghost.par_iter().filter_map(of_face).collect())
     }
 }
 
-/// The field whose jumps a face resists, at its nodes: what it bears and the increment of the step.
-fn resisted<const D: usize>(frame: &Frame<D>, trial: &Trial<D>, face: &GhostFace) -> Vec<[f64; D]> {
-    let nodes = face.between.nodes(frame.mesh).map(|n| n as usize);
-    let mut field: Vec<[f64; D]> =
-        nodes.map(|n| std::array::from_fn(|k| trial.between[n][k] - trial.converged[n][k])).collect();
+/// A field at the nodes of a face.
+pub(super) type Field<const D: usize> = [[f64; D]; 2 * MAX_NODES];
+
+/// The field with a value by node.
+pub(super) fn at_face<const D: usize>(
+    frame: &Frame<D>,
+    face: &GhostFace,
+    value: impl Fn(usize) -> [f64; D],
+) -> Field<D> {
+    let mut field = [[0.0; D]; 2 * MAX_NODES];
+    field.iter_mut().zip(face.between.nodes(frame.mesh)).for_each(|(own, n)| *own = value(n as usize));
+    field
+}
+
+/// The field whose jumps a face resists: what it bears and the increment of the step.
+fn resisted<const D: usize>(frame: &Frame<D>, trial: &Trial<D>, face: &GhostFace) -> Field<D> {
+    let mut field = at_face(frame, face, |n| std::array::from_fn(|k| trial.between[n][k] - trial.converged[n][k]));
     if let Some(borne) = frame.borne.get(&face.face) {
         field.iter_mut().flatten().zip(borne.iter().flatten()).for_each(|(w, borne)| *w += borne);
     }
@@ -202,14 +214,14 @@ pub(super) fn penalise<const D: usize, K: Kinematics<D>>(
     frame: &Frame<D>,
     jumps: &Jumps,
     factors: impl Fn(&GhostFace, &Jump, f64) -> [f64; 3] + Sync,
-    field: impl Fn(&GhostFace) -> Vec<[f64; D]> + Sync,
+    field: impl Fn(&GhostFace) -> Field<D> + Sync,
     out: &mut Assembly,
 ) -> Result<()> {
     let compute = |ghost: &GhostFace, local: &mut Local| {
         let jump = jump_of::<D, K>(frame, jumps, ghost);
         let form = &jump.form;
         let count = local.size / D;
-        let square = unit(form, &field(ghost), local.vector);
+        let square = unit(form, &field(ghost)[..count], local.vector);
         let [force, slope, product] = factors(ghost, &jump, square);
         if !local.matrix.is_empty() {
             for (a, row) in form.chunks_exact(count).enumerate() {

@@ -6,7 +6,7 @@
 //! short the step. An acceleration that is linear over both cells is free of it, so that it exerts neither force nor moment
 //! (Sticko & Kreiss 2016 stabilise the mass of cut elements so).
 
-use super::ghost::penalise;
+use super::ghost::{at_face, penalise};
 use super::{Assembly, Frame, GhostFace, Role, Term, Trial};
 use crate::error::Result;
 use crate::kinematics::Kinematics;
@@ -45,7 +45,7 @@ impl<const D: usize, K: Kinematics<D>> Term<D> for GhostInertia<K> {
             let mass = self.density * jump.size * jump.size;
             [mass, mass * trial.acceleration_slope, 0.0]
         };
-        let field = |face: &GhostFace| face.between.nodes(frame.mesh).map(|n| trial.acceleration[n as usize]).collect();
+        let field = |face: &GhostFace| at_face(frame, face, |n| trial.acceleration[n]);
         penalise::<D, K>(frame, &self.jumps, factors, field, out)
     }
 }
