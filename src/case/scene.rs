@@ -27,7 +27,7 @@ use std::sync::atomic::AtomicBool;
 
 /// γ (-) of the ghost penalty: 1e-3 … 1 give the same results to the error of the grid.
 const GHOST: f64 = 0.1;
-/// κ (-) of the ghost penalty in scenes without inertia. With 0.02 and 0.1 a bar pushed through clay goes five diameters deep under the same load, and with the
+/// κ (-) of the ghost penalty in scenes without inertia. A bar pushed through clay bears the same with 0.02 and 0.1; with the
 /// secant stiffness of scenes with inertia it stops after one and a half. The load of thin walls grows with κ. Scenes with inertia could not have 0.1 of
 /// the increment of a step: a coarse block that should fail was held by it.
 const HOLD: f64 = 0.02;

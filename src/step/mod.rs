@@ -143,6 +143,9 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
                     if !fresh {
                         // A distorted grid is the first thing to blame.
                         (fresh, unbalanced) = timed(Activity::Transfer, || self.initialise(true))?;
+                    } else if guess.is_none() && !self.state.borne.is_empty() {
+                        // What faces bear may be of soil that is gone.
+                        self.state.borne.clear();
                     } else if guess.is_none() {
                         release::hold(self.scene, &mut self.grid, &mut self.state, dt)?;
                         controller.halve(dt, error)?;

@@ -6,11 +6,12 @@
 //! included. `E_f` is the harmonic mean of Young's modulus over the points of both cells, by volume: soft material beside
 //! stiff decides.
 //!
-//! Soil that flows must not be held by more than it bears itself. With κ the face is an elastic, perfectly plastic link: `w` is what it
-//! bears from the step before and the increment of the step, and the mean jump `j` of `w` is at most `j₀`, `γ E_f j₀ = κ t`; beyond,
-//! `w` goes back to `w j₀/j`, and the next step begins with that. The shear stress `t` is what the soil has and what it lacks of
-//! yield, its harmonic mean over the points. So a load that is held is borne by the faces as it was.
-//! Without κ, `w` is the increment alone, and what yielded in the last step counts with its secant stiffness, `E c τ/(G Δγ)`, from its
+//! Soil that flows must not be held by more than it bears itself. With κ the penalty is the slope of the energy
+//! `γ E_f j₀² (√(1 + j²/j₀²) − 1)` in the mean jump `j` of `w`, quadratic in small jumps and linear in large ones, with `γ E_f j₀ = κ t`.
+//! The shear stress `t` is what the soil has and what it lacks of yield, its harmonic mean over the points. `w` is what the face bears from
+//! the step before and the increment of the step, and the next step begins with it, scaled back to `j = 3 j₀` where it is more. So a load that
+//! is held is borne by the faces as it was. Beside soil that cannot yield, `w` is the increment alone.
+//! Without κ it is so everywhere, and what yielded in the last step counts with its secant stiffness, `E c τ/(G Δγ)`, from its
 //! shear stress `τ` and plastic shear strain `Δγ`, so that what the penalty resists with is of the order `γ c τ` whatever the step.
 
 use super::{Assembly, Borne, Frame, GhostFace, Term, Trial};
@@ -36,6 +37,9 @@ const LEAST_SECANT: f64 = 1e-4;
 /// The least shear stress (-), over Young's modulus, that it is measured by, for soil that has none and bears none.
 const LEAST: f64 = 1e-5;
 
+/// The mean jump (-) that the next step begins with at most, over `j₀`: 0.95 of the most that the penalty resists with.
+const FARTHEST: f64 = 3.0;
+
 /// The penalty of a face.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Hold {
@@ -46,17 +50,17 @@ pub struct Hold {
 }
 
 impl Hold {
-    /// What is left of a field (-) of which the mean square of the jumps is `square`.
-    fn share(&self, square: f64) -> f64 {
-        (self.most / (self.stiffness * square.sqrt())).min(1.0)
+    /// What the form of a face counts with where the mean square of its jumps is `square`: the form itself, and in the tangent the
+    /// product of the forces of a unit with themselves, over the measure (m²) of the face and its cells.
+    fn factors(&self, square: f64) -> [f64; 2] {
+        let over = self.stiffness / self.most;
+        let share = 1.0 / (1.0 + square * over * over).sqrt();
+        [self.stiffness * share, -self.stiffness * (share * over).powi(2) * share]
     }
 
-    /// What the form of a face counts with there: the form itself, and in the tangent the product of the forces of a unit with
-    /// themselves, over the measure (m²) of the face and its cells.
-    fn factors(&self, square: f64) -> [f64; 2] {
-        let share = self.share(square);
-        let form = self.stiffness * share;
-        [form, if share < 1.0 { -form / square } else { 0.0 }]
+    /// What part of a field with that mean square the next step begins with.
+    fn share(&self, square: f64) -> f64 {
+        (FARTHEST * self.most / (self.stiffness * square.sqrt())).min(1.0)
     }
 }
 

@@ -198,12 +198,12 @@ fn soil_that_flows_is_held_by_no_more_than_a_share_of_its_strength() {
         let (tiny, one, more) = (at(1e-7), at(1e3), at(1e4));
         assert!((more / one - 1.0).abs() < 1e-2, "{kind:?}: {one} {more}");
         assert!(one < 1e-3 * 1e10 * tiny, "{kind:?}: {one} of {}", 1e10 * tiny);
-        // The next step begins with what the faces bear at the end of this one.
+        // The next step begins with what the faces bear at the end of this one, or 0.95 of the most.
         let last = stand.evaluate(&trial, &converged, 0, false).0;
         stand.state.borne = stand.term().bear(&stand.frame(), &Trial::at_rest(&trial, &converged)).unwrap();
         let next = stand.evaluate(&trial, &trial, 0, false).0;
         let error = size(&last.iter().zip(&next).map(|(a, b)| [a[0] - b[0], a[1] - b[1]]).collect::<Vec<_>>());
-        assert!(error < 1e-12 * size(&last), "{kind:?}: {error:.1e}");
+        assert!(error < 0.06 * size(&last), "{kind:?}: {error:.1e}");
     }
 }
 
