@@ -61,7 +61,7 @@ fn a_plate_laid_on_soil_bears_a_load() {
     assert!((last[2] / (low - 1.0) - 1.0).abs() < 1e-3, "{last:?}, {}", low - 1.0);
 }
 
-/// A free body with friction alone, initially closed on the soil or a little above it: nothing presses yet, and still it is held along the soil, too.
+/// A free body with friction alone, laid on the soil or a little above it: nothing presses yet, and still it is held along the soil, too.
 #[test]
 fn a_free_body_with_friction_is_laid_on_soil() {
     for gap in [0.0, 5e-4, 2e-3] {
@@ -138,7 +138,7 @@ fn adhesion_grows_as_clay_hardens() {
     assert!(mean > 30.0 && (force / wanted - 1.0).abs() < 3e-2, "{mean} {force} {wanted}");
 }
 
-/// A plate near the limit of what clay bears, initially closed on it at once: the step fails, and halves of it bear a half. It
+/// A plate near the limit of what clay bears, laid on it at once: the step fails, and halves of it bear a half. It
 /// ends where a load that grows does.
 #[test]
 fn what_cannot_be_borne_at_once_is_released_by_halved_steps() {

@@ -26,7 +26,7 @@ pub struct Weights<const D: usize> {
     pub weight: Vec<f64>,
     /// Cells that take part and are not full, ascending.
     pub partly_filled: Vec<PartlyFilled>,
-    /// Cells with points that are cut or too ill-conditioned in points to stand alone, ascending: their faces take a penalty.
+    /// Cells with points that are cut or have too few points to stand alone, ascending: their faces take a penalty.
     pub ill_conditioned: Vec<u32>,
     /// The boundary of the material; empty where nothing needs it.
     pub boundary: ActiveBoundary,

@@ -47,12 +47,13 @@ pub fn equilibrate<const D: usize>(
     }
     let given = grid::given_increments(scene, state, grid, 0.0);
     let Span { phase, from, to } = last;
-    for _ in 0..ROUNDS {
+    for round in 0..ROUNDS {
         let problem = Problem { given: &given, phase, from, to, discarded: true, ..Problem::at_rest(scene, state) };
         let solution = match newton::solve(&problem, grid) {
             Ok(solution) => solution,
             Err(error) if error.kind != Kind::Analysis => return Err(error),
-            Err(_) => return Ok(true),
+            // The balance of the round before stands.
+            Err(_) => return Ok(round == 0),
         };
         go_on(scene, grid, state, (&solution.displacement, last));
         transfer::commit_stresses(scene, grid, state, &solution, last);

@@ -160,7 +160,7 @@ impl<'a, const D: usize> Newton<'a, D> {
         (self.target, self.damping, self.stalled) = (f64::INFINITY, 0.0, 0);
     }
 
-    /// The first iterations from a predictor, or of bodies initially closed on each other. They leave contact nodes a little apart that bear in
+    /// The first iterations from a predictor, or of bodies that start in contact. They leave contact nodes a little apart that bear in
     /// the end; nothing holds the soil beneath them then, and what the tangent says flies through the structure, or
     /// nothing holds the structure. The directions hold such contact nodes together until one is worth its full length.
     fn first_iterations(&mut self) -> Result<()> {

@@ -1,4 +1,4 @@
-//! Inertia of nodes that hold little or no mass, over the faces of cells that are cut or ill-conditioned in points:
+//! Inertia of nodes that hold little or no mass, over the faces of cells that are cut or short of points:
 //! `10⁻⁴ ρ h² ∫ (h [∂_n a] [∂_n δu] + h³ [∂_nn a] [∂_nn δu])` for each component.
 //!
 //! It is the penalty that brings the motion of the points to the nodes. Nodes beside a few points have next to no mass,

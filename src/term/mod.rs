@@ -161,7 +161,7 @@ pub struct Trial<'a, const D: usize> {
     pub time: f64,
     /// What strengths are divided by (-) at the end of the step.
     pub reduction: f64,
-    /// Whether contact nodes that touched in the step before, or are initially closed on what they face, touch here, pressed or pulled.
+    /// Whether contact nodes that touched in the step before, or are initially closed, touch here, pressed or pulled.
     pub held: bool,
     /// Whether the displacements are discarded once the forces balance: what bears them then is to be the material.
     pub discarded: bool,
