@@ -194,10 +194,10 @@ fn a_load_is_held_while_the_grid_is_restored() {
         assert!((last[0] - 1.0 - hold).abs() < 1e-9, "{}", last[0]);
         (loaded, last[2], std::fs::read_to_string(folder.path().join("solve.log")).unwrap())
     };
-    let (loaded, held, _) = settled(-36.0, 100.0);
-    assert!((held / loaded - 1.0).abs() < 0.01, "{loaded} {held}");
-    let (loaded, held, log) = settled(-46.0, 100.0);
-    assert!((held / loaded - 1.0).abs() < 0.01 && !log.contains("no balance"), "{loaded} {held}");
+    for (load, most) in [(-36.0, 0.01), (-45.45, 0.01), (-46.0, 0.03)] {
+        let (loaded, held, log) = settled(load, 100.0);
+        assert!((held / loaded - 1.0).abs() < most && !log.contains("no balance"), "{load}: {loaded} {held}");
+    }
 }
 
 /// The same on soil that presses on a wall already: what presses elsewhere is nothing to the plate.

@@ -29,7 +29,6 @@ pub fn static_force<const D: usize>(problem: &Problem<D>, grid: &mut Grid<D>) ->
         time: problem.from,
         reduction: problem.scene.phases[problem.phase].reduction_at(problem.from),
         held: false,
-        discarded: false,
         inverse_dt: if problem.to > problem.from { 1.0 / (problem.to - problem.from) } else { 0.0 },
     };
     let (mut own, mut sum) = (Vec::new(), Evaluation::default());
@@ -76,7 +75,6 @@ pub fn evaluate<const D: usize>(
         time: (1.0 - alpha_f) * problem.to + alpha_f * problem.from,
         reduction: problem.scene.phases[problem.phase].reduction_at(problem.to),
         held: *held,
-        discarded: problem.discarded,
         inverse_dt: 1.0 / (problem.to - problem.from),
     };
     let result = timed(Activity::Assembly, || {

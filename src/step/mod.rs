@@ -214,7 +214,6 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
             to: state.phase_time + dt,
             given: &given,
             integration: dynamic.then(|| GeneralisedAlpha::new(scene.numerics.spectral_radius, dt)),
-            discarded: false,
             flow_time: if scene.phases[state.phase].flows { dt } else { 0.0 },
         };
         let solution = newton::solve(&problem, &mut self.grid)?;

@@ -30,8 +30,6 @@ pub struct Problem<'a, const D: usize> {
     pub integration: Option<GeneralisedAlpha>,
     /// Time (s) that water flows for.
     pub flow_time: f64,
-    /// As [`crate::term::Trial::discarded`].
-    pub discarded: bool,
 }
 
 impl<'a, const D: usize> Problem<'a, D> {
@@ -51,7 +49,6 @@ impl<'a, const D: usize> Problem<'a, D> {
             given: &[],
             integration: None,
             flow_time: 0.0,
-            discarded: false,
         }
     }
 

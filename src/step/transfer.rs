@@ -170,7 +170,6 @@ impl Answers {
             time: from,
             reduction: scene.phases[phase].reduction_at(to),
             held: false,
-            discarded: false,
             inverse_dt: 1.0 / (to - from),
         };
         let of = |terms: &[Box<dyn Term<D>>], frame: &Frame<D>| -> Vec<Update> {

@@ -11,8 +11,6 @@
 //! `γ E_f j₀ = κ t`. The shear stress `t` is what the soil has and what it lacks of yield, its harmonic mean over the points. Without
 //! κ, what yielded in the last step counts with its secant stiffness, `E c τ/(G Δγ)`, from its shear stress `τ` and plastic shear
 //! strain `Δγ`, so that what the penalty resists with is of the order `γ c τ` whatever the step.
-//!
-//! Where the displacements of a solution are discarded, as in balance on a restored grid, what the penalty bears is gone with them: it is then a tenth of that.
 
 use super::{Assembly, Frame, GhostFace, Term, Trial};
 use crate::error::Result;
@@ -33,10 +31,6 @@ const LEAST_SECANT: f64 = 1e-4;
 
 /// The least shear stress (-), over Young's modulus, that it is measured by, for soil that has none and bears none.
 const LEAST: f64 = 1e-5;
-
-/// Part (-) of its stiffness that the penalty has where the displacements are discarded, and what it bears with them. With a hundredth a confined column
-/// that cavitates came to another balance once (`cavitation::a_confined_column…`).
-const DISCARDED: f64 = 0.1;
 
 /// The penalty of a face.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -139,10 +133,7 @@ impl<const D: usize, K: Kinematics<D>> Term<D> for GhostPenalty<K> {
 
     fn assemble(&self, frame: &Frame<D>, trial: &Trial<D>, out: &mut Assembly) -> Result<()> {
         let factors = |face: &GhostFace, jump: &Jump, square: f64| {
-            let Some(mut hold) = self.hold::<D>(frame, face) else { return [0.0; 3] };
-            if trial.discarded {
-                hold.stiffness *= DISCARDED;
-            }
+            let Some(hold) = self.hold::<D>(frame, face) else { return [0.0; 3] };
             let [form, product] = hold.factors(square / jump.measure);
             [form, (1.0 - trial.alpha_f) * form, (1.0 - trial.alpha_f) * product / jump.measure]
         };

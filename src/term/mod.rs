@@ -163,8 +163,6 @@ pub struct Trial<'a, const D: usize> {
     pub reduction: f64,
     /// Whether contact nodes that touched in the step before, or are initially closed, touch here, pressed or pulled.
     pub held: bool,
-    /// Whether the displacements are discarded once the forces balance: what bears them then is to be the material.
-    pub discarded: bool,
     /// One over the size of the step (1/s), for strength that depends on the rate of strain.
     pub inverse_dt: f64,
 }
@@ -188,7 +186,6 @@ impl<'a, const D: usize> Trial<'a, D> {
             time: 0.0,
             reduction: 1.0,
             held: false,
-            discarded: false,
             inverse_dt: 0.0,
         }
     }

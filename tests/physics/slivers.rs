@@ -58,7 +58,6 @@ fn condition(scene: &Scene<2>, points: Points<2>) -> f64 {
         time: 1.0,
         reduction: 1.0,
         held: false,
-        discarded: false,
         inverse_dt: 0.0,
     };
     let pattern = &grid.motion.pattern;

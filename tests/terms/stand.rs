@@ -323,7 +323,6 @@ impl<K: Kinematics<2>> Stand<K> {
             time: 0.5,
             reduction: 1.0,
             held: self.held,
-            discarded: false,
             inverse_dt: 0.0,
         };
         let mut force = vec![0.0; frame.pattern.len()];
