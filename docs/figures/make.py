@@ -587,22 +587,22 @@ def unknowns(png):
             ax.plot(*corner, "D", ms=17, mfc="none", mec=GREEN, mew=1.2)
         if constant:
             ax.plot(*(c.mean(axis=0) + np.array([0.0, -0.2])), "s", ms=8, color=RED)
-        ax.text(c[:, 0].mean(), at[1] - 0.55, name, ha="center", va="top", fontsize=9)
+        ax.text(c[:, 0].mean(), at[1] - 0.55, name, ha="center", va="top", fontsize=8.2)
 
     t = [(0, 0), (2, 0), (1, 1.8)]
     mid = lambda a, b: ((a[0] + b[0]) / 2, (a[1] + b[1]) / 2)
     t6 = t + [mid(t[0], t[1]), mid(t[1], t[2]), mid(t[2], t[0])]
     q = [(0, 0), (2, 0), (2, 1.8), (0, 1.8)]
     q8 = q + [mid(q[i], q[(i + 1) % 4]) for i in range(4)]
-    cell(np.array([0.4, 3.6]), t6[:3], t6, "T6: P2 and P1 + P0", True)
-    cell(np.array([3.5, 3.6]), q, q8, "Q8: Q2 and Q1 + P0", True)
-    cell(np.array([6.6, 3.6]), q, q8 + [(1, 0.9)], "Q9: Q2 and Q1 + P0", True)
-    cell(np.array([0.4, 0.6]), t, t, "T3: stabilised P1", False)
-    cell(np.array([3.5, 0.6]), q, q, "Q4: stabilised Q1", False)
+    cell(np.array([0.4, 3.6]), t6[:3], t6, "T6: u in P2, π in P1 + P0", True)
+    cell(np.array([3.5, 3.6]), q, q8, "Q8: u in S2, π in Q1 + P0", True)
+    cell(np.array([6.6, 3.6]), q, q8 + [(1, 0.9)], "Q9: u in Q2, π in Q1 + P0", True)
+    cell(np.array([0.4, 0.6]), t, t, "T3: u in P1, π in P1, stabilised", False)
+    cell(np.array([3.5, 0.6]), q, q, "Q4: u in Q1, π in Q1, stabilised", False)
     ax.add_patch(Rectangle((6.6, 0.6), 2.0, 1.8, fc=STEEL, alpha=0.6, ec=DARK))
     ax.plot(7.6, 1.5, "o", ms=7, color=BLUE)
     ax.plot(7.6, 1.5, "o", ms=13, mfc="none", mec=BLUE, mew=1.5)
-    ax.text(7.6, 0.05, "rigid body: U, and the arc ℓθ", ha="center", va="top", fontsize=9)
+    ax.text(7.6, 0.05, "rigid body: U and the arc ℓθ", ha="center", va="top", fontsize=8.2)
     handles = [
         plt.Line2D([], [], ls="", marker="o", ms=6, color=BLUE, label="displacement u"),
         plt.Line2D([], [], ls="", marker="s", ms=9, mfc="none", mec=RED, mew=1.5, label="pressure field π, corners"),
