@@ -5,23 +5,26 @@
 //! | displacement (m) | D a node, those of rigid bodies at nodes of their own | by node | first, node by node |
 //! | pressure (kPa) | one a corner, and in cells of second order one a cell | [`Places`] | one each, after them |
 //! | pore pressure (kPa) | one a corner | [`Places`] | among the former |
+//! | any other scalar field | one a corner | [`Places`] | among the former |
 
 use crate::mesh::Mesh;
 
 /// Where the pressures of a family of cells stand among all pressures of a state: the pressure field by node, the constants of the cells of
-/// the grid, those of the finite elements, the pore pressures by node.
+/// the grid, those of the finite elements, the pore pressures by node, other scalar fields by node one after the other.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Places {
     /// Where the constants of the cells of the family begin, and the pore pressures of the nodes.
     constants: usize,
     pore_pressures: usize,
+    /// How many nodes there are.
+    nodes: usize,
 }
 
 impl Places {
     /// Those of the cells of the grid and of the finite elements, given how many nodes and cells there are.
     pub fn of(nodes: usize, cells: usize, elements: usize) -> [Self; 2] {
         let pore_pressures = nodes + cells + elements;
-        [nodes, nodes + cells].map(|constants| Self { constants, pore_pressures })
+        [nodes, nodes + cells].map(|constants| Self { constants, pore_pressures, nodes })
     }
 
     /// The constant of a cell.
@@ -39,9 +42,26 @@ impl Places {
         self.pore_pressures
     }
 
+    /// The value of scalar field `k` at a node.
+    pub fn field(self, k: usize, node: u32) -> usize {
+        self.pore_pressures + (k + 1) * self.nodes + node as usize
+    }
+
+    /// How many values there are with so many scalar fields.
+    pub fn end(self, fields: usize) -> usize {
+        self.field(fields, 0)
+    }
+
     /// The node whose pore pressure a place is.
     pub fn node_with_water(self, place: u32) -> Option<u32> {
-        (place as usize).checked_sub(self.pore_pressures).map(|n| n as u32)
+        let node = (place as usize).checked_sub(self.pore_pressures).filter(|&n| n < self.nodes);
+        node.map(|n| n as u32)
+    }
+
+    /// The scalar field that a place is of, and the node.
+    pub fn of_scalar(self, place: u32) -> Option<(usize, u32)> {
+        let after = (place as usize).checked_sub(self.field(0, 0))?;
+        Some((after / self.nodes, (after % self.nodes) as u32))
     }
 
     /// The places of the pressure field of a cell: its corners, and its constant.
@@ -55,6 +75,17 @@ impl Places {
     pub fn of_water<const D: usize>(self, mesh: &Mesh<D>, cell: usize) -> impl Iterator<Item = u32> {
         let corners = &mesh.cells.nodes(cell)[..mesh.cells.kind[cell].corner_count()];
         corners.iter().map(move |&n| self.pore_pressure(n) as u32)
+    }
+
+    /// The places of the first `fields` scalar fields of a cell: its corners, field by field.
+    pub fn of_fields<const D: usize>(
+        self,
+        mesh: &Mesh<D>,
+        cell: usize,
+        fields: usize,
+    ) -> impl Iterator<Item = u32> + '_ {
+        let corners = &mesh.cells.nodes(cell)[..mesh.cells.kind[cell].corner_count()];
+        (0..fields).flat_map(move |k| corners.iter().map(move |&n| self.field(k, n) as u32))
     }
 }
 
@@ -110,6 +141,13 @@ impl<const D: usize> DofMap<D> {
         let all = self.pressure.iter().enumerate();
         all.filter_map(move |(k, &place)| Some((first + k, self.places.node_with_water(place)?)))
     }
+
+    /// The equations of scalar field `number`, with their nodes.
+    pub fn field(&self, number: usize) -> impl Iterator<Item = (usize, u32)> {
+        let first = self.displacements();
+        let of_field = move |&place: &u32| self.places.of_scalar(place).filter(|(k, _)| *k == number);
+        self.pressure.iter().enumerate().filter_map(move |(k, place)| Some((first + k, of_field(place)?.1)))
+    }
 }
 
 #[cfg(test)]
@@ -133,6 +171,10 @@ mod tests {
         // Four corners with both pressures, and a constant a cell.
         assert_eq!(all.len(), 2 * 4 + cells + 3);
         assert_eq!(grid.node_with_water(grid.pore_pressure(2) as u32), Some(2));
+        assert_eq!(grid.node_with_water(grid.field(0, 2) as u32), None);
+        assert_eq!(grid.of_scalar(grid.field(1, 2) as u32), Some((1, 2)));
+        assert_eq!(grid.of_scalar(grid.pore_pressure(2) as u32), None);
+        assert_eq!(grid.end(2), grid.field(1, nodes as u32 - 1) + 1);
         assert_eq!(grid.node_with_water(grid.constant(1) as u32), None);
 
         let places = [grid.constant(0) as u32, grid.pore_pressure(1) as u32];

@@ -39,6 +39,8 @@ pub struct Points<const D: usize> {
     pub pressure: Vec<f64>,
     /// Excess pressure (kPa) of the water in the pores, compression positive, at the last converged step.
     pub pore_pressure: Vec<f64>,
+    /// The values of the scalar fields of a scene ([`crate::step::Field`]), a column each.
+    pub fields: Vec<Vec<f64>>,
     /// Index into the regions of the mesh.
     pub region: Vec<u16>,
     /// Number of the material among those of a scene: first one a region of the mesh, then one a change of it.
@@ -101,6 +103,7 @@ impl<const D: usize> Points<D> {
             memory: pick(&self.memory, numbers),
             pressure: pick(&self.pressure, numbers),
             pore_pressure: pick(&self.pore_pressure, numbers),
+            fields: self.fields.iter().map(|column| pick(column, numbers)).collect(),
             region: pick(&self.region, numbers),
             model: pick(&self.model, numbers),
             cell: pick(&self.cell, numbers),
@@ -164,6 +167,7 @@ impl<const D: usize> Points<D> {
         one.memory = scalars(&self.memory, share);
         one.pressure = scalars(&self.pressure, share);
         one.pore_pressure = scalars(&self.pore_pressure, by_volume);
+        one.fields = self.fields.iter().map(|column| scalars(column, by_volume)).collect();
         let mean = self.deformation[p] + (self.deformation[q] - self.deformation[p]) * share;
         // Points that have turned against each other have no mean: the larger one's then.
         let larger = if share > 0.5 { q } else { p };
@@ -204,6 +208,7 @@ impl<const D: usize> Points<D> {
         self.memory.append(&mut other.memory);
         self.pressure.append(&mut other.pressure);
         self.pore_pressure.append(&mut other.pore_pressure);
+        self.fields.iter_mut().zip(&mut other.fields).for_each(|(own, other)| own.append(other));
         self.region.append(&mut other.region);
         self.model.append(&mut other.model);
         self.cell.append(&mut other.cell);

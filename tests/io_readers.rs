@@ -226,6 +226,7 @@ fn points_vtu_is_viewable_as_it_is() {
         memory: Vec::new(),
         pressure: Vec::new(),
         pore_pressure: Vec::new(),
+        fields: Vec::new(),
         region: (0..n).map(|i| (i % 2) as u16).collect(),
         model: Vec::new(),
         cell: (0..n as u32).collect(),

@@ -238,6 +238,7 @@ pub fn scene<K: Kinematics<2>>(case: &Case, mut whole: Mesh<2>) -> Result<Scene<
         pressure_unit,
         carried,
         water,
+        fields: Vec::new(),
         supports,
         phases,
         basis,

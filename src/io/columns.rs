@@ -28,6 +28,7 @@ pub fn to_arrays<const D: usize>(points: &Points<D>) -> Vec<Array> {
         memory,
         pressure,
         pore_pressure,
+        fields,
         region,
         model,
         cell,
@@ -56,6 +57,7 @@ pub fn to_arrays<const D: usize>(points: &Points<D>) -> Vec<Array> {
     const OPTIONAL: [&str; 8] =
         ["reference", "velocity", "acceleration", "plastic_increment", "memory", "pressure", "pore_pressure", "model"];
     arrays.retain(|a| !(a.data.is_empty() && OPTIONAL.contains(&a.name.as_str())));
+    arrays.extend(fields.iter().enumerate().map(|(k, field)| array(&format!("field_{k}"), "-", 1, field.clone())));
     arrays
 }
 
@@ -74,7 +76,12 @@ pub fn put<const D: usize>(store: &mut Store, prefix: &str, points: &Points<D>) 
 pub fn take<const D: usize>(store: &mut Store, prefix: &str) -> Result<Points<D>> {
     let position = cut(&store.take(&format!("{prefix}position"), 3)?);
     let mut columns = Columns { store, prefix, count: position.len() };
+    let mut fields = Vec::new();
+    while let Some(field) = columns.if_present(&format!("field_{}", fields.len()), 1)? {
+        fields.push(field);
+    }
     Ok(Points {
+        fields,
         position,
         origin: columns.vectors("origin")?,
         reference: columns.vectors_if_present("reference")?,

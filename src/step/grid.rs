@@ -4,6 +4,7 @@
 use super::facing;
 use super::family::{Family, Stencils, System};
 use super::fem::Elements;
+use super::field;
 use super::ghost_faces;
 use super::nodal_fit::Filled;
 use super::pore_pressure;
@@ -46,8 +47,9 @@ pub struct Grid<const D: usize> {
     pub clique: Vec<u32>,
     /// The equations of [`Grid::motion`].
     pub dofs: DofMap<D>,
-    /// The cells that take part, ascending.
+    /// The cells that take part, ascending, and whether they have pore water.
     pub cells: Vec<u32>,
+    with_water: bool,
     pub motion: System,
     /// The mass of the points on the nodes, one equation a node: in dynamic analysis only.
     pub mass: Option<System>,
@@ -97,21 +99,24 @@ struct Carrying<'a, const D: usize> {
     places: Places,
     /// Whether a cell has pore water, and whether it has a pressure field.
     with: Box<dyn Fn(u32) -> [bool; 2] + 'a>,
+    /// How many other scalar fields a cell has.
+    fields: Box<dyn Fn(u32) -> usize + 'a>,
     clique: &'a [u32],
 }
 
 impl<const D: usize> Carrying<'_, D> {
     fn cells(&self) -> impl Iterator<Item = u32> {
-        (0..self.mesh.cells.len() as u32).filter(|&c| (self.with)(c).contains(&true))
+        (0..self.mesh.cells.len() as u32).filter(|&c| (self.with)(c).contains(&true) || (self.fields)(c) > 0)
     }
 
-    /// Those of a cell, of its pore water first.
+    /// Those of a cell: of its pore water, of other scalar fields, of its pressure field.
     fn unknowns(&self, cell: u32) -> impl Iterator<Item = u32> {
-        let [water, field] = (self.with)(cell);
+        let ([water, field], fields) = ((self.with)(cell), (self.fields)(cell));
         let cell = cell as usize;
         let of_water = water.then(|| self.places.of_water(self.mesh, cell));
         let of_field = field.then(|| self.places.of_field(self.mesh, cell));
-        of_water.into_iter().flatten().chain(of_field.into_iter().flatten())
+        let of_others = self.places.of_fields(self.mesh, cell, fields);
+        of_water.into_iter().flatten().chain(of_others).chain(of_field.into_iter().flatten())
     }
 }
 
@@ -143,6 +148,7 @@ impl<const D: usize> Grid<D> {
             grid.project_pressure_of_elements::<K>(scene, state);
         }
         grid.project_pore_pressure::<K>(scene, state);
+        field::project::<D, K>(scene, &grid, state);
         Ok(grid)
     }
 
@@ -160,6 +166,7 @@ impl<const D: usize> Grid<D> {
             self.penalise(scene, state);
         }
         self.project_pore_pressure::<K>(scene, state);
+        field::project::<D, K>(scene, self, state);
         Ok(())
     }
 
@@ -223,23 +230,25 @@ impl<const D: usize> Grid<D> {
         let mut cliques = if scene.terms.iter().any(|t| t.penalises_faces()) { cliques } else { cells_only };
         let constraint_clique = facing::couple(state, &block, &mut cliques);
         let [places, of_elements] = scene.places();
-        let with_pressure = scene.pressure_unit.map(|_| {
-            let (with_water, with_field) = (scene.water.is_some(), scene.has_pressure_field());
+        let with_pressure = scene.has_scalars().then(|| {
+            let (with_water, with_field, others) =
+                (scene.water.is_some(), scene.has_pressure_field(), scene.fields.len());
             let part = &state.active;
             let mut families = vec![Carrying {
                 mesh,
                 places,
                 with: Box::new(move |c| [with_water, with_field].map(|with| with && part[c as usize])),
+                fields: Box::new(move |c| if part[c as usize] { others } else { 0 }),
                 clique: &clique,
             }];
             families.extend(elements.iter().zip(&scene.fem).map(|(elements, fem)| Carrying {
                 mesh: &elements.mesh,
                 places: of_elements,
                 with: Box::new(|c| [fem.with_water[c as usize], fem.with_pressure[c as usize]]),
+                fields: Box::new(|_| 0),
                 clique: &elements.clique,
             }));
-            let most = places.pore_pressures() + if with_water { mesh.nodes.len() } else { 0 };
-            Pressures::new(&families, node.len(), &cliques, most)
+            Pressures::new(&families, node.len(), &cliques, places.end(others))
         });
         let symmetric = scene.terms.iter().all(|t| t.symmetric());
         let mut sizes = vec![D as u8; node.len()];
@@ -265,6 +274,7 @@ impl<const D: usize> Grid<D> {
             clique,
             dofs: DofMap { node, pressure, block, places },
             cells,
+            with_water: scene.water.is_some(),
             motion,
             mass,
             workspace: Workspace::default(),
@@ -296,13 +306,14 @@ impl<const D: usize> Grid<D> {
     fn project_pore_pressure<K: Kinematics<D>>(&self, scene: &Scene<D>, state: &mut State<D>) {
         if let Some(water) = &scene.water {
             let first = self.dofs.places.pore_pressures();
-            state.pressure.resize(first + scene.mesh.nodes.len(), 0.0);
-            let mut field = state.pressure.split_off(first);
+            let end = first + scene.mesh.nodes.len();
+            state.pressure.resize(end.max(state.pressure.len()), 0.0);
+            let mut field = state.pressure[first..end].to_vec();
             let soil = self.frame(&scene.mesh, state).into();
             let elements = self.elements.as_ref().map(|elements| self.frame_of_elements(scene, elements, state).into());
             let cells: Vec<_> = std::iter::once(soil).chain(elements).collect();
             pore_pressure::gather::<D, K>(&cells, &water.porous, &mut field);
-            state.pressure.extend(field);
+            state.pressure[first..end].copy_from_slice(&field);
         }
     }
 
@@ -338,6 +349,7 @@ impl<const D: usize> Grid<D> {
             clique: &self.clique,
             block: &self.dofs.block,
             bodies: &self.body_clique,
+            with_water: self.with_water,
         }
     }
 
@@ -373,6 +385,7 @@ impl<const D: usize> Grid<D> {
             clique: &elements.clique,
             block: &self.dofs.block,
             bodies: &self.body_clique,
+            with_water: self.with_water,
         }
     }
 
@@ -429,5 +442,6 @@ pub fn given_increments<const D: usize>(
             }
         }
     }
+    field::give(scene, state, grid, dt, &mut given);
     given
 }

@@ -14,6 +14,7 @@ mod equilibrate;
 mod facing;
 mod family;
 mod fem;
+mod field;
 mod free;
 mod ghost_faces;
 mod grid;
@@ -43,6 +44,7 @@ mod water;
 pub use change::Change;
 pub use contact::Resultant;
 pub use control::{Controller, Limits};
+pub use field::Field;
 pub use ghost_faces::has_room_for_penalties;
 pub use grid::Grid;
 pub use problem::Solution;
@@ -279,6 +281,7 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
             balanced.then_some(Span { phase: state.phase, from: state.phase_time, to: state.phase_time + dt });
         state.displacement.clone_from(&solution.displacement);
         state.pressure.clone_from(&solution.pressure);
+        field::to_points::<D, K>(scene, &self.grid, state);
         if start.is_some() {
             rigid::motion_to_points(scene, state);
         }

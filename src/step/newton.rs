@@ -334,13 +334,14 @@ fn floor<const D: usize>(problem: &Problem<D>, grid: &Grid<D>) -> f64 {
 
 /// What is missing to the given displacements and pore pressures, in the unit of the unknowns, one entry an equation.
 fn gaps<const D: usize>(problem: &Problem<D>, grid: &Grid<D>, at: &Unknowns<D>, out: &mut Vec<f64>) {
-    let unit = problem.scene.pressure_unit.unwrap_or(1.0);
     let gap = |(equation, given): (usize, &Option<f64>)| {
         given.map_or(0.0, |increment| match grid.dofs.dof(equation) {
             Dof::Displacement { node, component } => {
                 problem.converged[node][component] + increment - at.displacement[node][component]
             }
-            Dof::Pressure(place) => (problem.pressure[place] + increment - at.pressure[place]) / unit,
+            Dof::Pressure(place) => {
+                (problem.pressure[place] + increment - at.pressure[place]) / problem.scene.unit(place)
+            }
         })
     };
     out.clear();

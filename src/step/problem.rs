@@ -54,13 +54,12 @@ impl<'a, const D: usize> Problem<'a, D> {
 
     /// Adds `length · δ`, one entry an equation, to the unknowns; a full step lands on what is given to the last bit.
     pub fn advance(&self, grid: &Grid<D>, at: &mut Unknowns<D>, delta: &[f64], length: f64) {
-        let unit = self.scene.pressure_unit.unwrap_or(0.0);
         for (equation, (delta, given)) in delta.iter().zip(self.given).enumerate() {
             let (value, converged, scale) = match grid.dofs.dof(equation) {
                 Dof::Displacement { node, component } => {
                     (&mut at.displacement[node][component], self.converged[node][component], 1.0)
                 }
-                Dof::Pressure(place) => (&mut at.pressure[place], self.pressure[place], unit),
+                Dof::Pressure(place) => (&mut at.pressure[place], self.pressure[place], self.scene.unit(place)),
             };
             match given {
                 Some(increment) if length == 1.0 => *value = converged + increment,

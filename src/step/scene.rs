@@ -2,6 +2,7 @@
 
 use super::change::Change;
 use crate::contact::Interface;
+use super::field::Field;
 use crate::dofs::Places;
 use crate::mesh::Mesh;
 use crate::mesh::faces::Faces;
@@ -39,6 +40,8 @@ pub struct Scene<const D: usize> {
     pub carried: Vec<Option<Carried>>,
     /// The water in the pores, where its pressure is a field of its own.
     pub water: Option<Water>,
+    /// Other scalar fields that the material points carry.
+    pub fields: Vec<Field>,
     /// Degrees of freedom held at their place in every phase.
     pub supports: Vec<Fixed>,
     pub phases: Vec<Phase>,
@@ -69,6 +72,19 @@ impl<const D: usize> Scene<D> {
             self.mesh.cells.len(),
             self.fem.as_ref().map_or(0, |fem| fem.mesh.cells.len()),
         )
+    }
+
+    /// What an unknown of the linear system stands for in the value at a place of [`super::State::pressure`].
+    pub fn unit(&self, place: usize) -> f64 {
+        match self.places()[0].of_scalar(place as u32) {
+            Some((field, _)) => self.fields[field].unit,
+            None => self.pressure_unit.unwrap_or(1.0),
+        }
+    }
+
+    /// Whether there are scalar unknowns beside the displacement.
+    pub fn has_scalars(&self) -> bool {
+        self.pressure_unit.is_some() || !self.fields.is_empty()
     }
 
     /// The body whose region that is.

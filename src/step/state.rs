@@ -68,7 +68,8 @@ pub struct State<const D: usize> {
     /// What of it the history does not count, as of the last reset; empty before one.
     pub uncounted: Vec<[f64; D]>,
     /// The pressure field (kPa, tension positive) by node, at the corners of cells, then the constant of each cell, then
-    /// the excess pore pressure (kPa, compression positive) by node, at the corners of cells; empty without either.
+    /// the excess pore pressure (kPa, compression positive) by node, at the corners of cells, then other scalar fields, by node;
+    /// empty without any.
     pub pressure: Vec<f64>,
     /// Velocity (m/s) and acceleration (m/s²) of the nodes; empty in quasi-static analysis.
     pub velocity: Vec<[f64; D]>,

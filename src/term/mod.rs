@@ -129,6 +129,16 @@ pub struct Frame<'a, const D: usize> {
     pub block: &'a [u32],
     /// The clique of each rigid body: its reference and, where it turns, its turning node.
     pub bodies: &'a [u32],
+    /// Whether the cells have pore water.
+    pub with_water: bool,
+}
+
+impl<const D: usize> Frame<'_, D> {
+    /// Where the unknowns of scalar field `k` of a cell begin among those of its clique: one a corner.
+    pub fn field(&self, k: usize, cell: u32) -> usize {
+        let corners = self.mesh.cells.kind[cell as usize].corner_count();
+        D * self.stencil.nodes(self.mesh, cell).len() + (k + usize::from(self.with_water)) * corners
+    }
 }
 
 /// A trial state of the step.

@@ -233,6 +233,7 @@ impl Bench {
             pressure_unit: unit,
             carried: Vec::new(),
             water,
+            fields: Vec::new(),
             supports: self.supports,
             phases: vec![Phase {
                 name: "test".into(),

@@ -13,6 +13,7 @@ mod ghost;
 mod held_out;
 mod incompressible;
 mod layout;
+mod nodal_field;
 mod patch;
 mod population;
 mod resampled;

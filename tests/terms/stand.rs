@@ -201,6 +201,7 @@ impl<K: Kinematics<2>> Stand<K> {
             pressure_unit,
             carried: Vec::new(),
             water,
+            fields: Vec::new(),
             supports: Vec::new(),
             phases: vec![phase.clone(), phase],
             basis: scheme,

@@ -300,6 +300,7 @@ fn collect(points: &Points<2>, sampled: &[Sampled]) -> (Samples<2>, Tally) {
         memory: column(!points.memory.is_empty(), MEMORY),
         pressure: column(!points.pressure.is_empty(), PRESSURE),
         pore_pressure: column(!points.pore_pressure.is_empty(), WATER),
+        fields: Vec::new(),
         region: all().map(|s| s.region).collect(),
         model,
         cell: all().map(|s| s.cell).collect(),

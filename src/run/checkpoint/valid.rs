@@ -86,7 +86,13 @@ fn check_fields<const D: usize>(scene: &Scene<D>, state: &State<D>) -> Result<()
     let until = state.ramp.until;
     ensure(if held { state.phase_time < until } else { until == 0.0 }, "the time of its ramp")?;
     let of_water = if scene.water.is_some() { nodes } else { 0 };
-    let pressures = scene.pressure_unit.map_or(0, |_| scene.places()[0].pore_pressures() + of_water);
+    let [places, _] = scene.places();
+    let of_points = state.points.fields.len();
+    ensure(of_points == scene.fields.len() && state.fem.fields.is_empty(), "its scalar fields")?;
+    let pressures = match scene.fields.len() {
+        0 => scene.pressure_unit.map_or(0, |_| places.pore_pressures() + of_water),
+        fields => places.end(fields),
+    };
     ensure(state.pressure.len() == pressures, "its pressure field")
 }
 
@@ -188,6 +194,7 @@ fn check_family<const D: usize>(
         columns.iter().all(|&(length, present)| length == if present { count } else { 0 }),
         "a column of its points",
     )?;
+    ensure(points.fields.iter().all(|column| column.len() == count), "a scalar field of its points")?;
     let changes: Vec<_> = begun(scene, state).flat_map(|phase| &phase.changes).collect();
     for (p, &region) in points.region.iter().enumerate() {
         let change = changes.iter().rev().find(|change| change.region == region);
@@ -220,7 +227,7 @@ fn check_samples<const D: usize>(scene: &Scene<D>, state: &State<D>) -> Result<(
         (points.model.len(), material.model.len()),
     ];
     let fits = |&(length, of_material): &(usize, usize)| length == if of_material > 0 { points.len() } else { 0 };
-    ensure(columns.iter().all(fits), "a column of its integration points")?;
+    ensure(columns.iter().all(fits) && points.fields.is_empty(), "a column of its integration points")?;
     let number = |region: u16| material.region.iter().position(|&r| r == region).and_then(|p| material.model.get(p));
     let same = (0..points.model.len()).all(|q| number(points.region[q]) == Some(&points.model[q]));
     ensure(same, "the material of an integration point")?;
