@@ -51,8 +51,14 @@ pub fn project<const D: usize, K: Kinematics<D>>(scene: &Scene<D>, grid: &Grid<D
     }
 }
 
-/// Hands the solution on to the material points.
-pub fn to_points<const D: usize, K: Kinematics<D>>(scene: &Scene<D>, grid: &Grid<D>, state: &mut State<D>) {
+/// Adds to the values of the material points what those of the nodes, which become `new`, have changed by: where nothing changes, the points keep
+/// theirs.
+pub fn to_points<const D: usize, K: Kinematics<D>>(
+    scene: &Scene<D>,
+    grid: &Grid<D>,
+    state: &mut State<D>,
+    new: &[f64],
+) {
     let [places, _] = scene.places();
     for k in 0..scene.fields.len() {
         let mut column = std::mem::take(&mut state.points.fields[k]);
@@ -62,8 +68,11 @@ pub fn to_points<const D: usize, K: Kinematics<D>>(scene: &Scene<D>, grid: &Grid
                 let corners = &mesh.cells.nodes(patch.cell as usize)[..kind.corner_count()];
                 for entries in stencil.entries::<K>(patch) {
                     let hats = pressure_hats(kind, entries.shape);
-                    let value = |(hat, &n): (&f64, &u32)| hat * state.pressure[places.field(k, n)];
-                    column[entries.point] = hats.iter().zip(corners).map(value).sum();
+                    let change = |(hat, &n): (&f64, &u32)| {
+                        let place = places.field(k, n);
+                        hat * (new[place] - state.pressure[place])
+                    };
+                    column[entries.point] += hats.iter().zip(corners).map(change).sum::<f64>();
                 }
             }
         }

@@ -280,8 +280,8 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
         state.balanced =
             balanced.then_some(Span { phase: state.phase, from: state.phase_time, to: state.phase_time + dt });
         state.displacement.clone_from(&solution.displacement);
+        field::to_points::<D, K>(scene, &self.grid, state, &solution.pressure);
         state.pressure.clone_from(&solution.pressure);
-        field::to_points::<D, K>(scene, &self.grid, state);
         if start.is_some() {
             rigid::motion_to_points(scene, state);
         }

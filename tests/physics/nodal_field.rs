@@ -130,11 +130,11 @@ fn error(kind: CellKind, cells: usize, steps: usize) -> f64 {
 fn a_field_diffuses_as_the_series_says() {
     for kind in [CellKind::T3, CellKind::T6, CellKind::Q4, CellKind::Q9] {
         let [coarse, fine] = [(4, 20), (8, 80)].map(|(cells, steps)| error(kind, cells, steps));
-        assert!(coarse < 0.03 && fine < 0.3 * coarse, "{kind:?}: {coarse:.1e} {fine:.1e}");
+        assert!(coarse < 0.03 && fine < 0.4 * coarse, "{kind:?}: {coarse:.1e} {fine:.1e}");
     }
 }
 
-/// Without conduction the points carry the field along: through the grid, unchanged where it is linear.
+/// Without conduction the points carry the field along, unchanged, through the grid.
 #[test]
 fn a_field_goes_with_the_material() {
     for kind in [CellKind::T6, CellKind::Q9] {
@@ -149,12 +149,12 @@ fn a_field_goes_with_the_material() {
         scene.terms.push(Box::new(Diffusion { capacity: 2.0, conductivity: 0.0, unit: 10.0 }));
         let below: Vec<usize> = (0..state.points.len()).filter(|&p| state.points.position[p][1] < 0.5).collect();
         state.points = state.points.select(&below);
-        let value = |x: &[f64; 2]| 3.0 - 2.0 * x[0] + 5.0 * x[1];
+        let value = |x: &[f64; 2]| 3.0 - 2.0 * x[0] + (9.0 * x[1]).sin();
         state.points.fields = vec![state.points.position.iter().map(value).collect()];
         let expected = state.points.fields[0].clone();
         let state = run::<PlaneStrain>(&scene, state);
         assert!(state.points.position.iter().all(|x| x[1] > 0.37));
         let apart = state.points.fields[0].iter().zip(&expected).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
-        assert!(apart < 1e-3, "{kind:?}: {apart:.1e}");
+        assert!(apart < 1e-10, "{kind:?}: {apart:.1e}");
     }
 }
