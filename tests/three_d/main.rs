@@ -1,0 +1,7 @@
+//! Three dimensions, as far as they go: the internal force of points in tetrahedra and hexahedra.
+//!
+//! Shapes, meshes, location and seeding have their tests beside them; these are of what is made of them together.
+
+mod internal;
+mod patch;
+mod stand;
