@@ -192,6 +192,7 @@ impl CellKind {
 
     /// How far inside the parametric domain `xi` lies: the least barycentric coordinate of a simplex, half
     /// the least distance to a side of a box; negative outside. The second value is the facet that limits it.
+    #[inline]
     pub fn depth(self, xi: &[f64; 3]) -> (f64, usize) {
         let [x, y, z] = *xi;
         match self.dimension() {
@@ -206,6 +207,7 @@ impl CellKind {
 }
 
 /// The least of some values, and which one it is: the first of equals.
+#[inline]
 fn least<const N: usize>(values: [f64; N]) -> (f64, usize) {
     let mut least = (values[0], 0);
     for (i, &value) in values.iter().enumerate().skip(1) {
