@@ -17,6 +17,7 @@ mod patch;
 mod population;
 mod resampled;
 mod rotation;
+mod scheme;
 mod slivers;
 mod surface;
 mod terzaghi;

@@ -9,7 +9,7 @@ use mpm::mesh::locate::Locator;
 use mpm::mesh::shape::CellKind;
 use mpm::points::Points;
 use mpm::seed::{RegionSeed, seed};
-use mpm::stencil::{Scheme, Stencil};
+use mpm::stencil::{Mpm, Stencil};
 use mpm::system::{Cliques, Matrix, Pattern, Workspace};
 use mpm::tensor::{Tensor, symmetric};
 use mpm::term::{Assembly, Frame, History, Internal, Term, Trial};
@@ -98,7 +98,7 @@ impl Stand {
             })
             .collect();
         let mut stencil = Stencil::default();
-        stencil.fill::<ThreeD>(Scheme::Mpm, &mesh, &points.cell, &parametric, &vec![true; mesh.cells.len()]);
+        stencil.fill::<ThreeD>(&Mpm, &mesh, &points.cell, &parametric, &vec![true; mesh.cells.len()]);
         stencil.weigh(&points.initial_volume);
         let mut cliques = Cliques::default();
         for c in 0..mesh.cells.len() {
