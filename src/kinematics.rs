@@ -1,9 +1,13 @@
-//! Plane strain and axisymmetry: how nodal displacements strain a point.
+//! Plane strain, axisymmetry and three dimensions: how nodal displacements strain a point.
 //!
 //! A point sees the gradient `g_I = ∇N_I` of each node and, in axisymmetry, the hoop `h_I = N_I / r`. The
 //! marker types below carry no data; they only decide whether the hoop terms exist, so that plane strain
 //! does not pay for them. Tensors are three-dimensional throughout (see [`crate::tensor`]); a solid is one
 //! more marker with `D = 3`.
+
+mod solid;
+
+pub use solid::ThreeD;
 
 use crate::material::spatial::{self, PlaneTangent, Spatial};
 use crate::material::{Model, State, spectral};

@@ -2,6 +2,7 @@
 
 use crate::kinematics::Kinematics;
 use crate::material::State;
+use crate::mesh::height;
 use crate::tensor::{Symmetric, Tensor, full};
 
 /// All material points of a scene. Every column has one entry a point; `velocity` and `acceleration`
@@ -63,6 +64,12 @@ impl<const D: usize> Points<D> {
     pub fn displacement(&self, p: usize) -> [f64; D] {
         let from = self.reference.get(p).unwrap_or(&self.origin[p]);
         std::array::from_fn(|d| self.position[p][d] - from[d])
+    }
+
+    /// The height (m) at which point `p` was seeded: depth-dependent parameters are taken there.
+    #[inline]
+    pub fn seeded_height(&self, p: usize) -> f64 {
+        height(&self.origin[p])
     }
 
     /// The number of the material of point `p`: that of its region, unless a phase has changed it.

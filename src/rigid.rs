@@ -36,6 +36,7 @@ pub struct Pose<const D: usize> {
 
 /// `v` turned by 90° in the plane: `e_z × v`.
 pub fn across<const D: usize>(v: &[f64; D]) -> [f64; D] {
+    const { assert!(D == 2, "bodies turn by one angle in the plane only") };
     std::array::from_fn(|d| match d {
         0 => -v[1],
         1 => v[0],

@@ -1,28 +1,28 @@
 //! Material points in the cells of a mesh; the stress they start with is that of [`k0_stress`].
 //!
 //! Triangles take 4, 9, 16 or 25 equal points (centroids of the k × k sub-triangles) or the 3, 6, 7 or 12
-//! points of a quadrature rule; quadrilaterals k × k points at the centres of equal parametric boxes. A
+//! points of a quadrature rule; quadrilaterals k × k points at the centres of equal parametric boxes. In space,
+//! tetrahedra take 8 or 64 equal points or the 4, 15 or 24 of a quadrature rule, hexahedra k × k × k points. A
 //! point's volume is that of its part of the cell, integrated exactly also in curved cells and, in
 //! axisymmetry, with `2πr`: the volumes of a cell sum to its own.
 
+mod parts;
 mod rest;
 #[cfg(test)]
 mod tests;
 
+pub use parts::QUADRATURE;
 pub use rest::{RegionWeight, k0_stress};
 
 use std::f64::consts::TAU;
 
 use crate::error::{Error, Result};
 use crate::material::Profile;
-use crate::mesh::Mesh;
-use crate::mesh::shape::{self, CellKind, MAX_NODES, rule};
+use crate::mesh::shape::{self, CellKind, MAX_NODES};
+use crate::mesh::{Mesh, height};
 use crate::points::Points;
 use crate::tensor::{IDENTITY, Tensor};
-
-/// In place of a number of points: those of a quadrature rule for polynomials of degree 4, six in a triangle and nine in a
-/// quadrilateral. Finite elements have them.
-pub const QUADRATURE: u32 = 0;
+use parts::{Part, exact_rule, parts, possible};
 
 /// How one region is filled with points.
 #[derive(Clone, Debug, PartialEq)]
@@ -31,15 +31,8 @@ pub struct RegionSeed {
     pub region: u16,
     /// Or [`QUADRATURE`].
     pub points_per_cell: u32,
-    /// Density (t/m³) at the height y.
+    /// Density (t/m³) by the height.
     pub density: Profile,
-}
-
-/// A part of the parametric domain with its point.
-struct Part {
-    point: [f64; 3],
-    /// Places and weights that integrate over the part exactly; the weights sum to its parametric measure.
-    quadrature: Vec<([f64; 3], f64)>,
 }
 
 /// Fills the cells of `regions` with points at rest, undeformed and free of stress, in the order of the cells.
@@ -76,7 +69,7 @@ pub fn seed<const D: usize>(mesh: &Mesh<D>, axisymmetric: bool, regions: &[Regio
         })?;
         let new = points.mass.len()..points.len();
         for p in new {
-            let density = wanted.density.at(points.position[p][1]);
+            let density = wanted.density.at(height(&points.position[p]));
             points.mass.push(density * points.initial_volume[p]);
             points.region.push(wanted.region);
             points.cell.push(c as u32);
@@ -142,81 +135,10 @@ fn place<const D: usize>(kind: CellKind, x: &[[f64; D]], xi: &[f64; 3]) -> ([f64
     (y, determinant)
 }
 
-/// A rule that integrates `r det J` exactly: degree 4 on T6; degree 5 in each direction on Q9.
-fn exact_rule(kind: CellKind) -> Vec<([f64; 3], f64)> {
-    rule(kind, if kind.is_simplex() { 4 } else { 5 })
-}
-
-/// The parts of a cell with `count` points; `None` where there is no rule.
-fn parts(kind: CellKind, count: u32) -> Option<Vec<Part>> {
-    if kind.dimension() != 2 {
-        return None;
-    }
-    let gauss = |degree| {
-        let points = rule(kind, degree).into_iter();
-        Some(points.map(|(point, w)| Part { point, quadrature: vec![(point, w)] }).collect())
-    };
-    if count == QUADRATURE {
-        return gauss(4);
-    }
-    if kind.is_simplex() {
-        let degree = match count {
-            4 | 9 | 16 | 25 => return Some(sub_triangles(kind, count.isqrt())),
-            3 => 2,
-            6 => 4,
-            7 => 5,
-            12 => 6,
-            _ => return None,
-        };
-        return gauss(degree);
-    }
-    match count {
-        1 | 4 | 9 | 16 | 25 => Some(sub_boxes(kind, count.isqrt())),
-        _ => None,
-    }
-}
-
-/// The `k²` triangles into which `k` parallels to every side cut the parametric triangle.
-fn sub_triangles(kind: CellKind, k: u32) -> Vec<Part> {
-    let size = 1.0 / f64::from(k);
-    let part = |corner: [f64; 2], sign: f64| {
-        let at = |xi: &[f64; 3]| [corner[0] + sign * size * xi[0], corner[1] + sign * size * xi[1], 0.0];
-        let quadrature = exact_rule(kind).iter().map(|(xi, w)| (at(xi), w * size * size)).collect();
-        Part { point: at(&kind.centre()), quadrature }
-    };
-    let mut parts = Vec::new();
-    for j in 0..k {
-        for i in 0..k - j {
-            let corner = |i: u32, j: u32| [size * f64::from(i), size * f64::from(j)];
-            parts.push(part(corner(i, j), 1.0));
-            if i + 1 < k - j {
-                parts.push(part(corner(i + 1, j + 1), -1.0));
-            }
-        }
-    }
-    parts
-}
-
-/// The `k × k` equal boxes of the parametric square.
-fn sub_boxes(kind: CellKind, k: u32) -> Vec<Part> {
-    let size = 1.0 / f64::from(k);
-    let mut parts = Vec::new();
-    for j in 0..k {
-        for i in 0..k {
-            let centre = |i: u32| size * f64::from(2 * i + 1) - 1.0;
-            let at = |xi: &[f64; 3]| [centre(i) + size * xi[0], centre(j) + size * xi[1], 0.0];
-            let quadrature = exact_rule(kind).iter().map(|(xi, w)| (at(xi), w * size * size)).collect();
-            parts.push(Part { point: at(&[0.0; 3]), quadrature });
-        }
-    }
-    parts
-}
-
 fn no_rule<const D: usize>(mesh: &Mesh<D>, wanted: &RegionSeed, kind: CellKind) -> Error {
-    let rules = if kind.is_simplex() { "3, 4, 6, 7, 9, 12, 16 or 25" } else { "4, 9, 16 or 25" };
     Error::input(
         format!("region {}, points_per_cell", mesh.regions[wanted.region as usize]),
         format!("{} points are not possible in its {kind:?} cells", wanted.points_per_cell),
-        format!("use {rules}"),
+        format!("use {}", possible(kind)),
     )
 }

@@ -183,7 +183,12 @@ impl Checker {
         let path = Path::default().key("numerics").key("gradient");
         if case.materials.iter().any(|m| m.porous.is_some()) && !case.numerics.basis.is_of_places() {
             let remedy = "choose `gradient: mpm`, or take the permeability out";
-            self.issue(&path, At::Value, format!("{} does not smooth the gradient of pore pressures yet", case.numerics.basis.name()), remedy);
+            self.issue(
+                &path,
+                At::Value,
+                format!("{} does not smooth the gradient of pore pressures yet", case.numerics.basis.name()),
+                remedy,
+            );
         }
         let wanted = |q: &raw::Quantity| *q == raw::Quantity::PorePressure;
         for (i, entry) in file.output.history.iter().enumerate() {

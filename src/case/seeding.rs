@@ -56,7 +56,7 @@ pub fn notes(case: &Case, mesh: &Mesh<2>, points: &Points<2>) -> Result<Vec<Stri
         let of: Vec<usize> = (0..points.len()).filter(|&p| points.region[p] == seed.region).collect();
         // At rest the axes are the principal ones, and nothing has deformed yet.
         let stress = |p: usize| [0, 1, 2].map(|k| points.stress[p][k]);
-        let height = |p: usize| points.origin[p][1];
+        let height = |p: usize| points.seeded_height(p);
         let told = |found: &[usize]| {
             let [x, y] = points.origin[*found.first()?];
             Some(format!("{} of its {} points, such as that at [{x:.4}, {y:.4}] m", found.len(), of.len()))
@@ -158,7 +158,7 @@ fn rest(case: &Case, mesh: &Mesh<2>, filled: &[Filled], k0: f64, points: &mut Po
     for Filled { material, seed, .. } in soils() {
         let model = &*case.materials[*material].model;
         for p in (0..points.len()).filter(|&p| points.region[p] == seed.region) {
-            points.elastic[p] = spatial::elastic_from_stress(model, points.origin[p][1], &points.stress[p]);
+            points.elastic[p] = spatial::elastic_from_stress(model, points.seeded_height(p), &points.stress[p]);
             if !points.elastic[p].iter().all(|b| b.is_finite()) || points.elastic[p][..3].iter().any(|b| *b <= 0.0) {
                 let [x, y] = points.position[p];
                 return Err(Error::input(

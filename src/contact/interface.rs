@@ -162,7 +162,7 @@ impl<K: Kinematics<2>> Boundary<K> {
 
     /// Penalties and multipliers of a contact node over soil like that at `point`, without its strength and water.
     fn penalty(&self, points: &Points<2>, point: usize, contact_node: usize, held: &Multipliers) -> Penalty {
-        let y = points.origin[point][1];
+        let y = points.seeded_height(point);
         let model = self.models.get(points.model_of(point)).and_then(Option::as_ref);
         let yields = model.is_some_and(|m| m.yields());
         let share = if yields { YIELDING } else { 1.0 };
@@ -184,7 +184,7 @@ impl<K: Kinematics<2>> Boundary<K> {
 /// The shear strength (kPa) of the soil at a point as the step begins.
 fn strength(models: &[Option<Arc<dyn Model>>], points: &Points<2>, p: usize) -> f64 {
     let model = models.get(points.model_of(p)).and_then(Option::as_ref);
-    model.map_or(0.0, |m| m.shear_strength(points.origin[p][1], &points.state(p, 0.0)))
+    model.map_or(0.0, |m| m.shear_strength(points.seeded_height(p), &points.state(p, 0.0)))
 }
 
 impl Ground<'_, 2> {

@@ -50,6 +50,7 @@ pub fn export<const D: usize>(
     fields: &[String],
     encoding: Encoding,
 ) -> Result<usize> {
+    const { assert!(D == 2, "values are fitted along the plane") };
     let infos = frame::list(results)?;
     let folder = out.join(NEW);
     prepare(out)?;

@@ -77,11 +77,18 @@ impl Topology {
         Self { connectivity: (0..count).collect(), offsets: (1..=count).collect(), types: vec![1; count as usize] }
     }
 
-    /// The cells of a mesh. VTK numbers the nodes of these kinds as Gmsh does.
+    /// The cells of a mesh.
     pub fn of_mesh<const D: usize>(mesh: &Mesh<D>) -> Self {
         let Cells { kind, offset, nodes, .. } = &mesh.cells;
+        let mut connectivity: Vec<i64> = nodes.iter().map(|&n| i64::from(n)).collect();
+        for (c, order) in kind.iter().enumerate().filter_map(|(c, &kind)| Some((c, vtk_order(kind)?))) {
+            let (own, first) = (mesh.cells.nodes(c), offset[c] as usize);
+            for (to, &i) in connectivity[first..].iter_mut().zip(order) {
+                *to = i64::from(own[i]);
+            }
+        }
         Self {
-            connectivity: nodes.iter().map(|&n| i64::from(n)).collect(),
+            connectivity,
             offsets: offset[1..].iter().map(|&o| i64::from(o)).collect(),
             types: kind.iter().map(|&k| vtk_type(k)).collect(),
         }
@@ -99,6 +106,19 @@ fn vtk_type(kind: CellKind) -> u8 {
         CellKind::Q4 => 9,
         CellKind::Q8 => 23,
         CellKind::Q9 => 28,
+        CellKind::T10 => 24,
+        CellKind::H27 => 29,
+    }
+}
+
+/// The nodes of a kind in the order of VTK (`vtkQuadraticTetra.h`, `vtkTriQuadraticHexahedron.h`) where that is not Gmsh's.
+fn vtk_order(kind: CellKind) -> Option<&'static [usize]> {
+    match kind {
+        CellKind::T10 => Some(&[0, 1, 2, 3, 4, 5, 6, 7, 9, 8]),
+        CellKind::H27 => {
+            Some(&[0, 1, 2, 3, 4, 5, 6, 7, 8, 11, 13, 9, 16, 18, 19, 17, 10, 12, 14, 15, 22, 23, 21, 24, 20, 25, 26])
+        }
+        _ => None,
     }
 }
 

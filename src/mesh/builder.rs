@@ -93,7 +93,7 @@ fn add(mesh: &mut Mesh<2>, kind: CellKind, corners: &[u32], middles: &mut BTreeM
 }
 
 /// The next number in `[-1, 1)` of the SplitMix64 sequence (Steele, Lea & Flood 2014).
-fn signed_unit(state: &mut u64) -> f64 {
+pub fn signed_unit(state: &mut u64) -> f64 {
     *state = state.wrapping_add(0x9E37_79B9_7F4A_7C15);
     let mut z = *state;
     z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);

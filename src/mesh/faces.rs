@@ -111,6 +111,7 @@ impl Faces {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::mesh::brick::brick;
     use crate::mesh::builder::rectangle;
     use crate::mesh::shape::CellKind;
 
@@ -135,6 +136,33 @@ mod tests {
                 })
             };
             assert_eq!(faces.boundary.iter().filter(on_boundary).count(), faces.boundary.len());
+        }
+    }
+
+    /// The faces of a brick, and those between cells with the same nodes on both sides, the other way round.
+    #[test]
+    fn every_face_of_a_brick_is_found_once() {
+        for kind in CellKind::ALL.into_iter().filter(|k| k.dimension() == 3) {
+            let mesh = brick(kind, [3.0, 2.0, 1.0], [4, 3, 2], 0.1, 7);
+            let faces = Faces::of(&mesh);
+            let boundary = if kind.is_simplex() { 2 * 52 } else { 52 };
+            assert_eq!(faces.boundary.len(), boundary);
+            assert_eq!(2 * faces.inner.len() + boundary, mesh.cells.len() * kind.facets().1.len());
+            for face in &faces.inner {
+                let [own, other] = [0, 1].map(|i| {
+                    let of_cell = mesh.cells.nodes(face.cells[i] as usize);
+                    kind.facets().1[face.sides[i] as usize].iter().map(|&k| of_cell[k]).collect::<Vec<_>>()
+                });
+                let corners = kind.facets().0.corner_count();
+                let turned: Vec<u32> = other[..corners].iter().rev().copied().collect();
+                let same = (0..corners).any(|by| (0..corners).all(|k| own[k] == turned[(k + by) % corners]));
+                assert!(same, "{kind:?}: {own:?} {other:?}");
+                let sorted = |mut nodes: Vec<u32>| {
+                    nodes.sort_unstable();
+                    nodes
+                };
+                assert_eq!(sorted(own), sorted(other), "{kind:?}");
+            }
         }
     }
 

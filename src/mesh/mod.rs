@@ -1,6 +1,7 @@
 //! The mesh: nodes, cells of any mixture of kinds, and the named groups of the `.geo`.
 
 mod bodies;
+pub mod brick;
 pub mod builder;
 pub mod conformity;
 pub mod faces;
@@ -100,6 +101,12 @@ impl<const D: usize> Mesh<D> {
         out.clear();
         out.extend(self.cells.nodes(c).iter().map(|&n| self.nodes[n as usize]));
     }
+}
+
+/// How high (m) a place lies: its last coordinate, y in the plane and z in space. Gravity acts against it.
+#[inline]
+pub const fn height<const D: usize>(x: &[f64; D]) -> f64 {
+    x[D - 1]
 }
 
 /// The diagonal of the box around a cell's nodes (m).

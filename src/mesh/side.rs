@@ -14,6 +14,7 @@ pub struct Side<const D: usize> {
 impl<const D: usize> Side<D> {
     /// Side `side` of `cell`.
     pub fn of(mesh: &Mesh<D>, (cell, side): (u32, u8)) -> Self {
+        const { assert!(D == 2, "sides are lines in the plane only") };
         let nodes = mesh.cells.nodes(cell as usize);
         let (_, facets) = mesh.cells.kind[cell as usize].facets();
         let facet = &facets[side as usize];

@@ -4,6 +4,7 @@
 //! It is looked for in phases that do not move the soil themselves, by prescribed displacements or structures in contact, and do not
 //! look for failure.
 
+use crate::mesh::height;
 use crate::step::{FARTHEST, Scene, State};
 
 /// Notes where the material points are as a phase, or the part of it without inertia, begins.
@@ -25,7 +26,7 @@ fn is_watched<const D: usize>(scene: &Scene<D>, state: &State<D>) -> bool {
 
 /// A warning where the soil has moved farther than half its height since then, once.
 pub fn found<const D: usize>(scene: &Scene<D>, state: &mut State<D>) -> Option<String> {
-    let heights = state.start_position.iter().map(|x| x[1]);
+    let heights = state.start_position.iter().map(height);
     let (low, high) = heights.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), y| (low.min(y), high.max(y)));
     let apart = |(a, b): (&[f64; D], &[f64; D])| a.iter().zip(b).map(|(a, b)| (a - b).powi(2)).sum::<f64>().sqrt();
     let moved = state.points.position.iter().zip(&state.start_position).map(apart).enumerate();

@@ -175,11 +175,13 @@ pub fn value<const D: usize>(
 
 /// The moment (kN m) about `centre` of forces with their moments about the origin.
 fn moment_about<const D: usize>(centre: &[f64; 2], forces: impl Iterator<Item = ([f64; D], f64)>) -> f64 {
+    const { assert!(D == 2, "moments are numbers in the plane only") };
     forces.map(|(force, moment)| moment - (centre[0] * force[1] - centre[1] * force[0])).sum()
 }
 
 /// The centroid (m) of a region where it is now, in the plane, by the volumes of its points.
 fn centroid<const D: usize>(state: &State<D>, region: u16) -> [f64; 2] {
+    const { assert!(D == 2, "centroids are those of moments in the plane") };
     let (mut volume, mut sum) = (0.0, [0.0; 2]);
     for (points, p) in members(state, region) {
         let v = points.initial_volume[p];

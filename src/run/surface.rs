@@ -21,6 +21,7 @@ pub struct Acting {
 /// Pressure (kPa, compression positive) is what acts at right angles to the surface, traction (kPa) all that acts. The
 /// column `wall` is 1 where a loop goes on along the boundary of the mesh, where no load but water is shown, else 0.
 pub fn part<const D: usize>(scene: &Scene<D>, state: &State<D>, acting: &Acting) -> Part {
+    const { assert!(D == 2, "the surface is a line in the plane only") };
     let boundary = &state.weights.boundary;
     let from = if state.nodes.is_empty() { &scene.mesh.nodes } else { &state.nodes };
     let place = |piece: &Piece| {

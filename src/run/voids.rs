@@ -112,6 +112,7 @@ fn outline<const D: usize>(fem: &Fem<D>, mesh: &Mesh<D>, c: usize) -> Vec<[f64; 
 
 /// Whether a place (m) is in a convex polygon.
 fn holds<const D: usize>(corners: &[[f64; D]], x: &[f64; D]) -> bool {
+    const { assert!(D == 2, "cells are polygons in the plane only") };
     let left = |(a, b): (&[f64; D], &[f64; D])| (b[0] - a[0]) * (x[1] - a[1]) - (b[1] - a[1]) * (x[0] - a[0]) >= 0.0;
     corners.iter().zip(corners.iter().cycle().skip(1)).all(left)
 }

@@ -1,6 +1,9 @@
+mod solid;
+
 use super::*;
 use crate::mesh::builder::rectangle;
 use crate::mesh::locate::Locator;
+use crate::mesh::shape::rule;
 use std::f64::consts::PI;
 
 const TRIANGLE_COUNTS: [u32; 8] = [3, 4, 6, 7, 9, 12, 16, 25];

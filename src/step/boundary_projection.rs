@@ -26,7 +26,7 @@ pub fn project_onto_boundary<const D: usize, K: Kinematics<D>>(
     let points = &state.points;
     let is_lost = |p: &usize| locator.locate(mesh, &points.position[*p], Some(points.cell[*p])).is_none();
     let lost: Vec<usize> = (0..points.len()).into_par_iter().with_min_len(1024).filter(is_lost).collect();
-    if lost.is_empty() || D != 2 {
+    if lost.is_empty() {
         return None;
     }
     let sides = holding(scene, mesh, state.phase);

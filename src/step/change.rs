@@ -50,7 +50,7 @@ impl Change {
         }
         let numbers: Vec<usize> = self.of(points).collect();
         for p in numbers {
-            let y = points.origin[p][1];
+            let y = points.seeded_height(p);
             let volume_ratio = points.deformation[p].determinant();
             // Pore water that shares the pressure field has its pressure there.
             let shares = |carried: &&Carried| carried.water > 0.0;

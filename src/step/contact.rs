@@ -117,10 +117,11 @@ pub fn begin<const D: usize, K: Kinematics<D>>(
 
 /// The surface of the soil where it is now, given the grid as restored; no loops where it is not followed.
 fn surface<const D: usize>((mesh, locator): (&Mesh<D>, &Locator<D>), state: &State<D>) -> Vec<Vec<[f64; D]>> {
+    const { assert!(D == 2, "the surface is a line in the plane only") };
     let Some(front) = &state.front else { return Vec::new() };
     let (mut n, mut hint) = ([0.0; MAX_NODES], None);
     let mut moved = |marker: &[f64; 2]| {
-        let mut x: [f64; D] = std::array::from_fn(|d| marker.get(d).copied().unwrap_or(0.0));
+        let mut x: [f64; D] = std::array::from_fn(|d| marker[d]);
         if let Some((c, xi)) = locator.locate(mesh, &x, hint) {
             hint = Some(c);
             mesh.cells.kind[c as usize].values(&xi, &mut n);
@@ -177,6 +178,7 @@ pub fn commit<const D: usize>(
     (solution, start): (&Solution<D>, Option<&Start<D>>),
     dt: f64,
 ) -> Vec<Resultant<D>> {
+    const { assert!(D == 2, "moments are numbers in the plane only") };
     let none = |interface: &dyn Interface<D>| Resultant {
         structure: interface.structure(),
         against: interface.against(),

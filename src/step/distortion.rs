@@ -14,6 +14,7 @@ const FOLDED: f64 = 0.3;
 /// Whether a cell with points has a quality below the share `least` of its first one, has come near to
 /// folding, or an edge is `stretch` times as long as at first, or as short.
 pub fn exceeds<const D: usize>(scene: &Scene<D>, state: &State<D>, grid: &Grid<D>, least: f64, stretch: f64) -> bool {
+    const { assert!(D == 2, "the quality of cells is known in the plane only") };
     let mesh = grid.relaxed.as_ref().map_or(&scene.mesh, |relaxed| &relaxed.mesh);
     grid.stencils.integration.patches.par_iter().any(|patch| {
         let cell = patch.cell as usize;

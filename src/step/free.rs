@@ -109,6 +109,7 @@ struct System<'a, const D: usize> {
 impl<const D: usize> System<'_, D> {
     /// How the body of `nodes` can move freely, in words; `None` where it cannot.
     fn told(&self, name: &str, nodes: &[u32]) -> Option<String> {
+        const { assert!(D == 2, "there is one rotation in the plane only") };
         let middle: [f64; D] =
             std::array::from_fn(|d| nodes.iter().map(|&n| (self.position)(n)[d]).sum::<f64>() / nodes.len() as f64);
         let arm = |n: u32| -> [f64; D] { std::array::from_fn(|d| (self.position)(n)[d] - middle[d]) };

@@ -27,8 +27,9 @@ pub fn notes<const D: usize, K: Kinematics<D>>(scene: &Scene<D>, state: &State<D
                 let memory = points.memory.get(p).copied().unwrap_or(0.0);
                 let memory = Memory { plastic_strain: points.plastic_strain[p], memory, inverse_dt: 0.0 };
                 all += 1;
-                odd.extend(odd_poisson(change.model.as_ref(), points.origin[p][1], &stress));
-                beyond += usize::from(is_beyond_yield(change.model.as_ref(), points.origin[p][1], &stress, &memory));
+                odd.extend(odd_poisson(change.model.as_ref(), points.seeded_height(p), &stress));
+                beyond +=
+                    usize::from(is_beyond_yield(change.model.as_ref(), points.seeded_height(p), &stress, &memory));
             }
         }
         let Change { of, into, .. } = change;

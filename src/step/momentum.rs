@@ -39,6 +39,7 @@ struct Rigid<const D: usize> {
 
 impl<const D: usize> Rigid<D> {
     fn at(&self, x: &[f64; D]) -> [f64; D] {
+        const { assert!(D == 2, "bodies turn by one angle in the plane only") };
         let mut value = self.translation;
         value[0] -= self.rotation * x[1];
         value[1] += self.rotation * x[0];
@@ -50,6 +51,7 @@ impl<const D: usize> Momentum<D> {
     const ZERO: Self = Self { mass: 0.0, first: [0.0; D], second: 0.0, linear: [0.0; D], angular: 0.0 };
 
     fn add(&mut self, mass: f64, x: &[f64; D], value: &[f64; D]) {
+        const { assert!(D == 2, "angular momentum is a number in the plane only") };
         self.mass += mass;
         for d in 0..D {
             self.first[d] += mass * x[d];

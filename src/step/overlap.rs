@@ -94,6 +94,7 @@ fn within<const D: usize>(
 
 /// How far (m) a place is from the nearest line, in the plane.
 fn distance<const D: usize>(x: &[f64; D], lines: &[Vec<Mark<D>>]) -> f64 {
+    const { assert!(D == 2, "structures are bounded by lines in the plane only") };
     let to_segment = |interface: &[Mark<D>]| {
         let [a, b] = [&interface[0].place, &interface[1].place];
         let along = [b[0] - a[0], b[1] - a[1]];

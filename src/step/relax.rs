@@ -98,6 +98,7 @@ pub fn at<const D: usize>(scene: &Scene<D>, state: &State<D>) -> Option<Relaxed<
 /// # Errors
 /// Names the first cell that is folded.
 fn check<const D: usize>(first: &Mesh<D>, mesh: &Mesh<D>) -> Result<()> {
+    const { assert!(D == 2, "the quality of cells is known in the plane only") };
     let quality = |mesh: &Mesh<D>, c: usize| {
         let corners = &mesh.cells.nodes(c)[..mesh.cells.kind[c].corner_count()];
         let x: Vec<[f64; 2]> = corners.iter().map(|&n| [0, 1].map(|d| mesh.nodes[n as usize][d])).collect();
@@ -136,6 +137,7 @@ impl Corners {
 
     /// The ends of the edges of each cell in turn.
     fn ends<const D: usize>(mesh: &Mesh<D>) -> impl Iterator<Item = [u32; 2]> {
+        const { assert!(D == 2, "the corners of a cell follow each other along its edges in the plane only") };
         (0..mesh.cells.len()).flat_map(|c| {
             let (nodes, count) = (mesh.cells.nodes(c), mesh.cells.kind[c].corner_count());
             (0..count).map(move |i| [nodes[i], nodes[(i + 1) % count]])
@@ -163,6 +165,7 @@ impl Corners {
     /// Which components of each corner are given: all of shared ones; elsewhere on the boundary that across it, where
     /// it runs along an axis, and both where it does not.
     fn held<const D: usize>(&self, mesh: &Mesh<D>, shared: &[bool]) -> Vec<[bool; D]> {
+        const { assert!(D == 2, "sides are lines in the plane only") };
         let mut held: Vec<[bool; D]> = self.node.iter().map(|&n| [shared[n as usize]; D]).collect();
         for (cell, side) in Faces::of(mesh).boundary {
             let nodes = mesh.cells.nodes(cell as usize);

@@ -34,6 +34,7 @@ impl<const D: usize> Motion<D> {
     }
 
     fn add(&mut self, points: &Points<D>) {
+        const { assert!(D == 2, "angular momentum is a number in the plane only") };
         for (p, &m) in points.mass.iter().enumerate() {
             self.mass += m;
             if let Some(v) = points.velocity.get(p) {

@@ -16,8 +16,8 @@ use super::state::{Span, State};
 use crate::dofs::Dof;
 use crate::error::Result;
 use crate::kinematics::Kinematics;
-use crate::stencil::MAX_FUNCTIONS;
 use crate::points::Points;
+use crate::stencil::MAX_FUNCTIONS;
 use crate::term::{Frame, Term, Trial, Update};
 use crate::time_integration::GeneralisedAlpha;
 

@@ -32,7 +32,7 @@ pub fn content<const D: usize>(scene: &Scene<D>, state: &State<D>) -> [Vec<f64>;
         let one = |p: usize| {
             let soil = soil(&water.porous, points, p);
             soil.map_or(0.0, |soil| {
-                points.deformation[p].determinant() + soil.storage(points.origin[p][1]) * points.pore_pressure[p]
+                points.deformation[p].determinant() + soil.storage(points.seeded_height(p)) * points.pore_pressure[p]
             })
         };
         (0..points.len()).map(one).collect()

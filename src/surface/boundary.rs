@@ -121,6 +121,7 @@ impl ActiveBoundary {
 
 /// The place (m) on a piece at the share `t` of its way, on a grid with its nodes at `nodes`.
 pub fn place<const D: usize>(mesh: &Mesh<D>, nodes: &[[f64; D]], piece: &Piece, t: f64) -> [f64; D] {
+    const { assert!(D == 2, "pieces are lines in plane cells") };
     let xi = piece.at(t);
     let mut n = [0.0; MAX_NODES];
     mesh.cells.kind[piece.cell as usize].values(&xi, &mut n);

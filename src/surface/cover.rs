@@ -51,6 +51,7 @@ impl<const D: usize> Cover<D> {
 
 /// Closes the joints of structures: where a cover ends and another one begins beside it, one between the two goes on from both.
 pub fn join<const D: usize>(covers: &mut Vec<Cover<D>>) {
+    const { assert!(D == 2, "covers are lines in the plane") };
     let free = |k: usize| {
         let free = covers.iter().enumerate().filter(move |(_, cover)| !cover.goes_on[k]);
         free.map(move |(number, cover)| (number, cover.ends[k], cover.reach)).collect::<Vec<_>>()
@@ -69,6 +70,7 @@ pub fn join<const D: usize>(covers: &mut Vec<Cover<D>>) {
 
 /// The parts of `pieces` that no cover lies on, in their order, on a grid with its nodes in place; walls stay whole.
 pub fn open<const D: usize>(mesh: &Mesh<D>, pieces: &[Piece], covers: &[Cover<D>]) -> Vec<Piece> {
+    const { assert!(D == 2, "covers are lines in the plane") };
     let ends: Vec<[[f64; D]; 2]> =
         pieces.iter().map(|piece| [0.0, 1.0].map(|t| place(mesh, &mesh.nodes, piece, t))).collect();
     let apart = |[a, b]: &[[f64; D]; 2]| (b[0] - a[0]).hypot(b[1] - a[1]);

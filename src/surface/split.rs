@@ -15,7 +15,7 @@ pub fn triangles(kind: CellKind) -> &'static [[usize; 3]] {
         CellKind::Q4 => &[[0, 1, 2], [0, 2, 3]],
         CellKind::Q8 => &[[0, 4, 7], [4, 1, 5], [5, 2, 6], [6, 3, 7], [4, 5, 6], [4, 6, 7]],
         CellKind::Q9 => &[[0, 4, 8], [4, 1, 8], [1, 5, 8], [5, 2, 8], [2, 6, 8], [6, 3, 8], [3, 7, 8], [7, 0, 8]],
-        CellKind::Point1 | CellKind::Line2 | CellKind::Line3 => &[],
+        CellKind::Point1 | CellKind::Line2 | CellKind::Line3 | CellKind::T10 | CellKind::H27 => &[],
     }
 }
 

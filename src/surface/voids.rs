@@ -199,6 +199,7 @@ fn extent<const D: usize>(mesh: &Mesh<D>, cells: &[u32], emptiness: &[f64]) -> (
 
 /// The area (m²) of a polygon in the plane, counter-clockwise.
 fn polygon<'a, const D: usize>(x: impl Iterator<Item = &'a [f64; D]> + Clone) -> f64 {
+    const { assert!(D == 2, "cells are polygons in the plane only") };
     let next = x.clone().cycle().skip(1);
     0.5 * x.zip(next).map(|(a, b)| a[0] * b[1] - b[0] * a[1]).sum::<f64>()
 }

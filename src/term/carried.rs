@@ -55,7 +55,7 @@ impl Carried {
     pub(super) fn of_model<const D: usize>(&self, points: &Points<D>, p: usize) -> f64 {
         match self.bound {
             Some(_) => 0.0,
-            None => self.model.mean_stress(points.origin[p][1], volume_strain(&points.elastic[p])),
+            None => self.model.mean_stress(points.seeded_height(p), volume_strain(&points.elastic[p])),
         }
     }
 
@@ -67,7 +67,7 @@ impl Carried {
     /// What the field begins with (kPa) at a point whose elastic tensor is that of `whole`, the model that answers for
     /// the whole stress.
     pub fn begin<const D: usize>(&self, whole: &dyn Model, points: &Points<D>, p: usize) -> f64 {
-        whole.mean_stress(points.origin[p][1], volume_strain(&points.elastic[p])) - self.of_model(points, p)
+        whole.mean_stress(points.seeded_height(p), volume_strain(&points.elastic[p])) - self.of_model(points, p)
     }
 }
 

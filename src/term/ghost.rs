@@ -89,7 +89,7 @@ impl<K> GhostPenalty<K> {
                 let Some(model) = self.models.get(frame.points.model_of(p)).and_then(Option::as_ref) else {
                     continue;
                 };
-                let (v, young) = (frame.points.initial_volume[p], model.young(frame.points.origin[p][1]));
+                let (v, young) = (frame.points.initial_volume[p], model.young(frame.points.seeded_height(p)));
                 volume += v;
                 match self.share {
                     None => compliance += v / (young * secant(frame.points, p, model.as_ref())),
@@ -111,7 +111,7 @@ impl<K> GhostPenalty<K> {
 /// The shear stress (kPa) of point `p` and what it lacks of yield.
 fn strength<const D: usize, K: Kinematics<D>>(points: &Points<D>, p: usize, model: &dyn Model) -> f64 {
     let stress = K::roots(&points.stress[p]);
-    let lacks = -model.yield_excess(points.origin[p][1], &stress, &points.state(p, 0.0));
+    let lacks = -model.yield_excess(points.seeded_height(p), &stress, &points.state(p, 0.0));
     deviatoric(&points.stress[p]) / 3f64.sqrt() + 0.5 * lacks.max(0.0)
 }
 
@@ -122,7 +122,7 @@ fn secant<const D: usize>(points: &Points<D>, p: usize, model: &dyn Model) -> f6
         return 1.0;
     }
     // With τ = q/√3 and Δγ = √3 Δε_p, both of which are the shear stress and strain in shear.
-    let modulus = model.elasticity().at(points.origin[p][1]).shear;
+    let modulus = model.elasticity().at(points.seeded_height(p)).shear;
     (SECANT * deviatoric(&points.stress[p]) / (3.0 * modulus * flow)).clamp(LEAST_SECANT, 1.0)
 }
 

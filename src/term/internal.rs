@@ -318,7 +318,7 @@ impl<const D: usize, K: Kinematics<D>, S: Share<D, K>> Term<D> for Internal<K, S
         let energy = |p: usize| {
             let Some(model) = self.models.get(points.model_of(p)).and_then(Option::as_ref) else { return 0.0 };
             let strain = K::roots(&points.elastic[p]).map(|b| 0.5 * b.ln());
-            let stored = model.elastic_energy(points.origin[p][1], &strain);
+            let stored = model.elastic_energy(points.seeded_height(p), &strain);
             self.share.energy(points, p) + points.initial_volume[p] * stored
         };
         // In order, so that the sum does not depend on the number of threads.

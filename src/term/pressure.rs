@@ -126,7 +126,7 @@ impl<const D: usize, K: Kinematics<D>> Share<D, K> for PressureField<K> {
             for entries in frame.stencil.entries::<K>(patch) {
                 if let Some(carried) = self.of(frame.points, entries.point) {
                     // As the differences from them are weighted: the projection is symmetric.
-                    let own = entries.weight * carried.softness(frame.points.origin[entries.point][1]);
+                    let own = entries.weight * carried.softness(frame.points.seeded_height(entries.point));
                     weight += own;
                     for (sum, hat) in sum.iter_mut().zip(hats(kind, entries.shape)) {
                         *sum += own * hat;
@@ -139,7 +139,7 @@ impl<const D: usize, K: Kinematics<D>> Share<D, K> for PressureField<K> {
     }
 
     fn respond(&self, cell: &Cell, points: &Points<D>, entries: &Entries<D>, at: &Within) -> Option<Answer<K, D>> {
-        let (p, y) = (entries.point, points.origin[entries.point][1]);
+        let (p, y) = (entries.point, points.seeded_height(entries.point));
         let bound = self.of(points, p).and_then(|carried| Some((carried, carried.bound?)));
         let Some((carried, bound)) = bound else { return Some((K::respond(at.model, y, &at.trial, &at.state)?, None)) };
         let (measure, bound) = (Measure::of(carried, points, p), bound * at.model.elasticity().at(y).shear);
@@ -228,7 +228,7 @@ impl<const D: usize, K: Kinematics<D>> Share<D, K> for PressureField<K> {
         let count = unknowns(cell.kind);
         // They are the last ones of a clique.
         let begin = local.size - count;
-        let y = points.origin[p][1];
+        let y = points.seeded_height(p);
         let hats = hats(cell.kind, entries.shape);
         // Cells of first order: only what varies within the cell is stabilised.
         let stabilised: Hats = match &cell.mean {
@@ -285,7 +285,8 @@ impl<const D: usize, K: Kinematics<D>> Share<D, K> for PressureField<K> {
         let gained = history.pressure - points.pressure[entries.point];
         let volume_ratio = history.deformation.determinant();
         let held = if carried.bound.is_some() {
-            let of_model = carried.model.mean_stress(points.origin[entries.point][1], volume_strain(&history.elastic));
+            let of_model =
+                carried.model.mean_stress(points.seeded_height(entries.point), volume_strain(&history.elastic));
             of_model - volume_ratio * mean(&history.stress)
         } else {
             carried.held(points, entries.point) + (1.0 - carried.water) * gained
@@ -298,6 +299,6 @@ impl<const D: usize, K: Kinematics<D>> Share<D, K> for PressureField<K> {
     fn energy(&self, points: &Points<D>, p: usize) -> f64 {
         let Some(carried) = self.of(points, p) else { return 0.0 };
         let of_model = if carried.bound.is_some() { carried.held(points, p) } else { 0.0 };
-        points.initial_volume[p] * carried.law(points.origin[p][1]).energy(points.pressure[p] - of_model)
+        points.initial_volume[p] * carried.law(points.seeded_height(p)).energy(points.pressure[p] - of_model)
     }
 }

@@ -64,7 +64,7 @@ pub trait Share<const D: usize, K: Kinematics<D>>: Send + Sync {
     /// `None` where that is out of its range.
     #[inline]
     fn respond(&self, _: &Self::Cell, points: &Points<D>, entries: &Entries<D>, at: &Within) -> Option<Answer<K, D>> {
-        let y = points.origin[entries.point][1];
+        let y = points.seeded_height(entries.point);
         Some((K::respond(at.model, y, &at.trial, &at.state)?, None))
     }
 

@@ -20,6 +20,7 @@ use super::head::{Head, Momentary};
 use super::{Assembly, Frame, Role, Term, Trial};
 use crate::error::{Error, Result};
 use crate::kinematics::{Gradient, Kinematics};
+use crate::mesh;
 use crate::mesh::shape::{self, MAX_NODES};
 use crate::stencil::{MAX_FUNCTIONS, Patch};
 use crate::surface::visit_layers;
@@ -182,7 +183,7 @@ impl<'a, const D: usize> Layered<'a, D> {
         let nodes = frame.mesh.cells.nodes(cell);
         let mut height = [0.0; MAX_NODES];
         for (height, &n) in height.iter_mut().zip(nodes) {
-            *height = frame.mesh.nodes[n as usize][1] + trial.converged[n as usize][1];
+            *height = mesh::height(&frame.mesh.nodes[n as usize]) + mesh::height(&trial.converged[n as usize]);
         }
         let own = &height[..nodes.len()];
         let [low, high] =
@@ -258,7 +259,8 @@ impl<'a, const D: usize> Layered<'a, D> {
         let acting = self.acting.map(|head| Momentary { top: 0.0, ..head });
         let mut inverted = None;
         self.visit::<K>(&breaks, |value, gradient, volume| {
-            let y: f64 = value.iter().enumerate().map(|(i, n)| n * (self.x[i][1] + now[i][1])).sum();
+            let y: f64 =
+                value.iter().enumerate().map(|(i, n)| n * (mesh::height(&self.x[i]) + mesh::height(&now[i]))).sum();
             let Some(pressures) = acting.at(y) else { return };
             let mut deformed = Tensor::identity();
             for (i, gradient) in gradient.iter().enumerate() {
@@ -327,7 +329,7 @@ impl<const D: usize, K: Kinematics<D>> Term<D> for VirtualPressure<K> {
             };
             for entries in frame.stencil.entries::<K>(patch) {
                 let height = |(n, &node): (&f64, &u32)| {
-                    n * (frame.mesh.nodes[node as usize][1] + trial.between[node as usize][1])
+                    n * (mesh::height(&frame.mesh.nodes[node as usize]) + mesh::height(&trial.between[node as usize]))
                 };
                 let y = entries.value.iter().zip(nodes).map(height).sum();
                 let porous = self.porous_at(frame, entries.point);

@@ -54,7 +54,7 @@ pub struct Porous {
     /// The model of the whole effective stress.
     pub model: Arc<dyn Model>,
     pub stiffness: WaterStiffness,
-    /// `k/γ_w` (m²/(kPa s)) in x and y.
+    /// `k/γ_w` (m²/(kPa s)), horizontal and vertical.
     pub mobility: [f64; 2],
 }
 
@@ -234,7 +234,7 @@ impl<const D: usize, K: Kinematics<D>> Share<D, K> for PoreWater<K> {
         let p = entries.point;
         let Some(porous) = self.of(points, p) else { return };
         let begin = D * spatial.len();
-        let y = points.origin[p][1];
+        let y = points.seeded_height(p);
         let before = points.deformation[p].determinant();
         let hats = cell.hats(entries.shape);
         let storage = porous.storage(y);
@@ -243,7 +243,7 @@ impl<const D: usize, K: Kinematics<D>> Share<D, K> for PoreWater<K> {
         let flows = cell.flow_time > 0.0;
         let gradients = if flows { cell.gradients::<K>(entries) } else { [[0.0; D]; MOST] };
         let mobility: [f64; D] =
-            std::array::from_fn(|d| cell.flow_time * before * porous.mobility[usize::from(d == 1)]);
+            std::array::from_fn(|d| cell.flow_time * before * porous.mobility[usize::from(d == D - 1)]);
         let conducted =
             |a: usize, b: usize| (0..D).map(|d| gradients[a][d] * mobility[d] * gradients[b][d]).sum::<f64>();
         let lumped = if flows || cell.first_order {
@@ -291,6 +291,6 @@ impl<const D: usize, K: Kinematics<D>> Share<D, K> for PoreWater<K> {
 
     fn energy(&self, points: &Points<D>, p: usize) -> f64 {
         let Some(porous) = self.of(points, p) else { return 0.0 };
-        0.5 * points.initial_volume[p] * porous.storage(points.origin[p][1]) * points.pore_pressure[p].powi(2)
+        0.5 * points.initial_volume[p] * porous.storage(points.seeded_height(p)) * points.pore_pressure[p].powi(2)
     }
 }

@@ -103,8 +103,7 @@ fn the_bond_is_free_for_a_uniform_increment_and_its_tangent_the_derivative() {
         let (nodes, cells) = (mesh.nodes.len(), mesh.cells.len());
         let term: Box<dyn Term<2>> = Box::new(WaterBond::<PlaneStrain>::new(porous([0.0; 2]), UNIT, 400.0, cells));
         let water = Some(Water { porous: porous([0.0; 2]), alone: true, drained: Vec::new() });
-        let mut stand =
-            Stand::<PlaneStrain>::with_water(&Mpm, mesh, points, term, false, true, Some(UNIT), water);
+        let mut stand = Stand::<PlaneStrain>::with_water(&Mpm, mesh, points, term, false, true, Some(UNIT), water);
         let rest = stand.field(0.0, 1, |_| [0.0; 2]);
         let begin = stand.pressure.len() - nodes;
         stand.pressure[begin..].fill(25.0);

@@ -117,31 +117,57 @@ pub fn bounds<const D: usize>(kind: CellKind, x: &[[f64; D]]) -> Bounds<D> {
         }
     };
     x.iter().for_each(&mut take);
-    if kind.order() == 2 {
-        let control: Vec<[f64; D]> = kind
-            .facets()
-            .1
-            .iter()
-            .filter_map(|facet| match facet {
-                [a, b, m] => Some(std::array::from_fn(|d| 2.0 * x[*m][d] - 0.5 * (x[*a][d] + x[*b][d]))),
-                _ => None,
-            })
-            .collect();
-        control.iter().for_each(&mut take);
-        if !kind.is_simplex() && D == 2 {
-            // The centre of the box: the node of a Q9, the value of the functions of a Q8.
-            let mut n = [0.0; MAX_NODES];
-            kind.values(&kind.centre(), &mut n);
-            let corners = &x[..kind.corner_count()];
-            take(&std::array::from_fn(|d| {
-                let centre: f64 = x.iter().zip(&n).map(|(y, n)| n * y[d]).sum();
-                let corner: f64 = corners.iter().map(|y| y[d]).sum();
-                let edge: f64 = control.iter().map(|y| y[d]).sum();
-                4.0 * centre - 0.25 * corner - 0.5 * edge
-            }));
-        }
+    match kind {
+        CellKind::T10 | CellKind::H27 => solid_control(kind, x).iter().for_each(&mut take),
+        _ if kind.order() == 2 => plane_control(kind, x).iter().for_each(&mut take),
+        _ => {}
     }
     (low, high)
+}
+
+/// The Bézier points of a plane cell that are not its corners.
+fn plane_control<const D: usize>(kind: CellKind, x: &[[f64; D]]) -> Vec<[f64; D]> {
+    let edge = |facet: &&[usize]| match **facet {
+        [a, b, m] => Some(std::array::from_fn(|d| 2.0 * x[m][d] - 0.5 * (x[a][d] + x[b][d]))),
+        _ => None,
+    };
+    let mut control: Vec<[f64; D]> = kind.facets().1.iter().filter_map(edge).collect();
+    if !kind.is_simplex() && D == 2 {
+        // The centre of the box: the node of a Q9, the value of the functions of a Q8.
+        let mut n = [0.0; MAX_NODES];
+        kind.values(&kind.centre(), &mut n);
+        let corners = &x[..kind.corner_count()];
+        let middle = std::array::from_fn(|d| {
+            let centre: f64 = x.iter().zip(&n).map(|(y, n)| n * y[d]).sum();
+            let corner: f64 = corners.iter().map(|y| y[d]).sum();
+            let edge: f64 = control.iter().map(|y| y[d]).sum();
+            4.0 * centre - 0.25 * corner - 0.5 * edge
+        });
+        control.push(middle);
+    }
+    control
+}
+
+/// The Bézier points of a quadratic solid cell that are not its corners; of a hexahedron these too.
+fn solid_control<const D: usize>(kind: CellKind, x: &[[f64; D]]) -> Vec<[f64; D]> {
+    if kind.is_simplex() {
+        // Each edge is seen from both of its faces.
+        let edges =
+            kind.facets().1.iter().flat_map(|face| [[0, 1, 3], [1, 2, 4], [2, 0, 5]].map(|edge| edge.map(|i| face[i])));
+        return edges.map(|[a, b, m]| std::array::from_fn(|d| 2.0 * x[m][d] - 0.5 * (x[a][d] + x[b][d]))).collect();
+    }
+    let places = kind.node_coordinates();
+    // How the value at one place of a line enters the Bézier point that stands at another.
+    let along = |to: f64, from: f64| match (to == 0.0, from == 0.0) {
+        (true, true) => 2.0,
+        (true, false) => -0.5,
+        (false, _) => f64::from(to == from),
+    };
+    let share =
+        |to: &[f64; 3], from: &[f64; 3]| to.iter().zip(from).map(|(to, from)| along(*to, *from)).product::<f64>();
+    let point =
+        |to: &[f64; 3]| std::array::from_fn(|d| places.iter().zip(x).map(|(from, x)| share(to, from) * x[d]).sum());
+    places.iter().map(point).collect()
 }
 
 /// A box around boxes.

@@ -1,5 +1,7 @@
 //! Points in cells of every kind, curved ones too.
 
+mod solid;
+
 use super::*;
 use crate::mesh::builder::rectangle;
 

@@ -1,12 +1,14 @@
 //! Shape functions, one cell kind a file, in Gmsh's node order and parametric coordinates.
 
 mod functions;
+mod h27;
 mod line;
 mod q4;
 mod q8;
 mod q9;
 mod quadrature;
 mod second;
+mod t10;
 mod t3;
 mod t6;
 
@@ -25,6 +27,8 @@ pub enum CellKind {
     Q4,
     Q8,
     Q9,
+    T10,
+    H27,
 }
 
 /// Runs an expression with `$S` standing for the shape of a kind.
@@ -63,13 +67,31 @@ macro_rules! with_shape {
                 type $S = q9::Q9;
                 $body
             }
+            CellKind::T10 => {
+                type $S = t10::T10;
+                $body
+            }
+            CellKind::H27 => {
+                type $S = h27::H27;
+                $body
+            }
         }
     };
 }
 
 impl CellKind {
-    pub const ALL: [Self; 8] =
-        [Self::Point1, Self::Line2, Self::Line3, Self::T3, Self::T6, Self::Q4, Self::Q8, Self::Q9];
+    pub const ALL: [Self; 10] = [
+        Self::Point1,
+        Self::Line2,
+        Self::Line3,
+        Self::T3,
+        Self::T6,
+        Self::Q4,
+        Self::Q8,
+        Self::Q9,
+        Self::T10,
+        Self::H27,
+    ];
 
     pub fn node_count(self) -> usize {
         with_shape!(self, S => S::NODES)
@@ -89,9 +111,9 @@ impl CellKind {
         with_shape!(self, S => S::derivatives(xi, dn))
     }
 
-    /// Whether the parametric domain is a simplex (triangle) rather than a box.
+    /// Whether the parametric domain is a simplex (triangle, tetrahedron) rather than a box.
     pub fn is_simplex(self) -> bool {
-        matches!(self, Self::T3 | Self::T6)
+        matches!(self, Self::T3 | Self::T6 | Self::T10)
     }
 
     /// Corner nodes, which come first in a cell.
@@ -100,7 +122,8 @@ impl CellKind {
             Self::Point1 => 1,
             Self::Line2 | Self::Line3 => 2,
             Self::T3 | Self::T6 => 3,
-            Self::Q4 | Self::Q8 | Self::Q9 => 4,
+            Self::Q4 | Self::Q8 | Self::Q9 | Self::T10 => 4,
+            Self::H27 => 8,
         }
     }
 
@@ -109,17 +132,20 @@ impl CellKind {
         match self {
             Self::Point1 => 0,
             Self::Line2 | Self::T3 | Self::Q4 => 1,
-            Self::Line3 | Self::T6 | Self::Q8 | Self::Q9 => 2,
+            Self::Line3 | Self::T6 | Self::Q8 | Self::Q9 | Self::T10 | Self::H27 => 2,
         }
     }
 
-    /// The facets (edges of a plane cell), as a kind and local node numbers, counter-clockwise.
+    /// The facets (edges of a plane cell, faces of a solid one), as a kind and local node numbers, counter-clockwise: faces
+    /// as seen from outside.
     pub fn facets(self) -> (Self, &'static [&'static [usize]]) {
         match self {
             Self::T3 => (Self::Line2, &[&[0, 1], &[1, 2], &[2, 0]]),
             Self::T6 => (Self::Line3, &[&[0, 1, 3], &[1, 2, 4], &[2, 0, 5]]),
             Self::Q4 => (Self::Line2, &[&[0, 1], &[1, 2], &[2, 3], &[3, 0]]),
             Self::Q8 | Self::Q9 => (Self::Line3, &[&[0, 1, 4], &[1, 2, 5], &[2, 3, 6], &[3, 0, 7]]),
+            Self::T10 => (Self::T6, &t10::FACES),
+            Self::H27 => (Self::Q9, &h27::FACES),
             Self::Line2 | Self::Line3 => (Self::Point1, &[&[0], &[1]]),
             Self::Point1 => (Self::Point1, &[]),
         }
@@ -150,31 +176,46 @@ impl CellKind {
             Self::Q4 => &Q[..4],
             Self::Q8 => &Q[..8],
             Self::Q9 => &Q,
+            Self::T10 => &t10::NODES,
+            Self::H27 => &h27::NODES,
         }
     }
 
     /// The parametric centre.
     pub fn centre(self) -> [f64; 3] {
-        if self.is_simplex() { [1.0 / 3.0, 1.0 / 3.0, 0.0] } else { [0.0; 3] }
+        match self {
+            Self::T10 => [0.25; 3],
+            _ if self.is_simplex() => [1.0 / 3.0, 1.0 / 3.0, 0.0],
+            _ => [0.0; 3],
+        }
     }
 
     /// How far inside the parametric domain `xi` lies: the least barycentric coordinate of a simplex, half
     /// the least distance to a side of a box; negative outside. The second value is the facet that limits it.
+    #[inline]
     pub fn depth(self, xi: &[f64; 3]) -> (f64, usize) {
-        let sides = match self.dimension() {
-            2 if self.is_simplex() => [xi[1], 1.0 - xi[0] - xi[1], xi[0], f64::INFINITY],
-            2 => [0.5 * (1.0 + xi[1]), 0.5 * (1.0 - xi[0]), 0.5 * (1.0 - xi[1]), 0.5 * (1.0 + xi[0])],
-            1 => [0.5 * (1.0 + xi[0]), 0.5 * (1.0 - xi[0]), f64::INFINITY, f64::INFINITY],
-            _ => [f64::INFINITY; 4],
-        };
-        let mut least = (sides[0], 0);
-        for (i, &s) in sides.iter().enumerate().skip(1) {
-            if s < least.0 {
-                least = (s, i);
-            }
+        let [x, y, z] = *xi;
+        match self.dimension() {
+            3 if self.is_simplex() => least([z, y, x, 1.0 - x - y - z]),
+            3 => least([1.0 + z, 1.0 + y, 1.0 + x, 1.0 - x, 1.0 - y, 1.0 - z].map(|side| 0.5 * side)),
+            2 if self.is_simplex() => least([y, 1.0 - x - y, x]),
+            2 => least([1.0 + y, 1.0 - x, 1.0 - y, 1.0 + x].map(|side| 0.5 * side)),
+            1 => least([1.0 + x, 1.0 - x].map(|side| 0.5 * side)),
+            _ => (f64::INFINITY, 0),
         }
-        least
     }
+}
+
+/// The least of some values, and which one it is: the first of equals.
+#[inline]
+fn least<const N: usize>(values: [f64; N]) -> (f64, usize) {
+    let mut least = (values[0], 0);
+    for (i, &value) in values.iter().enumerate().skip(1) {
+        if value < least.0 {
+            least = (value, i);
+        }
+    }
+    least
 }
 
 /// Values of the shape functions and their spatial gradients at `xi` of a cell with nodes at `x`:

@@ -12,11 +12,12 @@ pub struct Q9;
 const INDEX: [[usize; 2]; 9] = [[0, 0], [2, 0], [2, 2], [0, 2], [1, 0], [2, 1], [1, 2], [0, 1], [1, 1]];
 
 /// Quadratic Lagrange functions with nodes at -1, 0, 1.
-fn line(t: f64) -> [f64; 3] {
+pub fn line(t: f64) -> [f64; 3] {
     [0.5 * t * (t - 1.0), 1.0 - t * t, 0.5 * t * (t + 1.0)]
 }
 
-fn line_derivative(t: f64) -> [f64; 3] {
+/// Their derivatives.
+pub fn line_derivative(t: f64) -> [f64; 3] {
     [t - 0.5, -2.0 * t, t + 0.5]
 }
 

@@ -81,39 +81,56 @@ mod tests {
     /// In cells with curved sides: against differences of the gradients, and of a linear field none at all.
     #[test]
     fn second_derivatives_in_space_are_those_of_the_gradients() {
-        for kind in CellKind::ALL.into_iter().filter(|k| k.dimension() == 2) {
-            let bend = |p: &[f64; 3]| {
-                let [a, b, _] = *p;
-                [2.0 + 1.3 * a + 0.2 * b + 0.05 * a * b + 0.04 * b * b, -1.0 + 0.1 * a + 0.9 * b - 0.06 * a * a]
-            };
-            let x: Vec<[f64; 2]> = kind.node_coordinates().iter().map(bend).collect();
-            let xi = [0.31, 0.22, 0.0];
-            let count = x.len();
-            let (mut n, mut grad, mut second) = ([0.0; MAX_NODES], [[0.0; 2]; MAX_NODES], [[[0.0; 2]; 2]; MAX_NODES]);
-            let determinant = map_second(kind, &x, &xi, &mut grad, &mut second);
-            let mut same = grad;
-            assert!((determinant - map(kind, &x, &xi, &mut n, &mut same)).abs() < 1e-14);
-            let mut dn = [[0.0; 3]; MAX_NODES];
-            kind.derivatives(&xi, &mut dn);
-            let jacobian = [0, 1].map(|i| [0, 1].map(|j| (0..count).map(|a| x[a][i] * dn[a][j]).sum::<f64>()));
-            let (inverse, _) = invert(&jacobian);
-            let h = 1e-5;
-            let gradients = [(0, h), (0, -h), (1, h), (1, -h)].map(|(k, by)| {
-                let (mut at, mut g) = (xi, [[0.0; 2]; MAX_NODES]);
-                at[k] += by;
-                map(kind, &x, &at, &mut n, &mut g);
-                g
-            });
-            for a in 0..count {
-                assert!((0..2).all(|d| (grad[a][d] - same[a][d]).abs() < 1e-13));
-                for (i, j) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
-                    let slope = |k: usize| (gradients[2 * k][a][i] - gradients[2 * k + 1][a][i]) / (2.0 * h);
-                    let difference = slope(0) * inverse[0][j] + slope(1) * inverse[1][j];
-                    let error = (second[a][i][j] - difference).abs();
-                    assert!(error < 1e-8, "{kind:?}, node {a}, {i}{j}: {error:.1e}");
-                    let linear: f64 = (0..count).map(|b| second[b][i][j] * (3.0 * x[b][0] - 2.0 * x[b][1])).sum();
-                    assert!(linear.abs() < 1e-12, "{kind:?}: {linear:.1e}");
-                }
+        for kind in CellKind::ALL {
+            match kind.dimension() {
+                2 => check(kind, |[a, b, _]| {
+                    [2.0 + 1.3 * a + 0.2 * b + 0.05 * a * b + 0.04 * b * b, -1.0 + 0.1 * a + 0.9 * b - 0.06 * a * a]
+                }),
+                3 => check(kind, |[a, b, c]| {
+                    [
+                        1.3 * a + 0.2 * b + 0.05 * a * c + 0.04 * b * b,
+                        0.1 * a + 0.9 * b - 0.06 * a * a + 0.03 * c * c,
+                        0.1 * b + 1.1 * c - 0.05 * a * b,
+                    ]
+                }),
+                _ => {}
+            }
+        }
+    }
+
+    fn check<const D: usize>(kind: CellKind, bend: impl Fn([f64; 3]) -> [f64; D]) {
+        let x: Vec<[f64; D]> = kind.node_coordinates().iter().map(|p| bend(*p)).collect();
+        let xi = [0.31, 0.22, if D == 3 { 0.17 } else { 0.0 }];
+        let count = x.len();
+        let (mut n, mut grad, mut second) = ([0.0; MAX_NODES], [[0.0; D]; MAX_NODES], [[[0.0; D]; D]; MAX_NODES]);
+        let determinant = map_second(kind, &x, &xi, &mut grad, &mut second);
+        let mut same = grad;
+        assert!((determinant - map(kind, &x, &xi, &mut n, &mut same)).abs() < 1e-14);
+        let mut dn = [[0.0; 3]; MAX_NODES];
+        kind.derivatives(&xi, &mut dn);
+        let mut jacobian = [[0.0; D]; D];
+        for (i, row) in jacobian.iter_mut().enumerate() {
+            *row = std::array::from_fn(|j| (0..count).map(|a| x[a][i] * dn[a][j]).sum());
+        }
+        let (inverse, _) = invert(&jacobian);
+        let h = 1e-5;
+        let gradients = |k: usize, by: f64| {
+            let (mut n, mut at, mut g) = ([0.0; MAX_NODES], xi, [[0.0; D]; MAX_NODES]);
+            at[k] += by;
+            map(kind, &x, &at, &mut n, &mut g);
+            g
+        };
+        let slopes: [_; D] = std::array::from_fn(|k| [gradients(k, h), gradients(k, -h)]);
+        for a in 0..count {
+            assert!((0..D).all(|d| (grad[a][d] - same[a][d]).abs() < 1e-13));
+            for (i, j) in (0..D).flat_map(|i| (0..D).map(move |j| (i, j))) {
+                let slope = |k: usize| (slopes[k][0][a][i] - slopes[k][1][a][i]) / (2.0 * h);
+                let difference: f64 = (0..D).map(|k| slope(k) * inverse[k][j]).sum();
+                let error = (second[a][i][j] - difference).abs();
+                assert!(error < 1e-8, "{kind:?}, node {a}, {i}{j}: {error:.1e}");
+                let field = |x: &[f64; D]| 3.0 * x[0] - 2.0 * x[1] + x[D - 1];
+                let linear: f64 = (0..count).map(|b| second[b][i][j] * field(&x[b])).sum();
+                assert!(linear.abs() < 1e-12, "{kind:?}: {linear:.1e}");
             }
         }
     }

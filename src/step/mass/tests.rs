@@ -50,12 +50,7 @@ fn scene<K: Kinematics<2>>(kind: CellKind) -> Scene<2> {
             stops: Vec::new(),
         }],
         basis: &Mpm,
-        numerics: Numerics {
-            restore: Restore::EveryStep,
-            spectral_radius: 1.0,
-            tolerance: 1e-10,
-            max_iterations: 25,
-        },
+        numerics: Numerics { restore: Restore::EveryStep, spectral_radius: 1.0, tolerance: 1e-10, max_iterations: 25 },
         gravity: [0.0; 2],
         stiffness_scale: 1.0,
         density_scale: 2.0,

@@ -30,7 +30,7 @@ fn stir(points: &mut Points<2>) {
         let [a, b] = [0.1 * wave(i, 5), 0.4 * wave(i, 6)];
         points.deformation[i] = Tensor::new(1.2 + a, b, 0.0, 0.0, 0.9, 0.0, 0.0, 0.0, 1.0);
         let kirchhoff = [10.0 * wave(i, 7), -3.0, wave(i, 8), 2.0 * wave(i, 9), 0.0, 0.0];
-        points.elastic[i] = elastic_from_stress(model.as_ref(), points.origin[i][1], &kirchhoff);
+        points.elastic[i] = elastic_from_stress(model.as_ref(), points.seeded_height(i), &kirchhoff);
         // Beside the model, the field carries its pressure.
         let volume_ratio = points.deformation[i].determinant();
         let beside = |k: usize| if k < 3 { points.pressure[i] } else { 0.0 };
