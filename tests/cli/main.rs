@@ -1,0 +1,11 @@
+//! The program from outside: its stages and their output folder, messages, signals, `--resume`, and `make`.
+
+mod broken_input;
+mod make;
+mod output_folder;
+mod resume;
+mod running;
+mod signals;
+mod stages;
+#[path = "../support/mod.rs"]
+mod support;

@@ -1,0 +1,35 @@
+//! The method on whole problems: the solver against closed forms, and scenes and cases through the program.
+
+mod bar;
+#[path = "../support/bench.rs"]
+mod bench;
+mod boundary_projection;
+mod cantilever;
+mod cases;
+mod collapse;
+mod column;
+mod ddmp;
+mod elements;
+mod ending;
+mod footings;
+mod general_position;
+mod ghost;
+mod incompressible;
+mod invariance;
+#[path = "../support/layout.rs"]
+mod layout;
+mod patch;
+mod phases;
+mod population;
+mod random_scenes;
+mod resampled;
+mod rotation;
+mod slivers;
+mod slope;
+mod split_footing;
+#[path = "../support/mod.rs"]
+mod support;
+mod surface;
+mod surface_loads;
+mod uniform_cells;
+mod voids;
