@@ -151,18 +151,6 @@ fn disturb(signal: &str, count: u64, seed: u64) {
 }
 
 #[test]
-fn kills_in_all_stages_lose_nothing() {
-    disturb("KILL", 8 * times(), 1);
-}
-
-#[test]
-fn signals_in_all_stages_lose_nothing() {
-    for (signal, seed) in [("INT", 2), ("TERM", 3), ("HUP", 4)] {
-        disturb(signal, 2 * times(), seed);
-    }
-}
-
-#[test]
 fn disks_that_fill_in_all_stages_lose_nothing() {
     let mut random = Random(5);
     for number in 0..4 * times() {
@@ -182,22 +170,39 @@ fn disks_that_fill_in_all_stages_lose_nothing() {
     }
 }
 
-#[test]
-fn pairs_of_processes_do_not_mix() {
-    for number in 0..8 * times() {
-        let (stage, with_earlier) = (number as usize % 4, number / 4 % 2 == 1);
-        let folder = prepared(stage, with_earlier);
-        let pair = [(); 2].map(|()| command(folder.path(), &[STAGES[stage], "."]).spawn().unwrap());
-        let ended = pair.map(|child| child.wait_with_output().unwrap());
-        assert!(ended.iter().any(|output| output.status.success()), "{} {}", said(&ended[0]), said(&ended[1]));
-        for output in ended.iter().filter(|output| !output.status.success()) {
-            let said = said(output);
-            assert!(
-                output.status.code() == Some(3) && said.contains("is at work in this folder"),
-                "{}: {said}",
-                output.status
-            );
+/// What takes more than some seconds; `make test-quick` leaves it out.
+mod slow {
+    use super::*;
+
+    #[test]
+    fn kills_in_all_stages_lose_nothing() {
+        disturb("KILL", 8 * times(), 1);
+    }
+
+    #[test]
+    fn signals_in_all_stages_lose_nothing() {
+        for (signal, seed) in [("INT", 2), ("TERM", 3), ("HUP", 4)] {
+            disturb(signal, 2 * times(), seed);
         }
-        recovers(folder.path(), stage, with_earlier, &format!("pair {number} of {}", STAGES[stage]));
+    }
+
+    #[test]
+    fn pairs_of_processes_do_not_mix() {
+        for number in 0..8 * times() {
+            let (stage, with_earlier) = (number as usize % 4, number / 4 % 2 == 1);
+            let folder = prepared(stage, with_earlier);
+            let pair = [(); 2].map(|()| command(folder.path(), &[STAGES[stage], "."]).spawn().unwrap());
+            let ended = pair.map(|child| child.wait_with_output().unwrap());
+            assert!(ended.iter().any(|output| output.status.success()), "{} {}", said(&ended[0]), said(&ended[1]));
+            for output in ended.iter().filter(|output| !output.status.success()) {
+                let said = said(output);
+                assert!(
+                    output.status.code() == Some(3) && said.contains("is at work in this folder"),
+                    "{}: {said}",
+                    output.status
+                );
+            }
+            recovers(folder.path(), stage, with_earlier, &format!("pair {number} of {}", STAGES[stage]));
+        }
     }
 }

@@ -3,9 +3,13 @@
 mod broken_input;
 mod make;
 mod output_folder;
-mod resume;
 mod running;
 mod signals;
 mod stages;
 #[path = "../support/mod.rs"]
 mod support;
+
+/// What takes more than some seconds; `make test-quick` leaves it out.
+mod slow {
+    mod resume;
+}

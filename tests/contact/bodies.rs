@@ -41,23 +41,6 @@ fn blocks_pressed_together_hand_on_a_uniform_pressure() {
     assert!(off < 1e-3, "{off}");
 }
 
-/// Either side may have the contact nodes, and either may be rigid.
-#[test]
-fn the_sides_of_a_contact_may_change_places() {
-    let force = |overrides: &[&str]| history(BLOCKS, overrides).pop().unwrap()[2];
-    let both = "regions={lower: {kind: structure, material: lower}, upper: {kind: structure, material: upper}}";
-    let swapped = force(&[both, "contacts=[{structure: lower, against: upper}]"]);
-    assert!((swapped / force(&[both]) - 1.0).abs() < 1e-3, "{swapped}");
-    let rigid =
-        force(&["regions.upper.rigid=true", "supports={bottom: {uy: 0}, lower_sides: {ux: 0}, upper: {ux: 0}}"]);
-    let lower = "regions={lower: {kind: structure, material: lower, rigid: true}, upper: {kind: structure, \
-        material: lower}}";
-    let turned = force(&[lower, "supports={bottom: {ux: 0, uy: 0}, upper_sides: {ux: 0}}"]);
-    let modulus = 1000.0 * 0.7 / (1.3 * 0.4);
-    let exact = -2.0 * modulus * 0.9f64.ln() / 0.9;
-    assert!((rigid / exact - 1.0).abs() < 1e-3 && (turned / exact - 1.0).abs() < 1e-3, "{rigid} {turned} {exact}");
-}
-
 /// A pressure that is even over both has no moment about the centroid of either, though it has one about the origin.
 #[test]
 fn each_side_has_the_moment_about_its_own_centroid() {
@@ -79,4 +62,26 @@ fn bodies_that_cannot_touch_are_told() {
     refused("{structure: upper, against: uper}", &["no region `uper`", "of kind structure or fem", "did you mean"]);
     refused("{structure: upper, against: lower, soil: lower}", &["both soil and a body"]);
     refused("{structure: upper, against: lower, adhesion_factor: 0.5}", &["share of the strength of soil"]);
+}
+
+/// What takes more than some seconds; `make test-quick` leaves it out.
+mod slow {
+    use super::*;
+
+    /// Either side may have the contact nodes, and either may be rigid.
+    #[test]
+    fn the_sides_of_a_contact_may_change_places() {
+        let force = |overrides: &[&str]| history(BLOCKS, overrides).pop().unwrap()[2];
+        let both = "regions={lower: {kind: structure, material: lower}, upper: {kind: structure, material: upper}}";
+        let swapped = force(&[both, "contacts=[{structure: lower, against: upper}]"]);
+        assert!((swapped / force(&[both]) - 1.0).abs() < 1e-3, "{swapped}");
+        let rigid =
+            force(&["regions.upper.rigid=true", "supports={bottom: {uy: 0}, lower_sides: {ux: 0}, upper: {ux: 0}}"]);
+        let lower = "regions={lower: {kind: structure, material: lower, rigid: true}, upper: {kind: structure, \
+        material: lower}}";
+        let turned = force(&[lower, "supports={bottom: {ux: 0, uy: 0}, upper_sides: {ux: 0}}"]);
+        let modulus = 1000.0 * 0.7 / (1.3 * 0.4);
+        let exact = -2.0 * modulus * 0.9f64.ln() / 0.9;
+        assert!((rigid / exact - 1.0).abs() < 1e-3 && (turned / exact - 1.0).abs() < 1e-3, "{rigid} {turned} {exact}");
+    }
 }

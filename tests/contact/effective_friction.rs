@@ -47,61 +47,6 @@ fn friction_takes_the_pressure_of_the_grains() {
     }
 }
 
-/// A heavy plate in a pool on soil with water in its pores: as the pool falls or the table in the pores does, friction has what the grains
-/// bear, the weight with the water on top of the plate less the pressure of the pores. The levels are those of the end of a step.
-#[test]
-fn friction_takes_the_grains_share_between_two_levels() {
-    // 60 kPa of the plate, 0.3 m thick, in water up to 3 m.
-    let (weight, friction) = (60.0, 0.2);
-    let press = "{name: press, analysis: quasi_static, duration: 1, step: {initial: 0.5}, \
-        prescribe: {plate: {ux: 0, rotation: 0, uy: {rate: -4.5e-4}}}}";
-    let rest = "{name: rest, analysis: quasi_static, duration: 1, step: {initial: 0.5}, prescribe: {plate: {ux: 0, rotation: 0}}}";
-    let slid = |levels: &str| {
-        let slide = format!(
-            "{{name: slide, analysis: quasi_static, duration: 1, step: {{initial: 0.25}}, {levels}, \
-             prescribe: {{plate: {{ux: {{rate: 0.004}}, rotation: 0}}}}}}"
-        );
-        run(
-            "tests/data/plate",
-            &[
-                "regions.plate.rigid=true",
-                "materials.plate.density=20",
-                "materials.soil={model: linear_elastic, young: 1.0e+5, poisson: 0.3, density: 2}",
-                "gravity={y: -10}",
-                "initial_stress={k0: 0.43}",
-                "water={level: 3, phreatic_level: 3, unit_weight: 10}",
-                &format!("contacts[0].friction={friction}"),
-                &format!("phases=[{press}, {rest}, {slide}]"),
-            ],
-        )
-    };
-    let falls = "{table: [[0, 3], [1, 1]]}";
-    let (steady, at_once) = ((|_| 3.0) as fn(f64) -> f64, (|_| 1.0) as fn(f64) -> f64);
-    let falling: fn(f64) -> f64 = |time| 3.0 - 2.0 * time;
-    for (name, levels, outside, inside) in [
-        ("both as they were", "water_level: 3".into(), steady, steady),
-        ("pool drawn down at once", "water_level: 1".into(), at_once, steady),
-        ("pool drawn down", format!("water_level: {falls}"), falling, steady),
-        ("pores drawn down at once", "phreatic_level: 1".into(), steady, at_once),
-        ("pores drawn down", format!("phreatic_level: {falls}"), steady, falling),
-    ] {
-        let rows = rows(slid(&levels).path());
-        let sliding: Vec<&Vec<f64>> = rows.iter().filter(|row| row[0] > 2.0 + 1e-9).collect();
-        let off = sliding.iter().map(|row| {
-            let (outside, inside) = (outside(row[0] - 2.0), inside(row[0] - 2.0));
-            let grains = weight + 10.0 * (outside - 0.3) - 10.0 * inside;
-            let contact = weight - 3.0;
-            [-row[3] / (2.0 * friction * grains) - 1.0, row[4] / (2.0 * contact) - 1.0]
-        });
-        let off: Vec<[f64; 2]> = off.collect();
-        println!("{name}: shear and pressure off by {off:.4?}");
-        assert!(off.len() >= 4 && off.iter().flatten().all(|off| off.abs() < 5e-4), "{name}: {off:?}");
-    }
-    // A table that says the same, so that the levels are compared in each step.
-    let text = |levels: &str| std::fs::read_to_string(slid(levels).path().join("history.csv")).unwrap();
-    assert_eq!(text("water_level: 3"), text("water_level: {table: [[0, 3], [1, 3]]}"));
-}
-
 /// Undrained finite elements between two blocks, or on a wall, have excess pressure as points do.
 #[test]
 fn friction_takes_the_pressure_of_the_grains_of_finite_elements() {
@@ -163,5 +108,65 @@ fn friction_takes_the_grains_share_of_finite_elements_between_two_levels() {
             "levels of {outside} m outside and {inside} m inside: shear over what the grains bear times tan δ {ratio:.4}"
         );
         assert!((ratio - 1.0).abs() < 0.01, "{last:?}");
+    }
+}
+
+/// What takes more than some seconds; `make test-quick` leaves it out.
+mod slow {
+    use super::*;
+
+    /// A heavy plate in a pool on soil with water in its pores: as the pool falls or the table in the pores does, friction has what the grains
+    /// bear, the weight with the water on top of the plate less the pressure of the pores. The levels are those of the end of a step.
+    #[test]
+    fn friction_takes_the_grains_share_between_two_levels() {
+        // 60 kPa of the plate, 0.3 m thick, in water up to 3 m.
+        let (weight, friction) = (60.0, 0.2);
+        let press = "{name: press, analysis: quasi_static, duration: 1, step: {initial: 0.5}, \
+        prescribe: {plate: {ux: 0, rotation: 0, uy: {rate: -4.5e-4}}}}";
+        let rest = "{name: rest, analysis: quasi_static, duration: 1, step: {initial: 0.5}, prescribe: {plate: {ux: 0, rotation: 0}}}";
+        let slid = |levels: &str| {
+            let slide = format!(
+                "{{name: slide, analysis: quasi_static, duration: 1, step: {{initial: 0.25}}, {levels}, \
+             prescribe: {{plate: {{ux: {{rate: 0.004}}, rotation: 0}}}}}}"
+            );
+            run(
+                "tests/data/plate",
+                &[
+                    "regions.plate.rigid=true",
+                    "materials.plate.density=20",
+                    "materials.soil={model: linear_elastic, young: 1.0e+5, poisson: 0.3, density: 2}",
+                    "gravity={y: -10}",
+                    "initial_stress={k0: 0.43}",
+                    "water={level: 3, phreatic_level: 3, unit_weight: 10}",
+                    &format!("contacts[0].friction={friction}"),
+                    &format!("phases=[{press}, {rest}, {slide}]"),
+                ],
+            )
+        };
+        let falls = "{table: [[0, 3], [1, 1]]}";
+        let (steady, at_once) = ((|_| 3.0) as fn(f64) -> f64, (|_| 1.0) as fn(f64) -> f64);
+        let falling: fn(f64) -> f64 = |time| 3.0 - 2.0 * time;
+        for (name, levels, outside, inside) in [
+            ("both as they were", "water_level: 3".into(), steady, steady),
+            ("pool drawn down at once", "water_level: 1".into(), at_once, steady),
+            ("pool drawn down", format!("water_level: {falls}"), falling, steady),
+            ("pores drawn down at once", "phreatic_level: 1".into(), steady, at_once),
+            ("pores drawn down", format!("phreatic_level: {falls}"), steady, falling),
+        ] {
+            let rows = rows(slid(&levels).path());
+            let sliding: Vec<&Vec<f64>> = rows.iter().filter(|row| row[0] > 2.0 + 1e-9).collect();
+            let off = sliding.iter().map(|row| {
+                let (outside, inside) = (outside(row[0] - 2.0), inside(row[0] - 2.0));
+                let grains = weight + 10.0 * (outside - 0.3) - 10.0 * inside;
+                let contact = weight - 3.0;
+                [-row[3] / (2.0 * friction * grains) - 1.0, row[4] / (2.0 * contact) - 1.0]
+            });
+            let off: Vec<[f64; 2]> = off.collect();
+            println!("{name}: shear and pressure off by {off:.4?}");
+            assert!(off.len() >= 4 && off.iter().flatten().all(|off| off.abs() < 5e-4), "{name}: {off:?}");
+        }
+        // A table that says the same, so that the levels are compared in each step.
+        let text = |levels: &str| std::fs::read_to_string(slid(levels).path().join("history.csv")).unwrap();
+        assert_eq!(text("water_level: 3"), text("water_level: {table: [[0, 3], [1, 3]]}"));
     }
 }

@@ -2,7 +2,6 @@
 
 mod bodies;
 mod effective_friction;
-mod hertz;
 mod input;
 mod rigid;
 mod sliding;
@@ -11,6 +10,11 @@ mod structures;
 mod support;
 mod tube;
 mod wall;
+
+/// What takes more than some seconds; `make test-quick` leaves it out.
+mod slow {
+    mod hertz;
+}
 
 use support::{errors, mpm, rows, run};
 

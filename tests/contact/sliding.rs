@@ -65,60 +65,6 @@ fn keeps_its_normal_force(depth: f64, rate: f64, left: f64, overrides: &[&str]) 
     assert!(off.len() >= 200 && drag < 3e-3 && ends.iter().all(|end| end.abs() < 0.01), "{ends:?} {drag}");
 }
 
-#[test]
-fn a_plate_that_slides_keeps_its_normal_force() {
-    keeps_its_normal_force(0.02, 1.0, 2.5, &[]);
-}
-
-/// The other way on another soil.
-#[test]
-fn a_plate_that_slides_back_keeps_its_normal_force() {
-    keeps_its_normal_force(0.015, -1.0, 4.5, &["materials.soil.poisson=0.1", "materials.soil.young=20000"]);
-}
-
-/// A plate that slides over clay under 45 % of its bearing capacity, three cells far, is held by half the strength along its length.
-#[test]
-fn a_loaded_plate_slides_over_clay() {
-    let load = 0.45 * (2.0 + std::f64::consts::PI);
-    let phases = format!(
-        "phases=[{{name: press, analysis: quasi_static, duration: 1, step: {{initial: 0.25}}, \
-        prescribe: {{plate: {{ux: 0, rotation: 0, uy: {{rate: -0.0055}}}}}}}}, \
-        {{name: slide, analysis: quasi_static, duration: 0.6, step: {{initial: 0.002, max: 0.02}}, \
-        tractions: [{{on: top, tx: 0, ty: {}}}], prescribe: {{plate: {{ux: {{rate: 1}}, rotation: 0}}}}}}]",
-        -load
-    );
-    let folder = run(
-        "tests/data/plate",
-        &[
-            "mesh.parameters={width: 10, plate: 2, left: 3.7, depth: 4, h: 0.2, hp: 0.2}",
-            "regions.plate.rigid=true",
-            "contacts[0].adhesion_factor=0.5",
-            "materials.soil={model: tresca, young: 500, poisson: 0.49, shear_strength: 1, density: 0}",
-            "supports.bottom={ux: 0, uy: 0}",
-            &phases,
-        ],
-    );
-    let rows = rows(folder.path());
-    // It sticks in the first step.
-    let sliding: Vec<&Vec<f64>> = rows.iter().filter(|row| row[0] > 1.004).collect();
-    let shear: Vec<f64> = sliding.iter().map(|row| -row[3] / (0.5 * 2.0)).collect();
-    let mean = shear.iter().sum::<f64>() / shear.len() as f64;
-    let ripple = (shear.iter().map(|s| (s / mean - 1.0).powi(2)).sum::<f64>() / shear.len() as f64).sqrt();
-    let log = std::fs::read_to_string(folder.path().join("solve.log")).unwrap();
-    let after = |line: &str| line.split(' ').skip_while(|w| *w != "iterations").nth(1).and_then(|n| n.parse().ok());
-    let iterations: Vec<usize> = log.lines().filter_map(after).collect();
-    let most = iterations.iter().copied().max().unwrap();
-    println!("shear over α s_u L {shear:.3?}, ripple {ripple:.4}, iterations {iterations:?}");
-    assert!(
-        shear.len() >= 30
-            && iterations.len() == rows.len()
-            && shear.iter().all(|s| (s - 1.0).abs() < 0.03)
-            && ripple < 0.02,
-        "{shear:?}"
-    );
-    assert!(most <= 10 && sliding.iter().all(|row| (row[4] / (2.0 * load) - 1.0).abs() < 1e-6), "{iterations:?}");
-}
-
 /// A block slides down with `g (sin θ − tan δ cos θ)` where that is positive …
 #[test]
 fn a_block_slides_down_an_incline() {
@@ -134,26 +80,85 @@ fn a_block_slides_down_an_incline() {
     assert!(across.abs() < 0.001 * 0.25, "{across}");
 }
 
-/// … and rests where it is not, once it has settled.
-#[test]
-fn a_block_rests_on_an_incline() {
-    let overrides = ["contacts[0].friction=0.37", "numerics.spectral_radius=0.5", "phases[0].duration=0.8"];
-    let folder = run("cases/incline", &overrides);
-    let rows = rows(folder.path());
-    let at = |time: f64| rows.iter().find(|row| row[0] > time - 1e-9).unwrap()[1];
-    let free = 0.5 * 9.81 * 20f64.to_radians().sin() * 0.8f64.powi(2);
-    assert!((at(0.8) - at(0.6)).abs() < 1e-6 * free, "{} {}", at(0.6), at(0.8));
-}
+/// What takes more than some seconds; `make test-quick` leaves it out.
+mod slow {
+    use super::*;
 
-/// The head of a pile bears what the soil exerts on it, and in the first centimetres that is the limit load of a circular
-/// footing, between smooth (5.69 s_u) and rough (6.05 s_u), with what it gains with depth and errs by in coarse cells.
-#[test]
-fn a_pile_finds_its_bearing_capacity() {
-    let folder = run("cases/pile", &["phases.push.duration=0.1"]);
-    let rows = rows(folder.path());
-    for row in &rows {
-        assert!((row[2] + row[4]).abs() < 1e-6 * row[2].abs().max(1e-3), "{row:?}");
+    /// A plate that slides over clay under 45 % of its bearing capacity, three cells far, is held by half the strength along its length.
+    #[test]
+    fn a_loaded_plate_slides_over_clay() {
+        let load = 0.45 * (2.0 + std::f64::consts::PI);
+        let phases = format!(
+            "phases=[{{name: press, analysis: quasi_static, duration: 1, step: {{initial: 0.25}}, \
+        prescribe: {{plate: {{ux: 0, rotation: 0, uy: {{rate: -0.0055}}}}}}}}, \
+        {{name: slide, analysis: quasi_static, duration: 0.6, step: {{initial: 0.002, max: 0.02}}, \
+        tractions: [{{on: top, tx: 0, ty: {}}}], prescribe: {{plate: {{ux: {{rate: 1}}, rotation: 0}}}}}}]",
+            -load
+        );
+        let folder = run(
+            "tests/data/plate",
+            &[
+                "mesh.parameters={width: 10, plate: 2, left: 3.7, depth: 4, h: 0.2, hp: 0.2}",
+                "regions.plate.rigid=true",
+                "contacts[0].adhesion_factor=0.5",
+                "materials.soil={model: tresca, young: 500, poisson: 0.49, shear_strength: 1, density: 0}",
+                "supports.bottom={ux: 0, uy: 0}",
+                &phases,
+            ],
+        );
+        let rows = rows(folder.path());
+        // It sticks in the first step.
+        let sliding: Vec<&Vec<f64>> = rows.iter().filter(|row| row[0] > 1.004).collect();
+        let shear: Vec<f64> = sliding.iter().map(|row| -row[3] / (0.5 * 2.0)).collect();
+        let mean = shear.iter().sum::<f64>() / shear.len() as f64;
+        let ripple = (shear.iter().map(|s| (s / mean - 1.0).powi(2)).sum::<f64>() / shear.len() as f64).sqrt();
+        let log = std::fs::read_to_string(folder.path().join("solve.log")).unwrap();
+        let after = |line: &str| line.split(' ').skip_while(|w| *w != "iterations").nth(1).and_then(|n| n.parse().ok());
+        let iterations: Vec<usize> = log.lines().filter_map(after).collect();
+        let most = iterations.iter().copied().max().unwrap();
+        println!("shear over α s_u L {shear:.3?}, ripple {ripple:.4}, iterations {iterations:?}");
+        assert!(
+            shear.len() >= 30
+                && iterations.len() == rows.len()
+                && shear.iter().all(|s| (s - 1.0).abs() < 0.03)
+                && ripple < 0.02,
+            "{shear:?}"
+        );
+        assert!(most <= 10 && sliding.iter().all(|row| (row[4] / (2.0 * load) - 1.0).abs() < 1e-6), "{iterations:?}");
     }
-    let pressure = rows.last().unwrap()[2] / (std::f64::consts::PI * 0.5f64.powi(2)) / 0.5;
-    assert!((5.69..1.1 * 6.05).contains(&pressure), "{pressure}");
+
+    #[test]
+    fn a_plate_that_slides_keeps_its_normal_force() {
+        keeps_its_normal_force(0.02, 1.0, 2.5, &[]);
+    }
+
+    /// The other way on another soil.
+    #[test]
+    fn a_plate_that_slides_back_keeps_its_normal_force() {
+        keeps_its_normal_force(0.015, -1.0, 4.5, &["materials.soil.poisson=0.1", "materials.soil.young=20000"]);
+    }
+
+    /// The head of a pile bears what the soil exerts on it, and in the first centimetres that is the limit load of a circular
+    /// footing, between smooth (5.69 s_u) and rough (6.05 s_u), with what it gains with depth and errs by in coarse cells.
+    #[test]
+    fn a_pile_finds_its_bearing_capacity() {
+        let folder = run("cases/pile", &["phases.push.duration=0.1"]);
+        let rows = rows(folder.path());
+        for row in &rows {
+            assert!((row[2] + row[4]).abs() < 1e-6 * row[2].abs().max(1e-3), "{row:?}");
+        }
+        let pressure = rows.last().unwrap()[2] / (std::f64::consts::PI * 0.5f64.powi(2)) / 0.5;
+        assert!((5.69..1.1 * 6.05).contains(&pressure), "{pressure}");
+    }
+
+    /// … and rests where it is not, once it has settled.
+    #[test]
+    fn a_block_rests_on_an_incline() {
+        let overrides = ["contacts[0].friction=0.37", "numerics.spectral_radius=0.5", "phases[0].duration=0.8"];
+        let folder = run("cases/incline", &overrides);
+        let rows = rows(folder.path());
+        let at = |time: f64| rows.iter().find(|row| row[0] > time - 1e-9).unwrap()[1];
+        let free = 0.5 * 9.81 * 20f64.to_radians().sin() * 0.8f64.powi(2);
+        assert!((at(0.8) - at(0.6)).abs() < 1e-6 * free, "{} {}", at(0.6), at(0.8));
+    }
 }

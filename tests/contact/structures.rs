@@ -149,37 +149,6 @@ fn what_cannot_be_borne_at_once_is_released_by_halved_steps() {
     );
 }
 
-/// A load that clay bears stays where it is through a hundred restorations of the grid, and moves little near what the clay bears.
-#[test]
-fn a_load_is_held_while_the_grid_is_restored() {
-    let settled = |load: f64, hold: f64| {
-        let to =
-            format!("prescribe: {{top: {{ux: 0}}}}, tractions: [{{on: top, ty: {{table: [[0, 0], [1, {load}]]}}}}]");
-        let at = format!("prescribe: {{top: {{ux: 0}}}}, tractions: [{{on: top, ty: {load}}}]");
-        let phases = format!(
-            "phases=[{{name: load, analysis: quasi_static, duration: 1, step: {{initial: 0.1, max: 0.1}}, {to}}}, \
-             {{name: hold, analysis: quasi_static, duration: {hold}, step: {{initial: 1, max: 1}}, {at}}}]"
-        );
-        let overrides = [
-            "mesh.parameters={plate: 0.8, left: 0.6, edge: 0.05}",
-            "materials.soil={model: tresca, young: 1000, poisson: 0.49, shear_strength: 10, density: 0}",
-            "numerics.restore=every_step",
-            &phases,
-        ];
-        let folder = run("tests/data/plate", &overrides);
-        let rows = rows(folder.path());
-        let loaded = rows.iter().rfind(|row| row[0] <= 1.0 + 1e-9).unwrap()[2];
-        let last = rows.last().unwrap();
-        println!("{load}: {loaded} -> {} at {} s", last[2], last[0]);
-        assert!((last[0] - 1.0 - hold).abs() < 1e-9, "{}", last[0]);
-        (loaded, last[2], std::fs::read_to_string(folder.path().join("solve.log")).unwrap())
-    };
-    for (load, most) in [(-36.0, 0.01), (-45.45, 0.01), (-46.0, 0.03)] {
-        let (loaded, held, log) = settled(load, 100.0);
-        assert!((held / loaded - 1.0).abs() < most && !log.contains("no balance"), "{load}: {loaded} {held}");
-    }
-}
-
 /// The same on soil that presses on a wall already: what presses elsewhere is nothing to the plate.
 #[test]
 fn a_plate_is_laid_on_soil_that_rests_on_a_wall() {
@@ -329,5 +298,42 @@ fn a_plate_lifts_off_and_nothing_sticks() {
         let most = stress.iter().fold(0.0f64, |most, s| most.max(s.abs()));
         println!("pressed with {pressed:.1} kN, lifted with a stress of {most:.1e} kPa in the soil");
         assert!(most < 1e-7 * pressed, "{most}");
+    }
+}
+
+/// What takes more than some seconds; `make test-quick` leaves it out.
+mod slow {
+    use super::*;
+
+    /// A load that clay bears stays where it is through a hundred restorations of the grid, and moves little near what the clay bears.
+    #[test]
+    fn a_load_is_held_while_the_grid_is_restored() {
+        let settled = |load: f64, hold: f64| {
+            let to = format!(
+                "prescribe: {{top: {{ux: 0}}}}, tractions: [{{on: top, ty: {{table: [[0, 0], [1, {load}]]}}}}]"
+            );
+            let at = format!("prescribe: {{top: {{ux: 0}}}}, tractions: [{{on: top, ty: {load}}}]");
+            let phases = format!(
+                "phases=[{{name: load, analysis: quasi_static, duration: 1, step: {{initial: 0.1, max: 0.1}}, {to}}}, \
+             {{name: hold, analysis: quasi_static, duration: {hold}, step: {{initial: 1, max: 1}}, {at}}}]"
+            );
+            let overrides = [
+                "mesh.parameters={plate: 0.8, left: 0.6, edge: 0.05}",
+                "materials.soil={model: tresca, young: 1000, poisson: 0.49, shear_strength: 10, density: 0}",
+                "numerics.restore=every_step",
+                &phases,
+            ];
+            let folder = run("tests/data/plate", &overrides);
+            let rows = rows(folder.path());
+            let loaded = rows.iter().rfind(|row| row[0] <= 1.0 + 1e-9).unwrap()[2];
+            let last = rows.last().unwrap();
+            println!("{load}: {loaded} -> {} at {} s", last[2], last[0]);
+            assert!((last[0] - 1.0 - hold).abs() < 1e-9, "{}", last[0]);
+            (loaded, last[2], std::fs::read_to_string(folder.path().join("solve.log")).unwrap())
+        };
+        for (load, most) in [(-36.0, 0.01), (-45.45, 0.01), (-46.0, 0.03)] {
+            let (loaded, held, log) = settled(load, 100.0);
+            assert!((held / loaded - 1.0).abs() < most && !log.contains("no balance"), "{load}: {loaded} {held}");
+        }
     }
 }

@@ -268,43 +268,48 @@ fn surface(time: f64) -> Part {
     }
 }
 
-#[test]
-fn a_series_has_its_frames_at_their_times() {
-    let folder = tempfile::tempdir().unwrap();
-    let results = folder.path().join("results");
-    frame::prepare(&results, 0).unwrap();
-    let mesh = mixed_mesh();
-    let times = [0.0, 0.1, 0.1 + 0.2, 1.0 / 3.0, 12.5];
-    for (k, &time) in times.iter().enumerate() {
-        let column = |n: usize| Column {
-            name: "displacement".to_string(),
-            unit: "m".to_string(),
-            components: 3,
-            values: vec![time; 3 * n],
-        };
-        let frame = Frame {
-            time,
-            phase: "fall".to_string(),
-            step: k as u64,
-            origin: Origin::default(),
-            points: Part { position: vec![[time, 1.0, 0.0]; 7], columns: vec![column(7)] },
-            grid: Part { position: Vec::new(), columns: vec![column(mesh.nodes.len())] },
-            elements: Part::default(),
-            contact: Part::default(),
-            surface: surface(time),
-        };
-        frame.write(&results, k).unwrap();
-    }
-    let arguments: Vec<String> = times.iter().map(|t| format!("{t:?}")).collect();
-    for encoding in [Encoding::Raw, Encoding::Lz4, Encoding::Plain] {
-        let none = vec![false; mesh.regions.len()];
-        export::export(&results, &mesh, &none, folder.path(), &["displacement".to_string()], encoding).unwrap();
-        check(&[&"vtp", &folder.path().join("vtu/surface_000002.vtp"), &"[[0, 1, 2, 3, 0], [4, 5, 6, 4]]"]);
-        for series in ["points.pvd", "grid.pvd", "surface.pvd"] {
-            let path = folder.path().join(series);
-            let mut all: Vec<&dyn AsRef<std::ffi::OsStr>> = vec![&"pvd", &path];
-            all.extend(arguments.iter().map(|a| a as &dyn AsRef<std::ffi::OsStr>));
-            check(&all);
+/// What takes more than some seconds; `make test-quick` leaves it out.
+mod slow {
+    use super::*;
+
+    #[test]
+    fn a_series_has_its_frames_at_their_times() {
+        let folder = tempfile::tempdir().unwrap();
+        let results = folder.path().join("results");
+        frame::prepare(&results, 0).unwrap();
+        let mesh = mixed_mesh();
+        let times = [0.0, 0.1, 0.1 + 0.2, 1.0 / 3.0, 12.5];
+        for (k, &time) in times.iter().enumerate() {
+            let column = |n: usize| Column {
+                name: "displacement".to_string(),
+                unit: "m".to_string(),
+                components: 3,
+                values: vec![time; 3 * n],
+            };
+            let frame = Frame {
+                time,
+                phase: "fall".to_string(),
+                step: k as u64,
+                origin: Origin::default(),
+                points: Part { position: vec![[time, 1.0, 0.0]; 7], columns: vec![column(7)] },
+                grid: Part { position: Vec::new(), columns: vec![column(mesh.nodes.len())] },
+                elements: Part::default(),
+                contact: Part::default(),
+                surface: surface(time),
+            };
+            frame.write(&results, k).unwrap();
+        }
+        let arguments: Vec<String> = times.iter().map(|t| format!("{t:?}")).collect();
+        for encoding in [Encoding::Raw, Encoding::Lz4, Encoding::Plain] {
+            let none = vec![false; mesh.regions.len()];
+            export::export(&results, &mesh, &none, folder.path(), &["displacement".to_string()], encoding).unwrap();
+            check(&[&"vtp", &folder.path().join("vtu/surface_000002.vtp"), &"[[0, 1, 2, 3, 0], [4, 5, 6, 4]]"]);
+            for series in ["points.pvd", "grid.pvd", "surface.pvd"] {
+                let path = folder.path().join(series);
+                let mut all: Vec<&dyn AsRef<std::ffi::OsStr>> = vec![&"pvd", &path];
+                all.extend(arguments.iter().map(|a| a as &dyn AsRef<std::ffi::OsStr>));
+                check(&all);
+            }
         }
     }
 }

@@ -103,39 +103,6 @@ fn worst(errors: &[f64]) -> f64 {
     errors.iter().fold(0.0, |most, e| most.max(e.abs()))
 }
 
-/// Loaded and unloaded evenly at its surface, with the grid's points and with finite elements. The same law in steps ten times as
-/// fine tells what the steps are worth.
-#[test]
-fn a_surcharge_settles_and_swells_as_in_the_oedometer() {
-    let load = 20.0;
-    let phases = format!(
-        "- {{name: load, analysis: quasi_static, duration: 1, step: {{initial: {}}}, tractions: [{{on: top, ty: {{rate: -{load}}}}}]}}\n\
-         - {{name: unload, analysis: quasi_static, duration: 1, step: {{initial: {0}}}, tractions: [{{on: top, ty: {{table: [[0, -{load}], [1, 0]]}}}}]}}\n",
-        1.0 / STEPS as f64
-    );
-    let model = clay();
-    let stress = |steps: usize| {
-        move |depth: f64, n: usize| -WEIGHT * depth - load * (1.0 - (n as f64 / steps as f64 - 1.0).abs())
-    };
-    let exact = settlement(&*model, 2 * STEPS, stress(STEPS));
-    let fine = settlement(&*model, 20 * STEPS, stress(10 * STEPS));
-    println!("steps: {:.2e}", exact[STEPS - 1] / fine[10 * STEPS - 1] - 1.0);
-    for kind in ["mpm", "fem"] {
-        let folder = run(kind, "never", "", &phases);
-        let uy = column(folder.path(), "top.uy [m]");
-        assert_eq!(uy.len(), 1 + 2 * STEPS);
-        let errors: Vec<f64> = uy[1..].iter().zip(&exact).map(|(u, s)| -u / s - 1.0).collect();
-        println!("{kind}: at rest {:.1e} m, loaded {:.5} m, back {:.5} m", uy[0], uy[STEPS], uy[2 * STEPS]);
-        println!("worst {:.1e}, loaded {:.1e}, back {:.1e}", worst(&errors), errors[STEPS - 1], errors[2 * STEPS - 1]);
-        assert!(uy[0].abs() < 1e-10, "{}", uy[0]);
-        assert!((-uy[STEPS] / fine[10 * STEPS - 1] - 1.0).abs() < 1e-3, "{uy:?} {}", fine[10 * STEPS - 1]);
-        assert!(worst(&errors) < 1e-3, "{errors:?}");
-        if kind == "mpm" {
-            stresses(folder.path(), &*model, stress(STEPS));
-        }
-    }
-}
-
 /// Stress at the points when the load is on: as it was at their depth at first.
 fn stresses(folder: &Path, model: &dyn Model, stress: impl Fn(f64, usize) -> f64) {
     let frames = frame::list(&folder.join("results")).unwrap();
@@ -201,6 +168,49 @@ fn another_clay_takes_the_stress_over() {
             println!("{more}: {excess:?}");
             assert!(excess[0].abs() < 1e-9 && excess[1].abs() < 1e-9, "{excess:?}");
             assert!(excess[2] > 0.95 * load && excess[2] < load, "{excess:?}");
+        }
+    }
+}
+
+/// What takes more than some seconds; `make test-quick` leaves it out.
+mod slow {
+    use super::*;
+
+    /// Loaded and unloaded evenly at its surface, with the grid's points and with finite elements. The same law in steps ten times as
+    /// fine tells what the steps are worth.
+    #[test]
+    fn a_surcharge_settles_and_swells_as_in_the_oedometer() {
+        let load = 20.0;
+        let phases = format!(
+            "- {{name: load, analysis: quasi_static, duration: 1, step: {{initial: {}}}, tractions: [{{on: top, ty: {{rate: -{load}}}}}]}}\n\
+         - {{name: unload, analysis: quasi_static, duration: 1, step: {{initial: {0}}}, tractions: [{{on: top, ty: {{table: [[0, -{load}], [1, 0]]}}}}]}}\n",
+            1.0 / STEPS as f64
+        );
+        let model = clay();
+        let stress = |steps: usize| {
+            move |depth: f64, n: usize| -WEIGHT * depth - load * (1.0 - (n as f64 / steps as f64 - 1.0).abs())
+        };
+        let exact = settlement(&*model, 2 * STEPS, stress(STEPS));
+        let fine = settlement(&*model, 20 * STEPS, stress(10 * STEPS));
+        println!("steps: {:.2e}", exact[STEPS - 1] / fine[10 * STEPS - 1] - 1.0);
+        for kind in ["mpm", "fem"] {
+            let folder = run(kind, "never", "", &phases);
+            let uy = column(folder.path(), "top.uy [m]");
+            assert_eq!(uy.len(), 1 + 2 * STEPS);
+            let errors: Vec<f64> = uy[1..].iter().zip(&exact).map(|(u, s)| -u / s - 1.0).collect();
+            println!("{kind}: at rest {:.1e} m, loaded {:.5} m, back {:.5} m", uy[0], uy[STEPS], uy[2 * STEPS]);
+            println!(
+                "worst {:.1e}, loaded {:.1e}, back {:.1e}",
+                worst(&errors),
+                errors[STEPS - 1],
+                errors[2 * STEPS - 1]
+            );
+            assert!(uy[0].abs() < 1e-10, "{}", uy[0]);
+            assert!((-uy[STEPS] / fine[10 * STEPS - 1] - 1.0).abs() < 1e-3, "{uy:?} {}", fine[10 * STEPS - 1]);
+            assert!(worst(&errors) < 1e-3, "{errors:?}");
+            if kind == "mpm" {
+                stresses(folder.path(), &*model, stress(STEPS));
+            }
         }
     }
 }

@@ -118,45 +118,6 @@ fn returned_states_are_admissible() {
     }
 }
 
-/// `∂τ/∂ε` against central differences, to 1e-5 of the elastic modulus `λ + 2G`. Where one-sided differences disagree
-/// there is a kink within the step; only few such states may be met.
-#[test]
-fn tangents_are_the_derivative_of_the_stress() {
-    for (name, model) in models() {
-        let mut random = Random(0xD1B5_4A32_D192_ED03);
-        let state = State::default();
-        let mut kinks = 0;
-        for _ in 0..STATES {
-            let trial = random.trial(&*model);
-            let h = 1e-6 * largest(&trial).max(finite_strength(&*model) / model.young(0.0));
-            let r = model.respond(0.0, &trial, &state);
-            let stiffness = stiffness(&*model, &r.tangent);
-            let mut kink = false;
-            let mut error: f64 = 0.0;
-            for b in 0..3 {
-                let moved = |by: f64| {
-                    let mut t = trial;
-                    t[b] += by;
-                    model.respond(0.0, &t, &state).stress
-                };
-                let (up, down) = (moved(h), moved(-h));
-                for a in 0..3 {
-                    let (right, left) = ((up[a] - r.stress[a]) / h, (r.stress[a] - down[a]) / h);
-                    kink |= (right - left).abs() > 1e-4 * stiffness;
-                    error = error.max((0.5 * (right + left) - r.tangent[a][b]).abs() / stiffness);
-                }
-            }
-            if kink {
-                kinks += 1;
-            } else {
-                assert!(error <= 1e-5, "{name}: {trial:?}: tangent off by {error:e}: {r:?}");
-            }
-        }
-        // Four in ten states are built to have equal or nearly equal strains, where apices and edges are.
-        assert!(kinks < STATES / 3, "{name}: {kinks} kinks");
-    }
-}
-
 /// Axes have no names: permuted strains give the permuted response. The tangent is symmetric where claimed.
 #[test]
 fn responses_are_isotropic() {
@@ -293,4 +254,48 @@ fn the_shear_strength_yields_in_simple_shear() {
         }
     }
     assert!(seen >= 15, "{seen}");
+}
+
+/// What takes more than some seconds; `make test-quick` leaves it out.
+mod slow {
+    use super::*;
+
+    /// `∂τ/∂ε` against central differences, to 1e-5 of the elastic modulus `λ + 2G`. Where one-sided differences disagree
+    /// there is a kink within the step; only few such states may be met.
+    #[test]
+    fn tangents_are_the_derivative_of_the_stress() {
+        for (name, model) in models() {
+            let mut random = Random(0xD1B5_4A32_D192_ED03);
+            let state = State::default();
+            let mut kinks = 0;
+            for _ in 0..STATES {
+                let trial = random.trial(&*model);
+                let h = 1e-6 * largest(&trial).max(finite_strength(&*model) / model.young(0.0));
+                let r = model.respond(0.0, &trial, &state);
+                let stiffness = stiffness(&*model, &r.tangent);
+                let mut kink = false;
+                let mut error: f64 = 0.0;
+                for b in 0..3 {
+                    let moved = |by: f64| {
+                        let mut t = trial;
+                        t[b] += by;
+                        model.respond(0.0, &t, &state).stress
+                    };
+                    let (up, down) = (moved(h), moved(-h));
+                    for a in 0..3 {
+                        let (right, left) = ((up[a] - r.stress[a]) / h, (r.stress[a] - down[a]) / h);
+                        kink |= (right - left).abs() > 1e-4 * stiffness;
+                        error = error.max((0.5 * (right + left) - r.tangent[a][b]).abs() / stiffness);
+                    }
+                }
+                if kink {
+                    kinks += 1;
+                } else {
+                    assert!(error <= 1e-5, "{name}: {trial:?}: tangent off by {error:e}: {r:?}");
+                }
+            }
+            // Four in ten states are built to have equal or nearly equal strains, where apices and edges are.
+            assert!(kinks < STATES / 3, "{name}: {kinks} kinks");
+        }
+    }
 }

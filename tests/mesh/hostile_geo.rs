@@ -327,26 +327,6 @@ fn the_sandbox_reads_the_files_of_the_geometry_alone() {
 }
 
 #[test]
-fn a_loop_without_end_and_a_list_without_measure_meet_limits() {
-    let endless = "Macro again\n  Call again;\nReturn\nCall again;";
-    let slow = "For i In {0:1:1e-300}\nEndFor";
-    for (statement, limit, says) in [
-        (slow, ["--mesh-timeout", "2"], &["stopped after 2 s", "--mesh-timeout"][..]),
-        ("Sleep 1000;", ["--mesh-timeout", "2"], &["stopped after 2 s", "--mesh-timeout"]),
-        (endless, ["--mesh-timeout", "5"], &["scene.geo"]),
-        ("a[] = {1:1e12};", ["--mesh-memory", "2"], &["scene.geo", "--mesh-memory"]),
-        ("a[] = {1:1e9};", ["--mesh-memory", "2"], &["scene.geo", "--mesh-memory"]),
-    ] {
-        let folder = scene(statement);
-        for command in ["mesh", "check"] {
-            let said = refusal(folder.path(), &[&[command, "."], &limit[..]].concat());
-            assert!(says.iter().all(|part| said.contains(part)), "{statement}: {said}");
-            assert!(!folder.path().join("out").exists(), "{statement}");
-        }
-    }
-}
-
-#[test]
 fn a_mesh_size_that_is_too_small_is_an_error_with_numbers() {
     for (size, says) in [
         ("1e-12", &["point 1", "mesh size 1e-12", "below the tolerance", "larger mesh size"][..]),
@@ -375,4 +355,29 @@ fn the_parent_stops_the_process_and_says_so() {
         let errors = work.join().unwrap().unwrap_err();
         assert_eq!(errors[0].kind, Kind::Interrupted);
     });
+}
+
+/// What takes more than some seconds; `make test-quick` leaves it out.
+mod slow {
+    use super::*;
+
+    #[test]
+    fn a_loop_without_end_and_a_list_without_measure_meet_limits() {
+        let endless = "Macro again\n  Call again;\nReturn\nCall again;";
+        let slow = "For i In {0:1:1e-300}\nEndFor";
+        for (statement, limit, says) in [
+            (slow, ["--mesh-timeout", "2"], &["stopped after 2 s", "--mesh-timeout"][..]),
+            ("Sleep 1000;", ["--mesh-timeout", "2"], &["stopped after 2 s", "--mesh-timeout"]),
+            (endless, ["--mesh-timeout", "5"], &["scene.geo"]),
+            ("a[] = {1:1e12};", ["--mesh-memory", "2"], &["scene.geo", "--mesh-memory"]),
+            ("a[] = {1:1e9};", ["--mesh-memory", "2"], &["scene.geo", "--mesh-memory"]),
+        ] {
+            let folder = scene(statement);
+            for command in ["mesh", "check"] {
+                let said = refusal(folder.path(), &[&[command, "."], &limit[..]].concat());
+                assert!(says.iter().all(|part| said.contains(part)), "{statement}: {said}");
+                assert!(!folder.path().join("out").exists(), "{statement}");
+            }
+        }
+    }
 }

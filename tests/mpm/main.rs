@@ -6,13 +6,11 @@ mod bench;
 mod boundary_projection;
 mod cantilever;
 mod cases;
-mod collapse;
 mod column;
 mod ddmp;
 mod elements;
 mod ending;
 mod footings;
-mod general_position;
 mod ghost;
 mod incompressible;
 mod invariance;
@@ -20,7 +18,6 @@ mod invariance;
 mod layout;
 mod patch;
 mod phases;
-mod population;
 mod random_scenes;
 mod resampled;
 mod rotation;
@@ -31,5 +28,12 @@ mod split_footing;
 mod support;
 mod surface;
 mod surface_loads;
-mod uniform_cells;
-mod voids;
+
+/// What takes more than some seconds; `make test-quick` leaves it out.
+mod slow {
+    mod collapse;
+    mod general_position;
+    mod population;
+    mod uniform_cells;
+    mod voids;
+}

@@ -469,10 +469,15 @@ fn collapse(resampled: bool, beside: bool) {
     assert!(if beside { fewest == 3 } else { front > 1.3 }, "{fewest} {front}");
 }
 
-#[test]
-fn the_boundary_is_closed_through_a_collapse() {
-    for resampled in [true, false] {
-        collapse(resampled, false);
-        collapse(resampled, true);
+/// What takes more than some seconds; `make test-quick` leaves it out.
+mod slow {
+    use super::*;
+
+    #[test]
+    fn the_boundary_is_closed_through_a_collapse() {
+        for resampled in [true, false] {
+            collapse(resampled, false);
+            collapse(resampled, true);
+        }
     }
 }

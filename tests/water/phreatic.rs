@@ -108,14 +108,19 @@ fn a_submerged_slope_is_one_of_buoyant_weight() {
     }
 }
 
-/// Bishop's method gives 1.302 (`cases/drawdown/bishop.py`); on cells of 1 m the factor is 1.3 % higher, and the search 0.01 wide.
-#[test]
-fn a_bank_whose_pool_is_drawn_down_has_its_factor_of_safety() {
-    let folder = solve("cases/drawdown", &["mesh.parameters.h=1", "phases.safety.step.min=0.01"]);
-    let log = fs::read_to_string(folder.path().join("solve.log")).unwrap();
-    let line = log.lines().find(|line| line.starts_with("factor of safety")).unwrap_or_else(|| panic!("{log}"));
-    let words: Vec<&str> = line.split(' ').collect();
-    let [held, failed] = [words[3], words[5]].map(|number| number.parse::<f64>().unwrap());
-    println!("{held} to {failed}");
-    assert!(failed - held < 0.021 && (0.5 * (held + failed) / 1.302 - 1.0).abs() < 0.03, "{line}");
+/// What takes more than some seconds; `make test-quick` leaves it out.
+mod slow {
+    use super::*;
+
+    /// Bishop's method gives 1.302 (`cases/drawdown/bishop.py`); on cells of 1 m the factor is 1.3 % higher, and the search 0.01 wide.
+    #[test]
+    fn a_bank_whose_pool_is_drawn_down_has_its_factor_of_safety() {
+        let folder = solve("cases/drawdown", &["mesh.parameters.h=1", "phases.safety.step.min=0.01"]);
+        let log = fs::read_to_string(folder.path().join("solve.log")).unwrap();
+        let line = log.lines().find(|line| line.starts_with("factor of safety")).unwrap_or_else(|| panic!("{log}"));
+        let words: Vec<&str> = line.split(' ').collect();
+        let [held, failed] = [words[3], words[5]].map(|number| number.parse::<f64>().unwrap());
+        println!("{held} to {failed}");
+        assert!(failed - held < 0.021 && (0.5 * (held + failed) / 1.302 - 1.0).abs() < 0.03, "{line}");
+    }
 }

@@ -81,40 +81,6 @@ fn layer(permeability: f64) -> Layer {
     Layer { height: 1.0, modulus: CONFINED, storage: 1.0 / WATER, mobility: permeability / UNIT_WEIGHT, load: LOAD }
 }
 
-/// Two columns that consolidate to T = 0.5, one that stands and one that lies, see each the permeability along it, and not the other one, which is
-/// a hundred times larger or smaller.
-#[test]
-fn water_flows_by_the_permeability_of_its_direction() {
-    for kind in ["mpm", "fem"] {
-        for upright in [true, false] {
-            for across in [1e-5, 1e-9] {
-                let along = 1e-7;
-                let [x, y] = if upright { [across, along] } else { [along, across] };
-                let permeability = format!(", permeability: {{x: {x:e}, y: {y:e}}}");
-                let column = Column { kind, upright, h: 0.05, density: 0.0, permeability };
-                let layer = layer(along);
-                let end = layer.time(0.5);
-                let folder = column.run(
-                    "free",
-                    "",
-                    &format!(
-                        "analysis: consolidation, duration: {end}, step: {{initial: {}}}, {}",
-                        end / 200.0,
-                        column.load()
-                    ),
-                );
-                let [moved, pressure] = column.moved(folder.path()).map(|values| values[values.len() - 1]);
-                let moved = -moved / layer.settlement(end) - 1.0;
-                let pressure = (pressure - layer.pressure(1.0, end)) / layer.first_pressure();
-                println!(
-                    "{kind}, upright {upright}, {across:e} across: settles {moved:+.1e}, pressure {pressure:+.1e}"
-                );
-                assert!(moved.abs() < 5e-3 && pressure.abs() < 5e-3, "{kind} {upright} {across}");
-            }
-        }
-    }
-}
-
 /// A load that the water bears all of from the beginning: nothing moves at first, and the pressure falls from the given one.
 #[test]
 fn pressure_that_is_there_at_first_drains_as_that_of_a_load() {
@@ -183,20 +149,59 @@ fn wave(kind: &'static str, h: f64, permeability: &str, drained: &str) -> [f64; 
     out
 }
 
-/// Where the water stays a wave is as fast as soil and water together are stiff, `√((M + K_w/n)/ρ)`, and its pressure is `−K_w/n` times the
-/// strain, both at second order; where water leaves through the sides at once, it is as fast as in soil alone.
-#[test]
-fn waves_are_as_fast_as_soil_and_water_are_stiff() {
-    for kind in ["mpm", "fem"] {
-        for (permeability, drained) in [(", permeability: 1.0e-12", "free"), (", permeability: 0", "")] {
-            let errors = [0.05, 0.025].map(|h| wave(kind, h, permeability, drained));
-            let order = (errors[0][0] / errors[1][0]).log2();
-            println!("{kind}{permeability}: {errors:.4?}, order {order:.2}");
-            assert!(errors[1][0].abs() < 1e-3 && order > 1.8, "{kind}{permeability}: {errors:?}");
-            assert!(errors[1][1] < 2e-3 && errors[1][2] < 2e-3, "{kind}{permeability}: {errors:?}");
+/// What takes more than some seconds; `make test-quick` leaves it out.
+mod slow {
+    use super::*;
+
+    /// Where the water stays a wave is as fast as soil and water together are stiff, `√((M + K_w/n)/ρ)`, and its pressure is `−K_w/n` times the
+    /// strain, both at second order; where water leaves through the sides at once, it is as fast as in soil alone.
+    #[test]
+    fn waves_are_as_fast_as_soil_and_water_are_stiff() {
+        for kind in ["mpm", "fem"] {
+            for (permeability, drained) in [(", permeability: 1.0e-12", "free"), (", permeability: 0", "")] {
+                let errors = [0.05, 0.025].map(|h| wave(kind, h, permeability, drained));
+                let order = (errors[0][0] / errors[1][0]).log2();
+                println!("{kind}{permeability}: {errors:.4?}, order {order:.2}");
+                assert!(errors[1][0].abs() < 1e-3 && order > 1.8, "{kind}{permeability}: {errors:?}");
+                assert!(errors[1][1] < 2e-3 && errors[1][2] < 2e-3, "{kind}{permeability}: {errors:?}");
+            }
+            let alone = wave(kind, 0.1, ", permeability: {x: 0, y: 1.0e+3}", "sides");
+            println!("{kind}, water that leaves at once: {alone:?}");
+            assert!(alone[0].abs() < 1e-4 && alone[1] < 1e-3 && alone[2] < 1e-6, "{kind}: {alone:?}");
         }
-        let alone = wave(kind, 0.1, ", permeability: {x: 0, y: 1.0e+3}", "sides");
-        println!("{kind}, water that leaves at once: {alone:?}");
-        assert!(alone[0].abs() < 1e-4 && alone[1] < 1e-3 && alone[2] < 1e-6, "{kind}: {alone:?}");
+    }
+
+    /// Two columns that consolidate to T = 0.5, one that stands and one that lies, see each the permeability along it, and not the other one, which is
+    /// a hundred times larger or smaller.
+    #[test]
+    fn water_flows_by_the_permeability_of_its_direction() {
+        for kind in ["mpm", "fem"] {
+            for upright in [true, false] {
+                for across in [1e-5, 1e-9] {
+                    let along = 1e-7;
+                    let [x, y] = if upright { [across, along] } else { [along, across] };
+                    let permeability = format!(", permeability: {{x: {x:e}, y: {y:e}}}");
+                    let column = Column { kind, upright, h: 0.05, density: 0.0, permeability };
+                    let layer = layer(along);
+                    let end = layer.time(0.5);
+                    let folder = column.run(
+                        "free",
+                        "",
+                        &format!(
+                            "analysis: consolidation, duration: {end}, step: {{initial: {}}}, {}",
+                            end / 200.0,
+                            column.load()
+                        ),
+                    );
+                    let [moved, pressure] = column.moved(folder.path()).map(|values| values[values.len() - 1]);
+                    let moved = -moved / layer.settlement(end) - 1.0;
+                    let pressure = (pressure - layer.pressure(1.0, end)) / layer.first_pressure();
+                    println!(
+                        "{kind}, upright {upright}, {across:e} across: settles {moved:+.1e}, pressure {pressure:+.1e}"
+                    );
+                    assert!(moved.abs() < 5e-3 && pressure.abs() < 5e-3, "{kind} {upright} {across}");
+                }
+            }
+        }
     }
 }

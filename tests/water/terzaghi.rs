@@ -112,38 +112,6 @@ impl Case {
 
 const FACTORS: [f64; 6] = [0.01, 0.05, 0.1, 0.197, 0.5, 1.0];
 
-/// Half a per cent of pressure and settlement at the times of the table, in 100 or 200 steps. At the first of them pressure has
-/// fallen within a tenth of the height only, three of these uniform cells.
-#[test]
-fn every_time_is_within_half_a_per_cent() {
-    let cases = [CASE, Case { restore: Restore::EveryStep, resampled: true, ..CASE }];
-    for case in cases.map(|case| Case { cells: 32, ..case }) {
-        for factor in FACTORS {
-            let steps = if factor < 0.2 { 100 } else { 200 };
-            let e = Case { steps, ..case }.errors::<PlaneStrain>(factor);
-            println!("{:?} T {factor}: {e:.5?}", case.restore);
-            assert!(e.pressure < 5e-3 && e.settlement < 5e-3, "{:?} T {factor}: {e:?}", case.restore);
-        }
-    }
-}
-
-/// Errors of the pressure fall with the square of the size of the cells, whether the grid is restored or not.
-#[test]
-fn pressures_converge_at_second_order() {
-    for (restore, resampled, kind) in [
-        (Restore::Never, false, CellKind::T6),
-        (Restore::EveryStep, true, CellKind::T6),
-        (Restore::Never, false, CellKind::Q9),
-        (Restore::Never, false, CellKind::T3),
-    ] {
-        let error = |cells| Case { cells, restore, resampled, kind, steps: 300, ..CASE }.errors::<PlaneStrain>(0.1);
-        let errors = [4, 8, 16].map(|cells| error(cells).pressure);
-        let order = 0.5 * (errors[0] / errors[2]).log2();
-        println!("{kind:?} {restore:?}: {errors:.6?}, order {order:.2}");
-        assert!(order > 1.8, "{kind:?} {restore:?}: {errors:?}");
-    }
-}
-
 #[test]
 fn axisymmetry_is_alike() {
     let case = Case { cells: 16, ..CASE };
@@ -253,4 +221,41 @@ fn finite_elements_and_points_share_the_water() {
     let [alone, both] = [error(false), error(true)];
     println!("points {alone:.1e}, with finite elements {both:.1e}");
     assert!(both < 1.1 * alone + 1e-5 && both < 5e-3, "{alone} {both}");
+}
+
+/// What takes more than some seconds; `make test-quick` leaves it out.
+mod slow {
+    use super::*;
+
+    /// Half a per cent of pressure and settlement at the times of the table, in 100 or 200 steps. At the first of them pressure has
+    /// fallen within a tenth of the height only, three of these uniform cells.
+    #[test]
+    fn every_time_is_within_half_a_per_cent() {
+        let cases = [CASE, Case { restore: Restore::EveryStep, resampled: true, ..CASE }];
+        for case in cases.map(|case| Case { cells: 32, ..case }) {
+            for factor in FACTORS {
+                let steps = if factor < 0.2 { 100 } else { 200 };
+                let e = Case { steps, ..case }.errors::<PlaneStrain>(factor);
+                println!("{:?} T {factor}: {e:.5?}", case.restore);
+                assert!(e.pressure < 5e-3 && e.settlement < 5e-3, "{:?} T {factor}: {e:?}", case.restore);
+            }
+        }
+    }
+
+    /// Errors of the pressure fall with the square of the size of the cells, whether the grid is restored or not.
+    #[test]
+    fn pressures_converge_at_second_order() {
+        for (restore, resampled, kind) in [
+            (Restore::Never, false, CellKind::T6),
+            (Restore::EveryStep, true, CellKind::T6),
+            (Restore::Never, false, CellKind::Q9),
+            (Restore::Never, false, CellKind::T3),
+        ] {
+            let error = |cells| Case { cells, restore, resampled, kind, steps: 300, ..CASE }.errors::<PlaneStrain>(0.1);
+            let errors = [4, 8, 16].map(|cells| error(cells).pressure);
+            let order = 0.5 * (errors[0] / errors[2]).log2();
+            println!("{kind:?} {restore:?}: {errors:.6?}, order {order:.2}");
+            assert!(order > 1.8, "{kind:?} {restore:?}: {errors:?}");
+        }
+    }
 }
