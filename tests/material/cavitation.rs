@@ -1,6 +1,6 @@
 //! Soil with a limit of its mean stress in tension, from the case to the results, against closed forms.
 
-use crate::support::{column, errors, mpm, run};
+use crate::support::{column, errors, in_folder, project, run};
 
 const YOUNG: f64 = 1000.0;
 const STRENGTH: f64 = 5.0;
@@ -28,13 +28,10 @@ fn axial(poisson: f64, field: bool, most: f64, now: f64) -> f64 {
 /// Soil whose water flows has another limit, and is refused with the reason.
 #[test]
 fn a_limit_beside_water_that_flows_is_refused() {
-    let folder = tempfile::tempdir().unwrap();
-    let set = [
-        "materials.soil={model: tresca, young: 1000, poisson: 0.3, shear_strength: 5, tension_limit: 20, density: 0, \
-          drainage: undrained, permeability: 1.0e-8}",
-        "materials.plate.poisson=0.1",
-    ];
-    let output = mpm("check", "tests/data/plate", folder.path(), &set);
+    let soil = "materials.soil={model: tresca, young: 1000, poisson: 0.3, shear_strength: 5, tension_limit: 20, density: 0, \
+        drainage: undrained, permeability: 1.0e-8}";
+    let set = ["--set", soil, "--set", "materials.plate.poisson=0.1"];
+    let output = in_folder(&project("tests/data/plate"), &[&["check", "."], &set[..]].concat());
     let said = errors(&output);
     assert!(
         !output.status.success() && said.contains("tension_limit") && said.contains("a pressure field of its own"),
