@@ -1,5 +1,6 @@
 //! What the documents say holds: the README's first case runs and its list has every case, the user guide has every
-//! entry of a case, every link leads to a file, the bill of materials is of what is linked.
+//! entry of a case, every link leads to a file, the sources that the theory and the tour name exist, the bill of materials is of what is
+//! linked.
 
 mod support;
 
@@ -101,6 +102,17 @@ fn every_link_leads_to_a_file() {
             let inside = !link.is_empty() && !link.contains("://");
             assert!(!inside || file.with_file_name(link).exists(), "{}: {link} is not there", file.display());
         }
+    }
+}
+
+#[test]
+fn every_source_that_theory_and_tour_name_exists() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    for page in ["docs/theory.md", "docs/code-tour.md"] {
+        let text = fs::read_to_string(root.join(page)).unwrap();
+        let names = text.split('`').filter(|name| name.starts_with("src/") && !name.contains([' ', '*']));
+        let missing: BTreeSet<&str> = names.filter(|name| !root.join(name).exists()).collect();
+        assert!(missing.is_empty(), "{page} names {missing:?}");
     }
 }
 

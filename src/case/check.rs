@@ -6,7 +6,7 @@ use super::locate::{At, Path};
 use super::raw;
 use super::structure::{list, suggest};
 use crate::material::MODELS;
-use crate::stencil::Scheme;
+use crate::stencil::{Basis, Mpm, SCHEMES};
 use std::collections::HashSet;
 use std::path::Path as FilePath;
 
@@ -233,23 +233,20 @@ impl Checker {
 
     fn numerics(&mut self, file: &raw::CaseFile, contacts: bool, path: &Path) -> Numerics {
         let numerics = &file.numerics;
-        let smooths = numerics.gradient == raw::Gradient::Ddmp;
-        let of_scheme = if smooths { raw::Quadrature::Points } else { raw::Quadrature::Resampled };
+        let found = SCHEMES.iter().find(|scheme| scheme.name() == numerics.gradient);
+        if found.is_none() {
+            let problem = format!("there is no gradient `{}`", numerics.gradient);
+            let names: Vec<&str> = SCHEMES.iter().map(|scheme| scheme.name()).collect();
+            self.issue(&path.key("gradient"), At::Value, problem, format!("choose {}", names.join(" or ")));
+        }
+        let basis: &'static dyn Basis<2> = found.copied().unwrap_or(&Mpm);
+        let of_scheme = if basis.is_of_places() { raw::Quadrature::Resampled } else { raw::Quadrature::Points };
         let quadrature = numerics.quadrature.unwrap_or(of_scheme);
-        if smooths && quadrature == raw::Quadrature::Resampled {
+        if !basis.is_of_places() && quadrature == raw::Quadrature::Resampled {
             let problem =
                 "gradients are smoothed at the material points, and resampled quadrature does not sum over these";
             self.issue(&path.key("quadrature"), At::Value, problem, "choose `quadrature: points`, or `gradient: mpm`");
         }
-        let gradient = match numerics.gradient {
-            raw::Gradient::Mpm => Scheme::Mpm,
-            raw::Gradient::Ddmp => Scheme::Ddmp,
-            _ => {
-                let problem = format!("this gradient {LATER}");
-                self.issue(&path.key("gradient"), At::Value, problem, "choose mpm or ddmp");
-                Scheme::Mpm
-            }
-        };
         let restore = match numerics.restore {
             raw::Restore::Named(raw::RestoreName::EveryStep) => Restore::EveryStep,
             raw::Restore::Named(raw::RestoreName::Never) => Restore::Never,
@@ -259,7 +256,7 @@ impl Checker {
             },
         };
         Numerics {
-            gradient,
+            basis,
             quadrature,
             restore,
             spectral_radius: numerics.spectral_radius,

@@ -6,7 +6,7 @@
 pub use super::raw::{Axis, Encoding, Field, Quantity};
 use crate::contact::Law;
 use crate::material::{Model, Profile};
-use crate::stencil::Scheme;
+use crate::stencil::Basis;
 use crate::term::{Carried, Porous};
 use crate::time_value::TimeValue;
 use std::collections::BTreeMap;
@@ -246,8 +246,8 @@ impl InitialVelocity {
 /// The numerical method.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Numerics {
-    /// How gradients at the points are formed.
-    pub gradient: Scheme,
+    /// What the points see of the grid.
+    pub basis: &'static dyn Basis<2>,
     /// What integrals are summed over.
     pub quadrature: super::raw::Quadrature,
     pub restore: Restore,

@@ -12,7 +12,6 @@ use crate::error::Result;
 use crate::material::{Model, Profile};
 use crate::mesh::Mesh;
 use crate::run::{self, Watch, WatchedOn};
-use crate::stencil::Scheme;
 use crate::step::{Scene, Water};
 use crate::term::{Porous, WaterStiffness};
 use std::sync::Arc;
@@ -182,9 +181,9 @@ impl Checker {
     /// What of the water only shows between blocks.
     pub(super) fn pores(&mut self, case: &Case, file: &raw::CaseFile) {
         let path = Path::default().key("numerics").key("gradient");
-        if case.materials.iter().any(|m| m.porous.is_some()) && case.numerics.gradient != Scheme::Mpm {
+        if case.materials.iter().any(|m| m.porous.is_some()) && !case.numerics.basis.is_of_places() {
             let remedy = "choose `gradient: mpm`, or take the permeability out";
-            self.issue(&path, At::Value, "ddmp does not smooth the gradient of pore pressures yet", remedy);
+            self.issue(&path, At::Value, format!("{} does not smooth the gradient of pore pressures yet", case.numerics.basis.name()), remedy);
         }
         let wanted = |q: &raw::Quantity| *q == raw::Quantity::PorePressure;
         for (i, entry) in file.output.history.iter().enumerate() {

@@ -16,7 +16,6 @@ use crate::mesh::locate::Locator;
 use crate::points::Points;
 use crate::quadrature::{Bounded, Quadrature, Resampled, Volumes};
 use crate::run::{self, Ended, Progress};
-use crate::stencil::{Scheme, smooths};
 use crate::step::{self, Fem, Numerics, Phase, Scene, Search, State, Stop, overlap};
 use crate::term::{
     BodyForce, Contact, DrainedSurface, EmptyCells, GhostInertia, GhostPenalty, Inertia, Internal, PoreWater,
@@ -111,12 +110,11 @@ pub fn scene<K: Kinematics<2>>(case: &Case, mut whole: Mesh<2>) -> Result<Scene<
     let structures = bodies.len();
     bodies.extend(wall::bodies(case, &mut whole)?);
     let (mesh, fem) = parts::meshes(case, whole);
-    if case.numerics.gradient != Scheme::Mpm
-        && let Some(kind) = mesh.cells.kind.iter().find(|&&kind| !smooths(kind))
-    {
+    let basis = case.numerics.basis;
+    if let Some(kind) = mesh.cells.kind.iter().find(|&&kind| !basis.takes(kind)) {
         return Err(Error::input(
             "numerics.gradient",
-            format!("ddmp cannot smooth the gradients of {kind:?} cells"),
+            format!("{} cannot smooth the gradients of {kind:?} cells", basis.name()),
             "mesh with T3, T6, Q4 or Q9 (no `incomplete: true`), or choose `gradient: mpm`",
         ));
     }
@@ -242,8 +240,8 @@ pub fn scene<K: Kinematics<2>>(case: &Case, mut whole: Mesh<2>) -> Result<Scene<
         water,
         supports,
         phases,
+        basis,
         numerics: Numerics {
-            scheme: case.numerics.gradient,
             restore: restore(case.numerics.restore),
             spectral_radius: case.numerics.spectral_radius,
             tolerance: case.numerics.tolerance,

@@ -11,7 +11,7 @@
 //! and plastic strain flows along `m_ij = (1 + sin ψ) e_i − (1 − sin ψ) e_j` and `e_i` (Koiter's rule). Since
 //! both law and surface are linear, each set of active planes gives its return in one exact step (Clausen,
 //! Damkilde & Andersen, *Int. J. Numer. Meth. Engng* 66 (2006) 1036–1059, and, non-associated, *Computers
-//! and Structures* 85 (2007) 1795–1807; docs/theory.md, section 3):
+//! and Structures* 85 (2007) 1795–1807; docs/theory.md, section 9):
 //!
 //! ```text
 //! τ = τ_tr − C M λ,   (Nᵀ C M) λ = f(τ_tr),   ∂τ/∂ε = C − C M (Nᵀ C M)⁻¹ Nᵀ C

@@ -1,10 +1,13 @@
 //! The weights and gradients of points, patch by patch.
 
 use super::reach::Reach;
+use super::support::Support;
 use crate::kinematics::{Gradient, Kinematics};
 use crate::mesh::Mesh;
-use crate::mesh::shape::MAX_NODES;
 use std::sync::Arc;
+
+/// Most local functions of a cell: the nodes that its points act on, and what else a scheme forms gradients with.
+pub const MAX_FUNCTIONS: usize = 64;
 
 /// The points of one cell and the nodes they act on.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -14,14 +17,18 @@ pub struct Patch {
     /// The points: `Stencil::points[first_point..first_point + point_count]`.
     pub first_point: u32,
     pub point_count: u32,
-    /// Nodes of the cell.
+    /// The nodes of the cell itself.
+    pub shape_count: u32,
+    /// The nodes that the points act on, those of the cell first: [`Stencil::nodes`].
     pub node_count: u32,
-    /// Local functions: the nodes of the cell, and what else a scheme forms gradients with.
+    /// Local functions: one for each of those nodes, and what else a scheme forms gradients with.
     pub function_count: u32,
     /// Where the values of the first point begin; those of each point follow node by node.
     pub(super) first_value: usize,
     /// Where the gradients of the first point begin; those of each point follow function by function.
     pub(super) first_gradient: usize,
+    /// Where the shape functions of the first point begin, if they are kept apart.
+    pub(super) first_shape: usize,
 }
 
 /// Weights and gradients of all points, on the reference configuration: the grid as last restored.
@@ -35,12 +42,18 @@ pub struct Stencil<const D: usize> {
     pub(super) value: Vec<f64>,
     /// `∇N_I(x_p)` (1/m).
     pub(super) gradient: Vec<[f64; D]>,
+    /// The shape functions of the cells themselves (-) and their gradients (1/m), point by point; empty where they are the first ones
+    /// of the above.
+    pub(super) shape: Vec<f64>,
+    pub(super) shape_gradient: Vec<[f64; D]>,
     /// Radius of the points (m), in the order of `points`; empty without hoop strain.
     pub(super) radius: Vec<f64>,
     /// What the points weigh in integrals (m³), as volume when seeded, in the order of `points`.
     pub weight: Vec<f64>,
-    /// Where the gradients of a cell reach beyond its own nodes; absent where they do not.
+    /// Where the gradients of a cell reach beyond the nodes that the matrix couples; absent where they do not.
     pub reach: Option<Arc<Reach>>,
+    /// The nodes that the points of each cell act on; absent where they are those of the cell.
+    pub support: Option<Arc<Support>>,
 }
 
 /// The arrays of one patch, to be filled.
@@ -48,6 +61,9 @@ pub(super) struct Slot<'a, const D: usize> {
     pub(super) patch: &'a Patch,
     pub(super) value: &'a mut [f64],
     pub(super) gradient: &'a mut [[f64; D]],
+    /// Empty where the shape functions of the cell are not kept apart.
+    pub(super) shape: &'a mut [f64],
+    pub(super) shape_gradient: &'a mut [[f64; D]],
     pub(super) radius: &'a mut [f64],
 }
 
@@ -58,8 +74,12 @@ pub struct Entries<'a, const D: usize> {
     pub point: usize,
     /// What the point weighs in integrals (m³), as volume when seeded.
     pub weight: f64,
-    /// `N_I` for the nodes of the cell; other functions have no value.
+    /// `N_I` for the nodes that the point acts on; other functions have no value.
     pub value: &'a [f64],
+    /// The shape functions of the cell itself (-), in which fields that are continuous from cell to cell by themselves are given, and
+    /// their gradients (1/m).
+    pub shape: &'a [f64],
+    pub shape_gradient: &'a [[f64; D]],
     pub(super) gradient: &'a [[f64; D]],
     /// `1 / r`, zero without hoop strain.
     pub(super) hoop: f64,
@@ -75,13 +95,23 @@ impl<const D: usize> Stencil<D> {
     pub fn entries<K: Kinematics<D>>(&self, patch: &Patch) -> impl Iterator<Item = Entries<'_, D>> {
         let first = patch.first_point as usize;
         let (nodes, functions) = (patch.node_count as usize, patch.function_count as usize);
+        let shapes = patch.shape_count as usize;
         (0..patch.point_count as usize).map(move |k| {
             let (value, gradient) = (patch.first_value + k * nodes, patch.first_gradient + k * functions);
+            let (value, gradient) = (&self.value[value..value + nodes], &self.gradient[gradient..gradient + functions]);
+            let (shape, shape_gradient) = if self.shape.is_empty() {
+                (&value[..shapes], &gradient[..shapes])
+            } else {
+                let own = patch.first_shape + k * shapes;
+                (&self.shape[own..own + shapes], &self.shape_gradient[own..own + shapes])
+            };
             Entries {
                 point: self.points[first + k] as usize,
                 weight: self.weight[first + k],
-                value: &self.value[value..value + nodes],
-                gradient: &self.gradient[gradient..gradient + functions],
+                value,
+                shape,
+                shape_gradient,
+                gradient,
                 hoop: if K::HOOP { 1.0 / self.radius[first + k] } else { 0.0 },
             }
         })
@@ -100,26 +130,36 @@ impl<const D: usize> Stencil<D> {
     pub(super) fn slots(&mut self) -> Vec<Slot<'_, D>> {
         let mut slots = Vec::with_capacity(self.patches.len());
         let (mut value, mut gradient) = (&mut self.value[..], &mut self.gradient[..]);
+        let (mut shape, mut shape_gradient) = (&mut self.shape[..], &mut self.shape_gradient[..]);
         let mut radius = &mut self.radius[..];
         for patch in &self.patches {
-            let (v, g, r);
+            let (v, g, s, sg, r);
             (v, value) = value.split_at_mut((patch.point_count * patch.node_count) as usize);
             (g, gradient) = gradient.split_at_mut((patch.point_count * patch.function_count) as usize);
+            let shapes = shape.len().min((patch.point_count * patch.shape_count) as usize);
+            (s, shape) = shape.split_at_mut(shapes);
+            (sg, shape_gradient) = shape_gradient.split_at_mut(shapes);
             let radii = radius.len().min(patch.point_count as usize);
             (r, radius) = radius.split_at_mut(radii);
-            slots.push(Slot { patch, value: v, gradient: g, radius: r });
+            slots.push(Slot { patch, value: v, gradient: g, shape: s, shape_gradient: sg, radius: r });
         }
         slots
     }
 
+    /// The nodes that the points of a cell act on, those of the cell first.
+    #[inline]
+    pub fn nodes<'a>(&'a self, mesh: &'a Mesh<D>, cell: u32) -> &'a [u32] {
+        self.support.as_ref().map_or_else(|| mesh.cells.nodes(cell as usize), |support| support.nodes(cell))
+    }
+
     /// The coefficients of the patch's functions for a field on the nodes.
     #[inline]
-    pub fn gather(&self, mesh: &Mesh<D>, patch: &Patch, field: &[[f64; D]]) -> [[f64; D]; MAX_NODES] {
-        let nodes = mesh.cells.nodes(patch.cell as usize);
+    pub fn gather(&self, mesh: &Mesh<D>, patch: &Patch, field: &[[f64; D]]) -> [[f64; D]; MAX_FUNCTIONS] {
+        let nodes = self.nodes(mesh, patch.cell);
         if let Some(reach) = &self.reach {
             return reach.gather(patch.cell, nodes.len(), field);
         }
-        let mut local = [[0.0; D]; MAX_NODES];
+        let mut local = [[0.0; D]; MAX_FUNCTIONS];
         for (local, &n) in local.iter_mut().zip(nodes) {
             *local = field[n as usize];
         }

@@ -1,48 +1,45 @@
-//! What each material point sees of the grid: nodes, weights and gradients, filled once a restoration.
+//! What each material point sees of the grid: nodes, values and gradients, filled once a restoration.
 //!
-//! A scheme (one file each) fills the flat arrays; everything downstream reads them and never asks which
+//! A scheme (a [`Basis`], one file each) fills the flat arrays; everything downstream reads them and never asks which
 //! scheme made them. Points are grouped in *patches* that share their nodes: the points of a cell.
 
+mod basis;
 mod ddmp;
 mod entries;
 mod fill;
+mod group;
 mod jumps;
 mod mpm;
 mod reach;
+mod support;
 
-pub use ddmp::smooths;
-pub use entries::{Entries, Patch, Stencil};
+pub use basis::{Basis, Located};
+pub use ddmp::Ddmp;
+pub use entries::{Entries, MAX_FUNCTIONS, Patch, Stencil};
 pub use fill::{PartlyFilled, integrate, partly_filled_cells};
+pub use group::Place;
 pub use jumps::{Jump, Jumps};
+pub use mpm::Mpm;
 pub use reach::Reach;
+pub use support::Support;
 
 use crate::kinematics::Kinematics;
 use crate::mesh::Mesh;
 
-/// How gradients at the points are formed.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Scheme {
-    /// Those of the cell's own shape functions.
-    Mpm,
-    /// Smoothed between cells.
-    Ddmp,
-}
+/// The schemes that a case can have.
+pub const SCHEMES: &[&dyn Basis<2>] = &[&Mpm, &Ddmp];
 
 impl<const D: usize> Stencil<D> {
-    /// Fills the stencil for points in `cell` at the parametric coordinates `xi`, given per point. `active`
+    /// Fills in what points in `cell` at the parametric coordinates `xi`, given per point, see by a scheme. `active`
     /// marks the cells of the grid. The weights are for the caller to write.
     pub fn fill<K: Kinematics<D>>(
         &mut self,
-        scheme: Scheme,
+        basis: &dyn Basis<D>,
         mesh: &Mesh<D>,
         cell: &[u32],
         xi: &[[f64; 3]],
         active: &[bool],
     ) {
-        match scheme {
-            Scheme::Mpm => mpm::fill::<D, K>(self, mesh, cell, xi),
-            Scheme::Ddmp => ddmp::fill::<D, K>(self, mesh, cell, xi, active),
-        }
-        self.weight.resize(self.points.len(), 0.0);
+        basis.fill(&Located::new::<K>(mesh, active, cell, xi), self);
     }
 }

@@ -4,7 +4,7 @@
 //! averaged around the cell. The points see those as further local functions with a gradient and no value;
 //! each is a fixed combination of nodes: `u_f = Σ_I T_fI u_I`, the same for every displacement component.
 
-use crate::mesh::shape::MAX_NODES;
+use super::MAX_FUNCTIONS;
 
 /// The functions of each cell and the nodes they are made of.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -40,8 +40,8 @@ impl Reach {
     }
 
     /// Coefficients of the functions of a cell with `own` nodes for a field on the nodes.
-    pub fn gather<const D: usize>(&self, cell: u32, own: usize, field: &[[f64; D]]) -> [[f64; D]; MAX_NODES] {
-        let mut local = [[0.0; D]; MAX_NODES];
+    pub fn gather<const D: usize>(&self, cell: u32, own: usize, field: &[[f64; D]]) -> [[f64; D]; MAX_FUNCTIONS] {
+        let mut local = [[0.0; D]; MAX_FUNCTIONS];
         let nodes = self.nodes(cell);
         // Nothing has moved at the beginning of a step on a restored grid.
         if nodes.iter().all(|&n| field[n as usize] == [0.0; D]) {

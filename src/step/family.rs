@@ -50,7 +50,7 @@ pub fn interpolate<const D: usize, K: Kinematics<D>>(family: &Family<D>, field: 
         .patches
         .par_iter()
         .map(|patch| {
-            let nodes = mesh.cells.nodes(patch.cell as usize);
+            let nodes = stencil.nodes(mesh, patch.cell);
             let interpolate = |entries: Entries<'_, D>| {
                 let mut value = [0.0; D];
                 for (n, &node) in entries.value.iter().zip(nodes) {

@@ -9,7 +9,7 @@ use super::state::State;
 use crate::kinematics::Kinematics;
 use crate::mesh::Mesh;
 use crate::points::Points;
-use crate::stencil::{Scheme, Stencil};
+use crate::stencil::{Mpm, Stencil};
 use crate::system::Cliques;
 
 /// The finite elements, and what their points see of them.
@@ -45,7 +45,7 @@ impl<const D: usize> Elements<D> {
     pub fn place<K: Kinematics<D>>(&mut self, state: &State<D>) {
         self.mesh.nodes.clone_from(&state.nodes);
         let count = self.points;
-        self.stencil.fill::<K>(Scheme::Mpm, &self.mesh, &state.fem.cell[..count], &state.fem_parametric[..count], &[]);
+        self.stencil.fill::<K>(&Mpm, &self.mesh, &state.fem.cell[..count], &state.fem_parametric[..count], &[]);
         self.stencil.weigh(&state.fem.initial_volume[..count]);
     }
 

@@ -125,7 +125,7 @@ impl<const D: usize> Grid<D> {
         let mut stencils = Stencils::default();
         let mesh = relaxed.as_ref().map_or(&scene.mesh, |r| &r.mesh);
         fill::<D, K>(&mut stencils.integration, scene, mesh, state);
-        take_weights::<D, K>(&mut stencils, mesh, state);
+        take_weights::<D, K>(&mut stencils, scene, mesh, state);
         Self::with::<K>(scene, state, stencils, relaxed)
     }
 
@@ -194,8 +194,10 @@ impl<const D: usize> Grid<D> {
             node.push(n as u32);
         }
         let cells: Vec<u32> = (0u32..).zip(&state.active).filter(|(_, part)| **part).map(|(c, _)| c).collect();
+        let support = scene.basis.support(mesh, &state.active);
         for &c in &cells {
-            clique[c as usize] = cliques.push(mesh.cells.nodes(c as usize).iter().map(|&n| block[n as usize]));
+            let nodes = support.as_ref().map_or_else(|| mesh.cells.nodes(c as usize), |support| support.nodes(c));
+            clique[c as usize] = cliques.push(nodes.iter().map(|&n| block[n as usize]));
         }
         let mut elements = scene.fem.as_ref().map(|fem| Elements::new::<K>(fem, state));
         if let (Some(elements), Some(fem)) = (&mut elements, &scene.fem) {

@@ -108,11 +108,66 @@ fn visit<const D: usize, K: Kinematics<D>>(
             let kind = filled.mesh.cells.kind[cell];
             for entries in filled.stencil.entries::<K>(patch) {
                 let Some(value) = value(filled.points, entries.point) else { continue };
-                let hats = pressure_hats(kind, entries.value);
+                let hats = pressure_hats(kind, entries.shape);
                 let corners = || hats.iter().zip(&filled.mesh.cells.nodes(cell)[..kind.corner_count()]);
                 let there: f64 = corners().map(|(hat, &n)| hat * field[n as usize]).sum();
                 for (hat, &n) in corners() {
                     see(filled, cell, n as usize, entries.weight * hat, entries.point, value - there);
+                }
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::kinematics::{Axisymmetric, PlaneStrain};
+    use crate::material::Profile;
+    use crate::mesh::builder::rectangle;
+    use crate::mesh::locate::Locator;
+    use crate::mesh::shape::CellKind;
+    use crate::seed::{RegionSeed, seed};
+    use crate::stencil::Mpm;
+
+    /// The largest errors of the fit to the points of a body in a part of a mesh of `kind`, `each` a cell, of a constant and of a linear
+    /// field, at the corners of cells with points.
+    fn errors<K: Kinematics<2>>(kind: CellKind, each: u32) -> [f64; 2] {
+        // Far from the origin, in small cells that are not regular; in axisymmetry from the axis on.
+        let mesh = rectangle(kind, 0.004, 0.003, 4, 3, 0.2, 7);
+        let density = Profile::constant(1.0);
+        let all = seed(&mesh, K::HOOP, &[RegionSeed { region: 0, points_per_cell: each, density }]).unwrap();
+        let inside: Vec<usize> = (0..all.len()).filter(|&p| all.position[p][0] < 0.0022).collect();
+        let points = all.select(&inside);
+        let locator = Locator::new(&mesh);
+        let xi: Vec<_> = points.position.iter().map(|x| locator.locate(&mesh, x, None).unwrap().1).collect();
+        let mut stencil = Stencil::default();
+        stencil.fill::<K>(&Mpm, &mesh, &points.cell, &xi, &vec![true; mesh.cells.len()]);
+        stencil.weigh(&points.initial_volume);
+        let cells = Filled { mesh: &mesh, stencil: &stencil, points: &points };
+        let fields: [fn(&[f64; 2]) -> f64; 2] = [|_| -3.0e4, |x| 200.0 - 7.0e4 * x[0] + 5.0e4 * x[1]];
+        fields.map(|exact| {
+            let mut field = vec![0.0; mesh.nodes.len()];
+            fit::<2, K>(&[cells], |points, p| Some(exact(&points.position[p])), &mut field);
+            let corners = points.cell.iter().flat_map(|&c| {
+                let kind = mesh.cells.kind[c as usize];
+                mesh.cells.nodes(c as usize)[..kind.corner_count()].iter()
+            });
+            let size = points.position.iter().map(|x| exact(x).abs()).fold(0.0, f64::max);
+            let error = |&n: &u32| (field[n as usize] - exact(&mesh.nodes[n as usize])).abs() / size;
+            corners.map(error).fold(0.0, f64::max)
+        })
+    }
+
+    /// A constant comes back from a point a cell, a linear field wherever each node has points that tell a gradient: at the edges of the
+    /// body and in cells that are cut, too, and beside the axis.
+    #[test]
+    fn constant_and_linear_fields_come_back() {
+        for kind in [CellKind::T3, CellKind::T6, CellKind::Q4, CellKind::Q9] {
+            for each in [1, 4, 9] {
+                for [constant, linear] in [errors::<PlaneStrain>(kind, each), errors::<Axisymmetric>(kind, each)] {
+                    assert!(constant < 1e-12, "{kind:?} {each}: {constant:.1e}");
+                    assert!(each == 1 || linear < 1e-4, "{kind:?} {each}: {linear:.1e}");
                 }
             }
         }

@@ -21,7 +21,7 @@ pub fn gather<const D: usize, K: Kinematics<D>>(cells: Filled<D>, places: Places
         }
         let (mut left, mut all) = (0.0, 0.0);
         for entries in stencil.entries::<K>(patch) {
-            let hats = pressure_hats(kind, entries.value);
+            let hats = pressure_hats(kind, entries.shape);
             let corners = &mesh.cells.nodes(cell)[..kind.corner_count()];
             let there: f64 = hats.iter().zip(corners).map(|(hat, &n)| hat * field[n as usize]).sum();
             left += entries.weight * (points.pressure[entries.point] - there);

@@ -17,7 +17,7 @@ use crate::kinematics::Kinematics;
 use crate::mesh::Mesh;
 use crate::mesh::locate::Locator;
 use crate::quadrature::{Renewed, Restored, Samples, Weights};
-use crate::stencil::{Scheme, Stencil};
+use crate::stencil::Stencil;
 use rayon::prelude::*;
 
 /// Rings of cells around those with points that take part too, so that points can move on for a while
@@ -75,7 +75,7 @@ pub fn begin_anew<const D: usize, K: Kinematics<D>>(
             state.weights.ill_conditioned.clear();
         }
     }
-    take_weights::<D, K>(stencils, mesh, state);
+    take_weights::<D, K>(stencils, scene, mesh, state);
     if scene.has_pressure_field() {
         let mut field = std::mem::take(&mut state.pressure);
         let soil = Filled { mesh, stencil: &stencils.integration, points: state.integration() };
@@ -114,11 +114,16 @@ fn place<const D: usize, K: Kinematics<D>>(
 }
 
 /// Gives the points that integrals are summed over their weights, given the stencil of the material points.
-pub fn take_weights<const D: usize, K: Kinematics<D>>(stencils: &mut Stencils<D>, mesh: &Mesh<D>, state: &State<D>) {
+pub fn take_weights<const D: usize, K: Kinematics<D>>(
+    stencils: &mut Stencils<D>,
+    scene: &Scene<D>,
+    mesh: &Mesh<D>,
+    state: &State<D>,
+) {
     let Weights { samples, weight, .. } = &state.weights;
     if let Some(Samples { points, parametric, .. }) = samples {
         stencils.material = Some(std::mem::take(&mut stencils.integration));
-        stencils.integration.fill::<K>(Scheme::Mpm, mesh, &points.cell, parametric, &state.active);
+        stencils.integration.fill::<K>(scene.basis, mesh, &points.cell, parametric, &state.active);
     }
     stencils.integration.weigh(weight);
 }
@@ -150,8 +155,7 @@ pub fn fill<const D: usize, K: Kinematics<D>>(
     mesh: &Mesh<D>,
     state: &State<D>,
 ) {
-    let (cell, scheme) = (&state.points.cell, scene.numerics.scheme);
-    stencil.fill::<K>(scheme, mesh, cell, &state.parametric, &state.active);
+    stencil.fill::<K>(scene.basis, mesh, &state.points.cell, &state.parametric, &state.active);
 }
 
 /// Finds the cell of every point of the restored grid.

@@ -8,7 +8,7 @@ use crate::mesh::faces::Faces;
 use crate::mesh::locate::Locator;
 use crate::quadrature::Quadrature;
 use crate::rigid::Body;
-use crate::stencil::Scheme;
+use crate::stencil::Basis;
 use crate::term::{Carried, Levels, Porous, Term};
 use crate::time_value::TimeValue;
 
@@ -28,6 +28,8 @@ pub struct Scene<const D: usize> {
     pub levels: Option<Levels>,
     /// The faces between the cells; absent where none takes a ghost penalty, on displacement or on mass.
     pub faces: Option<Faces>,
+    /// What the points see of the grid.
+    pub basis: &'static dyn Basis<D>,
     /// What the points weigh in integrals.
     pub quadrature: Box<dyn Quadrature<D>>,
     /// What a unit of the pressure unknowns stands for (kPa/m): a shear modulus over the size of a cell, so that all
@@ -236,8 +238,6 @@ pub enum Restore {
 /// Settings of the numerical method.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Numerics {
-    /// How gradients at the points are formed.
-    pub scheme: Scheme,
     /// When the grid goes back to its first shape.
     pub restore: Restore,
     /// ρ∞ (-) of the generalised-α method.

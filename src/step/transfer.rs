@@ -16,7 +16,7 @@ use super::state::{Span, State};
 use crate::dofs::Dof;
 use crate::error::Result;
 use crate::kinematics::Kinematics;
-use crate::mesh::shape::MAX_NODES;
+use crate::stencil::MAX_FUNCTIONS;
 use crate::points::Points;
 use crate::term::{Frame, Term, Trial, Update};
 use crate::time_integration::GeneralisedAlpha;
@@ -88,8 +88,8 @@ impl<const D: usize> Start<D> {
         let mut impulse = rigid::impulse(scene, state, &self.velocity);
         for Family { mesh, stencil, points, .. } in grid.integrated(scene, state) {
             for patch in &stencil.patches {
-                let nodes = mesh.cells.nodes(patch.cell as usize);
-                let mut jump = [[0.0; D]; MAX_NODES];
+                let nodes = stencil.nodes(mesh, patch.cell);
+                let mut jump = [[0.0; D]; MAX_FUNCTIONS];
                 for (jump, &n) in jump.iter_mut().zip(nodes) {
                     let (now, before) = (&self.velocity[n as usize], &state.velocity[n as usize]);
                     *jump = std::array::from_fn(|d| now[d] - before[d]);
@@ -327,7 +327,7 @@ fn to_nodes<const D: usize, K: Kinematics<D>>(
     for Family { mesh, stencil, points, .. } in grid.families(scene, state) {
         let fields = [&points.velocity, &points.acceleration];
         for patch in &stencil.patches {
-            let nodes = mesh.cells.nodes(patch.cell as usize);
+            let nodes = stencil.nodes(mesh, patch.cell);
             for entries in stencil.entries::<K>(patch) {
                 for (n, &node) in entries.value.iter().zip(nodes) {
                     let block = grid.dofs.block[node as usize] as usize;

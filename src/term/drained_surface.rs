@@ -166,7 +166,7 @@ impl<K: Kinematics<2>> DrainedSurface<K> {
 
     fn add(&self, frame: &Frame<2>, trial: &Trial<2>, bearer: &Bearer, piece: &Piece, local: &mut Local) {
         let (corners, pressure) = Self::pressures(frame, trial, piece);
-        let begin = 2 * frame.mesh.cells.nodes(piece.bearer as usize).len();
+        let begin = 2 * frame.stencil.nodes(frame.mesh, piece.bearer).len();
         let scale = (1.0 - trial.alpha_f) * self.unit;
         Self::visit(bearer, trial, piece, |hats, flow, hold| {
             let held = |a: usize, b: usize| hats[a] * flow[b] + flow[a] * hats[b] + hold * hats[a] * hats[b];

@@ -25,7 +25,7 @@ impl<const D: usize, K: Kinematics<D>> Term<D> for Inertia<K> {
         scatter_patches(
             frame,
             |patch: &Patch, local: &mut Local| {
-                let nodes = frame.mesh.cells.nodes(patch.cell as usize);
+                let nodes = frame.stencil.nodes(frame.mesh, patch.cell);
                 for entries in frame.stencil.entries::<K>(patch) {
                     let mass = frame.points.mass[entries.point];
                     let mut a = [0.0; D];

@@ -24,10 +24,9 @@ use crate::error::{Error, Result};
 use crate::kinematics::{Gradient, Kinematics};
 use crate::material::Model;
 use crate::material::spatial::Spatial;
-use crate::mesh::shape::MAX_NODES;
 use crate::points::Points;
 use crate::profile::timed_material;
-use crate::stencil::{Entries, Patch};
+use crate::stencil::{Entries, MAX_FUNCTIONS, Patch};
 use crate::system::Local;
 use crate::tensor::{Tensor, full, symmetric};
 use rayon::prelude::*;
@@ -216,8 +215,8 @@ impl<K, S> Internal<K, S> {
 fn strain<const D: usize, K: Kinematics<D>>(
     points: &Points<D>,
     entries: &Entries<D>,
-    trial: &[[f64; D]; MAX_NODES],
-    converged: Option<&[[f64; D]; MAX_NODES]>,
+    trial: &[[f64; D]; MAX_FUNCTIONS],
+    converged: Option<&[[f64; D]; MAX_FUNCTIONS]>,
 ) -> Result<Strained> {
     let p = entries.point;
     let now = deformation::<D, K>(entries, trial);
@@ -243,7 +242,7 @@ fn strain<const D: usize, K: Kinematics<D>>(
 
 /// `I + Σ u ⊗ ∇N`.
 #[inline]
-fn deformation<const D: usize, K: Kinematics<D>>(entries: &Entries<D>, u: &[[f64; D]; MAX_NODES]) -> Tensor {
+fn deformation<const D: usize, K: Kinematics<D>>(entries: &Entries<D>, u: &[[f64; D]; MAX_FUNCTIONS]) -> Tensor {
     let mut f = Tensor::identity();
     for (i, u) in u.iter().enumerate().take(entries.functions()) {
         K::deform(&mut f, u, &entries.gradient(i));
@@ -273,7 +272,7 @@ impl<const D: usize, K: Kinematics<D>, S: Share<D, K>> Term<D> for Internal<K, S
             let (strained, mut answers) = self.evaluate(&models, frame, trial, patch, &cell)?;
             let count = patch.function_count as usize;
             let later = 1.0 - trial.alpha_f;
-            let mut spatial = [Gradient { g: [0.0; D], hoop: 0.0 }; MAX_NODES];
+            let mut spatial = [Gradient { g: [0.0; D], hoop: 0.0 }; MAX_FUNCTIONS];
             let own = patch.node_count as usize;
             let layout = Layout::new::<D, K>(patch);
             Stiffness::with::<D, _>(own, |stiffness| {

@@ -128,7 +128,7 @@ impl<const D: usize, K: Kinematics<D>> Share<D, K> for PressureField<K> {
                     // As the differences from them are weighted: the projection is symmetric.
                     let own = entries.weight * carried.softness(frame.points.origin[entries.point][1]);
                     weight += own;
-                    for (sum, hat) in sum.iter_mut().zip(hats(kind, entries.value)) {
+                    for (sum, hat) in sum.iter_mut().zip(hats(kind, entries.shape)) {
                         *sum += own * hat;
                     }
                 }
@@ -146,7 +146,7 @@ impl<const D: usize, K: Kinematics<D>> Share<D, K> for PressureField<K> {
         let (water, grid) = (carried.law(y).bulk, at.ratios.grid / at.ratios.step);
         let (before, slope) = (points.pressure[p], measure.slope(grid));
         let pressure =
-            at.later * dot(&hats(cell.kind, entries.value), &cell.pressure) + (1.0 - at.later) * before / slope;
+            at.later * dot(&hats(cell.kind, entries.shape), &cell.pressure) + (1.0 - at.later) * before / slope;
         let strain = volume_strain(&points.elastic[p]);
         let (local, mean_before) = (volume_strain(&at.trial) - strain, at.model.mean_stress(y, strain));
         // `gained` is the volume strain of the field in the step; at first as if nothing yields.
@@ -200,7 +200,7 @@ impl<const D: usize, K: Kinematics<D>> Share<D, K> for PressureField<K> {
     ) -> f64 {
         let Some(carried) = self.of(points, entries.point) else { return 0.0 };
         let measure = Measure::of(carried, points, entries.point);
-        let pressure = measure.slope(ratios.grid) * dot(&hats(cell.kind, entries.value), &cell.pressure);
+        let pressure = measure.slope(ratios.grid) * dot(&hats(cell.kind, entries.shape), &cell.pressure);
         for normal in &mut answer.kirchhoff[..3] {
             *normal += pressure;
         }
@@ -229,7 +229,7 @@ impl<const D: usize, K: Kinematics<D>> Share<D, K> for PressureField<K> {
         // They are the last ones of a clique.
         let begin = local.size - count;
         let y = points.origin[p][1];
-        let hats = hats(cell.kind, entries.value);
+        let hats = hats(cell.kind, entries.shape);
         // Cells of first order: only what varies within the cell is stabilised.
         let stabilised: Hats = match &cell.mean {
             None => [0.0; MOST],
@@ -281,7 +281,7 @@ impl<const D: usize, K: Kinematics<D>> Share<D, K> for PressureField<K> {
     fn commit(&self, cell: &Cell, points: &Points<D>, entries: &Entries<D>, ratios: Ratios, history: &mut History) {
         let Some(carried) = self.of(points, entries.point) else { return };
         let slope = Measure::of(carried, points, entries.point).slope(ratios.grid);
-        history.pressure = slope * dot(&hats(cell.kind, entries.value), &cell.pressure);
+        history.pressure = slope * dot(&hats(cell.kind, entries.shape), &cell.pressure);
         let gained = history.pressure - points.pressure[entries.point];
         let volume_ratio = history.deformation.determinant();
         let held = if carried.bound.is_some() {

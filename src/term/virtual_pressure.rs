@@ -21,7 +21,7 @@ use super::{Assembly, Frame, Role, Term, Trial};
 use crate::error::{Error, Result};
 use crate::kinematics::{Gradient, Kinematics};
 use crate::mesh::shape::{self, MAX_NODES};
-use crate::stencil::Patch;
+use crate::stencil::{MAX_FUNCTIONS, Patch};
 use crate::surface::visit_layers;
 use crate::system::Local;
 use crate::tensor::Tensor;
@@ -109,8 +109,8 @@ impl<const D: usize> Place<'_, D> {
     fn add<K: Kinematics<D>>(&self, share: f64, local: &mut Local) {
         let Self { volume, pressures: Pressures { slope, second, left, left_slope }, .. } = *self;
         let count = self.gradient.len();
-        let mut spatial = [Gradient { g: [0.0; D], hoop: 0.0 }; MAX_NODES];
-        let mut divergence = [[0.0; D]; MAX_NODES];
+        let mut spatial = [Gradient { g: [0.0; D], hoop: 0.0 }; MAX_FUNCTIONS];
+        let mut divergence = [[0.0; D]; MAX_FUNCTIONS];
         for i in 0..count {
             spatial[i] = K::push_forward(&self.gradient[i], &self.inverse);
             divergence[i] = K::force(&Tensor::identity(), &spatial[i]);
@@ -175,7 +175,7 @@ impl<'a, const D: usize> Layered<'a, D> {
         patch: &Patch,
         acting: Acting,
     ) -> Option<Self> {
-        if frame.level_set.is_empty() || frame.stencil.reach.is_some() {
+        if frame.level_set.is_empty() || frame.stencil.reach.is_some() || frame.stencil.support.is_some() {
             return None;
         }
         let cell = patch.cell as usize;
@@ -316,7 +316,7 @@ impl<const D: usize, K: Kinematics<D>> Term<D> for VirtualPressure<K> {
         let compute = |patch: &Patch, local: &mut Local, _: &mut [f64]| {
             let now = frame.stencil.gather(frame.mesh, patch, trial.between);
             let before = frame.stencil.gather(frame.mesh, patch, trial.converged);
-            let nodes = frame.mesh.cells.nodes(patch.cell as usize);
+            let nodes = frame.stencil.nodes(frame.mesh, patch.cell);
             let layered = Layered::of(self, frame, trial, patch, acting);
             let by_points = match &layered {
                 Some(layered) => {
@@ -333,7 +333,7 @@ impl<const D: usize, K: Kinematics<D>> Term<D> for VirtualPressure<K> {
                 let porous = self.porous_at(frame, entries.point);
                 let Some(pressures) = by_points.on(porous).at(y) else { continue };
                 let count = entries.functions();
-                let mut gradient = [Gradient { g: [0.0; D], hoop: 0.0 }; MAX_NODES];
+                let mut gradient = [Gradient { g: [0.0; D], hoop: 0.0 }; MAX_FUNCTIONS];
                 let (mut deformed, mut known) = (Tensor::identity(), Tensor::identity());
                 for i in 0..count {
                     gradient[i] = entries.gradient(i);

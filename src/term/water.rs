@@ -26,7 +26,7 @@ use crate::material::spatial::Spatial;
 use crate::mesh::cell_size;
 use crate::mesh::shape::{CellKind, MAX_NODES};
 use crate::points::Points;
-use crate::stencil::{Entries, Patch};
+use crate::stencil::{Entries, MAX_FUNCTIONS, Patch};
 use crate::system::Local;
 use crate::tensor::Tensor;
 use std::fmt;
@@ -133,7 +133,7 @@ pub struct Cell<const D: usize> {
     pressure: Hats,
     gained: Hats,
     /// Displacement (m) of the nodes at the beginning of the step.
-    before: [[f64; D]; MAX_NODES],
+    before: [[f64; D]; MAX_FUNCTIONS],
     /// Time (s) that the water flows for, and over the size of the cell squared, six times.
     flow_time: f64,
     passing: f64,
@@ -156,8 +156,8 @@ impl<const D: usize> Cell<D> {
         let inverse = before.try_inverse().unwrap_or_else(Tensor::identity);
         self.hats.map(|of| {
             let mut sum = Gradient { g: [0.0; D], hoop: 0.0 };
-            for (i, c) in of.iter().enumerate().take(entries.value.len()) {
-                for (sum, g) in sum.g.iter_mut().zip(entries.gradient(i).g) {
+            for (i, c) in of.iter().enumerate().take(entries.shape.len()) {
+                for (sum, g) in sum.g.iter_mut().zip(entries.shape_gradient[i]) {
                     *sum += c * g;
                 }
             }
@@ -210,7 +210,7 @@ impl<const D: usize, K: Kinematics<D>> Share<D, K> for PoreWater<K> {
             return 0.0;
         }
         let before = points.deformation[p].determinant();
-        let stress = -before * ratios.step * dot(&cell.hats(entries.value), &cell.pressure);
+        let stress = -before * ratios.step * dot(&cell.hats(entries.shape), &cell.pressure);
         for normal in &mut answer.kirchhoff[..3] {
             *normal += stress;
         }
@@ -236,7 +236,7 @@ impl<const D: usize, K: Kinematics<D>> Share<D, K> for PoreWater<K> {
         let begin = D * spatial.len();
         let y = points.origin[p][1];
         let before = points.deformation[p].determinant();
-        let hats = cell.hats(entries.value);
+        let hats = cell.hats(entries.shape);
         let storage = porous.storage(y);
         let taken_up = before * (ratios.step - 1.0) + storage * (dot(&hats, &cell.pressure) - points.pore_pressure[p]);
         let weight = later * self.unit * entries.weight;
@@ -285,7 +285,7 @@ impl<const D: usize, K: Kinematics<D>> Share<D, K> for PoreWater<K> {
 
     fn commit(&self, cell: &Cell<D>, points: &Points<D>, entries: &Entries<D>, _: Ratios, history: &mut History) {
         if self.of(points, entries.point).is_some() {
-            history.pore_pressure = dot(&cell.hats(entries.value), &cell.pressure);
+            history.pore_pressure = dot(&cell.hats(entries.shape), &cell.pressure);
         }
     }
 

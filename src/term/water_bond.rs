@@ -57,7 +57,7 @@ impl<const D: usize, K: Kinematics<D>> Term<D> for WaterBond<K> {
             let mean = share * (0..corners).map(gained).sum::<f64>();
             let volume = *self.volume[cell].get_or_init(|| integrate::<D, K>(frame.mesh, cell, |_, _, _| {}));
             let scale = BOND * (1.0 - trial.alpha_f) * self.unit * volume / self.shear;
-            let begin = D * nodes.len();
+            let begin = D * frame.stencil.nodes(frame.mesh, cell as u32).len();
             for a in 0..corners {
                 local.vector[begin + a] -= scale * (gained(a) - mean);
             }

@@ -21,6 +21,7 @@ mod phases;
 mod random_scenes;
 mod resampled;
 mod rotation;
+mod scheme;
 mod slivers;
 mod slope;
 mod split_footing;

@@ -10,7 +10,7 @@ use mpm::mesh::locate::Locator;
 use mpm::mesh::shape::{MAX_NODES, map, rule};
 use mpm::points::Points;
 use mpm::quadrature::{Quadrature, Volumes};
-use mpm::stencil::Scheme;
+use mpm::stencil::{Basis, Mpm};
 use mpm::step::{
     Controller, Fem, Fixed, Limits, Numerics, Phase, Prescribed, Report, Restore, Scene, Simulation, State, Stop, Water,
 };
@@ -66,7 +66,7 @@ pub struct Bench {
     pub prescribed: Vec<Prescribed>,
     pub extra: Vec<Box<dyn Term<2>>>,
     pub restore: Restore,
-    pub scheme: Scheme,
+    pub scheme: &'static dyn Basis<2>,
     /// The volumes of the points where none is given.
     pub quadrature: Option<Box<dyn Quadrature<2>>>,
     pub spectral_radius: f64,
@@ -93,7 +93,7 @@ impl Bench {
             prescribed: Vec::new(),
             extra: Vec::new(),
             restore: Restore::Never,
-            scheme: Scheme::Mpm,
+            scheme: &Mpm,
             quadrature: None,
             spectral_radius: 1.0,
             dynamic: false,
@@ -252,8 +252,8 @@ impl Bench {
                 reset: false,
                 stops: vec![Stop { time: self.duration, frame: true }],
             }],
+            basis: self.scheme,
             numerics: Numerics {
-                scheme: self.scheme,
                 restore: self.restore,
                 spectral_radius: self.spectral_radius,
                 tolerance: 1e-10,

@@ -5,7 +5,7 @@ use crate::stand::{Field, KINDS, Stand, mesh, points, resultant, size};
 use mpm::kinematics::{Axisymmetric, Kinematics, PlaneStrain};
 use mpm::mesh::Mesh;
 use mpm::mesh::shape::CellKind;
-use mpm::stencil::Scheme;
+use mpm::stencil::Ddmp;
 use mpm::surface::{ActiveBoundary, Piece};
 use mpm::term::{BodyForce, EmptyCells, FacetPressure, Head, Inertia, Role, Term, Traction, VirtualPressure};
 use mpm::term::{SurfaceLoad, SurfaceTraction};
@@ -315,7 +315,7 @@ fn the_tangent_of_a_pressure_is_its_derivative_with_smooth_gradients() {
         let mesh = mesh(kind);
         let points = points(&mesh, |_| true);
         let term = Box::new(VirtualPressure::<Axisymmetric>::new(head()));
-        let scheme = Scheme::Ddmp;
+        let scheme = &Ddmp;
         let stand = Stand::<Axisymmetric>::with(scheme, mesh, points, term, false, true, None);
         let (trial, converged) = afloat(&stand);
         let error = stand.tangent_error(&trial, &converged);

@@ -3,7 +3,7 @@
 use crate::stand::{SMOOTHED, Stand, elastic, elasticity, mesh, points, resultant, size};
 use mpm::kinematics::{Axisymmetric, Kinematics, PlaneStrain};
 use mpm::material::{Model, Profile, VonMises};
-use mpm::stencil::Scheme;
+use mpm::stencil::Ddmp;
 use mpm::term::Internal;
 use std::sync::Arc;
 
@@ -16,7 +16,7 @@ fn for_all<K: Kinematics<2>>(whole: bool, check: impl Fn(&str, &Stand<K>, &[[f64
                 let mesh = mesh(kind);
                 let points = points(&mesh, |_| true);
                 let term = Box::new(Internal::<K>::new(vec![Some(model.clone())], alpha_f > 0.0));
-                let scheme = Scheme::Ddmp;
+                let scheme = &Ddmp;
                 let mut stand = Stand::<K>::with(scheme, mesh, points, term, false, whole, None);
                 stand.alpha_f = alpha_f;
                 let converged = stand.field(0.02, 1, |[x, y]| [0.1 * x - 0.3 * y, 0.2 * x + 0.1 * y]);

@@ -13,7 +13,7 @@ use mpm::mesh::locate::Locator;
 use mpm::mesh::shape::{CellKind, MAX_NODES};
 use mpm::points::Points;
 use mpm::quadrature::Volumes;
-use mpm::stencil::Scheme;
+use mpm::stencil::{Basis, Mpm};
 use mpm::step::{Grid, Numerics, Phase, Restore, Scene, Simulation, State, Stop, Water};
 use mpm::system::{Matrix, Workspace};
 use mpm::tensor::{IDENTITY, Tensor, full, symmetric};
@@ -113,7 +113,7 @@ pub struct Stand<K> {
 impl<K: Kinematics<2>> Stand<K> {
     /// `whole` asks for the whole tangent, also of a symmetric term.
     pub fn new(mesh: Mesh<2>, points: Points<2>, term: Box<dyn Term<2>>, restored: bool, whole: bool) -> Self {
-        Self::with(Scheme::Mpm, mesh, points, term, restored, whole, None)
+        Self::with(&Mpm, mesh, points, term, restored, whole, None)
     }
 
     /// As [`Stand::new`], with a pressure field of the given unit (kPa/m).
@@ -125,12 +125,12 @@ impl<K: Kinematics<2>> Stand<K> {
         whole: bool,
         pressure_unit: Option<f64>,
     ) -> Self {
-        Self::with(Scheme::Mpm, mesh, points, term, restored, whole, pressure_unit)
+        Self::with(&Mpm, mesh, points, term, restored, whole, pressure_unit)
     }
 
     /// As [`Stand::with_pressure`], with gradients of another scheme.
     pub fn with(
-        scheme: Scheme,
+        scheme: &'static dyn Basis<2>,
         mesh: Mesh<2>,
         points: Points<2>,
         term: Box<dyn Term<2>>,
@@ -144,7 +144,7 @@ impl<K: Kinematics<2>> Stand<K> {
     /// As [`Stand::with`], with water in the pores.
     #[expect(clippy::too_many_arguments, reason = "what a stand is made of")]
     pub fn with_water(
-        scheme: Scheme,
+        scheme: &'static dyn Basis<2>,
         mesh: Mesh<2>,
         points: Points<2>,
         term: Box<dyn Term<2>>,
@@ -191,8 +191,8 @@ impl<K: Kinematics<2>> Stand<K> {
             water,
             supports: Vec::new(),
             phases: vec![phase.clone(), phase],
+            basis: scheme,
             numerics: Numerics {
-                scheme,
                 restore: if restored { Restore::EveryStep } else { Restore::Never },
                 spectral_radius: 1.0,
                 tolerance: 1e-10,

@@ -5,7 +5,7 @@ use crate::support::Random;
 use mpm::kinematics::{Axisymmetric, Kinematics, PlaneStrain};
 use mpm::material::Model;
 use mpm::mesh::shape::CellKind;
-use mpm::stencil::Scheme;
+use mpm::stencil::Mpm;
 use mpm::step::Water;
 use mpm::surface::{ActiveBoundary, Piece};
 use mpm::term::{Carried, DrainedSurface, Internal, PoreWater, Porous, PressureField, Term, WaterBond, WaterStiffness};
@@ -37,7 +37,7 @@ fn set<K: Kinematics<2>>(kind: CellKind, beside: bool, alpha_f: f64, flow_time: 
         Box::new(Internal::<K, _>::sharing(models, dynamic, water))
     };
     let water = Some(Water { porous: porous([0.0; 2]), alone: !beside, drained: Vec::new() });
-    let mut stand = Stand::<K>::with_water(Scheme::Mpm, mesh, points, term, false, true, Some(UNIT), water);
+    let mut stand = Stand::<K>::with_water(&Mpm, mesh, points, term, false, true, Some(UNIT), water);
     (stand.alpha_f, stand.flow_time) = (alpha_f, flow_time);
     stand.state.points.stress.fill([3.0, -7.0, 2.0, 1.5, 0.0, 0.0]);
     for f in &mut stand.state.points.deformation {
@@ -105,7 +105,7 @@ fn the_bond_is_free_for_a_uniform_increment_and_its_tangent_the_derivative() {
         let term: Box<dyn Term<2>> = Box::new(WaterBond::<PlaneStrain>::new(porous([0.0; 2]), UNIT, 400.0, cells));
         let water = Some(Water { porous: porous([0.0; 2]), alone: true, drained: Vec::new() });
         let mut stand =
-            Stand::<PlaneStrain>::with_water(Scheme::Mpm, mesh, points, term, false, true, Some(UNIT), water);
+            Stand::<PlaneStrain>::with_water(&Mpm, mesh, points, term, false, true, Some(UNIT), water);
         let rest = stand.field(0.0, 1, |_| [0.0; 2]);
         let begin = stand.pressure.len() - nodes;
         stand.pressure[begin..].fill(25.0);
@@ -130,7 +130,7 @@ fn a_surface_drains<K: Kinematics<2>>() {
         let soil = porous([3e-5, 1e-5]);
         let term: Box<dyn Term<2>> = Box::new(DrainedSurface::<K>::new(soil.clone(), Some(3), UNIT, vec![true; 2]));
         let water = Some(Water { porous: soil, alone: true, drained: Vec::new() });
-        let mut stand = Stand::<K>::with_water(Scheme::Mpm, mesh, points, term, false, true, Some(UNIT), water);
+        let mut stand = Stand::<K>::with_water(&Mpm, mesh, points, term, false, true, Some(UNIT), water);
         let piece = |cell: u32| {
             let borne = if cell == 0 { [[1.1, -0.2], [0.4, 0.9]] } else { [[0.2, 0.1], [0.3, 0.6]] };
             Piece {

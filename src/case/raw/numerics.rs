@@ -7,8 +7,9 @@ use serde::Deserialize;
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Numerics {
-    /// How gradients at the points are formed: mpm (plain) or ddmp; gimp, cpdi, cpdi2 and bspline (not available yet).
-    pub gradient: Gradient,
+    /// What material points see of the grid: mpm (the shape functions of their cell), or ddmp (with gradients that are continuous from
+    /// cell to cell).
+    pub gradient: String,
     /// What integrals are summed over: resampled (integration points of the cells, which take their state from the material points
     /// when the grid is restored), or points (the material points, by their volumes). Default: resampled; points with
     /// `gradient: ddmp`.
@@ -37,7 +38,7 @@ pub struct Numerics {
 impl Default for Numerics {
     fn default() -> Self {
         Self {
-            gradient: Gradient::Mpm,
+            gradient: "mpm".into(),
             quadrature: None,
             pressure: None,
             restore: Restore::Quality(RestoreQuality { min_quality: 0.5, max_stretch: None }),
@@ -47,18 +48,6 @@ impl Default for Numerics {
             empty_stiffness: 1e-5,
         }
     }
-}
-
-/// How gradients at the points are formed.
-#[derive(Clone, Copy, Debug, Deserialize, serde::Serialize, JsonSchema, PartialEq, Eq)]
-#[serde(rename_all = "snake_case")]
-pub enum Gradient {
-    Mpm,
-    Ddmp,
-    Gimp,
-    Cpdi,
-    Cpdi2,
-    Bspline,
 }
 
 /// What integrals are summed over.

@@ -9,28 +9,38 @@
 mod blend;
 mod smoothing;
 
-use super::{Stencil, mpm};
-use crate::kinematics::Kinematics;
-use crate::mesh::Mesh;
+use super::{Basis, Located, Stencil};
 use crate::mesh::shape::{CellKind, MAX_NODES};
 use blend::{Blend, smoothed_nodes};
 use rayon::prelude::*;
 use std::sync::Arc;
 
-/// Whether gradients are smoothed in cells of a kind; others keep plain ones.
-pub fn smooths(kind: CellKind) -> bool {
-    smoothed_nodes(kind) > 0
+/// The scheme.
+#[derive(Clone, Copy, Debug)]
+pub struct Ddmp;
+
+impl<const D: usize> Basis<D> for Ddmp {
+    fn name(&self) -> &'static str {
+        "ddmp"
+    }
+
+    fn takes(&self, kind: CellKind) -> bool {
+        smoothed_nodes(kind) > 0
+    }
+
+    fn is_of_places(&self) -> bool {
+        false
+    }
+
+    fn fill(&self, points: &Located<D>, stencil: &mut Stencil<D>) {
+        smooth(points, stencil);
+    }
 }
 
-/// Fills `stencil` as [`Stencil::fill`] does.
-pub fn fill<const D: usize, K: Kinematics<D>>(
-    stencil: &mut Stencil<D>,
-    mesh: &Mesh<D>,
-    cell: &[u32],
-    xi: &[[f64; 3]],
-    active: &[bool],
-) {
-    mpm::fill_with::<D, K>(stencil, mesh, cell, xi, |c| D * smoothed_nodes(mesh.cells.kind[c]));
+/// Fills in the shape functions and, behind their gradients, those of the functions that smooth them.
+fn smooth<const D: usize>(at: &Located<D>, stencil: &mut Stencil<D>) {
+    let mesh = at.mesh;
+    stencil.fill_shapes(at, |c| D * smoothed_nodes(mesh.cells.kind[c]));
     let kinds: Vec<CellKind> = stencil.patches.iter().map(|patch| mesh.cells.kind[patch.cell as usize]).collect();
     let blends: Vec<(Blend, f64)> = stencil
         .patches
@@ -42,7 +52,7 @@ pub fn fill<const D: usize, K: Kinematics<D>>(
             for (x, &n) in x.iter_mut().zip(nodes) {
                 *x = mesh.nodes[n as usize];
             }
-            Blend::new(kind, &x[..nodes.len()], K::measure)
+            Blend::new(kind, &x[..nodes.len()], at.measure)
         })
         .collect();
     let mut volume = vec![0.0; mesh.cells.len()];
@@ -54,12 +64,12 @@ pub fn fill<const D: usize, K: Kinematics<D>>(
         let (own, all) = (slot.patch.node_count as usize, slot.patch.function_count as usize);
         let numbers = &points[slot.patch.first_point as usize..];
         for ((n, gradient), &p) in slot.value.chunks_exact(own).zip(slot.gradient.chunks_exact_mut(all)).zip(numbers) {
-            let psi = blend.at(&xi[p as usize], n);
+            let psi = blend.at(&at.xi[p as usize], n);
             write::<D>(&mut gradient[own..], |a| psi[a]);
         }
     });
     stencil.points = points;
-    stencil.reach = Some(Arc::new(smoothing::reach(mesh, active, &volume)));
+    stencil.reach = Some(Arc::new(smoothing::reach(mesh, at.active, &volume)));
 }
 
 /// The gradients `ψ_a e_j` of the functions beyond the cell's nodes.

@@ -8,7 +8,7 @@ use crate::mesh::locate::Locator;
 use crate::mesh::shape::CellKind;
 use crate::points::Points;
 use crate::quadrature::Volumes;
-use crate::stencil::Scheme;
+use crate::stencil::Mpm;
 use crate::step::report::Motion;
 use crate::step::{Numerics, Phase, Restore, transfer};
 use crate::tensor::{IDENTITY, Tensor};
@@ -48,8 +48,8 @@ fn scene<K: Kinematics<2>>(kind: CellKind) -> Scene<2> {
             reset: false,
             stops: Vec::new(),
         }],
+        basis: &Mpm,
         numerics: Numerics {
-            scheme: Scheme::Mpm,
             restore: Restore::EveryStep,
             spectral_radius: 1.0,
             tolerance: 1e-10,

@@ -140,14 +140,15 @@ const LEVELS: Case = Case {
     ],
 };
 
-/// A plate laid on clay that bears it only bit by bit: what is held back as the phase begins.
+/// A plate laid on clay whose unbalanced force is ramped: few iterations a step, so that the ramp takes several steps.
 const LAID: Case = Case {
     file: "tests/data/plate",
     overrides: &[
         "mesh.parameters={plate: 0.8, left: 0.6, edge: 0.05}",
         "materials.soil={model: tresca, young: 1000, poisson: 0.49, shear_strength: 10, density: 0}",
         "phases=[{name: load, analysis: quasi_static, duration: 1, step: {initial: 0.02, max: 0.02}, \
-         tractions: [{on: top, ty: -46}], prescribe: {top: {ux: 0}}}]",
+         tractions: [{on: top, ty: -44}], prescribe: {top: {ux: 0}}}]",
+        "numerics.max_iterations=6",
     ],
 };
 

@@ -6,7 +6,7 @@ use crate::mesh::Mesh;
 use crate::mesh::builder::rectangle;
 use crate::mesh::shape::CellKind;
 use crate::seed::{RegionSeed, seed};
-use crate::stencil::{Scheme, Stencil};
+use crate::stencil::{Basis, Ddmp, Mpm, Stencil};
 use nalgebra::{Cholesky, DMatrix, SymmetricEigen};
 
 /// `count` points in each cell of `cells`, as they are seeded.
@@ -53,7 +53,7 @@ fn stiffness(mesh: &Mesh<2>, stencil: &Stencil<2>) -> DMatrix<f64> {
 }
 
 /// Zero modes of the nodes that see material.
-fn zero_modes(mesh: &Mesh<2>, points: &Points, scheme: Scheme) -> usize {
+fn zero_modes(mesh: &Mesh<2>, points: &Points, scheme: &'static dyn Basis<2>) -> usize {
     let k = stiffness(mesh, &filled::<PlaneStrain>(mesh, points, scheme));
     let used: Vec<usize> = (0..k.nrows()).filter(|&i| k[(i, i)] > 0.0).collect();
     let k = k.select_rows(&used).select_columns(&used);
@@ -66,7 +66,7 @@ fn zero_modes(mesh: &Mesh<2>, points: &Points, scheme: Scheme) -> usize {
 fn nine_points_a_cell_leave_no_spurious_mode() {
     for kind in KINDS {
         let mesh = rectangle(kind, 1.0, 1.0, 4, 4, 0.2, 5);
-        let scheme = Scheme::Ddmp;
+        let scheme = &Ddmp;
         let half = mesh.cells.len() as u32 / 2 + 3;
         assert_eq!(zero_modes(&mesh, &seeded(&mesh, 9, |_| true), scheme), 3, "{kind:?}");
         assert_eq!(zero_modes(&mesh, &seeded(&mesh, 9, |c| c < half), scheme), 3, "{kind:?}, cut");
@@ -78,11 +78,11 @@ fn nine_points_a_cell_leave_no_spurious_mode() {
 
 /// The inf-sup constant of a linear pressure on quadratic triangles, displacements held at the boundary, in the
 /// norm of the plain gradients.
-fn inf_sup(n: usize, scheme: Scheme) -> f64 {
+fn inf_sup(n: usize, scheme: &'static dyn Basis<2>) -> f64 {
     let mesh = rectangle(CellKind::T6, 1.0, 1.0, n, n, 0.2, 5);
     let points = seeded(&mesh, 16, |_| true);
     let stencil = filled::<PlaneStrain>(&mesh, &points, scheme);
-    let (b, plain) = (operator(&mesh, &stencil), operator(&mesh, &filled::<PlaneStrain>(&mesh, &points, Scheme::Mpm)));
+    let (b, plain) = (operator(&mesh, &stencil), operator(&mesh, &filled::<PlaneStrain>(&mesh, &points, &Mpm)));
     let inside: Vec<usize> =
         (0..mesh.nodes.len()).filter(|&i| mesh.nodes[i].iter().all(|&x| x > 1e-9 && x < 1.0 - 1e-9)).collect();
     let vertices = (n + 1) * (n + 1);
@@ -115,7 +115,7 @@ fn inf_sup(n: usize, scheme: Scheme) -> f64 {
 
 #[test]
 fn a_linear_pressure_is_stable_on_quadratic_triangles() {
-    for scheme in [Scheme::Mpm, Scheme::Ddmp] {
+    for scheme in [&Mpm as &'static dyn Basis<2>, &Ddmp] {
         let beta = [4, 6, 8].map(|n| inf_sup(n, scheme));
         println!("{scheme:?}: inf-sup constants {beta:.3?} at 4, 6, 8 cells a side");
         assert!(beta.iter().all(|b| *b > 0.3) && beta[2] > 0.9 * beta[0], "{scheme:?}: {beta:?}");
@@ -124,13 +124,13 @@ fn a_linear_pressure_is_stable_on_quadratic_triangles() {
 
 /// The forces that a uniform stress in points on a lattice exerts on the nodes inside, where they should vanish,
 /// by those of a single cell: root mean square.
-fn residual(mesh: &Mesh<2>, points: &Points, scheme: Scheme) -> f64 {
+fn residual(mesh: &Mesh<2>, points: &Points, scheme: &'static dyn Basis<2>) -> f64 {
     let stencil = filled::<PlaneStrain>(mesh, points, scheme);
     let mut force = vec![[0.0; 2]; mesh.nodes.len()];
     for_all::<PlaneStrain>(mesh, &stencil, |_, w, node, g| (0..2).for_each(|d| force[node][d] += w * g[d]));
     let exact = in_cells::<PlaneStrain>(mesh, 0..mesh.cells.len() as u32);
     let mut scale = vec![0.0; mesh.nodes.len()];
-    let plain = filled::<PlaneStrain>(mesh, &exact, Scheme::Mpm);
+    let plain = filled::<PlaneStrain>(mesh, &exact, &Mpm);
     for_all::<PlaneStrain>(mesh, &plain, |_, w, node, g| scale[node] += w * g[0].hypot(g[1]));
     let inside = |x: &[f64; 2]| x.iter().all(|x| *x > 0.25 && *x < 0.75);
     let nodes: Vec<usize> = (0..mesh.nodes.len()).filter(|&i| inside(&mesh.nodes[i])).collect();
@@ -145,7 +145,7 @@ fn crossing_points_make_less_noise() {
         for per in [4.9, 11.0] {
             let spacing = (1.0 / (mesh.cells.len() as f64 * per)).sqrt();
             let points = lattice(&mesh, spacing);
-            let [plain, smooth] = [Scheme::Mpm, Scheme::Ddmp].map(|scheme| residual(&mesh, &points, scheme));
+            let [plain, smooth] = [&Mpm as &'static dyn Basis<2>, &Ddmp].map(|scheme| residual(&mesh, &points, scheme));
             println!("{kind:?}, {per} points a cell: plain {plain:.3}, smooth {smooth:.3}");
             assert!(smooth < 0.5 * plain, "{kind:?}, {per}: {smooth}, plain {plain}");
         }
