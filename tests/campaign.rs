@@ -3,17 +3,15 @@
 //!
 //! The tests disturb a few; `make campaign` disturbs as many as `CAMPAIGN` times that.
 
-mod block;
-mod random;
+mod support;
 
-use block::{command, mpm, said};
-use random::Random;
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
+use std::process::Command;
 use std::sync::OnceLock;
 use std::time::{Duration, Instant};
+use support::{PROGRAM, Random, block, command, in_folder, said, succeeds};
 use tempfile::TempDir;
 
 /// The case that left results before.
@@ -39,11 +37,11 @@ fn whole() -> &'static Whole {
     static WHOLE: OnceLock<Whole> = OnceLock::new();
     WHOLE.get_or_init(|| {
         let earlier = scene();
-        done(&mpm(earlier.path(), &[&["run", "."], &EARLIER[..]].concat()));
+        succeeds(&in_folder(earlier.path(), &[&["run", "."], &EARLIER[..]].concat()));
         let whole = scene();
         let seconds = STAGES.map(|stage| {
             let start = Instant::now();
-            done(&mpm(whole.path(), &[stage, "."]));
+            succeeds(&in_folder(whole.path(), &[stage, "."]));
             start.elapsed().as_secs_f64()
         });
         Whole { files: files(whole.path()), earlier: files(earlier.path()), seconds }
@@ -52,10 +50,6 @@ fn whole() -> &'static Whole {
 
 fn scene() -> TempDir {
     block::scene("0.25", "0.005", "0.05")
-}
-
-fn done(output: &Output) {
-    assert_eq!(output.status.code(), Some(0), "{}", said(output));
 }
 
 /// All files below the output folder but the records, which have times, and what is hidden or beside the results.
@@ -90,10 +84,10 @@ fn same(found: &Files, expected: &Files, what: &str) {
 fn prepared(stage: usize, with_earlier: bool) -> TempDir {
     let folder = scene();
     if with_earlier {
-        done(&mpm(folder.path(), &[&["run", "."], &EARLIER[..]].concat()));
+        succeeds(&in_folder(folder.path(), &[&["run", "."], &EARLIER[..]].concat()));
     }
     for stage in &STAGES[..stage] {
-        done(&mpm(folder.path(), &[stage, "."]));
+        succeeds(&in_folder(folder.path(), &[stage, "."]));
     }
     folder
 }
@@ -118,14 +112,14 @@ fn recovers(folder: &Path, stage: usize, with_earlier: bool, what: &str) {
             same(&found, &run(&whole().earlier), what);
         }
     }
-    let mut again = mpm(folder, &["run", "."]);
+    let mut again = in_folder(folder, &["run", "."]);
     if again.status.code() == Some(2) && said(&again).contains("can be continued") {
-        again = mpm(folder, &["run", ".", "--resume"]);
+        again = in_folder(folder, &["run", ".", "--resume"]);
     }
     assert!(again.status.success(), "{what}: {}: {}", again.status, said(&again));
     same(&files(folder), &whole().files, what);
-    let skipped = mpm(folder, &["run", "."]);
-    done(&skipped);
+    let skipped = in_folder(folder, &["run", "."]);
+    succeeds(&skipped);
     for stage in STAGES {
         assert!(said(&skipped).contains(&format!("{stage}: nothing has changed")), "{what}: {}", said(&skipped));
     }
@@ -157,18 +151,6 @@ fn disturb(signal: &str, count: u64, seed: u64) {
 }
 
 #[test]
-fn kills_in_all_stages_lose_nothing() {
-    disturb("KILL", 8 * times(), 1);
-}
-
-#[test]
-fn signals_in_all_stages_lose_nothing() {
-    for (signal, seed) in [("INT", 2), ("TERM", 3), ("HUP", 4)] {
-        disturb(signal, 2 * times(), seed);
-    }
-}
-
-#[test]
 fn disks_that_fill_in_all_stages_lose_nothing() {
     let mut random = Random(5);
     for number in 0..4 * times() {
@@ -177,8 +159,7 @@ fn disks_that_fill_in_all_stages_lose_nothing() {
         let before = files(folder.path());
         // No file may grow beyond so many blocks of 512 bytes: writing fails as on a full disk.
         let blocks = random.below(12);
-        let program = env!("CARGO_BIN_EXE_mpm");
-        let script = format!("trap '' XFSZ; ulimit -f {blocks}; exec '{program}' {} .", STAGES[stage]);
+        let script = format!("trap '' XFSZ; ulimit -f {blocks}; exec '{PROGRAM}' {} .", STAGES[stage]);
         let output = Command::new("sh").args(["-c", &script]).current_dir(folder.path()).output().unwrap();
         let what = format!("{blocks} blocks for {}, {}: {}", STAGES[stage], output.status, said(&output));
         assert!(output.status.success() || output.status.code() == Some(3), "{what}");
@@ -189,22 +170,39 @@ fn disks_that_fill_in_all_stages_lose_nothing() {
     }
 }
 
-#[test]
-fn pairs_of_processes_do_not_mix() {
-    for number in 0..8 * times() {
-        let (stage, with_earlier) = (number as usize % 4, number / 4 % 2 == 1);
-        let folder = prepared(stage, with_earlier);
-        let pair = [(); 2].map(|()| command(folder.path(), &[STAGES[stage], "."]).spawn().unwrap());
-        let ended = pair.map(|child| child.wait_with_output().unwrap());
-        assert!(ended.iter().any(|output| output.status.success()), "{} {}", said(&ended[0]), said(&ended[1]));
-        for output in ended.iter().filter(|output| !output.status.success()) {
-            let said = said(output);
-            assert!(
-                output.status.code() == Some(3) && said.contains("is at work in this folder"),
-                "{}: {said}",
-                output.status
-            );
+/// What takes more than some seconds; `make test-quick` leaves it out.
+mod slow {
+    use super::*;
+
+    #[test]
+    fn kills_in_all_stages_lose_nothing() {
+        disturb("KILL", 8 * times(), 1);
+    }
+
+    #[test]
+    fn signals_in_all_stages_lose_nothing() {
+        for (signal, seed) in [("INT", 2), ("TERM", 3), ("HUP", 4)] {
+            disturb(signal, 2 * times(), seed);
         }
-        recovers(folder.path(), stage, with_earlier, &format!("pair {number} of {}", STAGES[stage]));
+    }
+
+    #[test]
+    fn pairs_of_processes_do_not_mix() {
+        for number in 0..8 * times() {
+            let (stage, with_earlier) = (number as usize % 4, number / 4 % 2 == 1);
+            let folder = prepared(stage, with_earlier);
+            let pair = [(); 2].map(|()| command(folder.path(), &[STAGES[stage], "."]).spawn().unwrap());
+            let ended = pair.map(|child| child.wait_with_output().unwrap());
+            assert!(ended.iter().any(|output| output.status.success()), "{} {}", said(&ended[0]), said(&ended[1]));
+            for output in ended.iter().filter(|output| !output.status.success()) {
+                let said = said(output);
+                assert!(
+                    output.status.code() == Some(3) && said.contains("is at work in this folder"),
+                    "{}: {said}",
+                    output.status
+                );
+            }
+            recovers(folder.path(), stage, with_earlier, &format!("pair {number} of {}", STAGES[stage]));
+        }
     }
 }

@@ -2,12 +2,14 @@
 //! entry of a case, every link leads to a file, the sources that the theory and the tour name exist, the bill of materials is of what is
 //! linked.
 
+mod support;
+
 use mpm::material::MODELS;
 use serde_json::Value;
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
+use support::{in_folder, python, succeeds};
 
 /// The text of the first block of code after `heading` that is marked as `language`.
 fn block(text: &str, heading: &str, language: &str) -> String {
@@ -17,20 +19,15 @@ fn block(text: &str, heading: &str, language: &str) -> String {
     code[..code.find("```").expect("the end of the block")].to_owned()
 }
 
-fn mpm(stage: &str, case: &Path) -> Output {
-    let output = Command::new(env!("CARGO_BIN_EXE_mpm")).arg(stage).arg(case).output().unwrap();
-    assert!(output.status.success(), "mpm {stage}: {}", String::from_utf8_lossy(&output.stderr));
-    output
-}
-
 #[test]
 fn the_first_case_runs_as_it_is_printed() {
     let text = fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("README.md")).unwrap();
     let folder = tempfile::tempdir().unwrap();
     fs::write(folder.path().join("bank.geo"), block(&text, "## A first case", "c")).unwrap();
     fs::write(folder.path().join("case.yaml"), block(&text, "## A first case", "yaml")).unwrap();
-    mpm("check", folder.path());
-    mpm("run", folder.path());
+    for stage in ["check", "run"] {
+        succeeds(&in_folder(folder.path(), &[stage, "."]));
+    }
     let out = folder.path().join("out");
     let series = fs::read_to_string(out.join("points.pvd")).unwrap();
     assert_eq!(series.matches("<DataSet").count(), 31, "a frame each 0.1 s for 3 s, and the first");
@@ -124,7 +121,7 @@ fn the_bill_of_materials_is_of_what_is_linked() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let check = |file: &Path| {
         let script = root.join("pipeline/sbom.py");
-        Command::new(root.join(".venv/bin/python")).arg(script).arg("--check").arg(file).output().unwrap()
+        python().arg(script).arg("--check").arg(file).output().unwrap()
     };
     let file = root.join("docs/sbom.cdx.json");
     let output = check(&file);

@@ -25,9 +25,8 @@ from program import Failed, Refused, execute, solved  # noqa: E402
 from schemes import SCHEMES, missing  # noqa: E402
 
 PAGE = ROOT / "docs/verification.md"
-# The tests that hold the program against closed forms, properties and limit loads.
-TESTS = ["physics", "terms", "touch", "material_models", "material_mohr_coulomb", "material_spatial", "footings", "slope"]
-TESTS += ["cases", "contact", "collapse", "phases", "phreatic", "changes", "clay_column", "covered_surface", "held_out", "resume"]
+# The tests that hold the program against closed forms, properties and limit loads: topics of tests/, and which of their tests.
+TESTS = {"mpm": "", "terms": "", "material": "", "contact": "", "water": "", "cli": "resume::"}
 # Problem, largest error that the last mesh may have by measure, and where that is from.
 SERIES = [
     (column.PROBLEM, {"stress": 6e-5}, "second order on the way to 2.5e-5 at 128 cells"),
@@ -96,25 +95,29 @@ def convergence(problem, tolerances, why, quick):
     return [*lines, ""]
 
 
-def explanations(name):
-    """First sentence of the documentation of each test of a test binary, by the test's name."""
-    folder = ROOT / "tests" / name
-    files = sorted(folder.glob("*.rs")) if folder.is_dir() else [ROOT / f"tests/{name}.rs"]
+def plain(test):
+    """The name of a test without the modules of slow ones, which may be files or stand in a file."""
+    return test.replace("slow::", "")
+
+
+def explanations(topic):
+    """First sentence of the documentation of each test of a topic, by the test's plain name."""
+    folder = ROOT / "tests" / topic
     found = {}
-    for file in files:
+    for file in sorted(folder.rglob("*.rs")):
         text = file.read_text()
         head = " ".join(line[3:].strip() for line in text.splitlines() if line.startswith("//!"))
-        prefix = f"{file.stem}::" if folder.is_dir() else ""
-        for match in re.finditer(r"((?:^///.*\n)*)#\[test\]\n(?:#\[.*\n)*fn (\w+)", text, re.MULTILINE):
-            about = " ".join(line[3:].strip() for line in match[1].splitlines()) or head
-            found[prefix + match[2]] = re.split(r"(?<=[a-z)])\. ", about)[0].rstrip(".")
+        module = "::".join(part for part in file.relative_to(folder).with_suffix("").parts if part != "mod")
+        for match in re.finditer(r"((?:^ *///.*\n)*) *#\[test\]\n(?: *#\[.*\n)* *fn (\w+)", text, re.MULTILINE):
+            about = " ".join(line.strip()[3:].strip() for line in match[1].splitlines()) or head
+            found[plain(f"{module}::{match[2]}")] = re.split(r"(?<=[a-z)])\. ", about)[0].rstrip(".")
     return found
 
 
-def tests(name):
-    """A table of the tests of a binary, each run alone, and what they print."""
+def tests(name, which):
+    """A table of the tests of a topic, each run alone, and what they print."""
     cargo = ["cargo", "test", "--release", "--quiet", "--test", name, "--"]
-    listed = execute([*cargo, "--list"])
+    listed = execute([*cargo, "--list", *([which] if which else [])])
     names = re.findall(r"^(\S+): test$", listed.out, re.MULTILINE)
     about = explanations(name)
     lines, printed = [f"### tests/{name}", "", "| test | what | result | seconds |", "|---|---|---|---|"], []
@@ -123,7 +126,7 @@ def tests(name):
         done = execute([*cargo, "--exact", test, "--nocapture", "--test-threads=1"])
         seconds = time.perf_counter() - start
         result = "passed" if done.status == 0 else "**failed**"
-        what = about.get(test, "").replace("|", "/")
+        what = about.get(plain(test), "").replace("|", "/")
         lines.append(f"| `{test}` | {what} | {result} | {seconds:.1f} |")
         noise = r"^(running \d+ test|test result|test .* \.\.\. ok$|\.$|ok$|$)"
         said = [re.sub(r"^test \S+ \.\.\. ", "", line) for line in done.out.replace(f"{ROOT}/", "").splitlines()]
@@ -157,8 +160,8 @@ def main():
         lines += convergence(problem, tolerances, why, arguments.quick)
     if not arguments.quick:
         lines += ["## Tests", "", "Each run alone; the seconds include starting it. What a test prints stands below its table.", ""]
-        for name in TESTS:
-            lines += tests(name)
+        for name, which in TESTS.items():
+            lines += tests(name, which)
     lines.append(f"All of it took {(time.perf_counter() - start) / 60:.0f} minutes.")
     if arguments.quick:
         print("\n".join(lines))

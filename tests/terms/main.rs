@@ -11,4 +11,6 @@ mod pressure;
 mod rigid;
 mod smooth;
 mod stand;
+#[path = "../support/mod.rs"]
+mod support;
 mod water;

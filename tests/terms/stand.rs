@@ -1,5 +1,6 @@
 //! A test stand: one term on a small grid, with trial states of any size.
 
+use crate::support::Random;
 use mpm::dofs::Dof;
 use mpm::error::Result;
 use mpm::kinematics::Kinematics;
@@ -32,19 +33,6 @@ const ACCELERATION: [f64; 2] = [1.3, -0.7];
 
 /// Vectors on the nodes.
 pub type Field = Vec<[f64; 2]>;
-
-/// Numbers in [-1, 1), the same for the same seed (SplitMix64).
-pub struct Random(pub u64);
-
-impl Random {
-    pub fn next(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-        ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 52) as f64 - 1.0
-    }
-}
 
 /// The mesh of all stands: `[2, 4] × [0, 1.5]` m, away from the axis.
 pub fn mesh(kind: CellKind) -> Mesh<2> {

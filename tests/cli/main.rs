@@ -1,0 +1,15 @@
+//! The program from outside: its stages and their output folder, messages, signals, `--resume`, and `make`.
+
+mod broken_input;
+mod make;
+mod output_folder;
+mod running;
+mod signals;
+mod stages;
+#[path = "../support/mod.rs"]
+mod support;
+
+/// What takes more than some seconds; `make test-quick` leaves it out.
+mod slow {
+    mod resume;
+}

@@ -1,0 +1,8 @@
+//! Meshes: made by Gmsh, read from files, imported from other programs, and geometries that are refused.
+
+mod gmsh;
+mod hostile_geo;
+mod import;
+mod msh;
+#[path = "../support/mod.rs"]
+mod support;

@@ -1,0 +1,41 @@
+//! The method on whole problems: the solver against closed forms, and scenes and cases through the program.
+
+mod bar;
+#[path = "../support/bench.rs"]
+mod bench;
+mod boundary_projection;
+mod cantilever;
+mod cases;
+mod column;
+mod ddmp;
+mod elements;
+mod ending;
+mod footings;
+mod ghost;
+mod incompressible;
+mod invariance;
+#[path = "../support/layout.rs"]
+mod layout;
+mod nodal_field;
+mod patch;
+mod phases;
+mod random_scenes;
+mod resampled;
+mod rotation;
+mod scheme;
+mod slivers;
+mod slope;
+mod split_footing;
+#[path = "../support/mod.rs"]
+mod support;
+mod surface;
+mod surface_loads;
+
+/// What takes more than some seconds; `make test-quick` leaves it out.
+mod slow {
+    mod collapse;
+    mod general_position;
+    mod population;
+    mod uniform_cells;
+    mod voids;
+}

@@ -1,0 +1,29 @@
+//! Warnings of voids that open within soil.
+
+use crate::support::{errors, mpm, succeeds};
+
+/// The log of a run of the block with a groove with overrides, and what it said on standard error.
+fn run(overrides: &[&str]) -> (String, String) {
+    let folder = tempfile::tempdir().unwrap();
+    let output = mpm("run", "tests/data/groove", folder.path(), overrides);
+    succeeds(&output);
+    (std::fs::read_to_string(folder.path().join("solve.log")).unwrap(), errors(&output))
+}
+
+/// A slab that falls onto a block closes the groove of 0.8 m by 0.5 m in it: a void that is reported once, on the console and in the log. Without the
+/// groove there is none.
+#[test]
+fn a_groove_that_soil_closes_over_is_reported_once() {
+    let told = "warning: phase `fall`: a void has opened within the soil";
+    for (overrides, count) in [(&[][..], 1), (&["regions.groove={kind: mpm, material: soil}"][..], 0)] {
+        let (log, said) = run(overrides);
+        assert_eq!(log.matches("void").count(), count, "{overrides:?}: {log}");
+        assert_eq!(said.matches(told).count(), count, "{overrides:?}: {said}");
+        if let Some(line) = log.lines().find(|line| line.contains(told)) {
+            let area: f64 = line.split(" m, of ").nth(1).unwrap().split(' ').next().unwrap().parse().unwrap();
+            println!("{line}");
+            assert!((area / 0.4 - 1.0).abs() < 0.15, "{line}");
+            assert!(line.contains("at [1.0") || line.contains("at [0.9"), "{line}");
+        }
+    }
+}
