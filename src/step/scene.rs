@@ -1,8 +1,8 @@
 //! A scene: everything that does not change while it is solved.
 
 use super::change::Change;
-use crate::contact::Interface;
 use super::field::Field;
+use crate::contact::Interface;
 use crate::dofs::Places;
 use crate::mesh::Mesh;
 use crate::mesh::faces::Faces;

@@ -117,7 +117,8 @@ fn error(kind: CellKind, cells: usize, steps: usize) -> f64 {
     let state = run::<PlaneStrain>(&scene, state);
     let diffusivity = 0.25 * scene.phases[0].duration;
     let exact = |y: f64| {
-        let term = |m: f64| 4.0 / (PI * m) * (0.5 * PI * m * (1.0 - y)).sin() * (-(0.5 * PI * m).powi(2) * diffusivity).exp();
+        let term =
+            |m: f64| 4.0 / (PI * m) * (0.5 * PI * m * (1.0 - y)).sin() * (-(0.5 * PI * m).powi(2) * diffusivity).exp();
         1.0 - (0..200).map(|k| term(f64::from(2 * k + 1))).sum::<f64>()
     };
     let field = &state.points.fields[0];

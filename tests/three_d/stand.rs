@@ -130,6 +130,7 @@ impl Stand {
             clique: &self.cells,
             block: &self.nodes,
             bodies: &[],
+            with_water: false,
         }
     }
 
