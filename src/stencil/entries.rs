@@ -1,13 +1,10 @@
 //! The weights and gradients of points, patch by patch.
 
 use super::reach::Reach;
-use super::support::Support;
+use super::support::{MAX_FUNCTIONS, Support};
 use crate::kinematics::{Gradient, Kinematics};
 use crate::mesh::Mesh;
 use std::sync::Arc;
-
-/// Most local functions of a cell: the nodes that its points act on, and what else a scheme forms gradients with.
-pub const MAX_FUNCTIONS: usize = 64;
 
 /// The points of one cell and the nodes they act on.
 #[derive(Clone, Copy, Debug, PartialEq)]

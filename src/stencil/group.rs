@@ -1,7 +1,6 @@
 //! Filling the functions of points, grouped by their cells.
 
-use super::entries::MAX_FUNCTIONS;
-use super::{Located, Patch, Stencil, Support};
+use super::{Located, MAX_FUNCTIONS, Patch, Stencil, Support};
 use crate::mesh::Mesh;
 use crate::mesh::shape::{self, MAX_NODES};
 use rayon::prelude::*;

@@ -15,13 +15,13 @@ mod support;
 
 pub use basis::{Basis, Located};
 pub use ddmp::Ddmp;
-pub use entries::{Entries, MAX_FUNCTIONS, Patch, Stencil};
+pub use entries::{Entries, Patch, Stencil};
 pub use fill::{PartlyFilled, integrate, partly_filled_cells};
 pub use group::Place;
 pub use jumps::{Jump, Jumps};
 pub use mpm::Mpm;
 pub use reach::Reach;
-pub use support::Support;
+pub use support::{MAX_FUNCTIONS, Support};
 
 use crate::kinematics::Kinematics;
 use crate::mesh::Mesh;

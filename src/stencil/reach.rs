@@ -4,7 +4,7 @@
 //! averaged around the cell. The points see those as further local functions with a gradient and no value;
 //! each is a fixed combination of nodes: `u_f = Σ_I T_fI u_I`, the same for every displacement component.
 
-use super::MAX_FUNCTIONS;
+use super::support::MAX_FUNCTIONS;
 
 /// The functions of each cell and the nodes they are made of.
 #[derive(Clone, Debug, Default, PartialEq)]

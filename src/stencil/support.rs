@@ -2,6 +2,9 @@
 
 use crate::mesh::Mesh;
 
+/// Most local functions of a cell: the nodes that its points act on, and what else a scheme forms gradients with.
+pub const MAX_FUNCTIONS: usize = 64;
+
 /// A list of nodes for each cell that takes part.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Support {

@@ -4,25 +4,14 @@
 //! The unknowns are those of all active cells of the grid, so the term has to give each cell in [`crate::term::Frame::cells`] something, with points or
 //! without. Where they stand among the unknowns of a cell tells [`crate::term::Frame::field`].
 
-use super::family::Family;
-use super::grid::Grid;
 use super::nodal_fit::{self, Filled};
 use super::scene::Scene;
 use super::state::State;
+use crate::dofs::DofMap;
 use crate::kinematics::Kinematics;
+use crate::mesh::Mesh;
+use crate::stencil::Stencil;
 use crate::term::pressure_hats;
-use crate::time_value::TimeValue;
-
-/// A field of a scene.
-#[derive(Clone, Debug)]
-pub struct Field {
-    /// The name by which messages call it.
-    pub name: String,
-    /// What an unknown of the linear system stands for, so that all equations are forces and all unknowns lengths.
-    pub unit: f64,
-    /// Nodes with a given value, which varies with the time (s) since the phase began; of two the later one holds.
-    pub given: Vec<(Vec<u32>, TimeValue)>,
-}
 
 /// Makes room for the fields in the state, and a column of zeros in points that have none.
 pub fn make_room<const D: usize>(scene: &Scene<D>, state: &mut State<D>) {
@@ -37,16 +26,18 @@ pub fn make_room<const D: usize>(scene: &Scene<D>, state: &mut State<D>) {
 }
 
 /// Takes the fields over from the material points to a restored grid.
-pub fn project<const D: usize, K: Kinematics<D>>(scene: &Scene<D>, grid: &Grid<D>, state: &mut State<D>) {
+pub fn project<const D: usize, K: Kinematics<D>>(
+    scene: &Scene<D>,
+    (mesh, stencil): (&Mesh<D>, &Stencil<D>),
+    state: &mut State<D>,
+) {
     make_room(scene, state);
     let [places, _] = scene.places();
     for k in 0..scene.fields.len() {
         let range = places.field(k, 0)..places.field(k + 1, 0);
         let mut values = state.pressure[range.clone()].to_vec();
-        if let Some(Family { mesh, stencil, points, .. }) = grid.families(scene, state).next() {
-            let filled = Filled { mesh, stencil, points };
-            nodal_fit::fit::<D, K>(&[filled], |points, p| Some(points.fields[k][p]), &mut values);
-        }
+        let filled = Filled { mesh, stencil, points: &state.points };
+        nodal_fit::fit::<D, K>(&[filled], |points, p| Some(points.fields[k][p]), &mut values);
         state.pressure[range].copy_from_slice(&values);
     }
 }
@@ -55,25 +46,23 @@ pub fn project<const D: usize, K: Kinematics<D>>(scene: &Scene<D>, grid: &Grid<D
 /// theirs.
 pub fn to_points<const D: usize, K: Kinematics<D>>(
     scene: &Scene<D>,
-    grid: &Grid<D>,
+    (mesh, stencil): (&Mesh<D>, &Stencil<D>),
     state: &mut State<D>,
     new: &[f64],
 ) {
     let [places, _] = scene.places();
     for k in 0..scene.fields.len() {
         let mut column = std::mem::take(&mut state.points.fields[k]);
-        if let Some(Family { mesh, stencil, .. }) = grid.families(scene, state).next() {
-            for patch in &stencil.patches {
-                let kind = mesh.cells.kind[patch.cell as usize];
-                let corners = &mesh.cells.nodes(patch.cell as usize)[..kind.corner_count()];
-                for entries in stencil.entries::<K>(patch) {
-                    let hats = pressure_hats(kind, entries.shape);
-                    let change = |(hat, &n): (&f64, &u32)| {
-                        let place = places.field(k, n);
-                        hat * (new[place] - state.pressure[place])
-                    };
-                    column[entries.point] += hats.iter().zip(corners).map(change).sum::<f64>();
-                }
+        for patch in &stencil.patches {
+            let kind = mesh.cells.kind[patch.cell as usize];
+            let corners = &mesh.cells.nodes(patch.cell as usize)[..kind.corner_count()];
+            for entries in stencil.entries::<K>(patch) {
+                let hats = pressure_hats(kind, entries.shape);
+                let change = |(hat, &n): (&f64, &u32)| {
+                    let place = places.field(k, n);
+                    hat * (new[place] - state.pressure[place])
+                };
+                column[entries.point] += hats.iter().zip(corners).map(change).sum::<f64>();
             }
         }
         state.points.fields[k] = column;
@@ -81,15 +70,15 @@ pub fn to_points<const D: usize, K: Kinematics<D>>(
 }
 
 /// Sets in `given`, one entry an equation, by how much the given values change in a step of `dt` (s). One of no time leaves all as it is.
-pub fn give<const D: usize>(scene: &Scene<D>, state: &State<D>, grid: &Grid<D>, dt: f64, given: &mut [Option<f64>]) {
+pub fn give<const D: usize>(scene: &Scene<D>, state: &State<D>, dofs: &DofMap<D>, dt: f64, given: &mut [Option<f64>]) {
     let [places, _] = scene.places();
     for (k, field) in scene.fields.iter().enumerate() {
         if dt == 0.0 {
-            grid.dofs.field(k).for_each(|(equation, _)| given[equation] = Some(0.0));
+            dofs.field(k).for_each(|(equation, _)| given[equation] = Some(0.0));
             continue;
         }
         for (nodes, value) in &field.given {
-            for (equation, node) in grid.dofs.field(k) {
+            for (equation, node) in dofs.field(k) {
                 if nodes.contains(&node) {
                     given[equation] = Some(value.at(state.phase_time + dt) - state.pressure[places.field(k, node)]);
                 }

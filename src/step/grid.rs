@@ -86,7 +86,7 @@ impl<const D: usize> Grid<D> {
             grid.project_pressure_of_elements::<K>(scene, state);
         }
         grid.project_pore_pressure::<K>(scene, state);
-        field::project::<D, K>(scene, &grid, state);
+        field::project::<D, K>(scene, (&scene.mesh, grid.of_material()), state);
         Ok(grid)
     }
 
@@ -104,7 +104,7 @@ impl<const D: usize> Grid<D> {
             self.penalise(scene, state);
         }
         self.project_pore_pressure::<K>(scene, state);
-        field::project::<D, K>(scene, self, state);
+        field::project::<D, K>(scene, (&scene.mesh, self.of_material()), state);
         Ok(())
     }
 
@@ -380,6 +380,6 @@ pub fn given_increments<const D: usize>(
             }
         }
     }
-    field::give(scene, state, grid, dt, &mut given);
+    field::give(scene, state, &grid.dofs, dt, &mut given);
     given
 }

@@ -45,13 +45,12 @@ mod water;
 pub use change::Change;
 pub use contact::Resultant;
 pub use control::{Controller, Limits};
-pub use field::Field;
 pub use ghost_faces::has_room_for_penalties;
 pub use grid::Grid;
 pub use problem::Solution;
 pub use ramp::UnbalancedRamp;
 pub use report::Report;
-pub use scene::{FARTHEST, Fem, Fixed, Numerics, Phase, Prescribed, Restore, Scene, Search, Stop, Water};
+pub use scene::{FARTHEST, Fem, Field, Fixed, Numerics, Phase, Prescribed, Restore, Scene, Search, Stop, Water};
 pub use state::{Span, State};
 pub use water::Balance;
 
@@ -281,7 +280,7 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
         state.balanced =
             balanced.then_some(Span { phase: state.phase, from: state.phase_time, to: state.phase_time + dt });
         state.displacement.clone_from(&solution.displacement);
-        field::to_points::<D, K>(scene, &self.grid, state, &solution.pressure);
+        field::to_points::<D, K>(scene, (&scene.mesh, self.grid.of_material()), state, &solution.pressure);
         state.pressure.clone_from(&solution.pressure);
         if start.is_some() {
             rigid::motion_to_points(scene, state);

@@ -1,7 +1,6 @@
 //! A scene: everything that does not change while it is solved.
 
 use super::change::Change;
-use super::field::Field;
 use crate::contact::Interface;
 use crate::dofs::Places;
 use crate::mesh::Mesh;
@@ -114,6 +113,17 @@ impl<const D: usize> Scene<D> {
         let all = self.interfaces.iter().map(|interface| interface.as_ref()).enumerate();
         all.filter(move |(number, _)| !apart.contains(number))
     }
+}
+
+/// A scalar field that the material points carry.
+#[derive(Clone, Debug)]
+pub struct Field {
+    /// The name by which messages call it.
+    pub name: String,
+    /// What an unknown of the linear system stands for, so that all equations are forces and all unknowns lengths.
+    pub unit: f64,
+    /// Nodes with a given value, which varies with the time (s) since the phase began; of two the later one holds.
+    pub given: Vec<(Vec<u32>, TimeValue)>,
 }
 
 /// Water in the pores.
