@@ -1,11 +1,12 @@
 //! The material points: a struct of arrays.
 
 use crate::kinematics::Kinematics;
-use crate::material::State;
+use crate::material::{Model, State, internal_count};
 use crate::tensor::{Symmetric, Tensor, full};
+use std::sync::Arc;
 
 /// All material points of a scene. Every column has one entry a point; `velocity` and `acceleration`
-/// are empty in a quasi-static analysis, `plastic_increment` in finite elements and before the first step, `memory` where no model does,
+/// are empty in a quasi-static analysis, `plastic_increment` in finite elements and before the first step, `internal` where no model has internal variables,
 /// `pressure` without a pressure field, `pore_pressure` without pore water, `model` where no phase changes a material.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Points<const D: usize> {
@@ -33,8 +34,9 @@ pub struct Points<const D: usize> {
     pub plastic_strain: Vec<f64>,
     /// What the last converged step added to it (-).
     pub plastic_increment: Vec<f64>,
-    /// What hardens or softens the model of the point ([`crate::material::State::memory`]).
-    pub memory: Vec<f64>,
+    /// Internal variables of the models, as many numbers for each point as the model with most of them has
+    /// ([`crate::material::State::internal`]).
+    pub internal: Vec<f64>,
     /// Kirchhoff mean stress (kPa), tension positive, that the pressure field carries.
     pub pressure: Vec<f64>,
     /// Excess pressure (kPa) of the water in the pores, compression positive, at the last converged step.
@@ -69,10 +71,51 @@ impl<const D: usize> Points<D> {
         usize::from(*self.model.get(p).unwrap_or(&self.region[p]))
     }
 
-    /// What the model of point `p` remembers, in a step of which `inverse_dt` (1/s) make a second; 0 at rest.
+    /// The state of point `p` for its model, in a step of which `inverse_dt` (1/s) make a second; 0 at rest.
     #[inline]
-    pub fn state(&self, p: usize, inverse_dt: f64) -> State {
-        State { plastic_strain: self.plastic_strain[p], memory: self.memory.get(p).copied().unwrap_or(0.0), inverse_dt }
+    pub fn state(&self, p: usize, inverse_dt: f64) -> State<'_> {
+        let (plastic_strain, internal) = (self.plastic_strain[p], self.internal_of(p));
+        State { plastic_strain, internal, inverse_dt, increment: None }
+    }
+
+    /// Numbers that each point has in `internal`.
+    #[inline]
+    pub fn internal_count(&self) -> usize {
+        if self.internal.is_empty() { 0 } else { self.internal.len() / self.len() }
+    }
+
+    /// The internal variables of point `p`.
+    #[inline]
+    pub fn internal_of(&self, p: usize) -> &[f64] {
+        let count = self.internal_count();
+        &self.internal[p * count..(p + 1) * count]
+    }
+
+    #[inline]
+    pub fn internal_mut(&mut self, p: usize) -> &mut [f64] {
+        let count = self.internal_count();
+        &mut self.internal[p * count..(p + 1) * count]
+    }
+
+    /// Gives the points the first values of the internal variables of their models, by number of the material.
+    pub fn begin(&mut self, models: &[Option<Arc<dyn Model>>]) {
+        let count = models.iter().flatten().map(|model| internal_count(model.as_ref())).max().unwrap_or(0);
+        self.internal = vec![0.0; count * self.len()];
+        for p in 0..self.len() {
+            if let Some(Some(model)) = models.get(self.model_of(p)) {
+                self.begin_internal(p, model.as_ref());
+            }
+        }
+    }
+
+    /// Gives point `p` the first values of the internal variables of a model.
+    pub fn begin_internal(&mut self, p: usize, model: &dyn Model) {
+        let y = self.origin[p][1];
+        let internal = self.internal_mut(p);
+        internal.fill(0.0);
+        if !internal.is_empty() {
+            model.begin(y, internal);
+        }
     }
 
     /// Current volume (m³) of point `p`, by the measure of `initial_volume`.
@@ -98,7 +141,7 @@ impl<const D: usize> Points<D> {
             stress: pick(&self.stress, numbers),
             plastic_strain: pick(&self.plastic_strain, numbers),
             plastic_increment: pick(&self.plastic_increment, numbers),
-            memory: pick(&self.memory, numbers),
+            internal: numbers.iter().flat_map(|&p| self.internal_of(p)).copied().collect(),
             pressure: pick(&self.pressure, numbers),
             pore_pressure: pick(&self.pore_pressure, numbers),
             region: pick(&self.region, numbers),
@@ -161,7 +204,8 @@ impl<const D: usize> Points<D> {
         one.initial_volume = vec![initial_volume];
         one.plastic_strain = scalars(&self.plastic_strain, share);
         one.plastic_increment = scalars(&self.plastic_increment, share);
-        one.memory = scalars(&self.memory, share);
+        one.internal =
+            self.internal_of(p).iter().zip(self.internal_of(q)).map(|(&at, &of)| mix(share, at, of)).collect();
         one.pressure = scalars(&self.pressure, share);
         one.pore_pressure = scalars(&self.pore_pressure, by_volume);
         let mean = self.deformation[p] + (self.deformation[q] - self.deformation[p]) * share;
@@ -201,7 +245,7 @@ impl<const D: usize> Points<D> {
         self.stress.append(&mut other.stress);
         self.plastic_strain.append(&mut other.plastic_strain);
         self.plastic_increment.append(&mut other.plastic_increment);
-        self.memory.append(&mut other.memory);
+        self.internal.append(&mut other.internal);
         self.pressure.append(&mut other.pressure);
         self.pore_pressure.append(&mut other.pore_pressure);
         self.region.append(&mut other.region);

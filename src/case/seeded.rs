@@ -30,7 +30,7 @@ pub fn check(case: &Case, mesh: &Mesh<2>, points: &Points<2>) -> Result<()> {
         ("reference", points.reference.is_empty()),
         ("acceleration", points.acceleration.is_empty()),
         ("plastic_increment", points.plastic_increment.is_empty()),
-        ("memory", points.memory.is_empty()),
+        ("internal", points.internal.is_empty()),
         ("pressure", points.pressure.is_empty()),
         ("model", points.model.is_empty()),
     ];

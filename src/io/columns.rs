@@ -25,7 +25,7 @@ pub fn to_arrays<const D: usize>(points: &Points<D>) -> Vec<Array> {
         stress,
         plastic_strain,
         plastic_increment,
-        memory,
+        internal,
         pressure,
         pore_pressure,
         region,
@@ -45,7 +45,7 @@ pub fn to_arrays<const D: usize>(points: &Points<D>) -> Vec<Array> {
         &|| array("stress", "kPa", 6, stress.concat()),
         &|| array("plastic_strain", "-", 1, plastic_strain.clone()),
         &|| array("plastic_increment", "-", 1, plastic_increment.clone()),
-        &|| array("memory", "-", 1, memory.clone()),
+        &|| array("internal", "-", points.internal_count().max(1), internal.clone()),
         &|| array("pressure", "kPa", 1, pressure.clone()),
         &|| array("pore_pressure", "kPa", 1, pore_pressure.clone()),
         &|| array("region", "-", 1, region.clone()),
@@ -53,8 +53,16 @@ pub fn to_arrays<const D: usize>(points: &Points<D>) -> Vec<Array> {
         &|| array("cell", "-", 1, cell.clone()),
     ];
     let mut arrays: Vec<Array> = columns.par_iter().map(|column| column()).collect();
-    const OPTIONAL: [&str; 8] =
-        ["reference", "velocity", "acceleration", "plastic_increment", "memory", "pressure", "pore_pressure", "model"];
+    const OPTIONAL: [&str; 8] = [
+        "reference",
+        "velocity",
+        "acceleration",
+        "plastic_increment",
+        "internal",
+        "pressure",
+        "pore_pressure",
+        "model",
+    ];
     arrays.retain(|a| !(a.data.is_empty() && OPTIONAL.contains(&a.name.as_str())));
     arrays
 }
@@ -87,7 +95,7 @@ pub fn take<const D: usize>(store: &mut Store, prefix: &str) -> Result<Points<D>
         stress: columns.symmetric("stress")?,
         plastic_strain: columns.scalars("plastic_strain")?,
         plastic_increment: columns.if_present("plastic_increment", 1)?.unwrap_or_default(),
-        memory: columns.if_present("memory", 1)?.unwrap_or_default(),
+        internal: columns.of_any_width("internal")?,
         pressure: columns.if_present("pressure", 1)?.unwrap_or_default(),
         pore_pressure: columns.if_present("pore_pressure", 1)?.unwrap_or_default(),
         region: columns.scalars("region")?,
@@ -137,6 +145,12 @@ impl Columns<'_> {
             }
             _ => Ok(values),
         }
+    }
+
+    /// As many numbers for each point as the file has.
+    fn of_any_width(&mut self, name: &str) -> Result<Vec<f64>> {
+        let components = self.store.components(&format!("{}{name}", self.prefix)).unwrap_or(1);
+        Ok(self.if_present(name, components)?.unwrap_or_default())
     }
 
     fn numbers<T: Scalar>(&mut self, name: &str, components: usize) -> Result<Vec<T>> {

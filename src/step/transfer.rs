@@ -209,7 +209,7 @@ pub fn commit<const D: usize>(
     lost.len()
 }
 
-/// Writes the stresses of the solution of a `step` into the points of the soil, and what the material remembers, but not its deformation.
+/// Writes the stresses of the solution of a `step` into the points of the soil, and the internal variables, but not the deformation.
 pub fn commit_stresses<const D: usize>(
     scene: &Scene<D>,
     grid: &Grid<D>,
@@ -235,11 +235,8 @@ fn take_from_nearest<const D: usize>(points: &mut Points<D>, p: usize, samples: 
     points.elastic[p] = samples.elastic[q];
     points.stress[p] = samples.stress[q];
     points.plastic_strain[p] = samples.plastic_strain[q];
-    let columns = [
-        (&mut points.memory, &samples.memory),
-        (&mut points.pressure, &samples.pressure),
-        (&mut points.pore_pressure, &samples.pore_pressure),
-    ];
+    points.internal_mut(p).copy_from_slice(samples.internal_of(q));
+    let columns = [(&mut points.pressure, &samples.pressure), (&mut points.pore_pressure, &samples.pore_pressure)];
     for (own, of_sample) in columns {
         if let (Some(own), Some(value)) = (own.get_mut(p), of_sample.get(q)) {
             *own = *value;

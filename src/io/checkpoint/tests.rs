@@ -22,7 +22,7 @@ pub(in crate::io) fn sample_points(n: usize, dynamic: bool) -> Points<2> {
         elastic: symmetric(20),
         stress: symmetric(26),
         plastic_increment: if dynamic { (0..n).map(|i| x(i, 33)).collect() } else { Vec::new() },
-        memory: if dynamic { (0..n).map(|i| x(i, 35)).collect() } else { Vec::new() },
+        internal: if dynamic { (0..2 * n).map(|i| x(i / 2, 35 + i % 2)).collect() } else { Vec::new() },
         pressure: if dynamic { (0..n).map(|i| x(i, 34)).collect() } else { Vec::new() },
         pore_pressure: if dynamic { (0..n).map(|i| x(i, 35)).collect() } else { Vec::new() },
         plastic_strain: (0..n).map(|i| if i % 3 == 0 { 5e-324 } else { x(i, 32) }).collect(),
@@ -48,7 +48,7 @@ pub(in crate::io) fn same_bits<const D: usize>(a: &Points<D>, b: &Points<D>) -> 
             p.stress.concat(),
             p.plastic_strain.clone(),
             p.plastic_increment.clone(),
-            p.memory.clone(),
+            p.internal.clone(),
             p.pressure.clone(),
             p.pore_pressure.clone(),
         ];

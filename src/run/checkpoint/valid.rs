@@ -179,7 +179,6 @@ fn check_family<const D: usize>(
         (points.reference.len(), begun(scene, state).any(|phase| phase.reset)),
         (points.velocity.len(), state.moving || began_moving && !points.velocity.is_empty()),
         (points.acceleration.len(), state.moving),
-        (points.memory.len(), !first.memory.is_empty()),
         (points.pressure.len(), !first.pressure.is_empty()),
         (points.pore_pressure.len(), !first.pore_pressure.is_empty()),
         (points.model.len(), begun(scene, state).any(|phase| !phase.changes.is_empty())),
@@ -188,6 +187,7 @@ fn check_family<const D: usize>(
         columns.iter().all(|&(length, present)| length == if present { count } else { 0 }),
         "a column of its points",
     )?;
+    ensure(points.internal_count() == first.internal_count(), "a column of its points")?;
     let changes: Vec<_> = begun(scene, state).flat_map(|phase| &phase.changes).collect();
     for (p, &region) in points.region.iter().enumerate() {
         let change = changes.iter().rev().find(|change| change.region == region);
@@ -214,13 +214,13 @@ fn check_samples<const D: usize>(scene: &Scene<D>, state: &State<D>) -> Result<(
         (points.velocity.len(), 0),
         (points.acceleration.len(), 0),
         (points.plastic_increment.len(), material.plastic_increment.len()),
-        (points.memory.len(), material.memory.len()),
         (points.pressure.len(), material.pressure.len()),
         (points.pore_pressure.len(), material.pore_pressure.len()),
         (points.model.len(), material.model.len()),
     ];
     let fits = |&(length, of_material): &(usize, usize)| length == if of_material > 0 { points.len() } else { 0 };
-    ensure(columns.iter().all(fits), "a column of its integration points")?;
+    let internal = points.is_empty() || points.internal_count() == material.internal_count();
+    ensure(internal && columns.iter().all(fits), "a column of its integration points")?;
     let number = |region: u16| material.region.iter().position(|&r| r == region).and_then(|p| material.model.get(p));
     let same = (0..points.model.len()).all(|q| number(points.region[q]) == Some(&points.model[q]));
     ensure(same, "the material of an integration point")?;
