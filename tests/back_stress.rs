@@ -432,7 +432,7 @@ fn run(folder: &Path, resume: bool, last: u64) -> Ended {
         folder: RunFolder::new(folder),
         warnings: Vec::new(),
         fields: vec![
-            Field::Stress,
+            Field::Column("stress"),
             Field::DeformationGradient,
             Field::InternalVariables(InternalVariable::all(&models)),
         ],

@@ -28,18 +28,19 @@ pub fn outputs(
         let field = match field {
             Field::Displacement => run::Field::Displacement,
             Field::Velocity => run::Field::Velocity,
-            Field::Stress | Field::MeanStress | Field::DeviatoricStress => run::Field::Stress,
-            Field::PlasticStrain => run::Field::PlasticStrain,
+            Field::Stress | Field::MeanStress | Field::DeviatoricStress => run::Field::Column("stress"),
+            Field::PlasticStrain => run::Field::Column("plastic_strain"),
             Field::DeformationGradient => run::Field::DeformationGradient,
             Field::PorePressure => run::Field::PorePressure(carried(case, mesh)?),
-            Field::Mass => run::Field::Mass,
+            Field::Mass => run::Field::Column("mass"),
             Field::InternalVariables => {
                 let models = by_number(case, mesh, |material| Some(material.model.clone()))?;
                 run::Field::InternalVariables(InternalVariable::all(&models))
             }
         };
         // Invariants come with the stress.
-        if !(matches!(field, run::Field::Stress) && fields.iter().any(|f| matches!(f, run::Field::Stress))) {
+        let is_stress = |field: &run::Field| matches!(field, run::Field::Column("stress"));
+        if !(is_stress(&field) && fields.iter().any(is_stress)) {
             fields.push(field);
         }
     }

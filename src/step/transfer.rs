@@ -232,16 +232,7 @@ fn take_from_nearest<const D: usize>(points: &mut Points<D>, p: usize, samples: 
     let Some((_, q)) = nearest else { return };
     let stretch = (samples.deformation[q].determinant() / points.deformation[p].determinant()).cbrt();
     points.deformation[p] *= stretch;
-    points.elastic[p] = samples.elastic[q];
-    points.stress[p] = samples.stress[q];
-    points.plastic_strain[p] = samples.plastic_strain[q];
-    points.internal_mut(p).copy_from_slice(samples.internal_of(q));
-    let columns = [(&mut points.pressure, &samples.pressure), (&mut points.pore_pressure, &samples.pore_pressure)];
-    for (own, of_sample) in columns {
-        if let (Some(own), Some(value)) = (own.get_mut(p), of_sample.get(q)) {
-            *own = *value;
-        }
-    }
+    points.take_state(p, samples, q);
 }
 
 /// Moves the points with the grid.

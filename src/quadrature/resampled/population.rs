@@ -300,7 +300,7 @@ impl Crowd {
         (one.elastic[0], one.stress[0]) = (elastic, stress);
         one.cell[0] = part.cell;
         let new = self.points.len();
-        self.points.append(one);
+        self.points.append(&one);
         self.parametric.push(xi);
         self.from.push(self.from[p]);
         self.gone.push(false);
