@@ -1,7 +1,7 @@
 //! Time of a material point: model alone and with the spatial tangent, elastic and yielding, in ns.
 //! `cargo bench --bench material`
 
-use mpm::material::{MODELS, State, spatial};
+use mpm::material::{MODELS, State, internal_count, spatial};
 use std::hint::black_box;
 use std::time::Instant;
 
@@ -30,13 +30,15 @@ fn main() {
         let tensors = |size: f64| -> Vec<[f64; 6]> {
             strains(size).iter().map(|e| [1.0 + e[0], 1.0 + e[1], 1.0 + e[2], 0.5 * e[0], 0.0, 0.0]).collect()
         };
-        let state = State::default();
+        let (state, law) = (State::default(), model.principal().expect("a model of principal strains"));
+        let mut internal = vec![0.0; internal_count(&*model)];
+        model.begin(0.0, &mut internal);
         print!("{:<16}", kind.name);
         for size in [0.05, 5.0] {
-            print!("{:>12.1}", time(&strains(size), |e| model.respond(0.0, e, &state)));
+            print!("{:>12.1}", time(&strains(size), |e| law.respond(0.0, e, &state, &mut internal.clone())));
         }
         for size in [0.1, 5.0] {
-            print!("{:>16.1}", time(&tensors(size), |b| spatial::plane(&*model, 0.0, b, &state)));
+            print!("{:>16.1}", time(&tensors(size), |b| spatial::plane(&*model, 0.0, b, &state, &mut internal)));
         }
         println!();
     }

@@ -34,9 +34,15 @@ pub trait Kinematics<const D: usize>: Copy + Default + Send + Sync + 'static {
     /// Whether the circumferential strain `u_r / r` exists.
     const HOOP: bool;
 
-    /// The response of a point seeded at height `y` (m) to an elastic trial left Cauchy–Green tensor;
-    /// `None` where that is not positive definite.
-    fn respond(model: &dyn Model, y: f64, trial: &Symmetric, state: &State) -> Option<Spatial<Self::Tangent>>;
+    /// The response of a point seeded at height `y` (m) to an elastic trial left Cauchy–Green tensor, with the internal variables
+    /// at the end of the step in `internal`; `None` where the trial tensor is not positive definite.
+    fn respond(
+        model: &dyn Model,
+        y: f64,
+        trial: &Symmetric,
+        state: &State,
+        internal: &mut [f64],
+    ) -> Option<Spatial<Self::Tangent>>;
 
     /// Principal values of a symmetric tensor.
     fn roots(t: &Symmetric) -> [f64; 3];
@@ -129,8 +135,14 @@ impl<const HOOP: bool> Kinematics<2> for Plane<HOOP> {
     type Column = [[f64; 2]; 5];
     const HOOP: bool = HOOP;
 
-    fn respond(model: &dyn Model, y: f64, trial: &Symmetric, state: &State) -> Option<Spatial<Self::Tangent>> {
-        spatial::plane(model, y, trial, state)
+    fn respond(
+        model: &dyn Model,
+        y: f64,
+        trial: &Symmetric,
+        state: &State,
+        internal: &mut [f64],
+    ) -> Option<Spatial<Self::Tangent>> {
+        spatial::plane(model, y, trial, state, internal)
     }
 
     fn roots(t: &Symmetric) -> [f64; 3] {

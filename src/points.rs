@@ -1,53 +1,88 @@
 //! The material points: a struct of arrays.
 
+mod columns;
+
+pub use columns::{Column, Item, Maker, Merged, Numbers, PairVisitor, Presence, Type, Visitor, padded};
+
 use crate::kinematics::Kinematics;
-use crate::material::State;
+use crate::material::{Model, State, internal_count};
 use crate::mesh::height;
 use crate::tensor::{Symmetric, Tensor, full};
+use std::sync::Arc;
 
-/// All material points of a scene. Every column has one entry a point; `velocity` and `acceleration`
-/// are empty in a quasi-static analysis, `plastic_increment` in finite elements and before the first step, `memory` where no model does,
-/// `pressure` without a pressure field, `pore_pressure` without pore water, `model` where no phase changes a material.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Points<const D: usize> {
+/// Declares [`Points`] and the table of its columns: an entry is a field with its documentation, its type and its [`Column`].
+macro_rules! columns {
+    ($($(#[$about:meta])* $name:ident: [$item:ty] = $column:expr;)*) => {
+        /// All material points of a scene. Every column has one entry a point, `internal` and `fields` as many as the scene needs; a column that a
+        /// scene or its state does not need is empty.
+        #[derive(Clone, Debug, Default, PartialEq)]
+        pub struct Points<const D: usize> {
+            $($(#[$about])* pub $name: Vec<$item>,)*
+        }
+
+        impl<const D: usize> Points<D> {
+            /// Shows all columns to a visitor, in the order of the table.
+            pub fn each<'a>(&'a self, visitor: &mut impl Visitor<'a>) {
+                $(visitor.visit(&const { Column { name: stringify!($name), ..$column } }, &self.$name);)*
+            }
+
+            /// Shows all columns to a visitor, each with that of other points.
+            pub fn each_with(&mut self, other: &Self, visitor: &mut impl PairVisitor) {
+                $(visitor.visit(&const { Column { name: stringify!($name), ..$column } }, &mut self.$name, &other.$name);)*
+            }
+
+            /// Makes all columns, in the order of the table.
+            ///
+            /// # Errors
+            /// The first of `make`.
+            pub fn make<E>(maker: &mut impl Maker<Error = E>) -> std::result::Result<Self, E> {
+                Ok(Self { $($name: maker.make(&const { Column { name: stringify!($name), ..$column } })?,)* })
+            }
+        }
+    };
+}
+
+columns! {
     /// Position (m) at the last converged step.
-    pub position: Vec<[f64; D]>,
+    position: [[f64; D]] = Column::of("m").merged(Merged::ByMass);
     /// Position (m) at which the point was seeded; depth-dependent parameters are taken here.
-    pub origin: Vec<[f64; D]>,
+    origin: [[f64; D]] = Column::of("m").merged(Merged::ByMass);
     /// Position (m) that displacements are counted from, as of the last reset; empty before one: from the origin.
-    pub reference: Vec<[f64; D]>,
-    /// Velocity (m/s).
-    pub velocity: Vec<[f64; D]>,
-    /// Acceleration (m/s²).
-    pub acceleration: Vec<[f64; D]>,
+    reference: [[f64; D]] = Column::of("m").merged(Merged::ByMass).comes_and_goes().of_material_points();
+    /// Velocity (m/s); empty in a quasi-static analysis.
+    velocity: [[f64; D]] = Column::of("m/s").merged(Merged::ByMass).comes_and_goes().seeded().of_material_points();
+    /// Acceleration (m/s²); empty in a quasi-static analysis.
+    acceleration: [[f64; D]] = Column::of("m/s2").merged(Merged::ByMass).comes_and_goes().of_material_points();
     /// Mass (t), per metre in plane strain, per full turn (2π) in axisymmetry.
-    pub mass: Vec<f64>,
+    mass: [f64] = Column::of("t").merged(Merged::Sum);
     /// Volume (m³) when seeded, per metre in plane strain, per full turn (2π) in axisymmetry.
-    pub initial_volume: Vec<f64>,
+    initial_volume: [f64] = Column::of("m3").merged(Merged::Sum);
     /// Deformation gradient (-) since seeding.
-    pub deformation: Vec<Tensor>,
+    deformation: [Tensor] = Column::of("-");
     /// Elastic left Cauchy–Green tensor (-).
-    pub elastic: Vec<Symmetric>,
+    elastic: [Symmetric] = Column::of("-").of_material();
     /// Cauchy stress (kPa), tension positive, at the last converged step.
-    pub stress: Vec<Symmetric>,
+    stress: [Symmetric] = Column::of("kPa").of_material();
     /// Accumulated equivalent plastic strain (-).
-    pub plastic_strain: Vec<f64>,
-    /// What the last converged step added to it (-).
-    pub plastic_increment: Vec<f64>,
-    /// What hardens or softens the model of the point ([`crate::material::State::memory`]).
-    pub memory: Vec<f64>,
-    /// Kirchhoff mean stress (kPa), tension positive, that the pressure field carries.
-    pub pressure: Vec<f64>,
-    /// Excess pressure (kPa) of the water in the pores, compression positive, at the last converged step.
-    pub pore_pressure: Vec<f64>,
-    /// The values of the scalar fields of a scene ([`crate::step::Field`]), a column each.
-    pub fields: Vec<Vec<f64>>,
+    plastic_strain: [f64] = Column::of("-").merged(Merged::BySeededVolume).of_material();
+    /// What the last converged step added to it (-); empty in finite elements and before the first step.
+    plastic_increment: [f64] = Column::of("-").merged(Merged::BySeededVolume).comes_and_goes();
+    /// Internal variables of the models, as many numbers for each point as the model with most of them has
+    /// ([`crate::material::State::internal`]).
+    internal: [f64] = Column::of("-").merged(Merged::BySeededVolume).of_scene().several().of_material();
+    /// Kirchhoff mean stress (kPa), tension positive, that the pressure field carries; empty without one.
+    pressure: [f64] = Column::of("kPa").merged(Merged::BySeededVolume).of_scene().of_material();
+    /// Excess pressure (kPa) of the water in the pores, compression positive, at the last converged step; empty without pore water.
+    pore_pressure: [f64] = Column::of("kPa").merged(Merged::ByVolume).of_scene().seeded().of_material();
+    /// The values of the scalar fields of a scene ([`crate::step::Field`]), those of each point side by side; empty without any.
+    fields: [f64] = Column::of("-").merged(Merged::ByVolume).comes_and_goes().several().of_material_points();
     /// Index into the regions of the mesh.
-    pub region: Vec<u16>,
-    /// Number of the material among those of a scene: first one a region of the mesh, then one a change of it.
-    pub model: Vec<u16>,
+    region: [u16] = Column::of("-");
+    /// Number of the material among those of a scene: first one a region of the mesh, then one a change of it; empty where no
+    /// phase changes a material.
+    model: [u16] = Column::of("-").comes_and_goes();
     /// The cell that holds the point.
-    pub cell: Vec<u32>,
+    cell: [u32] = Column::of("-");
 }
 
 impl<const D: usize> Points<D> {
@@ -66,7 +101,7 @@ impl<const D: usize> Points<D> {
         std::array::from_fn(|d| self.position[p][d] - from[d])
     }
 
-    /// The height (m) at which point `p` was seeded: depth-dependent parameters are taken there.
+    /// Height (m) at which point `p` was seeded, by which depth-dependent parameters are taken.
     #[inline]
     pub fn seeded_height(&self, p: usize) -> f64 {
         height(&self.origin[p])
@@ -78,10 +113,51 @@ impl<const D: usize> Points<D> {
         usize::from(*self.model.get(p).unwrap_or(&self.region[p]))
     }
 
-    /// What the model of point `p` remembers, in a step of which `inverse_dt` (1/s) make a second; 0 at rest.
+    /// The state of point `p` for its model, in a step of which `inverse_dt` (1/s) make a second; 0 at rest.
     #[inline]
-    pub fn state(&self, p: usize, inverse_dt: f64) -> State {
-        State { plastic_strain: self.plastic_strain[p], memory: self.memory.get(p).copied().unwrap_or(0.0), inverse_dt }
+    pub fn state(&self, p: usize, inverse_dt: f64) -> State<'_> {
+        let (plastic_strain, internal) = (self.plastic_strain[p], self.internal_of(p));
+        State { plastic_strain, internal, inverse_dt, increment: None }
+    }
+
+    /// Numbers that each point has in `internal`.
+    #[inline]
+    pub fn internal_count(&self) -> usize {
+        if self.internal.is_empty() { 0 } else { self.internal.len() / self.len() }
+    }
+
+    /// The internal variables of point `p`.
+    #[inline]
+    pub fn internal_of(&self, p: usize) -> &[f64] {
+        let count = self.internal_count();
+        &self.internal[p * count..(p + 1) * count]
+    }
+
+    #[inline]
+    pub fn internal_mut(&mut self, p: usize) -> &mut [f64] {
+        let count = self.internal_count();
+        &mut self.internal[p * count..(p + 1) * count]
+    }
+
+    /// Gives the points the first values of the internal variables of their models, by number of the material.
+    pub fn begin(&mut self, models: &[Option<Arc<dyn Model>>]) {
+        let count = models.iter().flatten().map(|model| internal_count(model.as_ref())).max().unwrap_or(0);
+        self.internal = vec![0.0; count * self.len()];
+        for p in 0..self.len() {
+            if let Some(Some(model)) = models.get(self.model_of(p)) {
+                self.begin_internal(p, model.as_ref());
+            }
+        }
+    }
+
+    /// Gives point `p` the first values of the internal variables of a model.
+    pub fn begin_internal(&mut self, p: usize, model: &dyn Model) {
+        let y = self.seeded_height(p);
+        let internal = self.internal_mut(p);
+        internal.fill(0.0);
+        if !internal.is_empty() {
+            model.begin(y, internal);
+        }
     }
 
     /// Current volume (m³) of point `p`, by the measure of `initial_volume`.
@@ -91,30 +167,20 @@ impl<const D: usize> Points<D> {
 
     /// The points with the given numbers, in that order.
     pub fn select(&self, numbers: &[usize]) -> Self {
-        fn pick<T: Clone>(column: &[T], numbers: &[usize]) -> Vec<T> {
-            if column.is_empty() { Vec::new() } else { numbers.iter().map(|&p| column[p].clone()).collect() }
+        struct Pick<'a> {
+            numbers: &'a [usize],
+            count: usize,
         }
-        Self {
-            position: pick(&self.position, numbers),
-            origin: pick(&self.origin, numbers),
-            reference: pick(&self.reference, numbers),
-            velocity: pick(&self.velocity, numbers),
-            acceleration: pick(&self.acceleration, numbers),
-            mass: pick(&self.mass, numbers),
-            initial_volume: pick(&self.initial_volume, numbers),
-            deformation: pick(&self.deformation, numbers),
-            elastic: pick(&self.elastic, numbers),
-            stress: pick(&self.stress, numbers),
-            plastic_strain: pick(&self.plastic_strain, numbers),
-            plastic_increment: pick(&self.plastic_increment, numbers),
-            memory: pick(&self.memory, numbers),
-            pressure: pick(&self.pressure, numbers),
-            pore_pressure: pick(&self.pore_pressure, numbers),
-            fields: self.fields.iter().map(|column| pick(column, numbers)).collect(),
-            region: pick(&self.region, numbers),
-            model: pick(&self.model, numbers),
-            cell: pick(&self.cell, numbers),
+        impl PairVisitor for Pick<'_> {
+            fn visit<T: Item>(&mut self, _: &Column, own: &mut Vec<T>, other: &[T]) {
+                let width = columns::width(other, self.count);
+                own.reserve_exact(self.numbers.len() * width);
+                own.extend(self.numbers.iter().flat_map(|&p| &other[p * width..(p + 1) * width]));
+            }
         }
+        let mut selected = Self::default();
+        selected.each_with(self, &mut Pick { numbers, count: self.len() });
+        selected
     }
 
     /// Splits point `p` into halves at `by` and `-by` (m) from it; that at `-by` keeps its number. They have its state and its velocity, and half of its mass
@@ -131,7 +197,7 @@ impl<const D: usize> Points<D> {
         let seeded = seeded.map(|s| s * (0.25 * width / length.max(0.25 * width)));
         let other = self.select(&[p]);
         let q = self.len();
-        self.append(other);
+        self.append(&other);
         for (half, sign) in [(q, 1.0), (p, -1.0)] {
             for d in 0..D {
                 self.position[half][d] += sign * by[d];
@@ -155,26 +221,8 @@ impl<const D: usize> Points<D> {
         // Without mass, by volume.
         let by_mass = if mass > 0.0 { self.mass[q] / mass } else { share };
         let by_volume = self.volume(q) / volume;
-        let mix = |share: f64, a: f64, b: f64| a + share * (b - a);
-        let vectors = |of: &[[f64; D]]| -> Vec<[f64; D]> {
-            let one = |p: &[f64; D], q: &[f64; D]| std::array::from_fn(|d| mix(by_mass, p[d], q[d]));
-            of.get(p).map(|at| one(at, &of[q])).into_iter().collect()
-        };
-        let scalars =
-            |of: &[f64], share: f64| -> Vec<f64> { of.get(p).map(|&at| mix(share, at, of[q])).into_iter().collect() };
-        one.position = vectors(&self.position);
-        one.origin = vectors(&self.origin);
-        one.reference = vectors(&self.reference);
-        one.velocity = vectors(&self.velocity);
-        one.acceleration = vectors(&self.acceleration);
-        one.mass = vec![mass];
-        one.initial_volume = vec![initial_volume];
-        one.plastic_strain = scalars(&self.plastic_strain, share);
-        one.plastic_increment = scalars(&self.plastic_increment, share);
-        one.memory = scalars(&self.memory, share);
-        one.pressure = scalars(&self.pressure, share);
-        one.pore_pressure = scalars(&self.pore_pressure, by_volume);
-        one.fields = self.fields.iter().map(|column| scalars(column, by_volume)).collect();
+        let mut merge = Merge { q, count: self.len(), by_mass, by_seeded_volume: share, by_volume };
+        one.each_with(self, &mut merge);
         let mean = self.deformation[p] + (self.deformation[q] - self.deformation[p]) * share;
         // Points that have turned against each other have no mean: the larger one's then.
         let larger = if share > 0.5 { q } else { p };
@@ -199,26 +247,33 @@ impl<const D: usize> Points<D> {
     }
 
     /// Puts `other` behind these points; both have the same columns.
-    pub fn append(&mut self, mut other: Self) {
-        self.position.append(&mut other.position);
-        self.origin.append(&mut other.origin);
-        self.reference.append(&mut other.reference);
-        self.velocity.append(&mut other.velocity);
-        self.acceleration.append(&mut other.acceleration);
-        self.mass.append(&mut other.mass);
-        self.initial_volume.append(&mut other.initial_volume);
-        self.deformation.append(&mut other.deformation);
-        self.elastic.append(&mut other.elastic);
-        self.stress.append(&mut other.stress);
-        self.plastic_strain.append(&mut other.plastic_strain);
-        self.plastic_increment.append(&mut other.plastic_increment);
-        self.memory.append(&mut other.memory);
-        self.pressure.append(&mut other.pressure);
-        self.pore_pressure.append(&mut other.pore_pressure);
-        self.fields.iter_mut().zip(&mut other.fields).for_each(|(own, other)| own.append(other));
-        self.region.append(&mut other.region);
-        self.model.append(&mut other.model);
-        self.cell.append(&mut other.cell);
+    pub fn append(&mut self, other: &Self) {
+        struct Append;
+        impl PairVisitor for Append {
+            fn visit<T: Item>(&mut self, _: &Column, own: &mut Vec<T>, other: &[T]) {
+                own.extend_from_slice(other);
+            }
+        }
+        self.each_with(other, &mut Append);
+    }
+
+    /// Gives point `p` the state of the material at point `q` of `other`, but for the deformation.
+    pub fn take_state(&mut self, p: usize, other: &Self, q: usize) {
+        struct Take {
+            places: [usize; 2],
+            counts: [usize; 2],
+        }
+        impl PairVisitor for Take {
+            fn visit<T: Item>(&mut self, column: &Column, own: &mut Vec<T>, other: &[T]) {
+                let width = columns::width(own, self.counts[0]);
+                if column.of_material && width == columns::width(other, self.counts[1]) {
+                    let [p, q] = self.places.map(|place| place * width..(place + 1) * width);
+                    own[p].copy_from_slice(&other[q]);
+                }
+            }
+        }
+        let counts = [self.len(), other.len()];
+        self.each_with(other, &mut Take { places: [p, q], counts });
     }
 
     /// Checks points from a file, whose numbers are finite: that they are in regions and cells that exist, and that each
@@ -249,6 +304,30 @@ impl<const D: usize> Points<D> {
             };
             Err(format!("{} {wrong}", self.name(p)))
         })
+    }
+}
+
+/// Merges point `q` of `count` into one that has the columns of another, given the shares of `q`.
+struct Merge {
+    q: usize,
+    count: usize,
+    by_mass: f64,
+    by_seeded_volume: f64,
+    by_volume: f64,
+}
+
+impl PairVisitor for Merge {
+    fn visit<T: Item>(&mut self, column: &Column, own: &mut Vec<T>, other: &[T]) {
+        let width = columns::width(other, self.count);
+        let values = own.iter_mut().zip(&other[self.q * width..(self.q + 1) * width]);
+        let share = match column.merged {
+            Merged::First => return,
+            Merged::Sum => return values.for_each(|(own, other)| *own = own.plus(other)),
+            Merged::ByMass => self.by_mass,
+            Merged::BySeededVolume => self.by_seeded_volume,
+            Merged::ByVolume => self.by_volume,
+        };
+        values.for_each(|(own, other)| *own = own.mixed(share, other));
     }
 }
 

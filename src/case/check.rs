@@ -317,6 +317,12 @@ impl Checker {
             let path = root.key("output").key("fields").index(i);
             self.issue(&path, At::Value, "no material is undrained", "take it out, or set `drainage: undrained`");
         }
+        let variables = case.materials.iter().any(|m| !m.model.internal_variables().is_empty());
+        let wanted = case.output.fields.iter().position(|f| *f == Field::InternalVariables);
+        if let Some(i) = wanted.filter(|_| !variables) {
+            let path = root.key("output").key("fields").index(i);
+            self.issue(&path, At::Value, "no material has internal variables", "take it out");
+        }
         let unused =
             file.numerics.pressure == Some(raw::Pressure::Field) && case.materials.iter().all(|m| m.carried.is_none());
         if unused && self.issues.is_empty() {

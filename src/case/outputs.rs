@@ -1,6 +1,6 @@
 //! What a case asks to be written, in the terms of a run.
 
-use super::changes::carried;
+use super::changes::{by_number, carried};
 use super::checked::{Case, Field, History, Quantity, Until};
 use super::find::region_index;
 use super::{pores, rigid, water};
@@ -8,7 +8,7 @@ use crate::error::Result;
 use crate::io::provenance::Origin;
 use crate::io::run_folder::RunFolder;
 use crate::rigid::Body;
-use crate::run::{self, Outputs, Watch, WatchedOn};
+use crate::run::{self, InternalVariable, Outputs, Watch, WatchedOn};
 use crate::step::Scene;
 
 /// The outputs of a case, and the `warnings` that its run begins with.
@@ -28,14 +28,19 @@ pub fn outputs(
         let field = match field {
             Field::Displacement => run::Field::Displacement,
             Field::Velocity => run::Field::Velocity,
-            Field::Stress | Field::MeanStress | Field::DeviatoricStress => run::Field::Stress,
-            Field::PlasticStrain => run::Field::PlasticStrain,
+            Field::Stress | Field::MeanStress | Field::DeviatoricStress => run::Field::Column("stress"),
+            Field::PlasticStrain => run::Field::Column("plastic_strain"),
             Field::DeformationGradient => run::Field::DeformationGradient,
             Field::PorePressure => run::Field::PorePressure(carried(case, mesh)?),
-            Field::Mass => run::Field::Mass,
+            Field::Mass => run::Field::Column("mass"),
+            Field::InternalVariables => {
+                let models = by_number(case, mesh, |material| Some(material.model.clone()))?;
+                run::Field::InternalVariables(InternalVariable::all(&models))
+            }
         };
         // Invariants come with the stress.
-        if !(matches!(field, run::Field::Stress) && fields.iter().any(|f| matches!(f, run::Field::Stress))) {
+        let is_stress = |field: &run::Field| matches!(field, run::Field::Column("stress"));
+        if !(is_stress(&field) && fields.iter().any(is_stress)) {
             fields.push(field);
         }
     }

@@ -74,11 +74,9 @@ pub fn first(case: &Case, scene: &Scene<2>, [mut points, mut fem]: [Points<2>; 2
         begin_pressure(case, &scene.mesh, &mut points)?;
         begin_pressure(case, &scene.mesh, &mut fem)?;
     }
-    if case.materials.iter().any(|material| material.model.remembers()) {
-        for points in [&mut points, &mut fem] {
-            points.memory = vec![0.0; points.len()];
-        }
-    }
+    let models = changes::by_number(case, &scene.mesh, |material| Some(material.model.clone()))?;
+    points.begin(&models);
+    fem.begin(&models);
     if scene.water.is_some() {
         // Without an initial pressure there is none.
         points.pore_pressure.resize(points.len(), 0.0);

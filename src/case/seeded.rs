@@ -5,7 +5,7 @@ use super::find::filled;
 use crate::error::{Error, Result};
 use crate::mesh::Mesh;
 use crate::mesh::locate::Locator;
-use crate::points::Points;
+use crate::points::{Column, Item, Points, Visitor};
 use rayon::prelude::*;
 
 /// What rounding and the inversion of a curved cell leave of a parametric place (-).
@@ -26,16 +26,18 @@ pub fn check(case: &Case, mesh: &Mesh<2>, points: &Points<2>) -> Result<()> {
     if let Some(p) = (0..points.len()).find(stray) {
         return Err(foreign(format!("{} is in a region that is not that of its cell, or holds none", points.name(p))));
     }
-    let of_the_analysis = [
-        ("reference", points.reference.is_empty()),
-        ("acceleration", points.acceleration.is_empty()),
-        ("plastic_increment", points.plastic_increment.is_empty()),
-        ("memory", points.memory.is_empty()),
-        ("pressure", points.pressure.is_empty()),
-        ("model", points.model.is_empty()),
-    ];
-    match of_the_analysis.iter().find(|(_, absent)| !absent) {
-        Some((name, _)) => Err(foreign(format!("it has a column `{name}`, which seeding does not write"))),
+    struct OfTheAnalysis(Option<&'static str>);
+    impl Visitor<'_> for OfTheAnalysis {
+        fn visit<T: Item>(&mut self, column: &'static Column, values: &[T]) {
+            if !column.seeded && !values.is_empty() {
+                self.0.get_or_insert(column.name);
+            }
+        }
+    }
+    let mut found = OfTheAnalysis(None);
+    points.each(&mut found);
+    match found.0 {
+        Some(name) => Err(foreign(format!("it has a column `{name}`, which seeding does not write"))),
         None => Ok(()),
     }
 }

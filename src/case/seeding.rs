@@ -61,7 +61,8 @@ pub fn notes(case: &Case, mesh: &Mesh<2>, points: &Points<2>) -> Result<Vec<Stri
             let [x, y] = points.origin[*found.first()?];
             Some(format!("{} of its {} points, such as that at [{x:.4}, {y:.4}] m", found.len(), of.len()))
         };
-        let beyond = |&p: &usize| is_beyond_yield(material.model.as_ref(), height(p), &stress(p), &State::default());
+        let at_first = State::default();
+        let beyond = |&p: &usize| is_beyond_yield(material.model.as_ref(), height(p), &points.stress[p], &at_first);
         let beyond: Vec<usize> = of.iter().copied().filter(beyond).collect();
         if let Some(told) = told(&beyond) {
             notes.push(format!(

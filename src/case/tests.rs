@@ -223,6 +223,7 @@ fn contradictions_about_drainage_are_told() {
         (&["materials.clay.drainage=undrained", "materials.clay.undrained_poisson=0.3"], "undrained_poisson"),
         (&["materials.clay.drainage=undrained", "numerics.pressure=none"], "drainage"),
         (&["output.fields=[pore_pressure]"], "fields"),
+        (&["output.fields=[internal_variables]"], "fields"),
         (&["materials.clay.permeability=1e-8"], "permeability"),
         (
             &["materials.clay.drainage=undrained", "materials.clay.poisson=0.3", "materials.clay.permeability=-1"],

@@ -131,6 +131,11 @@ impl Store {
         self.texts.get(name).map(String::as_str).ok_or_else(|| self.missing("text", name))
     }
 
+    /// Numbers in a tuple of an array, if there is one of this name.
+    pub(super) fn components(&self, name: &str) -> Option<usize> {
+        self.arrays.iter().find(|array| array.name == name).map(|array| array.components)
+    }
+
     /// Takes the numbers of an array out of the store.
     ///
     /// # Errors

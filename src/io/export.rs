@@ -230,7 +230,8 @@ fn file_name(series: &str, index: usize) -> String {
 fn check_fields(path: &Path, frame: &Frame, fields: &[String]) -> Result<()> {
     let parts = [&frame.points, &frame.grid, &frame.elements];
     let has = |name: &str| parts.iter().any(|part| column(part, name).is_some());
-    let Some(missing) = fields.iter().find(|name| !has(name)) else { return Ok(()) };
+    let given = |name: &String| parts.iter().any(|part| !select(part, std::slice::from_ref(name)).is_empty());
+    let Some(missing) = fields.iter().find(|name| !given(name)) else { return Ok(()) };
     let names = parts.iter().flat_map(|part| &part.columns).map(|c| c.name.as_str());
     let names = names.filter(|name| ![frame::CELL, frame::UNCOUNTED].contains(name));
     let mut names: Vec<_> =

@@ -63,6 +63,9 @@ pub struct Frame {
 /// The column of [`Frame::elements`] that tells the cells.
 pub const CELL: &str = "cell";
 
+/// The field of the internal variables of the models; the column of each is this, a point and its name.
+pub const INTERNAL: &str = "internal_variables";
+
 /// The column of [`Frame::grid`] that tells what of the way of a node displacements are not counted from; absent before a
 /// phase resets them, and without finite elements.
 pub const UNCOUNTED: &str = "uncounted";

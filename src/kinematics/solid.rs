@@ -22,8 +22,14 @@ impl Kinematics<3> for ThreeD {
     type Column = [[f64; 3]; 9];
     const HOOP: bool = false;
 
-    fn respond(model: &dyn Model, y: f64, trial: &Symmetric, state: &State) -> Option<Spatial<Self::Tangent>> {
-        spatial::solid(model, y, trial, state)
+    fn respond(
+        model: &dyn Model,
+        y: f64,
+        trial: &Symmetric,
+        state: &State,
+        internal: &mut [f64],
+    ) -> Option<Spatial<Self::Tangent>> {
+        spatial::solid(model, y, trial, state, internal)
     }
 
     fn roots(t: &Symmetric) -> [f64; 3] {
@@ -123,8 +129,8 @@ mod tests {
         plane: impl Fn(&mut Spatial<<PlaneStrain as Kinematics<2>>::Tangent>),
     ) {
         for model in models() {
-            let mut a = ThreeD::respond(model.as_ref(), 0.0, &TRIAL, &State::default()).unwrap();
-            let mut b = PlaneStrain::respond(model.as_ref(), 0.0, &TRIAL, &State::default()).unwrap();
+            let mut a = ThreeD::respond(model.as_ref(), 0.0, &TRIAL, &State::default(), &mut []).unwrap();
+            let mut b = PlaneStrain::respond(model.as_ref(), 0.0, &TRIAL, &State::default(), &mut []).unwrap();
             solid(&mut a);
             plane(&mut b);
             for (row, i) in IN_PLANE.into_iter().enumerate() {
@@ -174,7 +180,7 @@ mod tests {
         let trial: Symmetric = [1.2, 0.9, 1.05, 0.1, -0.15, 0.07];
         let turned = symmetric(&(q * full(&trial) * q.transpose()));
         for model in models() {
-            let answer = |b: &Symmetric| ThreeD::respond(model.as_ref(), 0.0, b, &State::default()).unwrap();
+            let answer = |b: &Symmetric| ThreeD::respond(model.as_ref(), 0.0, b, &State::default(), &mut []).unwrap();
             let (mut here, there) = (answer(&trial), answer(&turned));
             ThreeD::convect(&mut here, &q);
             for (a, b) in here.tangent.as_flattened().iter().zip(there.tangent.as_flattened()) {

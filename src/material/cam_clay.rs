@@ -33,7 +33,7 @@ pub use bulk::Swelling;
 pub use parameters::KIND;
 
 use super::model::equivalent_plastic;
-use super::{Elasticity, Model, Moduli, Profile, Response, State};
+use super::{Elasticity, Law, Model, Moduli, PrincipalModel, Profile, Response, State, Variable, VariableKind};
 use crate::error::{Error, Result};
 use bulk::Bulk;
 use std::sync::Arc;
@@ -46,6 +46,9 @@ const LEAST: f64 = 1e-12;
 const LOWEST: f64 = -60.0;
 /// Iterations of a search that halving ends.
 const ITERATIONS: usize = 200;
+
+const VARIABLES: [Variable; 1] =
+    [Variable { name: "plastic_volume_strain", unit: "-", kind: VariableKind::Scalar, initial: 0.0 }];
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CamClay {
@@ -177,6 +180,11 @@ fn bisect(low: &mut f64, high: &mut f64, tolerance: f64, f: impl Fn(f64) -> (f64
     x
 }
 
+/// The plastic volume strain (-) in a state, positive in compression.
+fn compressed(state: &State) -> f64 {
+    state.internal.first().copied().unwrap_or(0.0)
+}
+
 impl CamClay {
     /// Clay of constant moduli.
     ///
@@ -228,9 +236,9 @@ impl CamClay {
         }
     }
 
-    /// p_c (kPa) as a step begins.
-    fn size(&self, y: f64, state: &State) -> f64 {
-        self.preconsolidation.at(y) * (state.memory / self.compressibility).exp().max(LEAST)
+    /// p_c (kPa) after a plastic volume strain.
+    fn size(&self, y: f64, strain: f64) -> f64 {
+        self.preconsolidation.at(y) * (strain / self.compressibility).exp().max(LEAST)
     }
 
     /// The yield function over p_c (kPa).
@@ -239,13 +247,13 @@ impl CamClay {
     }
 }
 
-impl Model for CamClay {
-    fn respond(&self, y: f64, trial: &[f64; 3], state: &State) -> Response {
+impl PrincipalModel for CamClay {
+    fn respond(&self, y: f64, trial: &[f64; 3], state: &State, internal: &mut [f64]) -> Response {
         let moduli = self.elasticity.at(y);
         let volumetric = trial[0] + trial[1] + trial[2];
         let e = trial.map(|x| x - volumetric / 3.0);
         let norm = (e[0] * e[0] + e[1] * e[1] + e[2] * e[2]).sqrt();
-        let (bulk, shear) = (self.bulk(y, &moduli), moduli.shear);
+        let (bulk, shear, before) = (self.bulk(y, &moduli), moduli.shear, internal[0]);
         let t = Trial {
             bulk,
             rigidity: shear,
@@ -254,7 +262,7 @@ impl Model for CamClay {
             strain: -volumetric,
             pressure: bulk.pressure(-volumetric),
             shear: 2.0 * shear * 1.5f64.sqrt() * norm,
-            size: self.size(y, state),
+            size: self.size(y, before),
         };
         if self.excess(t.pressure, t.shear, t.size) <= TOLERANCE * t.size {
             return match bulk {
@@ -270,14 +278,12 @@ impl Model for CamClay {
         let (p, size) = (t.pressure_at(x), t.size_at(x));
         if size <= LEAST * self.preconsolidation.at(y) {
             // Nothing is left of the surface.
-            let memory = self.compressibility * LEAST.ln();
-            let plastic_strain = state.plastic_strain + equivalent_plastic(trial);
-            let state = State { plastic_strain, memory, ..*state };
+            internal[0] = self.compressibility * LEAST.ln();
             return Response {
                 stress: [0.0; 3],
                 tangent: [[0.0; 3]; 3],
                 elastic_strain: [0.0; 3],
-                state,
+                plastic_strain: state.plastic_strain + equivalent_plastic(trial),
                 yielding: true,
             };
         }
@@ -324,17 +330,26 @@ impl Model for CamClay {
             Some(_) => e.map(|x| kept * x - t.bulk.strain(p) / 3.0),
         };
         let plastic = std::array::from_fn(|k| trial[k] - elastic_strain[k]);
+        internal[0] = before.max(self.compressibility * LEAST.ln()) + x;
         Response {
             stress,
             tangent,
             elastic_strain,
-            state: State {
-                plastic_strain: state.plastic_strain + equivalent_plastic(&plastic),
-                memory: state.memory.max(self.compressibility * LEAST.ln()) + x,
-                ..*state
-            },
+            plastic_strain: state.plastic_strain + equivalent_plastic(&plastic),
             yielding: true,
         }
+    }
+
+    fn yield_excess(&self, y: f64, stress: &[f64; 3], state: &State) -> f64 {
+        let [a, b, c] = stress;
+        let q = (0.5 * ((a - b).powi(2) + (b - c).powi(2) + (c - a).powi(2))).sqrt();
+        self.excess(-(a + b + c) / 3.0, q, self.size(y, compressed(state)))
+    }
+}
+
+impl Model for CamClay {
+    fn law(&self) -> Law<'_> {
+        Law::Principal(self)
     }
 
     fn elasticity(&self) -> &Elasticity {
@@ -383,19 +398,13 @@ impl Model for CamClay {
         false
     }
 
-    fn remembers(&self) -> bool {
-        true
-    }
-
-    fn yield_excess(&self, y: f64, stress: &[f64; 3], state: &State) -> f64 {
-        let [a, b, c] = stress;
-        let q = (0.5 * ((a - b).powi(2) + (b - c).powi(2) + (c - a).powi(2))).sqrt();
-        self.excess(-(a + b + c) / 3.0, q, self.size(y, state))
+    fn internal_variables(&self) -> &[Variable] {
+        &VARIABLES
     }
 
     fn shear_strength(&self, y: f64, state: &State) -> f64 {
         // q = M p at p = p_c/2, where yield does not change the volume; in simple shear it is √3 times the shear stress.
-        self.slope * 0.5 * self.size(y, state) / 3f64.sqrt()
+        self.slope * 0.5 * self.size(y, compressed(state)) / 3f64.sqrt()
     }
 
     fn reduced(&self, factor: f64) -> Arc<dyn Model> {

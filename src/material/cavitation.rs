@@ -11,7 +11,7 @@
 //! models are Kirchhoff stresses: soil that is stretched by voids loses `4/3 s_u/J` of what it bears beyond its mean stress. `k` makes up for more than that, or the
 //! voids of soil in uniform tension would gather in one place. Models are those whose yield and flow do not know the mean stress.
 
-use super::{Elasticity, Model, Parameter, Parameters, Profile, Response, State};
+use super::{Elasticity, Law, Model, Parameter, Parameters, PrincipalModel, Profile, Response, State, Variable};
 use crate::error::{Error, Result};
 use std::sync::Arc;
 
@@ -85,9 +85,11 @@ impl Volumetric {
 }
 
 /// A model with a limit of the mean stress in tension.
-pub struct Cavitating {
-    model: Arc<dyn Model>,
+pub struct Cavitating<M> {
+    model: M,
     limit: Profile,
+    /// [`Model::reduced`] of the model.
+    reduced: fn(&M, f64) -> M,
 }
 
 /// The name of the limit among the parameters of a model.
@@ -102,24 +104,28 @@ pub const PARAMETER: Parameter = Parameter {
     meaning: "largest mean stress in tension, at which the soil cavitates: its volume grows and closes again; no limit if not given",
 };
 
-/// `model` with the limit that its parameters have, if they have one.
+/// `model`, that `reduced` divides the strengths of, with the limit that its parameters have, if they have one.
 ///
 /// # Errors
 /// Unless the limit is positive and less than a quarter of the bulk modulus, at its datum.
-pub fn limited(model: impl Model + 'static, parameters: &Parameters) -> Result<Arc<dyn Model>> {
+pub fn limited<M: PrincipalModel + 'static>(
+    model: M,
+    reduced: fn(&M, f64) -> M,
+    parameters: &Parameters,
+) -> Result<Arc<dyn Model>> {
     match parameters.optional(NAME) {
         None => Ok(Arc::new(model)),
         Some(limit) => {
-            let limited = Cavitating { model: Arc::new(model), limit };
+            let limited = Cavitating { model, limit, reduced };
             limited.check_limit(limit.datum)?;
             Ok(Arc::new(limited))
         }
     }
 }
 
-impl Cavitating {
+impl<M: PrincipalModel> Cavitating<M> {
     fn law(&self, y: f64) -> Volumetric {
-        Volumetric::of(self.model.as_ref(), self.model.elasticity().at(y).bulk(), self.limit.at(y), y)
+        Volumetric::of(&self.model, self.model.elasticity().at(y).bulk(), self.limit.at(y), y)
     }
 
     fn check_limit(&self, y: f64) -> Result<()> {
@@ -133,9 +139,9 @@ impl Cavitating {
     }
 }
 
-impl Model for Cavitating {
-    fn respond(&self, y: f64, trial: &[f64; 3], state: &State) -> Response {
-        let mut response = self.model.respond(y, trial, state);
+impl<M: PrincipalModel + 'static> PrincipalModel for Cavitating<M> {
+    fn respond(&self, y: f64, trial: &[f64; 3], state: &State, internal: &mut [f64]) -> Response {
+        let mut response = self.model.respond(y, trial, state, internal);
         let (law, strain) = (self.law(y), trial.iter().sum::<f64>());
         if law.bulk * strain > law.limit {
             let [stress, slope] = law.stress(strain);
@@ -143,6 +149,16 @@ impl Model for Cavitating {
             response.tangent.iter_mut().flatten().for_each(|entry| *entry += slope - law.bulk);
         }
         response
+    }
+
+    fn yield_excess(&self, y: f64, stress: &[f64; 3], state: &State) -> f64 {
+        self.model.yield_excess(y, stress, state)
+    }
+}
+
+impl<M: PrincipalModel + 'static> Model for Cavitating<M> {
+    fn law(&self) -> Law<'_> {
+        Law::Principal(self)
     }
 
     fn elasticity(&self) -> &Elasticity {
@@ -153,12 +169,12 @@ impl Model for Cavitating {
         self.model.symmetric()
     }
 
-    fn remembers(&self) -> bool {
-        self.model.remembers()
+    fn internal_variables(&self) -> &[Variable] {
+        self.model.internal_variables()
     }
 
-    fn yield_excess(&self, y: f64, stress: &[f64; 3], state: &State) -> f64 {
-        self.model.yield_excess(y, stress, state)
+    fn begin(&self, y: f64, internal: &mut [f64]) {
+        self.model.begin(y, internal);
     }
 
     fn shear_strength(&self, y: f64, state: &State) -> f64 {
@@ -171,7 +187,7 @@ impl Model for Cavitating {
     }
 
     fn reduced(&self, factor: f64) -> Arc<dyn Model> {
-        Arc::new(Self { model: self.model.reduced(factor), limit: self.limit })
+        Arc::new(Self { model: (self.reduced)(&self.model, factor), ..*self })
     }
 
     fn mean_stress(&self, y: f64, volume_strain: f64) -> f64 {

@@ -12,7 +12,7 @@
 //! # Ok::<(), mpm::error::Error>(())
 //! ```
 
-use super::{Model, Response, State};
+use super::{PrincipalModel, Response, State, Variable};
 use crate::error::{Error, Result};
 use nalgebra::{Matrix3, Vector3};
 
@@ -32,7 +32,11 @@ const ITERATIONS: usize = 50;
 ///
 /// # Errors
 /// If the prescribed stresses cannot be reached, beyond the strength for example.
-pub fn drive(model: &dyn Model, y: f64, path: impl IntoIterator<Item = [Control; 3]>) -> Result<Vec<Response>> {
+pub fn drive(
+    model: &dyn PrincipalModel,
+    y: f64,
+    path: impl IntoIterator<Item = [Control; 3]>,
+) -> Result<Vec<Response>> {
     drive_from(model, y, [0.0; 3], path)
 }
 
@@ -41,13 +45,15 @@ pub fn drive(model: &dyn Model, y: f64, path: impl IntoIterator<Item = [Control;
 /// # Errors
 /// As [`drive`].
 pub fn drive_from(
-    model: &dyn Model,
+    model: &dyn PrincipalModel,
     y: f64,
     mut elastic: [f64; 3],
     path: impl IntoIterator<Item = [Control; 3]>,
 ) -> Result<Vec<Response>> {
     let mut history = Vec::new();
-    let (mut strain, mut state) = ([0.0; 3], State::default());
+    let (mut strain, mut plastic_strain) = ([0.0; 3], 0.0);
+    let mut internal = vec![0.0; model.internal_variables().iter().map(Variable::components).sum()];
+    model.begin(y, &mut internal);
     for (number, controls) in path.into_iter().enumerate() {
         let mut increment = [0.0; 3];
         for k in 0..3 {
@@ -55,17 +61,20 @@ pub fn drive_from(
                 increment[k] = target - strain[k];
             }
         }
-        let response = step(model, y, &controls, &elastic, &state, &mut increment).ok_or_else(|| {
-            Error::analysis(
-                format!("material driver, step {number}"),
-                format!("no strain gives {controls:?}"),
-                "take smaller steps, or stresses within the strength",
-            )
-        })?;
+        let before = internal.clone();
+        let state = State { plastic_strain, internal: &before, ..State::default() };
+        let response =
+            step(model, y, &controls, &elastic, &state, (&mut increment, &mut internal)).ok_or_else(|| {
+                Error::analysis(
+                    format!("material driver, step {number}"),
+                    format!("no strain gives {controls:?}"),
+                    "take smaller steps, or stresses within the strength",
+                )
+            })?;
         for k in 0..3 {
             strain[k] += increment[k];
         }
-        (elastic, state) = (response.elastic_strain, response.state);
+        (elastic, plastic_strain) = (response.elastic_strain, response.plastic_strain);
         history.push(response);
     }
     Ok(history)
@@ -73,17 +82,18 @@ pub fn drive_from(
 
 /// Newton's method for the strains of the axes whose stress is prescribed.
 fn step(
-    model: &dyn Model,
+    model: &dyn PrincipalModel,
     y: f64,
     controls: &[Control; 3],
     elastic: &[f64; 3],
     state: &State,
-    increment: &mut [f64; 3],
+    (increment, internal): (&mut [f64; 3], &mut [f64]),
 ) -> Option<Response> {
     let tolerance = 1e-12 * model.young(y);
     for _ in 0..ITERATIONS {
         let trial = std::array::from_fn(|k| elastic[k] + increment[k]);
-        let response = model.respond(y, &trial, state);
+        internal.copy_from_slice(state.internal);
+        let response = model.respond(y, &trial, state, internal);
         let mut residual = Vector3::zeros();
         let mut tangent = Matrix3::identity();
         for a in 0..3 {

@@ -1,6 +1,6 @@
 //! Hencky elasticity without yield.
 
-use super::{Elasticity, Kind, Model, Parameter, Parameters, Response, State};
+use super::{Elasticity, Kind, Law, Model, Parameter, Parameters, PrincipalModel, Response, State};
 use crate::error::Result;
 use std::sync::Arc;
 
@@ -35,9 +35,19 @@ impl LinearElastic {
     }
 }
 
-impl Model for LinearElastic {
-    fn respond(&self, y: f64, trial: &[f64; 3], state: &State) -> Response {
+impl PrincipalModel for LinearElastic {
+    fn respond(&self, y: f64, trial: &[f64; 3], state: &State, _: &mut [f64]) -> Response {
         Response::elastic(&self.elasticity.at(y), trial, state)
+    }
+
+    fn yield_excess(&self, _: f64, _: &[f64; 3], _: &State) -> f64 {
+        f64::NEG_INFINITY
+    }
+}
+
+impl Model for LinearElastic {
+    fn law(&self) -> Law<'_> {
+        Law::Principal(self)
     }
 
     fn elasticity(&self) -> &Elasticity {
@@ -46,10 +56,6 @@ impl Model for LinearElastic {
 
     fn symmetric(&self) -> bool {
         true
-    }
-
-    fn yield_excess(&self, _: f64, _: &[f64; 3], _: &State) -> f64 {
-        f64::NEG_INFINITY
     }
 
     fn shear_strength(&self, _: f64, _: &State) -> f64 {

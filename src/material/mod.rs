@@ -1,10 +1,11 @@
 //! Material models: pure functions from elastic trial strain to stress, tangent and new state.
 //!
-//! All work in principal axes of the elastic trial left Cauchy–Green tensor with Hencky strains
+//! Those of the list work in principal axes of the elastic trial left Cauchy–Green tensor with Hencky strains
 //! `ε_A = ½ ln b_A` and Kirchhoff stresses `τ_A`: the return maps are those of small strain theory.
 //!
-//! A model is a file with its [`Kind`] and one line in [`MODELS`]; the shared tests find it there. It may remember one number
-//! a point ([`State::memory`]).
+//! A model is a file with its [`Kind`] and one line in [`MODELS`]; the shared tests find it there. It may have any number of internal
+//! variables ([`Model::internal_variables`]). One that depends on directions, as of a back stress, responds to the strain tensor
+//! ([`TensorModel`]).
 
 pub mod cam_clay;
 pub mod cavitation;
@@ -19,13 +20,17 @@ pub mod profile;
 pub mod softening_tresca;
 pub mod spatial;
 pub mod spectral;
+pub mod tensor_law;
 pub mod tresca;
 pub mod von_mises;
 
 pub use cam_clay::{CamClay, Swelling};
 pub use elasticity::{Elasticity, Moduli};
 pub use linear_elastic::LinearElastic;
-pub use model::{Model, Response, State, is_beyond_yield, odd_poisson, on_poisson};
+pub use model::{
+    Law, Model, PrincipalModel, Response, State, TensorModel, TensorResponse, Variable, VariableKind, internal_count,
+    is_beyond_yield, odd_poisson, on_poisson, yield_excess,
+};
 pub use mohr_coulomb::{Friction, MohrCoulomb};
 pub use parameters::{Kind, Parameter, Parameters};
 pub use profile::Profile;

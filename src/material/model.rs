@@ -1,21 +1,52 @@
 //! What a material model answers to, and what it may be asked.
 
 use super::elasticity::{Elasticity, Moduli};
+use super::spectral;
 use crate::error::Result;
+use crate::tensor::{Symmetric, Tensor};
 use std::ops::RangeInclusive;
 use std::sync::Arc;
 
-/// What a model remembers at a point from step to step.
+/// An internal variable of a model: a quantity that a point carries from step to step.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Variable {
+    pub name: &'static str,
+    pub unit: &'static str,
+    pub kind: VariableKind,
+    /// Its first value, see [`Model::begin`]; of a tensor its normal components.
+    pub initial: f64,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum VariableKind {
+    Scalar,
+    /// A symmetric tensor that turns with the material, by the rotation of each step.
+    Tensor,
+}
+
+impl Variable {
+    /// Numbers that a point carries of it; those of a tensor are in the order of [`Symmetric`].
+    pub fn components(&self) -> usize {
+        match self.kind {
+            VariableKind::Scalar => 1,
+            VariableKind::Tensor => 6,
+        }
+    }
+}
+
+/// The state of a point as a step begins.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct State {
+pub struct State<'a> {
     /// Accumulated equivalent plastic strain (-): the sum of `√(⅔ Δε_p:Δε_p)` over the steps, `Δε_p` the
     /// plastic Hencky strain of a step with its volumetric part.
     pub plastic_strain: f64,
-    /// What hardens or softens the model, 0 at first: its own quantity, if [`Model::remembers`].
-    pub memory: f64,
-    /// Steps a second (1/s), which is no memory but comes along: one over the size of the step in hand, 0 where time plays no
-    /// part.
+    /// The internal variables one after the other, in the order of [`Model::internal_variables`], and perhaps numbers that are
+    /// of no meaning behind them; empty for the first values.
+    pub internal: &'a [f64],
+    /// Steps a second (1/s): one over the size of the step in hand, 0 where time plays no part.
     pub inverse_dt: f64,
+    /// The deformation of the step, which turns tensors; none where nothing turns.
+    pub increment: Option<&'a Tensor>,
 }
 
 /// The answer of a model, in principal axes, in the order of the trial strains.
@@ -27,7 +58,8 @@ pub struct Response {
     pub tangent: [[f64; 3]; 3],
     /// Elastic Hencky strain after the return (-).
     pub elastic_strain: [f64; 3],
-    pub state: State,
+    /// Accumulated equivalent plastic strain (-).
+    pub plastic_strain: f64,
     /// Whether the point yielded.
     pub yielding: bool,
 }
@@ -39,31 +71,90 @@ impl Response {
             stress: moduli.stress(trial),
             tangent: moduli.tangent(),
             elastic_strain: *trial,
-            state: *state,
+            plastic_strain: state.plastic_strain,
             yielding: false,
         }
     }
 }
 
-/// A material model.
-pub trait Model: Send + Sync {
-    /// The response at a point seeded at height `y` (m) to the elastic trial Hencky strains.
-    fn respond(&self, y: f64, trial: &[f64; 3], state: &State) -> Response;
-
-    /// The elastic part; where that depends on the pressure, what stands for it wherever one stiffness is asked for.
-    fn elasticity(&self) -> &Elasticity;
-
-    /// Whether the tangent is symmetric in every state (associated flow).
-    fn symmetric(&self) -> bool;
-
-    /// Whether the model needs [`State::memory`].
-    fn remembers(&self) -> bool {
-        false
-    }
+/// A model that knows nothing but principal values: isotropic, with scalars for internal variables.
+pub trait PrincipalModel: Model {
+    /// The response at a point seeded at height `y` (m) to the elastic trial Hencky strains. `internal` holds the internal
+    /// variables at the beginning of the step, and when the model has responded those at its end.
+    fn respond(&self, y: f64, trial: &[f64; 3], state: &State, internal: &mut [f64]) -> Response;
 
     /// How far principal Kirchhoff stresses, in any order, lie outside the yield surface at height `y` in a state, at
     /// rest, as a stress (kPa); negative inside.
     fn yield_excess(&self, y: f64, stress: &[f64; 3], state: &State) -> f64;
+}
+
+/// The answer of a [`TensorModel`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TensorResponse {
+    /// Kirchhoff stress (kPa), tension positive.
+    pub stress: Symmetric,
+    /// `D_ijkl = ∂τ_ij/∂ε_kl` (kPa), the elastic trial strain symmetric: row ij, column kl in the order of [`Symmetric`], so that
+    /// `δτ_a = Σ_b D_ab w_b δε_b` with `w = 2` for shear.
+    pub tangent: [[f64; 6]; 6],
+    /// Elastic Hencky strain after the return (-).
+    pub elastic_strain: Symmetric,
+    /// Accumulated equivalent plastic strain (-).
+    pub plastic_strain: f64,
+    /// Whether the point yielded.
+    pub yielding: bool,
+}
+
+/// A model of the full strain, with tensors among its internal variables. It has to be isotropic in all its arguments together: what
+/// directions there are, the internal variables tell.
+pub trait TensorModel: Model {
+    /// As [`PrincipalModel::respond`], to the elastic trial Hencky strain. The tensors in `internal` have been turned with the
+    /// step, those in `state` have not.
+    fn respond(&self, y: f64, trial: &Symmetric, state: &State, internal: &mut [f64]) -> TensorResponse;
+
+    /// As [`PrincipalModel::yield_excess`].
+    fn yield_excess(&self, y: f64, stress: &Symmetric, state: &State) -> f64;
+}
+
+/// What a model responds to.
+pub enum Law<'a> {
+    Principal(&'a dyn PrincipalModel),
+    Tensor(&'a dyn TensorModel),
+}
+
+/// A material model.
+pub trait Model: Send + Sync {
+    /// What it responds to: mostly `Law::Principal(self)` or `Law::Tensor(self)`.
+    fn law(&self) -> Law<'_>;
+
+    /// Its internal variables.
+    fn internal_variables(&self) -> &[Variable] {
+        &[]
+    }
+
+    /// Gives the internal variables of a point seeded at height `y` their first values.
+    fn begin(&self, _y: f64, internal: &mut [f64]) {
+        let mut left = internal;
+        for variable in self.internal_variables() {
+            let (own, rest) = left.split_at_mut(variable.components());
+            own.fill(0.0);
+            own.iter_mut().take(3).for_each(|value| *value = variable.initial);
+            left = rest;
+        }
+    }
+
+    /// It, where it responds to principal strains.
+    fn principal(&self) -> Option<&dyn PrincipalModel> {
+        match self.law() {
+            Law::Principal(model) => Some(model),
+            Law::Tensor(_) => None,
+        }
+    }
+
+    /// The elastic part, which is isotropic; where that depends on the pressure, what stands for it wherever one stiffness is asked for.
+    fn elasticity(&self) -> &Elasticity;
+
+    /// Whether the tangent is symmetric in every state (associated flow).
+    fn symmetric(&self) -> bool;
 
     /// The shear strength (kPa) at height `y` in a state, at rest: `s_u`, `σ_y/√3`, `c`, in Modified Cam-Clay that of the
     /// critical state in simple shear without drainage. Infinite without yield.
@@ -119,10 +210,24 @@ pub trait Model: Send + Sync {
 /// How far beyond yield (-), in the strength or the stress, a stress is told of.
 const BEYOND: f64 = 1e-3;
 
-/// Whether principal Kirchhoff stresses at height `y` are more than a model bears in a state, at rest.
-pub fn is_beyond_yield(model: &dyn Model, y: f64, stress: &[f64; 3], state: &State) -> bool {
-    let unit = stress.iter().fold(model.shear_strength(y, state), |most, s| most.max(s.abs()));
-    model.yields() && model.yield_excess(y, stress, state) > BEYOND * unit
+/// How far a Kirchhoff stress lies outside the yield surface of a model at height `y` in a state, at rest, as a stress (kPa); negative
+/// inside.
+pub fn yield_excess(model: &dyn Model, y: f64, stress: &Symmetric, state: &State) -> f64 {
+    match model.law() {
+        Law::Principal(model) => model.yield_excess(y, &spectral::roots(stress), state),
+        Law::Tensor(model) => model.yield_excess(y, stress, state),
+    }
+}
+
+/// Whether a Kirchhoff stress at height `y` is more than a model bears in a state, at rest.
+pub fn is_beyond_yield(model: &dyn Model, y: f64, stress: &Symmetric, state: &State) -> bool {
+    let unit = spectral::roots(stress).iter().fold(model.shear_strength(y, state), |most, s| most.max(s.abs()));
+    model.yields() && yield_excess(model, y, stress, state) > BEYOND * unit
+}
+
+/// Numbers that a point carries of the internal variables of a model.
+pub fn internal_count(model: &dyn Model) -> usize {
+    model.internal_variables().iter().map(Variable::components).sum()
 }
 
 /// Poisson's ratios (-) that soil has.

@@ -5,7 +5,7 @@
 //! cut-off is associated.
 
 use super::polyhedral::Planes;
-use super::{Elasticity, Kind, Model, Parameter, Parameters, Profile, Response, State};
+use super::{Elasticity, Kind, Law, Model, Parameter, Parameters, PrincipalModel, Profile, Response, State};
 use crate::error::{Error, Result};
 use std::sync::Arc;
 
@@ -151,9 +151,19 @@ impl MohrCoulomb {
     }
 }
 
-impl Model for MohrCoulomb {
-    fn respond(&self, y: f64, trial: &[f64; 3], state: &State) -> Response {
+impl PrincipalModel for MohrCoulomb {
+    fn respond(&self, y: f64, trial: &[f64; 3], state: &State, _: &mut [f64]) -> Response {
         self.planes(y).respond(&self.elasticity.at(y), trial, state)
+    }
+
+    fn yield_excess(&self, y: f64, stress: &[f64; 3], _: &State) -> f64 {
+        self.planes(y).excess(stress)
+    }
+}
+
+impl Model for MohrCoulomb {
+    fn law(&self) -> Law<'_> {
+        Law::Principal(self)
     }
 
     fn elasticity(&self) -> &Elasticity {
@@ -162,10 +172,6 @@ impl Model for MohrCoulomb {
 
     fn symmetric(&self) -> bool {
         self.friction.sin_friction == self.friction.sin_dilation
-    }
-
-    fn yield_excess(&self, y: f64, stress: &[f64; 3], _: &State) -> f64 {
-        self.planes(y).excess(stress)
     }
 
     fn shear_strength(&self, y: f64, _: &State) -> f64 {

@@ -100,7 +100,7 @@ impl Planes {
             stress: [0.0; 3],
             tangent: [[0.0; 3]; 3],
             elastic_strain: [0.0; 3],
-            state: State { plastic_strain: state.plastic_strain + equivalent_plastic(&plastic), ..*state },
+            plastic_strain: state.plastic_strain + equivalent_plastic(&plastic),
             yielding: true,
         };
         for a in 0..3 {

@@ -19,7 +19,10 @@
 //! shear bands as narrow as the cells allow: results depend on their size.
 
 use super::polyhedral::Planes;
-use super::{Elasticity, Kind, Model, Moduli, Parameter, Parameters, Profile, Response, State, cavitation};
+use super::{
+    Elasticity, Kind, Law, Model, Moduli, Parameter, Parameters, PrincipalModel, Profile, Response, State, Variable,
+    VariableKind, cavitation,
+};
 use crate::error::{Error, Result};
 use std::f64::consts::LN_10;
 use std::sync::Arc;
@@ -29,6 +32,9 @@ const ITERATIONS: usize = 100;
 
 /// The least that counts for what falls ([`falls`]).
 const LEAST: f64 = 0.1;
+
+const VARIABLES: [Variable; 1] =
+    [Variable { name: "plastic_shear_strain", unit: "-", kind: VariableKind::Scalar, initial: 0.0 }];
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SofteningTresca {
@@ -118,7 +124,11 @@ fn build(parameters: &Parameters) -> Result<Arc<dyn Model>> {
     let (remoulded, ductility) = (parameters.number("remoulded")?, parameters.number("ductility")?);
     let softening = Softening { remoulded, ductility, rate, reference_rate };
     let strength = parameters.profile("shear_strength")?;
-    cavitation::limited(SofteningTresca::new(parameters.elasticity()?, strength, softening)?, parameters)
+    cavitation::limited(
+        SofteningTresca::new(parameters.elasticity()?, strength, softening)?,
+        SofteningTresca::divided,
+        parameters,
+    )
 }
 
 impl Softening {
@@ -167,6 +177,16 @@ impl SofteningTresca {
             tension: f64::INFINITY,
         }
     }
+
+    /// It with its strength divided by `factor` (-).
+    fn divided(&self, factor: f64) -> Self {
+        Self { shear_strength: self.shear_strength.scaled(1.0 / factor), ..*self }
+    }
+}
+
+/// ξ in a state.
+fn sheared_before(state: &State) -> f64 {
+    state.internal.first().copied().unwrap_or(0.0)
 }
 
 /// The plastic shear strain of a return.
@@ -203,11 +223,12 @@ fn falls(c: f64, slope: f64) -> f64 {
     (1.0 + 2.0 * c * slope).max(LEAST)
 }
 
-impl Model for SofteningTresca {
-    fn respond(&self, y: f64, trial: &[f64; 3], state: &State) -> Response {
+impl PrincipalModel for SofteningTresca {
+    fn respond(&self, y: f64, trial: &[f64; 3], state: &State, internal: &mut [f64]) -> Response {
         let moduli = self.elasticity.at(y);
+        let before = internal[0];
         let at = |more: f64| {
-            let (factor, slope) = self.softening.factor(state.memory, more, state.inverse_dt);
+            let (factor, slope) = self.softening.factor(before, more, state.inverse_dt);
             (self.planes(y, factor).respond(&moduli, trial, state), self.shear_strength.at(y) * slope)
         };
         // The strength at the end lies between that before and that of remoulded soil, at whatever rate.
@@ -245,8 +266,18 @@ impl Model for SofteningTresca {
                 *entry += by * a * b;
             }
         }
-        response.state.memory = state.memory + more;
+        internal[0] = before + more;
         response
+    }
+
+    fn yield_excess(&self, y: f64, stress: &[f64; 3], state: &State) -> f64 {
+        self.planes(y, self.softening.factor(sheared_before(state), 0.0, 0.0).0).excess(stress)
+    }
+}
+
+impl Model for SofteningTresca {
+    fn law(&self) -> Law<'_> {
+        Law::Principal(self)
     }
 
     fn elasticity(&self) -> &Elasticity {
@@ -257,20 +288,16 @@ impl Model for SofteningTresca {
         true
     }
 
-    fn remembers(&self) -> bool {
-        true
-    }
-
-    fn yield_excess(&self, y: f64, stress: &[f64; 3], state: &State) -> f64 {
-        self.planes(y, self.softening.factor(state.memory, 0.0, 0.0).0).excess(stress)
+    fn internal_variables(&self) -> &[Variable] {
+        &VARIABLES
     }
 
     fn shear_strength(&self, y: f64, state: &State) -> f64 {
-        self.shear_strength.at(y) * self.softening.factor(state.memory, 0.0, 0.0).0
+        self.shear_strength.at(y) * self.softening.factor(sheared_before(state), 0.0, 0.0).0
     }
 
     fn reduced(&self, factor: f64) -> Arc<dyn Model> {
-        Arc::new(Self { shear_strength: self.shear_strength.scaled(1.0 / factor), ..*self })
+        Arc::new(self.divided(factor))
     }
 
     fn check(&self, y: f64) -> Result<()> {

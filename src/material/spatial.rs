@@ -1,5 +1,5 @@
 //! From the elastic trial left Cauchy–Green tensor to Kirchhoff stress and spatial tangent: what takes a
-//! model from principal axes to the grid.
+//! model from principal axes to the grid. Models of the strain tensor: [`super::tensor_law`].
 //!
 //! With `b = ΔF b_n ΔFᵀ` and the velocity-like gradient `l = δF F⁻¹`, `δb = l b + b lᵀ`, the stress changes
 //! by `δτ_ij = C_ijkl l_kl` where, in the axes of `b` with roots `λ_A`,
@@ -11,7 +11,7 @@
 //! For equal roots `κ = (C_AA − C_AB − C_BA + C_BB)/(4λ)`. Here `κ` is split into the secant modulus
 //! `(τ_A − τ_B)/(ε_A − ε_B)`, exactly 2G in elasticity, and `(ε_A − ε_B)/(λ_A − λ_B)`, which is smooth.
 
-use super::{Model, Response, State, spectral};
+use super::{Law, Model, PrincipalModel, Response, State, spectral, tensor_law};
 use crate::tensor::Symmetric;
 
 /// Hencky strains closer than this count as equal in the secant modulus of a yielding point. Above it
@@ -40,27 +40,73 @@ pub struct Spatial<T> {
     pub elastic: Symmetric,
     /// `a_ijkl = C_ijkl − τ_il δ_jk` (kPa).
     pub tangent: T,
-    pub state: State,
+    /// Accumulated equivalent plastic strain (-).
+    pub plastic_strain: f64,
     /// Whether the point yielded.
     pub yielding: bool,
 }
 
 /// The response at a point seeded at height `y` (m) in plane strain or axisymmetry to the elastic trial
-/// left Cauchy–Green tensor `trial`, whose components yz and xz are taken as zero.
+/// left Cauchy–Green tensor `trial`, whose components yz and xz are taken as zero. The internal variables at the end of the step
+/// go into `internal`, which is as long as those of the state.
 ///
 /// `None` where `trial` is not positive definite and finite: the step was too large.
-pub fn plane(model: &dyn Model, y: f64, trial: &Symmetric, state: &State) -> Option<Spatial<PlaneTangent>> {
+pub fn plane(
+    model: &dyn Model,
+    y: f64,
+    trial: &Symmetric,
+    state: &State,
+    internal: &mut [f64],
+) -> Option<Spatial<PlaneTangent>> {
+    begin(model, y, state, internal);
+    match model.law() {
+        Law::Principal(model) => plane_of_principal(model, y, trial, state, internal),
+        Law::Tensor(tensor) => {
+            let solid = tensor_law::respond(tensor, y, trial, state, internal)?;
+            // xx, xy, yx, yy and zz among all components.
+            let of = |k: usize| [0, 1, 3, 4, 8][k];
+            let tangent = std::array::from_fn(|a| std::array::from_fn(|b| solid.tangent[of(a)][of(b)]));
+            Some(of_tensor(&solid, tangent))
+        }
+    }
+}
+
+/// The internal variables as a step begins.
+#[inline]
+fn begin(model: &dyn Model, y: f64, state: &State, internal: &mut [f64]) {
+    if internal.is_empty() {
+        return;
+    }
+    if state.internal.is_empty() {
+        model.begin(y, internal);
+    } else {
+        internal.copy_from_slice(state.internal);
+    }
+}
+
+fn of_tensor<T>(answer: &tensor_law::Answer, tangent: T) -> Spatial<T> {
+    let tensor_law::Answer { kirchhoff, elastic, plastic_strain, yielding, .. } = *answer;
+    Spatial { kirchhoff, elastic, tangent, plastic_strain, yielding }
+}
+
+fn plane_of_principal(
+    model: &dyn PrincipalModel,
+    y: f64,
+    trial: &Symmetric,
+    state: &State,
+    internal: &mut [f64],
+) -> Option<Spatial<PlaneTangent>> {
     let b = spectral::Plane::of(trial);
     let roots = b.roots();
     if !roots.iter().all(|&x| x > 0.0 && x.is_finite()) {
         return None;
     }
     let strain = roots.map(|x| 0.5 * x.ln());
-    let r = model.respond(y, &strain, state);
+    let r = model.respond(y, &strain, state, internal);
     let kirchhoff = b.with_roots(&r.stress);
     let elastic = if r.yielding { b.with_roots(&r.elastic_strain.map(|e| (2.0 * e).exp())) } else { *trial };
     let tangent = plane_tangent(&b, &strain, &r, &kirchhoff);
-    Some(Spatial { kirchhoff, elastic, tangent, state: r.state, yielding: r.yielding })
+    Some(Spatial { kirchhoff, elastic, tangent, plastic_strain: r.plastic_strain, yielding: r.yielding })
 }
 
 /// In the plane, with I the identity, S as in [`spectral::Plane`], its quarter turn T = [[-s, c], [c, s]] and
@@ -78,7 +124,7 @@ fn plane_tangent(b: &spectral::Plane, strain: &[f64; 3], r: &Response, t: &Symme
 
     // κ·mean = secant · (ε₁ − ε₂)/(2x), x = radius/mean, since λ₁ − λ₂ = 2·radius.
     let x = b.radius / b.mean;
-    let tt = 0.5 * secant(r, strain, 0, 1) * half_log_ratio(x, strain[0] - strain[1]);
+    let tt = 0.5 * secant(r, strain, 0, 1) * spectral::half_log_ratio(x, strain[0] - strain[1]);
     let tw = -x * tt;
 
     let (c, s) = (b.c, b.s);
@@ -116,7 +162,30 @@ fn plane_tangent(b: &spectral::Plane, strain: &[f64; 3], r: &Response, t: &Symme
 }
 
 /// As [`plane`], in three dimensions.
-pub fn solid(model: &dyn Model, y: f64, trial: &Symmetric, state: &State) -> Option<Spatial<SolidTangent>> {
+pub fn solid(
+    model: &dyn Model,
+    y: f64,
+    trial: &Symmetric,
+    state: &State,
+    internal: &mut [f64],
+) -> Option<Spatial<SolidTangent>> {
+    begin(model, y, state, internal);
+    match model.law() {
+        Law::Principal(model) => solid_of_principal(model, y, trial, state, internal),
+        Law::Tensor(model) => {
+            let answer = tensor_law::respond(model, y, trial, state, internal)?;
+            Some(of_tensor(&answer, answer.tangent))
+        }
+    }
+}
+
+fn solid_of_principal(
+    model: &dyn PrincipalModel,
+    y: f64,
+    trial: &Symmetric,
+    state: &State,
+    internal: &mut [f64],
+) -> Option<Spatial<SolidTangent>> {
     if !trial.iter().all(|x| x.is_finite()) {
         return None;
     }
@@ -125,7 +194,7 @@ pub fn solid(model: &dyn Model, y: f64, trial: &Symmetric, state: &State) -> Opt
         return None;
     }
     let strain = roots.map(|x| 0.5 * x.ln());
-    let r = model.respond(y, &strain, state);
+    let r = model.respond(y, &strain, state, internal);
     let kirchhoff = spectral::compose(&r.stress, &axes);
     let elastic =
         if r.yielding { spectral::compose(&r.elastic_strain.map(|e| (2.0 * e).exp()), &axes) } else { *trial };
@@ -148,7 +217,8 @@ pub fn solid(model: &dyn Model, y: f64, trial: &Symmetric, state: &State) -> Opt
             }
             add(r.tangent[p][q], &dyad(p, p), &dyad(q, q));
             let (sum, difference) = (roots[p] + roots[q], roots[p] - roots[q]);
-            let kappa = secant(&r, &strain, p, q) * half_log_ratio(difference / sum, strain[p] - strain[q]) / sum;
+            let kappa =
+                secant(&r, &strain, p, q) * spectral::half_log_ratio(difference / sum, strain[p] - strain[q]) / sum;
             add(kappa * roots[q], &dyad(p, q), &dyad(p, q));
             add(kappa * roots[p], &dyad(p, q), &dyad(q, p));
         }
@@ -161,7 +231,7 @@ pub fn solid(model: &dyn Model, y: f64, trial: &Symmetric, state: &State) -> Opt
             }
         }
     }
-    Some(Spatial { kirchhoff, elastic, tangent, state: r.state, yielding: r.yielding })
+    Some(Spatial { kirchhoff, elastic, tangent, plastic_strain: r.plastic_strain, yielding: r.yielding })
 }
 
 /// The elastic left Cauchy–Green tensor `exp 2ε` that carries the Kirchhoff stress (kPa), without a check of
@@ -179,14 +249,4 @@ fn secant(r: &Response, strain: &[f64; 3], a: usize, b: usize) -> f64 {
     } else {
         (r.stress[a] - r.stress[b]) / difference
     }
-}
-
-/// `atanh(x)/x` where `atanh(x) = ½ ln(λ_A/λ_B) = strain`, by its series where x is small.
-#[inline]
-fn half_log_ratio(x: f64, strain: f64) -> f64 {
-    if x.abs() > 0.05 {
-        return strain / x;
-    }
-    let q = x * x;
-    1.0 + q * (1.0 / 3.0 + q * (1.0 / 5.0 + q * (1.0 / 7.0 + q * (1.0 / 9.0 + q / 11.0))))
 }

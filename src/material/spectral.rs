@@ -52,9 +52,32 @@ pub fn solid(t: &Symmetric) -> ([f64; 3], Matrix3<f64>) {
     (e.eigenvalues.into(), e.eigenvectors)
 }
 
+/// Roots of a symmetric tensor, in the plane those of [`Plane::roots`].
+pub fn roots(t: &Symmetric) -> [f64; 3] {
+    if in_plane(t) { Plane::of(t).roots() } else { solid(t).0 }
+}
+
+/// Roots of a symmetric tensor and the matrix whose columns are its axes, in closed form where z is one of them.
+pub fn axes(t: &Symmetric) -> ([f64; 3], Matrix3<f64>) {
+    if !in_plane(t) {
+        return solid(t);
+    }
+    let plane = Plane::of(t);
+    // Half the angle of `S`, by the larger of its cosine and sine.
+    let cosine = (0.5 * (1.0 + plane.c.abs())).sqrt();
+    let (large, small) = (cosine, 0.5 * plane.s / cosine);
+    let (c, s) = if plane.c >= 0.0 { (large, small) } else { (small.abs(), large.copysign(plane.s)) };
+    (plane.roots(), Matrix3::new(c, -s, 0.0, s, c, 0.0, 0.0, 0.0, 1.0))
+}
+
+/// Whether z is an axis.
+fn in_plane(t: &Symmetric) -> bool {
+    t[4] == 0.0 && t[5] == 0.0
+}
+
 /// The isotropic tensor function `f` of the roots of `t`, in three dimensions.
 pub fn map_roots(t: &Symmetric, f: impl FnOnce(&[f64; 3]) -> [f64; 3]) -> Symmetric {
-    if t[4] == 0.0 && t[5] == 0.0 {
+    if in_plane(t) {
         let plane = Plane::of(t);
         plane.with_roots(&f(&plane.roots()))
     } else {
@@ -66,6 +89,16 @@ pub fn map_roots(t: &Symmetric, f: impl FnOnce(&[f64; 3]) -> [f64; 3]) -> Symmet
 /// The symmetric tensor with the given roots and axes (columns).
 pub fn compose(roots: &[f64; 3], axes: &Matrix3<f64>) -> Symmetric {
     symmetric(&(axes * Matrix3::from_diagonal(&Vector3::from(*roots)) * axes.transpose()))
+}
+
+/// `atanh(x)/x` where `atanh(x) = ½ ln(λ_A/λ_B) = strain`, `x = (λ_A − λ_B)/(λ_A + λ_B)`, by its series where x is small.
+#[inline]
+pub fn half_log_ratio(x: f64, strain: f64) -> f64 {
+    if x.abs() > 0.05 {
+        return strain / x;
+    }
+    let q = x * x;
+    1.0 + q * (1.0 / 3.0 + q * (1.0 / 5.0 + q * (1.0 / 7.0 + q * (1.0 / 9.0 + q / 11.0))))
 }
 
 #[cfg(test)]
@@ -97,5 +130,14 @@ mod tests {
         let t = [2.0, 0.5, 1.1, -0.3, 0.0, 0.0];
         let (roots, axes) = solid(&t);
         close(&map_roots(&t, |r| r.map(f64::ln)), &compose(&roots.map(f64::ln), &axes), 1e-14);
+    }
+
+    #[test]
+    fn the_axes_in_the_plane_belong_to_their_roots() {
+        for t in [[2.0, 0.5, 1.1, -0.3, 0.0, 0.0], [0.5, 2.0, 1.1, 0.3, 0.0, 0.0], [0.5, 2.0, 3.0, -1e-9, 0.0, 0.0]] {
+            let (roots, axes) = super::axes(&t);
+            assert_eq!(roots, super::roots(&t));
+            close(&compose(&roots, &axes), &t, 2e-15);
+        }
     }
 }

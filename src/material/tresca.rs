@@ -3,7 +3,9 @@
 //! The return is that of [`super::polyhedral`] without friction.
 
 use super::polyhedral::Planes;
-use super::{Elasticity, Kind, Model, Parameter, Parameters, Profile, Response, State, cavitation};
+use super::{
+    Elasticity, Kind, Law, Model, Parameter, Parameters, PrincipalModel, Profile, Response, State, cavitation,
+};
 use crate::error::Result;
 use std::sync::Arc;
 
@@ -40,7 +42,11 @@ pub const KIND: Kind = Kind {
 };
 
 fn build(parameters: &Parameters) -> Result<Arc<dyn Model>> {
-    cavitation::limited(Tresca::new(parameters.elasticity()?, parameters.profile("shear_strength")?)?, parameters)
+    cavitation::limited(
+        Tresca::new(parameters.elasticity()?, parameters.profile("shear_strength")?)?,
+        Tresca::divided,
+        parameters,
+    )
 }
 
 impl Tresca {
@@ -59,11 +65,26 @@ impl Tresca {
             tension: f64::INFINITY,
         }
     }
+
+    /// It with its strength divided by `factor` (-).
+    fn divided(&self, factor: f64) -> Self {
+        Self { shear_strength: self.shear_strength.scaled(1.0 / factor), ..*self }
+    }
+}
+
+impl PrincipalModel for Tresca {
+    fn respond(&self, y: f64, trial: &[f64; 3], state: &State, _: &mut [f64]) -> Response {
+        self.planes(y).respond(&self.elasticity.at(y), trial, state)
+    }
+
+    fn yield_excess(&self, y: f64, stress: &[f64; 3], _: &State) -> f64 {
+        self.planes(y).excess(stress)
+    }
 }
 
 impl Model for Tresca {
-    fn respond(&self, y: f64, trial: &[f64; 3], state: &State) -> Response {
-        self.planes(y).respond(&self.elasticity.at(y), trial, state)
+    fn law(&self) -> Law<'_> {
+        Law::Principal(self)
     }
 
     fn elasticity(&self) -> &Elasticity {
@@ -74,16 +95,12 @@ impl Model for Tresca {
         true
     }
 
-    fn yield_excess(&self, y: f64, stress: &[f64; 3], _: &State) -> f64 {
-        self.planes(y).excess(stress)
-    }
-
     fn shear_strength(&self, y: f64, _: &State) -> f64 {
         self.shear_strength.at(y)
     }
 
     fn reduced(&self, factor: f64) -> Arc<dyn Model> {
-        Arc::new(Self { shear_strength: self.shear_strength.scaled(1.0 / factor), ..*self })
+        Arc::new(self.divided(factor))
     }
 
     fn check(&self, y: f64) -> Result<()> {

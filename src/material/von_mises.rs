@@ -5,7 +5,9 @@
 //! tension; the strength in simple shear is `yield_stress/√3`. No hardening.
 
 use super::model::equivalent_plastic;
-use super::{Elasticity, Kind, Model, Parameter, Parameters, Profile, Response, State, cavitation};
+use super::{
+    Elasticity, Kind, Law, Model, Parameter, Parameters, PrincipalModel, Profile, Response, State, cavitation,
+};
 use crate::error::Result;
 use std::sync::Arc;
 
@@ -45,7 +47,11 @@ pub const KIND: Kind = Kind {
 };
 
 fn build(parameters: &Parameters) -> Result<Arc<dyn Model>> {
-    cavitation::limited(VonMises::new(parameters.elasticity()?, parameters.profile("yield_stress")?)?, parameters)
+    cavitation::limited(
+        VonMises::new(parameters.elasticity()?, parameters.profile("yield_stress")?)?,
+        VonMises::divided,
+        parameters,
+    )
 }
 
 impl VonMises {
@@ -55,10 +61,15 @@ impl VonMises {
         yield_stress.positive_at("yield_stress", yield_stress.datum)?;
         Ok(Self { elasticity, yield_stress })
     }
+
+    /// It with its strength divided by `factor` (-).
+    fn divided(&self, factor: f64) -> Self {
+        Self { yield_stress: self.yield_stress.scaled(1.0 / factor), ..*self }
+    }
 }
 
-impl Model for VonMises {
-    fn respond(&self, y: f64, trial: &[f64; 3], state: &State) -> Response {
+impl PrincipalModel for VonMises {
+    fn respond(&self, y: f64, trial: &[f64; 3], state: &State, _: &mut [f64]) -> Response {
         let moduli = self.elasticity.at(y);
         let sy = self.yield_stress.at(y);
         let volumetric = trial[0] + trial[1] + trial[2];
@@ -82,12 +93,20 @@ impl Model for VonMises {
             stress: e.map(|x| mean + g * x),
             tangent,
             elastic_strain: e.map(|x| volumetric / 3.0 + kept * x),
-            state: State {
-                plastic_strain: state.plastic_strain + equivalent_plastic(&e.map(|x| (1.0 - kept) * x)),
-                ..*state
-            },
+            plastic_strain: state.plastic_strain + equivalent_plastic(&e.map(|x| (1.0 - kept) * x)),
             yielding: true,
         }
+    }
+
+    fn yield_excess(&self, y: f64, stress: &[f64; 3], _: &State) -> f64 {
+        let [a, b, c] = stress;
+        (0.5 * ((a - b).powi(2) + (b - c).powi(2) + (c - a).powi(2))).sqrt() - self.yield_stress.at(y)
+    }
+}
+
+impl Model for VonMises {
+    fn law(&self) -> Law<'_> {
+        Law::Principal(self)
     }
 
     fn elasticity(&self) -> &Elasticity {
@@ -98,17 +117,12 @@ impl Model for VonMises {
         true
     }
 
-    fn yield_excess(&self, y: f64, stress: &[f64; 3], _: &State) -> f64 {
-        let [a, b, c] = stress;
-        (0.5 * ((a - b).powi(2) + (b - c).powi(2) + (c - a).powi(2))).sqrt() - self.yield_stress.at(y)
-    }
-
     fn shear_strength(&self, y: f64, _: &State) -> f64 {
         self.yield_stress.at(y) / 3f64.sqrt()
     }
 
     fn reduced(&self, factor: f64) -> Arc<dyn Model> {
-        Arc::new(Self { yield_stress: self.yield_stress.scaled(1.0 / factor), ..*self })
+        Arc::new(self.divided(factor))
     }
 
     fn check(&self, y: f64) -> Result<()> {
@@ -125,13 +139,13 @@ mod tests {
     fn simple_shear_strength_is_yield_stress_over_root_three() {
         let elasticity = Elasticity::new(Profile::constant(1000.0), 0.3).unwrap();
         let model = VonMises::new(elasticity, Profile { top: 2.0, gradient: 0.5, datum: 0.0 }).unwrap();
-        let r = model.respond(-4.0, &[0.1, 0.0, -0.1], &State::default());
+        let r = model.respond(-4.0, &[0.1, 0.0, -0.1], &State::default(), &mut []);
         let k = 4.0 / 3f64.sqrt();
         for (got, expected) in r.stress.iter().zip([k, 0.0, -k]) {
             assert!((got - expected).abs() < 1e-12);
         }
         // Equivalent plastic strain of a pure shear ±e is 2e/√3.
         let e = 0.1 - k / (1000.0 / 1.3);
-        assert!((r.state.plastic_strain - 2.0 * e / 3f64.sqrt()).abs() < 1e-15);
+        assert!((r.plastic_strain - 2.0 * e / 3f64.sqrt()).abs() < 1e-15);
     }
 }

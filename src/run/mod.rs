@@ -14,6 +14,7 @@ pub mod checkpoint;
 mod columns;
 mod ending;
 mod foreign;
+mod internal_variables;
 mod jump;
 mod outputs;
 mod record;
@@ -21,6 +22,7 @@ mod surface;
 mod voids;
 
 pub use ending::Until;
+pub use internal_variables::InternalVariable;
 pub use outputs::Outputs;
 pub use record::{Field, Quantity, Watch, WatchedOn};
 pub use surface::Acting;

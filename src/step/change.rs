@@ -1,8 +1,8 @@
 //! Materials that change as a phase begins: what the points of a region take over into the new one.
 //!
 //! The stress stays, and so does the excess pore pressure: the new material gets the elastic strain and the share of the pressure field that
-//! carry them. The deformation, the volume and the accumulated plastic strain of the points go on. Their mass becomes that of the new density. What hardens
-//! or softens a model goes on where it is the same quantity, and begins anew elsewhere.
+//! carry them. The deformation, the volume and the accumulated plastic strain of the points go on. Their mass becomes that of the new density. The internal
+//! variables go on where the model is the same, and begin anew elsewhere.
 
 use crate::material::{Model, Profile, spatial};
 use crate::points::Points;
@@ -26,7 +26,7 @@ pub struct Change {
     pub before: Option<Carried>,
     /// Density (t/m³).
     pub density: Profile,
-    /// Whether what the model remembers is the quantity that the one before remembered.
+    /// Whether the model has the internal variables of the one before.
     pub goes_on: bool,
 }
 
@@ -66,8 +66,8 @@ impl Change {
                     }
                 });
             }
-            if let Some(memory) = points.memory.get_mut(p).filter(|_| !self.goes_on) {
-                *memory = 0.0;
+            if !self.goes_on {
+                points.begin_internal(p, self.model.as_ref());
             }
             points.mass[p] = self.density.at(y) * points.initial_volume[p];
             points.model[p] = self.number;

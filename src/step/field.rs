@@ -13,16 +13,14 @@ use crate::mesh::Mesh;
 use crate::stencil::Stencil;
 use crate::term::pressure_hats;
 
-/// Makes room for the fields in the state, and a column of zeros in points that have none.
+/// Makes room for the fields in the state; points that have none have zeros.
 pub fn make_room<const D: usize>(scene: &Scene<D>, state: &mut State<D>) {
     if scene.fields.is_empty() {
         return;
     }
     let [places, _] = scene.places();
     state.pressure.resize(places.end(scene.fields.len()), 0.0);
-    let count = state.points.len();
-    state.points.fields.resize(scene.fields.len(), Vec::new());
-    state.points.fields.iter_mut().for_each(|column| column.resize(count, 0.0));
+    state.points.fields.resize(scene.fields.len() * state.points.len(), 0.0);
 }
 
 /// Takes the fields over from the material points to a restored grid.
@@ -32,12 +30,12 @@ pub fn project<const D: usize, K: Kinematics<D>>(
     state: &mut State<D>,
 ) {
     make_room(scene, state);
-    let [places, _] = scene.places();
-    for k in 0..scene.fields.len() {
+    let ([places, _], count) = (scene.places(), scene.fields.len());
+    for k in 0..count {
         let range = places.field(k, 0)..places.field(k + 1, 0);
         let mut values = state.pressure[range.clone()].to_vec();
         let filled = Filled { mesh, stencil, points: &state.points };
-        nodal_fit::fit::<D, K>(&[filled], |points, p| Some(points.fields[k][p]), &mut values);
+        nodal_fit::fit::<D, K>(&[filled], |points, p| Some(points.fields[p * count + k]), &mut values);
         state.pressure[range].copy_from_slice(&values);
     }
 }
@@ -50,9 +48,8 @@ pub fn to_points<const D: usize, K: Kinematics<D>>(
     state: &mut State<D>,
     new: &[f64],
 ) {
-    let [places, _] = scene.places();
-    for k in 0..scene.fields.len() {
-        let mut column = std::mem::take(&mut state.points.fields[k]);
+    let ([places, _], count) = (scene.places(), scene.fields.len());
+    for k in 0..count {
         for patch in &stencil.patches {
             let kind = mesh.cells.kind[patch.cell as usize];
             let corners = &mesh.cells.nodes(patch.cell as usize)[..kind.corner_count()];
@@ -62,10 +59,9 @@ pub fn to_points<const D: usize, K: Kinematics<D>>(
                     let place = places.field(k, n);
                     hat * (new[place] - state.pressure[place])
                 };
-                column[entries.point] += hats.iter().zip(corners).map(change).sum::<f64>();
+                state.points.fields[entries.point * count + k] += hats.iter().zip(corners).map(change).sum::<f64>();
             }
         }
-        state.points.fields[k] = column;
     }
 }
 

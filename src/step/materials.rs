@@ -5,7 +5,7 @@ use super::grid::Grid;
 use super::scene::Scene;
 use super::state::State;
 use crate::kinematics::Kinematics;
-use crate::material::{State as Memory, is_beyond_yield, odd_poisson, on_poisson};
+use crate::material::{is_beyond_yield, odd_poisson, on_poisson};
 
 /// Takes the pressure field of a phase that begins with other materials over from the points.
 pub fn project_pressure<const D: usize, K: Kinematics<D>>(scene: &Scene<D>, grid: &Grid<D>, state: &mut State<D>) {
@@ -23,13 +23,11 @@ pub fn notes<const D: usize, K: Kinematics<D>>(scene: &Scene<D>, state: &State<D
         for points in [&state.points, &state.fem] {
             for p in change.of(points) {
                 let volume_ratio = points.deformation[p].determinant();
-                let stress = K::roots(&points.stress[p].map(|s| volume_ratio * s));
-                let memory = points.memory.get(p).copied().unwrap_or(0.0);
-                let memory = Memory { plastic_strain: points.plastic_strain[p], memory, inverse_dt: 0.0 };
+                let (model, y) = (change.model.as_ref(), points.seeded_height(p));
+                let stress = points.stress[p].map(|s| volume_ratio * s);
                 all += 1;
-                odd.extend(odd_poisson(change.model.as_ref(), points.seeded_height(p), &stress));
-                beyond +=
-                    usize::from(is_beyond_yield(change.model.as_ref(), points.seeded_height(p), &stress, &memory));
+                odd.extend(odd_poisson(model, y, &K::roots(&stress)));
+                beyond += usize::from(is_beyond_yield(model, y, &stress, &points.state(p, 0.0)));
             }
         }
         let Change { of, into, .. } = change;

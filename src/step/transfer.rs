@@ -209,7 +209,7 @@ pub fn commit<const D: usize>(
     lost.len()
 }
 
-/// Writes the stresses of the solution of a `step` into the points of the soil, and what the material remembers, but not its deformation.
+/// Writes the stresses of the solution of a `step` into the points of the soil, and the internal variables, but not the deformation.
 pub fn commit_stresses<const D: usize>(
     scene: &Scene<D>,
     grid: &Grid<D>,
@@ -232,19 +232,7 @@ fn take_from_nearest<const D: usize>(points: &mut Points<D>, p: usize, samples: 
     let Some((_, q)) = nearest else { return };
     let stretch = (samples.deformation[q].determinant() / points.deformation[p].determinant()).cbrt();
     points.deformation[p] *= stretch;
-    points.elastic[p] = samples.elastic[q];
-    points.stress[p] = samples.stress[q];
-    points.plastic_strain[p] = samples.plastic_strain[q];
-    let columns = [
-        (&mut points.memory, &samples.memory),
-        (&mut points.pressure, &samples.pressure),
-        (&mut points.pore_pressure, &samples.pore_pressure),
-    ];
-    for (own, of_sample) in columns {
-        if let (Some(own), Some(value)) = (own.get_mut(p), of_sample.get(q)) {
-            *own = *value;
-        }
-    }
+    points.take_state(p, samples, q);
 }
 
 /// Moves the points with the grid.

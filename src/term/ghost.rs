@@ -15,7 +15,7 @@
 use super::{Assembly, Frame, GhostFace, Term, Trial};
 use crate::error::Result;
 use crate::kinematics::Kinematics;
-use crate::material::Model;
+use crate::material::{Model, yield_excess};
 use crate::points::Points;
 use crate::stencil::{Jump, Jumps};
 use crate::system::{Local, scatter};
@@ -95,7 +95,7 @@ impl<K> GhostPenalty<K> {
                     None => compliance += v / (young * secant(frame.points, p, model.as_ref())),
                     Some(_) => {
                         compliance += v / young;
-                        weakness += v / strength::<D, K>(frame.points, p, model.as_ref()).max(LEAST * young);
+                        weakness += v / strength(frame.points, p, model.as_ref()).max(LEAST * young);
                     }
                 }
             }
@@ -109,9 +109,8 @@ impl<K> GhostPenalty<K> {
 }
 
 /// The shear stress (kPa) of point `p` and what it lacks of yield.
-fn strength<const D: usize, K: Kinematics<D>>(points: &Points<D>, p: usize, model: &dyn Model) -> f64 {
-    let stress = K::roots(&points.stress[p]);
-    let lacks = -model.yield_excess(points.seeded_height(p), &stress, &points.state(p, 0.0));
+fn strength<const D: usize>(points: &Points<D>, p: usize, model: &dyn Model) -> f64 {
+    let lacks = -yield_excess(model, points.seeded_height(p), &points.stress[p], &points.state(p, 0.0));
     deviatoric(&points.stress[p]) / 3f64.sqrt() + 0.5 * lacks.max(0.0)
 }
 

@@ -18,12 +18,12 @@ use super::share::{Answer, Within};
 use super::smoothed::{self, Layout};
 use super::stiffness::Stiffness;
 use super::volume::LinearFit;
-use super::{Assembly, Frame, History, Term, Trial, Update};
+use super::{Assembly, Frame, Histories, History, Term, Trial, Update};
 use super::{Ratios, Share};
 use crate::error::{Error, Result};
 use crate::kinematics::{Gradient, Kinematics};
-use crate::material::Model;
 use crate::material::spatial::Spatial;
+use crate::material::{Model, State};
 use crate::points::Points;
 use crate::profile::timed_material;
 use crate::stencil::{Entries, MAX_FUNCTIONS, Patch};
@@ -148,7 +148,8 @@ impl<K, S> Internal<K, S> {
         Cow::Owned(self.models.iter().zip(&self.reduces).map(reduced).collect())
     }
 
-    /// The answer of the model at a point, of whose strain a part `later` is felt.
+    /// The answer of the model at a point, of whose strain a part `later` is felt, with its internal variables at the end of the
+    /// step in `internal`.
     fn answer<const D: usize>(
         &self,
         models: &[Option<Arc<dyn Model>>],
@@ -156,6 +157,7 @@ impl<K, S> Internal<K, S> {
         cell: &S::Cell,
         strained: &Strained,
         (inverse_dt, later): (f64, f64),
+        internal: &mut [f64],
     ) -> Result<Answer<K, D>>
     where
         K: Kinematics<D>,
@@ -167,9 +169,9 @@ impl<K, S> Internal<K, S> {
         let Some(model) = models.get(points.model_of(p)).and_then(Option::as_ref) else {
             return Err(Error::analysis(format!("material point {p}"), "it has no material", ""));
         };
-        let (state, ratios) = (points.state(p, inverse_dt), strained.ratios);
-        let answer =
-            self.share.respond(cell, points, entries, &Within { model: model.as_ref(), trial, state, ratios, later });
+        let state = State { increment: Some(felt), ..points.state(p, inverse_dt) };
+        let at = Within { model: model.as_ref(), trial, state, ratios: strained.ratios, later };
+        let answer = self.share.respond(cell, points, entries, &at, internal);
         answer.ok_or_else(|| inadmissible(points, p, "is strained beyond measure", &strained.increment))
     }
 
@@ -200,8 +202,11 @@ impl<K, S> Internal<K, S> {
             strained.push(point);
         }
         let later = 1.0 - trial.alpha_f;
+        // What the internal variables become is wanted of converged steps only.
+        let mut internal = vec![0.0; frame.points.internal_count()];
         let answer = |(entries, strained): (Entries<D>, &Strained)| {
-            self.answer(models, (frame.points, &entries), cell, strained, (trial.inverse_dt / later, later))
+            let of_point = (frame.points, &entries);
+            self.answer(models, of_point, cell, strained, (trial.inverse_dt / later, later), &mut internal)
         };
         let entries = frame.stencil.entries::<K>(patch).zip(&strained);
         let answers = timed_material(|| entries.map(answer).collect::<Result<_>>())?;
@@ -341,13 +346,16 @@ impl<const D: usize, K: Kinematics<D>, S: Share<D, K>> Term<D> for Internal<K, S
                 };
                 LinearFit::of(&stencil.entries::<K>(patch).filter_map(ratio).collect::<Vec<_>>())
             });
-            let new = |entries: Entries<D>| {
+            let count = frame.points.internal_count();
+            let mut out = Histories::with_capacity(patch.point_count as usize, count);
+            let new = |entries: Entries<D>, internal: &mut [f64]| {
                 let mut point = strain::<D, K>(frame.points, &entries, &now, Some(&before)).ok()?;
                 if let Some(fit) = &volume {
                     point.take_volume::<D, K>(fit.at(&frame.points.position[entries.point]).exp());
                 }
                 let of_point = (frame.points, &entries);
-                let (answer, _) = self.answer(&models, of_point, &cell, &point, (trial.inverse_dt, 1.0)).ok()?;
+                let step = (trial.inverse_dt, 1.0);
+                let (answer, _) = self.answer(&models, of_point, &cell, &point, step, internal).ok()?;
                 let deformation = point.increment * frame.points.deformation[entries.point];
                 let volume_ratio = deformation.determinant();
                 let mut history = History {
@@ -355,16 +363,16 @@ impl<const D: usize, K: Kinematics<D>, S: Share<D, K>> Term<D> for Internal<K, S
                     deformation,
                     elastic: answer.elastic,
                     stress: answer.kirchhoff.map(|t| t / volume_ratio),
-                    plastic_strain: answer.state.plastic_strain,
-                    memory: answer.state.memory,
+                    plastic_strain: answer.plastic_strain,
                     pressure: 0.0,
                     pore_pressure: 0.0,
                 };
                 self.share.commit(&cell, frame.points, &entries, point.ratios, &mut history);
                 Some(history)
             };
-            let mut out = Vec::with_capacity(patch.point_count as usize);
-            out.extend(frame.stencil.entries::<K>(patch).filter_map(new));
+            for entries in frame.stencil.entries::<K>(patch) {
+                out.add(count, |internal| new(entries, internal));
+            }
             out
         };
         Some(Update(frame.stencil.patches.par_iter().map(new_of_patch).collect()))

@@ -231,29 +231,52 @@ pub struct History {
     pub elastic: Symmetric,
     pub stress: Symmetric,
     pub plastic_strain: f64,
-    /// What hardens or softens the model; not kept by points without the column.
-    pub memory: f64,
     /// What the pressure field carries (kPa); not kept by points without the column.
     pub pressure: f64,
     /// The excess pressure (kPa) of the water in the pores; not kept by points without the column.
     pub pore_pressure: f64,
 }
 
+/// New values of the history of some points.
+#[derive(Default)]
+pub struct Histories {
+    pub points: Vec<History>,
+    /// Their internal variables, one point after the other; not kept by points without the column.
+    pub internal: Vec<f64>,
+}
+
+impl Histories {
+    /// Room for some points with `count` numbers of internal variables each.
+    pub fn with_capacity(points: usize, count: usize) -> Self {
+        Self { points: Vec::with_capacity(points), internal: Vec::with_capacity(points * count) }
+    }
+
+    /// Adds a point, if it has new values, given room for its `count` numbers of internal variables.
+    pub fn add(&mut self, count: usize, new: impl FnOnce(&mut [f64]) -> Option<History>) {
+        let before = self.internal.len();
+        self.internal.resize(before + count, 0.0);
+        match new(&mut self.internal[before..]) {
+            Some(history) => self.points.push(history),
+            None => self.internal.truncate(before),
+        }
+    }
+}
+
 /// New values of the points' history, in lists of any length and order.
-pub struct Update(pub Vec<Vec<History>>);
+pub struct Update(pub Vec<Histories>);
 
 impl Update {
     /// The points of some number that have no new values.
     pub fn left_out(&self, count: usize) -> Vec<usize> {
         let mut out = vec![true; count];
-        self.0.iter().flatten().for_each(|new| out[new.point] = false);
+        self.0.iter().flat_map(|list| &list.points).for_each(|new| out[new.point] = false);
         (0..count).filter(|&p| out[p]).collect()
     }
 
     /// The new values of each point of some number.
     fn by_point(&self, count: usize) -> Vec<Option<&History>> {
         let mut of_point = vec![None; count];
-        self.0.iter().flatten().for_each(|new| of_point[new.point] = Some(new));
+        self.0.iter().flat_map(|list| &list.points).for_each(|new| of_point[new.point] = Some(new));
         of_point
     }
 
@@ -268,7 +291,7 @@ impl Update {
         });
         write(&mut points.deformation, &of_point, |new| new.deformation);
         write(&mut points.stress, &of_point, |new| new.stress);
-        write_state(points, &of_point);
+        self.write_state(points, &of_point);
     }
 
     /// Writes the new values but for the deformation: the same Kirchhoff stresses in the volume that there was.
@@ -281,17 +304,25 @@ impl Update {
                 *stress = new.stress.map(|s| s * over);
             }
         });
-        write_state(points, &of_point);
+        self.write_state(points, &of_point);
     }
-}
 
-/// Writes all but the deformation, and what depends on that.
-fn write_state<const D: usize>(points: &mut Points<D>, of_point: &[Option<&History>]) {
-    write(&mut points.elastic, of_point, |new| new.elastic);
-    write(&mut points.plastic_strain, of_point, |new| new.plastic_strain);
-    write(&mut points.memory, of_point, |new| new.memory);
-    write(&mut points.pressure, of_point, |new| new.pressure);
-    write(&mut points.pore_pressure, of_point, |new| new.pore_pressure);
+    /// Writes all but the deformation, and what depends on that.
+    fn write_state<const D: usize>(&self, points: &mut Points<D>, of_point: &[Option<&History>]) {
+        write(&mut points.elastic, of_point, |new| new.elastic);
+        write(&mut points.plastic_strain, of_point, |new| new.plastic_strain);
+        write(&mut points.pressure, of_point, |new| new.pressure);
+        write(&mut points.pore_pressure, of_point, |new| new.pore_pressure);
+        let count = points.internal_count();
+        if count == 0 {
+            return;
+        }
+        for Histories { points: new, internal } in &self.0 {
+            for (history, internal) in new.iter().zip(internal.chunks_exact(count)) {
+                points.internal_mut(history.point).copy_from_slice(internal);
+            }
+        }
+    }
 }
 
 /// Writes the new values of the points that have one into a column, which may be empty.

@@ -138,10 +138,19 @@ impl<const D: usize, K: Kinematics<D>> Share<D, K> for PressureField<K> {
         Cell { kind, pressure, mean }
     }
 
-    fn respond(&self, cell: &Cell, points: &Points<D>, entries: &Entries<D>, at: &Within) -> Option<Answer<K, D>> {
+    fn respond(
+        &self,
+        cell: &Cell,
+        points: &Points<D>,
+        entries: &Entries<D>,
+        at: &Within,
+        internal: &mut [f64],
+    ) -> Option<Answer<K, D>> {
         let (p, y) = (entries.point, points.seeded_height(entries.point));
         let bound = self.of(points, p).and_then(|carried| Some((carried, carried.bound?)));
-        let Some((carried, bound)) = bound else { return Some((K::respond(at.model, y, &at.trial, &at.state)?, None)) };
+        let Some((carried, bound)) = bound else {
+            return Some((K::respond(at.model, y, &at.trial, &at.state, internal)?, None));
+        };
         let (measure, bound) = (Measure::of(carried, points, p), bound * at.model.elasticity().at(y).shear);
         let (water, grid) = (carried.law(y).bulk, at.ratios.grid / at.ratios.step);
         let (before, slope) = (points.pressure[p], measure.slope(grid));
@@ -153,7 +162,7 @@ impl<const D: usize, K: Kinematics<D>> Share<D, K> for PressureField<K> {
         let mut gained = (pressure * slope - before) / (water + at.model.bulk_modulus(y, mean_before));
         for _ in 0..ITERATIONS {
             let stretch = f64::exp(2.0 / 3.0 * (gained - local));
-            let mut answer = K::respond(at.model, y, &at.trial.map(|b| stretch * b), &at.state)?;
+            let mut answer = K::respond(at.model, y, &at.trial.map(|b| stretch * b), &at.state, internal)?;
             let [stress, strain] = K::volumetric(&answer);
             let (of_model, binding, ratio) = (mean(&answer.kirchhoff), bound * (local - gained), gained.exp());
             let (bulk, slope) = (bound + mean(&stress), measure.slope(grid * ratio));

@@ -23,7 +23,7 @@ pub struct Within<'a> {
     pub model: &'a dyn Model,
     /// Elastic trial left Cauchy–Green tensor (-).
     pub trial: Symmetric,
-    pub state: State,
+    pub state: State<'a>,
     /// Of the end of the step.
     pub ratios: Ratios,
     /// Weight of the end of the step.
@@ -61,11 +61,18 @@ pub trait Share<const D: usize, K: Kinematics<D>>: Send + Sync {
     fn over(&self, frame: &Frame<D>, trial: &Trial<D>, patch: &Patch) -> Self::Cell;
 
     /// The response of the model of a point to an elastic trial left Cauchy–Green tensor within the step, and what it sees of the share.
-    /// `None` where that is out of its range.
+    /// The internal variables at the end of the step go into `internal`. `None` where the tensor is out of the range of the model.
     #[inline]
-    fn respond(&self, _: &Self::Cell, points: &Points<D>, entries: &Entries<D>, at: &Within) -> Option<Answer<K, D>> {
+    fn respond(
+        &self,
+        _: &Self::Cell,
+        points: &Points<D>,
+        entries: &Entries<D>,
+        at: &Within,
+        internal: &mut [f64],
+    ) -> Option<Answer<K, D>> {
         let y = points.seeded_height(entries.point);
-        Some((K::respond(at.model, y, &at.trial, &at.state)?, None))
+        Some((K::respond(at.model, y, &at.trial, &at.state, internal)?, None))
     }
 
     /// Adds the share at the end of the step to the answer of the model, given the ratios of volumes, and returns that at its beginning (kPa,
@@ -160,8 +167,9 @@ impl<const D: usize, K: Kinematics<D>, A: Share<D, K>, B: Share<D, K>> Share<D, 
         points: &Points<D>,
         entries: &Entries<D>,
         at: &Within,
+        internal: &mut [f64],
     ) -> Option<Answer<K, D>> {
-        self.0.respond(&cell.0, points, entries, at)
+        self.0.respond(&cell.0, points, entries, at, internal)
     }
 
     fn add(

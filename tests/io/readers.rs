@@ -214,7 +214,7 @@ fn points_vtu_is_viewable_as_it_is() {
         stress: symmetric(11),
         plastic_strain: numbers(n, 12),
         plastic_increment: Vec::new(),
-        memory: Vec::new(),
+        internal: Vec::new(),
         pressure: Vec::new(),
         pore_pressure: Vec::new(),
         fields: Vec::new(),

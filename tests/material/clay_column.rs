@@ -68,17 +68,22 @@ fn clay() -> Arc<dyn Model> {
 fn confined(model: &dyn Model, depth: f64, path: impl Iterator<Item = f64>) -> Vec<[f64; 3]> {
     let y = HEIGHT - depth;
     let mut elastic = model.elastic_strain(y, &[-K0 * WEIGHT * depth, -WEIGHT * depth, -K0 * WEIGHT * depth]);
-    let (mut strain, mut state) = (0.0, State::default());
+    let (mut strain, mut before) = (0.0, [0.0]);
     let step = |stress: f64| {
-        let respond = |by: f64| model.respond(y, &[elastic[0], elastic[1] + by, elastic[2]], &state);
+        let clay = model.principal().unwrap();
+        let respond = |by: f64| {
+            let mut internal = before;
+            let trial = [elastic[0], elastic[1] + by, elastic[2]];
+            (clay.respond(y, &trial, &State::default(), &mut internal), internal)
+        };
         let (mut low, mut high) = (-0.2, 0.2);
         for _ in 0..50 {
             let middle = 0.5 * (low + high);
-            let above = respond(middle).stress[1] * (-(strain + middle)).exp() > stress;
+            let above = respond(middle).0.stress[1] * (-(strain + middle)).exp() > stress;
             (low, high) = if above { (low, middle) } else { (middle, high) };
         }
-        let response = respond(low);
-        (strain, elastic, state) = (strain + low, response.elastic_strain, response.state);
+        let (response, internal) = respond(low);
+        (strain, elastic, before) = (strain + low, response.elastic_strain, internal);
         let cauchy = response.stress.map(|t| t * (-strain).exp());
         [strain, cauchy[0], cauchy[1]]
     };

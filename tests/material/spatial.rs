@@ -1,6 +1,6 @@
 //! The spatial stress and tangent against differences of the stress with the deformation gradient, for every model.
 
-use mpm::material::{MODELS, Model, Parameters, State, spatial};
+use mpm::material::{MODELS, Model, Parameters, State, internal_count, spatial};
 use mpm::tensor::{Symmetric, Tensor, full, symmetric};
 use std::sync::Arc;
 
@@ -36,6 +36,11 @@ fn models() -> Vec<(String, Arc<dyn Model>)> {
         (format!("{} {example:?}", kind.name), (kind.build)(&example.iter().collect::<Parameters>()).unwrap())
     };
     MODELS.iter().flat_map(|k| k.examples.iter().map(move |e| build(k, e))).collect()
+}
+
+/// Room for the internal variables of a model.
+fn room(model: &dyn Model) -> Vec<f64> {
+    vec![0.0; internal_count(model)]
 }
 
 fn left(f: &Tensor) -> Symmetric {
@@ -84,7 +89,8 @@ fn check(
 
 #[test]
 fn plane_tangent_is_the_derivative() {
-    let respond = |m: &dyn Model, f: &Tensor| spatial::plane(m, 0.0, &left(f), &State::default()).unwrap();
+    let respond =
+        |m: &dyn Model, f: &Tensor| spatial::plane(m, 0.0, &left(f), &State::default(), &mut room(m)).unwrap();
     check(
         true,
         |m, f| {
@@ -104,7 +110,8 @@ fn plane_tangent_is_the_derivative() {
 
 #[test]
 fn solid_tangent_is_the_derivative() {
-    let respond = |m: &dyn Model, f: &Tensor| spatial::solid(m, 0.0, &left(f), &State::default()).unwrap();
+    let respond =
+        |m: &dyn Model, f: &Tensor| spatial::solid(m, 0.0, &left(f), &State::default(), &mut room(m)).unwrap();
     check(
         false,
         |m, f| {
@@ -126,8 +133,8 @@ fn plane_and_solid_agree() {
         for _ in 0..300 {
             let b = left(&random.trial(&*model, true));
             let state = State::default();
-            let p = spatial::plane(&*model, 0.0, &b, &state).unwrap();
-            let s = spatial::solid(&*model, 0.0, &b, &state).unwrap();
+            let p = spatial::plane(&*model, 0.0, &b, &state, &mut room(&*model)).unwrap();
+            let s = spatial::solid(&*model, 0.0, &b, &state, &mut room(&*model)).unwrap();
             let stiffness = model.elasticity().at(0.0).tangent()[0][0];
             for k in 0..6 {
                 assert!((p.kirchhoff[k] - s.kirchhoff[k]).abs() <= 1e-13 * stiffness, "{name}");
@@ -155,7 +162,7 @@ fn equal_roots_leave_no_mark() {
             let b = base.map(|e: f64| (2.0 * size * e).exp());
             let tangent = |gap: f64| {
                 let b = [b[0] * (1.0 + gap), b[1] * (1.0 - gap), b[2], 0.3 * gap, 0.0, 0.0];
-                spatial::plane(&*model, 0.0, &b, &State::default()).unwrap().tangent
+                spatial::plane(&*model, 0.0, &b, &State::default(), &mut room(&*model)).unwrap().tangent
             };
             let reference = tangent(0.0);
             for exponent in 5..17 {
@@ -178,7 +185,8 @@ fn responses_are_objective() {
         let mut random = Random(13);
         for _ in 0..300 {
             let (f, q) = (random.trial(&*model, false), random.gradient(1.0, false).qr().q());
-            let at = |f: &Tensor| spatial::solid(&*model, 0.0, &left(f), &State::default()).unwrap();
+            let at =
+                |f: &Tensor| spatial::solid(&*model, 0.0, &left(f), &State::default(), &mut room(&*model)).unwrap();
             let (here, turned) = (at(&f), at(&(q * f)));
             let scale = model.elasticity().at(0.0).tangent()[0][0];
             assert!(
@@ -202,7 +210,7 @@ fn initial_stress_is_carried() {
         ] {
             let stress: Symmetric = stress.map(|x: f64| x * s);
             let b = spatial::elastic_from_stress(&*model, 0.0, &stress);
-            let r = spatial::solid(&*model, 0.0, &b, &State::default()).unwrap();
+            let r = spatial::solid(&*model, 0.0, &b, &State::default(), &mut room(&*model)).unwrap();
             assert!(!r.yielding, "{name}");
             let tolerance = 1e-15 * model.elasticity().at(0.0).tangent()[0][0] * 4.0;
             for k in 0..6 {
@@ -227,7 +235,7 @@ fn indefinite_and_infinite_tensors_are_refused() {
         [f64::NAN, 1.0, 1.0, 0.0, 0.0, 0.0],
         [1.0, 1.0, f64::INFINITY, 0.0, 0.0, 0.0],
     ] {
-        assert!(spatial::plane(&*model, 0.0, &b, &State::default()).is_none(), "{b:?}");
-        assert!(spatial::solid(&*model, 0.0, &b, &State::default()).is_none(), "{b:?}");
+        assert!(spatial::plane(&*model, 0.0, &b, &State::default(), &mut []).is_none(), "{b:?}");
+        assert!(spatial::solid(&*model, 0.0, &b, &State::default(), &mut []).is_none(), "{b:?}");
     }
 }

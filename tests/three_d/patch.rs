@@ -76,7 +76,7 @@ fn a_uniform_strain_gives_a_uniform_stress_and_no_force_within() {
 
                 let f = Tensor::identity() + gradient;
                 let b = symmetric(&(f * f.transpose()));
-                let answer = spatial::solid(model.as_ref(), 0.0, &b, &State::default()).unwrap();
+                let answer = spatial::solid(model.as_ref(), 0.0, &b, &State::default(), &mut []).unwrap();
                 let exact = full(&answer.kirchhoff) / f.determinant();
                 for history in stand.commit(step) {
                     let error = (full(&history.stress) - exact).amax() / exact.amax();

@@ -184,7 +184,7 @@ impl Stand {
     /// What the points come to.
     pub fn commit(&self, step: Step) -> Vec<History> {
         let trial = Trial { alpha_f: step.alpha_f, ..Trial::at_rest(step.trial, step.converged) };
-        self.term.commit(&self.frame(), &trial).unwrap().0.into_iter().flatten().collect()
+        self.term.commit(&self.frame(), &trial).unwrap().0.into_iter().flat_map(|list| list.points).collect()
     }
 
     /// Largest difference of the tangent from the central difference of the residual, relative to its largest entry.

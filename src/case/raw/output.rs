@@ -1,5 +1,6 @@
 //! What is written of a run, as it is written in the case.
 
+use crate::io::frame::INTERNAL;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -33,6 +34,7 @@ pub enum Field {
     DeformationGradient,
     PorePressure,
     Mass,
+    InternalVariables,
 }
 
 impl Field {
@@ -48,6 +50,7 @@ impl Field {
             Self::DeformationGradient => "deformation_gradient",
             Self::PorePressure => "pore_pressure",
             Self::Mass => "mass",
+            Self::InternalVariables => INTERNAL,
         }
     }
 }

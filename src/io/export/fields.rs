@@ -1,13 +1,25 @@
 //! The fields of a frame, and those that follow from them.
 
 use super::super::container::Data;
-use super::super::frame::{Column, Part};
+use super::super::frame::{Column, INTERNAL, Part};
 use super::super::vtu::Array;
 use crate::tensor::{Symmetric, deviatoric, mean};
 
 /// The fields that a part has or that follow from what it has.
 pub fn select(part: &Part, fields: &[String]) -> Vec<Array> {
-    fields.iter().filter_map(|name| column(part, name)).collect()
+    let internal: Vec<&str> = part.columns.iter().map(|c| c.name.as_str()).filter(|name| is_internal(name)).collect();
+    let mut arrays = Vec::new();
+    for name in fields {
+        let own = [name.as_str()];
+        let names = if name == INTERNAL { &internal[..] } else { &own };
+        arrays.extend(names.iter().filter_map(|name| column(part, name)));
+    }
+    arrays
+}
+
+/// Whether a column is one of an internal variable.
+fn is_internal(name: &str) -> bool {
+    name.strip_prefix(INTERNAL).is_some_and(|rest| rest.starts_with('.'))
 }
 
 /// One of them.

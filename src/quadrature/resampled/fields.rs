@@ -2,27 +2,26 @@
 
 use crate::kinematics::Kinematics;
 use crate::material::spatial::elastic_from_stress;
-use crate::material::{Model, State, spectral};
+use crate::material::{Model, State, Variable, spectral};
 use crate::points::Points;
 use crate::tensor::{Symmetric, mean};
 use rayon::prelude::*;
 use std::marker::PhantomData;
 use std::sync::Arc;
 
-/// What is fitted: stress xx, yy, zz, xy; ln J; density; plastic strain, what the model remembers, and what the last step added to the former; the
+/// What is fitted beside the internal variables: stress xx, yy, zz, xy; ln J; density; plastic strain, and what the last step added to it; the
 /// pressure of the field, the mean stress beside that of the model and the pore pressure; the place when seeded.
-pub const FIELDS: usize = 14;
+pub const FIELDS: usize = 13;
 pub type Fields = [f64; FIELDS];
 pub const STRESS: usize = 0;
 pub const VOLUME: usize = 4;
 pub const DENSITY: usize = 5;
 pub const PLASTIC: usize = 6;
-pub const MEMORY: usize = 7;
-pub const FLOW: usize = 8;
-pub const PRESSURE: usize = 9;
-pub const BESIDE: usize = 10;
-pub const WATER: usize = 11;
-pub const ORIGIN: usize = 12;
+pub const FLOW: usize = 7;
+pub const PRESSURE: usize = 8;
+pub const BESIDE: usize = 9;
+pub const WATER: usize = 10;
+pub const ORIGIN: usize = 11;
 
 /// Those that stay within the range of the points.
 pub const BOUNDED: std::ops::RangeInclusive<usize> = DENSITY..=FLOW;
@@ -41,14 +40,20 @@ impl<K: Kinematics<2>> Materials<K> {
         Self { models, kinematics: PhantomData }
     }
 
-    /// The elastic left Cauchy–Green tensor and the stress (kPa) that a model can have near the given fields.
-    pub fn state(&self, model: usize, fields: &Fields) -> Option<(Symmetric, Symmetric)> {
+    /// The internal variables of a model.
+    pub fn internal_variables(&self, model: usize) -> &[Variable] {
+        self.models.get(model).and_then(Option::as_ref).map_or(&[], |model| model.internal_variables())
+    }
+
+    /// The elastic left Cauchy–Green tensor and the stress (kPa) that a model can have near the given fields and internal variables.
+    pub fn state(&self, model: usize, fields: &Fields, internal: &[f64]) -> Option<(Symmetric, Symmetric)> {
         let kirchhoff = [fields[0], fields[1], fields[2], fields[3], 0.0, 0.0];
-        let state = State { plastic_strain: fields[PLASTIC], memory: fields[MEMORY], inverse_dt: 0.0 };
+        let state = State { plastic_strain: fields[PLASTIC], internal, ..State::default() };
         let y = fields[ORIGIN + 1];
         let model = self.models.get(model)?.as_ref()?;
         let elastic = elastic_from_stress(model.as_ref(), y, &kirchhoff);
-        let answer = K::respond(model.as_ref(), y, &elastic, &state)?;
+        // The return changes the stress alone.
+        let answer = K::respond(model.as_ref(), y, &elastic, &state, &mut internal.to_vec())?;
         let volume_ratio = fields[VOLUME].exp();
         let mut stress = answer.kirchhoff.map(|t| t / volume_ratio);
         stress[..3].iter_mut().for_each(|s| *s += fields[BESIDE] / volume_ratio);
@@ -68,7 +73,6 @@ impl<K: Kinematics<2>> Materials<K> {
         fields[VOLUME] = volume_ratio.ln();
         fields[DENSITY] = points.mass[p] / points.initial_volume[p];
         fields[PLASTIC] = points.plastic_strain[p];
-        fields[MEMORY] = at(&points.memory, p);
         fields[FLOW] = at(&points.plastic_increment, p);
         fields[PRESSURE] = at(&points.pressure, p);
         fields[WATER] = at(&points.pore_pressure, p);

@@ -173,9 +173,24 @@ impl Fit {
         sum
     }
 
+    /// The coefficients of the function that is nearest to one number of each point.
+    pub fn coefficients_of(&self, value: impl Fn(usize) -> f64) -> [f64; 3] {
+        let mut sum = [0.0; 3];
+        for (&p, shares) in self.points.iter().zip(&self.shares) {
+            let value = value(p as usize);
+            sum.iter_mut().zip(shares).for_each(|(sum, share)| *sum += share * value);
+        }
+        sum
+    }
+
+    /// Coordinates of a place (m) in the frame of the cell.
+    pub fn local(&self, x: &[f64; 2]) -> [f64; 2] {
+        self.frame.local(x)
+    }
+
     /// The function at a place (m).
     pub fn at<const N: usize>(&self, coefficients: &[[f64; N]; 3], x: &[f64; 2]) -> [f64; N] {
-        let [x, y] = self.frame.local(x);
+        let [x, y] = self.local(x);
         std::array::from_fn(|k| coefficients[0][k] + x * coefficients[1][k] + y * coefficients[2][k])
     }
 }

@@ -2,19 +2,20 @@
 //!
 //! When the grid is restored, each cell gets integration points where it is full of material and where the surface cuts
 //! it ([`places`]). They take their state from a linear function that is fitted to that of the material points around
-//! ([`fit`]), and until the grid is restored again they are ordinary points of finite elements. The material points move
+//! ([`fit`], [`internal`]), and until the grid is restored again they are ordinary points of finite elements. The material points move
 //! with the grid and answer for its deformation themselves; nothing is handed back to them. Material points
 //! outside the surface, as drops that are thrown out, are integration points themselves, with their volume and state. So are those of a cell in which all
 //! have come apart: there is no stress to sum up, and what moves is the mass of each, where it is. Fitted masses are those of the points in sum only, and
 //! points that fly by themselves would be mapped with one mass and moved with another.
 //!
-//! What is fitted are the Kirchhoff stress of the model, `ln J`, the density, and what the model remembers, which stays within the
-//! range of the points that it is fitted to. It is the stress and not the elastic strain, for it is the stress that is in balance: in
+//! What is fitted are the Kirchhoff stress of the model, `ln J`, the density, and the internal variables, which stay within the
+//! range of the points that they are fitted to. It is the stress and not the elastic strain, for it is the stress that is in balance: in
 //! clay whose stiffness grows with pressure, a stress linear in depth has a strain that is not. What lies outside
 //! the yield surface is brought back to it.
 
 mod fields;
 mod fit;
+mod internal;
 mod level_set;
 mod mass;
 mod places;
@@ -30,10 +31,9 @@ use crate::points::Points;
 use crate::stencil::PartlyFilled;
 use crate::surface::{Geometry, MarkerFront};
 use crate::tensor::{Symmetric, Tensor};
-use fields::{
-    BOUNDED, DENSITY, FIELDS, FLOW, Fields, MEMORY, Materials, Models, ORIGIN, PLASTIC, PRESSURE, VOLUME, WATER,
-};
+use fields::{BOUNDED, DENSITY, FIELDS, FLOW, Fields, Materials, Models, ORIGIN, PLASTIC, PRESSURE, VOLUME, WATER};
 use fit::{Around, Fit, Held, Rings};
+use internal::Internal;
 use level_set::Surface;
 use places::{Place, Places};
 pub use population::{Count, Renewed};
@@ -68,6 +68,8 @@ struct Sample {
 #[derive(Default)]
 struct Sampled {
     samples: Vec<Sample>,
+    /// Their internal variables, one after the other.
+    internal: Vec<f64>,
     linear: u32,
     constant: u32,
     /// The cell, if it is outside the surface.
@@ -145,15 +147,20 @@ impl<K: Kinematics<2>> Resampled<K> {
                 }
             }
             let model = fit.points.first().map_or(usize::from(region), |&p| points.model_of(p as usize));
+            let internal = Internal::new(points, &fit, self.materials.internal_variables(model));
             for place in own {
+                let begin = sampled.internal.len();
+                internal.add_at(&place.x, &mut sampled.internal);
                 let mut fields = fit.at(&coefficients, &place.x);
                 for k in BOUNDED {
                     fields[k] = fields[k].clamp(range[k][0], range[k][1]);
                 }
-                let (elastic, stress) = self.materials.state(model, &fields).unwrap_or_else(|| {
+                let state = self.materials.state(model, &fields, &sampled.internal[begin..]);
+                let (elastic, stress) = state.unwrap_or_else(|| {
                     // What no model answers to is not the state of the soil there: the nearest point's is.
                     let p = nearest(points, &fit.points, &place.x);
                     fields = all_fields[p];
+                    sampled.internal[begin..].copy_from_slice(points.internal_of(p));
                     sampled.taken += 1;
                     (points.elastic[p], points.stress[p])
                 });
@@ -172,7 +179,8 @@ impl<K: Kinematics<2>> Resampled<K> {
             Sample { cell, place, region, fields: fields[p], elastic, stress }
         };
         let samples: Vec<Sample> = held.points(cell).iter().map(sample).collect();
-        Sampled { outside: (!samples.is_empty()).then_some(cell), samples, ..Sampled::default() }
+        let internal = held.points(cell).iter().flat_map(|&p| points.internal_of(p as usize)).copied().collect();
+        Sampled { outside: (!samples.is_empty()).then_some(cell), samples, internal, ..Sampled::default() }
     }
 
     fn weigh_on(&self, geometry: &Geometry, grid: &Restored<2>, front: &mut Option<MarkerFront>) -> Weights<2> {
@@ -297,7 +305,7 @@ fn collect(points: &Points<2>, sampled: &[Sampled]) -> (Samples<2>, Tally) {
         stress: all().map(|s| s.stress).collect(),
         plastic_strain: column(true, PLASTIC),
         plastic_increment: column(!points.plastic_increment.is_empty(), FLOW),
-        memory: column(!points.memory.is_empty(), MEMORY),
+        internal: sampled.iter().flat_map(|cell| &cell.internal).copied().collect(),
         pressure: column(!points.pressure.is_empty(), PRESSURE),
         pore_pressure: column(!points.pore_pressure.is_empty(), WATER),
         fields: Vec::new(),

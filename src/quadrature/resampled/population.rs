@@ -11,7 +11,7 @@
 //! Two points that become one are near to each other and alike. Mass, volume, `Σ V σ`, the centre of mass and linear momentum are kept; the spin of the two about
 //! their centre is handed to the points of the cell as a rigid rotation.
 
-use super::fields::{FIELDS, Fields, MEMORY, Materials, PLASTIC, STRESS, VOLUME};
+use super::fields::{FIELDS, Fields, Materials, PLASTIC, STRESS, VOLUME};
 use super::fit::{Around, Held};
 use super::places::Place;
 use crate::kinematics::Kinematics;
@@ -227,21 +227,25 @@ impl Crowd {
     /// Merges pairs of the points of a crowded part, each point at most once. Returns how many.
     fn thin<K: Kinematics<2>>(&mut self, ground: &Ground, part: &Part, materials: &Materials<K>) -> u32 {
         let members = self.members(part);
-        let fields: Vec<Fields> = members.iter().map(|&p| materials.fields(&self.points, p as usize)).collect();
-        let like: Vec<usize> = (STRESS..STRESS + 4).chain([PLASTIC, MEMORY]).collect();
+        let compared = |&p: &u32| -> Vec<f64> {
+            let fields = materials.fields(&self.points, p as usize);
+            let own = fields[STRESS..STRESS + 4].iter().chain([&fields[PLASTIC]]);
+            own.chain(self.points.internal_of(p as usize)).copied().collect()
+        };
+        let compared: Vec<Vec<f64>> = members.iter().map(compared).collect();
         let range = |k: usize| {
             let (low, high) =
-                fields.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), f| (l.min(f[k]), h.max(f[k])));
+                compared.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), f| (l.min(f[k]), h.max(f[k])));
             if high > low { high - low } else { 1.0 }
         };
-        let ranges: Vec<f64> = like.iter().map(|&k| range(k)).collect();
+        let ranges: Vec<f64> = (0..compared.first().map_or(0, Vec::len)).map(range).collect();
         let area = ground.geometry.frame[part.cell as usize].length.powi(2);
         let mut pairs = Vec::new();
         for (i, &p) in members.iter().enumerate() {
             for (j, &q) in members.iter().enumerate().skip(i + 1) {
                 let [x, y] = [p, q].map(|p| self.points.position[p as usize]);
-                let unlike: f64 =
-                    like.iter().zip(&ranges).map(|(&k, range)| ((fields[i][k] - fields[j][k]) / range).powi(2)).sum();
+                let both = compared[i].iter().zip(&compared[j]).zip(&ranges);
+                let unlike: f64 = both.map(|((a, b), range)| ((a - b) / range).powi(2)).sum();
                 pairs.push((distance2(&x, &y) / area + unlike, i, j));
             }
         }
@@ -284,16 +288,19 @@ impl Crowd {
         // Kirchhoff stresses by their volume when seeded, as all that is fitted.
         let [a, b] = [p, q].map(|p| (points.initial_volume[p], materials.fields(points, p)));
         let mut fields: Fields = std::array::from_fn(|k| (a.0 * a.1[k] + b.0 * b.1[k]) / (a.0 + b.0));
+        let internal = points.internal_of(p).iter().zip(points.internal_of(q));
+        let internal: Vec<f64> = internal.map(|(x, y)| (a.0 * x + b.0 * y) / (a.0 + b.0)).collect();
         fields[VOLUME] = one.deformation[0].determinant().ln();
         fields[FIELDS - 2..].copy_from_slice(&one.origin[0]);
         let place = ground.room_at(&one.position[0], part.region, part.cell).filter(|(cell, _)| *cell == part.cell);
-        let (Some((_, xi)), Some((elastic, stress))) = (place, materials.state(points.model_of(p), &fields)) else {
+        let (Some((_, xi)), Some((elastic, stress))) = (place, materials.state(points.model_of(p), &fields, &internal))
+        else {
             return false;
         };
         (one.elastic[0], one.stress[0]) = (elastic, stress);
         one.cell[0] = part.cell;
         let new = self.points.len();
-        self.points.append(one);
+        self.points.append(&one);
         self.parametric.push(xi);
         self.from.push(self.from[p]);
         self.gone.push(false);

@@ -5,7 +5,7 @@ use super::super::foreign::foreign;
 use crate::contact::{Interface, Multipliers};
 use crate::error::{Error, Result};
 use crate::mesh::Mesh;
-use crate::points::Points;
+use crate::points::{Column, Item, Points, Presence, Visitor};
 use crate::quadrature::{Samples, Weights};
 use crate::step::{Controller, Limits, Scene, Span, State, has_room_for_penalties};
 use crate::surface::{ActiveBoundary, MarkerFront, NO_REGION, Voids};
@@ -88,7 +88,7 @@ fn check_fields<const D: usize>(scene: &Scene<D>, state: &State<D>) -> Result<()
     let of_water = if scene.water.is_some() { nodes } else { 0 };
     let [places, _] = scene.places();
     let of_points = state.points.fields.len();
-    ensure(of_points == scene.fields.len() && state.fem.fields.is_empty(), "its scalar fields")?;
+    ensure(of_points == scene.fields.len() * state.points.len() && state.fem.fields.is_empty(), "its scalar fields")?;
     let pressures = match scene.fields.len() {
         0 => scene.pressure_unit.map_or(0, |_| places.pore_pressures() + of_water),
         fields => places.end(fields),
@@ -185,16 +185,14 @@ fn check_family<const D: usize>(
         (points.reference.len(), begun(scene, state).any(|phase| phase.reset)),
         (points.velocity.len(), state.moving || began_moving && !points.velocity.is_empty()),
         (points.acceleration.len(), state.moving),
-        (points.memory.len(), !first.memory.is_empty()),
-        (points.pressure.len(), !first.pressure.is_empty()),
-        (points.pore_pressure.len(), !first.pore_pressure.is_empty()),
         (points.model.len(), begun(scene, state).any(|phase| !phase.changes.is_empty())),
     ];
     ensure(
         columns.iter().all(|&(length, present)| length == if present { count } else { 0 }),
         "a column of its points",
     )?;
-    ensure(points.fields.iter().all(|column| column.len() == count), "a scalar field of its points")?;
+    let expected = |column: &Column, at_first: usize| if column.presence == Presence::Phases { ANY } else { at_first };
+    ensure(widths_agree(points, first, &expected), "a column of its points")?;
     let changes: Vec<_> = begun(scene, state).flat_map(|phase| &phase.changes).collect();
     for (p, &region) in points.region.iter().enumerate() {
         let change = changes.iter().rev().find(|change| change.region == region);
@@ -202,6 +200,33 @@ fn check_family<const D: usize>(
         ensure(points.model.is_empty() || points.model[p] == number, "the material of a point")?;
     }
     Ok(())
+}
+
+/// Any number of entries.
+const ANY: usize = usize::MAX;
+
+/// Whether each column has as many entries for a point as is `expected` of it, given how many it has in `others`.
+fn widths_agree<const D: usize>(
+    points: &Points<D>,
+    others: &Points<D>,
+    expected: &dyn Fn(&Column, usize) -> usize,
+) -> bool {
+    struct Widths<'a> {
+        count: usize,
+        of: Vec<(&'a Column, usize)>,
+    }
+    impl Visitor<'_> for Widths<'_> {
+        fn visit<T: Item>(&mut self, column: &'static Column, values: &[T]) {
+            self.of.push((column, if values.is_empty() { 0 } else { values.len() / self.count }));
+        }
+    }
+    let [own, others] = [points, others].map(|points| {
+        let mut widths = Widths { count: points.len(), of: Vec::new() };
+        points.each(&mut widths);
+        widths.of
+    });
+    points.is_empty()
+        || own.iter().zip(&others).all(|((column, own), (_, others))| [ANY, *own].contains(&expected(column, *others)))
 }
 
 /// Whether a parametric place is within a cell.
@@ -216,18 +241,8 @@ fn check_samples<const D: usize>(scene: &Scene<D>, state: &State<D>) -> Result<(
         .check(scene.mesh.regions.len(), scene.mesh.cells.len())
         .map_err(|problem| Error::input("checkpoint", problem, "start the analysis afresh, without --resume"))?;
     let material = &state.points;
-    let columns = [
-        (points.reference.len(), 0),
-        (points.velocity.len(), 0),
-        (points.acceleration.len(), 0),
-        (points.plastic_increment.len(), material.plastic_increment.len()),
-        (points.memory.len(), material.memory.len()),
-        (points.pressure.len(), material.pressure.len()),
-        (points.pore_pressure.len(), material.pore_pressure.len()),
-        (points.model.len(), material.model.len()),
-    ];
-    let fits = |&(length, of_material): &(usize, usize)| length == if of_material > 0 { points.len() } else { 0 };
-    ensure(columns.iter().all(fits) && points.fields.is_empty(), "a column of its integration points")?;
+    let expected = |column: &Column, of_material: usize| if column.at_integration { of_material } else { 0 };
+    ensure(widths_agree(points, material, &expected), "a column of its integration points")?;
     let number = |region: u16| material.region.iter().position(|&r| r == region).and_then(|p| material.model.get(p));
     let same = (0..points.model.len()).all(|q| number(points.region[q]) == Some(&points.model[q]));
     ensure(same, "the material of an integration point")?;

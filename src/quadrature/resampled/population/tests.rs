@@ -21,7 +21,7 @@ fn stir(points: &mut Points<2>) {
     let count = points.len();
     points.velocity = (0..count).map(|i| [wave(i, 0), wave(i, 1)]).collect();
     points.acceleration = (0..count).map(|i| [wave(i, 2), wave(i, 3)]).collect();
-    points.memory = (0..count).map(|i| wave(i, 4).abs()).collect();
+    points.internal = (0..2 * count).map(|i| wave(i / 2, 4 + 6 * (i % 2)).abs()).collect();
     points.reference = points.position.iter().map(|x| [x[0] - 0.1, x[1] + 0.2]).collect();
     points.pressure = (0..count).map(|i| wave(i, 9)).collect();
     points.pore_pressure = (0..count).map(|i| wave(i, 8)).collect();
@@ -82,7 +82,7 @@ fn filled(mesh: &Mesh<2>, axisymmetric: bool, each: u32) -> Points<2> {
     seed(mesh, axisymmetric, &[RegionSeed { region: 0, points_per_cell: each, density }]).unwrap()
 }
 
-/// What is kept: mass, volume when seeded and now; Σ m x, Σ m X, Σ m x₀, Σ V₀ memory and Σ V₀ p, Σ V p_w; Σ V σ; linear momentum and its rate.
+/// What is kept: mass, volume when seeded and now; Σ m x, Σ m X, Σ m x₀, Σ V₀ β and Σ V₀ p, Σ V p_w; Σ V σ; linear momentum and its rate.
 fn sums(points: &Points<2>) -> Vec<f64> {
     let mut sums = vec![0.0; 24];
     for p in 0..points.len() {
@@ -94,7 +94,7 @@ fn sums(points: &Points<2>) -> Vec<f64> {
             (m, points.velocity[p]),
             (m, points.acceleration[p]),
             (1.0, [m, v0]),
-            (1.0, [v, v0 * points.memory[p]]),
+            (1.0, [v, v0 * points.internal_of(p)[1]]),
             (1.0, [v0 * points.pressure[p], v * points.pore_pressure[p]]),
         ];
         let vectors = vectors.iter().flat_map(|(w, x)| x.map(|x| w * x));
@@ -142,8 +142,7 @@ fn fills<K: Kinematics<2>>(kind: CellKind, each: u32) {
     let [before, now] = [&points, after_points].map(|points| points.mass.iter().sum::<f64>());
     assert!((before - now).abs() < 1e-14 * before, "{before} {now}");
     for (p, &from) in after.from.iter().enumerate() {
-        let of = |column: &[f64]| column[from as usize];
-        assert_eq!(after_points.memory[p], of(&points.memory));
+        assert_eq!(after_points.internal_of(p), points.internal_of(from as usize));
         assert_eq!(after_points.elastic[p], points.elastic[from as usize]);
         let (c, _) = locator.locate(&mesh, &after_points.position[p], None).unwrap();
         assert_eq!(c, after_points.cell[p]);
