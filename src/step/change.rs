@@ -6,7 +6,7 @@
 
 use crate::material::{Model, Profile, spatial};
 use crate::points::Points;
-use crate::term::Carried;
+use crate::term::MixedPressure;
 use std::fmt;
 use std::sync::Arc;
 
@@ -21,9 +21,9 @@ pub struct Change {
     pub into: String,
     /// The model that answers for the whole stress, and what the pressure field carries of it.
     pub model: Arc<dyn Model>,
-    pub carried: Option<Carried>,
+    pub carried: Option<MixedPressure>,
     /// What the field carried before.
-    pub before: Option<Carried>,
+    pub before: Option<MixedPressure>,
     /// Density (t/m³).
     pub density: Profile,
     /// Whether the model has the internal variables of the one before.
@@ -53,7 +53,7 @@ impl Change {
             let y = points.seeded_height(p);
             let volume_ratio = points.deformation[p].determinant();
             // Pore water that shares the pressure field has its pressure there.
-            let shares = |carried: &&Carried| carried.water > 0.0;
+            let shares = |carried: &&MixedPressure| carried.water > 0.0;
             let pore_pressure = self.before.as_ref().filter(shares).map_or(0.0, |c| c.pore_pressure(points, p));
             let kirchhoff = points.stress[p].map(|s| volume_ratio * s);
             points.elastic[p] = spatial::elastic_from_stress(self.model.as_ref(), y, &kirchhoff);

@@ -8,9 +8,9 @@ use super::nodal_fit::{self, Filled};
 use super::scene::Scene;
 use super::state::State;
 use crate::dofs::DofMap;
+use crate::interpolation::Interpolation;
 use crate::kinematics::Kinematics;
 use crate::mesh::Mesh;
-use crate::stencil::Stencil;
 use crate::term::pressure_hats;
 
 /// Makes room for the fields in the state; points that have none have zeros.
@@ -26,7 +26,7 @@ pub fn make_room<const D: usize>(scene: &Scene<D>, state: &mut State<D>) {
 /// Takes the fields over from the material points to a restored grid.
 pub fn project<const D: usize, K: Kinematics<D>>(
     scene: &Scene<D>,
-    (mesh, stencil): (&Mesh<D>, &Stencil<D>),
+    (mesh, interpolation): (&Mesh<D>, &Interpolation<D>),
     state: &mut State<D>,
 ) {
     make_room(scene, state);
@@ -34,7 +34,7 @@ pub fn project<const D: usize, K: Kinematics<D>>(
     for k in 0..count {
         let range = places.field(k, 0)..places.field(k + 1, 0);
         let mut values = state.pressure[range.clone()].to_vec();
-        let filled = Filled { mesh, stencil, points: &state.points };
+        let filled = Filled { mesh, interpolation, points: &state.points };
         nodal_fit::fit::<D, K>(&[filled], |points, p| Some(points.fields[p * count + k]), &mut values);
         state.pressure[range].copy_from_slice(&values);
     }
@@ -44,16 +44,16 @@ pub fn project<const D: usize, K: Kinematics<D>>(
 /// theirs.
 pub fn to_points<const D: usize, K: Kinematics<D>>(
     scene: &Scene<D>,
-    (mesh, stencil): (&Mesh<D>, &Stencil<D>),
+    (mesh, interpolation): (&Mesh<D>, &Interpolation<D>),
     state: &mut State<D>,
     new: &[f64],
 ) {
     let ([places, _], count) = (scene.places(), scene.fields.len());
     for k in 0..count {
-        for patch in &stencil.patches {
-            let kind = mesh.cells.kind[patch.cell as usize];
-            let corners = &mesh.cells.nodes(patch.cell as usize)[..kind.corner_count()];
-            for entries in stencil.entries::<K>(patch) {
+        for cell_points in &interpolation.filled {
+            let kind = mesh.cells.kind[cell_points.cell as usize];
+            let corners = &mesh.cells.nodes(cell_points.cell as usize)[..kind.corner_count()];
+            for entries in interpolation.entries::<K>(cell_points) {
                 let hats = pressure_hats(kind, entries.shape);
                 let change = |(hat, &n): (&f64, &u32)| {
                     let place = places.field(k, n);

@@ -3,13 +3,13 @@
 use super::change::Change;
 use crate::contact::Interface;
 use crate::dofs::Places;
+use crate::interpolation::Basis;
 use crate::mesh::Mesh;
 use crate::mesh::faces::Faces;
 use crate::mesh::locate::Locator;
 use crate::quadrature::Quadrature;
 use crate::rigid::Body;
-use crate::stencil::Basis;
-use crate::term::{Carried, Levels, Porous, Term};
+use crate::term::{MixedPressure, Porous, Term, WaterLevels};
 use crate::time_value::TimeValue;
 
 /// What a case resolves into. Only [`crate::case`] decides which terms it has.
@@ -25,7 +25,7 @@ pub struct Scene<const D: usize> {
     /// The structures and what they touch.
     pub interfaces: Vec<Box<dyn Interface<D>>>,
     /// The levels of the water that friction tells apart: where those outside and in the pores differ.
-    pub levels: Option<Levels>,
+    pub levels: Option<WaterLevels>,
     /// The faces between the cells; absent where none takes a ghost penalty, on displacement or on mass.
     pub faces: Option<Faces>,
     /// What the points see of the grid.
@@ -36,7 +36,7 @@ pub struct Scene<const D: usize> {
     /// unknowns are lengths and all equations forces; absent without a pressure field and pore water.
     pub pressure_unit: Option<f64>,
     /// What the pressure field carries of each material by number: what of it is of the pore water has no friction in contact.
-    pub carried: Vec<Option<Carried>>,
+    pub carried: Vec<Option<MixedPressure>>,
     /// The water in the pores, where its pressure is a field of its own.
     pub water: Option<Water>,
     /// Other scalar fields that the material points carry.

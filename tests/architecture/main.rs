@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 const LAYERS: [&[&str]; 7] = [
     &["analytical", "error", "profile", "program", "tensor", "time_integration", "time_value"],
     &["material", "mesh"],
-    &["contact", "dofs", "kinematics", "points", "quadrature", "rigid", "seed", "stencil", "surface", "system"],
+    &["contact", "dofs", "kinematics", "points", "quadrature", "rigid", "seed", "interpolation", "surface", "system"],
     &["term"],
     &["io", "run", "step"],
     &["case"],
@@ -87,7 +87,7 @@ fn factors_alone_name_the_sparse_solver_and_one_file_calls_gmsh() {
 }
 
 /// Words of the code that have a standard name, and that name.
-const REPLACED: [(&str, &str); 13] = [
+const REPLACED: [(&str, &str); 27] = [
     ("guess", "predictor"),
     ("set_out", "first_iterations"),
     ("laid", "initially_closed"),
@@ -101,6 +101,20 @@ const REPLACED: [(&str, &str); 13] = [
     ("per_second", "inverse_dt"),
     ("lean", "conform"),
     ("weighing", "weights"),
+    ("stencil", "interpolation"),
+    ("Stencil", "Interpolation"),
+    ("Patch", "CellPoints"),
+    ("clique", "coupling"),
+    ("Cliques", "Connectivity"),
+    ("Reach", "Extension"),
+    ("Beyond", "MatrixFree"),
+    ("Share", "Mixed"),
+    ("Carried", "MixedPressure"),
+    ("Levels", "WaterLevels"),
+    ("WaterBond", "PoreStabilisation"),
+    ("push_out", "project_out"),
+    ("bearer", "host"),
+    ("remembers", "internal_variables"),
 ];
 
 #[test]

@@ -6,6 +6,7 @@
 //! q(s − β) ≤ σ_0 + H p,    Δε_p = Δp n,  n = 3/2 (s − β)/q,    β = (β_n + ⅔ C Δε_p)/(1 + γ Δp)
 //! ```
 
+use mpm::interpolation::Mpm;
 use mpm::io::checkpoint::Fingerprint;
 use mpm::io::export::export;
 use mpm::io::frame::{self, Frame};
@@ -25,7 +26,6 @@ use mpm::points::Points;
 use mpm::quadrature::Resampled;
 use mpm::run::{self, Ended, Field, InternalVariable, Outputs};
 use mpm::seed::{RegionSeed, seed};
-use mpm::stencil::Mpm;
 use mpm::step::{self, Fixed, Numerics, Phase, Prescribed, Restore, Scene, Stop};
 use mpm::tensor::{Symmetric, Tensor, deviatoric, full, mean, symmetric};
 use mpm::term::{EmptyCells, Internal};
@@ -412,12 +412,7 @@ fn scene() -> (Scene<2>, Points<2>, Models) {
         phases: vec![phase],
         basis: &Mpm,
         fields: Vec::new(),
-        numerics: Numerics {
-            restore: Restore::EveryStep,
-            spectral_radius: 1.0,
-            tolerance: 1e-9,
-            max_iterations: 25,
-        },
+        numerics: Numerics { restore: Restore::EveryStep, spectral_radius: 1.0, tolerance: 1e-9, max_iterations: 25 },
         gravity: [0.0; 2],
         stiffness_scale: YOUNG,
         density_scale: 1.0,
