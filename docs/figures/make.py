@@ -548,7 +548,7 @@ def gradients(png):
         left.plot(n, 0, "s", ms=5, color=DARK, clip_on=False, zorder=5)
     left.axhline(0, color=GRID, lw=0.7)
     left.set_xlabel("x/h")
-    left.set_ylabel("gradient of the shape function of node 0, times h")
+    left.set_ylabel("gradient of N₀, times h")
     left.set_ylim(-1.15, 1.95)
     left.legend(frameon=False, fontsize=8, loc="upper right", ncol=1)
     left.set_title("One node's gradient in 1D", loc="left")
