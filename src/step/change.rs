@@ -1,4 +1,4 @@
-//! Materials that change as a phase begins: what the points of a region take over into the new one.
+//! Materials that change as a phase begins (docs/theory.md, section 9, *Change of material*): the state of the points of a region.
 //!
 //! The stress stays, and so does the excess pore pressure: the new material gets the elastic strain and the share of the pressure field that
 //! carry them. The deformation, the volume and the accumulated plastic strain of the points go on. Their mass becomes that of the new density. What hardens
@@ -19,14 +19,14 @@ pub struct Change {
     /// The number of the material among those of the scene ([`Points::model_of`]), and its name.
     pub number: u16,
     pub into: String,
-    /// The model that answers for the whole stress, and what the pressure field carries of it.
+    /// The model of the whole stress, and the part of it that the pressure field carries.
     pub model: Arc<dyn Model>,
     pub carried: Option<Carried>,
     /// What the field carried before.
     pub before: Option<Carried>,
     /// Density (t/m³).
     pub density: Profile,
-    /// Whether what the model remembers is the quantity that the one before remembered.
+    /// Whether the internal variable is the same quantity as that of the model before.
     pub goes_on: bool,
 }
 

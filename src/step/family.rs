@@ -1,4 +1,5 @@
-//! Points with the cells they act on, and systems of equations over their nodes.
+//! Points with the cells that they act on (a *family*: those of the grid, or those of the finite elements), and systems of equations over
+//! their nodes.
 
 use crate::error::Result;
 use crate::kinematics::Kinematics;

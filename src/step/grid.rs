@@ -409,8 +409,8 @@ impl<const D: usize> Grid<D> {
     }
 }
 
-/// The increments (m) of displacements that are given in a step of size `dt`, one entry an equation: zero at the
-/// supports, and what is prescribed, which takes precedence; and those (kPa) of pore pressures at drained nodes.
+/// The prescribed increments (m) of displacement in a step of size `dt`, one entry for each equation: zero at supports, and those of curves,
+/// which take precedence; and those (kPa) of pore pressures at drained nodes.
 pub fn given_increments<const D: usize>(
     scene: &Scene<D>,
     state: &State<D>,

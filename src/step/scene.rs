@@ -23,7 +23,7 @@ pub struct Scene<const D: usize> {
     pub fem: Option<Fem<D>>,
     /// The rigid bodies: their unknowns are those of nodes at the end of [`Scene::mesh`], which no cell has.
     pub bodies: Vec<Body<D>>,
-    /// The structures and what they touch.
+    /// The contact interfaces.
     pub interfaces: Vec<Box<dyn Interface<D>>>,
     /// The levels of the water that friction tells apart: where those outside and in the pores differ.
     pub levels: Option<Levels>,
@@ -108,7 +108,7 @@ impl<const D: usize> Scene<D> {
         self.phases.iter().any(|phase| phase.dynamic || phase.auto)
     }
 
-    /// The interfaces that may touch in a phase, with their numbers.
+    /// The interfaces that are active in a phase, with their numbers.
     pub fn touching(&self, phase: usize) -> impl Iterator<Item = (usize, &dyn Interface<D>)> {
         let apart = self.phases.get(phase).map_or(&[][..], |phase| &phase.apart);
         let all = self.interfaces.iter().map(|interface| interface.as_ref()).enumerate();
@@ -185,9 +185,9 @@ pub struct Phase {
     pub reduction: Option<TimeValue>,
     /// Present where the phase looks for the reduction of strength that leaves no equilibrium.
     pub search: Option<Search>,
-    /// Nodes of structures that are not there: they stay where they are.
+    /// Nodes of structures that the phase leaves out: they do not move.
     pub held: Vec<Fixed>,
-    /// The interfaces that do not touch, by number.
+    /// The interfaces that are not active, by number.
     pub apart: Vec<usize>,
     /// The materials that regions take as it begins; none in the first phase.
     pub changes: Vec<Change>,
@@ -214,14 +214,14 @@ impl Phase {
     }
 }
 
-/// How far soil may move without inertia and count as what it was (-), in its height.
+/// How far soil may move without inertia (-), over its height: farther counts as failure in a strength reduction, and is a warning else.
 pub const FARTHEST: f64 = 0.5;
 
 /// What counts as equilibrium while strengths are reduced to failure.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Search {
-    /// The farthest (m) that soil may move for a unit of the factor: soil that fails finds equilibrium again in another
-    /// shape, and that is not the one asked about.
+    /// The largest displacement (m) of soil for an increase of the factor by one: soil that fails may find equilibrium again in another
+    /// shape, and that counts as failure.
     pub farthest: f64,
     /// The nodes of soil of finite elements; that of points is wherever they are.
     pub elements: Vec<u32>,
@@ -236,7 +236,7 @@ pub struct Stop {
     pub frame: bool,
 }
 
-/// When the grid goes back to its first shape.
+/// When the grid is reset: its nodes go back to their first positions (docs/theory.md, section 4).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Restore {
     EveryStep,
