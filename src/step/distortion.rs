@@ -12,8 +12,8 @@ use rayon::prelude::*;
 /// cell folds where it reaches zero.
 const FOLDED: f64 = 0.3;
 
-/// Whether a cell with points has a quality below the share `least` of its first one, has come near to
-/// folding, or an edge is `stretch` times as long as at first, or as short.
+/// Whether a cell with points has a quality below the fraction `least` of that at the last reset, is nearly folded, or has an edge `stretch`
+/// times as long as at the last reset, or as short.
 pub fn exceeds<const D: usize>(scene: &Scene<D>, state: &State<D>, grid: &Grid<D>, least: f64, stretch: f64) -> bool {
     const { assert!(D == 2, "the quality of cells is known in the plane only") };
     let mesh = grid.relaxed.as_ref().map_or(&scene.mesh, |relaxed| &relaxed.mesh);

@@ -18,7 +18,7 @@ pub struct Family<'a, const D: usize> {
     pub points: &'a Points<D>,
 }
 
-/// A system of equations over the nodes that take part.
+/// A system of equations over the active nodes.
 pub struct System {
     pub pattern: Pattern,
     pub matrix: Matrix,

@@ -1,8 +1,8 @@
 //! Scalar fields that the material carries beside displacement and pressures, with an unknown at each corner of the cells: a temperature, a
 //! concentration. The scene declares a field; its equation is a term. No case makes one so far.
 //!
-//! The unknowns are those of all active cells of the grid, so the term has to give each cell in [`crate::term::Frame::cells`] something, with points or
-//! without. [`crate::term::Frame::field`] is their place among the unknowns of a cell.
+//! The unknowns are those of all active cells of the grid, so the term has to contribute to each cell in [`crate::term::Frame::cells`], with points
+//! or without. [`crate::term::Frame::field`] is their place among the unknowns of a cell.
 
 use super::family::Family;
 use super::grid::Grid;

@@ -33,9 +33,9 @@ pub struct Grid<const D: usize> {
     pub elements: Option<Elements<D>>,
     /// The faces that take a ghost penalty.
     pub ghost: Vec<GhostFace>,
-    /// The contact nodes that face something.
+    /// The constraints of the contact nodes that face soil or another body.
     pub constraints: Vec<PlacedConstraint<D>>,
-    /// The parts of the boundary of the material that no structure covers; absent where all of it is open or nothing asks.
+    /// The parts of the boundary of the material that no structure covers; absent where all of it is open or no term needs it.
     pub open: Option<Vec<Piece>>,
     /// The clique of each contact node of each interface that the system has room for, else `u32::MAX`.
     pub constraint_clique: Vec<Vec<u32>>,
@@ -121,7 +121,7 @@ impl<const D: usize> Carrying<'_, D> {
 }
 
 impl<const D: usize> Grid<D> {
-    /// The grid of a state whose points are located and weighed.
+    /// The grid of a state whose points are located and have weights.
     ///
     /// # Errors
     /// A machine error when memory does not suffice.

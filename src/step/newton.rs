@@ -41,11 +41,11 @@ struct Newton<'a, const D: usize> {
     problem: &'a Problem<'a, D>,
     grid: &'a mut Grid<D>,
     buffers: Buffers<D>,
-    /// Whether the matrix of the grid is the tangent of the state at hand.
+    /// Whether the matrix of the grid is the tangent of the current state.
     tangent: bool,
     /// Least scale (kN) of the residual.
     floor: f64,
-    /// Relative residuals so far; the last is that of the state at hand.
+    /// Relative residuals so far; the last is that of the current state.
     history: Vec<f64>,
     method: Method,
     /// The residual (kN) on the right of eq. 14, and how many full steps in a row the watchdog has accepted that did not reduce it.
@@ -204,7 +204,7 @@ impl<'a, const D: usize> Newton<'a, D> {
         norm_free(&evaluation.force, &self.buffers.fixed)
     }
 
-    /// Notes the residual of the state at hand, relative to the largest of the terms that balance in it.
+    /// Appends the residual of the current state, relative to the largest term in it, to the history.
     fn note(&mut self) {
         self.history.push(self.size(&self.buffers.now) / self.buffers.now.scale.max(self.floor));
     }
@@ -222,7 +222,7 @@ impl<'a, const D: usize> Newton<'a, D> {
         self.buffers.gap.iter().all(|g| *g == 0.0) && self.error() <= self.tolerance()
     }
 
-    /// `K δ = −R` with δ given where the displacement is, as the last call of [`Newton::converged`] found.
+    /// `K δ = −R`, where δ of a prescribed displacement is what is left to it, as the last call of [`Newton::converged`] found.
     fn direction(&mut self) -> Result<()> {
         if self.history.len() > self.problem.scene.numerics.max_iterations {
             return Err(self.failure("too many iterations"));

@@ -161,8 +161,8 @@ impl Corners {
         matrix
     }
 
-    /// Which components of each corner are given: all of shared ones; elsewhere on the boundary that across it, where
-    /// it runs along an axis, and both where it does not.
+    /// Which components of each corner are prescribed: all at shared nodes; on the rest of the boundary the normal one of sides along an axis,
+    /// and both on other sides.
     fn held<const D: usize>(&self, mesh: &Mesh<D>, shared: &[bool]) -> Vec<[bool; D]> {
         const { assert!(D == 2, "sides are lines in the plane only") };
         let mut held: Vec<[bool; D]> = self.node.iter().map(|&n| [shared[n as usize]; D]).collect();

@@ -57,7 +57,7 @@ pub struct Report<const D: usize> {
     /// Relative residuals, the first before the first iteration.
     pub residuals: Vec<f64>,
     pub method: Method,
-    /// Whether the grid was restored before the step.
+    /// Whether the grid was reset before the step.
     pub restored: bool,
     /// Whether the equilibrium after the grid reset was due and was not found.
     pub unbalanced: bool,

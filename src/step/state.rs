@@ -39,7 +39,7 @@ pub struct State<const D: usize> {
     /// Coordinates (m) of the nodes at the last grid reset; empty without finite elements and rigid bodies,
     /// which alone change them.
     pub nodes: Vec<[f64; D]>,
-    /// What the contact nodes of each interface in contact carry.
+    /// Multipliers and history of the contact nodes of each interface.
     pub multipliers: Vec<Multipliers>,
     /// Whether the velocities and accelerations of the points are those of the motion: false until the first
     /// dynamic step has computed the accelerations from the forces.
@@ -57,11 +57,11 @@ pub struct State<const D: usize> {
     pub parametric: Vec<[f64; 3]>,
     /// Displacement (m) of the nodes since the last restoration.
     pub displacement: Vec<[f64; D]>,
-    /// The increment (m) of the displacement in the last step, and the size (s) of that step; empty before the first one, zero where inertia has come in or
-    /// gone since.
+    /// The increment (m) of the displacement in the last step, and the size (s) of that step; empty before the first one, zero where
+    /// inertia has come in or gone since.
     pub increment: Vec<[f64; D]>,
     pub last_step: f64,
-    /// The last step, if it balanced its loads without inertia and without water that flows.
+    /// The last step, if it was in equilibrium with its loads without inertia and without flow of water.
     pub balanced: Option<Span>,
     /// Sum (m) of the increments of displacement of the nodes since the run began. On a grid that is reset, different material passes a node,
     /// and this is the displacement of none of it.

@@ -33,7 +33,7 @@ pub fn hold<const D: usize>(scene: &Scene<D>, grid: &mut Grid<D>, state: &mut St
 struct Unbalanced<const D: usize> {
     /// By node (kN), zero where the displacement is given.
     force: Vec<[f64; D]>,
-    /// Norm of the largest of the forces that balance (kN).
+    /// Norm of the largest term (kN).
     scale: f64,
 }
 

@@ -27,7 +27,7 @@ pub struct Evaluation<const D: usize> {
     pub at: Unknowns<D>,
     pub force: Vec<f64>,
     pub applied: [f64; D],
-    /// Norm of the largest term on the displacements: what the residual is measured against.
+    /// Norm (kN) of the largest term in the equations of the displacements: the scale of the residual.
     pub scale: f64,
 }
 

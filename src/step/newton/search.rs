@@ -24,7 +24,7 @@ const WATCHDOG: usize = 3;
 const WORTH: f64 = 0.25;
 /// Fraction (-) of the work along the direction that a step may leave, eq. 14a (Matthies & Strang 1979).
 const ENERGY_LEFT: f64 = 0.5;
-/// States looked at for a length that leaves less work.
+/// Most trial states of the energy line search.
 const ENERGY_TRIALS: usize = 5;
 /// Least distance (-) of the next length from the ends of the bracket, over its size.
 const LEAST_INWARDS: f64 = 0.1;
@@ -107,7 +107,7 @@ impl<const D: usize> Newton<'_, D> {
                 }
                 return better;
             }
-            // An end that stays a second time weighs half.
+            // The work at an end of the bracket that stays a second time is halved (Illinois).
             let again = below == Some(work < 0.0);
             if work < 0.0 {
                 low = (length, work);
@@ -190,7 +190,7 @@ impl<const D: usize> Newton<'_, D> {
         size <= (1.0 - ARMIJO * length) * self.target || size <= self.problem.scene.numerics.tolerance * self.floor
     }
 
-    /// Makes the trial state the one at hand; `tangent` where the matrix of the grid is its tangent.
+    /// Makes the trial state the current one; `tangent` where the matrix of the grid is its tangent.
     fn take(&mut self, tangent: bool) {
         let Buffers { now, trial, .. } = &mut self.buffers;
         std::mem::swap(now, trial);
