@@ -11,10 +11,11 @@ use super::pore_pressure;
 use super::pressure;
 use super::relax::{self, Relaxed};
 use super::restore::{begin_anew, fill, take_weights};
+use super::scalars::{Carrier, Scalars};
 use super::scene::{Fixed, Scene};
 use super::state::State;
 use super::unknowns::Buffers;
-use crate::dofs::{DofMap, Places};
+use crate::dofs::DofMap;
 use crate::error::Result;
 use crate::kinematics::Kinematics;
 use crate::mesh::Mesh;
@@ -55,69 +56,6 @@ pub struct Grid<const D: usize> {
     pub mass: Option<System>,
     pub workspace: Workspace,
     pub buffers: Buffers<D>,
-}
-
-/// The unknowns of pressure.
-struct Pressures {
-    /// Their places.
-    pressure: Vec<u32>,
-    /// The cliques of the nodes, those of cells with their unknowns of pressure.
-    cliques: Cliques,
-}
-
-impl Pressures {
-    /// Numbers the unknowns of `families`, of which there are `most`, after `nodes` blocks.
-    fn new<const D: usize>(families: &[Carrying<D>], nodes: usize, cliques: &Cliques, most: usize) -> Self {
-        let mut block = vec![u32::MAX; most];
-        let mut of_clique: Vec<Option<(usize, u32)>> = vec![None; cliques.len()];
-        for (i, family) in families.iter().enumerate() {
-            for c in family.cells() {
-                of_clique[family.clique[c as usize] as usize] = Some((i, c));
-                for unknown in family.unknowns(c) {
-                    block[unknown as usize] = 0;
-                }
-            }
-        }
-        let mut pressure = Vec::new();
-        for (unknown, block) in (0u32..).zip(&mut block).filter(|(_, b)| **b == 0) {
-            *block = (nodes + pressure.len()) as u32;
-            pressure.push(unknown);
-        }
-        let mut extended = Cliques::default();
-        for (k, of) in of_clique.iter().enumerate() {
-            let own = cliques.blocks(k).iter().copied();
-            let carriers = of.iter().flat_map(|&(i, c)| families[i].unknowns(c));
-            extended.push(own.chain(carriers.map(|unknown| block[unknown as usize])));
-        }
-        Self { pressure, cliques: extended }
-    }
-}
-
-/// A family of cells with unknowns of pressure.
-struct Carrying<'a, const D: usize> {
-    mesh: &'a Mesh<D>,
-    places: Places,
-    /// Whether a cell has pore water, and whether it has a pressure field.
-    with: Box<dyn Fn(u32) -> [bool; 2] + 'a>,
-    /// How many other scalar fields a cell has.
-    fields: Box<dyn Fn(u32) -> usize + 'a>,
-    clique: &'a [u32],
-}
-
-impl<const D: usize> Carrying<'_, D> {
-    fn cells(&self) -> impl Iterator<Item = u32> {
-        (0..self.mesh.cells.len() as u32).filter(|&c| (self.with)(c).contains(&true) || (self.fields)(c) > 0)
-    }
-
-    /// Those of a cell: of its pore water, of other scalar fields, of its pressure field.
-    fn unknowns(&self, cell: u32) -> impl Iterator<Item = u32> {
-        let ([water, field], fields) = ((self.with)(cell), (self.fields)(cell));
-        let cell = cell as usize;
-        let of_water = water.then(|| self.places.of_water(self.mesh, cell));
-        let of_field = field.then(|| self.places.of_field(self.mesh, cell));
-        let of_others = self.places.of_fields(self.mesh, cell, fields);
-        of_water.into_iter().flatten().chain(of_others).chain(of_field.into_iter().flatten())
-    }
 }
 
 impl<const D: usize> Grid<D> {
@@ -234,27 +172,27 @@ impl<const D: usize> Grid<D> {
             let (with_water, with_field, others) =
                 (scene.water.is_some(), scene.has_pressure_field(), scene.fields.len());
             let part = &state.active;
-            let mut families = vec![Carrying {
+            let mut families = vec![Carrier {
                 mesh,
                 places,
                 with: Box::new(move |c| [with_water, with_field].map(|with| with && part[c as usize])),
                 fields: Box::new(move |c| if part[c as usize] { others } else { 0 }),
                 clique: &clique,
             }];
-            families.extend(elements.iter().zip(&scene.fem).map(|(elements, fem)| Carrying {
+            families.extend(elements.iter().zip(&scene.fem).map(|(elements, fem)| Carrier {
                 mesh: &elements.mesh,
                 places: of_elements,
                 with: Box::new(|c| [fem.with_water[c as usize], fem.with_pressure[c as usize]]),
                 fields: Box::new(|_| 0),
                 clique: &elements.clique,
             }));
-            Pressures::new(&families, node.len(), &cliques, places.end(others))
+            Scalars::new(&families, node.len(), &cliques, places.end(others))
         });
         let symmetric = scene.terms.iter().all(|t| t.symmetric());
         let mut sizes = vec![D as u8; node.len()];
         let (motion, pressure) = match with_pressure {
             None => (System::new(&sizes, cliques, symmetric, &coordinates)?, Vec::new()),
-            Some(Pressures { pressure, cliques }) => {
+            Some(Scalars { places: pressure, cliques }) => {
                 sizes.resize(node.len() + pressure.len(), 1);
                 let mut motion = System::new(&sizes, cliques, symmetric, &coordinates)?;
                 motion.solver = motion.solver.saddle();

@@ -36,6 +36,7 @@ mod relax;
 mod report;
 mod restore;
 mod rigid;
+mod scalars;
 mod scene;
 mod state;
 mod transfer;

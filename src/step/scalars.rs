@@ -1,0 +1,68 @@
+//! The scalar unknowns of a grid: pressures and other fields, numbered after the displacements.
+
+use crate::dofs::Places;
+use crate::mesh::Mesh;
+use crate::system::Cliques;
+
+/// The scalar unknowns of a grid.
+pub struct Scalars {
+    /// Their places.
+    pub places: Vec<u32>,
+    /// The cliques of the nodes, those of cells with their scalar unknowns.
+    pub cliques: Cliques,
+}
+
+impl Scalars {
+    /// Numbers the unknowns of `families`, of which there are `most`, after `nodes` blocks.
+    pub fn new<const D: usize>(families: &[Carrier<D>], nodes: usize, cliques: &Cliques, most: usize) -> Self {
+        let mut block = vec![u32::MAX; most];
+        let mut of_clique: Vec<Option<(usize, u32)>> = vec![None; cliques.len()];
+        for (i, family) in families.iter().enumerate() {
+            for c in family.cells() {
+                of_clique[family.clique[c as usize] as usize] = Some((i, c));
+                for unknown in family.unknowns(c) {
+                    block[unknown as usize] = 0;
+                }
+            }
+        }
+        let mut places = Vec::new();
+        for (unknown, block) in (0u32..).zip(&mut block).filter(|(_, b)| **b == 0) {
+            *block = (nodes + places.len()) as u32;
+            places.push(unknown);
+        }
+        let mut extended = Cliques::default();
+        for (k, of) in of_clique.iter().enumerate() {
+            let own = cliques.blocks(k).iter().copied();
+            let carriers = of.iter().flat_map(|&(i, c)| families[i].unknowns(c));
+            extended.push(own.chain(carriers.map(|unknown| block[unknown as usize])));
+        }
+        Self { places, cliques: extended }
+    }
+}
+
+/// A family of cells with scalar unknowns.
+pub struct Carrier<'a, const D: usize> {
+    pub mesh: &'a Mesh<D>,
+    pub places: Places,
+    /// Whether a cell has pore water, and whether it has a pressure field.
+    pub with: Box<dyn Fn(u32) -> [bool; 2] + 'a>,
+    /// How many other scalar fields a cell has.
+    pub fields: Box<dyn Fn(u32) -> usize + 'a>,
+    pub clique: &'a [u32],
+}
+
+impl<const D: usize> Carrier<'_, D> {
+    fn cells(&self) -> impl Iterator<Item = u32> {
+        (0..self.mesh.cells.len() as u32).filter(|&c| (self.with)(c).contains(&true) || (self.fields)(c) > 0)
+    }
+
+    /// Those of a cell: of its pore water, of other scalar fields, of its pressure field.
+    fn unknowns(&self, cell: u32) -> impl Iterator<Item = u32> {
+        let ([water, field], fields) = ((self.with)(cell), (self.fields)(cell));
+        let cell = cell as usize;
+        let of_water = water.then(|| self.places.of_water(self.mesh, cell));
+        let of_field = field.then(|| self.places.of_field(self.mesh, cell));
+        let of_others = self.places.of_fields(self.mesh, cell, fields);
+        of_water.into_iter().flatten().chain(of_others).chain(of_field.into_iter().flatten())
+    }
+}
