@@ -8,7 +8,7 @@
 //! |---|---|---|
 //! | 0 | [`error`], [`tensor`], [`time_value`], [`time_integration`], [`profile`], [`program`], [`analytical`] | errors and exit status; the order of tensor components; values in time; generalised-α; time by activity; which program this is; closed forms for the tests |
 //! | 1 | [`mesh`], [`material`] | cells and shape functions, Gmsh, location of points; stress and tangent of a point |
-//! | 2 | [`points`], [`seed`], [`kinematics`], [`surface`], [`rigid`], [`contact`], [`quadrature`], [`stencil`], [`system`], [`dofs`] | the material points and how cells are filled with them; plane strain, axisymmetry and three dimensions; where the material ends; bodies that keep their shape; how structures touch soil; what the points weigh in integrals; what a point sees of the grid; sparse systems and their solution; the map of unknowns |
+//! | 2 | [`points`], [`seed`], [`kinematics`], [`surface`], [`rigid`], [`contact`], [`quadrature`], [`interpolation`], [`system`], [`dofs`] | the material points and how cells are filled with them; plane strain, axisymmetry and three dimensions; where the material ends; bodies that keep their shape; how structures touch soil; what the points weigh in integrals; what a point sees of the grid; sparse systems and their solution; the map of unknowns |
 //! | 3 | [`term`] | the terms of the equations of motion, each with its residual and tangent |
 //! | 4 | [`step`], [`io`], [`run`] | the time step (**read this first**); files; a run from the first state or a checkpoint to the end |
 //! | 5 | [`case`] | from `case.yaml` to a scene: the only place that decides which terms exist |
@@ -27,7 +27,7 @@
 //! | x, X | `position`, `origin` | place of a point now and when it was seeded (m) |
 //! | u | `displacement`, `u` | displacement of the nodes since the grid was restored (m) |
 //! | v, a | `velocity`, `acceleration` | (m/s), (m/s²) |
-//! | N, ∇N | `value`, `gradient` of [`stencil::Entries`] | shape functions at a point (-), (1/m) |
+//! | N, ∇N | `value`, `gradient` of [`interpolation::Entries`] | shape functions at a point (-), (1/m) |
 //! | F | `deformation` | deformation gradient of a point since it was seeded (-) |
 //! | ΔF | `increment` | that of a step (-) |
 //! | J | `volume_ratio` | det F (-) |
@@ -49,6 +49,7 @@ pub mod cli;
 pub mod contact;
 pub mod dofs;
 pub mod error;
+pub mod interpolation;
 pub mod io;
 pub mod kinematics;
 pub mod material;
@@ -60,7 +61,6 @@ pub mod quadrature;
 pub mod rigid;
 pub mod run;
 pub mod seed;
-pub mod stencil;
 pub mod step;
 pub mod surface;
 pub mod system;

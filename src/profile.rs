@@ -9,7 +9,7 @@ use std::time::Instant;
 /// What the main thread is doing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Activity {
-    /// Finding points, filling the stencil, mapping between points and nodes.
+    /// Finding points, filling the interpolation, mapping between points and nodes.
     Transfer,
     /// Strain, stress and tangent of the points, and the sums into the system.
     Assembly,

@@ -14,7 +14,7 @@ use super::structure::suggest;
 use crate::error::Result;
 use crate::mesh::Mesh;
 use crate::step;
-use crate::term::Carried;
+use crate::term::MixedPressure;
 use std::collections::BTreeMap;
 
 /// How a material has the pressure of its pore water.
@@ -163,6 +163,6 @@ pub fn of_phase(case: &Case, meshes: [&Mesh<2>; 2], phase: usize) -> Result<Vec<
 }
 
 /// What the pressure field carries of each material by number.
-pub fn carried(case: &Case, mesh: &Mesh<2>) -> Result<Vec<Option<Carried>>> {
+pub fn carried(case: &Case, mesh: &Mesh<2>) -> Result<Vec<Option<MixedPressure>>> {
     by_number(case, mesh, |material| material.carried.clone())
 }

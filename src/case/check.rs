@@ -5,8 +5,8 @@ use super::issue::{Issue, MOST_FOUND};
 use super::locate::{At, Path};
 use super::raw;
 use super::structure::{list, suggest};
+use crate::interpolation::{Basis, Mpm, SCHEMES};
 use crate::material::MODELS;
-use crate::stencil::{Basis, Mpm, SCHEMES};
 use std::collections::HashSet;
 use std::path::Path as FilePath;
 

@@ -5,9 +5,9 @@
 
 pub use super::raw::{Axis, Encoding, Field, Quantity};
 use crate::contact::Law;
+use crate::interpolation::Basis;
 use crate::material::{Model, Profile};
-use crate::stencil::Basis;
-use crate::term::{Carried, Porous};
+use crate::term::{MixedPressure, Porous};
 use crate::time_value::TimeValue;
 use std::collections::BTreeMap;
 use std::fmt;
@@ -145,7 +145,7 @@ pub struct Material {
     pub density: Profile,
     pub model: Arc<dyn Model>,
     /// What the pressure field carries of its stress.
-    pub carried: Option<Carried>,
+    pub carried: Option<MixedPressure>,
     /// The water in its pores, where that flows or has a stiffness of its own.
     pub porous: Option<Porous>,
 }

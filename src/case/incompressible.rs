@@ -4,7 +4,7 @@ use super::check::Checker;
 use super::locate::{At, Path};
 use super::raw;
 use crate::material::{Kind, Model, Profile, cavitation};
-use crate::term::Carried;
+use crate::term::MixedPressure;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
@@ -31,7 +31,7 @@ impl Checker {
         values: &BTreeMap<&str, Profile>,
         pressure: Option<raw::Pressure>,
         path: &Path,
-    ) -> Option<Carried> {
+    ) -> Option<MixedPressure> {
         let poisson = model.elasticity().poisson();
         if material.drainage == Some(raw::Drainage::Undrained) && has_water_of_its_own(material) {
             if values.contains_key(cavitation::NAME) {
@@ -48,7 +48,7 @@ impl Checker {
             };
             let ratio = bulk(poisson) - KEPT;
             let split = split && kind.keeps_volume && ratio > KEPT;
-            return split.then(|| deviatoric(kind, values, poisson)).flatten().map(|model| Carried {
+            return split.then(|| deviatoric(kind, values, poisson)).flatten().map(|model| MixedPressure {
                 model,
                 ratio,
                 water: 0.0,
@@ -74,7 +74,7 @@ impl Checker {
         }
         let model = deviatoric(kind, values, poisson)?;
         let ratio = bulk(poisson) - KEPT;
-        Some(Carried { model, ratio, water: 0.0, bound: None, limit: share(values, ratio) })
+        Some(MixedPressure { model, ratio, water: 0.0, bound: None, limit: share(values, ratio) })
     }
 
     fn pore_water(
@@ -85,7 +85,7 @@ impl Checker {
         values: &BTreeMap<&str, Profile>,
         pressure: Option<raw::Pressure>,
         path: &Path,
-    ) -> Option<Carried> {
+    ) -> Option<MixedPressure> {
         if pressure == Some(raw::Pressure::None) {
             let remedy = "take `pressure: none` out of `numerics`, or `drainage` out of the material";
             self.issue(&path.key("drainage"), At::Value, "an undrained material needs the pressure field", remedy);
@@ -95,11 +95,17 @@ impl Checker {
         let poisson = model.elasticity().poisson();
         let water = bulk(undrained) - bulk(poisson);
         if !kind.keeps_volume {
-            return Some(Carried { model: model.clone(), ratio: water, water: 1.0, bound: Some(KEPT), limit: None });
+            return Some(MixedPressure {
+                model: model.clone(),
+                ratio: water,
+                water: 1.0,
+                bound: Some(KEPT),
+                limit: None,
+            });
         }
         let ratio = bulk(undrained) - KEPT;
         let (model, limit) = (deviatoric(kind, values, poisson)?, share(values, ratio));
-        Some(Carried { model, ratio, water: water / ratio, bound: None, limit })
+        Some(MixedPressure { model, ratio, water: water / ratio, bound: None, limit })
     }
 }
 

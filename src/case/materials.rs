@@ -8,7 +8,7 @@ use super::raw::{self, InDepth};
 use super::structure::suggest;
 use crate::error::Result;
 use crate::material::{Kind, MODELS, Model, Parameters, Profile};
-use crate::term::Carried;
+use crate::term::MixedPressure;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde_json::{Map, Value, json};
 use std::borrow::Cow;
@@ -74,7 +74,7 @@ impl Checker {
         material: &raw::Material,
         pressure: Option<raw::Pressure>,
         path: &Path,
-    ) -> Option<(Arc<dyn Model>, Option<Carried>)> {
+    ) -> Option<(Arc<dyn Model>, Option<MixedPressure>)> {
         let kind = MODELS.iter().find(|kind| kind.name == material.model)?;
         let mut values = BTreeMap::new();
         let before = self.count();

@@ -18,8 +18,8 @@ use crate::quadrature::{Bounded, Quadrature, Resampled, Volumes};
 use crate::run::{self, Ended, Progress};
 use crate::step::{self, Fem, Numerics, Phase, Scene, Search, State, Stop, overlap};
 use crate::term::{
-    BodyForce, Contact, DrainedSurface, EmptyCells, GhostInertia, GhostPenalty, Inertia, Internal, PoreWater,
-    PressureField, SmoothPressure, Term, Traction, WaterBond,
+    BodyForce, Contact, DrainedSurface, EmptyCells, GhostInertia, GhostPenalty, Inertia, Internal, PoreStabilisation,
+    PoreWater, PressureField, SmoothPressure, Term, Traction,
 };
 use crate::time_value::TimeValue;
 use std::sync::atomic::AtomicBool;
@@ -145,7 +145,7 @@ pub fn scene<K: Kinematics<2>>(case: &Case, mut whole: Mesh<2>) -> Result<Scene<
     let water = pores::water(case, &mesh)?;
     let mut terms = internal::<K>(case, &mesh, dynamic, pressure_unit, shear)?;
     if let (Some(water), Some(unit)) = (&water, pressure_unit) {
-        terms.push(Box::new(WaterBond::<K>::new(water.porous.clone(), unit, shear, mesh.cells.len())));
+        terms.push(Box::new(PoreStabilisation::<K>::new(water.porous.clone(), unit, shear, mesh.cells.len())));
         if let Some(surface) = case.drained_surface {
             let region = surface.region().map(|i| region_index(&mesh, &case.regions[i].name)).transpose()?;
             let flows = case.phases.iter().map(|phase| flows(case, phase)).collect();

@@ -10,7 +10,7 @@ use crate::error::Result;
 use crate::kinematics::Kinematics;
 use crate::mesh::Mesh;
 use crate::run::Acting;
-use crate::term::{self, FacetPressure, Head, Levels, SurfaceTraction, Term, VirtualPressure};
+use crate::term::{self, FacetPressure, Hydrostatic, SurfaceTraction, Term, VirtualPressure, WaterLevels};
 use crate::time_value::TimeValue;
 
 /// Half the height of the band over which a pressure begins to grow, as a share of the diagonal of a cell:
@@ -60,23 +60,23 @@ impl Checker {
 
 impl Water {
     /// The pressure of the water outside in each phase, over cells of the size `size` (m).
-    pub fn heads(&self, size: f64) -> Vec<Option<Head>> {
+    pub fn heads(&self, size: f64) -> Vec<Option<Hydrostatic>> {
         self.below(self.level.as_deref(), size)
     }
 
     /// That of the water in the pores.
-    pub fn heads_in_pores(&self, size: f64) -> Vec<Option<Head>> {
+    pub fn heads_in_pores(&self, size: f64) -> Vec<Option<Hydrostatic>> {
         self.below(self.phreatic.as_deref(), size)
     }
 
     /// Both, where they differ in some phase: friction has no share in what the one has more than the other.
-    pub fn levels(&self, size: f64) -> Option<Levels> {
+    pub fn levels(&self, size: f64) -> Option<WaterLevels> {
         let differ = self.phreatic.is_some() && self.phreatic != self.level;
-        differ.then(|| Levels::new(self.heads(size), self.heads_in_pores(size)))
+        differ.then(|| WaterLevels::new(self.heads(size), self.heads_in_pores(size)))
     }
 
-    fn below(&self, levels: Option<&[TimeValue]>, size: f64) -> Vec<Option<Head>> {
-        let head = |level: &TimeValue| Head {
+    fn below(&self, levels: Option<&[TimeValue]>, size: f64) -> Vec<Option<Hydrostatic>> {
+        let head = |level: &TimeValue| Hydrostatic {
             top: TimeValue::Constant(0.0),
             gradient: TimeValue::Constant(self.unit_weight),
             datum: level.clone(),
@@ -103,9 +103,9 @@ impl Water {
 
 impl Pressure {
     /// The same over cells of the size `size` (m).
-    pub fn head(&self, size: f64) -> Head {
+    pub fn head(&self, size: f64) -> Hydrostatic {
         let datum = TimeValue::Constant(self.datum);
-        Head { top: self.top.clone(), gradient: self.gradient.clone(), datum, band: BAND * size }
+        Hydrostatic { top: self.top.clone(), gradient: self.gradient.clone(), datum, band: BAND * size }
     }
 }
 
@@ -191,7 +191,7 @@ pub fn terms<K: Kinematics<2>>(case: &Case, mesh: &Mesh<2>, size: f64) -> Result
 fn of_water<K>(
     case: &Case,
     water: &Water,
-    outside: Vec<Option<Head>>,
+    outside: Vec<Option<Hydrostatic>>,
     mesh: &Mesh<2>,
     size: f64,
 ) -> VirtualPressure<K> {

@@ -377,7 +377,7 @@ impl<K: Kinematics<2>> Interface<2> for Bodies<K> {
         lines::<K>(&self.surface, &Segments::new::<K>(&self.surface, position))
     }
 
-    fn push_out(&self, _: &mut Points<2>, _: &dyn Fn(u32) -> [f64; 2]) -> Pushed {
+    fn project_out(&self, _: &mut Points<2>, _: &dyn Fn(u32) -> [f64; 2]) -> Pushed {
         Pushed::default()
     }
 }

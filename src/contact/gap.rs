@@ -246,7 +246,7 @@ impl Facing {
 
 /// Moves points that are in the structure, or nearer to it than half their half width, out to there. Each then stands for the
 /// soil that is there, so that it still knows where the surface of the soil is. Returns how many and the farthest move (m).
-pub fn push_out<K: Kinematics<2>>(segments: &Segments, points: &mut Points<2>, regions: &[u16]) -> (usize, f64) {
+pub fn project_out<K: Kinematics<2>>(segments: &Segments, points: &mut Points<2>, regions: &[u16]) -> (usize, f64) {
     let near = Soil { points, regions }.near::<K>(segments, None);
     let (mut count, mut most) = (0, 0.0f64);
     for near in near {
@@ -337,7 +337,7 @@ mod tests {
                 region: vec![0],
                 ..Points::default()
             };
-            let (count, most) = push_out::<PlaneStrain>(&Segments(vec![placed]), &mut points, &[0]);
+            let (count, most) = project_out::<PlaneStrain>(&Segments(vec![placed]), &mut points, &[0]);
             assert_eq!(count, 1);
             assert!((points.position[0][1] - to).abs() < 1e-15 && (most - to - 0.005).abs() < 1e-15, "{points:?}");
             // What it stands for has moved as far along the normal.

@@ -3,7 +3,7 @@
 use super::along::{Mark, lines};
 use super::constraint::{Constraint, FADING};
 use super::cover::covers;
-use super::gap::{Facing, Gap, Soil, push_out, raw_gaps};
+use super::gap::{Facing, Gap, Soil, project_out, raw_gaps};
 use super::law::{Law, Penalty};
 use super::multipliers::Multipliers;
 use super::place::{Placed, Segments};
@@ -111,7 +111,7 @@ pub trait Interface<const D: usize>: Send + Sync {
     }
 
     /// Moves points of the soil out of the structure.
-    fn push_out(&self, points: &mut Points<D>, position: &dyn Fn(u32) -> [f64; D]) -> Pushed;
+    fn project_out(&self, points: &mut Points<D>, position: &dyn Fn(u32) -> [f64; D]) -> Pushed;
 }
 
 /// The boundary of a structure on material points.
@@ -424,9 +424,9 @@ impl<K: Kinematics<2>> Interface<2> for Boundary<K> {
         covers(&self.surface, &Segments::new::<K>(&self.surface, position), constraints)
     }
 
-    fn push_out(&self, points: &mut Points<2>, position: &dyn Fn(u32) -> [f64; 2]) -> Pushed {
+    fn project_out(&self, points: &mut Points<2>, position: &dyn Fn(u32) -> [f64; 2]) -> Pushed {
         let segments = Segments::new::<K>(&self.surface, position);
-        let (points, most) = push_out::<K>(&segments, points, &self.regions);
+        let (points, most) = project_out::<K>(&segments, points, &self.regions);
         Pushed { points, most }
     }
 }

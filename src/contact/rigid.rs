@@ -152,8 +152,8 @@ impl<const D: usize> Interface<D> for Rigid<D> {
         self.interface.covers(constraints, position)
     }
 
-    fn push_out(&self, points: &mut Points<D>, position: &dyn Fn(u32) -> [f64; D]) -> Pushed {
-        self.interface.push_out(points, position)
+    fn project_out(&self, points: &mut Points<D>, position: &dyn Fn(u32) -> [f64; D]) -> Pushed {
+        self.interface.project_out(points, position)
     }
 }
 
@@ -199,7 +199,7 @@ mod tests {
             Vec::new()
         }
 
-        fn push_out(&self, _: &mut Points<2>, _: &dyn Fn(u32) -> [f64; 2]) -> Pushed {
+        fn project_out(&self, _: &mut Points<2>, _: &dyn Fn(u32) -> [f64; 2]) -> Pushed {
             Pushed::default()
         }
     }

@@ -11,10 +11,10 @@ pub use resampled::{Count, Renewed, Resampled, Samples};
 pub use surface::Bounded;
 pub use volumes::Volumes;
 
+use crate::interpolation::{Interpolation, PartlyFilled};
 use crate::mesh::Mesh;
 use crate::mesh::locate::Locator;
 use crate::points::Points;
-use crate::stencil::{PartlyFilled, Stencil};
 use crate::surface::{ActiveBoundary, MarkerFront};
 
 /// What the points of a restored grid weigh, and what follows from where they lie.
@@ -41,14 +41,14 @@ pub struct Weights<const D: usize> {
     pub renewed: Option<Renewed<D>>,
 }
 
-/// A grid that is being restored: the points are found on it and `stencil` is filled.
+/// A grid that is being restored: the points are found on it and `interpolation` is filled.
 pub struct Restored<'a, const D: usize> {
     pub mesh: &'a Mesh<D>,
     pub locator: &'a Locator<D>,
     pub points: &'a Points<D>,
     /// Parametric coordinates of the points in their cells.
     pub parametric: &'a [[f64; 3]],
-    pub stencil: &'a Stencil<D>,
+    pub interpolation: &'a Interpolation<D>,
     /// The cells of the grid.
     pub active: &'a [bool],
     /// The grid as it was restored before, on which `displacement` began.

@@ -1,9 +1,9 @@
 //! The surface of the material from one restoration to the next, for weights and for loads on it.
 
 use super::{Quadrature, Restored, Volumes, Weights};
+use crate::interpolation::Interpolation;
 use crate::kinematics::Kinematics;
 use crate::points::Points;
-use crate::stencil::Stencil;
 use crate::surface::{ActiveBoundary, Behind, Contour, Distance, Geometry, Lost, MarkerFront, NO_REGION};
 
 /// The surface lies at most so far beside the markers of its front, as a share of a cell's size.
@@ -69,7 +69,7 @@ pub fn smoothed<K: Kinematics<2>>(
     if !grid.outlines.is_empty() {
         return None;
     }
-    let nothing = |bearer: u32, _: &[f64; 2]| Behind { region: NO_REGION, bearer };
+    let nothing = |host: u32, _: &[f64; 2]| Behind { region: NO_REGION, host };
     let boundary = ActiveBoundary::of(mesh, geometry, contour, grid.active, nothing);
     let mut front = MarkerFront::along::<K>(mesh, geometry, &boundary)?;
     front.join(mesh, geometry, grid.locator, &[]).ok()?;
@@ -101,16 +101,16 @@ pub fn boundary<N: IntoIterator<Item = usize>>(
         let nearest = of_cell(cell).into_iter().map(|p| (distance(p), p)).min_by(|a, b| a.0.total_cmp(&b.0));
         nearest.map_or(NO_REGION, |(_, p)| points.region[p])
     };
-    ActiveBoundary::of(mesh, geometry, level_set, grid.active, |cell, x| match geometry.bearer(cell, RINGS, count) {
-        Some(bearer) => Behind { region: region(bearer, x), bearer },
-        None => Behind { region: NO_REGION, bearer: cell },
+    ActiveBoundary::of(mesh, geometry, level_set, grid.active, |cell, x| match geometry.host(cell, RINGS, count) {
+        Some(host) => Behind { region: region(host, x), host },
+        None => Behind { region: NO_REGION, host: cell },
     })
 }
 
 /// The numbers of the points of a cell.
-pub fn points_of(stencil: &Stencil<2>, c: u32) -> impl Iterator<Item = usize> {
-    let patch = stencil.patches.binary_search_by_key(&c, |patch| patch.cell).ok();
-    patch.into_iter().flat_map(|i| stencil.points(&stencil.patches[i])).map(|&p| p as usize)
+pub fn points_of(interpolation: &Interpolation<2>, c: u32) -> impl Iterator<Item = usize> {
+    let cell_points = interpolation.filled.binary_search_by_key(&c, |cell_points| cell_points.cell).ok();
+    cell_points.into_iter().flat_map(|i| interpolation.points(&interpolation.filled[i])).map(|&p| p as usize)
 }
 
 /// Classical weights with the boundary of the material: followed, or the contour of the points.
@@ -136,7 +136,8 @@ impl<K: Kinematics<2>> Quadrature<2> for Bounded<K> {
             *front = None;
             weights.lost_front = Some(lost.to_string());
         }
-        let bounded = |level_set: &[f64]| boundary(geometry, grid, level_set, points, |c| points_of(grid.stencil, c));
+        let bounded =
+            |level_set: &[f64]| boundary(geometry, grid, level_set, points, |c| points_of(grid.interpolation, c));
         let within = |front: &MarkerFront, cells: &[u32]| {
             let mut distance = Distance::default();
             distance.update(mesh, geometry, locator, front, cells, active);

@@ -1,8 +1,8 @@
 //! The classical weights: each point stands for its volume.
 
 use super::{Quadrature, Restored, Weights};
+use crate::interpolation::{CellPoints, partly_filled_cells};
 use crate::kinematics::Kinematics;
-use crate::stencil::{Patch, partly_filled_cells};
 use crate::surface::MarkerFront;
 use std::marker::PhantomData;
 
@@ -19,15 +19,16 @@ pub struct Volumes<K> {
 
 impl<const D: usize, K: Kinematics<D>> Quadrature<D> for Volumes<K> {
     fn weigh(&self, grid: &Restored<D>, _front: &mut Option<MarkerFront>) -> Weights<D> {
-        let Restored { mesh, points, stencil, active, .. } = *grid;
-        let partly_filled = partly_filled_cells::<D, K>(mesh, stencil, points, active);
+        let Restored { mesh, points, interpolation, active, .. } = *grid;
+        let partly_filled = partly_filled_cells::<D, K>(mesh, interpolation, points, active);
         let half_empty = |cell: u32| {
             partly_filled
                 .binary_search_by_key(&cell, |s| s.cell)
                 .is_ok_and(|at| partly_filled[at].emptiness > ILL_CONDITIONED)
         };
-        let ill_conditioned = |patch: &&Patch| patch.point_count < FEW || half_empty(patch.cell);
-        let ill_conditioned = stencil.patches.iter().filter(ill_conditioned).map(|patch| patch.cell).collect();
+        let ill_conditioned = |cell_points: &&CellPoints| cell_points.point_count < FEW || half_empty(cell_points.cell);
+        let ill_conditioned =
+            interpolation.filled.iter().filter(ill_conditioned).map(|cell_points| cell_points.cell).collect();
         Weights { weight: points.initial_volume.clone(), partly_filled, ill_conditioned, ..Weights::default() }
     }
 }

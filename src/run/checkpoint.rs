@@ -5,11 +5,11 @@ mod valid;
 use super::foreign::foreign;
 use crate::contact::Multipliers;
 use crate::error::Result;
+use crate::interpolation::PartlyFilled;
 use crate::io::checkpoint::Checkpoints;
 use crate::io::columns;
 use crate::io::container::Store;
 use crate::quadrature::{Count, Samples, Tally, Weights};
-use crate::stencil::PartlyFilled;
 use crate::step::{Scene, Span, State, UnbalancedRamp};
 use crate::surface::{ActiveBoundary, MarkerFront, Piece, Voids};
 
@@ -124,9 +124,9 @@ fn put_weighing<const D: usize>(store: &mut Store, weights: &Weights<D>) {
     store.put(
         "boundary.ends",
         2,
-        pieces.iter().flat_map(|piece| [piece.ends, piece.borne].concat().concat()).collect(),
+        pieces.iter().flat_map(|piece| [piece.ends, piece.in_host].concat().concat()).collect(),
     );
-    let numbers = |piece: &Piece| [piece.cell, piece.bearer, u32::from(piece.region), u32::from(piece.wall)];
+    let numbers = |piece: &Piece| [piece.cell, piece.host, u32::from(piece.region), u32::from(piece.wall)];
     store.put("boundary.numbers", 4, pieces.iter().flat_map(numbers).collect());
     store.put("weights.cells", 1, vec![*linear, *constant, *taken, *split, *merged, *starved]);
     store.put("weights.volume", 1, vec![*point_volume, *volume]);
@@ -184,7 +184,7 @@ fn take_boundary(store: &mut Store) -> Result<ActiveBoundary> {
         let line = |k: usize| [[ends[k], ends[k + 1]], [ends[k + 2], ends[k + 3]]];
         let region = u16::try_from(numbers[2]).map_err(|_| foreign("a region of its boundary"))?;
         let wall = flag(numbers[3], "its boundary")?;
-        Ok(Piece { cell: numbers[0], ends: line(0), wall, region, bearer: numbers[1], borne: line(4) })
+        Ok(Piece { cell: numbers[0], ends: line(0), wall, region, host: numbers[1], in_host: line(4) })
     };
     let pieces = ends.chunks_exact(8).zip(numbers.chunks_exact(4)).map(piece).collect::<Result<_>>()?;
     Ok(ActiveBoundary { pieces, first })

@@ -9,7 +9,7 @@ use crate::io::provenance::Origin;
 use crate::points::Points;
 use crate::quadrature::Count;
 use crate::step::{Report, Restore, Scene, State};
-use crate::term::{Carried, excess_pressure};
+use crate::term::{MixedPressure, excess_pressure};
 
 /// A field of the frames.
 #[derive(Clone, Debug)]
@@ -21,7 +21,7 @@ pub enum Field {
     DeformationGradient,
     /// Excess pressure of pore water, given what the pressure field carries of each material where the water has no field of its
     /// own.
-    PorePressure(Vec<Option<Carried>>),
+    PorePressure(Vec<Option<MixedPressure>>),
     Mass,
 }
 

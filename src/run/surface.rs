@@ -5,14 +5,14 @@ use crate::io::frame::{LINE, Part, REGION};
 use crate::mesh::shape::MAX_NODES;
 use crate::step::{Scene, State};
 use crate::surface::{NO_REGION, Piece};
-use crate::term::{Head, SurfaceLoad};
+use crate::term::{Hydrostatic, SurfaceLoad};
 
 /// What acts on the surface of the material.
 #[derive(Clone, Debug, Default)]
 pub struct Acting {
     pub loads: Vec<SurfaceLoad>,
     /// The pressure of water in each phase.
-    pub water: Vec<Option<Head>>,
+    pub water: Vec<Option<Hydrostatic>>,
 }
 
 /// The corners of all loops where they are now, in their order; empty where the surface is not known.

@@ -29,7 +29,7 @@ pub fn static_force<const D: usize>(problem: &Problem<D>, grid: &mut Grid<D>) ->
         phase: problem.phase,
         time: problem.from,
         reduction: problem.scene.phases[problem.phase].reduction_at(problem.from),
-        held: false,
+        contact_frozen: false,
         inverse_dt: if problem.to > problem.from { 1.0 / (problem.to - problem.from) } else { 0.0 },
     };
     let (mut own, mut sum) = (Vec::new(), Evaluation::default());
@@ -51,7 +51,7 @@ pub fn evaluate<const D: usize>(
     tangent: bool,
 ) -> Result<()> {
     let at = std::mem::take(&mut state.at);
-    let Buffers { own, between, acceleration, ahead, held, .. } = buffers;
+    let Buffers { own, between, acceleration, ahead, contact_frozen, .. } = buffers;
     let u = &at.displacement;
     if let Some(integration) = &problem.integration {
         blend(u, problem.converged, integration.alpha_f, between);
@@ -75,7 +75,7 @@ pub fn evaluate<const D: usize>(
         phase: problem.phase,
         time: (1.0 - alpha_f) * problem.to + alpha_f * problem.from,
         reduction: problem.scene.phases[problem.phase].reduction_at(problem.to),
-        held: *held,
+        contact_frozen: *contact_frozen,
         inverse_dt: 1.0 / (problem.to - problem.from),
     };
     let result = timed(Activity::Assembly, || {

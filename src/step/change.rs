@@ -6,7 +6,7 @@
 
 use crate::material::{Model, Profile, spatial};
 use crate::points::Points;
-use crate::term::Carried;
+use crate::term::MixedPressure;
 use std::fmt;
 use std::sync::Arc;
 
@@ -21,9 +21,9 @@ pub struct Change {
     pub into: String,
     /// The model of the whole stress, and the part of it that the pressure field carries.
     pub model: Arc<dyn Model>,
-    pub carried: Option<Carried>,
+    pub carried: Option<MixedPressure>,
     /// What the field carried before.
-    pub before: Option<Carried>,
+    pub before: Option<MixedPressure>,
     /// Density (t/m³).
     pub density: Profile,
     /// Whether the internal variable is the same quantity as that of the model before.
@@ -53,7 +53,7 @@ impl Change {
             let y = points.seeded_height(p);
             let volume_ratio = points.deformation[p].determinant();
             // In undrained soil the pressure field contains the excess pore pressure.
-            let shares = |carried: &&Carried| carried.water > 0.0;
+            let shares = |carried: &&MixedPressure| carried.water > 0.0;
             let pore_pressure = self.before.as_ref().filter(shares).map_or(0.0, |c| c.pore_pressure(points, p));
             let kirchhoff = points.stress[p].map(|s| volume_ratio * s);
             points.elastic[p] = spatial::elastic_from_stress(self.model.as_ref(), y, &kirchhoff);

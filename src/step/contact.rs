@@ -97,7 +97,7 @@ pub fn begin<const D: usize, K: Kinematics<D>>(
             interface,
             initially_closed: !presses && condition.lies(),
             condition,
-            clique: 0,
+            coupling: 0,
             place: Vec::new(),
         };
         placed.extend(constraints.into_iter().map(to_place));
@@ -108,8 +108,8 @@ pub fn begin<const D: usize, K: Kinematics<D>>(
     placed.retain(takes_part);
     if !place(grid, state, &mut placed) {
         make_room(state, &placed);
-        let stencils = std::mem::take(&mut grid.stencils);
-        *grid = Grid::with::<K>(scene, state, stencils, grid.relaxed.take())?;
+        let interpolations = std::mem::take(&mut grid.interpolations);
+        *grid = Grid::with::<K>(scene, state, interpolations, grid.relaxed.take())?;
         place(grid, state, &mut placed);
     }
     (grid.constraints, grid.open) = (placed, open);
@@ -137,16 +137,17 @@ fn surface<const D: usize>((mesh, locator): (&Mesh<D>, &Locator<D>), state: &Sta
     (0..front.loops()).map(|l| front.markers(l).iter().map(&mut moved).collect()).collect()
 }
 
-/// Finds the places of the constraints in their cliques; false where one has none.
+/// Finds the places of the constraints in their couplings; false where one has none.
 fn place<const D: usize>(grid: &Grid<D>, state: &State<D>, constraints: &mut [PlacedConstraint<D>]) -> bool {
     for constraint in constraints {
         let (interface, contact_node) = (constraint.interface as usize, constraint.condition.contact_node as usize);
-        let clique = grid.constraint_clique.get(interface).map_or(u32::MAX, |cliques| cliques[contact_node]);
+        let coupling =
+            grid.constraint_coupling.get(interface).map_or(u32::MAX, |connectivity| connectivity[contact_node]);
         let room = state.multipliers[interface].room(contact_node);
         let found =
             constraint.condition.nodes.iter().map(|n| room.iter().position(|other| other == n).map(|at| at as u32));
         match found.collect::<Option<Vec<_>>>() {
-            Some(place) if clique != u32::MAX => (constraint.clique, constraint.place) = (clique, place),
+            Some(place) if coupling != u32::MAX => (constraint.coupling, constraint.place) = (coupling, place),
             _ => return false,
         }
     }
@@ -256,11 +257,11 @@ pub fn commit<const D: usize>(
 }
 
 /// Contact projection: moves points out of the structures, once nodes and points are at their final positions.
-pub fn push_out<const D: usize>(scene: &Scene<D>, state: &mut State<D>, resultants: &mut [Resultant<D>]) {
+pub fn project_out<const D: usize>(scene: &Scene<D>, state: &mut State<D>, resultants: &mut [Resultant<D>]) {
     for (number, interface) in scene.touching(state.phase) {
         let resultant = &mut resultants[number];
         let mut points = std::mem::take(&mut state.points);
-        resultant.pushed = interface.push_out(&mut points, &|n| position(scene, state, n));
+        resultant.pushed = interface.project_out(&mut points, &|n| position(scene, state, n));
         state.points = points;
     }
 }

@@ -17,8 +17,8 @@ const FOLDED: f64 = 0.3;
 pub fn exceeds<const D: usize>(scene: &Scene<D>, state: &State<D>, grid: &Grid<D>, least: f64, stretch: f64) -> bool {
     const { assert!(D == 2, "the quality of cells is known in the plane only") };
     let mesh = grid.relaxed.as_ref().map_or(&scene.mesh, |relaxed| &relaxed.mesh);
-    grid.stencils.integration.patches.par_iter().any(|patch| {
-        let cell = patch.cell as usize;
+    grid.interpolations.integration.filled.par_iter().any(|cell_points| {
+        let cell = cell_points.cell as usize;
         let (kind, nodes) = (mesh.cells.kind[cell], mesh.cells.nodes(cell));
         let (mut before, mut now) = ([[0.0; 2]; MAX_NODES], [[0.0; 2]; MAX_NODES]);
         for (i, &n) in nodes.iter().enumerate() {

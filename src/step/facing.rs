@@ -3,7 +3,7 @@
 use super::scene::Scene;
 use super::state::State;
 use crate::contact::Multipliers;
-use crate::system::Cliques;
+use crate::system::Connectivity;
 
 /// Where a node is at the last converged step.
 pub(super) fn position<const D: usize>(scene: &Scene<D>, state: &State<D>, n: u32) -> [f64; D] {
@@ -19,17 +19,17 @@ pub fn outlines<const D: usize>(scene: &Scene<D>, state: &State<D>) -> Vec<Vec<[
     scene.touching(state.phase).flat_map(|(_, interface)| interface.outlines(&place)).collect()
 }
 
-/// Appends a clique for each contact node with room, given the block of each node.
-pub fn couple<const D: usize>(state: &State<D>, block: &[u32], cliques: &mut Cliques) -> Vec<Vec<u32>> {
+/// Appends a coupling for each contact node with room, given the block of each node.
+pub fn couple<const D: usize>(state: &State<D>, block: &[u32], connectivity: &mut Connectivity) -> Vec<Vec<u32>> {
     let of_pair = |multipliers: &Multipliers| {
         let contact_nodes = multipliers.first.len() - 1;
-        let clique = |k: usize| {
+        let coupling = |k: usize| {
             let room = multipliers.room(k);
             // Cells that no longer take part leave nothing to couple.
             let blocks: Vec<u32> = room.iter().map(|&n| block[n as usize]).filter(|b| *b != u32::MAX).collect();
-            if blocks.len() < room.len() || room.is_empty() { u32::MAX } else { cliques.push(blocks) }
+            if blocks.len() < room.len() || room.is_empty() { u32::MAX } else { connectivity.push(blocks) }
         };
-        (0..contact_nodes).map(clique).collect()
+        (0..contact_nodes).map(coupling).collect()
     };
     state.multipliers.iter().map(of_pair).collect()
 }

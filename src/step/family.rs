@@ -2,19 +2,19 @@
 //! their nodes.
 
 use crate::error::Result;
+use crate::interpolation::{Entries, Interpolation};
 use crate::kinematics::Kinematics;
 use crate::mesh::Mesh;
 use crate::points::Points;
-use crate::stencil::{Entries, Stencil};
-use crate::system::{Cliques, Matrix, Pattern, Solver};
+use crate::system::{Connectivity, Matrix, Pattern, Solver};
 use rayon::prelude::*;
 
 /// Points with the cells they act on: the material points on the grid, or those of the finite elements.
 pub struct Family<'a, const D: usize> {
     pub mesh: &'a Mesh<D>,
-    pub stencil: &'a Stencil<D>,
-    /// The clique of each cell.
-    pub clique: &'a [u32],
+    pub interpolation: &'a Interpolation<D>,
+    /// The coupling of each cell.
+    pub coupling: &'a [u32],
     pub points: &'a Points<D>,
 }
 
@@ -27,17 +27,22 @@ pub struct System {
 
 /// What the points see of a grid.
 #[derive(Debug, Default)]
-pub struct Stencils<const D: usize> {
+pub struct Interpolations<const D: usize> {
     /// Those that integrals are summed over.
-    pub integration: Stencil<D>,
+    pub integration: Interpolation<D>,
     /// The material points, where these are others.
-    pub material: Option<Stencil<D>>,
+    pub material: Option<Interpolation<D>>,
 }
 
 impl System {
     /// A system of blocks of `sizes` unknowns; `places` as for [`Solver::new`].
-    pub fn new<const D: usize>(sizes: &[u8], cliques: Cliques, symmetric: bool, places: &[[f64; D]]) -> Result<Self> {
-        let pattern = Pattern::new(sizes, cliques, symmetric);
+    pub fn new<const D: usize>(
+        sizes: &[u8],
+        connectivity: Connectivity,
+        symmetric: bool,
+        places: &[[f64; D]],
+    ) -> Result<Self> {
+        let pattern = Pattern::new(sizes, connectivity, symmetric);
         let matrix = Matrix::new(&pattern);
         let solver = Solver::new(&pattern, places)?;
         Ok(Self { pattern, matrix, solver })
@@ -46,12 +51,12 @@ impl System {
 
 /// Interpolates a nodal field at points.
 pub fn interpolate<const D: usize, K: Kinematics<D>>(family: &Family<D>, field: &[[f64; D]]) -> Vec<[f64; D]> {
-    let Family { mesh, stencil, points, .. } = family;
-    let by_patch: Vec<Vec<(usize, [f64; D])>> = stencil
-        .patches
+    let Family { mesh, interpolation, points, .. } = family;
+    let by_cell_points: Vec<Vec<(usize, [f64; D])>> = interpolation
+        .filled
         .par_iter()
-        .map(|patch| {
-            let nodes = stencil.nodes(mesh, patch.cell);
+        .map(|cell_points| {
+            let nodes = interpolation.nodes(mesh, cell_points.cell);
             let interpolate = |entries: Entries<'_, D>| {
                 let mut value = [0.0; D];
                 for (n, &node) in entries.value.iter().zip(nodes) {
@@ -61,11 +66,11 @@ pub fn interpolate<const D: usize, K: Kinematics<D>>(family: &Family<D>, field: 
                 }
                 (entries.point, value)
             };
-            stencil.entries::<K>(patch).map(interpolate).collect()
+            interpolation.entries::<K>(cell_points).map(interpolate).collect()
         })
         .collect();
     let mut out = vec![[0.0; D]; points.len()];
-    for (p, value) in by_patch.into_iter().flatten() {
+    for (p, value) in by_cell_points.into_iter().flatten() {
         out[p] = value;
     }
     out

@@ -6,21 +6,21 @@
 use super::family::Family;
 use super::scene::{Fem, Scene};
 use super::state::State;
+use crate::interpolation::{Interpolation, Mpm};
 use crate::kinematics::Kinematics;
 use crate::mesh::Mesh;
 use crate::points::Points;
-use crate::stencil::{Mpm, Stencil};
-use crate::system::Cliques;
+use crate::system::Connectivity;
 
 /// The finite elements, and what their points see of them.
 pub struct Elements<const D: usize> {
     /// The cells with the nodes where they were when the grid was last restored.
     pub mesh: Mesh<D>,
-    pub stencil: Stencil<D>,
+    pub interpolation: Interpolation<D>,
     /// The cells with unknowns of pressure.
     pub cells: Vec<u32>,
-    /// The clique of each cell; `u32::MAX` for those of rigid bodies.
-    pub clique: Vec<u32>,
+    /// The coupling of each cell; `u32::MAX` for those of rigid bodies.
+    pub coupling: Vec<u32>,
     /// The number of points that are not of rigid bodies: the first ones.
     points: usize,
 }
@@ -30,31 +30,36 @@ impl<const D: usize> Elements<D> {
     pub fn new<K: Kinematics<D>>(fem: &Fem<D>, state: &State<D>) -> Self {
         let cells = (0u32..).zip(&fem.with_pressure).filter(|(_, with)| **with).map(|(c, _)| c).collect();
         let points = state.fem.region.iter().filter(|r| !fem.rigid[**r as usize]).count();
-        let mut elements =
-            Self { mesh: fem.mesh.clone(), stencil: Stencil::default(), cells, clique: Vec::new(), points };
+        let mut elements = Self {
+            mesh: fem.mesh.clone(),
+            interpolation: Interpolation::default(),
+            cells,
+            coupling: Vec::new(),
+            points,
+        };
         elements.place::<K>(state);
         elements
     }
 
     /// Their points and cells.
     pub fn family<'a>(&'a self, points: &'a Points<D>) -> Family<'a, D> {
-        Family { mesh: &self.mesh, stencil: &self.stencil, clique: &self.clique, points }
+        Family { mesh: &self.mesh, interpolation: &self.interpolation, coupling: &self.coupling, points }
     }
 
     /// Takes the nodes where `state` has them.
     pub fn place<K: Kinematics<D>>(&mut self, state: &State<D>) {
         self.mesh.nodes.clone_from(&state.nodes);
         let count = self.points;
-        self.stencil.fill::<K>(&Mpm, &self.mesh, &state.fem.cell[..count], &state.fem_parametric[..count], &[]);
-        self.stencil.weigh(&state.fem.initial_volume[..count]);
+        self.interpolation.fill::<K>(&Mpm, &self.mesh, &state.fem.cell[..count], &state.fem_parametric[..count], &[]);
+        self.interpolation.weigh(&state.fem.initial_volume[..count]);
     }
 
-    /// Appends a clique for each cell that deforms, given the block of each node.
-    pub fn couple(&mut self, fem: &Fem<D>, block: &[u32], cliques: &mut Cliques) {
+    /// Appends a coupling for each cell that deforms, given the block of each node.
+    pub fn couple(&mut self, fem: &Fem<D>, block: &[u32], connectivity: &mut Connectivity) {
         let cells = &self.mesh.cells;
-        self.clique = vec![u32::MAX; cells.len()];
+        self.coupling = vec![u32::MAX; cells.len()];
         for c in fem.deforming() {
-            self.clique[c] = cliques.push(cells.nodes(c).iter().map(|&n| block[n as usize]));
+            self.coupling[c] = connectivity.push(cells.nodes(c).iter().map(|&n| block[n as usize]));
         }
     }
 }

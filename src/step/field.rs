@@ -43,8 +43,8 @@ pub fn project<const D: usize, K: Kinematics<D>>(scene: &Scene<D>, grid: &Grid<D
     for k in 0..scene.fields.len() {
         let range = places.field(k, 0)..places.field(k + 1, 0);
         let mut values = state.pressure[range.clone()].to_vec();
-        if let Some(Family { mesh, stencil, points, .. }) = grid.families(scene, state).next() {
-            let filled = Filled { mesh, stencil, points };
+        if let Some(Family { mesh, interpolation, points, .. }) = grid.families(scene, state).next() {
+            let filled = Filled { mesh, interpolation, points };
             nodal_fit::fit::<D, K>(&[filled], |points, p| Some(points.fields[k][p]), &mut values);
         }
         state.pressure[range].copy_from_slice(&values);
@@ -62,11 +62,11 @@ pub fn to_points<const D: usize, K: Kinematics<D>>(
     let [places, _] = scene.places();
     for k in 0..scene.fields.len() {
         let mut column = std::mem::take(&mut state.points.fields[k]);
-        if let Some(Family { mesh, stencil, .. }) = grid.families(scene, state).next() {
-            for patch in &stencil.patches {
-                let kind = mesh.cells.kind[patch.cell as usize];
-                let corners = &mesh.cells.nodes(patch.cell as usize)[..kind.corner_count()];
-                for entries in stencil.entries::<K>(patch) {
+        if let Some(Family { mesh, interpolation, .. }) = grid.families(scene, state).next() {
+            for cell_points in &interpolation.filled {
+                let kind = mesh.cells.kind[cell_points.cell as usize];
+                let corners = &mesh.cells.nodes(cell_points.cell as usize)[..kind.corner_count()];
+                for entries in interpolation.entries::<K>(cell_points) {
                     let hats = pressure_hats(kind, entries.shape);
                     let change = |(hat, &n): (&f64, &u32)| {
                         let place = places.field(k, n);

@@ -1,8 +1,8 @@
-//! The grid of a run: which cells take part, the numbering of the unknowns and the stencil of the points.
+//! The grid of a run: which cells take part, the numbering of the unknowns and the interpolation of the points.
 //! All of it follows from the scene and the state, and is made anew only as far as they changed.
 
 use super::facing;
-use super::family::{Family, Stencils, System};
+use super::family::{Family, Interpolations, System};
 use super::fem::Elements;
 use super::field;
 use super::ghost_faces;
@@ -17,17 +17,17 @@ use super::state::State;
 use super::unknowns::Buffers;
 use crate::dofs::DofMap;
 use crate::error::Result;
+use crate::interpolation::Interpolation;
 use crate::kinematics::Kinematics;
 use crate::mesh::Mesh;
 use crate::rigid::Body;
-use crate::stencil::Stencil;
 use crate::surface::Piece;
-use crate::system::{Cliques, Workspace};
+use crate::system::{Connectivity, Workspace};
 use crate::term::{Frame, GhostFace, PlacedConstraint};
 
 /// The grid of a run.
 pub struct Grid<const D: usize> {
-    pub stencils: Stencils<D>,
+    pub interpolations: Interpolations<D>,
     /// The grid where finite elements that share nodes with it have moved it; absent where it keeps its first shape.
     pub relaxed: Option<Relaxed<D>>,
     /// The finite elements; absent where the scene has none.
@@ -38,14 +38,14 @@ pub struct Grid<const D: usize> {
     pub constraints: Vec<PlacedConstraint<D>>,
     /// The parts of the boundary of the material that no structure covers; absent where all of it is open or no term needs it.
     pub open: Option<Vec<Piece>>,
-    /// The clique of each contact node of each interface that the system has room for, else `u32::MAX`.
-    pub constraint_clique: Vec<Vec<u32>>,
-    /// The clique of each face that the system has room for a penalty at, else `u32::MAX`; empty without faces.
-    face_clique: Vec<u32>,
-    /// The clique of each rigid body: the nodes with its unknowns.
-    body_clique: Vec<u32>,
-    /// The clique of each cell; `u32::MAX` for those left out.
-    pub clique: Vec<u32>,
+    /// The coupling of each contact node of each interface that the system has room for, else `u32::MAX`.
+    pub constraint_coupling: Vec<Vec<u32>>,
+    /// The coupling of each face that the system has room for a penalty at, else `u32::MAX`; empty without faces.
+    face_coupling: Vec<u32>,
+    /// The coupling of each rigid body: the nodes with its unknowns.
+    body_coupling: Vec<u32>,
+    /// The coupling of each cell; `u32::MAX` for those left out.
+    pub coupling: Vec<u32>,
     /// The equations of [`Grid::motion`].
     pub dofs: DofMap<D>,
     /// The cells that take part, ascending, and whether they have pore water.
@@ -65,11 +65,11 @@ impl<const D: usize> Grid<D> {
     /// A machine error when memory does not suffice.
     pub fn new<K: Kinematics<D>>(scene: &Scene<D>, state: &State<D>) -> Result<Self> {
         let relaxed = relax::at(scene, state);
-        let mut stencils = Stencils::default();
+        let mut interpolations = Interpolations::default();
         let mesh = relaxed.as_ref().map_or(&scene.mesh, |r| &r.mesh);
-        fill::<D, K>(&mut stencils.integration, scene, mesh, state);
-        take_weights::<D, K>(&mut stencils, scene, mesh, state);
-        Self::with::<K>(scene, state, stencils, relaxed)
+        fill::<D, K>(&mut interpolations.integration, scene, mesh, state);
+        take_weights::<D, K>(&mut interpolations, scene, mesh, state);
+        Self::with::<K>(scene, state, interpolations, relaxed)
     }
 
     /// The grid in its first shape, with the points on it.
@@ -77,11 +77,11 @@ impl<const D: usize> Grid<D> {
     /// # Errors
     /// When a point lies outside the grid, or memory does not suffice.
     pub fn first<K: Kinematics<D>>(scene: &Scene<D>, state: &mut State<D>) -> Result<Self> {
-        let mut stencils = Stencils::default();
+        let mut interpolations = Interpolations::default();
         state.points.plastic_increment.resize(state.points.len(), 0.0);
         let mut relaxed = None;
-        begin_anew::<D, K>(scene, state, &mut stencils, &mut relaxed)?;
-        let grid = Self::with::<K>(scene, state, stencils, relaxed)?;
+        begin_anew::<D, K>(scene, state, &mut interpolations, &mut relaxed)?;
+        let grid = Self::with::<K>(scene, state, interpolations, relaxed)?;
         if scene.has_pressure_field() {
             grid.project_pressure_of_elements::<K>(scene, state);
         }
@@ -95,8 +95,8 @@ impl<const D: usize> Grid<D> {
     /// # Errors
     /// As [`Grid::first`].
     pub fn restore<K: Kinematics<D>>(&mut self, scene: &Scene<D>, state: &mut State<D>) -> Result<()> {
-        if begin_anew::<D, K>(scene, state, &mut self.stencils, &mut self.relaxed)? {
-            *self = Self::with::<K>(scene, state, std::mem::take(&mut self.stencils), self.relaxed.take())?;
+        if begin_anew::<D, K>(scene, state, &mut self.interpolations, &mut self.relaxed)? {
+            *self = Self::with::<K>(scene, state, std::mem::take(&mut self.interpolations), self.relaxed.take())?;
         } else {
             if let Some(elements) = &mut self.elements {
                 elements.place::<K>(state);
@@ -108,19 +108,19 @@ impl<const D: usize> Grid<D> {
         Ok(())
     }
 
-    /// The grid for its stencils.
+    /// The grid for its interpolations.
     ///
     /// # Errors
     /// A machine error when memory does not suffice.
     pub fn with<K: Kinematics<D>>(
         scene: &Scene<D>,
         state: &State<D>,
-        stencils: Stencils<D>,
+        interpolations: Interpolations<D>,
         relaxed: Option<Relaxed<D>>,
     ) -> Result<Self> {
         let mesh = &scene.mesh;
-        let (mut clique, mut block) = (vec![u32::MAX; mesh.cells.len()], vec![u32::MAX; mesh.nodes.len()]);
-        let (mut cliques, mut node) = (Cliques::default(), Vec::new());
+        let (mut coupling, mut block) = (vec![u32::MAX; mesh.cells.len()], vec![u32::MAX; mesh.nodes.len()]);
+        let (mut connectivity, mut node) = (Connectivity::default(), Vec::new());
         for c in (0..mesh.cells.len()).filter(|&c| state.active[c]) {
             for &n in mesh.cells.nodes(c) {
                 block[n as usize] = 0;
@@ -142,31 +142,34 @@ impl<const D: usize> Grid<D> {
         let support = scene.basis.support(mesh, &state.active);
         for &c in &cells {
             let nodes = support.as_ref().map_or_else(|| mesh.cells.nodes(c as usize), |support| support.nodes(c));
-            clique[c as usize] = cliques.push(nodes.iter().map(|&n| block[n as usize]));
+            coupling[c as usize] = connectivity.push(nodes.iter().map(|&n| block[n as usize]));
         }
         let mut elements = scene.fem.as_ref().map(|fem| Elements::new::<K>(fem, state));
         if let (Some(elements), Some(fem)) = (&mut elements, &scene.fem) {
-            elements.couple(fem, &block, &mut cliques);
+            elements.couple(fem, &block, &mut connectivity);
         }
         let carriers = |body: &Body<D>| body.carriers().map(|n| block[n as usize]).collect::<Vec<_>>();
-        let body_clique = scene.bodies.iter().map(|body| cliques.push(carriers(body))).collect();
-        let cells_only = cliques.clone();
-        let mut face_clique = Vec::new();
+        let body_coupling = scene.bodies.iter().map(|body| connectivity.push(carriers(body))).collect();
+        let cells_only = connectivity.clone();
+        let mut face_coupling = Vec::new();
         if let Some(faces) = &scene.faces {
-            face_clique.resize(faces.inner.len(), u32::MAX);
-            for (face, clique) in faces.inner.iter().zip(&mut face_clique) {
+            face_coupling.resize(faces.inner.len(), u32::MAX);
+            for (face, coupling) in faces.inner.iter().zip(&mut face_coupling) {
                 if ghost_faces::has_room(state, face) {
-                    *clique = cliques.push(face.nodes(mesh).map(|n| block[n as usize]));
+                    *coupling = connectivity.push(face.nodes(mesh).map(|n| block[n as usize]));
                 }
             }
         }
         let dynamic = scene.dynamic();
         let coordinates: Vec<_> = node.iter().map(|&n| mesh.nodes[n as usize]).collect();
-        let mass =
-            if dynamic { Some(System::new(&vec![1; node.len()], cliques.clone(), true, &coordinates)?) } else { None };
+        let mass = if dynamic {
+            Some(System::new(&vec![1; node.len()], connectivity.clone(), true, &coordinates)?)
+        } else {
+            None
+        };
         // The mass always takes a penalty on faces, the motion only where a term says so.
-        let mut cliques = if scene.terms.iter().any(|t| t.penalises_faces()) { cliques } else { cells_only };
-        let constraint_clique = facing::couple(state, &block, &mut cliques);
+        let mut connectivity = if scene.terms.iter().any(|t| t.penalises_faces()) { connectivity } else { cells_only };
+        let constraint_coupling = facing::couple(state, &block, &mut connectivity);
         let [places, of_elements] = scene.places();
         let with_pressure = scene.has_scalars().then(|| {
             let (with_water, with_field, others) =
@@ -177,39 +180,39 @@ impl<const D: usize> Grid<D> {
                 places,
                 with: Box::new(move |c| [with_water, with_field].map(|with| with && part[c as usize])),
                 fields: Box::new(move |c| if part[c as usize] { others } else { 0 }),
-                clique: &clique,
+                coupling: &coupling,
             }];
             families.extend(elements.iter().zip(&scene.fem).map(|(elements, fem)| Carrier {
                 mesh: &elements.mesh,
                 places: of_elements,
                 with: Box::new(|c| [fem.with_water[c as usize], fem.with_pressure[c as usize]]),
                 fields: Box::new(|_| 0),
-                clique: &elements.clique,
+                coupling: &elements.coupling,
             }));
-            Scalars::new(&families, node.len(), &cliques, places.end(others))
+            Scalars::new(&families, node.len(), &connectivity, places.end(others))
         });
         let symmetric = scene.terms.iter().all(|t| t.symmetric());
         let mut sizes = vec![D as u8; node.len()];
         let (motion, pressure) = match with_pressure {
-            None => (System::new(&sizes, cliques, symmetric, &coordinates)?, Vec::new()),
-            Some(Scalars { places: pressure, cliques }) => {
+            None => (System::new(&sizes, connectivity, symmetric, &coordinates)?, Vec::new()),
+            Some(Scalars { places: pressure, connectivity }) => {
                 sizes.resize(node.len() + pressure.len(), 1);
-                let mut motion = System::new(&sizes, cliques, symmetric, &coordinates)?;
+                let mut motion = System::new(&sizes, connectivity, symmetric, &coordinates)?;
                 motion.solver = motion.solver.saddle();
                 (motion, pressure)
             }
         };
         let mut grid = Self {
-            stencils,
+            interpolations,
             relaxed,
             elements,
             ghost: Vec::new(),
             constraints: Vec::new(),
             open: None,
-            constraint_clique,
-            face_clique,
-            body_clique,
-            clique,
+            constraint_coupling,
+            face_coupling,
+            body_coupling,
+            coupling,
             dofs: DofMap { node, pressure, block, places },
             cells,
             with_water: scene.water.is_some(),
@@ -226,16 +229,16 @@ impl<const D: usize> Grid<D> {
     pub fn project_pressure<K: Kinematics<D>>(&self, scene: &Scene<D>, state: &mut State<D>) {
         let mesh = self.relaxed.as_ref().map_or(&scene.mesh, |relaxed| &relaxed.mesh);
         let mut field = std::mem::take(&mut state.pressure);
-        let soil = Filled { mesh, stencil: &self.stencils.integration, points: state.integration() };
+        let soil = Filled { mesh, interpolation: &self.interpolations.integration, points: state.integration() };
         pressure::gather::<D, K>(soil, scene.places()[0], &mut field);
         state.pressure = field;
         self.project_pressure_of_elements::<K>(scene, state);
     }
 
     fn project_pressure_of_elements<K: Kinematics<D>>(&self, scene: &Scene<D>, state: &mut State<D>) {
-        if let Some(Elements { mesh, stencil, .. }) = &self.elements {
+        if let Some(Elements { mesh, interpolation, .. }) = &self.elements {
             let [_, places] = scene.places();
-            let elements = Filled { mesh, stencil, points: &state.fem };
+            let elements = Filled { mesh, interpolation, points: &state.fem };
             pressure::gather::<D, K>(elements, places, &mut state.pressure);
         }
     }
@@ -262,7 +265,7 @@ impl<const D: usize> Grid<D> {
         self.ghost.extend(ghost_faces::choose(scene, state).into_iter().map(|face| GhostFace {
             face,
             between: faces.inner[face as usize],
-            clique: self.face_clique[face as usize],
+            coupling: self.face_coupling[face as usize],
         }));
     }
 
@@ -272,7 +275,7 @@ impl<const D: usize> Grid<D> {
         Frame {
             mesh: relaxed.unwrap_or(mesh),
             relaxed: relaxed.is_some(),
-            stencil: &self.stencils.integration,
+            interpolation: &self.interpolations.integration,
             partly_filled: &state.weights.partly_filled,
             ghost: &self.ghost,
             constraints: &self.constraints,
@@ -284,18 +287,23 @@ impl<const D: usize> Grid<D> {
             points: state.integration(),
             integration: None,
             pattern: &self.motion.pattern,
-            clique: &self.clique,
+            coupling: &self.coupling,
             block: &self.dofs.block,
-            bodies: &self.body_clique,
+            bodies: &self.body_coupling,
             with_water: self.with_water,
         }
     }
 
     /// What the terms of the scene see of the material points, where others are summed over.
     pub fn frame_of_material<'a>(&'a self, mesh: &'a Mesh<D>, state: &'a State<D>) -> Option<Frame<'a, D>> {
-        let stencil = self.stencils.material.as_ref()?;
+        let interpolation = self.interpolations.material.as_ref()?;
         let frame = self.frame(mesh, state);
-        Some(Frame { stencil, points: &state.points, integration: Some((frame.stencil, frame.points)), ..frame })
+        Some(Frame {
+            interpolation,
+            points: &state.points,
+            integration: Some((frame.interpolation, frame.points)),
+            ..frame
+        })
     }
 
     /// What the terms of the finite elements see.
@@ -308,7 +316,7 @@ impl<const D: usize> Grid<D> {
         Frame {
             mesh: &elements.mesh,
             relaxed: true,
-            stencil: &elements.stencil,
+            interpolation: &elements.interpolation,
             partly_filled: &[],
             ghost: &[],
             constraints: &[],
@@ -320,29 +328,29 @@ impl<const D: usize> Grid<D> {
             points: &state.fem,
             integration: None,
             pattern: &self.motion.pattern,
-            clique: &elements.clique,
+            coupling: &elements.coupling,
             block: &self.dofs.block,
-            bodies: &self.body_clique,
+            bodies: &self.body_coupling,
             with_water: self.with_water,
         }
     }
 
-    /// The stencil of the material points.
-    pub fn of_material(&self) -> &Stencil<D> {
-        self.stencils.material.as_ref().unwrap_or(&self.stencils.integration)
+    /// The interpolation of the material points.
+    pub fn of_material(&self) -> &Interpolation<D> {
+        self.interpolations.material.as_ref().unwrap_or(&self.interpolations.integration)
     }
 
     /// All that moves: the material points and those of the finite elements.
     pub fn families<'a>(&'a self, scene: &'a Scene<D>, state: &'a State<D>) -> impl Iterator<Item = Family<'a, D>> {
-        let (mesh, stencil, clique) = (&scene.mesh, self.of_material(), &self.clique);
-        let soil = Family { mesh, stencil, clique, points: &state.points };
+        let (mesh, interpolation, coupling) = (&scene.mesh, self.of_material(), &self.coupling);
+        let soil = Family { mesh, interpolation, coupling, points: &state.points };
         std::iter::once(soil).chain(self.elements.iter().map(|elements| elements.family(&state.fem)))
     }
 
     /// All that integrals are summed over.
     pub fn integrated<'a>(&'a self, scene: &'a Scene<D>, state: &'a State<D>) -> impl Iterator<Item = Family<'a, D>> {
-        let (mesh, stencil, clique) = (&scene.mesh, &self.stencils.integration, &self.clique);
-        let soil = Family { mesh, stencil, clique, points: state.integration() };
+        let (mesh, interpolation, coupling) = (&scene.mesh, &self.interpolations.integration, &self.coupling);
+        let soil = Family { mesh, interpolation, coupling, points: state.integration() };
         std::iter::once(soil).chain(self.elements.iter().map(|elements| elements.family(&state.fem)))
     }
 }

@@ -18,10 +18,10 @@ use super::rigid;
 use super::scene::Scene;
 use super::state::State;
 use crate::error::{Error, Result};
+use crate::interpolation::Jump;
 use crate::kinematics::Kinematics;
 use crate::mesh::shape::{MAX_NODES, map_second, rule};
 use crate::mesh::{Mesh, cell_size};
-use crate::stencil::Jump;
 use crate::system::{Method, scatter};
 use crate::term::MASS_PENALTY;
 use rayon::prelude::*;
@@ -48,7 +48,7 @@ pub struct Mass<'a> {
 
 /// The weak penalty of a cell.
 struct Weak {
-    clique: usize,
+    coupling: usize,
     /// Row-major over the nodes of the cell.
     form: Vec<f64>,
 }
@@ -69,21 +69,21 @@ impl<'a> Mass<'a> {
         };
         system.matrix.clear();
         let mut unused = vec![0.0; system.pattern.len()];
-        let (stencil, points) = match (carrier, &grid.stencils.material) {
-            (Carrier::MaterialPoints, Some(stencil)) => (stencil, &state.points),
-            _ => (&grid.stencils.integration, state.integration()),
+        let (interpolation, points) = match (carrier, &grid.interpolations.material) {
+            (Carrier::MaterialPoints, Some(interpolation)) => (interpolation, &state.points),
+            _ => (&grid.interpolations.integration, state.integration()),
         };
-        let clique = &grid.clique;
+        let coupling = &grid.coupling;
         let mesh = grid.relaxed.as_ref().map_or(&scene.mesh, |relaxed| &relaxed.mesh);
-        let soil = Family { mesh: &scene.mesh, stencil, clique, points };
+        let soil = Family { mesh: &scene.mesh, interpolation, coupling, points };
         let elements = grid.elements.iter().map(|elements| elements.family(&state.fem));
-        for Family { stencil, clique, points, .. } in std::iter::once(soil).chain(elements) {
+        for Family { interpolation, coupling, points, .. } in std::iter::once(soil).chain(elements) {
             scatter(
                 &system.pattern,
-                &stencil.patches,
-                |patch| clique[patch.cell as usize] as usize,
-                |patch, local| {
-                    for entries in stencil.entries::<K>(patch) {
+                &interpolation.filled,
+                |cell_points| coupling[cell_points.cell as usize] as usize,
+                |cell_points, local| {
+                    for entries in interpolation.entries::<K>(cell_points) {
                         let m = points.mass[entries.point];
                         for (i, ni) in entries.value.iter().enumerate() {
                             for (j, nj) in entries.value.iter().enumerate() {
@@ -101,7 +101,7 @@ impl<'a> Mass<'a> {
         scatter(
             &system.pattern,
             &grid.ghost,
-            |ghost| ghost.clique as usize,
+            |ghost| ghost.coupling as usize,
             |ghost, local| {
                 let jump = Jump::of::<D, K>(mesh, &ghost.between);
                 let scale = MASS_PENALTY * scene.density_scale * jump.size * jump.size;
@@ -116,10 +116,10 @@ impl<'a> Mass<'a> {
         )?;
         rigid::add_mass(scene, &grid.dofs.block, &system.pattern, &mut system.matrix);
         let points_in = |cell: u32| {
-            let patch = stencil.patches.binary_search_by_key(&cell, |patch| patch.cell);
-            patch.map_or(0, |number| stencil.patches[number].point_count as usize)
+            let cell_points = interpolation.filled.binary_search_by_key(&cell, |cell_points| cell_points.cell);
+            cell_points.map_or(0, |number| interpolation.filled[number].point_count as usize)
         };
-        let mut cells: Vec<u32> = stencil.patches.iter().map(|patch| patch.cell).collect();
+        let mut cells: Vec<u32> = interpolation.filled.iter().map(|cell_points| cell_points.cell).collect();
         cells.extend(grid.ghost.iter().flat_map(|ghost| ghost.between.cells));
         cells.sort_unstable();
         cells.dedup();
@@ -128,20 +128,20 @@ impl<'a> Mass<'a> {
         let weak = [(&few, [GRADIENT, 0.0]), (&cells, [0.0, CURVATURE])].map(|(cells, shares)| {
             let factors = shares.map(|share| share * scene.density_scale);
             let of_cell = |&cell: &u32| Weak {
-                clique: clique[cell as usize] as usize,
+                coupling: coupling[cell as usize] as usize,
                 form: weak_form::<D, K>(mesh, cell as usize, factors),
             };
             cells.par_iter().with_min_len(64).map(of_cell).collect::<Vec<_>>()
         });
-        for Weak { clique, form } in weak.iter().flatten() {
-            // The clique may hold more nodes, behind those of the cell.
-            let size = system.pattern.clique_size(*clique);
+        for Weak { coupling, form } in weak.iter().flatten() {
+            // The coupling may hold more nodes, behind those of the cell.
+            let size = system.pattern.coupling_size(*coupling);
             let mut padded = vec![0.0; size * size];
             let own = form.len().isqrt();
             for (row, form) in padded.chunks_exact_mut(size).zip(form.chunks_exact(own)) {
                 row[..own].copy_from_slice(form);
             }
-            system.matrix.add(&system.pattern, *clique, &padded, size);
+            system.matrix.add(&system.pattern, *coupling, &padded, size);
         }
         let scale = system.matrix.scale(&system.pattern);
         for &diagonal in &system.pattern.column[..system.pattern.len()] {
@@ -166,8 +166,8 @@ impl<'a> Mass<'a> {
         self.solve_once(x)?;
         for parts in [..1, ..2] {
             let mut right = given.clone();
-            for Weak { clique, form } in self.weak[parts].iter().flatten() {
-                let blocks = self.system.pattern.cliques.blocks(*clique);
+            for Weak { coupling, form } in self.weak[parts].iter().flatten() {
+                let blocks = self.system.pattern.connectivity.blocks(*coupling);
                 let own = form.len().isqrt();
                 for (row, &a) in form.chunks_exact(own).zip(blocks) {
                     right[a as usize] += row.iter().zip(blocks).map(|(form, &b)| form * x[b as usize]).sum::<f64>();

@@ -234,11 +234,11 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
         let more = phase.reduction_at(from + dt) - phase.reduction_at(from);
         let nodes = self
             .grid
-            .stencils
+            .interpolations
             .integration
-            .patches
+            .filled
             .iter()
-            .flat_map(|patch| self.scene.mesh.cells.nodes(patch.cell as usize));
+            .flat_map(|cell_points| self.scene.mesh.cells.nodes(cell_points.cell as usize));
         let squared = |&n: &u32| {
             let (now, before) = (&found.1.displacement[n as usize], &self.state.displacement[n as usize]);
             now.iter().zip(before).map(|(now, before)| (now - before).powi(2)).sum::<f64>()
@@ -289,7 +289,7 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
         if start.is_some() {
             rigid::motion_to_points(scene, state);
         }
-        timed(Activity::Contact, || contact::push_out(scene, state, &mut contacts));
+        timed(Activity::Contact, || contact::project_out(scene, state, &mut contacts));
         state.step += 1;
         state.time += dt;
         state.phase_time += dt;

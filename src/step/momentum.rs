@@ -108,8 +108,8 @@ pub fn complete_points<const D: usize, K: Kinematics<D>>(
     let moved = at_samples::<D, K>(scene, grid, samples, back);
     let field = at_samples::<D, K>(scene, grid, samples, field);
     let wanted = momentum(&bodies, &samples.points, &places(&samples.points.position, &moved), &field);
-    let stencil = grid.of_material();
-    let of_material = Family { mesh: &scene.mesh, stencil, clique: &grid.clique, points: &state.points };
+    let interpolation = grid.of_material();
+    let of_material = Family { mesh: &scene.mesh, interpolation, coupling: &grid.coupling, points: &state.points };
     let position = places(&state.points.position, &interpolate::<D, K>(&of_material, back));
     let has = momentum(&bodies, &state.points, &position, values);
     let rigid: Vec<Rigid<D>> = has.iter().zip(&wanted).map(|(has, wanted)| has.towards::<K>(wanted)).collect();
@@ -149,7 +149,7 @@ pub fn keep_at_nodes<const D: usize, K: Kinematics<D>>(
 ) {
     let points = &state.points;
     let bodies = Bodies::of(&scene.mesh, points.cell.iter().copied(), &[]);
-    let of_material = Family { mesh: &scene.mesh, stencil: grid.of_material(), clique: &grid.clique, points };
+    let of_material = Family { mesh: &scene.mesh, interpolation: grid.of_material(), coupling: &grid.coupling, points };
     let mapped = interpolate::<D, K>(&of_material, field);
     let [has, wanted] = [&mapped[..], values].map(|values| momentum(&bodies, points, &points.position, values));
     let rigid: Vec<Rigid<D>> = has.iter().zip(&wanted).map(|(has, wanted)| has.towards::<K>(wanted)).collect();
@@ -181,8 +181,8 @@ fn at_samples<const D: usize, K: Kinematics<D>>(
     samples: &Samples<D>,
     field: &[[f64; D]],
 ) -> Vec<[f64; D]> {
-    let (mesh, stencil, clique) = (&scene.mesh, &grid.stencils.integration, &grid.clique);
-    interpolate::<D, K>(&Family { mesh, stencil, clique, points: &samples.points }, field)
+    let (mesh, interpolation, coupling) = (&scene.mesh, &grid.interpolations.integration, &grid.coupling);
+    interpolate::<D, K>(&Family { mesh, interpolation, coupling, points: &samples.points }, field)
 }
 
 /// The bodies within the surface. Material points outside it are integration points themselves, and lack nothing.

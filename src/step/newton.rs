@@ -123,7 +123,7 @@ impl<'a, const D: usize> Newton<'a, D> {
             if self.first_iterations().is_ok() {
                 return Ok(());
             }
-            self.buffers.held = false;
+            self.buffers.contact_frozen = false;
             self.restart();
         }
         self.evaluate(true)?;
@@ -174,9 +174,9 @@ impl<'a, const D: usize> Newton<'a, D> {
             if self.converged() {
                 break;
             }
-            self.buffers.held = true;
+            self.buffers.contact_frozen = true;
             self.direction()?;
-            self.buffers.held = false;
+            self.buffers.contact_frozen = false;
             // The residual to reduce is the true one, not that with the frozen status.
             self.target = if self.due { self.target.max(size) } else { size };
             self.search()?;
@@ -254,9 +254,9 @@ impl<'a, const D: usize> Newton<'a, D> {
         let (pattern, matrix) = (&motion.pattern, &motion.matrix);
         // Where the residual has fallen to a tenth, the factor of the last tangent still preconditions this one.
         let near = matches!(self.history[..], [.., before, last] if last < 0.1 * before);
-        let method = if !matrix.beyond.is_empty() {
+        let method = if !matrix.matrix_free.is_empty() {
             let tolerance = forcing(&self.history, self.problem.scene.numerics.tolerance);
-            motion.solver.solve_beyond(pattern, matrix, tolerance, delta)
+            motion.solver.solve_matrix_free(pattern, matrix, tolerance, delta)
         } else if near && self.method == Method::Iterative {
             motion.solver.solve_near(pattern, matrix, delta)
         } else {
@@ -325,9 +325,9 @@ fn damped_equations<const D: usize>(scene: &Scene<D>, grid: &Grid<D>, out: &mut 
 /// the root of the number of equations. The side is taken as four times the volume over the diagonal.
 fn floor<const D: usize>(problem: &Problem<D>, grid: &Grid<D>) -> f64 {
     let (mut volume, mut size) = (0.0, 0.0);
-    for Family { mesh, stencil, points, .. } in grid.integrated(problem.scene, problem.state) {
-        volume += stencil.points.iter().map(|&p| points.initial_volume[p as usize]).sum::<f64>();
-        size += stencil.patches.iter().map(|patch| cell_size(mesh, patch.cell as usize)).sum::<f64>();
+    for Family { mesh, interpolation, points, .. } in grid.integrated(problem.scene, problem.state) {
+        volume += interpolation.points.iter().map(|&p| points.initial_volume[p as usize]).sum::<f64>();
+        size += interpolation.filled.iter().map(|cell_points| cell_size(mesh, cell_points.cell as usize)).sum::<f64>();
     }
     let side = 4.0 * volume / size;
     1e-6 * problem.scene.stiffness_scale * side * (problem.given.len() as f64).sqrt()

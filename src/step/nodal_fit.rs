@@ -1,10 +1,10 @@
 //! Projection of the values of points to a continuous field of corner values at a grid reset (docs/theory.md, sections 10 and 11): at each
 //! corner by weighted least squares, the linear function that fits the points around it best, weighted by its linear shape function.
 
+use crate::interpolation::Interpolation;
 use crate::kinematics::Kinematics;
 use crate::mesh::{Mesh, cell_size};
 use crate::points::Points;
-use crate::stencil::Stencil;
 use crate::term::{Frame, pressure_hats};
 use nalgebra::{SMatrix, SVector};
 
@@ -19,13 +19,13 @@ const ROUNDS: usize = 3;
 #[derive(Clone, Copy)]
 pub struct Filled<'a, const D: usize> {
     pub mesh: &'a Mesh<D>,
-    pub stencil: &'a Stencil<D>,
+    pub interpolation: &'a Interpolation<D>,
     pub points: &'a Points<D>,
 }
 
 impl<'a, const D: usize> From<Frame<'a, D>> for Filled<'a, D> {
-    fn from(Frame { mesh, stencil, points, .. }: Frame<'a, D>) -> Self {
-        Self { mesh, stencil, points }
+    fn from(Frame { mesh, interpolation, points, .. }: Frame<'a, D>) -> Self {
+        Self { mesh, interpolation, points }
     }
 }
 
@@ -103,10 +103,10 @@ fn visit<const D: usize, K: Kinematics<D>>(
     mut see: impl FnMut(&Filled<D>, usize, usize, f64, usize, f64),
 ) {
     for filled in cells {
-        for patch in &filled.stencil.patches {
-            let cell = patch.cell as usize;
+        for cell_points in &filled.interpolation.filled {
+            let cell = cell_points.cell as usize;
             let kind = filled.mesh.cells.kind[cell];
-            for entries in filled.stencil.entries::<K>(patch) {
+            for entries in filled.interpolation.entries::<K>(cell_points) {
                 let Some(value) = value(filled.points, entries.point) else { continue };
                 let hats = pressure_hats(kind, entries.shape);
                 let corners = || hats.iter().zip(&filled.mesh.cells.nodes(cell)[..kind.corner_count()]);
@@ -122,13 +122,13 @@ fn visit<const D: usize, K: Kinematics<D>>(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::interpolation::Mpm;
     use crate::kinematics::{Axisymmetric, PlaneStrain};
     use crate::material::Profile;
     use crate::mesh::builder::rectangle;
     use crate::mesh::locate::Locator;
     use crate::mesh::shape::CellKind;
     use crate::seed::{RegionSeed, seed};
-    use crate::stencil::Mpm;
 
     /// The largest errors of the fit to the points of a body in a part of a mesh of `kind`, `each` a cell, of a constant and of a linear
     /// field, at the corners of cells with points.
@@ -141,10 +141,10 @@ mod tests {
         let points = all.select(&inside);
         let locator = Locator::new(&mesh);
         let xi: Vec<_> = points.position.iter().map(|x| locator.locate(&mesh, x, None).unwrap().1).collect();
-        let mut stencil = Stencil::default();
-        stencil.fill::<K>(&Mpm, &mesh, &points.cell, &xi, &vec![true; mesh.cells.len()]);
-        stencil.weigh(&points.initial_volume);
-        let cells = Filled { mesh: &mesh, stencil: &stencil, points: &points };
+        let mut interpolation = Interpolation::default();
+        interpolation.fill::<K>(&Mpm, &mesh, &points.cell, &xi, &vec![true; mesh.cells.len()]);
+        interpolation.weigh(&points.initial_volume);
+        let cells = Filled { mesh: &mesh, interpolation: &interpolation, points: &points };
         let fields: [fn(&[f64; 2]) -> f64; 2] = [|_| -3.0e4, |x| 200.0 - 7.0e4 * x[0] + 5.0e4 * x[1]];
         fields.map(|exact| {
             let mut field = vec![0.0; mesh.nodes.len()];

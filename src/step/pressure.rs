@@ -8,19 +8,19 @@ use crate::term::pressure_hats;
 /// Projects the field over a family of cells from their points: a linear fit at the corners, and the remaining mean of each cell as its
 /// constant. It is the initial value of the next step; the equations (eq. 25) take the values of the points themselves as `π_n`.
 pub fn gather<const D: usize, K: Kinematics<D>>(cells: Filled<D>, places: Places, field: &mut Vec<f64>) {
-    let Filled { mesh, stencil, points } = cells;
+    let Filled { mesh, interpolation, points } = cells;
     let (constants, end) = (places.constant(0), places.constant(mesh.cells.len()));
     field.resize(end.max(field.len()), 0.0);
     nodal_fit::fit::<D, K>(&[cells], |points, p| Some(points.pressure[p]), &mut field[..mesh.nodes.len()]);
     field[constants..end].fill(0.0);
-    for patch in &stencil.patches {
-        let cell = patch.cell as usize;
+    for cell_points in &interpolation.filled {
+        let cell = cell_points.cell as usize;
         let kind = mesh.cells.kind[cell];
         if kind.order() == 1 {
             continue;
         }
         let (mut left, mut all) = (0.0, 0.0);
-        for entries in stencil.entries::<K>(patch) {
+        for entries in interpolation.entries::<K>(cell_points) {
             let hats = pressure_hats(kind, entries.shape);
             let corners = &mesh.cells.nodes(cell)[..kind.corner_count()];
             let there: f64 = hats.iter().zip(corners).map(|(hat, &n)| hat * field[n as usize]).sum();

@@ -11,7 +11,7 @@ use crate::mesh::Mesh;
 use crate::mesh::faces::Faces;
 use crate::mesh::locate::Locator;
 use crate::mesh::quality;
-use crate::system::{Cliques, Matrix, Pattern, Solver};
+use crate::system::{Connectivity, Matrix, Pattern, Solver};
 
 /// Least fraction (-) of its first quality that a cell may have on the relaxed grid.
 const LEAST: f64 = 0.1;
@@ -143,12 +143,12 @@ impl Corners {
         })
     }
 
-    fn edges<const D: usize>(&self, mesh: &Mesh<D>) -> Cliques {
-        let mut cliques = Cliques::default();
+    fn edges<const D: usize>(&self, mesh: &Mesh<D>) -> Connectivity {
+        let mut connectivity = Connectivity::default();
         for ends in Self::ends(mesh) {
-            cliques.push(ends.map(|n| self.number[n as usize]));
+            connectivity.push(ends.map(|n| self.number[n as usize]));
         }
-        cliques
+        connectivity
     }
 
     fn springs<const D: usize>(&self, mesh: &Mesh<D>, pattern: &Pattern) -> Matrix {

@@ -3,7 +3,7 @@
 
 use super::boundary_projection::project_onto_boundary;
 use super::facing;
-use super::family::Stencils;
+use super::family::Interpolations;
 use super::fem;
 use super::ghost_faces;
 use super::nodal_fit::Filled;
@@ -13,11 +13,11 @@ use super::relax::{self, Relaxed};
 use super::scene::{Restore, Scene};
 use super::state::State;
 use crate::error::{Error, Result};
+use crate::interpolation::Interpolation;
 use crate::kinematics::Kinematics;
 use crate::mesh::Mesh;
 use crate::mesh::locate::Locator;
 use crate::quadrature::{Renewed, Restored, Samples, Weights};
-use crate::stencil::Stencil;
 use rayon::prelude::*;
 
 /// Rings of cells around those with points that are active too, so that points can move some way before the pattern of the matrix
@@ -32,7 +32,7 @@ const RINGS: usize = 2;
 pub fn begin_anew<const D: usize, K: Kinematics<D>>(
     scene: &Scene<D>,
     state: &mut State<D>,
-    stencils: &mut Stencils<D>,
+    interpolations: &mut Interpolations<D>,
     relaxed: &mut Option<Relaxed<D>>,
 ) -> Result<bool> {
     let nodes = state.nodes.clone();
@@ -45,8 +45,9 @@ pub fn begin_anew<const D: usize, K: Kinematics<D>>(
     let (mesh, locator) = relaxed.as_ref().map_or((&scene.mesh, &scene.locator), |r| (&r.mesh, &r.locator));
     let changed = choose_cells(scene, state);
     let outlines = facing::outlines(scene, state);
-    stencils.integration = stencils.material.take().unwrap_or_else(|| std::mem::take(&mut stencils.integration));
-    fill::<D, K>(&mut stencils.integration, scene, mesh, state);
+    interpolations.integration =
+        interpolations.material.take().unwrap_or_else(|| std::mem::take(&mut interpolations.integration));
+    fill::<D, K>(&mut interpolations.integration, scene, mesh, state);
     let grid = Restored {
         mesh,
         locator,
@@ -55,13 +56,13 @@ pub fn begin_anew<const D: usize, K: Kinematics<D>>(
         relaxed: relaxed.is_some(),
         points: &state.points,
         parametric: &state.parametric,
-        stencil: &stencils.integration,
+        interpolation: &interpolations.integration,
         active: &state.active,
         displacement: (state.restorations > 0).then_some(&state.displacement),
     };
     state.weights = scene.quadrature.weigh(&grid, &mut state.front);
     state.weights.projected = projected;
-    renew::<D, K>(&mut stencils.integration, scene, mesh, state);
+    renew::<D, K>(&mut interpolations.integration, scene, mesh, state);
     let here = before.as_ref().map_or((&scene.mesh, &scene.locator), |r| (&r.mesh, &r.locator));
     let before = here.0;
     predictor::carry(here, mesh, state);
@@ -75,10 +76,10 @@ pub fn begin_anew<const D: usize, K: Kinematics<D>>(
             state.weights.ill_conditioned.clear();
         }
     }
-    take_weights::<D, K>(stencils, scene, mesh, state);
+    take_weights::<D, K>(interpolations, scene, mesh, state);
     if scene.has_pressure_field() {
         let mut field = std::mem::take(&mut state.pressure);
-        let soil = Filled { mesh, stencil: &stencils.integration, points: state.integration() };
+        let soil = Filled { mesh, interpolation: &interpolations.integration, points: state.integration() };
         pressure::gather::<D, K>(soil, scene.places()[0], &mut field);
         state.pressure = field;
     }
@@ -113,24 +114,24 @@ fn place<const D: usize, K: Kinematics<D>>(
     Ok((before, note))
 }
 
-/// Gives the points that integrals are summed over their weights, given the stencil of the material points.
+/// Gives the points that integrals are summed over their weights, given the interpolation of the material points.
 pub fn take_weights<const D: usize, K: Kinematics<D>>(
-    stencils: &mut Stencils<D>,
+    interpolations: &mut Interpolations<D>,
     scene: &Scene<D>,
     mesh: &Mesh<D>,
     state: &State<D>,
 ) {
     let Weights { samples, weight, .. } = &state.weights;
     if let Some(Samples { points, parametric, .. }) = samples {
-        stencils.material = Some(std::mem::take(&mut stencils.integration));
-        stencils.integration.fill::<K>(scene.basis, mesh, &points.cell, parametric, &state.active);
+        interpolations.material = Some(std::mem::take(&mut interpolations.integration));
+        interpolations.integration.fill::<K>(scene.basis, mesh, &points.cell, parametric, &state.active);
     }
-    stencils.integration.weigh(weight);
+    interpolations.integration.weigh(weight);
 }
 
-/// Takes the material points that a weighed grid asks for, and fills their stencil.
+/// Takes the material points that a weighed grid asks for, and fills their interpolation.
 fn renew<const D: usize, K: Kinematics<D>>(
-    stencil: &mut Stencil<D>,
+    interpolation: &mut Interpolation<D>,
     scene: &Scene<D>,
     mesh: &Mesh<D>,
     state: &mut State<D>,
@@ -145,17 +146,17 @@ fn renew<const D: usize, K: Kinematics<D>>(
         state.start_position = points.position.iter().zip(&from).map(start).collect();
     }
     (state.points, state.parametric) = (points, parametric);
-    fill::<D, K>(stencil, scene, mesh, state);
+    fill::<D, K>(interpolation, scene, mesh, state);
 }
 
-/// Fills the stencil for the material points where they were last located.
+/// Fills the interpolation for the material points where they were last located.
 pub fn fill<const D: usize, K: Kinematics<D>>(
-    stencil: &mut Stencil<D>,
+    interpolation: &mut Interpolation<D>,
     scene: &Scene<D>,
     mesh: &Mesh<D>,
     state: &State<D>,
 ) {
-    stencil.fill::<K>(scene.basis, mesh, &state.points.cell, &state.parametric, &state.active);
+    interpolation.fill::<K>(scene.basis, mesh, &state.points.cell, &state.parametric, &state.active);
 }
 
 /// Finds the cell of every point of the restored grid.

@@ -2,24 +2,29 @@
 
 use crate::dofs::Places;
 use crate::mesh::Mesh;
-use crate::system::Cliques;
+use crate::system::Connectivity;
 
 /// The scalar unknowns of a grid.
 pub struct Scalars {
     /// Their places.
     pub places: Vec<u32>,
-    /// The cliques of the nodes, those of cells with their scalar unknowns.
-    pub cliques: Cliques,
+    /// The couplings of the nodes, those of cells with their scalar unknowns.
+    pub connectivity: Connectivity,
 }
 
 impl Scalars {
     /// Numbers the unknowns of `families`, of which there are `most`, after `nodes` blocks.
-    pub fn new<const D: usize>(families: &[Carrier<D>], nodes: usize, cliques: &Cliques, most: usize) -> Self {
+    pub fn new<const D: usize>(
+        families: &[Carrier<D>],
+        nodes: usize,
+        connectivity: &Connectivity,
+        most: usize,
+    ) -> Self {
         let mut block = vec![u32::MAX; most];
-        let mut of_clique: Vec<Option<(usize, u32)>> = vec![None; cliques.len()];
+        let mut of_coupling: Vec<Option<(usize, u32)>> = vec![None; connectivity.len()];
         for (i, family) in families.iter().enumerate() {
             for c in family.cells() {
-                of_clique[family.clique[c as usize] as usize] = Some((i, c));
+                of_coupling[family.coupling[c as usize] as usize] = Some((i, c));
                 for unknown in family.unknowns(c) {
                     block[unknown as usize] = 0;
                 }
@@ -30,13 +35,13 @@ impl Scalars {
             *block = (nodes + places.len()) as u32;
             places.push(unknown);
         }
-        let mut extended = Cliques::default();
-        for (k, of) in of_clique.iter().enumerate() {
-            let own = cliques.blocks(k).iter().copied();
+        let mut extended = Connectivity::default();
+        for (k, of) in of_coupling.iter().enumerate() {
+            let own = connectivity.blocks(k).iter().copied();
             let carriers = of.iter().flat_map(|&(i, c)| families[i].unknowns(c));
             extended.push(own.chain(carriers.map(|unknown| block[unknown as usize])));
         }
-        Self { places, cliques: extended }
+        Self { places, connectivity: extended }
     }
 }
 
@@ -48,7 +53,7 @@ pub struct Carrier<'a, const D: usize> {
     pub with: Box<dyn Fn(u32) -> [bool; 2] + 'a>,
     /// How many other scalar fields a cell has.
     pub fields: Box<dyn Fn(u32) -> usize + 'a>,
-    pub clique: &'a [u32],
+    pub coupling: &'a [u32],
 }
 
 impl<const D: usize> Carrier<'_, D> {

@@ -4,13 +4,13 @@ use super::change::Change;
 use super::field::Field;
 use crate::contact::Interface;
 use crate::dofs::Places;
+use crate::interpolation::Basis;
 use crate::mesh::Mesh;
 use crate::mesh::faces::Faces;
 use crate::mesh::locate::Locator;
 use crate::quadrature::Quadrature;
 use crate::rigid::Body;
-use crate::stencil::Basis;
-use crate::term::{Carried, Levels, Porous, Term};
+use crate::term::{MixedPressure, Porous, Term, WaterLevels};
 use crate::time_value::TimeValue;
 
 /// What a case resolves into. Only [`crate::case`] decides which terms it has.
@@ -26,7 +26,7 @@ pub struct Scene<const D: usize> {
     /// The contact interfaces.
     pub interfaces: Vec<Box<dyn Interface<D>>>,
     /// The levels of the water outside and in the pores, where they differ: for the effective contact pressure (docs/theory.md, eq. 29a).
-    pub levels: Option<Levels>,
+    pub levels: Option<WaterLevels>,
     /// The faces between the cells; absent where none takes a ghost penalty, on displacement or on mass.
     pub faces: Option<Faces>,
     /// What the points see of the grid.
@@ -37,7 +37,7 @@ pub struct Scene<const D: usize> {
     /// unknowns are lengths and all equations forces; absent without a pressure field and pore water.
     pub pressure_unit: Option<f64>,
     /// The part of the stress of each material, by number, that the pressure field carries; the part of the pore water causes no friction.
-    pub carried: Vec<Option<Carried>>,
+    pub carried: Vec<Option<MixedPressure>>,
     /// The water in the pores, where its pressure is a field of its own.
     pub water: Option<Water>,
     /// Other scalar fields that the material points carry ([`Field`]); none in the cases so far.

@@ -15,9 +15,9 @@ use super::scene::Scene;
 use super::state::{Span, State};
 use crate::dofs::Dof;
 use crate::error::Result;
+use crate::interpolation::MAX_FUNCTIONS;
 use crate::kinematics::Kinematics;
 use crate::points::Points;
-use crate::stencil::MAX_FUNCTIONS;
 use crate::term::{Frame, Term, Trial, Update};
 use crate::time_integration::GeneralisedAlpha;
 
@@ -53,8 +53,8 @@ pub fn motion_to_grid<const D: usize, K: Kinematics<D>>(
 /// represent moves nothing, but would stay with the points, also at rest, until another cell represents it as motion. In cells of first
 /// order this part is bending, and it is kept.
 fn take_what_is_seen<const D: usize, K: Kinematics<D>>(scene: &Scene<D>, grid: &Grid<D>, state: &mut State<D>) {
-    let (mesh, stencil, clique) = (&scene.mesh, grid.of_material(), &grid.clique);
-    let seen = interpolate::<D, K>(&Family { mesh, stencil, clique, points: &state.points }, &state.velocity);
+    let (mesh, interpolation, coupling) = (&scene.mesh, grid.of_material(), &grid.coupling);
+    let seen = interpolate::<D, K>(&Family { mesh, interpolation, coupling, points: &state.points }, &state.velocity);
     let Points { velocity, cell, .. } = &mut state.points;
     for ((own, seen), &cell) in velocity.iter_mut().zip(seen).zip(&*cell) {
         if mesh.cells.kind[cell as usize].order() == 2 {
@@ -86,9 +86,9 @@ impl<const D: usize> Start<D> {
     /// Momentum (t m/s) of that sudden change, summed over the nodes.
     pub fn impulse<K: Kinematics<D>>(&self, scene: &Scene<D>, grid: &Grid<D>, state: &State<D>) -> [f64; D] {
         let mut impulse = rigid::impulse(scene, state, &self.velocity);
-        for Family { mesh, stencil, points, .. } in grid.integrated(scene, state) {
-            for patch in &stencil.patches {
-                let nodes = stencil.nodes(mesh, patch.cell);
+        for Family { mesh, interpolation, points, .. } in grid.integrated(scene, state) {
+            for cell_points in &interpolation.filled {
+                let nodes = interpolation.nodes(mesh, cell_points.cell);
                 let mut jump = [[0.0; D]; MAX_FUNCTIONS];
                 for (jump, &n) in jump.iter_mut().zip(nodes) {
                     let (now, before) = (&self.velocity[n as usize], &state.velocity[n as usize]);
@@ -97,7 +97,7 @@ impl<const D: usize> Start<D> {
                 if jump.iter().flatten().all(|&v| v == 0.0) {
                     continue;
                 }
-                for entries in stencil.entries::<K>(patch) {
+                for entries in interpolation.entries::<K>(cell_points) {
                     for (n, jump) in entries.value.iter().zip(&jump) {
                         for d in 0..D {
                             impulse[d] += points.mass[entries.point] * n * jump[d];
@@ -169,7 +169,7 @@ impl Answers {
             phase,
             time: from,
             reduction: scene.phases[phase].reduction_at(to),
-            held: false,
+            contact_frozen: false,
             inverse_dt: 1.0 / (to - from),
         };
         let of = |terms: &[Box<dyn Term<D>>], frame: &Frame<D>| -> Vec<Update> {
@@ -324,11 +324,11 @@ fn to_nodes<const D: usize, K: Kinematics<D>>(
     state: &State<D>,
 ) -> Result<[Vec<[f64; D]>; 2]> {
     let mut right: [Vec<[f64; D]>; 2] = [0, 1].map(|_| vec![[0.0; D]; grid.dofs.node.len()]);
-    for Family { mesh, stencil, points, .. } in grid.families(scene, state) {
+    for Family { mesh, interpolation, points, .. } in grid.families(scene, state) {
         let fields = [&points.velocity, &points.acceleration];
-        for patch in &stencil.patches {
-            let nodes = stencil.nodes(mesh, patch.cell);
-            for entries in stencil.entries::<K>(patch) {
+        for cell_points in &interpolation.filled {
+            let nodes = interpolation.nodes(mesh, cell_points.cell);
+            for entries in interpolation.entries::<K>(cell_points) {
                 for (n, &node) in entries.value.iter().zip(nodes) {
                     let block = grid.dofs.block[node as usize] as usize;
                     let weight = points.mass[entries.point] * n;

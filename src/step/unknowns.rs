@@ -55,6 +55,6 @@ pub struct Buffers<const D: usize> {
     pub between: Vec<[f64; D]>,
     pub acceleration: Vec<[f64; D]>,
     pub ahead: Vec<[f64; D]>,
-    /// As [`crate::term::Trial::held`].
-    pub held: bool,
+    /// As [`crate::term::Trial::contact_frozen`].
+    pub contact_frozen: bool,
 }

@@ -69,7 +69,7 @@ pub fn balance<const D: usize>(
     let after = content(scene, state);
     let mut balance = Balance { left: drained, ..Balance::default() };
     for (family, (before, after)) in grid.integrated(scene, state).zip(before.iter().zip(&after)) {
-        for (&p, weight) in family.stencil.points.iter().zip(&family.stencil.weight) {
+        for (&p, weight) in family.interpolation.points.iter().zip(&family.interpolation.weight) {
             let taken_up = weight * (after[p as usize] - before[p as usize]);
             balance.taken_up += taken_up;
             balance.exchanged += taken_up.abs();

@@ -28,8 +28,8 @@ pub struct Piece {
     pub region: u16,
     /// The cell whose points stand for the material behind it, and the ends in the parametric domain of that, continued
     /// beyond the cell where it is another one: there the cell of the piece is a sliver without points.
-    pub bearer: u32,
-    pub borne: [[f64; 2]; 2],
+    pub host: u32,
+    pub in_host: [[f64; 2]; 2],
 }
 
 /// What is behind a piece.
@@ -37,7 +37,7 @@ pub struct Piece {
 pub struct Behind {
     pub region: u16,
     /// The cell whose points stand for it.
-    pub bearer: u32,
+    pub host: u32,
 }
 
 /// The loops of the boundary, on the grid as last restored.
@@ -76,12 +76,12 @@ impl ActiveBoundary {
             let mut at = start;
             while !std::mem::replace(&mut used[at], true) {
                 let (_, to, mut piece) = found[at];
-                let Behind { region, bearer } = behind(piece.cell, &position(mesh, &piece, 0.5));
+                let Behind { region, host } = behind(piece.cell, &position(mesh, &piece, 0.5));
                 piece.region = region;
-                if bearer != piece.cell {
-                    let ends = [0.0, 1.0].map(|t| continued(mesh, bearer as usize, &position(mesh, &piece, t)));
+                if host != piece.cell {
+                    let ends = [0.0, 1.0].map(|t| continued(mesh, host as usize, &position(mesh, &piece, t)));
                     if let [Some(a), Some(b)] = ends {
-                        (piece.bearer, piece.borne) = (bearer, [a, b]);
+                        (piece.host, piece.in_host) = (host, [a, b]);
                     }
                 }
                 boundary.pieces.push(piece);
@@ -149,9 +149,9 @@ impl Piece {
         along(&self.ends, t)
     }
 
-    /// The same in the domain of the bearer.
-    pub fn borne_at(&self, t: f64) -> [f64; 3] {
-        along(&self.borne, t)
+    /// The same in the domain of the host.
+    pub fn host_at(&self, t: f64) -> [f64; 3] {
+        along(&self.in_host, t)
     }
 
     /// The part of it between two shares of its way; all of it for 0 and 1.
@@ -159,7 +159,7 @@ impl Piece {
         let of = |ends: &[[f64; 2]; 2]| {
             [from, to].map(|t| if t == 1.0 { ends[1] } else { [along(ends, t)[0], along(ends, t)[1]] })
         };
-        Self { ends: of(&self.ends), borne: of(&self.borne), ..*self }
+        Self { ends: of(&self.ends), in_host: of(&self.in_host), ..*self }
     }
 }
 
@@ -224,7 +224,7 @@ fn add_cell(mesh: &Mesh<2>, geometry: &Geometry, level_set: &[f64], c: usize, ou
     let mut add = |from: (Vertex, [f64; 2]), to: (Vertex, [f64; 2]), wall: bool| {
         if from.0 != to.0 {
             let (cell, ends) = (c as u32, [from.1, to.1]);
-            let piece = Piece { cell, ends, wall, region: NO_REGION, bearer: cell, borne: ends };
+            let piece = Piece { cell, ends, wall, region: NO_REGION, host: cell, in_host: ends };
             out.push((from.0, to.0, piece));
         }
     };

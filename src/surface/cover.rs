@@ -110,7 +110,7 @@ mod tests {
     /// A piece along the top of the square [0, 1]², from right to left; half a cell is 0.5 m.
     fn piece() -> Piece {
         let ends = [[1.0, 1.0], [-1.0, 1.0]];
-        Piece { cell: 0, ends, wall: false, region: 0, bearer: 0, borne: ends }
+        Piece { cell: 0, ends, wall: false, region: 0, host: 0, in_host: ends }
     }
 
     fn mesh() -> Mesh<2> {

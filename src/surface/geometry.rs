@@ -74,7 +74,7 @@ impl Geometry {
 
     /// The cell that stands for what is in `cell`, by the points that each cell has: itself, or the nearest one with points across
     /// faces, the one with most of several, the lowest of equals. `None` where there is none within `rings`.
-    pub fn bearer(&self, cell: u32, rings: usize, points: impl Fn(u32) -> u32) -> Option<u32> {
+    pub fn host(&self, cell: u32, rings: usize, points: impl Fn(u32) -> u32) -> Option<u32> {
         let mut reached = vec![cell];
         let mut begin = 0;
         for _ in 0..=rings {

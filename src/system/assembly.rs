@@ -14,7 +14,7 @@ const MANY: usize = 1 << 17;
 pub struct Matrix {
     pub values: Vec<f64>,
     /// Summands that the pattern has no room for, known by their products only. The direct solver cannot have them.
-    pub beyond: Vec<Box<dyn Beyond>>,
+    pub matrix_free: Vec<Box<dyn MatrixFree>>,
     /// Memory of such summands that are spent, for the next ones.
     pub spare: Vec<Vec<f64>>,
     /// The equations taken out; empty before [`Matrix::constrain`].
@@ -22,7 +22,7 @@ pub struct Matrix {
 }
 
 /// A matrix known by its products.
-pub trait Beyond: Send + Sync {
+pub trait MatrixFree: Send + Sync {
     /// `y += A x`.
     fn add_product(&self, x: &[f64], y: &mut [f64]);
 
@@ -37,11 +37,11 @@ impl Matrix {
 
     pub fn clear(&mut self) {
         self.values.par_chunks_mut(MANY).for_each(|values| values.fill(0.0));
-        self.spare.extend(self.beyond.drain(..).map(|beyond| beyond.into_memory()));
+        self.spare.extend(self.matrix_free.drain(..).map(|summand| summand.into_memory()));
         self.fixed.clear();
     }
 
-    /// Adds the dense matrix of clique `k`. Of a symmetric system only the lower triangle is read.
+    /// Adds the dense matrix of coupling `k`. Of a symmetric system only the lower triangle is read.
     pub fn add(&mut self, pattern: &Pattern, k: usize, local: &[f64], size: usize) {
         let mut all = Columns { blocks: 0..pattern.start.len() as u32 - 1, first: 0, values: &mut self.values };
         all.add(pattern, k, local, size);
@@ -88,11 +88,11 @@ impl Matrix {
     /// Takes the equations marked in `fixed` out of the system: their rows and columns vanish but for a
     /// diagonal entry `scale`. Their known solution `known` moves to the right-hand side.
     pub fn constrain(&mut self, pattern: &Pattern, fixed: &[bool], known: &[f64], scale: f64, rhs: &mut [f64]) {
-        if !self.beyond.is_empty() {
+        if !self.matrix_free.is_empty() {
             let held: Vec<f64> = known.iter().zip(fixed).map(|(u, fixed)| if *fixed { *u } else { 0.0 }).collect();
             if held.iter().any(|&u| u != 0.0) {
                 let mut force = vec![0.0; held.len()];
-                self.beyond.iter().for_each(|beyond| beyond.add_product(&held, &mut force));
+                self.matrix_free.iter().for_each(|summand| summand.add_product(&held, &mut force));
                 rhs.iter_mut().zip(&force).for_each(|(rhs, f)| *rhs -= f);
             }
             self.fixed = fixed.to_vec();
@@ -164,13 +164,13 @@ impl Matrix {
         for other in others.chunks_exact(equations.max(1)) {
             y.iter_mut().zip(other).for_each(|(y, other)| *y += other);
         }
-        if self.beyond.is_empty() {
+        if self.matrix_free.is_empty() {
             return;
         }
         let fixed = |i: usize| self.fixed.get(i).is_some_and(|fixed| *fixed);
         let free: Vec<f64> = x.iter().enumerate().map(|(i, x)| if fixed(i) { 0.0 } else { *x }).collect();
         let mut force = vec![0.0; y.len()];
-        self.beyond.iter().for_each(|beyond| beyond.add_product(&free, &mut force));
+        self.matrix_free.iter().for_each(|summand| summand.add_product(&free, &mut force));
         y.iter_mut().zip(&force).enumerate().filter(|(i, _)| !fixed(*i)).for_each(|(_, (y, f))| *y += f);
     }
 
@@ -226,9 +226,9 @@ impl Columns<'_> {
         pattern.start[self.blocks.start as usize] as usize..pattern.start[self.blocks.end as usize] as usize
     }
 
-    /// Adds what the dense matrix of clique `k` has in these columns.
+    /// Adds what the dense matrix of coupling `k` has in these columns.
     pub fn add(&mut self, pattern: &Pattern, k: usize, local: &[f64], size: usize) {
-        let blocks = pattern.cliques.blocks(k);
+        let blocks = pattern.connectivity.blocks(k);
         let first_pair = pattern.pairs[k] as usize;
         let mut column = 0;
         for (b, &cb) in blocks.iter().enumerate() {

@@ -1,8 +1,8 @@
 //! Linear systems: the pattern of the unknowns, the assembly into it and the sparse solution.
 //!
 //! Unknowns come in *blocks* (the displacement components of a node, say); terms assemble dense matrices
-//! over *cliques* of blocks (the nodes of a cell, say). The pattern is the union of the cliques; it and
-//! its symbolic factorisation stay fixed until the cliques change.
+//! over *couplings* of blocks (the nodes of a cell, say). The pattern is the union of the couplings; it and
+//! its symbolic factorisation stay fixed until the couplings change.
 
 mod accuracy;
 mod assembly;
@@ -18,8 +18,8 @@ mod supernodes;
 mod whole;
 
 pub use accuracy::is_singular;
-pub use assembly::{Beyond, Matrix};
-pub use pattern::{Cliques, Pattern};
+pub use assembly::{Matrix, MatrixFree};
+pub use pattern::{Connectivity, Pattern};
 pub use scatter::{Local, Workspace, scatter};
 pub use solver::{Method, Solver};
 

@@ -1,20 +1,20 @@
-//! The sparsity pattern of a system assembled from cliques of blocks.
+//! The sparsity pattern of a system assembled from couplings of blocks.
 
-/// Lists of blocks: clique `k` couples the blocks `blocks[offset[k]..offset[k + 1]]` with each other.
+/// Lists of blocks: coupling `k` couples the blocks `blocks[offset[k]..offset[k + 1]]` with each other.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Cliques {
+pub struct Connectivity {
     offset: Vec<u32>,
     blocks: Vec<u32>,
 }
 
-impl Default for Cliques {
+impl Default for Connectivity {
     fn default() -> Self {
         Self { offset: vec![0], blocks: Vec::new() }
     }
 }
 
-impl Cliques {
-    /// Appends a clique of distinct blocks and returns its number.
+impl Connectivity {
+    /// Appends a coupling of distinct blocks and returns its number.
     pub fn push(&mut self, blocks: impl IntoIterator<Item = u32>) -> u32 {
         self.blocks.extend(blocks);
         self.offset.push(self.blocks.len() as u32);
@@ -29,7 +29,7 @@ impl Cliques {
         self.len() == 0
     }
 
-    /// The blocks of clique `k`.
+    /// The blocks of coupling `k`.
     pub fn blocks(&self, k: usize) -> &[u32] {
         &self.blocks[self.offset[k] as usize..self.offset[k + 1] as usize]
     }
@@ -39,7 +39,7 @@ impl Cliques {
 pub struct Pattern {
     /// First equation of each block, and at the end the number of equations.
     pub start: Vec<u32>,
-    pub cliques: Cliques,
+    pub connectivity: Connectivity,
     pub symmetric: bool,
     /// Compressed columns of the scalar matrix, rows ascending.
     pub column: Vec<u32>,
@@ -47,18 +47,18 @@ pub struct Pattern {
     /// Columns of the block graph, both triangles, with the diagonal: what the ordering works on.
     pub(super) graph_column: Vec<u32>,
     pub(super) graph_row: Vec<u32>,
-    /// For each clique and pair (a, b) of its blocks, row-major: the offset of block row `a` in the scalar
+    /// For each coupling and pair (a, b) of its blocks, row-major: the offset of block row `a` in the scalar
     /// columns of block `b`, counted from where the full diagonal block (symmetric) or the column begins.
     pub(super) offset: Vec<u32>,
-    /// Where the pairs of each clique begin in `offset`.
+    /// Where the pairs of each coupling begin in `offset`.
     pub(super) pairs: Vec<u32>,
-    /// Equations of the largest clique.
-    pub largest_clique: usize,
+    /// Equations of the largest coupling.
+    pub largest_coupling: usize,
 }
 
 impl Pattern {
-    /// The pattern of `cliques` of blocks with `sizes[b]` equations each. Every block is coupled with itself.
-    pub fn new(sizes: &[u8], cliques: Cliques, symmetric: bool) -> Self {
+    /// The pattern of `couplings` of blocks with `sizes[b]` equations each. Every block is coupled with itself.
+    pub fn new(sizes: &[u8], connectivity: Connectivity, symmetric: bool) -> Self {
         let mut start = Vec::with_capacity(sizes.len() + 1);
         let mut equations = 0;
         for &size in sizes {
@@ -66,10 +66,10 @@ impl Pattern {
             equations += u32::from(size);
         }
         start.push(equations);
-        let (graph_column, graph_row) = block_graph(sizes.len(), &cliques);
+        let (graph_column, graph_row) = block_graph(sizes.len(), &connectivity);
         let mut pattern = Self {
             start,
-            cliques,
+            connectivity,
             symmetric,
             column: vec![0],
             row: Vec::new(),
@@ -77,9 +77,9 @@ impl Pattern {
             graph_row,
             offset: Vec::new(),
             pairs: vec![0],
-            largest_clique: 0,
+            largest_coupling: 0,
         };
-        pattern.largest_clique = (0..pattern.cliques.len()).map(|k| pattern.clique_size(k)).max().unwrap_or(0);
+        pattern.largest_coupling = (0..pattern.connectivity.len()).map(|k| pattern.coupling_size(k)).max().unwrap_or(0);
         pattern.expand();
         pattern.locate_pairs();
         pattern
@@ -94,10 +94,10 @@ impl Pattern {
         self.len() == 0
     }
 
-    /// Number of equations of clique `k`.
-    pub fn clique_size(&self, k: usize) -> usize {
+    /// Number of equations of coupling `k`.
+    pub fn coupling_size(&self, k: usize) -> usize {
         let size = |b: u32| self.start[b as usize + 1] - self.start[b as usize];
-        self.cliques.blocks(k).iter().map(|&b| size(b) as usize).sum()
+        self.connectivity.blocks(k).iter().map(|&b| size(b) as usize).sum()
     }
 
     /// The blocks that block `b` is coupled with, ascending, itself among them.
@@ -119,19 +119,19 @@ impl Pattern {
         }
     }
 
-    /// Finds where each pair of blocks of each clique goes.
+    /// Finds where each pair of blocks of each coupling goes.
     fn locate_pairs(&mut self) {
         // position[n]: offset of block n in the columns of the block b at hand.
         let blocks = self.start.len() - 1;
         let mut by_block: Vec<Vec<(u32, u32)>> = vec![Vec::new(); blocks];
-        for k in 0..self.cliques.len() {
-            let count = self.cliques.blocks(k).len();
-            for (slot, &b) in self.cliques.blocks(k).iter().enumerate() {
+        for k in 0..self.connectivity.len() {
+            let count = self.connectivity.blocks(k).len();
+            for (slot, &b) in self.connectivity.blocks(k).iter().enumerate() {
                 by_block[b as usize].push((k as u32, slot as u32));
             }
             self.pairs.push(self.pairs[k] + (count * count) as u32);
         }
-        self.offset = vec![u32::MAX; self.pairs[self.cliques.len()] as usize];
+        self.offset = vec![u32::MAX; self.pairs[self.connectivity.len()] as usize];
         let mut position = vec![0u32; blocks];
         for (b, uses) in by_block.iter().enumerate() {
             let mut next = 0;
@@ -142,7 +142,7 @@ impl Pattern {
                 }
             }
             for &(k, slot) in uses {
-                let members = self.cliques.blocks(k as usize);
+                let members = self.connectivity.blocks(k as usize);
                 for (a, &n) in members.iter().enumerate() {
                     if !self.symmetric || n as usize >= b {
                         let pair = self.pairs[k as usize] as usize + a * members.len() + slot as usize;
@@ -155,10 +155,10 @@ impl Pattern {
 }
 
 /// Compressed columns of the block graph: both triangles and the diagonal, rows ascending.
-fn block_graph(blocks: usize, cliques: &Cliques) -> (Vec<u32>, Vec<u32>) {
+fn block_graph(blocks: usize, connectivity: &Connectivity) -> (Vec<u32>, Vec<u32>) {
     let mut of_block: Vec<Vec<u32>> = vec![Vec::new(); blocks];
-    for k in 0..cliques.len() {
-        for &b in cliques.blocks(k) {
+    for k in 0..connectivity.len() {
+        for &b in connectivity.blocks(k) {
             of_block[b as usize].push(k as u32);
         }
     }
@@ -169,7 +169,7 @@ fn block_graph(blocks: usize, cliques: &Cliques) -> (Vec<u32>, Vec<u32>) {
         seen[b] = b as u32;
         row.push(b as u32);
         for &k in own {
-            for &n in cliques.blocks(k as usize) {
+            for &n in connectivity.blocks(k as usize) {
                 if seen[n as usize] != b as u32 {
                     seen[n as usize] = b as u32;
                     row.push(n);

@@ -1,11 +1,11 @@
-//! Assembly of dense clique matrices and vectors into a system.
+//! Assembly of dense coupling matrices and vectors into a system.
 
 use super::{Matrix, Pattern};
 use crate::error::Result;
 use rayon::prelude::*;
 use std::ops::Range;
 
-/// What one clique contributes: a dense matrix (row-major) and a vector over the equations of its blocks.
+/// What one coupling contributes: a dense matrix (row-major) and a vector over the equations of its blocks.
 pub struct Local<'a> {
     /// Row-major, `size × size`; empty when only the vector is wanted.
     pub matrix: &'a mut [f64],
@@ -21,10 +21,10 @@ struct Rows<'a> {
 }
 
 impl Rows<'_> {
-    /// Adds what the dense vector of clique `k` has in these equations.
+    /// Adds what the dense vector of coupling `k` has in these equations.
     fn add(&mut self, pattern: &Pattern, k: usize, local: &[f64]) {
         let (first, mut begin) = (pattern.start[self.blocks.start as usize] as usize, 0);
-        for &b in pattern.cliques.blocks(k) {
+        for &b in pattern.connectivity.blocks(k) {
             let equations = pattern.start[b as usize] as usize..pattern.start[b as usize + 1] as usize;
             let size = equations.len();
             if self.blocks.contains(&b) {
@@ -51,12 +51,12 @@ fn rows_between<'a>(pattern: &Pattern, cuts: &[u32], vector: &'a mut [f64]) -> V
     cuts.iter().chain([&last]).map(group).collect()
 }
 
-/// Blocks to cut at, ascending, so that each of `threads` parts has about as many of those of the `cliques`.
-fn share(pattern: &Pattern, cliques: impl Iterator<Item = usize>, threads: usize) -> Vec<u32> {
+/// Blocks to cut at, ascending, so that each of `threads` parts has about as many of those of the `couplings`.
+fn share(pattern: &Pattern, connectivity: impl Iterator<Item = usize>, threads: usize) -> Vec<u32> {
     if threads == 1 {
         return Vec::new();
     }
-    let mut blocks: Vec<u32> = cliques.flat_map(|k| pattern.cliques.blocks(k)).copied().collect();
+    let mut blocks: Vec<u32> = connectivity.flat_map(|k| pattern.connectivity.blocks(k)).copied().collect();
     blocks.sort_unstable();
     (1..threads).map(|part| blocks.get(part * blocks.len() / threads).copied().unwrap_or(0)).collect()
 }
@@ -70,7 +70,7 @@ pub struct Workspace {
     buffer: Vec<f64>,
 }
 
-/// Computes the contributions of `items` (each with its clique) in parallel and adds them to `vector` and,
+/// Computes the contributions of `items` (each with its coupling) in parallel and adds them to `vector` and,
 /// where wanted, to `matrix`. The order of the additions is that of `items`, so the sums do not depend on
 /// the number of threads.
 ///
@@ -79,13 +79,13 @@ pub struct Workspace {
 pub fn scatter<I: Sync>(
     pattern: &Pattern,
     items: &[I],
-    clique: impl Fn(&I) -> usize + Sync,
+    coupling: impl Fn(&I) -> usize + Sync,
     compute: impl Fn(&I, &mut Local) -> Result<()> + Sync,
     vector: &mut [f64],
     mut matrix: Option<&mut Matrix>,
     workspace: &mut Workspace,
 ) -> Result<()> {
-    let largest = pattern.largest_clique;
+    let largest = pattern.largest_coupling;
     let matrix_stride = if matrix.is_some() { largest * largest } else { 0 };
     let stride = largest + matrix_stride;
     if stride == 0 {
@@ -97,7 +97,7 @@ pub fn scatter<I: Sync>(
     }
     let threads = rayon::current_num_threads();
     let run = |item: &I, slot: &mut [f64]| {
-        let size = pattern.clique_size(clique(item));
+        let size = pattern.coupling_size(coupling(item));
         slot.fill(0.0);
         let (vector, rest) = slot.split_at_mut(largest);
         let matrix = if matrix_stride > 0 { &mut rest[..size * size] } else { &mut rest[..0] };
@@ -113,17 +113,17 @@ pub fn scatter<I: Sync>(
             }
         }
         // Each thread adds to equations of its own, so that every entry sees the items in their order.
-        let cuts = share(pattern, batch.iter().map(&clique), threads);
+        let cuts = share(pattern, batch.iter().map(&coupling), threads);
         let columns: Vec<_> = match &mut matrix {
             Some(matrix) => matrix.columns_between(pattern, &cuts).into_iter().map(Some).collect(),
             None => (0..=cuts.len()).map(|_| None).collect(),
         };
         rows_between(pattern, &cuts, vector).into_par_iter().zip(columns).for_each(|(mut rows, mut columns)| {
             for (item, slot) in batch.iter().zip(slots.chunks(stride)) {
-                let k = clique(item);
+                let k = coupling(item);
                 rows.add(pattern, k, slot);
                 if let Some(columns) = &mut columns {
-                    columns.add(pattern, k, &slot[largest..], pattern.clique_size(k));
+                    columns.add(pattern, k, &slot[largest..], pattern.coupling_size(k));
                 }
             }
         });

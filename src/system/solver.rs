@@ -117,7 +117,7 @@ impl Solver {
     ///
     /// # Errors
     /// An analysis error when the iteration does not converge or the rest is singular.
-    pub fn solve_beyond(
+    pub fn solve_matrix_free(
         &mut self,
         pattern: &Pattern,
         matrix: &Matrix,

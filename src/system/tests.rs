@@ -4,16 +4,16 @@ use super::*;
 
 mod dissection;
 
-/// A chain of blocks with mixed sizes and three cliques, one of them unordered.
+/// A chain of blocks with mixed sizes and three couplings, one of them unordered.
 fn chain(symmetric: bool) -> Pattern {
-    let mut cliques = Cliques::default();
-    cliques.push([2, 0, 1]);
-    cliques.push([1, 3]);
-    cliques.push([3, 4, 2]);
-    Pattern::new(&[2, 1, 2, 3, 2], cliques, symmetric)
+    let mut connectivity = Connectivity::default();
+    connectivity.push([2, 0, 1]);
+    connectivity.push([1, 3]);
+    connectivity.push([3, 4, 2]);
+    Pattern::new(&[2, 1, 2, 3, 2], connectivity, symmetric)
 }
 
-/// A reproducible dense matrix of clique `k`, diagonally dominant, with unsymmetric part `skew`.
+/// A reproducible dense matrix of coupling `k`, diagonally dominant, with unsymmetric part `skew`.
 fn local(k: usize, size: usize, skew: f64) -> Vec<f64> {
     let entry = |i: usize, j: usize| {
         let (a, b) = (i.min(j), i.max(j));
@@ -28,9 +28,9 @@ fn assemble(pattern: &Pattern, skew: f64) -> (Matrix, Vec<Vec<f64>>, Vec<f64>) {
     let n = pattern.len();
     let mut dense = vec![vec![0.0; n]; n];
     let mut vector_expected = vec![0.0; n];
-    for k in 0..pattern.cliques.len() {
+    for k in 0..pattern.connectivity.len() {
         let equations: Vec<usize> = pattern
-            .cliques
+            .connectivity
             .blocks(k)
             .iter()
             .flat_map(|&b| pattern.start[b as usize] as usize..pattern.start[b as usize + 1] as usize)
@@ -45,7 +45,7 @@ fn assemble(pattern: &Pattern, skew: f64) -> (Matrix, Vec<Vec<f64>>, Vec<f64>) {
     }
     let mut matrix = Matrix::new(pattern);
     let mut vector = vec![0.0; n];
-    let items: Vec<usize> = (0..pattern.cliques.len()).collect();
+    let items: Vec<usize> = (0..pattern.connectivity.len()).collect();
     scatter(
         pattern,
         &items,
@@ -165,18 +165,18 @@ fn the_number_of_threads_does_not_change_the_sums() {
 
 /// A net of `n × n` nodes with springs of all strengths between neighbours, its stiffness, and where the nodes are.
 fn net(n: u32, symmetric: bool) -> (Pattern, Matrix, Vec<[f64; 2]>) {
-    let mut cliques = Cliques::default();
+    let mut connectivity = Connectivity::default();
     for i in 0..n * n {
         if i % n + 1 < n {
-            cliques.push([i, i + 1]);
+            connectivity.push([i, i + 1]);
         }
         if i + n < n * n {
-            cliques.push([i, i + n]);
+            connectivity.push([i, i + n]);
         }
     }
-    let pattern = Pattern::new(&vec![1; (n * n) as usize], cliques, symmetric);
+    let pattern = Pattern::new(&vec![1; (n * n) as usize], connectivity, symmetric);
     let mut matrix = Matrix::new(&pattern);
-    for k in 0..pattern.cliques.len() {
+    for k in 0..pattern.connectivity.len() {
         let s = (7.0 * (k as f64).sin()).exp();
         matrix.add(&pattern, k, &[s, -s, -s, s], 2);
     }

@@ -2,10 +2,10 @@
 //!
 //! It is integrated with the weights of the internal force, so that both sides of equilibrium err alike.
 
-use super::{Assembly, Frame, Role, Term, Trial, scatter_patches};
+use super::{Assembly, Frame, Role, Term, Trial, scatter_cells};
 use crate::error::Result;
+use crate::interpolation::CellPoints;
 use crate::kinematics::Kinematics;
-use crate::stencil::Patch;
 use crate::system::Local;
 use crate::time_value::TimeValue;
 use std::marker::PhantomData;
@@ -38,10 +38,10 @@ impl<const D: usize, K: Kinematics<D>> Term<D> for BodyForce<K, D> {
     fn assemble(&self, frame: &Frame<D>, trial: &Trial<D>, out: &mut Assembly) -> Result<()> {
         let factor = self.factors[trial.phase].at(trial.time);
         let load = self.gravity.map(|g| -factor * g);
-        scatter_patches(
+        scatter_cells(
             frame,
-            |patch: &Patch, local: &mut Local| {
-                for entries in frame.stencil.entries::<K>(patch) {
+            |cell_points: &CellPoints, local: &mut Local| {
+                for entries in frame.interpolation.entries::<K>(cell_points) {
                     let p = entries.point;
                     let mass = frame.points.mass[p] / frame.points.initial_volume[p] * entries.weight;
                     for (i, n) in entries.value.iter().enumerate() {

@@ -4,7 +4,7 @@
 //! Within a step the slip is linear in the displacements and the gap quadratic at most, so that the tangent is exact and Newton's method
 //! ends at a fixed set of contact nodes that touch, stick or slide.
 
-use super::levels::Levels;
+use super::water_levels::WaterLevels;
 use super::{Assembly, Frame, PlacedConstraint, Term, Trial};
 use crate::contact::{Answer, Law, Motion};
 use crate::error::Result;
@@ -16,11 +16,11 @@ pub struct Contact {
     interface: u32,
     law: Law,
     /// The levels of the water, where those outside and in the pores differ.
-    levels: Option<Levels>,
+    levels: Option<WaterLevels>,
 }
 
 impl Contact {
-    pub fn new(interface: u32, law: Law, levels: Option<Levels>) -> Self {
+    pub fn new(interface: u32, law: Law, levels: Option<WaterLevels>) -> Self {
         Self { interface, law, levels }
     }
 }
@@ -28,7 +28,7 @@ impl Contact {
 /// What a contact node answers to the displacements of a trial state.
 pub fn answer<const D: usize>(
     law: &Law,
-    levels: Option<&Levels>,
+    levels: Option<&WaterLevels>,
     constraint: &PlacedConstraint<D>,
     trial: &Trial<D>,
 ) -> (Answer, Motion) {
@@ -41,7 +41,7 @@ pub fn answer<const D: usize>(
         motion = constraint.condition.ahead(motion, trial.ahead);
     }
     let law = law.reduced(trial.reduction);
-    let held = trial.held && (constraint.initially_closed || constraint.condition.penalty.pressure > 0.0);
+    let held = trial.contact_frozen && (constraint.initially_closed || constraint.condition.penalty.pressure > 0.0);
     // What lies there without pressure would have no friction to hold it along the contact.
     let adhesion = if held && constraint.initially_closed && law.friction > 0.0 { f64::INFINITY } else { law.adhesion };
     let law = Law { tension: if held { f64::INFINITY } else { law.tension }, adhesion, ..law };
@@ -101,7 +101,15 @@ impl<const D: usize> Term<D> for Contact {
             }
             Ok(())
         };
-        let clique = |constraint: &PlacedConstraint<D>| constraint.clique as usize;
-        scatter(frame.pattern, frame.constraints, clique, compute, out.force, out.tangent.as_deref_mut(), out.workspace)
+        let coupling = |constraint: &PlacedConstraint<D>| constraint.coupling as usize;
+        scatter(
+            frame.pattern,
+            frame.constraints,
+            coupling,
+            compute,
+            out.force,
+            out.tangent.as_deref_mut(),
+            out.workspace,
+        )
     }
 }

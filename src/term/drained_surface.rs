@@ -53,7 +53,7 @@ struct Place {
 }
 
 /// The cell that bears a piece.
-struct Bearer {
+struct Host {
     kind: CellKind,
     /// Its nodes (m) as the step begins.
     nodes: [[f64; 2]; MAX_NODES],
@@ -65,9 +65,9 @@ struct Bearer {
     area: f64,
 }
 
-impl Bearer {
+impl Host {
     fn place<K: Kinematics<2>>(&self, piece: &Piece, s: f64) -> Place {
-        let (xi, [a, b]) = (piece.borne_at(s), piece.borne);
+        let (xi, [a, b]) = (piece.host_at(s), piece.in_host);
         let (mut n, mut slopes) = ([0.0; MAX_NODES], [[0.0; 3]; MAX_NODES]);
         self.kind.values(&xi, &mut n);
         self.kind.derivatives(&xi, &mut slopes);
@@ -106,22 +106,23 @@ impl<K: Kinematics<2>> DrainedSurface<K> {
     }
 
     /// The cells with water that bear open pieces, by number.
-    fn bearers(&self, frame: &Frame<2>, converged: &[[f64; 2]]) -> BTreeMap<u32, Bearer> {
-        let mut bearers = BTreeMap::new();
+    fn hosts(&self, frame: &Frame<2>, converged: &[[f64; 2]]) -> BTreeMap<u32, Host> {
+        let mut hosts = BTreeMap::new();
         for piece in frame.open.iter().filter(|piece| self.drains(piece)) {
-            let bearer = bearers.entry(piece.bearer).or_insert_with(|| self.bearer(frame, converged, piece.bearer));
-            if let Some(bearer) = bearer {
-                bearer.area += bearer.place::<K>(piece, 0.5).area;
+            let host = hosts.entry(piece.host).or_insert_with(|| self.host(frame, converged, piece.host));
+            if let Some(host) = host {
+                host.area += host.place::<K>(piece, 0.5).area;
             }
         }
-        bearers.into_iter().filter_map(|(cell, bearer)| Some((cell, bearer?))).collect()
+        hosts.into_iter().filter_map(|(cell, host)| Some((cell, host?))).collect()
     }
 
     /// A cell that bears pieces, of no area yet; `None` where it has no water.
-    fn bearer(&self, frame: &Frame<2>, converged: &[[f64; 2]], cell: u32) -> Option<Bearer> {
-        let patch = frame.stencil.patches.binary_search_by_key(&cell, |patch| patch.cell).ok()?;
+    fn host(&self, frame: &Frame<2>, converged: &[[f64; 2]], cell: u32) -> Option<Host> {
+        let cell_points =
+            frame.interpolation.filled.binary_search_by_key(&cell, |cell_points| cell_points.cell).ok()?;
         let (mut volume, mut mobility) = (0.0, [0.0; 2]);
-        for entries in frame.stencil.entries::<K>(&frame.stencil.patches[patch]) {
+        for entries in frame.interpolation.entries::<K>(&frame.interpolation.filled[cell_points]) {
             let p = entries.point;
             if let Some(soil) = self.porous.get(frame.points.model_of(p)).and_then(Option::as_ref) {
                 let weight = entries.weight * frame.points.deformation[p].determinant();
@@ -137,17 +138,17 @@ impl<K: Kinematics<2>> DrainedSurface<K> {
             *x = [0, 1].map(|d| frame.mesh.nodes[n as usize][d] + converged[n as usize][d]);
         }
         let kind = frame.mesh.cells.kind[cell as usize];
-        Some(Bearer { kind, nodes, mobility: mobility.map(|sum| sum / volume), volume, area: 0.0 })
+        Some(Host { kind, nodes, mobility: mobility.map(|sum| sum / volume), volume, area: 0.0 })
     }
 
     /// Calls `see` with the hats at each place of a piece and, over the time and the part of the piece that it stands for, their flow
     /// outwards `−n·κ∇L` and β (m³/kPa).
-    fn visit(bearer: &Bearer, trial: &Trial<2>, piece: &Piece, mut see: impl FnMut(&Corners, &Corners, f64)) {
-        let gamma = if bearer.kind.is_simplex() { GAMMA } else { GAMMA_OF_QUADRANGLES };
-        let hold = bearer.area / bearer.volume * gamma;
+    fn visit(host: &Host, trial: &Trial<2>, piece: &Piece, mut see: impl FnMut(&Corners, &Corners, f64)) {
+        let gamma = if host.kind.is_simplex() { GAMMA } else { GAMMA_OF_QUADRANGLES };
+        let hold = host.area / host.volume * gamma;
         for (xi, weight) in rule(CellKind::Line2, 3) {
-            let Place { hats, gradients, normal, area } = bearer.place::<K>(piece, 0.5 * (1.0 + xi[0]));
-            let [kx, ky] = bearer.mobility;
+            let Place { hats, gradients, normal, area } = host.place::<K>(piece, 0.5 * (1.0 + xi[0]));
+            let [kx, ky] = host.mobility;
             let weight = 0.5 * weight * trial.flow_time;
             let flow = gradients.map(|g| -weight * (kx * g[0] * normal[0] + ky * g[1] * normal[1]));
             let through = (kx * normal[0] * normal[0] + ky * normal[1] * normal[1]) / area.max(f64::MIN_POSITIVE);
@@ -156,19 +157,19 @@ impl<K: Kinematics<2>> DrainedSurface<K> {
     }
 
     fn pressures(frame: &Frame<2>, trial: &Trial<2>, piece: &Piece) -> (usize, Corners) {
-        let corners = frame.mesh.cells.kind[piece.bearer as usize].corner_count();
+        let corners = frame.mesh.cells.kind[piece.host as usize].corner_count();
         let mut pressure = [0.0; water::MOST];
-        for (p, &n) in pressure.iter_mut().zip(&frame.mesh.cells.nodes(piece.bearer as usize)[..corners]) {
+        for (p, &n) in pressure.iter_mut().zip(&frame.mesh.cells.nodes(piece.host as usize)[..corners]) {
             *p = trial.pressure[frame.places.pore_pressure(n)];
         }
         (corners, pressure)
     }
 
-    fn add(&self, frame: &Frame<2>, trial: &Trial<2>, bearer: &Bearer, piece: &Piece, local: &mut Local) {
+    fn add(&self, frame: &Frame<2>, trial: &Trial<2>, host: &Host, piece: &Piece, local: &mut Local) {
         let (corners, pressure) = Self::pressures(frame, trial, piece);
-        let begin = 2 * frame.stencil.nodes(frame.mesh, piece.bearer).len();
+        let begin = 2 * frame.interpolation.nodes(frame.mesh, piece.host).len();
         let scale = (1.0 - trial.alpha_f) * self.unit;
-        Self::visit(bearer, trial, piece, |hats, flow, hold| {
+        Self::visit(host, trial, piece, |hats, flow, hold| {
             let held = |a: usize, b: usize| hats[a] * flow[b] + flow[a] * hats[b] + hold * hats[a] * hats[b];
             for a in 0..corners {
                 let sum: f64 = (0..corners).map(|b| held(a, b) * pressure[b]).sum();
@@ -191,19 +192,19 @@ impl<K: Kinematics<2>> Term<2> for DrainedSurface<K> {
         if trial.flow_time == 0.0 {
             return Ok(());
         }
-        let bearers = self.bearers(frame, trial.converged);
+        let hosts = self.hosts(frame, trial.converged);
         let compute = |piece: &Piece, local: &mut Local| {
-            if let Some(bearer) = bearers.get(&piece.bearer).filter(|_| self.drains(piece)) {
-                self.add(frame, trial, bearer, piece, local);
+            if let Some(host) = hosts.get(&piece.host).filter(|_| self.drains(piece)) {
+                self.add(frame, trial, host, piece, local);
             }
             Ok(())
         };
-        let clique = |piece: &Piece| frame.clique[piece.bearer as usize] as usize;
-        scatter(frame.pattern, frame.open, clique, compute, out.force, out.tangent.as_deref_mut(), out.workspace)
+        let coupling = |piece: &Piece| frame.coupling[piece.host as usize] as usize;
+        scatter(frame.pattern, frame.open, coupling, compute, out.force, out.tangent.as_deref_mut(), out.workspace)
     }
 
     fn idle(&self, frame: &Frame<2>, displacement: &[[f64; 2]], phase: usize) -> Option<String> {
-        let idle = self.flows.get(phase) == Some(&true) && self.bearers(frame, displacement).is_empty();
+        let idle = self.flows.get(phase) == Some(&true) && self.hosts(frame, displacement).is_empty();
         idle.then(|| {
             "no free surface of soil with a permeability is there to drain: it is tight where structures cover it and where soil lies on the \
              boundary of the mesh"
@@ -217,12 +218,12 @@ impl<K: Kinematics<2>> Term<2> for DrainedSurface<K> {
 
     fn outflow(&self, frame: &Frame<2>, trial: &Trial<2>) -> f64 {
         let mut sum = 0.0;
-        let bearers = self.bearers(frame, trial.converged);
+        let hosts = self.hosts(frame, trial.converged);
         let open = frame.open.iter().filter(|piece| self.drains(piece));
-        for (piece, bearer) in open.filter_map(|piece| Some((piece, bearers.get(&piece.bearer)?))) {
+        for (piece, host) in open.filter_map(|piece| Some((piece, hosts.get(&piece.host)?))) {
             let (_, pressure) = Self::pressures(frame, trial, piece);
             let dot = |a: &Corners| a.iter().zip(&pressure).map(|(a, p)| a * p).sum::<f64>();
-            Self::visit(bearer, trial, piece, |hats, flow, hold| sum += dot(flow) + hold * dot(hats));
+            Self::visit(host, trial, piece, |hats, flow, hold| sum += dot(flow) + hold * dot(hats));
         }
         sum
     }

@@ -9,9 +9,9 @@
 
 use super::{Assembly, Frame, Term, Trial};
 use crate::error::Result;
+use crate::interpolation::{PartlyFilled, integrate};
 use crate::kinematics::Kinematics;
 use crate::mesh::Mesh;
-use crate::stencil::{PartlyFilled, integrate};
 use crate::system::{Local, scatter};
 use std::marker::PhantomData;
 use std::sync::OnceLock;
@@ -86,7 +86,7 @@ impl<const D: usize, K: Kinematics<D>> Term<D> for EmptyCells<K> {
         scatter(
             frame.pattern,
             frame.partly_filled,
-            |partly_filled| frame.clique[partly_filled.cell as usize] as usize,
+            |partly_filled| frame.coupling[partly_filled.cell as usize] as usize,
             compute,
             out.force,
             out.tangent.as_deref_mut(),

@@ -4,7 +4,7 @@
 //! the heights where the pressure bends the integral is exact for straight facets. The boundary is closed, so that the
 //! pressure has a potential, and the sum of the unsymmetric parts of the tangent is symmetric.
 
-use super::head::{Head, Momentary};
+use super::hydrostatic::{Hydrostatic, Momentary};
 use super::{Assembly, Frame, Role, Term, Trial};
 use crate::error::Result;
 use crate::kinematics::Kinematics;
@@ -17,7 +17,7 @@ use std::marker::PhantomData;
 
 /// A pressure on the boundary of the finite elements of a mesh.
 pub struct FacetPressure<K> {
-    heads: Vec<Option<Head>>,
+    heads: Vec<Option<Hydrostatic>>,
     /// Cell and side of each facet.
     facets: Vec<(u32, u8)>,
     kinematics: PhantomData<K>,
@@ -25,7 +25,7 @@ pub struct FacetPressure<K> {
 
 impl<K> FacetPressure<K> {
     /// `heads[i]` acts in phase `i` on the boundary of the cells of `mesh` in which `loaded` holds.
-    pub fn new(mesh: &Mesh<2>, loaded: impl Fn(usize) -> bool, heads: Vec<Option<Head>>) -> Self {
+    pub fn new(mesh: &Mesh<2>, loaded: impl Fn(usize) -> bool, heads: Vec<Option<Hydrostatic>>) -> Self {
         let facets = Faces::of(mesh).boundary.into_iter().filter(|&(c, _)| loaded(c as usize)).collect();
         Self { heads, facets, kinematics: PhantomData }
     }
@@ -128,7 +128,7 @@ impl<K: Kinematics<2>> Term<2> for FacetPressure<K> {
             add::<K>(&head, &x[..facet.len()], facet, 1.0 - trial.alpha_f, local);
             Ok(())
         };
-        let clique = |&(cell, _): &(u32, u8)| frame.clique[cell as usize] as usize;
-        scatter(frame.pattern, &self.facets, clique, compute, out.force, out.tangent.as_deref_mut(), out.workspace)
+        let coupling = |&(cell, _): &(u32, u8)| frame.coupling[cell as usize] as usize;
+        scatter(frame.pattern, &self.facets, coupling, compute, out.force, out.tangent.as_deref_mut(), out.workspace)
     }
 }

@@ -14,10 +14,10 @@
 
 use super::{Assembly, Frame, GhostFace, Term, Trial};
 use crate::error::Result;
+use crate::interpolation::{Jump, Jumps};
 use crate::kinematics::Kinematics;
 use crate::material::Model;
 use crate::points::Points;
-use crate::stencil::{Jump, Jumps};
 use crate::system::{Local, scatter};
 use crate::tensor::deviatoric;
 use std::marker::PhantomData;
@@ -83,8 +83,12 @@ impl<K> GhostPenalty<K> {
     {
         let (mut volume, mut compliance, mut weakness) = (0.0, 0.0, 0.0);
         for cell in face.between.cells {
-            let Ok(patch) = frame.stencil.patches.binary_search_by_key(&cell, |patch| patch.cell) else { continue };
-            for &p in frame.stencil.points(&frame.stencil.patches[patch]) {
+            let Ok(cell_points) =
+                frame.interpolation.filled.binary_search_by_key(&cell, |cell_points| cell_points.cell)
+            else {
+                continue;
+            };
+            for &p in frame.interpolation.points(&frame.interpolation.filled[cell_points]) {
                 let p = p as usize;
                 let Some(model) = self.models.get(frame.points.model_of(p)).and_then(Option::as_ref) else {
                     continue;
@@ -190,7 +194,7 @@ pub(super) fn penalise<const D: usize, K: Kinematics<D>>(
     scatter(
         frame.pattern,
         frame.ghost,
-        |ghost| ghost.clique as usize,
+        |ghost| ghost.coupling as usize,
         compute,
         out.force,
         out.tangent.as_deref_mut(),

@@ -9,8 +9,8 @@
 use super::ghost::penalise;
 use super::{Assembly, Frame, GhostFace, Role, Term, Trial};
 use crate::error::Result;
+use crate::interpolation::{Jump, Jumps};
 use crate::kinematics::Kinematics;
-use crate::stencil::{Jump, Jumps};
 use std::marker::PhantomData;
 
 /// The share of the mass (-) that the penalty counts with.

@@ -2,10 +2,10 @@
 //!
 //! Row-summed masses are out of the question: the corner functions of a six-node triangle integrate to zero.
 
-use super::{Assembly, Frame, Role, Term, Trial, scatter_patches};
+use super::{Assembly, Frame, Role, Term, Trial, scatter_cells};
 use crate::error::Result;
+use crate::interpolation::CellPoints;
 use crate::kinematics::Kinematics;
-use crate::stencil::Patch;
 use crate::system::Local;
 use std::marker::PhantomData;
 
@@ -22,11 +22,11 @@ impl<const D: usize, K: Kinematics<D>> Term<D> for Inertia<K> {
 
     fn assemble(&self, frame: &Frame<D>, trial: &Trial<D>, out: &mut Assembly) -> Result<()> {
         let wanted = out.tangent.is_some();
-        scatter_patches(
+        scatter_cells(
             frame,
-            |patch: &Patch, local: &mut Local| {
-                let nodes = frame.stencil.nodes(frame.mesh, patch.cell);
-                for entries in frame.stencil.entries::<K>(patch) {
+            |cell_points: &CellPoints, local: &mut Local| {
+                let nodes = frame.interpolation.nodes(frame.mesh, cell_points.cell);
+                for entries in frame.interpolation.entries::<K>(cell_points) {
                     let mass = frame.points.mass[entries.point];
                     let mut a = [0.0; D];
                     for (n, &node) in entries.value.iter().zip(nodes) {

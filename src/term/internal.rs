@@ -10,23 +10,23 @@
 //! being symmetric, the forces have no moment about the positions within the step; a rotation leaves `C = I`; and
 //! soil that yields dissipates, for the stress within the step is one that it can bear.
 //!
-//! A [`Share`] of the stress may be carried by unknowns of its own; it is a type, so that a scene without one pays
+//! A [`Mixed`] of the stress may be carried by unknowns of its own; it is a type, so that a scene without one pays
 //! nothing.
 
-use super::beyond::{Kept, scatter_functions};
-use super::share::{Answer, Within};
+use super::extended::{Kept, scatter_functions};
+use super::mixed::{Answer, Within};
 use super::smoothed::{self, Layout};
 use super::stiffness::Stiffness;
 use super::volume::LinearFit;
 use super::{Assembly, Frame, History, Term, Trial, Update};
-use super::{Ratios, Share};
+use super::{Mixed, Ratios};
 use crate::error::{Error, Result};
+use crate::interpolation::{CellPoints, Entries, MAX_FUNCTIONS};
 use crate::kinematics::{Gradient, Kinematics};
 use crate::material::Model;
 use crate::material::spatial::Spatial;
 use crate::points::Points;
 use crate::profile::timed_material;
-use crate::stencil::{Entries, MAX_FUNCTIONS, Patch};
 use crate::system::Local;
 use crate::tensor::{Tensor, full, symmetric};
 use rayon::prelude::*;
@@ -108,7 +108,7 @@ impl Strained {
     }
 }
 
-/// Deformation and answers of the points of a patch, in order.
+/// Deformation and answers of the points of a cell, in order.
 type Evaluated<K, const D: usize> = (Vec<Strained>, Vec<Answer<K, D>>);
 
 /// A factor `H` of the metric within the step, `HᵀH = (1 − α_f) ΔFᵀΔF + α_f I`.
@@ -159,7 +159,7 @@ impl<K, S> Internal<K, S> {
     ) -> Result<Answer<K, D>>
     where
         K: Kinematics<D>,
-        S: Share<D, K>,
+        S: Mixed<D, K>,
     {
         let p = entries.point;
         let felt = &strained.felt;
@@ -173,25 +173,25 @@ impl<K, S> Internal<K, S> {
         answer.ok_or_else(|| inadmissible(points, p, "is strained beyond measure", &strained.increment))
     }
 
-    /// The points of a patch at a trial state.
+    /// The points of a cell at a trial state.
     fn evaluate<const D: usize>(
         &self,
         models: &[Option<Arc<dyn Model>>],
         frame: &Frame<D>,
         trial: &Trial<D>,
-        patch: &Patch,
+        cell_points: &CellPoints,
         cell: &S::Cell,
     ) -> Result<Evaluated<K, D>>
     where
         K: Kinematics<D>,
-        S: Share<D, K>,
+        S: Mixed<D, K>,
     {
-        let now = frame.stencil.gather(frame.mesh, patch, trial.displacement);
-        let before = frame.stencil.gather(frame.mesh, patch, trial.converged);
+        let now = frame.interpolation.gather(frame.mesh, cell_points, trial.displacement);
+        let before = frame.interpolation.gather(frame.mesh, cell_points, trial.converged);
         // In the first step after a restoration nothing has moved before.
         let moved = before.iter().flatten().any(|&u| u != 0.0);
-        let mut strained = Vec::with_capacity(patch.point_count as usize);
-        for entries in frame.stencil.entries::<K>(patch) {
+        let mut strained = Vec::with_capacity(cell_points.point_count as usize);
+        for entries in frame.interpolation.entries::<K>(cell_points) {
             let mut point = strain::<D, K>(frame.points, &entries, &now, moved.then_some(&before))?;
             if trial.alpha_f > 0.0 {
                 point.felt = within(&point.increment, trial.alpha_f)
@@ -203,7 +203,7 @@ impl<K, S> Internal<K, S> {
         let answer = |(entries, strained): (Entries<D>, &Strained)| {
             self.answer(models, (frame.points, &entries), cell, strained, (trial.inverse_dt / later, later))
         };
-        let entries = frame.stencil.entries::<K>(patch).zip(&strained);
+        let entries = frame.interpolation.entries::<K>(cell_points).zip(&strained);
         let answers = timed_material(|| entries.map(answer).collect::<Result<_>>())?;
         Ok((strained, answers))
     }
@@ -259,7 +259,7 @@ fn inadmissible<const D: usize>(points: &Points<D>, p: usize, what: &str, deform
     )
 }
 
-impl<const D: usize, K: Kinematics<D>, S: Share<D, K>> Term<D> for Internal<K, S> {
+impl<const D: usize, K: Kinematics<D>, S: Mixed<D, K>> Term<D> for Internal<K, S> {
     fn symmetric(&self) -> bool {
         !self.dynamic && self.models.iter().flatten().all(|m| m.symmetric())
     }
@@ -267,17 +267,17 @@ impl<const D: usize, K: Kinematics<D>, S: Share<D, K>> Term<D> for Internal<K, S
     fn assemble(&self, frame: &Frame<D>, trial: &Trial<D>, out: &mut Assembly) -> Result<()> {
         let wanted = out.tangent.is_some();
         let models = self.models_in(trial);
-        let compute = |patch: &Patch, local: &mut Local, kept: &mut [f64]| {
-            let cell = self.share.over(frame, trial, patch);
-            let (strained, mut answers) = self.evaluate(&models, frame, trial, patch, &cell)?;
-            let count = patch.function_count as usize;
+        let compute = |cell_points: &CellPoints, local: &mut Local, kept: &mut [f64]| {
+            let cell = self.share.over(frame, trial, cell_points);
+            let (strained, mut answers) = self.evaluate(&models, frame, trial, cell_points, &cell)?;
+            let count = cell_points.function_count as usize;
             let later = 1.0 - trial.alpha_f;
             let mut spatial = [Gradient { g: [0.0; D], hoop: 0.0 }; MAX_FUNCTIONS];
-            let own = patch.node_count as usize;
-            let layout = Layout::new::<D, K>(patch);
+            let own = cell_points.node_count as usize;
+            let layout = Layout::new::<D, K>(cell_points);
             Stiffness::with::<D, _>(own, |stiffness| {
                 for (k, ((entries, point), answer)) in
-                    frame.stencil.entries::<K>(patch).zip(&strained).zip(&mut answers).enumerate()
+                    frame.interpolation.entries::<K>(cell_points).zip(&strained).zip(&mut answers).enumerate()
                 {
                     let ratios = point.ratios;
                     let add = |answer: &mut _| self.share.add(&cell, frame.points, &entries, ratios, answer);
@@ -327,19 +327,23 @@ impl<const D: usize, K: Kinematics<D>, S: Share<D, K>> Term<D> for Internal<K, S
 
     fn commit(&self, frame: &Frame<D>, trial: &Trial<D>) -> Option<Update> {
         let models = self.models_in(trial);
-        let new_of_patch = |patch: &Patch| {
-            let now = frame.stencil.gather(frame.mesh, patch, trial.displacement);
-            let before = frame.stencil.gather(frame.mesh, patch, trial.converged);
-            let cell = self.share.over(frame, trial, patch);
-            let volume = frame.integration.and_then(|(stencil, points)| {
-                let number = stencil.patches.binary_search_by_key(&patch.cell, |patch| patch.cell).ok()?;
-                let patch = &stencil.patches[number];
-                let [now, before] = [trial.displacement, trial.converged].map(|u| stencil.gather(frame.mesh, patch, u));
+        let new_of_patch = |cell_points: &CellPoints| {
+            let now = frame.interpolation.gather(frame.mesh, cell_points, trial.displacement);
+            let before = frame.interpolation.gather(frame.mesh, cell_points, trial.converged);
+            let cell = self.share.over(frame, trial, cell_points);
+            let volume = frame.integration.and_then(|(interpolation, points)| {
+                let number = interpolation
+                    .filled
+                    .binary_search_by_key(&cell_points.cell, |cell_points| cell_points.cell)
+                    .ok()?;
+                let cell_points = &interpolation.filled[number];
+                let [now, before] =
+                    [trial.displacement, trial.converged].map(|u| interpolation.gather(frame.mesh, cell_points, u));
                 let ratio = |entries: Entries<D>| {
                     let point = strain::<D, K>(points, &entries, &now, Some(&before)).ok()?;
                     Some((entries.weight, points.position[entries.point], point.ratios.step.ln()))
                 };
-                LinearFit::of(&stencil.entries::<K>(patch).filter_map(ratio).collect::<Vec<_>>())
+                LinearFit::of(&interpolation.entries::<K>(cell_points).filter_map(ratio).collect::<Vec<_>>())
             });
             let new = |entries: Entries<D>| {
                 let mut point = strain::<D, K>(frame.points, &entries, &now, Some(&before)).ok()?;
@@ -363,10 +367,10 @@ impl<const D: usize, K: Kinematics<D>, S: Share<D, K>> Term<D> for Internal<K, S
                 self.share.commit(&cell, frame.points, &entries, point.ratios, &mut history);
                 Some(history)
             };
-            let mut out = Vec::with_capacity(patch.point_count as usize);
-            out.extend(frame.stencil.entries::<K>(patch).filter_map(new));
+            let mut out = Vec::with_capacity(cell_points.point_count as usize);
+            out.extend(frame.interpolation.entries::<K>(cell_points).filter_map(new));
             out
         };
-        Some(Update(frame.stencil.patches.par_iter().map(new_of_patch).collect()))
+        Some(Update(frame.interpolation.filled.par_iter().map(new_of_patch).collect()))
     }
 }

@@ -4,23 +4,23 @@
 //! The system solved in each step is `R(u) = 0` with `R = Σ terms`, internal forces positive. A term adds
 //! its residual and, when asked, its tangent; the ones that carry history commit it after convergence.
 
-mod beyond;
 mod body_force;
-mod carried;
 mod contact;
 mod drained_surface;
 mod empty_cells;
+mod extended;
 mod facet_pressure;
 mod ghost;
 mod ghost_inertia;
-mod head;
+mod hydrostatic;
 mod inertia;
 mod internal;
-mod levels;
+mod mixed;
+mod mixed_pressure;
+mod pore_stabilisation;
 mod pressure;
 mod rigid;
 mod rigid_pressure;
-mod share;
 mod smooth_pressure;
 mod smoothed;
 mod stiffness;
@@ -30,38 +30,38 @@ mod virtual_pressure;
 mod volume;
 mod volume_measure;
 mod water;
-mod water_bond;
+mod water_levels;
 
 pub use body_force::BodyForce;
-pub use carried::{Carried, excess_pressure};
 pub use contact::{Contact, answer as contact_answer};
 pub use drained_surface::DrainedSurface;
 pub use empty_cells::EmptyCells;
 pub use facet_pressure::FacetPressure;
 pub use ghost::GhostPenalty;
 pub use ghost_inertia::{GhostInertia, MASS_PENALTY};
-pub use head::Head;
+pub use hydrostatic::Hydrostatic;
 pub use inertia::Inertia;
 pub use internal::Internal;
-pub use levels::Levels;
+pub use mixed::{Mixed, Ratios};
+pub use mixed_pressure::{MixedPressure, excess_pressure};
+pub use pore_stabilisation::PoreStabilisation;
 pub use pressure::{PressureField, hats as pressure_hats};
 pub use rigid::{RigidInertia, RigidTraction, RigidWeight};
 pub use rigid_pressure::RigidPressure;
-pub use share::{Ratios, Share};
 pub use smooth_pressure::SmoothPressure;
 pub use surface_traction::{SurfaceLoad, SurfaceTraction};
 pub use traction::Traction;
 pub use virtual_pressure::VirtualPressure;
 pub use water::{PoreWater, Porous, WaterStiffness};
-pub use water_bond::WaterBond;
+pub use water_levels::WaterLevels;
 
 use crate::contact::Constraint;
 use crate::dofs::Places;
 use crate::error::Result;
+use crate::interpolation::{CellPoints, Interpolation, PartlyFilled};
 use crate::mesh::Mesh;
 use crate::mesh::faces::Face;
 use crate::points::Points;
-use crate::stencil::{PartlyFilled, Patch, Stencil};
 use crate::surface::Piece;
 use crate::system::{Local, Matrix, Pattern, Workspace, scatter};
 use crate::tensor::{Symmetric, Tensor};
@@ -74,8 +74,8 @@ pub struct GhostFace {
     /// Its number among the inner faces of the mesh.
     pub face: u32,
     pub between: Face,
-    /// Its clique: the nodes in the order of [`Face::nodes`].
-    pub clique: u32,
+    /// Its coupling: the nodes in the order of [`Face::nodes`].
+    pub coupling: u32,
 }
 
 /// The constraint of a contact node with its place in the system.
@@ -86,8 +86,8 @@ pub struct PlacedConstraint<const D: usize> {
     pub condition: Constraint<D>,
     /// Whether it lies on what it faces, and no contact node of the interface presses yet.
     pub initially_closed: bool,
-    /// Its clique, and the place of each node of the constraint among the blocks of that.
-    pub clique: u32,
+    /// Its coupling, and the place of each node of the constraint among the blocks of that.
+    pub coupling: u32,
     pub place: Vec<u32>,
 }
 
@@ -97,7 +97,7 @@ pub struct Frame<'a, const D: usize> {
     pub mesh: &'a Mesh<D>,
     /// Whether that is not the first shape of the grid, so that what was kept of that one does not hold.
     pub relaxed: bool,
-    pub stencil: &'a Stencil<D>,
+    pub interpolation: &'a Interpolation<D>,
     /// Cells that take part and are not full of points.
     pub partly_filled: &'a [PartlyFilled],
     /// Faces beside cells that cannot stand alone; empty where the scene has no such penalty.
@@ -118,26 +118,26 @@ pub struct Frame<'a, const D: usize> {
     /// The points at the last converged step.
     pub points: &'a Points<D>,
     /// What integrals are summed over, where `points` are others.
-    pub integration: Option<(&'a Stencil<D>, &'a Points<D>)>,
-    /// One block a node that takes part, one clique a cell that does. With pore water, one more block for each corner,
-    /// which follow in a clique, and with a pressure field one for each corner and each cell with a constant of its
-    /// own; they are the last ones of a clique.
+    pub integration: Option<(&'a Interpolation<D>, &'a Points<D>)>,
+    /// One block a node that takes part, one coupling a cell that does. With pore water, one more block for each corner,
+    /// which follow in a coupling, and with a pressure field one for each corner and each cell with a constant of its
+    /// own; they are the last ones of a coupling.
     pub pattern: &'a Pattern,
-    /// The clique of each cell; `u32::MAX` for cells left out.
-    pub clique: &'a [u32],
+    /// The coupling of each cell; `u32::MAX` for cells left out.
+    pub coupling: &'a [u32],
     /// The block of each node; `u32::MAX` for nodes left out.
     pub block: &'a [u32],
-    /// The clique of each rigid body: its reference and, where it turns, its turning node.
+    /// The coupling of each rigid body: its reference and, where it turns, its turning node.
     pub bodies: &'a [u32],
     /// Whether the cells have pore water.
     pub with_water: bool,
 }
 
 impl<const D: usize> Frame<'_, D> {
-    /// Where the unknowns of scalar field `k` of a cell begin among those of its clique: one a corner.
+    /// Where the unknowns of scalar field `k` of a cell begin among those of its coupling: one a corner.
     pub fn field(&self, k: usize, cell: u32) -> usize {
         let corners = self.mesh.cells.kind[cell as usize].corner_count();
-        D * self.stencil.nodes(self.mesh, cell).len() + (k + usize::from(self.with_water)) * corners
+        D * self.interpolation.nodes(self.mesh, cell).len() + (k + usize::from(self.with_water)) * corners
     }
 }
 
@@ -172,7 +172,7 @@ pub struct Trial<'a, const D: usize> {
     /// What strengths are divided by (-) at the end of the step.
     pub reduction: f64,
     /// Whether contact nodes that touched in the step before, or are initially closed, touch here, pressed or pulled.
-    pub held: bool,
+    pub contact_frozen: bool,
     /// One over the size of the step (1/s), for strength that depends on the rate of strain.
     pub inverse_dt: f64,
 }
@@ -195,7 +195,7 @@ impl<'a, const D: usize> Trial<'a, D> {
             phase: 0,
             time: 0.0,
             reduction: 1.0,
-            held: false,
+            contact_frozen: false,
             inverse_dt: 0.0,
         }
     }
@@ -210,18 +210,18 @@ pub struct Assembly<'a> {
     pub workspace: &'a mut Workspace,
 }
 
-/// Adds what `compute` makes of each patch over the nodes of its cell.
+/// Adds what `compute` makes of each cell over the nodes of its cell.
 ///
 /// # Errors
-/// The error of the first patch that fails.
-pub fn scatter_patches<const D: usize>(
+/// The error of the first cell that fails.
+pub fn scatter_cells<const D: usize>(
     frame: &Frame<D>,
-    compute: impl Fn(&Patch, &mut Local) -> Result<()> + Sync,
+    compute: impl Fn(&CellPoints, &mut Local) -> Result<()> + Sync,
     out: &mut Assembly,
 ) -> Result<()> {
-    let clique = |patch: &Patch| frame.clique[patch.cell as usize] as usize;
+    let coupling = |cell_points: &CellPoints| frame.coupling[cell_points.cell as usize] as usize;
     let tangent = out.tangent.as_deref_mut();
-    scatter(frame.pattern, &frame.stencil.patches, clique, compute, out.force, tangent, out.workspace)
+    scatter(frame.pattern, &frame.interpolation.filled, coupling, compute, out.force, tangent, out.workspace)
 }
 
 /// New values of the history of one point.

@@ -10,7 +10,7 @@
 //! ```
 //!
 //! Where the field is in tension as the step begins, `g = ½ j²`, and `g = j` where its tension has a limit; elsewhere `g = ln j`, and with it `τ_f = π`.
-//! Beyond a limit the law is that of cavitation ([`crate::material::cavitation`]) in place of Hencky's. The second equation is in
+//! MatrixFree a limit the law is that of cavitation ([`crate::material::cavitation`]) in place of Hencky's. The second equation is in
 //! increments: the points carry `τ_f`. The volume strain of single points is only loosely bound to
 //! the field; were it summed up, a restored grid would have to undo what other cells make of it, in every step.
 //!
@@ -24,15 +24,15 @@
 //! with cell-wise volume balance; Boffi et al. 2012). Cells of first order have no room for the constant; there the
 //! projection `Σ w₀ (L − L̄)(π − π_n)/2G` of Bochev, Dohrmann & Gunzburger (2006) makes the hats stable.
 
-use super::carried::{Carried, volume_strain};
-use super::share::{Answer, Seen, Within};
+use super::mixed::{Answer, Seen, Within};
+use super::mixed_pressure::{MixedPressure, volume_strain};
 use super::volume_measure::{ITERATIONS, Measure};
-use super::{Frame, History, Ratios, Share, Trial};
+use super::{Frame, History, Mixed, Ratios, Trial};
+use crate::interpolation::{CellPoints, Entries};
 use crate::kinematics::{Gradient, Kinematics};
 use crate::material::spatial::Spatial;
 use crate::mesh::shape::CellKind;
 use crate::points::Points;
-use crate::stencil::{Entries, Patch};
 use crate::system::Local;
 use crate::tensor::{IDENTITY, Symmetric, Tensor, full, mean};
 use std::marker::PhantomData;
@@ -87,7 +87,7 @@ fn dot(a: &Hats, b: &Hats) -> f64 {
 /// The pressure field of a scene.
 pub struct PressureField<K> {
     /// What it carries of each material by number; `None` where nothing.
-    carried: Vec<Option<Carried>>,
+    carried: Vec<Option<MixedPressure>>,
     /// What a unit of its unknowns stands for (kPa/m).
     unit: f64,
     kinematics: PhantomData<K>,
@@ -95,11 +95,11 @@ pub struct PressureField<K> {
 
 impl<K> PressureField<K> {
     /// `carried[m]` is what the field carries of material `m` ([`Points::model_of`]), `unit` that of [`crate::step::Scene`].
-    pub fn new(carried: Vec<Option<Carried>>, unit: f64) -> Self {
+    pub fn new(carried: Vec<Option<MixedPressure>>, unit: f64) -> Self {
         Self { carried, unit, kinematics: PhantomData }
     }
 
-    fn of<const D: usize>(&self, points: &Points<D>, p: usize) -> Option<&Carried> {
+    fn of<const D: usize>(&self, points: &Points<D>, p: usize) -> Option<&MixedPressure> {
         self.carried.get(points.model_of(p)).and_then(Option::as_ref)
     }
 }
@@ -113,17 +113,17 @@ pub struct Cell {
     mean: Option<Hats>,
 }
 
-impl<const D: usize, K: Kinematics<D>> Share<D, K> for PressureField<K> {
+impl<const D: usize, K: Kinematics<D>> Mixed<D, K> for PressureField<K> {
     type Cell = Cell;
 
-    fn over(&self, frame: &Frame<D>, trial: &Trial<D>, patch: &Patch) -> Cell {
-        let cell = patch.cell as usize;
+    fn over(&self, frame: &Frame<D>, trial: &Trial<D>, cell_points: &CellPoints) -> Cell {
+        let cell = cell_points.cell as usize;
         let kind = frame.mesh.cells.kind[cell];
         let nodes = frame.mesh.cells.nodes(cell);
         let pressure = gather(kind, nodes, frame.places.constant(cell), trial.pressure);
         let mean = (kind.order() == 1).then(|| {
             let (mut sum, mut weight) = ([0.0; MOST], 0.0);
-            for entries in frame.stencil.entries::<K>(patch) {
+            for entries in frame.interpolation.entries::<K>(cell_points) {
                 if let Some(carried) = self.of(frame.points, entries.point) {
                     // As the differences from them are weighted: the projection is symmetric.
                     let own = entries.weight * carried.softness(frame.points.seeded_height(entries.point));
@@ -226,7 +226,7 @@ impl<const D: usize, K: Kinematics<D>> Share<D, K> for PressureField<K> {
         let p = entries.point;
         let Some(carried) = self.of(points, p) else { return };
         let count = unknowns(cell.kind);
-        // They are the last ones of a clique.
+        // They are the last ones of a coupling.
         let begin = local.size - count;
         let y = points.seeded_height(p);
         let hats = hats(cell.kind, entries.shape);

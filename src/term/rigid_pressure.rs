@@ -3,7 +3,7 @@
 //! The boundary turns with the body, its normals too. It is closed, so that the pressure has a potential and the tangent is symmetric.
 
 use super::facet_pressure::integrate;
-use super::head::Head;
+use super::hydrostatic::Hydrostatic;
 use super::{Assembly, Frame, Role, Term, Trial};
 use crate::error::Result;
 use crate::kinematics::Kinematics;
@@ -24,7 +24,7 @@ pub struct RigidPressure<K> {
     number: usize,
     /// Where the reference point was when the run began.
     origin: [f64; 2],
-    heads: Vec<Option<Head>>,
+    heads: Vec<Option<Hydrostatic>>,
     /// The boundary when the run began, from the reference point.
     facets: Vec<Facet>,
     kinematics: PhantomData<K>,
@@ -36,7 +36,7 @@ fn dot(a: &[f64; 2], b: &[f64; 2]) -> f64 {
 
 impl<K> RigidPressure<K> {
     /// `heads[i]` acts in phase `i` on the body with that `number` in the scene, whose cells are in `mesh` as the run begins.
-    pub fn new(body: &Body<2>, number: usize, mesh: &Mesh<2>, heads: Vec<Option<Head>>) -> Self {
+    pub fn new(body: &Body<2>, number: usize, mesh: &Mesh<2>, heads: Vec<Option<Hydrostatic>>) -> Self {
         let origin = mesh.nodes[body.reference as usize];
         let own = mesh.part(|c| mesh.cells.region[c] == body.region);
         let facet = |(c, side): (u32, u8)| {
@@ -55,7 +55,7 @@ impl<K> RigidPressure<K> {
 
 impl<K: Kinematics<2>> RigidPressure<K> {
     /// Adds force and moment, and their tangent: `x = c + R(θ) r` and `n = R(θ) n₀`.
-    fn add(&self, head: &Head, trial: &Trial<2>, pose: &Pose<2>, local: &mut Local) {
+    fn add(&self, head: &Hydrostatic, trial: &Trial<2>, pose: &Pose<2>, local: &mut Local) {
         let head = head.at(trial.time);
         let centre = [0, 1].map(|d| self.origin[d] + pose.moved[d]);
         let (share, turns) = (1.0 - trial.alpha_f, self.body.turning.is_some());
@@ -119,7 +119,7 @@ impl<K: Kinematics<2>> Term<2> for RigidPressure<K> {
             self.add(head, trial, &pose, local);
             Ok(())
         };
-        let clique = |&number: &usize| frame.bodies[number] as usize;
-        scatter(frame.pattern, &[self.number], clique, compute, out.force, out.tangent.as_deref_mut(), out.workspace)
+        let coupling = |&number: &usize| frame.bodies[number] as usize;
+        scatter(frame.pattern, &[self.number], coupling, compute, out.force, out.tangent.as_deref_mut(), out.workspace)
     }
 }

@@ -9,8 +9,8 @@
 use super::pressure::{MOST, gather, unknowns};
 use super::{Assembly, Frame, Term, Trial};
 use crate::error::Result;
+use crate::interpolation::integrate;
 use crate::kinematics::Kinematics;
-use crate::stencil::integrate;
 use crate::system::{Local, scatter};
 use std::marker::PhantomData;
 use std::sync::OnceLock;
@@ -46,8 +46,11 @@ impl<K> SmoothPressure<K> {
 impl<K> SmoothPressure<K> {
     /// Whether a cell has points of which the field carries nothing, and no others.
     fn is_idle<const D: usize>(&self, frame: &Frame<D>, cell: u32) -> bool {
-        let Ok(patch) = frame.stencil.patches.binary_search_by_key(&cell, |patch| patch.cell) else { return false };
-        let points = frame.stencil.points(&frame.stencil.patches[patch]);
+        let Ok(cell_points) = frame.interpolation.filled.binary_search_by_key(&cell, |cell_points| cell_points.cell)
+        else {
+            return false;
+        };
+        let points = frame.interpolation.points(&frame.interpolation.filled[cell_points]);
         let mut models = points.iter().map(|&p| frame.points.model_of(p as usize));
         !models.any(|model| self.carries.get(model).copied().unwrap_or(false))
     }
@@ -91,7 +94,7 @@ impl<const D: usize, K: Kinematics<D>> Term<D> for SmoothPressure<K> {
             }
             Ok(())
         };
-        let clique = |cell: &u32| frame.clique[*cell as usize] as usize;
-        scatter(frame.pattern, frame.cells, clique, compute, out.force, out.tangent.as_deref_mut(), out.workspace)
+        let coupling = |cell: &u32| frame.coupling[*cell as usize] as usize;
+        scatter(frame.pattern, frame.cells, coupling, compute, out.force, out.tangent.as_deref_mut(), out.workspace)
     }
 }

@@ -1,21 +1,21 @@
-//! The stiffness of the points of a patch on the functions that smooth its gradients.
+//! The stiffness of the points of a cell on the functions that smooth its gradients.
 //!
 //! The functions come in groups with the gradients `ψ_a e_j`, one function a direction. What a point has is therefore
 //! known by a small matrix over the components of a gradient, by the gradients of the cell's nodes and by the `ψ_a`: a
 //! third of the numbers of the matrix over all functions, which is never formed.
 
+use crate::interpolation::{CellPoints, Entries};
 use crate::kinematics::{Gradient, Kinematics};
-use crate::stencil::{Entries, Patch};
 use crate::tensor::Tensor;
 use pulp::{Simd, WithSimd};
 
 /// Nodes of the largest cell with smoothed gradients.
 const MOST_NODES: usize = 9;
-/// Points whose numbers stand side by side, so that the products work on as many at once. The last ones of a patch may
+/// Points whose numbers stand side by side, so that the products work on as many at once. The last ones of a cell may
 /// be absent: all they have is zero.
 const SIDE_BY_SIDE: usize = 4;
 
-/// What the points of a patch keep. A row of a gradient is `D` numbers, and one for the hoop where there is one.
+/// What the points of a cell keep. A row of a gradient is `D` numbers, and one for the hoop where there is one.
 #[derive(Clone, Copy)]
 pub struct Layout {
     /// Nodes of the cell and groups of functions.
@@ -26,9 +26,9 @@ pub struct Layout {
 }
 
 impl Layout {
-    pub fn new<const D: usize, K: Kinematics<D>>(patch: &Patch) -> Self {
-        let own = patch.node_count as usize;
-        Self { own, groups: (patch.function_count as usize - own) / D, dimension: D, hoop: K::HOOP }
+    pub fn new<const D: usize, K: Kinematics<D>>(cell_points: &CellPoints) -> Self {
+        let own = cell_points.node_count as usize;
+        Self { own, groups: (cell_points.function_count as usize - own) / D, dimension: D, hoop: K::HOOP }
     }
 
     /// Components of the gradient of a displacement: by direction and component, then the hoop.
@@ -47,7 +47,7 @@ impl Layout {
     }
 }
 
-/// Writes what the point with number `k` of the patch keeps to `out`, which is for all of them, given its tangent, the
+/// Writes what the point with number `k` of the cell keeps to `out`, which is for all of them, given its tangent, the
 /// inverse of its deformation since the grid was restored, and its weight (m³).
 pub fn keep<const D: usize, K: Kinematics<D>>(
     layout: &Layout,
@@ -94,7 +94,7 @@ pub fn keep<const D: usize, K: Kinematics<D>>(
     }
 }
 
-/// The products of a patch: forces of a field without those that the cell's own nodes exert on each other.
+/// The products of a cell: forces of a field without those that the cell's own nodes exert on each other.
 pub struct Products<'a, const D: usize> {
     pub layout: Layout,
     /// What the points keep, one after the other.

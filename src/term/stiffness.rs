@@ -1,4 +1,4 @@
-//! The stiffness of the points of a patch, `Σ_p w_p B_pᵀ a_p B_p`, as a product of two dense matrices.
+//! The stiffness of the points of a cell, `Σ_p w_p B_pᵀ a_p B_p`, as a product of two dense matrices.
 //!
 //! The right one holds `w a B`, a row for each component of the gradients of each point; the left one the gradients
 //! themselves. Their product runs along rows of the result, so that it fills whole registers, whatever the machine has.
@@ -12,18 +12,18 @@ use std::cell::RefCell;
 const AT_ONCE: usize = 16;
 
 thread_local! {
-    /// Memory that the patches of a thread use again and again.
+    /// Memory that the cells of a thread use again and again.
     static SCRATCH: RefCell<Stiffness> = RefCell::default();
 }
 
-/// The stiffness of some points of a patch, collected until [`Stiffness::add_to`] works it out.
+/// The stiffness of some points of a cell, collected until [`Stiffness::add_to`] works it out.
 #[derive(Default)]
 pub struct Stiffness {
     /// Gradients: a block a point, in it a row a direction and one of the hoop, a column a function.
     left: Vec<f64>,
     /// `w a B`: a block a point, in it a row a component of the gradient, a column an equation, padded with zeros.
     right: Vec<f64>,
-    /// Functions of the patch.
+    /// Functions of the cell.
     functions: usize,
     /// Length of the rows of `right`.
     width: usize,
@@ -31,7 +31,7 @@ pub struct Stiffness {
 }
 
 impl Stiffness {
-    /// Runs `work` with the memory of this thread, empty, for a patch with so many functions in `D` dimensions.
+    /// Runs `work` with the memory of this thread, empty, for a cell with so many functions in `D` dimensions.
     pub fn with<const D: usize, T>(functions: usize, work: impl FnOnce(&mut Self) -> T) -> T {
         SCRATCH.with_borrow_mut(|scratch| {
             scratch.points = 0;

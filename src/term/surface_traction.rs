@@ -7,7 +7,7 @@
 //! as they bear the weight of what is behind it. The force of a pressure on
 //! part of a surface depends on the path: the tangent is not symmetric. Walls are not loaded.
 
-use super::head::Head;
+use super::hydrostatic::Hydrostatic;
 use super::{Assembly, Frame, Role, Term, Trial};
 use crate::error::Result;
 use crate::kinematics::Kinematics;
@@ -25,7 +25,7 @@ pub struct SurfaceLoad {
     /// The region whose surface is loaded; all where `None`.
     pub region: Option<u16>,
     /// Compression positive.
-    pub pressure: Option<Head>,
+    pub pressure: Option<Hydrostatic>,
     /// Along the surface (kPa), positive with the material on the left.
     pub shear: TimeValue,
     /// In fixed directions (kPa).
@@ -89,7 +89,7 @@ struct Place {
 impl Place {
     /// That at the share `s` of `piece`, the nodes of whose cell are at `x`.
     fn of(kind: CellKind, piece: &Piece, s: f64, x: &[[f64; 2]]) -> Self {
-        let (xi, [a, b]) = (piece.borne_at(s), piece.borne);
+        let (xi, [a, b]) = (piece.host_at(s), piece.in_host);
         let way = [b[0] - a[0], b[1] - a[1]];
         let mut place = Self { n: [0.0; MAX_NODES], slope: [0.0; MAX_NODES], x: [0.0; 2], t: [0.0; 2] };
         let mut derivatives = [[0.0; 3]; MAX_NODES];
@@ -108,12 +108,12 @@ impl Place {
 
 /// The kind of the cell that bears a piece, and where its nodes (m) are in a displacement.
 fn corners(frame: &Frame<2>, piece: &Piece, displacement: &[[f64; 2]]) -> (CellKind, [[f64; 2]; MAX_NODES]) {
-    let bearer = piece.bearer as usize;
+    let host = piece.host as usize;
     let mut x = [[0.0; 2]; MAX_NODES];
-    for (x, &n) in x.iter_mut().zip(frame.mesh.cells.nodes(bearer)) {
+    for (x, &n) in x.iter_mut().zip(frame.mesh.cells.nodes(host)) {
         *x = [0, 1].map(|d| frame.mesh.nodes[n as usize][d] + displacement[n as usize][d]);
     }
-    (frame.mesh.cells.kind[bearer], x)
+    (frame.mesh.cells.kind[host], x)
 }
 
 impl<K: Kinematics<2>> Term<2> for SurfaceTraction<K> {
@@ -150,8 +150,8 @@ impl<K: Kinematics<2>> Term<2> for SurfaceTraction<K> {
         if self.loads.iter().all(|load| load.phase != trial.phase) {
             return Ok(());
         }
-        let clique = |piece: &Piece| frame.clique[piece.bearer as usize] as usize;
-        scatter(frame.pattern, frame.boundary, clique, compute, out.force, out.tangent.as_deref_mut(), out.workspace)
+        let coupling = |piece: &Piece| frame.coupling[piece.host as usize] as usize;
+        scatter(frame.pattern, frame.boundary, coupling, compute, out.force, out.tangent.as_deref_mut(), out.workspace)
     }
 }
 

@@ -15,14 +15,14 @@
 //! `u ∇_x N_I` away, and where it is the water outside nothing is left but the buoyancy `N_I ∇p`. Its volume is that of the soil and not
 //! kept, so that the tangent is not symmetric.
 
-use super::beyond::{Kept, scatter_functions};
-use super::head::{Head, Momentary};
+use super::extended::{Kept, scatter_functions};
+use super::hydrostatic::{Hydrostatic, Momentary};
 use super::{Assembly, Frame, Role, Term, Trial};
 use crate::error::{Error, Result};
+use crate::interpolation::{CellPoints, MAX_FUNCTIONS};
 use crate::kinematics::{Gradient, Kinematics};
 use crate::mesh;
 use crate::mesh::shape::{self, MAX_NODES};
-use crate::stencil::{MAX_FUNCTIONS, Patch};
 use crate::surface::visit_layers;
 use crate::system::Local;
 use crate::tensor::Tensor;
@@ -38,21 +38,21 @@ const BAND: f64 = 0.25;
 /// A pressure on the boundary of all material points.
 pub struct VirtualPressure<K> {
     /// What acts from outside in each phase.
-    heads: Vec<Option<Head>>,
+    heads: Vec<Option<Hydrostatic>>,
     /// What acts in the pores in each phase, and whether each material by number has such pores; both empty without.
-    inside: Vec<Option<Head>>,
+    inside: Vec<Option<Hydrostatic>>,
     porous: Vec<bool>,
     kinematics: PhantomData<K>,
 }
 
 impl<K> VirtualPressure<K> {
     /// `heads[i]` acts in phase `i`.
-    pub fn new(heads: Vec<Option<Head>>) -> Self {
+    pub fn new(heads: Vec<Option<Hydrostatic>>) -> Self {
         Self { heads, inside: Vec::new(), porous: Vec::new(), kinematics: PhantomData }
     }
 
     /// With water in the pores: `inside[i]` in phase `i`, in material `m` ([`crate::points::Points::model_of`]) where `porous[m]`.
-    pub fn with_pores(self, inside: Vec<Option<Head>>, porous: Vec<bool>) -> Self {
+    pub fn with_pores(self, inside: Vec<Option<Hydrostatic>>, porous: Vec<bool>) -> Self {
         Self { inside, porous, ..self }
     }
 }
@@ -168,18 +168,21 @@ struct Layered<'a, const D: usize> {
 }
 
 impl<'a, const D: usize> Layered<'a, D> {
-    /// That of a patch; `None` where its points do: where nothing bends, or nothing is known of the surface.
+    /// That of a cell; `None` where its points do: where nothing bends, or nothing is known of the surface.
     fn of<K: Kinematics<D>>(
         term: &VirtualPressure<K>,
         frame: &'a Frame<D>,
         trial: &Trial<D>,
-        patch: &Patch,
+        cell_points: &CellPoints,
         acting: Acting,
     ) -> Option<Self> {
-        if frame.level_set.is_empty() || frame.stencil.reach.is_some() || frame.stencil.support.is_some() {
+        if frame.level_set.is_empty()
+            || frame.interpolation.extension.is_some()
+            || frame.interpolation.support.is_some()
+        {
             return None;
         }
-        let cell = patch.cell as usize;
+        let cell = cell_points.cell as usize;
         let nodes = frame.mesh.cells.nodes(cell);
         let mut height = [0.0; MAX_NODES];
         for (height, &n) in height.iter_mut().zip(nodes) {
@@ -192,7 +195,7 @@ impl<'a, const D: usize> Layered<'a, D> {
         if ![acting.outside, acting.inside].iter().flatten().any(bends) {
             return None;
         }
-        let mut porous = frame.stencil.points(patch).iter().map(|&p| term.porous_at(frame, p as usize));
+        let mut porous = frame.interpolation.points(cell_points).iter().map(|&p| term.porous_at(frame, p as usize));
         let first = porous.next()?;
         if porous.any(|other| other != first) {
             return None;
@@ -214,10 +217,10 @@ impl<'a, const D: usize> Layered<'a, D> {
             // Full, as [`crate::surface::Filling`] has it: triangles with all corners on the surface belong to it.
             layered.level_set = [1.0; MAX_NODES];
         }
-        let before = frame.stencil.gather(frame.mesh, patch, trial.converged);
+        let before = frame.interpolation.gather(frame.mesh, cell_points, trial.converged);
         let of_points: f64 = frame
-            .stencil
-            .entries::<K>(patch)
+            .interpolation
+            .entries::<K>(cell_points)
             .map(|entries| {
                 let mut known = Tensor::identity();
                 for i in 0..entries.functions() {
@@ -315,11 +318,11 @@ impl<const D: usize, K: Kinematics<D>> Term<D> for VirtualPressure<K> {
             return Ok(());
         }
         let acting = Acting { outside, inside };
-        let compute = |patch: &Patch, local: &mut Local, _: &mut [f64]| {
-            let now = frame.stencil.gather(frame.mesh, patch, trial.between);
-            let before = frame.stencil.gather(frame.mesh, patch, trial.converged);
-            let nodes = frame.stencil.nodes(frame.mesh, patch.cell);
-            let layered = Layered::of(self, frame, trial, patch, acting);
+        let compute = |cell_points: &CellPoints, local: &mut Local, _: &mut [f64]| {
+            let now = frame.interpolation.gather(frame.mesh, cell_points, trial.between);
+            let before = frame.interpolation.gather(frame.mesh, cell_points, trial.converged);
+            let nodes = frame.interpolation.nodes(frame.mesh, cell_points.cell);
+            let layered = Layered::of(self, frame, trial, cell_points, acting);
             let by_points = match &layered {
                 Some(layered) => {
                     layered.add::<K>(trial, &now, local)?;
@@ -327,7 +330,7 @@ impl<const D: usize, K: Kinematics<D>> Term<D> for VirtualPressure<K> {
                 }
                 None => acting,
             };
-            for entries in frame.stencil.entries::<K>(patch) {
+            for entries in frame.interpolation.entries::<K>(cell_points) {
                 let height = |(n, &node): (&f64, &u32)| {
                     n * (mesh::height(&frame.mesh.nodes[node as usize]) + mesh::height(&trial.between[node as usize]))
                 };

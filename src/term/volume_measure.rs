@@ -1,7 +1,7 @@
 //! Measures of the volume strain that the pressure field is conjugate to.
 
 use super::Ratios;
-use super::carried::Carried;
+use super::mixed_pressure::MixedPressure;
 use crate::material::cavitation::Volumetric;
 use crate::points::Points;
 
@@ -18,7 +18,7 @@ pub(super) enum Measure {
 }
 
 impl Measure {
-    pub fn of<const D: usize>(carried: &Carried, points: &Points<D>, p: usize) -> Self {
+    pub fn of<const D: usize>(carried: &MixedPressure, points: &Points<D>, p: usize) -> Self {
         match points.pressure[p] > 0.0 {
             false => Self::Logarithm,
             true if carried.limit.is_some() => Self::Volume,

@@ -18,15 +18,15 @@
 //! Verruijt 1981); `s` is what is missing to keep neighbours from pushing each other, `1/M + 1/Q − 6 κ Δt/h²`, and zero in
 //! longer steps (Aguilar et al. 2008). In cells of first order it makes the pair stable, too, and stays.
 
-use super::share::Seen;
-use super::{Frame, History, Ratios, Share, Trial};
+use super::mixed::Seen;
+use super::{Frame, History, Mixed, Ratios, Trial};
+use crate::interpolation::{CellPoints, Entries, MAX_FUNCTIONS};
 use crate::kinematics::{Gradient, Kinematics};
 use crate::material::Model;
 use crate::material::spatial::Spatial;
 use crate::mesh::cell_size;
 use crate::mesh::shape::{CellKind, MAX_NODES};
 use crate::points::Points;
-use crate::stencil::{Entries, MAX_FUNCTIONS, Patch};
 use crate::system::Local;
 use crate::tensor::Tensor;
 use std::fmt;
@@ -170,11 +170,11 @@ fn dot(a: &Hats, b: &Hats) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
-impl<const D: usize, K: Kinematics<D>> Share<D, K> for PoreWater<K> {
+impl<const D: usize, K: Kinematics<D>> Mixed<D, K> for PoreWater<K> {
     type Cell = Cell<D>;
 
-    fn over(&self, frame: &Frame<D>, trial: &Trial<D>, patch: &Patch) -> Cell<D> {
-        let cell = patch.cell as usize;
+    fn over(&self, frame: &Frame<D>, trial: &Trial<D>, cell_points: &CellPoints) -> Cell<D> {
+        let cell = cell_points.cell as usize;
         let kind = frame.mesh.cells.kind[cell];
         let corners = kind.corner_count();
         let (mut pressure, mut gained) = ([0.0; MOST], [0.0; MOST]);
@@ -190,7 +190,7 @@ impl<const D: usize, K: Kinematics<D>> Share<D, K> for PoreWater<K> {
             hats: coefficients(kind),
             pressure,
             gained,
-            before: frame.stencil.gather(frame.mesh, patch, trial.converged),
+            before: frame.interpolation.gather(frame.mesh, cell_points, trial.converged),
             flow_time: trial.flow_time,
             passing: 6.0 * trial.flow_time / edge,
             first_order: kind.order() == 1,

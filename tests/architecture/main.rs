@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 const LAYERS: [&[&str]; 7] = [
     &["analytical", "error", "profile", "program", "tensor", "time_integration", "time_value"],
     &["material", "mesh"],
-    &["contact", "dofs", "kinematics", "points", "quadrature", "rigid", "seed", "stencil", "surface", "system"],
+    &["contact", "dofs", "kinematics", "points", "quadrature", "rigid", "seed", "interpolation", "surface", "system"],
     &["term"],
     &["io", "run", "step"],
     &["case"],

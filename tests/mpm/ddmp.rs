@@ -3,12 +3,12 @@
 use crate::bench::{Bench, constant, run};
 use crate::patch;
 use mpm::analytical::self_weight_column::Column;
+use mpm::interpolation::{Basis, Ddmp, Mpm};
 use mpm::kinematics::{Axisymmetric, PlaneStrain};
 use mpm::material::{Elasticity, LinearElastic, Profile};
 use mpm::mesh::builder::rectangle;
 use mpm::mesh::shape::CellKind;
 use mpm::seed::{RegionSeed, seed};
-use mpm::stencil::{Basis, Ddmp, Mpm};
 use mpm::step::Restore;
 use mpm::time_value::TimeValue;
 use std::sync::Arc;

@@ -6,7 +6,7 @@ use mpm::material::{Elasticity, LinearElastic, Model};
 use mpm::mesh::builder::rectangle;
 use mpm::mesh::shape::CellKind;
 use mpm::step::{Fixed, Prescribed, Restore, State};
-use mpm::term::Carried;
+use mpm::term::MixedPressure;
 use mpm::time_value::TimeValue;
 use std::sync::Arc;
 
@@ -27,7 +27,8 @@ fn elastic(poisson: f64) -> Arc<dyn Model> {
 fn bench(mesh: mpm::mesh::Mesh<2>, kept: f64) -> Bench {
     let model = elastic(kept);
     let mut bench = Bench::new(mesh, model.clone());
-    bench.carried = Some(Carried { model, ratio: bulk(POISSON) - bulk(kept), water: 0.0, bound: None, limit: None });
+    bench.carried =
+        Some(MixedPressure { model, ratio: bulk(POISSON) - bulk(kept), water: 0.0, bound: None, limit: None });
     bench
 }
 
@@ -158,7 +159,7 @@ fn thick_cylinder() {
 fn undrained_is_total_stress_less_the_pore_pressure() {
     let [total, undrained] = [0.0, 0.8].map(|water| cylinder(CellKind::T6, 4, water));
     let carried =
-        Carried { model: elastic(-0.9), ratio: bulk(POISSON) - bulk(-0.9), water: 0.8, bound: None, limit: None };
+        MixedPressure { model: elastic(-0.9), ratio: bulk(POISSON) - bulk(-0.9), water: 0.8, bound: None, limit: None };
     let largest = total.points.stress.iter().fold(0f64, |a, s| a.max(s[0].abs()));
     for p in 0..total.points.len() {
         let pore = carried.pore_pressure(&undrained.points, p);

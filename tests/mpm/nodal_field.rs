@@ -10,11 +10,11 @@
 
 use crate::bench::{Bench, constant, quadrature_points};
 use mpm::error::Result;
+use mpm::interpolation::integrate;
 use mpm::kinematics::{Kinematics, PlaneStrain};
 use mpm::material::{Elasticity, LinearElastic};
 use mpm::mesh::builder::rectangle;
 use mpm::mesh::shape::CellKind;
-use mpm::stencil::integrate;
 use mpm::step::{Controller, Field, Limits, Prescribed, Restore, Scene, Simulation, State};
 use mpm::system::{Local, scatter};
 use mpm::term::{Assembly, Frame, Term, Trial, pressure_hats};
@@ -60,9 +60,9 @@ impl Term<2> for Diffusion {
                     }
                 }
             };
-            match frame.stencil.patches.binary_search_by_key(&cell, |patch| patch.cell) {
+            match frame.interpolation.filled.binary_search_by_key(&cell, |cell_points| cell_points.cell) {
                 Ok(number) => {
-                    for entries in frame.stencil.entries::<PlaneStrain>(&frame.stencil.patches[number]) {
+                    for entries in frame.interpolation.entries::<PlaneStrain>(&frame.interpolation.filled[number]) {
                         add(frame.points.volume(entries.point), entries.shape, entries.shape_gradient);
                     }
                 }
@@ -74,8 +74,8 @@ impl Term<2> for Diffusion {
             }
             Ok(())
         };
-        let clique = |cell: &u32| frame.clique[*cell as usize] as usize;
-        scatter(frame.pattern, frame.cells, clique, compute, out.force, out.tangent.as_deref_mut(), out.workspace)
+        let coupling = |cell: &u32| frame.coupling[*cell as usize] as usize;
+        scatter(frame.pattern, frame.cells, coupling, compute, out.force, out.tangent.as_deref_mut(), out.workspace)
     }
 }
 

@@ -1,11 +1,11 @@
 //! The linear patch test: boundary displacements of a uniform strain give that strain everywhere.
 
 use crate::bench::{Bench, constant, quadrature_points, run};
+use mpm::interpolation::{Basis, Mpm};
 use mpm::kinematics::{Axisymmetric, Kinematics, PlaneStrain};
 use mpm::material::{Elasticity, LinearElastic};
 use mpm::mesh::builder::rectangle;
 use mpm::mesh::shape::CellKind;
-use mpm::stencil::{Basis, Mpm};
 use mpm::step::{Fixed, Prescribed, Restore};
 use mpm::time_value::TimeValue;
 use std::sync::Arc;

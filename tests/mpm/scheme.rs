@@ -5,15 +5,15 @@
 //! the same values on the boundary: whatever the program solves with this scheme must have the same solution as with plain MPM.
 
 use crate::bench::{Bench, constant, quadrature_points, run};
+use mpm::interpolation::{Basis, Interpolation, Located, Mpm, Place, Support};
 use mpm::kinematics::{Axisymmetric, Kinematics, PlaneStrain};
 use mpm::material::{Elasticity, LinearElastic, Tresca};
 use mpm::mesh::Mesh;
 use mpm::mesh::builder::rectangle;
 use mpm::mesh::shape::CellKind;
 use mpm::points::Points;
-use mpm::stencil::{Basis, Located, Mpm, Place, Stencil, Support};
 use mpm::step::{Restore, State};
-use mpm::term::{Carried, Porous, WaterStiffness};
+use mpm::term::{MixedPressure, Porous, WaterStiffness};
 use nalgebra::{Matrix3, Vector3};
 use std::sync::Arc;
 
@@ -59,13 +59,13 @@ impl Basis<2> for Fitted {
         Some(Support::with_neighbours(mesh, active))
     }
 
-    fn fill(&self, points: &Located<2>, stencil: &mut Stencil<2>) {
+    fn fill(&self, points: &Located<2>, interpolation: &mut Interpolation<2>) {
         let mesh = points.mesh;
         let mut fixed = vec![false; mesh.nodes.len()];
         mesh.groups.iter().flat_map(|group| &group.nodes).for_each(|&n| fixed[n as usize] = true);
         let rows: Vec<_> = (0u32..).zip(&fixed).map(|(n, &fixed)| Self::row(mesh, n, fixed)).collect();
         let support = Support::with_neighbours(mesh, points.active);
-        stencil.fill_support(points, support, |place: &Place<2>, value, gradient| {
+        interpolation.fill_support(points, support, |place: &Place<2>, value, gradient| {
             for (k, &n) in mesh.cells.nodes(place.cell).iter().enumerate() {
                 for &(m, entry) in &rows[n as usize] {
                     let to = place.nodes.iter().position(|&other| other == m).unwrap();
@@ -84,13 +84,13 @@ fn linear_fields_come_back() {
         let mesh = rectangle(kind, 4.0, 3.0, 4, 3, 0.2, 5);
         let points = quadrature_points::<PlaneStrain>(&mesh, 4, 1.0);
         let xi = mpm::case::parts::places(&mesh, &points).unwrap();
-        let mut stencil = Stencil::default();
-        stencil.fill::<PlaneStrain>(&Fitted, &mesh, &points.cell, &xi, &vec![true; mesh.cells.len()]);
+        let mut interpolation = Interpolation::default();
+        interpolation.fill::<PlaneStrain>(&Fitted, &mesh, &points.cell, &xi, &vec![true; mesh.cells.len()]);
         let mut widest = 0;
-        for patch in &stencil.patches {
-            let nodes = stencil.nodes(&mesh, patch.cell);
+        for cell_points in &interpolation.filled {
+            let nodes = interpolation.nodes(&mesh, cell_points.cell);
             widest = widest.max(nodes.len());
-            for entries in stencil.entries::<PlaneStrain>(patch) {
+            for entries in interpolation.entries::<PlaneStrain>(cell_points) {
                 let sum = |of: &dyn Fn(&[f64; 2]) -> f64| -> [f64; 3] {
                     let terms = (0..nodes.len()).map(|i| (of(&mesh.nodes[nodes[i] as usize]), i));
                     terms.fold([0.0; 3], |[v, x, y], (f, i)| {
@@ -164,7 +164,7 @@ fn plastic_soil_with_a_pressure_field_has_it_too() {
     let clay = |bench: &mut Bench| {
         let elasticity = Elasticity::new(constant(1000.0), 0.3).unwrap();
         let model = Arc::new(Tresca::new(elasticity, constant(4.0)).unwrap());
-        bench.carried = Some(Carried { model: model.clone(), ratio: 20.0, water: 0.0, bound: None, limit: None });
+        bench.carried = Some(MixedPressure { model: model.clone(), ratio: 20.0, water: 0.0, bound: None, limit: None });
         bench.model = model;
     };
     for kind in KINDS {

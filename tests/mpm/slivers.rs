@@ -57,7 +57,7 @@ fn condition(scene: &Scene<2>, points: Points<2>) -> f64 {
         phase: 0,
         time: 1.0,
         reduction: 1.0,
-        held: false,
+        contact_frozen: false,
         inverse_dt: 0.0,
     };
     let pattern = &grid.motion.pattern;

@@ -14,7 +14,7 @@ use mpm::step::{Grid, Restore, Simulation, State};
 use mpm::surface::boundary::place;
 use mpm::surface::{ActiveBoundary, Behind, Distance, Geometry, MarkerFront, Piece};
 use mpm::system::Workspace;
-use mpm::term::{Assembly, Head, SurfaceLoad, SurfaceTraction, Term, Trial, VirtualPressure};
+use mpm::term::{Assembly, Hydrostatic, SurfaceLoad, SurfaceTraction, Term, Trial, VirtualPressure};
 use mpm::time_value::TimeValue;
 use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
@@ -83,7 +83,7 @@ fn a_followed_disk_has_its_length_and_its_normals() {
         let mut distance = Distance::default();
         distance.update(&mesh, &geometry, &locator, &front, &cell, &all);
         let boundary =
-            ActiveBoundary::of(&mesh, &geometry, &distance.level_set, &all, |bearer, _| Behind { region: 3, bearer });
+            ActiveBoundary::of(&mesh, &geometry, &distance.level_set, &all, |host, _| Behind { region: 3, host });
         assert_closed(&boundary, &mesh);
         assert!(boundary.pieces.iter().all(|piece| !piece.wall && piece.region == 3));
         let lines = polylines(&boundary, &mesh);
@@ -222,8 +222,8 @@ fn bodies_holes_and_walls_are_told_apart() {
             (|x: &[f64; 2]| (x[0] - 0.6).hypot(x[1] - 0.5) - 0.2, |x: &[f64; 2]| 0.15 - (x[0] - 1.6).hypot(x[1] - 1.6));
         let value = |x: &[f64; 2]| (1.1 - x[0]).min(1.0 - x[1]).min(hole(x)).max(drop(x));
         let level_set: Vec<f64> = mesh.nodes.iter().map(value).collect();
-        let boundary = ActiveBoundary::of(&mesh, &geometry, &level_set, &vec![true; mesh.cells.len()], |bearer, _| {
-            Behind { region: 0, bearer }
+        let boundary = ActiveBoundary::of(&mesh, &geometry, &level_set, &vec![true; mesh.cells.len()], |host, _| {
+            Behind { region: 0, host }
         });
         assert_closed(&boundary, &mesh);
         let lines = polylines(&boundary, &mesh);
@@ -253,7 +253,7 @@ fn elastic(young: f64, poisson: f64) -> Arc<LinearElastic> {
     Arc::new(LinearElastic::new(Elasticity::new(constant(young), poisson).unwrap()))
 }
 
-fn load(pressure: Option<Head>) -> SurfaceLoad {
+fn load(pressure: Option<Hydrostatic>) -> SurfaceLoad {
     let none = TimeValue::Constant(0.0);
     SurfaceLoad {
         phase: 0,
@@ -265,9 +265,9 @@ fn load(pressure: Option<Head>) -> SurfaceLoad {
     }
 }
 
-fn head(top: f64, gradient: f64, datum: f64) -> Head {
+fn head(top: f64, gradient: f64, datum: f64) -> Hydrostatic {
     let constant = TimeValue::Constant;
-    Head { top: constant(top), gradient: constant(gradient), datum: constant(datum), band: 0.01 }
+    Hydrostatic { top: constant(top), gradient: constant(gradient), datum: constant(datum), band: 0.01 }
 }
 
 /// The forces (kN) of a term on the nodes of a scene at rest.
@@ -372,7 +372,7 @@ fn settles(make: impl Fn(f64) -> SurfaceLoad) -> [f64; 2] {
 fn a_traction_follows_the_top_of_a_column_across_ten_cells() {
     let dead = settles(|t| SurfaceLoad { components: [TimeValue::Constant(0.0), TimeValue::Rate(-t)], ..load(None) });
     println!("vertical traction: {dead:?}");
-    let pressure = settles(|t| load(Some(Head { top: TimeValue::Rate(t), ..head(0.0, 0.0, 0.0) })));
+    let pressure = settles(|t| load(Some(Hydrostatic { top: TimeValue::Rate(t), ..head(0.0, 0.0, 0.0) })));
     println!("pressure: {pressure:?}");
     // In the mean, and at the point that is off most.
     assert!(dead[0] < 1e-4 && dead[1] < 2e-3, "{dead:?}");

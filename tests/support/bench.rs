@@ -1,6 +1,7 @@
 //! Small scenes on structured meshes, built without a case file.
 
 use mpm::case::parts::places;
+use mpm::interpolation::{Basis, Mpm};
 use mpm::kinematics::Kinematics;
 use mpm::material::{Model, Profile};
 use mpm::mesh::Mesh;
@@ -10,14 +11,13 @@ use mpm::mesh::locate::Locator;
 use mpm::mesh::shape::{MAX_NODES, map, rule};
 use mpm::points::Points;
 use mpm::quadrature::{Quadrature, Volumes};
-use mpm::stencil::{Basis, Mpm};
 use mpm::step::{
     Controller, Fem, Fixed, Limits, Numerics, Phase, Prescribed, Report, Restore, Scene, Simulation, State, Stop, Water,
 };
 use mpm::tensor::{IDENTITY, Tensor};
 use mpm::term::{
-    BodyForce, Carried, EmptyCells, Inertia, Internal, PoreWater, Porous, PressureField, SmoothPressure, Term,
-    WaterBond,
+    BodyForce, EmptyCells, Inertia, Internal, MixedPressure, PoreStabilisation, PoreWater, Porous, PressureField,
+    SmoothPressure, Term,
 };
 use mpm::time_value::TimeValue;
 use std::sync::Arc;
@@ -55,7 +55,7 @@ pub struct Bench {
     pub elements: Vec<bool>,
     pub model: Arc<dyn Model>,
     /// What a pressure field carries beside the model.
-    pub carried: Option<Carried>,
+    pub carried: Option<MixedPressure>,
     /// Water in the pores, which flows, and the groups of the mesh where it leaves.
     pub porous: Option<Porous>,
     pub drained: Vec<&'static str>,
@@ -207,7 +207,7 @@ impl Bench {
             terms.push(Box::new(SmoothPressure::<K>::new(vec![true], of_unit, shear, cells)));
         }
         if self.porous.is_some() {
-            terms.push(Box::new(WaterBond::<K>::new(vec![self.porous.clone()], of_unit, shear, cells)));
+            terms.push(Box::new(PoreStabilisation::<K>::new(vec![self.porous.clone()], of_unit, shear, cells)));
         }
         if self.gravity != [0.0; 2] {
             terms.push(Box::new(BodyForce::<K, 2>::new(self.gravity, vec![self.gravity_factor])));

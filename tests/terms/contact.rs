@@ -6,7 +6,7 @@ use crate::support::Random;
 use mpm::contact::{Constraint, Law, Penalty, Spot};
 use mpm::kinematics::PlaneStrain;
 use mpm::mesh::shape::CellKind;
-use mpm::term::{Contact, Head, Levels, PlacedConstraint};
+use mpm::term::{Contact, Hydrostatic, PlacedConstraint, WaterLevels};
 use mpm::time_value::TimeValue;
 
 fn law(friction: f64, adhesion: f64, factor: Option<f64>) -> Law {
@@ -20,7 +20,7 @@ fn stand(law: Law, apart: f64) -> Stand<PlaneStrain> {
 }
 
 /// The same where water stands otherwise in the pores than outside.
-fn stand_in_water(law: Law, apart: f64, levels: Option<Levels>) -> Stand<PlaneStrain> {
+fn stand_in_water(law: Law, apart: f64, levels: Option<WaterLevels>) -> Stand<PlaneStrain> {
     let mesh = mesh(CellKind::T6);
     let points = points(&mesh, |_| true);
     let mut stand = Stand::new(mesh, points, Box::new(Contact::new(0, law, levels)), true, law.friction > 0.0);
@@ -62,13 +62,13 @@ fn stand_in_water(law: Law, apart: f64, levels: Option<Levels>) -> Stand<PlaneSt
                 water: 0.0,
             },
         };
-        let clique = stand.grid.clique[cell as usize];
+        let coupling = stand.grid.coupling[cell as usize];
         let place = (0..6).collect();
         stand.grid.constraints.push(PlacedConstraint {
             interface: 0,
             condition: constraint,
             initially_closed: false,
-            clique,
+            coupling,
             place,
         });
     }
@@ -103,10 +103,10 @@ fn the_tangent_is_the_derivative() {
 fn water_levels_do_not_change_with_the_motion() {
     let below = |level: f64| {
         let [top, gradient, datum] = [0.0, 5.0, level].map(TimeValue::Constant);
-        vec![Some(Head { top, gradient, datum, band: 0.1 })]
+        vec![Some(Hydrostatic { top, gradient, datum, band: 0.1 })]
     };
     for [outside, inside] in [[1.0, 4.0], [4.0, 1.0]] {
-        let levels = || Some(Levels::new(below(outside), below(inside)));
+        let levels = || Some(WaterLevels::new(below(outside), below(inside)));
         let stand = stand_in_water(law(0.02, 0.0, None), 10.0, levels());
         let dry = stand_in_water(law(0.02, 0.0, None), 10.0, None);
         let mut differ = false;

@@ -2,12 +2,12 @@
 
 use crate::ghost;
 use crate::stand::{Field, KINDS, Stand, mesh, points, resultant, size};
+use mpm::interpolation::Ddmp;
 use mpm::kinematics::{Axisymmetric, Kinematics, PlaneStrain};
 use mpm::mesh::Mesh;
 use mpm::mesh::shape::CellKind;
-use mpm::stencil::Ddmp;
 use mpm::surface::{ActiveBoundary, Piece};
-use mpm::term::{BodyForce, EmptyCells, FacetPressure, Head, Inertia, Role, Term, Traction, VirtualPressure};
+use mpm::term::{BodyForce, EmptyCells, FacetPressure, Hydrostatic, Inertia, Role, Term, Traction, VirtualPressure};
 use mpm::term::{SurfaceLoad, SurfaceTraction};
 use mpm::time_value::TimeValue;
 use std::f64::consts::{PI, TAU};
@@ -161,9 +161,9 @@ fn check_traction<K: Kinematics<2>>(kind: CellKind, group: &str, area: f64) {
 }
 
 /// Water up to the middle of the mesh, and 2 kPa above.
-fn head() -> Vec<Option<Head>> {
+fn head() -> Vec<Option<Hydrostatic>> {
     let [top, gradient, datum] = [2.0, 10.0, 0.8].map(TimeValue::Constant);
-    vec![Some(Head { top, gradient, datum, band: 0.2 }), None]
+    vec![Some(Hydrostatic { top, gradient, datum, band: 0.2 }), None]
 }
 
 fn pressures<K: Kinematics<2>>() {
@@ -190,9 +190,9 @@ fn pressures<K: Kinematics<2>>() {
 }
 
 /// Water in the lower third of the mesh.
-fn lower() -> Vec<Option<Head>> {
+fn lower() -> Vec<Option<Hydrostatic>> {
     let [top, gradient, datum] = [0.0, 10.0, 0.5].map(TimeValue::Constant);
-    vec![Some(Head { top, gradient, datum, band: 0.1 }), None]
+    vec![Some(Hydrostatic { top, gradient, datum, band: 0.1 }), None]
 }
 
 /// Water in the pores up to another level than outside, up to the same, and without any outside.
@@ -323,7 +323,7 @@ fn the_tangent_of_a_pressure_is_its_derivative_with_smooth_gradients() {
     }
 }
 
-/// Pressure, shear and a fixed traction on a part of pieces in all cells, one of them borne beyond its cell.
+/// Pressure, shear and a fixed traction on a part of pieces in all cells, one of them in_host beyond its cell.
 fn on_pieces<K: Kinematics<2>>() {
     let constant = TimeValue::Constant;
     let none = || SurfaceLoad {
@@ -353,8 +353,8 @@ fn on_pieces<K: Kinematics<2>>() {
                 let mut stand = Stand::<K>::new(mesh, points, term, true, true);
                 stand.alpha_f = alpha_f;
                 let piece = |cell: u32| {
-                    let borne = if cell == 0 { [[1.1, -0.2], [0.4, 0.9]] } else { [[0.2, 0.1], [0.3, 0.6]] };
-                    Piece { cell, ends: [[0.2, 0.1], [0.3, 0.6]], wall: false, region: 0, bearer: cell, borne }
+                    let in_host = if cell == 0 { [[1.1, -0.2], [0.4, 0.9]] } else { [[0.2, 0.1], [0.3, 0.6]] };
+                    Piece { cell, ends: [[0.2, 0.1], [0.3, 0.6]], wall: false, region: 0, host: cell, in_host }
                 };
                 stand.state.weights.boundary =
                     ActiveBoundary { pieces: (0..cells).map(piece).collect(), first: vec![0, cells] };

@@ -2,14 +2,14 @@
 
 use crate::stand::{KINDS, SMOOTHED, Stand, mesh, points};
 use crate::support::Random;
+use mpm::interpolation::{Basis, Ddmp, Mpm};
 use mpm::kinematics::{Axisymmetric, Kinematics, PlaneStrain};
 use mpm::material::{CamClay, Elasticity, Friction, LinearElastic, Model, MohrCoulomb, Profile, Tresca};
 use mpm::mesh::builder::rectangle;
 use mpm::mesh::shape::{CellKind, MAX_NODES, map, rule};
 use mpm::points::Points;
-use mpm::stencil::{Basis, Ddmp, Mpm};
 use mpm::tensor::{IDENTITY, Tensor};
-use mpm::term::{Carried, Internal, PressureField, SmoothPressure, Term};
+use mpm::term::{Internal, MixedPressure, PressureField, SmoothPressure, Term};
 use nalgebra::{DMatrix, SymmetricEigen};
 use std::sync::Arc;
 
@@ -22,20 +22,20 @@ fn elasticity() -> Elasticity {
 }
 
 /// The share at Poisson's ratio 0.4999, with water in the pores or without.
-fn carried(model: Arc<dyn Model>, water: f64) -> Carried {
-    Carried { model, ratio: 2.0 * 1.4999 / (3.0 * 0.0002), water, bound: None, limit: None }
+fn carried(model: Arc<dyn Model>, water: f64) -> MixedPressure {
+    MixedPressure { model, ratio: 2.0 * 1.4999 / (3.0 * 0.0002), water, bound: None, limit: None }
 }
 
 /// The same with a limit of the tension within the range of the noise.
-fn limited(model: Arc<dyn Model>, water: f64) -> Carried {
-    Carried { limit: Some(Profile::constant(9.0)), ..carried(model, water) }
+fn limited(model: Arc<dyn Model>, water: f64) -> MixedPressure {
+    MixedPressure { limit: Some(Profile::constant(9.0)), ..carried(model, water) }
 }
 
 /// A stand in large strain, with noise in all unknowns.
 fn set<K: Kinematics<2>>(
     scheme: &'static dyn Basis<2>,
     kind: CellKind,
-    carried: Carried,
+    carried: MixedPressure,
     alpha_f: f64,
 ) -> (Stand<K>, [Vec<[f64; 2]>; 2]) {
     let mesh = mesh(kind);
@@ -77,7 +77,7 @@ fn tangent_is_the_derivative<K: Kinematics<2>>(scheme: &'static dyn Basis<2>, ki
     }
 }
 
-/// Beyond a limit and below it, from states of points on both sides of it and in compression.
+/// MatrixFree a limit and below it, from states of points on both sides of it and in compression.
 fn tangent_with_a_limit_is_the_derivative<K: Kinematics<2>>() {
     let tresca: Arc<dyn Model> = Arc::new(Tresca::new(elasticity(), Profile::constant(5.0)).unwrap());
     for kind in KINDS {
@@ -107,7 +107,7 @@ fn tangent_where_the_field_tells_the_volume_is_the_derivative<K: Kinematics<2>>(
         for (number, model) in models.iter().enumerate() {
             for (bound, alpha_f) in [(1e-3, 0.0), (0.5, 0.0), (0.5, 0.4)] {
                 let carried =
-                    Carried { model: model.clone(), ratio: 80.0, water: 1.0, bound: Some(bound), limit: None };
+                    MixedPressure { model: model.clone(), ratio: 80.0, water: 1.0, bound: Some(bound), limit: None };
                 let (stand, [trial, converged]) = set::<K>(&Mpm, kind, carried, alpha_f);
                 let name = format!("{kind:?}, model {number}, bound by {bound}, α_f = {alpha_f}");
                 let error = stand.tangent_error(&trial, &converged);
@@ -231,7 +231,7 @@ fn blocks(kind: CellKind, n: usize, ratio: f64) -> [DMatrix<f64>; 3] {
     }
     // Poisson's ratio 0: A is ∫ ε : ε.
     let model: Arc<dyn Model> = Arc::new(LinearElastic::new(Elasticity::new(Profile::constant(1.0), 0.0).unwrap()));
-    let carried = Carried { model: model.clone(), ratio, water: 0.0, bound: None, limit: None };
+    let carried = MixedPressure { model: model.clone(), ratio, water: 0.0, bound: None, limit: None };
     let field = PressureField::<PlaneStrain>::new(vec![Some(carried)], 1.0);
     let term = Box::new(Internal::<PlaneStrain, _>::sharing(vec![Some(model)], false, field));
     let points = lattice(&mesh);

@@ -6,7 +6,7 @@ use mpm::kinematics::{Axisymmetric, Kinematics, PlaneStrain};
 use mpm::mesh::shape::CellKind;
 use mpm::rigid::Body;
 use mpm::step::Grid;
-use mpm::term::{Head, RigidInertia, RigidPressure, RigidTraction, RigidWeight, Term};
+use mpm::term::{Hydrostatic, RigidInertia, RigidPressure, RigidTraction, RigidWeight, Term};
 use mpm::time_value::TimeValue;
 
 /// A body that has its unknowns at two nodes of the stand.
@@ -73,7 +73,7 @@ fn weight_and_traction_act_on_the_reference_point() {
 /// All cells of the stand as one body under water, whose level passes through it or is high above.
 fn under_water<K: Kinematics<2>>(kind: CellKind, level: f64) -> Stand<K> {
     let constant = TimeValue::Constant;
-    let head = Head { top: constant(2.0), gradient: constant(9.0), datum: constant(level), band: 0.2 };
+    let head = Hydrostatic { top: constant(2.0), gradient: constant(9.0), datum: constant(level), band: 0.2 };
     let mesh = mesh(kind);
     let body = Body { turning: (!K::HOOP).then_some(7), ..body() };
     let term = Box::new(RigidPressure::<K>::new(&body, 0, &mesh, vec![Some(head), None]));

@@ -1,9 +1,9 @@
 //! The internal force with gradients that are smoothed between cells.
 
 use crate::stand::{SMOOTHED, Stand, elastic, elasticity, mesh, points, resultant, size};
+use mpm::interpolation::Ddmp;
 use mpm::kinematics::{Axisymmetric, Kinematics, PlaneStrain};
 use mpm::material::{Model, Profile, VonMises};
-use mpm::stencil::Ddmp;
 use mpm::term::Internal;
 use std::sync::Arc;
 

@@ -3,6 +3,7 @@
 use crate::support::Random;
 use mpm::dofs::Dof;
 use mpm::error::Result;
+use mpm::interpolation::{Basis, Mpm};
 use mpm::kinematics::Kinematics;
 use mpm::material::LinearElastic;
 use mpm::material::{Elasticity, Profile};
@@ -13,7 +14,6 @@ use mpm::mesh::locate::Locator;
 use mpm::mesh::shape::{CellKind, MAX_NODES};
 use mpm::points::Points;
 use mpm::quadrature::Volumes;
-use mpm::stencil::{Basis, Mpm};
 use mpm::step::{Grid, Numerics, Phase, Restore, Scene, Simulation, State, Stop, Water};
 use mpm::system::{Matrix, Workspace};
 use mpm::tensor::{IDENTITY, Tensor, full, symmetric};
@@ -246,9 +246,9 @@ impl<K: Kinematics<2>> Stand<K> {
     /// Gives each point the elastic state that the trial takes to the left Cauchy–Green tensor
     /// `target(point)`.
     pub fn aim(&mut self, trial: &[[f64; 2]], converged: &[[f64; 2]], mut target: impl FnMut(usize) -> Tensor) {
-        for patch in &self.grid.stencils.integration.patches {
-            let nodes = self.scene.mesh.cells.nodes(patch.cell as usize);
-            for entries in self.grid.stencils.integration.entries::<K>(patch) {
+        for cell_points in &self.grid.interpolations.integration.filled {
+            let nodes = self.scene.mesh.cells.nodes(cell_points.cell as usize);
+            for entries in self.grid.interpolations.integration.entries::<K>(cell_points) {
                 let (mut now, mut before) = (Tensor::identity(), Tensor::identity());
                 for (i, &n) in nodes.iter().enumerate() {
                     K::deform(&mut now, &trial[n as usize], &entries.gradient(i));
@@ -311,7 +311,7 @@ impl<K: Kinematics<2>> Stand<K> {
             phase,
             time: 0.5,
             reduction: 1.0,
-            held: self.held,
+            contact_frozen: self.held,
             inverse_dt: 0.0,
         };
         let mut force = vec![0.0; frame.pattern.len()];

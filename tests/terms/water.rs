@@ -2,13 +2,15 @@
 
 use crate::stand::{KINDS, Stand, elastic, mesh, points};
 use crate::support::Random;
+use mpm::interpolation::Mpm;
 use mpm::kinematics::{Axisymmetric, Kinematics, PlaneStrain};
 use mpm::material::Model;
 use mpm::mesh::shape::CellKind;
-use mpm::stencil::Mpm;
 use mpm::step::Water;
 use mpm::surface::{ActiveBoundary, Piece};
-use mpm::term::{Carried, DrainedSurface, Internal, PoreWater, Porous, PressureField, Term, WaterBond, WaterStiffness};
+use mpm::term::{
+    DrainedSurface, Internal, MixedPressure, PoreStabilisation, PoreWater, Porous, PressureField, Term, WaterStiffness,
+};
 use std::sync::Arc;
 
 const UNIT: f64 = 700.0;
@@ -29,7 +31,7 @@ fn set<K: Kinematics<2>>(kind: CellKind, beside: bool, alpha_f: f64, flow_time: 
     let (models, dynamic) = (vec![Some(model.clone())], alpha_f > 0.0);
     let term: Box<dyn Term<2>> = if beside {
         let field = PressureField::<K>::new(
-            vec![Some(Carried { model, ratio: 3.0, water: 0.0, bound: None, limit: None })],
+            vec![Some(MixedPressure { model, ratio: 3.0, water: 0.0, bound: None, limit: None })],
             UNIT,
         );
         Box::new(Internal::<K, _>::sharing(models, dynamic, (field, water)))
@@ -102,7 +104,8 @@ fn the_bond_is_free_for_a_uniform_increment_and_its_tangent_the_derivative() {
         let mut points = points(&mesh, |_| true);
         points.pore_pressure = vec![0.0; points.len()];
         let (nodes, cells) = (mesh.nodes.len(), mesh.cells.len());
-        let term: Box<dyn Term<2>> = Box::new(WaterBond::<PlaneStrain>::new(porous([0.0; 2]), UNIT, 400.0, cells));
+        let term: Box<dyn Term<2>> =
+            Box::new(PoreStabilisation::<PlaneStrain>::new(porous([0.0; 2]), UNIT, 400.0, cells));
         let water = Some(Water { porous: porous([0.0; 2]), alone: true, drained: Vec::new() });
         let mut stand = Stand::<PlaneStrain>::with_water(&Mpm, mesh, points, term, false, true, Some(UNIT), water);
         let rest = stand.field(0.0, 1, |_| [0.0; 2]);
@@ -131,14 +134,14 @@ fn a_surface_drains<K: Kinematics<2>>() {
         let water = Some(Water { porous: soil, alone: true, drained: Vec::new() });
         let mut stand = Stand::<K>::with_water(&Mpm, mesh, points, term, false, true, Some(UNIT), water);
         let piece = |cell: u32| {
-            let borne = if cell == 0 { [[1.1, -0.2], [0.4, 0.9]] } else { [[0.2, 0.1], [0.3, 0.6]] };
+            let in_host = if cell == 0 { [[1.1, -0.2], [0.4, 0.9]] } else { [[0.2, 0.1], [0.3, 0.6]] };
             Piece {
                 cell,
                 ends: [[0.2, 0.1], [0.3, 0.6]],
                 wall: cell == 1,
                 region: 3 + u16::from(cell == 2),
-                bearer: cell,
-                borne,
+                host: cell,
+                in_host,
             }
         };
         stand.state.weights.boundary =

@@ -2,6 +2,7 @@
 
 use mpm::dofs::Places;
 use mpm::error::Result;
+use mpm::interpolation::{Interpolation, Mpm};
 use mpm::kinematics::{Kinematics, ThreeD};
 use mpm::material::{Elasticity, Model, Profile};
 use mpm::mesh::Mesh;
@@ -9,8 +10,7 @@ use mpm::mesh::locate::Locator;
 use mpm::mesh::shape::CellKind;
 use mpm::points::Points;
 use mpm::seed::{RegionSeed, seed};
-use mpm::stencil::{Mpm, Stencil};
-use mpm::system::{Cliques, Matrix, Pattern, Workspace};
+use mpm::system::{Connectivity, Matrix, Pattern, Workspace};
 use mpm::tensor::{Tensor, symmetric};
 use mpm::term::{Assembly, Frame, History, Internal, Term, Trial};
 use nalgebra::{DMatrix, Rotation3, Vector3};
@@ -79,9 +79,9 @@ pub struct Stand {
     pub mesh: Mesh<3>,
     pub points: Points<3>,
     pub term: Internal<ThreeD>,
-    stencil: Stencil<3>,
+    interpolation: Interpolation<3>,
     pattern: Pattern,
-    /// Numbers of all cells, which are those of their cliques, and of all nodes, which are those of their blocks.
+    /// Numbers of all cells, which are those of their couplings, and of all nodes, which are those of their blocks.
     cells: Vec<u32>,
     nodes: Vec<u32>,
 }
@@ -97,25 +97,25 @@ impl Stand {
                 xi
             })
             .collect();
-        let mut stencil = Stencil::default();
-        stencil.fill::<ThreeD>(&Mpm, &mesh, &points.cell, &parametric, &vec![true; mesh.cells.len()]);
-        stencil.weigh(&points.initial_volume);
-        let mut cliques = Cliques::default();
+        let mut interpolation = Interpolation::default();
+        interpolation.fill::<ThreeD>(&Mpm, &mesh, &points.cell, &parametric, &vec![true; mesh.cells.len()]);
+        interpolation.weigh(&points.initial_volume);
+        let mut connectivity = Connectivity::default();
         for c in 0..mesh.cells.len() {
-            cliques.push(mesh.cells.nodes(c).iter().copied());
+            connectivity.push(mesh.cells.nodes(c).iter().copied());
         }
         // Unsymmetric, so that the whole tangent is seen.
-        let pattern = Pattern::new(&vec![3; mesh.nodes.len()], cliques, false);
+        let pattern = Pattern::new(&vec![3; mesh.nodes.len()], connectivity, false);
         let (cells, nodes) = ((0..mesh.cells.len() as u32).collect(), (0..mesh.nodes.len() as u32).collect());
         let term = Internal::new(vec![Some(model)], dynamic);
-        Self { mesh, points, term, stencil, pattern, cells, nodes }
+        Self { mesh, points, term, interpolation, pattern, cells, nodes }
     }
 
     fn frame(&self) -> Frame<'_, 3> {
         Frame {
             mesh: &self.mesh,
             relaxed: false,
-            stencil: &self.stencil,
+            interpolation: &self.interpolation,
             partly_filled: &[],
             ghost: &[],
             constraints: &[],
@@ -127,7 +127,7 @@ impl Stand {
             points: &self.points,
             integration: None,
             pattern: &self.pattern,
-            clique: &self.cells,
+            coupling: &self.cells,
             block: &self.nodes,
             bodies: &[],
             with_water: false,
@@ -142,9 +142,9 @@ impl Stand {
 
     /// Gives each point the elastic state that the step takes to the left Cauchy–Green tensor `target(point)`.
     pub fn aim(&mut self, step: Step, mut target: impl FnMut(usize) -> Tensor) {
-        for patch in &self.stencil.patches {
-            let nodes = self.mesh.cells.nodes(patch.cell as usize);
-            for entries in self.stencil.entries::<ThreeD>(patch) {
+        for cell_points in &self.interpolation.filled {
+            let nodes = self.mesh.cells.nodes(cell_points.cell as usize);
+            for entries in self.interpolation.entries::<ThreeD>(cell_points) {
                 let (mut now, mut before) = (Tensor::identity(), Tensor::identity());
                 for (i, &n) in nodes.iter().enumerate() {
                     ThreeD::deform(&mut now, &step.trial[n as usize], &entries.gradient(i));

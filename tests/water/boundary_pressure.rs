@@ -15,7 +15,7 @@ use mpm::points::Points;
 use mpm::step::{Controller, Grid, Limits, Restore, Scene, Simulation, State};
 use mpm::surface::Geometry;
 use mpm::system::Workspace;
-use mpm::term::{Assembly, FacetPressure, Head, Term, Trial, VirtualPressure};
+use mpm::term::{Assembly, FacetPressure, Hydrostatic, Term, Trial, VirtualPressure};
 use mpm::time_value::TimeValue;
 use std::sync::Arc;
 
@@ -28,12 +28,17 @@ fn elastic() -> Arc<LinearElastic> {
 }
 
 /// Water over cells of which `cells` make 2 m.
-fn water(level: f64, cells: usize) -> Head {
+fn water(level: f64, cells: usize) -> Hydrostatic {
     let constant = TimeValue::Constant;
-    Head { top: constant(0.0), gradient: constant(WATER), datum: constant(level), band: 0.25 * 2.0 / cells as f64 }
+    Hydrostatic {
+        top: constant(0.0),
+        gradient: constant(WATER),
+        datum: constant(level),
+        band: 0.25 * 2.0 / cells as f64,
+    }
 }
 
-fn head(level: f64) -> Head {
+fn head(level: f64) -> Hydrostatic {
     water(level, CELLS)
 }
 

@@ -10,7 +10,7 @@ use mpm::mesh::builder::rectangle;
 use mpm::mesh::cell_size;
 use mpm::mesh::shape::CellKind;
 use mpm::step::Restore;
-use mpm::term::{DrainedSurface, Head, Porous, SurfaceLoad, SurfaceTraction, WaterStiffness};
+use mpm::term::{DrainedSurface, Hydrostatic, Porous, SurfaceLoad, SurfaceTraction, WaterStiffness};
 use mpm::time_value::TimeValue;
 use std::sync::Arc;
 
@@ -26,7 +26,7 @@ fn pressed() -> SurfaceLoad {
     SurfaceLoad {
         phase: 0,
         region: None,
-        pressure: Some(Head { top: TimeValue::Constant(LOAD), gradient: zero(), datum: zero(), band: 0.1 }),
+        pressure: Some(Hydrostatic { top: TimeValue::Constant(LOAD), gradient: zero(), datum: zero(), band: 0.1 }),
         shear: zero(),
         components: [zero(), zero()],
         within: None,

@@ -23,11 +23,11 @@ mod samples;
 
 use super::surface::boundary;
 use super::{Quadrature, Restored, Tally, Weights};
+use crate::interpolation::PartlyFilled;
 use crate::kinematics::Kinematics;
 use crate::mesh::Mesh;
 use crate::mesh::shape::MAX_NODES;
 use crate::points::Points;
-use crate::stencil::PartlyFilled;
 use crate::surface::{Geometry, MarkerFront};
 use crate::tensor::{Symmetric, Tensor};
 use fields::{

@@ -262,7 +262,7 @@ fn check_weighing<const D: usize>(scene: &Scene<D>, state: &State<D>) -> Result<
     let ActiveBoundary { pieces, first } = boundary;
     ensure(bounds_of_loops(first, pieces.len(), 1), "a loop of its boundary")?;
     for piece in pieces {
-        ensure(takes_part(piece.cell) && takes_part(piece.bearer), "a cell of its boundary")?;
+        ensure(takes_part(piece.cell) && takes_part(piece.host), "a cell of its boundary")?;
         let region = piece.region;
         ensure(region == NO_REGION || usize::from(region) < scene.mesh.regions.len(), "a region of its boundary")?;
         let inside = |&[x, y]: &[f64; 2]| is_inside(&scene.mesh, piece.cell, &[x, y, 0.0]);

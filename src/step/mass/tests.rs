@@ -1,6 +1,7 @@
 //! What the mass keeps of the motion that is mapped with it.
 
 use super::*;
+use crate::interpolation::Mpm;
 use crate::kinematics::{Axisymmetric, PlaneStrain};
 use crate::mesh::builder::rectangle;
 use crate::mesh::faces::Faces;
@@ -8,7 +9,6 @@ use crate::mesh::locate::Locator;
 use crate::mesh::shape::CellKind;
 use crate::points::Points;
 use crate::quadrature::Volumes;
-use crate::stencil::Mpm;
 use crate::step::report::Motion;
 use crate::step::{Numerics, Phase, Restore, transfer};
 use crate::tensor::{IDENTITY, Tensor};
@@ -93,9 +93,9 @@ fn through_the_grid<K: Kinematics<2>>(kind: CellKind, points: Points<2>) -> Poin
     let mut grid = Grid::first::<K>(&scene, &mut state).unwrap();
     transfer::motion_to_grid::<2, K>(&scene, &mut grid, &mut state).unwrap();
     let mut mapped = state.points.clone();
-    for patch in &grid.stencils.integration.patches {
-        let local = grid.stencils.integration.gather(&scene.mesh, patch, &state.velocity);
-        for entries in grid.stencils.integration.entries::<K>(patch) {
+    for cell_points in &grid.interpolations.integration.filled {
+        let local = grid.interpolations.integration.gather(&scene.mesh, cell_points, &state.velocity);
+        for entries in grid.interpolations.integration.entries::<K>(cell_points) {
             let v = &mut mapped.velocity[entries.point];
             *v = [0.0; 2];
             for (n, nodal) in entries.value.iter().zip(&local) {

@@ -7,28 +7,28 @@ use super::super::whole::Whole;
 use super::*;
 
 /// Cells of `wide × high` squares beside each other from block `first` on, and where their nodes are from `x` on.
-fn squares(first: u32, wide: u32, high: u32, x: f64, cliques: &mut Vec<Vec<u32>>, places: &mut Vec<[f64; 2]>) {
+fn squares(first: u32, wide: u32, high: u32, x: f64, connectivity: &mut Vec<Vec<u32>>, places: &mut Vec<[f64; 2]>) {
     let node = |i: u32, j: u32| first + j * (wide + 1) + i;
     for (i, j) in (0..high).flat_map(|j| (0..wide).map(move |i| (i, j))) {
-        cliques.push(vec![node(i, j), node(i + 1, j), node(i + 1, j + 1), node(i, j + 1)]);
+        connectivity.push(vec![node(i, j), node(i + 1, j), node(i + 1, j + 1), node(i, j + 1)]);
     }
     for (i, j) in (0..=high).flat_map(|j| (0..=wide).map(move |i| (i, j))) {
         places.push([x + f64::from(i), f64::from(j) + 0.1 * f64::from(i)]);
     }
 }
 
-/// Definite matrices over the cliques, and of blocks of one equation the negative: a saddle. `skew` makes it unsymmetric.
-fn system(sizes: &[u8], cliques: &[Vec<u32>], symmetric: bool, skew: f64) -> (Pattern, Matrix) {
-    let mut all = Cliques::default();
-    for clique in cliques {
-        all.push(clique.iter().copied());
+/// Definite matrices over the couplings, and of blocks of one equation the negative: a saddle. `skew` makes it unsymmetric.
+fn system(sizes: &[u8], connectivity: &[Vec<u32>], symmetric: bool, skew: f64) -> (Pattern, Matrix) {
+    let mut all = Connectivity::default();
+    for coupling in connectivity {
+        all.push(coupling.iter().copied());
     }
     let pattern = Pattern::new(sizes, all, symmetric);
     let mut matrix = Matrix::new(&pattern);
-    for (k, clique) in cliques.iter().enumerate() {
-        let size = pattern.clique_size(k);
+    for (k, coupling) in connectivity.iter().enumerate() {
+        let size = pattern.coupling_size(k);
         let negative: Vec<bool> =
-            clique.iter().flat_map(|&b| vec![sizes[b as usize] == 1; sizes[b as usize].into()]).collect();
+            coupling.iter().flat_map(|&b| vec![sizes[b as usize] == 1; sizes[b as usize].into()]).collect();
         let part = |i: usize, j: usize| ((k * 7 + i * 3 + j * 5) as f64).sin();
         let entry = |i: usize, j: usize| {
             if negative[i] && negative[j] {
@@ -84,9 +84,9 @@ fn check(pattern: &Pattern, parts: &Parts) {
 
 #[test]
 fn a_strip_is_cut_across() {
-    let (mut cliques, mut places) = (Vec::new(), Vec::new());
-    squares(0, 40, 10, 0.0, &mut cliques, &mut places);
-    let (pattern, _) = system(&[2; 41 * 11], &cliques, true, 0.0);
+    let (mut connectivity, mut places) = (Vec::new(), Vec::new());
+    squares(0, 40, 10, 0.0, &mut connectivity, &mut places);
+    let (pattern, _) = system(&[2; 41 * 11], &connectivity, true, 0.0);
     let parts = halve(&pattern, &places).unwrap();
     check(&pattern, &parts);
     assert_eq!(parts.separator.len(), 11);
@@ -95,10 +95,10 @@ fn a_strip_is_cut_across() {
 
 #[test]
 fn definite_and_unsymmetric_systems_as_in_one_piece() {
-    let (mut cliques, mut places) = (Vec::new(), Vec::new());
-    squares(0, 23, 17, 0.0, &mut cliques, &mut places);
+    let (mut connectivity, mut places) = (Vec::new(), Vec::new());
+    squares(0, 23, 17, 0.0, &mut connectivity, &mut places);
     for (symmetric, skew) in [(true, 0.0), (false, 0.2)] {
-        let (pattern, matrix) = system(&vec![2; places.len()], &cliques, symmetric, skew);
+        let (pattern, matrix) = system(&vec![2; places.len()], &connectivity, symmetric, skew);
         compare(&pattern, &matrix, &places, true);
         compare(&pattern, &matrix, &places, false);
     }
@@ -107,14 +107,14 @@ fn definite_and_unsymmetric_systems_as_in_one_piece() {
 /// Pressures in the cells, which are amid the nodes of theirs.
 #[test]
 fn saddles_as_in_one_piece() {
-    let (mut cliques, mut places) = (Vec::new(), Vec::new());
-    squares(0, 23, 17, 0.0, &mut cliques, &mut places);
+    let (mut connectivity, mut places) = (Vec::new(), Vec::new());
+    squares(0, 23, 17, 0.0, &mut connectivity, &mut places);
     let mut sizes = vec![2; places.len()];
-    for clique in &mut cliques {
-        clique.push(sizes.len() as u32);
+    for coupling in &mut connectivity {
+        coupling.push(sizes.len() as u32);
         sizes.push(1);
     }
-    let (pattern, matrix) = system(&sizes, &cliques, true, 0.0);
+    let (pattern, matrix) = system(&sizes, &connectivity, true, 0.0);
     check(&pattern, &halve(&pattern, &places).unwrap());
     compare(&pattern, &matrix, &places, false);
 }
@@ -123,14 +123,14 @@ fn saddles_as_in_one_piece() {
 /// that is coupled with everything.
 #[test]
 fn bodies_apart_and_dense_rows_as_in_one_piece() {
-    let (mut cliques, mut places) = (Vec::new(), Vec::new());
-    squares(0, 20, 20, 0.0, &mut cliques, &mut places);
-    squares(21 * 21, 12, 12, 25.0, &mut cliques, &mut places);
+    let (mut connectivity, mut places) = (Vec::new(), Vec::new());
+    squares(0, 20, 20, 0.0, &mut connectivity, &mut places);
+    squares(21 * 21, 12, 12, 25.0, &mut connectivity, &mut places);
     let nodes = places.len() as u32;
-    cliques.push(Vec::from_iter(0..21).into_iter().chain([nodes]).collect());
-    cliques.extend((0..nodes).map(|n| vec![n, nodes + 1]));
+    connectivity.push(Vec::from_iter(0..21).into_iter().chain([nodes]).collect());
+    connectivity.extend((0..nodes).map(|n| vec![n, nodes + 1]));
     places.extend([[10.0, -1.0], [-40.0, 0.0], [50.0, 3.0]]);
-    let (pattern, matrix) = system(&vec![2; places.len()], &cliques, true, 0.0);
+    let (pattern, matrix) = system(&vec![2; places.len()], &connectivity, true, 0.0);
     let mut matrix = matrix;
     (0..2).for_each(|d| matrix.add_diagonal(&pattern, 2 * (nodes as usize + 2) + d, 3.0));
     let parts = halve(&pattern, &places).unwrap();
@@ -138,8 +138,8 @@ fn bodies_apart_and_dense_rows_as_in_one_piece() {
     assert!(parts.separator.contains(&(nodes + 1)), "{:?}", parts.separator);
     compare(&pattern, &matrix, &places, true);
     // Without what couples them the bodies are the halves, but for a line across the larger.
-    cliques.truncate(20 * 20 + 12 * 12);
-    let (pattern, matrix) = system(&vec![2; nodes as usize], &cliques, true, 0.0);
+    connectivity.truncate(20 * 20 + 12 * 12);
+    let (pattern, matrix) = system(&vec![2; nodes as usize], &connectivity, true, 0.0);
     let parts = halve(&pattern, &places[..nodes as usize]).unwrap();
     check(&pattern, &parts);
     assert_eq!(parts.separator.len(), 21);
@@ -148,10 +148,10 @@ fn bodies_apart_and_dense_rows_as_in_one_piece() {
 
 #[test]
 fn bodies_of_a_size_need_no_separator() {
-    let (mut cliques, mut places) = (Vec::new(), Vec::new());
-    squares(0, 9, 9, 0.0, &mut cliques, &mut places);
-    squares(100, 9, 9, 20.0, &mut cliques, &mut places);
-    let (pattern, matrix) = system(&[2; 200], &cliques, true, 0.0);
+    let (mut connectivity, mut places) = (Vec::new(), Vec::new());
+    squares(0, 9, 9, 0.0, &mut connectivity, &mut places);
+    squares(100, 9, 9, 20.0, &mut connectivity, &mut places);
+    let (pattern, matrix) = system(&[2; 200], &connectivity, true, 0.0);
     let parts = halve(&pattern, &places).unwrap();
     check(&pattern, &parts);
     assert!(parts.separator.is_empty());
@@ -160,9 +160,9 @@ fn bodies_of_a_size_need_no_separator() {
 
 #[test]
 fn what_cannot_be_halved_is_not() {
-    let (mut cliques, mut places) = (Vec::new(), Vec::new());
-    squares(0, 20, 20, 0.0, &mut cliques, &mut places);
-    let (pattern, _) = system(&vec![2; places.len()], &cliques, true, 0.0);
+    let (mut connectivity, mut places) = (Vec::new(), Vec::new());
+    squares(0, 20, 20, 0.0, &mut connectivity, &mut places);
+    let (pattern, _) = system(&vec![2; places.len()], &connectivity, true, 0.0);
     assert_eq!(halve::<2>(&pattern, &[]), None, "no places");
     assert_eq!(halve(&pattern, &vec![[1.0, 2.0]; places.len()]), None, "all in one place");
     assert_eq!(halve(&pattern, &vec![[f64::NAN, f64::INFINITY]; places.len()]), None, "nowhere");
@@ -176,9 +176,9 @@ fn what_cannot_be_halved_is_not() {
 /// One entry makes the matrix indefinite, in a half and in the separator.
 #[test]
 fn a_factor_that_breaks_down_says_so() {
-    let (mut cliques, mut places) = (Vec::new(), Vec::new());
-    squares(0, 23, 17, 0.0, &mut cliques, &mut places);
-    let (pattern, mut matrix) = system(&vec![2; places.len()], &cliques, true, 0.0);
+    let (mut connectivity, mut places) = (Vec::new(), Vec::new());
+    squares(0, 23, 17, 0.0, &mut connectivity, &mut places);
+    let (pattern, mut matrix) = system(&vec![2; places.len()], &connectivity, true, 0.0);
     let separator = halve(&pattern, &places).unwrap().separator[3] as usize;
     for block in [0, separator] {
         matrix.add_diagonal(&pattern, 2 * block, -1e4);

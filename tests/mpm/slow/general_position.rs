@@ -17,7 +17,7 @@ use mpm::mesh::cell_size;
 use mpm::mesh::shape::CellKind;
 use mpm::points::Points;
 use mpm::step::{Fixed, Prescribed, Restore, Scene};
-use mpm::term::{Carried, Internal, PressureField, SmoothPressure};
+use mpm::term::{Internal, MixedPressure, PressureField, SmoothPressure};
 use mpm::time_value::TimeValue;
 use std::f64::consts::PI;
 use std::sync::Arc;
@@ -222,8 +222,13 @@ fn with_pressure<K: Kinematics<2> + 'static>(scene: &mut Scene<2>, model: Arc<dy
     let cells = scene.mesh.cells.len();
     let size = (0..cells).map(|c| cell_size(&scene.mesh, c)).sum::<f64>() / cells as f64;
     let unit = SHEAR / size;
-    let carried =
-        Carried { model: model.clone(), ratio: bulk(POISSON) - bulk(of_points), water: 0.0, bound: None, limit: None };
+    let carried = MixedPressure {
+        model: model.clone(),
+        ratio: bulk(POISSON) - bulk(of_points),
+        water: 0.0,
+        bound: None,
+        limit: None,
+    };
     let field = PressureField::<K>::new(vec![Some(carried)], unit);
     scene.terms[0] = Box::new(Internal::<K, _>::sharing(vec![Some(model)], false, field));
     scene.terms.push(Box::new(SmoothPressure::<K>::new(vec![true], unit, SHEAR, cells)));

@@ -57,7 +57,7 @@ fn renewed<K: Kinematics<2>>(mesh: &Mesh<2>, points: &Points<2>, seeded: u32) ->
         locator: &locator,
         points,
         parametric: &parametric,
-        stencil: &crate::stencil::Stencil::default(),
+        interpolation: &crate::interpolation::Interpolation::default(),
         active: &vec![true; cells],
         before: (mesh, &locator),
         outlines: &[],

@@ -5,9 +5,9 @@
 //! smoothing then keeps.
 
 use super::blend::{share, smoothed_nodes};
+use crate::interpolation::Extension;
 use crate::mesh::Mesh;
 use crate::mesh::shape::{self, MAX_NODES};
-use crate::stencil::Reach;
 use rayon::prelude::*;
 
 /// Cells by node.
@@ -66,7 +66,7 @@ const ABSENT: u32 = u32::MAX;
 /// The functions of all cells: for each smoothing node `a` and direction `j` the combination
 /// `(G_aI − g_aI)·e_j` of nodal values. `volume` is that of the cells with points, zero for the others; cells in
 /// `active` without points act on the same nodes as if they had some, so that they can take them up.
-pub fn reach<const D: usize>(mesh: &Mesh<D>, active: &[bool], volume: &[f64]) -> Reach {
+pub fn extension<const D: usize>(mesh: &Mesh<D>, active: &[bool], volume: &[f64]) -> Extension {
     let around = Around::new(mesh, active);
     let own: Vec<Vec<[f64; D]>> = (0..mesh.cells.len())
         .into_par_iter()
@@ -91,23 +91,23 @@ pub fn reach<const D: usize>(mesh: &Mesh<D>, active: &[bool], volume: &[f64]) ->
     };
     let cells: Vec<(Vec<u32>, Vec<f64>)> =
         (0..mesh.cells.len()).into_par_iter().with_min_len(64).map_init(scratch, cell).collect();
-    let mut reach = Reach { node_start: vec![0], row_start: vec![0], ..Reach::default() };
-    (reach.node_count, reach.share_start, reach.gradient_start) = (mesh.nodes.len(), vec![0], vec![0]);
+    let mut extension = Extension { node_start: vec![0], row_start: vec![0], ..Extension::default() };
+    (extension.node_count, extension.share_start, extension.gradient_start) = (mesh.nodes.len(), vec![0], vec![0]);
     for (c, (nodes, rows)) in cells.into_iter().enumerate() {
         if volume[c] > 0.0 {
             let smoothed = &mesh.cells.nodes(c)[..smoothed_nodes(mesh.cells.kind[c])];
             let share = |&n: &u32| weight(mesh, c as u32, n, volume) / total[n as usize];
-            reach.share.extend(smoothed.iter().map(share));
-            reach.gradient.extend(own[c].iter().flatten());
+            extension.share.extend(smoothed.iter().map(share));
+            extension.gradient.extend(own[c].iter().flatten());
         }
-        reach.share_start.push(reach.share.len() as u32);
-        reach.gradient_start.push(reach.gradient.len() as u32);
-        reach.node.extend(nodes);
-        reach.combination.extend(rows);
-        reach.node_start.push(reach.node.len() as u32);
-        reach.row_start.push(reach.combination.len() as u32);
+        extension.share_start.push(extension.share.len() as u32);
+        extension.gradient_start.push(extension.gradient.len() as u32);
+        extension.node.extend(nodes);
+        extension.combination.extend(rows);
+        extension.node_start.push(extension.node.len() as u32);
+        extension.row_start.push(extension.combination.len() as u32);
     }
-    reach
+    extension
 }
 
 /// What a cell weighs at its node; zero where it does not smooth there.

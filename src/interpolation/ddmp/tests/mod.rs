@@ -1,11 +1,11 @@
 //! Properties of the smoothed gradients on jittered meshes of each kind.
 
+use crate::interpolation::{Basis, Ddmp, Interpolation, Mpm, integrate};
 use crate::kinematics::{Axisymmetric, Kinematics, PlaneStrain};
 use crate::mesh::Mesh;
 use crate::mesh::builder::rectangle;
 use crate::mesh::locate::Locator;
 use crate::mesh::shape::{CellKind, rule};
-use crate::stencil::{Basis, Ddmp, Mpm, Stencil, integrate};
 
 const KINDS: [CellKind; 4] = [CellKind::T3, CellKind::T6, CellKind::Q4, CellKind::Q9];
 
@@ -63,22 +63,29 @@ fn lattice(mesh: &Mesh<2>, spacing: f64) -> Points {
     points
 }
 
-fn filled<K: Kinematics<2>>(mesh: &Mesh<2>, points: &Points, scheme: &'static dyn Basis<2>) -> Stencil<2> {
-    let mut stencil = Stencil::default();
+fn filled<K: Kinematics<2>>(mesh: &Mesh<2>, points: &Points, scheme: &'static dyn Basis<2>) -> Interpolation<2> {
+    let mut interpolation = Interpolation::default();
     let mut active = vec![false; mesh.cells.len()];
     points.cell.iter().for_each(|&c| active[c as usize] = true);
-    stencil.fill::<K>(scheme, mesh, &points.cell, &points.xi, &active);
-    stencil.weigh(&points.weight);
-    stencil
+    interpolation.fill::<K>(scheme, mesh, &points.cell, &points.xi, &active);
+    interpolation.weigh(&points.weight);
+    interpolation
 }
 
 /// Calls `f(point, weight, node, ∇̄N)` for all points and nodes.
-fn for_all<K: Kinematics<2>>(mesh: &Mesh<2>, stencil: &Stencil<2>, mut f: impl FnMut(usize, f64, usize, [f64; 2])) {
-    for patch in &stencil.patches {
-        let own = patch.node_count as usize;
-        let nodes = stencil.reach.as_ref().map_or(mesh.cells.nodes(patch.cell as usize), |r| r.nodes(patch.cell));
-        let rows: Vec<&[f64]> = stencil.reach.iter().flat_map(|r| r.rows(patch.cell)).collect();
-        for entries in stencil.entries::<K>(patch) {
+fn for_all<K: Kinematics<2>>(
+    mesh: &Mesh<2>,
+    interpolation: &Interpolation<2>,
+    mut f: impl FnMut(usize, f64, usize, [f64; 2]),
+) {
+    for cell_points in &interpolation.filled {
+        let own = cell_points.node_count as usize;
+        let nodes = interpolation
+            .extension
+            .as_ref()
+            .map_or(mesh.cells.nodes(cell_points.cell as usize), |r| r.nodes(cell_points.cell));
+        let rows: Vec<&[f64]> = interpolation.extension.iter().flat_map(|r| r.rows(cell_points.cell)).collect();
+        for entries in interpolation.entries::<K>(cell_points) {
             for (k, &node) in nodes.iter().enumerate() {
                 let mut g = if k < own { entries.gradient(k).g } else { [0.0; 2] };
                 for (i, row) in rows.iter().enumerate() {
@@ -92,9 +99,13 @@ fn for_all<K: Kinematics<2>>(mesh: &Mesh<2>, stencil: &Stencil<2>, mut f: impl F
 }
 
 /// `∇̄u` at the points.
-fn gradient_of<K: Kinematics<2>>(mesh: &Mesh<2>, stencil: &Stencil<2>, u: impl Fn(&[f64; 2]) -> f64) -> Vec<[f64; 2]> {
-    let mut gradient = vec![[0.0; 2]; stencil.points.len()];
-    for_all::<K>(mesh, stencil, |p, _, node, g| {
+fn gradient_of<K: Kinematics<2>>(
+    mesh: &Mesh<2>,
+    interpolation: &Interpolation<2>,
+    u: impl Fn(&[f64; 2]) -> f64,
+) -> Vec<[f64; 2]> {
+    let mut gradient = vec![[0.0; 2]; interpolation.points.len()];
+    for_all::<K>(mesh, interpolation, |p, _, node, g| {
         (0..2).for_each(|d| gradient[p][d] += u(&mesh.nodes[node]) * g[d]);
     });
     gradient
@@ -109,11 +120,11 @@ fn constants_vanish_and_fields_of_the_cells_order_are_exact() {
     for kind in KINDS {
         let mesh = mesh(kind);
         let points = lattice(&mesh, 0.043);
-        let stencil = filled::<PlaneStrain>(&mesh, &points, &Ddmp);
+        let interpolation = filled::<PlaneStrain>(&mesh, &points, &Ddmp);
         let quadratic = if kind.order() == 2 { 1.0 } else { 0.0 };
-        let zero = gradient_of::<PlaneStrain>(&mesh, &stencil, |_| 1.0);
+        let zero = gradient_of::<PlaneStrain>(&mesh, &interpolation, |_| 1.0);
         let field = |x: &[f64; 2]| 2.0 * x[0] - 3.0 * x[1] + quadratic * (x[0] * x[0] + 0.7 * x[0] * x[1]);
-        let found = gradient_of::<PlaneStrain>(&mesh, &stencil, field);
+        let found = gradient_of::<PlaneStrain>(&mesh, &interpolation, field);
         for (p, x) in points.place.iter().enumerate() {
             let exact = [2.0 + quadratic * (2.0 * x[0] + 0.7 * x[1]), -3.0 + quadratic * 0.7 * x[0]];
             for d in 0..2 {
@@ -153,8 +164,8 @@ fn gradients_are_continuous_over_edges() {
         }
         let smooth = filled::<PlaneStrain>(&mesh, &points, &Ddmp);
         let plain = filled::<PlaneStrain>(&mesh, &points, &Mpm);
-        let jump = |stencil: &Stencil<2>| -> f64 {
-            let g = gradient_of::<PlaneStrain>(&mesh, stencil, rough);
+        let jump = |interpolation: &Interpolation<2>| -> f64 {
+            let g = gradient_of::<PlaneStrain>(&mesh, interpolation, rough);
             g[first..].chunks(2).map(|g| (g[0][0] - g[1][0]).hypot(g[0][1] - g[1][1])).fold(0.0, f64::max)
         };
         let (smooth, plain) = (jump(&smooth), jump(&plain));
@@ -191,9 +202,9 @@ fn integrals_of_the_gradients_are_those_of_the_shape_functions() {
             let mesh = mesh(kind);
             let full = (0..mesh.cells.len() as u32).filter(|c| c % 7 != 3);
             let points = in_cells::<K>(&mesh, full.clone());
-            let stencil = filled::<K>(&mesh, &points, &Ddmp);
+            let interpolation = filled::<K>(&mesh, &points, &Ddmp);
             let mut sum = vec![[0.0; 2]; mesh.nodes.len()];
-            for_all::<K>(&mesh, &stencil, |_, w, node, g| (0..2).for_each(|d| sum[node][d] += w * g[d]));
+            for_all::<K>(&mesh, &interpolation, |_, w, node, g| (0..2).for_each(|d| sum[node][d] += w * g[d]));
             for c in full {
                 integrate::<2, K>(&mesh, c as usize, |w, _, gradient| {
                     for (g, &n) in gradient.iter().zip(mesh.cells.nodes(c as usize)) {

@@ -5,8 +5,8 @@
 
 use super::{Assembly, Frame, Porous, Term, Trial};
 use crate::error::Result;
+use crate::interpolation::integrate;
 use crate::kinematics::Kinematics;
-use crate::stencil::integrate;
 use crate::system::{Local, scatter};
 use std::marker::PhantomData;
 use std::sync::OnceLock;
@@ -17,7 +17,7 @@ const BOND: f64 = 1e-6;
 const DRY: f64 = 1e-6;
 
 /// The bond in all cells that take part.
-pub struct WaterBond<K> {
+pub struct PoreStabilisation<K> {
     /// The porous soil of each material by number; `None` without water.
     porous: Vec<Option<Porous>>,
     /// What a unit of the unknowns stands for (kPa/m), and a shear modulus (kPa).
@@ -28,21 +28,24 @@ pub struct WaterBond<K> {
     kinematics: PhantomData<K>,
 }
 
-impl<K> WaterBond<K> {
+impl<K> PoreStabilisation<K> {
     /// `unit` is that of [`crate::step::Scene`], `shear` the largest shear modulus (kPa), `cells` those of the mesh.
     pub fn new(porous: Vec<Option<Porous>>, unit: f64, shear: f64, cells: usize) -> Self {
         Self { porous, unit, shear, volume: (0..cells).map(|_| OnceLock::new()).collect(), kinematics: PhantomData }
     }
 
     fn has_water<const D: usize>(&self, frame: &Frame<D>, cell: u32) -> bool {
-        let Ok(patch) = frame.stencil.patches.binary_search_by_key(&cell, |patch| patch.cell) else { return false };
-        let points = frame.stencil.points(&frame.stencil.patches[patch]);
+        let Ok(cell_points) = frame.interpolation.filled.binary_search_by_key(&cell, |cell_points| cell_points.cell)
+        else {
+            return false;
+        };
+        let points = frame.interpolation.points(&frame.interpolation.filled[cell_points]);
         let mut models = points.iter().map(|&p| frame.points.model_of(p as usize));
         models.any(|model| self.porous.get(model).is_some_and(Option::is_some))
     }
 }
 
-impl<const D: usize, K: Kinematics<D>> Term<D> for WaterBond<K> {
+impl<const D: usize, K: Kinematics<D>> Term<D> for PoreStabilisation<K> {
     fn assemble(&self, frame: &Frame<D>, trial: &Trial<D>, out: &mut Assembly) -> Result<()> {
         let compute = |cell: &u32, local: &mut Local| {
             let with = self.has_water(frame, *cell);
@@ -57,7 +60,7 @@ impl<const D: usize, K: Kinematics<D>> Term<D> for WaterBond<K> {
             let mean = share * (0..corners).map(gained).sum::<f64>();
             let volume = *self.volume[cell].get_or_init(|| integrate::<D, K>(frame.mesh, cell, |_, _, _| {}));
             let scale = BOND * (1.0 - trial.alpha_f) * self.unit * volume / self.shear;
-            let begin = D * frame.stencil.nodes(frame.mesh, cell as u32).len();
+            let begin = D * frame.interpolation.nodes(frame.mesh, cell as u32).len();
             for a in 0..corners {
                 local.vector[begin + a] -= scale * (gained(a) - mean);
             }
@@ -72,7 +75,7 @@ impl<const D: usize, K: Kinematics<D>> Term<D> for WaterBond<K> {
             }
             Ok(())
         };
-        let clique = |cell: &u32| frame.clique[*cell as usize] as usize;
-        scatter(frame.pattern, frame.cells, clique, compute, out.force, out.tangent.as_deref_mut(), out.workspace)
+        let coupling = |cell: &u32| frame.coupling[*cell as usize] as usize;
+        scatter(frame.pattern, frame.cells, coupling, compute, out.force, out.tangent.as_deref_mut(), out.workspace)
     }
 }

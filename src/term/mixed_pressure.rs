@@ -9,7 +9,7 @@ use std::sync::Arc;
 
 /// What the field carries in a region.
 #[derive(Clone)]
-pub struct Carried {
+pub struct MixedPressure {
     /// The model of the points of the region.
     pub model: Arc<dyn Model>,
     /// `K_f / G` (-).
@@ -23,13 +23,13 @@ pub struct Carried {
     pub limit: Option<Profile>,
 }
 
-impl fmt::Debug for Carried {
+impl fmt::Debug for MixedPressure {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("Carried").field("ratio", &self.ratio).field("water", &self.water).finish_non_exhaustive()
+        f.debug_struct("MixedPressure").field("ratio", &self.ratio).field("water", &self.water).finish_non_exhaustive()
     }
 }
 
-impl Carried {
+impl MixedPressure {
     /// The law of the volume at a point seeded at height `y` (m): with `K_f`, and a limit where it has one.
     pub(super) fn law(&self, y: f64) -> Volumetric {
         let shear = self.model.elasticity().at(y).shear;
@@ -73,7 +73,7 @@ impl Carried {
 
 /// Excess pressure of the pore water (kPa, Cauchy, compression positive) at point `p` of soil of which a pressure field carries the share of
 /// the water, or that has a field for the water alone, or neither.
-pub fn excess_pressure<const D: usize>(carried: &[Option<Carried>], points: &Points<D>, p: usize) -> f64 {
+pub fn excess_pressure<const D: usize>(carried: &[Option<MixedPressure>], points: &Points<D>, p: usize) -> f64 {
     match carried.get(points.model_of(p)).and_then(Option::as_ref) {
         Some(share) if share.water > 0.0 && !points.pressure.is_empty() => share.pore_pressure(points, p),
         _ => points.pore_pressure.get(p).copied().unwrap_or(0.0),

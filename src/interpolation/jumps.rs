@@ -137,8 +137,8 @@ fn place<const D: usize>(facet: CellKind, nodes: &[[f64; D]], xi: &[f64; 3]) -> 
 
 /// How far the corners of a cell reach from a place along its normal (m).
 fn extent<const D: usize>(side: &Side<D>, place: &Place<D>) -> f64 {
-    let reach = |x: &[f64; D]| (dot(x, &place.normal) - dot(&place.x, &place.normal)).abs();
-    side.x[..side.kind.corner_count()].iter().map(reach).fold(0.0, f64::max)
+    let extension = |x: &[f64; D]| (dot(x, &place.normal) - dot(&place.x, &place.normal)).abs();
+    side.x[..side.kind.corner_count()].iter().map(extension).fold(0.0, f64::max)
 }
 
 fn dot<const D: usize>(a: &[f64; D], b: &[f64; D]) -> f64 {

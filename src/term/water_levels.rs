@@ -4,18 +4,18 @@
 //! The water outside presses on both, also where they touch, and contact exerts what they bear beyond it. So the whole pressure there is
 //! `p + p_out`, and of it the pores have `u` and the grains the rest, `p − (u − p_out)`, whichever of the levels is the higher one.
 
-use super::head::Head;
+use super::hydrostatic::Hydrostatic;
 
 /// The pressures by phase.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Levels {
-    outside: Vec<Option<Head>>,
-    inside: Vec<Option<Head>>,
+pub struct WaterLevels {
+    outside: Vec<Option<Hydrostatic>>,
+    inside: Vec<Option<Hydrostatic>>,
 }
 
-impl Levels {
+impl WaterLevels {
     /// `outside[i]` and `inside[i]`, in the pores, act in phase `i`; either is empty where there is no such water.
-    pub fn new(outside: Vec<Option<Head>>, inside: Vec<Option<Head>>) -> Self {
+    pub fn new(outside: Vec<Option<Hydrostatic>>, inside: Vec<Option<Hydrostatic>>) -> Self {
         Self { outside, inside }
     }
 
@@ -39,9 +39,9 @@ mod tests {
     fn only_the_distance_of_the_levels_counts() {
         let below = |datum: f64| {
             let [top, gradient, datum] = [0.0, 10.0, datum].map(TimeValue::Constant);
-            vec![Some(Head { top, gradient, datum, band: 0.1 })]
+            vec![Some(Hydrostatic { top, gradient, datum, band: 0.1 })]
         };
-        let at = |outside: Vec<Option<Head>>, inside, y| Levels::new(outside, inside).beyond(0, 0.0, y);
+        let at = |outside: Vec<Option<Hydrostatic>>, inside, y| WaterLevels::new(outside, inside).beyond(0, 0.0, y);
         assert!((at(below(1.0), below(3.0), -2.0) - 20.0).abs() < 1e-12);
         assert!((at(below(3.0), below(1.0), -2.0) + 20.0).abs() < 1e-12);
         assert!((at(below(1.0), below(3.0), 2.0) - 10.0).abs() < 1e-12);

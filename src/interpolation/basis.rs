@@ -1,6 +1,6 @@
 //! What a scheme of the material point method is: the functions that a point sees.
 
-use super::{Stencil, Support};
+use super::{Interpolation, Support};
 use crate::kinematics::Kinematics;
 use crate::mesh::Mesh;
 use crate::mesh::shape::CellKind;
@@ -53,7 +53,7 @@ pub trait Basis<const D: usize>: fmt::Debug + Send + Sync {
     }
 
     /// Fills in what the points see. The weights are for the caller to write.
-    fn fill(&self, points: &Located<D>, stencil: &mut Stencil<D>);
+    fn fill(&self, points: &Located<D>, interpolation: &mut Interpolation<D>);
 }
 
 impl<const D: usize> PartialEq for dyn Basis<D> + '_ {

@@ -1,6 +1,6 @@
-//! The weights and gradients of points, patch by patch.
+//! The weights and gradients of points, cell by cell.
 
-use super::reach::Reach;
+use super::extension::Extension;
 use super::support::Support;
 use crate::kinematics::{Gradient, Kinematics};
 use crate::mesh::Mesh;
@@ -11,15 +11,15 @@ pub const MAX_FUNCTIONS: usize = 64;
 
 /// The points of one cell and the nodes they act on.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Patch {
-    /// The cell, and with it the nodes and the clique.
+pub struct CellPoints {
+    /// The cell, and with it the nodes and the coupling.
     pub cell: u32,
-    /// The points: `Stencil::points[first_point..first_point + point_count]`.
+    /// The points: `Interpolation::points[first_point..first_point + point_count]`.
     pub first_point: u32,
     pub point_count: u32,
     /// The nodes of the cell itself.
     pub shape_count: u32,
-    /// The nodes that the points act on, those of the cell first: [`Stencil::nodes`].
+    /// The nodes that the points act on, those of the cell first: [`Interpolation::nodes`].
     pub node_count: u32,
     /// Local functions: one for each of those nodes, and what else a scheme forms gradients with.
     pub function_count: u32,
@@ -33,10 +33,10 @@ pub struct Patch {
 
 /// Weights and gradients of all points, on the reference configuration: the grid as last restored.
 #[derive(Clone, Debug, Default)]
-pub struct Stencil<const D: usize> {
+pub struct Interpolation<const D: usize> {
     /// Ascending by cell.
-    pub patches: Vec<Patch>,
-    /// Point numbers, grouped by patch, ascending in each.
+    pub filled: Vec<CellPoints>,
+    /// Point numbers, grouped by cell, ascending in each.
     pub points: Vec<u32>,
     /// `N_I(x_p)` (-).
     pub(super) value: Vec<f64>,
@@ -51,14 +51,14 @@ pub struct Stencil<const D: usize> {
     /// What the points weigh in integrals (m³), as volume when seeded, in the order of `points`.
     pub weight: Vec<f64>,
     /// Where the gradients of a cell reach beyond the nodes that the matrix couples; absent where they do not.
-    pub reach: Option<Arc<Reach>>,
+    pub extension: Option<Arc<Extension>>,
     /// The nodes that the points of each cell act on; absent where they are those of the cell.
     pub support: Option<Arc<Support>>,
 }
 
-/// The arrays of one patch, to be filled.
+/// The arrays of one cell, to be filled.
 pub(super) struct Slot<'a, const D: usize> {
-    pub(super) patch: &'a Patch,
+    pub(super) cell_points: &'a CellPoints,
     pub(super) value: &'a mut [f64],
     pub(super) gradient: &'a mut [[f64; D]],
     /// Empty where the shape functions of the cell are not kept apart.
@@ -85,24 +85,24 @@ pub struct Entries<'a, const D: usize> {
     pub(super) hoop: f64,
 }
 
-impl<const D: usize> Stencil<D> {
-    /// The numbers of the points of a patch.
-    pub fn points(&self, patch: &Patch) -> &[u32] {
-        &self.points[patch.first_point as usize..(patch.first_point + patch.point_count) as usize]
+impl<const D: usize> Interpolation<D> {
+    /// The numbers of the points of a cell.
+    pub fn points(&self, cell_points: &CellPoints) -> &[u32] {
+        &self.points[cell_points.first_point as usize..(cell_points.first_point + cell_points.point_count) as usize]
     }
 
-    /// The entries of the points of a patch, in order.
-    pub fn entries<K: Kinematics<D>>(&self, patch: &Patch) -> impl Iterator<Item = Entries<'_, D>> {
-        let first = patch.first_point as usize;
-        let (nodes, functions) = (patch.node_count as usize, patch.function_count as usize);
-        let shapes = patch.shape_count as usize;
-        (0..patch.point_count as usize).map(move |k| {
-            let (value, gradient) = (patch.first_value + k * nodes, patch.first_gradient + k * functions);
+    /// The entries of the points of a cell, in order.
+    pub fn entries<K: Kinematics<D>>(&self, cell_points: &CellPoints) -> impl Iterator<Item = Entries<'_, D>> {
+        let first = cell_points.first_point as usize;
+        let (nodes, functions) = (cell_points.node_count as usize, cell_points.function_count as usize);
+        let shapes = cell_points.shape_count as usize;
+        (0..cell_points.point_count as usize).map(move |k| {
+            let (value, gradient) = (cell_points.first_value + k * nodes, cell_points.first_gradient + k * functions);
             let (value, gradient) = (&self.value[value..value + nodes], &self.gradient[gradient..gradient + functions]);
             let (shape, shape_gradient) = if self.shape.is_empty() {
                 (&value[..shapes], &gradient[..shapes])
             } else {
-                let own = patch.first_shape + k * shapes;
+                let own = cell_points.first_shape + k * shapes;
                 (&self.shape[own..own + shapes], &self.shape_gradient[own..own + shapes])
             };
             Entries {
@@ -118,7 +118,7 @@ impl<const D: usize> Stencil<D> {
     }
 }
 
-impl<const D: usize> Stencil<D> {
+impl<const D: usize> Interpolation<D> {
     /// Gives the points their weights (m³), by number.
     pub fn weigh(&mut self, weight: &[f64]) {
         for (own, &p) in self.weight.iter_mut().zip(&self.points) {
@@ -126,22 +126,22 @@ impl<const D: usize> Stencil<D> {
         }
     }
 
-    /// The arrays of each patch, so that patches can be filled in parallel.
+    /// The arrays of each cell, so that cells can be filled in parallel.
     pub(super) fn slots(&mut self) -> Vec<Slot<'_, D>> {
-        let mut slots = Vec::with_capacity(self.patches.len());
+        let mut slots = Vec::with_capacity(self.filled.len());
         let (mut value, mut gradient) = (&mut self.value[..], &mut self.gradient[..]);
         let (mut shape, mut shape_gradient) = (&mut self.shape[..], &mut self.shape_gradient[..]);
         let mut radius = &mut self.radius[..];
-        for patch in &self.patches {
+        for cell_points in &self.filled {
             let (v, g, s, sg, r);
-            (v, value) = value.split_at_mut((patch.point_count * patch.node_count) as usize);
-            (g, gradient) = gradient.split_at_mut((patch.point_count * patch.function_count) as usize);
-            let shapes = shape.len().min((patch.point_count * patch.shape_count) as usize);
+            (v, value) = value.split_at_mut((cell_points.point_count * cell_points.node_count) as usize);
+            (g, gradient) = gradient.split_at_mut((cell_points.point_count * cell_points.function_count) as usize);
+            let shapes = shape.len().min((cell_points.point_count * cell_points.shape_count) as usize);
             (s, shape) = shape.split_at_mut(shapes);
             (sg, shape_gradient) = shape_gradient.split_at_mut(shapes);
-            let radii = radius.len().min(patch.point_count as usize);
+            let radii = radius.len().min(cell_points.point_count as usize);
             (r, radius) = radius.split_at_mut(radii);
-            slots.push(Slot { patch, value: v, gradient: g, shape: s, shape_gradient: sg, radius: r });
+            slots.push(Slot { cell_points, value: v, gradient: g, shape: s, shape_gradient: sg, radius: r });
         }
         slots
     }
@@ -152,12 +152,12 @@ impl<const D: usize> Stencil<D> {
         self.support.as_ref().map_or_else(|| mesh.cells.nodes(cell as usize), |support| support.nodes(cell))
     }
 
-    /// The coefficients of the patch's functions for a field on the nodes.
+    /// The coefficients of the cell's functions for a field on the nodes.
     #[inline]
-    pub fn gather(&self, mesh: &Mesh<D>, patch: &Patch, field: &[[f64; D]]) -> [[f64; D]; MAX_FUNCTIONS] {
-        let nodes = self.nodes(mesh, patch.cell);
-        if let Some(reach) = &self.reach {
-            return reach.gather(patch.cell, nodes.len(), field);
+    pub fn gather(&self, mesh: &Mesh<D>, cell_points: &CellPoints, field: &[[f64; D]]) -> [[f64; D]; MAX_FUNCTIONS] {
+        let nodes = self.nodes(mesh, cell_points.cell);
+        if let Some(extension) = &self.extension {
+            return extension.gather(cell_points.cell, nodes.len(), field);
         }
         let mut local = [[0.0; D]; MAX_FUNCTIONS];
         for (local, &n) in local.iter_mut().zip(nodes) {
@@ -168,7 +168,7 @@ impl<const D: usize> Stencil<D> {
 }
 
 impl<const D: usize> Entries<'_, D> {
-    /// The gradient of function `i` of the patch.
+    /// The gradient of function `i` of the cell.
     pub fn gradient(&self, i: usize) -> Gradient<D> {
         Gradient { g: self.gradient[i], hoop: self.value.get(i).map_or(0.0, |n| self.hoop * n) }
     }

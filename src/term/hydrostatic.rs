@@ -9,7 +9,7 @@ use crate::time_value::TimeValue;
 
 /// A pressure (kPa, compression positive) in a phase's own time.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Head {
+pub struct Hydrostatic {
     /// At the datum and above (kPa).
     pub top: TimeValue,
     /// Growth (kPa/m) below the datum.
@@ -29,7 +29,7 @@ pub struct Momentary {
     pub band: f64,
 }
 
-impl Head {
+impl Hydrostatic {
     /// The pressure at time `t` (s).
     pub fn at(&self, t: f64) -> Momentary {
         let Self { top, gradient, datum, band } = self;

@@ -1,30 +1,30 @@
 //! Forces on functions that reach beyond the nodes of a cell, and their stiffness.
 //!
-//! The matrix takes what a cell's own nodes have among themselves. The rest is kept patch by patch, as small
+//! The matrix takes what a cell's own nodes have among themselves. The rest is kept cell by cell, as small
 //! matrices over its functions or by its points, and known by its products: expanded to the nodes around it would fill
 //! the system.
 
 use super::smoothed::{self, Layout};
-use super::{Assembly, Frame, scatter_patches};
+use super::{Assembly, Frame, scatter_cells};
 use crate::error::Result;
-use crate::stencil::{Patch, Reach};
-use crate::system::{Beyond, Local};
+use crate::interpolation::{CellPoints, Extension};
+use crate::system::{Local, MatrixFree};
 use pulp::{Arch, Simd, WithSimd};
 use rayon::prelude::*;
 use std::cell::RefCell;
 use std::sync::{Arc, Mutex, PoisonError};
 
-/// How the stiffness over the functions of a patch is kept.
+/// How the stiffness over the functions of a cell is kept.
 #[derive(Clone, Copy)]
 pub enum Kept {
     /// As a matrix over all functions.
     Matrix,
     /// By its points. The matrix still has what the nodes of the cell have among themselves, and what further unknowns
     /// have.
-    Points(fn(&Patch) -> Layout),
+    Points(fn(&CellPoints) -> Layout),
 }
 
-/// What one patch has over its functions and unknowns of its own at the end.
+/// What one cell has over its functions and unknowns of its own at the end.
 #[derive(Clone, Copy)]
 struct Sizes {
     cell: u32,
@@ -48,7 +48,7 @@ impl Sizes {
     }
 
     /// Equations of the cell.
-    fn clique(&self) -> usize {
+    fn coupling(&self) -> usize {
         self.all - self.beside()
     }
 
@@ -67,18 +67,18 @@ impl Sizes {
     }
 
     fn before_points(&self) -> usize {
-        self.clique() * self.clique() + 2 * self.beside() * self.extra()
+        self.coupling() * self.coupling() + 2 * self.beside() * self.extra()
     }
 }
 
-/// The stiffness over the functions of all patches but that among the nodes of a cell.
+/// The stiffness over the functions of all cells but that among the nodes of a cell.
 struct Rest<const D: usize> {
-    reach: Arc<Reach>,
+    extension: Arc<Extension>,
     sizes: Vec<Sizes>,
-    /// What is kept of each patch, and where it begins.
+    /// What is kept of each cell, and where it begins.
     stiffness: Vec<f64>,
     start: Vec<usize>,
-    /// The equations of the cliques: `width` a patch.
+    /// The equations of the couplings: `width` a cell.
     equation: Vec<u32>,
     width: usize,
     /// Memory of the products.
@@ -93,36 +93,36 @@ struct Work {
 }
 
 thread_local! {
-    /// The matrix of a patch before what is needed of it is kept.
+    /// The matrix of a cell before what is needed of it is kept.
     static SCRATCH: RefCell<Vec<f64>> = RefCell::default();
 }
 
-/// Adds what `compute` makes of each patch over its functions. Its last argument is for what the points keep: empty
+/// Adds what `compute` makes of each cell over its functions. Its last argument is for what the points keep: empty
 /// where no tangent is wanted, or no point keeps anything.
 ///
 /// # Errors
-/// The error of the first patch that fails.
+/// The error of the first cell that fails.
 pub fn scatter_functions<const D: usize>(
     frame: &Frame<D>,
     kept: Kept,
-    compute: impl Fn(&Patch, &mut Local, &mut [f64]) -> Result<()> + Sync,
+    compute: impl Fn(&CellPoints, &mut Local, &mut [f64]) -> Result<()> + Sync,
     out: &mut Assembly,
 ) -> Result<()> {
-    let Some(reach) = &frame.stencil.reach else {
-        return scatter_patches(frame, |patch, local| compute(patch, local, &mut []), out);
+    let Some(extension) = &frame.interpolation.extension else {
+        return scatter_cells(frame, |cell_points, local| compute(cell_points, local, &mut []), out);
     };
-    let patches = &frame.stencil.patches;
-    let sizes: Vec<Sizes> = patches
+    let filled = &frame.interpolation.filled;
+    let sizes: Vec<Sizes> = filled
         .iter()
-        .map(|patch| {
-            let [own, functions] = [patch.node_count, patch.function_count].map(|n| D * n as usize);
-            let extra = frame.pattern.clique_size(frame.clique[patch.cell as usize] as usize) - own;
+        .map(|cell_points| {
+            let [own, functions] = [cell_points.node_count, cell_points.function_count].map(|n| D * n as usize);
+            let extra = frame.pattern.coupling_size(frame.coupling[cell_points.cell as usize] as usize) - own;
             let layout = match kept {
                 Kept::Matrix => None,
-                Kept::Points(layout) => Some(layout(patch)),
+                Kept::Points(layout) => Some(layout(cell_points)),
             };
-            let points = patch.point_count as usize;
-            Sizes { cell: patch.cell, own, functions, all: functions + extra, layout, points }
+            let points = cell_points.point_count as usize;
+            Sizes { cell: cell_points.cell, own, functions, all: functions + extra, layout, points }
         })
         .collect();
     let most = most(&sizes);
@@ -136,7 +136,7 @@ pub fn scatter_functions<const D: usize>(
     } else {
         start.resize(sizes.len() + 1, 0);
     }
-    let mut force = vec![0.0; most * patches.len()];
+    let mut force = vec![0.0; most * filled.len()];
     // As large as all else of a step together: taken over from the last tangent.
     let mut stiffness = out.tangent.as_deref_mut().and_then(|tangent| tangent.spare.pop()).unwrap_or_default();
     stiffness.resize(start[sizes.len()], 0.0);
@@ -147,19 +147,19 @@ pub fn scatter_functions<const D: usize>(
         (own, left) = std::mem::take(&mut left).split_at_mut(range[1] - range[0]);
         slices.push(own);
     }
-    let slots = force.par_chunks_mut(most).zip(slices.par_iter_mut()).zip(patches.par_iter().zip(&sizes));
-    let failed = slots.map(|((vector, kept), (patch, s))| {
+    let slots = force.par_chunks_mut(most).zip(slices.par_iter_mut()).zip(filled.par_iter().zip(&sizes));
+    let failed = slots.map(|((vector, kept), (cell_points, s))| {
         let (size, vector) = (s.all, &mut vector[..s.all]);
         if s.layout.is_none() || !wanted {
             kept.fill(0.0);
-            return compute(patch, &mut Local { matrix: kept, vector, size }, &mut []).err();
+            return compute(cell_points, &mut Local { matrix: kept, vector, size }, &mut []).err();
         }
         let (kept, points) = kept.split_at_mut(s.before_points());
         points.fill(0.0);
         SCRATCH.with_borrow_mut(|matrix| {
             matrix.clear();
             matrix.resize(size * size, 0.0);
-            let result = compute(patch, &mut Local { matrix, vector, size }, points);
+            let result = compute(cell_points, &mut Local { matrix, vector, size }, points);
             keep_matrix(s, matrix, kept);
             result.err()
         })
@@ -170,14 +170,14 @@ pub fn scatter_functions<const D: usize>(
     // The functions pass their forces on to the nodes of the cells they are averages of.
     let mut sums = Vec::new();
     let functions = sizes.iter().zip(force.chunks_exact(most)).map(|(s, f)| (s.cell, &f[s.own..s.functions]));
-    reach.sum::<D>(functions, &mut sums);
+    extension.sum::<D>(functions, &mut sums);
     force.par_chunks_mut(most).zip(&sizes).for_each(|(force, s)| {
         let (own, rest) = force.split_at_mut(s.own);
-        reach.pass_on::<D>(s.cell, &sums, &rest[..s.beside()], own);
+        extension.pass_on::<D>(s.cell, &sums, &rest[..s.beside()], own);
     });
-    let place = |cell: u32| patches.partition_point(|patch| patch.cell < cell);
-    let copy = |patch: &Patch, local: &mut Local| {
-        let k = place(patch.cell);
+    let place = |cell: u32| filled.partition_point(|cell_points| cell_points.cell < cell);
+    let copy = |cell_points: &CellPoints, local: &mut Local| {
+        let k = place(cell_points.cell);
         let (s, from) = (sizes[k], &force[k * most..]);
         for i in 0..local.size {
             local.vector[i] = from[s.index(i)];
@@ -196,32 +196,32 @@ pub fn scatter_functions<const D: usize>(
         }
         Ok(())
     };
-    scatter_patches(frame, copy, out)?;
+    scatter_cells(frame, copy, out)?;
     if let Some(tangent) = out.tangent.as_deref_mut() {
-        let width = frame.pattern.largest_clique;
-        let mut equation = vec![0; width * patches.len()];
-        for (patch, to) in patches.iter().zip(equation.chunks_exact_mut(width)) {
-            let blocks = frame.pattern.cliques.blocks(frame.clique[patch.cell as usize] as usize);
+        let width = frame.pattern.largest_coupling;
+        let mut equation = vec![0; width * filled.len()];
+        for (cell_points, to) in filled.iter().zip(equation.chunks_exact_mut(width)) {
+            let blocks = frame.pattern.connectivity.blocks(frame.coupling[cell_points.cell as usize] as usize);
             let all = blocks.iter().flat_map(|&b| frame.pattern.start[b as usize]..frame.pattern.start[b as usize + 1]);
             to.iter_mut().zip(all).for_each(|(to, e)| *to = e);
         }
-        let (reach, work) = (reach.clone(), Mutex::default());
-        tangent.beyond.push(Box::new(Rest::<D> { reach, sizes, stiffness, start, equation, width, work }));
+        let (extension, work) = (extension.clone(), Mutex::default());
+        tangent.matrix_free.push(Box::new(Rest::<D> { extension, sizes, stiffness, start, equation, width, work }));
     }
     Ok(())
 }
 
-/// The most equations of a patch, at least one.
+/// The most equations of a cell, at least one.
 fn most(sizes: &[Sizes]) -> usize {
     sizes.iter().map(|s| s.all).max().unwrap_or(0).max(1)
 }
 
-/// Keeps of the matrix of a patch what its points do not: that over the equations of the cell, and for each other
+/// Keeps of the matrix of a cell what its points do not: that over the equations of the cell, and for each other
 /// unknown its row and its column over the functions beside them.
 fn keep_matrix(s: &Sizes, matrix: &[f64], kept: &mut [f64]) {
-    let clique = s.clique();
-    let (square, cross) = kept.split_at_mut(clique * clique);
-    for (i, row) in square.chunks_exact_mut(clique).enumerate() {
+    let coupling = s.coupling();
+    let (square, cross) = kept.split_at_mut(coupling * coupling);
+    for (i, row) in square.chunks_exact_mut(coupling).enumerate() {
         let from = &matrix[s.index(i) * s.all..][..s.all];
         let (own, extra) = row.split_at_mut(s.own);
         own.copy_from_slice(&from[..s.own]);
@@ -237,7 +237,7 @@ fn keep_matrix(s: &Sizes, matrix: &[f64], kept: &mut [f64]) {
 }
 
 impl<const D: usize> Rest<D> {
-    /// The products of a patch with the values `field`, without those that the matrix of the system has.
+    /// The products of a cell with the values `field`, without those that the matrix of the system has.
     fn product(&self, k: usize, field: &[f64], force: &mut [f64]) {
         let (s, kept) = (&self.sizes[k], &self.stiffness[self.start[k]..self.start[k + 1]]);
         let Some(layout) = s.layout else {
@@ -251,7 +251,7 @@ impl<const D: usize> Rest<D> {
         let (force_beside, force_extra) = force_rest.split_at_mut(s.beside());
         let products = smoothed::Products::<D> { layout, points, own, beside, force, force_beside };
         Arch::new().dispatch(products);
-        let cross = matrix[s.clique() * s.clique()..].chunks_exact(2 * s.beside().max(1));
+        let cross = matrix[s.coupling() * s.coupling()..].chunks_exact(2 * s.beside().max(1));
         for ((cross, value), to) in cross.zip(extra).zip(force_extra) {
             let (row, column) = cross.split_at(s.beside());
             *to = row.iter().zip(beside).map(|(a, x)| a * x).sum();
@@ -260,7 +260,7 @@ impl<const D: usize> Rest<D> {
     }
 }
 
-impl<const D: usize> Beyond for Rest<D> {
+impl<const D: usize> MatrixFree for Rest<D> {
     fn into_memory(self: Box<Self>) -> Vec<f64> {
         self.stiffness
     }
@@ -271,42 +271,42 @@ impl<const D: usize> Beyond for Rest<D> {
         let Work { field, force, at_nodes } = &mut *work;
         field.resize(most * self.sizes.len(), 0.0);
         force.resize(most * self.sizes.len(), 0.0);
-        let patches = || self.sizes.par_iter().zip(self.equation.par_chunks_exact(self.width));
+        let filled = || self.sizes.par_iter().zip(self.equation.par_chunks_exact(self.width));
         // Own values, the gradients of the cell at its nodes, and other unknowns.
-        field.par_chunks_mut(most).zip(patches()).for_each(|(field, (s, equation))| {
-            for i in 0..s.clique() {
+        field.par_chunks_mut(most).zip(filled()).for_each(|(field, (s, equation))| {
+            for i in 0..s.coupling() {
                 field[s.index(i)] = x[equation[i] as usize];
             }
             let (own, rest) = field.split_at_mut(s.own);
             let gradients = &mut rest[..s.beside()];
             gradients.fill(0.0);
-            self.reach.own_gradients::<D>(s.cell, own, gradients);
+            self.extension.own_gradients::<D>(s.cell, own, gradients);
         });
         let slices = self.sizes.iter().zip(field.chunks_exact(most)).map(|(s, f)| (s.cell, &f[s.own..s.functions]));
-        self.reach.means::<D>(slices, at_nodes);
+        self.extension.means::<D>(slices, at_nodes);
         let means = &at_nodes[..];
         force.par_chunks_mut(most).zip(field.par_chunks_mut(most)).enumerate().for_each(|(k, (force, field))| {
             let s = &self.sizes[k];
-            self.reach.less_own::<D>(s.cell, means, &mut field[s.own..s.functions]);
+            self.extension.less_own::<D>(s.cell, means, &mut field[s.own..s.functions]);
             self.product(k, field, force);
         });
         let slices = self.sizes.iter().zip(force.chunks_exact(most)).map(|(s, f)| (s.cell, &f[s.own..s.functions]));
-        self.reach.sum::<D>(slices, at_nodes);
+        self.extension.sum::<D>(slices, at_nodes);
         let sums = &at_nodes[..];
         force.par_chunks_mut(most).zip(&self.sizes).for_each(|(force, s)| {
             let (own, rest) = force.split_at_mut(s.own);
-            self.reach.pass_on::<D>(s.cell, sums, &rest[..s.beside()], own);
+            self.extension.pass_on::<D>(s.cell, sums, &rest[..s.beside()], own);
         });
-        let patches = self.sizes.iter().zip(self.equation.chunks_exact(self.width));
-        for (force, (s, equation)) in force.chunks_exact(most).zip(patches) {
-            for i in 0..s.clique() {
+        let filled = self.sizes.iter().zip(self.equation.chunks_exact(self.width));
+        for (force, (s, equation)) in force.chunks_exact(most).zip(filled) {
+            for i in 0..s.coupling() {
                 y[equation[i] as usize] += force[s.index(i)];
             }
         }
     }
 }
 
-/// The products of the rows of a patch's matrix with its functions, without those that the matrix of the system has.
+/// The products of the rows of a cell's matrix with its functions, without those that the matrix of the system has.
 struct Products<'a> {
     sizes: &'a Sizes,
     stiffness: &'a [f64],

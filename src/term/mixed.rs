@@ -1,11 +1,11 @@
 //! The share of the stress of the points that unknowns of its own carry: what the internal force asks of it.
 
 use super::{Frame, History, Trial};
+use crate::interpolation::{CellPoints, Entries};
 use crate::kinematics::{Gradient, Kinematics};
 use crate::material::spatial::Spatial;
 use crate::material::{Model, State};
 use crate::points::Points;
-use crate::stencil::{Entries, Patch};
 use crate::system::Local;
 use crate::tensor::{Symmetric, Tensor};
 
@@ -54,11 +54,11 @@ impl Seen {
 pub type Answer<K, const D: usize> = (Spatial<<K as Kinematics<D>>::Tangent>, Option<Seen>);
 
 /// A share of the stress of the points that unknowns of its own carry.
-pub trait Share<const D: usize, K: Kinematics<D>>: Send + Sync {
-    /// Its unknowns over a patch.
+pub trait Mixed<const D: usize, K: Kinematics<D>>: Send + Sync {
+    /// Its unknowns over a cell.
     type Cell;
 
-    fn over(&self, frame: &Frame<D>, trial: &Trial<D>, patch: &Patch) -> Self::Cell;
+    fn over(&self, frame: &Frame<D>, trial: &Trial<D>, cell_points: &CellPoints) -> Self::Cell;
 
     /// The response of the model of a point to an elastic trial left Cauchy–Green tensor within the step, and what it sees of the share.
     /// `None` where that is out of its range.
@@ -111,11 +111,11 @@ pub trait Share<const D: usize, K: Kinematics<D>>: Send + Sync {
 }
 
 /// No share: the models answer for the whole stress.
-impl<const D: usize, K: Kinematics<D>> Share<D, K> for () {
+impl<const D: usize, K: Kinematics<D>> Mixed<D, K> for () {
     type Cell = ();
 
     #[inline]
-    fn over(&self, _: &Frame<D>, _: &Trial<D>, _: &Patch) {}
+    fn over(&self, _: &Frame<D>, _: &Trial<D>, _: &CellPoints) {}
 
     #[inline]
     fn add(&self, (): &(), _: &Points<D>, _: &Entries<D>, _: Ratios, _: &mut Spatial<K::Tangent>) -> f64 {
@@ -147,11 +147,11 @@ impl<const D: usize, K: Kinematics<D>> Share<D, K> for () {
 }
 
 /// Two shares, side by side.
-impl<const D: usize, K: Kinematics<D>, A: Share<D, K>, B: Share<D, K>> Share<D, K> for (A, B) {
+impl<const D: usize, K: Kinematics<D>, A: Mixed<D, K>, B: Mixed<D, K>> Mixed<D, K> for (A, B) {
     type Cell = (A::Cell, B::Cell);
 
-    fn over(&self, frame: &Frame<D>, trial: &Trial<D>, patch: &Patch) -> Self::Cell {
-        (self.0.over(frame, trial, patch), self.1.over(frame, trial, patch))
+    fn over(&self, frame: &Frame<D>, trial: &Trial<D>, cell_points: &CellPoints) -> Self::Cell {
+        (self.0.over(frame, trial, cell_points), self.1.over(frame, trial, cell_points))
     }
 
     fn respond(

@@ -1,12 +1,12 @@
 //! Stability: energies, the coupling with a linear pressure, and the forces of a uniform stress.
 
 use super::{KINDS, Points, filled, for_all, in_cells, lattice, mesh};
+use crate::interpolation::{Basis, Ddmp, Interpolation, Mpm};
 use crate::kinematics::PlaneStrain;
 use crate::mesh::Mesh;
 use crate::mesh::builder::rectangle;
 use crate::mesh::shape::CellKind;
 use crate::seed::{RegionSeed, seed};
-use crate::stencil::{Basis, Ddmp, Mpm, Stencil};
 use nalgebra::{Cholesky, DMatrix, SymmetricEigen};
 
 /// `count` points in each cell of `cells`, as they are seeded.
@@ -26,18 +26,18 @@ fn seeded(mesh: &Mesh<2>, count: u32, cells: impl Fn(u32) -> bool) -> Points {
 }
 
 /// `∇̄N` at the points, one row a point and direction, each with the root of the weight.
-fn operator(mesh: &Mesh<2>, stencil: &Stencil<2>) -> DMatrix<f64> {
-    let mut b = DMatrix::zeros(2 * stencil.points.len(), mesh.nodes.len());
-    for_all::<PlaneStrain>(mesh, stencil, |p, w, node, g| {
+fn operator(mesh: &Mesh<2>, interpolation: &Interpolation<2>) -> DMatrix<f64> {
+    let mut b = DMatrix::zeros(2 * interpolation.points.len(), mesh.nodes.len());
+    for_all::<PlaneStrain>(mesh, interpolation, |p, w, node, g| {
         (0..2).for_each(|d| b[(2 * p + d, node)] += w.sqrt() * g[d]);
     });
     b
 }
 
 /// Energy of the strain, `∫ ε : ε + (tr ε)²`, over the displacements of the nodes.
-fn stiffness(mesh: &Mesh<2>, stencil: &Stencil<2>) -> DMatrix<f64> {
-    let b = operator(mesh, stencil);
-    let (points, nodes) = (stencil.points.len(), mesh.nodes.len());
+fn stiffness(mesh: &Mesh<2>, interpolation: &Interpolation<2>) -> DMatrix<f64> {
+    let b = operator(mesh, interpolation);
+    let (points, nodes) = (interpolation.points.len(), mesh.nodes.len());
     let mut strain = DMatrix::zeros(4 * points, 2 * nodes);
     let r = 0.5f64.sqrt();
     for p in 0..points {
@@ -81,8 +81,8 @@ fn nine_points_a_cell_leave_no_spurious_mode() {
 fn inf_sup(n: usize, scheme: &'static dyn Basis<2>) -> f64 {
     let mesh = rectangle(CellKind::T6, 1.0, 1.0, n, n, 0.2, 5);
     let points = seeded(&mesh, 16, |_| true);
-    let stencil = filled::<PlaneStrain>(&mesh, &points, scheme);
-    let (b, plain) = (operator(&mesh, &stencil), operator(&mesh, &filled::<PlaneStrain>(&mesh, &points, &Mpm)));
+    let interpolation = filled::<PlaneStrain>(&mesh, &points, scheme);
+    let (b, plain) = (operator(&mesh, &interpolation), operator(&mesh, &filled::<PlaneStrain>(&mesh, &points, &Mpm)));
     let inside: Vec<usize> =
         (0..mesh.nodes.len()).filter(|&i| mesh.nodes[i].iter().all(|&x| x > 1e-9 && x < 1.0 - 1e-9)).collect();
     let vertices = (n + 1) * (n + 1);
@@ -125,9 +125,9 @@ fn a_linear_pressure_is_stable_on_quadratic_triangles() {
 /// The forces that a uniform stress in points on a lattice exerts on the nodes inside, where they should vanish,
 /// by those of a single cell: root mean square.
 fn residual(mesh: &Mesh<2>, points: &Points, scheme: &'static dyn Basis<2>) -> f64 {
-    let stencil = filled::<PlaneStrain>(mesh, points, scheme);
+    let interpolation = filled::<PlaneStrain>(mesh, points, scheme);
     let mut force = vec![[0.0; 2]; mesh.nodes.len()];
-    for_all::<PlaneStrain>(mesh, &stencil, |_, w, node, g| (0..2).for_each(|d| force[node][d] += w * g[d]));
+    for_all::<PlaneStrain>(mesh, &interpolation, |_, w, node, g| (0..2).for_each(|d| force[node][d] += w * g[d]));
     let exact = in_cells::<PlaneStrain>(mesh, 0..mesh.cells.len() as u32);
     let mut scale = vec![0.0; mesh.nodes.len()];
     let plain = filled::<PlaneStrain>(mesh, &exact, &Mpm);

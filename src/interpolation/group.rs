@@ -1,7 +1,7 @@
 //! Filling the functions of points, grouped by their cells.
 
 use super::entries::MAX_FUNCTIONS;
-use super::{Located, Patch, Stencil, Support};
+use super::{CellPoints, Interpolation, Located, Support};
 use crate::mesh::Mesh;
 use crate::mesh::shape::{self, MAX_NODES};
 use rayon::prelude::*;
@@ -20,11 +20,11 @@ pub struct Place<'a, const D: usize> {
     pub shape_gradient: &'a [[f64; D]],
 }
 
-impl<const D: usize> Stencil<D> {
+impl<const D: usize> Interpolation<D> {
     /// Gives each point the shape functions of its cell, with room for the gradients of `extra(cell)` further functions.
     pub fn fill_shapes(&mut self, points: &Located<D>, extra: impl Fn(usize) -> usize) {
         let mesh = points.mesh;
-        (self.reach, self.support) = (None, None);
+        (self.extension, self.support) = (None, None);
         self.group(points, |c| {
             let nodes = mesh.cells.nodes(c).len();
             [nodes, nodes + extra(c)]
@@ -33,11 +33,11 @@ impl<const D: usize> Stencil<D> {
         self.shape_gradient.clear();
         let numbers = std::mem::take(&mut self.points);
         self.slots().into_par_iter().for_each(|slot| {
-            let x = places(mesh, slot.patch);
-            let kind = mesh.cells.kind[slot.patch.cell as usize];
-            let (count, stride) = (slot.patch.node_count as usize, slot.patch.function_count as usize);
-            for k in 0..slot.patch.point_count as usize {
-                let point = numbers[slot.patch.first_point as usize + k] as usize;
+            let x = places(mesh, slot.cell_points);
+            let kind = mesh.cells.kind[slot.cell_points.cell as usize];
+            let (count, stride) = (slot.cell_points.node_count as usize, slot.cell_points.function_count as usize);
+            for k in 0..slot.cell_points.point_count as usize {
+                let point = numbers[slot.cell_points.first_point as usize + k] as usize;
                 let n = &mut slot.value[k * count..(k + 1) * count];
                 let gradient = &mut slot.gradient[k * stride..k * stride + count];
                 shape::map(kind, &x[..count], &points.xi[point], n, gradient);
@@ -61,9 +61,9 @@ impl<const D: usize> Stencil<D> {
     ) {
         let mesh = points.mesh;
         let support = Arc::new(support);
-        (self.reach, self.support) = (None, Some(support.clone()));
+        (self.extension, self.support) = (None, Some(support.clone()));
         self.group(points, |c| [support.nodes(c as u32).len(); 2]);
-        let last = self.patches.last();
+        let last = self.filled.last();
         let shapes = last.map_or(0, |p| p.first_shape + (p.point_count * p.shape_count) as usize);
         self.shape.clear();
         self.shape.resize(shapes, 0.0);
@@ -71,18 +71,18 @@ impl<const D: usize> Stencil<D> {
         self.shape_gradient.resize(shapes, [0.0; D]);
         let numbers = std::mem::take(&mut self.points);
         self.slots().into_par_iter().for_each(|slot| {
-            let x = places(mesh, slot.patch);
-            let cell = slot.patch.cell as usize;
-            let (own, count) = (slot.patch.shape_count as usize, slot.patch.node_count as usize);
-            for k in 0..slot.patch.point_count as usize {
-                let xi = points.xi[numbers[slot.patch.first_point as usize + k] as usize];
+            let x = places(mesh, slot.cell_points);
+            let cell = slot.cell_points.cell as usize;
+            let (own, count) = (slot.cell_points.shape_count as usize, slot.cell_points.node_count as usize);
+            for k in 0..slot.cell_points.point_count as usize {
+                let xi = points.xi[numbers[slot.cell_points.first_point as usize + k] as usize];
                 let n = &mut slot.shape[k * own..(k + 1) * own];
                 let gradient = &mut slot.shape_gradient[k * own..(k + 1) * own];
                 shape::map(mesh.cells.kind[cell], &x[..own], &xi, n, gradient);
                 if points.hoop {
                     slot.radius[k] = n.iter().zip(&x).map(|(n, x)| n * x[0]).sum();
                 }
-                let nodes = support.nodes(slot.patch.cell);
+                let nodes = support.nodes(slot.cell_points.cell);
                 let place = Place { mesh, cell, xi, nodes, shape: n, shape_gradient: gradient };
                 let range = k * count..(k + 1) * count;
                 functions(&place, &mut slot.value[range.clone()], &mut slot.gradient[range]);
@@ -98,7 +98,7 @@ impl<const D: usize> Stencil<D> {
         for &c in cell {
             count[c as usize + 1] += 1;
         }
-        self.patches.clear();
+        self.filled.clear();
         let (mut first_value, mut first_gradient, mut first_shape) = (0, 0, 0);
         for c in 0..mesh.cells.len() {
             let points = count[c + 1];
@@ -107,7 +107,7 @@ impl<const D: usize> Stencil<D> {
                 let [node_count, function_count] = counts(c).map(|n| n as u32);
                 assert!(function_count as usize <= MAX_FUNCTIONS, "cell {c} has {function_count} functions");
                 let (shape_count, first_point) = (mesh.cells.nodes(c).len() as u32, count[c]);
-                self.patches.push(Patch {
+                self.filled.push(CellPoints {
                     cell: c as u32,
                     first_point,
                     point_count: points,
@@ -141,10 +141,10 @@ impl<const D: usize> Stencil<D> {
     }
 }
 
-/// Where the nodes of the cell of a patch are.
-fn places<const D: usize>(mesh: &Mesh<D>, patch: &Patch) -> [[f64; D]; MAX_NODES] {
+/// Where the nodes of the cell of a cell are.
+fn places<const D: usize>(mesh: &Mesh<D>, cell_points: &CellPoints) -> [[f64; D]; MAX_NODES] {
     let mut x = [[0.0; D]; MAX_NODES];
-    for (x, &n) in x.iter_mut().zip(mesh.cells.nodes(patch.cell as usize)) {
+    for (x, &n) in x.iter_mut().zip(mesh.cells.nodes(cell_points.cell as usize)) {
         *x = mesh.nodes[n as usize];
     }
     x

@@ -1,26 +1,26 @@
 //! What each material point sees of the grid: nodes, values and gradients, filled once a restoration.
 //!
 //! A scheme (a [`Basis`], one file each) fills the flat arrays; everything downstream reads them and never asks which
-//! scheme made them. Points are grouped in *patches* that share their nodes: the points of a cell.
+//! scheme made them. Points are grouped in groups that share their nodes: the points of a cell.
 
 mod basis;
 mod ddmp;
 mod entries;
+mod extension;
 mod fill;
 mod group;
 mod jumps;
 mod mpm;
-mod reach;
 mod support;
 
 pub use basis::{Basis, Located};
 pub use ddmp::Ddmp;
-pub use entries::{Entries, MAX_FUNCTIONS, Patch, Stencil};
+pub use entries::{CellPoints, Entries, Interpolation, MAX_FUNCTIONS};
+pub use extension::Extension;
 pub use fill::{PartlyFilled, integrate, partly_filled_cells};
 pub use group::Place;
 pub use jumps::{Jump, Jumps};
 pub use mpm::Mpm;
-pub use reach::Reach;
 pub use support::Support;
 
 use crate::kinematics::Kinematics;
@@ -29,7 +29,7 @@ use crate::mesh::Mesh;
 /// The schemes that a case can have.
 pub const SCHEMES: &[&dyn Basis<2>] = &[&Mpm, &Ddmp];
 
-impl<const D: usize> Stencil<D> {
+impl<const D: usize> Interpolation<D> {
     /// Fills in what points in `cell` at the parametric coordinates `xi`, given per point, see by a scheme. `active`
     /// marks the cells of the grid. The weights are for the caller to write.
     pub fn fill<K: Kinematics<D>>(

@@ -1,6 +1,6 @@
 //! How full the cells are, and integrals over whole cells.
 
-use super::Stencil;
+use super::Interpolation;
 use crate::kinematics::Kinematics;
 use crate::mesh::Mesh;
 use crate::mesh::shape::{self, MAX_NODES, rule};
@@ -20,14 +20,14 @@ const FULL: f64 = 0.01;
 /// The cells among those marked in `active` that are not full.
 pub fn partly_filled_cells<const D: usize, K: Kinematics<D>>(
     mesh: &Mesh<D>,
-    stencil: &Stencil<D>,
+    interpolation: &Interpolation<D>,
     points: &Points<D>,
     active: &[bool],
 ) -> Vec<PartlyFilled> {
     let mut held = vec![0.0; mesh.cells.len()];
-    for patch in &stencil.patches {
-        for &p in stencil.points(patch) {
-            held[patch.cell as usize] += points.volume(p as usize);
+    for cell_points in &interpolation.filled {
+        for &p in interpolation.points(cell_points) {
+            held[cell_points.cell as usize] += points.volume(p as usize);
         }
     }
     let partly_filled = |c: usize| {

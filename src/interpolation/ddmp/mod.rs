@@ -9,7 +9,7 @@
 mod blend;
 mod smoothing;
 
-use super::{Basis, Located, Stencil};
+use super::{Basis, Interpolation, Located};
 use crate::mesh::shape::{CellKind, MAX_NODES};
 use blend::{Blend, smoothed_nodes};
 use rayon::prelude::*;
@@ -32,22 +32,23 @@ impl<const D: usize> Basis<D> for Ddmp {
         false
     }
 
-    fn fill(&self, points: &Located<D>, stencil: &mut Stencil<D>) {
-        smooth(points, stencil);
+    fn fill(&self, points: &Located<D>, interpolation: &mut Interpolation<D>) {
+        smooth(points, interpolation);
     }
 }
 
 /// Fills in the shape functions and, behind their gradients, those of the functions that smooth them.
-fn smooth<const D: usize>(at: &Located<D>, stencil: &mut Stencil<D>) {
+fn smooth<const D: usize>(at: &Located<D>, interpolation: &mut Interpolation<D>) {
     let mesh = at.mesh;
-    stencil.fill_shapes(at, |c| D * smoothed_nodes(mesh.cells.kind[c]));
-    let kinds: Vec<CellKind> = stencil.patches.iter().map(|patch| mesh.cells.kind[patch.cell as usize]).collect();
-    let blends: Vec<(Blend, f64)> = stencil
-        .patches
+    interpolation.fill_shapes(at, |c| D * smoothed_nodes(mesh.cells.kind[c]));
+    let kinds: Vec<CellKind> =
+        interpolation.filled.iter().map(|cell_points| mesh.cells.kind[cell_points.cell as usize]).collect();
+    let blends: Vec<(Blend, f64)> = interpolation
+        .filled
         .par_iter()
         .zip(&kinds)
-        .map(|(patch, &kind)| {
-            let nodes = mesh.cells.nodes(patch.cell as usize);
+        .map(|(cell_points, &kind)| {
+            let nodes = mesh.cells.nodes(cell_points.cell as usize);
             let mut x = [[0.0; D]; MAX_NODES];
             for (x, &n) in x.iter_mut().zip(nodes) {
                 *x = mesh.nodes[n as usize];
@@ -56,20 +57,20 @@ fn smooth<const D: usize>(at: &Located<D>, stencil: &mut Stencil<D>) {
         })
         .collect();
     let mut volume = vec![0.0; mesh.cells.len()];
-    for (patch, (_, v)) in stencil.patches.iter().zip(&blends) {
-        volume[patch.cell as usize] = *v;
+    for (cell_points, (_, v)) in interpolation.filled.iter().zip(&blends) {
+        volume[cell_points.cell as usize] = *v;
     }
-    let points = std::mem::take(&mut stencil.points);
-    stencil.slots().into_par_iter().zip(&blends).for_each(|(slot, (blend, _))| {
-        let (own, all) = (slot.patch.node_count as usize, slot.patch.function_count as usize);
-        let numbers = &points[slot.patch.first_point as usize..];
+    let points = std::mem::take(&mut interpolation.points);
+    interpolation.slots().into_par_iter().zip(&blends).for_each(|(slot, (blend, _))| {
+        let (own, all) = (slot.cell_points.node_count as usize, slot.cell_points.function_count as usize);
+        let numbers = &points[slot.cell_points.first_point as usize..];
         for ((n, gradient), &p) in slot.value.chunks_exact(own).zip(slot.gradient.chunks_exact_mut(all)).zip(numbers) {
             let psi = blend.at(&at.xi[p as usize], n);
             write::<D>(&mut gradient[own..], |a| psi[a]);
         }
     });
-    stencil.points = points;
-    stencil.reach = Some(Arc::new(smoothing::reach(mesh, at.active, &volume)));
+    interpolation.points = points;
+    interpolation.extension = Some(Arc::new(smoothing::extension(mesh, at.active, &volume)));
 }
 
 /// The gradients `ψ_a e_j` of the functions beyond the cell's nodes.

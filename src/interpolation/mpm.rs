@@ -1,6 +1,6 @@
 //! The plain material point method: a point sees the shape functions of its cell (Sulsky, Chen & Schreyer 1994).
 
-use super::{Basis, Located, Stencil};
+use super::{Basis, Interpolation, Located};
 
 /// The scheme.
 #[derive(Clone, Copy, Debug)]
@@ -11,7 +11,7 @@ impl<const D: usize> Basis<D> for Mpm {
         "mpm"
     }
 
-    fn fill(&self, points: &Located<D>, stencil: &mut Stencil<D>) {
-        stencil.fill_shapes(points, |_| 0);
+    fn fill(&self, points: &Located<D>, interpolation: &mut Interpolation<D>) {
+        interpolation.fill_shapes(points, |_| 0);
     }
 }

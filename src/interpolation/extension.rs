@@ -8,7 +8,7 @@ use super::MAX_FUNCTIONS;
 
 /// The functions of each cell and the nodes they are made of.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Reach {
+pub struct Extension {
     /// Where the nodes of each cell begin in `node`; one more entry than cells.
     pub(super) node_start: Vec<u32>,
     /// The cell's own nodes, then the others.
@@ -27,7 +27,7 @@ pub struct Reach {
     pub(super) node_count: usize,
 }
 
-impl Reach {
+impl Extension {
     /// The nodes a cell acts on, its own first.
     pub fn nodes(&self, cell: u32) -> &[u32] {
         &self.node[self.node_start[cell as usize] as usize..self.node_start[cell as usize + 1] as usize]
