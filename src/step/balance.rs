@@ -1,4 +1,5 @@
-//! The balance of a step: the sum of the terms of the scene, and its tangent, at a trial state.
+//! The residual of a step, `R(u)` of docs/theory.md, eq. 1 (with inertia eq. 6): the sum of the terms of the scene, and its tangent, at a
+//! trial state.
 
 use super::grid::Grid;
 use super::problem::Problem;
@@ -8,7 +9,7 @@ use crate::profile::{Activity, timed};
 use crate::term::{Assembly, Role, Trial};
 use crate::time_integration::GeneralisedAlpha;
 
-/// The sum of all terms but inertia at the last converged step, and what it is measured against.
+/// The sum of all terms but inertia at the last converged step, and the norm of the largest of them.
 ///
 /// # Errors
 /// When the converged state is inadmissible on the restored grid.
@@ -41,7 +42,7 @@ pub fn static_force<const D: usize>(problem: &Problem<D>, grid: &mut Grid<D>) ->
 /// The residual of a state at the end of the step and, where wanted, the tangent in the matrix of the grid.
 ///
 /// # Errors
-/// Analysis, where a term has no answer for the state: material turned inside out, a stress without a root.
+/// Analysis, where the state is inadmissible: an inverted material point, a return map without a root.
 pub fn evaluate<const D: usize>(
     problem: &Problem<D>,
     grid: &mut Grid<D>,
@@ -87,7 +88,7 @@ pub fn evaluate<const D: usize>(
     result
 }
 
-/// Takes off what is held of the forces that were out of balance as the phase began.
+/// Adds the part of the unbalanced force that is still held ([`super::UnbalancedRamp`]).
 fn hold_back<const D: usize>(problem: &Problem<D>, grid: &Grid<D>, force: &mut [f64]) {
     let ramp = &problem.state.ramp;
     let share = ramp.share(problem.to);
@@ -140,7 +141,7 @@ fn add_terms<const D: usize>(
             *f += o;
         }
         if term.role() == Role::External {
-            // What turns a body is a moment.
+            // At the turning node of a rigid body it is a moment.
             let forces =
                 own[..of_nodes].chunks_exact(D).zip(&grid.dofs.node).filter(|(_, n)| scene.turned_by(**n).is_none());
             for (force, _) in forces {
@@ -155,7 +156,7 @@ fn add_terms<const D: usize>(
     result
 }
 
-/// `(1 − α) u + α u_n`.
+/// `(1 − α) u + α u_n`: the positions at which the stress acts (docs/theory.md, eq. 7).
 fn blend<const D: usize>(u: &[[f64; D]], converged: &[[f64; D]], alpha: f64, out: &mut Vec<[f64; D]>) {
     let one = |(u, c): (&[f64; D], &[f64; D])| std::array::from_fn(|d| (1.0 - alpha) * u[d] + alpha * c[d]);
     out.clear();
@@ -178,7 +179,8 @@ fn weighted_acceleration<const D: usize>(
     out.extend((0..u.len()).map(at));
 }
 
-/// How far nodes that are displaced by `u` (m), from `from`, go in half a step more, given velocity and acceleration as the step begins.
+/// The displacement (m) of the nodes in half a step after this one, `½ Δt v`, with the velocity (eq. 5) at its end: for contact between
+/// bodies with inertia (docs/theory.md, section 13, *Two bodies*). `u` and `from` are the displacements (m) at its end and start.
 pub fn go_ahead<const D: usize>(
     integration: &GeneralisedAlpha,
     (u, from): (&[[f64; D]], &[[f64; D]]),

@@ -1,8 +1,8 @@
-//! Points that got a little beyond a support: back to it.
+//! Projection of points that are slightly beyond a support (docs/theory.md, section 4, *Points beyond a support*).
 //!
-//! The nodes of a support stay where they are, and so does every place of its sides, but next to it a cell that soil squeezes
-//! or shears strongly can take a point across. Soil cannot go there: such a point is put onto the side. Its motion across the
-//! side ends with that of the nodes there. Whatever goes farther, or leaves the mesh elsewhere, stays an error.
+//! The nodes of a support do not move across it, and so neither does any place on its sides. But a cell beside it that is strongly
+//! compressed or sheared can move a point across. Such a point is projected onto the side; its velocity across the side vanishes with
+//! that of the nodes there. A point that is farther beyond, or leaves the mesh elsewhere, is an error.
 
 use super::scene::Scene;
 use super::state::State;
@@ -15,8 +15,8 @@ use rayon::prelude::*;
 /// How far beyond a side a point may be (-), in the diagonal of the cell there.
 const FARTHEST: f64 = 0.1;
 
-/// Puts points back onto the sides that hold them, but none onto the axis of a ring, where it would have no volume. Returns
-/// a note on how many and how far, where there are any.
+/// Projects points onto the sides of supports, but not onto the axis of symmetry, where a point would have no volume. Returns a note on
+/// how many and how far, if there are any.
 pub fn project_onto_boundary<const D: usize, K: Kinematics<D>>(
     scene: &Scene<D>,
     mesh: &Mesh<D>,

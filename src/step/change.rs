@@ -1,8 +1,8 @@
-//! Materials that change as a phase begins: what the points of a region take over into the new one.
+//! Materials that change as a phase begins (docs/theory.md, section 9, *Change of material*): the state of the points of a region.
 //!
-//! The stress stays, and so does the excess pore pressure: the new material gets the elastic strain and the share of the pressure field that
-//! carry them. The deformation, the volume and the accumulated plastic strain of the points go on. Their mass becomes that of the new density. The internal
-//! variables go on where the model is the same, and begin anew elsewhere.
+//! Stress and excess pore pressure are kept: the points get the elastic strain of the new material, and the value of the pressure field, that
+//! belong to them. Deformation, volume and accumulated plastic strain are kept, too. The mass becomes that of the new density. Internal
+//! variables are kept if they are the same quantity in both models, and are set to their initial value otherwise.
 
 use crate::material::{Model, Profile, spatial};
 use crate::points::Points;
@@ -19,7 +19,7 @@ pub struct Change {
     /// The number of the material among those of the scene ([`Points::model_of`]), and its name.
     pub number: u16,
     pub into: String,
-    /// The model that answers for the whole stress, and what the pressure field carries of it.
+    /// The model of the whole stress, and the part of it that the pressure field carries.
     pub model: Arc<dyn Model>,
     pub carried: Option<MixedPressure>,
     /// What the field carried before.
@@ -52,7 +52,7 @@ impl Change {
         for p in numbers {
             let y = points.seeded_height(p);
             let volume_ratio = points.deformation[p].determinant();
-            // Pore water that shares the pressure field has its pressure there.
+            // In undrained soil the pressure field contains the excess pore pressure.
             let shares = |carried: &&MixedPressure| carried.water > 0.0;
             let pore_pressure = self.before.as_ref().filter(shares).map_or(0.0, |c| c.pore_pressure(points, p));
             let kirchhoff = points.stress[p].map(|s| volume_ratio * s);

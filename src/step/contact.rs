@@ -1,4 +1,5 @@
-//! Contact in a step: which contact nodes face soil where the step begins, what of the surface they cover, and what they come to in its end.
+//! Contact in a step (docs/theory.md, section 13): which contact nodes face soil as the step begins and with what gap (eq. 28), which parts of
+//! the surface the structures cover (section 11), and pressure, shear and resultants at its end (eq. 29 and 30).
 
 use super::balance::go_ahead;
 use super::facing::position;
@@ -19,7 +20,7 @@ use crate::surface::{join, open};
 use crate::term::{PlacedConstraint, Trial, contact_answer, excess_pressure};
 use crate::time_integration::GeneralisedAlpha;
 
-/// What an interface exerted in a step.
+/// The resultant of an interface in a step.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Resultant<const D: usize> {
     /// The region of the structure, and that of the body it touches.
@@ -30,7 +31,7 @@ pub struct Resultant<const D: usize> {
     /// Its moment (kN m) about the origin, in the plane, anticlockwise, and that of the opposite force on what it touches.
     pub moment: f64,
     pub moment_against: f64,
-    /// Contact nodes that touch, and the deepest mean overlap (m) of one.
+    /// The number of closed contact nodes, and the largest mean overlap (m).
     pub contact_nodes: usize,
     pub overlap: f64,
     pub pushed: Pushed,
@@ -49,7 +50,7 @@ impl<const D: usize> Resultant<D> {
     }
 }
 
-/// Finds the contact nodes that face soil and makes room for them in the system.
+/// Finds the contact nodes that face soil and makes their constraints. If the pattern of the matrix has no entries for one, it is made anew.
 ///
 /// # Errors
 /// As [`Grid::new`], and analysis: a structure that left the grid.
@@ -153,7 +154,7 @@ fn place<const D: usize>(grid: &Grid<D>, state: &State<D>, constraints: &mut [Pl
     true
 }
 
-/// Makes room for just these constraints.
+/// Notes the nodes of just these constraints as those that the pattern has entries for.
 fn make_room<const D: usize>(state: &mut State<D>, constraints: &[PlacedConstraint<D>]) {
     for (multipliers, number) in state.multipliers.iter_mut().zip(0..) {
         let contact_nodes = multipliers.first.len() - 1;
@@ -171,7 +172,7 @@ fn make_room<const D: usize>(state: &mut State<D>, constraints: &[PlacedConstrai
     }
 }
 
-/// Hands what the contact nodes came to on to the next step.
+/// Takes pressure, shear, gap and slip of the converged step as multipliers and history of the next one (Uzawa).
 pub fn commit<const D: usize>(
     scene: &Scene<D>,
     grid: &Grid<D>,
@@ -255,7 +256,7 @@ pub fn commit<const D: usize>(
     resultants
 }
 
-/// Moves points out of the structures, once all is where the step takes it.
+/// Contact projection: moves points out of the structures, once nodes and points are at their final positions.
 pub fn project_out<const D: usize>(scene: &Scene<D>, state: &mut State<D>, resultants: &mut [Resultant<D>]) {
     for (number, interface) in scene.touching(state.phase) {
         let resultant = &mut resultants[number];

@@ -1,11 +1,11 @@
-//! The size of the steps: grown while Newton's method is at ease, halved when it fails.
+//! Step control (docs/theory.md, section 14): steps grow while Newton's method converges fast, and are halved when it fails.
 
 use super::scene::Stop;
 use crate::error::{Error, Result};
 
-/// Iterations up to which the next step grows.
+/// The next step grows after at most this many iterations.
 const EASY: usize = 6;
-/// By how much (-): a step of usual length is reached within six after the first of a tenth of it.
+/// The factor (-) by which it grows: from a tenth of the largest step to it in six steps.
 const GROWTH: f64 = 1.5;
 
 /// Bounds of the step size (s) in a phase.

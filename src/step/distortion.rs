@@ -1,4 +1,5 @@
-//! How distorted the cells have become since the grid was restored (reference 1 of docs/theory.md, §2.8).
+//! Whether the grid is due for a reset: how distorted its cells are since the last one (docs/theory.md, section 4, *Grid reset by quality*;
+//! its reference 1, §2.8).
 
 use super::grid::Grid;
 use super::scene::Scene;
@@ -7,12 +8,12 @@ use crate::mesh::quality;
 use crate::mesh::shape::MAX_NODES;
 use rayon::prelude::*;
 
-/// Least ratio of the least to the largest `det J` in a cell, relative to the first one: a curved cell folds
-/// where it reaches zero.
+/// Least ratio of the least to the largest determinant of the isoparametric map of a cell, relative to that at the last reset: a curved
+/// cell folds where it reaches zero.
 const FOLDED: f64 = 0.3;
 
-/// Whether a cell with points has a quality below the share `least` of its first one, has come near to
-/// folding, or an edge is `stretch` times as long as at first, or as short.
+/// Whether a cell with points has a quality below the fraction `least` of that at the last reset, is nearly folded, or has an edge `stretch`
+/// times as long as at the last reset, or as short.
 pub fn exceeds<const D: usize>(scene: &Scene<D>, state: &State<D>, grid: &Grid<D>, least: f64, stretch: f64) -> bool {
     const { assert!(D == 2, "the quality of cells is known in the plane only") };
     let mesh = grid.relaxed.as_ref().map_or(&scene.mesh, |relaxed| &relaxed.mesh);

@@ -1,12 +1,12 @@
-//! Balance on a restored grid, before a step without inertia.
+//! Equilibrium after a grid reset, before a step without inertia (docs/theory.md, section 6, *Equilibrium after a reset*).
 //!
-//! The stresses that integration points take from the material points balance the forces of the step before only as well as the cells
-//! can tell. In soil that yields, what is missing becomes displacement in every restoration: a load that is held creeps, and a body that
-//! is pushed meets less for a while. So the soil is brought to balance first, under the loads of the step before, with nothing moving that is
-//! prescribed. It keeps the stresses, contacts go on from where they are then, and the displacements are discarded.
+//! The stresses that integration points take from the material points are in equilibrium with the loads of the step before only as well as
+//! the cells can resolve. In soil that yields, the difference would become displacement at every reset: a load that is held would creep, and
+//! a body that is pushed would meet less resistance for a while. So equilibrium is solved first, under the loads of the step before, with
+//! prescribed displacements fixed. The stresses are kept, contacts continue from their state then, and the displacements are discarded.
 //!
-//! The material points answer for the displacements themselves, and penalties on increments are gone with them: what both make of the
-//! balance is brought to balance once more.
+//! The material points update their stress with these displacements themselves, and the penalties on increments vanish with the
+//! displacements. Both disturb the equilibrium, so it is solved a second time.
 
 use super::grid::{self, Grid};
 use super::newton;
@@ -21,8 +21,8 @@ use crate::term::{Trial, contact_answer};
 /// and by 1.1 % with four.
 const ROUNDS: usize = 2;
 
-/// Whether restoring the grid leaves what is to be brought to balance under the loads of the `last` step: soil that yields, in a phase
-/// without inertia and without water that flows, that has the materials, the structures and the supports which that step had.
+/// Whether equilibrium under the loads of the `last` step is to be solved after a reset: for soil that can yield, in a phase without inertia
+/// and without flow of water, whose materials, structures and supports are those of that step.
 fn is_due<const D: usize>(scene: &Scene<D>, state: &State<D>, last: Span) -> bool {
     let [now, then] = [state.phase, last.phase].map(|phase| &scene.phases[phase]);
     let changes = scene.phases[last.phase + 1..=state.phase].iter().any(|phase| !phase.changes.is_empty());
@@ -32,8 +32,8 @@ fn is_due<const D: usize>(scene: &Scene<D>, state: &State<D>, last: Span) -> boo
     scene.terms.iter().any(|term| term.yields()) && !state.dynamic(scene) && !now.flows && same
 }
 
-/// Brings the soil to balance under the loads of the `last` step on the restored grid. Returns whether it was due and not found: the step
-/// that comes begins out of balance then.
+/// Solves for equilibrium under the loads of the `last` step on the reset grid. Returns whether that was due and failed: the next step then
+/// begins out of equilibrium.
 ///
 /// # Errors
 /// When memory does not suffice.
@@ -53,7 +53,7 @@ pub fn equilibrate<const D: usize>(
         let solution = match newton::solve(&problem, grid) {
             Ok(solution) => solution,
             Err(error) if error.kind != Kind::Analysis => return Err(error),
-            // The balance of the round before stands.
+            // The equilibrium of the round before is kept.
             Err(_) => return Ok(round == 0),
         };
         go_on(scene, grid, state, (&solution.displacement, last));
@@ -63,8 +63,8 @@ pub fn equilibrate<const D: usize>(
     Ok(false)
 }
 
-/// Lets contacts begin with the gaps, the normals and the shear that they have after the displacement (m) of the nodes: with the multipliers
-/// that there are the pressures are the same then, too.
+/// Takes as initial gaps, normals and shear of the contacts those after the displacement (m) of the nodes. The multipliers stay, so the
+/// pressures at zero displacement are those of this equilibrium.
 fn go_on<const D: usize>(
     scene: &Scene<D>,
     grid: &mut Grid<D>,

@@ -1,4 +1,4 @@
-//! Where structures are, and what they may touch, before contact begins.
+//! Positions of nodes and of the boundaries of structures as a step begins, and the matrix pattern of contact (docs/theory.md, section 13).
 
 use super::scene::Scene;
 use super::state::State;

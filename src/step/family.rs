@@ -1,4 +1,5 @@
-//! Points with the cells they act on, and systems of equations over their nodes.
+//! Points with the cells that they act on (a *family*: those of the grid, or those of the finite elements), and systems of equations over
+//! their nodes.
 
 use crate::error::Result;
 use crate::interpolation::{Entries, Interpolation};
@@ -17,7 +18,7 @@ pub struct Family<'a, const D: usize> {
     pub points: &'a Points<D>,
 }
 
-/// A system of equations over the nodes that take part.
+/// A system of equations over the active nodes.
 pub struct System {
     pub pattern: Pattern,
     pub matrix: Matrix,

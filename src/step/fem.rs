@@ -1,7 +1,7 @@
-//! The finite elements of a run: cells that keep their points and their shape.
+//! The finite elements of a run (docs/theory.md, section 3, eq. 26): cells that keep their points and are not reset.
 //!
-//! When the grid is restored they go on from where they are: their nodes stay, the displacement begins at zero again,
-//! and the points carry the deformation so far (updated Lagrangian).
+//! At a grid reset their nodes keep their current positions, the displacement begins at zero again, and the points carry the deformation so
+//! far (updated Lagrangian).
 
 use super::family::Family;
 use super::scene::{Fem, Scene};
@@ -64,7 +64,7 @@ impl<const D: usize> Elements<D> {
     }
 }
 
-/// Moves the nodes of the elements and of rigid bodies to where they are, before the displacement begins at zero again.
+/// Sets the reference positions of the nodes of elements and rigid bodies to the current ones (eq. 26), before the displacement is set to zero.
 pub fn keep_shape<const D: usize>(scene: &Scene<D>, state: &mut State<D>) {
     if scene.fem.is_none() && scene.bodies.is_empty() {
         return;

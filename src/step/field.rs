@@ -1,8 +1,8 @@
 //! Scalar fields that the material carries beside displacement and pressures, with an unknown at each corner of the cells: a temperature, a
-//! concentration. A field is a declaration in the scene; what governs it is a term.
+//! concentration. The scene declares a field; its equation is a term. No case makes one so far.
 //!
-//! The unknowns are those of all active cells of the grid, so the term has to give each cell in [`crate::term::Frame::cells`] something, with points or
-//! without. Where they stand among the unknowns of a cell tells [`crate::term::Frame::field`].
+//! The unknowns are those of all active cells of the grid, so the term has to contribute to each cell in [`crate::term::Frame::cells`], with points
+//! or without. [`crate::term::Frame::field`] is their place among the unknowns of a cell.
 
 use super::nodal_fit::{self, Filled};
 use super::scene::Scene;
@@ -40,8 +40,8 @@ pub fn project<const D: usize, K: Kinematics<D>>(
     }
 }
 
-/// Adds to the values of the material points what those of the nodes, which become `new`, have changed by: where nothing changes, the points keep
-/// theirs.
+/// Adds the interpolated increments of the nodal values, which become `new`, to the values of the material points: where nothing changes, the
+/// points keep theirs.
 pub fn to_points<const D: usize, K: Kinematics<D>>(
     scene: &Scene<D>,
     (mesh, interpolation): (&Mesh<D>, &Interpolation<D>),

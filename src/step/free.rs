@@ -1,6 +1,6 @@
-//! Which body is free to move where a system is singular.
+//! The error message for a singular system: which body is free to move.
 //!
-//! A rigid motion that nothing resists is one that the tangent takes to no force. Bodies are what shares nodes, rigid
+//! A rigid motion that nothing resists is in the null space of the tangent. Bodies are what shares nodes, rigid
 //! structures, and in the end all of the scene together; the motions of each are the displacements in each direction
 //! and the rotation about its middle, as far as supports leave them.
 

@@ -1,14 +1,14 @@
-//! Which faces take a ghost penalty, and which the system has room for.
+//! Which faces have a ghost penalty (docs/theory.md, section 8), and for which faces the pattern of the matrix has entries (*room*).
 
 use super::scene::Scene;
 use super::state::State;
 use crate::mesh::faces::{Face, Faces};
 
-/// Rings of cells beyond those in need for which the system has room too, so that its pattern seldom changes.
+/// Rings of cells around those with a penalty for whose faces the pattern has entries too, so that it seldom changes.
 const RINGS: usize = 2;
 
-/// The faces that take a penalty, ascending: those of ill-conditioned cells and, with inertia, of cells with fewer
-/// points than nodes, and those of the empty cells beside these, as far as one of the two cells holds points.
+/// The faces with a penalty, ascending: those of ill-conditioned cells and, with inertia, of cells with fewer points than nodes, and
+/// those of the empty cells beside these, if one of the two cells of the face holds points.
 pub fn choose<const D: usize>(scene: &Scene<D>, state: &State<D>) -> Vec<u32> {
     let Some(faces) = &scene.faces else { return Vec::new() };
     let cells = scene.mesh.cells.len();
@@ -39,19 +39,19 @@ pub fn choose<const D: usize>(scene: &Scene<D>, state: &State<D>) -> Vec<u32> {
     (0u32..).zip(&faces.inner).filter(|(_, face)| wanted(face)).map(|(number, _)| number).collect()
 }
 
-/// Whether the system has room for a penalty at a face.
+/// Whether the pattern has entries for a penalty at a face.
 pub fn has_room<const D: usize>(state: &State<D>, face: &Face) -> bool {
     face.cells.iter().any(|&c| state.penalised.get(c as usize).copied().unwrap_or(false))
         && face.cells.iter().all(|&c| state.active[c as usize])
 }
 
-/// Whether the system has room for all penalties that the cells of a state, which exist and take part, ask for.
+/// Whether the pattern has entries for all penalties of a state.
 pub fn has_room_for_penalties<const D: usize>(scene: &Scene<D>, state: &State<D>) -> bool {
     let Some(faces) = &scene.faces else { return true };
     choose(scene, state).into_iter().all(|f| has_room(state, &faces.inner[f as usize]))
 }
 
-/// Makes room for the faces in `chosen` and those around; true where there was not enough.
+/// Marks the cells whose faces get entries: those of the faces in `chosen` and of the rings around; true if the pattern changes.
 pub fn make_room<const D: usize>(faces: &Faces, state: &mut State<D>, chosen: &[u32]) -> bool {
     if chosen.iter().all(|&f| has_room(state, &faces.inner[f as usize])) {
         return false;

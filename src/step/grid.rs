@@ -34,9 +34,9 @@ pub struct Grid<const D: usize> {
     pub elements: Option<Elements<D>>,
     /// The faces that take a ghost penalty.
     pub ghost: Vec<GhostFace>,
-    /// The contact nodes that face something.
+    /// The constraints of the contact nodes that face soil or another body.
     pub constraints: Vec<PlacedConstraint<D>>,
-    /// The parts of the boundary of the material that no structure covers; absent where all of it is open or nothing asks.
+    /// The parts of the boundary of the material that no structure covers; absent where all of it is open or no term needs it.
     pub open: Option<Vec<Piece>>,
     /// The coupling of each contact node of each interface that the system has room for, else `u32::MAX`.
     pub constraint_coupling: Vec<Vec<u32>>,
@@ -59,7 +59,7 @@ pub struct Grid<const D: usize> {
 }
 
 impl<const D: usize> Grid<D> {
-    /// The grid of a state whose points are located and weighed.
+    /// The grid of a state whose points are located and have weights.
     ///
     /// # Errors
     /// A machine error when memory does not suffice.
@@ -355,8 +355,8 @@ impl<const D: usize> Grid<D> {
     }
 }
 
-/// The increments (m) of displacements that are given in a step of size `dt`, one entry an equation: zero at the
-/// supports, and what is prescribed, which takes precedence; and those (kPa) of pore pressures at drained nodes.
+/// The prescribed increments (m) of displacement in a step of size `dt`, one entry for each equation: zero at supports, and those of curves,
+/// which take precedence; and those (kPa) of pore pressures at drained nodes.
 pub fn given_increments<const D: usize>(
     scene: &Scene<D>,
     state: &State<D>,

@@ -1,11 +1,11 @@
-//! Structures that leave the grid.
+//! Error: a structure in contact that leaves the grid.
 
 use super::scene::Scene;
 use crate::contact::{Constraint, Ground, Interface, Multipliers};
 use crate::error::{Error, Result};
 
-/// Refuses a contact node that touched soil in the step before, as `held` has it, has no condition among the `constraints` of this one, and
-/// is where the grid has no cells: the soil there has no freedom to answer with, and contact would be lost without a word.
+/// Rejects a contact node that was closed in the step before, as `held` has it, has no constraint among the `constraints` of this one, and
+/// is where the grid has no cells: the soil there has no unknowns, and contact would be lost without a message.
 /// Two bodies need no grid between them, and a wall may leave it: its curve is often the end of it, and soil that follows
 /// leaves the grid itself.
 ///

@@ -1,4 +1,4 @@
-//! Materials that change as a phase begins: the pressure field, and what the log says.
+//! Materials that change as a phase begins (docs/theory.md, section 9, *Change of material*): the pressure field, and the log messages.
 
 use super::change::Change;
 use super::grid::Grid;

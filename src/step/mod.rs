@@ -1,8 +1,10 @@
-//! The time step: the page to read first.
+//! The time step: the page to read first (docs/theory.md, section 4).
 //!
-//! Each step has the three phases of the material point method. *Initialise* restores the grid, finds the
+//! Each step has the three phases of the material point method. *Initialise* restores the grid where that is due, locates the
 //! points on it and maps their motion to its nodes. *Lagrange* solves the equations of motion on the grid,
-//! implicitly. *Convect* moves the points with the grid and hands them its motion and the converged state.
+//! implicitly. *Convect* moves the points with the grid and gives them its motion and the converged state.
+//!
+//! To *restore* the grid is the word of the reference for a grid reset: its nodes go back to their first positions.
 
 mod balance;
 mod boundary_projection;
@@ -62,10 +64,10 @@ use problem::Problem;
 use std::marker::PhantomData;
 use transfer::Start;
 
-/// The motion that a step starts from, with inertia, and its end.
+/// The result of [`Simulation::lagrange`]: with inertia, the velocity and acceleration of the nodes at the start; and the solution.
 type Lagrange<const D: usize> = (Option<Start<D>>, Solution<D>);
 
-/// A scene in motion.
+/// A run: the scene, its state, and the grid that follows from both.
 pub struct Simulation<'a, const D: usize, K> {
     pub scene: &'a Scene<D>,
     pub state: State<D>,
@@ -74,7 +76,7 @@ pub struct Simulation<'a, const D: usize, K> {
 }
 
 impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
-    /// Takes up a state: the first one or one from a checkpoint.
+    /// Starts from a state: the first one or one from a checkpoint.
     ///
     /// # Errors
     /// When a point lies outside the grid, or memory does not suffice.
@@ -84,7 +86,7 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
         Ok(Self { scene, state, grid, kinematics: PhantomData })
     }
 
-    /// Notes on the phase that begins: materials that change in it, prescribed displacements and loads that no material feels.
+    /// Notes on the phase that begins: materials that change in it, prescribed displacements and loads that act on no material.
     ///
     /// # Errors
     /// When memory does not suffice, and where a structure comes back into soil.
@@ -93,7 +95,7 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
         overlap::on_return(self.scene, &self.state)?;
         if self.scene.terms.iter().any(|term| term.sees_open_boundary()) {
             match contact::begin::<D, K>(self.scene, &mut self.grid, &mut self.state) {
-                // What is at fault here is told by the step that comes.
+                // The next step reports an error of the analysis.
                 Err(error) if error.kind != Kind::Analysis => return Err(error),
                 _ => {}
             }
@@ -117,8 +119,8 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
         Ok(changes.into_iter().chain(notes).chain(loads).collect())
     }
 
-    /// Whether the phase that begins is one with inertia in which nothing will move: at rest, and under all of its loads in balance but
-    /// for the share `part` (-).
+    /// Whether the phase that begins is dynamic and nothing will move in it: at rest, and in equilibrium under all of its loads but for
+    /// the fraction `part` (-) of the largest force.
     ///
     /// # Errors
     /// When memory does not suffice.
@@ -129,13 +131,14 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
         let found = contact::begin::<D, K>(self.scene, &mut self.grid, &mut self.state)
             .and_then(|()| unbalanced::stays_at_rest(self.scene, &mut self.grid, &self.state, part));
         match found {
-            // What is at fault here is told by the step that comes.
+            // The next step reports an error of the analysis.
             Err(error) if error.kind == Kind::Analysis => Ok(false),
             found => found,
         }
     }
 
-    /// One time step of the size that `controller` wants, tried with the predicted state first, halved until it converges.
+    /// One time step of the size that `controller` wants. It is tried with the predictor first; a step that fails is tried again on a
+    /// reset grid or without the predictor, and is then halved until it converges.
     ///
     /// # Errors
     /// When a point left the grid, the step falls below the least one, or memory does not suffice.
@@ -150,14 +153,14 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
                 Ok((start, solution)) => break (dt, start, solution),
                 Err(error) if error.kind == Kind::Analysis => {
                     if !fresh {
-                        // A distorted grid is the first thing to blame.
+                        // Reset a deformed grid before the step is halved.
                         (fresh, unbalanced) = timed(Activity::Transfer, || self.initialise(true))?;
                     } else if predictor.is_none() {
                         unbalanced::hold(self.scene, &mut self.grid, &mut self.state, dt)?;
                         controller.halve(dt, error)?;
                     }
                 }
-                // No step is small enough for a machine without memory.
+                // Other errors, such as too little memory, do not depend on the size of the step.
                 Err(error) => return Err(error),
             }
         };
@@ -168,8 +171,8 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
         Ok(report)
     }
 
-    /// Points to grid, where the grid is to be restored or `forced` to be. True where another restoration would change
-    /// nothing: the grid is fresh, or is never restored; and whether no balance on it was found.
+    /// Points to grid: restores the grid where that is due or `forced`. Returns whether another reset would change nothing (the grid was
+    /// just reset or nothing has moved on it, or it is never reset), and whether the equilibrium after the reset was not found.
     fn initialise(&mut self, forced: bool) -> Result<(bool, bool)> {
         let (scene, state) = (self.scene, &mut self.state);
         let moved = state.displacement.iter().flatten().any(|&u| u != 0.0);
@@ -195,7 +198,7 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
         Ok((restore || !moved || scene.numerics.restore == Restore::Never, unbalanced))
     }
 
-    /// The solution on the grid and, with inertia, the motion that it starts from.
+    /// Solves the step on the grid (eq. 1; with inertia eq. 6).
     fn lagrange(&mut self, dt: f64, predictor: Option<&[[f64; D]]>) -> Result<Lagrange<D>> {
         let (scene, state) = (self.scene, &self.state);
         let dynamic = state.dynamic(scene);
@@ -222,7 +225,7 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
         Ok((start, solution))
     }
 
-    /// Refuses an equilibrium that reduced strengths leave only in another shape of the soil.
+    /// In a strength reduction: rejects an equilibrium that is reached only after a large displacement, as failure would be.
     fn stands(&self, dt: f64, found: Lagrange<D>) -> Result<Lagrange<D>> {
         let phase = &self.scene.phases[self.state.phase];
         let Some(search) = &phase.search else { return Ok(found) };
@@ -250,7 +253,7 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
         ))
     }
 
-    /// Grid to points.
+    /// Grid to points (eq. 12): the converged solution becomes the state.
     fn convect(&mut self, dt: f64, start: Option<Start<D>>, mut solution: Solution<D>) -> Result<Report<D>> {
         let (scene, state) = (self.scene, &mut self.state);
         rigid::follow(scene, state, &mut solution.displacement);

@@ -1,12 +1,13 @@
-//! Momentum between the integration points, over which inertia is summed, and the material points, which carry it.
+//! Conservation of momentum between the integration points, over which inertia is summed, and the material points, which carry it
+//! (docs/theory.md, section 6, *Momentum*).
 //!
-//! The masses of both agree in sum, but not node by node, so a field of the nodes has a momentum `Σ_q m_q N_I a_I` at the
-//! ones and a slightly different one at the others. What is handed from one to the other gets a rigid motion of
-//! each body on top, such that its linear momentum and the angular one about its centre are the same on both sides. A body is a set of cells with
-//! material that share nodes. About an axis of symmetry only the momentum along the axis is kept.
+//! The masses of both agree in sum, but not node by node, so a nodal field has the momentum `Σ_q m_q N_I a_I` at the integration
+//! points and a slightly different one at the material points. A field that is transferred between them is corrected by a rigid motion of
+//! each body, such that its linear momentum and its angular momentum about the centre of mass are the same on both sides. A body is a set
+//! of cells with material that share nodes. In axisymmetry only the momentum along the axis is conserved.
 //!
-//! Internal forces have no moment where they act, which is between the ends of a step. So the moment of what a step adds to the
-//! velocity is taken there.
+//! Internal forces have no moment about the positions halfway through the step. So the angular momentum of a velocity increment is taken
+//! there.
 
 use super::family::{Family, interpolate};
 use super::grid::Grid;
@@ -89,8 +90,8 @@ impl<const D: usize> Momentum<D> {
     }
 }
 
-/// Adds to the `values` of a nodal field at the material points what these lack of its momentum at the integration points, both less
-/// the nodal displacement `back` (m) from where they are.
+/// Corrects the `values` of a nodal field at the material points, so that they have its momentum at the integration points. The
+/// positions are the present ones less the nodal displacement `back` (m).
 pub fn complete_points<const D: usize, K: Kinematics<D>>(
     scene: &Scene<D>,
     grid: &Grid<D>,
@@ -120,7 +121,7 @@ pub fn complete_points<const D: usize, K: Kinematics<D>>(
     }
 }
 
-/// Adds to a nodal `field` what it lacks at the integration points of the momentum of `values` at the material points.
+/// Corrects a nodal `field`, so that it has at the integration points the momentum of `values` at the material points.
 pub fn complete_nodes<const D: usize, K: Kinematics<D>>(
     scene: &Scene<D>,
     grid: &Grid<D>,
@@ -137,7 +138,8 @@ pub fn complete_nodes<const D: usize, K: Kinematics<D>>(
     add_to_nodes(scene, grid, state, &bodies, &rigid, field);
 }
 
-/// Adds to a nodal `field` what it lacks at the material points of the momentum of `values` there.
+/// Corrects a nodal `field`, so that it has at the material points the momentum of `values` there: what the regularisation of the mapping
+/// (eq. 11a) has lost.
 pub fn keep_at_nodes<const D: usize, K: Kinematics<D>>(
     scene: &Scene<D>,
     grid: &Grid<D>,

@@ -1,4 +1,4 @@
-//! Newton's method for one step.
+//! Newton's method for one step (docs/theory.md, section 14, eq. 14).
 
 mod search;
 
@@ -14,13 +14,13 @@ use crate::error::{Error, Result};
 use crate::mesh::cell_size;
 use crate::system::Method;
 
-/// Directions from a predictor that hold contact nodes together.
+/// Most first iterations, which have a frozen contact status.
 const HELD: usize = 3;
 /// Largest relative residual that the linear systems of an iteration are solved to.
 const LOOSEST: f64 = 1e-3;
-/// Share of what a direction balances from which on displacements still to be given count.
+/// The prescribed displacements count as not reached if their forces are more than this fraction (-) of the right-hand side.
 const DUE: f64 = 1e-3;
-/// A residual this small relative to the forces that balance is the rounding of their sums.
+/// A residual this small relative to the largest term is rounding.
 const ROUNDING: f64 = 1e-12;
 
 /// Solves a step.
@@ -41,26 +41,27 @@ struct Newton<'a, const D: usize> {
     problem: &'a Problem<'a, D>,
     grid: &'a mut Grid<D>,
     buffers: Buffers<D>,
-    /// Whether the matrix of the grid is the tangent of the state at hand.
+    /// Whether the matrix of the grid is the tangent of the current state.
     tangent: bool,
-    /// A force (kN) below which nothing counts.
+    /// Least scale (kN) of the residual.
     floor: f64,
-    /// Relative residuals so far; the last is that of the state at hand.
+    /// Relative residuals so far; the last is that of the current state.
     history: Vec<f64>,
     method: Method,
-    /// The residual (kN) to beat, and how many iterations have not.
+    /// The residual (kN) on the right of eq. 14, and how many full steps in a row the watchdog has accepted that did not reduce it.
     target: f64,
     relaxed: usize,
-    /// Whether every iteration must lessen the residual: set when full steps have failed to.
+    /// Whether every iteration must reduce the residual, without watchdog: once that has failed, and in quasi-static steps with contact.
     strict: bool,
+    /// How many backtracking searches in a row have not reduced the residual.
     stalled: usize,
-    /// Whether displacements still to be given have a share in what the direction balances.
+    /// Whether prescribed displacements are not reached, so that their forces are part of the right-hand side.
     due: bool,
     /// Length of the last trial step, in those of `δ`.
     length: f64,
-    /// Share by which the diagonal of the tangent is raised: not zero while its steps go astray.
+    /// Fraction (-) by which the diagonal of the tangent is raised (Levenberg).
     damping: f64,
-    /// Why the last trial state that was not admissible is not.
+    /// The error of the last inadmissible trial state.
     refused: Option<Error>,
 }
 
@@ -82,7 +83,7 @@ impl<'a, const D: usize> Newton<'a, D> {
             method: Method::Cholesky,
             target: f64::INFINITY,
             relaxed: 0,
-            // Contact nodes touch or part on the way of a full step, and what follows is no better for it.
+            // Contact status changes during a full step, and accepting a larger residual does not help.
             strict: !problem.scene.interfaces.is_empty() && problem.integration.is_none(),
             stalled: 0,
             due: false,
@@ -130,7 +131,8 @@ impl<'a, const D: usize> Newton<'a, D> {
         Ok(())
     }
 
-    /// Begins with the predicted state where, with what is given reached in both, its residual is less than that of the converged one.
+    /// Begins with the predicted state if its residual is less than that of the converged one, the prescribed displacements being reached
+    /// in both.
     fn predict(&mut self) -> Result<()> {
         let residual = |newton: &mut Self, start: &[[f64; D]], tangent: bool| {
             newton.buffers.now.at.set(start, newton.problem.pressure);
@@ -160,9 +162,9 @@ impl<'a, const D: usize> Newton<'a, D> {
         (self.target, self.damping, self.stalled) = (f64::INFINITY, 0.0, 0);
     }
 
-    /// The first iterations from a predictor, or of bodies that start in contact. They leave contact nodes a little apart that bear in
-    /// the end; nothing holds the soil beneath them then, and what the tangent says flies through the structure, or
-    /// nothing holds the structure. The directions hold such contact nodes together until one is worth its full length.
+    /// The first iterations from a predictor, or of bodies that start in contact. The initial state may open contact nodes that finally close.
+    /// The soil beneath them, or the structure, is then unsupported, and the tangent yields far too large displacements. So the directions
+    /// keep such contact nodes closed (frozen contact status) until one is taken at full length.
     fn first_iterations(&mut self) -> Result<()> {
         self.evaluate(false)?;
         self.note();
@@ -175,7 +177,7 @@ impl<'a, const D: usize> Newton<'a, D> {
             self.buffers.contact_frozen = true;
             self.direction()?;
             self.buffers.contact_frozen = false;
-            // The residual that is to fall is the true one.
+            // The residual to reduce is the true one, not that with the frozen status.
             self.target = if self.due { self.target.max(size) } else { size };
             self.search()?;
             if self.history.len() > noted {
@@ -188,7 +190,7 @@ impl<'a, const D: usize> Newton<'a, D> {
         Ok(())
     }
 
-    /// The residual of the state at hand, and its tangent where wanted.
+    /// The residual of the current state, and its tangent where wanted.
     fn evaluate(&mut self, tangent: bool) -> Result<()> {
         let mut now = std::mem::take(&mut self.buffers.now);
         let result = evaluate(self.problem, self.grid, &mut self.buffers, &mut now, tangent);
@@ -202,7 +204,7 @@ impl<'a, const D: usize> Newton<'a, D> {
         norm_free(&evaluation.force, &self.buffers.fixed)
     }
 
-    /// Notes the residual of the state at hand, relative to the largest of the terms that balance in it.
+    /// Appends the residual of the current state, relative to the largest term in it, to the history.
     fn note(&mut self) {
         self.history.push(self.size(&self.buffers.now) / self.buffers.now.scale.max(self.floor));
     }
@@ -220,7 +222,7 @@ impl<'a, const D: usize> Newton<'a, D> {
         self.buffers.gap.iter().all(|g| *g == 0.0) && self.error() <= self.tolerance()
     }
 
-    /// `K δ = −R` with δ given where the displacement is, as the last call of [`Newton::converged`] found.
+    /// `K δ = −R`, where δ of a prescribed displacement is what is left to it, as the last call of [`Newton::converged`] found.
     fn direction(&mut self) -> Result<()> {
         if self.history.len() > self.problem.scene.numerics.max_iterations {
             return Err(self.failure("too many iterations"));
@@ -242,7 +244,7 @@ impl<'a, const D: usize> Newton<'a, D> {
         let diagonal = motion.matrix.scale(&motion.pattern);
         motion.matrix.constrain(&motion.pattern, fixed, gap, diagonal, delta);
         wanted.clone_from(delta);
-        // Displacements still to be given unbalance the system beyond the residual at hand.
+        // The forces of prescribed displacements that are not reached yet are part of the right-hand side, not of the residual.
         let beyond = wanted.iter().zip(&now.force).zip(&*fixed).map(|((w, f), fixed)| if *fixed { 0.0 } else { w + f });
         let whole = norm_free(wanted, fixed);
         self.due = beyond.map(|b| b * b).sum::<f64>().sqrt() > DUE * whole;
@@ -250,7 +252,7 @@ impl<'a, const D: usize> Newton<'a, D> {
             self.target = whole;
         }
         let (pattern, matrix) = (&motion.pattern, &motion.matrix);
-        // Where the residual has fallen to a tenth the tangent is much the same as before.
+        // Where the residual has fallen to a tenth, the factor of the last tangent still preconditions this one.
         let near = matches!(self.history[..], [.., before, last] if last < 0.1 * before);
         let method = if !matrix.matrix_free.is_empty() {
             let tolerance = forcing(&self.history, self.problem.scene.numerics.tolerance);
@@ -269,8 +271,7 @@ impl<'a, const D: usize> Newton<'a, D> {
         Ok(())
     }
 
-    /// Where (m) as the step begins the forces of the state at hand are farthest from balance: a state that diverges may have carried the
-    /// node out of the grid.
+    /// The position (m), as the step begins, of the node with the largest residual: in a diverging state the node may have left the grid.
     fn worst(&self) -> Option<[f64; D]> {
         let size = |b: usize| {
             let of_node = D * b..D * (b + 1);
@@ -293,8 +294,8 @@ impl<'a, const D: usize> Newton<'a, D> {
     }
 }
 
-/// The relative residual to solve an iteration to: as the residual fell in the one before, squared (Eisenstat & Walker
-/// 1996), which keeps the convergence of Newton's method, but no more than the end of the iteration asks for.
+/// The relative residual of the linear solution (inexact Newton): a tenth of the square of the last reduction (Eisenstat & Walker 1996),
+/// which preserves the convergence of Newton's method, but no smaller than the end of the iteration needs.
 fn forcing(history: &[f64], tolerance: f64) -> f64 {
     let last = history.last().copied().unwrap_or(1.0);
     let enough = 0.1 * tolerance / last;
@@ -305,8 +306,8 @@ fn forcing(history: &[f64], tolerance: f64) -> f64 {
     quadratic.max(enough).clamp(1e-10, LOOSEST)
 }
 
-/// Which equations of nodes are damped. A structure as a whole may have no more to hold it than soil that flows: a share of
-/// its own stiffness would be a far stiffer hold on it, and its balance would come in tiny steps.
+/// Which equations of nodes are damped: not those of structures in contact. Only soil that flows may support a structure; a fraction of the
+/// structure's own stiffness would be far stiffer, and it would approach its equilibrium in tiny steps.
 fn damped_equations<const D: usize>(scene: &Scene<D>, grid: &Grid<D>, out: &mut Vec<bool>) {
     out.extend(grid.dofs.node.iter().flat_map(|&n| [(n as usize) < scene.mesh_nodes(); D]));
     let Some(fem) = &scene.fem else { return };
@@ -320,8 +321,8 @@ fn damped_equations<const D: usize>(scene: &Scene<D>, grid: &Grid<D>, out: &mut 
     }
 }
 
-/// A force (kN) below which nothing counts: rounding in stresses of the order of the stiffness, on the sides of a
-/// typical cell, which are four times its volume over its diagonal (in axisymmetry those of its ring).
+/// The least scale (kN) of the residual: 10⁻⁶ of the largest confined modulus on the side of a mean cell (in axisymmetry of its ring), times
+/// the root of the number of equations. The side is taken as four times the volume over the diagonal.
 fn floor<const D: usize>(problem: &Problem<D>, grid: &Grid<D>) -> f64 {
     let (mut volume, mut size) = (0.0, 0.0);
     for Family { mesh, interpolation, points, .. } in grid.integrated(problem.scene, problem.state) {
@@ -332,7 +333,8 @@ fn floor<const D: usize>(problem: &Problem<D>, grid: &Grid<D>) -> f64 {
     1e-6 * problem.scene.stiffness_scale * side * (problem.given.len() as f64).sqrt()
 }
 
-/// What is missing to the given displacements and pore pressures, in the unit of the unknowns, one entry an equation.
+/// What is left to the prescribed displacements and pore pressures, in the unit of the unknowns, one entry for each equation. It has nothing
+/// to do with the gap of contact.
 fn gaps<const D: usize>(problem: &Problem<D>, grid: &Grid<D>, at: &Unknowns<D>, out: &mut Vec<f64>) {
     let gap = |(equation, given): (usize, &Option<f64>)| {
         given.map_or(0.0, |increment| match grid.dofs.dof(equation) {

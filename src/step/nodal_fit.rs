@@ -1,5 +1,5 @@
-//! Continuous fields of the corners of cells, taken over from points: at each node the linear function that fits the points around it
-//! best, weighted by its hat (weighted least squares).
+//! Projection of the values of points to a continuous field of corner values at a grid reset (docs/theory.md, sections 10 and 11): at each
+//! corner by weighted least squares, the linear function that fits the points around it best, weighted by its linear shape function.
 
 use crate::interpolation::Interpolation;
 use crate::kinematics::Kinematics;
@@ -8,11 +8,11 @@ use crate::points::Points;
 use crate::term::{Frame, pressure_hats};
 use nalgebra::{SMatrix, SVector};
 
-/// Share of the size of a cell squared that the points of a node are taken to be apart at least: a gradient that they are
-/// too close to tell is zero.
+/// Least variance (-) of the positions of the points of a node, over the square of the size of the cell: points too close together to
+/// determine a gradient yield none.
 const SPREAD: f64 = 1e-6;
 
-/// Times that the difference is mapped: what one leaves the next takes up.
+/// Passes: each projects the difference that the passes before have left.
 const ROUNDS: usize = 3;
 
 /// Cells and the points in them.
@@ -29,7 +29,7 @@ impl<'a, const D: usize> From<Frame<'a, D>> for Filled<'a, D> {
     }
 }
 
-/// What the points around a node tell of it, weighted by its hat: sums that are moments about their centre in the end.
+/// Weighted sums over the points around a node; in the end moments about their centre.
 #[derive(Clone)]
 struct Around<const D: usize> {
     weight: f64,
@@ -41,9 +41,9 @@ struct Around<const D: usize> {
     size: f64,
 }
 
-/// Takes a field, one value a node, over from the points that have a `value`. What is mapped is by how much those differ from the field
-/// so far. A field whose points have not moved stays what it is, and so does a linear one wherever they are, at the edges of a body,
-/// too. Nodes without points keep their values.
+/// Corrects a nodal `field` by the difference between the `value` of the points that have one and the field there. A field whose points have
+/// not moved does not change, nor does a linear one wherever the points are, also at the edges of a body. Nodes without points keep their
+/// values.
 pub fn fit<const D: usize, K: Kinematics<D>>(
     cells: &[Filled<D>],
     value: impl Fn(&Points<D>, usize) -> Option<f64>,
@@ -94,8 +94,8 @@ fn correct<const D: usize, K: Kinematics<D>>(
     }
 }
 
-/// Calls `see` with each cell, corner and point in it that has a value, the weight of the point in the hat of the corner, and what
-/// the field lacks of its value.
+/// Calls `see` with each cell, corner and point in it that has a value, the weight of the point times the linear shape function of the
+/// corner, and the difference of its value from the field.
 fn visit<const D: usize, K: Kinematics<D>>(
     cells: &[Filled<D>],
     value: &impl Fn(&Points<D>, usize) -> Option<f64>,

@@ -1,4 +1,4 @@
-//! Structures that come to be, at first or in a later phase, within the soil they are to touch.
+//! Error: a structure that overlaps the soil that it is in contact with, at the start of a run or of a phase that activates it.
 
 use super::facing::position;
 use super::scene::Scene;
@@ -10,8 +10,8 @@ use crate::mesh::cell_size;
 use crate::mesh::locate::Locator;
 use crate::points::Points;
 
-/// Refuses structures that begin with points of soil in them farther from the boundary than a cell is long: contact moves
-/// points out of a structure that are near its boundary, and would never see these. Walls have no inside.
+/// Rejects structures that begin with points of soil in them farther from the boundary than the size of a cell: contact finds only points
+/// near the boundary. Walls have no inside.
 ///
 /// # Errors
 /// Input: such a structure.

@@ -1,4 +1,4 @@
-//! The pore pressures of the nodes on a restored grid: what the points bring to them.
+//! Projection of the pore pressure from the points at a grid reset (docs/theory.md, section 11, *Grid reset*).
 
 use super::nodal_fit::{self, Filled};
 use crate::kinematics::Kinematics;
@@ -10,7 +10,7 @@ pub fn soil<'a, const D: usize>(porous: &'a [Option<Porous>], points: &Points<D>
     porous.get(points.model_of(p)).and_then(Option::as_ref)
 }
 
-/// Takes the pressures (kPa) of the nodes over from the points of all `cells` that are in regions with water.
+/// Projects the pressures (kPa) of the nodes from the points of all `cells` that are in regions with water.
 pub fn gather<const D: usize, K: Kinematics<D>>(cells: &[Filled<D>], porous: &[Option<Porous>], field: &mut [f64]) {
     let value = |points: &Points<D>, p: usize| soil(porous, points, p).map(|_| points.pore_pressure[p]);
     nodal_fit::fit::<D, K>(cells, value, field);

@@ -1,15 +1,15 @@
-//! The predictor: the motion of the step before goes on.
+//! The predictor of Newton's method (docs/theory.md, section 14): linear extrapolation of the last increment.
 //!
-//! Where soil flows, or a structure moves on, the end of a step is much the same as before, a step farther on. The iteration that begins
-//! there finds soil that yields where it did, with its elasto-plastic tangent, and contact nodes that touch as they did.
+//! Where soil flows, or a structure moves steadily, the next increment is close to the last one. The iteration that begins with it finds the
+//! soil yielding where it did, with its elasto-plastic tangent, and the same contact nodes closed.
 
 use super::state::State;
 use crate::mesh::Mesh;
 use crate::mesh::locate::Locator;
 use crate::mesh::shape::MAX_NODES;
 
-/// A step this many times as long as the last one does not go on with it. Within a phase steps grow less; the next phase may
-/// count its time on another scale.
+/// A step more than this many times as long as the last one has no predictor. Within a phase steps grow by less; another phase may have
+/// another scale of time.
 const LONGEST: f64 = 4.0;
 
 /// Passes of the search for where the material at a node was.
@@ -24,8 +24,8 @@ pub fn extrapolated<const D: usize>(state: &State<D>, dt: f64) -> Option<Vec<[f6
     goes_on.then(|| ends.map(|(u, by)| std::array::from_fn(|d| u[d] + share * by[d])).collect())
 }
 
-/// Takes the last increment to the nodes of the grid in `after`, where it is restored to, from that `before`, whose
-/// displacement is still in the state: from about where the material at the node was. Nodes that nothing comes to keep theirs.
+/// Interpolates the last increment from the grid `before` a reset, whose displacement is still in the state, to the nodes of the grid
+/// `after` it: each from where the material that is now at the node was. Nodes that no material of the grid comes to keep theirs.
 pub fn carry<const D: usize>((before, locator): (&Mesh<D>, &Locator<D>), after: &Mesh<D>, state: &mut State<D>) {
     if state.increment.is_empty() {
         return;

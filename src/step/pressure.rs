@@ -1,12 +1,12 @@
-//! The pressure field on a restored grid: its unknowns, and what the points bring to them.
+//! Projection of the pressure field `π` from the points at a grid reset (docs/theory.md, section 10, *Projection at a reset*).
 
 use super::nodal_fit::{self, Filled};
 use crate::dofs::Places;
 use crate::kinematics::Kinematics;
 use crate::term::pressure_hats;
 
-/// Takes the field over a family of cells from their points: a linear fit at the corners, and what is left of the mean of each cell. It is
-/// where the next step begins; what the step makes of it follows from the points themselves.
+/// Projects the field over a family of cells from their points: a linear fit at the corners, and the remaining mean of each cell as its
+/// constant. It is the initial value of the next step; the equations (eq. 25) take the values of the points themselves as `π_n`.
 pub fn gather<const D: usize, K: Kinematics<D>>(cells: Filled<D>, places: Places, field: &mut Vec<f64>) {
     let Filled { mesh, interpolation, points } = cells;
     let (constants, end) = (places.constant(0), places.constant(mesh.cells.len()));

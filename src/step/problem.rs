@@ -33,7 +33,7 @@ pub struct Problem<'a, const D: usize> {
 }
 
 impl<'a, const D: usize> Problem<'a, D> {
-    /// The last converged step, where nothing is given.
+    /// A problem at the last converged state, without prescribed increments and inertia.
     pub fn at_rest(scene: &'a Scene<D>, state: &'a State<D>) -> Self {
         Self {
             scene,
@@ -52,7 +52,7 @@ impl<'a, const D: usize> Problem<'a, D> {
         }
     }
 
-    /// Adds `length · δ`, one entry an equation, to the unknowns; a full step lands on what is given to the last bit.
+    /// Adds `length · δ`, one entry an equation, to the unknowns; a full step reaches the prescribed values to the last bit.
     pub fn advance(&self, grid: &Grid<D>, at: &mut Unknowns<D>, delta: &[f64], length: f64) {
         for (equation, (delta, given)) in delta.iter().zip(self.given).enumerate() {
             let (value, converged, scale) = match grid.dofs.dof(equation) {
@@ -71,7 +71,7 @@ impl<'a, const D: usize> Problem<'a, D> {
 
 /// A converged step.
 pub struct Solution<const D: usize> {
-    /// Displacement of the nodes (m) since the last restoration.
+    /// Displacement of the nodes (m) since the last grid reset.
     pub displacement: Vec<[f64; D]>,
     /// The pressure field (kPa); empty without one.
     pub pressure: Vec<f64>,

@@ -1,9 +1,9 @@
-//! What is out of balance as a quasi-static phase begins, released little by little where it cannot be at once.
+//! Ramping of the unbalanced force at the start of a quasi-static phase (docs/theory.md, section 14).
 //!
-//! Weights that come, walls that go, loads that are there at once and strength that is lost leave forces `R₀` on the nodes, and no step
-//! is so small that they are less. Where the first step fails they are held, and released in proportion to the time until
-//! that step would have ended: steps that are halved then have less to bear. From there on there is nothing of them. Phases that look for
-//! failure, or hand it to dynamics, hold nothing.
+//! Added weight, removed walls, sudden loads and lost strength leave unbalanced forces `R₀` on the nodes, which step cutting does not reduce.
+//! Where the first step fails, of the size `Δt₀`, the fraction `1 − t/Δt₀` of them is *held*, that is, balanced by a fictitious force, and
+//! released in proportion to the time `t` in the phase. Halved steps then carry a part of them each, and from `Δt₀` on nothing is held.
+//! Phases that look for failure (`auto`, `strength_reduction`) do not ramp.
 
 use super::scene::Scene;
 use crate::mesh::Mesh;
@@ -14,7 +14,7 @@ use crate::rigid::Body;
 /// Forces that are held.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct UnbalancedRamp<const D: usize> {
-    /// The negative of what is out of balance at each node (kN) as the phase begins; empty where nothing is held.
+    /// `−R₀` at each node (kN) as the phase begins; empty where nothing is held.
     pub force: Vec<[f64; D]>,
     /// Time (s) in the phase at which all of it is released.
     pub until: f64,
@@ -33,9 +33,9 @@ impl<const D: usize> UnbalancedRamp<D> {
 }
 
 impl<const D: usize> UnbalancedRamp<D> {
-    /// Takes the forces to a restored grid, given that `before`, the displacement (m) of its nodes since, and the cells that are `filled`:
-    /// those at its nodes, which have moved with the soil, go to the nodes around where they are, so that resultants stay. Finite elements and
-    /// bodies keep theirs.
+    /// Transfers the forces to a reset grid, given the grid `before`, the displacement (m) of its nodes and the cells that are `filled`: a
+    /// force at the displaced position of a node is distributed to the nodes around that position by their shape functions, which conserves
+    /// resultants and moments. Nodes of finite elements and rigid bodies keep theirs.
     pub fn carry(
         &mut self,
         scene: &Scene<D>,
@@ -82,7 +82,7 @@ fn spread<const D: usize>(
     let (mut values, mut hint) = ([0.0; MAX_NODES], None);
     for (n, f) in force.iter().enumerate().filter(|(_, f)| f.iter().any(|f| *f != 0.0)) {
         let mut add = |n: usize, share: f64| (0..D).for_each(|d| out[n][d] += share * f[d]);
-        // The nodes of an empty cell would give way: the nearest cell with points goes on to there.
+        // The nodes of an empty cell have no stiffness: the nearest cell with points is extended to there.
         let found = places.get(n).copied().flatten().and_then(|x| match locator.locate(mesh, &x, hint) {
             Some((c, xi)) if holds[c as usize] => Some((c, xi)),
             _ => nearest(&x).and_then(|c| Some((c, locator.extend(mesh, c, &x)?))),

@@ -1,9 +1,8 @@
-//! The grid as finite elements that share nodes with it leave it: it follows them where they meet, less and less with
-//! the distance, and its sides are straight elsewhere (reference 1 of docs/theory.md, §2.7).
+//! The shape of the grid at a reset where finite elements share nodes with it (docs/theory.md, eq. 27; its reference 1, §2.7). Shared nodes
+//! have the positions of the elements; the other nodes follow them, less and less with the distance.
 //!
-//! The corners of its cells are held together by springs along the edges, stiff as the inverse square of their length;
-//! what they bear is the way of the shared nodes from the first shape of the grid, on the boundary of the mesh only
-//! along it.
+//! Springs along the edges of the cells join their corners, with a stiffness of one over the square of the length of the edge. Their
+//! loads are the displacements of the shared nodes from the first shape of the grid. Nodes on the boundary of the mesh move along it only.
 
 use super::scene::Scene;
 use super::state::State;
@@ -14,7 +13,7 @@ use crate::mesh::locate::Locator;
 use crate::mesh::quality;
 use crate::system::{Connectivity, Matrix, Pattern, Solver};
 
-/// Least share of its first quality that a cell may have on the relaxed grid.
+/// Least fraction (-) of its first quality that a cell may have on the relaxed grid.
 const LEAST: f64 = 0.1;
 
 /// A grid whose nodes have moved.
@@ -162,8 +161,8 @@ impl Corners {
         matrix
     }
 
-    /// Which components of each corner are given: all of shared ones; elsewhere on the boundary that across it, where
-    /// it runs along an axis, and both where it does not.
+    /// Which components of each corner are prescribed: all at shared nodes; on the rest of the boundary the normal one of sides along an axis,
+    /// and both on other sides.
     fn held<const D: usize>(&self, mesh: &Mesh<D>, shared: &[bool]) -> Vec<[bool; D]> {
         const { assert!(D == 2, "sides are lines in the plane only") };
         let mut held: Vec<[bool; D]> = self.node.iter().map(|&n| [shared[n as usize]; D]).collect();

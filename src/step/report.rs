@@ -57,9 +57,9 @@ pub struct Report<const D: usize> {
     /// Relative residuals, the first before the first iteration.
     pub residuals: Vec<f64>,
     pub method: Method,
-    /// Whether the grid was restored before the step.
+    /// Whether the grid was reset before the step.
     pub restored: bool,
-    /// Whether the restored grid had to be brought to balance and could not be.
+    /// Whether the equilibrium after the grid reset was due and was not found.
     pub unbalanced: bool,
     /// Why the step was halved before, each time.
     pub halvings: Vec<String>,
@@ -70,11 +70,11 @@ pub struct Report<const D: usize> {
     pub elastic: f64,
     /// Potential energy (kJ) of gravity at its full factor.
     pub potential: f64,
-    /// Material points that were strained beyond what their model answers to, and took the state of the nearest integration point.
+    /// Material points that were strained beyond the range of their model, and took the state of the nearest integration point.
     pub strained: usize,
-    /// What the interfaces in contact exerted.
+    /// The resultants of the interfaces in contact.
     pub contacts: Vec<Resultant<D>>,
-    /// The water in the pores and what left them; absent without.
+    /// The volume balance of the pore water; absent without water.
     pub water: Option<Balance>,
     /// Force of the supports on the nodes (kN): zero at nodes without. At the turning node of a rigid body its moment
     /// over the arm.
@@ -100,7 +100,7 @@ impl<const D: usize> Report<D> {
                 }
             }
         }
-        // What holds the rotation of a body is a moment.
+        // The reaction at the turning node of a body is a moment.
         let forces = || (0u32..).zip(&reaction).filter(|(n, _)| scene.turned_by(*n).is_none()).map(|(_, r)| r);
         let impulse = |d: usize| dt * (solution.applied[d] + forces().map(|r| r[d]).sum::<f64>());
         let dynamic = state.dynamic(scene);

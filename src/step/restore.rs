@@ -1,5 +1,5 @@
-//! The restored grid: its nodes where it has them at first, or relaxed between finite elements that moved, the cells of the points, and
-//! what these weigh.
+//! Grid reset (docs/theory.md, sections 3, 4 and 6): the nodes go to their first positions, or to positions that fit finite elements which
+//! moved; the points are located; the active cells and the integration weights are determined.
 
 use super::boundary_projection::project_onto_boundary;
 use super::facing;
@@ -20,12 +20,12 @@ use crate::mesh::locate::Locator;
 use crate::quadrature::{Renewed, Restored, Samples, Weights};
 use rayon::prelude::*;
 
-/// Rings of cells around those with points that take part too, so that points can move on for a while
-/// before the pattern changes.
+/// Rings of cells around those with points that are active too, so that points can move some way before the pattern of the matrix
+/// changes.
 const RINGS: usize = 2;
 
-/// Goes back to the first shape of the grid: finds the points on it, chooses the cells that take part and weighs
-/// the points. True when the system must have another pattern than before.
+/// Resets the grid: locates the points, chooses the active cells and determines the integration weights. True if the matrix needs
+/// another pattern than before.
 ///
 /// # Errors
 /// When a point lies outside the grid.
@@ -90,8 +90,8 @@ pub fn begin_anew<const D: usize, K: Kinematics<D>>(
     Ok(changed)
 }
 
-/// Moves the nodes to where the restored grid has them, and finds the points on it. Returns the grid before, and a note on
-/// points that were put back onto it.
+/// Moves the nodes to their positions on the reset grid and locates the points. Returns the grid before, and a note on points that
+/// were projected to the boundary.
 ///
 /// # Errors
 /// When a cell of the grid is folded, or a point lies outside it.
@@ -193,10 +193,10 @@ fn locate_points<const D: usize>(mesh: &Mesh<D>, locator: &Locator<D>, state: &m
     }
 }
 
-/// Decides which cells take part; true when that changed since the last time.
+/// Chooses the active cells; true if they changed since the last reset.
 fn choose_cells<const D: usize>(scene: &Scene<D>, state: &mut State<D>) -> bool {
     let cells = scene.mesh.cells.len();
-    // A face to a cell beyond would have no place in the system.
+    // A face to a cell that is not active would have no entries in the matrix.
     let surrounded = |&c: &u32| {
         let across = scene.faces.as_ref().map_or(&[][..], |faces| faces.neighbours(c));
         state.active[c as usize] && across.iter().all(|&other| state.active[other as usize])

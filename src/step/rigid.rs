@@ -1,7 +1,7 @@
-//! The rigid bodies of a run: their nodes and points follow their unknowns.
+//! The rigid bodies of a run (docs/theory.md, section 13, eq. 31): their nodes and points follow their unknowns.
 //!
-//! Within a step contact sees a body move along the tangent of its motion. Once the step has converged its nodes and points
-//! are placed by the rotation itself, from where they were when the run began, so that it keeps its shape.
+//! Within a step contact uses the linearised motion of a body. Once the step has converged, its nodes and points are placed by the rotation
+//! itself, from their positions when the run began, so that it keeps its shape.
 
 use super::grid::Grid;
 use super::scene::Scene;
@@ -10,7 +10,7 @@ use crate::rigid::{Body, Pose};
 use crate::system::{Matrix, Pattern};
 use crate::tensor::Tensor;
 
-/// How far node `n` has come when its displacement since the restoration is `displacement`.
+/// The displacement (m) of node `n` since the run began, for a `displacement` since the last grid reset.
 fn travel<const D: usize>(state: &State<D>, displacement: &[[f64; D]], n: u32) -> [f64; D] {
     let n = n as usize;
     std::array::from_fn(|d| state.travel[n][d] + displacement[n][d] - state.displacement[n][d])
@@ -64,7 +64,7 @@ fn arm<const D: usize>(centre: &[f64; D], x: &[f64; D]) -> [f64; D] {
     std::array::from_fn(|d| x[d] - centre[d])
 }
 
-/// Hands the motion of bodies to their points, and their velocity to their nodes.
+/// Gives the points of bodies their motion, and the nodes of bodies their velocity.
 pub fn motion_to_points<const D: usize>(scene: &Scene<D>, state: &mut State<D>) {
     for body in &scene.bodies {
         let centre = centre(scene, body, state);
@@ -109,7 +109,7 @@ pub fn add_mass<const D: usize>(scene: &Scene<D>, block: &[u32], pattern: &Patte
     }
 }
 
-/// Momentum (t m/s) that bodies take on at once where the step prescribes their motion.
+/// Momentum (t m/s) of the sudden change of velocity of bodies whose motion the step prescribes.
 pub fn impulse<const D: usize>(scene: &Scene<D>, state: &State<D>, velocity: &[[f64; D]]) -> [f64; D] {
     let mut impulse = [0.0; D];
     for body in &scene.bodies {

@@ -22,9 +22,9 @@ pub struct Scene<const D: usize> {
     pub fem: Option<Fem<D>>,
     /// The rigid bodies: their unknowns are those of nodes at the end of [`Scene::mesh`], which no cell has.
     pub bodies: Vec<Body<D>>,
-    /// The structures and what they touch.
+    /// The contact interfaces.
     pub interfaces: Vec<Box<dyn Interface<D>>>,
-    /// The levels of the water that friction tells apart: where those outside and in the pores differ.
+    /// The levels of the water outside and in the pores, where they differ: for the effective contact pressure (docs/theory.md, eq. 29a).
     pub levels: Option<WaterLevels>,
     /// The faces between the cells; absent where none takes a ghost penalty, on displacement or on mass.
     pub faces: Option<Faces>,
@@ -35,11 +35,11 @@ pub struct Scene<const D: usize> {
     /// What a unit of the pressure unknowns stands for (kPa/m): a shear modulus over the size of a cell, so that all
     /// unknowns are lengths and all equations forces; absent without a pressure field and pore water.
     pub pressure_unit: Option<f64>,
-    /// What the pressure field carries of each material by number: what of it is of the pore water has no friction in contact.
+    /// The part of the stress of each material, by number, that the pressure field carries; the part of the pore water causes no friction.
     pub carried: Vec<Option<MixedPressure>>,
     /// The water in the pores, where its pressure is a field of its own.
     pub water: Option<Water>,
-    /// Other scalar fields that the material points carry.
+    /// Other scalar fields that the material points carry ([`Field`]); none in the cases so far.
     pub fields: Vec<Field>,
     /// Degrees of freedom held at their place in every phase.
     pub supports: Vec<Fixed>,
@@ -96,7 +96,7 @@ impl<const D: usize> Scene<D> {
         self.bodies.iter().find(|body| body.turning == Some(n))
     }
 
-    /// Where displacements are given in a phase: the supports, what is prescribed and what is not there.
+    /// Where displacements are given in a phase: supports, prescribed displacements, and structures that the phase leaves out.
     pub fn fixed(&self, phase: usize) -> impl Iterator<Item = &Fixed> {
         let Phase { prescribed, held, .. } = &self.phases[phase];
         self.supports.iter().chain(prescribed.iter().map(|p| &p.fixed)).chain(held)
@@ -107,7 +107,7 @@ impl<const D: usize> Scene<D> {
         self.phases.iter().any(|phase| phase.dynamic || phase.auto)
     }
 
-    /// The interfaces that may touch in a phase, with their numbers.
+    /// The interfaces that are active in a phase, with their numbers.
     pub fn touching(&self, phase: usize) -> impl Iterator<Item = (usize, &dyn Interface<D>)> {
         let apart = self.phases.get(phase).map_or(&[][..], |phase| &phase.apart);
         let all = self.interfaces.iter().map(|interface| interface.as_ref()).enumerate();
@@ -180,7 +180,7 @@ pub struct Phase {
     pub name: String,
     /// With inertia; quasi-static otherwise.
     pub dynamic: bool,
-    /// Quasi-static, but a step that finds no equilibrium hands over to dynamics, which hands back at rest.
+    /// Quasi-static, but switched to dynamics by a step that finds no equilibrium, and back to quasi-static at rest.
     pub auto: bool,
     /// Whether water flows through the pores.
     pub flows: bool,
@@ -195,13 +195,13 @@ pub struct Phase {
     pub reduction: Option<TimeValue>,
     /// Present where the phase looks for the reduction of strength that leaves no equilibrium.
     pub search: Option<Search>,
-    /// Nodes of structures that are not there: they stay where they are.
+    /// Nodes of structures that the phase leaves out: they do not move.
     pub held: Vec<Fixed>,
-    /// The interfaces that do not touch, by number.
+    /// The interfaces that are not active, by number.
     pub apart: Vec<usize>,
     /// The materials that regions take as it begins; none in the first phase.
     pub changes: Vec<Change>,
-    /// Whether displacements are counted from the beginning of the phase.
+    /// Whether the output counts displacements from the beginning of the phase (not a grid reset).
     pub reset: bool,
     /// Times (s) in the phase at which a step must end: outputs, kinks of tables, the end.
     pub stops: Vec<Stop>,
@@ -213,7 +213,7 @@ impl Phase {
         self.reduction.as_ref().map_or(1.0, |factor| factor.at(time))
     }
 
-    /// Times (s) since the phase began between which all that varies in it is linear.
+    /// Times (s) since the phase began; between them all prescribed values and loads are linear in time.
     pub fn times(&self) -> impl Iterator<Item = f64> {
         std::iter::once(0.0).chain(self.stops.iter().map(|stop| stop.time))
     }
@@ -224,16 +224,17 @@ impl Phase {
     }
 }
 
-/// How far soil may move without inertia and count as what it was (-), in its height.
+/// How far soil may move without inertia (-), over its height: farther counts as failure in a strength reduction, and gives a warning
+/// otherwise.
 pub const FARTHEST: f64 = 0.5;
 
 /// What counts as equilibrium while strengths are reduced to failure.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Search {
-    /// The farthest (m) that soil may move for a unit of the factor: soil that fails finds equilibrium again in another
-    /// shape, and that is not the one asked about.
+    /// The largest displacement (m) of soil for an increase of the factor by one: soil that fails may find equilibrium again in another
+    /// shape, and that counts as failure.
     pub farthest: f64,
-    /// The nodes of soil of finite elements; that of points is wherever they are.
+    /// The nodes of soil that is finite elements; those of soil with material points follow from the grid.
     pub elements: Vec<u32>,
 }
 
@@ -246,7 +247,7 @@ pub struct Stop {
     pub frame: bool,
 }
 
-/// When the grid goes back to its first shape.
+/// When the grid is reset: its nodes go back to their first positions (docs/theory.md, section 4).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Restore {
     EveryStep,
@@ -254,7 +255,7 @@ pub enum Restore {
     Quality {
         /// Least quality of a cell relative to its first one (-).
         least: f64,
-        /// Largest ratio of an edge to its first length, or of that to it (-).
+        /// Largest ratio of an edge to its length at the last reset, or of that length to it (-).
         stretch: f64,
     },
     /// Updated Lagrangian: the grid moves with the material.

@@ -36,36 +36,37 @@ pub struct State<const D: usize> {
     /// without.
     pub fem: Points<D>,
     pub fem_parametric: Vec<[f64; 3]>,
-    /// Coordinates (m) of the nodes when the grid was last restored; empty without finite elements and rigid bodies,
+    /// Coordinates (m) of the nodes at the last grid reset; empty without finite elements and rigid bodies,
     /// which alone change them.
     pub nodes: Vec<[f64; D]>,
-    /// What the contact nodes of each interface in contact carry.
+    /// Multipliers and history of the contact nodes of each interface.
     pub multipliers: Vec<Multipliers>,
     /// Whether the velocities and accelerations of the points are those of the motion: false until the first
     /// dynamic step has computed the accelerations from the forces.
     pub moving: bool,
-    /// Whether a phase that is quasi-static as long as it can be goes on with inertia.
+    /// Whether a phase of kind `auto` has been switched to dynamics.
     pub switched_to_dynamics: bool,
     /// Largest kinetic energy (kJ) since the phase began or inertia came in.
     pub peak: f64,
     /// Where (m) the material points were as the phase, or the part of it without inertia, began; empty where nothing asks how far they
     /// have moved since.
     pub start_position: Vec<[f64; D]>,
-    /// What is held of the forces that were out of balance as the phase began.
+    /// The part of the unbalanced force at the start of the phase that is not released yet.
     pub ramp: UnbalancedRamp<D>,
     /// Parametric coordinates of the points in their cells, as of the last restoration.
     pub parametric: Vec<[f64; 3]>,
     /// Displacement (m) of the nodes since the last restoration.
     pub displacement: Vec<[f64; D]>,
-    /// What the last step added to it, and the size (s) of that step; empty before the first one, zero where inertia has come in or
-    /// gone since.
+    /// The increment (m) of the displacement in the last step, and the size (s) of that step; empty before the first one, zero where
+    /// inertia has come in or gone since.
     pub increment: Vec<[f64; D]>,
     pub last_step: f64,
-    /// The last step, if it balanced its loads without inertia and without water that flows.
+    /// The last step, if it was in equilibrium with its loads without inertia and without flow of water.
     pub balanced: Option<Span>,
-    /// Displacement (m) of the nodes since the run began: what passes a node of a grid that is restored.
+    /// Sum (m) of the increments of displacement of the nodes since the run began. On a grid that is reset, different material passes a node,
+    /// and this is the displacement of none of it.
     pub travel: Vec<[f64; D]>,
-    /// What of it the history does not count, as of the last reset; empty before one.
+    /// Its value when a phase last set displacements to zero (`Phase::reset`), which the history subtracts; empty before that.
     pub uncounted: Vec<[f64; D]>,
     /// The pressure field (kPa, tension positive) by node, at the corners of cells, then the constant of each cell, then
     /// the excess pore pressure (kPa, compression positive) by node, at the corners of cells, then other scalar fields, by node;

@@ -1,8 +1,8 @@
-//! Transfer of the motion between points and grid.
+//! Transfer of the motion between points and grid (docs/theory.md, section 4, eq. 11 and 12), and of the converged state to the points.
 //!
-//! To the grid by consistent mass, `Σ_p m_p N_I N_J v_J = Σ_p m_p N_I v_p`: it keeps linear and angular momentum
-//! and a linear velocity field exactly. To the points by increments of velocity (FLIP) and values of acceleration, with the momentum
-//! that these have at the integration points ([`momentum`]).
+//! To the grid by consistent mass, `Σ_p m_p N_I N_J v_J = Σ_p m_p N_I v_p`: it conserves linear and angular momentum and
+//! reproduces a linear velocity field exactly. To the points by increments of velocity (FLIP) and values of acceleration, with the momentum
+//! that the nodal field has at the integration points ([`momentum`]).
 
 use super::balance::static_force;
 use super::family::{Family, interpolate};
@@ -21,8 +21,8 @@ use crate::points::Points;
 use crate::term::{Frame, Term, Trial, Update};
 use crate::time_integration::GeneralisedAlpha;
 
-/// Brings velocity and acceleration to the nodes: from the points, and from the forces at the first step of a
-/// motion.
+/// Determines velocity and acceleration of the nodes: from the points (eq. 11), and at the first dynamic step the acceleration from the
+/// forces.
 ///
 /// # Errors
 /// When the mass on the nodes cannot be inverted.
@@ -43,14 +43,15 @@ pub fn motion_to_grid<const D: usize, K: Kinematics<D>>(
         accelerations_to_points::<D, K>(scene, grid, state);
         rigid::motion_to_points(scene, state);
         state.moving = true;
-        // What came without inertia is no motion that goes on with it.
+        // The last increment without inertia predicts nothing for a step with inertia.
         state.increment.fill([0.0; D]);
     }
     Ok(())
 }
 
-/// Gives the material points in cells of second order the velocity that the grid has there. What it does not see moves nothing, and would stay with them, at
-/// rest too, until it is seen elsewhere as motion. In cells of first order that is bending, and stays.
+/// Gives the material points in cells of second order the interpolated velocity of the grid. The part of their velocity that the grid cannot
+/// represent moves nothing, but would stay with the points, also at rest, until another cell represents it as motion. In cells of first
+/// order this part is bending, and it is kept.
 fn take_what_is_seen<const D: usize, K: Kinematics<D>>(scene: &Scene<D>, grid: &Grid<D>, state: &mut State<D>) {
     let (mesh, interpolation, coupling) = (&scene.mesh, grid.of_material(), &grid.coupling);
     let seen = interpolate::<D, K>(&Family { mesh, interpolation, coupling, points: &state.points }, &state.velocity);
@@ -69,9 +70,8 @@ pub struct Start<const D: usize> {
 }
 
 impl<const D: usize> Start<D> {
-    /// The motion in `state`, but of nodes whose displacement is given: they go at the constant speed that takes
-    /// them through the step. What they lose or gain by that (an impact, a kink of a table) is theirs at once,
-    /// and [`motion_to_points`] hands it on with the rest.
+    /// The motion in `state`. Nodes whose displacement is prescribed move at the constant speed of the step instead. Their sudden
+    /// change of velocity (an impact, a kink of a table) is part of the increment that [`motion_to_points`] gives to the points.
     pub fn of(grid: &Grid<D>, state: &State<D>, given: &[Option<f64>], dt: f64) -> Self {
         let mut start = Self { velocity: state.velocity.clone(), acceleration: state.acceleration.clone() };
         for (equation, increment) in given.iter().enumerate() {
@@ -83,7 +83,7 @@ impl<const D: usize> Start<D> {
         start
     }
 
-    /// Momentum (t m/s) that the nodes take on at once, all together.
+    /// Momentum (t m/s) of that sudden change, summed over the nodes.
     pub fn impulse<K: Kinematics<D>>(&self, scene: &Scene<D>, grid: &Grid<D>, state: &State<D>) -> [f64; D] {
         let mut impulse = rigid::impulse(scene, state, &self.velocity);
         for Family { mesh, interpolation, points, .. } in grid.integrated(scene, state) {
@@ -110,7 +110,7 @@ impl<const D: usize> Start<D> {
     }
 }
 
-/// `M a = −F` at the beginning of a motion, zero where the displacement is given.
+/// The acceleration at the first dynamic step, `(M + P) a = −f`; zero where the displacement is prescribed.
 fn first_acceleration<const D: usize, K: Kinematics<D>>(
     scene: &Scene<D>,
     grid: &mut Grid<D>,
@@ -137,7 +137,7 @@ fn first_acceleration<const D: usize, K: Kinematics<D>>(
     Ok(acceleration)
 }
 
-/// What the terms answer to a converged state.
+/// The new values of the points that the terms compute from a converged state.
 struct Answers {
     of_integration: Vec<Update>,
     /// Of the material points that integrals are not summed over.
@@ -188,8 +188,8 @@ impl Answers {
     }
 }
 
-/// Writes the converged state of the terms into the points. Material points that integrals are not summed over may be strained
-/// beyond what a model answers to: they take the state of the nearest integration point. Returns how many did.
+/// Writes the converged state of the terms into the points. A material point that integrals are not summed over may be strained
+/// beyond the range of its model: it takes the state of the nearest integration point. Returns how many did.
 pub fn commit<const D: usize>(
     scene: &Scene<D>,
     grid: &Grid<D>,
@@ -209,7 +209,7 @@ pub fn commit<const D: usize>(
     lost.len()
 }
 
-/// Writes the stresses of the solution of a `step` into the points of the soil, and the internal variables, but not the deformation.
+/// Writes the stresses and internal variables of the solution of a `step` into the points of the soil, but not their deformation.
 pub fn commit_stresses<const D: usize>(
     scene: &Scene<D>,
     grid: &Grid<D>,
@@ -273,8 +273,8 @@ fn accelerations_to_points<const D: usize, K: Kinematics<D>>(scene: &Scene<D>, g
         to_points::<D, K>(scene, grid, state, &state.acceleration, &nowhere);
 }
 
-/// Hands the motion at the end of the step that began with `start` to the points. They take on all that the
-/// velocity of the nodes has changed by since it was mapped, so that a point at a support stops with it.
+/// Gives the points the motion at the end of the step that began with `start` (eq. 12). The increment is that since the velocity was
+/// mapped to the nodes, so a point at a support stops with it.
 pub fn motion_to_points<const D: usize, K: Kinematics<D>>(
     scene: &Scene<D>,
     grid: &Grid<D>,
@@ -302,7 +302,7 @@ pub fn motion_to_points<const D: usize, K: Kinematics<D>>(
     accelerations_to_points::<D, K>(scene, grid, state);
 }
 
-/// Velocity and acceleration of the points, mapped to the nodes, weighted by mass.
+/// Velocity and acceleration of the points, mapped to the nodes by mass (eq. 11).
 ///
 /// # Errors
 /// As [`Mass::assemble`].
@@ -347,8 +347,8 @@ fn to_nodes<const D: usize, K: Kinematics<D>>(
     Ok(nodal)
 }
 
-/// The value of a nodal field of motion at the material points, with its momentum, and at the points of the finite elements; its moment
-/// is taken less the nodal displacement `back` (m) from where they are.
+/// The value of a nodal field of velocity or acceleration at the material points, with the momentum that it has at the integration points,
+/// and at the points of the finite elements. Moments are taken at the positions less the nodal displacement `back` (m).
 fn to_points<const D: usize, K: Kinematics<D>>(
     scene: &Scene<D>,
     grid: &Grid<D>,

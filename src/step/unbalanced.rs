@@ -1,4 +1,5 @@
-//! What is out of balance as a phase begins: held where it cannot be borne at once ([`UnbalancedRamp`]), or nothing.
+//! The unbalanced force at the start of a phase (docs/theory.md, section 14): it is ramped down ([`UnbalancedRamp`]) where the first step
+//! fails.
 
 use super::balance::static_force;
 use super::grid::Grid;
@@ -9,7 +10,7 @@ use super::scene::Scene;
 use super::state::State;
 use crate::error::Result;
 
-/// Holds what is out of balance, if anything is, after a first step of the size `dt` (s) that failed.
+/// Begins to ramp the unbalanced force, if there is one, after a first step of the size `dt` (s) that failed.
 ///
 /// # Errors
 /// When the state is inadmissible on the restored grid.
@@ -20,7 +21,7 @@ pub fn hold<const D: usize>(scene: &Scene<D>, grid: &mut Grid<D>, state: &mut St
         return Ok(());
     }
     let Unbalanced { force, scale } = unbalanced(&Problem { to: dt, ..Problem::at_rest(scene, state) }, grid)?;
-    // Newton's method does not feel less.
+    // Newton's method ignores less.
     if norm(&force) <= scene.numerics.tolerance * scale {
         return Ok(());
     }
@@ -28,15 +29,15 @@ pub fn hold<const D: usize>(scene: &Scene<D>, grid: &mut Grid<D>, state: &mut St
     Ok(())
 }
 
-/// What is out of balance in a state without inertia.
+/// The unbalanced force of a state without inertia.
 struct Unbalanced<const D: usize> {
     /// By node (kN), zero where the displacement is given.
     force: Vec<[f64; D]>,
-    /// Norm of the largest of the forces that balance (kN).
+    /// Norm of the largest term (kN).
     scale: f64,
 }
 
-/// What is out of balance at the last converged step, under the loads that `problem` begins with.
+/// The unbalanced force `R₀` of the last converged state, under the loads at the start of `problem`.
 fn unbalanced<const D: usize>(problem: &Problem<D>, grid: &mut Grid<D>) -> Result<Unbalanced<D>> {
     let now = static_force(problem, grid)?;
     let mut force = vec![[0.0; D]; problem.scene.mesh.nodes.len()];
@@ -53,8 +54,8 @@ fn norm<const D: usize>(force: &[[f64; D]]) -> f64 {
     force.iter().flatten().map(|f| f * f).sum::<f64>().sqrt()
 }
 
-/// Whether a phase with inertia begins at rest, and stays there: nothing moves, no displacement is prescribed, no water flows, and
-/// under the loads of every time of the phase the forces are in balance but for the share `part` (-).
+/// Whether a dynamic phase begins at rest and stays so: nothing moves, no displacement is prescribed, no water flows, and under the loads of
+/// every time of the phase the unbalanced force is no more than the fraction `part` (-) of the largest force.
 ///
 /// # Errors
 /// When the state is inadmissible.

@@ -1,9 +1,9 @@
-//! The unknowns of a step, by node and cell as the state has them, and what the iterations keep of them.
+//! The unknowns of a step, ordered as in the state, and the vectors that the iterations reuse.
 
 /// Displacement of the nodes and, where there is one, the pressure field.
 #[derive(Default)]
 pub struct Unknowns<const D: usize> {
-    /// Displacement of the nodes (m) since the grid was restored.
+    /// Displacement of the nodes (m) since the last grid reset.
     pub displacement: Vec<[f64; D]>,
     /// As [`super::State::pressure`] (kPa).
     pub pressure: Vec<f64>,
@@ -27,7 +27,7 @@ pub struct Evaluation<const D: usize> {
     pub at: Unknowns<D>,
     pub force: Vec<f64>,
     pub applied: [f64; D],
-    /// Norm of the largest term on the displacements: what the residual is measured against.
+    /// Norm (kN) of the largest term in the equations of the displacements: the scale of the residual.
     pub scale: f64,
 }
 
@@ -44,12 +44,11 @@ pub struct Buffers<const D: usize> {
     pub trial: Evaluation<D>,
     pub best: Unknowns<D>,
     pub delta: Vec<f64>,
-    /// What `delta` balances in the linear system (kN).
+    /// The right-hand side (kN) of the linear system for `delta`.
     pub wanted: Vec<f64>,
     pub gap: Vec<f64>,
     pub fixed: Vec<bool>,
-    /// The equations whose diagonal is raised where steps go astray: those of nodes that no structure has. Empty
-    /// until then.
+    /// The equations whose diagonal is raised by damping: those of nodes of no structure in contact. Empty until needed.
     pub damped: Vec<bool>,
     /// The residual of one term.
     pub own: Vec<f64>,

@@ -1,4 +1,4 @@
-//! The balance of the pore water in a step.
+//! The volume balance of the pore water in a step, for the log: the sum of the first bracket of eq. 36 of docs/theory.md, and the outflow.
 
 use super::grid::Grid;
 use super::pore_pressure::soil;
@@ -14,12 +14,12 @@ pub struct Balance {
     /// What the soil took up (m³, in plane strain per metre), and what left it at drained boundaries.
     pub taken_up: f64,
     pub left: f64,
-    /// What points took up or gave, all together (m³).
+    /// The sum (m³) of what each point took up or gave, without sign.
     pub exchanged: f64,
 }
 
 impl Balance {
-    /// What is neither in the soil nor has left, over what was exchanged (-).
+    /// The error of the balance over what was exchanged (-).
     pub fn error(&self) -> f64 {
         if self.exchanged > 0.0 { (self.taken_up + self.left) / self.exchanged } else { 0.0 }
     }

@@ -1,4 +1,4 @@
-//! How far to go along the direction of an iteration.
+//! The length of a step along the direction of an iteration: line search, watchdog, damping (docs/theory.md, section 14, eq. 14 and 14a).
 
 use super::super::balance::evaluate;
 use super::super::unknowns::Buffers;
@@ -11,21 +11,22 @@ const ARMIJO: f64 = 1e-4;
 const BACKTRACKS: i32 = 6;
 /// Line searches that may end without a decrease before the step is given up.
 const STALLED: usize = 4;
-/// Least share by which the diagonal of the tangent is raised where its steps go astray (Levenberg 1944).
+/// Least fraction (-) by which the diagonal of the tangent is raised (Levenberg 1944).
 const LEAST_DAMPING: f64 = 1e-4;
-/// Largest such share. Without damping a disc that is laid on an incline finds no balance (`cases::rolling_disc`).
+/// No larger fraction (-): 0.1 is the largest power of ten below. Without damping a disc on an incline finds no equilibrium
+/// (`cases::rolling_disc`).
 const MOST_DAMPING: f64 = 0.2;
-/// Halvings of an accepted step length from which its tangent is not to be trusted so far.
+/// From this many halvings of an accepted step length on, the diagonal is raised.
 const ASTRAY: i32 = 3;
 /// Full steps that may raise the residual before the iteration returns to its best state.
 const WATCHDOG: usize = 3;
-/// Share of the residual from which on a full step may have gone too far.
+/// A full step that leaves more than this fraction (-) of the residual may have gone too far.
 const WORTH: f64 = 0.25;
-/// Share of the work along the direction that a step may leave (Matthies & Strang 1979).
+/// Fraction (-) of the work along the direction that a step may leave, eq. 14a (Matthies & Strang 1979).
 const ENERGY_LEFT: f64 = 0.5;
-/// States looked at for a length that leaves less work.
+/// Most trial states of the energy line search.
 const ENERGY_TRIALS: usize = 5;
-/// Least share of a bracket that the next length goes into it.
+/// Least distance (-) of the next length from the ends of the bracket, over its size.
 const LEAST_INWARDS: f64 = 0.1;
 
 impl<const D: usize> Newton<'_, D> {
@@ -36,11 +37,11 @@ impl<const D: usize> Newton<'_, D> {
         last < before && last * (last / before).powi(2) < self.tolerance()
     }
 
-    /// Goes along `δ`. A step that lessens the residual little, or not, and goes beyond where it does no more work is shortened to
-    /// about there, if that lessens it (Matthies & Strang 1979): where soil yields or hats part, iterations would else go to and fro.
-    /// Else a full step is taken even if the residual grows, for a few iterations on trial: bending structures converge so, and only
-    /// so. If that does not pay, the iteration returns to its best state and from then on backtracks until the residual falls (a
-    /// watchdog, Chamberlain et al. 1982).
+    /// Takes a step along `δ`. A full step that reduces the residual little, or not, and goes beyond the length at which the work along `δ`
+    /// vanishes is shortened to about that length, if this reduces the residual (energy line search, Matthies & Strang 1979): iterations
+    /// would otherwise alternate where soil yields or contacts open. Else the full step is taken even if the residual grows, for a few
+    /// iterations: bending structures converge only in this way. If the residual does not fall then, the iteration returns to its best state
+    /// and from then on backtracks (watchdog, Chamberlain et al. 1982).
     pub(super) fn search(&mut self) -> Result<()> {
         let with_tangent = !self.near_the_end();
         if let Some(size) = self.attempt(1.0, with_tangent) {
@@ -72,14 +73,14 @@ impl<const D: usize> Newton<'_, D> {
         self.backtrack()
     }
 
-    /// The work (kJ) of a force along `δ`, that of what is given and of pressures left out.
+    /// The work (kJ) of a force along `δ`, without prescribed displacements and pressures.
     fn work(&self, force: &[f64]) -> f64 {
         let of_nodes = self.grid.dofs.displacements();
         let each = force.iter().zip(&self.buffers.delta).zip(&self.buffers.fixed).take(of_nodes);
         each.map(|((f, d), fixed)| if *fixed { 0.0 } else { f * d }).sum()
     }
 
-    /// Whether the residual of the full step, of this size (kN), does work against the rest of the way, and is worth another.
+    /// Whether the full step, with a residual of this size (kN), went too far: `w(1) > −w(0)/2`, and the residual is worth a search.
     fn overshoots(&self, size: f64) -> bool {
         let done = self.problem.scene.numerics.tolerance * self.buffers.trial.scale.max(self.floor);
         let before = self.work(&self.buffers.wanted);
@@ -87,8 +88,8 @@ impl<const D: usize> Newton<'_, D> {
         worth && before > 0.0 && self.work(&self.buffers.trial.force) > ENERGY_LEFT * before
     }
 
-    /// Shortens the full step to where the residual does little work along `δ`, by regula falsi with halved ends
-    /// (Dowell & Jarratt 1971); false where that does not lessen the residual.
+    /// Shortens the full step to a length with eq. 14a, by regula falsi with halved ends (Dowell & Jarratt 1971); false if the residual is
+    /// not reduced there.
     fn energy_search(&mut self) -> bool {
         let first = -self.work(&self.buffers.wanted);
         let (mut low, mut high) = ((0.0, first), (1.0, self.work(&self.buffers.trial.force)));
@@ -106,7 +107,7 @@ impl<const D: usize> Newton<'_, D> {
                 }
                 return better;
             }
-            // An end that stays a second time weighs half.
+            // The work at an end of the bracket that stays a second time is halved (Illinois).
             let again = below == Some(work < 0.0);
             if work < 0.0 {
                 low = (length, work);
@@ -120,7 +121,7 @@ impl<const D: usize> Newton<'_, D> {
         false
     }
 
-    /// Raises the diagonal more from here on; false where it is raised enough.
+    /// Raises the diagonal ten times as much from here on; false if that would be too much.
     fn dampen(&mut self) -> bool {
         let more = (10.0 * self.damping).max(LEAST_DAMPING);
         let can = more <= MOST_DAMPING;
@@ -149,7 +150,7 @@ impl<const D: usize> Newton<'_, D> {
                 }
             }
         }
-        // A direction that leads nowhere at any length: the next, from the same state, is shorter and turned downhill.
+        // No length reduces the residual: the next direction, from the same state, is damped and so shorter.
         if self.dampen() {
             return Ok(());
         }
@@ -189,7 +190,7 @@ impl<const D: usize> Newton<'_, D> {
         size <= (1.0 - ARMIJO * length) * self.target || size <= self.problem.scene.numerics.tolerance * self.floor
     }
 
-    /// Makes the trial state the one at hand; `tangent` where the matrix of the grid is its tangent.
+    /// Makes the trial state the current one; `tangent` where the matrix of the grid is its tangent.
     fn take(&mut self, tangent: bool) {
         let Buffers { now, trial, .. } = &mut self.buffers;
         std::mem::swap(now, trial);
