@@ -8,8 +8,10 @@ use crate::error::Result;
 use crate::io::provenance::Origin;
 use crate::io::run_folder::RunFolder;
 use crate::rigid::Body;
+use crate::run::fields::{self, Field as PointField};
 use crate::run::{self, InternalVariable, Outputs, Watch, WatchedOn};
 use crate::step::Scene;
+use std::sync::Arc;
 
 /// The outputs of a case, and the `warnings` that its run begins with.
 ///
@@ -21,28 +23,33 @@ pub fn outputs(
     folder: &RunFolder,
     origin: Origin,
     warnings: Vec<String>,
-) -> Result<Outputs> {
+) -> Result<Outputs<2>> {
     let mesh = &scene.mesh;
-    let mut fields = Vec::new();
+    let mut asked: Vec<Arc<dyn PointField<2>>> = Vec::new();
+    let mut with_stress = false;
     for field in &case.output.fields {
-        let field = match field {
-            Field::Displacement => run::Field::Displacement,
-            Field::Velocity => run::Field::Velocity,
-            Field::Stress | Field::MeanStress | Field::DeviatoricStress => run::Field::Column("stress"),
-            Field::PlasticStrain => run::Field::Column("plastic_strain"),
-            Field::DeformationGradient => run::Field::DeformationGradient,
-            Field::PorePressure => run::Field::PorePressure(carried(case, mesh)?),
-            Field::Mass => run::Field::Column("mass"),
+        let field: Arc<dyn PointField<2>> = match field {
+            Field::Displacement => Arc::new(fields::Displacement),
+            Field::Velocity => Arc::new(fields::Velocity),
+            // Invariants come with the stress.
+            Field::Stress | Field::MeanStress | Field::DeviatoricStress => {
+                if std::mem::replace(&mut with_stress, true) {
+                    continue;
+                }
+                Arc::new(fields::PointColumn("stress"))
+            }
+            Field::PlasticStrain => Arc::new(fields::PointColumn("plastic_strain")),
+            Field::DeformationGradient => Arc::new(fields::DeformationGradient),
+            Field::PorePressure => Arc::new(fields::PorePressure(carried(case, mesh)?)),
+            Field::Mass => Arc::new(fields::PointColumn("mass")),
             Field::InternalVariables => {
                 let models = by_number(case, mesh, |material| Some(material.model.clone()))?;
-                run::Field::InternalVariables(InternalVariable::all(&models))
+                let variables = InternalVariable::all(&models).into_iter();
+                asked.extend(variables.map(|variable| Arc::new(variable) as Arc<dyn PointField<2>>));
+                continue;
             }
         };
-        // Invariants come with the stress.
-        let is_stress = |field: &run::Field| matches!(field, run::Field::Column("stress"));
-        if !(is_stress(&field) && fields.iter().any(is_stress)) {
-            fields.push(field);
-        }
+        asked.push(field);
     }
     let watch = |entry: &History| {
         let body = scene.bodies.iter().find(|body| rigid::body_of(mesh, body, &entry.on));
@@ -71,7 +78,7 @@ pub fn outputs(
     };
     let until = case.phases.iter().map(|phase| phase.until.iter().map(until).collect()).collect();
     let surface = if water::needs_surface(case) { Some(water::acting(case, mesh)?) } else { None };
-    Ok(Outputs { folder: folder.clone(), warnings, fields, watches, until, surface, origin })
+    Ok(Outputs { folder: folder.clone(), warnings, fields: asked, watches, until, surface, origin })
 }
 
 fn quantity(quantity: Quantity) -> run::Quantity {

@@ -13,6 +13,7 @@ mod boundary;
 pub mod checkpoint;
 mod columns;
 mod ending;
+pub mod fields;
 mod foreign;
 mod internal_variables;
 mod jump;
@@ -24,7 +25,7 @@ mod voids;
 pub use ending::Until;
 pub use internal_variables::InternalVariable;
 pub use outputs::Outputs;
-pub use record::{Field, Quantity, Watch, WatchedOn};
+pub use record::{Quantity, Watch, WatchedOn};
 pub use surface::Acting;
 
 use crate::error::{Error, Result};
@@ -76,7 +77,7 @@ pub enum Ended {
 pub fn run<const D: usize, K: Kinematics<D>>(
     scene: &Scene<D>,
     first: State<D>,
-    outputs: &Outputs,
+    outputs: &Outputs<D>,
     resume: bool,
     stop: &AtomicBool,
     progress: &mut dyn FnMut(Progress),
@@ -243,8 +244,8 @@ impl Written {
 }
 
 /// The open files of a run.
-struct Files<'a> {
-    outputs: &'a Outputs,
+struct Files<'a, const D: usize> {
+    outputs: &'a Outputs<D>,
     checkpoints: Checkpoints,
     history: History,
     log: Log,
@@ -255,10 +256,10 @@ struct Files<'a> {
     framed: Option<u64>,
 }
 
-impl<'a> Files<'a> {
-    fn open<const D: usize>(
+impl<'a, const D: usize> Files<'a, D> {
+    fn open(
         scene: &Scene<D>,
-        outputs: &'a Outputs,
+        outputs: &'a Outputs<D>,
         checkpoints: Checkpoints,
         state: &State<D>,
         written: Option<Written>,
@@ -289,12 +290,7 @@ impl<'a> Files<'a> {
 
     /// Notes a converged step, once the checkpoint of the step before is written: a kill loses the step in hand,
     /// and the one before it only in the moment in which its checkpoint is being written.
-    fn step<const D: usize>(
-        &mut self,
-        scene: &Scene<D>,
-        state: &State<D>,
-        report: &crate::step::Report<D>,
-    ) -> Result<()> {
+    fn step(&mut self, scene: &Scene<D>, state: &State<D>, report: &crate::step::Report<D>) -> Result<()> {
         self.writer.flush()?;
         for line in record::log_lines(scene, state, report) {
             self.log.line(&line)?;
@@ -303,7 +299,7 @@ impl<'a> Files<'a> {
     }
 
     /// Ends a phase before its time, with the reason, in the last converged state.
-    fn end_early<const D: usize>(&mut self, scene: &Scene<D>, state: &mut State<D>, note: &str) -> Result<()> {
+    fn end_early(&mut self, scene: &Scene<D>, state: &mut State<D>, note: &str) -> Result<()> {
         self.log.line(note)?;
         if self.framed != Some(state.step) {
             self.frame(scene, state)?;
@@ -313,7 +309,7 @@ impl<'a> Files<'a> {
     }
 
     /// Hands a frame to the writer.
-    fn frame<const D: usize>(&mut self, scene: &Scene<D>, state: &mut State<D>) -> Result<()> {
+    fn frame(&mut self, scene: &Scene<D>, state: &mut State<D>) -> Result<()> {
         let frame =
             record::frame(scene, state, &self.outputs.fields, self.outputs.origin, self.outputs.surface.as_ref());
         let (folder, frames, index) = (self.outputs.folder.results(), Arc::clone(&self.frames), state.frames as usize);
@@ -328,12 +324,12 @@ impl<'a> Files<'a> {
 
     /// Hands a frame of the last converged step to the writer, unless it has it: what an analysis that cannot go
     /// on came to. No checkpoint knows of it, so a run that continues writes over it.
-    fn last_frame<const D: usize>(&mut self, scene: &Scene<D>, state: &mut State<D>) -> Result<()> {
+    fn last_frame(&mut self, scene: &Scene<D>, state: &mut State<D>) -> Result<()> {
         if self.framed == Some(state.step) { Ok(()) } else { self.frame(scene, state) }
     }
 
     /// Ends an analysis that cannot go on, and hands its error back.
-    fn fail<const D: usize>(mut self, scene: &Scene<D>, state: &mut State<D>, error: Error) -> Result<Error> {
+    fn fail(mut self, scene: &Scene<D>, state: &mut State<D>, error: Error) -> Result<Error> {
         self.log.line(&format!("the analysis ends here: {error}"))?;
         self.last_frame(scene, state)?;
         self.close()?;
@@ -341,7 +337,7 @@ impl<'a> Files<'a> {
     }
 
     /// Hands a checkpoint to the writer.
-    fn checkpoint<const D: usize>(&mut self, state: &State<D>) -> Result<()> {
+    fn checkpoint(&mut self, state: &State<D>) -> Result<()> {
         let (checkpoints, step, mut store) = (self.checkpoints.clone(), state.step, checkpoint::store(state));
         let (history, log, frames) = (self.history.mark(), self.log.mark(), Arc::clone(&self.frames));
         self.writer.submit(move || {

@@ -1,18 +1,21 @@
 //! What a run writes.
 
 use super::ending::Until;
-use super::record::{Field, Watch};
+use super::fields::Field;
+use super::record::Watch;
 use super::surface::Acting;
 use crate::io::provenance::Origin;
 use crate::io::run_folder::RunFolder;
+use std::sync::Arc;
 
 /// What a run writes, and where.
 #[derive(Clone, Debug)]
-pub struct Outputs {
+pub struct Outputs<const D: usize> {
     pub folder: RunFolder,
     /// What is told of the case as the run begins.
     pub warnings: Vec<String>,
-    pub fields: Vec<Field>,
+    /// The fields of the points in the frames.
+    pub fields: Vec<Arc<dyn Field<D>>>,
     pub watches: Vec<Watch>,
     /// What ends each phase before its time.
     pub until: Vec<Vec<Until>>,

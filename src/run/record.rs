@@ -2,30 +2,15 @@
 
 use super::boundary;
 use super::columns::{column, triples};
-use super::internal_variables::InternalVariable;
+use super::fields::Field;
 use super::surface::{self, Acting};
-use crate::io::columns::{padded, to_array};
-use crate::io::container::{Array, Data};
-use crate::io::frame::{CELL, Column, Frame, Part, UNCOUNTED};
+use crate::io::columns::padded;
+use crate::io::frame::{CELL, Frame, Part, UNCOUNTED};
 use crate::io::provenance::Origin;
 use crate::points::Points;
 use crate::quadrature::Count;
 use crate::step::{Report, Restore, Scene, State};
-use crate::term::{MixedPressure, excess_pressure};
-
-/// A field of the frames.
-#[derive(Clone, Debug)]
-pub enum Field {
-    Displacement,
-    Velocity,
-    DeformationGradient,
-    /// A column of the points as it is.
-    Column(&'static str),
-    /// Excess pressure of pore water, given what the pressure field carries of each material where the water has no field of its
-    /// own.
-    PorePressure(Vec<Option<MixedPressure>>),
-    InternalVariables(Vec<InternalVariable>),
-}
+use std::sync::Arc;
 
 /// A quantity of the history, with its component.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -222,7 +207,7 @@ fn mean_over<'a, const D: usize>(
 pub fn frame<const D: usize>(
     scene: &Scene<D>,
     state: &State<D>,
-    fields: &[Field],
+    fields: &[Arc<dyn Field<D>>],
     origin: Origin,
     acting: Option<&Acting>,
 ) -> Frame {
@@ -238,7 +223,7 @@ pub fn frame<const D: usize>(
             .map(|(x, u)| std::array::from_fn(|d| x[d] + u[d]))
             .take(nodes)
             .collect();
-        let displacement = fields.iter().any(|field| matches!(field, Field::Displacement));
+        let displacement = fields.iter().any(|field| field.is_displacement());
         let columns = displacement.then(|| column("displacement", "m", 3, padded(&state.displacement[..nodes])));
         let reset = scene.fem.is_some() && !state.uncounted.is_empty();
         let uncounted = reset.then(|| column(UNCOUNTED, "m", 3, padded(&state.uncounted[..nodes])));
@@ -259,41 +244,10 @@ pub fn frame<const D: usize>(
     }
 }
 
-/// A column of the points, if it is one of floating-point numbers.
-fn as_column<const D: usize>(points: &Points<D>, name: &str) -> Option<Column> {
-    let Array { name, unit, components, data: Data::F64(values) } = to_array(points, name)? else { return None };
-    Some(Column { name, unit, components, values })
-}
-
 /// The fields of some points.
-fn part<const D: usize>(points: &Points<D>, fields: &[Field]) -> Part {
-    let at_rest = vec![[0.0; D]; points.len()];
-    let columns_of = |field: &Field| -> Vec<Column> {
-        let column = match field {
-            Field::Displacement => {
-                let u: Vec<[f64; D]> = (0..points.len()).map(|p| points.displacement(p)).collect();
-                column("displacement", "m", 3, padded(&u))
-            }
-            Field::Velocity => {
-                let v = if points.velocity.is_empty() { &at_rest } else { &points.velocity };
-                column("velocity", "m/s", 3, padded(v))
-            }
-            Field::DeformationGradient => {
-                let rows = points.deformation.iter().flat_map(|f| f.transpose().data.0.into_iter().flatten());
-                column("deformation_gradient", "-", 9, rows.collect())
-            }
-            Field::PorePressure(carried) => {
-                let excess = (0..points.len()).map(|p| excess_pressure(carried, points, p));
-                column("pore_pressure", "kPa", 1, excess.collect())
-            }
-            Field::Column(name) => return as_column(points, name).into_iter().collect(),
-            Field::InternalVariables(variables) => {
-                return variables.iter().map(|variable| variable.column(points)).collect();
-            }
-        };
-        vec![column]
-    };
-    Part { columns: fields.iter().flat_map(columns_of).collect(), position: triples(&points.position) }
+fn part<const D: usize>(points: &Points<D>, fields: &[Arc<dyn Field<D>>]) -> Part {
+    let columns = fields.iter().flat_map(|field| field.columns(points)).collect();
+    Part { columns, position: triples(&points.position) }
 }
 
 /// The first lines of the log.

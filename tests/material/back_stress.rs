@@ -24,7 +24,8 @@ use mpm::mesh::locate::Locator;
 use mpm::mesh::shape::CellKind;
 use mpm::points::Points;
 use mpm::quadrature::Resampled;
-use mpm::run::{self, Ended, Field, InternalVariable, Outputs};
+use mpm::run::fields::{self, Field};
+use mpm::run::{self, Ended, InternalVariable, Outputs};
 use mpm::seed::{RegionSeed, seed};
 use mpm::step::{self, Fixed, Numerics, Phase, Prescribed, Restore, Scene, Stop};
 use mpm::tensor::{Symmetric, Tensor, deviatoric, full, mean, symmetric};
@@ -424,14 +425,13 @@ fn scene() -> (Scene<2>, Points<2>, Models) {
 /// Runs the scene in `folder`, stopping after some steps.
 fn run(folder: &Path, resume: bool, last: u64) -> Ended {
     let (scene, points, models) = scene();
+    let mut fields: Vec<Arc<dyn Field<2>>> =
+        vec![Arc::new(fields::PointColumn("stress")), Arc::new(fields::DeformationGradient)];
+    fields.extend(InternalVariable::all(&models).into_iter().map(|v| Arc::new(v) as Arc<dyn Field<2>>));
     let outputs = Outputs {
         folder: RunFolder::new(folder),
         warnings: Vec::new(),
-        fields: vec![
-            Field::Column("stress"),
-            Field::DeformationGradient,
-            Field::InternalVariables(InternalVariable::all(&models)),
-        ],
+        fields,
         watches: Vec::new(),
         until: Vec::new(),
         surface: None,

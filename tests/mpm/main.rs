@@ -17,6 +17,7 @@ mod invariance;
 #[path = "../support/layout.rs"]
 mod layout;
 mod nodal_field;
+mod output_field;
 mod patch;
 mod phases;
 mod random_scenes;

@@ -1,0 +1,91 @@
+//! The fields of points in the frames.
+
+use super::columns::column;
+use super::internal_variables::InternalVariable;
+use crate::io::columns::{padded, to_array};
+use crate::io::container::{Array, Data};
+use crate::io::frame::Column;
+use crate::points::Points;
+use crate::term::{MixedPressure, excess_pressure};
+use std::fmt;
+
+/// A field of the points.
+pub trait Field<const D: usize>: fmt::Debug + Send + Sync {
+    /// Its columns for some points: mostly one, with a name, a unit and as many components for each point.
+    fn columns(&self, points: &Points<D>) -> Vec<Column>;
+
+    /// Whether the nodes of the grid have their displacement with it.
+    fn is_displacement(&self) -> bool {
+        false
+    }
+}
+
+/// Displacement (m) since seeding or the last reset.
+#[derive(Clone, Copy, Debug)]
+pub struct Displacement;
+
+impl<const D: usize> Field<D> for Displacement {
+    fn columns(&self, points: &Points<D>) -> Vec<Column> {
+        let u: Vec<[f64; D]> = (0..points.len()).map(|p| points.displacement(p)).collect();
+        vec![column("displacement", "m", 3, padded(&u))]
+    }
+
+    fn is_displacement(&self) -> bool {
+        true
+    }
+}
+
+/// Velocity (m/s); zero without inertia.
+#[derive(Clone, Copy, Debug)]
+pub struct Velocity;
+
+impl<const D: usize> Field<D> for Velocity {
+    fn columns(&self, points: &Points<D>) -> Vec<Column> {
+        let values = if points.velocity.is_empty() { vec![0.0; 3 * points.len()] } else { padded(&points.velocity) };
+        vec![column("velocity", "m/s", 3, values)]
+    }
+}
+
+/// Deformation gradient (-) since seeding, row by row.
+#[derive(Clone, Copy, Debug)]
+pub struct DeformationGradient;
+
+impl<const D: usize> Field<D> for DeformationGradient {
+    fn columns(&self, points: &Points<D>) -> Vec<Column> {
+        let rows = points.deformation.iter().flat_map(|f| f.transpose().data.0.into_iter().flatten());
+        vec![column("deformation_gradient", "-", 9, rows.collect())]
+    }
+}
+
+/// A column of the points by its name, as it is; nothing where that is not one of floating-point numbers.
+#[derive(Clone, Copy, Debug)]
+pub struct PointColumn(pub &'static str);
+
+impl<const D: usize> Field<D> for PointColumn {
+    fn columns(&self, points: &Points<D>) -> Vec<Column> {
+        match to_array(points, self.0) {
+            Some(Array { name, unit, components, data: Data::F64(values) }) => {
+                vec![Column { name, unit, components, values }]
+            }
+            _ => Vec::new(),
+        }
+    }
+}
+
+/// Excess pressure (kPa) of the pore water, given the part of each material, by number, that the pressure field carries where the water has no
+/// field of its own.
+#[derive(Clone, Debug)]
+pub struct PorePressure(pub Vec<Option<MixedPressure>>);
+
+impl<const D: usize> Field<D> for PorePressure {
+    fn columns(&self, points: &Points<D>) -> Vec<Column> {
+        let excess = (0..points.len()).map(|p| excess_pressure(&self.0, points, p));
+        vec![column("pore_pressure", "kPa", 1, excess.collect())]
+    }
+}
+
+impl<const D: usize> Field<D> for InternalVariable {
+    fn columns(&self, points: &Points<D>) -> Vec<Column> {
+        vec![self.column(points)]
+    }
+}

@@ -1,0 +1,71 @@
+//! An output field in one file: nothing in the program knows of it. `volume_ratio` is `det F` of each point.
+
+use crate::bench::{Bench, constant, quadrature_points};
+use mpm::io::checkpoint::Fingerprint;
+use mpm::io::export::export;
+use mpm::io::frame::Column;
+use mpm::io::provenance::Origin;
+use mpm::io::run_folder::RunFolder;
+use mpm::io::vtu::Encoding;
+use mpm::kinematics::PlaneStrain;
+use mpm::material::{Elasticity, LinearElastic};
+use mpm::mesh::builder::rectangle;
+use mpm::mesh::shape::CellKind;
+use mpm::points::Points;
+use mpm::run::fields::Field;
+use mpm::run::{self, Ended, Outputs};
+use mpm::step::State;
+use std::fs;
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
+
+#[derive(Debug)]
+struct VolumeRatio;
+
+impl Field<2> for VolumeRatio {
+    fn columns(&self, points: &Points<2>) -> Vec<Column> {
+        let values = points.deformation.iter().map(|f| f.determinant()).collect();
+        vec![Column { name: "volume_ratio".into(), unit: "-".into(), components: 1, values }]
+    }
+}
+
+/// Soil under its weight: the exported ratios are those of the points, in every point below one and the less the deeper it is.
+#[test]
+fn a_field_of_ones_own_is_written_and_exported() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut bench = Bench::new(
+        rectangle(CellKind::T6, 1.0, 4.0, 1, 4, 0.0, 0),
+        Arc::new(LinearElastic::new(Elasticity::new(constant(500.0), 0.2).unwrap())),
+    );
+    bench.gravity = [0.0, -10.0];
+    bench.hold("left", &[0]).hold("right", &[0]).hold("bottom", &[0, 1]);
+    let points = quadrature_points::<PlaneStrain>(&bench.mesh, 4, 1.0);
+    let depth: Vec<f64> = points.position.iter().map(|x| 4.0 - x[1]).collect();
+    let scene = bench.scene::<PlaneStrain>();
+    let outputs = Outputs {
+        folder: RunFolder::new(folder.path()),
+        warnings: Vec::new(),
+        fields: vec![Arc::new(VolumeRatio)],
+        watches: Vec::new(),
+        until: Vec::new(),
+        surface: None,
+        origin: Origin { run: Fingerprint::of(&[b"volume ratio"]), mesh: 1 },
+    };
+    let first = State::new(points, scene.mesh.nodes.len(), scene.phases[0].first_step);
+    let ended =
+        run::run::<2, PlaneStrain>(&scene, first, &outputs, false, &AtomicBool::new(false), &mut |_| {}).unwrap();
+    assert_eq!(ended, Ended::Done);
+    let results = RunFolder::new(folder.path()).results();
+    export(&results, &scene.mesh, &[false], folder.path(), &["volume_ratio".to_string()], Encoding::Plain).unwrap();
+    let text = fs::read_to_string(folder.path().join("vtu/points_000001.vtu")).unwrap();
+    let array = text.split("\"volume_ratio [-]\"").nth(1).expect("the field");
+    let values = array.split('>').nth(1).unwrap().split('<').next().unwrap();
+    let values: Vec<f64> = values.split_whitespace().map(|v| v.parse().unwrap()).collect();
+    assert_eq!(values.len(), depth.len());
+    // Confined: ln J of a linear law of the Kirchhoff stress is −ρgd/M, to first order.
+    let modulus = 500.0 * 0.8 / (1.2 * 0.6);
+    for (value, depth) in values.iter().zip(&depth) {
+        let strain = 10.0 * depth / modulus;
+        assert!((value + strain - 1.0).abs() < strain * strain + 1e-9, "{value} at {depth}");
+    }
+}
