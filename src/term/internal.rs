@@ -24,7 +24,7 @@ use crate::error::{Error, Result};
 use crate::interpolation::{CellPoints, Entries, MAX_FUNCTIONS};
 use crate::kinematics::{Gradient, Kinematics};
 use crate::material::spatial::Spatial;
-use crate::material::{Model, State};
+use crate::material::{Model, State, internal_count};
 use crate::points::Points;
 use crate::profile::timed_material;
 use crate::system::Local;
@@ -41,6 +41,8 @@ const LEAST_VOLUME_RATIO: f64 = 0.05;
 pub struct Internal<K, S = ()> {
     /// The model of each material by number; `None` where a region holds no points.
     models: Models,
+    /// Numbers of internal variables that the models need.
+    internal_count: usize,
     /// Whether the strength of each material is what [`Trial::reduction`] divides.
     reduces: Vec<bool>,
     /// Whether the scene has dynamic phases.
@@ -128,13 +130,20 @@ impl<K> Internal<K> {
 impl<K, S> Internal<K, S> {
     /// As [`Internal::new`], where `share` carries a part of the stress.
     pub fn sharing(models: Models, dynamic: bool, share: S) -> Self {
-        Self { reduces: vec![true; models.len()], models, dynamic, share, kinematics: PhantomData }
+        let internal_count = models.iter().flatten().map(|model| internal_count(model.as_ref())).max().unwrap_or(0);
+        let reduces = vec![true; models.len()];
+        Self { internal_count, reduces, models, dynamic, share, kinematics: PhantomData }
     }
 
     /// Takes materials out of every reduction of strength; `kept[m]` is true for those.
     pub fn keeping(mut self, kept: &[bool]) -> Self {
         self.reduces = kept.iter().map(|kept| !kept).collect();
         self
+    }
+
+    /// Numbers of internal variables for each of some points: those without the column begin each step with the first values.
+    fn internal_count<const D: usize>(&self, points: &Points<D>) -> usize {
+        if points.internal.is_empty() { self.internal_count } else { points.internal_count() }
     }
 
     /// The models in a trial state.
@@ -203,7 +212,7 @@ impl<K, S> Internal<K, S> {
         }
         let later = 1.0 - trial.alpha_f;
         // What the internal variables become is wanted of converged steps only.
-        let mut internal = vec![0.0; frame.points.internal_count()];
+        let mut internal = vec![0.0; self.internal_count(frame.points)];
         let answer = |(entries, strained): (Entries<D>, &Strained)| {
             let of_point = (frame.points, &entries);
             self.answer(models, of_point, cell, strained, (trial.inverse_dt / later, later), &mut internal)
@@ -350,7 +359,7 @@ impl<const D: usize, K: Kinematics<D>, S: Mixed<D, K>> Term<D> for Internal<K, S
                 };
                 LinearFit::of(&interpolation.entries::<K>(cell_points).filter_map(ratio).collect::<Vec<_>>())
             });
-            let count = frame.points.internal_count();
+            let count = self.internal_count(frame.points);
             let mut out = Histories::with_capacity(cell_points.point_count as usize, count);
             let new = |entries: Entries<D>, internal: &mut [f64]| {
                 let mut point = strain::<D, K>(frame.points, &entries, &now, Some(&before)).ok()?;

@@ -2,7 +2,7 @@
 
 use crate::kinematics::Kinematics;
 use crate::material::spatial::elastic_from_stress;
-use crate::material::{Model, State, Variable, spectral};
+use crate::material::{Model, State, Variable, internal_count, spectral};
 use crate::points::Points;
 use crate::tensor::{Symmetric, mean};
 use rayon::prelude::*;
@@ -53,7 +53,8 @@ impl<K: Kinematics<2>> Materials<K> {
         let model = self.models.get(model)?.as_ref()?;
         let elastic = elastic_from_stress(model.as_ref(), y, &kirchhoff);
         // The return changes the stress alone.
-        let answer = K::respond(model.as_ref(), y, &elastic, &state, &mut internal.to_vec())?;
+        let mut after = vec![0.0; internal.len().max(internal_count(model.as_ref()))];
+        let answer = K::respond(model.as_ref(), y, &elastic, &state, &mut after)?;
         let volume_ratio = fields[VOLUME].exp();
         let mut stress = answer.kirchhoff.map(|t| t / volume_ratio);
         stress[..3].iter_mut().for_each(|s| *s += fields[BESIDE] / volume_ratio);
