@@ -170,17 +170,17 @@ impl Law {
         answer
     }
 
-    /// What of the pressure (kPa) the grains bear, and its slopes by the pressure (-) and by the gap (kPa/m). What water that stands higher
-    /// outside presses them together by is lost as they part; where the surfaces adhere all of the shear is.
+    /// The effective pressure (kPa), and its slopes by the pressure (-) and by the gap (kPa/m). The part of it that a higher water level outside
+    /// causes vanishes as the surfaces separate; with adhesion the whole shear does.
     fn effective(&self, at: &Penalty, gap: f64, pressure: f64) -> (f64, f64, f64) {
-        let borne = pressure - at.water;
-        let (borne, by_pressure) = if borne > 0.0 { (borne, 1.0) } else { (0.0, 0.0) };
+        let effective = pressure - at.water;
+        let (effective, by_pressure) = if effective > 0.0 { (effective, 1.0) } else { (0.0, 0.0) };
         if self.adheres() {
-            return (borne, by_pressure, 0.0);
+            return (effective, by_pressure, 0.0);
         }
         let drawn = (-at.water).max(0.0);
         let (share, share_by_gap) = self.share(at, gap);
-        (borne - (1.0 - share) * drawn, by_pressure, share_by_gap * drawn)
+        (effective - (1.0 - share) * drawn, by_pressure, share_by_gap * drawn)
     }
 
     /// The pressure (kPa) and its slope by the gap (kPa/m).

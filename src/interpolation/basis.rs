@@ -47,7 +47,7 @@ pub trait Basis<const D: usize>: fmt::Debug + Send + Sync {
     }
 
     /// The nodes that the points of each cell act on, for the matrix to couple; `None` where these are those of the cell. They
-    /// depend on the grid and its active cells, not on where the points are.
+    /// are nodes of active cells, and depend on the grid and its active cells, not on where the points are.
     fn support(&self, _mesh: &Mesh<D>, _active: &[bool]) -> Option<Support> {
         None
     }

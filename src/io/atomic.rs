@@ -32,7 +32,7 @@ pub fn write_durable(path: &Path, fill: impl FnOnce(&mut dyn Write) -> io::Resul
 fn replace(path: &Path, durable: bool, fill: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<()> {
     let beside = beside(path);
     let written = (|| {
-        // What is left of an earlier process of this number, or a link that someone has laid there.
+        // A file that an earlier process with this number left, or a link that someone created there.
         match fs::remove_file(&beside) {
             Err(e) if e.kind() != io::ErrorKind::NotFound => return Err(e),
             _ => {}

@@ -81,9 +81,9 @@ pub fn smoothed<K: Kinematics<2>>(
 /// Rings of cells across faces in which points are sought that stand for what is behind a piece of the boundary.
 const RINGS: usize = 3;
 
-/// The boundary of where `level_set` is positive, given the points that integrals are summed over and the numbers of those in a cell. What
-/// is behind a piece in a cell without points is borne by the nearest cell with points: where that is a neighbour, it is the one
-/// to which its active part is handed.
+/// The boundary of where `level_set` is positive, given the points that integrals are summed over and the numbers of those in a cell. A piece
+/// in a cell without points has the nearest cell with points for its host: where that is a neighbour, the one to which the active part of the
+/// cell is assigned.
 pub fn boundary<N: IntoIterator<Item = usize>>(
     geometry: &Geometry,
     grid: &Restored<2>,

@@ -54,12 +54,12 @@ pub fn to_points<const D: usize, K: Kinematics<D>>(
             let kind = mesh.cells.kind[cell_points.cell as usize];
             let corners = &mesh.cells.nodes(cell_points.cell as usize)[..kind.corner_count()];
             for entries in interpolation.entries::<K>(cell_points) {
-                let hats = pressure_hats(kind, entries.shape);
-                let change = |(hat, &n): (&f64, &u32)| {
+                let shapes = pressure_hats(kind, entries.shape);
+                let change = |(shape, &n): (&f64, &u32)| {
                     let place = places.field(k, n);
-                    hat * (new[place] - state.pressure[place])
+                    shape * (new[place] - state.pressure[place])
                 };
-                state.points.fields[entries.point * count + k] += hats.iter().zip(corners).map(change).sum::<f64>();
+                state.points.fields[entries.point * count + k] += shapes.iter().zip(corners).map(change).sum::<f64>();
             }
         }
     }
@@ -75,7 +75,7 @@ pub fn give<const D: usize>(scene: &Scene<D>, state: &State<D>, dofs: &DofMap<D>
         }
         for (nodes, value) in &field.given {
             for (equation, node) in dofs.field(k) {
-                if nodes.contains(&node) {
+                if nodes.binary_search(&node).is_ok() {
                     given[equation] = Some(value.at(state.phase_time + dt) - state.pressure[places.field(k, node)]);
                 }
             }

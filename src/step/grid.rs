@@ -86,7 +86,7 @@ impl<const D: usize> Grid<D> {
             grid.project_pressure_of_elements::<K>(scene, state);
         }
         grid.project_pore_pressure::<K>(scene, state);
-        field::project::<D, K>(scene, (&scene.mesh, grid.of_material()), state);
+        field::project::<D, K>(scene, (grid.mesh(scene), grid.of_material()), state);
         Ok(grid)
     }
 
@@ -104,7 +104,7 @@ impl<const D: usize> Grid<D> {
             self.penalise(scene, state);
         }
         self.project_pore_pressure::<K>(scene, state);
-        field::project::<D, K>(scene, (&scene.mesh, self.of_material()), state);
+        field::project::<D, K>(scene, (self.mesh(scene), self.of_material()), state);
         Ok(())
     }
 
@@ -227,9 +227,12 @@ impl<const D: usize> Grid<D> {
 
     /// Takes the pressure field over from points whose materials have changed.
     pub fn project_pressure<K: Kinematics<D>>(&self, scene: &Scene<D>, state: &mut State<D>) {
-        let mesh = self.relaxed.as_ref().map_or(&scene.mesh, |relaxed| &relaxed.mesh);
         let mut field = std::mem::take(&mut state.pressure);
-        let soil = Filled { mesh, interpolation: &self.interpolations.integration, points: state.integration() };
+        let soil = Filled {
+            mesh: self.mesh(scene),
+            interpolation: &self.interpolations.integration,
+            points: state.integration(),
+        };
         pressure::gather::<D, K>(soil, scene.places()[0], &mut field);
         state.pressure = field;
         self.project_pressure_of_elements::<K>(scene, state);
@@ -333,6 +336,11 @@ impl<const D: usize> Grid<D> {
             bodies: &self.body_coupling,
             with_water: self.with_water,
         }
+    }
+
+    /// The mesh at the last reset.
+    fn mesh<'a>(&'a self, scene: &'a Scene<D>) -> &'a Mesh<D> {
+        self.relaxed.as_ref().map_or(&scene.mesh, |relaxed| &relaxed.mesh)
     }
 
     /// The interpolation of the material points.

@@ -122,7 +122,7 @@ pub struct Field {
     pub name: String,
     /// What an unknown of the linear system stands for, so that all equations are forces and all unknowns lengths.
     pub unit: f64,
-    /// Nodes with a given value, which varies with the time (s) since the phase began; of two the later one holds.
+    /// Nodes with a given value, ascending, and the value by the time (s) since the phase began; of two entries for a node the later one holds.
     pub given: Vec<(Vec<u32>, TimeValue)>,
 }
 

@@ -2,6 +2,7 @@
 
 use crate::bench::{Bench, constant, quadrature_points, run_parts};
 use crate::layout::{at, resample, seeded};
+use crate::patch::stretch_boundary;
 use mpm::analytical::self_weight_column::Column;
 use mpm::case::parts::places;
 use mpm::kinematics::PlaneStrain;
@@ -9,7 +10,7 @@ use mpm::material::{Elasticity, LinearElastic};
 use mpm::mesh::builder::rectangle;
 use mpm::mesh::shape::CellKind;
 use mpm::points::Points;
-use mpm::step::{Controller, Fixed, Limits, Prescribed, Restore, Simulation, State};
+use mpm::step::{Controller, Limits, Prescribed, Restore, Simulation, State};
 use mpm::time_value::TimeValue;
 use std::f64::consts::PI;
 use std::sync::Arc;
@@ -26,17 +27,7 @@ fn patch(kind: CellKind, restore: Restore, steps: usize, within: impl Fn(&[f64; 
     bench.restore = restore;
     bench.steps = steps;
     resample::<PlaneStrain>(&mut bench);
-    let mut boundary: Vec<u32> = bench.mesh.groups.iter().flat_map(|g| g.nodes.clone()).collect();
-    boundary.sort_unstable();
-    boundary.dedup();
-    for n in boundary {
-        let x = bench.mesh.nodes[n as usize];
-        for component in 0..2 {
-            let u = gradient[component][0] * x[0] + gradient[component][1] * x[1];
-            let fixed = Fixed { nodes: vec![n], component };
-            bench.prescribed.push(Prescribed { fixed, displacement: TimeValue::Rate(u) });
-        }
-    }
+    stretch_boundary(&mut bench, gradient);
     let parts = bench.split(quadrature_points::<PlaneStrain>(&bench.mesh, 4, 1.0));
     assert!(parts.iter().all(|points| !points.is_empty()));
     let state = run_parts::<PlaneStrain>(&bench.scene::<PlaneStrain>(), parts, |_, _| {});

@@ -1,11 +1,12 @@
 //! The pressure field at Poisson's ratio 0.4999: the patch, a thick cylinder, undrained against total stress.
 
 use crate::bench::{Bench, constant, quadrature_points, run};
+use crate::patch::stretch_boundary;
 use mpm::kinematics::{Axisymmetric, Kinematics, PlaneStrain};
 use mpm::material::{Elasticity, LinearElastic, Model};
 use mpm::mesh::builder::rectangle;
 use mpm::mesh::shape::CellKind;
-use mpm::step::{Fixed, Prescribed, Restore, State};
+use mpm::step::{Prescribed, Restore, State};
 use mpm::term::MixedPressure;
 use mpm::time_value::TimeValue;
 use std::sync::Arc;
@@ -49,17 +50,7 @@ fn patch<K: Kinematics<2>>(kind: CellKind, gradient: [[f64; 2]; 2], restore: boo
         // Without mass to speak of the patch is at rest in every step.
         bench.density = 1e-9;
     }
-    let mut boundary: Vec<u32> = bench.mesh.groups.iter().flat_map(|g| g.nodes.clone()).collect();
-    boundary.sort_unstable();
-    boundary.dedup();
-    for n in boundary {
-        let x = bench.mesh.nodes[n as usize];
-        for component in 0..2 {
-            let u = gradient[component][0] * x[0] + gradient[component][1] * x[1];
-            let fixed = Fixed { nodes: vec![n], component };
-            bench.prescribed.push(Prescribed { fixed, displacement: TimeValue::Rate(u) });
-        }
-    }
+    stretch_boundary(&mut bench, gradient);
     let points = quadrature_points::<K>(&bench.mesh, 4, bench.density);
     let hoop = if K::HOOP { gradient[0][0] } else { 0.0 };
     let mut scene = bench.scene::<K>();

@@ -112,7 +112,8 @@ fn error(kind: CellKind, cells: usize, steps: usize) -> f64 {
         bench.gravity = [0.0, -0.01];
         bench.hold("left", &[0]).hold("right", &[0]).hold("bottom", &[0, 1]);
     });
-    let top = scene.mesh.group("top").unwrap().nodes.clone();
+    let mut top = scene.mesh.group("top").unwrap().nodes.clone();
+    top.sort_unstable();
     scene.fields[0].given.push((top, TimeValue::Constant(1.0)));
     let state = run::<PlaneStrain>(&scene, state);
     let diffusivity = 0.25 * scene.phases[0].duration;

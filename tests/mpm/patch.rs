@@ -10,6 +10,21 @@ use mpm::step::{Fixed, Prescribed, Restore};
 use mpm::time_value::TimeValue;
 use std::sync::Arc;
 
+/// Prescribes on the whole boundary, in a duration of one, the displacement (m) with a uniform gradient.
+pub fn stretch_boundary(bench: &mut Bench, gradient: [[f64; 2]; 2]) {
+    let mut boundary: Vec<u32> = bench.mesh.groups.iter().flat_map(|g| g.nodes.clone()).collect();
+    boundary.sort_unstable();
+    boundary.dedup();
+    for n in boundary {
+        let x = bench.mesh.nodes[n as usize];
+        for component in 0..2 {
+            let u = gradient[component][0] * x[0] + gradient[component][1] * x[1];
+            let fixed = Fixed { nodes: vec![n], component };
+            bench.prescribed.push(Prescribed { fixed, displacement: TimeValue::Rate(u) });
+        }
+    }
+}
+
 /// Stretches a jittered mesh by a linear displacement field and returns the largest error of the
 /// deformation gradients.
 pub fn error<K: Kinematics<2>>(
@@ -31,21 +46,7 @@ pub fn error<K: Kinematics<2>>(
     bench.restore = if restore { Restore::EveryStep } else { Restore::Never };
     bench.scheme = scheme;
     bench.steps = if restore { 1 } else { 2 };
-    let boundary: Vec<u32> = {
-        let mut nodes: Vec<u32> = bench.mesh.groups.iter().flat_map(|g| g.nodes.clone()).collect();
-        nodes.sort_unstable();
-        nodes.dedup();
-        nodes
-    };
-    for n in boundary {
-        let x = bench.mesh.nodes[n as usize];
-        for component in 0..2 {
-            let u = gradient[component][0] * x[0] + gradient[component][1] * x[1];
-            bench
-                .prescribed
-                .push(Prescribed { fixed: Fixed { nodes: vec![n], component }, displacement: TimeValue::Rate(u) });
-        }
-    }
+    stretch_boundary(&mut bench, gradient);
     let points = quadrature_points::<K>(&bench.mesh, degree, 1.0);
     let hoop = if K::HOOP { gradient[0][0] } else { 0.0 };
     let scene = bench.scene::<K>();
