@@ -53,7 +53,7 @@ pipeline-study: build ## The same with all variants: softening clay, no parting,
 test: setup ## Set up and run all tests
 	cargo test --release --no-fail-fast
 
-# The slow ones are in modules of that name.
+# Slow tests are in modules named `slow`.
 test-quick: setup ## Set up and run the tests that take less than three seconds each, in two minutes after the build
 	cargo test --release --no-fail-fast -- --skip slow::
 

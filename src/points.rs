@@ -113,7 +113,7 @@ impl<const D: usize> Points<D> {
         usize::from(*self.model.get(p).unwrap_or(&self.region[p]))
     }
 
-    /// The state of point `p` for its model, in a step of which `inverse_dt` (1/s) make a second; 0 at rest.
+    /// The state of point `p` for its model; `inverse_dt` (1/s) is one over the step size, 0 without time effects.
     #[inline]
     pub fn state(&self, p: usize, inverse_dt: f64) -> State<'_> {
         let (plastic_strain, internal) = (self.plastic_strain[p], self.internal_of(p));

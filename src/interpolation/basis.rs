@@ -16,7 +16,7 @@ pub struct Located<'a, const D: usize> {
     pub xi: &'a [[f64; 3]],
     /// Whether there is strain around an axis at `x = 0`.
     pub hoop: bool,
-    /// What a volume at a place counts for: 1, or around an axis the length (m) of the full circle.
+    /// Factor from area to volume at a position: 1 in plane strain and in space, `2πr` (m) in axisymmetry.
     pub measure: fn(&[f64; D]) -> f64,
 }
 
@@ -29,19 +29,19 @@ impl<'a, const D: usize> Located<'a, D> {
 
 /// A scheme: which nodes a point acts on, with what values and gradients.
 ///
-/// Values sum up to one and gradients to zero; both give a linear field back. Assembly, transfer, inertia, pressure fields and pore water
+/// Values sum up to one and gradients to zero; both reproduce a linear field. Assembly, transfer, inertia, pressure fields and pore water
 /// take what a scheme fills in. Contact, loads on boundaries and the ghost penalty act on boundaries and faces, where the
 /// shape functions of the cells stand for those of the scheme.
 pub trait Basis<const D: usize>: fmt::Debug + Send + Sync {
-    /// The name that a case has it by.
+    /// The name of the scheme in a case file.
     fn name(&self) -> &'static str;
 
-    /// Whether cells of a kind can have it.
+    /// Whether the scheme supports cells of a kind.
     fn takes(&self, _kind: CellKind) -> bool {
         true
     }
 
-    /// Whether its functions are those of any place in a cell, not of material points alone.
+    /// Whether its functions are defined anywhere in a cell (as integration points need), not only at material points.
     fn is_of_places(&self) -> bool {
         true
     }

@@ -18,7 +18,7 @@ pub struct CellPoints {
     pub shape_count: u32,
     /// The nodes that the points act on, those of the cell first: [`Interpolation::nodes`].
     pub node_count: u32,
-    /// Local functions: one for each of those nodes, and what else a scheme forms gradients with.
+    /// Number of local functions: one for each of those nodes, and further functions that a scheme needs for its gradients.
     pub function_count: u32,
     /// Where the values of the first point begin; those of each point follow node by node.
     pub(super) first_value: usize,
@@ -45,9 +45,9 @@ pub struct Interpolation<const D: usize> {
     pub(super) shape_gradient: Vec<[f64; D]>,
     /// Radius of the points (m), in the order of `points`; empty without hoop strain.
     pub(super) radius: Vec<f64>,
-    /// What the points weigh in integrals (m³), as volume when seeded, in the order of `points`.
+    /// Integration weights (m³) in the configuration at seeding, in the order of `points`.
     pub weight: Vec<f64>,
-    /// Where the gradients of a cell reach beyond the nodes that the matrix couples; absent where they do not.
+    /// The extended support of the gradients, beyond the nodes coupled in the matrix; `None` for schemes without one.
     pub extension: Option<Arc<Extension>>,
     /// The nodes that the points of each cell act on; absent where they are those of the cell.
     pub support: Option<Arc<Support>>,
@@ -69,7 +69,7 @@ pub(super) struct Slot<'a, const D: usize> {
 pub struct Entries<'a, const D: usize> {
     /// The number of the point.
     pub point: usize,
-    /// What the point weighs in integrals (m³), as volume when seeded.
+    /// Integration weight (m³) in the configuration at seeding.
     pub weight: f64,
     /// `N_I` for the nodes that the point acts on; other functions have no value.
     pub value: &'a [f64],

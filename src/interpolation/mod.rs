@@ -1,7 +1,7 @@
-//! What each material point sees of the grid: nodes, values and gradients, filled once a restoration.
+//! The interpolation from nodes to points: nodes, values and gradients of each point, computed at each grid reset.
 //!
 //! A scheme (a [`Basis`], one file each) fills the flat arrays; everything downstream reads them and never asks which
-//! scheme made them. Points are grouped in groups that share their nodes: the points of a cell.
+//! scheme made them. Points are grouped by cell: points of a cell share its nodes.
 
 mod basis;
 mod ddmp;

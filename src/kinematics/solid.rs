@@ -41,7 +41,7 @@ impl Kinematics<3> for ThreeD {
         let stress = q * tau * q.transpose();
         for (column, (k, l)) in pairs().enumerate() {
             let strain = Tensor::from_fn(|m, n| 0.5 * (q[(k, m)] * q[(l, n)] + q[(l, m)] * q[(k, n)]));
-            // The change of the stress beyond that of the area which it acts on.
+            // `a : d = δτ − τ d`, so that `rate` is the Oldroyd rate of the Kirchhoff stress, `δτ − d τ − τ d`.
             let change = |m: usize, n: usize| pairs().zip(first[3 * m + n]).map(|((r, s), a)| a * strain[(r, s)]).sum();
             let rate = Tensor::from_fn(change) - strain * tau;
             let turned = q * rate * q.transpose();

@@ -40,8 +40,8 @@ pub struct State<'a> {
     /// Accumulated equivalent plastic strain (-): the sum of `√(⅔ Δε_p:Δε_p)` over the steps, `Δε_p` the
     /// plastic Hencky strain of a step with its volumetric part.
     pub plastic_strain: f64,
-    /// The internal variables one after the other, in the order of [`Model::internal_variables`], and perhaps numbers that are
-    /// of no meaning behind them; empty for the first values.
+    /// The internal variables one after the other, in the order of [`Model::internal_variables`], perhaps with padding that has
+    /// no meaning at the end; empty stands for the initial values.
     pub internal: &'a [f64],
     /// Steps a second (1/s): one over the size of the step in hand, 0 where time plays no part.
     pub inverse_dt: f64,
@@ -77,7 +77,7 @@ impl Response {
     }
 }
 
-/// A model that knows nothing but principal values: isotropic, with scalars for internal variables.
+/// A model in principal values: isotropic, with scalar internal variables.
 pub trait PrincipalModel: Model {
     /// The response at a point seeded at height `y` (m) to the elastic trial Hencky strains. `internal` holds the internal
     /// variables at the beginning of the step, and when the model has responded those at its end.
@@ -104,8 +104,8 @@ pub struct TensorResponse {
     pub yielding: bool,
 }
 
-/// A model of the full strain, with tensors among its internal variables. It has to be isotropic in all its arguments together: what
-/// directions there are, the internal variables tell.
+/// A model of the strain tensor, with tensors among its internal variables. It has to be an isotropic function of strain and
+/// internal variables together: anisotropy enters only through the internal variables.
 pub trait TensorModel: Model {
     /// As [`PrincipalModel::respond`], to the elastic trial Hencky strain. The tensors in `internal` have been turned with the
     /// step, those in `state` have not.
@@ -142,7 +142,7 @@ pub trait Model: Send + Sync {
         }
     }
 
-    /// It, where it responds to principal strains.
+    /// The model as a [`PrincipalModel`], if it responds to principal strains.
     fn principal(&self) -> Option<&dyn PrincipalModel> {
         match self.law() {
             Law::Principal(model) => Some(model),

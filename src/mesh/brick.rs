@@ -80,7 +80,7 @@ fn add(mesh: &mut Mesh<3>, kind: CellKind, corners: &[u32], middles: &mut BTreeM
     mesh.cells.push(kind, 0, &cell);
 }
 
-/// The mean of places, by halves: that of equal coordinates is what they are.
+/// The mean of points, by repeated averaging of pairs, which keeps equal coordinates exactly.
 fn middle(places: &[[f64; 3]]) -> [f64; 3] {
     if let [place] = places {
         return *place;

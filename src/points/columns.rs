@@ -11,9 +11,9 @@ pub struct Column {
     pub presence: Presence,
     /// Whether seeding may write it.
     pub seeded: bool,
-    /// Whether integration points have it; those that have not have no motion of their own.
+    /// Whether integration points have it; they have no velocity and no displacement of their own.
     pub at_integration: bool,
-    /// Whether it is of the state of the material, which one point can take from another.
+    /// Whether it is part of the material state, which can be copied from one point to another.
     pub of_material: bool,
     pub merged: Merged,
     /// Whether it has several entries for each point, as many as the scene needs.
@@ -30,10 +30,10 @@ pub enum Presence {
     Phases,
 }
 
-/// What the value of a point is that two become together.
+/// How the values of two points are combined when the points are merged.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Merged {
-    /// That of the first, or one that is found otherwise.
+    /// The value of the first point, or one that is computed elsewhere.
     First,
     Sum,
     /// Means.

@@ -14,7 +14,7 @@ pub trait Field<const D: usize>: fmt::Debug + Send + Sync {
     /// Its columns for some points: mostly one, with a name, a unit and as many components for each point.
     fn columns(&self, points: &Points<D>) -> Vec<Column>;
 
-    /// Whether the nodes of the grid have their displacement with it.
+    /// Whether frames also contain the displacement of the grid nodes if this field is written.
     fn is_displacement(&self) -> bool {
         false
     }

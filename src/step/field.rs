@@ -65,7 +65,7 @@ pub fn to_points<const D: usize, K: Kinematics<D>>(
     }
 }
 
-/// Sets in `given`, one entry an equation, by how much the given values change in a step of `dt` (s). One of no time leaves all as it is.
+/// Sets the prescribed increments of the fields in a step of `dt` (s) in `given`, one entry per equation. With `dt = 0` all values are fixed.
 pub fn give<const D: usize>(scene: &Scene<D>, state: &State<D>, dofs: &DofMap<D>, dt: f64, given: &mut [Option<f64>]) {
     let [places, _] = scene.places();
     for (k, field) in scene.fields.iter().enumerate() {

@@ -8,12 +8,12 @@ use crate::system::Connectivity;
 pub struct Scalars {
     /// Their places.
     pub places: Vec<u32>,
-    /// The couplings of the nodes, those of cells with their scalar unknowns.
+    /// The couplings of the nodes, extended by the scalar unknowns of the cells.
     pub connectivity: Connectivity,
 }
 
 impl Scalars {
-    /// Numbers the unknowns of `families`, of which there are `most`, after `nodes` blocks.
+    /// Numbers the unknowns of `families` after `nodes` blocks. `most` is the length of the array of scalar values, active or not.
     pub fn new<const D: usize>(
         families: &[Carrier<D>],
         nodes: usize,
@@ -61,7 +61,7 @@ impl<const D: usize> Carrier<'_, D> {
         (0..self.mesh.cells.len() as u32).filter(|&c| (self.with)(c).contains(&true) || (self.fields)(c) > 0)
     }
 
-    /// Those of a cell: of its pore water, of other scalar fields, of its pressure field.
+    /// The scalar unknowns of a cell: of its pore water, of other scalar fields, of its pressure field.
     fn unknowns(&self, cell: u32) -> impl Iterator<Item = u32> {
         let ([water, field], fields) = ((self.with)(cell), (self.fields)(cell));
         let cell = cell as usize;

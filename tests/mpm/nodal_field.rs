@@ -1,4 +1,4 @@
-//! A scalar field with a diffusion term of its own, in one file: nothing in the program knows of it.
+//! A scalar field with a diffusion term of its own, defined in this file only; the library needs no change for it.
 //!
 //! `c ∂T/∂t = k ∇²T` in the material, by the backward Euler rule on the corners of the cells, with the volumes of the points:
 //!

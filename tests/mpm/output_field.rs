@@ -1,4 +1,4 @@
-//! An output field in one file: nothing in the program knows of it. `volume_ratio` is `det F` of each point.
+//! An output field, defined in this file only; the library needs no change for it. `volume_ratio` is `det F` of each point.
 
 use crate::bench::{Bench, constant, quadrature_points};
 use mpm::io::checkpoint::Fingerprint;

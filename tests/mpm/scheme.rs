@@ -1,4 +1,4 @@
-//! A scheme with two rings of support, in one file: nothing in the program knows of it.
+//! A scheme with two rings of support, defined in this file only; the library needs no change for it.
 //!
 //! `N̄_I(x) = Σ_J N_J(x) A_JI`, where row J of `A` mixes the value of node J with that at J of the plane fitted to all nodes of the cells around J;
 //! at nodes on the boundary `A` is the identity. `A` is not singular, so that the functions span what the shape functions of the cells do, with
@@ -108,7 +108,7 @@ fn linear_fields_come_back() {
     }
 }
 
-/// What a scene under gravity is, solved by a scheme.
+/// The final state of a scene under gravity solved with a scheme, and the iterations of each step.
 fn solved<K: Kinematics<2>>(
     scheme: &'static dyn Basis<2>,
     kind: CellKind,
@@ -160,7 +160,7 @@ fn elastic_soil_has_the_solution_of_plain_mpm() {
 }
 
 #[test]
-fn plastic_soil_with_a_pressure_field_has_it_too() {
+fn plastic_soil_with_a_pressure_field_has_the_solution_of_plain_mpm() {
     let clay = |bench: &mut Bench| {
         let elasticity = Elasticity::new(constant(1000.0), 0.3).unwrap();
         let model = Arc::new(Tresca::new(elasticity, constant(4.0)).unwrap());
@@ -179,16 +179,16 @@ fn with_water(bench: &mut Bench) {
 }
 
 #[test]
-fn pore_water_has_it_too() {
+fn pore_water_has_the_solution_of_plain_mpm() {
     for kind in KINDS {
         same::<PlaneStrain>(kind, Restore::EveryStep, 1e-8, with_water);
     }
 }
 
-/// On a grid that is not restored: the velocity that is mapped to a restored one is set to zero at supports, where the two schemes leave the nodes
-/// beside them another one.
+/// On a grid that is not restored. A reset sets the mapped velocity to zero at supports, after which the two schemes differ at the nodes
+/// beside the supports.
 #[test]
-fn motion_has_it_too() {
+fn motion_has_the_solution_of_plain_mpm() {
     for kind in KINDS {
         for water in [false, true] {
             same::<PlaneStrain>(kind, Restore::Never, 1e-8, |bench| {
