@@ -139,7 +139,8 @@ impl<const D: usize> Points<D> {
         &mut self.internal[p * count..(p + 1) * count]
     }
 
-    /// Gives the points the first values of the internal variables of their models, by number of the material.
+    /// Gives the points the first values of the internal variables of their models, by number of the material: all of a scene, with those that
+    /// phases change to, so that there is room for each. Points without internal variables begin every step with the first values.
     pub fn begin(&mut self, models: &[Option<Arc<dyn Model>>]) {
         let count = models.iter().flatten().map(|model| internal_count(model.as_ref())).max().unwrap_or(0);
         self.internal = vec![0.0; count * self.len()];

@@ -100,7 +100,7 @@ pub struct TensorResponse {
     pub elastic_strain: Symmetric,
     /// Accumulated equivalent plastic strain (-).
     pub plastic_strain: f64,
-    /// Whether the point yielded.
+    /// Whether the point yielded: has to be true wherever `elastic_strain` is not the trial strain.
     pub yielding: bool,
 }
 
@@ -108,7 +108,7 @@ pub struct TensorResponse {
 /// internal variables together: anisotropy enters only through the internal variables.
 pub trait TensorModel: Model {
     /// As [`PrincipalModel::respond`], to the elastic trial Hencky strain. The tensors in `internal` have been turned with the
-    /// step, those in `state` have not.
+    /// step, those in `state` have not. In plane strain and axisymmetry their components yz and xz have to be zero.
     fn respond(&self, y: f64, trial: &Symmetric, state: &State, internal: &mut [f64]) -> TensorResponse;
 
     /// As [`PrincipalModel::yield_excess`].
@@ -153,7 +153,8 @@ pub trait Model: Send + Sync {
     /// The elastic part, which is isotropic; where that depends on the pressure, what stands for it wherever one stiffness is asked for.
     fn elasticity(&self) -> &Elasticity;
 
-    /// Whether the tangent is symmetric in every state (associated flow).
+    /// Whether the tangent with respect to the strain is symmetric in every state (associated flow). With internal tensors the system is taken as
+    /// unsymmetric in any case, since they turn with the step.
     fn symmetric(&self) -> bool;
 
     /// The shear strength (kPa) at height `y` in a state, at rest: `s_u`, `σ_y/√3`, `c`, in Modified Cam-Clay that of the

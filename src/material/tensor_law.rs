@@ -70,7 +70,7 @@ pub fn respond(
         let stress = match &stretch {
             None => of_strain(&r, &change),
             Some(stretch) => {
-                let spin = spin(stretch, &gradient);
+                let spin = stretch.spin(&gradient);
                 of_strain(&r, &(change - spin * epsilon + epsilon * spin)) + spin * tau - tau * spin
             }
         };
@@ -85,8 +85,15 @@ pub fn respond(
     Some(Answer { kirchhoff, elastic, tangent, plastic_strain, yielding })
 }
 
+/// The left stretch `V` of a step.
+struct Stretch {
+    itself: Tensor,
+    /// `(tr V − V)⁻¹`.
+    inverse: Tensor,
+}
+
 /// Turns the tensors among the internal variables with a deformation; returns its left stretch.
-fn turn(model: &dyn TensorModel, increment: &Tensor, internal: &mut [f64]) -> Tensor {
+fn turn(model: &dyn TensorModel, increment: &Tensor, internal: &mut [f64]) -> Stretch {
     let square = symmetric(&(increment * increment.transpose()));
     let [stretch, inverse] =
         [1.0, -1.0].map(|sign| full(&spectral::map_roots(&square, |roots| roots.map(|root| root.sqrt().powf(sign)))));
@@ -100,7 +107,9 @@ fn turn(model: &dyn TensorModel, increment: &Tensor, internal: &mut [f64]) -> Te
         }
         left = rest;
     }
-    stretch
+    // It is positive definite, as the stretch is.
+    let of_axis = Tensor::from_diagonal_element(stretch.trace()) - stretch;
+    Stretch { itself: stretch, inverse: of_axis.try_inverse().unwrap_or_else(Tensor::zeros) }
 }
 
 /// `D : δε`.
@@ -113,12 +122,10 @@ fn of_strain(r: &TensorResponse, change: &Tensor) -> Tensor {
     }))
 }
 
-/// `ω` of a gradient, by its axial vector: `(tr V − V) ω = axial(l V − V lᵀ)`.
-fn spin(stretch: &Tensor, gradient: &Tensor) -> Tensor {
-    let right = gradient * stretch - stretch * gradient.transpose();
-    let right = Vector3::new(right[(2, 1)], right[(0, 2)], right[(1, 0)]);
-    let of_axis = Tensor::from_diagonal_element(stretch.trace()) - stretch;
-    // It is positive definite, as the stretch is.
-    let axis = of_axis.try_inverse().map_or_else(Vector3::zeros, |inverse| inverse * right);
-    axis.cross_matrix()
+impl Stretch {
+    /// `ω` of a gradient, by its axial vector: `(tr V − V) ω = axial(l V − V lᵀ)`.
+    fn spin(&self, gradient: &Tensor) -> Tensor {
+        let right = gradient * self.itself - self.itself * gradient.transpose();
+        (self.inverse * Vector3::new(right[(2, 1)], right[(0, 2)], right[(1, 0)])).cross_matrix()
+    }
 }

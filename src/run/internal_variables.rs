@@ -41,7 +41,10 @@ impl InternalVariable {
         let mut values = vec![0.0; points.len() * self.components];
         for (p, values) in values.chunks_exact_mut(self.components).enumerate() {
             if let Some(Some(first)) = self.first.get(points.model_of(p)) {
-                values.copy_from_slice(&points.internal_of(p)[*first..first + self.components]);
+                // Points that were given none of the models' variables have zeros.
+                if let Some(own) = points.internal_of(p).get(*first..first + self.components) {
+                    values.copy_from_slice(own);
+                }
             }
         }
         column(&format!("{INTERNAL}.{}", self.name), self.unit, self.components, values)

@@ -24,7 +24,7 @@ use crate::error::{Error, Result};
 use crate::interpolation::{CellPoints, Entries, MAX_FUNCTIONS};
 use crate::kinematics::{Gradient, Kinematics};
 use crate::material::spatial::Spatial;
-use crate::material::{Model, State, internal_count};
+use crate::material::{Model, State, VariableKind, internal_count};
 use crate::points::Points;
 use crate::profile::timed_material;
 use crate::system::Local;
@@ -275,7 +275,9 @@ fn inadmissible<const D: usize>(points: &Points<D>, p: usize, what: &str, deform
 
 impl<const D: usize, K: Kinematics<D>, S: Mixed<D, K>> Term<D> for Internal<K, S> {
     fn symmetric(&self) -> bool {
-        !self.dynamic && self.models.iter().flatten().all(|m| m.symmetric())
+        // The spin of internal tensors has no potential.
+        let has_tensors = |m: &dyn Model| m.internal_variables().iter().any(|v| v.kind == VariableKind::Tensor);
+        !self.dynamic && self.models.iter().flatten().all(|m| m.symmetric() && !has_tensors(m.as_ref()))
     }
 
     fn assemble(&self, frame: &Frame<D>, trial: &Trial<D>, out: &mut Assembly) -> Result<()> {

@@ -10,8 +10,9 @@
 //!
 //! What is fitted are the Kirchhoff stress of the model, `ln J`, the density, and the internal variables, which stay within the
 //! range of the points that they are fitted to. It is the stress and not the elastic strain, for it is the stress that is in balance: in
-//! clay whose stiffness grows with pressure, a stress linear in depth has a strain that is not. What lies outside
-//! the yield surface is brought back to it.
+//! clay whose stiffness grows with pressure, a stress linear in depth has a strain that is not. A stress outside
+//! the yield surface is returned to it, while the internal variables stay as they are fitted: where these harden in the return, the next step
+//! finds a stress a little outside again.
 
 mod fields;
 mod fit;
