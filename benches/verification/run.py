@@ -21,7 +21,7 @@ sys.path[:0] = [str(HERE.parent), str(HERE.parent / "work_precision"), str(HERE)
 
 import studies  # noqa: E402
 from problems import cantilever, cavity, column, footing, slump  # noqa: E402
-from program import Failed, Refused, execute, solved  # noqa: E402
+from program import PROGRAM, Failed, Refused, execute, solved  # noqa: E402
 from schemes import SCHEMES, missing  # noqa: E402
 
 PAGE = ROOT / "docs/verification.md"
@@ -149,7 +149,8 @@ def main():
         for study in (study for study in studies.SMALL + studies.LARGE if study.__name__ in arguments.only):
             print("\n".join(study(arguments.quick)), flush=True)
         return
-    lines = [INTRODUCTION, "## Closed forms, on a grid that is never restored", ""]
+    version = execute([str(PROGRAM), "--version"]).out.strip()
+    lines = [INTRODUCTION, f"Version: {version}.", "", "## Closed forms, on a grid that is never restored", ""]
     for study in studies.SMALL:
         lines += study(arguments.quick)
     lines += ["## Water, slopes and collapse", ""]
