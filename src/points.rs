@@ -76,6 +76,9 @@ columns! {
     pore_pressure: [f64] = Column::of("kPa").merged(Merged::ByVolume).of_scene().seeded().of_material();
     /// The values of the scalar fields of a scene ([`crate::step::Field`]), those of each point side by side; empty without any.
     fields: [f64] = Column::of("-").merged(Merged::ByVolume).comes_and_goes().several().of_material_points();
+    /// The domain of the point as its scheme describes it (m), as many numbers for each point as that needs, as of the last grid reset; empty for
+    /// schemes whose points have no extent.
+    domain: [f64] = Column::of("m").comes_and_goes().several().of_material_points();
     /// Index into the regions of the mesh.
     region: [u16] = Column::of("-");
     /// Number of the material among those of a scene: first one a region of the mesh, then one a change of it; empty where no

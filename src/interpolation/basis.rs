@@ -3,8 +3,41 @@
 use super::{Interpolation, Support};
 use crate::kinematics::Kinematics;
 use crate::mesh::Mesh;
+use crate::mesh::locate::Locator;
 use crate::mesh::shape::CellKind;
+use crate::points::Points;
 use std::fmt;
+
+/// The domains of material points ([`Points::domain`]).
+#[derive(Clone, Copy)]
+pub struct Domains<'a, const D: usize> {
+    numbers: &'a [f64],
+    /// Numbers a point.
+    count: usize,
+    /// Finds the cells of places in the grid.
+    pub locator: &'a Locator<D>,
+}
+
+impl<'a, const D: usize> Domains<'a, D> {
+    /// Those of some points, if they have any.
+    pub fn of(points: &'a Points<D>, locator: &'a Locator<D>) -> Option<Self> {
+        let numbers = &points.domain;
+        (!numbers.is_empty()).then(|| Self { numbers, count: numbers.len() / points.len(), locator })
+    }
+
+    /// The domain of point `p`.
+    pub fn get(&self, p: usize) -> &'a [f64] {
+        &self.numbers[p * self.count..(p + 1) * self.count]
+    }
+}
+
+/// A grid that is reset, as it was before.
+pub struct Reset<'a, const D: usize> {
+    pub mesh: &'a Mesh<D>,
+    pub locator: &'a Locator<D>,
+    /// The displacement (m) of its nodes since the last reset.
+    pub displacement: &'a [[f64; D]],
+}
 
 /// Points in the cells of a grid.
 pub struct Located<'a, const D: usize> {
@@ -18,12 +51,14 @@ pub struct Located<'a, const D: usize> {
     pub hoop: bool,
     /// Factor from area to volume at a position: 1 in plane strain and in space, `2πr` (m) in axisymmetry.
     pub measure: fn(&[f64; D]) -> f64,
+    /// The domains of the points, where these are material points and have any.
+    pub domains: Option<Domains<'a, D>>,
 }
 
 impl<'a, const D: usize> Located<'a, D> {
-    /// Points in `cell` at `xi`.
+    /// Points in `cell` at `xi`, without domains.
     pub fn new<K: Kinematics<D>>(mesh: &'a Mesh<D>, active: &'a [bool], cell: &'a [u32], xi: &'a [[f64; 3]]) -> Self {
-        Self { mesh, active, cell, xi, hoop: K::HOOP, measure: K::measure }
+        Self { mesh, active, cell, xi, hoop: K::HOOP, measure: K::measure, domains: None }
     }
 }
 
@@ -51,6 +86,13 @@ pub trait Basis<const D: usize>: fmt::Debug + Send + Sync {
     fn support(&self, _mesh: &Mesh<D>, _active: &[bool]) -> Option<Support> {
         None
     }
+
+    /// Writes the first domains of material points ([`Points::domain`]) that were located in their cells at `xi`. Schemes whose points have
+    /// no extent write nothing.
+    fn begin_domains(&self, _mesh: &Mesh<D>, _xi: &[[f64; 3]], _points: &mut Points<D>) {}
+
+    /// Renews the domains at a grid reset, given the grid before it; the points have their state and their positions since.
+    fn renew_domains(&self, _before: &Reset<D>, _points: &mut Points<D>) {}
 
     /// Fills in what the points see. The weights are for the caller to write.
     fn fill(&self, points: &Located<D>, interpolation: &mut Interpolation<D>);

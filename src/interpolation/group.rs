@@ -9,6 +9,8 @@ use std::sync::Arc;
 /// A place in a cell, and the nodes that a point there acts on.
 pub struct Place<'a, const D: usize> {
     pub mesh: &'a Mesh<D>,
+    /// The number of the point.
+    pub point: usize,
     pub cell: usize,
     /// Parametric coordinates (-).
     pub xi: [f64; 3],
@@ -17,6 +19,15 @@ pub struct Place<'a, const D: usize> {
     /// The shape functions of the cell (-) and their gradients (1/m).
     pub shape: &'a [f64],
     pub shape_gradient: &'a [[f64; D]],
+}
+
+impl<const D: usize> Place<'_, D> {
+    /// Its coordinates (m) on the grid as it was reset.
+    pub fn position(&self) -> [f64; D] {
+        let nodes = self.mesh.cells.nodes(self.cell);
+        let term = |d| nodes.iter().zip(self.shape).map(move |(&n, shape)| shape * self.mesh.nodes[n as usize][d]);
+        std::array::from_fn(|d| term(d).sum())
+    }
 }
 
 impl<const D: usize> Interpolation<D> {
@@ -74,7 +85,8 @@ impl<const D: usize> Interpolation<D> {
             let cell = slot.cell_points.cell as usize;
             let (own, count) = (slot.cell_points.shape_count as usize, slot.cell_points.node_count as usize);
             for k in 0..slot.cell_points.point_count as usize {
-                let xi = points.xi[numbers[slot.cell_points.first_point as usize + k] as usize];
+                let point = numbers[slot.cell_points.first_point as usize + k] as usize;
+                let xi = points.xi[point];
                 let n = &mut slot.shape[k * own..(k + 1) * own];
                 let gradient = &mut slot.shape_gradient[k * own..(k + 1) * own];
                 shape::map(mesh.cells.kind[cell], &x[..own], &xi, n, gradient);
@@ -82,7 +94,7 @@ impl<const D: usize> Interpolation<D> {
                     slot.radius[k] = n.iter().zip(&x).map(|(n, x)| n * x[0]).sum();
                 }
                 let nodes = support.nodes(slot.cell_points.cell);
-                let place = Place { mesh, cell, xi, nodes, shape: n, shape_gradient: gradient };
+                let place = Place { mesh, point, cell, xi, nodes, shape: n, shape_gradient: gradient };
                 let range = k * count..(k + 1) * count;
                 functions(&place, &mut slot.value[range.clone()], &mut slot.gradient[range]);
             }

@@ -13,7 +13,7 @@ mod jumps;
 mod mpm;
 mod support;
 
-pub use basis::{Basis, Located};
+pub use basis::{Basis, Domains, Located, Reset};
 pub use ddmp::Ddmp;
 pub use entries::{CellPoints, Entries, Interpolation};
 pub use extension::Extension;

@@ -66,8 +66,8 @@ impl<const D: usize> Grid<D> {
     pub fn new<K: Kinematics<D>>(scene: &Scene<D>, state: &State<D>) -> Result<Self> {
         let relaxed = relax::at(scene, state);
         let mut interpolations = Interpolations::default();
-        let mesh = relaxed.as_ref().map_or(&scene.mesh, |r| &r.mesh);
-        fill::<D, K>(&mut interpolations.integration, scene, mesh, state);
+        let (mesh, locator) = relaxed.as_ref().map_or((&scene.mesh, &scene.locator), |r| (&r.mesh, &r.locator));
+        fill::<D, K>(&mut interpolations.integration, scene, (mesh, locator), state);
         take_weights::<D, K>(&mut interpolations, scene, mesh, state);
         Self::with::<K>(scene, state, interpolations, relaxed)
     }

@@ -13,7 +13,7 @@ use super::relax::{self, Relaxed};
 use super::scene::{Restore, Scene};
 use super::state::State;
 use crate::error::{Error, Result};
-use crate::interpolation::Interpolation;
+use crate::interpolation::{Domains, Interpolation, Located, Reset};
 use crate::kinematics::Kinematics;
 use crate::mesh::Mesh;
 use crate::mesh::locate::Locator;
@@ -43,15 +43,17 @@ pub fn begin_anew<const D: usize, K: Kinematics<D>>(
     }
     let (before, projected) = placed?;
     let (mesh, locator) = relaxed.as_ref().map_or((&scene.mesh, &scene.locator), |r| (&r.mesh, &r.locator));
+    let here = before.as_ref().map_or((&scene.mesh, &scene.locator), |r| (&r.mesh, &r.locator));
+    renew_domains(scene, here, state);
     let changed = choose_cells(scene, state);
     let outlines = facing::outlines(scene, state);
     interpolations.integration =
         interpolations.material.take().unwrap_or_else(|| std::mem::take(&mut interpolations.integration));
-    fill::<D, K>(&mut interpolations.integration, scene, mesh, state);
+    fill::<D, K>(&mut interpolations.integration, scene, (mesh, locator), state);
     let grid = Restored {
         mesh,
         locator,
-        before: before.as_ref().map_or((&scene.mesh, &scene.locator), |r| (&r.mesh, &r.locator)),
+        before: here,
         outlines: &outlines,
         relaxed: relaxed.is_some(),
         points: &state.points,
@@ -62,11 +64,9 @@ pub fn begin_anew<const D: usize, K: Kinematics<D>>(
     };
     state.weights = scene.quadrature.weigh(&grid, &mut state.front);
     state.weights.projected = projected;
-    renew::<D, K>(&mut interpolations.integration, scene, mesh, state);
-    let here = before.as_ref().map_or((&scene.mesh, &scene.locator), |r| (&r.mesh, &r.locator));
-    let before = here.0;
+    renew::<D, K>(&mut interpolations.integration, scene, (mesh, locator), state);
     predictor::carry(here, mesh, state);
-    state.ramp.carry(scene, (before, &state.displacement), (mesh, locator), &state.points.cell);
+    state.ramp.carry(scene, (here.0, &state.displacement), (mesh, locator), &state.points.cell);
     state.displacement.fill([0.0; D]);
     state.restorations += 1;
     if scene.numerics.restore == Restore::Never {
@@ -133,7 +133,7 @@ pub fn take_weights<const D: usize, K: Kinematics<D>>(
 fn renew<const D: usize, K: Kinematics<D>>(
     interpolation: &mut Interpolation<D>,
     scene: &Scene<D>,
-    mesh: &Mesh<D>,
+    grid: (&Mesh<D>, &Locator<D>),
     state: &mut State<D>,
 ) {
     let Some(Renewed { points, parametric, from }) = state.weights.renewed.take() else { return };
@@ -146,17 +146,28 @@ fn renew<const D: usize, K: Kinematics<D>>(
         state.start_position = points.position.iter().zip(&from).map(start).collect();
     }
     (state.points, state.parametric) = (points, parametric);
-    fill::<D, K>(interpolation, scene, mesh, state);
+    fill::<D, K>(interpolation, scene, grid, state);
+}
+
+/// Gives the material points, which have been located, the domains that the scheme of the scene wants, given the grid before.
+fn renew_domains<const D: usize>(scene: &Scene<D>, (mesh, locator): (&Mesh<D>, &Locator<D>), state: &mut State<D>) {
+    if state.restorations == 0 {
+        scene.basis.begin_domains(mesh, &state.parametric, &mut state.points);
+    } else {
+        let before = Reset { mesh, locator, displacement: &state.displacement };
+        scene.basis.renew_domains(&before, &mut state.points);
+    }
 }
 
 /// Fills the interpolation for the material points where they were last located.
 pub fn fill<const D: usize, K: Kinematics<D>>(
     interpolation: &mut Interpolation<D>,
     scene: &Scene<D>,
-    mesh: &Mesh<D>,
+    (mesh, locator): (&Mesh<D>, &Locator<D>),
     state: &State<D>,
 ) {
-    interpolation.fill::<K>(scene.basis, mesh, &state.points.cell, &state.parametric, &state.active);
+    let located = Located::new::<K>(mesh, &state.active, &state.points.cell, &state.parametric);
+    scene.basis.fill(&Located { domains: Domains::of(&state.points, locator), ..located }, interpolation);
 }
 
 /// Finds the cell of every point of the restored grid.

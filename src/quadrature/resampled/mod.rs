@@ -296,9 +296,6 @@ fn collect(points: &Points<2>, sampled: &[Sampled]) -> (Samples<2>, Tally) {
     let samples = Points {
         position: all().map(|s| s.place.x).collect(),
         origin: all().map(|s| [s.fields[ORIGIN], s.fields[ORIGIN + 1]]).collect(),
-        reference: Vec::new(),
-        velocity: Vec::new(),
-        acceleration: Vec::new(),
         mass: all().zip(&initial_volume).map(|(s, volume)| s.fields[DENSITY] * volume).collect(),
         initial_volume,
         deformation: all().map(|s| Tensor::identity() * (s.fields[VOLUME] / 3.0).exp()).collect(),
@@ -309,10 +306,10 @@ fn collect(points: &Points<2>, sampled: &[Sampled]) -> (Samples<2>, Tally) {
         internal: sampled.iter().flat_map(|cell| &cell.internal).copied().collect(),
         pressure: column(!points.pressure.is_empty(), PRESSURE),
         pore_pressure: column(!points.pore_pressure.is_empty(), WATER),
-        fields: Vec::new(),
         region: all().map(|s| s.region).collect(),
         model,
         cell: all().map(|s| s.cell).collect(),
+        ..Points::default()
     };
     let count = |of: fn(&Sampled) -> u32| sampled.iter().map(of).sum();
     let tally = Tally {
