@@ -15,10 +15,10 @@ use super::multipliers::Multipliers;
 use super::place::{Placed, Segments};
 use super::rigid::{Entry, add};
 use super::surface::{Segment, Surface};
+use crate::geometry::{Hit, Lines, distance, dot, foot, way};
 use crate::kinematics::Kinematics;
 use crate::mesh::shape::MAX_NODES;
 use crate::points::Points;
-use crate::surface::Bins;
 use std::collections::BTreeMap;
 use std::marker::PhantomData;
 use std::ops::Range;
@@ -97,15 +97,13 @@ struct Across {
 
 impl<K: Kinematics<2>> Bodies<K> {
     /// Where a segment is to be cut, as shares of it, ascending from 0 to 1.
-    fn cuts(&self, from: &Placed, bins: &Bins, position: &dyn Fn(u32) -> [f64; 2]) -> Vec<f64> {
-        let along = [0, 1].map(|d| from.to[d] - from.from[d]);
-        let square = along[0] * along[0] + along[1] * along[1];
+    fn cuts(&self, from: &Placed, lines: &Lines, position: &dyn Fn(u32) -> [f64; 2]) -> Vec<f64> {
         let mut cuts = vec![0.0, 1.0];
-        for &s in bins.around(&from.middle).flatten() {
-            for &end in &self.other.facets[self.other.segments[s as usize].facet as usize][..2] {
+        for s in lines.near(&from.middle) {
+            for &end in &self.other.facets[self.other.segments[s].facet as usize][..2] {
                 let to = position(end);
-                let share = (0..2).map(|d| (to[d] - from.from[d]) * along[d]).sum::<f64>() / square;
-                let away = (0..2).map(|d| (to[d] - from.from[d]) * from.normal[d]).sum::<f64>();
+                let share = foot(&to, &[from.from, from.to]);
+                let away = dot(&way(&from.from, &to), &from.normal);
                 if share > 1e-6 && share < 1.0 - 1e-6 && away.abs() <= REACH * self.surface.spacing {
                     cuts.push(share);
                 }
@@ -150,27 +148,13 @@ impl<K: Kinematics<2>> Bodies<K> {
         &self,
         from: &Point,
         other: &Segments,
-        bins: &Bins,
+        lines: &Lines,
         position: &dyn Fn(u32) -> [f64; 2],
     ) -> Option<Across> {
         let (x, n) = (from.x, from.normal);
-        let mut best: Option<(f64, usize, f64)> = None;
-        for &s in bins.around(&x).flatten() {
-            let to = &other.0[s as usize];
-            if to.normal[0] * n[0] + to.normal[1] * n[1] > FACING {
-                continue;
-            }
-            let along = [0, 1].map(|d| to.to[d] - to.from[d]);
-            let start = [0, 1].map(|d| to.from[d] - x[d]);
-            // x + t n = from + share along
-            let share = (start[1] * n[0] - start[0] * n[1]) / (along[0] * n[1] - along[1] * n[0]);
-            let t = (0..2).map(|d| (start[d] + share * along[d]) * n[d]).sum::<f64>();
-            let seen = (-1e-9..=1.0 + 1e-9).contains(&share) && t.abs() <= REACH * self.surface.spacing;
-            if seen && best.is_none_or(|(other, ..)| t.abs() < other.abs()) {
-                best = Some((t, s as usize, share));
-            }
-        }
-        let (_, s, share) = best?;
+        let faces = |s: usize| dot(&other.0[s].normal, &n) <= FACING;
+        let hits = lines.hits(x, n, faces).filter(|hit| hit.distance.abs() <= REACH * self.surface.spacing);
+        let Hit { line: s, share, .. } = hits.min_by(|a, b| a.distance.abs().total_cmp(&b.distance.abs()))?;
         let segment = &self.other.segments[s];
         let facet = &self.other.facets[segment.facet as usize];
         let mut xi = segment.from + share * (segment.to - segment.from);
@@ -278,8 +262,9 @@ impl<K: Kinematics<2>> Interface<2> for Bodies<K> {
     ) -> Vec<Constraint<2>> {
         let segments = Segments::new::<K>(&self.surface, position);
         let other = Segments::new::<K>(&self.other, position);
-        let longest = other.0.iter().map(|s| (s.to[0] - s.from[0]).hypot(s.to[1] - s.from[1])).fold(0.0, f64::max);
-        let bins = Bins::new(other.0.iter().map(|s| (s.from, s.to)), REACH * self.surface.spacing + longest);
+        let longest = other.0.iter().map(|s| distance(&s.to, &s.from)).fold(0.0, f64::max);
+        let lines =
+            Lines::new(other.0.iter().map(|s| [s.from, s.to]).collect(), REACH * self.surface.spacing + longest);
         let mut sums = vec![Sum::default(); self.surface.contact_nodes];
         let loops = loops(&self.surface, &segments);
         // Nothing else depends on it.
@@ -287,10 +272,10 @@ impl<K: Kinematics<2>> Interface<2> for Bodies<K> {
         let wet = wet.map(|soil| (soil, soil.points(ground.elements)));
         for (segment, placed) in self.surface.segments.iter().zip(&segments.0) {
             let own = &self.surface.facets[segment.facet as usize];
-            let cuts = self.cuts(placed, &bins, position);
+            let cuts = self.cuts(placed, &lines, position);
             let mut nearest = f64::INFINITY;
             for point in self.points(segment, &cuts, &GAUSS, position) {
-                let Some(across) = self.across(&point, &other, &bins, position) else { continue };
+                let Some(across) = self.across(&point, &other, &lines, position) else { continue };
                 let facets = [(own, point.value, -1.0), (&self.other.facets[across.facet as usize], across.value, 1.0)];
                 let water = wet.as_ref().map_or(0.0, |(soil, points)| {
                     let (facet, away) = if soil.has_hats { (segment.facet, 0.0) } else { (across.facet, across.gap) };
@@ -326,7 +311,7 @@ impl<K: Kinematics<2>> Interface<2> for Bodies<K> {
             }
             if nearest < self.surface.spacing {
                 for point in self.points(segment, &cuts, &PARTS, position) {
-                    let Some(across) = self.across(&point, &other, &bins, position) else { continue };
+                    let Some(across) = self.across(&point, &other, &lines, position) else { continue };
                     for (contact_node, share) in segment.contact_nodes {
                         let spot =
                             Spot { share: share * point.area, along: placed.along + point.along, open: across.gap };

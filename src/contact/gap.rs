@@ -3,9 +3,9 @@
 use super::place::{Placed, Segments};
 use super::skin::{Seen, Skin};
 use super::surface::Surface;
+use crate::geometry::{Bins, Line, Lines, at, distance, dot, foot, length, way};
 use crate::kinematics::Kinematics;
 use crate::points::Points;
-use crate::surface::Bins;
 use rayon::prelude::*;
 
 /// Points this many spacings away are no surface that a segment faces.
@@ -65,7 +65,7 @@ impl Soil<'_> {
         let ours = |p: &usize| self.regions.contains(&points.region[*p]);
         let widest =
             (0..points.len()).into_par_iter().filter(ours).map(|p| self.width::<K>(p)).reduce(|| 0.0, f64::max);
-        let longest = segments.0.iter().map(|s| (s.to[0] - s.from[0]).hypot(s.to[1] - s.from[1])).fold(0.0, f64::max);
+        let longest = segments.0.iter().map(|s| distance(&s.to, &s.from)).fold(0.0, f64::max);
         let side = (1.0 + REACH) * widest + longest;
         let bins = Bins::new(segments.0.iter().map(|s| (s.from, s.to)), side);
         let seen = skin.map(|skin| skin.seen(SEEN * widest));
@@ -84,18 +84,14 @@ impl Soil<'_> {
         let mut best: Option<(f64, u32, [f64; 2])> = None;
         for &s in bins.around(x).flatten() {
             let segment = &segments.0[s as usize];
-            let along = [0, 1].map(|d| segment.to[d] - segment.from[d]);
-            let to = [0, 1].map(|d| x[d] - segment.from[d]);
-            let t = (to[0] * along[0] + to[1] * along[1]) / (along[0] * along[0] + along[1] * along[1]);
-            let foot = [0, 1].map(|d| segment.from[d] + t.clamp(0.0, 1.0) * along[d]);
-            let from_foot = [0, 1].map(|d| x[d] - foot[d]);
-            let square = from_foot[0] * from_foot[0] + from_foot[1] * from_foot[1];
+            let line = [segment.from, segment.to];
+            let from_foot = way(&at(&line, foot(x, &line).clamp(0.0, 1.0)), x);
+            let square = dot(&from_foot, &from_foot);
             // Of two segments that meet nearest to the point the one that faces it more tells the side.
-            let face = from_foot[0] * segment.normal[0] + from_foot[1] * segment.normal[1];
+            let face = dot(&from_foot, &segment.normal);
             let closer = best.is_none_or(|(other, s, from)| {
                 let n = segments.0[s as usize].normal;
-                square < other * (1.0 - 1e-9)
-                    || square <= other * (1.0 + 1e-9) && face.abs() > (from[0] * n[0] + from[1] * n[1]).abs()
+                square < other * (1.0 - 1e-9) || square <= other * (1.0 + 1e-9) && face.abs() > dot(&from, &n).abs()
             });
             if closer {
                 best = Some((square, s, from_foot));
@@ -107,7 +103,7 @@ impl Soil<'_> {
         if segment.passes(x) {
             return None;
         }
-        let outside = from_foot[0] * segment.normal[0] + from_foot[1] * segment.normal[1] >= 0.0;
+        let outside = dot(&from_foot, &segment.normal) >= 0.0;
         let distance = if outside { square.sqrt() } else { -square.sqrt() };
         if distance.abs() > (REACH + 1.0) * spacing {
             return None;
@@ -184,16 +180,15 @@ const CORNER: f64 = 0.8;
 
 /// The surface of the soil, to be seen from segments.
 pub struct Facing {
-    pieces: Vec<[[f64; 2]; 2]>,
+    pieces: Lines,
     /// The mean curvature (1/m) of the surface at the ends of each piece, positive where the soil is convex.
     curvature: Vec<f64>,
-    bins: Bins,
 }
 
 impl Facing {
     /// That of loops of markers.
     pub fn new(loops: &[Vec<[f64; 2]>]) -> Self {
-        let pieces: Vec<[[f64; 2]; 2]> =
+        let pieces: Vec<Line<2>> =
             loops.iter().flat_map(|x| (0..x.len()).map(|i| [x[i], x[(i + 1) % x.len()]])).collect();
         let curved = |x: &Vec<[f64; 2]>| {
             let count = x.len();
@@ -208,35 +203,31 @@ impl Facing {
             (0..count).map(|i| 0.5 * (at(i) + at(i + 1))).collect::<Vec<_>>()
         };
         let curvature = loops.iter().flat_map(curved).collect();
-        let longest = pieces.iter().map(|[a, b]| (b[0] - a[0]).hypot(b[1] - a[1])).collect::<Vec<_>>();
-        let side = longest.iter().sum::<f64>() / longest.len().max(1) as f64;
-        let bins = Bins::new(pieces.iter().map(|[a, b]| (*a, *b)), 4.0 * side);
-        Self { pieces, curvature, bins }
+        let mean = pieces.iter().map(length).sum::<f64>() / pieces.len().max(1) as f64;
+        Self { pieces: Lines::new(pieces, 4.0 * mean), curvature }
     }
 
     /// Distance (m) from the middle of a segment along its normal to a surface that faces it, within `REACH` spacings,
     /// negative where the soil overlaps the structure.
     pub fn distance(&self, segment: &Placed, spacing: f64) -> Option<f64> {
-        let (x, n) = (segment.middle, segment.normal);
+        let n = segment.normal;
+        // The soil is on the left of its surface: its normal out of the soil is to face the segment.
+        let facing = |piece: usize| {
+            let [a, b] = &self.pieces.lines[piece];
+            let (along, length) = (way(a, b), distance(a, b));
+            (along[1] * n[0] - along[0] * n[1], length)
+        };
         let mut best: Option<f64> = None;
-        for &piece in self.bins.around(&x).flatten() {
-            let [a, b] = self.pieces[piece as usize];
-            let along = [b[0] - a[0], b[1] - a[1]];
-            // The soil is on the left of its surface: its normal out of the soil is to face the segment.
-            let length = along[0].hypot(along[1]);
-            let facing = along[1] * n[0] - along[0] * n[1];
-            if facing > -0.3 * length {
-                continue;
-            }
-            let to = [a[0] - x[0], a[1] - x[1]];
-            // x + t n = a + s along
-            let s = (to[1] * n[0] - to[0] * n[1]) / (along[0] * n[1] - along[1] * n[0]);
-            let across = (to[0] + s * along[0]) * n[0] + (to[1] + s * along[1]) * n[1];
+        let faces = |piece: usize| {
+            let (facing, length) = facing(piece);
+            facing <= -0.3 * length
+        };
+        for hit in self.pieces.hits(segment.middle, n, faces) {
             // The surface bulges between its markers; what it bulges by goes against the normal, nearly.
-            let bulge = 0.5 * self.curvature[piece as usize] * s * (1.0 - s) * length * facing;
-            let t = across + bulge;
-            let inside = (-1e-9..=1.0 + 1e-9).contains(&s) && t.abs() <= REACH * spacing;
-            if inside && best.is_none_or(|best| t.abs() < best.abs()) {
+            let (facing, length) = facing(hit.line);
+            let bulge = 0.5 * self.curvature[hit.line] * hit.share * (1.0 - hit.share) * length * facing;
+            let t = hit.distance + bulge;
+            if t.abs() <= REACH * spacing && best.is_none_or(|best| t.abs() < best.abs()) {
                 best = Some(t);
             }
         }

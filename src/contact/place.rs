@@ -1,6 +1,7 @@
 //! The segments of a boundary where the structure is now.
 
 use super::surface::Surface;
+use crate::geometry::{cross, distance, dot, way};
 use crate::kinematics::Kinematics;
 use crate::mesh::shape::MAX_NODES;
 
@@ -28,9 +29,9 @@ pub struct Placed {
 impl Placed {
     /// Whether a place is beyond a corner or end of the boundary, so that the segment does not face it.
     pub fn passes(&self, x: &[f64; 2]) -> bool {
-        let along = [0, 1].map(|d| self.to[d] - self.from[d]);
-        let way = |from: &[f64; 2]| (0..2).map(|d| (x[d] - from[d]) * along[d]).sum::<f64>();
-        self.ends[0] && way(&self.from) < 0.0 || self.ends[1] && way(&self.to) > 0.0
+        let along = way(&self.from, &self.to);
+        let beyond = |end: &[f64; 2]| dot(&way(end, x), &along);
+        self.ends[0] && beyond(&self.from) < 0.0 || self.ends[1] && beyond(&self.to) > 0.0
     }
 }
 
@@ -42,16 +43,12 @@ fn bend(piece: &mut [Placed]) {
     let curvature = |i: usize| {
         let (a, b) = (&piece[i.saturating_sub(1)], &piece[(i + 1).min(piece.len() - 1)]);
         let (n, m) = (a.normal, b.normal);
-        let way = b.along - a.along;
-        let turn = (n[0] * m[1] - n[1] * m[0]).atan2(n[0] * m[0] + n[1] * m[1]);
-        if way > 0.0 && turn.abs() > FLAT { turn / way } else { 0.0 }
+        let length = b.along - a.along;
+        let turn = cross(&n, &m).atan2(dot(&n, &m));
+        if length > 0.0 && turn.abs() > FLAT { turn / length } else { 0.0 }
     };
     let curvatures: Vec<f64> = (0..piece.len()).map(curvature).collect();
     piece.iter_mut().zip(curvatures).for_each(|(placed, curvature)| placed.curvature = curvature);
-}
-
-fn distance(a: &[f64; 2], b: &[f64; 2]) -> f64 {
-    (a[0] - b[0]).hypot(a[1] - b[1])
 }
 
 /// All segments of a boundary, in their order.

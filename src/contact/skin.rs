@@ -3,9 +3,9 @@
 //! A point knows how it was strained since the run began, and so where that surface is now, as far as it is near: at
 //! `x_p + F (X_s − X_p)`. That is as smooth as the strain is, where the points themselves lie anywhere below it.
 
+use crate::geometry::{Line, Lines, length, way};
 use crate::mesh::Mesh;
 use crate::mesh::faces::Faces;
-use crate::surface::Bins;
 
 /// Cosine of the angle from which on a piece of the surface faces a direction.
 const FACING: f64 = 0.5;
@@ -14,7 +14,7 @@ const FACING: f64 = 0.5;
 #[derive(Clone, Debug, Default)]
 pub struct Skin {
     /// With the soil on their left.
-    pieces: Vec<[[f64; 2]; 2]>,
+    pieces: Vec<Line<2>>,
     longest: f64,
 }
 
@@ -35,47 +35,33 @@ impl Skin {
                 _ => {}
             }
         }
-        let longest = pieces.iter().map(|[a, b]| (b[0] - a[0]).hypot(b[1] - a[1])).fold(0.0, f64::max);
+        let longest = pieces.iter().map(length).fold(0.0, f64::max);
         Self { pieces, longest }
     }
 
     /// The pieces by place, to be seen from no farther than `reach` (m).
-    pub fn seen(&self, reach: f64) -> Seen<'_> {
-        Seen { skin: self, reach, bins: Bins::new(self.pieces.iter().map(|[a, b]| (*a, *b)), reach + self.longest) }
+    pub fn seen(&self, reach: f64) -> Seen {
+        Seen { pieces: Lines::new(self.pieces.clone(), reach + self.longest), reach }
     }
 }
 
-/// A skin and the bins of its pieces.
-pub struct Seen<'a> {
-    skin: &'a Skin,
+/// A skin by place.
+pub struct Seen {
+    pieces: Lines,
     reach: f64,
-    bins: Bins,
 }
 
-impl Seen<'_> {
+impl Seen {
     /// How deep (m) a place in the soil is below the surface, along a unit direction out of the soil; `None` where nothing
     /// that faces it is within reach.
     pub fn depth(&self, x: &[f64; 2], outward: &[f64; 2]) -> Option<f64> {
-        let mut least: Option<f64> = None;
-        for &piece in self.bins.around(x).flatten() {
-            let [a, b] = self.skin.pieces[piece as usize];
-            let along = [b[0] - a[0], b[1] - a[1]];
-            let across = along[1] * outward[0] - along[0] * outward[1];
-            if across < FACING * along[0].hypot(along[1]) {
-                continue;
-            }
-            // x + t outward = a + s along
-            let to = [a[0] - x[0], a[1] - x[1]];
-            let s = (to[0] * outward[1] - to[1] * outward[0]) / across;
-            let t = (along[1] * to[0] - along[0] * to[1]) / across;
-            if (-1e-9..=1.0 + 1e-9).contains(&s)
-                && (0.0..=self.reach).contains(&t)
-                && least.is_none_or(|other| t < other)
-            {
-                least = Some(t);
-            }
-        }
-        least
+        let faces = |piece: usize| {
+            let [a, b] = &self.pieces.lines[piece];
+            let along = way(a, b);
+            along[1] * outward[0] - along[0] * outward[1] >= FACING * along[0].hypot(along[1])
+        };
+        let hits = self.pieces.hits(*x, *outward, faces).map(|hit| hit.distance);
+        hits.filter(|distance| (0.0..=self.reach).contains(distance)).min_by(f64::total_cmp)
     }
 }
 

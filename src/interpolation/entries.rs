@@ -4,6 +4,8 @@ use super::extension::Extension;
 use super::support::{MAX_FUNCTIONS, Support};
 use crate::kinematics::{Gradient, Kinematics};
 use crate::mesh::Mesh;
+use crate::tensor::Tensor;
+use std::ops::Deref;
 use std::sync::Arc;
 
 /// The points of one cell and the nodes they act on.
@@ -89,6 +91,7 @@ impl<const D: usize> Interpolation<D> {
     }
 
     /// The entries of the points of a cell, in order.
+    #[inline]
     pub fn entries<K: Kinematics<D>>(&self, cell_points: &CellPoints) -> impl Iterator<Item = Entries<'_, D>> {
         let first = cell_points.first_point as usize;
         let (nodes, functions) = (cell_points.node_count as usize, cell_points.function_count as usize);
@@ -150,17 +153,30 @@ impl<const D: usize> Interpolation<D> {
     }
 
     /// The coefficients of the cell's functions for a field on the nodes.
-    #[inline]
-    pub fn gather(&self, mesh: &Mesh<D>, cell_points: &CellPoints, field: &[[f64; D]]) -> [[f64; D]; MAX_FUNCTIONS] {
+    #[inline(always)]
+    pub fn gather(&self, mesh: &Mesh<D>, cell_points: &CellPoints, field: &[[f64; D]]) -> Coefficients<D> {
         let nodes = self.nodes(mesh, cell_points.cell);
-        if let Some(extension) = &self.extension {
-            return extension.gather(cell_points.cell, nodes.len(), field);
-        }
-        let mut local = [[0.0; D]; MAX_FUNCTIONS];
-        for (local, &n) in local.iter_mut().zip(nodes) {
-            *local = field[n as usize];
+        let mut local = Coefficients { values: [[0.0; D]; MAX_FUNCTIONS], count: cell_points.function_count as usize };
+        match &self.extension {
+            Some(extension) => extension.gather(cell_points.cell, nodes.len(), field, &mut local.values),
+            None => local.values.iter_mut().zip(nodes).for_each(|(local, &n)| *local = field[n as usize]),
         }
         local
+    }
+}
+
+/// A coefficient for each function of a cell.
+pub struct Coefficients<const D: usize> {
+    values: [[f64; D]; MAX_FUNCTIONS],
+    count: usize,
+}
+
+impl<const D: usize> Deref for Coefficients<D> {
+    type Target = [[f64; D]];
+
+    #[inline]
+    fn deref(&self) -> &[[f64; D]] {
+        &self.values[..self.count]
     }
 }
 
@@ -168,6 +184,16 @@ impl<const D: usize> Entries<'_, D> {
     /// The gradient of function `i` of the cell.
     pub fn gradient(&self, i: usize) -> Gradient<D> {
         Gradient { g: self.gradient[i], hoop: self.value.get(i).map_or(0.0, |n| self.hoop * n) }
+    }
+
+    /// `I + Σ u ⊗ ∇N`, given the coefficients of the functions.
+    #[inline]
+    pub fn deformation<K: Kinematics<D>>(&self, u: &[[f64; D]]) -> Tensor {
+        let mut f = Tensor::identity();
+        for (i, u) in u.iter().enumerate().take(self.functions()) {
+            K::deform(&mut f, u, &self.gradient(i));
+        }
+        f
     }
 
     /// The number of functions, values or none.

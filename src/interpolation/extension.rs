@@ -39,13 +39,18 @@ impl Extension {
         self.combination[range].chunks_exact(self.nodes(cell).len().max(1))
     }
 
-    /// Coefficients of the functions of a cell with `own` nodes for a field on the nodes.
-    pub fn gather<const D: usize>(&self, cell: u32, own: usize, field: &[[f64; D]]) -> [[f64; D]; MAX_FUNCTIONS] {
-        let mut local = [[0.0; D]; MAX_FUNCTIONS];
+    /// Writes the coefficients of the functions of a cell with `own` nodes for a field on the nodes, where there are zeros.
+    pub fn gather<const D: usize>(
+        &self,
+        cell: u32,
+        own: usize,
+        field: &[[f64; D]],
+        local: &mut [[f64; D]; MAX_FUNCTIONS],
+    ) {
         let nodes = self.nodes(cell);
         // Nothing has moved at the beginning of a step on a restored grid.
         if nodes.iter().all(|&n| field[n as usize] == [0.0; D]) {
-            return local;
+            return;
         }
         for (local, &n) in local.iter_mut().zip(&nodes[..own]) {
             *local = field[n as usize];
@@ -78,7 +83,6 @@ impl Extension {
                 }
             }
         }
-        local
     }
 
     /// The gradients of a cell at its smoothing nodes for the values `own` of its nodes: for each of them, and each

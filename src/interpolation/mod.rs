@@ -15,7 +15,7 @@ mod support;
 
 pub use basis::{Basis, Domains, Located, Reset};
 pub use ddmp::Ddmp;
-pub use entries::{CellPoints, Entries, Interpolation};
+pub use entries::{CellPoints, Coefficients, Entries, Interpolation};
 pub use extension::Extension;
 pub use fill::{PartlyFilled, integrate, partly_filled_cells};
 pub use group::Place;

@@ -10,6 +10,7 @@ mod bins;
 
 use super::Mesh;
 use super::shape::{CellKind, MAX_NODES, invert};
+use crate::geometry::distance;
 use bins::{Bins, Bounds, bounds, enclose};
 
 /// Marks a facet without a neighbour.
@@ -269,10 +270,6 @@ fn jacobian<'a, const D: usize>(nodes: impl Iterator<Item = &'a [f64; D]>, dn: &
         }
     }
     jacobian
-}
-
-fn distance<const D: usize>(a: &[f64; D], b: &[f64; D]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| (a - b) * (a - b)).sum::<f64>().sqrt()
 }
 
 /// `xi` moved into the parametric domain.

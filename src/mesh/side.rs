@@ -1,12 +1,13 @@
 //! A side of a cell on the boundary of the mesh, and the way back to it.
 
 use super::{Mesh, cell_size};
+use crate::geometry::{Line, at, nearest};
 
 /// A side of a cell as a straight line.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Side<const D: usize> {
     /// Its ends (m).
-    pub ends: [[f64; D]; 2],
+    pub ends: Line<D>,
     /// The diagonal (m) of the cell.
     pub size: f64,
 }
@@ -24,12 +25,7 @@ impl<const D: usize> Side<D> {
 
     /// The place on it that is nearest to `x` (m), and how far (m) that is; none where it is more than the part `farthest` (-) of its cell.
     pub fn nearest(&self, x: &[f64; D], farthest: f64) -> Option<([f64; D], f64)> {
-        let [a, b] = &self.ends;
-        let along: [f64; D] = std::array::from_fn(|d| b[d] - a[d]);
-        let square: f64 = along.iter().map(|t| t * t).sum();
-        let t = (0..D).map(|d| (x[d] - a[d]) * along[d]).sum::<f64>() / square;
-        let place: [f64; D] = std::array::from_fn(|d| a[d] + t.clamp(0.0, 1.0) * along[d]);
-        let distance = place.iter().zip(x).map(|(p, x)| (p - x).powi(2)).sum::<f64>().sqrt();
-        (distance <= farthest * self.size).then_some((place, distance))
+        let (share, distance) = nearest(x, &self.ends);
+        (distance <= farthest * self.size).then(|| (at(&self.ends, share), distance))
     }
 }

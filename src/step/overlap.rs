@@ -5,6 +5,7 @@ use super::scene::Scene;
 use super::state::State;
 use crate::contact::{Interface, Mark};
 use crate::error::{Error, Result};
+use crate::geometry::nearest;
 use crate::mesh::Mesh;
 use crate::mesh::cell_size;
 use crate::mesh::locate::Locator;
@@ -95,13 +96,6 @@ fn within<const D: usize>(
 /// How far (m) a place is from the nearest line, in the plane.
 fn distance<const D: usize>(x: &[f64; D], lines: &[Vec<Mark<D>>]) -> f64 {
     const { assert!(D == 2, "structures are bounded by lines in the plane only") };
-    let to_segment = |interface: &[Mark<D>]| {
-        let [a, b] = [&interface[0].place, &interface[1].place];
-        let along = [b[0] - a[0], b[1] - a[1]];
-        let way = [x[0] - a[0], x[1] - a[1]];
-        let square = along[0] * along[0] + along[1] * along[1];
-        let share = ((way[0] * along[0] + way[1] * along[1]) / square).clamp(0.0, 1.0);
-        (way[0] - share * along[0]).hypot(way[1] - share * along[1])
-    };
+    let to_segment = |ends: &[Mark<D>]| nearest(x, &[ends[0].place, ends[1].place]).1;
     lines.iter().flat_map(|line| line.windows(2)).map(to_segment).fold(f64::INFINITY, f64::min)
 }

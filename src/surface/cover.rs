@@ -1,7 +1,7 @@
 //! What of the boundary of the material is open: the parts of its pieces that no structure covers.
 
-use super::bins::Bins;
 use super::boundary::{Piece, place};
+use crate::geometry::{Bins, distance, length};
 use crate::mesh::Mesh;
 use crate::mesh::cell_size;
 use std::f64::consts::FRAC_1_SQRT_2;
@@ -60,7 +60,7 @@ pub fn join<const D: usize>(covers: &mut Vec<Cover<D>>) {
     for (before, from, reach) in free(1) {
         for &(after, to, other) in begins.iter().filter(|(after, ..)| *after != before) {
             let reach = reach.max(other);
-            if (to[0] - from[0]).hypot(to[1] - from[1]) <= JOINT * reach {
+            if distance(&from, &to) <= JOINT * reach {
                 (covers[before].goes_on[1], covers[after].goes_on[0]) = (true, true);
                 covers.push(Cover { ends: [from, to], goes_on: [true; 2], reach });
             }
@@ -73,8 +73,7 @@ pub fn open<const D: usize>(mesh: &Mesh<D>, pieces: &[Piece], covers: &[Cover<D>
     const { assert!(D == 2, "covers are lines in the plane") };
     let ends: Vec<[[f64; D]; 2]> =
         pieces.iter().map(|piece| [0.0, 1.0].map(|t| place(mesh, &mesh.nodes, piece, t))).collect();
-    let apart = |[a, b]: &[[f64; D]; 2]| (b[0] - a[0]).hypot(b[1] - a[1]);
-    let longest = ends.iter().map(apart).fold(0.0, f64::max);
+    let longest = ends.iter().map(length).fold(0.0, f64::max);
     // The place of a piece is known to a part of its cell; the edge of a typical cell is its diagonal over √2.
     let known = |piece: &Piece| 0.5 * FRAC_1_SQRT_2 * cell_size(mesh, piece.cell as usize);
     let reach = covers.iter().map(|cover| cover.reach).chain(pieces.iter().map(known)).fold(0.0, f64::max);

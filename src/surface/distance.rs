@@ -5,9 +5,9 @@
 //! run: another run may lie between, as on the outside of a toe whose underside is hollow. The sign comes from the nearest segment; far from all
 //! of them a node is in the material if a cell around it holds points.
 
-use super::bins::Bins;
 use super::front::MarkerFront;
 use super::geometry::Geometry;
+use crate::geometry::{Bins, foot, way};
 use crate::mesh::Mesh;
 use crate::mesh::locate::Locator;
 use rayon::prelude::*;
@@ -184,8 +184,8 @@ fn nearest(segments: &[Segment], bins: &Bins, x: &[f64; 2], reach: f64) -> Optio
 impl Segment {
     /// The square of the distance (m) of `x`, and a number with the sign of its height above the surface.
     fn height(&self, x: &[f64; 2]) -> (f64, f64) {
-        let (d, r) = ([0, 1].map(|d| self.to[d] - self.from[d]), [0, 1].map(|d| x[d] - self.from[d]));
-        let t = (r[0] * d[0] + r[1] * d[1]) / (d[0] * d[0] + d[1] * d[1]);
+        let (d, r) = (way(&self.from, &self.to), way(&self.from, x));
+        let t = foot(x, &[self.from, self.to]);
         let foot = [0, 1].map(|k| r[k] - t.clamp(0.0, 1.0) * d[k]);
         let height = if t <= 0.0 {
             foot[0] * self.normal[0][0] + foot[1] * self.normal[0][1]

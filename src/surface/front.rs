@@ -17,6 +17,7 @@ mod seed;
 mod smooth;
 
 use super::geometry::Geometry;
+use crate::geometry::distance;
 use crate::kinematics::Kinematics;
 use crate::mesh::Mesh;
 use crate::mesh::faces::BOUNDARY;
@@ -209,18 +210,6 @@ fn on_boundary(mesh: &Mesh<2>, geometry: &Geometry, c: usize, xi: &[f64; 3]) -> 
         (false, _) => 1.0 + xi[0],
     };
     across.iter().enumerate().any(|(side, &other)| other == BOUNDARY && depth(side) <= reach)
-}
-
-fn distance(a: &[f64; 2], b: &[f64; 2]) -> f64 {
-    (a[0] - b[0]).hypot(a[1] - b[1])
-}
-
-/// The share of the length of a segment at which it is nearest to a place, and how far (m) that is.
-fn nearest(x: &[f64; 2], [a, b]: [&[f64; 2]; 2]) -> (f64, f64) {
-    let (along, to) = ([b[0] - a[0], b[1] - a[1]], [x[0] - a[0], x[1] - a[1]]);
-    let share = (to[0] * along[0] + to[1] * along[1]) / (along[0] * along[0] + along[1] * along[1]);
-    let share = share.clamp(0.0, 1.0);
-    (share, distance(x, &[a[0] + share * along[0], a[1] + share * along[1]]))
 }
 
 #[cfg(test)]

@@ -4,7 +4,8 @@
 //! far as these are linear on each of them. A function that is a polynomial of the height between them is integrated as
 //! one: exactly where the cell is affine and heights are linear in it.
 
-use super::split::{Barycentric, corners, positive, triangles, twice_area};
+use super::split::{Barycentric, corners, positive, triangles};
+use crate::geometry::twice_area;
 use crate::mesh::shape::{CellKind, rule};
 use std::sync::OnceLock;
 

@@ -4,7 +4,6 @@
 //! does not change of a grid. Where it holds, a [`MarkerFront`] of markers that move with the grid is better than the contour, and where none does, one that smooths it: [`Distance`] makes the level set. Loads and pictures
 //! take the surface as polylines, the [`ActiveBoundary`], of which structures [`Cover`] parts. [`Voids`] are empty cells where there was soil.
 
-mod bins;
 pub mod boundary;
 mod contour;
 mod cover;
@@ -18,7 +17,6 @@ pub mod moments;
 mod split;
 mod voids;
 
-pub use bins::Bins;
 pub use boundary::{ActiveBoundary, Behind, NO_REGION, Piece};
 pub use contour::{Contour, HIGHEST};
 pub use cover::{Cover, join, open};
@@ -27,5 +25,5 @@ pub use front::{Lost, MarkerFront};
 pub use geometry::Geometry;
 pub use layers::visit_layers;
 pub use moments::CellFrame;
-pub use split::{corners, positive, triangles, twice_area};
+pub use split::{corners, positive, triangles};
 pub use voids::{News, Void, Voids, lies_near};

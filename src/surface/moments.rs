@@ -4,7 +4,8 @@
 //! parametric domain: curved cells keep their shape. Areas and volumes are per metre in plane strain and per
 //! full turn (2π) in axisymmetry, by [`Kinematics::measure`].
 
-use super::split::{Barycentric, corners, positive, triangles, twice_area};
+use super::split::{Barycentric, corners, positive, triangles};
+use crate::geometry::twice_area;
 use crate::kinematics::Kinematics;
 use crate::mesh::Mesh;
 use crate::mesh::shape::{self, CellKind, MAX_NODES, rule};

@@ -1,6 +1,7 @@
 //! The straight triangles into which the nodes of a cell split its parametric domain, and the parts of a
 //! triangle where a linear function is positive.
 
+use crate::geometry::twice_area;
 use crate::mesh::shape::CellKind;
 
 /// Barycentric coordinates in a triangle.
@@ -25,11 +26,6 @@ pub fn corners(kind: CellKind, triangle: &[usize; 3]) -> [[f64; 2]; 3] {
         let xi = kind.node_coordinates()[i];
         [xi[0], xi[1]]
     })
-}
-
-/// Twice the signed area of a triangle.
-pub fn twice_area(x: &[[f64; 2]; 3]) -> f64 {
-    (x[1][0] - x[0][0]) * (x[2][1] - x[0][1]) - (x[2][0] - x[0][0]) * (x[1][1] - x[0][1])
 }
 
 /// The triangle of a kind that holds the parametric point `xi` (the lowest of several) and the barycentric

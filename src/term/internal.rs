@@ -203,7 +203,7 @@ impl<K, S> Internal<K, S> {
         let moved = before.iter().flatten().any(|&u| u != 0.0);
         let mut strained = Vec::with_capacity(cell_points.point_count as usize);
         for entries in frame.interpolation.entries::<K>(cell_points) {
-            let mut point = strain::<D, K>(frame.points, &entries, &now, moved.then_some(&before))?;
+            let mut point = strain::<D, K>(frame.points, &entries, &now, moved.then_some(&before[..]))?;
             if trial.alpha_f > 0.0 {
                 point.felt = within(&point.increment, trial.alpha_f)
                     .ok_or_else(|| inadmissible(frame.points, entries.point, "is squeezed flat", &point.increment))?;
@@ -229,16 +229,16 @@ impl<K, S> Internal<K, S> {
 fn strain<const D: usize, K: Kinematics<D>>(
     points: &Points<D>,
     entries: &Entries<D>,
-    trial: &[[f64; D]; MAX_FUNCTIONS],
-    converged: Option<&[[f64; D]; MAX_FUNCTIONS]>,
+    trial: &[[f64; D]],
+    converged: Option<&[[f64; D]]>,
 ) -> Result<Strained> {
     let p = entries.point;
-    let now = deformation::<D, K>(entries, trial);
+    let now = entries.deformation::<K>(trial);
     let inverse = now.try_inverse().ok_or_else(|| inadmissible(points, p, "is squeezed flat", &now))?;
     let increment = match converged {
         None => now,
         Some(converged) => {
-            let before = deformation::<D, K>(entries, converged);
+            let before = entries.deformation::<K>(converged);
             now * before.try_inverse().ok_or_else(|| inadmissible(points, p, "was squeezed flat", &before))?
         }
     };
@@ -252,16 +252,6 @@ fn strain<const D: usize, K: Kinematics<D>>(
         return Err(inadmissible(points, p, &what, &increment));
     }
     Ok(Strained { increment, inverse, felt: increment, ratios })
-}
-
-/// `I + Σ u ⊗ ∇N`.
-#[inline]
-fn deformation<const D: usize, K: Kinematics<D>>(entries: &Entries<D>, u: &[[f64; D]; MAX_FUNCTIONS]) -> Tensor {
-    let mut f = Tensor::identity();
-    for (i, u) in u.iter().enumerate().take(entries.functions()) {
-        K::deform(&mut f, u, &entries.gradient(i));
-    }
-    f
 }
 
 #[cold]

@@ -222,10 +222,7 @@ impl<'a, const D: usize> Layered<'a, D> {
             .interpolation
             .entries::<K>(cell_points)
             .map(|entries| {
-                let mut known = Tensor::identity();
-                for i in 0..entries.functions() {
-                    K::deform(&mut known, &before[i], &entries.gradient(i));
-                }
+                let known = entries.deformation::<K>(&before);
                 entries.weight * frame.points.deformation[entries.point].determinant() / known.determinant()
             })
             .sum();
@@ -337,14 +334,10 @@ impl<const D: usize, K: Kinematics<D>> Term<D> for VirtualPressure<K> {
                 let y = entries.value.iter().zip(nodes).map(height).sum();
                 let porous = self.porous_at(frame, entries.point);
                 let Some(pressures) = by_points.on(porous).at(y) else { continue };
+                let [deformed, known] = [&now, &before].map(|u| entries.deformation::<K>(u));
                 let count = entries.functions();
                 let mut gradient = [Gradient { g: [0.0; D], hoop: 0.0 }; MAX_FUNCTIONS];
-                let (mut deformed, mut known) = (Tensor::identity(), Tensor::identity());
-                for i in 0..count {
-                    gradient[i] = entries.gradient(i);
-                    K::deform(&mut deformed, &now[i], &gradient[i]);
-                    K::deform(&mut known, &before[i], &gradient[i]);
-                }
+                (0..count).for_each(|i| gradient[i] = entries.gradient(i));
                 let (inverse, determinant) = invert(&deformed)
                     .map_err(|determinant| inside_out(frame.points.name(entries.point), determinant))?;
                 let ratio = determinant / known.determinant();

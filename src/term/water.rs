@@ -20,7 +20,7 @@
 
 use super::mixed::Seen;
 use super::{Frame, History, Mixed, Ratios, Trial};
-use crate::interpolation::{CellPoints, Entries, MAX_FUNCTIONS};
+use crate::interpolation::{CellPoints, Coefficients, Entries};
 use crate::kinematics::{Gradient, Kinematics};
 use crate::material::Model;
 use crate::material::spatial::Spatial;
@@ -133,7 +133,7 @@ pub struct Cell<const D: usize> {
     pressure: Hats,
     gained: Hats,
     /// Displacement (m) of the nodes at the beginning of the step.
-    before: [[f64; D]; MAX_FUNCTIONS],
+    before: Coefficients<D>,
     /// Time (s) that the water flows for, and over the size of the cell squared, six times.
     flow_time: f64,
     passing: f64,
@@ -148,10 +148,7 @@ impl<const D: usize> Cell<D> {
 
     /// `∇L` (1/m) on the configuration at the beginning of the step.
     fn gradients<K: Kinematics<D>>(&self, entries: &Entries<D>) -> [[f64; D]; MOST] {
-        let mut before = Tensor::identity();
-        for (i, u) in self.before.iter().enumerate().take(entries.functions()) {
-            K::deform(&mut before, u, &entries.gradient(i));
-        }
+        let before = entries.deformation::<K>(&self.before);
         // It was admissible when the step before converged to it.
         let inverse = before.try_inverse().unwrap_or_else(Tensor::identity);
         self.hats.map(|of| {

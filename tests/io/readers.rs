@@ -218,6 +218,7 @@ fn points_vtu_is_viewable_as_it_is() {
         pressure: Vec::new(),
         pore_pressure: Vec::new(),
         fields: Vec::new(),
+        domain: Vec::new(),
         region: (0..n).map(|i| (i % 2) as u16).collect(),
         model: Vec::new(),
         cell: (0..n as u32).collect(),

@@ -1,10 +1,11 @@
 //! Where the integration points of a cell are: at the Gauss points of a full cell, and at those of each triangle of the part
 //! inside where the surface cuts it or materials meet in it.
 
+use crate::geometry::twice_area;
 use crate::kinematics::Kinematics;
 use crate::mesh::Mesh;
 use crate::mesh::shape::{self, CellKind, MAX_NODES, rule};
-use crate::surface::{corners, positive, triangles, twice_area};
+use crate::surface::{corners, positive, triangles};
 
 /// A smaller share of a cell is rounding.
 const ROUNDING: f64 = 1e-14;

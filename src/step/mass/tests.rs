@@ -98,7 +98,7 @@ fn through_the_grid<K: Kinematics<2>>(kind: CellKind, points: Points<2>) -> Poin
         for entries in grid.interpolations.integration.entries::<K>(cell_points) {
             let v = &mut mapped.velocity[entries.point];
             *v = [0.0; 2];
-            for (n, nodal) in entries.value.iter().zip(&local) {
+            for (n, nodal) in entries.value.iter().zip(&local[..]) {
                 (0..2).for_each(|d| v[d] += n * nodal[d]);
             }
         }

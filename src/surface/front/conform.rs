@@ -2,12 +2,11 @@
 //!
 //! The structure slides along the material, and markers that went with the material would crowd and fold at its edges.
 
-use super::{Lost, MarkerFront, PER_LENGTH, distance, nearest};
+use super::{Lost, MarkerFront, PER_LENGTH};
+use crate::geometry::{Bins, distance, nearest, twice_area};
 use crate::mesh::Mesh;
 use crate::mesh::locate::Locator;
-use crate::surface::bins::Bins;
 use crate::surface::geometry::Geometry;
-use crate::surface::split::twice_area;
 
 /// Markers lie against a structure that are nearer to it than this share of a cell.
 const NEAR: f64 = 0.15;
@@ -107,7 +106,7 @@ fn foot(outlines: &[Outline], pieces: &[(usize, usize)], bins: &Bins, x: &[f64; 
     for &piece in bins.around(x).flatten() {
         let (outline, i) = pieces[piece as usize];
         let (a, b) = (outlines[outline].x[i - 1], outlines[outline].x[i]);
-        let (share, away) = nearest(x, [&a, &b]);
+        let (share, away) = nearest(x, &[a, b]);
         if best.as_ref().is_none_or(|(least, ..)| away < *least) {
             // The structure is on the left.
             let left = twice_area(&[a, b, *x]);

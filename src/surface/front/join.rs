@@ -1,11 +1,10 @@
 //! Loops that cross, or come near each other across a gap, are joined anew: soil closes over a body and on itself, heaps, and comes apart.
 
-use super::{Lost, MarkerFront, PER_LENGTH, distance, nearest};
+use super::{Lost, MarkerFront, PER_LENGTH};
+use crate::geometry::{Bins, Line, area, at, crossing, distance, length, nearest, twice_area, winding};
 use crate::mesh::Mesh;
 use crate::mesh::locate::Locator;
-use crate::surface::bins::Bins;
 use crate::surface::geometry::Geometry;
-use crate::surface::split::twice_area;
 
 /// A gap between parts of the surface closes where it is narrower than this share of a cell …
 const GAP: f64 = 0.2;
@@ -73,24 +72,23 @@ impl MarkerFront {
     /// whose left it lies once.
     fn uncross(&mut self) {
         let chain = Chain::of(self);
-        let segments: Vec<[[f64; 2]; 2]> =
+        let segments: Vec<Line<2>> =
             chain.next.iter().zip(&chain.position).map(|(&next, x)| [*x, chain.position[next]]).collect();
-        let length: f64 = segments.iter().map(|[a, b]| distance(a, b)).sum();
-        let bins = Bins::new(segments.iter().map(|[a, b]| (*a, *b)), length / segments.len() as f64);
+        let whole: f64 = segments.iter().map(length).sum();
+        let bins = Bins::new(segments.iter().map(|[a, b]| (*a, *b)), whole / segments.len() as f64);
         // On each segment the share of its length at which another one crosses it, and the number of the crossing.
         let mut met: Vec<Vec<(f64, usize)>> = vec![Vec::new(); segments.len()];
         let mut places = Vec::new();
-        for (s, [a, b]) in segments.iter().enumerate() {
-            let near = bins.beside((*a, *b)).flatten();
+        for (s, segment) in segments.iter().enumerate() {
+            let near = bins.beside((segment[0], segment[1])).flatten();
             let mut others: Vec<usize> = near.map(|&t| t as usize).filter(|&t| t > s).collect();
             others.sort_unstable();
             others.dedup();
             for t in others {
-                let [c, d] = &segments[t];
-                if let Some((along, other)) = crossing([a, b], [c, d]) {
+                if let Some((along, other)) = crossing(segment, &segments[t]) {
                     met[s].push((along, places.len()));
                     met[t].push((other, places.len()));
-                    places.push([0, 1].map(|k| a[k] + along * (b[k] - a[k])));
+                    places.push(at(segment, along));
                 }
             }
         }
@@ -158,7 +156,7 @@ impl MarkerFront {
         chain.next.iter().enumerate().for_each(|(i, &next)| before[next] = i);
         // Soil against both sides of a thin wall is nothing that meets.
         let on_structure = |x: &[f64; 2], size: f64| {
-            let near = |piece: &[[f64; 2]]| nearest(x, [&piece[0], &piece[1]]).1 < ON * size;
+            let near = |piece: &[[f64; 2]]| nearest(x, &[piece[0], piece[1]]).1 < ON * size;
             outlines.iter().any(|outline| outline.windows(2).any(near))
         };
         let against: Vec<bool> = x.iter().zip(&size).map(|(x, size)| on_structure(x, *size)).collect();
@@ -196,29 +194,3 @@ const ON: f64 = 1e-6;
 
 /// How far beside a segment (-), in its length, it is seen what lies there.
 const BESIDE: f64 = 1e-6;
-
-/// The shares of two segments at which they cross.
-fn crossing([a, b]: [&[f64; 2]; 2], [c, d]: [&[f64; 2]; 2]) -> Option<(f64, f64)> {
-    let side = |p: &[f64; 2], q: &[f64; 2], r: &[f64; 2]| twice_area(&[*p, *q, *r]);
-    let (of_c, of_d) = (side(a, b, c), side(a, b, d));
-    let (of_a, of_b) = (side(c, d, a), side(c, d, b));
-    let cross = (of_c > 0.0) != (of_d > 0.0) && (of_a > 0.0) != (of_b > 0.0);
-    // A segment that ends on another one touches it.
-    let touch = [of_a, of_b, of_c, of_d].contains(&0.0);
-    (cross && !touch).then(|| (of_a / (of_a - of_b), of_c / (of_c - of_d)))
-}
-
-/// The area (m²) within a loop, positive where it is on the left.
-fn area(x: &[[f64; 2]]) -> f64 {
-    (1..x.len() - 1).map(|i| 0.5 * twice_area(&[x[0], x[i], x[i + 1]])).sum()
-}
-
-/// How many times the loops of `segments` run around a place, counter-clockwise.
-fn winding(segments: &[[[f64; 2]; 2]], x: &[f64; 2]) -> i32 {
-    let around = |[a, b]: &[[f64; 2]; 2]| match (a[1] <= x[1], b[1] <= x[1]) {
-        (true, false) if twice_area(&[*a, *b, *x]) > 0.0 => 1,
-        (false, true) if twice_area(&[*a, *b, *x]) < 0.0 => -1,
-        _ => 0,
-    };
-    segments.iter().map(around).sum()
-}

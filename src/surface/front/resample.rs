@@ -1,6 +1,7 @@
 //! Markers come and go as the free surface stretches and shrinks.
 
-use super::{Lost, MarkerFront, PER_LENGTH, distance};
+use super::{Lost, MarkerFront, PER_LENGTH};
+use crate::geometry::distance;
 use crate::mesh::Mesh;
 use crate::mesh::locate::Locator;
 use crate::surface::geometry::Geometry;

@@ -4,7 +4,8 @@
 //! the flow `ẋ = −∂⁴x/∂s⁴`, which keeps the area that it encloses and, unlike that of second order, takes little of
 //! what is longer than two cells; what area is lost all the same comes back by an even offset of the loop.
 
-use super::{MarkerFront, PER_LENGTH, distance};
+use super::{MarkerFront, PER_LENGTH};
+use crate::geometry::distance;
 use crate::kinematics::Kinematics;
 use crate::mesh::Mesh;
 use crate::surface::boundary::ActiveBoundary;

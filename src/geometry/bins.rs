@@ -49,7 +49,7 @@ impl Bins {
 
     /// The items of the bin that holds `x` and of the eight around it: all nearer than the width of a bin. An item may
     /// be in several.
-    pub fn around(&self, x: &[f64; 2]) -> impl Iterator<Item = &[u32]> {
+    pub fn around<'a>(&'a self, x: &[f64; 2]) -> impl Iterator<Item = &'a [u32]> + use<'a> {
         let range = |d: usize| {
             let at = ((x[d] - self.low[d]) / self.side).floor();
             let last = self.count[d] as f64 - 1.0;
