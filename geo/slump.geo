@@ -14,7 +14,8 @@ DefineConstant[
   half_width = {1,      Min 1e-6, Name "Parameters/half_width"}, // of the block [m]
   height     = {1,      Min 1e-6, Name "Parameters/height"},     // of the block [m]
   room       = {1,      Min 0,    Name "Parameters/room"},       // beside the block [m]
-  h          = {0.0625, Min 1e-6, Name "Parameters/h"}           // size of the cells [m]
+  h          = {0.0625, Min 1e-6, Name "Parameters/h"},          // size of the cells [m]
+  quads      = {0, Choices{0, 1}, Name "Parameters/quads"}       // 1: regular quadrilaterals
 ];
 Point(1) = {0, 0, 0, h};
 Point(2) = {half_width, 0, 0, h};
@@ -49,4 +50,8 @@ If (room > 0)
 Else
   Physical Curve("bottom") = {1};
   Physical Curve("top") = {3};
+EndIf
+If (quads)
+  Transfinite Surface{:};
+  Recombine Surface{:};
 EndIf

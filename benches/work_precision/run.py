@@ -19,11 +19,11 @@ sys.path[:0] = [str(HERE), str(HERE.parent)]
 
 import peers  # noqa: E402
 import report  # noqa: E402
-from problems import cantilever, cavity, column, footing, slump  # noqa: E402
+from problems import cantilever, cavity, column, footing, slump, thrown  # noqa: E402
 from program import Failed, Refused, solved  # noqa: E402
 from schemes import SCHEMES, missing  # noqa: E402
 
-PROBLEMS = {p.PROBLEM.name: p.PROBLEM for p in (column, slump, cantilever, footing, cavity)}
+PROBLEMS = {p.PROBLEM.name: p.PROBLEM for p in (column, slump, cantilever, footing, cavity, thrown)}
 CORE = max(os.sched_getaffinity(0))
 HEAD = ["series", "scheme", "at", "wall [s]", "cpu [s]", "iterations", "steps", "halvings", "note"]
 
@@ -83,7 +83,7 @@ def bench(problem, schemes, arguments):
             rows = [
                 (lambda s=scheme, v=variant: one(problem, s, v, 1 if arguments.quick else 3))
                 for scheme in schemes
-                if not series.schemes or scheme.name in series.schemes
+                if (scheme.name in series.schemes if series.schemes else not scheme.grid or series is problem.series[0])
                 for variant in variants
             ]
             writer.writerows(row for row in others if row["series"] == series.name)

@@ -16,17 +16,21 @@ class Scheme:
     numerics: tuple  # of pairs (key, value)
     about: str
     points: int = 16  # a cell, where the series does not say
+    grid: tuple = ()  # of pairs (entry of the case, value): the cells that the scheme is for
 
     @property
     def settings(self):
-        return {f"numerics.{key}": value for key, value in self.numerics}
+        return {f"numerics.{key}": value for key, value in self.numerics} | dict(self.grid)
 
 
-def scheme(name, about, points=16, **numerics):
-    return Scheme(name, tuple(numerics.items()), about, points)
+def scheme(name, about, points=16, grid=(), **numerics):
+    return Scheme(name, tuple(numerics.items()), about, points, tuple(grid))
 
 
 QUALITY = {"min_quality": 0.5}
+# Regular quadrilaterals, of the problems whose geometry has them.
+Q4 = [("mesh.order", 1), ("mesh.parameters.quads", 1)]
+Q9 = [("mesh.order", 2), ("mesh.parameters.quads", 1)]
 SCHEMES = [
     scheme("default", "what a case gets that says nothing"),
     scheme("plain", "V_p weights, plain gradients", quadrature="points", gradient="mpm", restore="every_step"),
@@ -38,6 +42,16 @@ SCHEMES = [
            restore="every_step", pressure="none"),
     scheme("resampled, pressure field", "resampled, with a field of pressure", quadrature="resampled", gradient="mpm",
            restore="every_step", pressure="field"),
+    scheme("mpm, Q4", "plain on four-node quadrilaterals", grid=Q4, quadrature="points", gradient="mpm", restore="every_step"),
+    scheme("ugimp", "GIMP, domains that keep their size, Q4", grid=Q4, gradient="ugimp", restore="every_step"),
+    scheme("cpgimp", "GIMP, domains that stretch, Q4", grid=Q4, gradient="cpgimp", restore="every_step"),
+    scheme("cpdi", "CPDI, Q4", grid=Q4, gradient="cpdi", restore="every_step"),
+    scheme("cpdi, T6", "CPDI on six-node triangles", gradient="cpdi", restore="every_step"),
+    scheme("cpdi2", "CPDI2, Q4", grid=Q4, gradient="cpdi2", restore="every_step"),
+    scheme("bspline, points", "quadratic B-splines, V_p weights", grid=Q9, quadrature="points", gradient="bspline", restore="every_step"),
+    scheme("bspline", "quadratic B-splines, resampled quadrature", grid=Q9, gradient="bspline", restore="every_step"),
+    scheme("resampled, Q9", "resampled quadrature on nine-node quadrilaterals", grid=Q9, quadrature="resampled", gradient="mpm",
+           restore="every_step"),
     scheme("never", "the grid is never restored: finite elements", points=3, restore="never"),
 ]  # fmt: skip
 
@@ -54,7 +68,8 @@ def missing(scheme):
     """Why the program does not have the scheme; None where it has."""
     with tempfile.TemporaryDirectory() as name:
         case = Path(name) / "case.yaml"
-        numerics = dict(scheme.numerics)
-        case.write_text(json.dumps({**CASE, "numerics": numerics}))
+        mesh = CASE["mesh"] | {"order": dict(scheme.grid).get("mesh.order", 2)}
+        mesh["parameters"] = mesh["parameters"] | ({"quads": 1} if scheme.grid else {})
+        case.write_text(json.dumps({**CASE, "mesh": mesh, "numerics": dict(scheme.numerics)}))
         done = execute([PROGRAM, "check", name])
         return done.reason if done.status else None
