@@ -9,12 +9,17 @@ use crate::interpolation::{Basis, Mpm, SCHEMES};
 use crate::material::MODELS;
 use std::collections::HashSet;
 use std::path::Path as FilePath;
+use std::sync::Arc;
 
-/// The case of `file`, whose paths are relative to `folder`, and every mistake that shows without the mesh;
-/// the case is a sound one only if there is none.
-pub(super) fn check(file: &raw::CaseFile, folder: &FilePath) -> (Case, Vec<Issue>) {
+/// The case of `file`, whose paths are relative to `folder`, with the `entries` that have terms of their own, and every mistake that
+/// shows without the mesh; the case is a sound one only if there is none.
+pub(super) fn check<E>(file: &raw::CaseFile, entries: Vec<E>, folder: &FilePath) -> (Case, Vec<Issue>)
+where
+    E: FnOnce(&raw::CaseFile, &mut Checker) -> Option<Arc<dyn Feature>>,
+{
     let mut checker = Checker::default();
-    let case = checker.case(file, folder);
+    let features = entries.into_iter().filter_map(|entry| entry(file, &mut checker)).collect();
+    let case = checker.case(file, features, folder);
     (case, checker.issues)
 }
 
@@ -29,13 +34,15 @@ const MOST_FRAMES: f64 = 999_999.0;
 
 pub(super) const LATER: &str = "is not available yet";
 
+/// Keeps the mistakes of a case.
 #[derive(Default)]
-pub(super) struct Checker {
+pub struct Checker {
     issues: Vec<Issue>,
 }
 
 impl Checker {
-    pub(super) fn issue(&mut self, path: &Path, at: At, problem: impl Into<String>, remedy: impl Into<String>) {
+    /// Keeps a mistake in the entry at `path`.
+    pub fn issue(&mut self, path: &Path, at: At, problem: impl Into<String>, remedy: impl Into<String>) {
         if self.issues.len() < MOST_FOUND {
             self.issues.push(Issue::new(path, at, problem, remedy));
         }
@@ -46,7 +53,7 @@ impl Checker {
         self.issues.len()
     }
 
-    fn case(&mut self, file: &raw::CaseFile, folder: &FilePath) -> Case {
+    fn case(&mut self, file: &raw::CaseFile, features: Vec<Arc<dyn Feature>>, folder: &FilePath) -> Case {
         let root = Path::default();
         let gravity = [file.gravity.x, file.gravity.y];
         let materials: Vec<_> = file
@@ -77,11 +84,11 @@ impl Checker {
             k0: file.initial_stress.map(|stress| stress.k0),
             water: self.water(file, &root),
             initial_pore_pressure: self.initial_pore_pressure(file, &root.key("initial_pore_pressure")),
-            drained_surface: self.drained_surface(file, &numerics, &root.key("drained_surface")),
             initial_velocity: self.initial_velocity(file, &root.key("initial_velocity")),
             numerics,
             phases,
             output: self.output(&file.output, &root.key("output")),
+            features,
         };
         self.together(&case, file);
         case

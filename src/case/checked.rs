@@ -3,11 +3,20 @@
 //! Only the checker makes one. Units are kN, m, s and t. The names of curves and regions are known
 //! to the mesh once [`super::names::check`] found no fault.
 
+mod phases;
+
 pub use super::raw::{Axis, Encoding, Field, Quantity};
+pub use phases::*;
+
+use super::locate::Path;
+use super::raw::Product;
 use crate::contact::Law;
+use crate::error::Result;
 use crate::interpolation::Basis;
 use crate::material::{Model, Profile};
-use crate::term::{MixedPressure, Porous};
+use crate::mesh;
+use crate::rigid::Body;
+use crate::term::{MixedPressure, Porous, Term};
 use crate::time_value::TimeValue;
 use std::collections::BTreeMap;
 use std::fmt;
@@ -33,13 +42,56 @@ pub struct Case {
     pub water: Option<Water>,
     /// Excess pore pressure (kPa) before the first phase, by index into `regions`.
     pub initial_pore_pressure: Vec<(usize, Profile)>,
-    /// The surface of material points that drains.
-    pub drained_surface: Option<Surface>,
     /// The velocities of the regions that do not start at rest.
     pub initial_velocity: Vec<InitialVelocity>,
     pub numerics: Numerics,
     pub phases: Vec<Phase>,
     pub output: Output,
+    /// The entries that bring terms of their own.
+    pub features: Vec<Arc<dyn Feature>>,
+}
+
+/// An entry of the case with terms of its own, checked; each is a [`super::keyed::Keyed`].
+pub trait Feature: fmt::Debug + Send + Sync {
+    /// Its key.
+    fn key(&self) -> &'static str;
+
+    /// What it shapes of what the stages make.
+    fn shapes(&self) -> &'static [Product];
+
+    /// The physical curves that it names, each with the entry that does, given its own.
+    fn curves(&self, path: &Path) -> Vec<(&str, Path)>;
+
+    /// Its values that vary in the time of a phase: steps end where they bend.
+    fn values(&self, phase: usize) -> Vec<&TimeValue>;
+
+    /// Whether the surface of the material points must be known.
+    fn needs_surface(&self) -> bool;
+
+    /// Its terms on the grid.
+    ///
+    /// # Errors
+    /// Input: what the mesh does not have, or cannot bear.
+    fn terms(&self, site: &Site) -> Result<Vec<Box<dyn Term<2>>>>;
+
+    /// Its terms on the finite elements `mesh`.
+    ///
+    /// # Errors
+    /// As [`Feature::terms`].
+    fn on_elements(&self, site: &Site, mesh: &mesh::Mesh<2>) -> Result<Vec<Box<dyn Term<2>>>>;
+}
+
+/// What the terms of an entry are made from.
+pub struct Site<'a> {
+    pub case: &'a Case,
+    /// The background grid, with the nodes and the groups of the whole mesh.
+    pub mesh: &'a mesh::Mesh<2>,
+    /// The finite elements, if there are some, with the same nodes and groups.
+    pub elements: Option<&'a mesh::Mesh<2>>,
+    /// The rigid structures.
+    pub rigid: &'a [Body<2>],
+    /// What a unit of the unknowns of pressures stands for (kPa/m); `None` without such unknowns.
+    pub pressure_unit: Option<f64>,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -273,112 +325,6 @@ pub enum Restore {
     },
     /// Updated Lagrangian: the grid moves with the material.
     Never,
-}
-
-/// A phase of the analysis.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Phase {
-    pub name: String,
-    pub analysis: Analysis,
-    /// Duration (s).
-    pub duration: f64,
-    pub step: StepSize,
-    pub prescribed: Vec<Prescribed>,
-    pub tractions: Vec<Traction>,
-    pub surface_loads: Vec<SurfaceLoad>,
-    /// Factor (-) on gravity.
-    pub gravity: TimeValue,
-    /// What strengths are divided by (-); absent where they are as given.
-    pub reduction: Option<TimeValue>,
-    /// Structures, walls and contacts that are not there in the phase.
-    pub absent: Vec<String>,
-    /// The materials that regions take as it begins.
-    pub changes: Vec<Change>,
-    /// Whether displacements are counted from its beginning.
-    pub reset: bool,
-    pub until: Vec<Until>,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Analysis {
-    QuasiStatic,
-    Dynamic,
-    /// Quasi-static, and dynamic where there is no equilibrium until there is rest.
-    Auto,
-    /// Quasi-static while water flows.
-    Consolidation,
-    /// Quasi-static, with strengths that fall until no equilibrium is left.
-    StrengthReduction,
-}
-
-impl Analysis {
-    /// Whether inertia may come in.
-    pub fn has_inertia(self) -> bool {
-        matches!(self, Self::Dynamic | Self::Auto)
-    }
-}
-
-/// A material that a region takes: indices into [`Case::regions`] and [`Case::materials`].
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Change {
-    pub region: usize,
-    pub material: usize,
-}
-
-/// What ends a phase before its time.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Until {
-    /// A quantity of the entry of [`Output::history`] with this index is at least, or where `below` at most `bound`.
-    Reached { history: usize, quantity: Quantity, bound: f64, below: bool },
-    /// The kinetic energy has fallen to this part (-) of its largest in the phase, or all forces are in balance but for this part from its
-    /// beginning at rest on.
-    Equilibrium(f64),
-}
-
-/// Time steps (s), `min ≤ initial ≤ max`.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct StepSize {
-    pub initial: f64,
-    pub min: f64,
-    pub max: f64,
-}
-
-/// A component of the displacement (m) of a curve or a rigid structure since the beginning of the phase.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Prescribed {
-    pub curve: String,
-    /// 0 for x, 1 for y, 2 for the rotation (rad) of a rigid structure.
-    pub component: usize,
-    pub displacement: TimeValue,
-}
-
-/// A dead load (kPa) on a curve, per area of the undeformed curve.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Traction {
-    pub curve: String,
-    pub components: [TimeValue; 2],
-}
-
-/// A load on the surface of the material points, per area of the surface as it is.
-#[derive(Clone, Debug, PartialEq)]
-pub struct SurfaceLoad {
-    /// Index into [`Case::regions`]; `None` for all of the surface.
-    pub region: Option<usize>,
-    pub pressure: Option<Pressure>,
-    /// Along the surface (kPa), positive in the sense that has the material on its left.
-    pub shear: TimeValue,
-    /// In fixed directions (kPa).
-    pub components: [TimeValue; 2],
-    /// From and to (m) in x and y.
-    pub within: Option<[[f64; 2]; 2]>,
-}
-
-/// A pressure (kPa, compression positive): uniform, or growing with depth.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Pressure {
-    pub top: TimeValue,
-    pub gradient: TimeValue,
-    pub datum: f64,
 }
 
 /// Water around soil and structures, and in the pores of soil.

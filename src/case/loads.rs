@@ -83,8 +83,8 @@ impl Checker {
         value.map_or(TimeValue::Constant(0.0), |value| self.in_time(value, path))
     }
 
-    /// The surface that an entry names.
-    pub(super) fn surface(&mut self, name: &str, file: &raw::CaseFile, path: &Path) -> Option<Surface> {
+    /// The surface of material points that the entry at `path` names, `all` or a region of kind mpm; `None` after a mistake.
+    pub fn surface(&mut self, name: &str, file: &raw::CaseFile, path: &Path) -> Option<Surface> {
         if name == ALL {
             return Some(Surface::All);
         }

@@ -2,7 +2,8 @@
 //!
 //! Both number the nodes as the whole mesh does; cells are numbered in each part in their order in the whole.
 
-use super::checked::Case;
+use super::checked::{Case, Restore, Site};
+use super::find::group;
 use super::rigid;
 use crate::error::{Error, Result};
 use crate::mesh::locate::Locator;
@@ -31,6 +32,27 @@ pub fn meshes(case: &Case, mesh: Mesh<2>) -> (Mesh<2>, Option<Mesh<2>>) {
 pub fn carries(fem: &Mesh<2>, curve: &Group) -> bool {
     let of: HashSet<u32> = fem.cells.nodes.iter().copied().collect();
     curve.nodes.iter().all(|n| of.contains(n))
+}
+
+/// A curve of the mesh that moves with the material of bodies that deform, for what acts at `place`.
+///
+/// # Errors
+/// Input: a curve that the mesh lacks; one of a rigid structure; one of a grid that does not move with the material.
+pub fn material_curve<'a>(site: &Site<'a>, name: &str, place: impl Fn() -> String) -> Result<&'a Group> {
+    let curve = group(site.mesh, name)?;
+    if site.rigid.iter().any(|body| rigid::body_of(site.mesh, body, name)) {
+        let remedy = "name a curve of a body that deforms, or take `rigid: true` out";
+        return Err(Error::input(place(), "the curve is one of a rigid structure", remedy));
+    }
+    let moves = site.case.numerics.restore == Restore::Never;
+    if !moves && !site.elements.is_some_and(|elements| carries(elements, curve)) {
+        return Err(Error::input(
+            place(),
+            "the curve is not one of finite elements, and the grid does not move with the material",
+            "set `restore: never` under `numerics`, or make the region beside it `kind: fem`",
+        ));
+    }
+    Ok(curve)
 }
 
 /// The material points and those of the finite elements, numbered with the cells of their parts, of all `points`

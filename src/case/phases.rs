@@ -231,7 +231,8 @@ impl Checker {
         StepSize { initial: step.initial, min, max }
     }
 
-    pub(super) fn in_time(&mut self, value: &raw::InTime, path: &Path) -> TimeValue {
+    /// A value in the time of a phase, as the entry at `path` has it.
+    pub fn in_time(&mut self, value: &raw::InTime, path: &Path) -> TimeValue {
         match value {
             raw::InTime::Constant(value) => TimeValue::Constant(*value),
             raw::InTime::Rate(rate) => TimeValue::Rate(rate.rate),

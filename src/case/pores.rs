@@ -2,7 +2,7 @@
 
 use super::changes;
 use super::check::Checker;
-use super::checked::{Case, Numerics, Restore, Surface};
+use super::checked::{Analysis, Case, Phase};
 use super::find;
 use super::incompressible::{bulk, has_water_of_its_own};
 use super::locate::{At, Path};
@@ -130,33 +130,6 @@ impl Checker {
         }
     }
 
-    /// The surface where water leaves.
-    pub(super) fn drained_surface(
-        &mut self,
-        file: &raw::CaseFile,
-        numerics: &Numerics,
-        path: &Path,
-    ) -> Option<Surface> {
-        let name = file.drained_surface.as_deref()?;
-        let surface = self.surface(name, file, path)?;
-        let named = |region: &String| surface.region().is_none() || region == name;
-        let first =
-            file.regions.iter().filter(|(region, _)| named(region)).filter_map(|(_, region)| region.material.as_ref());
-        let later =
-            file.phases.iter().flat_map(|phase| &phase.materials).filter(|(region, _)| named(region)).map(|(_, m)| m);
-        let conducts = |material: &raw::Material| material.permeability.is_some();
-        if !first.chain(later).any(|material| file.materials.get(material).is_some_and(conducts)) {
-            let remedy = "take it out, or give the material of the soil a `permeability`";
-            self.issue(path, At::Key, "no soil there has a permeability", remedy);
-        }
-        if numerics.restore == Restore::Never {
-            let problem = "on a grid that is never restored the surface of the soil lies on curves";
-            let remedy = "drain these by `pore_pressure: 0` under `supports`, or take `restore: never` out";
-            self.issue(path, At::Key, problem, remedy);
-        }
-        Some(surface)
-    }
-
     /// The excess pore pressure before the first phase.
     pub(super) fn initial_pore_pressure(&mut self, file: &raw::CaseFile, path: &Path) -> Vec<(usize, Profile)> {
         let names: Vec<&str> = file.regions.keys().map(String::as_str).collect();
@@ -214,6 +187,12 @@ pub(super) fn water(case: &Case, mesh: &Mesh<2>) -> Result<Option<Water>> {
     drained.sort_unstable();
     drained.dedup();
     Ok(Some(Water { porous, alone: changes::used(case).all(|(_, m)| m.carried.is_none()), drained }))
+}
+
+/// Whether water flows in a phase.
+pub(super) fn flows(case: &Case, phase: &Phase) -> bool {
+    matches!(phase.analysis, Analysis::Dynamic | Analysis::Consolidation)
+        && case.materials.iter().any(|m| m.porous.is_some())
 }
 
 /// The porous soil of each material by number.

@@ -52,8 +52,6 @@ pub struct CaseFile {
     /// The velocity before the first phase, by the name of a region; without it everything is at rest.
     #[serde(default)]
     pub initial_velocity: BTreeMap<String, Velocity>,
-    /// The surface of soil, wherever it moves, that has no excess pore pressure while water flows: all, or the name of a region.
-    pub drained_surface: Option<String>,
     /// Water whose pressure acts on all that is below its level; without it none.
     pub water: Option<Water>,
     /// The numerical method.
@@ -66,6 +64,36 @@ pub struct CaseFile {
     #[serde(default)]
     pub output: Output,
 }
+
+/// What the stages make.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Product {
+    Mesh,
+    Points,
+    Results,
+    /// What ParaView reads.
+    Series,
+}
+
+/// What each entry of [`CaseFile`] shapes itself, beside what is made from that. What it shapes is stale when it changes. Further
+/// entries are [`super::keyed::Keyed`].
+pub const SHAPES: [(&str, &[Product]); 15] = [
+    ("title", &[]),
+    ("geometry", &[Product::Points, Product::Results]),
+    ("mesh", &[Product::Mesh]),
+    ("regions", &[Product::Points, Product::Results]),
+    ("materials", &[Product::Points, Product::Results]),
+    ("contacts", &[Product::Results]),
+    ("supports", &[Product::Results]),
+    ("gravity", &[Product::Points, Product::Results]),
+    ("initial_stress", &[Product::Points]),
+    ("initial_pore_pressure", &[Product::Points]),
+    ("initial_velocity", &[Product::Points]),
+    ("water", &[Product::Points, Product::Results]),
+    ("numerics", &[Product::Results]),
+    ("phases", &[Product::Results]),
+    ("output", &[Product::Results, Product::Series]),
+];
 
 /// The kind of geometry.
 #[derive(Clone, Copy, Debug, Deserialize, JsonSchema, PartialEq, Eq)]

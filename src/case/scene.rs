@@ -1,7 +1,8 @@
-//! From a checked case to a scene: the only place that decides which terms exist.
+//! From a checked case to a scene: the only place that decides which terms exist, but for those that an entry of the case brings
+//! with it ([`super::keyed`]).
 
-use super::checked::{Analysis, Case, Content, Geometry, Material, Region, Restore};
-use super::find::{filled, group, mean_size, region_index};
+use super::checked::{Analysis, Case, Content, Geometry, Material, Region, Restore, Site};
+use super::find::{filled, mean_size, region_index};
 use super::outputs::outputs;
 use super::raw;
 use super::rigid::{self, Holds};
@@ -18,8 +19,8 @@ use crate::quadrature::{Bounded, Quadrature, Resampled, Volumes};
 use crate::run::{self, Ended, Progress};
 use crate::step::{self, Fem, Numerics, Phase, Scene, Search, State, Stop, overlap};
 use crate::term::{
-    BodyForce, Contact, DrainedSurface, EmptyCells, GhostInertia, GhostPenalty, Inertia, Internal, PoreStabilisation,
-    PoreWater, PressureField, SmoothPressure, Term, Traction,
+    BodyForce, Contact, EmptyCells, GhostInertia, GhostPenalty, Inertia, Internal, PoreStabilisation, PoreWater,
+    PressureField, SmoothPressure, Term, Traction,
 };
 use crate::time_value::TimeValue;
 use std::sync::atomic::AtomicBool;
@@ -144,10 +145,13 @@ pub fn scene<K: Kinematics<2>>(case: &Case, mut whole: Mesh<2>) -> Result<Scene<
     let mut terms = internal::<K>(case, &mesh, dynamic, pressure_unit, shear)?;
     if let (Some(water), Some(unit)) = (&water, pressure_unit) {
         terms.push(Box::new(PoreStabilisation::<K>::new(water.porous.clone(), unit, shear, mesh.cells.len())));
-        if let Some(surface) = case.drained_surface {
-            let region = surface.region().map(|i| region_index(&mesh, &case.regions[i].name)).transpose()?;
-            let flows = case.phases.iter().map(|phase| flows(case, phase)).collect();
-            terms.push(Box::new(DrainedSurface::<K>::new(water.porous.clone(), region, unit, flows)));
+    }
+    let site = Site { case, mesh: &mesh, elements: fem.as_ref(), rigid: &bodies[..structures], pressure_unit };
+    let mut terms_on_elements = Vec::new();
+    for feature in &case.features {
+        terms.extend(feature.terms(&site)?);
+        if let Some(part) = site.elements {
+            terms_on_elements.extend(feature.on_elements(&site, part)?);
         }
     }
     if case.gravity != [0.0; 2] && density_scale > 0.0 {
@@ -169,23 +173,18 @@ pub fn scene<K: Kinematics<2>>(case: &Case, mut whole: Mesh<2>) -> Result<Scene<
     }
     terms.extend(water::terms::<K>(case, &mesh, size)?);
     for (phase, traction) in case.phases.iter().enumerate().flat_map(|(i, p)| p.tractions.iter().map(move |t| (i, t))) {
-        let group = group(&mesh, &traction.curve)?;
-        if bodies[..structures].iter().any(|body| rigid::body_of(&mesh, body, &traction.curve)) {
+        if site.rigid.iter().any(|body| rigid::body_of(&mesh, body, &traction.curve)) {
             continue;
         }
-        if case.numerics.restore != Restore::Never && !fem.as_ref().is_some_and(|fem| parts::carries(fem, group)) {
-            return Err(Error::input(
-                format!("the traction on `{}` in phase `{}`", traction.curve, case.phases[phase].name),
-                "the curve is not one of finite elements, and the grid does not move with the material",
-                "set `restore: never` under `numerics`, or make the region beside it `kind: fem`",
-            ));
-        }
+        let place = || format!("the traction on `{}` in phase `{}`", traction.curve, case.phases[phase].name);
+        let group = parts::material_curve(&site, &traction.curve, place)?;
         terms.push(Box::new(Traction::<K, 2>::new(&mesh, group, phase, traction.components.clone())));
     }
 
     let fem = match fem {
         Some(part) => {
             let mut terms = internal::<K>(case, &part, dynamic, pressure_unit, shear)?;
+            terms.extend(terms_on_elements);
             let deforms = |region: &Region| region.content.is_fem() && !region.content.is_rigid();
             let heavy = changes::used(case).any(|(region, m)| deforms(region) && m.has_mass());
             if case.gravity != [0.0; 2] && heavy {
@@ -316,12 +315,6 @@ fn restore(restore: Restore) -> step::Restore {
     }
 }
 
-/// Whether water flows in a phase.
-fn flows(case: &Case, phase: &super::checked::Phase) -> bool {
-    matches!(phase.analysis, Analysis::Dynamic | Analysis::Consolidation)
-        && case.materials.iter().any(|m| m.porous.is_some())
-}
-
 fn phase<'a>(
     case: &Case,
     holds: &Holds<'a>,
@@ -335,13 +328,14 @@ fn phase<'a>(
         .map(|p| &p.displacement)
         .chain(phase.tractions.iter().flat_map(|t| &t.components))
         .chain(water::values(case, number, phase))
+        .chain(case.features.iter().flat_map(|feature| feature.values(number)))
         .chain(std::iter::once(&phase.gravity))
         .chain(&phase.reduction);
     Ok(Phase {
         name: phase.name.clone(),
         dynamic: phase.analysis == Analysis::Dynamic,
         auto: phase.analysis == Analysis::Auto,
-        flows: flows(case, phase),
+        flows: pores::flows(case, phase),
         duration: phase.duration,
         first_step: phase.step.initial,
         least_step: phase.step.min,

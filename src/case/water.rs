@@ -124,11 +124,11 @@ fn is_all_around(case: &Case, load: &SurfaceLoad) -> bool {
     !fem && load.is_pressure_all_around()
 }
 
-/// Whether the surface of the material points must be known: for loads on it, to drain it, or to be shown.
+/// Whether the surface of the material points must be known: for loads on it, for other terms, or to be shown.
 pub fn needs_surface(case: &Case) -> bool {
     let water = case.water.as_ref().is_some_and(|water| water.level.is_some());
-    let drains = case.drained_surface.is_some();
-    case.output.surface || water || drains || case.phases.iter().any(|phase| !phase.surface_loads.is_empty())
+    let of_features = case.features.iter().any(|feature| feature.needs_surface());
+    case.output.surface || water || of_features || case.phases.iter().any(|phase| !phase.surface_loads.is_empty())
 }
 
 /// The loads on the surface of the material points.

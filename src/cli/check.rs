@@ -3,7 +3,7 @@
 use super::args::CaseArgs;
 use super::mesh;
 use super::print::{Outcome, note, print};
-use crate::case::{self, Review};
+use crate::case::{Keys, Review};
 
 #[derive(clap::Args)]
 #[group(skip)]
@@ -14,9 +14,9 @@ pub struct Args {
     limits: mesh::Limits,
 }
 
-pub fn run(args: &Args) -> Outcome {
+pub fn run(args: &Args, keys: &Keys) -> Outcome {
     let CaseArgs { case, overrides } = &args.case;
-    let Review { mistakes, notes } = case::review(case, overrides, |mesh| mesh::groups(mesh, &args.limits))?;
+    let Review { mistakes, notes } = keys.review(case, overrides, |mesh| mesh::groups(mesh, &args.limits))?;
     notes.iter().for_each(|text| note(text));
     if mistakes.is_empty() { print(&format!("{}: no mistakes\n", case.display())) } else { Err(mistakes) }
 }

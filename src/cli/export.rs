@@ -5,7 +5,8 @@ use super::mesh;
 use super::print::{Outcome, print};
 use super::stage::{Inputs, Stage};
 use crate::case::checked::Encoding;
-use crate::case::parts;
+use crate::case::raw::Product;
+use crate::case::{Keys, parts};
 use crate::error::{Error, Result};
 use crate::io::run_folder::{RunFolder, Standing};
 use crate::io::{export, frame, hash, vtu};
@@ -21,8 +22,8 @@ pub struct Args {
     pub unfinished: bool,
 }
 
-pub fn run(args: &Args) -> Outcome {
-    let stage = Stage::open(&args.stage)?;
+pub fn run(args: &Args, keys: &Keys) -> Outcome {
+    let stage = Stage::open(&args.stage, keys)?;
     stage.lock()?;
     let run = if args.unfinished { unfinished(&stage)? } else { shown(&stage)? };
     work(&stage, &run)
@@ -121,7 +122,7 @@ fn check_run(stage: &Stage, run: &RunFolder) -> Result<()> {
 fn inputs(stage: &Stage, run: &RunFolder) -> Result<Inputs> {
     let mut files = run.outputs()?;
     files.push(stage.mesh());
-    stage.inputs("export", &["output"], &files)
+    stage.inputs("export", Product::Series, &files)
 }
 
 /// The files of the series that are there.

@@ -4,9 +4,10 @@ use super::args::StageArgs;
 use super::print::{Outcome, print};
 use super::signals;
 use super::stage::{Inputs, Stage};
-use crate::case::checked;
 use crate::case::names::Groups;
+use crate::case::raw::Product;
 use crate::case::unconnected::{self, Place};
+use crate::case::{Keys, checked};
 use crate::error::{Error, Result};
 use crate::io::atomic;
 use crate::mesh::gmsh::{self, Options, Outline, Worker};
@@ -79,8 +80,8 @@ fn program() -> Result<PathBuf> {
     std::env::current_exe().map_err(|e| Error::machine("mpm", format!("it cannot find itself: {e}"), "mount /proc"))
 }
 
-pub fn run(args: &Args) -> Outcome {
-    work(&Stage::open(&args.stage)?, &args.gmsh)
+pub fn run(args: &Args, keys: &Keys) -> Outcome {
+    work(&Stage::open(&args.stage, keys)?, &args.gmsh)
 }
 
 /// Whether `mesh.msh` is there and would come out the same, which nobody knows of a `.geo` that may execute programs.
@@ -214,10 +215,10 @@ fn options(mesh: &checked::Mesh) -> Options {
 }
 
 fn inputs(stage: &Stage) -> Result<Inputs> {
-    stage.inputs("mesh", &["mesh"], &gmsh::sources(&stage.loaded.case.mesh.geo)?.files)
+    stage.inputs("mesh", Product::Mesh, &gmsh::sources(&stage.loaded.case.mesh.geo)?.files)
 }
 
 /// Those of a `.geo` that may read whatever it likes: what is known of them.
 fn unknown_inputs(stage: &Stage) -> Result<Inputs> {
-    stage.inputs("mesh", &["mesh"], std::slice::from_ref(&stage.loaded.case.mesh.geo))
+    stage.inputs("mesh", Product::Mesh, std::slice::from_ref(&stage.loaded.case.mesh.geo))
 }

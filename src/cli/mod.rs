@@ -13,6 +13,7 @@ mod signals;
 mod solve;
 mod stage;
 
+use crate::case::Keys;
 use crate::error::Error;
 use crate::mesh::gmsh;
 use crate::program;
@@ -57,15 +58,20 @@ enum Command {
 
 /// Runs the program on the arguments of the process.
 pub fn main() -> ExitCode {
+    with(&Keys::default())
+}
+
+/// As [`main`], for cases that may have the `keys`: what the `main` of a program with keys of its own calls.
+pub fn with(keys: &Keys) -> ExitCode {
     let outcome = match Cli::parse().command {
-        Command::Mesh(args) => mesh::run(&args),
-        Command::Seed(args) => seed::run(&args),
-        Command::Solve(args) => solve::run(&args),
-        Command::Export(args) => export::run(&args),
-        Command::Run(args) => run::run(&args),
-        Command::Check(args) => check::run(&args),
+        Command::Mesh(args) => mesh::run(&args, keys),
+        Command::Seed(args) => seed::run(&args, keys),
+        Command::Solve(args) => solve::run(&args, keys),
+        Command::Export(args) => export::run(&args, keys),
+        Command::Run(args) => run::run(&args, keys),
+        Command::Check(args) => check::run(&args, keys),
         Command::Info(args) => info::run(&args),
-        Command::Schema => schema::run(),
+        Command::Schema => schema::run(keys),
         Command::GmshWorker => gmsh::serve().map_err(Vec::from),
     };
     match outcome {

@@ -3,6 +3,7 @@
 use super::print::{Outcome, print};
 use super::stage::Stage;
 use super::{export, mesh, seed, solve};
+use crate::case::Keys;
 use crate::error::Result;
 
 #[derive(clap::Args)]
@@ -17,8 +18,8 @@ pub struct Args {
 /// A stage: its name, whether it may be skipped, and its work.
 type Entry<'a> = (&'static str, &'a dyn Fn(&Stage) -> Result<bool>, &'a dyn Fn(&Stage) -> Outcome);
 
-pub fn run(args: &Args) -> Outcome {
-    let stage = Stage::open(&args.solve.stage)?;
+pub fn run(args: &Args, keys: &Keys) -> Outcome {
+    let stage = Stage::open(&args.solve.stage, keys)?;
     stage.lock()?;
     let stages: [Entry; 4] = [
         ("mesh", &|stage| mesh::is_current(stage, &args.gmsh), &|stage| mesh::work(stage, &args.gmsh)),

@@ -1,8 +1,8 @@
 //! `mpm schema`: the JSON schema of `case.yaml`.
 
 use super::print::{Outcome, print};
-use crate::case;
+use crate::case::Keys;
 
-pub fn run() -> Outcome {
-    print(&format!("{:#}\n", case::schema()))
+pub fn run(keys: &Keys) -> Outcome {
+    print(&format!("{:#}\n", keys.schema()))
 }

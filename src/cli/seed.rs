@@ -4,13 +4,14 @@ use super::args::StageArgs;
 use super::mesh;
 use super::print::{Outcome, print};
 use super::stage::{Inputs, Stage};
-use crate::case::seeding;
+use crate::case::raw::Product;
+use crate::case::{Keys, seeding};
 use crate::error::Result;
 use crate::io::hash;
 use crate::io::points_vtu::{self, Source};
 
-pub fn run(args: &StageArgs) -> Outcome {
-    work(&Stage::open(args)?)
+pub fn run(args: &StageArgs, keys: &Keys) -> Outcome {
+    work(&Stage::open(args, keys)?)
 }
 
 /// Whether `points.vtu` is there and would come out the same.
@@ -44,20 +45,9 @@ pub fn work(stage: &Stage) -> Outcome {
 /// A `mesh.msh` that cannot be read.
 pub fn source(stage: &Stage) -> Result<Source> {
     let mesh = hash::file(&stage.mesh(), "run `mpm mesh` first")?;
-    Ok(Source { mesh: hash::text(mesh), case: hash::text(stage.hash_of(&keys(stage))) })
+    Ok(Source { mesh: hash::text(mesh), case: hash::text(stage.hash_of(Product::Points)) })
 }
 
 fn inputs(stage: &Stage) -> Result<Inputs> {
-    stage.inputs("seed", &keys(stage), &[stage.mesh()])
-}
-
-/// The entries of the case that the points depend on.
-fn keys(stage: &Stage) -> Vec<&'static str> {
-    let mut keys = vec!["geometry", "regions", "materials", "gravity", "water"];
-    keys.extend(["initial_stress", "initial_pore_pressure", "initial_velocity"]);
-    if stage.loaded.case.water.is_some() {
-        // The soil begins under the water of the first phase.
-        keys.push("phases");
-    }
-    keys
+    stage.inputs("seed", Product::Points, &[stage.mesh()])
 }

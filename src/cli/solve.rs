@@ -4,7 +4,8 @@ use super::args::StageArgs;
 use super::print::{Outcome, note, print};
 use super::stage::{Inputs, Stage};
 use super::{mesh, seed, signals};
-use crate::case::scene;
+use crate::case::raw::Product;
+use crate::case::{Keys, scene};
 use crate::error::{Error, Kind, Result, plain_lines};
 use crate::io::checkpoint::Checkpoints;
 use crate::io::hash;
@@ -16,21 +17,6 @@ use crate::run::{Ended, Progress};
 use indicatif::{ProgressBar, ProgressStyle};
 use std::io::IsTerminal;
 use std::time::{Duration, Instant};
-
-/// The entries of the case that results depend on, beside those that shaped the points.
-const KEYS: [&str; 11] = [
-    "geometry",
-    "regions",
-    "materials",
-    "contacts",
-    "supports",
-    "gravity",
-    "water",
-    "drained_surface",
-    "numerics",
-    "phases",
-    "output",
-];
 
 #[derive(clap::Args, Clone)]
 pub struct Args {
@@ -51,8 +37,8 @@ pub struct Start {
     pub fresh: bool,
 }
 
-pub fn run(args: &Args) -> Outcome {
-    work(&Stage::open(&args.stage)?, args.start)
+pub fn run(args: &Args, keys: &Keys) -> Outcome {
+    work(&Stage::open(&args.stage, keys)?, args.start)
 }
 
 /// Whether the results are there and would come out the same.
@@ -70,7 +56,7 @@ pub fn work(stage: &Stage, start: Start) -> Outcome {
     stage.lock()?;
     let mesh = mesh::read(stage)?;
     let Seeded { points, regions, source } = points_vtu::read::<2>(&stage.points())?;
-    let run = stage.fingerprint(&KEYS, &[stage.mesh(), stage.points()])?;
+    let run = stage.fingerprint(&[stage.mesh(), stage.points()])?;
     let origin = Origin { run, mesh: hash::file(&stage.mesh(), "run `mpm mesh` first")? };
     if start.resume {
         check_checkpoints(stage, origin)?;
@@ -169,7 +155,7 @@ fn choose(stage: &Stage, start: Start, origin: Origin, inputs: &Inputs) -> Resul
 }
 
 fn inputs(stage: &Stage) -> Result<Inputs> {
-    stage.inputs(STAGE, &KEYS, &[stage.mesh(), stage.points()])
+    stage.inputs(STAGE, Product::Results, &[stage.mesh(), stage.points()])
 }
 
 /// The wall time and where it went, whether the run is `done` or came to an end before.

@@ -5,7 +5,8 @@
 
 use super::args::{CaseArgs, StageArgs};
 use super::print::note;
-use crate::case::{self, Loaded};
+use crate::case::raw::Product;
+use crate::case::{Keys, Loaded};
 use crate::error::{Error, Result};
 use crate::io::checkpoint::Fingerprint;
 use crate::io::lock::Lock;
@@ -13,7 +14,7 @@ use crate::io::provenance::Record;
 use crate::io::run_folder::Runs;
 use crate::io::{atomic, hash};
 use crate::program;
-use serde_json::{Map, Value};
+use serde_json::Value;
 use std::cell::OnceCell;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -26,14 +27,14 @@ pub struct Stage {
 }
 
 impl Stage {
-    /// Loads the case; writes nothing.
+    /// Loads the case, which may have the `keys`; writes nothing.
     ///
     /// # Errors
     /// Every mistake of the case.
-    pub fn open(args: &StageArgs) -> std::result::Result<Self, Vec<Error>> {
+    pub fn open(args: &StageArgs, keys: &Keys) -> std::result::Result<Self, Vec<Error>> {
         let CaseArgs { case, overrides } = &args.case;
         use_threads(args.threads)?;
-        let loaded = case::load(case, overrides)?;
+        let loaded = keys.load(case, overrides)?;
         loaded.source.notes().iter().for_each(|text| note(text));
         let folder = args.output.clone().unwrap_or_else(|| loaded.source.folder().join("out"));
         Ok(Self { loaded, folder, lock: OnceCell::new() })
@@ -80,24 +81,18 @@ impl Stage {
         &self.folder
     }
 
-    /// The entries `keys` of the case, as far as it has them.
-    fn entries(&self, keys: &[&str]) -> Map<String, Value> {
-        let tree = self.loaded.source.tree();
-        keys.iter().filter_map(|&key| tree.get(key).map(|value| (key.to_owned(), value.clone()))).collect()
+    /// The hash of the entries of the case that shape a product.
+    pub fn hash_of(&self, product: Product) -> u64 {
+        hash::bytes(Value::Object(self.loaded.shaping(product)).to_string().as_bytes())
     }
 
-    /// The hash of the entries `keys` of the case, as far as it has them.
-    pub fn hash_of(&self, keys: &[&str]) -> u64 {
-        hash::bytes(Value::Object(self.entries(keys)).to_string().as_bytes())
-    }
-
-    /// A hash of the program, of the entries `keys` of the case without the step control of the phases and of Newton's method,
-    /// and of `files`: what must be the same for a run to continue.
+    /// A hash of the program, of the entries of the case that shape its results without the step control of the phases and of Newton's
+    /// method, and of `files`: what must be the same for a run to continue.
     ///
     /// # Errors
     /// `Input` when a file is missing, `Machine` when it cannot be read.
-    pub fn fingerprint(&self, keys: &[&str], files: &[PathBuf]) -> Result<Fingerprint> {
-        let mut read = self.entries(keys);
+    pub fn fingerprint(&self, files: &[PathBuf]) -> Result<Fingerprint> {
+        let mut read = self.loaded.shaping(Product::Results);
         for phase in read.get_mut("phases").and_then(Value::as_array_mut).into_iter().flatten() {
             phase.as_object_mut().map(|phase| phase.remove("step"));
         }
@@ -106,13 +101,13 @@ impl Stage {
         Ok(Fingerprint::of(&[program::SOURCE.as_bytes(), Value::Object(read).to_string().as_bytes(), &files]))
     }
 
-    /// What the stage `name` depends on, which reads the entries `keys` of the case and `files`.
+    /// What the stage `name` depends on, which makes a product of the case and of `files`.
     ///
     /// # Errors
     /// `Input` when a file is missing, `Machine` when it cannot be read.
-    pub fn inputs(&self, name: &'static str, keys: &[&str], files: &[PathBuf]) -> Result<Inputs> {
+    pub fn inputs(&self, name: &'static str, product: Product, files: &[PathBuf]) -> Result<Inputs> {
         let hashes: Vec<String> = hash::files(files, MISSING)?.into_iter().map(hash::text).collect();
-        let case = Value::Object(self.entries(keys)).to_string();
+        let case = Value::Object(self.loaded.shaping(product)).to_string();
         let all = [program::SOURCE, program::GMSH, &case, &hashes.join(" ")].join("\n");
         let files = files.iter().map(|path| path.display().to_string()).zip(hashes).collect();
         Ok(Inputs { stage: name, hash: hash::bytes(all.as_bytes()), files })

@@ -6,6 +6,7 @@
 mod contact;
 mod ghost;
 mod internal;
+mod keyed;
 mod loads;
 mod pressure;
 mod rigid;

@@ -1,0 +1,110 @@
+//! A phase of a checked case: its analysis and steps, what it prescribes, loads and changes, and what ends it.
+
+use super::super::raw::Quantity;
+use crate::time_value::TimeValue;
+
+/// A phase of the analysis.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Phase {
+    pub name: String,
+    pub analysis: Analysis,
+    /// Duration (s).
+    pub duration: f64,
+    pub step: StepSize,
+    pub prescribed: Vec<Prescribed>,
+    pub tractions: Vec<Traction>,
+    pub surface_loads: Vec<SurfaceLoad>,
+    /// Factor (-) on gravity.
+    pub gravity: TimeValue,
+    /// What strengths are divided by (-); absent where they are as given.
+    pub reduction: Option<TimeValue>,
+    /// Structures, walls and contacts that are not there in the phase.
+    pub absent: Vec<String>,
+    /// The materials that regions take as it begins.
+    pub changes: Vec<Change>,
+    /// Whether displacements are counted from its beginning.
+    pub reset: bool,
+    pub until: Vec<Until>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Analysis {
+    QuasiStatic,
+    Dynamic,
+    /// Quasi-static, and dynamic where there is no equilibrium until there is rest.
+    Auto,
+    /// Quasi-static while water flows.
+    Consolidation,
+    /// Quasi-static, with strengths that fall until no equilibrium is left.
+    StrengthReduction,
+}
+
+impl Analysis {
+    /// Whether inertia may come in.
+    pub fn has_inertia(self) -> bool {
+        matches!(self, Self::Dynamic | Self::Auto)
+    }
+}
+
+/// A material that a region takes: indices into [`Case::regions`] and [`Case::materials`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Change {
+    pub region: usize,
+    pub material: usize,
+}
+
+/// What ends a phase before its time.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Until {
+    /// A quantity of the entry of [`Output::history`] with this index is at least, or where `below` at most `bound`.
+    Reached { history: usize, quantity: Quantity, bound: f64, below: bool },
+    /// The kinetic energy has fallen to this part (-) of its largest in the phase, or all forces are in balance but for this part from its
+    /// beginning at rest on.
+    Equilibrium(f64),
+}
+
+/// Time steps (s), `min ≤ initial ≤ max`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct StepSize {
+    pub initial: f64,
+    pub min: f64,
+    pub max: f64,
+}
+
+/// A component of the displacement (m) of a curve or a rigid structure since the beginning of the phase.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Prescribed {
+    pub curve: String,
+    /// 0 for x, 1 for y, 2 for the rotation (rad) of a rigid structure.
+    pub component: usize,
+    pub displacement: TimeValue,
+}
+
+/// A dead load (kPa) on a curve, per area of the undeformed curve.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Traction {
+    pub curve: String,
+    pub components: [TimeValue; 2],
+}
+
+/// A load on the surface of the material points, per area of the surface as it is.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SurfaceLoad {
+    /// Index into [`Case::regions`]; `None` for all of the surface.
+    pub region: Option<usize>,
+    pub pressure: Option<Pressure>,
+    /// Along the surface (kPa), positive in the sense that has the material on its left.
+    pub shear: TimeValue,
+    /// In fixed directions (kPa).
+    pub components: [TimeValue; 2],
+    /// From and to (m) in x and y.
+    pub within: Option<[[f64; 2]; 2]>,
+}
+
+/// A pressure (kPa, compression positive): uniform, or growing with depth.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Pressure {
+    pub top: TimeValue,
+    pub gradient: TimeValue,
+    pub datum: f64,
+}
