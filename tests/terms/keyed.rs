@@ -359,6 +359,7 @@ fn history(overrides: &[&str]) -> [Vec<f64>; 3] {
     ["time [s]", "left.uy [m]", "right.uy [m]"].map(|name| column(folder.path(), name))
 }
 
+/// The block of material points, and of finite elements on a grid that is restored.
 const SIDES: [&[&str]; 2] = [&[], &["regions.block.kind=fem", "numerics.restore=every_step"]];
 
 /// Weight over stiffness and area, 0.02 m, and the ground below goes down by 0.1 m until 0.4 s, where a step ends.
@@ -404,25 +405,27 @@ fn a_block_on_two_stiffnesses_tilts() {
 
 #[test]
 fn a_run_resumes_bit_for_bit_and_is_stale_when_the_stiffness_changes() {
-    let [whole, parts] = [0; 2].map(|_| tempfile::tempdir().unwrap());
-    let (_folder, loaded) = loaded(&SIDES[1]);
-    let loaded = loaded.unwrap();
-    let mesh = meshed(&loaded);
-    assert_eq!(solve(&loaded, &mesh, whole.path(), false, u64::MAX).unwrap(), Ended::Done);
-    assert_eq!(solve(&loaded, &mesh, parts.path(), false, 2).unwrap(), Ended::Stopped);
-    let (_other, stiffer) = self::loaded(&[SIDES[1], &["bedding[0].normal=1001"]].concat());
-    let stiffer = stiffer.unwrap();
-    let error = solve(&stiffer, &mesh, parts.path(), true, u64::MAX).unwrap_err();
-    assert!(error.to_string().contains("checkpoint"), "{error}");
-    assert_eq!(solve(&loaded, &mesh, parts.path(), true, u64::MAX).unwrap(), Ended::Done);
-    for file in ["results/frame-000004.mpmf", "history.csv", "checkpoints/step-000000004.mpmc"] {
-        let [a, b] = [&whole, &parts].map(|folder| fs::read(folder.path().join(file)).unwrap());
-        assert!(a == b, "{file}");
-    }
-    for (product, stale) in
-        [(Product::Mesh, false), (Product::Points, false), (Product::Results, true), (Product::Series, false)]
-    {
-        assert_eq!(loaded.shaping(product) != stiffer.shaping(product), stale, "{product:?}");
+    for kind in SIDES {
+        let [whole, parts] = [0; 2].map(|_| tempfile::tempdir().unwrap());
+        let (_folder, loaded) = loaded(kind);
+        let loaded = loaded.unwrap();
+        let mesh = meshed(&loaded);
+        assert_eq!(solve(&loaded, &mesh, whole.path(), false, u64::MAX).unwrap(), Ended::Done);
+        assert_eq!(solve(&loaded, &mesh, parts.path(), false, 2).unwrap(), Ended::Stopped);
+        let (_other, stiffer) = self::loaded(&[kind, &["bedding[0].normal=1001"]].concat());
+        let stiffer = stiffer.unwrap();
+        let error = solve(&stiffer, &mesh, parts.path(), true, u64::MAX).unwrap_err();
+        assert!(error.to_string().contains("checkpoint"), "{error}");
+        assert_eq!(solve(&loaded, &mesh, parts.path(), true, u64::MAX).unwrap(), Ended::Done);
+        for file in ["results/frame-000004.mpmf", "history.csv", "checkpoints/step-000000004.mpmc"] {
+            let [a, b] = [&whole, &parts].map(|folder| fs::read(folder.path().join(file)).unwrap());
+            assert!(a == b, "{kind:?}: {file}");
+        }
+        for (product, stale) in
+            [(Product::Mesh, false), (Product::Points, false), (Product::Results, true), (Product::Series, false)]
+        {
+            assert_eq!(loaded.shaping(product) != stiffer.shaping(product), stale, "{product:?}");
+        }
     }
 }
 
