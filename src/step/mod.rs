@@ -81,7 +81,7 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
     /// # Errors
     /// When a point lies outside the grid, or memory does not suffice.
     pub fn new(scene: &'a Scene<D>, mut state: State<D>) -> Result<Self> {
-        let first = state.parametric.is_empty();
+        let first = state.restorations == 0;
         let grid = if first { Grid::first::<K>(scene, &mut state)? } else { Grid::new::<K>(scene, &state)? };
         Ok(Self { scene, state, grid, kinematics: PhantomData })
     }
