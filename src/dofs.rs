@@ -6,8 +6,12 @@
 //! | pressure (kPa) | one a corner, and in cells of second order one a cell | [`Places`] | one each, after them |
 //! | pore pressure (kPa) | one a corner | [`Places`] | among the former |
 //! | any other scalar field | one a corner | [`Places`] | among the former |
+//!
+//! Under linear constraints the equations of the displacements are those of the controls, which have the numbers of nodes, and the values of
+//! the nodes follow from them ([`LinearConstraints`]).
 
 use crate::mesh::Mesh;
+use crate::system::{Connectivity, LinearConstraints};
 
 /// Where the pressures of a family of cells stand among all pressures of a state: the pressure field by node, the constants of the cells of
 /// the grid, those of the finite elements, the pore pressures by node, other scalar fields by node one after the other.
@@ -103,15 +107,108 @@ pub enum Dof {
 /// The equations of a grid.
 #[derive(Clone, Debug)]
 pub struct DofMap<const D: usize> {
-    /// The node of each block of displacements, and the place of each pressure.
+    /// The node (the control, under constraints) of each block of displacements, and the place of each pressure.
     pub node: Vec<u32>,
     pub pressure: Vec<u32>,
-    /// The block of each node; `u32::MAX` for those left out.
+    /// The block of each node (control); `u32::MAX` for those left out.
     pub block: Vec<u32>,
     pub places: Places,
+    /// What the values of the nodes are of those of the controls; absent where each node has equations of its own.
+    pub constraints: Option<LinearConstraints>,
 }
 
 impl<const D: usize> DofMap<D> {
+    /// The equations of the displacements of all `nodes` of `count` that have some, by number, without scalar unknowns.
+    pub fn of_nodes(
+        nodes: impl Iterator<Item = u32>,
+        count: usize,
+        places: Places,
+        constraints: Option<LinearConstraints>,
+    ) -> Self {
+        let (mut block, mut node) = (vec![u32::MAX; count], Vec::new());
+        for n in nodes {
+            match &constraints {
+                None => block[n as usize] = 0,
+                Some(constraints) => constraints.of_node(n).iter().for_each(|&(m, _)| block[m as usize] = 0),
+            }
+        }
+        for (n, block) in block.iter_mut().enumerate().filter(|(_, b)| **b == 0) {
+            *block = node.len() as u32;
+            node.push(n as u32);
+        }
+        Self { node, pressure: Vec::new(), block, places, constraints }
+    }
+
+    /// Appends a coupling of active nodes and returns its number.
+    pub fn couple(&self, nodes: impl Iterator<Item = u32>, connectivity: &mut Connectivity) -> u32 {
+        let Some(constraints) = &self.constraints else {
+            return connectivity.push(nodes.map(|n| self.block[n as usize]));
+        };
+        let by_block = |n: u32| constraints.of_node(n).iter().map(|&(m, by)| (self.block[m as usize], by)).collect();
+        let rows: Vec<Vec<(u32, f64)>> = nodes.map(by_block).collect();
+        connectivity.push_combined(rows.iter().map(Vec::as_slice))
+    }
+
+    /// Writes a component of a nodal `field`, given its value at each block. Under constraints every node is written that a block acts on.
+    pub fn write(&self, values: &[f64], component: usize, field: &mut [[f64; D]]) {
+        let Some(constraints) = &self.constraints else {
+            self.node.iter().zip(values).for_each(|(&n, value)| field[n as usize][component] = *value);
+            return;
+        };
+        for (n, field) in (0u32..).zip(field) {
+            let active = constraints.of_node(n).iter().filter(|(m, _)| self.block[*m as usize] != u32::MAX);
+            let sum = active.map(|&(m, by)| by * values[self.block[m as usize] as usize]).reduce(|a, b| a + b);
+            if let Some(sum) = sum {
+                field[component] = sum;
+            }
+        }
+    }
+
+    /// Whether some block acts on a node.
+    pub fn moves(&self, node: u32) -> bool {
+        let has = |n: u32| self.block[n as usize] != u32::MAX;
+        self.constraints.as_ref().map_or_else(|| has(node), |all| all.of_node(node).iter().any(|&(m, _)| has(m)))
+    }
+
+    /// What the field that has a `value` at the nodes has at node (control) `n`.
+    pub fn value(&self, n: u32, value: impl Fn(u32) -> [f64; D]) -> [f64; D] {
+        let Some(constraints) = &self.constraints else { return value(n) };
+        constraints.of_control(n).iter().fold([0.0; D], |sum, &(m, by)| {
+            let value = value(m);
+            std::array::from_fn(|d| sum[d] + by * value[d])
+        })
+    }
+
+    /// The forces on the blocks that do the same work as the `force` on the nodes.
+    pub fn on_blocks(&self, force: &[[f64; D]]) -> Vec<[f64; D]> {
+        let Some(constraints) = &self.constraints else {
+            return self.node.iter().map(|&n| force[n as usize]).collect();
+        };
+        let mut out = vec![[0.0; D]; self.node.len()];
+        for (n, force) in (0u32..).zip(force).filter(|(_, force)| force.iter().any(|&f| f != 0.0)) {
+            for &(m, by) in constraints.of_node(n) {
+                if let Some(sum) = out.get_mut(self.block[m as usize] as usize) {
+                    (0..D).for_each(|d| sum[d] += by * force[d]);
+                }
+            }
+        }
+        out
+    }
+
+    /// Forces on the nodes that do the same work as the `force` on the blocks.
+    pub fn on_nodes(&self, force: &[[f64; D]]) -> Vec<[f64; D]> {
+        let mut out = vec![[0.0; D]; self.block.len()];
+        for (&n, force) in self.node.iter().zip(force) {
+            match &self.constraints {
+                None => out[n as usize] = *force,
+                Some(constraints) => constraints.of_control(n).iter().for_each(|&(m, by)| {
+                    (0..D).for_each(|d| out[m as usize][d] += by * force[d]);
+                }),
+            }
+        }
+        out
+    }
+
     /// How many equations are those of displacements.
     pub fn displacements(&self) -> usize {
         D * self.node.len()
@@ -119,12 +216,14 @@ impl<const D: usize> DofMap<D> {
 
     /// Whether a node takes part.
     pub fn has(&self, node: u32) -> bool {
-        self.block[node as usize] != u32::MAX
+        let has = |n: u32| self.block[n as usize] != u32::MAX;
+        self.constraints.as_ref().map_or_else(|| has(node), |all| all.of_node(node).iter().all(|&(m, _)| has(m)))
     }
 
-    /// The equation of a displacement, if the node takes part.
+    /// The equation of a displacement, if the node (control) has one.
     pub fn displacement(&self, node: u32, component: usize) -> Option<usize> {
-        self.has(node).then(|| self.block[node as usize] as usize * D + component)
+        let block = self.block[node as usize];
+        (block != u32::MAX).then(|| block as usize * D + component)
     }
 
     /// The unknown of an equation.
@@ -183,6 +282,7 @@ mod tests {
             pressure: places.to_vec(),
             block: vec![u32::MAX, 0, u32::MAX, 1],
             places: grid,
+            constraints: None,
         };
         assert_eq!(dofs.displacement(3, 1).map(|e| dofs.dof(e)), Some(Dof::Displacement { node: 3, component: 1 }));
         assert_eq!(dofs.displacement(2, 0), None);

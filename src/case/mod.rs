@@ -10,6 +10,7 @@ mod check;
 pub mod checked;
 mod contact_interfaces;
 mod contacts;
+mod controls;
 mod drained_surface;
 mod find;
 mod incompressible;

@@ -6,7 +6,9 @@ use super::find::{filled, mean_size, region_index};
 use super::outputs::outputs;
 use super::raw;
 use super::rigid::{self, Holds};
-use super::{changes, contact_interfaces, layout, parts, pores, search, seeded, staged, unconnected, wall, water};
+use super::{
+    changes, contact_interfaces, controls, layout, parts, pores, search, seeded, staged, unconnected, wall, water,
+};
 use crate::error::{Error, Result};
 use crate::io::provenance::Origin;
 use crate::io::run_folder::RunFolder;
@@ -117,6 +119,7 @@ pub fn scene<K: Kinematics<2>>(case: &Case, mut whole: Mesh<2>) -> Result<Scene<
             "mesh with T3, T6, Q4 or Q9 (no `incomplete: true`), or choose `gradient: mpm`",
         ));
     }
+    controls::of_grid(basis, &mesh, fem.as_ref())?;
     let materials =
         || changes::used(case).filter(|(region, _)| !region.content.is_rigid()).map(|(_, material)| material);
     let lowest = mesh.nodes.iter().map(|x| x[1]).fold(f64::INFINITY, f64::min);
@@ -222,7 +225,7 @@ pub fn scene<K: Kinematics<2>>(case: &Case, mut whole: Mesh<2>) -> Result<Scene<
         Ok(Phase { held, changes, ..phase(case, &holds, number, p, search.as_ref())? })
     };
     let phases = case.phases.iter().enumerate().map(staged).collect::<Result<_>>()?;
-    Ok(Scene {
+    let scene = Scene {
         locator: Locator::new(&mesh),
         faces: Some(faces),
         quadrature: quadrature::<K>(case, &mesh)?,
@@ -248,7 +251,9 @@ pub fn scene<K: Kinematics<2>>(case: &Case, mut whole: Mesh<2>) -> Result<Scene<
         gravity: case.gravity,
         stiffness_scale,
         density_scale,
-    })
+    };
+    controls::of_displacements(&scene)?;
+    Ok(scene)
 }
 
 /// The terms of the stress in the cells of `mesh`.

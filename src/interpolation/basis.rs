@@ -1,11 +1,13 @@
 //! What a scheme of the material point method is: the functions that a point sees.
 
 use super::{Interpolation, Support};
+use crate::error::Result;
 use crate::kinematics::Kinematics;
 use crate::mesh::Mesh;
 use crate::mesh::locate::Locator;
 use crate::mesh::shape::CellKind;
 use crate::points::Points;
+use crate::system::LinearConstraints;
 use std::fmt;
 
 /// The domains of material points ([`Points::domain`]).
@@ -93,6 +95,21 @@ pub trait Basis<const D: usize>: fmt::Debug + Send + Sync {
 
     /// Renews the domains at a grid reset, given the grid before it; the points have their state and their positions since.
     fn renew_domains(&self, _before: &Reset<D>, _points: &mut Points<D>) {}
+
+    /// Whether its displacements are stable beside fields of pressure and pore pressure with a value a corner (docs/theory.md, sections 10
+    /// and 11).
+    fn takes_pressures(&self) -> bool {
+        true
+    }
+
+    /// What the values of the nodes are of those of fewer controls, so that the functions of the controls are those of the scheme; `None`
+    /// where each node has unknowns of its own.
+    ///
+    /// # Errors
+    /// `Input` where the scheme has no such functions on the mesh.
+    fn constraints(&self, _mesh: &Mesh<D>) -> Result<Option<LinearConstraints>> {
+        Ok(None)
+    }
 
     /// Fills in what the points see. The weights are for the caller to write.
     fn fill(&self, points: &Located<D>, interpolation: &mut Interpolation<D>);

@@ -4,6 +4,7 @@
 //! scheme made them. Points are grouped by cell: points of a cell share its nodes.
 
 mod basis;
+mod bspline;
 mod ddmp;
 mod entries;
 mod extension;
@@ -14,6 +15,7 @@ mod mpm;
 mod support;
 
 pub use basis::{Basis, Domains, Located, Reset};
+pub use bspline::BSpline;
 pub use ddmp::Ddmp;
 pub use entries::{CellPoints, Coefficients, Entries, Interpolation};
 pub use extension::Extension;
@@ -27,7 +29,7 @@ use crate::kinematics::Kinematics;
 use crate::mesh::Mesh;
 
 /// The schemes that a case can have.
-pub const SCHEMES: &[&dyn Basis<2>] = &[&Mpm, &Ddmp];
+pub const SCHEMES: &[&dyn Basis<2>] = &[&Mpm, &Ddmp, &BSpline];
 
 impl<const D: usize> Interpolation<D> {
     /// Fills in what points in `cell` at the parametric coordinates `xi`, given per point, see by a scheme. `active`

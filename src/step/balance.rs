@@ -95,8 +95,8 @@ fn hold_back<const D: usize>(problem: &Problem<D>, grid: &Grid<D>, force: &mut [
     if share == 0.0 {
         return;
     }
-    let held = grid.dofs.node.iter().flat_map(|&n| ramp.force[n as usize]);
-    for ((f, held), given) in force.iter_mut().zip(held).zip(problem.given) {
+    let held = grid.dofs.on_blocks(&ramp.force);
+    for ((f, held), given) in force.iter_mut().zip(held.iter().flatten()).zip(problem.given) {
         if given.is_none() {
             *f += share * held;
         }

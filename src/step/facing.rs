@@ -3,6 +3,7 @@
 use super::scene::Scene;
 use super::state::State;
 use crate::contact::Multipliers;
+use crate::dofs::DofMap;
 use crate::system::Connectivity;
 
 /// Where a node is at the last converged step.
@@ -19,15 +20,15 @@ pub fn outlines<const D: usize>(scene: &Scene<D>, state: &State<D>) -> Vec<Vec<[
     scene.touching(state.phase).flat_map(|(_, interface)| interface.outlines(&place)).collect()
 }
 
-/// Appends a coupling for each contact node with room, given the block of each node.
-pub fn couple<const D: usize>(state: &State<D>, block: &[u32], connectivity: &mut Connectivity) -> Vec<Vec<u32>> {
+/// Appends a coupling for each contact node with room.
+pub fn couple<const D: usize>(state: &State<D>, dofs: &DofMap<D>, connectivity: &mut Connectivity) -> Vec<Vec<u32>> {
     let of_pair = |multipliers: &Multipliers| {
         let contact_nodes = multipliers.first.len() - 1;
         let coupling = |k: usize| {
             let room = multipliers.room(k);
             // Cells that no longer take part leave nothing to couple.
-            let blocks: Vec<u32> = room.iter().map(|&n| block[n as usize]).filter(|b| *b != u32::MAX).collect();
-            if blocks.len() < room.len() || room.is_empty() { u32::MAX } else { connectivity.push(blocks) }
+            let any = !room.is_empty() && room.iter().all(|&n| dofs.has(n));
+            if any { dofs.couple(room.iter().copied(), connectivity) } else { u32::MAX }
         };
         (0..contact_nodes).map(coupling).collect()
     };

@@ -6,6 +6,7 @@
 use super::family::Family;
 use super::scene::{Fem, Scene};
 use super::state::State;
+use crate::dofs::DofMap;
 use crate::interpolation::{Interpolation, Mpm};
 use crate::kinematics::Kinematics;
 use crate::mesh::Mesh;
@@ -54,12 +55,12 @@ impl<const D: usize> Elements<D> {
         self.interpolation.weigh(&state.fem.initial_volume[..count]);
     }
 
-    /// Appends a coupling for each cell that deforms, given the block of each node.
-    pub fn couple(&mut self, fem: &Fem<D>, block: &[u32], connectivity: &mut Connectivity) {
+    /// Appends a coupling for each cell that deforms.
+    pub fn couple(&mut self, fem: &Fem<D>, dofs: &DofMap<D>, connectivity: &mut Connectivity) {
         let cells = &self.mesh.cells;
         self.coupling = vec![u32::MAX; cells.len()];
         for c in fem.deforming() {
-            self.coupling[c] = connectivity.push(cells.nodes(c).iter().map(|&n| block[n as usize]));
+            self.coupling[c] = dofs.couple(cells.nodes(c).iter().copied(), connectivity);
         }
     }
 }

@@ -35,7 +35,8 @@ pub fn name<const D: usize>(
         return error;
     }
     let diagonal = grid.motion.matrix.diagonal(&grid.motion.pattern);
-    let system = System { scene, grid, fixed, diagonal, position };
+    let position = |n: u32| grid.dofs.value(n, position);
+    let system = System { scene, grid, fixed, diagonal, position: &position };
     let bodies = bodies(scene, state, grid);
     let mut free: Vec<String> = bodies.iter().filter_map(|(name, nodes)| system.told(name, nodes)).collect();
     if free.is_empty() && bodies.len() > 1 {
@@ -57,7 +58,11 @@ fn bodies<const D: usize>(scene: &Scene<D>, state: &State<D>, grid: &Grid<D>) ->
     let mut to: Vec<u32> = (0..scene.mesh.nodes.len() as u32).collect();
     let deforming = || scene.fem.iter().flat_map(|fem| fem.deforming().map(|c| (&fem.mesh, c)));
     let cells = || grid.cells.iter().map(|&c| (&scene.mesh, c as usize)).chain(deforming());
-    let nodes = |(mesh, c): (&'_ Mesh<D>, usize)| mesh.cells.nodes(c).to_vec();
+    let nodes = |(mesh, c): (&'_ Mesh<D>, usize)| -> Vec<u32> {
+        let nodes = mesh.cells.nodes(c);
+        let controls = grid.dofs.constraints.iter().flat_map(|all| nodes.iter().flat_map(|&n| all.of_node(n)));
+        nodes.iter().chain(controls.map(|(control, _)| control)).copied().collect()
+    };
     for cell in cells() {
         let nodes = nodes(cell);
         let least = nodes.iter().map(|&n| root(&mut to, n)).min().unwrap_or(0);

@@ -119,44 +119,32 @@ impl<const D: usize> Grid<D> {
         relaxed: Option<Relaxed<D>>,
     ) -> Result<Self> {
         let mesh = &scene.mesh;
-        let (mut coupling, mut block) = (vec![u32::MAX; mesh.cells.len()], vec![u32::MAX; mesh.nodes.len()]);
-        let (mut connectivity, mut node) = (Connectivity::default(), Vec::new());
-        for c in (0..mesh.cells.len()).filter(|&c| state.active[c]) {
-            for &n in mesh.cells.nodes(c) {
-                block[n as usize] = 0;
-            }
-        }
-        if let Some(fem) = &scene.fem {
-            for &n in fem.deforming().flat_map(|c| fem.mesh.cells.nodes(c)) {
-                block[n as usize] = 0;
-            }
-        }
-        for n in scene.bodies.iter().flat_map(Body::carriers) {
-            block[n as usize] = 0;
-        }
-        for (n, block) in block.iter_mut().enumerate().filter(|(_, b)| **b == 0) {
-            *block = node.len() as u32;
-            node.push(n as u32);
-        }
+        let mut coupling = vec![u32::MAX; mesh.cells.len()];
+        let mut connectivity = Connectivity::default();
+        let [places, of_elements] = scene.places();
+        let active = (0..mesh.cells.len()).filter(|&c| state.active[c]).flat_map(|c| mesh.cells.nodes(c));
+        let of_fem = scene.fem.iter().flat_map(|fem| fem.deforming().flat_map(|c| fem.mesh.cells.nodes(c)));
+        let nodes = active.chain(of_fem).copied().chain(scene.bodies.iter().flat_map(Body::carriers));
+        let mut dofs = DofMap::of_nodes(nodes, mesh.nodes.len(), places, scene.basis.constraints(mesh)?);
+        let node = &dofs.node;
         let cells: Vec<u32> = (0u32..).zip(&state.active).filter(|(_, part)| **part).map(|(c, _)| c).collect();
         let support = scene.basis.support(mesh, &state.active);
         for &c in &cells {
             let nodes = support.as_ref().map_or_else(|| mesh.cells.nodes(c as usize), |support| support.nodes(c));
-            coupling[c as usize] = connectivity.push(nodes.iter().map(|&n| block[n as usize]));
+            coupling[c as usize] = dofs.couple(nodes.iter().copied(), &mut connectivity);
         }
         let mut elements = scene.fem.as_ref().map(|fem| Elements::new::<K>(fem, state));
         if let (Some(elements), Some(fem)) = (&mut elements, &scene.fem) {
-            elements.couple(fem, &block, &mut connectivity);
+            elements.couple(fem, &dofs, &mut connectivity);
         }
-        let carriers = |body: &Body<D>| body.carriers().map(|n| block[n as usize]).collect::<Vec<_>>();
-        let body_coupling = scene.bodies.iter().map(|body| connectivity.push(carriers(body))).collect();
+        let body_coupling = scene.bodies.iter().map(|body| dofs.couple(body.carriers(), &mut connectivity)).collect();
         let cells_only = connectivity.clone();
         let mut face_coupling = Vec::new();
         if let Some(faces) = &scene.faces {
             face_coupling.resize(faces.inner.len(), u32::MAX);
             for (face, coupling) in faces.inner.iter().zip(&mut face_coupling) {
                 if ghost_faces::has_room(state, face) {
-                    *coupling = connectivity.push(face.nodes(mesh).map(|n| block[n as usize]));
+                    *coupling = dofs.couple(face.nodes(mesh), &mut connectivity);
                 }
             }
         }
@@ -169,8 +157,7 @@ impl<const D: usize> Grid<D> {
         };
         // The mass always takes a penalty on faces, the motion only where a term says so.
         let mut connectivity = if scene.terms.iter().any(|t| t.penalises_faces()) { connectivity } else { cells_only };
-        let constraint_coupling = facing::couple(state, &block, &mut connectivity);
-        let [places, of_elements] = scene.places();
+        let constraint_coupling = facing::couple(state, &dofs, &mut connectivity);
         let with_pressure = scene.has_scalars().then(|| {
             let (with_water, with_field, others) =
                 (scene.water.is_some(), scene.has_pressure_field(), scene.fields.len());
@@ -202,6 +189,7 @@ impl<const D: usize> Grid<D> {
                 (motion, pressure)
             }
         };
+        dofs.pressure = pressure;
         let mut grid = Self {
             interpolations,
             relaxed,
@@ -213,7 +201,7 @@ impl<const D: usize> Grid<D> {
             face_coupling,
             body_coupling,
             coupling,
-            dofs: DofMap { node, pressure, block, places },
+            dofs,
             cells,
             with_water: scene.water.is_some(),
             motion,
@@ -292,6 +280,7 @@ impl<const D: usize> Grid<D> {
             pattern: &self.motion.pattern,
             coupling: &self.coupling,
             block: &self.dofs.block,
+            linear_constraints: self.dofs.constraints.as_ref(),
             bodies: &self.body_coupling,
             with_water: self.with_water,
         }
@@ -333,6 +322,7 @@ impl<const D: usize> Grid<D> {
             pattern: &self.motion.pattern,
             coupling: &elements.coupling,
             block: &self.dofs.block,
+            linear_constraints: self.dofs.constraints.as_ref(),
             bodies: &self.body_coupling,
             with_water: self.with_water,
         }

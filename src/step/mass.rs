@@ -49,7 +49,7 @@ pub struct Mass<'a> {
 /// The weak penalty of a cell.
 struct Weak {
     coupling: usize,
-    /// Row-major over the nodes of the cell.
+    /// Row-major over the nodes of the cell, or over its controls.
     form: Vec<f64>,
 }
 
@@ -127,9 +127,10 @@ impl<'a> Mass<'a> {
             cells.iter().copied().filter(|&c| points_in(c) < mesh.cells.nodes(c as usize).len()).collect();
         let weak = [(&few, [GRADIENT, 0.0]), (&cells, [0.0, CURVATURE])].map(|(cells, shares)| {
             let factors = shares.map(|share| share * scene.density_scale);
-            let of_cell = |&cell: &u32| Weak {
-                coupling: coupling[cell as usize] as usize,
-                form: weak_form::<D, K>(mesh, cell as usize, factors),
+            let of_cell = |&cell: &u32| {
+                let coupling = coupling[cell as usize] as usize;
+                let form = system.pattern.over_blocks(coupling, weak_form::<D, K>(mesh, cell as usize, factors));
+                Weak { coupling, form }
             };
             cells.par_iter().with_min_len(64).map(of_cell).collect::<Vec<_>>()
         });

@@ -8,8 +8,7 @@ use super::free;
 use super::grid::Grid;
 use super::problem::{Problem, Solution};
 use super::scene::Scene;
-use super::unknowns::{Buffers, Evaluation, Unknowns};
-use crate::dofs::Dof;
+use super::unknowns::{Buffers, Evaluation};
 use crate::error::{Error, Result};
 use crate::mesh::cell_size;
 use crate::system::Method;
@@ -69,7 +68,7 @@ impl<'a, const D: usize> Newton<'a, D> {
     fn new(problem: &'a Problem<'a, D>, grid: &'a mut Grid<D>, mut buffers: Buffers<D>) -> Self {
         buffers.fixed.clear();
         buffers.fixed.extend(problem.given.iter().map(Option::is_some));
-        buffers.now.at.set(problem.converged, problem.pressure);
+        problem.begin(grid, &mut buffers.now.at, problem.converged);
         buffers.best.clone_from(&buffers.now.at);
         buffers.damped.clear();
         let floor = floor(problem, grid);
@@ -119,7 +118,7 @@ impl<'a, const D: usize> Newton<'a, D> {
         }
         let initially_closed = self.grid.constraints.iter().any(|constraint| constraint.initially_closed);
         for start in self.problem.predictor.into_iter().chain(initially_closed.then_some(self.problem.converged)) {
-            self.buffers.now.at.set(start, self.problem.pressure);
+            self.problem.begin(self.grid, &mut self.buffers.now.at, start);
             if self.first_iterations().is_ok() {
                 return Ok(());
             }
@@ -135,8 +134,8 @@ impl<'a, const D: usize> Newton<'a, D> {
     /// in both.
     fn predict(&mut self) -> Result<()> {
         let residual = |newton: &mut Self, start: &[[f64; D]], tangent: bool| {
-            newton.buffers.now.at.set(start, newton.problem.pressure);
-            gaps(newton.problem, newton.grid, &newton.buffers.now.at, &mut newton.buffers.gap);
+            newton.problem.begin(newton.grid, &mut newton.buffers.now.at, start);
+            newton.problem.gaps(newton.grid, &newton.buffers.now.at, &mut newton.buffers.gap);
             newton.problem.advance(newton.grid, &mut newton.buffers.now.at, &newton.buffers.gap, 1.0);
             let found = newton.evaluate(tangent).map(|()| newton.size(&newton.buffers.now));
             found.ok().filter(|size| size.is_finite()).unwrap_or(f64::INFINITY)
@@ -157,7 +156,7 @@ impl<'a, const D: usize> Newton<'a, D> {
 
     /// Goes back to the converged state.
     fn restart(&mut self) {
-        self.buffers.now.at.set(self.problem.converged, self.problem.pressure);
+        self.problem.begin(self.grid, &mut self.buffers.now.at, self.problem.converged);
         self.buffers.best.clone_from(&self.buffers.now.at);
         (self.target, self.damping, self.stalled) = (f64::INFINITY, 0.0, 0);
     }
@@ -218,7 +217,7 @@ impl<'a, const D: usize> Newton<'a, D> {
     }
 
     fn converged(&mut self) -> bool {
-        gaps(self.problem, self.grid, &self.buffers.now.at, &mut self.buffers.gap);
+        self.problem.gaps(self.grid, &self.buffers.now.at, &mut self.buffers.gap);
         self.buffers.gap.iter().all(|g| *g == 0.0) && self.error() <= self.tolerance()
     }
 
@@ -331,23 +330,6 @@ fn floor<const D: usize>(problem: &Problem<D>, grid: &Grid<D>) -> f64 {
     }
     let side = 4.0 * volume / size;
     1e-6 * problem.scene.stiffness_scale * side * (problem.given.len() as f64).sqrt()
-}
-
-/// What is left to the prescribed displacements and pore pressures, in the unit of the unknowns, one entry for each equation. It has nothing
-/// to do with the gap of contact.
-fn gaps<const D: usize>(problem: &Problem<D>, grid: &Grid<D>, at: &Unknowns<D>, out: &mut Vec<f64>) {
-    let gap = |(equation, given): (usize, &Option<f64>)| {
-        given.map_or(0.0, |increment| match grid.dofs.dof(equation) {
-            Dof::Displacement { node, component } => {
-                problem.converged[node][component] + increment - at.displacement[node][component]
-            }
-            Dof::Pressure(place) => {
-                (problem.pressure[place] + increment - at.pressure[place]) / problem.scene.unit(place)
-            }
-        })
-    };
-    out.clear();
-    out.extend(problem.given.iter().enumerate().map(gap));
 }
 
 fn norm_free(x: &[f64], fixed: &[bool]) -> f64 {

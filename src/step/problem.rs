@@ -52,10 +52,58 @@ impl<'a, const D: usize> Problem<'a, D> {
         }
     }
 
+    /// Sets the unknowns to a displacement (m) of the nodes and the converged pressures. Under linear constraints it is the field of the same
+    /// controls.
+    pub fn begin(&self, grid: &Grid<D>, at: &mut Unknowns<D>, displacement: &[[f64; D]]) {
+        at.set(displacement, self.pressure);
+        if grid.dofs.constraints.is_none() {
+            return;
+        }
+        let increment = |n: u32| {
+            let (now, before) = (&displacement[n as usize], &self.converged[n as usize]);
+            std::array::from_fn(|d| now[d] - before[d])
+        };
+        at.controls.extend(grid.dofs.node.iter().flat_map(|&n| grid.dofs.value(n, increment)));
+        self.follow(grid, at);
+    }
+
+    /// The displacements of the nodes from the increments of the controls.
+    fn follow(&self, grid: &Grid<D>, at: &mut Unknowns<D>) {
+        let mut increment = vec![0.0; grid.dofs.node.len()];
+        for d in 0..D {
+            increment.iter_mut().zip(at.controls[d..].iter().step_by(D)).for_each(|(to, c)| *to = *c);
+            grid.dofs.write(&increment, d, &mut at.displacement);
+        }
+        for (n, (u, converged)) in (0u32..).zip(at.displacement.iter_mut().zip(self.converged)) {
+            if grid.dofs.moves(n) {
+                (0..D).for_each(|d| u[d] += converged[d]);
+            }
+        }
+    }
+
+    /// What is left to the prescribed displacements and pressures, in the unit of the unknowns, one entry for each equation.
+    pub fn gaps(&self, grid: &Grid<D>, at: &Unknowns<D>, out: &mut Vec<f64>) {
+        let gap = |(equation, given): (usize, &Option<f64>)| {
+            given.map_or(0.0, |increment| match (grid.dofs.dof(equation), at.controls.get(equation)) {
+                (Dof::Displacement { .. }, Some(control)) => increment - control,
+                (Dof::Displacement { node, component }, None) => {
+                    self.converged[node][component] + increment - at.displacement[node][component]
+                }
+                (Dof::Pressure(place), _) => {
+                    (self.pressure[place] + increment - at.pressure[place]) / self.scene.unit(place)
+                }
+            })
+        };
+        out.clear();
+        out.extend(self.given.iter().enumerate().map(gap));
+    }
+
     /// Adds `length · δ`, one entry an equation, to the unknowns; a full step reaches the prescribed values to the last bit.
     pub fn advance(&self, grid: &Grid<D>, at: &mut Unknowns<D>, delta: &[f64], length: f64) {
+        let constrained = grid.dofs.constraints.is_some();
         for (equation, (delta, given)) in delta.iter().zip(self.given).enumerate() {
             let (value, converged, scale) = match grid.dofs.dof(equation) {
+                Dof::Displacement { .. } if constrained => (&mut at.controls[equation], 0.0, 1.0),
                 Dof::Displacement { node, component } => {
                     (&mut at.displacement[node][component], self.converged[node][component], 1.0)
                 }
@@ -65,6 +113,9 @@ impl<'a, const D: usize> Problem<'a, D> {
                 Some(increment) if length == 1.0 => *value = converged + increment,
                 _ => *value += length * scale * delta,
             }
+        }
+        if constrained {
+            self.follow(grid, at);
         }
     }
 }

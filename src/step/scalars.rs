@@ -37,9 +37,8 @@ impl Scalars {
         }
         let mut extended = Connectivity::default();
         for (k, of) in of_coupling.iter().enumerate() {
-            let own = connectivity.blocks(k).iter().copied();
             let carriers = of.iter().flat_map(|&(i, c)| families[i].unknowns(c));
-            extended.push(own.chain(carriers.map(|unknown| block[unknown as usize])));
+            extended.push_extended(connectivity, k, carriers.map(|unknown| block[unknown as usize]));
         }
         Self { places, connectivity: extended }
     }

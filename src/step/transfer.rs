@@ -74,6 +74,21 @@ impl<const D: usize> Start<D> {
     /// change of velocity (an impact, a kink of a table) is part of the increment that [`motion_to_points`] gives to the points.
     pub fn of(grid: &Grid<D>, state: &State<D>, given: &[Option<f64>], dt: f64) -> Self {
         let mut start = Self { velocity: state.velocity.clone(), acceleration: state.acceleration.clone() };
+        if grid.dofs.constraints.is_some() {
+            // What the controls lack of the prescribed motion.
+            for (field, speed) in [(&mut start.velocity, 1.0 / dt), (&mut start.acceleration, 0.0)] {
+                let now: Vec<[f64; D]> =
+                    grid.dofs.node.iter().map(|&n| grid.dofs.value(n, |m| field[m as usize])).collect();
+                let mut change = vec![[0.0; D]; field.len()];
+                for d in 0..D {
+                    let lacks = |(b, now): (usize, &[f64; D])| given[b * D + d].map_or(0.0, |by| by * speed - now[d]);
+                    let lacks: Vec<f64> = now.iter().enumerate().map(lacks).collect();
+                    grid.dofs.write(&lacks, d, &mut change);
+                }
+                add(field, &change);
+            }
+            return start;
+        }
         for (equation, increment) in given.iter().enumerate() {
             if let (Some(increment), Dof::Displacement { node, component }) = (increment, grid.dofs.dof(equation)) {
                 start.velocity[node][component] = increment / dt;
@@ -117,23 +132,23 @@ fn first_acceleration<const D: usize, K: Kinematics<D>>(
     state: &State<D>,
 ) -> Result<Vec<[f64; D]>> {
     let force = static_force(&Problem::at_rest(scene, state), grid)?.force;
-    let node = grid.dofs.node.clone();
-    let mut acceleration = vec![[0.0; D]; scene.mesh.nodes.len()];
     let mut fixed = vec![[false; D]; scene.mesh.nodes.len()];
     for f in scene.fixed(state.phase) {
         for &n in &f.nodes {
             fixed[n as usize][f.component] = true;
         }
     }
+    let node = grid.dofs.node.clone();
     let mut mass = Mass::assemble::<D, K>(scene, grid, state, Carrier::IntegrationPoints)?;
+    let mut solution = Vec::with_capacity(D);
     for d in 0..D {
         let held: Vec<bool> = node.iter().map(|&n| fixed[n as usize][d]).collect();
         let mut x: Vec<f64> = (0..node.len()).map(|b| -force[b * D + d]).collect();
         mass.solve_held(&held, &mut x)?;
-        for (x, &n) in x.iter().zip(&node) {
-            acceleration[n as usize][d] = *x;
-        }
+        solution.push(x);
     }
+    let mut acceleration = vec![[0.0; D]; scene.mesh.nodes.len()];
+    solution.iter().enumerate().for_each(|(d, x)| grid.dofs.write(x, d, &mut acceleration));
     Ok(acceleration)
 }
 
@@ -311,36 +326,37 @@ fn to_nodes<const D: usize, K: Kinematics<D>>(
     grid: &mut Grid<D>,
     state: &State<D>,
 ) -> Result<[Vec<[f64; D]>; 2]> {
-    let mut right: [Vec<[f64; D]>; 2] = [0, 1].map(|_| vec![[0.0; D]; grid.dofs.node.len()]);
+    let mut right: [Vec<[f64; D]>; 2] = [0, 1].map(|_| vec![[0.0; D]; scene.mesh.nodes.len()]);
     for Family { mesh, interpolation, points, .. } in grid.families(scene, state) {
         let fields = [&points.velocity, &points.acceleration];
         for cell_points in &interpolation.filled {
             let nodes = interpolation.nodes(mesh, cell_points.cell);
             for entries in interpolation.entries::<K>(cell_points) {
                 for (n, &node) in entries.value.iter().zip(nodes) {
-                    let block = grid.dofs.block[node as usize] as usize;
                     let weight = points.mass[entries.point] * n;
                     for (right, field) in right.iter_mut().zip(&fields) {
                         for d in 0..D {
-                            right[block][d] += weight * field[entries.point][d];
+                            right[node as usize][d] += weight * field[entries.point][d];
                         }
                     }
                 }
             }
         }
     }
+    let mut right = right.map(|right| grid.dofs.on_blocks(&right));
     rigid::momentum(scene, grid, state, &mut right);
-    let node = grid.dofs.node.clone();
     let mut mass = Mass::assemble::<D, K>(scene, grid, state, Carrier::MaterialPoints)?;
-    let mut nodal = [0, 1].map(|_| vec![[0.0; D]; scene.mesh.nodes.len()]);
-    for (right, nodal) in right.iter().zip(&mut nodal) {
+    let mut solution = [const { Vec::new() }; 2];
+    for (right, solution) in right.iter().zip(&mut solution) {
         for d in 0..D {
             let mut x: Vec<f64> = right.iter().map(|v| v[d]).collect();
             mass.solve(&mut x)?;
-            for (x, &n) in x.iter().zip(&node) {
-                nodal[n as usize][d] = *x;
-            }
+            solution.push(x);
         }
+    }
+    let mut nodal = [0, 1].map(|_| vec![[0.0; D]; scene.mesh.nodes.len()]);
+    for (solution, nodal) in solution.iter().zip(&mut nodal) {
+        solution.iter().enumerate().for_each(|(d, x)| grid.dofs.write(x, d, nodal));
     }
     momentum::keep_at_nodes::<D, K>(scene, grid, state, &state.points.velocity, &mut nodal[0]);
     momentum::complete_nodes::<D, K>(scene, grid, state, &state.points.acceleration, &mut nodal[1]);

@@ -25,13 +25,14 @@ pub fn hold<const D: usize>(scene: &Scene<D>, grid: &mut Grid<D>, state: &mut St
     if norm(&force) <= scene.numerics.tolerance * scale {
         return Ok(());
     }
+    let force = grid.dofs.on_nodes(&force);
     state.ramp = UnbalancedRamp { force: force.into_iter().map(|f| f.map(|f| -f)).collect(), until: dt };
     Ok(())
 }
 
 /// The unbalanced force of a state without inertia.
 struct Unbalanced<const D: usize> {
-    /// By node (kN), zero where the displacement is given.
+    /// By block (kN), zero where the displacement is given.
     force: Vec<[f64; D]>,
     /// Norm of the largest term (kN).
     scale: f64,
@@ -40,12 +41,12 @@ struct Unbalanced<const D: usize> {
 /// The unbalanced force `R₀` of the last converged state, under the loads at the start of `problem`.
 fn unbalanced<const D: usize>(problem: &Problem<D>, grid: &mut Grid<D>) -> Result<Unbalanced<D>> {
     let now = static_force(problem, grid)?;
-    let mut force = vec![[0.0; D]; problem.scene.mesh.nodes.len()];
-    for (f, &n) in now.force.chunks_exact(D).zip(&grid.dofs.node) {
-        force[n as usize] = std::array::from_fn(|d| f[d]);
-    }
+    let by_block = now.force.chunks_exact(D).take(grid.dofs.node.len());
+    let mut force: Vec<[f64; D]> = by_block.map(|f| std::array::from_fn(|d| f[d])).collect();
     for fixed in problem.scene.fixed(problem.phase) {
-        fixed.nodes.iter().for_each(|&n| force[n as usize][fixed.component] = 0.0);
+        for equation in fixed.nodes.iter().filter_map(|&n| grid.dofs.displacement(n, fixed.component)) {
+            force[equation / D][fixed.component] = 0.0;
+        }
     }
     Ok(Unbalanced { force, scale: now.scale })
 }

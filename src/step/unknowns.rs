@@ -7,6 +7,9 @@ pub struct Unknowns<const D: usize> {
     pub displacement: Vec<[f64; D]>,
     /// As [`super::State::pressure`] (kPa).
     pub pressure: Vec<f64>,
+    /// Under linear constraints the increment (m) of the controls since the last converged step, one entry an equation of displacements;
+    /// else empty.
+    pub controls: Vec<f64>,
 }
 
 impl<const D: usize> Unknowns<D> {
@@ -15,10 +18,12 @@ impl<const D: usize> Unknowns<D> {
         self.displacement.extend_from_slice(displacement);
         self.pressure.clear();
         self.pressure.extend_from_slice(pressure);
+        self.controls.clear();
     }
 
     pub fn clone_from(&mut self, other: &Self) {
         self.set(&other.displacement, &other.pressure);
+        self.controls.extend_from_slice(&other.controls);
     }
 }
 

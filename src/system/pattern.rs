@@ -1,15 +1,19 @@
 //! The sparsity pattern of a system assembled from couplings of blocks.
 
+use super::constraints::{Combination, Combinations};
+
 /// Lists of blocks: coupling `k` couples the blocks `blocks[offset[k]..offset[k + 1]]` with each other.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Connectivity {
     offset: Vec<u32>,
     blocks: Vec<u32>,
+    /// The nodes of the couplings where these are combinations of their blocks; empty without linear constraints.
+    combinations: Combinations,
 }
 
 impl Default for Connectivity {
     fn default() -> Self {
-        Self { offset: vec![0], blocks: Vec::new() }
+        Self { offset: vec![0], blocks: Vec::new(), combinations: Combinations::default() }
     }
 }
 
@@ -19,6 +23,36 @@ impl Connectivity {
         self.blocks.extend(blocks);
         self.offset.push(self.blocks.len() as u32);
         self.offset.len() as u32 - 2
+    }
+
+    /// Appends a coupling of nodes that are combinations of blocks, each given by its blocks with their coefficients (-), and returns its
+    /// number.
+    pub fn push_combined<'a>(&mut self, nodes: impl IntoIterator<Item = &'a [(u32, f64)]>) -> u32 {
+        let mut blocks: Vec<u32> = Vec::new();
+        let mut place = |block: u32| {
+            let found = blocks.iter().position(|&other| other == block);
+            found.unwrap_or_else(|| {
+                blocks.push(block);
+                blocks.len() - 1
+            }) as u32
+        };
+        let rows: Vec<Vec<(u32, f64)>> =
+            nodes.into_iter().map(|row| row.iter().map(|&(block, by)| (place(block), by)).collect()).collect();
+        self.combinations.push(self.len(), blocks.len(), rows);
+        self.push(blocks)
+    }
+
+    /// Appends coupling `k` of another connectivity with further blocks behind its own.
+    pub fn push_extended(&mut self, other: &Self, k: usize, further: impl IntoIterator<Item = u32>) -> u32 {
+        if let Some(combination) = other.combinations.of(k) {
+            let rows = combination.rows().map(|row| row.iter().copied());
+            self.combinations.push(self.len(), combination.blocks, rows);
+        }
+        self.push(other.blocks(k).iter().copied().chain(further))
+    }
+
+    pub(super) fn combination(&self, k: usize) -> Option<Combination<'_>> {
+        self.combinations.of(k)
     }
 
     pub fn len(&self) -> usize {
@@ -52,7 +86,7 @@ pub struct Pattern {
     pub(super) offset: Vec<u32>,
     /// Where the pairs of each coupling begin in `offset`.
     pub(super) pairs: Vec<u32>,
-    /// Equations of the largest coupling.
+    /// Equations of the largest coupling, over its nodes or its blocks.
     pub largest_coupling: usize,
 }
 
@@ -79,7 +113,8 @@ impl Pattern {
             pairs: vec![0],
             largest_coupling: 0,
         };
-        pattern.largest_coupling = (0..pattern.connectivity.len()).map(|k| pattern.coupling_size(k)).max().unwrap_or(0);
+        let largest = |k: usize| pattern.coupling_size(k).max(pattern.local_size(k));
+        pattern.largest_coupling = (0..pattern.connectivity.len()).map(largest).max().unwrap_or(0);
         pattern.expand();
         pattern.locate_pairs();
         pattern
@@ -98,6 +133,39 @@ impl Pattern {
     pub fn coupling_size(&self, k: usize) -> usize {
         let size = |b: u32| self.start[b as usize + 1] - self.start[b as usize];
         self.connectivity.blocks(k).iter().map(|&b| size(b) as usize).sum()
+    }
+
+    /// Number of equations that a term writes for coupling `k`: those of its nodes, where linear constraints make them combinations of its
+    /// blocks, else those of its blocks.
+    pub fn local_size(&self, k: usize) -> usize {
+        let size = self.coupling_size(k);
+        self.connectivity.combination(k).map_or(size, |of| size + of.nodes * self.width(k) - of.blocks * self.width(k))
+    }
+
+    /// Equations of the first block of coupling `k`, and of all that are combined.
+    fn width(&self, k: usize) -> usize {
+        self.connectivity.blocks(k).first().map_or(0, |&b| self.start[b as usize + 1] - self.start[b as usize]) as usize
+    }
+
+    /// Turns what a term has written for coupling `k` into what its blocks have of it, in place; the matrix may be absent, or the vector.
+    pub(super) fn reduce(&self, k: usize, vector: &mut [f64], matrix: &mut [f64]) {
+        if let Some(of) = self.connectivity.combination(k) {
+            let width = self.width(k);
+            of.reduce(width, self.coupling_size(k) - of.blocks * width, vector, matrix);
+        }
+    }
+
+    /// A row-major matrix over the first nodes of coupling `k` as one over its first blocks: over all that its nodes are combinations of,
+    /// where there are linear constraints.
+    pub fn over_blocks(&self, k: usize, mut matrix: Vec<f64>) -> Vec<f64> {
+        if let Some(of) = self.connectivity.combination(k) {
+            let width = self.width(k);
+            let reduced = of.blocks * width;
+            matrix.resize(matrix.len().max(reduced * reduced), 0.0);
+            of.reduce(width, 0, &mut [], &mut matrix);
+            matrix.truncate(reduced * reduced);
+        }
+        matrix
     }
 
     /// The blocks that block `b` is coupled with, ascending, itself among them.

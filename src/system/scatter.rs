@@ -5,7 +5,7 @@ use crate::error::Result;
 use rayon::prelude::*;
 use std::ops::Range;
 
-/// What one coupling contributes: a dense matrix (row-major) and a vector over the equations of its blocks.
+/// What one coupling contributes: a dense matrix (row-major) and a vector over the equations of its nodes.
 pub struct Local<'a> {
     /// Row-major, `size × size`; empty when only the vector is wanted.
     pub matrix: &'a mut [f64],
@@ -97,11 +97,14 @@ pub fn scatter<I: Sync>(
     }
     let threads = rayon::current_num_threads();
     let run = |item: &I, slot: &mut [f64]| {
-        let size = pattern.coupling_size(coupling(item));
+        let k = coupling(item);
+        let size = pattern.local_size(k);
         slot.fill(0.0);
         let (vector, rest) = slot.split_at_mut(largest);
         let matrix = if matrix_stride > 0 { &mut rest[..size * size] } else { &mut rest[..0] };
-        compute(item, &mut Local { matrix, vector: &mut vector[..size], size })
+        compute(item, &mut Local { matrix, vector: &mut vector[..size], size })?;
+        pattern.reduce(k, vector, rest);
+        Ok(())
     };
     for batch in items.chunks(BATCH) {
         let slots = &mut workspace.buffer[..stride * batch.len()];

@@ -63,7 +63,7 @@ use crate::mesh::Mesh;
 use crate::mesh::faces::Face;
 use crate::points::Points;
 use crate::surface::Piece;
-use crate::system::{Local, Matrix, Pattern, Workspace, scatter};
+use crate::system::{LinearConstraints, Local, Matrix, Pattern, Workspace, scatter};
 use crate::tensor::{Symmetric, Tensor};
 use crate::time_value::TimeValue;
 use rayon::prelude::*;
@@ -127,6 +127,8 @@ pub struct Frame<'a, const D: usize> {
     pub coupling: &'a [u32],
     /// The block of each node; `u32::MAX` for nodes left out.
     pub block: &'a [u32],
+    /// What the values of the nodes are of those of controls, whose blocks those of `block` are then; absent where each node has its own.
+    pub linear_constraints: Option<&'a LinearConstraints>,
     /// The coupling of each rigid body: its reference and, where it turns, its turning node.
     pub bodies: &'a [u32],
     /// Whether the cells have pore water.

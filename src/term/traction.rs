@@ -87,11 +87,14 @@ impl<const D: usize, K: Kinematics<D>> Term<D> for Traction<K, D> {
         }
         let t: [f64; D] = std::array::from_fn(|d| -self.value[d].at(trial.time));
         for &(node, area) in &self.area {
-            let block = frame.block[node as usize];
-            if block != u32::MAX {
-                let first = frame.pattern.start[block as usize] as usize;
-                for d in 0..D {
-                    out.force[first + d] += area * t[d];
+            let own = [(node, 1.0)];
+            for &(control, by) in frame.linear_constraints.map_or(&own[..], |all| all.of_node(node)) {
+                let block = frame.block[control as usize];
+                if block != u32::MAX {
+                    let first = frame.pattern.start[block as usize] as usize;
+                    for d in 0..D {
+                        out.force[first + d] += by * (area * t[d]);
+                    }
                 }
             }
         }

@@ -4,6 +4,7 @@ mod bar;
 #[path = "../support/bench.rs"]
 mod bench;
 mod boundary_projection;
+mod bspline;
 mod cantilever;
 mod cases;
 mod column;

@@ -129,6 +129,7 @@ impl Stand {
             pattern: &self.pattern,
             coupling: &self.cells,
             block: &self.nodes,
+            linear_constraints: None,
             bodies: &[],
             with_water: false,
         }
