@@ -34,6 +34,9 @@ impl Basis<2> for BSpline {
     }
 
     fn constraints(&self, mesh: &Mesh<2>) -> Result<Option<LinearConstraints>> {
+        if mesh.cells.is_empty() {
+            return Ok(None);
+        }
         let lattice = Lattice::of(mesh)?;
         let along = lattice.lines.each_ref().map(|lines| Splines::new(lines));
         let (mut nodes, mut controls) = (Rows::default(), Rows::default());

@@ -7,8 +7,8 @@ use serde::Deserialize;
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Numerics {
-    /// What material points see of the grid: mpm (the shape functions of their cell), or ddmp (with gradients that are continuous from
-    /// cell to cell).
+    /// What material points see of the grid: mpm (the shape functions of their cell), ddmp (with gradients that are continuous from
+    /// cell to cell), or bspline (quadratic B-splines, on rectangular grids of Q9 cells).
     pub gradient: String,
     /// What integrals are summed over: resampled (integration points of the cells, which take their state from the material points
     /// when the grid is restored), or points (the material points, by their volumes). Default: resampled; points with

@@ -1,0 +1,101 @@
+//! The reduced system: its tangent against differences, and forces on controls and nodes.
+
+use super::{elastic, graded};
+use crate::bench::Bench;
+use crate::layout::{at, lattice, resample};
+use crate::support::Random;
+use mpm::interpolation::BSpline;
+use mpm::kinematics::{Axisymmetric, Kinematics, PlaneStrain};
+use mpm::step::{Grid, Restore, Scene, Simulation, State};
+use mpm::term::{Assembly, GhostInertia, Term, Trial};
+
+/// A grid of which points fill a corner, with all terms that a restored dynamic scene has.
+fn partly_filled<K: Kinematics<2> + 'static>() -> (Scene<2>, State<2>, Grid<2>) {
+    let mesh = graded(4.0, 4.0, 7, 7, 1.1);
+    let mut bench = Bench::new(mesh, elastic(1000.0, 0.3));
+    bench.scheme = &BSpline;
+    bench.gravity = [0.0, -10.0];
+    bench.dynamic = true;
+    bench.restore = Restore::EveryStep;
+    resample::<K>(&mut bench);
+    let faces = mpm::mesh::faces::Faces::of(&bench.mesh).inner.len();
+    bench.extra.push(Box::new(GhostInertia::<K>::new(1.0, faces)));
+    let mut places = lattice(1.3, 1.1, 0.13, &mut Random(5));
+    places.iter_mut().for_each(|(x, _)| *x = [x[0] + 0.07, x[1] + 0.05]);
+    let points = at::<K>(&bench.mesh, &places, 1.0);
+    let scene = bench.scene::<K>();
+    let simulation = Simulation::<2, K>::new(&scene, State::new(points, scene.mesh.nodes.len(), 1.0)).unwrap();
+    let state = simulation.state;
+    let grid = Grid::new::<K>(&scene, &state).unwrap();
+    (scene, state, grid)
+}
+
+/// Residual and tangent of all terms of a scene in the unknowns of the system.
+fn assembled(
+    (scene, state, grid): (&Scene<2>, &State<2>, &Grid<2>),
+    control: &[f64],
+    matrix: Option<&mut mpm::system::Matrix>,
+) -> Vec<f64> {
+    let mut displacement = vec![[0.0; 2]; scene.mesh.nodes.len()];
+    for d in 0..2 {
+        let values: Vec<f64> = control.iter().skip(d).step_by(2).copied().collect();
+        grid.dofs.write(&values, d, &mut displacement);
+    }
+    const SLOPE: f64 = 170.0;
+    let acceleration: Vec<[f64; 2]> = displacement.iter().map(|u| u.map(|u| SLOPE * u)).collect();
+    let trial = Trial {
+        acceleration: &acceleration,
+        acceleration_slope: SLOPE,
+        ..Trial::at_rest(&displacement, &state.displacement)
+    };
+    let mut force = vec![0.0; grid.motion.pattern.len()];
+    let mut workspace = mpm::system::Workspace::default();
+    let frame = grid.frame(&scene.mesh, state);
+    let mut tangent = matrix;
+    for term in &scene.terms {
+        let mut out = Assembly { force: &mut force, tangent: tangent.as_deref_mut(), workspace: &mut workspace };
+        Term::assemble(term.as_ref(), &frame, &trial, &mut out).unwrap();
+    }
+    force
+}
+
+/// The tangent over the controls is the derivative of the residual over them, and the residual does the work of the nodal forces.
+#[test]
+fn the_reduced_tangent_is_that_of_the_reduced_residual() {
+    fn check<K: Kinematics<2> + 'static>() {
+        let (scene, state, grid) = partly_filled::<K>();
+        let nodes: std::collections::BTreeSet<u32> =
+            grid.cells.iter().flat_map(|&c| scene.mesh.cells.nodes(c as usize)).copied().collect();
+        assert!(grid.dofs.node.len() < nodes.len() / 2, "{} controls of {} nodes", grid.dofs.node.len(), nodes.len());
+        assert!(grid.cells.len() < scene.mesh.cells.len() && !grid.ghost.is_empty());
+        let count = grid.motion.pattern.len();
+        let mut random = Random(9);
+        let control: Vec<f64> = (0..count).map(|_| 0.01 * random.next()).collect();
+        let way: Vec<f64> = (0..count).map(|_| random.next()).collect();
+        let mut matrix = mpm::system::Matrix::new(&grid.motion.pattern);
+        let of = (&scene, &state, &grid);
+        let force = assembled(of, &control, Some(&mut matrix));
+        let mut slope = vec![0.0; count];
+        matrix.multiply(&grid.motion.pattern, &way, &mut slope);
+        let step = 1e-6;
+        let moved = |by: f64| -> Vec<f64> { control.iter().zip(&way).map(|(c, w)| c + by * w).collect() };
+        let [after, before] = [step, -step].map(|by| assembled(of, &moved(by), None));
+        let size = slope.iter().map(|s| s * s).sum::<f64>().sqrt();
+        let differ = (0..count).map(|i| ((after[i] - before[i]) / (2.0 * step) - slope[i]).powi(2)).sum::<f64>().sqrt();
+        println!("tangent off by {:.1e}, {} equations", differ / size, force.len());
+        assert!(differ < 1e-7 * size, "{differ:e} of {size:e}");
+    }
+    check::<PlaneStrain>();
+    check::<Axisymmetric>();
+}
+
+/// Forces on controls, nodal forces that do the same work, and back.
+#[test]
+fn forces_on_controls_come_back_from_nodes() {
+    let (_, _, grid) = partly_filled::<PlaneStrain>();
+    let mut random = Random(4);
+    let force: Vec<[f64; 2]> = grid.dofs.node.iter().map(|_| [random.next(), random.next()]).collect();
+    let back = grid.dofs.on_blocks(&grid.dofs.on_nodes(&force));
+    let off = force.iter().flatten().zip(back.iter().flatten()).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+    assert!(off < 1e-14, "{off:e}");
+}
