@@ -31,7 +31,7 @@ use twox_hash::XxHash64;
 
 pub use data::{Data, Scalar};
 
-use blocks::{compress, decompress};
+use blocks::{Compressor, decompress};
 use data::with_values;
 
 use super::atomic;
@@ -182,11 +182,12 @@ impl Store {
     pub fn write(self, path: &Path, durable: bool) -> Result<u64> {
         let mut entries = Vec::with_capacity(self.arrays.len());
         let mut stored: Vec<Vec<u8>> = Vec::with_capacity(self.arrays.len());
+        let mut compressor = Compressor::default();
         // An array is dropped as soon as its blocks are made: a file as large as the state is in memory once.
         for array in self.arrays {
             check_finite(&array, "entry")?;
             let mut blocks = Vec::new();
-            with_values!(&array.data, v => compress(v, array.components, &mut blocks));
+            with_values!(&array.data, v => compressor.compress(v, array.components, &mut blocks));
             blocks.shrink_to_fit();
             entries.push(Entry {
                 scalar: array.data.type_name().to_string(),

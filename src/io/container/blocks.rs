@@ -9,35 +9,53 @@ const UNCOMPRESSED: u32 = 1 << 31;
 /// LZ4 cannot compress further than this.
 const MAX_RATIO: usize = 256;
 
-/// Appends the blocks of an array to `out`.
-pub(super) fn compress<T: Scalar>(values: &[T], components: usize, out: &mut Vec<u8>) {
-    let stride = components * T::SIZE;
-    let per_block = (BLOCK / stride).max(1) * components;
-    let (mut plain, mut sorted, mut packed) = (Vec::new(), Vec::new(), Vec::new());
-    for block in values.chunks(per_block) {
-        plain.resize(block.len() * T::SIZE, 0);
-        for (bytes, v) in plain.chunks_exact_mut(T::SIZE).zip(block) {
-            v.store(bytes);
-        }
-        sorted.resize(plain.len(), 0);
-        let tuples = block.len() / components;
-        for (j, lane) in sorted.chunks_exact_mut(tuples).enumerate() {
-            for (byte, tuple) in lane.iter_mut().zip(plain.chunks_exact(stride)) {
-                *byte = tuple[j];
+/// Compresses arrays one after the other, in the same memory.
+#[derive(Default)]
+pub(super) struct Compressor {
+    plain: Vec<u8>,
+    sorted: Vec<u8>,
+    packed: Vec<u8>,
+}
+
+impl Compressor {
+    /// Appends the blocks of an array to `out`.
+    pub(super) fn compress<T: Scalar>(&mut self, values: &[T], components: usize, out: &mut Vec<u8>) {
+        let stride = components * T::SIZE;
+        let per_block = (BLOCK / stride).max(1) * components;
+        for block in values.chunks(per_block) {
+            let bytes = block.len() * T::SIZE;
+            let plain = room(&mut self.plain, bytes);
+            for (bytes, v) in plain.chunks_exact_mut(T::SIZE).zip(block) {
+                v.store(bytes);
             }
-        }
-        packed.resize(lz4_flex::block::get_maximum_output_size(sorted.len()), 0);
-        match lz4_flex::block::compress_into(&sorted, &mut packed) {
-            Ok(n) if n < sorted.len() => {
-                out.extend_from_slice(&(n as u32).to_le_bytes());
-                out.extend_from_slice(&packed[..n]);
+            let sorted = room(&mut self.sorted, bytes);
+            let tuples = block.len() / components;
+            for (j, lane) in sorted.chunks_exact_mut(tuples).enumerate() {
+                for (byte, tuple) in lane.iter_mut().zip(plain.chunks_exact(stride)) {
+                    *byte = tuple[j];
+                }
             }
-            _ => {
-                out.extend_from_slice(&(sorted.len() as u32 | UNCOMPRESSED).to_le_bytes());
-                out.extend_from_slice(&sorted);
+            let packed = room(&mut self.packed, lz4_flex::block::get_maximum_output_size(bytes));
+            match lz4_flex::block::compress_into(sorted, packed) {
+                Ok(n) if n < bytes => {
+                    out.extend_from_slice(&(n as u32).to_le_bytes());
+                    out.extend_from_slice(&packed[..n]);
+                }
+                _ => {
+                    out.extend_from_slice(&(bytes as u32 | UNCOMPRESSED).to_le_bytes());
+                    out.extend_from_slice(sorted);
+                }
             }
         }
     }
+}
+
+/// The first `length` bytes of a buffer, which grows where it is shorter.
+fn room(buffer: &mut Vec<u8>, length: usize) -> &mut [u8] {
+    if buffer.len() < length {
+        buffer.resize(length, 0);
+    }
+    &mut buffer[..length]
 }
 
 /// The numbers of an array from its stored bytes, if they are whole.
