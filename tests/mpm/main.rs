@@ -38,6 +38,7 @@ mod slow {
     mod collapse;
     mod general_position;
     mod population;
+    mod splines;
     mod uniform_cells;
     mod voids;
 }

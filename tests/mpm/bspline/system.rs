@@ -7,6 +7,7 @@ use crate::support::Random;
 use mpm::interpolation::BSpline;
 use mpm::kinematics::{Axisymmetric, Kinematics, PlaneStrain};
 use mpm::step::{Grid, Restore, Scene, Simulation, State};
+use mpm::system::{Connectivity, Local, Matrix, Pattern, Workspace, scatter};
 use mpm::term::{Assembly, GhostInertia, Term, Trial};
 
 /// A grid of which points fill a corner, with all terms that a restored dynamic scene has.
@@ -34,7 +35,7 @@ fn partly_filled<K: Kinematics<2> + 'static>() -> (Scene<2>, State<2>, Grid<2>) 
 fn assembled(
     (scene, state, grid): (&Scene<2>, &State<2>, &Grid<2>),
     control: &[f64],
-    matrix: Option<&mut mpm::system::Matrix>,
+    matrix: Option<&mut Matrix>,
 ) -> Vec<f64> {
     let mut displacement = vec![[0.0; 2]; scene.mesh.nodes.len()];
     for d in 0..2 {
@@ -49,7 +50,7 @@ fn assembled(
         ..Trial::at_rest(&displacement, &state.displacement)
     };
     let mut force = vec![0.0; grid.motion.pattern.len()];
-    let mut workspace = mpm::system::Workspace::default();
+    let mut workspace = Workspace::default();
     let frame = grid.frame(&scene.mesh, state);
     let mut tangent = matrix;
     for term in &scene.terms {
@@ -72,7 +73,7 @@ fn the_reduced_tangent_is_that_of_the_reduced_residual() {
         let mut random = Random(9);
         let control: Vec<f64> = (0..count).map(|_| 0.01 * random.next()).collect();
         let way: Vec<f64> = (0..count).map(|_| random.next()).collect();
-        let mut matrix = mpm::system::Matrix::new(&grid.motion.pattern);
+        let mut matrix = Matrix::new(&grid.motion.pattern);
         let of = (&scene, &state, &grid);
         let force = assembled(of, &control, Some(&mut matrix));
         let mut slope = vec![0.0; count];
@@ -98,4 +99,51 @@ fn forces_on_controls_come_back_from_nodes() {
     let back = grid.dofs.on_blocks(&grid.dofs.on_nodes(&force));
     let off = force.iter().flatten().zip(back.iter().flatten()).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
     assert!(off < 1e-14, "{off:e}");
+}
+
+/// A coupling of three nodes, combinations of four blocks of two equations, and of a scalar block behind them: the system has `Eᵀ r` and
+/// `Eᵀ K E` with the identity for the scalar.
+#[test]
+fn couplings_are_reduced_by_their_rows() {
+    let rows: [&[(u32, f64)]; 3] = [&[(2, 0.25), (0, 0.75)], &[(1, 1.0)], &[(0, 0.1), (3, 0.6), (1, 0.3)]];
+    let mut e = nalgebra::DMatrix::<f64>::zeros(7, 9);
+    for (n, row) in rows.iter().enumerate() {
+        for &(block, by) in *row {
+            (0..2).for_each(|d| e[(2 * n + d, 2 * block as usize + d)] = by);
+        }
+    }
+    e[(6, 8)] = 1.0;
+    for symmetric in [true, false] {
+        let mut random = Random(6);
+        let mut k = nalgebra::DMatrix::from_fn(7, 7, |_, _| random.next());
+        if symmetric {
+            k += k.transpose();
+        }
+        let r = nalgebra::DVector::from_fn(7, |_, _| random.next());
+        let mut nodes = Connectivity::default();
+        nodes.push([3, 1]);
+        nodes.push_combined(rows);
+        let mut connectivity = Connectivity::default();
+        connectivity.push_extended(&nodes, 0, []);
+        connectivity.push_extended(&nodes, 1, [4]);
+        let pattern = Pattern::new(&[2, 2, 2, 2, 1], connectivity, symmetric);
+        let (mut force, mut matrix) = (vec![0.0; 9], Matrix::new(&pattern));
+        let compute = |_: &usize, local: &mut Local| {
+            assert_eq!(local.size, 7);
+            local.vector.copy_from_slice(r.as_slice());
+            (0..49).for_each(|i| local.matrix[i] = k[(i / 7, i % 7)]);
+            Ok(())
+        };
+        let mut workspace = Workspace::default();
+        scatter(&pattern, &[1], |k| *k, compute, &mut force, Some(&mut matrix), &mut workspace).unwrap();
+        let (wanted, tangent) = (e.transpose() * &r, e.transpose() * &k * &e);
+        assert!(wanted.iter().zip(&force).all(|(a, b)| (a - b).abs() < 1e-14), "{wanted} {force:?}");
+        for j in 0..9 {
+            let unit: Vec<f64> = (0..9).map(|i| f64::from(u8::from(i == j))).collect();
+            let mut column = vec![0.0; 9];
+            matrix.multiply(&pattern, &unit, &mut column);
+            let off = (0..9).map(|i| (tangent[(i, j)] - column[i]).abs()).fold(0.0, f64::max);
+            assert!(off < 1e-14, "symmetric {symmetric}, column {j}: {off:e}");
+        }
+    }
 }
