@@ -1,4 +1,4 @@
-"""Draws the figures of docs/theory.md and docs/code-tour.md as SVG: `python docs/figures/make.py [FOLDER FOR PNG]`.
+"""Draws the figures of docs/theory.md, docs/schemes.md and docs/code-tour.md as SVG: `python docs/figures/make.py [FOLDER FOR PNG]`.
 
 It needs matplotlib (3.8 or newer). The same input gives the same bytes: no dates, a fixed salt for the identifiers.
 """
@@ -649,9 +649,89 @@ def unknowns(png):
     save(fig, "unknowns", png)
 
 
+# Domains of points.
+
+
+def domains(png):
+    """Values and gradients over domains in 1D and in the plane, and the domains themselves."""
+    fig, axes = plt.subplots(1, 4, figsize=(13.6, 3.4), gridspec_kw={"width_ratios": [1.1, 1.1, 1, 1.25]})
+    value, slope, plane, sketch = axes
+    x = np.linspace(-1.8, 1.8, 1441)
+
+    def hat(x):
+        return np.clip(1 - np.abs(x), 0, None)
+
+    def integral(x):
+        x = np.clip(x, -1, 1)
+        return x + np.where(x < 0, x * x, -x * x) / 2
+
+    for width, color, style in [(0.0, DARK, "-"), (0.25, BLUE, "--"), (0.5, BLUE, "-"), (1.0, RED, "-.")]:
+        a, b = x - width / 2, x + width / 2
+        if width == 0:
+            mean, gradient, name = hat(x), np.where(np.abs(x) < 1, -np.sign(x), 0), "MPM"
+        else:
+            mean, gradient = (integral(b) - integral(a)) / width, (hat(b) - hat(a)) / width
+            name = f"l = {width:g} h"
+        value.plot(x, mean, color=color, ls=style, label=name)
+        slope.plot(x, gradient, color=color, ls=style, label=name)
+    for ax, title in [(value, "GIMP: S of a node in 1D"), (slope, "its gradient, times h")]:
+        for n in range(-1, 2):
+            ax.plot(n, 0, "s", ms=5, color=DARK, clip_on=False, zorder=5)
+        ax.axhline(0, color=GRID, lw=0.7)
+        ax.set_xlabel("x/h")
+        ax.set_title(title, loc="left")
+    value.legend(frameon=False, fontsize=8, loc="upper left")
+
+    # CPDI: the gradient of a node of square cells by the corners of a sheared domain.
+    r1, r2 = np.array([0.25, 0.0]), np.array([0.15, 0.25])
+    volume = 4 * (r1[0] * r2[1] - r1[1] * r2[0])
+    xs, ys = np.meshgrid(np.linspace(-1.6, 1.6, 161), np.linspace(-1.6, 1.6, 161))
+    corner = {
+        c: hat(xs + c[0] * r1[0] + c[1] * r2[0]) * hat(ys + c[0] * r1[1] + c[1] * r2[1])
+        for c in [(-1, -1), (1, -1), (1, 1), (-1, 1)]
+    }
+    gradient = (
+        (corner[-1, -1] - corner[1, 1]) * (r1[1] - r2[1]) + (corner[1, -1] - corner[-1, 1]) * (r1[1] + r2[1])
+    ) / volume
+    plane.contourf(xs, ys, gradient, levels=np.linspace(-1.05, 1.05, 16), cmap="RdBu_r")
+    for k in (-1, 0, 1):
+        plane.axhline(k, color=GRID, lw=0.7)
+        plane.axvline(k, color=GRID, lw=0.7)
+    at = np.array([-1.2, 1.2])
+    plane.add_patch(Polygon([at - r1 - r2, at + r1 - r2, at + r1 + r2, at - r1 + r2], fc="none", ec=DARK, lw=1.2))
+    plane.set_aspect("equal")
+    plane.set_xlabel("x/h")
+    plane.set_title("CPDI: ∂S/∂x, domain as drawn", loc="left")
+
+    bare(sketch)
+    for k in range(4):
+        sketch.plot([0, 6], [k, k], color=GRID, lw=0.8)
+    for k in range(7):
+        sketch.plot([k, k], [0, 3], color=GRID, lw=0.8)
+    shapes = [
+        ("GIMP", np.array([[0.55, 1.1], [1.25, 1.1], [1.25, 1.75], [0.55, 1.75]]), BLUE),
+        ("CPDI", np.array([[2.2, 1.05], [2.95, 1.2], [3.35, 1.85], [2.6, 1.7]]), RED),
+        ("CPDI2", np.array([[4.35, 1.0], [5.1, 1.25], [5.45, 1.95], [4.25, 1.7]]), GREEN),
+    ]
+    for name, corners, color in shapes:
+        sketch.add_patch(Polygon(corners, fc=color, alpha=0.25, ec="none"))
+        sketch.add_patch(Polygon(corners, fc="none", ec=color, lw=1.3))
+        centre = corners.mean(axis=0)
+        sketch.plot(*centre, "o", ms=5, color=DARK)
+        if name != "GIMP":
+            sketch.plot(*corners.T, "s", ms=5, color=color)
+            middles = (corners + np.roll(corners, -1, axis=0)) / 2
+            sketch.plot(*middles.T, "s", ms=4.5, mfc="white", mec=color)
+        sketch.text(centre[0], 3.15, name, ha="center", color=color)
+    sketch.text(3.0, -0.15, "filled: places on cells of first order;\nopen, and the point: also, on those of second order", ha="center", va="top", fontsize=8)
+    sketch.set_ylim(-0.9, 3.5)
+    sketch.set_xlim(-0.1, 6.1)
+    save(fig, "domains", png)
+
+
 def main():
     png = sys.argv[1] if len(sys.argv) > 1 else None
-    for figure in (step_phases, regions, reconstruction, contact, newton, gradients, unknowns):
+    for figure in (step_phases, regions, reconstruction, contact, newton, gradients, unknowns, domains):
         figure(png)
 
 

@@ -240,7 +240,10 @@ impl Checker {
 
     fn numerics(&mut self, file: &raw::CaseFile, contacts: bool, path: &Path) -> Numerics {
         let numerics = &file.numerics;
-        let found = SCHEMES.iter().find(|scheme| scheme.name() == numerics.gradient);
+        let named = |scheme: &&&dyn Basis<2>| {
+            scheme.name() == numerics.gradient || scheme.alias() == Some(numerics.gradient.as_str())
+        };
+        let found = SCHEMES.iter().find(named);
         if found.is_none() {
             let problem = format!("there is no gradient `{}`", numerics.gradient);
             let names: Vec<&str> = SCHEMES.iter().map(|scheme| scheme.name()).collect();
@@ -249,9 +252,8 @@ impl Checker {
         let basis: &'static dyn Basis<2> = found.copied().unwrap_or(&Mpm);
         let of_scheme = if basis.is_of_places() { raw::Quadrature::Resampled } else { raw::Quadrature::Points };
         let quadrature = numerics.quadrature.unwrap_or(of_scheme);
-        if !basis.is_of_places() && quadrature == raw::Quadrature::Resampled {
-            let problem =
-                "gradients are smoothed at the material points, and resampled quadrature does not sum over these";
+        if let (Some(reason), raw::Quadrature::Resampled) = (basis.of_points(), quadrature) {
+            let problem = format!("{} {reason}, and resampled quadrature does not sum over these", basis.name());
             self.issue(&path.key("quadrature"), At::Value, problem, "choose `quadrature: points`, or `gradient: mpm`");
         }
         let restore = match numerics.restore {
@@ -318,6 +320,7 @@ impl Checker {
             self.issue(&root.key("output").key("every"), At::Value, problem, "write them less often");
         }
         self.pores(case, file);
+        self.scheme(case);
         let undrained = case.materials.iter().any(Material::has_pore_pressure);
         let wanted = case.output.fields.iter().position(|f| *f == Field::PorePressure);
         if let Some(i) = wanted.filter(|_| !undrained) {

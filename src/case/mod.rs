@@ -28,6 +28,7 @@ mod pores;
 pub mod raw;
 mod rigid;
 pub mod scene;
+mod scheme;
 mod search;
 pub mod seeded;
 pub mod seeding;

@@ -154,14 +154,12 @@ impl Checker {
     /// What of the water only shows between blocks.
     pub(super) fn pores(&mut self, case: &Case, file: &raw::CaseFile) {
         let path = Path::default().key("numerics").key("gradient");
-        if case.materials.iter().any(|m| m.porous.is_some()) && !case.numerics.basis.is_of_places() {
+        let basis = case.numerics.basis;
+        if let Some(lack) = basis.without_pore_water()
+            && case.materials.iter().any(|m| m.porous.is_some())
+        {
             let remedy = "choose `gradient: mpm`, or take the permeability out";
-            self.issue(
-                &path,
-                At::Value,
-                format!("{} does not smooth the gradient of pore pressures yet", case.numerics.basis.name()),
-                remedy,
-            );
+            self.issue(&path, At::Value, format!("{} {lack}", basis.name()), remedy);
         }
         if !case.numerics.basis.takes_pressures() {
             let name = case.numerics.basis.name();

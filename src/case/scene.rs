@@ -7,9 +7,10 @@ use super::outputs::outputs;
 use super::raw;
 use super::rigid::{self, Holds};
 use super::{
-    changes, contact_interfaces, controls, layout, parts, pores, search, seeded, staged, unconnected, wall, water,
+    changes, contact_interfaces, controls, layout, parts, pores, scheme, search, seeded, staged, unconnected, wall,
+    water,
 };
-use crate::error::{Error, Result};
+use crate::error::Result;
 use crate::io::provenance::Origin;
 use crate::io::run_folder::RunFolder;
 use crate::kinematics::{Axisymmetric, Kinematics, PlaneStrain};
@@ -112,13 +113,7 @@ pub fn scene<K: Kinematics<2>>(case: &Case, mut whole: Mesh<2>) -> Result<Scene<
     bodies.extend(wall::bodies(case, &mut whole)?);
     let (mesh, fem) = parts::meshes(case, whole);
     let basis = case.numerics.basis;
-    if let Some(kind) = mesh.cells.kind.iter().find(|&&kind| !basis.takes(kind)) {
-        return Err(Error::input(
-            "numerics.gradient",
-            format!("{} cannot smooth the gradients of {kind:?} cells", basis.name()),
-            "mesh with T3, T6, Q4 or Q9 (no `incomplete: true`), or choose `gradient: mpm`",
-        ));
-    }
+    scheme::check(basis, &mesh, fem.as_ref())?;
     controls::of_grid(basis, &mesh, fem.as_ref())?;
     let materials =
         || changes::used(case).filter(|(region, _)| !region.content.is_rigid()).map(|(_, material)| material);

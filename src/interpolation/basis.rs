@@ -33,10 +33,21 @@ impl<'a, const D: usize> Domains<'a, D> {
     }
 }
 
+/// The first grid, with the points on it.
+pub struct First<'a, const D: usize> {
+    pub mesh: &'a Mesh<D>,
+    /// The parametric coordinates (-) of each point in its cell.
+    pub xi: &'a [[f64; 3]],
+    /// As [`Located::measure`].
+    pub measure: fn(&[f64; D]) -> f64,
+}
+
 /// A grid that is reset, as it was before.
 pub struct Reset<'a, const D: usize> {
     pub mesh: &'a Mesh<D>,
     pub locator: &'a Locator<D>,
+    /// The cells that took part.
+    pub active: &'a [bool],
     /// The displacement (m) of its nodes since the last reset.
     pub displacement: &'a [[f64; D]],
 }
@@ -73,14 +84,39 @@ pub trait Basis<const D: usize>: fmt::Debug + Send + Sync {
     /// The name of the scheme in a case file.
     fn name(&self) -> &'static str;
 
+    /// Another name of it.
+    fn alias(&self) -> Option<&'static str> {
+        None
+    }
+
     /// Whether the scheme supports cells of a kind.
     fn takes(&self, _kind: CellKind) -> bool {
         true
     }
 
-    /// Whether its functions are defined anywhere in a cell (as integration points need), not only at material points.
+    /// What the scheme cannot do on a mesh, and a remedy.
+    fn refusal(&self, _mesh: &Mesh<D>) -> Option<[String; 2]> {
+        None
+    }
+
+    /// Whether it needs the cells in their first shape. Finite elements that share nodes with the grid change the shape that it is reset to.
+    fn wants_first_shape(&self) -> bool {
+        false
+    }
+
+    /// Why its functions are defined at material points only, and not anywhere in a cell as integration points need; `None` where they are.
+    fn of_points(&self) -> Option<&'static str> {
+        None
+    }
+
+    /// Whether its functions are defined anywhere in a cell.
     fn is_of_places(&self) -> bool {
-        true
+        self.of_points().is_none()
+    }
+
+    /// What it lacks for pore water, if anything.
+    fn without_pore_water(&self) -> Option<&'static str> {
+        None
     }
 
     /// The nodes that the points of each cell act on, for the matrix to couple; `None` where these are those of the cell. They
@@ -89,12 +125,19 @@ pub trait Basis<const D: usize>: fmt::Debug + Send + Sync {
         None
     }
 
-    /// Writes the first domains of material points ([`Points::domain`]) that were located in their cells at `xi`. Schemes whose points have
-    /// no extent write nothing.
-    fn begin_domains(&self, _mesh: &Mesh<D>, _xi: &[[f64; 3]], _points: &mut Points<D>) {}
+    /// Numbers that describe the domain of a point ([`Points::domain`]); none for schemes whose points have no extent.
+    fn domain_size(&self) -> usize {
+        0
+    }
 
-    /// Renews the domains at a grid reset, given the grid before it; the points have their state and their positions since.
-    fn renew_domains(&self, _before: &Reset<D>, _points: &mut Points<D>) {}
+    /// Writes the first domains of material points. Schemes whose points have no extent write nothing.
+    fn begin_domains(&self, _first: &First<D>, _points: &mut Points<D>) {}
+
+    /// Renews the domains at a grid reset, given the grid before it; the points have their state and their positions since. Returns a note
+    /// for the log, if there is something to say.
+    fn renew_domains(&self, _before: &Reset<D>, _points: &mut Points<D>) -> Option<String> {
+        None
+    }
 
     /// Whether its displacements are stable beside fields of pressure and pore pressure with a value a corner (docs/theory.md, sections 10
     /// and 11).

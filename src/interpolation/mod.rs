@@ -5,21 +5,28 @@
 
 mod basis;
 mod bspline;
+mod cpdi;
+mod cpdi2;
 mod ddmp;
+mod domain;
 mod entries;
 mod extension;
 mod fill;
+mod gimp;
 mod group;
 mod jumps;
 mod mpm;
 mod support;
 
-pub use basis::{Basis, Domains, Located, Reset};
+pub use basis::{Basis, Domains, First, Located, Reset};
 pub use bspline::BSpline;
+pub use cpdi::Cpdi;
+pub use cpdi2::Cpdi2;
 pub use ddmp::Ddmp;
 pub use entries::{CellPoints, Coefficients, Entries, Interpolation};
 pub use extension::Extension;
 pub use fill::{PartlyFilled, integrate, partly_filled_cells};
+pub use gimp::Gimp;
 pub use group::Place;
 pub use jumps::{Jump, Jumps};
 pub use mpm::Mpm;
@@ -29,7 +36,7 @@ use crate::kinematics::Kinematics;
 use crate::mesh::Mesh;
 
 /// The schemes that a case can have.
-pub const SCHEMES: &[&dyn Basis<2>] = &[&Mpm, &Ddmp, &BSpline];
+pub const SCHEMES: &[&dyn Basis<2>] = &[&Mpm, &Ddmp, &Gimp::UNIFORM, &Gimp::STRETCHED, &Cpdi, &Cpdi2, &BSpline];
 
 impl<const D: usize> Interpolation<D> {
     /// Fills in what points in `cell` at the parametric coordinates `xi`, given per point, see by a scheme. `active`

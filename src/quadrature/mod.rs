@@ -35,8 +35,8 @@ pub struct Weights<const D: usize> {
     pub tally: Tally,
     /// Why the surface is followed no longer, where it ceased to be in this restoration.
     pub lost_front: Option<String>,
-    /// What points were put back onto supports that they had got beyond, in this restoration.
-    pub projected: Option<String>,
+    /// Notes on this restoration: points that were put back onto supports that they had got beyond, domains of points that were replaced.
+    pub notes: Vec<String>,
     /// The material points as they are to be from this restoration on, where some are split or merged.
     pub renewed: Option<Renewed<D>>,
 }

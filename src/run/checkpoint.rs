@@ -105,7 +105,7 @@ fn put_weighing<const D: usize>(store: &mut Store, weights: &Weights<D>) {
         level_set,
         tally,
         lost_front: _,
-        projected: _,
+        notes: _,
         renewed: _,
     } = weights;
     let Tally { linear, constant, taken, point_volume, volume, population: Count { split, merged, starved } } = tally;
@@ -159,7 +159,7 @@ fn take_weighing<const D: usize>(store: &mut Store) -> Result<Weights<D>> {
     let population = Count { split: *split, merged: *merged, starved: *starved };
     let (point_volume, volume) = (*point_volume, *volume);
     let tally = Tally { linear: *linear, constant: *constant, taken: *taken, point_volume, volume, population };
-    let (lost_front, projected, renewed) = (None, None, None);
+    let (lost_front, notes, renewed) = (None, Vec::new(), None);
     Ok(Weights {
         samples,
         weight,
@@ -169,7 +169,7 @@ fn take_weighing<const D: usize>(store: &mut Store) -> Result<Weights<D>> {
         level_set,
         tally,
         lost_front,
-        projected,
+        notes,
         renewed,
     })
 }

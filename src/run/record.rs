@@ -343,7 +343,7 @@ pub fn log_lines<const D: usize>(scene: &Scene<D>, state: &State<D>, report: &Re
     }
     lines.push(line);
     if report.restored {
-        lines.extend(state.weights.projected.iter().map(|note| format!("  {note}")));
+        lines.extend(state.weights.notes.iter().map(|note| format!("  {note}")));
         lines.extend(
             state.weights.lost_front.iter().map(|why| {
                 format!("  the surface is from now on the contour of the points: following it failed, {why}")

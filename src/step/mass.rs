@@ -6,7 +6,8 @@
 //! without a point or such a face nearby stay at rest.
 //!
 //! Points that are few, or crowded in a part of a cell, leave polynomials of low degree undetermined even then, or nearly so: a velocity that
-//! is small at the points may be large at nodes far from them. So the cells with points or such faces have a penalty on the curvature, and
+//! is small at the points may be large at nodes far from them. So the cells with points or such faces, and those whose nodes all have mass of points in
+//! cells beside them, have a penalty on the curvature, and
 //! those with fewer points than nodes a far weaker one on the gradient: `ρ ∫ (ε₂ h⁴ ∇∇N_I:∇∇N_J + ε₁ h² ∇N_I·∇N_J)`. Two further
 //! solutions remove its effect where the points determine the motion (iterated Tikhonov regularisation). Of a motion that is quadratic in a
 //! square cell of width `l`, evenly spread points determine `1/720 ρ l⁴` times its squared curvature. With `α = 720 ε₂ h⁴/l⁴`, `h = √2 l` being
@@ -18,7 +19,7 @@ use super::rigid;
 use super::scene::Scene;
 use super::state::State;
 use crate::error::{Error, Result};
-use crate::interpolation::Jump;
+use crate::interpolation::{Interpolation, Jump};
 use crate::kinematics::Kinematics;
 use crate::mesh::shape::{MAX_NODES, map_second, rule};
 use crate::mesh::{Mesh, cell_size};
@@ -121,6 +122,7 @@ impl<'a> Mass<'a> {
         };
         let mut cells: Vec<u32> = interpolation.filled.iter().map(|cell_points| cell_points.cell).collect();
         cells.extend(grid.ghost.iter().flat_map(|ghost| ghost.between.cells));
+        cells.extend(reached::<D, K>(mesh, interpolation, &grid.cells));
         cells.sort_unstable();
         cells.dedup();
         let few: Vec<u32> =
@@ -203,6 +205,26 @@ impl<'a> Mass<'a> {
         self.factorised = false;
         solver.solve(pattern, &held, x).map(|_| ())
     }
+}
+
+/// The cells among `active` whose nodes all have mass of points, for schemes in which points act beyond their cells: the mass of such a node
+/// may be as little as rounding.
+fn reached<const D: usize, K: Kinematics<D>>(
+    mesh: &Mesh<D>,
+    interpolation: &Interpolation<D>,
+    active: &[u32],
+) -> Vec<u32> {
+    if interpolation.support.is_none() {
+        return Vec::new();
+    }
+    let mut has_mass = vec![false; mesh.nodes.len()];
+    for cell_points in &interpolation.filled {
+        let nodes = interpolation.nodes(mesh, cell_points.cell);
+        for entries in interpolation.entries::<K>(cell_points) {
+            nodes.iter().zip(entries.value).for_each(|(&n, value)| has_mass[n as usize] |= *value != 0.0);
+        }
+    }
+    active.iter().copied().filter(|&c| mesh.cells.nodes(c as usize).iter().all(|&n| has_mass[n as usize])).collect()
 }
 
 /// `∫ (b h⁴ ∇∇N_I:∇∇N_J + a h² ∇N_I·∇N_J)` of a cell, row-major, given `a` and `b` (t/m³).

@@ -13,7 +13,7 @@ use super::relax::{self, Relaxed};
 use super::scene::{Restore, Scene};
 use super::state::State;
 use crate::error::{Error, Result};
-use crate::interpolation::{Domains, Interpolation, Located, Reset};
+use crate::interpolation::{Domains, First, Interpolation, Located, Reset};
 use crate::kinematics::Kinematics;
 use crate::mesh::Mesh;
 use crate::mesh::locate::Locator;
@@ -44,7 +44,7 @@ pub fn begin_anew<const D: usize, K: Kinematics<D>>(
     let (before, projected) = placed?;
     let (mesh, locator) = relaxed.as_ref().map_or((&scene.mesh, &scene.locator), |r| (&r.mesh, &r.locator));
     let here = before.as_ref().map_or((&scene.mesh, &scene.locator), |r| (&r.mesh, &r.locator));
-    renew_domains(scene, here, state);
+    let domains = renew_domains::<D, K>(scene, here, state);
     let changed = choose_cells(scene, state);
     let outlines = facing::outlines(scene, state);
     interpolations.integration =
@@ -63,7 +63,7 @@ pub fn begin_anew<const D: usize, K: Kinematics<D>>(
         displacement: (state.restorations > 0).then_some(&state.displacement),
     };
     state.weights = scene.quadrature.weigh(&grid, &mut state.front);
-    state.weights.projected = projected;
+    state.weights.notes = projected.into_iter().chain(domains).collect();
     renew::<D, K>(&mut interpolations.integration, scene, (mesh, locator), state);
     predictor::carry(here, mesh, state);
     state.ramp.carry(scene, (here.0, &state.displacement), (mesh, locator), &state.points.cell);
@@ -149,14 +149,20 @@ fn renew<const D: usize, K: Kinematics<D>>(
     fill::<D, K>(interpolation, scene, grid, state);
 }
 
-/// Gives the material points, which have been located, the domains that the scheme of the scene wants, given the grid before.
-fn renew_domains<const D: usize>(scene: &Scene<D>, (mesh, locator): (&Mesh<D>, &Locator<D>), state: &mut State<D>) {
+/// Gives the material points, which have been located, the domains that the scheme of the scene wants, given the grid before. Returns a note
+/// on them.
+fn renew_domains<const D: usize, K: Kinematics<D>>(
+    scene: &Scene<D>,
+    (mesh, locator): (&Mesh<D>, &Locator<D>),
+    state: &mut State<D>,
+) -> Option<String> {
     if state.restorations == 0 {
-        scene.basis.begin_domains(mesh, &state.parametric, &mut state.points);
-    } else {
-        let before = Reset { mesh, locator, displacement: &state.displacement };
-        scene.basis.renew_domains(&before, &mut state.points);
+        let first = First { mesh, xi: &state.parametric, measure: K::measure };
+        scene.basis.begin_domains(&first, &mut state.points);
+        return None;
     }
+    let before = Reset { mesh, locator, active: &state.active, displacement: &state.displacement };
+    scene.basis.renew_domains(&before, &mut state.points)
 }
 
 /// Fills the interpolation for the material points where they were last located.

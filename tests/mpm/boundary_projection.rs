@@ -38,7 +38,7 @@ fn taken<K: Kinematics<2> + 'static>(
     let limits = Limits { least: phase.least_step, largest: phase.largest_step };
     let mut controller = Controller::new(limits, phase.stops.clone(), phase.first_step);
     simulation.advance(&mut controller).unwrap();
-    assert!(simulation.state.weights.projected.is_none());
+    assert!(simulation.state.weights.notes.is_empty());
     let place = &mut simulation.state.points.position;
     let mut numbers = Vec::new();
     for (from, to) in moves {
@@ -67,7 +67,7 @@ fn points_a_little_beyond_a_support_are_put_onto_it() {
             let x = end.points.position[*p];
             assert!((x[0] - expected[0]).hypot(x[1] - expected[1]) < 1e-9, "{x:?} for {expected:?}");
         }
-        let note = end.weights.projected.unwrap();
+        let note = end.weights.notes.concat();
         assert!(note.contains("3 points were put back") && note.contains("3.5e-2 m"), "{note}");
         // Nothing else moved, and nothing gained stress or motion.
         let largest = |columns: &[[f64; 2]]| columns.iter().flatten().fold(0f64, |a, v| a.max(v.abs()));

@@ -8,11 +8,12 @@ use serde::Deserialize;
 #[serde(deny_unknown_fields, default)]
 pub struct Numerics {
     /// What material points see of the grid: mpm (the shape functions of their cell), ddmp (with gradients that are continuous from
-    /// cell to cell), or bspline (quadratic B-splines, on rectangular grids of Q9 cells).
+    /// cell to cell), bspline (quadratic B-splines, on rectangular grids of Q9 cells), or their means over domains of the points: ugimp,
+    /// cpgimp (gimp), cpdi, cpdi2 (docs/schemes.md).
     pub gradient: String,
     /// What integrals are summed over: resampled (integration points of the cells, which take their state from the material points
     /// when the grid is restored), or points (the material points, by their volumes). Default: resampled; points with
-    /// `gradient: ddmp`.
+    /// all gradients but mpm.
     pub quadrature: Option<Quadrature>,
     /// Who carries the mean stress of nearly incompressible and undrained materials: a field of pressure unknowns, or
     /// none. Without it a field where Poisson's ratio is 0.45 or more (not in mohr_coulomb and cam_clay) or a material

@@ -28,8 +28,12 @@ impl<const D: usize> Basis<D> for Ddmp {
         smoothed_nodes(kind) > 0
     }
 
-    fn is_of_places(&self) -> bool {
-        false
+    fn of_points(&self) -> Option<&'static str> {
+        Some("smooths gradients at the material points")
+    }
+
+    fn without_pore_water(&self) -> Option<&'static str> {
+        Some("does not smooth the gradient of pore pressures yet")
     }
 
     fn fill(&self, points: &Located<D>, interpolation: &mut Interpolation<D>) {

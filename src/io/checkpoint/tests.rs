@@ -53,6 +53,7 @@ pub(in crate::io) fn same_bits<const D: usize>(a: &Points<D>, b: &Points<D>) -> 
             p.internal.clone(),
             p.pressure.clone(),
             p.pore_pressure.clone(),
+            p.domain.clone(),
         ];
         (f.map(|v| v.into_iter().map(f64::to_bits).collect::<Vec<_>>()), p.region.clone(), p.cell.clone())
     };

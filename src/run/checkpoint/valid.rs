@@ -85,6 +85,8 @@ fn check_fields<const D: usize>(scene: &Scene<D>, state: &State<D>) -> Result<()
     exact(&state.ramp.force, held, "ramp")?;
     let until = state.ramp.until;
     ensure(if held { state.phase_time < until } else { until == 0.0 }, "the time of its ramp")?;
+    let numbers = scene.basis.domain_size() * state.points.len();
+    ensure(state.points.domain.len() == numbers && state.fem.domain.is_empty(), "the domains of its points")?;
     let of_water = if scene.water.is_some() { nodes } else { 0 };
     let [places, _] = scene.places();
     let of_points = state.points.fields.len();

@@ -115,7 +115,7 @@ pub const MEANING: &[Broken] = &[
         &["case.yaml:17", "`sometimes`", "choose from `every_step`, `never`"],
     ),
     check(Case("restore: every_step", "restore: {min_quality: 1.3}"), &["case.yaml:17", "at most 1"]),
-    check(Case("restore: every_step", "gradient: gimp"), &["case.yaml:17", "no gradient `gimp`", "mpm or ddmp"]),
+    check(Case("restore: every_step", "gradient: fem"), &["case.yaml:17", "no gradient `fem`", "mpm or ddmp"]),
     check(Case("tolerance: 1.0e-8", "tolerance: 0.5"), &["case.yaml:17", "numerics.tolerance", "at most 0.01"]),
     check(
         Case("density: 1.8", "density: 0"),

@@ -128,6 +128,20 @@ const CHANGE: Case = Case {
     ],
 };
 
+/// Soil whose points have domains, their corners moving with a grid that is restored now and then; contact, dynamic.
+const DOMAINS: Case = Case {
+    file: "tests/data/quads",
+    overrides: &[
+        "numerics.gradient=cpdi2",
+        "numerics.restore={min_quality: 0.5, max_stretch: 1.05}",
+        "phases[0].analysis=dynamic",
+        "phases[0].step={initial: 0.02}",
+        "materials.soil.density=1",
+        "materials.plate.density=1",
+        "gravity={y: -10}",
+    ],
+};
+
 /// A pool that falls faster than the water in the pores, and a search for failure.
 const LEVELS: Case = Case {
     file: "cases/drawdown",
@@ -400,6 +414,11 @@ fn a_run_with_two_water_levels_killed_ten_times_ends_the_same() {
 }
 
 #[test]
+fn points_with_domains_killed_ten_times_end_the_same() {
+    survives_kills(&DOMAINS, 47);
+}
+
+#[test]
 fn a_surface_that_drains_beside_a_strip_killed_ten_times_ends_the_same() {
     survives_kills(&STRIP, 12);
 }
@@ -432,7 +451,7 @@ fn soil_whose_points_are_split_killed_ten_times_ends_the_same() {
 fn the_number_of_threads_changes_no_bit() {
     for case in [
         SLOPE, RELEASE, SAND, PILE, BLOCK, WALL, BODIES, SAFETY, FALL, SOFT, POOL, WATER, CHANGE, LEVELS, GRAINS, FLOW,
-        LAID, STRIP, STAGES,
+        LAID, STRIP, STAGES, DOMAINS,
     ] {
         let one = seeded(&case);
         let three = copy(one.path());

@@ -1,0 +1,66 @@
+//! What a scheme of the material point method can be used on.
+
+use super::check::Checker;
+use super::checked::{Case, Content, Order};
+use super::locate::{At, Path};
+use crate::error::{Error, Result};
+use crate::interpolation::Basis;
+use crate::mesh::Mesh;
+use crate::mesh::shape::CellKind;
+use std::collections::HashSet;
+
+impl Checker {
+    /// Refuses cells of an order that the scheme does not support, and points of which no part of a cell can be the domain.
+    pub(super) fn scheme(&mut self, case: &Case) {
+        let basis = case.numerics.basis;
+        let (kinds, name, other) = match case.mesh.order {
+            Order::First => ([CellKind::T3, CellKind::Q4], "first", 2),
+            Order::Second => ([CellKind::T6, CellKind::Q9], "second", 1),
+            Order::SecondIncomplete => ([CellKind::T6, CellKind::Q8], "second", 1),
+        };
+        if !kinds.iter().any(|&kind| basis.takes(kind)) {
+            let problem = format!("{} does not support cells of {name} order", basis.name());
+            let remedy = format!("set `order: {other}` under `mesh`, or choose `gradient: mpm`");
+            self.issue(&Path::default().key("numerics").key("gradient"), At::Value, problem, remedy);
+        }
+        for region in case.regions.iter().filter(|_| basis.domain_size() > 0) {
+            let Content::Mpm { points_per_cell, .. } = region.content else { continue };
+            if points_per_cell.isqrt().pow(2) != points_per_cell {
+                let path = Path::default().key("regions").key(&region.name).key("points_per_cell");
+                let problem = format!(
+                    "{} needs points that fill their cells, and {points_per_cell} are those of a quadrature rule",
+                    basis.name()
+                );
+                self.issue(&path, At::Value, problem, "use 4, 9, 16 or 25, or choose `gradient: mpm`");
+            }
+        }
+    }
+}
+
+/// Refuses a mesh of the grid, and one of finite elements, that a scheme does not support.
+///
+/// # Errors
+/// `Input`: what it does not support.
+pub(super) fn check(basis: &dyn Basis<2>, mesh: &Mesh<2>, fem: Option<&Mesh<2>>) -> Result<()> {
+    let refuse = |problem: String, remedy: &str| {
+        Err(Error::input("numerics.gradient", format!("{} {problem}", basis.name()), remedy))
+    };
+    if let Some(kind) = mesh.cells.kind.iter().find(|&&kind| !basis.takes(kind)) {
+        let kinds: Vec<String> = [CellKind::T3, CellKind::T6, CellKind::Q4, CellKind::Q8, CellKind::Q9]
+            .iter()
+            .filter(|&&kind| basis.takes(kind))
+            .map(|kind| format!("{kind:?}"))
+            .collect();
+        let remedy = format!("mesh with {}, or choose `gradient: mpm`", kinds.join(" or "));
+        return refuse(format!("does not support {kind:?} cells"), &remedy);
+    }
+    if let Some([problem, remedy]) = basis.refusal(mesh) {
+        return refuse(problem, &remedy);
+    }
+    let of_grid: HashSet<u32> = mesh.cells.nodes.iter().copied().collect();
+    if basis.wants_first_shape() && fem.is_some_and(|fem| fem.cells.nodes.iter().any(|n| of_grid.contains(n))) {
+        let problem = "needs a grid that keeps its shape, and finite elements that share nodes with it change that";
+        return refuse(problem.into(), "make the region `kind: mpm` or `kind: structure`, or choose `gradient: cpdi`");
+    }
+    Ok(())
+}
