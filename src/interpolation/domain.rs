@@ -11,7 +11,7 @@
 //! and the centre are places too, with Simpson's rule in the domain and on its edges: both are exact for functions of second
 //! order, such as those of a straight cell that holds the domain.
 //!
-//! A domain that reaches farther than its point can act is scaled about the point, see [`Reach`].
+//! A domain that reaches farther than its point can act is scaled about the point, see [`Averages`].
 
 use super::{First, Interpolation, Located, MAX_FUNCTIONS, Place, Support};
 use crate::mesh::Mesh;
@@ -168,12 +168,12 @@ pub(super) fn samples(x: &Corners, order: usize) -> ([Sample; 9], usize) {
 }
 
 /// Where the domain of a point may reach: the cells whose nodes the point acts on, which are those around its own cell.
-pub(super) struct Reach<'a> {
+pub(super) struct Averages<'a> {
     pub mesh: &'a Mesh<2>,
     pub locator: &'a Locator<2>,
 }
 
-impl Reach<'_> {
+impl Averages<'_> {
     /// Writes the values and gradients of a point with a domain. A domain that reaches beyond the grid, its active cells or the cells around that of
     /// its point is scaled about the point until it does not: a linear field stays exact, and the functions change continuously.
     pub fn fill(&self, place: &Place<2>, corners: &Corners, value: &mut [f64], gradient: &mut [[f64; 2]]) {
@@ -242,8 +242,8 @@ pub(super) fn fill(
     let support = Support::with_neighbours(points.mesh, points.active);
     interpolation.fill_support(points, support, |place, value, gradient| match &points.domains {
         Some(domains) => {
-            let reach = Reach { mesh: points.mesh, locator: domains.locator };
-            reach.fill(place, &corners(place, domains.get(place.point)), value, gradient);
+            let averages = Averages { mesh: points.mesh, locator: domains.locator };
+            averages.fill(place, &corners(place, domains.get(place.point)), value, gradient);
         }
         None => at_the_place(place, value, gradient),
     });

@@ -79,5 +79,5 @@ fn what_they_do_not_support_is_refused_with_another_choice() {
     let beside = "regions={soil: {kind: fem, material: soil}, air: {kind: mpm, material: soil, points_per_cell: 4}, \
                   plate: {kind: fem, material: plate}}";
     let words = ["cpgimp needs a grid that keeps its shape", "`gradient: cpdi`"];
-    refused(false, QUADS, &["contacts=[]", beside], &words);
+    refused(false, QUADS, &["contacts=[]", "output={every: 1}", beside], &words);
 }

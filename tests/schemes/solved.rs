@@ -179,7 +179,7 @@ fn pore_water_leaves_a_column() {
     {
         let [most, last, error] = consolidated(scheme);
         println!("{}: pore pressure up to {most:.3}, at the end {last:.1e}, stress to {error:.1e}", scheme.name());
-        assert!(most > 0.1 && last < 0.02, "{}: {most} {last}", scheme.name());
+        assert!(most > 0.05 && last < 1e-3, "{}: {most} {last}", scheme.name());
         assert!(error > least && error < most_error, "{}: {error:e}", scheme.name());
     }
 }
@@ -312,10 +312,10 @@ mod slow {
     #[test]
     fn the_column_on_other_cells() {
         for (kind, points, most) in [
-            (CellKind::Q4, 4, [2e-2, 5e-3, 2e-3]),
-            (CellKind::T3, 16, [2e-2, 5e-3, 3e-3]),
-            (CellKind::T6, 16, [5e-3, 3e-3, 2e-3]),
-            (CellKind::Q9, 16, [1e-2, 5e-3, 3e-3]),
+            (CellKind::Q4, 4, [1.2e-2, 3.5e-3, 1.2e-3]),
+            (CellKind::T3, 16, [1.5e-2, 5e-3, 2.2e-3]),
+            (CellKind::T6, 16, [3e-3, 1e-3, 5e-4]),
+            (CellKind::Q9, 16, [1e-2, 1e-3, 5e-4]),
         ] {
             for scheme in [CPDI, CPDI2] {
                 let errors = [8, 16, 32].map(|cells| column(scheme, kind, cells, points));
