@@ -83,7 +83,7 @@ def bench(problem, schemes, arguments):
             rows = [
                 (lambda s=scheme, v=variant: one(problem, s, v, 1 if arguments.quick else 3))
                 for scheme in schemes
-                if (scheme.name in series.schemes if series.schemes else not scheme.grid or series is problem.series[0])
+                if (scheme.name in series.schemes if series.schemes else not scheme.first or series is problem.series[0])
                 for variant in variants
             ]
             writer.writerows(row for row in others if row["series"] == series.name)

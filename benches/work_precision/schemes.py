@@ -17,14 +17,15 @@ class Scheme:
     about: str
     points: int = 16  # a cell, where the series does not say
     grid: tuple = ()  # of pairs (entry of the case, value): the cells that the scheme is for
+    first: bool = False  # whether it runs in the first series of a problem only
 
     @property
     def settings(self):
         return {f"numerics.{key}": value for key, value in self.numerics} | dict(self.grid)
 
 
-def scheme(name, about, points=16, grid=(), **numerics):
-    return Scheme(name, tuple(numerics.items()), about, points, tuple(grid))
+def scheme(name, about, points=16, grid=(), first=False, **numerics):
+    return Scheme(name, tuple(numerics.items()), about, points, tuple(grid), first or bool(grid))
 
 
 QUALITY = {"min_quality": 0.5}
@@ -46,7 +47,7 @@ SCHEMES = [
     scheme("ugimp", "GIMP, domains that keep their size, Q4", grid=Q4, gradient="ugimp", restore="every_step"),
     scheme("cpgimp", "GIMP, domains that stretch, Q4", grid=Q4, gradient="cpgimp", restore="every_step"),
     scheme("cpdi", "CPDI, Q4", grid=Q4, gradient="cpdi", restore="every_step"),
-    scheme("cpdi, T6", "CPDI on six-node triangles", gradient="cpdi", restore="every_step"),
+    scheme("cpdi, T6", "CPDI on six-node triangles", first=True, gradient="cpdi", restore="every_step"),
     scheme("cpdi2", "CPDI2, Q4", grid=Q4, gradient="cpdi2", restore="every_step"),
     scheme("bspline, points", "quadratic B-splines, V_p weights", grid=Q9, quadrature="points", gradient="bspline", restore="every_step"),
     scheme("bspline", "quadratic B-splines, resampled quadrature", grid=Q9, gradient="bspline", restore="every_step"),
