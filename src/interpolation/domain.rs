@@ -11,7 +11,7 @@
 //! and the centre are places too, with Simpson's rule in the domain and on its edges: both are exact for functions of second
 //! order, such as those of a straight cell that holds the domain.
 //!
-//! A domain that reaches farther than its point can act is scaled about the point, see [`Averages`].
+//! A domain that reaches farther than its point can act is scaled about the point, see [`Averages::fill`].
 
 use super::{First, Interpolation, Located, MAX_FUNCTIONS, Place, Support};
 use crate::mesh::Mesh;
@@ -167,7 +167,7 @@ pub(super) fn samples(x: &Corners, order: usize) -> ([Sample; 9], usize) {
     (samples, 9)
 }
 
-/// Where the domain of a point may reach: the cells whose nodes the point acts on, which are those around its own cell.
+/// Means over the domains of points on a grid.
 pub(super) struct Averages<'a> {
     pub mesh: &'a Mesh<2>,
     pub locator: &'a Locator<2>,

@@ -76,8 +76,9 @@ fn what_they_do_not_support_is_refused_with_another_choice() {
     let (plate, gimp) = ("tests/data/plate", "numerics.gradient=gimp");
     refused(true, plate, &[gimp], &["cpgimp does not support cells of second order", "`order: 1`"]);
     refused(false, plate, &[gimp, "mesh.order=1"], &["cpgimp does not support T3 cells; mesh with Q4"]);
-    let beside = "regions={soil: {kind: fem, material: soil}, air: {kind: mpm, material: soil, points_per_cell: 4}, \
-                  plate: {kind: fem, material: plate}}";
+    let beside =
+        "regions={soil: {kind: fem, material: soil}, air: {kind: buffer}, plate: {kind: structure, material: plate}}";
+    let contact = "contacts=[{structure: plate, against: soil}]";
     let words = ["cpgimp needs a grid that keeps its shape", "`gradient: cpdi`"];
-    refused(false, QUADS, &["contacts=[]", "output={every: 1}", beside], &words);
+    refused(false, QUADS, &[contact, beside], &words);
 }
