@@ -11,7 +11,7 @@ include pipeline/mpm.mk
 
 SECONDS := 600
 
-.PHONY: help setup build demo pile pile-variants pipeline pipeline-study test test-quick fuzz sanitize campaign check fmt clean bench bench-block bench-unused sbom stress verification
+.PHONY: help setup build demo pile pile-variants pile-schemes pipeline pipeline-study test test-quick fuzz sanitize campaign check fmt clean bench bench-block bench-unused sbom stress verification
 
 help: ## List the targets
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / {printf "  %-14s %s\n", $$1, $$2}' $(firstword $(MAKEFILE_LIST))
@@ -39,6 +39,11 @@ pile-variants: build ## The pile smooth, rough, as it is, and by mpm and ddmp: p
 	$(PYTHON) paraview/pile.py $(addprefix cases/pile/,out-smooth out out-rough) -o cases/pile/out/adhesion.png
 	$(PYTHON) paraview/pile.py $(addprefix cases/pile/,out-mpm out-ddmp out) -o cases/pile/out/schemes.png
 	$(PYTHON) cases/pile/study.py
+
+pile-schemes: build ## The pile over a regular grid by mpm, ddmp, cpgimp and bspline: the noise of the stress below the base, side by side
+	$(PYTHON) cases/pile/schemes.py $(if $(THREADS),--threads $(THREADS))
+	$(PYTHON) paraview/pile.py $(addprefix cases/pile/out-regular,-mpm -ddmp -cpgimp -bspline) cases/pile/out-regular -o cases/pile/out-regular/schemes.png
+	$(PYTHON) cases/pile/study.py $(addprefix cases/pile/out-regular,-mpm -ddmp -cpgimp -bspline) cases/pile/out-regular -o cases/pile/out-regular/curves.svg
 
 # A case like the others, that goes on with its variants and their pictures.
 pipeline: build ## The pipe pressed into the seabed and pulled across it, α = 0.5, 0 and 1: pictures, curves, a table

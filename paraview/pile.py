@@ -2,13 +2,14 @@
 
     python paraview/pile.py [OUT ...] [-o PICTURE] [--depths D ...] [--wide W] [--deep D]
 
-Each OUT is the output folder of one run, a column of the picture with the folder's name; D are the depths of the pile in m,
+Each OUT is the output folder of one run, a column of the picture with what is its own of the folder's name; D are the depths of the pile in m,
 a row each (0.6, 1.2 and 1.6 without), W and D bound the part of the soil that is drawn. Finite elements of soil
 lie behind the points in the same colours; the outline is that of the structure.
 In ParaView itself: `paraview OUT/points.pvd OUT/structures.pvd`, colour both by `stress [kPa]`, component YY.
 """
 
 import argparse
+import os
 from pathlib import Path
 
 from common import INK, ROOT, Series, face, field, history, outline, quantity, save, stop
@@ -33,10 +34,8 @@ def arguments():
 class Run:
     """The series of one output folder, and how deep the pile is in each frame."""
 
-    def __init__(self, out):
-        self.name = out.resolve().name
-        if self.name == "out":
-            self.name = out.resolve().parent.name
+    def __init__(self, out, name):
+        self.name = name
         self.points, self.structures = Series(out / "points.pvd"), Series(out / "structures.pvd")
         table = history(out / "history.csv")
         way = -quantity(table, "uy")[1]
@@ -123,9 +122,18 @@ def draw(given, runs):
     save(plotter, given.picture)
 
 
+def names(outs):
+    """What the folders are called apart from what all of them begin with; one alone has the name of its case."""
+    folders = [out.resolve() for out in outs]
+    if len(folders) == 1:
+        return [folders[0].parent.name if folders[0].name == "out" else folders[0].name]
+    shared = len(os.path.commonprefix([folder.name for folder in folders]))
+    return [folder.name[shared:].lstrip("-") or folder.name for folder in folders]
+
+
 def main():
     given = arguments()
-    draw(given, [Run(out) for out in given.out])
+    draw(given, [Run(*run) for run in zip(given.out, names(given.out))])
 
 
 if __name__ == "__main__":

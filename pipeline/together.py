@@ -28,16 +28,16 @@ def folder(out, name):
 class Together:
     """A case, its variants {name: {path: value}} and what the command line says of them."""
 
-    def __init__(self, case, variants):
+    def __init__(self, case, variants, base, out):
         parser = argparse.ArgumentParser(description=f"runs variants of {case.name} on one mesh with the same points")
         parser.add_argument("names", nargs="*", choices=[[], *variants], default=[], help="variants beside the case as it is")
-        parser.add_argument("-o", "--out", type=Path, default=case / "out", help="default: OUT beside the case")
+        parser.add_argument("-o", "--out", type=Path, default=case / out, help=f"default: {out} beside the case")
         parser.add_argument("--threads", type=int)
         parser.add_argument("--set", action="append", default=[], metavar="PATH=VALUE", help="for all of them")
         given = parser.parse_args()
         self.case, self.variants, self.threads = case, variants, given.threads
         self.out, self.names = given.out.resolve(), given.names or list(variants)
-        self.settings = [entry.split("=", 1) for entry in given.set]
+        self.settings = list(base.items()) + [entry.split("=", 1) for entry in given.set]
 
     def mpm(self, stage, out, settings, *options):
         command = [PROGRAM, stage, str(self.case), "-o", str(out), *options]
@@ -52,7 +52,8 @@ class Together:
         """True where the run came to its end."""
         target = folder(self.out, name)
         settings = self.settings + list(self.variants.get(name, {}).items())
-        if name:
+        own_mesh = any(path.startswith("mesh.") for path in self.variants.get(name, {}))
+        if name and not own_mesh:
             (target / "provenance").mkdir(parents=True, exist_ok=True)
             for file in SHARED:
                 shutil.copy2(self.out / file, target / file)
@@ -76,9 +77,9 @@ class Together:
         return False
 
 
-def run(case, variants):
-    """Runs the case in the folder `case` and its variants, as the command line says."""
-    together = Together(case, variants)
+def run(case, variants, base=None, out="out"):
+    """Runs the case in the folder `case` with the entries of `base` and its variants, as the command line says."""
+    together = Together(case, variants, base or {}, out)
     failed = [folder(together.out, name).name for name in ["", *together.names] if not together.one(name)]
     if failed:
         print(f"not to the end: {', '.join(failed)} (their messages are above; what they came to is exported)")
