@@ -135,7 +135,14 @@ impl Keys {
     /// # Errors
     /// As [`load`].
     pub fn load(&self, file: &Path, overrides: &[String]) -> Result<Loaded, Vec<Error>> {
-        let source = Source::read(file, overrides)?;
+        self.resolved(Source::read(file, overrides)?)
+    }
+
+    /// As [`Keys::load`], of a case whose text has been read.
+    ///
+    /// # Errors
+    /// As [`load`].
+    pub fn resolved(&self, source: Source) -> Result<Loaded, Vec<Error>> {
         match self.resolve(&source) {
             (Some(case), issues) if issues.is_empty() => Ok(Loaded { source, case }),
             (_, issues) => Err(errors(&source, &issues)),

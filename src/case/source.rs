@@ -1,7 +1,7 @@
 //! The text of a case file as a tree, with the overrides of the command line, and the messages that point into it.
 
 use super::issue::Issue;
-use super::locate::{At, Path};
+use super::locate::{At, Path, Step};
 use super::yaml::{self, Node};
 use crate::error::{Error, plain, shown};
 use serde_json::{Map, Value};
@@ -21,7 +21,8 @@ pub struct Source {
     tree: Value,
     /// What the tree leaves out.
     faults: Vec<Issue>,
-    /// What the overrides change beyond the entries that they name.
+    /// Entries that the overrides change beyond those that they name, and lines on them for the user.
+    lowered: Vec<Path>,
     notes: Vec<String>,
 }
 
@@ -76,7 +77,8 @@ impl Source {
             let remedy = "write a case: `mpm schema` describes it, the folder cases/ has examples";
             return Err(Error::input(file.display(), "the file is empty", remedy));
         }
-        let mut source = Self { file, text, root, overrides: Vec::new(), tree, faults, notes: Vec::new() };
+        let mut source =
+            Self { file, text, root, overrides: Vec::new(), tree, faults, lowered: Vec::new(), notes: Vec::new() };
         for argument in overrides {
             source.set(argument)?;
         }
@@ -104,6 +106,7 @@ impl Source {
                     "note: {first} is lowered from {initial} s to {max} s, the `max` given on the command line"
                 ));
                 entries.insert("initial".to_owned(), entries["max"].clone());
+                self.lowered.push(first);
             }
         }
     }
@@ -159,6 +162,29 @@ impl Source {
         *entry = value;
         self.overrides.push(Override { argument: argument.to_owned(), path });
         Ok(())
+    }
+
+    /// The text of the case with the overrides in it, and its comments.
+    ///
+    /// # Errors
+    /// Input: an entry that cannot be changed in the text.
+    pub fn rewritten(&self) -> Result<String, Error> {
+        let remedy = "set entries below it, or change it in the file";
+        let mut text = self.text.clone();
+        let given = self.overrides.iter().map(|given| (&given.path, format!("--set {}", shown(&given.argument))));
+        for (path, place) in given.chain(self.lowered.iter().map(|path| (path, path.to_string()))) {
+            let value = value_at(&self.tree, path);
+            let changed = value.ok_or_else(|| "another --set takes it away".to_owned());
+            text = changed
+                .and_then(|value| yaml::edit::set(&text, path, value))
+                .map_err(|problem| Error::input(place, problem, remedy))?;
+        }
+        let read = yaml::parse(&text).map(|root| root.to_json(&mut Vec::new()));
+        if read.as_ref() != Ok(&self.tree) {
+            let problem = "the entries cannot be changed in its text";
+            return Err(Error::input(self.file.display(), problem, "leave --set out, and change them in the file"));
+        }
+        Ok(text)
     }
 
     /// The case file.
@@ -249,6 +275,14 @@ fn excerpt(text: &str, line: usize, column: usize) -> String {
     let margin = " ".repeat(line.to_string().len());
     let blank = " ".repeat(start.chars().count() + before.chars().count());
     format!("\n {line} | {start}{before}{behind}{end}\n {margin} | {blank}^")
+}
+
+/// The entry of a tree at `path`.
+fn value_at<'a>(tree: &'a Value, path: &Path) -> Option<&'a Value> {
+    path.0.iter().try_fold(tree, |value, step| match step {
+        Step::Key(key) => value.get(key),
+        Step::Index(index) => value.get(index),
+    })
 }
 
 /// The item a name means: its number, or the value of its `name`.

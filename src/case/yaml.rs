@@ -5,6 +5,8 @@
 //! means (nothing, a truth value, a number or text) is what `serde_yaml` reads it as. An alias shares the tree of its
 //! anchor. Left out: several documents in a file, and merge keys (`<<` is a key).
 
+pub mod edit;
+
 use super::issue::{Issue, MOST_FOUND};
 use super::locate::{At, Path, Step};
 use saphyr_parser::{Event, Marker, Parser, ScalarStyle};
@@ -35,6 +37,8 @@ pub type Place = (usize, usize);
 #[derive(Debug)]
 pub struct Node {
     place: Place,
+    /// Behind the last character of a scalar, or behind the bracket that closes a block or list; without brackets it says nothing.
+    end: Place,
     content: Content,
     /// Entries and items from here downwards, those behind aliases counted each time.
     entries: usize,
@@ -84,9 +88,9 @@ pub fn parse(text: &str) -> Result<Arc<Node>, Fault> {
             place if e.info().contains("tab") => fault(next_tab(text, place).unwrap_or(place), e.info(), MEND),
             place => fault(place, e.info(), MEND),
         })?;
-        reader.take(event, place(&span.start))?;
+        reader.take(event, place(&span.start), place(&span.end))?;
     }
-    Ok(reader.root.unwrap_or_else(|| Node::scalar((1, 1), Value::Null)))
+    Ok(reader.root.unwrap_or_else(|| Node::scalar([(1, 1); 2], Value::Null)))
 }
 
 fn place(mark: &Marker) -> Place {
@@ -113,13 +117,13 @@ fn check_characters(text: &str) -> Result<(), Fault> {
 }
 
 impl Node {
-    fn scalar(place: Place, value: Value) -> Arc<Self> {
+    fn scalar([place, end]: [Place; 2], value: Value) -> Arc<Self> {
         let entries = 1 + value.as_str().map_or(0, str::len) / TEXT;
-        Arc::new(Self { place, content: Content::Scalar(value), entries, levels: 0 })
+        Arc::new(Self { place, end, content: Content::Scalar(value), entries, levels: 0 })
     }
 
-    fn strange(place: Place, problem: String, remedy: &'static str) -> Arc<Self> {
-        Arc::new(Self { place, content: Content::Strange(problem, remedy), entries: 1, levels: 0 })
+    fn strange([place, end]: [Place; 2], problem: String, remedy: &'static str) -> Arc<Self> {
+        Arc::new(Self { place, end, content: Content::Strange(problem, remedy), entries: 1, levels: 0 })
     }
 
     /// Whether it is a text, a block or nothing: what lists have few of.
@@ -211,7 +215,8 @@ struct Reader {
 }
 
 impl Reader {
-    fn take(&mut self, event: Event, place: Place) -> Result<(), Fault> {
+    /// Takes an event that stands from `place` to `end`.
+    fn take(&mut self, event: Event, place: Place, end: Place) -> Result<(), Fault> {
         match event {
             Event::DocumentStart(_) => {
                 self.documents += 1;
@@ -228,8 +233,8 @@ impl Reader {
             }
             Event::Scalar(text, style, anchor, tag) => {
                 let node = match tag {
-                    Some(tag) => tagged(place, &tag.to_string()),
-                    None => scalar(place, text, style),
+                    Some(tag) => tagged([place, end], &tag.to_string()),
+                    None => scalar([place, end], text, style),
                 };
                 self.end(node, place, anchor)?;
             }
@@ -241,10 +246,12 @@ impl Reader {
                 self.begin(place, anchor, tag.map(|tag| tag.to_string()), content)?;
             }
             Event::SequenceEnd | Event::MappingEnd => {
+                // The bracket itself: the parser ends it behind the blanks and the comment that follow.
+                let end = (place.0, place.1 + 1);
                 if let Some(Open { place, anchor, tag, content, entries, levels, .. }) = self.open.pop() {
                     let node = match tag {
-                        Some(tag) => tagged(place, &tag),
-                        None => Arc::new(Node { place, content, entries, levels: levels + 1 }),
+                        Some(tag) => tagged([place, end], &tag),
+                        None => Arc::new(Node { place, end, content, entries, levels: levels + 1 }),
                     };
                     self.end(node, place, anchor)?;
                 }
@@ -336,11 +343,11 @@ fn too_many(place: Place, of: &str, what: &str) -> Fault {
     fault(place, &format!("the {of} has more than {MOST_NAMED} {what}"), "write fewer: no case needs as many")
 }
 
-fn tagged(place: Place, tag: &str) -> Arc<Node> {
+fn tagged(place: [Place; 2], tag: &str) -> Arc<Node> {
     Node::strange(place, format!("a YAML tag {tag}"), "write the entry without a tag")
 }
 
-fn scalar(place: Place, text: Cow<str>, style: ScalarStyle) -> Arc<Node> {
+fn scalar(place: [Place; 2], text: Cow<str>, style: ScalarStyle) -> Arc<Node> {
     if style != ScalarStyle::Plain {
         return match text.chars().find(|&c| c.is_control() && !matches!(c, '\n' | '\t')) {
             Some(c) => {

@@ -5,6 +5,7 @@ mod check;
 mod export;
 mod info;
 mod mesh;
+mod new;
 mod print;
 mod run;
 mod schema;
@@ -35,6 +36,8 @@ struct Cli {
 
 #[derive(Subcommand)]
 enum Command {
+    /// Write a folder with a case that runs, from a template: footing, penetration, anchor, slope, pipe, consolidation
+    New(new::Args),
     /// Mesh the .geo of a case: writes mesh.msh
     Mesh(mesh::Args),
     /// Fill the regions of the mesh with material points: writes points.vtu
@@ -64,6 +67,7 @@ pub fn main() -> ExitCode {
 /// As [`main`], for cases that may have the `keys`: what the `main` of a program with keys of its own calls.
 pub fn with(keys: &Keys) -> ExitCode {
     let outcome = match Cli::parse().command {
+        Command::New(args) => new::run(&args, keys),
         Command::Mesh(args) => mesh::run(&args, keys),
         Command::Seed(args) => seed::run(&args, keys),
         Command::Solve(args) => solve::run(&args, keys),

@@ -2,6 +2,7 @@
 
 mod broken_input;
 mod make;
+mod new;
 mod output_folder;
 mod running;
 mod signals;
@@ -11,5 +12,6 @@ mod support;
 
 /// What takes more than some seconds; `make test-quick` leaves it out.
 mod slow {
+    mod new;
     mod resume;
 }

@@ -1,0 +1,43 @@
+//! The templates: the files of the folder `templates` of the repository, within the program.
+
+/// A template of a case.
+pub struct Template {
+    /// Its name, and that of its `.geo`.
+    pub name: &'static str,
+    /// What it models, on a line.
+    pub summary: &'static str,
+    pub geo: &'static str,
+    pub case: &'static str,
+    pub readme: &'static str,
+}
+
+macro_rules! file {
+    ($path:expr) => {
+        include_str!(concat!(env!("CARGO_MANIFEST_DIR"), "/templates/", $path))
+    };
+}
+
+macro_rules! template {
+    ($name:literal, $summary:literal) => {
+        Template {
+            name: $name,
+            summary: $summary,
+            geo: file!(concat!($name, "/", $name, ".geo")),
+            case: file!(concat!($name, "/case.yaml")),
+            readme: file!(concat!($name, "/README.md")),
+        }
+    };
+}
+
+/// All of them, as they are listed.
+pub const TEMPLATES: [Template; 6] = [
+    template!("footing", "a strip or circular footing on clay, loaded to its limit"),
+    template!("penetration", "a round bar, a flat strip or a thin wall pushed deep into clay"),
+    template!("anchor", "a plate anchor pulled up in clay"),
+    template!("slope", "a slope: its factor of safety, then failure and run-out"),
+    template!("pipe", "a pipe laid on the seabed and moved sideways"),
+    template!("consolidation", "a layer of clay that is loaded and drains through its top"),
+];
+
+/// The `Makefile` of every template.
+pub const MAKEFILE: &str = file!("Makefile");

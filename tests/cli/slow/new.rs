@@ -1,0 +1,112 @@
+//! The templates run to their end on coarse meshes, and come to the numbers that their READMEs promise, as closely as these say.
+
+use crate::support::{column, in_folder, succeeds};
+use std::f64::consts::PI;
+use std::fs;
+use tempfile::TempDir;
+
+/// Writes a template with changes and runs it; returns the folder, with the results in `case/out`.
+#[track_caller]
+fn run(template: &str, set: &[&str]) -> TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    let set: Vec<&str> = set.iter().flat_map(|entry| ["--set", entry]).collect();
+    succeeds(&in_folder(folder.path(), &[&["new", template, "case"], &set[..]].concat()));
+    succeeds(&in_folder(folder.path(), &["run", "case"]));
+    folder
+}
+
+fn history(folder: &TempDir, name: &str) -> Vec<f64> {
+    column(&folder.path().join("case/out"), name)
+}
+
+/// The mean of a column from the time `from` on.
+fn mean(folder: &TempDir, name: &str, from: f64) -> f64 {
+    let (time, values) = (history(folder, "time [s]"), history(folder, name));
+    let chosen: Vec<f64> = time.iter().zip(values).filter(|(time, _)| **time > from).map(|(_, value)| value).collect();
+    chosen.iter().sum::<f64>() / chosen.len() as f64
+}
+
+/// Fails unless `found` is `expected` but for the part `tolerance`.
+#[track_caller]
+fn is_close(found: f64, expected: f64, tolerance: f64) {
+    let error = found / expected - 1.0;
+    println!("{found:.4}, expected {expected:.4}: {:+.2} %", 100.0 * error);
+    assert!(error.abs() <= tolerance, "{found} is {:+.2} % beside {expected}", 100.0 * error);
+}
+
+#[test]
+fn footing() {
+    for (geometry, load) in [("plane_strain", (2.0 + PI) * 20.0), ("axisymmetric", 6.05 * 20.0 * PI)] {
+        let out = run("footing", &["mesh.parameters.h=0.1", &format!("geometry={geometry}")]);
+        is_close(*history(&out, "footing.contact_y [kN]").last().unwrap(), load, 0.08);
+    }
+}
+
+const SHALLOW: [&str; 2] = ["mesh.parameters.way=3", "phases.push.duration=3"];
+
+#[test]
+fn penetration_of_a_bar() {
+    let out = run("penetration", &[SHALLOW[0], SHALLOW[1], "mesh.parameters.h=0.2", "phases.push.step.max=0.03"]);
+    let load = 2.0 * mean(&out, "body.contact_y [kN]", 2.5) - 6.0 * PI / 4.0;
+    is_close(load, 10.82 * 2.0, 0.05);
+}
+
+#[test]
+fn penetration_of_a_strip() {
+    let out = run("penetration", &[SHALLOW[0], SHALLOW[1], "mesh.parameters.shape=1"]);
+    let load = 2.0 * mean(&out, "body.contact_y [kN]", 2.5) - 6.0 * 0.25;
+    is_close(load, 12.1 * 2.0, 0.05);
+}
+
+#[test]
+fn penetration_of_a_wall() {
+    let out = run("penetration", &["mesh.parameters.way=2.5", "phases.push.duration=2.5", "mesh.parameters.shape=2"]);
+    // Sides, tip and the weight of the clay that it displaces, of the half, at the mean depth of 2.25 m.
+    let expected = 0.5 * 2.0 * 2.25 + 7.5 * 2.0 * 0.125 + 6.0 * 0.125 * 2.25;
+    is_close(mean(&out, "body.contact_y [kN]", 2.0), expected, 0.05);
+}
+
+#[test]
+fn anchor() {
+    for (tension, factor) in [("cut_off", 5.5 + 6.0 * 4.0 / 10.0), ("no_separation", 12.1)] {
+        let out = run("anchor", &[&format!("contacts[0].tension={tension}"), "phases.pull.duration=0.15"]);
+        is_close(-mean(&out, "plate.contact_y [kN]", 0.1), factor * 10.0 / 2.0, 0.05);
+    }
+}
+
+#[test]
+fn slope() {
+    let out = run("slope", &["mesh.parameters.h=1.6", "phases.safety.step.min=0.01"]);
+    let reduced = history(&out, "strength_reduction [-]");
+    let failed = history(&out, "no_equilibrium_at [-]");
+    let row = failed.iter().position(|&factor| factor > 0.0).expect("a factor of safety");
+    is_close((reduced[row] + failed[row]) / 2.0, 1.39, 0.04);
+    let crest = history(&out, "crest.uy [m]");
+    assert!(*crest.last().unwrap() < -1.0, "it fails and runs out");
+    let log = fs::read_to_string(out.path().join("case/out/solve.log")).unwrap();
+    assert!(log.contains("phase `failure` ends"), "{log}");
+}
+
+#[test]
+fn pipe() {
+    let out = run("pipe", &["mesh.parameters.h=0.14", "mesh.parameters.way=0.3", "phases.pull.duration=0.3"]);
+    let (time, load) = (history(&out, "time [s]"), history(&out, "pipe.contact_y [kN]"));
+    let laid_at = time.iter().position(|&time| (time - 0.12).abs() < 1e-9).expect("the end of the phase `lay`");
+    let (diameter, depth, strength) = (0.8_f64, 0.12, 2.5);
+    let half_angle = (1.0 - 2.0 * depth / diameter).acos();
+    let section = diameter * diameter / 4.0 * (half_angle - half_angle.sin() * half_angle.cos());
+    is_close(section, 0.0473, 0.001);
+    let bearing = 6.0 * (depth / diameter).powf(0.25) * diameter * strength + 1.5 * 6.5 * section;
+    is_close(load[laid_at], bearing, 0.1);
+    is_close(*load.last().unwrap(), 7.0 * PI * diameter * diameter / 4.0, 1e-4);
+    assert!(history(&out, "pipe.contact_x [kN]").last().unwrap() < &-1.5, "it resists");
+}
+
+#[test]
+fn consolidation() {
+    let out = run("consolidation", &[]);
+    // The first term of the series: those beyond it are below 1e-6 at T_v = 1.
+    let decay = (-PI * PI / 4.0).exp();
+    is_close(-history(&out, "top.uy [m]").last().unwrap(), 0.018 * (1.0 - 8.0 / (PI * PI) * decay), 0.04);
+    is_close(*history(&out, "base.pore_pressure [kPa]").last().unwrap(), 40.0 * 4.0 / PI * decay, 0.04);
+}
