@@ -120,9 +120,9 @@ fn entries_are_changed_in_their_places() {
     let folder = tempfile::tempdir().unwrap();
     let set = [
         "--set",
-        "mesh.parameters.h=0.2",
-        "--set",
         "mesh.parameters={half_width: 1.5}",
+        "--set",
+        "mesh.parameters.h=0.2",
         "--set",
         "materials.clay.shear_strength={top: 20, gradient: 2}",
         "--set",

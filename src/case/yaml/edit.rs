@@ -140,7 +140,7 @@ output:
     fn an_entry_is_changed_where_it_stands() {
         for (at, value, old, new) in [
             ("title", json!("Ü: # 1"), "Füße            # a", "\"Ü: # 1\"            # a"),
-            ("title", json!("no"), "Füße  ", "\"no\"  "),
+            ("title", json!("null"), "Füße  ", "\"null\"  "),
             ("clay.young", json!(1e-6), "1.0e+5,  # kPa", "1e-6,  # kPa"),
             ("clay.poisson", json!({"top": 1, "gradient": 2.5}), "0.49}", "{gradient: 2.5, top: 1}}"),
             ("clay", json!({"young": 5}), "{young: 1.0e+5,  # kPa\n       poisson: 0.49}", "{young: 5}"),

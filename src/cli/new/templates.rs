@@ -35,7 +35,7 @@ pub const TEMPLATES: [Template; 6] = [
     template!("penetration", "a round bar, a flat strip or a thin wall pushed deep into clay"),
     template!("anchor", "a plate anchor pulled up in clay"),
     template!("slope", "a slope: its factor of safety, then failure and run-out"),
-    template!("pipe", "a pipe laid on the seabed and moved sideways"),
+    template!("pipe", "a pipe pressed into the seabed and moved sideways"),
     template!("consolidation", "a layer of clay that is loaded and drains through its top"),
 ];
 
