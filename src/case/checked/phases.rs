@@ -46,7 +46,7 @@ impl Analysis {
     }
 }
 
-/// A material that a region takes: indices into [`Case::regions`] and [`Case::materials`].
+/// A material that a region takes: indices into [`super::Case::regions`] and [`super::Case::materials`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Change {
     pub region: usize,
@@ -56,7 +56,7 @@ pub struct Change {
 /// What ends a phase before its time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Until {
-    /// A quantity of the entry of [`Output::history`] with this index is at least, or where `below` at most `bound`.
+    /// A quantity of the entry of [`super::Output::history`] with this index is at least, or where `below` at most `bound`.
     Reached { history: usize, quantity: Quantity, bound: f64, below: bool },
     /// The kinetic energy has fallen to this part (-) of its largest in the phase, or all forces are in balance but for this part from its
     /// beginning at rest on.
@@ -90,7 +90,7 @@ pub struct Traction {
 /// A load on the surface of the material points, per area of the surface as it is.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SurfaceLoad {
-    /// Index into [`Case::regions`]; `None` for all of the surface.
+    /// Index into [`super::Case::regions`]; `None` for all of the surface.
     pub region: Option<usize>,
     pub pressure: Option<Pressure>,
     /// Along the surface (kPa), positive in the sense that has the material on its left.
