@@ -570,5 +570,15 @@ def scene(seed, number, schemes=None):
     schemes = schemes or SCHEMES
     scheme = schemes[(number // len(names) + number) % len(schemes)]
     case["numerics"] = {**case.get("numerics", {}), **dict(scheme.numerics)}
+    if scheme.grid:
+        # Regular quadrilaterals of the order that the scheme is for.
+        case["mesh"]["order"] = dict(scheme.grid)["mesh.order"]
+        case["mesh"].pop("incomplete", None)
+        case["mesh"]["parameters"]["kind"] = 3
+    if scheme.first:
+        # Domains and squares are of equal points.
+        for region in case["regions"].values():
+            if region.get("points_per_cell") in (3, 6, 7, 12):
+                region["points_per_cell"] = 16
     case["title"] = f"Stability campaign, seed {seed}, scene {number}: {name}, {scheme.name}"
     return name, scheme.name, case
