@@ -161,20 +161,12 @@ impl Checker {
             let remedy = "choose `gradient: mpm`, or take the permeability out";
             self.issue(&path, At::Value, format!("{} {lack}", basis.name()), remedy);
         }
-        if !case.numerics.basis.takes_pressures() {
-            let name = case.numerics.basis.name();
-            if case.materials.iter().any(|m| m.porous.is_some()) {
-                let problem = format!(
-                    "{name} is not stable beside the field of a pore pressure, which has a value a corner of a cell"
-                );
-                self.issue(&path, At::Value, problem, "choose `gradient: mpm`, or take the permeability out");
-            } else if case.materials.iter().any(|m| m.carried.is_some()) {
-                let problem = format!(
-                    "{name} has about as many displacements as the pressure field of undrained and nearly incompressible materials has pressures: it would lock"
-                );
-                let remedy = "choose `gradient: mpm`; or, for drained materials, `pressure: none` with a Poisson's ratio below 0.45";
-                self.issue(&path, At::Value, problem, remedy);
-            }
+        if let Some(lack) = basis.without_pressure_field()
+            && case.materials.iter().any(|m| m.carried.is_some())
+        {
+            let remedy =
+                "choose `gradient: mpm`; or, for drained materials, `pressure: none` with a Poisson's ratio below 0.45";
+            self.issue(&path, At::Value, format!("{} {lack}", basis.name()), remedy);
         }
         let wanted = |q: &raw::Quantity| *q == raw::Quantity::PorePressure;
         for (i, entry) in file.output.history.iter().enumerate() {

@@ -114,7 +114,6 @@ pub fn scene<K: Kinematics<2>>(case: &Case, mut whole: Mesh<2>) -> Result<Scene<
     let (mesh, fem) = parts::meshes(case, whole);
     let basis = case.numerics.basis;
     scheme::check(basis, &mesh, fem.as_ref())?;
-    controls::of_grid(basis, &mesh, fem.as_ref())?;
     let materials =
         || changes::used(case).filter(|(region, _)| !region.content.is_rigid()).map(|(_, material)| material);
     let lowest = mesh.nodes.iter().map(|x| x[1]).fold(f64::INFINITY, f64::min);

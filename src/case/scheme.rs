@@ -13,14 +13,17 @@ impl Checker {
     /// Refuses cells of an order that the scheme does not support, and points of which no part of a cell can be the domain.
     pub(super) fn scheme(&mut self, case: &Case) {
         let basis = case.numerics.basis;
-        let (kinds, name, other) = match case.mesh.order {
-            Order::First => ([CellKind::T3, CellKind::Q4], "first", 2),
-            Order::Second => ([CellKind::T6, CellKind::Q9], "second", 1),
-            Order::SecondIncomplete => ([CellKind::T6, CellKind::Q8], "second", 1),
+        let (kinds, name, cure) = match case.mesh.order {
+            Order::First => ([CellKind::T3, CellKind::Q4], "first order", "set `order: 2` under"),
+            Order::Second => ([CellKind::T6, CellKind::Q9], "second order", "set `order: 1` under"),
+            Order::SecondIncomplete if basis.takes(CellKind::Q9) => {
+                ([CellKind::T6, CellKind::Q8], "second order without a centre node", "take `incomplete` out of")
+            }
+            Order::SecondIncomplete => ([CellKind::T6, CellKind::Q8], "second order", "set `order: 1` under"),
         };
         if !kinds.iter().any(|&kind| basis.takes(kind)) {
-            let problem = format!("{} does not support cells of {name} order", basis.name());
-            let remedy = format!("set `order: {other}` under `mesh`, or choose `gradient: mpm`");
+            let problem = format!("{} does not support cells of {name}", basis.name());
+            let remedy = format!("{cure} `mesh`, or choose `gradient: mpm`");
             self.issue(&Path::default().key("numerics").key("gradient"), At::Value, problem, remedy);
         }
         for region in case.regions.iter().filter(|_| basis.domain_size() > 0) {
@@ -45,6 +48,9 @@ pub(super) fn check(basis: &dyn Basis<2>, mesh: &Mesh<2>, fem: Option<&Mesh<2>>)
     let refuse = |problem: String, remedy: &str| {
         Err(Error::input("numerics.gradient", format!("{} {problem}", basis.name()), remedy))
     };
+    if let Some([problem, remedy]) = basis.refusal(mesh) {
+        return refuse(problem, &remedy);
+    }
     if let Some(kind) = mesh.cells.kind.iter().find(|&&kind| !basis.takes(kind)) {
         let kinds: Vec<String> = [CellKind::T3, CellKind::T6, CellKind::Q4, CellKind::Q8, CellKind::Q9]
             .iter()
@@ -54,13 +60,13 @@ pub(super) fn check(basis: &dyn Basis<2>, mesh: &Mesh<2>, fem: Option<&Mesh<2>>)
         let remedy = format!("mesh with {}, or choose `gradient: mpm`", kinds.join(" or "));
         return refuse(format!("does not support {kind:?} cells"), &remedy);
     }
-    if let Some([problem, remedy]) = basis.refusal(mesh) {
-        return refuse(problem, &remedy);
-    }
     let of_grid: HashSet<u32> = mesh.cells.nodes.iter().copied().collect();
     if basis.wants_first_shape() && fem.is_some_and(|fem| fem.cells.nodes.iter().any(|n| of_grid.contains(n))) {
         let problem = "needs a grid that keeps its shape, and finite elements that share nodes with it change that";
-        return refuse(problem.into(), "make the region `kind: mpm` or `kind: structure`, or choose `gradient: cpdi`");
+        return refuse(
+            problem.into(),
+            "make the region `kind: mpm` or `kind: structure` (apart from the grid, with a contact), or choose `gradient: mpm`",
+        );
     }
     Ok(())
 }

@@ -22,7 +22,7 @@ pub struct Args {
     #[arg(value_name = "DIR")]
     folder: Option<PathBuf>,
     /// Change an entry of its case or a parameter of its .geo, e.g. mesh.parameters.h=0.1 or gravity.y=-9.8
-    #[arg(long = "set", value_name = "KEY=VALUE")]
+    #[arg(long = "set", value_name = "KEY=VALUE", requires = "template")]
     overrides: Vec<String>,
     /// List the templates
     #[arg(long)]

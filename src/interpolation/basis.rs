@@ -1,7 +1,6 @@
 //! What a scheme of the material point method is: the functions that a point sees.
 
 use super::{Interpolation, Support};
-use crate::error::Result;
 use crate::kinematics::Kinematics;
 use crate::mesh::Mesh;
 use crate::mesh::locate::Locator;
@@ -114,8 +113,13 @@ pub trait Basis<const D: usize>: fmt::Debug + Send + Sync {
         self.of_points().is_none()
     }
 
-    /// What it lacks for pore water, if anything.
+    /// What it lacks for pore water (docs/theory.md, section 11), if anything.
     fn without_pore_water(&self) -> Option<&'static str> {
+        None
+    }
+
+    /// What it lacks for a pressure field (docs/theory.md, section 10), if anything.
+    fn without_pressure_field(&self) -> Option<&'static str> {
         None
     }
 
@@ -139,19 +143,10 @@ pub trait Basis<const D: usize>: fmt::Debug + Send + Sync {
         None
     }
 
-    /// Whether its displacements are stable beside fields of pressure and pore pressure with a value a corner (docs/theory.md, sections 10
-    /// and 11).
-    fn takes_pressures(&self) -> bool {
-        true
-    }
-
     /// What the values of the nodes are of those of fewer controls, so that the functions of the controls are those of the scheme; `None`
-    /// where each node has unknowns of its own.
-    ///
-    /// # Errors
-    /// `Input` where the scheme has no such functions on the mesh.
-    fn constraints(&self, _mesh: &Mesh<D>) -> Result<Option<LinearConstraints>> {
-        Ok(None)
+    /// where each node has unknowns of its own, and on a mesh that is refused ([`Basis::refusal`]).
+    fn constraints(&self, _mesh: &Mesh<D>) -> Option<LinearConstraints> {
+        None
     }
 
     /// Fills in what the points see. The weights are for the caller to write.

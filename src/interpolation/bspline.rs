@@ -12,7 +12,6 @@
 //! `u = ¼ u_left + ½ c + ¼ u_right`, so that `c = 2 u − ½ (u_left + u_right)`. Splines of third degree would need cells of third order.
 
 use super::{Basis, Interpolation, Located};
-use crate::error::{Error, Result};
 use crate::mesh::Mesh;
 use crate::mesh::shape::CellKind;
 use crate::system::{LinearConstraints, Rows};
@@ -29,15 +28,34 @@ impl Basis<2> for BSpline {
         "bspline"
     }
 
-    fn takes_pressures(&self) -> bool {
-        false
+    fn takes(&self, kind: CellKind) -> bool {
+        kind == CellKind::Q9
     }
 
-    fn constraints(&self, mesh: &Mesh<2>) -> Result<Option<LinearConstraints>> {
-        if mesh.cells.is_empty() {
-            return Ok(None);
-        }
-        let lattice = Lattice::of(mesh)?;
+    fn refusal(&self, mesh: &Mesh<2>) -> Option<[String; 2]> {
+        let problem = Lattice::of(mesh).err()?;
+        Some([
+            format!("takes a rectangular grid of Q9 cells, and {problem}"),
+            "make the grid one rectangle along x and y with `Transfinite Curve`, `Transfinite Surface` and `Recombine Surface` in the .geo and cells of second order, or choose `gradient: mpm`".into(),
+        ])
+    }
+
+    fn wants_first_shape(&self) -> bool {
+        true
+    }
+
+    fn without_pore_water(&self) -> Option<&'static str> {
+        Some("is not stable beside the field of a pore pressure, which has a value a corner of a cell")
+    }
+
+    fn without_pressure_field(&self) -> Option<&'static str> {
+        Some(
+            "has about as many displacements as the pressure field of undrained and nearly incompressible materials has pressures: it would lock",
+        )
+    }
+
+    fn constraints(&self, mesh: &Mesh<2>) -> Option<LinearConstraints> {
+        let lattice = Lattice::of(mesh).ok()?;
         let along = lattice.lines.each_ref().map(|lines| Splines::new(lines));
         let (mut nodes, mut controls) = (Rows::default(), Rows::default());
         for (n, place) in (0u32..).zip(&lattice.place) {
@@ -56,7 +74,7 @@ impl Basis<2> for BSpline {
             nodes.push(product([&along[0].of_node[i], &along[1].of_node[j]]));
             controls.push(product([&along[0].of_control[i], &along[1].of_control[j]]));
         }
-        Ok(Some(LinearConstraints::new(nodes, controls)))
+        Some(LinearConstraints::new(nodes, controls))
     }
 
     fn fill(&self, points: &Located<2>, interpolation: &mut Interpolation<2>) {
@@ -125,10 +143,10 @@ impl Lattice {
     /// The lattice of the cells of a mesh.
     ///
     /// # Errors
-    /// `Input` where they are none.
-    fn of(mesh: &Mesh<2>) -> Result<Self> {
+    /// Why they are none.
+    fn of(mesh: &Mesh<2>) -> Result<Self, String> {
         if let Some(kind) = mesh.cells.kind.iter().find(|&&kind| kind != CellKind::Q9) {
-            return Err(refused(&format!("the grid has {kind:?} cells")));
+            return Err(format!("the grid has {kind:?} cells"));
         }
         let cells = || (0..mesh.cells.len()).map(|c| mesh.cells.nodes(c).iter().map(|&n| mesh.nodes[n as usize]));
         let sides = |d: usize| {
@@ -137,7 +155,10 @@ impl Lattice {
             })
         };
         let lines = [0, 1].map(|d| lines(sides(d).collect()));
-        let [nx, ny] = lines.each_ref().map(|lines| lines.len() - 1);
+        let [nx, ny] = lines.each_ref().map(|lines| lines.len().saturating_sub(1));
+        if nx == 0 || mesh.cells.len() != nx * ny {
+            return Err("the cells do not fill a rectangle on common grid lines".into());
+        }
         let mut lattice =
             Self { place: vec![None; mesh.nodes.len()], node: vec![u32::MAX; (2 * nx + 1) * (2 * ny + 1)], lines };
         for c in 0..mesh.cells.len() {
@@ -148,20 +169,20 @@ impl Lattice {
                 let x = mesh.nodes[n as usize];
                 let place = [0, 1].map(|d| lattice.place_of(d, cell[d], x[d]));
                 let [Some(i), Some(j)] = place else {
-                    let problem =
-                        format!("the cell at {middle:.4?} m is no rectangle along x and y on common grid lines");
-                    return Err(refused(&problem));
+                    return Err(format!(
+                        "the cell at {middle:.4?} m is no rectangle along x and y on common grid lines"
+                    ));
                 };
                 let at = &mut lattice.node[j * (2 * nx + 1) + i];
                 if *at != u32::MAX && *at != n {
-                    return Err(refused(&format!("there are two nodes at {x:.4?} m")));
+                    return Err(format!("there are two nodes at {x:.4?} m"));
                 }
                 *at = n;
                 lattice.place[n as usize] = Some([i, j]);
             }
         }
-        if mesh.cells.len() != nx * ny || lattice.node.contains(&u32::MAX) {
-            return Err(refused("the cells do not fill a rectangle"));
+        if lattice.node.contains(&u32::MAX) {
+            return Err("the cells do not fill a rectangle on common grid lines".into());
         }
         Ok(lattice)
     }
@@ -186,12 +207,4 @@ fn lines(sides: Vec<[f64; 2]>) -> Vec<f64> {
 /// The span between ascending `lines` that `x` is in.
 fn span(lines: &[f64], x: f64) -> usize {
     lines.partition_point(|line| *line <= x).clamp(1, lines.len() - 1) - 1
-}
-
-fn refused(problem: &str) -> Error {
-    Error::input(
-        "numerics.gradient",
-        format!("bspline takes a rectangular grid of Q9 cells, and {problem}"),
-        "make the grid one rectangle along x and y with `Transfinite Curve`, `Transfinite Surface` and `Recombine Surface` in the .geo and cells of second order, or choose `gradient: mpm`",
-    )
 }

@@ -12,7 +12,7 @@
 //!
 //! So that linear fields stay exact, the centroid of the domain must be the point: the domain is shifted by what the two have come apart since the
 //! reset before, which is of second order in the change of its angles. A corner outside of the active cells takes the motion of the cell of the
-//! point, extended. A domain that is hardly convex any more becomes that of CPDI.
+//! point, extended. A domain whose corners are nearly in line becomes that of CPDI, and its corners move with the grid from there.
 
 use super::domain::{self, Corners, centroid, convexity, corners, deformed, first_corners};
 use super::{Basis, First, Interpolation, Located, Reset, Support};
@@ -77,7 +77,7 @@ impl Basis<2> for Cpdi2 {
         let tangled: Vec<usize> = domain.par_chunks_exact_mut(NUMBERS).enumerate().filter_map(renew).collect();
         let first = points.name(*tangled.first()?);
         Some(format!(
-            "domains that were hardly convex any more and are those of cpdi from now on: {}, the first that of {first}",
+            "domains whose corners were nearly in line and begin again as those of cpdi: {}, the first that of {first}",
             tangled.len()
         ))
     }

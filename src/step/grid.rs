@@ -125,7 +125,7 @@ impl<const D: usize> Grid<D> {
         let active = (0..mesh.cells.len()).filter(|&c| state.active[c]).flat_map(|c| mesh.cells.nodes(c));
         let of_fem = scene.fem.iter().flat_map(|fem| fem.deforming().flat_map(|c| fem.mesh.cells.nodes(c)));
         let nodes = active.chain(of_fem).copied().chain(scene.bodies.iter().flat_map(Body::carriers));
-        let mut dofs = DofMap::of_nodes(nodes, mesh.nodes.len(), places, scene.basis.constraints(mesh)?);
+        let mut dofs = DofMap::of_nodes(nodes, mesh.nodes.len(), places, scene.basis.constraints(mesh));
         let node = &dofs.node;
         let cells: Vec<u32> = (0u32..).zip(&state.active).filter(|(_, part)| **part).map(|(c, _)| c).collect();
         let support = scene.basis.support(mesh, &state.active);

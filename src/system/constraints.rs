@@ -7,6 +7,8 @@
 //! A control has the number of a node, and a left inverse `P`, `P E = 1`, gives its value from nodal values. The value of the node of that
 //! number is in general another one.
 
+use std::cell::RefCell;
+
 /// Lists of numbers with coefficients.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Rows {
@@ -140,21 +142,33 @@ impl<'a> Combination<'a> {
     /// `Eᵀ K E`. Nodes have `width` equations each, and `rest` equations follow them. The matrix may be absent.
     pub(super) fn reduce(self, width: usize, rest: usize, vector: &mut [f64], matrix: &mut [f64]) {
         let (local, reduced) = (self.nodes * width + rest, self.blocks * width + rest);
-        if !vector.is_empty() {
-            let mut sum = vec![0.0; reduced];
-            self.add_to(&vector[..local], width, 1, rest, &mut sum);
-            vector[..reduced].copy_from_slice(&sum);
-        }
-        if matrix.is_empty() {
-            return;
-        }
-        let mut half = vec![0.0; reduced * local];
-        self.add_to(&matrix[..local * local], width, local, rest, &mut half);
-        let turned: Vec<f64> = (0..local * reduced).map(|i| half[(i % reduced) * local + i / reduced]).collect();
-        let mut whole = vec![0.0; reduced * reduced];
-        self.add_to(&turned, width, reduced, rest, &mut whole);
-        for (i, to) in matrix[..reduced * reduced].iter_mut().enumerate() {
-            *to = whole[(i % reduced) * reduced + i / reduced];
-        }
+        SCRATCH.with_borrow_mut(|[sum, turned]| {
+            if !vector.is_empty() {
+                self.add_to(&vector[..local], width, 1, rest, zeros(sum, reduced));
+                vector[..reduced].copy_from_slice(sum);
+            }
+            if matrix.is_empty() {
+                return;
+            }
+            self.add_to(&matrix[..local * local], width, local, rest, zeros(sum, reduced * local));
+            turned.clear();
+            turned.extend((0..local * reduced).map(|i| sum[(i % reduced) * local + i / reduced]));
+            self.add_to(turned, width, reduced, rest, zeros(sum, reduced * reduced));
+            for (i, to) in matrix[..reduced * reduced].iter_mut().enumerate() {
+                *to = sum[(i % reduced) * reduced + i / reduced];
+            }
+        });
     }
+}
+
+thread_local! {
+    /// Memory of each thread that reductions use again and again.
+    static SCRATCH: RefCell<[Vec<f64>; 2]> = const { RefCell::new([Vec::new(), Vec::new()]) };
+}
+
+/// A buffer of so many zeros.
+fn zeros(buffer: &mut Vec<f64>, length: usize) -> &mut [f64] {
+    buffer.clear();
+    buffer.resize(length, 0.0);
+    buffer
 }

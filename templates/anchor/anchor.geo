@@ -26,17 +26,25 @@ DefineConstant[
 ];
 depth = cover + beneath;
 base = -cover - thickness;
+// Edges that a thin plate has room for.
+r = edge;
+If (r > 0.3 * thickness)
+  r = 0.3 * thickness;
+EndIf
+If (r > 0.3 * half_width)
+  r = 0.3 * half_width;
+EndIf
 
 // The outline of the plate, twice: as the edge of the clay, with the points and curves 20 to 29, and as that of the plate itself, 40 to 49.
 For k In {0:1}
   p = 20 + 20 * k;
   Point(p) = {0, -cover, 0};
-  Point(p + 1) = {half_width - edge, -cover, 0};
-  Point(p + 2) = {half_width - edge, -cover - edge, 0};
-  Point(p + 3) = {half_width, -cover - edge, 0};
-  Point(p + 4) = {half_width, base + edge, 0};
-  Point(p + 5) = {half_width - edge, base + edge, 0};
-  Point(p + 6) = {half_width - edge, base, 0};
+  Point(p + 1) = {half_width - r, -cover, 0};
+  Point(p + 2) = {half_width - r, -cover - r, 0};
+  Point(p + 3) = {half_width, -cover - r, 0};
+  Point(p + 4) = {half_width, base + r, 0};
+  Point(p + 5) = {half_width - r, base + r, 0};
+  Point(p + 6) = {half_width - r, base, 0};
   Point(p + 7) = {0, base, 0};
   Line(p) = {p, p + 1};
   Circle(p + 1) = {p + 1, p + 2, p + 3};

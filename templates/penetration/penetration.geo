@@ -30,6 +30,14 @@ DefineConstant[
 ];
 b = (shape == 2 ? thickness : diameter) / 2;
 depth = way + beneath;
+// Edges that a thin strip or wall has room for.
+r = edge;
+If (r > 0.6 * b)
+  r = 0.6 * b;
+EndIf
+If (r > 0.3 * thickness)
+  r = 0.3 * thickness;
+EndIf
 
 // Clay, and the air above it.
 Point(1) = {0, -depth, 0};
@@ -64,15 +72,15 @@ If (shape == 0)
 Else
   // Strip or wall: the base with its round edge, the side, the top. The wall stands out of the clay to the end.
   height = shape == 1 ? thickness : way + 2 * air;
-  Point(12) = {b - edge, 0, 0};
-  Point(13) = {b - edge, edge, 0};
-  Point(14) = {b, edge, 0};
+  Point(12) = {b - r, 0, 0};
+  Point(13) = {b - r, r, 0};
+  Point(14) = {b, r, 0};
   Line(11) = {11, 12};
   Circle(12) = {12, 13, 14};
   If (shape == 1)
-    Point(15) = {b, height - edge, 0};
-    Point(16) = {b - edge, height - edge, 0};
-    Point(17) = {b - edge, height, 0};
+    Point(15) = {b, height - r, 0};
+    Point(16) = {b - r, height - r, 0};
+    Point(17) = {b - r, height, 0};
     Point(18) = {0, height, 0};
     Line(13) = {14, 15};
     Circle(14) = {15, 16, 17};

@@ -256,7 +256,7 @@ fn what_cannot_work_is_refused() {
         (&["numerics.pressure=field"], &["pressure field"]),
         (&[porous], &["pore pressure", "gradient: mpm"]),
         (&["supports.surface={uy: 0}"], &["within the grid", "on the boundary of the grid"]),
-        (&["regions.soil.kind=fem", "contacts=[]"], &["share nodes with the grid", "gradient: mpm"]),
+        (&["regions.soil.kind=fem", "contacts=[]"], &["bspline needs a grid that keeps its shape", "gradient: mpm"]),
     ] {
         let folder = tempfile::tempdir().unwrap();
         let output = mpm("run", "tests/data/lattice", folder.path(), overrides);

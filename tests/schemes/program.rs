@@ -79,6 +79,6 @@ fn what_they_do_not_support_is_refused_with_another_choice() {
     let beside =
         "regions={soil: {kind: fem, material: soil}, air: {kind: buffer}, plate: {kind: structure, material: plate}}";
     let contact = "contacts=[{structure: plate, against: soil}]";
-    let words = ["cpgimp needs a grid that keeps its shape", "`gradient: cpdi`"];
+    let words = ["cpgimp needs a grid that keeps its shape", "`gradient: mpm`"];
     refused(false, QUADS, &[contact, beside], &words);
 }

@@ -13,7 +13,7 @@ pub struct Numerics {
     pub gradient: String,
     /// What integrals are summed over: resampled (integration points of the cells, which take their state from the material points
     /// when the grid is restored), or points (the material points, by their volumes). Default: resampled; points with
-    /// all gradients but mpm.
+    /// all gradients but mpm and bspline.
     pub quadrature: Option<Quadrature>,
     /// Who carries the mean stress of nearly incompressible and undrained materials: a field of pressure unknowns, or
     /// none. Without it a field where Poisson's ratio is 0.45 or more (not in mohr_coulomb and cam_clay) or a material

@@ -103,7 +103,7 @@ width = 7;
     }
 
     #[test]
-    fn what_a_parameter_cannot_be_is_told() {
+    fn a_value_out_of_range_names_the_parameter() {
         for (name, value, problem, remedy) in [
             ("wdth", json!(1), "there is no parameter `wdth`", "did you mean `width`?"),
             ("width", json!("wide"), "it is the text `wide`", "write a number"),
