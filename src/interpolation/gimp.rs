@@ -56,7 +56,7 @@ impl Basis<2> for Gimp {
         let cell = (0..mesh.cells.len()).find(|&c| !is_rectangle(mesh, c))?;
         let corner = mesh.nodes[mesh.cells.nodes(cell)[0] as usize];
         let problem = format!("needs cells that are rectangles along the axes, which that at {corner:.3?} m is not");
-        Some([problem, "mesh with transfinite curves and surfaces, or choose `gradient: cpdi`".into()])
+        Some([problem, "mesh with `Transfinite Curve`, `Transfinite Surface` and `Recombine Surface` in the .geo, or choose `gradient: cpdi`".into()])
     }
 
     fn wants_first_shape(&self) -> bool {

@@ -75,7 +75,12 @@ fn what_they_do_not_support_is_refused_with_another_choice() {
     refused(true, "tests/data/plate", &set, &["cpdi needs points that fill their cells", "use 4, 9, 16 or 25"]);
     let (plate, gimp) = ("tests/data/plate", "numerics.gradient=gimp");
     refused(true, plate, &[gimp], &["cpgimp does not support cells of second order", "`order: 1`"]);
-    refused(false, plate, &[gimp, "mesh.order=1"], &["cpgimp does not support T3 cells; mesh with Q4"]);
+    refused(
+        false,
+        plate,
+        &[gimp, "mesh.order=1"],
+        &["cpgimp needs cells that are rectangles along the axes", "`Recombine Surface`"],
+    );
     let beside =
         "regions={soil: {kind: fem, material: soil}, air: {kind: buffer}, plate: {kind: structure, material: plate}}";
     let contact = "contacts=[{structure: plate, against: soil}]";
