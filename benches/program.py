@@ -103,7 +103,11 @@ class Run:
         return dict(zip((name.split(" [")[0] for name in names), np.array(rows, dtype=float).T))
 
     def points(self):
-        """Start and end of the points as PyVista reads them; their order is the same."""
+        """Start and end of the points as PyVista reads them, in the same order.
+
+        Where points were split or merged the start is that of the points at the end: where they were seeded, and for their volumes
+        their masses, which are in the same ratio within a material (the output needs `mass`).
+        """
         import pyvista
 
         done = execute([PROGRAM, "export", self.case, "-o", self.out, *self.settings])
@@ -111,7 +115,10 @@ class Run:
             raise Failed(done.reason)
         reader = pyvista.get_reader(str(self.out / "points.pvd"))
         reader.set_active_time_point(len(reader.time_values) - 1)
-        return pyvista.read(self.out / "points.vtu"), reader.read()[0]
+        start, end = pyvista.read(self.out / "points.vtu"), reader.read()[0]
+        if start.n_points != end.n_points:
+            start = {"origin [m]": end.points - end["displacement [m]"], "initial_volume [m3]": end["mass [t]"]}
+        return start, end
 
 
 @contextmanager

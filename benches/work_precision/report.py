@@ -33,7 +33,7 @@ STYLES = {
 
 INTRODUCTION = """# Work and precision
 
-Made by `make bench` (`make bench ARGS=--quick` for a few runs of each). Each point of a picture is a run: its error against
+Made by `make bench` (`ARGS=--quick` for a few runs of each, `ARGS=--first` for the series over the size of the cells alone). Each point of a picture is a run: its error against
 the seconds of the solve stage, from starting `mpm solve` to its end, reading, log, frames and checkpoints included. One
 thread, pinned to one core; medians of three where a run takes less than 3 s. Kratos MPM 10.4.4, in the same series of runs, is charged with the solution of its steps
 alone. The numbers are in `docs/benchmarks/*.csv`, with processor seconds, Newton iterations and halvings; `--report` makes the page
@@ -56,7 +56,8 @@ def rows_of(problem):
         return None
     with open(path, newline="") as file:
         remark = file.readline().lstrip("# ").strip()
-        return remark, sorted(csv.DictReader(file), key=lambda row: list(STYLES).index(row["scheme"]))
+        rows = [row for row in csv.DictReader(file) if row["scheme"] in STYLES]
+        return remark, sorted(rows, key=lambda row: list(STYLES).index(row["scheme"]))
 
 
 def number(text, form):

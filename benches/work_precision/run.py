@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Work and precision: errors against the seconds of the solve stage, for every scheme; writes docs/benchmarks.md.
 
-    .venv/bin/python benches/work_precision/run.py [PROBLEM ...] [--quick] [--alone] [--report]
+    .venv/bin/python benches/work_precision/run.py [PROBLEM ...] [--quick] [--first] [--alone] [--report]
 
 Each run has one thread, pinned to one core. The numbers of a problem go to docs/benchmarks/<problem>.csv, replacing
 earlier ones, and tables and pictures are made from those files. Needs `make build`; see `make bench`.
@@ -20,7 +20,7 @@ sys.path[:0] = [str(HERE), str(HERE.parent)]
 import peers  # noqa: E402
 import report  # noqa: E402
 from problems import cantilever, cavity, column, footing, slump, thrown  # noqa: E402
-from program import Failed, Refused, solved  # noqa: E402
+from program import ROOT, Failed, Refused, solved  # noqa: E402
 from schemes import SCHEMES, missing  # noqa: E402
 
 PROBLEMS = {p.PROBLEM.name: p.PROBLEM for p in (column, slump, cantilever, footing, cavity, thrown)}
@@ -40,7 +40,7 @@ def one(problem, scheme, variant, repeats):
             row |= {"iterations": sum(run.iterations), "steps": len(run.iterations), "halvings": run.halvings}
             row |= {key: float(f"{error:.4e}") for key, error in problem.errors(run, settings).items()}
     except (Failed, Refused) as error:
-        row["note"] = str(error)
+        row["note"] = str(error).replace(f"{ROOT}/", "")
     return row
 
 
@@ -78,7 +78,7 @@ def bench(problem, schemes, arguments):
         file.write(f"# {remark}\n")
         writer = csv.DictWriter(file, HEAD[:3] + list(problem.measures) + HEAD[3:], lineterminator="\n")
         writer.writeheader()
-        for series in problem.series:
+        for series in problem.series[: 1 if arguments.first else None]:
             variants = [series.variants[i] for i in series.quick] if arguments.quick else series.variants
             rows = [
                 (lambda s=scheme, v=variant: one(problem, s, v, 1 if arguments.quick else 3))
@@ -104,6 +104,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("problems", nargs="*", metavar="PROBLEM", help=", ".join(PROBLEMS))
     parser.add_argument("--quick", action="store_true", help="few runs of each series, once each")
+    parser.add_argument("--first", action="store_true", help="the first series of each problem only, over the size of the cells")
     parser.add_argument("--alone", action="store_true", help="without Kratos")
     parser.add_argument("--report", action="store_true", help="tables and pictures from the numbers that are there")
     parser.add_argument("--schemes", help="names, separated by semicolons; the rows of all others, Kratos among them, stay as they were")

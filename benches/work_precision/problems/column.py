@@ -26,7 +26,7 @@ SCENE = {
             "gravity": {"rate": 1},
         }
     ],
-    "output": {"fields": ["stress", "displacement"]},
+    "output": {"fields": ["stress", "displacement", "mass"]},
 }
 
 

@@ -28,7 +28,7 @@ SCENE = {
             "gravity": {"rate": 1},
         }
     ],
-    "output": {"fields": ["stress", "displacement"]},
+    "output": {"fields": ["stress", "displacement", "mass"]},
 }
 REFERENCE = {}
 

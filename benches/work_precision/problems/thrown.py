@@ -26,22 +26,20 @@ SCENE = {
     },
     "phases": [{"name": "flight", "analysis": "dynamic", "duration": END, "step": {"initial": END / STEPS, "max": END / STEPS}}],
     "numerics": {"spectral_radius": 1.0},
-    "output": {"fields": ["velocity", "displacement", "stress"]},
+    "output": {"fields": ["velocity", "displacement", "stress", "mass"]},
 }
 
 
 def errors(run, _settings):
     start, end = run.points()
-    mass = start["mass [t]"] if "mass [t]" in start.array_names else start["initial_volume [m3]"] * DENSITY
-    place = start["origin [m]"][:, :2] + end["displacement [m]"][:, :2]
-    velocity = end["velocity [m/s]"][:, :2]
+    origin, mass = start["origin [m]"][:, :2], end["mass [t]"]
+    place, velocity = end.points[:, :2], end["velocity [m/s]"][:, :2]
     at = CENTRE + np.array([SPEED * END, LIFT * END - 0.5 * GRAVITY * END**2])
     centre = np.average(place, axis=0, weights=mass)
     mean = np.average(velocity, axis=0, weights=mass)
     arm, away = place - centre, velocity - mean
     spin = (mass * (arm[:, 0] * away[:, 1] - arm[:, 1] * away[:, 0])).sum()
-    arm = start["origin [m]"][:, :2] - CENTRE
-    first = SPIN * (mass * (arm**2).sum(axis=1)).sum()
+    first = SPIN * (mass * ((origin - CENTRE) ** 2).sum(axis=1)).sum()
     kinetic = 0.5 * (mass * (away**2).sum(axis=1)).sum()
     return {
         "spin": abs(float(spin / first - 1)),
