@@ -13,7 +13,7 @@ use std::collections::BTreeMap;
 use std::marker::PhantomData;
 
 /// Distance of the contact nodes (-), in the length of an edge of the grid: that of its nodes.
-const HATS: f64 = 0.5;
+const SPACING: f64 = 0.5;
 
 /// The interfaces of a case, given the grid, the cells beside it and the rigid bodies.
 ///
@@ -143,9 +143,9 @@ impl Parts<'_> {
         let surface = match (&contact.structure, self.bodies.iter().find(|body| body.region == structure)) {
             (Touching::Wall(_), Some(body)) => {
                 let (kind, facets) = wall::facets(self.grid, body, &regions)?;
-                Surface::of(self.grid, kind, facets, HATS * edge)
+                Surface::of(self.grid, kind, facets, SPACING * edge)
             }
-            _ => self.boundary(structure, HATS * edge, &held(self.case, self.grid, HATS * edge))?,
+            _ => self.boundary(structure, SPACING * edge, &held(self.case, self.grid, SPACING * edge))?,
         };
         let skin = self.skin()?;
         Ok(Boundary { structure, surface, law: contact.law, regions, models, skin, kinematics: PhantomData })
@@ -162,7 +162,7 @@ impl Parts<'_> {
         let edges = soft.iter().map(|&region| Ok(size(self.fem, &[self.region(region)?])));
         let edges = edges.collect::<Result<Option<Vec<f64>>>>()?;
         let edge = edges.and_then(|edges| edges.into_iter().reduce(f64::max));
-        let spacing = HATS * edge.ok_or_else(|| self.no_cells(contact, "a region"))?;
+        let spacing = SPACING * edge.ok_or_else(|| self.no_cells(contact, "a region"))?;
         let structure = self.region(sides[0])?;
         // The axis of symmetry is no boundary.
         let axis = axis(self.case);
@@ -182,11 +182,11 @@ impl Parts<'_> {
         };
         let is_soil = self.case.regions[body].content.is_soil_of_elements();
         let soil = is_soil.then(|| {
-            let has_hats = matches!(contact.structure, Touching::Wall(_));
-            let facets = if has_hats { &surface.facets } else { &other.facets };
+            let has_contact_nodes = matches!(contact.structure, Touching::Wall(_));
+            let facets = if has_contact_nodes { &surface.facets } else { &other.facets };
             let name = &self.case.regions[body].name;
             let undrained = changes::used(self.case).any(|(r, m)| r.name == *name && m.has_pore_pressure());
-            Ok(SoilSide { has_hats, undrained, behind: self.behind(self.region(body)?, facets) })
+            Ok(SoilSide { has_contact_nodes, undrained, behind: self.behind(self.region(body)?, facets) })
         });
         let (mut height, mut count) = (0.0, 0.0);
         for &n in surface.facets.iter().flatten() {

@@ -49,7 +49,7 @@ pub struct Bodies<K> {
 /// The side of a contact of bodies that is soil.
 pub struct SoilSide {
     /// Whether it is the one with the contact nodes.
-    pub has_hats: bool,
+    pub has_contact_nodes: bool,
     /// Whether its pores ever hold an excess pressure.
     pub undrained: bool,
     /// The finite element behind each facet of its boundary.
@@ -278,7 +278,8 @@ impl<K: Kinematics<2>> Interface<2> for Bodies<K> {
                 let Some(across) = self.across(&point, &other, &lines, position) else { continue };
                 let facets = [(own, point.value, -1.0), (&self.other.facets[across.facet as usize], across.value, 1.0)];
                 let water = wet.as_ref().map_or(0.0, |(soil, points)| {
-                    let (facet, away) = if soil.has_hats { (segment.facet, 0.0) } else { (across.facet, across.gap) };
+                    let (facet, away) =
+                        if soil.has_contact_nodes { (segment.facet, 0.0) } else { (across.facet, across.gap) };
                     let x = [0, 1].map(|d| point.x[d] + away * point.normal[d]);
                     let apart = |p: &usize| {
                         let to = &ground.elements.position[*p];

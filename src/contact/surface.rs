@@ -34,7 +34,7 @@ pub struct Surface {
     /// Pieces that follow each other without a gap, by their segments.
     pub chains: Vec<std::ops::Range<usize>>,
     pub contact_nodes: usize,
-    /// Hats of each piece, and whether the last is beside the first.
+    /// Contact nodes of each piece, and whether the last is beside the first.
     pub runs: Vec<(std::ops::Range<usize>, bool)>,
     /// Length (m) between contact nodes.
     pub spacing: f64,

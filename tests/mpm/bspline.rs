@@ -7,6 +7,7 @@ mod system;
 use crate::bench::{Bench, constant, quadrature_points, run};
 use crate::layout::{at, lattice, resample, seeded};
 use crate::patch::stretch_boundary;
+use crate::resampled::flies_its_parabola;
 use crate::support::{Random, errors, mpm, rows, run as program_run};
 use mpm::analytical::self_weight_column::Column;
 use mpm::interpolation::{BSpline, Basis, Mpm};
@@ -159,34 +160,7 @@ fn a_spinning_block_keeps_its_angular_momentum() {
 /// A block thrown through a grid restored in every step flies its parabola, keeps its momentum and stays free of stress.
 #[test]
 fn a_thrown_block_flies_its_parabola() {
-    let mut bench = Bench::new(rectangle(CellKind::Q9, 8.0, 8.0, 8, 8, 0.0, 3), elastic(1e4, 0.3));
-    bench.scheme = &BSpline;
-    bench.gravity = [0.0, -10.0];
-    bench.dynamic = true;
-    bench.restore = Restore::EveryStep;
-    bench.steps = 100;
-    bench.duration = 0.9;
-    resample::<PlaneStrain>(&mut bench);
-    let mut places = lattice(1.6, 1.9, 0.15, &mut Random(8));
-    places.iter_mut().for_each(|(x, _)| *x = [x[0] + 1.0, x[1] + 1.7]);
-    let mut points = at::<PlaneStrain>(&bench.mesh, &places, 1.0);
-    points.velocity = vec![[4.0, 7.0]; points.len()];
-    let mass: f64 = points.mass.iter().sum();
-    let scene = bench.scene::<PlaneStrain>();
-    let mut worst = [0f64; 3];
-    run::<PlaneStrain>(&scene, points, |state, report| {
-        let (t, p) = (state.time, &state.points);
-        let off = |i: usize| {
-            let [x, y] = [0, 1].map(|d| p.position[i][d] - p.origin[i][d]);
-            (x - 4.0 * t).hypot(y - 7.0 * t + 5.0 * t * t)
-        };
-        worst[0] = (0..p.len()).map(off).fold(worst[0], f64::max);
-        let [x, y] = report.motion.linear.map(|v| v / mass);
-        worst[1] = worst[1].max((x - 4.0).hypot(y - 7.0 + 10.0 * t));
-        worst[2] = p.stress.iter().flatten().fold(worst[2], |a, s| a.max(s.abs()));
-    });
-    println!("thrown: {:.1e} m off, velocity {:.1e} m/s, stress {:.1e} kPa", worst[0], worst[1], worst[2]);
-    assert!(worst[0] < 1e-9 && worst[1] < 1e-10 && worst[2] < 1e-7, "{worst:?}");
+    flies_its_parabola(rectangle(CellKind::Q9, 8.0, 8.0, 8, 8, 0.0, 3), &BSpline);
 }
 
 /// A block that falls on a floor: a run that goes on from the state of a step ends in the same state to the last bit.

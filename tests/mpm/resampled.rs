@@ -5,6 +5,7 @@ use crate::bench::{Bench, constant, run};
 use crate::layout::{at, describe, lattice, resample, seeded, straighten};
 use crate::support::Random;
 use mpm::analytical::self_weight_column::Column;
+use mpm::interpolation::{Basis, Mpm};
 use mpm::kinematics::{Axisymmetric, Kinematics, PlaneStrain};
 use mpm::material::{Elasticity, Friction, LinearElastic, Model, MohrCoulomb, Tresca};
 use mpm::mesh::Mesh;
@@ -306,10 +307,15 @@ fn spin(kind: CellKind, steps: usize, spectral_radius: f64) -> [f64; 3] {
     worst
 }
 
-/// A free block in flight over some ten cells of a grid restored in every step: nothing drives it astray, and nothing stresses it.
 #[test]
 fn a_thrown_block_flies_its_parabola() {
-    let mut bench = Bench::new(rectangle(CellKind::T6, 8.0, 8.0, 8, 8, 0.2, 3), elastic(1e4, 0.3));
+    flies_its_parabola(rectangle(CellKind::T6, 8.0, 8.0, 8, 8, 0.2, 3), &Mpm);
+}
+
+/// A free block in flight over some ten cells of a grid restored in every step: nothing drives it astray, and nothing stresses it.
+pub fn flies_its_parabola(mesh: Mesh<2>, scheme: &'static dyn Basis<2>) {
+    let mut bench = Bench::new(mesh, elastic(1e4, 0.3));
+    bench.scheme = scheme;
     bench.gravity = [0.0, -10.0];
     bench.dynamic = true;
     bench.restore = Restore::EveryStep;

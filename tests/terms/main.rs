@@ -10,7 +10,6 @@ mod keyed;
 mod loads;
 mod pressure;
 mod rigid;
-mod smooth;
 mod stand;
 #[path = "../support/mod.rs"]
 mod support;
