@@ -11,7 +11,7 @@ include pipeline/mpm.mk
 
 SECONDS := 600
 
-.PHONY: help setup build demo pile pile-variants pile-schemes pipeline pipeline-study test test-quick fuzz sanitize campaign check fmt clean bench bench-block bench-unused sbom stress verification
+.PHONY: help setup build wheel wheel-try demo pile pile-variants pile-schemes pipeline pipeline-study test test-quick fuzz sanitize campaign check fmt clean bench bench-block bench-unused sbom stress verification
 
 help: ## List the targets
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / {printf "  %-14s %s\n", $$1, $$2}' $(firstword $(MAKEFILE_LIST))
@@ -57,10 +57,18 @@ pipeline-study: build ## The same with all variants: softening clay, no parting,
 
 test: setup ## Set up and run all tests
 	cargo test --release --no-fail-fast
+	@$(MAKE) --no-print-directory wheel-try
 
 # Slow tests are in modules named `slow`.
 test-quick: setup ## Set up and run the tests that take less than three seconds each, in two minutes after the build
 	cargo test --release --no-fail-fast -- --skip slow::
+
+wheel: setup ## Build the wheel for pip: writes target/wheels
+	rm -rf target/wheels
+	$(PYTHON) -m pip wheel --quiet --disable-pip-version-check --no-deps -w target/wheels .
+
+wheel-try: wheel ## Install the wheel into a clean environment and run a template with it
+	@pipeline/try_wheel.sh
 
 fuzz: ## Mutated files through every reader for a time: make fuzz SECONDS=600 (SEED=1; tests/fuzz/README.md)
 	FUZZ_SECONDS=$(SECONDS) FUZZ_SEED=$(or $(SEED),$(shell date +%s)) cargo test --release --config profile.release.package.mpm.overflow-checks=true --test fuzz -- --nocapture

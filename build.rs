@@ -155,6 +155,8 @@ fn link(library: &Path) {
     if let (Some(folder), Some(name)) = (library.parent(), library.file_name()) {
         println!("cargo::rustc-link-search=native={}", folder.display());
         println!("cargo::rustc-link-lib=dylib:+verbatim={}", name.to_string_lossy());
+        // First where a wheel has it: the program in bin/, Gmsh's library in lib/ beside it.
+        println!("cargo::rustc-link-arg=-Wl,-rpath,$ORIGIN/../lib");
         println!("cargo::rustc-link-arg=-Wl,-rpath,{}", folder.display());
     }
 }

@@ -2,8 +2,10 @@
 
 mod args;
 mod check;
+mod completions;
 mod export;
 mod info;
+mod man;
 mod mesh;
 mod new;
 mod print;
@@ -13,13 +15,14 @@ mod seed;
 mod signals;
 mod solve;
 mod stage;
+mod sweep;
 
 use crate::case::Keys;
 use crate::error::Error;
 use crate::mesh::gmsh;
 use crate::program;
 use args::StageArgs;
-use clap::{Parser, Subcommand};
+use clap::{CommandFactory, Parser, Subcommand};
 use std::io::{self, Write};
 use std::process::ExitCode;
 
@@ -48,12 +51,18 @@ enum Command {
     Export(export::Args),
     /// All stages in turn, but those whose inputs have not changed
     Run(run::Args),
+    /// Run a case for every combination of values of some of its entries: writes a folder a run and table.csv
+    Sweep(sweep::Args),
     /// Print every mistake of a case that shows without its mesh, with file, line and remedy; writes nothing
     Check(check::Args),
     /// Print what a file of mpm was made from, or those of an output folder: program, inputs, command, time
     Info(info::Args),
     /// Print the JSON schema of case.yaml, for editors
     Schema,
+    /// Print what a shell needs to complete commands and options: bash, zsh, fish, …
+    Completions(completions::Args),
+    /// Write the manual pages into a folder, for man
+    Man(man::Args),
     /// Gmsh in a process of its own, which `mesh` and `check` start
     #[command(name = gmsh::COMMAND, hide = true)]
     GmshWorker,
@@ -73,9 +82,12 @@ pub fn with(keys: &Keys) -> ExitCode {
         Command::Solve(args) => solve::run(&args, keys),
         Command::Export(args) => export::run(&args, keys),
         Command::Run(args) => run::run(&args, keys),
+        Command::Sweep(args) => sweep::run(&args, keys),
         Command::Check(args) => check::run(&args, keys),
         Command::Info(args) => info::run(&args),
         Command::Schema => schema::run(keys),
+        Command::Completions(args) => completions::run(&args, Cli::command()),
+        Command::Man(args) => man::run(&args, Cli::command()),
         Command::GmshWorker => gmsh::serve().map_err(Vec::from),
     };
     match outcome {

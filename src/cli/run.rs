@@ -2,7 +2,7 @@
 
 use super::print::{Outcome, print};
 use super::stage::Stage;
-use super::{export, mesh, seed, solve};
+use super::{export, mesh, seed, solve, sweep};
 use crate::case::Keys;
 use crate::error::Result;
 
@@ -13,12 +13,16 @@ pub struct Args {
     solve: solve::Args,
     #[command(flatten)]
     gmsh: mesh::Gmsh,
+    /// Ends with the process of this number, which has started this one
+    #[arg(long, hide = true, value_name = "PROCESS")]
+    end_with: Option<u32>,
 }
 
 /// A stage: its name, whether it may be skipped, and its work.
 type Entry<'a> = (&'static str, &'a dyn Fn(&Stage) -> Result<bool>, &'a dyn Fn(&Stage) -> Outcome);
 
 pub fn run(args: &Args, keys: &Keys) -> Outcome {
+    args.end_with.map_or(Ok(()), sweep::end_with)?;
     let stage = Stage::open(&args.solve.stage, keys)?;
     stage.lock()?;
     let stages: [Entry; 4] = [

@@ -49,6 +49,20 @@ pub fn is_current(stage: &Stage) -> Result<bool> {
     Ok(inputs(stage)?.are_current(stage.folder(), &stage.runs().main.outputs()?))
 }
 
+/// Whether there is a run of this very case that was not finished, with a checkpoint to continue from.
+///
+/// # Errors
+/// Files that cannot be read.
+pub fn can_resume(stage: &Stage) -> Result<bool> {
+    let files = [stage.mesh(), stage.points()];
+    if !files.iter().all(|file| file.exists()) {
+        return Ok(false);
+    }
+    let run = stage.fingerprint(&files)?;
+    let runs = stage.runs();
+    Ok(runs.unfinished()?.is_some_and(|folder| Checkpoints::new(folder.checkpoints(), run).can_resume()))
+}
+
 /// Solves, with progress on a terminal and plain lines elsewhere.
 ///
 /// Results that are there stay until the run is finished; one that could be continued is given up only by request.

@@ -5,13 +5,16 @@ mod make;
 mod new;
 mod output_folder;
 mod running;
+mod shell;
 mod signals;
 mod stages;
 #[path = "../support/mod.rs"]
 mod support;
+mod sweep;
 
 /// What takes more than some seconds; `make test-quick` leaves it out.
 mod slow {
     mod new;
     mod resume;
+    mod sweep;
 }

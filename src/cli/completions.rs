@@ -1,0 +1,19 @@
+//! `mpm completions`: what a shell needs to complete the commands and options of the program.
+
+use super::print::{Outcome, print};
+use crate::error::Error;
+use clap::Command;
+use clap_complete::{Shell, generate};
+
+#[derive(clap::Args)]
+pub struct Args {
+    /// The shell
+    shell: Shell,
+}
+
+pub fn run(args: &Args, mut command: Command) -> Outcome {
+    let mut script = Vec::new();
+    generate(args.shell, &mut command, "mpm", &mut script);
+    let script = String::from_utf8(script).map_err(|e| Error::machine("the script", e, ""))?;
+    print(&script)
+}
