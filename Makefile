@@ -92,10 +92,11 @@ bench-unused: build ## Count the instructions that parts cost which a scene does
 stress: build ## Random scenes, each to end converged or with a statement; writes docs/stress.md
 	$(PYTHON) benches/stress/run.py --write $(ARGS)
 
-check: setup book ## Formatting, lints, documentation and manual, without warnings
+check: setup ## Formatting, lints, documentation and manual, without warnings
 	cargo fmt --check
 	cargo clippy --release --all-targets -- -D warnings
 	RUSTDOCFLAGS='-D warnings' cargo doc --release --no-deps
+	$(MAKE) --no-print-directory book
 
 book: setup $(MDBOOK) ## Build the manual, with search and a page to print: target/book/index.html
 	$(PYTHON) pipeline/book.py $(MDBOOK)

@@ -145,22 +145,26 @@ def table(schema, name, known, page, place):
     block = schema if name == "case" else schema["$defs"][name]
     lines = ["| key | values | default | meaning | example |", "|---|---|---|---|---|"]
     lacks = []
-    for key, part in block["properties"].items():
+    required = block.get("required", [])
+    for key in required + sorted(set(block["properties"]) - set(required)):
+        part = block["properties"][key]
         meaning = " ".join(part.get("description", "").split())
         if not meaning:
             lacks.append(f"{name}.{key} has no description in the schema")
         default = DEFAULT.search(meaning)
         models = MODELS.search(meaning.removesuffix(".")) if name == "Material" else None
         meaning = DEFAULT.sub("", meaning)
-        models and (meaning := MODELS.sub("", meaning.removesuffix(".")))
+        if models:
+            meaning = MODELS.sub("", meaning.removesuffix("."))
         unit = UNIT.search(meaning)
         meaning = UNIT.sub("", meaning, count=1)
         if models:
             takers = models[1].split(", ")
-            meaning = f"{meaning[0].upper() + meaning[1:]}. Of {'all models' if len(takers) >= 6 else ', '.join(f'`{m}`' for m in takers)}"
+            first = meaning[0].upper() if meaning[0].isascii() else meaning[0]
+            meaning = f"{first + meaning[1:]}. Of {'all models' if len(takers) >= 6 else ', '.join(f'`{m}`' for m in takers)}"
         if default:
             shown = MODELS.sub("", default[1]) if models else default[1]
-        elif key in block.get("required", []):
+        elif key in required:
             shown = "*required*"
         else:
             shown = f"`{flow(plain(part['default']))}`" if part.get("default") not in (None, {}, [], "") else ""
