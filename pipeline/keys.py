@@ -22,7 +22,7 @@ ROOT = Path(__file__).resolve().parent.parent
 PAGES = ROOT / "docs/reference"
 TABLE = re.compile(r"<!-- keys (\w+) -->\n(.*?)<!-- end of keys -->", re.DOTALL)
 UNIT = re.compile(r" [(\[](-|degrees|1/s|kN/m³|kPa|m|m/s|m/s²|rad|rad/m|s|t/m³)[)\]]")
-DEFAULT = re.compile(r"(?:\. |[;,] )[Dd]efault:? (.+?)(?=\.$|\. | \(?of `|$)", re.DOTALL)
+DEFAULT = re.compile(r"(?:\. |; )[Dd]efault:? (.+?)(?=\.$|\. |$)")
 MODELS = re.compile(r" of ((?:`?\w+`?, )*`?\w+`?)$")
 LONGEST = 56  # characters of an example
 TYPES = {"a number": {"number"}, "a whole number": {"integer"}, "text": {"string"}}
@@ -35,16 +35,6 @@ PROFILE = "number or [profile](case-file.md#numbers-that-vary)"
 IN_TIME = "number, constant or [in time](case-file.md#numbers-that-vary)"
 SHARED = {"InDepth": PROFILE, "InTime": IN_TIME, "Load": f"{IN_TIME}, or a profile", "OneOrMore": "a name or a list of names",
           "Quantity": "a [quantity](output.md#quantities)", "Field": "a [field](output.md#fields)"}
-
-
-class Loader(yaml.SafeLoader):
-    """YAML as the program reads it: `on`, `y` and the like are no truth values."""
-
-
-Loader.yaml_implicit_resolvers = {
-    first: [entry for entry in entries if entry[0] != "tag:yaml.org,2002:bool" or first in "tTfF"]
-    for first, entries in yaml.SafeLoader.yaml_implicit_resolvers.items()
-}
 
 
 def definition(schema, part):
@@ -65,14 +55,16 @@ def kinds(part):
 
 
 def flow(value):
-    """A value as YAML on one line."""
-    text = yaml.safe_dump(value, default_flow_style=True, width=10**6, allow_unicode=True, sort_keys=False)
-    return text.removesuffix("...\n").strip().replace("|", "\\|")
-
-
-def plain(value):
-    """A number without needless decimals."""
-    return int(value) if isinstance(value, float) and value.is_integer() else value
+    """A value as YAML on one line; of a case, whose scalars are read as text, as it is written there."""
+    if isinstance(value, dict):
+        text = "{" + ", ".join(f"{key}: {flow(entry)}" for key, entry in value.items()) + "}"
+    elif isinstance(value, list):
+        text = "[" + ", ".join(flow(entry) for entry in value) + "]"
+    elif isinstance(value, str):
+        text = f'"{value}"' if re.search(r"[:,#\[\]{}]", value) else value
+    else:
+        text = json.dumps(int(value) if isinstance(value, float) and value.is_integer() else value)
+    return text.replace("|", "\\|")
 
 
 def collect(schema, part, value, file, found):
@@ -98,7 +90,7 @@ def examples(schema):
     found = {}
     for folder in FOLDERS:
         for file in sorted((ROOT / folder).glob("*/case.yaml")):
-            collect(schema, schema, yaml.load(file.read_text(), Loader), file, found)
+            collect(schema, schema, yaml.load(file.read_text(), yaml.BaseLoader), file, found)
     best = {}
     for place, entries in found.items():
         texts = [(file, flow(entry)) for file, entry in entries]
@@ -151,23 +143,23 @@ def table(schema, name, known, page, place):
         meaning = " ".join(part.get("description", "").split())
         if not meaning:
             lacks.append(f"{name}.{key} has no description in the schema")
-        default = DEFAULT.search(meaning)
         models = MODELS.search(meaning.removesuffix(".")) if name == "Material" else None
-        meaning = DEFAULT.sub("", meaning)
         if models:
             meaning = MODELS.sub("", meaning.removesuffix("."))
         unit = UNIT.search(meaning)
         meaning = UNIT.sub("", meaning, count=1)
+        default = DEFAULT.search(meaning)
+        meaning = DEFAULT.sub("", meaning)
         if models:
             takers = models[1].split(", ")
-            first = meaning[0].upper() if meaning[0].isascii() else meaning[0]
+            first = meaning[0].upper() if meaning[0].isascii() and meaning[1].isalpha() else meaning[0]
             meaning = f"{first + meaning[1:]}. Of {'all models' if len(takers) >= 6 else ', '.join(f'`{m}`' for m in takers)}"
         if default:
-            shown = MODELS.sub("", default[1]) if models else default[1]
+            shown = f"`{default[1]}`" if re.fullmatch(r"(?!none$|empty$)[\w.]+", default[1]) else default[1]
         elif key in required:
             shown = "*required*"
         else:
-            shown = f"`{flow(plain(part['default']))}`" if part.get("default") not in (None, {}, [], "") else ""
+            shown = f"`{flow(part['default'])}`" if part.get("default") not in (None, {}, [], "") else ""
         example = known.get((name, key))
         if example is None:
             lacks.append(f"{name}.{key} has no example in {', '.join(FOLDERS)}")

@@ -6,7 +6,7 @@ mod support;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
-use support::{PROGRAM, project, python, succeeds};
+use support::{PROGRAM, in_folder, project, python, succeeds};
 
 /// The folders of the pages that are the manual alone, beside `docs/user-guide.md`.
 const FOLDERS: [&str; 4] = ["docs/first-steps", "docs/how-to", "docs/reference", "docs/coming-from"];
@@ -103,6 +103,15 @@ fn the_tables_have_every_key_of_the_schema() {
     let said = String::from_utf8_lossy(&output.stderr).into_owned();
     assert!(!output.status.success() && said.contains("the table of Mesh differs"), "{said}");
     assert!(said.contains("Mesh.smoothing has no example"), "{said}");
+}
+
+#[test]
+fn the_examples_have_no_mistakes() {
+    let examples: Vec<PathBuf> = fs::read_dir(project("docs/examples")).unwrap().map(|e| e.unwrap().path()).collect();
+    assert!(examples.len() > 2, "{examples:?}");
+    for example in examples {
+        succeeds(&in_folder(&example, &["check", "."]));
+    }
 }
 
 /// Whether the parts between the … and ` … ` of a quoted message are in the sources, where lines of a text may be split.
