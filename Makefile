@@ -11,7 +11,11 @@ include pipeline/mpm.mk
 
 SECONDS := 600
 
-.PHONY: help setup build wheel wheel-try demo pile pile-variants pile-schemes pipeline pipeline-study test test-quick fuzz sanitize campaign check fmt clean bench bench-block bench-unused sbom stress verification
+# Only what building pages and their search needs.
+MDBOOK_VERSION := 0.5.4
+MDBOOK := target/tools/mdbook-$(MDBOOK_VERSION)/bin/mdbook
+
+.PHONY: help setup build wheel wheel-try demo pile pile-variants pile-schemes pipeline pipeline-study test test-quick fuzz sanitize campaign check fmt clean bench bench-block bench-unused sbom stress verification book keys
 
 help: ## List the targets
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / {printf "  %-14s %s\n", $$1, $$2}' $(firstword $(MAKEFILE_LIST))
@@ -96,10 +100,21 @@ bench-unused: build ## Count the instructions that parts cost which a scene does
 stress: build ## Random scenes, each to end converged or with a statement; writes docs/stress.md
 	$(PYTHON) benches/stress/run.py --write $(ARGS)
 
-check: setup ## Formatting, lints and documentation, without warnings
+check: setup ## Formatting, lints, documentation and manual, without warnings
 	cargo fmt --check
 	cargo clippy --release --all-targets -- -D warnings
 	RUSTDOCFLAGS='-D warnings' cargo doc --release --no-deps
+	$(MAKE) --no-print-directory book
+
+book: setup $(MDBOOK) ## Build the manual, with search and a page to print: target/book/index.html
+	$(PYTHON) pipeline/book.py $(MDBOOK)
+
+$(MDBOOK):
+	cargo install mdbook --version $(MDBOOK_VERSION) --locked --no-default-features --features search --root target/tools/mdbook-$(MDBOOK_VERSION)
+
+keys: build ## Write the tables of keys in docs/reference from the schema of case.yaml
+	$(MPM) schema > target/schema.json
+	$(PYTHON) pipeline/keys.py target/schema.json
 
 sbom: setup ## List what is linked into the program; writes docs/sbom.cdx.json
 	$(PYTHON) pipeline/sbom.py

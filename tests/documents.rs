@@ -1,10 +1,8 @@
-//! What the documents say holds: the README's first case runs and its list has every case, the user guide has every
-//! entry of a case, every link leads to a file, the sources that the theory and the tour name exist, the bill of materials is of what is
-//! linked.
+//! What the documents say holds: the README's first case runs and its list has every case, every link leads to a file, the sources that
+//! the theory and the tour name exist, the bill of materials is of what is linked. `manual.rs` has the manual.
 
 mod support;
 
-use mpm::material::MODELS;
 use serde_json::Value;
 use std::collections::BTreeSet;
 use std::fs;
@@ -33,35 +31,6 @@ fn the_first_case_runs_as_it_is_printed() {
     assert_eq!(series.matches("<DataSet").count(), 31, "a frame each 0.1 s for 3 s, and the first");
     let log = fs::read_to_string(out.join("solve.log")).unwrap();
     assert!(log.lines().last().unwrap().contains(" fall t 3.000000000 "), "{log}");
-}
-
-/// The names of all properties in a schema.
-fn entries(schema: &Value, found: &mut BTreeSet<String>) {
-    match schema {
-        Value::Object(map) => {
-            for (key, value) in map {
-                if key == "properties" {
-                    found.extend(value.as_object().into_iter().flat_map(|p| p.keys().cloned()));
-                }
-                entries(value, found);
-            }
-        }
-        Value::Array(list) => list.iter().for_each(|value| entries(value, found)),
-        _ => {}
-    }
-}
-
-#[test]
-fn the_user_guide_has_every_entry_of_a_case() {
-    let guide = fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/user-guide.md")).unwrap();
-    let mut names = BTreeSet::new();
-    entries(&mpm::case::schema(), &mut names);
-    names.extend(MODELS.iter().flat_map(|model| model.parameters.iter().map(|p| p.name.to_owned())));
-    names.extend(MODELS.iter().map(|model| model.name.to_owned()));
-    assert!(names.len() > 60, "{names:?}");
-    let words: BTreeSet<&str> = guide.split(|c: char| !(c.is_alphanumeric() || c == '_')).collect();
-    let missing: Vec<&String> = names.iter().filter(|name| !words.contains(name.as_str())).collect();
-    assert!(missing.is_empty(), "docs/user-guide.md does not mention {missing:?}");
 }
 
 #[test]

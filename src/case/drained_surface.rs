@@ -17,7 +17,7 @@ pub struct DrainedSurface(Surface);
 impl Keyed for DrainedSurface {
     const KEY: &'static str = "drained_surface";
     const DESCRIPTION: &'static str = "The surface of soil, wherever it moves, that has no excess pore pressure while water flows: all, \
-         or the name of a region.";
+         or the name of a region. Default: none.";
 
     type Written = String;
 

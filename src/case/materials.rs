@@ -173,40 +173,42 @@ impl JsonSchema for raw::Material {
         let models: Vec<&str> = MODELS.iter().map(|kind| kind.name).collect();
         let mut properties = Map::new();
         properties.insert("model".into(), json!({ "description": "The material model.", "enum": models }));
-        let weight = "Unit weight [kN/m³], 0 or above; with gravity it gives the density.";
+        let weight = "Unit weight [kN/m³], 0 or above; divided by gravity it is the density. This or `density`.";
         properties.insert("unit_weight".into(), varying(weight.into()));
-        properties.insert("density".into(), varying("Density [t/m³], 0 or above; or give `unit_weight`.".into()));
-        let drainage = "Whether water can leave the pores; undrained, the model and its parameters are those of the \
-            effective stress, and the excess pressure of the water is found. Without it drained.";
+        properties.insert("density".into(), varying("Density [t/m³], 0 or above. This or `unit_weight`.".into()));
+        let drainage = "Whether water can leave the pores. If undrained, the model and its parameters are those of the effective \
+            stress, and the excess pore pressure is found. Default: drained.";
         let mut schema = generator.subschema_for::<raw::Drainage>();
         schema.insert("description".into(), drainage.into());
         properties.insert("drainage".into(), schema.to_value());
         properties.insert(
             "undrained_poisson".into(),
             json!({
-                "description": "Poisson's ratio [-] of an undrained soil as a whole, that tells the stiffness of its \
-                    water, above `poisson` and below 0.5; without it 0.495.",
+                "description": "Poisson's ratio of an undrained soil as a whole, which gives the stiffness of its water [-]: \
+                    above `poisson`, below 0.5. Default: 0.495.",
                 "type": "number",
             }),
         );
         let mut schema = generator.subschema_for::<raw::Permeability>();
-        let permeability = "Permeability [m/s] of an undrained soil, or {x, y}: its water flows in phases of consolidation and \
-            dynamics.";
+        let permeability = "Permeability of an undrained soil, or {x, y} [m/s]: its water flows in consolidation and dynamic phases. Default: no \
+            flow.";
         schema.insert("description".into(), permeability.into());
         properties.insert("permeability".into(), schema.to_value());
         for (name, range, description) in [
-            ("porosity", json!({"exclusiveMinimum": 0, "exclusiveMaximum": 1}), "Porosity [-] of an undrained soil."),
+            (
+                "porosity",
+                json!({"exclusiveMinimum": 0, "exclusiveMaximum": 1}),
+                "Porosity of an undrained soil, with `water_bulk_modulus` in place of `undrained_poisson` [-].",
+            ),
             (
                 "water_bulk_modulus",
                 json!({"exclusiveMinimum": 0}),
-                "Bulk modulus [kPa] of the water in an undrained soil; with \
-                `porosity` in place of `undrained_poisson`.",
+                "Bulk modulus of the water in an undrained soil, K_w [kPa]; the stiffness of the water is K_w/n, n the `porosity`.",
             ),
             (
                 "water_unit_weight",
                 json!({"exclusiveMinimum": 0}),
-                "Unit weight [kN/m³] of the water in an undrained soil; without \
-                it 9.81.",
+                "Unit weight of the water in an undrained soil with a `permeability` [kN/m³]. Default: 9.81.",
             ),
         ] {
             let mut schema = json!({ "description": description, "type": "number" });

@@ -22,7 +22,7 @@ use std::collections::BTreeMap;
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct CaseFile {
-    /// A line that names the case in logs and pictures.
+    /// A line that names the case in logs and pictures. Default: empty.
     #[serde(default)]
     pub title: String,
     /// The kind of geometry: plane_strain, axisymmetric (x is the radius), or solid (not available yet).
@@ -41,18 +41,18 @@ pub struct CaseFile {
     /// Displacements held at zero in every phase, by the name of a physical curve or a rigid structure.
     #[serde(default)]
     pub supports: BTreeMap<String, Components>,
-    /// Acceleration of gravity (m/s²).
+    /// Acceleration of gravity (m/s²). Default: none.
     #[serde(default)]
     pub gravity: Vector,
-    /// The stress before the first phase; without it there is none.
+    /// The stress before the first phase. Default: none.
     pub initial_stress: Option<InitialStress>,
-    /// Excess pore pressure (kPa, compression positive) before the first phase, by the name of a region.
+    /// Excess pore pressure before the first phase, compression positive, by the name of a region (kPa). Default: none.
     #[serde(default)]
     pub initial_pore_pressure: BTreeMap<String, InDepth>,
-    /// The velocity before the first phase, by the name of a region; without it everything is at rest.
+    /// The velocity before the first phase, by the name of a region. Default: at rest.
     #[serde(default)]
     pub initial_velocity: BTreeMap<String, Velocity>,
-    /// Water whose pressure acts on all that is below its level; without it none.
+    /// Water at rest outside of the soil, in its pores, or both. Default: none.
     pub water: Option<Water>,
     /// The numerical method.
     #[serde(default)]
@@ -126,14 +126,15 @@ pub struct Mesh {
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Region {
-    /// What the region is: mpm (material points), buffer (empty cells), fem or structure.
+    /// What the region is: mpm (material points), buffer (empty cells that soil may move into), fem (finite elements that share nodes with the grid) or
+    /// structure (finite elements with a mesh of their own, over the grid).
     pub kind: RegionKind,
-    /// The name of an entry of `materials`.
+    /// The name of an entry of `materials`. Not of a buffer.
     pub material: Option<String>,
-    /// Material points a cell: 4, 9, 16 or 25 equal points, or 3, 6, 7 or 12 quadrature points of a triangle. Without it 16.
+    /// Material points a cell, of mpm: 4, 9, 16 or 25 equal points, or 3, 6, 7 or 12 quadrature points of a triangle. Default: 16.
     #[schemars(extend("enum" = [3, 4, 6, 7, 9, 12, 16, 25]))]
     pub points_per_cell: Option<usize>,
-    /// Whether a structure keeps its shape: it moves and turns as a whole.
+    /// Whether a structure keeps its shape and moves and turns as a whole. Default: false.
     pub rigid: Option<bool>,
 }
 
@@ -176,7 +177,7 @@ pub struct Profile {
     /// Growth per metre below `datum`, 0 or above.
     #[schemars(range(min = 0))]
     pub gradient: f64,
-    /// Height y (m) at which the growth begins.
+    /// Height y at which the growth begins (m).
     #[serde(default)]
     pub datum: f64,
 }
@@ -185,13 +186,13 @@ pub struct Profile {
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Components {
-    /// Horizontal (in axisymmetry radial) displacement, held at 0.
+    /// Horizontal (in axisymmetry radial) displacement, held at 0 (m).
     pub ux: Option<f64>,
-    /// Vertical displacement, held at 0.
+    /// Vertical displacement, held at 0 (m).
     pub uy: Option<f64>,
-    /// Rotation of a rigid structure, held at 0.
+    /// Rotation of a rigid structure, held at 0 (rad).
     pub rotation: Option<f64>,
-    /// Excess pore pressure, held at 0 while water flows: the curve is drained.
+    /// Excess pore pressure, held at 0 while water flows: the curve is drained (kPa).
     pub pore_pressure: Option<f64>,
 }
 
@@ -199,7 +200,7 @@ pub struct Components {
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Contact {
-    /// A name by which phases take the contact away.
+    /// A name by which phases deactivate and activate the contact.
     pub name: Option<String>,
     /// The name of a region of kind structure.
     pub structure: Option<String>,
@@ -207,22 +208,22 @@ pub struct Contact {
     pub wall: Option<String>,
     /// The name of a region of kind mpm, or a list of them.
     pub soil: Option<OneOrMore>,
-    /// In place of soil, the name of another region of kind structure or fem.
+    /// In place of soil, the name of another region of kind structure, or of one of kind fem.
     pub against: Option<String>,
     /// Coefficient of friction tan δ (-).
     #[serde(default)]
     #[schemars(range(min = 0))]
     pub friction: f64,
-    /// Adhesion (kPa).
+    /// Adhesion c_a (kPa).
     #[serde(default)]
     #[schemars(range(min = 0))]
     pub adhesion: f64,
-    /// α (-), from 0 to 1: the shear is at most α times the shear strength that the soil has; without friction and adhesion it is
-    /// just that.
+    /// α: the shear is at most α times the shear strength of the soil as the step begins (-). Without friction and adhesion the shear limit is
+    /// α times that strength. Default: no such limit.
     #[schemars(range(min = 0, max = 1))]
     pub adhesion_factor: Option<f64>,
-    /// Whether the two part where they are pulled: cut_off (they do), no_separation (they do not), or {limit: t}, where the tension
-    /// would exceed t.
+    /// What happens where the two are pulled apart: cut_off (they part), no_separation (they do not), or {limit: t} (they part where
+    /// the tension would exceed t). Default: cut_off.
     #[serde(default)]
     pub tension: Tension,
 }
@@ -302,7 +303,7 @@ pub struct Vector {
 #[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct InitialStress {
-    /// Horizontal over vertical stress (-), 0 or above; the vertical stress is the weight above the point.
+    /// Horizontal over vertical stress; the vertical stress is the weight above the point (-).
     #[schemars(range(min = 0))]
     pub k0: f64,
 }
@@ -311,12 +312,12 @@ pub struct InitialStress {
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Water {
-    /// Height y (m) of its level outside of the soil, in the time of each phase; without it there is none.
+    /// Height y of the water level outside of the soil, in the time of each phase (m). Default: no water outside.
     pub level: Option<InTime>,
-    /// Height y (m) up to which it stands in the pores of the soil, in the time of each phase: with it, materials are those of the effective
-    /// stress. Without it there is none.
+    /// Height y of the water level in the pores, in the time of each phase (m). With it, all materials are in effective stress.
+    /// Default: no water in the pores.
     pub phreatic_level: Option<InTime>,
-    /// Unit weight (kN/m³), above 0.
+    /// Unit weight of the water (kN/m³).
     #[serde(default = "unit_weight_of_water")]
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub unit_weight: f64,
@@ -326,16 +327,16 @@ pub struct Water {
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Velocity {
-    /// Velocity at the centre (m/s).
+    /// Velocity at the centre (m/s). Default: 0.
     #[serde(default)]
     pub velocity: Vector,
-    /// Velocity gradient (1/s), in rows: [[0, -w], [w, 0]] is a spin of w radians a second.
+    /// Velocity gradient, in rows (1/s): [[0, -w], [w, 0]] is a spin of w radians a second.
     #[serde(default)]
     pub gradient: [[f64; 2]; 2],
-    /// The point (m) the gradient is taken about.
+    /// The point that the gradient is taken about (m). Default: the origin.
     #[serde(default)]
     pub centre: Vector,
-    /// A standing wave.
+    /// A standing wave on top of that. Default: none.
     pub standing_wave: Option<StandingWave>,
 }
 

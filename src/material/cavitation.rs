@@ -101,7 +101,7 @@ pub const PARAMETER: Parameter = Parameter {
     unit: "kPa",
     required: false,
     varies: true,
-    meaning: "largest mean stress in tension, at which the soil cavitates: its volume grows and closes again; no limit if not given",
+    meaning: "largest mean stress in tension, at which the soil cavitates: its volume grows and closes again; default: no limit",
 };
 
 /// `model`, that `reduced` divides the strengths of, with the limit that its parameters have, if they have one.

@@ -48,7 +48,7 @@ pub struct SofteningTresca {
 pub struct Softening {
     /// δ_rem (-): the strength of remoulded soil over the first one.
     pub remoulded: f64,
-    /// ξ₉₅ (-): the plastic shear strain at which 95 % of the softening is done.
+    /// ξ₉₅ (-): the ξ₉₅, plastic shear strain at which 95 % of the softening is done, such as 10 (1000 %).
     pub ductility: f64,
     /// μ (-): the strength gained with each tenfold rate.
     pub rate: f64,
@@ -76,28 +76,28 @@ pub const KIND: Kind = Kind {
             unit: "-",
             required: true,
             varies: false,
-            meaning: "strength of remoulded soil over that of intact soil, above 0 and at most 1: one over the sensitivity",
+            meaning: "δ_rem, strength of remoulded soil over that of intact soil, above 0 and at most 1: one over the sensitivity",
         },
         Parameter {
             name: "ductility",
             unit: "-",
             required: true,
             varies: false,
-            meaning: "plastic shear strain at which 95 % of the softening is done",
+            meaning: "ξ₉₅, plastic shear strain at which 95 % of the softening is done, such as 10 (1000 %)",
         },
         Parameter {
             name: "rate",
             unit: "-",
             required: false,
             varies: false,
-            meaning: "part of the strength gained with each tenfold rate of shear; 0 if not given",
+            meaning: "μ, part of the strength gained with each tenfold rate of plastic shear strain; default 0",
         },
         Parameter {
             name: "reference_rate",
             unit: "1/s",
             required: false,
             varies: false,
-            meaning: "rate of shear from which the strength grows; needed with a rate",
+            meaning: "rate of plastic shear strain from which on the strength grows; needed with `rate`, and time is then real in quasi-static phases too",
         },
         cavitation::PARAMETER,
     ],

@@ -33,7 +33,7 @@ pub const KIND: Kind = Kind {
             unit: "kPa",
             required: true,
             varies: true,
-            meaning: "strength in uniaxial tension, sqrt(3 J2) at yield",
+            meaning: "strength in uniaxial stress, √(3 J₂) at yield: √3 times the shear strength",
         },
         cavitation::PARAMETER,
     ],

@@ -51,10 +51,10 @@ pub enum Permeability {
 #[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct PermeabilityByAxis {
-    /// Horizontal permeability (m/s), 0 or above.
+    /// Horizontal permeability (m/s).
     #[schemars(range(min = 0))]
     pub x: f64,
-    /// Vertical permeability (m/s), 0 or above.
+    /// Vertical permeability (m/s).
     #[schemars(range(min = 0))]
     pub y: f64,
 }

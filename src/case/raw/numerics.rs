@@ -7,31 +7,31 @@ use serde::Deserialize;
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Numerics {
-    /// What material points see of the grid: mpm (the shape functions of their cell), ddmp (with gradients that are continuous from
-    /// cell to cell), bspline (quadratic B-splines, on rectangular grids of Q9 cells), or their means over domains of the points: ugimp,
-    /// cpgimp (gimp), cpdi, cpdi2 (docs/schemes.md).
+    /// How gradients at the material points are formed: mpm (those of the cell), ddmp (continuous from cell to cell), bspline
+    /// (quadratic B-splines, on one rectangle of Q9 cells), or means over the domains of the points: cpdi and cpdi2 on any mesh, ugimp and
+    /// cpgimp (or gimp) on grids of rectangles (docs/schemes.md).
     pub gradient: String,
     /// What integrals are summed over: resampled (integration points of the cells, which take their state from the material points
-    /// when the grid is restored), or points (the material points, by their volumes). Default: resampled; points with
-    /// all gradients but mpm and bspline.
+    /// when the grid is restored), or points (the material points, by their volumes). Default: resampled, but points with
+    /// all gradients except mpm and bspline.
     pub quadrature: Option<Quadrature>,
-    /// Who carries the mean stress of nearly incompressible and undrained materials: a field of pressure unknowns, or
-    /// none. Without it a field where Poisson's ratio is 0.45 or more (not in mohr_coulomb and cam_clay) or a material
-    /// is undrained.
+    /// Whether pressure unknowns carry the mean stress of nearly incompressible and undrained materials: field or none. Default: field
+    /// where Poisson's ratio is 0.45 or more (not in drained mohr_coulomb and cam_clay) or a material is undrained, else none.
     pub pressure: Option<Pressure>,
-    /// When the grid goes back to its first shape: every_step, never, or {min_quality: q, max_stretch: s}.
+    /// When the grid is moved back to its initial shape: every_step, never (updated Lagrangian), or by {min_quality: q, max_stretch: s}; then also where
+    /// Newton's method fails.
     pub restore: Restore,
-    /// Spectral radius ρ∞ (-) of generalised-α at high frequencies, from 0 to 1; 1 damps nothing.
+    /// Spectral radius ρ∞ of generalised-α at high frequencies: 1 conserves energy, less damps what the mesh cannot
+    /// resolve (-).
     #[schemars(range(min = 0, max = 1))]
     pub spectral_radius: f64,
-    /// Newton's iteration ends when the residual is this small beside the forces (-), at most 0.01: results have
-    /// an error of that size.
+    /// Newton's iteration ends when the residual is this small relative to the forces; results have an error of that size (-).
     #[schemars(extend("exclusiveMinimum" = 0), extend("maximum" = 0.01))]
     pub tolerance: f64,
     /// Iterations after which a step is halved.
     #[schemars(range(min = 1, max = 1000))]
     pub max_iterations: usize,
-    /// Stiffness of empty cells over that of the soil (-).
+    /// Stiffness of empty cells over that of the stiffest soil of any phase (-).
     #[schemars(extend("exclusiveMinimum" = 0), extend("exclusiveMaximum" = 1))]
     pub empty_stiffness: f64,
 }
@@ -87,11 +87,11 @@ pub enum RestoreName {
 #[derive(Clone, Copy, Debug, Deserialize, serde::Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct RestoreQuality {
-    /// The grid is restored when a cell's quality falls below this share of its first one (-).
+    /// The grid is restored when the quality of a cell falls below this part of its first one (-).
     #[schemars(range(min = 0, max = 1))]
     pub min_quality: f64,
-    /// And when an edge is this many times as long as at first, or as short (-), above 1.
-    /// Default: 1.3, and 1.5 in a scene with contacts.
+    /// The grid is also restored when an edge becomes this many times longer or shorter than at first (-). Default: 1.3, and 1.5
+    /// in a case with contacts.
     #[schemars(extend("exclusiveMinimum" = 1))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub max_stretch: Option<f64>,

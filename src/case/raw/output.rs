@@ -8,16 +8,16 @@ use serde::Deserialize;
 #[derive(Debug, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Output {
-    /// Time between frames (s), above 0; without it one frame at the end of each phase.
+    /// Time between frames (s). Default: one frame at the end of each phase.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub every: Option<f64>,
-    /// The fields of the frames; without it stress and displacement.
+    /// The fields of the frames. Default: stress and displacement.
     pub fields: Option<Vec<Field>>,
-    /// How the exported files are packed: compressed, or plain (what meshio reads).
+    /// How the exported files are packed: compressed, or plain (larger, and what meshio reads). Default: compressed.
     pub encoding: Encoding,
-    /// Whether the surface of the material points is written; it is wherever a load or water acts on it.
+    /// Whether the surface of the material points is written. It always is where a load or water acts on it.
     pub surface: bool,
-    /// Curves of history.csv, a row each step.
+    /// Columns of history.csv, which has a row for each step.
     pub history: Vec<History>,
 }
 
@@ -70,9 +70,9 @@ pub enum Encoding {
 pub struct History {
     /// The name of the columns.
     pub name: String,
-    /// The name of a physical curve, a physical point or a region.
+    /// The name of a physical curve, a physical point, a region, a rigid structure or a wall.
     pub on: String,
-    /// What is written of it.
+    /// The quantities that are written of it.
     #[schemars(extend("minItems" = 1))]
     pub quantities: Vec<Quantity>,
 }

@@ -9,12 +9,12 @@ use std::collections::BTreeMap;
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Phase {
-    /// The name of the phase, for logs and errors.
+    /// The name of the phase, for logs and messages. Each phase has its own.
     pub name: String,
-    /// The kind of analysis: quasi_static (no inertia), dynamic, auto (quasi-static, and dynamic where there is no
-    /// equilibrium until there is rest), strength_reduction (quasi-static until no equilibrium is left) or consolidation.
+    /// The kind of analysis: quasi_static (no inertia), dynamic, auto (quasi-static; dynamic where there is no equilibrium, until
+    /// rest), strength_reduction (quasi-static until no equilibrium is found) or consolidation (quasi-static with pore water flow).
     pub analysis: Analysis,
-    /// Duration (s), above 0; in a quasi_static phase a fictitious time that loads vary in.
+    /// Duration of the phase (s). In a quasi_static phase time only orders the loads.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub duration: f64,
     /// Time steps.
@@ -25,11 +25,11 @@ pub struct Phase {
     /// Loads on named curves, or on the surface of the material points.
     #[serde(default)]
     pub tractions: Vec<Traction>,
-    /// Height y (m) of the water level in this phase; without it that of `water`.
+    /// Height y of the water level outside in this phase (m). Default: that of `water`.
     pub water_level: Option<InTime>,
-    /// Height y (m) up to which water stands in the pores in this phase; without it that of `water`.
+    /// Height y of the water level in the pores in this phase (m). Default: that of `water`.
     pub phreatic_level: Option<InTime>,
-    /// Factor on gravity in the phase (-); without it 1.
+    /// Factor on gravity in the phase (-). Default: 1.
     pub gravity: Option<InTime>,
     /// Structures, walls and contacts, by name, that are taken away as the phase begins: until they are activated they carry
     /// nothing, touch nothing and stay where they are.
@@ -38,16 +38,16 @@ pub struct Phase {
     /// Structures, walls and contacts, by name, that come back as the phase begins.
     #[serde(default)]
     pub activate: Vec<String>,
-    /// Materials, by the names of regions, that these take as the phase begins, with the stress that they have.
+    /// The materials that regions take as the phase begins, by the names of the regions. Stress is kept.
     #[serde(default)]
     pub materials: BTreeMap<String, String>,
-    /// Whether displacements are counted from the beginning of the phase in frames and history.
+    /// Whether frames and history count displacements from the beginning of the phase.
     #[serde(default)]
     pub reset_displacements: bool,
-    /// Conditions any of which ends the phase before its time.
+    /// Conditions, any of which ends the phase before its time.
     #[serde(default)]
     pub until: Vec<Until>,
-    /// What the strengths of all soil and contacts are divided by in the phase (-), above 0; without it 1.
+    /// Factor that the strengths of soil and contacts are divided by, above 0 (-). Default: 1; in a strength_reduction phase 1 plus the time.
     pub strength_reduction: Option<InTime>,
 }
 
@@ -59,9 +59,9 @@ pub struct Until {
     pub of: Option<String>,
     /// A quantity of that entry.
     pub quantity: Option<Quantity>,
-    /// The phase ends when the quantity is this much or more.
+    /// The phase ends when the quantity is this much or more, in the unit of the quantity.
     pub above: Option<f64>,
-    /// The phase ends when the quantity is this much or less.
+    /// The phase ends when the quantity is this much or less, in the unit of the quantity.
     pub below: Option<f64>,
     /// The phase, which has inertia, ends when its kinetic energy has fallen to this part of its largest (-).
     #[schemars(extend("exclusiveMinimum" = 0), extend("exclusiveMaximum" = 1))]
@@ -83,13 +83,13 @@ pub enum Analysis {
 #[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Step {
-    /// First time step (s), above 0.
+    /// First time step (s).
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub initial: f64,
-    /// Smallest time step (s), at most `initial`; without it a ten-thousandth of `initial`.
+    /// Smallest time step, at most `initial`: steps are halved down to it where Newton's method fails (s). Default: `initial`/10000.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub min: Option<f64>,
-    /// Largest time step (s), at least `initial`; without it `initial`.
+    /// Largest time step, at least `initial`: steps grow again up to it (s). Default: `initial`.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub max: Option<f64>,
 }
@@ -107,7 +107,7 @@ pub enum InTime {
 #[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Rate {
-    /// Growth a second.
+    /// Growth per second, from 0.
     pub rate: f64,
 }
 
@@ -124,11 +124,11 @@ pub struct Table {
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Motion {
-    /// Horizontal (in axisymmetry radial) displacement (m) since the beginning of the phase.
+    /// Horizontal (in axisymmetry radial) displacement since the beginning of the phase (m).
     pub ux: Option<InTime>,
-    /// Vertical displacement (m) since the beginning of the phase.
+    /// Vertical displacement since the beginning of the phase, positive upwards (m).
     pub uy: Option<InTime>,
-    /// Rotation (rad) of a rigid structure since the beginning of the phase, anticlockwise.
+    /// Rotation of a rigid structure since the beginning of the phase, anticlockwise (rad).
     pub rotation: Option<InTime>,
 }
 
@@ -137,21 +137,21 @@ pub struct Motion {
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Traction {
-    /// The name of a physical curve.
+    /// The name of a physical curve: a dead load per area of the undeformed curve.
     pub on: Option<String>,
-    /// In place of a curve, the surface of the material points of a region by its name, or of `all`.
+    /// In place of a curve, the surface of the material points of a region, by its name, or of `all`: per area of the present surface.
     pub surface: Option<String>,
     /// Horizontal (in axisymmetry radial) traction (kPa).
     pub tx: Option<InTime>,
-    /// Vertical traction (kPa), positive upwards.
+    /// Vertical traction, positive upwards (kPa).
     pub ty: Option<InTime>,
-    /// Pressure (kPa) on a surface, at right angles to it, positive in compression; it may grow with depth.
+    /// Pressure at right angles to a surface, compression positive; it may grow with depth (kPa).
     pub pressure: Option<Load>,
-    /// Traction (kPa) along a surface, positive in the sense that has the material on its left.
+    /// Traction along a surface, positive in the direction that has the soil on its left (kPa).
     pub shear: Option<InTime>,
-    /// A factor (-) on a pressure that is given as a profile.
+    /// Factor on a pressure that is a profile (-). Default: 1.
     pub factor: Option<InTime>,
-    /// The part of a surface that is loaded; without it all of it.
+    /// The part of a surface that is loaded. Default: all of it.
     #[serde(rename = "where")]
     pub within: Option<Window>,
 }
@@ -168,8 +168,8 @@ pub enum Load {
 #[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Window {
-    /// From and to (m), horizontally.
+    /// From and to, horizontally (m). Default: everywhere.
     pub x: Option<[f64; 2]>,
-    /// From and to (m), vertically.
+    /// From and to, vertically (m). Default: everywhere.
     pub y: Option<[f64; 2]>,
 }
