@@ -10,7 +10,7 @@
 //! | 1 | [`mesh`], [`material`] | cells and shape functions, Gmsh, location of points; stress and tangent of a point |
 //! | 2 | [`points`], [`seed`], [`kinematics`], [`surface`], [`rigid`], [`contact`], [`quadrature`], [`interpolation`], [`system`], [`dofs`] | the material points and how cells are filled with them; plane strain, axisymmetry and three dimensions; where the material ends; bodies that keep their shape; how structures touch soil; what the points weigh in integrals; what a point sees of the grid; sparse systems and their solution; the map of unknowns |
 //! | 3 | [`term`] | the terms of the equations of motion, each with its residual and tangent |
-//! | 4 | [`step`], [`io`], [`run`] | the time step (**read this first**); files; a run from the first state or a checkpoint to the end |
+//! | 4 | [`step`], [`io`], [`run`], [`draw`] | the time step (**read this first**); files; a run from the first state or a checkpoint to the end; pictures |
 //! | 5 | [`case`] | from `case.yaml` to a scene: the only place that decides which terms exist |
 //! | 6 | [`cli`] | the commands |
 //!
@@ -48,6 +48,7 @@ pub mod case;
 pub mod cli;
 pub mod contact;
 pub mod dofs;
+pub mod draw;
 pub mod error;
 pub mod geometry;
 pub mod interpolation;

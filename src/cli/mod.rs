@@ -6,6 +6,7 @@ mod export;
 mod info;
 mod mesh;
 mod new;
+mod plot;
 mod print;
 mod run;
 mod schema;
@@ -50,6 +51,8 @@ enum Command {
     Run(run::Args),
     /// Print every mistake of a case that shows without its mesh, with file, line and remedy; writes nothing
     Check(check::Args),
+    /// Draw curves of the histories of cases, or of output folders, as SVG or PNG
+    Plot(plot::Args),
     /// Print what a file of mpm was made from, or those of an output folder: program, inputs, command, time
     Info(info::Args),
     /// Print the JSON schema of case.yaml, for editors
@@ -74,6 +77,7 @@ pub fn with(keys: &Keys) -> ExitCode {
         Command::Export(args) => export::run(&args, keys),
         Command::Run(args) => run::run(&args, keys),
         Command::Check(args) => check::run(&args, keys),
+        Command::Plot(args) => plot::run(&args),
         Command::Info(args) => info::run(&args),
         Command::Schema => schema::run(keys),
         Command::GmshWorker => gmsh::serve().map_err(Vec::from),

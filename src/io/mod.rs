@@ -28,4 +28,5 @@ pub mod points_vtu;
 pub mod provenance;
 pub mod pvd;
 pub mod run_folder;
+pub mod table;
 pub mod vtu;

@@ -1,0 +1,133 @@
+//! Tables of numbers in CSV: `history.csv` read again, and values to compare with.
+
+use super::atomic;
+use crate::error::{Error, Result, shown};
+use std::fs;
+use std::path::Path;
+
+/// The largest file that is read as a table (bytes).
+const LARGEST: u64 = 4 << 30;
+
+/// A column: its name and unit from the heading `head.uy [m]`, and its numbers.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Column {
+    pub name: String,
+    /// Empty where the heading has none.
+    pub unit: String,
+    pub values: Vec<f64>,
+}
+
+impl Column {
+    fn new(heading: &str) -> Self {
+        let heading = heading.trim();
+        let split = heading.strip_suffix(']').and_then(|rest| rest.rsplit_once('['));
+        let (name, unit) = split.map_or((heading, ""), |(name, unit)| (name.trim_end(), unit.trim()));
+        Self { name: name.to_owned(), unit: unit.to_owned(), values: Vec::new() }
+    }
+
+    /// Its heading in the file.
+    pub fn heading(&self) -> String {
+        if self.unit.is_empty() { self.name.clone() } else { format!("{} [{}]", self.name, self.unit) }
+    }
+}
+
+/// Columns of one length.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Table {
+    pub columns: Vec<Column>,
+}
+
+impl Table {
+    /// Reads a table with a heading. A last line without an end is one that a run is writing, and is left out if it is not whole.
+    ///
+    /// # Errors
+    /// `Input` naming the line that is not numbers or has another number of them, or when the file is missing; `Machine` when it
+    /// cannot be read.
+    pub fn read(path: &Path, remedy: &str) -> Result<Self> {
+        let unreadable = |e| atomic::unreadable(path, &e, remedy);
+        let size = fs::metadata(path).map_err(unreadable)?.len();
+        if size > LARGEST {
+            let problem = format!("has {size} bytes, more than the {LARGEST} of a table");
+            return Err(Error::input(path.display(), problem, "name a smaller file"));
+        }
+        Self::parse(&fs::read(path).map_err(unreadable)?, path)
+    }
+
+    fn parse(bytes: &[u8], path: &Path) -> Result<Self> {
+        let wrong = |line: u64, problem: String| {
+            Error::input(format!("{}:{line}", path.display()), problem, "give each row a number for each heading")
+        };
+        let mut reader = csv::ReaderBuilder::new().flexible(true).trim(csv::Trim::All).from_reader(bytes);
+        let heading = reader.headers().map_err(|e| wrong(1, format!("is no table: {e}")))?;
+        let mut columns: Vec<Column> = heading.iter().map(Column::new).collect();
+        let mut row = Vec::with_capacity(columns.len());
+        for record in reader.records() {
+            let record =
+                record.map_err(|e| wrong(e.position().map_or(0, csv::Position::line), format!("is no row: {e}")))?;
+            let line = record.position().map_or(0, csv::Position::line);
+            row.clear();
+            row.extend(record.iter().map_while(|field| field.parse::<f64>().ok()));
+            if row.len() != columns.len() || record.len() != columns.len() {
+                let is_last = reader_is_at_end(bytes, &record);
+                if is_last && bytes.last() != Some(&b'\n') {
+                    break;
+                }
+                let problem = match record.get(row.len()) {
+                    Some(text) if row.len() < columns.len() => format!("`{}` is no number", shown(text)),
+                    _ => format!("has {} numbers for {} headings", record.len(), columns.len()),
+                };
+                return Err(wrong(line, problem));
+            }
+            columns.iter_mut().zip(&row).for_each(|(column, value)| column.values.push(*value));
+        }
+        Ok(Self { columns })
+    }
+
+    /// Rows.
+    pub fn rows(&self) -> usize {
+        self.columns.first().map_or(0, |column| column.values.len())
+    }
+
+    /// The column called `name`, with its unit or without.
+    pub fn column(&self, name: &str) -> Option<&Column> {
+        let name = name.trim();
+        self.columns.iter().find(|column| column.name == name || column.heading() == name)
+    }
+}
+
+/// Whether a row is the last one of the bytes.
+fn reader_is_at_end(bytes: &[u8], record: &csv::StringRecord) -> bool {
+    let start = record.position().map_or(0, csv::Position::byte);
+    usize::try_from(start).is_ok_and(|start| !bytes[start.min(bytes.len())..].trim_ascii_start().contains(&b'\n'))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn parse(text: &str) -> Result<Table> {
+        Table::parse(text.as_bytes(), Path::new("h.csv"))
+    }
+
+    #[test]
+    fn columns_have_names_units_and_numbers() {
+        let table = parse("time [s],head.uy [m],\"a, b\"\n0,1e-3,-2\n0.5, 2.0 ,3\n").unwrap();
+        let [time, uy, other] = &table.columns[..] else { panic!("{table:?}") };
+        assert_eq!((time.name.as_str(), time.unit.as_str(), &time.values[..]), ("time", "s", &[0.0, 0.5][..]));
+        assert_eq!((uy.heading().as_str(), &uy.values[..]), ("head.uy [m]", &[1e-3, 2.0][..]));
+        assert_eq!((other.heading().as_str(), &other.values[..]), ("a, b", &[-2.0, 3.0][..]));
+        assert_eq!(table.column("head.uy"), table.column("head.uy [m]"));
+        assert_eq!(table.column("uy"), None);
+    }
+
+    #[test]
+    fn a_row_that_is_being_written_is_left_out_and_no_other() {
+        assert_eq!(parse("a,b\n1,2\n3").unwrap().rows(), 1);
+        assert_eq!(parse("a,b\n1,2\n3,4").unwrap().rows(), 2);
+        assert_eq!(parse("a,b\n").unwrap().rows(), 0);
+        let said = |text| parse(text).unwrap_err().to_string();
+        assert!(said("a,b\n1,2\n3\n").contains("h.csv:3: has 1 numbers for 2 headings"), "{}", said("a,b\n1,2\n3\n"));
+        assert!(said("a,b\n1,x\n3,4\n").contains("h.csv:2: `x` is no number"));
+        assert!(said("a,b\n1,2,3\n3,4\n").contains("h.csv:2: has 3 numbers for 2 headings"));
+    }
+}
