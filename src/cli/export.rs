@@ -2,12 +2,13 @@
 
 use super::args::StageArgs;
 use super::mesh;
-use super::print::{Outcome, print};
+use super::print::{Outcome, note, print};
 use super::stage::{Inputs, Stage};
 use crate::case::checked::Encoding;
 use crate::case::raw::Product;
 use crate::case::{Keys, parts};
 use crate::error::{Error, Result};
+use crate::io::export::Exported;
 use crate::io::run_folder::{RunFolder, Standing};
 use crate::io::{export, frame, hash, vtu};
 use std::fs;
@@ -54,14 +55,17 @@ fn work(stage: &Stage, run: &RunFolder) -> Outcome {
     };
     let mut record = inputs(stage, run)?.begin();
     check_run(stage, run)?;
-    let of_elements = parts::of_elements(case, &mesh);
-    let frames = export::export(&run.results(), &mesh, &of_elements, stage.folder(), &fields, encoding)?;
+    let regions = parts::of_series(case, &mesh);
+    let Exported { frames, soil } = export::export(&run.results(), &mesh, &regions, stage.folder(), &fields, encoding)?;
     record.finish(stage.folder(), &series(stage))?;
     record.write(stage.folder())?;
     let pvd = stage.folder().join("points.pvd");
     let finished = run.standing()? == Standing::Finished;
     let state = if finished { String::new() } else { unfinished_state(run)? };
     print(&format!("{}: {frames} frames{state}\n", pvd.display()))?;
+    if !soil {
+        note("note: no soil.pvd: the soil is seen as a body where `displacement` is among the fields of `output`");
+    }
     if finished && stage.runs().beside.has_frames() {
         print(&format!(
             "{}: a later run that was not finished is there too; `--unfinished` exports it\n",

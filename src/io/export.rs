@@ -1,11 +1,13 @@
 //! Result frames to series for ParaView: `vtu/points_000123.vtu` and `vtu/grid_000123.vtu` with `points.pvd`
 //! and `grid.pvd`, with the fields that the case asks for; where it has finite elements, `vtu/structures_000123.vtu` and
 //! `structures.pvd` with these; and where they touch soil, `vtu/contact_000123.vtu` and `contact.pvd` with what it exerts
-//! along their boundaries. Where the surface of the material is known, `vtu/surface_000123.vtp` and `surface.pvd`.
+//! along their boundaries. Where the surface of the material is known, `vtu/surface_000123.vtp` and `surface.pvd`. The soil as a
+//! body, in `vtu/soil_000123.vtu` and `soil.pvd`, is made here ([`crate::soil`]).
 //!
 //! Derived here, from the stress: `mean_stress` (tension positive) and `deviatoric_stress`, √(3/2 s:s).
 
 use std::borrow::Cow;
+use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
 
@@ -22,19 +24,44 @@ use crate::program;
 mod contact;
 mod fields;
 mod pieces;
+mod soil;
 mod surface;
 
 use fields::{column, select};
 use pieces::Piece;
+use soil::Bodies;
 
 /// The kinds of files, each with a `.pvd`.
-const SERIES: [&str; 5] = ["points", "grid", STRUCTURES, CONTACT, SURFACE];
+const SERIES: [&str; 6] = ["points", "grid", SOIL, STRUCTURES, CONTACT, SURFACE];
+const SOIL: &str = "soil";
 const STRUCTURES: &str = "structures";
 const CONTACT: &str = "contact";
 const SURFACE: &str = "surface";
 
-/// Writes the frames in `results` as series into `out`, with `fields` and nothing else; returns their number. `of_elements`
-/// tells of each region of the mesh whether it is of finite elements.
+/// What the regions of a mesh are, by number, and what phases do with them.
+#[derive(Clone, Debug, Default)]
+pub struct Regions {
+    /// Whether each is of finite elements.
+    pub elements: Vec<bool>,
+    /// Whether each is of soil: material points, or finite elements that are no structure.
+    pub soil: Vec<bool>,
+    /// Whether the mesh is a half plane that is turned about its axis.
+    pub axisymmetric: bool,
+    /// The names of the phases that count displacements from their beginning.
+    pub resets: Vec<String>,
+    /// The structures that are not there in a phase, by its name.
+    pub absent: BTreeMap<String, Vec<u16>>,
+}
+
+/// What was exported.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Exported {
+    pub frames: usize,
+    /// Whether the soil is there as a body; it is not where the frames do not hold the displacement.
+    pub soil: bool,
+}
+
+/// Writes the frames in `results` as series into `out`, with `fields` and nothing else.
 ///
 /// The files are written into a folder beside that of an earlier export and take its place when all of them are there;
 /// other files that somebody has put there stay. The `.pvd` files are written last.
@@ -42,15 +69,14 @@ const SURFACE: &str = "surface";
 /// # Errors
 /// `Input` when there are no frames, one is damaged, they do not belong to `mesh`, or a field is in none of
 /// them; `Machine` when a file cannot be written.
-pub fn export<const D: usize>(
+pub fn export(
     results: &Path,
-    mesh: &Mesh<D>,
-    of_elements: &[bool],
+    mesh: &Mesh<2>,
+    regions: &Regions,
     out: &Path,
     fields: &[String],
     encoding: Encoding,
-) -> Result<usize> {
-    const { assert!(D == 2, "values are fitted along the plane") };
+) -> Result<Exported> {
     let infos = frame::list(results)?;
     let folder = out.join(NEW);
     prepare(out)?;
@@ -61,7 +87,7 @@ pub fn export<const D: usize>(
         let (path, grid) = (folder.join(file_name(series, index)), Grid { note: note.clone(), ..grid });
         if series == SURFACE { vtu::write_lines(&path, &grid, encoding) } else { vtu::write(&path, &grid, encoding) }
     };
-    let is_element = |c: usize| of_elements[mesh.cells.region[c] as usize];
+    let is_element = |c: usize| regions.elements[mesh.cells.region[c] as usize];
     let elements = mesh.part(is_element);
     let with_elements = !elements.cells.is_empty();
     let (background, structures) = if with_elements {
@@ -72,18 +98,19 @@ pub fn export<const D: usize>(
     let with_contact = infos.iter().any(|info| info.contact > 0);
     let with_surface = infos.iter().any(|info| info.surface > 0);
     let first = triples(&mesh.nodes);
+    let bodies = Bodies::new(mesh, regions, (&structures, &elements.cells.kind), &infos)?;
     infos.par_iter().enumerate().try_for_each(|(i, info)| {
         let frame = Frame::read(&info.path)?;
         check_fields(&info.path, &frame, fields)?;
         let Frame { time, points, mut grid, elements, contact, surface, .. } = frame;
         let time = Some(time);
-        let points = Grid {
+        let vertices = Grid {
             point_data: select(&points, fields),
             topology: Topology::vertices(points.position.len()),
             points: points.position.concat(),
             ..Grid { time, ..Grid::default() }
         };
-        write("points", i, points)?;
+        write("points", i, vertices)?;
         if grid.position.is_empty() {
             grid.position.clone_from(&first);
         }
@@ -97,6 +124,10 @@ pub fn export<const D: usize>(
                 "the mesh was made again after the run: run `mpm solve` again",
             ));
         };
+        if let Some(bodies) = &bodies {
+            let body = bodies.grid(i, (&info.phase, info.time), &points, &grid.position, &smooth, fields);
+            write(SOIL, i, body)?;
+        }
         write("grid", i, background.grid(&background.at(&grid), fields, time))?;
         if with_elements {
             write(STRUCTURES, i, structures.grid(&smooth, fields, time))?;
@@ -125,6 +156,7 @@ pub fn export<const D: usize>(
     })?;
     exchange(out)?;
     let is_there = |series: &str| match series {
+        SOIL => bodies.is_some(),
         STRUCTURES => with_elements,
         CONTACT => with_contact,
         SURFACE => with_surface,
@@ -145,7 +177,7 @@ pub fn export<const D: usize>(
             .collect();
         pvd::write(&path, &files, &note)?;
     }
-    Ok(infos.len())
+    Ok(Exported { frames: infos.len(), soil: bodies.is_some() })
 }
 
 /// The folder of the series, and those of an export in hand and of the one before it.

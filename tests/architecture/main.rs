@@ -11,7 +11,7 @@ const LAYERS: [&[&str]; 7] = [
     &["analytical", "error", "geometry", "profile", "program", "tensor", "time_integration", "time_value"],
     &["material", "mesh"],
     &["contact", "dofs", "kinematics", "points", "quadrature", "rigid", "seed", "interpolation", "surface", "system"],
-    &["term"],
+    &["soil", "term"],
     &["draw", "io", "run", "step"],
     &["case"],
     &["cli", "main"],
