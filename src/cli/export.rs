@@ -63,7 +63,7 @@ fn work(stage: &Stage, run: &RunFolder) -> Outcome {
     let finished = run.standing()? == Standing::Finished;
     let state = if finished { String::new() } else { unfinished_state(run)? };
     print(&format!("{}: {frames} frames{state}\n", pvd.display()))?;
-    if !soil {
+    if !soil && !fields.iter().any(|field| field == "displacement") {
         note("note: no soil.pvd: the soil is seen as a body where `displacement` is among the fields of `output`");
     }
     if finished && stage.runs().beside.has_frames() {
@@ -84,12 +84,12 @@ fn unfinished_state(run: &RunFolder) -> Result<String> {
 }
 
 /// The run whose results are shown: that in the output folder, or where there is none the one beside it.
-fn shown(stage: &Stage) -> Result<RunFolder> {
+pub(super) fn shown(stage: &Stage) -> Result<RunFolder> {
     let runs = stage.runs();
     Ok(if !runs.main.has_frames() && runs.beside.has_frames() { runs.beside } else { runs.main })
 }
 
-fn unfinished(stage: &Stage) -> Result<RunFolder> {
+pub(super) fn unfinished(stage: &Stage) -> Result<RunFolder> {
     let runs = stage.runs();
     let candidates = [runs.beside, runs.main].into_iter();
     let mut unfinished = Vec::new();
@@ -105,7 +105,7 @@ fn unfinished(stage: &Stage) -> Result<RunFolder> {
 }
 
 /// Refuses results that were changed since the run, or that are of another mesh.
-fn check_run(stage: &Stage, run: &RunFolder) -> Result<()> {
+pub(super) fn check_run(stage: &Stage, run: &RunFolder) -> Result<()> {
     const AGAIN: &str = "run `mpm solve` again";
     let frames = frame::list(&run.results())?;
     let mesh = hash::file(&stage.mesh(), "run `mpm mesh` first")?;

@@ -77,7 +77,7 @@ pub fn with(keys: &Keys) -> ExitCode {
         Command::Export(args) => export::run(&args, keys),
         Command::Run(args) => run::run(&args, keys),
         Command::Check(args) => check::run(&args, keys),
-        Command::Plot(args) => plot::run(&args),
+        Command::Plot(args) => plot::run(&args, keys),
         Command::Info(args) => info::run(&args),
         Command::Schema => schema::run(keys),
         Command::GmshWorker => gmsh::serve().map_err(Vec::from),

@@ -1,8 +1,10 @@
 //! `mpm plot`: curves of histories.
 
 mod curves;
+mod field;
 
 use super::print::Outcome;
+use crate::case::Keys;
 use std::path::PathBuf;
 
 #[derive(clap::Args)]
@@ -15,8 +17,16 @@ pub struct Args {
     output: Option<PathBuf>,
     #[command(flatten)]
     curves: curves::Args,
+    #[command(flatten)]
+    field: field::Args,
 }
 
-pub fn run(args: &Args) -> Outcome {
+pub fn run(args: &Args, keys: &Keys) -> Outcome {
+    if let Some(name) = &args.field.field {
+        return args
+            .cases
+            .iter()
+            .try_for_each(|case| field::run(case, args.output.as_deref(), name, &args.field, keys));
+    }
     curves::run(&args.cases, args.output.as_deref(), &args.curves)
 }

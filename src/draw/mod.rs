@@ -4,11 +4,17 @@
 //! [`svg`] and [`png`] in memory, for pages). Lengths on the paper are in points, of which a PNG has [`PIXELS`] pixels each. The font
 //! of a PNG is within the program, so pictures are the same on every machine; an SVG names a family and leaves it to the reader.
 
+pub mod animation;
+pub mod colour;
 pub mod curves;
+pub mod field;
+mod raster;
 pub mod ticks;
 
 use crate::error::{Error, Result};
 use crate::io::atomic;
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
 use plotters::coord::Shift;
 use plotters::prelude::*;
 use plotters::style::{FontTransform, TextStyle, register_font, text_anchor};
@@ -17,6 +23,7 @@ use std::sync::OnceLock;
 
 pub use plotters::style::RGBColor;
 pub use plotters::style::text_anchor::{HPos, VPos};
+pub use raster::Raster;
 
 /// Pixels of a PNG along a point.
 const PIXELS: u32 = 2;
@@ -53,6 +60,11 @@ pub fn colour(number: usize) -> RGBColor {
 pub trait Picture {
     /// Width and height (points).
     fn size(&self) -> [u32; 2];
+
+    /// What is filled pixel by pixel, below all that is drawn, with so many pixels a point; nothing unless a picture has its own.
+    fn raster(&self, _pixels: u32) -> Option<Raster> {
+        None
+    }
 
     /// Draws it.
     ///
@@ -193,7 +205,19 @@ pub fn write(picture: &impl Picture, path: &Path) -> Result<()> {
 pub fn svg(picture: &impl Picture) -> Result<String> {
     let ([width, height], mut text) = (picture.size(), String::new());
     let size = (width * UNITS, height * UNITS);
-    draw(picture, SVGBackend::with_string(&mut text, size), UNITS)?;
+    draw(picture, SVGBackend::with_string(&mut text, size), UNITS, true)?;
+    if let Some(raster) = picture.raster(PIXELS) {
+        // After the background, which is the first element.
+        let image = encoded([width * PIXELS, height * PIXELS], &raster.pixels())?;
+        let element = format!(
+            "\n<image width=\"{}\" height=\"{}\" href=\"data:image/png;base64,{}\"/>",
+            size.0,
+            size.1,
+            STANDARD.encode(image)
+        );
+        let background = text.find("<rect").and_then(|begin| Some(begin + text[begin..].find("/>")? + 2));
+        text.insert_str(background.unwrap_or(text.len()), &element);
+    }
     // As large as it was meant, in units that are finer.
     let drawn = format!("width=\"{}\" height=\"{}\"", size.0, size.1);
     Ok(text.replacen(&drawn, &format!("width=\"{width}\" height=\"{height}\""), 1))
@@ -204,21 +228,38 @@ pub fn svg(picture: &impl Picture) -> Result<String> {
 /// # Errors
 /// `Machine` when it cannot be drawn.
 pub fn png(picture: &impl Picture) -> Result<Vec<u8>> {
+    let (size, pixels) = pixels(picture)?;
+    encoded(size, &pixels)
+}
+
+/// Width and height of the picture in pixels, and these row by row, three bytes each.
+///
+/// # Errors
+/// `Machine` when it cannot be drawn.
+pub fn pixels(picture: &impl Picture) -> Result<([u32; 2], Vec<u8>)> {
     let [width, height] = picture.size().map(|length| length * PIXELS);
-    let mut pixels = vec![255; width as usize * height as usize * 3];
-    draw(picture, BitMapBackend::with_buffer(&mut pixels, (width, height)), PIXELS)?;
+    let white = || vec![255; width as usize * height as usize * 3];
+    let mut pixels = picture.raster(PIXELS).map_or_else(white, |raster| raster.pixels());
+    draw(picture, BitMapBackend::with_buffer(&mut pixels, (width, height)), PIXELS, false)?;
+    Ok(([width, height], pixels))
+}
+
+/// Pixels as the bytes of a PNG.
+fn encoded([width, height]: [u32; 2], pixels: &[u8]) -> Result<Vec<u8>> {
     let mut bytes = Vec::new();
     let mut encoder = png::Encoder::new(&mut bytes, width, height);
     encoder.set_color(png::ColorType::Rgb);
     encoder.set_depth(png::BitDepth::Eight);
-    encoder.write_header().and_then(|mut writer| writer.write_image_data(&pixels)).map_err(|e| undrawn(&e))?;
+    encoder.write_header().and_then(|mut writer| writer.write_image_data(pixels)).map_err(|e| undrawn(&e))?;
     Ok(bytes)
 }
 
-fn draw<B: DrawingBackend>(picture: &impl Picture, backend: B, unit: u32) -> Result<()> {
+/// Draws on paper, white from the beginning unless it has to be made so.
+fn draw<B: DrawingBackend>(picture: &impl Picture, backend: B, unit: u32, whiten: bool) -> Result<()> {
     load_fonts();
     let canvas = Canvas::new(backend, unit);
-    let drawn = canvas.area.fill(&WHITE).map_err(|e| e.to_string()).and_then(|()| picture.draw(&canvas));
+    let paper = if whiten { canvas.area.fill(&WHITE).map_err(|e| e.to_string()) } else { Ok(()) };
+    let drawn = paper.and_then(|()| picture.draw(&canvas));
     drawn.and_then(|()| canvas.area.present().map_err(|e| e.to_string())).map_err(|e| undrawn(&e))
 }
 

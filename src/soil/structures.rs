@@ -37,7 +37,7 @@ impl Structures {
         }
         let lines = sides.into_values().filter(|(count, _)| *count == 1).map(|(_, line)| line).collect();
         let widths = boxes.iter().map(|(a, b)| (b[0] - a[0]).max(b[1] - a[1]));
-        let width = widths.fold(0.0, f64::max);
+        let width = widths.fold(f64::MIN_POSITIVE, f64::max);
         Self {
             bins: Bins::new(boxes.iter().copied(), width),
             triangles,

@@ -48,7 +48,7 @@ impl<'a> Bodies<'a> {
         let grid = mesh.part(|c| !regions.elements[mesh.cells.region[c] as usize]);
         let seeded: Vec<bool> = regions.soil.iter().zip(&regions.elements).map(|(soil, fem)| *soil && !fem).collect();
         let first = infos.first().map(|info| Frame::read(&info.path)).transpose()?;
-        if !first.is_some_and(|frame| displacement(&frame.points).is_some()) {
+        if !seeded.contains(&true) || !first.is_some_and(|frame| displacement(&frame.points).is_some()) {
             return Ok(None);
         }
         let soil = Soil::new(grid, &seeded, regions.axisymmetric);
@@ -83,12 +83,13 @@ impl<'a> Bodies<'a> {
     pub fn grid(
         &self,
         index: usize,
-        (phase, time): (&str, f64),
+        info: &Info,
         points: &Part,
         nodes: &[[f64; 3]],
         smooth: &Part,
         fields: &[String],
     ) -> Grid {
+        let fields = &with_invariants(fields);
         let arrays = select(points, fields);
         let width = arrays.iter().map(|array| array.components).sum();
         let mut of = Vec::with_capacity(width * points.position.len());
@@ -101,7 +102,7 @@ impl<'a> Bodies<'a> {
         let traced = self.traced(index, points);
         let nodes: Vec<[f64; 2]> = nodes.iter().map(plane).collect();
         let places: Vec<[f64; 2]> = smooth.position.iter().map(plane).collect();
-        let absent = self.regions.absent.get(phase);
+        let absent = self.regions.absent.get(&info.phase);
         let stands =
             |region: u16| !self.regions.soil[region as usize] && !absent.is_some_and(|absent| absent.contains(&region));
         let standing: Vec<[u32; 3]> = self.elements.iter().filter(|(_, r)| stands(*r)).map(|(t, _)| *t).collect();
@@ -109,8 +110,18 @@ impl<'a> Bodies<'a> {
         let body = self.soil.body(&nodes, cloud, (&places, &standing));
         let elements: Vec<&([u32; 3], u16)> =
             self.elements.iter().filter(|(_, r)| self.regions.soil[*r as usize]).collect();
-        Grid { time: Some(time), ..joined(body, &arrays, &elements, smooth, fields) }
+        Grid { time: Some(info.time), ..joined(body, &arrays, &elements, smooth, fields) }
     }
+}
+
+/// The fields with those that are seen together with the stress.
+fn with_invariants(fields: &[String]) -> Vec<String> {
+    let mut all = fields.to_vec();
+    if fields.iter().any(|field| field == "stress") {
+        let more = ["mean_stress", "deviatoric_stress"].into_iter().filter(|more| !fields.iter().any(|field| field == more));
+        all.extend(more.map(String::from));
+    }
+    all
 }
 
 /// The displacement of points (m), three numbers each.
