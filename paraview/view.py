@@ -58,15 +58,15 @@ plotter.set_background("white")
 
 
 def draw(mesh, height, **how):
-    plotter.add_mesh(mesh.transform(place, inplace=False).translate((0, 0, height)), lighting=False, **how)
+    return plotter.add_mesh(mesh.transform(place, inplace=False).translate((0, 0, height)), lighting=False, **how)
 
 
 finite = values[np.isfinite(values)]
 low, high = (finite.min(), finite.max()) if len(finite) else (0, 1)
 signed = low < 0 < high
 limits = (-max(-low, high), max(-low, high)) if signed else (low, high)
-draw(body, 0, scalars=full, clim=limits, cmap="coolwarm" if signed else "viridis", show_scalar_bar=False,
-     nan_color="#ebebeb")
+coloured = draw(body, 0, scalars=full, clim=limits, cmap="coolwarm" if signed else "viridis", show_scalar_bar=False,
+                nan_color="#ebebeb")
 if given.mesh and grid is not None:
     clipped = grid.extract_all_edges().clip_box((x0, x1, y0, y1, -1, 1), invert=False)
     draw(clipped, 1, color=INK, line_width=0.5, opacity=0.4)
@@ -80,7 +80,7 @@ if surface is not None and surface.n_points:
 plotter.add_text(f"{given.out.name}, t = {soil.times[number]:g} s", position=(gap, size[1] - 44), font_size=14, color=INK)
 title = name + " [" + full.partition(" [")[2]
 plotter.add_text(f"{title}\n{low:.3g} to {high:.3g}", position=(gap, 16), font_size=12, color=INK)
-plotter.add_scalar_bar(title="", color=INK, n_labels=5, fmt="%.3g", label_font_size=18, width=0.6,
+plotter.add_scalar_bar(title="", mapper=coloured.mapper, color=INK, n_labels=5, fmt="%.3g", label_font_size=18, width=0.6,
                        height=60 / size[1], position_x=0.35, position_y=14 / size[1])
 face(plotter, size)
 save(plotter, given.picture or given.out / "view.png")

@@ -17,19 +17,19 @@ const SPEED: i32 = 10;
 /// # Errors
 /// Those of `picture`; `Machine` when one cannot be drawn, or the file not be written.
 pub fn write<P: Picture>(path: &Path, count: usize, mut picture: impl FnMut(usize) -> Result<P>) -> Result<()> {
-    let (mut bytes, mut encoder) = (Vec::new(), None);
+    let mut encoder = None;
     for i in 0..count {
-        let ([width, height], mut rgb) = pixels(&picture(i)?)?;
-        let mut frame = Frame::from_rgb_speed(width as u16, height as u16, &rgb, SPEED);
-        rgb.clear();
+        let ([width, height], rgb) = pixels(&picture(i)?)?;
+        let [width, height] = [width as u16, height as u16];
+        let mut frame = Frame::from_rgb_speed(width, height, &rgb, SPEED);
         frame.delay = if i + 1 == count { LAST } else { SHOWN };
         if encoder.is_none() {
-            let mut new = Encoder::new(&mut bytes, width as u16, height as u16, &[]).map_err(|e| undrawn(&e))?;
+            let mut new = Encoder::new(Vec::new(), width, height, &[]).map_err(|e| undrawn(&e))?;
             new.set_repeat(Repeat::Infinite).map_err(|e| undrawn(&e))?;
             encoder = Some(new);
         }
         encoder.as_mut().map_or(Ok(()), |encoder| encoder.write_frame(&frame)).map_err(|e| undrawn(&e))?;
     }
-    drop(encoder);
+    let bytes = encoder.map_or(Ok(Vec::new()), Encoder::into_inner).map_err(|e| undrawn(&e))?;
     atomic::write(path, |out| out.write_all(&bytes))
 }

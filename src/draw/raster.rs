@@ -83,7 +83,7 @@ impl Raster {
 
     /// Mixes a colour into a triangle, which shows what it did.
     pub fn tint(&mut self, x: &[[f64; 2]; 3], colour: Rgb, share: f64) {
-        self.each(x, |pixel, ..| *pixel = blend(*pixel, colour, share));
+        self.each(x, |pixel, _, _, _| *pixel = blend(*pixel, colour, share));
     }
 
     /// Draws a line between two places of the paper, of a width on it, mixed into what is there by its share.

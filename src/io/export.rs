@@ -15,7 +15,7 @@ use rayon::prelude::*;
 use super::provenance::Origin;
 use super::vtu::{self, Encoding, Grid};
 use super::{atomic, hash, pvd};
-use crate::error::{Error, Result};
+use crate::error::Result;
 use crate::mesh::Mesh;
 use crate::program;
 

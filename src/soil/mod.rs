@@ -215,8 +215,9 @@ impl Soil {
                     }
                 }
             }
-            let near = structures.distance(&mesh.nodes[n]) / h;
-            level += ON_STRUCTURE * h * (1.0 - near).max(0.0);
+            // Within a structure, and less and less up to half a cell beside it: a free surface beyond stays where it is.
+            let within = (1.0 + 2.0 * structures.depth(&mesh.nodes[n]) / h).clamp(0.0, 1.0);
+            level += ON_STRUCTURE * h * within;
             if level.abs() < ON_NODE * h {
                 level = 0.0;
             }

@@ -1,7 +1,7 @@
 //! The structures that stand in the soil, as triangles.
 
 use super::origin::Outline;
-use crate::geometry::{Bins, Line};
+use crate::geometry::{Bins, Line, twice_area};
 use std::collections::BTreeMap;
 
 /// Triangles of structures where they are now, and their outline.
@@ -69,9 +69,14 @@ impl Structures {
         })
     }
 
-    /// How far (m) a place is from the outline, no more than the reach.
-    pub fn distance(&self, x: &[f64; 2]) -> f64 {
-        if self.triangles.is_empty() { f64::INFINITY } else { self.outline.distance(x).0 }
+    /// How deep (m) in structures a place is, negative outside; no more than the reach.
+    pub fn depth(&self, x: &[f64; 2]) -> f64 {
+        if self.triangles.is_empty() {
+            return f64::NEG_INFINITY;
+        }
+        let holds = |t: &&[[f64; 2]; 3]| (0..3).all(|i| twice_area(&[t[i], t[(i + 1) % 3], *x]) >= 0.0);
+        let (distance, _) = self.outline.distance(x);
+        if self.near(&[*x; 3]).any(|t| holds(&t)) { distance } else { -distance }
     }
 }
 

@@ -118,7 +118,8 @@ impl<'a> Bodies<'a> {
 fn with_invariants(fields: &[String]) -> Vec<String> {
     let mut all = fields.to_vec();
     if fields.iter().any(|field| field == "stress") {
-        let more = ["mean_stress", "deviatoric_stress"].into_iter().filter(|more| !fields.iter().any(|field| field == more));
+        let more =
+            ["mean_stress", "deviatoric_stress"].into_iter().filter(|more| !fields.iter().any(|field| field == more));
         all.extend(more.map(String::from));
     }
     all
