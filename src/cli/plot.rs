@@ -28,5 +28,5 @@ pub fn run(args: &Args, keys: &Keys) -> Outcome {
             .iter()
             .try_for_each(|case| field::run(case, args.output.as_deref(), name, &args.field, keys));
     }
-    curves::run(&args.cases, args.output.as_deref(), &args.curves)
+    curves::run(&args.cases, args.output.as_deref(), &args.curves, keys)
 }

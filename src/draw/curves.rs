@@ -222,9 +222,23 @@ impl Chart {
 impl Series {
     fn draw<B: DrawingBackend>(&self, canvas: &Canvas<B>, places: &[[f64; 2]]) -> Drawn {
         match self.style {
-            Style::Line if places.len() > 1 => canvas.line(places, self.colour, 1.6),
+            Style::Line if places.len() > 1 => canvas.line(&thinned(places), self.colour, 1.6),
             Style::Line => places.iter().try_for_each(|&place| canvas.circle(place, 2.5, self.colour, true)),
             Style::Points => places.iter().try_for_each(|&place| canvas.circle(place, 3.5, self.colour, false)),
         }
     }
+}
+
+/// Places of a line without those that lie upon the one before (points of the paper): a long history has thousands in a spot.
+fn thinned(places: &[[f64; 2]]) -> Vec<[f64; 2]> {
+    /// Nobody sees less (points).
+    const NEAR: f64 = 0.1;
+    let mut kept: Vec<[f64; 2]> = Vec::with_capacity(places.len());
+    for (i, place) in places.iter().enumerate() {
+        let far = kept.last().is_none_or(|last| (0..2).any(|d| (last[d] - place[d]).abs() > NEAR));
+        if far || i + 1 == places.len() {
+            kept.push(*place);
+        }
+    }
+    kept
 }

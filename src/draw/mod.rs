@@ -8,6 +8,7 @@ pub mod animation;
 pub mod colour;
 pub mod curves;
 pub mod field;
+pub mod history;
 mod raster;
 pub mod ticks;
 
