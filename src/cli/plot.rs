@@ -1,4 +1,4 @@
-//! `mpm plot`: curves of histories.
+//! `mpm plot`: curves of histories, or pictures of a field.
 
 mod curves;
 mod field;
@@ -12,7 +12,7 @@ pub struct Args {
     /// Cases (a case.yaml or its folder) or output folders, whose curves are drawn together
     #[arg(required = true)]
     cases: Vec<PathBuf>,
-    /// The picture, by its ending an SVG or a PNG [default: history.svg in the output folder of the first]
+    /// The picture, by its ending an SVG or a PNG [default: history.svg, or the field's name, in the output folder]
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
     #[command(flatten)]
@@ -28,5 +28,5 @@ pub fn run(args: &Args, keys: &Keys) -> Outcome {
             .iter()
             .try_for_each(|case| field::run(case, args.output.as_deref(), name, &args.field, keys));
     }
-    curves::run(&args.cases, args.output.as_deref(), &args.curves, keys)
+    curves::run(&args.cases, args.output.as_deref(), &args.curves, args.field.unfinished, keys)
 }

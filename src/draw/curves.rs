@@ -6,7 +6,7 @@ use plotters::prelude::DrawingBackend;
 use std::ops::RangeInclusive;
 
 /// Width of a picture (points).
-const WIDTH: u32 = 720;
+pub const WIDTH: u32 = 720;
 /// Height of the axes of a chart (points).
 const HEIGHT: f64 = 300.0;
 /// Space around the axes (points): for the ticks and title of the vertical axis, on the right, for those of the horizontal axis.
@@ -15,6 +15,8 @@ const RIGHT: f64 = 24.0;
 const BELOW: f64 = 56.0;
 /// Height of a line of text (points).
 const LINE: f64 = 18.0;
+/// The same of small text (points).
+const SMALL: f64 = 12.0;
 
 /// How the places of a series are shown.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -110,8 +112,7 @@ impl Axis {
             (low, high) = (0.0, 1.0);
         }
         if low == high {
-            let half = if low == 0.0 { 1.0 } else { 0.1 * low.abs() };
-            (low, high) = (low - half, high + half);
+            (low, high) = if low == 0.0 { (0.0, 1.0) } else { (low - 0.1 * low.abs(), high + 0.1 * low.abs()) };
         }
         let width = high - low;
         let (near, space) = (0.3 * width, 0.04 * width);
@@ -135,7 +136,7 @@ impl Chart {
 
     fn over(&self) -> f64 {
         let title = if self.title.is_empty() { 0.0 } else { LINE };
-        let borders = if self.borders.is_empty() { 0.0 } else { LINE };
+        let borders = if self.borders.is_empty() { 0.0 } else { LINE + SMALL };
         8.0 + title + borders + self.rows() as f64 * LINE
     }
 
@@ -185,15 +186,15 @@ impl Chart {
     /// The lines across the chart, those that it shows.
     fn lines<B: DrawingBackend>(&self, canvas: &Canvas<B>, x: &Axis, y: &Axis) -> Drawn {
         let ([left, right], [lower, upper]) = (x.paper, y.paper);
-        let mut free = left;
+        // Names stand in two rows; one that finds no room in either is left out.
+        let mut free = [left; 2];
         for border in self.borders.iter().filter(|border| x.range.contains(&border.at)) {
             let at = x.place(border.at);
             canvas.line(&[[at, lower], [at, upper]], GREY, 0.75)?;
             let how = Text { size: TEXT - 2.0, colour: GREY, ..Text::at(HPos::Left, VPos::Bottom) };
-            // A name that another one stands in the way of is left out.
-            if at >= free {
-                canvas.text(&border.name, [at, upper - 2.0], how)?;
-                free = at + canvas.width(&border.name, how) + 6.0;
+            if let Some(row) = free.iter().position(|&free| at >= free) {
+                canvas.text(&border.name, [at, upper - 2.0 - row as f64 * SMALL], how)?;
+                free[row] = at + canvas.width(&border.name, how) + 6.0;
             }
         }
         for level in &self.levels {

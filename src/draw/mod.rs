@@ -10,6 +10,7 @@ pub mod curves;
 pub mod field;
 pub mod history;
 mod raster;
+pub mod scene;
 pub mod ticks;
 
 use crate::error::{Error, Result};

@@ -13,13 +13,13 @@ const LAYERS: [&[&str]; 7] = [
     &["contact", "dofs", "kinematics", "points", "quadrature", "rigid", "seed", "interpolation", "surface", "system"],
     &["soil", "term"],
     &["draw", "io", "run", "step"],
-    &["case"],
+    &["case", "report"],
     &["cli", "main"],
 ];
 
 /// Imports within a layer that are not wanted either: a run joins steps and files, which do not know each other,
 /// nor the run; pictures do not know how they were computed; meshes and materials have nothing to do with each other.
-const APART: [(&str, &str); 10] = [
+const APART: [(&str, &str); 11] = [
     ("step", "io"),
     ("io", "step"),
     ("step", "run"),
@@ -28,6 +28,7 @@ const APART: [(&str, &str); 10] = [
     ("io", "draw"),
     ("run", "draw"),
     ("draw", "step"),
+    ("case", "report"),
     ("mesh", "material"),
     ("material", "mesh"),
 ];

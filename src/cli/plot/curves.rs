@@ -40,13 +40,10 @@ pub struct Args {
     /// List the columns, with their ranges, and draw nothing
     #[arg(long)]
     list: bool,
-    /// Draw the run that was not finished, where there is a finished one too
-    #[arg(long)]
-    unfinished: bool,
 }
 
-pub fn run(cases: &[PathBuf], output: Option<&Path>, args: &Args, keys: &Keys) -> Outcome {
-    let found: Vec<Found> = cases.iter().map(|case| find(case, args.unfinished, keys)).collect::<Result<_>>()?;
+pub fn run(cases: &[PathBuf], output: Option<&Path>, args: &Args, unfinished: bool, keys: &Keys) -> Outcome {
+    let found: Vec<Found> = cases.iter().map(|case| find(case, unfinished, keys)).collect::<Result<_>>()?;
     let mut runs = Vec::with_capacity(found.len());
     for (i, Found { run, title, path }) in found.iter().enumerate() {
         // A title that two runs have tells neither.
@@ -105,13 +102,11 @@ fn find(path: &Path, unfinished: bool, keys: &Keys) -> Result<Found> {
         (false, false) => return Err(Error::input(path.display(), "there is no such case or folder", "name one")),
     };
     let runs = Runs::of(&folder);
-    let there = |run: &RunFolder| run.history().is_file();
-    let beside = there(&runs.beside);
-    let run = if beside && (unfinished || !there(&runs.main)) { runs.beside } else { runs.main };
-    if !there(&run) {
+    let Some(run) = runs.with_history(unfinished) else {
         let problem = "there is no history.csv of a run";
         return Err(Error::input(folder.display(), problem, "solve the case, or name the output folder of a run"));
-    }
+    };
+    let beside = run == runs.main && runs.beside.history().is_file();
     if beside && !unfinished && run.standing()? == Standing::Finished {
         note(&format!(
             "note: {}: a later run that is not finished is there too; `--unfinished` draws it",

@@ -50,8 +50,8 @@ pub struct Args {
     #[arg(long, value_name = "FILE.gif", requires = "field", conflicts_with_all = ["output", "time", "frame"])]
     animate: Option<PathBuf>,
     /// Draw the run that was not finished, where there are finished results too
-    #[arg(long, requires = "field")]
-    unfinished: bool,
+    #[arg(long)]
+    pub unfinished: bool,
 }
 
 /// Numbers with commas between them.
