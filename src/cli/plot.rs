@@ -1,7 +1,7 @@
 //! `mpm plot`: curves of histories, or pictures of a field.
 
 mod curves;
-mod field;
+pub mod field;
 
 use super::print::Outcome;
 use crate::case::Keys;

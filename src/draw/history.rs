@@ -44,6 +44,9 @@ impl Run {
         let unfinished = unfinished.map(|record| {
             let reason = record.sessions.last().and_then(|session| session.reason.clone());
             let reason = reason.unwrap_or_else(|| "it is running, or was killed".to_owned());
+            // More digits are rounding.
+            let until = format!("{until:.9}");
+            let until = until.trim_end_matches('0').trim_end_matches('.');
             format!("not finished, up to t = {until} s: {reason}")
         });
         Ok(Self { name, table, log, unfinished })

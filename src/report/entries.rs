@@ -83,11 +83,11 @@ pub fn entries(block: Option<&Value>, name: impl Fn(usize, &Value) -> String) ->
     }
 }
 
-/// The keys of entries, in the order in which they come.
+/// The keys of entries but their names, in the order in which they come.
 fn keys(entries: &[(String, &Value)]) -> Vec<String> {
     let mut keys: Vec<String> = Vec::new();
     for key in entries.iter().filter_map(|(_, entry)| entry.as_object()).flat_map(Map::keys) {
-        if !keys.contains(key) {
+        if key != "name" && !keys.contains(key) {
             keys.push(key.clone());
         }
     }
@@ -100,7 +100,11 @@ pub fn plain(value: &Value) -> String {
         Value::Null => String::new(),
         Value::Bool(yes) => (if *yes { "yes" } else { "no" }).to_owned(),
         Value::String(text) => text.clone(),
-        Value::Number(number) => number.to_string().replace('-', "−"),
+        Value::Number(number) => {
+            let number = number.as_f64().unwrap_or(f64::NAN);
+            let is_far = number != 0.0 && !(1e-4..1e6).contains(&number.abs());
+            (if is_far { format!("{number:e}") } else { number.to_string() }).replace('-', "−")
+        }
         Value::Array(items) => items.iter().map(inner).collect::<Vec<_>>().join(", "),
         Value::Object(map) => map
             .iter()

@@ -40,7 +40,8 @@ impl Html {
 
     /// A picture drawn by the program as SVG, which has escaped its text.
     pub fn figure(svg: String, caption: &str) -> Self {
-        Self(format!("<figure>{svg}<figcaption>{}</figcaption></figure>\n", Self::text(caption).0))
+        let caption = if caption.is_empty() { Self::default() } else { Self::of("figcaption", caption) };
+        Self(format!("<figure>{svg}{}</figure>\n", caption.0))
     }
 
     /// A picture as PNG, within the page.
@@ -100,6 +101,7 @@ h2 { font-size: 1.2rem; margin: 2.2rem 0 0.6rem; border-bottom: 1px solid #bbb; 
 h3 { font-size: 1rem; margin: 1.4rem 0 0.4rem; }
 table { border-collapse: collapse; margin: 0.4rem 0 1rem; font-variant-numeric: tabular-nums; }
 th, td { text-align: left; vertical-align: top; padding: 0.2rem 0.9rem 0.2rem 0; border-bottom: 1px solid #ddd; overflow-wrap: anywhere; }
+th:first-child, td:first-child { overflow-wrap: normal; }
 th { border-bottom: 1px solid #777; }
 figure { margin: 0.6rem 0; break-inside: avoid; }
 figure svg, figure img { max-width: 100%; height: auto; }

@@ -6,6 +6,7 @@ mod scene;
 
 use crate::case::{Keys, Loaded};
 use crate::draw::curves::{Chart, Charts};
+use crate::draw::field::Field;
 use crate::draw::history::{self, Run};
 use crate::draw::{self, Picture};
 use crate::error::Result;
@@ -27,6 +28,8 @@ pub struct Subject<'a> {
     /// The mesh, or why there is none to show.
     pub mesh: std::result::Result<&'a Mesh<2>, String>,
     pub run: &'a Run,
+    /// Pictures of fields, or why there are none.
+    pub pictures: std::result::Result<Vec<Field>, String>,
     /// The records of the stages.
     pub records: &'a [Record],
     /// What the reader must know first, such as that the case has changed since.
@@ -47,11 +50,12 @@ impl Subject<'_> {
         for caution in self.cautions {
             body = body.and(Html::element("p", Html::of("strong", caution)));
         }
-        let parts: [(&str, Html); 6] = [
+        let parts: [(&str, Html); 7] = [
             ("Scene", self.scene()?),
             ("Entries of the case", self.entries()),
             ("Numerics that differ from the defaults", self.numerics()),
             ("Histories", self.histories()?),
+            ("Fields", self.fields()?),
             ("Work of the solver", self.work()?),
             ("Provenance", self.provenance()),
         ];
@@ -112,6 +116,9 @@ impl Subject<'_> {
             }
         }
         let told = ["title", "regions", "materials", "contacts", "supports", "phases", "numerics"];
+        // The histories have been told.
+        let mut tree = tree.clone();
+        tree.get_mut("output").and_then(Value::as_object_mut).map(|output| output.remove("history"));
         let others = tree.as_object().into_iter().flatten().filter(|(key, _)| !told.contains(&key.as_str()));
         let rows: Vec<_> = others.map(|(key, value)| vec![key.replace('_', " "), plain(value)]).collect();
         html.and(Html::of("h3", "Other entries")).and(Html::table(&["entry", "value"].map(str::to_owned), &rows))
@@ -129,6 +136,21 @@ impl Subject<'_> {
             return Ok(Html::of("p", "The case asks for no histories (`output.history`)."));
         }
         figures(charts)
+    }
+
+    fn fields(&self) -> Result<Html> {
+        let pictures = match &self.pictures {
+            Ok(pictures) => pictures,
+            Err(problem) => return Ok(Html::of("p", &format!("There are no pictures: {problem}"))),
+        };
+        if pictures.is_empty() {
+            return Ok(Html::of("p", "No step has converged, or the output has no field that is shown."));
+        }
+        let mut html = Html::default();
+        for picture in pictures {
+            html = html.and(Html::image(&draw::png(picture)?, picture.size()[0], &picture.title));
+        }
+        Ok(html)
     }
 
     fn work(&self) -> Result<Html> {

@@ -139,7 +139,7 @@ fn of_frame(
 }
 
 /// A time with as many digits as one wants to read.
-fn short(time: f64) -> String {
+pub fn short(time: f64) -> String {
     let text = format!("{time:.6}");
     text.trim_end_matches('0').trim_end_matches('.').to_owned()
 }
@@ -160,7 +160,7 @@ fn common(frames: &[usize], picture: &dyn Fn(usize) -> Result<Field>) -> Result<
 }
 
 /// The frames that are nearest to some times (s).
-fn at(infos: &[Info], times: &[f64]) -> Result<Vec<usize>> {
+pub fn at(infos: &[Info], times: &[f64]) -> Result<Vec<usize>> {
     let nearest = |time: &f64| {
         let off = |i: &usize| (infos[*i].time - time).abs();
         (0..infos.len())
