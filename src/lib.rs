@@ -9,9 +9,9 @@
 //! | 0 | [`error`], [`tensor`], [`geometry`], [`time_value`], [`time_integration`], [`profile`], [`program`], [`analytical`] | errors and exit status; the order of tensor components; places, lines and polygons; values in time; generalised-α; time by activity; which program this is; closed forms for the tests |
 //! | 1 | [`mesh`], [`material`] | cells and shape functions, Gmsh, location of points; stress and tangent of a point |
 //! | 2 | [`points`], [`seed`], [`kinematics`], [`surface`], [`rigid`], [`contact`], [`quadrature`], [`interpolation`], [`system`], [`dofs`] | the material points and how cells are filled with them; plane strain, axisymmetry and three dimensions; where the material ends; bodies that keep their shape; how structures touch soil; what the points weigh in integrals; what a point sees of the grid; sparse systems and their solution; the map of unknowns |
-//! | 3 | [`term`] | the terms of the equations of motion, each with its residual and tangent |
-//! | 4 | [`step`], [`io`], [`run`] | the time step (**read this first**); files; a run from the first state or a checkpoint to the end |
-//! | 5 | [`case`] | from `case.yaml` to a scene: the only place that decides which terms exist |
+//! | 3 | [`term`], [`soil`] | the terms of the equations of motion, each with its residual and tangent; the soil as a body with continuous fields, for pictures |
+//! | 4 | [`step`], [`io`], [`run`], [`draw`] | the time step (**read this first**); files; a run from the first state or a checkpoint to the end; pictures |
+//! | 5 | [`case`], [`report`] | from `case.yaml` to a scene: the only place that decides which terms exist; a page on a run |
 //! | 6 | [`cli`] | the commands |
 //!
 //! `docs/code-tour.md` follows the data from a `.geo` to ParaView; `docs/theory.md` has the equations that
@@ -48,6 +48,7 @@ pub mod case;
 pub mod cli;
 pub mod contact;
 pub mod dofs;
+pub mod draw;
 pub mod error;
 pub mod geometry;
 pub mod interpolation;
@@ -59,9 +60,11 @@ pub mod points;
 pub mod profile;
 pub mod program;
 pub mod quadrature;
+pub mod report;
 pub mod rigid;
 pub mod run;
 pub mod seed;
+pub mod soil;
 pub mod step;
 pub mod surface;
 pub mod system;

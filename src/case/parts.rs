@@ -2,10 +2,11 @@
 //!
 //! Both number the nodes as the whole mesh does; cells are numbered in each part in their order in the whole.
 
-use super::checked::{Case, Restore, Site};
+use super::checked::{Case, Geometry, Phase, Restore, Site};
 use super::find::group;
 use super::rigid;
 use crate::error::{Error, Result};
+use crate::io::export::Regions;
 use crate::mesh::locate::Locator;
 use crate::mesh::{Group, Mesh};
 use crate::points::Points;
@@ -15,6 +16,21 @@ use std::collections::HashSet;
 pub fn of_elements(case: &Case, mesh: &Mesh<2>) -> Vec<bool> {
     let fem = |name: &String| case.regions.iter().any(|r| r.name == *name && r.content.is_fem());
     mesh.regions.iter().map(fem).collect()
+}
+
+/// What the regions of a mesh are for the series of its results.
+pub fn of_series(case: &Case, mesh: &Mesh<2>) -> Regions {
+    let region = |name: &String| case.regions.iter().find(|r| r.name == *name);
+    let is_soil = |name| region(name).is_some_and(|r| r.content.material().is_some() && !r.content.is_structure());
+    let number = |name: &String| mesh.regions.iter().position(|r| r == name).map(|r| r as u16);
+    let absent = |phase: &Phase| (phase.name.clone(), phase.absent.iter().filter_map(number).collect());
+    Regions {
+        elements: of_elements(case, mesh),
+        soil: mesh.regions.iter().map(is_soil).collect(),
+        axisymmetric: case.geometry == Geometry::Axisymmetric,
+        resets: case.phases.iter().filter(|phase| phase.reset).map(|phase| phase.name.clone()).collect(),
+        absent: case.phases.iter().map(absent).collect(),
+    }
 }
 
 /// The background grid of a mesh, and its finite elements if it has some.

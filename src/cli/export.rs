@@ -2,12 +2,13 @@
 
 use super::args::StageArgs;
 use super::mesh;
-use super::print::{Outcome, print};
+use super::print::{Outcome, note, print};
 use super::stage::{Inputs, Stage};
 use crate::case::checked::Encoding;
 use crate::case::raw::Product;
 use crate::case::{Keys, parts};
 use crate::error::{Error, Result};
+use crate::io::export::Exported;
 use crate::io::run_folder::{RunFolder, Standing};
 use crate::io::{export, frame, hash, vtu};
 use std::fs;
@@ -54,14 +55,17 @@ fn work(stage: &Stage, run: &RunFolder) -> Outcome {
     };
     let mut record = inputs(stage, run)?.begin();
     check_run(stage, run)?;
-    let of_elements = parts::of_elements(case, &mesh);
-    let frames = export::export(&run.results(), &mesh, &of_elements, stage.folder(), &fields, encoding)?;
+    let regions = parts::of_series(case, &mesh);
+    let Exported { frames, soil } = export::export(&run.results(), &mesh, &regions, stage.folder(), &fields, encoding)?;
     record.finish(stage.folder(), &series(stage))?;
     record.write(stage.folder())?;
     let pvd = stage.folder().join("points.pvd");
     let finished = run.standing()? == Standing::Finished;
     let state = if finished { String::new() } else { unfinished_state(run)? };
     print(&format!("{}: {frames} frames{state}\n", pvd.display()))?;
+    if !soil && !fields.iter().any(|field| field == "displacement") {
+        note("note: no soil.pvd: the soil is seen as a body where `displacement` is among the fields of `output`");
+    }
     if finished && stage.runs().beside.has_frames() {
         print(&format!(
             "{}: a later run that was not finished is there too; `--unfinished` exports it\n",
@@ -80,12 +84,12 @@ fn unfinished_state(run: &RunFolder) -> Result<String> {
 }
 
 /// The run whose results are shown: that in the output folder, or where there is none the one beside it.
-fn shown(stage: &Stage) -> Result<RunFolder> {
+pub(super) fn shown(stage: &Stage) -> Result<RunFolder> {
     let runs = stage.runs();
     Ok(if !runs.main.has_frames() && runs.beside.has_frames() { runs.beside } else { runs.main })
 }
 
-fn unfinished(stage: &Stage) -> Result<RunFolder> {
+pub(super) fn unfinished(stage: &Stage) -> Result<RunFolder> {
     let runs = stage.runs();
     let candidates = [runs.beside, runs.main].into_iter();
     let mut unfinished = Vec::new();
@@ -101,7 +105,7 @@ fn unfinished(stage: &Stage) -> Result<RunFolder> {
 }
 
 /// Refuses results that were changed since the run, or that are of another mesh.
-fn check_run(stage: &Stage, run: &RunFolder) -> Result<()> {
+pub(super) fn check_run(stage: &Stage, run: &RunFolder) -> Result<()> {
     const AGAIN: &str = "run `mpm solve` again";
     let frames = frame::list(&run.results())?;
     let mesh = hash::file(&stage.mesh(), "run `mpm mesh` first")?;

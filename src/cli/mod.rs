@@ -8,7 +8,9 @@ mod info;
 mod man;
 mod mesh;
 mod new;
+mod plot;
 mod print;
+mod report;
 mod run;
 mod schema;
 mod seed;
@@ -55,6 +57,10 @@ enum Command {
     Sweep(sweep::Args),
     /// Print every mistake of a case that shows without its mesh, with file, line and remedy; writes nothing
     Check(check::Args),
+    /// Draw curves of the histories of cases, or of output folders, as SVG or PNG
+    Plot(plot::Args),
+    /// Write one page on a run, whole in itself: scene, entries, curves, work of the solver, provenance
+    Report(report::Args),
     /// Print what a file of mpm was made from, or those of an output folder: program, inputs, command, time
     Info(info::Args),
     /// Print the JSON schema of case.yaml, for editors
@@ -84,6 +90,8 @@ pub fn with(keys: &Keys) -> ExitCode {
         Command::Run(args) => run::run(&args, keys),
         Command::Sweep(args) => sweep::run(&args, keys),
         Command::Check(args) => check::run(&args, keys),
+        Command::Plot(args) => plot::run(&args, keys),
+        Command::Report(args) => report::run(&args, keys),
         Command::Info(args) => info::run(&args),
         Command::Schema => schema::run(keys),
         Command::Completions(args) => completions::run(&args, Cli::command()),

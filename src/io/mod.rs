@@ -28,5 +28,6 @@ pub mod points_vtu;
 pub mod provenance;
 pub mod pvd;
 pub mod run_folder;
+pub mod solve_log;
 pub mod table;
 pub mod vtu;

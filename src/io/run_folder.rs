@@ -162,6 +162,12 @@ impl Runs {
         Ok(None)
     }
 
+    /// The run whose history is shown: that in the main folder, or where there is none, or `unfinished` is asked for, the one beside.
+    pub fn with_history(&self, unfinished: bool) -> Option<RunFolder> {
+        let candidates = if unfinished { [&self.beside, &self.main] } else { [&self.main, &self.beside] };
+        candidates.into_iter().find(|run| run.history().is_file()).cloned()
+    }
+
     /// An empty folder for a new run: beside the results, where there are any.
     ///
     /// # Errors

@@ -7,7 +7,7 @@ mod resampled;
 mod surface;
 mod volumes;
 
-pub use resampled::{Count, Renewed, Resampled, Samples};
+pub use resampled::{Around, Count, Fit, Held, Place, Renewed, Resampled, Rings, Samples};
 pub use surface::Bounded;
 pub use volumes::Volumes;
 

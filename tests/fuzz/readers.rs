@@ -298,9 +298,9 @@ impl Reader for Frames {
         let path = frame::path(&results, 0);
         fs::write(&path, bytes).unwrap();
         let meaning = meaning(&Frame::read(&path)?);
-        let of_elements = mpm::case::parts::of_elements(&self.scene.case, &self.scene.mesh);
+        let regions = mpm::case::parts::of_series(&self.scene.case, &self.scene.mesh);
         let fields = ["stress", "displacement"].map(String::from);
-        export::export(&results, &self.scene.mesh, &of_elements, self.folder.path(), &fields, Encoding::Raw)?;
+        export::export(&results, &self.scene.mesh, &regions, self.folder.path(), &fields, Encoding::Raw)?;
         Ok(meaning)
     }
 }

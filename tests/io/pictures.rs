@@ -6,7 +6,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Output;
 
-use mpm::io::export::export;
+use mpm::io::export::{Regions, export};
 use mpm::io::frame::{self, Column, Frame, Part};
 use mpm::io::history::History;
 use mpm::io::provenance::Origin;
@@ -72,7 +72,8 @@ fn leaning_block(out: &Path, width: f64, height: f64) {
         frame.write(&out.join("results"), k as usize).unwrap();
     }
     let fields = ["displacement", "plastic_strain", "stress"].map(String::from);
-    export(&out.join("results"), &mesh, &vec![false; mesh.regions.len()], out, &fields, Encoding::Raw).unwrap();
+    let regions = Regions { elements: vec![false], soil: vec![true], ..Regions::default() };
+    export(&out.join("results"), &mesh, &regions, out, &fields, Encoding::Raw).unwrap();
 }
 
 #[test]
@@ -83,6 +84,27 @@ fn a_series_is_drawn_without_a_display() {
     assert_eq!(fs::read_dir(out.path()).unwrap().filter(|e| is_png(&e.as_ref().unwrap().path())).count(), 1);
     if let Some(keep) = std::env::var_os("MPM_KEEP_PICTURES") {
         fs::copy(picture, Path::new(&keep).join("seabed_slope.png")).unwrap();
+    }
+}
+
+/// The soil of the same block as a body, by the script for any case.
+#[test]
+fn the_soil_of_any_case_is_drawn_as_a_body() {
+    let out = tempfile::tempdir().unwrap();
+    leaning_block(out.path(), 40.0, 6.0);
+    let view = |arguments: &[&str]| {
+        let script =
+            support::python().arg(project("paraview/view.py")).arg(out.path()).args(arguments).output().unwrap();
+        (script.status.code(), String::from_utf8_lossy(&script.stderr).into_owned())
+    };
+    let picture = out.path().join("view.png");
+    assert_eq!(view(&["--field", "stress.yy", "--mesh"]).0, Some(0));
+    let check = python("tests/readers/check_picture.py", &[&picture]);
+    assert!(check.status.success(), "{}", String::from_utf8_lossy(&check.stderr));
+    let (code, text) = view(&["--field", "velocity"]);
+    assert!(code == Some(2) && text.contains("it has displacement [m], plastic_strain [-], stress [kPa]"), "{text}");
+    if let Some(keep) = std::env::var_os("MPM_KEEP_PICTURES") {
+        fs::copy(picture, Path::new(&keep).join("view.png")).unwrap();
     }
 }
 

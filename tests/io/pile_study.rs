@@ -5,7 +5,7 @@ use crate::support::{project, python, succeeds};
 use std::fs;
 use std::path::Path;
 
-use mpm::io::export::export;
+use mpm::io::export::{Regions, export};
 use mpm::io::frame::{self, Column, FACES, Frame, LINE, Part, REGION};
 use mpm::io::history::History;
 use mpm::io::vtu::Encoding;
@@ -61,7 +61,8 @@ fn write(out: &Path, noise: f64, ripple: f64) {
             .write(&results, k)
             .unwrap();
     }
-    export(&results, &mesh, &[false], out, &["stress".into()], Encoding::Raw).unwrap();
+    let regions = Regions { elements: vec![false], soil: vec![true], ..Regions::default() };
+    export(&results, &mesh, &regions, out, &["stress".into()], Encoding::Raw).unwrap();
     let columns = ["time [s]", "pile.contact_y [kN]", "head.uy [m]"].map(String::from);
     let mut history = History::create(&out.join("history.csv"), &columns).unwrap();
     for d in (0..=1400).map(|i| f64::from(i) * 1e-3) {

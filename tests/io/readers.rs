@@ -6,6 +6,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use mpm::io::container::Data;
+use mpm::io::export::Regions;
 use mpm::io::frame::{self, Column, Frame, Part};
 use mpm::io::points_vtu::Source;
 use mpm::io::provenance::Origin;
@@ -303,10 +304,11 @@ mod slow {
         }
         let arguments: Vec<String> = times.iter().map(|t| format!("{t:?}")).collect();
         for encoding in [Encoding::Raw, Encoding::Lz4, Encoding::Plain] {
-            let none = vec![false; mesh.regions.len()];
-            export::export(&results, &mesh, &none, folder.path(), &["displacement".to_string()], encoding).unwrap();
+            let count = mesh.regions.len();
+            let regions = Regions { elements: vec![false; count], soil: vec![true; count], ..Regions::default() };
+            export::export(&results, &mesh, &regions, folder.path(), &["displacement".to_string()], encoding).unwrap();
             check(&[&"vtp", &folder.path().join("vtu/surface_000002.vtp"), &"[[0, 1, 2, 3, 0], [4, 5, 6, 4]]"]);
-            for series in ["points.pvd", "grid.pvd", "surface.pvd"] {
+            for series in ["points.pvd", "grid.pvd", "soil.pvd", "surface.pvd"] {
                 let path = folder.path().join(series);
                 let mut all: Vec<&dyn AsRef<std::ffi::OsStr>> = vec![&"pvd", &path];
                 all.extend(arguments.iter().map(|a| a as &dyn AsRef<std::ffi::OsStr>));

@@ -8,7 +8,7 @@
 
 use mpm::interpolation::Mpm;
 use mpm::io::checkpoint::Fingerprint;
-use mpm::io::export::export;
+use mpm::io::export::{Regions, export};
 use mpm::io::frame::{self, Frame};
 use mpm::io::provenance::Origin;
 use mpm::io::run_folder::RunFolder;
@@ -482,8 +482,9 @@ fn a_scene_is_run_stopped_resumed_and_exported() {
 
     let (scene, ..) = scene();
     let fields = ["stress", frame::INTERNAL].map(String::from);
-    let count = export(&results, &scene.mesh, &[false], whole.path(), &fields, Encoding::Plain).unwrap();
-    assert_eq!(count, 3);
+    let regions = Regions { elements: vec![false], soil: vec![true], ..Regions::default() };
+    let count = export(&results, &scene.mesh, &regions, whole.path(), &fields, Encoding::Plain).unwrap();
+    assert_eq!(count.frames, 3);
     let text = fs::read_to_string(whole.path().join("vtu/points_000002.vtu")).unwrap();
     for name in ["slip [-]", "back_stress [kPa]", "plastic_work [kPa]", "largest_back_stress [kPa]"] {
         assert!(text.contains(&format!("\"{}.{name}\"", frame::INTERNAL)), "{name}");

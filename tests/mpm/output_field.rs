@@ -2,7 +2,7 @@
 
 use crate::bench::{Bench, constant, quadrature_points};
 use mpm::io::checkpoint::Fingerprint;
-use mpm::io::export::export;
+use mpm::io::export::{Regions, export};
 use mpm::io::frame::{self, Column, Frame};
 use mpm::io::provenance::Origin;
 use mpm::io::run_folder::RunFolder;
@@ -56,7 +56,8 @@ fn a_field_of_ones_own_is_written_and_exported() {
         run::run::<2, PlaneStrain>(&scene, first, &outputs, false, &AtomicBool::new(false), &mut |_| {}).unwrap();
     assert_eq!(ended, Ended::Done);
     let results = RunFolder::new(folder.path()).results();
-    export(&results, &scene.mesh, &[false], folder.path(), &["volume_ratio".to_string()], Encoding::Plain).unwrap();
+    let regions = Regions { elements: vec![false], soil: vec![true], ..Regions::default() };
+    export(&results, &scene.mesh, &regions, folder.path(), &["volume_ratio".to_string()], Encoding::Plain).unwrap();
     let text = fs::read_to_string(folder.path().join("vtu/points_000001.vtu")).unwrap();
     assert!(text.contains("\"volume_ratio [-]\""), "{text}");
     let Frame { points, .. } = Frame::read(&frame::path(&results, 1)).unwrap();

@@ -50,6 +50,14 @@ impl Piece {
         Self { nodes: Some(nodes), topology, region: mesh.cells.region.clone() }
     }
 
+    /// The nodes of each cell, in their own numbers, and its region.
+    pub fn cells(&self) -> impl Iterator<Item = (&[i64], u16)> {
+        let begin = std::iter::once(0).chain(self.topology.offsets.iter().copied());
+        let cells =
+            begin.zip(&self.topology.offsets).map(|(a, &b)| &self.topology.connectivity[a as usize..b as usize]);
+        cells.zip(self.region.iter().copied())
+    }
+
     /// The part of a field over all nodes that these cells see.
     pub fn at(&self, part: &Part) -> Part {
         let Some(nodes) = &self.nodes else { return part.clone() };

@@ -1,5 +1,6 @@
 use super::super::container::Data;
-use super::super::frame::Column;
+use super::super::frame::{Column, Frame, Part};
+use super::series::{counted_from, triples};
 use super::*;
 use crate::error::Kind;
 use crate::io::export::pieces::Piece;
@@ -14,6 +15,10 @@ fn mesh() -> Mesh<2> {
     };
     mesh.cells.push(CellKind::T6, 0, &[0, 1, 2, 3, 4, 5]);
     mesh
+}
+
+fn regions(elements: &[bool]) -> Regions {
+    Regions { elements: elements.to_vec(), soil: vec![false; elements.len()], ..Regions::default() }
 }
 
 fn fields(names: &[&str]) -> Vec<String> {
@@ -35,13 +40,13 @@ fn only_what_is_asked_for_is_written_and_stale_files_go() {
     fs::create_dir_all(out.join("vtu")).unwrap();
     fs::write(out.join("vtu/points_own.vtu"), b"").unwrap();
     let asked = fields(&["mean_stress", "plastic_strain"]);
-    assert_eq!(export(&results, &mesh(), &[false], &out, &asked, Encoding::Plain).unwrap(), 4);
+    assert_eq!(export(&results, &mesh(), &regions(&[false]), &out, &asked, Encoding::Plain).unwrap().frames, 4);
     let text = fs::read_to_string(out.join("vtu/points_000003.vtu")).unwrap();
     assert!(text.contains("Name=\"mean_stress [kPa]\"") && text.contains("Name=\"plastic_strain [-]\""));
     assert!(!text.contains("Name=\"stress") && !text.contains("displacement") && !text.contains("deviatoric"));
 
     write_frames(&results, 2);
-    assert_eq!(export(&results, &mesh(), &[false], &out, &asked, Encoding::Raw).unwrap(), 2);
+    assert_eq!(export(&results, &mesh(), &regions(&[false]), &out, &asked, Encoding::Raw).unwrap().frames, 2);
     let mut left: Vec<_> =
         fs::read_dir(out.join("vtu")).unwrap().map(|e| e.unwrap().file_name().into_string().unwrap()).collect();
     left.sort();
@@ -57,12 +62,13 @@ fn unknown_fields_and_other_meshes_are_errors() {
     let folder = tempfile::tempdir().unwrap();
     let (results, out) = (folder.path().join("results"), folder.path().join("out"));
     write_frames(&results, 1);
-    let e = export(&results, &mesh(), &[false], &out, &fields(&["pore_pressure"]), Encoding::Raw).unwrap_err();
+    let e =
+        export(&results, &mesh(), &regions(&[false]), &out, &fields(&["pore_pressure"]), Encoding::Raw).unwrap_err();
     assert_eq!(e.kind, Kind::Input);
     assert!(e.problem.contains("`pore_pressure`") && e.problem.contains("mean_stress, plastic_strain"), "{e}");
     let mut other = mesh();
     other.nodes.push([2., 2.]);
-    let e = export(&results, &other, &[false], &out, &fields(&["stress"]), Encoding::Raw).unwrap_err();
+    let e = export(&results, &other, &regions(&[false]), &out, &fields(&["stress"]), Encoding::Raw).unwrap_err();
     assert!(e.kind == Kind::Input && e.problem.contains("7 nodes"), "{e}");
     assert!(!out.join("points.pvd").exists());
 }
@@ -144,8 +150,8 @@ fn finite_elements_are_a_series_of_their_own() {
     assert!((counted.columns[1].values[0] - 0.06).abs() < 1e-15, "{:?}", counted.columns[1].values);
 
     let asked = fields(&["plastic_strain"]);
-    let done = export(&results, &mesh, &[false, true, true], &out, &asked, Encoding::Plain).unwrap();
-    assert_eq!(done, 1);
+    let done = export(&results, &mesh, &regions(&[false, true, true]), &out, &asked, Encoding::Plain).unwrap();
+    assert_eq!(done.frames, 1);
     let count = |series: &str| {
         let text = fs::read_to_string(out.join(format!("vtu/{series}_000000.vtu"))).unwrap();
         text.lines().find(|line| line.contains("<Piece")).unwrap().to_string()
@@ -157,8 +163,8 @@ fn finite_elements_are_a_series_of_their_own() {
     // A case that no longer has any.
     let without = Frame { elements: Part::default(), ..full };
     without.write(&results, 0).unwrap();
-    let done = export(&results, &mesh, &[false; 3], &out, &[], Encoding::Plain).unwrap();
-    assert_eq!(done, 1);
+    let done = export(&results, &mesh, &regions(&[false; 3]), &out, &[], Encoding::Plain).unwrap();
+    assert_eq!(done.frames, 1);
     assert!(!out.join("structures.pvd").exists());
 }
 
@@ -195,15 +201,15 @@ fn boundaries_in_contact_are_a_series_of_their_own() {
     frame::prepare(&results, 0).unwrap();
     with.clone().write(&results, 0).unwrap();
     assert_eq!(Frame::read(&frame::path(&results, 0)).unwrap(), with);
-    export(&results, &mesh(), &[false], &out, &[], Encoding::Plain).unwrap();
+    export(&results, &mesh(), &regions(&[false]), &out, &[], Encoding::Plain).unwrap();
     assert!(out.join("contact.pvd").exists() && out.join("vtu/contact_000000.vtu").exists());
 
     // A frame of a run without contact among those with it, and a run without any.
     frame::tests::sample(1).write(&results, 1).unwrap();
-    let e = export(&results, &mesh(), &[false], &out, &[], Encoding::Plain).unwrap_err();
+    let e = export(&results, &mesh(), &regions(&[false]), &out, &[], Encoding::Plain).unwrap_err();
     assert!(e.kind == Kind::Input && e.problem.contains("boundaries in contact"), "{e}");
     frame::tests::sample(0).write(&results, 0).unwrap();
-    let done = export(&results, &mesh(), &[false], &out, &[], Encoding::Plain).unwrap();
-    assert_eq!(done, 2);
+    let done = export(&results, &mesh(), &regions(&[false]), &out, &[], Encoding::Plain).unwrap();
+    assert_eq!(done.frames, 2);
     assert!(!out.join("contact.pvd").exists());
 }

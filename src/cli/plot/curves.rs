@@ -1,0 +1,216 @@
+//! Curves of the histories of runs.
+
+use crate::case::Keys;
+use crate::cli::print::{Outcome, note, print};
+use crate::draw::curves::{Charts, Mark, Series, Style};
+use crate::draw::history::{self, Run, Shown, TIME};
+use crate::draw::{self, Format, INK};
+use crate::error::{Error, Result, shown};
+use crate::io::run_folder::{RunFolder, Runs, Standing};
+use crate::io::table::Table;
+use std::fmt::Write;
+use std::path::{Path, PathBuf};
+
+#[derive(clap::Args)]
+pub struct Args {
+    /// The column along the horizontal axis, as `head.uy` or with its unit [default: time]
+    #[arg(long, value_name = "COLUMN")]
+    x: Option<String>,
+    /// The columns along the vertical axis [default: load over displacement where the history has both, else all over time]
+    #[arg(long, value_name = "COLUMN,…", value_delimiter = ',')]
+    y: Vec<String>,
+    /// A factor of the horizontal axis, such as -1
+    #[arg(long, value_name = "FACTOR", default_value_t = 1.0, allow_negative_numbers = true)]
+    scale_x: f64,
+    /// A factor of the vertical axis
+    #[arg(long, value_name = "FACTOR", default_value_t = 1.0, allow_negative_numbers = true)]
+    scale_y: f64,
+    /// Values to compare with, drawn as circles: two columns with headings, as they are to be shown
+    #[arg(long, value_name = "FILE.csv")]
+    reference: Vec<PathBuf>,
+    /// A horizontal line at a value, or NAME=VALUE
+    #[arg(long, value_name = "VALUE", allow_negative_numbers = true)]
+    line: Vec<String>,
+    /// Iterations, sizes and halvings of the steps over time, in place of the history
+    #[arg(long, conflicts_with_all = ["x", "y", "scale_x", "scale_y", "reference", "line"])]
+    iterations: bool,
+    /// The title [default: that of the case]
+    #[arg(long, value_name = "TEXT")]
+    title: Option<String>,
+    /// List the columns, with their ranges, and draw nothing
+    #[arg(long)]
+    list: bool,
+}
+
+pub fn run(cases: &[PathBuf], output: Option<&Path>, args: &Args, unfinished: bool, keys: &Keys) -> Outcome {
+    let found: Vec<Found> = cases.iter().map(|case| find(case, unfinished, keys)).collect::<Result<_>>()?;
+    let mut runs = Vec::with_capacity(found.len());
+    for (i, Found { run, title, path }) in found.iter().enumerate() {
+        // A title that two runs have tells neither.
+        let alone = found.iter().enumerate().all(|(j, other)| i == j || other.title != *title);
+        let name = title.clone().filter(|_| alone).unwrap_or_else(|| path.display().to_string());
+        let read = Run::read(run, name)?;
+        if let Some(state) = &read.unfinished {
+            note(&format!("note: {}: {state}", run.path().display()));
+        }
+        runs.push(read);
+    }
+    if args.list {
+        return print(&list(&runs));
+    }
+    let mut charts = charts(&runs, args)?;
+    if charts.iter().all(|chart| chart.series.iter().all(|series| series.places.is_empty())) {
+        let place = found.first().map_or_else(String::new, |found| found.run.path().display().to_string());
+        let problem = if args.iterations { "no step has converged" } else { "the history has no quantities to draw" };
+        return Err(Error::input(place, problem, "let `output.history` of the case name some, and solve it").into());
+    }
+    compare(&mut charts, args)?;
+    let one = |values: Vec<Option<&String>>| match &values[..] {
+        [value] => value.cloned(),
+        [first, rest @ ..] if rest.iter().all(|value| value == first) => first.cloned(),
+        _ => None,
+    };
+    let title = args.title.clone().or_else(|| one(found.iter().map(|found| found.title.as_ref()).collect()));
+    let remark = match &runs[..] {
+        [run] => run.unfinished.clone().unwrap_or_default(),
+        runs => runs.iter().filter(|run| run.unfinished.is_some()).fold(String::new(), |text, run| {
+            let before = if text.is_empty() { "not finished: " } else { ", " };
+            format!("{text}{before}{}", run.name)
+        }),
+    };
+    let folder = found.first().map(|found| found.run.path()).unwrap_or(Path::new(""));
+    let path = output.map_or_else(|| folder.join("history.svg"), Path::to_owned);
+    Format::of(&path)?;
+    draw::write(&Charts { title: title.unwrap_or_default(), remark, charts }, &path)?;
+    print(&format!("{}\n", path.display()))
+}
+
+/// A run, with the title of its case where that is known, and what it was called on the command line.
+struct Found {
+    run: RunFolder,
+    title: Option<String>,
+    path: PathBuf,
+}
+
+/// The run of a case, or that in an output folder.
+fn find(path: &Path, unfinished: bool, keys: &Keys) -> Result<Found> {
+    let is_case = path.is_file() || path.join("case.yaml").is_file();
+    let folder = match (is_case, path.is_dir()) {
+        (true, true) => path.join("out"),
+        (true, false) => path.parent().unwrap_or(Path::new("")).join("out"),
+        (false, true) => path.to_owned(),
+        (false, false) => return Err(Error::input(path.display(), "there is no such case or folder", "name one")),
+    };
+    let runs = Runs::of(&folder);
+    let Some(run) = runs.with_history(unfinished) else {
+        let problem = "there is no history.csv of a run";
+        return Err(Error::input(folder.display(), problem, "solve the case, or name the output folder of a run"));
+    };
+    let beside = run == runs.main && runs.beside.history().is_file();
+    if beside && !unfinished && run.standing()? == Standing::Finished {
+        note(&format!(
+            "note: {}: a later run that is not finished is there too; `--unfinished` draws it",
+            folder.display()
+        ));
+    }
+    // A case with mistakes may have results all the same; its folder names it then.
+    let title = is_case.then(|| keys.load(path, &[]).ok()).flatten().map(|loaded| loaded.case.title);
+    Ok(Found { run, title: title.filter(|title| !title.is_empty()), path: path.to_owned() })
+}
+
+/// The columns of each run, with their ranges.
+fn list(runs: &[Run]) -> String {
+    let mut text = String::new();
+    for run in runs {
+        let _ = writeln!(text, "{}: {} rows", run.name, run.table.rows());
+        let width = run.table.columns.iter().map(|column| column.heading().chars().count()).max().unwrap_or(0);
+        for column in &run.table.columns {
+            let range = column.values.iter().fold(None, |range: Option<[f64; 2]>, &v| {
+                Some(range.map_or([v, v], |[low, high]| [low.min(v), high.max(v)]))
+            });
+            let range = range.map_or_else(String::new, |[low, high]| format!("{low} … {high}"));
+            let _ = writeln!(text, "  {:<width$}  {range}", column.heading());
+        }
+    }
+    text
+}
+
+fn charts(runs: &[Run], args: &Args) -> Result<Vec<draw::curves::Chart>> {
+    if args.iterations {
+        return Ok(history::work(runs));
+    }
+    if args.x.is_none() && args.y.is_empty() {
+        if [args.scale_x, args.scale_y] != [1.0, 1.0] {
+            let problem = "the default curves have signs of their own";
+            return Err(Error::input("--scale-x, --scale-y", problem, "choose columns with --x and --y"));
+        }
+        return Ok(history::usual(runs));
+    }
+    let x = column(runs, args.x.as_deref().unwrap_or(TIME))?;
+    let ys = match &args.y[..] {
+        [] => {
+            let others = history::columns(runs).into_iter().filter(|other| other.name != x);
+            others.map(|other| other.name.clone()).collect()
+        }
+        names => names.iter().map(|name| column(runs, name)).collect::<Result<Vec<_>>>()?,
+    };
+    let y = |column| Shown { column, scale: args.scale_y };
+    Ok(history::chosen(runs, &Shown { column: x, scale: args.scale_x }, &ys.into_iter().map(y).collect::<Vec<_>>()))
+}
+
+/// The name of a column that all runs have.
+fn column(runs: &[Run], name: &str) -> Result<String> {
+    let mut found = String::new();
+    for run in runs {
+        let Some(column) = run.table.column(name) else {
+            let names: Vec<&str> = run.table.columns.iter().map(|column| column.name.as_str()).collect();
+            let problem = format!("{} has no column `{}`", run.name, shown(name));
+            return Err(Error::input("--x, --y", problem, near(name, &names)));
+        };
+        found.clone_from(&column.name);
+    }
+    Ok(found)
+}
+
+/// Names that may be meant: the most like it, a few.
+fn near(name: &str, names: &[&str]) -> String {
+    /// Names that are told.
+    const TOLD: usize = 4;
+    let mut names: Vec<(f64, &str)> = names.iter().map(|other| (strsim::jaro_winkler(name, other), *other)).collect();
+    names.sort_by(|a, b| b.0.total_cmp(&a.0));
+    let names: Vec<String> = names.iter().take(TOLD).map(|(_, name)| format!("`{name}`")).collect();
+    format!("near to it are {}; `--list` lists all", names.join(", "))
+}
+
+/// Adds the values to compare with.
+fn compare(charts: &mut [draw::curves::Chart], args: &Args) -> Result<()> {
+    if args.reference.is_empty() && args.line.is_empty() {
+        return Ok(());
+    }
+    let [chart] = charts else {
+        let problem = format!("there are {} charts, and nothing says which one it belongs to", charts.len());
+        return Err(Error::input("--reference, --line", problem, "choose the columns of one unit with --x and --y"));
+    };
+    for path in &args.reference {
+        let table = Table::read(path, "name a CSV file")?;
+        let [x, y] = &table.columns[..] else {
+            let problem = format!("it has {} columns, not two", table.columns.len());
+            return Err(Error::input(
+                path.display(),
+                problem,
+                "give it the headings of two columns, and two numbers a row",
+            ));
+        };
+        let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+        let places = x.values.iter().zip(&y.values).map(|(x, y)| [*x, *y]).collect();
+        chart.series.push(Series { name, style: Style::Points, colour: INK, places });
+    }
+    for line in &args.line {
+        let (name, value) = line.rsplit_once('=').unwrap_or((line, line));
+        let at = value.trim().parse().ok().filter(|at: &f64| at.is_finite()).ok_or_else(|| {
+            Error::input("--line", format!("`{}` is no number", shown(value)), "write --line 5.14, or --line 2+π=5.14")
+        })?;
+        chart.levels.push(Mark { at, name: name.trim().to_owned() });
+    }
+    Ok(())
+}

@@ -1,0 +1,440 @@
+//! A field over the soil at one time: the soil as a filled body in the colours of the field, structures, surface, contact.
+
+use super::colour::{Map, Rgb};
+use super::raster::Raster;
+use super::ticks::Ticks;
+use super::{Canvas, Drawn, HPos, INK, Picture, Text, VPos};
+use crate::error::{Error, Result};
+use crate::io::container::Data;
+use crate::io::export::Shown;
+use crate::io::frame::INTERNAL;
+use crate::io::vtu::{Array, Grid};
+use plotters::prelude::DrawingBackend;
+
+/// Space around the axes (points): for the vertical axis, the colour bar, the title and the horizontal axis.
+const LEFT: f64 = 62.0;
+const RIGHT: f64 = 104.0;
+const ABOVE: f64 = 40.0;
+const BELOW: f64 = 48.0;
+/// Width of the colour bar, and its distance from the axes (points).
+const BAR: f64 = 14.0;
+const BESIDE: f64 = 16.0;
+/// The axes are at most so many times as high as the picture is wide, and at least this high (points).
+const HIGHEST: f64 = 1.4;
+const LOWEST: f64 = 60.0;
+/// The part of the window (-) that is left around the bodies.
+const MARGIN: f64 = 0.03;
+/// The part of the window (-) that the largest contact pressure is high.
+const CONTACT_HEIGHT: f64 = 0.12;
+
+const STRUCTURE: Rgb = [168, 168, 168];
+/// Soil whose field is not known.
+const UNKNOWN: Rgb = [235, 235, 235];
+const LINES: Rgb = [40, 40, 40];
+const CONTACT: Rgb = [230, 85, 13];
+/// The number of what a structure of region 0 shows; soil is below.
+const STRUCTURES: u16 = 1 << 15;
+
+/// How a field is to be seen.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Options {
+    /// Values at the ends of the colour bar; without it the least and the greatest.
+    pub range: Option<[f64; 2]>,
+    /// What is seen (m): x and y of the lower left corner, and of the upper right one.
+    pub window: Option<[f64; 4]>,
+    /// Width of the picture (pixels of a PNG).
+    pub width: Option<u32>,
+    /// Whether the lines of the grid are drawn.
+    pub mesh: bool,
+    /// Whether the contact pressure is drawn along structures.
+    pub contact: bool,
+    /// Whether the other half is drawn too, mirrored at x = 0.
+    pub mirror: bool,
+    /// Whether x is the radius.
+    pub axisymmetric: bool,
+}
+
+/// The pixels of a PNG that is not told how wide to be.
+const WIDTH: u32 = 1600;
+
+/// The name of a field as a case has it under `output.fields`, and of its component.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Asked {
+    pub field: String,
+    component: Option<String>,
+    array: String,
+}
+
+impl Asked {
+    /// `NAME`, `NAME.COMPONENT` or `internal_variables.NAME`.
+    pub fn of(text: &str) -> Self {
+        let (field, rest) = text.split_once('.').map_or((text, None), |(field, rest)| (field, Some(rest.to_owned())));
+        if field == INTERNAL {
+            return Self { field: field.to_owned(), component: None, array: text.to_owned() };
+        }
+        Self { field: field.to_owned(), component: rest, array: field.to_owned() }
+    }
+
+    /// The values of a grid at its nodes, with the title of the colour bar. `None` where it has not the field.
+    ///
+    /// # Errors
+    /// `Input` for a component that the field has not.
+    fn values(&self, grid: &Grid) -> Result<Option<(String, Vec<f64>)>> {
+        let named = |array: &&Array| array.name.rsplit_once(" [").is_some_and(|(name, _)| name == self.array);
+        let Some(Array { name, components, data: Data::F64(values) }) = grid.point_data.iter().find(named) else {
+            return Ok(None);
+        };
+        let (array, unit) = name.rsplit_once(" [").unwrap_or((name, "-]"));
+        let names: &[&str] = match components {
+            3 => &["x", "y", "z"],
+            6 => &["xx", "yy", "zz", "xy", "yz", "xz"],
+            9 => &["xx", "xy", "xz", "yx", "yy", "yz", "zx", "zy", "zz"],
+            _ => &[],
+        };
+        let at = |k: usize| values.chunks_exact(*components).map(|v| v[k]).collect();
+        let size = |v: &[f64]| v.iter().map(|v| v * v).sum::<f64>().sqrt();
+        let (title, values): (String, Vec<f64>) = match &self.component {
+            None if *components == 1 => (array.to_owned(), values.clone()),
+            None if *components == 3 => (array.to_owned(), values.chunks_exact(3).map(size).collect()),
+            component => match names.iter().position(|name| component.as_deref() == Some(*name)) {
+                Some(k) => (format!("{array}.{}", names[k]), at(k)),
+                None => return Err(self.wrong(names)),
+            },
+        };
+        let unit = unit.trim_end_matches(']');
+        Ok(Some((if unit == "-" { title } else { format!("{title} [{unit}]") }, values)))
+    }
+
+    fn wrong(&self, names: &[&str]) -> Error {
+        let remedy = if names.is_empty() {
+            "it is a number: take the component out".to_owned()
+        } else {
+            let all: Vec<String> = names.iter().map(|name| format!("{}.{name}", self.field)).collect();
+            format!("say which component: {}", all.join(", "))
+        };
+        let problem = match &self.component {
+            Some(component) => format!("the field has no component `{component}`"),
+            None => "the field has several components".to_owned(),
+        };
+        Error::input(format!("--field {}", self.array), problem, remedy)
+    }
+}
+
+/// Triangles in the plane, with a value at each corner.
+#[derive(Clone, Debug, Default, PartialEq)]
+struct Triangles {
+    places: Vec<[[f64; 2]; 3]>,
+    values: Vec<[f64; 3]>,
+    region: Vec<u16>,
+}
+
+/// A field over the soil.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Field {
+    pub title: String,
+    /// The title of the colour bar.
+    name: String,
+    soil: Triangles,
+    structures: Triangles,
+    /// Edges of the cells of the grid (m).
+    edges: Vec<[[f64; 2]; 2]>,
+    /// Lines along structures with the pressure at both ends (kPa), the soil on their right.
+    contact: Vec<([[f64; 2]; 2], [f64; 2])>,
+    options: Options,
+}
+
+impl Field {
+    /// The field that is `asked` for, of a frame.
+    ///
+    /// # Errors
+    /// `Input` where the soil is not known as a body, has not the field, or this not the component.
+    pub fn of(shown: &Shown, is_soil: &[bool], asked: &Asked, title: String, options: Options) -> Result<Self> {
+        let Some(soil) = &shown.soil else {
+            let problem = "the soil cannot be drawn as a body: the frames hold no `displacement`";
+            return Err(Error::input(
+                "output.fields",
+                problem,
+                "add `displacement` to the fields of the case, and solve it again",
+            ));
+        };
+        let Some((name, values)) = asked.values(soil)? else {
+            let known: Vec<&str> = soil.point_data.iter().filter_map(|a| Some(a.name.rsplit_once(" [")?.0)).collect();
+            let remedy = format!("the frame has {}", known.join(", "));
+            return Err(Error::input(format!("--field {}", asked.array), "there is no such field", remedy));
+        };
+        let structures = shown.structures.as_ref().map_or_else(Triangles::default, |grid| {
+            triangles(grid, &vec![0.0; grid.points.len() / 3], |region| !is_soil[region as usize])
+        });
+        let mut edges = Vec::new();
+        if options.mesh {
+            edges.extend(cell_edges(&shown.grid, |_| true));
+            edges.extend(shown.structures.iter().flat_map(|grid| cell_edges(grid, |_| true)));
+        }
+        let mut contact = Vec::new();
+        if options.contact {
+            let Some(grid) = &shown.contact else {
+                return Err(Error::input("--contact", "the case has no contact", "take `--contact` out"));
+            };
+            let pressure = |i: i64| match grid.point_data.iter().find(|a| a.name.starts_with("contact_pressure ")) {
+                Some(Array { data: Data::F64(values), .. }) => values[i as usize],
+                _ => 0.0,
+            };
+            let lines = grid.topology.connectivity.chunks_exact(2);
+            contact.extend(lines.map(|l| ([place(grid, l[0]), place(grid, l[1])], [pressure(l[0]), pressure(l[1])])));
+        }
+        Ok(Self { title, name, soil: triangles(soil, &values, |_| true), structures, edges, contact, options })
+    }
+
+    /// The least and the greatest value; `None` where there is none.
+    pub fn extent(&self) -> Option<[f64; 2]> {
+        let finite = self.soil.values.iter().flatten().filter(|v| v.is_finite());
+        let range = finite.fold([f64::INFINITY, f64::NEG_INFINITY], |[l, h], &v| [l.min(v), h.max(v)]);
+        (range[0] <= range[1]).then_some(range)
+    }
+
+    /// The box around what there is (m): x and y of the lower left and the upper right corner.
+    pub fn bounds(&self) -> [f64; 4] {
+        let mut b = [f64::INFINITY, f64::INFINITY, f64::NEG_INFINITY, f64::NEG_INFINITY];
+        for x in self.soil.places.iter().chain(&self.structures.places).flatten() {
+            b = [b[0].min(x[0]), b[1].min(x[1]), b[2].max(x[0]), b[3].max(x[1])];
+        }
+        if self.options.mirror {
+            let most = b[2].max(-b[0]);
+            (b[0], b[2]) = (-most, most);
+        }
+        if b[0] > b[2] { [0.0, 0.0, 1.0, 1.0] } else { b }
+    }
+
+    /// Shows the same range and window as other pictures of a series.
+    pub fn fix(&mut self, range: [f64; 2], window: [f64; 4]) {
+        self.options.range.get_or_insert(range);
+        self.options.window.get_or_insert(window);
+    }
+
+    fn range(&self) -> [f64; 2] {
+        let [low, high] = self.options.range.or_else(|| self.extent()).unwrap_or([0.0, 1.0]);
+        // A constant has a colour, too.
+        let least = 1e-9 * low.abs().max(high.abs()).max(1e-30);
+        if high - low < least {
+            [low - 0.5 * low.abs().max(least), high + 0.5 * high.abs().max(least)]
+        } else {
+            [low, high]
+        }
+    }
+
+    /// The value at the ends of the colour map, which is about zero where the range has both signs.
+    fn scale(&self) -> (Map, [f64; 2]) {
+        let [low, high] = self.range();
+        let map = Map::of([low, high]);
+        let most = low.abs().max(high.abs());
+        (map, if map == Map::Diverging { [-most, most] } else { [low, high] })
+    }
+
+    fn paper(&self) -> Paper {
+        let [x0, y0, x1, y1] = self.options.window.unwrap_or_else(|| {
+            let [x0, y0, x1, y1] = self.bounds();
+            let margin = MARGIN * (x1 - x0).max(y1 - y0);
+            [x0 - margin, y0 - margin, x1 + margin, y1 + margin]
+        });
+        let width = f64::from(self.options.width.unwrap_or(WIDTH)) / f64::from(super::PIXELS);
+        let (wide, high) = (x1 - x0, y1 - y0);
+        let scale = ((width - LEFT - RIGHT) / wide).min(HIGHEST * width / high);
+        let size = [scale * wide, scale * high];
+        Paper { window: [x0, y0, x1, y1], scale, size, height: size[1].max(LOWEST) + ABOVE + BELOW, width }
+    }
+
+    /// Draws what is filled.
+    fn fill(&self, raster: &mut Raster) {
+        let paper = self.paper();
+        let (map, [low, high]) = self.scale();
+        let colour = |value: f64| if value.is_finite() { map.at((value - low) / (high - low)) } else { UNKNOWN };
+        raster.within([LEFT, ABOVE], [LEFT + paper.size[0], ABOVE + paper.size[1]]);
+        let sides: &[f64] = if self.options.mirror { &[1.0, -1.0] } else { &[1.0] };
+        for &side in sides {
+            let at = |x: &[f64; 2]| paper.at([side * x[0], x[1]]);
+            for ((x, values), region) in self.soil.places.iter().zip(&self.soil.values).zip(&self.soil.region) {
+                raster.triangle(&x.map(|x| at(&x)), values, region + 1, colour);
+            }
+            for [a, b] in &self.edges {
+                raster.line(at(a), at(b), 0.4, LINES, 0.45);
+            }
+            for (x, region) in self.structures.places.iter().zip(&self.structures.region) {
+                raster.triangle(&x.map(|x| at(&x)), &[0.0; 3], STRUCTURES + region, |_| STRUCTURE);
+            }
+        }
+        raster.outline(LINES);
+        let most = self.contact.iter().flat_map(|(_, p)| p).fold(0.0f64, |most, p| most.max(*p));
+        let by = CONTACT_HEIGHT * paper.size[0].min(paper.size[1]) / most.max(f64::MIN_POSITIVE);
+        for (&side, (line, pressure)) in sides.iter().flat_map(|side| self.contact.iter().map(move |c| (side, c))) {
+            let [a, b] = line.map(|x| paper.at([side * x[0], x[1]]));
+            let length = (b[0] - a[0]).hypot(b[1] - a[1]);
+            // The soil is on the right of the line; the paper's y runs down.
+            let normal = [side * -(b[1] - a[1]) / length, side * (b[0] - a[0]) / length];
+            let tip = |x: [f64; 2], p: f64| [0, 1].map(|d| x[d] + by * p * normal[d]);
+            let [c, d] = [tip(b, pressure[1]), tip(a, pressure[0])];
+            if length > 0.0 && pressure.iter().any(|p| *p > 0.0) {
+                raster.tint(&[a, b, c], CONTACT, 0.6);
+                raster.tint(&[a, c, d], CONTACT, 0.6);
+                raster.line(d, c, 0.8, CONTACT, 1.0);
+            }
+        }
+        let bar = [LEFT + paper.size[0] + BESIDE, ABOVE];
+        let [bottom, top] = self.range();
+        let corner = |i: usize, j: usize| [bar[0] + BAR * i as f64, bar[1] + paper.size[1] * j as f64];
+        raster.within(corner(0, 0), corner(1, 1));
+        raster.triangle(&[corner(0, 0), corner(1, 0), corner(0, 1)], &[top, top, bottom], 0, colour);
+        raster.triangle(&[corner(1, 0), corner(1, 1), corner(0, 1)], &[top, bottom, bottom], 0, colour);
+    }
+
+    /// What was filled, for tests: the part of the window that soil and structures cover.
+    pub fn covered(&self) -> [f64; 2] {
+        let raster = self.painted(super::PIXELS);
+        let mut raster = raster;
+        let paper = self.paper();
+        raster.within([LEFT, ABOVE], [LEFT + paper.size[0], ABOVE + paper.size[1]]);
+        [raster.part(|of| of > 0 && of < STRUCTURES), raster.part(|of| of >= STRUCTURES)]
+    }
+
+    fn painted(&self, pixels: u32) -> Raster {
+        let mut raster = Raster::new(self.size().map(|n| (n * pixels) as usize), f64::from(pixels));
+        self.fill(&mut raster);
+        raster
+    }
+}
+
+/// Where the window is on the paper.
+struct Paper {
+    window: [f64; 4],
+    /// Points of the paper in a metre.
+    scale: f64,
+    /// Of the axes (points).
+    size: [f64; 2],
+    height: f64,
+    width: f64,
+}
+
+impl Paper {
+    fn at(&self, x: [f64; 2]) -> [f64; 2] {
+        [LEFT + self.scale * (x[0] - self.window[0]), ABOVE + self.scale * (self.window[3] - x[1])]
+    }
+}
+
+impl Picture for Field {
+    fn size(&self) -> [u32; 2] {
+        let paper = self.paper();
+        [paper.width.round() as u32, paper.height.ceil() as u32]
+    }
+
+    fn raster(&self, pixels: u32) -> Option<Raster> {
+        Some(self.painted(pixels))
+    }
+
+    fn draw<B: DrawingBackend>(&self, canvas: &Canvas<B>) -> Drawn {
+        let paper = self.paper();
+        let [x0, y0, x1, y1] = paper.window;
+        let (low, high) = (paper.at([x0, y0]), paper.at([x1, y1]));
+        let small = |h, v| Text { size: 11.0, ..Text::at(h, v) };
+        canvas.line(&[low, [high[0], low[1]], high, [low[0], high[1]], low], INK, 0.6)?;
+        let ticks = Ticks::within(&(x0..=x1), (paper.size[0] / 80.0) as usize + 1);
+        for &x in &ticks.values {
+            let at = [paper.at([x, y0])[0], low[1]];
+            canvas.line(&[at, [at[0], at[1] + 4.0]], INK, 0.6)?;
+            let label = ticks.label(if self.options.mirror && self.options.axisymmetric { x.abs() } else { x });
+            canvas.text(&label, [at[0], at[1] + 6.0], small(HPos::Center, VPos::Top))?;
+        }
+        let ticks = Ticks::within(&(y0..=y1), (paper.size[1] / 60.0) as usize + 1);
+        for &y in &ticks.values {
+            let at = [low[0], paper.at([x0, y])[1]];
+            canvas.line(&[at, [at[0] - 4.0, at[1]]], INK, 0.6)?;
+            canvas.text(&ticks.label(y), [at[0] - 6.0, at[1]], small(HPos::Right, VPos::Center))?;
+        }
+        let across = if self.options.axisymmetric { "r [m]" } else { "x [m]" };
+        canvas.text(across, [0.5 * (low[0] + high[0]), low[1] + 24.0], small(HPos::Center, VPos::Top))?;
+        let middle = [14.0, 0.5 * (low[1] + high[1])];
+        canvas.text("y [m]", middle, Text { upwards: true, ..small(HPos::Center, VPos::Center) })?;
+
+        let [bottom, top] = self.range();
+        let bar = [high[0] + BESIDE, high[0] + BESIDE + BAR];
+        canvas.line(
+            &[[bar[0], low[1]], [bar[1], low[1]], [bar[1], high[1]], [bar[0], high[1]], [bar[0], low[1]]],
+            INK,
+            0.6,
+        )?;
+        let ticks = Ticks::within(&(bottom..=top), (paper.size[1] / 40.0) as usize + 1);
+        for &value in &ticks.values {
+            let y = low[1] + (value - bottom) / (top - bottom) * (high[1] - low[1]);
+            canvas.line(&[[bar[1], y], [bar[1] + 4.0, y]], INK, 0.6)?;
+            canvas.text(&ticks.label(value), [bar[1] + 6.0, y], small(HPos::Left, VPos::Center))?;
+        }
+        canvas.text(&self.name, [paper.width - 6.0, high[1] - 8.0], small(HPos::Right, VPos::Bottom))?;
+        canvas.text(&self.title, [low[0], high[1] - 8.0], Text { size: 13.0, ..Text::at(HPos::Left, VPos::Bottom) })?;
+        if let Some(most) = self.contact.iter().flat_map(|(_, p)| p).copied().reduce(f64::max) {
+            let text = format!("contact pressure up to {most:.3} kPa");
+            canvas.text(&text, [low[0] + 6.0, high[1] + 6.0], small(HPos::Left, VPos::Top))?;
+        }
+        Ok(())
+    }
+}
+
+fn place(grid: &Grid, i: i64) -> [f64; 2] {
+    [grid.points[3 * i as usize], grid.points[3 * i as usize + 1]]
+}
+
+/// The corners of a cell by VTK's number of its kind, and the order of its nodes around it.
+fn around(kind: u8) -> &'static [usize] {
+    match kind {
+        5 => &[0, 1, 2],
+        9 => &[0, 1, 2, 3],
+        22 => &[0, 3, 1, 4, 2, 5],
+        23 | 28 => &[0, 4, 1, 5, 2, 6, 3, 7],
+        _ => &[],
+    }
+}
+
+/// The regions of the cells of a grid.
+fn regions(grid: &Grid) -> &[u16] {
+    match grid.cell_data.iter().find(|a| a.name.starts_with("region ")) {
+        Some(Array { data: Data::U16(regions), .. }) => regions,
+        _ => &[],
+    }
+}
+
+/// The cells of a grid with their nodes, kinds and regions.
+fn cells(grid: &Grid) -> impl Iterator<Item = (&[i64], u8, u16)> {
+    let begin = std::iter::once(0).chain(grid.topology.offsets.iter().copied());
+    let nodes = begin.zip(&grid.topology.offsets).map(|(a, &b)| &grid.topology.connectivity[a as usize..b as usize]);
+    nodes.zip(&grid.topology.types).zip(regions(grid)).map(|((nodes, kind), region)| (nodes, *kind, *region))
+}
+
+/// The cells of some regions as triangles, around their first corner, with values at the nodes.
+fn triangles(grid: &Grid, values: &[f64], wanted: impl Fn(u16) -> bool) -> Triangles {
+    let mut triangles = Triangles::default();
+    for (nodes, kind, region) in cells(grid).filter(|(.., region)| wanted(*region)) {
+        let order = around(kind);
+        for pair in order.windows(2).skip(1) {
+            let corners = [nodes[order[0]], nodes[pair[0]], nodes[pair[1]]];
+            triangles.places.push(corners.map(|n| place(grid, n)));
+            triangles.values.push(corners.map(|n| values[n as usize]));
+            triangles.region.push(region);
+        }
+    }
+    triangles
+}
+
+/// The edges of the cells of some regions.
+fn cell_edges(grid: &Grid, wanted: impl Fn(u16) -> bool) -> Vec<[[f64; 2]; 2]> {
+    let mut ends = Vec::new();
+    for (nodes, kind, _) in cells(grid).filter(|(.., region)| wanted(*region)) {
+        let order = around(kind);
+        for (k, &i) in order.iter().enumerate() {
+            let (a, b) = (nodes[i], nodes[order[(k + 1) % order.len()]]);
+            ends.push([a.min(b), a.max(b)]);
+        }
+    }
+    ends.sort_unstable();
+    ends.dedup();
+    ends.into_iter().map(|ends| ends.map(|n| place(grid, n))).collect()
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,186 @@
+//! The series of the soil as a body: that of material points, cut along its surface, and that of finite elements.
+
+use super::super::container::Data;
+use super::super::frame::{self, Frame, Info, Part};
+use super::super::vtu::{Array, Grid, Topology};
+use super::Regions;
+use super::fields::select;
+use super::pieces::Piece;
+use crate::error::Result;
+use crate::mesh::Mesh;
+use crate::mesh::shape::CellKind;
+use crate::soil::{Body, Cloud, Soil, Values};
+use crate::surface::triangles;
+use std::collections::BTreeMap;
+
+/// VTK's number of a triangle (`vtkCellType.h`).
+const VTK_TRIANGLE: u8 = 5;
+
+/// The material points of a frame: where they are (m), and where they were seeded (m).
+#[derive(Clone, Debug, Default)]
+struct Traced {
+    position: Vec<[f64; 2]>,
+    origin: Vec<[f64; 2]>,
+}
+
+/// What all frames have in common.
+pub struct Bodies<'a> {
+    soil: Soil,
+    regions: &'a Regions,
+    /// Triangles of the finite elements by the nodes of their piece, with their regions.
+    elements: Vec<([u32; 3], u16)>,
+    /// The points of the last frame before a phase that resets displacements, by the number of the next frame.
+    resets: BTreeMap<usize, Traced>,
+}
+
+impl<'a> Bodies<'a> {
+    /// Of the cells of the grid in `mesh` and the finite elements in `structures`. `None` where the soil is not to be seen as a body: no
+    /// region has material points, or the frames do not hold their displacement.
+    ///
+    /// # Errors
+    /// Those of reading frames.
+    pub fn new(
+        mesh: &Mesh<2>,
+        regions: &'a Regions,
+        (pieces, kinds): (&Piece, &[CellKind]),
+        infos: &[Info],
+    ) -> Result<Option<Self>> {
+        let grid = mesh.part(|c| !regions.elements[mesh.cells.region[c] as usize]);
+        let seeded: Vec<bool> = regions.soil.iter().zip(&regions.elements).map(|(soil, fem)| *soil && !fem).collect();
+        let first = infos.first().map(|info| Frame::read(&info.path)).transpose()?;
+        if !seeded.contains(&true) || !first.is_some_and(|frame| displacement(&frame.points).is_some()) {
+            return Ok(None);
+        }
+        let soil = Soil::new(grid, &seeded, regions.axisymmetric);
+        let elements = pieces.cells().zip(kinds).flat_map(|((corners, region), &kind)| {
+            triangles(kind).iter().map(move |t| (t.map(|i| corners[i] as u32), region))
+        });
+        let mut bodies = Self { soil, regions, elements: elements.collect(), resets: BTreeMap::new() };
+        for (i, pair) in infos.windows(2).enumerate() {
+            if pair[0].phase != pair[1].phase && regions.resets.contains(&pair[1].phase) {
+                let frame = Frame::read(&pair[0].path)?;
+                let traced = bodies.traced(i, &frame.points);
+                bodies.resets.insert(i + 1, traced);
+            }
+        }
+        Ok(Some(bodies))
+    }
+
+    /// The points of frame `index` with their origins.
+    fn traced(&self, index: usize, points: &Part) -> Traced {
+        let plane = |x: &[f64; 3]| [x[0], x[1]];
+        let position: Vec<[f64; 2]> = points.position.iter().map(plane).collect();
+        let way = displacement(points).unwrap_or_default();
+        let mut origin: Vec<[f64; 2]> =
+            position.iter().zip(way.chunks_exact(3)).map(|(x, u)| [x[0] - u[0], x[1] - u[1]]).collect();
+        if let Some((_, before)) = self.resets.range(..=index).next_back() {
+            origin = Soil::traced(&origin, &before.position, &before.origin);
+        }
+        Traced { position, origin }
+    }
+
+    /// The soil of frame `index`, with its grid at `nodes` (m) and the finite elements in `smooth`.
+    pub fn grid(
+        &self,
+        index: usize,
+        info: &Info,
+        points: &Part,
+        nodes: &[[f64; 3]],
+        smooth: &Part,
+        fields: &[String],
+    ) -> Grid {
+        let fields = &with_invariants(fields);
+        let arrays = select(points, fields);
+        let width = arrays.iter().map(|array| array.components).sum();
+        let mut of = Vec::with_capacity(width * points.position.len());
+        for p in 0..points.position.len() {
+            arrays
+                .iter()
+                .for_each(|array| of.extend_from_slice(&numbers(array)[p * array.components..][..array.components]));
+        }
+        let plane = |x: &[f64; 3]| [x[0], x[1]];
+        let traced = self.traced(index, points);
+        let nodes: Vec<[f64; 2]> = nodes.iter().map(plane).collect();
+        let places: Vec<[f64; 2]> = smooth.position.iter().map(plane).collect();
+        let absent = self.regions.absent.get(&info.phase);
+        let stands =
+            |region: u16| !self.regions.soil[region as usize] && !absent.is_some_and(|absent| absent.contains(&region));
+        let standing: Vec<[u32; 3]> = self.elements.iter().filter(|(_, r)| stands(*r)).map(|(t, _)| *t).collect();
+        let cloud = Cloud { position: &traced.position, origin: &traced.origin, values: Values { width, of: &of } };
+        let body = self.soil.body(&nodes, cloud, (&places, &standing));
+        let elements: Vec<&([u32; 3], u16)> =
+            self.elements.iter().filter(|(_, r)| self.regions.soil[*r as usize]).collect();
+        Grid { time: Some(info.time), ..joined(body, &arrays, &elements, smooth, fields) }
+    }
+}
+
+/// The fields with those that are seen together with the stress.
+fn with_invariants(fields: &[String]) -> Vec<String> {
+    let mut all = fields.to_vec();
+    if fields.iter().any(|field| field == "stress") {
+        let more =
+            ["mean_stress", "deviatoric_stress"].into_iter().filter(|more| !fields.iter().any(|field| field == more));
+        all.extend(more.map(String::from));
+    }
+    all
+}
+
+/// The displacement of points (m), three numbers each.
+fn displacement(points: &Part) -> Option<&[f64]> {
+    points.columns.iter().find(|c| c.name == "displacement" && c.components == 3).map(|c| &c.values[..])
+}
+
+fn numbers(array: &Array) -> &[f64] {
+    match &array.data {
+        Data::F64(values) => values,
+        _ => &[],
+    }
+}
+
+/// The body of material points with the fields in `arrays`, and finite elements with theirs at the nodes of `smooth`. A field that these do not have is
+/// not a number there.
+fn joined(body: Body, arrays: &[Array], elements: &[&([u32; 3], u16)], smooth: &Part, fields: &[String]) -> Grid {
+    let mut number = BTreeMap::new();
+    let mut corners: Vec<u32> = body.triangles.iter().flatten().copied().collect();
+    let count = body.places.len();
+    for n in elements.iter().flat_map(|(triangle, _)| triangle) {
+        let next = (count + number.len()) as u32;
+        corners.push(*number.entry(*n).or_insert(next));
+    }
+    let mut nodes: Vec<(u32, u32)> = number.into_iter().map(|(n, k)| (k, n)).collect();
+    nodes.sort_unstable();
+    let mut points: Vec<f64> = body.places.iter().flat_map(|x| [x[0], x[1], 0.0]).collect();
+    points.extend(nodes.iter().flat_map(|&(_, n)| smooth.position[n as usize]));
+    let of_elements = if nodes.is_empty() { Vec::new() } else { select(smooth, fields) };
+    let width: usize = arrays.iter().map(|array| array.components).sum();
+    let (mut begin, mut point_data) = (0, Vec::new());
+    for array in arrays {
+        let k = array.components;
+        let mut values: Vec<f64> = Vec::with_capacity(k * (count + nodes.len()));
+        (0..count).for_each(|p| values.extend_from_slice(&body.values[p * width + begin..][..k]));
+        let other = of_elements.iter().find(|other| other.name == array.name && other.components == k).map(numbers);
+        for &(_, n) in &nodes {
+            match other {
+                Some(other) => values.extend_from_slice(&other[n as usize * k..][..k]),
+                None => values.extend(std::iter::repeat_n(f64::NAN, k)),
+            }
+        }
+        begin += k;
+        point_data.push(Array { data: Data::F64(values), ..array.clone() });
+    }
+    let mut region = body.region;
+    region.extend(elements.iter().map(|(_, region)| *region));
+    let cells = region.len() as i64;
+    Grid {
+        points,
+        topology: Topology {
+            connectivity: corners.into_iter().map(i64::from).collect(),
+            offsets: (1..=cells).map(|c| 3 * c).collect(),
+            types: vec![VTK_TRIANGLE; region.len()],
+        },
+        point_data,
+        cell_data: vec![Array { name: frame::REGION.to_owned() + " [-]", components: 1, data: Data::U16(region) }],
+        time: None,
+        note: String::new(),
+    }
+}

@@ -1,0 +1,159 @@
+//! Where the soil was at first: the cells that were seeded, their outline, and what of them a place is in.
+
+use crate::geometry::{Bins, Line, area, nearest};
+use crate::mesh::faces::Faces;
+use crate::mesh::locate::Locator;
+use crate::mesh::side::Side;
+use crate::mesh::{Mesh, cell_size};
+use crate::surface::triangles;
+
+/// Places found so far beyond the boundary of the mesh, in the diagonal of the cell there (-), are on it: a displacement that is
+/// fitted may lead across a wall.
+const FARTHEST: f64 = 0.5;
+
+/// Lines by where they are.
+#[derive(Clone, Debug, Default)]
+pub struct Outline {
+    lines: Vec<Line<2>>,
+    bins: Bins,
+    reach: f64,
+}
+
+impl Outline {
+    /// Those nearer than `reach` (m) to a place will be found.
+    pub fn new(lines: Vec<Line<2>>, reach: f64) -> Self {
+        let bins = Bins::new(lines.iter().map(|[a, b]| (*a, *b)), reach);
+        Self { lines, bins, reach }
+    }
+
+    /// The distance (m) of the nearest line, no more than the reach, and the unit vector from it to `x`.
+    pub fn distance(&self, x: &[f64; 2]) -> (f64, [f64; 2]) {
+        let mut best = (self.reach, [0.0; 2]);
+        for &k in self.bins.around(x).flatten() {
+            let line = &self.lines[k as usize];
+            let (share, away) = nearest(x, line);
+            if away < best.0 {
+                let foot = crate::geometry::at(line, share);
+                let by = [0, 1].map(|d| if away > 0.0 { (x[d] - foot[d]) / away } else { 0.0 });
+                best = (away, by);
+            }
+        }
+        best
+    }
+}
+
+/// The grid as it was seeded.
+pub struct Origin {
+    pub mesh: Mesh<2>,
+    locator: Locator<2>,
+    pub faces: Faces,
+    /// Whether each cell was seeded.
+    seeded: Vec<bool>,
+    /// The area (m²) of each cell.
+    pub area: Vec<f64>,
+    /// Where the soil ended within the grid.
+    free: Outline,
+    /// Where each region of soil met others.
+    between: Vec<Outline>,
+    /// Sides on the boundary of the grid, and their bins.
+    sides: Vec<Side<2>>,
+    side_cells: Vec<u32>,
+    side_bins: Bins,
+}
+
+impl Origin {
+    /// The grid `mesh`, in which the regions `seeded` were filled with points.
+    pub fn new(mesh: Mesh<2>, seeded: &[bool]) -> Self {
+        let (locator, faces) = (Locator::new(&mesh), Faces::of(&mesh));
+        let region = |c: u32| mesh.cells.region[c as usize];
+        let is_soil = |c: u32| seeded[region(c) as usize];
+        let mut free = Vec::new();
+        let mut between = vec![Vec::new(); mesh.regions.len()];
+        for face in &faces.inner {
+            let [a, b] = face.cells;
+            let lines = || {
+                let nodes = mesh.cells.nodes(a as usize);
+                let (_, facets) = mesh.cells.kind[a as usize].facets();
+                let at = |i: usize| mesh.nodes[nodes[i] as usize];
+                match *facets[face.sides[0] as usize] {
+                    [i, j, middle] => vec![[at(i), at(middle)], [at(middle), at(j)]],
+                    [i, j] => vec![[at(i), at(j)]],
+                    _ => Vec::new(),
+                }
+            };
+            match (is_soil(a), is_soil(b)) {
+                (true, true) if region(a) != region(b) => {
+                    [a, b].iter().for_each(|&c| between[region(c) as usize].extend(lines()));
+                }
+                (true, false) | (false, true) => free.extend(lines()),
+                _ => {}
+            }
+        }
+        let size = (0..mesh.cells.len()).map(|c| cell_size(&mesh, c)).fold(0.0, f64::max);
+        let sides: Vec<Side<2>> = faces.boundary.iter().map(|&side| Side::of(&mesh, side)).collect();
+        Self {
+            seeded: (0..mesh.cells.len() as u32).map(is_soil).collect(),
+            area: (0..mesh.cells.len()).map(|c| cell_area(&mesh, c)).collect(),
+            free: Outline::new(free, 2.0 * size),
+            between: between.into_iter().map(|lines| Outline::new(lines, 2.0 * size)).collect(),
+            side_cells: faces.boundary.iter().map(|side| side.0).collect(),
+            side_bins: Bins::new(sides.iter().map(|side| (side.ends[0], side.ends[1])), size),
+            sides,
+            locator,
+            faces,
+            mesh,
+        }
+    }
+
+    /// The cell that a place was in, or one beside which it was a little outside the grid.
+    pub fn cell(&self, x: &[f64; 2], hint: Option<u32>) -> Option<u32> {
+        let found = self.locator.locate(&self.mesh, x, hint).map(|(c, _)| c);
+        found.or_else(|| {
+            let near = self.side_bins.around(x).flatten().map(|&k| k as usize);
+            let near = near.filter_map(|k| Some((self.sides[k].nearest(x, FARTHEST)?.1, k)));
+            near.min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, k)| self.side_cells[k])
+        })
+    }
+
+    /// The cell of soil that a point was seeded in: where its displacement leads, or the nearest one across faces.
+    pub fn seeded_cell(&self, x: &[f64; 2]) -> Option<u32> {
+        let cell = self.cell(x, None)?;
+        let mut reached = vec![cell];
+        let mut i = 0;
+        while i < reached.len().min(NEAR) {
+            if self.seeded[reached[i] as usize] {
+                return Some(reached[i]);
+            }
+            for &next in self.faces.neighbours(reached[i]) {
+                if !reached.contains(&next) {
+                    reached.push(next);
+                }
+            }
+            i += 1;
+        }
+        None
+    }
+
+    /// How deep (m) in the soil a place was, negative outside, and the unit vector away from the nearest surface.
+    pub fn depth(&self, x: &[f64; 2]) -> (f64, [f64; 2]) {
+        let (distance, by) = self.free.distance(x);
+        let inside = self.cell(x, None).is_some_and(|c| self.seeded[c as usize]);
+        (if inside { distance } else { -distance }, by)
+    }
+
+    /// How deep (m) in a region a place was, negative in other ones.
+    pub fn depth_in(&self, region: u16, x: &[f64; 2]) -> f64 {
+        let (distance, _) = self.between[region as usize].distance(x);
+        let inside = self.cell(x, None).is_some_and(|c| self.mesh.cells.region[c as usize] == region);
+        if inside { distance } else { -distance }
+    }
+}
+
+/// Cells that are looked at for one of soil: two rings.
+const NEAR: usize = 12;
+
+/// The area (m²) of a cell, as the triangles between its nodes have it.
+pub fn cell_area(mesh: &Mesh<2>, c: usize) -> f64 {
+    let nodes = mesh.cells.nodes(c);
+    triangles(mesh.cells.kind[c]).iter().map(|t| area(&t.map(|i| mesh.nodes[nodes[i] as usize]))).sum()
+}
