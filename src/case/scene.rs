@@ -206,7 +206,7 @@ pub fn scene<K: Kinematics<2>>(case: &Case, mut whole: Mesh<2>) -> Result<Scene<
     let interfaces =
         contact_interfaces::interfaces::<K>(case, &mesh, fem.as_ref().map_or(&mesh, |fem| &fem.mesh), &bodies)?;
     for (number, interface) in (0..).zip(&interfaces) {
-        terms.push(Box::new(Contact::new(number, *interface.law(), levels.clone())));
+        terms.push(Box::new(Contact::new(number, interface.laws().clone(), levels.clone())));
     }
     let carried = changes::carried(case, &mesh)?;
     let holds = Holds::new(case, &mesh, &bodies);

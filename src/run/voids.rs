@@ -30,7 +30,7 @@ pub fn found<const D: usize>(scene: &Scene<D>, state: &mut State<D>, report: &Re
     let structures: Vec<Structure<D>> = scene
         .touching(state.phase)
         .filter(|(_, interface)| !interface.soils().is_empty())
-        .map(|(_, interface)| structure(&mesh, interface))
+        .map(|(_, interface)| structure(&mesh, interface, state.phase))
         .collect();
     let beside = |cells: &[u32]| structures.iter().filter(|s| lies_near(&mesh, cells, &s.places)).collect::<Vec<_>>();
     let mut is_news = |cells: &[u32], cut_off: bool| {
@@ -71,10 +71,10 @@ pub fn found<const D: usize>(scene: &Scene<D>, state: &mut State<D>, report: &Re
 }
 
 /// An interface and its boundary on the grid as restored.
-fn structure<const D: usize>(mesh: &Mesh<D>, interface: &dyn Interface<D>) -> Structure<D> {
+fn structure<const D: usize>(mesh: &Mesh<D>, interface: &dyn Interface<D>, phase: usize) -> Structure<D> {
     Structure {
         name: mesh.regions.get(usize::from(interface.structure())).cloned().unwrap_or_default(),
-        may_part: interface.law().tension.is_finite(),
+        may_part: interface.laws().at(phase).tension.is_finite(),
         places: interface.outlines(&|n| mesh.nodes[n as usize]).concat(),
     }
 }
