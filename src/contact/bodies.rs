@@ -346,7 +346,11 @@ impl<K: Kinematics<2>> Interface<2> for Bodies<K> {
                     tangential: TANGENTIAL * stiffness,
                     rounding: 0.0,
                     fading: FADING * self.surface.spacing,
-                    bonded: held.bonded(contact_node, self.laws.at(ground.phase).tension, sum.gap / area < FADING * self.surface.spacing),
+                    bonded: held.bonded(
+                        contact_node,
+                        self.laws.at(ground.phase).tension,
+                        sum.gap / area < FADING * self.surface.spacing,
+                    ),
                     strength: f64::INFINITY,
                     water: sum.water / area,
                 },

@@ -81,8 +81,17 @@ pub fn begin<const D: usize, K: Kinematics<D>>(
     let (points, elements, increment) = (&state.points, &state.fem, &state.increment);
     let integration = &state.integration().cell;
     let phase = state.phase;
-    let ground =
-        Ground { phase, grid: mesh, locator, points, integration, surface: &surface, increment, elements, excess: &excess };
+    let ground = Ground {
+        phase,
+        grid: mesh,
+        locator,
+        points,
+        integration,
+        surface: &surface,
+        increment,
+        elements,
+        excess: &excess,
+    };
     let (mut placed, mut covers) = (Vec::new(), Vec::new());
     let covered = scene.terms.iter().any(|term| term.sees_open_boundary());
     for (number, interface) in scene.touching(state.phase) {

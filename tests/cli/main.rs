@@ -14,4 +14,5 @@ mod support;
 mod slow {
     mod new;
     mod resume;
+    mod start;
 }
