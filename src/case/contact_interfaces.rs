@@ -4,7 +4,7 @@ use super::changes::{self, by_number};
 use super::checked::{Case, Contact, Content, Geometry, Region, Touched, Touching};
 use super::find::region_index;
 use super::wall;
-use crate::contact::{Bodies, Boundary, Interface, Rigid, Skin, SoilSide, Surface};
+use crate::contact::{Bodies, Boundary, Interface, Laws, Rigid, Skin, SoilSide, Surface};
 use crate::error::{Error, Result};
 use crate::kinematics::Kinematics;
 use crate::mesh::Mesh;
@@ -127,6 +127,14 @@ impl Parts<'_> {
         facets.iter().map(|facet| cell_of[&ends(facet)]).collect()
     }
 
+    /// The law of a contact in each phase.
+    fn laws(&self, contact: &Contact) -> Laws {
+        let phases = self.case.phases.iter().enumerate();
+        let changes = phases.flat_map(|(phase, p)| p.contacts.iter().map(move |change| (phase, change)));
+        let own = changes.filter(|(_, change)| contact.name.as_ref() == Some(&change.name));
+        own.fold(contact.law.into(), |laws: Laws, (phase, change)| laws.then(phase, change.law))
+    }
+
     fn no_cells(&self, contact: &Contact, what: &str) -> Error {
         Error::input(
             format!("contact of `{}`", self.name(&contact.structure)),
@@ -148,7 +156,7 @@ impl Parts<'_> {
             _ => self.boundary(structure, SPACING * edge, &held(self.case, self.grid, SPACING * edge))?,
         };
         let skin = self.skin()?;
-        Ok(Boundary { structure, surface, law: contact.law, regions, models, skin, kinematics: PhantomData })
+        Ok(Boundary { structure, surface, laws: self.laws(contact), regions, models, skin, kinematics: PhantomData })
     }
 
     /// The contact nodes are as far apart as the coarser of the boundaries that can give way has its nodes. Against a wall they are the body's.
@@ -201,7 +209,7 @@ impl Parts<'_> {
             against,
             surface,
             other,
-            law: contact.law,
+            laws: self.laws(contact),
             soil: soil.transpose()?,
             young: young.fold(f64::INFINITY, f64::min),
             kinematics: PhantomData,

@@ -1,28 +1,89 @@
 //! The contacts of a case: who touches whom, and by which law.
 
 use super::check::Checker;
-use super::checked::{Contact, Touched, Touching};
+use super::checked::{Contact, ContactChange, Touched, Touching};
 use super::locate::{At, Path};
 use super::raw::{self, RegionKind};
 use super::structure::suggest;
 use crate::contact::Law;
+use std::collections::BTreeMap;
+
+const OF_SOIL: &str = "it is a share of the strength of soil";
+
+impl raw::Contact {
+    pub(super) fn law(&self) -> Law {
+        let &Self { friction, adhesion, adhesion_factor: factor, tension, .. } = self;
+        Law { friction, adhesion, factor, tension: tension.limit() }
+    }
+}
 
 impl Checker {
+    /// The laws that contacts take as a phase begins, given those `now`, by the names of contacts, which they replace.
+    pub(super) fn contact_changes(
+        &mut self,
+        phase: &raw::Phase,
+        file: &raw::CaseFile,
+        now: &mut BTreeMap<String, Law>,
+        path: &Path,
+    ) -> Vec<ContactChange> {
+        let mut changes = Vec::new();
+        for (name, change) in &phase.contacts {
+            let path = path.key("contacts").key(name);
+            let Some(law) = now.get_mut(name) else {
+                let problem = format!("there is no contact with the name `{name}`");
+                let remedy = match now.is_empty() {
+                    true => "give the entry of `contacts` a `name`".to_owned(),
+                    false => suggest(name, now.keys().map(String::as_str)),
+                };
+                self.issue(&path, At::Key, problem, remedy);
+                continue;
+            };
+            let &raw::ContactChange { friction, adhesion, adhesion_factor, tension } = change;
+            if friction.is_none() && adhesion.is_none() && adhesion_factor.is_none() && tension.is_none() {
+                let remedy = "add `friction`, `adhesion`, `adhesion_factor` or `tension`, or take it out";
+                self.issue(&path, At::Key, "nothing of the contact changes", remedy);
+            }
+            let factor_path = path.key("adhesion_factor");
+            let factor = match adhesion_factor {
+                None => law.factor,
+                Some(raw::AdhesionFactor::Named(raw::NoFactor::None)) => None,
+                Some(raw::AdhesionFactor::Share(share)) => {
+                    if !(0.0..=1.0).contains(&share) {
+                        let remedy = "give a share from 0 to 1, or `none`";
+                        self.issue(&factor_path, At::Value, format!("{share} is no share of the strength"), remedy);
+                    }
+                    let on_body = |c: &raw::Contact| c.name.as_ref() == Some(name) && c.against.is_some();
+                    if file.contacts.iter().any(on_body) {
+                        self.issue(&factor_path, At::Key, OF_SOIL, "give the contact an `adhesion` (kPa)");
+                    }
+                    Some(share)
+                }
+            };
+            *law = Law {
+                friction: friction.unwrap_or(law.friction),
+                adhesion: adhesion.unwrap_or(law.adhesion),
+                factor,
+                tension: tension.map_or(law.tension, raw::Tension::limit),
+            };
+            changes.push(ContactChange { name: name.clone(), law: *law });
+        }
+        changes
+    }
+
     pub(super) fn contacts(&mut self, file: &raw::CaseFile, path: &Path) -> Vec<Contact> {
         let mut checked = Vec::new();
         for (i, contact) in file.contacts.iter().enumerate() {
             let path = path.index(i);
             let structure = self.touching(file, contact, &path);
             let on = self.touched(file, contact, &path);
-            let law = Law {
-                friction: contact.friction,
-                adhesion: contact.adhesion,
-                factor: contact.adhesion_factor,
-                tension: contact.tension.limit(),
-            };
+            let law = contact.law();
             if contact.against.is_some() && contact.adhesion_factor.is_some() {
-                let remedy = "give the contact an `adhesion` (kPa)";
-                self.issue(&path.key("adhesion_factor"), At::Key, "it is a share of the strength of soil", remedy);
+                self.issue(&path.key("adhesion_factor"), At::Key, OF_SOIL, "give the contact an `adhesion` (kPa)");
+            }
+            let same = |other: &raw::Contact| contact.name.is_some() && other.name == contact.name;
+            if file.contacts[..i].iter().any(same) && file.phases.iter().any(|phase| !phase.contacts.is_empty()) {
+                let problem = "two contacts have this name, and phases change contacts by it";
+                self.issue(&path.key("name"), At::Value, problem, "give each contact a name of its own");
             }
             if let (Some(structure), Some(on)) = (structure, on) {
                 checked.push(Contact { name: contact.name.clone(), structure, on, law });

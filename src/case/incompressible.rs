@@ -121,7 +121,7 @@ fn deviatoric(kind: &Kind, values: &BTreeMap<&str, Profile>, poisson: f64) -> Op
     values.remove(cavitation::NAME);
     let stretch = (1.0 + of_points) / (1.0 + poisson);
     if let Some(young) = values.get_mut("young") {
-        (young.top, young.gradient) = (stretch * young.top, stretch * young.gradient);
+        *young = young.scaled(stretch);
     }
     values.insert("poisson", Profile::constant(of_points));
     super::materials::build(kind, &values).ok()

@@ -141,6 +141,7 @@ impl Checker {
                 datum: 0.0,
             }),
             raw::Load::Profile(profile) => {
+                self.profile_grows(profile, &path.key("pressure"));
                 let one = TimeValue::Constant(1.0);
                 let factor = traction.factor.as_ref().map_or(one, |f| self.in_time(f, &path.key("factor")));
                 let [top, gradient] = [profile.top, profile.gradient].map(|value| factor.scaled(value));

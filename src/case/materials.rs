@@ -40,7 +40,7 @@ impl Checker {
                 let weight = self.not_negative(weight, &path)?;
                 let g = gravity[0].hypot(gravity[1]);
                 if g > 0.0 {
-                    return Some(Profile { top: weight.top / g, gradient: weight.gradient / g, datum: weight.datum });
+                    return Some(Profile::growing(weight.top / g, weight.gradient / g, weight.datum));
                 }
                 let remedy = "set `gravity`, or give `density` in place of `unit_weight`";
                 self.issue(&path, At::Key, "a unit weight without gravity gives no density", remedy);
@@ -59,8 +59,45 @@ impl Checker {
         }
     }
 
+    /// Refuses a value that falls with depth without an end, or has an end without falling.
+    pub(super) fn falls_to_something(&mut self, value: InDepth, path: &Path) {
+        let InDepth::Profile(raw::Profile { top, gradient, least, .. }) = value else { return };
+        match least {
+            None if gradient < 0.0 => {
+                let problem = "the value falls with depth, and has no `least`";
+                self.issue(&path.key("gradient"), At::Value, problem, "add `least: …`, below which it does not fall");
+            }
+            Some(_) if gradient >= 0.0 => {
+                self.issue(&path.key("least"), At::Key, "the value does not fall with depth", "take `least` out");
+            }
+            Some(least) if least > top => {
+                let problem = format!("is {least}, above the `top` of {top}");
+                self.issue(&path.key("least"), At::Value, problem, "give a value below `top`");
+            }
+            _ => {}
+        }
+    }
+
+    /// Refuses a value that falls with depth.
+    pub(super) fn grows(&mut self, value: InDepth, path: &Path) {
+        if let InDepth::Profile(profile) = value {
+            self.profile_grows(&profile, path);
+        }
+    }
+
+    pub(super) fn profile_grows(&mut self, profile: &raw::Profile, path: &Path) {
+        if profile.gradient < 0.0 {
+            let problem = format!("is {}, but must be at least 0", profile.gradient);
+            self.issue(&path.key("gradient"), At::Value, problem, "only parameters of models fall with depth");
+        }
+        if profile.least.is_some() {
+            self.issue(&path.key("least"), At::Key, "the value does not fall with depth", "take `least` out");
+        }
+    }
+
     fn not_negative(&mut self, value: InDepth, path: &Path) -> Option<Profile> {
         let profile = value.profile();
+        self.grows(value, path);
         if profile.top >= 0.0 {
             return Some(profile);
         }
@@ -80,6 +117,7 @@ impl Checker {
         let before = self.count();
         for (name, value) in &material.parameters {
             if kind.parameters.iter().any(|known| known.name == name) {
+                self.falls_to_something(*value, &path.key(name));
                 values.insert(name.as_str(), value.profile());
             } else {
                 let known = kind.parameters.iter().map(|known| known.name).filter(|known| !material.has(known));
@@ -145,7 +183,9 @@ impl InDepth {
     pub(super) fn profile(self) -> Profile {
         match self {
             Self::Constant(value) => Profile::constant(value),
-            Self::Profile(p) => Profile { top: p.top, gradient: p.gradient, datum: p.datum },
+            Self::Profile(raw::Profile { top, gradient, datum, least }) => {
+                Profile { least: least.unwrap_or(f64::NEG_INFINITY), ..Profile::growing(top, gradient, datum) }
+            }
         }
     }
 

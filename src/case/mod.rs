@@ -34,6 +34,7 @@ pub mod seeded;
 pub mod seeding;
 pub mod source;
 mod staged;
+pub mod start;
 pub mod structure;
 #[cfg(test)]
 mod tests;
@@ -135,7 +136,9 @@ impl Keys {
     /// # Errors
     /// As [`load`].
     pub fn load(&self, file: &Path, overrides: &[String]) -> Result<Loaded, Vec<Error>> {
-        self.resolved(Source::read(file, overrides)?)
+        let mut source = Source::read(file, overrides)?;
+        source.go_on()?;
+        self.resolved(source)
     }
 
     /// As [`Keys::load`], of a case whose text has been read.
@@ -160,7 +163,8 @@ impl Keys {
         overrides: &[String],
         groups: impl FnOnce(&checked::Mesh) -> error::Result<(Groups, Vec<Place>)>,
     ) -> error::Result<Review> {
-        let source = Source::read(file, overrides)?;
+        let mut source = Source::read(file, overrides)?;
+        let begun = source.go_on();
         let (case, mut issues) = self.resolve(&source);
         let mut notes = source.notes().to_vec();
         let mesh = locate::Path::default().key("mesh");
@@ -176,6 +180,13 @@ impl Keys {
                 return Ok(Review { mistakes, notes });
             }
             None => {}
+        }
+        if let Err(mut mistakes) = begun {
+            // What is said of its own phases alone may be wrong.
+            let phases = locate::Path::default().key("phases");
+            issues.retain(|issue| !phases.contains(&issue.path));
+            mistakes.extend(errors(&source, &issues));
+            return Ok(Review { mistakes, notes });
         }
         Ok(Review { mistakes: errors(&source, &issues), notes })
     }

@@ -78,7 +78,7 @@ pub fn outputs(
     };
     let until = case.phases.iter().map(|phase| phase.until.iter().map(until).collect()).collect();
     let surface = if water::needs_surface(case) { Some(water::acting(case, mesh)?) } else { None };
-    Ok(Outputs { folder: folder.clone(), warnings, fields: asked, watches, until, surface, origin })
+    Ok(Outputs { folder: folder.clone(), ends: Vec::new(), warnings, fields: asked, watches, until, surface, origin })
 }
 
 fn quantity(quantity: Quantity) -> run::Quantity {

@@ -14,6 +14,8 @@ impl Checker {
         let mut checked: Vec<Phase> = Vec::new();
         let begun = file.regions.iter().filter_map(|(name, region)| Some((name.clone(), region.material.clone()?)));
         let mut materials = begun.collect();
+        let named = |contact: &raw::Contact| Some((contact.name.clone()?, contact.law()));
+        let mut laws = file.contacts.iter().filter_map(named).collect();
         let mut names = HashSet::new();
         for (i, phase) in file.phases.iter().enumerate() {
             let path = path.index(i);
@@ -23,7 +25,8 @@ impl Checker {
             }
             let absent = self.absent(phase, checked.last(), file, &path);
             let changes = self.changes(phase, i == 0, file, &mut materials, &path);
-            checked.push(Phase { absent, changes, ..self.phase(phase, file, numerics, &path) });
+            let contacts = self.contact_changes(phase, file, &mut laws, &path);
+            checked.push(Phase { absent, changes, contacts, ..self.phase(phase, file, numerics, &path) });
         }
         checked
     }
@@ -81,6 +84,7 @@ impl Checker {
             reduction: self.reduction(phase, analysis, file, path),
             absent: Vec::new(),
             changes: Vec::new(),
+            contacts: Vec::new(),
             reset: phase.reset_displacements,
             until: self.until(phase, analysis, file, &path.key("until")),
         }

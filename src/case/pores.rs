@@ -146,6 +146,7 @@ impl Checker {
                 let remedy = "take it out, or give the material a `permeability`";
                 self.issue(&path, At::Key, "its material has no pore water of its own", remedy);
             }
+            self.falls_to_something(*value, &path);
             checked.push((region, value.profile()));
         }
         checked

@@ -54,6 +54,8 @@ pub struct CaseFile {
     pub initial_velocity: BTreeMap<String, Velocity>,
     /// Water at rest outside of the soil, in its pores, or both. Default: none.
     pub water: Option<Water>,
+    /// The end of a phase of another run, from which the phases go on; without it they begin with the points as seeded.
+    pub start_from: Option<StartFrom>,
     /// The numerical method.
     #[serde(default)]
     pub numerics: Numerics,
@@ -63,6 +65,16 @@ pub struct CaseFile {
     /// What is written, and when.
     #[serde(default)]
     pub output: Output,
+}
+
+/// The end of a phase of another run, with the same mesh and points.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct StartFrom {
+    /// The output folder of the run, relative to the case file.
+    pub run: String,
+    /// The name of the phase; without it the last one.
+    pub phase: Option<String>,
 }
 
 /// What the stages make.
@@ -77,7 +89,7 @@ pub enum Product {
 
 /// What each entry of [`CaseFile`] shapes itself, beside what is made from that. What it shapes is stale when it changes. Further
 /// entries are [`super::keyed::Keyed`].
-pub const SHAPES: [(&str, &[Product]); 15] = [
+pub const SHAPES: [(&str, &[Product]); 16] = [
     ("title", &[]),
     ("geometry", &[Product::Points, Product::Results]),
     ("mesh", &[Product::Mesh]),
@@ -90,6 +102,8 @@ pub const SHAPES: [(&str, &[Product]); 15] = [
     ("initial_pore_pressure", &[Product::Points]),
     ("initial_velocity", &[Product::Points]),
     ("water", &[Product::Points, Product::Results]),
+    // By the hash of the state that it names.
+    ("start_from", &[]),
     ("numerics", &[Product::Results]),
     ("phases", &[Product::Results]),
     ("output", &[Product::Results, Product::Series]),
@@ -160,7 +174,8 @@ impl RegionKind {
     }
 }
 
-/// A number, or `{top, gradient, datum}`: `top` at the height `datum` and above, growing downwards by `gradient`.
+/// A number, or `{top, gradient, datum}`: `top` at the height `datum` and above, growing downwards by `gradient`. One that falls has a
+/// gradient below 0, and `least`.
 #[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
 #[serde(untagged)]
 pub enum InDepth {
@@ -168,18 +183,19 @@ pub enum InDepth {
     Profile(Profile),
 }
 
-/// A number that grows with depth.
+/// A number that grows with depth, or falls.
 #[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Profile {
     /// Value at the height `datum` and above.
     pub top: f64,
-    /// Growth per metre below `datum`, 0 or above.
-    #[schemars(range(min = 0))]
+    /// Growth per metre below `datum`; below 0 the value falls, no further than to `least`.
     pub gradient: f64,
     /// Height y at which the growth begins (m).
     #[serde(default)]
     pub datum: f64,
+    /// The least value of one that falls with depth.
+    pub least: Option<f64>,
 }
 
 /// Displacements, or the excess pore pressure, held on a curve, or displacements of a rigid structure by its name.

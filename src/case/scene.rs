@@ -6,11 +6,13 @@ use super::find::{filled, mean_size, region_index};
 use super::outputs::outputs;
 use super::raw;
 use super::rigid::{self, Holds};
+use super::start::Start;
 use super::{
     changes, contact_interfaces, controls, layout, parts, pores, scheme, search, seeded, staged, unconnected, wall,
     water,
 };
 use crate::error::Result;
+use crate::io::phase_state::End;
 use crate::io::provenance::Origin;
 use crate::io::run_folder::RunFolder;
 use crate::kinematics::{Axisymmetric, Kinematics, PlaneStrain};
@@ -19,7 +21,7 @@ use crate::mesh::faces::Faces;
 use crate::mesh::locate::Locator;
 use crate::points::Points;
 use crate::quadrature::{Bounded, Quadrature, Resampled, Volumes};
-use crate::run::{self, Ended, Progress};
+use crate::run::{self, Ended, First, Outputs, Progress, checkpoint};
 use crate::step::{self, Fem, Numerics, Phase, Scene, Search, State, Stop, overlap};
 use crate::term::{
     BodyForce, Contact, EmptyCells, GhostInertia, GhostPenalty, Inertia, Internal, PoreStabilisation, PoreWater,
@@ -34,36 +36,62 @@ const GHOST: f64 = 0.1;
 /// diameters, and with the secant stiffness of scenes with inertia after one and a half. These cannot have it: a coarse block that should fail would be held by it.
 const HOLD: f64 = 0.1;
 
+/// How a run begins, and what its files belong to.
+#[derive(Default)]
+pub struct Begin<'a> {
+    pub origin: Origin,
+    /// What the states at the ends of phases belong to, by number; none of those that are not kept.
+    pub ends: Vec<Option<End>>,
+    /// The run that it goes on from.
+    pub start: Option<&'a Start>,
+    /// Whether it continues from its newest checkpoint.
+    pub resume: bool,
+}
+
 /// Solves a case in `folder`.
 ///
 /// # Errors
 /// As [`run::run`], and `Input` when the points do not belong to the mesh.
-#[expect(clippy::too_many_arguments, reason = "what a solve stage is made of, each once")]
 pub fn solve(
     case: &Case,
     mesh: Mesh<2>,
     points: Points<2>,
     folder: &RunFolder,
-    origin: Origin,
-    resume: bool,
+    begin: Begin,
     stop: &AtomicBool,
     progress: &mut dyn FnMut(Progress),
 ) -> Result<Ended> {
     seeded::check(case, &mesh, &points)?;
     layout::check_solving(&mesh, points.len())?;
-    let warnings = unconnected::structures(case, &unconnected::places(&mesh));
+    let mut warnings = unconnected::structures(case, &unconnected::places(&mesh));
+    warnings.extend(begin.start.map(Start::note));
     let parts = parts::points(case, &mesh, points);
     match case.geometry {
         Geometry::PlaneStrain => {
             let scene = scene::<PlaneStrain>(case, mesh)?;
-            let outputs = outputs(case, &scene, folder, origin, warnings)?;
-            run::run::<2, PlaneStrain>(&scene, first(case, &scene, parts)?, &outputs, resume, stop, progress)
+            let outputs = outputs(case, &scene, folder, begin.origin, warnings)?;
+            let first = begin.state(&scene, first(case, &scene, parts)?)?;
+            let outputs = Outputs { ends: begin.ends, ..outputs };
+            run::run::<2, PlaneStrain>(&scene, first, &outputs, begin.resume, stop, progress)
         }
         Geometry::Axisymmetric => {
             let scene = scene::<Axisymmetric>(case, mesh)?;
-            let outputs = outputs(case, &scene, folder, origin, warnings)?;
-            run::run::<2, Axisymmetric>(&scene, first(case, &scene, parts)?, &outputs, resume, stop, progress)
+            let outputs = outputs(case, &scene, folder, begin.origin, warnings)?;
+            let first = begin.state(&scene, first(case, &scene, parts)?)?;
+            let outputs = Outputs { ends: begin.ends, ..outputs };
+            run::run::<2, Axisymmetric>(&scene, first, &outputs, begin.resume, stop, progress)
         }
+    }
+}
+
+impl Begin<'_> {
+    /// What the run begins with, given the state before the first step.
+    fn state(&self, scene: &Scene<2>, seeded: State<2>) -> Result<First<2>> {
+        let after = match self.start {
+            Some(start) => Some(checkpoint::after_phase(start.read()?, scene, &seeded, start.begun)?),
+            None => None,
+        };
+        Ok(First { seeded, after })
     }
 }
 
@@ -116,14 +144,17 @@ pub fn scene<K: Kinematics<2>>(case: &Case, mut whole: Mesh<2>) -> Result<Scene<
     scheme::check(basis, &mesh, fem.as_ref())?;
     let materials =
         || changes::used(case).filter(|(region, _)| !region.content.is_rigid()).map(|(_, material)| material);
-    let lowest = mesh.nodes.iter().map(|x| x[1]).fold(f64::INFINITY, f64::min);
-    let largest = |value: fn(&Material, f64) -> f64| materials().map(|m| value(m, lowest)).fold(0.0, f64::max);
+    let heights = || mesh.nodes.iter().map(|x| x[1]);
+    let (lowest, highest) = (heights().fold(f64::INFINITY, f64::min), heights().fold(f64::NEG_INFINITY, f64::max));
+    // What varies with depth grows or falls.
+    let most = |value: fn(&Material, f64) -> f64, m: &Material| value(m, lowest).max(value(m, highest));
+    let largest = |value: fn(&Material, f64) -> f64| materials().map(|m| most(value, m)).fold(0.0, f64::max);
     // Structures do not tell how stiff the grid is where it is empty, nor its pressure.
     let soils =
         || changes::used(case).filter(|(region, _)| !region.content.is_structure()).map(|(_, material)| material);
     let of_soil = |value: fn(&Material, f64) -> f64| {
         // A scene may have nothing else.
-        soils().map(|m| value(m, lowest)).reduce(f64::max).unwrap_or_else(|| largest(value))
+        soils().map(|m| most(value, m)).reduce(f64::max).unwrap_or_else(|| largest(value))
     };
     let young = of_soil(|m, y| m.model.young(y));
     let stiffness_scale = largest(|m, y| {
@@ -206,7 +237,7 @@ pub fn scene<K: Kinematics<2>>(case: &Case, mut whole: Mesh<2>) -> Result<Scene<
     let interfaces =
         contact_interfaces::interfaces::<K>(case, &mesh, fem.as_ref().map_or(&mesh, |fem| &fem.mesh), &bodies)?;
     for (number, interface) in (0..).zip(&interfaces) {
-        terms.push(Box::new(Contact::new(number, *interface.law(), levels.clone())));
+        terms.push(Box::new(Contact::new(number, interface.laws().clone(), levels.clone())));
     }
     let carried = changes::carried(case, &mesh)?;
     let holds = Holds::new(case, &mesh, &bodies);

@@ -109,12 +109,18 @@ fn filled(case: &Case, mesh: &Mesh<2>) -> Result<Vec<Filled>> {
     Ok(filled)
 }
 
-/// A profile is linear below its datum: in range at the top and the bottom of a region, it is in between.
+/// Heights at which a material is checked over a region, beside its lowest point. A profile is linear below its datum but for where it has
+/// fallen to its least value.
+const HEIGHTS: u32 = 64;
+
+/// Checks a material over the height of a region: a profile in range at top and bottom is so in between, but what two say of each other may not.
 pub(super) fn check_over_depth(mesh: &Mesh<2>, index: u16, region: &Region, material: &Material) -> Result<()> {
     let cells = (0..mesh.cells.len()).filter(|&c| mesh.cells.region[c] == index);
     let heights = cells.flat_map(|c| mesh.cells.nodes(c)).map(|&n| mesh.nodes[n as usize][1]);
     let (low, high) = heights.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), y| (l.min(y), h.max(y)));
-    for y in [low, high] {
+    let share = |k: u32| f64::from(k) / f64::from(HEIGHTS);
+    let within = (1..HEIGHTS).map(|k| low + (high - low) * share(k));
+    for y in [low, high].into_iter().chain(within) {
         material.model.check(y).map_err(|e| Error {
             place: format!("material `{}` in region `{}` at y = {y} m: {}", material.name, region.name, e.place),
             ..e
@@ -136,10 +142,7 @@ fn rest(case: &Case, mesh: &Mesh<2>, filled: &[Filled], k0: f64, points: &mut Po
     let g = -case.gravity[1];
     let soils = || filled.iter().filter(|f| !matches!(case.regions[f.index].content, Content::Structure { .. }));
     let weights: Vec<_> = soils()
-        .map(|Filled { seed, .. }| {
-            let Profile { top, gradient, datum } = seed.density;
-            RegionWeight { region: seed.region, unit_weight: Profile { top: g * top, gradient: g * gradient, datum } }
-        })
+        .map(|Filled { seed, .. }| RegionWeight { region: seed.region, unit_weight: seed.density.scaled(g) })
         .collect();
     points.stress = k0_stress(mesh, &weights, k0, points)?;
     if let Some(water) = &case.water {

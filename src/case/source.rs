@@ -2,6 +2,7 @@
 
 use super::issue::Issue;
 use super::locate::{At, Path, Step};
+use super::start::{self, Start};
 use super::yaml::{self, Node};
 use crate::error::{Error, plain, shown};
 use serde_json::{Map, Value};
@@ -24,6 +25,8 @@ pub struct Source {
     /// Entries that the overrides change beyond those that they name, and lines on them for the user.
     lowered: Vec<Path>,
     notes: Vec<String>,
+    /// The run that the case goes on from, whose phases are the first ones of the tree.
+    start: Option<Start>,
 }
 
 /// An entry of the case set on the command line.
@@ -77,13 +80,45 @@ impl Source {
             let remedy = "write a case: `mpm schema` describes it, the folder cases/ has examples";
             return Err(Error::input(file.display(), "the file is empty", remedy));
         }
-        let mut source =
-            Self { file, text, root, overrides: Vec::new(), tree, faults, lowered: Vec::new(), notes: Vec::new() };
+        let (given, lowered, notes) = (Vec::new(), Vec::new(), Vec::new());
+        let mut source = Self { file, text, root, overrides: given, tree, faults, lowered, notes, start: None };
         for argument in overrides {
             source.set(argument)?;
         }
         source.lower_first_steps();
         Ok(source)
+    }
+
+    /// Puts the phases of the run that the case goes on from before its own, if it does.
+    ///
+    /// # Errors
+    /// Each entry that the state of that run does not go with; a run that has no such state: kind input.
+    pub(super) fn go_on(&mut self) -> Result<(), Vec<Error>> {
+        let folder = self.folder().to_owned();
+        let start = start::compose(&mut self.tree, &folder)
+            .map_err(|issues| issues.iter().map(|issue| self.error(issue)).collect::<Vec<_>>())?;
+        if let Some(start) = &start {
+            self.faults.iter_mut().for_each(|fault| fault.path = start::whole(&fault.path, start.begun));
+        }
+        self.start = start;
+        Ok(())
+    }
+
+    /// The run that the case goes on from.
+    pub fn start(&self) -> Option<&Start> {
+        self.start.as_ref()
+    }
+
+    /// A mistake at the place in the file: what is wrong with a phase of another run is told of `start_from`.
+    fn in_file(&self, issue: &Issue) -> Issue {
+        let Some(start) = &self.start else { return issue.clone() };
+        match start::own(&issue.path, start.begun) {
+            Some(path) => Issue { path, ..issue.clone() },
+            None => {
+                let problem = format!("{}: {}", issue.path, issue.problem);
+                Issue::new(&Path::default().key(start::KEY), At::Key, problem, &issue.remedy)
+            }
+        }
     }
 
     /// Lowers the first step of each phase to the largest step, where the command line sets the largest below it and says nothing of
@@ -200,7 +235,7 @@ impl Source {
         }
     }
 
-    /// The whole case with its overrides, as one tree with sorted keys.
+    /// The whole case with its overrides, as one tree with sorted keys; the phases of a run that it goes on from come first.
     pub fn tree(&self) -> &Value {
         &self.tree
     }
@@ -217,6 +252,10 @@ impl Source {
 
     /// Line and column of a mistake, or of the nearest block around it that the file has.
     pub fn place(&self, issue: &Issue) -> Option<(usize, usize)> {
+        self.place_in_file(&self.in_file(issue))
+    }
+
+    fn place_in_file(&self, issue: &Issue) -> Option<(usize, usize)> {
         let mut around = issue.path.clone();
         let mut place = self.root.locate(&around, issue.at);
         while place.is_none() && around.0.pop().is_some() {
@@ -227,6 +266,7 @@ impl Source {
 
     /// The error for a mistake: file, line and column, the line itself and a caret under the place.
     pub fn error(&self, issue: &Issue) -> Error {
+        let issue = &self.in_file(issue);
         // An entry set on the command line, or a block that only the command line made.
         let given = self.overrides.iter().rev().find(|given| {
             let made = || issue.path.contains(&given.path) && self.root.locate(&issue.path, issue.at).is_none();
@@ -236,7 +276,7 @@ impl Source {
             let place = format!("--set {} ({})", shown(&given.argument), issue.path);
             return Error::input(place, &issue.problem, &issue.remedy);
         }
-        message(&self.file, &self.text, self.place(issue), Some(&issue.path), &issue.problem, &issue.remedy)
+        message(&self.file, &self.text, self.place_in_file(issue), Some(&issue.path), &issue.problem, &issue.remedy)
     }
 }
 

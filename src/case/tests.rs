@@ -84,6 +84,14 @@ fn a_unit_weight_is_divided_by_gravity() {
     assert_eq!([2.0, 1.0, -1.0].map(|y| density.at(y)), [1.0, 1.0, 1.2]);
 }
 
+/// A crust: what falls with depth falls no further than to its least value.
+#[test]
+fn a_parameter_may_fall_with_depth() {
+    let case = case(CASE, &["materials.clay.young={top: 100, gradient: -10, datum: 2, least: 65}"]);
+    let young = |y: f64| case.materials[0].model.young(y);
+    assert_eq!([3.0, 2.0, 0.0, -1.5, -2.0, -9.0].map(young), [100.0, 100.0, 80.0, 65.0, 65.0, 65.0]);
+}
+
 #[test]
 fn overrides_set_entries_by_keys_numbers_and_names() {
     let overrides =
@@ -113,6 +121,15 @@ fn a_largest_step_of_the_command_line_lowers_the_first() {
         assert_eq!(of_b.len(), usize::from(lowered.is_some()), "{:?}", source.notes());
     }
     assert!(read(&["phases.a.step.max=0.01"]).notes()[0].contains("from 0.1 s to 0.01 s"));
+    // By number and by name, of several phases at once: each has its own.
+    let both = ["phases[0].step.max=0.01", "phases.b.step.max=0.004"];
+    let steps = case(CASE, &both).phases.iter().map(|phase| [phase.step.initial, phase.step.max]).collect::<Vec<_>>();
+    assert_eq!(steps, [[0.01; 2], [0.004; 2]]);
+    assert_eq!(read(&both).notes().len(), 2);
+    // A whole `step` on the command line says what it means itself.
+    let steps: Vec<_> =
+        case(CASE, &["phases.a.step={initial: 0.2, max: 0.5}"]).phases.iter().map(|p| p.step.initial).collect();
+    assert_eq!(steps, [0.2, 0.01]);
     for overrides in [
         &["phases.b.step.max=0.004", "phases.b.step.initial=0.01"][..],
         &["phases.b.step={initial: 0.01, max: 0.004}"],

@@ -3,7 +3,7 @@
 use super::args::StageArgs;
 use super::mesh;
 use super::print::{Outcome, note, print};
-use super::stage::{Inputs, Stage};
+use super::stage::{Inputs, POINTS, Stage};
 use crate::case::checked::Encoding;
 use crate::case::raw::Product;
 use crate::case::{Keys, parts};
@@ -12,7 +12,7 @@ use crate::io::export::Exported;
 use crate::io::run_folder::{RunFolder, Standing};
 use crate::io::{export, frame, hash, vtu};
 use std::fs;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 #[derive(clap::Args, Clone)]
 pub struct Args {
@@ -27,7 +27,14 @@ pub fn run(args: &Args, keys: &Keys) -> Outcome {
     let stage = Stage::open(&args.stage, keys)?;
     stage.lock()?;
     let run = if args.unfinished { unfinished(&stage)? } else { shown(&stage)? };
-    work(&stage, &run)
+    work(&stage, &run, stage.folder())
+}
+
+/// Exports what an analysis came to that could not go on: beside finished results into the folder of its own, so that these keep
+/// their series.
+pub fn unfinished_run(stage: &Stage) -> Outcome {
+    let run = unfinished(stage)?;
+    work(stage, &run, run.path())
 }
 
 /// Whether the series are there and would come out the same.
@@ -36,15 +43,17 @@ pub fn run(args: &Args, keys: &Keys) -> Outcome {
 /// Results that cannot be read.
 pub fn is_current(stage: &Stage) -> Result<bool> {
     let run = shown(stage)?;
-    Ok(run.standing()? == Standing::Finished && inputs(stage, &run)?.are_current(stage.folder(), &series(stage)))
+    Ok(run.standing()? == Standing::Finished
+        && inputs(stage, &run)?.are_current(stage.folder(), &series(stage.folder())))
 }
 
 /// Exports the results, and prints a summary.
 pub fn results(stage: &Stage) -> Outcome {
-    work(stage, &shown(stage)?)
+    work(stage, &shown(stage)?, stage.folder())
 }
 
-fn work(stage: &Stage, run: &RunFolder) -> Outcome {
+/// Exports a run into a folder.
+fn work(stage: &Stage, run: &RunFolder, folder: &Path) -> Outcome {
     let mesh = mesh::read(stage)?;
     let case = &stage.loaded.case;
     let output = &case.output;
@@ -56,10 +65,10 @@ fn work(stage: &Stage, run: &RunFolder) -> Outcome {
     let mut record = inputs(stage, run)?.begin();
     check_run(stage, run)?;
     let regions = parts::of_series(case, &mesh);
-    let Exported { frames, soil } = export::export(&run.results(), &mesh, &regions, stage.folder(), &fields, encoding)?;
-    record.finish(stage.folder(), &series(stage))?;
-    record.write(stage.folder())?;
-    let pvd = stage.folder().join("points.pvd");
+    let Exported { frames, soil } = export::export(&run.results(), &mesh, &regions, folder, &fields, encoding)?;
+    record.finish(folder, &series(folder))?;
+    record.write(folder)?;
+    let pvd = folder.join("points.pvd");
     let finished = run.standing()? == Standing::Finished;
     let state = if finished { String::new() } else { unfinished_state(run)? };
     print(&format!("{}: {frames} frames{state}\n", pvd.display()))?;
@@ -130,16 +139,16 @@ fn inputs(stage: &Stage, run: &RunFolder) -> Result<Inputs> {
 }
 
 /// The files of the series that are there.
-fn series(stage: &Stage) -> Vec<PathBuf> {
+fn series(output: &Path) -> Vec<PathBuf> {
     let mut files = Vec::new();
-    for folder in [stage.folder().to_owned(), stage.folder().join("vtu")] {
+    for folder in [output.to_owned(), output.join("vtu")] {
         // A folder that is not there has no files in it.
         let entries = fs::read_dir(folder).into_iter().flatten().flatten().map(|entry| entry.path());
         files.extend(
             entries.filter(|path| path.extension().is_some_and(|kind| kind == "vtu" || kind == "vtp" || kind == "pvd")),
         );
     }
-    files.retain(|path| *path != stage.points());
+    files.retain(|path| *path != output.join(POINTS));
     files.sort();
     files
 }

@@ -4,7 +4,7 @@ use super::print::{Outcome, print};
 use crate::error::{Error, Result};
 use crate::io::provenance::{Program, Record};
 use crate::io::run_folder::{BESIDE, STAGE};
-use crate::io::{atomic, container, hash, points_vtu};
+use crate::io::{atomic, container, hash, phase_state, points_vtu};
 use std::fmt::Write;
 use std::fs::{self, File};
 use std::io::Read;
@@ -74,7 +74,8 @@ fn within(path: &Path) -> Result<Vec<(String, String)>> {
     let mut head = Vec::new();
     File::open(path).and_then(|file| file.take(1024).read_to_end(&mut head)).map_err(unreadable)?;
     if let Some((kind, texts)) = container::inspect(path) {
-        let texts = texts.iter().map(|(name, value)| pair(name, value));
+        // What a state at the end of a phase has of its case is for the program.
+        let texts = texts.iter().filter(|(name, _)| *name != phase_state::CASE).map(|(name, value)| pair(name, value));
         return Ok(std::iter::once(pair("kind", &kind)).chain(texts).collect());
     }
     if path.extension().is_some_and(|kind| kind == "vtu")

@@ -1,10 +1,11 @@
-//! `mpm run`: all stages in turn, but those whose inputs have not changed.
+//! `mpm run`: all stages in turn, but those whose inputs have not changed. An analysis that cannot go on is exported as far as it came.
 
-use super::print::{Outcome, print};
+use super::print::{Outcome, note, print};
 use super::stage::Stage;
 use super::{export, mesh, seed, solve, sweep};
 use crate::case::Keys;
-use crate::error::Result;
+use crate::error::{Kind, Result};
+use crate::io::run_folder::STAGE;
 
 #[derive(clap::Args)]
 #[group(skip)]
@@ -28,14 +29,20 @@ pub fn run(args: &Args, keys: &Keys) -> Outcome {
     let stages: [Entry; 4] = [
         ("mesh", &|stage| mesh::is_current(stage, &args.gmsh), &|stage| mesh::work(stage, &args.gmsh)),
         ("seed", &seed::is_current, &seed::work),
-        ("solve", &solve::is_current, &|stage| solve::work(stage, args.solve.start)),
+        (STAGE, &solve::is_current, &|stage| solve::work(stage, args.solve.start)),
         ("export", &export::is_current, &export::results),
     ];
     for (name, is_current, work) in stages {
         if is_current(&stage)? {
             print(&format!("{name}: nothing has changed\n"))?;
         } else {
-            work(&stage)?;
+            work(&stage).inspect_err(|errors| {
+                if name == STAGE && errors.iter().any(|error| error.kind == Kind::Analysis) {
+                    // What it came to is shown all the same.
+                    let shown = export::unfinished_run(&stage);
+                    shown.unwrap_or_else(|errors| errors.iter().for_each(|error| note(&format!("export: {error}"))));
+                }
+            })?;
         }
     }
     Ok(())

@@ -5,17 +5,22 @@ use super::print::{Outcome, note, print};
 use super::stage::{Inputs, Stage};
 use super::{mesh, seed, signals};
 use crate::case::raw::Product;
-use crate::case::{Keys, scene};
+use crate::case::scene::{self, Begin};
+use crate::case::{Keys, Loaded, start};
 use crate::error::{Error, Kind, Result, plain_lines};
 use crate::io::checkpoint::Checkpoints;
 use crate::io::hash;
+use crate::io::phase_state::{self, End};
 use crate::io::points_vtu::{self, Seeded};
 use crate::io::provenance::{Origin, Record};
 use crate::io::run_folder::{RunFolder, STAGE, Standing};
+use crate::points::Points;
 use crate::profile::{self, Activity};
-use crate::run::{Ended, Progress};
+use crate::run::{self, Ended, Progress};
 use indicatif::{ProgressBar, ProgressStyle};
+use std::fs;
 use std::io::IsTerminal;
+use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
 #[derive(clap::Args, Clone)]
@@ -70,10 +75,13 @@ pub fn work(stage: &Stage, start: Start) -> Outcome {
     stage.lock()?;
     let mesh = mesh::read(stage)?;
     let Seeded { points, regions, source } = points_vtu::read::<2>(&stage.points())?;
-    let run = stage.fingerprint(&[stage.mesh(), stage.points()])?;
+    let run = stage.fingerprint(&files(stage))?;
     let origin = Origin { run, mesh: hash::file(&stage.mesh(), "run `mpm mesh` first")? };
     if start.resume {
         check_checkpoints(stage, origin)?;
+    }
+    if let Some(start) = stage.loaded.source.start() {
+        check_start(&start.end, origin.mesh, &points)?;
     }
     let foreign = |problem| Err(vec![Error::input(stage.points().display(), problem, "run `mpm seed` again")]);
     let expected = seed::source(stage)?;
@@ -91,17 +99,19 @@ pub fn work(stage: &Stage, start: Start) -> Outcome {
     record.write(folder.path())?;
     // A first Ctrl-C (or SIGTERM) ends the run after the step in hand, a second one at once.
     let _caught = signals::catch()?;
-    let begin = Instant::now();
+    let began = Instant::now();
     let mut meter = Meter::new();
-    let case = &stage.loaded.case;
-    let ended =
-        scene::solve(case, mesh, points, &folder, origin, start.resume, signals::stop(), &mut |p| meter.show(&p));
+    let Loaded { case, source } = &stage.loaded;
+    let ends = start::ends(source.tree(), source.start(), [origin.mesh, phase_state::hash_of(&points)]);
+    let begin = Begin { origin, ends, start: source.start(), resume: start.resume };
+    let ended = scene::solve(case, mesh, points, &folder, begin, signals::stop(), &mut |p| meter.show(&p));
     meter.finish();
     // What an analysis that could not go on took is told, too; one that never began took nothing.
     let told = match &ended {
         Err(e) if e.kind != Kind::Analysis => Ok(()),
-        ended => print(&summary(begin.elapsed(), matches!(ended, Ok(Ended::Done)))),
+        ended => print(&summary(began.elapsed(), matches!(ended, Ok(Ended::Done)))),
     };
+    tell_again(&folder)?;
     match &ended {
         Ok(Ended::Done) => record.finish(folder.path(), &folder.outputs()?)?,
         Ok(Ended::Stopped) => record.interrupt("stopped by the user"),
@@ -169,7 +179,26 @@ fn choose(stage: &Stage, start: Start, origin: Origin, inputs: &Inputs) -> Resul
 }
 
 fn inputs(stage: &Stage) -> Result<Inputs> {
-    stage.inputs(STAGE, Product::Results, &[stage.mesh(), stage.points()])
+    stage.inputs(STAGE, Product::Results, &files(stage))
+}
+
+/// The files that the run is made from.
+fn files(stage: &Stage) -> Vec<PathBuf> {
+    let start = stage.loaded.source.start().map(|start| start.path.clone());
+    [stage.mesh(), stage.points()].into_iter().chain(start).collect()
+}
+
+/// Refuses a mesh and points that are not those of the run that the case goes on from.
+fn check_start(end: &End, mesh: u64, points: &Points<2>) -> Result<()> {
+    let what = if end.mesh != hash::text(mesh) {
+        ("mesh", "make the `.geo` and `mesh` of the case those of that run, or solve it again with this mesh")
+    } else if end.points != hash::text(phase_state::hash_of(points)) {
+        ("points", "make `regions` those of that run, or solve it again with these points")
+    } else {
+        return Ok(());
+    };
+    let problem = format!("the run that the case goes on from had another {}", what.0);
+    Err(Error::input(start::KEY, problem, what.1))
 }
 
 /// The wall time and where it went, whether the run is `done` or came to an end before.
@@ -190,16 +219,37 @@ fn summary(elapsed: Duration, done: bool) -> String {
     )
 }
 
+/// Warnings of the log that are told again.
+const TOLD: usize = 10;
+
+/// Tells the warnings of the whole run again, which may have gone by, or have been those of a process before.
+fn tell_again(folder: &RunFolder) -> Outcome {
+    let Ok(log) = fs::read_to_string(folder.log()) else { return Ok(()) };
+    let warnings: Vec<&str> = log.lines().filter(|line| line.starts_with(run::WARNING)).collect();
+    let mut text: String = warnings.iter().take(TOLD).map(|warning| format!("{warning}\n")).collect();
+    if warnings.len() > TOLD {
+        text.push_str(&format!("and {} more warnings in {}\n", warnings.len() - TOLD, folder.log().display()));
+    }
+    if text.is_empty() { Ok(()) } else { print(&text) }
+}
+
 /// Seconds between lines where there is no terminal.
 const INTERVAL: f64 = 10.0;
+
+/// The seconds that a run may still take, given those since this process went on with it and its times (s) then, now and at its end: what
+/// was done before says nothing of this machine.
+fn left(elapsed: f64, [from, now, end]: [f64; 3]) -> Option<f64> {
+    (now > from).then(|| elapsed * (end - now) / (now - from))
+}
 
 /// Shows how far a run has come.
 struct Meter {
     bar: Option<ProgressBar>,
     start: Instant,
-    /// When a line is due, and the time (s) of the run when it was taken up.
+    /// When a line is due.
     due: f64,
-    from: Option<f64>,
+    /// When this process began with its first step, and at which time (s) of the run.
+    from: Option<(Instant, f64)>,
 }
 
 impl Meter {
@@ -214,10 +264,10 @@ impl Meter {
     }
 
     fn show(&mut self, p: &Progress) {
-        let from = *self.from.get_or_insert(p.time);
+        let (begun, from) = *self.from.get_or_insert_with(|| (Instant::now(), p.time));
         let elapsed = self.start.elapsed().as_secs_f64();
-        let left = if p.time > from { elapsed * (p.end - p.time) / (p.time - from) } else { f64::NAN };
-        let left = if left.is_finite() { format!(", about {left:.0} s left") } else { String::new() };
+        let left = left(begun.elapsed().as_secs_f64(), [from, p.time, p.end]);
+        let left = left.map_or_else(String::new, |left| format!(", about {left:.0} s left"));
         let line = format!("step {}, {} t = {:.4} of {} s{left}", p.step, p.phase, p.time, p.end);
         match (&self.bar, p.note) {
             (Some(bar), Some(note)) => bar.println(&*plain_lines(note)),
@@ -238,5 +288,18 @@ impl Meter {
         if let Some(bar) = &self.bar {
             bar.finish_and_clear();
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::left;
+
+    #[test]
+    fn what_is_left_is_told_by_the_work_of_this_process() {
+        // Continued at 6 s of 10: 1 s more took 5 s.
+        assert_eq!(left(5.0, [6.0, 7.0, 10.0]), Some(15.0));
+        assert_eq!(left(5.0, [0.0, 7.5, 10.0]), Some(5.0 / 3.0));
+        assert_eq!(left(5.0, [6.0, 6.0, 10.0]), None);
     }
 }

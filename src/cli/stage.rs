@@ -19,6 +19,9 @@ use std::cell::OnceCell;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
+/// The file of the points as seeded.
+pub const POINTS: &str = "points.vtu";
+
 /// A loaded case and its output folder.
 pub struct Stage {
     pub loaded: Loaded,
@@ -37,6 +40,10 @@ impl Stage {
         let loaded = keys.load(case, overrides)?;
         loaded.source.notes().iter().for_each(|text| note(text));
         let folder = args.output.clone().unwrap_or_else(|| loaded.source.folder().join("out"));
+        if loaded.source.start().is_some_and(|start| is_of_run(&start.path, &folder)) {
+            let problem = "the output folder is that of the run that the case goes on from, which would be lost";
+            return Err(vec![Error::input(folder.display(), problem, "name another one with `-o`")]);
+        }
         Ok(Self { loaded, folder, lock: OnceCell::new() })
     }
 
@@ -73,7 +80,7 @@ impl Stage {
     }
 
     pub fn points(&self) -> PathBuf {
-        self.folder.join("points.vtu")
+        self.folder.join(POINTS)
     }
 
     /// The output folder.
@@ -111,6 +118,15 @@ impl Stage {
         let all = [program::SOURCE, program::GMSH, &case, &hashes.join(" ")].join("\n");
         let files = files.iter().map(|path| path.display().to_string()).zip(hashes).collect();
         Ok(Inputs { stage: name, hash: hash::bytes(all.as_bytes()), files })
+    }
+}
+
+/// Whether the state at the end of a phase is that of a run in an output folder.
+fn is_of_run(state: &Path, folder: &Path) -> bool {
+    match (state.canonicalize(), folder.canonicalize()) {
+        // In the folder of such states in that of the run.
+        (Ok(state), Ok(folder)) => state.ancestors().nth(2) == Some(&folder),
+        _ => false,
     }
 }
 

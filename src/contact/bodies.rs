@@ -9,7 +9,7 @@
 use super::along::{Mark, lines};
 use super::constraint::{Constraint, FADING};
 use super::interface::{Ground, Interface, NORMAL, Pushed, TANGENTIAL};
-use super::law::{Law, Penalty};
+use super::law::{Laws, Penalty};
 use super::motion::Spot;
 use super::multipliers::Multipliers;
 use super::place::{Placed, Segments};
@@ -38,7 +38,7 @@ pub struct Bodies<K> {
     /// The boundary with the contact nodes, and the other one.
     pub surface: Surface,
     pub other: Surface,
-    pub law: Law,
+    pub laws: Laws,
     /// Where one of the two is soil, which has pores.
     pub soil: Option<SoilSide>,
     /// Young's modulus (kPa) of the softer one.
@@ -250,8 +250,8 @@ impl<K: Kinematics<2>> Interface<2> for Bodies<K> {
         &self.surface.runs
     }
 
-    fn law(&self) -> &Law {
-        &self.law
+    fn laws(&self) -> &Laws {
+        &self.laws
     }
 
     fn constraints(
@@ -268,7 +268,7 @@ impl<K: Kinematics<2>> Interface<2> for Bodies<K> {
         let mut sums = vec![Sum::default(); self.surface.contact_nodes];
         let loops = loops(&self.surface, &segments);
         // Nothing else depends on it.
-        let wet = self.soil.as_ref().filter(|soil| soil.undrained && self.law.friction > 0.0);
+        let wet = self.soil.as_ref().filter(|soil| soil.undrained && self.laws.at(ground.phase).friction > 0.0);
         let wet = wet.map(|soil| (soil, soil.points(ground.elements)));
         for (segment, placed) in self.surface.segments.iter().zip(&segments.0) {
             let own = &self.surface.facets[segment.facet as usize];
@@ -346,7 +346,11 @@ impl<K: Kinematics<2>> Interface<2> for Bodies<K> {
                     tangential: TANGENTIAL * stiffness,
                     rounding: 0.0,
                     fading: FADING * self.surface.spacing,
-                    bonded: held.bonded(contact_node, self.law.tension, sum.gap / area < FADING * self.surface.spacing),
+                    bonded: held.bonded(
+                        contact_node,
+                        self.laws.at(ground.phase).tension,
+                        sum.gap / area < FADING * self.surface.spacing,
+                    ),
                     strength: f64::INFINITY,
                     water: sum.water / area,
                 },

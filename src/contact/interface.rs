@@ -4,7 +4,7 @@ use super::along::{Mark, lines};
 use super::constraint::{Constraint, FADING};
 use super::cover::covers;
 use super::gap::{Facing, Gap, Soil, project_out, raw_gaps};
-use super::law::{Law, Penalty};
+use super::law::{Laws, Penalty};
 use super::multipliers::Multipliers;
 use super::place::{Placed, Segments};
 use super::skin::Skin;
@@ -46,6 +46,8 @@ const AWAY: [f64; 5] = [0.0, 0.05, 0.15, 0.3, 0.6];
 
 /// What a boundary lies on: the grid where it is at the beginning of the step.
 pub struct Ground<'a, const D: usize> {
+    /// The number of the phase.
+    pub phase: usize,
     /// The background grid with its nodes in place, and the way to find places in it.
     pub grid: &'a Mesh<D>,
     pub locator: &'a Locator<D>,
@@ -86,7 +88,7 @@ pub trait Interface<const D: usize>: Send + Sync {
     /// The number of contact nodes.
     fn contact_nodes(&self) -> usize;
 
-    fn law(&self) -> &Law;
+    fn laws(&self) -> &Laws;
 
     /// The conditions of the contact nodes that face soil; `position` tells where the nodes are.
     fn constraints(
@@ -119,7 +121,7 @@ pub struct Boundary<K> {
     /// The region of the structure.
     pub structure: u16,
     pub surface: Surface,
-    pub law: Law,
+    pub laws: Laws,
     /// The regions of the soil, and the model of each material by number ([`Points::model_of`]).
     pub regions: Vec<u16>,
     pub models: Vec<Option<Arc<dyn Model>>>,
@@ -269,8 +271,8 @@ impl<K: Kinematics<2>> Interface<2> for Boundary<K> {
         &self.surface.runs
     }
 
-    fn law(&self) -> &Law {
-        &self.law
+    fn laws(&self) -> &Laws {
+        &self.laws
     }
 
     fn constraints(
@@ -279,6 +281,7 @@ impl<K: Kinematics<2>> Interface<2> for Boundary<K> {
         position: &dyn Fn(u32) -> [f64; 2],
         held: &Multipliers,
     ) -> Vec<Constraint<2>> {
+        let law = self.laws.at(ground.phase);
         let segments = Segments::new::<K>(&self.surface, position);
         let soil = Soil { points: ground.points, regions: &self.regions };
         let gaps = raw_gaps::<K>(&self.surface, &segments, &soil, &self.skin);
@@ -302,9 +305,9 @@ impl<K: Kinematics<2>> Interface<2> for Boundary<K> {
             let Some((cell, xi)) = ground.find(placed, spacing, point, &holds) else { continue };
             let across = surface.distance(placed, spacing);
             // Nothing else depends on them.
-            let water = if self.law.friction > 0.0 { (ground.excess)(ground.points, point as usize) } else { 0.0 };
+            let water = if law.friction > 0.0 { (ground.excess)(ground.points, point as usize) } else { 0.0 };
             let strength =
-                if self.law.factor.is_some() { strength(&self.models, ground.points, point as usize) } else { 0.0 };
+                if law.factor.is_some() { strength(&self.models, ground.points, point as usize) } else { 0.0 };
             let mut value = [0.0; MAX_NODES];
             ground.grid.cells.kind[cell as usize].values(&xi, &mut value);
             let soil = ground.grid.cells.nodes(cell as usize);
@@ -397,7 +400,7 @@ impl<K: Kinematics<2>> Interface<2> for Boundary<K> {
                 by_arc: entries.iter().map(|e| e.2.map(|t| t / area)).collect(),
                 spots: Vec::new(),
                 penalty: Penalty {
-                    bonded: held.bonded(contact_node, self.law.tension, gap < FADING * self.surface.spacing),
+                    bonded: held.bonded(contact_node, law.tension, gap < FADING * self.surface.spacing),
                     strength: strength / area,
                     water: water / area,
                     ..self.penalty(ground.points, point as usize, contact_node, held)

@@ -27,6 +27,38 @@ pub struct Law {
     pub tension: f64,
 }
 
+/// The law of an interface in each phase: they may change as one begins.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Laws {
+    first: Law,
+    /// The number of the phase that each other one begins with, ascending.
+    later: Vec<(usize, Law)>,
+}
+
+impl From<Law> for Laws {
+    fn from(first: Law) -> Self {
+        Self { first, later: Vec::new() }
+    }
+}
+
+impl Laws {
+    /// These, with `law` from a phase on that comes after those that changed it before.
+    pub fn then(mut self, phase: usize, law: Law) -> Self {
+        self.later.push((phase, law));
+        self
+    }
+
+    /// The law in a phase, by its number.
+    pub fn at(&self, phase: usize) -> &Law {
+        self.later.iter().rfind(|(from, _)| *from <= phase).map_or(&self.first, |(_, law)| law)
+    }
+
+    /// Whether the tangent is symmetric in every state of every phase.
+    pub fn symmetric(&self) -> bool {
+        self.first.symmetric() && self.later.iter().all(|(_, law)| law.symmetric())
+    }
+}
+
 /// Multipliers and penalties of a contact node.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Penalty {

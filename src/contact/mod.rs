@@ -25,7 +25,7 @@ pub use along::{Mark, traction};
 pub use bodies::{Bodies, SoilSide};
 pub use constraint::Constraint;
 pub use interface::{Boundary, Ground, Interface, Pushed};
-pub use law::{Answer, Law, Penalty};
+pub use law::{Answer, Law, Laws, Penalty};
 pub use motion::{Motion, Spot};
 pub use multipliers::Multipliers;
 pub use rigid::Rigid;

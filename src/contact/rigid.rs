@@ -6,7 +6,7 @@
 use super::along::Mark;
 use super::constraint::Constraint;
 use super::interface::{Ground, Interface, Pushed};
-use super::law::Law;
+use super::law::Laws;
 use super::multipliers::Multipliers;
 use crate::points::Points;
 use crate::rigid::Body;
@@ -123,8 +123,8 @@ impl<const D: usize> Interface<D> for Rigid<D> {
         self.interface.runs()
     }
 
-    fn law(&self) -> &Law {
-        self.interface.law()
+    fn laws(&self) -> &Laws {
+        self.interface.laws()
     }
 
     fn constraints(
@@ -159,12 +159,12 @@ impl<const D: usize> Interface<D> for Rigid<D> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::law::Penalty;
+    use super::super::law::{Law, Penalty};
     use super::*;
     use crate::mesh::Mesh;
 
     /// An interface with one constraint, between nodes 0 and 1 of a body and node 2 of soil.
-    struct One(Law);
+    struct One(Laws);
 
     impl Interface<2> for One {
         fn structure(&self) -> u16 {
@@ -183,7 +183,7 @@ mod tests {
             &[]
         }
 
-        fn law(&self) -> &Law {
+        fn laws(&self) -> &Laws {
             &self.0
         }
 
@@ -237,7 +237,7 @@ mod tests {
     fn a_body_opens_the_gap_as_its_nodes_do() {
         let mut mesh = Mesh { nodes: vec![[1.0, 0.5], [2.0, -0.5], [1.0, -2.0], [3.0, 1.5]], ..Mesh::default() };
         let body = Body::append(&mut mesh, 0, vec![0, 1, 3], &Points::default(), true);
-        let law = Law { friction: 0.0, adhesion: 0.0, factor: None, tension: 0.0 };
+        let law = Laws::from(Law { friction: 0.0, adhesion: 0.0, factor: None, tension: 0.0 });
         let interface = Rigid::new(Box::new(One(law)), std::slice::from_ref(&body), mesh.nodes.len());
         let condensed = interface.condense(constraint(), &|n| mesh.nodes[n as usize]);
         assert_eq!((condensed.own, &condensed.nodes[..]), (1, &[4, 5, 2][..]));
@@ -285,7 +285,7 @@ mod tests {
 
         let mut mesh = Mesh { nodes: vec![[radius, 0.0], [radius, 0.0], [-radius, 0.0]], ..Mesh::default() };
         let body = Body::append(&mut mesh, 0, vec![0, 2], &Points::default(), true);
-        let law = Law { friction: 0.0, adhesion: 0.0, factor: None, tension: 0.0 };
+        let law = Laws::from(Law { friction: 0.0, adhesion: 0.0, factor: None, tension: 0.0 });
         let interface = Rigid::new(Box::new(One(law)), std::slice::from_ref(&body), mesh.nodes.len());
         let condensed = interface.condense(round.clone(), &|n| mesh.nodes[n as usize]);
         let turned = condensed.measure(|n| if Some(n) == body.turning { [0.1 * body.arm, 0.0] } else { [0.0; 2] });

@@ -4,6 +4,7 @@
 //! |---|---|---|
 //! | `points.vtu` | [`points_vtu`] | the material points with their initial state, bit-exact and viewable |
 //! | `results/frame-000123.mpmf` | [`frame`] | compact result frames, bit-exact |
+//! | `phases/00-install.mpms` | [`phase_state`] | the state at the end of a phase, which another run may begin with |
 //! | `checkpoints/step-000000456.mpmc` | [`checkpoint`] | what `--resume` continues from |
 //! | `history.csv`, `solve.log` | [`history`] | one line a step, cut back on a resume |
 //! | `unfinished/` | [`run_folder`] | a run beside earlier results, which it replaces when it is finished |
@@ -24,6 +25,7 @@ pub mod frame;
 pub mod hash;
 pub mod history;
 pub mod lock;
+pub mod phase_state;
 pub mod points_vtu;
 pub mod provenance;
 pub mod pvd;

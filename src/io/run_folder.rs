@@ -12,6 +12,7 @@ use std::path::{Path, PathBuf};
 use super::atomic;
 use super::checkpoint::Checkpoints;
 use super::frame;
+use super::phase_state;
 use super::provenance::{self, Record};
 use crate::error::Result;
 
@@ -23,7 +24,8 @@ pub const BESIDE: &str = "unfinished";
 const MARKER: &str = ".exchange";
 const REPLACED: &str = ".replaced";
 /// What a run consists of.
-const PARTS: [&str; 5] = ["results", "checkpoints", "history.csv", "solve.log", provenance::FOLDER];
+const PARTS: [&str; 6] =
+    ["results", "checkpoints", phase_state::FOLDER, "history.csv", "solve.log", provenance::FOLDER];
 
 /// The folder that a run writes into.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -55,6 +57,11 @@ impl RunFolder {
 
     pub fn checkpoints(&self) -> PathBuf {
         self.path.join("checkpoints")
+    }
+
+    /// The states at the ends of its phases.
+    pub fn phases(&self) -> PathBuf {
+        self.path.join(phase_state::FOLDER)
     }
 
     pub fn history(&self) -> PathBuf {
@@ -117,7 +124,8 @@ impl RunFolder {
         if outer {
             // The folder of the other stages, too: of the records only that of the run.
             atomic::remove(&provenance::path(&self.path, STAGE))?;
-            return PARTS[..4].iter().try_for_each(|part| atomic::remove_folder(&self.path.join(part)));
+            let own = PARTS.iter().filter(|&&part| part != provenance::FOLDER);
+            return own.into_iter().try_for_each(|part| atomic::remove_folder(&self.path.join(part)));
         }
         atomic::remove_folder(&self.path)
     }

@@ -130,7 +130,7 @@ mod tests {
         for (young, poisson) in [(0.0, 0.3), (-1.0, 0.3), (f64::NAN, 0.3), (1.0, 0.5), (1.0, -1.0), (1.0, f64::NAN)] {
             assert!(Elasticity::new(Profile::constant(young), poisson).is_err(), "{young} {poisson}");
         }
-        let softening = Profile { top: 10.0, gradient: -1.0, datum: 0.0 };
+        let softening = Profile::growing(10.0, -1.0, 0.0);
         let e = Elasticity::new(softening, 0.2).unwrap();
         assert!(e.check(-9.0).is_ok());
         assert!(e.check(-10.0).is_err());

@@ -2,31 +2,38 @@
 
 use crate::error::{Error, Result};
 
-/// A parameter that may vary with depth: `top + gradient · max(0, datum − y)`.
+/// A parameter that may vary with depth: `max(top + gradient · max(0, datum − y), least)`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Profile {
     /// Value at the height `datum` and above.
     pub top: f64,
-    /// Growth per metre below `datum`.
+    /// Growth per metre below `datum`; below 0 the value falls with depth, as under a crust.
     pub gradient: f64,
     /// Height y (m) at which the growth begins.
     pub datum: f64,
+    /// The value falls no further than to this; −∞ where it does not fall.
+    pub least: f64,
 }
 
 impl Profile {
     pub fn constant(value: f64) -> Self {
-        Self { top: value, gradient: 0.0, datum: 0.0 }
+        Self::growing(value, 0.0, 0.0)
     }
 
-    /// This times a factor.
+    /// One that grows by `gradient` a metre below the height `datum` (m).
+    pub fn growing(top: f64, gradient: f64, datum: f64) -> Self {
+        Self { top, gradient, datum, least: f64::NEG_INFINITY }
+    }
+
+    /// This times a factor above 0.
     pub fn scaled(&self, by: f64) -> Self {
-        Self { top: by * self.top, gradient: by * self.gradient, datum: self.datum }
+        Self { top: by * self.top, gradient: by * self.gradient, least: by * self.least, ..*self }
     }
 
     /// The value at height `y` (m).
     #[inline]
     pub fn at(&self, y: f64) -> f64 {
-        self.top + self.gradient * (self.datum - y).max(0.0)
+        (self.top + self.gradient * (self.datum - y).max(0.0)).max(self.least)
     }
 
     /// # Errors

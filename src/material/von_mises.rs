@@ -138,7 +138,7 @@ mod tests {
     #[test]
     fn simple_shear_strength_is_yield_stress_over_root_three() {
         let elasticity = Elasticity::new(Profile::constant(1000.0), 0.3).unwrap();
-        let model = VonMises::new(elasticity, Profile { top: 2.0, gradient: 0.5, datum: 0.0 }).unwrap();
+        let model = VonMises::new(elasticity, Profile::growing(2.0, 0.5, 0.0)).unwrap();
         let r = model.respond(-4.0, &[0.1, 0.0, -0.1], &State::default(), &mut []);
         let k = 4.0 / 3f64.sqrt();
         for (got, expected) in r.stress.iter().zip([k, 0.0, -k]) {

@@ -6,7 +6,6 @@ use super::foreign::foreign;
 use crate::contact::Multipliers;
 use crate::error::Result;
 use crate::interpolation::PartlyFilled;
-use crate::io::checkpoint::Checkpoints;
 use crate::io::columns;
 use crate::io::container::Store;
 use crate::quadrature::{Count, Samples, Tally, Weights};
@@ -17,8 +16,8 @@ const POINTS: &str = "points.";
 const FEM: &str = "fem.";
 const SAMPLES: &str = "sample.";
 
-/// Everything in a state.
-pub fn store<const D: usize>(state: &State<D>) -> Store {
+/// Puts everything in a state into a store for a file of whichever kind.
+pub fn put<const D: usize>(mut store: Store, state: &State<D>) -> Store {
     // No `..`: a new field of the state must find its place here.
     let State {
         phase,
@@ -54,7 +53,6 @@ pub fn store<const D: usize>(state: &State<D>) -> Store {
         voids,
         restorations,
     } = state;
-    let mut store = Checkpoints::store();
     store.put(
         "state.counts",
         1,
@@ -256,11 +254,41 @@ fn take_front(store: &mut Store) -> Result<Option<MarkerFront>> {
     Ok((!none).then_some(MarkerFront { position, first }))
 }
 
+/// The state in which a run of `scene` begins its phase number `begun`, given that at the end of the phase before, in another run with the same
+/// phases until then. `first` is the one that would begin the whole.
+///
+/// # Errors
+/// As [`take`].
+pub fn after_phase<const D: usize>(store: Store, scene: &Scene<D>, first: &State<D>, begun: usize) -> Result<State<D>> {
+    let mut state = read(store)?;
+    if state.phase + 1 != begun || begun >= scene.phases.len() {
+        return Err(foreign("the number of its phase"));
+    }
+    // What begins a phase takes these for granted.
+    let regions = scene.mesh.regions.len();
+    let cells = scene.mesh.cells.len() + scene.fem.as_ref().map_or(0, |fem| fem.mesh.cells.len());
+    let samples = state.weights.samples.as_ref().map(|samples| &samples.points);
+    for points in [&state.points, &state.fem].into_iter().chain(samples) {
+        points.check(regions, cells).map_err(|problem| foreign(&problem))?;
+    }
+    state.next_phase(scene);
+    state.frames = 0;
+    valid::check(scene, first, &state)?;
+    Ok(state)
+}
+
 /// The state in a checkpoint of the run of `scene` that began with `first`.
 ///
 /// # Errors
 /// `Input` when an array is missing or unknown, or what one holds does not fit the scene.
-pub fn take<const D: usize>(mut store: Store, scene: &Scene<D>, first: &State<D>) -> Result<State<D>> {
+pub fn take<const D: usize>(store: Store, scene: &Scene<D>, first: &State<D>) -> Result<State<D>> {
+    let state = read(store)?;
+    valid::check(scene, first, &state)?;
+    Ok(state)
+}
+
+/// The state in a store, as it stands there.
+fn read<const D: usize>(mut store: Store) -> Result<State<D>> {
     let counts = store.take::<u64>("state.counts", 1)?;
     let times = store.take::<f64>("state.times", 1)?;
     let (
@@ -314,6 +342,5 @@ pub fn take<const D: usize>(mut store: Store, scene: &Scene<D>, first: &State<D>
     if let Some(array) = store.into_arrays().first() {
         return Err(foreign(&format!("the array `{}`", array.name)));
     }
-    valid::check(scene, first, &state)?;
     Ok(state)
 }

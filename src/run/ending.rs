@@ -9,6 +9,10 @@ use crate::time_value::TimeValue;
 /// Part of the largest kinetic energy that counts as rest (-) where dynamics hands back to a quasi-static phase.
 const REST: f64 = 1e-2;
 
+/// Kinetic energy over the elastic one (-) below which nothing moves: velocities are a millionth of those that the stresses could set. Newton's
+/// tolerance leaves less.
+const STILL: f64 = 1e-12;
+
 /// A smaller part (-) of what was out of balance is no more than rounding.
 const TOLD: f64 = 1e-6;
 
@@ -30,11 +34,41 @@ pub fn is_met_at_first<const D: usize, K: Kinematics<D>>(
     until: &[Until],
     simulation: &mut Simulation<D, K>,
 ) -> Result<bool> {
-    let part = until.iter().find_map(|condition| match condition {
+    equilibrium(until).map_or(Ok(false), |part| simulation.stays_at_rest(part, 0.0))
+}
+
+/// The part of the kinetic energy (-) that a phase waits for.
+fn equilibrium(until: &[Until]) -> Option<f64> {
+    until.iter().find_map(|condition| match condition {
         Until::Equilibrium(part) => Some(*part),
         Until::Reached { .. } => None,
-    });
-    part.map_or(Ok(false), |part| simulation.stays_at_rest(part))
+    })
+}
+
+/// Whether the phase waits for a rest that it has come to in the step of the `report`: what is left of a motion before it may not fall any
+/// further.
+///
+/// # Errors
+/// When memory does not suffice.
+pub fn is_still<const D: usize, K: Kinematics<D>>(
+    until: &[Until],
+    simulation: &mut Simulation<D, K>,
+    report: &Report<D>,
+) -> Result<bool> {
+    let most = STILL * report.elastic.abs();
+    match equilibrium(until) {
+        Some(part) if report.motion.kinetic <= most => simulation.stays_at_rest(part, most),
+        _ => Ok(false),
+    }
+}
+
+/// Why a phase ends with the step of the `report` that [`is_still`].
+pub fn at_rest<const D: usize>(phase: &Phase, report: &Report<D>) -> String {
+    let (name, kinetic, elastic) = (&phase.name, report.motion.kinetic, report.elastic);
+    format!(
+        "phase `{name}` ends: nothing moves, with its forces in balance: the kinetic energy is {kinetic:.3e} kJ beside {elastic:.3e} kJ of the \
+         stresses"
+    )
 }
 
 /// Why a phase ends with its first step that [`is_met_at_first`].

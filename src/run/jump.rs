@@ -4,6 +4,7 @@
 //! It is looked for in phases that do not move the soil themselves, by prescribed displacements or structures in contact, and do not
 //! look for failure.
 
+use super::warning::WARNING;
 use crate::mesh::height;
 use crate::step::{FARTHEST, Scene, State};
 
@@ -37,7 +38,7 @@ pub fn found<const D: usize>(scene: &Scene<D>, state: &mut State<D>) -> Option<S
     state.start_position.clear();
     let (name, place) = (&scene.phases[state.phase].name, &state.points.position[p]);
     Some(format!(
-        "warning: phase `{name}`: without inertia the soil has moved by {most:.3} m, to {place:.3?} m, which is more than half its height of \
+        "{WARNING}phase `{name}`: without inertia the soil has moved by {most:.3} m, to {place:.3?} m, which is more than half its height of \
          {:.3} m: the quasi-static analysis has jumped to another equilibrium, and its path has no meaning; use `analysis: dynamic`",
         high - low
     ))

@@ -5,6 +5,7 @@
 //! | `results/frame-000123.mpmf` | the state at the times of output |
 //! | `history.csv` | a row a step |
 //! | `solve.log` | what every step did |
+//! | `phases/` | the states at the ends of phases, which other runs may begin with |
 //! | `checkpoints/` | what `--resume` continues from, after every step |
 //!
 //! The checkpoint of a step is written while the next one is solved.
@@ -21,12 +22,14 @@ mod outputs;
 mod record;
 mod surface;
 mod voids;
+mod warning;
 
 pub use ending::Until;
 pub use internal_variables::InternalVariable;
 pub use outputs::Outputs;
 pub use record::{Quantity, Watch, WatchedOn};
 pub use surface::Acting;
+pub use warning::WARNING;
 
 use crate::error::{Error, Result};
 use crate::io::background::Background;
@@ -35,6 +38,7 @@ use crate::io::container::Store;
 use crate::io::frame::{self, Frame};
 use crate::io::hash;
 use crate::io::history::{History, Log, Mark};
+use crate::io::phase_state;
 use crate::io::run_folder::RunFolder;
 use crate::kinematics::Kinematics;
 use crate::profile::{Activity, timed};
@@ -66,9 +70,24 @@ pub enum Ended {
     Stopped,
 }
 
+/// What a run begins with.
+#[derive(Clone, Debug)]
+pub struct First<const D: usize> {
+    /// The state before the first step of all, with the points as seeded.
+    pub seeded: State<D>,
+    /// That in which the run begins in its place, where it goes on from another one.
+    pub after: Option<State<D>>,
+}
+
+impl<const D: usize> From<State<D>> for First<D> {
+    fn from(seeded: State<D>) -> Self {
+        Self { seeded, after: None }
+    }
+}
+
 /// Runs a scene.
 ///
-/// `first` is the state before the first step; with `resume` the newest checkpoint takes its place, if there
+/// It begins with the state in `first`; with `resume` the newest checkpoint takes its place, if there
 /// is one. `stop` is polled between steps.
 ///
 /// # Errors
@@ -76,7 +95,7 @@ pub enum Ended {
 /// belong to the case, `Machine` when something cannot be written.
 pub fn run<const D: usize, K: Kinematics<D>>(
     scene: &Scene<D>,
-    first: State<D>,
+    first: impl Into<First<D>>,
     outputs: &Outputs<D>,
     resume: bool,
     stop: &AtomicBool,
@@ -84,21 +103,25 @@ pub fn run<const D: usize, K: Kinematics<D>>(
 ) -> Result<Ended> {
     let checkpoints = Checkpoints::new(outputs.folder.checkpoints(), outputs.origin.run);
     let loaded = if resume { checkpoints.latest()? } else { None };
-    let end: f64 = scene.phases.iter().map(|p| p.duration).sum();
+    let First { seeded, after } = first.into();
     let mut tell = |state: &State<D>, note: Option<&str>| {
         let phase = scene.phases.get(state.phase).map_or("done", |p| p.name.as_str());
+        // Phases may have ended before their time.
+        let left: f64 = scene.phases.iter().skip(state.phase).map(|p| p.duration).sum();
+        let end = state.time + left - state.phase_time;
         progress(Progress { phase, time: state.time, end, step: state.step, note });
     };
     let (state, written) = match loaded {
         Some(mut loaded) => {
             let written = Written::take(&mut loaded.store)?;
-            let state = checkpoint::take(loaded.store, scene, &first)?;
+            let state = checkpoint::take(loaded.store, scene, &seeded)?;
             for warning in &loaded.warnings {
                 tell(&state, Some(warning));
             }
             (state, Some(written))
         }
         None => {
+            let first = after.unwrap_or(seeded);
             if resume {
                 tell(&first, Some("there is no checkpoint to continue from: the run begins afresh"));
             }
@@ -114,7 +137,8 @@ pub fn run<const D: usize, K: Kinematics<D>>(
         }
     }
     let mut simulation = Simulation::<D, K>::new(scene, state)?;
-    if simulation.state.step == 0 && simulation.state.frames == 0 {
+    tell(&simulation.state, None);
+    if simulation.state.frames == 0 {
         files.frame(scene, &mut simulation.state)?;
     }
     while let Some(phase) = scene.phases.get(simulation.state.phase) {
@@ -171,6 +195,10 @@ pub fn run<const D: usize, K: Kinematics<D>>(
                     return Err(files.fail(scene, &mut simulation.state, error)?);
                 }
             };
+            let still = match ending::is_still(until, &mut simulation, &report) {
+                Ok(still) => still,
+                Err(error) => return Err(files.fail(scene, &mut simulation.state, error)?),
+            };
             let state = &mut simulation.state;
             state.step_size = controller.wanted;
             for reason in &report.halvings {
@@ -182,12 +210,15 @@ pub fn run<const D: usize, K: Kinematics<D>>(
                     tell(state, Some(&warning));
                     files.log.line(&warning)?;
                 }
-                for warning in voids::found(scene, state, &report) {
-                    tell(state, Some(&warning));
-                    files.log.line(&warning)?;
+                for line in voids::found(scene, state, &report) {
+                    if line.starts_with(WARNING) {
+                        tell(state, Some(&line));
+                    }
+                    files.log.line(&line)?;
                 }
                 let met = ending::met(until, &outputs.watches, scene, state, &report)
-                    .or_else(|| stays.then(|| ending::at_first(phase)));
+                    .or_else(|| stays.then(|| ending::at_first(phase)))
+                    .or_else(|| still.then(|| ending::at_rest(phase, &report)));
                 if let Some(note) = met.filter(|_| controller.next_stop(state.phase_time).is_some()) {
                     tell(state, Some(&note));
                     return files.end_early(scene, state, &note);
@@ -207,6 +238,7 @@ pub fn run<const D: usize, K: Kinematics<D>>(
                         tell(state, Some(&note));
                         files.log.line(&note)?;
                     }
+                    files.end_of_phase(state)?;
                     state.next_phase(scene);
                 }
                 files.checkpoint(state)
@@ -274,6 +306,7 @@ impl<'a, const D: usize> Files<'a, D> {
             }
             None => {
                 checkpoints.clear()?;
+                phase_state::begin(&folder.phases())?;
                 let mut log = Log::create(&log)?;
                 for line in record::heading(scene, &state.points) {
                     log.line(&line)?;
@@ -304,8 +337,17 @@ impl<'a, const D: usize> Files<'a, D> {
         if self.framed != Some(state.step) {
             self.frame(scene, state)?;
         }
+        self.end_of_phase(state)?;
         state.next_phase(scene);
         self.checkpoint(state)
+    }
+
+    /// Hands the state at the end of a phase to the writer, before the next one begins.
+    fn end_of_phase(&mut self, state: &State<D>) -> Result<()> {
+        let Some(Some(end)) = self.outputs.ends.get(state.phase).cloned() else { return Ok(()) };
+        let (folder, number) = (self.outputs.folder.phases(), state.phase);
+        let store = checkpoint::put(phase_state::store(), state);
+        self.writer.submit(move || phase_state::save(&folder, number, &end, store))
     }
 
     /// Hands a frame to the writer.
@@ -338,7 +380,8 @@ impl<'a, const D: usize> Files<'a, D> {
 
     /// Hands a checkpoint to the writer.
     fn checkpoint(&mut self, state: &State<D>) -> Result<()> {
-        let (checkpoints, step, mut store) = (self.checkpoints.clone(), state.step, checkpoint::store(state));
+        let (checkpoints, step, mut store) =
+            (self.checkpoints.clone(), state.step, checkpoint::put(Checkpoints::store(), state));
         let (history, log, frames) = (self.history.mark(), self.log.mark(), Arc::clone(&self.frames));
         self.writer.submit(move || {
             // The frames before it are written by now.

@@ -4,6 +4,7 @@ use super::ending::Until;
 use super::fields::Field;
 use super::record::Watch;
 use super::surface::Acting;
+use crate::io::phase_state::End;
 use crate::io::provenance::Origin;
 use crate::io::run_folder::RunFolder;
 use std::sync::Arc;
@@ -21,6 +22,8 @@ pub struct Outputs<const D: usize> {
     pub until: Vec<Vec<Until>>,
     /// What acts on the surface of the material, where that is shown.
     pub surface: Option<Acting>,
+    /// What the states at the ends of phases belong to, by number of the phase; those without are not kept.
+    pub ends: Vec<Option<End>>,
     /// What the run is made from: whether a checkpoint belongs to the case, and a frame to the mesh.
     pub origin: Origin,
 }

@@ -1,7 +1,8 @@
 //! Warnings of voids that open within soil, or under a structure that cannot part from it, where the surface of the soil is followed.
 //!
-//! What opens beside a structure that may part from the soil is what its contact says, and no news.
+//! What opens beside a structure that may part from the soil is what its contact says: the log has a line on it, and no warning.
 
+use super::warning::WARNING;
 use crate::contact::Interface;
 use crate::mesh::Mesh;
 use crate::mesh::faces::Faces;
@@ -19,7 +20,7 @@ struct Structure<const D: usize> {
     places: Vec<[f64; D]>,
 }
 
-/// The warnings of a step, by the grid as it was restored before.
+/// Lines for the log on a step, by the grid as it was restored before; warnings begin with [`WARNING`].
 pub fn found<const D: usize>(scene: &Scene<D>, state: &mut State<D>, report: &Report<D>) -> Vec<String> {
     if !report.restored || state.front.is_none() {
         return Vec::new();
@@ -30,40 +31,42 @@ pub fn found<const D: usize>(scene: &Scene<D>, state: &mut State<D>, report: &Re
     let structures: Vec<Structure<D>> = scene
         .touching(state.phase)
         .filter(|(_, interface)| !interface.soils().is_empty())
-        .map(|(_, interface)| structure(&mesh, interface))
+        .map(|(_, interface)| structure(&mesh, interface, state.phase))
         .collect();
     let beside = |cells: &[u32]| structures.iter().filter(|s| lies_near(&mesh, cells, &s.places)).collect::<Vec<_>>();
-    let mut is_news = |cells: &[u32], cut_off: bool| {
-        let may_part = beside(cells).iter().any(|structure| structure.may_part);
-        !(may_part || cut_off && reaches_boundary(scene, cells))
-    };
+    let mut is_news = |cells: &[u32], cut_off: bool| !(cut_off && reaches_boundary(scene, cells));
     let mut voids = std::mem::take(&mut state.voids);
     let news = voids.look(&mesh, &emptiness, &mut is_news);
     state.voids = voids;
     let phase = scene.phases.get(state.phase).map_or("", |phase| phase.name.as_str());
     let line = |void: &Void<D>| {
-        let bound = beside(&void.cells).into_iter().map(|s| format!("`{}`", s.name)).collect::<Vec<_>>().join(" and ");
-        let (place, cure) = if bound.is_empty() {
+        let structures = beside(&void.cells);
+        let bound = structures.iter().map(|s| format!("`{}`", s.name)).collect::<Vec<_>>().join(" and ");
+        let (warning, place, cure) = if bound.is_empty() {
             (
+                WARNING,
                 "within the soil".to_string(),
-                "its sides bear neither stress nor water pressure; smaller cells there show whether it stays",
+                ": its sides bear neither stress nor water pressure; smaller cells there show whether it stays",
             )
+        } else if structures.iter().any(|structure| structure.may_part) {
+            ("", format!("at {bound}, which has parted from the soil"), "")
         } else {
             (
+                WARNING,
                 format!("at {bound}, which cannot part from the soil"),
-                "the contact bears tension without limit; set `tension: {limit: …}`, or `tension: cut_off` if it may part",
+                ": the contact bears tension without limit; set `tension: {limit: …}`, or `tension: cut_off` if it may part",
             )
         };
         let (at, area, time) = (&void.place, void.area, state.time);
         match void.news {
             News::Opened => format!(
-                "warning: phase `{phase}`: a void has opened {place}, at {at:.3?} m, of {area:.3e} m² at {time:.6} s: {cure}"
+                "{warning}phase `{phase}`: a void has opened {place}, at {at:.3?} m, of {area:.3e} m² at {time:.6} s{cure}"
             ),
             News::Grown => format!(
-                "warning: phase `{phase}`: the void {place}, at {at:.3?} m, has grown to {area:.3e} m² at {time:.6} s"
+                "{warning}phase `{phase}`: the void {place}, at {at:.3?} m, has grown to {area:.3e} m² at {time:.6} s"
             ),
             News::Closed => format!(
-                "warning: phase `{phase}`: the void {place}, at {at:.3?} m, has closed at {time:.6} s; it was {area:.3e} m²"
+                "{warning}phase `{phase}`: the void {place}, at {at:.3?} m, has closed at {time:.6} s; it was {area:.3e} m²"
             ),
         }
     };
@@ -71,10 +74,10 @@ pub fn found<const D: usize>(scene: &Scene<D>, state: &mut State<D>, report: &Re
 }
 
 /// An interface and its boundary on the grid as restored.
-fn structure<const D: usize>(mesh: &Mesh<D>, interface: &dyn Interface<D>) -> Structure<D> {
+fn structure<const D: usize>(mesh: &Mesh<D>, interface: &dyn Interface<D>, phase: usize) -> Structure<D> {
     Structure {
         name: mesh.regions.get(usize::from(interface.structure())).cloned().unwrap_or_default(),
-        may_part: interface.law().tension.is_finite(),
+        may_part: interface.laws().at(phase).tension.is_finite(),
         places: interface.outlines(&|n| mesh.nodes[n as usize]).concat(),
     }
 }

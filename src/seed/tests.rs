@@ -128,7 +128,7 @@ fn only_the_regions_asked_for_are_filled_each_with_its_density() {
     for c in 0..mesh.cells.len() {
         mesh.cells.region[c] = (c % 3) as u16;
     }
-    let sand = Profile { top: 2.0, gradient: 0.5, datum: 1.0 };
+    let sand = Profile::growing(2.0, 0.5, 1.0);
     let seeds = [
         RegionSeed { region: 0, points_per_cell: 16, density: Profile::constant(1.0) },
         RegionSeed { region: 2, points_per_cell: 3, density: sand },
@@ -169,7 +169,7 @@ fn stress_at_rest_of_layers_is_exact() {
             mesh.cells.region[c] = u16::from(top <= 2.0);
         }
         let soils = [
-            RegionWeight { region: 0, unit_weight: Profile { top: 8.0, gradient: 3.0, datum: 3.0 } },
+            RegionWeight { region: 0, unit_weight: Profile::growing(8.0, 3.0, 3.0) },
             RegionWeight { region: 1, unit_weight: Profile::constant(6.0) },
         ];
         let seeds = [0, 1].map(|region| RegionSeed { region, points_per_cell: 9, density: Profile::constant(1.0) });

@@ -80,8 +80,18 @@ pub fn begin<const D: usize, K: Kinematics<D>>(
     let excess = |points: &Points<D>, p: usize| excess_pressure(&scene.carried, points, p);
     let (points, elements, increment) = (&state.points, &state.fem, &state.increment);
     let integration = &state.integration().cell;
-    let ground =
-        Ground { grid: mesh, locator, points, integration, surface: &surface, increment, elements, excess: &excess };
+    let phase = state.phase;
+    let ground = Ground {
+        phase,
+        grid: mesh,
+        locator,
+        points,
+        integration,
+        surface: &surface,
+        increment,
+        elements,
+        excess: &excess,
+    };
     let (mut placed, mut covers) = (Vec::new(), Vec::new());
     let covered = scene.terms.iter().any(|term| term.sees_open_boundary());
     for (number, interface) in scene.touching(state.phase) {
@@ -212,7 +222,7 @@ pub fn commit<const D: usize>(
         let condition = &constraint.condition;
         let (interface, contact_node) = (constraint.interface as usize, condition.contact_node as usize);
         let (answer, Motion { gap, slip, turn, .. }) =
-            contact_answer(scene.interfaces[interface].law(), scene.levels.as_ref(), constraint, &trial);
+            contact_answer(scene.interfaces[interface].laws().at(phase), scene.levels.as_ref(), constraint, &trial);
         let held = &mut state.multipliers[interface];
         (held.pressure[contact_node], held.shear[contact_node]) = (answer.pressure, answer.shear);
         (held.gap[contact_node], held.slip[contact_node], held.offset[contact_node]) =

@@ -119,17 +119,17 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
         Ok(changes.into_iter().chain(notes).chain(loads).collect())
     }
 
-    /// Whether the phase that begins is dynamic and nothing will move in it: at rest, and in equilibrium under all of its loads but for
-    /// the fraction `part` (-) of the largest force.
+    /// Whether the phase is dynamic and nothing will move in it any more: with no more kinetic energy than `kinetic` (kJ), and in equilibrium under
+    /// all of its loads to come but for the fraction `part` (-) of the largest force.
     ///
     /// # Errors
     /// When memory does not suffice.
-    pub fn stays_at_rest(&mut self, part: f64) -> Result<bool> {
+    pub fn stays_at_rest(&mut self, part: f64, kinetic: f64) -> Result<bool> {
         if !self.scene.phases.get(self.state.phase).is_some_and(|phase| phase.dynamic) {
             return Ok(false);
         }
         let found = contact::begin::<D, K>(self.scene, &mut self.grid, &mut self.state)
-            .and_then(|()| unbalanced::stays_at_rest(self.scene, &mut self.grid, &self.state, part));
+            .and_then(|()| unbalanced::stays_at_rest(self.scene, &mut self.grid, &self.state, [part, kinetic]));
         match found {
             // The next step reports an error of the analysis.
             Err(error) if error.kind == Kind::Analysis => Ok(false),

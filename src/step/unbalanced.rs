@@ -64,13 +64,15 @@ pub fn stays_at_rest<const D: usize>(
     scene: &Scene<D>,
     grid: &mut Grid<D>,
     state: &State<D>,
-    part: f64,
+    [part, kinetic]: [f64; 2],
 ) -> Result<bool> {
     let phase = &scene.phases[state.phase];
-    if phase.flows || phase.moves() || Motion::of(state).kinetic > 0.0 {
+    if phase.flows || phase.moves() || Motion::of(state).kinetic > kinetic {
         return Ok(false);
     }
-    for time in phase.times() {
+    let now = state.phase_time;
+    let to_come = phase.times().filter(|time| *time > now);
+    for time in std::iter::once(now).chain(to_come) {
         let problem = Problem { from: time, to: time, ..Problem::at_rest(scene, state) };
         let Unbalanced { force, scale } = unbalanced(&problem, grid)?;
         if norm(&force) > part * scale {

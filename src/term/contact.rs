@@ -6,7 +6,7 @@
 
 use super::water_levels::WaterLevels;
 use super::{Assembly, Frame, PlacedConstraint, Term, Trial};
-use crate::contact::{Answer, Law, Motion};
+use crate::contact::{Answer, Law, Laws, Motion};
 use crate::error::Result;
 use crate::system::{Local, scatter};
 
@@ -14,14 +14,14 @@ use crate::system::{Local, scatter};
 pub struct Contact {
     /// The number of the interface in the scene.
     interface: u32,
-    law: Law,
+    laws: Laws,
     /// The levels of the water, where those outside and in the pores differ.
     levels: Option<WaterLevels>,
 }
 
 impl Contact {
-    pub fn new(interface: u32, law: Law, levels: Option<WaterLevels>) -> Self {
-        Self { interface, law, levels }
+    pub fn new(interface: u32, laws: impl Into<Laws>, levels: Option<WaterLevels>) -> Self {
+        Self { interface, laws: laws.into(), levels }
     }
 }
 
@@ -53,16 +53,17 @@ pub fn answer<const D: usize>(
 
 impl<const D: usize> Term<D> for Contact {
     fn symmetric(&self) -> bool {
-        self.law.symmetric()
+        self.laws.symmetric()
     }
 
     fn assemble(&self, frame: &Frame<D>, trial: &Trial<D>, out: &mut Assembly) -> Result<()> {
+        let law = self.laws.at(trial.phase);
         let compute = |constraint: &PlacedConstraint<D>, local: &mut Local| {
             if constraint.interface != self.interface {
                 return Ok(());
             }
             let condition = &constraint.condition;
-            let (answer, Motion { turn, ahead_turn, .. }) = answer(&self.law, self.levels.as_ref(), constraint, trial);
+            let (answer, Motion { turn, ahead_turn, .. }) = answer(law, self.levels.as_ref(), constraint, trial);
             let (pressure, shear) = (condition.area * answer.pressure, condition.area * answer.shear);
             let ahead_slope = if condition.looks_ahead() { trial.ahead_slope } else { 0.0 };
             let moment = condition.area * condition.curvature * answer.moment;

@@ -17,4 +17,5 @@ mod slow {
     mod new;
     mod resume;
     mod sweep;
+    mod start;
 }

@@ -114,6 +114,25 @@ fn a_solve_that_fails_leaves_the_earlier_results() {
     says(&in_folder(scene.path(), &["run", "."]), 0, &["solve: nothing has changed"]);
 }
 
+/// `mpm run` exports what an analysis came to that could not go on: beside earlier results into a folder of its own.
+#[test]
+fn a_run_that_fails_is_exported_as_far_as_it_came() {
+    let exported = "1 frames of a run that is not finished, up to t = 0 s: ";
+    let failing = [&["run", "."], &FAILING[..]].concat();
+    let first = scene();
+    let said = says(&in_folder(first.path(), &failing), 1, &[&format!("out/points.pvd: {exported}"), "error: Newton"]);
+    assert!(said.find(exported) < said.find("error: Newton"), "{said}");
+    assert!(first.path().join("out/points.pvd").exists());
+
+    let scene = done();
+    let series = || [all(scene.path(), "out/vtu"), all(scene.path(), "out/points.pvd")];
+    let before = (run_files(scene.path()), series());
+    says(&in_folder(scene.path(), &failing), 1, &[&format!("out/unfinished/points.pvd: {exported}")]);
+    assert!(scene.path().join("out/unfinished/points.pvd").exists());
+    assert!((run_files(scene.path()), series()) == before);
+    says(&in_folder(scene.path(), &["run", "."]), 0, &["solve: nothing has changed", "export: nothing has changed"]);
+}
+
 #[test]
 fn points_of_other_entries_of_the_case_are_refused_and_no_result_is_touched() {
     let scene = done();

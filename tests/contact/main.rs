@@ -1,6 +1,7 @@
 //! What touches what, from the case to the results: rigid structures, walls, and bodies with bodies.
 
 mod bodies;
+mod changes;
 mod effective_friction;
 mod input;
 mod rigid;

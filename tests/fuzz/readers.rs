@@ -393,7 +393,7 @@ impl Checkpoints {
         for (number, ready) in scenes.iter().enumerate() {
             for state in &ready.states {
                 // The scene goes along in a text, for the reader to find it.
-                let mut store = checkpoint::store(state);
+                let mut store = checkpoint::put(Kept::store(), state);
                 store.put_text("scene", ready.name);
                 new.kept().save(1, store).unwrap();
                 corpus.push(fs::read(new.path()).unwrap());
@@ -444,6 +444,9 @@ impl Reader for Checkpoints {
         };
         let state = checkpoint::take(loaded.store, &ready.scene, &ready.first)?;
         let meaning = meaning(&state);
+        // Nor may the same do harm as the end of a phase.
+        let again = self.kept().latest()?.expect("a checkpoint is there");
+        let _ = checkpoint::after_phase(again.store, &ready.scene, &ready.first, state.phase + 1);
         // That the analysis cannot go on from there may be.
         let _ = ready.step(state);
         Ok(meaning)

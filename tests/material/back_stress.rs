@@ -431,6 +431,7 @@ fn run(folder: &Path, resume: bool, last: u64) -> Ended {
     let outputs = Outputs {
         folder: RunFolder::new(folder),
         warnings: Vec::new(),
+        ends: Vec::new(),
         fields,
         watches: Vec::new(),
         until: Vec::new(),

@@ -59,7 +59,7 @@ fn clay() -> Arc<dyn Model> {
         let (name, value) = entry.split_once(": ").unwrap();
         parameters.set(name, Profile::constant(value.parse().unwrap()));
     }
-    parameters.set("preconsolidation", Profile { top: CRUST, gradient: growth(), datum: HEIGHT });
+    parameters.set("preconsolidation", Profile::growing(CRUST, growth(), HEIGHT));
     (kind.build)(&parameters).unwrap()
 }
 

@@ -65,7 +65,7 @@ fn plane_strain_strength() {
     assert!((last.stress[1] - expected).abs() <= 1e-8 * expected.abs(), "{:?} {expected}", last.stress);
     assert!(last.stress[2] < last.stress[0] && last.stress[2] > last.stress[1]);
 
-    let clay = Tresca::new(elasticity(1000.0, 0.4999), Profile { top: 1.0, gradient: 2.0, datum: 0.0 }).unwrap();
+    let clay = Tresca::new(elasticity(1000.0, 0.4999), Profile::growing(1.0, 2.0, 0.0)).unwrap();
     for mean in [-1e4, 0.0, 1e4] {
         let volumetric = clay.elastic_strain(0.0, &[mean; 3])[0];
         let r = clay.respond(-3.0, &[volumetric + 0.05, volumetric - 0.05, volumetric], &State::default(), &mut []);
@@ -232,7 +232,7 @@ fn ranges_are_checked() {
     assert!(build(0.0, 0.0).is_ok());
     assert!(MohrCoulomb::new(e, Profile::constant(0.0), Friction::degrees(0.0, 0.0).unwrap(), None).is_err());
 
-    let softening = Profile { top: 5.0, gradient: -1.0, datum: 0.0 };
+    let softening = Profile::growing(5.0, -1.0, 0.0);
     let clay = Tresca::new(e, softening).unwrap();
     assert!(clay.check(-4.0).is_ok());
     assert!(clay.check(-5.0).unwrap_err().to_string().contains("shear_strength"));

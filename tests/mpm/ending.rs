@@ -94,6 +94,29 @@ fn a_phase_that_begins_in_equilibrium_ends_with_its_first_step() {
     }
 }
 
+/// What a motion left, which falls no further, does not keep a phase waiting; nor does soil on which nothing acts.
+#[test]
+fn a_phase_in_which_nothing_moves_ends() {
+    let wait = |before: &str, more: &str| {
+        let phases = format!(
+            "phases=[{before}{{name: wait, analysis: dynamic, duration: 0.4, step: {{initial: 0.02}}, {more} \
+              until: [{{equilibrium: 1.0e-3}}]}}]"
+        );
+        let strong = "materials.soil.cohesion=50";
+        let settings =
+            ["mesh.parameters.h=2", "supports.bottom={ux: 0, uy: 0}", strong, "numerics.spectral_radius=1", &phases];
+        run("cases/slump", &settings).1
+    };
+    let before = "{name: gravity, analysis: quasi_static, duration: 1, step: {initial: 0.25}, gravity: {rate: 1}}, \
+        {name: stand, analysis: dynamic, duration: 0.1, step: {initial: 0.02}}, ";
+    let log = wait(before, "");
+    assert!(log.contains("phase `wait` ends: nothing moves") && log.matches(" wait t ").count() == 1, "{log}");
+    // Not before a load that is to come.
+    assert!(wait(before, "gravity: {table: [[0, 1], [0.3, 1], [0.4, 1.1]]},").matches(" wait t ").count() > 10);
+    let log = wait("", "gravity: 0,");
+    assert!(log.contains("phase `wait` ends: it began at rest") && log.matches(" wait t ").count() == 1, "{log}");
+}
+
 /// A plate that went through soil while their contact was away is not there again without a word.
 #[test]
 fn soil_in_a_structure_that_touches_again_is_told() {

@@ -45,6 +45,7 @@ fn a_field_of_ones_own_is_written_and_exported() {
     let outputs = Outputs {
         folder: RunFolder::new(folder.path()),
         warnings: Vec::new(),
+        ends: Vec::new(),
         fields: vec![Arc::new(VolumeRatio)],
         watches: Vec::new(),
         until: Vec::new(),

@@ -80,7 +80,7 @@ fn inertia_of_faces_keeps_both_momenta() {
 }
 
 fn young(young: f64) -> Option<Arc<dyn Model>> {
-    let profile = Profile { top: young, gradient: 0.0, datum: 0.0 };
+    let profile = Profile::growing(young, 0.0, 0.0);
     Some(Arc::new(LinearElastic::new(Elasticity::new(profile, 0.25).unwrap())))
 }
 
@@ -179,7 +179,7 @@ fn the_condition_number_is_bounded_however_thin_the_sliver() {
 #[test]
 fn soil_that_flows_is_held_by_no_more_than_a_share_of_its_strength() {
     fn limited(mesh: &Mesh<2>) -> Box<dyn Term<2>> {
-        let profile = |top: f64| Profile { top, gradient: 0.0, datum: 0.0 };
+        let profile = |top: f64| Profile::growing(top, 0.0, 0.0);
         let elasticity = Elasticity::new(profile(1000.0), 0.25).unwrap();
         let soil: Arc<dyn Model> = Arc::new(Tresca::new(elasticity, profile(1.0)).unwrap());
         Box::new(of::<PlaneStrain>(mesh, vec![Some(soil)]).holding(5e-4))

@@ -28,7 +28,7 @@ fn cases() -> Vec<Case> {
     let case = |name, model: &Arc<dyn Model>, strain, yields| Case { name, model: model.clone(), strain, yields };
     let elastic: Arc<dyn Model> = elastic();
     let von_mises: Arc<dyn Model> = Arc::new(VonMises::new(elasticity(), Profile::constant(12.0)).unwrap());
-    let strength = Profile { top: 6.0, gradient: 0.5, datum: 1.0 };
+    let strength = Profile::growing(6.0, 0.5, 1.0);
     let tresca: Arc<dyn Model> = Arc::new(Tresca::new(elasticity(), strength).unwrap());
     let (associated, dilating) = (mohr_coulomb(30.0, None), mohr_coulomb(10.0, None));
     let cut = mohr_coulomb(10.0, Some(2.0));

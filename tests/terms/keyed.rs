@@ -344,9 +344,10 @@ fn solve(loaded: &Loaded, mesh: &Mesh<2>, folder: &std::path::Path, resume: bool
     let entries = format!("{:?}", loaded.shaping(Product::Results));
     let origin = Origin { run: Fingerprint::of(&[entries.as_bytes()]), mesh: 1 };
     let points = seeding::points(&loaded.case, mesh).unwrap();
+    let begin = scene::Begin { origin, resume, ..scene::Begin::default() };
     let (folder, stop) = (RunFolder::new(folder), AtomicBool::new(false));
     let watch = |progress: mpm::run::Progress| stop.store(progress.step >= last, Ordering::Relaxed);
-    scene::solve(&loaded.case, mesh.clone(), points, &folder, origin, resume, &stop, &mut { watch })
+    scene::solve(&loaded.case, mesh.clone(), points, &folder, begin, &stop, &mut { watch })
 }
 
 /// The columns of the history of a case with overrides: time, and the displacements of both halves of the base.

@@ -389,7 +389,7 @@ pub fn size(force: &[[f64; 2]]) -> f64 {
 /// Hencky elasticity, for terms that need a model beside them.
 pub fn elasticity() -> Elasticity {
     // Growing with depth, as soils do.
-    Elasticity::new(Profile { top: 1000.0, gradient: 100.0, datum: 1.0 }, 0.3).unwrap()
+    Elasticity::new(Profile::growing(1000.0, 100.0, 1.0), 0.3).unwrap()
 }
 
 pub fn elastic() -> Arc<LinearElastic> {

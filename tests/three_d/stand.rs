@@ -41,7 +41,7 @@ impl Random {
 
 /// Hencky elasticity that grows with depth below z = 1 m.
 pub fn elasticity() -> Elasticity {
-    Elasticity::new(Profile { top: 1000.0, gradient: 100.0, datum: 1.0 }, 0.3).unwrap()
+    Elasticity::new(Profile::growing(1000.0, 100.0, 1.0), 0.3).unwrap()
 }
 
 /// Points of a mesh, so many in each cell.

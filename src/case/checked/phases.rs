@@ -1,6 +1,7 @@
 //! A phase of a checked case: its analysis and steps, what it prescribes, loads and changes, and what ends it.
 
 use super::super::raw::Quantity;
+use crate::contact::Law;
 use crate::time_value::TimeValue;
 
 /// A phase of the analysis.
@@ -22,6 +23,8 @@ pub struct Phase {
     pub absent: Vec<String>,
     /// The materials that regions take as it begins.
     pub changes: Vec<Change>,
+    /// The laws that contacts take as it begins.
+    pub contacts: Vec<ContactChange>,
     /// Whether displacements are counted from its beginning.
     pub reset: bool,
     pub until: Vec<Until>,
@@ -51,6 +54,13 @@ impl Analysis {
 pub struct Change {
     pub region: usize,
     pub material: usize,
+}
+
+/// A law that the contact of this name takes.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ContactChange {
+    pub name: String,
+    pub law: Law,
 }
 
 /// What ends a phase before its time.

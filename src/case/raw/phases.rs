@@ -1,6 +1,6 @@
 //! Phases as they are written: steps, motions, loads, and what ends a phase.
 
-use super::{Profile, Quantity};
+use super::{Profile, Quantity, Tension};
 use schemars::JsonSchema;
 use serde::Deserialize;
 use std::collections::BTreeMap;
@@ -41,6 +41,9 @@ pub struct Phase {
     /// The materials that regions take as the phase begins, by the names of the regions. Stress is kept.
     #[serde(default)]
     pub materials: BTreeMap<String, String>,
+    /// Settings that contacts, by their `name`, take as the phase begins; what is left out stays.
+    #[serde(default)]
+    pub contacts: BTreeMap<String, ContactChange>,
     /// Whether frames and history count displacements from the beginning of the phase.
     #[serde(default)]
     pub reset_displacements: bool,
@@ -49,6 +52,37 @@ pub struct Phase {
     pub until: Vec<Until>,
     /// Factor that the strengths of soil and contacts are divided by, above 0 (-). Default: 1; in a strength_reduction phase 1 plus the time.
     pub strength_reduction: Option<InTime>,
+}
+
+/// Settings of a contact from a phase on.
+#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ContactChange {
+    /// Coefficient of friction tan δ (-).
+    #[schemars(range(min = 0))]
+    pub friction: Option<f64>,
+    /// Adhesion (kPa).
+    #[schemars(range(min = 0))]
+    pub adhesion: Option<f64>,
+    /// α (-), from 0 to 1, or `none`: the share of the shear strength of the soil that limits the shear.
+    pub adhesion_factor: Option<AdhesionFactor>,
+    /// Whether the two part where they are pulled: cut_off, no_separation or {limit: t}.
+    pub tension: Option<Tension>,
+}
+
+/// The share of the shear strength of the soil that limits the shear of a contact.
+#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
+#[serde(untagged)]
+pub enum AdhesionFactor {
+    Share(f64),
+    Named(NoFactor),
+}
+
+/// No such limit.
+#[derive(Clone, Copy, Debug, Deserialize, JsonSchema, PartialEq, Eq)]
+#[serde(rename_all = "snake_case")]
+pub enum NoFactor {
+    None,
 }
 
 /// A condition that ends a phase: a quantity of the history that is above or below a bound, or equilibrium.

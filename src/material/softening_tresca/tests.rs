@@ -5,7 +5,7 @@ use super::*;
 fn model(rate: f64) -> SofteningTresca {
     let elasticity = Elasticity::new(Profile::constant(2600.0), 0.3).unwrap();
     let softening = Softening { remoulded: 0.25, ductility: 4.0, rate, reference_rate: 0.01 };
-    SofteningTresca::new(elasticity, Profile { top: 4.0, gradient: 1.0, datum: 0.0 }, softening).unwrap()
+    SofteningTresca::new(elasticity, Profile::growing(4.0, 1.0, 0.0), softening).unwrap()
 }
 
 /// Leads a point through pure shear in steps of `step`, each of which takes `1/inverse_dt`.

@@ -27,7 +27,7 @@ fn the_mass_is_density_times_volume_and_grows_with_depth() {
             assert!((mass / (1.7 * 9.0) - 1.0).abs() < 1e-12, "{kind:?} {count}: {mass}");
         }
         // Height is z.
-        let density = Profile { top: 1.0, gradient: 0.5, datum: 1.5 };
+        let density = Profile::growing(1.0, 0.5, 1.5);
         let seeds = [RegionSeed { region: 0, points_per_cell: 8, density }];
         let points = seed(&mesh, false, &seeds).unwrap();
         let mass: f64 = points.mass.iter().sum();

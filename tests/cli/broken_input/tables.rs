@@ -95,7 +95,10 @@ pub const MEANING: &[Broken] = &[
     check(Case("{top: 100, gradient: 10}", "-100"), &["case.yaml:11:32", "-100 is not positive"]),
     check(Case("top: 100", "top: .nan"), &["case.yaml:11", "not a finite number", "write a number"]),
     check(Case("top: 100", "top: 1e999"), &["case.yaml:11", "must be a number"]),
-    check(Case("gradient: 10", "gradient: -10"), &["case.yaml:11", "young.gradient", "at least 0"]),
+    check(Case("gradient: 10", "gradient: -10"), &["case.yaml:11", "young.gradient", "no `least`"]),
+    check(Case("gradient: 10", "gradient: 10, least: 5"), &["case.yaml:11", "young.least", "does not fall"]),
+    check(Case("gradient: 10", "gradient: -10, least: 500"), &["case.yaml:11", "young.least", "above the `top`"]),
+    check(Case("density: 1.8", "density: {top: 1.8, gradient: -1, least: 1}"), &["density.gradient", "at least 0"]),
     check(Case("shear_strength: 1,", ""), &["case.yaml:11:3 (materials.clay)", "tresca needs `shear_strength`", "add"]),
     check(Case("shear_strength: 1", "shear_strength: 0"), &["shear_strength", "0 is not positive"]),
     check(

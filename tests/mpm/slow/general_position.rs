@@ -168,7 +168,7 @@ impl Footing {
     /// Mean pressure under the footing over the strength at the surface, after each step.
     fn push<K: Kinematics<2> + 'static>(&self) -> Vec<f64> {
         let begin = Instant::now();
-        let strength = Profile { top: 1.0, gradient: self.gain, datum: DEPTH };
+        let strength = Profile::growing(1.0, self.gain, DEPTH);
         let model = |poisson: f64| -> Arc<dyn Model> {
             let young = Elasticity::new(constant(2.0 * (1.0 + poisson) * SHEAR), poisson).unwrap();
             Arc::new(Tresca::new(young, strength).unwrap())

@@ -2,12 +2,13 @@
 
 use crate::support::{errors, mpm, succeeds};
 
-/// The log of a run of the block with a groove with overrides, and what it said on standard error.
-fn run(overrides: &[&str]) -> (String, String) {
+/// The log of a run of the block with a groove with overrides, what it said on standard error, and on standard output.
+fn run(overrides: &[&str]) -> [String; 3] {
     let folder = tempfile::tempdir().unwrap();
     let output = mpm("run", "tests/data/groove", folder.path(), overrides);
     succeeds(&output);
-    (std::fs::read_to_string(folder.path().join("solve.log")).unwrap(), errors(&output))
+    let log = std::fs::read_to_string(folder.path().join("solve.log")).unwrap();
+    [log, errors(&output), String::from_utf8_lossy(&output.stdout).into_owned()]
 }
 
 /// A slab that falls onto a block closes the groove of 0.8 m by 0.5 m in it: a void that is reported once, on the console and in the log. Without the
@@ -16,9 +17,12 @@ fn run(overrides: &[&str]) -> (String, String) {
 fn a_groove_that_soil_closes_over_is_reported_once() {
     let told = "warning: phase `fall`: a void has opened within the soil";
     for (overrides, count) in [(&[][..], 1), (&["regions.groove={kind: mpm, material: soil}"][..], 0)] {
-        let (log, said) = run(overrides);
+        let [log, said, summary] = run(overrides);
         assert_eq!(log.matches("void").count(), count, "{overrides:?}: {log}");
         assert_eq!(said.matches(told).count(), count, "{overrides:?}: {said}");
+        // Again at the end.
+        let at_end = summary.split("solved in").nth(1).unwrap();
+        assert_eq!(at_end.matches(told).count(), count, "{overrides:?}: {summary}");
         if let Some(line) = log.lines().find(|line| line.contains(told)) {
             let area: f64 = line.split(" m, of ").nth(1).unwrap().split(' ').next().unwrap().parse().unwrap();
             println!("{line}");

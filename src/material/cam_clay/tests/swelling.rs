@@ -236,7 +236,7 @@ fn parameters_that_do_not_go_together_are_refused() {
     let error = CamClay::with_swelling(swelling, 0.5, M, Profile::constant(P_C), 0.1).unwrap_err();
     assert_eq!(error.place, "poisson");
     // A preconsolidation that is the reference, too, is told as what was given.
-    let falling = Profile { top: P_C, gradient: -10.0, datum: 0.0 };
+    let falling = Profile::growing(P_C, -10.0, 0.0);
     let swelling = Swelling::new(SWELLING, LEAST, falling).unwrap();
     let clay = CamClay::with_swelling(swelling, POISSON, M, falling, 0.1).unwrap();
     assert_eq!(clay.check(-P_C).unwrap_err().place, "preconsolidation");
@@ -249,7 +249,7 @@ fn parameters_that_do_not_go_together_are_refused() {
 /// Where the reference is below the least pressure, whose bulk modulus holds there, so is Poisson's ratio that of the least pressure.
 #[test]
 fn poisson_holds_below_the_least_pressure() {
-    let reference = Profile { top: 0.1, gradient: 1.0, datum: 0.0 };
+    let reference = Profile::growing(0.1, 1.0, 0.0);
     let swelling = Swelling::new(SWELLING, 2.0, reference).unwrap();
     let clay = CamClay::with_swelling(swelling, POISSON, M, Profile::constant(P_C), 0.1).unwrap();
     for (y, pressure) in [(0.0, 2.0), (-1.0, 2.0), (-9.9, 10.0)] {
