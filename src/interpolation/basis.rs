@@ -123,6 +123,11 @@ pub trait Basis<const D: usize>: fmt::Debug + Send + Sync {
         None
     }
 
+    /// Whether strains are taken with the gradients that forces act through. Else no force has a potential, and tangents are not symmetric.
+    fn is_symmetric(&self) -> bool {
+        true
+    }
+
     /// The nodes that the points of each cell act on, for the matrix to couple; `None` where these are those of the cell. They
     /// are nodes of active cells, and depend on the grid and its active cells, not on where the points are.
     fn support(&self, _mesh: &Mesh<D>, _active: &[bool]) -> Option<Support> {

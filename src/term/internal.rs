@@ -281,6 +281,7 @@ impl<const D: usize, K: Kinematics<D>, S: Mixed<D, K>> Term<D> for Internal<K, S
             let mut spatial = [Gradient { g: [0.0; D], hoop: 0.0 }; MAX_FUNCTIONS];
             let own = cell_points.node_count as usize;
             let layout = Layout::new::<D, K>(cell_points);
+            let mut apart = Vec::new();
             Stiffness::with::<D, _>(own, |stiffness| {
                 for (k, ((entries, point), answer)) in
                     frame.interpolation.entries::<K>(cell_points).zip(&strained).zip(&mut answers).enumerate()
@@ -296,16 +297,18 @@ impl<const D: usize, K: Kinematics<D>, S: Mixed<D, K>> Term<D> for Internal<K, S
                             local.vector[i * D + d] += volume * f[d];
                         }
                     }
-                    let spatial = &spatial[..count];
+                    let forces = &spatial[..count];
+                    let strains = entries.strains::<K>(forces, &point.inverse, &mut apart);
                     if wanted {
                         let (tangent, weight) = (&answer.0.tangent, later * volume);
-                        stiffness.push::<D, K>(tangent, &spatial[..own], weight, local);
+                        stiffness.push::<D, K>(tangent, [&forces[..own], &strains[..own]], weight, local);
                         if !kept.is_empty() {
                             smoothed::keep::<D, K>(&layout, tangent, &entries, &point.inverse, weight, k, kept);
                         }
                     }
                     let seen = answer.1.as_ref();
-                    self.share.couple(&cell, frame.points, &entries, spatial, ratios, seen, &acts_on, later, local);
+                    let gradients = [forces, strains];
+                    self.share.couple(&cell, frame.points, &entries, gradients, ratios, seen, &acts_on, later, local);
                 }
                 if wanted {
                     stiffness.add_to::<D, K>(local);

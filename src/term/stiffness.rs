@@ -1,7 +1,7 @@
 //! The stiffness of the points of a cell, `Σ_p w_p B_pᵀ a_p B_p`, as a product of two dense matrices.
 //!
-//! The right one holds `w a B`, a row for each component of the gradients of each point; the left one the gradients
-//! themselves. Their product runs along rows of the result, so that it fills whole registers, whatever the machine has.
+//! The right one holds `w a B` of the gradients that strains are taken with, a row for each component of each point; the left one the
+//! gradients that forces act through. Their product runs along rows of the result, so that it fills whole registers, whatever the machine has.
 
 use crate::kinematics::{Gradient, Kinematics};
 use crate::system::Local;
@@ -41,11 +41,11 @@ impl Stiffness {
         })
     }
 
-    /// Takes in a point with its tangent, gradients on the deformed grid and weight (m³).
+    /// Takes in a point with its tangent, gradients on the deformed grid that forces act through and strains are taken with, and weight (m³).
     pub fn push<const D: usize, K: Kinematics<D>>(
         &mut self,
         tangent: &K::Tangent,
-        spatial: &[Gradient<D>],
+        [forces, strains]: [&[Gradient<D>]; 2],
         weight: f64,
         local: &mut Local,
     ) {
@@ -58,12 +58,12 @@ impl Stiffness {
         self.right.resize(right * AT_ONCE, 0.0);
         let left = &mut self.left[left * self.points..][..left];
         let right = &mut self.right[right * self.points..][..right];
-        for (b, gradient) in spatial.iter().enumerate() {
+        for (b, (force, strain)) in forces.iter().zip(strains).enumerate() {
             for d in 0..D {
-                left[d * functions + b] = gradient.g[d];
+                left[d * functions + b] = force.g[d];
             }
-            left[D * functions + b] = gradient.hoop;
-            let column = K::column(tangent, gradient);
+            left[D * functions + b] = force.hoop;
+            let column = K::column(tangent, strain);
             for (row, column) in right.chunks_exact_mut(width).zip(column.as_ref()) {
                 for (entry, a) in row[b * D..(b + 1) * D].iter_mut().zip(column) {
                     *entry = weight * a;

@@ -98,6 +98,8 @@ struct Place<'a, const D: usize> {
     /// The values of functions at the nodes, and the gradients of all, in the configuration of the grid.
     value: &'a [f64],
     gradient: &'a [Gradient<D>],
+    /// The gradients that strains are taken with, where these are others.
+    strain_gradient: Option<&'a [Gradient<D>]>,
     /// The inverse of the deformation of the grid there.
     inverse: Tensor,
     /// The volume (m³) in the trial state.
@@ -116,6 +118,10 @@ impl<const D: usize> Place<'_, D> {
             spatial[i] = K::push_forward(&self.gradient[i], &self.inverse);
             divergence[i] = K::force(&Tensor::identity(), &spatial[i]);
         }
+        let apart: Option<Vec<_>> = self.strain_gradient.map(|gradients| {
+            let strains = gradients.iter().map(|gradient| K::push_forward(gradient, &self.inverse));
+            strains.map(|strain| (strain, K::force(&Tensor::identity(), &strain))).collect()
+        });
         let value = |i: usize| self.value.get(i).copied().unwrap_or(0.0);
         for i in 0..count {
             for d in 0..D {
@@ -129,10 +135,11 @@ impl<const D: usize> Place<'_, D> {
         let weight = share * volume;
         for i in 0..count {
             for j in 0..count {
-                let (a, b, size) = (&spatial[i], &spatial[j], local.size);
+                let (a, size) = (&spatial[i], local.size);
+                let (b, swelling) = apart.as_ref().map_or((&spatial[j], &divergence[j]), |apart| (&apart[j].0, &apart[j].1));
                 for d in 0..D {
                     for e in 0..D {
-                        let mut entry = left * (divergence[i][d] * divergence[j][e] - a.g[e] * b.g[d]);
+                        let mut entry = left * (divergence[i][d] * swelling[e] - a.g[e] * b.g[d]);
                         if d == 0 && e == 0 {
                             entry -= left * a.hoop * b.hoop;
                         }
@@ -140,7 +147,7 @@ impl<const D: usize> Place<'_, D> {
                             entry += left_slope * divergence[i][d] * value(j);
                         }
                         if d == 1 {
-                            entry += slope * value(i) * divergence[j][e];
+                            entry += slope * value(i) * swelling[e];
                         }
                         if d == 1 && e == 1 {
                             entry += second * value(i) * value(j);
@@ -269,7 +276,7 @@ impl<'a, const D: usize> Layered<'a, D> {
             match invert(&deformed) {
                 Ok((inverse, ratio)) => {
                     let volume = self.scale * volume * ratio;
-                    Place { value, gradient, inverse, volume, pressures }.add::<K>(1.0 - trial.alpha_f, local);
+                    Place { value, gradient, strain_gradient: None, inverse, volume, pressures }.add::<K>(1.0 - trial.alpha_f, local);
                 }
                 Err(determinant) => inverted = Some(determinant),
             }
@@ -342,7 +349,10 @@ impl<const D: usize, K: Kinematics<D>> Term<D> for VirtualPressure<K> {
                     .map_err(|determinant| inside_out(frame.points.name(entries.point), determinant))?;
                 let ratio = determinant / known.determinant();
                 let volume = entries.weight * ratio * frame.points.deformation[entries.point].determinant();
-                let place = Place { value: entries.value, gradient: &gradient[..count], inverse, volume, pressures };
+                let apart: Option<Vec<_>> =
+                    entries.strains_apart().then(|| (0..count).map(|i| entries.strain_gradient(i)).collect());
+                let (value, gradient, strain_gradient) = (entries.value, &gradient[..count], apart.as_deref());
+                let place = Place { value, gradient, strain_gradient, inverse, volume, pressures };
                 place.add::<K>(1.0 - trial.alpha_f, local);
             }
             Ok(())
