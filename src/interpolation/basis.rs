@@ -88,9 +88,9 @@ pub trait Basis<const D: usize>: fmt::Debug + Send + Sync {
         None
     }
 
-    /// Whether the scheme supports cells of a kind.
-    fn takes(&self, _kind: CellKind) -> bool {
-        true
+    /// Whether the scheme supports cells of a kind. Those of third order are there for splines.
+    fn takes(&self, kind: CellKind) -> bool {
+        kind.order() < 3
     }
 
     /// What the scheme cannot do on a mesh, and a remedy.

@@ -15,8 +15,9 @@
 //! only and not in the state they converge to. Here the tangent is the derivative of the residual, which is not symmetric, as forces and
 //! strains have other gradients.
 //!
-//! The patch takes in the line beyond a side of the cell where both nodes of the side have a neighbour there. Where two such lines cross in no
-//! node, at a corner that enters the grid, neither is taken.
+//! The patch takes in the cells beside that of the point that are at least half filled by the domains of the points in them: of a cell with less the
+//! nodes far from the body have hardly a force of their own, and strains must not hang on them. Where a cell is left out between two that would be taken,
+//! at a corner of the body, these are left out as well.
 
 use super::gimp::{Gimp, Rectangle, slanted};
 use super::{Basis, First, Interpolation, Located, Reset, Support};
@@ -25,8 +26,12 @@ use crate::mesh::shape::CellKind;
 use crate::points::Points;
 use rayon::prelude::*;
 
-/// Distance (-) of nodes over the size of a cell below which they are on one line.
+/// Distance (-) of nodes over the size of a cell below which they are at one place.
 const ON_LINE: f64 = 1e-6;
+
+/// The part (-) of a cell that must be filled for it to take part in the strains of the cells beside it. Points that wander change it by a quarter or so in a
+/// full body of four points a cell.
+const FILLED: f64 = 0.5;
 
 /// The scheme. Domains are those of [`Gimp::STRETCHED`].
 #[derive(Clone, Copy, Debug)]
@@ -75,16 +80,29 @@ impl Basis<2> for Composite {
 
     fn fill(&self, points: &Located<2>, interpolation: &mut Interpolation<2>) {
         Gimp::STRETCHED.fill(points, interpolation);
+        let Some(domains) = &points.domains else { return };
+        let mesh = points.mesh;
+        let area = |c: usize| {
+            let Rectangle { low, high } = Rectangle::of(mesh, c);
+            (high[0] - low[0]) * (high[1] - low[1])
+        };
+        let mut held = vec![0.0; mesh.cells.len()];
+        for (p, &c) in points.cell.iter().enumerate() {
+            held[c as usize] += domains.get(p)[..2].iter().product::<f64>();
+        }
+        let filled: Vec<bool> = held.iter().enumerate().map(|(c, held)| *held >= FILLED * area(c)).collect();
         interpolation.strain_gradient.resize(interpolation.gradient.len(), [0.0; 2]);
         let support = interpolation.support.clone();
         interpolation.slots().into_par_iter().for_each(|slot| {
             let cell = slot.cell_points.cell;
-            let own = points.mesh.cells.nodes(cell as usize);
+            let own = mesh.cells.nodes(cell as usize);
             let nodes = support.as_ref().map_or(own, |support| support.nodes(cell));
-            let patch = Patch::of(points.mesh, cell as usize, nodes);
+            let beside = domains.locator.neighbours(cell).iter().map(|&c| c as usize);
+            let beside = beside.filter(|&c| filled.get(c).is_some_and(|filled| *filled) && points.active[c]);
+            let patch = Patch::of(mesh, cell as usize, beside, nodes);
             let gradients = slot.strain_gradient.chunks_exact_mut(nodes.len());
             for (gradient, shape) in gradients.zip(slot.shape.chunks_exact(own.len())) {
-                let term = |d| own.iter().zip(shape).map(move |(&n, shape)| shape * points.mesh.nodes[n as usize][d]);
+                let term = |d| own.iter().zip(shape).map(move |(&n, shape)| shape * mesh.nodes[n as usize][d]);
                 patch.gradients([0, 1].map(|d| term(d).sum()), gradient);
             }
         });
@@ -100,40 +118,44 @@ struct Patch {
 }
 
 impl Patch {
-    /// That of a cell whose points act on `nodes`.
-    fn of(mesh: &Mesh<2>, cell: usize, nodes: &[u32]) -> Self {
-        let Rectangle { low, high } = Rectangle::of(mesh, cell);
-        let off = [0, 1].map(|d| ON_LINE * (high[d] - low[d]));
-        let at = |x: [f64; 2]| {
-            nodes.iter().position(|&n| (0..2).all(|d| (mesh.nodes[n as usize][d] - x[d]).abs() <= off[d]))
-        };
-        // The next line on either side that has nodes beside both of the side.
-        let beyond = |d: usize, up: bool| {
-            let across = 1 - d;
-            let place = |x: f64, y: f64| if d == 0 { [x, y] } else { [y, x] };
-            let found = nodes.iter().map(|&n| mesh.nodes[n as usize][d]);
-            let line = if up {
-                found.filter(|x| *x > high[d] + off[d]).fold(f64::INFINITY, f64::min)
-            } else {
-                found.filter(|x| *x < low[d] - off[d]).fold(f64::NEG_INFINITY, f64::max)
-            };
-            [low, high].iter().all(|end| at(place(line, end[across])).is_some()).then_some(line)
-        };
-        let sides = [0, 1].map(|d| [beyond(d, false), beyond(d, true)]);
-        let mut taken = sides;
-        for (i, x) in sides[0].into_iter().enumerate() {
-            for (j, y) in sides[1].into_iter().enumerate() {
-                if let (Some(x), Some(y)) = (x, y) && at([x, y]).is_none() {
-                    (taken[0][i], taken[1][j]) = (None, None);
-                }
+    /// That of a cell, with those of the cells `beside` it that it takes in; its points act on `nodes`.
+    fn of(mesh: &Mesh<2>, cell: usize, beside: impl Iterator<Item = usize>, nodes: &[u32]) -> Self {
+        let own = Rectangle::of(mesh, cell);
+        // The far side of the cell beyond each side, before and after it along each axis, and the cells in the corners between them.
+        let (mut sides, mut corners) = ([[None; 2]; 2], [[false; 2]; 2]);
+        let mut taken = vec![cell];
+        for other in beside {
+            let Rectangle { low, high } = Rectangle::of(mesh, other);
+            let at = [0, 1].map(|d| {
+                let middle = 0.5 * (low[d] + high[d]);
+                usize::from(middle > own.low[d]) + usize::from(middle > own.high[d])
+            });
+            match at {
+                [1, 1] => continue,
+                [1, j] => sides[1][j / 2] = Some(if j == 0 { low[1] } else { high[1] }),
+                [i, 1] => sides[0][i / 2] = Some(if i == 0 { low[0] } else { high[0] }),
+                [i, j] => corners[i / 2][j / 2] = true,
+            }
+            taken.push(other);
+        }
+        let known = sides;
+        for (i, j) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
+            if known[0][i].is_some() && known[1][j].is_some() && !corners[i][j] {
+                (sides[0][i], sides[1][j]) = (None, None);
             }
         }
         let lines = [0, 1].map(|d| {
-            let [before, after] = taken[d];
-            before.into_iter().chain([low[d], high[d]]).chain(after).collect::<Vec<f64>>()
+            let [before, after] = sides[d];
+            before.into_iter().chain([own.low[d], own.high[d]]).chain(after).collect::<Vec<f64>>()
         });
+        let size = [0, 1].map(|d| own.high[d] - own.low[d]);
+        let at = |x: [f64; 2]| {
+            let near = |n: u32| (0..2).all(|d| (mesh.nodes[n as usize][d] - x[d]).abs() <= ON_LINE * size[d]);
+            let node = taken.iter().flat_map(|&c| mesh.cells.nodes(c)).find(|&&n| near(n))?;
+            nodes.iter().position(|n| n == node)
+        };
         let crossings = lines[1].iter().flat_map(|&y| lines[0].iter().map(move |&x| [x, y]));
-        // All of them are nodes: those of the cell, beside its sides, and beyond its corners where both sides are taken.
+        // All of them are nodes of the cells that are taken in.
         let node = crossings.filter_map(at).collect();
         Self { lines, node }
     }

@@ -38,7 +38,8 @@ use crate::kinematics::Kinematics;
 use crate::mesh::Mesh;
 
 /// The schemes that a case can have.
-pub const SCHEMES: &[&dyn Basis<2>] = &[&Mpm, &Ddmp, &Gimp::UNIFORM, &Gimp::STRETCHED, &Cpdi, &Cpdi2, &Composite, &BSpline];
+pub const SCHEMES: &[&dyn Basis<2>] =
+    &[&Mpm, &Ddmp, &Gimp::UNIFORM, &Gimp::STRETCHED, &Cpdi, &Cpdi2, &Composite, &BSpline];
 
 impl<const D: usize> Interpolation<D> {
     /// Fills in what points in `cell` at the parametric coordinates `xi`, given per point, see by a scheme. `active`

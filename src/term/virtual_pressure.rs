@@ -136,7 +136,8 @@ impl<const D: usize> Place<'_, D> {
         for i in 0..count {
             for j in 0..count {
                 let (a, size) = (&spatial[i], local.size);
-                let (b, swelling) = apart.as_ref().map_or((&spatial[j], &divergence[j]), |apart| (&apart[j].0, &apart[j].1));
+                let (b, swelling) =
+                    apart.as_ref().map_or((&spatial[j], &divergence[j]), |apart| (&apart[j].0, &apart[j].1));
                 for d in 0..D {
                     for e in 0..D {
                         let mut entry = left * (divergence[i][d] * swelling[e] - a.g[e] * b.g[d]);
@@ -276,7 +277,8 @@ impl<'a, const D: usize> Layered<'a, D> {
             match invert(&deformed) {
                 Ok((inverse, ratio)) => {
                     let volume = self.scale * volume * ratio;
-                    Place { value, gradient, strain_gradient: None, inverse, volume, pressures }.add::<K>(1.0 - trial.alpha_f, local);
+                    Place { value, gradient, strain_gradient: None, inverse, volume, pressures }
+                        .add::<K>(1.0 - trial.alpha_f, local);
                 }
                 Err(determinant) => inverted = Some(determinant),
             }
