@@ -13,7 +13,8 @@
 //!
 //! The paper's third part, a stiffness that is summed over the Gauss points of a cell, is left out: it has a share in the iterations
 //! only and not in the state they converge to. Here the tangent is the derivative of the residual, which is not symmetric, as forces and
-//! strains have other gradients.
+//! strains have other gradients. The gradients that forces act through are taken to the deformed grid by the deformation that they give
+//! themselves: the forces of a symmetric stress have then no moment.
 //!
 //! The patch takes in the cells beside that of the point that are at least half filled by the domains of the points in them: of a cell with less the
 //! nodes far from the body have hardly a force of their own, and strains must not hang on them. Where a cell is left out between two that would be taken,

@@ -127,6 +127,11 @@ impl<const D: usize> Interpolation<D> {
 }
 
 impl<const D: usize> Interpolation<D> {
+    /// Whether strains are taken with other gradients than forces act through.
+    pub fn strains_apart(&self) -> bool {
+        !self.strain_gradient.is_empty()
+    }
+
     /// Gives the points their weights (m³), by number.
     pub fn weigh(&mut self, weight: &[f64]) {
         for (own, &p) in self.weight.iter_mut().zip(&self.points) {
@@ -216,6 +221,15 @@ impl<const D: usize> Entries<'_, D> {
 
     fn with_hoop(&self, i: usize, g: [f64; D]) -> Gradient<D> {
         Gradient { g, hoop: self.value.get(i).map_or(0.0, |n| self.hoop * n) }
+    }
+
+    /// As [`Entries::deformation`], by the gradients that forces act through.
+    pub fn deformation_of_forces<K: Kinematics<D>>(&self, u: &[[f64; D]]) -> Tensor {
+        let mut f = Tensor::identity();
+        for (i, u) in u.iter().enumerate().take(self.functions()) {
+            K::deform(&mut f, u, &self.gradient(i));
+        }
+        f
     }
 
     /// The gradients that strains are taken with, on the grid deformed by the inverse of `inverse`, in a buffer; `forces`, those that

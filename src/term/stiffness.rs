@@ -5,6 +5,7 @@
 
 use crate::kinematics::{Gradient, Kinematics};
 use crate::system::Local;
+use crate::tensor::Tensor;
 use pulp::{Arch, Simd, WithSimd};
 use std::cell::RefCell;
 
@@ -91,6 +92,28 @@ impl Stiffness {
                 matrix: local.matrix,
                 size: local.size,
             });
+        }
+    }
+}
+
+/// Adds what the forces of a point change by where the gradients that they act through turn and stretch otherwise than those that strains are taken
+/// with: with the stress `P` of the force `V P ∇_x N`, of which the tangent takes `∇_x N` to follow the strain, `V (P (∇L_b − ∇N_b)) ⊗ ∇N_a`.
+pub fn add_turning<const D: usize>(
+    stress: &Tensor,
+    [forces, strains]: [&[Gradient<D>]; 2],
+    volume: f64,
+    local: &mut Local,
+) {
+    for (b, (force, strain)) in forces.iter().zip(strains).enumerate() {
+        let pull: [f64; D] =
+            std::array::from_fn(|i| volume * (0..D).map(|j| stress[(i, j)] * (strain.g[j] - force.g[j])).sum::<f64>());
+        for (a, force) in forces.iter().enumerate() {
+            for (i, pull) in pull.iter().enumerate() {
+                let row = (a * D + i) * local.size + b * D;
+                for (entry, g) in local.matrix[row..row + D].iter_mut().zip(&force.g) {
+                    *entry += pull * g;
+                }
+            }
         }
     }
 }

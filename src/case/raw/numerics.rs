@@ -8,8 +8,8 @@ use serde::Deserialize;
 #[serde(deny_unknown_fields, default)]
 pub struct Numerics {
     /// What material points see of the grid: mpm (the shape functions of their cell), ddmp (with gradients that are continuous from
-    /// cell to cell), bspline (quadratic B-splines, on rectangular grids of Q9 cells), or their means over domains of the points: ugimp,
-    /// cpgimp (gimp), cpdi, cpdi2 (docs/schemes.md).
+    /// cell to cell), bspline (B-splines of the degree that is the order of the cells, on rectangular grids of Q9 or Q16 cells), or their means over
+    /// domains of the points: ugimp, cpgimp (gimp), composite, cpdi, cpdi2 (docs/schemes.md).
     pub gradient: String,
     /// What integrals are summed over: resampled (integration points of the cells, which take their state from the material points
     /// when the grid is restored), or points (the material points, by their volumes). Default: resampled; points with
