@@ -94,6 +94,7 @@ class Run:
     peak: float  # [MB]
     iterations: list  # of Newton, a step
     halvings: int
+    nonzeros: float  # a row of the largest matrix
     case: Path
     settings: list
 
@@ -156,6 +157,7 @@ def solved(scene, settings=None, repeats=1, core=None):
             max(t.peak for t in times),
             iterations,
             len(re.findall(r"^  halved:", log, re.MULTILINE)),
+            float((re.findall(r"([\d.]+) nonzeros a row", times[0].out) or ["nan"])[-1]),
             case,
             sets,
         )

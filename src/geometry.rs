@@ -4,6 +4,7 @@
 
 mod bins;
 mod lines;
+pub mod quadratic;
 
 pub use bins::Bins;
 pub use lines::{Hit, Lines};

@@ -1,8 +1,9 @@
 //! Where the time goes: wall time by activity, summed over a run. The main thread is timed around whole
 //! activities; the material, which works inside the assembly on all threads, once a cell: so the clock costs
-//! next to nothing.
+//! next to nothing. And how large the systems of equations are.
 
 use std::cell::Cell;
+use std::sync::Mutex;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Instant;
 
@@ -46,6 +47,22 @@ thread_local! {
 
 /// Time of the material models, the sum over all threads.
 static MATERIAL: AtomicU64 = AtomicU64::new(0);
+
+/// Equations of the largest system so far and entries of its matrix.
+static SYSTEM: Mutex<(usize, usize)> = Mutex::new((0, 0));
+
+/// Notes a system of so many equations, with the entries of both triangles of its matrix.
+pub fn note_system(equations: usize, entries: usize) {
+    if let Ok(mut most) = SYSTEM.lock() {
+        *most = (*most).max((equations, entries));
+    }
+}
+
+/// Equations of the largest system so far, and entries a row of its matrix; `None` before there is one.
+pub fn largest_system() -> Option<(usize, f64)> {
+    let (equations, entries) = *SYSTEM.lock().ok()?;
+    (equations > 0).then(|| (equations, entries as f64 / equations as f64))
+}
 
 /// Runs `work` and books its time, less that of activities within it.
 pub fn timed<T>(activity: Activity, work: impl FnOnce() -> T) -> T {

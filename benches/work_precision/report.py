@@ -25,8 +25,11 @@ STYLES = {
     "cpdi": ("#2166ac", "4"),
     "cpdi, T6": ("#67a9cf", "+"),
     "cpdi2": ("#1b7837", "|"),
+    "composite": ("#5aae61", "p"),
     "bspline, points": ("#bf812d", "h"),
     "bspline": ("#8c510a", "H"),
+    "cubic bspline, points": ("#9970ab", "8"),
+    "cubic bspline": ("#762a83", "X"),
     "resampled, Q9": ("#0072b2", "d"),
     "Kratos MPM": ("#8b0000", "*"),
 }
@@ -120,7 +123,10 @@ def table(problem, series, rows):
     if len(series.variants) > 10:
         return scan(next(iter(problem.measures)), rows)
     ats = [at for at in dict.fromkeys(float(v.at) for v in series.variants) if any(float(r["at"]) == at for r in rows)]
-    lines = [f"| {series.axis} | " + " | ".join(f"{at:g}" for at in ats) + " |", "|---" * (len(ats) + 1) + "|"]
+    # What the largest run takes, where it was measured.
+    taken = any(row.get("peak [MB]") for row in rows)
+    heads = [f"{at:g}" for at in ats] + (["nonzeros a row", "peak [MB]"] if taken else [])
+    lines = [f"| {series.axis} | " + " | ".join(heads) + " |", "|---" * (len(heads) + 1) + "|"]
     for name in dict.fromkeys(r["scheme"] for r in rows):
         cells = []
         for at in ats:
@@ -134,6 +140,10 @@ def table(problem, series, rows):
                 errors = ", ".join(number(row[key], "{:.1e}") for key in problem.measures)
                 mark = "¹" if row["note"] else ""
                 cells.append(f"{errors} / {float(row['wall [s]']):.3g} s{mark}")
+        if taken:
+            of = [r for r in rows if r["scheme"] == name and r.get("peak [MB]")]
+            largest = max(of, key=lambda r: float(r["peak [MB]"]), default={})
+            cells += [number(largest.get("nonzeros a row"), "{:.1f}"), number(largest.get("peak [MB]"), "{:.0f}")]
         lines.append(f"| {name} | " + " | ".join(cells) + " |")
     if any(r["note"] and r["wall [s]"] for r in rows):
         lines += ["", "¹ " + "; ".join(dict.fromkeys(r["note"] for r in rows if r["note"] and r["wall [s]"])) + "."]
@@ -195,7 +205,7 @@ def write(problems, schemes, missing):
         picture(problem, rows)
         lines += [f"## {problem.title}", "", problem.text, *([remark] if remark else []), ""]
         lines += [f"![{problem.title}](benchmarks/{problem.name}.svg)", ""]
-        lines += ["Each entry: " + ", ".join(problem.measures.values()) + " / seconds.", ""]
+        lines += ["Each entry: " + ", ".join(problem.measures.values()) + " / seconds. Nonzeros a row of the matrix and peak of memory: of the run that takes most.", ""]
         for series in problem.series:
             of = [r for r in rows if r["series"] == series.name]
             if of:

@@ -25,7 +25,7 @@ from schemes import SCHEMES, missing  # noqa: E402
 
 PROBLEMS = {p.PROBLEM.name: p.PROBLEM for p in (column, slump, cantilever, footing, cavity, thrown)}
 CORE = max(os.sched_getaffinity(0))
-HEAD = ["series", "scheme", "at", "wall [s]", "cpu [s]", "iterations", "steps", "halvings", "note"]
+HEAD = ["series", "scheme", "at", "wall [s]", "cpu [s]", "iterations", "steps", "halvings", "nonzeros a row", "peak [MB]", "note"]
 
 
 def one(problem, scheme, variant, repeats):
@@ -38,6 +38,7 @@ def one(problem, scheme, variant, repeats):
         with solved(problem.scene, settings, repeats, CORE) as run:
             row |= {"wall [s]": round(run.wall, 4), "cpu [s]": round(run.cpu, 4)}
             row |= {"iterations": sum(run.iterations), "steps": len(run.iterations), "halvings": run.halvings}
+            row |= {"nonzeros a row": run.nonzeros, "peak [MB]": round(run.peak, 1)}
             row |= {key: float(f"{error:.4e}") for key, error in problem.errors(run, settings).items()}
     except (Failed, Refused) as error:
         row["note"] = str(error).replace(f"{ROOT}/", "")

@@ -32,6 +32,7 @@ QUALITY = {"min_quality": 0.5}
 # Regular quadrilaterals, of the problems whose geometry has them.
 Q4 = [("mesh.order", 1), ("mesh.parameters.quads", 1)]
 Q9 = [("mesh.order", 2), ("mesh.parameters.quads", 1)]
+Q16 = [("mesh.order", 3), ("mesh.parameters.quads", 1)]
 SCHEMES = [
     scheme("default", "what a case gets that says nothing"),
     scheme("plain", "V_p weights, plain gradients", quadrature="points", gradient="mpm", restore="every_step"),
@@ -49,8 +50,11 @@ SCHEMES = [
     scheme("cpdi", "CPDI, Q4", grid=Q4, gradient="cpdi", restore="every_step"),
     scheme("cpdi, T6", "CPDI on six-node triangles", first=True, gradient="cpdi", restore="every_step"),
     scheme("cpdi2", "CPDI2, Q4", grid=Q4, gradient="cpdi2", restore="every_step"),
+    scheme("composite", "composite points: GIMP with strains over a patch, Q4", grid=Q4, gradient="composite", restore="every_step"),
     scheme("bspline, points", "quadratic B-splines, V_p weights", grid=Q9, quadrature="points", gradient="bspline", restore="every_step"),
     scheme("bspline", "quadratic B-splines, resampled quadrature", grid=Q9, gradient="bspline", restore="every_step"),
+    scheme("cubic bspline, points", "cubic B-splines, V_p weights", grid=Q16, quadrature="points", gradient="bspline", restore="every_step"),
+    scheme("cubic bspline", "cubic B-splines, resampled quadrature", grid=Q16, gradient="bspline", restore="every_step"),
     scheme("resampled, Q9", "resampled quadrature on nine-node quadrilaterals", grid=Q9, quadrature="resampled", gradient="mpm",
            restore="every_step"),
     scheme("never", "the grid is never restored: finite elements", points=3, restore="never"),

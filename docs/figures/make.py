@@ -729,9 +729,77 @@ def domains(png):
     save(fig, "domains", png)
 
 
+# Splines with open ends, and the strains of composite points.
+
+
+def splines(png):
+    fig, (left, right) = plt.subplots(1, 2, figsize=(10.2, 3.5))
+    spans = 5
+    x = np.linspace(0, spans, 2001)
+
+    def function(degree, number, x):
+        knots = np.concatenate([np.zeros(degree), np.arange(spans + 1.0), np.full(degree, spans)])
+
+        def recurrence(k, p):
+            if p == 0:
+                last = (knots[k + 1] == spans) & (x == spans)
+                return np.where((knots[k] <= x) & ((x < knots[k + 1]) | last), 1.0, 0.0) * (knots[k] < knots[k + 1])
+            value = np.zeros_like(x)
+            for start, by in ((k, x - knots[k]), (k + 1, knots[k + p + 1] - x)):
+                length = knots[start + p] - knots[start]
+                if length > 0:
+                    value += by / length * recurrence(start, p - 1)
+            return value
+
+        return recurrence(number, degree)
+
+    for degree, color, style in ((2, GREEN, "-."), (3, BROWN, "-")):
+        for number in range(spans + degree):
+            name = f"degree {degree}" if number == 0 else None
+            left.plot(x, function(degree, number, x), color=color, ls=style, lw=1.2, label=name)
+    for n in range(spans + 1):
+        left.plot(n, 0, "s", ms=5, color=DARK, clip_on=False, zorder=5)
+    left.set_xlabel("x/h, from one end of the grid to the other")
+    left.set_ylabel("N")
+    left.set_ylim(0, 1.12)
+    left.legend(frameon=False, fontsize=8, loc="upper center", ncol=2)
+    left.set_title("B-splines with open ends", loc="left")
+
+    x = np.linspace(-2.5, 2.5, 2001)
+    a = np.abs(x)
+    hat = lambda x: np.clip(1 - np.abs(x), 0, None)  # noqa: E731
+    quadratic = -np.sign(x) * np.where(a < 0.5, 2 * a, np.where(a < 1.5, 1.5 - a, 0.0))
+    cubic = np.sign(x) * np.where(a < 1, 1.5 * a**2 - 2 * a, np.where(a < 2, -0.5 * (2 - a) ** 2, 0.0))
+    strain = np.full_like(x, 0.0)
+    for k, v in enumerate(x):
+        nodes = np.floor(v) + np.arange(-1, 3)
+        if 0 in nodes:
+            others = nodes[nodes != 0]
+            strain[k] = sum(np.prod([v - other for other in others if other != left_out]) for left_out in others) / np.prod(-others)
+    # A line that does not join what jumps.
+    strain[np.concatenate([[False], np.diff(np.floor(x)) != 0])] = np.nan
+    for values, color, style, name in [
+        (quadratic, GREEN, "-.", "quadratic B-spline"),
+        (cubic, BROWN, "-", "cubic B-spline"),
+        ((hat(x + 0.25) - hat(x - 0.25)) / 0.5, BLUE, "--", "composite: forces (GIMP, point width h/2)"),
+        (strain, RED, "-", "composite: strains"),
+    ]:
+        right.plot(x, values, color=color, ls=style, lw=1.3, label=name)
+    for n in range(-2, 3):
+        right.plot(n, 0, "s", ms=5, color=DARK, clip_on=False, zorder=5)
+    right.axhline(0, color=GRID, lw=0.7)
+    right.set_xlabel("x/h")
+    right.set_ylabel("gradient of N₀, times h")
+    right.set_ylim(-1.35, 2.4)
+    right.legend(frameon=False, fontsize=8, loc="upper right")
+    right.set_title("One function's gradient", loc="left")
+    fig.subplots_adjust(wspace=0.22)
+    save(fig, "splines", png)
+
+
 def main():
     png = sys.argv[1] if len(sys.argv) > 1 else None
-    for figure in (step_phases, regions, reconstruction, contact, newton, gradients, unknowns, domains):
+    for figure in (step_phases, regions, reconstruction, contact, newton, gradients, unknowns, domains, splines):
         figure(png)
 
 

@@ -111,12 +111,17 @@ impl Checker {
             let problem = format!("there is no file {}", geo.display());
             self.issue(&path.key("geo"), At::Value, problem, "name a .geo file, relative to the case file");
         }
-        if mesh.incomplete && mesh.order == 1 {
+        if mesh.incomplete && mesh.order != 2 {
             let remedy = "take `incomplete` out, or set `order: 2`";
-            self.issue(&path.key("incomplete"), At::Key, "cells of order 1 have no centre node to leave out", remedy);
+            let problem = match mesh.order {
+                1 => "cells of order 1 have no centre node to leave out",
+                _ => "only cells of order 2 can be without a centre node",
+            };
+            self.issue(&path.key("incomplete"), At::Key, problem, remedy);
         }
         let order = match (mesh.order, mesh.incomplete) {
             (1, _) => Order::First,
+            (3, _) => Order::Third,
             (_, false) => Order::Second,
             (_, true) => Order::SecondIncomplete,
         };

@@ -136,6 +136,8 @@ pub enum Order {
     Second,
     /// T6 and Q8.
     SecondIncomplete,
+    /// Q16.
+    Third,
 }
 
 /// A physical surface and what fills it.

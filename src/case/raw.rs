@@ -124,9 +124,9 @@ pub enum Geometry {
 pub struct Mesh {
     /// The .geo file, relative to the case file.
     pub geo: String,
-    /// Order of the cells: 2 (T6, Q9) or 1 (T3, Q4).
+    /// Order of the cells: 2 (T6, Q9), 1 (T3, Q4), or 3 (Q16, for cubic B-splines).
     #[serde(default = "two")]
-    #[schemars(range(min = 1, max = 2))]
+    #[schemars(range(min = 1, max = 3))]
     pub order: u8,
     /// Whether quadrangles of order 2 have no centre node (Q8 in place of Q9).
     #[serde(default)]

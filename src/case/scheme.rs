@@ -20,11 +20,25 @@ impl Checker {
                 ([CellKind::T6, CellKind::Q8], "second order without a centre node", "take `incomplete` out of")
             }
             Order::SecondIncomplete => ([CellKind::T6, CellKind::Q8], "second order", "set `order: 1` under"),
+            Order::Third => ([CellKind::Q16; 2], "third order", "set `order: 2` under"),
         };
         if !kinds.iter().any(|&kind| basis.takes(kind)) {
             let problem = format!("{} does not support cells of {name}", basis.name());
-            let remedy = format!("{cure} `mesh`, or choose `gradient: mpm`");
+            let other = if case.mesh.order == Order::Third { "bspline" } else { "mpm" };
+            let remedy = format!("{cure} `mesh`, or choose `gradient: {other}`");
             self.issue(&Path::default().key("numerics").key("gradient"), At::Value, problem, remedy);
+        }
+        // The boundaries of structures and finite elements are those of cells of first and second order.
+        for region in case.regions.iter().filter(|_| case.mesh.order == Order::Third) {
+            if matches!(region.content, Content::Fem { .. } | Content::Structure { .. }) {
+                let path = Path::default().key("regions").key(&region.name).key("kind");
+                let problem = "cells of third order hold material points only, and no finite elements or structures";
+                self.issue(&path, At::Value, problem, "set `order: 2` under `mesh`");
+            }
+        }
+        if case.mesh.order == Order::Third && !case.contacts.is_empty() {
+            let problem = "contact is with boundaries of cells of first and second order";
+            self.issue(&Path::default().key("contacts"), At::Value, problem, "set `order: 2` under `mesh`");
         }
         for region in case.regions.iter().filter(|_| basis.domain_size() > 0) {
             let Content::Mpm { points_per_cell, .. } = region.content else { continue };
@@ -52,7 +66,7 @@ pub(super) fn check(basis: &dyn Basis<2>, mesh: &Mesh<2>, fem: Option<&Mesh<2>>)
         return refuse(problem, &remedy);
     }
     if let Some(kind) = mesh.cells.kind.iter().find(|&&kind| !basis.takes(kind)) {
-        let kinds: Vec<String> = [CellKind::T3, CellKind::T6, CellKind::Q4, CellKind::Q8, CellKind::Q9]
+        let kinds: Vec<String> = [CellKind::T3, CellKind::T6, CellKind::Q4, CellKind::Q8, CellKind::Q9, CellKind::Q16]
             .iter()
             .filter(|&&kind| basis.takes(kind))
             .map(|kind| format!("{kind:?}"))

@@ -210,6 +210,7 @@ fn options(mesh: &checked::Mesh) -> Options {
         checked::Order::First => (1, false),
         checked::Order::Second => (2, false),
         checked::Order::SecondIncomplete => (2, true),
+        checked::Order::Third => (3, false),
     };
     Options { order, incomplete, parameters: mesh.parameters.iter().map(|(name, &v)| (name.clone(), v)).collect() }
 }

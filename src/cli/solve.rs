@@ -210,8 +210,11 @@ fn summary(elapsed: Duration, done: bool) -> String {
     let share = |&a: &Activity| format!("{} {}", format!("{a:?}").to_lowercase(), percent(profile::seconds(a)));
     let shares: Vec<String> = Activity::ALL.iter().filter(spent).map(share).collect();
     let booked: f64 = Activity::ALL.iter().map(|&a| profile::seconds(a)).sum();
+    let system = profile::largest_system().map_or_else(String::new, |(equations, entries)| {
+        format!("; largest system {equations} equations, {entries:.1} nonzeros a row")
+    });
     format!(
-        "{} {all:.2} s: {}, other {}; material, within assembly, {}\n",
+        "{} {all:.2} s: {}, other {}; material, within assembly, {}{system}\n",
         if done { "solved in" } else { "ended after" },
         shares.join(", "),
         percent((all - booked).max(0.0)),

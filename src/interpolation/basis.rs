@@ -88,9 +88,9 @@ pub trait Basis<const D: usize>: fmt::Debug + Send + Sync {
         None
     }
 
-    /// Whether the scheme supports cells of a kind.
-    fn takes(&self, _kind: CellKind) -> bool {
-        true
+    /// Whether the scheme supports cells of a kind. Those of third order are there for splines.
+    fn takes(&self, kind: CellKind) -> bool {
+        kind.order() < 3
     }
 
     /// What the scheme cannot do on a mesh, and a remedy.
@@ -121,6 +121,11 @@ pub trait Basis<const D: usize>: fmt::Debug + Send + Sync {
     /// What it lacks for a pressure field (docs/theory.md, section 10), if anything.
     fn without_pressure_field(&self) -> Option<&'static str> {
         None
+    }
+
+    /// Whether strains are taken with the gradients that forces act through. Else no force has a potential, and tangents are not symmetric.
+    fn is_symmetric(&self) -> bool {
+        true
     }
 
     /// The nodes that the points of each cell act on, for the matrix to couple; `None` where these are those of the cell. They

@@ -1,15 +1,21 @@
-//! Quadratic B-splines on a rectangular grid of Q9 cells: gradients that are continuous from cell to cell
-//! (Tielen, Wobbes, Möller & Beuth 2017, *A high order material point method*; Steffen, Kirby & Berzins 2008).
+//! B-splines of second and third degree on rectangular grids of Q9 and Q16 cells: gradients that are continuous from cell to cell
+//! (Tielen, Wobbes, Möller & Beuth 2017, *A high order material point method*; Steffen, Kirby & Berzins 2008). The degree is the order of the
+//! cells.
 //!
-//! The tensor products of quadratic splines with simple knots at the grid lines and open ends have one control value a cell, one an edge on
-//! the boundary and one a corner of the grid. On each cell they are biquadratic, so they are the linear constraints
-//! `u = E c` on the nodal values of Q9 cells (Bézier extraction: Borden, Scott, Evans & Hughes 2011), and the points see the shape functions of
-//! their cells as in the plain method. The Greville abscissa of a control is the middle of its span, also where the spacing varies:
-//! it has the number of the node there.
+//! On each cell the tensor products of splines with simple knots at the grid lines and open ends are polynomials of their degree along both axes,
+//! so they are the linear constraints `u = E c` on the nodal values of the cells (Bézier extraction: Borden, Scott, Evans & Hughes 2011), and the
+//! points see the shape functions of their cells as in the plain method.
 //!
-//! In one dimension, with the lengths `h` of the spans on both sides of a knot and controls `c` in their middle,
+//! *Second degree.* There is one control value a cell, one an edge on the boundary and one a corner of the grid. The Greville abscissa of a control
+//! is the middle of its span, also where the spacing varies: it has the number of the node there. In one dimension, with the lengths `h` of the
+//! spans on both sides of a knot and controls `c` in their middle,
 //! `u_knot = (h_right c_left + h_left c_right)/(h_left + h_right)`, at the ends `u = c`, and in the middle of a span
-//! `u = ¼ u_left + ½ c + ¼ u_right`, so that `c = 2 u − ½ (u_left + u_right)`. Splines of third degree would need cells of third order.
+//! `u = ¼ u_left + ½ c + ¼ u_right`, so that `c = 2 u − ½ (u_left + u_right)`.
+//!
+//! *Third degree.* There is one control a grid line, and one more in the first and the last span. A control has the number of the node on its line, or
+//! of that a third of a span from the end: where the lines are evenly spaced, these are the Greville abscissae. Nodal values are the splines there
+//! (recurrence of Cox and de Boor). A control is the polar form of the cubic of a span at the line and those on both sides of it
+//! (blossom: Ramshaw 1989); here it is the mean of those of both spans at the line.
 
 use super::{Basis, Interpolation, Located};
 use crate::mesh::Mesh;
@@ -29,14 +35,14 @@ impl Basis<2> for BSpline {
     }
 
     fn takes(&self, kind: CellKind) -> bool {
-        kind == CellKind::Q9
+        matches!(kind, CellKind::Q9 | CellKind::Q16)
     }
 
     fn refusal(&self, mesh: &Mesh<2>) -> Option<[String; 2]> {
         let problem = Lattice::of(mesh).err()?;
         Some([
-            format!("takes a rectangular grid of Q9 cells, and {problem}"),
-            "make the grid one rectangle along x and y with `Transfinite Curve`, `Transfinite Surface` and `Recombine Surface` in the .geo and cells of second order, or choose `gradient: mpm`".into(),
+            format!("takes a rectangular grid of Q9 or Q16 cells, and {problem}"),
+            "make the grid one rectangle along x and y with `Transfinite Curve`, `Transfinite Surface` and `Recombine Surface` in the .geo and cells of second or third order, or choose `gradient: mpm`".into(),
         ])
     }
 
@@ -56,7 +62,8 @@ impl Basis<2> for BSpline {
 
     fn constraints(&self, mesh: &Mesh<2>) -> Option<LinearConstraints> {
         let lattice = Lattice::of(mesh).ok()?;
-        let along = lattice.lines.each_ref().map(|lines| Splines::new(lines));
+        let of_degree = if lattice.degree == 3 { Splines::cubic } else { Splines::quadratic };
+        let along = lattice.lines.each_ref().map(|lines| of_degree(lines));
         let (mut nodes, mut controls) = (Rows::default(), Rows::default());
         for (n, place) in (0u32..).zip(&lattice.place) {
             let Some([i, j]) = *place else {
@@ -82,7 +89,7 @@ impl Basis<2> for BSpline {
     }
 }
 
-/// Splines along one direction, by places: `2k` is knot `k`, `2k + 1` the middle of span `k`.
+/// Splines along one direction, by places: knot `k` is the place `p k` with the degree `p`, and between knots are `p − 1` of them at equal distances.
 struct Splines {
     /// The controls of each place with their coefficients.
     of_node: Vec<Vec<(usize, f64)>>,
@@ -91,8 +98,8 @@ struct Splines {
 }
 
 impl Splines {
-    /// With the knots `x` (m), ascending.
-    fn new(x: &[f64]) -> Self {
+    /// Of second degree, with the knots `x` (m), ascending.
+    fn quadratic(x: &[f64]) -> Self {
         let last = 2 * (x.len() - 1);
         let length = |span: usize| x[span + 1] - x[span];
         let knot = |k: usize| {
@@ -123,13 +130,82 @@ impl Splines {
         };
         Self { of_node: (0..=last).map(of_node).collect(), of_control: (0..=last).map(of_control).collect() }
     }
+
+    /// Of third degree, with the knots `x` (m), ascending.
+    fn cubic(x: &[f64]) -> Self {
+        let spans = x.len() - 1;
+        // Ends three times more: control `k` has its support between knots `k` and `k + 4`.
+        let knot = |k: usize| x[k.saturating_sub(3).min(spans)];
+        let place = |control: usize| match control {
+            0 | 1 => control,
+            _ if control + 1 < spans + 2 => 3 * (control - 1),
+            _ => 3 * spans + control - (spans + 2),
+        };
+        let of_node = |i: usize| {
+            let span = (i / 3).min(spans - 1);
+            let at = x[span] + (x[span + 1] - x[span]) * (i - 3 * span) as f64 / 3.0;
+            let values = cox_de_boor(&knot, span + 3, at);
+            let all = values.into_iter().enumerate().map(|(k, value)| (place(span + k), value));
+            all.filter(|(_, value)| *value != 0.0).collect()
+        };
+        let mut of_control = vec![Vec::new(); 3 * spans + 1];
+        for control in 0..spans + 3 {
+            let around = [1, 2, 3].map(|i| knot(control + i));
+            // The spans at the middle one.
+            let line = (control.saturating_sub(1)).min(spans);
+            let of: Vec<usize> = (line.saturating_sub(1)..=line.min(spans - 1)).collect();
+            let row: &mut Vec<(usize, f64)> = &mut of_control[place(control)];
+            for &span in &of {
+                let parameter = around.map(|t| (t - x[span]) / (x[span + 1] - x[span]));
+                for (i, by) in polar_form(parameter).into_iter().enumerate() {
+                    let by = by / of.len() as f64;
+                    match row.iter_mut().find(|(other, _)| *other == 3 * span + i) {
+                        Some((_, sum)) => *sum += by,
+                        None if by != 0.0 => row.push((3 * span + i, by)),
+                        None => {}
+                    }
+                }
+            }
+        }
+        Self { of_node: (0..=3 * spans).map(of_node).collect(), of_control }
+    }
 }
 
-/// A rectangular grid of Q9 cells.
+/// The four cubic B-splines that are not zero between knots `span` and `span + 1`, at `x` there.
+fn cox_de_boor(knot: impl Fn(usize) -> f64, span: usize, x: f64) -> [f64; 4] {
+    let mut value = [1.0, 0.0, 0.0, 0.0];
+    for degree in 1..=3 {
+        let mut from_left = 0.0;
+        for k in 0..degree {
+            let (low, high) = (knot(span + 1 + k - degree), knot(span + 1 + k));
+            let own = value[k];
+            value[k] = from_left + own * ((high - x) / (high - low));
+            from_left = own * ((x - low) / (high - low));
+        }
+        value[degree] = from_left;
+    }
+    value
+}
+
+/// What the values of a cubic at 0, ⅓, ⅔ and 1 add to its polar form, the symmetric function of three arguments that is linear in each and the cubic
+/// where they are equal.
+fn polar_form([a, b, c]: [f64; 3]) -> [f64; 4] {
+    let (first, second, third) = ((a + b + c) / 3.0, (a * b + b * c + c * a) / 3.0, a * b * c);
+    [
+        1.0 - 5.5 * first + 9.0 * second - 4.5 * third,
+        9.0 * first - 22.5 * second + 13.5 * third,
+        -4.5 * first + 18.0 * second - 13.5 * third,
+        first - 4.5 * second + 4.5 * third,
+    ]
+}
+
+/// A rectangular grid of Q9 or Q16 cells.
 struct Lattice {
+    /// The order of the cells, and the degree of the splines.
+    degree: usize,
     /// The grid lines (m) across both directions, ascending.
     lines: [Vec<f64>; 2],
-    /// The place of each node along both directions, knots and middles of spans counted; `None` where it is none of the grid.
+    /// The place of each node along both directions ([`Splines`]); `None` where it is none of the grid.
     place: Vec<Option<[usize; 2]>>,
     /// The node at each place, row by row.
     node: Vec<u32>,
@@ -137,7 +213,7 @@ struct Lattice {
 
 impl Lattice {
     fn number(&self, [i, j]: [usize; 2]) -> u32 {
-        self.node[j * (2 * self.lines[0].len() - 1) + i]
+        self.node[j * (self.degree * (self.lines[0].len() - 1) + 1) + i]
     }
 
     /// The lattice of the cells of a mesh.
@@ -145,9 +221,12 @@ impl Lattice {
     /// # Errors
     /// Why they are none.
     fn of(mesh: &Mesh<2>) -> Result<Self, String> {
-        if let Some(kind) = mesh.cells.kind.iter().find(|&&kind| kind != CellKind::Q9) {
+        let first = mesh.cells.kind.first().copied().unwrap_or(CellKind::Q9);
+        let fits = |kind: CellKind| kind == first && BSpline.takes(kind);
+        if let Some(kind) = mesh.cells.kind.iter().find(|&&kind| !fits(kind)) {
             return Err(format!("the grid has {kind:?} cells"));
         }
+        let degree = first.order();
         let cells = || (0..mesh.cells.len()).map(|c| mesh.cells.nodes(c).iter().map(|&n| mesh.nodes[n as usize]));
         let sides = |d: usize| {
             cells().map(move |nodes| {
@@ -159,11 +238,13 @@ impl Lattice {
         if nx == 0 || mesh.cells.len() != nx * ny {
             return Err("the cells do not fill a rectangle on common grid lines".into());
         }
+        let [along_x, along_y] = [nx, ny].map(|spans| degree * spans + 1);
         let mut lattice =
-            Self { place: vec![None; mesh.nodes.len()], node: vec![u32::MAX; (2 * nx + 1) * (2 * ny + 1)], lines };
+            Self { degree, place: vec![None; mesh.nodes.len()], node: vec![u32::MAX; along_x * along_y], lines };
         for c in 0..mesh.cells.len() {
             let nodes = mesh.cells.nodes(c);
-            let middle = mesh.nodes[nodes[8] as usize];
+            let corner = |i: usize| mesh.nodes[nodes[i] as usize];
+            let middle = if degree == 2 { corner(8) } else { [0, 1].map(|d| 0.5 * (corner(0)[d] + corner(2)[d])) };
             let cell = [0, 1].map(|d| span(&lattice.lines[d], middle[d]));
             for &n in nodes {
                 let x = mesh.nodes[n as usize];
@@ -173,7 +254,7 @@ impl Lattice {
                         "the cell at {middle:.4?} m is no rectangle along x and y on common grid lines"
                     ));
                 };
-                let at = &mut lattice.node[j * (2 * nx + 1) + i];
+                let at = &mut lattice.node[j * along_x + i];
                 if *at != u32::MAX && *at != n {
                     return Err(format!("there are two nodes at {x:.4?} m"));
                 }
@@ -187,11 +268,12 @@ impl Lattice {
         Ok(lattice)
     }
 
-    /// Where `x` (m) along direction `d` is in span `k`: at an end or in the middle.
+    /// Where `x` (m) along direction `d` is in span `k`: at an end or at a place between them.
     fn place_of(&self, d: usize, k: usize, x: f64) -> Option<usize> {
         let (from, to) = (self.lines[d][k], self.lines[d][k + 1]);
         let near = |at: f64| (x - at).abs() <= OFF * (to - from);
-        [from, 0.5 * (from + to), to].into_iter().position(near).map(|place| 2 * k + place)
+        let place = |i: &usize| from + (to - from) * *i as f64 / self.degree as f64;
+        (0..=self.degree).find(|i| near(place(i))).map(|i| self.degree * k + i)
     }
 }
 

@@ -41,6 +41,8 @@ pub struct Interpolation<const D: usize> {
     pub(super) value: Vec<f64>,
     /// `∇N_I(x_p)` (1/m).
     pub(super) gradient: Vec<[f64; D]>,
+    /// The gradients that strains are taken with (1/m), in the order of `gradient`; empty where they are those.
+    pub(super) strain_gradient: Vec<[f64; D]>,
     /// The shape functions of the cells themselves (-) and their gradients (1/m), point by point; empty where they are the first ones
     /// of the above.
     pub(super) shape: Vec<f64>,
@@ -60,6 +62,8 @@ pub(super) struct Slot<'a, const D: usize> {
     pub(super) cell_points: &'a CellPoints,
     pub(super) value: &'a mut [f64],
     pub(super) gradient: &'a mut [[f64; D]],
+    /// Empty where strains are taken with `gradient`.
+    pub(super) strain_gradient: &'a mut [[f64; D]],
     /// Empty where the shape functions of the cell are not kept apart.
     pub(super) shape: &'a mut [f64],
     pub(super) shape_gradient: &'a mut [[f64; D]],
@@ -80,6 +84,8 @@ pub struct Entries<'a, const D: usize> {
     pub shape: &'a [f64],
     pub shape_gradient: &'a [[f64; D]],
     pub(super) gradient: &'a [[f64; D]],
+    /// The gradients that strains are taken with, where these are others.
+    pub(super) strain_gradient: Option<&'a [[f64; D]]>,
     /// `1 / r`, zero without hoop strain.
     pub(super) hoop: f64,
 }
@@ -98,6 +104,7 @@ impl<const D: usize> Interpolation<D> {
         let shapes = cell_points.shape_count as usize;
         (0..cell_points.point_count as usize).map(move |k| {
             let (value, gradient) = (cell_points.first_value + k * nodes, cell_points.first_gradient + k * functions);
+            let strain_gradient = self.strain_gradient.get(gradient..gradient + functions);
             let (value, gradient) = (&self.value[value..value + nodes], &self.gradient[gradient..gradient + functions]);
             let (shape, shape_gradient) = if self.shape.is_empty() {
                 (&value[..shapes], &gradient[..shapes])
@@ -112,6 +119,7 @@ impl<const D: usize> Interpolation<D> {
                 shape,
                 shape_gradient,
                 gradient,
+                strain_gradient,
                 hoop: if K::HOOP { 1.0 / self.radius[first + k] } else { 0.0 },
             }
         })
@@ -119,6 +127,11 @@ impl<const D: usize> Interpolation<D> {
 }
 
 impl<const D: usize> Interpolation<D> {
+    /// Whether strains are taken with other gradients than forces act through.
+    pub fn strains_apart(&self) -> bool {
+        !self.strain_gradient.is_empty()
+    }
+
     /// Gives the points their weights (m³), by number.
     pub fn weigh(&mut self, weight: &[f64]) {
         for (own, &p) in self.weight.iter_mut().zip(&self.points) {
@@ -130,18 +143,28 @@ impl<const D: usize> Interpolation<D> {
     pub(super) fn slots(&mut self) -> Vec<Slot<'_, D>> {
         let mut slots = Vec::with_capacity(self.filled.len());
         let (mut value, mut gradient) = (&mut self.value[..], &mut self.gradient[..]);
+        let mut strain_gradient = &mut self.strain_gradient[..];
         let (mut shape, mut shape_gradient) = (&mut self.shape[..], &mut self.shape_gradient[..]);
         let mut radius = &mut self.radius[..];
         for cell_points in &self.filled {
-            let (v, g, s, sg, r);
+            let (v, g, strain, s, sg, r);
             (v, value) = value.split_at_mut((cell_points.point_count * cell_points.node_count) as usize);
             (g, gradient) = gradient.split_at_mut((cell_points.point_count * cell_points.function_count) as usize);
+            (strain, strain_gradient) = strain_gradient.split_at_mut(strain_gradient.len().min(g.len()));
             let shapes = shape.len().min((cell_points.point_count * cell_points.shape_count) as usize);
             (s, shape) = shape.split_at_mut(shapes);
             (sg, shape_gradient) = shape_gradient.split_at_mut(shapes);
             let radii = radius.len().min(cell_points.point_count as usize);
             (r, radius) = radius.split_at_mut(radii);
-            slots.push(Slot { cell_points, value: v, gradient: g, shape: s, shape_gradient: sg, radius: r });
+            slots.push(Slot {
+                cell_points,
+                value: v,
+                gradient: g,
+                strain_gradient: strain,
+                shape: s,
+                shape_gradient: sg,
+                radius: r,
+            });
         }
         slots
     }
@@ -181,9 +204,49 @@ impl<const D: usize> Deref for Coefficients<D> {
 }
 
 impl<const D: usize> Entries<'_, D> {
-    /// The gradient of function `i` of the cell.
+    /// The gradient of function `i` of the cell that forces act through.
     pub fn gradient(&self, i: usize) -> Gradient<D> {
-        Gradient { g: self.gradient[i], hoop: self.value.get(i).map_or(0.0, |n| self.hoop * n) }
+        self.with_hoop(i, self.gradient[i])
+    }
+
+    /// The gradient of function `i` of the cell that strains are taken with: [`Entries::gradient`] in most schemes.
+    pub fn strain_gradient(&self, i: usize) -> Gradient<D> {
+        self.with_hoop(i, self.strain_gradient.unwrap_or(self.gradient)[i])
+    }
+
+    /// Whether strains are taken with other gradients than forces act through.
+    pub fn strains_apart(&self) -> bool {
+        self.strain_gradient.is_some()
+    }
+
+    fn with_hoop(&self, i: usize, g: [f64; D]) -> Gradient<D> {
+        Gradient { g, hoop: self.value.get(i).map_or(0.0, |n| self.hoop * n) }
+    }
+
+    /// As [`Entries::deformation`], by the gradients that forces act through.
+    pub fn deformation_of_forces<K: Kinematics<D>>(&self, u: &[[f64; D]]) -> Tensor {
+        let mut f = Tensor::identity();
+        for (i, u) in u.iter().enumerate().take(self.functions()) {
+            K::deform(&mut f, u, &self.gradient(i));
+        }
+        f
+    }
+
+    /// The gradients that strains are taken with, on the grid deformed by the inverse of `inverse`, in a buffer; `forces`, those that
+    /// forces act through, where they are the same.
+    #[inline]
+    pub fn strains<'b, K: Kinematics<D>>(
+        &self,
+        forces: &'b [Gradient<D>],
+        inverse: &Tensor,
+        buffer: &'b mut Vec<Gradient<D>>,
+    ) -> &'b [Gradient<D>] {
+        if !self.strains_apart() {
+            return forces;
+        }
+        buffer.clear();
+        buffer.extend((0..forces.len()).map(|i| K::push_forward(&self.strain_gradient(i), inverse)));
+        buffer
     }
 
     /// `I + Σ u ⊗ ∇N`, given the coefficients of the functions.
@@ -191,7 +254,7 @@ impl<const D: usize> Entries<'_, D> {
     pub fn deformation<K: Kinematics<D>>(&self, u: &[[f64; D]]) -> Tensor {
         let mut f = Tensor::identity();
         for (i, u) in u.iter().enumerate().take(self.functions()) {
-            K::deform(&mut f, u, &self.gradient(i));
+            K::deform(&mut f, u, &self.strain_gradient(i));
         }
         f
     }

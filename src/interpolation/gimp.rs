@@ -53,10 +53,7 @@ impl Basis<2> for Gimp {
     }
 
     fn refusal(&self, mesh: &Mesh<2>) -> Option<[String; 2]> {
-        let cell = (0..mesh.cells.len()).find(|&c| !is_rectangle(mesh, c))?;
-        let corner = mesh.nodes[mesh.cells.nodes(cell)[0] as usize];
-        let problem = format!("needs cells that are rectangles along the axes, which that at {corner:.3?} m is not");
-        Some([problem, "mesh with `Transfinite Curve`, `Transfinite Surface` and `Recombine Surface` in the .geo, or choose `gradient: cpdi`".into()])
+        slanted(mesh)
     }
 
     fn wants_first_shape(&self) -> bool {
@@ -109,6 +106,14 @@ impl Basis<2> for Gimp {
     }
 }
 
+/// Says that a mesh has cells that are no rectangles along the axes, and a remedy.
+pub(super) fn slanted(mesh: &Mesh<2>) -> Option<[String; 2]> {
+    let cell = (0..mesh.cells.len()).find(|&c| !is_rectangle(mesh, c))?;
+    let corner = mesh.nodes[mesh.cells.nodes(cell)[0] as usize];
+    let problem = format!("needs cells that are rectangles along the axes, which that at {corner:.3?} m is not");
+    Some([problem, "mesh with `Transfinite Curve`, `Transfinite Surface` and `Recombine Surface` in the .geo, or choose `gradient: cpdi`".into()])
+}
+
 /// Whether the sides of a cell lie along the axes.
 fn is_rectangle(mesh: &Mesh<2>, cell: usize) -> bool {
     let Rectangle { low, high } = Rectangle::of(mesh, cell);
@@ -127,13 +132,14 @@ fn stretch(f: &Tensor) -> [f64; 2] {
 
 /// A rectangle along the axes (m).
 #[derive(Clone, Copy)]
-struct Rectangle {
-    low: [f64; 2],
-    high: [f64; 2],
+pub(super) struct Rectangle {
+    pub low: [f64; 2],
+    pub high: [f64; 2],
 }
 
 impl Rectangle {
-    fn of(mesh: &Mesh<2>, cell: usize) -> Self {
+    /// That about the nodes of a cell.
+    pub fn of(mesh: &Mesh<2>, cell: usize) -> Self {
         let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
         for &n in mesh.cells.nodes(cell) {
             for d in 0..2 {

@@ -138,6 +138,7 @@ impl<const D: usize> Interpolation<D> {
         self.value.resize(first_value, 0.0);
         self.gradient.clear();
         self.gradient.resize(first_gradient, [0.0; D]);
+        self.strain_gradient.clear();
         self.radius.clear();
         if points.hoop {
             self.radius.resize(cell.len(), 0.0);

@@ -4,12 +4,13 @@
 //! `∫ (h [∂_n u]² + h³ [∂_nn u]²)` over a face, `[.]` the difference between its two cells and `h` their size
 //! across it. It vanishes for every field that is one polynomial over both cells. One displacement component
 //! at a time: the form is the same for each. Jumps of third derivatives, which quadrilaterals have, are left
-//! out: the polynomials of second degree that the two forms leave free are those that both cells share.
+//! out: the polynomials of second degree that the two forms leave free are those that both cells share. Cells of third order
+//! have `h⁵ [∂_nnn u]²` as well: on cubic splines it alone does not vanish.
 
 use crate::kinematics::Kinematics;
 use crate::mesh::Mesh;
 use crate::mesh::faces::Face;
-use crate::mesh::shape::{CellKind, MAX_NODES, map_second, rule};
+use crate::mesh::shape::{CellKind, MAX_NODES, invert, map_second, rule};
 use std::sync::OnceLock;
 
 /// The form of one face.
@@ -19,7 +20,7 @@ pub struct Jump {
     pub size: f64,
     /// The measure of the face times that size (m²; m³ in axisymmetry, for a full turn): the form of a jump of one.
     pub measure: f64,
-    /// `h ∫[∂_n N_I][∂_n N_J] + h³ ∫[∂_nn N_I][∂_nn N_J]` (-; m in axisymmetry, for a full turn) over the nodes
+    /// `h ∫[∂_n N_I][∂_n N_J] + h³ ∫[∂_nn N_I][∂_nn N_J]`, and `+ h⁵ ∫[∂_nnn N_I][∂_nnn N_J]` in third order (-; m in axisymmetry, for a full turn) over the nodes
     /// in the order of [`Face::nodes`], row-major.
     pub form: Box<[f64]>,
 }
@@ -42,9 +43,13 @@ impl Jump {
         for (xi, weight) in rule(facet, 2 * facet.order() + 1) {
             facet.values(&xi, &mut values);
             let Place { x, normal, stretch } = place(facet, &x, &xi);
-            let (mut kink, mut bend) = (vec![0.0; count], vec![0.0; count]);
+            let (mut kink, mut bend, mut third) = (vec![0.0; count], vec![0.0; count], Vec::new());
             for side in &sides {
                 let at = [0, 1, 2].map(|d| side.facet.iter().zip(&values).map(|(c, n)| n * c[d]).sum());
+                if side.kind.order() > 2 {
+                    third.resize(count, 0.0);
+                    side.add_third(&at, &normal, &mut third);
+                }
                 map_second(side.kind, &side.x, &at, &mut grad, &mut second);
                 for (i, &slot) in side.place.iter().enumerate() {
                     kink[slot] += side.sign * dot(&grad[i], &normal);
@@ -56,6 +61,9 @@ impl Jump {
             for i in 0..count {
                 for j in 0..count {
                     form[i * count + j] += weight * (kink[i] * kink[j] + size * size * bend[i] * bend[j]);
+                    if !third.is_empty() {
+                        form[i * count + j] += weight * size.powi(4) * third[i] * third[j];
+                    }
                 }
             }
         }
@@ -89,6 +97,33 @@ struct Side<const D: usize> {
     /// Parametric coordinates, in this cell, of the nodes of the facet in the order of the first cell.
     facet: Vec<[f64; 3]>,
     sign: f64,
+}
+
+impl<const D: usize> Side<D> {
+    /// Adds the third derivatives (1/m³) along `normal` at a place of the cell, by its sign: in a rectangle along the normal, second derivatives are
+    /// linear along it, and their difference is exact.
+    fn add_third(&self, at: &[f64; 3], normal: &[f64; D], third: &mut [f64]) {
+        let mut dn = [[0.0; 3]; MAX_NODES];
+        self.kind.derivatives(at, &mut dn);
+        let mut jacobian = [[0.0; D]; D];
+        for (x, dn) in self.x.iter().zip(&dn) {
+            (0..D).for_each(|i| (0..D).for_each(|j| jacobian[i][j] += x[i] * dn[j]));
+        }
+        let (inverse, _) = invert(&jacobian);
+        let along: [f64; D] = std::array::from_fn(|k| (0..D).map(|j| inverse[k][j] * normal[j]).sum());
+        // A step of one in the cell.
+        let step = 1.0 / dot(&along, &along).sqrt();
+        for sign in [1.0, -1.0] {
+            let mut place = *at;
+            (0..D).for_each(|d| place[d] += sign * step * along[d]);
+            let (mut grad, mut second) = ([[0.0; D]; MAX_NODES], [[[0.0; D]; D]; MAX_NODES]);
+            map_second(self.kind, &self.x, &place, &mut grad, &mut second);
+            for (i, &slot) in self.place.iter().enumerate() {
+                let bend = dot(&second[i].map(|row| dot(&row, normal)), normal);
+                third[slot] += self.sign * sign * bend / (2.0 * step);
+            }
+        }
+    }
 }
 
 /// A place on a facet.

@@ -5,6 +5,7 @@
 
 mod basis;
 mod bspline;
+mod composite;
 mod cpdi;
 mod cpdi2;
 mod ddmp;
@@ -20,6 +21,7 @@ mod support;
 
 pub use basis::{Basis, Domains, First, Located, Reset};
 pub use bspline::BSpline;
+pub use composite::Composite;
 pub use cpdi::Cpdi;
 pub use cpdi2::Cpdi2;
 pub use ddmp::Ddmp;
@@ -36,7 +38,8 @@ use crate::kinematics::Kinematics;
 use crate::mesh::Mesh;
 
 /// The schemes that a case can have.
-pub const SCHEMES: &[&dyn Basis<2>] = &[&Mpm, &Ddmp, &Gimp::UNIFORM, &Gimp::STRETCHED, &Cpdi, &Cpdi2, &BSpline];
+pub const SCHEMES: &[&dyn Basis<2>] =
+    &[&Mpm, &Ddmp, &Gimp::UNIFORM, &Gimp::STRETCHED, &Cpdi, &Cpdi2, &Composite, &BSpline];
 
 impl<const D: usize> Interpolation<D> {
     /// Fills in what points in `cell` at the parametric coordinates `xi`, given per point, see by a scheme. `active`

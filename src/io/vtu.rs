@@ -101,19 +101,23 @@ fn vtk_type(kind: CellKind) -> u8 {
         CellKind::Point1 => 1,
         CellKind::Line2 => 3,
         CellKind::Line3 => 21,
+        CellKind::Line4 => 35,
         CellKind::T3 => 5,
         CellKind::T6 => 22,
         CellKind::Q4 => 9,
         CellKind::Q8 => 23,
         CellKind::Q9 => 28,
+        CellKind::Q16 => 70,
         CellKind::T10 => 24,
         CellKind::H27 => 29,
     }
 }
 
-/// The nodes of a kind in the order of VTK (`vtkQuadraticTetra.h`, `vtkTriQuadraticHexahedron.h`) where that is not Gmsh's.
+/// The nodes of a kind in the order of VTK (`vtkQuadraticTetra.h`, `vtkTriQuadraticHexahedron.h`; `vtkLagrangeQuadrilateral.h`, where
+/// nodes on opposite sides run alike and those within row by row) where that is not Gmsh's.
 fn vtk_order(kind: CellKind) -> Option<&'static [usize]> {
     match kind {
+        CellKind::Q16 => Some(&[0, 1, 2, 3, 4, 5, 6, 7, 9, 8, 11, 10, 12, 13, 15, 14]),
         CellKind::T10 => Some(&[0, 1, 2, 3, 4, 5, 6, 7, 9, 8]),
         CellKind::H27 => {
             Some(&[0, 1, 2, 3, 4, 5, 6, 7, 8, 11, 13, 9, 16, 18, 19, 17, 10, 12, 14, 15, 22, 23, 21, 24, 20, 25, 26])

@@ -9,7 +9,7 @@ use super::{Cells, Group, Mesh};
 /// The rectangle `[0, lx] × [0, ly]` in `nx × ny` boxes of one quadrilateral or two triangles each.
 ///
 /// `jitter` moves every interior vertex by up to that fraction of the spacing in each direction (0.2 keeps
-/// the cells well shaped), the same way for the same `seed`. Mid-side nodes lie at the midpoints, so every
+/// the cells well shaped), the same way for the same `seed`. Nodes of sides lie at equal distances, so every
 /// edge is straight. One region `soil`; curve groups `left`, `right`, `bottom` and `top`, each with its
 /// facets ordered counter-clockwise around the rectangle.
 ///
@@ -57,8 +57,8 @@ pub fn rectangle(kind: CellKind, lx: f64, ly: f64, nx: usize, ny: usize, jitter:
             let facets: Vec<_> = line
                 .windows(2)
                 .map(|pair| {
-                    let middle = middles.get(&(pair[0].min(pair[1]), pair[0].max(pair[1])));
-                    (facet, pair.iter().chain(middle).copied().collect::<Vec<u32>>())
+                    let within = of_side(&middles, pair[0], pair[1]);
+                    (facet, pair.iter().copied().chain(within).collect::<Vec<u32>>())
                 })
                 .collect();
             let mut nodes: Vec<u32> = facets.iter().flat_map(|(_, n)| n.iter().copied()).collect();
@@ -70,24 +70,47 @@ pub fn rectangle(kind: CellKind, lx: f64, ly: f64, nx: usize, ny: usize, jitter:
     mesh
 }
 
-/// Appends a cell with straight edges over `corners`, making or reusing its mid-side nodes.
-fn add(mesh: &mut Mesh<2>, kind: CellKind, corners: &[u32], middles: &mut BTreeMap<(u32, u32), u32>) {
+/// The nodes within each side, by its ends with the lower number first, from there on.
+type Sides = BTreeMap<(u32, u32), Vec<u32>>;
+
+/// The nodes within a side, from `a` to `b`.
+fn of_side(sides: &Sides, a: u32, b: u32) -> Vec<u32> {
+    let mut within = sides.get(&(a.min(b), a.max(b))).cloned().unwrap_or_default();
+    if a > b {
+        within.reverse();
+    }
+    within
+}
+
+/// Appends a cell with straight edges over `corners`, making or reusing the nodes within its sides.
+fn add(mesh: &mut Mesh<2>, kind: CellKind, corners: &[u32], sides: &mut Sides) {
     let mut cell = corners.to_vec();
-    if kind.order() == 2 {
-        for (i, &a) in corners.iter().enumerate() {
-            let b = corners[(i + 1) % corners.len()];
-            let nodes = &mut mesh.nodes;
-            cell.push(*middles.entry((a.min(b), a.max(b))).or_insert_with(|| {
-                let (p, q) = (nodes[a as usize], nodes[b as usize]);
-                nodes.push([0.5 * (p[0] + q[0]), 0.5 * (p[1] + q[1])]);
-                nodes.len() as u32 - 1
-            }));
-        }
+    for (i, &a) in corners.iter().enumerate() {
+        let b = corners[(i + 1) % corners.len()];
+        let (low, high) = (a.min(b), a.max(b));
+        let nodes = &mut mesh.nodes;
+        sides.entry((low, high)).or_insert_with(|| {
+            let (p, q) = (nodes[low as usize], nodes[high as usize]);
+            let parts = kind.order() as f64;
+            let place = |k: usize| [0, 1].map(|d| ((parts - k as f64) * p[d] + k as f64 * q[d]) / parts);
+            let first = nodes.len() as u32;
+            nodes.extend((1..kind.order()).map(place));
+            (first..nodes.len() as u32).collect()
+        });
+        cell.extend(of_side(sides, a, b));
     }
     if kind == CellKind::Q9 {
         let centre = [0, 1].map(|d| 0.25 * corners.iter().map(|&n| mesh.nodes[n as usize][d]).sum::<f64>());
         cell.push(mesh.nodes.len() as u32);
         mesh.nodes.push(centre);
+    }
+    if kind == CellKind::Q16 {
+        for i in 0..4 {
+            let at = |k: usize, d: usize| mesh.nodes[corners[(i + k) % 4] as usize][d];
+            let place = [0, 1].map(|d| (4.0 * at(0, d) + 2.0 * (at(1, d) + at(3, d)) + at(2, d)) / 9.0);
+            cell.push(mesh.nodes.len() as u32);
+            mesh.nodes.push(place);
+        }
     }
     mesh.cells.push(kind, 0, &cell);
 }

@@ -23,8 +23,8 @@ struct Edge {
     side: u8,
     /// Whether the cell has the lower end first.
     ascending: bool,
-    /// The node in its middle; [`NONE`] on an edge of first order.
-    middle: u32,
+    /// The nodes within it, from the lower end on; [`NONE`] where there are fewer.
+    within: [u32; 2],
 }
 
 const NONE: u32 = u32::MAX;
@@ -34,8 +34,8 @@ const NONE: u32 = u32::MAX;
 enum Role {
     Unused,
     Corner,
-    /// In the middle of the edge between these.
-    Middle([u32; 2]),
+    /// Within the edge between these, in this place from the lower one on.
+    Within([u32; 2], usize),
     Centre,
 }
 
@@ -52,7 +52,7 @@ pub fn check(mesh: &Mesh<2>, file: &Path) -> Result<()> {
         let wrong = |problem: &str| Error::input(place_of(mesh, same[0].cell as usize, file), problem, REMEDY);
         match same {
             [edge] => boundary.push(*edge),
-            [a, b] if a.middle != b.middle => {
+            [a, b] if a.within != b.within => {
                 return Err(wrong("it and its neighbour have different nodes on an edge"));
             }
             [a, b] if a.ascending == b.ascending => {
@@ -68,7 +68,7 @@ pub fn check(mesh: &Mesh<2>, file: &Path) -> Result<()> {
     check_overlap(mesh, &boundary, &joined, file)
 }
 
-/// A node is a corner of all its cells, or in the middle of one edge, or in the middle of one cell.
+/// A node is a corner of all its cells, or in one place within one edge, or within one cell.
 fn check_roles(mesh: &Mesh<2>, file: &Path) -> Result<()> {
     let mut roles = vec![Role::Unused; mesh.nodes.len()];
     for c in 0..mesh.cells.len() {
@@ -77,7 +77,11 @@ fn check_roles(mesh: &Mesh<2>, file: &Path) -> Result<()> {
         for (i, &node) in nodes.iter().enumerate() {
             let role = match i {
                 _ if i < corners => Role::Corner,
-                _ if i < 2 * corners => Role::Middle(ascending(nodes[i - corners], nodes[(i - corners + 1) % corners])),
+                _ if i < kind.order() * corners => {
+                    let (side, place) = ((i - corners) / (kind.order() - 1), (i - corners) % (kind.order() - 1));
+                    let [a, b] = [nodes[side], nodes[(side + 1) % corners]];
+                    Role::Within(ascending(a, b), if a < b { place } else { kind.order() - 2 - place })
+                }
                 _ => Role::Centre,
             };
             let known = &mut roles[node as usize];
@@ -99,12 +103,22 @@ fn edges(mesh: &Mesh<2>) -> Vec<Edge> {
         let nodes = mesh.cells.nodes(c);
         for (side, facet) in mesh.cells.kind[c].facets().1.iter().enumerate() {
             let [a, b] = [nodes[facet[0]], nodes[facet[1]]];
-            let middle = facet.get(2).map_or(NONE, |&i| nodes[i]);
-            edges.push(Edge { ends: ascending(a, b), cell: c as u32, side: side as u8, ascending: a < b, middle });
+            let within = within(a < b, facet[2..].iter().map(|&i| nodes[i]));
+            edges.push(Edge { ends: ascending(a, b), cell: c as u32, side: side as u8, ascending: a < b, within });
         }
     }
     edges.sort_unstable();
     edges
+}
+
+/// The nodes within an edge from its lower end on, given those from its first end on, and whether that is the lower one.
+fn within(ascending: bool, nodes: impl Iterator<Item = u32>) -> [u32; 2] {
+    let mut within = [NONE; 2];
+    let count = within.iter_mut().zip(nodes).map(|(within, node)| *within = node).count();
+    if !ascending {
+        within[..count].reverse();
+    }
+    within
 }
 
 /// Every facet of a curve is an edge of a cell, and no facet is in its group twice.
@@ -118,11 +132,11 @@ fn check_groups(mesh: &Mesh<2>, edges: &[Edge], file: &Path) -> Result<()> {
         seen.clear();
         for (kind, nodes) in &group.facets {
             let key = match (kind, nodes.as_slice()) {
-                (CellKind::Line2 | CellKind::Line3, &[a, b, ref middle @ ..]) => {
+                (CellKind::Line2 | CellKind::Line3 | CellKind::Line4, &[a, b, ref middle @ ..]) => {
                     let ends = ascending(a, b);
                     let first = edges.partition_point(|edge| edge.ends < ends);
-                    let middle = middle.first().copied().unwrap_or(NONE);
-                    if edges.get(first).is_none_or(|edge| edge.ends != ends || edge.middle != middle) {
+                    let within = within(a < b, middle.iter().copied());
+                    if edges.get(first).is_none_or(|edge| edge.ends != ends || edge.within != within) {
                         let [x, y] = mesh.nodes[a as usize];
                         return Err(wrong(&format!("its part at ({x:.6}, {y:.6}) is no edge of a cell")));
                     }
@@ -204,7 +218,7 @@ mod tests {
     use crate::mesh::builder::rectangle;
     use crate::mesh::{Group, quality};
 
-    const KINDS: [CellKind; 5] = [CellKind::T3, CellKind::T6, CellKind::Q4, CellKind::Q8, CellKind::Q9];
+    const KINDS: [CellKind; 6] = [CellKind::T3, CellKind::T6, CellKind::Q4, CellKind::Q8, CellKind::Q9, CellKind::Q16];
 
     fn refused(mesh: &Mesh<2>) -> String {
         check(mesh, Path::new("out/mesh.msh")).unwrap_err().to_string()

@@ -28,7 +28,7 @@ use std::path::Path;
 /// What the case decides about the mesh.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Options {
-    /// Polynomial order of the cells: 1 or 2.
+    /// Polynomial order of the cells: 1, 2 or 3.
     pub order: u8,
     /// Quadrilaterals of order 2 without a centre node (Q8 instead of Q9).
     pub incomplete: bool,
@@ -41,7 +41,7 @@ pub struct Options {
 ///
 /// # Errors
 /// Input: what Gmsh cannot read or mesh, with its line where it names one; a parameter that no
-/// `DefineConstant` declares; a surface in no physical surface or in two; an order other than 1 and 2; a mesh size below
+/// `DefineConstant` declares; a surface in no physical surface or in two; an order other than 1, 2 and 3; a mesh size below
 /// the tolerance of the geometry.
 /// Machine: `out` cannot be written.
 pub fn generate(geo: &Path, options: &Options, out: &Path) -> Result<()> {
@@ -56,8 +56,8 @@ fn generate_when(
     memory: u64,
     agree: &mut dyn FnMut(Groups) -> Result<bool>,
 ) -> Result<()> {
-    if !matches!(options.order, 1 | 2) {
-        return Err(Error::input(geo.display(), format!("order {} is not possible", options.order), "use 1 or 2"));
+    if !matches!(options.order, 1..=3) {
+        return Err(Error::input(geo.display(), format!("order {} is not possible", options.order), "use 1, 2 or 3"));
     }
     let session = open(geo, options)?;
     if !agree(names(&session))? {

@@ -32,7 +32,7 @@ const SEAL: [&str; 2] = ["mpm mesh", "xxh64="];
 ///
 /// # Errors
 /// Input: a file that is missing, cut short, of another format, changed after it was sealed, or without physical
-/// surfaces; cells that are not T3, T6, Q4, Q8 or Q9, of mixed order, in two physical surfaces, or outside the x–y
+/// surfaces; cells that are not T3, T6, Q4, Q8, Q9 or Q16, of mixed order, in two physical surfaces, or outside the x–y
 /// plane; groups that are empty or that no cell touches. Machine: one that cannot be read.
 pub fn read(path: &Path) -> Result<Mesh<2>> {
     let place = path.display().to_string();
@@ -305,27 +305,48 @@ fn number_nodes(cells: &[(CellKind, u16, &[u32])], nodes: &Nodes, mesh: &mut Mes
     Ok(number)
 }
 
-/// Puts the middle nodes of straight edges and cells exactly in the middle, from which Gmsh's own are off by
+/// Puts the nodes within straight edges and cells exactly at their places, from which Gmsh's own are off by
 /// some 1e-13 of the length: so straight cells are recognised as straight.
 fn straighten(cells: &[(CellKind, u16, &[u32])], number: &[u32], x: &mut [[f64; 2]]) {
+    let put = |x: &mut [[f64; 2]], node: u32, place: [f64; 2], [a, b]: [u32; 2]| {
+        let [a, b] = [a, b].map(|n| x[n as usize]);
+        let size = (b[0] - a[0]).hypot(b[1] - a[1]);
+        let y = &mut x[node as usize];
+        if (y[0] - place[0]).hypot(y[1] - place[1]) <= 1e-10 * size {
+            *y = place;
+        }
+    };
     let snap = |x: &mut [[f64; 2]], middle: u32, around: &[u32]| {
         let mean = [0, 1].map(|d| around.iter().map(|&n| x[n as usize][d]).sum::<f64>() / around.len() as f64);
-        let [a, b] = [around[0], around[around.len() / 2]].map(|n| x[n as usize]);
-        let size = (b[0] - a[0]).hypot(b[1] - a[1]);
-        let y = &mut x[middle as usize];
-        if (y[0] - mean[0]).hypot(y[1] - mean[1]) <= 1e-10 * size {
-            *y = mean;
-        }
+        put(x, middle, mean, [around[0], around[around.len() / 2]]);
+    };
+    // A third on from the first of two nodes, or from the first of four corners towards the others.
+    let thirds = |x: &mut [[f64; 2]], node: u32, from: &[u32]| {
+        let at = |n: u32, d: usize| x[n as usize][d];
+        let place = [0, 1].map(|d| match *from {
+            [a, b] => (2.0 * at(a, d) + at(b, d)) / 3.0,
+            [a, b, c, e] => (4.0 * at(a, d) + 2.0 * (at(b, d) + at(e, d)) + at(c, d)) / 9.0,
+            _ => f64::NAN,
+        });
+        put(x, node, place, [from[0], from[from.len() / 2]]);
     };
     for (kind, _, nodes) in cells {
         let node = |i: usize| number[nodes[i] as usize];
         for facet in kind.facets().1 {
-            if let [a, b, middle] = **facet {
-                snap(x, node(middle), &[node(a), node(b)]);
+            match **facet {
+                [a, b, middle] => snap(x, node(middle), &[node(a), node(b)]),
+                [a, b, first, second] => {
+                    thirds(x, node(first), &[node(a), node(b)]);
+                    thirds(x, node(second), &[node(b), node(a)]);
+                }
+                _ => {}
             }
         }
         if *kind == CellKind::Q9 {
             snap(x, node(8), &[0, 1, 2, 3].map(node));
+        }
+        if *kind == CellKind::Q16 {
+            (0..4).for_each(|i| thirds(x, node(12 + i), &[0, 1, 2, 3].map(|k| node((i + k) % 4))));
         }
     }
 }
@@ -337,9 +358,11 @@ fn turn_counter_clockwise(kind: CellKind, x: &[[f64; 2]], nodes: &mut [u32]) {
     let doubled: f64 = (0..corners).map(|i| corner(i)[0] * corner(i + 1)[1] - corner(i + 1)[0] * corner(i)[1]).sum();
     if doubled < 0.0 {
         nodes[1..corners].reverse();
-        if kind.order() == 2 {
-            // The mid-side after corner i is that before it in the other sense.
-            nodes[corners..2 * corners].reverse();
+        // The nodes of the side after corner i are those before it in the other sense.
+        let of_sides = corners * kind.order();
+        nodes[corners..of_sides].reverse();
+        if kind == CellKind::Q16 {
+            nodes[of_sides + 1..].reverse();
         }
     }
 }

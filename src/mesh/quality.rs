@@ -58,7 +58,7 @@ pub fn check(mesh: &Mesh<2>, file: &Path) -> Result<Summary> {
         // What is not a number is neither.
         let (shaped, unfolded) = (quality > WORST, least > WORST * largest);
         if !finite || !shaped || !unfolded {
-            let (problem, remedy) = if shaped && kind.order() == 2 {
+            let (problem, remedy) = if shaped && kind.order() > 1 {
                 ("its curved edges fold it over", "refine the mesh along the curve there, or use order: 1")
             } else {
                 ("it is inverted or flat", "mend the geometry there, or refine the mesh")
@@ -138,14 +138,14 @@ pub fn jacobian_range(kind: CellKind, x: &[[f64; 2]]) -> (f64, f64) {
 
 /// The Bernstein coefficients of `det J` of a cell (m²).
 struct Coefficients {
-    value: [f64; 16],
+    value: [f64; 36],
     count: usize,
 }
 
 impl Coefficients {
     fn of(kind: CellKind, x: &[[f64; 2]]) -> Self {
         let at = |xi: [f64; 3]| determinant(kind, x, &xi);
-        let (mut value, mut count) = ([0.0; 16], 0);
+        let (mut value, mut count) = ([0.0; 36], 0);
         let mut take = |coefficient| {
             value[count] = coefficient;
             count += 1;
@@ -164,6 +164,13 @@ impl Coefficients {
                 let rows = [0, 1, 2, 3].map(|j| bernstein([0, 1, 2, 3].map(|i| at([third(i), third(j), 0.0]))));
                 (0..4).for_each(|i| bernstein([0, 1, 2, 3].map(|j: usize| rows[j][i])).into_iter().for_each(&mut take));
             }
+            CellKind::Q16 => {
+                // Degree 5 in each direction, from values at 6 × 6 equal distances.
+                let place = |i: usize| 0.4 * i as f64 - 1.0;
+                let rows: [_; 6] =
+                    std::array::from_fn(|j| quintic(std::array::from_fn(|i| at([place(i), place(j), 0.0]))));
+                (0..6).for_each(|i| quintic(std::array::from_fn(|j| rows[j][i])).into_iter().for_each(&mut take));
+            }
             // Constant on a T3, linear in each direction on a Q4: the corners tell.
             _ => kind.node_coordinates().iter().for_each(|&xi| take(at(xi))),
         }
@@ -180,6 +187,17 @@ impl Coefficients {
         let reference = if kind.is_simplex() { 0.5 } else { 4.0 };
         reference * self.value[..self.count].iter().sum::<f64>() / self.count as f64
     }
+}
+
+/// Bernstein coefficients of the polynomial of fifth degree with the values `f` at six equal distances.
+fn quintic(f: [f64; 6]) -> [f64; 6] {
+    const SECOND: [f64; 6] = [-154.0, 600.0, -600.0, 400.0, -150.0, 24.0];
+    const THIRD: [f64; 6] = [134.5, -725.0, 1475.0, -1150.0, 462.5, -77.0];
+    let sum = |weights: [f64; 6], backwards: bool| {
+        let value = |i: usize| if backwards { f[5 - i] } else { f[i] };
+        weights.iter().enumerate().map(|(i, weight)| weight * value(i)).sum::<f64>() / 120.0
+    };
+    [f[0], sum(SECOND, false), sum(THIRD, false), sum(THIRD, true), sum(SECOND, true), f[5]]
 }
 
 /// Bernstein coefficients of the cubic with the values `f` at four equal distances.

@@ -6,6 +6,7 @@ use crate::interpolation::{Entries, Interpolation};
 use crate::kinematics::Kinematics;
 use crate::mesh::Mesh;
 use crate::points::Points;
+use crate::profile;
 use crate::system::{Connectivity, Matrix, Pattern, Solver};
 use rayon::prelude::*;
 
@@ -43,6 +44,9 @@ impl System {
         places: &[[f64; D]],
     ) -> Result<Self> {
         let pattern = Pattern::new(sizes, connectivity, symmetric);
+        // A pattern that is symmetric has one triangle.
+        let entries = if symmetric { 2 * pattern.row.len() - pattern.len() } else { pattern.row.len() };
+        profile::note_system(pattern.len(), entries);
         let matrix = Matrix::new(&pattern);
         let solver = Solver::new(&pattern, places)?;
         Ok(Self { pattern, matrix, solver })

@@ -178,7 +178,7 @@ impl<const D: usize> Grid<D> {
             }));
             Scalars::new(&families, node.len(), &connectivity, places.end(others))
         });
-        let symmetric = scene.terms.iter().all(|t| t.symmetric());
+        let symmetric = scene.basis.is_symmetric() && scene.terms.iter().all(|t| t.symmetric());
         let mut sizes = vec![D as u8; node.len()];
         let (motion, pressure) = match with_pressure {
             None => (System::new(&sizes, connectivity, symmetric, &coordinates)?, Vec::new()),

@@ -49,7 +49,7 @@ pub fn motion_to_grid<const D: usize, K: Kinematics<D>>(
     Ok(())
 }
 
-/// Gives the material points in cells of second order the interpolated velocity of the grid. The part of their velocity that the grid cannot
+/// Gives the material points in cells of second and third order the interpolated velocity of the grid. The part of their velocity that the grid cannot
 /// represent moves nothing, but would stay with the points, also at rest, until another cell represents it as motion. In cells of first
 /// order this part is bending, and it is kept.
 fn take_what_is_seen<const D: usize, K: Kinematics<D>>(scene: &Scene<D>, grid: &Grid<D>, state: &mut State<D>) {
@@ -57,7 +57,7 @@ fn take_what_is_seen<const D: usize, K: Kinematics<D>>(scene: &Scene<D>, grid: &
     let seen = interpolate::<D, K>(&Family { mesh, interpolation, coupling, points: &state.points }, &state.velocity);
     let Points { velocity, cell, .. } = &mut state.points;
     for ((own, seen), &cell) in velocity.iter_mut().zip(seen).zip(&*cell) {
-        if mesh.cells.kind[cell as usize].order() == 2 {
+        if mesh.cells.kind[cell as usize].order() > 1 {
             *own = seen;
         }
     }

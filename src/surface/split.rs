@@ -16,7 +16,27 @@ pub fn triangles(kind: CellKind) -> &'static [[usize; 3]] {
         CellKind::Q4 => &[[0, 1, 2], [0, 2, 3]],
         CellKind::Q8 => &[[0, 4, 7], [4, 1, 5], [5, 2, 6], [6, 3, 7], [4, 5, 6], [4, 6, 7]],
         CellKind::Q9 => &[[0, 4, 8], [4, 1, 8], [1, 5, 8], [5, 2, 8], [2, 6, 8], [6, 3, 8], [3, 7, 8], [7, 0, 8]],
-        CellKind::Point1 | CellKind::Line2 | CellKind::Line3 | CellKind::T10 | CellKind::H27 => &[],
+        CellKind::Q16 => &[
+            [0, 4, 12],
+            [0, 12, 11],
+            [4, 5, 13],
+            [4, 13, 12],
+            [5, 1, 6],
+            [5, 6, 13],
+            [11, 12, 15],
+            [11, 15, 10],
+            [12, 13, 14],
+            [12, 14, 15],
+            [13, 6, 7],
+            [13, 7, 14],
+            [10, 15, 9],
+            [10, 9, 3],
+            [15, 14, 8],
+            [15, 8, 9],
+            [14, 7, 2],
+            [14, 2, 8],
+        ],
+        CellKind::Point1 | CellKind::Line2 | CellKind::Line3 | CellKind::Line4 | CellKind::T10 | CellKind::H27 => &[],
     }
 }
 

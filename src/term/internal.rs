@@ -16,8 +16,8 @@
 use super::extended::{Kept, scatter_functions};
 use super::mixed::{Answer, Within};
 use super::smoothed::{self, Layout};
-use super::stiffness::Stiffness;
-use super::volume::LinearFit;
+use super::stiffness::{Stiffness, add_turning};
+use super::volume::VolumeFit;
 use super::{Assembly, Frame, Histories, History, Term, Trial, Update};
 use super::{Mixed, Ratios};
 use crate::error::{Error, Result};
@@ -281,6 +281,10 @@ impl<const D: usize, K: Kinematics<D>, S: Mixed<D, K>> Term<D> for Internal<K, S
             let mut spatial = [Gradient { g: [0.0; D], hoop: 0.0 }; MAX_FUNCTIONS];
             let own = cell_points.node_count as usize;
             let layout = Layout::new::<D, K>(cell_points);
+            // Where strains are taken with other gradients than forces act through, the grid is deformed by each of them.
+            let apart = frame.interpolation.strains_apart();
+            let now = apart.then(|| frame.interpolation.gather(frame.mesh, cell_points, trial.displacement));
+            let mut buffer = Vec::new();
             Stiffness::with::<D, _>(own, |stiffness| {
                 for (k, ((entries, point), answer)) in
                     frame.interpolation.entries::<K>(cell_points).zip(&strained).zip(&mut answers).enumerate()
@@ -289,23 +293,35 @@ impl<const D: usize, K: Kinematics<D>, S: Mixed<D, K>> Term<D> for Internal<K, S
                     let add = |answer: &mut _| self.share.add(&cell, frame.points, &entries, ratios, answer);
                     let (stress, acts_on) = point.stress::<D, K>(trial.alpha_f, answer, add);
                     let volume = entries.weight;
+                    let of_forces = now.as_ref().map(|now| entries.deformation_of_forces::<K>(now));
+                    let inverse = match of_forces {
+                        None => point.inverse,
+                        Some(deformation) => deformation.try_inverse().ok_or_else(|| {
+                            inadmissible(frame.points, entries.point, "is squeezed flat", &deformation)
+                        })?,
+                    };
                     for i in 0..count {
-                        spatial[i] = K::push_forward(&entries.gradient(i), &point.inverse);
+                        spatial[i] = K::push_forward(&entries.gradient(i), &inverse);
                         let f = K::force(&stress, &spatial[i]);
                         for d in 0..D {
                             local.vector[i * D + d] += volume * f[d];
                         }
                     }
-                    let spatial = &spatial[..count];
+                    let forces = &spatial[..count];
+                    let strains = entries.strains::<K>(forces, &point.inverse, &mut buffer);
                     if wanted {
                         let (tangent, weight) = (&answer.0.tangent, later * volume);
-                        stiffness.push::<D, K>(tangent, &spatial[..own], weight, local);
+                        stiffness.push::<D, K>(tangent, [&forces[..own], &strains[..own]], weight, local);
+                        if apart {
+                            add_turning(&stress, [forces, strains], volume, local);
+                        }
                         if !kept.is_empty() {
                             smoothed::keep::<D, K>(&layout, tangent, &entries, &point.inverse, weight, k, kept);
                         }
                     }
                     let seen = answer.1.as_ref();
-                    self.share.couple(&cell, frame.points, &entries, spatial, ratios, seen, &acts_on, later, local);
+                    let gradients = [forces, strains];
+                    self.share.couple(&cell, frame.points, &entries, gradients, ratios, seen, &acts_on, later, local);
                 }
                 if wanted {
                     stiffness.add_to::<D, K>(local);
@@ -349,7 +365,8 @@ impl<const D: usize, K: Kinematics<D>, S: Mixed<D, K>> Term<D> for Internal<K, S
                     let point = strain::<D, K>(points, &entries, &now, Some(&before)).ok()?;
                     Some((entries.weight, points.position[entries.point], point.ratios.step.ln()))
                 };
-                LinearFit::of(&interpolation.entries::<K>(cell_points).filter_map(ratio).collect::<Vec<_>>())
+                let ratios: Vec<_> = interpolation.entries::<K>(cell_points).filter_map(ratio).collect();
+                VolumeFit::of(&ratios, frame.mesh.cells.kind[cell_points.cell as usize].order())
             });
             let count = self.internal_count(frame.points);
             let mut out = Histories::with_capacity(cell_points.point_count as usize, count);

@@ -87,7 +87,7 @@ pub trait Mixed<const D: usize, K: Kinematics<D>>: Send + Sync {
     ) -> f64;
 
     /// Adds the equations of the unknowns and what couples them with the displacements to the end of `local`, given what the model sees of them,
-    /// the gradients on the deformed grid, the ratios of volumes, the tensor through which the stress acts and the weight of the end
+    /// the gradients on the deformed grid that forces act through and those that strains are taken with, the ratios of volumes, the tensor through which the stress acts and the weight of the end
     /// of the step.
     #[expect(clippy::too_many_arguments, reason = "a point, and where it goes")]
     fn couple(
@@ -95,7 +95,7 @@ pub trait Mixed<const D: usize, K: Kinematics<D>>: Send + Sync {
         cell: &Self::Cell,
         points: &Points<D>,
         entries: &Entries<D>,
-        spatial: &[Gradient<D>],
+        gradients: [&[Gradient<D>]; 2],
         ratios: Ratios,
         seen: Option<&Seen>,
         acts_on: &Tensor,
@@ -135,7 +135,7 @@ impl<const D: usize, K: Kinematics<D>> Mixed<D, K> for () {
         (): &(),
         _: &Points<D>,
         _: &Entries<D>,
-        _: &[Gradient<D>],
+        _: [&[Gradient<D>]; 2],
         _: Ratios,
         _: Option<&Seen>,
         _: &Tensor,
@@ -188,15 +188,15 @@ impl<const D: usize, K: Kinematics<D>, A: Mixed<D, K>, B: Mixed<D, K>> Mixed<D, 
         cell: &Self::Cell,
         points: &Points<D>,
         entries: &Entries<D>,
-        spatial: &[Gradient<D>],
+        gradients: [&[Gradient<D>]; 2],
         ratios: Ratios,
         seen: Option<&Seen>,
         acts_on: &Tensor,
         later: f64,
         local: &mut Local,
     ) {
-        self.0.couple(&cell.0, points, entries, spatial, ratios, seen, acts_on, later, local);
-        self.1.couple(&cell.1, points, entries, spatial, ratios, seen, acts_on, later, local);
+        self.0.couple(&cell.0, points, entries, gradients, ratios, seen, acts_on, later, local);
+        self.1.couple(&cell.1, points, entries, gradients, ratios, seen, acts_on, later, local);
     }
 
     fn commit(

@@ -225,7 +225,7 @@ impl<const D: usize, K: Kinematics<D>> Mixed<D, K> for PressureField<K> {
         cell: &Cell,
         points: &Points<D>,
         entries: &Entries<D>,
-        spatial: &[Gradient<D>],
+        [forces, strains]: [&[Gradient<D>]; 2],
         ratios: Ratios,
         seen: Option<&Seen>,
         acts_on: &Tensor,
@@ -270,8 +270,8 @@ impl<const D: usize, K: Kinematics<D>> Mixed<D, K> for PressureField<K> {
             by_field += seen.stress;
         }
         let acting = acts_on * by_field;
-        for (i, gradient) in spatial.iter().enumerate() {
-            let (volume, force) = (K::force(&by_strain, gradient), K::force(&acting, gradient));
+        for (i, (force, strain)) in forces.iter().zip(strains).enumerate() {
+            let (volume, force) = (K::force(&by_strain, strain), K::force(&acting, force));
             for (a, hat) in hats.iter().enumerate().take(count) {
                 for d in 0..D {
                     local.matrix[(begin + a) * size + i * D + d] += weight * hat * volume[d];

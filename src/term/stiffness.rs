@@ -1,10 +1,11 @@
 //! The stiffness of the points of a cell, `Σ_p w_p B_pᵀ a_p B_p`, as a product of two dense matrices.
 //!
-//! The right one holds `w a B`, a row for each component of the gradients of each point; the left one the gradients
-//! themselves. Their product runs along rows of the result, so that it fills whole registers, whatever the machine has.
+//! The right one holds `w a B` of the gradients that strains are taken with, a row for each component of each point; the left one the
+//! gradients that forces act through. Their product runs along rows of the result, so that it fills whole registers, whatever the machine has.
 
 use crate::kinematics::{Gradient, Kinematics};
 use crate::system::Local;
+use crate::tensor::Tensor;
 use pulp::{Arch, Simd, WithSimd};
 use std::cell::RefCell;
 
@@ -41,11 +42,11 @@ impl Stiffness {
         })
     }
 
-    /// Takes in a point with its tangent, gradients on the deformed grid and weight (m³).
+    /// Takes in a point with its tangent, gradients on the deformed grid that forces act through and strains are taken with, and weight (m³).
     pub fn push<const D: usize, K: Kinematics<D>>(
         &mut self,
         tangent: &K::Tangent,
-        spatial: &[Gradient<D>],
+        [forces, strains]: [&[Gradient<D>]; 2],
         weight: f64,
         local: &mut Local,
     ) {
@@ -58,12 +59,12 @@ impl Stiffness {
         self.right.resize(right * AT_ONCE, 0.0);
         let left = &mut self.left[left * self.points..][..left];
         let right = &mut self.right[right * self.points..][..right];
-        for (b, gradient) in spatial.iter().enumerate() {
+        for (b, (force, strain)) in forces.iter().zip(strains).enumerate() {
             for d in 0..D {
-                left[d * functions + b] = gradient.g[d];
+                left[d * functions + b] = force.g[d];
             }
-            left[D * functions + b] = gradient.hoop;
-            let column = K::column(tangent, gradient);
+            left[D * functions + b] = force.hoop;
+            let column = K::column(tangent, strain);
             for (row, column) in right.chunks_exact_mut(width).zip(column.as_ref()) {
                 for (entry, a) in row[b * D..(b + 1) * D].iter_mut().zip(column) {
                     *entry = weight * a;
@@ -91,6 +92,28 @@ impl Stiffness {
                 matrix: local.matrix,
                 size: local.size,
             });
+        }
+    }
+}
+
+/// Adds what the forces of a point change by where the gradients that they act through turn and stretch otherwise than those that strains are taken
+/// with: with the stress `P` of the force `V P ∇_x N`, of which the tangent takes `∇_x N` to follow the strain, `V (P (∇L_b − ∇N_b)) ⊗ ∇N_a`.
+pub fn add_turning<const D: usize>(
+    stress: &Tensor,
+    [forces, strains]: [&[Gradient<D>]; 2],
+    volume: f64,
+    local: &mut Local,
+) {
+    for (b, (force, strain)) in forces.iter().zip(strains).enumerate() {
+        let pull: [f64; D] =
+            std::array::from_fn(|i| volume * (0..D).map(|j| stress[(i, j)] * (strain.g[j] - force.g[j])).sum::<f64>());
+        for (a, force) in forces.iter().enumerate() {
+            for (i, pull) in pull.iter().enumerate() {
+                let row = (a * D + i) * local.size + b * D;
+                for (entry, g) in local.matrix[row..row + D].iter_mut().zip(&force.g) {
+                    *entry += pull * g;
+                }
+            }
         }
     }
 }

@@ -98,8 +98,10 @@ struct Place<'a, const D: usize> {
     /// The values of functions at the nodes, and the gradients of all, in the configuration of the grid.
     value: &'a [f64],
     gradient: &'a [Gradient<D>],
-    /// The inverse of the deformation of the grid there.
+    /// The inverse of the deformation of the grid there by these gradients.
     inverse: Tensor,
+    /// The gradients that strains are taken with and the inverse by them, where these are others.
+    strained: Option<(&'a [Gradient<D>], Tensor)>,
     /// The volume (m³) in the trial state.
     volume: f64,
     pressures: Pressures,
@@ -116,6 +118,10 @@ impl<const D: usize> Place<'_, D> {
             spatial[i] = K::push_forward(&self.gradient[i], &self.inverse);
             divergence[i] = K::force(&Tensor::identity(), &spatial[i]);
         }
+        let swollen: Option<Vec<[f64; D]>> = self.strained.map(|(gradients, inverse)| {
+            let strains = gradients.iter().map(|gradient| K::push_forward(gradient, &inverse));
+            strains.map(|strain| K::force(&Tensor::identity(), &strain)).collect()
+        });
         let value = |i: usize| self.value.get(i).copied().unwrap_or(0.0);
         for i in 0..count {
             for d in 0..D {
@@ -130,9 +136,10 @@ impl<const D: usize> Place<'_, D> {
         for i in 0..count {
             for j in 0..count {
                 let (a, b, size) = (&spatial[i], &spatial[j], local.size);
+                let swelling = swollen.as_ref().map_or(&divergence[j], |swollen| &swollen[j]);
                 for d in 0..D {
                     for e in 0..D {
-                        let mut entry = left * (divergence[i][d] * divergence[j][e] - a.g[e] * b.g[d]);
+                        let mut entry = left * (divergence[i][d] * swelling[e] - a.g[e] * b.g[d]);
                         if d == 0 && e == 0 {
                             entry -= left * a.hoop * b.hoop;
                         }
@@ -140,7 +147,7 @@ impl<const D: usize> Place<'_, D> {
                             entry += left_slope * divergence[i][d] * value(j);
                         }
                         if d == 1 {
-                            entry += slope * value(i) * divergence[j][e];
+                            entry += slope * value(i) * swelling[e];
                         }
                         if d == 1 && e == 1 {
                             entry += second * value(i) * value(j);
@@ -269,7 +276,8 @@ impl<'a, const D: usize> Layered<'a, D> {
             match invert(&deformed) {
                 Ok((inverse, ratio)) => {
                     let volume = self.scale * volume * ratio;
-                    Place { value, gradient, inverse, volume, pressures }.add::<K>(1.0 - trial.alpha_f, local);
+                    Place { value, gradient, inverse, strained: None, volume, pressures }
+                        .add::<K>(1.0 - trial.alpha_f, local);
                 }
                 Err(determinant) => inverted = Some(determinant),
             }
@@ -342,7 +350,23 @@ impl<const D: usize, K: Kinematics<D>> Term<D> for VirtualPressure<K> {
                     .map_err(|determinant| inside_out(frame.points.name(entries.point), determinant))?;
                 let ratio = determinant / known.determinant();
                 let volume = entries.weight * ratio * frame.points.deformation[entries.point].determinant();
-                let place = Place { value: entries.value, gradient: &gradient[..count], inverse, volume, pressures };
+                let mut place = Place {
+                    value: entries.value,
+                    gradient: &gradient[..count],
+                    inverse,
+                    strained: None,
+                    volume,
+                    pressures,
+                };
+                let strains: Vec<_>;
+                if entries.strains_apart() {
+                    strains = (0..count).map(|i| entries.strain_gradient(i)).collect();
+                    let of_forces = entries.deformation_of_forces::<K>(&now);
+                    place.inverse = invert(&of_forces)
+                        .map_err(|determinant| inside_out(frame.points.name(entries.point), determinant))?
+                        .0;
+                    place.strained = Some((&strains, inverse));
+                }
                 place.add::<K>(1.0 - trial.alpha_f, local);
             }
             Ok(())

@@ -3,11 +3,13 @@
 //! A step brings the volume to balance where it is summed over. Elsewhere in a cell the determinant of the deformation has terms of second order
 //! in the strain of a step that nothing has balanced, and soil that resists a change of its volume, and flows otherwise, would answer to
 //! them with a pressure; where it cannot bear tension, with the half of them that presses. So the volume of a material point changes as the linear function of place does
-//! that is fitted to `ln ΔJ` at the integration points of its cell.
+//! that is fitted to `ln ΔJ` at the integration points of its cell; in cells of third order the quadratic one.
 
+use crate::geometry::quadratic::{self, Quadratic};
 use crate::tensor::Tensor;
 
-/// A linear fit whose weights at a point are, in sum of their sizes, more than this extrapolates too far: the mean is taken there.
+/// A fit whose weights at a point are, in sum of their sizes, more than this extrapolates too far: the linear one is taken in place of a quadratic one there, and the mean in place of
+/// that.
 const MOST: f64 = 3.0;
 
 /// The weight (m³) of an integration point, its place (m) and the value there.
@@ -23,18 +25,20 @@ struct Sample<const D: usize> {
     value: f64,
 }
 
-/// A linear function of place through values at the integration points of a cell.
-pub struct LinearFit<const D: usize> {
+/// A function of place through values at the integration points of a cell.
+pub struct VolumeFit<const D: usize> {
     samples: Vec<Sample<D>>,
     centre: [f64; D],
     mean: f64,
     /// Inverse of the second moments (1/m²), if there is one.
     inverse: Option<Tensor>,
+    /// The normal equations of the quadratic function, and the length (m) in which they take places from the centre.
+    quadratic: Option<(Quadratic, f64)>,
 }
 
-impl<const D: usize> LinearFit<D> {
-    /// That through `values`, each with its weight and its place (m); `None` of no values.
-    pub fn of(values: &[Weighed<D>]) -> Option<Self> {
+impl<const D: usize> VolumeFit<D> {
+    /// That through `values`, each with its weight and its place (m), in a cell of some `order`; `None` of no values.
+    pub fn of(values: &[Weighed<D>], order: usize) -> Option<Self> {
         let whole: f64 = values.iter().map(|v| v.0).sum();
         if values.is_empty() || whole <= 0.0 {
             return None;
@@ -53,13 +57,29 @@ impl<const D: usize> LinearFit<D> {
                 moments[(i, j)] = samples.iter().map(|s| s.share * s.from_centre[i] * s.from_centre[j]).sum();
             }
         }
-        Some(Self { mean: mean_of(&|v| v.2), inverse: moments.try_inverse(), samples, centre })
+        let length = (0..D).map(|d| moments[(d, d)]).sum::<f64>().sqrt();
+        let weighed = samples.iter().map(|s| (s.share, in_plane(&s.from_centre, length)));
+        let quadratic = if order > 2 && D == 2 { Quadratic::of(weighed) } else { None };
+        let quadratic = quadratic.map(|quadratic| (quadratic, length));
+        Some(Self { mean: mean_of(&|v| v.2), inverse: moments.try_inverse(), samples, centre, quadratic })
     }
 
     /// The value at a place (m).
     pub fn at(&self, place: &[f64; D]) -> f64 {
         let Some(inverse) = &self.inverse else { return self.mean };
         let to: [f64; D] = std::array::from_fn(|d| place[d] - self.centre[d]);
+        if let Some((quadratic, length)) = &self.quadratic {
+            let (at, mut value, mut size) = (in_plane(&to, *length), 0.0, 0.0);
+            for sample in &self.samples {
+                let shares = quadratic.shares(sample.share, in_plane(&sample.from_centre, *length));
+                let weight = quadratic::value(&shares, at);
+                value += weight * sample.value;
+                size += weight.abs();
+            }
+            if size <= MOST {
+                return value;
+            }
+        }
         let slope: [f64; D] = std::array::from_fn(|i| (0..D).map(|j| inverse[(i, j)] * to[j]).sum());
         let (mut value, mut size) = (0.0, 0.0);
         for sample in &self.samples {
@@ -71,6 +91,11 @@ impl<const D: usize> LinearFit<D> {
     }
 }
 
+/// The first two coordinates of a place, in lengths.
+fn in_plane<const D: usize>(x: &[f64; D], length: f64) -> [f64; 2] {
+    [x[0] / length, x[1] / length]
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -80,7 +105,7 @@ mod tests {
         let line = |x: &[f64; 2]| 0.3 - 2.0 * x[0] + x[1];
         let places = [[0.2, 0.1], [0.7, 0.15], [0.15, 0.8]];
         let values = places.map(|x| (0.5, x, line(&x)));
-        let fit = LinearFit::of(&values).unwrap();
+        let fit = VolumeFit::of(&values, 2).unwrap();
         for x in [[0.3, 0.3], [0.0, 0.0], [1.0, 0.0]] {
             assert!((fit.at(&x) - line(&x)).abs() < 1e-14);
         }
@@ -88,7 +113,15 @@ mod tests {
         assert!((fit.at(&[4.0, 4.0]) - mean).abs() < 1e-14);
         // On a line there is no linear function of the plane.
         let flat = [[0.0, 0.0], [0.5, 0.0], [1.0, 0.0]].map(|x| (1.0, x, line(&x)));
-        assert!((LinearFit::of(&flat).unwrap().at(&[0.2, 0.4]) + 0.7).abs() < 1e-14);
-        assert!(LinearFit::<2>::of(&[]).is_none());
+        assert!((VolumeFit::of(&flat, 2).unwrap().at(&[0.2, 0.4]) + 0.7).abs() < 1e-14);
+        assert!(VolumeFit::<2>::of(&[], 2).is_none());
+
+        let curve = |x: &[f64; 2]| line(x) + x[0] * x[0] - 2.0 * x[0] * x[1];
+        let place = |i: usize| [0.1 + 0.3 * (i % 4) as f64, 0.2 * (i / 4) as f64];
+        let values: Vec<Weighed<2>> = (0..16).map(|i| (1.0, place(i), curve(&place(i)))).collect();
+        for (order, most) in [(3, 1e-13), (2, 1.0)] {
+            let off = (VolumeFit::of(&values, order).unwrap().at(&[0.33, 0.27]) - curve(&[0.33, 0.27])).abs();
+            assert!(off < most && (off > 1e-3) == (order == 2), "{order}: {off:e}");
+        }
     }
 }

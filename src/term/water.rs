@@ -108,7 +108,14 @@ fn coefficients(kind: CellKind) -> [[f64; MAX_NODES]; MOST] {
     let mut of = [[0.0; MAX_NODES]; MOST];
     for (a, of) in of.iter_mut().enumerate().take(corners) {
         of[a] = 1.0;
-        if kind.order() > 1 {
+        if kind.order() > 2 {
+            // Their own values at the nodes: bilinear.
+            for (i, xi) in kind.node_coordinates().iter().enumerate() {
+                let mut corner = [0.0; MOST];
+                CellKind::Q4.values(xi, &mut corner);
+                of[i] = corner[a];
+            }
+        } else if kind.order() > 1 {
             of[corners + a] = 0.5;
             of[corners + (a + corners - 1) % corners] = 0.5;
             if kind.node_count() > 2 * corners {
@@ -221,7 +228,7 @@ impl<const D: usize, K: Kinematics<D>> Mixed<D, K> for PoreWater<K> {
         cell: &Cell<D>,
         points: &Points<D>,
         entries: &Entries<D>,
-        spatial: &[Gradient<D>],
+        [forces, strains]: [&[Gradient<D>]; 2],
         ratios: Ratios,
         _: Option<&Seen>,
         acts_on: &Tensor,
@@ -230,7 +237,7 @@ impl<const D: usize, K: Kinematics<D>> Mixed<D, K> for PoreWater<K> {
     ) {
         let p = entries.point;
         let Some(porous) = self.of(points, p) else { return };
-        let begin = D * spatial.len();
+        let begin = D * forces.len();
         let y = points.seeded_height(p);
         let before = points.deformation[p].determinant();
         let hats = cell.hats(entries.shape);
@@ -264,8 +271,8 @@ impl<const D: usize, K: Kinematics<D>> Mixed<D, K> for PoreWater<K> {
         }
         let (size, one) = (local.size, Tensor::identity());
         let volume = -weight * before * ratios.step;
-        for (i, gradient) in spatial.iter().enumerate() {
-            let (swelling, force) = (K::force(&one, gradient), K::force(acts_on, gradient));
+        for (i, (force, strain)) in forces.iter().zip(strains).enumerate() {
+            let (swelling, force) = (K::force(&one, strain), K::force(acts_on, force));
             for (a, hat) in hats.iter().enumerate().take(cell.corners) {
                 for d in 0..D {
                     local.matrix[(begin + a) * size + i * D + d] += volume * hat * swelling[d];

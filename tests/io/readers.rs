@@ -91,7 +91,7 @@ fn numbers(n: usize, seed: usize) -> Vec<f64> {
 /// A row of cells side by side, one of each plane kind, each bulged so that the order of its nodes matters.
 fn mixed_mesh() -> Mesh<2> {
     let mut mesh = Mesh { regions: vec!["soil".to_string(), "water".to_string()], ..Mesh::default() };
-    let kinds = [CellKind::T3, CellKind::T6, CellKind::Q4, CellKind::Q8, CellKind::Q9, CellKind::T6];
+    let kinds = [CellKind::T3, CellKind::T6, CellKind::Q4, CellKind::Q8, CellKind::Q9, CellKind::Q16, CellKind::T6];
     for (k, kind) in kinds.into_iter().enumerate() {
         let first = mesh.nodes.len() as u32;
         for (i, xi) in kind.node_coordinates().iter().enumerate() {

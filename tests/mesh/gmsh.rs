@@ -34,7 +34,7 @@ fn area(mesh: &Mesh<2>) -> f64 {
     let mut area = 0.0;
     for c in 0..mesh.cells.len() {
         mesh.cell_coordinates(c, &mut x);
-        for (xi, w) in shape::rule(mesh.cells.kind[c], 4) {
+        for (xi, w) in shape::rule(mesh.cells.kind[c], if mesh.cells.kind[c].is_simplex() { 4 } else { 9 }) {
             area += w * shape::map(mesh.cells.kind[c], &x, &xi, &mut n, &mut grad);
         }
     }
@@ -87,6 +87,38 @@ fn orders_and_kinds() {
             _ => assert!(lost.abs() < 2e-4, "{lost}"),
         }
     }
+}
+
+/// Quadrilaterals of third order have their nodes at thirds of their sides, exactly where these are straight; triangles of third order are refused.
+#[test]
+fn cells_of_third_order_are_quadrilaterals() {
+    let quads = BOX.replace("Physical Surface", "Transfinite Surface{1}; Recombine Surface{1}; Physical Surface");
+    let mesh = mesh_of(&quads, &options(3, &[])).unwrap();
+    assert_eq!(mesh.cells.kind, [CellKind::Q16; 8]);
+    assert_eq!(mesh.nodes.len(), 13 * 7);
+    let mut x = Vec::new();
+    for c in 0..mesh.cells.len() {
+        mesh.cell_coordinates(c, &mut x);
+        for (own, xi) in x.iter().zip(CellKind::Q16.node_coordinates()) {
+            let place = [0, 1].map(|d| 0.5 * (x[0][d] + x[2][d]) + 0.5 * xi[d] * (x[2][d] - x[0][d]));
+            assert!((0..2).all(|d| (own[d] - place[d]).abs() < 1e-15), "{own:?}, {place:?}");
+        }
+    }
+    let bottom = mesh.group("bottom").unwrap();
+    assert_eq!((bottom.facets.len(), bottom.nodes.len()), (4, 13));
+    let error = mesh_of(BOX, &options(3, &[])).unwrap_err().to_string();
+    assert!(error.contains("type 21") && error.contains("quadrilaterals alone"), "{error}");
+    // Curved ones too: a quarter of a ring.
+    let ring = r#"
+        SetFactory("OpenCASCADE"); Point(1) = {1, 0, 0}; Point(2) = {2, 0, 0}; Point(3) = {0, 2, 0}; Point(4) = {0, 1, 0};
+        Point(5) = {0, 0, 0}; Line(1) = {1, 2}; Circle(2) = {2, 5, 3}; Line(3) = {3, 4}; Circle(4) = {4, 5, 1};
+        Curve Loop(1) = {1:4}; Plane Surface(1) = {1}; Transfinite Curve{1, 3} = 3; Transfinite Curve{2, 4} = 5;
+        Transfinite Surface{1}; Recombine Surface{1}; Physical Surface("ring") = {1};
+        "#;
+    let mesh = mesh_of(ring, &options(3, &[])).unwrap();
+    assert_eq!(mesh.cells.kind, [CellKind::Q16; 8]);
+    assert!((area(&mesh) - 0.75 * std::f64::consts::PI).abs() < 1e-5, "{}", area(&mesh));
+    quality::check(&mesh, Path::new("ring.msh")).unwrap();
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! The functions by themselves: what they sum up to, what they reproduce, where they are continuous, and that they are the means they claim to be.
 
 use crate::shapes::{Field, Seen};
-use mpm::interpolation::{Basis, Cpdi, Cpdi2, Gimp, Mpm};
+use mpm::interpolation::{Basis, Composite, Cpdi, Cpdi2, Gimp, Mpm};
 use mpm::kinematics::Axisymmetric;
 use mpm::mesh::Mesh;
 use mpm::mesh::builder::rectangle;
@@ -10,6 +10,7 @@ use std::f64::consts::TAU;
 
 pub const UGIMP: &dyn Basis<2> = &Gimp::UNIFORM;
 pub const CPGIMP: &dyn Basis<2> = &Gimp::STRETCHED;
+pub const COMPOSITE: &dyn Basis<2> = &Composite;
 pub const CPDI: &dyn Basis<2> = &Cpdi;
 pub const CPDI2: &dyn Basis<2> = &Cpdi2;
 
@@ -48,7 +49,7 @@ const DEFORMED: [[[f64; 2]; 2]; 4] =
 fn all() -> Vec<(&'static dyn Basis<2>, Field)> {
     let jittered = |kind| Field::new(rectangle(kind, 5.0, 4.0, 5, 4, 0.2, 5));
     let mut all: Vec<(&'static dyn Basis<2>, Field)> = Vec::new();
-    for scheme in [UGIMP, CPGIMP, CPDI, CPDI2] {
+    for scheme in [UGIMP, CPGIMP, COMPOSITE, CPDI, CPDI2] {
         all.push((scheme, Field::new(graded())));
         all.push((scheme, with_a_corner()));
     }
@@ -78,7 +79,7 @@ fn places() -> Vec<[f64; 2]> {
 fn linear_fields_come_back() {
     for (scheme, field) in all() {
         let corner = field.active.contains(&false);
-        let is_gimp = scheme == UGIMP || scheme == CPGIMP;
+        let is_gimp = scheme == UGIMP || scheme == CPGIMP || scheme == COMPOSITE;
         for x in places() {
             let (cell, _) = field.locator.locate(&field.mesh, &x, None).unwrap();
             if !field.active[cell as usize] {
@@ -96,6 +97,9 @@ fn linear_fields_come_back() {
                     let (value, gradient) = seen.of(&field.mesh, |x| 2.0 * x[0] - 3.0 * x[1]);
                     let error = [gradient[0] - 2.0, gradient[1] + 3.0];
                     assert!(error.iter().all(|e| e.abs() < 1e-8), "{}: {error:?}", case());
+                    let strain = seen.strain_of(&field.mesh, |x| 7.0 + 2.0 * x[0] - 3.0 * x[1]);
+                    let error = [strain[0] - 2.0, strain[1] + 3.0];
+                    assert!(error.iter().all(|e| e.abs() < 1e-8), "{}: {error:?}", case());
                     if !(corner && is_gimp) {
                         let error = value - (2.0 * x[0] - 3.0 * x[1]);
                         assert!(error.abs() < 2e-6, "{}: {error:e}", case());
@@ -109,7 +113,7 @@ fn linear_fields_come_back() {
 /// The mean over a rectangle of the functions of the cells, by Gauss points in each part between lines of the grid.
 fn mean_over(field: &Field, low: [f64; 2], high: [f64; 2]) -> Seen {
     let count = field.mesh.nodes.len();
-    let mut mean = Seen { value: vec![0.0; count], gradient: vec![[0.0; 2]; count] };
+    let mut mean = Seen::zero(count);
     let cuts = [0, 1].map(|d| {
         let mut cuts: Vec<f64> = LINES[d].iter().copied().filter(|&x| x > low[d] && x < high[d]).collect();
         cuts.extend([low[d], high[d]]);
@@ -161,6 +165,45 @@ fn gimp_domains_keep_their_centre_where_they_are_cut() {
     }
 }
 
+/// The strains of composite points are those of polynomials through the nodes: of third degree along each axis inside, of second one in the cells at
+/// the boundary, and linear across a cell that a corner of the active cells touches. Their forces have the functions of GIMP.
+#[test]
+fn composite_points_have_the_strains_of_polynomials_over_a_patch() {
+    let cubic = |[x, y]: [f64; 2]| (x * x * x - 4.0 * x) * (1.0 + 0.3 * y - 0.2 * y * y * y);
+    let gradient = |[x, y]: [f64; 2]| {
+        let (along, across) = (x * x * x - 4.0 * x, 1.0 + 0.3 * y - 0.2 * y * y * y);
+        [(3.0 * x * x - 4.0) * across, along * (0.3 - 0.6 * y * y)]
+    };
+    let quadratic = |[x, y]: [f64; 2]| x * x - 0.7 * x * y + 1.3 * y * y;
+    let slope = |[x, y]: [f64; 2]| [2.0 * x - 0.7 * y, 2.6 * y - 0.7 * x];
+    let [whole, corner] = [Field::new(graded()), with_a_corner()];
+    let off = |field: &Field, x, f: &dyn Fn([f64; 2]) -> f64, exact: [f64; 2]| {
+        let (points, xi) = field.begun(COMPOSITE, x, 0.2);
+        let seen = field.seen(COMPOSITE, &points, &xi);
+        let forces = seen.apart(&field.seen(CPGIMP, &points, &xi));
+        assert!(forces == [0.0; 2], "{forces:?}");
+        let strain = seen.strain_of(&field.mesh, f);
+        [0, 1].map(|d| (strain[d] - exact[d]).abs())
+    };
+    for x in [[2.2, 1.6], [1.05, 0.75], [3.9, 2.4], [1.0, 2.0]] {
+        let error = off(&whole, x, &cubic, gradient(x));
+        assert!(error.iter().all(|e| *e < 1e-11), "{x:?}: {error:?}");
+    }
+    for x in [[0.3, 0.2], [4.9, 1.1], [2.2, 3.9], [5.0, 4.0]] {
+        let error = off(&whole, x, &quadratic, slope(x));
+        assert!(error.iter().all(|e| *e < 1e-11), "{x:?}: {error:?}");
+        let error = off(&whole, x, &cubic, gradient(x));
+        assert!(error.iter().any(|e| *e > 1e-2), "{x:?}: {error:?}");
+    }
+    // Beside the corner at (3, 2): in the cell below it three lines are left along both axes, and still so on the sides of the corner.
+    for x in [[2.2, 1.8], [2.2, 2.4], [3.7, 1.8]] {
+        let error = off(&corner, x, &quadratic, slope(x));
+        assert!(error.iter().all(|e| *e < 1e-11), "{x:?}: {error:?}");
+    }
+    let error = off(&corner, [2.2, 1.8], &cubic, gradient([2.2, 1.8]));
+    assert!(error.iter().all(|e| *e > 1e-3), "{error:?}");
+}
+
 /// A body that has turned by a right angle has domains as before; with `F_ii` in place of `U_ii` they would have vanished.
 #[test]
 fn gimp_domains_do_not_shrink_as_they_turn() {
@@ -201,7 +244,8 @@ fn from_corners(field: &Field, corners: [[f64; 2]; 4]) -> Seen {
     let at = corners.map(|x| field.at(x));
     let nodes = 0..field.mesh.nodes.len();
     let means: Vec<_> = nodes.map(|n| mean_of_bilinear(corners, [0, 1, 2, 3].map(|c| at[c].value[n]))).collect();
-    Seen { value: means.iter().map(|m| m.0).collect(), gradient: means.iter().map(|m| m.1).collect() }
+    let (value, gradient) = means.into_iter().unzip();
+    Seen { value, gradient, ..Seen::default() }
 }
 
 /// On unit squares, with domains in several cells.
@@ -282,7 +326,7 @@ fn in_a_cell_of_second_order_the_means_are_those_of_its_functions() {
                 let corner = |c: usize| [0, 1].map(|i| x[i] + f[i][0] * first[2 * c] + f[i][1] * first[2 * c + 1]);
                 let corners = [0, 1, 2, 3].map(corner);
                 let count = field.mesh.nodes.len();
-                let mut mean = Seen { value: vec![0.0; count], gradient: vec![[0.0; 2]; count] };
+                let mut mean = Seen::zero(count);
                 let (mut n, mut g, mut volume) = ([0.0; 4], [[0.0; 2]; 4], 0.0);
                 let quadrature = rule(CellKind::Q4, 5).into_iter().map(|(at, weight)| {
                     let weight = weight * map(CellKind::Q4, &corners, &at, &mut n, &mut g);
@@ -388,7 +432,7 @@ fn gradients_are_continuous_over_the_walls_of_cells() {
 #[test]
 fn hoop_strain_is_the_value_over_the_radius_of_the_point() {
     let field = Field::new(graded());
-    for scheme in [UGIMP, CPGIMP, CPDI, CPDI2] {
+    for scheme in [UGIMP, CPGIMP, COMPOSITE, CPDI, CPDI2] {
         let (points, xi) = field.begun(scheme, [2.2, 1.6], 0.2);
         let (_, radius) = field.seen_in::<Axisymmetric>(scheme, &points, &xi);
         assert!((radius - 2.2).abs() < 1e-12, "{}: {radius}", scheme.name());

@@ -16,7 +16,7 @@ fn a_plate_presses_soil() {
     let plain = error("numerics.gradient=mpm", "numerics.quadrature=points");
     println!("contact force of mpm {plain:+.4}");
     assert!(plain < -0.04, "{plain}");
-    for scheme in ["ugimp", "gimp", "cpdi", "cpdi2"] {
+    for scheme in ["ugimp", "gimp", "composite", "cpdi", "cpdi2"] {
         let off = error(&format!("numerics.gradient={scheme}"), "output.every=0.5");
         println!("contact force of {scheme} {off:+.4}");
         assert!(off.abs() < 0.02, "{scheme}: {off}");
@@ -43,7 +43,7 @@ fn without_a_reset_they_have_the_forces_of_plain_mpm() {
             rows(solve(QUADS, &[&set[..], more].concat()).path()).pop().unwrap()[4]
         };
         let plain = force("numerics.gradient=mpm");
-        for scheme in ["ugimp", "cpgimp", "cpdi", "cpdi2"] {
+        for scheme in ["ugimp", "cpgimp", "composite", "cpdi", "cpdi2"] {
             let off = force(&format!("numerics.gradient={scheme}")) / plain - 1.0;
             assert!(off.abs() < 1e-6, "{scheme}, {more:?}: {off:e}");
         }
@@ -73,6 +73,9 @@ fn what_they_do_not_support_is_refused_with_another_choice() {
     refused(true, QUADS, &[resampled], &[reason, "`quadrature: points`"]);
     let set = ["numerics.gradient=cpdi", "regions.soil.points_per_cell=12"];
     refused(true, "tests/data/plate", &set, &["cpdi needs points that fill their cells", "use 4, 9, 16 or 25"]);
+    let composite = "numerics.gradient=composite";
+    refused(true, QUADS, &[resampled, composite], &["composite averages over the domains", "`quadrature: points`"]);
+    refused(true, "tests/data/plate", &[composite], &["composite does not support cells of second order", "`order: 1`"]);
     let (plate, gimp) = ("tests/data/plate", "numerics.gradient=gimp");
     refused(true, plate, &[gimp], &["cpgimp does not support cells of second order", "`order: 1`"]);
     refused(

@@ -15,10 +15,12 @@ pub struct Field {
 }
 
 /// What a point sees: a value and a gradient for each node of the grid.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Seen {
     pub value: Vec<f64>,
     pub gradient: Vec<[f64; 2]>,
+    /// The gradients that strains are taken with.
+    pub strain: Vec<[f64; 2]>,
 }
 
 impl Field {
@@ -82,7 +84,7 @@ impl Field {
         let domains = Domains::of(points, &self.locator);
         scheme.fill(&Located { domains, ..located }, &mut interpolation);
         let count = self.mesh.nodes.len();
-        let mut seen = Seen { value: vec![0.0; count], gradient: vec![[0.0; 2]; count] };
+        let mut seen = Seen::zero(count);
         let cell_points = interpolation.filled[0];
         let nodes = interpolation.nodes(&self.mesh, cell_points.cell).to_vec();
         let entries = interpolation.entries::<K>(&cell_points).next().unwrap();
@@ -91,6 +93,7 @@ impl Field {
             seen.value[n as usize] += entries.value[i];
             let gradient = entries.gradient(i);
             (0..2).for_each(|d| seen.gradient[n as usize][d] += gradient.g[d]);
+            (0..2).for_each(|d| seen.strain[n as usize][d] += entries.strain_gradient(i).g[d]);
             if gradient.hoop != 0.0 {
                 radius = entries.value[i] / gradient.hoop;
             }
@@ -110,6 +113,17 @@ impl Field {
 }
 
 impl Seen {
+    /// Nothing of `count` nodes.
+    pub fn zero(count: usize) -> Self {
+        Self { value: vec![0.0; count], gradient: vec![[0.0; 2]; count], strain: vec![[0.0; 2]; count] }
+    }
+
+    /// The gradient of a field on the nodes that strains are taken with.
+    pub fn strain_of(&self, mesh: &Mesh<2>, f: impl Fn([f64; 2]) -> f64) -> [f64; 2] {
+        let terms = mesh.nodes.iter().zip(&self.strain);
+        terms.fold([0.0; 2], |[gx, gy], (&x, g)| [gx + g[0] * f(x), gy + g[1] * f(x)])
+    }
+
     /// The mean of a field on the nodes, and of its gradient.
     pub fn of(&self, mesh: &Mesh<2>, f: impl Fn([f64; 2]) -> f64) -> (f64, [f64; 2]) {
         let terms = mesh.nodes.iter().zip(self.value.iter().zip(&self.gradient));

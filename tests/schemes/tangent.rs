@@ -1,6 +1,6 @@
 //! The tangent of the internal force against differences, with each scheme.
 
-use crate::functions::{CPDI, CPDI2, CPGIMP, UGIMP};
+use crate::functions::{COMPOSITE, CPDI, CPDI2, CPGIMP, UGIMP};
 use crate::stand::{SMOOTHED, Stand, elastic, elasticity, mesh, points, resultant, size};
 use mpm::interpolation::{Basis, Ddmp};
 use mpm::kinematics::{Axisymmetric, Kinematics, PlaneStrain};
@@ -15,7 +15,7 @@ use std::sync::Arc;
 fn all() -> Vec<(&'static dyn Basis<2>, Mesh<2>)> {
     let mut straight = rectangle(CellKind::Q4, 2.0, 1.5, 2, 2, 0.0, 5);
     straight.nodes.iter_mut().for_each(|x| x[0] += 2.0);
-    let mut all = vec![(UGIMP, straight.clone()), (CPGIMP, straight)];
+    let mut all = vec![(UGIMP, straight.clone()), (CPGIMP, straight.clone()), (COMPOSITE, straight)];
     all.extend(SMOOTHED.map(|kind| (&Ddmp as &dyn Basis<2>, mesh(kind))));
     for kind in [CellKind::T3, CellKind::T6, CellKind::Q4, CellKind::Q8, CellKind::Q9] {
         all.extend([(CPDI, mesh(kind)), (CPDI2, mesh(kind))]);

@@ -8,8 +8,8 @@ use serde::Deserialize;
 #[serde(deny_unknown_fields, default)]
 pub struct Numerics {
     /// How gradients at the material points are formed: mpm (those of the cell), ddmp (continuous from cell to cell), bspline
-    /// (quadratic B-splines, on one rectangle of Q9 cells), or means over the domains of the points: cpdi and cpdi2 on any mesh, ugimp and
-    /// cpgimp (or gimp) on grids of rectangles (docs/schemes.md).
+    /// (B-splines of the degree that is the order of the cells, on one rectangle of Q9 or Q16 cells), or means over the domains of the
+    /// points: cpdi and cpdi2 on any mesh, ugimp, cpgimp (or gimp) and composite on grids of rectangles (docs/schemes.md).
     pub gradient: String,
     /// What integrals are summed over: resampled (integration points of the cells, which take their state from the material points
     /// when the grid is restored), or points (the material points, by their volumes). Default: resampled, but points with

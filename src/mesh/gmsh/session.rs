@@ -179,7 +179,7 @@ impl Session {
         let mut status = 0;
         // SAFETY: as above.
         unsafe { ffi::model_mesh_set_order(c_int::from(order), &mut status) };
-        self.checked(geo, status, "the mesh has no second order; use order: 1 or mend the geometry")
+        self.checked(geo, status, "the mesh cannot have the order of its cells; use order: 1 or mend the geometry")
     }
 
     /// The coordinates of all nodes by their tags.

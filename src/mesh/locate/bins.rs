@@ -119,6 +119,7 @@ pub fn bounds<const D: usize>(kind: CellKind, x: &[[f64; D]]) -> Bounds<D> {
     x.iter().for_each(&mut take);
     match kind {
         CellKind::T10 | CellKind::H27 => solid_control(kind, x).iter().for_each(&mut take),
+        CellKind::Line4 | CellKind::Q16 => cubic_control(kind, x).iter().for_each(&mut take),
         _ if kind.order() == 2 => plane_control(kind, x).iter().for_each(&mut take),
         _ => {}
     }
@@ -146,6 +147,22 @@ fn plane_control<const D: usize>(kind: CellKind, x: &[[f64; D]]) -> Vec<[f64; D]
         control.push(middle);
     }
     control
+}
+
+/// The Bézier points of a cell of third order.
+fn cubic_control<const D: usize>(kind: CellKind, x: &[[f64; D]]) -> Vec<[f64; D]> {
+    let places = kind.node_coordinates();
+    // How the values at -1, -⅓, ⅓ and 1 of a line enter its inner Bézier points.
+    const INNER: [[f64; 4]; 2] = [[-5.0, 18.0, -9.0, 2.0], [2.0, -9.0, 18.0, -5.0]];
+    let number = |t: f64| (1.5 * (t + 1.0)).round() as usize;
+    let along = |to: f64, from: f64| match number(to) {
+        inner @ 1..=2 => INNER[inner - 1][number(from)] / 6.0,
+        end => f64::from(number(from) == end),
+    };
+    let share = |to: &[f64; 3], from: &[f64; 3]| (0..kind.dimension()).map(|d| along(to[d], from[d])).product::<f64>();
+    let point =
+        |to: &[f64; 3]| std::array::from_fn(|d| places.iter().zip(x).map(|(from, x)| share(to, from) * x[d]).sum());
+    places.iter().map(point).collect()
 }
 
 /// The Bézier points of a quadratic solid cell that are not its corners; of a hexahedron these too.

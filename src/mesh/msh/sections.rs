@@ -175,7 +175,7 @@ pub fn elements(source: &mut Source, nodes: &Nodes) -> Result<Vec<Block>> {
         let Some(kind) = kind_of(number) else {
             return Err(source.wrong_but(
                 format!("elements of Gmsh's type {number}"),
-                "mesh it in two dimensions with cells of order 1 or 2",
+                "mesh it in two dimensions with cells of order 1 or 2, or with quadrilaterals alone (`Recombine Surface`) of order 3",
             ));
         };
         if kind.dimension() != dimension {
@@ -215,11 +215,13 @@ fn kind_of(number: i32) -> Option<CellKind> {
         15 => CellKind::Point1,
         1 => CellKind::Line2,
         8 => CellKind::Line3,
+        26 => CellKind::Line4,
         2 => CellKind::T3,
         9 => CellKind::T6,
         3 => CellKind::Q4,
         16 => CellKind::Q8,
         10 => CellKind::Q9,
+        36 => CellKind::Q16,
         _ => return None,
     })
 }

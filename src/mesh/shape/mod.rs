@@ -3,6 +3,7 @@
 mod functions;
 mod h27;
 mod line;
+mod q16;
 mod q4;
 mod q8;
 mod q9;
@@ -22,11 +23,13 @@ pub enum CellKind {
     Point1,
     Line2,
     Line3,
+    Line4,
     T3,
     T6,
     Q4,
     Q8,
     Q9,
+    Q16,
     T10,
     H27,
 }
@@ -45,6 +48,10 @@ macro_rules! with_shape {
             }
             CellKind::Line3 => {
                 type $S = line::Line3;
+                $body
+            }
+            CellKind::Line4 => {
+                type $S = line::Line4;
                 $body
             }
             CellKind::T3 => {
@@ -67,6 +74,10 @@ macro_rules! with_shape {
                 type $S = q9::Q9;
                 $body
             }
+            CellKind::Q16 => {
+                type $S = q16::Q16;
+                $body
+            }
             CellKind::T10 => {
                 type $S = t10::T10;
                 $body
@@ -80,15 +91,17 @@ macro_rules! with_shape {
 }
 
 impl CellKind {
-    pub const ALL: [Self; 10] = [
+    pub const ALL: [Self; 12] = [
         Self::Point1,
         Self::Line2,
         Self::Line3,
+        Self::Line4,
         Self::T3,
         Self::T6,
         Self::Q4,
         Self::Q8,
         Self::Q9,
+        Self::Q16,
         Self::T10,
         Self::H27,
     ];
@@ -120,9 +133,9 @@ impl CellKind {
     pub fn corner_count(self) -> usize {
         match self {
             Self::Point1 => 1,
-            Self::Line2 | Self::Line3 => 2,
+            Self::Line2 | Self::Line3 | Self::Line4 => 2,
             Self::T3 | Self::T6 => 3,
-            Self::Q4 | Self::Q8 | Self::Q9 | Self::T10 => 4,
+            Self::Q4 | Self::Q8 | Self::Q9 | Self::Q16 | Self::T10 => 4,
             Self::H27 => 8,
         }
     }
@@ -133,6 +146,7 @@ impl CellKind {
             Self::Point1 => 0,
             Self::Line2 | Self::T3 | Self::Q4 => 1,
             Self::Line3 | Self::T6 | Self::Q8 | Self::Q9 | Self::T10 | Self::H27 => 2,
+            Self::Line4 | Self::Q16 => 3,
         }
     }
 
@@ -144,9 +158,10 @@ impl CellKind {
             Self::T6 => (Self::Line3, &[&[0, 1, 3], &[1, 2, 4], &[2, 0, 5]]),
             Self::Q4 => (Self::Line2, &[&[0, 1], &[1, 2], &[2, 3], &[3, 0]]),
             Self::Q8 | Self::Q9 => (Self::Line3, &[&[0, 1, 4], &[1, 2, 5], &[2, 3, 6], &[3, 0, 7]]),
+            Self::Q16 => (Self::Line4, &[&[0, 1, 4, 5], &[1, 2, 6, 7], &[2, 3, 8, 9], &[3, 0, 10, 11]]),
             Self::T10 => (Self::T6, &t10::FACES),
             Self::H27 => (Self::Q9, &h27::FACES),
-            Self::Line2 | Self::Line3 => (Self::Point1, &[&[0], &[1]]),
+            Self::Line2 | Self::Line3 | Self::Line4 => (Self::Point1, &[&[0], &[1]]),
             Self::Point1 => (Self::Point1, &[]),
         }
     }
@@ -167,15 +182,18 @@ impl CellKind {
             [0., 0., 0.],
         ];
         const L: [[f64; 3]; 3] = [[-1., 0., 0.], [1., 0., 0.], [0., 0., 0.]];
+        const L4: [[f64; 3]; 4] = [[-1., 0., 0.], [1., 0., 0.], [-1. / 3., 0., 0.], [1. / 3., 0., 0.]];
         match self {
             Self::Point1 => &L[2..],
             Self::Line2 => &L[..2],
             Self::Line3 => &L,
+            Self::Line4 => &L4,
             Self::T3 => &T[..3],
             Self::T6 => &T,
             Self::Q4 => &Q[..4],
             Self::Q8 => &Q[..8],
             Self::Q9 => &Q,
+            Self::Q16 => &q16::NODES,
             Self::T10 => &t10::NODES,
             Self::H27 => &h27::NODES,
         }

@@ -1,19 +1,26 @@
-//! The state of the material points as a linear function over each cell.
+//! The state of the material points as a linear function over each cell, and in cells of third order as a quadratic one.
 //!
 //! `c = argmin Σ_p V_p ω_p |f_p − P(x_p) c|²` with `P = (1, x, y)` about the cell. The points of the cell count with `ω = 1`, those of
 //! ring `r` of the cells around it with `0.1^r`. A ring is taken in only as far as the function at the integration points depends on
 //! no more than three times the largest value at a material point, `Σ_p |R_qp| ≤ 3`: what is fitted to the points of a cell
 //! gives back every linear function of that cell, and with it the errors of a reset do not grow (docs/theory.md).
+//!
+//! In cells of third order stresses have terms of second degree: there `P = (1, x, y, x², xy, y²)`, with the same bound and at most one ring, and linear
+//! functions where that is not met.
 
 use super::places::Place;
+use crate::geometry::quadratic::{self, Quadratic};
 use crate::mesh::Mesh;
 use crate::points::Points;
 use crate::surface::CellFrame;
+use std::borrow::Borrow;
 
 /// Weight of a ring over that of the one within it.
 const RING: f64 = 0.1;
 /// Rings that a linear function may need; cells that take part are nearer to points than that.
 const RINGS: usize = 3;
+/// Rings that a quadratic function may need.
+const NEAR_RINGS: usize = 1;
 /// The largest `Σ_p |R_qp|`.
 const MOST: f64 = 3.0;
 
@@ -115,21 +122,40 @@ pub struct Fit {
     pub points: Vec<u32>,
     /// What the value at each point adds to the coefficients of `1, x, y` in the coordinates of the cell's frame.
     shares: Vec<[f64; 3]>,
+    /// And to those of `x², xy, y²`; empty where it is linear or constant.
+    second: Vec<[f64; 3]>,
     frame: CellFrame,
     pub linear: bool,
 }
 
+/// The coefficients of `N` functions: of `1, x, y`, and of `x², xy, y²` where there are any.
+pub struct Coefficients<const N: usize> {
+    first: [[f64; N]; 3],
+    second: Option<[[f64; N]; 3]>,
+}
+
 impl Fit {
-    /// The fit of the points that `counts` picks, for the `places` in a cell; `None` where none is near.
+    /// The fit of the points that `counts` picks, for the `places` in a cell of some `order`; `None` where none is near.
     pub fn new(
         points: &Points<2>,
         (around, held): (&Around, &Held),
         rings: &mut Rings,
-        frame: &CellFrame,
+        (frame, order): (&CellFrame, usize),
         places: &[Place],
         counts: &dyn Fn(u32) -> bool,
     ) -> Option<Self> {
         let (mut numbers, mut weights) = (Vec::new(), Vec::new());
+        for r in 0..=if order > 2 { NEAR_RINGS as i32 } else { -1 } {
+            let before = numbers.len();
+            for &c in rings.ring(r as usize, around) {
+                numbers.extend(held.points(c).iter().copied().filter(|&p| counts(p)));
+            }
+            weights.extend(numbers[before..].iter().map(|&p| RING.powi(r) * points.volume(p as usize)));
+            if let Some((shares, second)) = quadratic(points, &numbers, &weights, frame, places) {
+                return Some(Self { points: numbers, shares, second, frame: *frame, linear: true });
+            }
+        }
+        (numbers, weights) = (Vec::new(), Vec::new());
         for r in 0..=RINGS {
             let factor = RING.powi(r as i32);
             let before = numbers.len();
@@ -140,7 +166,7 @@ impl Fit {
             if (numbers.len() > before || r == 0)
                 && let Some(shares) = linear(points, &numbers, &weights, frame, places)
             {
-                return Some(Self { points: numbers, shares, frame: *frame, linear: true });
+                return Some(Self { points: numbers, shares, second: Vec::new(), frame: *frame, linear: true });
             }
         }
         // The mean of the nearest points.
@@ -153,46 +179,74 @@ impl Fit {
             if !numbers.is_empty() {
                 let sum: f64 = weights.iter().sum();
                 let shares = weights.iter().map(|w| [w / sum, 0.0, 0.0]).collect();
-                return Some(Self { points: numbers, shares, frame: *frame, linear: false });
+                return Some(Self { points: numbers, shares, second: Vec::new(), frame: *frame, linear: false });
             }
         }
         None
     }
 
     /// The coefficients of the function that is nearest to `values`, given by point.
-    pub fn coefficients<const N: usize>(&self, values: &[[f64; N]]) -> [[f64; N]; 3] {
-        let mut sum = [[0.0; N]; 3];
-        for (&p, shares) in self.points.iter().zip(&self.shares) {
-            let value = &values[p as usize];
-            for (sum, share) in sum.iter_mut().zip(shares) {
-                for (sum, value) in sum.iter_mut().zip(value) {
-                    *sum += share * value;
-                }
-            }
-        }
-        sum
+    pub fn coefficients<const N: usize>(&self, values: &[[f64; N]]) -> Coefficients<N> {
+        self.sums(|p| &values[p])
     }
 
     /// The coefficients of the function that is nearest to one number of each point.
-    pub fn coefficients_of(&self, value: impl Fn(usize) -> f64) -> [f64; 3] {
-        let mut sum = [0.0; 3];
-        for (&p, shares) in self.points.iter().zip(&self.shares) {
-            let value = value(p as usize);
-            sum.iter_mut().zip(shares).for_each(|(sum, share)| *sum += share * value);
-        }
-        sum
+    pub fn coefficients_of(&self, value: impl Fn(usize) -> f64) -> Coefficients<1> {
+        self.sums(|p| [value(p)])
     }
 
-    /// Coordinates of a place (m) in the frame of the cell.
-    pub fn local(&self, x: &[f64; 2]) -> [f64; 2] {
-        self.frame.local(x)
+    fn sums<const N: usize, V: Borrow<[f64; N]>>(&self, value: impl Fn(usize) -> V) -> Coefficients<N> {
+        let sum = |shares: &[[f64; 3]]| {
+            let mut sum = [[0.0; N]; 3];
+            for (&p, shares) in self.points.iter().zip(shares) {
+                let value = value(p as usize);
+                for (sum, share) in sum.iter_mut().zip(shares) {
+                    for (sum, value) in sum.iter_mut().zip(value.borrow()) {
+                        *sum += share * value;
+                    }
+                }
+            }
+            sum
+        };
+        Coefficients { first: sum(&self.shares), second: (!self.second.is_empty()).then(|| sum(&self.second)) }
     }
 
     /// The function at a place (m).
-    pub fn at<const N: usize>(&self, coefficients: &[[f64; N]; 3], x: &[f64; 2]) -> [f64; N] {
-        let [x, y] = self.local(x);
-        std::array::from_fn(|k| coefficients[0][k] + x * coefficients[1][k] + y * coefficients[2][k])
+    pub fn at<const N: usize>(&self, Coefficients { first, second }: &Coefficients<N>, x: &[f64; 2]) -> [f64; N] {
+        let [x, y] = self.frame.local(x);
+        let mut value = std::array::from_fn(|k| first[0][k] + x * first[1][k] + y * first[2][k]);
+        if let Some(second) = second {
+            for (k, value) in value.iter_mut().enumerate() {
+                *value += x * x * second[0][k] + x * y * second[1][k] + y * y * second[2][k];
+            }
+        }
+        value
     }
+}
+
+/// What the value at each point adds to the coefficients of `1, x, y` and of `x², xy, y²`.
+type OfSecondDegree = (Vec<[f64; 3]>, Vec<[f64; 3]>);
+
+/// The shares of the points in a quadratic fit; `None` as of [`linear`].
+fn quadratic(
+    points: &Points<2>,
+    numbers: &[u32],
+    weights: &[f64],
+    frame: &CellFrame,
+    places: &[Place],
+) -> Option<OfSecondDegree> {
+    let local = |p: u32| frame.local(&points.position[p as usize]);
+    let weighed = || numbers.iter().zip(weights).map(|(&p, &weight)| (weight, local(p)));
+    let fit = Quadratic::of(weighed())?;
+    let shares: Vec<_> = weighed().map(|(weight, x)| fit.shares(weight, x)).collect();
+    for place in places {
+        let at = frame.local(&place.x);
+        let most: f64 = shares.iter().map(|share| quadratic::value(share, at).abs()).sum();
+        if most.is_nan() || most > MOST {
+            return None;
+        }
+    }
+    Some(shares.into_iter().map(|[a, b, c, d, e, f]| ([a, b, c], [d, e, f])).unzip())
 }
 
 /// The shares of the points in a linear fit; `None` where they are too few or lie so that it depends on them too much.
@@ -276,7 +330,7 @@ mod tests {
                 rule.full::<PlaneStrain>(&mesh, c, &mut places);
                 let frame = CellFrame::of(&mesh, c);
                 let mut rings = Rings::of(c as u32);
-                let fit = Fit::new(&points, (&around, &held), &mut rings, &frame, &places, &|_| true).unwrap();
+                let fit = Fit::new(&points, (&around, &held), &mut rings, (&frame, 2), &places, &|_| true).unwrap();
                 let coefficients = fit.coefficients(&values);
                 linear += usize::from(fit.linear);
                 for place in &places {
@@ -289,6 +343,41 @@ mod tests {
         }
     }
 
+    /// In cells of third order quadratic functions come back where cells have points enough, and linear ones elsewhere.
+    #[test]
+    fn quadratic_functions_come_back_in_cells_of_third_order() {
+        let mesh = rectangle(CellKind::Q16, 1.0, 1.0, 6, 6, 0.0, 4);
+        for many in [900, 300, 100] {
+            let points = scattered(&mesh, many);
+            let line = |[x, y]: [f64; 2]| 3.0 - 2.0 * x + y;
+            let curve = |[x, y]: [f64; 2]| x * x - 3.0 * x * y + 0.5 * y * y;
+            let values: Vec<[f64; 3]> = points
+                .position
+                .iter()
+                .map(|&x| [line(x), line(x) + curve(x), if x[0] > 0.4 { 1.0 } else { -1.0 }])
+                .collect();
+            let (around, held) = (Around::of(&mesh), Held::new(mesh.cells.len(), &points.cell));
+            let (rule, mut quadratic) = (Places::new(), 0);
+            for c in 0..mesh.cells.len() {
+                let mut places = Vec::new();
+                rule.full::<PlaneStrain>(&mesh, c, &mut places);
+                let frame = CellFrame::of(&mesh, c);
+                let mut rings = Rings::of(c as u32);
+                let fit = Fit::new(&points, (&around, &held), &mut rings, (&frame, 3), &places, &|_| true).unwrap();
+                let coefficients = fit.coefficients(&values);
+                quadratic += usize::from(!fit.second.is_empty());
+                for place in &places {
+                    let [linear, second, jump] = fit.at(&coefficients, &place.x);
+                    assert!((linear - line(place.x)).abs() < 1e-11);
+                    assert!(fit.second.is_empty() || (second - line(place.x) - curve(place.x)).abs() < 1e-11);
+                    assert!(jump.abs() <= MOST + 1e-12);
+                }
+            }
+            println!("{many} points: {quadratic} of 36 cells quadratic");
+            assert!(if many == 900 { quadratic == 36 } else { quadratic > 0 }, "{many}: {quadratic}");
+        }
+    }
+
     #[test]
     fn one_point_gives_its_value_and_points_on_a_line_take_neighbours_in() {
         let mesh = rectangle(CellKind::T6, 1.0, 1.0, 2, 2, 0.0, 1);
@@ -297,9 +386,9 @@ mod tests {
         Places::new().full::<PlaneStrain>(&mesh, 0, &mut places);
         let (around, frame) = (Around::of(&mesh), CellFrame::of(&mesh, 0));
         let held = Held::new(mesh.cells.len(), &points.cell);
-        let fit = Fit::new(&points, (&around, &held), &mut Rings::of(0), &frame, &places, &|_| true).unwrap();
+        let fit = Fit::new(&points, (&around, &held), &mut Rings::of(0), (&frame, 2), &places, &|_| true).unwrap();
         assert_eq!(fit.at(&fit.coefficients(&[[7.0]]), &places[0].x), [7.0]);
-        assert!(Fit::new(&points, (&around, &held), &mut Rings::of(0), &frame, &places, &|_| false).is_none());
+        assert!(Fit::new(&points, (&around, &held), &mut Rings::of(0), (&frame, 2), &places, &|_| false).is_none());
 
         // Six on a line in the cell, and what is scattered in the others.
         points = scattered(&mesh, 60);
@@ -311,7 +400,7 @@ mod tests {
             }
         }
         let held = Held::new(mesh.cells.len(), &points.cell);
-        let fit = Fit::new(&points, (&around, &held), &mut Rings::of(0), &frame, &places, &|_| true).unwrap();
+        let fit = Fit::new(&points, (&around, &held), &mut Rings::of(0), (&frame, 2), &places, &|_| true).unwrap();
         assert!(fit.linear && fit.points.iter().any(|&p| points.cell[p as usize] != 0));
     }
 }

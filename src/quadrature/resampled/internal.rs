@@ -1,6 +1,6 @@
 //! The internal variables of a cell, fitted to those of the material points.
 
-use super::fit::Fit;
+use super::fit::{Coefficients, Fit};
 use crate::material::{Variable, VariableKind};
 use crate::points::Points;
 
@@ -10,7 +10,7 @@ pub struct Internal<'a> {
     fit: &'a Fit,
     variables: &'a [Variable],
     /// Of each number.
-    coefficients: Vec<[f64; 3]>,
+    coefficients: Vec<Coefficients<1>>,
     /// Of each variable.
     range: Vec<[f64; 2]>,
 }
@@ -38,9 +38,8 @@ impl<'a> Internal<'a> {
 
     /// Adds those at a place (m) to `out`.
     pub fn add_at(&self, x: &[f64; 2], out: &mut Vec<f64>) {
-        let [x, y] = self.fit.local(x);
         let begin = out.len();
-        out.extend(self.coefficients.iter().map(|c| c[0] + x * c[1] + y * c[2]));
+        out.extend(self.coefficients.iter().map(|c| self.fit.at(c, x)[0]));
         let mut left = &mut out[begin..];
         for (variable, &[low, high]) in self.variables.iter().zip(&self.range) {
             let (own, rest) = left.split_at_mut(variable.components());

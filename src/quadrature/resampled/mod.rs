@@ -1,7 +1,7 @@
 //! Resampled quadrature: the integrals of a step are sums over integration points of the cells, not over the material points.
 //!
 //! When the grid is restored, each cell gets integration points where it is full of material and where the surface cuts
-//! it ([`places`]). They take their state from a linear function that is fitted to that of the material points around
+//! it ([`places`]). They take their state from a linear function (a quadratic one in cells of third order) that is fitted to that of the material points around
 //! ([`fit`], [`internal`]), and until the grid is restored again they are ordinary points of finite elements. The material points move
 //! with the grid and answer for its deformation themselves; nothing is handed back to them. Material points
 //! outside the surface, as drops that are thrown out, are integration points themselves, with their volume and state. So are those of a cell in which all
@@ -132,6 +132,7 @@ impl<K: Kinematics<2>> Resampled<K> {
             let counts = |p: u32| points.region[p as usize] == region;
             let neighbours = (&self.around, held);
             let frame = &geometry.frame[cell as usize];
+            let frame = (frame, mesh.cells.kind[cell as usize].order());
             let Some(fit) = Fit::new(points, neighbours, &mut rings, frame, &own, &counts).filter(|_| !own.is_empty())
             else {
                 continue;

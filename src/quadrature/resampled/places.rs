@@ -27,6 +27,7 @@ fn degree(kind: CellKind) -> usize {
     match kind {
         CellKind::T3 => 1,
         CellKind::Q8 | CellKind::Q9 => 4,
+        CellKind::Q16 => 6,
         _ => 2,
     }
 }
