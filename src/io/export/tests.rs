@@ -1,5 +1,5 @@
 use super::super::container::Data;
-use super::super::frame::{Column, Frame, Part};
+use super::super::frame::{self, Column, Frame, Part};
 use super::series::{counted_from, triples};
 use super::*;
 use crate::error::Kind;
