@@ -4,6 +4,8 @@ mod broken_input;
 mod make;
 mod new;
 mod output_folder;
+mod plot;
+mod report;
 mod running;
 mod shell;
 mod signals;
