@@ -6,6 +6,7 @@ mod new;
 mod output_folder;
 mod plot;
 mod report;
+mod pictures;
 mod running;
 mod shell;
 mod signals;
