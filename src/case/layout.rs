@@ -57,8 +57,12 @@ pub type Bounds = [[f64; 2]; 2];
 
 /// The box around the cells of a mesh; `None` without cells.
 pub(super) fn bounds(mesh: &Mesh<2>) -> Option<Bounds> {
-    let nodes = mesh.cells.nodes.iter().map(|&n| mesh.nodes[n as usize]);
-    nodes.fold(None, |bounds, x| {
+    box_around(mesh.cells.nodes.iter().map(|&n| mesh.nodes[n as usize]))
+}
+
+/// The box around places (m); `None` without any.
+pub(super) fn box_around(places: impl Iterator<Item = [f64; 2]>) -> Option<Bounds> {
+    places.fold(None, |bounds, x| {
         let [low, high] = bounds.unwrap_or([x; 2]);
         Some([[0, 1].map(|d| low[d].min(x[d])), [0, 1].map(|d| high[d].max(x[d]))])
     })

@@ -39,6 +39,7 @@ pub mod structure;
 #[cfg(test)]
 mod tests;
 pub mod unconnected;
+pub mod unmeant;
 mod wall;
 mod water;
 mod yaml;
@@ -173,6 +174,7 @@ impl Keys {
             Some((Ok((groups, places)), case)) => {
                 issues.extend(names::check(&case, &groups));
                 notes.extend(unconnected::structures(&case, &places));
+                notes.extend(unmeant::of_case(&case, &places));
             }
             Some((Err(e), _)) => {
                 let mut mistakes = errors(&source, &issues);

@@ -8,8 +8,8 @@ use super::raw;
 use super::rigid::{self, Holds};
 use super::start::Start;
 use super::{
-    changes, contact_interfaces, controls, layout, parts, pores, scheme, search, seeded, staged, unconnected, wall,
-    water,
+    changes, contact_interfaces, controls, layout, parts, pores, scheme, search, seeded, staged, unconnected, unmeant,
+    wall, water,
 };
 use crate::error::Result;
 use crate::io::phase_state::End;
@@ -63,7 +63,10 @@ pub fn solve(
 ) -> Result<Ended> {
     seeded::check(case, &mesh, &points)?;
     layout::check_solving(&mesh, points.len())?;
-    let mut warnings = unconnected::structures(case, &unconnected::places(&mesh));
+    let places = unconnected::places(&mesh);
+    let warnings =
+        [unconnected::structures(case, &places), unmeant::of_case(case, &places), unmeant::on_mesh(case, &mesh)];
+    let mut warnings = warnings.concat();
     warnings.extend(begin.start.map(Start::note));
     let parts = parts::points(case, &mesh, points);
     match case.geometry {

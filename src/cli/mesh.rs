@@ -1,12 +1,13 @@
 //! `mpm mesh`: from the `.geo` to `mesh.msh`.
 
 use super::args::StageArgs;
-use super::print::{Outcome, print};
+use super::print::{Outcome, note, print};
 use super::signals;
 use super::stage::{Inputs, Stage};
 use crate::case::names::Groups;
 use crate::case::raw::Product;
 use crate::case::unconnected::{self, Place};
+use crate::case::unmeant;
 use crate::case::{Keys, checked};
 use crate::error::{Error, Result};
 use crate::io::atomic;
@@ -119,6 +120,7 @@ pub fn work(stage: &Stage, gmsh: &Gmsh) -> Outcome {
     record.finish(stage.folder(), &[stage.mesh()])?;
     record.write(stage.folder())?;
     print(&format!("{}\n{summary}\n", stage.mesh().display()))?;
+    unmeant::on_mesh(case, &mesh).iter().for_each(|warning| note(warning));
     unconnected::nodes(case, &mesh).iter().try_for_each(|note| print(&format!("{note}\n")))
 }
 

@@ -1,0 +1,193 @@
+//! `mpm plot`: the curves that it draws, and what it says of columns and files that are not there.
+
+use crate::support::{in_folder, python, said, succeeds};
+use std::fs;
+use std::path::Path;
+use std::process::Output;
+use tempfile::TempDir;
+
+/// A head that is pushed down by 1 cm a row and pulled a little in the end, with the load on it.
+const HEAD: &str = "time [s],head.uy [m],head.reaction_y [kN],head.ux [m],pile.contact_x [kN]\n\
+    0.1,-0.01,-2.5,0.0,0.5\n0.2,-0.02,-3.75,0.0,0.25\n0.3,-0.03,-4.0,0.0,-0.125\n0.35,-0.025,1.5,0.0,0.0\n";
+
+const LOG: &str = "3 material points\n\
+    step 1 push t 0.100000000 dt 1.000e-1 iterations 4 residuals 0.0e0 by Lu mass 0\n  halved: once\n\
+    step 2 push t 0.200000000 dt 1.000e-1 iterations 9 residuals 0.0e0 by Lu mass 0\n\
+    step 3 push t 0.300000000 dt 1.000e-1 iterations 2 residuals 0.0e0 by Lu mass 0\n\
+    step 4 pull t 0.350000000 dt 5.000e-2 iterations 3 residuals 0.0e0 by Lu mass 0\n";
+
+/// A folder with output folders `a` and `b`, in which all values but the time are half of the first.
+fn runs() -> TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    for (name, factor) in [("a", 1.0), ("b", 0.5)] {
+        let halved = |line: &str| {
+            let numbers = line.split(',').map(|number| number.parse::<f64>().unwrap()).enumerate();
+            numbers.map(|(i, v)| (if i == 0 { v } else { factor * v }).to_string()).collect::<Vec<_>>().join(",")
+        };
+        let (heading, rows) = HEAD.split_once('\n').unwrap();
+        let rows: Vec<String> = rows.lines().map(halved).collect();
+        fs::create_dir(folder.path().join(name)).unwrap();
+        fs::write(folder.path().join(name).join("history.csv"), format!("{heading}\n{}\n", rows.join("\n"))).unwrap();
+        fs::write(folder.path().join(name).join("solve.log"), LOG).unwrap();
+    }
+    folder
+}
+
+fn plot(folder: &Path, arguments: &[&str]) -> Output {
+    in_folder(folder, &[&["plot"], arguments].concat())
+}
+
+/// The SVG that is drawn.
+fn svg(folder: &Path, arguments: &[&str]) -> String {
+    succeeds(&plot(folder, &[arguments, &["-o", "p.svg"]].concat()));
+    fs::read_to_string(folder.join("p.svg")).unwrap()
+}
+
+/// A number of an attribute.
+fn attribute(line: &str, name: &str) -> Option<f64> {
+    line.split_once(&format!(" {name}=\""))?.1.split('"').next()?.parse().ok()
+}
+
+/// The texts, with their place and which end of them is there.
+fn texts(svg: &str) -> Vec<(String, [f64; 2], bool)> {
+    let lines: Vec<&str> = svg.lines().collect();
+    let texts = lines.windows(2).filter(|pair| pair[0].starts_with("<text"));
+    texts
+        .map(|pair| {
+            let place = ["x", "y"].map(|name| attribute(pair[0], name).unwrap());
+            (pair[1].to_owned(), place, pair[0].contains("text-anchor=\"end\""))
+        })
+        .collect()
+}
+
+/// The places of the lines of a colour, in the values that the ticks of the only chart have.
+fn curves(svg: &str, colour: &str) -> Vec<Vec<[f64; 2]>> {
+    let number = |text: &str| text.replace('−', "-").parse::<f64>().ok();
+    let ticks: Vec<(f64, [f64; 2], bool)> =
+        texts(svg).into_iter().filter_map(|(text, place, right)| Some((number(&text)?, place, right))).collect();
+    // Labels of the vertical axis end at it, those of the horizontal one are about their place.
+    let scale = [false, true].map(|right| {
+        let d = usize::from(right);
+        let ticks: Vec<_> = ticks.iter().filter(|tick| tick.2 == right).collect();
+        let (first, last) = (ticks[0], ticks[ticks.len() - 1]);
+        let per_unit = (last.0 - first.0) / (last.1[d] - first.1[d]);
+        move |at: f64| first.0 + (at - first.1[d]) * per_unit
+    });
+    let stroke = format!("stroke=\"{colour}\"");
+    let lines = svg.lines().filter(|line| line.starts_with("<polyline") && line.contains(&stroke));
+    lines
+        .map(|line| {
+            let points = line.split_once("points=\"").unwrap().1.split('"').next().unwrap();
+            let place = |pair: &str| {
+                let (x, y) = pair.split_once(',').unwrap();
+                [scale[0](x.parse().unwrap()), scale[1](y.parse().unwrap())]
+            };
+            points.split_whitespace().map(place).collect()
+        })
+        .collect()
+}
+
+const BLUE: &str = "#0072B2";
+const ORANGE: &str = "#D55E00";
+
+/// Whether places are those of a series, to a thousandth of the axes.
+#[track_caller]
+fn are(found: &[[f64; 2]], expected: &[[f64; 2]], ranges: [f64; 2]) {
+    assert_eq!(found.len(), expected.len(), "{found:?}");
+    for (a, b) in found.iter().zip(expected) {
+        assert!((0..2).all(|d| (a[d] - b[d]).abs() < 1e-3 * ranges[d]), "{found:?} {expected:?}");
+    }
+}
+
+#[test]
+fn the_usual_curve_is_the_load_over_the_displacement_where_it_goes() {
+    let folder = runs();
+    let svg = svg(folder.path(), &["a"]);
+    let [curve] = curves(&svg, BLUE).try_into().unwrap();
+    are(&curve, &[[0.01, 2.5], [0.02, 3.75], [0.03, 4.0], [0.025, -1.5]], [0.03, 5.5]);
+    for title in ["−head.uy [m]", "−head.reaction_y [kN]"] {
+        assert!(texts(&svg).iter().any(|(text, ..)| text == title), "{title}");
+    }
+}
+
+#[test]
+fn any_columns_are_drawn_of_several_runs_with_what_they_are_compared_to() {
+    let folder = runs();
+    fs::write(folder.path().join("ref.csv"), "t,F\n0.1,1\n0.3,2\n").unwrap();
+    let arguments = ["a", "b", "--x", "time [s]", "--y", "head.reaction_y", "--scale-y", "-2", "--reference", "ref.csv"];
+    let svg = svg(folder.path(), &[&arguments[..], &["--line", "limit=9"]].concat());
+    let times = [0.1, 0.2, 0.3, 0.35];
+    for (colour, factor) in [(BLUE, 1.0), (ORANGE, 0.5)] {
+        // The legend has a line of the colour, too.
+        let curves = curves(&svg, colour);
+        let loads = [5.0, 7.5, 8.0, -3.0].map(|load| factor * load);
+        let expected: Vec<[f64; 2]> = times.iter().zip(loads).map(|(&t, load)| [t, load]).collect();
+        are(&curves[0], &expected, [0.25, 12.0]);
+        assert_eq!(curves.len(), 2);
+    }
+    assert_eq!(svg.matches("<circle").count(), 3, "two values and the legend");
+    let texts: Vec<String> = texts(&svg).into_iter().map(|(text, ..)| text).collect();
+    for text in ["a", "b", "ref", "limit", "push", "pull", "−2 × head.reaction_y [kN]", "time [s]"] {
+        assert!(texts.iter().any(|other| other == text), "{text}: {texts:?}");
+    }
+}
+
+#[test]
+fn the_work_of_the_solver_is_that_of_the_log() {
+    let folder = runs();
+    let svg = svg(folder.path(), &["a", "--iterations"]);
+    assert_eq!(svg.matches(&format!("stroke=\"{BLUE}\"")).count(), 3, "iterations, sizes and halvings");
+    assert!(texts(&svg).iter().any(|(text, ..)| text == "iterations of a step"));
+}
+
+#[test]
+fn a_png_has_ink_in_the_colour_of_the_curve() {
+    let folder = runs();
+    succeeds(&plot(folder.path(), &["a", "-o", "p.png"]));
+    let bytes = fs::read(folder.path().join("p.png")).unwrap();
+    let mut reader = png::Decoder::new(std::io::Cursor::new(bytes)).read_info().unwrap();
+    let mut pixels = vec![0; reader.output_buffer_size().unwrap()];
+    let info = reader.next_frame(&mut pixels).unwrap();
+    assert_eq!(info.width, 1440);
+    let ink = |colour: [u8; 3]| pixels.chunks_exact(3).filter(|pixel| **pixel == colour).count();
+    assert!(ink([0, 114, 178]) > 1000 && ink([255, 255, 255]) > 100_000 && ink([40, 40, 40]) > 1000);
+}
+
+#[test]
+fn columns_are_listed_and_one_that_is_not_there_has_near_ones() {
+    let folder = runs();
+    let listed = said(&plot(folder.path(), &["a", "--list"]));
+    assert!(listed.contains("head.reaction_y [kN]   -4 … 1.5") && listed.contains("4 rows"), "{listed}");
+    let output = plot(folder.path(), &["a", "--y", "haed.uy"]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(said(&output).contains("a has no column `haed.uy`; near to it are `head.uy`"), "{}", said(&output));
+    for (arguments, problem) in [
+        (&["a", "-o", "p.pdf"][..], "pictures are SVG or PNG"),
+        (&["c"], "there is no such case or folder"),
+        (&["."], "there is no history.csv of a run"),
+        (&["a", "--line", "high"], "`high` is no number"),
+        (&["a", "--x", "time", "--line", "3"], "nothing says which one it belongs to"),
+        (&["a", "--scale-x", "-1"], "the default curves have signs of their own"),
+        (&["a", "--reference", "a/history.csv"], "it has 5 columns, not two"),
+    ] {
+        let output = plot(folder.path(), arguments);
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}");
+        assert!(said(&output).contains(problem), "{arguments:?}: {}", said(&output));
+    }
+}
+
+#[test]
+fn hostile_text_stays_text() {
+    let folder = runs();
+    let title = "</text><script>alert('1')</script>&\"\u{1}";
+    let svg = svg(folder.path(), &["a", "--title", title]);
+    assert!(!svg.contains("<script") && svg.contains("&lt;script&gt;"));
+    well_formed(&folder.path().join("p.svg"));
+}
+
+/// Fails unless a file is well-formed XML.
+#[track_caller]
+pub fn well_formed(path: &Path) {
+    let program = "import sys, xml.etree.ElementTree as e; e.parse(sys.argv[1])";
+    succeeds(&python().args(["-c", program]).arg(path).output().unwrap());
+}
