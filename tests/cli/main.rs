@@ -4,6 +4,7 @@ mod broken_input;
 mod make;
 mod new;
 mod output_folder;
+mod pictures;
 mod running;
 mod signals;
 mod stages;

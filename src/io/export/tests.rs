@@ -1,6 +1,6 @@
 use super::super::container::Data;
-use super::super::frame::{Column, Frame, Part};
-use super::series::{counted_from, triples};
+use super::super::frame::{self, Column, Frame, Part};
+use super::series::counted_from;
 use super::*;
 use crate::error::Kind;
 use crate::io::export::pieces::Piece;
