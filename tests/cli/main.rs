@@ -4,9 +4,9 @@ mod broken_input;
 mod make;
 mod new;
 mod output_folder;
+mod pictures;
 mod plot;
 mod report;
-mod pictures;
 mod running;
 mod shell;
 mod signals;
@@ -19,6 +19,6 @@ mod sweep;
 mod slow {
     mod new;
     mod resume;
-    mod sweep;
     mod start;
+    mod sweep;
 }
