@@ -37,7 +37,11 @@ fn blocks(text: &str) -> Vec<(String, String)> {
 
 /// A page without its blocks of code.
 fn prose(text: &str) -> String {
-    text.split("\n```").step_by(2).map(|part| part.split_once('\n').map_or("", |(_, rest)| rest)).collect::<Vec<_>>().join("\n")
+    text.split("\n```")
+        .step_by(2)
+        .map(|part| part.split_once('\n').map_or("", |(_, rest)| rest))
+        .collect::<Vec<_>>()
+        .join("\n")
 }
 
 /// The anchors of the headings of a page, as mdBook and code forges make them.
@@ -105,13 +109,62 @@ fn the_tables_have_every_key_of_the_schema() {
     assert!(said.contains("Mesh.smoothing has no example"), "{said}");
 }
 
+/// The files of a folder of the repository, copied to the same place in `to`.
+fn copied(folder: &Path, to: &Path) {
+    for entry in fs::read_dir(project(folder)).unwrap() {
+        let (path, target) = (entry.as_ref().unwrap().path(), to.join(folder));
+        let name = entry.unwrap().file_name();
+        if !path.is_dir() {
+            fs::create_dir_all(&target).unwrap();
+            fs::copy(&path, target.join(&name)).unwrap();
+        } else if !name.to_string_lossy().starts_with("out") {
+            copied(&folder.join(name), to);
+        }
+    }
+}
+
 #[test]
 fn the_examples_have_no_mistakes() {
-    let examples: Vec<PathBuf> = fs::read_dir(project("docs/examples")).unwrap().map(|e| e.unwrap().path()).collect();
-    assert!(examples.len() > 2, "{examples:?}");
+    let folder = tempfile::tempdir().unwrap();
+    copied(Path::new("templates"), folder.path());
+    copied(Path::new("docs/examples"), folder.path());
+    let examples = folder.path().join("docs/examples");
+    // The one goes on from the other.
+    succeeds(&in_folder(&examples, &["run", "first_push"]));
+    let examples: Vec<PathBuf> = fs::read_dir(examples).unwrap().map(|e| e.unwrap().path()).collect();
+    assert!(examples.len() > 4, "{examples:?}");
     for example in examples {
         succeeds(&in_folder(&example, &["check", "."]));
     }
+}
+
+/// What `mpm` prints as the help of a command.
+fn help(command: &[&str]) -> String {
+    let output = in_folder(&project("."), &[command, &["--help"]].concat());
+    succeeds(&output);
+    String::from_utf8_lossy(&output.stdout).into_owned()
+}
+
+#[test]
+fn the_commands_have_every_option() {
+    let pages = ["docs/reference/commands.md", "docs/how-to/sweeps.md", "docs/how-to/pictures.md"];
+    let text: String = pages.iter().map(|page| fs::read_to_string(project(page)).unwrap()).collect();
+    let overview = help(&[]);
+    let commands = overview.split("Commands:").nth(1).unwrap().split("Options:").next().unwrap();
+    // Names are two blanks to the right of the heading, the lines that go on are farther.
+    let commands = commands.lines().filter(|line| line.starts_with("  ") && !line.starts_with("   "));
+    let mut count = 0;
+    for command in commands.map(|line| line.split_whitespace().next().unwrap()).filter(|name| *name != "help") {
+        assert!(text.contains(&format!("`mpm {command}")), "{} lacks mpm {command}", pages[0]);
+        let text_of_help = help(&[command]);
+        let words = text_of_help.split_whitespace().filter(|word| word.starts_with("--"));
+        let options = words.map(|word| word.trim_end_matches(|c: char| !c.is_alphanumeric()));
+        for option in options.filter(|option| option.len() > 2 && *option != "--help") {
+            assert!(text.contains(option), "{pages:?} lack {option} of mpm {command}");
+            count += 1;
+        }
+    }
+    assert!(count > 50, "{count}");
 }
 
 /// Whether the parts between the … and ` … ` of a quoted message are in the sources, where lines of a text may be split.
@@ -256,7 +309,12 @@ fn runs(page: &str) {
             let mut lines = said[number - 1].lines();
             for printed in code.lines() {
                 let found = lines.any(|line| is_line(printed, line));
-                assert!(found, "{page}: {printed:?} is not printed, or not in this order, by\n{}{}", commands[number - 1], said[number - 1]);
+                assert!(
+                    found,
+                    "{page}: {printed:?} is not printed, or not in this order, by\n{}{}",
+                    commands[number - 1],
+                    said[number - 1]
+                );
                 compared += 1;
             }
         }

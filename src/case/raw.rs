@@ -54,7 +54,7 @@ pub struct CaseFile {
     pub initial_velocity: BTreeMap<String, Velocity>,
     /// Water at rest outside of the soil, in its pores, or both. Default: none.
     pub water: Option<Water>,
-    /// The end of a phase of another run, from which the phases go on; without it they begin with the points as seeded.
+    /// The end of a phase of another run, from which the phases go on. Default: the points as seeded.
     pub start_from: Option<StartFrom>,
     /// The numerical method.
     #[serde(default)]
@@ -73,7 +73,7 @@ pub struct CaseFile {
 pub struct StartFrom {
     /// The output folder of the run, relative to the case file.
     pub run: String,
-    /// The name of the phase; without it the last one.
+    /// The name of the phase. Default: the last one.
     pub phase: Option<String>,
 }
 
@@ -189,12 +189,12 @@ pub enum InDepth {
 pub struct Profile {
     /// Value at the height `datum` and above.
     pub top: f64,
-    /// Growth per metre below `datum`; below 0 the value falls, no further than to `least`.
+    /// Growth per metre below `datum`. A negative one lets the value fall with depth, down to `least`.
     pub gradient: f64,
     /// Height y at which the growth begins (m).
     #[serde(default)]
     pub datum: f64,
-    /// The least value of one that falls with depth.
+    /// The least value of a profile that falls with depth, which needs it.
     pub least: Option<f64>,
 }
 

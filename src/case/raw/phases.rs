@@ -58,15 +58,15 @@ pub struct Phase {
 #[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ContactChange {
-    /// Coefficient of friction tan δ (-).
+    /// Coefficient of friction tan δ (-). Default: unchanged.
     #[schemars(range(min = 0))]
     pub friction: Option<f64>,
-    /// Adhesion (kPa).
+    /// Adhesion c_a (kPa). Default: unchanged.
     #[schemars(range(min = 0))]
     pub adhesion: Option<f64>,
-    /// α (-), from 0 to 1, or `none`: the share of the shear strength of the soil that limits the shear.
+    /// α from 0 to 1, or none: the share of the shear strength of the soil that limits the shear (-). Default: unchanged.
     pub adhesion_factor: Option<AdhesionFactor>,
-    /// Whether the two part where they are pulled: cut_off, no_separation or {limit: t}.
+    /// What happens where the two are pulled apart: cut_off, no_separation or {limit: t}. Default: unchanged.
     pub tension: Option<Tension>,
 }
 
