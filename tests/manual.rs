@@ -37,7 +37,11 @@ fn blocks(text: &str) -> Vec<(String, String)> {
 
 /// A page without its blocks of code.
 fn prose(text: &str) -> String {
-    text.split("\n```").step_by(2).map(|part| part.split_once('\n').map_or("", |(_, rest)| rest)).collect::<Vec<_>>().join("\n")
+    text.split("\n```")
+        .step_by(2)
+        .map(|part| part.split_once('\n').map_or("", |(_, rest)| rest))
+        .collect::<Vec<_>>()
+        .join("\n")
 }
 
 /// The anchors of the headings of a page, as mdBook and code forges make them.
@@ -256,7 +260,12 @@ fn runs(page: &str) {
             let mut lines = said[number - 1].lines();
             for printed in code.lines() {
                 let found = lines.any(|line| is_line(printed, line));
-                assert!(found, "{page}: {printed:?} is not printed, or not in this order, by\n{}{}", commands[number - 1], said[number - 1]);
+                assert!(
+                    found,
+                    "{page}: {printed:?} is not printed, or not in this order, by\n{}{}",
+                    commands[number - 1],
+                    said[number - 1]
+                );
                 compared += 1;
             }
         }

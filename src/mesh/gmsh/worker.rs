@@ -309,7 +309,8 @@ pub fn serve() -> Result<()> {
 
 /// Does what is asked; `agree` sends the names of the groups and waits whether the parent wants the mesh.
 fn work(request: &Request, agree: &mut dyn FnMut(Groups) -> Result<bool>) -> Result<()> {
-    let failed = |error: &dyn std::fmt::Display| Error::machine("Gmsh", error, "see `ulimit -a` and docs/reference/geo.md");
+    let failed =
+        |error: &dyn std::fmt::Display| Error::machine("Gmsh", error, "see `ulimit -a` and docs/reference/geo.md");
     sandbox::limit(request.parent, request.memory).map_err(|error| failed(&error))?;
     if request.sandbox {
         let folder = request.out.as_deref().and_then(Path::parent);
