@@ -110,7 +110,17 @@ impl<'a> Bodies<'a> {
         let body = self.soil.body(&nodes, cloud, (&places, &standing));
         let elements: Vec<&([u32; 3], u16)> =
             self.elements.iter().filter(|(_, r)| self.regions.soil[*r as usize]).collect();
-        Grid { time: Some(info.time), ..joined(body, &arrays, &elements, smooth, fields) }
+        let mut grid = joined(body, &arrays, &elements, smooth, fields);
+        grid.time = Some(info.time);
+        if let Some(materials) = self.regions.materials.get(&info.phase) {
+            let of_cell = grid.cell_data.iter().find_map(|array| match &array.data {
+                Data::U16(regions) => Some(regions.iter().map(|&r| materials[r as usize]).collect()),
+                _ => None,
+            });
+            let data = Data::U16(of_cell.unwrap_or_default());
+            grid.cell_data.push(Array { name: "material [-]".to_owned(), components: 1, data });
+        }
+        grid
     }
 }
 
