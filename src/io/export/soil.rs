@@ -2,7 +2,7 @@
 
 use super::super::container::Data;
 use super::super::frame::{self, Frame, Info, Part};
-use super::super::vtu::{Array, Grid, Topology};
+use super::super::vtu::{self, Array, Grid, Topology};
 use super::Regions;
 use super::fields::select;
 use super::pieces::Piece;
@@ -53,7 +53,10 @@ impl<'a> Bodies<'a> {
         }
         let soil = Soil::new(grid, &seeded, regions.axisymmetric);
         let elements = pieces.cells().zip(kinds).flat_map(|((corners, region), &kind)| {
-            triangles(kind).iter().map(move |t| (t.map(|i| corners[i] as u32), region))
+            // The nodes of the piece are in the order of VTK.
+            let place =
+                move |i: usize| vtu::vtk_order(kind).and_then(|order| order.iter().position(|&j| j == i)).unwrap_or(i);
+            triangles(kind).iter().map(move |t| (t.map(|i| corners[place(i)] as u32), region))
         });
         let mut bodies = Self { soil, regions, elements: elements.collect(), resets: BTreeMap::new() };
         for (i, pair) in infos.windows(2).enumerate() {
