@@ -10,7 +10,7 @@ use crate::io::export::Regions;
 use crate::mesh::locate::Locator;
 use crate::mesh::{Group, Mesh};
 use crate::points::Points;
-use std::collections::HashSet;
+use std::collections::{BTreeMap, HashSet};
 
 /// Whether each region of the mesh is of finite elements.
 pub fn of_elements(case: &Case, mesh: &Mesh<2>) -> Vec<bool> {
@@ -24,7 +24,19 @@ pub fn of_series(case: &Case, mesh: &Mesh<2>) -> Regions {
     let is_soil = |name| region(name).is_some_and(|r| r.content.material().is_some() && !r.content.is_structure());
     let number = |name: &String| mesh.regions.iter().position(|r| r == name).map(|r| r as u16);
     let absent = |phase: &Phase| (phase.name.clone(), phase.absent.iter().filter_map(number).collect());
+    let mut now: Vec<u16> =
+        mesh.regions.iter().map(|name| region(name).and_then(|r| r.content.material()).unwrap_or(0) as u16).collect();
+    let mut materials = BTreeMap::new();
+    for phase in &case.phases {
+        for change in &phase.changes {
+            if let Some(changed) = number(&case.regions[change.region].name) {
+                now[changed as usize] = change.material as u16;
+            }
+        }
+        materials.insert(phase.name.clone(), now.clone());
+    }
     Regions {
+        materials,
         elements: of_elements(case, mesh),
         soil: mesh.regions.iter().map(is_soil).collect(),
         axisymmetric: case.geometry == Geometry::Axisymmetric,

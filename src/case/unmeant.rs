@@ -14,16 +14,16 @@ const LOOSE: f64 = 1e-4;
 /// Cells across a structure below which its limit load is that of the cells: with eight it is 6 to 12 % too high (docs/numerics.md), and
 /// the error goes with the size of the cells.
 const FEW_CELLS: f64 = 4.0;
-/// Cells across it that are told instead.
-const GOOD_CELLS: f64 = 8.0;
+/// Cells across it that are told instead, as docs/reference/messages.md has it.
+const GOOD_CELLS: f64 = 6.0;
 /// The same as [`FEW_CELLS`] across one that is [`SLENDER`], most of whose load is along its sides: `cases/suction_anchor` has two and bears within 5 %.
 const FEW_CELLS_OF_A_WALL: f64 = 2.0;
 /// How many times (-) as long on its way as it is wide a wall or a pile is.
 const SLENDER: f64 = 4.0;
 /// Part of a cell (-) that a structure moves in a step above which it passes by the soil that it is to meet.
 const LONG_STEP: f64 = 1.0;
-/// The part of a cell that it is told to move: sound cases have a hundredth to four tenths.
-const GOOD_STEP: f64 = 0.2;
+/// The part of a cell that it is told to move, as there; sound cases have a hundredth to four tenths.
+const GOOD_STEP: f64 = 1.0 / 6.0;
 
 /// What shows without the mesh, given where the regions lie.
 pub fn of_case(case: &Case, places: &[Place]) -> Vec<String> {
@@ -222,11 +222,11 @@ mod tests {
         assert!(told(8, 0.05).is_empty() && told(4, 0.25).is_empty(), "{:?}", told(4, 0.25));
         let [coarse] = told(3, 0.05).try_into().unwrap();
         assert!(
-            coarse.contains("0.250 m") && coarse.contains("3.0 cells") && coarse.contains("make them 0.094 m"),
+            coarse.contains("0.250 m") && coarse.contains("3.0 cells") && coarse.contains("make them 0.125 m"),
             "{coarse}"
         );
         let [long] = told(8, 0.4).try_into().unwrap();
-        assert!(long.contains("0.400 m in a step, 1.6 times") && long.contains("5.00e-2 s or less"), "{long}");
+        assert!(long.contains("0.400 m in a step, 1.6 times") && long.contains("4.17e-2 s or less"), "{long}");
     }
 
     #[test]

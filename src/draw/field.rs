@@ -7,9 +7,12 @@ use super::{Canvas, Drawn, HPos, INK, Picture, Text, VPos};
 use crate::error::{Error, Result};
 use crate::io::container::Data;
 use crate::io::export::Shown;
-use crate::io::frame::INTERNAL;
 use crate::io::vtu::{Array, Grid};
 use plotters::prelude::DrawingBackend;
+
+mod asked;
+
+pub use asked::Asked;
 
 /// Space around the axes (points): for the vertical axis, the colour bar, the title and the horizontal axis.
 const LEFT: f64 = 62.0;
@@ -57,75 +60,20 @@ pub struct Options {
 /// The pixels of a PNG that is not told how wide to be.
 const WIDTH: u32 = 1600;
 
-/// The name of a field as a case has it under `output.fields`, and of its component.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Asked {
-    pub field: String,
-    component: Option<String>,
-    array: String,
-}
-
-impl Asked {
-    /// `NAME`, `NAME.COMPONENT` or `internal_variables.NAME`.
-    pub fn of(text: &str) -> Self {
-        let (field, rest) = text.split_once('.').map_or((text, None), |(field, rest)| (field, Some(rest.to_owned())));
-        if field == INTERNAL {
-            return Self { field: field.to_owned(), component: None, array: text.to_owned() };
-        }
-        Self { field: field.to_owned(), component: rest, array: field.to_owned() }
-    }
-
-    /// The values of a grid at its nodes, with the title of the colour bar. `None` where it has not the field.
-    ///
-    /// # Errors
-    /// `Input` for a component that the field has not.
-    fn values(&self, grid: &Grid) -> Result<Option<(String, Vec<f64>)>> {
-        let named = |array: &&Array| array.name.rsplit_once(" [").is_some_and(|(name, _)| name == self.array);
-        let Some(Array { name, components, data: Data::F64(values) }) = grid.point_data.iter().find(named) else {
-            return Ok(None);
-        };
-        let (array, unit) = name.rsplit_once(" [").unwrap_or((name, "-]"));
-        let names: &[&str] = match components {
-            3 => &["x", "y", "z"],
-            6 => &["xx", "yy", "zz", "xy", "yz", "xz"],
-            9 => &["xx", "xy", "xz", "yx", "yy", "yz", "zx", "zy", "zz"],
-            _ => &[],
-        };
-        let at = |k: usize| values.chunks_exact(*components).map(|v| v[k]).collect();
-        let size = |v: &[f64]| v.iter().map(|v| v * v).sum::<f64>().sqrt();
-        let (title, values): (String, Vec<f64>) = match &self.component {
-            None if *components == 1 => (array.to_owned(), values.clone()),
-            None if *components == 3 => (array.to_owned(), values.chunks_exact(3).map(size).collect()),
-            component => match names.iter().position(|name| component.as_deref() == Some(*name)) {
-                Some(k) => (format!("{array}.{}", names[k]), at(k)),
-                None => return Err(self.wrong(names)),
-            },
-        };
-        let unit = unit.trim_end_matches(']');
-        Ok(Some((if unit == "-" { title } else { format!("{title} [{unit}]") }, values)))
-    }
-
-    fn wrong(&self, names: &[&str]) -> Error {
-        let remedy = if names.is_empty() {
-            "it is a number: take the component out".to_owned()
-        } else {
-            let all: Vec<String> = names.iter().map(|name| format!("{}.{name}", self.field)).collect();
-            format!("say which component: {}", all.join(", "))
-        };
-        let problem = match &self.component {
-            Some(component) => format!("the field has no component `{component}`"),
-            None => "the field has several components".to_owned(),
-        };
-        Error::input(format!("--field {}", self.array), problem, remedy)
-    }
-}
-
 /// Triangles in the plane, with a value at each corner.
 #[derive(Clone, Debug, Default, PartialEq)]
 struct Triangles {
     places: Vec<[[f64; 2]; 3]>,
     values: Vec<[f64; 3]>,
     region: Vec<u16>,
+}
+
+/// A line along a structure, with the contact pressure (kPa) and the unit normal into the soil at both ends.
+#[derive(Clone, Debug, PartialEq)]
+struct Pressed {
+    ends: [[f64; 2]; 2],
+    pressure: [f64; 2],
+    normal: [[f64; 2]; 2],
 }
 
 /// A field over the soil.
@@ -138,8 +86,7 @@ pub struct Field {
     structures: Triangles,
     /// Edges of the cells of the grid (m).
     edges: Vec<[[f64; 2]; 2]>,
-    /// Lines along structures with the pressure at both ends (kPa), the soil on their right.
-    contact: Vec<([[f64; 2]; 2], [f64; 2])>,
+    contact: Vec<Pressed>,
     options: Options,
 }
 
@@ -179,8 +126,23 @@ impl Field {
                 Some(Array { data: Data::F64(values), .. }) => values[i as usize],
                 _ => 0.0,
             };
-            let lines = grid.topology.connectivity.chunks_exact(2);
-            contact.extend(lines.map(|l| ([place(grid, l[0]), place(grid, l[1])], [pressure(l[0]), pressure(l[1])])));
+            let lines: Vec<[i64; 2]> = grid.topology.connectivity.chunks_exact(2).map(|l| [l[0], l[1]]).collect();
+            // Lines that go on from each other have a node in common; their normals there are one.
+            let mut normals = vec![[0.0; 2]; grid.points.len() / 3];
+            for [i, j] in &lines {
+                let (a, b) = (place(grid, *i), place(grid, *j));
+                for n in [i, j].map(|n| &mut normals[*n as usize]) {
+                    *n = [n[0] + b[1] - a[1], n[1] + a[0] - b[0]];
+                }
+            }
+            contact.extend(lines.into_iter().map(|ends| Pressed {
+                ends: ends.map(|n| place(grid, n)),
+                pressure: ends.map(pressure),
+                normal: ends.map(|n| {
+                    let [x, y] = normals[n as usize];
+                    [x, y].map(|v| v / x.hypot(y).max(f64::MIN_POSITIVE))
+                }),
+            }));
         }
         Ok(Self { title, name, soil: triangles(soil, &values, |_| true), structures, edges, contact, options })
     }
@@ -243,6 +205,11 @@ impl Field {
         Paper { window: [x0, y0, x1, y1], scale, size, height: size[1].max(LOWEST) + ABOVE + BELOW, width }
     }
 
+    /// The largest contact pressure (kPa), if there are lines along structures.
+    fn largest_pressure(&self) -> Option<f64> {
+        self.contact.iter().flat_map(|line| line.pressure).reduce(f64::max)
+    }
+
     /// Draws what is filled.
     fn fill(&self, raster: &mut Raster) {
         let paper = self.paper();
@@ -263,16 +230,17 @@ impl Field {
             }
         }
         raster.outline(LINES);
-        let most = self.contact.iter().flat_map(|(_, p)| p).fold(0.0f64, |most, p| most.max(*p));
+        let most = self.largest_pressure().unwrap_or(0.0);
         let by = CONTACT_HEIGHT * paper.size[0].min(paper.size[1]) / most.max(f64::MIN_POSITIVE);
-        for (&side, (line, pressure)) in sides.iter().flat_map(|side| self.contact.iter().map(move |c| (side, c))) {
-            let [a, b] = line.map(|x| paper.at([side * x[0], x[1]]));
-            let length = (b[0] - a[0]).hypot(b[1] - a[1]);
-            // The soil is on the right of the line; the paper's y runs down.
-            let normal = [side * -(b[1] - a[1]) / length, side * (b[0] - a[0]) / length];
-            let tip = |x: [f64; 2], p: f64| [0, 1].map(|d| x[d] + by * p * normal[d]);
-            let [c, d] = [tip(b, pressure[1]), tip(a, pressure[0])];
-            if length > 0.0 && pressure.iter().any(|p| *p > 0.0) {
+        for (&side, line) in sides.iter().flat_map(|side| self.contact.iter().map(move |line| (side, line))) {
+            let Pressed { ends, pressure, normal } = line;
+            let [a, b] = ends.map(|x| paper.at([side * x[0], x[1]]));
+            // The paper's y runs down.
+            let tip = |x: [f64; 2], k: usize| {
+                [x[0] + by * pressure[k] * side * normal[k][0], x[1] - by * pressure[k] * normal[k][1]]
+            };
+            let [c, d] = [tip(b, 1), tip(a, 0)];
+            if pressure.iter().any(|p| *p > 0.0) {
                 raster.tint(&[a, b, c], CONTACT, 0.6);
                 raster.tint(&[a, c, d], CONTACT, 0.6);
                 raster.line(d, c, 0.8, CONTACT, 1.0);
@@ -368,7 +336,7 @@ impl Picture for Field {
         }
         canvas.text(&self.name, [paper.width - 6.0, high[1] - 8.0], small(HPos::Right, VPos::Bottom))?;
         canvas.text(&self.title, [low[0], high[1] - 8.0], Text { size: 13.0, ..Text::at(HPos::Left, VPos::Bottom) })?;
-        if let Some(most) = self.contact.iter().flat_map(|(_, p)| p).copied().reduce(f64::max) {
+        if let Some(most) = self.largest_pressure() {
             let text = format!("contact pressure up to {most:.3} kPa");
             canvas.text(&text, [low[0] + 6.0, high[1] + 6.0], small(HPos::Left, VPos::Top))?;
         }
@@ -387,6 +355,7 @@ fn around(kind: u8) -> &'static [usize] {
         9 => &[0, 1, 2, 3],
         22 => &[0, 3, 1, 4, 2, 5],
         23 | 28 => &[0, 4, 1, 5, 2, 6, 3, 7],
+        70 => &[0, 4, 5, 1, 6, 7, 2, 9, 8, 3, 11, 10],
         _ => &[],
     }
 }

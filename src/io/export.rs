@@ -48,6 +48,8 @@ pub struct Regions {
     pub resets: Vec<String>,
     /// The structures that are not there in a phase, by its name.
     pub absent: BTreeMap<String, Vec<u16>>,
+    /// The number of the material that each region has in a phase, by its name.
+    pub materials: BTreeMap<String, Vec<u16>>,
 }
 
 /// What was exported.

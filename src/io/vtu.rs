@@ -115,7 +115,7 @@ fn vtk_type(kind: CellKind) -> u8 {
 
 /// The nodes of a kind in the order of VTK (`vtkQuadraticTetra.h`, `vtkTriQuadraticHexahedron.h`; `vtkLagrangeQuadrilateral.h`, where
 /// nodes on opposite sides run alike and those within row by row) where that is not Gmsh's.
-fn vtk_order(kind: CellKind) -> Option<&'static [usize]> {
+pub fn vtk_order(kind: CellKind) -> Option<&'static [usize]> {
     match kind {
         CellKind::Q16 => Some(&[0, 1, 2, 3, 4, 5, 6, 7, 9, 8, 11, 10, 12, 13, 15, 14]),
         CellKind::T10 => Some(&[0, 1, 2, 3, 4, 5, 6, 7, 9, 8]),

@@ -2,11 +2,11 @@
 //!
 //! Made from what frames hold, which is the places of the points, their displacement, and fields. Where the soil is follows in
 //! two ways. A displacement that is fitted to the points tells of each node where the soil there came from, and how deep in the seeded
-//! cells that was ([`Origin::depth`]): where it is smooth that places the surface as the soil moved, sharp edges and all. Where it is
-//! not, as where soil has closed behind a structure, the fullness with points decides ([`Fullness`]). Both are lengths, positive in the
+//! cells that was (`Origin::depth`): where it is smooth that places the surface as the soil moved, sharp edges and all. Where it is
+//! not, as where soil has closed behind a structure, the fullness with points decides (`Fullness`). Both are lengths, positive in the
 //! soil; their mean by the inverse squares of their errors is a level set at the nodes, linear on the triangles between
 //! them, along which the cells are cut. What structures stand in is cut out exactly. Regions are parted in the same way, and a field
-//! is recovered from the points of each region alone ([`recover`]).
+//! is recovered from the points of each region alone (`recover`).
 
 mod fullness;
 mod origin;

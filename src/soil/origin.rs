@@ -75,11 +75,11 @@ impl Origin {
                 let nodes = mesh.cells.nodes(a as usize);
                 let (_, facets) = mesh.cells.kind[a as usize].facets();
                 let at = |i: usize| mesh.nodes[nodes[i] as usize];
-                match *facets[face.sides[0] as usize] {
-                    [i, j, middle] => vec![[at(i), at(middle)], [at(middle), at(j)]],
-                    [i, j] => vec![[at(i), at(j)]],
-                    _ => Vec::new(),
-                }
+                // Both ends, then what is between them, from the first to the second.
+                let facet = facets[face.sides[0] as usize];
+                let along: Vec<[f64; 2]> =
+                    facet[..1].iter().chain(&facet[2..]).chain(&facet[1..2]).map(|&i| at(i)).collect();
+                along.windows(2).map(|w| [w[0], w[1]]).collect::<Vec<Line<2>>>()
             };
             match (is_soil(a), is_soil(b)) {
                 (true, true) if region(a) != region(b) => {

@@ -139,6 +139,9 @@ impl Nodal {
     }
 }
 
+/// The order of cells up to which what is fitted is linear: pictures take that in all cells.
+const LINEAR: usize = 2;
+
 /// The functions of a cell; `None` where no point is near.
 fn fitted(ground: &Ground, region: Option<u16>, values: Values, cell: u32) -> Option<Function> {
     let Ground { mesh, points, around, held, .. } = *ground;
@@ -146,9 +149,10 @@ fn fitted(ground: &Ground, region: Option<u16>, values: Values, cell: u32) -> Op
     let frame = CellFrame::of(mesh, cell as usize);
     let at = |&n: &u32| Place { xi: [0.0; 3], x: mesh.nodes[n as usize], weight: 0.0 };
     let places: Vec<Place> = mesh.cells.nodes(cell as usize).iter().map(at).collect();
-    let fit = Fit::new(points, (around, held), &mut Rings::of(cell), &frame, &places, &counts)?;
+    let fit = Fit::new(points, (around, held), &mut Rings::of(cell), (&frame, LINEAR), &places, &counts)?;
     let Values { width, of } = values;
-    let coefficients: Vec<[f64; 3]> = (0..width).map(|i| fit.coefficients_of(|p| of[p * width + i])).collect();
+    let linear = |i: usize| fit.coefficients_of(|p| of[p * width + i]).linear().map(|[c]| c);
+    let coefficients: Vec<[f64; 3]> = (0..width).map(linear).collect();
     let mut range = vec![[f64::INFINITY, f64::NEG_INFINITY]; width];
     for &p in &fit.points {
         for (range, value) in range.iter_mut().zip(&of[p as usize * width..]) {

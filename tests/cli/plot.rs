@@ -114,7 +114,8 @@ fn the_usual_curve_is_the_load_over_the_displacement_where_it_goes() {
 fn any_columns_are_drawn_of_several_runs_with_what_they_are_compared_to() {
     let folder = runs();
     fs::write(folder.path().join("ref.csv"), "t,F\n0.1,1\n0.3,2\n").unwrap();
-    let arguments = ["a", "b", "--x", "time [s]", "--y", "head.reaction_y", "--scale-y", "-2", "--reference", "ref.csv"];
+    let arguments =
+        ["a", "b", "--x", "time [s]", "--y", "head.reaction_y", "--scale-y", "-2", "--reference", "ref.csv"];
     let svg = svg(folder.path(), &[&arguments[..], &["--line", "limit=9"]].concat());
     let times = [0.1, 0.2, 0.3, 0.35];
     for (colour, factor) in [(BLUE, 1.0), (ORANGE, 0.5)] {

@@ -29,10 +29,14 @@ fn a_report_of_a_finished_run_has_all_parts_and_loads_nothing() {
     let scene = solved();
     let page = page(scene.path(), &[]);
     assert!(!page.contains("<script") && page.contains("&lt;script&gt;alert(1)"));
-    for text in ["The run is finished.", "Scene", "young [kPa]", "1000", "linear_elastic", "ux = uy = 0", "restore", "never"] {
+    for text in
+        ["The run is finished.", "Scene", "young [kPa]", "1000", "linear_elastic", "ux = uy = 0", "restore", "never"]
+    {
         assert!(page.contains(text), "{text}");
     }
-    for text in ["block.uy [m]", "iterations of a step", "solve, finished", "x86_64", "duration [s]", "data:image/png;base64,"] {
+    for text in
+        ["block.uy [m]", "iterations of a step", "solve, finished", "x86_64", "duration [s]", "data:image/png;base64,"]
+    {
         assert!(page.contains(text) || text == "x86_64" && page.contains("aarch64"), "{text}");
     }
     let elsewhere = page.replace("http://www.w3.org/", "");
@@ -50,7 +54,11 @@ fn a_report_says_that_the_run_is_not_finished_or_the_case_another() {
     let text = fs::read_to_string(&record).unwrap();
     fs::write(&record, text.replace("\"finished\": true", "\"finished\": false")).unwrap();
     let page = page(scene.path(), &[]);
-    assert!(page.contains("The run is not finished, up to t = 1 s: it is running, or was killed."), "{}", &page[..3000]);
+    assert!(
+        page.contains("The run is not finished, up to t = 1 s: it is running, or was killed."),
+        "{}",
+        &page[..3000]
+    );
 }
 
 #[test]

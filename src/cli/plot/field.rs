@@ -107,7 +107,7 @@ pub fn run(case: &Path, output: Option<&Path>, field: &str, args: &Args, keys: &
             (None, None) => series.infos.len() - 1,
         };
         draw::write(&picture(i)?, &path)?;
-        return print(&format!("{}: t = {} s\n", path.display(), series.infos[i].time));
+        return print(&format!("{}: t = {} s\n", path.display(), short(series.infos[i].time)));
     }
     let frames = at(&series.infos, &args.times)?;
     let (range, window) = common(&frames, &picture)?;
@@ -119,7 +119,7 @@ pub fn run(case: &Path, output: Option<&Path>, field: &str, args: &Args, keys: &
         let kind = path.extension().unwrap_or_default().to_string_lossy();
         let path = path.with_file_name(format!("{stem}_t{}.{kind}", short(time)));
         draw::write(&picture, &path)?;
-        print(&format!("{}: t = {time} s\n", path.display()))?;
+        print(&format!("{}: t = {} s\n", path.display(), short(time)))?;
     }
     Ok(())
 }
@@ -195,10 +195,11 @@ fn open(path: &Path, keys: &Keys) -> std::result::Result<Stage, Vec<Error>> {
     let command =
         Record::read(path, run_folder::STAGE).and_then(|record| Some(record.sessions.last()?.command.clone()));
     let command = command.unwrap_or_default();
-    let values = |name: &str| {
-        let pairs = command.windows(2).filter(|pair| pair[0] == name).map(|pair| pair[1].clone());
-        pairs.collect::<Vec<String>>()
-    };
+    let mut overrides = Vec::new();
+    for (i, word) in command.iter().enumerate() {
+        let beside = if word == "--set" { command.get(i + 1).map(String::as_str) } else { word.strip_prefix("--set=") };
+        overrides.extend(beside.map(str::to_owned));
+    }
     let case = command.get(2..).unwrap_or_default().iter().find(|word| {
         let path = Path::new(word);
         path.is_file() || path.join("case.yaml").exists()
@@ -213,5 +214,5 @@ fn open(path: &Path, keys: &Keys) -> std::result::Result<Stage, Vec<Error>> {
         )]);
     };
     note(&format!("note: the case of {} is {}", path.display(), case.display()));
-    of(&case, values("--set"), Some(path.to_owned()))
+    of(&case, overrides, Some(path.to_owned()))
 }

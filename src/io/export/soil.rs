@@ -2,7 +2,7 @@
 
 use super::super::container::Data;
 use super::super::frame::{self, Frame, Info, Part};
-use super::super::vtu::{Array, Grid, Topology};
+use super::super::vtu::{self, Array, Grid, Topology};
 use super::Regions;
 use super::fields::select;
 use super::pieces::Piece;
@@ -53,7 +53,10 @@ impl<'a> Bodies<'a> {
         }
         let soil = Soil::new(grid, &seeded, regions.axisymmetric);
         let elements = pieces.cells().zip(kinds).flat_map(|((corners, region), &kind)| {
-            triangles(kind).iter().map(move |t| (t.map(|i| corners[i] as u32), region))
+            // The nodes of the piece are in the order of VTK.
+            let place =
+                move |i: usize| vtu::vtk_order(kind).and_then(|order| order.iter().position(|&j| j == i)).unwrap_or(i);
+            triangles(kind).iter().map(move |t| (t.map(|i| corners[place(i)] as u32), region))
         });
         let mut bodies = Self { soil, regions, elements: elements.collect(), resets: BTreeMap::new() };
         for (i, pair) in infos.windows(2).enumerate() {
@@ -110,7 +113,17 @@ impl<'a> Bodies<'a> {
         let body = self.soil.body(&nodes, cloud, (&places, &standing));
         let elements: Vec<&([u32; 3], u16)> =
             self.elements.iter().filter(|(_, r)| self.regions.soil[*r as usize]).collect();
-        Grid { time: Some(info.time), ..joined(body, &arrays, &elements, smooth, fields) }
+        let mut grid = joined(body, &arrays, &elements, smooth, fields);
+        grid.time = Some(info.time);
+        if let Some(materials) = self.regions.materials.get(&info.phase) {
+            let of_cell = grid.cell_data.iter().find_map(|array| match &array.data {
+                Data::U16(regions) => Some(regions.iter().map(|&r| materials[r as usize]).collect()),
+                _ => None,
+            });
+            let data = Data::U16(of_cell.unwrap_or_default());
+            grid.cell_data.push(Array { name: "material [-]".to_owned(), components: 1, data });
+        }
+        grid
     }
 }
 

@@ -134,6 +134,13 @@ pub struct Coefficients<const N: usize> {
     second: Option<[[f64; N]; 3]>,
 }
 
+impl<const N: usize> Coefficients<N> {
+    /// Those of `1, x, y`.
+    pub fn linear(&self) -> [[f64; N]; 3] {
+        self.first
+    }
+}
+
 impl Fit {
     /// The fit of the points that `counts` picks, for the `places` in a cell of some `order`; `None` where none is near.
     pub fn new(
