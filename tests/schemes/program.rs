@@ -75,7 +75,12 @@ fn what_they_do_not_support_is_refused_with_another_choice() {
     refused(true, "tests/data/plate", &set, &["cpdi needs points that fill their cells", "use 4, 9, 16 or 25"]);
     let composite = "numerics.gradient=composite";
     refused(true, QUADS, &[resampled, composite], &["composite averages over the domains", "`quadrature: points`"]);
-    refused(true, "tests/data/plate", &[composite], &["composite does not support cells of second order", "`order: 1`"]);
+    refused(
+        true,
+        "tests/data/plate",
+        &[composite],
+        &["composite does not support cells of second order", "`order: 1`"],
+    );
     let (plate, gimp) = ("tests/data/plate", "numerics.gradient=gimp");
     refused(true, plate, &[gimp], &["cpgimp does not support cells of second order", "`order: 1`"]);
     refused(
