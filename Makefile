@@ -44,10 +44,10 @@ pile-variants: build ## The pile smooth, rough, as it is, and by mpm and ddmp: p
 	$(PYTHON) paraview/pile.py $(addprefix cases/pile/,out-mpm out-ddmp out) -o cases/pile/out/schemes.png
 	$(PYTHON) cases/pile/study.py
 
-pile-schemes: build ## The pile over a regular grid by mpm, ddmp, cpgimp and bspline: the noise of the stress below the base, side by side
+pile-schemes: build ## The pile over a regular grid by mpm, ddmp, cpgimp, composite and bspline: the noise of the stress below the base, side by side
 	$(PYTHON) cases/pile/schemes.py $(if $(THREADS),--threads $(THREADS))
-	$(PYTHON) paraview/pile.py $(addprefix cases/pile/out-regular,-mpm -ddmp -cpgimp -bspline) cases/pile/out-regular -o cases/pile/out-regular/schemes.png
-	$(PYTHON) cases/pile/study.py $(addprefix cases/pile/out-regular,-mpm -ddmp -cpgimp -bspline) cases/pile/out-regular -o cases/pile/out-regular/curves.svg
+	$(PYTHON) paraview/pile.py $(addprefix cases/pile/out-regular,-mpm -ddmp -cpgimp -composite -bspline) cases/pile/out-regular -o cases/pile/out-regular/schemes.png
+	$(PYTHON) cases/pile/study.py $(addprefix cases/pile/out-regular,-mpm -ddmp -cpgimp -composite -bspline) cases/pile/out-regular -o cases/pile/out-regular/curves.svg
 
 # A case like the others, that goes on with its variants and their pictures.
 pipeline: build ## The pipe pressed into the seabed and pulled across it, α = 0.5, 0 and 1: pictures, curves, a table

@@ -23,6 +23,7 @@ VARIANTS = {
     "mpm": FIRST_ORDER | {"numerics.gradient": "mpm"},
     "ddmp": FIRST_ORDER | {"numerics.gradient": "ddmp"},
     "cpgimp": FIRST_ORDER | {"numerics.gradient": "cpgimp"},
+    "composite": FIRST_ORDER | {"numerics.gradient": "composite"},
     # Splines have no pressure field.
     "bspline": {"numerics.gradient": "bspline", "numerics.pressure": "none"},
 }

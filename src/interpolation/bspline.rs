@@ -144,7 +144,7 @@ impl Splines {
         let of_node = |i: usize| {
             let span = (i / 3).min(spans - 1);
             let at = x[span] + (x[span + 1] - x[span]) * (i - 3 * span) as f64 / 3.0;
-            let values = cox_de_boor(&knot, span + 3, at);
+            let values = cox_de_boor(knot, span + 3, at);
             let all = values.into_iter().enumerate().map(|(k, value)| (place(span + k), value));
             all.filter(|(_, value)| *value != 0.0).collect()
         };

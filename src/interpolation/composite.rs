@@ -17,10 +17,11 @@
 //! themselves: the forces of a symmetric stress have then no moment.
 //!
 //! The patch takes in the cells beside that of the point that are at least half filled by the domains of the points in them: of a cell with less the
-//! nodes far from the body have hardly a force of their own, and strains must not hang on them. Where a cell is left out between two that would be taken,
+//! nodes far from the body have hardly a force of their own, and strains must not hang on them. Domains end there too: a force on a node that no
+//! strain hangs on would move it without resistance. Where a cell is left out between two that would be taken,
 //! at a corner of the body, these are left out as well.
 
-use super::gimp::{Gimp, Rectangle, slanted};
+use super::gimp::{self, Gimp, Rectangle, Surroundings, slanted};
 use super::{Basis, First, Interpolation, Located, Reset, Support};
 use crate::mesh::Mesh;
 use crate::mesh::shape::CellKind;
@@ -80,26 +81,26 @@ impl Basis<2> for Composite {
     }
 
     fn fill(&self, points: &Located<2>, interpolation: &mut Interpolation<2>) {
-        Gimp::STRETCHED.fill(points, interpolation);
-        let Some(domains) = &points.domains else { return };
-        let mesh = points.mesh;
-        let area = |c: usize| {
-            let Rectangle { low, high } = Rectangle::of(mesh, c);
-            (high[0] - low[0]) * (high[1] - low[1])
+        let (mesh, surroundings) = (points.mesh, Surroundings::of(points.mesh));
+        let Some(domains) = &points.domains else {
+            return gimp::fill(points, interpolation, &surroundings, |_| true);
         };
         let mut held = vec![0.0; mesh.cells.len()];
         for (p, &c) in points.cell.iter().enumerate() {
             held[c as usize] += domains.get(p)[..2].iter().product::<f64>();
         }
-        let filled: Vec<bool> = held.iter().enumerate().map(|(c, held)| *held >= FILLED * area(c)).collect();
+        let filled = |c: usize| {
+            let Rectangle { low, high } = surroundings.boxes[c];
+            points.active[c] && held[c] >= FILLED * (high[0] - low[0]) * (high[1] - low[1])
+        };
+        gimp::fill(points, interpolation, &surroundings, filled);
         interpolation.strain_gradient.resize(interpolation.gradient.len(), [0.0; 2]);
         let support = interpolation.support.clone();
         interpolation.slots().into_par_iter().for_each(|slot| {
             let cell = slot.cell_points.cell;
             let own = mesh.cells.nodes(cell as usize);
             let nodes = support.as_ref().map_or(own, |support| support.nodes(cell));
-            let beside = domains.locator.neighbours(cell).iter().map(|&c| c as usize);
-            let beside = beside.filter(|&c| filled.get(c).is_some_and(|filled| *filled) && points.active[c]);
+            let beside = surroundings.beside(mesh, cell as usize).map(|c| c as usize).filter(|&c| filled(c));
             let patch = Patch::of(mesh, cell as usize, beside, nodes);
             let gradients = slot.strain_gradient.chunks_exact_mut(nodes.len());
             for (gradient, shape) in gradients.zip(slot.shape.chunks_exact(own.len())) {

@@ -92,18 +92,46 @@ impl Basis<2> for Gimp {
     }
 
     fn fill(&self, points: &Located<2>, interpolation: &mut Interpolation<2>) {
-        let mesh = points.mesh;
-        let boxes: Vec<Rectangle> = (0..mesh.cells.len()).map(|c| Rectangle::of(mesh, c)).collect();
+        fill(points, interpolation, &Surroundings::of(points.mesh), |_| true);
+    }
+}
+
+/// The cells of a mesh of rectangles.
+pub(super) struct Surroundings {
+    /// Each of them.
+    pub boxes: Vec<Rectangle>,
+    /// The cells around each node.
+    around: Vec<Vec<u32>>,
+}
+
+impl Surroundings {
+    pub fn of(mesh: &Mesh<2>) -> Self {
+        let boxes = (0..mesh.cells.len()).map(|c| Rectangle::of(mesh, c)).collect();
         let mut around: Vec<Vec<u32>> = vec![Vec::new(); mesh.nodes.len()];
         for c in 0..mesh.cells.len() {
             mesh.cells.nodes(c).iter().for_each(|&n| around[n as usize].push(c as u32));
         }
-        let support = Support::with_neighbours(mesh, points.active);
-        interpolation.fill_support(points, support, |place, value, gradient| match &points.domains {
-            Some(domains) => average(place, domains, &boxes, &around, value, gradient),
-            None => at_the_place(place, value, gradient),
-        });
+        Self { boxes, around }
     }
+
+    /// The cells that share a node with a cell, itself too, each as often as they share one.
+    pub fn beside<'a>(&'a self, mesh: &'a Mesh<2>, cell: usize) -> impl Iterator<Item = u32> + 'a {
+        mesh.cells.nodes(cell).iter().flat_map(|&n| &self.around[n as usize]).copied()
+    }
+}
+
+/// Fills in the means over the domains of the points, which reach into those cells beside their own that `takes` is true for.
+pub(super) fn fill(
+    points: &Located<2>,
+    interpolation: &mut Interpolation<2>,
+    surroundings: &Surroundings,
+    takes: impl Fn(usize) -> bool + Sync,
+) {
+    let support = Support::with_neighbours(points.mesh, points.active);
+    interpolation.fill_support(points, support, |place, value, gradient| match &points.domains {
+        Some(domains) => average(place, domains, surroundings, &takes, value, gradient),
+        None => at_the_place(place, value, gradient),
+    });
 }
 
 /// Says that a mesh has cells that are no rectangles along the axes, and a remedy.
@@ -151,17 +179,21 @@ impl Rectangle {
     }
 }
 
-/// Writes the means over the domain of a point, given the boxes of all cells and the cells around each node.
+/// Writes the means over the domain of a point, which reaches into the cells beside its own that `takes` is true for.
 fn average(
     place: &Place<2>,
     domains: &Domains<2>,
-    boxes: &[Rectangle],
-    around: &[Vec<u32>],
+    surroundings: &Surroundings,
+    takes: &impl Fn(usize) -> bool,
     value: &mut [f64],
     gradient: &mut [[f64; 2]],
 ) {
     let cells = &place.mesh.cells;
+    let boxes = &surroundings.boxes;
     let to = |c: u32| -> Option<[usize; 4]> {
+        if c as usize != place.cell && !takes(c as usize) {
+            return None;
+        }
         let mut to = [0; 4];
         for (to, n) in to.iter_mut().zip(cells.nodes(c as usize)) {
             *to = place.nodes.iter().position(|other| other == n)?;
@@ -192,8 +224,7 @@ fn average(
     let mut volume = 0.0;
     // Four rectangles at most meet at each of the four nodes.
     let mut seen = [u32::MAX; 16];
-    let neighbours = cells.nodes(place.cell).iter().flat_map(|&n| &around[n as usize]);
-    for (k, &c) in neighbours.enumerate() {
+    for (k, c) in surroundings.beside(place.mesh, place.cell).enumerate() {
         seen[k] = c;
         if seen[..k].contains(&c) {
             continue;

@@ -178,7 +178,7 @@ fn composite_points_have_the_strains_of_polynomials_over_a_patch() {
     let slope = |[x, y]: [f64; 2]| [2.0 * x - 0.7 * y, 2.6 * y - 0.7 * x];
     let [whole, corner] = [Field::new(graded()), with_a_corner()];
     let off = |field: &Field, x, f: &dyn Fn([f64; 2]) -> f64, exact: [f64; 2]| {
-        let (points, xi) = field.begun(COMPOSITE, x, 0.2);
+        let (points, xi) = field.within_a_body(COMPOSITE, x, 0.2);
         let seen = field.seen(COMPOSITE, &points, &xi);
         let forces = seen.apart(&field.seen(CPGIMP, &points, &xi));
         assert!(forces == [0.0; 2], "{forces:?}");
@@ -202,6 +202,13 @@ fn composite_points_have_the_strains_of_polynomials_over_a_patch() {
     }
     let error = off(&corner, [2.2, 1.8], &cubic, gradient([2.2, 1.8]));
     assert!(error.iter().all(|e| *e > 1e-3), "{error:?}");
+    // A point that is alone has the strain of its cell, and no domain beyond it.
+    let (points, xi) = whole.begun(COMPOSITE, [2.2, 1.49], 0.2);
+    let alone = whole.seen(COMPOSITE, &points, &xi);
+    let plain = whole.at([2.2, 1.49]);
+    let error = alone.strain.iter().zip(&plain.gradient).flat_map(|(a, b)| [(a[0] - b[0]).abs(), (a[1] - b[1]).abs()]);
+    assert!(error.fold(0.0, f64::max) < 1e-12);
+    assert!(alone.value.iter().filter(|value| **value != 0.0).count() == 4);
 }
 
 /// A body that has turned by a right angle has domains as before; with `F_ii` in place of `U_ii` they would have vanished.

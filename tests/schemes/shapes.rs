@@ -1,6 +1,6 @@
 //! Points with domains on a grid, and what they see of it.
 
-use mpm::interpolation::{Basis, Domains, First, Interpolation, Located, Reset};
+use mpm::interpolation::{Basis, CellPoints, Domains, First, Interpolation, Located, Reset};
 use mpm::kinematics::{Kinematics, PlaneStrain};
 use mpm::mesh::Mesh;
 use mpm::mesh::locate::Locator;
@@ -52,6 +52,25 @@ impl Field {
         (points, xi)
     }
 
+    /// As [`Field::begun`], in a body that fills the active cells: behind the point is another one in the middle of each, of its area.
+    pub fn within_a_body(&self, scheme: &dyn Basis<2>, x: [f64; 2], area: f64) -> (Points<2>, Vec<[f64; 3]>) {
+        let (mut points, mut xi) = self.point(x, area);
+        for c in (0..self.mesh.cells.len()).filter(|&c| self.active[c]) {
+            let corners = self.mesh.cells.nodes(c)[..4].iter().map(|&n| self.mesh.nodes[n as usize]);
+            let corners: Vec<[f64; 2]> = corners.collect();
+            let (other, place) = self.point([0, 1].map(|d| 0.5 * (corners[0][d] + corners[2][d])), 1.0);
+            points.position.extend(&other.position);
+            points.origin.extend(&other.position);
+            points.initial_volume.push((corners[2][0] - corners[0][0]) * (corners[2][1] - corners[0][1]));
+            points.deformation.push(Tensor::identity());
+            points.cell.extend(&other.cell);
+            xi.extend(place);
+        }
+        let first = First { mesh: &self.mesh, xi: &xi, measure: PlaneStrain::measure };
+        scheme.begin_domains(&first, &mut points);
+        (points, xi)
+    }
+
     /// Deforms a point and the grid around it by `x ↦ x_p + F (x − x_p)`, and resets the grid.
     pub fn deform(&self, scheme: &dyn Basis<2>, points: &mut Points<2>, f: [[f64; 2]; 2]) -> Option<String> {
         let at = points.position[0];
@@ -77,7 +96,7 @@ impl Field {
         scheme.renew_domains(&before, points)
     }
 
-    /// What a point sees, and the radius that its hoop strain is by where there is one.
+    /// What the first point sees, and the radius that its hoop strain is by where there is one.
     pub fn seen_in<K: Kinematics<2>>(&self, scheme: &dyn Basis<2>, points: &Points<2>, xi: &[[f64; 3]]) -> (Seen, f64) {
         let mut interpolation = Interpolation::default();
         let located = Located::new::<K>(&self.mesh, &self.active, &points.cell, xi);
@@ -85,9 +104,10 @@ impl Field {
         scheme.fill(&Located { domains, ..located }, &mut interpolation);
         let count = self.mesh.nodes.len();
         let mut seen = Seen::zero(count);
-        let cell_points = interpolation.filled[0];
+        let own = |cell_points: &&CellPoints| cell_points.cell == points.cell[0];
+        let cell_points = *interpolation.filled.iter().find(own).unwrap();
         let nodes = interpolation.nodes(&self.mesh, cell_points.cell).to_vec();
-        let entries = interpolation.entries::<K>(&cell_points).next().unwrap();
+        let entries = interpolation.entries::<K>(&cell_points).find(|entries| entries.point == 0).unwrap();
         let mut radius = 0.0;
         for (i, &n) in nodes.iter().enumerate() {
             seen.value[n as usize] += entries.value[i];
