@@ -1,0 +1,247 @@
+"""What the gallery shows: runs of cases, the number that each gives, and the value it is compared with.
+
+The values are those of limit analysis and of the literature that the README of each case states. Where two are given they are a lower and an upper bound.
+"""
+
+import re
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import numpy as np
+from cavity import cavity
+
+HOLE = {"regions.hole": {"kind": "buffer"}}
+BONDED = {"contacts[0].tension": "no_separation"}
+
+
+@dataclass
+class Row:
+    """A run, and a number from it."""
+
+    name: str  # of the output folder: out-NAME; empty: out, the case as it is
+    what: str
+    found: Callable[[Path], float]  # of the output folder
+    reference: float | tuple[float, float]
+    tolerance: float  # relative
+    settings: dict = field(default_factory=dict)  # {path: value}
+
+
+@dataclass
+class Entry:
+    """A case with its rows, the first of which is the case as it is or its closest variant."""
+
+    case: str
+    quantity: str
+    source: str
+    rows: list[Row]
+    field: str = "plastic_strain"  # of the picture
+
+
+def history(out: Path) -> dict[str, np.ndarray]:
+    """The columns of history.csv by their names without units."""
+    names, *rows = [line.split(",") for line in (out / "history.csv").read_text().splitlines()]
+    return dict(zip((name.split(" [")[0] for name in names), np.array(rows, dtype=float).T))
+
+
+def mean(load: str, way: str, at: float, within: float, over: float = 1.0, less: float = 0.0) -> Callable[[Path], float]:
+    """The mean of a load, without its sign, over the steps within a distance of a way; `less` is taken off before it is divided by `over`."""
+
+    def found(out: Path) -> float:
+        columns = history(out)
+        near = np.abs(np.abs(columns[way]) - at) <= within * (1 + 1e-9)
+        return (np.abs(columns[load][near]).mean() - less) / over
+
+    return found
+
+
+def safety(per: float) -> Callable[[Path], float]:
+    """The middle of the bracket of the factor of safety, times `per`."""
+
+    def found(out: Path) -> float:
+        low, high = re.search(r"^factor of safety (\S+) to (\S+) ", (out / "solve.log").read_text(), re.MULTILINE).groups()
+        return per * (float(low) + float(high)) / 2
+
+    return found
+
+
+def green(v: float) -> float:
+    """H/(B s_u) at failure of a rough strip that bears V = v B s_u (Green 1954)."""
+    low, high = 0.0, 1.0
+    if v <= 1 + np.pi / 2:
+        return 1.0
+    for _ in range(60):
+        middle = (low + high) / 2
+        held = 1 + np.pi - np.arcsin(middle) + np.sqrt(1 - middle**2)
+        low, high = (middle, high) if held > v else (low, middle)
+    return low
+
+
+VERTICAL_CUT = Entry(
+    "vertical_cut",
+    "γH/s_u at failure",
+    "limit analysis",
+    [
+        Row("", "cells of H/20, H/200 at the toe", safety(3.0), (3.763, 3.815), 0.03),
+        Row(
+            "coarse",
+            "cells of H/20",
+            safety(3.0),
+            (3.763, 3.815),
+            0.07,
+            {"mesh.parameters.toe": 1, "phases.failure.duration": 0.02},
+        ),
+    ],
+)
+
+
+def slide(v: float) -> Row:
+    """The mat under V = v B s_u, pushed sideways by B/300."""
+    load = -5 * v
+    settings = {"phases.weigh.tractions": [{"on": "top", "ty": {"rate": load}}], "phases.push.tractions": [{"on": "top", "ty": load}]}
+    return Row(
+        "" if v == 3.955 else f"v{v:g}",
+        f"H/(B s_u) under V = {v:g} B s_u",
+        mean("mat.contact_x", "mat.ux", 0.02, 0.005, 30),
+        green(v),
+        0.05,
+        {} if v == 3.955 else settings,
+    )
+
+
+PUSH = {"name": "push", "analysis": "quasi_static", "duration": 0.3, "step": {"initial": 0.003, "max": 0.02}}
+DOWN = {"phases": [PUSH | {"prescribe": {"mat": {"ux": 0, "uy": {"rate": -1}, "rotation": 0}}}]}
+TURN = {"name": "turn", "analysis": "quasi_static", "duration": 0.03, "step": {"initial": 0.0003, "max": 0.002}}
+
+
+def embedded(name: str, what: str, depth: float, reference: tuple[float, float], **more) -> Row:
+    """The mat down to `depth` B in the clay, pushed in by B/60, with full contact."""
+    parameters = {"mesh.parameters.skirt": 6 * depth, "mesh.parameters.depth": 10 + 6 * depth}
+    parameters |= {f"mesh.parameters.{key}": value for key, value in more.items() if key != "adhesion"}
+    adhesion = {"contacts[0].adhesion_factor": more["adhesion"]} if "adhesion" in more else {}
+    return Row(name, what, mean("mat.contact_y", "mat.uy", 0.1, 0.03, 30), reference, 0.05, DOWN | BONDED | HOLE | parameters | adhesion)
+
+
+MUDMAT = Entry(
+    "mudmat",
+    "load over B s_u",
+    "Green (1954); limit analysis",
+    [
+        slide(3.955),
+        slide(1.5),
+        slide(3.4577),
+        slide(4.484),
+        Row(
+            "moment",
+            "M/(B² s_u) without lift-off",
+            mean("mat.contact_moment", "mat.rotation", 0.015, 0.005, 180),
+            0.690,
+            0.05,
+            BONDED
+            | {
+                "phases": [TURN | {"prescribe": {"mat": {"rotation": {"rate": 1}}}}],
+                "output.every": 0.01,
+                "output.history": [{"name": "mat", "on": "mat", "quantities": ["rotation", "contact_x", "contact_y", "contact_moment"]}],
+            },
+        ),
+        embedded("skirted", "V/(B s_u) with skirts, D/B = 0.25", 0.25, (6.18, 6.39), wall=0.15),
+        embedded("solid-0.25", "V/(B s_u), solid, D/B = 0.25", 0.25, (6.18, 6.39)),
+        embedded("solid-0.5", "V/(B s_u), solid, D/B = 0.5", 0.5, (7.13, 7.34)),
+        embedded("solid-1", "V/(B s_u), solid, D/B = 1", 1, (8.81, 8.99)),
+    ],
+)
+
+
+def spudcan(name: str, strength: float, weight: float = 7.0, diameter: float = 12.0) -> list[Row]:
+    """Depth of the cavity over D by the formula of Hossain & Randolph, of a uniform strength."""
+    s = strength / (weight * diameter)
+    settings = {"materials.clay.shear_strength": strength, "materials.clay.young": 500 * strength} if name else {}
+    return [Row(name, f"H_c/D, S = s_u/(γ′D) = {s:.3g}", cavity(diameter), s**0.55 - s / 4, 0.15, settings)]
+
+
+SPUDCAN = Entry("spudcan", "depth of the cavity over D", "Hossain & Randolph (2009)", spudcan("", 20) + spudcan("soft", 10) + spudcan("firm", 40))
+
+
+def anchor(cover: int, bounds: tuple[float, float], bonded: bool) -> Row:
+    """A thin plate as it passes the depth `cover` B, where it is plastic."""
+    settings = {
+        "mesh.parameters": {"cover": cover + 0.05, "thickness": 0.05, "way": 0.1, "width": 2.0 * cover + 3, "h": 0.02, "under": 2, "coarse": 20},
+        "phases[0].duration": 0.07,
+        "phases[0].step": {"initial": 0.001, "max": 0.005},
+        "materials.clay.young": 2000,
+    }
+    return Row(
+        f"{cover}{'-bonded' if bonded else ''}",
+        f"N, H/B = {cover}, {'bonded' if bonded else 'breaking away'}",
+        mean("plate.contact_y", "plate.uy", 0.05, 0.015, 0.5),
+        bounds,
+        0.05,
+        settings | (BONDED if bonded else {}),
+    )
+
+
+PLATE_ANCHOR = Entry(
+    "plate_anchor",
+    "N = load/(B s_u)",
+    "limit analysis; 3π + 2",
+    [
+        anchor(1, (1.89, 2.08), False),
+        anchor(2, (3.63, 3.79), False),
+        anchor(3, (4.68, 4.85), False),
+        anchor(4, (5.41, 5.59), False),
+        anchor(6, (6.42, 6.60), False),
+        anchor(1, (8.82, 9.10), True),
+        anchor(2, (11.26, 11.59), True),
+        anchor(4, (3 * np.pi + 2, 3 * np.pi + 2), True),
+    ],
+)
+
+
+def layers(upper: float, ratio: float, bounds: tuple[float, float]) -> Row:
+    """The footing on the surface: s_u = 2 kPa above, 2/ratio below, a stiffness at which the limit is reached within B/100."""
+    strengths = {"stiff": 2.0, "soft": 2.0 / ratio}
+    settings = {f"materials.{name}.{key}": value for name, s in strengths.items() for key, value in (("shear_strength", s), ("young", 5000 * s))}
+    settings |= {"mesh.parameters": {"upper": upper, "way": 0.3, "h": 0.05, "coarse": 10}}
+    settings |= {"phases.push.duration": 0.012, "phases.push.step": {"initial": 0.0002, "max": 0.001}, "output.every": 0.004}
+    return Row(
+        f"{upper:g}-{ratio:g}",
+        f"q/c₁, H/B = {upper:g}, c₁/c₂ = {ratio:g}",
+        mean("footing.contact_y", "footing.uy", 0.01, 0.002, 1.0),
+        bounds,
+        0.05,
+        settings,
+    )
+
+
+PUNCH_THROUGH = Entry(
+    "punch_through",
+    "q/c₁",
+    "limit analysis",
+    [
+        layers(0.5, 2, (3.71, 3.82)),
+        layers(0.25, 2, (3.15, 3.22)),
+        layers(1, 2, (4.79, 4.95)),
+        layers(0.25, 5, (1.72, 1.79)),
+        layers(0.5, 5, (2.55, 2.66)),
+        layers(1, 5, (4.06, 4.20)),
+        layers(0.25, 1.25, (4.37, 4.46)),
+        layers(0.5, 1.25, (4.65, 4.74)),
+        layers(0.5, 0.5, (5.21, 5.39)),
+    ],
+)
+
+
+def bar(name: str, factor: float, exact: float) -> Row:
+    """The T-bar from three diameters on; half of it is modelled, and the weight of the clay in its place is taken off."""
+    settings = {"contacts[0].adhesion_factor": factor} if name else {}
+    return Row(name, f"N, α = {factor:g}", mean("bar.contact_y", "bar.uy", 4, 1, 1.0, 0.5 * 6 * np.pi / 4), exact, 0.05, settings)
+
+
+TBAR = Entry(
+    "tbar",
+    "N = load/(s_u D) deep in the clay",
+    "Randolph & Houlsby (1984)",
+    [bar("", 0.5, 10.8198), bar("smooth", 0, 9.1416), bar("rough", 1, 11.94)],
+)
+
+ENTRIES = [VERTICAL_CUT, MUDMAT, SPUDCAN, PLATE_ANCHOR, PUNCH_THROUGH, TBAR]
