@@ -15,7 +15,7 @@ DefineConstant[
   floor    = {1,    Min 1e-6, Name "Parameters/floor"},    // half of the width of its floor [m]
   angle    = {90,   Min 10, Max 90, Name "Parameters/angle"}, // of its walls to the horizontal [degrees]
   diameter = {0.6,  Min 1e-6, Name "Parameters/diameter"}, // of the pipe [m]
-  beneath  = {2,    Min 1e-6, Name "Parameters/beneath"},  // clay below the floor [m]
+  beneath  = {0.75,    Min 1e-6, Name "Parameters/beneath"},  // clay below the floor [m]
   aside    = {6,    Min 1e-6, Name "Parameters/aside"},    // clay behind the crest [m]
   water    = {0.5,  Min 1e-6, Name "Parameters/water"},    // height that clay may heave into [m]
   h        = {0.15, Min 1e-6, Name "Parameters/h"},        // size of the cells [m]

@@ -9,7 +9,8 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
-from cavity import cavity
+from cavity import cavity, factor
+from surface import kept
 
 HOLE = {"regions.hole": {"kind": "buffer"}}
 BONDED = {"contacts[0].tension": "no_separation"}
@@ -77,49 +78,64 @@ def green(v: float) -> float:
     return low
 
 
+SHORT = {"phases.failure.duration": 0.02}  # the search alone
+CUT = (3.763, 3.815)  # limit analysis
+
 VERTICAL_CUT = Entry(
     "vertical_cut",
-    "γH/s_u at failure",
-    "limit analysis",
+    "γH/s_u at failure, volume of the run-out over that before",
+    "limit analysis, 1",
     [
-        Row("", "cells of H/20, H/200 at the toe", safety(3.0), (3.763, 3.815), 0.03),
+        Row("", "volume at rest, cut of γH/s_u = 4.5", kept(), 1.0, 0.01),
+        Row("toe", "γH/s_u, cells of H/200 at the toe", safety(3.0), CUT, 0.03, SHORT | {"mesh.parameters.toe": 0.1}),
+        Row("h20", "γH/s_u, cells of H/20", safety(3.0), CUT, 0.03, SHORT),
+    ],
+)
+
+TRENCH = Entry(
+    "trench",
+    "γ′H/s_u at failure, volume of the run-out over that before",
+    "limit analysis, Taylor (1937), 1",
+    [
+        Row("", "volume at rest, on the pipe", kept(), 1.0, 0.01),
+        Row("toe", "γ′H/s_u, walls of 90°", safety(2.6004), CUT, 0.03, SHORT | {"mesh.parameters.toe": 0.1}),
         Row(
-            "coarse",
-            "cells of H/20",
-            safety(3.0),
-            (3.763, 3.815),
-            0.07,
-            {"mesh.parameters.toe": 1, "phases.failure.duration": 0.02},
+            "60",
+            "γ′H/s_u, walls of 60°",
+            safety(13.002 / 3.5),
+            1 / 0.191,
+            0.03,
+            SHORT | {"mesh.parameters.toe": 0.1, "mesh.parameters.angle": 60, "materials.clay.shear_strength": 3.5},
         ),
     ],
 )
 
 
 def slide(v: float) -> Row:
-    """The mat under V = v B s_u, pushed sideways by B/300."""
+    """The mat under V = v B s_u, pushed sideways by B/650."""
     load = -5 * v
     settings = {"phases.weigh.tractions": [{"on": "top", "ty": {"rate": load}}], "phases.push.tractions": [{"on": "top", "ty": load}]}
     return Row(
         "" if v == 3.955 else f"v{v:g}",
         f"H/(B s_u) under V = {v:g} B s_u",
-        mean("mat.contact_x", "mat.ux", 0.02, 0.005, 30),
+        mean("mat.contact_x", "mat.ux", 0.009, 0.004, 30),
         green(v),
         0.05,
         {} if v == 3.955 else settings,
     )
 
 
-PUSH = {"name": "push", "analysis": "quasi_static", "duration": 0.3, "step": {"initial": 0.003, "max": 0.02}}
+PUSH = {"name": "push", "analysis": "quasi_static", "duration": 0.3, "step": {"initial": 0.001, "max": 0.02}}
 DOWN = {"phases": [PUSH | {"prescribe": {"mat": {"ux": 0, "uy": {"rate": -1}, "rotation": 0}}}]}
-TURN = {"name": "turn", "analysis": "quasi_static", "duration": 0.03, "step": {"initial": 0.0003, "max": 0.002}}
+TURN = {"name": "turn", "analysis": "quasi_static", "duration": 0.02, "step": {"initial": 0.0001, "max": 0.002}}
 
 
 def embedded(name: str, what: str, depth: float, reference: tuple[float, float], **more) -> Row:
-    """The mat down to `depth` B in the clay, pushed in by B/60, with full contact."""
+    """The mat down to `depth` B in the clay, pushed in by B/100, with full contact."""
     parameters = {"mesh.parameters.skirt": 6 * depth, "mesh.parameters.depth": 10 + 6 * depth}
     parameters |= {f"mesh.parameters.{key}": value for key, value in more.items() if key != "adhesion"}
     adhesion = {"contacts[0].adhesion_factor": more["adhesion"]} if "adhesion" in more else {}
-    return Row(name, what, mean("mat.contact_y", "mat.uy", 0.1, 0.03, 30), reference, 0.05, DOWN | BONDED | HOLE | parameters | adhesion)
+    return Row(name, what, mean("mat.contact_y", "mat.uy", 0.06, 0.03, 30), reference, 0.05, DOWN | BONDED | HOLE | parameters | adhesion)
 
 
 MUDMAT = Entry(
@@ -134,7 +150,7 @@ MUDMAT = Entry(
         Row(
             "moment",
             "M/(B² s_u) without lift-off",
-            mean("mat.contact_moment", "mat.rotation", 0.015, 0.005, 180),
+            mean("mat.contact_moment", "mat.rotation", 0.009, 0.004, 180),
             0.690,
             0.05,
             BONDED
@@ -153,13 +169,14 @@ MUDMAT = Entry(
 
 
 def spudcan(name: str, strength: float, weight: float = 7.0, diameter: float = 12.0) -> list[Row]:
-    """Depth of the cavity over D by the formula of Hossain & Randolph, of a uniform strength."""
+    """Depth of the cavity over D by the formula of Hossain & Randolph, of a uniform strength, and the deep bearing capacity factor."""
     s = strength / (weight * diameter)
     settings = {"materials.clay.shear_strength": strength, "materials.clay.young": 500 * strength} if name else {}
-    return [Row(name, f"H_c/D, S = s_u/(γ′D) = {s:.3g}", cavity(diameter), s**0.55 - s / 4, 0.15, settings)]
+    rows = [Row(name, f"H_c/D, S = s_u/(γ′D) = {s:.3g}", cavity(diameter), s**0.55 - s / 4, 0.15, settings)]
+    return rows + [Row(name, f"N_c at 1.4 D, S = {s:.3g}", factor(diameter, 1.4, strength, weight), (10, 12), 0.05, settings)]
 
 
-SPUDCAN = Entry("spudcan", "depth of the cavity over D", "Hossain & Randolph (2009)", spudcan("", 20) + spudcan("soft", 10) + spudcan("firm", 40))
+SPUDCAN = Entry("spudcan", "depth of the cavity over D, deep N_c", "Hossain & Randolph (2009)", spudcan("", 20) + spudcan("soft", 10) + spudcan("firm", 40))
 
 
 def anchor(cover: int, bounds: tuple[float, float], bonded: bool) -> Row:
@@ -244,4 +261,4 @@ TBAR = Entry(
     [bar("", 0.5, 10.8198), bar("smooth", 0, 9.1416), bar("rough", 1, 11.94)],
 )
 
-ENTRIES = [VERTICAL_CUT, MUDMAT, SPUDCAN, PLATE_ANCHOR, PUNCH_THROUGH, TBAR]
+ENTRIES = [VERTICAL_CUT, TRENCH, MUDMAT, SPUDCAN, PLATE_ANCHOR, PUNCH_THROUGH, TBAR]
