@@ -9,10 +9,10 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
-from cavity import cavity, factor
+from cavity import Can
+from pipe import bearing
 from surface import kept
 
-HOLE = {"regions.hole": {"kind": "buffer"}}
 BONDED = {"contacts[0].tension": "no_separation"}
 
 
@@ -86,7 +86,7 @@ VERTICAL_CUT = Entry(
     "γH/s_u at failure, volume of the run-out over that before",
     "limit analysis, 1",
     [
-        Row("", "volume at rest, cut of γH/s_u = 4.5", kept(), 1.0, 0.01),
+        Row("", "volume at rest, cut of γH/s_u = 6", kept(), 1.0, 0.01),
         Row("toe", "γH/s_u, cells of H/200 at the toe", safety(3.0), CUT, 0.03, SHORT | {"mesh.parameters.toe": 0.1}),
         Row("h20", "γH/s_u, cells of H/20", safety(3.0), CUT, 0.03, SHORT),
     ],
@@ -111,6 +111,14 @@ TRENCH = Entry(
 )
 
 
+JET_TRENCH = Entry(
+    "jet_trench",
+    "load over s_u D of the pipe as it sinks, less the weight of the clay in its place",
+    "Merifield, White & Randolph (2009), between smooth and rough",
+    [Row("", f"N at w/D = {w:g}", bearing(w, 0.4, 4, 6), (5.66 * w**0.32, 7.4 * w**0.4), 0.1) for w in (0.5, 0.3)],
+)
+
+
 def slide(v: float) -> Row:
     """The mat under V = v B s_u, pushed sideways by B/650."""
     load = -5 * v
@@ -125,17 +133,14 @@ def slide(v: float) -> Row:
     )
 
 
-PUSH = {"name": "push", "analysis": "quasi_static", "duration": 0.3, "step": {"initial": 0.001, "max": 0.02}}
-DOWN = {"phases": [PUSH | {"prescribe": {"mat": {"ux": 0, "uy": {"rate": -1}, "rotation": 0}}}]}
 TURN = {"name": "turn", "analysis": "quasi_static", "duration": 0.02, "step": {"initial": 0.0001, "max": 0.002}}
 
 
-def embedded(name: str, what: str, depth: float, reference: tuple[float, float], **more) -> Row:
-    """The mat down to `depth` B in the clay, pushed in by B/100, with full contact."""
-    parameters = {"mesh.parameters.skirt": 6 * depth, "mesh.parameters.depth": 10 + 6 * depth}
-    parameters |= {f"mesh.parameters.{key}": value for key, value in more.items() if key != "adhesion"}
-    adhesion = {"contacts[0].adhesion_factor": more["adhesion"]} if "adhesion" in more else {}
-    return Row(name, what, mean("mat.contact_y", "mat.uy", 0.06, 0.03, 30), reference, 0.05, DOWN | BONDED | HOLE | parameters | adhesion)
+def skirted(name: str, what: str, depth: float, bounds: tuple[float, float], settings: dict) -> Row:
+    """The mat `depth` B deep in the clay, moved by B/100."""
+    parameters = {"mesh.parameters.skirt": 6 * depth, "mesh.parameters.depth": 10.5 + 6 * depth} if depth != 0.25 else {}
+    found = mean("mat.contact_y", "mat.uy", 0.06, 0.02, 30)
+    return Row(name, f"V/(B s_u), D/B = {depth:g}, {what}", found, bounds, 0.05, parameters | settings)
 
 
 MUDMAT = Entry(
@@ -160,20 +165,32 @@ MUDMAT = Entry(
                 "output.history": [{"name": "mat", "on": "mat", "quantities": ["rotation", "contact_x", "contact_y", "contact_moment"]}],
             },
         ),
-        embedded("skirted", "V/(B s_u) with skirts, D/B = 0.25", 0.25, (6.18, 6.39), wall=0.15),
-        embedded("solid-0.25", "V/(B s_u), solid, D/B = 0.25", 0.25, (6.18, 6.39)),
-        embedded("solid-0.5", "V/(B s_u), solid, D/B = 0.5", 0.5, (7.13, 7.34)),
-        embedded("solid-1", "V/(B s_u), solid, D/B = 1", 1, (8.81, 8.99)),
+    ],
+)
+
+SOLID = {"mesh.parameters.wall": 0}
+SKIRTED_MAT = Entry(
+    "skirted_mat",
+    "load over B s_u",
+    "limit analysis",
+    [
+        skirted("", "skirts", 0.25, (6.18, 6.39), {}),
+        skirted("up", "skirts, pulled up", 0.25, (6.18, 6.39), {"phases.push.prescribe.mat.uy.rate": 1}),
+        skirted("0.5", "skirts", 0.5, (7.13, 7.34), {}),
+        skirted("solid-0.25", "solid", 0.25, (6.18, 6.39), SOLID),
+        skirted("solid-0.5", "solid", 0.5, (7.13, 7.34), SOLID),
+        skirted("solid-1", "solid", 1, (8.81, 8.99), SOLID),
     ],
 )
 
 
-def spudcan(name: str, strength: float, weight: float = 7.0, diameter: float = 12.0) -> list[Row]:
+def spudcan(name: str, strength: float) -> list[Row]:
     """Depth of the cavity over D by the formula of Hossain & Randolph, of a uniform strength, and the deep bearing capacity factor."""
-    s = strength / (weight * diameter)
+    can = Can(12, strength, 7)
+    s = can.strength / (can.weight * can.diameter)
     settings = {"materials.clay.shear_strength": strength, "materials.clay.young": 500 * strength} if name else {}
-    rows = [Row(name, f"H_c/D, S = s_u/(γ′D) = {s:.3g}", cavity(diameter), s**0.55 - s / 4, 0.15, settings)]
-    return rows + [Row(name, f"N_c at 1.4 D, S = {s:.3g}", factor(diameter, 1.4, strength, weight), (10, 12), 0.05, settings)]
+    rows = [Row(name, f"H_c/D, S = s_u/(γ′D) = {s:.3g}", can.cavity(), s**0.55 - s / 4, 0.15, settings)]
+    return rows + [Row(name, f"N_c at 1.4 D, S = {s:.3g}", can.factor(1.4), (10, 12), 0.05, settings)]
 
 
 SPUDCAN = Entry("spudcan", "depth of the cavity over D, deep N_c", "Hossain & Randolph (2009)", spudcan("", 20) + spudcan("soft", 10) + spudcan("firm", 40))
@@ -248,6 +265,35 @@ PUNCH_THROUGH = Entry(
 )
 
 
+def footing(kind: str, ratio: float, exact: float) -> Row:
+    """The footing at B/150 below the surface of weightless clay of s_u = 10 kPa + k z, k D = ratio · 10 kPa, with 5000 s_u for E."""
+    clay = {"model": "tresca", "poisson": 0.49, "density": 0}
+    clay |= {key: {"top": top, "gradient": top * ratio / 3} for key, top in (("young", 5.0e4), ("shear_strength", 10.0))}
+    settings = {"geometry": kind, "materials.clay": clay}
+    settings |= {"mesh.parameters": {"way": 0.5, "beneath": 4.5, "width": 8, "air": 0.5, "fine": 0.75, "h": 0.075, "coarse": 12}}
+    settings |= {"phases.push.duration": 0.025, "phases.push.step": {"initial": 0.0005, "max": 0.002}, "output.every": 0.005}
+    area = np.pi * 1.5**2 if kind == "axisymmetric" else 1.5
+    return Row(
+        f"{'circle' if kind == 'axisymmetric' else 'strip'}-{ratio:g}",
+        f"q/s_u0, rough {'circle' if kind == 'axisymmetric' else 'strip'}, k{'D' if kind == 'axisymmetric' else 'B'}/s_u0 = {ratio:g}",
+        mean("footing.contact_y", "footing.uy", 0.02, 0.005, 10 * area),
+        exact,
+        0.03,
+        settings,
+    )
+
+
+EMBEDDED_FOOTING = Entry(
+    "embedded_footing",
+    "q/s_u0 on the surface of weightless clay",
+    "the method of characteristics",
+    [
+        *(footing("axisymmetric", ratio, exact) for ratio, exact in ((0, 6.0482), (1, 6.9460), (5, 9.2316))),
+        *(footing("plane_strain", ratio, exact) for ratio, exact in ((0, 2 + np.pi), (1, 6.6092), (5, 9.7959))),
+    ],
+)
+
+
 def bar(name: str, factor: float, exact: float) -> Row:
     """The T-bar from three diameters on; half of it is modelled, and the weight of the clay in its place is taken off."""
     settings = {"contacts[0].adhesion_factor": factor} if name else {}
@@ -261,4 +307,16 @@ TBAR = Entry(
     [bar("", 0.5, 10.8198), bar("smooth", 0, 9.1416), bar("rough", 1, 11.94)],
 )
 
-ENTRIES = [VERTICAL_CUT, TRENCH, MUDMAT, SPUDCAN, PLATE_ANCHOR, PUNCH_THROUGH, TBAR]
+def anchor_leg(at: float, expected: float) -> Row:
+    """The tube on its way down: sides and tip by limit analysis, with the weight of the clay in place of the wall."""
+    return Row("", f"load [kN] at {at:g} m", mean("wall.contact_y", "time", at, 0.02), expected, 0.05)
+
+
+SUCTION_ANCHOR = Entry(
+    "suction_anchor",
+    "load of the push",
+    "limit analysis",
+    [anchor_leg(0.25, 38.9), anchor_leg(0.5, 56.5), anchor_leg(0.75, 72.9), anchor_leg(0.95, 86.1)],
+)
+
+ENTRIES = [VERTICAL_CUT, TRENCH, JET_TRENCH, MUDMAT, SKIRTED_MAT, SPUDCAN, PLATE_ANCHOR, PUNCH_THROUGH, EMBEDDED_FOOTING, TBAR, SUCTION_ANCHOR]

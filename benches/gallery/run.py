@@ -132,6 +132,8 @@ def main() -> None:
             continue
         failures = {}
         for row in entry.rows:
+            if row.name in failures:
+                continue  # a further number of the same run
             print(f"--- {command(entry, row)}", file=sys.stderr, flush=True)
             failures[row.name] = run(entry, row, chosen.threads)
         sections.append(section(entry, failures, not chosen.no_pictures))
