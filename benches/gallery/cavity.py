@@ -67,8 +67,15 @@ class Can:
         return np.array(found)
 
     def cavity(self) -> Callable[[Path], float]:
-        """Mean depth of the cavity over D in the last frame."""
-        return lambda out: float(self.curve(out)[-1, 1])
+        """Depth over D at which clay of 0.01 D, on average, lies on the can: where it begins to flow back."""
+
+        def found(out: Path) -> float:
+            depth, open_above = self.curve(out)[:, :2].T
+            upon = depth - (self.rim + self.cone / 3) / self.diameter - open_above
+            first = int(np.argmax(upon > 0.01))
+            return float(np.interp(0.01, upon[first - 1 : first + 1], depth[first - 1 : first + 1]))
+
+        return found
 
     def factor(self, depth: float) -> Callable[[Path], float]:
         """N_c at a depth over D."""

@@ -18,7 +18,7 @@ HERE = Path(__file__).resolve().parent
 sys.path[:0] = [str(HERE.parent), str(HERE)]
 
 from entries import ENTRIES, Entry, Row  # noqa: E402
-from program import PROGRAM, ROOT, execute, options  # noqa: E402
+from program import PROGRAM, ROOT, execute  # noqa: E402
 
 PAGE = ROOT / "docs/gallery.md"
 PICTURES = ROOT / "docs/pictures/gallery"
@@ -32,6 +32,20 @@ Seconds are those of processors in the solve stage on one thread. Each command a
 
 def folder(entry: Entry, row: Row) -> Path:
     return ROOT / "cases" / entry.case / (f"out-{row.name}" if row.name else "out")
+
+
+def flow(value) -> str:
+    """A value as YAML in one line."""
+    if isinstance(value, dict):
+        return "{" + ", ".join(f"{key}: {flow(item)}" for key, item in value.items()) + "}"
+    if isinstance(value, list):
+        return "[" + ", ".join(map(flow, value)) + "]"
+    return str(value)
+
+
+def options(settings: dict) -> list[str]:
+    """The options `--set` of entries {path: value}."""
+    return [part for path, value in settings.items() for part in ("--set", f"{path}={flow(value)}")]
 
 
 def command(entry: Entry, row: Row) -> str:
@@ -81,7 +95,8 @@ def table_row(entry: Entry, row: Row, failed: str | None) -> str:
     seconds = json.loads((out / "seconds.json").read_text()) if (out / "seconds.json").exists() else None
     took = f"{seconds:.0f}" if seconds is not None else "–"
     try:
-        value = row.found(out)
+        # A run that ended early stays beside the finished one of before, if there is one.
+        value = row.found(out / "unfinished" if failed and (out / "unfinished").exists() else out)
         off = error(value, row.reference)
         verdict = f"{100 * row.tolerance:.0f} %{'' if abs(off) <= row.tolerance else ': **no**'}"
         found, off = f"{value:.4g}", f"{100 * off:+.1f} %" if off else "none"
@@ -97,13 +112,7 @@ def picture(entry: Entry) -> str | None:
     target = PICTURES / f"{entry.case}.png"
     target.parent.mkdir(parents=True, exist_ok=True)
     out = folder(entry, row)
-    drawn = subprocess.run(
-        [PROGRAM, "plot", ROOT / "cases" / entry.case, "-o", target, "--field", entry.field, *options(row.settings)],
-        capture_output=True,
-        text=True,
-        check=False,
-    )
-    del out
+    drawn = subprocess.run([PROGRAM, "plot", out, "-o", target, *entry.picture], capture_output=True, text=True, check=False)
     if drawn.returncode:
         print(f"no picture of {entry.case}: {drawn.stderr.strip().splitlines()[:1]}", file=sys.stderr)
         return None
