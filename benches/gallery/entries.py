@@ -36,7 +36,7 @@ class Entry:
     quantity: str
     source: str
     rows: list[Row]
-    picture: tuple[str, ...] = ("--field", "plastic_strain")  # options of `mpm plot`
+    picture: tuple[str, ...] = ()  # options of `mpm plot` beside the field
 
 
 def history(out: Path) -> dict[str, np.ndarray]:
@@ -66,15 +66,14 @@ def safety(per: float) -> Callable[[Path], float]:
     return found
 
 
-def green(v: float) -> float:
-    """H/(B s_u) at failure of a rough strip that bears V = v B s_u (Green 1954)."""
-    low, high = 0.0, 1.0
-    if v <= 1 + np.pi / 2:
-        return 1.0
+def beyond_green(v: float, h: float) -> float:
+    """What a load (V, H) over B s_u on a rough strip is divided by to lie on the envelope of Green (1954)."""
+    low, high = h, 2 * max(v, h)
     for _ in range(60):
         middle = (low + high) / 2
-        held = 1 + np.pi - np.arcsin(middle) + np.sqrt(1 - middle**2)
-        low, high = (middle, high) if held > v else (low, middle)
+        share = h / middle
+        held = 1 + np.pi - np.arcsin(share) + np.sqrt(1 - share**2)
+        low, high = (middle, high) if v / middle > held else (low, middle)
     return low
 
 
@@ -90,6 +89,7 @@ VERTICAL_CUT = Entry(
         Row("toe", "γH/s_u, cells of H/200 at the toe", safety(3.0), CUT, 0.03, SHORT | {"mesh.parameters.toe": 0.1}),
         Row("h20", "γH/s_u, cells of H/20", safety(3.0), CUT, 0.03, SHORT),
     ],
+    picture=("--window=-10,-2.5,10,6",),
 )
 
 TRENCH = Entry(
@@ -108,6 +108,7 @@ TRENCH = Entry(
             SHORT | {"mesh.parameters.toe": 0.1, "mesh.parameters.angle": 60, "materials.clay.shear_strength": 3.5},
         ),
     ],
+    picture=("--mirror", "--window=-5,-2.75,5,0.5",),
 )
 
 
@@ -116,21 +117,16 @@ JET_TRENCH = Entry(
     "load over s_u D of the pipe as it sinks, less the weight of the clay in its place",
     "Merifield, White & Randolph (2009), between smooth and rough",
     [Row("", f"N at w/D = {w:g}", bearing(w, 0.4, 4, 6), (5.66 * w**0.32, 7.4 * w**0.4), 0.1) for w in (0.5, 0.3)],
+    picture=("--mirror", "--window=-1.5,-1.5,1.5,0.4", "--range=0,3",),
 )
 
 
 def slide(v: float) -> Row:
     """The mat under V = v B s_u, pushed sideways by B/650."""
-    load = -5 * v
-    settings = {"phases.weigh.tractions[0].ty.rate": load, "phases.push.tractions[0].ty": load}
-    return Row(
-        "" if v == 3.955 else f"v{v:g}",
-        f"H/(B s_u) under V = {v:g} B s_u",
-        mean("mat.contact_x", "mat.ux", 0.009, 0.004, 30),
-        green(v),
-        0.05,
-        {} if v == 3.955 else settings,
-    )
+    sideways = mean("mat.contact_x", "mat.ux", 0.009, 0.004, 30)
+    settings = {"phases.weigh.tractions[0].ty.rate": -5 * v, "phases.push.tractions[0].ty": -5 * v} if v != 3.955 else {}
+    name = f"v{v:g}" if settings else ""
+    return Row(name, f"(V, H) over the envelope, V = {v:g} B s_u", lambda out: beyond_green(v, sideways(out)), 1.0, 0.05, settings)
 
 
 TURN = {"name": "turn", "analysis": "quasi_static", "duration": 0.02, "step": {"initial": 0.0001, "max": 0.002}}
@@ -145,7 +141,7 @@ def skirted(name: str, what: str, depth: float, bounds: tuple[float, float], set
 
 MUDMAT = Entry(
     "mudmat",
-    "load over B s_u",
+    "load over that of the envelope in its direction; moment",
     "Green (1954); limit analysis",
     [
         slide(3.955),
@@ -166,6 +162,7 @@ MUDMAT = Entry(
             },
         ),
     ],
+    picture=("--window=-9,-5,9,1.5", "--range=0,0.4",),
 )
 
 SOLID = {"mesh.parameters.wall": 0}
@@ -181,6 +178,7 @@ SKIRTED_MAT = Entry(
         skirted("solid-0.5", "solid", 0.5, (7.13, 7.34), SOLID),
         skirted("solid-1", "solid", 1, (8.81, 8.99), SOLID),
     ],
+    picture=("--window=-9,-6,9,1.5", "--range=0,0.2",),
 )
 
 
@@ -193,7 +191,7 @@ def spudcan(name: str, strength: float) -> list[Row]:
     return rows + [Row(name, f"N_c at 1.4 D, S = {s:.3g}", can.factor(1.4), (10, 12), 0.05, settings)]
 
 
-SPUDCAN = Entry("spudcan", "depth of the cavity over D, deep N_c", "Hossain & Randolph (2009)", spudcan("", 20) + spudcan("soft", 10) + spudcan("firm", 40))
+SPUDCAN = Entry("spudcan", "depth of the cavity over D, deep N_c", "Hossain & Randolph (2009)", spudcan("", 20) + spudcan("soft", 10) + spudcan("firm", 40), picture=("--mirror", "--window=-15,-24,15,4",))
 
 
 def anchor(cover: int, bounds: tuple[float, float], bonded: bool) -> Row:
@@ -228,6 +226,7 @@ PLATE_ANCHOR = Entry(
         anchor(2, (11.26, 11.59), True),
         anchor(4, (3 * np.pi + 2, 3 * np.pi + 2), True),
     ],
+    picture=("--mirror", "--window=-3,-2.5,3,0.5", "--range=0,0.2",),
 )
 
 
@@ -246,16 +245,43 @@ PUNCH_THROUGH = Entry(
     "q/c₁ on the surface",
     "upper bounds of limit analysis (benches/verification/limit_analysis.py)",
     [
-        layers(0.5, 2, 3.76),
-        layers(0.25, 2, 3.19),
+        layers(0.5, 2, 3.740),
+        layers(0.25, 2, 3.211),
         layers(1, 2, 4.693),
-        layers(0.25, 5, 1.76),
+        layers(0.25, 5, 1.714),
         layers(0.5, 5, 2.297),
         layers(1, 5, 3.401),
-        layers(0.25, 1.25, 4.42),
-        layers(0.5, 1.25, 4.70),
-        layers(0.5, 0.5, 5.30),
+        layers(0.25, 1.25, 4.472),
+        layers(0.5, 1.25, 4.742),
+        layers(0.5, 0.5, 5.403),
     ],
+    picture=("--mirror", "--window=-2.5,-2.5,2.5,0.5", "--range=0,0.05",),
+)
+
+
+def footing(kind: str, ratio: float, exact: float) -> Row:
+    """The footing at B/600 below the surface of clay of s_u = 10 kPa + k z, k D = ratio · 10 kPa, with 20 000 s_u for E; less γ′ z."""
+    shape, k = ("circle", "kD") if kind == "axisymmetric" else ("strip", "kB")
+    held = {"phases.push.prescribe.footing": {"ux": 0, "uy": {"rate": -1}, "rotation": 0}}
+    settings = {"geometry": kind} | held if shape == "strip" else {}
+    for key, top in (("young", 200000), ("shear_strength", 10)):
+        settings[f"materials.clay.{key}"] = {"top": top, "gradient": round(top * ratio / 3, 3)} if ratio else top
+    settings |= {"mesh.parameters": {"way": 0.5, "beneath": 4.5, "width": 8, "air": 0.5, "fine": 0.75, "h": 0.075, "coarse": 12}}
+    settings |= {"phases.push.duration": 0.007, "phases.push.step": {"initial": 0.0001, "max": 0.0005}, "output.every": 0.0035}
+    area = np.pi * 1.5**2 if shape == "circle" else 1.5
+    found = mean("footing.contact_y", "footing.uy", 0.005, 0.0015, 10 * area, 6 * 0.005 * area)
+    return Row(f"{shape}-{ratio:g}", f"q/s_u0, rough {shape}, {k}/s_u0 = {ratio:g}", found, exact, 0.03, settings)
+
+
+EMBEDDED_FOOTING = Entry(
+    "embedded_footing",
+    "q/s_u0 on the surface",
+    "the method of characteristics",
+    [
+        *(footing("axisymmetric", ratio, exact) for ratio, exact in ((0, 6.0482), (1, 6.9460), (5, 9.2316))),
+        *(footing("plane_strain", ratio, exact) for ratio, exact in ((0, 2 + np.pi), (1, 6.6092), (5, 9.7959))),
+    ],
+    picture=("--mirror", "--window=-4,-3,4,0.5", "--range=0,0.01",),
 )
 
 
@@ -270,6 +296,7 @@ TBAR = Entry(
     "N = load/(s_u D) deep in the clay",
     "Randolph & Houlsby (1984)",
     [bar("", 0.5, 10.8198), bar("smooth", 0, 9.1416), bar("rough", 1, 11.94)],
+    picture=("--mirror", "--window=-3,-6.5,3,0.8", "--range=0,3",),
 )
 
 def anchor_leg(at: float, expected: float) -> Row:
@@ -282,6 +309,7 @@ SUCTION_ANCHOR = Entry(
     "load of the push",
     "limit analysis",
     [anchor_leg(0.25, 38.9), anchor_leg(0.5, 56.5), anchor_leg(0.75, 72.9), anchor_leg(0.95, 86.1)],
+    picture=("--mirror", "--window=-2,-2,2,0.6", "--range=0,1",),
 )
 
 ENTRIES = [VERTICAL_CUT, TRENCH, JET_TRENCH, MUDMAT, SKIRTED_MAT, SPUDCAN, PLATE_ANCHOR, PUNCH_THROUGH, EMBEDDED_FOOTING, TBAR, SUCTION_ANCHOR]

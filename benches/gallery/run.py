@@ -112,7 +112,7 @@ def picture(entry: Entry) -> str | None:
     target = PICTURES / f"{entry.case}.png"
     target.parent.mkdir(parents=True, exist_ok=True)
     out = folder(entry, row)
-    drawn = subprocess.run([PROGRAM, "plot", out, "-o", target, *entry.picture], capture_output=True, text=True, check=False)
+    drawn = subprocess.run([PROGRAM, "plot", out, "-o", target, "--field", "plastic_strain", *entry.picture], capture_output=True, text=True, check=False)
     if drawn.returncode:
         print(f"no picture of {entry.case}: {drawn.stderr.strip().splitlines()[:1]}", file=sys.stderr)
         return None
