@@ -15,7 +15,7 @@ SECONDS := 600
 MDBOOK_VERSION := 0.5.4
 MDBOOK := target/tools/mdbook-$(MDBOOK_VERSION)/bin/mdbook
 
-.PHONY: help setup build wheel wheel-try demo pile pile-variants pile-schemes pipeline pipeline-study test test-quick fuzz sanitize campaign check fmt clean bench bench-block bench-unused sbom stress verification book keys
+.PHONY: help setup build wheel wheel-try demo gallery pile pile-variants pile-schemes pipeline pipeline-study test test-quick fuzz sanitize campaign check fmt clean bench bench-block bench-unused sbom stress verification book keys
 
 help: ## List the targets
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / {printf "  %-14s %s\n", $$1, $$2}' $(firstword $(MAKEFILE_LIST))
@@ -33,6 +33,9 @@ $(MPM): setup
 
 demo: seabed_slope ## From nothing to a ParaView series and a picture: the slope that fails and runs out
 	$(PYTHON) paraview/seabed_slope.py
+
+gallery: build ## Run the offshore cases with their variants beside known values; writes docs/gallery.md (ARGS='mudmat trench' for some)
+	$(PYTHON) benches/gallery/run.py $(ARGS)
 
 # A case like the others (pipeline/mpm.mk), that ends with its picture.
 pile: ## From nothing to the pile that is pushed into clay, and the picture of the stress around it

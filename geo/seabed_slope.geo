@@ -14,7 +14,7 @@
 // regions  soil, water (a buffer: background cells without points, into which the soil moves)
 // curves   bottom, back, end, crest, slope, plain, top
 // Sizes: h in the soil of the slope and in the run-out above the plain, growing to h * coarse at the back,
-// at the bottom and in the water above the crest.
+// at the bottom and in the water above the crest; at the toe h * toe.
 DefineConstant[
   height   = {5,   Min 1e-6, Name "Parameters/height"},   // of the slope [m]
   angle    = {45, Min 1, Max 90, Name "Parameters/angle"}, // of the slope to the horizontal [degrees]
@@ -23,7 +23,8 @@ DefineConstant[
   plain    = {15,  Min 1e-6, Name "Parameters/plain"},    // length of the plain, the room for the run-out [m]
   headroom = {1,   Min 1e-6, Name "Parameters/headroom"}, // water above the crest [m]
   h        = {0.5, Min 1e-6, Name "Parameters/h"},        // size of the cells [m]
-  coarse   = {1,   Min 1,    Name "Parameters/coarse"}    // growth of the cells away from the slope
+  coarse   = {1,   Min 1,    Name "Parameters/coarse"},   // growth of the cells away from the slope
+  toe      = {1,   Min 1e-6, Name "Parameters/toe"}       // size of the cells at the toe, in h
 ];
 // The toe is at x = 0, the slope rises to the left.
 run = angle == 90 ? 0 : height / Tan(angle * Pi / 180);
@@ -31,7 +32,7 @@ left = -run - crest;
 Point(1) = {left, -base, 0, coarse * h};
 Point(2) = {plain, -base, 0, coarse * h};
 Point(3) = {plain, 0, 0, h};
-Point(4) = {0, 0, 0, h};
+Point(4) = {0, 0, 0, toe * h};
 Point(5) = {-run, height, 0, h};
 Point(6) = {left, height, 0, coarse * h};
 Point(7) = {plain, height + headroom, 0, coarse * h};

@@ -1,9 +1,11 @@
 """Upper bound of the load on a rigid body of rectangular section in weightless clay (Tresca, s_u = 1 kPa) that it cannot part from.
 
     .venv/bin/python benches/verification/limit_analysis.py --body X0 X1 Y0 Y1 [--round] [--adhesion A] [--size H] [--growth G] [--width W] [--beneath D]
+        [--layer DEPTH RATIO]
 
 The body lies between X0 and X1 and between Y0 and Y1 (m); clay lies from the axis of symmetry x = 0 to W and from D below the body to its surface y = 0.
-A body that ends at y = 0 goes through the surface. It moves by one downwards; the load upwards is the same.
+A body that ends at y = 0 goes through the surface. It moves by one downwards; the load upwards is the same. With --layer the strength of the clay below DEPTH (m)
+is 1/RATIO kPa.
 
 Velocities are quadratic in triangles, with sizes H at the corners of the body that grow by G from cell to cell. The work done on the flow is least for the velocities
 that keep the volume (at the corners of straight triangles in plane strain, which makes it a strict bound; at three points within them with --round)
@@ -13,6 +15,7 @@ Needs numpy, scipy and clarabel: .venv/bin/pip install scipy clarabel
 """
 
 import argparse
+import math
 
 import clarabel
 import numpy as np
@@ -43,6 +46,14 @@ def line(low: float, begin: float, end: float, high: float, size: float, growth:
         parts += [end - sizes(end - begin, size, growth)] if begin <= low else [begin + sizes(end - begin, size, growth)]
     places = np.sort(np.concatenate(parts))
     return places[np.append(True, np.diff(places) > 0.2 * size)]
+
+
+def layered(places: np.ndarray, interface: float, body: float) -> np.ndarray:
+    """Places with one at an interface of layers below a body, and distances that grow from there by a half."""
+    reach = [0.03 * 1.5**k for k in range(8)]
+    near = [interface, *(interface - r for r in reach), *(interface + r for r in reach if interface + r < body - 0.05)]
+    far = [y for y in places if y >= body or y == places[0] or min(abs(y - n) for n in near) > 0.02]
+    return np.unique(np.round(np.append(far, [n for n in near if n > places[0]]), 9))
 
 
 def shape(r: float, s: float) -> tuple[np.ndarray, np.ndarray]:
@@ -90,11 +101,15 @@ def main() -> None:
     parser.add_argument("--growth", type=float, default=1.33)
     parser.add_argument("--width", type=float, default=5.0)
     parser.add_argument("--beneath", type=float, default=2.0)
+    parser.add_argument("--layer", nargs=2, type=float, metavar=("DEPTH", "RATIO"), default=[math.inf, 1.0])
     chosen = parser.parse_args()
+    depth, ratio = chosen.layer
     x0, x1, y0, y1 = chosen.body
     base = y0 - chosen.beneath
     xs = line(0.0, x0, x1, chosen.width, chosen.size, chosen.growth)
     ys = line(base, y0, y1, 0.0, chosen.size, chosen.growth)
+    if depth < math.inf:
+        ys = layered(ys, -depth, y0)
     within = lambda x, y: x0 - SAME <= x <= x1 + SAME and y0 - SAME <= y <= y1 + SAME
 
     number: dict[tuple[int, int], int] = {}
@@ -153,11 +168,12 @@ def main() -> None:
     points = [(1 / 6, 1 / 6), (2 / 3, 1 / 6), (1 / 6, 2 / 3)] if chosen.round else [(0, 0), (1, 0), (0, 1)]
     for nodes, v in triangles:
         jacobian = np.array([v[1] - v[0], v[2] - v[0]]).T
+        strength = 1.0 if v[:, 1].mean() > -depth else 1.0 / ratio
         area, inverse = abs(np.linalg.det(jacobian)) / 2, np.linalg.inv(jacobian)
         for value, slope in (shape(*p) for p in points):
             gradient = slope @ inverse
             radius = value @ np.array([place[n][0] for n in nodes])
-            weight = area / 3 * (2 * np.pi * radius if chosen.round else 2.0)
+            weight = strength * area / 3 * (2 * np.pi * radius if chosen.round else 2.0)
             xx = {2 * n: g[0] for n, g in zip(nodes, gradient)}
             yy = {2 * n + 1: g[1] for n, g in zip(nodes, gradient)}
             shear = {2 * n: g[1] for n, g in zip(nodes, gradient)} | {2 * n + 1: g[0] for n, g in zip(nodes, gradient)}
@@ -176,7 +192,7 @@ def main() -> None:
                 program.rows["least"] += [({rate: 1.0, around: 1.0, most: -1.0}, 0.0), ({around: 2.0, most: -1.0}, 0.0)]
     gauss = [(0.5 - np.sqrt(0.15), 5 / 18), (0.5, 4 / 9), (0.5 + np.sqrt(0.15), 5 / 18)]
     for nodes, v in triangles if chosen.adhesion > 0 else []:
-        ends = v[:2]
+        ends, strength = v[:2], 1.0 if v[:, 1].mean() > -depth else 1.0 / ratio
         for k, sides in ((1, (x0, x1)), (0, (y0, y1))):
             other = 1 - k
             on = all(within(*p) and min(abs(p[other] - s) for s in sides) < SAME for p in ends)
@@ -185,7 +201,7 @@ def main() -> None:
             for t, w in gauss:
                 values = [(1 - t) * (1 - 2 * t), t * (2 * t - 1), 4 * t * (1 - t)]
                 radius = (1 - t) * ends[0][0] + t * ends[1][0]
-                length = w * np.linalg.norm(ends[1] - ends[0]) * (2 * np.pi * radius if chosen.round else 2.0)
+                length = strength * w * np.linalg.norm(ends[1] - ends[0]) * (2 * np.pi * radius if chosen.round else 2.0)
                 slip = linear((1, {2 * nodes[i] + k: value for i, value in zip((0, 1, 3), values)}))
                 at_most((slip[0], slip[1] + k), program.unknown(chosen.adhesion * length))
     status, work = program.solve()

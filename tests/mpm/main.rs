@@ -37,6 +37,7 @@ mod surface_loads;
 mod slow {
     mod collapse;
     mod general_position;
+    mod offshore;
     mod population;
     mod splines;
     mod uniform_cells;

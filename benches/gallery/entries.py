@@ -1,0 +1,315 @@
+"""What the gallery shows: runs of cases, the number that each gives, and the value it is compared with.
+
+The values are those of limit analysis and of the literature that the README of each case states. Where two are given they are a lower and an upper bound.
+"""
+
+import re
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import numpy as np
+from cavity import Can
+from pipe import bearing
+from surface import kept
+
+BONDED = {"contacts[0].tension": "no_separation"}
+
+
+@dataclass
+class Row:
+    """A run, and a number from it."""
+
+    name: str  # of the output folder: out-NAME; empty: out, the case as it is
+    what: str
+    found: Callable[[Path], float]  # of the output folder
+    reference: float | tuple[float, float]
+    tolerance: float  # relative
+    settings: dict = field(default_factory=dict)  # {path: value}
+
+
+@dataclass
+class Entry:
+    """A case with its rows, the first of which is the case as it is or its closest variant."""
+
+    case: str
+    quantity: str
+    source: str
+    rows: list[Row]
+    picture: tuple[str, ...] = ()  # options of `mpm plot` beside the field
+
+
+def history(out: Path) -> dict[str, np.ndarray]:
+    """The columns of history.csv by their names without units."""
+    names, *rows = [line.split(",") for line in (out / "history.csv").read_text().splitlines()]
+    return dict(zip((name.split(" [")[0] for name in names), np.array(rows, dtype=float).T))
+
+
+def mean(load: str, way: str, at: float, within: float, over: float = 1.0, less: float = 0.0) -> Callable[[Path], float]:
+    """The mean of a load, without its sign, over the steps within a distance of a way; `less` is taken off before it is divided by `over`."""
+
+    def found(out: Path) -> float:
+        columns = history(out)
+        near = np.abs(np.abs(columns[way]) - at) <= within * (1 + 1e-9)
+        return (np.abs(columns[load][near]).mean() - less) / over
+
+    return found
+
+
+def safety(per: float) -> Callable[[Path], float]:
+    """The middle of the bracket of the factor of safety, times `per`."""
+
+    def found(out: Path) -> float:
+        low, high = re.search(r"^factor of safety (\S+) to (\S+) ", (out / "solve.log").read_text(), re.MULTILINE).groups()
+        return per * (float(low) + float(high)) / 2
+
+    return found
+
+
+def beyond_green(v: float, h: float) -> float:
+    """What a load (V, H) over B s_u on a rough strip is divided by to lie on the envelope of Green (1954)."""
+    low, high = h, 2 * max(v, h)
+    for _ in range(60):
+        middle = (low + high) / 2
+        share = h / middle
+        held = 1 + np.pi - np.arcsin(share) + np.sqrt(1 - share**2)
+        low, high = (middle, high) if v / middle > held else (low, middle)
+    return low
+
+
+SHORT = {"phases.failure.duration": 0.02}  # the search alone
+CUT = (3.763, 3.815)  # limit analysis
+
+VERTICAL_CUT = Entry(
+    "vertical_cut",
+    "γH/s_u at failure, volume of the run-out over that before",
+    "limit analysis, 1",
+    [
+        Row("", "volume at rest, cut of γH/s_u = 6", kept(), 1.0, 0.01),
+        Row("toe", "γH/s_u, cells of H/200 at the toe", safety(3.0), CUT, 0.03, SHORT | {"mesh.parameters.toe": 0.1}),
+        Row("h20", "γH/s_u, cells of H/20", safety(3.0), CUT, 0.03, SHORT),
+    ],
+    picture=("--window=-10,-2.5,10,6",),
+)
+
+TRENCH = Entry(
+    "trench",
+    "γ′H/s_u at failure, volume of the run-out over that before",
+    "limit analysis, Taylor (1937), 1",
+    [
+        Row("", "volume at rest, on the pipe", kept(), 1.0, 0.01),
+        Row("toe", "γ′H/s_u, walls of 90°", safety(2.6004), CUT, 0.03, SHORT | {"mesh.parameters.toe": 0.1}),
+        Row(
+            "60",
+            "γ′H/s_u, walls of 60°",
+            safety(13.002 / 3.5),
+            1 / 0.191,
+            0.03,
+            SHORT | {"mesh.parameters.toe": 0.1, "mesh.parameters.angle": 60, "materials.clay.shear_strength": 3.5},
+        ),
+    ],
+    picture=("--mirror", "--window=-5,-2.75,5,0.5",),
+)
+
+
+JET_TRENCH = Entry(
+    "jet_trench",
+    "load over s_u D of the pipe as it sinks, less the weight of the clay in its place",
+    "Merifield, White & Randolph (2009), between smooth and rough",
+    [Row("", f"N at w/D = {w:g}", bearing(w, 0.4, 4, 6), (5.66 * w**0.32, 7.4 * w**0.4), 0.1) for w in (0.5, 0.3)],
+    picture=("--mirror", "--window=-1.5,-1.5,1.5,0.4", "--range=0,3",),
+)
+
+
+def slide(v: float) -> Row:
+    """The mat under V = v B s_u, pushed sideways by B/650."""
+    sideways = mean("mat.contact_x", "mat.ux", 0.009, 0.004, 30)
+    settings = {"phases.weigh.tractions[0].ty.rate": -5 * v, "phases.push.tractions[0].ty": -5 * v} if v != 3.955 else {}
+    name = f"v{v:g}" if settings else ""
+    return Row(name, f"(V, H) over the envelope, V = {v:g} B s_u", lambda out: beyond_green(v, sideways(out)), 1.0, 0.05, settings)
+
+
+TURN = {"name": "turn", "analysis": "quasi_static", "duration": 0.02, "step": {"initial": 0.0001, "max": 0.002}}
+
+
+def skirted(name: str, what: str, depth: float, bounds: tuple[float, float], settings: dict) -> Row:
+    """The mat `depth` B deep in the clay, moved by B/100."""
+    parameters = {"mesh.parameters.skirt": 6 * depth, "mesh.parameters.depth": 10.5 + 6 * depth} if depth != 0.25 else {}
+    found = mean("mat.contact_y", "mat.uy", 0.06, 0.02, 30)
+    return Row(name, f"V/(B s_u), D/B = {depth:g}, {what}", found, bounds, 0.05, parameters | settings)
+
+
+MUDMAT = Entry(
+    "mudmat",
+    "load over that of the envelope in its direction; moment",
+    "Green (1954); limit analysis",
+    [
+        slide(3.955),
+        slide(1.5),
+        slide(3.4577),
+        slide(4.484),
+        Row(
+            "moment",
+            "M/(B² s_u) without lift-off",
+            mean("mat.contact_moment", "mat.rotation", 0.009, 0.004, 180),
+            0.690,
+            0.05,
+            BONDED
+            | {
+                "phases": [TURN | {"prescribe": {"mat": {"rotation": {"rate": 1}}}}],
+                "output.every": 0.01,
+                "output.history": [{"name": "mat", "on": "mat", "quantities": ["rotation", "contact_x", "contact_y", "contact_moment"]}],
+            },
+        ),
+    ],
+    picture=("--window=-9,-5,9,1.5", "--range=0,0.4",),
+)
+
+SOLID = {"mesh.parameters.wall": 0}
+SKIRTED_MAT = Entry(
+    "skirted_mat",
+    "load over B s_u",
+    "limit analysis",
+    [
+        skirted("", "skirts", 0.25, (6.18, 6.39), {}),
+        skirted("up", "skirts, pulled up", 0.25, (6.18, 6.39), {"phases.push.prescribe.mat.uy.rate": 1}),
+        skirted("0.5", "skirts", 0.5, (7.13, 7.34), {}),
+        skirted("solid-0.25", "solid", 0.25, (6.18, 6.39), SOLID),
+        skirted("solid-0.5", "solid", 0.5, (7.13, 7.34), SOLID),
+        skirted("solid-1", "solid", 1, (8.81, 8.99), SOLID),
+    ],
+    picture=("--window=-9,-6,9,1.5", "--range=0,0.2",),
+)
+
+
+def spudcan(name: str, strength: float) -> list[Row]:
+    """Depth of the cavity over D by the formula of Hossain & Randolph, of a uniform strength, and the deep bearing capacity factor."""
+    can = Can(12, strength, 7)
+    s = can.strength / (can.weight * can.diameter)
+    settings = {"materials.clay.shear_strength": strength, "materials.clay.young": 500 * strength} if name else {}
+    rows = [Row(name, f"H_c/D, S = s_u/(γ′D) = {s:.3g}", can.cavity(), s**0.55 - s / 4, 0.15, settings)]
+    return rows + [Row(name, f"N_c at 1.4 D, S = {s:.3g}", can.factor(1.4), (10, 12), 0.05, settings)]
+
+
+SPUDCAN = Entry("spudcan", "depth of the cavity over D, deep N_c", "Hossain & Randolph (2009)", spudcan("", 20) + spudcan("soft", 10) + spudcan("firm", 40), picture=("--mirror", "--window=-15,-24,15,4",))
+
+
+def anchor(cover: int, bounds: tuple[float, float], bonded: bool) -> Row:
+    """A thin plate as it passes the depth `cover` B, where it is plastic."""
+    settings = {
+        "mesh.parameters": {"cover": cover + 0.05, "thickness": 0.05, "way": 0.1, "width": 2.0 * cover + 3, "h": 0.02, "under": 2, "coarse": 20},
+        "phases[0].duration": 0.07,
+        "phases[0].step": {"initial": 0.001, "max": 0.005},
+        "materials.clay.young": 2000,
+    }
+    return Row(
+        f"{cover}{'-bonded' if bonded else ''}",
+        f"N, H/B = {cover}, {'bonded' if bonded else 'breaking away'}",
+        mean("plate.contact_y", "plate.uy", 0.05, 0.015, 0.5),
+        bounds,
+        0.05,
+        settings | (BONDED if bonded else {}),
+    )
+
+
+PLATE_ANCHOR = Entry(
+    "plate_anchor",
+    "N = load/(B s_u)",
+    "limit analysis; 3π + 2",
+    [
+        anchor(1, (1.89, 2.08), False),
+        anchor(2, (3.63, 3.79), False),
+        anchor(3, (4.68, 4.85), False),
+        anchor(4, (5.41, 5.59), False),
+        anchor(6, (6.42, 6.60), False),
+        anchor(1, (8.82, 9.10), True),
+        anchor(2, (11.26, 11.59), True),
+        anchor(4, (3 * np.pi + 2, 3 * np.pi + 2), True),
+    ],
+    picture=("--mirror", "--window=-3,-2.5,3,0.5", "--range=0,0.2",),
+)
+
+
+def layers(upper: float, ratio: float, bound: float) -> Row:
+    """The footing on the surface: s_u = 2 kPa above, 2/ratio below, a stiffness at which the limit is reached within B/100; an upper bound."""
+    strengths = {"stiff": 2.0, "soft": 2.0 / ratio}
+    settings = {f"materials.{name}.{key}": value for name, s in strengths.items() for key, value in (("shear_strength", s), ("young", 5000 * s))}
+    settings |= {"mesh.parameters": {"upper": upper, "way": 0.3, "beneath": 5, "width": 8, "h": 0.05, "coarse": 12}}
+    settings |= {"phases.push.duration": 0.015, "phases.push.step": {"initial": 0.0002, "max": 0.001}, "output.every": 0.005}
+    found = mean("footing.contact_y", "footing.uy", 0.012, 0.002, 1.0)
+    return Row(f"{upper:g}-{ratio:g}", f"q/c₁, H/B = {upper:g}, c₁/c₂ = {ratio:g}", found, bound, 0.03, settings)
+
+
+PUNCH_THROUGH = Entry(
+    "punch_through",
+    "q/c₁ on the surface",
+    "upper bounds of limit analysis (benches/verification/limit_analysis.py)",
+    [
+        layers(0.5, 2, 3.740),
+        layers(0.25, 2, 3.211),
+        layers(1, 2, 4.693),
+        layers(0.25, 5, 1.714),
+        layers(0.5, 5, 2.297),
+        layers(1, 5, 3.401),
+        layers(0.25, 1.25, 4.472),
+        layers(0.5, 1.25, 4.742),
+        layers(0.5, 0.5, 5.403),
+    ],
+    picture=("--mirror", "--window=-2.5,-2.5,2.5,0.5", "--range=0,0.05",),
+)
+
+
+def footing(kind: str, ratio: float, exact: float) -> Row:
+    """The footing at B/600 below the surface of clay of s_u = 10 kPa + k z, k D = ratio · 10 kPa, with 20 000 s_u for E; less γ′ z."""
+    shape, k = ("circle", "kD") if kind == "axisymmetric" else ("strip", "kB")
+    held = {"phases.push.prescribe.footing": {"ux": 0, "uy": {"rate": -1}, "rotation": 0}}
+    settings = {"geometry": kind} | held if shape == "strip" else {}
+    for key, top in (("young", 200000), ("shear_strength", 10)):
+        settings[f"materials.clay.{key}"] = {"top": top, "gradient": round(top * ratio / 3, 3)} if ratio else top
+    settings |= {"mesh.parameters": {"way": 0.5, "beneath": 4.5, "width": 8, "air": 0.5, "fine": 0.75, "h": 0.075, "coarse": 12}}
+    settings |= {"phases.push.duration": 0.007, "phases.push.step": {"initial": 0.0001, "max": 0.0005}, "output.every": 0.0035}
+    area = np.pi * 1.5**2 if shape == "circle" else 1.5
+    found = mean("footing.contact_y", "footing.uy", 0.005, 0.0015, 10 * area, 6 * 0.005 * area)
+    return Row(f"{shape}-{ratio:g}", f"q/s_u0, rough {shape}, {k}/s_u0 = {ratio:g}", found, exact, 0.03, settings)
+
+
+EMBEDDED_FOOTING = Entry(
+    "embedded_footing",
+    "q/s_u0 on the surface",
+    "the method of characteristics",
+    [
+        *(footing("axisymmetric", ratio, exact) for ratio, exact in ((0, 6.0482), (1, 6.9460), (5, 9.2316))),
+        *(footing("plane_strain", ratio, exact) for ratio, exact in ((0, 2 + np.pi), (1, 6.6092), (5, 9.7959))),
+    ],
+    picture=("--mirror", "--window=-4,-3,4,0.5", "--range=0,0.01",),
+)
+
+
+def bar(name: str, factor: float, exact: float) -> Row:
+    """The T-bar from three diameters on; half of it is modelled, and the weight of the clay in its place is taken off."""
+    settings = {"contacts[0].adhesion_factor": factor} if name else {}
+    return Row(name, f"N, α = {factor:g}", mean("bar.contact_y", "bar.uy", 4, 1, 1.0, 0.5 * 6 * np.pi / 4), exact, 0.05, settings)
+
+
+TBAR = Entry(
+    "tbar",
+    "N = load/(s_u D) deep in the clay",
+    "Randolph & Houlsby (1984)",
+    [bar("", 0.5, 10.8198), bar("smooth", 0, 9.1416), bar("rough", 1, 11.94)],
+    picture=("--mirror", "--window=-3,-6.5,3,0.8", "--range=0,3",),
+)
+
+def anchor_leg(at: float, expected: float) -> Row:
+    """The tube on its way down: sides and tip by limit analysis, with the weight of the clay in place of the wall."""
+    return Row("", f"load [kN] at {at:g} m", mean("wall.contact_y", "time", at, 0.02), expected, 0.05)
+
+
+SUCTION_ANCHOR = Entry(
+    "suction_anchor",
+    "load of the push",
+    "limit analysis",
+    [anchor_leg(0.25, 38.9), anchor_leg(0.5, 56.5), anchor_leg(0.75, 72.9), anchor_leg(0.95, 86.1)],
+    picture=("--mirror", "--window=-2,-2,2,0.6", "--range=0,1",),
+)
+
+ENTRIES = [VERTICAL_CUT, TRENCH, JET_TRENCH, MUDMAT, SKIRTED_MAT, SPUDCAN, PLATE_ANCHOR, PUNCH_THROUGH, EMBEDDED_FOOTING, TBAR, SUCTION_ANCHOR]

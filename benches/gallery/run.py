@@ -1,0 +1,155 @@
+#!/usr/bin/env python3
+"""Runs the cases of the gallery, compares them with their references and writes docs/gallery.md with a picture of each.
+
+    .venv/bin/python benches/gallery/run.py [CASE …] [--threads N] [--no-pictures]
+
+A run that is up to date is not made again: `mpm run` decides that, and what was stopped is continued by running this once more. With names of cases only these are
+run, and their table is printed; the page is written when all are there. Needs `make build`; see `make gallery`.
+"""
+
+import argparse
+import json
+import shlex
+import subprocess
+import sys
+from pathlib import Path
+
+HERE = Path(__file__).resolve().parent
+sys.path[:0] = [str(HERE.parent), str(HERE)]
+
+from entries import ENTRIES, Entry, Row  # noqa: E402
+from program import PROGRAM, ROOT, execute  # noqa: E402
+
+PAGE = ROOT / "docs/gallery.md"
+PICTURES = ROOT / "docs/pictures/gallery"
+INTRODUCTION = """# Gallery
+
+Made by `make gallery` from runs that it makes: offshore problems with a known answer, with the default `numerics`. *Error* is the distance of what was found from
+the reference, from the nearer one of two bounds; none within them. *Within* is the error that is accepted of the mesh of the run; **no** beside it means that it is not met, which the page does not hide.
+Seconds are those of processors in the solve stage on one thread. Each command also writes the series for ParaView; the page of a case says what to look at.
+"""
+
+
+def folder(entry: Entry, row: Row) -> Path:
+    return ROOT / "cases" / entry.case / (f"out-{row.name}" if row.name else "out")
+
+
+def flow(value) -> str:
+    """A value as YAML in one line."""
+    if isinstance(value, dict):
+        return "{" + ", ".join(f"{key}: {flow(item)}" for key, item in value.items()) + "}"
+    if isinstance(value, list):
+        return "[" + ", ".join(map(flow, value)) + "]"
+    return str(value)
+
+
+def options(settings: dict) -> list[str]:
+    """The options `--set` of entries {path: value}."""
+    return [part for path, value in settings.items() for part in ("--set", f"{path}={flow(value)}")]
+
+
+def command(entry: Entry, row: Row) -> str:
+    """The command line of a run, from the root of the repository."""
+    parts = ["mpm", "run", f"cases/{entry.case}"]
+    parts += ["-o", str(folder(entry, row).relative_to(ROOT))] if row.name else []
+    return shlex.join([*parts, *options(row.settings)])
+
+
+def run(entry: Entry, row: Row, threads: int) -> str | None:
+    """Brings a run up to date and notes its processor seconds beside it; what it failed by, if it did."""
+    out = folder(entry, row)
+    seconds = out / "seconds.json"
+    case = [ROOT / "cases" / entry.case, "-o", out, "--threads", threads, *options(row.settings)]
+    done = execute([PROGRAM, "run", *case])
+    # An unfinished run is continued, or made anew where the case, the mesh or the program is another one now.
+    for option in ("--resume", "--fresh"):
+        if done.status == 2 and option in done.out:
+            done = execute([PROGRAM, "run", *case, option])
+            if option == "--resume" and done.status < 2:
+                resumed = json.loads(seconds.read_text()) if seconds.exists() else 0
+                done.cpu += resumed
+    if "solved in" in done.out or "ended after" in done.out:
+        seconds.write_text(json.dumps(round(done.cpu, 1)))
+    if done.status == 1:
+        execute([PROGRAM, "export", *case])
+        return done.reason
+    if done.status:
+        sys.exit(f"{command(entry, row)}: {done.reason}")
+    return None
+
+
+def error(value: float, reference: float | tuple[float, float]) -> float:
+    """Relative distance from the reference, or from the nearer one of two bounds where it is outside of them."""
+    low, high = reference if isinstance(reference, tuple) else (reference, reference)
+    return value / high - 1 if value > high else value / low - 1 if value < low else 0.0
+
+
+def shown(reference: float | tuple[float, float]) -> str:
+    if isinstance(reference, tuple) and reference[0] != reference[1]:
+        return f"{reference[0]:g}–{reference[1]:g}"
+    return f"{reference[0] if isinstance(reference, tuple) else reference:.4g}"
+
+
+def table_row(entry: Entry, row: Row, failed: str | None) -> str:
+    out = folder(entry, row)
+    seconds = json.loads((out / "seconds.json").read_text()) if (out / "seconds.json").exists() else None
+    took = f"{seconds:.0f}" if seconds is not None else "–"
+    try:
+        # A run that ended early stays beside the finished one of before, if there is one.
+        value = row.found(out / "unfinished" if failed and (out / "unfinished").exists() else out)
+        off = error(value, row.reference)
+        verdict = f"{100 * row.tolerance:.0f} %{'' if abs(off) <= row.tolerance else ': **no**'}"
+        found, off = f"{value:.4g}", f"{100 * off:+.1f} %" if off else "none"
+    except (OSError, AttributeError, ValueError) as reason:
+        found, off, verdict = "–", "–", f"**no**: {failed or reason}"
+    note = f" (ended early: {failed})" if failed and found != "–" else ""
+    return f"| {row.what}{note} | {found} | {shown(row.reference)} | {off} | {verdict} | {took} | `{command(entry, row)}` |"
+
+
+def picture(entry: Entry) -> str | None:
+    """Draws the last frame of the first run by `mpm plot`; its path from the page, or none where there is no such command."""
+    row = entry.rows[0]
+    target = PICTURES / f"{entry.case}.png"
+    target.parent.mkdir(parents=True, exist_ok=True)
+    out = folder(entry, row)
+    drawn = subprocess.run([PROGRAM, "plot", out, "-o", target, "--field", "plastic_strain", *entry.picture], capture_output=True, text=True, check=False)
+    if drawn.returncode:
+        print(f"no picture of {entry.case}: {drawn.stderr.strip().splitlines()[:1]}", file=sys.stderr)
+        return None
+    return str(target.relative_to(PAGE.parent))
+
+
+def section(entry: Entry, failures: dict[str, str | None], pictures: bool) -> str:
+    drawn = picture(entry) if pictures else None
+    lines = [f"## {entry.case}", "", f"[Its page](../cases/{entry.case}/README.md). Compared: {entry.quantity}, with {entry.source}.", ""]
+    lines += [f"![{entry.case}]({drawn})", ""] if drawn else []
+    lines += ["| run | found | reference | error | within | seconds | command |", "|---|---|---|---|---|---|---|"]
+    lines += [table_row(entry, row, failures[row.name]) for row in entry.rows]
+    return "\n".join(lines) + "\n"
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    names = [entry.case for entry in ENTRIES]
+    parser.add_argument("cases", nargs="*", choices=[[], *names], default=[], help="only these; the page is not written")
+    parser.add_argument("--threads", type=int, default=1)
+    parser.add_argument("--no-pictures", action="store_true")
+    chosen = parser.parse_args()
+    sections = []
+    for entry in ENTRIES:
+        if chosen.cases and entry.case not in chosen.cases:
+            continue
+        failures = {}
+        for row in entry.rows:
+            if row.name in failures:
+                continue  # a further number of the same run
+            print(f"--- {command(entry, row)}", file=sys.stderr, flush=True)
+            failures[row.name] = run(entry, row, chosen.threads)
+        sections.append(section(entry, failures, not chosen.no_pictures))
+        print(sections[-1], flush=True)
+    if not chosen.cases:
+        PAGE.write_text(INTRODUCTION + "\n" + "\n".join(sections))
+
+
+if __name__ == "__main__":
+    main()
