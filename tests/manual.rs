@@ -249,7 +249,8 @@ const LONGEST: usize = 45;
 fn sentences_are_short() {
     for page in guide() {
         let text = prose(&format!("\n{}", fs::read_to_string(&page).unwrap()));
-        for paragraph in text.split("\n\n").filter(|p| !p.trim_start().starts_with(['|', '#', '<'])) {
+        let is_text = |p: &&str| !p.starts_with("    ") && !p.trim_start().starts_with(['|', '#', '<']);
+        for paragraph in text.split("\n\n").filter(is_text) {
             for item in paragraph.split("\n- ").map(|item| item.split_whitespace().collect::<Vec<_>>().join(" ")) {
                 for sentence in item.split([';', ':']).flat_map(|part| part.split(". ")) {
                     let words = sentence.split(' ').count();
