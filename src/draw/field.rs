@@ -131,8 +131,8 @@ impl Field {
             let mut normals = vec![[0.0; 2]; grid.points.len() / 3];
             for [i, j] in &lines {
                 let (a, b) = (place(grid, *i), place(grid, *j));
-                for n in [i, j].map(|n| &mut normals[*n as usize]) {
-                    *n = [n[0] + b[1] - a[1], n[1] + a[0] - b[0]];
+                for k in [*i as usize, *j as usize] {
+                    normals[k] = [normals[k][0] + b[1] - a[1], normals[k][1] + a[0] - b[0]];
                 }
             }
             contact.extend(lines.into_iter().map(|ends| Pressed {
