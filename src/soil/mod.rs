@@ -215,9 +215,8 @@ impl Soil {
                     }
                 }
             }
-            // Within a structure, and less and less up to half a cell beside it: a free surface beyond stays where it is.
-            let within = (1.0 + 2.0 * structures.depth(&mesh.nodes[n]) / h).clamp(0.0, 1.0);
-            level += ON_STRUCTURE * h * within;
+            // Less and less up to as far beside it: a free surface beyond stays where it is.
+            level += (ON_STRUCTURE * h + structures.depth(&mesh.nodes[n])).clamp(0.0, ON_STRUCTURE * h);
             if level.abs() < ON_NODE * h {
                 level = 0.0;
             }
