@@ -58,7 +58,7 @@ enum Command {
     /// Print every mistake of a case that shows without its mesh, with file, line and remedy; writes nothing
     Check(check::Args),
     /// Draw curves of the histories of cases, or of output folders, as SVG or PNG
-    Plot(plot::Args),
+    Plot(Box<plot::Args>),
     /// Write one page on a run, whole in itself: scene, entries, curves, work of the solver, provenance
     Report(report::Args),
     /// Print what a file of mpm was made from, or those of an output folder: program, inputs, command, time

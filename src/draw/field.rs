@@ -167,20 +167,20 @@ impl Field {
         if b[0] > b[2] { [0.0, 0.0, 1.0, 1.0] } else { b }
     }
 
-    /// Shows the same range and window as other pictures of a series.
+    /// Shows the same range as other pictures of a series, and what is in the same box (m).
     pub fn fix(&mut self, range: [f64; 2], window: [f64; 4]) {
         self.options.range.get_or_insert(range);
-        self.options.window.get_or_insert(window);
+        self.options.window.get_or_insert(around(window));
     }
 
     fn range(&self) -> [f64; 2] {
         let [low, high] = self.options.range.or_else(|| self.extent()).unwrap_or([0.0, 1.0]);
         // A constant has a colour, too.
-        let least = 1e-9 * low.abs().max(high.abs()).max(1e-30);
-        if high - low < least {
-            [low - 0.5 * low.abs().max(least), high + 0.5 * high.abs().max(least)]
-        } else {
-            [low, high]
+        let size = low.abs().max(high.abs());
+        match high - low > 1e-9 * size {
+            true => [low, high],
+            false if size > 0.0 => [low - 0.5 * size, high + 0.5 * size],
+            false => [0.0, 1.0],
         }
     }
 
@@ -193,11 +193,7 @@ impl Field {
     }
 
     fn paper(&self) -> Paper {
-        let [x0, y0, x1, y1] = self.options.window.unwrap_or_else(|| {
-            let [x0, y0, x1, y1] = self.bounds();
-            let margin = MARGIN * (x1 - x0).max(y1 - y0);
-            [x0 - margin, y0 - margin, x1 + margin, y1 + margin]
-        });
+        let [x0, y0, x1, y1] = self.options.window.unwrap_or_else(|| around(self.bounds()));
         let width = f64::from(self.options.width.unwrap_or(WIDTH)) / f64::from(super::PIXELS);
         let (wide, high) = (x1 - x0, y1 - y0);
         let scale = ((width - LEFT - RIGHT) / wide).min(HIGHEST * width / high);
@@ -344,12 +340,18 @@ impl Picture for Field {
     }
 }
 
+/// A box with the margin around it.
+fn around([x0, y0, x1, y1]: [f64; 4]) -> [f64; 4] {
+    let margin = MARGIN * (x1 - x0).max(y1 - y0);
+    [x0 - margin, y0 - margin, x1 + margin, y1 + margin]
+}
+
 fn place(grid: &Grid, i: i64) -> [f64; 2] {
     [grid.points[3 * i as usize], grid.points[3 * i as usize + 1]]
 }
 
 /// The corners of a cell by VTK's number of its kind, and the order of its nodes around it.
-fn around(kind: u8) -> &'static [usize] {
+fn corners(kind: u8) -> &'static [usize] {
     match kind {
         5 => &[0, 1, 2],
         9 => &[0, 1, 2, 3],
@@ -379,7 +381,7 @@ fn cells(grid: &Grid) -> impl Iterator<Item = (&[i64], u8, u16)> {
 fn triangles(grid: &Grid, values: &[f64], wanted: impl Fn(u16) -> bool) -> Triangles {
     let mut triangles = Triangles::default();
     for (nodes, kind, region) in cells(grid).filter(|(.., region)| wanted(*region)) {
-        let order = around(kind);
+        let order = corners(kind);
         for pair in order.windows(2).skip(1) {
             let corners = [nodes[order[0]], nodes[pair[0]], nodes[pair[1]]];
             triangles.places.push(corners.map(|n| place(grid, n)));
@@ -394,7 +396,7 @@ fn triangles(grid: &Grid, values: &[f64], wanted: impl Fn(u16) -> bool) -> Trian
 fn cell_edges(grid: &Grid, wanted: impl Fn(u16) -> bool) -> Vec<[[f64; 2]; 2]> {
     let mut ends = Vec::new();
     for (nodes, kind, _) in cells(grid).filter(|(.., region)| wanted(*region)) {
-        let order = around(kind);
+        let order = corners(kind);
         for (k, &i) in order.iter().enumerate() {
             let (a, b) = (nodes[i], nodes[order[(k + 1) % order.len()]]);
             ends.push([a.min(b), a.max(b)]);

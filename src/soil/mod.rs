@@ -27,7 +27,7 @@ use fullness::Fullness;
 use origin::Origin;
 use polygon::{Corner, Polygon, WHOLE, place, positive, without};
 use rayon::prelude::*;
-use recover::{Ground, Nodal};
+use recover::{AtNode, Ground, Nodal};
 use std::collections::HashMap;
 use std::collections::hash_map::Entry;
 
@@ -195,8 +195,8 @@ impl Soil {
             let part = |k: usize| if regions.len() > 1 { (fullness.part[k][n] - 0.5) * h } else { 0.0 };
             let mut of_regions: Vec<f64> = (0..fullness.part.len()).map(part).collect();
             let (mut level, mut origin) = (by_fullness, [f64::INFINITY; 2]);
-            if let Some((first, residual, gradient)) = origins.at(n as u32) {
-                let first = [first[0], first[1]];
+            if let Some(AtNode { value, residual, gradient }) = origins.at(n as u32) {
+                let first = [value[0], value[1]];
                 origin = first;
                 let [a, b] = [gradient[0], gradient[1]];
                 let ratio = (a[0] * b[1] - a[1] * b[0]).abs();
@@ -215,9 +215,8 @@ impl Soil {
                     }
                 }
             }
-            // Within a structure, and less and less up to half a cell beside it: a free surface beyond stays where it is.
-            let within = (1.0 + 2.0 * structures.depth(&mesh.nodes[n]) / h).clamp(0.0, 1.0);
-            level += ON_STRUCTURE * h * within;
+            // Less and less up to as far beside it: a free surface beyond stays where it is.
+            level += (ON_STRUCTURE * h + structures.depth(&mesh.nodes[n])).clamp(0.0, ON_STRUCTURE * h);
             if level.abs() < ON_NODE * h {
                 level = 0.0;
             }

@@ -54,6 +54,13 @@ pub struct Nodal {
     gradient: Vec<[f64; 2]>,
 }
 
+/// The values at a node, what the functions of the cells leave there, and the gradients (1/m).
+pub struct AtNode<'a> {
+    pub value: &'a [f64],
+    pub residual: f64,
+    pub gradient: &'a [[f64; 2]],
+}
+
 /// Marks a node without values.
 const NONE: u32 = u32::MAX;
 
@@ -115,11 +122,12 @@ impl Nodal {
         nodal
     }
 
-    /// The values at a node, with their residual and gradients.
-    pub fn at(&self, n: u32) -> Option<(&[f64], f64, &[[f64; 2]])> {
+    /// What is known at a node.
+    pub fn at(&self, n: u32) -> Option<AtNode<'_>> {
         let k = self.number[n as usize];
         let own = (k != NONE).then(|| k as usize * self.width..(k as usize + 1) * self.width)?;
-        Some((&self.value[own.clone()], self.residual[k as usize], &self.gradient[own]))
+        let (value, gradient) = (&self.value[own.clone()], &self.gradient[own]);
+        Some(AtNode { value, residual: self.residual[k as usize], gradient })
     }
 
     /// Appends the values between some nodes, given the weight of each, no greater and no less than at the points around them.

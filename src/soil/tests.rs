@@ -34,7 +34,7 @@ fn body(
 ) -> Body {
     let density = Profile::constant(1.0);
     let each = if mesh.cells.kind[0].is_simplex() { 12 } else { 9 };
-    let regions = [1, 2].map(|region| RegionSeed { region, points_per_cell: each, density: density.clone() });
+    let regions = [1, 2].map(|region| RegionSeed { region, points_per_cell: each, density });
     let points = seed(mesh, false, &regions).unwrap();
     let position: Vec<[f64; 2]> = points.position.iter().map(|x| motion(*x)).collect();
     let of: Vec<f64> = position.iter().zip(&points.region).map(|(x, r)| field(*x, *r)).collect();

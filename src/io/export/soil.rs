@@ -48,7 +48,7 @@ impl<'a> Bodies<'a> {
         let grid = mesh.part(|c| !regions.elements[mesh.cells.region[c] as usize]);
         let seeded: Vec<bool> = regions.soil.iter().zip(&regions.elements).map(|(soil, fem)| *soil && !fem).collect();
         let first = infos.first().map(|info| Frame::read(&info.path)).transpose()?;
-        if !seeded.contains(&true) || !first.is_some_and(|frame| displacement(&frame.points).is_some()) {
+        if !seeded.contains(&true) || first.is_none_or(|frame| displacement(&frame.points).is_none()) {
             return Ok(None);
         }
         let soil = Soil::new(grid, &seeded, regions.axisymmetric);
