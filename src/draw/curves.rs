@@ -9,9 +9,11 @@ use std::ops::RangeInclusive;
 pub const WIDTH: u32 = 720;
 /// Height of the axes of a chart (points).
 const HEIGHT: f64 = 300.0;
-/// Space around the axes (points): for the ticks and title of the vertical axis, on the right, for those of the horizontal axis.
+/// Space for the ticks and the title of the vertical axis (points).
 const LEFT: f64 = 84.0;
+/// Space on the right of the axes (points).
 const RIGHT: f64 = 24.0;
+/// Space for the ticks and the title of the horizontal axis (points).
 const BELOW: f64 = 56.0;
 /// Height of a line of text (points).
 const LINE: f64 = 18.0;
@@ -213,7 +215,10 @@ impl Chart {
         for (i, series) in self.series.iter().enumerate() {
             let left = LEFT + (i % 2) as f64 * column;
             let at = top + 8.0 + (i / 2) as f64 * LINE;
-            series.draw(canvas, &[[left, at], [left + 24.0, at]])?;
+            match series.style {
+                Style::Line => series.draw(canvas, &[[left, at], [left + 24.0, at]])?,
+                Style::Points => series.draw(canvas, &[[left + 12.0, at]])?,
+            }
             canvas.text(&series.name, [left + 32.0, at], Text::at(HPos::Left, VPos::Center))?;
         }
         Ok(())

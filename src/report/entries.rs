@@ -94,7 +94,7 @@ fn keys(entries: &[(String, &Value)]) -> Vec<String> {
     keys
 }
 
-/// A value as a reader writes it: `top 2.3, gradient 3.6`.
+/// A value as a reader writes it: `gradient 3.6, top 2.3`.
 pub fn plain(value: &Value) -> String {
     match value {
         Value::Null => String::new(),
@@ -145,7 +145,7 @@ mod tests {
 
     #[test]
     fn values_read_like_the_case() {
-        assert_eq!(plain(&json!({"top": 2.3, "gradient": -3.6})), "top 2.3, gradient −3.6");
+        assert_eq!(plain(&json!({"top": 2.3, "gradient": -3.6})), "gradient −3.6, top 2.3");
         assert_eq!(plain(&json!([{"on": "a", "x": 1}, true])), "(on a, x 1), yes");
         assert_eq!(unit("cohesion c [kPa] of mohr_coulomb."), Some("kPa"));
         assert_eq!(unit("Fields (all of them) at a time (s)."), Some("s"));

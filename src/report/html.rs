@@ -83,36 +83,15 @@ impl Html {
 
     /// The page, with nothing that is loaded from elsewhere; its policy has readers refuse what is.
     pub fn page(title: &str, body: &Self) -> String {
-        let title = Self::text(title).0;
-        format!(
-            "<!DOCTYPE html>\n<html lang=\"en\" xmlns=\"http://www.w3.org/1999/xhtml\">\n<head>\n<meta charset=\"utf-8\"/>\n\
-             <meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src 'unsafe-inline'; img-src data:\"/>\n\
-             <meta name=\"viewport\" content=\"width=device-width\"/>\n<title>{title}</title>\n<style>{STYLE}</style>\n</head>\n<body>\n{}</body>\n</html>\n",
-            body.0
-        )
+        // One after the other: what a text has in it that looks like a mark is none.
+        let (begin, rest) = PAGE.split_once("TITLE").unwrap_or((PAGE, ""));
+        let (middle, end) = rest.split_once("BODY").unwrap_or((rest, ""));
+        [begin, &Self::text(title).0, middle, &body.0, end].concat()
     }
 }
 
-/// How pages look, on a screen and on paper.
-const STYLE: &str = "
-body { font: 15px/1.5 system-ui, sans-serif; color: #222; max-width: 60rem; margin: 2rem auto; padding: 0 1rem; }
-h1 { font-size: 1.7rem; line-height: 1.2; margin-bottom: 0.3rem; }
-h2 { font-size: 1.2rem; margin: 2.2rem 0 0.6rem; border-bottom: 1px solid #bbb; }
-h3 { font-size: 1rem; margin: 1.4rem 0 0.4rem; }
-table { border-collapse: collapse; margin: 0.4rem 0 1rem; font-variant-numeric: tabular-nums; }
-th, td { text-align: left; vertical-align: top; padding: 0.2rem 0.9rem 0.2rem 0; border-bottom: 1px solid #ddd; overflow-wrap: anywhere; }
-th:first-child, td:first-child { overflow-wrap: normal; }
-th { border-bottom: 1px solid #777; }
-figure { margin: 0.6rem 0; break-inside: avoid; }
-figure svg, figure img { max-width: 100%; height: auto; }
-figcaption { color: #555; font-size: 0.9rem; }
-strong { color: #a33600; }
-@media print {
-  body { font-size: 10pt; margin: 0; max-width: none; }
-  h2, h3 { break-after: avoid; }
-  tr { break-inside: avoid; }
-}
-";
+/// A page, with how it looks on a screen and on paper; the marks `TITLE` and `BODY` stand for what is in it.
+const PAGE: &str = include_str!("page.html");
 
 #[cfg(test)]
 mod tests {
@@ -122,6 +101,7 @@ mod tests {
     fn text_stays_text() {
         let hostile = "</title><script>alert(\"1\")</script> ' & \u{1} \u{ffff}";
         let page = Html::page(hostile, &Html::of("p", hostile).and(Html::image(&[1, 2, 3], 10, hostile)));
+        assert!(page.ends_with("</figure>\n</body>\n</html>\n") && page.contains("<style>\nbody {"), "{page}");
         assert!(!page.contains("<script") && page.contains("&lt;script&gt;alert(&quot;1&quot;)"), "{page}");
         assert!(!page.chars().any(|c| c == '\u{1}' || c == '\u{ffff}'));
     }

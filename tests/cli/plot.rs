@@ -158,7 +158,7 @@ fn a_png_has_ink_in_the_colour_of_the_curve() {
 fn columns_are_listed_and_one_that_is_not_there_has_near_ones() {
     let folder = runs();
     let listed = said(&plot(folder.path(), &["a", "--list"]));
-    assert!(listed.contains("head.reaction_y [kN]   -4 … 1.5") && listed.contains("4 rows"), "{listed}");
+    assert!(listed.contains("head.reaction_y [kN]  -4 … 1.5") && listed.contains("4 rows"), "{listed}");
     let output = plot(folder.path(), &["a", "--y", "haed.uy"]);
     assert_eq!(output.status.code(), Some(2));
     assert!(said(&output).contains("a has no column `haed.uy`; near to it are `head.uy`"), "{}", said(&output));

@@ -35,7 +35,7 @@ fn a_report_of_a_finished_run_has_all_parts_and_loads_nothing() {
         assert!(page.contains(text), "{text}");
     }
     for text in
-        ["block.uy [m]", "iterations of a step", "solve, finished", "x86_64", "duration [s]", "data:image/png;base64,"]
+        ["block.uy", "iterations of a step", "solve, finished", "x86_64", "duration [s]", "data:image/png;base64,"]
     {
         assert!(page.contains(text) || text == "x86_64" && page.contains("aarch64"), "{text}");
     }
