@@ -47,7 +47,7 @@ impl Checker {
             let factor = match adhesion_factor {
                 None => law.factor,
                 Some(raw::AdhesionFactor::Named(raw::NoFactor::None)) => None,
-                Some(raw::AdhesionFactor::Share(share)) => {
+                Some(raw::AdhesionFactor::Number(share)) => {
                     if !(0.0..=1.0).contains(&share) {
                         let remedy = "give a share from 0 to 1, or `none`";
                         self.issue(&factor_path, At::Value, format!("{share} is no share of the strength"), remedy);

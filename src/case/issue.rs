@@ -1,6 +1,8 @@
 //! Mistakes in a case.
 
 use super::locate::{At, Path};
+use crate::error::shown;
+use serde_json::Value;
 
 /// A mistake in the case, at an entry of it.
 #[derive(Clone, Debug)]
@@ -18,6 +20,18 @@ pub struct Issue {
 impl Issue {
     pub fn new(path: &Path, at: At, problem: impl Into<String>, remedy: impl Into<String>) -> Self {
         Self { path: path.clone(), at, problem: problem.into(), remedy: remedy.into(), unknown: false, meant: None }
+    }
+}
+
+/// What a value is, in words.
+pub fn describe(value: &Value) -> String {
+    match value {
+        Value::Null => "nothing".into(),
+        Value::Bool(b) => b.to_string(),
+        Value::Number(n) => format!("the number {n}"),
+        Value::String(s) => format!("the text `{}`", shown(s)),
+        Value::Array(_) => "a list".into(),
+        Value::Object(_) => "a block of entries".into(),
     }
 }
 

@@ -89,8 +89,7 @@ impl Checker {
         if profile.gradient < 0.0 {
             let problem = format!("is {}, but must be at least 0", profile.gradient);
             self.issue(&path.key("gradient"), At::Value, problem, "only parameters of models fall with depth");
-        }
-        if profile.least.is_some() {
+        } else if profile.least.is_some() {
             self.issue(&path.key("least"), At::Key, "the value does not fall with depth", "take `least` out");
         }
     }

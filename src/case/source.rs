@@ -1,6 +1,6 @@
 //! The text of a case file as a tree, with the overrides of the command line, and the messages that point into it.
 
-use super::issue::Issue;
+use super::issue::{Issue, describe};
 use super::locate::{At, Path, Step};
 use super::start::{self, Start};
 use super::yaml::{self, Node};
@@ -340,17 +340,5 @@ fn items(list: &[Value]) -> String {
         (0, _) => "it is empty: write the whole list, or add the item to the case file".to_owned(),
         (count, true) => format!("it has the items 0 to {}", count - 1),
         (count, false) => format!("it has the items 0 to {}, by name {}", count - 1, names.join(", ")),
-    }
-}
-
-/// What a value is, in words.
-pub fn describe(value: &Value) -> String {
-    match value {
-        Value::Null => "nothing".into(),
-        Value::Bool(b) => b.to_string(),
-        Value::Number(n) => format!("the number {n}"),
-        Value::String(s) => format!("the text `{}`", shown(s)),
-        Value::Array(_) => "a list".into(),
-        Value::Object(_) => "a block of entries".into(),
     }
 }

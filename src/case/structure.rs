@@ -3,9 +3,8 @@
 //! Deserialising stops at the first mistake; walking the schema finds all of them, and names are suggested
 //! from what the schema knows. It reads the part of JSON Schema that schemars writes for `raw`.
 
-use super::issue::{Issue, MOST_FOUND};
+use super::issue::{Issue, MOST_FOUND, describe};
 use super::locate::{At, Path};
-use super::source::describe;
 use crate::error::shown;
 use serde_json::{Map, Value};
 

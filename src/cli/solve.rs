@@ -59,7 +59,7 @@ pub fn is_current(stage: &Stage) -> Result<bool> {
 /// # Errors
 /// Files that cannot be read.
 pub fn can_resume(stage: &Stage) -> Result<bool> {
-    let files = [stage.mesh(), stage.points()];
+    let files = files(stage);
     if !files.iter().all(|file| file.exists()) {
         return Ok(false);
     }

@@ -42,12 +42,9 @@ fn a_plate_parts_from_soil_once_the_tension_is_limited() {
     let modulus = 1000.0 * 0.7 / (1.3 * 0.4);
     let pulled = 2.0 * modulus * 1.05f64.ln() / 1.05;
     println!("{:.4} of {pulled:.4} kN, {:.4}, {:.1e}", -at(1.0), -at(2.0), at(3.0));
-    assert!(
-        (-at(1.0) / pulled - 1.0).abs() < 0.01 && (at(2.0) / at(1.0) - 1.0).abs() < 1e-6,
-        "{} {}",
-        at(1.0),
-        at(2.0)
-    );
+    for time in [1.0, 2.0] {
+        assert!((-at(time) / pulled - 1.0).abs() < 1e-3, "{time}: {}", at(time));
+    }
     assert!(at(3.0).abs() < 1e-6 * pulled, "{}", at(3.0));
 }
 

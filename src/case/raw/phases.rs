@@ -74,7 +74,7 @@ pub struct ContactChange {
 #[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
 #[serde(untagged)]
 pub enum AdhesionFactor {
-    Share(f64),
+    Number(f64),
     Named(NoFactor),
 }
 
