@@ -9,6 +9,7 @@ run, and their table is printed; the page is written when all are there. Needs `
 
 import argparse
 import json
+import math
 import shlex
 import subprocess
 import sys
@@ -97,12 +98,14 @@ def table_row(entry: Entry, row: Row, failed: str | None) -> str:
     try:
         # A run that ended early stays beside the finished one of before, if there is one.
         value = row.found(out / "unfinished" if failed and (out / "unfinished").exists() else out)
+        if math.isnan(value):
+            raise ValueError("not reached")
         off = error(value, row.reference)
         verdict = f"{100 * row.tolerance:.0f} %{'' if abs(off) <= row.tolerance else ': **no**'}"
         found, off = f"{value:.4g}", f"{100 * off:+.1f} %" if off else "none"
     except (OSError, AttributeError, ValueError) as reason:
-        found, off, verdict = "–", "–", f"**no**: {failed or reason}"
-    note = f" (ended early: {failed})" if failed and found != "–" else ""
+        found, off, verdict = "–", "–", f"**no** ({reason})"
+    note = f" (ended early: {failed.split(' (in step')[0]})" if failed else ""
     return f"| {row.what}{note} | {found} | {shown(row.reference)} | {off} | {verdict} | {took} | `{command(entry, row)}` |"
 
 
