@@ -30,13 +30,14 @@ class Row:
 
 @dataclass
 class Entry:
-    """A case with its rows, the first of which is the case as it is or its closest variant."""
+    """A case with its rows; the first run is the one in the picture."""
 
     case: str
     quantity: str
     source: str
     rows: list[Row]
     picture: tuple[str, ...] = ()  # options of `mpm plot` beside the field
+    headline: int = 0  # the row that stands beside the picture
 
 
 def history(out: Path) -> dict[str, np.ndarray]:
@@ -90,6 +91,7 @@ VERTICAL_CUT = Entry(
         Row("h20", "γH/s_u, cells of H/20", safety(3.0), CUT, 0.03, SHORT),
     ],
     picture=("--window=-10,-2.5,10,6",),
+    headline=1,
 )
 
 TRENCH = Entry(
@@ -109,6 +111,7 @@ TRENCH = Entry(
         ),
     ],
     picture=("--mirror", "--window=-5,-2.75,5,0.5",),
+    headline=1,
 )
 
 

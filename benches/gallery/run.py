@@ -9,6 +9,7 @@ run, and their table is printed; the page is written when all are there. Needs `
 
 import argparse
 import json
+import math
 import shlex
 import subprocess
 import sys
@@ -90,41 +91,56 @@ def shown(reference: float | tuple[float, float]) -> str:
     return f"{reference[0] if isinstance(reference, tuple) else reference:.4g}"
 
 
-def table_row(entry: Entry, row: Row, failed: str | None) -> str:
+def cells(entry: Entry, row: Row, failed: str | None) -> list[str]:
+    """What was run, the number found, the reference, the error, whether it is accepted, and seconds."""
     out = folder(entry, row)
     seconds = json.loads((out / "seconds.json").read_text()) if (out / "seconds.json").exists() else None
     took = f"{seconds:.0f}" if seconds is not None else "–"
     try:
         # A run that ended early stays beside the finished one of before, if there is one.
         value = row.found(out / "unfinished" if failed and (out / "unfinished").exists() else out)
+        if math.isnan(value):
+            raise ValueError("not reached")
         off = error(value, row.reference)
         verdict = f"{100 * row.tolerance:.0f} %{'' if abs(off) <= row.tolerance else ': **no**'}"
         found, off = f"{value:.4g}", f"{100 * off:+.1f} %" if off else "none"
     except (OSError, AttributeError, ValueError) as reason:
-        found, off, verdict = "–", "–", f"**no**: {failed or reason}"
-    note = f" (ended early: {failed})" if failed and found != "–" else ""
-    return f"| {row.what}{note} | {found} | {shown(row.reference)} | {off} | {verdict} | {took} | `{command(entry, row)}` |"
+        found, off, verdict = "–", "–", f"**no** ({reason})"
+    note = f" (ended early: {failed.split(' (in step')[0]})" if failed else ""
+    return [row.what + note, found, shown(row.reference), off, verdict, took]
 
 
 def picture(entry: Entry) -> str | None:
-    """Draws the last frame of the first run by `mpm plot`; its path from the page, or none where there is no such command."""
-    row = entry.rows[0]
+    """Draws the last frame of the first run by `mpm plot`; its path from the page, or none where it cannot."""
     target = PICTURES / f"{entry.case}.png"
     target.parent.mkdir(parents=True, exist_ok=True)
-    out = folder(entry, row)
-    drawn = subprocess.run([PROGRAM, "plot", out, "-o", target, "--field", "plastic_strain", *entry.picture], capture_output=True, text=True, check=False)
+    command = [PROGRAM, "plot", folder(entry, entry.rows[0]), "-o", target, "--field", "plastic_strain", "--width", "1000", *entry.picture]
+    drawn = subprocess.run(command, capture_output=True, text=True, check=False)
     if drawn.returncode:
-        print(f"no picture of {entry.case}: {drawn.stderr.strip().splitlines()[:1]}", file=sys.stderr)
-        return None
-    return str(target.relative_to(PAGE.parent))
+        print(f"no picture of {entry.case}: {' '.join(drawn.stderr.split()[:30])}", file=sys.stderr)
+    return str(target.relative_to(PAGE.parent)) if target.exists() else None
 
 
-def section(entry: Entry, failures: dict[str, str | None], pictures: bool) -> str:
-    drawn = picture(entry) if pictures else None
+def row_of(parts: list[str]) -> str:
+    return "| " + " | ".join(parts) + " |"
+
+
+def section(entry: Entry, failures: dict[str, str | None]) -> str:
+    """The table of all runs of a case."""
     lines = [f"## {entry.case}", "", f"[Its page](../cases/{entry.case}/README.md). Compared: {entry.quantity}, with {entry.source}.", ""]
-    lines += [f"![{entry.case}]({drawn})", ""] if drawn else []
     lines += ["| run | found | reference | error | within | seconds | command |", "|---|---|---|---|---|---|---|"]
-    lines += [table_row(entry, row, failures[row.name]) for row in entry.rows]
+    lines += [row_of([*cells(entry, row, failures[row.name]), f"`{command(entry, row)}`"]) for row in entry.rows]
+    return "\n".join(lines) + "\n"
+
+
+def overview(ran: list[tuple[Entry, dict[str, str | None]]], pictures: bool) -> str:
+    """A row a case: its picture, and one of its numbers."""
+    lines = ["| case | plastic strain at the end | compared | found | reference | error | seconds | command |", "|---|---|---|---|---|---|---|---|"]
+    for entry, failures in ran:
+        drawn, row = picture(entry) if pictures else None, entry.rows[entry.headline]
+        what, found, reference, off, _, took = cells(entry, row, failures[row.name])
+        image = f'<a href="{drawn}"><img src="{drawn}" width="260" alt="{entry.case}"></a>' if drawn else ""
+        lines.append(row_of([f"[{entry.case}](../cases/{entry.case}/README.md)", image, what, found, reference, off, took, f"`{command(entry, row)}`"]))
     return "\n".join(lines) + "\n"
 
 
@@ -135,7 +151,7 @@ def main() -> None:
     parser.add_argument("--threads", type=int, default=1)
     parser.add_argument("--no-pictures", action="store_true")
     chosen = parser.parse_args()
-    sections = []
+    ran = []
     for entry in ENTRIES:
         if chosen.cases and entry.case not in chosen.cases:
             continue
@@ -145,10 +161,11 @@ def main() -> None:
                 continue  # a further number of the same run
             print(f"--- {command(entry, row)}", file=sys.stderr, flush=True)
             failures[row.name] = run(entry, row, chosen.threads)
-        sections.append(section(entry, failures, not chosen.no_pictures))
-        print(sections[-1], flush=True)
+        ran.append((entry, failures))
+        print(section(entry, failures), flush=True)
     if not chosen.cases:
-        PAGE.write_text(INTRODUCTION + "\n" + "\n".join(sections))
+        pages = [INTRODUCTION, overview(ran, not chosen.no_pictures), *(section(*pair) for pair in ran)]
+        PAGE.write_text("\n".join(pages))
 
 
 if __name__ == "__main__":
