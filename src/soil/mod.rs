@@ -146,20 +146,23 @@ impl Soil {
     fn points(&self, mesh: &Mesh<2>, cloud: Cloud) -> (Points<2>, Vec<[f64; 3]>, Vec<usize>) {
         let locator = Locator::new(mesh);
         let find = |p: usize| {
-            let seeded = self.origin.seeded_cell(&cloud.origin[p])?;
+            let (seeded, leads) = self.origin.seeded_cell(&cloud.origin[p])?;
             let (cell, xi) = locator.locate(mesh, &cloud.position[p], Some(seeded))?;
-            Some((p, seeded, cell, xi))
+            Some((p, seeded, leads, cell, xi))
         };
         let found: Vec<_> = (0..cloud.position.len()).into_par_iter().filter_map(find).collect();
         let mut of_cell = vec![0u32; mesh.cells.len()];
-        found.iter().for_each(|(_, seeded, ..)| of_cell[*seeded as usize] += 1);
+        // A point that cannot be traced has a share of the cell where it is.
+        let home = |seeded: u32, leads: bool, cell: u32| if leads { seeded } else { cell };
+        found.iter().for_each(|(_, seeded, leads, cell, _)| of_cell[home(*seeded, *leads, *cell) as usize] += 1);
         let mut points = Points::default();
         let (mut parametric, mut kept) = (Vec::with_capacity(found.len()), Vec::with_capacity(found.len()));
-        for (p, seeded, cell, xi) in found {
-            let (x, first) = (cloud.position[p], cloud.origin[p]);
-            let area = self.origin.area[seeded as usize] / f64::from(of_cell[seeded as usize]);
+        for (p, seeded, leads, cell, xi) in found {
+            let (x, first) = (cloud.position[p], if leads { cloud.origin[p] } else { [f64::NAN; 2] });
+            let home = home(seeded, leads, cell) as usize;
+            let area = self.origin.area[home] / f64::from(of_cell[home]);
             // A ring of soil that is moved outwards is stretched around the axis.
-            let ring = if self.axisymmetric { (first[0] / x[0]).clamp(1.0 / LOOSE, LOOSE) } else { 1.0 };
+            let ring = if self.axisymmetric && leads { (first[0] / x[0]).clamp(1.0 / LOOSE, LOOSE) } else { 1.0 };
             points.position.push(x);
             points.cell.push(cell);
             points.region.push(self.origin.mesh.cells.region[seeded as usize]);
@@ -203,11 +206,11 @@ impl Soil {
                 let whole = (1.0 / LOOSE..LOOSE).contains(&ratio);
                 let error = if whole { residual / ratio.sqrt() } else { f64::INFINITY };
                 let weight = 1.0 / (1.0 + (error / (SCATTER * h)).powi(2));
-                let (depth, by) = self.origin.depth(&first);
-                // How fast the depth grows along the way that it does so now.
-                let slope = (a[0] * by[0] + b[0] * by[1]).hypot(a[1] * by[0] + b[1] * by[1]);
-                let depth = if slope > 0.0 { (depth / slope).clamp(-h, h) } else { depth.clamp(-h, h) };
                 if weight > 0.0 {
+                    let (depth, by) = self.origin.depth(&first);
+                    // How fast the depth grows along the way that it does so now.
+                    let slope = (a[0] * by[0] + b[0] * by[1]).hypot(a[1] * by[0] + b[1] * by[1]);
+                    let depth = if slope > 0.0 { (depth / slope).clamp(-h, h) } else { depth.clamp(-h, h) };
                     level = weight * depth + (1.0 - weight) * by_fullness;
                     for (level, &region) in of_regions.iter_mut().zip(regions) {
                         let depth = self.origin.depth_in(region, &first).clamp(-h, h);

@@ -115,14 +115,14 @@ impl Origin {
         })
     }
 
-    /// The cell of soil that a point was seeded in: where its displacement leads, or the nearest one across faces.
-    pub fn seeded_cell(&self, x: &[f64; 2]) -> Option<u32> {
-        let cell = self.cell(x, None)?;
-        let mut reached = vec![cell];
+    /// The cell of soil that a point was seeded in, and whether its displacement leads there. It does not after a reset of displacements that no
+    /// frame knows of, in the run that this one goes on from: then the nearest one across faces, or any.
+    pub fn seeded_cell(&self, x: &[f64; 2]) -> Option<(u32, bool)> {
+        let mut reached: Vec<u32> = self.cell(x, None).into_iter().collect();
         let mut i = 0;
         while i < reached.len().min(NEAR) {
             if self.seeded[reached[i] as usize] {
-                return Some(reached[i]);
+                return Some((reached[i], i == 0));
             }
             for &next in self.faces.neighbours(reached[i]) {
                 if !reached.contains(&next) {
@@ -131,7 +131,7 @@ impl Origin {
             }
             i += 1;
         }
-        None
+        self.seeded.iter().position(|&seeded| seeded).map(|c| (c as u32, false))
     }
 
     /// How deep (m) in the soil a place was, negative outside, and the unit vector away from the nearest surface.
