@@ -42,6 +42,8 @@ const SCATTER: f64 = 0.1;
 const LOOSE: f64 = 2.0;
 /// A surface nearer to a node than this part (-) of a cell goes through it: less is no more than slivers.
 const ON_NODE: f64 = 1e-3;
+/// Depths count up to so many times the size of a cell (-): more than the sides of a cell are long.
+const FAR: f64 = 2.0;
 /// Soil nearer to a structure than this part (-) of a cell lies on it, as it does for the solver
 /// (`src/surface/front/conform.rs`).
 const ON_STRUCTURE: f64 = 0.15;
@@ -210,10 +212,10 @@ impl Soil {
                     let (depth, by) = self.origin.depth(&first);
                     // How fast the depth grows along the way that it does so now.
                     let slope = (a[0] * by[0] + b[0] * by[1]).hypot(a[1] * by[0] + b[1] * by[1]);
-                    let depth = if slope > 0.0 { (depth / slope).clamp(-h, h) } else { depth.clamp(-h, h) };
+                    let depth = (if slope > 0.0 { depth / slope } else { depth }).clamp(-FAR * h, FAR * h);
                     level = weight * depth + (1.0 - weight) * by_fullness;
                     for (level, &region) in of_regions.iter_mut().zip(regions) {
-                        let depth = self.origin.depth_in(region, &first).clamp(-h, h);
+                        let depth = self.origin.depth_in(region, &first).clamp(-FAR * h, FAR * h);
                         *level = weight * depth + (1.0 - weight) * *level;
                     }
                 }
