@@ -14,16 +14,21 @@ mod asked;
 
 pub use asked::Asked;
 
-/// Space around the axes (points): for the vertical axis, the colour bar, the title and the horizontal axis.
+/// Space beside the axes for the title and ticks of the vertical one (points).
 const LEFT: f64 = 62.0;
+/// For the colour bar and its numbers.
 const RIGHT: f64 = 104.0;
+/// For the titles of the picture and of the colour bar.
 const ABOVE: f64 = 40.0;
+/// For the title and ticks of the horizontal axis.
 const BELOW: f64 = 48.0;
-/// Width of the colour bar, and its distance from the axes (points).
+/// Width of the colour bar (points).
 const BAR: f64 = 14.0;
+/// Its distance from the axes (points).
 const BESIDE: f64 = 16.0;
-/// The axes are at most so many times as high as the picture is wide, and at least this high (points).
+/// The axes are at most so many times as high as the picture is wide.
 const HIGHEST: f64 = 1.4;
+/// And have at least room of this height (points).
 const LOWEST: f64 = 60.0;
 /// The part of the window (-) that is left around the bodies.
 const MARGIN: f64 = 0.03;

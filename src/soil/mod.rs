@@ -178,7 +178,7 @@ impl Soil {
     }
 
     /// The level sets at the nodes: of the soil, and where there are several of each region in it.
-    fn levels(&self, ground: &Ground, regions: &[u16], fullness: &Fullness, structures: &Structures) -> Levels {
+    fn levels(&self, ground: &Ground, regions: &[u16], fullness: &Fullness, structures: &Structures) -> LevelSets {
         let Ground { mesh, points, .. } = *ground;
         let of: Vec<f64> = points.origin.iter().flatten().copied().collect();
         let origins = Nodal::of(ground, None, Values { width: 2, of: &of });
@@ -227,10 +227,10 @@ impl Soil {
             }
             (level, of_regions, origin)
         };
-        let all: Vec<NodeLevels> = (0..mesh.nodes.len()).into_par_iter().with_min_len(256).map(level).collect();
+        let all: Vec<LevelsAtNode> = (0..mesh.nodes.len()).into_par_iter().with_min_len(256).map(level).collect();
         let of_region =
             |k: usize| all.iter().map(|(_, of, _)| of.get(k).copied().unwrap_or(f64::NEG_INFINITY)).collect();
-        Levels {
+        LevelSets {
             soil: all.iter().map(|(soil, ..)| *soil).collect(),
             of_regions: (0..fullness.part.len()).map(of_region).collect(),
             first: all.iter().map(|(.., first)| *first).collect(),
@@ -242,7 +242,7 @@ impl Soil {
         &self,
         mesh: &Mesh<2>,
         c: usize,
-        (regions, levels): (&[u16], &Levels),
+        (regions, levels): (&[u16], &LevelSets),
         structures: &Structures,
     ) -> Vec<Piece> {
         let mut pieces = Vec::new();
@@ -279,7 +279,7 @@ impl Soil {
 }
 
 /// Level sets (m) at the nodes.
-struct Levels {
+struct LevelSets {
     soil: Vec<f64>,
     /// Of each region; empty where there is but one.
     of_regions: Vec<Vec<f64>>,
@@ -288,7 +288,7 @@ struct Levels {
 }
 
 /// The levels (m) of the soil and of its regions at a node, and where the soil there was seeded (m).
-type NodeLevels = (f64, Vec<f64>, [f64; 2]);
+type LevelsAtNode = (f64, Vec<f64>, [f64; 2]);
 
 /// A part of the body in a triangle between nodes.
 struct Piece {

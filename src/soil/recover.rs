@@ -35,8 +35,6 @@ struct Function {
     coefficients: Vec<[f64; 3]>,
     /// The least and the greatest value at the points that each is fitted to.
     range: Vec<[f64; 2]>,
-    /// Whether the cell has points itself.
-    own: bool,
     /// Root of the mean square of what the functions leave of the values at the points; infinite where they are constant.
     residual: f64,
 }
@@ -79,9 +77,15 @@ impl Nodal {
             gradient: Vec::new(),
         };
         let (mut count, mut square): (Vec<(f64, bool)>, Vec<f64>) = (Vec::new(), Vec::new());
+        let of_cell = |c: u32| functions.binary_search_by_key(&c, |f| f.cell).ok().map(|k| &functions[k]);
+        // Cells with points first; then those beside them, by the functions of these.
         for own in [true, false] {
-            for function in functions.iter().filter(|f| f.own == own) {
-                for &n in ground.mesh.cells.nodes(function.cell as usize) {
+            for &cell in ground.active.iter().filter(|&&c| of_cell(c).is_some() == own) {
+                let beside = ground.around.cells(cell).iter().copied().filter(|_| !own);
+                let by = beside.chain(own.then_some(cell)).filter_map(of_cell);
+                for (&n, function) in
+                    by.flat_map(|f| ground.mesh.cells.nodes(cell as usize).iter().map(move |n| (n, f)))
+                {
                     let number = &mut nodal.number[n as usize];
                     if *number == NONE {
                         *number = count.len() as u32;
@@ -150,10 +154,14 @@ impl Nodal {
 /// The order of cells up to which what is fitted is linear: pictures take that in all cells.
 const LINEAR: usize = 2;
 
-/// The functions of a cell; `None` where no point is near.
+/// The functions of a cell; `None` where it has no points.
 fn fitted(ground: &Ground, region: Option<u16>, values: Values, cell: u32) -> Option<Function> {
     let Ground { mesh, points, around, held, .. } = *ground;
     let counts = |p: u32| region.is_none_or(|region| points.region[p as usize] == region);
+    let inside: Vec<u32> = held.points(cell).iter().copied().filter(|&p| counts(p)).collect();
+    if inside.is_empty() {
+        return None;
+    }
     let frame = CellFrame::of(mesh, cell as usize);
     let at = |&n: &u32| Place { xi: [0.0; 3], x: mesh.nodes[n as usize], weight: 0.0 };
     let places: Vec<Place> = mesh.cells.nodes(cell as usize).iter().map(at).collect();
@@ -167,14 +175,12 @@ fn fitted(ground: &Ground, region: Option<u16>, values: Values, cell: u32) -> Op
             *range = [range[0].min(*value), range[1].max(*value)];
         }
     }
-    let inside: Vec<u32> = held.points(cell).iter().copied().filter(|&p| counts(p)).collect();
-    let compared = if inside.is_empty() { &fit.points } else { &inside };
     let square = |&p: &u32| -> f64 {
         let [x, y] = frame.local(&points.position[p as usize]);
         let off = |(i, [a, b, c]): (usize, &[f64; 3])| (of[p as usize * width + i] - a - b * x - c * y).powi(2);
         coefficients.iter().enumerate().map(off).sum()
     };
-    let residual = (compared.iter().map(square).sum::<f64>() / compared.len() as f64).sqrt();
+    let residual = (inside.iter().map(square).sum::<f64>() / inside.len() as f64).sqrt();
     let residual = if fit.linear { residual } else { f64::INFINITY };
-    Some(Function { cell, frame, coefficients, range, own: !inside.is_empty(), residual })
+    Some(Function { cell, frame, coefficients, range, residual })
 }
