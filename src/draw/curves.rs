@@ -150,7 +150,7 @@ impl Chart {
         let (left, right) = (LEFT, f64::from(WIDTH) - RIGHT);
         let (upper, lower) = (top + self.over(), top + self.over() + HEIGHT);
         let values = |d: usize| self.series.iter().flat_map(move |series| series.places.iter().map(move |p| p[d]));
-        let x = Axis::around(values(0), [left, right], 8);
+        let x = Axis::around(values(0).chain(self.borders.iter().map(|border| border.at)), [left, right], 8);
         let y = Axis::around(values(1).chain(self.levels.iter().map(|level| level.at)), [lower, upper], 6);
         self.axes(canvas, &x, &y)?;
         self.lines(canvas, &x, &y)?;
@@ -185,12 +185,12 @@ impl Chart {
         canvas.text(&self.axes[1], [8.0, (lower + upper) / 2.0], how)
     }
 
-    /// The lines across the chart, those that it shows.
+    /// The lines across the chart.
     fn lines<B: DrawingBackend>(&self, canvas: &Canvas<B>, x: &Axis, y: &Axis) -> Drawn {
         let ([left, right], [lower, upper]) = (x.paper, y.paper);
         // Names stand in two rows; one that finds no room in either is left out.
         let mut free = [left; 2];
-        for border in self.borders.iter().filter(|border| x.range.contains(&border.at)) {
+        for border in &self.borders {
             let at = x.place(border.at);
             canvas.line(&[[at, lower], [at, upper]], GREY, 0.75)?;
             let how = Text { size: TEXT - 2.0, colour: GREY, ..Text::at(HPos::Left, VPos::Bottom) };
