@@ -1,6 +1,6 @@
 //! The parameters of the `.geo` of a template: a line each within its `DefineConstant`, `name = {value, options}`.
 
-use crate::case::source::describe;
+use crate::case::issue::describe;
 use crate::case::structure::suggest;
 use serde_json::Value;
 use std::ops::Range;
