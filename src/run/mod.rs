@@ -138,6 +138,7 @@ pub fn run<const D: usize, K: Kinematics<D>>(
     }
     let mut simulation = Simulation::<D, K>::new(scene, state)?;
     tell(&simulation.state, None);
+    voids::begin(scene, &mut simulation.state);
     if simulation.state.frames == 0 {
         files.frame(scene, &mut simulation.state)?;
     }

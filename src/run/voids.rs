@@ -20,13 +20,28 @@ struct Structure<const D: usize> {
     places: Vec<[f64; D]>,
 }
 
+/// Notes what is empty as a run begins, and no void: what structures leave behind later is one.
+pub fn begin<const D: usize>(scene: &Scene<D>, state: &mut State<D>) {
+    if state.front.is_none() || !state.voids.of_cell.is_empty() {
+        return;
+    }
+    let mesh = restored(scene, state);
+    let emptiness = emptiness(scene, state, &mesh);
+    state.voids.look(&mesh, &emptiness, &mut |_, _| false);
+}
+
+/// The grid as it was restored last.
+fn restored<const D: usize>(scene: &Scene<D>, state: &State<D>) -> Mesh<D> {
+    let nodes = if state.nodes.is_empty() { scene.mesh.nodes.clone() } else { state.nodes.clone() };
+    Mesh { nodes, ..scene.mesh.clone() }
+}
+
 /// Lines for the log on a step, by the grid as it was restored before; warnings begin with [`WARNING`].
 pub fn found<const D: usize>(scene: &Scene<D>, state: &mut State<D>, report: &Report<D>) -> Vec<String> {
     if !report.restored || state.front.is_none() {
         return Vec::new();
     }
-    let nodes = if state.nodes.is_empty() { scene.mesh.nodes.clone() } else { state.nodes.clone() };
-    let mesh = Mesh { nodes, ..scene.mesh.clone() };
+    let mesh = restored(scene, state);
     let emptiness = emptiness(scene, state, &mesh);
     let structures: Vec<Structure<D>> = scene
         .touching(state.phase)
