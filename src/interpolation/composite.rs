@@ -16,10 +16,10 @@
 //! strains have other gradients. The gradients that forces act through are taken to the deformed grid by the deformation that they give
 //! themselves: the forces of a symmetric stress have then no moment.
 //!
-//! The patch takes in the cells beside that of the point that are at least half filled by the domains of the points in them: of a cell with less the
-//! nodes far from the body have hardly a force of their own, and strains must not hang on them. Domains end there too: a force on a node that no
-//! strain hangs on would move it without resistance. Where a cell is left out between two that would be taken,
-//! at a corner of the body, these are left out as well.
+//! The interpolation is for cells within a body: where one of the cells that share a node with that of the point is filled by less than half by the
+//! domains of the points in it, strains are those of GIMP. Nodes on the far side of such a cell have hardly a force of their own, and strains
+//! that hang on them are not stable; and a force on a node that no strain hangs on would move it without resistance. At the boundary of the
+//! grid the polynomial ends with it. Where it does so at a corner that enters the grid, it is linear towards both sides of the corner.
 
 use super::gimp::{self, Gimp, Rectangle, Surroundings, slanted};
 use super::{Basis, First, Interpolation, Located, Reset, Support};
@@ -31,7 +31,7 @@ use rayon::prelude::*;
 /// Distance (-) of nodes over the size of a cell below which they are at one place.
 const ON_LINE: f64 = 1e-6;
 
-/// The part (-) of a cell that must be filled for it to take part in the strains of the cells beside it. Points that wander change it by a quarter or so in a
+/// The part (-) of a cell that must be filled for the cells beside it to have the interpolation. Points that wander change it by a quarter or so in a
 /// full body of four points a cell.
 const FILLED: f64 = 0.5;
 
@@ -83,7 +83,7 @@ impl Basis<2> for Composite {
     fn fill(&self, points: &Located<2>, interpolation: &mut Interpolation<2>) {
         let (mesh, surroundings) = (points.mesh, Surroundings::of(points.mesh));
         let Some(domains) = &points.domains else {
-            return gimp::fill(points, interpolation, &surroundings, |_| true);
+            return gimp::fill(points, interpolation, &surroundings);
         };
         let mut held = vec![0.0; mesh.cells.len()];
         for (p, &c) in points.cell.iter().enumerate() {
@@ -93,15 +93,18 @@ impl Basis<2> for Composite {
             let Rectangle { low, high } = surroundings.boxes[c];
             points.active[c] && held[c] >= FILLED * (high[0] - low[0]) * (high[1] - low[1])
         };
-        gimp::fill(points, interpolation, &surroundings, filled);
+        gimp::fill(points, interpolation, &surroundings);
         interpolation.strain_gradient.resize(interpolation.gradient.len(), [0.0; 2]);
         let support = interpolation.support.clone();
         interpolation.slots().into_par_iter().for_each(|slot| {
             let cell = slot.cell_points.cell;
             let own = mesh.cells.nodes(cell as usize);
             let nodes = support.as_ref().map_or(own, |support| support.nodes(cell));
-            let beside = surroundings.beside(mesh, cell as usize).map(|c| c as usize).filter(|&c| filled(c));
-            let patch = Patch::of(mesh, cell as usize, beside, nodes);
+            let beside = || surroundings.beside(mesh, cell as usize).map(|c| c as usize);
+            if !beside().all(filled) {
+                return slot.strain_gradient.copy_from_slice(slot.gradient);
+            }
+            let patch = Patch::of(mesh, cell as usize, beside(), nodes);
             let gradients = slot.strain_gradient.chunks_exact_mut(nodes.len());
             for (gradient, shape) in gradients.zip(slot.shape.chunks_exact(own.len())) {
                 let term = |d| own.iter().zip(shape).map(move |(&n, shape)| shape * mesh.nodes[n as usize][d]);
@@ -120,7 +123,7 @@ struct Patch {
 }
 
 impl Patch {
-    /// That of a cell, with those of the cells `beside` it that it takes in; its points act on `nodes`.
+    /// That of a cell and the cells `beside` it; its points act on `nodes`.
     fn of(mesh: &Mesh<2>, cell: usize, beside: impl Iterator<Item = usize>, nodes: &[u32]) -> Self {
         let own = Rectangle::of(mesh, cell);
         // The far side of the cell beyond each side, before and after it along each axis, and the cells in the corners between them.
@@ -157,7 +160,7 @@ impl Patch {
             nodes.iter().position(|n| n == node)
         };
         let crossings = lines[1].iter().flat_map(|&y| lines[0].iter().map(move |&x| [x, y]));
-        // All of them are nodes of the cells that are taken in.
+        // All of them are nodes of these cells.
         let node = crossings.filter_map(at).collect();
         Self { lines, node }
     }

@@ -92,7 +92,7 @@ impl Basis<2> for Gimp {
     }
 
     fn fill(&self, points: &Located<2>, interpolation: &mut Interpolation<2>) {
-        fill(points, interpolation, &Surroundings::of(points.mesh), |_| true);
+        fill(points, interpolation, &Surroundings::of(points.mesh));
     }
 }
 
@@ -120,16 +120,11 @@ impl Surroundings {
     }
 }
 
-/// Fills in the means over the domains of the points, which reach into those cells beside their own that `takes` is true for.
-pub(super) fn fill(
-    points: &Located<2>,
-    interpolation: &mut Interpolation<2>,
-    surroundings: &Surroundings,
-    takes: impl Fn(usize) -> bool + Sync,
-) {
+/// Fills in the means over the domains of the points.
+pub(super) fn fill(points: &Located<2>, interpolation: &mut Interpolation<2>, surroundings: &Surroundings) {
     let support = Support::with_neighbours(points.mesh, points.active);
     interpolation.fill_support(points, support, |place, value, gradient| match &points.domains {
-        Some(domains) => average(place, domains, surroundings, &takes, value, gradient),
+        Some(domains) => average(place, domains, surroundings, value, gradient),
         None => at_the_place(place, value, gradient),
     });
 }
@@ -179,21 +174,17 @@ impl Rectangle {
     }
 }
 
-/// Writes the means over the domain of a point, which reaches into the cells beside its own that `takes` is true for.
+/// Writes the means over the domain of a point.
 fn average(
     place: &Place<2>,
     domains: &Domains<2>,
     surroundings: &Surroundings,
-    takes: &impl Fn(usize) -> bool,
     value: &mut [f64],
     gradient: &mut [[f64; 2]],
 ) {
     let cells = &place.mesh.cells;
     let boxes = &surroundings.boxes;
     let to = |c: u32| -> Option<[usize; 4]> {
-        if c as usize != place.cell && !takes(c as usize) {
-            return None;
-        }
         let mut to = [0; 4];
         for (to, n) in to.iter_mut().zip(cells.nodes(c as usize)) {
             *to = place.nodes.iter().position(|other| other == n)?;

@@ -39,12 +39,18 @@ type Rule = Vec<([f64; 3], f64)>;
 pub struct Places {
     full: Vec<(CellKind, Rule)>,
     triangle: Rule,
+    /// For triangles of cells of third order, whose stresses are of higher degree.
+    fine: Rule,
 }
 
 impl Places {
     pub fn new() -> Self {
         let plane = CellKind::ALL.into_iter().filter(|kind| kind.dimension() == 2);
-        Self { full: plane.map(|kind| (kind, rule(kind, degree(kind)))).collect(), triangle: rule(CellKind::T3, 2) }
+        Self {
+            full: plane.map(|kind| (kind, rule(kind, degree(kind)))).collect(),
+            triangle: rule(CellKind::T3, 2),
+            fine: rule(CellKind::T3, 4),
+        }
     }
 
     /// The points of a cell that is full.
@@ -67,7 +73,7 @@ impl Places {
                     return;
                 }
                 let [a, b, c] = piece.map(|l| [0, 1].map(|d| l[0] * at[0][d] + l[1] * at[1][d] + l[2] * at[2][d]));
-                for ([s, t, _], weight) in &self.triangle {
+                for ([s, t, _], weight) in if cell.kind.order() > 2 { &self.fine } else { &self.triangle } {
                     let [x, y] = [0, 1].map(|d| a[d] + s * (b[d] - a[d]) + t * (c[d] - a[d]));
                     out.push(cell.place::<K>([x, y, 0.0], weight * twice * fraction));
                 }

@@ -127,7 +127,7 @@ fn fields_of_their_degree_are_exact() {
             assert!(lost < 2e-13, "{kind:?}: {lost:e}");
         }
         let cubic = lost(&mesh, &constraints, |[x, y]| x * x * x * y * y * y - x * y * y + 2.0 * y * y * y);
-        assert_eq!(cubic < 1e-12, kind == CellKind::Q16, "{kind:?}: {cubic:e}");
+        assert!(cubic < 1e-12 || kind == CellKind::Q9, "{cubic:e}");
     }
 }
 
@@ -176,7 +176,7 @@ fn smooth(kind: CellKind) {
     );
     assert!(kink < 1e-11, "{kink:e}");
     assert!(if kind == CellKind::Q9 { bend > 1.0 } else { bend < 1e-9 }, "{kind:?}: {bend:e}");
-    assert!(spline > 1e-2 && polynomial < 1e-17, "{kind:?}: {spline:e} {polynomial:e}");
+    assert!(spline > 1.0 && polynomial < 1e-10, "{kind:?}: {spline:e} {polynomial:e}");
 }
 
 /// What the ghost penalty of a face is of a nodal field.
