@@ -155,7 +155,7 @@ def table(schema, name, known, page, place):
             first = meaning[0].upper() if meaning[0].isascii() and meaning[1].isalpha() else meaning[0]
             meaning = f"{first + meaning[1:]}. Of {'all models' if len(takers) >= 6 else ', '.join(f'`{m}`' for m in takers)}"
         if default:
-            shown = f"`{default[1]}`" if re.fullmatch(r"(?!none$|empty$)[\w.]+", default[1]) else default[1]
+            shown = f"`{default[1]}`" if re.fullmatch(r"(?!none$|empty$|unchanged$)[\w.]+", default[1]) else default[1]
         elif key in required:
             shown = "*required*"
         else:
