@@ -95,7 +95,7 @@ impl Subject<'_> {
     fn entries(&self) -> Html {
         let (schema, tree) = (self.keys.schema(), self.loaded.source.tree());
         let kinds = Kinds::of(&schema);
-        let named = |block: &str| entries(tree.get(block), |i, entry| name(i, entry));
+        let named = |block: &str| entries(tree.get(block), name);
         let mut html = Html::default();
         for (heading, kind, first, block) in [
             ("Regions", "Region", "region", "regions"),
