@@ -26,8 +26,8 @@ PICTURES = ROOT / "docs/pictures/gallery"
 INTRODUCTION = """# Gallery
 
 Made by `make gallery` from runs that it makes: offshore problems with a known answer, with the default `numerics`. *Error* is the distance of what was found from
-the reference, from the nearer one of two bounds; none within them. *Within* is the error that is accepted of the mesh of the run; **no** beside it means that it is not met, which the page does not hide.
-Seconds are those of processors in the solve stage on one thread. Each command also writes the series for ParaView; the page of a case says what to look at.
+the reference, from the nearer one of two bounds; none within them. *Within* is the error that is accepted of the mesh of the run; **no** beside it means that it is not met, which the page does not hide; the page of the case says what is known.
+Seconds are those of processors in the solve stage on one thread. Each command also writes the series for ParaView; the page of a case says what to look at, too.
 """
 
 
@@ -87,7 +87,7 @@ def error(value: float, reference: float | tuple[float, float]) -> float:
 
 def shown(reference: float | tuple[float, float]) -> str:
     if isinstance(reference, tuple) and reference[0] != reference[1]:
-        return f"{reference[0]:g}–{reference[1]:g}"
+        return f"{reference[0]:.4g}–{reference[1]:.4g}"
     return f"{reference[0] if isinstance(reference, tuple) else reference:.4g}"
 
 
@@ -103,10 +103,10 @@ def cells(entry: Entry, row: Row, failed: str | None) -> list[str]:
             raise ValueError("not reached")
         off = error(value, row.reference)
         verdict = f"{100 * row.tolerance:.0f} %{'' if abs(off) <= row.tolerance else ': **no**'}"
-        found, off = f"{value:.4g}", f"{100 * off:+.1f} %" if off else "none"
+        found, off = f"{value:.4g}", f"{100 * off:+.1f} %" if abs(off) >= 5e-4 else "none"
     except (OSError, AttributeError, ValueError) as reason:
         found, off, verdict = "–", "–", f"**no** ({reason})"
-    note = f" (ended early: {failed.split(' (in step')[0]})" if failed else ""
+    note = f" (ended early: {failed.removeprefix('error: ').split(' (')[0]})" if failed else ""
     return [row.what + note, found, shown(row.reference), off, verdict, took]
 
 
