@@ -40,6 +40,9 @@ def stage(source):
     missing = []
     files = set(links.values())
     for page in sorted(files):
+        if not (ROOT / page).is_file():
+            missing.append(f"docs/SUMMARY.md: {page} is no file")
+            continue
         text = (ROOT / page).read_text()
         for link in LINK.findall(re.sub(r"```.*?```|`[^`\n]*`", "", text, flags=re.DOTALL)):
             path = posixpath.normpath(posixpath.join(posixpath.dirname(page), local(link)))
