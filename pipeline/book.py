@@ -21,6 +21,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parent.parent
 DOCS = Path("docs")
 LINK = re.compile(r"\]\(([^)\s]+)\)")
+IMAGE = re.compile(r'<img [^>]*src="([^"]+)"')
 
 
 def local(link):
@@ -44,7 +45,8 @@ def stage(source):
             missing.append(f"docs/SUMMARY.md: {page} is no file")
             continue
         text = (ROOT / page).read_text()
-        for link in LINK.findall(re.sub(r"```.*?```|`[^`\n]*`", "", text, flags=re.DOTALL)):
+        text = re.sub(r"```.*?```|`[^`\n]*`", "", text, flags=re.DOTALL)
+        for link in LINK.findall(text) + IMAGE.findall(text):
             path = posixpath.normpath(posixpath.join(posixpath.dirname(page), local(link)))
             if not local(link):
                 continue
