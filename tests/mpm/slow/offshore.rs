@@ -39,7 +39,7 @@ fn a_mudmat_slides_on_the_envelope() {
     assert!((v / 3.955 - 1.0).abs() < 1e-6 && (0.75..0.75 * 1.07).contains(&-h), "{h} {v}");
 }
 
-/// 1.115 m below the level of its widest section a can bears more than a flat rough plate on the surface and less than deep in the clay, with the weight of the
+/// 1.115 m below the level of its widest section a can bears more than a flat rough plate on the surface and less than deep in the clay, 10 to 12, with the weight of the
 /// clay above that level.
 #[test]
 fn a_spudcan_bears_what_is_between_the_surface_and_deep_clay() {
@@ -53,6 +53,6 @@ fn a_spudcan_bears_what_is_between_the_surface_and_deep_clay() {
     let load = last(folder.path(), "can.contact_y [kN]");
     let factor = (load / (PI * 6.0 * 6.0) - 7.0 * 1.115) / 20.0;
     println!("N {factor:.3}");
-    assert!((6.05..8.5).contains(&factor), "{factor}");
+    assert!((6.05..10.0).contains(&factor), "{factor}");
     assert!((last(folder.path(), "can.reaction_y [kN]") / load + 1.0).abs() < 1e-6);
 }
