@@ -11,9 +11,10 @@ pub struct Args {
     shell: Shell,
 }
 
-pub fn run(args: &Args, mut command: Command) -> Outcome {
+pub fn run(args: &Args, command: &Command) -> Outcome {
+    let shown = command.get_subcommands().filter(|command| !command.is_hide_set()).cloned();
     let mut script = Vec::new();
-    generate(args.shell, &mut command, "mpm", &mut script);
+    generate(args.shell, &mut Command::new("mpm").version("").subcommands(shown), "mpm", &mut script);
     let script = String::from_utf8(script).map_err(|e| Error::machine("the script", e, ""))?;
     print(&script)
 }

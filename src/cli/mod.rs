@@ -94,7 +94,7 @@ pub fn with(keys: &Keys) -> ExitCode {
         Command::Report(args) => report::run(&args, keys),
         Command::Info(args) => info::run(&args),
         Command::Schema => schema::run(keys),
-        Command::Completions(args) => completions::run(&args, Cli::command()),
+        Command::Completions(args) => completions::run(&args, &Cli::command()),
         Command::Man(args) => man::run(&args, Cli::command()),
         Command::GmshWorker => gmsh::serve().map_err(Vec::from),
     };

@@ -8,6 +8,10 @@ pub const TERMS: usize = 6;
 /// Least places: with fewer there is hardly a choice between functions.
 const FEWEST: usize = 8;
 
+/// What the elimination leaves of each diagonal entry of the normal equations, at least: 1e-5 of a term is its own then. On a curve of second
+/// order rounding leaves about 1e-16.
+const LEAST: f64 = 1e-10;
+
 /// The normal equations of weighted places.
 pub struct Quadratic {
     inverse: SMatrix<f64, TERMS, TERMS>,
@@ -30,7 +34,10 @@ impl Quadratic {
             let terms = SVector::from(terms(place));
             normal.ger(weight, &terms, &terms, 1.0);
         }
-        Some(Self { inverse: normal.cholesky()?.inverse() })
+        let factor = normal.cholesky()?;
+        let lower = factor.l_dirty();
+        let determined = |i: usize| lower[(i, i)].powi(2) > LEAST * normal[(i, i)];
+        (0..TERMS).all(determined).then(|| Self { inverse: factor.inverse() })
     }
 
     /// What the value at a place of a weight adds to the coefficients.
@@ -64,8 +71,7 @@ mod tests {
             assert!((value(&coefficients, x) - exact(x)).abs() < 1e-12);
         }
         let circle: Vec<[f64; 2]> = (0..16).map(|i| [f64::from(i).cos(), f64::from(i).sin()]).collect();
-        let shares = Quadratic::of(weighed(&circle).into_iter()).map(|fit| fit.shares(1.0, circle[0]));
-        assert!(shares.is_none_or(|shares| shares.iter().any(|share| share.abs() > 1e6)), "{shares:?}");
+        assert!(Quadratic::of(weighed(&circle).into_iter()).is_none());
         assert!(Quadratic::of(weighed(&places[..7]).into_iter()).is_none());
     }
 }

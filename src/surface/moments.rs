@@ -64,7 +64,7 @@ impl<'a> Cell<'a> {
         Self { kind: mesh.cells.kind[c], x, frame, affine }
     }
 
-    /// The moments of the whole cell, exact.
+    /// The moments of the whole cell, exact for cells up to second order and for straight ones.
     pub fn whole<K: Kinematics<2>>(&self) -> Moments {
         let mut moments = [0.0; 6];
         if self.affine || self.kind.is_simplex() {

@@ -96,7 +96,8 @@ fn thin_bodies_can_be_meshed() {
         let parameters = [set, "thickness=0.1"].map(|set| format!("mesh.parameters.{set}"));
         quietly(folder.path(), &["new", name, &case, "--set", &parameters[0], "--set", &parameters[1]]);
         let coarse = ["mesh", &case, "--mesh-timeout", "20", "--set", "mesh.parameters.h=0.1"];
-        quietly(folder.path(), &coarse);
+        // It may say that these cells are too coarse for the body.
+        succeeds(&in_folder(folder.path(), &coarse));
     }
 }
 

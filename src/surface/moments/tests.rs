@@ -87,7 +87,9 @@ fn both(mesh: &Mesh<2>, c: usize, frame: &CellFrame) -> [(Moments, bool, f64); 2
 #[test]
 fn whole_cells_straight_or_curved_satisfy_greens_theorem() {
     for kind in plane_kinds() {
-        for mesh in [straight(kind), ring(kind)] {
+        // Cells of third order are those of rectangular grids: curved ones are beyond the rules.
+        let curved = (kind.order() <= 2).then(|| ring(kind));
+        for mesh in std::iter::once(straight(kind)).chain(curved) {
             for c in 0..mesh.cells.len() {
                 let frame = CellFrame::of(&mesh, c);
                 let mut x = Vec::new();

@@ -69,7 +69,11 @@ pub const TEXT: &[Broken] = &[
     check(Case("max: 0.2", "maks: 0.2"), &["case.yaml:22", "phases[0].step.maks", "choose from"]),
     check(Case("title: Block", "title: 3"), &["case.yaml:1:8 (title)", "the number 3", "must be text"]),
     check(Case("order: 2", "order: two"), &["case.yaml:5:10 (mesh.order)", "must be a whole number"]),
-    check(Case("order: 2", "order: 3"), &["case.yaml:5:10 (mesh.order)", "at most 2"]),
+    check(
+        Case("order: 2", "order: 3"),
+        &["case.yaml:17:1 (numerics.gradient)", "does not support cells of third order"],
+    ),
+    check(Case("order: 2", "order: 4"), &["case.yaml:5:10 (mesh.order)", "at most 3"]),
     check(Case("{h: 1}", "{h: fine}"), &["case.yaml:6:19", "the text `fine`", "must be a number"]),
     check(Case("{h: 1}", "[1]"), &["case.yaml:6:15", "a list", "must be"]),
     check(Case("phases:", "phase:"), &["case.yaml:18:1", "did you mean `phases`?"]),
