@@ -33,7 +33,7 @@ def lagrange_slopes(places, x):
     return slopes
 
 
-def functions(x, length, cell, h, composite, filled):
+def functions(x, length, cell, h, cells, composite, filled):
     """Values and gradients of GIMP, and the gradients of strains, point by point and node by node."""
     last = cell.max()
     count = last + 2
@@ -44,11 +44,13 @@ def functions(x, length, cell, h, composite, filled):
     force = (hat((b - node) / h) - hat((a - node) / h)) / (b - a)
     if not composite:
         return value, force, force
-    strain = np.zeros_like(force)
-    full = np.bincount(cell, weights=length, minlength=count) >= filled * h
+    strain = force.copy()
+    full = np.bincount(cell, weights=length, minlength=cells) >= filled * h
     for p, c in enumerate(cell):
-        patch = np.arange(c - (c > 0 and full[c - 1]), c + 2 + (c < last and full[c + 1]))
-        strain[p, patch] = lagrange_slopes(patch * h, x[p])
+        patch = np.arange(max(c - 1, 0), min(c + 3, cells + 1))
+        if full[patch[:-1]].all():
+            strain[p] = 0
+            strain[p, patch] = lagrange_slopes(patch * h, x[p])
     return value, force, strain
 
 
@@ -73,7 +75,7 @@ def column(cells, composite=True, tangent="exact", filled=0.5):
     x, stretch, first, iterations = origin.copy(), np.ones(cells * EACH), h / EACH, 0
     for step in range(1, STEPS + 1):
         cell = np.minimum((x / h).astype(int), cells - 1)
-        value, force, strain = functions(x, first * stretch, cell, h, composite, filled)
+        value, force, strain = functions(x, first * stretch, cell, h, cells, composite, filled)
         u = np.zeros(value.shape[1])
         while True:
             of_strain, of_force = 1 + strain @ u, 1 + force @ u

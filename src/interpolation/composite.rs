@@ -104,25 +104,25 @@ impl Basis<2> for Composite {
             if !beside().all(filled) {
                 return slot.strain_gradient.copy_from_slice(slot.gradient);
             }
-            let crossings = Crossings::of(mesh, cell as usize, beside(), nodes);
+            let lines = GridLines::of(mesh, cell as usize, beside(), nodes);
             let gradients = slot.strain_gradient.chunks_exact_mut(nodes.len());
             for (gradient, shape) in gradients.zip(slot.shape.chunks_exact(own.len())) {
                 let term = |d| own.iter().zip(shape).map(move |(&n, shape)| shape * mesh.nodes[n as usize][d]);
-                crossings.gradients([0, 1].map(|d| term(d).sum()), gradient);
+                lines.gradients([0, 1].map(|d| term(d).sum()), gradient);
             }
         });
     }
 }
 
 /// The lines of the grid around a cell whose crossings are nodes.
-struct Crossings {
+struct GridLines {
     /// Where they are (m), ascending: up to four across each direction.
     lines: [Vec<f64>; 2],
     /// The place of each crossing in the list of nodes, row by row.
     node: Vec<usize>,
 }
 
-impl Crossings {
+impl GridLines {
     /// That of a cell and the cells `beside` it; its points act on `nodes`.
     fn of(mesh: &Mesh<2>, cell: usize, beside: impl Iterator<Item = usize>, nodes: &[u32]) -> Self {
         let own = Rectangle::of(mesh, cell);

@@ -45,8 +45,8 @@ fn without_a_reset_they_have_the_forces_of_plain_mpm() {
         let plain = force("numerics.gradient=mpm");
         for scheme in ["ugimp", "cpgimp", "composite", "cpdi", "cpdi2"] {
             let off = force(&format!("numerics.gradient={scheme}")) / plain - 1.0;
-            // Around an axis the points do not integrate uniform stress exactly, so that strain is not uniform, and the interpolation sees another one.
-            let most = if scheme == "composite" { 5e-4 } else { 1e-6 };
+            // Around an axis and with a pressure field strain is not uniform, and the interpolation sees another one.
+            let most = if scheme == "composite" { 5e-3 } else { 1e-6 };
             assert!(off.abs() < most, "{scheme}, {more:?}: {off:e}");
         }
     }
