@@ -2,6 +2,7 @@
 
     check_vtu.py vtk|meshio EXPECTED FILE.vtu ...
     check_vtu.py pvd FILE.pvd TIME ...
+    check_vtu.py times FILE.pvd TIME ...   (frames may be empty)
     check_vtu.py vtp FILE.vtp LOOPS
 
 EXPECTED is a folder with the arrays of the first file as raw little-endian numbers, `manifest.json` saying
