@@ -236,10 +236,10 @@ mod tests {
         for kind in plane_kinds() {
             let mut mesh = rectangle(kind, 3.0, 2.0, 6, 4, 0.0, 0);
             let even = check(&mesh, Path::new("mesh.msh")).unwrap();
-            assert!(
-                (even.mean - even.worst.0).abs() < 1e-14 && (even.jacobian - 1.0).abs() < 1e-12,
-                "{kind:?}: {even:?}"
-            );
+            // The coefficients of fifth degree of a Q16 multiply rounding by 1e4.
+            let rounding = if kind == CellKind::Q16 { 1e-11 } else { 1e-12 };
+            assert!((even.mean - even.worst.0).abs() < 1e-14, "{kind:?}: {even:?}");
+            assert!((even.jacobian - 1.0).abs() < rounding, "{kind:?}: {even:?}");
             // Move a corner that six or four cells share.
             let moved = mesh.nodes.iter().position(|x| *x == [1.5, 1.0]).unwrap();
             mesh.nodes[moved] = [1.53, 1.03];
