@@ -25,5 +25,5 @@ pub use front::{Lost, MarkerFront};
 pub use geometry::Geometry;
 pub use layers::visit_layers;
 pub use moments::CellFrame;
-pub use split::{corners, hats, positive, triangles};
+pub use split::{barycentric, corners, positive, triangles};
 pub use voids::{News, Void, Voids, lies_near};

@@ -50,7 +50,7 @@ pub fn corners(kind: CellKind, triangle: &[usize; 3]) -> [[f64; 2]; 3] {
 
 /// The triangle of a kind that holds the parametric point `xi` (the lowest of several) and the barycentric
 /// coordinates there. A point outside the domain belongs to the nearest triangle, with a negative coordinate.
-pub fn hats(kind: CellKind, xi: &[f64; 3]) -> (&'static [usize; 3], Barycentric) {
+pub fn barycentric(kind: CellKind, xi: &[f64; 3]) -> (&'static [usize; 3], Barycentric) {
     let mut best = (&[0, 0, 0], [0.0; 3]);
     let mut depth = f64::NEG_INFINITY;
     for triangle in triangles(kind) {
@@ -124,7 +124,7 @@ mod tests {
     }
 
     #[test]
-    fn hats_are_a_partition_of_unity_and_reproduce_the_place() {
+    fn barycentric_coordinates_are_a_partition_of_unity_and_reproduce_the_place() {
         for kind in plane_kinds() {
             for i in 0..500 {
                 let [a, b] = [0.754_877_666, 0.569_840_291].map(|g| (g * f64::from(i)).fract());
@@ -133,7 +133,7 @@ mod tests {
                     true => [a, b, 0.0],
                     false => [2.0 * a - 1.0, 2.0 * b - 1.0, 0.0],
                 };
-                let (triangle, l) = hats(kind, &xi);
+                let (triangle, l) = barycentric(kind, &xi);
                 assert!(l.iter().all(|&l| l >= -1e-14) && (l.iter().sum::<f64>() - 1.0).abs() < 1e-14);
                 let x = corners(kind, triangle);
                 for d in 0..2 {
