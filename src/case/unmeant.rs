@@ -30,7 +30,7 @@ pub fn of_case(case: &Case, places: &[Place]) -> Vec<String> {
     let tolerance = case.numerics.tolerance;
     let loose = (tolerance > LOOSE).then(|| {
         format!(
-            "warning: `numerics.tolerance` is {tolerance:e}: each step leaves an error of that part of the forces, and these errors add up; leave \
+            "warning: `numerics.tolerance` is {tolerance:e}: each step leaves an error of that part of the forces, and they add up; leave \
              it out (the default is 1e-8), or set {LOOSE:e} at most"
         )
     });
