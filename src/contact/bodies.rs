@@ -242,6 +242,10 @@ impl<K: Kinematics<2>> Interface<2> for Bodies<K> {
         &[]
     }
 
+    fn yields(&self) -> bool {
+        false
+    }
+
     fn contact_nodes(&self) -> usize {
         self.surface.contact_nodes
     }

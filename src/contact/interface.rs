@@ -85,6 +85,9 @@ pub trait Interface<const D: usize>: Send + Sync {
     /// The regions of the soil that it touches; none of a body.
     fn soils(&self) -> &[u16];
 
+    /// Whether soil that it touches may yield.
+    fn yields(&self) -> bool;
+
     /// The number of contact nodes.
     fn contact_nodes(&self) -> usize;
 
@@ -137,9 +140,11 @@ impl<K: Kinematics<2>> Boundary<K> {
     /// had, by no more than the soil went in the last step. Else what touched in the step
     /// before carries its gap on: as measured it jumps when points come and go, and every jump has to be made up for by straining the soil. It becomes that measured as the contact node slides, which evens the jumps out,
     /// and is corrected by what lies beyond their size. What did not touch has the gap of the surface; it may begin to
-    /// touch, not to overlap. The second number is how much more the nearest points measure than that.
+    /// touch, not to overlap. Where soil was folded, as beside a wall that drew its surface down, points do not know that surface any more: it counts
+    /// only where the followed surface agrees. The second number is how much more the nearest points measure than that.
     fn begin(&self, measured: &Measured, surface: Option<f64>, held: &Multipliers, contact_node: usize) -> (f64, f64) {
         let Measured { open, known, spacing, curvature, moved } = *measured;
+        let known = known.filter(|known| surface.is_none_or(|surface| (known - surface).abs() < BAND * spacing));
         let is_curved = (curvature * spacing).abs() > FLAT;
         let still = STILL * spacing;
         let offset = |gap: f64| (open - gap).clamp(-0.5 * spacing, 0.5 * spacing);
@@ -261,6 +266,10 @@ impl<K: Kinematics<2>> Interface<2> for Boundary<K> {
 
     fn soils(&self) -> &[u16] {
         &self.regions
+    }
+
+    fn yields(&self) -> bool {
+        self.models.iter().flatten().any(|model| model.yields())
     }
 
     fn contact_nodes(&self) -> usize {

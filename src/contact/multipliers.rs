@@ -4,6 +4,8 @@ use std::ops::Range;
 
 /// Share of a multiplier that its neighbours' mean takes the place of in each step.
 const EVEN: f64 = 0.5;
+/// Fourth difference: with a sixteenth of it a wave from contact node to contact node is gone, and what is cubic is left alone.
+const FOURTH: [f64; 5] = [1.0 / 16.0, -0.25, 0.375, -0.25, 1.0 / 16.0];
 
 /// What the contact nodes of an interface carry from step to step; one entry a contact node.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -45,27 +47,29 @@ impl Multipliers {
         }
     }
 
-    /// These with the pressure evened out along the `runs`, where contact nodes and both their neighbours touch. Contact nodes as close as nodes have
+    /// These with waves evened out along the `runs`, where contact nodes and their neighbours touch. Contact nodes as close as nodes have
     /// more conditions than the soil can meet: waves of pressure that it hardly feels would grow from step to step. What
-    /// is taken from a wave here, a gap has to make up for (a stabilised multiplier, Burman & Hansbo 2010).
-    pub fn evened(&self, runs: &[(Range<usize>, bool)]) -> Self {
+    /// is taken from a wave of the pressure, a gap has to make up for (a stabilised multiplier, Burman & Hansbo 2010). Where the soil `yields`, what
+    /// goes up and down in the gap from one contact node to the next is dropped too: soil that flows makes it anew in each step, and the
+    /// penalty on it would stand in the pressure for good.
+    pub fn evened(&self, runs: &[(Range<usize>, bool)], yields: bool) -> Self {
         let mut evened = self.clone();
         for (run, is_loop) in runs {
-            let contact_nodes = &self.pressure[run.clone()];
-            let beside = |k: usize, by: usize| match k + by {
-                at if *is_loop => Some(contact_nodes[at % contact_nodes.len()]),
-                at => contact_nodes.get(at).copied(),
+            let count = run.len() as isize;
+            let touching = |k: isize| {
+                let inside = *is_loop || (0..count).contains(&k);
+                let at = run.start + k.rem_euclid(count) as usize;
+                (inside && self.pressure[at] != 0.0).then_some(at)
             };
-            for k in 0..contact_nodes.len() {
-                let left = if *is_loop {
-                    beside(k, contact_nodes.len() - 1)
-                } else {
-                    k.checked_sub(1).map(|k| contact_nodes[k])
+            for k in 0..count {
+                let (Some(left), Some(at), Some(right)) = (touching(k - 1), touching(k), touching(k + 1)) else {
+                    continue;
                 };
-                let (Some(left), Some(right)) = (left, beside(k, 1)) else { continue };
-                if [left, contact_nodes[k], right].iter().all(|&pressure| pressure != 0.0) {
-                    evened.pressure[run.start + k] += EVEN * (0.5 * (left + right) - contact_nodes[k]);
-                }
+                let mean = 0.5 * (self.pressure[left] + self.pressure[right]);
+                evened.pressure[at] += EVEN * (mean - self.pressure[at]);
+                let (true, Some(first), Some(last)) = (yields, touching(k - 2), touching(k + 2)) else { continue };
+                let window = [first, left, at, right, last];
+                evened.gap[at] -= window.iter().zip(FOURTH).map(|(&at, share)| share * self.gap[at]).sum::<f64>();
             }
         }
         evened

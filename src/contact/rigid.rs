@@ -115,6 +115,10 @@ impl<const D: usize> Interface<D> for Rigid<D> {
         self.interface.soils()
     }
 
+    fn yields(&self) -> bool {
+        self.interface.yields()
+    }
+
     fn contact_nodes(&self) -> usize {
         self.interface.contact_nodes()
     }
@@ -173,6 +177,10 @@ mod tests {
 
         fn soils(&self) -> &[u16] {
             &[]
+        }
+
+        fn yields(&self) -> bool {
+            false
         }
 
         fn contact_nodes(&self) -> usize {
