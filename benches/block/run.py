@@ -191,22 +191,22 @@ def gradients(folder, repeats):
     return lines
 
 
-INTRODUCTION = """# Time and memory: the block
+INTRODUCTION = """# Time and memory compared with Kratos MPM
 
 Made by `make bench-block`. A block 8 m × 8 m under growing gravity, quasi-static, Mohr–Coulomb (E = 1000 kPa,
 ν = 0.3, ρ = 1 t/m³, c = 10 kPa, φ = 0.001 rad, ψ = 0), 11 steps of 1/40 of gravity; its floor begins to yield in
 the 9th. Both programs run on one thread, pinned to one core.
 
-- mpm: 6400 six-node triangles with 16 points each, relative residual 1e-8. *Default*: resampled quadrature, the grid restored by quality, as
-  a case gets that says nothing. *Classical*: the points weigh their volume, the grid is restored in every step. Charged with the whole
-  of `mpm solve`: reading, solving, log, frames and a checkpoint after every step. The median of the runs.
+- mpm: 6400 six-node triangles with 16 points each, relative residual 1e-8. *Default*: the default `numerics`, resampled quadrature with a grid
+  reset by quality. *Classical*: the volumes of the points as weights (`quadrature: points`), the grid reset in every step. The time is that of the whole
+  `mpm solve`: reading, solving, log, frames and a checkpoint after every step; the median of the runs.
 - Kratos MPM 10.4.4 (`benches/peers/kratos_block.py`): 25 600 bilinear quadrilaterals with 4 points each on a grid
-  of 51 200, sparse LU, relative residual 1e-6. Charged with the solution of its steps only: no output, no set-up.
+  of 51 200, sparse LU, relative residual 1e-6. The time is that of the solution of its steps only, without output and set-up.
 
-Processor time counts where other programs keep the machine busy: it does not grow by waiting for them.
+Processor time is given because it does not include waiting for other programs on the machine.
 
 *Solution* is the iterative solution on the factor of the symmetric part (the flow is not associated), *material*
-the models with their return and tangent, a part of what the program's own summary calls assembly; *rest* is
+the material models with return mapping and tangent (the program's own summary counts it as assembly); *rest* is
 mostly reading the mesh and the points.
 """
 

@@ -25,9 +25,9 @@ PAGE = ROOT / "docs/gallery.md"
 PICTURES = ROOT / "docs/pictures/gallery"
 INTRODUCTION = """# Gallery
 
-Made by `make gallery` from runs that it makes: offshore problems with a known answer, with the default `numerics`. *Error* is the distance of what was found from
-the reference, from the nearer one of two bounds; none within them. *Within* is the error that is accepted of the mesh of the run; **no** beside it means that it is not met, which the page does not hide; the page of the case says what is known.
-Seconds are those of processors in the solve stage on one thread. Each command also writes the series for ParaView; the page of a case says what to look at, too.
+`make gallery` runs the cases and writes this page: offshore problems with published results, with the default `numerics`. *Error* is relative to
+the reference. If the reference is two bounds, it is relative to the nearer one, and *none* between them. *Within* is the accepted error for the mesh of the run; **no** means that it is exceeded, and the page of the case says why, if that is known.
+Seconds are processor seconds of the solve stage on one thread. Each command also writes the series for ParaView; the page of a case says what to look at.
 """
 
 

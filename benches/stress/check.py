@@ -25,7 +25,7 @@ def log(text, finished, duration, mass):
     >>> faults(elastic="NaN")[0][:12], faults(residual="inf")[0][:12]
     ('not finite: ', 'not finite: ')
     >>> faults(time="0.5"), faults(time="0.5", finished=False)
-    (['done at t = 0.5 of 1.0'], ['ended early without a statement in the log'])
+    (['done at t = 0.5 of 1.0'], ['ended early without a message in the log'])
     >>> faults(time="0.5", finished=False, end="the analysis ends here: Newton: ...")
     []
     >>> faults(time="0.5", end="factor of safety 1.20 to 1.21 (phase `load`): ...")
@@ -56,7 +56,7 @@ def log(text, finished, duration, mass):
     if finished and not searched and not (last is not None and math.isclose(last, duration, rel_tol=1e-8, abs_tol=1e-9)):
         faults.append(f"done at t = {last} of {duration}")
     if not finished and not (lines and any(line.startswith(ENDED) for line in lines[-2:])):
-        faults.append("ended early without a statement in the log")
+        faults.append("ended early without a message in the log")
     return faults
 
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The stability campaign: random scenes, each of which must end converged or with a clean statement.
+"""The stability campaign: random scenes, each of which must end converged or with a clear error message.
 
     .venv/bin/python benches/stress/run.py [--seed 1] [--count 1000] [--write]
     .venv/bin/python benches/stress/run.py --only 17             # one scene again; its case goes to benches/stress/replay
@@ -31,7 +31,7 @@ from schemes import SCHEMES, missing  # noqa: E402
 FAILED = HERE / "failed"
 PAGE = ROOT / "docs/stress.md"
 TIMEOUT = 120  # [s] for the solve stage
-OUTCOMES = ["converged", "ended with a statement", "refused with a statement", "fault"]
+OUTCOMES = ["converged", "ended with a message", "rejected with a message", "fault"]
 
 
 def judge(number, case, folder):
@@ -53,7 +53,7 @@ def judge(number, case, folder):
         if done.status and not re.search("error: .{20}", done.out):
             return "fault", spent, f"{stage} ended with status {done.status} and says nothing"
         if done.status == 2:
-            return "refused with a statement", spent, done.reason
+            return "rejected with a message", spent, done.reason
         if done.status == 1 and stage != "solve":
             return "fault", spent, f"{stage}: {done.reason}"
     duration = sum(phase["duration"] for phase in case["phases"])
@@ -68,7 +68,7 @@ def judge(number, case, folder):
     if faults:
         return "fault", spent, "; ".join(faults[:3])
     if solve.status:
-        return "ended with a statement", spent, solve.reason
+        return "ended with a message", spent, solve.reason
     return "converged", spent, ""
 
 
@@ -112,18 +112,18 @@ def page(rows, seed, seconds, unavailable):
         "# Stability campaign",
         "",
         f"Made by `make stress`: {len(rows)} random scenes from the seed {seed}, in {seconds:.0f} s, two at a time.",
-        "`benches/stress/scenes.py` draws them: meshes of triangles and quadrangles of both orders, regular and not, all numbers of points, ",
+        "`benches/stress/scenes.py` generates them: meshes of triangles and quadrangles of both orders, regular and not, all numbers of points, ",
         "plane strain and axisymmetry, every scheme, ν up to 0.4999, steps up to 100 times the Courant step, compression to 30 % of the ",
         "height, several turns, friction from 0 to 45°, points on edges and corners, loads on the moving surface, water around the soil and in ",
         "its pores, at rest and flowing, contact with a wall, phases that change materials or strength or take the wall away, softening and ",
         "critical-state soil; rigid bodies, round, flat, pointed and thin, that are pushed up to 1.5 widths into clay, softening and layered clay ",
         "too, and pulled out of it, with friction, adhesion or bond; and columns of dry sand that fall and come to rest.",
         "",
-        "Each must end *converged* or with a *statement*: what stopped the analysis, where, when, and a remedy, with everything",
+        "Each must end *converged* or with a *message*: what stopped the analysis, where, when, and a remedy, with all results",
         "until then kept. A *fault* is a panic, a signal, a run of more than two minutes, a number that is not finite, mass or points lost,",
-        "a deformation gradient turned inside out, time that stands still, a step accepted with a residual above the tolerance, or an end",
-        "without a statement. Checked are exit status, messages, log, history and every frame as exported. A plain material point method cannot",
-        "converge in all of these scenes, nor is there an equilibrium in all; what is asked is that it says so.",
+        "det F ≤ 0, time that stands still, a step accepted with a residual above the tolerance, or an end without a message. The campaign",
+        "checks exit status, messages, log, history and every exported frame, but not whether the numbers are accurate. Not all of these",
+        "scenes have an equilibrium, and a classical material point method cannot converge in all; the program must then report that.",
         "",
     ]
     lines += ["## By class", "", *tally(rows, 1, scenes.CLASSES), ""]
@@ -135,7 +135,7 @@ def page(rows, seed, seconds, unavailable):
     for outcome in OUTCOMES[1:]:
         counts = Counter(kind(row[5]) for row in rows if row[3] == outcome)
         if counts:
-            lines += [f"## {outcome.capitalize()}", "", "| scenes | what it says |", "|---|---|"]
+            lines += [f"## {outcome.capitalize()}", "", "| scenes | message |", "|---|---|"]
             lines += [f"| {count} | {text.replace('|', '/')} |" for text, count in counts.most_common()]
             lines.append("")
     PAGE.write_text("\n".join(lines).rstrip().replace(" \n", "\n") + "\n")

@@ -97,15 +97,15 @@ def main():
     revision, old = build(arguments.base)
     plain = known(PLAIN)
     lines = [
-        "# What a scene does not use",
+        "# Cost of features that a case does not use",
         "",
         "Made by `make bench-unused`: instructions (millions) of `mpm solve` for `cases/column` with 8 cells over the height, 16 points a cell,",
-        "one thread, counted by valgrind's cachegrind. They are the whole stage: reading, steps, frames, checkpoints. The count repeats to about",
-        "2e-4; it does not see caches, and valgrind offers no AVX-512, which the sparse solver may use elsewhere.",
+        "one thread, counted by valgrind's cachegrind. The count includes the whole stage: reading, steps, frames, checkpoints. It repeats to about",
+        "2e-4. It ignores the effect of caches, and valgrind does not support AVX-512, which the sparse solver may use otherwise.",
         "",
-        f"**Before and now.** Revision {revision} had no fitted weights, no ghost penalty, no restoration by quality, no smooth gradients, no pressure",
-        "field; the program of today has what is merged of them, switched off by name. What is added besides, such as messages and",
-        "checks, counts against them too. Less than 1 % is wanted.",
+        f"**Compared with an early version.** Revision {revision} had no ghost penalty, no grid reset by quality, no smoothed gradients and no pressure",
+        "field. The present program has them, and they are switched off here. Everything else that was added since, such as messages and",
+        "checks, is included in its count. The aim is less than 1 % more than that version.",
         "",
         "| column | now | over before | less than 1 % |",
         "|---|---|---|---|",
@@ -119,8 +119,8 @@ def main():
         print(lines[-1], flush=True)
     lines += [
         "",
-        "**Used and not.** The same program; over the column restored in every step (never, for the traction). An entry that makes a term do",
-        "nothing costs what the term costs; the schemes cost what they do. No limit applies.",
+        "**With and without a feature.** The present program, relative to the column restored in every step (never, for the traction). A traction or",
+        "displacement of zero has the cost of its term; the schemes are listed for comparison. There is no limit.",
         "",
         "| column with | now | over without | |",
         "|---|---|---|---|",

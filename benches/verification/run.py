@@ -41,9 +41,9 @@ LAST = {"column": 4, "slump": 2}  # variants of the series that count, where not
 
 INTRODUCTION = """# Verification
 
-Made by `make verification` from runs that it makes. *Order* is log₂ of the ratio of errors on meshes that differ by two.
-A tolerance belongs to the last mesh of its row; **no** beside it means that it is not met, which the page does not hide. Seconds
-are wall time of the solve stage, on one thread, and ignore other load on the machine.
+`make verification` runs all problems and writes this page. *Order* is log₂ of the ratio of errors on meshes whose cell sizes differ by a factor of two.
+A tolerance applies to the last mesh of its row; **no** means that it is not met. Seconds
+are wall time of the solve stage on one thread; other load on the machine is not taken into account.
 """
 
 
@@ -160,7 +160,7 @@ def main():
     for problem, tolerances, why in SERIES:
         lines += convergence(problem, tolerances, why, arguments.quick)
     if not arguments.quick:
-        lines += ["## Tests", "", "Each run alone; the seconds include starting it. What a test prints stands below its table.", ""]
+        lines += ["## Tests", "", "Each test is run alone; the seconds include its start. What the tests print is below each table.", ""]
         for name, which in TESTS.items():
             lines += tests(name, which)
     lines.append(f"All of it took {(time.perf_counter() - start) / 60:.0f} minutes.")

@@ -56,7 +56,7 @@ def column(quick):
 def cantilever(quick):
     """Tip against the elastica over the slenderness, extrapolated to a thin beam."""
     module = study("cantilever")
-    text = "`cases/cantilever`: P L²/EI = 5. The elastica neither shears nor stretches: the difference is the beam's thickness, of order (h/L)²."
+    text = "`cases/cantilever`: P L²/EI = 5. The elastica has no shear and axial strain: the difference is due to the thickness h of the beam, of order (h/L)²."
     lines = ["### Cantilever against the elastica", "", text, ""]
     lines += ["| L/h | cells over the depth | deflection | shortening | tolerance | seconds |", "|---" * 6 + "|"]
     tips = []
@@ -76,7 +76,7 @@ def cantilever(quick):
 def bar(quick):
     """Period and energy over 20 periods, and the order in the step."""
     module = study("bar")
-    text = "`cases/bar`: first mode over 20 periods, ρ∞ = 1. The trapezoidal rule lengthens the period by (ωΔt)²/12; *own* is over that."
+    text = "`cases/bar`: first mode over 20 periods, ρ∞ = 1. The trapezoidal rule lengthens the period by (ωΔt)²/12; *own* is the error relative to that period."
     lines = ["### Vibrating bar", "", text, ""]
     lines += ["| steps a period | period | order | own | tolerance of own | energy | seconds |", "|---" * 7 + "|"]
     errors = []
@@ -134,8 +134,8 @@ def mandel(quick):
 def undrained_footing(quick):
     """The ways to have undrained soil beside each other."""
     module = study("undrained_footing")
-    text = "`cases/undrained_footing`: the smooth strip in effective stress beside total stress, h = 0.1 m at the edge."
-    lines = ["### Undrained footing", "", f"{text} {SECONDS}", "", "| way | over (2 + π) s_u | beside total stress | tolerance | seconds |", "|---" * 5 + "|"]
+    text = "`cases/undrained_footing`: the smooth strip in effective stress compared with total stress, h = 0.1 m at the edge; k is the permeability, *water apart* a separate field of pore pressure."
+    lines = ["### Undrained footing", "", f"{text} {SECONDS}", "", "| way | error over (2 + π) s_u | difference from total stress | tolerance | seconds |", "|---" * 5 + "|"]
     total, seconds = timed(module.load, module.WAYS["total stress"])
     lines.append(f"| total stress | {total / module.LIMIT - 1:+.2e} | | – | {seconds:.1f} |")
     for way, settings in list(module.WAYS.items())[: 1 if quick else -1]:
@@ -161,7 +161,7 @@ def slope_safety(quick):
 def drawdown(quick):
     """Factors of safety of a bank with its pool at four levels, on the mesh of the case."""
     module = study("drawdown", "variants")
-    text = "`cases/drawdown`: the same bank on a rigid base, its pool and the water table in it drawn down by L; beside Bishop's method over all circles."
+    text = "`cases/drawdown`: the same bank on a rigid base, its pool and the water table in it drawn down by L; compared with Bishop's method over all circles."
     lines = ["### Factor of safety of a bank in a pool", "", f"{text} {SECONDS}", ""]
     lines += ["| L/H | h [m] | equilibrium at … none at | Bishop | error | tolerance | seconds |", "|---" * 7 + "|"]
     size = 2.0 if quick else module.SIZE
@@ -177,7 +177,7 @@ def drawdown(quick):
 def submerged_slope(quick):
     """What the bottom bears in the pool, and the slide when it is drawn down."""
     module = study("submerged_slope")
-    text = "`cases/submerged_slope`: in the pool the bottom bears the buoyant weight; drawn down, the slope slides and comes to rest."
+    text = "`cases/submerged_slope`: in the pool the reaction at the bottom is the buoyant weight; after the drawdown the slope slides and comes to rest."
     lines = ["### Slope whose pool is drawn down", "", f"{text} {SECONDS}", ""]
     lines += ["| h [m] | bottom over the buoyant weight − 1 | tolerance | moved in the pool [m] | at the end [m] | seconds |", "|---" * 6 + "|"]
     for h in [2.5] if quick else [1.25]:
@@ -191,8 +191,8 @@ def sand_column(quick):
     """Run-out over the width at the end of a collapse."""
     module = study("sand_column")
     text = (
-        "`cases/sand_column`: dry sand without cohesion in plane strain; 99.5 % of the sand lies behind the toe. The law of Lube et al. (2005) is one of channels, whose side walls"
-        " and collisions take energy that perfectly plastic soil keeps: no tolerance is set."
+        "`cases/sand_column`: dry sand without cohesion in plane strain; 99.5 % of the sand lies behind the toe. The law of Lube et al. (2005) is for channels, in which side walls"
+        " and collisions dissipate energy that the model does not: no tolerance is set."
     )
     lines = ["### Collapse of a column of sand", "", f"{text} {SECONDS}", "", "| variant | run-out over the width | law | seconds |", "|---" * 4 + "|"]
     for name in ["a = 1, cells of 25 mm", "**a = 1**"][: 1 if quick else 2]:

@@ -36,14 +36,15 @@ STYLES = {
 
 INTRODUCTION = """# Work and precision
 
-Made by `make bench` (`ARGS=--quick` for a few runs of each, `ARGS=--first` for the series over the size of the cells alone). Each point of a picture is a run: its error against
-the seconds of the solve stage, from starting `mpm solve` to its end, reading, log, frames and checkpoints included. One
-thread, pinned to one core; medians of three where a run takes less than 3 s. Kratos MPM 10.4.4, in the same series of runs, is charged with the solution of its steps
+Made by `make bench` (`ARGS=--quick` for a few runs of each, `ARGS=--first` for the series over the size of the cells alone). Each point of a picture is a run: its error over
+the seconds of the solve stage, with reading, log, frames and checkpoints. Runs use one
+thread, pinned to one core; the time is the median of three if a run takes less than 3 s. For Kratos MPM 10.4.4, in the same series of runs, it is that of the solution of its steps
 alone. The numbers are in `docs/benchmarks/*.csv`, with processor seconds, Newton iterations and halvings; `--report` makes the page
 from them without running anything.
 
-Errors repeat to the last digit; seconds are those of the machine and of what else ran on it. Where some schemes alone were run again (`--schemes`)
-the remark of a problem says which rows are of an earlier series.
+Errors are reproducible to the last digit; seconds depend on the machine and its other load. If only some schemes were run again (`--schemes`),
+the remark of the problem says which rows are of an earlier series. *Fails* also marks a scheme that cannot be used for a problem: the `.geo` has no grid of its
+kind (`there is no DefineConstant for the parameter quads`), or the case rejects it. The reason is listed below each table.
 
 ## Schemes
 

@@ -10,7 +10,7 @@ from program import GEO, PROGRAM, execute
 
 @dataclass(frozen=True)
 class Scheme:
-    """Entries of `numerics`; an empty list of entries is what a case gets that says nothing."""
+    """Entries of `numerics`; an empty list stands for the defaults."""
 
     name: str
     numerics: tuple  # of pairs (key, value)
@@ -34,10 +34,10 @@ Q4 = [("mesh.order", 1), ("mesh.parameters.quads", 1)]
 Q9 = [("mesh.order", 2), ("mesh.parameters.quads", 1)]
 Q16 = [("mesh.order", 3), ("mesh.parameters.quads", 1)]
 SCHEMES = [
-    scheme("default", "what a case gets that says nothing"),
-    scheme("plain", "V_p weights, plain gradients", quadrature="points", gradient="mpm", restore="every_step"),
+    scheme("default", "the default `numerics`"),
+    scheme("plain", "volumes as weights, plain gradients", quadrature="points", gradient="mpm", restore="every_step"),
     scheme("resampled", "resampled quadrature", quadrature="resampled", gradient="mpm", restore="every_step"),
-    scheme("ddmp", "V_p weights, smooth gradients", quadrature="points", gradient="ddmp", restore="every_step"),
+    scheme("ddmp", "volumes as weights, smooth gradients", quadrature="points", gradient="ddmp", restore="every_step"),
     scheme("plain, quality", "plain, restored by quality", quadrature="points", gradient="mpm", restore=QUALITY),
     scheme("resampled, quality", "resampled, restored by quality", quadrature="resampled", gradient="mpm", restore=QUALITY),
     scheme("resampled, no pressure field", "resampled, displacements alone", quadrature="resampled", gradient="mpm",
@@ -51,9 +51,9 @@ SCHEMES = [
     scheme("cpdi, T6", "CPDI on six-node triangles", first=True, gradient="cpdi", restore="every_step"),
     scheme("cpdi2", "CPDI2, Q4", grid=Q4, gradient="cpdi2", restore="every_step"),
     scheme("composite", "composite points: GIMP with strains over a patch, Q4", grid=Q4, gradient="composite", restore="every_step"),
-    scheme("bspline, points", "quadratic B-splines, V_p weights", grid=Q9, quadrature="points", gradient="bspline", restore="every_step"),
+    scheme("bspline, points", "quadratic B-splines, volumes as weights", grid=Q9, quadrature="points", gradient="bspline", restore="every_step"),
     scheme("bspline", "quadratic B-splines, resampled quadrature", grid=Q9, gradient="bspline", restore="every_step"),
-    scheme("cubic bspline, points", "cubic B-splines, V_p weights", grid=Q16, quadrature="points", gradient="bspline", restore="every_step"),
+    scheme("cubic bspline, points", "cubic B-splines, volumes as weights", grid=Q16, quadrature="points", gradient="bspline", restore="every_step"),
     scheme("cubic bspline", "cubic B-splines, resampled quadrature", grid=Q16, gradient="bspline", restore="every_step"),
     scheme("resampled, Q9", "resampled quadrature on nine-node quadrilaterals", grid=Q9, quadrature="resampled", gradient="mpm",
            restore="every_step"),
