@@ -97,3 +97,32 @@ impl Multipliers {
         &self.room[self.first[k] as usize..self.first[k + 1] as usize]
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A wave from contact node to contact node is gone from the pressure, and over soil that yields from the gap, inside a run and around a
+    /// loop; what is cubic along a run is left in the gap.
+    #[test]
+    fn waves_are_evened_out() {
+        let count = 8;
+        let wave = |k: usize| if k % 2 == 0 { 1.0 } else { -1.0 };
+        let waves = Multipliers {
+            pressure: (0..count).map(|k| 10.0 + wave(k)).collect(),
+            gap: (0..count).map(wave).collect(),
+            ..Multipliers::new(count)
+        };
+        let run = |is_loop| [(0..count, is_loop)];
+        for is_loop in [false, true] {
+            let [kept, dropped] = [false, true].map(|yields| waves.evened(&run(is_loop), yields));
+            assert_eq!(kept.gap, waves.gap);
+            let inner = |ends: usize| if is_loop { 0..count } else { ends..count - ends };
+            assert!(inner(1).all(|k| (dropped.pressure[k] - 10.0).abs() < 1e-14), "{dropped:?}");
+            assert!(inner(2).all(|k| dropped.gap[k].abs() < 1e-14), "{dropped:?}");
+        }
+        let cubic: Vec<f64> = (0..count).map(|k| (k as f64 - 2.5).powi(3)).collect();
+        let smooth = Multipliers { gap: cubic.clone(), ..waves }.evened(&run(false), true);
+        assert!(smooth.gap.iter().zip(&cubic).all(|(a, b)| (a - b).abs() < 1e-12), "{smooth:?}");
+    }
+}
