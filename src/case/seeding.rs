@@ -66,7 +66,7 @@ pub fn notes(case: &Case, mesh: &Mesh<2>, points: &Points<2>) -> Result<Vec<Stri
         let beyond: Vec<usize> = of.iter().copied().filter(beyond).collect();
         if let Some(told) = told(&beyond) {
             notes.push(format!(
-                "region `{region}`: the initial stress of {told}, is more than `{}` bears, and falls to it in the first step; another `k0` or \
+                "region `{region}`: the initial stress of {told}, is more than `{}` bears, and is reduced to it in the first step; another `k0` or \
                  more strength leaves them at rest",
                 material.name
             ));

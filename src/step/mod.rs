@@ -249,7 +249,7 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
         Err(Error::analysis(
             "strength reduction",
             format!("there is equilibrium only after the soil has moved by {moved:.3e} m"),
-            "what holds up to here is the result",
+            "the largest factor with equilibrium is the result",
         ))
     }
 
