@@ -2,7 +2,8 @@
 //!
 //! | field | unknowns | in the state | equations |
 //! |---|---|---|---|
-//! | displacement (m) | D a node, those of rigid bodies at nodes of their own | by node | first, node by node |
+//! | displacement (m) | D a node | by node | first, node by node |
+//! | motion of rigid bodies (m, rad) | a translation and a rotation a body | after the nodes ([`RigidDofs`]) | after those of the nodes |
 //! | pressure (kPa) | one a corner, and in cells of second order one a cell | [`Places`] | one each, after them |
 //! | pore pressure (kPa) | one a corner | [`Places`] | among the former |
 //! | any other scalar field | one a corner | [`Places`] | among the former |
@@ -93,13 +94,86 @@ impl Places {
     }
 }
 
+/// The unknowns of a rigid body: the translation (m) of its reference point and, where it turns, its rotation (rad), anticlockwise.
+///
+/// They have numbers after those of the nodes in all vectors of displacements, velocities and forces, and a block of equations each. A rotation
+/// is kept as the arc `ℓ θ` (m) in the first component, and a moment `M` as `M/ℓ` (kN), so that all unknowns are lengths and all equations forces.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RigidDofs {
+    translation: u32,
+    rotation: Option<u32>,
+    /// ℓ (m).
+    pub arm: f64,
+}
+
+impl RigidDofs {
+    /// Those with the numbers from `first` on, of a body that `turns` or not.
+    pub fn new(first: u32, turns: bool, arm: f64) -> Self {
+        Self { translation: first, rotation: turns.then_some(first + 1), arm }
+    }
+
+    /// Their numbers.
+    pub fn numbers(&self) -> impl Iterator<Item = u32> + use<> {
+        std::iter::once(self.translation).chain(self.rotation)
+    }
+
+    /// The number of the translation.
+    pub fn translation(&self) -> u32 {
+        self.translation
+    }
+
+    /// The number of the rotation; `None` where the body does not turn.
+    pub fn rotation(&self) -> Option<u32> {
+        self.rotation
+    }
+
+    /// The number, the component there and what 1 m or 1 rad is of a component of the motion: of the translation in `D` dimensions, then of the
+    /// rotation; `None` where the body does not turn.
+    pub fn component<const D: usize>(&self, component: usize) -> Option<(u32, usize, f64)> {
+        match component.checked_sub(D) {
+            None => Some((self.translation, component, 1.0)),
+            Some(of_rotation) => self.rotation.map(|n| (n, of_rotation, self.arm)),
+        }
+    }
+
+    /// The numbers and components without a meaning, which are always held: those of the rotation after the first; without a rotation
+    /// (axisymmetry) what leaves the axis.
+    pub fn unused<const D: usize>(&self) -> impl Iterator<Item = (u32, usize)> {
+        let (number, components) = self.rotation.map_or((self.translation, 0..1), |n| (n, 1..D));
+        components.map(move |component| (number, component))
+    }
+
+    /// Translation (m) and rotation (rad), or their rates, in a `field` by number.
+    pub fn motion<const D: usize>(&self, field: impl Fn(u32) -> [f64; D]) -> ([f64; D], f64) {
+        (field(self.translation), self.rotation.map_or(0.0, |n| field(n)[0] / self.arm))
+    }
+
+    /// Force (kN) and moment (kN m) in a `field` of forces by number.
+    pub fn load<const D: usize>(&self, field: impl Fn(u32) -> [f64; D]) -> ([f64; D], f64) {
+        (field(self.translation), self.rotation.map_or(0.0, |n| self.moment(&field(n))))
+    }
+
+    /// The value in the field that stands for a rotation (rad).
+    pub fn arc<const D: usize>(&self, rotation: f64) -> [f64; D] {
+        std::array::from_fn(|d| if d == 0 { rotation * self.arm } else { 0.0 })
+    }
+
+    /// The moment (kN m) that a `force` (kN) on the rotation is.
+    pub fn moment<const D: usize>(&self, force: &[f64; D]) -> f64 {
+        self.arm * force[0]
+    }
+
+    /// The force (kN) on the rotation that a moment (kN m) is.
+    pub fn force<const D: usize>(&self, moment: f64) -> [f64; D] {
+        std::array::from_fn(|d| if d == 0 { moment / self.arm } else { 0.0 })
+    }
+}
+
 /// An unknown of an equation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Dof {
-    Displacement {
-        node: usize,
-        component: usize,
-    },
+    /// Of a node, or by the number of an unknown of a rigid body.
+    Displacement { node: usize, component: usize },
     /// By its place ([`Places`]).
     Pressure(usize),
 }
@@ -113,20 +187,24 @@ pub struct DofMap<const D: usize> {
     /// The block of each node (control); `u32::MAX` for those left out.
     pub block: Vec<u32>,
     pub places: Places,
+    /// The unknowns of the rigid bodies.
+    pub bodies: Vec<RigidDofs>,
     /// What the values of the nodes are of those of the controls; absent where each node has equations of its own.
     pub constraints: Option<LinearConstraints>,
 }
 
 impl<const D: usize> DofMap<D> {
-    /// The equations of the displacements of all `nodes` of `count` that have some, by number, without scalar unknowns.
+    /// The equations of the displacements of those `nodes` that have some and of rigid bodies, by number, without scalar unknowns; `count` is how
+    /// many numbers there are.
     pub fn of_nodes(
         nodes: impl Iterator<Item = u32>,
         count: usize,
+        bodies: Vec<RigidDofs>,
         places: Places,
         constraints: Option<LinearConstraints>,
     ) -> Self {
         let (mut block, mut node) = (vec![u32::MAX; count], Vec::new());
-        for n in nodes {
+        for n in nodes.chain(bodies.iter().flat_map(RigidDofs::numbers)) {
             match &constraints {
                 None => block[n as usize] = 0,
                 Some(constraints) => constraints.of_node(n).iter().for_each(|&(m, _)| block[m as usize] = 0),
@@ -136,7 +214,7 @@ impl<const D: usize> DofMap<D> {
             *block = node.len() as u32;
             node.push(n as u32);
         }
-        Self { node, pressure: Vec::new(), block, places, constraints }
+        Self { node, pressure: Vec::new(), block, places, bodies, constraints }
     }
 
     /// Appends a coupling of active nodes and returns its number.
@@ -207,6 +285,12 @@ impl<const D: usize> DofMap<D> {
             }
         }
         out
+    }
+
+    /// The blocks with equations of forces, and their nodes: all but those of rotations.
+    pub fn forces(&self) -> impl Iterator<Item = (usize, u32)> {
+        let turns = |n: u32| self.bodies.iter().any(|body| body.rotation == Some(n));
+        self.node.iter().copied().enumerate().filter(move |&(_, n)| !turns(n))
     }
 
     /// How many equations are those of displacements.
@@ -282,6 +366,7 @@ mod tests {
             pressure: places.to_vec(),
             block: vec![u32::MAX, 0, u32::MAX, 1],
             places: grid,
+            bodies: vec![RigidDofs::new(3, false, 1.0)],
             constraints: None,
         };
         assert_eq!(dofs.displacement(3, 1).map(|e| dofs.dof(e)), Some(Dof::Displacement { node: 3, component: 1 }));

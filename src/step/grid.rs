@@ -20,7 +20,6 @@ use crate::error::Result;
 use crate::interpolation::Interpolation;
 use crate::kinematics::Kinematics;
 use crate::mesh::Mesh;
-use crate::rigid::Body;
 use crate::surface::Piece;
 use crate::system::{Connectivity, Workspace};
 use crate::term::{Frame, GhostFace, PlacedConstraint};
@@ -42,7 +41,7 @@ pub struct Grid<const D: usize> {
     pub constraint_coupling: Vec<Vec<u32>>,
     /// The coupling of each face that the system has room for a penalty at, else `u32::MAX`; empty without faces.
     face_coupling: Vec<u32>,
-    /// The coupling of each rigid body: the nodes with its unknowns.
+    /// The coupling of each rigid body.
     body_coupling: Vec<u32>,
     /// The coupling of each cell; `u32::MAX` for those left out.
     pub coupling: Vec<u32>,
@@ -124,8 +123,8 @@ impl<const D: usize> Grid<D> {
         let [places, of_elements] = scene.places();
         let active = (0..mesh.cells.len()).filter(|&c| state.active[c]).flat_map(|c| mesh.cells.nodes(c));
         let of_fem = scene.fem.iter().flat_map(|fem| fem.deforming().flat_map(|c| fem.mesh.cells.nodes(c)));
-        let nodes = active.chain(of_fem).copied().chain(scene.bodies.iter().flat_map(Body::carriers));
-        let mut dofs = DofMap::of_nodes(nodes, mesh.nodes.len(), places, scene.basis.constraints(mesh));
+        let (nodes, bodies) = (active.chain(of_fem).copied(), scene.bodies.iter().map(|body| body.dofs).collect());
+        let mut dofs = DofMap::of_nodes(nodes, scene.displacements(), bodies, places, scene.constraints());
         let node = &dofs.node;
         let cells: Vec<u32> = (0u32..).zip(&state.active).filter(|(_, part)| **part).map(|(c, _)| c).collect();
         let support = scene.basis.support(mesh, &state.active);
@@ -137,7 +136,7 @@ impl<const D: usize> Grid<D> {
         if let (Some(elements), Some(fem)) = (&mut elements, &scene.fem) {
             elements.couple(fem, &dofs, &mut connectivity);
         }
-        let body_coupling = scene.bodies.iter().map(|body| dofs.couple(body.carriers(), &mut connectivity)).collect();
+        let body_coupling = dofs.bodies.iter().map(|body| dofs.couple(body.numbers(), &mut connectivity)).collect();
         let cells_only = connectivity.clone();
         let mut face_coupling = Vec::new();
         if let Some(faces) = &scene.faces {
@@ -149,7 +148,7 @@ impl<const D: usize> Grid<D> {
             }
         }
         let dynamic = scene.dynamic();
-        let coordinates: Vec<_> = node.iter().map(|&n| mesh.nodes[n as usize]).collect();
+        let coordinates: Vec<_> = node.iter().map(|&n| scene.origin(n)).collect();
         let mass = if dynamic {
             Some(System::new(&vec![1; node.len()], connectivity.clone(), true, &coordinates)?)
         } else {
@@ -265,6 +264,7 @@ impl<const D: usize> Grid<D> {
         let relaxed = self.relaxed.as_ref().map(|relaxed| &relaxed.mesh);
         Frame {
             mesh: relaxed.unwrap_or(mesh),
+            reset: &state.nodes,
             relaxed: relaxed.is_some(),
             interpolation: &self.interpolations.integration,
             partly_filled: &state.weights.partly_filled,
@@ -307,6 +307,7 @@ impl<const D: usize> Grid<D> {
     ) -> Frame<'a, D> {
         Frame {
             mesh: &elements.mesh,
+            reset: &state.nodes,
             relaxed: true,
             interpolation: &elements.interpolation,
             partly_filled: &[],

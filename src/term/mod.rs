@@ -95,6 +95,8 @@ pub struct PlacedConstraint<const D: usize> {
 pub struct Frame<'a, const D: usize> {
     /// The grid as last restored: the reference configuration.
     pub mesh: &'a Mesh<D>,
+    /// Where (m) the nodes were at the last grid reset and, after them, the unknowns of rigid bodies; empty before the first.
+    pub reset: &'a [[f64; D]],
     /// Whether that is not the first shape of the grid, so that what was kept of that one does not hold.
     pub relaxed: bool,
     pub interpolation: &'a Interpolation<D>,
@@ -125,11 +127,11 @@ pub struct Frame<'a, const D: usize> {
     pub pattern: &'a Pattern,
     /// The coupling of each cell; `u32::MAX` for cells left out.
     pub coupling: &'a [u32],
-    /// The block of each node; `u32::MAX` for nodes left out.
+    /// The block of each node and each unknown of rigid bodies; `u32::MAX` for nodes left out.
     pub block: &'a [u32],
     /// What the values of the nodes are of those of controls, whose blocks those of `block` are then; absent where each node has its own.
     pub linear_constraints: Option<&'a LinearConstraints>,
-    /// The coupling of each rigid body: its reference and, where it turns, its turning node.
+    /// The coupling of each rigid body.
     pub bodies: &'a [u32],
     /// Whether the cells have pore water.
     pub with_water: bool,

@@ -114,6 +114,7 @@ impl Stand {
     fn frame(&self) -> Frame<'_, 3> {
         Frame {
             mesh: &self.mesh,
+            reset: &[],
             relaxed: false,
             interpolation: &self.interpolation,
             partly_filled: &[],
