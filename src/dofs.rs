@@ -5,8 +5,7 @@
 //! | displacement (m) | D a node | by node | first, node by node |
 //! | motion of rigid bodies (m, rad) | a translation and a rotation a body | after the nodes ([`RigidDofs`]) | after those of the nodes |
 //! | pressure (kPa) | one a corner, and in cells of second order one a cell | [`Places`] | one each, after them |
-//! | pore pressure (kPa) | one a corner | [`Places`] | among the former |
-//! | any other scalar field | one a corner | [`Places`] | among the former |
+//! | scalar fields by number, the pore pressure (kPa) first where there is one | one a corner | [`Places`] | among the former |
 //!
 //! Under linear constraints the equations of the displacements are those of the controls, which have the numbers of nodes, and the values of
 //! the nodes follow from them ([`LinearConstraints`]).
@@ -14,13 +13,16 @@
 use crate::mesh::Mesh;
 use crate::system::{Connectivity, LinearConstraints};
 
+/// The number of the pore pressure among the scalar fields, where there is one.
+pub const PORE_PRESSURE: usize = 0;
+
 /// Where the pressures of a family of cells stand among all pressures of a state: the pressure field by node, the constants of the cells of
-/// the grid, those of the finite elements, the pore pressures by node, other scalar fields by node one after the other.
+/// the grid, those of the finite elements, the scalar fields by node one after the other.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Places {
-    /// Where the constants of the cells of the family begin, and the pore pressures of the nodes.
+    /// Where the constants of the cells of the family begin, and the scalar fields.
     constants: usize,
-    pore_pressures: usize,
+    fields: usize,
     /// How many nodes there are.
     nodes: usize,
 }
@@ -28,8 +30,8 @@ pub struct Places {
 impl Places {
     /// Those of the cells of the grid and of the finite elements, given how many nodes and cells there are.
     pub fn of(nodes: usize, cells: usize, elements: usize) -> [Self; 2] {
-        let pore_pressures = nodes + cells + elements;
-        [nodes, nodes + cells].map(|constants| Self { constants, pore_pressures, nodes })
+        let fields = nodes + cells + elements;
+        [nodes, nodes + cells].map(|constants| Self { constants, fields, nodes })
     }
 
     /// The constant of a cell.
@@ -37,19 +39,9 @@ impl Places {
         self.constants + cell
     }
 
-    /// The pore pressure of a node.
-    pub fn pore_pressure(self, node: u32) -> usize {
-        self.pore_pressures + node as usize
-    }
-
-    /// Where the pore pressures of the nodes begin: how many there are of all others.
-    pub fn pore_pressures(self) -> usize {
-        self.pore_pressures
-    }
-
     /// The value of scalar field `k` at a node.
     pub fn field(self, k: usize, node: u32) -> usize {
-        self.pore_pressures + (k + 1) * self.nodes + node as usize
+        self.fields + k * self.nodes + node as usize
     }
 
     /// How many values there are with so many scalar fields.
@@ -57,15 +49,9 @@ impl Places {
         self.field(fields, 0)
     }
 
-    /// The node whose pore pressure a place is.
-    pub fn node_with_water(self, place: u32) -> Option<u32> {
-        let node = (place as usize).checked_sub(self.pore_pressures).filter(|&n| n < self.nodes);
-        node.map(|n| n as u32)
-    }
-
     /// The scalar field that a place is of, and the node.
     pub fn of_scalar(self, place: u32) -> Option<(usize, u32)> {
-        let after = (place as usize).checked_sub(self.field(0, 0))?;
+        let after = (place as usize).checked_sub(self.fields)?;
         Some((after / self.nodes, (after % self.nodes) as u32))
     }
 
@@ -74,12 +60,6 @@ impl Places {
         let kind = mesh.cells.kind[cell];
         let constant = (kind.order() > 1).then_some(self.constant(cell) as u32);
         mesh.cells.nodes(cell)[..kind.corner_count()].iter().copied().chain(constant)
-    }
-
-    /// The places of the pore pressures of a cell: its corners.
-    pub fn of_water<const D: usize>(self, mesh: &Mesh<D>, cell: usize) -> impl Iterator<Item = u32> {
-        let corners = &mesh.cells.nodes(cell)[..mesh.cells.kind[cell].corner_count()];
-        corners.iter().map(move |&n| self.pore_pressure(n) as u32)
     }
 
     /// The places of the first `fields` scalar fields of a cell: its corners, field by field.
@@ -318,13 +298,6 @@ impl<const D: usize> DofMap<D> {
         }
     }
 
-    /// The equations of pore pressures, with their nodes.
-    pub fn pore_pressures(&self) -> impl Iterator<Item = (usize, u32)> {
-        let first = self.displacements();
-        let all = self.pressure.iter().enumerate();
-        all.filter_map(move |(k, &place)| Some((first + k, self.places.node_with_water(place)?)))
-    }
-
     /// The equations of scalar field `number`, with their nodes.
     pub fn field(&self, number: usize) -> impl Iterator<Item = (usize, u32)> {
         let first = self.displacements();
@@ -347,20 +320,17 @@ mod tests {
         let [grid, elements] = Places::of(nodes, cells, 3);
         let of_field = (0..cells).flat_map(|c| grid.of_field(&mesh, c));
         let of_elements = (0..3).map(|c| elements.constant(c) as u32);
-        let of_water = (0..cells).flat_map(|c| grid.of_water(&mesh, c));
-        let mut all: Vec<u32> = of_field.chain(of_elements).chain(of_water).collect();
+        let of_scalars = (0..cells).flat_map(|c| grid.of_fields(&mesh, c, 2));
+        let mut all: Vec<u32> = of_field.chain(of_elements).chain(of_scalars).collect();
         all.sort_unstable();
         all.dedup();
-        // Four corners with both pressures, and a constant a cell.
-        assert_eq!(all.len(), 2 * 4 + cells + 3);
-        assert_eq!(grid.node_with_water(grid.pore_pressure(2) as u32), Some(2));
-        assert_eq!(grid.node_with_water(grid.field(0, 2) as u32), None);
+        // Four corners with the pressure and two other fields, and a constant a cell.
+        assert_eq!(all.len(), 3 * 4 + cells + 3);
         assert_eq!(grid.of_scalar(grid.field(1, 2) as u32), Some((1, 2)));
-        assert_eq!(grid.of_scalar(grid.pore_pressure(2) as u32), None);
         assert_eq!(grid.end(2), grid.field(1, nodes as u32 - 1) + 1);
-        assert_eq!(grid.node_with_water(grid.constant(1) as u32), None);
+        assert_eq!(grid.of_scalar(grid.constant(1) as u32), None);
 
-        let places = [grid.constant(0) as u32, grid.pore_pressure(1) as u32];
+        let places = [grid.constant(0) as u32, grid.field(PORE_PRESSURE, 1) as u32];
         let dofs = DofMap::<2> {
             node: vec![1, 3],
             pressure: places.to_vec(),
@@ -372,6 +342,6 @@ mod tests {
         assert_eq!(dofs.displacement(3, 1).map(|e| dofs.dof(e)), Some(Dof::Displacement { node: 3, component: 1 }));
         assert_eq!(dofs.displacement(2, 0), None);
         assert_eq!(dofs.dof(4), Dof::Pressure(grid.constant(0)));
-        assert_eq!(dofs.pore_pressures().collect::<Vec<_>>(), [(5, 1)]);
+        assert_eq!(dofs.field(PORE_PRESSURE).collect::<Vec<_>>(), [(5, 1)]);
     }
 }

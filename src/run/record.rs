@@ -4,6 +4,7 @@ use super::boundary;
 use super::columns::{column, triples};
 use super::fields::Field;
 use super::surface::{self, Acting};
+use crate::dofs::PORE_PRESSURE;
 use crate::io::columns::padded;
 use crate::io::frame::{CELL, Frame, Part, UNCOUNTED};
 use crate::io::provenance::Origin;
@@ -146,7 +147,8 @@ pub fn value<const D: usize>(
         }
         (WatchedOn::Nodes(nodes), Quantity::PorePressure) => {
             let [places, _] = scene.places();
-            mean(nodes.iter().map(|&n| state.pressure.get(places.pore_pressure(n)).copied().unwrap_or(0.0)))
+            let value = |n: u32| state.pressure.get(places.field(PORE_PRESSURE, n)).filter(|_| scene.water.is_some());
+            mean(nodes.iter().map(|&n| value(n).copied().unwrap_or(0.0)))
         }
         (WatchedOn::Region(region), Quantity::PorePressure) => {
             mean_over(members(state, *region), |points, p| points.pore_pressure.get(p).copied().unwrap_or(0.0))

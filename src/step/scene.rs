@@ -40,7 +40,7 @@ pub struct Scene<const D: usize> {
     pub carried: Vec<Option<MixedPressure>>,
     /// The water in the pores, where its pressure is a field of its own.
     pub water: Option<Water>,
-    /// Other scalar fields that the material points carry ([`Field`]); none in the cases so far.
+    /// Scalar fields that the material points carry beside it ([`Field`]); none in the cases so far.
     pub fields: Vec<Field>,
     /// Degrees of freedom held at their place in every phase.
     pub supports: Vec<Fixed>,
@@ -102,10 +102,17 @@ impl<const D: usize> Scene<D> {
 
     /// What an unknown of the linear system stands for in the value at a place of [`super::State::pressure`].
     pub fn unit(&self, place: usize) -> f64 {
-        match self.places()[0].of_scalar(place as u32) {
-            Some((field, _)) => self.fields[field].unit,
-            None => self.pressure_unit.unwrap_or(1.0),
+        let field = self.places()[0].of_scalar(place as u32).and_then(|(k, _)| self.scalars().nth(k));
+        match field {
+            Some(Scalar::Other(_, field)) => field.unit,
+            _ => self.pressure_unit.unwrap_or(1.0),
         }
+    }
+
+    /// The scalar fields by number, with one unknown a corner each: the pore pressure first ([`crate::dofs::PORE_PRESSURE`]).
+    pub fn scalars(&self) -> impl Iterator<Item = Scalar<'_>> {
+        let others = self.fields.iter().enumerate().map(|(column, field)| Scalar::Other(column, field));
+        self.water.iter().map(Scalar::PorePressure).chain(others)
     }
 
     /// Whether there are scalar unknowns beside the displacement.
@@ -135,6 +142,15 @@ impl<const D: usize> Scene<D> {
         let all = self.interfaces.iter().map(|interface| interface.as_ref()).enumerate();
         all.filter(move |(number, _)| !apart.contains(number))
     }
+}
+
+/// What a scalar field is of.
+#[derive(Clone, Copy, Debug)]
+pub enum Scalar<'a> {
+    /// The excess pressure of the water in the pores, which is part of the stress of the points.
+    PorePressure(&'a Water),
+    /// A field that the material points carry along, in a column by its number.
+    Other(usize, &'a Field),
 }
 
 /// A scalar field that the material points carry.

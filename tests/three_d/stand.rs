@@ -132,7 +132,6 @@ impl Stand {
             block: &self.nodes,
             linear_constraints: None,
             bodies: &[],
-            with_water: false,
         }
     }
 

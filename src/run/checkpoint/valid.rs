@@ -87,14 +87,10 @@ fn check_fields<const D: usize>(scene: &Scene<D>, state: &State<D>) -> Result<()
     ensure(if held { state.phase_time < until } else { until == 0.0 }, "the time of its ramp")?;
     let numbers = scene.basis.domain_size() * state.points.len();
     ensure(state.points.domain.len() == numbers && state.fem.domain.is_empty(), "the domains of its points")?;
-    let of_water = if scene.water.is_some() { scene.mesh.nodes.len() } else { 0 };
     let [places, _] = scene.places();
     let of_points = state.points.fields.len();
     ensure(of_points == scene.fields.len() * state.points.len() && state.fem.fields.is_empty(), "its scalar fields")?;
-    let pressures = match scene.fields.len() {
-        0 => scene.pressure_unit.map_or(0, |_| places.pore_pressures() + of_water),
-        fields => places.end(fields),
-    };
+    let pressures = if scene.has_scalars() { places.end(scene.scalars().count()) } else { 0 };
     ensure(state.pressure.len() == pressures, "its pressure field")
 }
 
