@@ -80,9 +80,10 @@ impl Places {
 /// is kept as the arc `ℓ θ` (m) in the first component, and a moment `M` as `M/ℓ` (kN), so that all unknowns are lengths and all equations forces.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RigidDofs {
-    translation: u32,
-    rotation: Option<u32>,
-    /// ℓ (m).
+    /// Their numbers; a body in axisymmetry does not turn.
+    pub translation: u32,
+    pub rotation: Option<u32>,
+    /// ℓ (m): what stands for 1 rad.
     pub arm: f64,
 }
 
@@ -97,18 +98,8 @@ impl RigidDofs {
         std::iter::once(self.translation).chain(self.rotation)
     }
 
-    /// The number of the translation.
-    pub fn translation(&self) -> u32 {
-        self.translation
-    }
-
-    /// The number of the rotation; `None` where the body does not turn.
-    pub fn rotation(&self) -> Option<u32> {
-        self.rotation
-    }
-
-    /// The number, the component there and what 1 m or 1 rad is of a component of the motion: of the translation in `D` dimensions, then of the
-    /// rotation; `None` where the body does not turn.
+    /// A component of the motion, in `D` dimensions of the translation and then of the rotation: its number, the component there, and what stands for
+    /// 1 m or 1 rad; `None` where the body does not turn.
     pub fn component<const D: usize>(&self, component: usize) -> Option<(u32, usize, f64)> {
         match component.checked_sub(D) {
             None => Some((self.translation, component, 1.0)),

@@ -12,6 +12,7 @@ use crate::points::Points;
 pub struct Body<const D: usize> {
     /// Its region of the mesh; that of a wall has no cells.
     pub region: u16,
+    /// Whether it is a wall, without mass and cells.
     pub is_wall: bool,
     /// The nodes that move with it, ascending; those of a wall are of no cell, at the end of the mesh.
     pub nodes: Vec<u32>,

@@ -208,7 +208,7 @@ impl<'a> Holds<'a> {
             let problem = |problem: String| {
                 Err(Error::input(place, problem, "prescribe the motion of a rigid structure once, by its name"))
             };
-            let cannot = body.dofs.rotation().is_none() && entry.component != 1 && entry.value != still;
+            let cannot = body.dofs.rotation.is_none() && entry.component != 1 && entry.value != still;
             if cannot {
                 return problem(format!("`{}` moves along the axis of symmetry only", entry.name));
             }

@@ -38,7 +38,7 @@ impl<const D: usize> Rigid<D> {
         let mut distance = 0.0;
         for (&n, normal) in constraint.nodes.iter().zip(&constraint.by_normal).take(constraint.own) {
             let body = self.bodies.get(self.body[n as usize] as usize)?;
-            let (x, c) = (position(n), position(body.dofs.translation()));
+            let (x, c) = (position(n), position(body.dofs.translation));
             distance -= (0..D).map(|d| normal[d] * (x[d] - c[d])).sum::<f64>();
         }
         (distance > 0.0).then_some(distance)
@@ -56,7 +56,7 @@ impl<const D: usize> Rigid<D> {
                 sides[moving].push((n, [*normal, *tangent, *arc]));
                 continue;
             };
-            let (x, c) = (position(n), position(body.dofs.translation()));
+            let (x, c) = (position(n), position(body.dofs.translation));
             let arm = std::array::from_fn(|d| x[d] - c[d]);
             // A round body that turns takes no normal with it.
             let handed = [body.hand_on(&arm, normal), body.hand_on(&arm, tangent), [*arc, [0.0; D]]];
@@ -71,7 +71,7 @@ impl<const D: usize> Rigid<D> {
             curvature = 1.0 / distance;
             for (side, sign) in sides.iter_mut().zip([1.0, 1.0, -1.0]) {
                 for (n, by) in side {
-                    if let Some(body) = self.bodies.iter().find(|body| body.dofs.rotation() == Some(*n)) {
+                    if let Some(body) = self.bodies.iter().find(|body| body.dofs.rotation == Some(*n)) {
                         by[2] = body.dofs.force(sign * distance);
                     }
                 }
@@ -296,7 +296,7 @@ mod tests {
         let law = Laws::from(Law { friction: 0.0, adhesion: 0.0, factor: None, tension: 0.0 });
         let interface = Rigid::new(Box::new(One(law)), std::slice::from_ref(&body), mesh.nodes.len());
         let condensed = interface.condense(round.clone(), &|n| *mesh.nodes.get(n as usize).unwrap_or(&body.centre));
-        let turned = condensed.measure(|n| if Some(n) == body.dofs.rotation() { body.dofs.arc(0.1) } else { [0.0; 2] });
+        let turned = condensed.measure(|n| if Some(n) == body.dofs.rotation { body.dofs.arc(0.1) } else { [0.0; 2] });
         assert!(turned.gap == 0.0 && turned.turn == 0.0 && turned.slip != 0.0, "{turned:?}");
     }
 }

@@ -133,7 +133,7 @@ pub fn value<const D: usize>(
             let reaction = || dofs.load(|n| report.reaction[n as usize]);
             match quantity {
                 Quantity::Displacement(d) => motion().0[d],
-                Quantity::Velocity(d) => state.velocity.get(dofs.translation() as usize).map_or(0.0, |v| v[d]),
+                Quantity::Velocity(d) => state.velocity.get(dofs.translation as usize).map_or(0.0, |v| v[d]),
                 Quantity::Reaction(d) => reaction().0[d],
                 Quantity::Contact(d) => contact(*region).map(|(force, _)| force[d]).sum(),
                 Quantity::PorePressure => 0.0,
@@ -141,7 +141,7 @@ pub fn value<const D: usize>(
                 Quantity::ReactionMoment => reaction().1,
                 Quantity::ContactMoment => {
                     let centre = body.centre_after(&state.travel);
-                    dofs.rotation().map_or(0.0, |_| moment_about(&[centre[0], centre[1]], contact(*region)))
+                    dofs.rotation.map_or(0.0, |_| moment_about(&[centre[0], centre[1]], contact(*region)))
                 }
             }
         }
@@ -225,7 +225,7 @@ pub fn frame<const D: usize>(
         Part::default()
     } else {
         let x: Vec<[f64; D]> = state
-            .mesh_nodes(scene)
+            .coordinates(scene)
             .iter()
             .zip(&state.displacement)
             .map(|(x, u)| std::array::from_fn(|d| x[d] + u[d]))

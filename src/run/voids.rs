@@ -32,7 +32,7 @@ pub fn begin<const D: usize>(scene: &Scene<D>, state: &mut State<D>) {
 
 /// The grid as it was restored last.
 fn restored<const D: usize>(scene: &Scene<D>, state: &State<D>) -> Mesh<D> {
-    Mesh { nodes: state.mesh_nodes(scene).to_vec(), ..scene.mesh.clone() }
+    Mesh { nodes: state.coordinates(scene).to_vec(), ..scene.mesh.clone() }
 }
 
 /// Lines for the log on a step, by the grid as it was restored before; warnings begin with [`WARNING`].

@@ -52,7 +52,9 @@ pub use grid::Grid;
 pub use problem::Solution;
 pub use ramp::UnbalancedRamp;
 pub use report::Report;
-pub use scene::{FARTHEST, Fem, Field, Fixed, Numerics, Phase, Prescribed, Restore, Scene, Search, Stop, Water};
+pub use scene::{
+    FARTHEST, Fem, Field, Fixed, Numerics, Phase, Prescribed, Restore, Scalar, Scene, Search, Stop, Water,
+};
 pub use state::{Span, State};
 pub use water::Balance;
 

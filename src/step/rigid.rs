@@ -125,7 +125,7 @@ pub fn moment<const D: usize>(
 pub fn impulse<const D: usize>(scene: &Scene<D>, state: &State<D>, velocity: &[[f64; D]]) -> [f64; D] {
     let mut impulse = [0.0; D];
     for body in &scene.bodies {
-        let n = body.dofs.translation() as usize;
+        let n = body.dofs.translation as usize;
         impulse = std::array::from_fn(|d| impulse[d] + body.mass * (velocity[n][d] - state.velocity[n][d]));
     }
     impulse

@@ -78,7 +78,7 @@ impl<const D: usize> Scene<D> {
 
     /// The unknowns of the rigid body whose rotation entry `n` of a field of displacements is.
     pub fn turning(&self, n: u32) -> Option<&RigidDofs> {
-        self.bodies.iter().map(|body| &body.dofs).find(|dofs| dofs.rotation() == Some(n))
+        self.bodies.iter().map(|body| &body.dofs).find(|dofs| dofs.rotation == Some(n))
     }
 
     /// What the displacements follow of those of controls, where the scheme has such.

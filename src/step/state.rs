@@ -135,7 +135,7 @@ impl<const D: usize> State<D> {
     }
 
     /// Coordinates (m) of the nodes of the mesh at the last grid reset.
-    pub fn mesh_nodes<'a>(&'a self, scene: &'a Scene<D>) -> &'a [[f64; D]] {
+    pub fn coordinates<'a>(&'a self, scene: &'a Scene<D>) -> &'a [[f64; D]] {
         if self.nodes.is_empty() { &scene.mesh.nodes } else { &self.nodes[..scene.mesh.nodes.len()] }
     }
 

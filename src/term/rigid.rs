@@ -27,7 +27,7 @@ pub struct RigidWeight<const D: usize> {
 impl<const D: usize> RigidWeight<D> {
     /// `factors[i]` scales `gravity` (m/s²) in phase `i`.
     pub fn new(body: &Body<D>, gravity: [f64; D], factors: Vec<TimeValue>) -> Self {
-        Self { translation: body.dofs.translation(), weight: gravity.map(|g| body.mass * g), factors }
+        Self { translation: body.dofs.translation, weight: gravity.map(|g| body.mass * g), factors }
     }
 }
 
@@ -113,8 +113,8 @@ impl<const D: usize> Term<D> for RigidTraction<D> {
             return Ok(());
         }
         let t: [f64; D] = std::array::from_fn(|d| self.value[d].at(trial.time));
-        add(frame, self.body.dofs.translation(), &t.map(|t| -self.area * t), out);
-        let Some(rotation) = self.body.dofs.rotation() else { return Ok(()) };
+        add(frame, self.body.dofs.translation, &t.map(|t| -self.area * t), out);
+        let Some(rotation) = self.body.dofs.rotation else { return Ok(()) };
         let arm = self.body.pose_since(frame.reset, trial.between).turn(&self.moment);
         let [_, moment] = self.body.hand_on(&arm, &t);
         add(frame, rotation, &moment.map(|m| -m), out);

@@ -55,7 +55,7 @@ impl<K: Kinematics<2>> RigidPressure<K> {
     fn add(&self, head: &Hydrostatic, trial: &Trial<2>, pose: &Pose<2>, local: &mut Local) {
         let head = head.at(trial.time);
         let centre = [0, 1].map(|d| self.body.centre[d] + pose.moved[d]);
-        let (share, turns) = (1.0 - trial.alpha_f, self.body.dofs.rotation().is_some());
+        let (share, turns) = (1.0 - trial.alpha_f, self.body.dofs.rotation.is_some());
         for (from, count) in &self.facets {
             let x = from.map(|from| {
                 let arm = pose.turn(&from);

@@ -87,7 +87,7 @@ fn under_water<K: Kinematics<2>>(kind: CellKind, level: f64) -> Stand<K> {
 /// The middle of the body (m), which is that of the stand, in the trial pose, and from its reference point.
 fn middle(stand: &Stand<impl Kinematics<2>>, trial: &[[f64; 2]]) -> [[f64; 2]; 2] {
     let Body { centre, dofs, .. } = &stand.scene.bodies[0];
-    let turned = dofs.rotation().map_or(0.0, |_| trial[4][0] / 0.8);
+    let turned = dofs.rotation.map_or(0.0, |_| trial[4][0] / 0.8);
     let ((sin, cos), [x, y]) = (turned.sin_cos(), [3.0 - centre[0], 0.75 - centre[1]]);
     let arm = [cos * x - sin * y, sin * x + cos * y];
     [[0, 1].map(|d| centre[d] + trial[3][d] + arm[d]), arm]
