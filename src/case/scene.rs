@@ -119,7 +119,7 @@ pub fn first(case: &Case, scene: &Scene<2>, [mut points, mut fem]: [Points<2>; 2
     }
     let first_step = scene.phases.first().map_or(0.0, |p| p.first_step);
     let fem_parametric = scene.fem.as_ref().map_or(Ok(Vec::new()), |part| parts::places(&part.mesh, &fem))?;
-    Ok(State { fem, fem_parametric, ..State::new(points, scene.mesh.nodes.len(), first_step) })
+    Ok(State { fem, fem_parametric, ..State::new(points, scene.displacements(), first_step) })
 }
 
 /// Hands the pressure field its share: the points bring the elastic strain of all their stress.
@@ -139,9 +139,9 @@ fn begin_pressure(case: &Case, mesh: &Mesh<2>, points: &mut Points<2>) -> Result
 /// # Errors
 /// `Input` when the mesh lacks a group that the case names.
 pub fn scene<K: Kinematics<2>>(case: &Case, mut whole: Mesh<2>) -> Result<Scene<2>> {
-    let mut bodies = rigid::bodies(case, &mut whole)?;
-    let structures = bodies.len();
-    bodies.extend(wall::bodies(case, &mut whole)?);
+    let walls = wall::append(case, &mut whole)?;
+    let bodies = rigid::bodies(case, &whole, walls)?;
+    let structures = bodies.iter().filter(|body| !body.is_wall).count();
     let (mesh, fem) = parts::meshes(case, whole);
     let basis = case.numerics.basis;
     scheme::check(basis, &mesh, fem.as_ref())?;
