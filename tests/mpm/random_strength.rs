@@ -111,6 +111,20 @@ fn a_scale_beyond_the_scene_scales_the_load() {
 }
 
 #[test]
+fn without_variation_no_bit_changes() {
+    let history = |random: &str| {
+        let scene = scene();
+        let material = format!(
+            "materials.clay={{model: tresca, young: 10000, poisson: 0.3, shear_strength: 5, density: 1.8{random}}}"
+        );
+        stages(scene.path(), &["mesh", "seed", "solve"], &[&material, "phases[0].prescribe.top.uy.rate=-0.2"]);
+        fs::read(scene.path().join("out/history.csv")).unwrap()
+    };
+    let random = ", random_strength: {coefficient_of_variation: 0, horizontal_scale: 3, vertical_scale: 0.5, seed: 1}";
+    assert!(history("") == history(random));
+}
+
+#[test]
 fn what_makes_no_sense_is_refused_with_its_place() {
     for (entry, value, problem) in [
         ("coefficient_of_variation", "-0.1", "coefficient_of_variation"),
