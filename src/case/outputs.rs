@@ -41,6 +41,9 @@ pub fn outputs(
             Field::DeformationGradient => Arc::new(fields::DeformationGradient),
             Field::PorePressure => Arc::new(fields::PorePressure(carried(case, mesh)?)),
             Field::Mass => Arc::new(fields::PointColumn("mass")),
+            Field::ShearStrength => {
+                Arc::new(fields::ShearStrength(by_number(case, mesh, |material| Some(material.model.clone()))?))
+            }
             Field::InternalVariables => {
                 let models = by_number(case, mesh, |material| Some(material.model.clone()))?;
                 let variables = InternalVariable::all(&models).into_iter();

@@ -112,6 +112,9 @@ pub fn first(case: &Case, scene: &Scene<2>, [mut points, mut fem]: [Points<2>; 2
     let models = changes::by_number(case, &scene.mesh, |material| Some(material.model.clone()))?;
     points.begin(&models);
     fem.begin(&models);
+    let strengths = changes::random_strengths(case, &scene.mesh)?;
+    points.vary(&strengths);
+    fem.vary(&strengths);
     if scene.water.is_some() {
         // Without an initial pressure there is none.
         points.pore_pressure.resize(points.len(), 0.0);
@@ -322,7 +325,7 @@ fn quadrature<K: Kinematics<2>>(case: &Case, mesh: &Mesh<2>) -> Result<Box<dyn Q
     Ok(match (case.numerics.quadrature, bounded) {
         (raw::Quadrature::Resampled, _) => {
             let resampled = Resampled::<K>::new(mesh, models(case, mesh)?, bounded);
-            Box::new(resampled.renewing(seeded(case, mesh)?))
+            Box::new(resampled.renewing(seeded(case, mesh)?).varying(changes::random_strengths(case, mesh)?))
         }
         (raw::Quadrature::Points, true) => Box::new(Bounded::<K>::new(mesh)),
         (raw::Quadrature::Points, false) => Box::new(Volumes::<K>::default()),

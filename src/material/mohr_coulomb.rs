@@ -131,6 +131,16 @@ impl MohrCoulomb {
         Ok(model)
     }
 
+    /// It with its strengths divided by `factor` (-).
+    fn divided(&self, factor: f64) -> Self {
+        Self {
+            elasticity: self.elasticity,
+            cohesion: self.cohesion.scaled(1.0 / factor),
+            friction: self.friction.reduced(factor),
+            tension: self.tension.map(|t| t.scaled(1.0 / factor)),
+        }
+    }
+
     /// Isotropic tension `c cot φ` at the apex, infinite without friction.
     fn apex(&self, y: f64) -> f64 {
         if self.friction.sin_friction > 0.0 {
@@ -140,7 +150,10 @@ impl MohrCoulomb {
         }
     }
 
-    fn planes(&self, y: f64) -> Planes {
+    fn planes(&self, y: f64, state: &State) -> Planes {
+        if state.strength != 1.0 {
+            return self.divided(1.0 / state.strength).planes(y, &State { strength: 1.0, ..*state });
+        }
         let apex = self.apex(y);
         Planes {
             sin_friction: self.friction.sin_friction,
@@ -153,11 +166,11 @@ impl MohrCoulomb {
 
 impl PrincipalModel for MohrCoulomb {
     fn respond(&self, y: f64, trial: &[f64; 3], state: &State, _: &mut [f64]) -> Response {
-        self.planes(y).respond(&self.elasticity.at(y), trial, state)
+        self.planes(y, state).respond(&self.elasticity.at(y), trial, state)
     }
 
-    fn yield_excess(&self, y: f64, stress: &[f64; 3], _: &State) -> f64 {
-        self.planes(y).excess(stress)
+    fn yield_excess(&self, y: f64, stress: &[f64; 3], state: &State) -> f64 {
+        self.planes(y, state).excess(stress)
     }
 }
 
@@ -174,17 +187,12 @@ impl Model for MohrCoulomb {
         self.friction.sin_friction == self.friction.sin_dilation
     }
 
-    fn shear_strength(&self, y: f64, _: &State) -> f64 {
-        self.cohesion.at(y)
+    fn shear_strength(&self, y: f64, state: &State) -> f64 {
+        self.cohesion.at(y) * state.strength
     }
 
     fn reduced(&self, factor: f64) -> Arc<dyn Model> {
-        Arc::new(Self {
-            elasticity: self.elasticity,
-            cohesion: self.cohesion.scaled(1.0 / factor),
-            friction: self.friction.reduced(factor),
-            tension: self.tension.map(|t| t.scaled(1.0 / factor)),
-        })
+        Arc::new(self.divided(factor))
     }
 
     fn check(&self, y: f64) -> Result<()> {

@@ -3,6 +3,7 @@
 mod entries;
 mod html;
 mod scene;
+mod variants;
 
 use crate::case::{Keys, Loaded};
 use crate::draw::curves::{Chart, Charts};
@@ -11,6 +12,7 @@ use crate::draw::history::{self, Run};
 use crate::draw::{self, Picture};
 use crate::error::Result;
 use crate::io::provenance::{Program, Record, Session};
+use crate::io::sweep_table::SweepTable;
 use crate::mesh::Mesh;
 use entries::{Kinds, entries, plain};
 use html::Html;
@@ -18,6 +20,8 @@ use serde_json::Value;
 
 /// Cells from which on a mesh is an image of pixels: as lines it would be a page of many megabytes.
 const MANY_CELLS: usize = 4000;
+/// The heading of the curves.
+const HISTORIES: &str = "Histories";
 /// Remarks of a log that are told, first and last.
 const REMARKS: usize = 60;
 
@@ -32,6 +36,8 @@ pub struct Subject<'a> {
     pub pictures: std::result::Result<Vec<Field>, String>,
     /// The records of the stages.
     pub records: &'a [Record],
+    /// The table of a sweep of the case, where there is one.
+    pub sweep: Option<&'a SweepTable>,
     /// What the reader must know first, such as that the case has changed since.
     pub cautions: &'a [String],
     /// When the page is written (RFC 3339).
@@ -54,13 +60,18 @@ impl Subject<'_> {
             ("Scene", self.scene()?),
             ("Entries of the case", self.entries()),
             ("Numerics that differ from the defaults", self.numerics()),
-            ("Histories", self.histories()?),
+            (HISTORIES, self.histories()?),
             ("Fields", self.fields()?),
             ("Work of the solver", self.work()?),
             ("Provenance", self.provenance()),
         ];
         for (heading, part) in parts {
             body = body.and(Html::of("h2", heading)).and(part);
+            // After the results themselves.
+            if let Some(sweep) = self.sweep.filter(|_| heading == HISTORIES) {
+                let variants = variants::variants(sweep, &self.run.table)?;
+                body = body.and(Html::of("h2", "What the results depend on")).and(variants);
+            }
         }
         Ok(Html::page(title, &body))
     }
