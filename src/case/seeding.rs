@@ -119,6 +119,13 @@ fn check_random_strength(case: &Case, mesh: &Mesh<2>, points: &Points<2>) -> Res
         let (Some(field), index) = (&material.random_strength, region_index(mesh, &region.name)?) else { continue };
         for p in (0..points.len()).filter(|&p| points.region[p] == index) {
             let ([x, y], strength) = (points.origin[p], field.factor(&points.origin[p]));
+            if !strength.is_normal() {
+                return Err(Error::input(
+                    format!("material `{}`", material.name),
+                    format!("its random strength is {strength} of the mean at [{x:.4}, {y:.4}] m"),
+                    "check the coefficient of variation and the scales of `random_strength`",
+                ));
+            }
             material.model.reduced(1.0 / strength).check(points.seeded_height(p)).map_err(|e| Error {
                 place: format!(
                     "material `{}` in region `{}` at [{x:.4}, {y:.4}] m, where its random strength is {strength:.3} of the mean: {}",

@@ -8,10 +8,10 @@ use super::constraint::Constraint;
 use super::interface::{Ground, Interface, Pushed};
 use super::law::Laws;
 use super::multipliers::Multipliers;
+use super::surface::Run;
 use crate::points::Points;
 use crate::rigid::Body;
 use crate::surface::Cover;
-use std::ops::Range;
 
 /// An interface with a rigid side, or two.
 pub struct Rigid<const D: usize> {
@@ -115,15 +115,11 @@ impl<const D: usize> Interface<D> for Rigid<D> {
         self.interface.soils()
     }
 
-    fn yields(&self) -> bool {
-        self.interface.yields()
-    }
-
     fn contact_nodes(&self) -> usize {
         self.interface.contact_nodes()
     }
 
-    fn runs(&self) -> &[(Range<usize>, bool)] {
+    fn runs(&self) -> &[Run] {
         self.interface.runs()
     }
 
@@ -179,15 +175,11 @@ mod tests {
             &[]
         }
 
-        fn yields(&self) -> bool {
-            false
-        }
-
         fn contact_nodes(&self) -> usize {
             1
         }
 
-        fn runs(&self) -> &[(Range<usize>, bool)] {
+        fn runs(&self) -> &[Run] {
             &[]
         }
 

@@ -21,8 +21,8 @@ use chacha20::rand_core::{Rng, SeedableRng};
 use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
 
-/// Waves of a field. With fewer the correlation that one realisation has at a lag strays farther from that of all (by 0.03 of the variance at 500, the
-/// test of it prints it); the time to find a value grows with them.
+/// Waves of a field. With fewer the variance and the correlation that one realisation has stray farther from those of all, by the order of N^(−1/2)
+/// of the variance (0.03 for the correlation with 500 waves of like amplitudes, which the test of it prints); the time to find a value grows with them.
 const WAVES: usize = 500;
 
 /// The golden ratio less one: multiples of it, less their whole part, fill a circle evenly, however many there are.
@@ -91,7 +91,7 @@ impl RandomStrength {
     /// The realisation of a seed. The numbers are those of ChaCha8, which are the same on every machine.
     pub fn new(of: &Randomness) -> Self {
         let mut random = ChaCha8Rng::seed_from_u64(of.seed);
-        // Within 0 and 1, both excluded.
+        // Above 0, and 1 at most.
         let mut uniform = || ((random.next_u64() >> 11) as f64 + 0.5) / (1u64 << 53) as f64;
         let (first_length, first_direction) = (uniform(), uniform());
         let wave = |i: usize| {
