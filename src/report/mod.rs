@@ -12,11 +12,12 @@ use crate::draw::history::{self, Run};
 use crate::draw::{self, Picture};
 use crate::error::Result;
 use crate::io::provenance::{Program, Record, Session};
-use crate::io::sweep_table::SweepTable;
 use crate::mesh::Mesh;
 use entries::{Kinds, entries, plain};
-use html::Html;
 use serde_json::Value;
+
+pub use html::Html;
+pub use variants::variants;
 
 /// Cells from which on a mesh is an image of pixels: as lines it would be a page of many megabytes.
 const MANY_CELLS: usize = 4000;
@@ -36,8 +37,8 @@ pub struct Subject<'a> {
     pub pictures: std::result::Result<Vec<Field>, String>,
     /// The records of the stages.
     pub records: &'a [Record],
-    /// The table of a sweep of the case, where there is one.
-    pub sweep: Option<&'a SweepTable>,
+    /// The [`variants`] of the case, or why they cannot be shown, where there is a sweep.
+    pub sweep: Option<std::result::Result<Html, String>>,
     /// What the reader must know first, such as that the case has changed since.
     pub cautions: &'a [String],
     /// When the page is written (RFC 3339).
@@ -68,8 +69,9 @@ impl Subject<'_> {
         for (heading, part) in parts {
             body = body.and(Html::of("h2", heading)).and(part);
             // After the results themselves.
-            if let Some(sweep) = self.sweep.filter(|_| heading == HISTORIES) {
-                let variants = variants::variants(sweep, &self.run.table)?;
+            if let Some(sweep) = self.sweep.as_ref().filter(|_| heading == HISTORIES) {
+                let missing = |problem: &String| Html::of("p", &format!("The variants cannot be shown: {problem}"));
+                let variants = sweep.as_ref().map_or_else(missing, Html::clone);
                 body = body.and(Html::of("h2", "What the results depend on")).and(variants);
             }
         }

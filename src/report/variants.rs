@@ -2,7 +2,7 @@
 
 use super::html::Html;
 use crate::error::Result;
-use crate::io::sweep_table::{FINISHED, STATE, SUMMARIES, SweepTable};
+use crate::io::sweep_table::{FINISHED, STATE, SUMMARIES, SweepTable, short};
 use crate::io::table::Table;
 
 /// Variants that are listed one by one; of more the page has their ranges, and the file the rest.
@@ -21,9 +21,10 @@ struct Quantity<'a> {
 impl Quantity<'_> {
     /// How a value differs from that of the run, in parts of the largest value there.
     fn change(&self, value: f64, base: f64) -> String {
-        match self.scale {
-            0.0 => "-".to_owned(),
-            scale => format!("{:+.2} %", 100.0 * (value - base) / scale),
+        match 100.0 * (value - base) / self.scale {
+            change if change.is_finite() => format!("{change:+.2} %"),
+            // Nothing to compare with, or with nothing.
+            _ => "-".to_owned(),
         }
     }
 }
@@ -51,15 +52,6 @@ fn quantities<'a>(table: &SweepTable, run: &'a Table) -> Result<Vec<Quantity<'a>
     Ok(quantities)
 }
 
-fn short(value: f64) -> String {
-    // As many digits as anyone reads.
-    match value.abs() {
-        0.0 => "0".to_owned(),
-        1e-3..1e6 => format!("{value:.4}").trim_end_matches('0').trim_end_matches('.').to_owned(),
-        _ => format!("{value:.4e}"),
-    }
-}
-
 /// The variants, and for each quantity by how much it changes against the run.
 ///
 /// # Errors
@@ -82,6 +74,14 @@ pub fn variants(table: &SweepTable, run: &Table) -> Result<Html> {
     if quantities.is_empty() {
         return Ok(html.and(Html::of("p", "The variants have no quantity of the histories of this run.")));
     }
+    let numbers = quantities.iter().flat_map(|quantity| &quantity.summaries).flat_map(|(_, values, _)| values);
+    let left_out = numbers.flatten().filter(|value| !value.is_finite()).count();
+    if left_out > 0 {
+        html = html.and(Html::of(
+            "p",
+            &format!("{left_out} values are not finite, and have no change and no part in a range."),
+        ));
+    }
     let called = |row: usize| {
         let pairs = parameters.iter().map(|&k| format!("{} = {}", table.columns[k].name, table.rows[row][k]));
         pairs.collect::<Vec<_>>().join(", ")
@@ -89,8 +89,8 @@ pub fn variants(table: &SweepTable, run: &Table) -> Result<Html> {
     let mut ranges = Vec::new();
     for quantity in &quantities {
         for (how, values, base) in &quantity.summaries {
-            let found =
-                || (0..table.rows.len()).filter(|&row| is_finished(row)).filter_map(|row| Some((values[row]?, row)));
+            let value = |row: usize| Some((values[row].filter(|value| value.is_finite())?, row));
+            let found = || (0..table.rows.len()).filter(|&row| is_finished(row)).filter_map(value);
             let least = found().min_by(|a, b| a.0.total_cmp(&b.0));
             let most = found().max_by(|a, b| a.0.total_cmp(&b.0));
             let (Some(least), Some(most)) = (least, most) else { continue };

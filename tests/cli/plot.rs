@@ -222,11 +222,45 @@ fn the_distribution_of_a_sweep_has_its_percentiles() {
     succeeds(&output);
     // 0 … 19: variance (20² − 1)/12 · 20/19.
     let said = said(&output);
-    assert!(said.contains("F max [kN]: 20 runs, mean 9.500000, standard deviation 5.916080"), "{said}");
-    assert!(said.contains("5 % 0.500000, 25 % 4.500000, 50 % 9.500000, 75 % 14.500000, 95 % 18.500000"), "{said}");
+    assert!(said.contains("F max [kN]: 20 runs, mean 9.5, standard deviation 5.91608"), "{said}");
+    assert!(said.contains("5 % 0.5, 25 % 4.5, 50 % 9.5, 75 % 14.5, 95 % 18.5"), "{said}");
     let svg = fs::read_to_string(folder.path().join("p.svg")).unwrap();
     let expected: Vec<[f64; 2]> = (0..20).map(|i| [f64::from(i), (f64::from(i) + 0.5) / 20.0]).collect();
     are(&curves(&svg, BLUE)[0], &expected, [19.0, 1.0]);
+}
+
+#[test]
+fn a_distribution_of_small_values_has_their_digits_and_none_that_is_not_finite() {
+    let folder = tempfile::tempdir().unwrap();
+    let rows = "a,1,finished,1e-7,2.5,nan\nb,2,finished,3e-7,,inf\nc,3,finished,nan,,nan\nd,4,finished,-inf,inf,nan\n";
+    let text = format!("run,seed,state,u last [m],F last [kN],w last [m]\n{rows}");
+    fs::write(folder.path().join("t.csv"), text).unwrap();
+    let output = plot(folder.path(), &["t.csv", "--y", "u last,F last", "--distribution"]);
+    succeeds(&output);
+    let told = said(&output);
+    let u = "u last [m]: 2 runs, mean 2e-7, standard deviation 1.41421e-7, 2 left out, not finite\n  5 % 1e-7,";
+    assert!(told.contains(u), "{told}");
+    // One value scatters by nothing that is known.
+    assert!(told.contains("F last [kN]: 1 run, mean 2.5, 1 left out, not finite\n"), "{told}");
+    assert!(folder.path().join("t.svg").exists(), "a table with a state is that of a sweep");
+    let output = plot(folder.path(), &["t.csv", "--y", "w last", "--distribution"]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(said(&output).contains("no row has a number in a column of --y"), "{}", said(&output));
+}
+
+#[test]
+fn the_picture_of_another_table_is_named_by_the_user() {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("a.csv"), "x,y\n1,2\n2,3\n").unwrap();
+    fs::write(folder.path().join("a.svg"), "mine").unwrap();
+    let output = plot(folder.path(), &["a.csv", "--x", "x", "--y", "y"]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(said(&output).contains("name the picture with -o"), "{}", said(&output));
+    assert_eq!(fs::read_to_string(folder.path().join("a.svg")).unwrap(), "mine");
+    succeeds(&plot(folder.path(), &["a.csv", "--x", "x", "--y", "y", "-o", "b.svg"]));
+    fs::rename(folder.path().join("a.csv"), folder.path().join("table.csv")).unwrap();
+    succeeds(&plot(folder.path(), &["table.csv", "--x", "x", "--y", "y"]));
+    assert!(folder.path().join("table.svg").exists());
 }
 
 #[test]

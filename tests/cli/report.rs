@@ -117,6 +117,14 @@ fn the_variants_of_a_sweep_are_shown_with_their_changes() {
     let elsewhere = found.replace("http://www.w3.org/", "");
     assert!(!elsewhere.contains("http://") && !elsewhere.contains("https://"));
 
+    // Values that are none have no change; the table itself may be named.
+    let wrong = table(last, "nan").replace(&format!("{:?},{:?},0.0\nc", 1.1 * last, 1.1 * last), "nan,-inf,0.0\nc");
+    fs::write(scene.path().join("other/wrong.csv"), wrong).unwrap();
+    let found = page(scene.path(), &["--sweep", "other/wrong.csv"]);
+    assert!(found.contains("2 values are not finite"), "{found}");
+    assert!(found.contains("<td>finished</td><td>NaN</td><td>-</td><td>-inf</td><td>-</td>"));
+    assert!(!found.contains("NaN %") && !found.contains("inf %"));
+
     // A folder that is asked for must have a table of a sweep.
     for (text, problem) in [(None, "table.csv"), (Some("a,b\n1,2\n"), "is not the table of a sweep")] {
         if let Some(text) = text {
@@ -126,6 +134,18 @@ fn the_variants_of_a_sweep_are_shown_with_their_changes() {
         assert_eq!(output.status.code(), Some(2));
         assert!(said(&output).contains(problem), "{}", said(&output));
     }
+    // One that happens to be there has a line.
+    let whole = fs::read_to_string(scene.path().join("sweep/table.csv")).unwrap();
+    for (text, problem) in [
+        ("a,b\n1,2\n", "is not the table of a sweep"),
+        ("run,h,state\na,1\n", "is no table"),
+        ("run,h,state,block.uy last [m]\na,1,finished,x\n", "is not numeric"),
+    ] {
+        fs::write(scene.path().join("sweep/table.csv"), text).unwrap();
+        let found = page(scene.path(), &[]);
+        assert!(found.contains("The variants cannot be shown: ") && found.contains(problem), "{problem}");
+    }
+    fs::write(scene.path().join("sweep/table.csv"), whole).unwrap();
     // A case that was changed after it.
     let case = fs::read_to_string(scene.path().join("case.yaml")).unwrap();
     std::thread::sleep(std::time::Duration::from_millis(20));

@@ -6,12 +6,9 @@ use crate::draw::curves::{Chart, Charts, Series, Style};
 use crate::draw::history::Shown;
 use crate::draw::{self, COLOURS, Format, colour};
 use crate::error::{Error, Result, shown};
-use crate::io::sweep_table::SweepTable;
+use crate::io::sweep_table::{FILE, SweepTable, short};
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
-
-/// The file in the folder of a sweep.
-const FILE: &str = "table.csv";
 
 /// The share of the runs (-) at which values of a distribution are told.
 const SHARES: [f64; 5] = [0.05, 0.25, 0.5, 0.75, 0.95];
@@ -42,8 +39,12 @@ pub fn run(path: &Path, output: Option<&Path>, args: &Args) -> Outcome {
         (over(&table, horizontal(&table, args)?, &ys, args)?, String::new())
     };
     let mut charts = charts;
-    if charts.iter().all(|chart| chart.series.iter().all(|series| series.places.is_empty())) {
-        let problem = "no row has a number in both columns";
+    let is_shown = |place: &[f64; 2]| place.iter().all(|v| v.is_finite());
+    if !charts.iter().flat_map(|chart| &chart.series).flat_map(|series| &series.places).any(is_shown) {
+        let problem = match args.distribution {
+            true => "no row has a number in a column of --y",
+            false => "no row has a number in both columns",
+        };
         return Err(Error::input(path.display(), problem, "choose others; `--list` lists them").into());
     }
     compare(&mut charts, args)?;
@@ -51,7 +52,15 @@ pub fn run(path: &Path, output: Option<&Path>, args: &Args) -> Outcome {
         0 => String::new(),
         count => format!("{count} of {} runs are not finished", table.rows.len()),
     };
-    let path = output.map_or_else(|| path.with_extension("svg"), Path::to_owned);
+    let path = match output {
+        Some(output) => output.to_owned(),
+        None if table.is_sweep() || path.ends_with(FILE) => path.with_extension("svg"),
+        // A picture of the same name beside any other table may be someone else's.
+        None => {
+            let problem = "is not the table of a sweep, whose picture has a name of its own";
+            return Err(Error::input(path.display(), problem, "name the picture with -o").into());
+        }
+    };
     Format::of(&path)?;
     draw::write(&Charts { title: args.title.clone().unwrap_or_default(), remark, charts }, &path)?;
     print(&format!("{told}{}\n", path.display()))
@@ -181,19 +190,29 @@ fn add(
 fn distributions(table: &SweepTable, ys: &[usize], args: &Args) -> Result<(Vec<Chart>, String)> {
     let (mut charts, mut told): (Vec<Chart>, String) = Default::default();
     for &y in ys {
-        let mut values: Vec<f64> = table.numbers(y)?.into_iter().flatten().map(|v| args.scale_y * v).collect();
+        let (mut values, others): (Vec<f64>, Vec<f64>) =
+            table.numbers(y)?.into_iter().flatten().map(|v| args.scale_y * v).partition(|v| v.is_finite());
         values.sort_by(f64::total_cmp);
         let (n, axis) = (values.len(), title(table, (y, args.scale_y)));
         let places = values.iter().enumerate().map(|(i, &v)| [v, (i as f64 + 0.5) / n as f64]).collect();
         let series = Series { name: String::new(), style: Style::Line, colour: colour(0), places };
         let axes = [axis.clone(), "share of the runs with less [-]".to_owned()];
         charts.push(Chart { axes, series: vec![series], ..Chart::default() });
+        let mut parts = vec![format!("{n} {}", if n == 1 { "run" } else { "runs" })];
+        let mean = values.iter().sum::<f64>() / n as f64;
         if n > 0 {
-            let mean = values.iter().sum::<f64>() / n as f64;
-            let square = values.iter().map(|v| (v - mean).powi(2)).sum::<f64>() / (n as f64 - 1.0).max(1.0);
-            let deviation = square.sqrt();
-            let _ = writeln!(told, "{axis}: {n} runs, mean {mean:.6}, standard deviation {deviation:.6}");
-            let shares = SHARES.map(|share| format!("{} % {:.6}", 100.0 * share, below(&values, share)));
+            parts.push(format!("mean {}", short(mean)));
+        }
+        if n > 1 {
+            let square = values.iter().map(|v| (v - mean).powi(2)).sum::<f64>() / (n as f64 - 1.0);
+            parts.push(format!("standard deviation {}", short(square.sqrt())));
+        }
+        if !others.is_empty() {
+            parts.push(format!("{} left out, not finite", others.len()));
+        }
+        let _ = writeln!(told, "{axis}: {}", parts.join(", "));
+        if n > 0 {
+            let shares = SHARES.map(|share| format!("{} % {}", 100.0 * share, short(below(&values, share))));
             let _ = writeln!(told, "  {}", shares.join(", "));
         }
     }
