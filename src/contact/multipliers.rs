@@ -115,7 +115,7 @@ mod tests {
     #[test]
     fn waves_are_evened_out() {
         let count = 12;
-        let wave = |k: usize| if k % 2 == 0 { 1.0 } else { -1.0 };
+        let wave = |k: usize| if k.is_multiple_of(2) { 1.0 } else { -1.0 };
         let waves = Multipliers {
             pressure: (0..count).map(|k| 10.0 + wave(k)).collect(),
             gap: (0..count).map(wave).collect(),

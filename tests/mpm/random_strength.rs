@@ -170,6 +170,17 @@ fn a_strength_that_softens_too_fast_somewhere_is_told_with_the_place() {
     );
 }
 
+/// Where the strength is above the mean a tension cut-off near the apex would be above it, which is no mistake of the case: it counts as the apex.
+#[test]
+fn a_tension_near_the_apex_is_no_mistake_where_soil_is_strong() {
+    let scene = scene();
+    let sand = "materials.clay={model: mohr_coulomb, young: 1000, poisson: 0.3, cohesion: 5, friction: 45, tension: 4.9, density: 1, \
+        random_strength: {coefficient_of_variation: 0.4, horizontal_scale: 3, vertical_scale: 0.5, seed: 1}}";
+    for stage in ["mesh", "seed"] {
+        succeeds(&in_folder(scene.path(), &[stage, ".", "--set", sand]));
+    }
+}
+
 #[test]
 fn the_strength_is_an_output_field() {
     let scene = scene();
