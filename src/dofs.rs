@@ -2,10 +2,10 @@
 //!
 //! | field | unknowns | in the state | equations |
 //! |---|---|---|---|
-//! | displacement (m) | D a node, those of rigid bodies at nodes of their own | by node | first, node by node |
+//! | displacement (m) | D a node | by node | first, node by node |
+//! | motion of rigid bodies (m, rad) | a translation and a rotation a body | after the nodes ([`RigidDofs`]) | after those of the nodes |
 //! | pressure (kPa) | one a corner, and in cells of second order one a cell | [`Places`] | one each, after them |
-//! | pore pressure (kPa) | one a corner | [`Places`] | among the former |
-//! | any other scalar field | one a corner | [`Places`] | among the former |
+//! | scalar fields by number, the pore pressure (kPa) first where there is one | one a corner | [`Places`] | among the former |
 //!
 //! Under linear constraints the equations of the displacements are those of the controls, which have the numbers of nodes, and the values of
 //! the nodes follow from them ([`LinearConstraints`]).
@@ -13,13 +13,16 @@
 use crate::mesh::Mesh;
 use crate::system::{Connectivity, LinearConstraints};
 
+/// The number of the pore pressure among the scalar fields, where there is one.
+pub const PORE_PRESSURE: usize = 0;
+
 /// Where the pressures of a family of cells stand among all pressures of a state: the pressure field by node, the constants of the cells of
-/// the grid, those of the finite elements, the pore pressures by node, other scalar fields by node one after the other.
+/// the grid, those of the finite elements, the scalar fields by node one after the other.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Places {
-    /// Where the constants of the cells of the family begin, and the pore pressures of the nodes.
+    /// Where the constants of the cells of the family begin, and the scalar fields.
     constants: usize,
-    pore_pressures: usize,
+    fields: usize,
     /// How many nodes there are.
     nodes: usize,
 }
@@ -27,8 +30,8 @@ pub struct Places {
 impl Places {
     /// Those of the cells of the grid and of the finite elements, given how many nodes and cells there are.
     pub fn of(nodes: usize, cells: usize, elements: usize) -> [Self; 2] {
-        let pore_pressures = nodes + cells + elements;
-        [nodes, nodes + cells].map(|constants| Self { constants, pore_pressures, nodes })
+        let fields = nodes + cells + elements;
+        [nodes, nodes + cells].map(|constants| Self { constants, fields, nodes })
     }
 
     /// The constant of a cell.
@@ -36,19 +39,9 @@ impl Places {
         self.constants + cell
     }
 
-    /// The pore pressure of a node.
-    pub fn pore_pressure(self, node: u32) -> usize {
-        self.pore_pressures + node as usize
-    }
-
-    /// Where the pore pressures of the nodes begin: how many there are of all others.
-    pub fn pore_pressures(self) -> usize {
-        self.pore_pressures
-    }
-
     /// The value of scalar field `k` at a node.
     pub fn field(self, k: usize, node: u32) -> usize {
-        self.pore_pressures + (k + 1) * self.nodes + node as usize
+        self.fields + k * self.nodes + node as usize
     }
 
     /// How many values there are with so many scalar fields.
@@ -56,15 +49,9 @@ impl Places {
         self.field(fields, 0)
     }
 
-    /// The node whose pore pressure a place is.
-    pub fn node_with_water(self, place: u32) -> Option<u32> {
-        let node = (place as usize).checked_sub(self.pore_pressures).filter(|&n| n < self.nodes);
-        node.map(|n| n as u32)
-    }
-
     /// The scalar field that a place is of, and the node.
     pub fn of_scalar(self, place: u32) -> Option<(usize, u32)> {
-        let after = (place as usize).checked_sub(self.field(0, 0))?;
+        let after = (place as usize).checked_sub(self.fields)?;
         Some((after / self.nodes, (after % self.nodes) as u32))
     }
 
@@ -73,12 +60,6 @@ impl Places {
         let kind = mesh.cells.kind[cell];
         let constant = (kind.order() > 1).then_some(self.constant(cell) as u32);
         mesh.cells.nodes(cell)[..kind.corner_count()].iter().copied().chain(constant)
-    }
-
-    /// The places of the pore pressures of a cell: its corners.
-    pub fn of_water<const D: usize>(self, mesh: &Mesh<D>, cell: usize) -> impl Iterator<Item = u32> {
-        let corners = &mesh.cells.nodes(cell)[..mesh.cells.kind[cell].corner_count()];
-        corners.iter().map(move |&n| self.pore_pressure(n) as u32)
     }
 
     /// The places of the first `fields` scalar fields of a cell: its corners, field by field.
@@ -93,13 +74,77 @@ impl Places {
     }
 }
 
+/// The unknowns of a rigid body: the translation (m) of its reference point and, where it turns, its rotation (rad), anticlockwise.
+///
+/// They have numbers after those of the nodes in all vectors of displacements, velocities and forces, and a block of equations each. A rotation
+/// is kept as the arc `ℓ θ` (m) in the first component, and a moment `M` as `M/ℓ` (kN), so that all unknowns are lengths and all equations forces.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RigidDofs {
+    /// Their numbers; a body in axisymmetry does not turn.
+    pub translation: u32,
+    pub rotation: Option<u32>,
+    /// ℓ (m): what stands for 1 rad.
+    pub arm: f64,
+}
+
+impl RigidDofs {
+    /// Those with the numbers from `first` on, of a body that `turns` or not.
+    pub fn new(first: u32, turns: bool, arm: f64) -> Self {
+        Self { translation: first, rotation: turns.then_some(first + 1), arm }
+    }
+
+    /// Their numbers.
+    pub fn numbers(&self) -> impl Iterator<Item = u32> + use<> {
+        std::iter::once(self.translation).chain(self.rotation)
+    }
+
+    /// A component of the motion, in `D` dimensions of the translation and then of the rotation: its number, the component there, and what stands for
+    /// 1 m or 1 rad; `None` where the body does not turn.
+    pub fn component<const D: usize>(&self, component: usize) -> Option<(u32, usize, f64)> {
+        match component.checked_sub(D) {
+            None => Some((self.translation, component, 1.0)),
+            Some(of_rotation) => self.rotation.map(|n| (n, of_rotation, self.arm)),
+        }
+    }
+
+    /// The numbers and components without a meaning, which are always held: those of the rotation after the first; without a rotation
+    /// (axisymmetry) what leaves the axis.
+    pub fn unused<const D: usize>(&self) -> impl Iterator<Item = (u32, usize)> {
+        let (number, components) = self.rotation.map_or((self.translation, 0..1), |n| (n, 1..D));
+        components.map(move |component| (number, component))
+    }
+
+    /// Translation (m) and rotation (rad), or their rates, in a `field` by number.
+    pub fn motion<const D: usize>(&self, field: impl Fn(u32) -> [f64; D]) -> ([f64; D], f64) {
+        (field(self.translation), self.rotation.map_or(0.0, |n| field(n)[0] / self.arm))
+    }
+
+    /// Force (kN) and moment (kN m) in a `field` of forces by number.
+    pub fn load<const D: usize>(&self, field: impl Fn(u32) -> [f64; D]) -> ([f64; D], f64) {
+        (field(self.translation), self.rotation.map_or(0.0, |n| self.moment(&field(n))))
+    }
+
+    /// The value in the field that stands for a rotation (rad).
+    pub fn arc<const D: usize>(&self, rotation: f64) -> [f64; D] {
+        std::array::from_fn(|d| if d == 0 { rotation * self.arm } else { 0.0 })
+    }
+
+    /// The moment (kN m) that a `force` (kN) on the rotation is.
+    pub fn moment<const D: usize>(&self, force: &[f64; D]) -> f64 {
+        self.arm * force[0]
+    }
+
+    /// The force (kN) on the rotation that a moment (kN m) is.
+    pub fn force<const D: usize>(&self, moment: f64) -> [f64; D] {
+        std::array::from_fn(|d| if d == 0 { moment / self.arm } else { 0.0 })
+    }
+}
+
 /// An unknown of an equation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Dof {
-    Displacement {
-        node: usize,
-        component: usize,
-    },
+    /// Of a node, or by the number of an unknown of a rigid body.
+    Displacement { node: usize, component: usize },
     /// By its place ([`Places`]).
     Pressure(usize),
 }
@@ -113,20 +158,24 @@ pub struct DofMap<const D: usize> {
     /// The block of each node (control); `u32::MAX` for those left out.
     pub block: Vec<u32>,
     pub places: Places,
+    /// The unknowns of the rigid bodies.
+    pub bodies: Vec<RigidDofs>,
     /// What the values of the nodes are of those of the controls; absent where each node has equations of its own.
     pub constraints: Option<LinearConstraints>,
 }
 
 impl<const D: usize> DofMap<D> {
-    /// The equations of the displacements of all `nodes` of `count` that have some, by number, without scalar unknowns.
+    /// The equations of the displacements of those `nodes` that have some and of rigid bodies, by number, without scalar unknowns; `count` is how
+    /// many numbers there are.
     pub fn of_nodes(
         nodes: impl Iterator<Item = u32>,
         count: usize,
+        bodies: Vec<RigidDofs>,
         places: Places,
         constraints: Option<LinearConstraints>,
     ) -> Self {
         let (mut block, mut node) = (vec![u32::MAX; count], Vec::new());
-        for n in nodes {
+        for n in nodes.chain(bodies.iter().flat_map(RigidDofs::numbers)) {
             match &constraints {
                 None => block[n as usize] = 0,
                 Some(constraints) => constraints.of_node(n).iter().for_each(|&(m, _)| block[m as usize] = 0),
@@ -136,7 +185,7 @@ impl<const D: usize> DofMap<D> {
             *block = node.len() as u32;
             node.push(n as u32);
         }
-        Self { node, pressure: Vec::new(), block, places, constraints }
+        Self { node, pressure: Vec::new(), block, places, bodies, constraints }
     }
 
     /// Appends a coupling of active nodes and returns its number.
@@ -209,6 +258,12 @@ impl<const D: usize> DofMap<D> {
         out
     }
 
+    /// The blocks with equations of forces, and their nodes: all but those of rotations.
+    pub fn forces(&self) -> impl Iterator<Item = (usize, u32)> {
+        let turns = |n: u32| self.bodies.iter().any(|body| body.rotation == Some(n));
+        self.node.iter().copied().enumerate().filter(move |&(_, n)| !turns(n))
+    }
+
     /// How many equations are those of displacements.
     pub fn displacements(&self) -> usize {
         D * self.node.len()
@@ -234,13 +289,6 @@ impl<const D: usize> DofMap<D> {
         }
     }
 
-    /// The equations of pore pressures, with their nodes.
-    pub fn pore_pressures(&self) -> impl Iterator<Item = (usize, u32)> {
-        let first = self.displacements();
-        let all = self.pressure.iter().enumerate();
-        all.filter_map(move |(k, &place)| Some((first + k, self.places.node_with_water(place)?)))
-    }
-
     /// The equations of scalar field `number`, with their nodes.
     pub fn field(&self, number: usize) -> impl Iterator<Item = (usize, u32)> {
         let first = self.displacements();
@@ -263,30 +311,28 @@ mod tests {
         let [grid, elements] = Places::of(nodes, cells, 3);
         let of_field = (0..cells).flat_map(|c| grid.of_field(&mesh, c));
         let of_elements = (0..3).map(|c| elements.constant(c) as u32);
-        let of_water = (0..cells).flat_map(|c| grid.of_water(&mesh, c));
-        let mut all: Vec<u32> = of_field.chain(of_elements).chain(of_water).collect();
+        let of_scalars = (0..cells).flat_map(|c| grid.of_fields(&mesh, c, 2));
+        let mut all: Vec<u32> = of_field.chain(of_elements).chain(of_scalars).collect();
         all.sort_unstable();
         all.dedup();
-        // Four corners with both pressures, and a constant a cell.
-        assert_eq!(all.len(), 2 * 4 + cells + 3);
-        assert_eq!(grid.node_with_water(grid.pore_pressure(2) as u32), Some(2));
-        assert_eq!(grid.node_with_water(grid.field(0, 2) as u32), None);
+        // Four corners with the pressure and two other fields, and a constant a cell.
+        assert_eq!(all.len(), 3 * 4 + cells + 3);
         assert_eq!(grid.of_scalar(grid.field(1, 2) as u32), Some((1, 2)));
-        assert_eq!(grid.of_scalar(grid.pore_pressure(2) as u32), None);
         assert_eq!(grid.end(2), grid.field(1, nodes as u32 - 1) + 1);
-        assert_eq!(grid.node_with_water(grid.constant(1) as u32), None);
+        assert_eq!(grid.of_scalar(grid.constant(1) as u32), None);
 
-        let places = [grid.constant(0) as u32, grid.pore_pressure(1) as u32];
+        let places = [grid.constant(0) as u32, grid.field(PORE_PRESSURE, 1) as u32];
         let dofs = DofMap::<2> {
             node: vec![1, 3],
             pressure: places.to_vec(),
             block: vec![u32::MAX, 0, u32::MAX, 1],
             places: grid,
+            bodies: vec![RigidDofs::new(3, false, 1.0)],
             constraints: None,
         };
         assert_eq!(dofs.displacement(3, 1).map(|e| dofs.dof(e)), Some(Dof::Displacement { node: 3, component: 1 }));
         assert_eq!(dofs.displacement(2, 0), None);
         assert_eq!(dofs.dof(4), Dof::Pressure(grid.constant(0)));
-        assert_eq!(dofs.pore_pressures().collect::<Vec<_>>(), [(5, 1)]);
+        assert_eq!(dofs.field(PORE_PRESSURE).collect::<Vec<_>>(), [(5, 1)]);
     }
 }

@@ -5,9 +5,10 @@ mod columns;
 pub use columns::{Column, Item, Maker, Merged, Numbers, PairVisitor, Presence, Type, Visitor, padded};
 
 use crate::kinematics::Kinematics;
-use crate::material::{Model, State, internal_count};
+use crate::material::{Model, RandomStrength, State, internal_count, strength_at};
 use crate::mesh::height;
 use crate::tensor::{Symmetric, Tensor, full};
+use rayon::prelude::*;
 use std::sync::Arc;
 
 /// Declares [`Points`] and the table of its columns: an entry is a field with its documentation, its type and its [`Column`].
@@ -79,6 +80,9 @@ columns! {
     /// The domain of the point as its scheme describes it (m), as many numbers for each point as that needs, as of the last grid reset; empty for
     /// schemes whose points have no extent.
     domain: [f64] = Column::of("m").comes_and_goes().several().of_material_points();
+    /// The strength over that of the parameters of the material (-), by its random field where the point was seeded
+    /// ([`crate::material::RandomStrength`]); empty where no material of the scene has one.
+    strength: [f64] = Column::of("-").merged(Merged::ByMass).of_scene().seeded();
     /// Index into the regions of the mesh.
     region: [u16] = Column::of("-");
     /// Number of the material among those of a scene: first one a region of the mesh, then one a change of it; empty where no
@@ -120,7 +124,13 @@ impl<const D: usize> Points<D> {
     #[inline]
     pub fn state(&self, p: usize, inverse_dt: f64) -> State<'_> {
         let (plastic_strain, internal) = (self.plastic_strain[p], self.internal_of(p));
-        State { plastic_strain, internal, inverse_dt, increment: None }
+        State { plastic_strain, internal, inverse_dt, increment: None, strength: self.strength_of(p) }
+    }
+
+    /// The strength of point `p` over that of the parameters of its material (-).
+    #[inline]
+    pub fn strength_of(&self, p: usize) -> f64 {
+        self.strength.get(p).copied().unwrap_or(1.0)
     }
 
     /// Numbers that each point has in `internal`.
@@ -151,6 +161,15 @@ impl<const D: usize> Points<D> {
             if let Some(Some(model)) = models.get(self.model_of(p)) {
                 self.begin_internal(p, model.as_ref());
             }
+        }
+    }
+
+    /// Gives the points the strength over that of the parameters, given the fields of the materials by number: nothing where there is none.
+    pub fn vary(&mut self, fields: &[Option<Arc<RandomStrength>>]) {
+        self.strength.clear();
+        if fields.iter().any(Option::is_some) {
+            let of = |p: usize| strength_at(fields, self.model_of(p), &self.origin[p]);
+            self.strength = (0..self.len()).into_par_iter().map(of).collect();
         }
     }
 

@@ -1,11 +1,9 @@
 //! Rigid bodies: structures that keep their shape, and walls.
 //!
-//! A body moves by its reference point, the centroid of its mass, and turns about it: `x = c + R(θ) (X − C)`. Two nodes
-//! of no cell, after those of the mesh, have its unknowns: the *reference*, with the displacement of `c`, and the
-//! *turning* node, whose first component is the arc `ℓ θ` (m) with `ℓ` the distance of the farthest node, so that all
-//! unknowns are lengths and all equations forces. Anticlockwise is positive. Without rotation (axisymmetry) there is no
-//! turning node.
+//! A body moves by its reference point, the centroid of its mass, and turns about it: `x = c + R(θ) (X − C)`. Its unknowns ([`RigidDofs`]) are the
+//! displacement of `c` and, but in axisymmetry, the angle `θ`.
 
+use crate::dofs::RigidDofs;
 use crate::mesh::Mesh;
 use crate::points::Points;
 
@@ -14,14 +12,13 @@ use crate::points::Points;
 pub struct Body<const D: usize> {
     /// Its region of the mesh; that of a wall has no cells.
     pub region: u16,
-    /// The nodes that move with it.
+    /// Whether it is a wall, without mass and cells.
+    pub is_wall: bool,
+    /// The nodes that move with it, ascending; those of a wall are of no cell, at the end of the mesh.
     pub nodes: Vec<u32>,
-    /// The first node that it adds to the mesh.
-    pub first: u32,
-    pub reference: u32,
-    pub turning: Option<u32>,
-    /// ℓ (m).
-    pub arm: f64,
+    /// The reference point (m) when the run began.
+    pub centre: [f64; D],
+    pub dofs: RigidDofs,
     /// Mass (t) and moment of inertia about the reference point (t m²).
     pub mass: f64,
     pub inertia: f64,
@@ -58,14 +55,15 @@ impl<const D: usize> Pose<D> {
 }
 
 impl<const D: usize> Body<D> {
-    /// Appends the nodes of a body to a mesh: one with the centroid, mass and inertia of `points`, or of no mass at the
-    /// middle of its `nodes`. Without `turns` it moves along the axis of symmetry only, and its reference point lies there.
-    pub fn append(mesh: &mut Mesh<D>, region: u16, nodes: Vec<u32>, points: &Points<D>, turns: bool) -> Self {
+    /// A body with the centroid, mass and inertia of `points`, or a wall of no mass with its centroid at the middle of its `nodes`, whose unknowns
+    /// have the numbers from `first` on. Without `turns` it moves along the axis of symmetry only, and its reference point lies there.
+    pub fn new(mesh: &Mesh<D>, first: u32, region: u16, nodes: Vec<u32>, points: &Points<D>, turns: bool) -> Self {
         let mass: f64 = points.mass.iter().sum();
         // Without mass the volume tells the centroid.
         let weight = if mass > 0.0 { &points.mass } else { &points.initial_volume };
         let mut centre = [0.0; D];
-        if weight.is_empty() {
+        let is_wall = weight.is_empty();
+        if is_wall {
             for &n in &nodes {
                 centre = std::array::from_fn(|d| centre[d] + mesh.nodes[n as usize][d] / nodes.len() as f64);
             }
@@ -81,44 +79,49 @@ impl<const D: usize> Body<D> {
         let square = |x: &[f64; D]| dot(&from(x), &from(x));
         let inertia = points.position.iter().zip(&points.mass).map(|(x, m)| m * square(x)).sum();
         let arm = nodes.iter().map(|&n| square(&mesh.nodes[n as usize])).fold(0.0, f64::max).sqrt();
-        let reference = mesh.nodes.len() as u32;
-        mesh.nodes.push(centre);
-        let turning = turns.then(|| {
-            mesh.nodes.push(centre);
-            reference + 1
-        });
-        Self { region, nodes, first: reference, reference, turning, arm, mass, inertia }
+        Self { region, is_wall, nodes, centre, dofs: RigidDofs::new(first, turns, arm), mass, inertia }
     }
 
-    /// The nodes with its unknowns.
-    pub fn carriers(&self) -> impl Iterator<Item = u32> {
-        std::iter::once(self.reference).chain(self.turning)
-    }
-
-    /// Its pose, given how far (m) nodes have come since the run began.
+    /// Its pose, given how far (m) its unknowns have come since the run began.
     pub fn pose(&self, travel: impl Fn(u32) -> [f64; D]) -> Pose<D> {
-        Pose { moved: travel(self.reference), turned: self.turning.map_or(0.0, |n| travel(n)[0] / self.arm) }
+        let (moved, turned) = self.dofs.motion(travel);
+        Pose { moved, turned }
     }
 
-    /// Where in a `pose` it has what was at `origin` when the run began; `mesh` is that of then.
-    pub fn place(&self, mesh: &Mesh<D>, pose: &Pose<D>, origin: &[f64; D]) -> [f64; D] {
-        let centre = &mesh.nodes[self.reference as usize];
-        let arm = pose.turn(&std::array::from_fn(|d| origin[d] - centre[d]));
-        std::array::from_fn(|d| centre[d] + pose.moved[d] + arm[d])
+    /// Its pose, given where (m) all nodes and bodies were at the last grid reset, which nothing is before the first, and how far they have come
+    /// `since`.
+    pub fn pose_since(&self, reset: &[[f64; D]], since: &[[f64; D]]) -> Pose<D> {
+        self.pose(|n| {
+            let (from, by) = (reset.get(n as usize).unwrap_or(&self.centre), &since[n as usize]);
+            std::array::from_fn(|d| from[d] + by[d] - self.centre[d])
+        })
     }
 
-    /// The derivatives by its unknowns, reference then turning node, of a quantity with the derivative `by` by the
-    /// displacement of a place of the body, `arm` (m) away from the reference point.
+    /// Where in a `pose` it has what was at `origin` when the run began.
+    pub fn place(&self, pose: &Pose<D>, origin: &[f64; D]) -> [f64; D] {
+        let arm = pose.turn(&std::array::from_fn(|d| origin[d] - self.centre[d]));
+        std::array::from_fn(|d| self.centre[d] + pose.moved[d] + arm[d])
+    }
+
+    /// Where (m) its reference point is, given how far (m) all nodes and bodies have come since the run began.
+    pub fn centre_after(&self, travel: &[[f64; D]]) -> [f64; D] {
+        self.place(&self.pose(|n| travel[n as usize]), &self.centre)
+    }
+
+    /// The derivatives by translation and rotation of a quantity with the derivative `by` by the displacement of a place of the body,
+    /// `arm` (m) away from the reference point.
     pub fn hand_on(&self, arm: &[f64; D], by: &[f64; D]) -> [[f64; D]; 2] {
-        let mut turning = [0.0; D];
-        turning[0] = dot(by, &across(arm)) / self.arm;
-        [*by, turning]
+        [*by, self.dofs.force(dot(by, &across(arm)))]
     }
 
-    /// The motion (m/s or m/s²) of a place `arm` (m) away from the reference point, given that of the nodes.
-    pub fn motion(&self, arm: &[f64; D], nodal: &[[f64; D]]) -> [f64; D] {
-        let spin = self.turning.map_or(0.0, |n| nodal[n as usize][0] / self.arm);
-        let (along, across) = (nodal[self.reference as usize], across(arm));
+    /// Mass (t) that resists the translation, and that which resists the arc of the rotation.
+    pub fn masses(&self) -> impl Iterator<Item = (u32, f64)> {
+        self.dofs.numbers().zip([self.mass, self.inertia / self.dofs.arm.powi(2)])
+    }
+
+    /// The motion (m/s or m/s²) of a place `arm` (m) away from the reference point, given that of all nodes and bodies.
+    pub fn motion(&self, arm: &[f64; D], all: &[[f64; D]]) -> [f64; D] {
+        let ((along, spin), across) = (self.dofs.motion(|n| all[n as usize]), across(arm));
         std::array::from_fn(|d| along[d] + spin * across[d])
     }
 }
@@ -127,37 +130,36 @@ impl<const D: usize> Body<D> {
 mod tests {
     use super::*;
 
-    fn body() -> (Mesh<2>, Body<2>) {
-        let mut mesh = Mesh { nodes: vec![[0.0, 0.0], [2.0, 0.0], [2.0, 1.0], [0.0, 1.0]], ..Mesh::default() };
+    fn body() -> Body<2> {
+        let mesh = Mesh { nodes: vec![[0.0, 0.0], [2.0, 0.0], [2.0, 1.0], [0.0, 1.0]], ..Mesh::default() };
         let points = Points {
             position: vec![[0.5, 0.5], [1.5, 0.5]],
             mass: vec![1.0, 3.0],
             initial_volume: vec![1.0, 1.0],
             ..Points::default()
         };
-        let body = Body::append(&mut mesh, 0, vec![0, 1, 2, 3], &points, true);
-        (mesh, body)
+        Body::new(&mesh, 4, 0, vec![0, 1, 2, 3], &points, true)
     }
 
     #[test]
     fn mass_and_inertia_are_those_of_the_points() {
-        let (mesh, body) = body();
-        assert_eq!(mesh.nodes[4..], [[1.25, 0.5]; 2]);
+        let body = body();
+        assert_eq!((body.centre, body.dofs.numbers().collect()), ([1.25, 0.5], vec![4, 5]));
         assert_eq!((body.mass, body.inertia), (4.0, 0.75f64.powi(2) + 3.0 * 0.25f64.powi(2)));
-        assert_eq!(body.arm, 1.25f64.hypot(0.5));
+        assert_eq!(body.dofs.arm, 1.25f64.hypot(0.5));
     }
 
     #[test]
     fn a_quarter_turn_is_exact_and_its_rates_are_its_derivatives() {
-        let (mesh, body) = body();
+        let body = body();
         let pose = Pose { moved: [1.0, 0.0], turned: std::f64::consts::FRAC_PI_2 };
-        let x = body.place(&mesh, &pose, &[2.25, 0.5]);
+        let x = body.place(&pose, &[2.25, 0.5]);
         assert!((x[0] - 2.25).abs() < 1e-15 && (x[1] - 1.5).abs() < 1e-15, "{x:?}");
         // The arm is (0, 1) now: a turn by dθ takes its end along −x.
         let [moved, turned] = body.hand_on(&[0.0, 1.0], &[3.0, 5.0]);
-        assert_eq!((moved, turned), ([3.0, 5.0], [-3.0 / body.arm, 0.0]));
-        let mut nodal = vec![[0.0; 2]; 6];
-        (nodal[4], nodal[5]) = ([1.0, 2.0], [3.0 * body.arm, 0.0]);
-        assert_eq!(body.motion(&[0.0, 1.0], &nodal), [-2.0, 2.0]);
+        assert_eq!((moved, turned), ([3.0, 5.0], [-3.0 / body.dofs.arm, 0.0]));
+        let mut all = vec![[0.0; 2]; 6];
+        (all[4], all[5]) = ([1.0, 2.0], body.dofs.arc(3.0));
+        assert_eq!(body.motion(&[0.0, 1.0], &all), [-2.0, 2.0]);
     }
 }

@@ -302,16 +302,28 @@ TBAR = Entry(
     picture=("--mirror", "--window=-3,-6.5,3,0.8", "--range=0,3",),
 )
 
-def anchor_leg(at: float, expected: float) -> Row:
-    """The tube on its way down: sides and tip by limit analysis, with the weight of the clay in place of the wall."""
-    return Row("", f"load [kN] at {at:g} m", mean("wall.contact_y", "time", at, 0.02), expected, 0.05)
+
+# Suction within the tube, by the time of the push, which goes down by 1 m/s [s, kPa].
+SUCTION = [[0, 0], [0.05, 0], [0.1, -1.7], [0.25, -6.4], [0.5, -12.6], [0.75, -18.4], [0.95, -22.9], [1, -24]]
+TIP = np.pi * (1 - 0.96**2)  # area [m²]
+
+
+def anchor_leg(at: float, expected: float, suction: bool = False) -> Row:
+    """The tube on its way down: sides and tip by limit analysis, with the weight of the clay in place of the wall. Suction lifts what the wall displaces into the tube."""
+    load = mean("wall.contact_y", "time", at, 0.02)
+    if not suction:
+        return Row("", f"load [kN] at {at:g} m", load, expected, 0.05)
+    drawn = np.interp(at, *np.transpose(SUCTION))
+    pressure = {"surface": "clay", "pressure": {"table": SUCTION}, "where": {"x": [0, 0.96], "y": [-0.5, 0.4]}}
+    settings = {"phases.push.tractions": [pressure]}
+    return Row("suction", f"load [kN] at {at:g} m, suction of {-drawn:g} kPa", load, (round(expected + drawn * TIP, 1), expected), 0.05, settings)
 
 
 SUCTION_ANCHOR = Entry(
     "suction_anchor",
     "load of the push",
     "limit analysis",
-    [anchor_leg(0.25, 38.9), anchor_leg(0.5, 56.5), anchor_leg(0.75, 72.9), anchor_leg(0.95, 86.1)],
+    [anchor_leg(0.25, 38.9), anchor_leg(0.5, 56.5), anchor_leg(0.75, 72.9), anchor_leg(0.95, 86.1), anchor_leg(0.5, 56.5, True), anchor_leg(0.75, 72.9, True), anchor_leg(0.95, 86.1, True)],
     picture=("--mirror", "--window=-2,-2,2,0.6", "--range=0,1",),
 )
 

@@ -7,7 +7,6 @@ from program import ROOT
 
 DATA = ROOT / "docs/benchmarks"
 PAGE = ROOT / "docs/benchmarks.md"
-PEERS = ["Kratos MPM"]
 # Colours that are told apart in print and by most eyes, and marks of their own.
 STYLES = {
     "default": ("#000000", "o"),
@@ -32,14 +31,17 @@ STYLES = {
     "cubic bspline": ("#762a83", "X"),
     "resampled, Q9": ("#0072b2", "d"),
     "Kratos MPM": ("#8b0000", "*"),
+    "AMPLE": ("#555555", "$A$"),
+    "GeoWarp": ("#555555", "$G$"),
 }
+OTHERS = "by the program of others, measured once, in another series of runs"
 
 INTRODUCTION = """# Work and precision
 
 Made by `make bench` (`ARGS=--quick` for a few runs of each, `ARGS=--first` for the series over the size of the cells alone). Each point of a picture is a run: its error over
 the seconds of the solve stage, with reading, log, frames and checkpoints. Runs use one
 thread, pinned to one core; the time is the median of three if a run takes less than 3 s. For Kratos MPM 10.4.4, in the same series of runs, it is that of the solution of its steps
-alone. The numbers are in `docs/benchmarks/*.csv`, with processor seconds, Newton iterations and halvings; `--report` makes the page
+alone; those of AMPLE and GeoWarp were measured once, with all that they print. The numbers are in `docs/benchmarks/*.csv`, with processor seconds, Newton iterations and halvings; `--report` makes the page
 from them without running anything.
 
 Errors are reproducible to the last digit; seconds depend on the machine and its other load. If only some schemes were run again (`--schemes`),
@@ -61,6 +63,12 @@ def rows_of(problem):
     with open(path, newline="") as file:
         remark = file.readline().lstrip("# ").strip()
         rows = [row for row in csv.DictReader(file) if row["scheme"] in STYLES]
+        heads = dict.fromkeys(rows[0] if rows else [], "")
+        first = next(iter(problem.measures))
+        for name, runs in problem.others.items():
+            for at, (error, seconds) in runs.items():
+                row = {"series": problem.series[0].name, "scheme": name, "at": str(at), first: str(error), "wall [s]": str(seconds), "note": OTHERS}
+                rows.append(heads | row)
         return remark, sorted(rows, key=lambda row: list(STYLES).index(row["scheme"]))
 
 

@@ -8,10 +8,11 @@ use super::checked::{Case, Change, Material, Phase, Region};
 use super::find::{filled, region_index};
 use super::incompressible::has_water_of_its_own;
 use super::locate::{At, Path};
+use super::over_depth::check_over_depth;
 use super::raw;
-use super::seeding::check_over_depth;
 use super::structure::suggest;
 use crate::error::Result;
+use crate::material::RandomStrengths;
 use crate::mesh::Mesh;
 use crate::step;
 use crate::term::MixedPressure;
@@ -156,10 +157,16 @@ pub fn of_phase(case: &Case, meshes: [&Mesh<2>; 2], phase: usize) -> Result<Vec<
             carried: material.carried.clone(),
             before: before.and_then(|before| before.carried.clone()),
             density: material.density,
+            random_strength: material.random_strength.clone(),
             goes_on: before.is_some_and(|before| before.model_name == material.model_name),
         })
     };
     case.phases[phase].changes.iter().enumerate().map(change).collect()
+}
+
+/// The field of strength of each material by number, where that varies at random.
+pub fn random_strengths(case: &Case, mesh: &Mesh<2>) -> Result<RandomStrengths> {
+    by_number(case, mesh, |material| material.random_strength.clone())
 }
 
 /// What the pressure field carries of each material by number.

@@ -13,7 +13,7 @@ use super::raw::Product;
 use crate::contact::Law;
 use crate::error::Result;
 use crate::interpolation::Basis;
-use crate::material::{Model, Profile};
+use crate::material::{Model, Profile, RandomStrength};
 use crate::mesh;
 use crate::rigid::Body;
 use crate::term::{MixedPressure, Porous, Term};
@@ -198,6 +198,8 @@ pub struct Material {
     /// Density (t/m³).
     pub density: Profile,
     pub model: Arc<dyn Model>,
+    /// The field of its strength, where that varies at random.
+    pub random_strength: Option<Arc<RandomStrength>>,
     /// What the pressure field carries of its stress.
     pub carried: Option<MixedPressure>,
     /// The water in its pores, where that flows or has a stiffness of its own.

@@ -8,10 +8,10 @@ use crate::step::Scene;
 /// # Errors
 /// `Input` where there are such.
 pub fn of_displacements(scene: &Scene<2>) -> Result<()> {
-    let Some(constraints) = scene.basis.constraints(&scene.mesh) else { return Ok(()) };
+    let Some(constraints) = scene.constraints() else { return Ok(()) };
     for fixed in (0..scene.phases.len()).flat_map(|phase| scene.fixed(phase)) {
         if let Some(node) = constraints.unheld(&fixed.nodes) {
-            let place = scene.mesh.nodes[node as usize];
+            let place = scene.origin(node);
             return Err(Error::input(
                 "numerics.gradient",
                 format!(

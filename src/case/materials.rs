@@ -7,7 +7,7 @@ use super::locate::{At, Path};
 use super::raw::{self, InDepth};
 use super::structure::suggest;
 use crate::error::Result;
-use crate::material::{Kind, MODELS, Model, Parameters, Profile};
+use crate::material::{Correlation, Kind, MODELS, Model, Parameters, Profile, RandomStrength, Randomness};
 use crate::term::MixedPressure;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde_json::{Map, Value, json};
@@ -27,9 +27,26 @@ impl Checker {
     ) -> Option<Material> {
         let density = self.density(material, gravity, path);
         let (model, carried) = self.model(material, pressure, path)?;
+        let random_strength = self.random_strength(material, path);
         let porous = self.porous(material, &model, path);
         let model_name = material.model.clone();
-        Some(Material { name: name.to_owned(), model_name, density: density?, model, carried, porous })
+        Some(Material { name: name.to_owned(), model_name, density: density?, model, random_strength, carried, porous })
+    }
+
+    /// The field of strength of a material whose strength varies at random.
+    fn random_strength(&mut self, material: &raw::Material, path: &Path) -> Option<Arc<RandomStrength>> {
+        let random = material.random_strength.as_ref()?;
+        let path = path.key("random_strength");
+        if !MODELS.iter().any(|kind| kind.name == material.model && kind.yields) {
+            let problem = format!("the model {} has no strength", material.model);
+            self.issue(&path, At::Key, problem, "take it out, or choose a model that yields");
+        }
+        Some(Arc::new(RandomStrength::new(&Randomness {
+            variation: random.coefficient_of_variation,
+            lengths: [random.horizontal_scale, random.vertical_scale],
+            correlation: random.correlation.into(),
+            seed: random.seed,
+        })))
     }
 
     fn density(&mut self, material: &raw::Material, gravity: &[f64; 2], path: &Path) -> Option<Profile> {
@@ -172,6 +189,15 @@ pub(super) fn build(kind: &Kind, values: &BTreeMap<&str, Profile>) -> Result<Arc
     (kind.build)(&parameters)
 }
 
+impl From<raw::Correlation> for Correlation {
+    fn from(raw: raw::Correlation) -> Self {
+        match raw {
+            raw::Correlation::Markov => Self::Markov,
+            raw::Correlation::Gaussian => Self::Gaussian,
+        }
+    }
+}
+
 impl raw::Material {
     fn has(&self, parameter: &str) -> bool {
         self.parameters.contains_key(parameter)
@@ -233,6 +259,11 @@ impl JsonSchema for raw::Material {
             flow.";
         schema.insert("description".into(), permeability.into());
         properties.insert("permeability".into(), schema.to_value());
+        let mut schema = generator.subschema_for::<raw::RandomStrength>();
+        let random =
+            "A factor of all strengths of the model that varies at random in space, with the mean 1. Default: none.";
+        schema.insert("description".into(), random.into());
+        properties.insert("random_strength".into(), schema.to_value());
         for (name, range, description) in [
             (
                 "porosity",

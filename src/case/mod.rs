@@ -22,6 +22,7 @@ pub mod locate;
 mod materials;
 pub mod names;
 mod outputs;
+mod over_depth;
 pub mod parts;
 mod phases;
 mod pores;

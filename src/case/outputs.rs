@@ -7,7 +7,6 @@ use super::{pores, rigid, water};
 use crate::error::Result;
 use crate::io::provenance::Origin;
 use crate::io::run_folder::RunFolder;
-use crate::rigid::Body;
 use crate::run::fields::{self, Field as PointField};
 use crate::run::{self, InternalVariable, Outputs, Watch, WatchedOn};
 use crate::step::Scene;
@@ -42,6 +41,9 @@ pub fn outputs(
             Field::DeformationGradient => Arc::new(fields::DeformationGradient),
             Field::PorePressure => Arc::new(fields::PorePressure(carried(case, mesh)?)),
             Field::Mass => Arc::new(fields::PointColumn("mass")),
+            Field::ShearStrength => {
+                Arc::new(fields::ShearStrength(by_number(case, mesh, |material| Some(material.model.clone()))?))
+            }
             Field::InternalVariables => {
                 let models = by_number(case, mesh, |material| Some(material.model.clone()))?;
                 let variables = InternalVariable::all(&models).into_iter();
@@ -52,14 +54,11 @@ pub fn outputs(
         asked.push(field);
     }
     let watch = |entry: &History| {
-        let body = scene.bodies.iter().find(|body| rigid::body_of(mesh, body, &entry.on));
+        let body = scene.bodies.iter().position(|body| rigid::body_of(mesh, body, &entry.on));
         let on = match (mesh.group(&entry.on), body) {
-            (_, Some(body)) if rigid::is_region(mesh, body, &entry.on) => {
-                let Body { region, reference, turning, arm, .. } = *body;
-                WatchedOn::Body { region, reference, turning, arm }
-            }
+            (_, Some(body)) if rigid::is_region(mesh, &scene.bodies[body], &entry.on) => WatchedOn::Body(body),
             (Some(group), None) => WatchedOn::Nodes(group.nodes.clone()),
-            (Some(group), Some(body)) => WatchedOn::Side(group.nodes.clone(), body.reference),
+            (Some(group), Some(body)) => WatchedOn::Side(group.nodes.clone(), body),
             (None, _) => WatchedOn::Region(region_index(mesh, &entry.on)?),
         };
         let quantities = entry.quantities.iter().map(|q| quantity(*q));

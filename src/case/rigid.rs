@@ -1,10 +1,11 @@
-//! The rigid structures of a case: their nodes in the mesh, and what holds and moves them.
+//! The rigid structures and walls of a case: their nodes in the mesh, and what holds and moves them.
 
 use super::checked::{self, Case, Geometry, Phase};
 use super::find::{group, region_index};
 use crate::error::{Error, Result};
 use crate::kinematics::Kinematics;
 use crate::mesh::Mesh;
+use crate::points::Points;
 use crate::rigid::Body;
 use crate::seed::{QUADRATURE, RegionSeed, seed};
 use crate::step::{Fixed, Prescribed};
@@ -18,12 +19,19 @@ pub fn regions(case: &Case, mesh: &Mesh<2>) -> Vec<bool> {
     mesh.regions.iter().map(rigid).collect()
 }
 
-/// Appends the nodes of the rigid structures to `mesh` and tells what they are.
+/// The rigid structures of a case, and then its walls, by their regions and nodes in the whole `mesh`.
 ///
 /// # Errors
 /// Input: a structure without cells, or one that shares nodes with other regions.
-pub fn bodies(case: &Case, mesh: &mut Mesh<2>) -> Result<Vec<Body<2>>> {
-    let mut bodies = Vec::new();
+pub fn bodies(case: &Case, mesh: &Mesh<2>, walls: Vec<(u16, Vec<u32>)>) -> Result<Vec<Body<2>>> {
+    let mut bodies: Vec<Body<2>> = Vec::new();
+    // In axisymmetry they only move along the axis.
+    let plane = case.geometry == Geometry::PlaneStrain;
+    let mut add = |region: u16, nodes: Vec<u32>, points: &Points<2>| {
+        let first =
+            bodies.last().and_then(|body| body.dofs.numbers().last()).map_or(mesh.nodes.len() as u32, |n| n + 1);
+        bodies.push(Body::new(mesh, first, region, nodes, points, plane));
+    };
     for region in case.regions.iter().filter(|region| region.content.is_rigid()) {
         let number = region_index(mesh, &region.name)?;
         let part = mesh.part(|c| mesh.cells.region[c] == number);
@@ -41,11 +49,9 @@ pub fn bodies(case: &Case, mesh: &mut Mesh<2>) -> Result<Vec<Body<2>>> {
         let Some(material) = region.content.material() else { continue };
         let density = case.materials[material].density;
         let filling = RegionSeed { region: number, points_per_cell: QUADRATURE, density };
-        let plane = case.geometry == Geometry::PlaneStrain;
-        let points = seed(&part, !plane, &[filling])?;
-        // In axisymmetry it only moves along the axis.
-        bodies.push(Body::append(mesh, number, nodes, &points, plane));
+        add(number, nodes, &seed(&part, !plane, &[filling])?);
     }
+    walls.into_iter().for_each(|(region, nodes)| add(region, nodes, &Points::default()));
     Ok(bodies)
 }
 
@@ -85,19 +91,21 @@ pub fn terms<K: Kinematics<2>>(
     Ok(terms)
 }
 
-/// What bodies do not do unless a phase prescribes it: walls, which have no mass and no cells, do not move. No body has a second
-/// component of its rotation, and none leaves the axis of symmetry.
-fn always_fixed(body: &Body<2>, is_wall: bool) -> Vec<Fixed> {
-    let fixed = |node: u32, component: usize| Fixed { nodes: vec![node], component };
-    let mut all = vec![match body.turning {
-        Some(node) => fixed(node, 1),
-        None => fixed(body.reference, 0),
-    }];
-    if is_wall {
-        all.extend([0, 1].map(|component| fixed(body.reference, component)));
-        all.extend(body.turning.map(|node| fixed(node, 0)));
-    }
-    all
+/// The motion of a body in a component, 0 for x, 1 for y, 2 for the rotation (m, rad); `None` where it does not turn.
+fn moved(body: &Body<2>, component: usize, value: &TimeValue) -> Option<Prescribed> {
+    let (number, component, unit) = body.dofs.component::<2>(component)?;
+    Some(Prescribed { fixed: Fixed { nodes: vec![number], component }, displacement: value.scaled(unit) })
+}
+
+/// All motions of a body, held.
+pub fn held(body: &Body<2>) -> impl Iterator<Item = Fixed> {
+    (0..3).filter_map(|component| Some(moved(body, component, &TimeValue::Constant(0.0))?.fixed))
+}
+
+/// What bodies do not do unless a phase prescribes it: walls, which have no mass and no cells, do not move.
+fn always_fixed(body: &Body<2>) -> impl Iterator<Item = Fixed> {
+    let unused = body.dofs.unused::<2>().map(|(number, component)| Fixed { nodes: vec![number], component });
+    unused.chain(held(body).filter(|_| body.is_wall))
 }
 
 /// A motion given to an entry of `supports` or `prescribe`.
@@ -128,8 +136,7 @@ impl<'a> Holds<'a> {
     pub fn supports(&self) -> Result<Vec<Fixed>> {
         let given = self.supported();
         self.check("supports", &given)?;
-        let is_wall = |body: &Body<2>| !self.case.regions.iter().any(|r| is_region(self.mesh, body, &r.name));
-        let mut supports: Vec<Fixed> = self.bodies.iter().flat_map(|body| always_fixed(body, is_wall(body))).collect();
+        let mut supports: Vec<Fixed> = self.bodies.iter().flat_map(always_fixed).collect();
         for entry in &given {
             supports.extend(self.resolve(entry)?.into_iter().map(|p| p.fixed));
         }
@@ -174,10 +181,6 @@ impl<'a> Holds<'a> {
 
     /// The nodes that an entry moves. All of a curve moves alike: a body that has it does not turn.
     fn resolve(&self, given: &Given) -> Result<Vec<Prescribed>> {
-        let one = |node: u32, component: usize, displacement: TimeValue| Prescribed {
-            fixed: Fixed { nodes: vec![node], component },
-            displacement,
-        };
         let Some(body) = self.body(given.name) else {
             let nodes = group(self.mesh, given.name)?.nodes.clone();
             if self.bodies.iter().any(|body| nodes.iter().any(|n| body.nodes.binary_search(n).is_ok())) {
@@ -190,16 +193,9 @@ impl<'a> Holds<'a> {
             let fixed = Fixed { nodes, component: given.component };
             return Ok(vec![Prescribed { fixed, displacement: given.value.clone() }]);
         };
-        let mut all = Vec::new();
-        if given.component < 2 {
-            all.push(one(body.reference, given.component, given.value.clone()));
-        }
-        let turn = match given.component {
-            2 => Some(given.value.scaled(body.arm)),
-            _ => (!is_region(self.mesh, body, given.name)).then_some(TimeValue::Constant(0.0)),
-        };
-        all.extend(body.turning.zip(turn).map(|(node, turn)| one(node, 0, turn)));
-        Ok(all)
+        let does_not_turn = given.component != 2 && !is_region(self.mesh, body, given.name);
+        let still = does_not_turn.then(|| moved(body, 2, &TimeValue::Constant(0.0))).flatten();
+        Ok(moved(body, given.component, &given.value).into_iter().chain(still).collect())
     }
 
     /// # Errors
@@ -212,7 +208,7 @@ impl<'a> Holds<'a> {
             let problem = |problem: String| {
                 Err(Error::input(place, problem, "prescribe the motion of a rigid structure once, by its name"))
             };
-            let cannot = body.turning.is_none() && entry.component != 1 && entry.value != still;
+            let cannot = body.dofs.rotation.is_none() && entry.component != 1 && entry.value != still;
             if cannot {
                 return problem(format!("`{}` moves along the axis of symmetry only", entry.name));
             }

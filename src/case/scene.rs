@@ -112,6 +112,9 @@ pub fn first(case: &Case, scene: &Scene<2>, [mut points, mut fem]: [Points<2>; 2
     let models = changes::by_number(case, &scene.mesh, |material| Some(material.model.clone()))?;
     points.begin(&models);
     fem.begin(&models);
+    let strengths = changes::random_strengths(case, &scene.mesh)?;
+    points.vary(&strengths);
+    fem.vary(&strengths);
     if scene.water.is_some() {
         // Without an initial pressure there is none.
         points.pore_pressure.resize(points.len(), 0.0);
@@ -119,7 +122,7 @@ pub fn first(case: &Case, scene: &Scene<2>, [mut points, mut fem]: [Points<2>; 2
     }
     let first_step = scene.phases.first().map_or(0.0, |p| p.first_step);
     let fem_parametric = scene.fem.as_ref().map_or(Ok(Vec::new()), |part| parts::places(&part.mesh, &fem))?;
-    Ok(State { fem, fem_parametric, ..State::new(points, scene.mesh.nodes.len(), first_step) })
+    Ok(State { fem, fem_parametric, ..State::new(points, scene.displacements(), first_step) })
 }
 
 /// Hands the pressure field its share: the points bring the elastic strain of all their stress.
@@ -139,9 +142,9 @@ fn begin_pressure(case: &Case, mesh: &Mesh<2>, points: &mut Points<2>) -> Result
 /// # Errors
 /// `Input` when the mesh lacks a group that the case names.
 pub fn scene<K: Kinematics<2>>(case: &Case, mut whole: Mesh<2>) -> Result<Scene<2>> {
-    let mut bodies = rigid::bodies(case, &mut whole)?;
-    let structures = bodies.len();
-    bodies.extend(wall::bodies(case, &mut whole)?);
+    let walls = wall::append(case, &mut whole)?;
+    let bodies = rigid::bodies(case, &whole, walls)?;
+    let structures = bodies.iter().filter(|body| !body.is_wall).count();
     let (mesh, fem) = parts::meshes(case, whole);
     let basis = case.numerics.basis;
     scheme::check(basis, &mesh, fem.as_ref())?;
@@ -322,7 +325,7 @@ fn quadrature<K: Kinematics<2>>(case: &Case, mesh: &Mesh<2>) -> Result<Box<dyn Q
     Ok(match (case.numerics.quadrature, bounded) {
         (raw::Quadrature::Resampled, _) => {
             let resampled = Resampled::<K>::new(mesh, models(case, mesh)?, bounded);
-            Box::new(resampled.renewing(seeded(case, mesh)?))
+            Box::new(resampled.renewing(seeded(case, mesh)?).varying(changes::random_strengths(case, mesh)?))
         }
         (raw::Quadrature::Points, true) => Box::new(Bounded::<K>::new(mesh)),
         (raw::Quadrature::Points, false) => Box::new(Volumes::<K>::default()),

@@ -1,7 +1,9 @@
 //! The material points a case starts with: the regions filled, at rest or moving, with their stress.
 
-use super::checked::{Case, Content, Geometry, Material, Region};
-use super::layout;
+use super::checked::{Case, Content, Geometry};
+use super::find::region_index;
+use super::over_depth::check_over_depth;
+use super::{changes, layout};
 use crate::error::{Error, Result};
 use crate::material::{Profile, State, is_beyond_yield, odd_poisson, on_poisson, spatial};
 use crate::mesh::Mesh;
@@ -41,6 +43,8 @@ pub fn points(case: &Case, mesh: &Mesh<2>) -> Result<Points<2>> {
         let places = points.position.iter().zip(&points.region);
         points.velocity = places.map(|(x, &r)| velocity_of[r as usize].map_or([0.0; 2], |v| v.at(x))).collect();
     }
+    points.vary(&changes::random_strengths(case, mesh)?);
+    check_random_strength(case, mesh, &points)?;
     Ok(points)
 }
 
@@ -61,12 +65,12 @@ pub fn notes(case: &Case, mesh: &Mesh<2>, points: &Points<2>) -> Result<Vec<Stri
             let [x, y] = points.origin[*found.first()?];
             Some(format!("{} of its {} points, such as that at [{x:.4}, {y:.4}] m", found.len(), of.len()))
         };
-        let at_first = State::default();
-        let beyond = |&p: &usize| is_beyond_yield(material.model.as_ref(), height(p), &points.stress[p], &at_first);
+        let at_first = |p: usize| State { strength: points.strength_of(p), ..State::default() };
+        let beyond = |&p: &usize| is_beyond_yield(material.model.as_ref(), height(p), &points.stress[p], &at_first(p));
         let beyond: Vec<usize> = of.iter().copied().filter(beyond).collect();
         if let Some(told) = told(&beyond) {
             notes.push(format!(
-                "region `{region}`: the initial stress of {told}, is more than `{}` bears, and falls to it in the first step; another `k0` or \
+                "region `{region}`: the initial stress of {told}, is more than `{}` bears, and is reduced to it in the first step; another `k0` or \
                  more strength leaves them at rest",
                 material.name
             ));
@@ -109,28 +113,26 @@ fn filled(case: &Case, mesh: &Mesh<2>) -> Result<Vec<Filled>> {
     Ok(filled)
 }
 
-/// Heights at which a material is checked over a region, beside its lowest point. A profile is linear below its datum but for where it has
-/// fallen to its least value.
-const HEIGHTS: u32 = 64;
-
-/// Checks a material over the height of a region: a profile in range at top and bottom is so in between, but what two say of each other may not.
-pub(super) fn check_over_depth(mesh: &Mesh<2>, index: u16, region: &Region, material: &Material) -> Result<()> {
-    let cells = (0..mesh.cells.len()).filter(|&c| mesh.cells.region[c] == index);
-    let heights = cells.flat_map(|c| mesh.cells.nodes(c)).map(|&n| mesh.nodes[n as usize][1]);
-    let (low, high) = heights.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), y| (l.min(y), h.max(y)));
-    let share = |k: u32| f64::from(k) / f64::from(HEIGHTS);
-    let within = (1..HEIGHTS).map(|k| low + (high - low) * share(k));
-    for y in [low, high].into_iter().chain(within) {
-        material.model.check(y).map_err(|e| Error {
-            place: format!("material `{}` in region `{}` at y = {y} m: {}", material.name, region.name, e.place),
-            ..e
-        })?;
-        if material.density.at(y) < 0.0 {
-            return Err(Error::input(
-                format!("material `{}` in region `{}` at y = {y} m", material.name, region.name),
-                format!("the density is {}", material.density.at(y)),
-                "change its top or gradient",
-            ));
+/// Checks the materials whose strength varies at random with the strength of each point: what two parameters say of each other may not hold there.
+fn check_random_strength(case: &Case, mesh: &Mesh<2>, points: &Points<2>) -> Result<()> {
+    for (region, material) in changes::used(case) {
+        let (Some(field), index) = (&material.random_strength, region_index(mesh, &region.name)?) else { continue };
+        for p in (0..points.len()).filter(|&p| points.region[p] == index) {
+            let ([x, y], strength) = (points.origin[p], field.factor(&points.origin[p]));
+            if !strength.is_normal() {
+                return Err(Error::input(
+                    format!("material `{}`", material.name),
+                    format!("its random strength is {strength} of the mean at [{x:.4}, {y:.4}] m"),
+                    "check the coefficient of variation and the scales of `random_strength`",
+                ));
+            }
+            material.model.reduced(1.0 / strength).check(points.seeded_height(p)).map_err(|e| Error {
+                place: format!(
+                    "material `{}` in region `{}` at [{x:.4}, {y:.4}] m, where its random strength is {strength:.3} of the mean: {}",
+                    material.name, region.name, e.place
+                ),
+                ..e
+            })?;
         }
     }
     Ok(())

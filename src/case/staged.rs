@@ -2,6 +2,7 @@
 
 use super::checked::{Case, Contact, Phase, Touched, Touching};
 use super::find::region_index;
+use super::rigid;
 use crate::error::Result;
 use crate::mesh::Mesh;
 use crate::rigid::Body;
@@ -18,8 +19,7 @@ pub fn held(case: &Case, mesh: &Mesh<2>, fem: &Mesh<2>, bodies: &[Body<2>], phas
     for region in case.regions.iter().filter(|region| phase.absent.contains(&region.name)) {
         let number = region_index(mesh, &region.name)?;
         if let Some(body) = bodies.iter().find(|body| body.region == number) {
-            held.extend([0, 1].map(|component| Fixed { nodes: vec![body.reference], component }));
-            held.extend(body.turning.map(|node| Fixed { nodes: vec![node], component: 0 }));
+            held.extend(rigid::held(body));
             continue;
         }
         let cells = (0..fem.cells.len()).filter(|&c| fem.cells.region[c] == number);

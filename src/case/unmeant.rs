@@ -107,7 +107,7 @@ pub fn on_mesh(case: &Case, mesh: &Mesh<2>) -> Vec<String> {
         let is_slender = around[1][far.component] - around[0][far.component] > SLENDER * width;
         if width < h * if is_slender { FEW_CELLS_OF_A_WALL } else { FEW_CELLS } {
             warnings.push(format!(
-                "warning: the cells around `{name}` are {} m, and it is {} m wide across its way: {:.1} cells, which see too little of it, and its \
+                "warning: the cells around `{name}` are {} m, and it is {} m wide across its way: {:.1} cells, which resolve it poorly, and its \
                  load is far too high; make them {} m or finer there",
                 said(h),
                 said(width),

@@ -1,25 +1,24 @@
 //! Rigid walls: physical curves of the mesh that soil or bodies touch.
 //!
-//! A wall is a rigid body of its own, with copies of the nodes of its curve: those belong to the grid, which deforms. It
+//! A wall is a rigid body of its own, with copies of the nodes of its curve: those belong to the grid, which deforms. The copies are of no cell. It
 //! has a region without cells, by which it is known as structures are. What touches it is on the side where its cells are.
 
-use super::checked::{Case, Geometry, Touching};
+use super::checked::{Case, Touching};
 use super::find::group;
 use crate::error::{Error, Result};
 use crate::mesh::Mesh;
 use crate::mesh::shape::CellKind;
-use crate::points::Points;
 use crate::rigid::Body;
 
-/// Appends the nodes and the regions of the walls of a case to the whole mesh and tells what they are.
+/// Appends the nodes and the regions of the walls of a case to the whole mesh and tells them, wall by wall.
 ///
 /// # Errors
 /// Input: a curve that the mesh has not, or that is called as a region.
-pub fn bodies(case: &Case, mesh: &mut Mesh<2>) -> Result<Vec<Body<2>>> {
-    let mut bodies: Vec<Body<2>> = Vec::new();
+pub fn append(case: &Case, mesh: &mut Mesh<2>) -> Result<Vec<(u16, Vec<u32>)>> {
+    let mut walls: Vec<(u16, Vec<u32>)> = Vec::new();
     for contact in &case.contacts {
         let Touching::Wall(name) = &contact.structure else { continue };
-        if bodies.iter().any(|body| mesh.regions[body.region as usize] == *name) {
+        if walls.iter().any(|(region, _)| mesh.regions[*region as usize] == *name) {
             continue;
         }
         if mesh.regions.contains(name) {
@@ -29,12 +28,10 @@ pub fn bodies(case: &Case, mesh: &mut Mesh<2>) -> Result<Vec<Body<2>>> {
         let first = mesh.nodes.len() as u32;
         let copies: Vec<[f64; 2]> = curve.iter().map(|&n| mesh.nodes[n as usize]).collect();
         mesh.nodes.extend(copies);
-        let (region, nodes) = (mesh.regions.len() as u16, (first..mesh.nodes.len() as u32).collect());
+        walls.push((mesh.regions.len() as u16, (first..mesh.nodes.len() as u32).collect()));
         mesh.regions.push(name.clone());
-        let turns = case.geometry == Geometry::PlaneStrain;
-        bodies.push(Body { first, ..Body::append(mesh, region, nodes, &Points::default(), turns) });
     }
-    Ok(bodies)
+    Ok(walls)
 }
 
 /// The facets of a wall with the cells of some `regions` of a mesh, the grid or the one beside it, on their right, by the
@@ -45,7 +42,7 @@ pub fn bodies(case: &Case, mesh: &mut Mesh<2>) -> Result<Vec<Body<2>>> {
 pub fn facets(mesh: &Mesh<2>, body: &Body<2>, regions: &[u16]) -> Result<(CellKind, Vec<Vec<u32>>)> {
     let name = &mesh.regions[body.region as usize];
     let curve = group(mesh, name)?;
-    let own = |n: &u32| curve.nodes.binary_search(n).map_or(u32::MAX, |i| body.first + i as u32);
+    let own = |n: &u32| curve.nodes.binary_search(n).map_or(u32::MAX, |i| body.nodes[i]);
     let kind = curve.facets.first().map_or(CellKind::Line3, |(kind, _)| *kind);
     let mut left: Vec<Vec<u32>> = curve.facets.iter().map(|(_, nodes)| nodes.iter().map(own).collect()).collect();
     let middles = middles(mesh, regions);

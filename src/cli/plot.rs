@@ -2,14 +2,16 @@
 
 mod curves;
 pub mod field;
+mod table;
 
 use super::print::Outcome;
 use crate::case::Keys;
+use crate::error::Error;
 use std::path::PathBuf;
 
 #[derive(clap::Args)]
 pub struct Args {
-    /// Cases (a case.yaml or its folder) or output folders, whose curves are drawn together
+    /// Cases (a case.yaml or its folder) or output folders, whose curves are drawn together; or the table.csv of a sweep
     #[arg(required = true)]
     cases: Vec<PathBuf>,
     /// The picture, by its ending an SVG or a PNG [default: history.svg, or the field's name, in the output folder]
@@ -27,6 +29,21 @@ pub fn run(args: &Args, keys: &Keys) -> Outcome {
             .cases
             .iter()
             .try_for_each(|case| field::run(case, args.output.as_deref(), name, &args.field, keys));
+    }
+    let tables: Vec<PathBuf> = args.cases.iter().filter_map(|path| table::of(path)).collect();
+    match &tables[..] {
+        [] => {}
+        [table] if args.cases.len() == 1 && !args.curves.iterations => {
+            return table::run(table, args.output.as_deref(), &args.curves);
+        }
+        [table, ..] => {
+            let problem = "a table of a sweep is drawn alone, and has no steps";
+            return Err(Error::input(table.display(), problem, "name nothing else, and leave --iterations out").into());
+        }
+    }
+    if args.curves.distribution {
+        let problem = "a run alone has no distribution";
+        return Err(Error::input("--distribution", problem, "name the table.csv of a sweep").into());
     }
     curves::run(&args.cases, args.output.as_deref(), &args.curves, args.field.unfinished, keys)
 }

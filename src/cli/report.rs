@@ -13,8 +13,10 @@ use crate::io::export::Series;
 use crate::io::frame::Info;
 use crate::io::provenance::Record;
 use crate::io::run_folder::{RunFolder, STAGE, Standing};
+use crate::io::sweep_table::{self, SweepTable};
+use crate::io::table::Table;
 use crate::mesh::Mesh;
-use crate::report::Subject;
+use crate::report::{Html, Subject, variants};
 use std::path::{Path, PathBuf};
 use std::time::SystemTime;
 
@@ -35,6 +37,9 @@ pub struct Args {
     /// The times in s at which it is shown, of the frames that are nearest [default: the end of each phase]
     #[arg(long, value_name = "T,T,…", value_delimiter = ',')]
     times: Vec<f64>,
+    /// The folder of a sweep, or its table.csv, whose variants are shown beside the run [default: sweep/ beside the case, if it has a table]
+    #[arg(long, value_name = "DIR")]
+    sweep: Option<PathBuf>,
     /// Report on the run that was not finished, where there is a finished one too
     #[arg(long)]
     unfinished: bool,
@@ -65,6 +70,16 @@ pub fn run(args: &Args, keys: &Keys) -> Outcome {
                 .to_owned(),
         );
     }
+    let sweep = match sweep(args, &run.table) {
+        // What was asked for must be there; without that the page says why it is not.
+        Err(error) if args.sweep.is_none() => Some(Err(error.to_string())),
+        sweep => sweep?.map(Ok),
+    };
+    if let Some(Ok((_, true))) = &sweep {
+        let text = "The case file was changed after the table of its variants was written: `mpm sweep` with `--table` says which are out of date.";
+        cautions.push(text.to_owned());
+    }
+    let sweep = sweep.map(|sweep| sweep.map(|(variants, _)| variants));
     let now = humantime::format_rfc3339_seconds(SystemTime::now()).to_string();
     let mesh = match &mesh {
         Ok(mesh) => Ok(mesh),
@@ -79,11 +94,39 @@ pub fn run(args: &Args, keys: &Keys) -> Outcome {
         Err(error) if !args.field.is_empty() => return Err(error.into()),
         pictures => pictures.map_err(|error| error.to_string()),
     };
-    let subject =
-        Subject { loaded: &stage.loaded, keys, mesh, run: &run, pictures, records: &records, cautions: &cautions, now };
+    let subject = Subject {
+        loaded: &stage.loaded,
+        keys,
+        mesh,
+        run: &run,
+        pictures,
+        records: &records,
+        sweep,
+        cautions: &cautions,
+        now,
+    };
     let page = subject.page()?;
     atomic::write(&path, |out| out.write_all(page.as_bytes()))?;
     print(&format!("{}\n", path.display()))
+}
+
+/// The variants, and whether the case file is newer than their table; one that was not asked for may be missing.
+fn sweep(args: &Args, run: &Table) -> Result<Option<(Html, bool)>> {
+    let case = &args.case.case;
+    let beside = if case.is_dir() { case.as_path() } else { case.parent().unwrap_or(Path::new("")) };
+    let path = sweep_table::file(&args.sweep.clone().unwrap_or_else(|| beside.join("sweep")));
+    if args.sweep.is_none() && !path.is_file() {
+        return Ok(None);
+    }
+    let table = SweepTable::read(&path, "run `mpm sweep` first, or name its folder")?;
+    if !table.is_sweep() {
+        let problem = "is not the table of a sweep: it has no `run` and `state`";
+        return Err(Error::input(path.display(), problem, "name the folder of a sweep, or its table, with --sweep"));
+    }
+    let file = if case.is_dir() { case.join("case.yaml") } else { case.clone() };
+    let changed = |path: &Path| path.metadata().and_then(|data| data.modified()).ok();
+    let newer = changed(&file).zip(changed(&path)).is_some_and(|(case, table)| case > table);
+    Ok(Some((variants(&table, run)?, newer)))
 }
 
 /// Pixels of a picture of a field across the page.

@@ -14,14 +14,13 @@ use super::motion::Spot;
 use super::multipliers::Multipliers;
 use super::place::{Placed, Segments};
 use super::rigid::{Entry, add};
-use super::surface::{Segment, Surface};
+use super::surface::{Run, Segment, Surface};
 use crate::geometry::{Hit, Lines, distance, dot, foot, way};
 use crate::kinematics::Kinematics;
 use crate::mesh::shape::MAX_NODES;
 use crate::points::Points;
 use std::collections::BTreeMap;
 use std::marker::PhantomData;
-use std::ops::Range;
 
 /// How far (-) across a segment the other boundary is looked for, in distances of the contact nodes.
 const REACH: f64 = 2.5;
@@ -242,15 +241,11 @@ impl<K: Kinematics<2>> Interface<2> for Bodies<K> {
         &[]
     }
 
-    fn yields(&self) -> bool {
-        false
-    }
-
     fn contact_nodes(&self) -> usize {
         self.surface.contact_nodes
     }
 
-    fn runs(&self) -> &[(Range<usize>, bool)] {
+    fn runs(&self) -> &[Run] {
         &self.surface.runs
     }
 

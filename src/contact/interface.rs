@@ -8,7 +8,7 @@ use super::law::{Laws, Penalty};
 use super::multipliers::Multipliers;
 use super::place::{Placed, Segments};
 use super::skin::Skin;
-use super::surface::Surface;
+use super::surface::{Run, Surface};
 use crate::kinematics::Kinematics;
 use crate::material::Model;
 use crate::mesh::Mesh;
@@ -17,7 +17,6 @@ use crate::mesh::shape::MAX_NODES;
 use crate::points::Points;
 use crate::surface::Cover;
 use std::marker::PhantomData;
-use std::ops::Range;
 use std::sync::Arc;
 
 /// Normal penalty ε_n (-), in Young's modulus over the spacing of the contact nodes.
@@ -85,9 +84,6 @@ pub trait Interface<const D: usize>: Send + Sync {
     /// The regions of the soil that it touches; none of a body.
     fn soils(&self) -> &[u16];
 
-    /// Whether soil that it touches may yield.
-    fn yields(&self) -> bool;
-
     /// The number of contact nodes.
     fn contact_nodes(&self) -> usize;
 
@@ -101,8 +97,8 @@ pub trait Interface<const D: usize>: Send + Sync {
         held: &Multipliers,
     ) -> Vec<Constraint<D>>;
 
-    /// The contact nodes in order along each smooth piece of the boundary, and whether the last is beside the first.
-    fn runs(&self) -> &[(Range<usize>, bool)];
+    /// The contact nodes of each smooth piece of the boundary.
+    fn runs(&self) -> &[Run];
 
     /// The boundary as polylines with the structure on their left; closed ones end where they begin.
     fn outlines(&self, position: &dyn Fn(u32) -> [f64; D]) -> Vec<Vec<[f64; D]>>;
@@ -143,13 +139,12 @@ impl<K: Kinematics<2>> Boundary<K> {
     /// touch, not to overlap. Where soil was folded, as beside a wall that drew its surface down, points do not know that surface any more: it counts
     /// only where the followed surface agrees. The second number is how much more the nearest points measure than that.
     fn begin(&self, measured: &Measured, surface: Option<f64>, held: &Multipliers, contact_node: usize) -> (f64, f64) {
-        let Measured { open, known, spacing, curvature, moved } = *measured;
+        let Measured { before, open, known, spacing, curvature, moved } = *measured;
         let known = known.filter(|known| surface.is_none_or(|surface| (known - surface).abs() < BAND * spacing));
         let is_curved = (curvature * spacing).abs() > FLAT;
         let still = STILL * spacing;
         let offset = |gap: f64| (open - gap).clamp(-0.5 * spacing, 0.5 * spacing);
         if let (true, Some(gap)) = (is_curved, surface) {
-            let before = held.gap[contact_node];
             let gap =
                 if held.touched(contact_node) { gap.clamp(before - moved, before + moved) } else { gap.max(-still) };
             return (gap, offset(gap));
@@ -158,7 +153,6 @@ impl<K: Kinematics<2>> Boundary<K> {
             let gap = known.or(surface).unwrap_or(open);
             return (gap.max(-still), offset(gap));
         }
-        let before = held.gap[contact_node];
         let (error, slide) =
             known.map_or((open - held.offset[contact_node] - before, SLIDE), |gap| (gap - before, KNOWN));
         let (share, band) = ((held.slip[contact_node] / (slide * spacing)).min(1.0), BAND * spacing);
@@ -167,11 +161,16 @@ impl<K: Kinematics<2>> Boundary<K> {
         (gap, if known.is_some() { offset(gap) } else { held.offset[contact_node] })
     }
 
+    /// Whether soil like that at `point` may yield.
+    fn yields(&self, points: &Points<2>, point: usize) -> bool {
+        self.models.get(points.model_of(point)).and_then(Option::as_ref).is_some_and(|model| model.yields())
+    }
+
     /// Penalties and multipliers of a contact node over soil like that at `point`, without its strength and water.
     fn penalty(&self, points: &Points<2>, point: usize, contact_node: usize, held: &Multipliers) -> Penalty {
         let y = points.seeded_height(point);
         let model = self.models.get(points.model_of(point)).and_then(Option::as_ref);
-        let yields = model.is_some_and(|m| m.yields());
+        let yields = self.yields(points, point);
         let share = if yields { YIELDING } else { 1.0 };
         let stiffness = share * model.map_or(0.0, |m| m.young(y)) / self.surface.spacing;
         Penalty {
@@ -211,6 +210,8 @@ impl Ground<'_, 2> {
 
 /// The gap (m) of a contact node as points measure it.
 struct Measured {
+    /// That at the end of the step before.
+    before: f64,
     /// That of the nearest points.
     open: f64,
     /// That of the surface which the soil began with, where points know it.
@@ -268,15 +269,11 @@ impl<K: Kinematics<2>> Interface<2> for Boundary<K> {
         &self.regions
     }
 
-    fn yields(&self) -> bool {
-        self.models.iter().flatten().any(|model| model.yields())
-    }
-
     fn contact_nodes(&self) -> usize {
         self.surface.contact_nodes
     }
 
-    fn runs(&self) -> &[(Range<usize>, bool)] {
+    fn runs(&self) -> &[Run] {
         &self.surface.runs
     }
 
@@ -294,7 +291,7 @@ impl<K: Kinematics<2>> Interface<2> for Boundary<K> {
         let segments = Segments::new::<K>(&self.surface, position);
         let soil = Soil { points: ground.points, regions: &self.regions };
         let gaps = raw_gaps::<K>(&self.surface, &segments, &soil, &self.skin);
-        let surface = Facing::new(ground.surface);
+        let (surface, smooth) = (Facing::new(ground.surface), held.smooth_gaps(&self.surface.runs));
         let mut holds = vec![false; ground.grid.cells.len()];
         ground.points.cell.iter().chain(ground.integration).for_each(|&c| holds[c as usize] = true);
         let mut sums: Vec<Option<Sum>> = (0..self.surface.contact_nodes).map(|_| None).collect();
@@ -391,7 +388,8 @@ impl<K: Kinematics<2>> Interface<2> for Boundary<K> {
             let surface = (facing > 0.5 * area).then_some(distance / facing);
             let known = (sure > 0.5 * area).then_some(known / sure);
             let [open, curvature, moved] = [open, curvature, moved[0].hypot(moved[1])].map(|sum| sum / area);
-            let measured = Measured { open, known, spacing, curvature, moved };
+            let gaps = if self.yields(ground.points, point as usize) { &smooth } else { &held.gap };
+            let measured = Measured { before: gaps[contact_node], open, known, spacing, curvature, moved };
             let (gap, offset) = self.begin(&measured, surface, held, contact_node);
             let of_structure = |n: &u32| self.surface.facets.iter().any(|f| f.contains(n));
             entries.sort_by_key(|(n, ..)| (!of_structure(n), *n));

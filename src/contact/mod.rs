@@ -30,4 +30,4 @@ pub use motion::{Motion, Spot};
 pub use multipliers::Multipliers;
 pub use rigid::Rigid;
 pub use skin::Skin;
-pub use surface::Surface;
+pub use surface::{Run, Surface};

@@ -1,6 +1,6 @@
 //! What contact nodes carry from step to step.
 
-use std::ops::Range;
+use super::surface::Run;
 
 /// Share of a multiplier that its neighbours' mean takes the place of in each step.
 const EVEN: f64 = 0.5;
@@ -47,32 +47,40 @@ impl Multipliers {
         }
     }
 
-    /// These with waves evened out along the `runs`, where contact nodes and their neighbours touch. Contact nodes as close as nodes have
-    /// more conditions than the soil can meet: waves of pressure that it hardly feels would grow from step to step. What
-    /// is taken from a wave of the pressure, a gap has to make up for (a stabilised multiplier, Burman & Hansbo 2010). Where the soil `yields`, what
-    /// goes up and down in the gap from one contact node to the next is dropped too: soil that flows makes it anew in each step, and the
-    /// penalty on it would stand in the pressure for good.
-    pub fn evened(&self, runs: &[(Range<usize>, bool)], yields: bool) -> Self {
+    /// These with waves of the pressure evened out along the `runs`, where contact nodes and their neighbours touch. Contact nodes as close as nodes
+    /// have more conditions than the soil can meet: waves of pressure that it hardly feels would grow from step to step. What
+    /// is taken from a wave of the pressure, a gap has to make up for (a stabilised multiplier, Burman & Hansbo 2010).
+    pub fn evened(&self, runs: &[Run]) -> Self {
         let mut evened = self.clone();
-        for (run, is_loop) in runs {
-            let count = run.len() as isize;
-            let touching = |k: isize| {
-                let inside = *is_loop || (0..count).contains(&k);
-                let at = run.start + k.rem_euclid(count) as usize;
-                (inside && self.pressure[at] != 0.0).then_some(at)
-            };
-            for k in 0..count {
-                let (Some(left), Some(at), Some(right)) = (touching(k - 1), touching(k), touching(k + 1)) else {
-                    continue;
-                };
+        for run in runs {
+            for k in 0..run.0.len() as isize {
+                let Some([left, at, right]) = self.touching(run, [k - 1, k, k + 1]) else { continue };
                 let mean = 0.5 * (self.pressure[left] + self.pressure[right]);
                 evened.pressure[at] += EVEN * (mean - self.pressure[at]);
-                let (true, Some(first), Some(last)) = (yields, touching(k - 2), touching(k + 2)) else { continue };
-                let window = [first, left, at, right, last];
-                evened.gap[at] -= window.iter().zip(FOURTH).map(|(&at, share)| share * self.gap[at]).sum::<f64>();
             }
         }
         evened
+    }
+
+    /// The gaps (m) without what goes up and down from one contact node to the next, where five in a row touch. Over soil that yields: it makes
+    /// these waves anew in each step, and the penalty on them would stand in the pressure for good.
+    pub fn smooth_gaps(&self, runs: &[Run]) -> Vec<f64> {
+        let mut gap = self.gap.clone();
+        for run in runs {
+            for k in 0..run.0.len() as isize {
+                let Some(window) = self.touching(run, [k - 2, k - 1, k, k + 1, k + 2]) else { continue };
+                gap[window[2]] -= window.iter().zip(FOURTH).map(|(&at, share)| share * self.gap[at]).sum::<f64>();
+            }
+        }
+        gap
+    }
+
+    /// The contact nodes at these places of a run, if all touched.
+    fn touching<const N: usize>(&self, (run, is_loop): &Run, places: [isize; N]) -> Option<[usize; N]> {
+        let count = run.len() as isize;
+        let nodes = places.map(|k| run.start + k.rem_euclid(count) as usize);
+        let inside = *is_loop || places.iter().all(|k| (0..count).contains(k));
+        (inside && nodes.iter().all(|&at| self.pressure[at] != 0.0)).then_some(nodes)
     }
 
     /// The mean pressure (kPa) of the contact nodes that press.
@@ -95,5 +103,39 @@ impl Multipliers {
     /// The nodes that contact node `k` has room for.
     pub fn room(&self, k: usize) -> &[u32] {
         &self.room[self.first[k] as usize..self.first[k + 1] as usize]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A wave from contact node to contact node is gone from pressure and gap, inside a run and around a loop, up to a contact node that does not touch;
+    /// what is cubic along a run is left in the gap.
+    #[test]
+    fn waves_are_evened_out() {
+        let count = 12;
+        let wave = |k: usize| if k.is_multiple_of(2) { 1.0 } else { -1.0 };
+        let waves = Multipliers {
+            pressure: (0..count).map(|k| 10.0 + wave(k)).collect(),
+            gap: (0..count).map(wave).collect(),
+            ..Multipliers::new(count)
+        };
+        let run = |is_loop| [(0..count, is_loop)];
+        for is_loop in [false, true] {
+            let (even, gap) = (waves.evened(&run(is_loop)), waves.smooth_gaps(&run(is_loop)));
+            let inner = |ends: usize| if is_loop { 0..count } else { ends..count - ends };
+            assert!(inner(1).all(|k| (even.pressure[k] - 10.0).abs() < 1e-14), "{even:?}");
+            assert!(inner(2).all(|k| gap[k].abs() < 1e-14), "{gap:?}");
+            assert_eq!(even.gap, waves.gap);
+        }
+        let mut open = waves.clone();
+        open.pressure[6] = 0.0;
+        let gap = open.smooth_gaps(&run(false));
+        let changed: Vec<usize> = (0..count).filter(|&k| gap[k] != waves.gap[k]).collect();
+        assert_eq!(changed, [2, 3, 9], "{gap:?}");
+        let cubic: Vec<f64> = (0..count).map(|k| (k as f64 - 2.5).powi(3)).collect();
+        let smooth = Multipliers { gap: cubic.clone(), ..waves }.smooth_gaps(&run(false));
+        assert!(smooth.iter().zip(&cubic).all(|(a, b)| (a - b).abs() < 1e-11), "{smooth:?}");
     }
 }

@@ -8,10 +8,10 @@ use super::constraint::Constraint;
 use super::interface::{Ground, Interface, Pushed};
 use super::law::Laws;
 use super::multipliers::Multipliers;
+use super::surface::Run;
 use crate::points::Points;
 use crate::rigid::Body;
 use crate::surface::Cover;
-use std::ops::Range;
 
 /// An interface with a rigid side, or two.
 pub struct Rigid<const D: usize> {
@@ -38,7 +38,7 @@ impl<const D: usize> Rigid<D> {
         let mut distance = 0.0;
         for (&n, normal) in constraint.nodes.iter().zip(&constraint.by_normal).take(constraint.own) {
             let body = self.bodies.get(self.body[n as usize] as usize)?;
-            let (x, c) = (position(n), position(body.reference));
+            let (x, c) = (position(n), position(body.dofs.translation));
             distance -= (0..D).map(|d| normal[d] * (x[d] - c[d])).sum::<f64>();
         }
         (distance > 0.0).then_some(distance)
@@ -56,12 +56,12 @@ impl<const D: usize> Rigid<D> {
                 sides[moving].push((n, [*normal, *tangent, *arc]));
                 continue;
             };
-            let (x, c) = (position(n), position(body.reference));
+            let (x, c) = (position(n), position(body.dofs.translation));
             let arm = std::array::from_fn(|d| x[d] - c[d]);
             // A round body that turns takes no normal with it.
             let handed = [body.hand_on(&arm, normal), body.hand_on(&arm, tangent), [*arc, [0.0; D]]];
-            for (i, (carrier, side)) in body.carriers().zip([moving, turning]).enumerate() {
-                add(&mut sides[side], carrier, &handed.map(|of| of[i]));
+            for (i, (number, side)) in body.dofs.numbers().zip([moving, turning]).enumerate() {
+                add(&mut sides[side], number, &handed.map(|of| of[i]));
             }
         }
         // Where the other side is a body: how the gap varies under the contact node is by how the two turn to each other, and a place at the
@@ -71,8 +71,8 @@ impl<const D: usize> Rigid<D> {
             curvature = 1.0 / distance;
             for (side, sign) in sides.iter_mut().zip([1.0, 1.0, -1.0]) {
                 for (n, by) in side {
-                    if let Some(body) = self.bodies.iter().find(|body| body.turning == Some(*n)) {
-                        by[2] = std::array::from_fn(|d| if d == 0 { sign * distance / body.arm } else { 0.0 });
+                    if let Some(body) = self.bodies.iter().find(|body| body.dofs.rotation == Some(*n)) {
+                        by[2] = body.dofs.force(sign * distance);
                     }
                 }
             }
@@ -115,15 +115,11 @@ impl<const D: usize> Interface<D> for Rigid<D> {
         self.interface.soils()
     }
 
-    fn yields(&self) -> bool {
-        self.interface.yields()
-    }
-
     fn contact_nodes(&self) -> usize {
         self.interface.contact_nodes()
     }
 
-    fn runs(&self) -> &[(Range<usize>, bool)] {
+    fn runs(&self) -> &[Run] {
         self.interface.runs()
     }
 
@@ -179,15 +175,11 @@ mod tests {
             &[]
         }
 
-        fn yields(&self) -> bool {
-            false
-        }
-
         fn contact_nodes(&self) -> usize {
             1
         }
 
-        fn runs(&self) -> &[(Range<usize>, bool)] {
+        fn runs(&self) -> &[Run] {
             &[]
         }
 
@@ -243,11 +235,11 @@ mod tests {
     /// Gap and slip under a small motion of the body are those that its nodes give.
     #[test]
     fn a_body_opens_the_gap_as_its_nodes_do() {
-        let mut mesh = Mesh { nodes: vec![[1.0, 0.5], [2.0, -0.5], [1.0, -2.0], [3.0, 1.5]], ..Mesh::default() };
-        let body = Body::append(&mut mesh, 0, vec![0, 1, 3], &Points::default(), true);
+        let mesh = Mesh { nodes: vec![[1.0, 0.5], [2.0, -0.5], [1.0, -2.0], [3.0, 1.5]], ..Mesh::default() };
+        let body = Body::new(&mesh, 4, 0, vec![0, 1, 3], &Points::default(), true);
         let law = Laws::from(Law { friction: 0.0, adhesion: 0.0, factor: None, tension: 0.0 });
         let interface = Rigid::new(Box::new(One(law)), std::slice::from_ref(&body), mesh.nodes.len());
-        let condensed = interface.condense(constraint(), &|n| mesh.nodes[n as usize]);
+        let condensed = interface.condense(constraint(), &|n| *mesh.nodes.get(n as usize).unwrap_or(&body.centre));
         assert_eq!((condensed.own, &condensed.nodes[..]), (1, &[4, 5, 2][..]));
         let (moved, turned, soil) = ([2e-6, -3e-6], 1e-6, [1e-6, 5e-6]);
         let pose = crate::rigid::Pose { moved, turned };
@@ -255,14 +247,14 @@ mod tests {
             2 => soil,
             n => {
                 let x = mesh.nodes[n as usize];
-                let to = body.place(&mesh, &pose, &x);
+                let to = body.place(&pose, &x);
                 [to[0] - x[0], to[1] - x[1]]
             }
         });
         let by_body = condensed.measure(|n| match n {
             2 => soil,
             4 => moved,
-            _ => [turned * body.arm, 0.0],
+            _ => body.dofs.arc(turned),
         });
         assert!((by_nodes.gap - by_body.gap).abs() < 1e-11 && (by_nodes.slip - by_body.slip).abs() < 1e-11);
         assert!((by_body.gap - 0.3).abs() > 1e-6 && by_body.slip.abs() > 1e-6, "{by_body:?}");
@@ -291,12 +283,12 @@ mod tests {
         let [coarse, fine] = [0.1, 0.05].map(gap_after);
         assert!(coarse.abs() < 1e-4 * radius && fine.abs() < coarse.abs() / 7.0, "{coarse} {fine}");
 
-        let mut mesh = Mesh { nodes: vec![[radius, 0.0], [radius, 0.0], [-radius, 0.0]], ..Mesh::default() };
-        let body = Body::append(&mut mesh, 0, vec![0, 2], &Points::default(), true);
+        let mesh = Mesh { nodes: vec![[radius, 0.0], [radius, 0.0], [-radius, 0.0]], ..Mesh::default() };
+        let body = Body::new(&mesh, 3, 0, vec![0, 2], &Points::default(), true);
         let law = Laws::from(Law { friction: 0.0, adhesion: 0.0, factor: None, tension: 0.0 });
         let interface = Rigid::new(Box::new(One(law)), std::slice::from_ref(&body), mesh.nodes.len());
-        let condensed = interface.condense(round.clone(), &|n| mesh.nodes[n as usize]);
-        let turned = condensed.measure(|n| if Some(n) == body.turning { [0.1 * body.arm, 0.0] } else { [0.0; 2] });
+        let condensed = interface.condense(round.clone(), &|n| *mesh.nodes.get(n as usize).unwrap_or(&body.centre));
+        let turned = condensed.measure(|n| if Some(n) == body.dofs.rotation { body.dofs.arc(0.1) } else { [0.0; 2] });
         assert!(turned.gap == 0.0 && turned.turn == 0.0 && turned.slip != 0.0, "{turned:?}");
     }
 }

@@ -5,6 +5,9 @@ use crate::mesh::Mesh;
 use crate::mesh::faces::Faces;
 use crate::mesh::shape::{CellKind, MAX_NODES, rule};
 
+/// Contact nodes in order along a smooth piece of the boundary, and whether the last is beside the first.
+pub type Run = (std::ops::Range<usize>, bool);
+
 /// Segments per contact node.
 const SEGMENTS: f64 = 5.0;
 /// Cosine of the angle (40°) by which the boundary turns at a corner where pressure and normal may jump.
@@ -35,7 +38,7 @@ pub struct Surface {
     pub chains: Vec<std::ops::Range<usize>>,
     pub contact_nodes: usize,
     /// Contact nodes of each piece, and whether the last is beside the first.
-    pub runs: Vec<(std::ops::Range<usize>, bool)>,
+    pub runs: Vec<Run>,
     /// Length (m) between contact nodes.
     pub spacing: f64,
 }

@@ -66,7 +66,7 @@ pub struct Shown {
 
 impl Shown {
     /// The title of its axis: the column with its factor and unit.
-    fn title(&self, unit: &str) -> String {
+    pub fn title(&self, unit: &str) -> String {
         let name = match self.scale {
             1.0 => self.column.clone(),
             -1.0 => format!("−{}", self.column),

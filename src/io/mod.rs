@@ -7,6 +7,7 @@
 //! | `phases/00-install.mpms` | [`phase_state`] | the state at the end of a phase, which another run may begin with |
 //! | `checkpoints/step-000000456.mpmc` | [`checkpoint`] | what `--resume` continues from |
 //! | `history.csv`, `solve.log` | [`history`] | one line a step, cut back on a resume |
+//! | `table.csv` of a sweep | [`sweep_table`] | read again by `mpm plot` and `mpm report` |
 //! | `unfinished/` | [`run_folder`] | a run beside earlier results, which it replaces when it is finished |
 //! | `provenance/*.json` | [`provenance`] | what each stage was made from, by which program and command |
 //! | `vtu/*.vtu`, `*.pvd` | [`export`], [`vtu`], [`pvd`] | the series for ParaView |
@@ -31,5 +32,6 @@ pub mod provenance;
 pub mod pvd;
 pub mod run_folder;
 pub mod solve_log;
+pub mod sweep_table;
 pub mod table;
 pub mod vtu;

@@ -18,7 +18,7 @@ pub struct Column {
 }
 
 impl Column {
-    fn new(heading: &str) -> Self {
+    pub(super) fn new(heading: &str) -> Self {
         let heading = heading.trim();
         let split = heading.strip_suffix(']').and_then(|rest| rest.rsplit_once('['));
         let (name, unit) = split.map_or((heading, ""), |(name, unit)| (name.trim_end(), unit.trim()));
@@ -29,6 +29,20 @@ impl Column {
     pub fn heading(&self) -> String {
         if self.unit.is_empty() { self.name.clone() } else { format!("{} [{}]", self.name, self.unit) }
     }
+}
+
+/// The bytes of a file that is to be a table.
+///
+/// # Errors
+/// `Input` when the file is missing or too large, `Machine` when it cannot be read.
+pub(super) fn bytes(path: &Path, remedy: &str) -> Result<Vec<u8>> {
+    let unreadable = |e| atomic::unreadable(path, &e, remedy);
+    let size = fs::metadata(path).map_err(unreadable)?.len();
+    if size > LARGEST {
+        let problem = format!("has {size} bytes, more than the {LARGEST} of a table");
+        return Err(Error::input(path.display(), problem, "name a smaller file"));
+    }
+    fs::read(path).map_err(unreadable)
 }
 
 /// Columns of one length.
@@ -44,13 +58,7 @@ impl Table {
     /// `Input` naming the line that is not numbers or has another number of them, or when the file is missing; `Machine` when it
     /// cannot be read.
     pub fn read(path: &Path, remedy: &str) -> Result<Self> {
-        let unreadable = |e| atomic::unreadable(path, &e, remedy);
-        let size = fs::metadata(path).map_err(unreadable)?.len();
-        if size > LARGEST {
-            let problem = format!("has {size} bytes, more than the {LARGEST} of a table");
-            return Err(Error::input(path.display(), problem, "name a smaller file"));
-        }
-        Self::parse(&fs::read(path).map_err(unreadable)?, path)
+        Self::parse(&bytes(path, remedy)?, path)
     }
 
     fn parse(bytes: &[u8], path: &Path) -> Result<Self> {

@@ -241,9 +241,14 @@ impl CamClay {
         self.preconsolidation.at(y) * (strain / self.compressibility).exp().max(LEAST)
     }
 
-    /// The yield function over p_c (kPa).
-    fn excess(&self, p: f64, q: f64, size: f64) -> f64 {
-        ((q / self.slope).powi(2) + p * (p - size)) / size
+    /// M (-) in a state.
+    fn slope(&self, state: &State) -> f64 {
+        self.slope * state.strength
+    }
+
+    /// The yield function over p_c (kPa), given M.
+    fn excess(slope: f64, p: f64, q: f64, size: f64) -> f64 {
+        ((q / slope).powi(2) + p * (p - size)) / size
     }
 }
 
@@ -257,14 +262,14 @@ impl PrincipalModel for CamClay {
         let t = Trial {
             bulk,
             rigidity: shear,
-            slope: self.slope,
+            slope: self.slope(state),
             compressibility: self.compressibility,
             strain: -volumetric,
             pressure: bulk.pressure(-volumetric),
             shear: 2.0 * shear * 1.5f64.sqrt() * norm,
             size: self.size(y, before),
         };
-        if self.excess(t.pressure, t.shear, t.size) <= TOLERANCE * t.size {
+        if Self::excess(t.slope, t.pressure, t.shear, t.size) <= TOLERANCE * t.size {
             return match bulk {
                 Bulk::Constant(_) => Response::elastic(&moduli, trial, state),
                 Bulk::Swelling { .. } => {
@@ -289,7 +294,7 @@ impl PrincipalModel for CamClay {
         }
         let bulk = bulk.modulus(p);
         let normal = 2.0 * p - size;
-        let m = self.slope.powi(2);
+        let m = t.slope.powi(2);
         // Δγ from q, which is on the surface then, or near the tips, where q² is a small difference, from the flow along p.
         let near_tip = !(p > 0.05 * size && p < 0.95 * size);
         let multiplier = if near_tip { x / normal } else { (t.shear / t.shear_at(x) - 1.0) * m / (6.0 * shear) };
@@ -343,7 +348,7 @@ impl PrincipalModel for CamClay {
     fn yield_excess(&self, y: f64, stress: &[f64; 3], state: &State) -> f64 {
         let [a, b, c] = stress;
         let q = (0.5 * ((a - b).powi(2) + (b - c).powi(2) + (c - a).powi(2))).sqrt();
-        self.excess(-(a + b + c) / 3.0, q, self.size(y, compressed(state)))
+        Self::excess(self.slope(state), -(a + b + c) / 3.0, q, self.size(y, compressed(state)))
     }
 }
 
@@ -404,7 +409,7 @@ impl Model for CamClay {
 
     fn shear_strength(&self, y: f64, state: &State) -> f64 {
         // q = M p at p = p_c/2, where yield does not change the volume; in simple shear it is √3 times the shear stress.
-        self.slope * 0.5 * self.size(y, compressed(state)) / 3f64.sqrt()
+        self.slope(state) * 0.5 * self.size(y, compressed(state)) / 3f64.sqrt()
     }
 
     fn reduced(&self, factor: f64) -> Arc<dyn Model> {

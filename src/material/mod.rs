@@ -17,6 +17,7 @@ pub mod mohr_coulomb;
 pub mod parameters;
 pub mod polyhedral;
 pub mod profile;
+pub mod random_strength;
 pub mod softening_tresca;
 pub mod spatial;
 pub mod spectral;
@@ -34,6 +35,7 @@ pub use model::{
 pub use mohr_coulomb::{Friction, MohrCoulomb};
 pub use parameters::{Kind, Parameter, Parameters};
 pub use profile::Profile;
+pub use random_strength::{Correlation, RandomStrength, RandomStrengths, Randomness, strength_at};
 pub use softening_tresca::{Softening, SofteningTresca};
 pub use tresca::Tresca;
 pub use von_mises::VonMises;

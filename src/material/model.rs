@@ -35,7 +35,7 @@ impl Variable {
 }
 
 /// The state of a point as a step begins.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct State<'a> {
     /// Accumulated equivalent plastic strain (-): the sum of `√(⅔ Δε_p:Δε_p)` over the steps, `Δε_p` the
     /// plastic Hencky strain of a step with its volumetric part.
@@ -47,6 +47,16 @@ pub struct State<'a> {
     pub inverse_dt: f64,
     /// The deformation of the step, which turns tensors; none where nothing turns.
     pub increment: Option<&'a Tensor>,
+    /// The strength over that of the model's parameters (-): 1, or the value of a field ([`super::RandomStrength`]). A model multiplies those
+    /// of its parameters by it that [`Model::reduced`] divides.
+    pub strength: f64,
+}
+
+/// Nothing has happened yet, and the strength is that of the parameters.
+impl Default for State<'_> {
+    fn default() -> Self {
+        Self { plastic_strain: 0.0, internal: &[], inverse_dt: 0.0, increment: None, strength: 1.0 }
+    }
 }
 
 /// The answer of a model, in principal axes, in the order of the trial strains.

@@ -59,6 +59,8 @@ pub struct MohrCoulomb {
     cohesion: Profile,
     friction: Friction,
     tension: Option<Profile>,
+    /// Whether it is made from another: what is above the apex in `tension` counts as that, and is no mistake of the case.
+    is_derived: bool,
 }
 
 /// The entry of the model list.
@@ -126,9 +128,20 @@ impl MohrCoulomb {
         friction: Friction,
         tension: Option<Profile>,
     ) -> Result<Self> {
-        let model = Self { elasticity, cohesion, friction, tension };
+        let model = Self { elasticity, cohesion, friction, tension, is_derived: false };
         model.check(cohesion.datum)?;
         Ok(model)
+    }
+
+    /// It with its strengths divided by `factor` (-).
+    fn divided(&self, factor: f64) -> Self {
+        Self {
+            elasticity: self.elasticity,
+            cohesion: self.cohesion.scaled(1.0 / factor),
+            friction: self.friction.reduced(factor),
+            tension: self.tension.map(|t| t.scaled(1.0 / factor)),
+            is_derived: true,
+        }
     }
 
     /// Isotropic tension `c cot φ` at the apex, infinite without friction.
@@ -140,7 +153,10 @@ impl MohrCoulomb {
         }
     }
 
-    fn planes(&self, y: f64) -> Planes {
+    fn planes(&self, y: f64, state: &State) -> Planes {
+        if state.strength != 1.0 {
+            return self.divided(1.0 / state.strength).planes(y, &State { strength: 1.0, ..*state });
+        }
         let apex = self.apex(y);
         Planes {
             sin_friction: self.friction.sin_friction,
@@ -153,11 +169,11 @@ impl MohrCoulomb {
 
 impl PrincipalModel for MohrCoulomb {
     fn respond(&self, y: f64, trial: &[f64; 3], state: &State, _: &mut [f64]) -> Response {
-        self.planes(y).respond(&self.elasticity.at(y), trial, state)
+        self.planes(y, state).respond(&self.elasticity.at(y), trial, state)
     }
 
-    fn yield_excess(&self, y: f64, stress: &[f64; 3], _: &State) -> f64 {
-        self.planes(y).excess(stress)
+    fn yield_excess(&self, y: f64, stress: &[f64; 3], state: &State) -> f64 {
+        self.planes(y, state).excess(stress)
     }
 }
 
@@ -174,17 +190,12 @@ impl Model for MohrCoulomb {
         self.friction.sin_friction == self.friction.sin_dilation
     }
 
-    fn shear_strength(&self, y: f64, _: &State) -> f64 {
-        self.cohesion.at(y)
+    fn shear_strength(&self, y: f64, state: &State) -> f64 {
+        self.cohesion.at(y) * state.strength
     }
 
     fn reduced(&self, factor: f64) -> Arc<dyn Model> {
-        Arc::new(Self {
-            elasticity: self.elasticity,
-            cohesion: self.cohesion.scaled(1.0 / factor),
-            friction: self.friction.reduced(factor),
-            tension: self.tension.map(|t| t.scaled(1.0 / factor)),
-        })
+        Arc::new(self.divided(factor))
     }
 
     fn check(&self, y: f64) -> Result<()> {
@@ -197,7 +208,7 @@ impl Model for MohrCoulomb {
         let Some(tension) = self.tension else { return Ok(()) };
         tension.not_negative_at("tension", y)?;
         let apex = self.apex(y);
-        if tension.at(y) > apex * (1.0 + 1e-12) {
+        if !self.is_derived && tension.at(y) > apex * (1.0 + 1e-12) {
             return Err(Error::input(
                 "tension",
                 format!("{} is above the apex c cot(friction) = {apex} at y = {y}", tension.at(y)),

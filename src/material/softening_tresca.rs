@@ -169,13 +169,14 @@ impl SofteningTresca {
         Ok(model)
     }
 
-    fn planes(&self, y: f64, factor: f64) -> Planes {
-        Planes {
-            sin_friction: 0.0,
-            sin_dilation: 0.0,
-            strength: 2.0 * self.shear_strength.at(y) * factor,
-            tension: f64::INFINITY,
-        }
+    /// The yield surface where the first strength is `first` (kPa) and `factor` (-) of it is left.
+    fn planes(first: f64, factor: f64) -> Planes {
+        Planes { sin_friction: 0.0, sin_dilation: 0.0, strength: 2.0 * first * factor, tension: f64::INFINITY }
+    }
+
+    /// `s_u0` (kPa) in a state.
+    fn first(&self, y: f64, state: &State) -> f64 {
+        self.shear_strength.at(y) * state.strength
     }
 
     /// It with its strength divided by `factor` (-).
@@ -226,17 +227,17 @@ fn falls(c: f64, slope: f64) -> f64 {
 impl PrincipalModel for SofteningTresca {
     fn respond(&self, y: f64, trial: &[f64; 3], state: &State, internal: &mut [f64]) -> Response {
         let moduli = self.elasticity.at(y);
-        let before = internal[0];
+        let (before, strength) = (internal[0], self.first(y, state));
         let at = |more: f64| {
             let (factor, slope) = self.softening.factor(before, more, state.inverse_dt);
-            (self.planes(y, factor).respond(&moduli, trial, state), self.shear_strength.at(y) * slope)
+            (Self::planes(strength, factor).respond(&moduli, trial, state), strength * slope)
         };
         // The strength at the end lies between that before and that of remoulded soil, at whatever rate.
         let first = at(0.0).0;
         if !first.yielding {
             return first;
         }
-        let weakest = self.planes(y, self.softening.remoulded).respond(&moduli, trial, state);
+        let weakest = Self::planes(strength, self.softening.remoulded).respond(&moduli, trial, state);
         let (mut low, mut high) = (0.0, sheared(trial, &weakest));
         let mut more = sheared(trial, &first).min(high);
         let (mut response, mut slope) = at(more);
@@ -271,7 +272,7 @@ impl PrincipalModel for SofteningTresca {
     }
 
     fn yield_excess(&self, y: f64, stress: &[f64; 3], state: &State) -> f64 {
-        self.planes(y, self.softening.factor(sheared_before(state), 0.0, 0.0).0).excess(stress)
+        Self::planes(self.first(y, state), self.softening.factor(sheared_before(state), 0.0, 0.0).0).excess(stress)
     }
 }
 
@@ -293,7 +294,7 @@ impl Model for SofteningTresca {
     }
 
     fn shear_strength(&self, y: f64, state: &State) -> f64 {
-        self.shear_strength.at(y) * self.softening.factor(sheared_before(state), 0.0, 0.0).0
+        self.first(y, state) * self.softening.factor(sheared_before(state), 0.0, 0.0).0
     }
 
     fn reduced(&self, factor: f64) -> Arc<dyn Model> {

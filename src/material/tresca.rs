@@ -57,11 +57,11 @@ impl Tresca {
         Ok(Self { elasticity, shear_strength })
     }
 
-    fn planes(&self, y: f64) -> Planes {
+    fn planes(&self, y: f64, state: &State) -> Planes {
         Planes {
             sin_friction: 0.0,
             sin_dilation: 0.0,
-            strength: 2.0 * self.shear_strength.at(y),
+            strength: 2.0 * self.shear_strength(y, state),
             tension: f64::INFINITY,
         }
     }
@@ -74,11 +74,11 @@ impl Tresca {
 
 impl PrincipalModel for Tresca {
     fn respond(&self, y: f64, trial: &[f64; 3], state: &State, _: &mut [f64]) -> Response {
-        self.planes(y).respond(&self.elasticity.at(y), trial, state)
+        self.planes(y, state).respond(&self.elasticity.at(y), trial, state)
     }
 
-    fn yield_excess(&self, y: f64, stress: &[f64; 3], _: &State) -> f64 {
-        self.planes(y).excess(stress)
+    fn yield_excess(&self, y: f64, stress: &[f64; 3], state: &State) -> f64 {
+        self.planes(y, state).excess(stress)
     }
 }
 
@@ -95,8 +95,8 @@ impl Model for Tresca {
         true
     }
 
-    fn shear_strength(&self, y: f64, _: &State) -> f64 {
-        self.shear_strength.at(y)
+    fn shear_strength(&self, y: f64, state: &State) -> f64 {
+        self.shear_strength.at(y) * state.strength
     }
 
     fn reduced(&self, factor: f64) -> Arc<dyn Model> {

@@ -71,7 +71,7 @@ impl VonMises {
 impl PrincipalModel for VonMises {
     fn respond(&self, y: f64, trial: &[f64; 3], state: &State, _: &mut [f64]) -> Response {
         let moduli = self.elasticity.at(y);
-        let sy = self.yield_stress.at(y);
+        let sy = self.yield_stress.at(y) * state.strength;
         let volumetric = trial[0] + trial[1] + trial[2];
         let e = trial.map(|x| x - volumetric / 3.0);
         let norm = (e[0] * e[0] + e[1] * e[1] + e[2] * e[2]).sqrt();
@@ -98,9 +98,9 @@ impl PrincipalModel for VonMises {
         }
     }
 
-    fn yield_excess(&self, y: f64, stress: &[f64; 3], _: &State) -> f64 {
+    fn yield_excess(&self, y: f64, stress: &[f64; 3], state: &State) -> f64 {
         let [a, b, c] = stress;
-        (0.5 * ((a - b).powi(2) + (b - c).powi(2) + (c - a).powi(2))).sqrt() - self.yield_stress.at(y)
+        (0.5 * ((a - b).powi(2) + (b - c).powi(2) + (c - a).powi(2))).sqrt() - self.yield_stress.at(y) * state.strength
     }
 }
 
@@ -117,8 +117,8 @@ impl Model for VonMises {
         true
     }
 
-    fn shear_strength(&self, y: f64, _: &State) -> f64 {
-        self.yield_stress.at(y) / 3f64.sqrt()
+    fn shear_strength(&self, y: f64, state: &State) -> f64 {
+        self.yield_stress.at(y) * state.strength / 3f64.sqrt()
     }
 
     fn reduced(&self, factor: f64) -> Arc<dyn Model> {

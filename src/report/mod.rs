@@ -3,6 +3,7 @@
 mod entries;
 mod html;
 mod scene;
+mod variants;
 
 use crate::case::{Keys, Loaded};
 use crate::draw::curves::{Chart, Charts};
@@ -13,11 +14,15 @@ use crate::error::Result;
 use crate::io::provenance::{Program, Record, Session};
 use crate::mesh::Mesh;
 use entries::{Kinds, entries, plain};
-use html::Html;
 use serde_json::Value;
+
+pub use html::Html;
+pub use variants::variants;
 
 /// Cells from which on a mesh is an image of pixels: as lines it would be a page of many megabytes.
 const MANY_CELLS: usize = 4000;
+/// The heading of the curves.
+const HISTORIES: &str = "Histories";
 /// Remarks of a log that are told, first and last.
 const REMARKS: usize = 60;
 
@@ -32,6 +37,8 @@ pub struct Subject<'a> {
     pub pictures: std::result::Result<Vec<Field>, String>,
     /// The records of the stages.
     pub records: &'a [Record],
+    /// The [`variants`] of the case, or why they cannot be shown, where there is a sweep.
+    pub sweep: Option<std::result::Result<Html, String>>,
     /// What the reader must know first, such as that the case has changed since.
     pub cautions: &'a [String],
     /// When the page is written (RFC 3339).
@@ -54,13 +61,19 @@ impl Subject<'_> {
             ("Scene", self.scene()?),
             ("Entries of the case", self.entries()),
             ("Numerics that differ from the defaults", self.numerics()),
-            ("Histories", self.histories()?),
+            (HISTORIES, self.histories()?),
             ("Fields", self.fields()?),
             ("Work of the solver", self.work()?),
             ("Provenance", self.provenance()),
         ];
         for (heading, part) in parts {
             body = body.and(Html::of("h2", heading)).and(part);
+            // After the results themselves.
+            if let Some(sweep) = self.sweep.as_ref().filter(|_| heading == HISTORIES) {
+                let missing = |problem: &String| Html::of("p", &format!("The variants cannot be shown: {problem}"));
+                let variants = sweep.as_ref().map_or_else(missing, Html::clone);
+                body = body.and(Html::of("h2", "What the results depend on")).and(variants);
+            }
         }
         Ok(Html::page(title, &body))
     }

@@ -15,7 +15,7 @@ pub fn part<const D: usize>(scene: &Scene<D>, state: &State<D>) -> Part {
     if scene.interfaces.is_empty() {
         return Part::default();
     }
-    let from = if state.nodes.is_empty() { &scene.mesh.nodes } else { &state.nodes };
+    let from = state.coordinates(scene);
     let position = |n: u32| {
         let (x, u) = (&from[n as usize], &state.displacement[n as usize]);
         std::array::from_fn(|d| x[d] + u[d])

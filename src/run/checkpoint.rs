@@ -69,7 +69,7 @@ pub fn put<const D: usize>(mut store: Store, state: &State<D>) -> Store {
         ("uncounted", uncounted),
         ("velocity", velocity),
         ("acceleration", acceleration),
-        ("nodes", nodes),
+        ("coordinates", nodes),
         ("increment", increment),
         ("start_position", start_position),
         ("ramp", &ramp.force),
@@ -300,7 +300,7 @@ fn read<const D: usize>(mut store: Store) -> Result<State<D>> {
     };
     let mut nodal = |name: &str| Ok(vectors(&store.take::<f64>(&format!("state.{name}"), D)?));
     let (displacement, travel, increment) = (nodal("displacement")?, nodal("travel")?, nodal("increment")?);
-    let (velocity, acceleration, nodes) = (nodal("velocity")?, nodal("acceleration")?, nodal("nodes")?);
+    let (velocity, acceleration, nodes) = (nodal("velocity")?, nodal("acceleration")?, nodal("coordinates")?);
     let (uncounted, force, start_position) = (nodal("uncounted")?, nodal("ramp")?, nodal("start_position")?);
     let state = State {
         phase: usize::try_from(*phase).map_err(|_| foreign("the number of its phase"))?,

@@ -200,8 +200,8 @@ fn loads_reached<const D: usize>(scene: &Scene<D>, phase: &Phase, state: &State<
     let factors = factors.map(|value| format!("the gravity factor {:.4} of {:.4}", value.at(now), value.at(end)));
     let moved = phase.prescribed.iter().filter(|p| varies(&p.displacement)).map(|p| {
         let (now, end) = (p.displacement.at(now), p.displacement.at(end));
-        match p.fixed.nodes.first().and_then(|&n| scene.turned_by(n)) {
-            Some(body) => format!("a rotation of {:.4e} of {:.4e} rad prescribed", now / body.arm, end / body.arm),
+        match p.fixed.nodes.first().and_then(|&n| scene.turning(n)) {
+            Some(dofs) => format!("a rotation of {:.4e} of {:.4e} rad prescribed", now / dofs.arm, end / dofs.arm),
             None => format!("{now:.4e} of {end:.4e} m prescribed in {}", ["x", "y", "z"][p.fixed.component]),
         }
     });

@@ -5,9 +5,11 @@ use super::internal_variables::InternalVariable;
 use crate::io::columns::{padded, to_array};
 use crate::io::container::{Array, Data};
 use crate::io::frame::Column;
+use crate::material::Model;
 use crate::points::Points;
 use crate::term::{MixedPressure, excess_pressure};
 use std::fmt;
+use std::sync::Arc;
 
 /// A field of the points.
 pub trait Field<const D: usize>: fmt::Debug + Send + Sync {
@@ -81,6 +83,26 @@ impl<const D: usize> Field<D> for PorePressure {
     fn columns(&self, points: &Points<D>) -> Vec<Column> {
         let excess = (0..points.len()).map(|p| excess_pressure(&self.0, points, p));
         vec![column("pore_pressure", "kPa", 1, excess.collect())]
+    }
+}
+
+/// Shear strength (kPa) in the state of a point, given the models by number of the material; 0 where the model does not yield.
+pub struct ShearStrength(pub Vec<Option<Arc<dyn Model>>>);
+
+impl fmt::Debug for ShearStrength {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("ShearStrength")
+    }
+}
+
+impl<const D: usize> Field<D> for ShearStrength {
+    fn columns(&self, points: &Points<D>) -> Vec<Column> {
+        let of = |p: usize| {
+            let model = self.0.get(points.model_of(p))?.as_ref()?;
+            let strength = model.shear_strength(points.seeded_height(p), &points.state(p, 0.0));
+            strength.is_finite().then_some(strength)
+        };
+        vec![column("shear_strength", "kPa", 1, (0..points.len()).map(|p| of(p).unwrap_or(0.0)).collect())]
     }
 }
 

@@ -4,11 +4,13 @@ use super::boundary;
 use super::columns::{column, triples};
 use super::fields::Field;
 use super::surface::{self, Acting};
+use crate::dofs::PORE_PRESSURE;
 use crate::io::columns::padded;
 use crate::io::frame::{CELL, Frame, Part, UNCOUNTED};
 use crate::io::provenance::Origin;
 use crate::points::Points;
 use crate::quadrature::Count;
+use crate::rigid::Body;
 use crate::step::{Report, Restore, Scene, State};
 use std::sync::Arc;
 
@@ -37,10 +39,10 @@ pub enum Quantity {
 pub enum WatchedOn {
     /// Nodes of the grid: a curve or a point.
     Nodes(Vec<u32>),
-    /// Nodes of a rigid body, and its reference node.
-    Side(Vec<u32>, u32),
-    /// A rigid body.
-    Body { region: u16, reference: u32, turning: Option<u32>, arm: f64 },
+    /// Nodes of a rigid body, and its number in the scene.
+    Side(Vec<u32>, usize),
+    /// A rigid body, by its number in the scene.
+    Body(usize),
     /// The points of a region of the mesh.
     Region(u16),
 }
@@ -121,26 +123,32 @@ pub fn value<const D: usize>(
             mean(nodes.iter().map(|&n| state.velocity.get(n as usize).map_or(0.0, |v| v[d])))
         }
         (WatchedOn::Nodes(nodes), Quantity::Reaction(d)) => nodes.iter().map(|&n| report.reaction[n as usize][d]).sum(),
-        (WatchedOn::Side(_, reference), Quantity::Reaction(d)) => report.reaction[*reference as usize][d],
-        (WatchedOn::Body { region, reference, turning, arm }, quantity) => {
-            let (n, turning) = (*reference as usize, turning.map(|n| n as usize));
+        (WatchedOn::Side(_, body), quantity @ Quantity::Reaction(_)) => {
+            value(&WatchedOn::Body(*body), quantity, scene, state, report)
+        }
+        (WatchedOn::Body(number), quantity) => {
+            let body = &scene.bodies[*number];
+            let Body { region, dofs, .. } = body;
+            let motion = || dofs.motion::<D>(|n| std::array::from_fn(|d| travel(n as usize, d)));
+            let reaction = || dofs.load(|n| report.reaction[n as usize]);
             match quantity {
-                Quantity::Displacement(d) => travel(n, d),
-                Quantity::Velocity(d) => state.velocity.get(n).map_or(0.0, |v| v[d]),
-                Quantity::Reaction(d) => report.reaction[n][d],
+                Quantity::Displacement(d) => motion().0[d],
+                Quantity::Velocity(d) => state.velocity.get(dofs.translation as usize).map_or(0.0, |v| v[d]),
+                Quantity::Reaction(d) => reaction().0[d],
                 Quantity::Contact(d) => contact(*region).map(|(force, _)| force[d]).sum(),
                 Quantity::PorePressure => 0.0,
-                Quantity::Rotation => turning.map_or(0.0, |n| travel(n, 0) / arm),
-                Quantity::ReactionMoment => turning.map_or(0.0, |n| report.reaction[n][0] * arm),
+                Quantity::Rotation => motion().1,
+                Quantity::ReactionMoment => reaction().1,
                 Quantity::ContactMoment => {
-                    let centre = [0, 1].map(|d| scene.mesh.nodes[n][d] + state.travel[n][d]);
-                    turning.map_or(0.0, |_| moment_about(&centre, contact(*region)))
+                    let centre = body.centre_after(&state.travel);
+                    dofs.rotation.map_or(0.0, |_| moment_about(&[centre[0], centre[1]], contact(*region)))
                 }
             }
         }
         (WatchedOn::Nodes(nodes), Quantity::PorePressure) => {
             let [places, _] = scene.places();
-            mean(nodes.iter().map(|&n| state.pressure.get(places.pore_pressure(n)).copied().unwrap_or(0.0)))
+            let value = |n: u32| state.pressure.get(places.field(PORE_PRESSURE, n)).filter(|_| scene.water.is_some());
+            mean(nodes.iter().map(|&n| value(n).copied().unwrap_or(0.0)))
         }
         (WatchedOn::Region(region), Quantity::PorePressure) => {
             mean_over(members(state, *region), |points, p| points.pore_pressure.get(p).copied().unwrap_or(0.0))
@@ -216,8 +224,8 @@ pub fn frame<const D: usize>(
     let grid = if scene.numerics.restore == Restore::EveryStep && scene.fem.is_none() {
         Part::default()
     } else {
-        let from = if state.nodes.is_empty() { &scene.mesh.nodes } else { &state.nodes };
-        let x: Vec<[f64; D]> = from
+        let x: Vec<[f64; D]> = state
+            .coordinates(scene)
             .iter()
             .zip(&state.displacement)
             .map(|(x, u)| std::array::from_fn(|d| x[d] + u[d]))

@@ -23,7 +23,7 @@ pub struct Acting {
 pub fn part<const D: usize>(scene: &Scene<D>, state: &State<D>, acting: &Acting) -> Part {
     const { assert!(D == 2, "the surface is a line in the plane only") };
     let boundary = &state.weights.boundary;
-    let from = if state.nodes.is_empty() { &scene.mesh.nodes } else { &state.nodes };
+    let from = state.coordinates(scene);
     let place = |piece: &Piece| {
         let mut n = [0.0; MAX_NODES];
         scene.mesh.cells.kind[piece.cell as usize].values(&piece.at(0.0), &mut n);

@@ -32,8 +32,7 @@ pub fn begin<const D: usize>(scene: &Scene<D>, state: &mut State<D>) {
 
 /// The grid as it was restored last.
 fn restored<const D: usize>(scene: &Scene<D>, state: &State<D>) -> Mesh<D> {
-    let nodes = if state.nodes.is_empty() { scene.mesh.nodes.clone() } else { state.nodes.clone() };
-    Mesh { nodes, ..scene.mesh.clone() }
+    Mesh { nodes: state.coordinates(scene).to_vec(), ..scene.mesh.clone() }
 }
 
 /// Lines for the log on a step, by the grid as it was restored before; warnings begin with [`WARNING`].

@@ -141,11 +141,8 @@ fn add_terms<const D: usize>(
             *f += o;
         }
         if term.role() == Role::External {
-            // At the turning node of a rigid body it is a moment.
-            let forces =
-                own[..of_nodes].chunks_exact(D).zip(&grid.dofs.node).filter(|(_, n)| scene.turned_by(**n).is_none());
-            for (force, _) in forces {
-                for (applied, f) in sum.applied.iter_mut().zip(force) {
+            for (block, _) in grid.dofs.forces() {
+                for (applied, f) in sum.applied.iter_mut().zip(&own[D * block..]) {
                     *applied -= f;
                 }
             }

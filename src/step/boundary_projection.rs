@@ -49,7 +49,7 @@ pub fn project_onto_boundary<const D: usize, K: Kinematics<D>>(
 
 /// The sides on the boundary whose nodes cannot move across them in a phase.
 fn holding<const D: usize>(scene: &Scene<D>, mesh: &Mesh<D>, phase: usize) -> Vec<Side<D>> {
-    let mut held = vec![[false; D]; mesh.nodes.len()];
+    let mut held = vec![[false; D]; scene.displacements()];
     for fixed in &scene.supports {
         for &n in &fixed.nodes {
             held[n as usize][fixed.component] = true;

@@ -4,7 +4,7 @@
 //! belong to them. Deformation, volume and accumulated plastic strain are kept, too. The mass becomes that of the new density. Internal
 //! variables are kept if they are the same quantity in both models, and are set to their initial value otherwise.
 
-use crate::material::{Model, Profile, spatial};
+use crate::material::{Model, Profile, RandomStrength, spatial};
 use crate::points::Points;
 use crate::term::MixedPressure;
 use std::fmt;
@@ -26,6 +26,8 @@ pub struct Change {
     pub before: Option<MixedPressure>,
     /// Density (t/m³).
     pub density: Profile,
+    /// The field of its strength, if that varies at random.
+    pub random_strength: Option<Arc<RandomStrength>>,
     /// Whether the model has the internal variables of the one before.
     pub goes_on: bool,
 }
@@ -71,6 +73,9 @@ impl Change {
             }
             points.mass[p] = self.density.at(y) * points.initial_volume[p];
             points.model[p] = self.number;
+            if !points.strength.is_empty() {
+                points.strength[p] = self.random_strength.as_ref().map_or(1.0, |field| field.factor(&points.origin[p]));
+            }
         }
     }
 }

@@ -6,6 +6,7 @@ use super::facing::position;
 use super::grid::Grid;
 use super::leaving;
 use super::problem::Solution;
+use super::rigid;
 use super::scene::Scene;
 use super::state::State;
 use super::transfer::Start;
@@ -96,7 +97,7 @@ pub fn begin<const D: usize, K: Kinematics<D>>(
     let covered = scene.terms.iter().any(|term| term.sees_open_boundary());
     for (number, interface) in scene.touching(state.phase) {
         let held = &state.multipliers[number];
-        let constraints = interface.constraints(&ground, &at, &held.evened(interface.runs(), interface.yields()));
+        let constraints = interface.constraints(&ground, &at, &held.evened(interface.runs()));
         leaving::check(scene, interface, held, &constraints, &ground, &at)?;
         if covered {
             covers.extend(interface.covers(&constraints, &at));
@@ -240,23 +241,14 @@ pub fn commit<const D: usize>(
             let force: [f64; D] = std::array::from_fn(|d| {
                 condition.area * (answer.pressure * n[d] + answer.shear * t[d] + lever * condition.by_arc[k][d])
             });
-            let turned = scene.turned_by(node);
-            let moment = match turned {
-                // A moment over the arm.
-                Some(body) => body.arm * force[0],
-                None => {
-                    let first = state.nodes.get(node as usize).unwrap_or(&scene.mesh.nodes[node as usize]);
-                    let x: [f64; D] = std::array::from_fn(|d| first[d] + solution.displacement[node as usize][d]);
-                    x[0] * force[1] - x[1] * force[0]
-                }
-            };
+            let moment = rigid::moment(scene, state, &solution.displacement, node, &force);
             if k < condition.own {
                 for d in 0..D {
                     resultant.force[d] += force[d];
-                    held.force[contact_node][d] += force[d];
+                    state.multipliers[interface].force[contact_node][d] += force[d];
                 }
             }
-            if k < condition.own || turned.is_some_and(|body| body.region == resultant.structure) {
+            if k < condition.own || scene.body_of(node).is_some_and(|body| body.region == resultant.structure) {
                 resultant.moment += moment;
             } else {
                 resultant.moment_against += moment;

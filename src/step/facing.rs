@@ -6,17 +6,16 @@ use crate::contact::Multipliers;
 use crate::dofs::DofMap;
 use crate::system::Connectivity;
 
-/// Where a node is at the last converged step.
+/// Where a node, or the reference point of a rigid body, is at the last converged step.
 pub(super) fn position<const D: usize>(scene: &Scene<D>, state: &State<D>, n: u32) -> [f64; D] {
-    let n = n as usize;
-    let from = state.nodes.get(n).unwrap_or(&scene.mesh.nodes[n]);
-    std::array::from_fn(|d| from[d] + state.displacement[n][d])
+    let (from, by) = (state.at_reset(scene, n), &state.displacement[n as usize]);
+    std::array::from_fn(|d| from[d] + by[d])
 }
 
 /// The boundaries of the structures that touch soil, when the grid is restored: the nodes are in place already, the
 /// displacement is still that of the grid before.
 pub fn outlines<const D: usize>(scene: &Scene<D>, state: &State<D>) -> Vec<Vec<[f64; D]>> {
-    let place = |n: u32| *state.nodes.get(n as usize).unwrap_or(&scene.mesh.nodes[n as usize]);
+    let place = |n: u32| state.at_reset(scene, n);
     scene.touching(state.phase).flat_map(|(_, interface)| interface.outlines(&place)).collect()
 }
 

@@ -49,7 +49,8 @@ impl<const D: usize> Elements<D> {
 
     /// Takes the nodes where `state` has them.
     pub fn place<K: Kinematics<D>>(&mut self, state: &State<D>) {
-        self.mesh.nodes.clone_from(&state.nodes);
+        let nodes = self.mesh.nodes.len();
+        self.mesh.nodes.copy_from_slice(&state.nodes[..nodes]);
         let count = self.points;
         self.interpolation.fill::<K>(&Mpm, &self.mesh, &state.fem.cell[..count], &state.fem_parametric[..count], &[]);
         self.interpolation.weigh(&state.fem.initial_volume[..count]);
@@ -71,7 +72,7 @@ pub fn keep_shape<const D: usize>(scene: &Scene<D>, state: &mut State<D>) {
         return;
     }
     if state.nodes.is_empty() {
-        state.nodes.clone_from(&scene.mesh.nodes);
+        state.nodes = (0..scene.displacements() as u32).map(|n| scene.origin(n)).collect();
     }
     let mut of_elements = vec![false; state.nodes.len()];
     for &n in scene.fem.iter().flat_map(|fem| &fem.mesh.cells.nodes) {

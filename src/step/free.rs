@@ -55,7 +55,7 @@ pub fn name<const D: usize>(
 /// The nodes with unknowns of each body, by what it is called.
 fn bodies<const D: usize>(scene: &Scene<D>, state: &State<D>, grid: &Grid<D>) -> BTreeMap<String, Vec<u32>> {
     // Each node points to one of the same body with a lower number, or to itself.
-    let mut to: Vec<u32> = (0..scene.mesh.nodes.len() as u32).collect();
+    let mut to: Vec<u32> = (0..scene.displacements() as u32).collect();
     let deforming = || scene.fem.iter().flat_map(|fem| fem.deforming().map(|c| (&fem.mesh, c)));
     let cells = || grid.cells.iter().map(|&c| (&scene.mesh, c as usize)).chain(deforming());
     let nodes = |(mesh, c): (&'_ Mesh<D>, usize)| -> Vec<u32> {
@@ -79,8 +79,7 @@ fn bodies<const D: usize>(scene: &Scene<D>, state: &State<D>, grid: &Grid<D>) ->
     }
     let mut bodies: BTreeMap<String, Vec<u32>> = BTreeMap::new();
     for &n in &grid.dofs.node {
-        let rigid = scene.bodies.iter().find(|body| body.carriers().any(|carrier| carrier == n));
-        let name = match (rigid, regions.get(&root(&mut to, n))) {
+        let name = match (scene.body_of(n), regions.get(&root(&mut to, n))) {
             (Some(body), _) => scene.mesh.regions.get(body.region as usize).map(|name| format!("`{name}`")),
             (None, Some(names)) => {
                 let names: Vec<String> = names.iter().map(|name| format!("`{name}`")).collect();
@@ -119,7 +118,7 @@ impl<const D: usize> System<'_, D> {
             std::array::from_fn(|d| nodes.iter().map(|&n| (self.position)(n)[d]).sum::<f64>() / nodes.len() as f64);
         let arm = |n: u32| -> [f64; D] { std::array::from_fn(|d| (self.position)(n)[d] - middle[d]) };
         // The farthest that turns, so that all motions are of one size.
-        let arms = self.scene.bodies.iter().filter(|body| nodes.contains(&body.reference)).map(|body| body.arm);
+        let arms = nodes.iter().filter_map(|&n| self.scene.body_of(n)).map(|body| body.dofs.arm);
         let length = |n: &u32| arm(*n).iter().map(|v| v * v).sum::<f64>().sqrt();
         let size = nodes.iter().map(length).chain(arms).fold(f64::MIN_POSITIVE, f64::max);
         let mut resistance = Vec::new();
@@ -171,10 +170,7 @@ impl<const D: usize> System<'_, D> {
         let mut stiffest = f64::MIN_POSITIVE;
         for &n in nodes {
             let block = self.grid.dofs.block[n as usize] as usize;
-            let motion = match self.scene.turned_by(n) {
-                Some(body) => std::array::from_fn(|d| if d == 0 { rotation * body.arm } else { 0.0 }),
-                None => motion(n),
-            };
+            let motion = self.scene.turning(n).map_or_else(|| motion(n), |dofs| dofs.arc(rotation));
             for (d, motion) in motion.into_iter().enumerate() {
                 let e = block * D + d;
                 if self.fixed[e] {

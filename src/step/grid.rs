@@ -7,7 +7,6 @@ use super::fem::Elements;
 use super::field;
 use super::ghost_faces;
 use super::nodal_fit::Filled;
-use super::pore_pressure;
 use super::pressure;
 use super::relax::{self, Relaxed};
 use super::restore::{begin_anew, fill, take_weights};
@@ -20,7 +19,6 @@ use crate::error::Result;
 use crate::interpolation::Interpolation;
 use crate::kinematics::Kinematics;
 use crate::mesh::Mesh;
-use crate::rigid::Body;
 use crate::surface::Piece;
 use crate::system::{Connectivity, Workspace};
 use crate::term::{Frame, GhostFace, PlacedConstraint};
@@ -42,15 +40,14 @@ pub struct Grid<const D: usize> {
     pub constraint_coupling: Vec<Vec<u32>>,
     /// The coupling of each face that the system has room for a penalty at, else `u32::MAX`; empty without faces.
     face_coupling: Vec<u32>,
-    /// The coupling of each rigid body: the nodes with its unknowns.
+    /// The coupling of each rigid body.
     body_coupling: Vec<u32>,
     /// The coupling of each cell; `u32::MAX` for those left out.
     pub coupling: Vec<u32>,
     /// The equations of [`Grid::motion`].
     pub dofs: DofMap<D>,
-    /// The cells that take part, ascending, and whether they have pore water.
+    /// The cells that take part, ascending.
     pub cells: Vec<u32>,
-    with_water: bool,
     pub motion: System,
     /// The mass of the points on the nodes, one equation a node: in dynamic analysis only.
     pub mass: Option<System>,
@@ -85,8 +82,7 @@ impl<const D: usize> Grid<D> {
         if scene.has_pressure_field() {
             grid.project_pressure_of_elements::<K>(scene, state);
         }
-        grid.project_pore_pressure::<K>(scene, state);
-        field::project::<D, K>(scene, (grid.mesh(scene), grid.of_material()), state);
+        grid.project_scalars::<K>(scene, state);
         Ok(grid)
     }
 
@@ -103,8 +99,7 @@ impl<const D: usize> Grid<D> {
             }
             self.penalise(scene, state);
         }
-        self.project_pore_pressure::<K>(scene, state);
-        field::project::<D, K>(scene, (self.mesh(scene), self.of_material()), state);
+        self.project_scalars::<K>(scene, state);
         Ok(())
     }
 
@@ -124,8 +119,8 @@ impl<const D: usize> Grid<D> {
         let [places, of_elements] = scene.places();
         let active = (0..mesh.cells.len()).filter(|&c| state.active[c]).flat_map(|c| mesh.cells.nodes(c));
         let of_fem = scene.fem.iter().flat_map(|fem| fem.deforming().flat_map(|c| fem.mesh.cells.nodes(c)));
-        let nodes = active.chain(of_fem).copied().chain(scene.bodies.iter().flat_map(Body::carriers));
-        let mut dofs = DofMap::of_nodes(nodes, mesh.nodes.len(), places, scene.basis.constraints(mesh));
+        let (nodes, bodies) = (active.chain(of_fem).copied(), scene.bodies.iter().map(|body| body.dofs).collect());
+        let mut dofs = DofMap::of_nodes(nodes, scene.displacements(), bodies, places, scene.constraints());
         let node = &dofs.node;
         let cells: Vec<u32> = (0u32..).zip(&state.active).filter(|(_, part)| **part).map(|(c, _)| c).collect();
         let support = scene.basis.support(mesh, &state.active);
@@ -137,7 +132,7 @@ impl<const D: usize> Grid<D> {
         if let (Some(elements), Some(fem)) = (&mut elements, &scene.fem) {
             elements.couple(fem, &dofs, &mut connectivity);
         }
-        let body_coupling = scene.bodies.iter().map(|body| dofs.couple(body.carriers(), &mut connectivity)).collect();
+        let body_coupling = dofs.bodies.iter().map(|body| dofs.couple(body.numbers(), &mut connectivity)).collect();
         let cells_only = connectivity.clone();
         let mut face_coupling = Vec::new();
         if let Some(faces) = &scene.faces {
@@ -149,7 +144,7 @@ impl<const D: usize> Grid<D> {
             }
         }
         let dynamic = scene.dynamic();
-        let coordinates: Vec<_> = node.iter().map(|&n| mesh.nodes[n as usize]).collect();
+        let coordinates: Vec<_> = node.iter().map(|&n| scene.origin(n)).collect();
         let mass = if dynamic {
             Some(System::new(&vec![1; node.len()], connectivity.clone(), true, &coordinates)?)
         } else {
@@ -159,24 +154,22 @@ impl<const D: usize> Grid<D> {
         let mut connectivity = if scene.terms.iter().any(|t| t.penalises_faces()) { connectivity } else { cells_only };
         let constraint_coupling = facing::couple(state, &dofs, &mut connectivity);
         let with_pressure = scene.has_scalars().then(|| {
-            let (with_water, with_field, others) =
-                (scene.water.is_some(), scene.has_pressure_field(), scene.fields.len());
-            let part = &state.active;
+            let (with_pressure, fields, part) = (scene.has_pressure_field(), scene.scalars().count(), &state.active);
             let mut families = vec![Carrier {
                 mesh,
                 places,
-                with: Box::new(move |c| [with_water, with_field].map(|with| with && part[c as usize])),
-                fields: Box::new(move |c| if part[c as usize] { others } else { 0 }),
+                with_pressure: Box::new(move |c| with_pressure && part[c as usize]),
+                fields: Box::new(move |c| if part[c as usize] { fields } else { 0 }),
                 coupling: &coupling,
             }];
             families.extend(elements.iter().zip(&scene.fem).map(|(elements, fem)| Carrier {
                 mesh: &elements.mesh,
                 places: of_elements,
-                with: Box::new(|c| [fem.with_water[c as usize], fem.with_pressure[c as usize]]),
-                fields: Box::new(|_| 0),
+                with_pressure: Box::new(|c| fem.with_pressure[c as usize]),
+                fields: Box::new(|c| usize::from(fem.with_water[c as usize])),
                 coupling: &elements.coupling,
             }));
-            Scalars::new(&families, node.len(), &connectivity, places.end(others))
+            Scalars::new(&families, node.len(), &connectivity, places.end(fields))
         });
         let symmetric = scene.basis.is_symmetric() && scene.terms.iter().all(|t| t.symmetric());
         let mut sizes = vec![D as u8; node.len()];
@@ -203,7 +196,6 @@ impl<const D: usize> Grid<D> {
             coupling,
             dofs,
             cells,
-            with_water: scene.water.is_some(),
             motion,
             mass,
             workspace: Workspace::default(),
@@ -234,19 +226,24 @@ impl<const D: usize> Grid<D> {
         }
     }
 
-    /// Takes the pore pressures over from the points.
-    fn project_pore_pressure<K: Kinematics<D>>(&self, scene: &Scene<D>, state: &mut State<D>) {
-        if let Some(water) = &scene.water {
-            let first = self.dofs.places.pore_pressures();
-            let end = first + scene.mesh.nodes.len();
-            state.pressure.resize(end.max(state.pressure.len()), 0.0);
-            let mut field = state.pressure[first..end].to_vec();
-            let soil = self.frame(&scene.mesh, state).into();
-            let elements = self.elements.as_ref().map(|elements| self.frame_of_elements(scene, elements, state).into());
-            let cells: Vec<_> = std::iter::once(soil).chain(elements).collect();
-            pore_pressure::gather::<D, K>(&cells, &water.porous, &mut field);
-            state.pressure[first..end].copy_from_slice(&field);
+    /// Takes the scalar fields over from the points.
+    fn project_scalars<K: Kinematics<D>>(&self, scene: &Scene<D>, state: &mut State<D>) {
+        if scene.scalars().next().is_none() {
+            return;
         }
+        field::make_room(scene, state);
+        let mut pressure = std::mem::take(&mut state.pressure);
+        let soil = self.frame(&scene.mesh, state).into();
+        let elements = self.elements.as_ref().map(|elements| self.frame_of_elements(scene, elements, state).into());
+        let integrated: Vec<_> = std::iter::once(soil).chain(elements).collect();
+        let (mesh, interpolation) = (self.mesh(scene), self.of_material());
+        field::project::<D, K>(
+            scene,
+            &integrated,
+            Filled { mesh, interpolation, points: &state.points },
+            &mut pressure,
+        );
+        state.pressure = pressure;
     }
 
     /// Takes the faces that are to have a ghost penalty.
@@ -265,6 +262,7 @@ impl<const D: usize> Grid<D> {
         let relaxed = self.relaxed.as_ref().map(|relaxed| &relaxed.mesh);
         Frame {
             mesh: relaxed.unwrap_or(mesh),
+            reset: &state.nodes,
             relaxed: relaxed.is_some(),
             interpolation: &self.interpolations.integration,
             partly_filled: &state.weights.partly_filled,
@@ -282,7 +280,6 @@ impl<const D: usize> Grid<D> {
             block: &self.dofs.block,
             linear_constraints: self.dofs.constraints.as_ref(),
             bodies: &self.body_coupling,
-            with_water: self.with_water,
         }
     }
 
@@ -307,6 +304,7 @@ impl<const D: usize> Grid<D> {
     ) -> Frame<'a, D> {
         Frame {
             mesh: &elements.mesh,
+            reset: &state.nodes,
             relaxed: true,
             interpolation: &elements.interpolation,
             partly_filled: &[],
@@ -324,7 +322,6 @@ impl<const D: usize> Grid<D> {
             block: &self.dofs.block,
             linear_constraints: self.dofs.constraints.as_ref(),
             bodies: &self.body_coupling,
-            with_water: self.with_water,
         }
     }
 
@@ -354,7 +351,7 @@ impl<const D: usize> Grid<D> {
 }
 
 /// The prescribed increments (m) of displacement in a step of size `dt`, one entry for each equation: zero at supports, and those of curves,
-/// which take precedence; and those (kPa) of pore pressures at drained nodes.
+/// which take precedence; and those of scalar fields.
 pub fn given_increments<const D: usize>(
     scene: &Scene<D>,
     state: &State<D>,
@@ -378,13 +375,6 @@ pub fn given_increments<const D: usize>(
     }
     for fixed in &scene.phases[state.phase].held {
         give(fixed, 0.0);
-    }
-    if let Some(water) = scene.water.as_ref().filter(|_| scene.phases[state.phase].flows) {
-        for (equation, node) in grid.dofs.pore_pressures() {
-            if water.drained.binary_search(&node).is_ok() {
-                given[equation] = Some(-state.pressure[grid.dofs.places.pore_pressure(node)]);
-            }
-        }
     }
     field::give(scene, state, &grid.dofs, dt, &mut given);
     given

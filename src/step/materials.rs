@@ -34,7 +34,7 @@ pub fn notes<const D: usize, K: Kinematics<D>>(scene: &Scene<D>, state: &State<D
         let mut note = format!("phase {}: region `{of}` is of `{into}` from here on", phase.name);
         if beyond > 0 {
             note.push_str(&format!(
-                "; the stress of {beyond} of its {all} points is more than that bears, and falls to it in the first step"
+                "; the stress of {beyond} of its {all} points is more than that bears, and is reduced to it in the first step"
             ));
         }
         if let Some(&ratio) = odd.first() {

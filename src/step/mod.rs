@@ -52,7 +52,9 @@ pub use grid::Grid;
 pub use problem::Solution;
 pub use ramp::UnbalancedRamp;
 pub use report::Report;
-pub use scene::{FARTHEST, Fem, Field, Fixed, Numerics, Phase, Prescribed, Restore, Scene, Search, Stop, Water};
+pub use scene::{
+    FARTHEST, Fem, Field, Fixed, Numerics, Phase, Prescribed, Restore, Scalar, Scene, Search, Stop, Water,
+};
 pub use state::{Span, State};
 pub use water::Balance;
 
@@ -108,7 +110,7 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
             Some(format!("phase {}: {idle}", phase.name))
         });
         let notes = idle.filter_map(|p| {
-            let place = self.scene.mesh.nodes[*p.fixed.nodes.first()? as usize];
+            let place = self.scene.origin(*p.fixed.nodes.first()?);
             let axis = ["x", "y", "z"][p.fixed.component];
             Some(format!(
                 "phase {}: the displacement prescribed in {axis} near {place:.3?} m meets no material: it does nothing until some comes within two cells",
@@ -249,7 +251,7 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
         Err(Error::analysis(
             "strength reduction",
             format!("there is equilibrium only after the soil has moved by {moved:.3e} m"),
-            "what holds up to here is the result",
+            "the largest factor with equilibrium is the result",
         ))
     }
 

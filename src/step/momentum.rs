@@ -166,9 +166,9 @@ fn add_to_nodes<const D: usize>(
     field: &mut [[f64; D]],
 ) {
     let mesh = grid.relaxed.as_ref().map_or(&scene.mesh, |relaxed| &relaxed.mesh);
-    for (n, value) in field.iter_mut().enumerate() {
+    for (n, (value, from)) in field.iter_mut().zip(&mesh.nodes).enumerate() {
         if let Some(body) = bodies.of_node(n) {
-            let x: [f64; D] = std::array::from_fn(|d| mesh.nodes[n][d] + state.displacement[n][d]);
+            let x: [f64; D] = std::array::from_fn(|d| from[d] + state.displacement[n][d]);
             let more = rigid[body].at(&x);
             (0..D).for_each(|d| value[d] += more[d]);
         }

@@ -263,7 +263,7 @@ impl<'a, const D: usize> Newton<'a, D> {
         };
         let Problem { scene, state, .. } = self.problem;
         let position = |n: u32| {
-            let from = state.nodes.get(n as usize).unwrap_or(&scene.mesh.nodes[n as usize]);
+            let from = state.at_reset(scene, n);
             std::array::from_fn(|d| from[d] + now.at.displacement[n as usize][d])
         };
         self.method = method.map_err(|e| free::name(e, scene, state, self.grid, fixed, &position))?;
@@ -278,9 +278,9 @@ impl<'a, const D: usize> Newton<'a, D> {
             free.map(|e| self.buffers.now.force[e].powi(2)).sum::<f64>()
         };
         let blocks = 0..self.grid.dofs.node.len().min(self.buffers.now.force.len() / D);
-        let n = self.grid.dofs.node[blocks.max_by(|&a, &b| size(a).total_cmp(&size(b)))?] as usize;
-        let from = self.problem.state.nodes.get(n).unwrap_or(&self.problem.scene.mesh.nodes[n]);
-        Some(std::array::from_fn(|d| from[d] + self.problem.converged[n][d]))
+        let n = self.grid.dofs.node[blocks.max_by(|&a, &b| size(a).total_cmp(&size(b)))?];
+        let from = self.problem.state.at_reset(self.problem.scene, n);
+        Some(std::array::from_fn(|d| from[d] + self.problem.converged[n as usize][d]))
     }
 
     fn failure(&self, why: &str) -> Error {
@@ -308,7 +308,7 @@ fn forcing(history: &[f64], tolerance: f64) -> f64 {
 /// Which equations of nodes are damped: not those of structures in contact. Only soil that flows may support a structure; a fraction of the
 /// structure's own stiffness would be far stiffer, and it would approach its equilibrium in tiny steps.
 fn damped_equations<const D: usize>(scene: &Scene<D>, grid: &Grid<D>, out: &mut Vec<bool>) {
-    out.extend(grid.dofs.node.iter().flat_map(|&n| [(n as usize) < scene.mesh_nodes(); D]));
+    out.extend(grid.dofs.node.iter().flat_map(|&n| [scene.body_of(n).is_none(); D]));
     let Some(fem) = &scene.fem else { return };
     for c in fem.deforming() {
         if scene.interfaces.iter().any(|interface| interface.structure() == fem.mesh.cells.region[c]) {

@@ -9,12 +9,11 @@ use super::scene::Scene;
 use crate::mesh::Mesh;
 use crate::mesh::locate::Locator;
 use crate::mesh::shape::MAX_NODES;
-use crate::rigid::Body;
 
 /// Forces that are held.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct UnbalancedRamp<const D: usize> {
-    /// `−R₀` at each node (kN) as the phase begins; empty where nothing is held.
+    /// `−R₀` (kN) on each node, and then on the unknowns of rigid bodies, as the phase begins; empty where nothing is held.
     pub force: Vec<[f64; D]>,
     /// Time (s) in the phase at which all of it is released.
     pub until: f64,
@@ -48,8 +47,7 @@ impl<const D: usize> UnbalancedRamp<D> {
         }
         let mut own = vec![false; self.force.len()];
         let elements = scene.fem.iter().flat_map(|fem| &fem.mesh.cells.nodes);
-        let bodies = scene.bodies.iter().flat_map(Body::carriers);
-        elements.copied().chain(bodies).for_each(|n| own[n as usize] = true);
+        elements.for_each(|&n| own[n as usize] = true);
         let moved = |(n, x): (usize, &[f64; D])| {
             let place = std::array::from_fn(|d| x[d] + displacement[n][d]);
             (!own[n]).then_some(place)

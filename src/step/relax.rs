@@ -89,7 +89,7 @@ pub fn at<const D: usize>(scene: &Scene<D>, state: &State<D>) -> Option<Relaxed<
     if state.nodes.is_empty() || !shared(scene).contains(&true) {
         return None;
     }
-    let mesh = Mesh { nodes: state.nodes.clone(), ..scene.mesh.clone() };
+    let mesh = Mesh { nodes: state.coordinates(scene).to_vec(), ..scene.mesh.clone() };
     let locator = Locator::new(&mesh);
     Some(Relaxed { mesh, locator })
 }

@@ -76,8 +76,7 @@ pub struct Report<const D: usize> {
     pub contacts: Vec<Resultant<D>>,
     /// The volume balance of the pore water; absent without water.
     pub water: Option<Balance>,
-    /// Force of the supports on the nodes (kN): zero at nodes without. At the turning node of a rigid body its moment
-    /// over the arm.
+    /// Force of the supports (kN) on the nodes, and then on the unknowns of rigid bodies: zero without.
     pub reaction: Vec<[f64; D]>,
 }
 
@@ -92,7 +91,7 @@ impl<const D: usize> Report<D> {
         before: &[f64; D],
     ) -> Self {
         let motion = Motion::of(state);
-        let mut reaction = vec![[0.0; D]; scene.mesh.nodes.len()];
+        let mut reaction = vec![[0.0; D]; scene.displacements()];
         for fixed in scene.fixed(state.phase) {
             for &n in &fixed.nodes {
                 if let Some(equation) = grid.dofs.displacement(n, fixed.component) {
@@ -100,9 +99,8 @@ impl<const D: usize> Report<D> {
                 }
             }
         }
-        // The reaction at the turning node of a body is a moment.
-        let forces = || (0u32..).zip(&reaction).filter(|(n, _)| scene.turned_by(*n).is_none()).map(|(_, r)| r);
-        let impulse = |d: usize| dt * (solution.applied[d] + forces().map(|r| r[d]).sum::<f64>());
+        let held = |d: usize| grid.dofs.forces().map(|(_, n)| reaction[n as usize][d]).sum::<f64>();
+        let impulse = |d: usize| dt * (solution.applied[d] + held(d));
         let dynamic = state.dynamic(scene);
         let imbalance = std::array::from_fn(|d| if dynamic { motion.linear[d] - before[d] - impulse(d) } else { 0.0 });
         let fall = |(x, m): (&[f64; D], &f64)| -m * (0..D).map(|d| scene.gravity[d] * x[d]).sum::<f64>();

@@ -6,11 +6,11 @@
 use super::grid::Grid;
 use super::scene::Scene;
 use super::state::State;
-use crate::rigid::{Body, Pose};
+use crate::rigid::Pose;
 use crate::system::{Matrix, Pattern};
 use crate::tensor::Tensor;
 
-/// The displacement (m) of node `n` since the run began, for a `displacement` since the last grid reset.
+/// The displacement (m) of the unknown `n` of a body since the run began, for a `displacement` since the last grid reset.
 fn travel<const D: usize>(state: &State<D>, displacement: &[[f64; D]], n: u32) -> [f64; D] {
     let n = n as usize;
     std::array::from_fn(|d| state.travel[n][d] + displacement[n][d] - state.displacement[n][d])
@@ -22,8 +22,8 @@ pub fn follow<const D: usize>(scene: &Scene<D>, state: &State<D>, displacement: 
         let pose = body.pose(|n| travel(state, displacement, n));
         for &n in &body.nodes {
             let n = n as usize;
-            let from = state.nodes.get(n).unwrap_or(&scene.mesh.nodes[n]);
-            let to = body.place(&scene.mesh, &pose, &scene.mesh.nodes[n]);
+            let from = state.at_reset(scene, n as u32);
+            let to = body.place(&pose, &scene.mesh.nodes[n]);
             displacement[n] = std::array::from_fn(|d| to[d] - from[d]);
         }
     }
@@ -36,7 +36,7 @@ pub fn move_points<const D: usize>(scene: &Scene<D>, state: &mut State<D>, displ
         let rotation = rotation(&pose);
         for p in 0..state.fem.len() {
             if state.fem.region[p] == body.region {
-                state.fem.position[p] = body.place(&scene.mesh, &pose, &state.fem.origin[p]);
+                state.fem.position[p] = body.place(&pose, &state.fem.origin[p]);
                 state.fem.deformation[p] = rotation;
             }
         }
@@ -54,12 +54,6 @@ fn rotation<const D: usize>(pose: &Pose<D>) -> Tensor {
     rotation
 }
 
-/// Where the reference point of a body is.
-fn centre<const D: usize>(scene: &Scene<D>, body: &Body<D>, state: &State<D>) -> [f64; D] {
-    let pose = body.pose(|n| state.travel[n as usize]);
-    body.place(&scene.mesh, &pose, &scene.mesh.nodes[body.reference as usize])
-}
-
 fn arm<const D: usize>(centre: &[f64; D], x: &[f64; D]) -> [f64; D] {
     std::array::from_fn(|d| x[d] - centre[d])
 }
@@ -67,7 +61,7 @@ fn arm<const D: usize>(centre: &[f64; D], x: &[f64; D]) -> [f64; D] {
 /// Gives the points of bodies their motion, and the nodes of bodies their velocity.
 pub fn motion_to_points<const D: usize>(scene: &Scene<D>, state: &mut State<D>) {
     for body in &scene.bodies {
-        let centre = centre(scene, body, state);
+        let centre = body.centre_after(&state.travel);
         for p in (0..state.fem.len()).filter(|&p| state.fem.region[p] == body.region) {
             let arm = arm(&centre, &state.fem.position[p]);
             state.fem.velocity[p] = body.motion(&arm, &state.velocity);
@@ -75,7 +69,7 @@ pub fn motion_to_points<const D: usize>(scene: &Scene<D>, state: &mut State<D>) 
         }
         for &n in &body.nodes {
             let n = n as usize;
-            let from = state.nodes.get(n).unwrap_or(&scene.mesh.nodes[n]);
+            let from = state.at_reset(scene, n as u32);
             let x = std::array::from_fn(|d| from[d] + state.displacement[n][d]);
             state.velocity[n] = body.motion(&arm(&centre, &x), &state.velocity);
         }
@@ -86,12 +80,12 @@ pub fn motion_to_points<const D: usize>(scene: &Scene<D>, state: &mut State<D>) 
 /// sides of the nodes, one entry a block.
 pub fn momentum<const D: usize>(scene: &Scene<D>, grid: &Grid<D>, state: &State<D>, right: &mut [Vec<[f64; D]>; 2]) {
     for body in &scene.bodies {
-        let centre = centre(scene, body, state);
+        let centre = body.centre_after(&state.travel);
         for p in (0..state.fem.len()).filter(|&p| state.fem.region[p] == body.region) {
             let arm = arm(&centre, &state.fem.position[p]);
             for (right, field) in right.iter_mut().zip([&state.fem.velocity, &state.fem.acceleration]) {
                 let share = body.hand_on(&arm, &field[p].map(|v| state.fem.mass[p] * v));
-                for (n, share) in body.carriers().zip(share) {
+                for (n, share) in body.dofs.numbers().zip(share) {
                     let sum = &mut right[grid.dofs.block[n as usize] as usize];
                     *sum = std::array::from_fn(|d| sum[d] + share[d]);
                 }
@@ -103,17 +97,35 @@ pub fn momentum<const D: usize>(scene: &Scene<D>, grid: &Grid<D>, state: &State<
 /// Adds mass and inertia of bodies to the mass of the nodes.
 pub fn add_mass<const D: usize>(scene: &Scene<D>, block: &[u32], pattern: &Pattern, mass: &mut Matrix) {
     for body in &scene.bodies {
-        for (n, value) in body.carriers().zip([body.mass, body.inertia / body.arm.powi(2)]) {
+        for (n, value) in body.masses() {
             mass.add_diagonal(pattern, block[n as usize] as usize, value);
         }
     }
+}
+
+/// The moment (kN m) about the origin, in the plane, of a `force` (kN) on a node or an unknown of a body after a `displacement` (m) since the last
+/// grid reset.
+pub fn moment<const D: usize>(
+    scene: &Scene<D>,
+    state: &State<D>,
+    displacement: &[[f64; D]],
+    n: u32,
+    force: &[f64; D],
+) -> f64 {
+    const { assert!(D == 2, "moments are numbers in the plane only") };
+    if let Some(dofs) = scene.turning(n) {
+        return dofs.moment(force);
+    }
+    let (from, by) = (state.at_reset(scene, n), &displacement[n as usize]);
+    let x: [f64; D] = std::array::from_fn(|d| from[d] + by[d]);
+    x[0] * force[1] - x[1] * force[0]
 }
 
 /// Momentum (t m/s) of the sudden change of velocity of bodies whose motion the step prescribes.
 pub fn impulse<const D: usize>(scene: &Scene<D>, state: &State<D>, velocity: &[[f64; D]]) -> [f64; D] {
     let mut impulse = [0.0; D];
     for body in &scene.bodies {
-        let n = body.reference as usize;
+        let n = body.dofs.translation as usize;
         impulse = std::array::from_fn(|d| impulse[d] + body.mass * (velocity[n][d] - state.velocity[n][d]));
     }
     impulse

@@ -48,25 +48,21 @@ impl Scalars {
 pub struct Carrier<'a, const D: usize> {
     pub mesh: &'a Mesh<D>,
     pub places: Places,
-    /// Whether a cell has pore water, and whether it has a pressure field.
-    pub with: Box<dyn Fn(u32) -> [bool; 2] + 'a>,
-    /// How many other scalar fields a cell has.
+    /// Whether a cell has a pressure field, and how many scalar fields, the first ones.
+    pub with_pressure: Box<dyn Fn(u32) -> bool + 'a>,
     pub fields: Box<dyn Fn(u32) -> usize + 'a>,
     pub coupling: &'a [u32],
 }
 
 impl<const D: usize> Carrier<'_, D> {
     fn cells(&self) -> impl Iterator<Item = u32> {
-        (0..self.mesh.cells.len() as u32).filter(|&c| (self.with)(c).contains(&true) || (self.fields)(c) > 0)
+        (0..self.mesh.cells.len() as u32).filter(|&c| (self.with_pressure)(c) || (self.fields)(c) > 0)
     }
 
-    /// The scalar unknowns of a cell: of its pore water, of other scalar fields, of its pressure field.
+    /// The scalar unknowns of a cell: of its scalar fields, of its pressure field.
     fn unknowns(&self, cell: u32) -> impl Iterator<Item = u32> {
-        let ([water, field], fields) = ((self.with)(cell), (self.fields)(cell));
-        let cell = cell as usize;
-        let of_water = water.then(|| self.places.of_water(self.mesh, cell));
-        let of_field = field.then(|| self.places.of_field(self.mesh, cell));
-        let of_others = self.places.of_fields(self.mesh, cell, fields);
-        of_water.into_iter().flatten().chain(of_others).chain(of_field.into_iter().flatten())
+        let pressure = (self.with_pressure)(cell).then(|| self.places.of_field(self.mesh, cell as usize));
+        let of_fields = self.places.of_fields(self.mesh, cell as usize, (self.fields)(cell));
+        of_fields.chain(pressure.into_iter().flatten())
     }
 }

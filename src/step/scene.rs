@@ -2,13 +2,14 @@
 
 use super::change::Change;
 use crate::contact::Interface;
-use crate::dofs::Places;
+use crate::dofs::{Places, RigidDofs};
 use crate::interpolation::Basis;
 use crate::mesh::Mesh;
 use crate::mesh::faces::Faces;
 use crate::mesh::locate::Locator;
 use crate::quadrature::Quadrature;
 use crate::rigid::Body;
+use crate::system::LinearConstraints;
 use crate::term::{MixedPressure, Porous, Term, WaterLevels};
 use crate::time_value::TimeValue;
 
@@ -20,7 +21,7 @@ pub struct Scene<const D: usize> {
     pub terms: Vec<Box<dyn Term<D>>>,
     /// The finite elements beside the points, where there are any.
     pub fem: Option<Fem<D>>,
-    /// The rigid bodies: their unknowns are those of nodes at the end of [`Scene::mesh`], which no cell has.
+    /// The rigid bodies: their unknowns have numbers after those of the nodes of [`Scene::mesh`].
     pub bodies: Vec<Body<D>>,
     /// The contact interfaces.
     pub interfaces: Vec<Box<dyn Interface<D>>>,
@@ -39,7 +40,7 @@ pub struct Scene<const D: usize> {
     pub carried: Vec<Option<MixedPressure>>,
     /// The water in the pores, where its pressure is a field of its own.
     pub water: Option<Water>,
-    /// Other scalar fields that the material points carry ([`Field`]); none in the cases so far.
+    /// Scalar fields that the material points carry beside it ([`Field`]); none in the cases so far.
     pub fields: Vec<Field>,
     /// Degrees of freedom held at their place in every phase.
     pub supports: Vec<Fixed>,
@@ -54,9 +55,35 @@ pub struct Scene<const D: usize> {
 }
 
 impl<const D: usize> Scene<D> {
-    /// The number of nodes of the mesh without those that rigid bodies add at its end.
+    /// The number of nodes of the mesh without those that walls add at its end.
     pub fn mesh_nodes(&self) -> usize {
-        self.bodies.first().map_or(self.mesh.nodes.len(), |body| body.first as usize)
+        let wall = self.bodies.iter().find(|body| body.is_wall);
+        wall.map_or(self.mesh.nodes.len(), |body| body.nodes[0] as usize)
+    }
+
+    /// How many entries a field of displacements has: one a node of the mesh, then those of rigid bodies ([`RigidDofs`]).
+    pub fn displacements(&self) -> usize {
+        self.mesh.nodes.len() + self.bodies.iter().flat_map(|body| body.dofs.numbers()).count()
+    }
+
+    /// Where (m) entry `n` of a field of displacements begins: a node of the mesh, or the reference point of a rigid body.
+    pub fn origin(&self, n: u32) -> [f64; D] {
+        self.body_of(n).map_or_else(|| self.mesh.nodes[n as usize], |body| body.centre)
+    }
+
+    /// The rigid body that entry `n` of a field of displacements is an unknown of.
+    pub fn body_of(&self, n: u32) -> Option<&Body<D>> {
+        self.bodies.iter().find(|body| body.dofs.numbers().any(|own| own == n))
+    }
+
+    /// The unknowns of the rigid body whose rotation entry `n` of a field of displacements is.
+    pub fn turning(&self, n: u32) -> Option<&RigidDofs> {
+        self.bodies.iter().map(|body| &body.dofs).find(|dofs| dofs.rotation == Some(n))
+    }
+
+    /// What the displacements follow of those of controls, where the scheme has such.
+    pub fn constraints(&self) -> Option<LinearConstraints> {
+        self.basis.constraints(&self.mesh).map(|constraints| constraints.extended(self.displacements()))
     }
 
     /// Whether a pressure field carries a share of the stress.
@@ -75,10 +102,17 @@ impl<const D: usize> Scene<D> {
 
     /// What an unknown of the linear system stands for in the value at a place of [`super::State::pressure`].
     pub fn unit(&self, place: usize) -> f64 {
-        match self.places()[0].of_scalar(place as u32) {
-            Some((field, _)) => self.fields[field].unit,
-            None => self.pressure_unit.unwrap_or(1.0),
+        let field = self.places()[0].of_scalar(place as u32).and_then(|(k, _)| self.scalars().nth(k));
+        match field {
+            Some(Scalar::Other(_, field)) => field.unit,
+            _ => self.pressure_unit.unwrap_or(1.0),
         }
+    }
+
+    /// The scalar fields by number, with one unknown a corner each: the pore pressure first ([`crate::dofs::PORE_PRESSURE`]).
+    pub fn scalars(&self) -> impl Iterator<Item = Scalar<'_>> {
+        let others = self.fields.iter().enumerate().map(|(column, field)| Scalar::Other(column, field));
+        self.water.iter().map(Scalar::PorePressure).chain(others)
     }
 
     /// Whether there are scalar unknowns beside the displacement.
@@ -89,11 +123,6 @@ impl<const D: usize> Scene<D> {
     /// The body whose region that is.
     pub fn body(&self, region: u16) -> Option<&Body<D>> {
         self.bodies.iter().find(|body| body.region == region)
-    }
-
-    /// The rigid body that turns by the first component of node `n`.
-    pub fn turned_by(&self, n: u32) -> Option<&Body<D>> {
-        self.bodies.iter().find(|body| body.turning == Some(n))
     }
 
     /// Where displacements are given in a phase: supports, prescribed displacements, and structures that the phase leaves out.
@@ -113,6 +142,15 @@ impl<const D: usize> Scene<D> {
         let all = self.interfaces.iter().map(|interface| interface.as_ref()).enumerate();
         all.filter(move |(number, _)| !apart.contains(number))
     }
+}
+
+/// What a scalar field is of.
+#[derive(Clone, Copy, Debug)]
+pub enum Scalar<'a> {
+    /// The excess pressure of the water in the pores, which is part of the stress of the points.
+    PorePressure(&'a Water),
+    /// A field that the material points carry along, in a column by its number.
+    Other(usize, &'a Field),
 }
 
 /// A scalar field that the material points carry.
@@ -159,14 +197,14 @@ impl<const D: usize> Fem<D> {
     }
 }
 
-/// Nodes held in one direction.
+/// Nodes, or unknowns of rigid bodies, held in one direction.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Fixed {
     pub nodes: Vec<u32>,
     pub component: usize,
 }
 
-/// Nodes moved in one direction.
+/// Nodes, or unknowns of rigid bodies, moved in one direction.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Prescribed {
     pub fixed: Fixed,

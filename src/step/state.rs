@@ -36,8 +36,8 @@ pub struct State<const D: usize> {
     /// without.
     pub fem: Points<D>,
     pub fem_parametric: Vec<[f64; 3]>,
-    /// Coordinates (m) of the nodes at the last grid reset; empty without finite elements and rigid bodies,
-    /// which alone change them.
+    /// Coordinates (m) of the nodes at the last grid reset and, after them, of the unknowns of rigid bodies, which begin at the reference point;
+    /// empty without finite elements and rigid bodies, which alone change them.
     pub nodes: Vec<[f64; D]>,
     /// Multipliers and history of the contact nodes of each interface.
     pub multipliers: Vec<Multipliers>,
@@ -55,7 +55,8 @@ pub struct State<const D: usize> {
     pub ramp: UnbalancedRamp<D>,
     /// Parametric coordinates of the points in their cells, as of the last restoration.
     pub parametric: Vec<[f64; 3]>,
-    /// Displacement (m) of the nodes since the last restoration.
+    /// Displacement (m) since the last restoration of the nodes and, after them, of the unknowns of rigid bodies ([`crate::dofs::RigidDofs`]), as in
+    /// all fields of displacements, velocities and forces.
     pub displacement: Vec<[f64; D]>,
     /// The increment (m) of the displacement in the last step, and the size (s) of that step; empty before the first one, zero where
     /// inertia has come in or gone since.
@@ -90,8 +91,8 @@ pub struct State<const D: usize> {
 }
 
 impl<const D: usize> State<D> {
-    /// The state before the first step.
-    pub fn new(points: Points<D>, nodes: usize, first_step: f64) -> Self {
+    /// The state before the first step, given how many entries a field of displacements has ([`Scene::displacements`]).
+    pub fn new(points: Points<D>, displacements: usize, first_step: f64) -> Self {
         Self {
             phase: 0,
             time: 0.0,
@@ -110,11 +111,11 @@ impl<const D: usize> State<D> {
             start_position: Vec::new(),
             ramp: UnbalancedRamp::default(),
             parametric: Vec::new(),
-            displacement: vec![[0.0; D]; nodes],
+            displacement: vec![[0.0; D]; displacements],
             increment: Vec::new(),
             last_step: 0.0,
             balanced: None,
-            travel: vec![[0.0; D]; nodes],
+            travel: vec![[0.0; D]; displacements],
             uncounted: Vec::new(),
             pressure: Vec::new(),
             velocity: Vec::new(),
@@ -126,6 +127,16 @@ impl<const D: usize> State<D> {
             voids: Voids::default(),
             restorations: 0,
         }
+    }
+
+    /// Where (m) entry `n` of a field of displacements was at the last grid reset: a node, or an unknown of a rigid body.
+    pub fn at_reset(&self, scene: &Scene<D>, n: u32) -> [f64; D] {
+        self.nodes.get(n as usize).copied().unwrap_or_else(|| scene.origin(n))
+    }
+
+    /// Coordinates (m) of the nodes of the mesh at the last grid reset.
+    pub fn coordinates<'a>(&'a self, scene: &'a Scene<D>) -> &'a [[f64; D]] {
+        if self.nodes.is_empty() { &scene.mesh.nodes } else { &self.nodes[..scene.mesh.nodes.len()] }
     }
 
     /// The points that integrals are summed over: those of the cells, or the material points themselves.

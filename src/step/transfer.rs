@@ -132,7 +132,7 @@ fn first_acceleration<const D: usize, K: Kinematics<D>>(
     state: &State<D>,
 ) -> Result<Vec<[f64; D]>> {
     let force = static_force(&Problem::at_rest(scene, state), grid)?.force;
-    let mut fixed = vec![[false; D]; scene.mesh.nodes.len()];
+    let mut fixed = vec![[false; D]; scene.displacements()];
     for f in scene.fixed(state.phase) {
         for &n in &f.nodes {
             fixed[n as usize][f.component] = true;
@@ -147,7 +147,7 @@ fn first_acceleration<const D: usize, K: Kinematics<D>>(
         mass.solve_held(&held, &mut x)?;
         solution.push(x);
     }
-    let mut acceleration = vec![[0.0; D]; scene.mesh.nodes.len()];
+    let mut acceleration = vec![[0.0; D]; scene.displacements()];
     solution.iter().enumerate().for_each(|(d, x)| grid.dofs.write(x, d, &mut acceleration));
     Ok(acceleration)
 }
@@ -326,7 +326,7 @@ fn to_nodes<const D: usize, K: Kinematics<D>>(
     grid: &mut Grid<D>,
     state: &State<D>,
 ) -> Result<[Vec<[f64; D]>; 2]> {
-    let mut right: [Vec<[f64; D]>; 2] = [0, 1].map(|_| vec![[0.0; D]; scene.mesh.nodes.len()]);
+    let mut right: [Vec<[f64; D]>; 2] = [0, 1].map(|_| vec![[0.0; D]; scene.displacements()]);
     for Family { mesh, interpolation, points, .. } in grid.families(scene, state) {
         let fields = [&points.velocity, &points.acceleration];
         for cell_points in &interpolation.filled {
@@ -354,7 +354,7 @@ fn to_nodes<const D: usize, K: Kinematics<D>>(
             solution.push(x);
         }
     }
-    let mut nodal = [0, 1].map(|_| vec![[0.0; D]; scene.mesh.nodes.len()]);
+    let mut nodal = [0, 1].map(|_| vec![[0.0; D]; scene.displacements()]);
     for (solution, nodal) in solution.iter().zip(&mut nodal) {
         solution.iter().enumerate().for_each(|(d, x)| grid.dofs.write(x, d, nodal));
     }

@@ -5,6 +5,7 @@ use super::pore_pressure::soil;
 use super::problem::Solution;
 use super::scene::Scene;
 use super::state::State;
+use crate::dofs::PORE_PRESSURE;
 use crate::term::Trial;
 use crate::time_integration::GeneralisedAlpha;
 
@@ -78,7 +79,7 @@ pub fn balance<const D: usize>(
     if scene.phases[state.phase].flows {
         let alpha_f = if scene.phases[state.phase].dynamic { alpha_f(scene.numerics.spectral_radius) } else { 0.0 };
         let unit = scene.pressure_unit.unwrap_or(1.0) * (1.0 - alpha_f);
-        for (equation, node) in grid.dofs.pore_pressures() {
+        for (equation, node) in grid.dofs.field(PORE_PRESSURE) {
             if water.drained.binary_search(&node).is_ok() {
                 balance.left += solution.residual[equation] / unit;
             }

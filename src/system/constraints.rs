@@ -59,6 +59,14 @@ impl LinearConstraints {
         Self { nodes, controls }
     }
 
+    /// These with further nodes, up to a number of them in all, that are controls of their own.
+    pub fn extended(mut self, count: usize) -> Self {
+        for n in self.nodes.len()..count {
+            [&mut self.nodes, &mut self.controls].into_iter().for_each(|rows| rows.push([(n as u32, 1.0)]));
+        }
+        self
+    }
+
     /// The controls of a node with their coefficients (-).
     pub fn of_node(&self, node: u32) -> &[(u32, f64)] {
         self.nodes.row(node as usize)

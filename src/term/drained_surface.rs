@@ -13,6 +13,7 @@
 
 use super::water::{self, Porous};
 use super::{Assembly, Frame, Term, Trial};
+use crate::dofs::PORE_PRESSURE;
 use crate::error::Result;
 use crate::kinematics::Kinematics;
 use crate::mesh::shape::{CellKind, MAX_NODES, rule};
@@ -160,7 +161,7 @@ impl<K: Kinematics<2>> DrainedSurface<K> {
         let corners = frame.mesh.cells.kind[piece.host as usize].corner_count();
         let mut pressure = [0.0; water::MOST];
         for (p, &n) in pressure.iter_mut().zip(&frame.mesh.cells.nodes(piece.host as usize)[..corners]) {
-            *p = trial.pressure[frame.places.pore_pressure(n)];
+            *p = trial.pressure[frame.places.field(PORE_PRESSURE, n)];
         }
         (corners, pressure)
     }

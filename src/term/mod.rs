@@ -95,6 +95,8 @@ pub struct PlacedConstraint<const D: usize> {
 pub struct Frame<'a, const D: usize> {
     /// The grid as last restored: the reference configuration.
     pub mesh: &'a Mesh<D>,
+    /// Where (m) the nodes were at the last grid reset and, after them, the unknowns of rigid bodies; empty before the first.
+    pub reset: &'a [[f64; D]],
     /// Whether that is not the first shape of the grid, so that what was kept of that one does not hold.
     pub relaxed: bool,
     pub interpolation: &'a Interpolation<D>,
@@ -119,27 +121,25 @@ pub struct Frame<'a, const D: usize> {
     pub points: &'a Points<D>,
     /// What integrals are summed over, where `points` are others.
     pub integration: Option<(&'a Interpolation<D>, &'a Points<D>)>,
-    /// One block a node that takes part, one coupling a cell that does. With pore water, one more block for each corner,
+    /// One block a node that takes part, one coupling a cell that does. With scalar fields, one more block of each for each corner,
     /// which follow in a coupling, and with a pressure field one for each corner and each cell with a constant of its
     /// own; they are the last ones of a coupling.
     pub pattern: &'a Pattern,
     /// The coupling of each cell; `u32::MAX` for cells left out.
     pub coupling: &'a [u32],
-    /// The block of each node; `u32::MAX` for nodes left out.
+    /// The block of each node and each unknown of rigid bodies; `u32::MAX` for nodes left out.
     pub block: &'a [u32],
     /// What the values of the nodes are of those of controls, whose blocks those of `block` are then; absent where each node has its own.
     pub linear_constraints: Option<&'a LinearConstraints>,
-    /// The coupling of each rigid body: its reference and, where it turns, its turning node.
+    /// The coupling of each rigid body.
     pub bodies: &'a [u32],
-    /// Whether the cells have pore water.
-    pub with_water: bool,
 }
 
 impl<const D: usize> Frame<'_, D> {
-    /// Where the unknowns of scalar field `k` of a cell begin among those of its coupling: one a corner.
+    /// Where the unknowns of scalar field `k` of a cell, by its number in the scene, begin among those of its coupling: one a corner.
     pub fn field(&self, k: usize, cell: u32) -> usize {
         let corners = self.mesh.cells.kind[cell as usize].corner_count();
-        D * self.interpolation.nodes(self.mesh, cell).len() + (k + usize::from(self.with_water)) * corners
+        D * self.interpolation.nodes(self.mesh, cell).len() + k * corners
     }
 }
 

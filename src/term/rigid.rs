@@ -5,10 +5,10 @@
 
 use super::{Assembly, Frame, Role, Term, Trial};
 use crate::error::Result;
-use crate::rigid::{Body, Pose};
+use crate::rigid::Body;
 use crate::time_value::TimeValue;
 
-/// Adds a force (kN) to the equations of node `n`.
+/// Adds a force (kN) to the equations of the unknown `n` of a body.
 fn add<const D: usize>(frame: &Frame<D>, n: u32, force: &[f64; D], out: &mut Assembly) {
     let first = frame.pattern.start[frame.block[n as usize] as usize] as usize;
     for (entry, force) in out.force[first..].iter_mut().zip(force) {
@@ -18,7 +18,7 @@ fn add<const D: usize>(frame: &Frame<D>, n: u32, force: &[f64; D], out: &mut Ass
 
 /// Gravity on a body, times a factor in the phase's time.
 pub struct RigidWeight<const D: usize> {
-    reference: u32,
+    translation: u32,
     /// Weight (kN).
     weight: [f64; D],
     factors: Vec<TimeValue>,
@@ -27,7 +27,7 @@ pub struct RigidWeight<const D: usize> {
 impl<const D: usize> RigidWeight<D> {
     /// `factors[i]` scales `gravity` (m/s²) in phase `i`.
     pub fn new(body: &Body<D>, gravity: [f64; D], factors: Vec<TimeValue>) -> Self {
-        Self { reference: body.reference, weight: gravity.map(|g| body.mass * g), factors }
+        Self { translation: body.dofs.translation, weight: gravity.map(|g| body.mass * g), factors }
     }
 }
 
@@ -38,20 +38,20 @@ impl<const D: usize> Term<D> for RigidWeight<D> {
 
     fn assemble(&self, frame: &Frame<D>, trial: &Trial<D>, out: &mut Assembly) -> Result<()> {
         let factor = self.factors[trial.phase].at(trial.time);
-        add(frame, self.reference, &self.weight.map(|w| -factor * w), out);
+        add(frame, self.translation, &self.weight.map(|w| -factor * w), out);
         Ok(())
     }
 }
 
 /// Inertia of a body.
 pub struct RigidInertia {
-    /// Nodes with what resists their acceleration (t).
+    /// The unknowns with what resists their acceleration (t).
     masses: Vec<(u32, f64)>,
 }
 
 impl RigidInertia {
     pub fn new<const D: usize>(body: &Body<D>) -> Self {
-        Self { masses: body.carriers().zip([body.mass, body.inertia / body.arm.powi(2)]).collect() }
+        Self { masses: body.masses().collect() }
     }
 }
 
@@ -77,8 +77,6 @@ impl<const D: usize> Term<D> for RigidInertia {
 /// A dead traction on a curve of a body.
 pub struct RigidTraction<const D: usize> {
     body: Body<D>,
-    /// Where the turning node was when the run began.
-    origin: [f64; D],
     phase: usize,
     /// Traction components (kPa) in time.
     value: [TimeValue; D],
@@ -96,13 +94,12 @@ impl<const D: usize> RigidTraction<D> {
         phase: usize,
         value: [TimeValue; D],
     ) -> Self {
-        let origin = position[body.reference as usize];
         let mut moment = [0.0; D];
         for &(n, area) in shares {
             let x = &position[n as usize];
-            moment = std::array::from_fn(|d| moment[d] + area * (x[d] - origin[d]));
+            moment = std::array::from_fn(|d| moment[d] + area * (x[d] - body.centre[d]));
         }
-        Self { body: body.clone(), origin, phase, value, area: shares.iter().map(|(_, a)| a).sum(), moment }
+        Self { body: body.clone(), phase, value, area: shares.iter().map(|(_, a)| a).sum(), moment }
     }
 }
 
@@ -116,20 +113,15 @@ impl<const D: usize> Term<D> for RigidTraction<D> {
             return Ok(());
         }
         let t: [f64; D] = std::array::from_fn(|d| self.value[d].at(trial.time));
-        add(frame, self.body.reference, &t.map(|t| -self.area * t), out);
-        let Some(turning) = self.body.turning else { return Ok(()) };
-        let travel = |n: u32| -> [f64; D] {
-            let (from, by) = (&frame.mesh.nodes[n as usize], &trial.between[n as usize]);
-            std::array::from_fn(|d| from[d] + by[d] - self.origin[d])
-        };
-        let pose: Pose<D> = self.body.pose(travel);
-        let arm = pose.turn(&self.moment);
+        add(frame, self.body.dofs.translation, &t.map(|t| -self.area * t), out);
+        let Some(rotation) = self.body.dofs.rotation else { return Ok(()) };
+        let arm = self.body.pose_since(frame.reset, trial.between).turn(&self.moment);
         let [_, moment] = self.body.hand_on(&arm, &t);
-        add(frame, turning, &moment.map(|m| -m), out);
+        add(frame, rotation, &moment.map(|m| -m), out);
         if let Some(tangent) = &mut out.tangent {
             let against: f64 = arm.iter().zip(&t).map(|(r, t)| r * t).sum();
-            let first = frame.pattern.start[frame.block[turning as usize] as usize] as usize;
-            let slope = (1.0 - trial.alpha_f) * against / self.body.arm.powi(2);
+            let first = frame.pattern.start[frame.block[rotation as usize] as usize] as usize;
+            let slope = (1.0 - trial.alpha_f) * against / self.body.dofs.arm.powi(2);
             tangent.add_diagonal(frame.pattern, first, slope);
         }
         Ok(())

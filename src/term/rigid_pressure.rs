@@ -22,8 +22,6 @@ pub struct RigidPressure<K> {
     body: Body<2>,
     /// Its number in the scene.
     number: usize,
-    /// Where the reference point was when the run began.
-    origin: [f64; 2],
     heads: Vec<Option<Hydrostatic>>,
     /// The boundary when the run began, from the reference point.
     facets: Vec<Facet>,
@@ -37,19 +35,18 @@ fn dot(a: &[f64; 2], b: &[f64; 2]) -> f64 {
 impl<K> RigidPressure<K> {
     /// `heads[i]` acts in phase `i` on the body with that `number` in the scene, whose cells are in `mesh` as the run begins.
     pub fn new(body: &Body<2>, number: usize, mesh: &Mesh<2>, heads: Vec<Option<Hydrostatic>>) -> Self {
-        let origin = mesh.nodes[body.reference as usize];
         let own = mesh.part(|c| mesh.cells.region[c] == body.region);
         let facet = |(c, side): (u32, u8)| {
             let nodes = own.cells.nodes(c as usize);
             let of_facet = own.cells.kind[c as usize].facets().1[side as usize];
             let mut x = [[0.0; 2]; 3];
             for (x, &i) in x.iter_mut().zip(of_facet) {
-                *x = [0, 1].map(|d| own.nodes[nodes[i] as usize][d] - origin[d]);
+                *x = [0, 1].map(|d| own.nodes[nodes[i] as usize][d] - body.centre[d]);
             }
             (x, of_facet.len())
         };
         let facets = Faces::of(&own).boundary.into_iter().map(facet).collect();
-        Self { body: body.clone(), number, origin, heads, facets, kinematics: PhantomData }
+        Self { body: body.clone(), number, heads, facets, kinematics: PhantomData }
     }
 }
 
@@ -57,8 +54,8 @@ impl<K: Kinematics<2>> RigidPressure<K> {
     /// Adds force and moment, and their tangent: `x = c + R(θ) r` and `n = R(θ) n₀`.
     fn add(&self, head: &Hydrostatic, trial: &Trial<2>, pose: &Pose<2>, local: &mut Local) {
         let head = head.at(trial.time);
-        let centre = [0, 1].map(|d| self.origin[d] + pose.moved[d]);
-        let (share, turns) = (1.0 - trial.alpha_f, self.body.turning.is_some());
+        let centre = [0, 1].map(|d| self.body.centre[d] + pose.moved[d]);
+        let (share, turns) = (1.0 - trial.alpha_f, self.body.dofs.rotation.is_some());
         for (from, count) in &self.facets {
             let x = from.map(|from| {
                 let arm = pose.turn(&from);
@@ -81,8 +78,8 @@ impl<K: Kinematics<2>> RigidPressure<K> {
                 }
                 // By the place, and by the arc along which the body turns.
                 let by_x = weighed.map(|n| [p * by_radius * n, growth * measure * n]);
-                let way = across(&arm).map(|d| d / self.body.arm);
-                let turned = across(&force).map(|f| f / self.body.arm);
+                let way = across(&arm).map(|d| d / self.body.dofs.arm);
+                let turned = across(&force).map(|f| f / self.body.dofs.arm);
                 let by_arc = [0, 1].map(|d| dot(&by_x[d], &way) + turned[d]);
                 let size = local.size;
                 for d in 0..2 {
@@ -95,7 +92,7 @@ impl<K: Kinematics<2>> RigidPressure<K> {
                     }
                 }
                 if turns {
-                    let bent = dot(&force, &arm) / self.body.arm.powi(2);
+                    let bent = dot(&force, &arm) / self.body.dofs.arm.powi(2);
                     local.matrix[2 * size + 2] += share * (dot(&way, &by_arc) - bent);
                 }
             });
@@ -110,11 +107,7 @@ impl<K: Kinematics<2>> Term<2> for RigidPressure<K> {
 
     fn assemble(&self, frame: &Frame<2>, trial: &Trial<2>, out: &mut Assembly) -> Result<()> {
         let Some(head) = self.heads.get(trial.phase).and_then(Option::as_ref) else { return Ok(()) };
-        let travel = |n: u32| {
-            let (from, by) = (&frame.mesh.nodes[n as usize], &trial.between[n as usize]);
-            [0, 1].map(|d| from[d] + by[d] - self.origin[d])
-        };
-        let pose = self.body.pose(travel);
+        let pose = self.body.pose_since(frame.reset, trial.between);
         let compute = |_: &usize, local: &mut Local| {
             self.add(head, trial, &pose, local);
             Ok(())

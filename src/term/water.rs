@@ -20,6 +20,7 @@
 
 use super::mixed::Seen;
 use super::{Frame, History, Mixed, Ratios, Trial};
+use crate::dofs::PORE_PRESSURE;
 use crate::interpolation::{CellPoints, Coefficients, Entries};
 use crate::kinematics::{Gradient, Kinematics};
 use crate::material::Model;
@@ -183,7 +184,7 @@ impl<const D: usize, K: Kinematics<D>> Mixed<D, K> for PoreWater<K> {
         let corners = kind.corner_count();
         let (mut pressure, mut gained) = ([0.0; MOST], [0.0; MOST]);
         for (a, &n) in frame.mesh.cells.nodes(cell)[..corners].iter().enumerate() {
-            let unknown = frame.places.pore_pressure(n);
+            let unknown = frame.places.field(PORE_PRESSURE, n);
             pressure[a] = trial.pressure[unknown];
             gained[a] = pressure[a] - trial.converged_pressure[unknown];
         }

@@ -177,6 +177,122 @@ fn columns_are_listed_and_one_that_is_not_there_has_near_ones() {
     }
 }
 
+/// The table of a sweep with a parameter of numbers, one of texts, a run that ended early and one without a result.
+const SWEEP: &str = "run,h,model,state,time [s],a.uy last [m],a.uy max [m]\n\
+    r1,0.4,soft,finished,1.0,-2.0,0.5\nr2,0.1,soft,finished,1.0,-3.0,0.25\nr3,0.2,soft,finished,1.0,-2.5,0.75\n\
+    r4,0.4,\"<b>, stiff\",finished,1.0,-1.0,0.0\nr5,0.1,\"<b>, stiff\",\"ended early: no step\",0.5,-1.5,0.0\n\
+    r6,0.2,\"<b>, stiff\",not run,,,\n";
+
+fn sweep() -> TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    fs::create_dir(folder.path().join("sweep")).unwrap();
+    fs::write(folder.path().join("sweep/table.csv"), SWEEP).unwrap();
+    folder
+}
+
+#[test]
+fn a_quantity_of_a_sweep_is_drawn_over_a_parameter_a_curve_for_each_value_of_the_others() {
+    let folder = sweep();
+    // The first parameter without --x, and the folder for its table.
+    for arguments in [&["sweep/table.csv", "--x", "h"][..], &["sweep"]] {
+        let svg = svg(folder.path(), &[arguments, &["--y", "a.uy last", "--scale-y", "-1"]].concat());
+        are(&curves(&svg, BLUE)[0], &[[0.1, 3.0], [0.2, 2.5], [0.4, 2.0]], [0.3, 2.0]);
+        // The row without a result is left out.
+        are(&curves(&svg, ORANGE)[0], &[[0.1, 1.5], [0.4, 1.0]], [0.3, 2.0]);
+        let texts: Vec<String> = texts(&svg).into_iter().map(|(text, ..)| text).collect();
+        for text in ["h", "−a.uy last [m]", "model = soft", "model = &lt;b&gt;, stiff", "2 of 6 runs are not finished"]
+        {
+            assert!(texts.iter().any(|other| other == text), "{text}: {texts:?}");
+        }
+        assert!(!svg.contains("<b>"));
+    }
+    // Without -o beside the table.
+    succeeds(&plot(folder.path(), &["sweep", "--x", "a.uy last", "--y", "a.uy max"]));
+    let svg = fs::read_to_string(folder.path().join("sweep/table.svg")).unwrap();
+    assert_eq!(svg.matches("<circle").count(), 5, "a circle a row, for the horizontal axis is no parameter");
+}
+
+#[test]
+fn the_distribution_of_a_sweep_has_its_percentiles() {
+    let folder = tempfile::tempdir().unwrap();
+    let rows: Vec<String> = (1..=20).map(|i| format!("s{i},{i},finished,1.0,{}", (7 * i) % 20)).collect();
+    fs::write(folder.path().join("t.csv"), format!("run,seed,state,time [s],F max [kN]\n{}\n", rows.join("\n")))
+        .unwrap();
+    let output = plot(folder.path(), &["t.csv", "--y", "F max", "--distribution", "-o", "p.svg"]);
+    succeeds(&output);
+    // 0 … 19: variance (20² − 1)/12 · 20/19.
+    let said = said(&output);
+    assert!(said.contains("F max [kN]: 20 runs, mean 9.5, standard deviation 5.91608"), "{said}");
+    assert!(said.contains("5 % 0.5, 25 % 4.5, 50 % 9.5, 75 % 14.5, 95 % 18.5"), "{said}");
+    let svg = fs::read_to_string(folder.path().join("p.svg")).unwrap();
+    let expected: Vec<[f64; 2]> = (0..20).map(|i| [f64::from(i), (f64::from(i) + 0.5) / 20.0]).collect();
+    are(&curves(&svg, BLUE)[0], &expected, [19.0, 1.0]);
+}
+
+#[test]
+fn a_distribution_of_small_values_has_their_digits_and_none_that_is_not_finite() {
+    let folder = tempfile::tempdir().unwrap();
+    let rows = "a,1,finished,1e-7,2.5,nan\nb,2,finished,3e-7,,inf\nc,3,finished,nan,,nan\nd,4,finished,-inf,inf,nan\n";
+    let text = format!("run,seed,state,u last [m],F last [kN],w last [m]\n{rows}");
+    fs::write(folder.path().join("t.csv"), text).unwrap();
+    let output = plot(folder.path(), &["t.csv", "--y", "u last,F last", "--distribution"]);
+    succeeds(&output);
+    let told = said(&output);
+    let u = "u last [m]: 2 runs, mean 2e-7, standard deviation 1.41421e-7, 2 left out, not finite\n  5 % 1e-7,";
+    assert!(told.contains(u), "{told}");
+    // One value scatters by nothing that is known.
+    assert!(told.contains("F last [kN]: 1 run, mean 2.5, 1 left out, not finite\n"), "{told}");
+    assert!(folder.path().join("t.svg").exists(), "a table with a state is that of a sweep");
+    let output = plot(folder.path(), &["t.csv", "--y", "w last", "--distribution"]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(said(&output).contains("no row has a number in a column of --y"), "{}", said(&output));
+}
+
+#[test]
+fn the_picture_of_another_table_is_named_by_the_user() {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("a.csv"), "x,y\n1,2\n2,3\n").unwrap();
+    fs::write(folder.path().join("a.svg"), "mine").unwrap();
+    let output = plot(folder.path(), &["a.csv", "--x", "x", "--y", "y"]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(said(&output).contains("name the picture with -o"), "{}", said(&output));
+    assert_eq!(fs::read_to_string(folder.path().join("a.svg")).unwrap(), "mine");
+    succeeds(&plot(folder.path(), &["a.csv", "--x", "x", "--y", "y", "-o", "b.svg"]));
+    fs::rename(folder.path().join("a.csv"), folder.path().join("table.csv")).unwrap();
+    succeeds(&plot(folder.path(), &["table.csv", "--x", "x", "--y", "y"]));
+    assert!(folder.path().join("table.svg").exists());
+}
+
+#[test]
+fn what_a_table_has_not_is_told_in_one_message() {
+    let folder = sweep();
+    fs::write(folder.path().join("plain.csv"), "a,b\n1,2\n2,x\n").unwrap();
+    fs::write(folder.path().join("torn.csv"), "a,b\n1,2\n2\n").unwrap();
+    let listed = said(&plot(folder.path(), &["sweep", "--list"]));
+    assert!(listed.contains("6 rows") && listed.contains("h              0.1 … 0.4"), "{listed}");
+    assert!(listed.contains("model          texts") && listed.contains("a.uy last [m]  -3 … -1"), "{listed}");
+    for (arguments, problem) in [
+        (&["sweep", "--y", "state"][..], "the column `state` is not numeric: its row 1 has `finished`"),
+        (&["sweep", "--x", "model", "--y", "a.uy max"], "the column `model` is not numeric"),
+        (&["sweep", "--y", "a.yu max"], "has no column `a.yu max`; near to it are `a.uy max`"),
+        (&["sweep"], "no quantity of the table is chosen"),
+        (&["plain.csv", "--x", "a", "--y", "b"], "the column `b` is not numeric: its row 2 has `x`"),
+        (&["plain.csv", "--y", "a"], "name the column along the horizontal axis with --x"),
+        (&["torn.csv", "--x", "a", "--y", "b"], "torn.csv:3: is no table"),
+        (&["none.csv", "--x", "a", "--y", "b"], "none.csv"),
+        (&["sweep", "plain.csv", "--y", "a"], "a table of a sweep is drawn alone"),
+        (&["sweep", "--iterations"], "a table of a sweep is drawn alone"),
+    ] {
+        let output = plot(folder.path(), arguments);
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}: {}", said(&output));
+        assert!(said(&output).contains(problem), "{arguments:?}: {}", said(&output));
+        let errors = said(&output).lines().filter(|line| line.starts_with("error: ")).count();
+        assert_eq!(errors, 1, "{arguments:?}: {}", said(&output));
+    }
+    let output = plot(runs().path(), &["a", "--distribution"]);
+    assert!(said(&output).contains("a run alone has no distribution"), "{}", said(&output));
+}
+
 #[test]
 fn hostile_text_stays_text() {
     let folder = runs();

@@ -78,3 +78,77 @@ fn a_field_that_is_not_there_is_told() {
     assert_eq!(output.status.code(), Some(2));
     assert!(said(&output).contains("temperature"), "{}", said(&output));
 }
+
+/// The table of a sweep of the block: its run, one that sank by 10 % more in the end, and one that is not finished.
+fn table(last: f64, hostile: &str) -> String {
+    format!(
+        "run,h,name,state,time [s],block.uy last [m],block.uy min [m],block.uy max [m]\na,1,x,finished,1.0,{last:?},{last:?},0.0\n\
+         b,0.5,{hostile},finished,1.0,{:?},{:?},0.0\nc,0.25,x,ended early: no step,0.5,{last:?},{last:?},0.0\nd,0.125,x,not run,,,,\n",
+        1.1 * last,
+        1.1 * last
+    )
+}
+
+#[test]
+fn the_variants_of_a_sweep_are_shown_with_their_changes() {
+    let scene = solved();
+    assert!(!page(scene.path(), &[]).contains("What the results depend on"));
+    let history = fs::read_to_string(scene.path().join("out/history.csv")).unwrap();
+    let k = history.lines().next().unwrap().split(',').position(|name| name == "block.uy [m]").unwrap();
+    let last: f64 = history.lines().last().unwrap().split(',').nth(k).unwrap().parse().unwrap();
+    assert!(last < 0.0);
+    for folder in ["sweep", "other"] {
+        fs::create_dir(scene.path().join(folder)).unwrap();
+    }
+    fs::write(scene.path().join("sweep/table.csv"), table(last, "<script>alert(2)</script>")).unwrap();
+    let found = page(scene.path(), &[]);
+    assert!(!found.contains("<script") && found.contains("&lt;script&gt;alert(2)&lt;/script&gt;"));
+    for text in [
+        "What the results depend on",
+        "2 of 4 variants are not finished",
+        // The most that it changes, and with what.
+        "-10.00 %</td><td>h = 0.5, name = &lt;script",
+        "+0.00 %</td><td>h = 1, name = x",
+        "<td>0.25</td><td>x</td><td>ended early: no step</td>",
+        "<td>0.125</td><td>x</td><td>not run</td><td></td><td></td>",
+    ] {
+        assert!(found.contains(text), "{text}");
+    }
+    let elsewhere = found.replace("http://www.w3.org/", "");
+    assert!(!elsewhere.contains("http://") && !elsewhere.contains("https://"));
+
+    // Values that are none have no change; the table itself may be named.
+    let wrong = table(last, "nan").replace(&format!("{:?},{:?},0.0\nc", 1.1 * last, 1.1 * last), "nan,-inf,0.0\nc");
+    fs::write(scene.path().join("other/wrong.csv"), wrong).unwrap();
+    let found = page(scene.path(), &["--sweep", "other/wrong.csv"]);
+    assert!(found.contains("2 values are not finite"), "{found}");
+    assert!(found.contains("<td>finished</td><td>NaN</td><td>-</td><td>-inf</td><td>-</td>"));
+    assert!(!found.contains("NaN %") && !found.contains("inf %"));
+
+    // A folder that is asked for must have a table of a sweep.
+    for (text, problem) in [(None, "table.csv"), (Some("a,b\n1,2\n"), "is not the table of a sweep")] {
+        if let Some(text) = text {
+            fs::write(scene.path().join("other/table.csv"), text).unwrap();
+        }
+        let output = in_folder(scene.path(), &["report", ".", "--set", HISTORY, "--sweep", "other"]);
+        assert_eq!(output.status.code(), Some(2));
+        assert!(said(&output).contains(problem), "{}", said(&output));
+    }
+    // One that happens to be there has a line.
+    let whole = fs::read_to_string(scene.path().join("sweep/table.csv")).unwrap();
+    for (text, problem) in [
+        ("a,b\n1,2\n", "is not the table of a sweep"),
+        ("run,h,state\na,1\n", "is no table"),
+        ("run,h,state,block.uy last [m]\na,1,finished,x\n", "is not numeric"),
+    ] {
+        fs::write(scene.path().join("sweep/table.csv"), text).unwrap();
+        let found = page(scene.path(), &[]);
+        assert!(found.contains("The variants cannot be shown: ") && found.contains(problem), "{problem}");
+    }
+    fs::write(scene.path().join("sweep/table.csv"), whole).unwrap();
+    // A case that was changed after it.
+    let case = fs::read_to_string(scene.path().join("case.yaml")).unwrap();
+    std::thread::sleep(std::time::Duration::from_millis(20));
+    fs::write(scene.path().join("case.yaml"), case).unwrap();
+    assert!(page(scene.path(), &[]).contains("was changed after the table of its variants"));
+}

@@ -220,6 +220,7 @@ fn points_vtu_is_viewable_as_it_is() {
         pore_pressure: Vec::new(),
         fields: Vec::new(),
         domain: Vec::new(),
+        strength: numbers(n, 13),
         region: (0..n).map(|i| (i % 2) as u16).collect(),
         model: Vec::new(),
         cell: (0..n as u32).collect(),
@@ -245,6 +246,7 @@ fn points_vtu_is_viewable_as_it_is() {
     expected.add("point", "elastic [-]", 6, &symmetric_names, &Data::F64(points.elastic.concat()));
     expected.add("point", "stress [kPa]", 6, &symmetric_names, &Data::F64(points.stress.concat()));
     expected.add("point", "plastic_strain [-]", 1, &[], &Data::F64(points.plastic_strain.clone()));
+    expected.add("point", "strength [-]", 1, &[], &Data::F64(points.strength.clone()));
     expected.add("point", "region [-]", 1, &[], &Data::U16(points.region.clone()));
     expected.add("point", "cell [-]", 1, &[], &Data::U32(points.cell.clone()));
     let expected = expected.finish();

@@ -272,6 +272,35 @@ fn the_shear_strength_yields_in_simple_shear() {
     assert!(seen >= 15, "{seen}");
 }
 
+/// A state with a strength of its own is one of the model whose strengths are multiplied by it. What voids add to the stress is not (`tension_limit`).
+#[test]
+fn the_strength_of_a_state_is_that_of_the_model_times_a_factor() {
+    for (name, model) in models().iter().filter(|(name, model)| model.yields() && !name.contains("tension_limit")) {
+        let mut random = Random(0x2545_F491_4F6C_DD1D);
+        for factor in [0.3, 0.8, 1.7] {
+            let (other, state) = (model.reduced(1.0 / factor), State { strength: factor, ..State::default() });
+            let [law, other_law] = [model, &other].map(|model| model.principal().unwrap());
+            let [own, expected] = [model.shear_strength(0.0, &state), other.shear_strength(0.0, &State::default())];
+            assert!(own == expected || (own / expected - 1.0).abs() < 1e-14, "{name}: {own} {expected}");
+            for _ in 0..2000 {
+                let trial = random.trial(model.as_ref());
+                let [mut internal, mut other_internal] = [first(model.as_ref()), first(other.as_ref())];
+                let a = law.respond(0.0, &trial, &state, &mut internal);
+                let b = other_law.respond(0.0, &trial, &State::default(), &mut other_internal);
+                let unit = 1e-9 * (finite_strength(model.as_ref()) + largest(&a.stress));
+                for k in 0..3 {
+                    assert!((a.stress[k] - b.stress[k]).abs() <= unit, "{name} {factor}: {trial:?}: {a:?} {b:?}");
+                }
+                let excess = [
+                    law.yield_excess(0.0, &a.stress, &state),
+                    other_law.yield_excess(0.0, &a.stress, &State::default()),
+                ];
+                assert!((excess[0] - excess[1]).abs() <= unit, "{name} {factor}: {trial:?}: {excess:?}");
+            }
+        }
+    }
+}
+
 /// What takes more than some seconds; `make test-quick` leaves it out.
 mod slow {
     use super::*;

@@ -22,6 +22,7 @@ mod output_field;
 mod patch;
 mod phases;
 mod random_scenes;
+mod random_strength;
 mod resampled;
 mod rotation;
 mod scheme;

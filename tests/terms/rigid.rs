@@ -2,6 +2,7 @@
 
 use crate::loads::anywhere;
 use crate::stand::{KINDS, Stand, mesh, points};
+use mpm::dofs::RigidDofs;
 use mpm::kinematics::{Axisymmetric, Kinematics, PlaneStrain};
 use mpm::mesh::shape::CellKind;
 use mpm::rigid::Body;
@@ -9,15 +10,14 @@ use mpm::step::Grid;
 use mpm::term::{Hydrostatic, RigidInertia, RigidPressure, RigidTraction, RigidWeight, Term};
 use mpm::time_value::TimeValue;
 
-/// A body that has its unknowns at two nodes of the stand.
+/// A body that has the displacements of two nodes of the stand for its unknowns.
 fn body() -> Body<2> {
     Body {
         region: 0,
+        is_wall: false,
         nodes: vec![0, 1, 2],
-        first: 3,
-        reference: 3,
-        turning: Some(7),
-        arm: 0.8,
+        centre: [2.4, 0.4],
+        dofs: RigidDofs::new(3, true, 0.8),
         mass: 2.5,
         inertia: 0.4,
     }
@@ -53,7 +53,7 @@ fn weight_and_traction_act_on_the_reference_point() {
     let (trial, converged) = anywhere(&stand(traction()));
     let weight = stand(Box::new(RigidWeight::new(&body(), [1.0, -10.0], vec![TimeValue::Constant(1.0); 2])));
     let force = weight.evaluate(&trial, &converged, 0, false).0;
-    assert_eq!((force[3], force[7]), ([-2.5, 25.0], [0.0; 2]));
+    assert_eq!((force[3], force[4]), ([-2.5, 25.0], [0.0; 2]));
     let traction = stand(traction());
     let force = traction.evaluate(&trial, &converged, 0, false).0;
     let expected = [-0.9 * 30.0, 0.9 * 25.0];
@@ -62,12 +62,12 @@ fn weight_and_traction_act_on_the_reference_point() {
     assert_eq!(traction.evaluate(&trial, &converged, 1, false).0[3], [0.0; 2]);
     // The moment: Σ (R r) × t, over the arm.
     let nodes = &traction.scene.mesh.nodes;
-    let first: [f64; 2] = [0, 1].map(|d| 0.2 * (nodes[0][d] - nodes[3][d]) + 0.7 * (nodes[1][d] - nodes[3][d]));
-    let turned = (nodes[7][0] + trial[7][0] - nodes[3][0]) / 0.8;
-    let (sin, cos) = turned.sin_cos();
+    let centre = body().centre;
+    let first: [f64; 2] = [0, 1].map(|d| 0.2 * (nodes[0][d] - centre[d]) + 0.7 * (nodes[1][d] - centre[d]));
+    let (sin, cos) = (trial[4][0] / 0.8).sin_cos();
     let arm = [cos * first[0] - sin * first[1], sin * first[0] + cos * first[1]];
     let moment = (arm[0] * -25.0 - arm[1] * 30.0) / 0.8;
-    assert!((force[7][0] + moment).abs() < 1e-12 && force[7][1] == 0.0, "{:?} {moment}", force[7]);
+    assert!((force[4][0] + moment).abs() < 1e-12 && force[4][1] == 0.0, "{:?} {moment}", force[4]);
 }
 
 /// All cells of the stand as one body under water, whose level passes through it or is high above.
@@ -75,7 +75,7 @@ fn under_water<K: Kinematics<2>>(kind: CellKind, level: f64) -> Stand<K> {
     let constant = TimeValue::Constant;
     let head = Hydrostatic { top: constant(2.0), gradient: constant(9.0), datum: constant(level), band: 0.2 };
     let mesh = mesh(kind);
-    let body = Body { turning: (!K::HOOP).then_some(7), ..body() };
+    let body = Body { dofs: RigidDofs::new(3, !K::HOOP, 0.8), ..body() };
     let term = Box::new(RigidPressure::<K>::new(&body, 0, &mesh, vec![Some(head), None]));
     let points = points(&mesh, |_| true);
     let mut stand = Stand::<K>::new(mesh, points, term, true, true);
@@ -86,11 +86,11 @@ fn under_water<K: Kinematics<2>>(kind: CellKind, level: f64) -> Stand<K> {
 
 /// The middle of the body (m), which is that of the stand, in the trial pose, and from its reference point.
 fn middle(stand: &Stand<impl Kinematics<2>>, trial: &[[f64; 2]]) -> [[f64; 2]; 2] {
-    let (nodes, body) = (&stand.scene.mesh.nodes, &stand.scene.bodies[0]);
-    let turned = body.turning.map_or(0.0, |_| (nodes[7][0] + trial[7][0] - nodes[3][0]) / body.arm);
-    let ((sin, cos), [x, y]) = (turned.sin_cos(), [3.0 - nodes[3][0], 0.75 - nodes[3][1]]);
+    let Body { centre, dofs, .. } = &stand.scene.bodies[0];
+    let turned = dofs.rotation.map_or(0.0, |_| trial[4][0] / 0.8);
+    let ((sin, cos), [x, y]) = (turned.sin_cos(), [3.0 - centre[0], 0.75 - centre[1]]);
     let arm = [cos * x - sin * y, sin * x + cos * y];
-    [[0, 1].map(|d| nodes[3][d] + trial[3][d] + arm[d]), arm]
+    [[0, 1].map(|d| centre[d] + trial[3][d] + arm[d]), arm]
 }
 
 fn water_on_a_body<K: Kinematics<2>>() {
@@ -129,6 +129,6 @@ fn water_lifts_a_body_in_the_middle_of_its_volume() {
         assert!(force[3][0].abs() < 1e-11 * weight && (force[3][1] / -weight - 1.0).abs() < 1e-12, "{:?}", force[3]);
         let [_, [lever, _]] = middle(&stand, &trial);
         let moment = weight * lever / 0.8;
-        assert!((force[7][0] + moment).abs() < 1e-11 * weight && force[7][1] == 0.0, "{:?} {moment}", force[7]);
+        assert!((force[4][0] + moment).abs() < 1e-11 * weight && force[4][1] == 0.0, "{:?} {moment}", force[4]);
     }
 }

@@ -114,6 +114,7 @@ impl Stand {
     fn frame(&self) -> Frame<'_, 3> {
         Frame {
             mesh: &self.mesh,
+            reset: &[],
             relaxed: false,
             interpolation: &self.interpolation,
             partly_filled: &[],
@@ -131,7 +132,6 @@ impl Stand {
             block: &self.nodes,
             linear_constraints: None,
             bodies: &[],
-            with_water: false,
         }
     }
 

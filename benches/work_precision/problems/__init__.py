@@ -37,4 +37,5 @@ class Problem:
     points_paths: list  # entries of the case with the points a cell
     peer: str | None = None  # scene of benches/peers/kratos_elastic.py
     peer_errors: object = None  # function of the peer's arrays: {key: error}
+    others: dict = field(default_factory=dict)  # programs not run here: name: {place on the axis of the first series: (first error, seconds)}
     prepare: object = None  # called before the first run, makes the reference; returns what it says of itself

@@ -56,6 +56,11 @@ def variant(at, cells, wide=1, steps=STEPS, points=None, peer=True):
 
 
 SIZES = [8, 16, 32, 64, 128]
+# GIMP of AMPLE (Coombs & Augarde 2020) and cpGIMP of GeoWarp, four points a cell, 40 steps.
+OTHERS = {
+    "AMPLE": dict(zip(SIZES, [(1.29e-2, 5.2), (3.66e-3, 11.0), (1.05e-3, 20.6), (4.4e-4, 40.6), (2.0e-4, 176.0)])),
+    "GeoWarp": dict(zip(SIZES, [(1.29e-2, 1.20), (3.66e-3, 1.41), (1.05e-3, 1.98), (4.4e-4, 2.86), (2.0e-4, 5.4)])),
+}
 PROBLEM = Problem(
     name="column",
     title="Self-weight column",
@@ -82,4 +87,5 @@ PROBLEM = Problem(
     points_paths=["regions.soil.points_per_cell"],
     peer="column",
     peer_errors=peer_errors,
+    others=OTHERS,
 )

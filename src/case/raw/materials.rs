@@ -26,9 +26,41 @@ pub struct Material {
     pub water_bulk_modulus: Option<f64>,
     /// Unit weight of the water (kN/m³).
     pub water_unit_weight: Option<f64>,
+    /// How its strength varies at random.
+    pub random_strength: Option<RandomStrength>,
     /// The parameters of the model.
     #[serde(flatten)]
     pub parameters: BTreeMap<String, InDepth>,
+}
+
+/// Strength that varies at random in space: a lognormal field of the mean 1, by which the strengths of the model are multiplied.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct RandomStrength {
+    /// Standard deviation of the strength over its mean (-).
+    #[schemars(range(min = 0))]
+    pub coefficient_of_variation: f64,
+    /// Horizontal scale of fluctuation: within it the strength is much the same (m).
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub horizontal_scale: f64,
+    /// Vertical scale of fluctuation (m).
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub vertical_scale: f64,
+    /// Correlation of the logarithm of the strength at two places, with d² = (Δx/horizontal_scale)² + (Δy/vertical_scale)²: markov, exp(−2d), or gaussian, exp(−πd²),
+    /// which is smooth. Default: markov.
+    #[serde(default)]
+    pub correlation: Correlation,
+    /// The number of the realisation: the same one gives the same field, whatever the mesh.
+    pub seed: u64,
+}
+
+/// A correlation function.
+#[derive(Clone, Copy, Debug, Default, Deserialize, JsonSchema, PartialEq, Eq)]
+#[serde(rename_all = "snake_case")]
+pub enum Correlation {
+    #[default]
+    Markov,
+    Gaussian,
 }
 
 /// Whether water can leave the pores of a material.

@@ -35,6 +35,7 @@ pub enum Field {
     PorePressure,
     Mass,
     InternalVariables,
+    ShearStrength,
 }
 
 impl Field {
@@ -51,6 +52,7 @@ impl Field {
             Self::PorePressure => "pore_pressure",
             Self::Mass => "mass",
             Self::InternalVariables => INTERNAL,
+            Self::ShearStrength => "shear_strength",
         }
     }
 }

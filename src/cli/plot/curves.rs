@@ -13,18 +13,18 @@ use std::path::{Path, PathBuf};
 
 #[derive(clap::Args)]
 pub struct Args {
-    /// The column along the horizontal axis, as `head.uy` or with its unit [default: time]
+    /// The column along the horizontal axis, as `head.uy` or with its unit [default: time; of a sweep its first parameter]
     #[arg(long, value_name = "COLUMN")]
-    x: Option<String>,
+    pub x: Option<String>,
     /// The columns along the vertical axis [default: load over displacement where the history has both, else all over time]
     #[arg(long, value_name = "COLUMN,…", value_delimiter = ',')]
-    y: Vec<String>,
+    pub y: Vec<String>,
     /// A factor of the horizontal axis, such as -1
     #[arg(long, value_name = "FACTOR", default_value_t = 1.0, allow_negative_numbers = true)]
-    scale_x: f64,
+    pub scale_x: f64,
     /// A factor of the vertical axis
     #[arg(long, value_name = "FACTOR", default_value_t = 1.0, allow_negative_numbers = true)]
-    scale_y: f64,
+    pub scale_y: f64,
     /// Values to compare with, drawn as circles: two columns with headings, as they are to be shown
     #[arg(long, value_name = "FILE.csv")]
     reference: Vec<PathBuf>,
@@ -33,13 +33,16 @@ pub struct Args {
     line: Vec<String>,
     /// Iterations, sizes and halvings of the steps over time, in place of the history
     #[arg(long, conflicts_with_all = ["x", "y", "scale_x", "scale_y", "reference", "line"])]
-    iterations: bool,
+    pub iterations: bool,
     /// The title [default: that of the case]
     #[arg(long, value_name = "TEXT")]
-    title: Option<String>,
+    pub title: Option<String>,
+    /// Of a sweep: the share of the runs that have less than a value, in place of a quantity over a parameter
+    #[arg(long, conflicts_with_all = ["x", "scale_x"])]
+    pub distribution: bool,
     /// List the columns, with their ranges, and draw nothing
     #[arg(long)]
-    list: bool,
+    pub list: bool,
 }
 
 pub fn run(cases: &[PathBuf], output: Option<&Path>, args: &Args, unfinished: bool, keys: &Keys) -> Outcome {
@@ -173,7 +176,7 @@ fn column(runs: &[Run], name: &str) -> Result<String> {
 }
 
 /// Names that may be meant: the most like it, a few.
-fn near(name: &str, names: &[&str]) -> String {
+pub fn near(name: &str, names: &[&str]) -> String {
     /// Names that are told.
     const TOLD: usize = 4;
     let mut names: Vec<(f64, &str)> = names.iter().map(|other| (strsim::jaro_winkler(name, other), *other)).collect();
@@ -183,7 +186,7 @@ fn near(name: &str, names: &[&str]) -> String {
 }
 
 /// Adds the values to compare with.
-fn compare(charts: &mut [draw::curves::Chart], args: &Args) -> Result<()> {
+pub fn compare(charts: &mut [draw::curves::Chart], args: &Args) -> Result<()> {
     if args.reference.is_empty() && args.line.is_empty() {
         return Ok(());
     }

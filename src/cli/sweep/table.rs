@@ -5,19 +5,17 @@ use crate::cli::solve;
 use crate::cli::stage::Stage;
 use crate::error::{Error, Result};
 use crate::io::run_folder::{RunFolder, Standing};
+use crate::io::sweep_table::{self, FINISHED, RUN, STATE};
 use crate::io::table::{Column, Table};
 
 /// What is told of a quantity of a history: how the heading calls it, and its value.
 type Summary = (&'static str, fn(&[f64]) -> Option<f64>);
 
 const SUMMARIES: [Summary; 3] = [
-    ("last", |values| values.last().copied()),
-    ("min", |values| values.iter().copied().reduce(f64::min)),
-    ("max", |values| values.iter().copied().reduce(f64::max)),
+    (sweep_table::SUMMARIES[0], |values| values.last().copied()),
+    (sweep_table::SUMMARIES[1], |values| values.iter().copied().reduce(f64::min)),
+    (sweep_table::SUMMARIES[2], |values| values.iter().copied().reduce(f64::max)),
 ];
-
-/// The state of a run that has reached its end.
-const FINISHED: &str = "finished";
 
 /// A run as the table has it.
 pub struct Row<'a> {
@@ -74,8 +72,8 @@ pub fn csv(axes: &[Axis], rows: &[Row]) -> Result<Vec<u8>> {
         }
     }
     let labels = axes.iter().map(|axis| axis.label.clone());
-    let mut header: Vec<String> = std::iter::once("run".to_owned()).chain(labels).collect();
-    header.extend(["state".to_owned(), format!("{TIME} [s]")]);
+    let mut header: Vec<String> = std::iter::once(RUN.to_owned()).chain(labels).collect();
+    header.extend([STATE.to_owned(), format!("{TIME} [s]")]);
     for Column { name, unit, .. } in &quantities {
         header.extend(SUMMARIES.map(|(how, _)| format!("{name} {how} [{unit}]")));
     }

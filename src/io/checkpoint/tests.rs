@@ -27,6 +27,7 @@ pub(in crate::io) fn sample_points(n: usize, dynamic: bool) -> Points<2> {
         pore_pressure: if dynamic { (0..n).map(|i| x(i, 35)).collect() } else { Vec::new() },
         fields: if dynamic { (0..2 * n).map(|i| x(i, 36)).collect() } else { Vec::new() },
         domain: if dynamic { (0..8 * n).map(|i| x(i / 8, 37 + i % 8)).collect() } else { Vec::new() },
+        strength: if dynamic { (0..n).map(|i| x(i, 45)).collect() } else { Vec::new() },
         plastic_strain: (0..n).map(|i| if i % 3 == 0 { 5e-324 } else { x(i, 32) }).collect(),
         region: (0..n).map(|i| (i % 2) as u16).collect(),
         model: if dynamic { (0..n).map(|i| (i % 5) as u16).collect() } else { Vec::new() },
@@ -54,6 +55,7 @@ pub(in crate::io) fn same_bits<const D: usize>(a: &Points<D>, b: &Points<D>) -> 
             p.pressure.clone(),
             p.pore_pressure.clone(),
             p.domain.clone(),
+            p.strength.clone(),
         ];
         (f.map(|v| v.into_iter().map(f64::to_bits).collect::<Vec<_>>()), p.region.clone(), p.cell.clone())
     };

@@ -137,7 +137,7 @@ fn check_fields(path: &Path, frame: &Frame, fields: &[String]) -> Result<()> {
     names.dedup();
     Err(Error::input(
         path.display(),
-        format!("the field `{missing}` of output.fields is not in the results; they have {}", names.join(", ")),
-        "run `mpm solve` again, or ask for another field",
+        format!("the results have no field `{missing}`; they have {}", names.join(", ")),
+        "choose one of these, or name it in `output.fields` and run `mpm solve` again",
     ))
 }

@@ -2,7 +2,7 @@
 
 use crate::kinematics::Kinematics;
 use crate::material::spatial::elastic_from_stress;
-use crate::material::{Model, State, Variable, internal_count, spectral};
+use crate::material::{Model, RandomStrengths, State, Variable, internal_count, spectral, strength_at};
 use crate::points::Points;
 use crate::tensor::{Symmetric, mean};
 use rayon::prelude::*;
@@ -32,12 +32,31 @@ pub type Models = Vec<Option<Arc<dyn Model>>>;
 /// The models that answer for the state of points.
 pub struct Materials<K> {
     models: Models,
+    /// The fields of their strength.
+    strengths: RandomStrengths,
     kinematics: PhantomData<K>,
 }
 
 impl<K: Kinematics<2>> Materials<K> {
     pub fn new(models: Models) -> Self {
-        Self { models, kinematics: PhantomData }
+        Self { models, strengths: Vec::new(), kinematics: PhantomData }
+    }
+
+    /// Lets the strength of materials vary at random, given the fields by number.
+    pub fn varying(self, strengths: RandomStrengths) -> Self {
+        Self { strengths, ..self }
+    }
+
+    /// The strength over that of the parameters (-) of soil that was seeded at a place (m).
+    pub fn strength(&self, model: usize, seeded: &[f64; 2]) -> f64 {
+        strength_at(&self.strengths, model, seeded)
+    }
+
+    /// Gives point `p`, which has been seeded elsewhere by now, its strength.
+    pub fn vary(&self, points: &mut Points<2>, p: usize) {
+        if !points.strength.is_empty() {
+            points.strength[p] = self.strength(points.model_of(p), &points.origin[p]);
+        }
     }
 
     /// The internal variables of a model.
@@ -45,10 +64,17 @@ impl<K: Kinematics<2>> Materials<K> {
         self.models.get(model).and_then(Option::as_ref).map_or(&[], |model| model.internal_variables())
     }
 
-    /// The elastic left Cauchy–Green tensor and the stress (kPa) that a model can have near the given fields and internal variables.
-    pub fn state(&self, model: usize, fields: &Fields, internal: &[f64]) -> Option<(Symmetric, Symmetric)> {
+    /// The elastic left Cauchy–Green tensor and the stress (kPa) that a model can have near the given fields and internal variables, with a strength
+    /// over that of the parameters (-).
+    pub fn state(
+        &self,
+        model: usize,
+        fields: &Fields,
+        internal: &[f64],
+        strength: f64,
+    ) -> Option<(Symmetric, Symmetric)> {
         let kirchhoff = [fields[0], fields[1], fields[2], fields[3], 0.0, 0.0];
-        let state = State { plastic_strain: fields[PLASTIC], internal, ..State::default() };
+        let state = State { plastic_strain: fields[PLASTIC], internal, strength, ..State::default() };
         let y = fields[ORIGIN + 1];
         let model = self.models.get(model)?.as_ref()?;
         let elastic = elastic_from_stress(model.as_ref(), y, &kirchhoff);

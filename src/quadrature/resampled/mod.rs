@@ -27,6 +27,7 @@ use super::surface::boundary;
 use super::{Quadrature, Restored, Tally, Weights};
 use crate::interpolation::PartlyFilled;
 use crate::kinematics::Kinematics;
+use crate::material::RandomStrengths;
 use crate::mesh::Mesh;
 use crate::mesh::shape::MAX_NODES;
 use crate::points::Points;
@@ -64,6 +65,8 @@ struct Sample {
     fields: Fields,
     elastic: Symmetric,
     stress: Symmetric,
+    /// Over that of the parameters (-).
+    strength: f64,
 }
 
 /// What became of a cell.
@@ -97,6 +100,12 @@ impl<K: Kinematics<2>> Resampled<K> {
     #[must_use]
     pub fn renewing(self, seeded: Vec<u32>) -> Self {
         Self { seeded, ..self }
+    }
+
+    /// Lets the strength of materials vary at random, given the fields by number of the material.
+    #[must_use]
+    pub fn varying(self, strengths: RandomStrengths) -> Self {
+        Self { materials: self.materials.varying(strengths), ..self }
     }
 
     /// The integration points of a cell with the nodal values of the level set.
@@ -158,16 +167,18 @@ impl<K: Kinematics<2>> Resampled<K> {
                 for k in BOUNDED {
                     fields[k] = fields[k].clamp(range[k][0], range[k][1]);
                 }
-                let state = self.materials.state(model, &fields, &sampled.internal[begin..]);
+                let mut strength = self.materials.strength(model, &[fields[ORIGIN], fields[ORIGIN + 1]]);
+                let state = self.materials.state(model, &fields, &sampled.internal[begin..], strength);
                 let (elastic, stress) = state.unwrap_or_else(|| {
                     // What no model answers to is not the state of the soil there: the nearest point's is.
                     let p = nearest(points, &fit.points, &place.x);
                     fields = all_fields[p];
+                    strength = points.strength_of(p);
                     sampled.internal[begin..].copy_from_slice(points.internal_of(p));
                     sampled.taken += 1;
                     (points.elastic[p], points.stress[p])
                 });
-                sampled.samples.push(Sample { cell, place, region, fields, elastic, stress });
+                sampled.samples.push(Sample { cell, place, region, fields, elastic, stress, strength });
             }
         }
         sampled
@@ -179,7 +190,7 @@ impl<K: Kinematics<2>> Resampled<K> {
             let p = p as usize;
             let place = Place { xi: parametric[p], x: points.position[p], weight: points.volume(p) };
             let (region, elastic, stress) = (points.region[p], points.elastic[p], points.stress[p]);
-            Sample { cell, place, region, fields: fields[p], elastic, stress }
+            Sample { cell, place, region, fields: fields[p], elastic, stress, strength: points.strength_of(p) }
         };
         let samples: Vec<Sample> = held.points(cell).iter().map(sample).collect();
         let internal = held.points(cell).iter().flat_map(|&p| points.internal_of(p as usize)).copied().collect();
@@ -308,6 +319,7 @@ fn collect(points: &Points<2>, sampled: &[Sampled]) -> (Samples<2>, Tally) {
         internal: sampled.iter().flat_map(|cell| &cell.internal).copied().collect(),
         pressure: column(!points.pressure.is_empty(), PRESSURE),
         pore_pressure: column(!points.pore_pressure.is_empty(), WATER),
+        strength: if points.strength.is_empty() { Vec::new() } else { all().map(|s| s.strength).collect() },
         region: all().map(|s| s.region).collect(),
         model,
         cell: all().map(|s| s.cell).collect(),

@@ -173,11 +173,11 @@ impl Crowd {
     }
 
     /// Splits points until no room of a part is empty, or none can be split. Returns how many were.
-    fn fill<K: Kinematics<2>>(&mut self, ground: &Ground, part: &Part) -> u32 {
+    fn fill<K: Kinematics<2>>(&mut self, ground: &Ground, part: &Part, materials: &Materials<K>) -> u32 {
         let mut count = 0;
         // Halves may leave a room that had a point: no more are split than there are rooms.
         for _ in 0..ground.least(part).max(4) {
-            let split = self.lacks(ground, part).iter().any(|spot| self.split_towards::<K>(ground, part, spot));
+            let split = self.lacks(ground, part).iter().any(|spot| self.split_towards(ground, part, spot, materials));
             if !split {
                 break;
             }
@@ -187,7 +187,13 @@ impl Crowd {
     }
 
     /// Splits the point that is nearest to a place, in its own size, such that a half is there.
-    fn split_towards<K: Kinematics<2>>(&mut self, ground: &Ground, part: &Part, spot: &[f64; 2]) -> bool {
+    fn split_towards<K: Kinematics<2>>(
+        &mut self,
+        ground: &Ground,
+        part: &Part,
+        spot: &[f64; 2],
+        materials: &Materials<K>,
+    ) -> bool {
         let least = 0.5 * ground.geometry.volume(part.cell as usize) / ground.seeded(part);
         let near = std::iter::once(part.cell).chain(ground.around.cells(part.cell).iter().copied());
         let mut donors: Vec<(f64, u32)> = near
@@ -203,7 +209,7 @@ impl Crowd {
             let halves =
                 [1.0, -1.0].map(|sign| ground.room_at(&[0, 1].map(|d| x[d] + sign * by[d]), part.region, hint));
             if let [Some(there), Some(back)] = halves {
-                self.split::<K>(p as usize, by, [there, back]);
+                self.split(p as usize, by, [there, back], materials);
                 return true;
             }
         }
@@ -211,7 +217,13 @@ impl Crowd {
     }
 
     /// Splits point `p` into halves at `by` and `-by` (m) from it, with their cells.
-    fn split<K: Kinematics<2>>(&mut self, p: usize, by: [f64; 2], [there, back]: [(u32, [f64; 3]); 2]) {
+    fn split<K: Kinematics<2>>(
+        &mut self,
+        p: usize,
+        by: [f64; 2],
+        [there, back]: [(u32, [f64; 3]); 2],
+        materials: &Materials<K>,
+    ) {
         let q = self.points.split::<K>(p, by);
         self.of_cell[self.points.cell[p] as usize].retain(|&other| other as usize != p);
         self.parametric.push([0.0; 3]);
@@ -221,6 +233,7 @@ impl Crowd {
             self.points.cell[half] = cell;
             self.parametric[half] = xi;
             self.of_cell[cell as usize].push(half as u32);
+            materials.vary(&mut self.points, half);
         }
     }
 
@@ -292,8 +305,10 @@ impl Crowd {
         let internal: Vec<f64> = internal.map(|(x, y)| (a.0 * x + b.0 * y) / (a.0 + b.0)).collect();
         fields[VOLUME] = one.deformation[0].determinant().ln();
         fields[FIELDS - 2..].copy_from_slice(&one.origin[0]);
+        materials.vary(&mut one, 0);
         let place = ground.room_at(&one.position[0], part.region, part.cell).filter(|(cell, _)| *cell == part.cell);
-        let (Some((_, xi)), Some((elastic, stress))) = (place, materials.state(points.model_of(p), &fields, &internal))
+        let (Some((_, xi)), Some((elastic, stress))) =
+            (place, materials.state(points.model_of(p), &fields, &internal, one.strength_of(0)))
         else {
             return false;
         };
@@ -341,7 +356,7 @@ pub fn renew<K: Kinematics<2>>(ground: &Ground, materials: &Materials<K>) -> (Op
     }
     let mut crowd = Crowd::of(ground);
     for part in &wanting {
-        count.split += crowd.fill::<K>(ground, part);
+        count.split += crowd.fill(ground, part, materials);
     }
     for part in &wanting {
         if crowd.members(part).len() > ground.most(part) {

@@ -69,9 +69,9 @@ fn check_times<const D: usize>(scene: &Scene<D>, state: &State<D>) -> Result<()>
 
 /// The fields on the nodes.
 fn check_fields<const D: usize>(scene: &Scene<D>, state: &State<D>) -> Result<()> {
-    let nodes = scene.mesh.nodes.len();
+    let displacements = scene.displacements();
     let exact = |field: &[[f64; D]], present: bool, name: &str| {
-        let expected = if present { nodes } else { 0 };
+        let expected = if present { displacements } else { 0 };
         ensure(field.len() == expected, &format!("the length {} of `{name}`, not {expected},", field.len()))
     };
     exact(&state.displacement, true, "displacement")?;
@@ -80,21 +80,17 @@ fn check_fields<const D: usize>(scene: &Scene<D>, state: &State<D>) -> Result<()
     exact(&state.uncounted, begun(scene, state).any(|phase| phase.reset), "uncounted")?;
     exact(&state.velocity, state.moving, "velocity")?;
     exact(&state.acceleration, state.moving, "acceleration")?;
-    exact(&state.nodes, scene.fem.is_some() || !scene.bodies.is_empty(), "nodes")?;
+    exact(&state.nodes, scene.fem.is_some() || !scene.bodies.is_empty(), "coordinates")?;
     let held = !state.ramp.force.is_empty();
     exact(&state.ramp.force, held, "ramp")?;
     let until = state.ramp.until;
     ensure(if held { state.phase_time < until } else { until == 0.0 }, "the time of its ramp")?;
     let numbers = scene.basis.domain_size() * state.points.len();
     ensure(state.points.domain.len() == numbers && state.fem.domain.is_empty(), "the domains of its points")?;
-    let of_water = if scene.water.is_some() { nodes } else { 0 };
     let [places, _] = scene.places();
     let of_points = state.points.fields.len();
     ensure(of_points == scene.fields.len() * state.points.len() && state.fem.fields.is_empty(), "its scalar fields")?;
-    let pressures = match scene.fields.len() {
-        0 => scene.pressure_unit.map_or(0, |_| places.pore_pressures() + of_water),
-        fields => places.end(fields),
-    };
+    let pressures = if scene.has_scalars() { places.end(scene.scalars().count()) } else { 0 };
     ensure(state.pressure.len() == pressures, "its pressure field")
 }
 
@@ -311,7 +307,7 @@ fn check_contact<const D: usize>(scene: &Scene<D>, state: &State<D>) -> Result<(
         let lengths = [pressure, shear, gap, slip, offset, slid].iter().all(|v| v.len() == interface.contact_nodes());
         let lengths = lengths && [force.len(), faces.len()] == [interface.contact_nodes(); 2];
         let bounds = first.len() == interface.contact_nodes() + 1 && bounds_of_loops(first, room.len(), 0);
-        let nodes = room.iter().all(|&n| (n as usize) < scene.mesh.nodes.len());
+        let nodes = room.iter().all(|&n| (n as usize) < scene.displacements());
         lengths && bounds && nodes && slip.iter().all(|slip| *slip >= 0.0) && {
             let mut seen = HashSet::new();
             (0..interface.contact_nodes()).all(|k| {

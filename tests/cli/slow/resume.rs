@@ -101,6 +101,17 @@ const SOFT: Case = Case {
     ],
 };
 
+/// Clay whose strength varies at random, so soft in places that points are split; dynamic, restored in every step.
+const RANDOM: Case = Case {
+    file: "cases/seabed_slope",
+    overrides: &[
+        "mesh.parameters.h=1.25",
+        "phases[0].duration=2",
+        "materials.clay.random_strength={coefficient_of_variation: 0.5, horizontal_scale: 4, vertical_scale: 1, seed: 7}",
+        "output.fields=[stress, shear_strength]",
+    ],
+};
+
 /// Water that falls, and a load on a part of the surface, on a grid that is restored now and then.
 const POOL: Case = Case {
     file: "cases/submerged_slope",
@@ -391,6 +402,11 @@ fn a_fall_between_equilibria_killed_ten_times_ends_the_same() {
 #[test]
 fn a_run_with_softening_soil_killed_ten_times_ends_the_same() {
     survives_kills(&SOFT, 8);
+}
+
+#[test]
+fn a_run_whose_strength_varies_at_random_killed_ten_times_ends_the_same() {
+    survives_kills(&RANDOM, 12);
 }
 
 #[test]

@@ -2,17 +2,23 @@ use super::super::places::Places;
 use super::*;
 use crate::kinematics::{Axisymmetric, PlaneStrain};
 use crate::material::spatial::elastic_from_stress;
-use crate::material::{Elasticity, LinearElastic, Model, Profile};
+use crate::material::{Correlation, Elasticity, LinearElastic, Model, Profile, RandomStrength, Randomness};
 use crate::mesh::Mesh;
 use crate::mesh::builder::rectangle;
 use crate::mesh::locate::Locator;
 use crate::mesh::shape::CellKind;
+use crate::quadrature::{Quadrature, Resampled};
 use crate::seed::{RegionSeed, seed};
 use crate::tensor::Tensor;
 use std::sync::Arc;
 
 fn model() -> Arc<dyn Model> {
     Arc::new(LinearElastic::new(Elasticity::new(Profile::constant(1000.0), 0.3).unwrap()))
+}
+
+fn strength() -> Arc<RandomStrength> {
+    let (correlation, lengths) = (Correlation::Markov, [1.0, 0.3]);
+    Arc::new(RandomStrength::new(&Randomness { variation: 0.5, lengths, correlation, seed: 11 }))
 }
 
 /// Gives the points a state that differs from one to the next.
@@ -25,6 +31,7 @@ fn stir(points: &mut Points<2>) {
     points.reference = points.position.iter().map(|x| [x[0] - 0.1, x[1] + 0.2]).collect();
     points.pressure = (0..count).map(|i| wave(i, 9)).collect();
     points.pore_pressure = (0..count).map(|i| wave(i, 8)).collect();
+    points.vary(&[Some(strength())]);
     let model = model();
     for i in 0..count {
         let [a, b] = [0.1 * wave(i, 5), 0.4 * wave(i, 6)];
@@ -41,9 +48,6 @@ fn stir(points: &mut Points<2>) {
 /// Population for points on a mesh that is full, seeded with `seeded` points a cell.
 fn renewed<K: Kinematics<2>>(mesh: &Mesh<2>, points: &Points<2>, seeded: u32) -> (Option<Renewed<2>>, Count) {
     let (geometry, around) = (Geometry::new::<K>(mesh), Around::of(mesh));
-    let locator = Locator::new(mesh);
-    let places = points.position.iter().zip(&points.cell);
-    let parametric: Vec<[f64; 3]> = places.map(|(x, c)| locator.locate(mesh, x, Some(*c)).unwrap().1).collect();
     let cells = mesh.cells.len();
     let (level_set, outside) = (vec![1.0; mesh.nodes.len()], vec![false; cells]);
     let part = |c: usize| {
@@ -52,29 +56,64 @@ fn renewed<K: Kinematics<2>>(mesh: &Mesh<2>, points: &Points<2>, seeded: u32) ->
         Part { cell: c as u32, region: 0, share: 1.0, full: true, places }
     };
     let parts: Vec<Part> = (0..cells).map(part).collect();
-    let grid = Restored {
+    on_grid(mesh, points, |grid| {
+        let ground = Ground {
+            geometry: &geometry,
+            around: &around,
+            grid,
+            level_set: &level_set,
+            outside: &outside,
+            parts: &parts,
+            seeded: &[seeded],
+            held: &Held::new(cells, &points.cell),
+        };
+        renew(&ground, &Materials::<K>::new(vec![Some(model())]).varying(vec![Some(strength())]))
+    })
+}
+
+/// What is found on a mesh that has just been restored.
+fn on_grid<T>(mesh: &Mesh<2>, points: &Points<2>, find: impl FnOnce(&Restored<2>) -> T) -> T {
+    let locator = Locator::new(mesh);
+    let places = points.position.iter().zip(&points.cell);
+    let parametric: Vec<[f64; 3]> = places.map(|(x, c)| locator.locate(mesh, x, Some(*c)).unwrap().1).collect();
+    find(&Restored {
         mesh,
         locator: &locator,
         points,
         parametric: &parametric,
         interpolation: &crate::interpolation::Interpolation::default(),
-        active: &vec![true; cells],
+        active: &vec![true; mesh.cells.len()],
         before: (mesh, &locator),
         outlines: &[],
         relaxed: false,
         displacement: None,
-    };
-    let ground = Ground {
-        geometry: &geometry,
-        around: &around,
-        grid: &grid,
-        level_set: &level_set,
-        outside: &outside,
-        parts: &parts,
-        seeded: &[seeded],
-        held: &Held::new(cells, &points.cell),
-    };
-    renew(&ground, &Materials::<K>::new(vec![Some(model())]))
+    })
+}
+
+/// Every point has the strength of the place where it was seeded.
+#[track_caller]
+fn assert_strength(points: &Points<2>) {
+    let expected: Vec<f64> = points.origin.iter().map(|x| strength().factor(x)).collect();
+    assert_eq!(points.strength, expected);
+}
+
+#[test]
+fn integration_points_have_the_strength_of_where_they_were_seeded() {
+    for kind in [CellKind::T6, CellKind::Q9] {
+        let mesh = rectangle(kind, 2.0, 2.0, 4, 4, 0.1, 7);
+        let mut points = filled(&mesh, false, 9);
+        // The soil has come two metres from the left.
+        points.origin.iter_mut().for_each(|x| x[0] -= 2.0);
+        points.vary(&[Some(strength())]);
+        let quadrature =
+            Resampled::<PlaneStrain>::new(&mesh, vec![Some(model())], false).varying(vec![Some(strength())]);
+        let samples = on_grid(&mesh, &points, |grid| quadrature.weigh(grid, &mut None)).samples.unwrap().points;
+        assert!(samples.len() >= 3 * mesh.cells.len(), "{}", samples.len());
+        assert_strength(&samples);
+        for (x, seeded) in samples.position.iter().zip(&samples.origin) {
+            assert!((x[0] - 2.0 - seeded[0]).abs() + (x[1] - seeded[1]).abs() < 1e-12, "{x:?} {seeded:?}");
+        }
+    }
 }
 
 fn filled(mesh: &Mesh<2>, axisymmetric: bool, each: u32) -> Points<2> {
@@ -137,6 +176,7 @@ fn fills<K: Kinematics<2>>(kind: CellKind, each: u32) {
     assert!(count.split > 0 && count.merged == 0 && count.starved == 0, "{kind:?} {count:?}");
     let after_points = &after.points;
     assert_eq!(after_points.len(), points.len() + count.split as usize);
+    assert_strength(after_points);
     assert_alike(&sums(&points), &sums(after_points));
     assert_alike(&moments(&points), &moments(after_points));
     let [before, now] = [&points, after_points].map(|points| points.mass.iter().sum::<f64>());
@@ -177,6 +217,7 @@ fn thins<K: Kinematics<2>>() {
     let after = renewed.unwrap();
     let cells = mesh.cells.len();
     assert!(count.merged as usize == 9 * cells && after.points.len() == 16 * cells, "{count:?}");
+    assert_strength(&after.points);
     assert_alike(&sums(&points), &sums(&after.points));
     let ([spin, rate, energy], [spin_after, rate_after, energy_after]) = (moments(&points), moments(&after.points));
     assert!(energy_after <= energy, "{energy_after} {energy}");
