@@ -107,6 +107,7 @@ const RANDOM: Case = Case {
     overrides: &[
         "mesh.parameters.h=1.25",
         "phases[0].duration=2",
+        "phases[0].step.max=0.05",
         "materials.clay.random_strength={coefficient_of_variation: 0.5, horizontal_scale: 4, vertical_scale: 1, seed: 7}",
         "output.fields=[stress, shear_strength]",
     ],
