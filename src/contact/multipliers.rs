@@ -54,7 +54,9 @@ impl Multipliers {
         let mut evened = self.clone();
         for run in runs {
             for k in 0..run.0.len() as isize {
-                let Some([left, at, right]) = self.touching(run, [k - 1, k, k + 1]) else { continue };
+                let Some([left, at, right]) = self.in_a_row(run, [k - 1, k, k + 1], |pressure| pressure != 0.0) else {
+                    continue;
+                };
                 let mean = 0.5 * (self.pressure[left] + self.pressure[right]);
                 evened.pressure[at] += EVEN * (mean - self.pressure[at]);
             }
@@ -62,25 +64,32 @@ impl Multipliers {
         evened
     }
 
-    /// The gaps (m) without what goes up and down from one contact node to the next, where five in a row touch. Over soil that yields: it makes
-    /// these waves anew in each step, and the penalty on them would stand in the pressure for good.
+    /// The gaps (m) without what goes up and down from one contact node to the next, where five in a row press. Over soil that yields: it makes
+    /// these waves anew in each step, and the penalty on them would stand in the pressure for good. Soil that is pulled may open, resists no wave
+    /// then, and would drift.
     pub fn smooth_gaps(&self, runs: &[Run]) -> Vec<f64> {
         let mut gap = self.gap.clone();
         for run in runs {
             for k in 0..run.0.len() as isize {
-                let Some(window) = self.touching(run, [k - 2, k - 1, k, k + 1, k + 2]) else { continue };
+                let places = [k - 2, k - 1, k, k + 1, k + 2];
+                let Some(window) = self.in_a_row(run, places, |pressure| pressure > 0.0) else { continue };
                 gap[window[2]] -= window.iter().zip(FOURTH).map(|(&at, share)| share * self.gap[at]).sum::<f64>();
             }
         }
         gap
     }
 
-    /// The contact nodes at these places of a run, if all touched.
-    fn touching<const N: usize>(&self, (run, is_loop): &Run, places: [isize; N]) -> Option<[usize; N]> {
+    /// The contact nodes at these places of a run, if the pressure (kPa) of all `counts`.
+    fn in_a_row<const N: usize>(
+        &self,
+        (run, is_loop): &Run,
+        places: [isize; N],
+        counts: fn(f64) -> bool,
+    ) -> Option<[usize; N]> {
         let count = run.len() as isize;
         let nodes = places.map(|k| run.start + k.rem_euclid(count) as usize);
         let inside = *is_loop || places.iter().all(|k| (0..count).contains(k));
-        (inside && nodes.iter().all(|&at| self.pressure[at] != 0.0)).then_some(nodes)
+        (inside && nodes.iter().all(|&at| counts(self.pressure[at]))).then_some(nodes)
     }
 
     /// The mean pressure (kPa) of the contact nodes that press.
@@ -110,7 +119,7 @@ impl Multipliers {
 mod tests {
     use super::*;
 
-    /// A wave from contact node to contact node is gone from pressure and gap, inside a run and around a loop, up to a contact node that does not touch;
+    /// A wave from contact node to contact node is gone from pressure and gap, inside a run and around a loop, up to a contact node that does not press;
     /// what is cubic along a run is left in the gap.
     #[test]
     fn waves_are_evened_out() {
@@ -130,7 +139,7 @@ mod tests {
             assert_eq!(even.gap, waves.gap);
         }
         let mut open = waves.clone();
-        open.pressure[6] = 0.0;
+        open.pressure[6] = -1.0;
         let gap = open.smooth_gaps(&run(false));
         let changed: Vec<usize> = (0..count).filter(|&k| gap[k] != waves.gap[k]).collect();
         assert_eq!(changed, [2, 3, 9], "{gap:?}");
