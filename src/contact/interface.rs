@@ -136,11 +136,10 @@ impl<K: Kinematics<2>> Boundary<K> {
     /// had, by no more than the soil went in the last step. Else what touched in the step
     /// before carries its gap on: as measured it jumps when points come and go, and every jump has to be made up for by straining the soil. It becomes that measured as the contact node slides, which evens the jumps out,
     /// and is corrected by what lies beyond their size. What did not touch has the gap of the surface; it may begin to
-    /// touch, not to overlap. Where soil was folded, as beside a wall that drew its surface down, points do not know that surface any more: it counts
-    /// only where the followed surface agrees. The second number is how much more the nearest points measure than that.
+    /// touch, not to overlap. Where soil that touches was folded, as beside a wall that drew its surface down, points do not know that surface any more: it
+    /// counts only where the followed surface agrees. The second number is how much more the nearest points measure than that.
     fn begin(&self, measured: &Measured, surface: Option<f64>, held: &Multipliers, contact_node: usize) -> (f64, f64) {
         let Measured { before, open, known, spacing, curvature, moved } = *measured;
-        let known = known.filter(|known| surface.is_none_or(|surface| (known - surface).abs() < BAND * spacing));
         let is_curved = (curvature * spacing).abs() > FLAT;
         let still = STILL * spacing;
         let offset = |gap: f64| (open - gap).clamp(-0.5 * spacing, 0.5 * spacing);
@@ -153,6 +152,7 @@ impl<K: Kinematics<2>> Boundary<K> {
             let gap = known.or(surface).unwrap_or(open);
             return (gap.max(-still), offset(gap));
         }
+        let known = known.filter(|known| surface.is_none_or(|surface| (known - surface).abs() < BAND * spacing));
         let (error, slide) =
             known.map_or((open - held.offset[contact_node] - before, SLIDE), |gap| (gap - before, KNOWN));
         let (share, band) = ((held.slip[contact_node] / (slide * spacing)).min(1.0), BAND * spacing);
