@@ -261,7 +261,7 @@ impl JsonSchema for raw::Material {
         properties.insert("permeability".into(), schema.to_value());
         let mut schema = generator.subschema_for::<raw::RandomStrength>();
         let random =
-            "A factor of all strengths of the model that varies at random in space, with the mean 1. Default: none.";
+            "A random field with the mean 1, by which all strengths of the model are multiplied. Default: none.";
         schema.insert("description".into(), random.into());
         properties.insert("random_strength".into(), schema.to_value());
         for (name, range, description) in [

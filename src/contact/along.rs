@@ -90,7 +90,7 @@ mod tests {
 
     /// On each side of a square a function that is linear along it is found again, up to the corners.
     #[test]
-    fn values_are_linear_between_hats_and_break_at_corners() {
+    fn values_are_linear_between_contact_nodes_and_break_at_corners() {
         let mut mesh = Mesh {
             nodes: vec![[0., 0.], [1., 0.], [1., 1.], [0., 1.]],
             regions: vec!["pile".to_string()],

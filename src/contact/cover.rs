@@ -15,8 +15,8 @@ pub fn covers(surface: &Surface, segments: &Segments, constraints: &[Constraint<
         // Of two contact nodes one may have no soil under it.
         let (mut sum, mut gap) = (0.0, 0.0);
         for (contact_node, share) in surface.segments[s].contact_nodes {
-            if let Some(of_hat) = gaps[contact_node as usize] {
-                (sum, gap) = (sum + share, gap + share * of_hat);
+            if let Some(of_node) = gaps[contact_node as usize] {
+                (sum, gap) = (sum + share, gap + share * of_node);
             }
         }
         sum > 0.0 && gap < FADING * surface.spacing * sum

@@ -130,14 +130,16 @@ pub struct Boundary<K> {
 }
 
 impl<K: Kinematics<2>> Boundary<K> {
-    /// The gap (m) of a contact node at the beginning of a step, given that `measured` from points and that of the `surface`.
+    /// The gap (m) of a contact node at the beginning of a step, given that `measured` from points and that of the followed `surface`; and how much more
+    /// the nearest points measure than that.
     ///
-    /// On a curved boundary, along which soil flows, it is that of the surface, where this is followed; what touched goes on from the gap that it
-    /// had, by no more than the soil went in the last step. Else what touched in the step
-    /// before carries its gap on: as measured it jumps when points come and go, and every jump has to be made up for by straining the soil. It becomes that measured as the contact node slides, which evens the jumps out,
-    /// and is corrected by what lies beyond their size. What did not touch has the gap of the surface; it may begin to
-    /// touch, not to overlap. Where soil that touches was folded, as beside a wall that drew its surface down, points do not know that surface any more: it
-    /// counts only where the followed surface agrees. The second number is how much more the nearest points measure than that.
+    /// - On a curved boundary, along which soil flows, it is that of the followed surface, if there is one. A closed contact node changes its gap by no more
+    ///   than the soil moved in the last step.
+    /// - An open contact node has the gap of the surface. It may begin to touch, not to overlap.
+    /// - A closed contact node keeps the gap of the step before: the measured one jumps when points come and go, and the soil would be strained by every
+    ///   jump. As it slides, the gap becomes the measured one, so that jumps are averaged. An error larger than these jumps is corrected at once. The
+    ///   measure is that of the surface which points began at, only where the followed surface agrees: it fails where soil was folded, as beside a wall
+    ///   that drew the surface down.
     fn begin(&self, measured: &Measured, surface: Option<f64>, held: &Multipliers, contact_node: usize) -> (f64, f64) {
         let Measured { before, open, known, spacing, curvature, moved } = *measured;
         let is_curved = (curvature * spacing).abs() > FLAT;

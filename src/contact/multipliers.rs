@@ -4,7 +4,7 @@ use super::surface::Run;
 
 /// Share of a multiplier that its neighbours' mean takes the place of in each step.
 const EVEN: f64 = 0.5;
-/// Fourth difference: with a sixteenth of it a wave from contact node to contact node is gone, and what is cubic is left alone.
+/// A sixteenth of the fourth difference. Subtracted, it removes an oscillation from contact node to contact node, and leaves a cubic as it is.
 const FOURTH: [f64; 5] = [1.0 / 16.0, -0.25, 0.375, -0.25, 1.0 / 16.0];
 
 /// What the contact nodes of an interface carry from step to step; one entry a contact node.
@@ -47,9 +47,9 @@ impl Multipliers {
         }
     }
 
-    /// These with waves of the pressure evened out along the `runs`, where contact nodes and their neighbours touch. Contact nodes as close as nodes
-    /// have more conditions than the soil can meet: waves of pressure that it hardly feels would grow from step to step. What
-    /// is taken from a wave of the pressure, a gap has to make up for (a stabilised multiplier, Burman & Hansbo 2010).
+    /// These with oscillations of the pressure smoothed along the `runs`, where a contact node and both its neighbours are closed. Contact nodes as close
+    /// as the nodes of the grid are more conditions than the soil can satisfy: oscillations of the pressure, to which the soil hardly responds, would
+    /// grow from step to step. The pressure that is removed is replaced by that of a gap (a stabilised multiplier, Burman & Hansbo 2010).
     pub fn evened(&self, runs: &[Run]) -> Self {
         let mut evened = self.clone();
         for run in runs {
@@ -64,9 +64,9 @@ impl Multipliers {
         evened
     }
 
-    /// The gaps (m) without what goes up and down from one contact node to the next, where five in a row press. Over soil that yields: it makes
-    /// these waves anew in each step, and the penalty on them would stand in the pressure for good. Soil that is pulled may open, resists no wave
-    /// then, and would drift.
+    /// The gaps (m) without oscillations from one contact node to the next, where five in a row are in compression. It is meant for soil that yields, which
+    /// renews these oscillations in every step: by the penalty they would remain in the pressure. In tension soil may open. It has no stiffness
+    /// then, and the gap would drift.
     pub fn smooth_gaps(&self, runs: &[Run]) -> Vec<f64> {
         let mut gap = self.gap.clone();
         for run in runs {
@@ -119,8 +119,8 @@ impl Multipliers {
 mod tests {
     use super::*;
 
-    /// A wave from contact node to contact node is gone from pressure and gap, inside a run and around a loop, up to a contact node that does not press;
-    /// what is cubic along a run is left in the gap.
+    /// An oscillation from contact node to contact node is removed from pressure and gap, inside a run and around a loop, but not beside a contact node
+    /// in tension. A gap that is cubic along a run stays.
     #[test]
     fn waves_are_evened_out() {
         let count = 12;

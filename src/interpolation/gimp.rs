@@ -5,7 +5,7 @@
 //! ```
 //!
 //! (Bardenhagen & Kober 2004). On a grid of rectangular Q4 these are tensor products of `S = (I(b) − I(a))/l` and `S′ = (N(b) − N(a))/l` over
-//! `[a, b]`, with `I` the integral of the hat function; here they are summed over the parts of the domain in each cell, so that lines of the
+//! `[a, b]`, with `I` the integral of the linear shape function; here they are summed over the parts of the domain in each cell, so that lines of the
 //! grid may have any spacing. The lengths `l` are those of the first domains (uGIMP; Wallstedt & Guilkey 2008), or `l_d = l_d⁰ U_dd` with
 //! the stretch `U` of `F = R U` (cpGIMP; Charlton, Coombs & Augarde 2017): with `F_dd` a domain would vanish as its body turns by a right angle.
 //!
@@ -233,7 +233,7 @@ fn average(
         volume += size[0] * size[1];
         for (to, &n) in to.into_iter().zip(cells.nodes(c as usize)) {
             let node = place.mesh.nodes[n as usize];
-            // Mean of the hat function along each axis, and its slope.
+            // Mean of the linear shape function along each axis, and its slope.
             let mean = [0, 1].map(|d| {
                 let (width, middle) = (cell.high[d] - cell.low[d], 0.5 * (part.low[d] + part.high[d]));
                 let slope = if 2.0 * node[d] < cell.low[d] + cell.high[d] { -1.0 / width } else { 1.0 / width };

@@ -1,6 +1,6 @@
-//! `table.csv` of a sweep read again, or any other table with headings whose fields may be texts.
+//! Reads `table.csv` of a sweep, or any other table with headings, whose fields may be texts.
 //!
-//! The columns of a sweep are `run`, its parameters, `state`, `time [s]` and what the histories came to, each quantity with its
+//! The columns of a sweep are `run`, its parameters, `state`, `time [s]`, and for each quantity of the histories its
 //! `last`, `min` and `max`. A field is empty where a run has no such value.
 
 use super::table::{Column, bytes};
@@ -17,16 +17,16 @@ pub const RUN: &str = "run";
 pub const STATE: &str = "state";
 /// The state of a run that has reached its end.
 pub const FINISHED: &str = "finished";
-/// What is told of a quantity of a history.
+/// The values of a quantity of a history.
 pub const SUMMARIES: [&str; 3] = ["last", "min", "max"];
 
-/// The table that a path means: the file itself, or that in the folder of a sweep.
+/// The table at a path: a CSV file, or the table in the folder of a sweep.
 pub fn file(path: &Path) -> PathBuf {
     let is_table = path.extension().is_some_and(|kind| kind.eq_ignore_ascii_case("csv")) && !path.is_dir();
     if is_table { path.to_owned() } else { path.join(FILE) }
 }
 
-/// A value with six significant digits, as many as anyone reads.
+/// A value with six significant digits.
 pub fn short(value: f64) -> String {
     let rounded = format!("{value:.5e}").parse().unwrap_or(value);
     match value.abs() {
@@ -59,7 +59,7 @@ impl SweepTable {
     fn parse(bytes: &[u8], name: String) -> Result<Self> {
         let no_table = |e: csv::Error| {
             let place = format!("{name}:{}", e.position().map_or(1, csv::Position::line));
-            Error::input(place, format!("is no table: {e}"), "give each row a field for each heading")
+            Error::input(place, format!("it is not a table: {e}"), "give each row a field for each heading")
         };
         let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).from_reader(bytes);
         let headings = reader.headers().map_err(no_table)?.clone();

@@ -66,7 +66,7 @@ impl Table {
             Error::input(format!("{}:{line}", path.display()), problem, "give each row a number for each heading")
         };
         let mut reader = csv::ReaderBuilder::new().flexible(true).trim(csv::Trim::All).from_reader(bytes);
-        let heading = reader.headers().map_err(|e| wrong(1, format!("is no table: {e}")))?;
+        let heading = reader.headers().map_err(|e| wrong(1, format!("it is not a table: {e}")))?;
         let mut columns: Vec<Column> = heading.iter().map(Column::new).collect();
         let mut row = Vec::with_capacity(columns.len());
         for record in reader.records() {

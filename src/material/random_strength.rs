@@ -12,23 +12,23 @@
 //! z(X) = N^(−1/2) Σ_i a_i cos(k_i · X + φ_i)
 //! ```
 //!
-//! The amplitudes are Rayleigh's, so that `z` at a place is normal for every N, not only in the limit. The lengths of the wave vectors are spread evenly over
-//! their distribution and the directions over the circle, with one random shift each: mean, variance and correlation over all seeds are
-//! exact, and those of the waves of one seed are near. It needs no grid, and any place has its value without the others.
+//! The amplitudes have a Rayleigh distribution, so that `z` at a place is normal for every N, not only in the limit. The wave numbers are stratified
+//! samples of their distribution, and the directions are spread evenly over the circle, with one random shift each. Mean, variance and
+//! correlation over all seeds are exact; those of one seed differ a little. No grid is needed, and the field can be evaluated anywhere.
 
 use chacha20::ChaCha8Rng;
 use chacha20::rand_core::{Rng, SeedableRng};
 use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
 
-/// Waves of a field. With fewer the variance and the correlation that one realisation has stray farther from those of all, by the order of N^(−1/2)
-/// of the variance (0.03 for the correlation with 500 waves of like amplitudes, which the test of it prints); the time to find a value grows with them.
+/// Number of waves of a field. Variance and correlation of one realisation differ from those of the ensemble by the order of N^(−1/2) of the variance
+/// (the test prints 0.03 for 500 waves of equal amplitude); the time to evaluate the field is proportional to N.
 const WAVES: usize = 500;
 
-/// The golden ratio less one: multiples of it, less their whole part, fill a circle evenly, however many there are.
+/// The golden ratio less one: the fractional parts of its multiples are spread evenly over a circle for any number of them.
 const GOLDEN: f64 = 0.618_033_988_749_894_9;
 
-/// How the field at two places goes together, `d² = (Δx/θ_x)² + (Δy/θ_y)²`, where θ are the scales of fluctuation (Vanmarcke 1983): the integral of the
+/// The correlation function of `z` at two places, with `d² = (Δx/θ_x)² + (Δy/θ_y)²`. The scale of fluctuation θ (Vanmarcke 1983) is the integral of the
 /// correlation over a line along an axis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Correlation {
@@ -39,7 +39,7 @@ pub enum Correlation {
 }
 
 impl Correlation {
-    /// Of places at the distance `d` (-), in scales of fluctuation.
+    /// The correlation (-) at a distance `d` (-) in scales of fluctuation.
     pub fn at(self, d: f64) -> f64 {
         match self {
             Self::Markov => (-2.0 * d).exp(),
@@ -47,7 +47,7 @@ impl Correlation {
         }
     }
 
-    /// The length of a wave vector, times the scale of fluctuation, that a part `left` (-) of the variance is beyond: from the spectral density in the plane.
+    /// The wave number, times the scale of fluctuation, above which the spectral density in the plane has the part `left` (-) of the variance.
     fn wave_number(self, left: f64) -> f64 {
         match self {
             // `∫ 2 κ/(4 + κ²)^(3/2) dκ`.
@@ -58,7 +58,7 @@ impl Correlation {
     }
 }
 
-/// What a field of strength is made from.
+/// The parameters of a random field of strength.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Randomness {
     /// Standard deviation over mean (-), 0 or above.
@@ -66,7 +66,7 @@ pub struct Randomness {
     /// Scales of fluctuation (m) of `z`, horizontal and vertical, above 0.
     pub lengths: [f64; 2],
     pub correlation: Correlation,
-    /// Which realisation it is.
+    /// The number of the realisation.
     pub seed: u64,
 }
 

@@ -29,7 +29,7 @@ pub fn part<const D: usize>(scene: &Scene<D>, state: &State<D>) -> Part {
         // Before the first step nothing is known yet.
         let held = state.multipliers.get(i);
         let lines = interface.lines(&position);
-        let of_hats = held.map(|h| traction(&lines, &h.force));
+        let of_nodes = held.map(|h| traction(&lines, &h.force));
         for line in &lines {
             for mark in line {
                 let known = held
@@ -39,7 +39,7 @@ pub fn part<const D: usize>(scene: &Scene<D>, state: &State<D>) -> Part {
                 shear.push(held.map_or(0.0, |h| mark.value(&h.shear)));
                 gap.push(held.filter(|_| known).map_or(0.0, |h| mark.value(&h.gap)));
                 slip.push(held.map_or(0.0, |h| mark.value(&h.slid)));
-                tractions.extend(of_hats.as_ref().map_or([0.0; 3], |t| mark.vector(t)));
+                tractions.extend(of_nodes.as_ref().map_or([0.0; 3], |t| mark.vector(t)));
                 number.push(f64::from(count));
                 region.push(f64::from(interface.structure()));
                 faces.push(f64::from(u8::from(known)));

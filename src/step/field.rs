@@ -13,7 +13,7 @@ use crate::dofs::DofMap;
 use crate::interpolation::Interpolation;
 use crate::kinematics::Kinematics;
 use crate::mesh::Mesh;
-use crate::term::pressure_hats;
+use crate::term::pressure_shapes;
 
 /// Makes room for the fields in the state; points that have none have zeros.
 pub fn make_room<const D: usize>(scene: &Scene<D>, state: &mut State<D>) {
@@ -57,7 +57,7 @@ pub fn to_points<const D: usize, K: Kinematics<D>>(
             let kind = mesh.cells.kind[cell_points.cell as usize];
             let corners = &mesh.cells.nodes(cell_points.cell as usize)[..kind.corner_count()];
             for entries in interpolation.entries::<K>(cell_points) {
-                let shapes = pressure_hats(kind, entries.shape);
+                let shapes = pressure_shapes(kind, entries.shape);
                 let change = |(shape, &n): (&f64, &u32)| {
                     let place = places.field(k, n);
                     shape * (new[place] - state.pressure[place])

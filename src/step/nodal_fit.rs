@@ -5,7 +5,7 @@ use crate::interpolation::Interpolation;
 use crate::kinematics::Kinematics;
 use crate::mesh::{Mesh, cell_size};
 use crate::points::Points;
-use crate::term::{Frame, pressure_hats};
+use crate::term::{Frame, pressure_shapes};
 use nalgebra::{SMatrix, SVector};
 
 /// Least variance (-) of the positions of the points of a node, over the square of the size of the cell: points too close together to
@@ -108,11 +108,11 @@ fn visit<const D: usize, K: Kinematics<D>>(
             let kind = filled.mesh.cells.kind[cell];
             for entries in filled.interpolation.entries::<K>(cell_points) {
                 let Some(value) = value(filled.points, entries.point) else { continue };
-                let hats = pressure_hats(kind, entries.shape);
-                let corners = || hats.iter().zip(&filled.mesh.cells.nodes(cell)[..kind.corner_count()]);
-                let there: f64 = corners().map(|(hat, &n)| hat * field[n as usize]).sum();
-                for (hat, &n) in corners() {
-                    see(filled, cell, n as usize, entries.weight * hat, entries.point, value - there);
+                let shapes = pressure_shapes(kind, entries.shape);
+                let corners = || shapes.iter().zip(&filled.mesh.cells.nodes(cell)[..kind.corner_count()]);
+                let there: f64 = corners().map(|(shape, &n)| shape * field[n as usize]).sum();
+                for (shape, &n) in corners() {
+                    see(filled, cell, n as usize, entries.weight * shape, entries.point, value - there);
                 }
             }
         }

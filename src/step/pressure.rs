@@ -3,7 +3,7 @@
 use super::nodal_fit::{self, Filled};
 use crate::dofs::Places;
 use crate::kinematics::Kinematics;
-use crate::term::pressure_hats;
+use crate::term::pressure_shapes;
 
 /// Projects the field over a family of cells from their points: a linear fit at the corners, and the remaining mean of each cell as its
 /// constant. It is the initial value of the next step; the equations (eq. 25) take the values of the points themselves as `π_n`.
@@ -21,9 +21,9 @@ pub fn gather<const D: usize, K: Kinematics<D>>(cells: Filled<D>, places: Places
         }
         let (mut left, mut all) = (0.0, 0.0);
         for entries in interpolation.entries::<K>(cell_points) {
-            let hats = pressure_hats(kind, entries.shape);
+            let shapes = pressure_shapes(kind, entries.shape);
             let corners = &mesh.cells.nodes(cell)[..kind.corner_count()];
-            let there: f64 = hats.iter().zip(corners).map(|(hat, &n)| hat * field[n as usize]).sum();
+            let there: f64 = shapes.iter().zip(corners).map(|(shape, &n)| shape * field[n as usize]).sum();
             left += entries.weight * (points.pressure[entries.point] - there);
             all += entries.weight;
         }

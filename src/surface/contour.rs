@@ -76,9 +76,9 @@ impl Contour {
                 self.level_set[n as usize] += v;
             }
         }
-        for (phi, hat) in self.level_set.iter_mut().zip(&geometry.hat) {
-            // A node of no cell has no hat and no point.
-            *phi = if *hat > 0.0 { *phi / hat } else { 0.0 };
+        for (phi, volume) in self.level_set.iter_mut().zip(&geometry.nodal_volume) {
+            // A node of no cell has no volume and no point.
+            *phi = if *volume > 0.0 { *phi / volume } else { 0.0 };
         }
     }
 

@@ -8,7 +8,7 @@ use crate::mesh::shape::MAX_NODES;
 use rayon::prelude::*;
 use std::cmp::Reverse;
 
-/// Frames and moments of the whole cells, and the hats of the nodes.
+/// Frames and moments of the whole cells, and the volumes of the nodes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Geometry {
     /// The frame of each cell, in which its moments are taken.
@@ -17,8 +17,8 @@ pub struct Geometry {
     pub whole: Vec<Moments>,
     /// Whether each cell is the affine image of its parametric domain.
     pub affine: Vec<bool>,
-    /// `V_v = ∫ L_v dV` (m³) of each node: the volume inside the mesh that its hat covers.
-    pub hat: Vec<f64>,
+    /// `V_v = ∫ L_v dV` (m³) of each node: the integral of its linear shape function over the mesh.
+    pub nodal_volume: Vec<f64>,
     /// The cells that meet across faces.
     pub faces: Faces,
 }
@@ -30,22 +30,22 @@ impl Geometry {
             let frame = CellFrame::of(mesh, c);
             let affine = is_affine(mesh, c);
             let cell = Cell::new(mesh, c, &frame, affine);
-            let mut hats = [0.0; MAX_NODES];
-            cell.hat_volumes::<K>(&mut hats);
-            (frame, affine, cell.whole::<K>(), hats)
+            let mut volumes = [0.0; MAX_NODES];
+            cell.nodal_volumes::<K>(&mut volumes);
+            (frame, affine, cell.whole::<K>(), volumes)
         };
         let cells: Vec<_> = (0..mesh.cells.len()).into_par_iter().map(cell).collect();
-        let mut hat = vec![0.0; mesh.nodes.len()];
+        let mut nodal_volume = vec![0.0; mesh.nodes.len()];
         for (c, cell) in cells.iter().enumerate() {
             for (&n, volume) in mesh.cells.nodes(c).iter().zip(&cell.3) {
-                hat[n as usize] += volume;
+                nodal_volume[n as usize] += volume;
             }
         }
         Self {
             frame: cells.iter().map(|c| c.0).collect(),
             affine: cells.iter().map(|c| c.1).collect(),
             whole: cells.iter().map(|c| c.2).collect(),
-            hat,
+            nodal_volume,
             faces: Faces::of(mesh),
         }
     }

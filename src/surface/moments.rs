@@ -109,14 +109,14 @@ impl<'a> Cell<'a> {
         volume
     }
 
-    /// Adds the integrals (m³) of the hats of the cell's nodes, linear on the triangles between them, to `out`, one
+    /// Adds the integrals (m³) of the shape functions of the cell's nodes, linear on the triangles between them, to `out`, one
     /// entry a node. They sum to the volume of the cell.
-    pub fn hat_volumes<K: Kinematics<2>>(&self, out: &mut [f64]) {
+    pub fn nodal_volumes<K: Kinematics<2>>(&self, out: &mut [f64]) {
         for triangle in triangles(self.kind) {
             if self.affine {
                 let x = triangle.map(|i| self.x[i]);
                 let area = 0.5 * self.frame.length * self.frame.length * twice_area(&x);
-                // Hat times radius is of degree 2: the middles of the sides.
+                // Shape function times radius is of degree 2: the middles of the sides.
                 for l in [[0.5, 0.5, 0.0], [0.0, 0.5, 0.5], [0.5, 0.0, 0.5]] {
                     let volume = area / 3.0 * self.measure::<K>(&place(&x, &l));
                     for (&i, l) in triangle.iter().zip(l) {

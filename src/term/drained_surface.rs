@@ -6,12 +6,12 @@
 //! R_p −= Δt ∫ { −L n·κ∇p − p n·κ∇L + β L p } dS,    β = γ n·κn |Γ|/V
 //! ```
 //!
-//! over the hats `L`. The first part is the flow that leaves, the second makes the system symmetric, the third holds the pressure at
+//! over the linear shape functions `L`. The first part is the flow that leaves, the second makes the system symmetric, the third holds the pressure at
 //! zero. `|Γ|` is the boundary that a cell bears and `V` what its points weigh: the flow through a cell however it is cut then stays
 //! less than what it loses, where `∇p` is one in all of the cell and γ above 1 (Dolbow & Harari 2009). What leaves through all of
 //! it is `Δt ∫ (−n·κ∇p + β p) dS`. Walls are tight, and so is what a structure covers as the step begins.
 
-use super::water::{self, Porous};
+use super::water::{self, Corners, Porous};
 use super::{Assembly, Frame, Term, Trial};
 use crate::dofs::PORE_PRESSURE;
 use crate::error::Result;
@@ -26,9 +26,6 @@ use std::marker::PhantomData;
 const GAMMA: f64 = 2.0;
 /// γ (-) in quadrangles, where gradients vary within a cell.
 const GAMMA_OF_QUADRANGLES: f64 = 4.0;
-
-/// Pressures of the corners of a cell.
-type Corners = [f64; water::MOST];
 
 /// The active boundary of porous soil, drained while water flows.
 pub struct DrainedSurface<K> {
@@ -45,7 +42,7 @@ pub struct DrainedSurface<K> {
 
 /// A place of a piece as the step begins.
 struct Place {
-    hats: Corners,
+    shapes: Corners,
     /// `∇L` (1/m).
     gradients: [[f64; 2]; water::MOST],
     /// Outwards, as long as the piece by its parameter (m), with the measure of the place.
@@ -83,16 +80,16 @@ impl Host {
             }
         }
         let determinant = by[0][0] * by[1][1] - by[0][1] * by[1][0];
-        let hats_by = [0, 1].map(|e| water::corner_hats(self.kind, &slopes.map(|slope| slope[e])));
+        let shapes_by = [0, 1].map(|e| water::corner_shapes(self.kind, &slopes.map(|slope| slope[e])));
         let gradients = std::array::from_fn(|a| {
-            let [s, t] = [hats_by[0][a], hats_by[1][a]];
+            let [s, t] = [shapes_by[0][a], shapes_by[1][a]];
             [(by[1][1] * s - by[1][0] * t) / determinant, (by[0][0] * t - by[0][1] * s) / determinant]
         });
         let way = [b[0] - a[0], b[1] - a[1]];
         let along = [0, 1].map(|d| by[d][0] * way[0] + by[d][1] * way[1]);
         let measure = K::measure(&x);
         let normal = [measure * along[1], -measure * along[0]];
-        Place { hats: water::corner_hats(self.kind, &n), gradients, normal, area: normal[0].hypot(normal[1]) }
+        Place { shapes: water::corner_shapes(self.kind, &n), gradients, normal, area: normal[0].hypot(normal[1]) }
     }
 }
 
@@ -142,18 +139,18 @@ impl<K: Kinematics<2>> DrainedSurface<K> {
         Some(Host { kind, nodes, mobility: mobility.map(|sum| sum / volume), volume, area: 0.0 })
     }
 
-    /// Calls `see` with the hats at each place of a piece and, over the time and the part of the piece that it stands for, their flow
+    /// Calls `see` with the shape functions at each place of a piece and, over the time and the part of the piece that it stands for, their flow
     /// outwards `−n·κ∇L` and β (m³/kPa).
     fn visit(host: &Host, trial: &Trial<2>, piece: &Piece, mut see: impl FnMut(&Corners, &Corners, f64)) {
         let gamma = if host.kind.is_simplex() { GAMMA } else { GAMMA_OF_QUADRANGLES };
         let hold = host.area / host.volume * gamma;
         for (xi, weight) in rule(CellKind::Line2, 3) {
-            let Place { hats, gradients, normal, area } = host.place::<K>(piece, 0.5 * (1.0 + xi[0]));
+            let Place { shapes, gradients, normal, area } = host.place::<K>(piece, 0.5 * (1.0 + xi[0]));
             let [kx, ky] = host.mobility;
             let weight = 0.5 * weight * trial.flow_time;
             let flow = gradients.map(|g| -weight * (kx * g[0] * normal[0] + ky * g[1] * normal[1]));
             let through = (kx * normal[0] * normal[0] + ky * normal[1] * normal[1]) / area.max(f64::MIN_POSITIVE);
-            see(&hats, &flow, weight * hold * through);
+            see(&shapes, &flow, weight * hold * through);
         }
     }
 
@@ -170,8 +167,8 @@ impl<K: Kinematics<2>> DrainedSurface<K> {
         let (corners, pressure) = Self::pressures(frame, trial, piece);
         let begin = 2 * frame.interpolation.nodes(frame.mesh, piece.host).len();
         let scale = (1.0 - trial.alpha_f) * self.unit;
-        Self::visit(host, trial, piece, |hats, flow, hold| {
-            let held = |a: usize, b: usize| hats[a] * flow[b] + flow[a] * hats[b] + hold * hats[a] * hats[b];
+        Self::visit(host, trial, piece, |shapes, flow, hold| {
+            let held = |a: usize, b: usize| shapes[a] * flow[b] + flow[a] * shapes[b] + hold * shapes[a] * shapes[b];
             for a in 0..corners {
                 let sum: f64 = (0..corners).map(|b| held(a, b) * pressure[b]).sum();
                 local.vector[begin + a] -= scale * sum;
@@ -224,7 +221,7 @@ impl<K: Kinematics<2>> Term<2> for DrainedSurface<K> {
         for (piece, host) in open.filter_map(|piece| Some((piece, hosts.get(&piece.host)?))) {
             let (_, pressure) = Self::pressures(frame, trial, piece);
             let dot = |a: &Corners| a.iter().zip(&pressure).map(|(a, p)| a * p).sum::<f64>();
-            Self::visit(host, trial, piece, |hats, flow, hold| sum += dot(flow) + hold * dot(hats));
+            Self::visit(host, trial, piece, |shapes, flow, hold| sum += dot(flow) + hold * dot(shapes));
         }
         sum
     }

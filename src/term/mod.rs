@@ -45,7 +45,7 @@ pub use internal::Internal;
 pub use mixed::{Mixed, Ratios};
 pub use mixed_pressure::{MixedPressure, excess_pressure};
 pub use pore_stabilisation::PoreStabilisation;
-pub use pressure::{PressureField, hats as pressure_hats};
+pub use pressure::{PressureField, shapes as pressure_shapes};
 pub use rigid::{RigidInertia, RigidTraction, RigidWeight};
 pub use rigid_pressure::RigidPressure;
 pub use smooth_pressure::SmoothPressure;

@@ -20,9 +20,9 @@
 //! Why two measures: with a uniform `π` the sum of `π j` is `π` times the volume of the body, whatever single points do inside. To that `π ln j`
 //! adds a bulk modulus of `−π` for the volume strain of single points, and `½ π j²` one of `π`: each is a stiffness on its side of zero.
 //!
-//! `L` are the corner hats, continuous from cell to cell, and in cells of second order a constant a cell (Taylor–Hood
+//! `L` are the linear shape functions of the corners, continuous from cell to cell, and in cells of second order a constant a cell (Taylor–Hood
 //! with cell-wise volume balance; Boffi et al. 2012). Cells of first order have no room for the constant; there the
-//! projection `Σ w₀ (L − L̄)(π − π_n)/2G` of Bochev, Dohrmann & Gunzburger (2006) makes the hats stable.
+//! projection `Σ w₀ (L − L̄)(π − π_n)/2G` of Bochev, Dohrmann & Gunzburger (2006) makes the linear pressure stable.
 
 use super::mixed::{Answer, Seen, Within};
 use super::mixed_pressure::{MixedPressure, volume_strain};
@@ -44,31 +44,31 @@ pub const MOST: usize = 5;
 const SMALLEST: f64 = 1e-12;
 
 /// Values of the functions of the field at a point: corners, then the constant.
-pub type Hats = [f64; MOST];
+pub type Coefficients = [f64; MOST];
 
 /// How many unknowns the field has in a cell: one a corner, and the constant in cells of second order.
 pub fn unknowns(kind: CellKind) -> usize {
     kind.corner_count() + usize::from(kind.order() > 1)
 }
 
-/// The functions of the field where the shape functions of the cell are `n`: the corner hats lie in their span.
-pub fn hats(kind: CellKind, n: &[f64]) -> Hats {
+/// The functions of the field where the shape functions of the cell are `n`: the linear ones of the corners lie in their span.
+pub fn shapes(kind: CellKind, n: &[f64]) -> Coefficients {
     let corners = kind.corner_count();
-    let mut hats = [0.0; MOST];
-    hats[..corners].copy_from_slice(&n[..corners]);
+    let mut shapes = [0.0; MOST];
+    shapes[..corners].copy_from_slice(&n[..corners]);
     if kind.order() > 1 {
         for v in 0..corners {
-            hats[v] += 0.5 * (n[corners + v] + n[corners + (v + corners - 1) % corners]);
-            hats[v] += n.get(2 * corners).map_or(0.0, |centre| 0.25 * centre);
+            shapes[v] += 0.5 * (n[corners + v] + n[corners + (v + corners - 1) % corners]);
+            shapes[v] += n.get(2 * corners).map_or(0.0, |centre| 0.25 * centre);
         }
-        hats[corners] = 1.0;
+        shapes[corners] = 1.0;
     }
-    hats
+    shapes
 }
 
 /// The unknowns of a cell in the field `pressure` as the state has it: by node, then by cell.
 /// `constant` is where that of the cell stands.
-pub fn gather(kind: CellKind, nodes: &[u32], constant: usize, pressure: &[f64]) -> Hats {
+pub fn gather(kind: CellKind, nodes: &[u32], constant: usize, pressure: &[f64]) -> Coefficients {
     let corners = kind.corner_count();
     let mut own = [0.0; MOST];
     for (own, &n) in own.iter_mut().zip(&nodes[..corners]) {
@@ -80,7 +80,7 @@ pub fn gather(kind: CellKind, nodes: &[u32], constant: usize, pressure: &[f64]) 
     own
 }
 
-fn dot(a: &Hats, b: &Hats) -> f64 {
+fn dot(a: &Coefficients, b: &Coefficients) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
@@ -108,9 +108,9 @@ impl<K> PressureField<K> {
 pub struct Cell {
     kind: CellKind,
     /// Its unknowns (kPa).
-    pressure: Hats,
+    pressure: Coefficients,
     /// Means of the functions over the points, weighted by `1/2G`, for cells of first order.
-    mean: Option<Hats>,
+    mean: Option<Coefficients>,
 }
 
 impl<const D: usize, K: Kinematics<D>> Mixed<D, K> for PressureField<K> {
@@ -128,8 +128,8 @@ impl<const D: usize, K: Kinematics<D>> Mixed<D, K> for PressureField<K> {
                     // As the differences from them are weighted: the projection is symmetric.
                     let own = entries.weight * carried.softness(frame.points.seeded_height(entries.point));
                     weight += own;
-                    for (sum, hat) in sum.iter_mut().zip(hats(kind, entries.shape)) {
-                        *sum += own * hat;
+                    for (sum, shape) in sum.iter_mut().zip(shapes(kind, entries.shape)) {
+                        *sum += own * shape;
                     }
                 }
             }
@@ -155,7 +155,7 @@ impl<const D: usize, K: Kinematics<D>> Mixed<D, K> for PressureField<K> {
         let (water, grid) = (carried.law(y).bulk, at.ratios.grid / at.ratios.step);
         let (before, slope) = (points.pressure[p], measure.slope(grid));
         let pressure =
-            at.later * dot(&hats(cell.kind, entries.shape), &cell.pressure) + (1.0 - at.later) * before / slope;
+            at.later * dot(&shapes(cell.kind, entries.shape), &cell.pressure) + (1.0 - at.later) * before / slope;
         let strain = volume_strain(&points.elastic[p]);
         let (local, mean_before) = (volume_strain(&at.trial) - strain, at.model.mean_stress(y, strain));
         // `gained` is the volume strain of the field in the step; at first as if nothing yields.
@@ -209,7 +209,7 @@ impl<const D: usize, K: Kinematics<D>> Mixed<D, K> for PressureField<K> {
     ) -> f64 {
         let Some(carried) = self.of(points, entries.point) else { return 0.0 };
         let measure = Measure::of(carried, points, entries.point);
-        let pressure = measure.slope(ratios.grid) * dot(&hats(cell.kind, entries.shape), &cell.pressure);
+        let pressure = measure.slope(ratios.grid) * dot(&shapes(cell.kind, entries.shape), &cell.pressure);
         for normal in &mut answer.kirchhoff[..3] {
             *normal += pressure;
         }
@@ -238,18 +238,18 @@ impl<const D: usize, K: Kinematics<D>> Mixed<D, K> for PressureField<K> {
         // They are the last ones of a coupling.
         let begin = local.size - count;
         let y = points.seeded_height(p);
-        let hats = hats(cell.kind, entries.shape);
+        let shapes = shapes(cell.kind, entries.shape);
         // Cells of first order: only what varies within the cell is stabilised.
-        let stabilised: Hats = match &cell.mean {
+        let stabilised: Coefficients = match &cell.mean {
             None => [0.0; MOST],
             Some(mean) => {
                 let softness = carried.softness(y);
-                std::array::from_fn(|a| softness * (hats[a] - mean[a]))
+                std::array::from_fn(|a| softness * (shapes[a] - mean[a]))
             }
         };
         let measure = Measure::of(carried, points, p);
         let [slope_before, slope] = [ratios.grid / ratios.step, ratios.grid].map(|ratio| measure.slope(ratio));
-        let (before, pressure) = (points.pressure[p], dot(&hats, &cell.pressure));
+        let (before, pressure) = (points.pressure[p], dot(&shapes, &cell.pressure));
         let gained = pressure - before / slope_before;
         let [elastic, compliance] = match seen {
             Some(seen) => [seen.strain, seen.compliance],
@@ -258,7 +258,7 @@ impl<const D: usize, K: Kinematics<D>> Mixed<D, K> for PressureField<K> {
         let strain = measure.strain(ratios) - elastic;
         let weight = later * self.unit * entries.weight;
         for a in 0..count {
-            local.vector[begin + a] += weight * (hats[a] * strain - stabilised[a] * gained);
+            local.vector[begin + a] += weight * (shapes[a] * strain - stabilised[a] * gained);
         }
         if local.matrix.is_empty() {
             return;
@@ -272,17 +272,17 @@ impl<const D: usize, K: Kinematics<D>> Mixed<D, K> for PressureField<K> {
         let acting = acts_on * by_field;
         for (i, (force, strain)) in forces.iter().zip(strains).enumerate() {
             let (volume, force) = (K::force(&by_strain, strain), K::force(&acting, force));
-            for (a, hat) in hats.iter().enumerate().take(count) {
+            for (a, shape) in shapes.iter().enumerate().take(count) {
                 for d in 0..D {
-                    local.matrix[(begin + a) * size + i * D + d] += weight * hat * volume[d];
-                    local.matrix[(i * D + d) * size + begin + a] += weight * hat * force[d];
+                    local.matrix[(begin + a) * size + i * D + d] += weight * shape * volume[d];
+                    local.matrix[(i * D + d) * size + begin + a] += weight * shape * force[d];
                 }
             }
         }
         for a in 0..count {
             for b in 0..count {
                 local.matrix[(begin + a) * size + begin + b] -=
-                    weight * self.unit * (compliance * hats[a] + stabilised[a]) * hats[b];
+                    weight * self.unit * (compliance * shapes[a] + stabilised[a]) * shapes[b];
             }
         }
     }
@@ -290,7 +290,7 @@ impl<const D: usize, K: Kinematics<D>> Mixed<D, K> for PressureField<K> {
     fn commit(&self, cell: &Cell, points: &Points<D>, entries: &Entries<D>, ratios: Ratios, history: &mut History) {
         let Some(carried) = self.of(points, entries.point) else { return };
         let slope = Measure::of(carried, points, entries.point).slope(ratios.grid);
-        history.pressure = slope * dot(&hats(cell.kind, entries.shape), &cell.pressure);
+        history.pressure = slope * dot(&shapes(cell.kind, entries.shape), &cell.pressure);
         let gained = history.pressure - points.pressure[entries.point];
         let volume_ratio = history.deformation.determinant();
         let held = if carried.bound.is_some() {

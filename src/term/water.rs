@@ -37,8 +37,8 @@ use std::sync::Arc;
 /// Most corners of a cell.
 pub(super) const MOST: usize = 4;
 
-/// Values of the hats of a cell at a point.
-type Hats = [f64; MOST];
+/// A value for each corner of a cell.
+pub(super) type Corners = [f64; MOST];
 
 /// How stiff the water is in the pores: `K_w/n`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -103,7 +103,7 @@ impl<K> PoreWater<K> {
     }
 }
 
-/// The hats of a cell as sums of its shape functions: the coefficient of function `i` in hat `a`.
+/// The linear shape functions of the corners as sums of those of the cell: the coefficient of function `i` in that of corner `a`.
 fn coefficients(kind: CellKind) -> [[f64; MAX_NODES]; MOST] {
     let corners = kind.corner_count();
     let mut of = [[0.0; MAX_NODES]; MOST];
@@ -127,19 +127,19 @@ fn coefficients(kind: CellKind) -> [[f64; MAX_NODES]; MOST] {
     of
 }
 
-/// The values of the corner hats of a cell where its shape functions are `n`.
-pub fn corner_hats(kind: CellKind, n: &[f64]) -> Hats {
+/// The values of the linear shape functions of the corners where those of the cell are `n`.
+pub fn corner_shapes(kind: CellKind, n: &[f64]) -> Corners {
     coefficients(kind).map(|of| of.iter().zip(n).map(|(c, n)| c * n).sum())
 }
 
 /// The field over a cell.
 pub struct Cell<const D: usize> {
     corners: usize,
-    /// The hats by the shape functions.
-    hats: [[f64; MAX_NODES]; MOST],
+    /// The linear shape functions by those of the cell.
+    shapes: [[f64; MAX_NODES]; MOST],
     /// The pressure (kPa) at the corners, and what the step has added to it.
-    pressure: Hats,
-    gained: Hats,
+    pressure: Corners,
+    gained: Corners,
     /// Displacement (m) of the nodes at the beginning of the step.
     before: Coefficients<D>,
     /// Time (s) that the water flows for, and over the size of the cell squared, six times.
@@ -150,8 +150,8 @@ pub struct Cell<const D: usize> {
 }
 
 impl<const D: usize> Cell<D> {
-    fn hats(&self, n: &[f64]) -> Hats {
-        self.hats.map(|of| of.iter().zip(n).map(|(c, n)| c * n).sum())
+    fn shapes(&self, n: &[f64]) -> Corners {
+        self.shapes.map(|of| of.iter().zip(n).map(|(c, n)| c * n).sum())
     }
 
     /// `∇L` (1/m) on the configuration at the beginning of the step.
@@ -159,7 +159,7 @@ impl<const D: usize> Cell<D> {
         let before = entries.deformation::<K>(&self.before);
         // It was admissible when the step before converged to it.
         let inverse = before.try_inverse().unwrap_or_else(Tensor::identity);
-        self.hats.map(|of| {
+        self.shapes.map(|of| {
             let mut sum = Gradient { g: [0.0; D], hoop: 0.0 };
             for (i, c) in of.iter().enumerate().take(entries.shape.len()) {
                 for (sum, g) in sum.g.iter_mut().zip(entries.shape_gradient[i]) {
@@ -171,7 +171,7 @@ impl<const D: usize> Cell<D> {
     }
 }
 
-fn dot(a: &Hats, b: &Hats) -> f64 {
+fn dot(a: &Corners, b: &Corners) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
@@ -192,7 +192,7 @@ impl<const D: usize, K: Kinematics<D>> Mixed<D, K> for PoreWater<K> {
         let edge = 0.5 * cell_size(frame.mesh, cell).powi(2);
         Cell {
             corners,
-            hats: coefficients(kind),
+            shapes: coefficients(kind),
             pressure,
             gained,
             before: frame.interpolation.gather(frame.mesh, cell_points, trial.converged),
@@ -215,7 +215,7 @@ impl<const D: usize, K: Kinematics<D>> Mixed<D, K> for PoreWater<K> {
             return 0.0;
         }
         let before = points.deformation[p].determinant();
-        let stress = -before * ratios.step * dot(&cell.hats(entries.shape), &cell.pressure);
+        let stress = -before * ratios.step * dot(&cell.shapes(entries.shape), &cell.pressure);
         for normal in &mut answer.kirchhoff[..3] {
             *normal += stress;
         }
@@ -241,9 +241,10 @@ impl<const D: usize, K: Kinematics<D>> Mixed<D, K> for PoreWater<K> {
         let begin = D * forces.len();
         let y = points.seeded_height(p);
         let before = points.deformation[p].determinant();
-        let hats = cell.hats(entries.shape);
+        let shapes = cell.shapes(entries.shape);
         let storage = porous.storage(y);
-        let taken_up = before * (ratios.step - 1.0) + storage * (dot(&hats, &cell.pressure) - points.pore_pressure[p]);
+        let taken_up =
+            before * (ratios.step - 1.0) + storage * (dot(&shapes, &cell.pressure) - points.pore_pressure[p]);
         let weight = later * self.unit * entries.weight;
         let flows = cell.flow_time > 0.0;
         let gradients = if flows { cell.gradients::<K>(entries) } else { [[0.0; D]; MOST] };
@@ -257,15 +258,15 @@ impl<const D: usize, K: Kinematics<D>> Mixed<D, K> for PoreWater<K> {
         } else {
             0.0
         };
-        let gained = dot(&hats, &cell.gained);
+        let gained = dot(&shapes, &cell.gained);
         let held = |a: usize, b: usize| {
-            let own = if a == b { hats[a] } else { 0.0 };
-            storage * hats[a] * hats[b] + conducted(a, b) + lumped * (own - hats[a] * hats[b])
+            let own = if a == b { shapes[a] } else { 0.0 };
+            storage * shapes[a] * shapes[b] + conducted(a, b) + lumped * (own - shapes[a] * shapes[b])
         };
         for a in 0..cell.corners {
             let flow: f64 = (0..cell.corners).map(|b| conducted(a, b) * cell.pressure[b]).sum();
-            let bond = lumped * hats[a] * (cell.gained[a] - gained);
-            local.vector[begin + a] -= weight * (hats[a] * taken_up + flow + bond);
+            let bond = lumped * shapes[a] * (cell.gained[a] - gained);
+            local.vector[begin + a] -= weight * (shapes[a] * taken_up + flow + bond);
         }
         if local.matrix.is_empty() {
             return;
@@ -274,10 +275,10 @@ impl<const D: usize, K: Kinematics<D>> Mixed<D, K> for PoreWater<K> {
         let volume = -weight * before * ratios.step;
         for (i, (force, strain)) in forces.iter().zip(strains).enumerate() {
             let (swelling, force) = (K::force(&one, strain), K::force(acts_on, force));
-            for (a, hat) in hats.iter().enumerate().take(cell.corners) {
+            for (a, shape) in shapes.iter().enumerate().take(cell.corners) {
                 for d in 0..D {
-                    local.matrix[(begin + a) * size + i * D + d] += volume * hat * swelling[d];
-                    local.matrix[(i * D + d) * size + begin + a] += volume * hat * force[d];
+                    local.matrix[(begin + a) * size + i * D + d] += volume * shape * swelling[d];
+                    local.matrix[(i * D + d) * size + begin + a] += volume * shape * force[d];
                 }
             }
         }
@@ -290,7 +291,7 @@ impl<const D: usize, K: Kinematics<D>> Mixed<D, K> for PoreWater<K> {
 
     fn commit(&self, cell: &Cell<D>, points: &Points<D>, entries: &Entries<D>, _: Ratios, history: &mut History) {
         if self.of(points, entries.point).is_some() {
-            history.pore_pressure = dot(&cell.hats(entries.shape), &cell.pressure);
+            history.pore_pressure = dot(&cell.shapes(entries.shape), &cell.pressure);
         }
     }
 

@@ -98,7 +98,9 @@ fn factors_alone_name_the_sparse_solver_and_one_file_calls_gmsh() {
 }
 
 /// Words of the code that have a standard name, and that name.
-const REPLACED: [(&str, &str); 27] = [
+const REPLACED: [(&str, &str); 29] = [
+    ("hat", "contact node or shape function"),
+    ("hats", "contact nodes or shape functions"),
     ("guess", "predictor"),
     ("set_out", "first_iterations"),
     ("laid", "initially_closed"),

@@ -278,7 +278,7 @@ fn what_a_table_has_not_is_told_in_one_message() {
         (&["sweep"], "no quantity of the table is chosen"),
         (&["plain.csv", "--x", "a", "--y", "b"], "the column `b` is not numeric: its row 2 has `x`"),
         (&["plain.csv", "--y", "a"], "name the column along the horizontal axis with --x"),
-        (&["torn.csv", "--x", "a", "--y", "b"], "torn.csv:3: is no table"),
+        (&["torn.csv", "--x", "a", "--y", "b"], "torn.csv:3: it is not a table"),
         (&["none.csv", "--x", "a", "--y", "b"], "none.csv"),
         (&["sweep", "plain.csv", "--y", "a"], "a table of a sweep is drawn alone"),
         (&["sweep", "--iterations"], "a table of a sweep is drawn alone"),

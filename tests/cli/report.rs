@@ -138,7 +138,7 @@ fn the_variants_of_a_sweep_are_shown_with_their_changes() {
     let whole = fs::read_to_string(scene.path().join("sweep/table.csv")).unwrap();
     for (text, problem) in [
         ("a,b\n1,2\n", "is not the table of a sweep"),
-        ("run,h,state\na,1\n", "is no table"),
+        ("run,h,state\na,1\n", "it is not a table"),
         ("run,h,state,block.uy last [m]\na,1,finished,x\n", "is not numeric"),
     ] {
         fs::write(scene.path().join("sweep/table.csv"), text).unwrap();

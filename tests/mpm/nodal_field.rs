@@ -17,7 +17,7 @@ use mpm::mesh::builder::rectangle;
 use mpm::mesh::shape::CellKind;
 use mpm::step::{Controller, Field, Limits, Prescribed, Restore, Scene, Simulation, State};
 use mpm::system::{Local, scatter};
-use mpm::term::{Assembly, Frame, Term, Trial, pressure_hats};
+use mpm::term::{Assembly, Frame, Term, Trial, pressure_shapes};
 use mpm::time_value::TimeValue;
 use std::f64::consts::PI;
 use std::sync::Arc;
@@ -43,9 +43,9 @@ impl Term<2> for Diffusion {
             let begin = frame.field(0, cell);
             // The functions of the corners are sums of the shape functions of the cell.
             let mut add = |volume: f64, shape: &[f64], gradient: &[[f64; 2]]| {
-                let hat = pressure_hats(kind, shape);
-                let slope = [0, 1].map(|d| pressure_hats(kind, &gradient.iter().map(|g| g[d]).collect::<Vec<_>>()));
-                let stored = |a: usize, b: usize| volume * self.capacity * hat[a] * hat[b];
+                let shape = pressure_shapes(kind, shape);
+                let slope = [0, 1].map(|d| pressure_shapes(kind, &gradient.iter().map(|g| g[d]).collect::<Vec<_>>()));
+                let stored = |a: usize, b: usize| volume * self.capacity * shape[a] * shape[b];
                 let flow = |a: usize, b: usize| {
                     volume * dt * self.conductivity * (slope[0][a] * slope[0][b] + slope[1][a] * slope[1][b])
                 };

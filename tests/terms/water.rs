@@ -82,7 +82,7 @@ fn the_tangent_is_the_derivative_in_axisymmetry() {
 /// What the equations of all hats sum up to is the water that the points have taken up: flow and what keeps
 /// pressures from each other have no share in it.
 #[test]
-fn no_water_is_made_or_lost_between_the_hats() {
+fn no_water_is_made_or_lost_between_the_corners() {
     for kind in KINDS {
         let (stand, [trial, converged]) = set::<PlaneStrain>(kind, false, 0.0, 10.0);
         let (force, _) = stand.system(&trial, &stand.pressure, &converged, 0, false);

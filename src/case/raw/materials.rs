@@ -26,21 +26,21 @@ pub struct Material {
     pub water_bulk_modulus: Option<f64>,
     /// Unit weight of the water (kN/m³).
     pub water_unit_weight: Option<f64>,
-    /// How its strength varies at random.
+    /// The random field of its strength.
     pub random_strength: Option<RandomStrength>,
     /// The parameters of the model.
     #[serde(flatten)]
     pub parameters: BTreeMap<String, InDepth>,
 }
 
-/// Strength that varies at random in space: a lognormal field of the mean 1, by which the strengths of the model are multiplied.
+/// Strength that varies at random in space: the strengths of the model are multiplied by a lognormal field with the mean 1.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct RandomStrength {
     /// Standard deviation of the strength over its mean (-).
     #[schemars(range(min = 0))]
     pub coefficient_of_variation: f64,
-    /// Horizontal scale of fluctuation: within it the strength is much the same (m).
+    /// Horizontal scale of fluctuation: the distance over which the strength is correlated (m).
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub horizontal_scale: f64,
     /// Vertical scale of fluctuation (m).
@@ -50,7 +50,7 @@ pub struct RandomStrength {
     /// which is smooth. Default: markov.
     #[serde(default)]
     pub correlation: Correlation,
-    /// The number of the realisation: the same one gives the same field, whatever the mesh.
+    /// The number of the realisation. The same number gives the same field on every mesh.
     pub seed: u64,
 }
 

@@ -89,9 +89,9 @@ fn inf_sup(n: usize, scheme: &'static dyn Basis<2>) -> f64 {
     let mut pressure = DMatrix::zeros(points.cell.len(), vertices);
     for (p, &c) in points.cell.iter().enumerate() {
         let xi = &points.xi[p];
-        let hats = [1.0 - xi[0] - xi[1], xi[0], xi[1]];
-        for (hat, &node) in hats.iter().zip(mesh.cells.nodes(c as usize)) {
-            pressure[(p, node as usize)] += points.weight[p].sqrt() * hat;
+        let shapes = [1.0 - xi[0] - xi[1], xi[0], xi[1]];
+        for (shape, &node) in shapes.iter().zip(mesh.cells.nodes(c as usize)) {
+            pressure[(p, node as usize)] += points.weight[p].sqrt() * shape;
         }
     }
     let along = |b: &DMatrix<f64>, d: usize| {
