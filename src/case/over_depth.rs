@@ -8,7 +8,7 @@ use crate::mesh::Mesh;
 /// fallen to its least value.
 const HEIGHTS: u32 = 64;
 
-/// Checks a material over the height of a region: a profile in range at top and bottom is so in between, but what two say of each other may not.
+/// Checks a material over the height of a region: a profile in range at top and bottom is so in between, but conditions on two profiles may not hold.
 pub(super) fn check_over_depth(mesh: &Mesh<2>, index: u16, region: &Region, material: &Material) -> Result<()> {
     let cells = (0..mesh.cells.len()).filter(|&c| mesh.cells.region[c] == index);
     let heights = cells.flat_map(|c| mesh.cells.nodes(c)).map(|&n| mesh.nodes[n as usize][1]);

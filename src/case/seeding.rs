@@ -113,7 +113,7 @@ fn filled(case: &Case, mesh: &Mesh<2>) -> Result<Vec<Filled>> {
     Ok(filled)
 }
 
-/// Checks the materials whose strength varies at random with the strength of each point: what two parameters say of each other may not hold there.
+/// Checks the materials whose strength varies at random, with the strength of each point: conditions on two parameters may not hold everywhere.
 fn check_random_strength(case: &Case, mesh: &Mesh<2>, points: &Points<2>) -> Result<()> {
     for (region, material) in changes::used(case) {
         let (Some(field), index) = (&material.random_strength, region_index(mesh, &region.name)?) else { continue };

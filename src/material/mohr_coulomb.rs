@@ -59,7 +59,8 @@ pub struct MohrCoulomb {
     cohesion: Profile,
     friction: Friction,
     tension: Option<Profile>,
-    /// Whether it is made from another: what is above the apex in `tension` counts as that, and is no mistake of the case.
+    /// Whether it is derived from another model, with its strengths divided: a `tension` above the apex is then no error of the case, and the apex
+    /// is the limit.
     is_derived: bool,
 }
 
@@ -133,7 +134,7 @@ impl MohrCoulomb {
         Ok(model)
     }
 
-    /// It with its strengths divided by `factor` (-).
+    /// The model with its strengths divided by `factor` (-).
     fn divided(&self, factor: f64) -> Self {
         Self {
             elasticity: self.elasticity,

@@ -1,4 +1,4 @@
-//! What the results depend on: the variants of a sweep of the case beside the run.
+//! How the results depend on parameters: the variants of a sweep of the case beside the run.
 
 use super::html::Html;
 use crate::error::Result;
@@ -12,14 +12,14 @@ const LISTED: usize = 60;
 struct Quantity<'a> {
     name: &'a str,
     unit: &'a str,
-    /// What is told of it, with its column and the value of the run.
+    /// Last, least and largest value: the column of the table and the value of the run.
     summaries: Vec<(&'static str, Vec<Option<f64>>, f64)>,
-    /// The largest value that it has in the run, which changes are relative to.
+    /// Its largest value in the run, to which changes are relative.
     scale: f64,
 }
 
 impl Quantity<'_> {
-    /// How a value differs from that of the run, in parts of the largest value there.
+    /// The difference of a value from that of the run, relative to the largest value there.
     fn change(&self, value: f64, base: f64) -> String {
         match 100.0 * (value - base) / self.scale {
             change if change.is_finite() => format!("{change:+.2} %"),
@@ -57,14 +57,14 @@ fn quantities<'a>(table: &SweepTable, run: &'a Table) -> Result<Vec<Quantity<'a>
 /// # Errors
 /// `Input` for a table whose quantities are no numbers.
 pub fn variants(table: &SweepTable, run: &Table) -> Result<Html> {
-    let said = "A change is against this run, in parts of the largest value that the quantity has in it. A variant with the entries of this run has none.";
+    let said = "A change is the difference from this run, relative to the largest value of the quantity in it. A variant with the same entries as this run has no change.";
     let mut html = Html::of("p", &format!("The variants of {}. {said}", table.name));
     let parameters: Vec<usize> = table.parameters().collect();
     let state = table.position(STATE);
     let is_finished = |row: usize| state.is_none_or(|state| table.rows[row][state] == FINISHED);
     if table.unfinished() > 0 {
         let text = format!(
-            "{} of {} variants are not finished: their values are those reached, and count for no range.",
+            "{} of {} variants are not finished. Their values are those reached, and are not included in the ranges.",
             table.unfinished(),
             table.rows.len()
         );
@@ -79,7 +79,7 @@ pub fn variants(table: &SweepTable, run: &Table) -> Result<Html> {
     if left_out > 0 {
         html = html.and(Html::of(
             "p",
-            &format!("{left_out} values are not finite, and have no change and no part in a range."),
+            &format!("{left_out} values are not finite. They have no change and are not included in the ranges."),
         ));
     }
     let called = |row: usize| {
