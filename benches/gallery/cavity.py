@@ -67,13 +67,13 @@ class Can:
         return np.array(found)
 
     def cavity(self) -> Callable[[Path], float]:
-        """Depth over D at which clay of 0.01 D, on average, lies on the can: where it begins to flow back."""
+        """Mean depth over D of the cavity above the can, when clay of 0.01 D, on average, lies on the can: when it begins to flow back."""
 
         def found(out: Path) -> float:
             depth, open_above = self.curve(out)[:, :2].T
             upon = depth - (self.rim + self.cone / 3) / self.diameter - open_above
             first = int(np.argmax(upon > 0.01))
-            return float(np.interp(0.01, upon[first - 1 : first + 1], depth[first - 1 : first + 1]))
+            return float(np.interp(0.01, upon[first - 1 : first + 1], open_above[first - 1 : first + 1]))
 
         return found
 

@@ -88,7 +88,6 @@ VERTICAL_CUT = Entry(
     [
         Row("", "volume at rest, cut of γH/s_u = 6", kept(), 1.0, 0.01),
         Row("toe", "γH/s_u, cells of H/200 at the toe", safety(3.0), CUT, 0.03, SHORT | {"mesh.parameters.toe": 0.1}),
-        Row("h20", "γH/s_u, cells of H/20", safety(3.0), CUT, 0.03, SHORT),
     ],
     picture=("--window=-10,-2.5,10,6",),
     headline=1,

@@ -13,7 +13,7 @@ const OF_SOIL: &str = "it is a share of the strength of soil";
 impl raw::Contact {
     pub(super) fn law(&self) -> Law {
         let &Self { friction, adhesion, adhesion_factor: factor, tension, .. } = self;
-        Law { friction, adhesion, factor, tension: tension.limit() }
+        Law { friction, adhesion, factor, tension: tension.limit(), sealed: tension.is_sealed() }
     }
 }
 
@@ -64,6 +64,7 @@ impl Checker {
                 adhesion: adhesion.unwrap_or(law.adhesion),
                 factor,
                 tension: tension.map_or(law.tension, raw::Tension::limit),
+                sealed: tension.map_or(law.sealed, raw::Tension::is_sealed),
             };
             changes.push(ContactChange { name: name.clone(), law: *law });
         }

@@ -96,12 +96,14 @@ impl Default for Keys {
     }
 }
 
-/// What there is to say of a case before it is meshed.
+/// What there is to say of a case without its mesh.
 #[derive(Clone, Debug)]
 pub struct Review {
     pub mistakes: Vec<Error>,
     /// Lines on what is no mistake.
     pub notes: Vec<String>,
+    /// The case, where it has no mistakes.
+    pub case: Option<Case>,
 }
 
 impl Keys {
@@ -171,27 +173,29 @@ impl Keys {
         let mut notes = source.notes().to_vec();
         let mesh = locate::Path::default().key("mesh");
         let sound = !issues.iter().any(|issue| mesh.contains(&issue.path));
-        match case.filter(|_| sound).map(|case| (groups(&case.mesh), case)) {
-            Some((Ok((groups, places)), case)) => {
-                issues.extend(names::check(&case, &groups));
-                notes.extend(unconnected::structures(&case, &places));
-                notes.extend(unmeant::of_case(&case, &places));
+        if let Some(case) = case.as_ref().filter(|_| sound) {
+            match groups(&case.mesh) {
+                Ok((groups, places)) => {
+                    issues.extend(names::check(case, &groups));
+                    notes.extend(unconnected::structures(case, &places));
+                    notes.extend(unmeant::of_case(case, &places));
+                }
+                Err(e) => {
+                    let mut mistakes = errors(&source, &issues);
+                    mistakes.push(e);
+                    return Ok(Review { mistakes, notes, case: None });
+                }
             }
-            Some((Err(e), _)) => {
-                let mut mistakes = errors(&source, &issues);
-                mistakes.push(e);
-                return Ok(Review { mistakes, notes });
-            }
-            None => {}
         }
         if let Err(mut mistakes) = begun {
             // What is said of its own phases alone may be wrong.
             let phases = locate::Path::default().key("phases");
             issues.retain(|issue| !phases.contains(&issue.path));
             mistakes.extend(errors(&source, &issues));
-            return Ok(Review { mistakes, notes });
+            return Ok(Review { mistakes, notes, case: None });
         }
-        Ok(Review { mistakes: errors(&source, &issues), notes })
+        let mistakes = errors(&source, &issues);
+        Ok(Review { case: case.filter(|_| mistakes.is_empty()), mistakes, notes })
     }
 
     /// The case if it can be read at all, and its mistakes; only without any is it a sound one.

@@ -273,6 +273,19 @@ pub struct TensionLimit {
     /// The largest tension (kPa).
     #[schemars(range(min = 0))]
     pub limit: f64,
+    /// What fills the gap that opens there: water, which ends the tension; or vapour, so that the tension stays at the limit until the gap has
+    /// closed. Default: water.
+    #[serde(default)]
+    pub gap: Filling,
+}
+
+/// What fills a gap that opens at the largest tension.
+#[derive(Clone, Copy, Debug, Default, Deserialize, JsonSchema, PartialEq, Eq)]
+#[serde(rename_all = "snake_case")]
+pub enum Filling {
+    #[default]
+    Water,
+    Vapour,
 }
 
 impl Tension {
@@ -281,8 +294,13 @@ impl Tension {
         match self {
             Self::Named(TensionName::CutOff) => 0.0,
             Self::Named(TensionName::NoSeparation) => f64::INFINITY,
-            Self::Limited(TensionLimit { limit }) => limit,
+            Self::Limited(TensionLimit { limit, .. }) => limit,
         }
+    }
+
+    /// Whether the gap that opens keeps the tension.
+    pub fn is_sealed(self) -> bool {
+        matches!(self, Self::Limited(TensionLimit { gap: Filling::Vapour, .. }))
     }
 }
 

@@ -74,6 +74,14 @@ fn sinks(phase: &Phase, name: &str) -> bool {
     motions.into_iter().any(|p| p.displacement.at(phase.duration) < 0.0)
 }
 
+/// Whether a case has anything that [`on_mesh`] looks at.
+pub fn looks_at_mesh(case: &Case) -> bool {
+    let is_on_soil = |contact: &super::checked::Contact| {
+        matches!((&contact.structure, &contact.on), (Touching::Structure(_), Touched::Soil(_)))
+    };
+    case.contacts.iter().any(is_on_soil)
+}
+
 /// What shows on the mesh: cells and steps that are too coarse for the structures that move in soil.
 pub fn on_mesh(case: &Case, mesh: &Mesh<2>) -> Vec<String> {
     let content = |c: usize| {

@@ -1,9 +1,9 @@
-//! `mpm check`: every mistake of a case that shows without its mesh, in one go.
+//! `mpm check`: every mistake of a case and its `.geo` in one go, and warnings of what is surely unmeant.
 
 use super::args::CaseArgs;
 use super::mesh;
 use super::print::{Outcome, note, print};
-use crate::case::{Keys, Review};
+use crate::case::{Keys, Review, unmeant};
 
 #[derive(clap::Args)]
 #[group(skip)]
@@ -16,7 +16,16 @@ pub struct Args {
 
 pub fn run(args: &Args, keys: &Keys) -> Outcome {
     let CaseArgs { case, overrides } = &args.case;
-    let Review { mistakes, notes } = keys.review(case, overrides, |mesh| mesh::groups(mesh, &args.limits))?;
+    let Review { mistakes, notes, case: sound } =
+        keys.review(case, overrides, |mesh| mesh::groups(mesh, &args.limits))?;
     notes.iter().for_each(|text| note(text));
-    if mistakes.is_empty() { print(&format!("{}: no mistakes\n", case.display())) } else { Err(mistakes) }
+    if !mistakes.is_empty() {
+        return Err(mistakes);
+    }
+    // Only contacts with soil depend on the size of the cells.
+    if let Some(sound) = sound.filter(unmeant::looks_at_mesh) {
+        let mesh = mesh::generated(&sound.mesh, &args.limits)?;
+        unmeant::on_mesh(&sound, &mesh).iter().for_each(|text| note(text));
+    }
+    print(&format!("{}: no mistakes\n", case.display()))
 }

@@ -186,6 +186,22 @@ pub fn read(stage: &Stage) -> std::result::Result<Mesh<2>, Vec<Error>> {
     Ok(mesh)
 }
 
+/// The mesh of the `.geo`, checked as that of a run is, and kept nowhere.
+///
+/// # Errors
+/// Input: a `.geo` that does not mesh or that does what it may not, cells of bad quality; `Machine` where there is no room for it.
+pub fn generated(mesh: &checked::Mesh, limits: &Limits) -> std::result::Result<Mesh<2>, Vec<Error>> {
+    let folder = tempfile::tempdir().map_err(|e| atomic::unwritable(&std::env::temp_dir(), &e))?;
+    let path = folder.path().join("mesh.msh");
+    let program = program()?;
+    let caught = signals::catch()?;
+    limits.worker(&program, MESHING).mesh(&mesh.geo, &options(mesh), &path, |_| Ok(()))?;
+    drop(caught);
+    let generated = msh::read(&path)?;
+    quality::check(&generated, &mesh.geo)?;
+    Ok(generated)
+}
+
 /// The names of the groups of the `.geo`, and where its regions lie, without meshing it.
 ///
 /// # Errors

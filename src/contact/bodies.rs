@@ -347,7 +347,7 @@ impl<K: Kinematics<2>> Interface<2> for Bodies<K> {
                     fading: FADING * self.surface.spacing,
                     bonded: held.bonded(
                         contact_node,
-                        self.laws.at(ground.phase).tension,
+                        self.laws.at(ground.phase),
                         sum.gap / area < FADING * self.surface.spacing,
                     ),
                     strength: f64::INFINITY,

@@ -409,7 +409,7 @@ impl<K: Kinematics<2>> Interface<2> for Boundary<K> {
                 by_arc: entries.iter().map(|e| e.2.map(|t| t / area)).collect(),
                 spots: Vec::new(),
                 penalty: Penalty {
-                    bonded: held.bonded(contact_node, law.tension, gap < FADING * self.surface.spacing),
+                    bonded: held.bonded(contact_node, law, gap < FADING * self.surface.spacing),
                     strength: strength / area,
                     water: water / area,
                     ..self.penalty(ground.points, point as usize, contact_node, held)

@@ -25,6 +25,8 @@ pub struct Law {
     pub factor: Option<f64>,
     /// The tension (kPa) at which the surfaces part, without end where they cannot.
     pub tension: f64,
+    /// Whether no water enters the gap where they have parted: the tension stays until the gap closes.
+    pub sealed: bool,
 }
 
 /// The law of an interface in each phase: they may change as one begins.
@@ -272,7 +274,7 @@ mod tests {
     };
 
     fn laws() -> Vec<Law> {
-        let law = |friction, adhesion, factor, tension| Law { friction, adhesion, factor, tension };
+        let law = |friction, adhesion, factor, tension| Law { friction, adhesion, factor, tension, sealed: false };
         vec![
             law(0.0, 0.0, None, 0.0),
             law(0.4, 0.0, None, 0.0),

@@ -237,7 +237,7 @@ mod tests {
     fn a_body_opens_the_gap_as_its_nodes_do() {
         let mesh = Mesh { nodes: vec![[1.0, 0.5], [2.0, -0.5], [1.0, -2.0], [3.0, 1.5]], ..Mesh::default() };
         let body = Body::new(&mesh, 4, 0, vec![0, 1, 3], &Points::default(), true);
-        let law = Laws::from(Law { friction: 0.0, adhesion: 0.0, factor: None, tension: 0.0 });
+        let law = Laws::from(Law { friction: 0.0, adhesion: 0.0, factor: None, tension: 0.0, sealed: false });
         let interface = Rigid::new(Box::new(One(law)), std::slice::from_ref(&body), mesh.nodes.len());
         let condensed = interface.condense(constraint(), &|n| *mesh.nodes.get(n as usize).unwrap_or(&body.centre));
         assert_eq!((condensed.own, &condensed.nodes[..]), (1, &[4, 5, 2][..]));
@@ -285,7 +285,7 @@ mod tests {
 
         let mesh = Mesh { nodes: vec![[radius, 0.0], [radius, 0.0], [-radius, 0.0]], ..Mesh::default() };
         let body = Body::new(&mesh, 3, 0, vec![0, 2], &Points::default(), true);
-        let law = Laws::from(Law { friction: 0.0, adhesion: 0.0, factor: None, tension: 0.0 });
+        let law = Laws::from(Law { friction: 0.0, adhesion: 0.0, factor: None, tension: 0.0, sealed: false });
         let interface = Rigid::new(Box::new(One(law)), std::slice::from_ref(&body), mesh.nodes.len());
         let condensed = interface.condense(round.clone(), &|n| *mesh.nodes.get(n as usize).unwrap_or(&body.centre));
         let turned = condensed.measure(|n| if Some(n) == body.dofs.rotation { body.dofs.arc(0.1) } else { [0.0; 2] });

@@ -7,7 +7,7 @@ use crate::step::{Scene, State};
 
 /// The lines of all interfaces in contact, with what their contact nodes came to in the last step; empty without contact.
 ///
-/// Pressure (kPa, compression positive), shear (kPa) on the soil and slip (m) since the run began, positive along the
+/// Pressure (kPa, compression positive) without oscillations from node to node, shear (kPa) on the soil and slip (m) since the run began, positive along the
 /// boundary with the structure on the left, and gap (m, positive where they are apart). Between contact nodes they are
 /// linear. Traction (kPa) on the structure: its integral along the lines is the force of the contact, see [`traction`].
 /// The gap of a contact node that has no soil before it is not known: [`FACES`] is 0 wherever it counts.
@@ -30,12 +30,13 @@ pub fn part<const D: usize>(scene: &Scene<D>, state: &State<D>) -> Part {
         let held = state.multipliers.get(i);
         let lines = interface.lines(&position);
         let of_nodes = held.map(|h| traction(&lines, &h.force));
+        let pressures = held.map(|h| h.smooth_pressures(interface.runs()));
         for line in &lines {
             for mark in line {
                 let known = held
                     .is_some_and(|h| mark.contact_nodes.iter().all(|&(k, share)| share == 0.0 || h.faces[k as usize]));
                 place.push(mark.place);
-                pressure.push(held.map_or(0.0, |h| mark.value(&h.pressure)));
+                pressure.push(pressures.as_ref().map_or(0.0, |p| mark.value(p)));
                 shear.push(held.map_or(0.0, |h| mark.value(&h.shear)));
                 gap.push(held.filter(|_| known).map_or(0.0, |h| mark.value(&h.gap)));
                 slip.push(held.map_or(0.0, |h| mark.value(&h.slid)));

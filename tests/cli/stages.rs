@@ -143,6 +143,17 @@ fn check_writes_nothing() {
     assert_eq!(files, ["case.yaml", "scene.geo"]);
 }
 
+/// Cells and steps that are too coarse for a structure show on the mesh, and `check` makes one to see them.
+#[test]
+fn check_warns_of_what_only_the_mesh_shows() {
+    let case = Path::new(env!("CARGO_MANIFEST_DIR")).join("cases/tbar");
+    let output = in_folder(&case, &["check", ".", "--set", "phases[0].step.max=1", "--set", "mesh.parameters.h=0.5"]);
+    let said = said(&output);
+    for part in ["which resolve it poorly", "lower its `step.max`", "no mistakes"] {
+        assert!(output.status.success() && said.contains(part), "{part}: {said}");
+    }
+}
+
 #[test]
 fn the_schema_describes_every_key() {
     let output = in_folder(Path::new("."), &["schema"]);
@@ -165,7 +176,8 @@ fn the_cases_of_the_repository_are_sound() {
     for entry in fs::read_dir(cases).unwrap() {
         let case = entry.unwrap().path();
         let output = in_folder(&case, &["check", "."]);
-        assert!(output.status.success(), "{}: {}", case.display(), said(&output));
+        let said = said(&output);
+        assert!(output.status.success() && !said.contains("warning"), "{}: {said}", case.display());
         assert!(case.join("README.md").is_file(), "{} has no README.md", case.display());
         count += 1;
     }

@@ -10,7 +10,7 @@ use mpm::term::{Contact, Hydrostatic, PlacedConstraint, WaterLevels};
 use mpm::time_value::TimeValue;
 
 fn law(friction: f64, adhesion: f64, factor: Option<f64>) -> Law {
-    Law { friction, adhesion, factor, tension: 0.0 }
+    Law { friction, adhesion, factor, tension: 0.0, sealed: false }
 }
 
 /// A stand with contact nodes between the first nodes of a cell, as a structure, and the rest of them: each moves as one where

@@ -56,3 +56,36 @@ fn a_spudcan_bears_what_is_between_the_surface_and_deep_clay() {
     assert!((6.05..10.0).contains(&factor), "{factor}");
     assert!((last(folder.path(), "can.reaction_y [kN]") / load + 1.0).abs() < 1e-6);
 }
+
+/// Limit analysis of a solid block has V/(B s_u) between 6.18 and 6.39, upwards and downwards: skirts hold their plug.
+#[test]
+fn a_mat_with_skirts_bears_like_a_solid_block() {
+    for rate in [-1.0, 1.0] {
+        let settings = [
+            "mesh.parameters={skirt: 1.5, wall: 0.15, depth: 12, aside: 24, h: 0.15, under: 4, coarse: 16}".to_owned(),
+            "phases.push.duration=0.04".to_owned(),
+            format!("phases.push.prescribe.mat.uy.rate={rate}"),
+        ];
+        let folder = solve("cases/skirted_mat", &settings.each_ref().map(String::as_str));
+        let factor = -rate * last(folder.path(), "mat.contact_y [kN]") / 30.0;
+        println!("V/(B s_u) {factor:.3}");
+        assert!((6.18 * 0.97..6.39 * 1.03).contains(&factor), "{rate}: {factor}");
+    }
+}
+
+/// As the clay beneath loses its strength the pipe sinks to where the clay bears its weight: less that of the clay in its place, between the formulas of
+/// Merifield, White & Randolph (2009) for a smooth and a rough pipe, and a tenth more on these cells with the heave beside it.
+#[test]
+fn a_pipe_sinks_to_where_jetted_clay_bears_it() {
+    let settings =
+        ["mesh.parameters.h=0.1", "phases.jet.duration=6", "phases.jet.strength_reduction={table: [[0, 1], [6, 7]]}"];
+    let folder = solve("cases/jet_trench", &settings);
+    let (depth, load) = (-last(folder.path(), "pipe.uy [m]"), 2.0 * last(folder.path(), "pipe.contact_y [kN]"));
+    let angle = 2.0 * (1.0 - depth / 0.2f64).acos();
+    let inside = 0.5 * 0.2f64.powi(2) * (angle - angle.sin());
+    let (factor, way) = ((load - 6.0 * inside) / (4.0 / 7.0 * 0.4), depth / 0.4);
+    let [smooth, rough] = [5.66 * way.powf(0.32), 7.4 * way.powf(0.4)];
+    println!("w/D {way:.3}: N {factor:.3}, {smooth:.3} to {rough:.3}");
+    assert!((load / (11.06 * PI * 0.04) - 1.0).abs() < 1e-3, "{load}");
+    assert!((smooth..1.12 * rough).contains(&factor), "{way} {factor}");
+}
