@@ -135,7 +135,7 @@ impl<K: Kinematics<2>> Boundary<K> {
     ///
     /// - On a curved boundary, along which soil flows, it is that of the followed surface, if there is one. A closed contact node changes its gap by no more
     ///   than the soil moved in the last step.
-    /// - An open contact node has the gap of the surface. It may begin to touch, not to overlap.
+    /// - An open contact node, also one that keeps its tension in the gap, has the gap of the surface. It may begin to touch, not to overlap.
     /// - A closed contact node keeps the gap of the step before: the measured one jumps when points come and go, and the soil would be strained by every
     ///   jump. As it slides, the gap becomes the measured one, so that jumps are averaged. An error larger than these jumps is corrected at once. The
     ///   measure is that of the surface which points began at, only where the followed surface agrees: it fails where soil was folded, as beside a wall
@@ -150,7 +150,7 @@ impl<K: Kinematics<2>> Boundary<K> {
                 if held.touched(contact_node) { gap.clamp(before - moved, before + moved) } else { gap.max(-still) };
             return (gap, offset(gap));
         }
-        if !held.touched(contact_node) {
+        if !held.touched(contact_node) || before > BAND * spacing {
             let gap = known.or(surface).unwrap_or(open);
             return (gap.max(-still), offset(gap));
         }

@@ -50,8 +50,10 @@ struct Newton<'a, const D: usize> {
     /// The residual (kN) on the right of eq. 14, and how many full steps in a row the watchdog has accepted that did not reduce it.
     target: f64,
     relaxed: usize,
-    /// Whether every iteration must reduce the residual, without watchdog: once that has failed, and in quasi-static steps with contact.
+    /// Whether every iteration must reduce the residual, without watchdog: once that has failed.
     strict: bool,
+    /// Whether contact status may change during a full step, in a quasi-static step.
+    touching: bool,
     /// How many backtracking searches in a row have not reduced the residual.
     stalled: usize,
     /// Whether prescribed displacements are not reached, so that their forces are part of the right-hand side.
@@ -82,8 +84,8 @@ impl<'a, const D: usize> Newton<'a, D> {
             method: Method::Cholesky,
             target: f64::INFINITY,
             relaxed: 0,
-            // Contact status changes during a full step, and accepting a larger residual does not help.
-            strict: !problem.scene.interfaces.is_empty() && problem.integration.is_none(),
+            strict: false,
+            touching: !problem.scene.interfaces.is_empty() && problem.integration.is_none(),
             stalled: 0,
             due: false,
             length: 0.0,
@@ -95,8 +97,11 @@ impl<'a, const D: usize> Newton<'a, D> {
     fn solve(&mut self) -> Result<Solution<D>> {
         self.begin()?;
         while !self.converged() {
-            self.direction()?;
-            self.search()?;
+            match self.direction() {
+                // A body that lifted off in a state on trial is free, and the system singular.
+                Err(_) if self.is_on_trial() => self.return_to_best()?,
+                other => other.and_then(|()| self.search())?,
+            }
         }
         let now = &mut self.buffers.now;
         let at = std::mem::take(&mut now.at);
@@ -119,7 +124,11 @@ impl<'a, const D: usize> Newton<'a, D> {
         let initially_closed = self.grid.constraints.iter().any(|constraint| constraint.initially_closed);
         for start in self.problem.predictor.into_iter().chain(initially_closed.then_some(self.problem.converged)) {
             self.problem.begin(self.grid, &mut self.buffers.now.at, start);
-            if self.first_iterations().is_ok() {
+            // Along directions with a frozen status the true residual says whether contacts stay closed.
+            self.strict = true;
+            let done = self.first_iterations();
+            self.strict = false;
+            if done.is_ok() {
                 return Ok(());
             }
             self.buffers.contact_frozen = false;

