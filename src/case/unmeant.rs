@@ -97,6 +97,7 @@ pub fn on_mesh(case: &Case, mesh: &Mesh<2>) -> Vec<String> {
         let Some(region) = mesh.regions.iter().position(|other| other == name) else { continue };
         let body = mesh.part(|c| usize::from(mesh.cells.region[c]) == region);
         let Some(around) = bounds(&body) else { continue };
+        warnings.extend(leaves(case, name, &body, [around[0][1], grid[0][1]]));
         let motions = motions(case, name, &body);
         // Cells that it lies upon or in.
         let near = |c: &usize| {
@@ -150,15 +151,41 @@ struct Motion<'a> {
     largest: f64,
 }
 
+/// Whether what moves `curve` moves the structure `name` with the cells `body`.
+fn moves(name: &str, body: &Mesh<2>, curve: &str) -> bool {
+    let on = |group: &crate::mesh::Group| group.nodes.iter().all(|n| body.cells.nodes.contains(n));
+    curve == name || body.group(curve).is_some_and(on)
+}
+
+/// A warning where the phases move a structure below the lowest place of the grid, given the heights (m) of the lowest places of both.
+fn leaves(case: &Case, name: &str, body: &Mesh<2>, [low, bottom]: [f64; 2]) -> Option<String> {
+    let mut at = low;
+    for phase in &case.phases {
+        let mut down = phase.prescribed.iter().filter(|moved| moved.component == 1 && moves(name, body, &moved.curve));
+        let Some(moved) = down.next() else { continue };
+        let within = match &moved.displacement {
+            TimeValue::Table(table) => table.iter().map(|[_, u]| *u).fold(0.0, f64::min),
+            _ => 0.0,
+        };
+        let end = moved.displacement.at(phase.duration);
+        let lowest = at + end.min(within);
+        if low >= bottom && lowest < bottom {
+            return Some(format!(
+                "warning: phase `{}` moves `{name}` down to y = {lowest:.3} m, and the grid ends at y = {bottom:.3} m: shorten its way, or \
+                 make the mesh deeper",
+                phase.name
+            ));
+        }
+        at += end;
+    }
+    None
+}
+
 /// The prescribed motions of a structure: its own where it is rigid, or those of a curve of it.
 fn motions<'a>(case: &'a Case, name: &str, body: &Mesh<2>) -> Vec<Motion<'a>> {
-    let moves = |curve: &str| {
-        let on = |group: &crate::mesh::Group| group.nodes.iter().all(|n| body.cells.nodes.contains(n));
-        curve == name || body.group(curve).is_some_and(on)
-    };
     let mut motions = Vec::new();
     for phase in &case.phases {
-        for moved in phase.prescribed.iter().filter(|moved| moved.component < 2 && moves(&moved.curve)) {
+        for moved in phase.prescribed.iter().filter(|moved| moved.component < 2 && moves(name, body, &moved.curve)) {
             let largest = phase.step.max.min(phase.duration);
             let (distance, speed) = match &moved.displacement {
                 TimeValue::Constant(_) => (0.0, 0.0),
@@ -235,6 +262,14 @@ mod tests {
         );
         let [long] = told(8, 0.4).try_into().unwrap();
         assert!(long.contains("0.400 m in a step, 1.6 times") && long.contains("4.17e-2 s or less"), "{long}");
+    }
+
+    #[test]
+    fn a_way_that_leads_out_of_the_grid_is_told() {
+        let (mut case, mesh) = footing(8, "", 0.05);
+        case.phases[0].duration = 2.5;
+        let [far] = on_mesh(&case, &mesh).try_into().unwrap();
+        assert!(far.contains("moves `footing` down to y = -0.500 m, and the grid ends at y = 0.000 m"), "{far}");
     }
 
     #[test]

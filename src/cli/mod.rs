@@ -55,7 +55,7 @@ enum Command {
     Run(run::Args),
     /// Run a case for every combination of values of some of its entries: writes a folder a run and table.csv
     Sweep(sweep::Args),
-    /// Print every mistake of a case that shows without its mesh, with file, line and remedy; writes nothing
+    /// Print every mistake of a case, with file, line and remedy, and warnings of what is surely unmeant; writes nothing
     Check(check::Args),
     /// Draw curves of the histories of cases, or of output folders, as SVG or PNG
     Plot(Box<plot::Args>),

@@ -1,7 +1,10 @@
 //! What subcommands print, and end with.
 
 use crate::error::{Error, plain_lines};
+use crate::run::WARNING;
+use std::collections::BTreeSet;
 use std::io::{self, Write};
+use std::sync::{Mutex, PoisonError};
 
 /// What went wrong, and all of it.
 pub type Outcome = Result<(), Vec<Error>>;
@@ -20,7 +23,12 @@ pub fn print(text: &str) -> Outcome {
     }
 }
 
-/// Prints a line on standard error, where progress and notes go; nobody may be listening.
+/// Prints a line on standard error, where progress and notes go; nobody may be listening. A warning is told once by a process: the stages of
+/// `mpm run` look at the same case.
 pub fn note(text: &str) {
-    let _ = writeln!(io::stderr(), "{}", plain_lines(text));
+    static TOLD: Mutex<BTreeSet<String>> = Mutex::new(BTreeSet::new());
+    let is_new = || TOLD.lock().unwrap_or_else(PoisonError::into_inner).insert(text.to_string());
+    if !text.starts_with(WARNING) || is_new() {
+        let _ = writeln!(io::stderr(), "{}", plain_lines(text));
+    }
 }

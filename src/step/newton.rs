@@ -50,7 +50,8 @@ struct Newton<'a, const D: usize> {
     /// The residual (kN) on the right of eq. 14, and how many full steps in a row the watchdog has accepted that did not reduce it.
     target: f64,
     relaxed: usize,
-    /// Whether every iteration must reduce the residual, without watchdog: once that has failed.
+    /// Whether every iteration must reduce the residual, without watchdog: once that has failed, and where contact is part of a search for failure,
+    /// which is to end at the nearest equilibrium.
     strict: bool,
     /// Whether contact status may change during a full step, in a quasi-static step.
     touching: bool,
@@ -74,6 +75,7 @@ impl<'a, const D: usize> Newton<'a, D> {
         buffers.best.clone_from(&buffers.now.at);
         buffers.damped.clear();
         let floor = floor(problem, grid);
+        let touching = !problem.scene.interfaces.is_empty() && problem.integration.is_none();
         Self {
             problem,
             grid,
@@ -84,8 +86,8 @@ impl<'a, const D: usize> Newton<'a, D> {
             method: Method::Cholesky,
             target: f64::INFINITY,
             relaxed: 0,
-            strict: false,
-            touching: !problem.scene.interfaces.is_empty() && problem.integration.is_none(),
+            strict: touching && problem.scene.phases[problem.phase].search.is_some(),
+            touching,
             stalled: 0,
             due: false,
             length: 0.0,
@@ -125,9 +127,9 @@ impl<'a, const D: usize> Newton<'a, D> {
         for start in self.problem.predictor.into_iter().chain(initially_closed.then_some(self.problem.converged)) {
             self.problem.begin(self.grid, &mut self.buffers.now.at, start);
             // Along directions with a frozen status the true residual says whether contacts stay closed.
-            self.strict = true;
+            let strict = std::mem::replace(&mut self.strict, true);
             let done = self.first_iterations();
-            self.strict = false;
+            self.strict = strict;
             if done.is_ok() {
                 return Ok(());
             }
