@@ -140,24 +140,28 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
     }
 
     /// One time step of the size that `controller` wants. It is tried with the predictor first; a step that fails is tried again on a
-    /// reset grid or without the predictor, and is then halved until it converges.
+    /// reset grid, without the predictor, or with full steps on trial, and is then halved until it converges.
     ///
     /// # Errors
     /// When a point left the grid, the step falls below the least one, or memory does not suffice.
     pub fn advance(&mut self, controller: &mut Controller) -> Result<Report<D>> {
         let before = self.state.restorations;
         let (mut fresh, mut unbalanced) = timed(Activity::Transfer, || self.initialise(false))?;
-        let mut predict = true;
+        let (mut predict, mut trials) = (true, false);
         let (dt, start, solution) = loop {
             let dt = controller.size(self.state.phase_time);
             let predictor = std::mem::take(&mut predict).then(|| predictor::extrapolated(&self.state, dt)).flatten();
-            match self.lagrange(dt, predictor.as_deref()).and_then(|found| self.stands(dt, found)) {
+            match self.lagrange(dt, predictor.as_deref(), trials).and_then(|found| self.stands(dt, found)) {
                 Ok((start, solution)) => break (dt, start, solution),
                 Err(error) if error.kind == Kind::Analysis => {
                     if !fresh {
                         // Reset a deformed grid before the step is halved.
                         (fresh, unbalanced) = timed(Activity::Transfer, || self.initialise(true))?;
                     } else if predictor.is_none() {
+                        trials = !trials && self.may_try();
+                        if trials {
+                            continue;
+                        }
                         unbalanced::hold(self.scene, &mut self.grid, &mut self.state, dt)?;
                         controller.halve(dt, error)?;
                     }
@@ -171,6 +175,13 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
         report.unbalanced = unbalanced;
         report.halvings = controller.accept(dt, report.iterations());
         Ok(report)
+    }
+
+    /// Whether a step that fails is tried with full steps on trial: those without contact or with inertia have them anyway, and a search for failure is
+    /// to end at the nearest equilibrium.
+    fn may_try(&self) -> bool {
+        let (scene, state) = (self.scene, &self.state);
+        !scene.interfaces.is_empty() && !state.dynamic(scene) && scene.phases[state.phase].search.is_none()
     }
 
     /// Points to grid: restores the grid where that is due or `forced`. Returns whether another reset would change nothing (the grid was
@@ -201,7 +212,7 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
     }
 
     /// Solves the step on the grid (eq. 1; with inertia eq. 6).
-    fn lagrange(&mut self, dt: f64, predictor: Option<&[[f64; D]]>) -> Result<Lagrange<D>> {
+    fn lagrange(&mut self, dt: f64, predictor: Option<&[[f64; D]]>, trials: bool) -> Result<Lagrange<D>> {
         let (scene, state) = (self.scene, &self.state);
         let dynamic = state.dynamic(scene);
         let given = grid::given_increments(scene, state, &self.grid, dt);
@@ -212,6 +223,7 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
             scene,
             state,
             predictor,
+            trials,
             converged: &state.displacement,
             pressure: &state.pressure,
             velocity,

@@ -50,8 +50,8 @@ struct Newton<'a, const D: usize> {
     /// The residual (kN) on the right of eq. 14, and how many full steps in a row the watchdog has accepted that did not reduce it.
     target: f64,
     relaxed: usize,
-    /// Whether every iteration must reduce the residual, without watchdog: once that has failed, and where contact is part of a search for failure,
-    /// which is to end at the nearest equilibrium.
+    /// Whether every iteration must reduce the residual, without watchdog: once that has failed, and in quasi-static steps with contact unless the
+    /// problem allows trials.
     strict: bool,
     /// Whether contact status may change during a full step, in a quasi-static step.
     touching: bool,
@@ -86,7 +86,7 @@ impl<'a, const D: usize> Newton<'a, D> {
             method: Method::Cholesky,
             target: f64::INFINITY,
             relaxed: 0,
-            strict: touching && problem.scene.phases[problem.phase].search.is_some(),
+            strict: touching && !problem.trials,
             touching,
             stalled: 0,
             due: false,
