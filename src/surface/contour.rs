@@ -1,7 +1,7 @@
 //! The surface as a contour of how full the surroundings of the nodes are.
 //!
-//! `φ_v = Σ V_p L_v(x_p) / ∫ L_v dV` with hats `L_v` that are linear on the triangles between the nodes of a cell; the
-//! material is where `φ > c`, at the level `c` that encloses `Σ V_p`. The integral of a hat ends at the boundary of
+//! `φ_v = Σ V_p L_v(x_p) / ∫ L_v dV` with shape functions `L_v` that are linear on the triangles between the nodes of a cell;
+//! the material is where `φ > c`, at the level `c` that encloses `Σ V_p`. The integral of a shape function ends at the boundary of
 //! the mesh, so that a wall there is no surface. There is no smoothing.
 
 use super::geometry::Geometry;
