@@ -23,6 +23,13 @@ pub struct Gradient<const D: usize> {
     pub hoop: f64,
 }
 
+impl<const D: usize> Gradient<D> {
+    /// Whether the function neither acts on the point nor strains it.
+    pub fn is_zero(&self) -> bool {
+        self.hoop == 0.0 && self.g.iter().all(|&g| g == 0.0)
+    }
+}
+
 /// How nodal displacements strain a point in `D` dimensions.
 pub trait Kinematics<const D: usize>: Copy + Default + Send + Sync + 'static {
     /// The spatial tangent `a_ijkl = C_ijkl − τ_il δ_jk`.

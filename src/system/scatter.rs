@@ -61,8 +61,17 @@ fn share(pattern: &Pattern, connectivity: impl Iterator<Item = usize>, threads: 
     (1..threads).map(|part| blocks.get(part * blocks.len() / threads).copied().unwrap_or(0)).collect()
 }
 
-/// Items computed side by side before their results are added, in their order, to the system.
+/// Most items computed side by side before their results are added, in their order, to the system.
 const BATCH: usize = 512;
+/// Numbers that the results of a batch have about: as many as stay in a cache until they are added.
+const NUMBERS: usize = 1 << 16;
+/// Least number of items of a batch for each thread.
+const EACH: usize = 4;
+
+/// Items of a batch, given the numbers that the result of one has at most, and the threads.
+fn batch(stride: usize, threads: usize) -> usize {
+    (NUMBERS / stride).max(EACH * threads).min(BATCH)
+}
 
 /// Memory that assembly uses again and again.
 #[derive(Default)]
@@ -91,11 +100,12 @@ pub fn scatter<I: Sync>(
     if stride == 0 {
         return Ok(());
     }
-    let needed = stride * items.len().min(BATCH);
+    let threads = rayon::current_num_threads();
+    let at_once = batch(stride, threads);
+    let needed = stride * items.len().min(at_once);
     if workspace.buffer.len() < needed {
         workspace.buffer.resize(needed, 0.0);
     }
-    let threads = rayon::current_num_threads();
     let run = |item: &I, slot: &mut [f64]| {
         let k = coupling(item);
         let size = pattern.local_size(k);
@@ -106,7 +116,7 @@ pub fn scatter<I: Sync>(
         pattern.reduce(k, vector, rest);
         Ok(())
     };
-    for batch in items.chunks(BATCH) {
+    for batch in items.chunks(at_once) {
         let slots = &mut workspace.buffer[..stride * batch.len()];
         let pairs = batch.par_iter().zip(slots.par_chunks_mut(stride));
         if pairs.try_for_each(|(item, slot)| run(item, slot).map_err(|_| ())).is_err() {
@@ -132,4 +142,65 @@ pub fn scatter<I: Sync>(
         });
     }
     Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::Connectivity;
+    use super::*;
+
+    #[test]
+    fn batches_of_large_couplings_are_small() {
+        assert_eq!(batch(100, 2), BATCH);
+        assert_eq!(batch(NUMBERS / 10, 2), 10);
+        assert_eq!(batch(NUMBERS, 2), 2 * EACH);
+    }
+
+    /// More items than a batch takes, which see half of their coupling: the sums are those of one after the other, to the last bit.
+    #[test]
+    fn sums_are_those_of_the_items_in_their_order() {
+        for symmetric in [true, false] {
+            let mut connectivity = Connectivity::default();
+            connectivity.push(0..60);
+            connectivity.push((30..90).rev());
+            let pattern = Pattern::new(&[2; 90], connectivity, symmetric);
+            let items: Vec<usize> = (0..40).collect();
+            let entry =
+                |item: usize, i: usize| if (i + item).is_multiple_of(2) { ((i + 7 * item) as f64).sin() } else { 0.0 };
+            let compute = |item: &usize, local: &mut Local| {
+                for i in 0..local.size {
+                    local.vector[i] = entry(*item, i);
+                    for j in 0..local.size {
+                        local.matrix[i * local.size + j] = entry(*item, i) * entry(*item, j);
+                    }
+                }
+                Ok(())
+            };
+            let (mut matrix, mut vector) = (Matrix::new(&pattern), vec![0.0; pattern.len()]);
+            assert!(batch(pattern.largest_coupling.pow(2), rayon::current_num_threads()) < items.len());
+            scatter(&pattern, &items, |k| k % 2, compute, &mut vector, Some(&mut matrix), &mut Workspace::default())
+                .unwrap();
+            let (mut dense, mut sum) = (vec![vec![0.0; pattern.len()]; pattern.len()], vec![0.0; pattern.len()]);
+            for &item in &items {
+                let equations: Vec<usize> = pattern
+                    .connectivity
+                    .blocks(item % 2)
+                    .iter()
+                    .flat_map(|&b| [2 * b as usize, 2 * b as usize + 1])
+                    .collect();
+                for (a, &i) in equations.iter().enumerate() {
+                    sum[i] += entry(item, a);
+                    for (b, &j) in equations.iter().enumerate() {
+                        dense[i][j] += entry(item, a) * entry(item, b);
+                    }
+                }
+            }
+            assert_eq!(vector, sum);
+            for j in 0..pattern.len() {
+                for k in pattern.column[j] as usize..pattern.column[j + 1] as usize {
+                    assert_eq!(matrix.values[k], dense[pattern.row[k] as usize][j]);
+                }
+            }
+        }
+    }
 }

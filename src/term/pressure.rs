@@ -270,7 +270,8 @@ impl<const D: usize, K: Kinematics<D>> Mixed<D, K> for PressureField<K> {
             by_field += seen.stress;
         }
         let acting = acts_on * by_field;
-        for (i, (force, strain)) in forces.iter().zip(strains).enumerate() {
+        let acts = |(_, (force, strain)): &(usize, (&Gradient<D>, &Gradient<D>))| !force.is_zero() || !strain.is_zero();
+        for (i, (force, strain)) in forces.iter().zip(strains).enumerate().filter(acts) {
             let (volume, force) = (K::force(&by_strain, strain), K::force(&acting, force));
             for (a, shape) in shapes.iter().enumerate().take(count) {
                 for d in 0..D {

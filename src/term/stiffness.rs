@@ -3,6 +3,7 @@
 //! The right one holds `w a B` of the gradients that strains are taken with, a row for each component of each point; the left one the
 //! gradients that forces act through. Their product runs along rows of the result, so that it fills whole registers, whatever the machine has.
 
+use crate::interpolation::MAX_FUNCTIONS;
 use crate::kinematics::{Gradient, Kinematics};
 use crate::system::Local;
 use crate::tensor::Tensor;
@@ -11,6 +12,7 @@ use std::cell::RefCell;
 
 /// Points whose rows are multiplied at once: as many as stay in the nearest cache.
 const AT_ONCE: usize = 16;
+const _: () = assert!(MAX_FUNCTIONS <= u64::BITS as usize);
 
 thread_local! {
     /// Memory that the cells of a thread use again and again.
@@ -29,6 +31,9 @@ pub struct Stiffness {
     /// Length of the rows of `right`.
     width: usize,
     points: usize,
+    /// The functions that have a gradient at each point, in bits: of `left` and of `right`. A point sees few of those of its cell where these
+    /// reach as far as the cells around it.
+    seen: [[u64; 2]; AT_ONCE],
 }
 
 impl Stiffness {
@@ -59,11 +64,19 @@ impl Stiffness {
         self.right.resize(right * AT_ONCE, 0.0);
         let left = &mut self.left[left * self.points..][..left];
         let right = &mut self.right[right * self.points..][..right];
+        let seen = &mut self.seen[self.points];
+        *seen = [0; 2];
         for (b, (force, strain)) in forces.iter().zip(strains).enumerate() {
             for d in 0..D {
                 left[d * functions + b] = force.g[d];
             }
             left[D * functions + b] = force.hoop;
+            seen[0] |= u64::from(!force.is_zero()) << b;
+            if strain.is_zero() {
+                right.chunks_exact_mut(width).for_each(|row| row[b * D..(b + 1) * D].fill(0.0));
+                continue;
+            }
+            seen[1] |= 1 << b;
             let column = K::column(tangent, strain);
             for (row, column) in right.chunks_exact_mut(width).zip(column.as_ref()) {
                 for (entry, a) in row[b * D..(b + 1) * D].iter_mut().zip(column) {
@@ -84,6 +97,7 @@ impl Stiffness {
             Arch::new().dispatch(Product {
                 left: &self.left[..(D + 1) * self.functions * points],
                 right: &self.right[..rows::<D, K>() * self.width * points],
+                seen: &self.seen[..points],
                 functions: self.functions,
                 width: self.width,
                 dimension: D,
@@ -139,6 +153,7 @@ impl WithSimd for Lanes {
 struct Product<'a> {
     left: &'a [f64],
     right: &'a [f64],
+    seen: &'a [[u64; 2]],
     functions: usize,
     width: usize,
     dimension: usize,
@@ -181,7 +196,13 @@ impl Product<'_> {
         let per_point = (dimension * dimension + usize::from(self.hoop)) * vectors;
         let (right, _) = S::as_simd_f64s(self.right);
         let mut sum = [[simd.splat_f64s(0.0); C]; R];
-        for (left, right) in self.left.chunks_exact((dimension + 1) * functions).zip(right.chunks_exact(per_point)) {
+        let (begin, end) = (c * S::F64_LANES, (c + C) * S::F64_LANES);
+        let tile = [bits(a, a + R), bits(begin / dimension, functions.min(end.div_ceil(dimension)))];
+        let points = self.left.chunks_exact((dimension + 1) * functions).zip(right.chunks_exact(per_point));
+        for ((left, right), seen) in points.zip(self.seen) {
+            if seen[0] & tile[0] == 0 || seen[1] & tile[1] == 0 {
+                continue;
+            }
             for j in 0..dimension {
                 let right = &right[(self.component * dimension + j) * vectors..];
                 add(simd, &mut sum, &left[j * functions + a..], &right[c..]);
@@ -194,13 +215,17 @@ impl Product<'_> {
         for (k, sum) in sum.iter().enumerate() {
             let row = ((a + k) * dimension + self.component) * self.size;
             let row = &mut self.matrix[row..row + functions * dimension];
-            let begin = c * S::F64_LANES;
-            let end = row.len().min(begin + C * S::F64_LANES);
+            let end = row.len().min(end);
             for (entry, sum) in row[begin..end].iter_mut().zip(pulp::bytemuck::cast_slice::<S::f64s, f64>(sum)) {
                 *entry += sum;
             }
         }
     }
+}
+
+/// Bits from `begin` to `end`, of at most 64.
+fn bits(begin: usize, end: usize) -> u64 {
+    (u64::MAX >> (64 - (end - begin))) << begin
 }
 
 /// Adds the products of `R` gradients with `C` registers. A closure in its place might be compiled on its own, without
@@ -212,6 +237,52 @@ fn add<S: Simd, const R: usize, const C: usize>(simd: S, sum: &mut [[S::f64s; C]
         let g = simd.splat_f64s(left[k]);
         for l in 0..C {
             sum[k][l] = simd.mul_add_e_f64s(g, right[l], sum[k][l]);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::kinematics::Axisymmetric;
+
+    /// Points that see some of many functions, forces others than strains: the sum is that of the blocks of all pairs of functions.
+    #[test]
+    fn functions_that_points_do_not_see_are_left_out() {
+        for functions in [5, 31, MAX_FUNCTIONS] {
+            let size = 2 * functions + 3;
+            let (mut matrix, mut vector) = (vec![0.0; size * size], vec![0.0; size]);
+            let mut expected = matrix.clone();
+            let mut local = Local { matrix: &mut matrix, vector: &mut vector, size };
+            let tangent = std::array::from_fn(|i| std::array::from_fn(|j| ((3 * i + j) as f64).cos()));
+            Stiffness::with::<2, _>(functions, |stiffness| {
+                for p in 0..AT_ONCE + 5 {
+                    let gradient = |b: usize, shift: usize| match (b + p + shift) % 7 {
+                        0 => Gradient { g: [(b + p) as f64, 1.0], hoop: 0.5 },
+                        1 => Gradient { g: [0.0; 2], hoop: b as f64 + 1.0 },
+                        _ => Gradient { g: [0.0; 2], hoop: 0.0 },
+                    };
+                    let [forces, strains]: [Vec<Gradient<2>>; 2] =
+                        [0, 1].map(|shift| (0..functions).map(|b| gradient(b, shift)).collect());
+                    stiffness.push::<2, Axisymmetric>(&tangent, [&forces, &strains], 0.25, &mut local);
+                    for (b, strain) in strains.iter().enumerate() {
+                        let column = Axisymmetric::column(&tangent, strain);
+                        for (a, force) in forces.iter().enumerate() {
+                            let block = Axisymmetric::block(&column, force);
+                            for i in 0..2 {
+                                for k in 0..2 {
+                                    expected[(2 * a + i) * size + 2 * b + k] += 0.25 * block[i][k];
+                                }
+                            }
+                        }
+                    }
+                }
+                stiffness.add_to::<2, Axisymmetric>(&mut local);
+            });
+            let largest = expected.iter().fold(0.0, |most: f64, e| most.max(e.abs()));
+            for (found, wanted) in matrix.iter().zip(&expected) {
+                assert!((found - wanted).abs() < 1e-12 * largest, "{functions}: {found} against {wanted}");
+            }
         }
     }
 }
