@@ -243,6 +243,9 @@ impl Columns<'_> {
         for (a, &block) in blocks.iter().enumerate() {
             let offsets = &pattern.offset[first_pair + a * blocks.len()..][..blocks.len()];
             for (i, row) in rows.by_ref().take(equations(block).len()).enumerate() {
+                if row.iter().all(|&value| value == 0.0) {
+                    continue;
+                }
                 for (number, other, begin, equations) in &own {
                     // The lower triangle: in the diagonal block the entries up to the diagonal.
                     let wanted = match (pattern.symmetric, block.cmp(other)) {
