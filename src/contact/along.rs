@@ -29,15 +29,20 @@ impl<const D: usize> Mark<D> {
     }
 }
 
-/// Force (kN) of each contact node over the area (kPa) that `lines` have under it. As a function along them it has the integral that the forces add
-/// up to, also where they are of a part of their contact node only, or not along the normal of the place.
-pub fn traction<const D: usize>(lines: &[Vec<Mark<D>>], force: &[[f64; 3]]) -> Vec<[f64; 3]> {
-    let mut area = vec![0.0; force.len()];
+/// Area (m² per metre in plane strain, m² per full turn in axisymmetry) that `lines` have under each of `count` contact nodes.
+pub fn areas<const D: usize>(lines: &[Vec<Mark<D>>], count: usize) -> Vec<f64> {
+    let mut area = vec![0.0; count];
     for mark in lines.iter().flatten() {
         mark.contact_nodes.iter().for_each(|&(contact_node, share)| area[contact_node as usize] += share * mark.area);
     }
+    area
+}
+
+/// Force (kN) of each contact node over the area (kPa) that `lines` have under it. As a function along them it has the integral that the forces add
+/// up to, also where they are of a part of their contact node only, or not along the normal of the place.
+pub fn traction<const D: usize>(lines: &[Vec<Mark<D>>], force: &[[f64; 3]]) -> Vec<[f64; 3]> {
     let over = |(force, area): (&[f64; 3], f64)| if area > 0.0 { force.map(|f| f / area) } else { [0.0; 3] };
-    force.iter().zip(area).map(over).collect()
+    force.iter().zip(areas(lines, force.len())).map(over).collect()
 }
 
 /// A line for each smooth stretch of the boundary, with a mark where segments meet and at both ends; one without ends

@@ -19,9 +19,10 @@ mod multipliers;
 mod place;
 mod rigid;
 mod skin;
+mod smoothing;
 mod surface;
 
-pub use along::{Mark, traction};
+pub use along::{Mark, areas, traction};
 pub use bodies::{Bodies, SoilSide};
 pub use constraint::Constraint;
 pub use interface::{Boundary, Ground, Interface, Pushed};
@@ -30,4 +31,5 @@ pub use motion::{Motion, Spot};
 pub use multipliers::Multipliers;
 pub use rigid::Rigid;
 pub use skin::Skin;
+pub use smoothing::smooth_pressures;
 pub use surface::{Run, Surface};

@@ -1,7 +1,7 @@
 //! What frames hold of contact: the values of the contact nodes along the boundaries of structures, as lines.
 
 use super::columns::{column, triples};
-use crate::contact::traction;
+use crate::contact::{areas, smooth_pressures, traction};
 use crate::io::frame::{FACES, LINE, Part, REGION};
 use crate::step::{Scene, State};
 
@@ -30,7 +30,7 @@ pub fn part<const D: usize>(scene: &Scene<D>, state: &State<D>) -> Part {
         let held = state.multipliers.get(i);
         let lines = interface.lines(&position);
         let of_nodes = held.map(|h| traction(&lines, &h.force));
-        let pressures = held.map(|h| h.smooth_pressures(interface.runs()));
+        let pressures = held.map(|h| smooth_pressures(&h.pressure, interface.runs(), &areas(&lines, h.pressure.len())));
         for line in &lines {
             for mark in line {
                 let known = held
