@@ -22,7 +22,7 @@ mod skin;
 mod smoothing;
 mod surface;
 
-pub use along::{Mark, areas, traction};
+pub use along::{Mark, Tractions};
 pub use bodies::{Bodies, SoilSide};
 pub use constraint::Constraint;
 pub use interface::{Boundary, Ground, Interface, Pushed};
@@ -31,5 +31,4 @@ pub use motion::{Motion, Spot};
 pub use multipliers::Multipliers;
 pub use rigid::Rigid;
 pub use skin::Skin;
-pub use smoothing::smooth_pressures;
 pub use surface::{Run, Surface};
