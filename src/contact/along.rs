@@ -1,7 +1,9 @@
 //! The boundary of a structure as lines along which the values of its contact nodes are drawn.
 
+use super::multipliers::Multipliers;
 use super::place::Segments;
-use super::surface::Surface;
+use super::smoothing::smooth;
+use super::surface::{Run, Surface};
 use crate::kinematics::Kinematics;
 
 /// A place on a boundary: the two contact nodes over it, with their values there (-), which add up to one.
@@ -29,15 +31,48 @@ impl<const D: usize> Mark<D> {
     }
 }
 
-/// Force (kN) of each contact node over the area (kPa) that `lines` have under it. As a function along them it has the integral that the forces add
-/// up to, also where they are of a part of their contact node only, or not along the normal of the place.
-pub fn traction<const D: usize>(lines: &[Vec<Mark<D>>], force: &[[f64; 3]]) -> Vec<[f64; 3]> {
-    let mut area = vec![0.0; force.len()];
-    for mark in lines.iter().flatten() {
-        mark.contact_nodes.iter().for_each(|&(contact_node, share)| area[contact_node as usize] += share * mark.area);
+/// What the contact nodes of a boundary exert on the structure.
+#[derive(Clone, Debug, Default)]
+pub struct Tractions {
+    /// (kPa) As a function along the lines it has the integral that the forces add up to, also where these are of a part of their contact node only, or not
+    /// along the normal of the place.
+    pub traction: Vec<[f64; 3]>,
+    /// The component against the normal out of the structure (kPa), compression positive; where no contact node pulls, not below zero.
+    pub pressure: Vec<f64>,
+}
+
+impl Tractions {
+    /// Those of the forces that the contact nodes came to, over the area of `lines` under them, [`smooth`] along the `runs`.
+    pub fn new<const D: usize>(lines: &[Vec<Mark<D>>], runs: &[Run], held: &Multipliers) -> Self {
+        let (area, normal) = areas(lines, held.force.len());
+        let over = |(force, &area): (&[f64; 3], &f64)| if area > 0.0 { force.map(|f| f / area) } else { [0.0; 3] };
+        let of_nodes: Vec<[f64; 3]> = held.force.iter().zip(&area).map(over).collect();
+        let against =
+            |t: &[f64; 3], n: &[f64; 2]| -(t[0] * n[0] + t[1] * n[1]) / n[0].hypot(n[1]).max(f64::MIN_POSITIVE);
+        let traction = smooth(&of_nodes, runs, &area);
+        let least = if held.pressure.iter().any(|pressure| *pressure < 0.0) { f64::NEG_INFINITY } else { 0.0 };
+        let pressure = traction.iter().zip(&normal).map(|(t, n)| against(t, n).max(least)).collect();
+        Self { traction, pressure }
     }
-    let over = |(force, area): (&[f64; 3], f64)| if area > 0.0 { force.map(|f| f / area) } else { [0.0; 3] };
-    force.iter().zip(area).map(over).collect()
+}
+
+/// Area (m², per metre or full turn) that `lines` have under each of `count` contact nodes, and the same times the normal out of the structure.
+fn areas<const D: usize>(lines: &[Vec<Mark<D>>], count: usize) -> (Vec<f64>, Vec<[f64; 2]>) {
+    let (mut area, mut normal) = (vec![0.0; count], vec![[0.0; 2]; count]);
+    for line in lines {
+        for (i, mark) in line.iter().enumerate() {
+            let [from, to] = [i.saturating_sub(1), (i + 1).min(line.len() - 1)].map(|k| line[k].place);
+            let along = [to[0] - from[0], to[1] - from[1]];
+            let length = along[0].hypot(along[1]);
+            for &(contact_node, share) in &mark.contact_nodes {
+                let weight = share * mark.area;
+                area[contact_node as usize] += weight;
+                normal[contact_node as usize][0] += weight * along[1] / length;
+                normal[contact_node as usize][1] -= weight * along[0] / length;
+            }
+        }
+    }
+    (area, normal)
 }
 
 /// A line for each smooth stretch of the boundary, with a mark where segments meet and at both ends; one without ends
@@ -127,7 +162,11 @@ mod tests {
         let lines = lines::<Axisymmetric>(&surface, &segments);
         let force: Vec<[f64; 3]> =
             (0..surface.contact_nodes).map(|k| [(k as f64).sin(), 1.0 + (k % 3) as f64, 0.0]).collect();
-        let traction = traction(&lines, &force);
+        let Tractions { traction, .. } = Tractions::new(
+            &lines,
+            &surface.runs,
+            &Multipliers { force: force.clone(), ..Multipliers::new(force.len()) },
+        );
         let mut sum = [0.0; 3];
         for ends in lines.iter().flat_map(|line| line.windows(2)) {
             let [a, b] = [&ends[0], &ends[1]];

@@ -19,9 +19,10 @@ mod multipliers;
 mod place;
 mod rigid;
 mod skin;
+mod smoothing;
 mod surface;
 
-pub use along::{Mark, traction};
+pub use along::{Mark, Tractions};
 pub use bodies::{Bodies, SoilSide};
 pub use constraint::Constraint;
 pub use interface::{Boundary, Ground, Interface, Pushed};

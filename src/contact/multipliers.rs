@@ -7,8 +7,6 @@ use super::surface::Run;
 const EVEN: f64 = 0.5;
 /// A sixteenth of the fourth difference. Subtracted, it removes an oscillation from contact node to contact node, and leaves a cubic as it is.
 const FOURTH: [f64; 5] = [1.0 / 16.0, -0.25, 0.375, -0.25, 1.0 / 16.0];
-/// A quarter of the second difference, whose square is [`FOURTH`].
-const SECOND: [f64; 3] = [0.25, -0.5, 0.25];
 
 /// What the contact nodes of an interface carry from step to step; one entry a contact node.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -82,21 +80,6 @@ impl Multipliers {
         gap
     }
 
-    /// The pressures (kPa) to report: without oscillations from one contact node to the next, which a single step leaves and to which the soil hardly
-    /// responds. From each three closed contact nodes in a row a part of the second difference is removed. Within a run that makes a sixteenth of
-    /// the fourth difference. The sum of the pressures and their first moment along the run are unchanged, and a linear pressure is too.
-    pub fn smooth_pressures(&self, runs: &[Run]) -> Vec<f64> {
-        let mut pressure = self.pressure.clone();
-        for run in runs {
-            for k in 0..run.0.len() as isize {
-                let Some(window) = self.in_a_row(run, [k - 1, k, k + 1], |pressure| pressure != 0.0) else { continue };
-                let difference: f64 = window.iter().zip(SECOND).map(|(&at, share)| share * self.pressure[at]).sum();
-                window.iter().zip(SECOND).for_each(|(&at, share)| pressure[at] -= share * difference);
-            }
-        }
-        pressure
-    }
-
     /// The contact nodes at these places of a run, if the pressure (kPa) of all `counts`.
     fn in_a_row<const N: usize>(
         &self,
@@ -165,25 +148,5 @@ mod tests {
         let cubic: Vec<f64> = (0..count).map(|k| (k as f64 - 2.5).powi(3)).collect();
         let smooth = Multipliers { gap: cubic.clone(), ..waves }.smooth_gaps(&run(false));
         assert!(smooth.iter().zip(&cubic).all(|(a, b)| (a - b).abs() < 1e-11), "{smooth:?}");
-    }
-
-    /// What is reported has no oscillation, the same sum and first moment, and no pressure where there is none.
-    #[test]
-    fn reported_pressures_bear_the_same_load() {
-        let count = 12;
-        let at = |pressure: Vec<f64>| Multipliers { pressure, ..Multipliers::new(count) };
-        let wave: Vec<f64> = (0..count).map(|k| 10.0 + if k % 2 == 0 { 3.0 } else { -3.0 }).collect();
-        let even = at(wave.clone()).smooth_pressures(&[(0..count, true)]);
-        assert!(even.iter().all(|p| (p - 10.0).abs() < 1e-14), "{even:?}");
-        let parted: Vec<f64> = wave.iter().enumerate().map(|(k, p)| if k == 7 { 0.0 } else { p * p }).collect();
-        let smooth = at(parted.clone()).smooth_pressures(&[(0..count, false)]);
-        assert_eq!(smooth[7], 0.0);
-        for run in [0..7, 8..count] {
-            let sums =
-                |values: &[f64]| run.clone().fold([0.0; 2], |[a, b], k| [a + values[k], b + k as f64 * values[k]]);
-            let ([a, b], [c, d]) = (sums(&smooth), sums(&parted));
-            assert!((a - c).abs() < 1e-11 && (b - d).abs() < 1e-11, "{smooth:?}");
-        }
-        assert!((2..5).all(|k| (smooth[k] - 109.0).abs() < 1e-11), "{smooth:?}");
     }
 }
