@@ -189,74 +189,6 @@ impl<K: Kinematics<2>> Boundary<K> {
     }
 }
 
-/// Experiment.
-fn combined(found: &[Constraint<2>], runs: &[Run]) -> Vec<Constraint<2>> {
-    let mut shares: Vec<Vec<(usize, f64)>> = (0..found.len()).map(|k| vec![(k, 1.0)]).collect();
-    let index = |n: usize| found.binary_search_by_key(&(n as u32), |c| c.contact_node).ok();
-    let scale: f64 = std::env::var("MPM_S").ok().and_then(|s| s.parse().ok()).unwrap_or(1.0);
-    for (run, is_loop) in runs {
-        let count = run.len();
-        for k in 0..count {
-            if !is_loop && (k == 0 || k + 1 == count) {
-                continue;
-            }
-            let rows = [k + count - 1, k, k + 1].map(|k| index(run.start + k % count));
-            let [Some(a), Some(b), Some(c)] = rows else { continue };
-            if found[b].curvature.abs() > 1e300 {
-                continue;
-            }
-            let d = [(a, 1.0), (b, -2.0), (c, 1.0)];
-            for (i, x) in d {
-                for (j, y) in d {
-                    let w = -scale * x * y / 16.0;
-                    match shares[i].iter_mut().find(|s| s.0 == j) {
-                        Some(s) => s.1 += w,
-                        None => shares[i].push((j, w)),
-                    }
-                }
-            }
-        }
-    }
-    found
-        .iter()
-        .enumerate()
-        .map(|(k, constraint)| {
-            let mut entries: Vec<(u32, bool, [f64; 2], [f64; 2], [f64; 2])> = Vec::new();
-            let mut area = 0.0;
-            for &(j, share) in &shares[k] {
-                let c = &found[j];
-                area += share * c.area;
-                for (i, &n) in c.nodes.iter().enumerate() {
-                    let w = share * c.area;
-                    let own = i < c.own;
-                    let e = match entries.iter().position(|e| e.0 == n && e.1 == own) {
-                        Some(e) => e,
-                        None => {
-                            entries.push((n, own, [0.0; 2], [0.0; 2], [0.0; 2]));
-                            entries.len() - 1
-                        }
-                    };
-                    for d in 0..2 {
-                        entries[e].2[d] += w * c.by_normal[i][d];
-                        entries[e].3[d] += w * c.by_tangent[i][d];
-                        entries[e].4[d] += w * c.by_arc[i][d];
-                    }
-                }
-            }
-            entries.sort_by_key(|e| (!e.1, e.0));
-            Constraint {
-                area,
-                own: entries.iter().filter(|e| e.1).count(),
-                nodes: entries.iter().map(|e| e.0).collect(),
-                by_normal: entries.iter().map(|e| e.2.map(|v| v / area)).collect(),
-                by_tangent: entries.iter().map(|e| e.3.map(|v| v / area)).collect(),
-                by_arc: entries.iter().map(|e| e.4.map(|v| v / area)).collect(),
-                ..constraint.clone()
-            }
-        })
-        .collect()
-}
-
 /// The shear strength (kPa) of the soil at a point as the step begins.
 fn strength(models: &[Option<Arc<dyn Model>>], points: &Points<2>, p: usize) -> f64 {
     let model = models.get(points.model_of(p)).and_then(Option::as_ref);
@@ -361,10 +293,7 @@ impl<K: Kinematics<2>> Interface<2> for Boundary<K> {
         let segments = Segments::new::<K>(&self.surface, position);
         let soil = Soil { points: ground.points, regions: &self.regions };
         let gaps = raw_gaps::<K>(&self.surface, &segments, &soil, &self.skin);
-        let (surface, smooth) = (
-            Facing::new(ground.surface),
-            if std::env::var("MPM_S").is_ok() { held.gap.clone() } else { held.smooth_gaps(&self.surface.runs) },
-        );
+        let (surface, smooth) = (Facing::new(ground.surface), held.smooth_gaps(&self.surface.runs));
         let mut holds = vec![false; ground.grid.cells.len()];
         ground.points.cell.iter().chain(ground.integration).for_each(|&c| holds[c as usize] = true);
         let mut sums: Vec<Option<Sum>> = (0..self.surface.contact_nodes).map(|_| None).collect();
@@ -487,8 +416,7 @@ impl<K: Kinematics<2>> Interface<2> for Boundary<K> {
                 },
             })
         };
-        let found: Vec<Constraint<2>> = sums.into_iter().enumerate().filter_map(constraint).collect();
-        if std::env::var("MPM_S").is_ok() { combined(&found, &self.surface.runs) } else { found }
+        sums.into_iter().enumerate().filter_map(constraint).collect()
     }
 
     fn outlines(&self, position: &dyn Fn(u32) -> [f64; 2]) -> Vec<Vec<[f64; 2]>> {

@@ -23,7 +23,6 @@ pub fn part<const D: usize>(scene: &Scene<D>, state: &State<D>) -> Part {
     let mut place = Vec::new();
     let [mut pressure, mut shear, mut gap, mut slip] = [const { Vec::new() }; 4];
     let mut tractions = Vec::new();
-    let mut raw = Vec::new();
     let [mut number, mut region, mut faces] = [const { Vec::new() }; 3];
     let mut count = 0;
     for (i, interface) in scene.interfaces.iter().enumerate() {
@@ -37,7 +36,6 @@ pub fn part<const D: usize>(scene: &Scene<D>, state: &State<D>) -> Part {
                     .is_some_and(|h| mark.contact_nodes.iter().all(|&(k, share)| share == 0.0 || h.faces[k as usize]));
                 place.push(mark.place);
                 pressure.push(exerted.as_ref().map_or(0.0, |t| mark.value(&t.pressure)));
-                raw.push(held.map_or(0.0, |h| mark.value(&h.pressure)));
                 shear.push(held.map_or(0.0, |h| mark.value(&h.shear)));
                 gap.push(held.filter(|_| known).map_or(0.0, |h| mark.value(&h.gap)));
                 slip.push(held.map_or(0.0, |h| mark.value(&h.slid)));
@@ -51,7 +49,6 @@ pub fn part<const D: usize>(scene: &Scene<D>, state: &State<D>) -> Part {
     }
     let columns = vec![
         column("contact_pressure", "kPa", 1, pressure),
-        column("contact_raw", "kPa", 1, raw),
         column("contact_shear", "kPa", 1, shear),
         column("contact_traction", "kPa", 3, tractions),
         column("contact_gap", "m", 1, gap),

@@ -97,11 +97,7 @@ pub fn begin<const D: usize, K: Kinematics<D>>(
     let covered = scene.terms.iter().any(|term| term.sees_open_boundary());
     for (number, interface) in scene.touching(state.phase) {
         let held = &state.multipliers[number];
-        let constraints = interface.constraints(
-            &ground,
-            &at,
-            &if std::env::var("MPM_E").is_ok() { held.clone() } else { held.evened(interface.runs()) },
-        );
+        let constraints = interface.constraints(&ground, &at, &held.evened(interface.runs()));
         leaving::check(scene, interface, held, &constraints, &ground, &at)?;
         if covered {
             covers.extend(interface.covers(&constraints, &at));
