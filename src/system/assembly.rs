@@ -2,7 +2,6 @@
 
 use super::Pattern;
 use rayon::prelude::*;
-use std::cmp::Ordering;
 use std::ops::Range;
 
 /// Groups of columns that are worked on side by side, whatever the threads.
@@ -227,42 +226,38 @@ impl Columns<'_> {
         pattern.start[self.blocks.start as usize] as usize..pattern.start[self.blocks.end as usize] as usize
     }
 
-    /// Adds what the dense matrix of coupling `k` has in these columns. It is read along its rows, as it lies in memory, and zeros, which
-    /// most of it may be, are left out.
+    /// Adds what the dense matrix of coupling `k` has in these columns.
     pub fn add(&mut self, pattern: &Pattern, k: usize, local: &[f64], size: usize) {
-        let (blocks, first_pair) = (pattern.connectivity.blocks(k), pattern.pairs[k] as usize);
-        let equations = |b: u32| pattern.start[b as usize] as usize..pattern.start[b as usize + 1] as usize;
+        let blocks = pattern.connectivity.blocks(k);
+        let first_pair = pattern.pairs[k] as usize;
         let mut column = 0;
-        let place = |(number, &block): (usize, &u32)| {
-            let (begin, equations) = (column, equations(block));
-            column += equations.len();
-            self.blocks.contains(&block).then_some((number, block, begin, equations))
-        };
-        let own: Vec<_> = blocks.iter().enumerate().filter_map(place).collect();
-        let mut rows = local.chunks_exact(size.max(1));
-        for (a, &block) in blocks.iter().enumerate() {
-            let offsets = &pattern.offset[first_pair + a * blocks.len()..][..blocks.len()];
-            for (i, row) in rows.by_ref().take(equations(block).len()).enumerate() {
-                if row.iter().all(|&value| value == 0.0) {
-                    continue;
-                }
-                for (number, other, begin, equations) in &own {
-                    // The lower triangle: in the diagonal block the entries up to the diagonal.
-                    let wanted = match (pattern.symmetric, block.cmp(other)) {
-                        (true, Ordering::Less) => continue,
-                        (true, Ordering::Equal) => i + 1,
-                        _ => equations.len(),
-                    };
-                    for (j, &value) in row[*begin..begin + wanted].iter().enumerate() {
-                        if value != 0.0 {
-                            // Column j of the lower triangle has lost the first j rows of its diagonal block.
-                            let lost = if pattern.symmetric { j } else { 0 };
-                            let top = pattern.column[equations.start + j] as usize - self.first;
-                            self.values[top + offsets[*number] as usize + i - lost] += value;
+        for (b, &cb) in blocks.iter().enumerate() {
+            let width = (pattern.start[cb as usize + 1] - pattern.start[cb as usize]) as usize;
+            if !self.blocks.contains(&cb) {
+                column += width;
+                continue;
+            }
+            let mut row = 0;
+            for (a, &ra) in blocks.iter().enumerate() {
+                let height = (pattern.start[ra as usize + 1] - pattern.start[ra as usize]) as usize;
+                if !pattern.symmetric || ra >= cb {
+                    let offset = pattern.offset[first_pair + a * blocks.len() + b] as usize;
+                    for j in 0..width {
+                        let begin = pattern.column[pattern.start[cb as usize] as usize + j] as usize - self.first;
+                        // In the lower triangle column j of the diagonal block has lost its first j rows.
+                        let (skip, lost) = match (pattern.symmetric, ra == cb) {
+                            (true, true) => (j, j),
+                            (true, false) => (0, j),
+                            _ => (0, 0),
+                        };
+                        for i in skip..height {
+                            self.values[begin + offset + i - lost] += local[(row + i) * size + column + j];
                         }
                     }
                 }
+                row += height;
             }
+            column += width;
         }
     }
 }
