@@ -152,13 +152,8 @@ pub fn of_phase(case: &Case, meshes: [&Mesh<2>; 2], phase: usize) -> Result<Vec<
             region: index,
             of: region.name.clone(),
             number: (first + k) as u16,
-            into: material.name.clone(),
-            model: material.model.clone(),
-            carried: material.carried.clone(),
-            before: before.and_then(|before| before.carried.clone()),
-            density: material.density,
-            random_strength: material.random_strength.clone(),
-            goes_on: before.is_some_and(|before| before.model_name == material.model_name),
+            into: material.clone(),
+            before: before.cloned(),
         })
     };
     case.phases[phase].changes.iter().enumerate().map(change).collect()

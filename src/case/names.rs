@@ -101,7 +101,7 @@ impl Names<'_> {
     /// Refuses reactions, which supports give and not regions.
     fn no_reaction(&mut self, quantities: &[Quantity], path: &Path) {
         for (i, quantity) in quantities.iter().enumerate() {
-            if matches!(quantity, Quantity::ReactionX | Quantity::ReactionY) {
+            if matches!(quantity, Quantity::Reaction(_)) {
                 let remedy = "take it out, or name the curve that is held";
                 self.issues.push(Issue::new(&path.index(i), At::Value, "a region has no reaction", remedy));
             }
@@ -111,7 +111,7 @@ impl Names<'_> {
     /// Refuses forces of contact, which only structures feel.
     fn no_contact(&mut self, quantities: &[Quantity], path: &Path) {
         for (i, quantity) in quantities.iter().enumerate() {
-            if matches!(quantity, Quantity::ContactX | Quantity::ContactY | Quantity::ContactMoment) {
+            if matches!(quantity, Quantity::Contact(_) | Quantity::ContactMoment) {
                 let remedy =
                     "take it out, or name a structure, a wall, or a region that a contact names under `against`";
                 self.issues.push(Issue::new(&path.index(i), At::Value, "only a structure has contact", remedy));

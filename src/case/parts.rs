@@ -72,7 +72,7 @@ pub fn material_curve<'a>(site: &Site<'a>, name: &str, place: impl Fn() -> Strin
         let remedy = "name a curve of a body that deforms, or take `rigid: true` out";
         return Err(Error::input(place(), "the curve is one of a rigid structure", remedy));
     }
-    let moves = site.case.numerics.restore == Restore::Never;
+    let moves = site.case.numerics.solver.restore == Restore::Never;
     if !moves && !site.elements.is_some_and(|elements| carries(elements, curve)) {
         return Err(Error::input(
             place(),

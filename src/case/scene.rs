@@ -22,7 +22,7 @@ use crate::mesh::locate::Locator;
 use crate::points::Points;
 use crate::quadrature::{Bounded, Quadrature, Resampled, Volumes};
 use crate::run::{self, Ended, First, Outputs, Progress, checkpoint};
-use crate::step::{self, Fem, Numerics, Phase, Scene, Search, State, Stop, overlap};
+use crate::step::{Fem, Phase, Scene, Search, State, Stop, overlap};
 use crate::term::{
     BodyForce, Contact, EmptyCells, GhostInertia, GhostPenalty, Inertia, Internal, PoreStabilisation, PoreWater,
     PressureField, SmoothPressure, Term, Traction,
@@ -120,7 +120,7 @@ pub fn first(case: &Case, scene: &Scene<2>, [mut points, mut fem]: [Points<2>; 2
         points.pore_pressure.resize(points.len(), 0.0);
         fem.pore_pressure.resize(fem.len(), 0.0);
     }
-    let first_step = scene.phases.first().map_or(0.0, |p| p.first_step);
+    let first_step = scene.phases.first().map_or(0.0, |p| p.step.initial);
     let fem_parametric = scene.fem.as_ref().map_or(Ok(Vec::new()), |part| parts::places(&part.mesh, &fem))?;
     Ok(State { fem, fem_parametric, ..State::new(points, scene.displacements(), first_step) })
 }
@@ -191,7 +191,7 @@ pub fn scene<K: Kinematics<2>>(case: &Case, mut whole: Mesh<2>) -> Result<Scene<
     if case.gravity != [0.0; 2] && density_scale > 0.0 {
         terms.push(Box::new(gravity::<K>(case)));
     }
-    if case.numerics.restore != Restore::Never {
+    if case.numerics.solver.restore != Restore::Never {
         terms.push(Box::new(EmptyCells::<K>::new(case.numerics.empty_stiffness * young, mesh.cells.len())));
         if case.numerics.quadrature != raw::Quadrature::Points {
             let models = self::models(case, &mesh)?;
@@ -273,12 +273,7 @@ pub fn scene<K: Kinematics<2>>(case: &Case, mut whole: Mesh<2>) -> Result<Scene<
         supports,
         phases,
         basis,
-        numerics: Numerics {
-            restore: restore(case.numerics.restore),
-            spectral_radius: case.numerics.spectral_radius,
-            tolerance: case.numerics.tolerance,
-            max_iterations: case.numerics.max_iterations,
-        },
+        numerics: case.numerics.solver.clone(),
         gravity: case.gravity,
         stiffness_scale,
         density_scale,
@@ -343,14 +338,6 @@ fn seeded(case: &Case, mesh: &Mesh<2>) -> Result<Vec<u32>> {
     Ok(seeded)
 }
 
-fn restore(restore: Restore) -> step::Restore {
-    match restore {
-        Restore::EveryStep => step::Restore::EveryStep,
-        Restore::Quality { least, stretch } => step::Restore::Quality { least, stretch },
-        Restore::Never => step::Restore::Never,
-    }
-}
-
 fn phase<'a>(
     case: &Case,
     holds: &Holds<'a>,
@@ -373,9 +360,7 @@ fn phase<'a>(
         auto: phase.analysis == Analysis::Auto,
         flows: pores::flows(case, phase),
         duration: phase.duration,
-        first_step: phase.step.initial,
-        least_step: phase.step.min,
-        largest_step: phase.step.max,
+        step: phase.step,
         prescribed: holds.prescribed(phase)?,
         reduction: phase.reduction.clone(),
         search: search.filter(|_| phase.analysis == Analysis::StrengthReduction).cloned(),

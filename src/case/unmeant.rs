@@ -27,7 +27,7 @@ const GOOD_STEP: f64 = 1.0 / 6.0;
 
 /// What shows without the mesh, given where the regions lie.
 pub fn of_case(case: &Case, places: &[Place]) -> Vec<String> {
-    let tolerance = case.numerics.tolerance;
+    let tolerance = case.numerics.solver.tolerance;
     let loose = (tolerance > LOOSE).then(|| {
         format!(
             "warning: `numerics.tolerance` is {tolerance:e}: each step leaves an error of that part of the forces, and they add up; leave \

@@ -224,10 +224,7 @@ pub struct Phase {
     pub flows: bool,
     /// Duration (s).
     pub duration: f64,
-    /// Time steps (s): the first, the least and the largest.
-    pub first_step: f64,
-    pub least_step: f64,
-    pub largest_step: f64,
+    pub step: StepSize,
     pub prescribed: Vec<Prescribed>,
     /// What strengths are divided by (-); absent where they are as given.
     pub reduction: Option<TimeValue>,
@@ -274,6 +271,14 @@ pub struct Search {
     pub farthest: f64,
     /// The nodes of soil that is finite elements; those of soil with material points follow from the grid.
     pub elements: Vec<u32>,
+}
+
+/// Sizes of the steps (s) of a phase, `min ≤ initial ≤ max`: the first, the least and the largest.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct StepSize {
+    pub initial: f64,
+    pub min: f64,
+    pub max: f64,
 }
 
 /// A time at which a step ends.
