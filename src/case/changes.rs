@@ -12,11 +12,12 @@ use super::over_depth::check_over_depth;
 use super::raw;
 use super::structure::suggest;
 use crate::error::Result;
-use crate::material::RandomStrengths;
+use crate::material::{Model, RandomStrengths};
 use crate::mesh::Mesh;
 use crate::step;
 use crate::term::MixedPressure;
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 /// How a material has the pressure of its pore water.
 fn water(material: &raw::Material) -> &'static str {
@@ -157,6 +158,14 @@ pub fn of_phase(case: &Case, meshes: [&Mesh<2>; 2], phase: usize) -> Result<Vec<
         })
     };
     case.phases[phase].changes.iter().enumerate().map(change).collect()
+}
+
+/// The model of the whole stress of each material by number.
+///
+/// # Errors
+/// As [`by_number`].
+pub fn models(case: &Case, mesh: &Mesh<2>) -> Result<Vec<Option<Arc<dyn Model>>>> {
+    by_number(case, mesh, |material| Some(material.model.clone()))
 }
 
 /// The field of strength of each material by number, where that varies at random.

@@ -1,6 +1,6 @@
 //! What a case asks to be written, in the terms of a run.
 
-use super::changes::{by_number, carried};
+use super::changes::{carried, models};
 use super::checked::{Case, Field, History};
 use super::find::region_index;
 use super::{pores, rigid, water};
@@ -41,12 +41,9 @@ pub fn outputs(
             Field::DeformationGradient => Arc::new(fields::DeformationGradient),
             Field::PorePressure => Arc::new(fields::PorePressure(carried(case, mesh)?)),
             Field::Mass => Arc::new(fields::PointColumn("mass")),
-            Field::ShearStrength => {
-                Arc::new(fields::ShearStrength(by_number(case, mesh, |material| Some(material.model.clone()))?))
-            }
+            Field::ShearStrength => Arc::new(fields::ShearStrength(models(case, mesh)?)),
             Field::InternalVariables => {
-                let models = by_number(case, mesh, |material| Some(material.model.clone()))?;
-                let variables = InternalVariable::all(&models).into_iter();
+                let variables = InternalVariable::all(&models(case, mesh)?).into_iter();
                 asked.extend(variables.map(|variable| Arc::new(variable) as Arc<dyn PointField<2>>));
                 continue;
             }

@@ -69,22 +69,18 @@ pub fn solve(
     let mut warnings = warnings.concat();
     warnings.extend(begin.start.map(Start::note));
     let parts = parts::points(case, &mesh, points);
-    match case.geometry {
-        Geometry::PlaneStrain => {
-            let scene = scene::<PlaneStrain>(case, mesh)?;
-            let outputs = outputs(case, &scene, folder, begin.origin, warnings)?;
-            let first = begin.state(&scene, first(case, &scene, parts)?)?;
-            let outputs = Outputs { ends: begin.ends, ..outputs };
-            run::run::<2, PlaneStrain>(&scene, first, &outputs, begin.resume, stop, progress)
-        }
-        Geometry::Axisymmetric => {
-            let scene = scene::<Axisymmetric>(case, mesh)?;
-            let outputs = outputs(case, &scene, folder, begin.origin, warnings)?;
-            let first = begin.state(&scene, first(case, &scene, parts)?)?;
-            let outputs = Outputs { ends: begin.ends, ..outputs };
-            run::run::<2, Axisymmetric>(&scene, first, &outputs, begin.resume, stop, progress)
-        }
-    }
+    let scene = match case.geometry {
+        Geometry::PlaneStrain => scene::<PlaneStrain>(case, mesh)?,
+        Geometry::Axisymmetric => scene::<Axisymmetric>(case, mesh)?,
+    };
+    let outputs = outputs(case, &scene, folder, begin.origin, warnings)?;
+    let first = begin.state(&scene, first(case, &scene, parts)?)?;
+    let outputs = Outputs { ends: begin.ends, ..outputs };
+    let run = match case.geometry {
+        Geometry::PlaneStrain => run::run::<2, PlaneStrain>,
+        Geometry::Axisymmetric => run::run::<2, Axisymmetric>,
+    };
+    run(&scene, first, &outputs, begin.resume, stop, progress)
 }
 
 impl Begin<'_> {
@@ -109,7 +105,7 @@ pub fn first(case: &Case, scene: &Scene<2>, [mut points, mut fem]: [Points<2>; 2
         begin_pressure(case, &scene.mesh, &mut points)?;
         begin_pressure(case, &scene.mesh, &mut fem)?;
     }
-    let models = changes::by_number(case, &scene.mesh, |material| Some(material.model.clone()))?;
+    let models = changes::models(case, &scene.mesh)?;
     points.begin(&models);
     fem.begin(&models);
     let strengths = changes::random_strengths(case, &scene.mesh)?;
@@ -243,7 +239,7 @@ pub fn scene<K: Kinematics<2>>(case: &Case, mut whole: Mesh<2>) -> Result<Scene<
     let interfaces =
         contact_interfaces::interfaces::<K>(case, &mesh, fem.as_ref().map_or(&mesh, |fem| &fem.mesh), &bodies)?;
     for (number, interface) in (0..).zip(&interfaces) {
-        terms.push(Box::new(Contact::new(number, interface.laws().clone(), levels.clone())));
+        terms.push(Box::new(Contact::new(number, interface.sides().laws.clone(), levels.clone())));
     }
     let carried = changes::carried(case, &mesh)?;
     let holds = Holds::new(case, &mesh, &bodies);
@@ -338,11 +334,11 @@ fn seeded(case: &Case, mesh: &Mesh<2>) -> Result<Vec<u32>> {
     Ok(seeded)
 }
 
-fn phase<'a>(
+fn phase(
     case: &Case,
-    holds: &Holds<'a>,
+    holds: &Holds,
     number: usize,
-    phase: &'a super::checked::Phase,
+    phase: &super::checked::Phase,
     search: Option<&Search>,
 ) -> Result<Phase> {
     let values = phase

@@ -71,23 +71,25 @@ pub struct Pushed {
     pub most: f64,
 }
 
+/// Who is in contact, and by what law.
+#[derive(Clone, Debug)]
+pub struct Sides {
+    /// The region of the structure.
+    pub structure: u16,
+    /// The region of what it touches, if that is a body and not soil.
+    pub against: Option<u16>,
+    /// The regions of the soil that it touches; none of a body.
+    pub soils: Vec<u16>,
+    pub laws: Laws,
+}
+
 /// A structure and what it touches.
 pub trait Interface<const D: usize>: Send + Sync {
-    /// The region of the structure.
-    fn structure(&self) -> u16;
-
-    /// The region of what it touches, if that is a body and not soil.
-    fn against(&self) -> Option<u16> {
-        None
-    }
-
-    /// The regions of the soil that it touches; none of a body.
-    fn soils(&self) -> &[u16];
+    /// Who is in contact, and by what law.
+    fn sides(&self) -> &Sides;
 
     /// The number of contact nodes.
     fn contact_nodes(&self) -> usize;
-
-    fn laws(&self) -> &Laws;
 
     /// The conditions of the contact nodes that face soil; `position` tells where the nodes are.
     fn constraints(
@@ -117,12 +119,9 @@ pub trait Interface<const D: usize>: Send + Sync {
 
 /// The boundary of a structure on material points.
 pub struct Boundary<K> {
-    /// The region of the structure.
-    pub structure: u16,
+    pub sides: Sides,
     pub surface: Surface,
-    pub laws: Laws,
-    /// The regions of the soil, and the model of each material by number ([`Points::model_of`]).
-    pub regions: Vec<u16>,
+    /// The model of each material by number ([`Points::model_of`]).
     pub models: Vec<Option<Arc<dyn Model>>>,
     /// The surface that all soil began with.
     pub skin: Skin,
@@ -263,12 +262,8 @@ impl Sum {
 }
 
 impl<K: Kinematics<2>> Interface<2> for Boundary<K> {
-    fn structure(&self) -> u16 {
-        self.structure
-    }
-
-    fn soils(&self) -> &[u16] {
-        &self.regions
+    fn sides(&self) -> &Sides {
+        &self.sides
     }
 
     fn contact_nodes(&self) -> usize {
@@ -279,19 +274,15 @@ impl<K: Kinematics<2>> Interface<2> for Boundary<K> {
         &self.surface.runs
     }
 
-    fn laws(&self) -> &Laws {
-        &self.laws
-    }
-
     fn constraints(
         &self,
         ground: &Ground<2>,
         position: &dyn Fn(u32) -> [f64; 2],
         held: &Multipliers,
     ) -> Vec<Constraint<2>> {
-        let law = self.laws.at(ground.phase);
+        let law = self.sides.laws.at(ground.phase);
         let segments = Segments::new::<K>(&self.surface, position);
-        let soil = Soil { points: ground.points, regions: &self.regions };
+        let soil = Soil { points: ground.points, regions: &self.sides.soils };
         let gaps = raw_gaps::<K>(&self.surface, &segments, &soil, &self.skin);
         let (surface, smooth) = (Facing::new(ground.surface), held.smooth_gaps(&self.surface.runs));
         let mut holds = vec![false; ground.grid.cells.len()];
@@ -438,7 +429,7 @@ impl<K: Kinematics<2>> Interface<2> for Boundary<K> {
 
     fn project_out(&self, points: &mut Points<2>, position: &dyn Fn(u32) -> [f64; 2]) -> Pushed {
         let segments = Segments::new::<K>(&self.surface, position);
-        let (points, most) = project_out::<K>(&segments, points, &self.regions);
+        let (points, most) = project_out::<K>(&segments, points, &self.sides.soils);
         Pushed { points, most }
     }
 }

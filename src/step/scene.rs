@@ -120,11 +120,6 @@ impl<const D: usize> Scene<D> {
         self.pressure_unit.is_some() || !self.fields.is_empty()
     }
 
-    /// The body whose region that is.
-    pub fn body(&self, region: u16) -> Option<&Body<D>> {
-        self.bodies.iter().find(|body| body.region == region)
-    }
-
     /// Where displacements are given in a phase: supports, prescribed displacements, and structures that the phase leaves out.
     pub fn fixed(&self, phase: usize) -> impl Iterator<Item = &Fixed> {
         let Phase { prescribed, held, .. } = &self.phases[phase];
