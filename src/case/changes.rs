@@ -117,7 +117,7 @@ pub fn by_number<T: Clone>(case: &Case, mesh: &Mesh<2>, of: impl Fn(&Material) -
 
 /// Whether each material by number is one of a structure.
 pub fn of_structures(case: &Case, mesh: &Mesh<2>) -> Vec<bool> {
-    let is_structure = |name: &String| case.regions.iter().any(|r| r.name == *name && r.content.is_structure());
+    let is_structure = |name: &String| case.content(name).is_some_and(|content| content.is_structure());
     let changed = all(case).map(|(region, _)| region.content.is_structure());
     mesh.regions.iter().map(is_structure).chain(changed).collect()
 }

@@ -54,6 +54,13 @@ pub struct Case {
     pub features: Vec<Arc<dyn Feature>>,
 }
 
+impl Case {
+    /// What the region of this name is, if there is one.
+    pub fn content(&self, region: &str) -> Option<Content> {
+        self.regions.iter().find(|other| other.name == region).map(|region| region.content)
+    }
+}
+
 /// An entry of the case with terms of its own, checked; each is a [`super::keyed::Keyed`].
 pub trait Feature: fmt::Debug + Send + Sync {
     /// Its key.

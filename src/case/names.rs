@@ -94,7 +94,7 @@ fn is_wall(case: &Case, name: &str) -> bool {
 
 /// Whether that is a rigid structure or a wall.
 fn is_rigid(case: &Case, name: &str) -> bool {
-    is_wall(case, name) || case.regions.iter().any(|region| region.name == name && region.content.is_rigid())
+    is_wall(case, name) || case.content(name).is_some_and(|content| content.is_rigid())
 }
 
 /// Whether a region has a boundary where contact may be.

@@ -15,8 +15,7 @@ use std::collections::HashSet;
 
 /// Whether each region of the mesh is of a rigid structure.
 pub fn regions(case: &Case, mesh: &Mesh<2>) -> Vec<bool> {
-    let rigid = |name: &String| case.regions.iter().any(|r| r.name == *name && r.content.is_rigid());
-    mesh.regions.iter().map(rigid).collect()
+    mesh.regions.iter().map(|name| case.content(name).is_some_and(|content| content.is_rigid())).collect()
 }
 
 /// The rigid structures of a case, and then its walls, by their regions and nodes in the whole `mesh`.

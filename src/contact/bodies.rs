@@ -7,13 +7,12 @@
 //! shape functions.
 
 use super::along::{Mark, lines};
-use super::constraint::{Constraint, FADING};
+use super::constraint::{Constraint, Entry, FADING, add};
 use super::interface::{Ground, Interface, NORMAL, Pushed, Sides, TANGENTIAL};
 use super::law::Penalty;
 use super::motion::Spot;
 use super::multipliers::Multipliers;
 use super::place::{Placed, Segments};
-use super::rigid::{Entry, add};
 use super::surface::{Run, Segment, Surface};
 use crate::geometry::{Hit, Lines, distance, dot, foot, way};
 use crate::kinematics::Kinematics;

@@ -4,7 +4,7 @@
 //! displacement add up to one by that of the reference point and one by the rotation.
 
 use super::along::Mark;
-use super::constraint::Constraint;
+use super::constraint::{Constraint, Entry, add};
 use super::interface::{Ground, Interface, Pushed, Sides};
 use super::multipliers::Multipliers;
 use super::surface::Run;
@@ -88,17 +88,6 @@ impl<const D: usize> Rigid<D> {
             by_arc: entries().map(|e| e.1[2]).collect(),
             ..constraint
         }
-    }
-}
-
-/// A node, and the derivatives of gap, slip and maybe the way along the boundary by its displacement.
-pub type Entry<const D: usize, const N: usize> = (u32, [[f64; D]; N]);
-
-/// Adds to the entry of a node.
-pub fn add<const D: usize, const N: usize>(entries: &mut Vec<Entry<D, N>>, node: u32, more: &[[f64; D]; N]) {
-    match entries.iter_mut().find(|(n, _)| *n == node) {
-        Some((_, by)) => by.iter_mut().flatten().zip(more.iter().flatten()).for_each(|(by, more)| *by += more),
-        None => entries.push((node, *more)),
     }
 }
 

@@ -180,7 +180,7 @@ pub struct Trial<'a, const D: usize> {
 }
 
 impl<'a, const D: usize> Trial<'a, D> {
-    /// A state of displacements alone, as far as contact sees it.
+    /// A state of displacements alone, without inertia and pressures.
     pub fn at_rest(displacement: &'a [[f64; D]], converged: &'a [[f64; D]]) -> Self {
         Self {
             displacement,
