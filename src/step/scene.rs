@@ -151,8 +151,6 @@ pub enum Scalar<'a> {
 /// A scalar field that the material points carry.
 #[derive(Clone, Debug)]
 pub struct Field {
-    /// The name by which messages call it.
-    pub name: String,
     /// What an unknown of the linear system stands for, so that all equations are forces and all unknowns lengths.
     pub unit: f64,
     /// Nodes with a given value, ascending, and the value by the time (s) since the phase began; of two entries for a node the later one holds.

@@ -89,7 +89,7 @@ fn scene(kind: CellKind, cells: usize, steps: usize, prepare: impl Fn(&mut Bench
     bench.extra = vec![Box::new(Diffusion { capacity: 2.0, conductivity: 0.5, unit })];
     let points = quadrature_points::<PlaneStrain>(&bench.mesh, 4, 1.0);
     let mut scene = bench.scene::<PlaneStrain>();
-    scene.fields.push(Field { name: "temperature".into(), unit, given: Vec::new() });
+    scene.fields.push(Field { unit, given: Vec::new() });
     let first = scene.phases[0].step.initial;
     let state = State::new(points, scene.mesh.nodes.len(), first);
     (scene, state)
