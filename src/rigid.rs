@@ -4,6 +4,7 @@
 //! displacement of `c` and, but in axisymmetry, the angle `θ`.
 
 use crate::dofs::RigidDofs;
+use crate::geometry::dot;
 use crate::mesh::Mesh;
 use crate::points::Points;
 
@@ -39,10 +40,6 @@ pub fn across<const D: usize>(v: &[f64; D]) -> [f64; D] {
         1 => v[0],
         _ => 0.0,
     })
-}
-
-fn dot<const D: usize>(a: &[f64; D], b: &[f64; D]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
 impl<const D: usize> Pose<D> {

@@ -12,11 +12,12 @@ use super::over_depth::check_over_depth;
 use super::raw;
 use super::structure::suggest;
 use crate::error::Result;
-use crate::material::RandomStrengths;
+use crate::material::{Model, RandomStrengths};
 use crate::mesh::Mesh;
 use crate::step;
 use crate::term::MixedPressure;
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 /// How a material has the pressure of its pore water.
 fn water(material: &raw::Material) -> &'static str {
@@ -116,7 +117,7 @@ pub fn by_number<T: Clone>(case: &Case, mesh: &Mesh<2>, of: impl Fn(&Material) -
 
 /// Whether each material by number is one of a structure.
 pub fn of_structures(case: &Case, mesh: &Mesh<2>) -> Vec<bool> {
-    let is_structure = |name: &String| case.regions.iter().any(|r| r.name == *name && r.content.is_structure());
+    let is_structure = |name: &String| case.content(name).is_some_and(|content| content.is_structure());
     let changed = all(case).map(|(region, _)| region.content.is_structure());
     mesh.regions.iter().map(is_structure).chain(changed).collect()
 }
@@ -152,16 +153,19 @@ pub fn of_phase(case: &Case, meshes: [&Mesh<2>; 2], phase: usize) -> Result<Vec<
             region: index,
             of: region.name.clone(),
             number: (first + k) as u16,
-            into: material.name.clone(),
-            model: material.model.clone(),
-            carried: material.carried.clone(),
-            before: before.and_then(|before| before.carried.clone()),
-            density: material.density,
-            random_strength: material.random_strength.clone(),
-            goes_on: before.is_some_and(|before| before.model_name == material.model_name),
+            into: material.clone(),
+            before: before.cloned(),
         })
     };
     case.phases[phase].changes.iter().enumerate().map(change).collect()
+}
+
+/// The model of the whole stress of each material by number.
+///
+/// # Errors
+/// As [`by_number`].
+pub fn models(case: &Case, mesh: &Mesh<2>) -> Result<Vec<Option<Arc<dyn Model>>>> {
+    by_number(case, mesh, |material| Some(material.model.clone()))
 }
 
 /// The field of strength of each material by number, where that varies at random.

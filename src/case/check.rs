@@ -7,6 +7,7 @@ use super::raw;
 use super::structure::{list, suggest};
 use crate::interpolation::{Basis, Mpm, SCHEMES};
 use crate::material::MODELS;
+use crate::step;
 use std::collections::HashSet;
 use std::path::Path as FilePath;
 use std::sync::Arc;
@@ -232,12 +233,7 @@ impl Checker {
                 velocity: [v.velocity.x, v.velocity.y],
                 gradient: v.gradient,
                 centre: [v.centre.x, v.centre.y],
-                standing_wave: v.standing_wave.as_ref().map(|wave| StandingWave {
-                    component: wave.component as usize,
-                    along: wave.along as usize,
-                    amplitude: wave.amplitude,
-                    wave_number: wave.wave_number,
-                }),
+                standing_wave: v.standing_wave,
             });
         }
         checked
@@ -269,15 +265,13 @@ impl Checker {
                 stretch: quality.max_stretch.unwrap_or(if contacts { STRETCH_WITH_CONTACTS } else { STRETCH }),
             },
         };
-        Numerics {
-            basis,
-            quadrature,
+        let solver = step::Numerics {
             restore,
             spectral_radius: numerics.spectral_radius,
             tolerance: numerics.tolerance,
             max_iterations: numerics.max_iterations,
-            empty_stiffness: numerics.empty_stiffness,
-        }
+        };
+        Numerics { basis, quadrature, empty_stiffness: numerics.empty_stiffness, solver }
     }
 
     fn output(&mut self, output: &raw::Output, path: &Path) -> Output {
@@ -303,7 +297,7 @@ impl Checker {
         let history = output.history.iter().map(|entry| History {
             name: entry.name.clone(),
             on: entry.on.clone(),
-            quantities: entry.quantities.clone(),
+            quantities: entry.quantities.iter().map(|&quantity| quantity.into()).collect(),
         });
         Output {
             every: output.every,

@@ -5,7 +5,9 @@
 
 mod phases;
 
-pub use super::raw::{Axis, Encoding, Field, Quantity};
+pub use super::raw::{Analysis, Axis, Encoding, Field, StandingWave};
+pub use crate::run::{Quantity, Until};
+pub use crate::step::{Material, Restore, StepSize};
 pub use phases::*;
 
 use super::locate::Path;
@@ -13,10 +15,11 @@ use super::raw::Product;
 use crate::contact::Law;
 use crate::error::Result;
 use crate::interpolation::Basis;
-use crate::material::{Model, Profile, RandomStrength};
+use crate::material::Profile;
 use crate::mesh;
 use crate::rigid::Body;
-use crate::term::{MixedPressure, Porous, Term};
+use crate::step;
+use crate::term::Term;
 use crate::time_value::TimeValue;
 use std::collections::BTreeMap;
 use std::fmt;
@@ -49,6 +52,13 @@ pub struct Case {
     pub output: Output,
     /// The entries that bring terms of their own.
     pub features: Vec<Arc<dyn Feature>>,
+}
+
+impl Case {
+    /// What the region of this name is, if there is one.
+    pub fn content(&self, region: &str) -> Option<Content> {
+        self.regions.iter().find(|other| other.name == region).map(|region| region.content)
+    }
 }
 
 /// An entry of the case with terms of its own, checked; each is a [`super::keyed::Keyed`].
@@ -189,41 +199,6 @@ impl Content {
     }
 }
 
-/// A material.
-#[derive(Clone)]
-pub struct Material {
-    pub name: String,
-    /// The name of its model.
-    pub model_name: String,
-    /// Density (t/m³).
-    pub density: Profile,
-    pub model: Arc<dyn Model>,
-    /// The field of its strength, where that varies at random.
-    pub random_strength: Option<Arc<RandomStrength>>,
-    /// What the pressure field carries of its stress.
-    pub carried: Option<MixedPressure>,
-    /// The water in its pores, where that flows or has a stiffness of its own.
-    pub porous: Option<Porous>,
-}
-
-impl Material {
-    /// Whether the excess pressure of its pore water is found.
-    pub fn has_pore_pressure(&self) -> bool {
-        self.porous.is_some() || self.carried.as_ref().is_some_and(|carried| carried.water > 0.0)
-    }
-
-    /// Whether it has a density anywhere.
-    pub fn has_mass(&self) -> bool {
-        self.density.top > 0.0 || self.density.gradient > 0.0
-    }
-}
-
-impl fmt::Debug for Material {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("Material").field("name", &self.name).field("density", &self.density).finish_non_exhaustive()
-    }
-}
-
 /// Contact between a structure or a wall and soil, or between two bodies.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Contact {
@@ -276,24 +251,13 @@ pub struct InitialVelocity {
     pub standing_wave: Option<StandingWave>,
 }
 
-/// A velocity `amplitude · sin(wave_number · x[along])` in the direction `component`.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct StandingWave {
-    pub component: usize,
-    pub along: usize,
-    /// Largest velocity (m/s).
-    pub amplitude: f64,
-    /// Wave number (rad/m).
-    pub wave_number: f64,
-}
-
 impl InitialVelocity {
     /// The velocity (m/s) at `x` (m).
     pub fn at(&self, x: &[f64; 2]) -> [f64; 2] {
         let from = [x[0] - self.centre[0], x[1] - self.centre[1]];
         let mut v = [0, 1].map(|i| self.velocity[i] + self.gradient[i][0] * from[0] + self.gradient[i][1] * from[1]);
         if let Some(wave) = self.standing_wave {
-            v[wave.component] += wave.amplitude * (wave.wave_number * x[wave.along]).sin();
+            v[wave.component as usize] += wave.amplitude * (wave.wave_number * x[wave.along as usize]).sin();
         }
         v
     }
@@ -306,29 +270,10 @@ pub struct Numerics {
     pub basis: &'static dyn Basis<2>,
     /// What integrals are summed over.
     pub quadrature: super::raw::Quadrature,
-    pub restore: Restore,
-    /// ρ∞ (-) of generalised-α.
-    pub spectral_radius: f64,
-    /// Relative residual (-) at which Newton's iteration ends.
-    pub tolerance: f64,
-    /// Iterations after which a step is halved.
-    pub max_iterations: usize,
     /// Stiffness of empty cells over that of the soil (-).
     pub empty_stiffness: f64,
-}
-
-/// When the grid goes back to its first shape.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Restore {
-    EveryStep,
-    /// When a cell with points has less than the share `least` (-) of its first quality, or an edge of it is `stretch`
-    /// times (-) as long as at first, or as short.
-    Quality {
-        least: f64,
-        stretch: f64,
-    },
-    /// Updated Lagrangian: the grid moves with the material.
-    Never,
+    /// What the solver takes as it is.
+    pub solver: step::Numerics,
 }
 
 /// Water around soil and structures, and in the pores of soil.

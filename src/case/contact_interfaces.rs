@@ -1,10 +1,10 @@
 //! The structures and walls of a case and what they touch.
 
-use super::changes::{self, by_number};
+use super::changes;
 use super::checked::{Case, Contact, Content, Geometry, Region, Touched, Touching};
 use super::find::region_index;
 use super::wall;
-use crate::contact::{Bodies, Boundary, Interface, Laws, Rigid, Skin, SoilSide, Surface};
+use crate::contact::{Bodies, Boundary, Interface, Laws, Rigid, Sides, Skin, SoilSide, Surface};
 use crate::error::{Error, Result};
 use crate::kinematics::Kinematics;
 use crate::mesh::Mesh;
@@ -32,7 +32,7 @@ pub fn interfaces<K: Kinematics<2>>(
             Touched::Body(body) => Box::new(parts.on_body::<K>(contact, *body)?),
         };
         let rigid = |region: u16| bodies.iter().any(|body| body.region == region);
-        let keeps_shape = rigid(interface.structure()) || interface.against().is_some_and(rigid);
+        let keeps_shape = rigid(interface.sides().structure) || interface.sides().against.is_some_and(rigid);
         Ok(if keeps_shape { Box::new(Rigid::new(interface, bodies, grid.nodes.len())) } else { interface })
     };
     case.contacts.iter().map(interface).collect()
@@ -145,7 +145,7 @@ impl Parts<'_> {
 
     fn on_soil<K: Kinematics<2>>(&self, contact: &Contact, soil: &[usize]) -> Result<Boundary<K>> {
         let regions = soil.iter().map(|&region| self.region(region)).collect::<Result<Vec<u16>>>()?;
-        let models = by_number(self.case, self.grid, |material| Some(material.model.clone()))?;
+        let models = changes::models(self.case, self.grid)?;
         let edge = size(self.grid, &regions).ok_or_else(|| self.no_cells(contact, "the soil"))?;
         let structure = region_index(self.grid, self.name(&contact.structure))?;
         let surface = match (&contact.structure, self.bodies.iter().find(|body| body.region == structure)) {
@@ -156,7 +156,8 @@ impl Parts<'_> {
             _ => self.boundary(structure, SPACING * edge, &held(self.case, self.grid, SPACING * edge))?,
         };
         let skin = self.skin()?;
-        Ok(Boundary { structure, surface, laws: self.laws(contact), regions, models, skin, kinematics: PhantomData })
+        let sides = Sides { structure, against: None, soils: regions, laws: self.laws(contact) };
+        Ok(Boundary { sides, surface, models, skin, kinematics: PhantomData })
     }
 
     /// The contact nodes are as far apart as the coarser of the boundaries that can give way has its nodes. Against a wall they are the body's.
@@ -205,11 +206,9 @@ impl Parts<'_> {
         let young = changes::used(self.case).filter(|(region, _)| is_soft(region));
         let young = young.map(|(_, material)| material.model.young(height / count));
         Ok(Bodies {
-            structure,
-            against,
+            sides: Sides { structure, against: Some(against), soils: Vec::new(), laws: self.laws(contact) },
             surface,
             other,
-            laws: self.laws(contact),
             soil: soil.transpose()?,
             young: young.fold(f64::INFINITY, f64::min),
             kinematics: PhantomData,

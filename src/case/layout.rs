@@ -3,8 +3,8 @@
 use super::checked::{Case, Content, Touched, Touching};
 use super::find::region_index;
 use crate::error::{Error, Result};
-use crate::mesh::Mesh;
 use crate::mesh::locate::Locator;
+use crate::mesh::{Group, Mesh};
 use crate::time_value::TimeValue;
 use std::fs;
 
@@ -13,14 +13,11 @@ use std::fs;
 /// # Errors
 /// Input: cells of soil or buffer that lie upon each other, a structure that cannot come to the soil it is to touch.
 pub fn check(case: &Case, mesh: &Mesh<2>) -> Result<()> {
-    let structures: Vec<bool> = mesh.regions.iter().map(|name| is_structure(case, name)).collect();
+    let is_structure = |name: &String| case.content(name).is_some_and(|content| content.is_structure());
+    let structures: Vec<bool> = mesh.regions.iter().map(is_structure).collect();
     let grid = mesh.part(|c| !structures[mesh.cells.region[c] as usize]);
     apart(&grid)?;
     within_reach(case, mesh, &grid)
-}
-
-fn is_structure(case: &Case, name: &str) -> bool {
-    case.regions.iter().any(|region| region.name == name && region.content.is_structure())
 }
 
 /// Refuses cells that lie upon each other: a point would be in two of them. Structures lie above the grid, and
@@ -84,7 +81,7 @@ fn within_reach(case: &Case, mesh: &Mesh<2>, grid: &Mesh<2>) -> Result<()> {
         let part = mesh.part(|c| mesh.cells.region[c] == number);
         let Some(own) = bounds(&part) else { continue };
         let gap = gap(&own, &around);
-        if gap > 0.0 && reach(case, mesh, &part, name).is_some_and(|reach| reach < gap) {
+        if gap > 0.0 && reach(case, &part, name).is_some_and(|reach| reach < gap) {
             return Err(Error::input(
                 format!("region `{name}`"),
                 format!(
@@ -97,15 +94,16 @@ fn within_reach(case: &Case, mesh: &Mesh<2>, grid: &Mesh<2>) -> Result<()> {
     Ok(())
 }
 
-/// How far (m) a structure moves at most by what is prescribed; `None` where inertia, loads or turning may take it
-/// anywhere.
-fn reach(case: &Case, mesh: &Mesh<2>, part: &Mesh<2>, name: &str) -> Option<f64> {
-    let mut nodes = part.cells.nodes.clone();
-    nodes.sort_unstable();
-    let of_it = |curve: &str| {
-        let all = |group: &crate::mesh::Group| group.nodes.iter().all(|n| nodes.binary_search(n).is_ok());
-        curve == name || mesh.group(curve).is_some_and(all)
-    };
+/// Whether what moves `curve` moves the structure `name` with the cells `body`.
+pub(super) fn moves(name: &str, body: &Mesh<2>, curve: &str) -> bool {
+    let on = |group: &Group| group.nodes.iter().all(|n| body.cells.nodes.contains(n));
+    curve == name || body.group(curve).is_some_and(on)
+}
+
+/// How far (m) the structure `name` with the cells `body` moves at most by what is prescribed; `None` where inertia, loads or turning may take
+/// it anywhere.
+fn reach(case: &Case, body: &Mesh<2>, name: &str) -> Option<f64> {
+    let of_it = |curve: &str| moves(name, body, curve);
     let mut reach = 0.0;
     for phase in &case.phases {
         let free = phase.analysis.has_inertia() || phase.tractions.iter().any(|load| of_it(&load.curve));

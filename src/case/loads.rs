@@ -26,7 +26,7 @@ impl Checker {
                 (Some(curve), None) => tractions.push(self.traction(curve, traction, file, numerics, &path)),
                 (None, Some(surface)) => {
                     let load = self.surface_load(surface, traction, file, &path);
-                    if numerics.restore == Restore::Never && !load.is_pressure_all_around() {
+                    if numerics.solver.restore == Restore::Never && !load.is_pressure_all_around() {
                         let problem = "on a grid that is never restored the surface of the soil lies on curves";
                         let remedy = "load these with `on` in place of `surface`, or take `restore: never` out";
                         self.issue(&path.key("surface"), At::Key, problem, remedy);
@@ -53,7 +53,7 @@ impl Checker {
         let of_elements = |kind| matches!(kind, raw::RegionKind::Fem | raw::RegionKind::Structure);
         let with_elements = file.regions.values().any(|region| of_elements(region.kind));
         // Whether the curve is one of finite elements, only the mesh can tell.
-        if numerics.restore != Restore::Never && !with_elements {
+        if numerics.solver.restore != Restore::Never && !with_elements {
             let problem = "a traction on a curve needs finite elements, or a grid that moves with the material";
             let remedy = "load the `surface` of the soil in place of a curve, set `restore: never` under `numerics`, \
                 or make the region beside it `kind: fem`";

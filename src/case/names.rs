@@ -62,16 +62,27 @@ pub fn check(case: &Case, groups: &Groups) -> Vec<Issue> {
         let has_nodes = groups.curves.contains(&entry.on) || groups.points.contains(&entry.on);
         let rigid = is_wall(case, &entry.on) || !has_nodes && is_rigid(case, &entry.on);
         let known = has_nodes || groups.surfaces.contains(&entry.on);
+        let path = root.key("output").key("history").index(i).key("quantities");
+        let mut refuse = |refused: fn(&Quantity) -> bool, problem: &str, remedy: &str| {
+            for (i, _) in entry.quantities.iter().enumerate().filter(|(_, quantity)| refused(quantity)) {
+                names.issues.push(Issue::new(&path.index(i), At::Value, problem, remedy));
+            }
+        };
         if known && !rigid {
-            names.no_rotation(&entry.quantities, &root.key("output").key("history").index(i).key("quantities"));
+            let remedy = "take it out, or name a wall, or a region of kind structure with `rigid: true`";
+            let of_rigid = |q: &Quantity| matches!(q, Quantity::Rotation | Quantity::ReactionMoment);
+            refuse(of_rigid, "only a rigid structure turns", remedy);
         }
         if groups.surfaces.contains(&entry.on) && !has_nodes && !rigid {
-            names.no_reaction(&entry.quantities, &root.key("output").key("history").index(i).key("quantities"));
+            let remedy = "take it out, or name the curve that is held";
+            refuse(|q| matches!(q, Quantity::Reaction(_)), "a region has no reaction", remedy);
         }
         let touches =
             rigid || !has_nodes && case.regions.iter().enumerate().any(|(i, r)| r.name == entry.on && touches(case, i));
         if known && !touches {
-            names.no_contact(&entry.quantities, &root.key("output").key("history").index(i).key("quantities"));
+            let remedy = "take it out, or name a structure, a wall, or a region that a contact names under `against`";
+            let of_contact = |q: &Quantity| matches!(q, Quantity::Contact(_) | Quantity::ContactMoment);
+            refuse(of_contact, "only a structure has contact", remedy);
         }
     }
     names.issues
@@ -83,7 +94,7 @@ fn is_wall(case: &Case, name: &str) -> bool {
 
 /// Whether that is a rigid structure or a wall.
 fn is_rigid(case: &Case, name: &str) -> bool {
-    is_wall(case, name) || case.regions.iter().any(|region| region.name == name && region.content.is_rigid())
+    is_wall(case, name) || case.content(name).is_some_and(|content| content.is_rigid())
 }
 
 /// Whether a region has a boundary where contact may be.
@@ -98,37 +109,6 @@ struct Names<'a> {
 }
 
 impl Names<'_> {
-    /// Refuses reactions, which supports give and not regions.
-    fn no_reaction(&mut self, quantities: &[Quantity], path: &Path) {
-        for (i, quantity) in quantities.iter().enumerate() {
-            if matches!(quantity, Quantity::ReactionX | Quantity::ReactionY) {
-                let remedy = "take it out, or name the curve that is held";
-                self.issues.push(Issue::new(&path.index(i), At::Value, "a region has no reaction", remedy));
-            }
-        }
-    }
-
-    /// Refuses forces of contact, which only structures feel.
-    fn no_contact(&mut self, quantities: &[Quantity], path: &Path) {
-        for (i, quantity) in quantities.iter().enumerate() {
-            if matches!(quantity, Quantity::ContactX | Quantity::ContactY | Quantity::ContactMoment) {
-                let remedy =
-                    "take it out, or name a structure, a wall, or a region that a contact names under `against`";
-                self.issues.push(Issue::new(&path.index(i), At::Value, "only a structure has contact", remedy));
-            }
-        }
-    }
-
-    /// Refuses rotations and moments of supports, which only rigid structures have.
-    fn no_rotation(&mut self, quantities: &[Quantity], path: &Path) {
-        for (i, quantity) in quantities.iter().enumerate() {
-            if matches!(quantity, Quantity::Rotation | Quantity::ReactionMoment) {
-                let remedy = "take it out, or name a wall, or a region of kind structure with `rigid: true`";
-                self.issues.push(Issue::new(&path.index(i), At::Value, "only a rigid structure turns", remedy));
-            }
-        }
-    }
-
     /// Whether the mesh has no such surface.
     fn lacks(&self, surface: &str) -> bool {
         !self.groups.surfaces.iter().any(|known| known == surface)

@@ -1,14 +1,14 @@
 //! What a case asks to be written, in the terms of a run.
 
-use super::changes::{by_number, carried};
-use super::checked::{Case, Field, History, Quantity, Until};
+use super::changes::{carried, models};
+use super::checked::{Case, Field, History};
 use super::find::region_index;
 use super::{pores, rigid, water};
 use crate::error::Result;
 use crate::io::provenance::Origin;
 use crate::io::run_folder::RunFolder;
 use crate::run::fields::{self, Field as PointField};
-use crate::run::{self, InternalVariable, Outputs, Watch, WatchedOn};
+use crate::run::{InternalVariable, Outputs, Watch, WatchedOn};
 use crate::step::Scene;
 use std::sync::Arc;
 
@@ -41,12 +41,9 @@ pub fn outputs(
             Field::DeformationGradient => Arc::new(fields::DeformationGradient),
             Field::PorePressure => Arc::new(fields::PorePressure(carried(case, mesh)?)),
             Field::Mass => Arc::new(fields::PointColumn("mass")),
-            Field::ShearStrength => {
-                Arc::new(fields::ShearStrength(by_number(case, mesh, |material| Some(material.model.clone()))?))
-            }
+            Field::ShearStrength => Arc::new(fields::ShearStrength(models(case, mesh)?)),
             Field::InternalVariables => {
-                let models = by_number(case, mesh, |material| Some(material.model.clone()))?;
-                let variables = InternalVariable::all(&models).into_iter();
+                let variables = InternalVariable::all(&models(case, mesh)?).into_iter();
                 asked.extend(variables.map(|variable| Arc::new(variable) as Arc<dyn PointField<2>>));
                 continue;
             }
@@ -61,38 +58,11 @@ pub fn outputs(
             (Some(group), Some(body)) => WatchedOn::Side(group.nodes.clone(), body),
             (None, _) => WatchedOn::Region(region_index(mesh, &entry.on)?),
         };
-        let quantities = entry.quantities.iter().map(|q| quantity(*q));
-        Ok(Watch { name: entry.name.clone(), on, quantities: quantities.collect() })
+        Ok(Watch { name: entry.name.clone(), on, quantities: entry.quantities.clone() })
     };
     let watches = case.output.history.iter().map(watch).collect::<Result<Vec<_>>>()?;
     let watches = pores::pressures_at_corners(scene, watches);
-    let until = |condition: &Until| match *condition {
-        Until::Reached { history, quantity: of, bound, below } => {
-            // An entry of the history may have become several.
-            let (name, quantity) = (&case.output.history[history].name, quantity(of));
-            let found = watches.iter().position(|w| w.name == *name && w.quantities.contains(&quantity));
-            run::Until::Reached { watch: found.unwrap_or(history), quantity, bound, below }
-        }
-        Until::Equilibrium(part) => run::Until::Equilibrium(part),
-    };
-    let until = case.phases.iter().map(|phase| phase.until.iter().map(until).collect()).collect();
+    let until = case.phases.iter().map(|phase| phase.until.clone()).collect();
     let surface = if water::needs_surface(case) { Some(water::acting(case, mesh)?) } else { None };
     Ok(Outputs { folder: folder.clone(), ends: Vec::new(), warnings, fields: asked, watches, until, surface, origin })
-}
-
-fn quantity(quantity: Quantity) -> run::Quantity {
-    match quantity {
-        Quantity::Ux => run::Quantity::Displacement(0),
-        Quantity::Uy => run::Quantity::Displacement(1),
-        Quantity::Vx => run::Quantity::Velocity(0),
-        Quantity::Vy => run::Quantity::Velocity(1),
-        Quantity::ReactionX => run::Quantity::Reaction(0),
-        Quantity::ReactionY => run::Quantity::Reaction(1),
-        Quantity::ContactX => run::Quantity::Contact(0),
-        Quantity::ContactY => run::Quantity::Contact(1),
-        Quantity::Rotation => run::Quantity::Rotation,
-        Quantity::ReactionMoment => run::Quantity::ReactionMoment,
-        Quantity::ContactMoment => run::Quantity::ContactMoment,
-        Quantity::PorePressure => run::Quantity::PorePressure,
-    }
 }

@@ -14,18 +14,16 @@ use std::collections::{BTreeMap, HashSet};
 
 /// Whether each region of the mesh is of finite elements.
 pub fn of_elements(case: &Case, mesh: &Mesh<2>) -> Vec<bool> {
-    let fem = |name: &String| case.regions.iter().any(|r| r.name == *name && r.content.is_fem());
-    mesh.regions.iter().map(fem).collect()
+    mesh.regions.iter().map(|name| case.content(name).is_some_and(|content| content.is_fem())).collect()
 }
 
 /// What the regions of a mesh are for the series of its results.
 pub fn of_series(case: &Case, mesh: &Mesh<2>) -> Regions {
-    let region = |name: &String| case.regions.iter().find(|r| r.name == *name);
-    let is_soil = |name| region(name).is_some_and(|r| r.content.material().is_some() && !r.content.is_structure());
+    let material = |name: &String| case.content(name).and_then(|content| content.material());
+    let is_soil = |name| material(name).is_some() && !case.content(name).is_some_and(|content| content.is_structure());
     let number = |name: &String| mesh.regions.iter().position(|r| r == name).map(|r| r as u16);
     let absent = |phase: &Phase| (phase.name.clone(), phase.absent.iter().filter_map(number).collect());
-    let mut now: Vec<u16> =
-        mesh.regions.iter().map(|name| region(name).and_then(|r| r.content.material()).unwrap_or(0) as u16).collect();
+    let mut now: Vec<u16> = mesh.regions.iter().map(|name| material(name).unwrap_or(0) as u16).collect();
     let mut materials = BTreeMap::new();
     for phase in &case.phases {
         for change in &phase.changes {
@@ -72,7 +70,7 @@ pub fn material_curve<'a>(site: &Site<'a>, name: &str, place: impl Fn() -> Strin
         let remedy = "name a curve of a body that deforms, or take `rigid: true` out";
         return Err(Error::input(place(), "the curve is one of a rigid structure", remedy));
     }
-    let moves = site.case.numerics.restore == Restore::Never;
+    let moves = site.case.numerics.solver.restore == Restore::Never;
     if !moves && !site.elements.is_some_and(|elements| carries(elements, curve)) {
         return Err(Error::input(
             place(),

@@ -1,9 +1,9 @@
 //! The phases of a case: time steps, prescribed displacements and loads.
 
 use super::check::Checker;
-use super::checked::{Analysis, Numerics, Phase, Prescribed, StepSize, Until};
+use super::checked::{Numerics, Phase, Prescribed, StepSize, Until};
 use super::locate::{At, Path};
-use super::raw;
+use super::raw::{self, Analysis};
 use super::structure::suggest;
 use crate::material::MODELS;
 use crate::time_value::TimeValue;
@@ -32,19 +32,12 @@ impl Checker {
     }
 
     fn phase(&mut self, phase: &raw::Phase, file: &raw::CaseFile, numerics: &Numerics, path: &Path) -> Phase {
-        let analysis = match phase.analysis {
-            raw::Analysis::QuasiStatic => Analysis::QuasiStatic,
-            raw::Analysis::Dynamic => Analysis::Dynamic,
-            raw::Analysis::Auto => Analysis::Auto,
-            raw::Analysis::StrengthReduction => Analysis::StrengthReduction,
-            raw::Analysis::Consolidation => {
-                if file.materials.values().all(|material| material.permeability.is_none()) {
-                    let remedy = "give an undrained material a `permeability`, or choose quasi_static";
-                    self.issue(&path.key("analysis"), At::Value, "no material has a permeability", remedy);
-                }
-                Analysis::Consolidation
-            }
-        };
+        if phase.analysis == Analysis::Consolidation
+            && file.materials.values().all(|material| material.permeability.is_none())
+        {
+            let remedy = "give an undrained material a `permeability`, or choose quasi_static";
+            self.issue(&path.key("analysis"), At::Value, "no material has a permeability", remedy);
+        }
         let mut prescribed = Vec::new();
         for (curve, motion) in &phase.prescribe {
             let path = path.key("prescribe").key(curve);
@@ -74,31 +67,25 @@ impl Checker {
         };
         Phase {
             name: phase.name.clone(),
-            analysis,
+            analysis: phase.analysis,
             duration: phase.duration,
             step: self.step(&phase.step, phase.duration, &path.key("step")),
             prescribed,
             tractions,
             surface_loads,
             gravity,
-            reduction: self.reduction(phase, analysis, file, path),
+            reduction: self.reduction(phase, file, path),
             absent: Vec::new(),
             changes: Vec::new(),
             contacts: Vec::new(),
             reset: phase.reset_displacements,
-            until: self.until(phase, analysis, file, &path.key("until")),
+            until: self.until(phase, file, &path.key("until")),
         }
     }
 
     /// What strengths are divided by in a phase. A search goes from 1 upwards by 1 a second where nothing is said.
-    fn reduction(
-        &mut self,
-        phase: &raw::Phase,
-        analysis: Analysis,
-        file: &raw::CaseFile,
-        path: &Path,
-    ) -> Option<TimeValue> {
-        let searches = analysis == Analysis::StrengthReduction;
+    fn reduction(&mut self, phase: &raw::Phase, file: &raw::CaseFile, path: &Path) -> Option<TimeValue> {
+        let searches = phase.analysis == Analysis::StrengthReduction;
         let at = path.key("strength_reduction");
         // A model that is not known has been reported.
         let bears_all = |name: &str| MODELS.iter().any(|kind| kind.name == name && !kind.yields);
@@ -174,7 +161,7 @@ impl Checker {
         absent
     }
 
-    fn until(&mut self, phase: &raw::Phase, analysis: Analysis, file: &raw::CaseFile, path: &Path) -> Vec<Until> {
+    fn until(&mut self, phase: &raw::Phase, file: &raw::CaseFile, path: &Path) -> Vec<Until> {
         let mut checked = Vec::new();
         for (i, condition) in phase.until.iter().enumerate() {
             let path = path.index(i);
@@ -186,21 +173,26 @@ impl Checker {
             };
             match (of, quantity, bound, equilibrium) {
                 (Some(of), Some(quantity), Some(bound), None) => {
-                    let Some(history) = file.output.history.iter().position(|entry| entry.name == *of) else {
+                    let Some(entry) = file.output.history.iter().find(|entry| entry.name == *of) else {
                         let names = file.output.history.iter().map(|entry| entry.name.as_str());
                         let problem = format!("`output.history` has no entry `{of}`");
                         self.issue(&path.key("of"), At::Value, problem, suggest(of, names));
                         continue;
                     };
-                    if !file.output.history[history].quantities.contains(quantity) {
+                    if !entry.quantities.contains(quantity) {
                         let remedy = "add it to the `quantities` of that entry";
                         let problem = format!("the entry `{of}` of `output.history` does not have this quantity");
                         self.issue(&path.key("quantity"), At::Value, problem, remedy);
                     }
-                    checked.push(Until::Reached { history, quantity: *quantity, bound, below: is_below });
+                    checked.push(Until::Reached {
+                        of: of.clone(),
+                        quantity: (*quantity).into(),
+                        bound,
+                        below: is_below,
+                    });
                 }
                 (None, None, None, Some(part)) if above.is_none() => {
-                    if !analysis.has_inertia() {
+                    if !phase.analysis.has_inertia() {
                         let remedy = "take it out: every step of a phase without inertia ends in equilibrium";
                         self.issue(&path, At::Value, "there is no motion to come to rest", remedy);
                     }

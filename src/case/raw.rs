@@ -375,7 +375,7 @@ pub struct Velocity {
 }
 
 /// A velocity component `amplitude · sin(wave_number · coordinate)`.
-#[derive(Debug, Deserialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, Deserialize, JsonSchema, PartialEq)]
 #[serde(deny_unknown_fields)]
 pub struct StandingWave {
     /// The component of the velocity: x or y.

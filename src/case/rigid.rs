@@ -15,8 +15,7 @@ use std::collections::HashSet;
 
 /// Whether each region of the mesh is of a rigid structure.
 pub fn regions(case: &Case, mesh: &Mesh<2>) -> Vec<bool> {
-    let rigid = |name: &String| case.regions.iter().any(|r| r.name == *name && r.content.is_rigid());
-    mesh.regions.iter().map(rigid).collect()
+    mesh.regions.iter().map(|name| case.content(name).is_some_and(|content| content.is_rigid())).collect()
 }
 
 /// The rigid structures of a case, and then its walls, by their regions and nodes in the whole `mesh`.
@@ -108,15 +107,6 @@ fn always_fixed(body: &Body<2>) -> impl Iterator<Item = Fixed> {
     unused.chain(held(body).filter(|_| body.is_wall))
 }
 
-/// A motion given to an entry of `supports` or `prescribe`.
-struct Given<'a> {
-    /// The name of a curve or a rigid body.
-    name: &'a str,
-    /// 0 for x, 1 for y, 2 for the rotation.
-    component: usize,
-    value: TimeValue,
-}
-
 /// What holds the nodes of a mesh, curve by curve, and rigid bodies.
 pub struct Holds<'a> {
     case: &'a Case,
@@ -147,28 +137,24 @@ impl<'a> Holds<'a> {
     ///
     /// # Errors
     /// As [`Holds::supports`].
-    pub fn prescribed(&self, phase: &'a Phase) -> Result<Vec<Prescribed>> {
-        let entry = |p: &'a checked::Prescribed| Given {
-            name: &p.curve,
-            component: p.component,
-            value: p.displacement.clone(),
-        };
-        let own: Vec<Given> = phase.prescribed.iter().map(entry).collect();
+    pub fn prescribed(&self, phase: &Phase) -> Result<Vec<Prescribed>> {
         let mut prescribed = Vec::new();
-        for entry in &own {
+        for entry in &phase.prescribed {
             prescribed.extend(self.resolve(entry)?);
         }
-        let all: Vec<Given> = own.into_iter().chain(self.supported()).collect();
+        let all: Vec<_> = phase.prescribed.iter().cloned().chain(self.supported()).collect();
         self.check(&format!("phase {}", phase.name), &all)?;
         Ok(prescribed)
     }
 
-    fn supported(&self) -> Vec<Given<'a>> {
+    /// The supports as displacements of zero.
+    fn supported(&self) -> Vec<checked::Prescribed> {
         let mut given = Vec::new();
         for support in &self.case.supports {
             let held = [support.fixed[0], support.fixed[1], support.rotation];
             for component in (0..3).filter(|&c| held[c]) {
-                given.push(Given { name: &support.curve, component, value: TimeValue::Constant(0.0) });
+                let displacement = TimeValue::Constant(0.0);
+                given.push(checked::Prescribed { curve: support.curve.clone(), component, displacement });
             }
         }
         given
@@ -180,57 +166,57 @@ impl<'a> Holds<'a> {
     }
 
     /// The nodes that an entry moves. All of a curve moves alike: a body that has it does not turn.
-    fn resolve(&self, given: &Given) -> Result<Vec<Prescribed>> {
-        let Some(body) = self.body(given.name) else {
-            let nodes = group(self.mesh, given.name)?.nodes.clone();
+    fn resolve(&self, given: &checked::Prescribed) -> Result<Vec<Prescribed>> {
+        let Some(body) = self.body(&given.curve) else {
+            let nodes = group(self.mesh, &given.curve)?.nodes.clone();
             if self.bodies.iter().any(|body| nodes.iter().any(|n| body.nodes.binary_search(n).is_ok())) {
                 return Err(Error::input(
-                    format!("the curve `{}`", given.name),
+                    format!("the curve `{}`", given.curve),
                     "some of it belongs to a rigid structure and some does not",
                     "make two curves of it in the .geo",
                 ));
             }
             let fixed = Fixed { nodes, component: given.component };
-            return Ok(vec![Prescribed { fixed, displacement: given.value.clone() }]);
+            return Ok(vec![Prescribed { fixed, displacement: given.displacement.clone() }]);
         };
-        let does_not_turn = given.component != 2 && !is_region(self.mesh, body, given.name);
+        let does_not_turn = given.component != 2 && !is_region(self.mesh, body, &given.curve);
         let still = does_not_turn.then(|| moved(body, 2, &TimeValue::Constant(0.0))).flatten();
-        Ok(moved(body, given.component, &given.value).into_iter().chain(still).collect())
+        Ok(moved(body, given.component, &given.displacement).into_iter().chain(still).collect())
     }
 
     /// # Errors
     /// Input: two entries that move a rigid body differently, a rotation that its curves rule out, one of a body
     /// that cannot turn, or a way off the axis.
-    fn check(&self, place: &str, given: &[Given]) -> Result<()> {
+    fn check(&self, place: &str, given: &[checked::Prescribed]) -> Result<()> {
         let still = TimeValue::Constant(0.0);
         for (i, entry) in given.iter().enumerate() {
-            let Some(body) = self.body(entry.name) else { continue };
+            let Some(body) = self.body(&entry.curve) else { continue };
             let problem = |problem: String| {
                 Err(Error::input(place, problem, "prescribe the motion of a rigid structure once, by its name"))
             };
-            let cannot = body.dofs.rotation.is_none() && entry.component != 1 && entry.value != still;
+            let cannot = body.dofs.rotation.is_none() && entry.component != 1 && entry.displacement != still;
             if cannot {
-                return problem(format!("`{}` moves along the axis of symmetry only", entry.name));
+                return problem(format!("`{}` moves along the axis of symmetry only", entry.curve));
             }
-            let same = |other: &&Given| self.body(other.name) == Some(body);
+            let same = |other: &&checked::Prescribed| self.body(&other.curve) == Some(body);
             for other in given[..i].iter().filter(same) {
                 let directions = ["x", "y", "rotation"];
-                if other.component == entry.component && other.value != entry.value {
+                if other.component == entry.component && other.displacement != entry.displacement {
                     let direction = directions[entry.component];
                     return problem(format!(
                         "`{}` and `{}` move the same rigid structure differently ({direction})",
-                        other.name, entry.name
+                        other.curve, entry.curve
                     ));
                 }
             }
-            let turns = |e: &&Given| same(e) && e.component == 2 && e.value != still;
+            let turns = |e: &&checked::Prescribed| same(e) && e.component == 2 && e.displacement != still;
             if entry.component < 2
-                && !is_region(self.mesh, body, entry.name)
+                && !is_region(self.mesh, body, &entry.curve)
                 && let Some(turns) = given.iter().find(turns)
             {
                 return problem(format!(
                     "the curve `{}` of a rigid structure moves alike all along, which rules out the rotation of `{}`",
-                    entry.name, turns.name
+                    entry.curve, turns.curve
                 ));
             }
         }

@@ -22,7 +22,7 @@ use crate::mesh::locate::Locator;
 use crate::points::Points;
 use crate::quadrature::{Bounded, Quadrature, Resampled, Volumes};
 use crate::run::{self, Ended, First, Outputs, Progress, checkpoint};
-use crate::step::{self, Fem, Numerics, Phase, Scene, Search, State, Stop, overlap};
+use crate::step::{Fem, Phase, Scene, Search, State, Stop, overlap};
 use crate::term::{
     BodyForce, Contact, EmptyCells, GhostInertia, GhostPenalty, Inertia, Internal, PoreStabilisation, PoreWater,
     PressureField, SmoothPressure, Term, Traction,
@@ -69,22 +69,18 @@ pub fn solve(
     let mut warnings = warnings.concat();
     warnings.extend(begin.start.map(Start::note));
     let parts = parts::points(case, &mesh, points);
-    match case.geometry {
-        Geometry::PlaneStrain => {
-            let scene = scene::<PlaneStrain>(case, mesh)?;
-            let outputs = outputs(case, &scene, folder, begin.origin, warnings)?;
-            let first = begin.state(&scene, first(case, &scene, parts)?)?;
-            let outputs = Outputs { ends: begin.ends, ..outputs };
-            run::run::<2, PlaneStrain>(&scene, first, &outputs, begin.resume, stop, progress)
-        }
-        Geometry::Axisymmetric => {
-            let scene = scene::<Axisymmetric>(case, mesh)?;
-            let outputs = outputs(case, &scene, folder, begin.origin, warnings)?;
-            let first = begin.state(&scene, first(case, &scene, parts)?)?;
-            let outputs = Outputs { ends: begin.ends, ..outputs };
-            run::run::<2, Axisymmetric>(&scene, first, &outputs, begin.resume, stop, progress)
-        }
-    }
+    let scene = match case.geometry {
+        Geometry::PlaneStrain => scene::<PlaneStrain>(case, mesh)?,
+        Geometry::Axisymmetric => scene::<Axisymmetric>(case, mesh)?,
+    };
+    let outputs = outputs(case, &scene, folder, begin.origin, warnings)?;
+    let first = begin.state(&scene, first(case, &scene, parts)?)?;
+    let outputs = Outputs { ends: begin.ends, ..outputs };
+    let run = match case.geometry {
+        Geometry::PlaneStrain => run::run::<2, PlaneStrain>,
+        Geometry::Axisymmetric => run::run::<2, Axisymmetric>,
+    };
+    run(&scene, first, &outputs, begin.resume, stop, progress)
 }
 
 impl Begin<'_> {
@@ -109,7 +105,7 @@ pub fn first(case: &Case, scene: &Scene<2>, [mut points, mut fem]: [Points<2>; 2
         begin_pressure(case, &scene.mesh, &mut points)?;
         begin_pressure(case, &scene.mesh, &mut fem)?;
     }
-    let models = changes::by_number(case, &scene.mesh, |material| Some(material.model.clone()))?;
+    let models = changes::models(case, &scene.mesh)?;
     points.begin(&models);
     fem.begin(&models);
     let strengths = changes::random_strengths(case, &scene.mesh)?;
@@ -120,7 +116,7 @@ pub fn first(case: &Case, scene: &Scene<2>, [mut points, mut fem]: [Points<2>; 2
         points.pore_pressure.resize(points.len(), 0.0);
         fem.pore_pressure.resize(fem.len(), 0.0);
     }
-    let first_step = scene.phases.first().map_or(0.0, |p| p.first_step);
+    let first_step = scene.phases.first().map_or(0.0, |p| p.step.initial);
     let fem_parametric = scene.fem.as_ref().map_or(Ok(Vec::new()), |part| parts::places(&part.mesh, &fem))?;
     Ok(State { fem, fem_parametric, ..State::new(points, scene.displacements(), first_step) })
 }
@@ -191,7 +187,7 @@ pub fn scene<K: Kinematics<2>>(case: &Case, mut whole: Mesh<2>) -> Result<Scene<
     if case.gravity != [0.0; 2] && density_scale > 0.0 {
         terms.push(Box::new(gravity::<K>(case)));
     }
-    if case.numerics.restore != Restore::Never {
+    if case.numerics.solver.restore != Restore::Never {
         terms.push(Box::new(EmptyCells::<K>::new(case.numerics.empty_stiffness * young, mesh.cells.len())));
         if case.numerics.quadrature != raw::Quadrature::Points {
             let models = self::models(case, &mesh)?;
@@ -243,7 +239,7 @@ pub fn scene<K: Kinematics<2>>(case: &Case, mut whole: Mesh<2>) -> Result<Scene<
     let interfaces =
         contact_interfaces::interfaces::<K>(case, &mesh, fem.as_ref().map_or(&mesh, |fem| &fem.mesh), &bodies)?;
     for (number, interface) in (0..).zip(&interfaces) {
-        terms.push(Box::new(Contact::new(number, interface.laws().clone(), levels.clone())));
+        terms.push(Box::new(Contact::new(number, interface.sides().laws.clone(), levels.clone())));
     }
     let carried = changes::carried(case, &mesh)?;
     let holds = Holds::new(case, &mesh, &bodies);
@@ -273,12 +269,7 @@ pub fn scene<K: Kinematics<2>>(case: &Case, mut whole: Mesh<2>) -> Result<Scene<
         supports,
         phases,
         basis,
-        numerics: Numerics {
-            restore: restore(case.numerics.restore),
-            spectral_radius: case.numerics.spectral_radius,
-            tolerance: case.numerics.tolerance,
-            max_iterations: case.numerics.max_iterations,
-        },
+        numerics: case.numerics.solver.clone(),
         gravity: case.gravity,
         stiffness_scale,
         density_scale,
@@ -343,19 +334,11 @@ fn seeded(case: &Case, mesh: &Mesh<2>) -> Result<Vec<u32>> {
     Ok(seeded)
 }
 
-fn restore(restore: Restore) -> step::Restore {
-    match restore {
-        Restore::EveryStep => step::Restore::EveryStep,
-        Restore::Quality { least, stretch } => step::Restore::Quality { least, stretch },
-        Restore::Never => step::Restore::Never,
-    }
-}
-
-fn phase<'a>(
+fn phase(
     case: &Case,
-    holds: &Holds<'a>,
+    holds: &Holds,
     number: usize,
-    phase: &'a super::checked::Phase,
+    phase: &super::checked::Phase,
     search: Option<&Search>,
 ) -> Result<Phase> {
     let values = phase
@@ -373,9 +356,7 @@ fn phase<'a>(
         auto: phase.analysis == Analysis::Auto,
         flows: pores::flows(case, phase),
         duration: phase.duration,
-        first_step: phase.step.initial,
-        least_step: phase.step.min,
-        largest_step: phase.step.max,
+        step: phase.step,
         prescribed: holds.prescribed(phase)?,
         reduction: phase.reduction.clone(),
         search: search.filter(|_| phase.analysis == Analysis::StrengthReduction).cloned(),

@@ -62,8 +62,8 @@ fn entries_arrive_where_they_are_meant() {
     assert_eq!(case.mesh.parameters["h"], 0.5);
     assert_eq!(case.gravity, [0.0, -10.0]);
     assert_eq!(case.k0, Some(0.5));
-    assert_eq!(case.numerics.restore, Restore::Never);
-    assert_eq!((case.numerics.spectral_radius, case.numerics.tolerance), (1.0, 1e-8));
+    assert_eq!(case.numerics.solver.restore, Restore::Never);
+    assert_eq!((case.numerics.solver.spectral_radius, case.numerics.solver.tolerance), (1.0, 1e-8));
     let Content::Mpm { material, points_per_cell: 9 } = case.regions[0].content else { panic!("{:?}", case.regions) };
     assert_eq!(case.materials[material].name, "clay");
     assert_eq!(case.supports.iter().map(|s| s.fixed).collect::<Vec<_>>(), [[true, true], [true, false]]);
@@ -98,7 +98,7 @@ fn overrides_set_entries_by_keys_numbers_and_names() {
         ["phases[0].duration=7", "phases.b.step={initial: 0.5}", "numerics.max_iterations=9", "materials.clay.young=3"];
     let case = case(CASE, &overrides);
     assert_eq!((case.phases[0].duration, case.phases[1].step.initial), (7.0, 0.5));
-    assert_eq!(case.numerics.max_iterations, 9);
+    assert_eq!(case.numerics.solver.max_iterations, 9);
     assert_eq!(case.materials[0].model.young(-4.0), 3.0);
 }
 

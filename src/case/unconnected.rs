@@ -31,9 +31,8 @@ pub fn places(mesh: &Mesh<2>) -> Vec<Place> {
 /// A warning for each structure within the box around the grid that has no contact and shares nothing with soil: what it meets there does
 /// not feel it.
 pub fn structures(case: &Case, places: &[Place]) -> Vec<String> {
-    let content = |place: &Place| case.regions.iter().find(|region| region.name == place.name).map(|r| &r.content);
-    let is_structure = |place: &&Place| content(place).is_some_and(Content::is_structure);
-    let is_grid = |place: &&Place| matches!(content(place), Some(Content::Mpm { .. } | Content::Buffer));
+    let is_structure = |place: &&Place| case.content(&place.name).is_some_and(|content| content.is_structure());
+    let is_grid = |place: &&Place| matches!(case.content(&place.name), Some(Content::Mpm { .. } | Content::Buffer));
     let join = |a: Bounds, b: Bounds| [[0, 1].map(|d| a[0][d].min(b[0][d])), [0, 1].map(|d| a[1][d].max(b[1][d]))];
     let grid = places.iter().filter(is_grid).map(|place| place.bounds).reduce(join);
     let Some(grid) = grid.filter(|_| case.regions.iter().any(|r| matches!(r.content, Content::Mpm { .. }))) else {
@@ -110,7 +109,7 @@ pub fn nodes(case: &Case, mesh: &Mesh<2>) -> Vec<String> {
 
 /// Whether regions that meet are to hold together.
 fn should_hold(case: &Case, [a, b]: [&str; 2]) -> bool {
-    let is = |name: &str, kind: fn(&Content) -> bool| case.regions.iter().any(|r| r.name == name && kind(&r.content));
+    let is = |name: &str, kind: fn(&Content) -> bool| case.content(name).as_ref().is_some_and(kind);
     if a == b || ![a, b].iter().any(|name| is(name, Content::is_structure)) {
         return true;
     }

@@ -3,7 +3,7 @@
 //! Each has a bound that no sound case comes near to; what may be meant is not warned of.
 
 use super::checked::{Case, Content, Phase, Touched, Touching};
-use super::layout::{Bounds, bounds, box_around, gap};
+use super::layout::{Bounds, bounds, box_around, gap, moves};
 use super::unconnected::Place;
 use crate::mesh::quality::SAME;
 use crate::mesh::{Mesh, cell_size};
@@ -27,7 +27,7 @@ const GOOD_STEP: f64 = 1.0 / 6.0;
 
 /// What shows without the mesh, given where the regions lie.
 pub fn of_case(case: &Case, places: &[Place]) -> Vec<String> {
-    let tolerance = case.numerics.tolerance;
+    let tolerance = case.numerics.solver.tolerance;
     let loose = (tolerance > LOOSE).then(|| {
         format!(
             "warning: `numerics.tolerance` is {tolerance:e}: each step leaves an error of that part of the forces, and they add up; leave \
@@ -40,9 +40,7 @@ pub fn of_case(case: &Case, places: &[Place]) -> Vec<String> {
 /// A warning for each structure that is pressed down into soil that has no cells to heave into.
 fn room(case: &Case, places: &[Place]) -> Vec<String> {
     let of = |wanted: fn(&Content) -> bool| {
-        places
-            .iter()
-            .filter(move |place| case.regions.iter().any(|region| region.name == place.name && wanted(&region.content)))
+        places.iter().filter(move |place| case.content(&place.name).as_ref().is_some_and(wanted))
     };
     let top = |place: &Place| place.bounds[1][1];
     let surface = of(|content| matches!(content, Content::Mpm { .. })).map(top).fold(f64::NEG_INFINITY, f64::max);
@@ -84,10 +82,7 @@ pub fn looks_at_mesh(case: &Case) -> bool {
 
 /// What shows on the mesh: cells and steps that are too coarse for the structures that move in soil.
 pub fn on_mesh(case: &Case, mesh: &Mesh<2>) -> Vec<String> {
-    let content = |c: usize| {
-        let name = &mesh.regions[usize::from(mesh.cells.region[c])];
-        case.regions.iter().find(|region| region.name == *name).map(|region| region.content)
-    };
+    let content = |c: usize| case.content(&mesh.regions[usize::from(mesh.cells.region[c])]);
     let is_grid = |c: &usize| matches!(content(*c), Some(Content::Mpm { .. } | Content::Buffer));
     let Some(grid) = bounds(&mesh.part(|c| is_grid(&c))) else { return Vec::new() };
     let mut warnings = Vec::new();
@@ -149,12 +144,6 @@ struct Motion<'a> {
     step: f64,
     /// The largest step (s).
     largest: f64,
-}
-
-/// Whether what moves `curve` moves the structure `name` with the cells `body`.
-fn moves(name: &str, body: &Mesh<2>, curve: &str) -> bool {
-    let on = |group: &crate::mesh::Group| group.nodes.iter().all(|n| body.cells.nodes.contains(n));
-    curve == name || body.group(curve).is_some_and(on)
 }
 
 /// A warning where the phases move a structure below the lowest place of the grid, given the heights (m) of the lowest places of both.

@@ -7,13 +7,12 @@
 //! shape functions.
 
 use super::along::{Mark, lines};
-use super::constraint::{Constraint, FADING};
-use super::interface::{Ground, Interface, NORMAL, Pushed, TANGENTIAL};
-use super::law::{Laws, Penalty};
+use super::constraint::{Constraint, Entry, FADING, add};
+use super::interface::{Ground, Interface, NORMAL, Pushed, Sides, TANGENTIAL};
+use super::law::Penalty;
 use super::motion::Spot;
 use super::multipliers::Multipliers;
 use super::place::{Placed, Segments};
-use super::rigid::{Entry, add};
 use super::surface::{Run, Segment, Surface};
 use crate::geometry::{Hit, Lines, distance, dot, foot, way};
 use crate::kinematics::Kinematics;
@@ -31,13 +30,10 @@ const ITERATIONS: usize = 4;
 
 /// The boundary of a structure on that of another body.
 pub struct Bodies<K> {
-    /// The regions of both.
-    pub structure: u16,
-    pub against: u16,
+    pub sides: Sides,
     /// The boundary with the contact nodes, and the other one.
     pub surface: Surface,
     pub other: Surface,
-    pub laws: Laws,
     /// Where one of the two is soil, which has pores.
     pub soil: Option<SoilSide>,
     /// Young's modulus (kPa) of the softer one.
@@ -229,16 +225,8 @@ impl Sum {
 }
 
 impl<K: Kinematics<2>> Interface<2> for Bodies<K> {
-    fn structure(&self) -> u16 {
-        self.structure
-    }
-
-    fn against(&self) -> Option<u16> {
-        Some(self.against)
-    }
-
-    fn soils(&self) -> &[u16] {
-        &[]
+    fn sides(&self) -> &Sides {
+        &self.sides
     }
 
     fn contact_nodes(&self) -> usize {
@@ -247,10 +235,6 @@ impl<K: Kinematics<2>> Interface<2> for Bodies<K> {
 
     fn runs(&self) -> &[Run] {
         &self.surface.runs
-    }
-
-    fn laws(&self) -> &Laws {
-        &self.laws
     }
 
     fn constraints(
@@ -267,7 +251,7 @@ impl<K: Kinematics<2>> Interface<2> for Bodies<K> {
         let mut sums = vec![Sum::default(); self.surface.contact_nodes];
         let loops = loops(&self.surface, &segments);
         // Nothing else depends on it.
-        let wet = self.soil.as_ref().filter(|soil| soil.undrained && self.laws.at(ground.phase).friction > 0.0);
+        let wet = self.soil.as_ref().filter(|soil| soil.undrained && self.sides.laws.at(ground.phase).friction > 0.0);
         let wet = wet.map(|soil| (soil, soil.points(ground.elements)));
         for (segment, placed) in self.surface.segments.iter().zip(&segments.0) {
             let own = &self.surface.facets[segment.facet as usize];
@@ -347,7 +331,7 @@ impl<K: Kinematics<2>> Interface<2> for Bodies<K> {
                     fading: FADING * self.surface.spacing,
                     bonded: held.bonded(
                         contact_node,
-                        self.laws.at(ground.phase),
+                        self.sides.laws.at(ground.phase),
                         sum.gap / area < FADING * self.surface.spacing,
                     ),
                     strength: f64::INFINITY,

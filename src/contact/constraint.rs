@@ -86,3 +86,14 @@ impl<const D: usize> Constraint<D> {
         std::array::from_fn(|d| self.by_normal[k][d] + turn * self.by_arc[k][d])
     }
 }
+
+/// A node, and the derivatives of gap, slip and maybe the way along the boundary by its displacement.
+pub type Entry<const D: usize, const N: usize> = (u32, [[f64; D]; N]);
+
+/// Adds to the entry of a node.
+pub fn add<const D: usize, const N: usize>(entries: &mut Vec<Entry<D, N>>, node: u32, more: &[[f64; D]; N]) {
+    match entries.iter_mut().find(|(n, _)| *n == node) {
+        Some((_, by)) => by.iter_mut().flatten().zip(more.iter().flatten()).for_each(|(by, more)| *by += more),
+        None => entries.push((node, *more)),
+    }
+}

@@ -1,7 +1,7 @@
 //! A structure and the soil it touches: the condition of each contact node in a step.
 
 use super::along::{Mark, lines};
-use super::constraint::{Constraint, FADING};
+use super::constraint::{Constraint, Entry, FADING, add};
 use super::cover::covers;
 use super::gap::{Facing, Gap, Soil, project_out, raw_gaps};
 use super::law::{Laws, Penalty};
@@ -71,23 +71,25 @@ pub struct Pushed {
     pub most: f64,
 }
 
+/// Who is in contact, and by what law.
+#[derive(Clone, Debug)]
+pub struct Sides {
+    /// The region of the structure.
+    pub structure: u16,
+    /// The region of what it touches, if that is a body and not soil.
+    pub against: Option<u16>,
+    /// The regions of the soil that it touches; none of a body.
+    pub soils: Vec<u16>,
+    pub laws: Laws,
+}
+
 /// A structure and what it touches.
 pub trait Interface<const D: usize>: Send + Sync {
-    /// The region of the structure.
-    fn structure(&self) -> u16;
-
-    /// The region of what it touches, if that is a body and not soil.
-    fn against(&self) -> Option<u16> {
-        None
-    }
-
-    /// The regions of the soil that it touches; none of a body.
-    fn soils(&self) -> &[u16];
+    /// Who is in contact, and by what law.
+    fn sides(&self) -> &Sides;
 
     /// The number of contact nodes.
     fn contact_nodes(&self) -> usize;
-
-    fn laws(&self) -> &Laws;
 
     /// The conditions of the contact nodes that face soil; `position` tells where the nodes are.
     fn constraints(
@@ -117,12 +119,9 @@ pub trait Interface<const D: usize>: Send + Sync {
 
 /// The boundary of a structure on material points.
 pub struct Boundary<K> {
-    /// The region of the structure.
-    pub structure: u16,
+    pub sides: Sides,
     pub surface: Surface,
-    pub laws: Laws,
-    /// The regions of the soil, and the model of each material by number ([`Points::model_of`]).
-    pub regions: Vec<u16>,
+    /// The model of each material by number ([`Points::model_of`]).
     pub models: Vec<Option<Arc<dyn Model>>>,
     /// The surface that all soil began with.
     pub skin: Skin,
@@ -227,6 +226,7 @@ struct Measured {
 }
 
 /// What is summed up under a contact node.
+#[derive(Default)]
 struct Sum {
     area: f64,
     open: f64,
@@ -245,30 +245,12 @@ struct Sum {
     water: f64,
     height: f64,
     point: u32,
-    entries: Vec<(u32, [f64; 2], [f64; 2])>,
-}
-
-impl Sum {
-    fn add(&mut self, node: u32, normal: [f64; 2], tangent: [f64; 2]) {
-        match self.entries.iter_mut().find(|(n, ..)| *n == node) {
-            Some((_, n, t)) => {
-                for d in 0..2 {
-                    n[d] += normal[d];
-                    t[d] += tangent[d];
-                }
-            }
-            None => self.entries.push((node, normal, tangent)),
-        }
-    }
+    entries: Vec<Entry<2, 2>>,
 }
 
 impl<K: Kinematics<2>> Interface<2> for Boundary<K> {
-    fn structure(&self) -> u16 {
-        self.structure
-    }
-
-    fn soils(&self) -> &[u16] {
-        &self.regions
+    fn sides(&self) -> &Sides {
+        &self.sides
     }
 
     fn contact_nodes(&self) -> usize {
@@ -279,19 +261,15 @@ impl<K: Kinematics<2>> Interface<2> for Boundary<K> {
         &self.surface.runs
     }
 
-    fn laws(&self) -> &Laws {
-        &self.laws
-    }
-
     fn constraints(
         &self,
         ground: &Ground<2>,
         position: &dyn Fn(u32) -> [f64; 2],
         held: &Multipliers,
     ) -> Vec<Constraint<2>> {
-        let law = self.laws.at(ground.phase);
+        let law = self.sides.laws.at(ground.phase);
         let segments = Segments::new::<K>(&self.surface, position);
-        let soil = Soil { points: ground.points, regions: &self.regions };
+        let soil = Soil { points: ground.points, regions: &self.sides.soils };
         let gaps = raw_gaps::<K>(&self.surface, &segments, &soil, &self.skin);
         let (surface, smooth) = (Facing::new(ground.surface), held.smooth_gaps(&self.surface.runs));
         let mut holds = vec![false; ground.grid.cells.len()];
@@ -324,22 +302,7 @@ impl<K: Kinematics<2>> Interface<2> for Boundary<K> {
             let t = [-n[1], n[0]];
             for (contact_node, share) in segment.contact_nodes {
                 let weight = share * placed.area;
-                let sum = sums[contact_node as usize].get_or_insert_with(|| Sum {
-                    area: 0.0,
-                    open: 0.0,
-                    curvature: 0.0,
-                    moved: [0.0; 2],
-                    facing: 0.0,
-                    distance: 0.0,
-                    sure: 0.0,
-                    known: 0.0,
-                    spacing: 0.0,
-                    strength: 0.0,
-                    water: 0.0,
-                    height: 0.0,
-                    point,
-                    entries: Vec::new(),
-                });
+                let sum = sums[contact_node as usize].get_or_insert_with(|| Sum { point, ..Sum::default() });
                 sum.area += weight;
                 sum.open += weight * open;
                 sum.curvature += weight * placed.curvature;
@@ -359,13 +322,13 @@ impl<K: Kinematics<2>> Interface<2> for Boundary<K> {
                 sum.water += weight * water;
                 sum.height += weight * placed.middle[1];
                 for (&node, n_s) in structure.iter().zip(&placed.value) {
-                    sum.add(node, n.map(|n| -weight * n_s * n), t.map(|t| -weight * n_s * t));
+                    add(&mut sum.entries, node, &[n, t].map(|along| along.map(|a| -weight * n_s * a)));
                 }
                 for (&node, n_c) in soil.iter().zip(&value) {
                     if let Some(by) = ground.increment.get(node as usize) {
                         sum.moved = [0, 1].map(|d| sum.moved[d] + weight * n_c * by[d]);
                     }
-                    sum.add(node, n.map(|n| weight * n_c * n), t.map(|t| weight * n_c * t));
+                    add(&mut sum.entries, node, &[n, t].map(|along| along.map(|a| weight * n_c * a)));
                 }
             }
         }
@@ -394,19 +357,20 @@ impl<K: Kinematics<2>> Interface<2> for Boundary<K> {
             let measured = Measured { before: gaps[contact_node], open, known, spacing, curvature, moved };
             let (gap, offset) = self.begin(&measured, surface, held, contact_node);
             let of_structure = |n: &u32| self.surface.facets.iter().any(|f| f.contains(n));
-            entries.sort_by_key(|(n, ..)| (!of_structure(n), *n));
+            entries.sort_by_key(|(n, _)| (!of_structure(n), *n));
+            let by = |k: usize| entries.iter().map(|(_, by)| by[k].map(|by| by / area)).collect();
             Some(Constraint {
                 contact_node: contact_node as u32,
                 area,
                 gap,
                 offset,
                 height: Some(height / area),
-                own: entries.iter().filter(|(n, ..)| of_structure(n)).count(),
+                own: entries.iter().filter(|(n, _)| of_structure(n)).count(),
                 nodes: entries.iter().map(|e| e.0).collect(),
-                by_normal: entries.iter().map(|e| e.1.map(|n| n / area)).collect(),
-                by_tangent: entries.iter().map(|e| e.2.map(|t| t / area)).collect(),
+                by_normal: by(0),
+                by_tangent: by(1),
                 curvature,
-                by_arc: entries.iter().map(|e| e.2.map(|t| t / area)).collect(),
+                by_arc: by(1),
                 spots: Vec::new(),
                 penalty: Penalty {
                     bonded: held.bonded(contact_node, law, gap < FADING * self.surface.spacing),
@@ -438,7 +402,7 @@ impl<K: Kinematics<2>> Interface<2> for Boundary<K> {
 
     fn project_out(&self, points: &mut Points<2>, position: &dyn Fn(u32) -> [f64; 2]) -> Pushed {
         let segments = Segments::new::<K>(&self.surface, position);
-        let (points, most) = project_out::<K>(&segments, points, &self.regions);
+        let (points, most) = project_out::<K>(&segments, points, &self.sides.soils);
         Pushed { points, most }
     }
 }

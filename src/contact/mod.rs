@@ -25,7 +25,7 @@ mod surface;
 pub use along::{Mark, Tractions};
 pub use bodies::{Bodies, SoilSide};
 pub use constraint::Constraint;
-pub use interface::{Boundary, Ground, Interface, Pushed};
+pub use interface::{Boundary, Ground, Interface, Pushed, Sides};
 pub use law::{Answer, Law, Laws, Penalty};
 pub use motion::{Motion, Spot};
 pub use multipliers::Multipliers;

@@ -4,9 +4,8 @@
 //! displacement add up to one by that of the reference point and one by the rotation.
 
 use super::along::Mark;
-use super::constraint::Constraint;
-use super::interface::{Ground, Interface, Pushed};
-use super::law::Laws;
+use super::constraint::{Constraint, Entry, add};
+use super::interface::{Ground, Interface, Pushed, Sides};
 use super::multipliers::Multipliers;
 use super::surface::Run;
 use crate::points::Points;
@@ -67,7 +66,8 @@ impl<const D: usize> Rigid<D> {
         // Where the other side is a body: how the gap varies under the contact node is by how the two turn to each other, and a place at the
         // distance ρ in front of the reference point gets ½ ρ Δθ² farther away as the body turns.
         let mut curvature = constraint.curvature;
-        if let (Some(distance), true) = (self.distance(&constraint, position), self.interface.against().is_some()) {
+        if let (Some(distance), true) = (self.distance(&constraint, position), self.interface.sides().against.is_some())
+        {
             curvature = 1.0 / distance;
             for (side, sign) in sides.iter_mut().zip([1.0, 1.0, -1.0]) {
                 for (n, by) in side {
@@ -91,28 +91,9 @@ impl<const D: usize> Rigid<D> {
     }
 }
 
-/// A node, and the derivatives of gap, slip and maybe the way along the boundary by its displacement.
-pub type Entry<const D: usize, const N: usize> = (u32, [[f64; D]; N]);
-
-/// Adds to the entry of a node.
-pub fn add<const D: usize, const N: usize>(entries: &mut Vec<Entry<D, N>>, node: u32, more: &[[f64; D]; N]) {
-    match entries.iter_mut().find(|(n, _)| *n == node) {
-        Some((_, by)) => by.iter_mut().flatten().zip(more.iter().flatten()).for_each(|(by, more)| *by += more),
-        None => entries.push((node, *more)),
-    }
-}
-
 impl<const D: usize> Interface<D> for Rigid<D> {
-    fn structure(&self) -> u16 {
-        self.interface.structure()
-    }
-
-    fn against(&self) -> Option<u16> {
-        self.interface.against()
-    }
-
-    fn soils(&self) -> &[u16] {
-        self.interface.soils()
+    fn sides(&self) -> &Sides {
+        self.interface.sides()
     }
 
     fn contact_nodes(&self) -> usize {
@@ -121,10 +102,6 @@ impl<const D: usize> Interface<D> for Rigid<D> {
 
     fn runs(&self) -> &[Run] {
         self.interface.runs()
-    }
-
-    fn laws(&self) -> &Laws {
-        self.interface.laws()
     }
 
     fn constraints(
@@ -164,15 +141,11 @@ mod tests {
     use crate::mesh::Mesh;
 
     /// An interface with one constraint, between nodes 0 and 1 of a body and node 2 of soil.
-    struct One(Laws);
+    struct One(Sides);
 
     impl Interface<2> for One {
-        fn structure(&self) -> u16 {
-            0
-        }
-
-        fn soils(&self) -> &[u16] {
-            &[]
+        fn sides(&self) -> &Sides {
+            &self.0
         }
 
         fn contact_nodes(&self) -> usize {
@@ -181,10 +154,6 @@ mod tests {
 
         fn runs(&self) -> &[Run] {
             &[]
-        }
-
-        fn laws(&self) -> &Laws {
-            &self.0
         }
 
         fn constraints(&self, _: &Ground<2>, _: &dyn Fn(u32) -> [f64; 2], _: &Multipliers) -> Vec<Constraint<2>> {
@@ -202,6 +171,11 @@ mod tests {
         fn project_out(&self, _: &mut Points<2>, _: &dyn Fn(u32) -> [f64; 2]) -> Pushed {
             Pushed::default()
         }
+    }
+
+    fn sides() -> Sides {
+        let law = Law { friction: 0.0, adhesion: 0.0, factor: None, tension: 0.0, sealed: false };
+        Sides { structure: 0, against: None, soils: Vec::new(), laws: law.into() }
     }
 
     fn constraint() -> Constraint<2> {
@@ -237,8 +211,7 @@ mod tests {
     fn a_body_opens_the_gap_as_its_nodes_do() {
         let mesh = Mesh { nodes: vec![[1.0, 0.5], [2.0, -0.5], [1.0, -2.0], [3.0, 1.5]], ..Mesh::default() };
         let body = Body::new(&mesh, 4, 0, vec![0, 1, 3], &Points::default(), true);
-        let law = Laws::from(Law { friction: 0.0, adhesion: 0.0, factor: None, tension: 0.0, sealed: false });
-        let interface = Rigid::new(Box::new(One(law)), std::slice::from_ref(&body), mesh.nodes.len());
+        let interface = Rigid::new(Box::new(One(sides())), std::slice::from_ref(&body), mesh.nodes.len());
         let condensed = interface.condense(constraint(), &|n| *mesh.nodes.get(n as usize).unwrap_or(&body.centre));
         assert_eq!((condensed.own, &condensed.nodes[..]), (1, &[4, 5, 2][..]));
         let (moved, turned, soil) = ([2e-6, -3e-6], 1e-6, [1e-6, 5e-6]);
@@ -285,8 +258,7 @@ mod tests {
 
         let mesh = Mesh { nodes: vec![[radius, 0.0], [radius, 0.0], [-radius, 0.0]], ..Mesh::default() };
         let body = Body::new(&mesh, 3, 0, vec![0, 2], &Points::default(), true);
-        let law = Laws::from(Law { friction: 0.0, adhesion: 0.0, factor: None, tension: 0.0, sealed: false });
-        let interface = Rigid::new(Box::new(One(law)), std::slice::from_ref(&body), mesh.nodes.len());
+        let interface = Rigid::new(Box::new(One(sides())), std::slice::from_ref(&body), mesh.nodes.len());
         let condensed = interface.condense(round.clone(), &|n| *mesh.nodes.get(n as usize).unwrap_or(&body.centre));
         let turned = condensed.measure(|n| if Some(n) == body.dofs.rotation { body.dofs.arc(0.1) } else { [0.0; 2] });
         assert!(turned.gap == 0.0 && turned.turn == 0.0 && turned.slip != 0.0, "{turned:?}");

@@ -105,7 +105,7 @@ pub trait Basis<const D: usize>: fmt::Debug + Send + Sync {
 
     /// Why its functions are defined at material points only, and not anywhere in a cell as integration points need; `None` where they are.
     fn of_points(&self) -> Option<&'static str> {
-        None
+        (self.domain_size() > 0).then_some("averages over the domains of the material points")
     }
 
     /// Whether its functions are defined anywhere in a cell.

@@ -56,10 +56,6 @@ impl Basis<2> for Composite {
         true
     }
 
-    fn of_points(&self) -> Option<&'static str> {
-        Some("averages over the domains of the material points")
-    }
-
     fn is_symmetric(&self) -> bool {
         false
     }

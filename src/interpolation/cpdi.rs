@@ -31,10 +31,6 @@ impl Basis<2> for Cpdi {
         domain::crowded(mesh)
     }
 
-    fn of_points(&self) -> Option<&'static str> {
-        Some("averages over the domains of the material points")
-    }
-
     fn support(&self, mesh: &Mesh<2>, active: &[bool]) -> Option<Support> {
         Some(Support::with_neighbours(mesh, active))
     }

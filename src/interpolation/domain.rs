@@ -14,6 +14,7 @@
 //! A domain that reaches farther than its point can act is scaled about the point, see [`Averages::fill`].
 
 use super::{First, Interpolation, Located, MAX_FUNCTIONS, Place, Support};
+use crate::geometry::{cross, way};
 use crate::mesh::Mesh;
 use crate::mesh::locate::Locator;
 use crate::mesh::shape::{MAX_NODES, map};
@@ -77,7 +78,7 @@ pub(super) fn first_corners(first: &First<2>, points: &Points<2>, p: usize) -> C
         [0, 1].map(|d| n.iter().zip(&x).take(nodes.len()).map(|(n, x)| n * x[d]).sum())
     });
     let centre = centroid(&corners);
-    corners.map(|x| minus(x, centre))
+    corners.map(|x| way(&centre, &x))
 }
 
 /// A domain that has followed a deformation gradient.
@@ -90,14 +91,6 @@ pub(super) fn corners(numbers: &[f64]) -> Corners {
     std::array::from_fn(|c| [numbers[2 * c], numbers[2 * c + 1]])
 }
 
-fn cross(a: [f64; 2], b: [f64; 2]) -> f64 {
-    a[0] * b[1] - a[1] * b[0]
-}
-
-fn minus(a: [f64; 2], b: [f64; 2]) -> [f64; 2] {
-    [a[0] - b[0], a[1] - b[1]]
-}
-
 /// The Jacobian determinant `J₀ + J₁ ξ + J₂ η` (m²) of the bilinear map from `[-1, 1]²` to a domain: `[J₀, J₁, J₂]`. A quarter of its area is `J₀`.
 pub(super) fn jacobian(x: &Corners) -> [f64; 3] {
     // x(ξ, η) = mean + a ξ + b η + c ξη.
@@ -105,7 +98,7 @@ pub(super) fn jacobian(x: &Corners) -> [f64; 3] {
         [0, 1].map(|d| SIGNS.iter().zip(x).map(|(s, x)| 0.25 * sign(s) * x[d]).sum::<f64>())
     };
     let (a, b, c) = (of(|s| s[0]), of(|s| s[1]), of(|s| s[0] * s[1]));
-    [cross(a, b), cross(a, c), cross(c, b)]
+    [cross(&a, &b), cross(&a, &c), cross(&c, &b)]
 }
 
 /// The least Jacobian determinant of a domain over its mean: one in a parallelogram, not positive where the domain is not convex. A
@@ -141,7 +134,7 @@ pub(super) fn samples(x: &Corners, order: usize) -> ([Sample; 9], usize) {
     for c in 0..4 {
         // The outward normal of the edge to the next corner, by its length, over the area.
         let next = (c + 1) % 4;
-        let edge = minus(x[next], x[c]);
+        let edge = way(&x[c], &x[next]);
         let normal = [edge[1] / volume, -edge[0] / volume];
         let (ends, middle) = if order == 2 { (1.0 / 6.0, 4.0 / 6.0) } else { (0.5, 0.0) };
         for (q, part) in [(c, ends), (next, ends), (4 + c, middle)] {

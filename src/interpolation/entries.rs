@@ -91,6 +91,17 @@ pub struct Entries<'a, const D: usize> {
 }
 
 impl<const D: usize> Interpolation<D> {
+    /// The points of a cell by its number; `None` without any.
+    pub fn of_cell(&self, cell: u32) -> Option<&CellPoints> {
+        let found = self.filled.binary_search_by_key(&cell, |cell_points| cell_points.cell).ok()?;
+        Some(&self.filled[found])
+    }
+
+    /// The numbers of the points in a cell by its number.
+    pub fn points_in(&self, cell: u32) -> &[u32] {
+        self.of_cell(cell).map_or(&[], |cell_points| self.points(cell_points))
+    }
+
     /// The numbers of the points of a cell.
     pub fn points(&self, cell_points: &CellPoints) -> &[u32] {
         &self.points[cell_points.first_point as usize..(cell_points.first_point + cell_points.point_count) as usize]

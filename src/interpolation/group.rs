@@ -12,8 +12,6 @@ pub struct Place<'a, const D: usize> {
     /// The number of the point.
     pub point: usize,
     pub cell: usize,
-    /// Parametric coordinates (-).
-    pub xi: [f64; 3],
     /// The nodes, those of the cell first.
     pub nodes: &'a [u32],
     /// The shape functions of the cell (-) and their gradients (1/m).
@@ -94,7 +92,7 @@ impl<const D: usize> Interpolation<D> {
                     slot.radius[k] = n.iter().zip(&x).map(|(n, x)| n * x[0]).sum();
                 }
                 let nodes = support.nodes(slot.cell_points.cell);
-                let place = Place { mesh, point, cell, xi, nodes, shape: n, shape_gradient: gradient };
+                let place = Place { mesh, point, cell, nodes, shape: n, shape_gradient: gradient };
                 let range = k * count..(k + 1) * count;
                 functions(&place, &mut slot.value[range.clone()], &mut slot.gradient[range]);
             }

@@ -7,6 +7,7 @@
 //! out: the polynomials of second degree that the two forms leave free are those that both cells share. Cells of third order
 //! have `h⁵ [∂_nnn u]²` as well: on cubic splines it alone does not vanish.
 
+use crate::geometry::dot;
 use crate::kinematics::Kinematics;
 use crate::mesh::Mesh;
 use crate::mesh::faces::Face;
@@ -174,10 +175,6 @@ fn place<const D: usize>(facet: CellKind, nodes: &[[f64; D]], xi: &[f64; 3]) -> 
 fn extent<const D: usize>(side: &Side<D>, place: &Place<D>) -> f64 {
     let extension = |x: &[f64; D]| (dot(x, &place.normal) - dot(&place.x, &place.normal)).abs();
     side.x[..side.kind.corner_count()].iter().map(extension).fold(0.0, f64::max)
-}
-
-fn dot<const D: usize>(a: &[f64; D], b: &[f64; D]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
 #[cfg(test)]

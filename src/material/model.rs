@@ -125,6 +125,24 @@ pub trait TensorModel: Model {
     fn yield_excess(&self, y: f64, stress: &Symmetric, state: &State) -> f64;
 }
 
+/// The tangent `a_ijkl` (kPa) in three dimensions: row (i, j), column (k, l) in the order xx, xy, xz, yx, …
+pub type SolidTangent = [[f64; 9]; 9];
+
+/// The response of a point in the axes of space.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Spatial<T> {
+    /// Kirchhoff stress (kPa), tension positive.
+    pub kirchhoff: Symmetric,
+    /// Elastic left Cauchy–Green tensor (-) after the return.
+    pub elastic: Symmetric,
+    /// `a_ijkl = C_ijkl − τ_il δ_jk` (kPa).
+    pub tangent: T,
+    /// Accumulated equivalent plastic strain (-).
+    pub plastic_strain: f64,
+    /// Whether the point yielded.
+    pub yielding: bool,
+}
+
 /// What a model responds to.
 pub enum Law<'a> {
     Principal(&'a dyn PrincipalModel),

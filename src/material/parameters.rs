@@ -35,6 +35,13 @@ impl Parameter {
         Self { name: "young", unit: "kPa", required: true, varies: true, meaning: "Young's modulus" };
     pub const POISSON: Self =
         Self { name: "poisson", unit: "-", required: true, varies: false, meaning: "Poisson's ratio" };
+    pub const SHEAR_STRENGTH: Self = Self {
+        name: "shear_strength",
+        unit: "kPa",
+        required: true,
+        varies: true,
+        meaning: "undrained shear strength s_u, half the largest difference of principal stresses",
+    };
 }
 
 /// Named values for [`Kind::build`].

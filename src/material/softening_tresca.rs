@@ -64,13 +64,7 @@ pub const KIND: Kind = Kind {
     parameters: &[
         Parameter::YOUNG,
         Parameter::POISSON,
-        Parameter {
-            name: "shear_strength",
-            unit: "kPa",
-            required: true,
-            varies: true,
-            meaning: "undrained shear strength s_u, half the largest difference of principal stresses",
-        },
+        Parameter::SHEAR_STRENGTH,
         Parameter {
             name: "remoulded",
             unit: "-",

@@ -11,6 +11,7 @@
 //! For equal roots `κ = (C_AA − C_AB − C_BA + C_BB)/(4λ)`. Here `κ` is split into the secant modulus
 //! `(τ_A − τ_B)/(ε_A − ε_B)`, exactly 2G in elasticity, and `(ε_A − ε_B)/(λ_A − λ_B)`, which is smooth.
 
+pub use super::model::{SolidTangent, Spatial};
 use super::{Law, Model, PrincipalModel, Response, State, spectral, tensor_law};
 use crate::tensor::Symmetric;
 
@@ -27,24 +28,6 @@ pub const PLANE: usize = 5;
 /// With `g_Ij = N_I,j` the stiffness between nodes is `K_IiJk = V0 Σ_jl g_Ij a_(ij)(kl) g_Jl`; the last row
 /// and column are the hoop, with `N_I/r` for the gradient and the component x for i.
 pub type PlaneTangent = [[f64; PLANE]; PLANE];
-
-/// The tangent `a_ijkl` (kPa) in three dimensions: row (i, j), column (k, l) in the order xx, xy, xz, yx, …
-pub type SolidTangent = [[f64; 9]; 9];
-
-/// The response of a point in the axes of space.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Spatial<T> {
-    /// Kirchhoff stress (kPa), tension positive.
-    pub kirchhoff: Symmetric,
-    /// Elastic left Cauchy–Green tensor (-) after the return.
-    pub elastic: Symmetric,
-    /// `a_ijkl = C_ijkl − τ_il δ_jk` (kPa).
-    pub tangent: T,
-    /// Accumulated equivalent plastic strain (-).
-    pub plastic_strain: f64,
-    /// Whether the point yielded.
-    pub yielding: bool,
-}
 
 /// The response at a point seeded at height `y` (m) in plane strain or axisymmetry to the elastic trial
 /// left Cauchy–Green tensor `trial`, whose components yz and xz are taken as zero. The internal variables at the end of the step
@@ -66,7 +49,8 @@ pub fn plane(
             // xx, xy, yx, yy and zz among all components.
             let of = |k: usize| [0, 1, 3, 4, 8][k];
             let tangent = std::array::from_fn(|a| std::array::from_fn(|b| solid.tangent[of(a)][of(b)]));
-            Some(of_tensor(&solid, tangent))
+            let Spatial { kirchhoff, elastic, plastic_strain, yielding, .. } = solid;
+            Some(Spatial { kirchhoff, elastic, tangent, plastic_strain, yielding })
         }
     }
 }
@@ -82,11 +66,6 @@ fn begin(model: &dyn Model, y: f64, state: &State, internal: &mut [f64]) {
     } else {
         internal.copy_from_slice(state.internal);
     }
-}
-
-fn of_tensor<T>(answer: &tensor_law::Answer, tangent: T) -> Spatial<T> {
-    let tensor_law::Answer { kirchhoff, elastic, plastic_strain, yielding, .. } = *answer;
-    Spatial { kirchhoff, elastic, tangent, plastic_strain, yielding }
 }
 
 fn plane_of_principal(
@@ -172,10 +151,7 @@ pub fn solid(
     begin(model, y, state, internal);
     match model.law() {
         Law::Principal(model) => solid_of_principal(model, y, trial, state, internal),
-        Law::Tensor(model) => {
-            let answer = tensor_law::respond(model, y, trial, state, internal)?;
-            Some(of_tensor(&answer, answer.tangent))
-        }
+        Law::Tensor(model) => tensor_law::respond(model, y, trial, state, internal),
     }
 }
 

@@ -15,22 +15,10 @@
 //! (Simo & Hughes, *Computational Inelasticity*, 1998, §8.3, on incrementally objective updates; the rotation is that of the polar
 //! decomposition.) Where no tensor turns `ω` is left out, as it makes no difference.
 
+use super::model::{SolidTangent, Spatial};
 use super::{State, TensorModel, TensorResponse, VariableKind, spectral};
 use crate::tensor::{Symmetric, Tensor, full, symmetric};
 use nalgebra::Vector3;
-
-/// The answer in the axes of space.
-pub struct Answer {
-    /// Kirchhoff stress (kPa), tension positive.
-    pub kirchhoff: Symmetric,
-    /// Elastic left Cauchy–Green tensor (-) after the return.
-    pub elastic: Symmetric,
-    /// `a_ijkl` (kPa): row (i, j), column (k, l) in the order xx, xy, xz, yx, …
-    pub tangent: [[f64; 9]; 9],
-    /// Accumulated equivalent plastic strain (-).
-    pub plastic_strain: f64,
-    pub yielding: bool,
-}
 
 /// The response of a model, `internal` being the internal variables as the step begins and then those at its end.
 pub fn respond(
@@ -39,7 +27,7 @@ pub fn respond(
     trial: &Symmetric,
     state: &State,
     internal: &mut [f64],
-) -> Option<Answer> {
+) -> Option<Spatial<SolidTangent>> {
     if !trial.iter().all(|x| x.is_finite()) {
         return None;
     }
@@ -82,7 +70,7 @@ pub fn respond(
         }
     }
     let TensorResponse { stress: kirchhoff, plastic_strain, yielding, .. } = r;
-    Some(Answer { kirchhoff, elastic, tangent, plastic_strain, yielding })
+    Some(Spatial { kirchhoff, elastic, tangent, plastic_strain, yielding })
 }
 
 /// The left stretch `V` of a step.

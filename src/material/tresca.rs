@@ -20,18 +20,7 @@ pub const KIND: Kind = Kind {
     name: "tresca",
     keeps_volume: true,
     yields: true,
-    parameters: &[
-        Parameter::YOUNG,
-        Parameter::POISSON,
-        Parameter {
-            name: "shear_strength",
-            unit: "kPa",
-            required: true,
-            varies: true,
-            meaning: "undrained shear strength s_u, half the largest difference of principal stresses",
-        },
-        cavitation::PARAMETER,
-    ],
+    parameters: &[Parameter::YOUNG, Parameter::POISSON, Parameter::SHEAR_STRENGTH, cavitation::PARAMETER],
     build,
     examples: &[
         &[("young", 100.0), ("poisson", 0.49), ("shear_strength", 0.5)],

@@ -1,7 +1,6 @@
 //! The surface of the material from one restoration to the next, for weights and for loads on it.
 
 use super::{Quadrature, Restored, Volumes, Weights};
-use crate::interpolation::Interpolation;
 use crate::kinematics::Kinematics;
 use crate::points::Points;
 use crate::surface::{ActiveBoundary, Behind, Contour, Distance, Geometry, Lost, MarkerFront, NO_REGION};
@@ -107,12 +106,6 @@ pub fn boundary<N: IntoIterator<Item = usize>>(
     })
 }
 
-/// The numbers of the points of a cell.
-pub fn points_of(interpolation: &Interpolation<2>, c: u32) -> impl Iterator<Item = usize> {
-    let cell_points = interpolation.filled.binary_search_by_key(&c, |cell_points| cell_points.cell).ok();
-    cell_points.into_iter().flat_map(|i| interpolation.points(&interpolation.filled[i])).map(|&p| p as usize)
-}
-
 /// Classical weights with the boundary of the material: followed, or the contour of the points.
 pub struct Bounded<K> {
     geometry: Geometry,
@@ -136,8 +129,8 @@ impl<K: Kinematics<2>> Quadrature<2> for Bounded<K> {
             *front = None;
             weights.lost_front = Some(lost.to_string());
         }
-        let bounded =
-            |level_set: &[f64]| boundary(geometry, grid, level_set, points, |c| points_of(grid.interpolation, c));
+        let of_cell = |c: u32| grid.interpolation.points_in(c).iter().map(|&p| p as usize);
+        let bounded = |level_set: &[f64]| boundary(geometry, grid, level_set, points, of_cell);
         let within = |front: &MarkerFront, cells: &[u32]| {
             let mut distance = Distance::default();
             distance.update(mesh, geometry, locator, front, cells, active);

@@ -33,7 +33,7 @@ pub fn shown<'a>(case: &Case, mesh: &'a Mesh<2>) -> Scene<'a> {
 }
 
 fn region(case: &Case, name: &str) -> Shown {
-    let content = case.regions.iter().find(|region| region.name == name).map(|region| region.content);
+    let content = case.content(name);
     let material = content.and_then(|content| content.material());
     let of = material.map_or_else(String::new, |material| format!(" of {}", case.materials[material].name));
     let soil = SOILS[material.unwrap_or(0) % SOILS.len()];

@@ -41,7 +41,7 @@ pub fn part<const D: usize>(scene: &Scene<D>, state: &State<D>) -> Part {
                 slip.push(held.map_or(0.0, |h| mark.value(&h.slid)));
                 tractions.extend(exerted.as_ref().map_or([0.0; 3], |t| mark.vector(&t.traction)));
                 number.push(f64::from(count));
-                region.push(f64::from(interface.structure()));
+                region.push(f64::from(interface.sides().structure));
                 faces.push(f64::from(u8::from(known)));
             }
             count += 1;

@@ -17,10 +17,10 @@ const STILL: f64 = 1e-12;
 const TOLD: f64 = 1e-6;
 
 /// What ends a phase before its time.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum Until {
-    /// A quantity of an entry of the history, by number, is this much or more, or where `below` this much or less.
-    Reached { watch: usize, quantity: Quantity, bound: f64, below: bool },
+    /// A quantity of the entry of the history with the name `of` is at least, or where `below` at most `bound`.
+    Reached { of: String, quantity: Quantity, bound: f64, below: bool },
     /// The kinetic energy has fallen to this part (-) of its largest in the phase; or the phase begins at rest and its forces are in
     /// balance but for this part, so that there is no such energy to fall.
     Equilibrium(f64),
@@ -86,12 +86,13 @@ pub fn met<const D: usize>(
 ) -> Option<String> {
     let name = &scene.phases[state.phase].name;
     let held = state.ramp.share(state.phase_time);
-    let note = until.iter().find_map(|condition| match *condition {
-        Until::Reached { watch, quantity, bound, below } => {
-            let watch = &watches[watch];
-            let value = record::value(&watch.on, quantity, scene, state, report);
-            let reached = if below { value <= bound } else { value >= bound };
-            reached.then(|| format!("phase `{name}` ends: {} is {value:.6e}", record::column_name(watch, quantity)))
+    let note = until.iter().find_map(|condition| match condition {
+        Until::Reached { of, quantity, bound, below } => {
+            // An entry may be several watches.
+            let watch = watches.iter().find(|watch| watch.name == *of && watch.quantities.contains(quantity))?;
+            let value = record::value(&watch.on, *quantity, scene, state, report);
+            let reached = if *below { value <= *bound } else { value >= *bound };
+            reached.then(|| format!("phase `{name}` ends: {} is {value:.6e}", record::column_name(watch, *quantity)))
         }
         Until::Equilibrium(part) => {
             let kinetic = report.motion.kinetic;
@@ -149,7 +150,7 @@ pub fn switch_to_quasi_static<const D: usize>(
     );
     state.rest();
     (state.switched_to_dynamics, state.peak) = (false, 0.0);
-    controller.wanted = phase.first_step;
+    controller.wanted = phase.step.initial;
     Some(note)
 }
 

@@ -42,7 +42,7 @@ use crate::io::phase_state;
 use crate::io::run_folder::RunFolder;
 use crate::kinematics::Kinematics;
 use crate::profile::{Activity, timed};
-use crate::step::{Controller, Limits, Scene, Simulation, State};
+use crate::step::{Controller, Scene, Simulation, State};
 use foreign::{AFRESH, foreign};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
@@ -143,10 +143,9 @@ pub fn run<const D: usize, K: Kinematics<D>>(
         files.frame(scene, &mut simulation.state)?;
     }
     while let Some(phase) = scene.phases.get(simulation.state.phase) {
-        let limits = Limits { least: phase.least_step, largest: phase.largest_step };
         // The largest step may have been lowered since the checkpoint.
-        let wanted = simulation.state.step_size.min(limits.largest);
-        let mut controller = Controller::new(limits, phase.stops.clone(), wanted);
+        let wanted = simulation.state.step_size.min(phase.step.max);
+        let mut controller = Controller::new(phase.step, phase.stops.clone(), wanted);
         let number = simulation.state.phase;
         let until = outputs.until.get(number).map_or(&[][..], |until| until);
         let mut stays = false;

@@ -44,7 +44,7 @@ pub fn found<const D: usize>(scene: &Scene<D>, state: &mut State<D>, report: &Re
     let emptiness = emptiness(scene, state, &mesh);
     let structures: Vec<Structure<D>> = scene
         .touching(state.phase)
-        .filter(|(_, interface)| !interface.soils().is_empty())
+        .filter(|(_, interface)| !interface.sides().soils.is_empty())
         .map(|(_, interface)| structure(&mesh, interface, state.phase))
         .collect();
     let beside = |cells: &[u32]| structures.iter().filter(|s| lies_near(&mesh, cells, &s.places)).collect::<Vec<_>>();
@@ -90,8 +90,8 @@ pub fn found<const D: usize>(scene: &Scene<D>, state: &mut State<D>, report: &Re
 /// An interface and its boundary on the grid as restored.
 fn structure<const D: usize>(mesh: &Mesh<D>, interface: &dyn Interface<D>, phase: usize) -> Structure<D> {
     Structure {
-        name: mesh.regions.get(usize::from(interface.structure())).cloned().unwrap_or_default(),
-        may_part: interface.laws().at(phase).tension.is_finite(),
+        name: mesh.regions.get(usize::from(interface.sides().structure)).cloned().unwrap_or_default(),
+        may_part: interface.sides().laws.at(phase).tension.is_finite(),
         places: interface.outlines(&|n| mesh.nodes[n as usize]).concat(),
     }
 }

@@ -15,22 +15,13 @@ use crate::time_integration::GeneralisedAlpha;
 /// When the converged state is inadmissible on the restored grid.
 pub fn static_force<const D: usize>(problem: &Problem<D>, grid: &mut Grid<D>) -> Result<Evaluation<D>> {
     let trial = Trial {
-        displacement: problem.converged,
-        between: problem.converged,
-        alpha_f: 0.0,
-        converged: problem.converged,
         pressure: problem.pressure,
         converged_pressure: problem.pressure,
-        flow_time: 0.0,
-        acceleration: &[],
-        acceleration_slope: 0.0,
-        ahead: &[],
-        ahead_slope: 0.0,
         phase: problem.phase,
         time: problem.from,
         reduction: problem.scene.phases[problem.phase].reduction_at(problem.from),
-        contact_frozen: false,
         inverse_dt: if problem.to > problem.from { 1.0 / (problem.to - problem.from) } else { 0.0 },
+        ..Trial::at_rest(problem.converged, problem.converged)
     };
     let (mut own, mut sum) = (Vec::new(), Evaluation::default());
     timed(Activity::Assembly, || {

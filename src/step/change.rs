@@ -6,36 +6,56 @@
 
 use crate::material::{Model, Profile, RandomStrength, spatial};
 use crate::points::Points;
-use crate::term::MixedPressure;
+use crate::term::{MixedPressure, Porous};
 use std::fmt;
 use std::sync::Arc;
 
-/// A material that a region takes as a phase begins.
+/// The material of a region, or that it takes as a phase begins.
 #[derive(Clone)]
+pub struct Material {
+    pub name: String,
+    /// The name of its model.
+    pub model_name: String,
+    /// Density (t/m³).
+    pub density: Profile,
+    pub model: Arc<dyn Model>,
+    /// The field of its strength, where that varies at random.
+    pub random_strength: Option<Arc<RandomStrength>>,
+    /// What the pressure field carries of its stress.
+    pub carried: Option<MixedPressure>,
+    /// The water in its pores, where that flows or has a stiffness of its own.
+    pub porous: Option<Porous>,
+}
+
+impl Material {
+    /// Whether the excess pressure of its pore water is found.
+    pub fn has_pore_pressure(&self) -> bool {
+        self.porous.is_some() || self.carried.as_ref().is_some_and(|carried| carried.water > 0.0)
+    }
+
+    /// Whether it has a density anywhere.
+    pub fn has_mass(&self) -> bool {
+        self.density.top > 0.0 || self.density.gradient > 0.0
+    }
+}
+
+impl fmt::Debug for Material {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Material").field("name", &self.name).field("density", &self.density).finish_non_exhaustive()
+    }
+}
+
+/// A material that a region takes as a phase begins.
+#[derive(Clone, Debug)]
 pub struct Change {
     /// Index into the regions of the mesh, and its name.
     pub region: u16,
     pub of: String,
-    /// The number of the material among those of the scene ([`Points::model_of`]), and its name.
+    /// The number of the material among those of the scene ([`Points::model_of`]).
     pub number: u16,
-    pub into: String,
-    /// The model of the whole stress, and the part of it that the pressure field carries.
-    pub model: Arc<dyn Model>,
-    pub carried: Option<MixedPressure>,
-    /// What the field carried before.
-    pub before: Option<MixedPressure>,
-    /// Density (t/m³).
-    pub density: Profile,
-    /// The field of its strength, if that varies at random.
-    pub random_strength: Option<Arc<RandomStrength>>,
-    /// Whether the model has the internal variables of the one before.
-    pub goes_on: bool,
-}
-
-impl fmt::Debug for Change {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("Change").field("of", &self.of).field("into", &self.into).finish_non_exhaustive()
-    }
+    pub into: Material,
+    /// The material before.
+    pub before: Option<Material>,
 }
 
 impl Change {
@@ -50,31 +70,35 @@ impl Change {
         if points.model.is_empty() {
             points.model.clone_from(&points.region);
         }
+        let Self { into, before, .. } = self;
+        let carried_before = before.as_ref().and_then(|before| before.carried.as_ref());
+        // The same model has the same internal variables.
+        let keeps_internal = before.as_ref().is_some_and(|before| before.model_name == into.model_name);
         let numbers: Vec<usize> = self.of(points).collect();
         for p in numbers {
             let y = points.seeded_height(p);
             let volume_ratio = points.deformation[p].determinant();
             // In undrained soil the pressure field contains the excess pore pressure.
             let shares = |carried: &&MixedPressure| carried.water > 0.0;
-            let pore_pressure = self.before.as_ref().filter(shares).map_or(0.0, |c| c.pore_pressure(points, p));
+            let pore_pressure = carried_before.filter(shares).map_or(0.0, |c| c.pore_pressure(points, p));
             let kirchhoff = points.stress[p].map(|s| volume_ratio * s);
-            points.elastic[p] = spatial::elastic_from_stress(self.model.as_ref(), y, &kirchhoff);
+            points.elastic[p] = spatial::elastic_from_stress(into.model.as_ref(), y, &kirchhoff);
             if !points.pressure.is_empty() {
-                points.pressure[p] = self.carried.as_ref().map_or(0.0, |carried| {
+                points.pressure[p] = into.carried.as_ref().map_or(0.0, |carried| {
                     if shares(&carried) {
                         carried.held(points, p) - volume_ratio * pore_pressure
                     } else {
-                        carried.begin(self.model.as_ref(), points, p)
+                        carried.begin(into.model.as_ref(), points, p)
                     }
                 });
             }
-            if !self.goes_on {
-                points.begin_internal(p, self.model.as_ref());
+            if !keeps_internal {
+                points.begin_internal(p, into.model.as_ref());
             }
-            points.mass[p] = self.density.at(y) * points.initial_volume[p];
+            points.mass[p] = into.density.at(y) * points.initial_volume[p];
             points.model[p] = self.number;
             if !points.strength.is_empty() {
-                points.strength[p] = self.random_strength.as_ref().map_or(1.0, |field| field.factor(&points.origin[p]));
+                points.strength[p] = into.random_strength.as_ref().map_or(1.0, |field| field.factor(&points.origin[p]));
             }
         }
     }

@@ -193,8 +193,8 @@ pub fn commit<const D: usize>(
 ) -> Vec<Resultant<D>> {
     const { assert!(D == 2, "moments are numbers in the plane only") };
     let none = |interface: &dyn Interface<D>| Resultant {
-        structure: interface.structure(),
-        against: interface.against(),
+        structure: interface.sides().structure,
+        against: interface.sides().against,
         force: [0.0; D],
         moment: 0.0,
         moment_against: 0.0,
@@ -222,8 +222,12 @@ pub fn commit<const D: usize>(
     for constraint in &grid.constraints {
         let condition = &constraint.condition;
         let (interface, contact_node) = (constraint.interface as usize, condition.contact_node as usize);
-        let (answer, Motion { gap, slip, turn, .. }) =
-            contact_answer(scene.interfaces[interface].laws().at(phase), scene.levels.as_ref(), constraint, &trial);
+        let (answer, Motion { gap, slip, turn, .. }) = contact_answer(
+            scene.interfaces[interface].sides().laws.at(phase),
+            scene.levels.as_ref(),
+            constraint,
+            &trial,
+        );
         let held = &mut state.multipliers[interface];
         (held.pressure[contact_node], held.shear[contact_node]) = (answer.pressure, answer.shear);
         (held.gap[contact_node], held.slip[contact_node], held.offset[contact_node]) =

@@ -1,6 +1,6 @@
 //! Step control (docs/theory.md, section 14): steps grow while Newton's method converges fast, and are halved when it fails.
 
-use super::scene::Stop;
+use super::scene::{StepSize, Stop};
 use crate::error::{Error, Result};
 
 /// The next step grows after at most this many iterations.
@@ -8,17 +8,10 @@ const EASY: usize = 6;
 /// The factor (-) by which it grows: from a tenth of the largest step to it in six steps.
 const GROWTH: f64 = 1.5;
 
-/// Bounds of the step size (s) in a phase.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Limits {
-    pub least: f64,
-    pub largest: f64,
-}
-
 /// Step control within one phase.
 #[derive(Clone, Debug)]
 pub struct Controller {
-    limits: Limits,
+    limits: StepSize,
     stops: Vec<Stop>,
     /// The size (s) that the next step should have, before it is fitted to the next stop.
     pub wanted: f64,
@@ -30,7 +23,7 @@ pub struct Controller {
 
 impl Controller {
     /// `stops` ascend and end with the end of the phase.
-    pub fn new(limits: Limits, stops: Vec<Stop>, wanted: f64) -> Self {
+    pub fn new(limits: StepSize, stops: Vec<Stop>, wanted: f64) -> Self {
         Self { limits, stops, wanted, halvings: Vec::new(), exhausted: false }
     }
 
@@ -61,14 +54,14 @@ impl Controller {
     /// The failure itself, once the step would fall below the least one.
     pub fn halve(&mut self, dt: f64, error: Error) -> Result<()> {
         let half = 0.5 * dt;
-        if half < self.limits.least && !same(half, self.limits.least) {
+        if half < self.limits.min && !same(half, self.limits.min) {
             self.exhausted = true;
             let how = match self.halvings.len() {
                 0 => format!("the step of {dt:.3e} s cannot be halved"),
                 1 => format!("the step was halved once down to {dt:.3e} s and cannot be again"),
                 n => format!("the step was halved {n} times down to {dt:.3e} s and cannot be again"),
             };
-            let least = self.limits.least;
+            let least = self.limits.min;
             let problem = format!("{}; {how}: step.min is {least:.3e} s", error.problem);
             return Err(Error { problem, ..error });
         }
@@ -82,7 +75,7 @@ impl Controller {
         let eased = iterations <= EASY && self.halvings.is_empty();
         // A step shortened to meet a stop says nothing about the size that would have converged.
         let base = self.wanted.max(dt);
-        self.wanted = if eased { (base * GROWTH).min(self.limits.largest) } else { base.min(self.limits.largest) };
+        self.wanted = if eased { (base * GROWTH).min(self.limits.max) } else { base.min(self.limits.max) };
         std::mem::take(&mut self.halvings)
     }
 }
@@ -98,7 +91,7 @@ mod tests {
 
     fn controller() -> Controller {
         let stops = [0.25, 1.0].map(|time| Stop { time, frame: true }).to_vec();
-        Controller::new(Limits { least: 0.01, largest: 0.2 }, stops, 0.1)
+        Controller::new(StepSize { initial: 0.1, min: 0.01, max: 0.2 }, stops, 0.1)
     }
 
     #[test]

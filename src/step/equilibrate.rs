@@ -28,8 +28,10 @@ fn is_due<const D: usize>(scene: &Scene<D>, state: &State<D>, last: Span) -> boo
     let changes = scene.phases[last.phase + 1..=state.phase].iter().any(|phase| !phase.changes.is_empty());
     let fixed = |phase| scene.fixed(phase).map(|fixed| (&fixed.nodes, fixed.component)).collect::<Vec<_>>();
     let alike = last.phase == state.phase || fixed(last.phase) == fixed(state.phase);
-    let same_laws =
-        scene.interfaces.iter().all(|interface| interface.laws().at(state.phase) == interface.laws().at(last.phase));
+    let same_laws = scene
+        .interfaces
+        .iter()
+        .all(|interface| interface.sides().laws.at(state.phase) == interface.sides().laws.at(last.phase));
     let same = !changes && now.held == then.held && now.apart == then.apart && alike && same_laws;
     scene.terms.iter().any(|term| term.yields()) && !state.dynamic(scene) && !now.flows && same
 }
@@ -80,7 +82,7 @@ fn go_on<const D: usize>(
         ..Trial::at_rest(displacement, &state.displacement)
     };
     for constraint in &mut grid.constraints {
-        let law = scene.interfaces[constraint.interface as usize].laws().at(phase);
+        let law = scene.interfaces[constraint.interface as usize].sides().laws.at(phase);
         let (answer, motion) = contact_answer(law, scene.levels.as_ref(), constraint, &trial);
         if answer.pressure != 0.0 || answer.shear != 0.0 {
             constraint.condition.penalty.shear = answer.shear;

@@ -304,7 +304,6 @@ impl<const D: usize> Grid<D> {
     ) -> Frame<'a, D> {
         Frame {
             mesh: &elements.mesh,
-            reset: &state.nodes,
             relaxed: true,
             interpolation: &elements.interpolation,
             partly_filled: &[],
@@ -316,12 +315,8 @@ impl<const D: usize> Grid<D> {
             cells: &elements.cells,
             places: scene.places()[1],
             points: &state.fem,
-            integration: None,
-            pattern: &self.motion.pattern,
             coupling: &elements.coupling,
-            block: &self.dofs.block,
-            linear_constraints: self.dofs.constraints.as_ref(),
-            bodies: &self.body_coupling,
+            ..self.frame(&elements.mesh, state)
         }
     }
 
@@ -335,11 +330,16 @@ impl<const D: usize> Grid<D> {
         self.interpolations.material.as_ref().unwrap_or(&self.interpolations.integration)
     }
 
+    /// The material points on the grid.
+    pub fn family_of_material<'a>(&'a self, scene: &'a Scene<D>, state: &'a State<D>) -> Family<'a, D> {
+        let (mesh, interpolation, coupling) = (&scene.mesh, self.of_material(), &self.coupling);
+        Family { mesh, interpolation, coupling, points: &state.points }
+    }
+
     /// All that moves: the material points and those of the finite elements.
     pub fn families<'a>(&'a self, scene: &'a Scene<D>, state: &'a State<D>) -> impl Iterator<Item = Family<'a, D>> {
-        let (mesh, interpolation, coupling) = (&scene.mesh, self.of_material(), &self.coupling);
-        let soil = Family { mesh, interpolation, coupling, points: &state.points };
-        std::iter::once(soil).chain(self.elements.iter().map(|elements| elements.family(&state.fem)))
+        std::iter::once(self.family_of_material(scene, state))
+            .chain(self.elements.iter().map(|elements| elements.family(&state.fem)))
     }
 
     /// All that integrals are summed over.

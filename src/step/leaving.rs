@@ -21,8 +21,9 @@ pub fn check<const D: usize>(
 ) -> Result<()> {
     let mut lost: Vec<bool> = (0..interface.contact_nodes()).map(|k| held.touched(k)).collect();
     constraints.iter().for_each(|constraint| lost[constraint.contact_node as usize] = false);
-    let is_wall = || !scene.fem.as_ref().is_some_and(|fem| fem.mesh.cells.region.contains(&interface.structure()));
-    if !lost.contains(&true) || interface.against().is_some() || is_wall() {
+    let is_wall =
+        || !scene.fem.as_ref().is_some_and(|fem| fem.mesh.cells.region.contains(&interface.sides().structure));
+    if !lost.contains(&true) || interface.sides().against.is_some() || is_wall() {
         return Ok(());
     }
     // Where a contact node is: the mark at which it is largest.
@@ -37,7 +38,7 @@ pub fn check<const D: usize>(
     let outside = |x: &[f64; D]| ground.locator.locate(ground.grid, x, None).is_none();
     let left = lost.iter().zip(&places).find(|(lost, (_, place))| **lost && outside(place));
     let Some((_, (_, place))) = left else { return Ok(()) };
-    let name = scene.mesh.regions.get(interface.structure() as usize).map_or("", String::as_str);
+    let name = scene.mesh.regions.get(interface.sides().structure as usize).map_or("", String::as_str);
     Err(Error::analysis(
         format!("structure `{name}`"),
         format!("its boundary, in contact near {place:.3?} m, has left the grid"),

@@ -116,10 +116,7 @@ impl<'a> Mass<'a> {
             &mut grid.workspace,
         )?;
         rigid::add_mass(scene, &grid.dofs.block, &system.pattern, &mut system.matrix);
-        let points_in = |cell: u32| {
-            let cell_points = interpolation.filled.binary_search_by_key(&cell, |cell_points| cell_points.cell);
-            cell_points.map_or(0, |number| interpolation.filled[number].point_count as usize)
-        };
+        let points_in = |cell: u32| interpolation.points_in(cell).len();
         let mut cells: Vec<u32> = interpolation.filled.iter().map(|cell_points| cell_points.cell).collect();
         cells.extend(grid.ghost.iter().flat_map(|ghost| ghost.between.cells));
         cells.extend(reached::<D, K>(mesh, interpolation, &grid.cells));

@@ -23,7 +23,7 @@ pub fn notes<const D: usize, K: Kinematics<D>>(scene: &Scene<D>, state: &State<D
         for points in [&state.points, &state.fem] {
             for p in change.of(points) {
                 let volume_ratio = points.deformation[p].determinant();
-                let (model, y) = (change.model.as_ref(), points.seeded_height(p));
+                let (model, y) = (change.into.model.as_ref(), points.seeded_height(p));
                 let stress = points.stress[p].map(|s| volume_ratio * s);
                 all += 1;
                 odd.extend(odd_poisson(model, y, &K::roots(&stress)));
@@ -31,7 +31,7 @@ pub fn notes<const D: usize, K: Kinematics<D>>(scene: &Scene<D>, state: &State<D
             }
         }
         let Change { of, into, .. } = change;
-        let mut note = format!("phase {}: region `{of}` is of `{into}` from here on", phase.name);
+        let mut note = format!("phase {}: region `{of}` is of `{}` from here on", phase.name, into.name);
         if beyond > 0 {
             note.push_str(&format!(
                 "; the stress of {beyond} of its {all} points is more than that bears, and is reduced to it in the first step"

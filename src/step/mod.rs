@@ -44,16 +44,16 @@ mod unbalanced;
 mod unknowns;
 mod water;
 
-pub use change::Change;
+pub use change::{Change, Material};
 pub use contact::Resultant;
-pub use control::{Controller, Limits};
+pub use control::Controller;
 pub use ghost_faces::has_room_for_penalties;
 pub use grid::Grid;
 pub use problem::Solution;
 pub use ramp::UnbalancedRamp;
 pub use report::Report;
 pub use scene::{
-    FARTHEST, Fem, Field, Fixed, Numerics, Phase, Prescribed, Restore, Scalar, Scene, Search, Stop, Water,
+    FARTHEST, Fem, Field, Fixed, Numerics, Phase, Prescribed, Restore, Scalar, Scene, Search, StepSize, Stop, Water,
 };
 pub use state::{Span, State};
 pub use water::Balance;

@@ -108,8 +108,7 @@ pub fn complete_points<const D: usize, K: Kinematics<D>>(
     let moved = at_samples::<D, K>(scene, grid, samples, back);
     let field = at_samples::<D, K>(scene, grid, samples, field);
     let wanted = momentum(&bodies, &samples.points, &places(&samples.points.position, &moved), &field);
-    let interpolation = grid.of_material();
-    let of_material = Family { mesh: &scene.mesh, interpolation, coupling: &grid.coupling, points: &state.points };
+    let of_material = grid.family_of_material(scene, state);
     let position = places(&state.points.position, &interpolate::<D, K>(&of_material, back));
     let has = momentum(&bodies, &state.points, &position, values);
     let rigid: Vec<Rigid<D>> = has.iter().zip(&wanted).map(|(has, wanted)| has.towards::<K>(wanted)).collect();
@@ -149,8 +148,7 @@ pub fn keep_at_nodes<const D: usize, K: Kinematics<D>>(
 ) {
     let points = &state.points;
     let bodies = Bodies::of(&scene.mesh, points.cell.iter().copied(), &[]);
-    let of_material = Family { mesh: &scene.mesh, interpolation: grid.of_material(), coupling: &grid.coupling, points };
-    let mapped = interpolate::<D, K>(&of_material, field);
+    let mapped = interpolate::<D, K>(&grid.family_of_material(scene, state), field);
     let [has, wanted] = [&mapped[..], values].map(|values| momentum(&bodies, points, &points.position, values));
     let rigid: Vec<Rigid<D>> = has.iter().zip(&wanted).map(|(has, wanted)| has.towards::<K>(wanted)).collect();
     add_to_nodes(scene, grid, state, &bodies, &rigid, field);

@@ -322,7 +322,7 @@ fn damped_equations<const D: usize>(scene: &Scene<D>, grid: &Grid<D>, out: &mut 
     out.extend(grid.dofs.node.iter().flat_map(|&n| [scene.body_of(n).is_none(); D]));
     let Some(fem) = &scene.fem else { return };
     for c in fem.deforming() {
-        if scene.interfaces.iter().any(|interface| interface.structure() == fem.mesh.cells.region[c]) {
+        if scene.interfaces.iter().any(|interface| interface.sides().structure == fem.mesh.cells.region[c]) {
             for &n in fem.mesh.cells.nodes(c) {
                 let block = grid.dofs.block[n as usize] as usize;
                 out.iter_mut().skip(D * block).take(D).for_each(|damped| *damped = false);

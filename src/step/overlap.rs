@@ -58,14 +58,14 @@ fn within<const D: usize>(
     interface: &dyn Interface<D>,
     at: &dyn Fn(u32) -> [f64; D],
 ) -> Option<Found> {
-    let (fem, structure) = (scene.fem.as_ref()?, interface.structure());
+    let (fem, structure) = (scene.fem.as_ref()?, interface.sides().structure);
     let drawn = fem.mesh.part(|c| fem.mesh.cells.region[c] == structure);
-    if interface.soils().is_empty() || drawn.cells.is_empty() {
+    if interface.sides().soils.is_empty() || drawn.cells.is_empty() {
         return None;
     }
     let body = Mesh { nodes: (0..drawn.nodes.len() as u32).map(at).collect(), ..drawn };
     let (locator, lines) = (Locator::new(&body), interface.lines(at));
-    for &soil in interface.soils() {
+    for &soil in &interface.sides().soils {
         let (mut count, mut deepest) = (0, (0.0, 0.0));
         for p in (0..points.len()).filter(|&p| points.region[p] == soil) {
             let x = &points.position[p];

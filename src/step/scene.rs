@@ -120,11 +120,6 @@ impl<const D: usize> Scene<D> {
         self.pressure_unit.is_some() || !self.fields.is_empty()
     }
 
-    /// The body whose region that is.
-    pub fn body(&self, region: u16) -> Option<&Body<D>> {
-        self.bodies.iter().find(|body| body.region == region)
-    }
-
     /// Where displacements are given in a phase: supports, prescribed displacements, and structures that the phase leaves out.
     pub fn fixed(&self, phase: usize) -> impl Iterator<Item = &Fixed> {
         let Phase { prescribed, held, .. } = &self.phases[phase];
@@ -156,8 +151,6 @@ pub enum Scalar<'a> {
 /// A scalar field that the material points carry.
 #[derive(Clone, Debug)]
 pub struct Field {
-    /// The name by which messages call it.
-    pub name: String,
     /// What an unknown of the linear system stands for, so that all equations are forces and all unknowns lengths.
     pub unit: f64,
     /// Nodes with a given value, ascending, and the value by the time (s) since the phase began; of two entries for a node the later one holds.
@@ -224,10 +217,7 @@ pub struct Phase {
     pub flows: bool,
     /// Duration (s).
     pub duration: f64,
-    /// Time steps (s): the first, the least and the largest.
-    pub first_step: f64,
-    pub least_step: f64,
-    pub largest_step: f64,
+    pub step: StepSize,
     pub prescribed: Vec<Prescribed>,
     /// What strengths are divided by (-); absent where they are as given.
     pub reduction: Option<TimeValue>,
@@ -274,6 +264,14 @@ pub struct Search {
     pub farthest: f64,
     /// The nodes of soil that is finite elements; those of soil with material points follow from the grid.
     pub elements: Vec<u32>,
+}
+
+/// Sizes of the steps (s) of a phase, `min ≤ initial ≤ max`: the first, the least and the largest.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct StepSize {
+    pub initial: f64,
+    pub min: f64,
+    pub max: f64,
 }
 
 /// A time at which a step ends.

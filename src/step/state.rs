@@ -172,7 +172,7 @@ impl<const D: usize> State<D> {
                 }
                 change.apply(&mut self.fem);
             }
-            self.step_size = next.first_step;
+            self.step_size = next.step.initial;
             if next.reset {
                 self.uncounted.clone_from(&self.travel);
                 for points in [&mut self.points, &mut self.fem] {

@@ -170,22 +170,13 @@ impl Answers {
         Span { phase, from, to }: Span,
     ) -> Self {
         let trial = Trial {
-            displacement: &solution.displacement,
-            between: &solution.displacement,
-            alpha_f: 0.0,
-            converged: &state.displacement,
             pressure: &solution.pressure,
             converged_pressure: &state.pressure,
-            flow_time: 0.0,
-            acceleration: &[],
-            acceleration_slope: 0.0,
-            ahead: &[],
-            ahead_slope: 0.0,
             phase,
             time: from,
             reduction: scene.phases[phase].reduction_at(to),
-            contact_frozen: false,
             inverse_dt: 1.0 / (to - from),
+            ..Trial::at_rest(&solution.displacement, &state.displacement)
         };
         let of = |terms: &[Box<dyn Term<D>>], frame: &Frame<D>| -> Vec<Update> {
             terms.iter().filter_map(|term| term.commit(frame, &trial)).collect()

@@ -1,6 +1,8 @@
 //! GMRES (Saad & Schultz 1986), preconditioned from the right: what it lessens is the true residual, for symmetric
 //! systems, saddles and unsymmetric ones alike. Its vectors cost little beside products that run over all cells.
 
+use super::accuracy::dot;
+
 /// Vectors before a restart.
 const RESTART: usize = 40;
 /// Products in all.
@@ -79,10 +81,6 @@ pub fn gmres(
         products += 1;
         r.iter_mut().zip(b).for_each(|(r, b)| *r = b - *r);
     }
-}
-
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
 #[cfg(test)]

@@ -8,7 +8,7 @@ use super::water_levels::WaterLevels;
 use super::{Assembly, Frame, PlacedConstraint, Term, Trial};
 use crate::contact::{Answer, Law, Laws, Motion};
 use crate::error::Result;
-use crate::system::{Local, scatter};
+use crate::system::Local;
 
 /// The contact of one interface.
 pub struct Contact {
@@ -103,14 +103,6 @@ impl<const D: usize> Term<D> for Contact {
             Ok(())
         };
         let coupling = |constraint: &PlacedConstraint<D>| constraint.coupling as usize;
-        scatter(
-            frame.pattern,
-            frame.constraints,
-            coupling,
-            compute,
-            out.force,
-            out.tangent.as_deref_mut(),
-            out.workspace,
-        )
+        out.scatter(frame.pattern, frame.constraints, coupling, compute)
     }
 }

@@ -18,7 +18,7 @@ use crate::error::Result;
 use crate::kinematics::Kinematics;
 use crate::mesh::shape::{CellKind, MAX_NODES, rule};
 use crate::surface::{NO_REGION, Piece};
-use crate::system::{Local, scatter};
+use crate::system::Local;
 use std::collections::BTreeMap;
 use std::marker::PhantomData;
 
@@ -117,10 +117,9 @@ impl<K: Kinematics<2>> DrainedSurface<K> {
 
     /// A cell that bears pieces, of no area yet; `None` where it has no water.
     fn host(&self, frame: &Frame<2>, converged: &[[f64; 2]], cell: u32) -> Option<Host> {
-        let cell_points =
-            frame.interpolation.filled.binary_search_by_key(&cell, |cell_points| cell_points.cell).ok()?;
+        let cell_points = frame.interpolation.of_cell(cell)?;
         let (mut volume, mut mobility) = (0.0, [0.0; 2]);
-        for entries in frame.interpolation.entries::<K>(&frame.interpolation.filled[cell_points]) {
+        for entries in frame.interpolation.entries::<K>(cell_points) {
             let p = entries.point;
             if let Some(soil) = self.porous.get(frame.points.model_of(p)).and_then(Option::as_ref) {
                 let weight = entries.weight * frame.points.deformation[p].determinant();
@@ -198,7 +197,7 @@ impl<K: Kinematics<2>> Term<2> for DrainedSurface<K> {
             Ok(())
         };
         let coupling = |piece: &Piece| frame.coupling[piece.host as usize] as usize;
-        scatter(frame.pattern, frame.open, coupling, compute, out.force, out.tangent.as_deref_mut(), out.workspace)
+        out.scatter(frame.pattern, frame.open, coupling, compute)
     }
 
     fn idle(&self, frame: &Frame<2>, displacement: &[[f64; 2]], phase: usize) -> Option<String> {

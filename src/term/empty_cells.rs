@@ -12,7 +12,7 @@ use crate::error::Result;
 use crate::interpolation::{PartlyFilled, integrate};
 use crate::kinematics::Kinematics;
 use crate::mesh::Mesh;
-use crate::system::{Local, scatter};
+use crate::system::Local;
 use std::marker::PhantomData;
 use std::sync::OnceLock;
 
@@ -83,14 +83,11 @@ impl<const D: usize, K: Kinematics<D>> Term<D> for EmptyCells<K> {
             }
             Ok(())
         };
-        scatter(
+        out.scatter(
             frame.pattern,
             frame.partly_filled,
             |partly_filled| frame.coupling[partly_filled.cell as usize] as usize,
             compute,
-            out.force,
-            out.tangent.as_deref_mut(),
-            out.workspace,
         )
     }
 }

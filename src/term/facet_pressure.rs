@@ -11,7 +11,7 @@ use crate::kinematics::Kinematics;
 use crate::mesh::Mesh;
 use crate::mesh::faces::Faces;
 use crate::mesh::shape::{CellKind, MAX_NODES, rule};
-use crate::system::{Local, scatter};
+use crate::system::Local;
 use std::f64::consts::TAU;
 use std::marker::PhantomData;
 
@@ -129,6 +129,6 @@ impl<K: Kinematics<2>> Term<2> for FacetPressure<K> {
             Ok(())
         };
         let coupling = |&(cell, _): &(u32, u8)| frame.coupling[cell as usize] as usize;
-        scatter(frame.pattern, &self.facets, coupling, compute, out.force, out.tangent.as_deref_mut(), out.workspace)
+        out.scatter(frame.pattern, &self.facets, coupling, compute)
     }
 }

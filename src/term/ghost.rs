@@ -18,7 +18,7 @@ use crate::interpolation::{Jump, Jumps};
 use crate::kinematics::Kinematics;
 use crate::material::{Model, yield_excess};
 use crate::points::Points;
-use crate::system::{Local, scatter};
+use crate::system::Local;
 use crate::tensor::deviatoric;
 use std::marker::PhantomData;
 use std::sync::Arc;
@@ -83,12 +83,7 @@ impl<K> GhostPenalty<K> {
     {
         let (mut volume, mut compliance, mut weakness) = (0.0, 0.0, 0.0);
         for cell in face.between.cells {
-            let Ok(cell_points) =
-                frame.interpolation.filled.binary_search_by_key(&cell, |cell_points| cell_points.cell)
-            else {
-                continue;
-            };
-            for &p in frame.interpolation.points(&frame.interpolation.filled[cell_points]) {
+            for &p in frame.interpolation.points_in(cell) {
                 let p = p as usize;
                 let Some(model) = self.models.get(frame.points.model_of(p)).and_then(Option::as_ref) else {
                     continue;
@@ -190,13 +185,5 @@ pub(super) fn penalise<const D: usize, K: Kinematics<D>>(
         local.vector.iter_mut().for_each(|unit| *unit *= force);
         Ok(())
     };
-    scatter(
-        frame.pattern,
-        frame.ghost,
-        |ghost| ghost.coupling as usize,
-        compute,
-        out.force,
-        out.tangent.as_deref_mut(),
-        out.workspace,
-    )
+    out.scatter(frame.pattern, frame.ghost, |ghost| ghost.coupling as usize, compute)
 }

@@ -14,7 +14,7 @@
 //! nothing.
 
 use super::extended::{Kept, scatter_functions};
-use super::mixed::{Answer, Within};
+use super::mixed::{Answer, Coupling, Point, Within};
 use super::smoothed::{self, Layout};
 use super::stiffness::{Stiffness, add_turning};
 use super::volume::VolumeFit;
@@ -179,8 +179,9 @@ impl<K, S> Internal<K, S> {
             return Err(Error::analysis(format!("material point {p}"), "it has no material", ""));
         };
         let state = State { increment: Some(felt), ..points.state(p, inverse_dt) };
-        let at = Within { model: model.as_ref(), trial, state, ratios: strained.ratios, later };
-        let answer = self.share.respond(cell, points, entries, &at, internal);
+        let within = Within { model: model.as_ref(), trial, state, later };
+        let point = Point { points, entries, ratios: strained.ratios };
+        let answer = self.share.respond(cell, &point, &within, internal);
         answer.ok_or_else(|| inadmissible(points, p, "is strained beyond measure", &strained.increment))
     }
 
@@ -289,8 +290,8 @@ impl<const D: usize, K: Kinematics<D>, S: Mixed<D, K>> Term<D> for Internal<K, S
                 for (k, ((entries, point), answer)) in
                     frame.interpolation.entries::<K>(cell_points).zip(&strained).zip(&mut answers).enumerate()
                 {
-                    let ratios = point.ratios;
-                    let add = |answer: &mut _| self.share.add(&cell, frame.points, &entries, ratios, answer);
+                    let at = Point { points: frame.points, entries: &entries, ratios: point.ratios };
+                    let add = |answer: &mut _| self.share.add(&cell, &at, answer);
                     let (stress, acts_on) = point.stress::<D, K>(trial.alpha_f, answer, add);
                     let volume = entries.weight;
                     let of_forces = now.as_ref().map(|now| entries.deformation_of_forces::<K>(now));
@@ -323,9 +324,8 @@ impl<const D: usize, K: Kinematics<D>, S: Mixed<D, K>> Term<D> for Internal<K, S
                             smoothed::keep::<D, K>(&layout, tangent, &entries, &point.inverse, weight, k, kept);
                         }
                     }
-                    let seen = answer.1.as_ref();
-                    let gradients = [forces, strains];
-                    self.share.couple(&cell, frame.points, &entries, gradients, ratios, seen, &acts_on, later, local);
+                    let coupling = Coupling { forces, strains, seen: answer.1.as_ref(), acts_on: &acts_on, later };
+                    self.share.couple(&cell, &at, &coupling, local);
                 }
                 if wanted {
                     stiffness.add_to::<D, K>(local);
@@ -358,11 +358,7 @@ impl<const D: usize, K: Kinematics<D>, S: Mixed<D, K>> Term<D> for Internal<K, S
             let before = frame.interpolation.gather(frame.mesh, cell_points, trial.converged);
             let cell = self.share.over(frame, trial, cell_points);
             let volume = frame.integration.and_then(|(interpolation, points)| {
-                let number = interpolation
-                    .filled
-                    .binary_search_by_key(&cell_points.cell, |cell_points| cell_points.cell)
-                    .ok()?;
-                let cell_points = &interpolation.filled[number];
+                let cell_points = interpolation.of_cell(cell_points.cell)?;
                 let [now, before] =
                     [trial.displacement, trial.converged].map(|u| interpolation.gather(frame.mesh, cell_points, u));
                 let ratio = |entries: Entries<D>| {
@@ -393,7 +389,8 @@ impl<const D: usize, K: Kinematics<D>, S: Mixed<D, K>> Term<D> for Internal<K, S
                     pressure: 0.0,
                     pore_pressure: 0.0,
                 };
-                self.share.commit(&cell, frame.points, &entries, point.ratios, &mut history);
+                let at = Point { points: frame.points, entries: &entries, ratios: point.ratios };
+                self.share.commit(&cell, &at, &mut history);
                 Some(history)
             };
             for entries in frame.interpolation.entries::<K>(cell_points) {

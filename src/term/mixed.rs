@@ -18,15 +18,22 @@ pub struct Ratios {
     pub grid: f64,
 }
 
-/// A point within the step.
+/// A point of a cell in a trial state.
+#[derive(Clone, Copy)]
+pub struct Point<'a, const D: usize> {
+    pub points: &'a Points<D>,
+    pub entries: &'a Entries<'a, D>,
+    /// Of the end of the step.
+    pub ratios: Ratios,
+}
+
+/// What the model of a point responds to within the step.
 pub struct Within<'a> {
     pub model: &'a dyn Model,
     /// Elastic trial left Cauchy–Green tensor (-).
     pub trial: Symmetric,
     pub state: State<'a>,
-    /// Of the end of the step.
-    pub ratios: Ratios,
-    /// Weight of the end of the step.
+    /// Weight of the end of the step (-).
     pub later: f64,
 }
 
@@ -53,6 +60,19 @@ impl Seen {
 /// The answer of a model, and what it sees of the share.
 pub type Answer<K, const D: usize> = (Spatial<<K as Kinematics<D>>::Tangent>, Option<Seen>);
 
+/// What couples the unknowns of a share with the displacements at a point.
+pub struct Coupling<'a, const D: usize> {
+    /// The gradients on the deformed grid (1/m) that forces act through, and those that strains are taken with.
+    pub forces: &'a [Gradient<D>],
+    pub strains: &'a [Gradient<D>],
+    /// What the model sees of the unknowns.
+    pub seen: Option<&'a Seen>,
+    /// The tensor (-) through which the stress acts.
+    pub acts_on: &'a Tensor,
+    /// Weight of the end of the step (-).
+    pub later: f64,
+}
+
 /// A share of the stress of the points that unknowns of its own carry.
 pub trait Mixed<const D: usize, K: Kinematics<D>>: Send + Sync {
     /// Its unknowns over a cell.
@@ -63,55 +83,19 @@ pub trait Mixed<const D: usize, K: Kinematics<D>>: Send + Sync {
     /// The response of the model of a point to an elastic trial left Cauchy–Green tensor within the step, and what it sees of the share.
     /// The internal variables at the end of the step go into `internal`. `None` where the tensor is out of the range of the model.
     #[inline]
-    fn respond(
-        &self,
-        _: &Self::Cell,
-        points: &Points<D>,
-        entries: &Entries<D>,
-        at: &Within,
-        internal: &mut [f64],
-    ) -> Option<Answer<K, D>> {
-        let y = points.seeded_height(entries.point);
-        Some((K::respond(at.model, y, &at.trial, &at.state, internal)?, None))
+    fn respond(&self, _: &Self::Cell, point: &Point<D>, within: &Within, internal: &mut [f64]) -> Option<Answer<K, D>> {
+        let y = point.points.seeded_height(point.entries.point);
+        Some((K::respond(within.model, y, &within.trial, &within.state, internal)?, None))
     }
 
-    /// Adds the share at the end of the step to the answer of the model, given the ratios of volumes, and returns that at its beginning (kPa,
-    /// Kirchhoff).
-    fn add(
-        &self,
-        cell: &Self::Cell,
-        points: &Points<D>,
-        entries: &Entries<D>,
-        ratios: Ratios,
-        answer: &mut Spatial<K::Tangent>,
-    ) -> f64;
+    /// Adds the share at the end of the step to the answer of the model, and returns that at its beginning (kPa, Kirchhoff).
+    fn add(&self, cell: &Self::Cell, point: &Point<D>, answer: &mut Spatial<K::Tangent>) -> f64;
 
-    /// Adds the equations of the unknowns and what couples them with the displacements to the end of `local`, given what the model sees of them,
-    /// the gradients on the deformed grid that forces act through and those that strains are taken with, the ratios of volumes, the tensor through which the stress acts and the weight of the end
-    /// of the step.
-    #[expect(clippy::too_many_arguments, reason = "a point, and where it goes")]
-    fn couple(
-        &self,
-        cell: &Self::Cell,
-        points: &Points<D>,
-        entries: &Entries<D>,
-        gradients: [&[Gradient<D>]; 2],
-        ratios: Ratios,
-        seen: Option<&Seen>,
-        acts_on: &Tensor,
-        later: f64,
-        local: &mut Local,
-    );
+    /// Adds the equations of the unknowns and what couples them with the displacements to the end of `local`.
+    fn couple(&self, cell: &Self::Cell, point: &Point<D>, coupling: &Coupling<D>, local: &mut Local);
 
     /// Completes what a point keeps.
-    fn commit(
-        &self,
-        cell: &Self::Cell,
-        points: &Points<D>,
-        entries: &Entries<D>,
-        ratios: Ratios,
-        history: &mut History,
-    );
+    fn commit(&self, cell: &Self::Cell, point: &Point<D>, history: &mut History);
 
     /// Energy (kJ) stored at point `p`.
     fn energy(&self, points: &Points<D>, p: usize) -> f64;
@@ -125,27 +109,15 @@ impl<const D: usize, K: Kinematics<D>> Mixed<D, K> for () {
     fn over(&self, _: &Frame<D>, _: &Trial<D>, _: &CellPoints) {}
 
     #[inline]
-    fn add(&self, (): &(), _: &Points<D>, _: &Entries<D>, _: Ratios, _: &mut Spatial<K::Tangent>) -> f64 {
+    fn add(&self, (): &(), _: &Point<D>, _: &mut Spatial<K::Tangent>) -> f64 {
         0.0
     }
 
     #[inline]
-    fn couple(
-        &self,
-        (): &(),
-        _: &Points<D>,
-        _: &Entries<D>,
-        _: [&[Gradient<D>]; 2],
-        _: Ratios,
-        _: Option<&Seen>,
-        _: &Tensor,
-        _: f64,
-        _: &mut Local,
-    ) {
-    }
+    fn couple(&self, (): &(), _: &Point<D>, _: &Coupling<D>, _: &mut Local) {}
 
     #[inline]
-    fn commit(&self, (): &(), _: &Points<D>, _: &Entries<D>, _: Ratios, _: &mut History) {}
+    fn commit(&self, (): &(), _: &Point<D>, _: &mut History) {}
 
     #[inline]
     fn energy(&self, _: &Points<D>, _: usize) -> f64 {
@@ -164,51 +136,25 @@ impl<const D: usize, K: Kinematics<D>, A: Mixed<D, K>, B: Mixed<D, K>> Mixed<D, 
     fn respond(
         &self,
         cell: &Self::Cell,
-        points: &Points<D>,
-        entries: &Entries<D>,
-        at: &Within,
+        point: &Point<D>,
+        within: &Within,
         internal: &mut [f64],
     ) -> Option<Answer<K, D>> {
-        self.0.respond(&cell.0, points, entries, at, internal)
+        self.0.respond(&cell.0, point, within, internal)
     }
 
-    fn add(
-        &self,
-        cell: &Self::Cell,
-        points: &Points<D>,
-        entries: &Entries<D>,
-        ratios: Ratios,
-        answer: &mut Spatial<K::Tangent>,
-    ) -> f64 {
-        self.0.add(&cell.0, points, entries, ratios, answer) + self.1.add(&cell.1, points, entries, ratios, answer)
+    fn add(&self, cell: &Self::Cell, point: &Point<D>, answer: &mut Spatial<K::Tangent>) -> f64 {
+        self.0.add(&cell.0, point, answer) + self.1.add(&cell.1, point, answer)
     }
 
-    fn couple(
-        &self,
-        cell: &Self::Cell,
-        points: &Points<D>,
-        entries: &Entries<D>,
-        gradients: [&[Gradient<D>]; 2],
-        ratios: Ratios,
-        seen: Option<&Seen>,
-        acts_on: &Tensor,
-        later: f64,
-        local: &mut Local,
-    ) {
-        self.0.couple(&cell.0, points, entries, gradients, ratios, seen, acts_on, later, local);
-        self.1.couple(&cell.1, points, entries, gradients, ratios, seen, acts_on, later, local);
+    fn couple(&self, cell: &Self::Cell, point: &Point<D>, coupling: &Coupling<D>, local: &mut Local) {
+        self.0.couple(&cell.0, point, coupling, local);
+        self.1.couple(&cell.1, point, coupling, local);
     }
 
-    fn commit(
-        &self,
-        cell: &Self::Cell,
-        points: &Points<D>,
-        entries: &Entries<D>,
-        ratios: Ratios,
-        history: &mut History,
-    ) {
-        self.0.commit(&cell.0, points, entries, ratios, history);
-        self.1.commit(&cell.1, points, entries, ratios, history);
+    fn commit(&self, cell: &Self::Cell, point: &Point<D>, history: &mut History) {
+        self.0.commit(&cell.0, point, history);
+        self.1.commit(&cell.1, point, history);
     }
 
     fn energy(&self, points: &Points<D>, p: usize) -> f64 {

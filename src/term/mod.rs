@@ -180,7 +180,7 @@ pub struct Trial<'a, const D: usize> {
 }
 
 impl<'a, const D: usize> Trial<'a, D> {
-    /// A state of displacements alone, as far as contact sees it.
+    /// A state of displacements alone, without inertia and pressures.
     pub fn at_rest(displacement: &'a [[f64; D]], converged: &'a [[f64; D]]) -> Self {
         Self {
             displacement,
@@ -212,6 +212,22 @@ pub struct Assembly<'a> {
     pub workspace: &'a mut Workspace,
 }
 
+impl Assembly<'_> {
+    /// Adds what `compute` makes of each of some `items`, given the coupling of each.
+    ///
+    /// # Errors
+    /// The error of the first item that fails.
+    pub fn scatter<I: Sync>(
+        &mut self,
+        pattern: &Pattern,
+        items: &[I],
+        coupling: impl Fn(&I) -> usize + Sync,
+        compute: impl Fn(&I, &mut Local) -> Result<()> + Sync,
+    ) -> Result<()> {
+        scatter(pattern, items, coupling, compute, self.force, self.tangent.as_deref_mut(), self.workspace)
+    }
+}
+
 /// Adds what `compute` makes of each cell over the nodes of its cell.
 ///
 /// # Errors
@@ -222,8 +238,7 @@ pub fn scatter_cells<const D: usize>(
     out: &mut Assembly,
 ) -> Result<()> {
     let coupling = |cell_points: &CellPoints| frame.coupling[cell_points.cell as usize] as usize;
-    let tangent = out.tangent.as_deref_mut();
-    scatter(frame.pattern, &frame.interpolation.filled, coupling, compute, out.force, tangent, out.workspace)
+    out.scatter(frame.pattern, &frame.interpolation.filled, coupling, compute)
 }
 
 /// New values of the history of one point.

@@ -8,7 +8,7 @@ use crate::dofs::PORE_PRESSURE;
 use crate::error::Result;
 use crate::interpolation::integrate;
 use crate::kinematics::Kinematics;
-use crate::system::{Local, scatter};
+use crate::system::Local;
 use std::marker::PhantomData;
 use std::sync::OnceLock;
 
@@ -36,13 +36,8 @@ impl<K> PoreStabilisation<K> {
     }
 
     fn has_water<const D: usize>(&self, frame: &Frame<D>, cell: u32) -> bool {
-        let Ok(cell_points) = frame.interpolation.filled.binary_search_by_key(&cell, |cell_points| cell_points.cell)
-        else {
-            return false;
-        };
-        let points = frame.interpolation.points(&frame.interpolation.filled[cell_points]);
-        let mut models = points.iter().map(|&p| frame.points.model_of(p as usize));
-        models.any(|model| self.porous.get(model).is_some_and(Option::is_some))
+        let has = |&p: &u32| self.porous.get(frame.points.model_of(p as usize)).is_some_and(Option::is_some);
+        frame.interpolation.points_in(cell).iter().any(has)
     }
 }
 
@@ -77,6 +72,6 @@ impl<const D: usize, K: Kinematics<D>> Term<D> for PoreStabilisation<K> {
             Ok(())
         };
         let coupling = |cell: &u32| frame.coupling[*cell as usize] as usize;
-        scatter(frame.pattern, frame.cells, coupling, compute, out.force, out.tangent.as_deref_mut(), out.workspace)
+        out.scatter(frame.pattern, frame.cells, coupling, compute)
     }
 }

@@ -24,12 +24,12 @@
 //! with cell-wise volume balance; Boffi et al. 2012). Cells of first order have no room for the constant; there the
 //! projection `Σ w₀ (L − L̄)(π − π_n)/2G` of Bochev, Dohrmann & Gunzburger (2006) makes the linear pressure stable.
 
-use super::mixed::{Answer, Seen, Within};
+use super::mixed::{Answer, Coupling, Point, Seen, Within};
 use super::mixed_pressure::{MixedPressure, volume_strain};
 use super::volume_measure::{ITERATIONS, Measure};
 use super::{Frame, History, Mixed, Ratios, Trial};
-use crate::interpolation::{CellPoints, Entries};
-use crate::kinematics::{Gradient, Kinematics};
+use crate::interpolation::CellPoints;
+use crate::kinematics::Kinematics;
 use crate::material::spatial::Spatial;
 use crate::mesh::shape::CellKind;
 use crate::points::Points;
@@ -141,8 +141,7 @@ impl<const D: usize, K: Kinematics<D>> Mixed<D, K> for PressureField<K> {
     fn respond(
         &self,
         cell: &Cell,
-        points: &Points<D>,
-        entries: &Entries<D>,
+        &Point { points, entries, ratios }: &Point<D>,
         at: &Within,
         internal: &mut [f64],
     ) -> Option<Answer<K, D>> {
@@ -152,7 +151,7 @@ impl<const D: usize, K: Kinematics<D>> Mixed<D, K> for PressureField<K> {
             return Some((K::respond(at.model, y, &at.trial, &at.state, internal)?, None));
         };
         let (measure, bound) = (Measure::of(carried, points, p), bound * at.model.elasticity().at(y).shear);
-        let (water, grid) = (carried.law(y).bulk, at.ratios.grid / at.ratios.step);
+        let (water, grid) = (carried.law(y).bulk, ratios.grid / ratios.step);
         let (before, slope) = (points.pressure[p], measure.slope(grid));
         let pressure =
             at.later * dot(&shapes(cell.kind, entries.shape), &cell.pressure) + (1.0 - at.later) * before / slope;
@@ -199,14 +198,8 @@ impl<const D: usize, K: Kinematics<D>> Mixed<D, K> for PressureField<K> {
         None
     }
 
-    fn add(
-        &self,
-        cell: &Cell,
-        points: &Points<D>,
-        entries: &Entries<D>,
-        ratios: Ratios,
-        answer: &mut Spatial<K::Tangent>,
-    ) -> f64 {
+    fn add(&self, cell: &Cell, point: &Point<D>, answer: &mut Spatial<K::Tangent>) -> f64 {
+        let &Point { points, entries, ratios } = point;
         let Some(carried) = self.of(points, entries.point) else { return 0.0 };
         let measure = Measure::of(carried, points, entries.point);
         let pressure = measure.slope(ratios.grid) * dot(&shapes(cell.kind, entries.shape), &cell.pressure);
@@ -220,18 +213,9 @@ impl<const D: usize, K: Kinematics<D>> Mixed<D, K> for PressureField<K> {
         points.pressure[entries.point]
     }
 
-    fn couple(
-        &self,
-        cell: &Cell,
-        points: &Points<D>,
-        entries: &Entries<D>,
-        [forces, strains]: [&[Gradient<D>]; 2],
-        ratios: Ratios,
-        seen: Option<&Seen>,
-        acts_on: &Tensor,
-        later: f64,
-        local: &mut Local,
-    ) {
+    fn couple(&self, cell: &Cell, point: &Point<D>, coupling: &Coupling<D>, local: &mut Local) {
+        let &Point { points, entries, ratios } = point;
+        let &Coupling { forces, strains, seen, acts_on, later } = coupling;
         let p = entries.point;
         let Some(carried) = self.of(points, p) else { return };
         let count = unknowns(cell.kind);
@@ -288,7 +272,7 @@ impl<const D: usize, K: Kinematics<D>> Mixed<D, K> for PressureField<K> {
         }
     }
 
-    fn commit(&self, cell: &Cell, points: &Points<D>, entries: &Entries<D>, ratios: Ratios, history: &mut History) {
+    fn commit(&self, cell: &Cell, &Point { points, entries, ratios }: &Point<D>, history: &mut History) {
         let Some(carried) = self.of(points, entries.point) else { return };
         let slope = Measure::of(carried, points, entries.point).slope(ratios.grid);
         history.pressure = slope * dot(&shapes(cell.kind, entries.shape), &cell.pressure);

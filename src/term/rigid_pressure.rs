@@ -6,11 +6,12 @@ use super::facet_pressure::integrate;
 use super::hydrostatic::Hydrostatic;
 use super::{Assembly, Frame, Role, Term, Trial};
 use crate::error::Result;
+use crate::geometry::dot;
 use crate::kinematics::Kinematics;
 use crate::mesh::Mesh;
 use crate::mesh::faces::Faces;
 use crate::rigid::{Body, Pose, across};
-use crate::system::{Local, scatter};
+use crate::system::Local;
 use std::f64::consts::TAU;
 use std::marker::PhantomData;
 
@@ -26,10 +27,6 @@ pub struct RigidPressure<K> {
     /// The boundary when the run began, from the reference point.
     facets: Vec<Facet>,
     kinematics: PhantomData<K>,
-}
-
-fn dot(a: &[f64; 2], b: &[f64; 2]) -> f64 {
-    a[0] * b[0] + a[1] * b[1]
 }
 
 impl<K> RigidPressure<K> {
@@ -113,6 +110,6 @@ impl<K: Kinematics<2>> Term<2> for RigidPressure<K> {
             Ok(())
         };
         let coupling = |&number: &usize| frame.bodies[number] as usize;
-        scatter(frame.pattern, &[self.number], coupling, compute, out.force, out.tangent.as_deref_mut(), out.workspace)
+        out.scatter(frame.pattern, &[self.number], coupling, compute)
     }
 }

@@ -11,7 +11,7 @@ use super::{Assembly, Frame, Term, Trial};
 use crate::error::Result;
 use crate::interpolation::integrate;
 use crate::kinematics::Kinematics;
-use crate::system::{Local, scatter};
+use crate::system::Local;
 use std::marker::PhantomData;
 use std::sync::OnceLock;
 
@@ -46,13 +46,9 @@ impl<K> SmoothPressure<K> {
 impl<K> SmoothPressure<K> {
     /// Whether a cell has points of which the field carries nothing, and no others.
     fn is_idle<const D: usize>(&self, frame: &Frame<D>, cell: u32) -> bool {
-        let Ok(cell_points) = frame.interpolation.filled.binary_search_by_key(&cell, |cell_points| cell_points.cell)
-        else {
-            return false;
-        };
-        let points = frame.interpolation.points(&frame.interpolation.filled[cell_points]);
-        let mut models = points.iter().map(|&p| frame.points.model_of(p as usize));
-        !models.any(|model| self.carries.get(model).copied().unwrap_or(false))
+        let carries = |&p: &u32| self.carries.get(frame.points.model_of(p as usize)).copied().unwrap_or(false);
+        let points = frame.interpolation.points_in(cell);
+        !points.is_empty() && !points.iter().any(carries)
     }
 }
 
@@ -95,6 +91,6 @@ impl<const D: usize, K: Kinematics<D>> Term<D> for SmoothPressure<K> {
             Ok(())
         };
         let coupling = |cell: &u32| frame.coupling[*cell as usize] as usize;
-        scatter(frame.pattern, frame.cells, coupling, compute, out.force, out.tangent.as_deref_mut(), out.workspace)
+        out.scatter(frame.pattern, frame.cells, coupling, compute)
     }
 }

@@ -13,7 +13,7 @@ use crate::error::Result;
 use crate::kinematics::Kinematics;
 use crate::mesh::shape::{CellKind, MAX_NODES, rule};
 use crate::surface::{NO_REGION, Piece};
-use crate::system::{Local, scatter};
+use crate::system::Local;
 use crate::time_value::TimeValue;
 use std::f64::consts::TAU;
 use std::marker::PhantomData;
@@ -151,7 +151,7 @@ impl<K: Kinematics<2>> Term<2> for SurfaceTraction<K> {
             return Ok(());
         }
         let coupling = |piece: &Piece| frame.coupling[piece.host as usize] as usize;
-        scatter(frame.pattern, frame.boundary, coupling, compute, out.force, out.tangent.as_deref_mut(), out.workspace)
+        out.scatter(frame.pattern, frame.boundary, coupling, compute)
     }
 }
 

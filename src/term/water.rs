@@ -18,8 +18,8 @@
 //! Verruijt 1981); `s` is what is missing to keep neighbours from pushing each other, `1/M + 1/Q − 6 κ Δt/h²`, and zero in
 //! longer steps (Aguilar et al. 2008). In cells of first order it makes the pair stable, too, and stays.
 
-use super::mixed::Seen;
-use super::{Frame, History, Mixed, Ratios, Trial};
+use super::mixed::{Coupling, Point};
+use super::{Frame, History, Mixed, Trial};
 use crate::dofs::PORE_PRESSURE;
 use crate::interpolation::{CellPoints, Coefficients, Entries};
 use crate::kinematics::{Gradient, Kinematics};
@@ -202,14 +202,8 @@ impl<const D: usize, K: Kinematics<D>> Mixed<D, K> for PoreWater<K> {
         }
     }
 
-    fn add(
-        &self,
-        cell: &Cell<D>,
-        points: &Points<D>,
-        entries: &Entries<D>,
-        ratios: Ratios,
-        answer: &mut Spatial<K::Tangent>,
-    ) -> f64 {
+    fn add(&self, cell: &Cell<D>, point: &Point<D>, answer: &mut Spatial<K::Tangent>) -> f64 {
+        let &Point { points, entries, ratios } = point;
         let p = entries.point;
         if self.of(points, p).is_none() {
             return 0.0;
@@ -224,18 +218,9 @@ impl<const D: usize, K: Kinematics<D>> Mixed<D, K> for PoreWater<K> {
         -before * points.pore_pressure[p]
     }
 
-    fn couple(
-        &self,
-        cell: &Cell<D>,
-        points: &Points<D>,
-        entries: &Entries<D>,
-        [forces, strains]: [&[Gradient<D>]; 2],
-        ratios: Ratios,
-        _: Option<&Seen>,
-        acts_on: &Tensor,
-        later: f64,
-        local: &mut Local,
-    ) {
+    fn couple(&self, cell: &Cell<D>, point: &Point<D>, coupling: &Coupling<D>, local: &mut Local) {
+        let &Point { points, entries, ratios } = point;
+        let &Coupling { forces, strains, acts_on, later, .. } = coupling;
         let p = entries.point;
         let Some(porous) = self.of(points, p) else { return };
         let begin = D * forces.len();
@@ -289,7 +274,7 @@ impl<const D: usize, K: Kinematics<D>> Mixed<D, K> for PoreWater<K> {
         }
     }
 
-    fn commit(&self, cell: &Cell<D>, points: &Points<D>, entries: &Entries<D>, _: Ratios, history: &mut History) {
+    fn commit(&self, cell: &Cell<D>, &Point { points, entries, .. }: &Point<D>, history: &mut History) {
         if self.of(points, entries.point).is_some() {
             history.pore_pressure = dot(&cell.shapes(entries.shape), &cell.pressure);
         }

@@ -7,7 +7,7 @@ use mpm::mesh::builder::rectangle;
 use mpm::mesh::shape::CellKind;
 use mpm::mesh::{Group, Mesh};
 use mpm::points::Points;
-use mpm::step::{Controller, Limits, Scene, Simulation, State};
+use mpm::step::{Controller, Scene, Simulation, State};
 use std::fs;
 use std::sync::OnceLock;
 
@@ -209,8 +209,7 @@ impl Ready {
 
     fn step_in<K: Kinematics<2>>(&self, state: State<2>) -> mpm::error::Result<State<2>> {
         let Some(phase) = self.scene.phases.get(state.phase) else { return Ok(state) };
-        let limits = Limits { least: phase.least_step, largest: phase.largest_step };
-        let mut controller = Controller::new(limits, phase.stops.clone(), state.step_size.min(phase.largest_step));
+        let mut controller = Controller::new(phase.step, phase.stops.clone(), state.step_size.min(phase.step.max));
         let mut simulation = Simulation::<2, K>::new(&self.scene, state)?;
         if simulation.state.phase_time == 0.0 {
             simulation.notes()?;

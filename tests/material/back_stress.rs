@@ -27,7 +27,7 @@ use mpm::quadrature::Resampled;
 use mpm::run::fields::{self, Field};
 use mpm::run::{self, Ended, InternalVariable, Outputs};
 use mpm::seed::{RegionSeed, seed};
-use mpm::step::{self, Fixed, Numerics, Phase, Prescribed, Restore, Scene, Stop};
+use mpm::step::{self, Fixed, Numerics, Phase, Prescribed, Restore, Scene, StepSize, Stop};
 use mpm::tensor::{Symmetric, Tensor, deviatoric, full, mean, symmetric};
 use mpm::term::{EmptyCells, Internal};
 use mpm::time_value::TimeValue;
@@ -382,9 +382,7 @@ fn scene() -> (Scene<2>, Points<2>, Models) {
         auto: false,
         flows: false,
         duration: 1.0,
-        first_step: 1.0 / STEPS as f64,
-        least_step: 1e-3,
-        largest_step: 1.0 / STEPS as f64,
+        step: StepSize { initial: 1.0 / STEPS as f64, min: 1e-3, max: 1.0 / STEPS as f64 },
         prescribed,
         reduction: None,
         search: None,
@@ -438,7 +436,7 @@ fn run(folder: &Path, resume: bool, last: u64) -> Ended {
         surface: None,
         origin: Origin { run: Fingerprint::of(&[b"back stress"]), mesh: 1 },
     };
-    let first = step::State::new(points, scene.mesh.nodes.len(), scene.phases[0].first_step);
+    let first = step::State::new(points, scene.mesh.nodes.len(), scene.phases[0].step.initial);
     let stop = AtomicBool::new(false);
     let mut watch = |progress: run::Progress| stop.store(progress.step >= last, Ordering::Relaxed);
     run::run::<2, PlaneStrain>(&scene, first, &outputs, resume, &stop, &mut watch).unwrap()

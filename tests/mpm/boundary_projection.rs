@@ -7,7 +7,7 @@ use mpm::kinematics::{Axisymmetric, Kinematics, PlaneStrain};
 use mpm::material::{Elasticity, LinearElastic};
 use mpm::mesh::builder::rectangle;
 use mpm::mesh::shape::CellKind;
-use mpm::step::{Controller, Limits, Prescribed, Restore, Simulation, State};
+use mpm::step::{Controller, Prescribed, Restore, Simulation, State};
 use mpm::time_value::TimeValue;
 use std::sync::Arc;
 
@@ -35,8 +35,7 @@ fn taken<K: Kinematics<2> + 'static>(
     let first = State::new(points, scene.mesh.nodes.len(), 0.5);
     let mut simulation = Simulation::<2, K>::new(&scene, first).unwrap();
     let phase = &scene.phases[0];
-    let limits = Limits { least: phase.least_step, largest: phase.largest_step };
-    let mut controller = Controller::new(limits, phase.stops.clone(), phase.first_step);
+    let mut controller = Controller::new(phase.step, phase.stops.clone(), phase.step.initial);
     simulation.advance(&mut controller).unwrap();
     assert!(simulation.state.weights.notes.is_empty());
     let place = &mut simulation.state.points.position;

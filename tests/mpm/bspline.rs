@@ -16,7 +16,7 @@ use mpm::material::{Elasticity, LinearElastic};
 use mpm::mesh::Mesh;
 use mpm::mesh::builder::rectangle;
 use mpm::mesh::shape::CellKind;
-use mpm::step::{Controller, Limits, Prescribed, Restore, Simulation, State};
+use mpm::step::{Controller, Prescribed, Restore, Simulation, State, StepSize};
 use mpm::term::Traction;
 use mpm::time_value::TimeValue;
 use std::sync::Arc;
@@ -213,16 +213,15 @@ fn a_restart_changes_no_bit() {
         points.velocity = vec![[0.5, -1.0]; points.len()];
         let scene = bench.scene::<PlaneStrain>();
         let phase = &scene.phases[0];
-        let limits = || Limits { least: phase.least_step, largest: phase.largest_step };
         let advance = |state: State<2>, to: u64| {
-            let mut controller = Controller::new(limits(), phase.stops.clone(), phase.first_step);
+            let mut controller = Controller::new(phase.step, phase.stops.clone(), phase.step.initial);
             let mut simulation = Simulation::<2, PlaneStrain>::new(&scene, state).unwrap();
             while simulation.state.step < to {
                 simulation.advance(&mut controller).unwrap();
             }
             simulation.state
         };
-        let first = State::new(points, scene.mesh.nodes.len(), phase.first_step);
+        let first = State::new(points, scene.mesh.nodes.len(), phase.step.initial);
         let whole = advance(first.clone(), 10);
         let halves = advance(advance(first, 5), 10);
         assert!(whole.points.stress.iter().flatten().any(|s| s.abs() > 1.0));
@@ -413,10 +412,10 @@ fn a_free_body_is_named() {
     points = points.select(&(0..points.len()).filter(|&p| points.position[p][0] < 2.0).collect::<Vec<_>>());
     let scene = bench.scene::<PlaneStrain>();
     let phase = &scene.phases[0];
-    let first = State::new(points, scene.mesh.nodes.len(), phase.first_step);
+    let first = State::new(points, scene.mesh.nodes.len(), phase.step.initial);
     let mut simulation = Simulation::<2, PlaneStrain>::new(&scene, first).unwrap();
-    let limits = Limits { least: phase.first_step, largest: phase.largest_step };
-    let mut controller = Controller::new(limits, phase.stops.clone(), phase.first_step);
+    let limits = StepSize { min: phase.step.initial, ..phase.step };
+    let mut controller = Controller::new(limits, phase.stops.clone(), phase.step.initial);
     let Err(error) = simulation.advance(&mut controller) else { panic!("it fell without a support") };
     assert!(error.to_string().contains("`soil` is free in x, in y and to turn"), "{error}");
 }

@@ -10,7 +10,7 @@ use mpm::material::{Elasticity, LinearElastic};
 use mpm::mesh::builder::rectangle;
 use mpm::mesh::shape::CellKind;
 use mpm::points::Points;
-use mpm::step::{Controller, Limits, Prescribed, Restore, Simulation, State};
+use mpm::step::{Controller, Prescribed, Restore, Simulation, State};
 use mpm::time_value::TimeValue;
 use std::f64::consts::PI;
 use std::sync::Arc;
@@ -83,8 +83,7 @@ fn a_restoration_that_fails_moves_no_node() {
     let first = State { fem, fem_parametric, ..State::new(points, scene.mesh.nodes.len(), 0.1) };
     let mut simulation = Simulation::<2, PlaneStrain>::new(&scene, first).unwrap();
     let phase = &scene.phases[0];
-    let limits = Limits { least: phase.least_step, largest: phase.largest_step };
-    let mut controller = Controller::new(limits, phase.stops.clone(), phase.first_step);
+    let mut controller = Controller::new(phase.step, phase.stops.clone(), phase.step.initial);
     let mut before = simulation.state.clone();
     let error = loop {
         match simulation.advance(&mut controller) {

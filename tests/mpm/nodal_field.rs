@@ -15,7 +15,7 @@ use mpm::kinematics::{Kinematics, PlaneStrain};
 use mpm::material::{Elasticity, LinearElastic};
 use mpm::mesh::builder::rectangle;
 use mpm::mesh::shape::CellKind;
-use mpm::step::{Controller, Field, Limits, Prescribed, Restore, Scene, Simulation, State};
+use mpm::step::{Controller, Field, Prescribed, Restore, Scene, Simulation, State};
 use mpm::system::{Local, scatter};
 use mpm::term::{Assembly, Frame, Term, Trial, pressure_shapes};
 use mpm::time_value::TimeValue;
@@ -89,8 +89,8 @@ fn scene(kind: CellKind, cells: usize, steps: usize, prepare: impl Fn(&mut Bench
     bench.extra = vec![Box::new(Diffusion { capacity: 2.0, conductivity: 0.5, unit })];
     let points = quadrature_points::<PlaneStrain>(&bench.mesh, 4, 1.0);
     let mut scene = bench.scene::<PlaneStrain>();
-    scene.fields.push(Field { name: "temperature".into(), unit, given: Vec::new() });
-    let first = scene.phases[0].first_step;
+    scene.fields.push(Field { unit, given: Vec::new() });
+    let first = scene.phases[0].step.initial;
     let state = State::new(points, scene.mesh.nodes.len(), first);
     (scene, state)
 }
@@ -98,8 +98,7 @@ fn scene(kind: CellKind, cells: usize, steps: usize, prepare: impl Fn(&mut Bench
 fn run<K: Kinematics<2>>(scene: &Scene<2>, state: State<2>) -> State<2> {
     let phase = &scene.phases[0];
     let mut simulation = Simulation::<2, K>::new(scene, state).unwrap();
-    let limits = Limits { least: phase.least_step, largest: phase.largest_step };
-    let mut controller = Controller::new(limits, phase.stops.clone(), phase.first_step);
+    let mut controller = Controller::new(phase.step, phase.stops.clone(), phase.step.initial);
     while controller.next_stop(simulation.state.phase_time).is_some() {
         simulation.advance(&mut controller).unwrap_or_else(|e| panic!("{e}"));
     }

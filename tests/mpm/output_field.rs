@@ -52,7 +52,7 @@ fn a_field_of_ones_own_is_written_and_exported() {
         surface: None,
         origin: Origin { run: Fingerprint::of(&[b"volume ratio"]), mesh: 1 },
     };
-    let first = State::new(points, scene.mesh.nodes.len(), scene.phases[0].first_step);
+    let first = State::new(points, scene.mesh.nodes.len(), scene.phases[0].step.initial);
     let ended =
         run::run::<2, PlaneStrain>(&scene, first, &outputs, false, &AtomicBool::new(false), &mut |_| {}).unwrap();
     assert_eq!(ended, Ended::Done);

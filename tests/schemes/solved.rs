@@ -11,7 +11,7 @@ use mpm::mesh::builder::rectangle;
 use mpm::mesh::shape::CellKind;
 use mpm::points::Points;
 use mpm::seed::{RegionSeed, seed};
-use mpm::step::{Controller, Fixed, Limits, Prescribed, Restore, Simulation, State};
+use mpm::step::{Controller, Fixed, Prescribed, Restore, Simulation, State};
 use mpm::term::{Porous, WaterStiffness};
 use mpm::time_value::TimeValue;
 use std::f64::consts::TAU;
@@ -273,8 +273,7 @@ fn a_run_goes_on_bit_for_bit() {
         assert!(resets.windows(2).any(|w| w[0] == w[1]) && resets[7] > 2, "{resets:?}");
         for state in &states[..7] {
             let phase = &scene.phases[0];
-            let limits = Limits { least: phase.least_step, largest: phase.largest_step };
-            let mut controller = Controller::new(limits, phase.stops.clone(), phase.first_step);
+            let mut controller = Controller::new(phase.step, phase.stops.clone(), phase.step.initial);
             let mut simulation = Simulation::<2, PlaneStrain>::new(&scene, state.clone()).unwrap();
             while controller.next_stop(simulation.state.phase_time).is_some() {
                 simulation.advance(&mut controller).unwrap();

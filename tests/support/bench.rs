@@ -12,7 +12,8 @@ use mpm::mesh::shape::{MAX_NODES, map, rule};
 use mpm::points::Points;
 use mpm::quadrature::{Quadrature, Volumes};
 use mpm::step::{
-    Controller, Fem, Fixed, Limits, Numerics, Phase, Prescribed, Report, Restore, Scene, Simulation, State, Stop, Water,
+    Controller, Fem, Fixed, Numerics, Phase, Prescribed, Report, Restore, Scene, Simulation, State, StepSize, Stop,
+    Water,
 };
 use mpm::tensor::{IDENTITY, Tensor};
 use mpm::term::{
@@ -241,9 +242,7 @@ impl Bench {
                 auto: false,
                 flows: self.porous.is_some(),
                 duration: self.duration,
-                first_step: step,
-                least_step: step / 2f64.powi(self.halvings),
-                largest_step: step,
+                step: StepSize { initial: step, min: step / 2f64.powi(self.halvings), max: step },
                 prescribed: self.prescribed,
                 reduction: None,
                 search: None,
@@ -291,11 +290,10 @@ pub fn run_parts<K: Kinematics<2>>(
         fem.pore_pressure.resize(fem.len(), 0.0);
     }
     let fem_parametric = scene.fem.as_ref().map_or_else(Vec::new, |part| places(&part.mesh, &fem).unwrap());
-    let first = State::new(points, scene.mesh.nodes.len(), phase.first_step);
+    let first = State::new(points, scene.mesh.nodes.len(), phase.step.initial);
     let state = State { fem, fem_parametric, ..first };
     let mut simulation = Simulation::<2, K>::new(scene, state).unwrap();
-    let limits = Limits { least: phase.least_step, largest: phase.largest_step };
-    let mut controller = Controller::new(limits, phase.stops.clone(), phase.first_step);
+    let mut controller = Controller::new(phase.step, phase.stops.clone(), phase.step.initial);
     while controller.next_stop(simulation.state.phase_time).is_some() {
         let report = simulation.advance(&mut controller).unwrap_or_else(|e| panic!("{e}"));
         watch(&simulation.state, &report);

@@ -14,7 +14,7 @@ use mpm::mesh::locate::Locator;
 use mpm::mesh::shape::{CellKind, MAX_NODES};
 use mpm::points::Points;
 use mpm::quadrature::Volumes;
-use mpm::step::{Grid, Numerics, Phase, Restore, Scene, Simulation, State, Stop, Water};
+use mpm::step::{Grid, Numerics, Phase, Restore, Scene, Simulation, State, StepSize, Stop, Water};
 use mpm::system::{Matrix, Workspace};
 use mpm::tensor::{IDENTITY, Tensor, full, symmetric};
 use mpm::term::{Assembly, Frame, GhostFace, Term, Trial};
@@ -163,9 +163,7 @@ impl<K: Kinematics<2>> Stand<K> {
             auto: false,
             flows: false,
             duration: 1.0,
-            first_step: 1.0,
-            least_step: 1.0,
-            largest_step: 1.0,
+            step: StepSize { initial: 1.0, min: 1.0, max: 1.0 },
             prescribed: Vec::new(),
             reduction: None,
             search: None,

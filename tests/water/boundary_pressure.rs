@@ -12,7 +12,7 @@ use mpm::mesh::builder::rectangle;
 use mpm::mesh::locate::Locator;
 use mpm::mesh::shape::CellKind;
 use mpm::points::Points;
-use mpm::step::{Controller, Grid, Limits, Restore, Scene, Simulation, State};
+use mpm::step::{Controller, Grid, Restore, Scene, Simulation, State, StepSize};
 use mpm::surface::Geometry;
 use mpm::system::Workspace;
 use mpm::term::{Assembly, FacetPressure, Hydrostatic, Term, Trial, VirtualPressure};
@@ -100,7 +100,8 @@ fn unbalanced<K: Kinematics<2> + 'static>(places: &[([f64; 2], f64)], resampled:
     float(&mut points, 3.0);
     let scene = bench.scene::<K>();
     let mut simulation = Simulation::<2, K>::new(&scene, State::new(points, scene.mesh.nodes.len(), 1.0)).unwrap();
-    let mut controller = Controller::new(Limits { least: 1.0, largest: 1.0 }, scene.phases[0].stops.clone(), 1.0);
+    let mut controller =
+        Controller::new(StepSize { initial: 1.0, min: 1.0, max: 1.0 }, scene.phases[0].stops.clone(), 1.0);
     simulation.advance(&mut controller).map_or_else(
         |e| {
             println!("{e}");
@@ -250,7 +251,8 @@ fn water_does_not_act_where_points_meet_finite_elements() {
         let first = State::new(points, scene.mesh.nodes.len(), 1.0);
         let state = State { fem: elements, fem_parametric, ..first };
         let mut simulation = Simulation::<2, PlaneStrain>::new(&scene, state).unwrap();
-        let mut controller = Controller::new(Limits { least: 1.0, largest: 1.0 }, scene.phases[0].stops.clone(), 1.0);
+        let mut controller =
+            Controller::new(StepSize { initial: 1.0, min: 1.0, max: 1.0 }, scene.phases[0].stops.clone(), 1.0);
         let residual = simulation.advance(&mut controller).unwrap().residuals[0];
         println!("{kind:?}: {residual:.1e}");
         assert!(residual < 1e-10, "{kind:?}: {residual:.1e}");

@@ -1,6 +1,6 @@
 //! A phase of a checked case: its analysis and steps, what it prescribes, loads and changes, and what ends it.
 
-use super::super::raw::Quantity;
+use super::{Analysis, StepSize, Until};
 use crate::contact::Law;
 use crate::time_value::TimeValue;
 
@@ -30,25 +30,6 @@ pub struct Phase {
     pub until: Vec<Until>,
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Analysis {
-    QuasiStatic,
-    Dynamic,
-    /// Quasi-static, and dynamic where there is no equilibrium until there is rest.
-    Auto,
-    /// Quasi-static while water flows.
-    Consolidation,
-    /// Quasi-static, with strengths that fall until no equilibrium is left.
-    StrengthReduction,
-}
-
-impl Analysis {
-    /// Whether inertia may come in.
-    pub fn has_inertia(self) -> bool {
-        matches!(self, Self::Dynamic | Self::Auto)
-    }
-}
-
 /// A material that a region takes: indices into [`super::Case::regions`] and [`super::Case::materials`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Change {
@@ -61,24 +42,6 @@ pub struct Change {
 pub struct ContactChange {
     pub name: String,
     pub law: Law,
-}
-
-/// What ends a phase before its time.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Until {
-    /// A quantity of the entry of [`super::Output::history`] with this index is at least, or where `below` at most `bound`.
-    Reached { history: usize, quantity: Quantity, bound: f64, below: bool },
-    /// The kinetic energy has fallen to this part (-) of its largest in the phase, or all forces are in balance but for this part from its
-    /// beginning at rest on.
-    Equilibrium(f64),
-}
-
-/// Time steps (s), `min ≤ initial ≤ max`.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct StepSize {
-    pub initial: f64,
-    pub min: f64,
-    pub max: f64,
 }
 
 /// A component of the displacement (m) of a curve or a rigid structure since the beginning of the phase.

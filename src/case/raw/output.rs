@@ -1,6 +1,7 @@
 //! What is written of a run, as it is written in the case.
 
 use crate::io::frame::INTERNAL;
+use crate::run;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -96,4 +97,23 @@ pub enum Quantity {
     ReactionMoment,
     ContactMoment,
     PorePressure,
+}
+
+impl From<Quantity> for run::Quantity {
+    fn from(quantity: Quantity) -> Self {
+        match quantity {
+            Quantity::Ux => Self::Displacement(0),
+            Quantity::Uy => Self::Displacement(1),
+            Quantity::Vx => Self::Velocity(0),
+            Quantity::Vy => Self::Velocity(1),
+            Quantity::ReactionX => Self::Reaction(0),
+            Quantity::ReactionY => Self::Reaction(1),
+            Quantity::ContactX => Self::Contact(0),
+            Quantity::ContactY => Self::Contact(1),
+            Quantity::Rotation => Self::Rotation,
+            Quantity::ReactionMoment => Self::ReactionMoment,
+            Quantity::ContactMoment => Self::ContactMoment,
+            Quantity::PorePressure => Self::PorePressure,
+        }
+    }
 }

@@ -113,6 +113,13 @@ pub enum Analysis {
     Consolidation,
 }
 
+impl Analysis {
+    /// Whether inertia may come in.
+    pub fn has_inertia(self) -> bool {
+        matches!(self, Self::Dynamic | Self::Auto)
+    }
+}
+
 /// Time steps: halved when Newton fails, growing again after.
 #[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]

@@ -4,6 +4,7 @@ use crate::error::{Error, Result};
 use crate::io::container::Data;
 use crate::io::frame::INTERNAL;
 use crate::io::vtu::{Array, Grid};
+use crate::tensor::SYMMETRIC_NAMES;
 
 /// The name of a field as a case has it under `output.fields`, and of its component.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -35,7 +36,7 @@ impl Asked {
         let (array, unit) = name.rsplit_once(" [").unwrap_or((name, "-]"));
         let names: &[&str] = match components {
             3 => &["x", "y", "z"],
-            6 => &["xx", "yy", "zz", "xy", "yz", "xz"],
+            6 => &SYMMETRIC_NAMES,
             9 => &["xx", "xy", "xz", "yx", "yy", "yz", "zx", "zy", "zz"],
             _ => &[],
         };

@@ -7,7 +7,7 @@ use crate::error::{Error, Result};
 use crate::mesh::Mesh;
 use crate::points::{Column, Item, Points, Presence, Visitor};
 use crate::quadrature::{Samples, Weights};
-use crate::step::{Controller, Limits, Scene, Span, State, has_room_for_penalties};
+use crate::step::{Controller, Scene, Span, State, has_room_for_penalties};
 use crate::surface::{ActiveBoundary, MarkerFront, NO_REGION, Voids};
 use std::collections::HashSet;
 
@@ -60,8 +60,7 @@ fn check_times<const D: usize>(scene: &Scene<D>, state: &State<D>) -> Result<()>
         return ensure(phase_time == 0.0 && !state.moving && !state.switched_to_dynamics, "its end");
     };
     ensure(next.duration + step_size > next.duration, "the size of its steps")?;
-    let limits = Limits { least: next.least_step, largest: next.largest_step };
-    let more = Controller::new(limits, next.stops.clone(), step_size).next_stop(phase_time).is_some();
+    let more = Controller::new(next.step, next.stops.clone(), step_size).next_stop(phase_time).is_some();
     ensure(more, "its time in the phase")?;
     ensure(next.auto || !state.switched_to_dynamics, "its fall")?;
     ensure(state.dynamic(scene) || !state.moving, "its motion")

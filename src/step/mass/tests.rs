@@ -10,7 +10,7 @@ use crate::mesh::shape::CellKind;
 use crate::points::Points;
 use crate::quadrature::Volumes;
 use crate::step::report::Motion;
-use crate::step::{Numerics, Phase, Restore, transfer};
+use crate::step::{Numerics, Phase, Restore, StepSize, transfer};
 use crate::tensor::{IDENTITY, Tensor};
 
 fn scene<K: Kinematics<2>>(kind: CellKind) -> Scene<2> {
@@ -37,9 +37,7 @@ fn scene<K: Kinematics<2>>(kind: CellKind) -> Scene<2> {
             auto: false,
             flows: false,
             duration: 1.0,
-            first_step: 1.0,
-            least_step: 1.0,
-            largest_step: 1.0,
+            step: StepSize { initial: 1.0, min: 1.0, max: 1.0 },
             prescribed: Vec::new(),
             reduction: None,
             search: None,
