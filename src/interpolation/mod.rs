@@ -32,7 +32,7 @@ pub use gimp::Gimp;
 pub use group::Place;
 pub use jumps::{Jump, Jumps};
 pub use mpm::Mpm;
-pub use support::{MAX_FUNCTIONS, Support};
+pub use support::{MAX_FUNCTIONS, Support, reach_beyond_cells};
 
 use crate::kinematics::Kinematics;
 use crate::mesh::Mesh;

@@ -1,9 +1,15 @@
 //! The nodes that the points of a cell act on, where these are not those of the cell alone.
 
 use crate::mesh::Mesh;
+use crate::mesh::shape::MAX_NODES;
 
 /// Most local functions of a cell: the nodes that its points act on, and what else a scheme forms gradients with.
 pub const MAX_FUNCTIONS: usize = 64;
+
+/// Whether so many local functions of a cell are those of other cells, too: each of its points then sees a part of them only.
+pub fn reach_beyond_cells(functions: usize) -> bool {
+    functions > MAX_NODES
+}
 
 /// A list of nodes for each cell that takes part.
 #[derive(Clone, Debug, Default, PartialEq)]

@@ -302,11 +302,7 @@ impl<const D: usize, K: Kinematics<D>, S: Mixed<D, K>> Term<D> for Internal<K, S
                         })?,
                     };
                     for i in 0..count {
-                        spatial[i] = entries.gradient(i);
-                        if spatial[i].is_zero() {
-                            continue;
-                        }
-                        spatial[i] = K::push_forward(&spatial[i], &inverse);
+                        spatial[i] = K::push_forward(&entries.gradient(i), &inverse);
                         let f = K::force(&stress, &spatial[i]);
                         for d in 0..D {
                             local.vector[i * D + d] += volume * f[d];

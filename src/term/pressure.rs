@@ -28,7 +28,7 @@ use super::mixed::{Answer, Coupling, Point, Seen, Within};
 use super::mixed_pressure::{MixedPressure, volume_strain};
 use super::volume_measure::{ITERATIONS, Measure};
 use super::{Frame, History, Mixed, Ratios, Trial};
-use crate::interpolation::CellPoints;
+use crate::interpolation::{CellPoints, reach_beyond_cells};
 use crate::kinematics::Kinematics;
 use crate::material::spatial::Spatial;
 use crate::mesh::shape::CellKind;
@@ -254,8 +254,11 @@ impl<const D: usize, K: Kinematics<D>> Mixed<D, K> for PressureField<K> {
             by_field += seen.stress;
         }
         let acting = acts_on * by_field;
-        let acts = |(_, (force, strain)): &(usize, (&Gradient<D>, &Gradient<D>))| !force.is_zero() || !strain.is_zero();
-        for (i, (force, strain)) in forces.iter().zip(strains).enumerate().filter(acts) {
+        let beyond = reach_beyond_cells(forces.len());
+        for (i, (force, strain)) in forces.iter().zip(strains).enumerate() {
+            if beyond && force.is_zero() && strain.is_zero() {
+                continue;
+            }
             let (volume, force) = (K::force(&by_strain, strain), K::force(&acting, force));
             for (a, shape) in shapes.iter().enumerate().take(count) {
                 for d in 0..D {

@@ -3,7 +3,7 @@
 //! The right one holds `w a B` of the gradients that strains are taken with, a row for each component of each point; the left one the
 //! gradients that forces act through. Their product runs along rows of the result, so that it fills whole registers, whatever the machine has.
 
-use crate::interpolation::MAX_FUNCTIONS;
+use crate::interpolation::{MAX_FUNCTIONS, reach_beyond_cells};
 use crate::kinematics::{Gradient, Kinematics};
 use crate::system::Local;
 use crate::tensor::Tensor;
@@ -64,19 +64,22 @@ impl Stiffness {
         self.right.resize(right * AT_ONCE, 0.0);
         let left = &mut self.left[left * self.points..][..left];
         let right = &mut self.right[right * self.points..][..right];
-        let seen = &mut self.seen[self.points];
-        *seen = [0; 2];
+        self.seen[self.points] = if reach_beyond_cells(functions) {
+            [forces, strains]
+                .map(|gradients| (0..).zip(gradients).fold(0, |seen, (b, g)| seen | u64::from(!g.is_zero()) << b))
+        } else {
+            [u64::MAX; 2]
+        };
+        let seen = self.seen[self.points];
         for (b, (force, strain)) in forces.iter().zip(strains).enumerate() {
             for d in 0..D {
                 left[d * functions + b] = force.g[d];
             }
             left[D * functions + b] = force.hoop;
-            seen[0] |= u64::from(!force.is_zero()) << b;
-            if strain.is_zero() {
+            if seen[1] >> b & 1 == 0 {
                 right.chunks_exact_mut(width).for_each(|row| row[b * D..(b + 1) * D].fill(0.0));
                 continue;
             }
-            seen[1] |= 1 << b;
             let column = K::column(tangent, strain);
             for (row, column) in right.chunks_exact_mut(width).zip(column.as_ref()) {
                 for (entry, a) in row[b * D..(b + 1) * D].iter_mut().zip(column) {
