@@ -116,9 +116,9 @@ TRENCH = Entry(
 
 JET_TRENCH = Entry(
     "jet_trench",
-    "load over s_u D of the pipe as it sinks, less the weight of the clay in its place",
+    "load over s_u D of the pipe as it sinks, less 1.5 times the weight of the clay in its place",
     "Merifield, White & Randolph (2009), between smooth and rough",
-    [Row("", f"N at w/D = {w:g}", bearing(w, 0.4, 4, 6), (5.66 * w**0.32, 7.4 * w**0.4), 0.1) for w in (0.5, 0.3)],
+    [Row("", f"N at w/D = {w:g}", bearing(w, 0.4, 4, 6), (5.66 * w**0.32, 7.4 * w**0.4), 0.05) for w in (0.5, 0.3)],
     picture=("--mirror", "--window=-1.5,-1.5,1.5,0.4", "--range=0,3",),
 )
 

@@ -180,7 +180,10 @@ impl Source {
                     map.entry(name).or_insert(Value::Null)
                 }
                 Value::Array(list) => {
-                    let choice = items(list);
+                    let choice = match (list.is_empty(), name.parse::<usize>()) {
+                        (false, Err(_)) => format!("{}; write {path}[0].{name} for the first", items(list)),
+                        _ => items(list),
+                    };
                     let index = position(list, name);
                     let item = index.and_then(|i| list.get_mut(i).map(|item| (i, item)));
                     let (index, item) =

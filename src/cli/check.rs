@@ -4,6 +4,7 @@ use super::args::CaseArgs;
 use super::mesh;
 use super::print::{Outcome, note, print};
 use crate::case::{Keys, Review, unmeant};
+use crate::run::WARNING;
 
 #[derive(clap::Args)]
 #[group(skip)]
@@ -18,6 +19,7 @@ pub fn run(args: &Args, keys: &Keys) -> Outcome {
     let CaseArgs { case, overrides } = &args.case;
     let Review { mistakes, notes, case: sound } =
         keys.review(case, overrides, |mesh| mesh::groups(mesh, &args.limits))?;
+    let mut warnings = notes.iter().filter(|text| text.starts_with(WARNING)).count();
     notes.iter().for_each(|text| note(text));
     if !mistakes.is_empty() {
         return Err(mistakes);
@@ -25,7 +27,14 @@ pub fn run(args: &Args, keys: &Keys) -> Outcome {
     // Only contacts with soil depend on the size of the cells.
     if let Some(sound) = sound.filter(unmeant::looks_at_mesh) {
         let mesh = mesh::generated(&sound.mesh, &args.limits)?;
-        unmeant::on_mesh(&sound, &mesh).iter().for_each(|text| note(text));
+        let found = unmeant::on_mesh(&sound, &mesh);
+        warnings += found.len();
+        found.iter().for_each(|text| note(text));
     }
-    print(&format!("{}: no mistakes\n", case.display()))
+    let warned = match warnings {
+        0 => String::new(),
+        1 => ", one warning".to_owned(),
+        count => format!(", {count} warnings"),
+    };
+    print(&format!("{}: no mistakes{warned}\n", case.display()))
 }

@@ -73,8 +73,8 @@ fn a_mat_with_skirts_bears_like_a_solid_block() {
     }
 }
 
-/// As the clay beneath loses its strength the pipe sinks to where the clay bears its weight: less that of the clay in its place, between the formulas of
-/// Merifield, White & Randolph (2009) for a smooth and a rough pipe, and a tenth more on these cells with the heave beside it.
+/// As the clay beneath loses its strength the pipe sinks to where the clay bears its weight: less that of the clay in its place, one and a half times
+/// because of the heave beside it (DNV-RP-F114), between the formulas of Merifield, White & Randolph (2009) for a smooth and a rough pipe.
 #[test]
 fn a_pipe_sinks_to_where_jetted_clay_bears_it() {
     let settings =
@@ -83,11 +83,11 @@ fn a_pipe_sinks_to_where_jetted_clay_bears_it() {
     let (depth, load) = (-last(folder.path(), "pipe.uy [m]"), 2.0 * last(folder.path(), "pipe.contact_y [kN]"));
     let angle = 2.0 * (1.0 - depth / 0.2f64).acos();
     let inside = 0.5 * 0.2f64.powi(2) * (angle - angle.sin());
-    let (factor, way) = ((load - 6.0 * inside) / (4.0 / 7.0 * 0.4), depth / 0.4);
+    let (factor, way) = ((load - 1.5 * 6.0 * inside) / (4.0 / 7.0 * 0.4), depth / 0.4);
     let [smooth, rough] = [5.66 * way.powf(0.32), 7.4 * way.powf(0.4)];
     println!("w/D {way:.3}: N {factor:.3}, {smooth:.3} to {rough:.3}");
     assert!((load / (11.06 * PI * 0.04) - 1.0).abs() < 1e-3, "{load}");
-    assert!((smooth..1.12 * rough).contains(&factor), "{way} {factor}");
+    assert!((smooth..1.03 * rough).contains(&factor), "{way} {factor}");
 }
 
 /// Around the pipe in clay of little strength one step finds no equilibrium by lengths of Newton's direction that reduce the residual. With full lengths on
