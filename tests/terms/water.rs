@@ -79,7 +79,7 @@ fn the_tangent_is_the_derivative_in_axisymmetry() {
     tangent_is_the_derivative::<Axisymmetric>();
 }
 
-/// What the equations of all hats sum up to is the water that the points have taken up: flow and what keeps
+/// What the equations of all shape functions sum up to is the water that the points have taken up: flow and what keeps
 /// pressures from each other have no share in it.
 #[test]
 fn no_water_is_made_or_lost_between_the_corners() {
@@ -122,7 +122,7 @@ fn the_bond_is_free_for_a_uniform_increment_and_its_tangent_the_derivative() {
 }
 
 /// A drained surface in every cell, through that and as a neighbour's, but for a wall and another region: its tangent, and that it lets out
-/// what the hats lose.
+/// what the shape functions lose.
 fn a_surface_drains<K: Kinematics<2>>() {
     for kind in KINDS {
         let mesh = mesh(kind);
@@ -169,7 +169,7 @@ fn a_surface_drains<K: Kinematics<2>>() {
 }
 
 #[test]
-fn a_surface_drains_symmetrically_what_the_hats_lose() {
+fn a_surface_drains_symmetrically_what_the_corners_lose() {
     a_surface_drains::<PlaneStrain>();
     a_surface_drains::<Axisymmetric>();
 }
