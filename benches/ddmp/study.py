@@ -1,4 +1,4 @@
-"""Prints the tables of docs/ddmp.md that compare forms of the smoothed gradient.
+"""Prints the tables of docs/schemes.md that compare forms of the smoothed gradient.
 
     python benches/ddmp/study.py [operators | column | fitted]     needs numpy, scipy and numba
 """
