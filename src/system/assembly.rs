@@ -226,38 +226,41 @@ impl Columns<'_> {
         pattern.start[self.blocks.start as usize] as usize..pattern.start[self.blocks.end as usize] as usize
     }
 
-    /// Adds what the dense matrix of coupling `k` has in these columns.
+    /// Adds what the dense matrix of coupling `k` has in these columns. Rows without entries are left out: terms may act on few of the nodes that a
+    /// scheme couples.
     pub fn add(&mut self, pattern: &Pattern, k: usize, local: &[f64], size: usize) {
         let blocks = pattern.connectivity.blocks(k);
         let first_pair = pattern.pairs[k] as usize;
-        let mut column = 0;
-        for (b, &cb) in blocks.iter().enumerate() {
-            let width = (pattern.start[cb as usize + 1] - pattern.start[cb as usize]) as usize;
-            if !self.blocks.contains(&cb) {
-                column += width;
+        let width_of = |b: u32| (pattern.start[b as usize + 1] - pattern.start[b as usize]) as usize;
+        let mut rest = local;
+        for (a, &ra) in blocks.iter().enumerate() {
+            let height = width_of(ra);
+            let (rows, below) = rest.split_at(height * size);
+            rest = below;
+            if rows.iter().all(|&value| value == 0.0) {
                 continue;
             }
-            let mut row = 0;
-            for (a, &ra) in blocks.iter().enumerate() {
-                let height = (pattern.start[ra as usize + 1] - pattern.start[ra as usize]) as usize;
-                if !pattern.symmetric || ra >= cb {
-                    let offset = pattern.offset[first_pair + a * blocks.len() + b] as usize;
-                    for j in 0..width {
-                        let begin = pattern.column[pattern.start[cb as usize] as usize + j] as usize - self.first;
-                        // In the lower triangle column j of the diagonal block has lost its first j rows.
-                        let (skip, lost) = match (pattern.symmetric, ra == cb) {
-                            (true, true) => (j, j),
-                            (true, false) => (0, j),
-                            _ => (0, 0),
-                        };
-                        for i in skip..height {
-                            self.values[begin + offset + i - lost] += local[(row + i) * size + column + j];
-                        }
+            let mut column = 0;
+            for (b, &cb) in blocks.iter().enumerate() {
+                let (width, from) = (width_of(cb), column);
+                column += width;
+                if !self.blocks.contains(&cb) || (pattern.symmetric && ra < cb) {
+                    continue;
+                }
+                let offset = pattern.offset[first_pair + a * blocks.len() + b] as usize;
+                for j in 0..width {
+                    let begin = pattern.column[pattern.start[cb as usize] as usize + j] as usize - self.first;
+                    // In the lower triangle column j of the diagonal block has lost its first j rows.
+                    let (skip, lost) = match (pattern.symmetric, ra == cb) {
+                        (true, true) => (j, j),
+                        (true, false) => (0, j),
+                        _ => (0, 0),
+                    };
+                    for i in skip..height {
+                        self.values[begin + offset + i - lost] += rows[i * size + from + j];
                     }
                 }
-                row += height;
             }
-            column += width;
         }
     }
 }
