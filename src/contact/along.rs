@@ -42,7 +42,7 @@ pub struct Tractions {
 }
 
 impl Tractions {
-    /// Those of the forces that the contact nodes came to, over the area of `lines` under them, [`smooth`] along the `runs`.
+    /// Those of the forces that the contact nodes came to, over the area of `lines` under them, smoothed along the `runs`.
     pub fn new<const D: usize>(lines: &[Vec<Mark<D>>], runs: &[Run], held: &Multipliers) -> Self {
         let (area, normal) = areas(lines, held.force.len());
         let over = |(force, &area): (&[f64; 3], &f64)| if area > 0.0 { force.map(|f| f / area) } else { [0.0; 3] };
