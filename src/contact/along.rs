@@ -51,7 +51,7 @@ impl Tractions {
             |t: &[f64; 3], n: &[f64; 2]| -(t[0] * n[0] + t[1] * n[1]) / n[0].hypot(n[1]).max(f64::MIN_POSITIVE);
         let traction = smooth(&of_nodes, runs, &area);
         let least = if held.pressure.iter().any(|pressure| *pressure < 0.0) { f64::NEG_INFINITY } else { 0.0 };
-        let pressure = traction.iter().zip(&normal).map(|(t, n)| against(t, n).max(least)).collect();
+        let pressure = traction.iter().zip(&normal).map(|(t, n)| against(t, n).max(least) + 0.0).collect();
         Self { traction, pressure }
     }
 }

@@ -61,16 +61,15 @@ fn share(pattern: &Pattern, connectivity: impl Iterator<Item = usize>, threads: 
     (1..threads).map(|part| blocks.get(part * blocks.len() / threads).copied().unwrap_or(0)).collect()
 }
 
-/// Most items computed side by side before their results are added, in their order, to the system.
-const BATCH: usize = 512;
-/// Numbers that the results of a batch have about: as many as stay in a cache until they are added.
+/// Numbers that the results of a batch have about: items are computed side by side before their results are added, in their order, to the system, and
+/// as many as stay in a cache until then.
 const NUMBERS: usize = 1 << 16;
 /// Least number of items of a batch for each thread.
 const EACH: usize = 4;
 
 /// Items of a batch, given the numbers that the result of one has at most, and the threads.
 fn batch(stride: usize, threads: usize) -> usize {
-    (NUMBERS / stride).max(EACH * threads).min(BATCH)
+    (NUMBERS / stride).max(EACH * threads)
 }
 
 /// Memory that assembly uses again and again.
@@ -151,7 +150,7 @@ mod tests {
 
     #[test]
     fn batches_of_large_couplings_are_small() {
-        assert_eq!(batch(100, 2), BATCH);
+        assert_eq!(batch(64, 2), NUMBERS / 64);
         assert_eq!(batch(NUMBERS / 10, 2), 10);
         assert_eq!(batch(NUMBERS, 2), 2 * EACH);
     }
