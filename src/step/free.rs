@@ -124,8 +124,12 @@ impl<const D: usize> System<'_, D> {
         let mut resistance = Vec::new();
         for d in 0..D {
             resistance.extend(self.resistance(nodes, &|_| std::array::from_fn(|i| f64::from(u8::from(i == d))), 0.0));
+            resistance.push(0.0);
         }
         resistance.extend(self.resistance(nodes, &|n| across(&arm(n)).map(|v| v / size), 1.0 / size));
+        // A rigid body in axisymmetry does not turn.
+        let turns = |&n: &u32| self.scene.body_of(n).is_none_or(|body| body.dofs.rotation.is_some());
+        resistance.push(if nodes.iter().all(turns) { 0.0 } else { 1.0 });
         let rows = resistance.len() / (D + 1);
         let resistance = DMatrix::from_vec(rows, D + 1, resistance);
         let decomposed = resistance.qr().r().svd(false, true);

@@ -369,7 +369,13 @@ impl<const D: usize, K: Kinematics<D>, S: Mixed<D, K>> Term<D> for Internal<K, S
             let new = |entries: Entries<D>, internal: &mut [f64]| {
                 let mut point = strain::<D, K>(frame.points, &entries, &now, Some(&before)).ok()?;
                 if let Some(fit) = &volume {
-                    point.take_volume::<D, K>(fit.at(&frame.points.position[entries.point]).exp());
+                    match self.share.volume_ratio(&cell, frame.points, &entries) {
+                        Some(ratio) => {
+                            point.take_volume::<D, K>(ratio);
+                            point.ratios.grid = ratio;
+                        }
+                        None => point.take_volume::<D, K>(fit.at(&frame.points.position[entries.point]).exp()),
+                    }
                 }
                 let of_point = (frame.points, &entries);
                 let step = (trial.inverse_dt, 1.0);

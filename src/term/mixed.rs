@@ -88,6 +88,12 @@ pub trait Mixed<const D: usize, K: Kinematics<D>>: Send + Sync {
         Some((K::respond(within.model, y, &within.trial, &within.state, internal)?, None))
     }
 
+    /// The volume (-) at the end of the step over that at its beginning that the unknowns give a point; `None` where they do not determine it.
+    #[inline]
+    fn volume_ratio(&self, _: &Self::Cell, _: &Points<D>, _: &Entries<D>) -> Option<f64> {
+        None
+    }
+
     /// Adds the share at the end of the step to the answer of the model, and returns that at its beginning (kPa, Kirchhoff).
     fn add(&self, cell: &Self::Cell, point: &Point<D>, answer: &mut Spatial<K::Tangent>) -> f64;
 
@@ -141,6 +147,10 @@ impl<const D: usize, K: Kinematics<D>, A: Mixed<D, K>, B: Mixed<D, K>> Mixed<D, 
         internal: &mut [f64],
     ) -> Option<Answer<K, D>> {
         self.0.respond(&cell.0, point, within, internal)
+    }
+
+    fn volume_ratio(&self, cell: &Self::Cell, points: &Points<D>, entries: &Entries<D>) -> Option<f64> {
+        self.0.volume_ratio(&cell.0, points, entries).or_else(|| self.1.volume_ratio(&cell.1, points, entries))
     }
 
     fn add(&self, cell: &Self::Cell, point: &Point<D>, answer: &mut Spatial<K::Tangent>) -> f64 {

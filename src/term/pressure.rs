@@ -28,7 +28,7 @@ use super::mixed::{Answer, Coupling, Point, Seen, Within};
 use super::mixed_pressure::{MixedPressure, volume_strain};
 use super::volume_measure::{ITERATIONS, Measure};
 use super::{Frame, History, Mixed, Ratios, Trial};
-use crate::interpolation::{CellPoints, reach_beyond_cells};
+use crate::interpolation::{CellPoints, Entries, reach_beyond_cells};
 use crate::kinematics::Kinematics;
 use crate::material::spatial::Spatial;
 use crate::mesh::shape::CellKind;
@@ -196,6 +196,19 @@ impl<const D: usize, K: Kinematics<D>> Mixed<D, K> for PressureField<K> {
             return Some((answer, Some(seen)));
         }
         None
+    }
+
+    /// By Hencky's law from the change of the field. Soil with a limited tension has no such law beyond the limit.
+    fn volume_ratio(&self, cell: &Cell, points: &Points<D>, entries: &Entries<D>) -> Option<f64> {
+        let p = entries.point;
+        let carried = self.of(points, p).filter(|carried| carried.limit.is_none())?;
+        let y = points.seeded_height(p);
+        let skeleton = match carried.bound {
+            Some(_) => carried.model.bulk_modulus(y, carried.model.mean_stress(y, volume_strain(&points.elastic[p]))),
+            None => 0.0,
+        };
+        let gained = dot(&shapes(cell.kind, entries.shape), &cell.pressure) - points.pressure[p];
+        Some((gained / (carried.law(y).bulk + skeleton)).exp())
     }
 
     fn add(&self, cell: &Cell, point: &Point<D>, answer: &mut Spatial<K::Tangent>) -> f64 {

@@ -3,7 +3,7 @@
 //!
 //! On the increment of the step, `−ε V/G Σ_a (π_a − π̄)` over the corners and `−ε₀ V/G π₀` for the constant of the
 //! cell: a uniform increment is free. The second also settles which part of a uniform pressure the corners have and
-//! which the constants, which the strains do not tell. Where a cell has points and the field carries nothing of any of them, a
+//! which the constants, which the strains do not tell. In cells without a point of which the field carries something, a
 //! millionth of the first holds a uniform increment, too, which nothing else may.
 
 use super::pressure::{MOST, gather, unknowns};
@@ -44,18 +44,17 @@ impl<K> SmoothPressure<K> {
 }
 
 impl<K> SmoothPressure<K> {
-    /// Whether a cell has points of which the field carries nothing, and no others.
-    fn is_idle<const D: usize>(&self, frame: &Frame<D>, cell: u32) -> bool {
+    /// Whether the field carries something of a point of a cell.
+    fn is_carried<const D: usize>(&self, frame: &Frame<D>, cell: u32) -> bool {
         let carries = |&p: &u32| self.carries.get(frame.points.model_of(p as usize)).copied().unwrap_or(false);
-        let points = frame.interpolation.points_in(cell);
-        !points.is_empty() && !points.iter().any(carries)
+        frame.interpolation.points_in(cell).iter().any(carries)
     }
 }
 
 impl<const D: usize, K: Kinematics<D>> Term<D> for SmoothPressure<K> {
     fn assemble(&self, frame: &Frame<D>, trial: &Trial<D>, out: &mut Assembly) -> Result<()> {
         let compute = |cell: &u32, local: &mut Local| {
-            let idle = self.is_idle(frame, *cell);
+            let carried = self.is_carried(frame, *cell);
             let cell = *cell as usize;
             let kind = frame.mesh.cells.kind[cell];
             let (corners, count) = (kind.corner_count(), unknowns(kind));
@@ -66,7 +65,7 @@ impl<const D: usize, K: Kinematics<D>> Term<D> for SmoothPressure<K> {
             let volume = || integrate::<D, K>(frame.mesh, cell, |_, _, _| {});
             let volume = if frame.relaxed { volume() } else { *self.volume[cell].get_or_init(volume) };
             let scale = (1.0 - trial.alpha_f) * self.unit * volume / self.shear;
-            let share = (1.0 - if idle { IDLE } else { 0.0 }) / corners as f64;
+            let share = (1.0 - if carried { 0.0 } else { IDLE }) / corners as f64;
             let mean = share * gained[..corners].iter().sum::<f64>();
             let begin = local.size - count;
             for a in 0..corners {

@@ -1,9 +1,10 @@
 //! The pressure field at Poisson's ratio 0.4999: the patch, a thick cylinder, undrained against total stress.
 
 use crate::bench::{Bench, constant, quadrature_points, run};
+use crate::layout::{at, resample, seeded};
 use crate::patch::stretch_boundary;
 use mpm::kinematics::{Axisymmetric, Kinematics, PlaneStrain};
-use mpm::material::{Elasticity, LinearElastic, Model};
+use mpm::material::{Elasticity, LinearElastic, Model, Tresca};
 use mpm::mesh::builder::rectangle;
 use mpm::mesh::shape::CellKind;
 use mpm::step::{Prescribed, Restore, State};
@@ -158,5 +159,39 @@ fn undrained_is_total_stress_less_the_pore_pressure() {
             let sum = undrained.points.stress[p][i] - pore;
             assert!((sum - total.points.stress[p][i]).abs() < 1e-6 * largest, "point {p}: {sum}");
         }
+    }
+}
+
+/// Clay between rough plates that part or come together, restored in every step: the volume of a material point is the one that its pressure has by the law
+/// of the field, however far it flows, and no sum over the steps of what the displacements make of it. The equilibrium after a reset changes the pressure and
+/// no volume: the two differ by about as much as the pressure changes the volume, 10⁻⁵.
+#[test]
+fn material_points_have_the_volume_of_their_pressure() {
+    for way in [-0.02, 0.02] {
+        let mesh = rectangle(CellKind::T6, 4.0, 1.0, 12, 3, 0.1, 3);
+        let elasticity = Elasticity::new(constant(2.0 * SHEAR * 0.1), -0.9).unwrap();
+        let model: Arc<dyn Model> = Arc::new(Tresca::new(elasticity, constant(1.0)).unwrap());
+        let field = bulk(POISSON) - bulk(-0.9);
+        let mut bench = Bench::new(mesh, model.clone());
+        bench.carried = Some(MixedPressure { model, ratio: field, water: 0.0, bound: None, limit: None });
+        bench.restore = Restore::EveryStep;
+        bench.steps = 20;
+        bench.hold("bottom", &[0, 1]).hold("left", &[0]);
+        for component in [0, 1] {
+            let displacement = TimeValue::Rate(if component == 1 { way } else { 0.0 });
+            bench.prescribed.push(Prescribed { fixed: bench.on("top", component), displacement });
+        }
+        resample::<PlaneStrain>(&mut bench);
+        let places: Vec<_> = seeded(&bench.mesh, 9).into_iter().filter(|(x, _)| x[0] < 3.0).collect();
+        let points = at::<PlaneStrain>(&bench.mesh, &places, 1.0);
+        let State { points, .. } = run::<PlaneStrain>(&bench.scene::<PlaneStrain>(), points, |_, _| ());
+        let off = |p: usize| (points.deformation[p].determinant().ln() - points.pressure[p] / (field * SHEAR)).abs();
+        let worst = (0..points.len()).map(off).fold(0.0, f64::max);
+        let flown = points.plastic_strain.iter().fold(0.0f64, |a, b| a.max(*b));
+        let pressure = points.pressure.iter().fold(0.0f64, |a, b| a.max(b.abs()));
+        println!(
+            "plates by {way}: volume off by {worst:.1e}, pressure up to {pressure:.1} kPa, strain up to {flown:.2}"
+        );
+        assert!(worst < 1e-4 && flown > 0.1 && pressure > 3.0, "{worst:e} {flown} {pressure}");
     }
 }
