@@ -45,11 +45,13 @@ pub struct Gap {
     pub spacing: f64,
 }
 
-/// The points of one region as soil.
+/// The points of some regions as soil.
 #[derive(Clone, Copy)]
 pub struct Soil<'a> {
     pub points: &'a Points<2>,
     pub regions: &'a [u16],
+    /// Whether each cell has points that integrals are summed over: where it has none, its material points resist nothing. `None` counts all.
+    pub integrated: Option<&'a [bool]>,
 }
 
 impl Soil<'_> {
@@ -62,7 +64,8 @@ impl Soil<'_> {
     /// The points within `REACH` spacings of the segments.
     fn near<K: Kinematics<2>>(&self, segments: &Segments, skin: Option<&Skin>) -> Vec<Near> {
         let points = self.points;
-        let ours = |p: &usize| self.regions.contains(&points.region[*p]);
+        let resists = |p: usize| self.integrated.is_none_or(|cells| cells[points.cell[p] as usize]);
+        let ours = |p: &usize| self.regions.contains(&points.region[*p]) && resists(*p);
         let widest =
             (0..points.len()).into_par_iter().filter(ours).map(|p| self.width::<K>(p)).reduce(|| 0.0, f64::max);
         let longest = segments.0.iter().map(|s| distance(&s.to, &s.from)).fold(0.0, f64::max);
@@ -238,7 +241,7 @@ impl Facing {
 /// Moves points that are in the structure, or nearer to it than half their half width, out to there. Each then stands for the
 /// soil that is there, so that it still knows where the surface of the soil is. Returns how many and the farthest move (m).
 pub fn project_out<K: Kinematics<2>>(segments: &Segments, points: &mut Points<2>, regions: &[u16]) -> (usize, f64) {
-    let near = Soil { points, regions }.near::<K>(segments, None);
+    let near = Soil { points, regions, integrated: None }.near::<K>(segments, None);
     let (mut count, mut most) = (0, 0.0f64);
     for near in near {
         let by = 0.5 * near.half_width - near.distance;

@@ -195,16 +195,16 @@ fn strength(models: &[Option<Arc<dyn Model>>], points: &Points<2>, p: usize) -> 
 }
 
 impl Ground<'_, 2> {
-    /// The cell of the soil that a segment lies on and where in it its middle is: outside it where no point of either kind is in the
-    /// cell there, and the nearest out of the structure with points goes on to the segment. The nodes of an empty cell
-    /// would give way in place of the soil.
-    fn find(&self, segment: &Placed, spacing: f64, point: u32, holds: &[bool]) -> Option<(u32, [f64; 3])> {
+    /// The cell of the soil that a segment lies on and where in it its middle is: outside it where the cell there has no integration point,
+    /// and the nearest out of the structure that has one goes on to the segment. The nodes of an empty cell would give way in place of the soil.
+    fn find(&self, segment: &Placed, spacing: f64, point: u32, integrated: &[bool]) -> Option<(u32, [f64; 3])> {
         let hint = Some(self.points.cell[point as usize]);
         let at = |away: &f64| {
             let x = [0, 1].map(|d| segment.middle[d] + away * spacing * segment.normal[d]);
             self.locator.locate(self.grid, &x, hint)
         };
-        let (cell, xi) = AWAY.iter().filter_map(at).find(|(cell, _)| holds[*cell as usize]).or_else(|| at(&0.0))?;
+        let (cell, xi) =
+            AWAY.iter().filter_map(at).find(|(cell, _)| integrated[*cell as usize]).or_else(|| at(&0.0))?;
         Some((cell, self.locator.extend(self.grid, cell, &segment.middle).unwrap_or(xi)))
     }
 }
@@ -269,11 +269,11 @@ impl<K: Kinematics<2>> Interface<2> for Boundary<K> {
     ) -> Vec<Constraint<2>> {
         let law = self.sides.laws.at(ground.phase);
         let segments = Segments::new::<K>(&self.surface, position);
-        let soil = Soil { points: ground.points, regions: &self.sides.soils };
+        let mut integrated = vec![false; ground.grid.cells.len()];
+        ground.integration.iter().for_each(|&c| integrated[c as usize] = true);
+        let soil = Soil { points: ground.points, regions: &self.sides.soils, integrated: Some(&integrated) };
         let gaps = raw_gaps::<K>(&self.surface, &segments, &soil, &self.skin);
         let (surface, smooth) = (Facing::new(ground.surface), held.smooth_gaps(&self.surface.runs));
-        let mut holds = vec![false; ground.grid.cells.len()];
-        ground.points.cell.iter().chain(ground.integration).for_each(|&c| holds[c as usize] = true);
         let mut sums: Vec<Option<Sum>> = (0..self.surface.contact_nodes).map(|_| None).collect();
         // Soil that a boundary pulls stretches without end, and its points leave: its surface tells that it is there still.
         let nearest = |s: usize| {
@@ -288,7 +288,7 @@ impl<K: Kinematics<2>> Interface<2> for Boundary<K> {
         };
         for (s, (segment, placed)) in self.surface.segments.iter().zip(&segments.0).enumerate() {
             let Some(Gap { open, known, point, spacing }) = gaps[s].or_else(|| by_surface(s)) else { continue };
-            let Some((cell, xi)) = ground.find(placed, spacing, point, &holds) else { continue };
+            let Some((cell, xi)) = ground.find(placed, spacing, point, &integrated) else { continue };
             let across = surface.distance(placed, spacing);
             // Nothing else depends on them.
             let water = if law.friction > 0.0 { (ground.excess)(ground.points, point as usize) } else { 0.0 };
