@@ -60,12 +60,20 @@ pub struct Held {
 }
 
 impl Held {
+    /// All points, each in a `cell`, of so many cells.
     pub fn new(cells: usize, cell: &[u32]) -> Self {
+        Self::of(&vec![true; cells], cell)
+    }
+
+    /// Those in cells that count.
+    pub fn of(counts: &[bool], cell: &[u32]) -> Self {
+        let cells = counts.len();
         let mut first = vec![0; cells + 1];
-        cell.iter().for_each(|&c| first[c as usize + 1] += 1);
+        let held = || (0..).zip(cell).filter(|(_, c)| counts[**c as usize]);
+        held().for_each(|(_, &c): (u32, _)| first[c as usize + 1] += 1);
         (0..cells).for_each(|c| first[c + 1] += first[c]);
-        let (mut next, mut points) = (first.clone(), vec![0; cell.len()]);
-        for (p, &c) in (0..).zip(cell) {
+        let (mut next, mut points) = (first.clone(), vec![0; first[cells] as usize]);
+        for (p, &c) in held() {
             points[next[c as usize] as usize] = p;
             next[c as usize] += 1;
         }
@@ -409,5 +417,12 @@ mod tests {
         let held = Held::new(mesh.cells.len(), &points.cell);
         let fit = Fit::new(&points, (&around, &held), &mut Rings::of(0), (&frame, 2), &places, &|_| true).unwrap();
         assert!(fit.linear && fit.points.iter().any(|&p| points.cell[p as usize] != 0));
+    }
+
+    /// Points of cells that do not count are held by none, and the numbers of the others stay.
+    #[test]
+    fn cells_that_do_not_count_hold_nothing() {
+        let held = Held::of(&[true, false, true], &[2, 1, 0, 1, 2]);
+        assert_eq!([0, 1, 2].map(|c| held.points(c)), [&[2][..], &[], &[0, 4]]);
     }
 }

@@ -201,15 +201,16 @@ impl<K: Kinematics<2>> Resampled<K> {
         let Restored { mesh, points, active, .. } = *grid;
         let Surface { level_set, outside, lost: lost_front } = Surface::of::<K>(geometry, grid, front);
         let values = |c: usize| -> Vec<f64> { mesh.cells.nodes(c).iter().map(|&n| level_set[n as usize]).collect() };
-        let held = Held::new(mesh.cells.len(), &points.cell);
+        let inside = |c: usize| active[c] && mesh.cells.nodes(c).iter().any(|&n| level_set[n as usize] > 0.0);
+        // Points in other cells, such as a crumb that a structure carries along, resist nothing, and their state says nothing of the rest.
+        let counts: Vec<bool> = (0..mesh.cells.len()).map(|c| outside[c] || inside(c)).collect();
+        let held = Held::of(&counts, &points.cell);
         let fields = self.materials.all(points);
         let work = |c: usize| {
-            let values = values(c);
-            let inside = active[c] && values.iter().any(|&v| v > 0.0);
             if outside[c] {
                 Self::themselves(points, grid.parametric, &held, &fields, c as u32)
-            } else if inside {
-                self.sample(geometry, grid, (&held, &fields), c as u32, &values)
+            } else if counts[c] {
+                self.sample(geometry, grid, (&held, &fields), c as u32, &values(c))
             } else {
                 Sampled::default()
             }
