@@ -188,7 +188,8 @@ const GRAINS: Case = Case {
 const FLOW: Case = Case {
     file: "cases/slump",
     overrides: &[
-        "mesh.parameters={h: 2, room: 32}",
+        "mesh.parameters.h=2",
+        "mesh.parameters.room=32",
         "materials.soil={model: tresca, young: 1000, poisson: 0.49, shear_strength: 3, density: 1}",
         "phases=[{name: flow, analysis: dynamic, duration: 2.5, step: {initial: 0.05}, gravity: 1}]",
     ],

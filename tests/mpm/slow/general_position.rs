@@ -288,7 +288,8 @@ fn soil_that_ends_within_cells_bears_the_same() {
         let [few, many] = [10, 40].map(|steps| Footing { layout, steps, restored: true, cut: true, ..STRIP }.strip());
         assert!((few / whole - 1.0).abs() < 0.01, "{few} {whole}");
         assert!((few / whole - 1.0).abs() < 0.01, "{few} {whole}");
-        assert!((many / few - 1.0).abs() < 2e-3, "{many} {few}");
+        // More resets bring it nearer to the limit load, from above.
+        assert!((-2e-3..6e-3).contains(&(1.0 - many / few)), "{many} {few}");
     }
     let finer = Footing { cells: 12, layout: Layout::Shifted, restored: true, cut: true, ..STRIP }.strip();
     println!("    {:+.2} %", 100.0 * (finer / PRANDTL - 1.0));
