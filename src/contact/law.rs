@@ -114,6 +114,18 @@ fn nearest(fading: f64, spots: &[Spot], open: &dyn Fn(&Spot) -> f64) -> (f64, f6
     (place, (place * place - second / sum) / width)
 }
 
+/// The level (m, above the mean gap) to which the boundary has to rise under a contact node for the mean overlap (m) there.
+fn level(spots: &[Spot], overlap: f64) -> f64 {
+    let beneath = |level: f64| spots.iter().map(|spot| spot.share * (level - spot.open).max(0.0)).sum::<f64>();
+    let mut level = spots.iter().map(|spot| spot.open).fold(f64::INFINITY, f64::min);
+    // The overlap is convex in the level: Newton's method from below the root passes it once, then comes down to it.
+    for _ in spots {
+        let share: f64 = spots.iter().filter(|spot| spot.open <= level).map(|spot| spot.share).sum();
+        level += (overlap - beneath(level)) / share;
+    }
+    level
+}
+
 impl Penalty {
     /// These with the water in the pores at rest `beyond` (kPa) the pressure of that outside, to which the excess pressure of the pores is
     /// added. Suction does not press the grains on a structure that may part from them: the pores count with no less than the lower of the two.
@@ -150,9 +162,29 @@ impl Law {
         self.shear(at, (gap, 0.0), slip, Answer { pressure, pressure_by_gap, ..Answer::default() })
     }
 
+    /// The answer of a contact node with a frozen status: where it would bear the multiplier of the step before it bears now, pressed or pulled.
+    /// `stick` is for a contact node that no pressure holds along the contact yet.
+    pub fn frozen(&self, at: &Penalty, spots: &[Spot], motion: &Motion, stick: bool) -> Answer {
+        let law = Self { tension: f64::INFINITY, adhesion: if stick { f64::INFINITY } else { self.adhesion }, ..*self };
+        let level = level(spots, at.pressure / at.normal);
+        law.respond_where(&|spot| spot.open <= level, at, spots, motion, 0.0)
+    }
+
     /// The answer half a step after a motion, `slope` (-) being what a motion adds to itself until then. The gap varies under the contact node:
     /// a part of it may bear while the rest is apart.
     pub fn respond_over(&self, at: &Penalty, spots: &[Spot], motion: &Motion, slope: f64) -> Answer {
+        self.respond_where(&|_| true, at, spots, motion, slope)
+    }
+
+    /// The answer of the part of the area where `bears` says so.
+    fn respond_where(
+        &self,
+        bears: &dyn Fn(&Spot) -> bool,
+        at: &Penalty,
+        spots: &[Spot],
+        motion: &Motion,
+        slope: f64,
+    ) -> Answer {
         let &Motion { gap, slip, turn, ahead, ahead_turn } = motion;
         if spots.is_empty() {
             return self.respond(at, gap + ahead, slip);
@@ -161,7 +193,7 @@ impl Law {
         let (place, place_by_turn) = nearest(at.fading, spots, &open);
         let mut answer = Answer::default();
         let gap = gap + ahead + ahead_turn * place;
-        for spot in spots {
+        for spot in spots.iter().filter(|spot| bears(spot)) {
             let (pressure, by_gap) = self.pressure(at, gap + open(spot));
             let (share, lever) = (spot.share, spot.share * spot.along);
             let by_turn = by_gap * (spot.along + ahead_turn * place_by_turn + slope * place);
@@ -360,5 +392,28 @@ mod tests {
         // Parted, but not far: adhesion has faded by a fifth.
         let parted = clay.respond(&AT, 0.036, 1.0);
         assert!(parted.pressure == 0.0 && (parted.shear + 0.2).abs() < 1e-12, "{parted:?}");
+    }
+
+    /// With a frozen status the part of the area answers that bears the multiplier in the geometry of the step: linearly, pressed or pulled. Where no
+    /// pressure is yet, that is the nearest place alone, which sticks.
+    #[test]
+    fn a_frozen_contact_node_closes_where_it_is_nearest() {
+        let [smooth, rough, ..]: [Law; 7] = laws().try_into().unwrap();
+        let spots = [0.3, 0.1, 0.0, 0.2].map(|open| Spot { share: 0.25, along: 0.0, open });
+        let at = |pressure: f64| Penalty { pressure, shear: 0.0, rounding: 0.0, ..AT };
+        let answer = |law: &Law, pressure: f64, gap: f64, slip: f64| {
+            law.frozen(&at(pressure), &spots, &Motion { gap, slip, ..Motion::default() }, pressure == 0.0)
+        };
+        for (pressure, bearing) in [(0.0, 1), (1.0, 1), (4.0, 2), (30.0, 4)] {
+            let slope = -100.0 * 0.25 * f64::from(bearing);
+            let [there, beyond] = [0.0, 0.5].map(|gap| answer(&smooth, pressure, gap, 0.0));
+            assert!((there.pressure_by_gap - slope).abs() < 1e-12, "{pressure}: {there:?}");
+            assert!((beyond.pressure - there.pressure - 0.5 * slope).abs() < 1e-12, "{pressure}: {beyond:?}");
+            // Where the gap is such that the multiplier is borne it is that of the law itself.
+            let gap = there.pressure_by_gap.recip() * (pressure - there.pressure);
+            let exact = smooth.respond_over(&at(pressure), &spots, &Motion { gap, ..Motion::default() }, 0.0).pressure;
+            assert!((exact - pressure).abs() < 1e-12, "{pressure}: {exact}");
+        }
+        assert!((answer(&rough, 0.0, 0.0, 0.3).shear + 50.0 * 0.3).abs() < 1e-12);
     }
 }

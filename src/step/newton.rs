@@ -7,7 +7,6 @@ use super::family::Family;
 use super::free;
 use super::grid::Grid;
 use super::problem::{Problem, Solution};
-use super::scene::Scene;
 use super::unknowns::{Buffers, Evaluation};
 use crate::error::{Error, Result};
 use crate::mesh::cell_size;
@@ -61,8 +60,6 @@ struct Newton<'a, const D: usize> {
     due: bool,
     /// Length of the last trial step, in those of `δ`.
     length: f64,
-    /// Fraction (-) by which the diagonal of the tangent is raised (Levenberg).
-    damping: f64,
     /// The error of the last inadmissible trial state.
     refused: Option<Error>,
 }
@@ -73,7 +70,6 @@ impl<'a, const D: usize> Newton<'a, D> {
         buffers.fixed.extend(problem.given.iter().map(Option::is_some));
         problem.begin(grid, &mut buffers.now.at, problem.converged);
         buffers.best.clone_from(&buffers.now.at);
-        buffers.damped.clear();
         let floor = floor(problem, grid);
         let touching = !problem.scene.interfaces.is_empty() && problem.integration.is_none();
         Self {
@@ -91,7 +87,6 @@ impl<'a, const D: usize> Newton<'a, D> {
             stalled: 0,
             due: false,
             length: 0.0,
-            damping: 0.0,
             refused: None,
         }
     }
@@ -117,15 +112,15 @@ impl<'a, const D: usize> Newton<'a, D> {
         })
     }
 
-    /// The state that the iteration begins with: the predicted one or the converged one.
+    /// The state that the iteration begins with: where contacts are closed, what the first directions come to from the predicted state, or else,
+    /// for bodies that start in contact, from the converged one; without contact the better one of these two.
     fn begin(&mut self) -> Result<()> {
         let contact = self.problem.integration.is_none() && !self.grid.constraints.is_empty();
         if !contact {
             return self.predict();
         }
-        let initially_closed = self.grid.constraints.iter().any(|constraint| constraint.initially_closed);
-        for start in self.problem.predictor.into_iter().chain(initially_closed.then_some(self.problem.converged)) {
-            self.problem.begin(self.grid, &mut self.buffers.now.at, start);
+        if let Some(predictor) = self.problem.predictor {
+            self.problem.begin(self.grid, &mut self.buffers.now.at, predictor);
             // Along directions with a frozen status the true residual says whether contacts stay closed.
             let strict = std::mem::replace(&mut self.strict, true);
             let done = self.first_iterations();
@@ -133,7 +128,12 @@ impl<'a, const D: usize> Newton<'a, D> {
             if done.is_ok() {
                 return Ok(());
             }
-            self.buffers.contact_frozen = false;
+            self.restart();
+        }
+        if self.grid.constraints.iter().any(|constraint| constraint.initially_closed) {
+            if self.close_contacts().is_ok() {
+                return Ok(());
+            }
             self.restart();
         }
         self.evaluate(true)?;
@@ -167,14 +167,15 @@ impl<'a, const D: usize> Newton<'a, D> {
 
     /// Goes back to the converged state.
     fn restart(&mut self) {
+        self.buffers.contact_frozen = false;
         self.problem.begin(self.grid, &mut self.buffers.now.at, self.problem.converged);
         self.buffers.best.clone_from(&self.buffers.now.at);
-        (self.target, self.damping, self.stalled) = (f64::INFINITY, 0.0, 0);
+        (self.target, self.stalled) = (f64::INFINITY, 0);
     }
 
-    /// The first iterations from a predictor, or of bodies that start in contact. The initial state may open contact nodes that finally close.
-    /// The soil beneath them, or the structure, is then unsupported, and the tangent yields far too large displacements. So the directions
-    /// keep such contact nodes closed (frozen contact status) until one is taken at full length.
+    /// The first iterations from a predictor. The predicted state may open contact nodes that finally close. The soil beneath them, or the
+    /// structure, is then unsupported, and the tangent yields far too large displacements. So the directions keep such contact nodes closed
+    /// (frozen contact status) until one is taken at full length.
     fn first_iterations(&mut self) -> Result<()> {
         self.evaluate(false)?;
         self.note();
@@ -197,6 +198,20 @@ impl<'a, const D: usize> Newton<'a, D> {
                 break;
             }
         }
+        Ok(())
+    }
+
+    /// The first iteration of bodies that start in contact: in full, along a direction that keeps all contact nodes closed, and stuck where there is
+    /// friction. The residual is no measure of it: before it nothing supports the bodies, and after it contact nodes pull that will open.
+    fn close_contacts(&mut self) -> Result<()> {
+        self.evaluate(false)?;
+        self.note();
+        self.problem.gaps(self.grid, &self.buffers.now.at, &mut self.buffers.gap);
+        self.buffers.contact_frozen = true;
+        self.direction()?;
+        self.buffers.contact_frozen = false;
+        self.attempt(1.0, true).ok_or_else(|| self.failure("the first trial state is not admissible"))?;
+        self.accept(true);
         Ok(())
     }
 
@@ -241,16 +256,10 @@ impl<'a, const D: usize> Newton<'a, D> {
             self.evaluate(true)?;
         }
         self.tangent = false;
-        let Buffers { now, delta, wanted, gap, fixed, damped, .. } = &mut self.buffers;
+        let Buffers { now, delta, wanted, gap, fixed, .. } = &mut self.buffers;
         delta.clear();
         delta.extend(now.force.iter().map(|r| -r));
-        if self.damping > 0.0 && damped.is_empty() {
-            damped_equations(self.problem.scene, self.grid, damped);
-        }
         let motion = &mut self.grid.motion;
-        if self.damping > 0.0 {
-            motion.matrix.dampen(&motion.pattern, damped, self.damping);
-        }
         let diagonal = motion.matrix.scale(&motion.pattern);
         motion.matrix.constrain(&motion.pattern, fixed, gap, diagonal, delta);
         wanted.clone_from(delta);
@@ -314,21 +323,6 @@ fn forcing(history: &[f64], tolerance: f64) -> f64 {
         _ => LOOSEST,
     };
     quadratic.max(enough).clamp(1e-10, LOOSEST)
-}
-
-/// Which equations of nodes are damped: not those of structures in contact. Only soil that flows may support a structure; a fraction of the
-/// structure's own stiffness would be far stiffer, and it would approach its equilibrium in tiny steps.
-fn damped_equations<const D: usize>(scene: &Scene<D>, grid: &Grid<D>, out: &mut Vec<bool>) {
-    out.extend(grid.dofs.node.iter().flat_map(|&n| [scene.body_of(n).is_none(); D]));
-    let Some(fem) = &scene.fem else { return };
-    for c in fem.deforming() {
-        if scene.interfaces.iter().any(|interface| interface.sides().structure == fem.mesh.cells.region[c]) {
-            for &n in fem.mesh.cells.nodes(c) {
-                let block = grid.dofs.block[n as usize] as usize;
-                out.iter_mut().skip(D * block).take(D).for_each(|damped| *damped = false);
-            }
-        }
-    }
 }
 
 /// The least scale (kN) of the residual: 10⁻⁶ of the largest confined modulus on the side of a mean cell (in axisymmetry of its ring), times

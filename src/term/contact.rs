@@ -41,14 +41,14 @@ pub fn answer<const D: usize>(
         motion = constraint.condition.ahead(motion, trial.ahead);
     }
     let law = law.reduced(trial.reduction);
-    let held = trial.contact_frozen && (constraint.initially_closed || constraint.condition.penalty.pressure > 0.0);
-    // What lies there without pressure would have no friction to hold it along the contact.
-    let adhesion = if held && constraint.initially_closed && law.friction > 0.0 { f64::INFINITY } else { law.adhesion };
-    let law = Law { tension: if held { f64::INFINITY } else { law.tension }, adhesion, ..law };
     let beyond =
         levels.zip(constraint.condition.height).map_or(0.0, |(levels, y)| levels.beyond(trial.phase, trial.time, y));
     let penalty = constraint.condition.penalty.within(beyond);
-    (law.respond_over(&penalty, &constraint.condition.spots, &motion, trial.ahead_slope), motion)
+    let spots = &constraint.condition.spots;
+    if trial.contact_frozen && (constraint.initially_closed || penalty.pressure > 0.0) {
+        return (law.frozen(&penalty, spots, &motion, constraint.initially_closed && law.friction > 0.0), motion);
+    }
+    (law.respond_over(&penalty, spots, &motion, trial.ahead_slope), motion)
 }
 
 impl<const D: usize> Term<D> for Contact {

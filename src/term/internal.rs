@@ -66,9 +66,9 @@ struct Strained {
 }
 
 impl Strained {
-    /// Stretches the point in its plane, about an axis in all directions, so that its volume changes by `ratio` in the step.
-    fn take_volume<const D: usize, K: Kinematics<D>>(&mut self, ratio: f64) {
-        let more = ratio / self.ratios.step;
+    /// Stretches the point in its plane, about an axis in all directions, so that its volume has these ratios.
+    fn take_volume<const D: usize, K: Kinematics<D>>(&mut self, ratios: Ratios) {
+        let more = ratios.step / self.ratios.step;
         if K::HOOP || D == 3 {
             self.increment *= more.cbrt();
         } else {
@@ -76,7 +76,7 @@ impl Strained {
             (0..3).for_each(|i| (0..D).for_each(|j| self.increment[(i, j)] *= stretch));
         }
         self.felt = self.increment;
-        self.ratios = Ratios { step: ratio, grid: self.ratios.grid * more };
+        self.ratios = ratios;
     }
 
     /// The stress `A W` that acts in the step, and `A`; its tangent takes the place of that of `τ_H` in `answer`. `add` adds
@@ -357,25 +357,26 @@ impl<const D: usize, K: Kinematics<D>, S: Mixed<D, K>> Term<D> for Internal<K, S
                 let cell_points = interpolation.of_cell(cell_points.cell)?;
                 let [now, before] =
                     [trial.displacement, trial.converged].map(|u| interpolation.gather(frame.mesh, cell_points, u));
-                let ratio = |entries: Entries<D>| {
-                    let point = strain::<D, K>(points, &entries, &now, Some(&before)).ok()?;
-                    Some((entries.weight, points.position[entries.point], point.ratios.step.ln()))
+                let fit = |of: fn(Ratios) -> f64| {
+                    let value = |entries: Entries<D>| {
+                        let point = strain::<D, K>(points, &entries, &now, Some(&before)).ok()?;
+                        Some((entries.weight, points.position[entries.point], of(point.ratios).ln()))
+                    };
+                    let values: Vec<_> = interpolation.entries::<K>(cell_points).filter_map(value).collect();
+                    VolumeFit::of(&values, frame.mesh.cells.kind[cell_points.cell as usize].order())
                 };
-                let ratios: Vec<_> = interpolation.entries::<K>(cell_points).filter_map(ratio).collect();
-                VolumeFit::of(&ratios, frame.mesh.cells.kind[cell_points.cell as usize].order())
+                Some((fit(|ratios| ratios.step)?, fit(|ratios| ratios.grid / ratios.step)?))
             });
             let count = self.internal_count(frame.points);
             let mut out = Histories::with_capacity(cell_points.point_count as usize, count);
             let new = |entries: Entries<D>, internal: &mut [f64]| {
                 let mut point = strain::<D, K>(frame.points, &entries, &now, Some(&before)).ok()?;
-                if let Some(fit) = &volume {
-                    match self.share.volume_ratio(&cell, frame.points, &entries) {
-                        Some(ratio) => {
-                            point.take_volume::<D, K>(ratio);
-                            point.ratios.grid = ratio;
-                        }
-                        None => point.take_volume::<D, K>(fit.at(&frame.points.position[entries.point]).exp()),
-                    }
+                if let Some((of_step, of_grid)) = &volume {
+                    let place = &frame.points.position[entries.point];
+                    let before = of_grid.at(place).exp();
+                    let by_law = self.share.volume_ratio(&cell, frame.points, &entries, before);
+                    let step = by_law.unwrap_or_else(|| of_step.at(place).exp());
+                    point.take_volume::<D, K>(Ratios { step, grid: before * step });
                 }
                 let of_point = (frame.points, &entries);
                 let step = (trial.inverse_dt, 1.0);

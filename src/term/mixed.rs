@@ -88,9 +88,10 @@ pub trait Mixed<const D: usize, K: Kinematics<D>>: Send + Sync {
         Some((K::respond(within.model, y, &within.trial, &within.state, internal)?, None))
     }
 
-    /// The volume (-) at the end of the step over that at its beginning that the unknowns give a point; `None` where they do not determine it.
+    /// The volume (-) at the end of the step over that at its beginning that the unknowns give a point, `before` being that at its beginning over that
+    /// when the grid was restored; `None` where they do not determine it.
     #[inline]
-    fn volume_ratio(&self, _: &Self::Cell, _: &Points<D>, _: &Entries<D>) -> Option<f64> {
+    fn volume_ratio(&self, _: &Self::Cell, _: &Points<D>, _: &Entries<D>, _before: f64) -> Option<f64> {
         None
     }
 
@@ -149,8 +150,9 @@ impl<const D: usize, K: Kinematics<D>, A: Mixed<D, K>, B: Mixed<D, K>> Mixed<D, 
         self.0.respond(&cell.0, point, within, internal)
     }
 
-    fn volume_ratio(&self, cell: &Self::Cell, points: &Points<D>, entries: &Entries<D>) -> Option<f64> {
-        self.0.volume_ratio(&cell.0, points, entries).or_else(|| self.1.volume_ratio(&cell.1, points, entries))
+    fn volume_ratio(&self, cell: &Self::Cell, points: &Points<D>, entries: &Entries<D>, before: f64) -> Option<f64> {
+        let other = || self.1.volume_ratio(&cell.1, points, entries, before);
+        self.0.volume_ratio(&cell.0, points, entries, before).or_else(other)
     }
 
     fn add(&self, cell: &Self::Cell, point: &Point<D>, answer: &mut Spatial<K::Tangent>) -> f64 {

@@ -199,7 +199,7 @@ impl<const D: usize, K: Kinematics<D>> Mixed<D, K> for PressureField<K> {
     }
 
     /// By Hencky's law from the change of the field. Soil with a limited tension has no such law beyond the limit.
-    fn volume_ratio(&self, cell: &Cell, points: &Points<D>, entries: &Entries<D>) -> Option<f64> {
+    fn volume_ratio(&self, cell: &Cell, points: &Points<D>, entries: &Entries<D>, before: f64) -> Option<f64> {
         let p = entries.point;
         let carried = self.of(points, p).filter(|carried| carried.limit.is_none())?;
         let y = points.seeded_height(p);
@@ -207,8 +207,13 @@ impl<const D: usize, K: Kinematics<D>> Mixed<D, K> for PressureField<K> {
             Some(_) => carried.model.bulk_modulus(y, carried.model.mean_stress(y, volume_strain(&points.elastic[p]))),
             None => 0.0,
         };
-        let gained = dot(&shapes(cell.kind, entries.shape), &cell.pressure) - points.pressure[p];
-        Some((gained / (carried.law(y).bulk + skeleton)).exp())
+        let (measure, bulk) = (Measure::of(carried, points, p), carried.law(y).bulk + skeleton);
+        measure.ratio(
+            bulk,
+            points.pressure[p],
+            dot(&shapes(cell.kind, entries.shape), &cell.pressure),
+            measure.slope(before),
+        )
     }
 
     fn add(&self, cell: &Cell, point: &Point<D>, answer: &mut Spatial<K::Tangent>) -> f64 {

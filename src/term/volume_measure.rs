@@ -46,6 +46,17 @@ impl Measure {
         }
     }
 
+    /// The volume (-) at the end of a step over that at its beginning by Hencky's law with a bulk modulus (kPa), from the same stresses and slope as
+    /// [`Measure::elastic`]. `None` at a tension for which the law has no volume.
+    pub fn ratio(self, bulk: f64, before: f64, pressure: f64, slope: f64) -> Option<f64> {
+        let (then, now) = (before / bulk, slope * pressure / bulk);
+        let ratio = match self {
+            Self::Logarithm => (now - then).exp(),
+            _ => least_root(self.power(), then, now, 1.0),
+        };
+        ratio.is_finite().then_some(ratio)
+    }
+
     /// The volume strain of a law, by this measure, as the field goes from the Kirchhoff stress `before` to `pressure` (kPa), and its
     /// slope (1/kPa). `slope` is that of the measure as the step begins. Not a number at a tension for which the law has no volume,
     /// as at half the bulk modulus and above; such a trial state is refused.

@@ -167,31 +167,70 @@ fn undrained_is_total_stress_less_the_pore_pressure() {
 /// no volume: the two differ by about as much as the pressure changes the volume, 10⁻⁵.
 #[test]
 fn material_points_have_the_volume_of_their_pressure() {
+    // Total stress, and undrained soil whose model sees the volume of the field. Each with its bulk modulus, over the shear modulus.
+    let [kept, drained] = [-0.9, 0.3].map(tresca);
+    let total = MixedPressure { model: kept, ratio: bulk(POISSON) - bulk(-0.9), water: 0.0, bound: None, limit: None };
+    let undrained =
+        MixedPressure { model: drained, ratio: bulk(POISSON) - bulk(0.3), water: 1.0, bound: Some(1e-3), limit: None };
     for way in [-0.02, 0.02] {
-        let mesh = rectangle(CellKind::T6, 4.0, 1.0, 12, 3, 0.1, 3);
-        let elasticity = Elasticity::new(constant(2.0 * SHEAR * 0.1), -0.9).unwrap();
-        let model: Arc<dyn Model> = Arc::new(Tresca::new(elasticity, constant(1.0)).unwrap());
-        let field = bulk(POISSON) - bulk(-0.9);
-        let mut bench = Bench::new(mesh, model.clone());
-        bench.carried = Some(MixedPressure { model, ratio: field, water: 0.0, bound: None, limit: None });
-        bench.restore = Restore::EveryStep;
-        bench.steps = 20;
-        bench.hold("bottom", &[0, 1]).hold("left", &[0]);
-        for component in [0, 1] {
-            let displacement = TimeValue::Rate(if component == 1 { way } else { 0.0 });
-            bench.prescribed.push(Prescribed { fixed: bench.on("top", component), displacement });
-        }
-        resample::<PlaneStrain>(&mut bench);
-        let places: Vec<_> = seeded(&bench.mesh, 9).into_iter().filter(|(x, _)| x[0] < 3.0).collect();
-        let points = at::<PlaneStrain>(&bench.mesh, &places, 1.0);
-        let State { points, .. } = run::<PlaneStrain>(&bench.scene::<PlaneStrain>(), points, |_, _| ());
-        let off = |p: usize| (points.deformation[p].determinant().ln() - points.pressure[p] / (field * SHEAR)).abs();
-        let worst = (0..points.len()).map(off).fold(0.0, f64::max);
-        let flown = points.plastic_strain.iter().fold(0.0f64, |a, b| a.max(*b));
-        let pressure = points.pressure.iter().fold(0.0f64, |a, b| a.max(b.abs()));
-        println!(
-            "plates by {way}: volume off by {worst:.1e}, pressure up to {pressure:.1} kPa, strain up to {flown:.2}"
-        );
-        assert!(worst < 1e-4 && flown > 0.1 && pressure > 3.0, "{worst:e} {flown} {pressure}");
+        between_plates::<PlaneStrain>(way, total.clone(), total.ratio);
+        between_plates::<PlaneStrain>(way, undrained.clone(), bulk(POISSON));
+        between_plates::<Axisymmetric>(way, total.clone(), total.ratio);
+    }
+}
+
+fn tresca(poisson: f64) -> Arc<dyn Model> {
+    let elasticity = Elasticity::new(constant(2.0 * SHEAR * (1.0 + poisson)), poisson).unwrap();
+    Arc::new(Tresca::new(elasticity, constant(1.0)).unwrap())
+}
+
+/// Soil between plates that move by `way` (m) in twenty steps, each with a grid reset: the volume of its points against that of their pressure.
+fn between_plates<K: Kinematics<2>>(way: f64, carried: MixedPressure, bulk: f64) {
+    let mesh = rectangle(CellKind::T6, 4.0, 1.0, 12, 3, 0.1, 3);
+    let mut bench = Bench::new(mesh, carried.model.clone());
+    bench.carried = Some(carried);
+    bench.restore = Restore::EveryStep;
+    bench.steps = 20;
+    bench.hold("bottom", &[0, 1]).hold("left", &[0]);
+    for component in [0, 1] {
+        let displacement = TimeValue::Rate(if component == 1 { way } else { 0.0 });
+        bench.prescribed.push(Prescribed { fixed: bench.on("top", component), displacement });
+    }
+    resample::<K>(&mut bench);
+    let places: Vec<_> = seeded(&bench.mesh, 9).into_iter().filter(|(x, _)| x[0] < 3.0).collect();
+    let points = at::<K>(&bench.mesh, &places, 1.0);
+    let State { points, .. } = run::<K>(&bench.scene::<K>(), points, |_, _| ());
+    let off = |p: usize| (points.deformation[p].determinant().ln() - points.pressure[p] / (bulk * SHEAR)).abs();
+    let worst = (0..points.len()).map(off).fold(0.0, f64::max);
+    let flown = points.plastic_strain.iter().fold(0.0f64, |a, b| a.max(*b));
+    let pressure = points.pressure.iter().fold(0.0f64, |a, b| a.max(b.abs()));
+    println!("plates by {way}: volume off by {worst:.1e}, pressure up to {pressure:.1} kPa, strain up to {flown:.2}");
+    assert!(worst < 1e-4 && flown > 0.1 && pressure > 3.0, "{worst:e} {flown} {pressure}");
+}
+
+/// Compressible soil that a field carries in tension, on one grid for all steps: the stress of the material points is that of their volume.
+#[test]
+fn points_in_tension_keep_the_stress_of_their_volume() {
+    fn stretched<K: Kinematics<2>>(gradient: [[f64; 2]; 2]) -> f64 {
+        let mut bench = Bench::new(rectangle(CellKind::T6, 2.0, 1.5, 4, 3, 0.2, 7), elastic(-0.9));
+        let ratio = bulk(0.3) - bulk(-0.9);
+        bench.carried = Some(MixedPressure { model: elastic(-0.9), ratio, water: 0.0, bound: None, limit: None });
+        bench.restore = Restore::Never;
+        bench.steps = 5;
+        stretch_boundary(&mut bench, gradient);
+        resample::<K>(&mut bench);
+        let points = at::<K>(&bench.mesh, &seeded(&bench.mesh, 9), 1.0);
+        let State { points, .. } = run::<K>(&bench.scene::<K>(), points, |_, _| ());
+        let hoop = if K::HOOP { gradient[0][0] } else { 0.0 };
+        let ratio = (1.0 + gradient[0][0]) * (1.0 + gradient[1][1]) * (1.0 + hoop);
+        let exact = bulk(0.3) * SHEAR * ratio.ln() / ratio;
+        points.stress.iter().map(|stress| (mpm::tensor::mean(stress) / exact - 1.0).abs()).fold(0.0, f64::max)
+    }
+    for error in [
+        stretched::<PlaneStrain>([[0.1, 0.0], [0.0, 0.08]]),
+        stretched::<PlaneStrain>([[-0.1, 0.0], [0.0, -0.08]]),
+        stretched::<Axisymmetric>([[0.06, 0.0], [0.0, 0.05]]),
+    ] {
+        assert!(error < 1e-8, "{error:e}");
     }
 }

@@ -12,13 +12,21 @@ use crate::surface::geometry::Geometry;
 const NEAR: f64 = 0.15;
 /// So do those within it, by less than this share of a cell.
 const DEEP: f64 = 1.0;
+/// And those of a film, which is nowhere thicker than this share of a cell: cells do not resolve it, and no cut cell bears less well …
+const FILM: f64 = 0.5;
+/// … and longer than this multiple of its thickness: soil that meets a structure at more than 11° is none.
+const LONG: f64 = 5.0;
 
-/// A marker against an outline.
+/// The place of an outline that a marker is nearest to.
 #[derive(Clone, Copy)]
 struct Foot {
     outline: usize,
     /// Arc length (m) along it.
     along: f64,
+    /// Distance (m) of the marker.
+    away: f64,
+    /// Whether the marker lies there.
+    lies: bool,
 }
 
 /// A polyline with the arc length of its vertices.
@@ -87,11 +95,13 @@ impl MarkerFront {
         let longest = outlines.iter().flat_map(|o| o.along.windows(2).map(|a| a[1] - a[0])).fold(0.0, f64::max);
         let side = DEEP * size.iter().fold(0.0f64, |a, b| a.max(*b)) + longest;
         let bins = Bins::new(pieces.iter().map(|&(k, i)| (outlines[k].x[i - 1], outlines[k].x[i])), side);
-        let feet: Vec<Option<Foot>> =
+        let mut feet: Vec<Option<Foot>> =
             self.position.iter().zip(&size).map(|(x, h)| foot(&outlines, &pieces, &bins, x, *h)).collect();
+        let wall = self.walls(mesh, geometry, locator);
         let mut next = Self { position: Vec::with_capacity(self.position.len() + 16), first: vec![0] };
         for l in 0..self.loops() {
             let range = self.first[l] as usize..self.first[l + 1] as usize;
+            films(&outlines, &wall[range.clone()], &mut feet[range.clone()]);
             lean_loop(&outlines, &self.position[range.clone()], &feet[range.clone()], &size[range], &mut next.position);
             next.first.push(next.position.len() as u32);
         }
@@ -100,7 +110,7 @@ impl MarkerFront {
     }
 }
 
-/// Where a marker at `x` in a cell of size `h` lies against an outline.
+/// The place nearest to a marker at `x` in a cell of size `h`, where that may lie against an outline.
 fn foot(outlines: &[Outline], pieces: &[(usize, usize)], bins: &Bins, x: &[f64; 2], h: f64) -> Option<Foot> {
     let mut best: Option<(f64, f64, Foot)> = None;
     for &piece in bins.around(x).flatten() {
@@ -111,25 +121,67 @@ fn foot(outlines: &[Outline], pieces: &[(usize, usize)], bins: &Bins, x: &[f64; 
             // The structure is on the left.
             let left = twice_area(&[a, b, *x]);
             let along = outlines[outline].along[i - 1] + share * distance(&a, &b);
-            best = Some((away, left, Foot { outline, along }));
+            let lies = away <= if left > 0.0 { DEEP * h } else { NEAR * h };
+            best = Some((away, left, Foot { outline, along, away, lies }));
         }
     }
     let (away, left, foot) = best?;
-    (away <= if left > 0.0 { DEEP * h } else { NEAR * h }).then_some(foot)
+    (foot.lies || left <= 0.0 && away <= FILM * h).then_some(foot)
+}
+
+/// Lets the free markers of films lie on their structure. Along a film they run as the structure's outline does, and so against those on the other
+/// side of the film, which lie there: nothing of it is left.
+fn films(outlines: &[Outline], wall: &[bool], feet: &mut [Option<Foot>]) {
+    let count = feet.len();
+    // How far the outline goes (m) from a marker to the next one, where both may be of the same film.
+    let forward = |i: usize| {
+        let (a, b) = (feet[i % count]?, feet[(i + 1) % count]?);
+        let way = outlines[a.outline].way(a.along, b.along);
+        (a.outline == b.outline && way > 0.0 && !wall[i % count]).then_some(way)
+    };
+    let Some(begin) = (0..count).find(|&i| forward(i).is_none()) else { return };
+    let (mut i, mut found) = (begin + 1, Vec::new());
+    while i < begin + count {
+        let (first, mut length) = (i, 0.0);
+        while let Some(way) = forward(i).filter(|_| i < begin + count) {
+            length += way;
+            i += 1;
+        }
+        let thickest = (first..=i).filter_map(|k| feet[k % count]).map(|foot| foot.away).fold(0.0, f64::max);
+        if length > LONG * thickest {
+            // With what its ends have of the same thickness.
+            let goes_on = |k: usize| feet[k % count].is_some_and(|foot| !foot.lies) && !wall[k % count];
+            let begin = (0..count).take_while(|back| goes_on(first + count - 1 - back)).count();
+            let end = (i + 1..i + 1 + count).take_while(|&k| goes_on(k)).count();
+            found.push(first + count - begin..=i + count + end);
+        }
+        i += 1;
+    }
+    for k in found.into_iter().flatten() {
+        if let Some(foot) = &mut feet[k % count] {
+            foot.lies = true;
+        }
+    }
 }
 
 /// Appends the markers of a loop, those of each run against an outline taken from it.
 fn lean_loop(outlines: &[Outline], x: &[[f64; 2]], feet: &[Option<Foot>], size: &[f64], out: &mut Vec<[f64; 2]>) {
     let count = x.len();
-    let on = |i: usize| feet[i % count].as_ref().map(|foot| foot.outline);
+    let lying = |i: usize| feet[i % count].filter(|foot| foot.lies);
+    let on = |i: usize| lying(i).map(|foot| foot.outline);
     // Begin where no run goes on.
     let Some(begin) = (0..count).find(|&i| on(i).is_none() || on(i) != on(i + count - 1)) else {
-        out.extend(x);
+        // Soil all around a structure stays; a film of its own goes out along the structure and back.
+        let along = |i: usize| lying(i).map_or(0.0, |foot| foot.along);
+        let way = |i: usize| on(i).map_or(0.0, |outline| outlines[outline].way(along(i), along(i + 1)));
+        if (0..count).map(way).sum::<f64>().abs() > size.first().map_or(0.0, |size| FILM * size) {
+            out.extend(x);
+        }
         return;
     };
     let mut i = begin;
     while i < begin + count {
-        let Some(Foot { outline, along }) = feet[i % count] else {
+        let Some(Foot { outline, along, .. }) = lying(i) else {
             out.push(x[i % count]);
             i += 1;
             continue;
@@ -140,7 +192,7 @@ fn lean_loop(outlines: &[Outline], x: &[[f64; 2]], feet: &[Option<Foot>], size: 
         let (mut way, mut last) = (0.0, along);
         let mut end = i + 1;
         while end < begin + count && on(end) == on(i) {
-            if let Some(foot) = feet[end % count] {
+            if let Some(foot) = lying(end) {
                 let along = outline.snap(foot.along, 0.5 * spacing);
                 way += outline.way(last, along);
                 last = along;
