@@ -340,4 +340,36 @@ mod tests {
             assert!(moved.y > 0.0 && (x.hypot(y) - most / deformation.row(1).norm()).abs() < 1e-15, "{points:?}");
         }
     }
+
+    /// A crumb, a point in a cell that integrals leave out, is no soil.
+    #[test]
+    fn points_that_resist_nothing_are_not_near() {
+        let placed = Placed {
+            from: [-0.1, 0.0],
+            to: [0.3, 0.0],
+            middle: [0.1, 0.0],
+            normal: [0.0, 1.0],
+            area: 0.4,
+            curvature: 0.0,
+            along: 0.2,
+            ends: [false; 2],
+            value: [0.0; 3],
+        };
+        let points = Points {
+            position: vec![[0.0, 0.05], [0.2, 0.05]],
+            origin: vec![[0.0, 0.05], [0.2, 0.05]],
+            initial_volume: vec![0.01; 2],
+            deformation: vec![Tensor::identity(); 2],
+            region: vec![0; 2],
+            cell: vec![0, 1],
+            ..Points::default()
+        };
+        let near = |integrated| {
+            let near =
+                Soil { points: &points, regions: &[0], integrated }.near::<PlaneStrain>(&Segments(vec![placed]), None);
+            near.iter().map(|near| near.point).collect::<Vec<_>>()
+        };
+        assert_eq!(near(None), [0, 1]);
+        assert_eq!(near(Some(&[true, false])), [0]);
+    }
 }

@@ -63,6 +63,9 @@ pub struct Frame {
 /// The column of [`Frame::elements`] that tells the cells.
 pub const CELL: &str = "cell";
 
+/// The column of [`Frame::points`] with the volume (m³, per metre or full turn) of each; there where their displacement is, and not shown.
+pub const VOLUME: &str = "volume";
+
 /// The field of the internal variables of the models; the column of each is this, a point and its name.
 pub const INTERNAL: &str = "internal_variables";
 

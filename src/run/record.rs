@@ -6,7 +6,7 @@ use super::fields::Field;
 use super::surface::{self, Acting};
 use crate::dofs::PORE_PRESSURE;
 use crate::io::columns::padded;
-use crate::io::frame::{CELL, Frame, Part, UNCOUNTED};
+use crate::io::frame::{CELL, Frame, Part, UNCOUNTED, VOLUME};
 use crate::io::provenance::Origin;
 use crate::points::Points;
 use crate::quadrature::Count;
@@ -220,6 +220,7 @@ pub fn frame<const D: usize>(
     acting: Option<&Acting>,
 ) -> Frame {
     let nodes = scene.mesh_nodes();
+    let displacement = fields.iter().any(|field| field.is_displacement());
     // A grid that is restored stays where the mesh has it.
     let grid = if scene.numerics.restore == Restore::EveryStep && scene.fem.is_none() {
         Part::default()
@@ -231,12 +232,16 @@ pub fn frame<const D: usize>(
             .map(|(x, u)| std::array::from_fn(|d| x[d] + u[d]))
             .take(nodes)
             .collect();
-        let displacement = fields.iter().any(|field| field.is_displacement());
         let columns = displacement.then(|| column("displacement", "m", 3, padded(&state.displacement[..nodes])));
         let reset = scene.fem.is_some() && !state.uncounted.is_empty();
         let uncounted = reset.then(|| column(UNCOUNTED, "m", 3, padded(&state.uncounted[..nodes])));
         Part { position: triples(&x), columns: columns.into_iter().chain(uncounted).collect() }
     };
+    let mut points = part(&state.points, fields);
+    if displacement {
+        let volumes = (0..state.points.len()).map(|p| state.points.volume(p));
+        points.columns.push(column(VOLUME, "m3", 1, volumes.collect()));
+    }
     let mut elements = part(&state.fem, fields);
     elements.columns.push(column(CELL, "-", 1, state.fem.cell.iter().map(|&c| f64::from(c)).collect()));
     Frame {
@@ -244,7 +249,7 @@ pub fn frame<const D: usize>(
         phase: scene.phases.get(state.phase).map_or_else(String::new, |p| p.name.clone()),
         step: state.step,
         origin,
-        points: part(&state.points, fields),
+        points,
         grid,
         elements: if scene.fem.is_some() { elements } else { Part::default() },
         contact: boundary::part(scene, state),

@@ -54,7 +54,6 @@ const SAME: f64 = 1e-9;
 pub struct Soil {
     origin: Origin,
     around: Around,
-    axisymmetric: bool,
 }
 
 /// The material points of a frame.
@@ -64,6 +63,8 @@ pub struct Cloud<'a> {
     pub position: &'a [[f64; 2]],
     /// Where they were seeded (m).
     pub origin: &'a [[f64; 2]],
+    /// The area (m²) of each in the plane.
+    pub area: &'a [f64],
     pub values: Values<'a>,
 }
 
@@ -82,9 +83,9 @@ pub struct Body {
 
 impl Soil {
     /// The soil on the grid `mesh`, where the regions `seeded` were filled with points.
-    pub fn new(mesh: Mesh<2>, seeded: &[bool], axisymmetric: bool) -> Self {
+    pub fn new(mesh: Mesh<2>, seeded: &[bool]) -> Self {
         let around = Around::of(&mesh);
-        Self { origin: Origin::new(mesh, seeded), around, axisymmetric }
+        Self { origin: Origin::new(mesh, seeded), around }
     }
 
     /// Where points with these displacements (m) were, when these were counted from a frame whose points were at `places`
@@ -143,8 +144,7 @@ impl Soil {
         assemble(&mesh, pieces.into_iter().flatten(), &regions, &fields)
     }
 
-    /// The points that are in the grid, with the region and the part of the area of the cell that each was seeded in, and
-    /// their numbers in the cloud.
+    /// The points that are in the grid, with the region that each was seeded in, and their numbers in the cloud.
     fn points(&self, mesh: &Mesh<2>, cloud: Cloud) -> (Points<2>, Vec<[f64; 3]>, Vec<usize>) {
         let locator = Locator::new(mesh);
         let find = |p: usize| {
@@ -153,23 +153,15 @@ impl Soil {
             Some((p, seeded, leads, cell, xi))
         };
         let found: Vec<_> = (0..cloud.position.len()).into_par_iter().filter_map(find).collect();
-        let mut of_cell = vec![0u32; mesh.cells.len()];
-        // A point that cannot be traced has a share of the cell where it is.
-        let home = |seeded: u32, leads: bool, cell: u32| if leads { seeded } else { cell };
-        found.iter().for_each(|(_, seeded, leads, cell, _)| of_cell[home(*seeded, *leads, *cell) as usize] += 1);
         let mut points = Points::default();
         let (mut parametric, mut kept) = (Vec::with_capacity(found.len()), Vec::with_capacity(found.len()));
         for (p, seeded, leads, cell, xi) in found {
             let (x, first) = (cloud.position[p], if leads { cloud.origin[p] } else { [f64::NAN; 2] });
-            let home = home(seeded, leads, cell) as usize;
-            let area = self.origin.area[home] / f64::from(of_cell[home]);
-            // A ring of soil that is moved outwards is stretched around the axis.
-            let ring = if self.axisymmetric && leads { (first[0] / x[0]).clamp(1.0 / LOOSE, LOOSE) } else { 1.0 };
             points.position.push(x);
             points.cell.push(cell);
             points.region.push(self.origin.mesh.cells.region[seeded as usize]);
             points.origin.push(first);
-            points.initial_volume.push(area * ring);
+            points.initial_volume.push(cloud.area[p]);
             points.deformation.push(Tensor::identity());
             parametric.push(xi);
             kept.push(p);

@@ -1,11 +1,10 @@
 //! Where the soil was at first: the cells that were seeded, their outline, and what of them a place is in.
 
-use crate::geometry::{Bins, Line, area, nearest};
+use crate::geometry::{Bins, Line, nearest};
 use crate::mesh::faces::Faces;
 use crate::mesh::locate::Locator;
 use crate::mesh::side::Side;
 use crate::mesh::{Mesh, cell_size};
-use crate::surface::triangles;
 
 /// Places found so far beyond the boundary of the mesh, in the diagonal of the cell there (-), are on it: a displacement that is
 /// fitted may lead across a wall.
@@ -49,8 +48,6 @@ pub struct Origin {
     pub faces: Faces,
     /// Whether each cell was seeded.
     seeded: Vec<bool>,
-    /// The area (m²) of each cell.
-    pub area: Vec<f64>,
     /// Where the soil ended within the grid.
     free: Outline,
     /// Where each region of soil met others.
@@ -93,7 +90,6 @@ impl Origin {
         let sides: Vec<Side<2>> = faces.boundary.iter().map(|&side| Side::of(&mesh, side)).collect();
         Self {
             seeded: (0..mesh.cells.len() as u32).map(is_soil).collect(),
-            area: (0..mesh.cells.len()).map(|c| cell_area(&mesh, c)).collect(),
             free: Outline::new(free, 2.0 * size),
             between: between.into_iter().map(|lines| Outline::new(lines, 2.0 * size)).collect(),
             side_cells: faces.boundary.iter().map(|side| side.0).collect(),
@@ -151,9 +147,3 @@ impl Origin {
 
 /// Cells that are looked at for one of soil: two rings.
 const NEAR: usize = 12;
-
-/// The area (m²) of a cell, as the triangles between its nodes have it.
-pub fn cell_area(mesh: &Mesh<2>, c: usize) -> f64 {
-    let nodes = mesh.cells.nodes(c);
-    triangles(mesh.cells.kind[c]).iter().map(|t| area(&t.map(|i| mesh.nodes[nodes[i] as usize]))).sum()
-}

@@ -38,9 +38,13 @@ fn body(
     let points = seed(mesh, false, &regions).unwrap();
     let position: Vec<[f64; 2]> = points.position.iter().map(|x| motion(*x)).collect();
     let of: Vec<f64> = position.iter().zip(&points.region).map(|(x, r)| field(*x, *r)).collect();
-    let soil = Soil::new(mesh.clone(), &[false, true, true], false);
+    let soil = Soil::new(mesh.clone(), &[false, true, true]);
     let values = Values { width: 1, of: &of };
-    soil.body(&mesh.nodes, Cloud { position: &position, origin: &points.position, values }, structures)
+    soil.body(
+        &mesh.nodes,
+        Cloud { position: &position, origin: &points.position, area: &points.initial_volume, values },
+        structures,
+    )
 }
 
 fn area(body: &Body, region: Option<u16>) -> f64 {
@@ -145,10 +149,14 @@ fn soil_without_a_smooth_motion_is_where_its_points_are() {
         let across = |(p, x): (usize, &[f64; 2])| if p % 2 == 0 { *x } else { x.map(|x| -x) };
         let mixed: Vec<[f64; 2]> = points.position.iter().enumerate().map(across).collect();
         for origin in [mixed, vec![[1.7, 1.6]; position.len()]] {
-            let soil = Soil::new(mesh.clone(), &[false, true, false], false);
+            let soil = Soil::new(mesh.clone(), &[false, true, false]);
             let of = vec![1.0; position.len()];
             let values = Values { width: 1, of: &of };
-            let body = soil.body(&mesh.nodes, Cloud { position: &position, origin: &origin, values }, NONE);
+            let body = soil.body(
+                &mesh.nodes,
+                Cloud { position: &position, origin: &origin, area: &points.initial_volume, values },
+                NONE,
+            );
             // No holes: the inner part is all there.
             let inner = body.triangles.iter().map(|t| t.map(|i| body.places[i as usize]));
             let inner = inner.filter(|t| t.iter().flatten().all(|x| x.abs() < 0.75 + 1e-12));

@@ -12,6 +12,7 @@ use crate::mesh::shape::CellKind;
 use crate::soil::{Body, Cloud, Soil, Values};
 use crate::surface::triangles;
 use std::collections::BTreeMap;
+use std::f64::consts::TAU;
 
 /// VTK's number of a triangle (`vtkCellType.h`).
 const VTK_TRIANGLE: u8 = 5;
@@ -35,7 +36,7 @@ pub struct Bodies<'a> {
 
 impl<'a> Bodies<'a> {
     /// Of the cells of the grid in `mesh` and the finite elements in `structures`. `None` where the soil is not to be seen as a body: no
-    /// region has material points, or the frames do not hold their displacement.
+    /// region has material points, or the frames do not hold their displacement and volume.
     ///
     /// # Errors
     /// Those of reading frames.
@@ -48,10 +49,11 @@ impl<'a> Bodies<'a> {
         let grid = mesh.part(|c| !regions.elements[mesh.cells.region[c] as usize]);
         let seeded: Vec<bool> = regions.soil.iter().zip(&regions.elements).map(|(soil, fem)| *soil && !fem).collect();
         let first = infos.first().map(|info| Frame::read(&info.path)).transpose()?;
-        if !seeded.contains(&true) || first.is_none_or(|frame| displacement(&frame.points).is_none()) {
+        let known = |points: &Part| displacement(points).is_some() && volume(points).is_some();
+        if !seeded.contains(&true) || first.is_none_or(|frame| !known(&frame.points)) {
             return Ok(None);
         }
-        let soil = Soil::new(grid, &seeded, regions.axisymmetric);
+        let soil = Soil::new(grid, &seeded);
         let elements = pieces.cells().zip(kinds).flat_map(|((corners, region), &kind)| {
             // The nodes of the piece are in the order of VTK.
             let place =
@@ -109,7 +111,12 @@ impl<'a> Bodies<'a> {
         let stands =
             |region: u16| !self.regions.soil[region as usize] && !absent.is_some_and(|absent| absent.contains(&region));
         let standing: Vec<[u32; 3]> = self.elements.iter().filter(|(_, r)| stands(*r)).map(|(t, _)| *t).collect();
-        let cloud = Cloud { position: &traced.position, origin: &traced.origin, values: Values { width, of: &of } };
+        // In axisymmetry the volume is that of a ring.
+        let around = |x: &[f64; 2]| if self.regions.axisymmetric { TAU * x[0] } else { 1.0 };
+        let volume = volume(points).unwrap_or_default();
+        let area: Vec<f64> = volume.iter().zip(&traced.position).map(|(volume, x)| volume / around(x)).collect();
+        let Traced { position, origin } = &traced;
+        let cloud = Cloud { position, origin, area: &area, values: Values { width, of: &of } };
         let body = self.soil.body(&nodes, cloud, (&places, &standing));
         let elements: Vec<&([u32; 3], u16)> =
             self.elements.iter().filter(|(_, r)| self.regions.soil[*r as usize]).collect();
@@ -141,6 +148,11 @@ fn with_invariants(fields: &[String]) -> Vec<String> {
 /// The displacement of points (m), three numbers each.
 fn displacement(points: &Part) -> Option<&[f64]> {
     points.columns.iter().find(|c| c.name == "displacement" && c.components == 3).map(|c| &c.values[..])
+}
+
+/// The volume of points (m³).
+fn volume(points: &Part) -> Option<&[f64]> {
+    points.columns.iter().find(|c| c.name == frame::VOLUME && c.components == 1).map(|c| &c.values[..])
 }
 
 fn numbers(array: &Array) -> &[f64] {
