@@ -7,6 +7,7 @@ use super::family::Family;
 use super::free;
 use super::grid::Grid;
 use super::problem::{Problem, Solution};
+use super::scene::Scene;
 use super::unknowns::{Buffers, Evaluation};
 use crate::error::{Error, Result};
 use crate::mesh::cell_size;
@@ -60,6 +61,8 @@ struct Newton<'a, const D: usize> {
     due: bool,
     /// Length of the last trial step, in those of `δ`.
     length: f64,
+    /// Fraction (-) by which the diagonal of the tangent is raised (Levenberg).
+    damping: f64,
     /// The error of the last inadmissible trial state.
     refused: Option<Error>,
 }
@@ -70,6 +73,7 @@ impl<'a, const D: usize> Newton<'a, D> {
         buffers.fixed.extend(problem.given.iter().map(Option::is_some));
         problem.begin(grid, &mut buffers.now.at, problem.converged);
         buffers.best.clone_from(&buffers.now.at);
+        buffers.damped.clear();
         let floor = floor(problem, grid);
         let touching = !problem.scene.interfaces.is_empty() && problem.integration.is_none();
         Self {
@@ -87,6 +91,7 @@ impl<'a, const D: usize> Newton<'a, D> {
             stalled: 0,
             due: false,
             length: 0.0,
+            damping: 0.0,
             refused: None,
         }
     }
@@ -170,7 +175,7 @@ impl<'a, const D: usize> Newton<'a, D> {
         self.buffers.contact_frozen = false;
         self.problem.begin(self.grid, &mut self.buffers.now.at, self.problem.converged);
         self.buffers.best.clone_from(&self.buffers.now.at);
-        (self.target, self.stalled) = (f64::INFINITY, 0);
+        (self.target, self.damping, self.stalled) = (f64::INFINITY, 0.0, 0);
     }
 
     /// The first iterations from a predictor. The predicted state may open contact nodes that finally close. The soil beneath them, or the
@@ -256,10 +261,16 @@ impl<'a, const D: usize> Newton<'a, D> {
             self.evaluate(true)?;
         }
         self.tangent = false;
-        let Buffers { now, delta, wanted, gap, fixed, .. } = &mut self.buffers;
+        let Buffers { now, delta, wanted, gap, fixed, damped, .. } = &mut self.buffers;
         delta.clear();
         delta.extend(now.force.iter().map(|r| -r));
+        if self.damping > 0.0 && damped.is_empty() {
+            damped_equations(self.problem.scene, self.grid, damped);
+        }
         let motion = &mut self.grid.motion;
+        if self.damping > 0.0 {
+            motion.matrix.dampen(&motion.pattern, damped, self.damping);
+        }
         let diagonal = motion.matrix.scale(&motion.pattern);
         motion.matrix.constrain(&motion.pattern, fixed, gap, diagonal, delta);
         wanted.clone_from(delta);
@@ -323,6 +334,21 @@ fn forcing(history: &[f64], tolerance: f64) -> f64 {
         _ => LOOSEST,
     };
     quadratic.max(enough).clamp(1e-10, LOOSEST)
+}
+
+/// Which equations of nodes are damped: not those of structures in contact. Only soil that flows may support a structure; a fraction of the
+/// structure's own stiffness would be far stiffer, and it would approach its equilibrium in tiny steps.
+fn damped_equations<const D: usize>(scene: &Scene<D>, grid: &Grid<D>, out: &mut Vec<bool>) {
+    out.extend(grid.dofs.node.iter().flat_map(|&n| [scene.body_of(n).is_none(); D]));
+    let Some(fem) = &scene.fem else { return };
+    for c in fem.deforming() {
+        if scene.interfaces.iter().any(|interface| interface.sides().structure == fem.mesh.cells.region[c]) {
+            for &n in fem.mesh.cells.nodes(c) {
+                let block = grid.dofs.block[n as usize] as usize;
+                out.iter_mut().skip(D * block).take(D).for_each(|damped| *damped = false);
+            }
+        }
+    }
 }
 
 /// The least scale (kN) of the residual: 10⁻⁶ of the largest confined modulus on the side of a mean cell (in axisymmetry of its ring), times

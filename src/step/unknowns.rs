@@ -53,6 +53,8 @@ pub struct Buffers<const D: usize> {
     pub wanted: Vec<f64>,
     pub gap: Vec<f64>,
     pub fixed: Vec<bool>,
+    /// The equations whose diagonal is raised by damping: those of nodes of no structure in contact. Empty until needed.
+    pub damped: Vec<bool>,
     /// The residual of one term.
     pub own: Vec<f64>,
     pub between: Vec<[f64; D]>,

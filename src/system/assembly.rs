@@ -189,6 +189,17 @@ impl Matrix {
         (0..pattern.len()).map(entry).collect()
     }
 
+    /// Makes the `wanted` of the first equations stiffer by a share of their diagonal.
+    pub fn dampen(&mut self, pattern: &Pattern, wanted: &[bool], share: f64) {
+        for (j, _) in wanted.iter().enumerate().filter(|(_, wanted)| **wanted) {
+            for k in pattern.column[j] as usize..pattern.column[j + 1] as usize {
+                if pattern.row[k] as usize == j {
+                    self.values[k] *= 1.0 + share;
+                }
+            }
+        }
+    }
+
     /// Whether every value is a number.
     pub fn is_finite(&self) -> bool {
         self.values.par_chunks(MANY).all(|values| values.iter().all(|v| v.is_finite()))

@@ -132,6 +132,19 @@ fn constraints_move_to_the_right_hand_side() {
 }
 
 #[test]
+fn only_the_wanted_equations_are_dampened() {
+    let pattern = chain(true);
+    let (plain, ..) = assemble(&pattern, 0.0);
+    let (mut matrix, ..) = assemble(&pattern, 0.0);
+    let wanted: Vec<bool> = (0..pattern.len() - 1).map(|e| e % 3 == 0).collect();
+    matrix.dampen(&pattern, &wanted, 0.25);
+    for (e, (raised, diagonal)) in matrix.diagonal(&pattern).iter().zip(plain.diagonal(&pattern)).enumerate() {
+        let share = if wanted.get(e) == Some(&true) { 1.25 } else { 1.0 };
+        assert!(diagonal != 0.0 && *raised == share * diagonal, "{e}: {raised} of {diagonal}");
+    }
+}
+
+#[test]
 fn a_singular_system_is_refused() {
     let pattern = chain(true);
     let matrix = Matrix::new(&pattern);

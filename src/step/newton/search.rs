@@ -1,4 +1,4 @@
-//! The length of a step along the direction of an iteration: line search and watchdog (docs/theory.md, section 14, eq. 14 and 14a).
+//! The length of a step along the direction of an iteration: line search, watchdog, damping (docs/theory.md, section 14, eq. 14 and 14a).
 
 use super::super::balance::evaluate;
 use super::super::unknowns::Buffers;
@@ -11,6 +11,13 @@ const ARMIJO: f64 = 1e-4;
 const BACKTRACKS: i32 = 6;
 /// Line searches that may end without a decrease before the step is given up.
 const STALLED: usize = 4;
+/// Least fraction (-) by which the diagonal of the tangent is raised (Levenberg 1944).
+const LEAST_DAMPING: f64 = 1e-4;
+/// No larger fraction (-): 0.1 is the largest power of ten below. Without damping a wall that is pushed into clay stops as it is pulled
+/// (`docs/numerics.md`, *As expected*).
+const MOST_DAMPING: f64 = 0.2;
+/// From this many halvings of an accepted step length on, the diagonal is raised.
+const ASTRAY: i32 = 3;
 /// Full steps that may raise the residual before the iteration returns to its best state.
 const WATCHDOG: usize = 3;
 /// A full step that leaves more than this fraction (-) of the residual may have gone too far.
@@ -50,6 +57,7 @@ impl<const D: usize> Newton<'_, D> {
                     self.relaxed += 1;
                     self.take(with_tangent);
                 } else {
+                    self.damping = if self.damping > LEAST_DAMPING { 0.1 * self.damping } else { 0.0 };
                     self.accept(with_tangent);
                 }
                 return Ok(());
@@ -126,6 +134,16 @@ impl<const D: usize> Newton<'_, D> {
         false
     }
 
+    /// Raises the diagonal ten times as much from here on; false if that would be too much.
+    fn dampen(&mut self) -> bool {
+        let more = (10.0 * self.damping).max(LEAST_DAMPING);
+        let can = more <= MOST_DAMPING;
+        if can {
+            self.damping = more;
+        }
+        can
+    }
+
     /// Halves the step length until the residual falls; takes the least one a few times where it never does.
     fn backtrack(&mut self) -> Result<()> {
         let mut least: Option<(f64, f64)> = None;
@@ -134,6 +152,9 @@ impl<const D: usize> Newton<'_, D> {
             if let Some(size) = self.attempt(length, false) {
                 if self.better(size, length) {
                     self.stalled = 0;
+                    if halvings >= ASTRAY {
+                        self.dampen();
+                    }
                     self.accept(false);
                     return Ok(());
                 }
@@ -141,6 +162,10 @@ impl<const D: usize> Newton<'_, D> {
                     least = Some((size, length));
                 }
             }
+        }
+        // No length reduces the residual: the next direction, from the same state, is damped and so shorter.
+        if self.dampen() {
+            return Ok(());
         }
         let Some((_, length)) = least else {
             let why = self.refused.take().map_or("no trial state is admissible".to_string(), |error| {
