@@ -63,6 +63,8 @@ pub struct Args {
 const TICK: Duration = Duration::from_millis(50);
 
 pub fn run(args: &Args, keys: &Keys) -> Outcome {
+    // Other commands count the thread at hand among those that work. Here it waits for the threads of the runs, and these must not wait for it.
+    let _ = rayon::ThreadPoolBuilder::new().build_global();
     let sweep = Sweep::new(args, keys)?;
     if args.list {
         let names: Vec<&str> = sweep.runs.iter().map(|run| run.name.as_str()).collect();
