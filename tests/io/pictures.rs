@@ -54,6 +54,7 @@ fn leaning_block(out: &Path, width: f64, height: f64) {
             position: all.clone().map(|i| [start(i)[0] + lean * start(i)[1], start(i)[1], 0.0]).collect(),
             columns: vec![
                 column("displacement", "m", 3, all.clone().flat_map(|i| [lean * start(i)[1], 0.0, 0.0]).collect()),
+                column(frame::VOLUME, "m3", 1, vec![width * height / (nx * ny) as f64; nx * ny]),
                 column("plastic_strain", "-", 1, all.clone().map(|i| lean * start(i)[1] / height).collect()),
                 column("stress", "kPa", 6, all.flat_map(|i| [0.0, -10.0 * start(i)[1], 0.0, 0.0, 0.0, 0.0]).collect()),
             ],

@@ -291,12 +291,14 @@ mod slow {
                 components: 3,
                 values: vec![time; 3 * n],
             };
+            let volume =
+                Column { name: frame::VOLUME.to_string(), unit: "m3".to_string(), components: 1, values: vec![0.1; 7] };
             let frame = Frame {
                 time,
                 phase: "fall".to_string(),
                 step: k as u64,
                 origin: Origin::default(),
-                points: Part { position: vec![[time, 1.0, 0.0]; 7], columns: vec![column(7)] },
+                points: Part { position: vec![[time, 1.0, 0.0]; 7], columns: vec![column(7), volume] },
                 grid: Part { position: Vec::new(), columns: vec![column(mesh.nodes.len())] },
                 elements: Part::default(),
                 contact: Part::default(),
