@@ -467,7 +467,7 @@ def newton(png):
     ask(56, 10, 32, 9.5, "watchdog: fewer than\nthree such steps in a row?")
     box(56, 1.2, 36, 3.6, "take the full step, keep the best state")
     box(88, 10, 24, 9, "back to the best state;\nfrom then on backtracking:\ns = ½ … 1/64 until (14)")
-    box(88, 30, 24, 9, "no such s:\nraise the diagonal of K\n(Levenberg), 10⁻⁴ … 10⁻¹", "#fbeceb", RED)
+    box(88, 30, 24, 9, "no such s, or s ≤ ⅛:\nraise the diagonal of K\n(Levenberg), 10⁻⁴ … 10⁻¹", "#fbeceb", RED)
     box(88, 66.5, 24, 12, "step given up: again\nwithout the predictor, on\na reset grid; after that\nΔt is halved, to step.min", "#fbeceb", RED)
     way([(22, 72.2), (22, 69.8)])
     way([(22, 63.2), (22, 60.9)])
