@@ -72,8 +72,13 @@ fn work(stage: &Stage, run: &RunFolder, folder: &Path) -> Outcome {
     let finished = run.standing()? == Standing::Finished;
     let state = if finished { String::new() } else { unfinished_state(run)? };
     print(&format!("{}: {frames} frames{state}\n", pvd.display()))?;
-    if !soil && !fields.iter().any(|field| field == "displacement") {
-        note("note: no soil.pvd: the soil is seen as a body where `displacement` is among the fields of `output`");
+    if !soil && regions.soil.iter().zip(&regions.elements).any(|(soil, fem)| *soil && !fem) {
+        let needs = if fields.iter().any(|field| field == "displacement") {
+            "these results are of an earlier version, without the volumes of the points; run `mpm solve` again"
+        } else {
+            "the soil is seen as a body where `displacement` is among the fields of `output`"
+        };
+        note(&format!("note: no soil.pvd: {needs}"));
     }
     if finished && stage.runs().beside.has_frames() {
         print(&format!(

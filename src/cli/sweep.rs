@@ -63,7 +63,7 @@ pub struct Args {
 const TICK: Duration = Duration::from_millis(50);
 
 pub fn run(args: &Args, keys: &Keys) -> Outcome {
-    // Other commands count the thread at hand among those that work. Here it waits for the threads of the runs, and these must not wait for it.
+    // In other commands this thread is one of the pool. Here it only waits for the runs: they would wait for it, on one core for ever.
     let _ = rayon::ThreadPoolBuilder::new().build_global();
     let sweep = Sweep::new(args, keys)?;
     if args.list {

@@ -114,7 +114,7 @@ fn nearest(fading: f64, spots: &[Spot], open: &dyn Fn(&Spot) -> f64) -> (f64, f6
     (place, (place * place - second / sum) / width)
 }
 
-/// The level (m, above the mean gap) to which the boundary has to rise under a contact node for the mean overlap (m) there.
+/// How far (m, beyond the mean gap) the two have to approach each other under a contact node for a mean overlap (m) of its area.
 fn level(spots: &[Spot], overlap: f64) -> f64 {
     let beneath = |level: f64| spots.iter().map(|spot| spot.share * (level - spot.open).max(0.0)).sum::<f64>();
     let mut level = spots.iter().map(|spot| spot.open).fold(f64::INFINITY, f64::min);
@@ -162,11 +162,12 @@ impl Law {
         self.shear(at, (gap, 0.0), slip, Answer { pressure, pressure_by_gap, ..Answer::default() })
     }
 
-    /// The answer of a contact node with a frozen status: where it would bear the multiplier of the step before it bears now, pressed or pulled.
-    /// `stick` is for a contact node that no pressure holds along the contact yet.
+    /// The answer of a contact node with a frozen status: the part of its area that bears the multiplier as the step begins goes on to bear, in
+    /// compression or tension. Surfaces that bear tension do so on the whole area. `stick` is for a contact node without pressure, and so without friction.
     pub fn frozen(&self, at: &Penalty, spots: &[Spot], motion: &Motion, stick: bool) -> Answer {
         let law = Self { tension: f64::INFINITY, adhesion: if stick { f64::INFINITY } else { self.adhesion }, ..*self };
-        let level = level(spots, at.pressure / at.normal);
+        let bonded = at.bonded && self.tension > 0.0;
+        let level = if bonded { f64::INFINITY } else { level(spots, at.pressure.max(0.0) / at.normal) };
         law.respond_where(&|spot| spot.open <= level, at, spots, motion, 0.0)
     }
 
@@ -176,7 +177,7 @@ impl Law {
         self.respond_where(&|_| true, at, spots, motion, slope)
     }
 
-    /// The answer of the part of the area where `bears` says so.
+    /// The answer of that part of the area to which `bears` applies.
     fn respond_where(
         &self,
         bears: &dyn Fn(&Spot) -> bool,
@@ -409,11 +410,18 @@ mod tests {
             let [there, beyond] = [0.0, 0.5].map(|gap| answer(&smooth, pressure, gap, 0.0));
             assert!((there.pressure_by_gap - slope).abs() < 1e-12, "{pressure}: {there:?}");
             assert!((beyond.pressure - there.pressure - 0.5 * slope).abs() < 1e-12, "{pressure}: {beyond:?}");
-            // Where the gap is such that the multiplier is borne it is that of the law itself.
+            // At the gap at which the pressure equals the multiplier, both laws agree.
             let gap = there.pressure_by_gap.recip() * (pressure - there.pressure);
             let exact = smooth.respond_over(&at(pressure), &spots, &Motion { gap, ..Motion::default() }, 0.0).pressure;
             assert!((exact - pressure).abs() < 1e-12, "{pressure}: {exact}");
         }
         assert!((answer(&rough, 0.0, 0.0, 0.3).shear + 50.0 * 0.3).abs() < 1e-12);
+        // Surfaces that cannot separate do not, pulled or not.
+        let glued = Law { tension: f64::INFINITY, ..smooth };
+        for pressure in [-2.0, 0.0, 2.0] {
+            let motion = Motion { gap: 0.01, ..Motion::default() };
+            let of_law = glued.respond_over(&at(pressure), &spots, &motion, 0.0);
+            assert_eq!(glued.frozen(&at(pressure), &spots, &motion, false), of_law, "{pressure}");
+        }
     }
 }

@@ -63,7 +63,7 @@ pub struct Frame {
 /// The column of [`Frame::elements`] that tells the cells.
 pub const CELL: &str = "cell";
 
-/// The column of [`Frame::points`] with the volume (m³, per metre or full turn) of each; there where their displacement is, and not shown.
+/// The column of [`Frame::points`] with the volume (m³, per metre or full turn) of each, written together with their displacement. It is not exported.
 pub const VOLUME: &str = "volume";
 
 /// The field of the internal variables of the models; the column of each is this, a point and its name.

@@ -111,10 +111,13 @@ impl<'a> Bodies<'a> {
         let stands =
             |region: u16| !self.regions.soil[region as usize] && !absent.is_some_and(|absent| absent.contains(&region));
         let standing: Vec<[u32; 3]> = self.elements.iter().filter(|(_, r)| stands(*r)).map(|(t, _)| *t).collect();
-        // In axisymmetry the volume is that of a ring.
-        let around = |x: &[f64; 2]| if self.regions.axisymmetric { TAU * x[0] } else { 1.0 };
-        let volume = volume(points).unwrap_or_default();
-        let area: Vec<f64> = volume.iter().zip(&traced.position).map(|(volume, x)| volume / around(x)).collect();
+        // In axisymmetry the volume is that of a ring; a point on the axis has none.
+        let area = |(volume, x): (&f64, &[f64; 2])| match self.regions.axisymmetric {
+            true if x[0] > 0.0 => volume / (TAU * x[0]),
+            true => 0.0,
+            false => *volume,
+        };
+        let area: Vec<f64> = volume(points).unwrap_or_default().iter().zip(&traced.position).map(area).collect();
         let Traced { position, origin } = &traced;
         let cloud = Cloud { position, origin, area: &area, values: Values { width, of: &of } };
         let body = self.soil.body(&nodes, cloud, (&places, &standing));

@@ -12,9 +12,10 @@ use crate::surface::geometry::Geometry;
 const NEAR: f64 = 0.15;
 /// So do those within it, by less than this share of a cell.
 const DEEP: f64 = 1.0;
-/// And those of a film, which is nowhere thicker than this share of a cell: cells do not resolve it, and no cut cell bears less well …
+/// A film of soil on a structure is nowhere thicker than this share of a cell, so that cells do not resolve it. Films of 0.15 to 0.2 of a cell ended the
+/// pull of a caisson (`cases/suction_anchor/README.md`).
 const FILM: f64 = 0.5;
-/// … and longer than this multiple of its thickness: soil that meets a structure at more than 11° is none.
+/// And it is longer than this multiple of its thickness: soil that meets a structure at more than 11° forms no film.
 const LONG: f64 = 5.0;
 
 /// The place of an outline that a marker is nearest to.
@@ -129,11 +130,11 @@ fn foot(outlines: &[Outline], pieces: &[(usize, usize)], bins: &Bins, x: &[f64; 
     (foot.lies || left <= 0.0 && away <= FILM * h).then_some(foot)
 }
 
-/// Lets the free markers of films lie on their structure. Along a film they run as the structure's outline does, and so against those on the other
-/// side of the film, which lie there: nothing of it is left.
+/// Moves the free markers of films onto their structure. They run in the direction of its outline, those on the other side of the film against it.
+/// Once both sides are on the structure they cancel, and the film is gone.
 fn films(outlines: &[Outline], wall: &[bool], feet: &mut [Option<Foot>]) {
     let count = feet.len();
-    // How far the outline goes (m) from a marker to the next one, where both may be of the same film.
+    // The distance (m) along the outline from a marker to the next one, where both may belong to the free side of one film.
     let forward = |i: usize| {
         let (a, b) = (feet[i % count]?, feet[(i + 1) % count]?);
         let way = outlines[a.outline].way(a.along, b.along);
@@ -149,7 +150,7 @@ fn films(outlines: &[Outline], wall: &[bool], feet: &mut [Option<Foot>]) {
         }
         let thickest = (first..=i).filter_map(|k| feet[k % count]).map(|foot| foot.away).fold(0.0, f64::max);
         if length > LONG * thickest {
-            // With what its ends have of the same thickness.
+            // The tip and the root of the film, which run across it, belong to it.
             let goes_on = |k: usize| feet[k % count].is_some_and(|foot| !foot.lies) && !wall[k % count];
             let begin = (0..count).take_while(|back| goes_on(first + count - 1 - back)).count();
             let end = (i + 1..i + 1 + count).take_while(|&k| goes_on(k)).count();
