@@ -6,6 +6,7 @@
 Each run goes to `out/h<size>-L<depth>` here. Needs `make build`.
 """
 
+import math
 import os
 import re
 import subprocess
@@ -21,7 +22,7 @@ SIZE = 0.7  # of the cells in case.yaml [m]
 
 
 def factor(size, down):
-    """The bracket of the factor of safety."""
+    """The bracket of the factor of safety; its end is infinite where the search found equilibrium up to its largest factor."""
     level = bishop.HEIGHT * (1 - down)
     folder = CASE / f"out/h{size:g}-L{10 * down:g}"
     settings = {"mesh.parameters.h": size, "water.level": level, "water.phreatic_level": level}
@@ -29,7 +30,10 @@ def factor(size, down):
         settings[f"phases.drawdown.{key}"] = f"{{table: [[0, {bishop.HEIGHT}], [1, {level}]]}}"
     pairs = [word for key, value in settings.items() for word in ("--set", f"{key}={value}")]
     subprocess.run([PROGRAM, "run", CASE, "-o", folder, *pairs], check=True, capture_output=True)
-    line = re.search(r"factor of safety (\S+) to (\S+) ", (folder / "solve.log").read_text())
+    log = (folder / "solve.log").read_text()
+    if above := re.search(r"factor of safety above (\S+) ", log):
+        return float(above[1]), math.inf
+    line = re.search(r"factor of safety (\S+) to (\S+) ", log)
     return float(line[1]), float(line[2])
 
 
@@ -41,7 +45,8 @@ def main():
         cells = []
         for size in sizes:
             low, high = factor(size, down)
-            cells.append(f"{low:.3f} … {high:.3f} ({100 * (0.5 * (low + high) / exact - 1):+.1f} %)")
+            error = 100 * (0.5 * (low + high) / exact - 1)
+            cells.append(f"above {low:.3f}" if math.isinf(high) else f"{low:.3f} … {high:.3f} ({error:+.1f} %)")
         print(f"| {down} | " + " | ".join(cells) + f" | {exact:.3f} |", flush=True)
 
 
