@@ -98,6 +98,16 @@ pub trait Kinematics<const D: usize>: Copy + Default + Send + Sync + 'static {
         }
     }
 
+    /// Multiplies the volume by `ratio` (-): by a stretch in the plane, about an axis and in space in all directions.
+    fn stretch(f: &mut Tensor, ratio: f64) {
+        if Self::HOOP || D == 3 {
+            *f *= ratio.cbrt();
+        } else {
+            let stretch = ratio.sqrt();
+            (0..3).for_each(|i| (0..D).for_each(|j| f[(i, j)] *= stretch));
+        }
+    }
+
     /// `∇_x N = ∇_X N · F⁻¹`, given `F⁻¹`.
     fn push_forward(gradient: &Gradient<D>, inverse: &Tensor) -> Gradient<D> {
         let mut g = [0.0; D];

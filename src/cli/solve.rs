@@ -111,7 +111,7 @@ pub fn work(stage: &Stage, start: Start) -> Outcome {
         Err(e) if e.kind != Kind::Analysis => Ok(()),
         ended => print(&summary(began.elapsed(), matches!(ended, Ok(Ended::Done)))),
     };
-    tell_again(&folder)?;
+    let told = told.and(tell_again(&folder));
     match &ended {
         Ok(Ended::Done) => record.finish(folder.path(), &folder.outputs()?)?,
         Ok(Ended::Stopped) => record.interrupt("stopped by the user"),
@@ -271,7 +271,10 @@ impl Meter {
         let elapsed = self.start.elapsed().as_secs_f64();
         let left = left(begun.elapsed().as_secs_f64(), [from, p.time, p.end]);
         let left = left.map_or_else(String::new, |left| format!(", about {left:.0} s left"));
-        let line = format!("step {}, {} t = {:.4} of {} s{left}", p.step, p.phase, p.time, p.end);
+        // The end is a sum of durations.
+        let end = format!("{:.4}", p.end);
+        let end = end.trim_end_matches('0').trim_end_matches('.');
+        let line = format!("step {}, {} t = {:.4} of {end} s{left}", p.step, p.phase, p.time);
         match (&self.bar, p.note) {
             (Some(bar), Some(note)) => bar.println(&*plain_lines(note)),
             (Some(bar), None) => {

@@ -77,8 +77,13 @@ pub fn run(args: &Args, keys: &Keys) -> Outcome {
     atomic::prepare_folder(&sweep.folder)?;
     let _lock = Lock::take(&sweep.folder)?;
     let outcome = if args.table { Ok(()) } else { sweep.all(&sweep.runs.iter().collect::<Vec<_>>()) };
-    sweep.table()?;
-    outcome
+    match (outcome, sweep.table()) {
+        (Err(mut errors), Err(of_table)) => {
+            errors.extend(of_table);
+            Err(errors)
+        }
+        (outcome, table) => outcome.and(table),
+    }
 }
 
 /// Ends this process when the one with the number `parent` ends, which started it.

@@ -3,10 +3,11 @@
 use super::place::{Placed, Segments};
 use super::skin::{Seen, Skin};
 use super::surface::Surface;
-use crate::geometry::{Bins, Line, Lines, at, distance, dot, foot, length, way};
+use crate::geometry::{Bins, Line, Lines, at, distance, dot, foot, way};
 use crate::kinematics::Kinematics;
 use crate::points::Points;
 use rayon::prelude::*;
+use std::ops::Range;
 
 /// Points this many spacings away are no surface that a segment faces.
 const REACH: f64 = 2.5;
@@ -150,28 +151,42 @@ pub fn raw_gaps<K: Kinematics<2>>(
     let mut near = soil.near::<K>(segments, Some(skin));
     near.sort_unstable_by_key(|n| (n.segment, n.point));
     let mut around = vec![Around::default(); segments.0.len()];
+    let length = |piece: &Range<usize>| segments.0[piece.clone()].iter().map(|s| distance(&s.from, &s.to)).sum::<f64>();
+    let lengths: Vec<f64> = surface.pieces.iter().map(length).collect();
     for near in &near {
         let own = near.segment as usize;
-        let Some(piece) = surface.pieces.iter().find(|piece| piece.contains(&own)) else { continue };
+        let Some(number) = surface.pieces.iter().position(|piece| piece.contains(&own)) else { continue };
         let open = near.distance - near.half_width;
         if open > REACH * near.spacing {
             continue;
         }
-        let at = segments.0[own].along;
-        let mut offer = |s: usize| {
+        let mut offer = |(s, away): (usize, f64)| {
             let around = &mut around[s];
             if around.least.is_none_or(|gap| open < gap.open) {
                 around.least = Some(Gap { open, point: near.point, spacing: near.spacing, known: None });
             }
             if let Some(depth) = near.depth {
-                let weight = 1.0 - 0.99 * (segments.0[s].along - at).abs() / near.spacing;
+                let weight = 1.0 - 0.99 * away / near.spacing;
                 around.weight += weight.max(0.01);
                 around.open += weight.max(0.01) * (near.distance - depth);
             }
         };
-        offer(own);
-        (piece.start..own).rev().take_while(|&s| at - segments.0[s].along <= near.spacing).for_each(&mut offer);
-        (own + 1..piece.end).take_while(|&s| segments.0[s].along - at <= near.spacing).for_each(&mut offer);
+        offer((own, 0.0));
+        let (piece, is_loop) = (&surface.pieces[number], surface.runs[number].1);
+        let (place, count) = (own - piece.start, piece.len());
+        for ahead in [true, false] {
+            for k in 1..count {
+                let at = if ahead { place + k } else { place + count - k };
+                let beyond_end = ahead == (at >= count);
+                let s = piece.start + at % count;
+                let way = (segments.0[s].along - segments.0[own].along).abs();
+                let away = if beyond_end { lengths[number] - way } else { way };
+                if beyond_end && !is_loop || away > near.spacing {
+                    break;
+                }
+                offer((s, away));
+            }
+        }
     }
     let known = |around: &Around| (around.weight > 0.0).then(|| around.open / around.weight);
     let gap = |around: &Around| around.least.map(|least| Gap { known: known(around), ..least });
@@ -189,8 +204,8 @@ pub struct Facing {
 }
 
 impl Facing {
-    /// That of loops of markers.
-    pub fn new(loops: &[Vec<[f64; 2]>]) -> Self {
+    /// That of loops of markers, to be seen by soil whose points are up to `spacing` (m) apart.
+    pub fn new(loops: &[Vec<[f64; 2]>], spacing: f64) -> Self {
         let pieces: Vec<Line<2>> =
             loops.iter().flat_map(|x| (0..x.len()).map(|i| [x[i], x[(i + 1) % x.len()]])).collect();
         let curved = |x: &Vec<[f64; 2]>| {
@@ -206,8 +221,7 @@ impl Facing {
             (0..count).map(|i| 0.5 * (at(i) + at(i + 1))).collect::<Vec<_>>()
         };
         let curvature = loops.iter().flat_map(curved).collect();
-        let mean = pieces.iter().map(length).sum::<f64>() / pieces.len().max(1) as f64;
-        Self { pieces: Lines::new(pieces, 4.0 * mean), curvature }
+        Self { pieces: Lines::new(pieces, REACH * spacing), curvature }
     }
 
     /// Distance (m) from the middle of a segment along its normal to a surface that faces it, within `REACH` spacings,
@@ -271,7 +285,7 @@ mod tests {
         let at = |t: f64| [radius * t.cos(), radius * t.sin()];
         let angle = |i: f64| -std::f64::consts::TAU * i / f64::from(count);
         // A hole in the soil: clockwise.
-        let facing = Facing::new(&[(0..count).map(|i| at(angle(f64::from(i)))).collect()]);
+        let facing = Facing::new(&[(0..count).map(|i| at(angle(f64::from(i)))).collect()], 0.1);
         let sagitta = radius * (1.0 - (0.5 * angle(1.0)).cos());
         for i in 0..100 {
             let x = at(angle(0.237 * f64::from(i)));
@@ -290,7 +304,8 @@ mod tests {
             assert!(gap.abs() < 0.01 * sagitta, "{i}: {gap} of {sagitta}");
         }
         // Straight pieces stay straight up to a corner.
-        let facing = Facing::new(&[vec![[0.0, 0.0], [0.0, -1.0], [1.0, -1.0], [1.0, 0.0], [0.9, 0.0], [0.8, 0.0]]]);
+        let loops = [vec![[0.0, 0.0], [0.0, -1.0], [1.0, -1.0], [1.0, 0.0], [0.9, 0.0], [0.8, 0.0]]];
+        let facing = Facing::new(&loops, 0.1);
         let normal = [0.0, -1.0];
         let placed = Placed {
             from: [0.95, 0.0],

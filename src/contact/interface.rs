@@ -8,7 +8,7 @@ use super::law::{Laws, Penalty};
 use super::multipliers::Multipliers;
 use super::place::{Placed, Segments};
 use super::skin::Skin;
-use super::surface::{Run, Surface};
+use super::surface::{Run, Segment, Surface};
 use crate::kinematics::Kinematics;
 use crate::material::Model;
 use crate::mesh::Mesh;
@@ -16,6 +16,7 @@ use crate::mesh::locate::Locator;
 use crate::mesh::shape::MAX_NODES;
 use crate::points::Points;
 use crate::surface::Cover;
+use std::collections::HashSet;
 use std::marker::PhantomData;
 use std::sync::Arc;
 
@@ -104,6 +105,11 @@ pub trait Interface<const D: usize>: Send + Sync {
 
     /// The boundary as polylines with the structure on their left; closed ones end where they begin.
     fn outlines(&self, position: &dyn Fn(u32) -> [f64; D]) -> Vec<Vec<[f64; D]>>;
+
+    /// Which pieces of the outlines were apart from the soil at the end of the last step; none of a boundary on a body.
+    fn apart(&self, _held: &Multipliers) -> Vec<Vec<bool>> {
+        Vec::new()
+    }
 
     /// The boundary as lines with its contact nodes, one a smooth stretch.
     fn lines(&self, position: &dyn Fn(u32) -> [f64; D]) -> Vec<Vec<Mark<D>>>;
@@ -273,7 +279,9 @@ impl<K: Kinematics<2>> Interface<2> for Boundary<K> {
         ground.integration.iter().for_each(|&c| integrated[c as usize] = true);
         let soil = Soil { points: ground.points, regions: &self.sides.soils, integrated: Some(&integrated) };
         let gaps = raw_gaps::<K>(&self.surface, &segments, &soil, &self.skin);
-        let (surface, smooth) = (Facing::new(ground.surface), held.smooth_gaps(&self.surface.runs));
+        let widest = gaps.iter().flatten().map(|gap| gap.spacing).fold(0.0, f64::max);
+        let (surface, smooth) = (Facing::new(ground.surface, widest), held.smooth_gaps(&self.surface.runs));
+        let structure: HashSet<u32> = self.surface.facets.iter().flatten().copied().collect();
         let mut sums: Vec<Option<Sum>> = (0..self.surface.contact_nodes).map(|_| None).collect();
         // Soil that a boundary pulls stretches without end, and its points leave: its surface tells that it is there still.
         let nearest = |s: usize| {
@@ -356,8 +364,7 @@ impl<K: Kinematics<2>> Interface<2> for Boundary<K> {
             let gaps = if self.yields(ground.points, point as usize) { &smooth } else { &held.gap };
             let measured = Measured { before: gaps[contact_node], open, known, spacing, curvature, moved };
             let (gap, offset) = self.begin(&measured, surface, held, contact_node);
-            let of_structure = |n: &u32| self.surface.facets.iter().any(|f| f.contains(n));
-            entries.sort_by_key(|(n, _)| (!of_structure(n), *n));
+            entries.sort_by_key(|(n, _)| (!structure.contains(n), *n));
             let by = |k: usize| entries.iter().map(|(_, by)| by[k].map(|by| by / area)).collect();
             Some(Constraint {
                 contact_node: contact_node as u32,
@@ -365,7 +372,7 @@ impl<K: Kinematics<2>> Interface<2> for Boundary<K> {
                 gap,
                 offset,
                 height: Some(height / area),
-                own: entries.iter().filter(|(n, _)| of_structure(n)).count(),
+                own: entries.iter().filter(|(n, _)| structure.contains(n)).count(),
                 nodes: entries.iter().map(|e| e.0).collect(),
                 by_normal: by(0),
                 by_tangent: by(1),
@@ -390,6 +397,15 @@ impl<K: Kinematics<2>> Interface<2> for Boundary<K> {
             segments.iter().map(|s| s.from).chain(segments.last().map(|s| s.to)).collect()
         };
         self.surface.chains.iter().map(outline).collect()
+    }
+
+    fn apart(&self, held: &Multipliers) -> Vec<Vec<bool>> {
+        let apart = |s: &Segment| s.contact_nodes.iter().all(|(k, _)| held.is_apart(*k as usize));
+        self.surface
+            .chains
+            .iter()
+            .map(|chain| self.surface.segments[chain.clone()].iter().map(apart).collect())
+            .collect()
     }
 
     fn lines(&self, position: &dyn Fn(u32) -> [f64; 2]) -> Vec<Vec<Mark<2>>> {

@@ -31,7 +31,7 @@ pub use record::{Quantity, Watch, WatchedOn};
 pub use surface::Acting;
 pub use warning::WARNING;
 
-use crate::error::{Error, Result};
+use crate::error::{Error, Kind, Result};
 use crate::io::background::Background;
 use crate::io::checkpoint::Checkpoints;
 use crate::io::container::Store;
@@ -138,6 +138,9 @@ pub fn run<const D: usize, K: Kinematics<D>>(
     }
     let mut simulation = Simulation::<D, K>::new(scene, state)?;
     tell(&simulation.state, None);
+    if begins {
+        record::of_reset(&simulation.state).try_for_each(|line| files.log.line(&line))?;
+    }
     voids::begin(scene, &mut simulation.state);
     if simulation.state.frames == 0 {
         files.frame(scene, &mut simulation.state)?;
@@ -204,7 +207,7 @@ pub fn run<const D: usize, K: Kinematics<D>>(
             for reason in &report.halvings {
                 tell(state, Some(&format!("step halved: {reason}")));
             }
-            timed(Activity::Output, || {
+            let written = timed(Activity::Output, || {
                 files.step(scene, state, &report)?;
                 if let Some(warning) = jump::found(scene, state) {
                     tell(state, Some(&warning));
@@ -242,7 +245,12 @@ pub fn run<const D: usize, K: Kinematics<D>>(
                     state.next_phase(scene);
                 }
                 files.checkpoint(state)
-            })?;
+            });
+            match written {
+                // A value that is not finite.
+                Err(error) if error.kind == Kind::Analysis => return Err(files.fail(scene, state, error)?),
+                written => written?,
+            }
             tell(state, None);
         }
     }

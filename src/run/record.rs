@@ -356,12 +356,14 @@ pub fn log_lines<const D: usize>(scene: &Scene<D>, state: &State<D>, report: &Re
     }
     lines.push(line);
     if report.restored {
-        lines.extend(state.weights.notes.iter().map(|note| format!("  {note}")));
-        lines.extend(
-            state.weights.lost_front.iter().map(|why| {
-                format!("  the surface is from now on the contour of the points: following it failed, {why}")
-            }),
-        );
+        lines.extend(of_reset(state));
     }
     lines
+}
+
+/// What is to be said of the last grid reset.
+pub fn of_reset<const D: usize>(state: &State<D>) -> impl Iterator<Item = String> {
+    let lost =
+        |why: &String| format!("  the surface is from now on the contour of the points: following it failed, {why}");
+    state.weights.notes.iter().map(|note| format!("  {note}")).chain(state.weights.lost_front.iter().map(lost))
 }

@@ -2,9 +2,8 @@
 
 use super::columns::{column, triples};
 use crate::io::frame::{LINE, Part, REGION};
-use crate::mesh::shape::MAX_NODES;
 use crate::step::{Scene, State};
-use crate::surface::{NO_REGION, Piece};
+use crate::surface::{NO_REGION, Piece, place};
 use crate::term::{Hydrostatic, SurfaceLoad};
 
 /// What acts on the surface of the material.
@@ -24,23 +23,19 @@ pub fn part<const D: usize>(scene: &Scene<D>, state: &State<D>, acting: &Acting)
     const { assert!(D == 2, "the surface is a line in the plane only") };
     let boundary = &state.weights.boundary;
     let from = state.coordinates(scene);
-    let place = |piece: &Piece| {
-        let mut n = [0.0; MAX_NODES];
-        scene.mesh.cells.kind[piece.cell as usize].values(&piece.at(0.0), &mut n);
-        let mut x = [0.0; 2];
-        for (n, &node) in n.iter().zip(scene.mesh.cells.nodes(piece.cell as usize)) {
-            for d in 0..2 {
-                x[d] += n * (from[node as usize][d] + state.displacement[node as usize][d]);
-            }
-        }
-        x
+    let moved = |(x, u): (&[f64; D], &[f64; D])| std::array::from_fn(|d| x[d] + u[d]);
+    let nodes: Vec<[f64; D]> = from.iter().zip(&state.displacement).map(moved).collect();
+    let corner = |piece: &Piece| {
+        let x = place(&scene.mesh, &nodes, piece, 0.0);
+        [x[0], x[1]]
     };
+
     let mut corners: Vec<[f64; 2]> = Vec::new();
     let [mut normal, mut traction] = [const { Vec::new() }; 2];
     let [mut pressure, mut number, mut region, mut wall] = [const { Vec::new() }; 4];
     for l in 0..boundary.loops() {
         let pieces = boundary.pieces(l);
-        let x: Vec<[f64; 2]> = pieces.iter().map(place).collect();
+        let x: Vec<[f64; 2]> = pieces.iter().map(corner).collect();
         // A quarter turn to the right of the way from corner to corner.
         let outwards = |i: usize| {
             let (a, b) = (x[i], x[(i + 1) % x.len()]);

@@ -4,6 +4,7 @@
 
 use super::warning::WARNING;
 use crate::contact::Interface;
+use crate::geometry::{Bins, distance, twice_area};
 use crate::mesh::Mesh;
 use crate::mesh::faces::Faces;
 use crate::step::{Fem, Report, Scene, State};
@@ -108,11 +109,15 @@ fn emptiness<const D: usize>(scene: &Scene<D>, state: &State<D>, mesh: &Mesh<D>)
     }
     let Some(fem) = &scene.fem else { return emptiness };
     let mut occupied: Vec<Option<bool>> = vec![None; mesh.nodes.len()];
-    let elements: Vec<Vec<[f64; D]>> = (0..fem.mesh.cells.len()).map(|c| outline(fem, mesh, c)).collect();
+    let elements: Vec<Vec<[f64; 2]>> = (0..fem.mesh.cells.len()).map(|c| outline(fem, mesh, c)).collect();
+    let boxes: Vec<_> = elements.iter().map(|element| box_of(element)).collect();
+    let widest = boxes.iter().map(|(low, high)| distance(low, high)).fold(0.0, f64::max);
+    let bins = Bins::new(boxes.iter().copied(), widest);
     for (c, emptiness) in emptiness.iter_mut().enumerate().filter(|(_, emptiness)| **emptiness > 0.0) {
         let reaches = mesh.cells.nodes(c).iter().any(|&n| {
-            let x = &mesh.nodes[n as usize];
-            *occupied[n as usize].get_or_insert_with(|| elements.iter().any(|element| holds(element, x)))
+            let x = [0, 1].map(|d| mesh.nodes[n as usize][d]);
+            let within = || bins.around(&x).flatten().any(|&element| holds(&elements[element as usize], &x));
+            *occupied[n as usize].get_or_insert_with(within)
         });
         if reaches {
             *emptiness = 0.0;
@@ -122,16 +127,21 @@ fn emptiness<const D: usize>(scene: &Scene<D>, state: &State<D>, mesh: &Mesh<D>)
 }
 
 /// The corners of an element where it is, counter-clockwise.
-fn outline<const D: usize>(fem: &Fem<D>, mesh: &Mesh<D>, c: usize) -> Vec<[f64; D]> {
+fn outline<const D: usize>(fem: &Fem<D>, mesh: &Mesh<D>, c: usize) -> Vec<[f64; 2]> {
+    const { assert!(D == 2, "cells are polygons in the plane only") };
     let corners = &fem.mesh.cells.nodes(c)[..fem.mesh.cells.kind[c].corner_count()];
-    corners.iter().map(|&n| mesh.nodes[n as usize]).collect()
+    corners.iter().map(|&n| [0, 1].map(|d| mesh.nodes[n as usize][d])).collect()
+}
+
+/// The lower left and the upper right corner of the box around some places (m).
+fn box_of(x: &[[f64; 2]]) -> ([f64; 2], [f64; 2]) {
+    let bound = |start: f64, pick: fn(f64, f64) -> f64| [0, 1].map(|d| x.iter().fold(start, |a, x| pick(a, x[d])));
+    (bound(f64::INFINITY, f64::min), bound(f64::NEG_INFINITY, f64::max))
 }
 
 /// Whether a place (m) is in a convex polygon.
-fn holds<const D: usize>(corners: &[[f64; D]], x: &[f64; D]) -> bool {
-    const { assert!(D == 2, "cells are polygons in the plane only") };
-    let left = |(a, b): (&[f64; D], &[f64; D])| (b[0] - a[0]) * (x[1] - a[1]) - (b[1] - a[1]) * (x[0] - a[0]) >= 0.0;
-    corners.iter().zip(corners.iter().cycle().skip(1)).all(left)
+fn holds(corners: &[[f64; 2]], x: &[f64; 2]) -> bool {
+    corners.iter().zip(corners.iter().cycle().skip(1)).all(|(a, b)| twice_area(&[*a, *b, *x]) >= 0.0)
 }
 
 /// Whether some cells reach to the boundary of the grid.

@@ -50,7 +50,9 @@ pub fn equilibrate<const D: usize>(
     if !is_due(scene, state, last) {
         return Ok(false);
     }
-    let given = grid::given_increments(scene, state, grid, 0.0);
+    let mut given = grid::given_increments(scene, state, grid, 0.0);
+    // A phase may begin with a jump of a prescribed displacement: that is for its first step.
+    given.iter_mut().flatten().for_each(|increment| *increment = 0.0);
     let Span { phase, from, to } = last;
     for round in 0..ROUNDS {
         let problem = Problem { given: &given, phase, from, to, ..Problem::at_rest(scene, state) };

@@ -64,7 +64,7 @@ use crate::profile::{Activity, timed};
 use crate::time_integration::GeneralisedAlpha;
 use problem::Problem;
 use std::marker::PhantomData;
-use transfer::Start;
+use transfer::{Answers, Start};
 
 /// The result of [`Simulation::lagrange`]: with inertia, the velocity and acceleration of the nodes at the start; and the solution.
 type Lagrange<const D: usize> = (Option<Start<D>>, Solution<D>);
@@ -148,11 +148,17 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
         let before = self.state.restorations;
         let (mut fresh, mut unbalanced) = timed(Activity::Transfer, || self.initialise(false))?;
         let (mut predict, mut trials) = (true, false);
-        let (dt, start, solution) = loop {
+        let (dt, start, solution, answers) = loop {
             let dt = controller.size(self.state.phase_time);
             let predictor = std::mem::take(&mut predict).then(|| predictor::extrapolated(&self.state, dt)).flatten();
-            match self.lagrange(dt, predictor.as_deref(), trials).and_then(|found| self.stands(dt, found)) {
-                Ok((start, solution)) => break (dt, start, solution),
+            let found = self.lagrange(dt, predictor.as_deref(), trials).and_then(|found| self.stands(dt, found));
+            let complete = found.and_then(|(start, solution)| {
+                let answers = || transfer::answers(self.scene, &self.grid, &self.state, &solution, dt);
+                let answers = timed(Activity::Transfer, answers)?;
+                Ok((dt, start, solution, answers))
+            });
+            match complete {
+                Ok(complete) => break complete,
                 Err(error) if error.kind == Kind::Analysis => {
                     if !fresh {
                         // Reset a deformed grid before the step is halved.
@@ -170,7 +176,7 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
                 Err(error) => return Err(error),
             }
         };
-        let mut report = timed(Activity::Transfer, || self.convect(dt, start, solution))?;
+        let mut report = timed(Activity::Transfer, || self.convect(dt, (start, solution), answers))?;
         report.restored = self.state.restorations > before;
         report.unbalanced = unbalanced;
         report.halvings = controller.accept(dt, report.iterations());
@@ -268,7 +274,7 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
     }
 
     /// Grid to points (eq. 12): the converged solution becomes the state.
-    fn convect(&mut self, dt: f64, start: Option<Start<D>>, mut solution: Solution<D>) -> Result<Report<D>> {
+    fn convect(&mut self, dt: f64, (start, mut solution): Lagrange<D>, answers: Answers) -> Result<Report<D>> {
         let (scene, state) = (self.scene, &mut self.state);
         rigid::follow(scene, state, &mut solution.displacement);
         let mut momentum = report::Motion::of(state).linear;
@@ -276,7 +282,7 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
         let drained = water::through_surfaces(scene, &self.grid, state, &solution, dt);
         let mut contacts =
             timed(Activity::Contact, || contact::commit(scene, &self.grid, state, (&solution, start.as_ref()), dt));
-        let strained = transfer::commit(scene, &self.grid, state, &solution, dt);
+        let strained = transfer::commit::<D, K>(state, answers);
         let water = water::balance(scene, &self.grid, state, &content, &solution, drained);
         transfer::move_points::<D, K>(scene, &self.grid, state, &solution.displacement);
         if let Some(start) = &start {

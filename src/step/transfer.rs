@@ -14,7 +14,7 @@ use super::rigid;
 use super::scene::Scene;
 use super::state::{Span, State};
 use crate::dofs::Dof;
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::interpolation::MAX_FUNCTIONS;
 use crate::kinematics::Kinematics;
 use crate::points::Points;
@@ -153,11 +153,36 @@ fn first_acceleration<const D: usize, K: Kinematics<D>>(
 }
 
 /// The new values of the points that the terms compute from a converged state.
-struct Answers {
+pub struct Answers {
     of_integration: Vec<Update>,
     /// Of the material points that integrals are not summed over.
     of_material: Vec<Update>,
     of_elements: Vec<Update>,
+}
+
+/// The new values of all points in a step of `dt` (s).
+///
+/// # Errors
+/// Analysis: a point that integrals are summed over has none, as its strain is beyond the range of its model.
+pub fn answers<const D: usize>(
+    scene: &Scene<D>,
+    grid: &Grid<D>,
+    state: &State<D>,
+    solution: &Solution<D>,
+    dt: f64,
+) -> Result<Answers> {
+    let step = Span { phase: state.phase, from: state.phase_time, to: state.phase_time + dt };
+    let answers = Answers::to(scene, grid, state, solution, step);
+    for (updates, points) in [(&answers.of_integration, state.integration()), (&answers.of_elements, &state.fem)] {
+        if let Some(p) = updates.iter().flat_map(Update::failed).next() {
+            return Err(Error::analysis(
+                "stress update",
+                format!("the material at {:.3?} m is strained beyond the range of its model", points.position[p]),
+                "take smaller steps (step.max)",
+            ));
+        }
+    }
+    Ok(answers)
 }
 
 impl Answers {
@@ -194,23 +219,16 @@ impl Answers {
     }
 }
 
-/// Writes the converged state of the terms into the points. A material point that integrals are not summed over may be strained
+/// Writes the new values of a step into the points. A material point that integrals are not summed over may be strained
 /// beyond the range of its model: it takes the state of the nearest integration point. Returns how many did.
-pub fn commit<const D: usize>(
-    scene: &Scene<D>,
-    grid: &Grid<D>,
-    state: &mut State<D>,
-    solution: &Solution<D>,
-    dt: f64,
-) -> usize {
-    let step = Span { phase: state.phase, from: state.phase_time, to: state.phase_time + dt };
-    let Answers { of_integration, of_material, of_elements } = Answers::to(scene, grid, state, solution, step);
-    let lost: Vec<usize> = of_material.iter().flat_map(|update| update.left_out(state.points.len())).collect();
+pub fn commit<const D: usize, K: Kinematics<D>>(state: &mut State<D>, answers: Answers) -> usize {
+    let Answers { of_integration, of_material, of_elements } = answers;
+    let lost: Vec<usize> = of_material.iter().flat_map(Update::failed).collect();
     of_integration.into_iter().for_each(|update| update.apply(state.integration_mut()));
     of_material.into_iter().for_each(|update| update.apply(&mut state.points));
     of_elements.into_iter().for_each(|update| update.apply(&mut state.fem));
     if let Some(samples) = &state.weights.samples {
-        lost.iter().for_each(|&p| take_from_nearest(&mut state.points, p, &samples.points));
+        lost.iter().for_each(|&p| take_from_nearest::<D, K>(&mut state.points, p, &samples.points));
     }
     lost.len()
 }
@@ -229,15 +247,15 @@ pub fn commit_stresses<const D: usize>(
 }
 
 /// Gives material point `p` the state of the integration point of its region that is nearest to it, in its cell if there is one.
-fn take_from_nearest<const D: usize>(points: &mut Points<D>, p: usize, samples: &Points<D>) {
+fn take_from_nearest<const D: usize, K: Kinematics<D>>(points: &mut Points<D>, p: usize, samples: &Points<D>) {
     let square =
         |q: usize| points.position[p].iter().zip(&samples.position[q]).map(|(x, y)| (x - y).powi(2)).sum::<f64>();
     let ours = (0..samples.len()).filter(|&q| samples.region[q] == points.region[p]);
     let key = |q: usize| (samples.cell[q] != points.cell[p], square(q));
     let nearest = ours.map(|q| (key(q), q)).min_by(|(a, _), (b, _)| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)));
     let Some((_, q)) = nearest else { return };
-    let stretch = (samples.deformation[q].determinant() / points.deformation[p].determinant()).cbrt();
-    points.deformation[p] *= stretch;
+    let ratio = samples.deformation[q].determinant() / points.deformation[p].determinant();
+    K::stretch(&mut points.deformation[p], ratio);
     points.take_state(p, samples, q);
 }
 

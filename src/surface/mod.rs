@@ -17,7 +17,7 @@ pub mod moments;
 mod split;
 mod voids;
 
-pub use boundary::{ActiveBoundary, Behind, NO_REGION, Piece};
+pub use boundary::{ActiveBoundary, Behind, NO_REGION, Piece, place};
 pub use contour::{Contour, HIGHEST};
 pub use cover::{Cover, join, open};
 pub use distance::Distance;

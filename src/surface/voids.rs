@@ -4,6 +4,7 @@
 //! a cell's width does not come and go. The cells of a void hang together by their nodes. What was empty at the first look, or was told to
 //! be no news as it opened, keeps to be none; so does what becomes part of it.
 
+use crate::geometry::area;
 use crate::mesh::{Mesh, cell_size};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -185,23 +186,17 @@ fn extent<const D: usize>(mesh: &Mesh<D>, cells: &[u32], emptiness: &[f64]) -> (
         let own = mesh.cells.nodes(c);
         if is_own[c] || own.iter().any(|n| nodes.contains(n)) {
             let corners = &own[..mesh.cells.kind[c].corner_count()];
-            let area = emptiness[c] * polygon(corners.iter().map(|&n| &mesh.nodes[n as usize]));
-            sum += area;
+            let outline: Vec<[f64; 2]> = corners.iter().map(|&n| [0, 1].map(|d| mesh.nodes[n as usize][d])).collect();
+            let empty = emptiness[c] * area(&outline);
+            sum += empty;
             for &n in corners {
                 for d in 0..D {
-                    first[d] += area * mesh.nodes[n as usize][d] / corners.len() as f64;
+                    first[d] += empty * mesh.nodes[n as usize][d] / corners.len() as f64;
                 }
             }
         }
     }
     (sum, first.map(|f| f / sum))
-}
-
-/// The area (m²) of a polygon in the plane, counter-clockwise.
-fn polygon<'a, const D: usize>(x: impl Iterator<Item = &'a [f64; D]> + Clone) -> f64 {
-    const { assert!(D == 2, "cells are polygons in the plane only") };
-    let next = x.clone().cycle().skip(1);
-    0.5 * x.zip(next).map(|(a, b)| a[0] * b[1] - b[0] * a[1]).sum::<f64>()
 }
 
 /// Whether a void of `cells` reaches as near to one of some places (m) as the size of its largest cell.

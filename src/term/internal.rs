@@ -66,15 +66,9 @@ struct Strained {
 }
 
 impl Strained {
-    /// Stretches the point in its plane, about an axis in all directions, so that its volume has these ratios.
+    /// Stretches the point so that its volume has these ratios.
     fn take_volume<const D: usize, K: Kinematics<D>>(&mut self, ratios: Ratios) {
-        let more = ratios.step / self.ratios.step;
-        if K::HOOP || D == 3 {
-            self.increment *= more.cbrt();
-        } else {
-            let stretch = more.sqrt();
-            (0..3).for_each(|i| (0..D).for_each(|j| self.increment[(i, j)] *= stretch));
-        }
+        K::stretch(&mut self.increment, ratios.step / self.ratios.step);
         self.felt = self.increment;
         self.ratios = ratios;
     }
@@ -397,7 +391,7 @@ impl<const D: usize, K: Kinematics<D>, S: Mixed<D, K>> Term<D> for Internal<K, S
                 Some(history)
             };
             for entries in frame.interpolation.entries::<K>(cell_points) {
-                out.add(count, |internal| new(entries, internal));
+                out.add(entries.point, count, |internal| new(entries, internal));
             }
             out
         };

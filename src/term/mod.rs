@@ -260,21 +260,27 @@ pub struct Histories {
     pub points: Vec<History>,
     /// Their internal variables, one point after the other; not kept by points without the column.
     pub internal: Vec<f64>,
+    /// The points that have no new values: they are strained beyond the range of their model.
+    pub failed: Vec<usize>,
 }
 
 impl Histories {
     /// Room for some points with `count` numbers of internal variables each.
     pub fn with_capacity(points: usize, count: usize) -> Self {
-        Self { points: Vec::with_capacity(points), internal: Vec::with_capacity(points * count) }
+        let (points, internal) = (Vec::with_capacity(points), Vec::with_capacity(points * count));
+        Self { points, internal, failed: Vec::new() }
     }
 
-    /// Adds a point, if it has new values, given room for its `count` numbers of internal variables.
-    pub fn add(&mut self, count: usize, new: impl FnOnce(&mut [f64]) -> Option<History>) {
+    /// Adds `point` with its new values, if it has some, given room for its `count` numbers of internal variables.
+    pub fn add(&mut self, point: usize, count: usize, new: impl FnOnce(&mut [f64]) -> Option<History>) {
         let before = self.internal.len();
         self.internal.resize(before + count, 0.0);
         match new(&mut self.internal[before..]) {
             Some(history) => self.points.push(history),
-            None => self.internal.truncate(before),
+            None => {
+                self.internal.truncate(before);
+                self.failed.push(point);
+            }
         }
     }
 }
@@ -283,11 +289,9 @@ impl Histories {
 pub struct Update(pub Vec<Histories>);
 
 impl Update {
-    /// The points of some number that have no new values.
-    pub fn left_out(&self, count: usize) -> Vec<usize> {
-        let mut out = vec![true; count];
-        self.0.iter().flat_map(|list| &list.points).for_each(|new| out[new.point] = false);
-        (0..count).filter(|&p| out[p]).collect()
+    /// The points that have no new values: they are strained beyond the range of their model.
+    pub fn failed(&self) -> impl Iterator<Item = usize> {
+        self.0.iter().flat_map(|list| &list.failed).copied()
     }
 
     /// The new values of each point of some number.
@@ -334,7 +338,7 @@ impl Update {
         if count == 0 {
             return;
         }
-        for Histories { points: new, internal } in &self.0 {
+        for Histories { points: new, internal, .. } in &self.0 {
             for (history, internal) in new.iter().zip(internal.chunks_exact(count)) {
                 points.internal_mut(history.point).copy_from_slice(internal);
             }

@@ -54,7 +54,8 @@ impl<const D: usize, K: Kinematics<D>> Term<D> for PoreStabilisation<K> {
             };
             let share = (1.0 - if with { 0.0 } else { DRY }) / corners as f64;
             let mean = share * (0..corners).map(gained).sum::<f64>();
-            let volume = *self.volume[cell].get_or_init(|| integrate::<D, K>(frame.mesh, cell, |_, _, _| {}));
+            let volume = || integrate::<D, K>(frame.mesh, cell, |_, _, _| {});
+            let volume = if frame.relaxed { volume() } else { *self.volume[cell].get_or_init(volume) };
             let scale = BOND * (1.0 - trial.alpha_f) * self.unit * volume / self.shear;
             let begin = D * frame.interpolation.nodes(frame.mesh, cell as u32).len();
             for a in 0..corners {

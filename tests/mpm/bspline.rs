@@ -246,6 +246,25 @@ fn a_plate_presses_soil_down() {
     }
 }
 
+/// A load on the free surface, which lies on faces of cells of second and third order as the run begins: the bottom gives the reaction to all of it.
+#[test]
+fn a_load_on_the_surface_acts_from_the_first_step() {
+    let scene = [
+        "mesh.parameters.plate=0",
+        "regions={soil: {kind: mpm, material: soil}, air: {kind: buffer}}",
+        "materials={soil: {model: linear_elastic, young: 1000, poisson: 0.3, density: 0}}",
+        "contacts=[]",
+        "phases=[{name: load, analysis: quasi_static, duration: 2, step: {initial: 1}, tractions: [{surface: soil, ty: -1}]}]",
+        "output.history=[{name: bottom, on: bottom, quantities: [reaction_y]}]",
+    ];
+    for order in ["mesh.order=2", "mesh.order=3"] {
+        let folder = program_run("tests/data/lattice", &[&scene[..], &[order]].concat());
+        let reaction: Vec<f64> = rows(folder.path()).iter().map(|row| row[1]).collect();
+        println!("{order}: {reaction:?} kN of 2");
+        assert!(reaction.len() == 2 && reaction.iter().all(|r| (r - 2.0).abs() < 1e-3), "{order}: {reaction:?}");
+    }
+}
+
 /// What splines cannot have is refused, with what to do about it.
 #[test]
 fn what_cannot_work_is_refused() {

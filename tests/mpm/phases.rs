@@ -1,6 +1,6 @@
 //! What phases do, through the program: the factor of safety against closed forms and a published slope.
 
-use crate::support::{column, mpm, solve, solve_text, written};
+use crate::support::{column, mpm, rows, solve, solve_text, written};
 use mpm::io::frame::{self, Frame};
 use mpm::io::provenance::Origin;
 use std::fs;
@@ -249,6 +249,22 @@ fn plate(phases: &[(f64, &str)], settings: &[&str]) -> TempDir {
     let history = "output.history=[{name: plate, on: plate, quantities: [uy, contact_y]}, \
         {name: top, on: top, quantities: [reaction_y]}, {name: soil, on: soil, quantities: [uy]}]";
     solve("tests/data/plate", &[&[phases.as_str(), history], settings].concat())
+}
+
+/// A displacement that a phase begins with acts once, in its first step, on soil that yields too: as much as if it came at a rate.
+#[test]
+fn a_displacement_at_the_beginning_of_a_phase_acts_once() {
+    let clay = "materials.soil={model: tresca, young: 1000, poisson: 0.3, shear_strength: 10, density: 0}";
+    let press = |how: &str| {
+        let [first, second] = [(0.125, "{rate: -0.02}"), (1.0, how)]
+            .map(|(step, how)| (step, format!("prescribe: {{top: {{ux: 0, uy: {how}}}}}")));
+        let folder = plate(&[(first.0, &first.1), (second.0, &second.1)], &[clay, "numerics.restore=every_step"]);
+        rows(folder.path()).last().unwrap().clone()
+    };
+    let (at_once, at_a_rate) = (press("-0.005"), press("{rate: -0.005}"));
+    println!("{at_once:?} {at_a_rate:?}");
+    assert!(at_a_rate[2] > 1.0);
+    assert_eq!(at_once, at_a_rate);
 }
 
 fn near(found: f64, exact: f64, part: f64) -> bool {

@@ -8,7 +8,7 @@ use crate::mesh::Mesh;
 use crate::mesh::locate::Locator;
 use crate::surface::geometry::Geometry;
 
-/// Markers lie against a structure that are nearer to it than this share of a cell.
+/// Markers lie against a structure that are nearer to it than this share of a cell, where it was not apart from the soil in the last step.
 const NEAR: f64 = 0.15;
 /// So do those within it, by less than this share of a cell.
 const DEEP: f64 = 1.0;
@@ -34,17 +34,19 @@ struct Foot {
 struct Outline<'a> {
     x: &'a [[f64; 2]],
     along: Vec<f64>,
+    /// Whether each piece is apart from the soil.
+    apart: &'a [bool],
     closed: bool,
 }
 
 impl<'a> Outline<'a> {
-    fn new(x: &'a [[f64; 2]]) -> Self {
+    fn new(x: &'a [[f64; 2]], apart: &'a [bool]) -> Self {
         let mut along = vec![0.0];
         for pair in x.windows(2) {
             along.push(along[along.len() - 1] + distance(&pair[0], &pair[1]));
         }
         let closed = x.len() > 2 && distance(&x[0], &x[x.len() - 1]) < 1e-9 * along[along.len() - 1];
-        Self { x, along, closed }
+        Self { x, along, apart, closed }
     }
 
     fn length(&self) -> f64 {
@@ -75,7 +77,7 @@ impl<'a> Outline<'a> {
 }
 
 impl MarkerFront {
-    /// Takes the markers that lie against `outlines` anew from these.
+    /// Takes the markers that lie against `outlines` anew from these, given which of their pieces are `apart` from the soil.
     ///
     /// # Errors
     /// When a marker was outside the mesh, or gets far outside it.
@@ -84,12 +86,13 @@ impl MarkerFront {
         mesh: &Mesh<2>,
         geometry: &Geometry,
         locator: &Locator<2>,
-        outlines: &[Vec<[f64; 2]>],
+        (outlines, apart): (&[Vec<[f64; 2]>], &[Vec<bool>]),
     ) -> Result<(), Lost> {
         if outlines.is_empty() {
             return Ok(());
         }
-        let outlines: Vec<Outline> = outlines.iter().filter(|x| x.len() > 1).map(|x| Outline::new(x)).collect();
+        let both = outlines.iter().zip(apart).filter(|(x, _)| x.len() > 1);
+        let outlines: Vec<Outline> = both.map(|(x, apart)| Outline::new(x, apart)).collect();
         let pieces: Vec<(usize, usize)> =
             outlines.iter().enumerate().flat_map(|(k, o)| (1..o.x.len()).map(move |i| (k, i))).collect();
         let size = self.sizes(mesh, geometry, locator)?;
@@ -118,11 +121,17 @@ fn foot(outlines: &[Outline], pieces: &[(usize, usize)], bins: &Bins, x: &[f64; 
         let (outline, i) = pieces[piece as usize];
         let (a, b) = (outlines[outline].x[i - 1], outlines[outline].x[i]);
         let (share, away) = nearest(x, &[a, b]);
-        if best.as_ref().is_none_or(|(least, ..)| away < *least) {
-            // The structure is on the left.
-            let left = twice_area(&[a, b, *x]);
+        // The structure is on the left.
+        let left = twice_area(&[a, b, *x]) / distance(&a, &b).max(f64::MIN_POSITIVE);
+        // Of two pieces whose corner is nearest the one that faces the marker more tells the side.
+        let closer = best.as_ref().is_none_or(|(least, other, _)| {
+            away < least * (1.0 - 1e-9) || away <= least * (1.0 + 1e-9) && left.abs() > other.abs()
+        });
+        if closer {
             let along = outlines[outline].along[i - 1] + share * distance(&a, &b);
-            let lies = away <= if left > 0.0 { DEEP * h } else { NEAR * h };
+            // Soil that has come off a structure is not on it, however near it still is.
+            let near = if outlines[outline].apart[i - 1] { 0.0 } else { NEAR * h };
+            let lies = away <= if left > 0.0 { DEEP * h } else { near };
             best = Some((away, left, Foot { outline, along, away, lies }));
         }
     }

@@ -18,10 +18,12 @@ Transfinite Surface {1, 2};
 If (quads)
   Recombine Surface {1, 2};
 EndIf
-Point(11) = {left, 0, 0, hp}; Point(12) = {left + plate, 0, 0, hp};
-Point(13) = {left + plate, 0.3, 0, hp}; Point(14) = {left, 0.3, 0, hp};
-Line(11) = {11, 12}; Line(13) = {12, 13}; Line(14) = {13, 14}; Line(15) = {14, 11};
-Curve Loop(3) = {11, 13, 14, 15}; Plane Surface(3) = {3};
-Physical Surface("soil") = {1}; Physical Surface("air") = {2}; Physical Surface("plate") = {3};
+Physical Surface("soil") = {1}; Physical Surface("air") = {2};
 Physical Curve("bottom") = {1}; Physical Curve("side") = {2, 4, 5, 7}; Physical Curve("surface") = {3};
-Physical Curve("top") = {14};
+If (plate)
+  Point(11) = {left, 0, 0, hp}; Point(12) = {left + plate, 0, 0, hp};
+  Point(13) = {left + plate, 0.3, 0, hp}; Point(14) = {left, 0.3, 0, hp};
+  Line(11) = {11, 12}; Line(13) = {12, 13}; Line(14) = {13, 14}; Line(15) = {14, 11};
+  Curve Loop(3) = {11, 13, 14, 15}; Plane Surface(3) = {3};
+  Physical Surface("plate") = {3}; Physical Curve("top") = {14};
+EndIf
