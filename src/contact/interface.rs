@@ -107,7 +107,7 @@ pub trait Interface<const D: usize>: Send + Sync {
     fn outlines(&self, position: &dyn Fn(u32) -> [f64; D]) -> Vec<Vec<[f64; D]>>;
 
     /// Which pieces of the outlines were apart from the soil at the end of the last step; none of a boundary on a body.
-    fn apart(&self, _held: &Multipliers) -> Vec<Vec<bool>> {
+    fn apart(&self, _held: &Multipliers, _phase: usize) -> Vec<Vec<bool>> {
         Vec::new()
     }
 
@@ -399,8 +399,9 @@ impl<K: Kinematics<2>> Interface<2> for Boundary<K> {
         self.surface.chains.iter().map(outline).collect()
     }
 
-    fn apart(&self, held: &Multipliers) -> Vec<Vec<bool>> {
-        let apart = |s: &Segment| s.contact_nodes.iter().all(|(k, _)| held.is_apart(*k as usize));
+    fn apart(&self, held: &Multipliers, phase: usize) -> Vec<Vec<bool>> {
+        let (law, wide) = (self.sides.laws.at(phase), FADING * self.surface.spacing);
+        let apart = |s: &Segment| s.contact_nodes.iter().all(|(k, _)| held.is_apart(*k as usize, law, wide));
         self.surface
             .chains
             .iter()

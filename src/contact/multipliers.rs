@@ -48,9 +48,10 @@ impl Multipliers {
         }
     }
 
-    /// Whether a contact node is apart from the soil: it bears nothing, and there is a gap.
-    pub fn is_apart(&self, k: usize) -> bool {
-        self.pressure[k] == 0.0 && self.shear[k] == 0.0 && self.gap[k] > 0.0
+    /// Whether a contact node is apart from the soil: there is a gap and it bears nothing, or vapour in a gap of `wide` (m) or more.
+    pub fn is_apart(&self, k: usize, law: &Law, wide: f64) -> bool {
+        let bears_nothing = self.pressure[k] == 0.0 && self.shear[k] == 0.0;
+        self.gap[k] > 0.0 && bears_nothing || law.sealed && self.gap[k] >= wide
     }
 
     /// These with oscillations of the pressure smoothed along the `runs`, where a contact node and both its neighbours are closed. Contact nodes as close

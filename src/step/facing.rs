@@ -22,9 +22,9 @@ pub fn outlines<const D: usize>(scene: &Scene<D>, state: &State<D>) -> Vec<Vec<[
 /// Which pieces of these were apart from the soil at the end of the last step.
 pub fn apart<const D: usize>(scene: &Scene<D>, state: &State<D>) -> Vec<Vec<bool>> {
     let of = |(k, interface): (usize, &dyn Interface<D>)| match state.multipliers.get(k) {
-        Some(multipliers) => interface.apart(multipliers),
+        Some(multipliers) => interface.apart(multipliers, state.phase),
         // Before the first step.
-        None => interface.apart(&Multipliers::new(interface.contact_nodes())),
+        None => interface.apart(&Multipliers::new(interface.contact_nodes()), state.phase),
     };
     scene.touching(state.phase).flat_map(of).collect()
 }
