@@ -8,7 +8,7 @@ use super::law::{Laws, Penalty};
 use super::multipliers::Multipliers;
 use super::place::{Placed, Segments};
 use super::skin::Skin;
-use super::surface::{Run, Segment, Surface};
+use super::surface::{Run, Surface};
 use crate::kinematics::Kinematics;
 use crate::material::Model;
 use crate::mesh::Mesh;
@@ -105,11 +105,6 @@ pub trait Interface<const D: usize>: Send + Sync {
 
     /// The boundary as polylines with the structure on their left; closed ones end where they begin.
     fn outlines(&self, position: &dyn Fn(u32) -> [f64; D]) -> Vec<Vec<[f64; D]>>;
-
-    /// Which pieces of the outlines were apart from the soil at the end of the last step; none of a boundary on a body.
-    fn apart(&self, _held: &Multipliers, _phase: usize) -> Vec<Vec<bool>> {
-        Vec::new()
-    }
 
     /// The boundary as lines with its contact nodes, one a smooth stretch.
     fn lines(&self, position: &dyn Fn(u32) -> [f64; D]) -> Vec<Vec<Mark<D>>>;
@@ -397,16 +392,6 @@ impl<K: Kinematics<2>> Interface<2> for Boundary<K> {
             segments.iter().map(|s| s.from).chain(segments.last().map(|s| s.to)).collect()
         };
         self.surface.chains.iter().map(outline).collect()
-    }
-
-    fn apart(&self, held: &Multipliers, phase: usize) -> Vec<Vec<bool>> {
-        let (law, wide) = (self.sides.laws.at(phase), FADING * self.surface.spacing);
-        let apart = |s: &Segment| s.contact_nodes.iter().all(|(k, _)| held.is_apart(*k as usize, law, wide));
-        self.surface
-            .chains
-            .iter()
-            .map(|chain| self.surface.segments[chain.clone()].iter().map(apart).collect())
-            .collect()
     }
 
     fn lines(&self, position: &dyn Fn(u32) -> [f64; 2]) -> Vec<Vec<Mark<2>>> {

@@ -48,12 +48,6 @@ impl Multipliers {
         }
     }
 
-    /// Whether a contact node is apart from the soil: there is a gap and it bears nothing, or vapour in a gap of `wide` (m) or more.
-    pub fn is_apart(&self, k: usize, law: &Law, wide: f64) -> bool {
-        let bears_nothing = self.pressure[k] == 0.0 && self.shear[k] == 0.0;
-        self.gap[k] > 0.0 && bears_nothing || law.sealed && self.gap[k] >= wide
-    }
-
     /// These with oscillations of the pressure smoothed along the `runs`, where a contact node and both its neighbours are closed. Contact nodes as close
     /// as the nodes of the grid are more conditions than the soil can satisfy: oscillations of the pressure, to which the soil hardly responds, would
     /// grow from step to step. The pressure that is removed is replaced by that of a gap (a stabilised multiplier, Burman & Hansbo 2010).

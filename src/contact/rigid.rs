@@ -121,10 +121,6 @@ impl<const D: usize> Interface<D> for Rigid<D> {
         self.interface.outlines(position)
     }
 
-    fn apart(&self, held: &Multipliers, phase: usize) -> Vec<Vec<bool>> {
-        self.interface.apart(held, phase)
-    }
-
     fn lines(&self, position: &dyn Fn(u32) -> [f64; D]) -> Vec<Vec<Mark<D>>> {
         self.interface.lines(position)
     }

@@ -8,7 +8,7 @@ use crate::mesh::Mesh;
 use crate::mesh::locate::Locator;
 use crate::surface::geometry::Geometry;
 
-/// Markers lie against a structure that are nearer to it than this share of a cell, where it was not apart from the soil in the last step.
+/// Markers lie against a structure that are nearer to it than this share of a cell.
 const NEAR: f64 = 0.15;
 /// So do those within it, by less than this share of a cell.
 const DEEP: f64 = 1.0;
@@ -34,19 +34,17 @@ struct Foot {
 struct Outline<'a> {
     x: &'a [[f64; 2]],
     along: Vec<f64>,
-    /// Whether each piece is apart from the soil.
-    apart: &'a [bool],
     closed: bool,
 }
 
 impl<'a> Outline<'a> {
-    fn new(x: &'a [[f64; 2]], apart: &'a [bool]) -> Self {
+    fn new(x: &'a [[f64; 2]]) -> Self {
         let mut along = vec![0.0];
         for pair in x.windows(2) {
             along.push(along[along.len() - 1] + distance(&pair[0], &pair[1]));
         }
         let closed = x.len() > 2 && distance(&x[0], &x[x.len() - 1]) < 1e-9 * along[along.len() - 1];
-        Self { x, along, apart, closed }
+        Self { x, along, closed }
     }
 
     fn length(&self) -> f64 {
@@ -77,7 +75,7 @@ impl<'a> Outline<'a> {
 }
 
 impl MarkerFront {
-    /// Takes the markers that lie against `outlines` anew from these, given which of their pieces are `apart` from the soil.
+    /// Takes the markers that lie against `outlines` anew from these.
     ///
     /// # Errors
     /// When a marker was outside the mesh, or gets far outside it.
@@ -86,13 +84,12 @@ impl MarkerFront {
         mesh: &Mesh<2>,
         geometry: &Geometry,
         locator: &Locator<2>,
-        (outlines, apart): (&[Vec<[f64; 2]>], &[Vec<bool>]),
+        outlines: &[Vec<[f64; 2]>],
     ) -> Result<(), Lost> {
         if outlines.is_empty() {
             return Ok(());
         }
-        let both = outlines.iter().zip(apart).filter(|(x, _)| x.len() > 1);
-        let outlines: Vec<Outline> = both.map(|(x, apart)| Outline::new(x, apart)).collect();
+        let outlines: Vec<Outline> = outlines.iter().filter(|x| x.len() > 1).map(|x| Outline::new(x)).collect();
         let pieces: Vec<(usize, usize)> =
             outlines.iter().enumerate().flat_map(|(k, o)| (1..o.x.len()).map(move |i| (k, i))).collect();
         let size = self.sizes(mesh, geometry, locator)?;
@@ -129,9 +126,7 @@ fn foot(outlines: &[Outline], pieces: &[(usize, usize)], bins: &Bins, x: &[f64; 
         });
         if closer {
             let along = outlines[outline].along[i - 1] + share * distance(&a, &b);
-            // Soil that has come off a structure is not on it, however near it still is.
-            let near = if outlines[outline].apart[i - 1] { 0.0 } else { NEAR * h };
-            let lies = away <= if left > 0.0 { DEEP * h } else { near };
+            let lies = away <= if left > 0.0 { DEEP * h } else { NEAR * h };
             best = Some((away, left, Foot { outline, along, away, lies }));
         }
     }
