@@ -5,7 +5,7 @@
 Each OUT is the output folder of a run (all of `cases/pile/variants.py` without). Prints Markdown tables and draws the curves to CHART
 (.svg or .png; without, curves.svg in the first OUT). What a run did not reach is `-`.
 
-The stress at the base is what pressure and shear along the lowest 0.1 m of the pile, its base and the round edge, bear upwards, over the area of the base.
+The stress at the base is what the tractions along the lowest 0.1 m of the pile, its base and the round edge, bear upwards, over the area of the base.
 *Noise* at a depth of the pile: the root mean square of σ_yy of the soil points about its own smooth field, in the box
 below the base as wide as the pile (1 m; half of it in axisymmetry) and 1.5 m deep. The smooth field at a point is the quadratic fitted by least
 squares to the points below the base within two cells of it. The second number leaves out the layer under the base that is a cell
@@ -65,15 +65,10 @@ class Run:
         if frame is None:
             return None
         from_node, to_node = frame.cells.reshape(-1, 3)[:, 1:].T
-        pressure, shear = (
-            next(frame.point_data[name] for name in frame.point_data if name.startswith(f"contact_{what} ["))
-            for what in ("pressure", "shear")
-        )
+        traction = next(frame.point_data[name] for name in frame.point_data if name.startswith("contact_traction ["))[:, 1]
         middle = (frame.points[from_node] + frame.points[to_node]) / 2
-        along = frame.points[to_node] - frame.points[from_node]
-        mean = [(values[from_node] + values[to_node]) / 2 for values in (pressure, shear)]
-        # The pile is on the left of the lines; what is along them and positive pulls it back.
-        upwards = (mean[0] * along[:, 0] - mean[1] * along[:, 1]) * 2 * np.pi * middle[:, 0]
+        length = np.linalg.norm(frame.points[to_node] - frame.points[from_node], axis=1)
+        upwards = (traction[from_node] + traction[to_node]) / 2 * length * 2 * np.pi * middle[:, 0]
         return np.sum(upwards[middle[:, 1] < np.min(frame.points[:, 1]) + EDGE + 1e-6]) / (np.pi * RADIUS**2)
 
     def noise(self, depth, cell):
