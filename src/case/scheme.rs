@@ -1,7 +1,7 @@
 //! What a scheme of the material point method can be used on.
 
 use super::check::Checker;
-use super::checked::{Case, Content, Order};
+use super::checked::{Case, Content, Order, Phase};
 use super::locate::{At, Path};
 use crate::error::{Error, Result};
 use crate::interpolation::Basis;
@@ -39,6 +39,15 @@ impl Checker {
         if case.mesh.order == Order::Third && !case.contacts.is_empty() {
             let problem = "contact is with boundaries of cells of first and second order";
             self.issue(&Path::default().key("contacts"), At::Value, problem, "set `order: 2` under `mesh`");
+        }
+        let loaded = |phase: &Phase| phase.surface_loads.iter().any(|load| !load.is_pressure_all_around());
+        for (k, _) in case.phases.iter().enumerate().filter(|(_, phase)| loaded(phase)) {
+            if case.mesh.order == Order::Third {
+                let problem =
+                    "loads on a part of the surface, or along it, act on cells of first and second order only";
+                let path = Path::default().key("phases").index(k).key("tractions");
+                self.issue(&path, At::Key, problem, "set `order: 2` under `mesh`, or load all of it with a `pressure`");
+            }
         }
         for region in case.regions.iter().filter(|_| basis.domain_size() > 0) {
             let Content::Mpm { points_per_cell, .. } = region.content else { continue };

@@ -255,13 +255,12 @@ fn add_cell(mesh: &Mesh<2>, geometry: &Geometry, level_set: &[f64], c: usize, ou
         if !wall && (!full || is_full(mesh, level_set, other as usize)) {
             continue;
         }
-        let parts: &[[usize; 2]] = match **facet {
-            [a, b] => &[[a, b]],
+        let halves: &[[usize; 2]] = match **facet {
             [a, b, middle] => &[[a, middle], [middle, b]],
-            [a, b, first, second] => &[[a, first], [first, second], [second, b]],
+            [a, b] => &[[a, b]],
             _ => &[],
         };
-        for &[i, j] in parts {
+        for &[i, j] in halves {
             match (value(i) > 0.0, value(j) > 0.0) {
                 (false, false) if full => add(at(i), at(j), wall),
                 _ if !wall => {}
