@@ -40,14 +40,14 @@ impl Checker {
             let problem = "contact is with boundaries of cells of first and second order";
             self.issue(&Path::default().key("contacts"), At::Value, problem, "set `order: 2` under `mesh`");
         }
-        let loaded = |phase: &Phase| phase.surface_loads.iter().any(|load| !load.is_pressure_all_around());
-        for (k, _) in case.phases.iter().enumerate().filter(|(_, phase)| loaded(phase)) {
-            if case.mesh.order == Order::Third {
-                let problem =
-                    "loads on a part of the surface, or along it, act on cells of first and second order only";
-                let path = Path::default().key("phases").index(k).key("tractions");
-                self.issue(&path, At::Key, problem, "set `order: 2` under `mesh`, or load all of it with a `pressure`");
-            }
+        let refused = |phase: &Phase| {
+            let loaded = phase.surface_loads.iter().any(|load| !load.is_pressure_all_around());
+            case.mesh.order == Order::Third && loaded
+        };
+        for (k, _) in case.phases.iter().enumerate().filter(|(_, phase)| refused(phase)) {
+            let problem = "on cells of third order the only load on a surface is a `pressure` on `surface: all`";
+            let path = Path::default().key("phases").index(k).key("tractions");
+            self.issue(&path, At::Key, problem, "set `order: 2` under `mesh`");
         }
         for region in case.regions.iter().filter(|_| basis.domain_size() > 0) {
             let Content::Mpm { points_per_cell, .. } = region.content else { continue };
