@@ -8,7 +8,7 @@ use super::law::{Laws, Penalty};
 use super::multipliers::Multipliers;
 use super::place::{Placed, Segments};
 use super::skin::Skin;
-use super::surface::{Run, Surface};
+use super::surface::{Run, Segment, Surface};
 use crate::kinematics::Kinematics;
 use crate::material::Model;
 use crate::mesh::Mesh;
@@ -18,6 +18,7 @@ use crate::points::Points;
 use crate::surface::Cover;
 use std::collections::HashSet;
 use std::marker::PhantomData;
+use std::ops::Range;
 use std::sync::Arc;
 
 /// Normal penalty ε_n (-), in Young's modulus over the spacing of the contact nodes.
@@ -105,6 +106,11 @@ pub trait Interface<const D: usize>: Send + Sync {
 
     /// The boundary as polylines with the structure on their left; closed ones end where they begin.
     fn outlines(&self, position: &dyn Fn(u32) -> [f64; D]) -> Vec<Vec<[f64; D]>>;
+
+    /// Which pieces of the outlines part from the soil; none of a boundary on a body.
+    fn parting(&self, _held: &Multipliers) -> Vec<Vec<bool>> {
+        Vec::new()
+    }
 
     /// The boundary as lines with its contact nodes, one a smooth stretch.
     fn lines(&self, position: &dyn Fn(u32) -> [f64; D]) -> Vec<Vec<Mark<D>>>;
@@ -387,11 +393,17 @@ impl<K: Kinematics<2>> Interface<2> for Boundary<K> {
 
     fn outlines(&self, position: &dyn Fn(u32) -> [f64; 2]) -> Vec<Vec<[f64; 2]>> {
         let segments = Segments::new::<K>(&self.surface, position);
-        let outline = |chain: &std::ops::Range<usize>| {
+        let outline = |chain: &Range<usize>| {
             let segments = &segments.0[chain.clone()];
             segments.iter().map(|s| s.from).chain(segments.last().map(|s| s.to)).collect()
         };
         self.surface.chains.iter().map(outline).collect()
+    }
+
+    fn parting(&self, held: &Multipliers) -> Vec<Vec<bool>> {
+        let parting = |s: &Segment| s.contact_nodes.iter().all(|(k, _)| held.parting[*k as usize]);
+        let of_chain = |chain: &Range<usize>| self.surface.segments[chain.clone()].iter().map(parting).collect();
+        self.surface.chains.iter().map(of_chain).collect()
     }
 
     fn lines(&self, position: &dyn Fn(u32) -> [f64; 2]) -> Vec<Vec<Mark<2>>> {

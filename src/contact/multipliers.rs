@@ -25,6 +25,8 @@ pub struct Multipliers {
     pub force: Vec<[f64; 3]>,
     /// Whether there was before the contact node, in the last step, what it touches.
     pub faces: Vec<bool>,
+    /// Whether it is apart from the soil, and the gap grew in the last step.
+    pub parting: Vec<bool>,
     /// The nodes that the system has room to couple: those of contact node `k` are `room[first[k]..first[k + 1]]`.
     pub room: Vec<u32>,
     pub first: Vec<u32>,
@@ -43,6 +45,7 @@ impl Multipliers {
             slid: zero,
             force: vec![[0.0; 3]; contact_nodes],
             faces: vec![false; contact_nodes],
+            parting: vec![false; contact_nodes],
             room: Vec::new(),
             first: vec![0; contact_nodes + 1],
         }
@@ -103,6 +106,11 @@ impl Multipliers {
     /// Whether contact node `k` touched in the last step.
     pub fn touched(&self, k: usize) -> bool {
         self.pressure[k] != 0.0 || self.shear[k] != 0.0
+    }
+
+    /// Whether contact node `k` is apart from the soil: there is a gap and it bears nothing, or vapour in a gap of `wide` (m) or more.
+    pub fn is_apart(&self, k: usize, law: &Law, wide: f64) -> bool {
+        self.gap[k] > 0.0 && !self.touched(k) || law.sealed && self.gap[k] >= wide
     }
 
     /// Whether contact node `k` bears the tension of the `law`: it did not come to its limit in the last step, or keeps it in the gap; or, where it did

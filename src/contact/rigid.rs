@@ -121,6 +121,10 @@ impl<const D: usize> Interface<D> for Rigid<D> {
         self.interface.outlines(position)
     }
 
+    fn parting(&self, held: &Multipliers) -> Vec<Vec<bool>> {
+        self.interface.parting(held)
+    }
+
     fn lines(&self, position: &dyn Fn(u32) -> [f64; D]) -> Vec<Vec<Mark<D>>> {
         self.interface.lines(position)
     }

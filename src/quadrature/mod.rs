@@ -55,6 +55,8 @@ pub struct Restored<'a, const D: usize> {
     pub before: (&'a Mesh<D>, &'a Locator<D>),
     /// The boundaries of structures that touch the material, as polylines with the structure on their left.
     pub outlines: &'a [Vec<[f64; D]>],
+    /// Which pieces of these part from the material: there is a gap, and it grew in the last step.
+    pub parting: &'a [Vec<bool>],
     /// Whether the nodes are not where the first shape of the grid has them.
     pub relaxed: bool,
     /// Displacement (m) of the nodes since the restoration before; `None` in the first one.

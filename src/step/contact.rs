@@ -218,21 +218,19 @@ pub fn commit<const D: usize>(
         [pressure, shear, gap, slip, offset].into_iter().for_each(|values| values.fill(0.0));
         multipliers.force.fill([0.0; 3]);
         multipliers.faces.fill(false);
+        multipliers.parting.fill(false);
     }
     for constraint in &grid.constraints {
         let condition = &constraint.condition;
         let (interface, contact_node) = (constraint.interface as usize, condition.contact_node as usize);
-        let (answer, Motion { gap, slip, turn, .. }) = contact_answer(
-            scene.interfaces[interface].sides().laws.at(phase),
-            scene.levels.as_ref(),
-            constraint,
-            &trial,
-        );
+        let law = scene.interfaces[interface].sides().laws.at(phase);
+        let (answer, Motion { gap, slip, turn, .. }) = contact_answer(law, scene.levels.as_ref(), constraint, &trial);
         let held = &mut state.multipliers[interface];
         (held.pressure[contact_node], held.shear[contact_node]) = (answer.pressure, answer.shear);
         (held.gap[contact_node], held.slip[contact_node], held.offset[contact_node]) =
             (gap, slip.abs(), condition.offset);
         held.faces[contact_node] = true;
+        held.parting[contact_node] = gap > condition.gap && held.is_apart(contact_node, law, condition.penalty.fading);
         let resultant = &mut resultants[interface];
         if held.touched(contact_node) {
             resultant.contact_nodes += 1;

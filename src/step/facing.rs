@@ -2,7 +2,7 @@
 
 use super::scene::Scene;
 use super::state::State;
-use crate::contact::Multipliers;
+use crate::contact::{Interface, Multipliers};
 use crate::dofs::DofMap;
 use crate::system::Connectivity;
 
@@ -17,6 +17,16 @@ pub(super) fn position<const D: usize>(scene: &Scene<D>, state: &State<D>, n: u3
 pub fn outlines<const D: usize>(scene: &Scene<D>, state: &State<D>) -> Vec<Vec<[f64; D]>> {
     let place = |n: u32| state.at_reset(scene, n);
     scene.touching(state.phase).flat_map(|(_, interface)| interface.outlines(&place)).collect()
+}
+
+/// Which pieces of these part from the soil.
+pub fn parting<const D: usize>(scene: &Scene<D>, state: &State<D>) -> Vec<Vec<bool>> {
+    let of = |(k, interface): (usize, &dyn Interface<D>)| match state.multipliers.get(k) {
+        Some(multipliers) => interface.parting(multipliers),
+        // Before the first step.
+        None => interface.parting(&Multipliers::new(interface.contact_nodes())),
+    };
+    scene.touching(state.phase).flat_map(of).collect()
 }
 
 /// Appends a coupling for each contact node with room.

@@ -8,7 +8,7 @@ use crate::mesh::Mesh;
 use crate::mesh::locate::Locator;
 use crate::surface::geometry::Geometry;
 
-/// Markers lie against a structure that are nearer to it than this share of a cell.
+/// Markers lie against a structure that are nearer to it than this share of a cell, but where the two part.
 const NEAR: f64 = 0.15;
 /// So do those within it, by less than this share of a cell.
 const DEEP: f64 = 1.0;
@@ -34,17 +34,19 @@ struct Foot {
 struct Outline<'a> {
     x: &'a [[f64; 2]],
     along: Vec<f64>,
+    /// Whether each piece parts from the soil.
+    parting: &'a [bool],
     closed: bool,
 }
 
 impl<'a> Outline<'a> {
-    fn new(x: &'a [[f64; 2]]) -> Self {
+    fn new(x: &'a [[f64; 2]], parting: &'a [bool]) -> Self {
         let mut along = vec![0.0];
         for pair in x.windows(2) {
             along.push(along[along.len() - 1] + distance(&pair[0], &pair[1]));
         }
         let closed = x.len() > 2 && distance(&x[0], &x[x.len() - 1]) < 1e-9 * along[along.len() - 1];
-        Self { x, along, closed }
+        Self { x, along, parting, closed }
     }
 
     fn length(&self) -> f64 {
@@ -75,7 +77,7 @@ impl<'a> Outline<'a> {
 }
 
 impl MarkerFront {
-    /// Takes the markers that lie against `outlines` anew from these.
+    /// Takes the markers that lie against `outlines` anew from these, given which of their pieces part from the soil.
     ///
     /// # Errors
     /// When a marker was outside the mesh, or gets far outside it.
@@ -84,12 +86,13 @@ impl MarkerFront {
         mesh: &Mesh<2>,
         geometry: &Geometry,
         locator: &Locator<2>,
-        outlines: &[Vec<[f64; 2]>],
+        (outlines, parting): (&[Vec<[f64; 2]>], &[Vec<bool>]),
     ) -> Result<(), Lost> {
         if outlines.is_empty() {
             return Ok(());
         }
-        let outlines: Vec<Outline> = outlines.iter().filter(|x| x.len() > 1).map(|x| Outline::new(x)).collect();
+        let both = outlines.iter().zip(parting).filter(|(x, _)| x.len() > 1);
+        let outlines: Vec<Outline> = both.map(|(x, parting)| Outline::new(x, parting)).collect();
         let pieces: Vec<(usize, usize)> =
             outlines.iter().enumerate().flat_map(|(k, o)| (1..o.x.len()).map(move |i| (k, i))).collect();
         let size = self.sizes(mesh, geometry, locator)?;
@@ -126,7 +129,9 @@ fn foot(outlines: &[Outline], pieces: &[(usize, usize)], bins: &Bins, x: &[f64; 
         });
         if closer {
             let along = outlines[outline].along[i - 1] + share * distance(&a, &b);
-            let lies = away <= if left > 0.0 { DEEP * h } else { NEAR * h };
+            // A gap opens however little it grows from reset to reset.
+            let near = if outlines[outline].parting[i - 1] { 0.0 } else { NEAR * h };
+            let lies = away <= if left > 0.0 { DEEP * h } else { near };
             best = Some((away, left, Foot { outline, along, away, lies }));
         }
     }

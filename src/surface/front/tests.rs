@@ -271,7 +271,7 @@ fn films_on_a_structure_go() {
         let position: Vec<_> =
             (0..corners.len()).flat_map(|k| line(corners[k], corners[(k + 1) % corners.len()])).collect();
         let mut front = MarkerFront { first: vec![0, position.len() as u32], position };
-        front.conform(&grid.mesh, &grid.geometry, &grid.locator, &outline).unwrap();
+        front.conform(&grid.mesh, &grid.geometry, &grid.locator, (&outline, &parting)).unwrap();
         front
     };
     let soil = |top: &[[f64; 2]]| [&[[wall, 0.0], [1.5, 0.0], [1.5, 0.3]], top].concat();
@@ -292,6 +292,26 @@ fn films_on_a_structure_go() {
     );
 }
 
+/// Markers a twentieth of a cell outside a structure are put onto it, but where the two part; those within it everywhere.
+#[test]
+fn soil_that_parts_from_a_structure_is_not_put_onto_it() {
+    let grid = grid(rectangle(CellKind::T6, 2.0, 1.0, 16, 8, 0.0, 0));
+    let (cell, wall) = (grid.geometry.size(&grid.mesh, 0), 0.4);
+    let outline = [vec![[wall, 0.0], [wall, 0.5], [wall, 1.0]]];
+    for beside in [0.05 * cell, -0.05 * cell] {
+        let rise = (0..=80).map(|k| [wall + beside, 1.0 - f64::from(k) / 80.0]);
+        let position: Vec<_> = rise.chain([[1.5, 0.0], [1.5, 1.0]]).collect();
+        let mut front = MarkerFront { first: vec![0, position.len() as u32], position };
+        front.conform(&grid.mesh, &grid.geometry, &grid.locator, (&outline, &[vec![false, true]])).unwrap();
+        let away = |low: f64, high: f64| {
+            let between = front.position.iter().filter(|x| x[0] < 1.0 && x[1] > low && x[1] < high);
+            between.map(|x| (x[0] - wall).abs()).fold(0.0, f64::max)
+        };
+        let wanted = if beside > 0.0 { beside } else { 0.0 };
+        assert!(away(0.1, 0.45) < 1e-12 && (away(0.55, 0.9) - wanted).abs() < 1e-12, "{beside}: {front:?}");
+    }
+}
+
 /// Beyond a corner of less than 90° a marker is outside of both sides, though it is on the left of the extension of one.
 #[test]
 fn a_marker_beyond_an_acute_corner_is_outside() {
@@ -305,7 +325,7 @@ fn a_marker_beyond_an_acute_corner_is_outside() {
         let bump = [tip[0] + 0.4 * cell * sine, tip[1] - 0.4 * cell * cosine];
         let position = vec![[0.0, 0.0], [2.0, 0.0], [2.0, 0.1], bump, [0.0, 0.1]];
         let mut front = MarkerFront { first: vec![0, 5], position };
-        front.conform(&grid.mesh, &grid.geometry, &grid.locator, &outline).unwrap();
+        front.conform(&grid.mesh, &grid.geometry, &grid.locator, (&outline, &parting)).unwrap();
         let nearest = front.position.iter().map(|x| distance(x, &tip)).fold(1.0, f64::min);
         assert!((nearest - 0.4 * cell).abs() < 1e-12, "{turn}°: {nearest}");
     }
