@@ -15,7 +15,7 @@ use crate::mesh::Mesh;
 use crate::mesh::locate::Locator;
 use crate::mesh::shape::MAX_NODES;
 use crate::points::Points;
-use crate::surface::Cover;
+use crate::surface::{ContactStatus, Cover};
 use std::collections::HashSet;
 use std::marker::PhantomData;
 use std::ops::Range;
@@ -107,8 +107,8 @@ pub trait Interface<const D: usize>: Send + Sync {
     /// The boundary as polylines with the structure on their left; closed ones end where they begin.
     fn outlines(&self, position: &dyn Fn(u32) -> [f64; D]) -> Vec<Vec<[f64; D]>>;
 
-    /// Which pieces of the outlines part from the soil; none of a boundary on a body.
-    fn parting(&self, _held: &Multipliers) -> Vec<Vec<bool>> {
+    /// The status of each piece of the outlines at the end of the last step; none of a boundary on a body.
+    fn status(&self, _held: &Multipliers) -> Vec<Vec<ContactStatus>> {
         Vec::new()
     }
 
@@ -400,9 +400,14 @@ impl<K: Kinematics<2>> Interface<2> for Boundary<K> {
         self.surface.chains.iter().map(outline).collect()
     }
 
-    fn parting(&self, held: &Multipliers) -> Vec<Vec<bool>> {
-        let parting = |s: &Segment| s.contact_nodes.iter().all(|(k, _)| held.parting[*k as usize]);
-        let of_chain = |chain: &Range<usize>| self.surface.segments[chain.clone()].iter().map(parting).collect();
+    fn status(&self, held: &Multipliers) -> Vec<Vec<ContactStatus>> {
+        let all = |s: &Segment, is: &dyn Fn(usize) -> bool| s.contact_nodes.iter().all(|(k, _)| is(*k as usize));
+        let status = |s: &Segment| match () {
+            () if all(s, &|k| held.opens[k]) => ContactStatus::Opening,
+            () if all(s, &|k| held.touched(k)) => ContactStatus::Closed,
+            () => ContactStatus::Open,
+        };
+        let of_chain = |chain: &Range<usize>| self.surface.segments[chain.clone()].iter().map(status).collect();
         self.surface.chains.iter().map(of_chain).collect()
     }
 

@@ -26,7 +26,7 @@ pub struct Multipliers {
     /// Whether there was before the contact node, in the last step, what it touches.
     pub faces: Vec<bool>,
     /// Whether it is apart from the soil, and the gap grew in the last step.
-    pub parting: Vec<bool>,
+    pub opens: Vec<bool>,
     /// The nodes that the system has room to couple: those of contact node `k` are `room[first[k]..first[k + 1]]`.
     pub room: Vec<u32>,
     pub first: Vec<u32>,
@@ -45,7 +45,7 @@ impl Multipliers {
             slid: zero,
             force: vec![[0.0; 3]; contact_nodes],
             faces: vec![false; contact_nodes],
-            parting: vec![false; contact_nodes],
+            opens: vec![false; contact_nodes],
             room: Vec::new(),
             first: vec![0; contact_nodes + 1],
         }

@@ -10,7 +10,7 @@ use super::multipliers::Multipliers;
 use super::surface::Run;
 use crate::points::Points;
 use crate::rigid::Body;
-use crate::surface::Cover;
+use crate::surface::{ContactStatus, Cover};
 
 /// An interface with a rigid side, or two.
 pub struct Rigid<const D: usize> {
@@ -121,8 +121,8 @@ impl<const D: usize> Interface<D> for Rigid<D> {
         self.interface.outlines(position)
     }
 
-    fn parting(&self, held: &Multipliers) -> Vec<Vec<bool>> {
-        self.interface.parting(held)
+    fn status(&self, held: &Multipliers) -> Vec<Vec<ContactStatus>> {
+        self.interface.status(held)
     }
 
     fn lines(&self, position: &dyn Fn(u32) -> [f64; D]) -> Vec<Vec<Mark<D>>> {

@@ -15,7 +15,7 @@ use crate::interpolation::{Interpolation, PartlyFilled};
 use crate::mesh::Mesh;
 use crate::mesh::locate::Locator;
 use crate::points::Points;
-use crate::surface::{ActiveBoundary, MarkerFront};
+use crate::surface::{ActiveBoundary, ContactStatus, MarkerFront};
 
 /// What the points of a restored grid weigh, and what follows from where they lie.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -55,8 +55,8 @@ pub struct Restored<'a, const D: usize> {
     pub before: (&'a Mesh<D>, &'a Locator<D>),
     /// The boundaries of structures that touch the material, as polylines with the structure on their left.
     pub outlines: &'a [Vec<[f64; D]>],
-    /// Which pieces of these part from the material: there is a gap, and it grew in the last step.
-    pub parting: &'a [Vec<bool>],
+    /// The contact status of each piece of these at the end of the last step.
+    pub contact: &'a [Vec<ContactStatus>],
     /// Whether the nodes are not where the first shape of the grid has them.
     pub relaxed: bool,
     /// Displacement (m) of the nodes since the restoration before; `None` in the first one.

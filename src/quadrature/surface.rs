@@ -21,7 +21,7 @@ pub fn follow<K: Kinematics<2>>(
     match (grid.displacement, front.as_mut()) {
         (Some(displacement), Some(front)) => {
             front.advance(grid.before, (mesh, grid.locator), geometry, displacement)?;
-            front.conform(mesh, geometry, grid.locator, (grid.outlines, grid.parting))?;
+            front.conform(mesh, geometry, grid.locator, (grid.outlines, grid.contact))?;
             front.join(mesh, geometry, grid.locator, grid.outlines)?;
         }
         (Some(_), None) => return Ok(()),

@@ -208,7 +208,7 @@ fn flags(store: &mut Store, name: &str) -> Result<Vec<bool>> {
 
 fn put_multipliers(store: &mut Store, interfaces: &[Multipliers]) {
     store.put("contact.interfaces", 1, vec![interfaces.len() as u64]);
-    for (i, Multipliers { pressure, shear, gap, slip, offset, slid, force, faces, parting, room, first }) in
+    for (i, Multipliers { pressure, shear, gap, slip, offset, slid, force, faces, opens, room, first }) in
         interfaces.iter().enumerate()
     {
         for (name, values) in
@@ -217,7 +217,7 @@ fn put_multipliers(store: &mut Store, interfaces: &[Multipliers]) {
             store.put(&format!("contact.{i}.{name}"), 1, values.clone());
         }
         store.put(&format!("contact.{i}.force"), 3, force.concat());
-        for (name, flags) in [("faces", faces), ("parting", parting)] {
+        for (name, flags) in [("faces", faces), ("opens", opens)] {
             store.put(&format!("contact.{i}.{name}"), 1, flags.iter().map(|&b| u8::from(b)).collect());
         }
         store.put(&format!("contact.{i}.room"), 1, room.clone());
@@ -233,11 +233,11 @@ fn take_multipliers(store: &mut Store) -> Result<Vec<Multipliers>> {
         let (slip, offset, slid) = (values("slip")?, values("offset")?, values("slid")?);
         let force = store.take::<f64>(&format!("contact.{i}.force"), 3)?;
         let force = force.chunks_exact(3).map(|f| [f[0], f[1], f[2]]).collect();
-        let [faces, parting] =
-            [flags(store, &format!("contact.{i}.faces"))?, flags(store, &format!("contact.{i}.parting"))?];
+        let [faces, opens] =
+            [flags(store, &format!("contact.{i}.faces"))?, flags(store, &format!("contact.{i}.opens"))?];
         let mut numbers = |name: &str| store.take::<u32>(&format!("contact.{i}.{name}"), 1);
         let (room, first) = (numbers("room")?, numbers("first")?);
-        Ok(Multipliers { pressure, shear, gap, slip, offset, slid, force, faces, parting, room, first })
+        Ok(Multipliers { pressure, shear, gap, slip, offset, slid, force, faces, opens, room, first })
     };
     (0..count).map(interface).collect()
 }

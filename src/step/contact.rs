@@ -218,7 +218,7 @@ pub fn commit<const D: usize>(
         [pressure, shear, gap, slip, offset].into_iter().for_each(|values| values.fill(0.0));
         multipliers.force.fill([0.0; 3]);
         multipliers.faces.fill(false);
-        multipliers.parting.fill(false);
+        multipliers.opens.fill(false);
     }
     for constraint in &grid.constraints {
         let condition = &constraint.condition;
@@ -230,7 +230,7 @@ pub fn commit<const D: usize>(
         (held.gap[contact_node], held.slip[contact_node], held.offset[contact_node]) =
             (gap, slip.abs(), condition.offset);
         held.faces[contact_node] = true;
-        held.parting[contact_node] = gap > condition.gap && held.is_apart(contact_node, law, condition.penalty.fading);
+        held.opens[contact_node] = gap > condition.gap && held.is_apart(contact_node, law, condition.penalty.fading);
         let resultant = &mut resultants[interface];
         if held.touched(contact_node) {
             resultant.contact_nodes += 1;

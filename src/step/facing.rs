@@ -4,6 +4,7 @@ use super::scene::Scene;
 use super::state::State;
 use crate::contact::{Interface, Multipliers};
 use crate::dofs::DofMap;
+use crate::surface::ContactStatus;
 use crate::system::Connectivity;
 
 /// Where a node, or the reference point of a rigid body, is at the last converged step.
@@ -19,12 +20,12 @@ pub fn outlines<const D: usize>(scene: &Scene<D>, state: &State<D>) -> Vec<Vec<[
     scene.touching(state.phase).flat_map(|(_, interface)| interface.outlines(&place)).collect()
 }
 
-/// Which pieces of these part from the soil.
-pub fn parting<const D: usize>(scene: &Scene<D>, state: &State<D>) -> Vec<Vec<bool>> {
+/// The contact status of each piece of these at the end of the last step.
+pub fn status<const D: usize>(scene: &Scene<D>, state: &State<D>) -> Vec<Vec<ContactStatus>> {
     let of = |(k, interface): (usize, &dyn Interface<D>)| match state.multipliers.get(k) {
-        Some(multipliers) => interface.parting(multipliers),
+        Some(multipliers) => interface.status(multipliers),
         // Before the first step.
-        None => interface.parting(&Multipliers::new(interface.contact_nodes())),
+        None => interface.status(&Multipliers::new(interface.contact_nodes())),
     };
     scene.touching(state.phase).flat_map(of).collect()
 }

@@ -46,7 +46,7 @@ pub fn begin_anew<const D: usize, K: Kinematics<D>>(
     let here = before.as_ref().map_or((&scene.mesh, &scene.locator), |r| (&r.mesh, &r.locator));
     let domains = renew_domains::<D, K>(scene, here, state);
     let changed = choose_cells(scene, state);
-    let (outlines, parting) = (facing::outlines(scene, state), facing::parting(scene, state));
+    let (outlines, contact) = (facing::outlines(scene, state), facing::status(scene, state));
     interpolations.integration =
         interpolations.material.take().unwrap_or_else(|| std::mem::take(&mut interpolations.integration));
     fill::<D, K>(&mut interpolations.integration, scene, (mesh, locator), state);
@@ -55,7 +55,7 @@ pub fn begin_anew<const D: usize, K: Kinematics<D>>(
         locator,
         before: here,
         outlines: &outlines,
-        parting: &parting,
+        contact: &contact,
         relaxed: relaxed.is_some(),
         points: &state.points,
         parametric: &state.parametric,

@@ -16,6 +16,8 @@ mod resample;
 mod seed;
 mod smooth;
 
+pub use conform::ContactStatus;
+
 use super::geometry::Geometry;
 use crate::geometry::distance;
 use crate::kinematics::Kinematics;

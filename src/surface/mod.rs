@@ -21,7 +21,7 @@ pub use boundary::{ActiveBoundary, Behind, NO_REGION, Piece, place};
 pub use contour::{Contour, HIGHEST};
 pub use cover::{Cover, join, open};
 pub use distance::Distance;
-pub use front::{Lost, MarkerFront};
+pub use front::{ContactStatus, Lost, MarkerFront};
 pub use geometry::Geometry;
 pub use layers::visit_layers;
 pub use moments::CellFrame;

@@ -18,6 +18,17 @@ const FILM: f64 = 0.5;
 /// And it is longer than this multiple of its thickness: soil that meets a structure at more than 11° forms no film.
 const LONG: f64 = 5.0;
 
+/// What a piece of the boundary of a structure and the soil do.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ContactStatus {
+    /// They exert something on each other.
+    Closed,
+    /// There is a gap, and it grew in the last step.
+    Opening,
+    /// Anything else.
+    Open,
+}
+
 /// The place of an outline that a marker is nearest to.
 #[derive(Clone, Copy)]
 struct Foot {
@@ -34,19 +45,19 @@ struct Foot {
 struct Outline<'a> {
     x: &'a [[f64; 2]],
     along: Vec<f64>,
-    /// Whether each piece parts from the soil.
-    parting: &'a [bool],
+    /// The contact status of each piece.
+    contact: &'a [ContactStatus],
     closed: bool,
 }
 
 impl<'a> Outline<'a> {
-    fn new(x: &'a [[f64; 2]], parting: &'a [bool]) -> Self {
+    fn new(x: &'a [[f64; 2]], contact: &'a [ContactStatus]) -> Self {
         let mut along = vec![0.0];
         for pair in x.windows(2) {
             along.push(along[along.len() - 1] + distance(&pair[0], &pair[1]));
         }
         let closed = x.len() > 2 && distance(&x[0], &x[x.len() - 1]) < 1e-9 * along[along.len() - 1];
-        Self { x, along, parting, closed }
+        Self { x, along, contact, closed }
     }
 
     fn length(&self) -> f64 {
@@ -69,6 +80,19 @@ impl<'a> Outline<'a> {
         }
     }
 
+    /// Whether contact is closed from one arc length to a larger one.
+    fn is_closed(&self, from: f64, to: f64) -> bool {
+        // A closed outline goes on at both ends.
+        let turns = if self.closed { -1..=1 } else { 0..=0 };
+        let within = |ends: &[f64]| {
+            turns.clone().any(|k| {
+                let by = f64::from(k) * self.length();
+                ends[0] + by < to && ends[1] + by > from
+            })
+        };
+        self.along.windows(2).zip(self.contact).all(|(ends, status)| *status == ContactStatus::Closed || !within(ends))
+    }
+
     /// The way from one arc length to another, the shorter one around a closed outline.
     fn way(&self, from: f64, to: f64) -> f64 {
         let way = to - from;
@@ -77,7 +101,7 @@ impl<'a> Outline<'a> {
 }
 
 impl MarkerFront {
-    /// Takes the markers that lie against `outlines` anew from these, given which of their pieces part from the soil.
+    /// Takes the markers that lie against `outlines` anew from these, given the contact status of their pieces.
     ///
     /// # Errors
     /// When a marker was outside the mesh, or gets far outside it.
@@ -86,13 +110,13 @@ impl MarkerFront {
         mesh: &Mesh<2>,
         geometry: &Geometry,
         locator: &Locator<2>,
-        (outlines, parting): (&[Vec<[f64; 2]>], &[Vec<bool>]),
+        (outlines, contact): (&[Vec<[f64; 2]>], &[Vec<ContactStatus>]),
     ) -> Result<(), Lost> {
         if outlines.is_empty() {
             return Ok(());
         }
-        let both = outlines.iter().zip(parting).filter(|(x, _)| x.len() > 1);
-        let outlines: Vec<Outline> = both.map(|(x, parting)| Outline::new(x, parting)).collect();
+        let both = outlines.iter().zip(contact).filter(|(x, _)| x.len() > 1);
+        let outlines: Vec<Outline> = both.map(|(x, contact)| Outline::new(x, contact)).collect();
         let pieces: Vec<(usize, usize)> =
             outlines.iter().enumerate().flat_map(|(k, o)| (1..o.x.len()).map(move |i| (k, i))).collect();
         let size = self.sizes(mesh, geometry, locator)?;
@@ -106,6 +130,7 @@ impl MarkerFront {
         for l in 0..self.loops() {
             let range = self.first[l] as usize..self.first[l + 1] as usize;
             films(&outlines, &wall[range.clone()], &mut feet[range.clone()]);
+            pockets(&outlines, &wall[range.clone()], &mut feet[range.clone()]);
             lean_loop(&outlines, &self.position[range.clone()], &feet[range.clone()], &size[range], &mut next.position);
             next.first.push(next.position.len() as u32);
         }
@@ -130,7 +155,7 @@ fn foot(outlines: &[Outline], pieces: &[(usize, usize)], bins: &Bins, x: &[f64; 
         if closer {
             let along = outlines[outline].along[i - 1] + share * distance(&a, &b);
             // A gap opens however little it grows from reset to reset.
-            let near = if outlines[outline].parting[i - 1] { 0.0 } else { NEAR * h };
+            let near = if outlines[outline].contact[i - 1] == ContactStatus::Opening { 0.0 } else { NEAR * h };
             let lies = away <= if left > 0.0 { DEEP * h } else { near };
             best = Some((away, left, Foot { outline, along, away, lies }));
         }
@@ -170,6 +195,27 @@ fn films(outlines: &[Outline], wall: &[bool], feet: &mut [Option<Foot>]) {
     for k in found.into_iter().flatten() {
         if let Some(foot) = &mut feet[k % count] {
             foot.lies = true;
+        }
+    }
+}
+
+/// Moves onto their structure the markers around voids behind which contact is closed all along: there is soil, says contact.
+fn pockets(outlines: &[Outline], wall: &[bool], feet: &mut [Option<Foot>]) {
+    let count = feet.len();
+    let lying = |feet: &[Option<Foot>], i: usize| feet[i % count].filter(|foot| foot.lies);
+    let Some(begin) = (0..count).find(|&i| lying(feet, i).is_some()) else { return };
+    let mut last = begin;
+    for i in begin + 1..=begin + count {
+        let Some(to) = lying(feet, i) else { continue };
+        let from = lying(feet, last).unwrap_or(to);
+        let outline = &outlines[from.outline];
+        let free = last + 1..i;
+        last = i;
+        if from.outline == to.outline && !free.is_empty() && !free.clone().any(|k| wall[k % count]) {
+            let way = outline.way(from.along, to.along);
+            if way < 0.0 && outline.is_closed(from.along + way, from.along) {
+                free.for_each(|k| feet[k % count] = Some(from));
+            }
         }
     }
 }

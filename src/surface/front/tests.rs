@@ -2,6 +2,7 @@ use super::*;
 use crate::kinematics::{Axisymmetric, PlaneStrain};
 use crate::mesh::builder::rectangle;
 use crate::mesh::shape::CellKind;
+use ContactStatus::{Closed, Open, Opening};
 use std::f64::consts::TAU;
 
 struct Grid {
@@ -262,7 +263,7 @@ fn films_on_a_structure_go() {
     let grid = grid(rectangle(CellKind::T6, 2.0, 1.0, 16, 8, 0.0, 0));
     let (cell, wall) = (grid.geometry.size(&grid.mesh, 0), 0.4);
     // The structure is on the left of its outline, and of the soil.
-    let outline = [vec![[wall, 0.0], [wall, 1.0]]];
+    let (outline, open) = ([vec![[wall, 0.0], [wall, 1.0]]], [vec![Open]]);
     let line = |from: [f64; 2], to: [f64; 2]| {
         let count = (distance(&from, &to) / (cell / PER_LENGTH as f64)).ceil() as usize;
         (0..count).map(move |k| [0, 1].map(|d| from[d] + k as f64 / count as f64 * (to[d] - from[d])))
@@ -271,7 +272,7 @@ fn films_on_a_structure_go() {
         let position: Vec<_> =
             (0..corners.len()).flat_map(|k| line(corners[k], corners[(k + 1) % corners.len()])).collect();
         let mut front = MarkerFront { first: vec![0, position.len() as u32], position };
-        front.conform(&grid.mesh, &grid.geometry, &grid.locator, (&outline, &parting)).unwrap();
+        front.conform(&grid.mesh, &grid.geometry, &grid.locator, (&outline, &open)).unwrap();
         front
     };
     let soil = |top: &[[f64; 2]]| [&[[wall, 0.0], [1.5, 0.0], [1.5, 0.3]], top].concat();
@@ -292,7 +293,7 @@ fn films_on_a_structure_go() {
     );
 }
 
-/// Markers a twentieth of a cell outside a structure are put onto it, but where the two part; those within it everywhere.
+/// Markers a twentieth of a cell outside a structure are put onto it, but where the gap opens; those within it everywhere.
 #[test]
 fn soil_that_parts_from_a_structure_is_not_put_onto_it() {
     let grid = grid(rectangle(CellKind::T6, 2.0, 1.0, 16, 8, 0.0, 0));
@@ -302,13 +303,33 @@ fn soil_that_parts_from_a_structure_is_not_put_onto_it() {
         let rise = (0..=80).map(|k| [wall + beside, 1.0 - f64::from(k) / 80.0]);
         let position: Vec<_> = rise.chain([[1.5, 0.0], [1.5, 1.0]]).collect();
         let mut front = MarkerFront { first: vec![0, position.len() as u32], position };
-        front.conform(&grid.mesh, &grid.geometry, &grid.locator, (&outline, &[vec![false, true]])).unwrap();
+        front.conform(&grid.mesh, &grid.geometry, &grid.locator, (&outline, &[vec![Closed, Opening]])).unwrap();
         let away = |low: f64, high: f64| {
             let between = front.position.iter().filter(|x| x[0] < 1.0 && x[1] > low && x[1] < high);
             between.map(|x| (x[0] - wall).abs()).fold(0.0, f64::max)
         };
         let wanted = if beside > 0.0 { beside } else { 0.0 };
         assert!(away(0.1, 0.45) < 1e-12 && (away(0.55, 0.9) - wanted).abs() < 1e-12, "{beside}: {front:?}");
+    }
+}
+
+/// A void on a structure is filled where contact is closed all along it, and else it stays.
+#[test]
+fn a_void_where_contact_is_closed_is_filled() {
+    let grid = grid(rectangle(CellKind::T6, 2.0, 1.0, 16, 8, 0.0, 0));
+    let (cell, wall) = (grid.geometry.size(&grid.mesh, 0), 0.4);
+    let outline = [vec![[wall, 0.0], [wall, 0.4], [wall, 0.6], [wall, 1.0]]];
+    let void =
+        [0.6, 0.55, 0.5, 0.45, 0.4].map(|y: f64| [wall + 0.8 * cell * (1.0 - 100.0 * (y - 0.5).powi(2)).max(0.0), y]);
+    let position: Vec<_> =
+        [[wall, 1.0], [wall, 0.8]].into_iter().chain(void).chain([[wall, 0.0], [1.5, 0.0], [1.5, 1.0]]).collect();
+    let full = MarkerFront { first: vec![0, 4], position: vec![[wall, 1.0], [wall, 0.0], [1.5, 0.0], [1.5, 1.0]] };
+    for (middle, is_filled) in [(Closed, true), (Open, false), (Opening, false)] {
+        let mut front = MarkerFront { first: vec![0, position.len() as u32], position: position.clone() };
+        let before = front.volume::<PlaneStrain>();
+        front.conform(&grid.mesh, &grid.geometry, &grid.locator, (&outline, &[vec![Open, middle, Open]])).unwrap();
+        let wanted = if is_filled { full.volume::<PlaneStrain>() } else { before };
+        assert!((front.volume::<PlaneStrain>() - wanted).abs() < 1e-12, "{middle:?}: {front:?}");
     }
 }
 
@@ -325,7 +346,7 @@ fn a_marker_beyond_an_acute_corner_is_outside() {
         let bump = [tip[0] + 0.4 * cell * sine, tip[1] - 0.4 * cell * cosine];
         let position = vec![[0.0, 0.0], [2.0, 0.0], [2.0, 0.1], bump, [0.0, 0.1]];
         let mut front = MarkerFront { first: vec![0, 5], position };
-        front.conform(&grid.mesh, &grid.geometry, &grid.locator, (&outline, &parting)).unwrap();
+        front.conform(&grid.mesh, &grid.geometry, &grid.locator, (&outline, &[vec![Open; 2]])).unwrap();
         let nearest = front.position.iter().map(|x| distance(x, &tip)).fold(1.0, f64::min);
         assert!((nearest - 0.4 * cell).abs() < 1e-12, "{turn}°: {nearest}");
     }

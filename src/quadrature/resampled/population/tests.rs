@@ -85,7 +85,7 @@ fn on_grid<T>(mesh: &Mesh<2>, points: &Points<2>, find: impl FnOnce(&Restored<2>
         active: &vec![true; mesh.cells.len()],
         before: (mesh, &locator),
         outlines: &[],
-        parting: &[],
+        contact: &[],
         relaxed: false,
         displacement: None,
     })
