@@ -30,6 +30,7 @@ use rayon::prelude::*;
 use recover::{AtNode, Ground, Nodal};
 use std::collections::HashMap;
 use std::collections::hash_map::Entry;
+use std::iter::once;
 
 pub use recover::Values;
 pub use structures::Structures;
@@ -300,6 +301,9 @@ fn assemble(mesh: &Mesh<2>, pieces: impl Iterator<Item = Piece>, regions: &[u16]
     let mut numbers: HashMap<(usize, [i64; 2]), u32> = HashMap::new();
     for Piece { nodes, region, polygon } in pieces {
         let x = nodes.map(|n| mesh.nodes[n as usize]);
+        // A sliver far from all points of its region is of one whose points are near, and nothing where there is none.
+        let known = |region: &usize| polygon.iter().all(|corner| fields[*region].is_known(&nodes, corner));
+        let Some(region) = once(region).chain(0..fields.len()).find(known) else { continue };
         let mut number = |corner: &Corner| {
             let at = place(corner, &x);
             match numbers.entry((region, at.map(|v| (v / unit).round() as i64))) {

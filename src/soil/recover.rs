@@ -134,7 +134,12 @@ impl Nodal {
         Some(AtNode { value, residual: self.residual[k as usize], gradient })
     }
 
-    /// Appends the values between some nodes, given the weight of each, no greater and no less than at the points around them.
+    /// Whether something is known between some nodes, given the weight of each.
+    pub fn is_known(&self, nodes: &[u32; 3], weights: &[f64; 3]) -> bool {
+        nodes.iter().zip(weights).any(|(n, weight)| self.number[*n as usize] != NONE && *weight > 0.0)
+    }
+
+    /// Appends the values between some nodes where something [is known](Self::is_known), given the weight of each, no greater and no less than at the points around them.
     pub fn between(&self, nodes: &[u32; 3], weights: &[f64; 3], out: &mut Vec<f64>) {
         let has = |(n, weight): (&u32, &f64)| {
             let k = self.number[*n as usize];
@@ -146,7 +151,7 @@ impl Nodal {
             let value: f64 = own.iter().map(|(k, weight)| weight / sum * self.value[k + i]).sum();
             let range = own.iter().map(|(k, _)| self.range[k + i]);
             let [low, high] = range.fold([f64::INFINITY, f64::NEG_INFINITY], |[l, h], r| [l.min(r[0]), h.max(r[1])]);
-            out.push(if low <= high { value.clamp(low, high) } else { f64::NAN });
+            out.push(if low <= high { value.clamp(low, high) } else { value });
         }
     }
 }
