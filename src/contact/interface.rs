@@ -107,7 +107,7 @@ pub trait Interface<const D: usize>: Send + Sync {
     /// The boundary as polylines with the structure on their left; closed ones end where they begin.
     fn outlines(&self, position: &dyn Fn(u32) -> [f64; D]) -> Vec<Vec<[f64; D]>>;
 
-    /// The status of each piece of the outlines at the end of the last step; none of a boundary on a body.
+    /// The contact status of each piece of the outlines at the end of the last step; empty where there are no outlines.
     fn status(&self, _held: &Multipliers) -> Vec<Vec<ContactStatus>> {
         Vec::new()
     }
@@ -402,10 +402,14 @@ impl<K: Kinematics<2>> Interface<2> for Boundary<K> {
 
     fn status(&self, held: &Multipliers) -> Vec<Vec<ContactStatus>> {
         let all = |s: &Segment, is: &dyn Fn(usize) -> bool| s.contact_nodes.iter().all(|(k, _)| is(*k as usize));
-        let status = |s: &Segment| match () {
-            () if all(s, &|k| held.opens[k]) => ContactStatus::Opening,
-            () if all(s, &|k| held.touched(k)) => ContactStatus::Closed,
-            () => ContactStatus::Open,
+        let status = |s: &Segment| {
+            if all(s, &|k| held.opens[k]) {
+                ContactStatus::Opening
+            } else if all(s, &|k| held.touched(k)) {
+                ContactStatus::Closed
+            } else {
+                ContactStatus::Open
+            }
         };
         let of_chain = |chain: &Range<usize>| self.surface.segments[chain.clone()].iter().map(status).collect();
         self.surface.chains.iter().map(of_chain).collect()

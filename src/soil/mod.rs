@@ -301,7 +301,7 @@ fn assemble(mesh: &Mesh<2>, pieces: impl Iterator<Item = Piece>, regions: &[u16]
     let mut numbers: HashMap<(usize, [i64; 2]), u32> = HashMap::new();
     for Piece { nodes, region, polygon } in pieces {
         let x = nodes.map(|n| mesh.nodes[n as usize]);
-        // A sliver far from all points of its region is of one whose points are near, and nothing where there is none.
+        // A piece far from all points of its region belongs to a region whose points are near; where there is none it is left out.
         let known = |region: &usize| polygon.iter().all(|corner| fields[*region].is_known(&nodes, corner));
         let Some(region) = once(region).chain(0..fields.len()).find(known) else { continue };
         let mut number = |corner: &Corner| {

@@ -217,3 +217,25 @@ fn origins_are_traced_through_a_reset() {
         assert!((traced[0] - x[0] + 3.0).abs() < 1e-12 && (traced[1] - x[1] - 1.0).abs() < 1e-12);
     }
 }
+
+/// Beside a gap that opens between two materials what is drawn of one is not of the other, whose points are far.
+#[test]
+fn two_materials_that_part_have_values_everywhere() {
+    for kind in [CellKind::T6, CellKind::Q9] {
+        let mesh = grid(kind, 16, |x| if x[1] < 0.0 { 2 * square(x) } else { square(x) });
+        for gap in [0.3, 0.6, 0.9] {
+            let motion = |x: [f64; 2]| [x[0], x[1] + if x[1] > 0.0 { gap } else { 0.0 }];
+            let body = body(&mesh, motion, |_, region| f64::from(region), (&[], &[]));
+            assert!(body.values.iter().all(|value| value.is_finite()), "{kind:?} {gap}: {:?}", body.values);
+            for (triangle, region) in body.triangles.iter().zip(&body.region) {
+                let own = triangle.iter().all(|&i| (body.values[i as usize] - f64::from(*region)).abs() < 1e-12);
+                let values = triangle.map(|i| body.values[i as usize]);
+                assert!(
+                    own,
+                    "{kind:?} {gap}: {values:?} at {:?} of region {region}",
+                    triangle.map(|i| body.places[i as usize])
+                );
+            }
+        }
+    }
+}

@@ -18,14 +18,14 @@ const FILM: f64 = 0.5;
 /// And it is longer than this multiple of its thickness: soil that meets a structure at more than 11° forms no film.
 const LONG: f64 = 5.0;
 
-/// What a piece of the boundary of a structure and the soil do.
+/// The contact status of a piece of the boundary of a structure.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ContactStatus {
-    /// They exert something on each other.
+    /// Structure and soil exert pressure or shear on each other.
     Closed,
     /// There is a gap, and it grew in the last step.
     Opening,
-    /// Anything else.
+    /// There is a gap that did not grow, or contact is closed on a part of the piece only.
     Open,
 }
 
@@ -199,7 +199,7 @@ fn films(outlines: &[Outline], wall: &[bool], feet: &mut [Option<Foot>]) {
     }
 }
 
-/// Moves onto their structure the markers around voids behind which contact is closed all along: there is soil, says contact.
+/// Moves onto the structure the markers of voids along which contact is closed: contact bears there, and the cells of the void would not.
 fn pockets(outlines: &[Outline], wall: &[bool], feet: &mut [Option<Foot>]) {
     let count = feet.len();
     let lying = |feet: &[Option<Foot>], i: usize| feet[i % count].filter(|foot| foot.lies);
@@ -227,11 +227,14 @@ fn lean_loop(outlines: &[Outline], x: &[[f64; 2]], feet: &[Option<Foot>], size: 
     let on = |i: usize| lying(i).map(|foot| foot.outline);
     // Begin where no run goes on.
     let Some(begin) = (0..count).find(|&i| on(i).is_none() || on(i) != on(i + count - 1)) else {
-        // Soil all around a structure stays; a film of its own goes out along the structure and back.
-        let along = |i: usize| lying(i).map_or(0.0, |foot| foot.along);
-        let way = |i: usize| on(i).map_or(0.0, |outline| outlines[outline].way(along(i), along(i + 1)));
-        if (0..count).map(way).sum::<f64>().abs() > size.first().map_or(0.0, |size| FILM * size) {
-            out.extend(x);
+        // Soil lies all around a structure; a film of its own goes out along the structure and back, and is gone.
+        let Some(Foot { outline, along: start, .. }) = lying(0) else { return };
+        let (outline, along) = (&outlines[outline], |i: usize| lying(i).map_or(start, |foot| foot.along));
+        let way: f64 = (0..count).map(|i| outline.way(along(i), along(i + 1))).sum();
+        let size = size.iter().copied().fold(f64::INFINITY, f64::min);
+        if way.abs() > FILM * size {
+            let markers = (outline.length() * PER_LENGTH as f64 / size).ceil();
+            out.extend((0..markers as usize).map(|k| outline.at(start - outline.length() * k as f64 / markers)));
         }
         return;
     };

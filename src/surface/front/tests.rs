@@ -333,6 +333,35 @@ fn a_void_where_contact_is_closed_is_filled() {
     }
 }
 
+/// The same around the place where a closed outline begins, at any angle.
+#[test]
+fn a_void_across_the_beginning_of_a_closed_outline_is_filled() {
+    let grid = grid(rectangle(CellKind::T6, 2.0, 2.0, 16, 16, 0.0, 0));
+    let (cell, count) = (grid.geometry.size(&grid.mesh, 0), 120);
+    let at = |r: f64, t: f64| [1.0 + r * t.cos(), 1.0 + r * t.sin()];
+    for begin in [0.0, 0.7, 2.0] {
+        let angle = |i: usize| begin + TAU * i as f64 / f64::from(count);
+        let outline = [(0..=count as usize).map(|i| at(0.5, angle(i % count as usize))).collect::<Vec<_>>()];
+        // The soil is around the structure: clockwise, with a bump away from it within 5 pieces of the beginning.
+        let radius = |i: usize| {
+            let from = i.min(count as usize - i) as f64;
+            0.5 + 0.8 * cell * (1.0 - from / 5.0).max(0.0)
+        };
+        let hole: Vec<_> = (0..count as usize).rev().map(|i| at(radius(i), angle(i))).collect();
+        let walls = [[0.0, 0.0], [2.0, 0.0], [2.0, 2.0], [0.0, 2.0]];
+        let farthest = |open: bool| {
+            let mut contact = vec![Closed; count as usize];
+            contact[2] = if open { Open } else { Closed };
+            let position = [&walls[..], &hole].concat();
+            let mut front = MarkerFront { first: vec![0, 4, position.len() as u32], position };
+            front.conform(&grid.mesh, &grid.geometry, &grid.locator, (&outline, &[contact])).unwrap();
+            let away = |x: &[f64; 2]| distance(x, &[1.0, 1.0]);
+            front.position[front.first[1] as usize..].iter().map(away).fold(0.0, f64::max)
+        };
+        assert!((farthest(false) - 0.5).abs() < 1e-3 && farthest(true) > 0.5 + 0.7 * cell, "{begin}");
+    }
+}
+
 /// Beyond a corner of less than 90° a marker is outside of both sides, though it is on the left of the extension of one.
 #[test]
 fn a_marker_beyond_an_acute_corner_is_outside() {

@@ -315,7 +315,7 @@ fn reach(child: &mut Child, folder: &Path, step: u64) {
     }
 }
 
-/// How a run is continued, and begun if it is to be killed: the undisturbed one has one thread.
+/// Runs that are killed have three threads, the undisturbed ones have one: so the number of threads changes no bit, either.
 const RESUMED: [&str; 3] = ["--resume", "--threads", "3"];
 
 /// Continues a run in a copy of `folder` and kills it somewhere in the step after `step`, or in the next one.
@@ -470,7 +470,7 @@ fn soil_whose_points_are_split_killed_ten_times_ends_the_same() {
     assert!(split.sum::<u32>() >= 3, "{log}");
 }
 
-/// Of runs that are not killed in other tests, which vary it, too.
+/// The two cases that no other test kills; the tests that kill a run vary the number of threads, too.
 #[test]
 fn the_number_of_threads_changes_no_bit() {
     for case in [SAND, BODIES] {
