@@ -86,7 +86,7 @@ sanitize: build ## The boundary to Gmsh under valgrind, where that is installed:
 	  valgrind -q --trace-children=yes --undef-value-errors=no --error-exitcode=9 $(MPM) mesh $$case -o $$out >/dev/null; rm -rf $$out; done
 
 campaign: setup ## Kills, signals, full disks and pairs of processes in every stage, 25 times as many as in the tests
-	CAMPAIGN=25 cargo test --release --test campaign -- --nocapture
+	CAMPAIGN=25 cargo test --release --test all campaign:: -- --nocapture
 
 verification: build ## Run every verification; writes docs/verification.md
 	$(PYTHON) benches/verification/run.py $(ARGS)

@@ -3,15 +3,13 @@
 //!
 //! The tests disturb a few; `make campaign` disturbs as many as `CAMPAIGN` times that.
 
-mod support;
-
+use crate::support::{PROGRAM, Random, block, command, in_folder, said, succeeds};
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::sync::OnceLock;
 use std::time::{Duration, Instant};
-use support::{PROGRAM, Random, block, command, in_folder, said, succeeds};
 use tempfile::TempDir;
 
 /// The case that left results before.

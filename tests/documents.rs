@@ -1,13 +1,11 @@
 //! What the documents say holds: the README's first case runs and its list has every case, every link leads to a file, the sources that
 //! the theory and the tour name exist, the bill of materials is of what is linked. `manual.rs` has the manual.
 
-mod support;
-
+use crate::support::{in_folder, python, succeeds};
 use serde_json::Value;
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
-use support::{in_folder, python, succeeds};
 
 /// The text of the first block of code after `heading` that is marked as `language`.
 fn block(text: &str, heading: &str, language: &str) -> String {

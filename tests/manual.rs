@@ -1,12 +1,10 @@
 //! The manual (docs/SUMMARY.md): its tables have every key of the schema, its links lead to headings, the messages that it explains are
 //! those of the program, its words are plain, and the commands of its first steps print what it says.
 
-mod support;
-
+use crate::support::{PROGRAM, in_folder, project, python, succeeds};
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
-use support::{PROGRAM, in_folder, project, python, succeeds};
 
 /// The folders of the pages that are the manual alone, beside `docs/user-guide.md`.
 const FOLDERS: [&str; 4] = ["docs/first-steps", "docs/how-to", "docs/reference", "docs/coming-from"];

@@ -116,14 +116,14 @@ def explanations(topic):
 
 def tests(name, which):
     """A table of the tests of a topic, each run alone, and what they print."""
-    cargo = ["cargo", "test", "--release", "--quiet", "--test", name, "--"]
-    listed = execute([*cargo, "--list", *([which] if which else [])])
-    names = re.findall(r"^(\S+): test$", listed.out, re.MULTILINE)
+    cargo = ["cargo", "test", "--release", "--quiet", "--test", "all", "--"]
+    listed = execute([*cargo, "--list", f"{name}::{which}"])
+    names = re.findall(rf"^{name}::(\S+): test$", listed.out, re.MULTILINE)
     about = explanations(name)
     lines, printed = [f"### tests/{name}", "", "| test | what | result | seconds |", "|---|---|---|---|"], []
     for test in names:
         start = time.perf_counter()
-        done = execute([*cargo, "--exact", test, "--nocapture", "--test-threads=1"])
+        done = execute([*cargo, "--exact", f"{name}::{test}", "--nocapture", "--test-threads=1"])
         seconds = time.perf_counter() - start
         result = "passed" if done.status == 0 else "**failed**"
         what = about.get(plain(test), "").replace("|", "/")

@@ -41,10 +41,42 @@ impl Matrix {
         self.fixed.clear();
     }
 
-    /// Adds the dense matrix of coupling `k`. Of a symmetric system only the lower triangle is read.
+    /// Adds the dense matrix of coupling `k`. Of a symmetric system only the lower triangle is read. Rows without entries are left out: terms may act
+    /// on few of the nodes that a scheme couples.
     pub fn add(&mut self, pattern: &Pattern, k: usize, local: &[f64], size: usize) {
-        let mut all = Columns { blocks: 0..pattern.start.len() as u32 - 1, first: 0, values: &mut self.values };
-        all.add(pattern, k, local, size);
+        let blocks = pattern.connectivity.blocks(k);
+        let first_pair = pattern.pairs[k] as usize;
+        let width_of = |b: u32| (pattern.start[b as usize + 1] - pattern.start[b as usize]) as usize;
+        let mut rest = local;
+        for (a, &ra) in blocks.iter().enumerate() {
+            let height = width_of(ra);
+            let (rows, below) = rest.split_at(height * size);
+            rest = below;
+            if rows.iter().all(|&value| value == 0.0) {
+                continue;
+            }
+            let mut column = 0;
+            for (b, &cb) in blocks.iter().enumerate() {
+                let (width, from) = (width_of(cb), column);
+                column += width;
+                if pattern.symmetric && ra < cb {
+                    continue;
+                }
+                let offset = pattern.offset[first_pair + a * blocks.len() + b] as usize;
+                for j in 0..width {
+                    let begin = pattern.column[pattern.start[cb as usize] as usize + j] as usize;
+                    // In the lower triangle column j of the diagonal block has lost its first j rows.
+                    let (skip, lost) = match (pattern.symmetric, ra == cb) {
+                        (true, true) => (j, j),
+                        (true, false) => (0, j),
+                        _ => (0, 0),
+                    };
+                    for i in skip..height {
+                        self.values[begin + offset + i - lost] += rows[i * size + from + j];
+                    }
+                }
+            }
+        }
     }
 
     /// Adds to the diagonal entry of equation `e`.
@@ -59,30 +91,20 @@ impl Matrix {
     /// The matrix in `count` groups of columns with about as many entries each.
     fn columns(&mut self, pattern: &Pattern, count: usize) -> Vec<Columns<'_>> {
         let blocks = pattern.start.len() - 1;
-        let (total, mut begin) = (self.values.len(), 0);
-        let mut cuts = Vec::with_capacity(count - 1);
-        for group in 1..count {
-            while begin < blocks && (pattern.column[pattern.start[begin] as usize] as usize) < group * total / count {
-                begin += 1;
+        let first = |block: usize| pattern.column[pattern.start[block] as usize] as usize;
+        let (total, mut values, mut begin) = (self.values.len(), &mut self.values[..], 0);
+        let group = |number: usize| {
+            let mut end = begin;
+            while end < blocks && (number == count || first(end) < number * total / count) {
+                end += 1;
             }
-            cuts.push(begin as u32);
-        }
-        self.columns_between(pattern, &cuts)
-    }
-
-    /// The matrix in groups of columns that end at the blocks `cuts`, ascending.
-    pub(super) fn columns_between(&mut self, pattern: &Pattern, cuts: &[u32]) -> Vec<Columns<'_>> {
-        let first = |block: u32| pattern.column[pattern.start[block as usize] as usize] as usize;
-        let (mut values, mut begin) = (&mut self.values[..], 0);
-        let last = pattern.start.len() as u32 - 1;
-        let group = |&end: &u32| {
             let own;
             (own, values) = std::mem::take(&mut values).split_at_mut(first(end) - first(begin));
-            let group = Columns { blocks: begin..end, first: first(begin), values: own };
+            let group = Columns { blocks: begin as u32..end as u32, first: first(begin), values: own };
             begin = end;
             group
         };
-        cuts.iter().chain([&last]).map(group).collect()
+        (1..=count).map(group).collect()
     }
 
     /// Takes the equations marked in `fixed` out of the system: their rows and columns vanish but for a
@@ -212,7 +234,7 @@ impl Matrix {
 }
 
 /// Some columns of a matrix.
-pub(super) struct Columns<'a> {
+struct Columns<'a> {
     /// The blocks they belong to.
     pub blocks: Range<u32>,
     /// Where their values begin in the matrix.
@@ -224,43 +246,5 @@ impl Columns<'_> {
     /// The equations they belong to.
     pub fn equations(&self, pattern: &Pattern) -> Range<usize> {
         pattern.start[self.blocks.start as usize] as usize..pattern.start[self.blocks.end as usize] as usize
-    }
-
-    /// Adds what the dense matrix of coupling `k` has in these columns. Rows without entries are left out: terms may act on few of the nodes that a
-    /// scheme couples.
-    pub fn add(&mut self, pattern: &Pattern, k: usize, local: &[f64], size: usize) {
-        let blocks = pattern.connectivity.blocks(k);
-        let first_pair = pattern.pairs[k] as usize;
-        let width_of = |b: u32| (pattern.start[b as usize + 1] - pattern.start[b as usize]) as usize;
-        let mut rest = local;
-        for (a, &ra) in blocks.iter().enumerate() {
-            let height = width_of(ra);
-            let (rows, below) = rest.split_at(height * size);
-            rest = below;
-            if rows.iter().all(|&value| value == 0.0) {
-                continue;
-            }
-            let mut column = 0;
-            for (b, &cb) in blocks.iter().enumerate() {
-                let (width, from) = (width_of(cb), column);
-                column += width;
-                if !self.blocks.contains(&cb) || (pattern.symmetric && ra < cb) {
-                    continue;
-                }
-                let offset = pattern.offset[first_pair + a * blocks.len() + b] as usize;
-                for j in 0..width {
-                    let begin = pattern.column[pattern.start[cb as usize] as usize + j] as usize - self.first;
-                    // In the lower triangle column j of the diagonal block has lost its first j rows.
-                    let (skip, lost) = match (pattern.symmetric, ra == cb) {
-                        (true, true) => (j, j),
-                        (true, false) => (0, j),
-                        _ => (0, 0),
-                    };
-                    for i in skip..height {
-                        self.values[begin + offset + i - lost] += rows[i * size + from + j];
-                    }
-                }
-            }
-        }
     }
 }

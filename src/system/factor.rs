@@ -5,8 +5,8 @@ use super::whole::Whole;
 use super::{Matrix, Pattern};
 use crate::error::Result;
 
-/// Equations from which on halves pay.
-const MANY: usize = 20_000;
+/// Equations from which on halves pay: on two threads runs of 3000 to 9000 equations take 5 to 25 % less time, on one thread as much as in one piece.
+const MANY: usize = 2_000;
 
 /// A factor of the symmetric part of the matrices of one pattern.
 pub enum Factor {

@@ -1,57 +1,93 @@
 //! GMRES (Saad & Schultz 1986), preconditioned from the right: what it lessens is the true residual, for symmetric
-//! systems, saddles and unsymmetric ones alike. Its vectors cost little beside products that run over all cells.
+//! systems, saddles and unsymmetric ones alike.
 
-use super::accuracy::dot;
+use super::accuracy::{dot, norm};
 
 /// Vectors before a restart.
 const RESTART: usize = 40;
-/// Products in all.
-const MOST: usize = 160;
 
-/// Writes to `x` a solution of `A x = b` with a residual of at most `limit`; the number of products, or `None`
-/// where they do not suffice. `multiply(x, y)` is `y = A x`, `precondition(r)` turns `r` into about `A⁻¹ r`.
-pub fn gmres(
-    multiply: &dyn Fn(&[f64], &mut [f64]),
-    precondition: &mut dyn FnMut(&mut [f64]),
-    b: &[f64],
-    x: &mut [f64],
-    limit: f64,
-) -> Option<usize> {
-    let (mut products, mut r) = (0, b.to_vec());
-    let (mut basis, mut images): (Vec<Vec<f64>>, Vec<Vec<f64>>) = (Vec::new(), Vec::new());
-    x.fill(0.0);
-    loop {
-        let size = dot(&r, &r).sqrt();
-        if !size.is_finite() {
-            return None;
+/// The iteration, with memory that it uses again and again.
+#[derive(Default)]
+pub struct Gmres {
+    /// Orthonormal vectors, and what the preconditioner makes of them.
+    basis: Vec<Vec<f64>>,
+    images: Vec<Vec<f64>>,
+    /// The columns of the triangle that Givens rotations make of the Hessenberg matrix, the rotations, and the right-hand side.
+    triangle: Vec<Vec<f64>>,
+    turns: Vec<(f64, f64)>,
+    rest: Vec<f64>,
+}
+
+impl Gmres {
+    /// Writes to `x` what solves `A x = b` with a residual of at most `limit`, or what `most` products or two restarts that lessen it by less than
+    /// half give; returns the residual, which is not finite where there is no solution. `multiply(x, y)` is `y = A x`,
+    /// `precondition(r)` turns `r` into about `A⁻¹ r`, with which it begins.
+    pub fn solve(
+        &mut self,
+        multiply: &dyn Fn(&[f64], &mut [f64]),
+        precondition: &mut dyn FnMut(&mut [f64]),
+        b: &[f64],
+        x: &mut [f64],
+        (limit, most): (f64, usize),
+    ) -> f64 {
+        x.copy_from_slice(b);
+        precondition(x);
+        let (mut products, mut last) = (0, f64::INFINITY);
+        loop {
+            // The true residual counts, not that of the recursion.
+            let residual = vector(&mut self.basis, 0, b.len());
+            multiply(x, residual);
+            residual.iter_mut().zip(b).for_each(|(r, b)| *r = b - *r);
+            let size = norm(residual);
+            if size <= limit || !size.is_finite() || products >= most || size > 0.5 * last {
+                return size;
+            }
+            last = size;
+            residual.iter_mut().for_each(|r| *r /= size);
+            let ends = (0.9 * limit, (most - products).min(RESTART));
+            let Some(count) = self.iterate(multiply, precondition, size, ends) else { return f64::NAN };
+            products += count;
+            for i in (0..count).rev() {
+                let known: f64 = (i + 1..count).map(|j| self.triangle[j][i] * self.rest[j]).sum();
+                self.rest[i] = (self.rest[i] - known) / self.triangle[i][i];
+            }
+            for (image, y) in self.images.iter().zip(&self.rest[..count]) {
+                x.iter_mut().zip(image).for_each(|(x, v)| *x += y * v);
+            }
         }
-        if size <= limit {
-            return Some(products);
-        }
-        if products >= MOST {
-            return None;
-        }
-        basis.clear();
-        images.clear();
-        basis.push(r.iter().map(|r| r / size).collect());
-        // The columns of the triangle that Givens rotations make of the Hessenberg matrix.
-        let (mut triangle, mut turns): (Vec<Vec<f64>>, Vec<(f64, f64)>) = (Vec::new(), Vec::new());
-        let mut rest = vec![size];
-        for k in 0..RESTART {
-            let mut image = basis[k].clone();
-            precondition(&mut image);
-            let mut next = vec![0.0; b.len()];
-            multiply(&image, &mut next);
-            products += 1;
-            images.push(image);
-            let mut column: Vec<f64> = Vec::with_capacity(k + 2);
-            for v in &basis {
-                let h = dot(v, &next);
-                next.iter_mut().zip(v).for_each(|(n, v)| *n -= h * v);
+    }
+
+    /// At most `most` products from the first vector on, of a residual of this `size`, to one of `limit`; how many were made, or `None` where the matrix is
+    /// singular.
+    fn iterate(
+        &mut self,
+        multiply: &dyn Fn(&[f64], &mut [f64]),
+        precondition: &mut dyn FnMut(&mut [f64]),
+        size: f64,
+        (limit, most): (f64, usize),
+    ) -> Option<usize> {
+        self.turns.clear();
+        self.rest.clear();
+        self.rest.push(size);
+        for k in 0..most {
+            let n = self.basis[k].len();
+            let image = vector(&mut self.images, k, n);
+            image.copy_from_slice(&self.basis[k]);
+            precondition(image);
+            multiply(image, vector(&mut self.basis, k + 1, n));
+            let (before, [next, ..]) = self.basis.split_at_mut(k + 1) else { return None };
+            if self.triangle.len() == k {
+                self.triangle.push(Vec::with_capacity(RESTART + 1));
+            }
+            let column = &mut self.triangle[k];
+            column.clear();
+            for v in before {
+                let h = dot(v, next);
+                next.iter_mut().zip(v.iter()).for_each(|(n, v)| *n -= h * v);
                 column.push(h);
             }
-            let length = dot(&next, &next).sqrt();
-            for (i, &(c, s)) in turns.iter().enumerate() {
+            let length = norm(next);
+            for (i, &(c, s)) in self.turns.iter().enumerate() {
                 (column[i], column[i + 1]) = (c * column[i] + s * column[i + 1], c * column[i + 1] - s * column[i]);
             }
             let radius = column[k].hypot(length);
@@ -60,32 +96,30 @@ pub fn gmres(
             }
             let (c, s) = (column[k] / radius, length / radius);
             column[k] = radius;
-            turns.push((c, s));
-            triangle.push(column);
-            rest.push(-s * rest[k]);
-            rest[k] *= c;
-            if rest[k + 1].abs() <= 0.9 * limit || products >= MOST || length == 0.0 {
-                break;
+            self.turns.push((c, s));
+            self.rest.push(-s * self.rest[k]);
+            self.rest[k] *= c;
+            if self.rest[k + 1].abs() <= limit || length == 0.0 {
+                return Some(k + 1);
             }
             next.iter_mut().for_each(|n| *n /= length);
-            basis.push(next);
         }
-        for i in (0..triangle.len()).rev() {
-            let known: f64 = (i + 1..triangle.len()).map(|j| triangle[j][i] * rest[j]).sum();
-            rest[i] = (rest[i] - known) / triangle[i][i];
-        }
-        for (image, y) in images.iter().zip(&rest) {
-            x.iter_mut().zip(image).for_each(|(x, v)| *x += y * v);
-        }
-        multiply(x, &mut r);
-        products += 1;
-        r.iter_mut().zip(b).for_each(|(r, b)| *r = b - *r);
+        Some(most)
     }
+}
+
+/// Vector `k` of some, of length `n`.
+fn vector(all: &mut Vec<Vec<f64>>, k: usize, n: usize) -> &mut Vec<f64> {
+    if all.len() == k {
+        all.push(Vec::new());
+    }
+    all[k].resize(n, 0.0);
+    &mut all[k]
 }
 
 #[cfg(test)]
 mod tests {
-    use super::gmres;
+    use super::Gmres;
 
     /// An unsymmetric, indefinite matrix, preconditioned by its diagonal; more vectors than a restart has.
     #[test]
@@ -109,16 +143,17 @@ mod tests {
         let b: Vec<f64> = (0..n).map(|i| (i as f64).sin()).collect();
         let mut x = vec![0.0; n];
         let mut precondition = |r: &mut [f64]| r.iter_mut().enumerate().for_each(|(i, r)| *r /= entry(i, i));
-        let products = gmres(&multiply, &mut precondition, &b, &mut x, 1e-10).unwrap();
+        let said = Gmres::default().solve(&multiply, &mut precondition, &b, &mut x, (1e-10, 160));
         let mut image = vec![0.0; n];
         multiply(&x, &mut image);
         let residual = image.iter().zip(&b).map(|(a, b)| (a - b).powi(2)).sum::<f64>().sqrt();
-        assert!(residual <= 1e-10, "{residual:e} after {products} products");
+        assert!(residual <= 1e-10 && (said - residual).abs() < 1e-15, "{residual:e}, {said:e}");
     }
 
     #[test]
     fn a_singular_system_has_no_solution() {
         let multiply = |x: &[f64], y: &mut [f64]| (y[0], y[1]) = (x[0], 0.0);
-        assert_eq!(gmres(&multiply, &mut |_| (), &[1.0, 1.0], &mut [0.0, 0.0], 1e-8), None);
+        let residual = Gmres::default().solve(&multiply, &mut |_| (), &[1.0, 1.0], &mut [0.0, 0.0], (1e-8, 160));
+        assert!(residual.is_nan() || residual > 0.5, "{residual}");
     }
 }

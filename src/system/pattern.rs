@@ -113,8 +113,7 @@ impl Pattern {
             pairs: vec![0],
             largest_coupling: 0,
         };
-        let largest = |k: usize| pattern.coupling_size(k).max(pattern.local_size(k));
-        pattern.largest_coupling = (0..pattern.connectivity.len()).map(largest).max().unwrap_or(0);
+        pattern.largest_coupling = (0..pattern.connectivity.len()).map(|k| pattern.largest_size(k)).max().unwrap_or(0);
         pattern.expand();
         pattern.locate_pairs();
         pattern
@@ -140,6 +139,11 @@ impl Pattern {
     pub fn local_size(&self, k: usize) -> usize {
         let size = self.coupling_size(k);
         self.connectivity.combination(k).map_or(size, |of| size + of.nodes * self.width(k) - of.blocks * self.width(k))
+    }
+
+    /// Number of equations that the results of coupling `k` need room for, as written and as reduced to its blocks.
+    pub(super) fn largest_size(&self, k: usize) -> usize {
+        self.coupling_size(k).max(self.local_size(k))
     }
 
     /// Equations of the first block of coupling `k`, and of all that are combined.

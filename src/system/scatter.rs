@@ -3,7 +3,6 @@
 use super::{Matrix, Pattern};
 use crate::error::Result;
 use rayon::prelude::*;
-use std::ops::Range;
 
 /// What one coupling contributes: a dense matrix (row-major) and a vector over the equations of its nodes.
 pub struct Local<'a> {
@@ -13,56 +12,8 @@ pub struct Local<'a> {
     pub size: usize,
 }
 
-/// Some equations of a vector.
-struct Rows<'a> {
-    /// The blocks they belong to.
-    blocks: Range<u32>,
-    values: &'a mut [f64],
-}
-
-impl Rows<'_> {
-    /// Adds what the dense vector of coupling `k` has in these equations.
-    fn add(&mut self, pattern: &Pattern, k: usize, local: &[f64]) {
-        let (first, mut begin) = (pattern.start[self.blocks.start as usize] as usize, 0);
-        for &b in pattern.connectivity.blocks(k) {
-            let equations = pattern.start[b as usize] as usize..pattern.start[b as usize + 1] as usize;
-            let size = equations.len();
-            if self.blocks.contains(&b) {
-                let own = &mut self.values[equations.start - first..equations.end - first];
-                own.iter_mut().zip(&local[begin..]).for_each(|(sum, value)| *sum += value);
-            }
-            begin += size;
-        }
-    }
-}
-
-/// A vector in groups of equations that end at the blocks `cuts`, ascending.
-fn rows_between<'a>(pattern: &Pattern, cuts: &[u32], vector: &'a mut [f64]) -> Vec<Rows<'a>> {
-    let (mut rest, mut begin) = (vector, 0);
-    let last = pattern.start.len() as u32 - 1;
-    let group = |&end: &u32| {
-        let own;
-        let count = pattern.start[end as usize] - pattern.start[begin as usize];
-        (own, rest) = std::mem::take(&mut rest).split_at_mut(count as usize);
-        let group = Rows { blocks: begin..end, values: own };
-        begin = end;
-        group
-    };
-    cuts.iter().chain([&last]).map(group).collect()
-}
-
-/// Blocks to cut at, ascending, so that each of `threads` parts has about as many of those of the `couplings`.
-fn share(pattern: &Pattern, connectivity: impl Iterator<Item = usize>, threads: usize) -> Vec<u32> {
-    if threads == 1 {
-        return Vec::new();
-    }
-    let mut blocks: Vec<u32> = connectivity.flat_map(|k| pattern.connectivity.blocks(k)).copied().collect();
-    blocks.sort_unstable();
-    (1..threads).map(|part| blocks.get(part * blocks.len() / threads).copied().unwrap_or(0)).collect()
-}
-
-/// Numbers that the results of a batch have about: items are computed side by side before their results are added, in their order, to the system, and
-/// as many as stay in a cache until then.
+/// Numbers that the results of a batch have about: while those of one are added to the system, those of the next are computed, and
+/// both stay in a cache until then.
 const NUMBERS: usize = 1 << 16;
 /// Least number of items of a batch for each thread.
 const EACH: usize = 4;
@@ -72,15 +23,15 @@ fn batch(stride: usize, threads: usize) -> usize {
     (NUMBERS / stride).max(EACH * threads)
 }
 
-/// Memory that assembly uses again and again.
+/// Memory that assembly uses again and again: the results of two batches.
 #[derive(Default)]
 pub struct Workspace {
-    buffer: Vec<f64>,
+    buffers: [Vec<f64>; 2],
 }
 
 /// Computes the contributions of `items` (each with its coupling) in parallel and adds them to `vector` and,
-/// where wanted, to `matrix`. The order of the additions is that of `items`, so the sums do not depend on
-/// the number of threads.
+/// where wanted, to `matrix`. One batch is added while the next is computed. The order of the additions is that of `items`, so the sums do
+/// not depend on the number of threads.
 ///
 /// # Errors
 /// The error of the first item that fails; the sums are then incomplete.
@@ -93,54 +44,70 @@ pub fn scatter<I: Sync>(
     mut matrix: Option<&mut Matrix>,
     workspace: &mut Workspace,
 ) -> Result<()> {
-    let largest = pattern.largest_coupling;
-    let matrix_stride = if matrix.is_some() { largest * largest } else { 0 };
-    let stride = largest + matrix_stride;
+    let largest = items.iter().map(|item| pattern.largest_size(coupling(item))).max().unwrap_or(0);
+    let squared = if matrix.is_some() { largest * largest } else { 0 };
+    let stride = largest + squared;
     if stride == 0 {
         return Ok(());
     }
-    let threads = rayon::current_num_threads();
-    let at_once = batch(stride, threads);
-    let needed = stride * items.len().min(at_once);
-    if workspace.buffer.len() < needed {
-        workspace.buffer.resize(needed, 0.0);
+    let at_once = batch(stride, rayon::current_num_threads());
+    for buffer in &mut workspace.buffers {
+        let needed = stride * items.len().min(at_once);
+        if buffer.len() < needed {
+            buffer.resize(needed, 0.0);
+        }
     }
     let run = |item: &I, slot: &mut [f64]| {
         let k = coupling(item);
-        let size = pattern.local_size(k);
-        slot.fill(0.0);
-        let (vector, rest) = slot.split_at_mut(largest);
-        let matrix = if matrix_stride > 0 { &mut rest[..size * size] } else { &mut rest[..0] };
-        compute(item, &mut Local { matrix, vector: &mut vector[..size], size })?;
-        pattern.reduce(k, vector, rest);
+        let (size, most) = (pattern.local_size(k), pattern.largest_size(k));
+        let (vector, matrix) = slot.split_at_mut(largest);
+        let (vector, matrix) = (&mut vector[..most], &mut matrix[..(most * most).min(squared)]);
+        vector.fill(0.0);
+        matrix.fill(0.0);
+        let square = (size * size).min(matrix.len());
+        compute(item, &mut Local { matrix: &mut matrix[..square], vector: &mut vector[..size], size })?;
+        pattern.reduce(k, vector, matrix);
         Ok(())
     };
-    for batch in items.chunks(at_once) {
-        let slots = &mut workspace.buffer[..stride * batch.len()];
-        let pairs = batch.par_iter().zip(slots.par_chunks_mut(stride));
+    let results = |batch: &[I], buffer: &mut [f64]| {
+        let pairs = batch.par_iter().zip(buffer.par_chunks_mut(stride));
         if pairs.try_for_each(|(item, slot)| run(item, slot).map_err(|_| ())).is_err() {
             // Threads may fail in any order: run again one by one for the error of the first item.
-            for (item, slot) in batch.iter().zip(slots.chunks_mut(stride)) {
-                run(item, slot)?;
+            return batch.iter().zip(buffer.chunks_mut(stride)).try_for_each(|(item, slot)| run(item, slot));
+        }
+        Ok(())
+    };
+    let mut add = |batch: &[I], buffer: &[f64]| {
+        for (item, slot) in batch.iter().zip(buffer.chunks(stride)) {
+            let k = coupling(item);
+            add_vector(pattern, k, slot, vector);
+            if let Some(matrix) = &mut matrix {
+                matrix.add(pattern, k, &slot[largest..], pattern.coupling_size(k));
             }
         }
-        // Each thread adds to equations of its own, so that every entry sees the items in their order.
-        let cuts = share(pattern, batch.iter().map(&coupling), threads);
-        let columns: Vec<_> = match &mut matrix {
-            Some(matrix) => matrix.columns_between(pattern, &cuts).into_iter().map(Some).collect(),
-            None => (0..=cuts.len()).map(|_| None).collect(),
-        };
-        rows_between(pattern, &cuts, vector).into_par_iter().zip(columns).for_each(|(mut rows, mut columns)| {
-            for (item, slot) in batch.iter().zip(slots.chunks(stride)) {
-                let k = coupling(item);
-                rows.add(pattern, k, slot);
-                if let Some(columns) = &mut columns {
-                    columns.add(pattern, k, &slot[largest..], pattern.coupling_size(k));
-                }
-            }
-        });
+    };
+    let [one, other] = &mut workspace.buffers;
+    let (mut done, mut next) = (one, other);
+    let mut before: &[I] = &[];
+    for batch in items.chunks(at_once) {
+        let (_, found) = rayon::join(|| add(before, done), || results(batch, next));
+        found?;
+        std::mem::swap(&mut done, &mut next);
+        before = batch;
     }
+    add(before, done);
     Ok(())
+}
+
+/// Adds what the dense vector of coupling `k` has.
+fn add_vector(pattern: &Pattern, k: usize, local: &[f64], vector: &mut [f64]) {
+    let mut rest = local;
+    for &b in pattern.connectivity.blocks(k) {
+        let equations = pattern.start[b as usize] as usize..pattern.start[b as usize + 1] as usize;
+        let (own, after) = rest.split_at(equations.len());
+        vector[equations].iter_mut().zip(own).for_each(|(sum, value)| *sum += value);
+        rest = after;
+    }
 }
 
 #[cfg(test)]

@@ -1,12 +1,12 @@
 //! The solver of linear systems.
 //!
-//! A symmetric system is tried by Cholesky, then by LDLᵀ, one with a pressure field by LDLᵀ only; an unsymmetric one by BiCGSTAB (van der Vorst
-//! 1992) on that factor of its symmetric part; LU is the last resort of both. faer can return a
+//! A symmetric system is tried by Cholesky, then by LDLᵀ, one with a pressure field by LDLᵀ only; an unsymmetric one by GMRES
+//! on that factor of its symmetric part; LU is the last resort of both. faer can return a
 //! solution that is not finite, or one that does not solve, without an error: every solution is checked.
 
-use super::accuracy::{ACCEPTED, SINGULAR, dot, norm, singular};
+use super::accuracy::{ACCEPTED, SINGULAR, norm, singular};
 use super::factor::Factor;
-use super::iterative::gmres;
+use super::iterative::Gmres;
 use super::lu::General;
 use super::{Matrix, Pattern};
 use crate::error::{Error, Result};
@@ -14,12 +14,12 @@ use crate::profile::{Activity, timed};
 
 /// Relative residual that iterative refinement aims at.
 const AIM: f64 = 1e-12;
-/// Relative residual that BiCGSTAB aims at.
-const ITERATION_AIM: f64 = 1e-9;
-/// Iterations of BiCGSTAB before LU is taken.
-const ITERATIONS: usize = 40;
-/// Iterations with the factor of another matrix before a new one is made.
-const FEW_ITERATIONS: usize = 8;
+/// Relative residual that GMRES aims at.
+const ITERATION_AIM: f64 = 1e-10;
+/// Products of GMRES before LU is taken, or nothing else is left.
+const PRODUCTS: usize = 160;
+/// Products with the factor of another matrix before a new one is made.
+const FEW_PRODUCTS: usize = 16;
 
 /// How a solution was found.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -37,7 +37,7 @@ pub struct Solver {
     definite: bool,
     /// Symbolic LU with its full pattern, made when first needed.
     general: Option<General>,
-    work: Vec<Vec<f64>>,
+    gmres: Gmres,
 }
 
 impl Solver {
@@ -48,7 +48,7 @@ impl Solver {
     /// A machine error when memory does not suffice.
     pub fn new<const D: usize>(pattern: &Pattern, places: &[[f64; D]]) -> Result<Self> {
         let factor = timed(Activity::Analysis, || Factor::new(pattern, places))?;
-        Ok(Self { factor, definite: true, general: None, work: Vec::new() })
+        Ok(Self { factor, definite: true, general: None, gmres: Gmres::default() })
     }
 
     /// The solver for saddles: quasi-definite matrices, which have an LDLᵀ factor in any order of the equations
@@ -86,7 +86,7 @@ impl Solver {
                 }
             }
         } else if timed(Activity::Factorisation, || self.factorize(matrix, pattern, self.definite))?
-            && timed(Activity::Solution, || self.iterate(pattern, matrix, ITERATIONS, &b, x))
+            && timed(Activity::Solution, || self.iterate(pattern, matrix, PRODUCTS, &b, x))
         {
             return Ok(Method::Iterative);
         }
@@ -104,7 +104,7 @@ impl Solver {
     pub fn solve_near(&mut self, pattern: &Pattern, matrix: &Matrix, x: &mut [f64]) -> Result<Method> {
         let b = x.to_vec();
         let found =
-            !pattern.symmetric && timed(Activity::Solution, || self.iterate(pattern, matrix, FEW_ITERATIONS, &b, x));
+            !pattern.symmetric && timed(Activity::Solution, || self.iterate(pattern, matrix, FEW_PRODUCTS, &b, x));
         if found {
             return Ok(Method::Iterative);
         }
@@ -137,7 +137,7 @@ impl Solver {
                 continue;
             }
             let multiply = |x: &[f64], y: &mut [f64]| matrix.multiply(pattern, x, y);
-            let products = timed(Activity::Solution, || {
+            let residual = timed(Activity::Solution, || {
                 // What is taken out is known, and concerns no other equation.
                 let (mut known, mut unknown) = (vec![0.0; b.len()], b);
                 for ((known, unknown), fixed) in known.iter_mut().zip(&mut unknown).zip(&matrix.fixed) {
@@ -145,14 +145,16 @@ impl Solver {
                         std::mem::swap(known, unknown);
                     }
                 }
-                let products = gmres(&multiply, &mut |r| self.factor.solve(r, llt), &unknown, x, tolerance * size);
+                let Self { factor, gmres, .. } = self;
+                let ends = (tolerance * size, PRODUCTS);
+                let residual = gmres.solve(&multiply, &mut |r| factor.solve(r, llt), &unknown, x, ends);
                 if known.iter().any(|&b| b != 0.0) {
                     self.factor.solve(&mut known, llt);
                     x.iter_mut().zip(&known).for_each(|(x, known)| *x += known);
                 }
-                products
+                residual
             });
-            if products.is_some() {
+            if residual <= tolerance * size {
                 return Ok(Method::Iterative);
             }
             break;
@@ -219,77 +221,11 @@ impl Solver {
         last <= ACCEPTED
     }
 
-    /// BiCGSTAB preconditioned by the factor of the symmetric part.
+    /// GMRES preconditioned by the factor of the symmetric part, of at most `most` products.
     fn iterate(&mut self, pattern: &Pattern, matrix: &Matrix, most: usize, b: &[f64], x: &mut [f64]) -> bool {
-        let n = b.len();
-        let mut work = std::mem::take(&mut self.work);
-        work.resize(7, Vec::new());
-        for w in &mut work {
-            w.clear();
-            w.resize(n, 0.0);
-        }
-        let converged = self.bicgstab(pattern, matrix, most, b, x, &mut work);
-        self.work = work;
-        converged
-    }
-
-    fn bicgstab(
-        &mut self,
-        pattern: &Pattern,
-        matrix: &Matrix,
-        most: usize,
-        b: &[f64],
-        x: &mut [f64],
-        work: &mut [Vec<f64>],
-    ) -> bool {
-        let [r, shadow, p, v, s, t, y] = work else { return false };
-        x.copy_from_slice(b);
-        self.factor.solve(x, self.definite);
-        matrix.multiply(pattern, x, r);
-        for (r, b) in r.iter_mut().zip(b) {
-            *r = b - *r;
-        }
-        shadow.copy_from_slice(r);
-        p.copy_from_slice(r);
-        let size = norm(b);
-        let mut rho = dot(shadow, r);
-        for _ in 0..most {
-            if norm(r) <= ITERATION_AIM * size {
-                return true;
-            }
-            y.copy_from_slice(p);
-            self.factor.solve(y, self.definite);
-            matrix.multiply(pattern, y, v);
-            let alpha = rho / dot(shadow, v);
-            for i in 0..x.len() {
-                x[i] += alpha * y[i];
-                s[i] = r[i] - alpha * v[i];
-            }
-            y.copy_from_slice(s);
-            self.factor.solve(y, self.definite);
-            matrix.multiply(pattern, y, t);
-            let omega = dot(t, s) / dot(t, t);
-            if !omega.is_finite() {
-                r.copy_from_slice(s);
-                break;
-            }
-            for i in 0..x.len() {
-                x[i] += omega * y[i];
-                r[i] = s[i] - omega * t[i];
-            }
-            let next = dot(shadow, r);
-            let beta = next / rho * alpha / omega;
-            rho = next;
-            if !beta.is_finite() {
-                break;
-            }
-            for i in 0..x.len() {
-                p[i] = r[i] + beta * (p[i] - omega * v[i]);
-            }
-        }
-        // What counts is the true residual, not the recursive one.
-        matrix.multiply(pattern, x, t);
-        let residual = t.iter().zip(b).map(|(t, b)| (b - t).powi(2)).sum::<f64>().sqrt();
-        residual.is_finite() && residual <= ACCEPTED * size
+        let Self { factor, definite, gmres, .. } = self;
+        let (size, multiply) = (norm(b), |x: &[f64], y: &mut [f64]| matrix.multiply(pattern, x, y));
+        gmres.solve(&multiply, &mut |r| factor.solve(r, *definite), b, x, (ITERATION_AIM * size, most))
+            <= ACCEPTED * size
     }
 }

@@ -1,7 +1,7 @@
 //! Bodies that touch bodies.
 
+use crate::contact::{history, refused};
 use crate::support::{rows, run};
-use crate::{history, refused};
 use mpm::io::frame::Frame;
 
 const BLOCKS: &str = "tests/data/blocks";

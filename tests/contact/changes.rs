@@ -1,7 +1,7 @@
 //! Settings of contacts that change as a phase begins.
 
+use crate::contact::{history, refused};
 use crate::support::{rows, run};
-use crate::{history, refused};
 
 /// A block that friction holds on an incline slides down from the phase on in which friction is less, with `g (sin θ − tan δ cos θ)`.
 #[test]

@@ -1,6 +1,6 @@
 //! Rigid structures, from the case to the results: forces and motion against closed forms and deformable ones.
 
-use crate::history;
+use crate::contact::history;
 use crate::support::{errors, mpm, rows, run};
 use mpm::io::frame::Frame;
 
@@ -121,7 +121,7 @@ fn a_rotation_reached_is_told_in_radians() {
 #[test]
 fn contradictions_about_rigid_structures_are_told() {
     let refused = |overrides: &[&str], words: &[&str]| {
-        crate::refused(PLATE, &[&["regions.plate.rigid=true"], overrides].concat(), words);
+        crate::contact::refused(PLATE, &[&["regions.plate.rigid=true"], overrides].concat(), words);
     };
     refused(&["phases[0].prescribe.plate={uy: {rate: -0.2}}"], &["differently (y)", "`top`", "`plate`"]);
     refused(&["phases[0].prescribe.plate={rotation: {rate: 1}}"], &["rules out the rotation of `plate`"]);

@@ -1,6 +1,6 @@
 //! A structure off the axis: an open tube in soil that it touches inside and out.
 
-use crate::history;
+use crate::contact::history;
 use std::f64::consts::TAU;
 
 /// Pulled up, it is held by α s_u on both of its sides, rigid or not, and by nothing else.

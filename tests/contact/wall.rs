@@ -1,6 +1,6 @@
 //! Walls: curves that soil and structures slide along, and that move.
 
-use crate::{history, refused};
+use crate::contact::{history, refused};
 
 const WALL: &str = "tests/data/wall";
 const BODY: &str = "tests/data/slide";

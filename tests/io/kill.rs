@@ -115,7 +115,7 @@ fn kill_9_at_any_moment_loses_nothing() {
     let mut reached = 0;
     for attempt in 0..10 {
         let mut child = Command::new(std::env::current_exe().unwrap())
-            .args(["--exact", "kill::process_to_be_killed"])
+            .args(["--exact", "io::kill::process_to_be_killed"])
             .env(FOLDER, killed.path())
             .stdout(Stdio::null())
             .spawn()

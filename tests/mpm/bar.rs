@@ -1,6 +1,6 @@
 //! The vibrating bar, fixed–free, at small amplitude ([`mpm::analytical::vibrating_bar`]), first mode.
 
-use crate::bench::{Bench, constant, quadrature_points, run};
+use crate::support::bench::{Bench, constant, quadrature_points, run};
 use mpm::analytical::vibrating_bar::Bar;
 use mpm::kinematics::PlaneStrain;
 use mpm::material::{Elasticity, LinearElastic};

@@ -1,7 +1,7 @@
 //! Points that got beyond the boundary of the mesh: those next to a support are put back onto it.
 
-use crate::bench::{Bench, constant, quadrature_points};
-use crate::layout::resample;
+use crate::support::bench::{Bench, constant, quadrature_points};
+use crate::support::layout::resample;
 use mpm::error::Result;
 use mpm::kinematics::{Axisymmetric, Kinematics, PlaneStrain};
 use mpm::material::{Elasticity, LinearElastic};

@@ -4,10 +4,10 @@
 mod functions;
 mod system;
 
-use crate::bench::{Bench, constant, quadrature_points, run};
-use crate::layout::{at, lattice, resample, seeded};
-use crate::patch::stretch_boundary;
-use crate::resampled::flies_its_parabola;
+use crate::mpm::patch::stretch_boundary;
+use crate::mpm::resampled::flies_its_parabola;
+use crate::support::bench::{Bench, constant, quadrature_points, run};
+use crate::support::layout::{at, lattice, resample, seeded};
 use crate::support::{Random, errors, mpm, rows, run as program_run};
 use mpm::analytical::self_weight_column::Column;
 use mpm::interpolation::{BSpline, Basis, Mpm};

@@ -5,7 +5,7 @@
 //! restored. Restored in every step, the plain method does not converge: that is asserted too, so that the
 //! day it does, this file must change.
 
-use crate::bench::{Bench, constant, quadrature_points, run};
+use crate::support::bench::{Bench, constant, quadrature_points, run};
 use mpm::analytical::self_weight_column::Column;
 use mpm::kinematics::PlaneStrain;
 use mpm::material::{Elasticity, LinearElastic};

@@ -3,7 +3,7 @@
 //! Half of a rough strip footing on Tresca soil, h = B/4, by cells that are all marked as ill-conditioned. The exact value
 //! for a rigid footing is 2 + π; coarse cells of so few constraints are above it, with or without the penalty.
 
-use crate::bench::{Bench, constant, quadrature_points, run};
+use crate::support::bench::{Bench, constant, quadrature_points, run};
 use mpm::kinematics::PlaneStrain;
 use mpm::material::{Elasticity, Tresca};
 use mpm::mesh::builder::rectangle;

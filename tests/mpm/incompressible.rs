@@ -1,8 +1,8 @@
 //! The pressure field at Poisson's ratio 0.4999: the patch, a thick cylinder, undrained against total stress.
 
-use crate::bench::{Bench, constant, quadrature_points, run};
-use crate::layout::{at, resample, seeded};
-use crate::patch::stretch_boundary;
+use crate::mpm::patch::stretch_boundary;
+use crate::support::bench::{Bench, constant, quadrature_points, run};
+use crate::support::layout::{at, resample, seeded};
 use mpm::kinematics::{Axisymmetric, Kinematics, PlaneStrain};
 use mpm::material::{Elasticity, LinearElastic, Model, Tresca};
 use mpm::mesh::builder::rectangle;

@@ -1,7 +1,7 @@
 //! Claims that hold whatever the method: bodies in flight, motion that is prescribed, units, turned and distant
 //! coordinates, closed forms in axisymmetry, soil at rest.
 
-use crate::bench::{Bench, constant, quadrature_points, run};
+use crate::support::bench::{Bench, constant, quadrature_points, run};
 use mpm::kinematics::{Axisymmetric, Kinematics, PlaneStrain};
 use mpm::material::{Elasticity, LinearElastic, spatial};
 use mpm::mesh::Mesh;

@@ -8,7 +8,7 @@
 //!
 //! `a` is the unit of the unknowns. Cells without points conduct next to nothing, so that their corners have an equation.
 
-use crate::bench::{Bench, constant, quadrature_points};
+use crate::support::bench::{Bench, constant, quadrature_points};
 use mpm::error::Result;
 use mpm::interpolation::integrate;
 use mpm::kinematics::{Kinematics, PlaneStrain};

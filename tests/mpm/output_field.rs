@@ -1,6 +1,6 @@
 //! An output field, defined in this file only; the library needs no change for it. `volume_ratio` is `det F` of each point.
 
-use crate::bench::{Bench, constant, quadrature_points};
+use crate::support::bench::{Bench, constant, quadrature_points};
 use mpm::io::checkpoint::Fingerprint;
 use mpm::io::export::{Regions, export};
 use mpm::io::frame::{self, Column, Frame};

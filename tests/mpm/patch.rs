@@ -1,6 +1,6 @@
 //! The linear patch test: boundary displacements of a uniform strain give that strain everywhere.
 
-use crate::bench::{Bench, constant, quadrature_points, run};
+use crate::support::bench::{Bench, constant, quadrature_points, run};
 use mpm::interpolation::{Basis, Mpm};
 use mpm::kinematics::{Axisymmetric, Kinematics, PlaneStrain};
 use mpm::material::{Elasticity, LinearElastic};

@@ -1,6 +1,6 @@
 //! A free body that spins, and one that is turned by its boundary: momentum kept, stress objective.
 
-use crate::bench::{Bench, constant, quadrature_points, run};
+use crate::support::bench::{Bench, constant, quadrature_points, run};
 use mpm::kinematics::PlaneStrain;
 use mpm::material::{Elasticity, LinearElastic};
 use mpm::mesh::Mesh;

@@ -4,7 +4,7 @@
 //! at nodes on the boundary `A` is the identity. `A` is not singular, so that the functions span what the shape functions of the cells do, with
 //! the same values on the boundary: whatever the program solves with this scheme must have the same solution as with plain MPM.
 
-use crate::bench::{Bench, constant, quadrature_points, run};
+use crate::support::bench::{Bench, constant, quadrature_points, run};
 use mpm::interpolation::{Basis, Interpolation, Located, Mpm, Place, Support};
 use mpm::kinematics::{Axisymmetric, Kinematics, PlaneStrain};
 use mpm::material::{Elasticity, LinearElastic, Tresca};

@@ -1,7 +1,7 @@
 //! Thin parts of cells: what holds little material neither fails nor makes the rest fail.
 
-use crate::bench::{Bench, constant, run};
-use crate::layout::{at, resample, straighten};
+use crate::support::bench::{Bench, constant, run};
+use crate::support::layout::{at, resample, straighten};
 use mpm::kinematics::PlaneStrain;
 use mpm::material::{Elasticity, LinearElastic, Model};
 use mpm::mesh::builder::rectangle;

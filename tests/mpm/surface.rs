@@ -1,8 +1,8 @@
 //! The active boundary: closed polylines through collapses, and loads that follow them.
 
-use crate::bench::{Bench, constant, run};
-use crate::layout::{at, lattice, resample, resample_bounded, seeded};
 use crate::support::Random;
+use crate::support::bench::{Bench, constant, run};
+use crate::support::layout::{at, lattice, resample, resample_bounded, seeded};
 use mpm::kinematics::{Axisymmetric, Kinematics, PlaneStrain};
 use mpm::material::{Elasticity, LinearElastic, Profile, VonMises};
 use mpm::mesh::Mesh;

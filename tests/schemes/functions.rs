@@ -1,6 +1,6 @@
 //! The functions by themselves: what they sum up to, what they reproduce, where they are continuous, and that they are the means they claim to be.
 
-use crate::shapes::{Field, Seen};
+use crate::schemes::shapes::{Field, Seen};
 use mpm::interpolation::{Basis, Composite, Cpdi, Cpdi2, Gimp, Mpm};
 use mpm::kinematics::Axisymmetric;
 use mpm::mesh::Mesh;

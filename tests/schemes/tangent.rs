@@ -1,7 +1,7 @@
 //! The tangent of the internal force against differences, with each scheme.
 
-use crate::functions::{COMPOSITE, CPDI, CPDI2, CPGIMP, UGIMP};
-use crate::stand::{SMOOTHED, Stand, elastic, elasticity, mesh, points, resultant, size};
+use crate::schemes::functions::{COMPOSITE, CPDI, CPDI2, CPGIMP, UGIMP};
+use crate::support::stand::{SMOOTHED, Stand, elastic, elasticity, mesh, points, resultant, size};
 use mpm::interpolation::{Basis, Ddmp};
 use mpm::kinematics::{Axisymmetric, Kinematics, PlaneStrain};
 use mpm::material::{Model, Profile, VonMises};

@@ -2,8 +2,8 @@
 
 #![allow(dead_code)] // each topic takes a part of it
 
-use crate::bench::{Bench, constant};
 use crate::support::Random;
+use crate::support::bench::{Bench, constant};
 use mpm::kinematics::Kinematics;
 use mpm::mesh::Mesh;
 use mpm::mesh::faces::Faces;

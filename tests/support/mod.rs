@@ -1,11 +1,12 @@
 //! What the tests of all topics share: starting the program, reading what it wrote, a small scene, random numbers.
 
-#![allow(dead_code, unused_imports)] // each topic takes a part of it
-
+pub mod bench;
 pub mod block;
 mod history;
+pub mod layout;
 mod program;
 mod random;
+pub mod stand;
 
 pub use history::{column, rows};
 pub use program::{

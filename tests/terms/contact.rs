@@ -1,8 +1,8 @@
 //! Contact: the forces of contact nodes that are apart, stick, slide and are limited, and their tangent.
 
-use crate::loads::anywhere;
-use crate::stand::{Field, Stand, mesh, points, resultant, size};
 use crate::support::Random;
+use crate::support::stand::{Field, Stand, mesh, points, resultant, size};
+use crate::terms::loads::anywhere;
 use mpm::contact::{Constraint, Law, Penalty, Spot};
 use mpm::kinematics::PlaneStrain;
 use mpm::mesh::shape::CellKind;

@@ -1,7 +1,7 @@
 //! The ghost penalty: what it leaves alone, and how stiff it is.
 
-use crate::loads::{anywhere, stand};
-use crate::stand::{KINDS, Stand, elastic, resultant, size};
+use crate::support::stand::{KINDS, Stand, elastic, resultant, size};
+use crate::terms::loads::{anywhere, stand};
 use mpm::error::Result;
 use mpm::kinematics::{Axisymmetric, Kinematics, PlaneStrain};
 use mpm::material::{Elasticity, LinearElastic, Model, Profile, Tresca};

@@ -1,7 +1,7 @@
 //! The internal force: every model, elastic and on each kind of its returns, in large strain and rotation.
 
-use crate::stand::{KINDS, Stand, elastic, elasticity, mesh, points, resultant, size};
 use crate::support::Random;
+use crate::support::stand::{KINDS, Stand, elastic, elasticity, mesh, points, resultant, size};
 use mpm::kinematics::{Axisymmetric, Kinematics, PlaneStrain};
 use mpm::material::{Friction, Model, MohrCoulomb, Profile, State, Tresca, VonMises};
 use mpm::mesh::shape::CellKind;

@@ -8,7 +8,7 @@
 //!
 //! `u` is the displacement since the mesh was made, `g` that of the ground below the springs.
 
-use crate::stand::{KINDS, Stand, mesh, points, resultant};
+use crate::support::stand::{KINDS, Stand, mesh, points, resultant};
 use crate::support::{PROGRAM, column, written};
 use mpm::case::checked::Site;
 use mpm::case::keyed::{Key, Keyed, Terms};

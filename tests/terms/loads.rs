@@ -1,7 +1,7 @@
 //! Everything but the internal force: resultants and tangents.
 
-use crate::ghost;
-use crate::stand::{Field, KINDS, Stand, mesh, points, resultant, size};
+use crate::support::stand::{Field, KINDS, Stand, mesh, points, resultant, size};
+use crate::terms::ghost;
 use mpm::interpolation::Ddmp;
 use mpm::kinematics::{Axisymmetric, Kinematics, PlaneStrain};
 use mpm::mesh::Mesh;

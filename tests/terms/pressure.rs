@@ -1,7 +1,7 @@
 //! The pressure field: its tangent, its symmetry, and the inf-sup constant of its functions.
 
-use crate::stand::{KINDS, SMOOTHED, Stand, mesh, points};
 use crate::support::Random;
+use crate::support::stand::{KINDS, SMOOTHED, Stand, mesh, points};
 use mpm::interpolation::{Basis, Ddmp, Mpm};
 use mpm::kinematics::{Axisymmetric, Kinematics, PlaneStrain};
 use mpm::material::{CamClay, Elasticity, Friction, LinearElastic, Model, MohrCoulomb, Profile, Tresca};

@@ -1,7 +1,7 @@
 //! Rigid bodies: what acts on their unknowns, and the tangents of that.
 
-use crate::loads::anywhere;
-use crate::stand::{KINDS, Stand, mesh, points};
+use crate::support::stand::{KINDS, Stand, mesh, points};
+use crate::terms::loads::anywhere;
 use mpm::dofs::RigidDofs;
 use mpm::kinematics::{Axisymmetric, Kinematics, PlaneStrain};
 use mpm::mesh::shape::CellKind;

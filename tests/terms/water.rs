@@ -1,7 +1,7 @@
 //! Pore water: its tangent and symmetry, alone and beside a pressure field, and what it leaves alone.
 
-use crate::stand::{KINDS, Stand, elastic, mesh, points};
 use crate::support::Random;
+use crate::support::stand::{KINDS, Stand, elastic, mesh, points};
 use mpm::interpolation::Mpm;
 use mpm::kinematics::{Axisymmetric, Kinematics, PlaneStrain};
 use mpm::material::Model;

@@ -1,6 +1,6 @@
 //! The internal force in three dimensions: elastic and yielding, in large strain and rotation.
 
-use crate::stand::{Field, KINDS, Random, Stand, Step, elasticity, linear, points, size};
+use crate::three_d::stand::{Field, KINDS, Random, Stand, Step, elasticity, linear, points, size};
 use mpm::material::{Friction, LinearElastic, Model, MohrCoulomb, Profile, State, VonMises};
 use mpm::mesh::brick::brick;
 use mpm::mesh::shape::CellKind;

@@ -1,7 +1,7 @@
 //! The linear patch test on irregular meshes: boundary displacements of a uniform strain give that strain everywhere, with a
 //! uniform stress and no force on the nodes within.
 
-use crate::stand::{Random, Stand, Step, linear, points, size};
+use crate::three_d::stand::{Random, Stand, Step, linear, points, size};
 use mpm::material::{Elasticity, LinearElastic, Model, Profile, State, VonMises, spatial};
 use mpm::mesh::Mesh;
 use mpm::mesh::brick::brick;

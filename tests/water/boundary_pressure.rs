@@ -1,8 +1,8 @@
 //! Pressure on the boundary of the material as virtual stress: water on bodies of any shape with points anywhere.
 
-use crate::bench::{Bench, constant, quadrature_points};
-use crate::layout::{at, lattice, resample, resample_bounded, seeded};
 use crate::support::Random;
+use crate::support::bench::{Bench, constant, quadrature_points};
+use crate::support::layout::{at, lattice, resample, resample_bounded, seeded};
 use mpm::case::parts::places;
 use mpm::kinematics::{Axisymmetric, Kinematics, PlaneStrain};
 use mpm::material::spatial::elastic_from_stress;

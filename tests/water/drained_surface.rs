@@ -1,7 +1,7 @@
 //! The moving surface of soil as a drained boundary: Terzaghi's layer whose surface runs through the cells, and large strains.
 
-use crate::bench::{Bench, constant, run};
-use crate::layout::{at, resample, resample_bounded, seeded};
+use crate::support::bench::{Bench, constant, run};
+use crate::support::layout::{at, resample, resample_bounded, seeded};
 use mpm::analytical::self_weight_column::Column;
 use mpm::analytical::terzaghi::Layer;
 use mpm::kinematics::{Axisymmetric, Kinematics, PlaneStrain};

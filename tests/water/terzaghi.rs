@@ -1,7 +1,7 @@
 //! Terzaghi's consolidation of a layer under a load that is there at once: every time of the table, order, small steps.
 
-use crate::bench::{Bench, constant, quadrature_points, run, run_parts};
-use crate::layout::{at, resample, seeded};
+use crate::support::bench::{Bench, constant, quadrature_points, run, run_parts};
+use crate::support::layout::{at, resample, seeded};
 use mpm::analytical::self_weight_column::Column;
 use mpm::analytical::terzaghi::Layer;
 use mpm::kinematics::{Axisymmetric, Kinematics, PlaneStrain};

@@ -1,7 +1,7 @@
 //! A sweep that is killed goes on where it was, and the same sweep by Snakemake comes to the same table.
 
+use crate::cli::sweep::{rows, scene};
 use crate::support::{PROGRAM, command, in_folder, project, succeeds};
-use crate::sweep::{rows, scene};
 use std::fs;
 use std::os::unix::process::CommandExt;
 use std::path::Path;

@@ -1,9 +1,9 @@
 //! The reduced system: its tangent against differences, and forces on controls and nodes.
 
 use super::{KINDS, elastic, graded};
-use crate::bench::Bench;
-use crate::layout::{at, lattice, resample};
 use crate::support::Random;
+use crate::support::bench::Bench;
+use crate::support::layout::{at, lattice, resample};
 use mpm::interpolation::BSpline;
 use mpm::kinematics::{Axisymmetric, Kinematics, PlaneStrain};
 use mpm::mesh::shape::CellKind;

@@ -6,9 +6,9 @@
 //! an unrelated mesh is seeded with, shifted by (0.37, 0.21) h; a randomised lattice; those of an unrelated mesh after a
 //! shear of 2. With the points' volumes as weights the limit load is 4–6 % low there.
 
-use crate::bench::{Bench, constant, run};
-use crate::layout::{at, describe, lattice, resample, seeded, straighten};
 use crate::support::Random;
+use crate::support::bench::{Bench, constant, run};
+use crate::support::layout::{at, describe, lattice, resample, seeded, straighten};
 use mpm::kinematics::{Axisymmetric, Kinematics, PlaneStrain};
 use mpm::material::{Elasticity, Model, Profile, Tresca};
 use mpm::mesh::Mesh;

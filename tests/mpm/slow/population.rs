@@ -1,7 +1,7 @@
 //! Material points that are split where soil is stretched: its cells keep points, and neither mass nor momentum is lost.
 
-use crate::bench::{Bench, constant, run};
-use crate::layout::{at, resample, seeded};
+use crate::support::bench::{Bench, constant, run};
+use crate::support::layout::{at, resample, seeded};
 use mpm::kinematics::PlaneStrain;
 use mpm::material::{Elasticity, LinearElastic, Model};
 use mpm::mesh::builder::rectangle;

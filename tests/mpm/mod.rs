@@ -1,8 +1,6 @@
 //! The method on whole problems: the solver against closed forms, and scenes and cases through the program.
 
 mod bar;
-#[path = "../support/bench.rs"]
-mod bench;
 mod boundary_projection;
 mod bspline;
 mod cantilever;
@@ -15,8 +13,6 @@ mod footings;
 mod ghost;
 mod incompressible;
 mod invariance;
-#[path = "../support/layout.rs"]
-mod layout;
 mod nodal_field;
 mod output_field;
 mod patch;
@@ -29,8 +25,6 @@ mod scheme;
 mod slivers;
 mod slope;
 mod split_footing;
-#[path = "../support/mod.rs"]
-mod support;
 mod surface;
 mod surface_loads;
 

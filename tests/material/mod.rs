@@ -7,5 +7,3 @@ mod clay_column;
 mod models;
 mod mohr_coulomb;
 mod spatial;
-#[path = "../support/mod.rs"]
-mod support;

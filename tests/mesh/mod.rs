@@ -4,5 +4,3 @@ mod gmsh;
 mod hostile_geo;
 mod import;
 mod msh;
-#[path = "../support/mod.rs"]
-mod support;

@@ -4,5 +4,3 @@ mod kill;
 mod pictures;
 mod pile_study;
 mod readers;
-#[path = "../support/mod.rs"]
-mod support;

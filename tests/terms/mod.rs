@@ -10,7 +10,4 @@ mod keyed;
 mod loads;
 mod pressure;
 mod rigid;
-mod stand;
-#[path = "../support/mod.rs"]
-mod support;
 mod water;

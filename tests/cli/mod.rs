@@ -11,8 +11,6 @@ mod running;
 mod shell;
 mod signals;
 mod stages;
-#[path = "../support/mod.rs"]
-mod support;
 mod sweep;
 
 /// What takes more than some seconds; `make test-quick` leaves it out.

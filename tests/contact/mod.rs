@@ -7,8 +7,6 @@ mod input;
 mod rigid;
 mod sliding;
 mod structures;
-#[path = "../support/mod.rs"]
-mod support;
 mod tube;
 mod wall;
 
@@ -17,7 +15,7 @@ mod slow {
     mod hertz;
 }
 
-use support::{errors, mpm, rows, run};
+use crate::support::{errors, mpm, rows, run};
 
 /// Runs a case with overrides and returns the rows of its history.
 fn history(case: &str, overrides: &[&str]) -> Vec<Vec<f64>> {
