@@ -15,7 +15,7 @@ use crate::profile::{Activity, timed};
 /// Relative residual that iterative refinement aims at.
 const AIM: f64 = 1e-12;
 /// Relative residual that GMRES aims at.
-const ITERATION_AIM: f64 = 1e-10;
+const ITERATION_AIM: f64 = 1e-9;
 /// Products of GMRES before LU is taken, or nothing else is left.
 const PRODUCTS: usize = 160;
 /// Products with the factor of another matrix before a new one is made.
