@@ -1,4 +1,4 @@
-//! GMRES (Saad & Schultz 1986), preconditioned from the right: what it lessens is the true residual, for symmetric
+//! GMRES (Saad & Schultz 1986), preconditioned from the right: it minimises the true residual, for symmetric
 //! systems, saddles and unsymmetric ones alike.
 
 use super::accuracy::{dot, norm};
@@ -6,10 +6,10 @@ use super::accuracy::{dot, norm};
 /// Vectors before a restart.
 const RESTART: usize = 40;
 
-/// The iteration, with memory that it uses again and again.
+/// The iteration, with its memory, which is kept from solve to solve.
 #[derive(Default)]
 pub struct Gmres {
-    /// Orthonormal vectors, and what the preconditioner makes of them.
+    /// The orthonormal basis of the Krylov space, and its preconditioned vectors.
     basis: Vec<Vec<f64>>,
     images: Vec<Vec<f64>>,
     /// The columns of the triangle that Givens rotations make of the Hessenberg matrix, the rotations, and the right-hand side.
@@ -19,9 +19,9 @@ pub struct Gmres {
 }
 
 impl Gmres {
-    /// Writes to `x` what solves `A x = b` with a residual of at most `limit`, or what `most` products or two restarts that lessen it by less than
-    /// half give; returns the residual, which is not finite where there is no solution. `multiply(x, y)` is `y = A x`,
-    /// `precondition(r)` turns `r` into about `A⁻¹ r`, with which it begins.
+    /// Solves `A x = b` until the residual is at most `limit`, until `most` products are made, or until a restart reduces the residual by less than
+    /// half. Writes the solution to `x` and returns the norm of its residual, which is not finite if the iteration breaks down. `multiply(x, y)` is
+    /// `y = A x`; `precondition(r)` replaces `r` by an approximation of `A⁻¹ r`, and that of `b` is the first guess.
     pub fn solve(
         &mut self,
         multiply: &dyn Fn(&[f64], &mut [f64]),
@@ -57,8 +57,8 @@ impl Gmres {
         }
     }
 
-    /// At most `most` products from the first vector on, of a residual of this `size`, to one of `limit`; how many were made, or `None` where the matrix is
-    /// singular.
+    /// Iterates from the first vector of the basis, a residual of norm `size`, until the norm is at most `limit` or `most` products are made. Returns
+    /// the number of products, or `None` if the matrix is singular.
     fn iterate(
         &mut self,
         multiply: &dyn Fn(&[f64], &mut [f64]),
@@ -108,7 +108,7 @@ impl Gmres {
     }
 }
 
-/// Vector `k` of some, of length `n`.
+/// Vector `k`, of length `n`, made if it is the next one.
 fn vector(all: &mut Vec<Vec<f64>>, k: usize, n: usize) -> &mut Vec<f64> {
     if all.len() == k {
         all.push(Vec::new());

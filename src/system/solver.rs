@@ -16,9 +16,9 @@ use crate::profile::{Activity, timed};
 const AIM: f64 = 1e-12;
 /// Relative residual that GMRES aims at.
 const ITERATION_AIM: f64 = 1e-9;
-/// Products of GMRES before LU is taken, or nothing else is left.
+/// Most products of GMRES; then LU is used or, with matrix-free parts, the step fails.
 const PRODUCTS: usize = 160;
-/// Products with the factor of another matrix before a new one is made.
+/// Most products with the factor of an earlier matrix; then the matrix is factorised.
 const FEW_PRODUCTS: usize = 16;
 
 /// How a solution was found.

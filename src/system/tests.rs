@@ -89,7 +89,7 @@ fn check_solution(symmetric: bool, skew: f64, shift: f64, expected: Method) {
     let b = x.clone();
     let mut solver = Solver::new::<2>(&pattern, &[]).unwrap();
     assert_eq!(solver.solve(&pattern, &matrix, &mut x).unwrap(), expected);
-    // An iteration ends at its residual; what that leaves of the error is up to the condition of the matrix.
+    // GMRES ends at a given residual; the error that it leaves depends on the condition of the matrix.
     let (residual, error) = if expected == Method::Iterative { (1e-9, 1e-9) } else { (1e-12, 1e-10) };
     matrix.multiply(&pattern, &x, &mut product);
     let square = |a: &[f64]| a.iter().map(|v| v * v).sum::<f64>();
