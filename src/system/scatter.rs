@@ -3,6 +3,7 @@
 use super::{Matrix, Pattern};
 use crate::error::Result;
 use rayon::prelude::*;
+use std::ops::Range;
 
 /// What one coupling contributes: a dense matrix (row-major) and a vector over the equations of its nodes.
 pub struct Local<'a> {
@@ -41,10 +42,30 @@ pub fn scatter<I: Sync>(
     coupling: impl Fn(&I) -> usize + Sync,
     compute: impl Fn(&I, &mut Local) -> Result<()> + Sync,
     vector: &mut [f64],
+    matrix: Option<&mut Matrix>,
+    workspace: &mut Workspace,
+) -> Result<()> {
+    let coupling = |i: usize| coupling(&items[i]);
+    let compute = |i: usize, local: &mut Local| compute(&items[i], local);
+    let numbered = Numbered { count: items.len(), coupling: &coupling, compute: &compute };
+    scatter_numbered(pattern, numbered, vector, matrix, workspace)
+}
+
+/// Items by their numbers: what they are is known to their functions alone, so that [`scatter_numbered`] is compiled once.
+struct Numbered<'a> {
+    count: usize,
+    coupling: &'a (dyn Fn(usize) -> usize + Sync),
+    compute: &'a (dyn Fn(usize, &mut Local) -> Result<()> + Sync),
+}
+
+fn scatter_numbered(
+    pattern: &Pattern,
+    Numbered { count, coupling, compute }: Numbered,
+    vector: &mut [f64],
     mut matrix: Option<&mut Matrix>,
     workspace: &mut Workspace,
 ) -> Result<()> {
-    let largest = items.iter().map(|item| pattern.largest_size(coupling(item))).max().unwrap_or(0);
+    let largest = (0..count).map(|i| pattern.largest_size(coupling(i))).max().unwrap_or(0);
     let squared = if matrix.is_some() { largest * largest } else { 0 };
     let stride = largest + squared;
     if stride == 0 {
@@ -52,34 +73,34 @@ pub fn scatter<I: Sync>(
     }
     let at_once = batch(stride, rayon::current_num_threads());
     for buffer in &mut workspace.buffers {
-        let needed = stride * items.len().min(at_once);
+        let needed = stride * count.min(at_once);
         if buffer.len() < needed {
             buffer.resize(needed, 0.0);
         }
     }
-    let run = |item: &I, slot: &mut [f64]| {
-        let k = coupling(item);
+    let run = |i: usize, slot: &mut [f64]| {
+        let k = coupling(i);
         let (size, most) = (pattern.local_size(k), pattern.largest_size(k));
         let (vector, matrix) = slot.split_at_mut(largest);
         let (vector, matrix) = (&mut vector[..most], &mut matrix[..(most * most).min(squared)]);
         vector.fill(0.0);
         matrix.fill(0.0);
         let square = (size * size).min(matrix.len());
-        compute(item, &mut Local { matrix: &mut matrix[..square], vector: &mut vector[..size], size })?;
+        compute(i, &mut Local { matrix: &mut matrix[..square], vector: &mut vector[..size], size })?;
         pattern.reduce(k, vector, matrix);
         Ok(())
     };
-    let results = |batch: &[I], buffer: &mut [f64]| {
-        let pairs = batch.par_iter().zip(buffer.par_chunks_mut(stride));
-        if pairs.try_for_each(|(item, slot)| run(item, slot).map_err(|_| ())).is_err() {
+    let results = |batch: Range<usize>, buffer: &mut [f64]| {
+        let pairs = batch.clone().into_par_iter().zip(buffer.par_chunks_mut(stride));
+        if pairs.try_for_each(|(i, slot)| run(i, slot).map_err(|_| ())).is_err() {
             // Threads may fail in any order: run again one by one for the error of the first item.
-            return batch.iter().zip(buffer.chunks_mut(stride)).try_for_each(|(item, slot)| run(item, slot));
+            return batch.zip(buffer.chunks_mut(stride)).try_for_each(|(i, slot)| run(i, slot));
         }
         Ok(())
     };
-    let mut add = |batch: &[I], buffer: &[f64]| {
-        for (item, slot) in batch.iter().zip(buffer.chunks(stride)) {
-            let k = coupling(item);
+    let mut add = |batch: Range<usize>, buffer: &[f64]| {
+        for (i, slot) in batch.zip(buffer.chunks(stride)) {
+            let k = coupling(i);
             add_vector(pattern, k, slot, vector);
             if let Some(matrix) = &mut matrix {
                 matrix.add(pattern, k, &slot[largest..], pattern.coupling_size(k));
@@ -88,9 +109,10 @@ pub fn scatter<I: Sync>(
     };
     let [one, other] = &mut workspace.buffers;
     let (mut done, mut next) = (one, other);
-    let mut before: &[I] = &[];
-    for batch in items.chunks(at_once) {
-        let (_, found) = rayon::join(|| add(before, done), || results(batch, next));
+    let mut before = 0..0;
+    for start in (0..count).step_by(at_once) {
+        let batch = start..count.min(start + at_once);
+        let (_, found) = rayon::join(|| add(before, done), || results(batch.clone(), next));
         found?;
         std::mem::swap(&mut done, &mut next);
         before = batch;

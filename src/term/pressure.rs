@@ -10,7 +10,7 @@
 //! ```
 //!
 //! Where the field is in tension as the step begins, `g = ½ j²`, and `g = j` where its tension has a limit; elsewhere `g = ln j`, and with it `τ_f = π`.
-//! MatrixFree a limit the law is that of cavitation ([`crate::material::cavitation`]) in place of Hencky's. The second equation is in
+//! Beyond a limit the law is that of cavitation ([`crate::material::cavitation`]) in place of Hencky's. The second equation is in
 //! increments: the points carry `τ_f`. The volume strain of single points is only loosely bound to
 //! the field; were it summed up, a restored grid would have to undo what other cells make of it, in every step.
 //!

@@ -77,7 +77,7 @@ fn tangent_is_the_derivative<K: Kinematics<2>>(scheme: &'static dyn Basis<2>, ki
     }
 }
 
-/// MatrixFree a limit and below it, from states of points on both sides of it and in compression.
+/// Beyond a limit and below it, from states of points on both sides of it and in compression.
 fn tangent_with_a_limit_is_the_derivative<K: Kinematics<2>>() {
     let tresca: Arc<dyn Model> = Arc::new(Tresca::new(elasticity(), Profile::constant(5.0)).unwrap());
     for kind in KINDS {
