@@ -9,6 +9,7 @@ rule is kept as a case in benches/stress/failed/<seed>-<number>; `mpm run` repla
 """
 
 import argparse
+import itertools
 import json
 import os
 import re
@@ -146,14 +147,18 @@ def main():
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--count", type=int, default=1000, help="scenes")
     parser.add_argument("--jobs", type=int, default=min(2, len(os.sched_getaffinity(0))), help="scenes at a time")
+    parser.add_argument("--classes", nargs="+", choices=list(scenes.CLASSES), help="scenes of these classes only; those that do not converge are printed")
+    parser.add_argument("--scheme", choices=[scheme.name for scheme in SCHEMES], help="all scenes by this scheme")
     parser.add_argument("--only", type=int, action="append", help="a scene by its number; its case is kept in benches/stress/replay")
     parser.add_argument("--write", action="store_true", help=f"write {PAGE.relative_to(ROOT)}")
     arguments = parser.parse_args()
     reasons = {scheme.name: missing(scheme) for scheme in SCHEMES}
-    schemes = [scheme for scheme in SCHEMES if not reasons[scheme.name]]
+    schemes = [scheme for scheme in SCHEMES if not reasons[scheme.name] and arguments.scheme in (None, scheme.name)]
     start = time.perf_counter()
     rows = []
-    numbers = arguments.only or range(arguments.count)
+    classes = list(scenes.CLASSES)
+    wanted = (number for number in itertools.count() if classes[number % len(classes)] in (arguments.classes or classes))
+    numbers = arguments.only or list(itertools.islice(wanted, arguments.count))
     if arguments.only:
         for number in numbers:
             _, _, case = scenes.scene(arguments.seed, number, schemes)
@@ -165,7 +170,7 @@ def main():
     with ProcessPoolExecutor(arguments.jobs) as pool:
         for row in pool.map(one, [(arguments.seed, number, schemes) for number in numbers]):
             rows.append(row)
-            if row[3] == "fault" or row[4] > 10 or arguments.only:
+            if row[3] == "fault" or row[4] > 10 or arguments.only or (arguments.classes and row[3] != "converged"):
                 print(f"{row[0]} {row[1]}, {row[2]}: {row[3]} after {row[4]:.1f} s: {row[5]}", flush=True)
     seconds = time.perf_counter() - start
     print("\n".join(tally(rows, 1, scenes.CLASSES)))

@@ -12,13 +12,13 @@ use super::{Matrix, Pattern};
 use crate::error::{Error, Result};
 use crate::profile::{Activity, timed};
 
-/// Relative residual that iterative refinement aims at.
-const AIM: f64 = 1e-12;
-/// Relative residual that GMRES aims at.
-const ITERATION_AIM: f64 = 1e-9;
+/// Relative residual that GMRES aims at with the factor of the matrix, where it takes away the rounding of the factor, and with that of its symmetric
+/// part or of an earlier matrix.
+const REFINED: f64 = 1e-12;
+const AIM: f64 = 1e-9;
 /// Most products of GMRES; then LU is used or, with matrix-free parts, the step fails.
 const PRODUCTS: usize = 160;
-/// Most products with the factor of an earlier matrix; then the matrix is factorised.
+/// Most products with the factor of the matrix, or of an earlier one; then another factor is tried.
 const FEW_PRODUCTS: usize = 16;
 
 /// How a solution was found.
@@ -80,13 +80,13 @@ impl Solver {
                     continue;
                 }
                 if timed(Activity::Factorisation, || self.factorize(matrix, pattern, llt))?
-                    && timed(Activity::Solution, || self.refine(pattern, matrix, &b, x, llt))
+                    && timed(Activity::Solution, || self.iterate(pattern, matrix, llt, (REFINED, FEW_PRODUCTS), &b, x))
                 {
                     return Ok(method);
                 }
             }
         } else if timed(Activity::Factorisation, || self.factorize(matrix, pattern, self.definite))?
-            && timed(Activity::Solution, || self.iterate(pattern, matrix, PRODUCTS, &b, x))
+            && timed(Activity::Solution, || self.iterate(pattern, matrix, self.definite, (AIM, PRODUCTS), &b, x))
         {
             return Ok(Method::Iterative);
         }
@@ -103,8 +103,8 @@ impl Solver {
     /// As there.
     pub fn solve_near(&mut self, pattern: &Pattern, matrix: &Matrix, x: &mut [f64]) -> Result<Method> {
         let b = x.to_vec();
-        let found =
-            !pattern.symmetric && timed(Activity::Solution, || self.iterate(pattern, matrix, FEW_PRODUCTS, &b, x));
+        let found = !pattern.symmetric
+            && timed(Activity::Solution, || self.iterate(pattern, matrix, self.definite, (AIM, FEW_PRODUCTS), &b, x));
         if found {
             return Ok(Method::Iterative);
         }
@@ -176,7 +176,7 @@ impl Solver {
         }
         let b = x.to_vec();
         // Beside a zero right-hand side no residual is small.
-        if b.iter().all(|&v| v == 0.0) || self.refine(pattern, matrix, &b, x, true) {
+        if b.iter().all(|&v| v == 0.0) || self.iterate(pattern, matrix, true, (REFINED, FEW_PRODUCTS), &b, x) {
             return Ok(());
         }
         Err(singular())
@@ -193,39 +193,18 @@ impl Solver {
         }
     }
 
-    /// Solves with the factor at hand and refines; false where the residual stays large.
-    fn refine(&mut self, pattern: &Pattern, matrix: &Matrix, b: &[f64], x: &mut [f64], llt: bool) -> bool {
-        x.copy_from_slice(b);
-        self.factor.solve(x, llt);
-        let size = norm(b);
-        let mut r = vec![0.0; b.len()];
-        let mut last = f64::INFINITY;
-        for _ in 0..4 {
-            matrix.multiply(pattern, x, &mut r);
-            for (r, b) in r.iter_mut().zip(b) {
-                *r = b - *r;
-            }
-            let now = norm(&r) / size;
-            if !now.is_finite() {
-                return false;
-            }
-            if now <= AIM || now > 0.5 * last {
-                return now <= ACCEPTED || last <= ACCEPTED;
-            }
-            last = now;
-            self.factor.solve(&mut r, llt);
-            for (x, r) in x.iter_mut().zip(&r) {
-                *x += r;
-            }
-        }
-        last <= ACCEPTED
-    }
-
-    /// GMRES preconditioned by the factor of the symmetric part, of at most `most` products.
-    fn iterate(&mut self, pattern: &Pattern, matrix: &Matrix, most: usize, b: &[f64], x: &mut [f64]) -> bool {
-        let Self { factor, definite, gmres, .. } = self;
+    /// Solves by GMRES, preconditioned by the factor at hand (LLᵀ if `llt`, or LDLᵀ); false where the residual stays large.
+    fn iterate(
+        &mut self,
+        pattern: &Pattern,
+        matrix: &Matrix,
+        llt: bool,
+        (aim, most): (f64, usize),
+        b: &[f64],
+        x: &mut [f64],
+    ) -> bool {
+        let Self { factor, gmres, .. } = self;
         let (size, multiply) = (norm(b), |x: &[f64], y: &mut [f64]| matrix.multiply(pattern, x, y));
-        gmres.solve(&multiply, &mut |r| factor.solve(r, *definite), b, x, (ITERATION_AIM * size, most))
-            <= ACCEPTED * size
+        gmres.solve(&multiply, &mut |r| factor.solve(r, llt), b, x, (aim * size, most)) <= ACCEPTED * size
     }
 }

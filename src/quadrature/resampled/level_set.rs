@@ -93,7 +93,8 @@ impl Surface {
 
 /// Adds an offset within `limits` to the level set of each body such that the volume inside is that of its material points that are not
 /// outside: a front that only moves with the grid would sink or rise a little in every reset. Where structures touch the
-/// material, the surface is theirs and stays.
+/// material, the surface is theirs and stays. What has no material point is not material: its mass would come from nowhere, and no point would
+/// carry its momentum on.
 fn keep_volume<K: Kinematics<2>>(
     geometry: &Geometry,
     grid: &Restored<2>,
@@ -139,7 +140,7 @@ fn keep_volume<K: Kinematics<2>>(
     let (mut offsets, mut now) = (vec![0.0; bodies.count()], slopes.clone());
     for _ in 0..OFFSETS {
         let next = |b: usize| {
-            let has_surface = slopes[b] > 0.0 && lacks[b].abs() > VOLUME_TOLERANCE * wanted[b];
+            let has_surface = wanted[b] > 0.0 && slopes[b] > 0.0 && lacks[b].abs() > VOLUME_TOLERANCE * wanted[b];
             if has_surface { (offsets[b] + lacks[b] / now[b]).clamp(least, most) } else { offsets[b] }
         };
         let tried: Vec<f64> = (0..bodies.count()).map(next).collect();
@@ -156,7 +157,11 @@ fn keep_volume<K: Kinematics<2>>(
             }
         }
     }
-    (0..level_set.len()).map(|n| shifted(&offsets, n)).collect()
+    let value = |n: usize| match bodies.of_node(n) {
+        Some(body) if wanted[body] == 0.0 => level_set[n].min(0.0),
+        _ => shifted(&offsets, n),
+    };
+    (0..level_set.len()).map(value).collect()
 }
 
 /// The cells whose material points have all come apart: without elastic strain, in more room than they were seeded in.
@@ -168,4 +173,59 @@ fn apart(cells: usize, points: &Points<2>) -> Vec<bool> {
         bears[c as usize] |= strained || points.deformation[p].determinant() <= 1.0 + STRAINED;
     }
     holds.iter().zip(bears).map(|(holds, bears)| *holds && !bears).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::interpolation::Interpolation;
+    use crate::kinematics::PlaneStrain;
+    use crate::mesh::builder::rectangle;
+    use crate::mesh::locate::Locator;
+    use crate::mesh::shape::CellKind;
+    use crate::tensor::Tensor;
+
+    /// A block whose points say that it is a little larger, and a place far from it that the level set encloses without any.
+    #[test]
+    fn what_has_no_material_point_is_not_material() {
+        let mesh = rectangle(CellKind::T6, 6.0, 1.0, 12, 2, 0.0, 1);
+        let (geometry, locator) = (Geometry::new::<PlaneStrain>(&mesh), Locator::new(&mesh));
+        let (position, volume): (Vec<[f64; 2]>, f64) =
+            ((0..80).map(|k| [0.1 + 0.1 * (k % 19) as f64, 0.125 + 0.25 * (k / 20) as f64]).collect(), 2.02 / 80.0);
+        let located = position.iter().map(|x| locator.locate(&mesh, x, None).unwrap());
+        let (cell, parametric): (Vec<u32>, Vec<[f64; 3]>) = located.unzip();
+        let points = Points {
+            initial_volume: vec![volume; position.len()],
+            deformation: vec![Tensor::identity(); position.len()],
+            position,
+            cell,
+            ..Points::default()
+        };
+        let grid = Restored {
+            mesh: &mesh,
+            locator: &locator,
+            points: &points,
+            parametric: &parametric,
+            interpolation: &Interpolation::default(),
+            active: &vec![true; mesh.cells.len()],
+            before: (&mesh, &locator),
+            outlines: &[],
+            contact: &[],
+            relaxed: false,
+            displacement: None,
+        };
+        let level_set: Vec<f64> =
+            mesh.nodes.iter().map(|x| (2.0 - x[0]).max(0.05 - (x[0] - 5.0).hypot(x[1]))).collect();
+        let far = |n: &usize| mesh.nodes[*n][0] > 3.0;
+        assert!((0..level_set.len()).filter(far).any(|n| level_set[n] > 0.0));
+        let outside = vec![false; mesh.cells.len()];
+        let found = keep_volume::<PlaneStrain>(&geometry, &grid, [-0.03, 0.03], &outside, level_set);
+        assert!((0..found.len()).filter(far).all(|n| found[n] <= 0.0), "{found:?}");
+        let of_cell = |c: usize| {
+            let values: Vec<f64> = mesh.cells.nodes(c).iter().map(|&n| found[n as usize]).collect();
+            geometry.filled::<PlaneStrain>(&mesh, c, &values)
+        };
+        let volume: f64 = (0..mesh.cells.len()).map(of_cell).sum();
+        assert!((volume - 2.02).abs() < 1e-10, "{volume}");
+    }
 }
