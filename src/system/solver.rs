@@ -12,9 +12,9 @@ use super::{Matrix, Pattern};
 use crate::error::{Error, Result};
 use crate::profile::{Activity, timed};
 
-/// Relative residual that GMRES aims at with the factor of the matrix, where it takes away the rounding of the factor, and with that of its symmetric
-/// part or of an earlier matrix.
+/// Relative residual that GMRES aims at with the factor of the matrix: it removes the rounding of the factor.
 const REFINED: f64 = 1e-12;
+/// Relative residual that it aims at with the factor of the symmetric part or of an earlier matrix.
 const AIM: f64 = 1e-9;
 /// Most products of GMRES; then LU is used or, with matrix-free parts, the step fails.
 const PRODUCTS: usize = 160;
