@@ -21,7 +21,7 @@ pub struct Gmres {
 impl Gmres {
     /// Solves `A x = b` until the residual is at most `limit`, until `most` products are made, or until a restart reduces the residual by less than
     /// half. Writes the solution to `x` and returns the norm of its residual, which is not finite if the iteration breaks down. `multiply(x, y)` is
-    /// `y = A x`; `precondition(r)` replaces `r` by an approximation of `A⁻¹ r`, and that of `b` is the first guess.
+    /// `y = A x`; `precondition(r)` replaces `r` by an approximation of `A⁻¹ r`, and that of `b` is what the iteration begins with.
     pub fn solve(
         &mut self,
         multiply: &dyn Fn(&[f64], &mut [f64]),
