@@ -15,7 +15,7 @@ pub struct Bins<const D: usize> {
     /// Bins per metre.
     scale: [f64; D],
     count: [usize; D],
-    offset: Vec<u32>,
+    pub(super) offset: Vec<u32>,
     pub cells: Vec<u32>,
 }
 
@@ -23,7 +23,10 @@ impl<const D: usize> Bins<D> {
     /// About one bin a cell, and fewer where boxes are so large that they would touch many each.
     pub fn new(boxes: &[Bounds<D>]) -> Self {
         let (low, high) = enclose(boxes);
-        let extent: [f64; D] = std::array::from_fn(|d| (high[d] - low[d]).max(f64::MIN_POSITIVE));
+        // Boxes in one row have bins along it only, and none at all have one.
+        let longest = (0..D).map(|d| high[d] - low[d]).fold(0.0, f64::max);
+        let least = if longest > 0.0 { longest / boxes.len() as f64 } else { 1.0 };
+        let extent: [f64; D] = std::array::from_fn(|d| (high[d] - low[d]).max(least));
         let side = (extent.iter().product::<f64>() / boxes.len().max(1) as f64).powf(1.0 / D as f64);
         let mut count = extent.map(|e| ((e / side) as usize).clamp(1, 4096));
         let mut bins = loop {

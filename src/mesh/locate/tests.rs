@@ -192,3 +192,11 @@ fn cells_that_all_lie_on_one_another_take_no_more_bins_than_others() {
     assert_eq!(locator.holders(&mesh, &[2.0, 0.6]).count(), 5001);
     assert_eq!(locator.holders(&mesh, &[2.0, 0.1]).count(), 0);
 }
+
+/// Meshes without cells have a locator for every step with contact, and that of a thin plate must not have bins across it.
+#[test]
+fn meshes_without_extent_have_few_bins() {
+    for (mesh, most) in [(Mesh::<2>::default(), 1), (rectangle(CellKind::T3, 3.0, 1e-9, 20, 1, 0.0, 0), 40)] {
+        assert!(Locator::new(&mesh).bins.offset.len() <= most + 1);
+    }
+}
