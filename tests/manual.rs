@@ -294,7 +294,13 @@ fn runs(page: &str) {
     let bin = Path::new(PROGRAM).parent().unwrap();
     let path = format!("{}:{}", bin.display(), std::env::var("PATH").unwrap());
     let mut shell = std::process::Command::new("bash");
-    let output = shell.args(["-e", "-c", &script]).env("PATH", path).current_dir(folder.path()).output().unwrap();
+    let output = shell
+        .args(["-e", "-c", &script])
+        .env("PATH", path)
+        .env("RAYON_NUM_THREADS", "1")
+        .current_dir(folder.path())
+        .output()
+        .unwrap();
     succeeds(&output);
     let said = String::from_utf8_lossy(&output.stdout).into_owned();
     let said: Vec<&str> = said.split(MARK).collect();

@@ -50,7 +50,7 @@ fn keeps_its_normal_force(depth: f64, rate: f64, left: f64, overrides: &[&str]) 
     let phases = format!(
         "phases=[{{name: press, analysis: quasi_static, duration: 1, step: {{initial: 0.2}}, \
         prescribe: {{top: {{ux: 0, uy: {{rate: -{depth}}}}}}}}}, {{name: slide, analysis: quasi_static, duration: 2, \
-        step: {{initial: 0.01}}, prescribe: {{top: {{ux: {{rate: {rate}}}, uy: 0}}}}}}]"
+        step: {{initial: 0.02}}, prescribe: {{top: {{ux: {{rate: {rate}}}, uy: 0}}}}}}]"
     );
     let mesh = format!("mesh.parameters={{width: 8, plate: 1, left: {left}, edge: 0.1, depth: 1.5, h: 0.2, hp: 0.12}}");
     let folder = run("tests/data/plate", &[&[phases.as_str(), mesh.as_str()], overrides].concat());
@@ -62,7 +62,7 @@ fn keeps_its_normal_force(depth: f64, rate: f64, left: f64, overrides: &[&str]) 
     let ends = [off.iter().copied().fold(0.0, f64::min), off.iter().copied().fold(0.0, f64::max)];
     println!("normal force {:+.4} to {:+.4} of that before, held back by at most {drag:.1e} of it", ends[0], ends[1]);
     // On the round edges the normal turns with soil that follows them only in part.
-    assert!(off.len() >= 200 && drag < 3e-3 && ends.iter().all(|end| end.abs() < 0.01), "{ends:?} {drag}");
+    assert!(off.len() >= 100 && drag < 3e-3 && ends.iter().all(|end| end.abs() < 0.01), "{ends:?} {drag}");
 }
 
 /// A block slides down with `g (sin θ − tan δ cos θ)` where that is positive …
@@ -84,14 +84,14 @@ fn a_block_slides_down_an_incline() {
 mod slow {
     use super::*;
 
-    /// A plate that slides over clay under 45 % of its bearing capacity, three cells far, is held by half the strength along its length.
+    /// A plate that slides over clay under 45 % of its bearing capacity, two cells far, is held by half the strength along its length.
     #[test]
     fn a_loaded_plate_slides_over_clay() {
         let load = 0.45 * (2.0 + std::f64::consts::PI);
         let phases = format!(
             "phases=[{{name: press, analysis: quasi_static, duration: 1, step: {{initial: 0.25}}, \
         prescribe: {{plate: {{ux: 0, rotation: 0, uy: {{rate: -0.0055}}}}}}}}, \
-        {{name: slide, analysis: quasi_static, duration: 0.6, step: {{initial: 0.002, max: 0.02}}, \
+        {{name: slide, analysis: quasi_static, duration: 0.4, step: {{initial: 0.002, max: 0.02}}, \
         tractions: [{{on: top, tx: 0, ty: {}}}], prescribe: {{plate: {{ux: {{rate: 1}}, rotation: 0}}}}}}]",
             -load
         );
@@ -118,7 +118,7 @@ mod slow {
         let most = iterations.iter().copied().max().unwrap();
         println!("shear over α s_u L {shear:.3?}, ripple {ripple:.4}, iterations {iterations:?}");
         assert!(
-            shear.len() >= 30
+            shear.len() >= 20
                 && iterations.len() == rows.len()
                 && shear.iter().all(|s| (s - 1.0).abs() < 0.03)
                 && ripple < 0.02,

@@ -366,11 +366,11 @@ mod slow {
         let endless = "Macro again\n  Call again;\nReturn\nCall again;";
         let slow = "For i In {0:1:1e-300}\nEndFor";
         for (statement, limit, says) in [
-            (slow, ["--mesh-timeout", "2"], &["stopped after 2 s", "--mesh-timeout"][..]),
-            ("Sleep 1000;", ["--mesh-timeout", "2"], &["stopped after 2 s", "--mesh-timeout"]),
-            (endless, ["--mesh-timeout", "5"], &["scene.geo"]),
-            ("a[] = {1:1e12};", ["--mesh-memory", "2"], &["scene.geo", "--mesh-memory"]),
-            ("a[] = {1:1e9};", ["--mesh-memory", "2"], &["scene.geo", "--mesh-memory"]),
+            (slow, ["--mesh-timeout", "1"], &["stopped after 1 s", "--mesh-timeout"][..]),
+            ("Sleep 1000;", ["--mesh-timeout", "1"], &["stopped after 1 s", "--mesh-timeout"]),
+            (endless, ["--mesh-timeout", "1"], &["scene.geo"]),
+            ("a[] = {1:1e12};", ["--mesh-memory", "1"], &["scene.geo", "--mesh-memory"]),
+            ("a[] = {1:1e9};", ["--mesh-memory", "1"], &["scene.geo", "--mesh-memory"]),
         ] {
             let folder = scene(statement);
             for command in ["mesh", "check"] {

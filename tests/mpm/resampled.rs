@@ -427,7 +427,8 @@ mod slow {
     fn restoration_by_quality_is_more_accurate() {
         let (mut ratios, mut growth) = ([Vec::new(), Vec::new()], Vec::new());
         for (cells, bound) in [(8, 2e-3), (16, 5e-4), (32, 1e-4), (64, 2.5e-5)] {
-            for (wide, seed) in [(1, 5), (1, 6), (3, 5), (3, 6)] {
+            let wide: &[_] = if cells < 64 { &[(1, 5), (1, 6), (3, 5), (3, 6)] } else { &[(1, 5), (1, 6)] };
+            for &(wide, seed) in wide {
                 let errors = [40, 160].map(|steps| {
                     let every = Tall { cells, wide, steps, seed, ..TALL };
                     let quality = Restore::Quality { least: 0.5, stretch: 1.3 };
@@ -465,7 +466,8 @@ mod slow {
     fn more_steps_add_little() {
         let mut ratios = Vec::new();
         for (cells, bound) in [(16, 5e-4), (32, 1e-4), (64, 2e-5)] {
-            for (wide, seed) in [(1, 5), (1, 6), (3, 5), (3, 6)] {
+            let wide: &[_] = if cells < 64 { &[(1, 5), (1, 6), (3, 5), (3, 6)] } else { &[(1, 5), (1, 6)] };
+            for &(wide, seed) in wide {
                 let [few, many] =
                     [40, 160].map(|steps| Tall { cells, wide, steps, seed, ..TALL }.error::<PlaneStrain>());
                 println!("{wide} × {cells} cells: 160 steps err {:.2} times as much as 40", many / few);
@@ -489,14 +491,14 @@ mod slow {
 
     #[test]
     fn no_count_of_cells_is_an_outlier() {
-        let counts: Vec<usize> = (40..=80).collect();
+        let counts: Vec<usize> = (40..=60).collect();
         let scaled: Vec<f64> = counts
             .iter()
             .map(|&cells| Tall { cells, ..TALL }.error::<PlaneStrain>() * (cells * cells) as f64)
             .collect();
         let trend = mean(&scaled);
         let (worst, cells) = scaled.iter().zip(&counts).fold((0.0, 0), |a, (&e, &n)| if e > a.0 { (e, n) } else { a });
-        println!("worst of 40 … 80 cells: {:.2} times the trend, with {cells}", worst / trend);
+        println!("worst of 40 … 60 cells: {:.2} times the trend, with {cells}", worst / trend);
         assert!(worst < 2.0 * trend, "{scaled:?}");
     }
 

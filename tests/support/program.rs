@@ -13,10 +13,17 @@ pub fn project(path: impl AsRef<Path>) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join(path)
 }
 
-/// The program to be started in a folder; what it says goes into pipes.
-pub fn command(folder: &Path, arguments: &[&str]) -> Command {
+/// The program on one thread, as tests run side by side; what it says goes into pipes.
+fn program() -> Command {
     let mut command = Command::new(PROGRAM);
-    command.args(arguments).current_dir(folder).stdout(Stdio::piped()).stderr(Stdio::piped());
+    command.env("RAYON_NUM_THREADS", "1").stdout(Stdio::piped()).stderr(Stdio::piped());
+    command
+}
+
+/// The program to be started in a folder.
+pub fn command(folder: &Path, arguments: &[&str]) -> Command {
+    let mut command = program();
+    command.args(arguments).current_dir(folder);
     command
 }
 
@@ -27,9 +34,8 @@ pub fn in_folder(folder: &Path, arguments: &[&str]) -> Output {
 
 /// `mpm <stage> <case> -o <out>` with entries of the case overridden; the path of the case may be one of the repository.
 pub fn stage(stage: &str, case: impl AsRef<Path>, out: &Path, set: &[&str]) -> Command {
-    let mut command = Command::new(PROGRAM);
-    command.arg(stage).arg(project(case)).arg("-o").arg(out);
-    command.args(set.iter().flat_map(|entry| ["--set", entry])).stdout(Stdio::piped()).stderr(Stdio::piped());
+    let mut command = program();
+    command.arg(stage).arg(project(case)).arg("-o").arg(out).args(set.iter().flat_map(|entry| ["--set", entry]));
     command
 }
 

@@ -98,7 +98,7 @@ mod slow {
         let held = "supports={bottom: {ux: 0, uy: 0}, side: {ux: 0}, beside: {pore_pressure: 0}}";
         let parameters = |h: f64, node: f64| format!("mesh.parameters={{h: {h}, hs: {h}, node: {node}}}");
         let mut before = [f64::INFINITY; 2];
-        for (h, most) in [(0.05, 7e-3), (0.025, 3e-3)] {
+        for (h, most) in [(0.1, 1.2e-2), (0.05, 7e-3)] {
             let along_curve = run(&["drained_surface=null", "numerics.restore=never", held, &parameters(h, 1.0)]);
             let off = [1.0, 0.87].map(|node| {
                 let folder = run(&[&parameters(h, node)]);

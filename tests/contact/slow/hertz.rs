@@ -78,8 +78,8 @@ fn check(name: &str, h: f64, contact: &Contact) {
 
 #[test]
 fn two_bodies_touch_as_hertz_has_it() {
-    let coarse = [(0.3, 0.055), (0.3, 0.065), (0.24, 0.05), (0.24, 0.055), (0.24, 0.065)];
-    let fine = [(0.18, 0.055), (0.18, 0.065), (0.12, 0.055), (0.12, 0.065)];
+    let coarse = [(0.3, 0.065), (0.24, 0.05), (0.24, 0.055), (0.24, 0.065)];
+    let fine = [(0.18, 0.055), (0.12, 0.065)];
     for (h, push) in coarse.into_iter().chain(fine) {
         let mesh = format!("mesh.parameters.h={h}");
         let load = format!("phases[0].prescribe.top.uy={{rate: -{push}}}");
@@ -111,7 +111,7 @@ fn a_rigid_body_touches_material_points_as_hertz_has_it() {
         "contacts=[{structure: upper, soil: lower}]",
         "phases[0].prescribe.top.uy={rate: -0.04}",
     ];
-    for h in [0.24, 0.18, 0.12] {
+    for h in [0.24, 0.12] {
         let mesh = format!("mesh.parameters.h={h}");
         let contact = contact(&[&overrides[..], &[&mesh]].concat(), modulus(f64::INFINITY));
         check(&format!("material points, h {h} m"), h, &contact);

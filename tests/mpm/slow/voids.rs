@@ -17,7 +17,7 @@ fn what_opens_under_a_plate_that_parts_is_in_the_log() {
     for (tension, opens) in [("{limit: 3}", true), ("no_separation", false)] {
         let folder = tempfile::tempdir().unwrap();
         let tension = format!("contacts[0].tension={tension}");
-        let overrides = ["mesh.parameters.h=0.1", "phases.pull.duration=0.2", tension.as_str()];
+        let overrides = ["mesh.parameters.h=0.1", "phases.pull.duration=0.12", tension.as_str()];
         let output = mpm("run", "cases/plate_anchor", folder.path(), &overrides);
         succeeds(&output);
         let log = std::fs::read_to_string(folder.path().join("solve.log")).unwrap();
