@@ -18,6 +18,11 @@ const SEEN: f64 = 1.5;
 /// stretches without end; the points beside such a one have long left, and it is no wider for it.
 const WIDEST: f64 = 1.5;
 
+/// Weight (-) of a point a spacing away along the boundary, over that of one across from it.
+const LEAST_WEIGHT: f64 = 0.01;
+/// Cosine of the angle between the normals of a segment and of the surface of the soil from which on they face each other.
+const FACING: f64 = -0.3;
+
 /// A point of soil near a boundary.
 #[derive(Clone, Copy, Debug)]
 struct Near {
@@ -166,9 +171,9 @@ pub fn raw_gaps<K: Kinematics<2>>(
                 around.least = Some(Gap { open, point: near.point, spacing: near.spacing, known: None });
             }
             if let Some(depth) = near.depth {
-                let weight = 1.0 - 0.99 * away / near.spacing;
-                around.weight += weight.max(0.01);
-                around.open += weight.max(0.01) * (near.distance - depth);
+                let weight = (1.0 - (1.0 - LEAST_WEIGHT) * away / near.spacing).max(LEAST_WEIGHT);
+                around.weight += weight;
+                around.open += weight * (near.distance - depth);
             }
         };
         offer((own, 0.0));
@@ -237,7 +242,7 @@ impl Facing {
         let mut best: Option<f64> = None;
         let faces = |piece: usize| {
             let (facing, length) = facing(piece);
-            facing <= -0.3 * length
+            facing <= FACING * length
         };
         for hit in self.pieces.hits(segment.middle, n, faces) {
             // The surface bulges between its markers; what it bulges by goes against the normal, nearly.

@@ -17,6 +17,14 @@ use crate::system::Method;
 const HELD: usize = 3;
 /// Largest relative residual that the linear systems of an iteration are solved to.
 const LOOSEST: f64 = 1e-3;
+/// Smallest relative residual that they are solved to.
+const TIGHTEST: f64 = 1e-10;
+/// Part (-) of the square of the last reduction, and of what the tolerance still needs, to which they are solved (Eisenstat & Walker 1996).
+const FORCING: f64 = 0.1;
+/// Where an iteration leaves less than this part (-) of the residual, the factor of the last tangent preconditions the next one.
+const NEAR: f64 = 0.1;
+/// Least scale of the residual, relative to the stiffness of a mean cell: below it there are no forces to be in balance.
+const FLOOR: f64 = 1e-6;
 /// The prescribed displacements count as not reached if their forces are more than this fraction (-) of the right-hand side.
 const DUE: f64 = 1e-3;
 /// A residual this small relative to the largest term is rounding.
@@ -282,8 +290,7 @@ impl<'a, const D: usize> Newton<'a, D> {
             self.target = whole;
         }
         let (pattern, matrix) = (&motion.pattern, &motion.matrix);
-        // Where the residual has fallen to a tenth, the factor of the last tangent still preconditions this one.
-        let near = matches!(self.history[..], [.., before, last] if last < 0.1 * before);
+        let near = matches!(self.history[..], [.., before, last] if last < NEAR * before);
         let method = if !matrix.matrix_free.is_empty() {
             let tolerance = forcing(&self.history, self.problem.scene.numerics.tolerance);
             motion.solver.solve_matrix_free(pattern, matrix, tolerance, delta)
@@ -324,16 +331,16 @@ impl<'a, const D: usize> Newton<'a, D> {
     }
 }
 
-/// The relative residual of the linear solution (inexact Newton): a tenth of the square of the last reduction (Eisenstat & Walker 1996),
+/// The relative residual of the linear solution (inexact Newton): a part of the square of the last reduction (Eisenstat & Walker 1996),
 /// which preserves the convergence of Newton's method, but no smaller than the end of the iteration needs.
 fn forcing(history: &[f64], tolerance: f64) -> f64 {
     let last = history.last().copied().unwrap_or(1.0);
-    let enough = 0.1 * tolerance / last;
+    let enough = FORCING * tolerance / last;
     let quadratic = match history {
-        [.., before, last] => 0.1 * (last / before).powi(2),
+        [.., before, last] => FORCING * (last / before).powi(2),
         _ => LOOSEST,
     };
-    quadratic.max(enough).clamp(1e-10, LOOSEST)
+    quadratic.max(enough).clamp(TIGHTEST, LOOSEST)
 }
 
 /// Which equations of nodes are damped: not those of structures in contact. Only soil that flows may support a structure; a fraction of the
@@ -360,7 +367,7 @@ fn floor<const D: usize>(problem: &Problem<D>, grid: &Grid<D>) -> f64 {
         size += interpolation.filled.iter().map(|cell_points| cell_size(mesh, cell_points.cell as usize)).sum::<f64>();
     }
     let side = 4.0 * volume / size;
-    1e-6 * problem.scene.stiffness_scale * side * (problem.given.len() as f64).sqrt()
+    FLOOR * problem.scene.stiffness_scale * side * (problem.given.len() as f64).sqrt()
 }
 
 fn norm_free(x: &[f64], fixed: &[bool]) -> f64 {

@@ -34,6 +34,8 @@ struct Segment {
     beyond: bool,
 }
 
+/// More than the diameter of a cell, over its size: cells are not much longer than they are wide.
+const DIAMETER: f64 = 1.25;
 /// What a zero is, as a share of the reach.
 const ROUNDING: f64 = 1e-13;
 
@@ -74,7 +76,7 @@ impl Distance {
         let (mut reach, mut hint) = (0.0f64, None);
         for (x, _) in front.position.iter().zip(wall).filter(|(_, wall)| !**wall) {
             if let Some((c, _)) = locator.locate(mesh, x, hint) {
-                reach = reach.max(1.25 * crate::mesh::cell_size(mesh, c as usize));
+                reach = reach.max(DIAMETER * crate::mesh::cell_size(mesh, c as usize));
                 hint = Some(c);
             }
         }

@@ -36,6 +36,14 @@ const PER_LENGTH: usize = 6;
 /// is squeezed to nothing as the soil closes.
 const FARTHEST: f64 = 0.5;
 
+/// Where along a segment it is seen whether it lies on the boundary of the mesh (-). Two places, for at a node the cell that is found may touch
+/// the boundary in that node alone.
+const ALONG: [f64; 2] = [0.4618, 0.5431];
+/// Depth (parametric) within a cell up to which a place is on its straight side: rounding.
+const ON_STRAIGHT_SIDE: f64 = 1e-7;
+/// The same of a curved side: the rise of a chord between two markers.
+const ON_CURVED_SIDE: f64 = 1e-2;
+
 /// The loops of markers at the last restoration: part of the state of a run.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct MarkerFront {
@@ -183,8 +191,7 @@ impl MarkerFront {
             let markers = self.markers(l);
             for (i, a) in markers.iter().enumerate() {
                 let b = markers[(i + 1) % markers.len()];
-                // Two places, for at a node the cell that is found may touch the boundary in that node alone.
-                wall.push([0.4618, 0.5431].into_iter().any(|t| {
+                wall.push(ALONG.into_iter().any(|t| {
                     let x = [0, 1].map(|d| a[d] + t * (b[d] - a[d]));
                     // The chord of a curved wall may run outside the mesh.
                     let Some((c, xi)) = locator.locate(mesh, &x, hint) else { return true };
@@ -201,7 +208,7 @@ impl MarkerFront {
 /// within the rise of a chord where it is curved.
 fn on_boundary(mesh: &Mesh<2>, geometry: &Geometry, c: usize, xi: &[f64; 3]) -> bool {
     let across = geometry.faces.across(c as u32);
-    let reach = if geometry.affine[c] { 1e-7 } else { 1e-2 };
+    let reach = if geometry.affine[c] { ON_STRAIGHT_SIDE } else { ON_CURVED_SIDE };
     let depth = |side: usize| match (mesh.cells.kind[c].is_simplex(), side) {
         (true, 0) => xi[1],
         (true, 1) => 1.0 - xi[0] - xi[1],

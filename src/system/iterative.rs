@@ -3,6 +3,8 @@
 
 use super::accuracy::{dot, norm};
 
+/// The residual of the recursion at which an iteration ends, over the true residual that is wanted: room for their difference.
+const RECURSION: f64 = 0.9;
 /// Vectors before a restart.
 const RESTART: usize = 40;
 
@@ -44,7 +46,7 @@ impl Gmres {
             }
             last = size;
             residual.iter_mut().for_each(|r| *r /= size);
-            let ends = (0.9 * limit, (most - products).min(RESTART));
+            let ends = (RECURSION * limit, (most - products).min(RESTART));
             let Some(count) = self.iterate(multiply, precondition, size, ends) else { return f64::NAN };
             products += count;
             for i in (0..count).rev() {

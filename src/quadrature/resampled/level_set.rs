@@ -16,6 +16,8 @@ const OFFSETS: usize = 8;
 const FIRST_OFFSET: f64 = 1e-3;
 /// The part (-) of the volume to which the volume within the surface is that of the material points.
 const VOLUME_TOLERANCE: f64 = 1e-12;
+/// The secant slope of a volume over the offset is used where it is the first slope within this factor.
+const SLOPE_FACTOR: f64 = 10.0;
 /// Strain (-) up to which is rounding.
 const STRAINED: f64 = 1e-9;
 
@@ -149,7 +151,7 @@ fn keep_volume<K: Kinematics<2>>(
         }
         for (b, then) in lacking(&tried).into_iter().enumerate() {
             let slope = (lacks[b] - then) / (tried[b] - offsets[b]);
-            if (0.1..10.0).contains(&(slope / slopes[b])) {
+            if (1.0 / SLOPE_FACTOR..SLOPE_FACTOR).contains(&(slope / slopes[b])) {
                 now[b] = slope;
             }
             if then.abs() < lacks[b].abs() {

@@ -16,6 +16,8 @@ const LEAST_DAMPING: f64 = 1e-4;
 /// No larger fraction (-): 0.1 is the largest power of ten below. Without damping a wall that is pushed into clay stops as it is pulled
 /// (`docs/numerics.md`, *As expected*).
 const MOST_DAMPING: f64 = 0.2;
+/// The factor by which damping grows where it is too little, and falls after each accepted step.
+const DAMPING_FACTOR: f64 = 10.0;
 /// From this many halvings of an accepted step length on, the diagonal is raised. Else the last equilibrium of a slope is found at a factor of safety
 /// 0.4 % lower (`docs/numerics.md`, *As expected*).
 const ASTRAY: i32 = 3;
@@ -58,7 +60,7 @@ impl<const D: usize> Newton<'_, D> {
                     self.relaxed += 1;
                     self.take(with_tangent);
                 } else {
-                    self.damping = if self.damping > LEAST_DAMPING { 0.1 * self.damping } else { 0.0 };
+                    self.damping = if self.damping > LEAST_DAMPING { 1.0 / DAMPING_FACTOR * self.damping } else { 0.0 };
                     self.accept(with_tangent);
                 }
                 return Ok(());
@@ -135,9 +137,9 @@ impl<const D: usize> Newton<'_, D> {
         false
     }
 
-    /// Raises the diagonal ten times as much from here on; false if that would be too much.
+    /// Raises the diagonal by [`DAMPING_FACTOR`] times as much from here on; false if that would be too much.
     fn dampen(&mut self) -> bool {
-        let more = (10.0 * self.damping).max(LEAST_DAMPING);
+        let more = (DAMPING_FACTOR * self.damping).max(LEAST_DAMPING);
         let can = more <= MOST_DAMPING;
         if can {
             self.damping = more;
