@@ -15,7 +15,7 @@ SECONDS := 600
 MDBOOK_VERSION := 0.5.4
 MDBOOK := target/tools/mdbook-$(MDBOOK_VERSION)/bin/mdbook
 
-.PHONY: help setup build wheel wheel-try demo gallery pile pile-variants pile-schemes pipeline pipeline-study test test-quick fuzz sanitize campaign check fmt clean bench bench-block bench-unused sbom stress verification book keys
+.PHONY: help setup build wheel wheel-try demo gallery pile pile-variants pile-schemes pipeline pipeline-study test test-quick fuzz sanitize campaign check fmt clean bench bench-block bench-unused constants sbom stress verification book keys
 
 help: ## List the targets
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / {printf "  %-14s %s\n", $$1, $$2}' $(firstword $(MAKEFILE_LIST))
@@ -99,6 +99,9 @@ bench-block: build ## Time the block of 102 400 points beside Kratos; writes doc
 
 bench-unused: build ## Count the instructions that parts cost which a scene does not use; writes docs/unused.md
 	$(PYTHON) benches/unused/run.py $(ARGS)
+
+constants: build ## Run scenes with each numerical constant of the solver halved and doubled, an hour; writes docs/constants.md
+	$(PYTHON) benches/constants/run.py --write $(ARGS)
 
 stress: build ## Random scenes, each to end converged or with a statement; writes docs/stress.md
 	$(PYTHON) benches/stress/run.py --write $(ARGS)

@@ -285,7 +285,7 @@ fn the_sandbox_alone_stops_what_the_filter_refuses() {
     }
     let (program, stop) = (PathBuf::from(PROGRAM), AtomicBool::new(false));
     // A few wait for a program that never answers.
-    let worker = Worker { seconds: 5, ..unfiltered(&program, &stop) };
+    let worker = Worker { seconds: 2, ..unfiltered(&program, &stop) };
     for (statement, _) in EXECUTE_OR_WRITE {
         let folder = scene("");
         let d = folder.path();

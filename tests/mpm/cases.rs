@@ -268,14 +268,14 @@ mod slow {
         let heavy = ["materials.clay.density=2.0387", "gravity={y: -9.81}", "initial_stress={k0: 1}"];
         load("plate_anchor", "plate", &[&bonded[..], &heavy].concat(), -0.5 * 15.2 + 2.0..-0.5 * 12.0 + 2.0);
         // A thin wall that cannot part from clay goes in, and is held by both its sides and its tip as it comes out.
-        let wall = ["mesh.parameters={h: 0.08, thickness: 0.08}", "phases.push.step.max=0.016"];
+        let wall = ["mesh.parameters={h: 0.08, thickness: 0.08, way: 0.4, length: 0.6}", "phases.push.step.max=0.016"];
         let short_way = ["phases.push.duration=0.3", "phases.pull.duration=0.1"];
         load("suction_anchor", "wall", &[&wall[..], &short_way].concat(), -80.0..-55.0);
         // The cells of the case, to where the clay that the wall drew down beside it has folded: 30 kN by limit analysis at 0.13 m.
         let farther =
-            ["phases.push.duration=0.12", "phases.pull.duration=0.01", "mesh.parameters={way: 0.2, length: 0.4}"];
-        let on = ["phases.pull.prescribe.wall.uy.rate=-1"];
-        load("suction_anchor", "wall", &[&farther[..], &on].concat(), 28.0..34.0);
+            ["phases.push.duration=0.12", "phases.pull.duration=0.01", "phases.pull.prescribe.wall.uy.rate=-1"];
+        let deep = ["mesh.parameters.way=0.2", "mesh.parameters.length=0.4"];
+        load("suction_anchor", "wall", &[&farther[..], &deep].concat(), 28.0..34.0);
         let short = ["mesh.parameters.h=0.2", "phases[0].duration=0.1"];
         load("punch_through", "footing", &short, 3.71..4.3);
         let area = PI * 1.5 * 1.5;

@@ -426,7 +426,7 @@ fn collapse(resampled: bool, beside: bool) {
         Arc::new(VonMises::new(Elasticity::new(constant(500.0), 0.3).unwrap(), Profile::constant(4.0)).unwrap()),
     );
     (bench.gravity, bench.restore, bench.dynamic) = ([0.0, -10.0], Restore::EveryStep, true);
-    (bench.duration, bench.steps) = if beside { (0.3, 30) } else { (0.7, 70) };
+    (bench.duration, bench.steps) = if beside { (0.3, 30) } else { (0.5, 50) };
     bench.spectral_radius = 0.6;
     if resampled {
         resample::<PlaneStrain>(&mut bench);

@@ -9,8 +9,8 @@ use std::process::{Child, Command};
 use std::time::{Duration, Instant, SystemTime};
 
 const AXES: [&str; 2] = ["materials.clay.young=100,200,300,400", "materials.clay.poisson=0.1,0.2,0.3"];
-/// Steps enough that a run takes some tenths of a second.
-const SET: &str = "phases.load.step={initial: 0.005, max: 0.005}";
+/// Steps enough that a run takes a tenth of a second or two.
+const SET: &str = "phases.load.step={initial: 0.01, max: 0.01}";
 
 fn sweep(folder: &str) -> [&str; 8] {
     ["sweep", "block", AXES[0], AXES[1], "--set", SET, "-o", folder]

@@ -13,7 +13,7 @@ fn load(gradient: &str, fine: usize, depth: f64) -> f64 {
         0.05 / fine as f64
     );
     let phases = format!(
-        "phases=[{{name: press, analysis: quasi_static, duration: 1, step: {{initial: 0.05}}, \
+        "phases=[{{name: press, analysis: quasi_static, duration: 1, step: {{initial: 0.1}}, \
         prescribe: {{plate: {{ux: 0, rotation: 0, uy: {{rate: -{depth}}}}}}}}}]"
     );
     let folder = run(
