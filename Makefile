@@ -100,7 +100,7 @@ bench-block: build ## Time the block of 102 400 points beside Kratos; writes doc
 bench-unused: build ## Count the instructions that parts cost which a scene does not use; writes docs/unused.md
 	$(PYTHON) benches/unused/run.py $(ARGS)
 
-constants: build ## Run scenes with each numerical constant of the solver halved and doubled, an hour; writes docs/constants.md
+constants: setup ## Run scenes with each numerical constant of the solver halved and doubled, an hour; writes docs/constants.md
 	$(PYTHON) benches/constants/run.py --write $(ARGS)
 
 stress: build ## Random scenes, each to end converged or with a statement; writes docs/stress.md

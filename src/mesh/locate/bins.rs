@@ -23,7 +23,7 @@ impl<const D: usize> Bins<D> {
     /// About one bin a cell, and fewer where boxes are so large that they would touch many each.
     pub fn new(boxes: &[Bounds<D>]) -> Self {
         let (low, high) = enclose(boxes);
-        // Boxes in one row have bins along it only, and none at all have one.
+        // Cells in a row, as those of a thin plate, get bins along the row only; a mesh without cells gets one bin.
         let longest = (0..D).map(|d| high[d] - low[d]).fold(0.0, f64::max);
         let least = if longest > 0.0 { longest / boxes.len() as f64 } else { 1.0 };
         let extent: [f64; D] = std::array::from_fn(|d| (high[d] - low[d]).max(least));

@@ -42,11 +42,11 @@ fn footing() {
     }
 }
 
+/// The template as it is, to its end: a strip once stopped in the last half metre.
 #[test]
 fn penetration_of_a_strip() {
-    let shallow = ["mesh.parameters.way=3", "phases.push.duration=3", "mesh.parameters.shape=1"];
-    let out = run("penetration", &[&shallow[..], &["mesh.parameters.h=0.16", "phases.push.step.max=0.03"]].concat());
-    let load = 2.0 * mean(&out, "body.contact_y [kN]", 2.5) - 6.0 * 0.25;
+    let out = run("penetration", &["mesh.parameters.shape=1"]);
+    let load = 2.0 * mean(&out, "body.contact_y [kN]", 3.5) - 6.0 * 0.25;
     is_close(load, 12.1 * 2.0, 0.05);
 }
 
