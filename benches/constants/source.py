@@ -96,6 +96,7 @@ def instrument():
     copy = KEPT / "source"
     command = ["git", "ls-files", "src", "tests", "benches", "templates", "build.rs", "Cargo.toml", "Cargo.lock", "README.md", "geo", "docs"]
     names = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=True).stdout.split()
+    names = [name for name in names if (ROOT / name).exists()]
     known = constants()
     for name in names:
         content = (ROOT / name).read_bytes()

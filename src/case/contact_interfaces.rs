@@ -1,10 +1,10 @@
 //! The structures and walls of a case and what they touch.
 
 use super::changes;
-use super::checked::{Case, Contact, Content, Geometry, Region, Touched, Touching};
+use super::checked::{Case, Contact, Geometry, Region, Touched, Touching};
 use super::find::region_index;
 use super::wall;
-use crate::contact::{Bodies, Boundary, Interface, Laws, Rigid, Sides, Skin, SoilSide, Surface};
+use crate::contact::{Bodies, Boundary, Interface, Laws, Rigid, Sides, SoilSide, Surface};
 use crate::error::{Error, Result};
 use crate::kinematics::Kinematics;
 use crate::mesh::Mesh;
@@ -104,16 +104,6 @@ impl Parts<'_> {
         Surface::new(self.fem, region, spacing, beyond)
     }
 
-    /// The surface that all soil of material points begins with. Where it is joined to finite elements there is none.
-    fn skin(&self) -> Result<Skin> {
-        let filled = |(_, region): &(usize, &Region)| matches!(region.content, Content::Mpm { .. });
-        let regions = self.case.regions.iter().enumerate().filter(filled).map(|(index, _)| self.region(index));
-        let regions = regions.collect::<Result<Vec<u16>>>()?;
-        let mut joined = vec![false; self.grid.nodes.len()];
-        self.fem.cells.nodes.iter().for_each(|&n| joined[n as usize] = true);
-        Ok(Skin::new(self.grid, &regions, |facet| facet.iter().all(|&n| joined[n as usize])))
-    }
-
     /// The cell beside the grid that has each of the facets of the boundary of a region.
     fn behind(&self, region: u16, facets: &[Vec<u32>]) -> Vec<u32> {
         let ends = |facet: &[u32]| [facet[0].min(facet[1]), facet[0].max(facet[1])];
@@ -155,9 +145,8 @@ impl Parts<'_> {
             }
             _ => self.boundary(structure, SPACING * edge, &held(self.case, self.grid, SPACING * edge))?,
         };
-        let skin = self.skin()?;
         let sides = Sides { structure, against: None, soils: regions, laws: self.laws(contact) };
-        Ok(Boundary { sides, surface, models, skin, kinematics: PhantomData })
+        Ok(Boundary { sides, surface, models, kinematics: PhantomData })
     }
 
     /// The contact nodes are as far apart as the coarser of the boundaries that can give way has its nodes. Against a wall they are the body's.

@@ -1,7 +1,7 @@
 //! From a checked case to a scene: the only place that decides which terms exist, but for those that an entry of the case brings
 //! with it ([`super::keyed`]).
 
-use super::checked::{Analysis, Case, Content, Geometry, Material, Region, Restore, Site};
+use super::checked::{Analysis, Case, Content, Geometry, Material, Region, Restore, Site, Touched};
 use super::find::{filled, mean_size, region_index};
 use super::outputs::outputs;
 use super::raw;
@@ -313,7 +313,8 @@ fn gravity<K>(case: &Case) -> BodyForce<K, 2> {
 
 fn quadrature<K: Kinematics<2>>(case: &Case, mesh: &Mesh<2>) -> Result<Box<dyn Quadrature<2>>> {
     let bounded = water::needs_surface(case);
-    Ok(match (case.numerics.quadrature, bounded) {
+    let touched = case.contacts.iter().any(|contact| matches!(contact.on, Touched::Soil(_)));
+    Ok(match (case.numerics.quadrature, bounded || touched) {
         (raw::Quadrature::Resampled, _) => {
             let resampled = Resampled::<K>::new(mesh, models(case, mesh)?, bounded);
             Box::new(resampled.renewing(seeded(case, mesh)?).varying(changes::random_strengths(case, mesh)?))

@@ -313,7 +313,6 @@ impl<K: Kinematics<2>> Interface<2> for Bodies<K> {
                 contact_node: contact_node as u32,
                 area,
                 gap: sum.gap / area,
-                offset: 0.0,
                 height: self.soil.as_ref().map(|_| sum.height / area),
                 own: sum.sides[0].len(),
                 nodes: entries().map(|e| e.0).collect(),

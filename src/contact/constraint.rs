@@ -14,9 +14,8 @@ pub struct Constraint<const D: usize> {
     pub contact_node: u32,
     /// Area (m²) under the contact node where there is soil.
     pub area: f64,
-    /// Mean gap (m) at the beginning of the step, and how much more the points measure.
+    /// Mean gap (m) at the beginning of the step.
     pub gap: f64,
-    pub offset: f64,
     /// Mean height y (m) of it where there are pores that water may stand in.
     pub height: Option<f64>,
     /// The nodes of the structure, `own` of them that bear the force on it, then those of the grid.

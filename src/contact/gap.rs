@@ -1,7 +1,6 @@
 //! How far the soil is from the segments of a boundary: the signed distance of material points to it.
 
 use super::place::{Placed, Segments};
-use super::skin::{Seen, Skin};
 use super::surface::Surface;
 use crate::geometry::{Bins, Line, Lines, at, distance, dot, foot, way};
 use crate::kinematics::Kinematics;
@@ -11,15 +10,11 @@ use std::ops::Range;
 
 /// Points this many spacings away are no surface that a segment faces.
 const REACH: f64 = 2.5;
-/// Points this many spacings below the surface that they began with tell where it is.
-const SEEN: f64 = 1.5;
 
 /// Stretch up to which a point is as wide as its deformation says. Soil that has flowed along the boundary and then turned
 /// stretches without end; the points beside such a one have long left, and it is no wider for it.
 const WIDEST: f64 = 1.5;
 
-/// Weight (-) of a point a spacing away along the boundary, over that of one across from it.
-const LEAST_WEIGHT: f64 = 0.01;
 /// Cosine of the angle between the normals of a segment and of the surface of the soil from which on they face each other.
 const FACING: f64 = -0.3;
 
@@ -31,8 +26,6 @@ struct Near {
     /// Signed distance (m), negative in the structure, and the half width of the point (m) across the boundary.
     distance: f64,
     half_width: f64,
-    /// Distance (m) across the boundary to the surface that the soil began with, where the point is just below it.
-    depth: Option<f64>,
     spacing: f64,
     normal: [f64; 2],
     /// What is a metre farther out across the boundary was seeded by so much (m) from where the point was.
@@ -44,8 +37,6 @@ struct Near {
 pub struct Gap {
     /// Distance (m) between the segment and the soil, negative where they overlap, by its nearest point.
     pub open: f64,
-    /// The same to the surface that the soil began with, where points know it: that does not jump as points come and go.
-    pub known: Option<f64>,
     /// The nearest point of soil, and the spacing (m) of the points there.
     pub point: u32,
     pub spacing: f64,
@@ -68,7 +59,7 @@ impl Soil<'_> {
     }
 
     /// The points within `REACH` spacings of the segments.
-    fn near<K: Kinematics<2>>(&self, segments: &Segments, skin: Option<&Skin>) -> Vec<Near> {
+    fn near<K: Kinematics<2>>(&self, segments: &Segments) -> Vec<Near> {
         let points = self.points;
         let resists = |p: usize| self.integrated.is_none_or(|cells| cells[points.cell[p] as usize]);
         let ours = |p: &usize| self.regions.contains(&points.region[*p]) && resists(*p);
@@ -77,18 +68,11 @@ impl Soil<'_> {
         let longest = segments.0.iter().map(|s| distance(&s.to, &s.from)).fold(0.0, f64::max);
         let side = (1.0 + REACH) * widest + longest;
         let bins = Bins::new(segments.0.iter().map(|s| (s.from, s.to)), side);
-        let seen = skin.map(|skin| skin.seen(SEEN * widest));
-        let near = |p| self.nearest::<K>(segments, &bins, seen.as_ref(), p);
+        let near = |p| self.nearest::<K>(segments, &bins, p);
         (0..points.len()).into_par_iter().filter(ours).filter_map(near).collect()
     }
 
-    fn nearest<K: Kinematics<2>>(
-        &self,
-        segments: &Segments,
-        bins: &Bins,
-        seen: Option<&Seen>,
-        p: usize,
-    ) -> Option<Near> {
+    fn nearest<K: Kinematics<2>>(&self, segments: &Segments, bins: &Bins, p: usize) -> Option<Near> {
         let x = &self.points.position[p];
         let mut best: Option<(f64, u32, [f64; 2])> = None;
         for &s in bins.around(x).flatten() {
@@ -121,14 +105,11 @@ impl Soil<'_> {
         let n = segment.normal;
         let back = [f[(0, 0)] * n[0] + f[(1, 0)] * n[1], f[(0, 1)] * n[0] + f[(1, 1)] * n[1]];
         let stretch = back[0].hypot(back[1]);
-        let depth = seen.and_then(|seen| seen.depth(&self.points.origin[p], &back.map(|b| -b / stretch)));
-        let known = depth.filter(|depth| stretch <= WIDEST && *depth <= SEEN * spacing);
         Some(Near {
             point: p as u32,
             segment: s,
             distance,
             half_width: 0.5 * spacing * stretch.min(WIDEST),
-            depth: known.map(|depth| depth * stretch),
             spacing,
             normal: n,
             farther: back.map(|b| b / (stretch * stretch)),
@@ -136,26 +117,11 @@ impl Soil<'_> {
     }
 }
 
-/// What the points around a segment say of its gap.
-#[derive(Clone, Copy, Default)]
-struct Around {
-    least: Option<Gap>,
-    /// Weights of the points that know the surface the soil began with, and their gaps (m) times these.
-    weight: f64,
-    open: f64,
-}
-
-/// The gap of each segment, from the points within a spacing of it along the boundary: the least of them, and the mean of those
-/// that know the surface which the soil began with; `None` where there is no point or it is farther than `REACH` spacings.
-pub fn raw_gaps<K: Kinematics<2>>(
-    surface: &Surface,
-    segments: &Segments,
-    soil: &Soil,
-    skin: &Skin,
-) -> Vec<Option<Gap>> {
-    let mut near = soil.near::<K>(segments, Some(skin));
+/// The gap of each segment by the points within a spacing of it along the boundary; `None` where there is no point or it is farther than `REACH` spacings.
+pub fn raw_gaps<K: Kinematics<2>>(surface: &Surface, segments: &Segments, soil: &Soil) -> Vec<Option<Gap>> {
+    let mut near = soil.near::<K>(segments);
     near.sort_unstable_by_key(|n| (n.segment, n.point));
-    let mut around = vec![Around::default(); segments.0.len()];
+    let mut gaps: Vec<Option<Gap>> = vec![None; segments.0.len()];
     let length = |piece: &Range<usize>| segments.0[piece.clone()].iter().map(|s| distance(&s.from, &s.to)).sum::<f64>();
     let lengths: Vec<f64> = surface.pieces.iter().map(length).collect();
     for near in &near {
@@ -165,18 +131,12 @@ pub fn raw_gaps<K: Kinematics<2>>(
         if open > REACH * near.spacing {
             continue;
         }
-        let mut offer = |(s, away): (usize, f64)| {
-            let around = &mut around[s];
-            if around.least.is_none_or(|gap| open < gap.open) {
-                around.least = Some(Gap { open, point: near.point, spacing: near.spacing, known: None });
-            }
-            if let Some(depth) = near.depth {
-                let weight = (1.0 - (1.0 - LEAST_WEIGHT) * away / near.spacing).max(LEAST_WEIGHT);
-                around.weight += weight;
-                around.open += weight * (near.distance - depth);
+        let mut offer = |s: usize| {
+            if gaps[s].is_none_or(|gap| open < gap.open) {
+                gaps[s] = Some(Gap { open, point: near.point, spacing: near.spacing });
             }
         };
-        offer((own, 0.0));
+        offer(own);
         let (piece, is_loop) = (&surface.pieces[number], surface.runs[number].1);
         let (place, count) = (own - piece.start, piece.len());
         for ahead in [true, false] {
@@ -189,13 +149,11 @@ pub fn raw_gaps<K: Kinematics<2>>(
                 if beyond_end && !is_loop || away > near.spacing {
                     break;
                 }
-                offer((s, away));
+                offer(s);
             }
         }
     }
-    let known = |around: &Around| (around.weight > 0.0).then(|| around.open / around.weight);
-    let gap = |around: &Around| around.least.map(|least| Gap { known: known(around), ..least });
-    around.iter().map(gap).collect()
+    gaps
 }
 
 /// The cosine of the turn between two pieces of the surface below which there is a corner.
@@ -258,9 +216,9 @@ impl Facing {
 }
 
 /// Moves points that are in the structure, or nearer to it than half their half width, out to there. Each then stands for the
-/// soil that is there, so that it still knows where the surface of the soil is. Returns how many and the farthest move (m).
+/// soil that is there. Returns how many and the farthest move (m).
 pub fn project_out<K: Kinematics<2>>(segments: &Segments, points: &mut Points<2>, regions: &[u16]) -> (usize, f64) {
-    let near = Soil { points, regions, integrated: None }.near::<K>(segments, None);
+    let near = Soil { points, regions, integrated: None }.near::<K>(segments);
     let (mut count, mut most) = (0, 0.0f64);
     for near in near {
         let by = 0.5 * near.half_width - near.distance;
@@ -385,8 +343,7 @@ mod tests {
             ..Points::default()
         };
         let near = |integrated| {
-            let near =
-                Soil { points: &points, regions: &[0], integrated }.near::<PlaneStrain>(&Segments(vec![placed]), None);
+            let near = Soil { points: &points, regions: &[0], integrated }.near::<PlaneStrain>(&Segments(vec![placed]));
             near.iter().map(|near| near.point).collect::<Vec<_>>()
         };
         assert_eq!(near(None), [0, 1]);

@@ -7,7 +7,6 @@ use super::gap::{Facing, Gap, Soil, project_out, raw_gaps};
 use super::law::{Laws, Penalty};
 use super::multipliers::Multipliers;
 use super::place::{Placed, Segments};
-use super::skin::Skin;
 use super::surface::{Run, Segment, Surface};
 use crate::kinematics::Kinematics;
 use crate::material::Model;
@@ -30,16 +29,8 @@ const YIELDING: f64 = 0.1;
 /// Pressure over which parting is rounded (-), in the mean pressure of the contact nodes.
 const ROUNDING: f64 = 0.1;
 
-/// Overlap (-), in spacings of the points, that a contact node may begin to touch with, and correct in a step, without sliding.
+/// Overlap (-), in spacings of the points, that a contact node may begin to touch with.
 const STILL: f64 = 1e-3;
-/// Error (-) of a measured gap, in spacings: what points that come and go make of it.
-const BAND: f64 = 0.15;
-/// Slip, in spacings of the points, over which a gap becomes that measured.
-const SLIDE: f64 = 8.0;
-/// The same where the measured gap is that of the surface which the soil began with, and does not jump.
-const KNOWN: f64 = 1.0;
-/// Share of its slip by which a gap may be corrected in a step.
-const RATE: f64 = 0.1;
 /// A boundary that turns by less (rad) from one point to the next is flat.
 const FLAT: f64 = 0.01;
 /// Where soil is looked for from a segment, in spacings of its points.
@@ -57,8 +48,6 @@ pub struct Ground<'a, const D: usize> {
     pub integration: &'a [u32],
     /// The surface of the soil, where it is followed: loops of markers with the soil on their left.
     pub surface: &'a [Vec<[f64; D]>],
-    /// How far (m) the nodes moved in the last step; empty before the first.
-    pub increment: &'a [[f64; D]],
     /// The points of the finite elements.
     pub elements: &'a Points<D>,
     /// The excess pressure (kPa) of the water in the pores at one of some points, by its number.
@@ -130,43 +119,29 @@ pub struct Boundary<K> {
     pub surface: Surface,
     /// The model of each material by number ([`Points::model_of`]).
     pub models: Vec<Option<Arc<dyn Model>>>,
-    /// The surface that all soil began with.
-    pub skin: Skin,
     pub kinematics: PhantomData<K>,
 }
 
 impl<K: Kinematics<2>> Boundary<K> {
-    /// The gap (m) of a contact node at the beginning of a step, given that `measured` from points and that of the followed `surface`; and how much more
-    /// the nearest points measure than that.
+    /// The gap (m) of a contact node at the beginning of a step: that of the followed surface of the soil, where it is followed.
     ///
-    /// - On a curved boundary, along which soil flows, it is that of the followed surface, if there is one. A closed contact node changes its gap by no more
-    ///   than the soil moved in the last step.
-    /// - An open contact node, also one that keeps its tension in the gap, has the gap of the surface. It may begin to touch, not to overlap.
-    /// - A closed contact node keeps the gap of the step before: the measured one jumps when points come and go, and the soil would be strained by every
-    ///   jump. As it slides, the gap becomes the measured one, so that jumps are averaged. An error larger than these jumps is corrected at once. The
-    ///   measure is that of the surface which points began at, only where the followed surface agrees: it fails where soil was folded, as beside a wall
-    ///   that drew the surface down.
-    fn begin(&self, measured: &Measured, surface: Option<f64>, held: &Multipliers, contact_node: usize) -> (f64, f64) {
-        let Measured { before, open, known, spacing, curvature, moved } = *measured;
-        let is_curved = (curvature * spacing).abs() > FLAT;
-        let still = STILL * spacing;
-        let offset = |gap: f64| (open - gap).clamp(-0.5 * spacing, 0.5 * spacing);
-        if let (true, Some(gap)) = (is_curved, surface) {
-            let gap =
-                if held.touched(contact_node) { gap.clamp(before - moved, before + moved) } else { gap.max(-still) };
-            return (gap, offset(gap));
+    /// - An open contact node, also one that keeps its tension in the gap, may begin to touch, not to overlap. Without a surface the nearest points tell
+    ///   its gap.
+    /// - A closed contact node goes on with the gap of the step before: a jump of the measure would strain the soil. As soil slides past, its gap becomes
+    ///   that of the surface, by the part of the contact node over which the soil is another.
+    /// - On a curved boundary soil that slides turns as well, and the gap that it had is not that which it has. There it becomes that of the surface at
+    ///   once, but changes by no more than the slip.
+    fn begin(&self, measured: &Measured, held: &Multipliers, contact_node: usize) -> f64 {
+        let Measured { before, open, surface, spacing, curvature } = *measured;
+        if held.apart[contact_node] {
+            return surface.unwrap_or(open).max(-STILL * spacing);
         }
-        if !held.touched(contact_node) || before > BAND * spacing {
-            let gap = known.or(surface).unwrap_or(open);
-            return (gap.max(-still), offset(gap));
+        let (surface, slip) = (surface.unwrap_or(before), held.slip[contact_node]);
+        if (curvature * spacing).abs() > FLAT {
+            surface.clamp(before - slip, before + slip)
+        } else {
+            before + (slip / self.surface.spacing).min(1.0) * (surface - before)
         }
-        let known = known.filter(|known| surface.is_none_or(|surface| (known - surface).abs() < BAND * spacing));
-        let (error, slide) =
-            known.map_or((open - held.offset[contact_node] - before, SLIDE), |gap| (gap - before, KNOWN));
-        let (share, band) = ((held.slip[contact_node] / (slide * spacing)).min(1.0), BAND * spacing);
-        let most = RATE * held.slip[contact_node] + still;
-        let gap = before + share * error + ((1.0 - share) * (error - error.clamp(-band, band))).clamp(-most, most);
-        (gap, if known.is_some() { offset(gap) } else { held.offset[contact_node] })
     }
 
     /// Whether soil like that at `point` may yield.
@@ -216,20 +191,18 @@ impl Ground<'_, 2> {
     }
 }
 
-/// The gap (m) of a contact node as points measure it.
+/// The gap (m) of a contact node by different measures.
 struct Measured {
     /// That at the end of the step before.
     before: f64,
     /// That of the nearest points.
     open: f64,
-    /// That of the surface which the soil began with, where points know it.
-    known: Option<f64>,
+    /// That of the followed surface.
+    surface: Option<f64>,
     /// Spacing (m) of the points.
     spacing: f64,
     /// Curvature (1/m) of the boundary.
     curvature: f64,
-    /// How far (m) the soil went in the last step.
-    moved: f64,
 }
 
 /// What is summed up under a contact node.
@@ -238,14 +211,9 @@ struct Sum {
     area: f64,
     open: f64,
     curvature: f64,
-    /// The way (m) of the soil in the last step times the area.
-    moved: [f64; 2],
     /// Area that faces the surface of the soil, and its distance from there times the area.
     facing: f64,
     distance: f64,
-    /// Area whose gap does not jump, and that gap times the area.
-    sure: f64,
-    known: f64,
     spacing: f64,
     /// Shear strength of the soil, excess pressure of the pore water, and height, times the area.
     strength: f64,
@@ -279,7 +247,7 @@ impl<K: Kinematics<2>> Interface<2> for Boundary<K> {
         let mut integrated = vec![false; ground.grid.cells.len()];
         ground.integration.iter().for_each(|&c| integrated[c as usize] = true);
         let soil = Soil { points: ground.points, regions: &self.sides.soils, integrated: Some(&integrated) };
-        let gaps = raw_gaps::<K>(&self.surface, &segments, &soil, &self.skin);
+        let gaps = raw_gaps::<K>(&self.surface, &segments, &soil);
         let widest = gaps.iter().flatten().map(|gap| gap.spacing).fold(0.0, f64::max);
         let (surface, smooth) = (Facing::new(ground.surface, widest), held.smooth_gaps(&self.surface.runs));
         let structure: HashSet<u32> = self.surface.facets.iter().flatten().copied().collect();
@@ -293,10 +261,10 @@ impl<K: Kinematics<2>> Interface<2> for Boundary<K> {
         let by_surface = |s: usize| {
             let beside = nearest(s)?;
             let open = surface.distance(&segments.0[s], beside.spacing)?;
-            Some(Gap { open, known: None, ..beside })
+            Some(Gap { open, ..beside })
         };
         for (s, (segment, placed)) in self.surface.segments.iter().zip(&segments.0).enumerate() {
-            let Some(Gap { open, known, point, spacing }) = gaps[s].or_else(|| by_surface(s)) else { continue };
+            let Some(Gap { open, point, spacing }) = gaps[s].or_else(|| by_surface(s)) else { continue };
             let Some((cell, xi)) = ground.find(placed, spacing, point, &integrated) else { continue };
             let across = surface.distance(placed, spacing);
             // Nothing else depends on them.
@@ -319,10 +287,6 @@ impl<K: Kinematics<2>> Interface<2> for Boundary<K> {
                     sum.facing += weight;
                     sum.distance += weight * distance;
                 }
-                if let Some(known) = known {
-                    sum.sure += weight;
-                    sum.known += weight * known;
-                }
                 sum.spacing += weight * spacing;
                 // Elastic soil has no limit, and no share of it is a number.
                 if weight > 0.0 {
@@ -334,44 +298,25 @@ impl<K: Kinematics<2>> Interface<2> for Boundary<K> {
                     add(&mut sum.entries, node, &[n, t].map(|along| along.map(|a| -weight * n_s * a)));
                 }
                 for (&node, n_c) in soil.iter().zip(&value) {
-                    if let Some(by) = ground.increment.get(node as usize) {
-                        sum.moved = [0, 1].map(|d| sum.moved[d] + weight * n_c * by[d]);
-                    }
                     add(&mut sum.entries, node, &[n, t].map(|along| along.map(|a| weight * n_c * a)));
                 }
             }
         }
         let constraint = |(contact_node, sum): (usize, Option<Sum>)| {
-            let Sum {
-                area,
-                open,
-                curvature,
-                moved,
-                facing,
-                distance,
-                sure,
-                known,
-                spacing,
-                strength,
-                water,
-                height,
-                point,
-                mut entries,
-            } = sum.filter(|sum| sum.area > 0.0)?;
+            let Sum { area, open, curvature, facing, distance, spacing, strength, water, height, point, mut entries } =
+                sum.filter(|sum| sum.area > 0.0)?;
             let spacing = spacing / area;
             let surface = (facing > 0.5 * area).then_some(distance / facing);
-            let known = (sure > 0.5 * area).then_some(known / sure);
-            let [open, curvature, moved] = [open, curvature, moved[0].hypot(moved[1])].map(|sum| sum / area);
+            let [open, curvature] = [open, curvature].map(|sum| sum / area);
             let gaps = if self.yields(ground.points, point as usize) { &smooth } else { &held.gap };
-            let measured = Measured { before: gaps[contact_node], open, known, spacing, curvature, moved };
-            let (gap, offset) = self.begin(&measured, surface, held, contact_node);
+            let measured = Measured { before: gaps[contact_node], open, surface, spacing, curvature };
+            let gap = self.begin(&measured, held, contact_node);
             entries.sort_by_key(|(n, _)| (!structure.contains(n), *n));
             let by = |k: usize| entries.iter().map(|(_, by)| by[k].map(|by| by / area)).collect();
             Some(Constraint {
                 contact_node: contact_node as u32,
                 area,
                 gap,
-                offset,
                 height: Some(height / area),
                 own: entries.iter().filter(|(n, _)| structure.contains(n)).count(),
                 nodes: entries.iter().map(|e| e.0).collect(),
@@ -403,12 +348,12 @@ impl<K: Kinematics<2>> Interface<2> for Boundary<K> {
     fn status(&self, held: &Multipliers) -> Vec<Vec<ContactStatus>> {
         let all = |s: &Segment, is: &dyn Fn(usize) -> bool| s.contact_nodes.iter().all(|(k, _)| is(*k as usize));
         let status = |s: &Segment| {
-            if all(s, &|k| held.opens[k]) {
-                ContactStatus::Opening
+            if all(s, &|k| held.apart[k]) {
+                ContactStatus::Open
             } else if all(s, &|k| held.touched(k)) {
                 ContactStatus::Closed
             } else {
-                ContactStatus::Open
+                ContactStatus::Mixed
             }
         };
         let of_chain = |chain: &Range<usize>| self.surface.segments[chain.clone()].iter().map(status).collect();

@@ -3,9 +3,8 @@
 //!
 //! The boundary is where contact is integrated, for there area and normal are exact. Pressure and shear are combinations
 //! of contact nodes along it, about half an edge of the soil's cells apart (`case/contact_interfaces.rs`), and each contact node has one condition: its
-//! mean gap. It is summed over segments of a fifth of that distance. The gap of a segment is that to the surface which the
-//! soil began with, where the points just below it know it (`skin.rs`); elsewhere it is the signed distance of the nearest
-//! point to the boundary (its level set), less the half width of that point.
+//! mean gap. It is summed over segments of a fifth of that distance. The gap of a segment is the distance to the followed surface of the soil;
+//! where there is none, it is the signed distance of the nearest point to the boundary (its level set), less the half width of that point.
 
 mod along;
 mod bodies;
@@ -18,7 +17,6 @@ mod motion;
 mod multipliers;
 mod place;
 mod rigid;
-mod skin;
 mod smoothing;
 mod surface;
 
@@ -30,5 +28,4 @@ pub use law::{Answer, Law, Laws, Penalty};
 pub use motion::{Motion, Spot};
 pub use multipliers::Multipliers;
 pub use rigid::Rigid;
-pub use skin::Skin;
 pub use surface::{Run, Surface};

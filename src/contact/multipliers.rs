@@ -14,19 +14,17 @@ pub struct Multipliers {
     /// Pressure and shear (kPa).
     pub pressure: Vec<f64>,
     pub shear: Vec<f64>,
-    /// Mean gap and slip (m) of the last step.
+    /// Mean gap (m) at the end of the last step, and how far (m) the soil slid along it in that step.
     pub gap: Vec<f64>,
     pub slip: Vec<f64>,
-    /// How much more (m) the points measure as gap.
-    pub offset: Vec<f64>,
     /// Slip (m) of the soil while it touched since the run began, along the boundary with the structure on the left.
     pub slid: Vec<f64>,
     /// Force (kN) on the structure in the last step.
     pub force: Vec<[f64; 3]>,
     /// Whether there was before the contact node, in the last step, what it touches.
     pub faces: Vec<bool>,
-    /// Whether it is apart from the soil, and the gap grew in the last step.
-    pub opens: Vec<bool>,
+    /// Whether it is apart from the soil: see [`Multipliers::is_apart`].
+    pub apart: Vec<bool>,
     /// The nodes that the system has room to couple: those of contact node `k` are `room[first[k]..first[k + 1]]`.
     pub room: Vec<u32>,
     pub first: Vec<u32>,
@@ -41,11 +39,10 @@ impl Multipliers {
             shear: zero.clone(),
             gap: zero.clone(),
             slip: zero.clone(),
-            offset: zero.clone(),
             slid: zero,
             force: vec![[0.0; 3]; contact_nodes],
             faces: vec![false; contact_nodes],
-            opens: vec![false; contact_nodes],
+            apart: vec![true; contact_nodes],
             room: Vec::new(),
             first: vec![0; contact_nodes + 1],
         }

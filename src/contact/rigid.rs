@@ -187,7 +187,6 @@ mod tests {
             contact_node: 0,
             area: 1.0,
             gap: 0.3,
-            offset: 0.0,
             height: None,
             nodes: vec![0, 1, 2],
             own: 2,

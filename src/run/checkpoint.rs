@@ -208,16 +208,14 @@ fn flags(store: &mut Store, name: &str) -> Result<Vec<bool>> {
 
 fn put_multipliers(store: &mut Store, interfaces: &[Multipliers]) {
     store.put("contact.interfaces", 1, vec![interfaces.len() as u64]);
-    for (i, Multipliers { pressure, shear, gap, slip, offset, slid, force, faces, opens, room, first }) in
+    for (i, Multipliers { pressure, shear, gap, slip, slid, force, faces, apart, room, first }) in
         interfaces.iter().enumerate()
     {
-        for (name, values) in
-            [("pressure", pressure), ("shear", shear), ("gap", gap), ("slip", slip), ("offset", offset), ("slid", slid)]
-        {
+        for (name, values) in [("pressure", pressure), ("shear", shear), ("gap", gap), ("slip", slip), ("slid", slid)] {
             store.put(&format!("contact.{i}.{name}"), 1, values.clone());
         }
         store.put(&format!("contact.{i}.force"), 3, force.concat());
-        for (name, flags) in [("faces", faces), ("opens", opens)] {
+        for (name, flags) in [("faces", faces), ("apart", apart)] {
             store.put(&format!("contact.{i}.{name}"), 1, flags.iter().map(|&b| u8::from(b)).collect());
         }
         store.put(&format!("contact.{i}.room"), 1, room.clone());
@@ -230,14 +228,14 @@ fn take_multipliers(store: &mut Store) -> Result<Vec<Multipliers>> {
     let interface = |i: u64| {
         let mut values = |name: &str| store.take::<f64>(&format!("contact.{i}.{name}"), 1);
         let (pressure, shear, gap) = (values("pressure")?, values("shear")?, values("gap")?);
-        let (slip, offset, slid) = (values("slip")?, values("offset")?, values("slid")?);
+        let (slip, slid) = (values("slip")?, values("slid")?);
         let force = store.take::<f64>(&format!("contact.{i}.force"), 3)?;
         let force = force.chunks_exact(3).map(|f| [f[0], f[1], f[2]]).collect();
-        let [faces, opens] =
-            [flags(store, &format!("contact.{i}.faces"))?, flags(store, &format!("contact.{i}.opens"))?];
+        let [faces, apart] =
+            [flags(store, &format!("contact.{i}.faces"))?, flags(store, &format!("contact.{i}.apart"))?];
         let mut numbers = |name: &str| store.take::<u32>(&format!("contact.{i}.{name}"), 1);
         let (room, first) = (numbers("room")?, numbers("first")?);
-        Ok(Multipliers { pressure, shear, gap, slip, offset, slid, force, faces, opens, room, first })
+        Ok(Multipliers { pressure, shear, gap, slip, slid, force, faces, apart, room, first })
     };
     (0..count).map(interface).collect()
 }

@@ -79,20 +79,11 @@ pub fn begin<const D: usize, K: Kinematics<D>>(
     let (mesh, locator) = deformed.as_ref().map_or(restored, |(mesh, locator)| (mesh, locator));
     let surface = surface(restored, state);
     let excess = |points: &Points<D>, p: usize| excess_pressure(&scene.carried, points, p);
-    let (points, elements, increment) = (&state.points, &state.fem, &state.increment);
+    let (points, elements) = (&state.points, &state.fem);
     let integration = &state.integration().cell;
     let phase = state.phase;
-    let ground = Ground {
-        phase,
-        grid: mesh,
-        locator,
-        points,
-        integration,
-        surface: &surface,
-        increment,
-        elements,
-        excess: &excess,
-    };
+    let ground =
+        Ground { phase, grid: mesh, locator, points, integration, surface: &surface, elements, excess: &excess };
     let (mut placed, mut covers) = (Vec::new(), Vec::new());
     let covered = scene.terms.iter().any(|term| term.sees_open_boundary());
     for (number, interface) in scene.touching(state.phase) {
@@ -214,11 +205,11 @@ pub fn commit<const D: usize>(
     let at_rest = Trial::at_rest(&solution.displacement, &state.displacement);
     let trial = Trial { reduction, phase, time, ahead: &ahead, ..at_rest };
     for multipliers in &mut state.multipliers {
-        let Multipliers { pressure, shear, gap, slip, offset, .. } = multipliers;
-        [pressure, shear, gap, slip, offset].into_iter().for_each(|values| values.fill(0.0));
+        let Multipliers { pressure, shear, gap, slip, .. } = multipliers;
+        [pressure, shear, gap, slip].into_iter().for_each(|values| values.fill(0.0));
         multipliers.force.fill([0.0; 3]);
         multipliers.faces.fill(false);
-        multipliers.opens.fill(false);
+        multipliers.apart.fill(true);
     }
     for constraint in &grid.constraints {
         let condition = &constraint.condition;
@@ -227,10 +218,9 @@ pub fn commit<const D: usize>(
         let (answer, Motion { gap, slip, turn, .. }) = contact_answer(law, scene.levels.as_ref(), constraint, &trial);
         let held = &mut state.multipliers[interface];
         (held.pressure[contact_node], held.shear[contact_node]) = (answer.pressure, answer.shear);
-        (held.gap[contact_node], held.slip[contact_node], held.offset[contact_node]) =
-            (gap, slip.abs(), condition.offset);
+        (held.gap[contact_node], held.slip[contact_node]) = (gap, slip.abs());
         held.faces[contact_node] = true;
-        held.opens[contact_node] = gap > condition.gap && held.is_apart(contact_node, law, condition.penalty.fading);
+        held.apart[contact_node] = held.is_apart(contact_node, law, condition.penalty.fading);
         let resultant = &mut resultants[interface];
         if held.touched(contact_node) {
             resultant.contact_nodes += 1;

@@ -140,18 +140,18 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
     }
 
     /// One time step of the size that `controller` wants. It is tried with the predictor first; a step that fails is tried again on a
-    /// reset grid, without the predictor, or with full steps on trial, and is then halved until it converges.
+    /// reset grid, or without the predictor, and is then halved until it converges.
     ///
     /// # Errors
     /// When a point left the grid, the step falls below the least one, or memory does not suffice.
     pub fn advance(&mut self, controller: &mut Controller) -> Result<Report<D>> {
         let before = self.state.restorations;
         let (mut fresh, mut unbalanced) = timed(Activity::Transfer, || self.initialise(false))?;
-        let (mut predict, mut trials) = (true, false);
+        let mut predict = true;
         let (dt, start, solution, answers) = loop {
             let dt = controller.size(self.state.phase_time);
             let predictor = std::mem::take(&mut predict).then(|| predictor::extrapolated(&self.state, dt)).flatten();
-            let found = self.lagrange(dt, predictor.as_deref(), trials).and_then(|found| self.stands(dt, found));
+            let found = self.lagrange(dt, predictor.as_deref()).and_then(|found| self.stands(dt, found));
             let complete = found.and_then(|(start, solution)| {
                 let answers = || transfer::answers(self.scene, &self.grid, &self.state, &solution, dt);
                 let answers = timed(Activity::Transfer, answers)?;
@@ -164,10 +164,6 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
                         // Reset a deformed grid before the step is halved.
                         (fresh, unbalanced) = timed(Activity::Transfer, || self.initialise(true))?;
                     } else if predictor.is_none() {
-                        trials = !trials && self.may_try();
-                        if trials {
-                            continue;
-                        }
                         unbalanced::hold(self.scene, &mut self.grid, &mut self.state, dt)?;
                         controller.halve(dt, error)?;
                     }
@@ -181,13 +177,6 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
         report.unbalanced = unbalanced;
         report.halvings = controller.accept(dt, report.iterations());
         Ok(report)
-    }
-
-    /// Whether a step that fails is tried with full steps on trial: those without contact or with inertia have them anyway, and a search for failure is
-    /// to end at the nearest equilibrium.
-    fn may_try(&self) -> bool {
-        let (scene, state) = (self.scene, &self.state);
-        !scene.interfaces.is_empty() && !state.dynamic(scene) && scene.phases[state.phase].search.is_none()
     }
 
     /// Points to grid: restores the grid where that is due or `forced`. Returns whether another reset would change nothing (the grid was
@@ -218,7 +207,7 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
     }
 
     /// Solves the step on the grid (eq. 1; with inertia eq. 6).
-    fn lagrange(&mut self, dt: f64, predictor: Option<&[[f64; D]]>, trials: bool) -> Result<Lagrange<D>> {
+    fn lagrange(&mut self, dt: f64, predictor: Option<&[[f64; D]]>) -> Result<Lagrange<D>> {
         let (scene, state) = (self.scene, &self.state);
         let dynamic = state.dynamic(scene);
         let given = grid::given_increments(scene, state, &self.grid, dt);
@@ -229,7 +218,6 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
             scene,
             state,
             predictor,
-            trials,
             converged: &state.displacement,
             pressure: &state.pressure,
             velocity,

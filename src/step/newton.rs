@@ -58,11 +58,9 @@ struct Newton<'a, const D: usize> {
     /// The residual (kN) on the right of eq. 14, and how many full steps in a row the watchdog has accepted that did not reduce it.
     target: f64,
     relaxed: usize,
-    /// Whether every iteration must reduce the residual, without watchdog: once that has failed, and in quasi-static steps with contact unless the
-    /// problem allows trials.
+    /// Whether every iteration must reduce the residual, without watchdog: once that has failed, and in quasi-static steps with contact, whose status
+    /// may change during a full step.
     strict: bool,
-    /// Whether contact status may change during a full step, in a quasi-static step.
-    touching: bool,
     /// How many backtracking searches in a row have not reduced the residual.
     stalled: usize,
     /// Whether prescribed displacements are not reached, so that their forces are part of the right-hand side.
@@ -83,7 +81,7 @@ impl<'a, const D: usize> Newton<'a, D> {
         buffers.best.clone_from(&buffers.now.at);
         buffers.damped.clear();
         let floor = floor(problem, grid);
-        let touching = !problem.scene.interfaces.is_empty() && problem.integration.is_none();
+        let strict = !problem.scene.interfaces.is_empty() && problem.integration.is_none();
         Self {
             problem,
             grid,
@@ -94,8 +92,7 @@ impl<'a, const D: usize> Newton<'a, D> {
             method: Method::Cholesky,
             target: f64::INFINITY,
             relaxed: 0,
-            strict: touching && !problem.trials,
-            touching,
+            strict,
             stalled: 0,
             due: false,
             length: 0.0,

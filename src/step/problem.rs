@@ -14,8 +14,6 @@ pub struct Problem<'a, const D: usize> {
     pub state: &'a State<D>,
     /// Displacement (m) of the nodes that the iteration begins with, if not the converged one.
     pub predictor: Option<&'a [[f64; D]]>,
-    /// Whether a quasi-static step with contact may take full steps on trial that raise the residual.
-    pub trials: bool,
     /// State of the nodes at the last converged step.
     pub converged: &'a [[f64; D]],
     /// The pressure field (kPa) there; empty without one.
@@ -41,7 +39,6 @@ impl<'a, const D: usize> Problem<'a, D> {
             scene,
             state,
             predictor: None,
-            trials: false,
             converged: &state.displacement,
             pressure: &state.pressure,
             velocity: &state.velocity,

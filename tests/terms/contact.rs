@@ -39,7 +39,6 @@ fn stand_in_water(law: Law, apart: f64, levels: Option<WaterLevels>) -> Stand<Pl
         let constraint = Constraint {
             contact_node,
             area: 0.3 + 0.1 * angle,
-            offset: 0.0,
             height: Some(angle),
             gap: if contact_node == 0 { apart } else { -1e-3 * angle },
             by_normal: weights.iter().map(|w| normal.map(|n| w * n)).collect(),

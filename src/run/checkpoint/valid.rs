@@ -302,9 +302,9 @@ fn check_front(front: &MarkerFront) -> Result<()> {
 fn check_contact<const D: usize>(scene: &Scene<D>, state: &State<D>) -> Result<()> {
     ensure(state.multipliers.len() == scene.interfaces.len(), "the number of its contacts")?;
     let fits = |(interface, held): (&dyn Interface<D>, &Multipliers)| {
-        let Multipliers { pressure, shear, gap, slip, offset, slid, force, faces, opens, room, first } = held;
-        let lengths = [pressure, shear, gap, slip, offset, slid].iter().all(|v| v.len() == interface.contact_nodes());
-        let lengths = lengths && [force.len(), faces.len(), opens.len()] == [interface.contact_nodes(); 3];
+        let Multipliers { pressure, shear, gap, slip, slid, force, faces, apart, room, first } = held;
+        let lengths = [pressure, shear, gap, slip, slid].iter().all(|v| v.len() == interface.contact_nodes());
+        let lengths = lengths && [force.len(), faces.len(), apart.len()] == [interface.contact_nodes(); 3];
         let bounds = first.len() == interface.contact_nodes() + 1 && bounds_of_loops(first, room.len(), 0);
         let nodes = room.iter().all(|&n| (n as usize) < scene.displacements());
         lengths && bounds && nodes && slip.iter().all(|slip| *slip >= 0.0) && {

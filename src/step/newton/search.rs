@@ -53,7 +53,7 @@ impl<const D: usize> Newton<'_, D> {
                 return Ok(());
             }
             let better = self.better(size, 1.0);
-            let on_trial = !better && !self.strict && self.relaxed < WATCHDOG && (!self.touching || self.settles());
+            let on_trial = !better && !self.strict && self.relaxed < WATCHDOG;
             // Where the step was shortened in vain another state was tried since.
             if (better || on_trial) && (!far || self.attempt(1.0, with_tangent).is_some()) {
                 if on_trial {
@@ -96,12 +96,6 @@ impl<const D: usize> Newton<'_, D> {
         let before = self.work(&self.buffers.wanted);
         let worth = size > done && size > WORTH * self.target && !self.due;
         worth && before > 0.0 && self.work(&self.buffers.trial.force) > ENERGY_LEFT * before
-    }
-
-    /// Whether the full step leaves little work along `δ`, eq. 14a. Where contact status changes no larger residual helps otherwise. Where soil flows
-    /// the residual may grow tenfold in equations that the next iteration solves.
-    fn settles(&self) -> bool {
-        self.work(&self.buffers.trial.force).abs() <= ENERGY_LEFT * self.work(&self.buffers.wanted)
     }
 
     /// Shortens the full step to a length with eq. 14a, by regula falsi with halved ends (Dowell & Jarratt 1971); false if the residual is

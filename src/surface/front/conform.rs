@@ -8,7 +8,7 @@ use crate::mesh::Mesh;
 use crate::mesh::locate::Locator;
 use crate::surface::geometry::Geometry;
 
-/// Markers lie against a structure that are nearer to it than this share of a cell, but where the two part.
+/// Markers lie against a structure that are nearer to it than this share of a cell, but where contact is open.
 const NEAR: f64 = 0.15;
 /// So do those within it, by less than this share of a cell.
 const DEEP: f64 = 1.0;
@@ -23,10 +23,10 @@ const LONG: f64 = 5.0;
 pub enum ContactStatus {
     /// Structure and soil exert pressure or shear on each other.
     Closed,
-    /// There is a gap, and it grew in the last step.
-    Opening,
-    /// There is a gap that did not grow, or contact is closed on a part of the piece only.
+    /// There is a gap.
     Open,
+    /// Contact is closed on a part of the piece only.
+    Mixed,
 }
 
 /// The place of an outline that a marker is nearest to.
@@ -154,8 +154,8 @@ fn foot(outlines: &[Outline], pieces: &[(usize, usize)], bins: &Bins, x: &[f64; 
         });
         if closer {
             let along = outlines[outline].along[i - 1] + share * distance(&a, &b);
-            // A gap opens however little it grows from reset to reset.
-            let near = if outlines[outline].contact[i - 1] == ContactStatus::Opening { 0.0 } else { NEAR * h };
+            // A gap is as wide as it is, however narrow.
+            let near = if outlines[outline].contact[i - 1] == ContactStatus::Open { 0.0 } else { NEAR * h };
             let lies = away <= if left > 0.0 { DEEP * h } else { near };
             best = Some((away, left, Foot { outline, along, away, lies }));
         }

@@ -89,13 +89,3 @@ fn a_pipe_sinks_to_where_jetted_clay_bears_it() {
     assert!((load / (11.06 * PI * 0.04) - 1.0).abs() < 1e-3, "{load}");
     assert!((smooth..1.03 * rough).contains(&factor), "{way} {factor}");
 }
-
-/// Around the pipe in clay of little strength one step finds no equilibrium by lengths of Newton's direction that reduce the residual. With full lengths on
-/// trial it does, and is not halved.
-#[test]
-fn a_step_whose_residual_grows_on_the_way_is_not_halved() {
-    let settings = ["mesh.parameters={h: 0.06, coarse: 8}", "phases.jet.duration=5"];
-    let folder = solve("cases/jet_trench", &settings);
-    let log = std::fs::read_to_string(folder.path().join("solve.log")).unwrap();
-    assert!(log.contains(" t 6.0") && !log.contains("halved"), "{log}");
-}

@@ -1,7 +1,7 @@
 //! Where the front meets structures.
 
 use super::*;
-use ContactStatus::{Closed, Open, Opening};
+use ContactStatus::{Closed, Mixed, Open};
 
 /// A film of soil on a wall that is thinner than half a cell goes, on its way up from the soil or alone. A thicker one stays, and so does soil that meets
 /// the wall at 30°, and a thin layer on the boundary of the mesh.
@@ -10,7 +10,7 @@ fn films_on_a_structure_go() {
     let grid = grid(rectangle(CellKind::T6, 2.0, 1.0, 16, 8, 0.0, 0));
     let (cell, wall) = (grid.geometry.size(&grid.mesh, 0), 0.4);
     // The structure is on the left of its outline, and of the soil.
-    let (outline, open) = ([vec![[wall, 0.0], [wall, 1.0]]], [vec![Open]]);
+    let (outline, open) = ([vec![[wall, 0.0], [wall, 1.0]]], [vec![Mixed]]);
     let line = |from: [f64; 2], to: [f64; 2]| {
         let count = (distance(&from, &to) / (cell / PER_LENGTH as f64)).ceil() as usize;
         (0..count).map(move |k| [0, 1].map(|d| from[d] + k as f64 / count as f64 * (to[d] - from[d])))
@@ -40,7 +40,7 @@ fn films_on_a_structure_go() {
     );
 }
 
-/// Markers a twentieth of a cell outside a structure are put onto it, but where the gap opens; those within it everywhere.
+/// Markers a twentieth of a cell outside a structure are put onto it, but where contact is open; those within it everywhere.
 #[test]
 fn soil_that_parts_from_a_structure_is_not_put_onto_it() {
     let grid = grid(rectangle(CellKind::T6, 2.0, 1.0, 16, 8, 0.0, 0));
@@ -50,7 +50,7 @@ fn soil_that_parts_from_a_structure_is_not_put_onto_it() {
         let rise = (0..=80).map(|k| [wall + beside, 1.0 - f64::from(k) / 80.0]);
         let position: Vec<_> = rise.chain([[1.5, 0.0], [1.5, 1.0]]).collect();
         let mut front = MarkerFront { first: vec![0, position.len() as u32], position };
-        front.conform(&grid.mesh, &grid.geometry, &grid.locator, (&outline, &[vec![Closed, Opening]])).unwrap();
+        front.conform(&grid.mesh, &grid.geometry, &grid.locator, (&outline, &[vec![Closed, Open]])).unwrap();
         let away = |low: f64, high: f64| {
             let between = front.position.iter().filter(|x| x[0] < 1.0 && x[1] > low && x[1] < high);
             between.map(|x| (x[0] - wall).abs()).fold(0.0, f64::max)
@@ -71,10 +71,10 @@ fn a_void_where_contact_is_closed_is_filled() {
     let position: Vec<_> =
         [[wall, 1.0], [wall, 0.8]].into_iter().chain(void).chain([[wall, 0.0], [1.5, 0.0], [1.5, 1.0]]).collect();
     let full = MarkerFront { first: vec![0, 4], position: vec![[wall, 1.0], [wall, 0.0], [1.5, 0.0], [1.5, 1.0]] };
-    for (middle, is_filled) in [(Closed, true), (Open, false), (Opening, false)] {
+    for (middle, is_filled) in [(Closed, true), (Mixed, false), (Open, false)] {
         let mut front = MarkerFront { first: vec![0, position.len() as u32], position: position.clone() };
         let before = front.volume::<PlaneStrain>();
-        front.conform(&grid.mesh, &grid.geometry, &grid.locator, (&outline, &[vec![Open, middle, Open]])).unwrap();
+        front.conform(&grid.mesh, &grid.geometry, &grid.locator, (&outline, &[vec![Mixed, middle, Mixed]])).unwrap();
         let wanted = if is_filled { full.volume::<PlaneStrain>() } else { before };
         assert!((front.volume::<PlaneStrain>() - wanted).abs() < 1e-12, "{middle:?}: {front:?}");
     }
