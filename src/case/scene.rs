@@ -313,6 +313,7 @@ fn gravity<K>(case: &Case) -> BodyForce<K, 2> {
 
 fn quadrature<K: Kinematics<2>>(case: &Case, mesh: &Mesh<2>) -> Result<Box<dyn Quadrature<2>>> {
     let bounded = water::needs_surface(case);
+    // Contact measures gaps to the followed surface, which resampled quadrature has in any case.
     let touched = case.contacts.iter().any(|contact| matches!(contact.on, Touched::Soil(_)));
     Ok(match (case.numerics.quadrature, bounded || touched) {
         (raw::Quadrature::Resampled, _) => {

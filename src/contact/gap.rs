@@ -1,4 +1,4 @@
-//! How far the soil is from the segments of a boundary: the signed distance of material points to it.
+//! How far the soil is from the segments of a boundary: by the followed surface of the soil, and by its nearest material points.
 
 use super::place::{Placed, Segments};
 use super::surface::Surface;

@@ -123,24 +123,22 @@ pub struct Boundary<K> {
 }
 
 impl<K: Kinematics<2>> Boundary<K> {
-    /// The gap (m) of a contact node at the beginning of a step: that of the followed surface of the soil, where it is followed.
+    /// The gap (m) of a contact node at the beginning of a step.
     ///
-    /// - An open contact node, also one that keeps its tension in the gap, may begin to touch, not to overlap. Without a surface the nearest points tell
-    ///   its gap.
+    /// - An open contact node, also one that keeps its tension in the gap, may begin to touch, not to overlap.
     /// - A closed contact node goes on with the gap of the step before: a jump of the measure would strain the soil. As soil slides past, its gap becomes
-    ///   that of the surface, by the part of the contact node over which the soil is another.
-    /// - On a curved boundary soil that slides turns as well, and the gap that it had is not that which it has. There it becomes that of the surface at
+    ///   that measured now, by the part of the contact node over which the soil is another.
+    /// - On a curved boundary soil that slides turns as well, and the gap that it had is not that which it has. There it becomes that measured now at
     ///   once, but changes by no more than the slip.
     fn begin(&self, measured: &Measured, held: &Multipliers, contact_node: usize) -> f64 {
-        let Measured { before, open, surface, spacing, curvature } = *measured;
+        let Measured { before, now, spacing, curvature } = *measured;
+        let slip = held.slip[contact_node];
         if held.apart[contact_node] {
-            return surface.unwrap_or(open).max(-STILL * spacing);
-        }
-        let (surface, slip) = (surface.unwrap_or(before), held.slip[contact_node]);
-        if (curvature * spacing).abs() > FLAT {
-            surface.clamp(before - slip, before + slip)
+            now.max(-STILL * spacing)
+        } else if (curvature * spacing).abs() > FLAT {
+            now.clamp(before - slip, before + slip)
         } else {
-            before + (slip / self.surface.spacing).min(1.0) * (surface - before)
+            before + (slip / self.surface.spacing).min(1.0) * (now - before)
         }
     }
 
@@ -191,14 +189,12 @@ impl Ground<'_, 2> {
     }
 }
 
-/// The gap (m) of a contact node by different measures.
+/// The gap (m) of a contact node.
 struct Measured {
     /// That at the end of the step before.
     before: f64,
-    /// That of the nearest points.
-    open: f64,
-    /// That of the followed surface.
-    surface: Option<f64>,
+    /// That to the followed surface of the soil, or without one to its nearest points.
+    now: f64,
     /// Spacing (m) of the points.
     spacing: f64,
     /// Curvature (1/m) of the boundary.
@@ -306,10 +302,10 @@ impl<K: Kinematics<2>> Interface<2> for Boundary<K> {
             let Sum { area, open, curvature, facing, distance, spacing, strength, water, height, point, mut entries } =
                 sum.filter(|sum| sum.area > 0.0)?;
             let spacing = spacing / area;
-            let surface = (facing > 0.5 * area).then_some(distance / facing);
-            let [open, curvature] = [open, curvature].map(|sum| sum / area);
+            let curvature = curvature / area;
+            let now = if facing > 0.5 * area { distance / facing } else { open / area };
             let gaps = if self.yields(ground.points, point as usize) { &smooth } else { &held.gap };
-            let measured = Measured { before: gaps[contact_node], open, surface, spacing, curvature };
+            let measured = Measured { before: gaps[contact_node], now, spacing, curvature };
             let gap = self.begin(&measured, held, contact_node);
             entries.sort_by_key(|(n, _)| (!structure.contains(n), *n));
             let by = |k: usize| entries.iter().map(|(_, by)| by[k].map(|by| by / area)).collect();
