@@ -3,14 +3,18 @@
 use super::*;
 use ContactStatus::{Closed, Mixed, Open};
 
-/// A film of soil on a wall that is thinner than half a cell goes, on its way up from the soil or alone. A thicker one stays, and so does soil that meets
-/// the wall at 30°, and a thin layer on the boundary of the mesh.
+/// A film of soil on a wall that is thinner than half a cell goes, on its way up from the soil or alone, be contact open or closed. A thicker one stays,
+/// and so does soil that meets the wall at 30°, and a thin layer on the boundary of the mesh.
 #[test]
 fn films_on_a_structure_go() {
+    [Closed, Open, Mixed].into_iter().for_each(films_go);
+}
+
+fn films_go(status: ContactStatus) {
     let grid = grid(rectangle(CellKind::T6, 2.0, 1.0, 16, 8, 0.0, 0));
     let (cell, wall) = (grid.geometry.size(&grid.mesh, 0), 0.4);
     // The structure is on the left of its outline, and of the soil.
-    let (outline, open) = ([vec![[wall, 0.0], [wall, 1.0]]], [vec![Mixed]]);
+    let (outline, contact) = ([vec![[wall, 0.0], [wall, 1.0]]], [vec![status]]);
     let line = |from: [f64; 2], to: [f64; 2]| {
         let count = (distance(&from, &to) / (cell / PER_LENGTH as f64)).ceil() as usize;
         (0..count).map(move |k| [0, 1].map(|d| from[d] + k as f64 / count as f64 * (to[d] - from[d])))
@@ -19,7 +23,7 @@ fn films_on_a_structure_go() {
         let position: Vec<_> =
             (0..corners.len()).flat_map(|k| line(corners[k], corners[(k + 1) % corners.len()])).collect();
         let mut front = MarkerFront { first: vec![0, position.len() as u32], position };
-        front.conform(&grid.mesh, &grid.geometry, &grid.locator, (&outline, &open)).unwrap();
+        front.conform(&grid.mesh, &grid.geometry, &grid.locator, (&outline, &contact)).unwrap();
         front
     };
     let soil = |top: &[[f64; 2]]| [&[[wall, 0.0], [1.5, 0.0], [1.5, 0.3]], top].concat();
