@@ -240,14 +240,14 @@ impl Law {
     /// The effective pressure (kPa), and its slopes by the pressure (-) and by the gap (kPa/m). The part of it that a higher water level outside
     /// causes vanishes as the surfaces separate; with adhesion the whole shear does.
     fn effective(&self, at: &Penalty, gap: f64, pressure: f64) -> (f64, f64, f64) {
-        let effective = pressure - at.water;
-        let (effective, by_pressure) = if effective > 0.0 { (effective, 1.0) } else { (0.0, 0.0) };
-        if self.adheres() {
-            return (effective, by_pressure, 0.0);
+        let (mut effective, mut by_gap) = (pressure - at.water, 0.0);
+        if !self.adheres() {
+            let (share, share_by_gap) = self.share(at, gap);
+            let drawn = (-at.water).max(0.0);
+            (effective, by_gap) = (effective - (1.0 - share) * drawn, share_by_gap * drawn);
         }
-        let drawn = (-at.water).max(0.0);
-        let (share, share_by_gap) = self.share(at, gap);
-        (effective - (1.0 - share) * drawn, by_pressure, share_by_gap * drawn)
+        // Friction is never negative, also where the surfaces bear tension.
+        if effective > 0.0 { (effective, 1.0, by_gap) } else { (0.0, 0.0, 0.0) }
     }
 
     /// The pressure (kPa) and its slope by the gap (kPa/m).
@@ -316,6 +316,7 @@ mod tests {
             law(0.2, 0.1, None, f64::INFINITY),
             law(0.4, 0.0, Some(0.6), 0.0),
             law(0.0, 0.0, None, 0.7),
+            law(0.4, 0.0, None, 0.7),
         ]
     }
 
@@ -368,7 +369,7 @@ mod tests {
 
     #[test]
     fn shear_has_its_limits() {
-        let [smooth, rough, capped, clay, bonded, _, glued] = laws().try_into().unwrap();
+        let [smooth, rough, capped, clay, bonded, _, glued, tied] = laws().try_into().unwrap();
         assert_eq!(smooth.respond(&AT, 0.0, 1.0).shear, 0.0);
         assert!((rough.respond(&AT, 0.0, 1.0).shear + 0.4 * 3.0).abs() < 1e-15);
         assert!((rough.respond(&Penalty { water: 1.0, ..AT }, 0.0, 1.0).shear + 0.4 * 2.0).abs() < 1e-15);
@@ -390,6 +391,11 @@ mod tests {
         assert_eq!(glued.respond(&Penalty { pressure: -0.5, ..AT }, 0.0, 0.0).pressure, -0.5);
         assert_eq!(glued.respond(&Penalty { pressure: -3.0, ..AT }, 0.0, 0.0).pressure, -0.7);
         assert_eq!(glued.respond(&Penalty { bonded: false, ..AT }, 0.05, 0.0).pressure, 0.0);
+        // No friction under tension, whatever the water outside presses.
+        for gap in [0.0, 0.02, 0.04, 0.06] {
+            let pulled = tied.respond(&Penalty { pressure: -3.0, water: -0.6, ..AT }, gap, 1.0);
+            assert_eq!((pulled.pressure, pulled.shear), (-0.7, 0.0), "{gap}");
+        }
         // Parted, but not far: adhesion has faded by a fifth.
         let parted = clay.respond(&AT, 0.036, 1.0);
         assert!(parted.pressure == 0.0 && (parted.shear + 0.2).abs() < 1e-12, "{parted:?}");
@@ -399,7 +405,7 @@ mod tests {
     /// pressure is yet, that is the nearest place alone, which sticks.
     #[test]
     fn a_frozen_contact_node_closes_where_it_is_nearest() {
-        let [smooth, rough, ..]: [Law; 7] = laws().try_into().unwrap();
+        let [smooth, rough, ..]: [Law; 8] = laws().try_into().unwrap();
         let spots = [0.3, 0.1, 0.0, 0.2].map(|open| Spot { share: 0.25, along: 0.0, open });
         let at = |pressure: f64| Penalty { pressure, shear: 0.0, rounding: 0.0, ..AT };
         let answer = |law: &Law, pressure: f64, gap: f64, slip: f64| {
