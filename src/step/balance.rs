@@ -15,13 +15,13 @@ use crate::time_integration::GeneralisedAlpha;
 /// When the converged state is inadmissible on the restored grid.
 pub fn static_force<const D: usize>(problem: &Problem<D>, grid: &mut Grid<D>) -> Result<Evaluation<D>> {
     let trial = Trial {
-        pressure: problem.pressure,
-        converged_pressure: problem.pressure,
+        pressure: &problem.state.pressure,
+        converged_pressure: &problem.state.pressure,
         phase: problem.phase,
         time: problem.from,
         reduction: problem.scene.phases[problem.phase].reduction_at(problem.from),
         inverse_dt: if problem.to > problem.from { 1.0 / (problem.to - problem.from) } else { 0.0 },
-        ..Trial::at_rest(problem.converged, problem.converged)
+        ..Trial::at_rest(problem.converged(), problem.converged())
     };
     let (mut own, mut sum) = (Vec::new(), Evaluation::default());
     timed(Activity::Assembly, || {
@@ -45,9 +45,9 @@ pub fn evaluate<const D: usize>(
     let Buffers { own, between, acceleration, ahead, contact_frozen, .. } = buffers;
     let u = &at.displacement;
     if let Some(integration) = &problem.integration {
-        blend(u, problem.converged, integration.alpha_f, between);
+        blend(u, problem.converged(), integration.alpha_f, between);
         weighted_acceleration(problem, integration, u, acceleration);
-        go_ahead(integration, (u, problem.converged), (problem.velocity, problem.acceleration), ahead);
+        go_ahead(integration, (u, problem.converged()), (problem.velocity, problem.acceleration), ahead);
     }
     let dynamic = problem.integration.is_some();
     let alpha_f = problem.integration.map_or(0.0, |i| i.alpha_f);
@@ -55,9 +55,9 @@ pub fn evaluate<const D: usize>(
         displacement: u,
         between: if dynamic { between } else { u },
         alpha_f,
-        converged: problem.converged,
+        converged: problem.converged(),
         pressure: &at.pressure,
-        converged_pressure: problem.pressure,
+        converged_pressure: &problem.state.pressure,
         flow_time: problem.flow_time,
         acceleration,
         acceleration_slope: problem.integration.map_or(0.0, |i| i.slope()),
@@ -160,7 +160,7 @@ fn weighted_acceleration<const D: usize>(
     let at = |n: usize| {
         std::array::from_fn(|d| {
             let (v, a) = (problem.velocity[n][d], problem.acceleration[n][d]);
-            integration.weighted(a, integration.acceleration(u[n][d] - problem.converged[n][d], v, a))
+            integration.weighted(a, integration.acceleration(u[n][d] - problem.converged()[n][d], v, a))
         })
     };
     out.clear();

@@ -69,6 +69,14 @@ use transfer::{Answers, Start};
 /// The result of [`Simulation::lagrange`]: with inertia, the velocity and acceleration of the nodes at the start; and the solution.
 type Lagrange<const D: usize> = (Option<Start<D>>, Solution<D>);
 
+/// What the beginning of a step came to.
+struct Begun {
+    /// Whether another reset would change nothing: the grid was just reset or nothing has moved on it, or it is never reset.
+    fresh: bool,
+    /// Whether the equilibrium after the reset was not found.
+    unbalanced: bool,
+}
+
 /// A run: the scene, its state, and the grid that follows from both.
 pub struct Simulation<'a, const D: usize, K> {
     pub scene: &'a Scene<D>,
@@ -146,7 +154,7 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
     /// When a point left the grid, the step falls below the least one, or memory does not suffice.
     pub fn advance(&mut self, controller: &mut Controller) -> Result<Report<D>> {
         let before = self.state.restorations;
-        let (mut fresh, mut unbalanced) = timed(Activity::Transfer, || self.initialise(false))?;
+        let mut begun = timed(Activity::Transfer, || self.initialise(false))?;
         let mut predict = true;
         let (dt, start, solution, answers) = loop {
             let dt = controller.size(self.state.phase_time);
@@ -160,9 +168,9 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
             match complete {
                 Ok(complete) => break complete,
                 Err(error) if error.kind == Kind::Analysis => {
-                    if !fresh {
+                    if !begun.fresh {
                         // Reset a deformed grid before the step is halved.
-                        (fresh, unbalanced) = timed(Activity::Transfer, || self.initialise(true))?;
+                        begun = timed(Activity::Transfer, || self.initialise(true))?;
                     } else if predictor.is_none() {
                         unbalanced::hold(self.scene, &mut self.grid, &mut self.state, dt)?;
                         controller.halve(dt, error)?;
@@ -174,14 +182,13 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
         };
         let mut report = timed(Activity::Transfer, || self.convect(dt, (start, solution), answers))?;
         report.restored = self.state.restorations > before;
-        report.unbalanced = unbalanced;
+        report.unbalanced = begun.unbalanced;
         report.halvings = controller.accept(dt, report.iterations());
         Ok(report)
     }
 
-    /// Points to grid: restores the grid where that is due or `forced`. Returns whether another reset would change nothing (the grid was
-    /// just reset or nothing has moved on it, or it is never reset), and whether the equilibrium after the reset was not found.
-    fn initialise(&mut self, forced: bool) -> Result<(bool, bool)> {
+    /// Points to grid: resets the grid where that is due or `forced`.
+    fn initialise(&mut self, forced: bool) -> Result<Begun> {
         let (scene, state) = (self.scene, &mut self.state);
         let moved = state.displacement.iter().flatten().any(|&u| u != 0.0);
         let restore = match scene.numerics.restore {
@@ -203,7 +210,7 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
             Some(last) => equilibrate::equilibrate(scene, &mut self.grid, state, last)?,
             None => false,
         };
-        Ok((restore || !moved || scene.numerics.restore == Restore::Never, unbalanced))
+        Ok(Begun { fresh: restore || !moved || scene.numerics.restore == Restore::Never, unbalanced })
     }
 
     /// Solves the step on the grid (eq. 1; with inertia eq. 6).
@@ -218,8 +225,6 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
             scene,
             state,
             predictor,
-            converged: &state.displacement,
-            pressure: &state.pressure,
             velocity,
             acceleration,
             phase: state.phase,

@@ -9,6 +9,7 @@ use super::grid::Grid;
 use super::problem::{Problem, Solution};
 use super::scene::Scene;
 use super::unknowns::{Buffers, Evaluation};
+use crate::contact::Sides;
 use crate::error::{Error, Result};
 use crate::mesh::cell_size;
 use crate::system::Method;
@@ -54,6 +55,8 @@ struct Newton<'a, const D: usize> {
     floor: f64,
     /// Relative residuals so far; the last is that of the current state.
     history: Vec<f64>,
+    /// The number of them before the iteration last began: from the predicted state, or anew from the converged one.
+    before: usize,
     method: Method,
     /// The residual (kN) on the right of eq. 14, and how many full steps in a row the watchdog has accepted that did not reduce it.
     target: f64,
@@ -77,7 +80,7 @@ impl<'a, const D: usize> Newton<'a, D> {
     fn new(problem: &'a Problem<'a, D>, grid: &'a mut Grid<D>, mut buffers: Buffers<D>) -> Self {
         buffers.fixed.clear();
         buffers.fixed.extend(problem.given.iter().map(Option::is_some));
-        problem.begin(grid, &mut buffers.now.at, problem.converged);
+        problem.begin(grid, &mut buffers.now.at, problem.converged());
         buffers.best.clone_from(&buffers.now.at);
         buffers.damped.clear();
         let floor = floor(problem, grid);
@@ -89,6 +92,7 @@ impl<'a, const D: usize> Newton<'a, D> {
             tangent: false,
             floor,
             history: Vec::new(),
+            before: 0,
             method: Method::Cholesky,
             target: f64::INFINITY,
             relaxed: 0,
@@ -131,11 +135,7 @@ impl<'a, const D: usize> Newton<'a, D> {
         }
         if let Some(predictor) = self.problem.predictor {
             self.problem.begin(self.grid, &mut self.buffers.now.at, predictor);
-            // Along directions with a frozen status the true residual says whether contacts stay closed.
-            let strict = std::mem::replace(&mut self.strict, true);
-            let done = self.first_iterations();
-            self.strict = strict;
-            if done.is_ok() {
+            if self.first_iterations().is_ok() {
                 return Ok(());
             }
             self.restart();
@@ -162,7 +162,7 @@ impl<'a, const D: usize> Newton<'a, D> {
             found.ok().filter(|size| size.is_finite()).unwrap_or(f64::INFINITY)
         };
         let predicted = self.problem.predictor.is_some_and(|predictor| {
-            let without = residual(self, self.problem.converged, false);
+            let without = residual(self, self.problem.converged(), false);
             residual(self, predictor, true) < without
         });
         if predicted {
@@ -178,9 +178,10 @@ impl<'a, const D: usize> Newton<'a, D> {
     /// Goes back to the converged state.
     fn restart(&mut self) {
         self.buffers.contact_frozen = false;
-        self.problem.begin(self.grid, &mut self.buffers.now.at, self.problem.converged);
+        self.problem.begin(self.grid, &mut self.buffers.now.at, self.problem.converged());
         self.buffers.best.clone_from(&self.buffers.now.at);
         (self.target, self.damping, self.stalled) = (f64::INFINITY, 0.0, 0);
+        self.before = self.history.len();
     }
 
     /// The first iterations from a predictor. The predicted state may open contact nodes that finally close. The soil beneath them, or the
@@ -248,8 +249,9 @@ impl<'a, const D: usize> Newton<'a, D> {
         self.history.last().copied().unwrap_or(f64::NAN)
     }
 
+    /// The relative residual to reach. A state that the iteration begins with passes only where it is exact.
     fn tolerance(&self) -> f64 {
-        if self.history.len() > 1 { self.problem.scene.numerics.tolerance } else { ROUNDING }
+        if self.history.len() > self.before + 1 { self.problem.scene.numerics.tolerance } else { ROUNDING }
     }
 
     fn converged(&mut self) -> bool {
@@ -315,7 +317,7 @@ impl<'a, const D: usize> Newton<'a, D> {
         let blocks = 0..self.grid.dofs.node.len().min(self.buffers.now.force.len() / D);
         let n = self.grid.dofs.node[blocks.max_by(|&a, &b| size(a).total_cmp(&size(b)))?];
         let from = self.problem.state.at_reset(self.problem.scene, n);
-        Some(std::array::from_fn(|d| from[d] + self.problem.converged[n as usize][d]))
+        Some(std::array::from_fn(|d| from[d] + self.problem.converged()[n as usize][d]))
     }
 
     fn failure(&self, why: &str) -> Error {
@@ -340,13 +342,15 @@ fn forcing(history: &[f64], tolerance: f64) -> f64 {
     quadratic.max(enough).clamp(TIGHTEST, LOOSEST)
 }
 
-/// Which equations of nodes are damped: not those of structures in contact. Only soil that flows may support a structure; a fraction of the
+/// Which equations of nodes are damped: not those of finite elements in contact. Only soil that flows may support a structure; a fraction of the
 /// structure's own stiffness would be far stiffer, and it would approach its equilibrium in tiny steps.
 fn damped_equations<const D: usize>(scene: &Scene<D>, grid: &Grid<D>, out: &mut Vec<bool>) {
     out.extend(grid.dofs.node.iter().flat_map(|&n| [scene.body_of(n).is_none(); D]));
     let Some(fem) = &scene.fem else { return };
     for c in fem.deforming() {
-        if scene.interfaces.iter().any(|interface| interface.sides().structure == fem.mesh.cells.region[c]) {
+        let region = fem.mesh.cells.region[c];
+        let is_side = |sides: &Sides| sides.structure == region || sides.against == Some(region);
+        if scene.interfaces.iter().any(|interface| is_side(interface.sides())) {
             for &n in fem.mesh.cells.nodes(c) {
                 let block = grid.dofs.block[n as usize] as usize;
                 out.iter_mut().skip(D * block).take(D).for_each(|damped| *damped = false);

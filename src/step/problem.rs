@@ -14,10 +14,7 @@ pub struct Problem<'a, const D: usize> {
     pub state: &'a State<D>,
     /// Displacement (m) of the nodes that the iteration begins with, if not the converged one.
     pub predictor: Option<&'a [[f64; D]]>,
-    /// State of the nodes at the last converged step.
-    pub converged: &'a [[f64; D]],
-    /// The pressure field (kPa) there; empty without one.
-    pub pressure: &'a [f64],
+    /// Velocity (m/s) and acceleration (m/s²) of the nodes as the step begins; empty without inertia.
     pub velocity: &'a [[f64; D]],
     pub acceleration: &'a [[f64; D]],
     pub phase: usize,
@@ -39,10 +36,8 @@ impl<'a, const D: usize> Problem<'a, D> {
             scene,
             state,
             predictor: None,
-            converged: &state.displacement,
-            pressure: &state.pressure,
-            velocity: &state.velocity,
-            acceleration: &state.acceleration,
+            velocity: &[],
+            acceleration: &[],
             phase: state.phase,
             from: state.phase_time,
             to: state.phase_time,
@@ -52,15 +47,20 @@ impl<'a, const D: usize> Problem<'a, D> {
         }
     }
 
+    /// The displacement (m) of the nodes at the last converged step.
+    pub fn converged(&self) -> &'a [[f64; D]] {
+        &self.state.displacement
+    }
+
     /// Sets the unknowns to a displacement (m) of the nodes and the converged pressures. Under linear constraints it is the field of the same
     /// controls.
     pub fn begin(&self, grid: &Grid<D>, at: &mut Unknowns<D>, displacement: &[[f64; D]]) {
-        at.set(displacement, self.pressure);
+        at.set(displacement, &self.state.pressure);
         if grid.dofs.constraints.is_none() {
             return;
         }
         let increment = |n: u32| {
-            let (now, before) = (&displacement[n as usize], &self.converged[n as usize]);
+            let (now, before) = (&displacement[n as usize], &self.converged()[n as usize]);
             std::array::from_fn(|d| now[d] - before[d])
         };
         at.controls.extend(grid.dofs.node.iter().flat_map(|&n| grid.dofs.value(n, increment)));
@@ -74,7 +74,7 @@ impl<'a, const D: usize> Problem<'a, D> {
             increment.iter_mut().zip(at.controls[d..].iter().step_by(D)).for_each(|(to, c)| *to = *c);
             grid.dofs.write(&increment, d, &mut at.displacement);
         }
-        for (n, (u, converged)) in (0u32..).zip(at.displacement.iter_mut().zip(self.converged)) {
+        for (n, (u, converged)) in (0u32..).zip(at.displacement.iter_mut().zip(self.converged())) {
             if grid.dofs.moves(n) {
                 (0..D).for_each(|d| u[d] += converged[d]);
             }
@@ -87,10 +87,10 @@ impl<'a, const D: usize> Problem<'a, D> {
             given.map_or(0.0, |increment| match (grid.dofs.dof(equation), at.controls.get(equation)) {
                 (Dof::Displacement { .. }, Some(control)) => increment - control,
                 (Dof::Displacement { node, component }, None) => {
-                    self.converged[node][component] + increment - at.displacement[node][component]
+                    self.converged()[node][component] + increment - at.displacement[node][component]
                 }
                 (Dof::Pressure(place), _) => {
-                    (self.pressure[place] + increment - at.pressure[place]) / self.scene.unit(place)
+                    (self.state.pressure[place] + increment - at.pressure[place]) / self.scene.unit(place)
                 }
             })
         };
@@ -105,9 +105,9 @@ impl<'a, const D: usize> Problem<'a, D> {
             let (value, converged, scale) = match grid.dofs.dof(equation) {
                 Dof::Displacement { .. } if constrained => (&mut at.controls[equation], 0.0, 1.0),
                 Dof::Displacement { node, component } => {
-                    (&mut at.displacement[node][component], self.converged[node][component], 1.0)
+                    (&mut at.displacement[node][component], self.converged()[node][component], 1.0)
                 }
-                Dof::Pressure(place) => (&mut at.pressure[place], self.pressure[place], self.scene.unit(place)),
+                Dof::Pressure(place) => (&mut at.pressure[place], self.state.pressure[place], self.scene.unit(place)),
             };
             match given {
                 Some(increment) if length == 1.0 => *value = converged + increment,
