@@ -254,7 +254,7 @@ pub fn scene<K: Kinematics<2>>(case: &Case, mut whole: Mesh<2>) -> Result<Scene<
     let phases = case.phases.iter().enumerate().map(staged).collect::<Result<_>>()?;
     let scene = Scene {
         locator: Locator::new(&mesh),
-        faces: Some(faces),
+        faces,
         quadrature: quadrature::<K>(case, &mesh)?,
         mesh,
         terms,

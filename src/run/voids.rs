@@ -6,7 +6,6 @@ use super::warning::WARNING;
 use crate::contact::Interface;
 use crate::geometry::{Bins, distance, twice_area};
 use crate::mesh::Mesh;
-use crate::mesh::faces::Faces;
 use crate::step::{Fem, Report, Scene, State};
 use crate::surface::{News, Void, lies_near};
 
@@ -146,6 +145,5 @@ fn holds(corners: &[[f64; 2]], x: &[f64; 2]) -> bool {
 
 /// Whether some cells reach to the boundary of the grid.
 fn reaches_boundary<const D: usize>(scene: &Scene<D>, cells: &[u32]) -> bool {
-    let reaches = |faces: &Faces| faces.boundary.iter().any(|(cell, _)| cells.binary_search(cell).is_ok());
-    scene.faces.as_ref().map_or_else(|| reaches(&Faces::of(&scene.mesh)), reaches)
+    scene.faces.boundary.iter().any(|(cell, _)| cells.binary_search(cell).is_ok())
 }

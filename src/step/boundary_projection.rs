@@ -60,7 +60,6 @@ fn holding<const D: usize>(scene: &Scene<D>, mesh: &Mesh<D>, phase: usize) -> Ve
             held[n as usize][prescribed.fixed.component] = false;
         }
     }
-    let boundary = scene.faces.iter().flat_map(|faces| &faces.boundary);
     let side = |&(cell, number): &(u32, u8)| {
         let nodes = mesh.cells.nodes(cell as usize);
         let (_, facets) = mesh.cells.kind[cell as usize].facets();
@@ -72,5 +71,5 @@ fn holding<const D: usize>(scene: &Scene<D>, mesh: &Mesh<D>, phase: usize) -> Ve
         let holds = (0..D).all(|d| !crossed(d) || facet.iter().all(|&i| held[nodes[i] as usize][d]));
         holds.then_some(side)
     };
-    boundary.filter_map(side).collect()
+    scene.faces.boundary.iter().filter_map(side).collect()
 }

@@ -6,6 +6,7 @@ use super::facing::position;
 use super::grid::Grid;
 use super::leaving;
 use super::problem::Solution;
+use super::relax;
 use super::rigid;
 use super::scene::Scene;
 use super::state::State;
@@ -75,7 +76,7 @@ pub fn begin<const D: usize, K: Kinematics<D>>(
         let locator = Locator::new(&mesh);
         (mesh, locator)
     });
-    let restored = grid.relaxed.as_ref().map_or((&scene.mesh, &scene.locator), |r| (&r.mesh, &r.locator));
+    let restored = relax::mesh(scene, grid.relaxed.as_ref());
     let (mesh, locator) = deformed.as_ref().map_or(restored, |(mesh, locator)| (mesh, locator));
     let surface = surface(restored, state);
     let excess = |points: &Points<D>, p: usize| excess_pressure(&scene.carried, points, p);

@@ -16,7 +16,7 @@ const FOLDED: f64 = 0.3;
 /// times as long as at the last reset, or as short.
 pub fn exceeds<const D: usize>(scene: &Scene<D>, state: &State<D>, grid: &Grid<D>, least: f64, stretch: f64) -> bool {
     const { assert!(D == 2, "the quality of cells is known in the plane only") };
-    let mesh = grid.relaxed.as_ref().map_or(&scene.mesh, |relaxed| &relaxed.mesh);
+    let mesh = grid.mesh(scene);
     grid.interpolations.integration.filled.par_iter().any(|cell_points| {
         let cell = cell_points.cell as usize;
         let (kind, nodes) = (mesh.cells.kind[cell], mesh.cells.nodes(cell));

@@ -63,7 +63,7 @@ impl<const D: usize> Grid<D> {
     pub fn new<K: Kinematics<D>>(scene: &Scene<D>, state: &State<D>) -> Result<Self> {
         let relaxed = relax::at(scene, state);
         let mut interpolations = Interpolations::default();
-        let (mesh, locator) = relaxed.as_ref().map_or((&scene.mesh, &scene.locator), |r| (&r.mesh, &r.locator));
+        let (mesh, locator) = relax::mesh(scene, relaxed.as_ref());
         fill::<D, K>(&mut interpolations.integration, scene, (mesh, locator), state);
         take_weights::<D, K>(&mut interpolations, scene, mesh, state);
         Self::with::<K>(scene, state, interpolations, relaxed)
@@ -134,13 +134,10 @@ impl<const D: usize> Grid<D> {
         }
         let body_coupling = dofs.bodies.iter().map(|body| dofs.couple(body.numbers(), &mut connectivity)).collect();
         let cells_only = connectivity.clone();
-        let mut face_coupling = Vec::new();
-        if let Some(faces) = &scene.faces {
-            face_coupling.resize(faces.inner.len(), u32::MAX);
-            for (face, coupling) in faces.inner.iter().zip(&mut face_coupling) {
-                if ghost_faces::has_room(state, face) {
-                    *coupling = dofs.couple(face.nodes(mesh), &mut connectivity);
-                }
+        let mut face_coupling = vec![u32::MAX; scene.faces.inner.len()];
+        for (face, coupling) in scene.faces.inner.iter().zip(&mut face_coupling) {
+            if ghost_faces::has_room(state, face) {
+                *coupling = dofs.couple(face.nodes(mesh), &mut connectivity);
             }
         }
         let dynamic = scene.dynamic();
@@ -249,10 +246,9 @@ impl<const D: usize> Grid<D> {
     /// Takes the faces that are to have a ghost penalty.
     fn penalise(&mut self, scene: &Scene<D>, state: &State<D>) {
         self.ghost.clear();
-        let Some(faces) = &scene.faces else { return };
         self.ghost.extend(ghost_faces::choose(scene, state).into_iter().map(|face| GhostFace {
             face,
-            between: faces.inner[face as usize],
+            between: scene.faces.inner[face as usize],
             coupling: self.face_coupling[face as usize],
         }));
     }
@@ -321,8 +317,8 @@ impl<const D: usize> Grid<D> {
     }
 
     /// The mesh at the last reset.
-    fn mesh<'a>(&'a self, scene: &'a Scene<D>) -> &'a Mesh<D> {
-        self.relaxed.as_ref().map_or(&scene.mesh, |relaxed| &relaxed.mesh)
+    pub(super) fn mesh<'a>(&'a self, scene: &'a Scene<D>) -> &'a Mesh<D> {
+        relax::mesh(scene, self.relaxed.as_ref()).0
     }
 
     /// The interpolation of the material points.

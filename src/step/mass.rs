@@ -15,6 +15,7 @@
 
 use super::family::{Family, System};
 use super::grid::Grid;
+use super::relax;
 use super::rigid;
 use super::scene::Scene;
 use super::state::State;
@@ -75,7 +76,7 @@ impl<'a> Mass<'a> {
             _ => (&grid.interpolations.integration, state.integration()),
         };
         let coupling = &grid.coupling;
-        let mesh = grid.relaxed.as_ref().map_or(&scene.mesh, |relaxed| &relaxed.mesh);
+        let mesh = relax::mesh(scene, grid.relaxed.as_ref()).0;
         let soil = Family { mesh: &scene.mesh, interpolation, coupling, points };
         let elements = grid.elements.iter().map(|elements| elements.family(&state.fem));
         for Family { interpolation, coupling, points, .. } in std::iter::once(soil).chain(elements) {

@@ -163,7 +163,7 @@ fn add_to_nodes<const D: usize>(
     rigid: &[Rigid<D>],
     field: &mut [[f64; D]],
 ) {
-    let mesh = grid.relaxed.as_ref().map_or(&scene.mesh, |relaxed| &relaxed.mesh);
+    let mesh = grid.mesh(scene);
     for (n, (value, from)) in field.iter_mut().zip(&mesh.nodes).enumerate() {
         if let Some(body) = bodies.of_node(n) {
             let x: [f64; D] = std::array::from_fn(|d| from[d] + state.displacement[n][d]);

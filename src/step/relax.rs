@@ -22,6 +22,11 @@ pub struct Relaxed<const D: usize> {
     pub locator: Locator<D>,
 }
 
+/// The mesh at the last reset and the way to find places in it: that of the scene, where its nodes have not moved.
+pub fn mesh<'a, const D: usize>(scene: &'a Scene<D>, relaxed: Option<&'a Relaxed<D>>) -> (&'a Mesh<D>, &'a Locator<D>) {
+    relaxed.map_or((&scene.mesh, &scene.locator), |relaxed| (&relaxed.mesh, &relaxed.locator))
+}
+
 /// Whether each node belongs to the grid and to finite elements.
 fn shared<const D: usize>(scene: &Scene<D>) -> Vec<bool> {
     let mut of = vec![[false; 2]; scene.mesh.nodes.len()];

@@ -42,8 +42,8 @@ pub fn begin_anew<const D: usize, K: Kinematics<D>>(
         state.nodes = nodes;
     }
     let (before, projected) = placed?;
-    let (mesh, locator) = relaxed.as_ref().map_or((&scene.mesh, &scene.locator), |r| (&r.mesh, &r.locator));
-    let here = before.as_ref().map_or((&scene.mesh, &scene.locator), |r| (&r.mesh, &r.locator));
+    let (mesh, locator) = relax::mesh(scene, relaxed.as_ref());
+    let here = relax::mesh(scene, before.as_ref());
     let domains = renew_domains::<D, K>(scene, here, state);
     let changed = choose_cells(scene, state);
     let (outlines, contact) = (facing::outlines(scene, state), facing::status(scene, state));
@@ -84,11 +84,8 @@ pub fn begin_anew<const D: usize, K: Kinematics<D>>(
         pressure::gather::<D, K>(soil, scene.places()[0], &mut field);
         state.pressure = field;
     }
-    if let Some(faces) = &scene.faces {
-        let chosen = ghost_faces::choose(scene, state);
-        return Ok(ghost_faces::make_room(faces, state, &chosen) || changed);
-    }
-    Ok(changed)
+    let chosen = ghost_faces::choose(scene, state);
+    Ok(ghost_faces::make_room(&scene.faces, state, &chosen) || changed)
 }
 
 /// Moves the nodes to their positions on the reset grid and locates the points. Returns the grid before, and a note on points that
@@ -103,7 +100,7 @@ fn place<const D: usize, K: Kinematics<D>>(
 ) -> Result<(Option<Relaxed<D>>, Option<String>)> {
     fem::keep_shape(scene, state);
     let before = std::mem::replace(relaxed, relax::relax(scene, state)?);
-    let (mesh, locator) = relaxed.as_ref().map_or((&scene.mesh, &scene.locator), |r| (&r.mesh, &r.locator));
+    let (mesh, locator) = relax::mesh(scene, relaxed.as_ref());
     let mut note = None;
     if let Err(lost) = locate_points(mesh, locator, state) {
         note = project_onto_boundary::<D, K>(scene, mesh, locator, state);
@@ -216,8 +213,7 @@ fn choose_cells<const D: usize>(scene: &Scene<D>, state: &mut State<D>) -> bool 
     let cells = scene.mesh.cells.len();
     // A face to a cell that is not active would have no entries in the matrix.
     let surrounded = |&c: &u32| {
-        let across = scene.faces.as_ref().map_or(&[][..], |faces| faces.neighbours(c));
-        state.active[c as usize] && across.iter().all(|&other| state.active[other as usize])
+        state.active[c as usize] && scene.faces.neighbours(c).iter().all(|&other| state.active[other as usize])
     };
     if state.active.len() == cells && state.points.cell.iter().all(surrounded) {
         return false;

@@ -27,8 +27,8 @@ pub struct Scene<const D: usize> {
     pub interfaces: Vec<Box<dyn Interface<D>>>,
     /// The levels of the water outside and in the pores, where they differ: for the effective contact pressure (docs/theory.md, eq. 29a).
     pub levels: Option<WaterLevels>,
-    /// The faces between the cells; absent where none takes a ghost penalty, on displacement or on mass.
-    pub faces: Option<Faces>,
+    /// The faces of the cells: inner ones, which may take a ghost penalty, and those on the boundary.
+    pub faces: Faces,
     /// What the points see of the grid.
     pub basis: &'static dyn Basis<D>,
     /// What the points weigh in integrals.

@@ -18,7 +18,7 @@ pub struct Span {
 }
 
 /// The state at the last converged step.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct State<const D: usize> {
     /// Number of the phase, from 0; the number of phases when all are done.
     pub phase: usize,
@@ -93,40 +93,8 @@ pub struct State<const D: usize> {
 impl<const D: usize> State<D> {
     /// The state before the first step, given how many entries a field of displacements has ([`Scene::displacements`]).
     pub fn new(points: Points<D>, displacements: usize, first_step: f64) -> Self {
-        Self {
-            phase: 0,
-            time: 0.0,
-            phase_time: 0.0,
-            step: 0,
-            step_size: first_step,
-            frames: 0,
-            points,
-            fem: Points::default(),
-            fem_parametric: Vec::new(),
-            nodes: Vec::new(),
-            multipliers: Vec::new(),
-            moving: false,
-            switched_to_dynamics: false,
-            peak: 0.0,
-            start_position: Vec::new(),
-            ramp: UnbalancedRamp::default(),
-            parametric: Vec::new(),
-            displacement: vec![[0.0; D]; displacements],
-            increment: Vec::new(),
-            last_step: 0.0,
-            balanced: None,
-            travel: vec![[0.0; D]; displacements],
-            uncounted: Vec::new(),
-            pressure: Vec::new(),
-            velocity: Vec::new(),
-            acceleration: Vec::new(),
-            active: Vec::new(),
-            penalised: Vec::new(),
-            weights: Weights::default(),
-            front: None,
-            voids: Voids::default(),
-            restorations: 0,
-        }
+        let displacement = vec![[0.0; D]; displacements];
+        Self { points, step_size: first_step, travel: displacement.clone(), displacement, ..Self::default() }
     }
 
     /// Where (m) entry `n` of a field of displacements was at the last grid reset: a node, or an unknown of a rigid body.

@@ -398,7 +398,7 @@ fn scene() -> (Scene<2>, Points<2>, Models) {
         interfaces: Vec::new(),
         levels: None,
         locator: Locator::new(&mesh),
-        faces: Some(Faces::of(&mesh)),
+        faces: Faces::of(&mesh),
         terms: vec![
             Box::new(Internal::<PlaneStrain>::new(models.clone(), false)),
             Box::new(EmptyCells::<PlaneStrain>::new(1e-5 * YOUNG, mesh.cells.len())),

@@ -227,7 +227,7 @@ impl Bench {
             interfaces: Vec::new(),
             levels: None,
             locator: Locator::new(&background),
-            faces: Some(Faces::of(&background)),
+            faces: Faces::of(&background),
             mesh: background,
             terms,
             quadrature: self.quadrature.unwrap_or_else(|| Box::new(Volumes::<K>::default())),

@@ -182,7 +182,7 @@ impl<K: Kinematics<2>> Stand<K> {
             locator: Locator::new(&mesh),
             mesh,
             terms,
-            faces: Some(faces),
+            faces,
             quadrature: Box::new(Volumes::<K>::default()),
             pressure_unit,
             carried: Vec::new(),
