@@ -160,7 +160,7 @@ pub struct DofMap<const D: usize> {
     pub places: Places,
     /// The unknowns of the rigid bodies.
     pub bodies: Vec<RigidDofs>,
-    /// What the values of the nodes are of those of the controls; absent where each node has equations of its own.
+    /// The values of the nodes as combinations of those of the controls (`E` of eq. 2c); absent where each node has equations of its own.
     pub constraints: Option<LinearConstraints>,
 }
 

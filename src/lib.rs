@@ -40,7 +40,7 @@
 //! | Δt | `dt` | size of the step (s) |
 //! | α_m, α_f, β, γ, ρ∞ | of [`time_integration::GeneralisedAlpha`] | generalised-α (-) |
 //! | W, A | `w`, `a` of [`term::Internal`] | stress within a dynamic step, and where it acts |
-//! | ε, fill | `stiffness`, `emptiness` | softness (-) and emptiness 1 − fill (-) of a cell |
+//! | ε E, 1 − fill | `stiffness`, `emptiness` | soft stiffness (kPa) and emptiness (-) of a cell |
 //! | s_u, c, φ, ψ, σ_t | of [`material`] | strengths (kPa), angles (°), tension cut-off (kPa) |
 
 pub mod analytical;

@@ -24,7 +24,7 @@ use std::sync::Arc;
 pub(super) const NORMAL: f64 = 50.0;
 /// Tangential penalty ε_t (-), in the same.
 pub(super) const TANGENTIAL: f64 = 5.0;
-/// Share of them over soil that may yield, and then gives way however little presses on it.
+/// Both are this part (-) over soil that may yield.
 const YIELDING: f64 = 0.1;
 /// Pressure over which parting is rounded (-), in the mean pressure of the contact nodes.
 const ROUNDING: f64 = 0.1;
@@ -105,7 +105,7 @@ pub trait Interface<const D: usize>: Send + Sync {
     fn lines(&self, position: &dyn Fn(u32) -> [f64; D]) -> Vec<Vec<Mark<D>>>;
 
     /// What of the boundary lies on soil as a step begins, given its conditions; nothing of one on a body.
-    fn covers(&self, _rows: &[Constraint<D>], _position: &dyn Fn(u32) -> [f64; D]) -> Vec<Cover<D>> {
+    fn covers(&self, _constraints: &[Constraint<D>], _position: &dyn Fn(u32) -> [f64; D]) -> Vec<Cover<D>> {
         Vec::new()
     }
 
@@ -175,8 +175,8 @@ fn strength(models: &[Option<Arc<dyn Model>>], points: &Points<2>, p: usize) -> 
 }
 
 impl Ground<'_, 2> {
-    /// The cell of the soil that a segment lies on and where in it its middle is: outside it where the cell there has no integration point,
-    /// and the nearest out of the structure that has one goes on to the segment. The nodes of an empty cell would give way in place of the soil.
+    /// The nearest cell along the normal of a segment that has integration points, and where in it (parametric) the middle of the segment is: outside it where
+    /// its functions are extended to the segment. The nodes of an empty cell would give way in place of the soil.
     fn find(&self, segment: &Placed, spacing: f64, point: u32, integrated: &[bool]) -> Option<(u32, [f64; 3])> {
         let hint = Some(self.points.cell[point as usize]);
         let at = |away: &f64| {

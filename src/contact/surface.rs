@@ -66,7 +66,7 @@ impl Surface {
             let name = mesh.regions.get(region as usize).map_or("", String::as_str);
             return Err(Error::input(
                 format!("region {name}"),
-                "it has no boundary that could constraint anything",
+                "it has no boundary that contact could act on",
                 "give the structure a mesh of its own, not joined to the grid",
             ));
         }

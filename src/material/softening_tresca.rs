@@ -48,7 +48,7 @@ pub struct SofteningTresca {
 pub struct Softening {
     /// δ_rem (-): the strength of remoulded soil over the first one.
     pub remoulded: f64,
-    /// ξ₉₅ (-): the ξ₉₅, plastic shear strain at which 95 % of the softening is done, such as 10 (1000 %).
+    /// ξ₉₅ (-): plastic shear strain at which 95 % of the softening is done, such as 10 (1000 %).
     pub ductility: f64,
     /// μ (-): the strength gained with each tenfold rate.
     pub rate: f64,

@@ -1,7 +1,7 @@
 //! What the integrals of a step are sums over: integration points of the cells, or the material points with their volumes.
 //!
-//! Weights are found when the grid is restored and hold until it is again. Mass and momentum stay with the material
-//! points.
+//! Weights are determined at a grid reset and hold until the next one. The material points keep mass and momentum between resets; the integration points
+//! have masses of their own, which agree with them in sum.
 
 mod resampled;
 mod surface;

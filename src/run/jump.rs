@@ -20,8 +20,8 @@ pub fn watch<const D: usize>(scene: &Scene<D>, state: &mut State<D>) {
 fn is_watched<const D: usize>(scene: &Scene<D>, state: &State<D>) -> bool {
     let Some(phase) = scene.phases.get(state.phase) else { return false };
     let is_structure = |region: u16| scene.fem.as_ref().is_some_and(|fem| fem.mesh.cells.region.contains(&region));
-    let mut pressed = scene.touching(state.phase).filter(|(_, pair)| !pair.sides().soils.is_empty());
-    let driven = phase.moves() || pressed.any(|(_, pair)| is_structure(pair.sides().structure));
+    let mut pressed = scene.touching(state.phase).filter(|(_, interface)| !interface.sides().soils.is_empty());
+    let driven = phase.moves() || pressed.any(|(_, interface)| is_structure(interface.sides().structure));
     !driven && phase.search.is_none() && !state.dynamic(scene)
 }
 

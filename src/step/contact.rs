@@ -145,7 +145,7 @@ fn place<const D: usize>(grid: &Grid<D>, state: &State<D>, constraints: &mut [Pl
     for constraint in constraints {
         let (interface, contact_node) = (constraint.interface as usize, constraint.condition.contact_node as usize);
         let coupling =
-            grid.constraint_coupling.get(interface).map_or(u32::MAX, |connectivity| connectivity[contact_node]);
+            grid.constraint_coupling.get(interface).map_or(u32::MAX, |couplings| couplings[contact_node]);
         let room = state.multipliers[interface].room(contact_node);
         let found =
             constraint.condition.nodes.iter().map(|n| room.iter().position(|other| other == n).map(|at| at as u32));

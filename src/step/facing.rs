@@ -32,7 +32,7 @@ pub fn status<const D: usize>(scene: &Scene<D>, state: &State<D>) -> Vec<Vec<Con
 
 /// Appends a coupling for each contact node with room.
 pub fn couple<const D: usize>(state: &State<D>, dofs: &DofMap<D>, connectivity: &mut Connectivity) -> Vec<Vec<u32>> {
-    let of_pair = |multipliers: &Multipliers| {
+    let of_interface = |multipliers: &Multipliers| {
         let contact_nodes = multipliers.first.len() - 1;
         let coupling = |k: usize| {
             let room = multipliers.room(k);
@@ -42,5 +42,5 @@ pub fn couple<const D: usize>(state: &State<D>, dofs: &DofMap<D>, connectivity: 
         };
         (0..contact_nodes).map(coupling).collect()
     };
-    state.multipliers.iter().map(of_pair).collect()
+    state.multipliers.iter().map(of_interface).collect()
 }

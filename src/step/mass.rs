@@ -1,14 +1,14 @@
 //! The consistent mass matrix `M + P` of the mapping to the nodes and its regularisation (docs/theory.md, section 4, eq. 11 and 11a).
 //!
 //! `M = Σ_p m_p N_I N_J` is singular or nearly so where cells hold few points or a sliver of the body. The ghost penalty on the
-//! velocity `P`, `γ_m ρ h² ∫ (h [∂_n v]² + h³ [∂_nn v]²)` over the faces of such cells, continues the velocity of the
-//! neighbours there. It does not act on linear velocity fields, so the mapping conserves linear and angular momentum. Nodes
+//! velocity `P`, `10⁻⁴ ρ h² ∫ (h [∂_n v]² + h³ [∂_nn v]²)` over the faces of such cells, continues the velocity of the
+//! neighbours there. It does not act on linear velocity fields. Nodes
 //! without a point or such a face nearby stay at rest.
 //!
 //! Points that are few, or crowded in a part of a cell, leave polynomials of low degree undetermined even then, or nearly so: a velocity that
 //! is small at the points may be large at nodes far from them. So the cells with points or such faces, and those whose nodes all have mass of points in
 //! cells beside them, have a penalty on the curvature, and
-//! those with fewer points than nodes a far weaker one on the gradient: `ρ ∫ (ε₂ h⁴ ∇∇N_I:∇∇N_J + ε₁ h² ∇N_I·∇N_J)`. Two further
+//! those with fewer points than nodes a far weaker one on the gradient: `ρ ∫ (ε₂ h⁴ ∇∇N_I:∇∇N_J + ε₁ h² ∇N_I·∇N_J)` with `ε₂ =` [`CURVATURE`] and `ε₁ =` [`GRADIENT`]. Two further
 //! solutions remove its effect where the points determine the motion (iterated Tikhonov regularisation). Of a motion that is quadratic in a
 //! square cell of width `l`, evenly spread points determine `1/720 ρ l⁴` times its squared curvature. With `α = 720 ε₂ h⁴/l⁴`, `h = √2 l` being
 //! the diagonal, the fraction `(α/(1 + α))²` of it is lost: 8·10⁻⁴, and three quarters where the points are in a third of the width.

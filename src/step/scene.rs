@@ -81,7 +81,7 @@ impl<const D: usize> Scene<D> {
         self.bodies.iter().map(|body| &body.dofs).find(|dofs| dofs.rotation == Some(n))
     }
 
-    /// What the displacements follow of those of controls, where the scheme has such.
+    /// The displacements of the nodes as combinations of those of controls (`E` of eq. 2c), where the scheme has such.
     pub fn constraints(&self) -> Option<LinearConstraints> {
         self.basis.constraints(&self.mesh).map(|constraints| constraints.extended(self.displacements()))
     }

@@ -1,7 +1,6 @@
 //! Transfer of the motion between points and grid (docs/theory.md, section 4, eq. 11 and 12), and of the converged state to the points.
 //!
-//! To the grid by consistent mass, `Σ_p m_p N_I N_J v_J = Σ_p m_p N_I v_p`: it conserves linear and angular momentum and
-//! reproduces a linear velocity field exactly. To the points by increments of velocity (FLIP) and values of acceleration, with the momentum
+//! To the grid by consistent mass, `(M + P) v = Σ_p m_p N_I v_p` with the regularisation (11a); what that takes of linear and angular momentum is given back. To the points by increments of velocity (FLIP) and values of acceleration, with the momentum
 //! that the nodal field has at the integration points ([`momentum`]).
 
 use super::balance::static_force;

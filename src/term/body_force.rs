@@ -1,6 +1,6 @@
-//! Body force of the material points: `−Σ_p ρ_p w_p N_I g`, times a load factor in the phase's time.
+//! Weight of the material: `−Σ_q ρ_q w_q N_I g`, times a load factor in the phase's time, summed over the points that the internal force is summed over.
 //!
-//! It is integrated with the weights of the internal force, so that both sides of equilibrium err alike.
+//! It has the same points and weights as the internal force, so that errors of the quadrature cancel in equilibrium.
 
 use super::{Assembly, Frame, Role, Term, Trial, scatter_cells};
 use crate::error::Result;
@@ -10,7 +10,7 @@ use crate::system::Local;
 use crate::time_value::TimeValue;
 use std::marker::PhantomData;
 
-/// Gravity on all material points.
+/// Gravity on the material.
 pub struct BodyForce<K, const D: usize> {
     /// Acceleration of gravity (m/s²).
     gravity: [f64; D],

@@ -1,11 +1,11 @@
 //! A soft linear stiffness in empty and partly empty cells, so that nodes without material points neither
 //! make the system singular nor change its pattern (reference 1 of docs/theory.md, §2.4; Coombs 2023 uses the same kind of penalty).
 //!
-//! `ε E (1 − fill) ∫ (∇ˢN_I : ∇ˢ + τ ∇ᵃN_I : ∇ᵃ)(u − u_n)`: linear elasticity with Poisson's ratio zero on the increment of
+//! `ε E (1 − fill) ∫ (∇ˢN_I : ∇ˢ + τ ∇ᵃN_I : ∇ᵃ)(u_α − u_n)`: linear elasticity with Poisson's ratio zero on the increment of
 //! the step. It is free of stress at the beginning of every step, and of order `ε` in its end.
 //!
-//! The trace `τ` of it that turning meets is for points that fly alone: these hold the cells around them by their mass, but
-//! where their stress is at a corner of the yield surface not against turning about them.
+//! The small resistance `τ` to rotation is for single points that fly: their mass holds the cells around them, but where
+//! their stress is at the apex of the yield surface, nothing else resists a rotation about them.
 
 use super::{Assembly, Frame, Term, Trial};
 use crate::error::Result;

@@ -1,4 +1,4 @@
-//! Inertia with the consistent mass of the material points: `Σ_p m_p N_I N_J a_J`.
+//! Inertia with the consistent mass of the integration points, or of the material points where integrals are summed over these: `Σ_q m_q N_I N_J a_J`.
 //!
 //! Row-summed masses are out of the question: the corner functions of a six-node triangle integrate to zero.
 
@@ -9,7 +9,7 @@ use crate::kinematics::Kinematics;
 use crate::system::Local;
 use std::marker::PhantomData;
 
-/// The inertia of all material points.
+/// The inertia of the material.
 #[derive(Default)]
 pub struct Inertia<K> {
     kinematics: PhantomData<K>,

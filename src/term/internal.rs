@@ -1,4 +1,5 @@
-//! Internal force of the material points: `f_I = Σ_p V⁰_p τ_p · ∇_x N_I`, with its consistent tangent.
+//! Internal force: `f_I = Σ_q w_q τ_q · ∇_x N_I`, with its consistent tangent. The sum is over the integration points, or over the material points
+//! with `w = V⁰` where integrals are summed over these.
 //!
 //! Kinematics: `F = I + Σ u ⊗ ∇N` from the restored grid, the increment since the last converged step
 //! `ΔF = F F_n⁻¹`, the elastic trial `b = ΔF b_n ΔFᵀ` (theory, eq. 2). The term keeps no state: the points
@@ -343,7 +344,7 @@ impl<const D: usize, K: Kinematics<D>, S: Mixed<D, K>> Term<D> for Internal<K, S
 
     fn commit(&self, frame: &Frame<D>, trial: &Trial<D>) -> Option<Update> {
         let models = self.models_in(trial);
-        let new_of_patch = |cell_points: &CellPoints| {
+        let of_cell = |cell_points: &CellPoints| {
             let now = frame.interpolation.gather(frame.mesh, cell_points, trial.displacement);
             let before = frame.interpolation.gather(frame.mesh, cell_points, trial.converged);
             let cell = self.share.over(frame, trial, cell_points);
@@ -395,6 +396,6 @@ impl<const D: usize, K: Kinematics<D>, S: Mixed<D, K>> Term<D> for Internal<K, S
             }
             out
         };
-        Some(Update(frame.interpolation.filled.par_iter().map(new_of_patch).collect()))
+        Some(Update(frame.interpolation.filled.par_iter().map(of_cell).collect()))
     }
 }

@@ -97,7 +97,7 @@ pub struct Frame<'a, const D: usize> {
     pub mesh: &'a Mesh<D>,
     /// Where (m) the nodes were at the last grid reset and, after them, the unknowns of rigid bodies; empty before the first.
     pub reset: &'a [[f64; D]],
-    /// Whether that is not the first shape of the grid, so that what was kept of that one does not hold.
+    /// Whether the nodes of `mesh` are not at their first positions, so that integrals kept for these are invalid.
     pub relaxed: bool,
     pub interpolation: &'a Interpolation<D>,
     /// Cells that take part and are not full of points.
@@ -129,7 +129,8 @@ pub struct Frame<'a, const D: usize> {
     pub coupling: &'a [u32],
     /// The block of each node and each unknown of rigid bodies; `u32::MAX` for nodes left out.
     pub block: &'a [u32],
-    /// What the values of the nodes are of those of controls, whose blocks those of `block` are then; absent where each node has its own.
+    /// The values of the nodes as combinations of those of controls (`E` of eq. 2c); `block` then has the blocks of the controls. Absent where each node
+    /// has equations of its own.
     pub linear_constraints: Option<&'a LinearConstraints>,
     /// The coupling of each rigid body.
     pub bodies: &'a [u32],
@@ -173,7 +174,7 @@ pub struct Trial<'a, const D: usize> {
     pub time: f64,
     /// What strengths are divided by (-) at the end of the step.
     pub reduction: f64,
-    /// Whether contact nodes that touched in the step before, or are initially closed, touch here, pressed or pulled.
+    /// Whether contact nodes that were in compression in the step before, or are initially closed, are closed here, whether they press or pull.
     pub contact_frozen: bool,
     /// One over the size of the step (1/s), for strength that depends on the rate of strain.
     pub inverse_dt: f64,
@@ -395,7 +396,7 @@ pub trait Term<const D: usize>: Send + Sync {
         None
     }
 
-    /// What a load of the term in a phase that begins meets nothing of, if it does.
+    /// A message for the log if a load of the term acts on no material as a phase begins.
     fn idle(&self, _frame: &Frame<D>, _displacement: &[[f64; D]], _phase: usize) -> Option<String> {
         None
     }
@@ -405,7 +406,7 @@ pub trait Term<const D: usize>: Send + Sync {
         0.0
     }
 
-    /// Whether there is a limit to the stresses that it sums.
+    /// Whether a material of the term can yield.
     fn yields(&self) -> bool {
         false
     }

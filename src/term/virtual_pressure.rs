@@ -28,11 +28,11 @@ use crate::system::Local;
 use crate::tensor::Tensor;
 use std::marker::PhantomData;
 
-/// The volume of the points of a cell over that of its active part is between this and its inverse where the latter tells
-/// where they are: it may be a sliver, and they stand for others beside it.
+/// A cell is integrated in layers if the volume of its points over that of its part in the material is between this and its inverse. Where the part is a
+/// sliver, its points stand for material beside it, and it does not tell where they are.
 const LEAST_SHARE: f64 = 0.5;
 
-/// Share of the band over which a pressure begins to grow that it does over there: no point gains its buoyancy at once.
+/// Factor (-) on the band over which the pressure is rounded at the water level, for cells that are integrated in layers.
 const BAND: f64 = 0.25;
 
 /// A pressure on the boundary of all material points.

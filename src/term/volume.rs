@@ -1,4 +1,4 @@
-//! How the volume of material points changes that integrals are not summed over.
+//! Change of volume of the material points where integrals are summed over integration points (docs/theory.md, section 6, item 4).
 //!
 //! A step brings the volume to balance where it is summed over. Elsewhere in a cell the determinant of the deformation has terms of second order
 //! in the strain of a step that nothing has balanced, and soil that resists a change of its volume, and flows otherwise, would answer to
@@ -8,8 +8,7 @@
 use crate::geometry::quadratic::{self, Quadratic};
 use crate::tensor::Tensor;
 
-/// A fit whose weights at a point are, in sum of their sizes, more than this extrapolates too far: the linear one is taken in place of a quadratic one there, and the mean in place of
-/// that.
+/// Largest Lebesgue constant (-) of a fit at a point. Where the quadratic function has a larger one the linear one is taken, and where that has, the mean.
 const MOST: f64 = 3.0;
 
 /// The weight (m³) of an integration point, its place (m) and the value there.

@@ -15,7 +15,7 @@
 //!
 //! The last term lumps, in part, what holds `p` against its change, the compliance `1/M + 1/Q` of skeleton and water. A step shorter
 //! than it takes pressure to pass a cell would otherwise make the pressure oscillate beside a drained boundary (Vermeer &
-//! Verruijt 1981); `s` is what is missing to keep neighbours from pushing each other, `1/M + 1/Q − 6 κ Δt/h²`, and zero in
+//! Verruijt 1981); `s` is what keeps the entries between different nodes from being positive, `1/M + 1/Q − 6 κ Δt/h²`, and zero in
 //! longer steps (Aguilar et al. 2008). In cells of first order it makes the pair stable, too, and stays.
 
 use super::mixed::{Coupling, Point};
@@ -142,10 +142,10 @@ pub struct Cell<const D: usize> {
     gained: Corners,
     /// Displacement (m) of the nodes at the beginning of the step.
     before: Coefficients<D>,
-    /// Time (s) that the water flows for, and over the size of the cell squared, six times.
+    /// Time `Δt` (s) that the water flows for, and `6 Δt/h²` with the size `h` of the cell.
     flow_time: f64,
     passing: f64,
-    /// Whether pressures are to be held apart from each other in any step.
+    /// Whether the cell is of first order, whose pressures are stabilised in steps of any size.
     first_order: bool,
 }
 

@@ -8,8 +8,8 @@
 //! have come apart: there is no stress to sum up, and what moves is the mass of each, where it is. Fitted masses are those of the points in sum only, and
 //! points that fly by themselves would be mapped with one mass and moved with another.
 //!
-//! What is fitted are the Kirchhoff stress of the model, `ln J`, the density, and the internal variables, which stay within the
-//! range of the points that they are fitted to. It is the stress and not the elastic strain, for it is the stress that is in balance: in
+//! [`fields`] lists what is fitted: the Kirchhoff stress of the model, the pressures, `ln J`, the density, the plastic strain, the place at seeding and
+//! the internal variables. Density, plastic strain and internal variables stay within the range of the points that they are fitted to. It is the stress and not the elastic strain, for it is the stress that is in balance: in
 //! clay whose stiffness grows with pressure, a stress linear in depth has a strain that is not. A stress outside
 //! the yield surface is returned to it, while the internal variables stay as they are fitted: where these harden in the return, the next step
 //! finds a stress a little outside again.

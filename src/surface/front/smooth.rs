@@ -23,7 +23,7 @@ const SHRINKS: f64 = 0.1;
 const LEAST: usize = 8 * PER_LENGTH;
 
 impl MarkerFront {
-    /// The front along `boundary`, smoothed; `weight` is what the points within weigh together (m³, as when seeded). `None`
+    /// The front along `boundary`, smoothed. `None`
     /// where a body is too small for markers. Holes as small are left out.
     pub fn along<K: Kinematics<2>>(mesh: &Mesh<2>, geometry: &Geometry, boundary: &ActiveBoundary) -> Option<Self> {
         let mut front = Self { position: Vec::new(), first: vec![0] };
