@@ -144,8 +144,7 @@ fn surface<const D: usize>((mesh, locator): (&Mesh<D>, &Locator<D>), state: &Sta
 fn place<const D: usize>(grid: &Grid<D>, state: &State<D>, constraints: &mut [PlacedConstraint<D>]) -> bool {
     for constraint in constraints {
         let (interface, contact_node) = (constraint.interface as usize, constraint.condition.contact_node as usize);
-        let coupling =
-            grid.constraint_coupling.get(interface).map_or(u32::MAX, |couplings| couplings[contact_node]);
+        let coupling = grid.constraint_coupling.get(interface).map_or(u32::MAX, |couplings| couplings[contact_node]);
         let room = state.multipliers[interface].room(contact_node);
         let found =
             constraint.condition.nodes.iter().map(|n| room.iter().position(|other| other == n).map(|at| at as u32));
