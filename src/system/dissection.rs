@@ -78,12 +78,6 @@ impl Dissection {
         Ok(Some(Self { halves: [first?, second?], separator, between, scratch, x }))
     }
 
-    /// Nonzeros of the factor.
-    pub fn fill(&self) -> usize {
-        let size = self.separator.len();
-        self.halves.iter().map(|half| half.symbolic.len_val()).sum::<usize>() + size * (size + 1) / 2
-    }
-
     /// As [`super::factor::Factor::factorize`].
     pub fn factorize(&mut self, matrix: &Matrix, llt: bool) -> Option<f64> {
         let [first, second] = &mut self.halves;
@@ -274,4 +268,13 @@ fn by_degree(pattern: &Pattern, blocks: &[u32]) -> Result<Vec<u32>> {
         column.push(row.len() as u32);
     }
     Ok(ordering(&column, &row)?.iter().map(|&k| blocks[k as usize]).collect())
+}
+
+#[cfg(test)]
+impl Dissection {
+    /// Nonzeros of the factor.
+    pub fn fill(&self) -> usize {
+        let size = self.separator.len();
+        self.halves.iter().map(|half| half.symbolic.len_val()).sum::<usize>() + size * (size + 1) / 2
+    }
 }

@@ -28,14 +28,6 @@ impl Factor {
         })
     }
 
-    /// Nonzeros of the factor.
-    pub fn fill(&self) -> usize {
-        match self {
-            Self::Whole(whole) => whole.fill(),
-            Self::Dissection(halves) => halves.fill(),
-        }
-    }
-
     /// Numeric factorisation, LLᵀ or LDLᵀ: the least pivot, relative to the diagonal entry it began as; `None` where it
     /// breaks down. A pivot is about the rounding unit where the equations before it already determine its own.
     pub fn factorize(&mut self, pattern: &Pattern, matrix: &Matrix, llt: bool) -> Option<f64> {

@@ -57,11 +57,6 @@ impl Solver {
         Self { definite: false, ..self }
     }
 
-    /// Nonzeros of the Cholesky factor.
-    pub fn fill(&self) -> usize {
-        self.factor.fill()
-    }
-
     /// Solves `A x = b`, `b` given in `x`.
     ///
     /// # Errors

@@ -57,11 +57,6 @@ impl Whole {
         Ok(Self { symbolic, values, scratch, symmetric_part })
     }
 
-    /// Nonzeros of the factor.
-    pub fn fill(&self) -> usize {
-        self.symbolic.len_val()
-    }
-
     /// As [`super::factor::Factor::factorize`].
     pub fn factorize(&mut self, pattern: &Pattern, matrix: &Matrix, llt: bool) -> Option<f64> {
         let n = pattern.len();
@@ -209,4 +204,12 @@ pub(super) fn least_pivot(
         least = least.min(pivot / own.abs());
     }
     least
+}
+
+#[cfg(test)]
+impl Whole {
+    /// Nonzeros of the factor.
+    pub fn fill(&self) -> usize {
+        self.symbolic.len_val()
+    }
 }

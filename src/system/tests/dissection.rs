@@ -1,7 +1,6 @@
 //! Factors by halves against whole ones.
 
 use super::super::dissection::Dissection;
-use super::super::factor::Factor;
 use super::super::separator::{Parts, halve};
 use super::super::whole::Whole;
 use super::*;
@@ -46,15 +45,15 @@ fn system(sizes: &[u8], connectivity: &[Vec<u32>], symmetric: bool, skew: f64) -
 /// Solves by halves and whole, on one thread and on two, and says how far apart the solutions are.
 fn compare(pattern: &Pattern, matrix: &Matrix, places: &[[f64; 2]], llt: bool) {
     let b: Vec<f64> = (0..pattern.len()).map(|i| (0.7 * i as f64).cos()).collect();
-    let mut whole = Factor::Whole(Box::new(Whole::new(pattern).unwrap()));
+    let mut whole = Whole::new(pattern).unwrap();
     let expected_pivot = whole.factorize(pattern, matrix, llt).unwrap();
     let mut expected = b.clone();
     whole.solve(&mut expected, llt);
     let run = |threads: usize| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
         pool.install(|| {
-            let mut halves = Factor::Dissection(Box::new(Dissection::new(pattern, places).unwrap().unwrap()));
-            let pivot = halves.factorize(pattern, matrix, llt).unwrap();
+            let mut halves = Dissection::new(pattern, places).unwrap().unwrap();
+            let pivot = halves.factorize(matrix, llt).unwrap();
             let (mut x, mut again) = (b.clone(), b.clone());
             halves.solve(&mut x, llt);
             halves.solve(&mut again, llt);
