@@ -17,113 +17,45 @@ pub use functions::{MAX_NODES, Shape, invert};
 pub use quadrature::rule;
 pub use second::map_second;
 
-/// The kinds of cells and facets. Adding one: a file beside this one, a variant, a line in each `match`.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum CellKind {
-    Point1,
-    Line2,
-    Line3,
-    Line4,
-    T3,
-    T6,
-    Q4,
-    Q8,
-    Q9,
-    Q16,
-    T10,
-    H27,
-}
+/// Defines the kinds of cells and facets, each with its shape in a file.
+macro_rules! kinds {
+    ($($kind:ident in $file:ident),+) => {
+        /// The kinds of cells and facets. Adding one: a file beside this one, its place in the list, a line in each `match`.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+        pub enum CellKind {
+            $($kind),+
+        }
 
-/// Runs an expression with `$S` standing for the shape of a kind.
-macro_rules! with_shape {
-    ($kind:expr, $S:ident => $body:expr) => {
-        match $kind {
-            CellKind::Point1 => {
-                type $S = line::Point1;
-                $body
+        impl CellKind {
+            pub const ALL: [Self; 12] = [$(Self::$kind),+];
+
+            pub fn node_count(self) -> usize {
+                match self { $(Self::$kind => $file::$kind::NODES),+ }
             }
-            CellKind::Line2 => {
-                type $S = line::Line2;
-                $body
+
+            pub fn dimension(self) -> usize {
+                match self { $(Self::$kind => $file::$kind::DIMENSION),+ }
             }
-            CellKind::Line3 => {
-                type $S = line::Line3;
-                $body
+
+            /// Shape functions at `xi` into `n[..node_count]`.
+            pub fn values(self, xi: &[f64; 3], n: &mut [f64]) {
+                match self { $(Self::$kind => $file::$kind::values(xi, n)),+ }
             }
-            CellKind::Line4 => {
-                type $S = line::Line4;
-                $body
-            }
-            CellKind::T3 => {
-                type $S = t3::T3;
-                $body
-            }
-            CellKind::T6 => {
-                type $S = t6::T6;
-                $body
-            }
-            CellKind::Q4 => {
-                type $S = q4::Q4;
-                $body
-            }
-            CellKind::Q8 => {
-                type $S = q8::Q8;
-                $body
-            }
-            CellKind::Q9 => {
-                type $S = q9::Q9;
-                $body
-            }
-            CellKind::Q16 => {
-                type $S = q16::Q16;
-                $body
-            }
-            CellKind::T10 => {
-                type $S = t10::T10;
-                $body
-            }
-            CellKind::H27 => {
-                type $S = h27::H27;
-                $body
+
+            /// Derivatives with respect to `xi` into `dn[..node_count]`.
+            pub fn derivatives(self, xi: &[f64; 3], dn: &mut [[f64; 3]]) {
+                match self { $(Self::$kind => $file::$kind::derivatives(xi, dn)),+ }
             }
         }
     };
 }
 
+kinds!(
+    Point1 in line, Line2 in line, Line3 in line, Line4 in line, T3 in t3, T6 in t6, Q4 in q4, Q8 in q8, Q9 in q9,
+    Q16 in q16, T10 in t10, H27 in h27
+);
+
 impl CellKind {
-    pub const ALL: [Self; 12] = [
-        Self::Point1,
-        Self::Line2,
-        Self::Line3,
-        Self::Line4,
-        Self::T3,
-        Self::T6,
-        Self::Q4,
-        Self::Q8,
-        Self::Q9,
-        Self::Q16,
-        Self::T10,
-        Self::H27,
-    ];
-
-    pub fn node_count(self) -> usize {
-        with_shape!(self, S => S::NODES)
-    }
-
-    pub fn dimension(self) -> usize {
-        with_shape!(self, S => S::DIMENSION)
-    }
-
-    /// Shape functions at `xi` into `n[..node_count]`.
-    pub fn values(self, xi: &[f64; 3], n: &mut [f64]) {
-        with_shape!(self, S => S::values(xi, n))
-    }
-
-    /// Derivatives with respect to `xi` into `dn[..node_count]`.
-    pub fn derivatives(self, xi: &[f64; 3], dn: &mut [[f64; 3]]) {
-        with_shape!(self, S => S::derivatives(xi, dn))
-    }
-
     /// Whether the parametric domain is a simplex (triangle, tetrahedron) rather than a box.
     pub fn is_simplex(self) -> bool {
         matches!(self, Self::T3 | Self::T6 | Self::T10)
