@@ -11,7 +11,7 @@ use crate::geometry::dot;
 use crate::kinematics::Kinematics;
 use crate::mesh::Mesh;
 use crate::mesh::faces::Face;
-use crate::mesh::shape::{CellKind, MAX_NODES, invert, map_second, rule};
+use crate::mesh::shape::{CellKind, MAX_NODES, invert, jacobian, map_second, rule};
 use std::sync::OnceLock;
 
 /// The form of one face.
@@ -106,11 +106,7 @@ impl<const D: usize> Side<D> {
     fn add_third(&self, at: &[f64; 3], normal: &[f64; D], third: &mut [f64]) {
         let mut dn = [[0.0; 3]; MAX_NODES];
         self.kind.derivatives(at, &mut dn);
-        let mut jacobian = [[0.0; D]; D];
-        for (x, dn) in self.x.iter().zip(&dn) {
-            (0..D).for_each(|i| (0..D).for_each(|j| jacobian[i][j] += x[i] * dn[j]));
-        }
-        let (inverse, _) = invert(&jacobian);
+        let (inverse, _) = invert(&jacobian(&self.x, &dn));
         let along: [f64; D] = std::array::from_fn(|k| (0..D).map(|j| inverse[k][j] * normal[j]).sum());
         // A step of one in the cell.
         let step = 1.0 / dot(&along, &along).sqrt();

@@ -9,7 +9,7 @@
 mod bins;
 
 use super::Mesh;
-use super::shape::{CellKind, MAX_NODES, invert};
+use super::shape::{CellKind, MAX_NODES, invert, jacobian};
 use crate::geometry::distance;
 use bins::{Bins, Bounds, bounds, enclose};
 
@@ -184,7 +184,7 @@ impl<const D: usize> Affine<D> {
         let places = kind.node_coordinates();
         let mut dn = [[0.0; 3]; MAX_NODES];
         kind.derivatives(&kind.centre(), &mut dn);
-        let jacobian = jacobian(x.iter(), &dn);
+        let jacobian = jacobian(x, &dn);
         let (inverse, determinant) = invert(&jacobian);
         let size = x.iter().map(|y| distance(y, &x[0])).fold(0.0, f64::max);
         let straight = x.iter().zip(places).all(|(y, p)| {
@@ -258,18 +258,6 @@ fn position<const D: usize>(mesh: &Mesh<D>, c: u32, xi: &[f64; 3]) -> ([f64; D],
         }
     }
     (y, jacobian(nodes, &dn))
-}
-
-fn jacobian<'a, const D: usize>(nodes: impl Iterator<Item = &'a [f64; D]>, dn: &[[f64; 3]]) -> [[f64; D]; D] {
-    let mut jacobian = [[0.0; D]; D];
-    for (x, dn) in nodes.zip(dn) {
-        for i in 0..D {
-            for j in 0..D {
-                jacobian[i][j] += x[i] * dn[j];
-            }
-        }
-    }
-    jacobian
 }
 
 /// `xi` moved into the parametric domain.

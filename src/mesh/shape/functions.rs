@@ -13,6 +13,22 @@ pub trait Shape {
     fn derivatives(xi: &[f64; 3], dn: &mut [[f64; 3]]);
 }
 
+/// The Jacobian `∂x/∂ξ` of a cell with nodes at `x`, given the derivatives of its shape functions, one entry a node.
+pub fn jacobian<'a, const D: usize>(
+    x: impl IntoIterator<Item = &'a [f64; D]>,
+    derivatives: &[[f64; 3]],
+) -> [[f64; D]; D] {
+    let mut jacobian = [[0.0; D]; D];
+    for (x, dn) in x.into_iter().zip(derivatives) {
+        for i in 0..D {
+            for j in 0..D {
+                jacobian[i][j] += x[i] * dn[j];
+            }
+        }
+    }
+    jacobian
+}
+
 /// Inverse and determinant of a small matrix (`D` ≤ 3).
 pub fn invert<const D: usize>(a: &[[f64; D]; D]) -> ([[f64; D]; D], f64) {
     let mut inverse = [[0.0; D]; D];

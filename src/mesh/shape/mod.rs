@@ -13,7 +13,7 @@ mod t10;
 mod t3;
 mod t6;
 
-pub use functions::{MAX_NODES, Shape, invert};
+pub use functions::{MAX_NODES, Shape, invert, jacobian};
 pub use quadrature::rule;
 pub use second::map_second;
 
@@ -176,15 +176,7 @@ pub fn map<const D: usize>(kind: CellKind, x: &[[f64; D]], xi: &[f64; 3], n: &mu
     let mut dn = [[0.0; 3]; MAX_NODES];
     kind.values(xi, n);
     kind.derivatives(xi, &mut dn);
-    let mut jacobian = [[0.0; D]; D];
-    for (x, dn) in x.iter().zip(&dn) {
-        for i in 0..D {
-            for j in 0..D {
-                jacobian[i][j] += x[i] * dn[j];
-            }
-        }
-    }
-    let (inverse, determinant) = invert(&jacobian);
+    let (inverse, determinant) = invert(&jacobian(x, &dn));
     for (grad, dn) in grad.iter_mut().zip(&dn).take(x.len()) {
         for j in 0..D {
             grad[j] = (0..D).map(|k| dn[k] * inverse[k][j]).sum();
