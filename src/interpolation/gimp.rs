@@ -190,7 +190,7 @@ fn average(
     // How far the cells go on either side along each axis.
     let own = boxes[place.cell];
     let mut reach = own;
-    for &c in domains.locator.neighbours(place.cell as u32) {
+    for &c in domains.locator.faces.neighbours(place.cell as u32) {
         if let Some(beside) = boxes.get(c as usize).filter(|_| to(c).is_some()) {
             for d in 0..2 {
                 let middle = 0.5 * (beside.low[d] + beside.high[d]);

@@ -162,6 +162,9 @@ mod tests {
                     nodes
                 };
                 assert_eq!(sorted(own), sorted(other), "{kind:?}");
+                for (i, j) in [(0, 1), (1, 0)] {
+                    assert_eq!(faces.across(face.cells[i])[face.sides[i] as usize], face.cells[j]);
+                }
             }
         }
     }

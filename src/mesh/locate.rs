@@ -9,12 +9,10 @@
 mod bins;
 
 use super::Mesh;
+use super::faces::{BOUNDARY, Faces};
 use super::shape::{CellKind, MAX_NODES, invert, jacobian};
 use crate::geometry::distance;
 use bins::{Bins, Bounds, bounds, enclose};
-
-/// Marks a facet without a neighbour.
-pub const OUTSIDE: u32 = u32::MAX;
 
 /// A point this deep (parametric) in a cell is in no other.
 const INSIDE: f64 = 1e-9;
@@ -35,9 +33,8 @@ const ITERATIONS: usize = 30;
 pub struct Locator<const D: usize> {
     /// The stored inverse of every affine cell.
     affine: Vec<Option<Affine<D>>>,
-    /// Neighbours over the facets of cell `c`: `neighbour[facet[c]..facet[c + 1]]`.
-    facet: Vec<u32>,
-    neighbour: Vec<u32>,
+    /// The faces of the mesh.
+    pub faces: Faces,
     /// Boxes (m) that hold the cells, curved edges included, widened by `reach`.
     boxes: Vec<Bounds<D>>,
     bins: Bins<D>,
@@ -69,14 +66,8 @@ impl<const D: usize> Locator<D> {
             *low = low.map(|v| v - 2.0 * reach);
             *high = high.map(|v| v + 2.0 * reach);
         }
-        let (facet, neighbour) = neighbours(mesh);
         let bins = Bins::new(&boxes);
-        Self { affine, facet, neighbour, boxes, bins, reach }
-    }
-
-    /// The neighbours of `cell` over its facets in the order of [`CellKind::facets`], [`OUTSIDE`] at the boundary.
-    pub fn neighbours(&self, cell: u32) -> &[u32] {
-        &self.neighbour[self.facet[cell as usize] as usize..self.facet[cell as usize + 1] as usize]
+        Self { affine, faces: Faces::of(mesh), boxes, bins, reach }
     }
 
     /// The cell that holds `x` and the parametric coordinates there, which are always within the cell.
@@ -121,7 +112,7 @@ impl<const D: usize> Locator<D> {
             if depth >= -ON_FACET {
                 return (depth > INSIDE).then_some((c, xi));
             }
-            c = self.neighbours(c).get(facet).copied().filter(|&n| n != OUTSIDE)?;
+            c = self.faces.across(c).get(facet).copied().filter(|&n| n != BOUNDARY)?;
         }
         None
     }
@@ -271,36 +262,6 @@ fn clamp(kind: CellKind, xi: &[f64; 3]) -> [f64; 3] {
         xi = xi.map(|t| t / sum);
     }
     xi
-}
-
-/// For every facet the cell on its other side, as offsets and a flat list.
-fn neighbours<const D: usize>(mesh: &Mesh<D>) -> (Vec<u32>, Vec<u32>) {
-    // A facet is known by its sorted corner nodes: two of an edge, up to four of a face.
-    let mut sides: Vec<([u32; 4], u32, u32)> = Vec::new();
-    let mut offset = Vec::with_capacity(mesh.cells.len() + 1);
-    for c in 0..mesh.cells.len() {
-        offset.push(sides.len() as u32);
-        let nodes = mesh.cells.nodes(c);
-        let (kind, facets) = mesh.cells.kind[c].facets();
-        for facet in facets {
-            let mut key = [OUTSIDE; 4];
-            for (k, &i) in key.iter_mut().zip(&facet[..kind.corner_count()]) {
-                *k = nodes[i];
-            }
-            key.sort_unstable();
-            sides.push((key, c as u32, sides.len() as u32));
-        }
-    }
-    offset.push(sides.len() as u32);
-    let mut neighbour = vec![OUTSIDE; sides.len()];
-    sides.sort_unstable();
-    for pair in sides.windows(2) {
-        if pair[0].0 == pair[1].0 {
-            neighbour[pair[0].2 as usize] = pair[1].1;
-            neighbour[pair[1].2 as usize] = pair[0].1;
-        }
-    }
-    (offset, neighbour)
 }
 
 #[cfg(test)]

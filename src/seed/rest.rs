@@ -3,7 +3,7 @@
 use crate::error::{Error, Result};
 use crate::material::Profile;
 use crate::mesh::Mesh;
-use crate::mesh::locate::{Locator, OUTSIDE};
+use crate::mesh::faces::{BOUNDARY, Faces};
 use crate::points::Points;
 use crate::tensor::Symmetric;
 
@@ -52,12 +52,12 @@ struct Arc {
 
 /// The boundary of a region, cut where its tangent is vertical.
 fn boundary(mesh: &Mesh<2>, region: u16) -> Vec<Arc> {
-    let locator = Locator::new(mesh);
+    let faces = Faces::of(mesh);
     let mut arcs = Vec::new();
     for cell in (0..mesh.cells.len()).filter(|&c| mesh.cells.region[c] == region) {
         let facets = mesh.cells.kind[cell].facets().1;
-        for (facet, &other) in facets.iter().zip(locator.neighbours(cell as u32)) {
-            if other != OUTSIDE && mesh.cells.region[other as usize] == region {
+        for (facet, &other) in facets.iter().zip(faces.across(cell as u32)) {
+            if other != BOUNDARY && mesh.cells.region[other as usize] == region {
                 continue;
             }
             let x: Vec<[f64; 2]> = facet.iter().map(|&i| mesh.nodes[mesh.cells.nodes(cell)[i] as usize]).collect();

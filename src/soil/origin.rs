@@ -1,7 +1,6 @@
 //! Where the soil was at first: the cells that were seeded, their outline, and what of them a place is in.
 
 use crate::geometry::{Bins, Line, nearest};
-use crate::mesh::faces::Faces;
 use crate::mesh::locate::Locator;
 use crate::mesh::side::Side;
 use crate::mesh::{Mesh, cell_size};
@@ -45,7 +44,6 @@ impl Outline {
 pub struct Origin {
     pub mesh: Mesh<2>,
     locator: Locator<2>,
-    pub faces: Faces,
     /// Whether each cell was seeded.
     seeded: Vec<bool>,
     /// Where the soil ended within the grid.
@@ -61,7 +59,8 @@ pub struct Origin {
 impl Origin {
     /// The grid `mesh`, in which the regions `seeded` were filled with points.
     pub fn new(mesh: Mesh<2>, seeded: &[bool]) -> Self {
-        let (locator, faces) = (Locator::new(&mesh), Faces::of(&mesh));
+        let locator = Locator::new(&mesh);
+        let faces = &locator.faces;
         let region = |c: u32| mesh.cells.region[c as usize];
         let is_soil = |c: u32| seeded[region(c) as usize];
         let mut free = Vec::new();
@@ -96,7 +95,6 @@ impl Origin {
             side_bins: Bins::new(sides.iter().map(|side| (side.ends[0], side.ends[1])), size),
             sides,
             locator,
-            faces,
             mesh,
         }
     }
@@ -120,7 +118,7 @@ impl Origin {
             if self.seeded[reached[i] as usize] {
                 return Some((reached[i], i == 0));
             }
-            for &next in self.faces.neighbours(reached[i]) {
+            for &next in self.locator.faces.neighbours(reached[i]) {
                 if !reached.contains(&next) {
                     reached.push(next);
                 }

@@ -149,28 +149,6 @@ fn walks_end_at_a_re_entrant_corner_and_the_bins_take_over() {
 }
 
 #[test]
-fn neighbours_are_mutual_and_share_the_facet() {
-    for kind in plane_kinds() {
-        let mesh = rectangle(kind, 1.0, 1.0, 4, 3, 0.1, 2);
-        let locator = Locator::new(&mesh);
-        let mut boundary = 0;
-        for c in 0..mesh.cells.len() as u32 {
-            for (f, &n) in locator.neighbours(c).iter().enumerate() {
-                if n == OUTSIDE {
-                    boundary += 1;
-                    continue;
-                }
-                let facet = kind.facets().1[f];
-                let nodes = facet.iter().map(|&i| mesh.cells.nodes(c as usize)[i]);
-                assert!(nodes.clone().all(|node| mesh.cells.nodes(n as usize).contains(&node)));
-                assert!(locator.neighbours(n).contains(&c));
-            }
-        }
-        assert_eq!(boundary, 14);
-    }
-}
-
-#[test]
 fn queries_run_in_parallel_and_an_empty_mesh_holds_nothing() {
     fn shared<T: Send + Sync>(_: &T) {}
     let mesh = Mesh::<2>::default();

@@ -157,24 +157,3 @@ fn boxes_hold_curved_cells() {
         }
     }
 }
-
-#[test]
-fn neighbours_are_mutual_and_share_the_face() {
-    for (kind, outside) in solid_kinds().zip([2 * 52, 52]) {
-        let mesh = brick(kind, [1.0; 3], [4, 3, 2], 0.1, 2);
-        let locator = Locator::new(&mesh);
-        let mut boundary = 0;
-        for c in 0..mesh.cells.len() as u32 {
-            for (f, &n) in locator.neighbours(c).iter().enumerate() {
-                if n == OUTSIDE {
-                    boundary += 1;
-                    continue;
-                }
-                let nodes = kind.facets().1[f].iter().map(|&i| mesh.cells.nodes(c as usize)[i]);
-                assert!(nodes.clone().all(|node| mesh.cells.nodes(n as usize).contains(&node)));
-                assert!(locator.neighbours(n).contains(&c));
-            }
-        }
-        assert_eq!(boundary, outside);
-    }
-}
