@@ -58,11 +58,10 @@ pub(super) struct Sample {
 /// only that fits the place. Points that were seeded evenly then fill a straight cell.
 pub(super) fn first_corners(first: &First<2>, points: &Points<2>, p: usize) -> Corners {
     let (cell, xi) = (points.cell[p] as usize, first.xi[p]);
-    let (kind, nodes) = (first.mesh.cells.kind[cell], first.mesh.cells.nodes(cell));
-    let mut x = [[0.0; 2]; MAX_NODES];
-    x.iter_mut().zip(nodes).for_each(|(x, &n)| *x = first.mesh.nodes[n as usize]);
+    let (kind, x) = (first.mesh.cells.kind[cell], first.mesh.coordinates(cell));
+    let count = kind.node_count();
     let (mut n, mut gradient) = ([0.0; MAX_NODES], [[0.0; 2]; MAX_NODES]);
-    let determinant = map(kind, &x[..nodes.len()], &xi, &mut n, &mut gradient);
+    let determinant = map(kind, &x[..count], &xi, &mut n, &mut gradient);
     let area = points.initial_volume[p] / (first.measure)(&points.position[p]);
     let part = if kind.is_simplex() {
         let side = (2.0 * area / determinant).sqrt();
@@ -75,7 +74,7 @@ pub(super) fn first_corners(first: &First<2>, points: &Points<2>, p: usize) -> C
     };
     let corners = part.map(|by| {
         kind.values(&[xi[0] + by[0], xi[1] + by[1], 0.0], &mut n);
-        [0, 1].map(|d| n.iter().zip(&x).take(nodes.len()).map(|(n, x)| n * x[d]).sum())
+        [0, 1].map(|d| n.iter().zip(&x).take(count).map(|(n, x)| n * x[d]).sum())
     });
     let centre = centroid(&corners);
     corners.map(|x| way(&centre, &x))

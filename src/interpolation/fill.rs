@@ -47,14 +47,9 @@ pub fn integrate<const D: usize, K: Kinematics<D>>(
     cell: usize,
     mut f: impl FnMut(f64, &[f64], &[[f64; D]]),
 ) -> f64 {
-    let kind = mesh.cells.kind[cell];
-    let nodes = mesh.cells.nodes(cell);
-    let mut x = [[0.0; D]; MAX_NODES];
-    for (x, &n) in x.iter_mut().zip(nodes) {
-        *x = mesh.nodes[n as usize];
-    }
+    let (kind, x) = (mesh.cells.kind[cell], mesh.coordinates(cell));
     let (mut n, mut gradient) = ([0.0; MAX_NODES], [[0.0; D]; MAX_NODES]);
-    let count = nodes.len();
+    let count = kind.node_count();
     let mut volume = 0.0;
     for (xi, weight) in rule(kind, 2 * kind.order()) {
         let det = shape::map(kind, &x[..count], &xi, &mut n, &mut gradient);

@@ -2,7 +2,7 @@
 
 use super::{CellPoints, Interpolation, Located, MAX_FUNCTIONS, Support};
 use crate::mesh::Mesh;
-use crate::mesh::shape::{self, MAX_NODES};
+use crate::mesh::shape;
 use rayon::prelude::*;
 use std::sync::Arc;
 
@@ -41,7 +41,7 @@ impl<const D: usize> Interpolation<D> {
         self.shape_gradient.clear();
         let numbers = std::mem::take(&mut self.points);
         self.slots().into_par_iter().for_each(|slot| {
-            let x = places(mesh, slot.cell_points);
+            let x = mesh.coordinates(slot.cell_points.cell as usize);
             let kind = mesh.cells.kind[slot.cell_points.cell as usize];
             let (count, stride) = (slot.cell_points.node_count as usize, slot.cell_points.function_count as usize);
             for k in 0..slot.cell_points.point_count as usize {
@@ -79,7 +79,7 @@ impl<const D: usize> Interpolation<D> {
         self.shape_gradient.resize(shapes, [0.0; D]);
         let numbers = std::mem::take(&mut self.points);
         self.slots().into_par_iter().for_each(|slot| {
-            let x = places(mesh, slot.cell_points);
+            let x = mesh.coordinates(slot.cell_points.cell as usize);
             let cell = slot.cell_points.cell as usize;
             let (own, count) = (slot.cell_points.shape_count as usize, slot.cell_points.node_count as usize);
             for k in 0..slot.cell_points.point_count as usize {
@@ -149,13 +149,4 @@ impl<const D: usize> Interpolation<D> {
             count[c as usize] += 1;
         }
     }
-}
-
-/// Where the nodes of the cell of a cell are.
-fn places<const D: usize>(mesh: &Mesh<D>, cell_points: &CellPoints) -> [[f64; D]; MAX_NODES] {
-    let mut x = [[0.0; D]; MAX_NODES];
-    for (x, &n) in x.iter_mut().zip(mesh.cells.nodes(cell_points.cell as usize)) {
-        *x = mesh.nodes[n as usize];
-    }
-    x
 }

@@ -14,7 +14,7 @@ pub mod side;
 
 pub use bodies::Bodies;
 
-use shape::CellKind;
+use shape::{CellKind, MAX_NODES};
 
 /// A mesh in `D` dimensions. Lengths in m.
 #[derive(Clone, Debug, Default)]
@@ -94,6 +94,15 @@ impl<const D: usize> Mesh<D> {
             cells.push(self.cells.kind[c], self.cells.region[c], self.cells.nodes(c));
         }
         Self { cells, nodes: self.nodes.clone(), regions: self.regions.clone(), groups: self.groups.clone() }
+    }
+
+    /// The coordinates of the nodes of cell `c`, in the cell's order, and zeros behind them.
+    pub fn coordinates(&self, c: usize) -> [[f64; D]; MAX_NODES] {
+        let mut x = [[0.0; D]; MAX_NODES];
+        for (x, &n) in x.iter_mut().zip(self.cells.nodes(c)) {
+            *x = self.nodes[n as usize];
+        }
+        x
     }
 
     /// The coordinates of the nodes of cell `c`, in the cell's order, into `out` (cleared first).

@@ -227,12 +227,10 @@ fn reached<const D: usize, K: Kinematics<D>>(
 
 /// `∫ (b h⁴ ∇∇N_I:∇∇N_J + a h² ∇N_I·∇N_J)` of a cell, row-major, given `a` and `b` (t/m³).
 fn weak_form<const D: usize, K: Kinematics<D>>(mesh: &Mesh<D>, cell: usize, [a, b]: [f64; 2]) -> Vec<f64> {
-    let (kind, nodes) = (mesh.cells.kind[cell], mesh.cells.nodes(cell));
+    let (kind, x) = (mesh.cells.kind[cell], mesh.coordinates(cell));
     let square = cell_size(mesh, cell).powi(2);
-    let mut x = [[0.0; D]; MAX_NODES];
-    x.iter_mut().zip(nodes).for_each(|(x, &n)| *x = mesh.nodes[n as usize]);
     let (mut value, mut gradient, mut second) = ([0.0; MAX_NODES], [[0.0; D]; MAX_NODES], [[[0.0; D]; D]; MAX_NODES]);
-    let count = nodes.len();
+    let count = kind.node_count();
     let mut form = vec![0.0; count * count];
     for (xi, weight) in rule(kind, 2 * kind.order()) {
         kind.values(&xi, &mut value);

@@ -210,7 +210,7 @@ impl<'a, const D: usize> Layered<'a, D> {
         let mut layered = Self {
             level_set: [0.0; MAX_NODES],
             height,
-            x: [[0.0; D]; MAX_NODES],
+            x: frame.mesh.coordinates(cell),
             frame,
             cell,
             acting: acting.on(first).map(|head| Momentary { band: BAND * head.band, ..head }),
@@ -218,7 +218,6 @@ impl<'a, const D: usize> Layered<'a, D> {
         };
         for (i, &n) in nodes.iter().enumerate() {
             layered.level_set[i] = frame.level_set[n as usize];
-            layered.x[i] = frame.mesh.nodes[n as usize];
         }
         if layered.level_set.iter().all(|&value| value >= 0.0) {
             // Full, as [`crate::surface::Filling`] has it: triangles with all corners on the surface belong to it.

@@ -10,7 +10,7 @@ mod blend;
 mod smoothing;
 
 use super::{Basis, Interpolation, Located};
-use crate::mesh::shape::{CellKind, MAX_NODES};
+use crate::mesh::shape::CellKind;
 use blend::{Blend, smoothed_nodes};
 use rayon::prelude::*;
 use std::sync::Arc;
@@ -52,12 +52,8 @@ fn smooth<const D: usize>(at: &Located<D>, interpolation: &mut Interpolation<D>)
         .par_iter()
         .zip(&kinds)
         .map(|(cell_points, &kind)| {
-            let nodes = mesh.cells.nodes(cell_points.cell as usize);
-            let mut x = [[0.0; D]; MAX_NODES];
-            for (x, &n) in x.iter_mut().zip(nodes) {
-                *x = mesh.nodes[n as usize];
-            }
-            Blend::new(kind, &x[..nodes.len()], at.measure)
+            let x = mesh.coordinates(cell_points.cell as usize);
+            Blend::new(kind, &x[..kind.node_count()], at.measure)
         })
         .collect();
     let mut volume = vec![0.0; mesh.cells.len()];

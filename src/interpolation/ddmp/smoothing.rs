@@ -48,11 +48,7 @@ impl Around {
 /// The gradients of a cell's functions at its smoothing nodes, node by node.
 fn own_gradients<const D: usize>(mesh: &Mesh<D>, cell: usize) -> Vec<[f64; D]> {
     let (kind, nodes) = (mesh.cells.kind[cell], mesh.cells.nodes(cell));
-    let mut x = [[0.0; D]; MAX_NODES];
-    for (x, &n) in x.iter_mut().zip(nodes) {
-        *x = mesh.nodes[n as usize];
-    }
-    let mut n = [0.0; MAX_NODES];
+    let (x, mut n) = (mesh.coordinates(cell), [0.0; MAX_NODES]);
     let mut gradients = vec![[0.0; D]; smoothed_nodes(kind) * nodes.len()];
     for (row, xi) in gradients.chunks_exact_mut(nodes.len()).zip(kind.node_coordinates()) {
         shape::map(kind, &x[..nodes.len()], xi, &mut n, row);

@@ -90,11 +90,7 @@ struct Shape {
 
 impl Shape {
     fn new(mesh: &Mesh<2>, cell: usize) -> Self {
-        let mut x = [[0.0; 2]; MAX_NODES];
-        for (x, &n) in x.iter_mut().zip(mesh.cells.nodes(cell)) {
-            *x = mesh.nodes[n as usize];
-        }
-        Self { kind: mesh.cells.kind[cell], x }
+        Self { kind: mesh.cells.kind[cell], x: mesh.coordinates(cell) }
     }
 
     fn place<K: Kinematics<2>>(&self, xi: [f64; 3], weight: f64) -> Place {
