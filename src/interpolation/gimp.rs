@@ -103,11 +103,7 @@ pub(super) struct Surroundings {
 impl Surroundings {
     pub fn of(mesh: &Mesh<2>) -> Self {
         let boxes = (0..mesh.cells.len()).map(|c| Rectangle::of(mesh, c)).collect();
-        let mut around: Vec<Vec<u32>> = vec![Vec::new(); mesh.nodes.len()];
-        for c in 0..mesh.cells.len() {
-            mesh.cells.nodes(c).iter().for_each(|&n| around[n as usize].push(c as u32));
-        }
-        Self { boxes, around }
+        Self { boxes, around: mesh.cells_at_nodes(|_| true) }
     }
 
     /// The cells that share a node with a cell, itself too, each as often as they share one.

@@ -43,10 +43,7 @@ impl Support {
 
     /// As [`Support::new`], where the others are the nodes of the cells in `active` that share a node with the cell.
     pub fn with_neighbours<const D: usize>(mesh: &Mesh<D>, active: &[bool]) -> Self {
-        let mut around: Vec<Vec<u32>> = vec![Vec::new(); mesh.nodes.len()];
-        for c in (0..mesh.cells.len()).filter(|&c| active[c]) {
-            mesh.cells.nodes(c).iter().for_each(|&n| around[n as usize].push(c as u32));
-        }
+        let around = mesh.cells_at_nodes(|c| active[c]);
         Self::new(mesh, active, |c, nodes| {
             let neighbours = mesh.cells.nodes(c).iter().flat_map(|&n| &around[n as usize]);
             nodes.extend(neighbours.flat_map(|&other| mesh.cells.nodes(other as usize)));

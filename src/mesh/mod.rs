@@ -96,6 +96,15 @@ impl<const D: usize> Mesh<D> {
         Self { cells, nodes: self.nodes.clone(), regions: self.regions.clone(), groups: self.groups.clone() }
     }
 
+    /// The cells at each node, ascending, of those that `counts` is true for.
+    pub fn cells_at_nodes(&self, counts: impl Fn(usize) -> bool) -> Vec<Vec<u32>> {
+        let mut at = vec![Vec::new(); self.nodes.len()];
+        for c in (0..self.cells.len()).filter(|&c| counts(c)) {
+            self.cells.nodes(c).iter().for_each(|&n| at[n as usize].push(c as u32));
+        }
+        at
+    }
+
     /// The coordinates of the nodes of cell `c`, in the cell's order, and zeros behind them.
     pub fn coordinates(&self, c: usize) -> [[f64; D]; MAX_NODES] {
         let mut x = [[0.0; D]; MAX_NODES];

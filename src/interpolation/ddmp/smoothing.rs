@@ -10,41 +10,6 @@ use crate::mesh::Mesh;
 use crate::mesh::shape::{self, MAX_NODES};
 use rayon::prelude::*;
 
-/// Cells by node.
-struct Around {
-    start: Vec<u32>,
-    cell: Vec<u32>,
-}
-
-impl Around {
-    /// The cells in `active` around each node, ascending.
-    fn new<const D: usize>(mesh: &Mesh<D>, active: &[bool]) -> Self {
-        let mut start = vec![0; mesh.nodes.len() + 1];
-        let cells = || (0..mesh.cells.len()).filter(|&c| active[c]);
-        for c in cells() {
-            for &n in mesh.cells.nodes(c) {
-                start[n as usize + 1] += 1;
-            }
-        }
-        for n in 0..mesh.nodes.len() {
-            start[n + 1] += start[n];
-        }
-        let mut next = start.clone();
-        let mut cell = vec![0; start[mesh.nodes.len()] as usize];
-        for c in cells() {
-            for &n in mesh.cells.nodes(c) {
-                cell[next[n as usize] as usize] = c as u32;
-                next[n as usize] += 1;
-            }
-        }
-        Self { start, cell }
-    }
-
-    fn of(&self, node: u32) -> &[u32] {
-        &self.cell[self.start[node as usize] as usize..self.start[node as usize + 1] as usize]
-    }
-}
-
 /// The gradients of a cell's functions at its smoothing nodes, node by node.
 fn own_gradients<const D: usize>(mesh: &Mesh<D>, cell: usize) -> Vec<[f64; D]> {
     let (kind, nodes) = (mesh.cells.kind[cell], mesh.cells.nodes(cell));
@@ -63,12 +28,12 @@ const ABSENT: u32 = u32::MAX;
 /// `(G_aI − g_aI)·e_j` of nodal values. `volume` is that of the cells with points, zero for the others; cells in
 /// `active` without points act on the same nodes as if they had some, so that they can take them up.
 pub fn extension<const D: usize>(mesh: &Mesh<D>, active: &[bool], volume: &[f64]) -> Extension {
-    let around = Around::new(mesh, active);
+    let around = mesh.cells_at_nodes(|c| active[c]);
     let own: Vec<Vec<[f64; D]>> = (0..mesh.cells.len())
         .into_par_iter()
         .map(|c| if volume[c] > 0.0 { own_gradients(mesh, c) } else { Vec::new() })
         .collect();
-    let total = |node: u32| -> f64 { around.of(node).iter().map(|&c| weight(mesh, c, node, volume)).sum() };
+    let total = |node: u32| -> f64 { around[node as usize].iter().map(|&c| weight(mesh, c, node, volume)).sum() };
     let total: Vec<f64> = (0..mesh.nodes.len() as u32).into_par_iter().map(total).collect();
     let scratch = || vec![ABSENT; mesh.nodes.len()];
     let cell = |place: &mut Vec<u32>, c: usize| {
@@ -117,7 +82,13 @@ fn weight<const D: usize>(mesh: &Mesh<D>, cell: u32, node: u32, volume: &[f64]) 
 }
 
 /// The nodes that a cell acts on, its own first; `place` says where each stands.
-fn gather_nodes<const D: usize>(mesh: &Mesh<D>, around: &Around, c: usize, place: &mut [u32], nodes: &mut Vec<u32>) {
+fn gather_nodes<const D: usize>(
+    mesh: &Mesh<D>,
+    around: &[Vec<u32>],
+    c: usize,
+    place: &mut [u32],
+    nodes: &mut Vec<u32>,
+) {
     let own = mesh.cells.nodes(c);
     let mut take = |n: u32| {
         if place[n as usize] == ABSENT {
@@ -127,7 +98,7 @@ fn gather_nodes<const D: usize>(mesh: &Mesh<D>, around: &Around, c: usize, place
     };
     own.iter().for_each(|&n| take(n));
     for &a in &own[..smoothed_nodes(mesh.cells.kind[c])] {
-        for &other in around.of(a) {
+        for &other in &around[a as usize] {
             if smoothed_nodes(mesh.cells.kind[other as usize]) > 0 {
                 mesh.cells.nodes(other as usize).iter().for_each(|&n| take(n));
             }
@@ -139,7 +110,7 @@ fn gather_nodes<const D: usize>(mesh: &Mesh<D>, around: &Around, c: usize, place
 #[expect(clippy::too_many_arguments, reason = "the cell and its surroundings")]
 fn combinations<const D: usize>(
     mesh: &Mesh<D>,
-    around: &Around,
+    around: &[Vec<u32>],
     c: usize,
     volume: &[f64],
     own: &[Vec<[f64; D]>],
@@ -159,7 +130,7 @@ fn combinations<const D: usize>(
             }
         };
         add(c, a, -1.0);
-        for &other in around.of(node) {
+        for &other in &around[node as usize] {
             let weight = weight(mesh, other, node, volume);
             if weight > 0.0
                 && let Some(b) = mesh.cells.nodes(other as usize).iter().position(|&n| n == node)

@@ -32,11 +32,8 @@ pub struct Around {
 
 impl Around {
     pub fn of(mesh: &Mesh<2>) -> Self {
-        let mut at = vec![Vec::new(); mesh.nodes.len()];
+        let at = mesh.cells_at_nodes(|_| true);
         let corners = |c: usize| &mesh.cells.nodes(c)[..mesh.cells.kind[c].corner_count()];
-        for c in 0..mesh.cells.len() {
-            corners(c).iter().for_each(|&n| at[n as usize].push(c as u32));
-        }
         let (mut first, mut cells) = (vec![0], Vec::new());
         for c in 0..mesh.cells.len() {
             let mut own: Vec<u32> = corners(c).iter().flat_map(|&n| &at[n as usize]).copied().collect();
