@@ -24,14 +24,9 @@ pub fn check(case: &Case, mesh: &Mesh<2>) -> Result<()> {
 /// may be drawn upon it.
 fn apart(grid: &Mesh<2>) -> Result<()> {
     let locator = Locator::new(grid);
-    let mut corners = Vec::new();
     for c in 0..grid.cells.len() {
-        let kind = grid.cells.kind[c];
-        grid.cell_coordinates(c, &mut corners);
-        corners.truncate(kind.corner_count());
-        let count = corners.len() as f64;
-        let centre = [0, 1].map(|d| corners.iter().map(|x| x[d]).sum::<f64>() / count);
-        let inwards = corners.iter().map(|x| [0, 1].map(|d| 0.8 * x[d] + 0.2 * centre[d]));
+        let (x, centre) = (grid.coordinates(c), grid.centre(c));
+        let inwards = x[..grid.cells.kind[c].corner_count()].iter().map(|x| [0, 1].map(|d| 0.8 * x[d] + 0.2 * centre[d]));
         for x in inwards.chain([centre]) {
             let Some(other) = locator.holders(grid, &x).find(|&other| other as usize != c) else { continue };
             let name = |c: usize| &grid.regions[grid.cells.region[c] as usize];

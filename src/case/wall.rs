@@ -77,11 +77,7 @@ pub fn facets(mesh: &Mesh<2>, body: &Body<2>, regions: &[u16]) -> Result<(CellKi
 /// The middles of the cells of some regions (m).
 fn middles(mesh: &Mesh<2>, regions: &[u16]) -> Vec<[f64; 2]> {
     let cells = (0..mesh.cells.len()).filter(|&c| regions.contains(&mesh.cells.region[c]));
-    let middle = |c: usize| {
-        let corners = &mesh.cells.nodes(c)[..mesh.cells.kind[c].corner_count()];
-        [0, 1].map(|d| corners.iter().map(|&n| mesh.nodes[n as usize][d]).sum::<f64>() / corners.len() as f64)
-    };
-    cells.map(middle).collect()
+    cells.map(|c| mesh.centre(c)).collect()
 }
 
 /// Whether the nearest of the `middles` of cells is on the left of a chain of facets.

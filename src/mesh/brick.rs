@@ -100,11 +100,7 @@ fn groups(mesh: &Mesh<3>, size: [f64; 3]) -> Vec<Group> {
     let boundary: Vec<_> = Faces::of(mesh).boundary.iter().map(facets).collect();
     let side = |(name, axis, at): (&str, usize, f64)| {
         let lies = |n: &u32| mesh.nodes[*n as usize][axis] == at;
-        let facets: Vec<_> = boundary.iter().filter(|(_, nodes)| nodes.iter().all(lies)).cloned().collect();
-        let mut nodes: Vec<u32> = facets.iter().flat_map(|(_, nodes)| nodes.iter().copied()).collect();
-        nodes.sort_unstable();
-        nodes.dedup();
-        Group { name: name.into(), dimension: 2, facets, nodes }
+        Group::of(name, 2, boundary.iter().filter(|(_, nodes)| nodes.iter().all(lies)).cloned().collect())
     };
     let [x, y, z] = size;
     let sides =

@@ -54,17 +54,8 @@ pub fn rectangle(kind: CellKind, lx: f64, ly: f64, nx: usize, ny: usize, jitter:
     mesh.groups = sides
         .into_iter()
         .map(|(name, line)| {
-            let facets: Vec<_> = line
-                .windows(2)
-                .map(|pair| {
-                    let within = of_side(&middles, pair[0], pair[1]);
-                    (facet, pair.iter().copied().chain(within).collect::<Vec<u32>>())
-                })
-                .collect();
-            let mut nodes: Vec<u32> = facets.iter().flat_map(|(_, n)| n.iter().copied()).collect();
-            nodes.sort_unstable();
-            nodes.dedup();
-            Group { name: name.into(), dimension: 1, facets, nodes }
+            let nodes = |pair: &[u32]| pair.iter().copied().chain(of_side(&middles, pair[0], pair[1])).collect();
+            Group::of(name, 1, line.windows(2).map(|pair| (facet, nodes(pair))).collect())
         })
         .collect();
     mesh

@@ -202,14 +202,8 @@ fn root(joined: &mut [u16], mut region: u16) -> u16 {
 
 /// The name of cell `c` in a message.
 pub fn place_of(mesh: &Mesh<2>, c: usize, file: &Path) -> String {
-    let (region, [x, y]) = (&mesh.regions[usize::from(mesh.cells.region[c])], centre(mesh, c));
+    let (region, [x, y]) = (&mesh.regions[usize::from(mesh.cells.region[c])], mesh.centre(c));
     format!("{}, cell {c} of region {region} near ({x:.6}, {y:.6})", file.display())
-}
-
-/// The mean place of the corners of cell `c` (m).
-pub(super) fn centre(mesh: &Mesh<2>, c: usize) -> [f64; 2] {
-    let corners = &mesh.cells.nodes(c)[..mesh.cells.kind[c].corner_count()];
-    [0, 1].map(|d| corners.iter().map(|&n| mesh.nodes[n as usize][d]).sum::<f64>() / corners.len() as f64)
 }
 
 #[cfg(test)]
@@ -321,12 +315,8 @@ mod tests {
             let mut mesh = whole.clone();
             mesh.groups[2].facets[0].1[1] = 2;
             assert!(refused(&mesh).contains("is no edge of a cell"), "{kind:?}");
-            let point = |nodes: &[u32]| Group {
-                name: "corner".into(),
-                dimension: 0,
-                facets: nodes.iter().map(|&n| (CellKind::Point1, vec![n])).collect(),
-                nodes: nodes.to_vec(),
-            };
+            let point =
+                |nodes: &[u32]| Group::of("corner", 0, nodes.iter().map(|&n| (CellKind::Point1, vec![n])).collect());
             let mut mesh = whole.clone();
             mesh.groups.push(point(&[0, 1]));
             check(&mesh, Path::new("mesh.msh")).unwrap();

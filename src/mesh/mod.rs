@@ -51,6 +51,16 @@ pub struct Group {
     pub nodes: Vec<u32>,
 }
 
+impl Group {
+    /// A group of facets.
+    pub fn of(name: impl Into<String>, dimension: usize, facets: Vec<(CellKind, Vec<u32>)>) -> Self {
+        let mut nodes: Vec<u32> = facets.iter().flat_map(|(_, nodes)| nodes.iter().copied()).collect();
+        nodes.sort_unstable();
+        nodes.dedup();
+        Self { name: name.into(), dimension, facets, nodes }
+    }
+}
+
 impl Default for Cells {
     fn default() -> Self {
         Self { kind: Vec::new(), region: Vec::new(), offset: vec![0], nodes: Vec::new() }
@@ -94,6 +104,13 @@ impl<const D: usize> Mesh<D> {
             cells.push(self.cells.kind[c], self.cells.region[c], self.cells.nodes(c));
         }
         Self { cells, nodes: self.nodes.clone(), regions: self.regions.clone(), groups: self.groups.clone() }
+    }
+
+    /// The mean place (m) of the corners of cell `c`.
+    pub fn centre(&self, c: usize) -> [f64; D] {
+        let corners = &self.cells.nodes(c)[..self.cells.kind[c].corner_count()];
+        let sum = |d| corners.iter().map(|&n| self.nodes[n as usize][d]).sum::<f64>();
+        std::array::from_fn(|d| sum(d) / corners.len() as f64)
     }
 
     /// The cells at each node, ascending, of those that `counts` is true for.

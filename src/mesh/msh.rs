@@ -189,7 +189,7 @@ fn assemble(read: Sections, place: &str) -> Result<Mesh<2>> {
     for dimension in [1, 0] {
         for physical in physical_groups(&read, dimension, place)? {
             let place = format!("{place}, physical group {}", physical.name);
-            let mut group = Group { name: physical.name, dimension, facets: Vec::new(), nodes: Vec::new() };
+            let mut of_group = Vec::new();
             for block in physical.entities.iter().flat_map(|&entity| blocks.of_entity(dimension, entity)) {
                 if dimension == 1 && block.kind.order() != order {
                     let problem = format!("it has {:?} elements beside cells of order {order}", block.kind);
@@ -209,16 +209,13 @@ fn assemble(read: Sections, place: &str) -> Result<Mesh<2>> {
                             "embed it in a surface (`Curve{…} In Surface{…};`) or take it out",
                         ));
                     }
-                    group.facets.push((block.kind, nodes));
+                    of_group.push((block.kind, nodes));
                 }
             }
-            if group.facets.is_empty() {
+            if of_group.is_empty() {
                 return Err(Error::input(place, "it has no elements", AGAIN));
             }
-            group.nodes = group.facets.iter().flat_map(|(_, nodes)| nodes.iter().copied()).collect();
-            group.nodes.sort_unstable();
-            group.nodes.dedup();
-            mesh.groups.push(group);
+            mesh.groups.push(Group::of(physical.name, dimension, of_group));
         }
     }
     Ok(mesh)

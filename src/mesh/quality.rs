@@ -13,6 +13,7 @@ use super::Mesh;
 use super::conformity;
 use super::shape::{self, CellKind, MAX_NODES};
 use crate::error::{Error, Result};
+use crate::geometry::{cross, dot, way};
 
 /// Up to this quality a cell counts as flat, and up to this ratio of the least to the largest Bernstein coefficient of
 /// `det J` as folded: at the fourth root of the rounding of `f64` half of the digits of its stiffness are lost.
@@ -72,7 +73,7 @@ pub fn check(mesh: &Mesh<2>, file: &Path) -> Result<Summary> {
         sum += quality;
         jacobian = jacobian.min(least / largest);
         if quality < worst.0 {
-            worst = (quality, c, conformity::centre(mesh, c));
+            worst = (quality, c, mesh.centre(c));
         }
     }
     conformity::check(mesh, file)?;
@@ -109,19 +110,15 @@ pub fn coincident(nodes: &[[f64; 2]]) -> Vec<Vec<u32>> {
 
 /// Quality of a triangle or quadrilateral with these corners (-): 1 at best, 0 if flat, negative if inverted.
 pub fn quality(corners: &[[f64; 2]]) -> f64 {
-    let edge = |i: usize, j: usize| {
-        let (a, b) = (corners[i % corners.len()], corners[j % corners.len()]);
-        [b[0] - a[0], b[1] - a[1]]
-    };
-    let cross = |a: [f64; 2], b: [f64; 2]| a[0] * b[1] - a[1] * b[0];
-    let square = |a: [f64; 2]| a[0] * a[0] + a[1] * a[1];
+    let edge = |i: usize, j: usize| way(&corners[i % corners.len()], &corners[j % corners.len()]);
+    let square = |a: [f64; 2]| dot(&a, &a);
     if corners.len() == 3 {
         let squares = square(edge(0, 1)) + square(edge(1, 2)) + square(edge(2, 0));
-        return 2.0 * 3f64.sqrt() * cross(edge(0, 1), edge(0, 2)) / squares;
+        return 2.0 * 3f64.sqrt() * cross(&edge(0, 1), &edge(0, 2)) / squares;
     }
     let corner = |i: usize| {
         let (a, b) = (edge(i, i + 1), edge(i, i + corners.len() - 1));
-        2.0 * cross(a, b) / (square(a) + square(b))
+        2.0 * cross(&a, &b) / (square(a) + square(b))
     };
     (0..corners.len()).map(corner).fold(f64::INFINITY, f64::min)
 }

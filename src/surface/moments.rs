@@ -4,7 +4,7 @@
 //! parametric domain: curved cells keep their shape. Areas and volumes are per metre in plane strain and per
 //! full turn (2π) in axisymmetry, by [`Kinematics::measure`].
 
-use super::split::{Barycentric, corners, positive, triangles};
+use super::split::{Barycentric, CORNERS, corners, positive, triangles};
 use crate::geometry::twice_area;
 use crate::kinematics::Kinematics;
 use crate::mesh::Mesh;
@@ -26,10 +26,8 @@ pub type Moments = [f64; 6];
 impl CellFrame {
     /// The frame of cell `c`.
     pub fn of(mesh: &Mesh<2>, c: usize) -> Self {
-        let x = &mesh.cells.nodes(c)[..mesh.cells.kind[c].corner_count()];
-        let x = |i: usize| mesh.nodes[x[i % x.len()] as usize];
-        let count = mesh.cells.kind[c].corner_count();
-        let centre = [0, 1].map(|d| (0..count).map(|i| x(i)[d]).sum::<f64>() / count as f64);
+        let (centre, count) = (mesh.centre(c), mesh.cells.kind[c].corner_count());
+        let x = |i: usize| mesh.nodes[mesh.cells.nodes(c)[i % count] as usize];
         let area: f64 = (0..count).map(|i| 0.5 * twice_area(&[centre, x(i), x(i + 1)])).sum();
         Self { centre, length: area.abs().sqrt() }
     }
@@ -212,8 +210,6 @@ pub fn is_affine(mesh: &Mesh<2>, c: usize) -> bool {
         (0..2).all(|d| (image[d] - x(i)[d]).abs() <= 1e-13 * size + 4.0 * f64::EPSILON * x(i)[d].abs())
     })
 }
-
-const CORNERS: [Barycentric; 3] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
 
 /// The place with barycentric coordinates `l` in the triangle `x`.
 fn place(x: &[[f64; 2]; 3], l: &Barycentric) -> [f64; 2] {

@@ -7,6 +7,9 @@ use crate::mesh::shape::CellKind;
 /// Barycentric coordinates in a triangle.
 pub type Barycentric = [f64; 3];
 
+/// The corners of a triangle.
+pub const CORNERS: [Barycentric; 3] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+
 /// The triangles between the nodes of a plane kind, counter-clockwise, as local node numbers. Two cells that
 /// share an edge split it alike.
 pub fn triangles(kind: CellKind) -> &'static [[usize; 3]] {
@@ -75,7 +78,6 @@ pub fn barycentric(kind: CellKind, xi: &[f64; 3]) -> (&'static [usize; 3], Baryc
 /// triangle do; `fraction` is the piece's share of the area, positive and with full relative accuracy however
 /// thin the piece is.
 pub fn positive(v: &[f64; 3], mut piece: impl FnMut(&[Barycentric; 3], f64)) {
-    const CORNER: [Barycentric; 3] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
     // Where the function vanishes between a positive corner `i` and another one `j`, as a share of their distance.
     let share = |i: usize, j: usize| v[i] / (v[i] - v[j]);
     let between = |i: usize, j: usize, t: f64| {
@@ -90,18 +92,18 @@ pub fn positive(v: &[f64; 3], mut piece: impl FnMut(&[Barycentric; 3], f64)) {
             let i = inside.iter().position(|&inside| inside).unwrap_or(0);
             let (j, k) = ((i + 1) % 3, (i + 2) % 3);
             let (s, t) = (share(i, j), share(i, k));
-            piece(&[CORNER[i], between(i, j, s), between(i, k, t)], s * t);
+            piece(&[CORNERS[i], between(i, j, s), between(i, k, t)], s * t);
         }
         2 => {
             let k = inside.iter().position(|&inside| !inside).unwrap_or(0);
             let (i, j) = ((k + 1) % 3, (k + 2) % 3);
             let (s, t) = (share(i, k), share(j, k));
             let (on_s, on_t) = (between(i, k, s), between(j, k, t));
-            piece(&[CORNER[i], CORNER[j], on_t], t);
+            piece(&[CORNERS[i], CORNERS[j], on_t], t);
             // `1 − t` without cancellation, from the values themselves.
-            piece(&[CORNER[i], on_t, on_s], s * (v[k] / (v[k] - v[j])));
+            piece(&[CORNERS[i], on_t, on_s], s * (v[k] / (v[k] - v[j])));
         }
-        _ => piece(&CORNER, 1.0),
+        _ => piece(&CORNERS, 1.0),
     }
 }
 

@@ -254,10 +254,9 @@ fn with_strip(mut mesh: Mesh<2>) -> Mesh<2> {
         mesh.cells.push(kind, region, &nodes);
     }
     for group in block.groups {
-        let facets: Vec<_> =
+        let facets =
             group.facets.into_iter().map(|(kind, n)| (kind, n.into_iter().map(|n| n + first).collect())).collect();
-        let nodes = group.nodes.iter().map(|n| n + first).collect();
-        mesh.groups.push(Group { name: format!("strip_{}", group.name), dimension: 1, facets, nodes });
+        mesh.groups.push(Group::of(format!("strip_{}", group.name), 1, facets));
     }
     mesh
 }
