@@ -57,9 +57,8 @@ impl Places {
 
     /// The places of the pressure field of a cell: its corners, and its constant.
     pub fn of_field<const D: usize>(self, mesh: &Mesh<D>, cell: usize) -> impl Iterator<Item = u32> {
-        let kind = mesh.cells.kind[cell];
-        let constant = (kind.order() > 1).then_some(self.constant(cell) as u32);
-        mesh.cells.nodes(cell)[..kind.corner_count()].iter().copied().chain(constant)
+        let constant = (mesh.cells.kind[cell].order() > 1).then_some(self.constant(cell) as u32);
+        mesh.cells.corners(cell).iter().copied().chain(constant)
     }
 
     /// The places of the first `fields` scalar fields of a cell: its corners, field by field.
@@ -69,7 +68,7 @@ impl Places {
         cell: usize,
         fields: usize,
     ) -> impl Iterator<Item = u32> + '_ {
-        let corners = &mesh.cells.nodes(cell)[..mesh.cells.kind[cell].corner_count()];
+        let corners = mesh.cells.corners(cell);
         (0..fields).flat_map(move |k| corners.iter().map(move |&n| self.field(k, n) as u32))
     }
 }

@@ -25,9 +25,9 @@ pub fn check(case: &Case, mesh: &Mesh<2>) -> Result<()> {
 fn apart(grid: &Mesh<2>) -> Result<()> {
     let locator = Locator::new(grid);
     for c in 0..grid.cells.len() {
-        let (x, centre) = (grid.coordinates(c), grid.centre(c));
-        let inwards = x[..grid.cells.kind[c].corner_count()].iter().map(|x| [0, 1].map(|d| 0.8 * x[d] + 0.2 * centre[d]));
-        for x in inwards.chain([centre]) {
+        let centre = grid.centre(c);
+        let inwards = |&n: &u32| [0, 1].map(|d| 0.8 * grid.nodes[n as usize][d] + 0.2 * centre[d]);
+        for x in grid.cells.corners(c).iter().map(inwards).chain([centre]) {
             let Some(other) = locator.holders(grid, &x).find(|&other| other as usize != c) else { continue };
             let name = |c: usize| &grid.regions[grid.cells.region[c] as usize];
             let (place, what) = match (name(c), name(other as usize)) {

@@ -215,7 +215,7 @@ pub(super) fn pressures_at_corners(scene: &Scene<2>, watches: Vec<Watch>) -> Vec
     let mut corner = vec![false; scene.mesh.nodes.len()];
     for mesh in std::iter::once(&scene.mesh).chain(scene.fem.iter().map(|fem| &fem.mesh)) {
         for c in 0..mesh.cells.len() {
-            for &n in &mesh.cells.nodes(c)[..mesh.cells.kind[c].corner_count()] {
+            for &n in mesh.cells.corners(c) {
                 corner[n as usize] = true;
             }
         }

@@ -89,6 +89,11 @@ impl Cells {
     pub fn nodes(&self, c: usize) -> &[u32] {
         &self.nodes[self.offset[c] as usize..self.offset[c + 1] as usize]
     }
+
+    /// Those of its corners.
+    pub fn corners(&self, c: usize) -> &[u32] {
+        &self.nodes(c)[..self.kind[c].corner_count()]
+    }
 }
 
 impl<const D: usize> Mesh<D> {
@@ -108,7 +113,7 @@ impl<const D: usize> Mesh<D> {
 
     /// The mean place (m) of the corners of cell `c`.
     pub fn centre(&self, c: usize) -> [f64; D] {
-        let corners = &self.cells.nodes(c)[..self.cells.kind[c].corner_count()];
+        let corners = self.cells.corners(c);
         let sum = |d| corners.iter().map(|&n| self.nodes[n as usize][d]).sum::<f64>();
         std::array::from_fn(|d| sum(d) / corners.len() as f64)
     }

@@ -11,9 +11,7 @@ fn grid(kind: CellKind, n: usize, region: impl Fn([f64; 2]) -> u16) -> Mesh<2> {
     let mut mesh = rectangle(kind, 4.0, 4.0, n, n, 0.0, 1);
     mesh.nodes.iter_mut().flatten().for_each(|x| *x -= 2.0);
     for c in 0..mesh.cells.len() {
-        let corners = &mesh.cells.nodes(c)[..kind.corner_count()];
-        let mean = |d: usize| corners.iter().map(|&n| mesh.nodes[n as usize][d]).sum::<f64>() / corners.len() as f64;
-        mesh.cells.region[c] = region([mean(0), mean(1)]);
+        mesh.cells.region[c] = region(mesh.centre(c));
     }
     mesh.regions = ["air", "clay", "sand"].map(String::from).to_vec();
     mesh

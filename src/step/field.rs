@@ -55,7 +55,7 @@ pub fn to_points<const D: usize, K: Kinematics<D>>(
         let Scalar::Other(column, _) = scalar else { continue };
         for cell_points in &interpolation.filled {
             let kind = mesh.cells.kind[cell_points.cell as usize];
-            let corners = &mesh.cells.nodes(cell_points.cell as usize)[..kind.corner_count()];
+            let corners = mesh.cells.corners(cell_points.cell as usize);
             for entries in interpolation.entries::<K>(cell_points) {
                 let shapes = pressure_shapes(kind, entries.shape);
                 let change = |(shape, &n): (&f64, &u32)| {

@@ -137,7 +137,7 @@ fn widen<const D: usize>(cells: &[Filled<D>], around: &mut [Around<D>]) {
     for filled in cells {
         for cell_points in &filled.interpolation.filled {
             let cell = cell_points.cell as usize;
-            let corners = &filled.mesh.cells.nodes(cell)[..filled.mesh.cells.kind[cell].corner_count()];
+            let corners = filled.mesh.cells.corners(cell);
             let ranges = corners.iter().map(|&n| own[n as usize]);
             let whole = ranges.fold([f64::INFINITY, f64::NEG_INFINITY], |a, b| [a[0].min(b[0]), a[1].max(b[1])]);
             for &n in corners {
@@ -164,7 +164,7 @@ fn visit<const D: usize, K: Kinematics<D>>(
                 let point = entries.point;
                 let Some(value) = value(filled.points, point) else { continue };
                 let shapes = pressure_shapes(kind, entries.shape);
-                let corners = || shapes.iter().zip(&filled.mesh.cells.nodes(cell)[..kind.corner_count()]);
+                let corners = || shapes.iter().zip(filled.mesh.cells.corners(cell));
                 let there: f64 = corners().map(|(shape, &n)| shape * field[n as usize]).sum();
                 for (shape, &n) in corners().filter(|(shape, _)| **shape > 0.0) {
                     let (node, weight, missing) = (n as usize, entries.weight * shape, value - there);
@@ -211,10 +211,7 @@ mod tests {
         fields.map(|exact| {
             let mut field = vec![0.0; mesh.nodes.len()];
             fit::<2, K>(&[cells], |points, p| Some(exact(&points.position[p])), &mut field);
-            let corners = points.cell.iter().flat_map(|&c| {
-                let kind = mesh.cells.kind[c as usize];
-                mesh.cells.nodes(c as usize)[..kind.corner_count()].iter()
-            });
+            let corners = points.cell.iter().flat_map(|&c| mesh.cells.corners(c as usize));
             let size = points.position.iter().map(|x| exact(x).abs()).fold(0.0, f64::max);
             let error = |&n: &u32| (field[n as usize] - exact(&mesh.nodes[n as usize])).abs() / size;
             corners.map(error).fold(0.0, f64::max)

@@ -22,7 +22,7 @@ pub fn gather<const D: usize, K: Kinematics<D>>(cells: Filled<D>, places: Places
         let (mut left, mut all) = (0.0, 0.0);
         for entries in interpolation.entries::<K>(cell_points) {
             let shapes = pressure_shapes(kind, entries.shape);
-            let corners = &mesh.cells.nodes(cell)[..kind.corner_count()];
+            let corners = mesh.cells.corners(cell);
             let there: f64 = shapes.iter().zip(corners).map(|(shape, &n)| shape * field[n as usize]).sum();
             left += entries.weight * (points.pressure[entries.point] - there);
             all += entries.weight;

@@ -104,7 +104,7 @@ pub fn at<const D: usize>(scene: &Scene<D>, state: &State<D>) -> Option<Relaxed<
 fn check<const D: usize>(first: &Mesh<D>, mesh: &Mesh<D>) -> Result<()> {
     const { assert!(D == 2, "the quality of cells is known in the plane only") };
     let quality = |mesh: &Mesh<D>, c: usize| {
-        let corners = &mesh.cells.nodes(c)[..mesh.cells.kind[c].corner_count()];
+        let corners = mesh.cells.corners(c);
         let x: Vec<[f64; 2]> = corners.iter().map(|&n| [0, 1].map(|d| mesh.nodes[n as usize][d])).collect();
         quality::quality(&x)
     };
@@ -129,7 +129,7 @@ impl Corners {
         let mut number = vec![u32::MAX; mesh.nodes.len()];
         let mut node = Vec::new();
         for c in 0..mesh.cells.len() {
-            for &n in &mesh.cells.nodes(c)[..mesh.cells.kind[c].corner_count()] {
+            for &n in mesh.cells.corners(c) {
                 if number[n as usize] == u32::MAX {
                     number[n as usize] = node.len() as u32;
                     node.push(n);

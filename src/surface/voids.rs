@@ -183,9 +183,8 @@ fn extent<const D: usize>(mesh: &Mesh<D>, cells: &[u32], emptiness: &[f64]) -> (
     cells.iter().for_each(|&c| is_own[c as usize] = true);
     let (mut sum, mut first) = (0.0, [0.0; D]);
     for c in (0..mesh.cells.len()).filter(|&c| emptiness[c] > 0.0) {
-        let own = mesh.cells.nodes(c);
-        if is_own[c] || own.iter().any(|n| nodes.contains(n)) {
-            let corners = &own[..mesh.cells.kind[c].corner_count()];
+        if is_own[c] || mesh.cells.nodes(c).iter().any(|n| nodes.contains(n)) {
+            let corners = mesh.cells.corners(c);
             let outline: Vec<[f64; 2]> = corners.iter().map(|&n| [0, 1].map(|d| mesh.nodes[n as usize][d])).collect();
             let empty = emptiness[c] * area(&outline);
             sum += empty;

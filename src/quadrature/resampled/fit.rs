@@ -33,10 +33,9 @@ pub struct Around {
 impl Around {
     pub fn of(mesh: &Mesh<2>) -> Self {
         let at = mesh.cells_at_nodes(|_| true);
-        let corners = |c: usize| &mesh.cells.nodes(c)[..mesh.cells.kind[c].corner_count()];
         let (mut first, mut cells) = (vec![0], Vec::new());
         for c in 0..mesh.cells.len() {
-            let mut own: Vec<u32> = corners(c).iter().flat_map(|&n| &at[n as usize]).copied().collect();
+            let mut own: Vec<u32> = mesh.cells.corners(c).iter().flat_map(|&n| &at[n as usize]).copied().collect();
             own.sort_unstable();
             own.dedup();
             cells.extend(own.into_iter().filter(|&other| other != c as u32));
