@@ -61,8 +61,8 @@ impl<'a, const D: usize> Bodies<'a, D> {
     }
 }
 
-/// The root of `n`, with the way to it shortened.
-fn root(parent: &mut [u32], mut n: u32) -> u32 {
+/// The root of `n` where each number leads to another of the same set or, a root, to itself; shortens the way there.
+pub fn root(parent: &mut [u32], mut n: u32) -> u32 {
     while parent[n as usize] != n {
         let above = parent[n as usize];
         parent[n as usize] = parent[above as usize];

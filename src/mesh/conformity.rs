@@ -7,6 +7,7 @@
 //! one another: a structure does on the grid.
 
 use super::Mesh;
+use super::bodies::root;
 use super::locate::Locator;
 use super::shape::{CellKind, MAX_NODES};
 use crate::error::{Error, Result};
@@ -46,7 +47,7 @@ enum Role {
 pub fn check(mesh: &Mesh<2>, file: &Path) -> Result<()> {
     check_roles(mesh, file)?;
     let edges = edges(mesh);
-    let mut joined: Vec<u16> = (0..=u16::MAX).take(mesh.regions.len()).collect();
+    let mut joined: Vec<u32> = (0..mesh.regions.len() as u32).collect();
     let mut boundary = Vec::new();
     for same in edges.chunk_by(|a, b| a.ends == b.ends) {
         let wrong = |problem: &str| Error::input(place_of(mesh, same[0].cell as usize, file), problem, REMEDY);
@@ -59,12 +60,12 @@ pub fn check(mesh: &Mesh<2>, file: &Path) -> Result<()> {
                 let region = &mesh.regions[usize::from(mesh.cells.region[b.cell as usize])];
                 return Err(wrong(&format!("it and its neighbour of region {region} lie on one another")));
             }
-            [a, b] => join(&mut joined, mesh.cells.region[a.cell as usize], mesh.cells.region[b.cell as usize]),
+            [a, b] => join(&mut joined, [a, b].map(|edge| mesh.cells.region[edge.cell as usize])),
             _ => return Err(wrong("more than two cells share one of its edges")),
         }
     }
     check_groups(mesh, &edges, file)?;
-    let joined: Vec<u16> = (0..joined.len()).map(|region| root(&mut joined, region as u16)).collect();
+    let joined: Vec<u32> = (0..joined.len() as u32).map(|region| root(&mut joined, region)).collect();
     check_overlap(mesh, &boundary, &joined, file)
 }
 
@@ -155,7 +156,7 @@ fn check_groups(mesh: &Mesh<2>, edges: &[Edge], file: &Path) -> Result<()> {
 }
 
 /// No node of the `boundary` and no centre of a cell there lies deep in another cell of the same or a joined region.
-fn check_overlap(mesh: &Mesh<2>, boundary: &[Edge], joined: &[u16], file: &Path) -> Result<()> {
+fn check_overlap(mesh: &Mesh<2>, boundary: &[Edge], joined: &[u32], file: &Path) -> Result<()> {
     let part = |c: u32| joined[usize::from(mesh.cells.region[c as usize])];
     let locator = Locator::new(mesh);
     let mut n = [0.0; MAX_NODES];
@@ -185,19 +186,9 @@ fn ascending(a: u32, b: u32) -> [u32; 2] {
 }
 
 /// Notes in `joined` that two regions share an edge.
-fn join(joined: &mut [u16], a: u16, b: u16) {
-    let (a, b) = (root(joined, a), root(joined, b));
-    joined[usize::from(a.max(b))] = a.min(b);
-}
-
-/// The lowest of the regions that `region` is joined to.
-fn root(joined: &mut [u16], mut region: u16) -> u16 {
-    while joined[usize::from(region)] != region {
-        // Halves the way for the next who asks.
-        joined[usize::from(region)] = joined[usize::from(joined[usize::from(region)])];
-        region = joined[usize::from(region)];
-    }
-    region
+fn join(joined: &mut [u32], regions: [u16; 2]) {
+    let [a, b] = regions.map(|region| root(joined, u32::from(region)));
+    joined[a.max(b) as usize] = a.min(b);
 }
 
 /// The name of cell `c` in a message.

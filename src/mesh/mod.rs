@@ -1,6 +1,6 @@
 //! The mesh: nodes, cells of any mixture of kinds, and the named groups of the `.geo`.
 
-mod bodies;
+pub mod bodies;
 pub mod brick;
 pub mod builder;
 pub mod conformity;

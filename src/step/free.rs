@@ -9,6 +9,7 @@ use super::scene::Scene;
 use super::state::State;
 use crate::error::Error;
 use crate::mesh::Mesh;
+use crate::mesh::bodies::root;
 use crate::rigid::across;
 use crate::system::is_singular;
 use nalgebra::DMatrix;
@@ -90,15 +91,6 @@ fn bodies<const D: usize>(scene: &Scene<D>, state: &State<D>, grid: &Grid<D>) ->
         bodies.entry(name.unwrap_or_else(|| "a part without material".to_owned())).or_default().push(n);
     }
     bodies
-}
-
-/// The lowest node of the body of node `n`; shortens the way there.
-fn root(to: &mut [u32], mut n: u32) -> u32 {
-    while to[n as usize] != n {
-        to[n as usize] = to[to[n as usize] as usize];
-        n = to[n as usize];
-    }
-    n
 }
 
 /// The system with what its equations are of.
