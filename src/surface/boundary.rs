@@ -7,11 +7,12 @@
 //! the loop runs along that, in pieces that are *wall* and not free surface.
 
 use super::geometry::Geometry;
+use super::loops::loops;
 use super::split::triangles;
+use crate::geometry::way;
 use crate::mesh::Mesh;
 use crate::mesh::faces::BOUNDARY;
 use crate::mesh::shape::{CellKind, MAX_NODES};
-use std::collections::BTreeMap;
 
 /// The region of a piece that no point is near: there is nothing that could bear a load.
 pub const NO_REGION: u16 = u16::MAX;
@@ -67,15 +68,10 @@ impl ActiveBoundary {
             add_cell(mesh, geometry, level_set, c, &mut found);
         }
         let mut boundary = Self { pieces: Vec::with_capacity(found.len()), first: vec![0] };
-        let mut outgoing: BTreeMap<Vertex, Vec<usize>> = BTreeMap::new();
-        for (number, (from, ..)) in found.iter().enumerate() {
-            outgoing.entry(*from).or_default().push(number);
-        }
-        let mut used = vec![false; found.len()];
-        for start in 0..found.len() {
-            let mut at = start;
-            while !std::mem::replace(&mut used[at], true) {
-                let (_, to, mut piece) = found[at];
+        let ends: Vec<[Vertex; 2]> = found.iter().map(|(from, to, _)| [*from, *to]).collect();
+        for of_loop in loops(&ends, |number| direction(mesh, &found[number].2)) {
+            for number in of_loop {
+                let mut piece = found[number].2;
                 let Behind { region, host } = behind(piece.cell, &position(mesh, &piece, 0.5));
                 piece.region = region;
                 if host != piece.cell {
@@ -85,20 +81,8 @@ impl ActiveBoundary {
                     }
                 }
                 boundary.pieces.push(piece);
-                let along = direction(mesh, &piece);
-                // Where bodies touch in a node, the sharpest turn to the left stays with the same one.
-                let turn = |&number: &usize| {
-                    let other = direction(mesh, &found[number].2);
-                    (along[0] * other[1] - along[1] * other[0]).atan2(along[0] * other[0] + along[1] * other[1])
-                };
-                let next = outgoing.get(&to).into_iter().flatten().copied().filter(|&n| !used[n]);
-                let Some(next) = next.max_by(|a, b| turn(a).total_cmp(&turn(b))) else { break };
-                at = next;
             }
-            let count = boundary.pieces.len() as u32;
-            if boundary.first.last() != Some(&count) {
-                boundary.first.push(count);
-            }
+            boundary.first.push(boundary.pieces.len() as u32);
         }
         boundary
     }
@@ -139,8 +123,7 @@ fn position(mesh: &Mesh<2>, piece: &Piece, t: f64) -> [f64; 2] {
 }
 
 fn direction(mesh: &Mesh<2>, piece: &Piece) -> [f64; 2] {
-    let (a, b) = (position(mesh, piece, 0.0), position(mesh, piece, 1.0));
-    [b[0] - a[0], b[1] - a[1]]
+    way(&position(mesh, piece, 0.0), &position(mesh, piece, 1.0))
 }
 
 impl Piece {

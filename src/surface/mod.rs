@@ -13,6 +13,7 @@ mod fixture;
 mod front;
 mod geometry;
 mod layers;
+mod loops;
 pub mod moments;
 mod split;
 mod voids;
