@@ -205,31 +205,26 @@ impl Item for Tensor {
     }
 }
 
-impl Item for u16 {
-    const TYPE: Type = Type::U16;
-    const COMPONENTS: usize = 1;
+/// Whole numbers, which have no sum and no mean.
+macro_rules! whole {
+    ($number:ident, $type:ident) => {
+        impl Item for $number {
+            const TYPE: Type = Type::$type;
+            const COMPONENTS: usize = 1;
 
-    fn to_numbers(items: &[Self]) -> Numbers {
-        Numbers::U16(items.to_vec())
-    }
+            fn to_numbers(items: &[Self]) -> Numbers {
+                Numbers::$type(items.to_vec())
+            }
 
-    fn from_numbers(numbers: Numbers) -> Vec<Self> {
-        if let Numbers::U16(values) = numbers { values } else { Vec::new() }
-    }
+            fn from_numbers(numbers: Numbers) -> Vec<Self> {
+                if let Numbers::$type(values) = numbers { values } else { Vec::new() }
+            }
+        }
+    };
 }
 
-impl Item for u32 {
-    const TYPE: Type = Type::U32;
-    const COMPONENTS: usize = 1;
-
-    fn to_numbers(items: &[Self]) -> Numbers {
-        Numbers::U32(items.to_vec())
-    }
-
-    fn from_numbers(numbers: Numbers) -> Vec<Self> {
-        if let Numbers::U32(values) = numbers { values } else { Vec::new() }
-    }
-}
+whole!(u16, U16);
+whole!(u32, U32);
 
 /// Vectors of `D` components padded with zeros to three.
 pub fn padded<const D: usize>(vectors: &[[f64; D]]) -> Vec<f64> {
