@@ -36,6 +36,14 @@ pub fn cross(a: &[f64; 2], b: &[f64; 2]) -> f64 {
     a[0] * b[1] - a[1] * b[0]
 }
 
+/// Lowest and highest corner (m) of the box around places; `None` without any.
+pub fn box_around<const D: usize>(places: impl IntoIterator<Item = [f64; D]>) -> Option<[[f64; D]; 2]> {
+    places.into_iter().fold(None, |bounds, x| {
+        let [low, high] = bounds.unwrap_or([x; 2]);
+        Some([std::array::from_fn(|d| low[d].min(x[d])), std::array::from_fn(|d| high[d].max(x[d]))])
+    })
+}
+
 /// The place at a share (-) of a line.
 pub fn at<const D: usize>([a, b]: &Line<D>, share: f64) -> [f64; D] {
     std::array::from_fn(|d| a[d] + share * (b[d] - a[d]))

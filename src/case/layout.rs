@@ -3,6 +3,7 @@
 use super::checked::{Case, Content, Touched, Touching};
 use super::find::region_index;
 use crate::error::{Error, Result};
+use crate::geometry::box_around;
 use crate::mesh::locate::Locator;
 use crate::mesh::{Group, Mesh};
 use crate::time_value::TimeValue;
@@ -50,14 +51,6 @@ pub type Bounds = [[f64; 2]; 2];
 /// The box around the cells of a mesh; `None` without cells.
 pub(super) fn bounds(mesh: &Mesh<2>) -> Option<Bounds> {
     box_around(mesh.cells.nodes.iter().map(|&n| mesh.nodes[n as usize]))
-}
-
-/// The box around places (m); `None` without any.
-pub(super) fn box_around(places: impl Iterator<Item = [f64; 2]>) -> Option<Bounds> {
-    places.fold(None, |bounds, x| {
-        let [low, high] = bounds.unwrap_or([x; 2]);
-        Some([[0, 1].map(|d| low[d].min(x[d])), [0, 1].map(|d| high[d].max(x[d]))])
-    })
 }
 
 /// How far (m) two boxes are apart; 0 where they meet.

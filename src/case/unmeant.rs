@@ -3,8 +3,9 @@
 //! Each has a bound that no sound case comes near to; what may be meant is not warned of.
 
 use super::checked::{Case, Content, Phase, Touched, Touching};
-use super::layout::{Bounds, bounds, box_around, gap, moves};
+use super::layout::{Bounds, bounds, gap, moves};
 use super::unconnected::Place;
+use crate::geometry::box_around;
 use crate::mesh::quality::SAME;
 use crate::mesh::{Mesh, cell_size};
 use crate::time_value::TimeValue;

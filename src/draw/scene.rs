@@ -2,6 +2,7 @@
 
 use super::curves::WIDTH;
 use super::{Canvas, Drawn, HPos, INK, Picture, RGBColor, Text, VPos};
+use crate::geometry::box_around;
 use crate::mesh::{Group, Mesh};
 use plotters::prelude::DrawingBackend;
 
@@ -57,10 +58,8 @@ impl Frame {
 
 impl Scene<'_> {
     fn frame(&self) -> Frame {
-        let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
-        for x in self.mesh.cells.nodes.iter().map(|&n| self.mesh.nodes[n as usize]) {
-            (low, high) = ([0, 1].map(|d| low[d].min(x[d])), [0, 1].map(|d| high[d].max(x[d])));
-        }
+        let places = self.mesh.cells.nodes.iter().map(|&n| self.mesh.nodes[n as usize]);
+        let [low, high] = box_around(places).unwrap_or_default();
         let extent = [0, 1].map(|d| (high[d] - low[d]).max(f64::MIN_POSITIVE));
         let scale = ((f64::from(WIDTH) - 2.0 * SPACE) / extent[0]).min(HIGHEST / extent[1]);
         Frame { low, scale, size: extent.map(|length| length * scale) }

@@ -1,5 +1,7 @@
 //! Which of many boxes are near a place: a uniform grid of bins.
 
+use super::box_around;
+
 /// Items by the bins that their boxes touch, in ascending order within a bin.
 #[derive(Clone, Debug, Default)]
 pub struct Bins {
@@ -16,13 +18,8 @@ const MOST: f64 = 2048.0;
 impl Bins {
     /// Bins at least `side` wide over boxes given by opposite corners.
     pub fn new(boxes: impl Iterator<Item = ([f64; 2], [f64; 2])> + Clone, side: f64) -> Self {
-        let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
-        for (a, b) in boxes.clone() {
-            for d in 0..2 {
-                low[d] = low[d].min(a[d]).min(b[d]);
-                high[d] = high[d].max(a[d]).max(b[d]);
-            }
-        }
+        let around = box_around(boxes.clone().flat_map(|(a, b)| [a, b]));
+        let Some([low, high]) = around else { return Self::default() };
         if !(low[0] <= high[0] && low[1] <= high[1] && side > 0.0) {
             return Self::default();
         }

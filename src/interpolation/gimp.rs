@@ -15,6 +15,7 @@
 
 use super::domain::{at_the_place, first_corners};
 use super::{Basis, Domains, First, Interpolation, Located, Place, Reset, Support};
+use crate::geometry::box_around;
 use crate::mesh::Mesh;
 use crate::mesh::shape::CellKind;
 use crate::points::Points;
@@ -155,13 +156,8 @@ pub(super) struct Rectangle {
 impl Rectangle {
     /// That about the nodes of a cell.
     pub fn of(mesh: &Mesh<2>, cell: usize) -> Self {
-        let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
-        for &n in mesh.cells.nodes(cell) {
-            for d in 0..2 {
-                low[d] = low[d].min(mesh.nodes[n as usize][d]);
-                high[d] = high[d].max(mesh.nodes[n as usize][d]);
-            }
-        }
+        let nodes = mesh.cells.nodes(cell).iter().map(|&n| mesh.nodes[n as usize]);
+        let [low, high] = box_around(nodes).unwrap_or_default();
         Self { low, high }
     }
 }

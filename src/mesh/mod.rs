@@ -14,6 +14,7 @@ pub mod side;
 
 pub use bodies::Bodies;
 
+use crate::geometry::box_around;
 use shape::{CellKind, MAX_NODES};
 
 /// A mesh in `D` dimensions. Lengths in m.
@@ -151,12 +152,6 @@ pub const fn height<const D: usize>(x: &[f64; D]) -> f64 {
 
 /// The diagonal of the box around a cell's nodes (m).
 pub fn cell_size<const D: usize>(mesh: &Mesh<D>, cell: usize) -> f64 {
-    let (mut low, mut high) = ([f64::INFINITY; D], [f64::NEG_INFINITY; D]);
-    for &n in mesh.cells.nodes(cell) {
-        for d in 0..D {
-            low[d] = low[d].min(mesh.nodes[n as usize][d]);
-            high[d] = high[d].max(mesh.nodes[n as usize][d]);
-        }
-    }
-    (0..D).map(|d| (high[d] - low[d]).powi(2)).sum::<f64>().sqrt()
+    let nodes = mesh.cells.nodes(cell).iter().map(|&n| mesh.nodes[n as usize]);
+    box_around(nodes).map_or(0.0, |[low, high]| (0..D).map(|d| (high[d] - low[d]).powi(2)).sum::<f64>().sqrt())
 }

@@ -16,7 +16,7 @@ mod structures;
 #[cfg(test)]
 mod tests;
 
-use crate::geometry::Bins;
+use crate::geometry::{Bins, box_around};
 use crate::mesh::locate::Locator;
 use crate::mesh::{Mesh, cell_size};
 use crate::points::Points;
@@ -92,11 +92,8 @@ impl Soil {
     /// Where points with these displacements (m) were, when these were counted from a frame whose points were at `places`
     /// (m) and had been seeded at `origins` (m): as far from the origin of the nearest one as from its place.
     pub fn traced(now: &[[f64; 2]], places: &[[f64; 2]], origins: &[[f64; 2]]) -> Vec<[f64; 2]> {
-        let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
-        for x in places {
-            (0..2).for_each(|d| (low[d], high[d]) = (low[d].min(x[d]), high[d].max(x[d])));
-        }
-        let side = ((high[0] - low[0]) * (high[1] - low[1]) / places.len().max(1) as f64).sqrt();
+        let Some([low, high]) = box_around(places.iter().copied()) else { return now.to_vec() };
+        let side = ((high[0] - low[0]) * (high[1] - low[1]) / places.len() as f64).sqrt();
         let bins = Bins::new(places.iter().map(|x| (*x, *x)), 2.0 * side);
         let square = |a: &[f64; 2], b: &[f64; 2]| (a[0] - b[0]).powi(2) + (a[1] - b[1]).powi(2);
         let trace = |x: &[f64; 2]| {
@@ -293,9 +290,7 @@ struct Piece {
 
 /// The pieces as triangles whose corners are shared.
 fn assemble(mesh: &Mesh<2>, pieces: impl Iterator<Item = Piece>, regions: &[u16], fields: &[Nodal]) -> Body {
-    let (low, high) = mesh.nodes.iter().fold(([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]), |(l, h), x| {
-        ([0, 1].map(|d| x[d].min(l[d])), [0, 1].map(|d| x[d].max(h[d])))
-    });
+    let [low, high] = box_around(mesh.nodes.iter().copied()).unwrap_or_default();
     let unit = SAME * (high[0] - low[0]).max(high[1] - low[1]);
     let mut body = Body::default();
     let mut numbers: HashMap<(usize, [i64; 2]), u32> = HashMap::new();

@@ -1,7 +1,7 @@
 //! The structures that stand in the soil, as triangles.
 
 use super::origin::Outline;
-use crate::geometry::{Bins, Line, twice_area};
+use crate::geometry::{Bins, Line, box_around, twice_area};
 use std::collections::BTreeMap;
 
 /// Triangles of structures where they are now, and their outline.
@@ -18,14 +18,9 @@ impl Structures {
     /// Those of counter-clockwise triangles between places (m) by number; distances count up to `reach` (m).
     pub fn new(places: &[[f64; 2]], corners: &[[u32; 3]], reach: f64) -> Self {
         let triangles: Vec<[[f64; 2]; 3]> = corners.iter().map(|t| t.map(|i| places[i as usize])).collect();
-        let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
+        let none = [[f64::INFINITY; 2], [f64::NEG_INFINITY; 2]];
+        let [low, high] = box_around(triangles.iter().flatten().copied()).unwrap_or(none);
         let boxes: Vec<_> = triangles.iter().map(bounds).collect();
-        for (a, b) in &boxes {
-            for d in 0..2 {
-                low[d] = low[d].min(a[d]);
-                high[d] = high[d].max(b[d]);
-            }
-        }
         // A side that one triangle alone has is on the outline.
         let mut sides: BTreeMap<[u32; 2], (u32, Line<2>)> = BTreeMap::new();
         for t in corners {
