@@ -27,6 +27,7 @@ pub fn way<const D: usize>(from: &[f64; D], to: &[f64; D]) -> [f64; D] {
     std::array::from_fn(|d| to[d] - from[d])
 }
 
+#[inline]
 pub fn dot<const D: usize>(a: &[f64; D], b: &[f64; D]) -> f64 {
     (1..D).fold(a[0] * b[0], |sum, d| sum + a[d] * b[d])
 }

@@ -180,11 +180,6 @@ fn bisect(low: &mut f64, high: &mut f64, tolerance: f64, f: impl Fn(f64) -> (f64
     x
 }
 
-/// The plastic volume strain (-) in a state, positive in compression.
-fn compressed(state: &State) -> f64 {
-    state.internal.first().copied().unwrap_or(0.0)
-}
-
 impl CamClay {
     /// Clay of constant moduli.
     ///
@@ -348,7 +343,7 @@ impl PrincipalModel for CamClay {
     fn yield_excess(&self, y: f64, stress: &[f64; 3], state: &State) -> f64 {
         let [a, b, c] = stress;
         let q = (0.5 * ((a - b).powi(2) + (b - c).powi(2) + (c - a).powi(2))).sqrt();
-        Self::excess(self.slope(state), -(a + b + c) / 3.0, q, self.size(y, compressed(state)))
+        Self::excess(self.slope(state), -(a + b + c) / 3.0, q, self.size(y, state.first_variable()))
     }
 }
 
@@ -409,7 +404,7 @@ impl Model for CamClay {
 
     fn shear_strength(&self, y: f64, state: &State) -> f64 {
         // q = M p at p = p_c/2, where yield does not change the volume; in simple shear it is √3 times the shear stress.
-        self.slope(state) * 0.5 * self.size(y, compressed(state)) / 3f64.sqrt()
+        self.slope(state) * 0.5 * self.size(y, state.first_variable()) / 3f64.sqrt()
     }
 
     fn reduced(&self, factor: f64) -> Arc<dyn Model> {

@@ -52,6 +52,13 @@ pub struct State<'a> {
     pub strength: f64,
 }
 
+impl State<'_> {
+    /// The first internal variable; of initial values, 0.
+    pub fn first_variable(&self) -> f64 {
+        self.internal.first().copied().unwrap_or(0.0)
+    }
+}
+
 /// Nothing has happened yet, and the strength is that of the parameters.
 impl Default for State<'_> {
     fn default() -> Self {

@@ -24,6 +24,7 @@
 
 use super::model::equivalent_plastic;
 use super::{Moduli, Response, State};
+use crate::geometry::dot;
 
 /// Planes of a polyhedral model at one height. Stresses in kPa, tension positive.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -229,11 +230,6 @@ fn descending(v: &[f64; 3]) -> [usize; 3] {
         }
     }
     order
-}
-
-#[inline]
-fn dot(a: &[f64; 3], b: &[f64; 3]) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
 /// Inverse of a 1×1 or 2×2 matrix.

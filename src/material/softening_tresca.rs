@@ -179,11 +179,6 @@ impl SofteningTresca {
     }
 }
 
-/// ξ in a state.
-fn sheared_before(state: &State) -> f64 {
-    state.internal.first().copied().unwrap_or(0.0)
-}
-
 /// The plastic shear strain of a return.
 fn sheared(trial: &[f64; 3], response: &Response) -> f64 {
     trial.iter().zip(&response.elastic_strain).map(|(t, e)| (t - e).abs()).sum()
@@ -266,7 +261,7 @@ impl PrincipalModel for SofteningTresca {
     }
 
     fn yield_excess(&self, y: f64, stress: &[f64; 3], state: &State) -> f64 {
-        Self::planes(self.first(y, state), self.softening.factor(sheared_before(state), 0.0, 0.0).0).excess(stress)
+        Self::planes(self.first(y, state), self.softening.factor(state.first_variable(), 0.0, 0.0).0).excess(stress)
     }
 }
 
@@ -288,7 +283,7 @@ impl Model for SofteningTresca {
     }
 
     fn shear_strength(&self, y: f64, state: &State) -> f64 {
-        self.first(y, state) * self.softening.factor(sheared_before(state), 0.0, 0.0).0
+        self.first(y, state) * self.softening.factor(state.first_variable(), 0.0, 0.0).0
     }
 
     fn reduced(&self, factor: f64) -> Arc<dyn Model> {

@@ -15,6 +15,7 @@ use super::water::{self, Corners, Porous};
 use super::{Assembly, Frame, Term, Trial};
 use crate::dofs::PORE_PRESSURE;
 use crate::error::Result;
+use crate::geometry::dot;
 use crate::kinematics::Kinematics;
 use crate::mesh::shape::{CellKind, MAX_NODES, rule};
 use crate::surface::{NO_REGION, Piece};
@@ -219,8 +220,9 @@ impl<K: Kinematics<2>> Term<2> for DrainedSurface<K> {
         let open = frame.open.iter().filter(|piece| self.drains(piece));
         for (piece, host) in open.filter_map(|piece| Some((piece, hosts.get(&piece.host)?))) {
             let (_, pressure) = Self::pressures(frame, trial, piece);
-            let dot = |a: &Corners| a.iter().zip(&pressure).map(|(a, p)| a * p).sum::<f64>();
-            Self::visit(host, trial, piece, |shapes, flow, hold| sum += dot(flow) + hold * dot(shapes));
+            Self::visit(host, trial, piece, |shapes, flow, hold| {
+                sum += dot(flow, &pressure) + hold * dot(shapes, &pressure);
+            });
         }
         sum
     }

@@ -28,6 +28,7 @@ use super::mixed::{Answer, Coupling, Point, Seen, Within};
 use super::mixed_pressure::{MixedPressure, volume_strain};
 use super::volume_measure::{ITERATIONS, Measure};
 use super::{Frame, History, Mixed, Ratios, Trial};
+use crate::geometry::dot;
 use crate::interpolation::{CellPoints, Entries, reach_beyond_cells};
 use crate::kinematics::Kinematics;
 use crate::material::spatial::Spatial;
@@ -78,10 +79,6 @@ pub fn gather(kind: CellKind, nodes: &[u32], constant: usize, pressure: &[f64]) 
         own[corners] = pressure[constant];
     }
     own
-}
-
-fn dot(a: &Coefficients, b: &Coefficients) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
 /// The pressure field of a scene.

@@ -4,6 +4,7 @@
 
 use super::{Assembly, Frame, Role, Term, Trial};
 use crate::error::Result;
+use crate::geometry::dot;
 use crate::kinematics::Kinematics;
 use crate::mesh::shape::{CellKind, MAX_NODES, rule};
 use crate::mesh::{Group, Mesh};
@@ -69,7 +70,6 @@ fn facet_point<const D: usize>(
             tangent[1][d] += dn[i][1] * coordinate;
         }
     }
-    let dot = |a: &[f64; D], b: &[f64; D]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
     let [a, b] = &tangent;
     let stretch =
         if kind.dimension() == 2 { (dot(a, a) * dot(b, b) - dot(a, b).powi(2)).sqrt() } else { dot(a, a).sqrt() };

@@ -21,6 +21,7 @@
 use super::mixed::{Coupling, Point};
 use super::{Frame, History, Mixed, Trial};
 use crate::dofs::PORE_PRESSURE;
+use crate::geometry::dot;
 use crate::interpolation::{CellPoints, Coefficients, Entries};
 use crate::kinematics::{Gradient, Kinematics};
 use crate::material::Model;
@@ -169,10 +170,6 @@ impl<const D: usize> Cell<D> {
             K::push_forward(&sum, &inverse).g
         })
     }
-}
-
-fn dot(a: &Corners, b: &Corners) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
 impl<const D: usize, K: Kinematics<D>> Mixed<D, K> for PoreWater<K> {
