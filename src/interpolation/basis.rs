@@ -129,9 +129,10 @@ pub trait Basis<const D: usize>: fmt::Debug + Send + Sync {
     }
 
     /// The nodes that the points of each cell act on, for the matrix to couple; `None` where these are those of the cell. They
-    /// are nodes of active cells, and depend on the grid and its active cells, not on where the points are.
-    fn support(&self, _mesh: &Mesh<D>, _active: &[bool]) -> Option<Support> {
-        None
+    /// are nodes of active cells, and depend on the grid and its active cells, not on where the points are. Points with domains act on the nodes
+    /// of the cells around theirs.
+    fn support(&self, mesh: &Mesh<D>, active: &[bool]) -> Option<Support> {
+        (self.domain_size() > 0).then(|| Support::with_neighbours(mesh, active))
     }
 
     /// Numbers that describe the domain of a point ([`Points::domain`]); none for schemes whose points have no extent.

@@ -22,7 +22,7 @@
 //! grid the polynomial ends with it. Where it does so at a corner that enters the grid, it is linear towards both sides of the corner.
 
 use super::gimp::{self, Gimp, Rectangle, Surroundings, slanted};
-use super::{Basis, First, Interpolation, Located, Reset, Support};
+use super::{Basis, First, Interpolation, Located, Reset};
 use crate::mesh::Mesh;
 use crate::mesh::shape::CellKind;
 use crate::points::Points;
@@ -58,10 +58,6 @@ impl Basis<2> for Composite {
 
     fn is_symmetric(&self) -> bool {
         false
-    }
-
-    fn support(&self, mesh: &Mesh<2>, active: &[bool]) -> Option<Support> {
-        Gimp::STRETCHED.support(mesh, active)
     }
 
     fn domain_size(&self) -> usize {

@@ -10,13 +10,10 @@
 //! It needs values of `N` only, so that cells may have any shape. The first domain is the part of the cell that the point stands for: a
 //! parallelogram in cells that are parallelograms, a triangle in triangles.
 
-use super::domain::{self, corners, deformed, first_corners};
-use super::{Basis, First, Interpolation, Located, Reset, Support};
+use super::domain::{self, NUMBERS, corners, deformed, first_corners};
+use super::{Basis, First, Interpolation, Located, Reset};
 use crate::mesh::Mesh;
 use crate::points::Points;
-
-/// Numbers of a domain (m): from the point to its corners at first, and as of the last reset.
-const NUMBERS: usize = 16;
 
 /// The scheme.
 #[derive(Clone, Copy, Debug)]
@@ -29,10 +26,6 @@ impl Basis<2> for Cpdi {
 
     fn refusal(&self, mesh: &Mesh<2>) -> Option<[String; 2]> {
         domain::crowded(mesh)
-    }
-
-    fn support(&self, mesh: &Mesh<2>, active: &[bool]) -> Option<Support> {
-        Some(Support::with_neighbours(mesh, active))
     }
 
     fn domain_size(&self) -> usize {

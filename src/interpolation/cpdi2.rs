@@ -14,15 +14,12 @@
 //! reset before, which is of second order in the change of its angles. A corner outside of the active cells takes the motion of the cell of the
 //! point, extended. A domain whose corners are nearly in line becomes that of CPDI, and its corners move with the grid from there.
 
-use super::domain::{self, Corners, centroid, convexity, corners, deformed, first_corners};
-use super::{Basis, First, Interpolation, Located, Reset, Support};
+use super::domain::{self, Corners, NUMBERS, centroid, convexity, corners, deformed, first_corners};
+use super::{Basis, First, Interpolation, Located, Reset};
 use crate::mesh::Mesh;
 use crate::mesh::shape::MAX_NODES;
 use crate::points::Points;
 use rayon::prelude::*;
-
-/// Numbers of a domain (m): from the point to its corners at first, and the corners as of the last reset.
-const NUMBERS: usize = 16;
 
 /// Least Jacobian determinant in a domain over its mean (-). At zero its corners lie on a line and beyond it overlaps itself; a step can
 /// take a tenth.
@@ -39,10 +36,6 @@ impl Basis<2> for Cpdi2 {
 
     fn refusal(&self, mesh: &Mesh<2>) -> Option<[String; 2]> {
         domain::crowded(mesh)
-    }
-
-    fn support(&self, mesh: &Mesh<2>, active: &[bool]) -> Option<Support> {
-        Some(Support::with_neighbours(mesh, active))
     }
 
     fn domain_size(&self) -> usize {

@@ -24,6 +24,9 @@ use crate::tensor::Tensor;
 /// Vectors from the point to the corners of its domain (m), counterclockwise.
 pub(super) type Corners = [[f64; 2]; 4];
 
+/// Numbers of a domain (m): from the point to its corners at first, and the corners as of the last reset.
+pub(super) const NUMBERS: usize = 16;
+
 /// The signs of the parametric coordinates of the corners.
 const SIGNS: [[f64; 2]; 4] = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
 

@@ -61,10 +61,6 @@ impl Basis<2> for Gimp {
         true
     }
 
-    fn support(&self, mesh: &Mesh<2>, active: &[bool]) -> Option<Support> {
-        Some(Support::with_neighbours(mesh, active))
-    }
-
     fn domain_size(&self) -> usize {
         if self.stretches { 4 } else { 2 }
     }
