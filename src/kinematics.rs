@@ -167,11 +167,69 @@ impl<const HOOP: bool> Kinematics<2> for Plane<HOOP> {
     }
 
     fn convect(answer: &mut Spatial<Self::Tangent>, q: &Tensor) {
-        convect_plane(answer, q);
+        // Rows and columns in the order xx, xy, yx, yy, zz.
+        let (first, tau) = (answer.tangent, full(&answer.kirchhoff));
+        let stress = q * tau * q.transpose();
+        for column in 0..5 {
+            let (k, l) = (column / 2, column % 2);
+            let mut strain = [0.0; 5];
+            if column < 4 {
+                for m in 0..2 {
+                    for n in 0..2 {
+                        strain[2 * m + n] = 0.5 * (q[(k, m)] * q[(l, n)] + q[(l, m)] * q[(k, n)]);
+                    }
+                }
+            } else {
+                strain[4] = q[(2, 2)] * q[(2, 2)];
+            }
+            // The change of the stress beyond that of the area which it acts on.
+            let rate: [f64; 5] = std::array::from_fn(|row| {
+                let along = if row < 4 {
+                    let (m, n) = (row / 2, row % 2);
+                    strain[2 * m] * tau[(0, n)] + strain[2 * m + 1] * tau[(1, n)]
+                } else {
+                    strain[4] * tau[(2, 2)]
+                };
+                (0..5).map(|c| first[row][c] * strain[c]).sum::<f64>() - along
+            });
+            for i in 0..2 {
+                for j in 0..2 {
+                    let mut sum = if column < 4 && i == k { stress[(j, l)] } else { 0.0 };
+                    for m in 0..2 {
+                        for n in 0..2 {
+                            sum += q[(i, m)] * rate[2 * m + n] * q[(j, n)];
+                        }
+                    }
+                    answer.tangent[2 * i + j][column] = sum;
+                }
+            }
+            answer.tangent[4][column] = q[(2, 2)] * rate[4] * q[(2, 2)];
+        }
+        answer.tangent[4][4] += stress[(2, 2)];
+        answer.kirchhoff = symmetric(&stress);
     }
 
     fn weight(tangent: &mut Self::Tangent, a: &Tensor, kirchhoff: &Symmetric, w: &Tensor) {
-        weight_plane(tangent, a, kirchhoff, w);
+        let tau = full(kirchhoff);
+        let carried = *tangent;
+        for i in 0..2 {
+            for j in 0..2 {
+                for column in 0..5 {
+                    let mixed = a[(i, 0)] * carried[j][column] + a[(i, 1)] * carried[2 + j][column];
+                    let stress = if column < 4 {
+                        let (k, l) = (column / 2, column % 2);
+                        -a[(i, k)] * tau[(j, l)] + if i == k { w[(j, l)] } else { 0.0 }
+                    } else {
+                        0.0
+                    };
+                    tangent[2 * i + j][column] = mixed + stress;
+                }
+            }
+        }
+        for column in 0..5 {
+            tangent[4][column] = a[(2, 2)] * carried[4][column];
+        }
+        tangent[4][4] += w[(2, 2)] - a[(2, 2)] * tau[(2, 2)];
     }
 
     fn add_pressure(tangent: &mut Self::Tangent, pressure: f64) {
@@ -224,71 +282,4 @@ impl<const HOOP: bool> Kinematics<2> for Plane<HOOP> {
         }
         block
     }
-}
-
-/// [`Kinematics::convect`] in the plane, rows and columns in the order xx, xy, yx, yy, zz.
-fn convect_plane(answer: &mut Spatial<PlaneTangent>, q: &Tensor) {
-    let (first, tau) = (answer.tangent, full(&answer.kirchhoff));
-    let stress = q * tau * q.transpose();
-    for column in 0..5 {
-        let (k, l) = (column / 2, column % 2);
-        let mut strain = [0.0; 5];
-        if column < 4 {
-            for m in 0..2 {
-                for n in 0..2 {
-                    strain[2 * m + n] = 0.5 * (q[(k, m)] * q[(l, n)] + q[(l, m)] * q[(k, n)]);
-                }
-            }
-        } else {
-            strain[4] = q[(2, 2)] * q[(2, 2)];
-        }
-        // The change of the stress beyond that of the area which it acts on.
-        let rate: [f64; 5] = std::array::from_fn(|row| {
-            let along = if row < 4 {
-                let (m, n) = (row / 2, row % 2);
-                strain[2 * m] * tau[(0, n)] + strain[2 * m + 1] * tau[(1, n)]
-            } else {
-                strain[4] * tau[(2, 2)]
-            };
-            (0..5).map(|c| first[row][c] * strain[c]).sum::<f64>() - along
-        });
-        for i in 0..2 {
-            for j in 0..2 {
-                let mut sum = if column < 4 && i == k { stress[(j, l)] } else { 0.0 };
-                for m in 0..2 {
-                    for n in 0..2 {
-                        sum += q[(i, m)] * rate[2 * m + n] * q[(j, n)];
-                    }
-                }
-                answer.tangent[2 * i + j][column] = sum;
-            }
-        }
-        answer.tangent[4][column] = q[(2, 2)] * rate[4] * q[(2, 2)];
-    }
-    answer.tangent[4][4] += stress[(2, 2)];
-    answer.kirchhoff = symmetric(&stress);
-}
-
-/// [`Kinematics::weight`] in the plane, rows and columns in the order xx, xy, yx, yy, zz.
-fn weight_plane(tangent: &mut PlaneTangent, a: &Tensor, kirchhoff: &Symmetric, w: &Tensor) {
-    let tau = full(kirchhoff);
-    let carried = *tangent;
-    for i in 0..2 {
-        for j in 0..2 {
-            for column in 0..5 {
-                let mixed = a[(i, 0)] * carried[j][column] + a[(i, 1)] * carried[2 + j][column];
-                let stress = if column < 4 {
-                    let (k, l) = (column / 2, column % 2);
-                    -a[(i, k)] * tau[(j, l)] + if i == k { w[(j, l)] } else { 0.0 }
-                } else {
-                    0.0
-                };
-                tangent[2 * i + j][column] = mixed + stress;
-            }
-        }
-    }
-    for column in 0..5 {
-        tangent[4][column] = a[(2, 2)] * carried[4][column];
-    }
-    tangent[4][4] += w[(2, 2)] - a[(2, 2)] * tau[(2, 2)];
 }
