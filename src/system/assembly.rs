@@ -81,11 +81,7 @@ impl Matrix {
 
     /// Adds to the diagonal entry of equation `e`.
     pub fn add_diagonal(&mut self, pattern: &Pattern, e: usize, value: f64) {
-        let first = pattern.column[e] as usize;
-        let column = &pattern.row[first..pattern.column[e + 1] as usize];
-        if let Some(k) = column.iter().position(|&row| row as usize == e) {
-            self.values[first + k] += value;
-        }
+        self.values[diagonal_place(pattern, e)] += value;
     }
 
     /// The matrix in `count` groups of columns with about as many entries each.
@@ -204,21 +200,13 @@ impl Matrix {
 
     /// The diagonal.
     pub fn diagonal(&self, pattern: &Pattern) -> Vec<f64> {
-        let entry = |j: usize| {
-            let column = pattern.column[j] as usize..pattern.column[j + 1] as usize;
-            self.values[column.start + pattern.row[column].partition_point(|&row| (row as usize) < j)]
-        };
-        (0..pattern.len()).map(entry).collect()
+        (0..pattern.len()).map(|e| self.values[diagonal_place(pattern, e)]).collect()
     }
 
     /// Makes the `wanted` of the first equations stiffer by a share of their diagonal.
     pub fn dampen(&mut self, pattern: &Pattern, wanted: &[bool], share: f64) {
-        for (j, _) in wanted.iter().enumerate().filter(|(_, wanted)| **wanted) {
-            for k in pattern.column[j] as usize..pattern.column[j + 1] as usize {
-                if pattern.row[k] as usize == j {
-                    self.values[k] *= 1.0 + share;
-                }
-            }
+        for e in (0..wanted.len()).filter(|&e| wanted[e]) {
+            self.values[diagonal_place(pattern, e)] *= 1.0 + share;
         }
     }
 
@@ -231,6 +219,12 @@ impl Matrix {
     pub fn scale(&self, pattern: &Pattern) -> f64 {
         self.diagonal(pattern).iter().fold(f64::MIN_POSITIVE, |scale, d| scale.max(d.abs()))
     }
+}
+
+/// Where the diagonal entry of equation `e` stands among the values.
+fn diagonal_place(pattern: &Pattern, e: usize) -> usize {
+    let column = pattern.column[e] as usize..pattern.column[e + 1] as usize;
+    column.start + pattern.row[column].partition_point(|&row| (row as usize) < e)
 }
 
 /// Some columns of a matrix.
