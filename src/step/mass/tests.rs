@@ -18,7 +18,7 @@ fn scene<K: Kinematics<2>>(kind: CellKind) -> Scene<2> {
     mesh.nodes.iter_mut().for_each(|x| x[0] += 1.0);
     Scene {
         locator: Locator::new(&mesh),
-        faces: Some(Faces::of(&mesh)),
+        faces: Faces::of(&mesh),
         pressure_unit: None,
         carried: Vec::new(),
         water: None,
