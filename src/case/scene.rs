@@ -17,7 +17,6 @@ use crate::io::provenance::Origin;
 use crate::io::run_folder::RunFolder;
 use crate::kinematics::{Axisymmetric, Kinematics, PlaneStrain};
 use crate::mesh::Mesh;
-use crate::mesh::faces::Faces;
 use crate::mesh::locate::Locator;
 use crate::points::Points;
 use crate::quadrature::{Bounded, Quadrature, Resampled, Volumes};
@@ -166,7 +165,7 @@ pub fn scene<K: Kinematics<2>>(case: &Case, mut whole: Mesh<2>) -> Result<Scene<
     });
     let density_scale = largest(|m, y| m.density.at(y));
     let dynamic = case.phases.iter().any(|p| p.analysis.has_inertia());
-    let faces = Faces::of(&mesh);
+    let locator = Locator::new(&mesh);
 
     let shear = of_soil(|m, y| m.model.elasticity().at(y).shear);
     let size = fem.as_ref().map_or(mean_size(&mesh), |fem| mean_size(fem).max(mean_size(&mesh)));
@@ -191,11 +190,11 @@ pub fn scene<K: Kinematics<2>>(case: &Case, mut whole: Mesh<2>) -> Result<Scene<
         terms.push(Box::new(EmptyCells::<K>::new(case.numerics.empty_stiffness * young, mesh.cells.len())));
         if case.numerics.quadrature != raw::Quadrature::Points {
             let models = self::models(case, &mesh)?;
-            let penalty = GhostPenalty::<K>::new(GHOST, models, faces.inner.len());
+            let penalty = GhostPenalty::<K>::new(GHOST, models, locator.faces.inner.len());
             terms.push(Box::new(if dynamic { penalty } else { penalty.holding(HOLD) }));
         }
         if dynamic && density_scale > 0.0 {
-            terms.push(Box::new(GhostInertia::<K>::new(density_scale, faces.inner.len())));
+            terms.push(Box::new(GhostInertia::<K>::new(density_scale, locator.faces.inner.len())));
         }
     }
     if dynamic {
@@ -253,8 +252,7 @@ pub fn scene<K: Kinematics<2>>(case: &Case, mut whole: Mesh<2>) -> Result<Scene<
     };
     let phases = case.phases.iter().enumerate().map(staged).collect::<Result<_>>()?;
     let scene = Scene {
-        locator: Locator::new(&mesh),
-        faces,
+        locator,
         quadrature: quadrature::<K>(case, &mesh)?,
         mesh,
         terms,

@@ -13,6 +13,7 @@ use super::faces::{BOUNDARY, Faces};
 use super::shape::{CellKind, MAX_NODES, invert, jacobian};
 use crate::geometry::distance;
 use bins::{Bins, Bounds, bounds, enclose};
+use std::sync::Arc;
 
 /// A point this deep (parametric) in a cell is in no other.
 const INSIDE: f64 = 1e-9;
@@ -33,8 +34,8 @@ const ITERATIONS: usize = 30;
 pub struct Locator<const D: usize> {
     /// The stored inverse of every affine cell.
     affine: Vec<Option<Affine<D>>>,
-    /// The faces of the mesh.
-    pub faces: Faces,
+    /// The faces of the mesh, also when its nodes have moved.
+    pub faces: Arc<Faces>,
     /// Boxes (m) that hold the cells, curved edges included, widened by `reach`.
     boxes: Vec<Bounds<D>>,
     bins: Bins<D>,
@@ -52,6 +53,15 @@ struct Affine<const D: usize> {
 impl<const D: usize> Locator<D> {
     /// Prepares queries on `mesh`, whose nodes must stay where they are while this is in use.
     pub fn new(mesh: &Mesh<D>) -> Self {
+        Self::with(mesh, Arc::new(Faces::of(mesh)))
+    }
+
+    /// Prepares queries on the mesh after its nodes have moved.
+    pub fn moved(&self, mesh: &Mesh<D>) -> Self {
+        Self::with(mesh, self.faces.clone())
+    }
+
+    fn with(mesh: &Mesh<D>, faces: Arc<Faces>) -> Self {
         let mut x = Vec::new();
         let mut boxes = Vec::with_capacity(mesh.cells.len());
         let mut affine = Vec::with_capacity(mesh.cells.len());
@@ -67,7 +77,7 @@ impl<const D: usize> Locator<D> {
             *high = high.map(|v| v + 2.0 * reach);
         }
         let bins = Bins::new(&boxes);
-        Self { affine, faces: Faces::of(mesh), boxes, bins, reach }
+        Self { affine, faces, boxes, bins, reach }
     }
 
     /// The cell that holds `x` and the parametric coordinates there, which are always within the cell.

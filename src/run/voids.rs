@@ -145,5 +145,5 @@ fn holds(corners: &[[f64; 2]], x: &[f64; 2]) -> bool {
 
 /// Whether some cells reach to the boundary of the grid.
 fn reaches_boundary<const D: usize>(scene: &Scene<D>, cells: &[u32]) -> bool {
-    scene.faces.boundary.iter().any(|(cell, _)| cells.binary_search(cell).is_ok())
+    scene.locator.faces.boundary.iter().any(|(cell, _)| cells.binary_search(cell).is_ok())
 }

@@ -71,5 +71,5 @@ fn holding<const D: usize>(scene: &Scene<D>, mesh: &Mesh<D>, phase: usize) -> Ve
         let holds = (0..D).all(|d| !crossed(d) || facet.iter().all(|&i| held[nodes[i] as usize][d]));
         holds.then_some(side)
     };
-    scene.faces.boundary.iter().filter_map(side).collect()
+    scene.locator.faces.boundary.iter().filter_map(side).collect()
 }

@@ -73,7 +73,7 @@ pub fn begin<const D: usize, K: Kinematics<D>>(
     let deformed = moved.then(|| {
         let nodes = (0..scene.mesh.nodes.len() as u32).map(at).collect();
         let mesh = Mesh { nodes, ..scene.mesh.clone() };
-        let locator = Locator::new(&mesh);
+        let locator = scene.locator.moved(&mesh);
         (mesh, locator)
     });
     let restored = relax::mesh(scene, grid.relaxed.as_ref());

@@ -10,7 +10,7 @@ const RINGS: usize = 2;
 /// The faces with a penalty, ascending: those of ill-conditioned cells and, with inertia, of cells with fewer points than nodes, and
 /// those of the empty cells beside these, if one of the two cells of the face holds points.
 pub fn choose<const D: usize>(scene: &Scene<D>, state: &State<D>) -> Vec<u32> {
-    let faces = &scene.faces;
+    let faces = &scene.locator.faces;
     let cells = scene.mesh.cells.len();
     let (mut holds, mut ill_conditioned, mut ring) = (vec![false; cells], vec![false; cells], vec![false; cells]);
     let mut count = vec![0; cells];
@@ -47,7 +47,7 @@ pub fn has_room<const D: usize>(state: &State<D>, face: &Face) -> bool {
 
 /// Whether the pattern has entries for all penalties of a state.
 pub fn has_room_for_penalties<const D: usize>(scene: &Scene<D>, state: &State<D>) -> bool {
-    choose(scene, state).into_iter().all(|f| has_room(state, &scene.faces.inner[f as usize]))
+    choose(scene, state).into_iter().all(|f| has_room(state, &scene.locator.faces.inner[f as usize]))
 }
 
 /// Marks the cells whose faces get entries: those of the faces in `chosen` and of the rings around; true if the pattern changes.

@@ -134,8 +134,8 @@ impl<const D: usize> Grid<D> {
         }
         let body_coupling = dofs.bodies.iter().map(|body| dofs.couple(body.numbers(), &mut connectivity)).collect();
         let cells_only = connectivity.clone();
-        let mut face_coupling = vec![u32::MAX; scene.faces.inner.len()];
-        for (face, coupling) in scene.faces.inner.iter().zip(&mut face_coupling) {
+        let mut face_coupling = vec![u32::MAX; scene.locator.faces.inner.len()];
+        for (face, coupling) in scene.locator.faces.inner.iter().zip(&mut face_coupling) {
             if ghost_faces::has_room(state, face) {
                 *coupling = dofs.couple(face.nodes(mesh), &mut connectivity);
             }
@@ -248,7 +248,7 @@ impl<const D: usize> Grid<D> {
         self.ghost.clear();
         self.ghost.extend(ghost_faces::choose(scene, state).into_iter().map(|face| GhostFace {
             face,
-            between: scene.faces.inner[face as usize],
+            between: scene.locator.faces.inner[face as usize],
             coupling: self.face_coupling[face as usize],
         }));
     }

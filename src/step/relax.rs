@@ -95,7 +95,7 @@ pub fn at<const D: usize>(scene: &Scene<D>, state: &State<D>) -> Option<Relaxed<
         return None;
     }
     let mesh = Mesh { nodes: state.coordinates(scene).to_vec(), ..scene.mesh.clone() };
-    let locator = Locator::new(&mesh);
+    let locator = scene.locator.moved(&mesh);
     Some(Relaxed { mesh, locator })
 }
 

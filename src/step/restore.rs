@@ -85,7 +85,7 @@ pub fn begin_anew<const D: usize, K: Kinematics<D>>(
         state.pressure = field;
     }
     let chosen = ghost_faces::choose(scene, state);
-    Ok(ghost_faces::make_room(&scene.faces, state, &chosen) || changed)
+    Ok(ghost_faces::make_room(&scene.locator.faces, state, &chosen) || changed)
 }
 
 /// Moves the nodes to their positions on the reset grid and locates the points. Returns the grid before, and a note on points that
@@ -213,7 +213,7 @@ fn choose_cells<const D: usize>(scene: &Scene<D>, state: &mut State<D>) -> bool 
     let cells = scene.mesh.cells.len();
     // A face to a cell that is not active would have no entries in the matrix.
     let surrounded = |&c: &u32| {
-        state.active[c as usize] && scene.faces.neighbours(c).iter().all(|&other| state.active[other as usize])
+        state.active[c as usize] && scene.locator.faces.neighbours(c).iter().all(|&other| state.active[other as usize])
     };
     if state.active.len() == cells && state.points.cell.iter().all(surrounded) {
         return false;

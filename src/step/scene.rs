@@ -5,7 +5,6 @@ use crate::contact::Interface;
 use crate::dofs::{Places, RigidDofs};
 use crate::interpolation::Basis;
 use crate::mesh::Mesh;
-use crate::mesh::faces::Faces;
 use crate::mesh::locate::Locator;
 use crate::quadrature::Quadrature;
 use crate::rigid::Body;
@@ -27,8 +26,6 @@ pub struct Scene<const D: usize> {
     pub interfaces: Vec<Box<dyn Interface<D>>>,
     /// The levels of the water outside and in the pores, where they differ: for the effective contact pressure (docs/theory.md, eq. 29a).
     pub levels: Option<WaterLevels>,
-    /// The faces of the cells: inner ones, which may take a ghost penalty, and those on the boundary.
-    pub faces: Faces,
     /// What the points see of the grid.
     pub basis: &'static dyn Basis<D>,
     /// What the points weigh in integrals.

@@ -19,7 +19,6 @@ use mpm::material::{
     Elasticity, Law, Model, Profile, State, TensorModel, TensorResponse, Variable, VariableKind, yield_excess,
 };
 use mpm::mesh::builder::rectangle;
-use mpm::mesh::faces::Faces;
 use mpm::mesh::locate::Locator;
 use mpm::mesh::shape::CellKind;
 use mpm::points::Points;
@@ -398,7 +397,6 @@ fn scene() -> (Scene<2>, Points<2>, Models) {
         interfaces: Vec::new(),
         levels: None,
         locator: Locator::new(&mesh),
-        faces: Faces::of(&mesh),
         terms: vec![
             Box::new(Internal::<PlaneStrain>::new(models.clone(), false)),
             Box::new(EmptyCells::<PlaneStrain>::new(1e-5 * YOUNG, mesh.cells.len())),

@@ -6,7 +6,6 @@ use mpm::kinematics::Kinematics;
 use mpm::material::{Model, Profile};
 use mpm::mesh::Mesh;
 use mpm::mesh::cell_size;
-use mpm::mesh::faces::Faces;
 use mpm::mesh::locate::Locator;
 use mpm::mesh::shape::{MAX_NODES, map, rule};
 use mpm::points::Points;
@@ -227,7 +226,6 @@ impl Bench {
             interfaces: Vec::new(),
             levels: None,
             locator: Locator::new(&background),
-            faces: Faces::of(&background),
             mesh: background,
             terms,
             quadrature: self.quadrature.unwrap_or_else(|| Box::new(Volumes::<K>::default())),

@@ -9,7 +9,6 @@ use mpm::material::LinearElastic;
 use mpm::material::{Elasticity, Profile};
 use mpm::mesh::Mesh;
 use mpm::mesh::builder::rectangle;
-use mpm::mesh::faces::Faces;
 use mpm::mesh::locate::Locator;
 use mpm::mesh::shape::{CellKind, MAX_NODES};
 use mpm::points::Points;
@@ -173,7 +172,6 @@ impl<K: Kinematics<2>> Stand<K> {
             reset: false,
             stops: vec![Stop { time: 1.0, frame: true }],
         };
-        let faces = Faces::of(&mesh);
         let scene = Scene {
             fem: None,
             bodies: Vec::new(),
@@ -182,7 +180,6 @@ impl<K: Kinematics<2>> Stand<K> {
             locator: Locator::new(&mesh),
             mesh,
             terms,
-            faces,
             quadrature: Box::new(Volumes::<K>::default()),
             pressure_unit,
             carried: Vec::new(),

@@ -4,7 +4,6 @@ use super::*;
 use crate::interpolation::Mpm;
 use crate::kinematics::{Axisymmetric, PlaneStrain};
 use crate::mesh::builder::rectangle;
-use crate::mesh::faces::Faces;
 use crate::mesh::locate::Locator;
 use crate::mesh::shape::CellKind;
 use crate::points::Points;
@@ -18,7 +17,6 @@ fn scene<K: Kinematics<2>>(kind: CellKind) -> Scene<2> {
     mesh.nodes.iter_mut().for_each(|x| x[0] += 1.0);
     Scene {
         locator: Locator::new(&mesh),
-        faces: Faces::of(&mesh),
         pressure_unit: None,
         carried: Vec::new(),
         water: None,
