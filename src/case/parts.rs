@@ -38,7 +38,7 @@ pub fn of_series(case: &Case, mesh: &Mesh<2>) -> Regions {
         elements: of_elements(case, mesh),
         soil: mesh.regions.iter().map(is_soil).collect(),
         axisymmetric: case.geometry == Geometry::Axisymmetric,
-        resets: case.phases.iter().filter(|phase| phase.reset).map(|phase| phase.name.clone()).collect(),
+        resets: case.phases.iter().filter(|phase| phase.reset_displacements).map(|phase| phase.name.clone()).collect(),
         absent: case.phases.iter().map(absent).collect(),
     }
 }

@@ -78,7 +78,7 @@ impl Checker {
             absent: Vec::new(),
             changes: Vec::new(),
             contacts: Vec::new(),
-            reset: phase.reset_displacements,
+            reset_displacements: phase.reset_displacements,
             until: self.until(phase, file, &path.key("until")),
         }
     }

@@ -33,7 +33,7 @@ use std::sync::atomic::AtomicBool;
 const GHOST: f64 = 0.1;
 /// κ (-) of the ghost penalty in scenes without inertia. A bar pushed through clay needs it: with 0.02 it stops after three
 /// diameters, and with the secant stiffness of scenes with inertia after one and a half. These cannot have it: a coarse block that should fail would be held by it.
-const HOLD: f64 = 0.1;
+const SATURATION: f64 = 0.1;
 
 /// How a run begins, and what its files belong to.
 #[derive(Default)]
@@ -191,7 +191,7 @@ pub fn scene<K: Kinematics<2>>(case: &Case, mut whole: Mesh<2>) -> Result<Scene<
         if case.numerics.quadrature != raw::Quadrature::Points {
             let models = self::models(case, &mesh)?;
             let penalty = GhostPenalty::<K>::new(GHOST, models, locator.faces.inner.len());
-            terms.push(Box::new(if dynamic { penalty } else { penalty.holding(HOLD) }));
+            terms.push(Box::new(if dynamic { penalty } else { penalty.saturating(SATURATION) }));
         }
         if dynamic && density_scale > 0.0 {
             terms.push(Box::new(GhostInertia::<K>::new(density_scale, locator.faces.inner.len())));
@@ -363,7 +363,7 @@ fn phase(
         held: Vec::new(),
         changes: Vec::new(),
         apart: staged::apart(case, phase),
-        reset: phase.reset,
+        reset_displacements: phase.reset_displacements,
         stops: stops(phase.duration, case.output.every, values.flat_map(TimeValue::kinks)),
     })
 }

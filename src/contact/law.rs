@@ -129,7 +129,7 @@ fn level(spots: &[Spot], overlap: f64) -> f64 {
 impl Penalty {
     /// These with the water in the pores at rest `beyond` (kPa) the pressure of that outside, to which the excess pressure of the pores is
     /// added. Suction does not press the grains on a structure that may part from them: the pores count with no less than the lower of the two.
-    pub fn within(&self, beyond: f64) -> Self {
+    pub fn in_water(&self, beyond: f64) -> Self {
         Self { water: (beyond + self.water).max(beyond.min(0.0)), ..*self }
     }
 }
@@ -363,7 +363,7 @@ mod tests {
             (2.0, -3.0, -1.0),
             (-2.0, -3.0, -3.0),
         ] {
-            assert_eq!(Penalty { water: excess, ..AT }.within(beyond).water, water, "{excess} {beyond}");
+            assert_eq!(Penalty { water: excess, ..AT }.in_water(beyond).water, water, "{excess} {beyond}");
         }
     }
 
@@ -374,7 +374,7 @@ mod tests {
         assert!((rough.respond(&AT, 0.0, 1.0).shear + 0.4 * 3.0).abs() < 1e-15);
         assert!((rough.respond(&Penalty { water: 1.0, ..AT }, 0.0, 1.0).shear + 0.4 * 2.0).abs() < 1e-15);
         assert_eq!(rough.respond(&Penalty { water: 4.0, ..AT }, 0.0, 1.0).shear, 0.0);
-        assert_eq!(rough.respond(&Penalty { water: -5.0, ..AT }.within(0.0), 0.0, 1.0), rough.respond(&AT, 0.0, 1.0));
+        assert_eq!(rough.respond(&Penalty { water: -5.0, ..AT }.in_water(0.0), 0.0, 1.0), rough.respond(&AT, 0.0, 1.0));
         // Water that stands higher outside presses the grains together, until the two have parted.
         let drawn = Penalty { water: -1.0, ..AT };
         assert!((rough.respond(&drawn, 0.0, 1.0).shear + 0.4 * 4.0).abs() < 1e-15);

@@ -114,7 +114,7 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
         let idle = phase.prescribed.iter().filter(|p| p.fixed.nodes.iter().all(out));
         let frame = self.grid.frame(&self.scene.mesh, &self.state);
         let loads = self.scene.terms.iter().filter_map(|term| {
-            let idle = term.idle(&frame, &self.state.displacement, self.state.phase)?;
+            let idle = term.idle_load(&frame, &self.state.displacement, self.state.phase)?;
             Some(format!("phase {}: {idle}", phase.name))
         });
         let notes = idle.filter_map(|p| {

@@ -15,7 +15,7 @@ use crate::mesh::cell_size;
 use crate::system::Method;
 
 /// Most first iterations, which have a frozen contact status.
-const HELD: usize = 3;
+const FROZEN_ITERATIONS: usize = 3;
 /// Largest relative residual that the linear systems of an iteration are solved to.
 const LOOSEST: f64 = 1e-3;
 /// Smallest relative residual that they are solved to.
@@ -27,7 +27,7 @@ const NEAR: f64 = 0.1;
 /// Least scale of the residual, relative to the stiffness of a mean cell: below it there are no forces to be in balance.
 const FLOOR: f64 = 1e-6;
 /// The prescribed displacements count as not reached if their forces are more than this fraction (-) of the right-hand side.
-const DUE: f64 = 1e-3;
+const UNREACHED: f64 = 1e-3;
 /// A residual this small relative to the largest term is rounding.
 const ROUNDING: f64 = 1e-12;
 
@@ -67,7 +67,7 @@ struct Newton<'a, const D: usize> {
     /// How many backtracking searches in a row have not reduced the residual.
     stalled: usize,
     /// Whether prescribed displacements are not reached, so that their forces are part of the right-hand side.
-    due: bool,
+    unreached: bool,
     /// Length of the last trial step, in those of `δ`.
     length: f64,
     /// Fraction (-) by which the diagonal of the tangent is raised (Levenberg).
@@ -98,7 +98,7 @@ impl<'a, const D: usize> Newton<'a, D> {
             relaxed: 0,
             strict,
             stalled: 0,
-            due: false,
+            unreached: false,
             length: 0.0,
             damping: 0.0,
             refused: None,
@@ -191,7 +191,7 @@ impl<'a, const D: usize> Newton<'a, D> {
         self.evaluate(false)?;
         self.note();
         let mut size = self.size(&self.buffers.now);
-        for _ in 0..HELD {
+        for _ in 0..FROZEN_ITERATIONS {
             let noted = self.history.len();
             if self.converged() {
                 break;
@@ -200,7 +200,7 @@ impl<'a, const D: usize> Newton<'a, D> {
             self.direction()?;
             self.buffers.contact_frozen = false;
             // The residual to reduce is the true one, not that with the frozen status.
-            self.target = if self.due { self.target.max(size) } else { size };
+            self.target = if self.unreached { self.target.max(size) } else { size };
             self.search()?;
             if self.history.len() > noted {
                 size = self.size(&self.buffers.now);
@@ -284,8 +284,8 @@ impl<'a, const D: usize> Newton<'a, D> {
         // The forces of prescribed displacements that are not reached yet are part of the right-hand side, not of the residual.
         let beyond = wanted.iter().zip(&now.force).zip(&*fixed).map(|((w, f), fixed)| if *fixed { 0.0 } else { w + f });
         let whole = norm_free(wanted, fixed);
-        self.due = beyond.map(|b| b * b).sum::<f64>().sqrt() > DUE * whole;
-        if self.target.is_infinite() || self.due {
+        self.unreached = beyond.map(|b| b * b).sum::<f64>().sqrt() > UNREACHED * whole;
+        if self.target.is_infinite() || self.unreached {
             self.target = whole;
         }
         let (pattern, matrix) = (&motion.pattern, &motion.matrix);

@@ -227,7 +227,7 @@ pub struct Phase {
     /// The materials that regions take as it begins; none in the first phase.
     pub changes: Vec<Change>,
     /// Whether the output counts displacements from the beginning of the phase (not a grid reset).
-    pub reset: bool,
+    pub reset_displacements: bool,
     /// Times (s) in the phase at which a step must end: outputs, kinks of tables, the end.
     pub stops: Vec<Stop>,
 }

@@ -67,7 +67,7 @@ pub struct State<const D: usize> {
     /// Sum (m) of the increments of displacement of the nodes since the run began. On a grid that is reset, different material passes a node,
     /// and this is the displacement of none of it.
     pub travel: Vec<[f64; D]>,
-    /// Its value when a phase last set displacements to zero (`Phase::reset`), which the history subtracts; empty before that.
+    /// Its value when a phase last set displacements to zero (`Phase::reset_displacements`), which the history subtracts; empty before that.
     pub uncounted: Vec<[f64; D]>,
     /// The pressure field (kPa, tension positive) by node, at the corners of cells, then the constant of each cell, then
     /// the excess pore pressure (kPa, compression positive) by node, at the corners of cells, then other scalar fields, by node;
@@ -141,7 +141,7 @@ impl<const D: usize> State<D> {
                 change.apply(&mut self.fem);
             }
             self.step_size = next.step.initial;
-            if next.reset {
+            if next.reset_displacements {
                 self.uncounted.clone_from(&self.travel);
                 for points in [&mut self.points, &mut self.fem] {
                     points.reference.clone_from(&points.position);

@@ -36,7 +36,7 @@ pub fn motion_to_grid<const D: usize, K: Kinematics<D>>(
         points.acceleration.resize(count, [0.0; D]);
     }
     [state.velocity, state.acceleration] = to_nodes::<D, K>(scene, grid, state)?;
-    take_what_is_seen::<D, K>(scene, grid, state);
+    drop_unrepresented::<D, K>(scene, grid, state);
     if !state.moving {
         state.acceleration = first_acceleration::<D, K>(scene, grid, state)?;
         accelerations_to_points::<D, K>(scene, grid, state);
@@ -51,7 +51,7 @@ pub fn motion_to_grid<const D: usize, K: Kinematics<D>>(
 /// Gives the material points in cells of second and third order the interpolated velocity of the grid. The part of their velocity that the grid cannot
 /// represent moves nothing, but would stay with the points, also at rest, until another cell represents it as motion. In cells of first
 /// order this part is bending, and it is kept.
-fn take_what_is_seen<const D: usize, K: Kinematics<D>>(scene: &Scene<D>, grid: &Grid<D>, state: &mut State<D>) {
+fn drop_unrepresented<const D: usize, K: Kinematics<D>>(scene: &Scene<D>, grid: &Grid<D>, state: &mut State<D>) {
     let (mesh, interpolation, coupling) = (&scene.mesh, grid.of_material(), &grid.coupling);
     let seen = interpolate::<D, K>(&Family { mesh, interpolation, coupling, points: &state.points }, &state.velocity);
     let Points { velocity, cell, .. } = &mut state.points;

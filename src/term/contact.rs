@@ -43,7 +43,7 @@ pub fn answer<const D: usize>(
     let law = law.reduced(trial.reduction);
     let beyond =
         levels.zip(constraint.condition.height).map_or(0.0, |(levels, y)| levels.beyond(trial.phase, trial.time, y));
-    let penalty = constraint.condition.penalty.within(beyond);
+    let penalty = constraint.condition.penalty.in_water(beyond);
     let spots = &constraint.condition.spots;
     if trial.contact_frozen && (constraint.initially_closed || penalty.pressure > 0.0) {
         return (law.frozen(&penalty, spots, &motion, constraint.initially_closed && law.friction > 0.0), motion);

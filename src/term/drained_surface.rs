@@ -201,7 +201,7 @@ impl<K: Kinematics<2>> Term<2> for DrainedSurface<K> {
         out.scatter(frame.pattern, frame.open, coupling, compute)
     }
 
-    fn idle(&self, frame: &Frame<2>, displacement: &[[f64; 2]], phase: usize) -> Option<String> {
+    fn idle_load(&self, frame: &Frame<2>, displacement: &[[f64; 2]], phase: usize) -> Option<String> {
         let idle = self.flows.get(phase) == Some(&true) && self.hosts(frame, displacement).is_empty();
         idle.then(|| {
             "no free surface of soil with a permeability is there to drain: it is tight where structures cover it and where soil lies on the \

@@ -8,7 +8,7 @@
 //! `E_f` is the harmonic mean of Young's modulus over the points of both cells, by volume: soft material beside
 //! stiff decides. Soil that flows must not be held by more than it bears itself: the penalty is the slope of the energy
 //! `γ E_f j₀² (√(1 + j²/j₀²) − 1)` in the mean jump `j` of the face, quadratic in small jumps and linear in large ones, with
-//! `γ E_f j₀ = κ t`. The shear stress `t` is what the soil has and what it lacks of yield, its harmonic mean over the points. Without
+//! `γ E_f j₀ = κ t`. `t` measures the shear strength: the harmonic mean over the points of `q/√3 + ⟨−f⟩/2`, `f` being the yield function. Without
 //! κ, what yielded in the last step counts with its secant stiffness, `E c τ/(G Δγ)`, from its shear stress `τ` and plastic shear
 //! strain `Δγ`, so that what the penalty resists with is of the order `γ c τ` whatever the step.
 
@@ -34,18 +34,18 @@ const LEAST: f64 = 1e-5;
 
 /// The penalty of a face.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Hold {
+pub struct FacePenalty {
     /// `γ E_f` (kPa).
     pub stiffness: f64,
-    /// `κ t` (kPa); infinite where no soil beside it yields.
-    pub most: f64,
+    /// `κ t` (kPa), at which it saturates; infinite without κ.
+    pub limit: f64,
 }
 
-impl Hold {
+impl FacePenalty {
     /// What the form of a face counts with where the mean square of its jumps is `square`: the form itself, and in the tangent the
     /// product of the forces of a unit with themselves, over the measure (m²) of the face and its cells.
     fn factors(&self, square: f64) -> [f64; 2] {
-        let over = self.stiffness / self.most;
+        let over = self.stiffness / self.limit;
         let share = 1.0 / (1.0 + square * over * over).sqrt();
         [self.stiffness * share, -self.stiffness * (share * over).powi(2) * share]
     }
@@ -70,14 +70,14 @@ impl<K> GhostPenalty<K> {
         Self { factor, share: None, models, jumps: Jumps::new(faces), kinematics: PhantomData }
     }
 
-    /// With κ (-): the part of its shear strength that the penalty may hold flowing soil with.
+    /// With saturation, by κ (-): the part of its shear strength that the penalty may resist flowing soil with.
     #[must_use]
-    pub fn holding(self, share: f64) -> Self {
+    pub fn saturating(self, share: f64) -> Self {
         Self { share: Some(share), ..self }
     }
 
     /// The penalty of a face; none where nothing beside it is summed over.
-    pub fn hold<const D: usize>(&self, frame: &Frame<D>, face: &GhostFace) -> Option<Hold>
+    pub fn of_face<const D: usize>(&self, frame: &Frame<D>, face: &GhostFace) -> Option<FacePenalty>
     where
         K: Kinematics<D>,
     {
@@ -99,15 +99,15 @@ impl<K> GhostPenalty<K> {
                 }
             }
         }
-        let hold = Hold {
+        let penalty = FacePenalty {
             stiffness: self.factor * volume / compliance,
-            most: self.share.map_or(f64::INFINITY, |share| share * volume / weakness),
+            limit: self.share.map_or(f64::INFINITY, |share| share * volume / weakness),
         };
-        (volume > 0.0).then_some(hold)
+        (volume > 0.0).then_some(penalty)
     }
 }
 
-/// The shear stress (kPa) of point `p` and what it lacks of yield.
+/// The measure `q/√3 + ⟨−f⟩/2` (kPa) of the shear strength at point `p`.
 fn strength<const D: usize>(points: &Points<D>, p: usize, model: &dyn Model) -> f64 {
     let lacks = -yield_excess(model, points.seeded_height(p), &points.stress[p], &points.state(p, 0.0));
     deviatoric(&points.stress[p]) / 3f64.sqrt() + 0.5 * lacks.max(0.0)
@@ -131,8 +131,8 @@ impl<const D: usize, K: Kinematics<D>> Term<D> for GhostPenalty<K> {
 
     fn assemble(&self, frame: &Frame<D>, trial: &Trial<D>, out: &mut Assembly) -> Result<()> {
         let factors = |face: &GhostFace, jump: &Jump, square: f64| {
-            let Some(hold) = self.hold::<D>(frame, face) else { return [0.0; 3] };
-            let [form, product] = hold.factors(square / jump.measure);
+            let Some(penalty) = self.of_face::<D>(frame, face) else { return [0.0; 3] };
+            let [form, product] = penalty.factors(square / jump.measure);
             [form, (1.0 - trial.alpha_f) * form, (1.0 - trial.alpha_f) * product / jump.measure]
         };
         let increment = |n: usize| std::array::from_fn(|k| trial.between[n][k] - trial.converged[n][k]);

@@ -15,7 +15,7 @@
 //! nothing.
 
 use super::extended::{Kept, scatter_functions};
-use super::mixed::{Answer, Coupling, Point, Within};
+use super::mixed::{Answer, Coupling, ModelInput, Point};
 use super::smoothed::{self, Layout};
 use super::stiffness::{Stiffness, add_turning};
 use super::volume::VolumeFit;
@@ -62,7 +62,7 @@ struct Strained {
     /// Inverse of the deformation since the grid was restored.
     inverse: Tensor,
     /// `H`: the deformation that the model responds to, [`Strained::increment`] without inertia.
-    felt: Tensor,
+    metric_factor: Tensor,
     ratios: Ratios,
 }
 
@@ -70,7 +70,7 @@ impl Strained {
     /// Stretches the point so that its volume has these ratios.
     fn take_volume<const D: usize, K: Kinematics<D>>(&mut self, ratios: Ratios) {
         K::stretch(&mut self.increment, ratios.step / self.ratios.step);
-        self.felt = self.increment;
+        self.metric_factor = self.increment;
         self.ratios = ratios;
     }
 
@@ -80,7 +80,7 @@ impl Strained {
     fn stress<const D: usize, K: Kinematics<D>>(
         &self,
         alpha_f: f64,
-        (answer, seen): &mut Answer<K, D>,
+        (answer, field_strain): &mut Answer<K, D>,
         add: impl Fn(&mut Spatial<K::Tangent>) -> f64,
     ) -> (Tensor, Tensor) {
         if alpha_f == 0.0 {
@@ -89,11 +89,11 @@ impl Strained {
         }
         let increment = &self.increment;
         // Both have the determinant of what was found to be admissible.
-        let [back, across] = [increment, &self.felt].map(|f| f.try_inverse().unwrap_or_else(Tensor::identity));
+        let [back, across] = [increment, &self.metric_factor].map(|f| f.try_inverse().unwrap_or_else(Tensor::identity));
         let q = increment * across;
         K::convect(answer, &q);
-        if let Some(seen) = seen {
-            seen.convect(&q);
+        if let Some(field_strain) = field_strain {
+            field_strain.convect(&q);
         }
         let of_model = full(&answer.kirchhoff);
         let before = add(answer);
@@ -110,7 +110,7 @@ type Evaluated<K, const D: usize> = (Vec<Strained>, Vec<Answer<K, D>>);
 
 /// A factor `H` of the metric within the step, `HᵀH = (1 − α_f) ΔFᵀΔF + α_f I`.
 #[inline]
-fn within(increment: &Tensor, alpha_f: f64) -> Option<Tensor> {
+fn metric_factor(increment: &Tensor, alpha_f: f64) -> Option<Tensor> {
     let metric = increment.transpose() * increment * (1.0 - alpha_f) + Tensor::from_diagonal_element(alpha_f);
     metric.cholesky().map(|factor| factor.l().transpose())
 }
@@ -152,7 +152,7 @@ impl<K, S> Internal<K, S> {
         Cow::Owned(self.models.iter().zip(&self.reduces).map(reduced).collect())
     }
 
-    /// The answer of the model at a point, of whose strain a part `later` is felt, with its internal variables at the end of the
+    /// The answer of the model at a point, given the weight of the end of the step, with its internal variables at the end of the
     /// step in `internal`.
     fn answer<const D: usize>(
         &self,
@@ -160,7 +160,7 @@ impl<K, S> Internal<K, S> {
         (points, entries): (&Points<D>, &Entries<D>),
         cell: &S::Cell,
         strained: &Strained,
-        (inverse_dt, later): (f64, f64),
+        (inverse_dt, end_weight): (f64, f64),
         internal: &mut [f64],
     ) -> Result<Answer<K, D>>
     where
@@ -168,15 +168,15 @@ impl<K, S> Internal<K, S> {
         S: Mixed<D, K>,
     {
         let p = entries.point;
-        let felt = &strained.felt;
-        let trial = symmetric(&(felt * full(&points.elastic[p]) * felt.transpose()));
+        let metric_factor = &strained.metric_factor;
+        let trial = symmetric(&(metric_factor * full(&points.elastic[p]) * metric_factor.transpose()));
         let Some(model) = models.get(points.model_of(p)).and_then(Option::as_ref) else {
             return Err(Error::analysis(format!("material point {p}"), "it has no material", ""));
         };
-        let state = State { increment: Some(felt), ..points.state(p, inverse_dt) };
-        let within = Within { model: model.as_ref(), trial, state, later };
+        let state = State { increment: Some(metric_factor), ..points.state(p, inverse_dt) };
+        let input = ModelInput { model: model.as_ref(), trial, state, end_weight };
         let point = Point { points, entries, ratios: strained.ratios };
-        let answer = self.share.respond(cell, &point, &within, internal);
+        let answer = self.share.respond(cell, &point, &input, internal);
         answer.ok_or_else(|| inadmissible(points, p, "is strained beyond measure", &strained.increment))
     }
 
@@ -201,17 +201,17 @@ impl<K, S> Internal<K, S> {
         for entries in frame.interpolation.entries::<K>(cell_points) {
             let mut point = strain::<D, K>(frame.points, &entries, &now, moved.then_some(&before[..]))?;
             if trial.alpha_f > 0.0 {
-                point.felt = within(&point.increment, trial.alpha_f)
+                point.metric_factor = metric_factor(&point.increment, trial.alpha_f)
                     .ok_or_else(|| inadmissible(frame.points, entries.point, "is squeezed flat", &point.increment))?;
             }
             strained.push(point);
         }
-        let later = 1.0 - trial.alpha_f;
+        let end_weight = 1.0 - trial.alpha_f;
         // What the internal variables become is wanted of converged steps only.
         let mut internal = vec![0.0; self.internal_count(frame.points)];
         let answer = |(entries, strained): (Entries<D>, &Strained)| {
             let of_point = (frame.points, &entries);
-            self.answer(models, of_point, cell, strained, (trial.inverse_dt / later, later), &mut internal)
+            self.answer(models, of_point, cell, strained, (trial.inverse_dt / end_weight, end_weight), &mut internal)
         };
         let entries = frame.interpolation.entries::<K>(cell_points).zip(&strained);
         let answers = timed_material(|| entries.map(answer).collect::<Result<_>>())?;
@@ -247,7 +247,7 @@ fn strain<const D: usize, K: Kinematics<D>>(
         };
         return Err(inadmissible(points, p, &what, &increment));
     }
-    Ok(Strained { increment, inverse, felt: increment, ratios })
+    Ok(Strained { increment, inverse, metric_factor: increment, ratios })
 }
 
 #[cold]
@@ -273,7 +273,7 @@ impl<const D: usize, K: Kinematics<D>, S: Mixed<D, K>> Term<D> for Internal<K, S
             let cell = self.share.over(frame, trial, cell_points);
             let (strained, mut answers) = self.evaluate(&models, frame, trial, cell_points, &cell)?;
             let count = cell_points.function_count as usize;
-            let later = 1.0 - trial.alpha_f;
+            let end_weight = 1.0 - trial.alpha_f;
             let mut spatial = [Gradient { g: [0.0; D], hoop: 0.0 }; MAX_FUNCTIONS];
             let own = cell_points.node_count as usize;
             let layout = Layout::new::<D, K>(cell_points);
@@ -306,7 +306,7 @@ impl<const D: usize, K: Kinematics<D>, S: Mixed<D, K>> Term<D> for Internal<K, S
                     let forces = &spatial[..count];
                     let strains = entries.strains::<K>(forces, &point.inverse, &mut buffer);
                     if wanted {
-                        let (tangent, weight) = (&answer.0.tangent, later * volume);
+                        let (tangent, weight) = (&answer.0.tangent, end_weight * volume);
                         stiffness.push::<D, K>(tangent, [&forces[..own], &strains[..own]], weight, local);
                         if apart {
                             add_turning(&stress, [forces, strains], volume, local);
@@ -315,7 +315,8 @@ impl<const D: usize, K: Kinematics<D>, S: Mixed<D, K>> Term<D> for Internal<K, S
                             smoothed::keep::<D, K>(&layout, tangent, &entries, &point.inverse, weight, k, kept);
                         }
                     }
-                    let coupling = Coupling { forces, strains, seen: answer.1.as_ref(), acts_on: &acts_on, later };
+                    let coupling =
+                        Coupling { forces, strains, field_strain: answer.1.as_ref(), acts_on: &acts_on, end_weight };
                     self.share.couple(&cell, &at, &coupling, local);
                 }
                 if wanted {

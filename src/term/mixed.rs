@@ -28,49 +28,49 @@ pub struct Point<'a, const D: usize> {
 }
 
 /// What the model of a point responds to within the step.
-pub struct Within<'a> {
+pub struct ModelInput<'a> {
     pub model: &'a dyn Model,
     /// Elastic trial left Cauchy–Green tensor (-).
     pub trial: Symmetric,
     pub state: State<'a>,
-    /// Weight of the end of the step (-).
-    pub later: f64,
+    /// Weight `1 − α_f` (-) of the end of the step.
+    pub end_weight: f64,
 }
 
-/// What the model of a point sees of unknowns that tell it its volume.
+/// The volume strain that the model of a point receives from unknowns in place of its own: (25b), linearised.
 #[derive(Clone, Copy)]
-pub struct Seen {
-    /// The measure of the volume strain that the unknowns stand for, and its slope (1/kPa) in them.
+pub struct FieldVolumeStrain {
+    /// The measure of the volume strain that the unknowns stand for, `Δg(j_θ)/(1 − α_f)`, and its slope (1/kPa) in them, `g′²/H`.
     pub strain: f64,
     pub compliance: f64,
-    /// What they change of the stress of the model (-).
+    /// Derivative (-) of the stress of the model with respect to them.
     pub stress: Tensor,
-    /// What the strain of the point takes off that measure (-).
+    /// Minus the derivative (-) of that measure with respect to the strain of the point.
     pub taken: Tensor,
 }
 
-impl Seen {
-    /// Takes it from one configuration to another as a stress.
+impl FieldVolumeStrain {
+    /// Transforms both tensors from one configuration to another, as a stress.
     pub fn convect(&mut self, q: &Tensor) {
         self.stress = q * self.stress * q.transpose();
         self.taken = q * self.taken * q.transpose();
     }
 }
 
-/// The answer of a model, and what it sees of the share.
-pub type Answer<K, const D: usize> = (Spatial<<K as Kinematics<D>>::Tangent>, Option<Seen>);
+/// The answer of a model, and the volume strain that it receives.
+pub type Answer<K, const D: usize> = (Spatial<<K as Kinematics<D>>::Tangent>, Option<FieldVolumeStrain>);
 
 /// What couples the unknowns of a share with the displacements at a point.
 pub struct Coupling<'a, const D: usize> {
     /// The gradients on the deformed grid (1/m) that forces act through, and those that strains are taken with.
     pub forces: &'a [Gradient<D>],
     pub strains: &'a [Gradient<D>],
-    /// What the model sees of the unknowns.
-    pub seen: Option<&'a Seen>,
-    /// The tensor (-) through which the stress acts.
+    /// The volume strain that the model receives from the unknowns.
+    pub field_strain: Option<&'a FieldVolumeStrain>,
+    /// `A` of (8): the tensor (-) through which the stress acts; unity without inertia.
     pub acts_on: &'a Tensor,
-    /// Weight of the end of the step (-).
-    pub later: f64,
+    /// Weight `1 − α_f` (-) of the end of the step.
+    pub end_weight: f64,
 }
 
 /// A share of the stress of the points that unknowns of its own carry.
@@ -80,12 +80,18 @@ pub trait Mixed<const D: usize, K: Kinematics<D>>: Send + Sync {
 
     fn over(&self, frame: &Frame<D>, trial: &Trial<D>, cell_points: &CellPoints) -> Self::Cell;
 
-    /// The response of the model of a point to an elastic trial left Cauchy–Green tensor within the step, and what it sees of the share.
+    /// The response of the model of a point to an elastic trial left Cauchy–Green tensor within the step, and the volume strain that it receives.
     /// The internal variables at the end of the step go into `internal`. `None` where the tensor is out of the range of the model.
     #[inline]
-    fn respond(&self, _: &Self::Cell, point: &Point<D>, within: &Within, internal: &mut [f64]) -> Option<Answer<K, D>> {
+    fn respond(
+        &self,
+        _: &Self::Cell,
+        point: &Point<D>,
+        input: &ModelInput,
+        internal: &mut [f64],
+    ) -> Option<Answer<K, D>> {
         let y = point.points.seeded_height(point.entries.point);
-        Some((K::respond(within.model, y, &within.trial, &within.state, internal)?, None))
+        Some((K::respond(input.model, y, &input.trial, &input.state, internal)?, None))
     }
 
     /// The volume (-) at the end of the step over that at its beginning that the unknowns give a point, `before` being that at its beginning over that
@@ -144,10 +150,10 @@ impl<const D: usize, K: Kinematics<D>, A: Mixed<D, K>, B: Mixed<D, K>> Mixed<D, 
         &self,
         cell: &Self::Cell,
         point: &Point<D>,
-        within: &Within,
+        input: &ModelInput,
         internal: &mut [f64],
     ) -> Option<Answer<K, D>> {
-        self.0.respond(&cell.0, point, within, internal)
+        self.0.respond(&cell.0, point, input, internal)
     }
 
     fn volume_ratio(&self, cell: &Self::Cell, points: &Points<D>, entries: &Entries<D>, before: f64) -> Option<f64> {

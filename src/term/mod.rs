@@ -397,7 +397,7 @@ pub trait Term<const D: usize>: Send + Sync {
     }
 
     /// A message for the log if a load of the term acts on no material as a phase begins.
-    fn idle(&self, _frame: &Frame<D>, _displacement: &[[f64; D]], _phase: usize) -> Option<String> {
+    fn idle_load(&self, _frame: &Frame<D>, _displacement: &[[f64; D]], _phase: usize) -> Option<String> {
         None
     }
 

@@ -24,7 +24,7 @@
 //! with cell-wise volume balance; Boffi et al. 2012). Cells of first order have no room for the constant; there the
 //! projection `Σ w₀ (L − L̄)(π − π_n)/2G` of Bochev, Dohrmann & Gunzburger (2006) makes the linear pressure stable.
 
-use super::mixed::{Answer, Coupling, Point, Seen, Within};
+use super::mixed::{Answer, Coupling, FieldVolumeStrain, ModelInput, Point};
 use super::mixed_pressure::{MixedPressure, volume_strain};
 use super::volume_measure::{ITERATIONS, Measure};
 use super::{Frame, History, Mixed, Ratios, Trial};
@@ -139,7 +139,7 @@ impl<const D: usize, K: Kinematics<D>> Mixed<D, K> for PressureField<K> {
         &self,
         cell: &Cell,
         &Point { points, entries, ratios }: &Point<D>,
-        at: &Within,
+        at: &ModelInput,
         internal: &mut [f64],
     ) -> Option<Answer<K, D>> {
         let (p, y) = (entries.point, points.seeded_height(entries.point));
@@ -150,8 +150,8 @@ impl<const D: usize, K: Kinematics<D>> Mixed<D, K> for PressureField<K> {
         let (measure, bound) = (Measure::of(carried, points, p), bound * at.model.elasticity().at(y).shear);
         let (water, grid) = (carried.law(y).bulk, ratios.grid / ratios.step);
         let (before, slope) = (points.pressure[p], measure.slope(grid));
-        let pressure =
-            at.later * dot(&shapes(cell.kind, entries.shape), &cell.pressure) + (1.0 - at.later) * before / slope;
+        let pressure = at.end_weight * dot(&shapes(cell.kind, entries.shape), &cell.pressure)
+            + (1.0 - at.end_weight) * before / slope;
         let strain = volume_strain(&points.elastic[p]);
         let (local, mean_before) = (volume_strain(&at.trial) - strain, at.model.mean_stress(y, strain));
         // `gained` is the volume strain of the field in the step; at first as if nothing yields.
@@ -184,13 +184,13 @@ impl<const D: usize, K: Kinematics<D>> Mixed<D, K> for PressureField<K> {
             K::add_volumetric(tangent, -bulk);
             K::add_product(tangent, -1.0 / stiffness, &stress, &strain);
             let coupled = |of: &Symmetric| full(of) * (slope / stiffness);
-            let seen = Seen {
-                strain: measure.strain(Ratios { step: ratio, grid: grid * ratio }) / at.later,
+            let field_strain = FieldVolumeStrain {
+                strain: measure.strain(Ratios { step: ratio, grid: grid * ratio }) / at.end_weight,
                 compliance: slope * slope / stiffness,
                 stress: coupled(&stress),
                 taken: coupled(&strain),
             };
-            return Some((answer, Some(seen)));
+            return Some((answer, Some(field_strain)));
         }
         None
     }
@@ -230,7 +230,7 @@ impl<const D: usize, K: Kinematics<D>> Mixed<D, K> for PressureField<K> {
 
     fn couple(&self, cell: &Cell, point: &Point<D>, coupling: &Coupling<D>, local: &mut Local) {
         let &Point { points, entries, ratios } = point;
-        let &Coupling { forces, strains, seen, acts_on, later } = coupling;
+        let &Coupling { forces, strains, field_strain, acts_on, end_weight } = coupling;
         let p = entries.point;
         let Some(carried) = self.of(points, p) else { return };
         let count = unknowns(cell.kind);
@@ -250,12 +250,12 @@ impl<const D: usize, K: Kinematics<D>> Mixed<D, K> for PressureField<K> {
         let [slope_before, slope] = [ratios.grid / ratios.step, ratios.grid].map(|ratio| measure.slope(ratio));
         let (before, pressure) = (points.pressure[p], dot(&shapes, &cell.pressure));
         let gained = pressure - before / slope_before;
-        let [elastic, compliance] = match seen {
-            Some(seen) => [seen.strain, seen.compliance],
+        let [elastic, compliance] = match field_strain {
+            Some(field_strain) => [field_strain.strain, field_strain.compliance],
             None => measure.elastic(&carried.law(y), before, pressure, slope_before),
         };
         let strain = measure.strain(ratios) - elastic;
-        let weight = later * self.unit * entries.weight;
+        let weight = end_weight * self.unit * entries.weight;
         for a in 0..count {
             local.vector[begin + a] += weight * (shapes[a] * strain - stabilised[a] * gained);
         }
@@ -264,9 +264,9 @@ impl<const D: usize, K: Kinematics<D>> Mixed<D, K> for PressureField<K> {
         }
         let size = local.size;
         let [mut by_strain, mut by_field] = [Tensor::identity() * slope; 2];
-        if let Some(seen) = seen {
-            by_strain += seen.taken;
-            by_field += seen.stress;
+        if let Some(field_strain) = field_strain {
+            by_strain += field_strain.taken;
+            by_field += field_strain.stress;
         }
         let acting = acts_on * by_field;
         let beyond = reach_beyond_cells(forces.len());

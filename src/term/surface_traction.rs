@@ -125,7 +125,7 @@ impl<K: Kinematics<2>> Term<2> for SurfaceTraction<K> {
         false
     }
 
-    fn idle(&self, frame: &Frame<2>, displacement: &[[f64; 2]], phase: usize) -> Option<String> {
+    fn idle_load(&self, frame: &Frame<2>, displacement: &[[f64; 2]], phase: usize) -> Option<String> {
         let meets = |load: &SurfaceLoad| {
             let mut pieces = frame.boundary.iter().filter(|piece| load.acts_on(phase, piece));
             pieces.any(|piece| {

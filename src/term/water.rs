@@ -217,7 +217,7 @@ impl<const D: usize, K: Kinematics<D>> Mixed<D, K> for PoreWater<K> {
 
     fn couple(&self, cell: &Cell<D>, point: &Point<D>, coupling: &Coupling<D>, local: &mut Local) {
         let &Point { points, entries, ratios } = point;
-        let &Coupling { forces, strains, acts_on, later, .. } = coupling;
+        let &Coupling { forces, strains, acts_on, end_weight, .. } = coupling;
         let p = entries.point;
         let Some(porous) = self.of(points, p) else { return };
         let begin = D * forces.len();
@@ -227,7 +227,7 @@ impl<const D: usize, K: Kinematics<D>> Mixed<D, K> for PoreWater<K> {
         let storage = porous.storage(y);
         let taken_up =
             before * (ratios.step - 1.0) + storage * (dot(&shapes, &cell.pressure) - points.pore_pressure[p]);
-        let weight = later * self.unit * entries.weight;
+        let weight = end_weight * self.unit * entries.weight;
         let flows = cell.flow_time > 0.0;
         let gradients = if flows { cell.gradients::<K>(entries) } else { [[0.0; D]; MOST] };
         let mobility: [f64; D] =

@@ -388,7 +388,7 @@ fn scene() -> (Scene<2>, Points<2>, Models) {
         held: Vec::new(),
         apart: Vec::new(),
         changes: Vec::new(),
-        reset: false,
+        reset_displacements: false,
         stops: vec![Stop { time: 0.5, frame: true }, Stop { time: 1.0, frame: true }],
     };
     let scene = Scene {

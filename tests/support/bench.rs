@@ -247,7 +247,7 @@ impl Bench {
                 held: Vec::new(),
                 apart: Vec::new(),
                 changes: Vec::new(),
-                reset: false,
+                reset_displacements: false,
                 stops: vec![Stop { time: self.duration, frame: true }],
             }],
             basis: self.scheme,

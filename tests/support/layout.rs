@@ -22,7 +22,7 @@ pub fn resample<K: Kinematics<2> + 'static>(bench: &mut Bench) {
     if bench.restore != Restore::Never {
         let faces = Faces::of(&bench.background()).inner.len();
         let penalty = GhostPenalty::<K>::new(0.1, vec![Some(bench.model.clone())], faces);
-        bench.extra.push(Box::new(if bench.dynamic { penalty } else { penalty.holding(0.1) }));
+        bench.extra.push(Box::new(if bench.dynamic { penalty } else { penalty.saturating(0.1) }));
     }
 }
 

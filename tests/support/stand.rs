@@ -169,7 +169,7 @@ impl<K: Kinematics<2>> Stand<K> {
             held: Vec::new(),
             apart: Vec::new(),
             changes: Vec::new(),
-            reset: false,
+            reset_displacements: false,
             stops: vec![Stop { time: 1.0, frame: true }],
         };
         let scene = Scene {

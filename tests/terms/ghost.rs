@@ -92,7 +92,7 @@ fn soft_material_decides() {
     let penalty = of::<PlaneStrain>(&stand.scene.mesh, models);
     let stiffness = |stand: &Stand<PlaneStrain>| -> Vec<f64> {
         let frame = stand.frame();
-        stand.ghost_faces().iter().map(|face| penalty.hold(&frame, face).unwrap().stiffness).collect()
+        stand.ghost_faces().iter().map(|face| penalty.of_face(&frame, face).unwrap().stiffness).collect()
     };
     for s in stiffness(&stand) {
         assert!((s - FACTOR * 1e6).abs() < 1e-6);
@@ -182,7 +182,7 @@ fn soil_that_flows_is_held_by_no_more_than_a_share_of_its_strength() {
         let profile = |top: f64| Profile::growing(top, 0.0, 0.0);
         let elasticity = Elasticity::new(profile(1000.0), 0.25).unwrap();
         let soil: Arc<dyn Model> = Arc::new(Tresca::new(elasticity, profile(1.0)).unwrap());
-        Box::new(of::<PlaneStrain>(mesh, vec![Some(soil)]).holding(5e-4))
+        Box::new(of::<PlaneStrain>(mesh, vec![Some(soil)]).saturating(5e-4))
     }
     for kind in KINDS {
         let stand: Stand<PlaneStrain> = stand(kind, limited, false);

@@ -160,7 +160,7 @@ fn a_surface_drains<K: Kinematics<2>>() {
         assert!(stand.asymmetry(&trial, &converged) < 1e-12, "{kind:?}");
         let (force, _) = stand.system(&trial, &stand.pressure, &converged, 0, false);
         let (lost, out) = (-force.iter().sum::<f64>() / UNIT, stand.outflow(&trial, &converged));
-        let nothing = |stand: &Stand<K>| stand.term().idle(&stand.frame(), &converged, 0);
+        let nothing = |stand: &Stand<K>| stand.term().idle_load(&stand.frame(), &converged, 0);
         assert_eq!(nothing(&stand), None);
         stand.state.weights.boundary.pieces.retain(|piece| piece.wall || piece.region != 3);
         assert!(stand.outflow(&trial, &converged) == 0.0 && nothing(&stand).is_some(), "{kind:?}");

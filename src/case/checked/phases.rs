@@ -26,7 +26,7 @@ pub struct Phase {
     /// The laws that contacts take as it begins.
     pub contacts: Vec<ContactChange>,
     /// Whether displacements are counted from its beginning.
-    pub reset: bool,
+    pub reset_displacements: bool,
     pub until: Vec<Until>,
 }
 

@@ -76,7 +76,7 @@ fn check_fields<const D: usize>(scene: &Scene<D>, state: &State<D>) -> Result<()
     exact(&state.displacement, true, "displacement")?;
     exact(&state.travel, true, "travel")?;
     exact(&state.increment, true, "increment")?;
-    exact(&state.uncounted, begun(scene, state).any(|phase| phase.reset), "uncounted")?;
+    exact(&state.uncounted, begun(scene, state).any(|phase| phase.reset_displacements), "uncounted")?;
     exact(&state.velocity, state.moving, "velocity")?;
     exact(&state.acceleration, state.moving, "acceleration")?;
     exact(&state.nodes, scene.fem.is_some() || !scene.bodies.is_empty(), "coordinates")?;
@@ -179,7 +179,7 @@ fn check_family<const D: usize>(
         .map_err(|problem| Error::input("checkpoint", problem, "start the analysis afresh, without --resume"))?;
     let began_moving = !first.velocity.is_empty();
     let columns = [
-        (points.reference.len(), begun(scene, state).any(|phase| phase.reset)),
+        (points.reference.len(), begun(scene, state).any(|phase| phase.reset_displacements)),
         (points.velocity.len(), state.moving || began_moving && !points.velocity.is_empty()),
         (points.acceleration.len(), state.moving),
         (points.model.len(), begun(scene, state).any(|phase| !phase.changes.is_empty())),

@@ -42,7 +42,7 @@ fn scene<K: Kinematics<2>>(kind: CellKind) -> Scene<2> {
             held: Vec::new(),
             apart: Vec::new(),
             changes: Vec::new(),
-            reset: false,
+            reset_displacements: false,
             stops: Vec::new(),
         }],
         basis: &Mpm,

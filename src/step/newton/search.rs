@@ -20,7 +20,7 @@ const MOST_DAMPING: f64 = 0.2;
 const DAMPING_FACTOR: f64 = 10.0;
 /// From this many halvings of an accepted step length on, the diagonal is raised. Else the last equilibrium of a slope is found at a factor of safety
 /// 0.4 % lower (`docs/numerics.md`, *As expected*).
-const ASTRAY: i32 = 3;
+const DAMPED_FROM: i32 = 3;
 /// Full steps that may raise the residual before the iteration returns to its best state.
 const WATCHDOG: usize = 3;
 /// A full step that leaves more than this fraction (-) of the residual may have gone too far.
@@ -94,7 +94,7 @@ impl<const D: usize> Newton<'_, D> {
     fn overshoots(&self, size: f64) -> bool {
         let done = self.problem.scene.numerics.tolerance * self.buffers.trial.scale.max(self.floor);
         let before = self.work(&self.buffers.wanted);
-        let worth = size > done && size > WORTH * self.target && !self.due;
+        let worth = size > done && size > WORTH * self.target && !self.unreached;
         worth && before > 0.0 && self.work(&self.buffers.trial.force) > ENERGY_LEFT * before
     }
 
@@ -149,7 +149,7 @@ impl<const D: usize> Newton<'_, D> {
             if let Some(size) = self.attempt(length, false) {
                 if self.better(size, length) {
                     self.stalled = 0;
-                    if halvings >= ASTRAY {
+                    if halvings >= DAMPED_FROM {
                         self.dampen();
                     }
                     self.accept(false);
