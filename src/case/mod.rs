@@ -72,19 +72,6 @@ pub struct Loaded {
     pub case: Case,
 }
 
-/// Reads and checks a `case.yaml`, or the one in a folder, with overrides `PATH=VALUE`.
-///
-/// # Errors
-/// Every mistake that shows without the mesh, in the order of the file.
-pub fn load(file: &Path, overrides: &[String]) -> Result<Loaded, Vec<Error>> {
-    Keys::default().load(file, overrides)
-}
-
-/// The JSON schema of `case.yaml`.
-pub fn schema() -> Value {
-    Keys::default().schema()
-}
-
 /// What a case may have: the entries of [`raw::CaseFile`], and those of a list of [`Key`]s.
 #[derive(Clone, Debug)]
 pub struct Keys(Vec<Key>);
@@ -135,10 +122,10 @@ impl Keys {
         schema
     }
 
-    /// As [`load`], of a case that may have these keys.
+    /// Reads and checks a `case.yaml`, or the one in a folder, with overrides `PATH=VALUE`.
     ///
     /// # Errors
-    /// As [`load`].
+    /// Every mistake that shows without the mesh, in the order of the file.
     pub fn load(&self, file: &Path, overrides: &[String]) -> Result<Loaded, Vec<Error>> {
         let mut source = Source::read(file, overrides)?;
         source.go_on()?;
@@ -148,7 +135,7 @@ impl Keys {
     /// As [`Keys::load`], of a case whose text has been read.
     ///
     /// # Errors
-    /// As [`load`].
+    /// As [`Keys::load`].
     pub fn resolved(&self, source: Source) -> Result<Loaded, Vec<Error>> {
         match self.resolve(&source) {
             (Some(case), issues) if issues.is_empty() => Ok(Loaded { source, case }),

@@ -119,8 +119,7 @@ impl Field {
         });
         let mut edges = Vec::new();
         if options.mesh {
-            edges.extend(cell_edges(&shown.grid, |_| true));
-            edges.extend(shown.structures.iter().flat_map(|grid| cell_edges(grid, |_| true)));
+            edges.extend(std::iter::once(&shown.grid).chain(&shown.structures).flat_map(cell_edges));
         }
         let mut contact = Vec::new();
         if options.contact {
@@ -253,15 +252,6 @@ impl Field {
         raster.within(corner(0, 0), corner(1, 1));
         raster.triangle(&[corner(0, 0), corner(1, 0), corner(0, 1)], &[top, top, bottom], 0, colour);
         raster.triangle(&[corner(1, 0), corner(1, 1), corner(0, 1)], &[top, bottom, bottom], 0, colour);
-    }
-
-    /// What was filled, for tests: the part of the window that soil and structures cover.
-    pub fn covered(&self) -> [f64; 2] {
-        let raster = self.painted(super::PIXELS);
-        let mut raster = raster;
-        let paper = self.paper();
-        raster.within([LEFT, ABOVE], [LEFT + paper.size[0], ABOVE + paper.size[1]]);
-        [raster.part(|of| of > 0 && of < STRUCTURES), raster.part(|of| of >= STRUCTURES)]
     }
 
     fn painted(&self, pixels: u32) -> Raster {
@@ -397,10 +387,10 @@ fn triangles(grid: &Grid, values: &[f64], wanted: impl Fn(u16) -> bool) -> Trian
     triangles
 }
 
-/// The edges of the cells of some regions.
-fn cell_edges(grid: &Grid, wanted: impl Fn(u16) -> bool) -> Vec<[[f64; 2]; 2]> {
+/// The edges of the cells.
+fn cell_edges(grid: &Grid) -> Vec<[[f64; 2]; 2]> {
     let mut ends = Vec::new();
-    for (nodes, kind, _) in cells(grid).filter(|(.., region)| wanted(*region)) {
+    for (nodes, kind, _) in cells(grid) {
         let order = corners(kind);
         for (k, &i) in order.iter().enumerate() {
             let (a, b) = (nodes[i], nodes[order[(k + 1) % order.len()]]);

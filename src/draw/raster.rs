@@ -129,22 +129,6 @@ impl Raster {
         marked.into_iter().for_each(|at| self.colour[at] = colour);
     }
 
-    /// What the sub-pixel in the middle of a place of the paper shows.
-    pub fn shown(&self, place: [f64; 2]) -> u16 {
-        let unit = self.pixels * FINE as f64;
-        let at = [0, 1].map(|d| ((place[d] * unit) as usize).min(self.size[d] * FINE - 1));
-        self.of[at[1] * self.width() + at[0]]
-    }
-
-    /// The part of the drawn part of the paper that shows something `wanted`.
-    pub fn part(&self, wanted: impl Fn(u16) -> bool) -> f64 {
-        let columns = self.span(0, self.frame[0][0], self.frame[1][0]);
-        let rows = self.span(1, self.frame[0][1], self.frame[1][1]);
-        let all = columns.len() * rows.len();
-        let of = |row: usize| columns.clone().filter(|c| wanted(self.of[row * self.width() + c])).count();
-        rows.map(of).sum::<usize>() as f64 / all as f64
-    }
-
     /// The pixels, row by row from above, three bytes each.
     pub fn pixels(&self) -> Vec<u8> {
         let width = self.width();
@@ -163,3 +147,22 @@ impl Raster {
 
 /// A hair (-), of the height of a triangle.
 const HAIR: f64 = 1e-6;
+
+#[cfg(test)]
+impl Raster {
+    /// What the sub-pixel in the middle of a place of the paper shows.
+    pub fn shown(&self, place: [f64; 2]) -> u16 {
+        let unit = self.pixels * FINE as f64;
+        let at = [0, 1].map(|d| ((place[d] * unit) as usize).min(self.size[d] * FINE - 1));
+        self.of[at[1] * self.width() + at[0]]
+    }
+
+    /// The part of the drawn part of the paper that shows something `wanted`.
+    pub fn part(&self, wanted: impl Fn(u16) -> bool) -> f64 {
+        let columns = self.span(0, self.frame[0][0], self.frame[1][0]);
+        let rows = self.span(1, self.frame[0][1], self.frame[1][1]);
+        let all = columns.len() * rows.len();
+        let of = |row: usize| columns.clone().filter(|c| wanted(self.of[row * self.width() + c])).count();
+        rows.map(of).sum::<usize>() as f64 / all as f64
+    }
+}

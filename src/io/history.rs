@@ -169,11 +169,6 @@ impl History {
     pub fn mark(&self) -> Mark {
         self.log.mark()
     }
-
-    /// Rows in the file, without the header.
-    pub fn rows(&self) -> u64 {
-        self.log.lines - 1
-    }
 }
 
 fn header(columns: &[String]) -> String {

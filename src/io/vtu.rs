@@ -1,8 +1,7 @@
 //! Unstructured grids (`.vtu`) and polylines (`.vtp`) in VTK's XML format, every number bit-exact.
 //!
-//! Format: VTK file formats, "XML file formats", version 1.0 with 64-bit headers. Three encodings: raw
-//! appended data (the fastest), the same compressed with LZ4, and base64 within the elements, which every
-//! reader understands (meshio, vtkio).
+//! Format: VTK file formats, "XML file formats", version 1.0 with 64-bit headers. Two encodings: appended data
+//! compressed with LZ4, and base64 within the elements, which every reader understands (meshio, vtkio).
 
 use std::io::{self, Write};
 use std::path::Path;
@@ -17,11 +16,8 @@ use crate::mesh::shape::CellKind;
 use crate::mesh::{Cells, Mesh};
 
 /// How the numbers are written.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Encoding {
-    /// Appended, as they are in memory.
-    #[default]
-    Raw,
     /// Appended, compressed with LZ4.
     Lz4,
     /// In the elements, in base64.
@@ -189,7 +185,7 @@ fn write_as(out: &mut dyn Write, kind: &str, grid: &Grid, encoding: Encoding) ->
     }
     writeln!(arrays.out, "</{of}>\n</Piece>\n</{kind}>")?;
     let Arrays { out, appended, .. } = arrays;
-    if encoding != Encoding::Plain {
+    if encoding == Encoding::Lz4 {
         out.write_all(b"<AppendedData encoding=\"raw\">\n_")?;
         out.write_all(&appended)?;
         out.write_all(b"\n</AppendedData>\n")?;
@@ -242,18 +238,14 @@ impl Arrays<'_> {
         }
         match self.encoding {
             Encoding::Plain => {
-                return writeln!(self.out, " format=\"binary\">{}</DataArray>", STANDARD.encode(&bytes));
-            }
-            Encoding::Raw => {
-                writeln!(self.out, " format=\"appended\" offset=\"{}\"/>", self.appended.len())?;
-                self.appended.append(&mut bytes);
+                writeln!(self.out, " format=\"binary\">{}</DataArray>", STANDARD.encode(&bytes))
             }
             Encoding::Lz4 => {
-                writeln!(self.out, " format=\"appended\" offset=\"{}\"/>", self.appended.len())?;
+                let offset = self.appended.len();
                 compress(&bytes[8..], &mut self.appended);
+                writeln!(self.out, " format=\"appended\" offset=\"{offset}\"/>")
             }
         }
-        Ok(())
     }
 }
 

@@ -37,19 +37,15 @@ pub struct Options {
 }
 
 /// Meshes the plane geometry in `geo` and writes MSH 4.1 with the names of the physical groups to `out`,
-/// which must end in `.msh`; it is replaced in one go, and only by a complete file.
+/// which must end in `.msh`; it is replaced in one go, and only by a complete file. It does so once `agree` to the names of the
+/// groups, for an analysis that may take `memory` (bytes).
 ///
 /// # Errors
 /// Input: what Gmsh cannot read or mesh, with its line where it names one; a parameter that no
 /// `DefineConstant` declares; a surface in no physical surface or in two; an order other than 1, 2 and 3; a mesh size below
 /// the tolerance of the geometry.
 /// Machine: `out` cannot be written.
-pub fn generate(geo: &Path, options: &Options, out: &Path) -> Result<()> {
-    generate_when(geo, options, out, u64::MAX, &mut |_| Ok(true))
-}
-
-/// As [`generate`], once `agree` to the names of the groups, for an analysis that may take `memory` (bytes).
-fn generate_when(
+pub fn generate(
     geo: &Path,
     options: &Options,
     out: &Path,

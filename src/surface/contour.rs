@@ -26,10 +26,8 @@ pub struct Contour {
     pub level_set: Vec<f64>,
     /// The level `c` (-), from 0 to 0.75.
     pub level: f64,
-    /// The volume (m³) that the contour encloses. It differs from `wanted` where no level in bounds encloses that: the
-    /// points have lost volume inside a body that fills its surroundings, or hold more than the cells they reach.
-    pub enclosed: f64,
-    /// `Σ V_p` (m³).
+    /// `Σ V_p` (m³), which the contour encloses. It does not where no level in bounds does: the points have lost volume inside
+    /// a body that fills its surroundings, or hold more than the cells they reach.
     pub wanted: f64,
     /// Nodes and volume of each point.
     shares: Vec<([u32; 3], [f64; 3])>,
@@ -117,11 +115,11 @@ impl Contour {
         let mut at_low = volume(undecided, full, low) - self.wanted;
         let mut at_high = volume(undecided, full, high) - self.wanted;
         if at_low <= matched {
-            (self.level, self.enclosed) = (low, at_low + self.wanted);
+            self.level = low;
             return;
         }
         if at_high >= -matched {
-            (self.level, self.enclosed) = (high, at_high + self.wanted);
+            self.level = high;
             return;
         }
         let (mut turn, mut raised) = (0, None);
@@ -136,7 +134,7 @@ impl Contour {
             turn += 1;
             let level = if turn % 3 == 0 || !(low < secant && secant < high) { 0.5 * (low + high) } else { secant };
             let there = volume(undecided, full, level) - self.wanted;
-            (self.level, self.enclosed) = (level, there + self.wanted);
+            self.level = level;
             if there.abs() <= matched || high - low <= CLOSE {
                 return;
             }

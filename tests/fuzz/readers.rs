@@ -4,7 +4,7 @@ use crate::files::{self, Container};
 use crate::harness::{Read, Reader};
 use crate::mutate::{self, Random};
 use crate::scenes::{self, Ready};
-use mpm::case;
+use mpm::case::Keys;
 use mpm::error::Error;
 use mpm::io::checkpoint::{Checkpoints as Kept, Fingerprint};
 use mpm::io::frame::{self, Column, Frame, Part};
@@ -73,7 +73,7 @@ impl Reader for Cases {
     fn read(&self, bytes: &[u8]) -> Read {
         let path = self.folder.path().join("case.yaml");
         fs::write(&path, bytes).unwrap();
-        let loaded = case::load(&path, &[]).map_err(|mut errors| errors.remove(0))?;
+        let loaded = Keys::default().load(&path, &[]).map_err(|mut errors| errors.remove(0))?;
         Ok(meaning(&loaded.source.tree()))
     }
 }
@@ -300,7 +300,7 @@ impl Reader for Frames {
         let meaning = meaning(&Frame::read(&path)?);
         let regions = mpm::case::parts::of_series(&self.scene.case, &self.scene.mesh);
         let fields = ["stress", "displacement"].map(String::from);
-        export::export(&results, &self.scene.mesh, &regions, self.folder.path(), &fields, Encoding::Raw)?;
+        export::export(&results, &self.scene.mesh, &regions, self.folder.path(), &fields, Encoding::Lz4)?;
         Ok(meaning)
     }
 }

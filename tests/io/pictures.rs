@@ -74,7 +74,7 @@ fn leaning_block(out: &Path, width: f64, height: f64) {
     }
     let fields = ["displacement", "plastic_strain", "stress"].map(String::from);
     let regions = Regions { elements: vec![false], soil: vec![true], ..Regions::default() };
-    export(&out.join("results"), &mesh, &regions, out, &fields, Encoding::Raw).unwrap();
+    export(&out.join("results"), &mesh, &regions, out, &fields, Encoding::Lz4).unwrap();
 }
 
 #[test]

@@ -60,7 +60,7 @@ fn write(out: &Path, noise: f64, ripple: f64) {
             .unwrap();
     }
     let regions = Regions { elements: vec![false], soil: vec![true], ..Regions::default() };
-    export(&results, &mesh, &regions, out, &["stress".into()], Encoding::Raw).unwrap();
+    export(&results, &mesh, &regions, out, &["stress".into()], Encoding::Lz4).unwrap();
     let columns = ["time [s]", "pile.contact_y [kN]", "head.uy [m]"].map(String::from);
     let mut history = History::create(&out.join("history.csv"), &columns).unwrap();
     for d in (0..=1400).map(|i| f64::from(i) * 1e-3) {

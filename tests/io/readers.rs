@@ -3,7 +3,7 @@
 
 use crate::support::{project, python, succeeds};
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use mpm::io::container::Data;
 use mpm::io::export::Regions;
@@ -157,15 +157,12 @@ fn vtk_reads_every_encoding_to_the_bit() {
     let folder = tempfile::tempdir().unwrap();
     for (name, grid) in [("grid", sample_grid()), ("points", many_points()), ("empty", Grid::default())] {
         let expected = Expected::of(folder.path().join(name), &grid);
-        let files =
-            [("raw", Encoding::Raw), ("lz4", Encoding::Lz4), ("plain", Encoding::Plain)].map(|(e, encoding)| {
-                let path = folder.path().join(format!("{name}_{e}.vtu"));
-                vtu::write(&path, &grid, encoding).unwrap();
-                path
-            });
-        check(&[&"vtk", &expected.folder, &files[0], &files[1], &files[2]]);
-        let length = |path: &Path| fs::metadata(path).unwrap().len();
-        assert!(length(&files[1]) <= length(&files[0]) + 2000);
+        let files = [("lz4", Encoding::Lz4), ("plain", Encoding::Plain)].map(|(e, encoding)| {
+            let path = folder.path().join(format!("{name}_{e}.vtu"));
+            vtu::write(&path, &grid, encoding).unwrap();
+            path
+        });
+        check(&[&"vtk", &expected.folder, &files[0], &files[1]]);
     }
 }
 
@@ -307,7 +304,7 @@ mod slow {
             frame.write(&results, k).unwrap();
         }
         let arguments: Vec<String> = times.iter().map(|t| format!("{t:?}")).collect();
-        for encoding in [Encoding::Raw, Encoding::Lz4, Encoding::Plain] {
+        for encoding in [Encoding::Lz4, Encoding::Plain] {
             let count = mesh.regions.len();
             let regions = Regions { elements: vec![false; count], soil: vec![true; count], ..Regions::default() };
             export::export(&results, &mesh, &regions, folder.path(), &["displacement".to_string()], encoding).unwrap();

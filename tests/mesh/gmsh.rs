@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use mpm::error::{Kind, Result};
 use mpm::mesh::Mesh;
-use mpm::mesh::gmsh::{Options, generate};
+use mpm::mesh::gmsh::{self, Options};
 use mpm::mesh::msh::read;
 use mpm::mesh::quality;
 use mpm::mesh::shape::{self, CellKind, MAX_NODES};
@@ -17,6 +17,10 @@ fn options(order: u8, parameters: &[(&str, f64)]) -> Options {
 
 fn project(path: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join(path)
+}
+
+fn generate(geo: &Path, options: &Options, out: &Path) -> Result<()> {
+    gmsh::generate(geo, options, out, u64::MAX, &mut |_| Ok(true))
 }
 
 /// Meshes a `.geo` given as text in a folder of its own.

@@ -105,7 +105,8 @@ fn meshed(geo: &str, order: u8) -> (TempDir, PathBuf) {
     let folder = tempfile::tempdir().unwrap();
     let (scene, out) = (folder.path().join("scene.geo"), folder.path().join("mesh.msh"));
     fs::write(&scene, geo).unwrap();
-    generate(&scene, &Options { order, incomplete: false, parameters: Vec::new() }, &out).unwrap();
+    let options = Options { order, incomplete: false, parameters: Vec::new() };
+    generate(&scene, &options, &out, u64::MAX, &mut |_| Ok(true)).unwrap();
     (folder, out)
 }
 

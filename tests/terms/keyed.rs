@@ -492,7 +492,7 @@ fn the_schema_has_the_entry_and_a_key_is_given_once() {
     let mut built_in = schema.clone();
     built_in["properties"].as_object_mut().unwrap().remove("bedding");
     built_in["$defs"].as_object_mut().unwrap().remove("OnCurve");
-    assert_eq!(built_in, mpm::case::schema());
+    assert_eq!(built_in, Keys::default().schema());
     let error = Keys::with(&[Key::of::<Bedding>(); 2]).unwrap_err();
     assert!(error.to_string().contains("`bedding`"), "{error}");
 }

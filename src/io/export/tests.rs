@@ -46,7 +46,7 @@ fn only_what_is_asked_for_is_written_and_stale_files_go() {
     assert!(!text.contains("Name=\"stress") && !text.contains("displacement") && !text.contains("deviatoric"));
 
     write_frames(&results, 2);
-    assert_eq!(export(&results, &mesh(), &regions(&[false]), &out, &asked, Encoding::Raw).unwrap().frames, 2);
+    assert_eq!(export(&results, &mesh(), &regions(&[false]), &out, &asked, Encoding::Lz4).unwrap().frames, 2);
     let mut left: Vec<_> =
         fs::read_dir(out.join("vtu")).unwrap().map(|e| e.unwrap().file_name().into_string().unwrap()).collect();
     left.sort();
@@ -63,12 +63,12 @@ fn unknown_fields_and_other_meshes_are_errors() {
     let (results, out) = (folder.path().join("results"), folder.path().join("out"));
     write_frames(&results, 1);
     let e =
-        export(&results, &mesh(), &regions(&[false]), &out, &fields(&["pore_pressure"]), Encoding::Raw).unwrap_err();
+        export(&results, &mesh(), &regions(&[false]), &out, &fields(&["pore_pressure"]), Encoding::Lz4).unwrap_err();
     assert_eq!(e.kind, Kind::Input);
     assert!(e.problem.contains("`pore_pressure`") && e.problem.contains("mean_stress, plastic_strain"), "{e}");
     let mut other = mesh();
     other.nodes.push([2., 2.]);
-    let e = export(&results, &other, &regions(&[false]), &out, &fields(&["stress"]), Encoding::Raw).unwrap_err();
+    let e = export(&results, &other, &regions(&[false]), &out, &fields(&["stress"]), Encoding::Lz4).unwrap_err();
     assert!(e.kind == Kind::Input && e.problem.contains("7 nodes"), "{e}");
     assert!(!out.join("points.pvd").exists());
 }

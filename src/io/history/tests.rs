@@ -12,7 +12,7 @@ fn a_resumed_history_is_the_undisturbed_one() {
     let whole = folder.path().join("whole.csv");
     let mut history = History::create(&whole, &columns()).unwrap();
     rows.iter().for_each(|row| history.row(row).unwrap());
-    assert_eq!(history.rows(), 20);
+    assert_eq!(history.mark().lines, 21);
     let whole = fs::read(&whole).unwrap();
     assert!(whole.starts_with(b"time [s],\"head, \"\"left\"\".uy [m]\"\n0.0,-0.0\n0.1,-1e-300\n"));
 
@@ -26,7 +26,7 @@ fn a_resumed_history_is_the_undisturbed_one() {
         // A row that a kill cut short.
         OpenOptions::new().append(true).open(&path).unwrap().write_all(b"1.2000").unwrap();
         let mut history = History::resume(&path, &columns(), mark).unwrap();
-        assert_eq!(history.rows(), kept);
+        assert_eq!(history.mark().lines, kept + 1);
         rows[kept as usize..].iter().for_each(|row| history.row(row).unwrap());
         assert_eq!(fs::read(&path).unwrap(), whole, "{kept} rows kept");
     }
@@ -91,7 +91,7 @@ fn a_number_that_is_not_finite_names_its_column() {
     let mut history = History::create(&path, &columns()).unwrap();
     let e = history.row(&[0.0, f64::NAN]).unwrap_err();
     assert!(e.kind == Kind::Analysis && e.to_string().contains(".uy [m]`: the value is NaN"), "{e}");
-    assert_eq!(history.rows(), 0);
+    assert_eq!(history.mark().lines, 1);
 }
 
 #[test]

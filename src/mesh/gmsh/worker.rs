@@ -318,6 +318,6 @@ fn work(request: &Request, agree: &mut dyn FnMut(Groups) -> Result<bool>) -> Res
     }
     match &request.out {
         None => agree(super::groups(&request.geo, &request.options)?).map(drop),
-        Some(out) => super::generate_when(&request.geo, &request.options, out, request.analysis, agree),
+        Some(out) => super::generate(&request.geo, &request.options, out, request.analysis, agree),
     }
 }
