@@ -120,6 +120,12 @@ impl<const D: usize> Points<D> {
         usize::from(*self.model.get(p).unwrap_or(&self.region[p]))
     }
 
+    /// What a list by the numbers of materials has for that of point `p`.
+    #[inline]
+    pub fn by_material<'a, T>(&self, p: usize, list: &'a [Option<T>]) -> Option<&'a T> {
+        list.get(self.model_of(p))?.as_ref()
+    }
+
     /// The state of point `p` for its model; `inverse_dt` (1/s) is one over the step size, 0 without time effects.
     #[inline]
     pub fn state(&self, p: usize, inverse_dt: f64) -> State<'_> {
@@ -158,7 +164,7 @@ impl<const D: usize> Points<D> {
         let count = models.iter().flatten().map(|model| internal_count(model.as_ref())).max().unwrap_or(0);
         self.internal = vec![0.0; count * self.len()];
         for p in 0..self.len() {
-            if let Some(Some(model)) = models.get(self.model_of(p)) {
+            if let Some(model) = self.by_material(p, models) {
                 self.begin_internal(p, model.as_ref());
             }
         }

@@ -5,13 +5,8 @@ use crate::kinematics::Kinematics;
 use crate::points::Points;
 use crate::term::Porous;
 
-/// The porous soil of point `p`.
-pub fn soil<'a, const D: usize>(porous: &'a [Option<Porous>], points: &Points<D>, p: usize) -> Option<&'a Porous> {
-    porous.get(points.model_of(p)).and_then(Option::as_ref)
-}
-
 /// Projects the pressures (kPa) of the nodes from the points of all `cells` that are in regions with water.
 pub fn gather<const D: usize, K: Kinematics<D>>(cells: &[Filled<D>], porous: &[Option<Porous>], field: &mut [f64]) {
-    let value = |points: &Points<D>, p: usize| soil(porous, points, p).map(|_| points.pore_pressure[p]);
+    let value = |points: &Points<D>, p: usize| points.by_material(p, porous).map(|_| points.pore_pressure[p]);
     nodal_fit::fit::<D, K>(cells, value, field);
 }

@@ -1,7 +1,6 @@
 //! The volume balance of the pore water in a step, for the log: the sum of the first bracket of eq. 36 of docs/theory.md, and the outflow.
 
 use super::grid::Grid;
-use super::pore_pressure::soil;
 use super::problem::Solution;
 use super::scene::Scene;
 use super::state::State;
@@ -31,7 +30,7 @@ pub fn content<const D: usize>(scene: &Scene<D>, state: &State<D>) -> [Vec<f64>;
     let Some(water) = &scene.water else { return [Vec::new(), Vec::new()] };
     [state.integration(), &state.fem].map(|points| {
         let one = |p: usize| {
-            let soil = soil(&water.porous, points, p);
+            let soil = points.by_material(p, &water.porous);
             soil.map_or(0.0, |soil| {
                 points.deformation[p].determinant() + soil.storage(points.seeded_height(p)) * points.pore_pressure[p]
             })

@@ -122,7 +122,7 @@ impl<K: Kinematics<2>> DrainedSurface<K> {
         let (mut volume, mut mobility) = (0.0, [0.0; 2]);
         for entries in frame.interpolation.entries::<K>(cell_points) {
             let p = entries.point;
-            if let Some(soil) = self.porous.get(frame.points.model_of(p)).and_then(Option::as_ref) {
+            if let Some(soil) = frame.points.by_material(p, &self.porous) {
                 let weight = entries.weight * frame.points.deformation[p].determinant();
                 volume += weight;
                 mobility = [0, 1].map(|d| mobility[d] + weight * soil.mobility[d]);

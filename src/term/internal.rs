@@ -170,7 +170,7 @@ impl<K, S> Internal<K, S> {
         let p = entries.point;
         let metric_factor = &strained.metric_factor;
         let trial = symmetric(&(metric_factor * full(&points.elastic[p]) * metric_factor.transpose()));
-        let Some(model) = models.get(points.model_of(p)).and_then(Option::as_ref) else {
+        let Some(model) = points.by_material(p, models) else {
             return Err(Error::analysis(format!("material point {p}"), "it has no material", ""));
         };
         let state = State { increment: Some(metric_factor), ..points.state(p, inverse_dt) };
@@ -334,7 +334,7 @@ impl<const D: usize, K: Kinematics<D>, S: Mixed<D, K>> Term<D> for Internal<K, S
 
     fn energy(&self, points: &Points<D>) -> f64 {
         let energy = |p: usize| {
-            let Some(model) = self.models.get(points.model_of(p)).and_then(Option::as_ref) else { return 0.0 };
+            let Some(model) = points.by_material(p, &self.models) else { return 0.0 };
             let strain = K::roots(&points.elastic[p]).map(|b| 0.5 * b.ln());
             let stored = model.elastic_energy(points.seeded_height(p), &strain);
             self.share.energy(points, p) + points.initial_volume[p] * stored

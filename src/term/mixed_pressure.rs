@@ -74,7 +74,7 @@ impl MixedPressure {
 /// Excess pressure of the pore water (kPa, Cauchy, compression positive) at point `p` of soil of which a pressure field carries the share of
 /// the water, or that has a field for the water alone, or neither.
 pub fn excess_pressure<const D: usize>(carried: &[Option<MixedPressure>], points: &Points<D>, p: usize) -> f64 {
-    match carried.get(points.model_of(p)).and_then(Option::as_ref) {
+    match points.by_material(p, carried) {
         Some(share) if share.water > 0.0 && !points.pressure.is_empty() => share.pore_pressure(points, p),
         _ => points.pore_pressure.get(p).copied().unwrap_or(0.0),
     }

@@ -36,7 +36,7 @@ impl<K> PoreStabilisation<K> {
     }
 
     fn has_water<const D: usize>(&self, frame: &Frame<D>, cell: u32) -> bool {
-        let has = |&p: &u32| self.porous.get(frame.points.model_of(p as usize)).is_some_and(Option::is_some);
+        let has = |&p: &u32| frame.points.by_material(p as usize, &self.porous).is_some();
         frame.interpolation.points_in(cell).iter().any(has)
     }
 }

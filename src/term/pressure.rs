@@ -95,10 +95,6 @@ impl<K> PressureField<K> {
     pub fn new(carried: Vec<Option<MixedPressure>>, unit: f64) -> Self {
         Self { carried, unit, kinematics: PhantomData }
     }
-
-    fn of<const D: usize>(&self, points: &Points<D>, p: usize) -> Option<&MixedPressure> {
-        self.carried.get(points.model_of(p)).and_then(Option::as_ref)
-    }
 }
 
 /// The field over a cell.
@@ -121,7 +117,7 @@ impl<const D: usize, K: Kinematics<D>> Mixed<D, K> for PressureField<K> {
         let mean = (kind.order() == 1).then(|| {
             let (mut sum, mut weight) = ([0.0; MOST], 0.0);
             for entries in frame.interpolation.entries::<K>(cell_points) {
-                if let Some(carried) = self.of(frame.points, entries.point) {
+                if let Some(carried) = frame.points.by_material(entries.point, &self.carried) {
                     // As the differences from them are weighted: the projection is symmetric.
                     let own = entries.weight * carried.softness(frame.points.seeded_height(entries.point));
                     weight += own;
@@ -143,7 +139,7 @@ impl<const D: usize, K: Kinematics<D>> Mixed<D, K> for PressureField<K> {
         internal: &mut [f64],
     ) -> Option<Answer<K, D>> {
         let (p, y) = (entries.point, points.seeded_height(entries.point));
-        let bound = self.of(points, p).and_then(|carried| Some((carried, carried.bound?)));
+        let bound = points.by_material(p, &self.carried).and_then(|carried| Some((carried, carried.bound?)));
         let Some((carried, bound)) = bound else {
             return Some((K::respond(at.model, y, &at.trial, &at.state, internal)?, None));
         };
@@ -198,7 +194,7 @@ impl<const D: usize, K: Kinematics<D>> Mixed<D, K> for PressureField<K> {
     /// By Hencky's law from the change of the field. Soil with a limited tension has no such law beyond the limit.
     fn volume_ratio(&self, cell: &Cell, points: &Points<D>, entries: &Entries<D>, before: f64) -> Option<f64> {
         let p = entries.point;
-        let carried = self.of(points, p).filter(|carried| carried.limit.is_none())?;
+        let carried = points.by_material(p, &self.carried).filter(|carried| carried.limit.is_none())?;
         let y = points.seeded_height(p);
         let skeleton = match carried.bound {
             Some(_) => carried.model.bulk_modulus(y, carried.model.mean_stress(y, volume_strain(&points.elastic[p]))),
@@ -215,7 +211,7 @@ impl<const D: usize, K: Kinematics<D>> Mixed<D, K> for PressureField<K> {
 
     fn add(&self, cell: &Cell, point: &Point<D>, answer: &mut Spatial<K::Tangent>) -> f64 {
         let &Point { points, entries, ratios } = point;
-        let Some(carried) = self.of(points, entries.point) else { return 0.0 };
+        let Some(carried) = points.by_material(entries.point, &self.carried) else { return 0.0 };
         let measure = Measure::of(carried, points, entries.point);
         let pressure = measure.slope(ratios.grid) * dot(&shapes(cell.kind, entries.shape), &cell.pressure);
         for normal in &mut answer.kirchhoff[..3] {
@@ -232,7 +228,7 @@ impl<const D: usize, K: Kinematics<D>> Mixed<D, K> for PressureField<K> {
         let &Point { points, entries, ratios } = point;
         let &Coupling { forces, strains, field_strain, acts_on, end_weight } = coupling;
         let p = entries.point;
-        let Some(carried) = self.of(points, p) else { return };
+        let Some(carried) = points.by_material(p, &self.carried) else { return };
         let count = unknowns(cell.kind);
         // They are the last ones of a coupling.
         let begin = local.size - count;
@@ -291,7 +287,7 @@ impl<const D: usize, K: Kinematics<D>> Mixed<D, K> for PressureField<K> {
     }
 
     fn commit(&self, cell: &Cell, &Point { points, entries, ratios }: &Point<D>, history: &mut History) {
-        let Some(carried) = self.of(points, entries.point) else { return };
+        let Some(carried) = points.by_material(entries.point, &self.carried) else { return };
         let slope = Measure::of(carried, points, entries.point).slope(ratios.grid);
         history.pressure = slope * dot(&shapes(cell.kind, entries.shape), &cell.pressure);
         let gained = history.pressure - points.pressure[entries.point];
@@ -309,7 +305,7 @@ impl<const D: usize, K: Kinematics<D>> Mixed<D, K> for PressureField<K> {
     }
 
     fn energy(&self, points: &Points<D>, p: usize) -> f64 {
-        let Some(carried) = self.of(points, p) else { return 0.0 };
+        let Some(carried) = points.by_material(p, &self.carried) else { return 0.0 };
         let of_model = if carried.bound.is_some() { carried.held(points, p) } else { 0.0 };
         points.initial_volume[p] * carried.law(points.seeded_height(p)).energy(points.pressure[p] - of_model)
     }

@@ -98,10 +98,6 @@ impl<K> PoreWater<K> {
     pub fn new(porous: Vec<Option<Porous>>, unit: f64) -> Self {
         Self { porous, unit, kinematics: PhantomData }
     }
-
-    fn of<const D: usize>(&self, points: &Points<D>, p: usize) -> Option<&Porous> {
-        self.porous.get(points.model_of(p)).and_then(Option::as_ref)
-    }
 }
 
 /// The linear shape functions of the corners as sums of those of the cell: the coefficient of function `i` in that of corner `a`.
@@ -202,7 +198,7 @@ impl<const D: usize, K: Kinematics<D>> Mixed<D, K> for PoreWater<K> {
     fn add(&self, cell: &Cell<D>, point: &Point<D>, answer: &mut Spatial<K::Tangent>) -> f64 {
         let &Point { points, entries, ratios } = point;
         let p = entries.point;
-        if self.of(points, p).is_none() {
+        if points.by_material(p, &self.porous).is_none() {
             return 0.0;
         }
         let before = points.deformation[p].determinant();
@@ -219,7 +215,7 @@ impl<const D: usize, K: Kinematics<D>> Mixed<D, K> for PoreWater<K> {
         let &Point { points, entries, ratios } = point;
         let &Coupling { forces, strains, acts_on, end_weight, .. } = coupling;
         let p = entries.point;
-        let Some(porous) = self.of(points, p) else { return };
+        let Some(porous) = points.by_material(p, &self.porous) else { return };
         let begin = D * forces.len();
         let y = points.seeded_height(p);
         let before = points.deformation[p].determinant();
@@ -272,13 +268,13 @@ impl<const D: usize, K: Kinematics<D>> Mixed<D, K> for PoreWater<K> {
     }
 
     fn commit(&self, cell: &Cell<D>, &Point { points, entries, .. }: &Point<D>, history: &mut History) {
-        if self.of(points, entries.point).is_some() {
+        if points.by_material(entries.point, &self.porous).is_some() {
             history.pore_pressure = dot(&cell.shapes(entries.shape), &cell.pressure);
         }
     }
 
     fn energy(&self, points: &Points<D>, p: usize) -> f64 {
-        let Some(porous) = self.of(points, p) else { return 0.0 };
+        let Some(porous) = points.by_material(p, &self.porous) else { return 0.0 };
         0.5 * points.initial_volume[p] * porous.storage(points.seeded_height(p)) * points.pore_pressure[p].powi(2)
     }
 }

@@ -104,7 +104,7 @@ impl<K: Kinematics<2>> Materials<K> {
         fields[PRESSURE] = at(&points.pressure, p);
         fields[WATER] = at(&points.pore_pressure, p);
         fields[ORIGIN..].copy_from_slice(&points.origin[p]);
-        if let Some(model) = self.models.get(points.model_of(p)).and_then(Option::as_ref) {
+        if let Some(model) = points.by_material(p, &self.models) {
             let y = points.seeded_height(p);
             let stress = |b: &[f64; 3]| model.elastic_stress(y, &b.map(|b| 0.5 * b.ln()));
             let stress = spectral::map_roots(&points.elastic[p], stress);
