@@ -12,7 +12,6 @@ mod plot;
 mod print;
 mod report;
 mod run;
-mod schema;
 mod seed;
 mod signals;
 mod solve;
@@ -93,7 +92,7 @@ pub fn with(keys: &Keys) -> ExitCode {
         Command::Plot(args) => plot::run(&args, keys),
         Command::Report(args) => report::run(&args, keys),
         Command::Info(args) => info::run(&args),
-        Command::Schema => schema::run(keys),
+        Command::Schema => print::print(&format!("{:#}\n", keys.schema())),
         Command::Completions(args) => completions::run(&args, &Cli::command()),
         Command::Man(args) => man::run(&args, Cli::command()),
         Command::GmshWorker => gmsh::serve().map_err(Vec::from),
