@@ -15,6 +15,8 @@ use crate::surface::{ActiveBoundary, MarkerFront, Piece, Voids};
 const POINTS: &str = "points.";
 const FEM: &str = "fem.";
 const SAMPLES: &str = "sample.";
+/// What a checkpoint has for the area of a void that is no news.
+const NO_NEWS: f64 = -1.0;
 
 /// Puts everything in a state into a store for a file of whichever kind.
 pub fn put<const D: usize>(mut store: Store, state: &State<D>) -> Store {
@@ -86,7 +88,7 @@ pub fn put<const D: usize>(mut store: Store, state: &State<D>) -> Store {
     store.put("front.position", 2, markers);
     store.put("front.first", 1, loops);
     store.put("voids.of_cell", 1, voids.of_cell.clone());
-    store.put("voids.reported", 1, voids.reported.clone());
+    store.put("voids.reported", 1, voids.reported.iter().map(|area| area.unwrap_or(NO_NEWS)).collect());
     columns::put(&mut store, POINTS, points);
     columns::put(&mut store, FEM, fem);
     store
@@ -303,6 +305,7 @@ fn read<const D: usize>(mut store: Store) -> Result<State<D>> {
     let (displacement, travel, increment) = (nodal("displacement")?, nodal("travel")?, nodal("increment")?);
     let (velocity, acceleration, nodes) = (nodal("velocity")?, nodal("acceleration")?, nodal("coordinates")?);
     let (uncounted, force, start_position) = (nodal("uncounted")?, nodal("ramp")?, nodal("start_position")?);
+    let reported = |area: f64| (area != NO_NEWS).then_some(area);
     let state = State {
         phase: usize::try_from(*phase).map_err(|_| foreign("the number of its phase"))?,
         time: *time,
@@ -336,7 +339,7 @@ fn read<const D: usize>(mut store: Store) -> Result<State<D>> {
         front: take_front(&mut store)?,
         voids: Voids {
             of_cell: store.take::<u32>("voids.of_cell", 1)?,
-            reported: store.take::<f64>("voids.reported", 1)?,
+            reported: store.take("voids.reported", 1)?.into_iter().map(reported).collect(),
         },
         restorations: *restorations,
     };

@@ -11,16 +11,13 @@ use std::collections::{BTreeMap, BTreeSet};
 /// How much (-) a void has grown when that is reported.
 const MUCH: f64 = 2.0;
 
-/// Stands for the area of what is empty and no news.
-const KNOWN: f64 = -1.0;
-
 /// The voids so far: part of the state of a run.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Voids {
     /// A label a cell: 0 where it is none of a void, `k + 1` in void `k`. Empty before the first look.
     pub of_cell: Vec<u32>,
-    /// The area (m²) of each void when it was last reported; 0 of one that has closed, -1 of one that is no news.
-    pub reported: Vec<f64>,
+    /// The area (m²) of each void when it was last reported; 0 of one that has closed, `None` of one that is no news.
+    pub reported: Vec<Option<f64>>,
 }
 
 /// What became of a void.
@@ -64,7 +61,7 @@ impl Voids {
             *self = Self { of_cell: vec![0; count], reported: Vec::new() };
             let open: Vec<bool> = emptiness.iter().map(|&e| e >= 1.0).collect();
             for group in self.groups(mesh, &open) {
-                let label = self.label(KNOWN);
+                let label = self.label(None);
                 group.cells.iter().for_each(|&c| self.of_cell[c as usize] = label);
             }
             return Vec::new();
@@ -88,20 +85,19 @@ impl Voids {
         for (g, group) in groups.iter().enumerate() {
             let own: Vec<u32> = group.before.keys().copied().filter(|label| heirs[label] == g).collect();
             goes_on.extend(&own);
-            let is_known = |label: &u32| self.area(*label) == Some(KNOWN);
-            let label = match own.iter().copied().find(is_known).or(own.first().copied()) {
+            let is_no_news = |label: &u32| self.reported[*label as usize - 1].is_none();
+            let label = match own.iter().copied().find(is_no_news).or(own.first().copied()) {
                 Some(label) => label,
-                None if is_news(&group.cells, !group.before.is_empty()) => self.label(0.0),
-                None => self.label(KNOWN),
+                None if is_news(&group.cells, !group.before.is_empty()) => self.label(Some(0.0)),
+                None => self.label(None),
             };
             goes_on.insert(label);
             group.cells.iter().for_each(|&c| now[c as usize] = label);
             // Those that it has taken in are no voids of their own any longer.
-            own.iter().filter(|&&other| other != label).for_each(|&other| self.reported[other as usize - 1] = 0.0);
-            let reported = &mut self.reported[label as usize - 1];
-            if *reported == KNOWN {
-                continue;
+            for &other in own.iter().filter(|&&other| other != label) {
+                self.reported[other as usize - 1] = Some(0.0);
             }
+            let Some(reported) = &mut self.reported[label as usize - 1] else { continue };
             let (area, place) = extent(mesh, &group.cells, emptiness);
             if area > MUCH * *reported {
                 let kind = if *reported > 0.0 { News::Grown } else { News::Opened };
@@ -109,9 +105,11 @@ impl Voids {
                 *reported = area;
             }
         }
-        for (k, area) in self.reported.iter_mut().enumerate() {
-            let label = k as u32 + 1;
-            if *area > 0.0 && !goes_on.contains(&label) {
+        for (label, area) in (1..).zip(&mut self.reported) {
+            if let Some(area) = area
+                && *area > 0.0
+                && !goes_on.contains(&label)
+            {
                 let cells: Vec<u32> = (0..count as u32).filter(|&c| self.of_cell[c as usize] == label).collect();
                 let (_, place) = extent(mesh, &cells, &vec![1.0; count]);
                 news.push(Void { news: News::Closed, area: *area, place, cells });
@@ -124,11 +122,11 @@ impl Voids {
 
     /// The area (m²) that was reported of the void of a label.
     fn area(&self, label: u32) -> Option<f64> {
-        self.reported.get((label as usize).checked_sub(1)?).copied()
+        *self.reported.get((label as usize).checked_sub(1)?)?
     }
 
     /// The label of a new void.
-    fn label(&mut self, reported: f64) -> u32 {
+    fn label(&mut self, reported: Option<f64>) -> u32 {
         self.reported.push(reported);
         self.reported.len() as u32
     }

@@ -108,7 +108,7 @@ fn check_cells<const D: usize>(scene: &Scene<D>, state: &State<D>) -> Result<()>
     ensure([0, cells].contains(&state.penalised.len()), "the list of penalised cells")?;
     let Voids { of_cell, reported } = &state.voids;
     let known = of_cell.iter().all(|&label| (label as usize) <= reported.len());
-    let areas = reported.iter().all(|area| *area >= 0.0 || *area == -1.0);
+    let areas = reported.iter().flatten().all(|area| *area >= 0.0);
     ensure([0, cells].contains(&of_cell.len()) && known && areas, "its voids")
 }
 
