@@ -4,8 +4,8 @@
 //! ([`crate::points::Points::model_of`]).
 
 use super::check::Checker;
-use super::checked::{Case, Change, Material, Phase, Region};
-use super::find::{filled, region_index};
+use super::checked::{Case, Change, Content, Material, Phase, Region};
+use super::find::{filled, region_index, regions};
 use super::incompressible::has_water_of_its_own;
 use super::locate::{At, Path};
 use super::over_depth::check_over_depth;
@@ -39,7 +39,6 @@ impl Checker {
         path: &Path,
     ) -> Vec<Change> {
         let mut changes = Vec::new();
-        let regions: Vec<&str> = file.regions.keys().map(String::as_str).collect();
         let materials: Vec<&str> = file.materials.keys().map(String::as_str).collect();
         for (name, into) in &phase.materials {
             let path = path.key("materials").key(name);
@@ -48,11 +47,7 @@ impl Checker {
                 self.issue(&path, At::Key, "the first phase begins with the materials of `regions`", remedy);
                 continue;
             }
-            let Ok(region) = regions.binary_search(&name.as_str()) else {
-                let problem = format!("there is no region `{name}`");
-                self.issue(&path, At::Key, problem, suggest(name, regions.iter().copied()));
-                continue;
-            };
+            let Some(region) = self.region_named(file, name, &path) else { continue };
             let Ok(material) = materials.binary_search(&into.as_str()) else {
                 let problem = format!("there is no material `{into}`");
                 self.issue(&path, At::Value, problem, suggest(into, materials.iter().copied()));
@@ -117,9 +112,9 @@ pub fn by_number<T: Clone>(case: &Case, mesh: &Mesh<2>, of: impl Fn(&Material) -
 
 /// Whether each material by number is one of a structure.
 pub fn of_structures(case: &Case, mesh: &Mesh<2>) -> Vec<bool> {
-    let is_structure = |name: &String| case.content(name).is_some_and(|content| content.is_structure());
-    let changed = all(case).map(|(region, _)| region.content.is_structure());
-    mesh.regions.iter().map(is_structure).chain(changed).collect()
+    let mut of_structures = regions(case, mesh, Content::is_structure);
+    of_structures.extend(all(case).map(|(region, _)| region.content.is_structure()));
+    of_structures
 }
 
 /// What is so of each region of the mesh with one of the materials that it ever has.

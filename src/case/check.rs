@@ -215,15 +215,20 @@ impl Checker {
         checked
     }
 
+    /// The index of the region that the key at `path` names.
+    pub(super) fn region_named(&mut self, file: &raw::CaseFile, name: &str, path: &Path) -> Option<usize> {
+        let found = file.regions.keys().position(|region| region == name);
+        if found.is_none() {
+            let remedy = suggest(name, file.regions.keys().map(String::as_str));
+            self.issue(path, At::Key, format!("there is no region `{name}`"), remedy);
+        }
+        found
+    }
+
     fn initial_velocity(&mut self, file: &raw::CaseFile, path: &Path) -> Vec<InitialVelocity> {
-        let regions: Vec<&str> = file.regions.keys().map(String::as_str).collect();
         let mut checked = Vec::new();
         for (name, v) in &file.initial_velocity {
-            let Ok(region) = regions.binary_search(&name.as_str()) else {
-                let problem = format!("there is no region `{name}`");
-                self.issue(&path.key(name), At::Key, problem, suggest(name, regions.iter().copied()));
-                continue;
-            };
+            let Some(region) = self.region_named(file, name, &path.key(name)) else { continue };
             if file.regions.get(name).is_some_and(|region| region.kind == raw::RegionKind::Buffer) {
                 let remedy = "take the entry out, or make the region `kind: mpm`";
                 self.issue(&path.key(name), At::Key, "a buffer region holds nothing that could move", remedy);

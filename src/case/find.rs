@@ -1,6 +1,6 @@
 //! What a case names, in its mesh.
 
-use super::checked::{Case, Material, Region};
+use super::checked::{Case, Content, Material, Region};
 use crate::error::{Error, Result};
 use crate::mesh::{Group, Mesh, cell_size};
 
@@ -13,6 +13,11 @@ pub fn filled(case: &Case) -> impl Iterator<Item = (&Region, &Material)> {
 pub fn mean_size(mesh: &Mesh<2>) -> f64 {
     let cells = mesh.cells.len();
     (0..cells).map(|c| cell_size(mesh, c)).sum::<f64>() / cells as f64
+}
+
+/// Whether each region of the mesh is what is asked.
+pub fn regions(case: &Case, mesh: &Mesh<2>, is: impl Fn(&Content) -> bool) -> Vec<bool> {
+    mesh.regions.iter().map(|name| case.content(name).is_some_and(|content| is(&content))).collect()
 }
 
 /// The number of a region of the mesh.

@@ -57,7 +57,20 @@ impl Checker {
             });
         }
         if material.drainage == Some(raw::Drainage::Undrained) {
-            return self.pore_water(material, kind, model, values, pressure, path);
+            if pressure == Some(raw::Pressure::None) {
+                let remedy = "take `pressure: none` out of `numerics`, or `drainage` out of the material";
+                self.issue(&path.key("drainage"), At::Value, "an undrained material needs the pressure field", remedy);
+                return None;
+            }
+            let undrained = self.undrained_poisson(material, model, path)?;
+            let water = bulk(undrained) - bulk(poisson);
+            if !kind.keeps_volume {
+                let model = model.clone();
+                return Some(MixedPressure { model, ratio: water, water: 1.0, bound: Some(KEPT), limit: None });
+            }
+            let ratio = bulk(undrained) - KEPT;
+            let (model, limit) = (deviatoric(kind, values, poisson)?, share(values, ratio));
+            return Some(MixedPressure { model, ratio, water: water / ratio, bound: None, limit });
         }
         self.drained_material(material, path);
         if material.undrained_poisson.is_some() {
@@ -75,37 +88,6 @@ impl Checker {
         let model = deviatoric(kind, values, poisson)?;
         let ratio = bulk(poisson) - KEPT;
         Some(MixedPressure { model, ratio, water: 0.0, bound: None, limit: share(values, ratio) })
-    }
-
-    fn pore_water(
-        &mut self,
-        material: &raw::Material,
-        kind: &Kind,
-        model: &Arc<dyn Model>,
-        values: &BTreeMap<&str, Profile>,
-        pressure: Option<raw::Pressure>,
-        path: &Path,
-    ) -> Option<MixedPressure> {
-        if pressure == Some(raw::Pressure::None) {
-            let remedy = "take `pressure: none` out of `numerics`, or `drainage` out of the material";
-            self.issue(&path.key("drainage"), At::Value, "an undrained material needs the pressure field", remedy);
-            return None;
-        }
-        let undrained = self.undrained_poisson(material, model, path)?;
-        let poisson = model.elasticity().poisson();
-        let water = bulk(undrained) - bulk(poisson);
-        if !kind.keeps_volume {
-            return Some(MixedPressure {
-                model: model.clone(),
-                ratio: water,
-                water: 1.0,
-                bound: Some(KEPT),
-                limit: None,
-            });
-        }
-        let ratio = bulk(undrained) - KEPT;
-        let (model, limit) = (deviatoric(kind, values, poisson)?, share(values, ratio));
-        Some(MixedPressure { model, ratio, water: water / ratio, bound: None, limit })
     }
 }
 

@@ -1,7 +1,7 @@
 //! Where the regions of a case lie: what no mesh can be right with, and what would not fit into the machine.
 
 use super::checked::{Case, Content, Touched, Touching};
-use super::find::region_index;
+use super::find::{region_index, regions};
 use crate::error::{Error, Result};
 use crate::geometry::box_around;
 use crate::mesh::locate::Locator;
@@ -14,8 +14,7 @@ use std::fs;
 /// # Errors
 /// Input: cells of soil or buffer that lie upon each other, a structure that cannot come to the soil it is to touch.
 pub fn check(case: &Case, mesh: &Mesh<2>) -> Result<()> {
-    let is_structure = |name: &String| case.content(name).is_some_and(|content| content.is_structure());
-    let structures: Vec<bool> = mesh.regions.iter().map(is_structure).collect();
+    let structures = regions(case, mesh, Content::is_structure);
     let grid = mesh.part(|c| !structures[mesh.cells.region[c] as usize]);
     apart(&grid)?;
     within_reach(case, mesh, &grid)
@@ -130,7 +129,8 @@ pub fn check_seeding(case: &Case, mesh: &Mesh<2>) -> Result<()> {
         };
     }
     let points: u64 = mesh.cells.region.iter().map(|&r| of_region[r as usize]).sum();
-    available().map_or(Ok(()), |left| fits(&format!("seeding {points} points"), points.saturating_mul(SEEDED), left))
+    memory("MemAvailable")
+        .map_or(Ok(()), |left| fits(&format!("seeding {points} points"), points.saturating_mul(SEEDED), left))
 }
 
 /// Refuses a solution that the memory of the machine does not hold, before anything is written.
@@ -141,7 +141,7 @@ pub fn check_solving(mesh: &Mesh<2>, points: usize) -> Result<()> {
     let nodes = mesh.nodes.len();
     let needed = (points as u64).saturating_mul(SOLVED[0]).saturating_add((nodes as u64).saturating_mul(SOLVED[1]));
     let what = format!("solving for {points} points on {nodes} nodes");
-    available().map_or(Ok(()), |left| fits(&what, needed, left))
+    memory("MemAvailable").map_or(Ok(()), |left| fits(&what, needed, left))
 }
 
 /// Refuses `what` where it needs more memory (B) than is left.
@@ -157,10 +157,10 @@ fn fits(what: &str, needed: u64, left: u64) -> Result<()> {
     ))
 }
 
-/// Memory (B) that is left, where the system tells (Linux).
-fn available() -> Option<u64> {
+/// The memory (B) of a name, such as `MemTotal`, where the system tells (Linux).
+pub fn memory(name: &str) -> Option<u64> {
     let told = fs::read_to_string("/proc/meminfo").ok()?;
-    let line = told.lines().find_map(|line| line.strip_prefix("MemAvailable:"))?;
+    let line = told.lines().find_map(|line| line.strip_prefix(name)?.strip_prefix(':'))?;
     line.trim().strip_suffix("kB")?.trim().parse::<u64>().ok()?.checked_mul(1024)
 }
 
@@ -208,7 +208,7 @@ mod tests {
         assert!(e.to_string().contains("140000000 points takes about 140.0 GB, and the machine has 8.0 GB"), "{e}");
         let mesh = builder::rectangle(CellKind::T6, 2.0, 1.0, 4, 2, 0.0, 0);
         check_solving(&mesh, 100).unwrap();
-        if available().is_some() {
+        if memory("MemAvailable").is_some() {
             check_solving(&mesh, usize::MAX).unwrap_err();
         }
     }

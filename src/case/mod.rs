@@ -16,7 +16,7 @@ mod find;
 mod incompressible;
 pub mod issue;
 pub mod keyed;
-mod layout;
+pub mod layout;
 mod loads;
 pub mod locate;
 mod materials;

@@ -2,8 +2,8 @@
 //!
 //! Both number the nodes as the whole mesh does; cells are numbered in each part in their order in the whole.
 
-use super::checked::{Case, Geometry, Phase, Restore, Site};
-use super::find::group;
+use super::checked::{Case, Content, Geometry, Phase, Restore, Site};
+use super::find::{group, regions};
 use super::rigid;
 use crate::error::{Error, Result};
 use crate::io::export::Regions;
@@ -11,11 +11,6 @@ use crate::mesh::locate::Locator;
 use crate::mesh::{Group, Mesh};
 use crate::points::Points;
 use std::collections::{BTreeMap, HashSet};
-
-/// Whether each region of the mesh is of finite elements.
-pub fn of_elements(case: &Case, mesh: &Mesh<2>) -> Vec<bool> {
-    mesh.regions.iter().map(|name| case.content(name).is_some_and(|content| content.is_fem())).collect()
-}
 
 /// What the regions of a mesh are for the series of its results.
 pub fn of_series(case: &Case, mesh: &Mesh<2>) -> Regions {
@@ -35,7 +30,7 @@ pub fn of_series(case: &Case, mesh: &Mesh<2>) -> Regions {
     }
     Regions {
         materials,
-        elements: of_elements(case, mesh),
+        elements: regions(case, mesh, Content::is_fem),
         soil: mesh.regions.iter().map(is_soil).collect(),
         axisymmetric: case.geometry == Geometry::Axisymmetric,
         resets: case.phases.iter().filter(|phase| phase.reset_displacements).map(|phase| phase.name.clone()).collect(),
@@ -45,7 +40,7 @@ pub fn of_series(case: &Case, mesh: &Mesh<2>) -> Regions {
 
 /// The background grid of a mesh, and its finite elements if it has some.
 pub fn meshes(case: &Case, mesh: Mesh<2>) -> (Mesh<2>, Option<Mesh<2>>) {
-    let of_elements = of_elements(case, &mesh);
+    let of_elements = regions(case, &mesh, Content::is_fem);
     let is_fem = |c: usize| of_elements[mesh.cells.region[c] as usize];
     let fem = mesh.part(is_fem);
     if fem.cells.is_empty() {
@@ -84,7 +79,7 @@ pub fn material_curve<'a>(site: &Site<'a>, name: &str, place: impl Fn() -> Strin
 /// The material points and those of the finite elements, numbered with the cells of their parts, of all `points`
 /// of the whole mesh.
 pub fn points(case: &Case, mesh: &Mesh<2>, mut points: Points<2>) -> [Points<2>; 2] {
-    let of_elements = of_elements(case, mesh);
+    let of_elements = regions(case, mesh, Content::is_fem);
     let part = |c: usize| usize::from(of_elements[mesh.cells.region[c] as usize]);
     let mut count = [0; 2];
     let mut number = Vec::with_capacity(mesh.cells.len());
@@ -101,7 +96,7 @@ pub fn points(case: &Case, mesh: &Mesh<2>, mut points: Points<2>) -> [Points<2>;
         return [points, Points::default()];
     }
     // Finite elements first, then rigid structures.
-    let rigid = rigid::regions(case, mesh);
+    let rigid = regions(case, mesh, Content::is_rigid);
     of[1].sort_by_key(|&p| rigid[points.region[p] as usize]);
     of.map(|numbers| points.select(&numbers))
 }

@@ -7,7 +7,6 @@ use super::find;
 use super::incompressible::{bulk, has_water_of_its_own};
 use super::locate::{At, Path};
 use super::raw;
-use super::structure::suggest;
 use crate::error::Result;
 use crate::material::{Model, Profile};
 use crate::mesh::Mesh;
@@ -132,15 +131,10 @@ impl Checker {
 
     /// The excess pore pressure before the first phase.
     pub(super) fn initial_pore_pressure(&mut self, file: &raw::CaseFile, path: &Path) -> Vec<(usize, Profile)> {
-        let names: Vec<&str> = file.regions.keys().map(String::as_str).collect();
         let mut checked = Vec::new();
         for (name, value) in &file.initial_pore_pressure {
             let path = path.key(name);
-            let Ok(region) = names.binary_search(&name.as_str()) else {
-                let problem = format!("there is no region `{name}`");
-                self.issue(&path, At::Key, problem, suggest(name, names.iter().copied()));
-                continue;
-            };
+            let Some(region) = self.region_named(file, name, &path) else { continue };
             let material = file.regions.get(name).and_then(|region| file.materials.get(region.material.as_ref()?));
             if !material.is_some_and(has_water_of_its_own) {
                 let remedy = "take it out, or give the material a `permeability`";

@@ -13,11 +13,6 @@ use crate::term::{RigidInertia, RigidPressure, RigidTraction, RigidWeight, Term,
 use crate::time_value::TimeValue;
 use std::collections::HashSet;
 
-/// Whether each region of the mesh is of a rigid structure.
-pub fn regions(case: &Case, mesh: &Mesh<2>) -> Vec<bool> {
-    mesh.regions.iter().map(|name| case.content(name).is_some_and(|content| content.is_rigid())).collect()
-}
-
 /// The rigid structures of a case, and then its walls, by their regions and nodes in the whole `mesh`.
 ///
 /// # Errors

@@ -2,7 +2,7 @@
 //! with it ([`super::keyed`]).
 
 use super::checked::{Analysis, Case, Content, Geometry, Material, Region, Restore, Site, Touched};
-use super::find::{filled, mean_size, region_index};
+use super::find::{filled, mean_size, region_index, regions};
 use super::outputs::outputs;
 use super::raw;
 use super::rigid::{self, Holds};
@@ -224,7 +224,8 @@ pub fn scene<K: Kinematics<2>>(case: &Case, mut whole: Mesh<2>) -> Result<Scene<
             }
             terms.extend(water::on_elements::<K>(case, &part, size));
             terms.extend(rigid::terms::<K>(case, &part, &bodies[..structures], dynamic, size)?);
-            let (carried, rigid) = (changes::ever(case, &part, |m| m.carried.is_some())?, rigid::regions(case, &part));
+            let carried = changes::ever(case, &part, |m| m.carried.is_some())?;
+            let rigid = regions(case, &part, Content::is_rigid);
             let with = |r: usize| carried[r] && !rigid[r];
             let with_pressure = part.cells.region.iter().map(|&r| with(r as usize)).collect();
             let porous = pores::porous(case, &part)?;

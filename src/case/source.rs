@@ -98,7 +98,7 @@ impl Source {
         let start = start::compose(&mut self.tree, &folder)
             .map_err(|issues| issues.iter().map(|issue| self.error(issue)).collect::<Vec<_>>())?;
         if let Some(start) = &start {
-            self.faults.iter_mut().for_each(|fault| fault.path = start::whole(&fault.path, start.begun));
+            self.faults.iter_mut().for_each(|fault| start::to_whole(&mut fault.path, start.begun));
         }
         self.start = start;
         Ok(())

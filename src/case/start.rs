@@ -351,25 +351,20 @@ fn merge_contacts(own: &mut Map<String, Value>, other: &Map<String, Value>, begu
 
 /// The entry of the case file that one of the whole case is; `None` for one of the phases before.
 pub fn own(path: &Path, begun: usize) -> Option<Path> {
-    match path.0.as_slice() {
-        [Step::Key(key), Step::Index(index), rest @ ..] if key == "phases" => {
-            let own = index.checked_sub(begun)?;
-            let mut steps = vec![Step::Key(key.clone()), Step::Index(own)];
-            steps.extend_from_slice(rest);
-            Some(Path(steps))
-        }
-        _ => Some(path.clone()),
+    let mut path = path.clone();
+    if let [Step::Key(key), Step::Index(index), ..] = &mut path.0[..]
+        && *key == "phases"
+    {
+        *index = index.checked_sub(begun)?;
     }
+    Some(path)
 }
 
-/// The entry of the whole case that one of the case file is.
-pub fn whole(path: &Path, begun: usize) -> Path {
-    match path.0.as_slice() {
-        [Step::Key(key), Step::Index(index), rest @ ..] if key == "phases" => {
-            let mut steps = vec![Step::Key(key.clone()), Step::Index(index + begun)];
-            steps.extend_from_slice(rest);
-            Path(steps)
-        }
-        _ => path.clone(),
+/// Makes of the path of an entry of the case file that in the whole case.
+pub fn to_whole(path: &mut Path, begun: usize) {
+    if let [Step::Key(key), Step::Index(index), ..] = &mut path.0[..]
+        && *key == "phases"
+    {
+        *index += begun;
     }
 }

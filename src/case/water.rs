@@ -2,10 +2,10 @@
 
 use super::changes;
 use super::check::Checker;
-use super::checked::{Case, Phase, Pressure, SurfaceLoad, Water};
-use super::find::{mean_size, region_index};
+use super::checked::{Case, Content, Phase, Pressure, SurfaceLoad, Water};
+use super::find::{mean_size, region_index, regions};
 use super::locate::{At, Path};
-use super::{raw, rigid};
+use super::raw;
 use crate::error::Result;
 use crate::kinematics::Kinematics;
 use crate::mesh::Mesh;
@@ -204,7 +204,7 @@ pub fn on_elements<K: Kinematics<2>>(case: &Case, mesh: &Mesh<2>, size: f64) -> 
     let mut terms: Vec<Box<dyn Term<2>>> = Vec::new();
     let Some(water) = &case.water else { return terms };
     if water.level.is_some() {
-        let rigid = rigid::regions(case, mesh);
+        let rigid = regions(case, mesh, Content::is_rigid);
         let deforms = |c: usize| !rigid[mesh.cells.region[c] as usize];
         terms.push(Box::new(FacetPressure::<K>::new(mesh, deforms, water.heads(size))));
     }
