@@ -127,14 +127,9 @@ pub(super) fn check_run(stage: &Stage, run: &RunFolder) -> Result<()> {
         let problem = "it was made with another mesh.msh";
         return Err(Error::input(other.path.display(), problem, "run `mpm seed` and `mpm solve` again, or `mpm run`"));
     }
-    let changed = run.record().map_or(Ok(None), |record| record.changed(run.path(), &run.outputs()?))?;
-    match changed {
-        Some(name) => {
-            let place = run.path().join(name);
-            Err(Error::input(place.display(), "it is not as the run left it: missing, added or changed", AGAIN))
-        }
-        None => Ok(()),
-    }
+    run.changed()?.map_or(Ok(()), |place| {
+        Err(Error::input(place.display(), "it is not as the run left it: missing, added or changed", AGAIN))
+    })
 }
 
 fn inputs(stage: &Stage, run: &RunFolder) -> Result<Inputs> {

@@ -8,7 +8,7 @@ use crate::case::names::Groups;
 use crate::case::raw::Product;
 use crate::case::unconnected::{self, Place};
 use crate::case::unmeant;
-use crate::case::{Keys, checked};
+use crate::case::{Keys, checked, layout};
 use crate::error::{Error, Result};
 use crate::io::atomic;
 use crate::mesh::gmsh::{self, Options, Outline, Worker};
@@ -55,7 +55,7 @@ pub struct Limits {
 impl Limits {
     /// How Gmsh is started by the program at `program`, for so many seconds unless the user has said otherwise.
     fn worker<'a>(&self, program: &'a Path, seconds: u64) -> Worker<'a> {
-        let memory = machine_memory();
+        let memory = layout::memory("MemTotal").unwrap_or(u64::MAX);
         Worker {
             program,
             seconds: self.mesh_timeout.unwrap_or(seconds),
@@ -69,13 +69,6 @@ impl Limits {
 }
 
 const GIB: u64 = 1 << 30;
-
-/// The memory of the machine (bytes).
-fn machine_memory() -> u64 {
-    let known = fs::read_to_string("/proc/meminfo").unwrap_or_default();
-    let total = known.lines().find_map(|line| line.strip_prefix("MemTotal:")?.trim().strip_suffix(" kB"));
-    total.and_then(|kib| kib.parse::<u64>().ok()).map_or(u64::MAX, |kib| kib * 1024)
-}
 
 fn program() -> Result<PathBuf> {
     std::env::current_exe().map_err(|e| Error::machine("mpm", format!("it cannot find itself: {e}"), "mount /proc"))

@@ -148,9 +148,7 @@ fn pictures(stage: &Stage, mesh: &Mesh<2>, run: &RunFolder, args: &Args) -> Resu
     for field in fields {
         let asked = Asked::of(&field);
         for &i in &frames {
-            let shown = series.at(i, std::slice::from_ref(&asked.field))?;
-            let title = format!("{field}, t = {} s", plot::field::short(series.infos[i].time));
-            pictures.push(Field::of(&shown, &regions.soil, &asked, title, options.clone())?);
+            pictures.push(plot::field::of_frame(&series, &regions, i, &asked, &field, options.clone())?);
         }
     }
     Ok(pictures)

@@ -156,10 +156,7 @@ fn choose(stage: &Stage, start: Start, origin: Origin, inputs: &Inputs) -> Resul
             ));
         }
         None if start.resume && runs.main.standing()? == Standing::Finished && runs.main.has_checkpoints()? => {
-            let changed =
-                runs.main.record().map_or(Ok(None), |r| r.changed(runs.main.path(), &runs.main.outputs()?))?;
-            if let Some(name) = changed {
-                let place = runs.main.path().join(name);
+            if let Some(place) = runs.main.changed()? {
                 let remedy = "begin anew with `--fresh`";
                 return Err(Error::input(place.display(), "it is not as the run left it", remedy));
             }

@@ -57,6 +57,20 @@ pub struct Chart {
     pub borders: Vec<Mark>,
 }
 
+/// The chart of the columns in a `unit`, a new one with the titles `axes` if there is none yet.
+pub fn of_unit<'a>(charts: &'a mut Vec<(String, Chart)>, unit: &str, axes: [String; 2]) -> &'a mut Chart {
+    let i = charts.iter().position(|(known, _)| known == unit).unwrap_or_else(|| {
+        charts.push((unit.to_owned(), Chart { axes: axes.clone(), ..Chart::default() }));
+        charts.len() - 1
+    });
+    let chart = &mut charts[i].1;
+    if chart.axes[1] != axes[1] {
+        // Several columns along one axis: the legend names them.
+        chart.axes[1] = if unit.is_empty() { String::new() } else { format!("[{unit}]") };
+    }
+    chart
+}
+
 /// Charts below each other, under a title.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Charts {

@@ -6,7 +6,7 @@
 //! column of the history has been given.
 
 use super::colour;
-use super::curves::{Chart, Mark, Series, Style};
+use super::curves::{Chart, Mark, Series, Style, of_unit};
 use crate::error::Result;
 use crate::io::run_folder::{RunFolder, Standing};
 use crate::io::solve_log::{SolveLog, Step};
@@ -92,20 +92,9 @@ pub fn chosen(runs: &[Run], x: &Shown, ys: &[Shown]) -> Vec<Chart> {
     let mut charts: Vec<(String, Chart)> = Vec::new();
     for (run, y) in runs.iter().flat_map(|run| ys.iter().map(move |y| (run, y))) {
         let (Some(along), Some(up)) = (run.table.column(&x.column), run.table.column(&y.column)) else { continue };
-        let same = charts.iter().position(|(unit, _)| *unit == up.unit);
-        let i = same.unwrap_or_else(|| {
-            let mut chart = Chart { axes: [x.title(&along.unit), y.title(&up.unit)], ..Chart::default() };
-            if along.name == TIME && x.scale == 1.0 {
-                chart.borders = borders(runs);
-            }
-            charts.push((up.unit.clone(), chart));
-            charts.len() - 1
-        });
-        let (unit, chart) = &mut charts[i];
-        let same_y = chart.axes[1] == y.title(&up.unit);
-        if !same_y {
-            // Several columns along one axis: the legend names them.
-            chart.axes[1] = if unit.is_empty() { String::new() } else { format!("[{unit}]") };
+        let chart = of_unit(&mut charts, &up.unit, [x.title(&along.unit), y.title(&up.unit)]);
+        if chart.series.is_empty() && along.name == TIME && x.scale == 1.0 {
+            chart.borders = borders(runs);
         }
         let name = match (runs.len(), ys.len()) {
             (_, 1) => run.name.clone(),

@@ -113,6 +113,15 @@ impl RunFolder {
         Ok(files)
     }
 
+    /// The first of these that is not as the run left it, if it is finished.
+    ///
+    /// # Errors
+    /// `Machine` when one cannot be read.
+    pub fn changed(&self) -> Result<Option<PathBuf>> {
+        let Some(record) = self.record() else { return Ok(None) };
+        Ok(record.changed(&self.path, &self.outputs()?)?.map(|name| self.path.join(name)))
+    }
+
     /// Refuses links in place of what is written in place or emptied.
     fn refuse_links(&self) -> Result<()> {
         atomic::refuse_link(&self.path)?;

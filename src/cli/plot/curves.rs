@@ -7,8 +7,7 @@ use crate::draw::history::{self, Run, Shown, TIME};
 use crate::draw::{self, Format, INK};
 use crate::error::{Error, Result, shown};
 use crate::io::run_folder::{RunFolder, Runs, Standing};
-use crate::io::table::Table;
-use std::fmt::Write;
+use crate::io::table::{Column, Table};
 use std::path::{Path, PathBuf};
 
 #[derive(clap::Args)]
@@ -59,7 +58,7 @@ pub fn run(cases: &[PathBuf], output: Option<&Path>, args: &Args, unfinished: bo
         runs.push(read);
     }
     if args.list {
-        return print(&list(&runs));
+        return print(&runs.iter().map(list).collect::<String>());
     }
     let mut charts = charts(&runs, args)?;
     if charts.iter().all(|chart| chart.series.iter().all(|series| series.places.is_empty())) {
@@ -122,20 +121,22 @@ fn find(path: &Path, unfinished: bool, keys: &Keys) -> Result<Found> {
 }
 
 /// The columns of each run, with their ranges.
-fn list(runs: &[Run]) -> String {
-    let mut text = String::new();
-    for run in runs {
-        let _ = writeln!(text, "{}: {} rows", run.name, run.table.rows());
-        let width = run.table.columns.iter().map(|column| column.heading().chars().count()).max().unwrap_or(0);
-        for column in &run.table.columns {
-            let range = column.values.iter().fold(None, |range: Option<[f64; 2]>, &v| {
-                Some(range.map_or([v, v], |[low, high]| [low.min(v), high.max(v)]))
-            });
-            let range = range.map_or_else(String::new, |[low, high]| format!("{low} … {high}"));
-            let _ = writeln!(text, "  {:<width$}  {range}", column.heading());
-        }
-    }
-    text
+fn list(run: &Run) -> String {
+    let said = |column: &Column| (column.heading(), range(column.values.iter().copied()).unwrap_or_default());
+    listed(&run.name, run.table.rows(), run.table.columns.iter().map(said).collect())
+}
+
+/// The headings of a table and what is said of each column, in lines.
+pub fn listed(name: &str, rows: usize, columns: Vec<(String, String)>) -> String {
+    let width = columns.iter().map(|(heading, _)| heading.chars().count()).max().unwrap_or(0);
+    let line = |(heading, said)| format!("  {heading:<width$}  {said}\n");
+    format!("{name}: {rows} rows\n") + &columns.into_iter().map(line).collect::<String>()
+}
+
+/// The least and the greatest of some values; `None` without any.
+pub fn range(values: impl Iterator<Item = f64>) -> Option<String> {
+    let range = values.map(|v| [v, v]).reduce(|[low, high], [v, _]| [low.min(v), high.max(v)]);
+    range.map(|[low, high]| format!("{low} … {high}"))
 }
 
 fn charts(runs: &[Run], args: &Args) -> Result<Vec<draw::curves::Chart>> {

@@ -125,7 +125,7 @@ pub fn run(case: &Path, output: Option<&Path>, field: &str, args: &Args, keys: &
 }
 
 /// The picture of a frame.
-fn of_frame(
+pub fn of_frame(
     series: &Series,
     regions: &Regions,
     i: usize,
@@ -139,7 +139,7 @@ fn of_frame(
 }
 
 /// A time with as many digits as one wants to read.
-pub fn short(time: f64) -> String {
+fn short(time: f64) -> String {
     let text = format!("{time:.6}");
     text.trim_end_matches('0').trim_end_matches('.').to_owned()
 }

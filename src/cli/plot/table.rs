@@ -1,8 +1,8 @@
 //! Curves of the table of a sweep: a quantity over a parameter, or how it is distributed over the runs.
 
-use super::curves::{Args, compare, near};
+use super::curves::{Args, compare, listed, near, range};
 use crate::cli::print::{Outcome, print};
-use crate::draw::curves::{Chart, Charts, Series, Style};
+use crate::draw::curves::{Chart, Charts, Series, Style, of_unit};
 use crate::draw::history::Shown;
 use crate::draw::{self, COLOURS, Format, colour};
 use crate::error::{Error, Result, shown};
@@ -68,21 +68,12 @@ pub fn run(path: &Path, output: Option<&Path>, args: &Args) -> Outcome {
 
 /// The columns, with the ranges of those that are numeric.
 fn list(table: &SweepTable) -> String {
-    let mut text = format!("{}: {} rows\n", table.name, table.rows.len());
-    let width = table.columns.iter().map(|column| column.heading().chars().count()).max().unwrap_or(0);
-    for (k, column) in table.columns.iter().enumerate() {
-        let range = match table.numbers(k) {
-            Ok(numbers) => {
-                let range = numbers.iter().flatten().fold(None, |range: Option<[f64; 2]>, &v| {
-                    Some(range.map_or([v, v], |[low, high]| [low.min(v), high.max(v)]))
-                });
-                range.map_or_else(|| "empty".to_owned(), |[low, high]| format!("{low} … {high}"))
-            }
-            Err(_) => "texts".to_owned(),
-        };
-        let _ = writeln!(text, "  {:<width$}  {range}", column.heading());
-    }
-    text
+    let said = |k: usize| match table.numbers(k) {
+        Ok(numbers) => range(numbers.into_iter().flatten()).unwrap_or_else(|| "empty".to_owned()),
+        Err(_) => "texts".to_owned(),
+    };
+    let columns = table.columns.iter().enumerate().map(|(k, column)| (column.heading(), said(k)));
+    listed(&table.name, table.rows.len(), columns.collect())
 }
 
 fn column(table: &SweepTable, name: &str) -> Result<usize> {
@@ -144,7 +135,15 @@ fn over(table: &SweepTable, x: usize, ys: &[usize], args: &Args) -> Result<Vec<C
             if style == Style::Line {
                 places.sort_by(|a, b| a[0].total_cmp(&b[0]));
             }
-            add(&mut charts, table, [(x, args.scale_x), (y, args.scale_y)], ys.len(), name, style, places);
+            let column = &table.columns[y];
+            let axes = [(x, args.scale_x), (y, args.scale_y)].map(|axis| title(table, axis));
+            let chart = of_unit(&mut charts, &column.unit, axes);
+            let name = match (ys.len(), name.is_empty()) {
+                (1, _) => name.clone(),
+                (_, true) => column.name.clone(),
+                _ => format!("{}, {name}", column.name),
+            };
+            chart.series.push(Series { name, style, colour: colour(chart.series.len()), places });
         }
     }
     Ok(charts.into_iter().map(|(_, chart)| chart).collect())
@@ -154,36 +153,6 @@ fn over(table: &SweepTable, x: usize, ys: &[usize], args: &Args) -> Result<Vec<C
 fn title(table: &SweepTable, (column, scale): (usize, f64)) -> String {
     let column = &table.columns[column];
     Shown { column: column.name.clone(), scale }.title(&column.unit)
-}
-
-/// Adds a series to the chart of its unit, `count` columns being drawn.
-fn add(
-    charts: &mut Vec<(String, Chart)>,
-    table: &SweepTable,
-    [x, y]: [(usize, f64); 2],
-    count: usize,
-    name: &str,
-    style: Style,
-    places: Vec<[f64; 2]>,
-) {
-    let (unit, own) = (&table.columns[y.0].unit, title(table, y));
-    let i = charts.iter().position(|(known, _)| known == unit).unwrap_or_else(|| {
-        let chart = Chart { axes: [title(table, x), own.clone()], ..Chart::default() };
-        charts.push((unit.clone(), chart));
-        charts.len() - 1
-    });
-    let chart = &mut charts[i].1;
-    if chart.axes[1] != own {
-        // Several columns along one axis: the legend names them.
-        chart.axes[1] = if unit.is_empty() { String::new() } else { format!("[{unit}]") };
-    }
-    let column = &table.columns[y.0].name;
-    let name = match (count, name.is_empty()) {
-        (1, _) => name.to_owned(),
-        (_, true) => column.clone(),
-        _ => format!("{column}, {name}"),
-    };
-    chart.series.push(Series { name, style, colour: colour(chart.series.len()), places });
 }
 
 /// How columns are distributed over all rows: charts of the share of the runs that have less, and what is told of each.
