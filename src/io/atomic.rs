@@ -6,6 +6,7 @@
 use std::fs::{self, File};
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
+use std::str::FromStr;
 
 use crate::error::{Error, Result};
 
@@ -84,6 +85,18 @@ pub fn prepare_folder(folder: &Path) -> Result<()> {
         }
     }
     Ok(())
+}
+
+/// The numbers of the files in a folder that are named by one between `start` and `end`, in order.
+///
+/// # Errors
+/// Those of the folder.
+pub fn numbered<N: FromStr + Ord>(folder: &Path, start: &str, end: &str) -> io::Result<Vec<N>> {
+    let number = |name: &str| name.strip_prefix(start)?.strip_suffix(end)?.parse().ok();
+    let entries = fs::read_dir(folder)?;
+    let mut numbers: Vec<N> = entries.filter_map(|entry| number(entry.ok()?.file_name().to_str()?)).collect();
+    numbers.sort_unstable();
+    Ok(numbers)
 }
 
 /// The process that was writing the file, if `path` is an unfinished one.

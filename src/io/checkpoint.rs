@@ -4,7 +4,6 @@
 //! the caller's business ([`Store`]); that it belongs to the same case, mesh and points is checked here.
 
 use std::fmt;
-use std::fs;
 use std::path::{Path, PathBuf};
 
 use twox_hash::XxHash64;
@@ -144,19 +143,10 @@ impl Checkpoints {
 
     /// The steps that have a checkpoint, in order.
     fn steps(&self) -> Result<Vec<u64>> {
-        let entries = match fs::read_dir(&self.folder) {
-            Ok(entries) => entries,
-            Err(e) if e.kind() == std::io::ErrorKind::NotFound => return Ok(Vec::new()),
-            Err(e) => return Err(atomic::unreadable(&self.folder, &e, AGAIN)),
-        };
-        let mut steps: Vec<u64> = entries
-            .filter_map(|entry| {
-                let name = entry.ok()?.file_name();
-                name.to_str()?.strip_prefix("step-")?.strip_suffix(".mpmc")?.parse().ok()
-            })
-            .collect();
-        steps.sort_unstable();
-        Ok(steps)
+        match atomic::numbered(&self.folder, "step-", ".mpmc") {
+            Err(e) if e.kind() == std::io::ErrorKind::NotFound => Ok(Vec::new()),
+            steps => steps.map_err(|e| atomic::unreadable(&self.folder, &e, AGAIN)),
+        }
     }
 }
 

@@ -23,7 +23,7 @@ mod data;
 use std::collections::BTreeMap;
 use std::fs;
 use std::hash::Hasher;
-use std::io::Write;
+use std::io::{self, Read, Write};
 use std::path::Path;
 
 use serde::{Deserialize, Serialize};
@@ -32,7 +32,7 @@ use twox_hash::XxHash64;
 pub use data::{Data, Scalar};
 
 use blocks::{Compressor, decompress};
-use data::with_values;
+pub(super) use data::with_values;
 
 use super::atomic;
 use crate::error::{Error, Result};
@@ -243,15 +243,8 @@ impl Store {
     /// # Errors
     /// `Input` when the file is missing, foreign, cut, or its header changed; the arrays are not read.
     pub fn peek(path: &Path, kind: &str, remedy: &str) -> Result<Contents> {
-        use std::io::Read;
-        let unreadable = |e| atomic::unreadable(path, &e, remedy);
+        let (bytes, length) = start(path).map_err(|e| atomic::unreadable(path, &e, remedy))?;
         let broken = |problem: String| Error::input(path.display(), problem, remedy);
-        let file = fs::File::open(path).map_err(unreadable)?;
-        let length = file.metadata().map_err(unreadable)?.len();
-        let mut bytes = Vec::new();
-        (&file).take(START as u64).read_to_end(&mut bytes).map_err(unreadable)?;
-        let header = header_length(&bytes).map_err(broken)?;
-        file.take(header as u64).read_to_end(&mut bytes).map_err(unreadable)?;
         let (header, _) = split_header(&bytes, length, kind).map_err(broken)?;
         let arrays = header.arrays.into_iter().map(|e| (e.name, e.count / e.components)).collect();
         Ok(Contents { texts: header.texts, arrays })
@@ -260,12 +253,8 @@ impl Store {
 
 /// The kind and the texts of a file, if it is a container: for `mpm info`.
 pub fn inspect(path: &Path) -> Option<(String, BTreeMap<String, String>)> {
-    use std::io::Read;
-    let file = fs::File::open(path).ok()?;
-    let mut bytes = Vec::new();
-    (&file).take(START as u64).read_to_end(&mut bytes).ok()?;
+    let (bytes, _) = start(path).ok()?;
     let length = header_length(&bytes).ok()?;
-    file.take(length as u64).read_to_end(&mut bytes).ok()?;
     let header: Header = serde_json::from_slice(bytes.get(START..START + length)?).ok()?;
     Some((header.kind, header.texts))
 }
@@ -317,6 +306,16 @@ fn decode(entry: Entry, stored: &[u8]) -> std::result::Result<Array, String> {
     };
     let data = data.ok_or_else(|| format!("is damaged: array `{name}` cannot be decompressed"))?;
     Ok(Array { name, unit, components, data })
+}
+
+/// The first [`START`] bytes of a file with the header after them, if it is a container, and the length of the file.
+fn start(path: &Path) -> io::Result<(Vec<u8>, u64)> {
+    let (file, mut bytes) = (fs::File::open(path)?, Vec::new());
+    (&file).take(START as u64).read_to_end(&mut bytes)?;
+    if let Ok(header) = header_length(&bytes) {
+        (&file).take(header as u64).read_to_end(&mut bytes)?;
+    }
+    Ok((bytes, file.metadata()?.len()))
 }
 
 /// The length of the header, from the first [`START`] bytes.

@@ -3,7 +3,6 @@
 //! Frames are numbered from 0, the initial state, without gaps. A run that continues from a checkpoint writes
 //! the later ones again, to the same bytes.
 
-use std::fs;
 use std::path::{Path, PathBuf};
 
 use super::checkpoint::Fingerprint;
@@ -30,12 +29,30 @@ pub struct Column {
     pub values: Vec<f64>,
 }
 
+impl Column {
+    pub fn new(name: &str, unit: &str, components: usize, values: Vec<f64>) -> Self {
+        Self { name: name.into(), unit: unit.into(), components, values }
+    }
+}
+
+/// Coordinates padded to three.
+pub fn triples<const D: usize>(x: &[[f64; D]]) -> Vec<[f64; 3]> {
+    x.iter().map(|x| std::array::from_fn(|d| x.get(d).copied().unwrap_or(0.0))).collect()
+}
+
 /// Points, or the nodes of a mesh, and what is known there.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Part {
     /// Coordinates in m, padded to three. Empty in the grid: the nodes are where the mesh has them.
     pub position: Vec<[f64; 3]>,
     pub columns: Vec<Column>,
+}
+
+impl Part {
+    /// The numbers of a column, if there is one of this name and with so many components.
+    pub fn numbers(&self, name: &str, components: usize) -> Option<&[f64]> {
+        self.columns.iter().find(|c| c.name == name && c.components == components).map(|c| &c.values[..])
+    }
 }
 
 /// The state at one moment.
@@ -252,15 +269,7 @@ pub fn paths(folder: &Path) -> Result<Vec<PathBuf>> {
 }
 
 fn indices(folder: &Path) -> Result<Vec<usize>> {
-    let entries = fs::read_dir(folder).map_err(|e| atomic::unreadable(folder, &e, "run `mpm solve` first"))?;
-    let mut indices: Vec<usize> = entries
-        .filter_map(|entry| {
-            let name = entry.ok()?.file_name();
-            name.to_str()?.strip_prefix("frame-")?.strip_suffix(".mpmf")?.parse().ok()
-        })
-        .collect();
-    indices.sort_unstable();
-    Ok(indices)
+    atomic::numbered(folder, "frame-", ".mpmf").map_err(|e| atomic::unreadable(folder, &e, "run `mpm solve` first"))
 }
 
 type Texts = (f64, String, u64, Origin);

@@ -10,7 +10,7 @@ use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 
 use super::atomic;
-use super::container::{self, Data, Scalar};
+use super::container::{self, Data, Scalar, with_values};
 use crate::error::Result;
 use crate::mesh::shape::CellKind;
 use crate::mesh::{Cells, Mesh};
@@ -34,6 +34,12 @@ pub struct Array {
     pub name: String,
     pub components: usize,
     pub data: Data,
+}
+
+impl Array {
+    pub fn new(name: &str, unit: &str, components: usize, values: Vec<f64>) -> Self {
+        Self { name: format!("{name} [{unit}]"), components, data: Data::F64(values) }
+    }
 }
 
 impl From<container::Array> for Array {
@@ -171,7 +177,7 @@ fn write_as(out: &mut dyn Write, kind: &str, grid: &Grid, encoding: Encoding) ->
     for (section, data) in [("PointData", &grid.point_data), ("CellData", &grid.cell_data)] {
         writeln!(arrays.out, "<{section}>")?;
         for a in data {
-            arrays.data(&a.name, a.components, &a.data)?;
+            with_values!(&a.data, values => arrays.numbers(&a.name, a.components, values))?;
         }
         writeln!(arrays.out, "</{section}>")?;
     }
@@ -209,17 +215,6 @@ struct Arrays<'a> {
 }
 
 impl Arrays<'_> {
-    fn data(&mut self, name: &str, components: usize, data: &Data) -> io::Result<()> {
-        match data {
-            Data::F64(v) => self.numbers(name, components, v),
-            Data::U64(v) => self.numbers(name, components, v),
-            Data::I64(v) => self.numbers(name, components, v),
-            Data::U32(v) => self.numbers(name, components, v),
-            Data::U16(v) => self.numbers(name, components, v),
-            Data::U8(v) => self.numbers(name, components, v),
-        }
-    }
-
     fn numbers<T: Scalar>(&mut self, name: &str, components: usize, values: &[T]) -> io::Result<()> {
         let mut bytes = vec![0; 8 + values.len() * T::SIZE];
         let length = (bytes.len() - 8) as u64;

@@ -1,8 +1,7 @@
 //! What frames hold of contact: the values of the contact nodes along the boundaries of structures, as lines.
 
-use super::columns::{column, triples};
 use crate::contact::Tractions;
-use crate::io::frame::{FACES, LINE, Part, REGION};
+use crate::io::frame::{Column, FACES, LINE, Part, REGION, triples};
 use crate::step::{Scene, State};
 
 /// The lines of all interfaces in contact, with what their contact nodes came to in the last step; empty without contact.
@@ -15,11 +14,8 @@ pub fn part<const D: usize>(scene: &Scene<D>, state: &State<D>) -> Part {
     if scene.interfaces.is_empty() {
         return Part::default();
     }
-    let from = state.coordinates(scene);
-    let position = |n: u32| {
-        let (x, u) = (&from[n as usize], &state.displacement[n as usize]);
-        std::array::from_fn(|d| x[d] + u[d])
-    };
+    let nodes = nodes(scene, state);
+    let position = |n: u32| nodes[n as usize];
     let mut place = Vec::new();
     let [mut pressure, mut shear, mut gap, mut slip] = [const { Vec::new() }; 4];
     let mut tractions = Vec::new();
@@ -48,14 +44,20 @@ pub fn part<const D: usize>(scene: &Scene<D>, state: &State<D>) -> Part {
         }
     }
     let columns = vec![
-        column("contact_pressure", "kPa", 1, pressure),
-        column("contact_shear", "kPa", 1, shear),
-        column("contact_traction", "kPa", 3, tractions),
-        column("contact_gap", "m", 1, gap),
-        column("contact_slip", "m", 1, slip),
-        column(LINE, "-", 1, number),
-        column(REGION, "-", 1, region),
-        column(FACES, "-", 1, faces),
+        Column::new("contact_pressure", "kPa", 1, pressure),
+        Column::new("contact_shear", "kPa", 1, shear),
+        Column::new("contact_traction", "kPa", 3, tractions),
+        Column::new("contact_gap", "m", 1, gap),
+        Column::new("contact_slip", "m", 1, slip),
+        Column::new(LINE, "-", 1, number),
+        Column::new(REGION, "-", 1, region),
+        Column::new(FACES, "-", 1, faces),
     ];
     Part { position: triples(&place), columns }
+}
+
+/// Where the nodes are now (m).
+pub fn nodes<const D: usize>(scene: &Scene<D>, state: &State<D>) -> Vec<[f64; D]> {
+    let moved = |(x, u): (&[f64; D], &[f64; D])| std::array::from_fn(|d| x[d] + u[d]);
+    state.coordinates(scene).iter().zip(&state.displacement).map(moved).collect()
 }

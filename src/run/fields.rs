@@ -1,6 +1,5 @@
 //! The fields of points in the frames.
 
-use super::columns::column;
 use super::internal_variables::InternalVariable;
 use crate::io::columns::{padded, to_array};
 use crate::io::container::{Array, Data};
@@ -29,7 +28,7 @@ pub struct Displacement;
 impl<const D: usize> Field<D> for Displacement {
     fn columns(&self, points: &Points<D>) -> Vec<Column> {
         let u: Vec<[f64; D]> = (0..points.len()).map(|p| points.displacement(p)).collect();
-        vec![column("displacement", "m", 3, padded(&u))]
+        vec![Column::new("displacement", "m", 3, padded(&u))]
     }
 
     fn is_displacement(&self) -> bool {
@@ -44,7 +43,7 @@ pub struct Velocity;
 impl<const D: usize> Field<D> for Velocity {
     fn columns(&self, points: &Points<D>) -> Vec<Column> {
         let values = if points.velocity.is_empty() { vec![0.0; 3 * points.len()] } else { padded(&points.velocity) };
-        vec![column("velocity", "m/s", 3, values)]
+        vec![Column::new("velocity", "m/s", 3, values)]
     }
 }
 
@@ -55,7 +54,7 @@ pub struct DeformationGradient;
 impl<const D: usize> Field<D> for DeformationGradient {
     fn columns(&self, points: &Points<D>) -> Vec<Column> {
         let rows = points.deformation.iter().flat_map(|f| f.transpose().data.0.into_iter().flatten());
-        vec![column("deformation_gradient", "-", 9, rows.collect())]
+        vec![Column::new("deformation_gradient", "-", 9, rows.collect())]
     }
 }
 
@@ -82,7 +81,7 @@ pub struct PorePressure(pub Vec<Option<MixedPressure>>);
 impl<const D: usize> Field<D> for PorePressure {
     fn columns(&self, points: &Points<D>) -> Vec<Column> {
         let excess = (0..points.len()).map(|p| excess_pressure(&self.0, points, p));
-        vec![column("pore_pressure", "kPa", 1, excess.collect())]
+        vec![Column::new("pore_pressure", "kPa", 1, excess.collect())]
     }
 }
 
@@ -98,11 +97,11 @@ impl fmt::Debug for ShearStrength {
 impl<const D: usize> Field<D> for ShearStrength {
     fn columns(&self, points: &Points<D>) -> Vec<Column> {
         let of = |p: usize| {
-            let model = self.0.get(points.model_of(p))?.as_ref()?;
+            let model = points.by_material(p, &self.0)?;
             let strength = model.shear_strength(points.seeded_height(p), &points.state(p, 0.0));
             strength.is_finite().then_some(strength)
         };
-        vec![column("shear_strength", "kPa", 1, (0..points.len()).map(|p| of(p).unwrap_or(0.0)).collect())]
+        vec![Column::new("shear_strength", "kPa", 1, (0..points.len()).map(|p| of(p).unwrap_or(0.0)).collect())]
     }
 }
 

@@ -1,6 +1,5 @@
 //! The internal variables of the models as columns of the frames.
 
-use super::columns::column;
 use crate::io::frame::{Column, INTERNAL};
 use crate::material::Model;
 use crate::points::Points;
@@ -40,13 +39,13 @@ impl InternalVariable {
     pub fn column<const D: usize>(&self, points: &Points<D>) -> Column {
         let mut values = vec![0.0; points.len() * self.components];
         for (p, values) in values.chunks_exact_mut(self.components).enumerate() {
-            if let Some(Some(first)) = self.first.get(points.model_of(p)) {
+            if let Some(first) = points.by_material(p, &self.first) {
                 // Points that were given none of the models' variables have zeros.
                 if let Some(own) = points.internal_of(p).get(*first..first + self.components) {
                     values.copy_from_slice(own);
                 }
             }
         }
-        column(&format!("{INTERNAL}.{}", self.name), self.unit, self.components, values)
+        Column::new(&format!("{INTERNAL}.{}", self.name), self.unit, self.components, values)
     }
 }

@@ -12,7 +12,6 @@
 
 mod boundary;
 pub mod checkpoint;
-mod columns;
 mod ending;
 pub mod fields;
 mod foreign;
@@ -342,9 +341,7 @@ impl<'a, const D: usize> Files<'a, D> {
     /// Ends a phase before its time, with the reason, in the last converged state.
     fn end_early(&mut self, scene: &Scene<D>, state: &mut State<D>, note: &str) -> Result<()> {
         self.log.line(note)?;
-        if self.framed != Some(state.step) {
-            self.frame(scene, state)?;
-        }
+        self.last_frame(scene, state)?;
         self.end_of_phase(state)?;
         state.next_phase(scene);
         self.checkpoint(state)
@@ -372,8 +369,8 @@ impl<'a, const D: usize> Files<'a, D> {
         })
     }
 
-    /// Hands a frame of the last converged step to the writer, unless it has it: what an analysis that cannot go
-    /// on came to. No checkpoint knows of it, so a run that continues writes over it.
+    /// Hands a frame of the last converged step to the writer, unless it has it. At the end of an analysis that cannot go on no checkpoint
+    /// knows of it, so a run that continues writes over it.
     fn last_frame(&mut self, scene: &Scene<D>, state: &mut State<D>) -> Result<()> {
         if self.framed == Some(state.step) { Ok(()) } else { self.frame(scene, state) }
     }

@@ -1,12 +1,11 @@
 //! What a run writes down: frames, rows of the history, lines of the log.
 
 use super::boundary;
-use super::columns::{column, triples};
 use super::fields::Field;
 use super::surface::{self, Acting};
 use crate::dofs::PORE_PRESSURE;
 use crate::io::columns::padded;
-use crate::io::frame::{CELL, Frame, Part, UNCOUNTED, VOLUME};
+use crate::io::frame::{CELL, Column, Frame, Part, UNCOUNTED, VOLUME, triples};
 use crate::io::provenance::Origin;
 use crate::points::Points;
 use crate::quadrature::Count;
@@ -151,13 +150,13 @@ pub fn value<const D: usize>(
             mean(nodes.iter().map(|&n| value(n).copied().unwrap_or(0.0)))
         }
         (WatchedOn::Region(region), Quantity::PorePressure) => {
-            mean_over(members(state, *region), |points, p| points.pore_pressure.get(p).copied().unwrap_or(0.0))
+            mean_over(state, *region, |points, p| points.pore_pressure.get(p).copied().unwrap_or(0.0))
         }
         (WatchedOn::Region(region), Quantity::Displacement(d)) => {
-            mean_over(members(state, *region), |points, p| points.displacement(p)[d])
+            mean_over(state, *region, |points, p| points.displacement(p)[d])
         }
         (WatchedOn::Region(region), Quantity::Velocity(d)) => {
-            mean_over(members(state, *region), |points, p| points.velocity.get(p).map_or(0.0, |v| v[d]))
+            mean_over(state, *region, |points, p| points.velocity.get(p).map_or(0.0, |v| v[d]))
         }
         (WatchedOn::Region(region), Quantity::Contact(d)) => contact(*region).map(|(force, _)| force[d]).sum(),
         (WatchedOn::Region(region), Quantity::ContactMoment) => {
@@ -177,15 +176,7 @@ fn moment_about<const D: usize>(centre: &[f64; 2], forces: impl Iterator<Item = 
 /// The centroid (m) of a region where it is now, in the plane, by the volumes of its points.
 fn centroid<const D: usize>(state: &State<D>, region: u16) -> [f64; 2] {
     const { assert!(D == 2, "centroids are those of moments in the plane") };
-    let (mut volume, mut sum) = (0.0, [0.0; 2]);
-    for (points, p) in members(state, region) {
-        let v = points.initial_volume[p];
-        volume += v;
-        for d in 0..2 {
-            sum[d] += v * points.position[p][d];
-        }
-    }
-    sum.map(|s| if volume > 0.0 { s / volume } else { 0.0 })
+    [0, 1].map(|d| mean_over(state, region, |points, p| points.position[p][d]))
 }
 
 /// The points of a region, of whatever kind.
@@ -199,12 +190,9 @@ fn mean(values: impl Iterator<Item = f64>) -> f64 {
     if count > 0 { sum / count as f64 } else { 0.0 }
 }
 
-/// The mean of a value over points, by the volume that each had when seeded: points that are split and merged leave it.
-fn mean_over<'a, const D: usize>(
-    points: impl Iterator<Item = (&'a Points<D>, usize)>,
-    value: impl Fn(&Points<D>, usize) -> f64,
-) -> f64 {
-    let (volume, sum) = points.fold((0.0, 0.0), |(volume, sum), (points, p)| {
+/// The mean of a value over the points of a region, by the volume that each had when seeded: points that are split and merged leave it.
+fn mean_over<const D: usize>(state: &State<D>, region: u16, value: impl Fn(&Points<D>, usize) -> f64) -> f64 {
+    let (volume, sum) = members(state, region).fold((0.0, 0.0), |(volume, sum), (points, p)| {
         let v = points.initial_volume[p];
         (volume + v, sum + v * value(points, p))
     });
@@ -225,25 +213,21 @@ pub fn frame<const D: usize>(
     let grid = if scene.numerics.restore == Restore::EveryStep && scene.fem.is_none() {
         Part::default()
     } else {
-        let x: Vec<[f64; D]> = state
-            .coordinates(scene)
-            .iter()
-            .zip(&state.displacement)
-            .map(|(x, u)| std::array::from_fn(|d| x[d] + u[d]))
-            .take(nodes)
-            .collect();
-        let columns = displacement.then(|| column("displacement", "m", 3, padded(&state.displacement[..nodes])));
+        let columns = displacement.then(|| Column::new("displacement", "m", 3, padded(&state.displacement[..nodes])));
         let reset = scene.fem.is_some() && !state.uncounted.is_empty();
-        let uncounted = reset.then(|| column(UNCOUNTED, "m", 3, padded(&state.uncounted[..nodes])));
-        Part { position: triples(&x), columns: columns.into_iter().chain(uncounted).collect() }
+        let uncounted = reset.then(|| Column::new(UNCOUNTED, "m", 3, padded(&state.uncounted[..nodes])));
+        Part {
+            position: triples(&boundary::nodes(scene, state)[..nodes]),
+            columns: columns.into_iter().chain(uncounted).collect(),
+        }
     };
     let mut points = part(&state.points, fields);
     if displacement {
         let volumes = (0..state.points.len()).map(|p| state.points.volume(p));
-        points.columns.push(column(VOLUME, "m3", 1, volumes.collect()));
+        points.columns.push(Column::new(VOLUME, "m3", 1, volumes.collect()));
     }
     let mut elements = part(&state.fem, fields);
-    elements.columns.push(column(CELL, "-", 1, state.fem.cell.iter().map(|&c| f64::from(c)).collect()));
+    elements.columns.push(Column::new(CELL, "-", 1, state.fem.cell.iter().map(|&c| f64::from(c)).collect()));
     Frame {
         time: state.time,
         phase: scene.phases.get(state.phase).map_or_else(String::new, |p| p.name.clone()),

@@ -1,7 +1,7 @@
 //! What frames hold of the surface of the material: the corners of its loops, with what acts there.
 
-use super::columns::{column, triples};
-use crate::io::frame::{LINE, Part, REGION};
+use super::boundary::nodes;
+use crate::io::frame::{Column, LINE, Part, REGION, triples};
 use crate::step::{Scene, State};
 use crate::surface::{NO_REGION, Piece, place};
 use crate::term::{Hydrostatic, SurfaceLoad};
@@ -22,9 +22,7 @@ pub struct Acting {
 pub fn part<const D: usize>(scene: &Scene<D>, state: &State<D>, acting: &Acting) -> Part {
     const { assert!(D == 2, "the surface is a line in the plane only") };
     let boundary = &state.weights.boundary;
-    let from = state.coordinates(scene);
-    let moved = |(x, u): (&[f64; D], &[f64; D])| std::array::from_fn(|d| x[d] + u[d]);
-    let nodes: Vec<[f64; D]> = from.iter().zip(&state.displacement).map(moved).collect();
+    let nodes = nodes(scene, state);
     let corner = |piece: &Piece| {
         let x = place(&scene.mesh, &nodes, piece, 0.0);
         [x[0], x[1]]
@@ -63,12 +61,12 @@ pub fn part<const D: usize>(scene: &Scene<D>, state: &State<D>, acting: &Acting)
         }
     }
     let columns = vec![
-        column("normal", "-", 3, normal),
-        column("pressure", "kPa", 1, pressure),
-        column("traction", "kPa", 3, traction),
-        column("wall", "-", 1, wall),
-        column(REGION, "-", 1, region),
-        column(LINE, "-", 1, number),
+        Column::new("normal", "-", 3, normal),
+        Column::new("pressure", "kPa", 1, pressure),
+        Column::new("traction", "kPa", 3, traction),
+        Column::new("wall", "-", 1, wall),
+        Column::new(REGION, "-", 1, region),
+        Column::new(LINE, "-", 1, number),
     ];
     if corners.is_empty() { Part::default() } else { Part { position: triples(&corners), columns } }
 }

@@ -3,6 +3,7 @@ use crate::error::Kind;
 use crate::io::columns;
 use crate::points::Points;
 use crate::tensor::Tensor;
+use std::fs;
 use std::path::Path;
 
 /// Points with every column filled with numbers that are all different, and awkward ones among them.

@@ -85,4 +85,4 @@ impl Data {
     }
 }
 
-pub(super) use with_values;
+pub(in crate::io) use with_values;

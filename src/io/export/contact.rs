@@ -10,8 +10,7 @@ const VTK_LINE: u8 = 3;
 /// The lines, a cell from each node to the next on its line; a gap that is not known is not a number. `None` where
 /// the part has not the columns that tell the lines.
 pub fn grid(part: &Part, time: Option<f64>) -> Option<Grid> {
-    let find = |name: &str| part.columns.iter().find(|c| c.name == name && c.components == 1).map(|c| &c.values);
-    let (line, region, faces) = (find(LINE)?, find(REGION)?, find(FACES)?);
+    let (line, region, faces) = (part.numbers(LINE, 1)?, part.numbers(REGION, 1)?, part.numbers(FACES, 1)?);
     let mut topology = Topology::default();
     let mut regions = Vec::new();
     for (i, _) in line.windows(2).enumerate().filter(|(_, pair)| pair[0] == pair[1]) {
@@ -24,11 +23,7 @@ pub fn grid(part: &Part, time: Option<f64>) -> Option<Grid> {
     let array = |c: &Column| {
         let of_gap = c.name == "contact_gap";
         let known = |(i, &value): (usize, &f64)| if of_gap && faces[i] == 0.0 { f64::NAN } else { value };
-        Array {
-            name: format!("{} [{}]", c.name, c.unit),
-            components: c.components,
-            data: Data::F64(c.values.iter().enumerate().map(known).collect()),
-        }
+        Array::new(&c.name, &c.unit, c.components, c.values.iter().enumerate().map(known).collect())
     };
     Some(Grid {
         points: part.position.concat(),

@@ -1,6 +1,5 @@
 //! The fields of a frame, and those that follow from them.
 
-use super::super::container::Data;
 use super::super::frame::{Column, INTERNAL, Part};
 use super::super::vtu::Array;
 use crate::tensor::{Symmetric, deviatoric, mean};
@@ -25,13 +24,8 @@ fn is_internal(name: &str) -> bool {
 /// One of them.
 pub fn column(part: &Part, name: &str) -> Option<Array> {
     let find = |name: &str| part.columns.iter().find(|c| c.name == name);
-    let array = |unit: &str, components, values| Array {
-        name: format!("{name} [{unit}]"),
-        components,
-        data: Data::F64(values),
-    };
     if let Some(Column { unit, components, values, .. }) = find(name) {
-        return Some(array(unit, *components, values.clone()));
+        return Some(Array::new(name, unit, *components, values.clone()));
     }
     let derive: fn(&Symmetric) -> f64 = match name {
         "mean_stress" => mean,
@@ -40,5 +34,5 @@ pub fn column(part: &Part, name: &str) -> Option<Array> {
     };
     let Column { unit, components: 6, values, .. } = find("stress")? else { return None };
     let values = values.chunks_exact(6).map(|s| derive(&[s[0], s[1], s[2], s[3], s[4], s[5]])).collect();
-    Some(array(unit, 1, values))
+    Some(Array::new(name, unit, 1, values))
 }

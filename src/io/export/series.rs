@@ -5,7 +5,7 @@ use super::pieces::Piece;
 use super::soil::Bodies;
 use super::{CONTACT, Regions, SOIL, STRUCTURES, SURFACE, contact, surface};
 use crate::error::{Error, Result};
-use crate::io::frame::{self, Frame, Info, Part};
+use crate::io::frame::{self, Frame, Info, Part, triples};
 use crate::io::vtu::{Grid, Topology};
 use crate::mesh::Mesh;
 use std::borrow::Cow;
@@ -116,11 +116,6 @@ pub fn counted_from<'a>(grid: &mut Part, first: &'a [[f64; 3]]) -> Cow<'a, [[f64
     };
     let way = grid.columns.remove(at).values;
     Cow::Owned(first.iter().zip(way.chunks_exact(3)).map(|(x, way)| [0, 1, 2].map(|d| x[d] + way[d])).collect())
-}
-
-/// Coordinates padded to three.
-pub fn triples<const D: usize>(x: &[[f64; D]]) -> Vec<[f64; 3]> {
-    x.iter().map(|x| std::array::from_fn(|d| x.get(d).copied().unwrap_or(0.0))).collect()
 }
 
 /// Every field must be somewhere in the frame.

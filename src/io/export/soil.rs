@@ -14,6 +14,8 @@ use crate::surface::triangles;
 use std::collections::BTreeMap;
 use std::f64::consts::TAU;
 
+/// The column of the displacement (m).
+const DISPLACEMENT: &str = "displacement";
 /// VTK's number of a triangle (`vtkCellType.h`).
 const VTK_TRIANGLE: u8 = 5;
 
@@ -49,7 +51,8 @@ impl<'a> Bodies<'a> {
         let grid = mesh.part(|c| !regions.elements[mesh.cells.region[c] as usize]);
         let seeded: Vec<bool> = regions.soil.iter().zip(&regions.elements).map(|(soil, fem)| *soil && !fem).collect();
         let first = infos.first().map(|info| Frame::read(&info.path)).transpose()?;
-        let known = |points: &Part| displacement(points).is_some() && volume(points).is_some();
+        let known =
+            |points: &Part| points.numbers(DISPLACEMENT, 3).is_some() && points.numbers(frame::VOLUME, 1).is_some();
         if !seeded.contains(&true) || first.is_none_or(|frame| !known(&frame.points)) {
             return Ok(None);
         }
@@ -75,7 +78,7 @@ impl<'a> Bodies<'a> {
     fn traced(&self, index: usize, points: &Part) -> Traced {
         let plane = |x: &[f64; 3]| [x[0], x[1]];
         let position: Vec<[f64; 2]> = points.position.iter().map(plane).collect();
-        let way = displacement(points).unwrap_or_default();
+        let way = points.numbers(DISPLACEMENT, 3).unwrap_or_default();
         let mut origin: Vec<[f64; 2]> =
             position.iter().zip(way.chunks_exact(3)).map(|(x, u)| [x[0] - u[0], x[1] - u[1]]).collect();
         if let Some((_, before)) = self.resets.range(..=index).next_back() {
@@ -117,7 +120,8 @@ impl<'a> Bodies<'a> {
             true => 0.0,
             false => *volume,
         };
-        let area: Vec<f64> = volume(points).unwrap_or_default().iter().zip(&traced.position).map(area).collect();
+        let area: Vec<f64> =
+            points.numbers(frame::VOLUME, 1).unwrap_or_default().iter().zip(&traced.position).map(area).collect();
         let Traced { position, origin } = &traced;
         let cloud = Cloud { position, origin, area: &area, values: Values { width, of: &of } };
         let body = self.soil.body(&nodes, cloud, (&places, &standing));
@@ -146,16 +150,6 @@ fn with_invariants(fields: &[String]) -> Vec<String> {
         all.extend(more.map(String::from));
     }
     all
-}
-
-/// The displacement of points (m), three numbers each.
-fn displacement(points: &Part) -> Option<&[f64]> {
-    points.columns.iter().find(|c| c.name == "displacement" && c.components == 3).map(|c| &c.values[..])
-}
-
-/// The volume of points (m³).
-fn volume(points: &Part) -> Option<&[f64]> {
-    points.columns.iter().find(|c| c.name == frame::VOLUME && c.components == 1).map(|c| &c.values[..])
 }
 
 fn numbers(array: &Array) -> &[f64] {

@@ -1,6 +1,5 @@
 //! The series of the surface of the material: closed polylines with what acts on them.
 
-use super::super::container::Data;
 use super::super::frame::{Column, LINE, Part};
 use super::super::vtu::{Array, Grid, Topology};
 
@@ -11,7 +10,7 @@ const VTK_POLY_LINE: u8 = 4;
 pub fn lines(part: &Part, time: Option<f64>) -> Option<Grid> {
     let mut topology = Topology::default();
     if !part.position.is_empty() {
-        let line = &part.columns.iter().find(|c| c.name == LINE && c.components == 1)?.values;
+        let line = part.numbers(LINE, 1)?;
         let mut begin = 0;
         for loop_of in line.chunk_by(|a, b| a == b) {
             let end = begin + loop_of.len() as i64;
@@ -21,11 +20,7 @@ pub fn lines(part: &Part, time: Option<f64>) -> Option<Grid> {
             begin = end;
         }
     }
-    let array = |c: &Column| Array {
-        name: format!("{} [{}]", c.name, c.unit),
-        components: c.components,
-        data: Data::F64(c.values.clone()),
-    };
+    let array = |c: &Column| Array::new(&c.name, &c.unit, c.components, c.values.clone());
     let shown = part.columns.iter().filter(|c| c.name != LINE);
     Some(Grid {
         points: part.position.concat(),

@@ -1,5 +1,6 @@
 use super::*;
 use crate::error::Kind;
+use std::fs;
 
 pub(in crate::io) fn sample(k: usize) -> Frame {
     let t = k as f64 * 0.1;
