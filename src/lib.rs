@@ -6,7 +6,7 @@
 //!
 //! | layer | modules | what |
 //! |---|---|---|
-//! | 0 | [`error`], [`tensor`], [`geometry`], [`time_value`], [`time_integration`], [`profile`], [`program`], [`analytical`] | errors and exit status; the order of tensor components; places, lines and polygons; values in time; generalised-α; time by activity; which program this is; closed forms for the tests |
+//! | 0 | [`error`], [`tensor`], [`geometry`], [`time_value`], [`time_integration`], [`profile`], [`program`] | errors and exit status; the order of tensor components; places, lines and polygons; values in time; generalised-α; time by activity; which program this is |
 //! | 1 | [`mesh`], [`material`] | cells and shape functions, Gmsh, location of points; stress and tangent of a point |
 //! | 2 | [`points`], [`seed`], [`kinematics`], [`surface`], [`rigid`], [`contact`], [`quadrature`], [`interpolation`], [`system`], [`dofs`] | the material points and how cells are filled with them; plane strain, axisymmetry and three dimensions; where the material ends; bodies that keep their shape; how structures touch soil; what the points weigh in integrals; what a point sees of the grid; sparse systems and their solution; the map of unknowns |
 //! | 3 | [`term`], [`soil`] | the terms of the equations of motion, each with its residual and tangent; the soil as a body with continuous fields, for pictures |
@@ -43,7 +43,6 @@
 //! | ε E, 1 − fill | `stiffness`, `emptiness` | soft stiffness (kPa) and emptiness (-) of a cell |
 //! | s_u, c, φ, ψ, σ_t | of [`material`] | strengths (kPa), angles (°), tension cut-off (kPa) |
 
-pub mod analytical;
 pub mod case;
 pub mod cli;
 pub mod contact;

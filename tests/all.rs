@@ -1,5 +1,6 @@
 //! All tests but those of `fuzz`, in one program: what is generic is compiled once, and no test waits for another topic to end.
 
+mod analytical;
 mod architecture;
 mod campaign;
 mod cli;

@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 
 /// The modules by layer, lowest first.
 const LAYERS: [&[&str]; 7] = [
-    &["analytical", "error", "geometry", "profile", "program", "tensor", "time_integration", "time_value"],
+    &["error", "geometry", "profile", "program", "tensor", "time_integration", "time_value"],
     &["material", "mesh"],
     &["contact", "dofs", "kinematics", "points", "quadrature", "rigid", "seed", "interpolation", "surface", "system"],
     &["soil", "term"],

@@ -1,7 +1,7 @@
-//! The vibrating bar, fixed–free, at small amplitude ([`mpm::analytical::vibrating_bar`]), first mode.
+//! The vibrating bar, fixed–free, at small amplitude (`tests/analytical/vibrating_bar.rs`), first mode.
 
+use crate::analytical::vibrating_bar::Bar;
 use crate::support::bench::{Bench, constant, quadrature_points, run};
-use mpm::analytical::vibrating_bar::Bar;
 use mpm::kinematics::PlaneStrain;
 use mpm::material::{Elasticity, LinearElastic};
 use mpm::mesh::builder::rectangle;

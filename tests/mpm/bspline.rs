@@ -4,12 +4,12 @@
 mod functions;
 mod system;
 
+use crate::analytical::self_weight_column::Column;
 use crate::mpm::patch::stretch_boundary;
 use crate::mpm::resampled::flies_its_parabola;
 use crate::support::bench::{Bench, constant, quadrature_points, run};
 use crate::support::layout::{at, lattice, resample, seeded};
 use crate::support::{Random, errors, mpm, rows, run as program_run};
-use mpm::analytical::self_weight_column::Column;
 use mpm::interpolation::{BSpline, Basis, Mpm};
 use mpm::kinematics::{Axisymmetric, Kinematics, PlaneStrain};
 use mpm::material::{Elasticity, LinearElastic};

@@ -3,8 +3,8 @@
 //! L/h = 20, plane strain (EI with E/(1 − ν²)), the grid never restored. The continuum differs from the
 //! elastica by shear and axial strain, of order (h/L)²: hence 0.5 %.
 
+use crate::analytical::elastica::tip;
 use crate::support::bench::{Bench, constant, quadrature_points, run};
-use mpm::analytical::elastica::tip;
 use mpm::kinematics::PlaneStrain;
 use mpm::material::{Elasticity, LinearElastic};
 use mpm::mesh::builder::rectangle;

@@ -4,12 +4,12 @@
 //! The settings are those of the README files. A tolerance is the error of the coarse mesh, said at each, with
 //! room for another mesh of the same size: another version of Gmsh must not break a test.
 
+use crate::analytical::mandel::Strip;
+use crate::analytical::self_weight_column::Column;
+use crate::analytical::terzaghi::{Layer, degree, isochrone};
+use crate::analytical::vibrating_bar::Bar;
+use crate::analytical::{elastica, limit_load};
 use crate::support::{mpm, project, python, succeeds};
-use mpm::analytical::mandel::Strip;
-use mpm::analytical::self_weight_column::Column;
-use mpm::analytical::terzaghi::{Layer, degree, isochrone};
-use mpm::analytical::vibrating_bar::Bar;
-use mpm::analytical::{elastica, limit_load};
 use std::f64::consts::{PI, TAU};
 use std::fs;
 use std::path::{Path, PathBuf};

@@ -1,12 +1,12 @@
-//! The self-weight column against its closed form ([`mpm::analytical::self_weight_column`]).
+//! The self-weight column against its closed form (`tests/analytical/self_weight_column.rs`).
 //!
 //! Confined sides, ν = 0, Hencky elasticity, gravity in four steps. Tolerances: issue and VERIFICATION, a
 //! stress error of 1e-4 at 16 cells over the height and third-order displacements on a grid that is never
 //! restored. Restored in every step, the plain method does not converge: that is asserted too, so that the
 //! day it does, this file must change.
 
+use crate::analytical::self_weight_column::Column;
 use crate::support::bench::{Bench, constant, quadrature_points, run};
-use mpm::analytical::self_weight_column::Column;
 use mpm::kinematics::PlaneStrain;
 use mpm::material::{Elasticity, LinearElastic};
 use mpm::mesh::builder::rectangle;

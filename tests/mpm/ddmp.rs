@@ -1,8 +1,8 @@
 //! Gradients smoothed between cells: exact where the plain ones are, and far less noise once points move.
 
+use crate::analytical::self_weight_column::Column;
 use crate::mpm::patch;
 use crate::support::bench::{Bench, constant, run};
-use mpm::analytical::self_weight_column::Column;
 use mpm::interpolation::{Basis, Ddmp, Mpm};
 use mpm::kinematics::{Axisymmetric, PlaneStrain};
 use mpm::material::{Elasticity, LinearElastic, Profile};

@@ -1,9 +1,9 @@
 //! Finite elements that share nodes with the grid: what passes between them and the points.
 
+use crate::analytical::self_weight_column::Column;
 use crate::mpm::patch::stretch_boundary;
 use crate::support::bench::{Bench, constant, quadrature_points, run_parts};
 use crate::support::layout::{at, resample, seeded};
-use mpm::analytical::self_weight_column::Column;
 use mpm::case::parts::places;
 use mpm::kinematics::PlaneStrain;
 use mpm::material::{Elasticity, LinearElastic};

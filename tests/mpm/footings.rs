@@ -4,8 +4,8 @@
 //! load is read is that of the cases, B/500 of a soil with E = 10⁴ s_u. The same for rigid punches in contact with the soil, whose
 //! sharp edges lie anywhere in its cells, and for a rigid pipe deep in it.
 
+use crate::analytical::limit_load;
 use crate::support::solve;
-use mpm::analytical::limit_load;
 use std::f64::consts::PI;
 use std::path::Path;
 

@@ -1,10 +1,10 @@
 //! Resampled quadrature: second order where the plain method does not converge, with few points, however often the grid is
 //! restored, at rest, in flow and in flight.
 
+use crate::analytical::self_weight_column::Column;
 use crate::support::Random;
 use crate::support::bench::{Bench, constant, run};
 use crate::support::layout::{at, describe, lattice, resample, seeded, straighten};
-use mpm::analytical::self_weight_column::Column;
 use mpm::interpolation::{Basis, Mpm};
 use mpm::kinematics::{Axisymmetric, Kinematics, PlaneStrain};
 use mpm::material::{Elasticity, Friction, LinearElastic, Model, MohrCoulomb, Tresca};

@@ -1,8 +1,8 @@
 //! Scenes on structured grids: uniform strain, the self-weight column, bodies that fly and turn, water, a run that is continued.
 
+use crate::analytical::self_weight_column::Column;
 use crate::schemes::functions::{COMPOSITE, CPDI, CPDI2, CPGIMP, UGIMP};
 use crate::support::bench::{Bench, constant, run};
-use mpm::analytical::self_weight_column::Column;
 use mpm::interpolation::{Basis, Mpm};
 use mpm::kinematics::{Axisymmetric, Kinematics, PlaneStrain};
 use mpm::material::{Elasticity, LinearElastic, Profile};

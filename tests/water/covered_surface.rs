@@ -1,7 +1,7 @@
 //! The surface of soil that drains, beside structures that cover it: against a closed form and a curve that is drained where none does.
 
+use crate::analytical::terzaghi::Layer;
 use crate::support::{self, column};
-use mpm::analytical::terzaghi::Layer;
 use std::fs;
 use std::path::Path;
 use tempfile::TempDir;

@@ -1,9 +1,9 @@
 //! The moving surface of soil as a drained boundary: Terzaghi's layer whose surface runs through the cells, and large strains.
 
+use crate::analytical::self_weight_column::Column;
+use crate::analytical::terzaghi::Layer;
 use crate::support::bench::{Bench, constant, run};
 use crate::support::layout::{at, resample, resample_bounded, seeded};
-use mpm::analytical::self_weight_column::Column;
-use mpm::analytical::terzaghi::Layer;
 use mpm::kinematics::{Axisymmetric, Kinematics, PlaneStrain};
 use mpm::material::{Elasticity, LinearElastic, Model};
 use mpm::mesh::builder::rectangle;

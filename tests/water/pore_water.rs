@@ -1,9 +1,9 @@
 //! Water that flows through the pores of a column that stands or lies, through the program and against closed forms: pressure that is there at
 //! first, permeability by direction, and waves.
 
+use crate::analytical::terzaghi::{Layer, degree, isochrone};
+use crate::analytical::vibrating_bar::Bar;
 use crate::support::{column, solve_text};
-use mpm::analytical::terzaghi::{Layer, degree, isochrone};
-use mpm::analytical::vibrating_bar::Bar;
 use mpm::io::frame::{self, Frame};
 use std::f64::consts::{FRAC_PI_2, TAU};
 use std::path::Path;

@@ -1,9 +1,9 @@
 //! Terzaghi's consolidation of a layer under a load that is there at once: every time of the table, order, small steps.
 
+use crate::analytical::self_weight_column::Column;
+use crate::analytical::terzaghi::Layer;
 use crate::support::bench::{Bench, constant, quadrature_points, run, run_parts};
 use crate::support::layout::{at, resample, seeded};
-use mpm::analytical::self_weight_column::Column;
-use mpm::analytical::terzaghi::Layer;
 use mpm::kinematics::{Axisymmetric, Kinematics, PlaneStrain};
 use mpm::material::{Elasticity, LinearElastic, Model};
 use mpm::mesh::builder::rectangle;
