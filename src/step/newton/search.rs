@@ -112,7 +112,6 @@ impl<const D: usize> Newton<'_, D> {
             if work.abs() <= -ENERGY_LEFT * first {
                 let better = self.better(size, length);
                 if better {
-                    self.stalled = 0;
                     self.accept(false);
                 }
                 return better;
@@ -148,7 +147,6 @@ impl<const D: usize> Newton<'_, D> {
             let length = 0.5f64.powi(halvings);
             if let Some(size) = self.attempt(length, false) {
                 if self.better(size, length) {
-                    self.stalled = 0;
                     if halvings >= DAMPED_FROM {
                         self.dampen();
                     }
@@ -170,9 +168,10 @@ impl<const D: usize> Newton<'_, D> {
             });
             return Err(self.failure(&why));
         };
-        self.stalled += 1;
-        if self.stalled <= STALLED && self.attempt(length, true).is_some() {
+        let stalled = self.stalled + 1;
+        if stalled <= STALLED && self.attempt(length, true).is_some() {
             self.accept(true);
+            self.stalled = stalled;
             return Ok(());
         }
         Err(self.failure("the line search finds no smaller residual"))
@@ -212,6 +211,6 @@ impl<const D: usize> Newton<'_, D> {
         self.take(tangent);
         let Buffers { now, best, .. } = &mut self.buffers;
         best.clone_from(&now.at);
-        (self.target, self.relaxed) = (self.size(&self.buffers.now), 0);
+        (self.target, self.relaxed, self.stalled) = (self.size(&self.buffers.now), 0, 0);
     }
 }
