@@ -144,13 +144,13 @@ impl<K: Kinematics<2>> Boundary<K> {
 
     /// Whether soil like that at `point` may yield.
     fn yields(&self, points: &Points<2>, point: usize) -> bool {
-        self.models.get(points.model_of(point)).and_then(Option::as_ref).is_some_and(|model| model.yields())
+        points.by_material(point, &self.models).is_some_and(|model| model.yields())
     }
 
     /// Penalties and multipliers of a contact node over soil like that at `point`, without its strength and water.
     fn penalty(&self, points: &Points<2>, point: usize, contact_node: usize, held: &Multipliers) -> Penalty {
         let y = points.seeded_height(point);
-        let model = self.models.get(points.model_of(point)).and_then(Option::as_ref);
+        let model = points.by_material(point, &self.models);
         let yields = self.yields(points, point);
         let share = if yields { YIELDING } else { 1.0 };
         let stiffness = share * model.map_or(0.0, |m| m.young(y)) / self.surface.spacing;
@@ -170,8 +170,7 @@ impl<K: Kinematics<2>> Boundary<K> {
 
 /// The shear strength (kPa) of the soil at a point as the step begins.
 fn strength(models: &[Option<Arc<dyn Model>>], points: &Points<2>, p: usize) -> f64 {
-    let model = models.get(points.model_of(p)).and_then(Option::as_ref);
-    model.map_or(0.0, |m| m.shear_strength(points.seeded_height(p), &points.state(p, 0.0)))
+    points.by_material(p, models).map_or(0.0, |m| m.shear_strength(points.seeded_height(p), &points.state(p, 0.0)))
 }
 
 impl Ground<'_, 2> {

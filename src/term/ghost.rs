@@ -85,7 +85,7 @@ impl<K> GhostPenalty<K> {
         for cell in face.between.cells {
             for &p in frame.interpolation.points_in(cell) {
                 let p = p as usize;
-                let Some(model) = self.models.get(frame.points.model_of(p)).and_then(Option::as_ref) else {
+                let Some(model) = frame.points.by_material(p, &self.models) else {
                     continue;
                 };
                 let (v, young) = (frame.points.initial_volume[p], model.young(frame.points.seeded_height(p)));
