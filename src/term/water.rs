@@ -100,20 +100,13 @@ impl<K> PoreWater<K> {
     }
 }
 
-/// The linear shape functions of the corners as sums of those of the cell: the coefficient of function `i` in that of corner `a`.
+/// The linear shape functions of the corners as sums of those of a cell of first or second order: the coefficient of function `i` in that of corner `a`.
 fn coefficients(kind: CellKind) -> [[f64; MAX_NODES]; MOST] {
     let corners = kind.corner_count();
     let mut of = [[0.0; MAX_NODES]; MOST];
     for (a, of) in of.iter_mut().enumerate().take(corners) {
         of[a] = 1.0;
-        if kind.order() > 2 {
-            // Their own values at the nodes: bilinear.
-            for (i, xi) in kind.node_coordinates().iter().enumerate() {
-                let mut corner = [0.0; MOST];
-                CellKind::Q4.values(xi, &mut corner);
-                of[i] = corner[a];
-            }
-        } else if kind.order() > 1 {
+        if kind.order() > 1 {
             of[corners + a] = 0.5;
             of[corners + (a + corners - 1) % corners] = 0.5;
             if kind.node_count() > 2 * corners {
