@@ -26,8 +26,6 @@ const FORCING: f64 = 0.1;
 const NEAR: f64 = 0.1;
 /// Least scale of the residual, relative to the stiffness of a mean cell: below it there are no forces to be in balance.
 const FLOOR: f64 = 1e-6;
-/// The prescribed displacements count as not reached if their forces are more than this fraction (-) of the right-hand side.
-const UNREACHED: f64 = 1e-3;
 /// A residual this small relative to the largest term is rounding.
 const ROUNDING: f64 = 1e-12;
 
@@ -282,11 +280,9 @@ impl<'a, const D: usize> Newton<'a, D> {
         motion.matrix.constrain(&motion.pattern, fixed, gap, diagonal, delta);
         wanted.clone_from(delta);
         // The forces of prescribed displacements that are not reached yet are part of the right-hand side, not of the residual.
-        let beyond = wanted.iter().zip(&now.force).zip(&*fixed).map(|((w, f), fixed)| if *fixed { 0.0 } else { w + f });
-        let whole = norm_free(wanted, fixed);
-        self.unreached = beyond.map(|b| b * b).sum::<f64>().sqrt() > UNREACHED * whole;
+        self.unreached = gap.iter().any(|g| *g != 0.0);
         if self.target.is_infinite() || self.unreached {
-            self.target = whole;
+            self.target = norm_free(wanted, fixed);
         }
         let (pattern, matrix) = (&motion.pattern, &motion.matrix);
         let near = matches!(self.history[..], [.., before, last] if last < NEAR * before);

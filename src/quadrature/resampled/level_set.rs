@@ -16,8 +16,6 @@ const OFFSETS: usize = 8;
 const FIRST_OFFSET: f64 = 1e-3;
 /// The part (-) of the volume to which the volume within the surface is that of the material points.
 const VOLUME_TOLERANCE: f64 = 1e-12;
-/// The secant slope of a volume over the offset is used where it is the first slope within this factor.
-const SLOPE_FACTOR: f64 = 10.0;
 /// Strain (-) up to which is rounding.
 const STRAINED: f64 = 1e-9;
 
@@ -134,7 +132,7 @@ fn keep_volume<K: Kinematics<2>>(
         let volumes: Vec<(u32, f64)> = cells.par_iter().with_min_len(64).map(of_cell).collect();
         by_body(&mut volumes.into_iter()).iter().zip(&wanted).map(|(has, wanted)| wanted - has).collect()
     };
-    // The secant method, body by body; a slope that is far from the first one is one of rounding.
+    // The secant method, body by body; a slope that is not positive is one of rounding.
     let first = FIRST_OFFSET * (most - least);
     let mut lacks = lacking(&vec![0.0; bodies.count()]);
     let shifted_first = lacking(&vec![first; bodies.count()]);
@@ -151,7 +149,7 @@ fn keep_volume<K: Kinematics<2>>(
         }
         for (b, then) in lacking(&tried).into_iter().enumerate() {
             let slope = (lacks[b] - then) / (tried[b] - offsets[b]);
-            if (1.0 / SLOPE_FACTOR..SLOPE_FACTOR).contains(&(slope / slopes[b])) {
+            if slope > 0.0 && slope.is_finite() {
                 now[b] = slope;
             }
             if then.abs() < lacks[b].abs() {
