@@ -8,12 +8,9 @@ use crate::mesh::faces::{Face, Faces};
 const RINGS: usize = 2;
 
 /// The faces with a penalty, ascending: those of ill-conditioned cells and, with inertia, of cells with fewer points than nodes, and
-/// those of the empty cells beside these, if one of the two cells of the face holds points. None in a scene without inertia and without such terms.
+/// those of the empty cells beside these, if one of the two cells of the face holds points.
 pub fn choose<const D: usize>(scene: &Scene<D>, state: &State<D>) -> Vec<u32> {
     let (faces, dynamic) = (&scene.locator.faces, scene.dynamic());
-    if !dynamic && !scene.terms.iter().any(|term| term.penalises_faces()) {
-        return Vec::new();
-    }
     let cells = scene.mesh.cells.len();
     let (mut holds, mut ill_conditioned, mut ring) = (vec![false; cells], vec![false; cells], vec![false; cells]);
     let mut count = vec![0; cells];
