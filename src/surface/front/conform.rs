@@ -12,11 +12,6 @@ use crate::surface::geometry::Geometry;
 const NEAR: f64 = 0.15;
 /// So do those within it, by less than this share of a cell.
 const DEEP: f64 = 1.0;
-/// A film of soil on a structure is nowhere thicker than this share of a cell, so that cells do not resolve it. Films of 0.15 to 0.2 of a cell ended the
-/// pull of a caisson (`cases/suction_anchor/README.md`).
-const FILM: f64 = 0.5;
-/// And it is longer than this multiple of its thickness: soil that meets a structure at more than 11° forms no film.
-const LONG: f64 = 5.0;
 
 /// The contact status of a piece of the boundary of a structure.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -29,16 +24,12 @@ pub enum ContactStatus {
     Mixed,
 }
 
-/// The place of an outline that a marker is nearest to.
+/// The place of an outline that a marker lies at.
 #[derive(Clone, Copy)]
 struct Foot {
     outline: usize,
     /// Arc length (m) along it.
     along: f64,
-    /// Distance (m) of the marker.
-    away: f64,
-    /// Whether the marker lies there.
-    lies: bool,
 }
 
 /// A polyline with the arc length of its vertices.
@@ -129,7 +120,6 @@ impl MarkerFront {
         let mut next = Self { position: Vec::with_capacity(self.position.len() + 16), first: vec![0] };
         for l in 0..self.loops() {
             let range = self.first[l] as usize..self.first[l + 1] as usize;
-            films(&outlines, &wall[range.clone()], &mut feet[range.clone()]);
             pockets(&outlines, &wall[range.clone()], &mut feet[range.clone()]);
             lean_loop(&outlines, &self.position[range.clone()], &feet[range.clone()], &size[range], &mut next.position);
             next.first.push(next.position.len() as u32);
@@ -139,9 +129,9 @@ impl MarkerFront {
     }
 }
 
-/// The place nearest to a marker at `x` in a cell of size `h`, where that may lie against an outline.
+/// The place of the outlines nearest to a marker at `x` in a cell of size `h`, if the marker lies there.
 fn foot(outlines: &[Outline], pieces: &[(usize, usize)], bins: &Bins, x: &[f64; 2], h: f64) -> Option<Foot> {
-    let mut best: Option<(f64, f64, Foot)> = None;
+    let mut best: Option<(f64, f64, Option<Foot>)> = None;
     for &piece in bins.around(x).flatten() {
         let (outline, i) = pieces[piece as usize];
         let (a, b) = (outlines[outline].x[i - 1], outlines[outline].x[i]);
@@ -157,57 +147,20 @@ fn foot(outlines: &[Outline], pieces: &[(usize, usize)], bins: &Bins, x: &[f64; 
             // A gap is as wide as it is, however narrow.
             let near = if outlines[outline].contact[i - 1] == ContactStatus::Open { 0.0 } else { NEAR * h };
             let lies = away <= if left > 0.0 { DEEP * h } else { near };
-            best = Some((away, left, Foot { outline, along, away, lies }));
+            best = Some((away, left, lies.then_some(Foot { outline, along })));
         }
     }
-    let (away, left, foot) = best?;
-    (foot.lies || left <= 0.0 && away <= FILM * h).then_some(foot)
-}
-
-/// Moves the free markers of films onto their structure. They run in the direction of its outline, those on the other side of the film against it.
-/// Once both sides are on the structure they cancel, and the film is gone.
-fn films(outlines: &[Outline], wall: &[bool], feet: &mut [Option<Foot>]) {
-    let count = feet.len();
-    // The distance (m) along the outline from a marker to the next one, where both may belong to the free side of one film.
-    let forward = |i: usize| {
-        let (a, b) = (feet[i % count]?, feet[(i + 1) % count]?);
-        let way = outlines[a.outline].way(a.along, b.along);
-        (a.outline == b.outline && way > 0.0 && !wall[i % count]).then_some(way)
-    };
-    let Some(begin) = (0..count).find(|&i| forward(i).is_none()) else { return };
-    let (mut i, mut found) = (begin + 1, Vec::new());
-    while i < begin + count {
-        let (first, mut length) = (i, 0.0);
-        while let Some(way) = forward(i).filter(|_| i < begin + count) {
-            length += way;
-            i += 1;
-        }
-        let thickest = (first..=i).filter_map(|k| feet[k % count]).map(|foot| foot.away).fold(0.0, f64::max);
-        if length > LONG * thickest {
-            // The tip and the root of the film, which run across it, belong to it.
-            let goes_on = |k: usize| feet[k % count].is_some_and(|foot| !foot.lies) && !wall[k % count];
-            let begin = (0..count).take_while(|back| goes_on(first + count - 1 - back)).count();
-            let end = (i + 1..i + 1 + count).take_while(|&k| goes_on(k)).count();
-            found.push(first + count - begin..=i + count + end);
-        }
-        i += 1;
-    }
-    for k in found.into_iter().flatten() {
-        if let Some(foot) = &mut feet[k % count] {
-            foot.lies = true;
-        }
-    }
+    best?.2
 }
 
 /// Moves onto the structure the markers of voids along which contact is closed: contact bears there, and the cells of the void would not.
 fn pockets(outlines: &[Outline], wall: &[bool], feet: &mut [Option<Foot>]) {
     let count = feet.len();
-    let lying = |feet: &[Option<Foot>], i: usize| feet[i % count].filter(|foot| foot.lies);
-    let Some(begin) = (0..count).find(|&i| lying(feet, i).is_some()) else { return };
+    let Some(begin) = (0..count).find(|&i| feet[i].is_some()) else { return };
     let mut last = begin;
     for i in begin + 1..=begin + count {
-        let Some(to) = lying(feet, i) else { continue };
-        let from = lying(feet, last).unwrap_or(to);
+        let Some(to) = feet[i % count] else { continue };
+        let from = feet[last % count].unwrap_or(to);
         let outline = &outlines[from.outline];
         let free = last + 1..i;
         last = i;
@@ -223,16 +176,16 @@ fn pockets(outlines: &[Outline], wall: &[bool], feet: &mut [Option<Foot>]) {
 /// Appends the markers of a loop, those of each run against an outline taken from it.
 fn lean_loop(outlines: &[Outline], x: &[[f64; 2]], feet: &[Option<Foot>], size: &[f64], out: &mut Vec<[f64; 2]>) {
     let count = x.len();
-    let lying = |i: usize| feet[i % count].filter(|foot| foot.lies);
+    let lying = |i: usize| feet[i % count];
     let on = |i: usize| lying(i).map(|foot| foot.outline);
     // Begin where no run goes on.
     let Some(begin) = (0..count).find(|&i| on(i).is_none() || on(i) != on(i + count - 1)) else {
-        // Soil lies all around a structure; a film of its own goes out along the structure and back, and is gone.
+        // Soil lies all around a structure; a film of its own, which runs along the structure and back, is gone.
         let Some(Foot { outline, along: start, .. }) = lying(0) else { return };
         let (outline, along) = (&outlines[outline], |i: usize| lying(i).map_or(start, |foot| foot.along));
         let way: f64 = (0..count).map(|i| outline.way(along(i), along(i + 1))).sum();
-        let size = size.iter().copied().fold(f64::INFINITY, f64::min);
-        if way.abs() > FILM * size {
+        if way.abs() > 0.5 * outline.length() {
+            let size = size.iter().copied().fold(f64::INFINITY, f64::min);
             let markers = (outline.length() * PER_LENGTH as f64 / size).ceil();
             out.extend((0..markers as usize).map(|k| outline.at(start - outline.length() * k as f64 / markers)));
         }
