@@ -180,8 +180,8 @@ fn lean_loop(outlines: &[Outline], x: &[[f64; 2]], feet: &[Option<Foot>], size: 
     let on = |i: usize| lying(i).map(|foot| foot.outline);
     // Begin where no run goes on.
     let Some(begin) = (0..count).find(|&i| on(i).is_none() || on(i) != on(i + count - 1)) else {
-        // Soil lies all around a structure; a film of its own, which runs along the structure and back, is gone.
-        let Some(Foot { outline, along: start, .. }) = lying(0) else { return };
+        // Soil lies all around a structure. A loop that only runs along the structure and back encloses nothing, and goes.
+        let Some(Foot { outline, along: start }) = lying(0) else { return };
         let (outline, along) = (&outlines[outline], |i: usize| lying(i).map_or(start, |foot| foot.along));
         let way: f64 = (0..count).map(|i| outline.way(along(i), along(i + 1))).sum();
         if way.abs() > 0.5 * outline.length() {
@@ -193,7 +193,7 @@ fn lean_loop(outlines: &[Outline], x: &[[f64; 2]], feet: &[Option<Foot>], size: 
     };
     let mut i = begin;
     while i < begin + count {
-        let Some(Foot { outline, along, .. }) = lying(i) else {
+        let Some(Foot { outline, along }) = lying(i) else {
             out.push(x[i % count]);
             i += 1;
             continue;
