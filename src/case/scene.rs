@@ -143,6 +143,7 @@ pub fn scene<K: Kinematics<2>>(case: &Case, mut whole: Mesh<2>) -> Result<Scene<
     let (mesh, fem) = parts::meshes(case, whole);
     let basis = case.numerics.basis;
     scheme::check(basis, &mesh, fem.as_ref())?;
+    scheme::check_moved_curves(case, &mesh, fem.as_ref())?;
     let materials =
         || changes::used(case).filter(|(region, _)| !region.content.is_rigid()).map(|(_, material)| material);
     let heights = || mesh.nodes.iter().map(|x| x[1]);

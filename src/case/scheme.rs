@@ -1,12 +1,14 @@
 //! What a scheme of the material point method can be used on.
 
 use super::check::Checker;
-use super::checked::{Case, Content, Order, Phase};
+use super::checked::{Case, Content, Order, Phase, Restore};
 use super::locate::{At, Path};
+use super::parts::carries;
 use crate::error::{Error, Result};
 use crate::interpolation::Basis;
 use crate::mesh::Mesh;
 use crate::mesh::shape::CellKind;
+use crate::time_value::TimeValue;
 use std::collections::HashSet;
 
 impl Checker {
@@ -90,6 +92,39 @@ pub(super) fn check(basis: &dyn Basis<2>, mesh: &Mesh<2>, fem: Option<&Mesh<2>>)
             problem.into(),
             "make the region `kind: mpm` or `kind: structure` (apart from the grid, with a contact), or choose `gradient: mpm`",
         );
+    }
+    Ok(())
+}
+
+/// Refuses to move a curve of a grid that is reset and that the scheme wants in its first shape: the soil on the curve would leave it.
+///
+/// # Errors
+/// `Input`: the first such curve.
+pub(super) fn check_moved_curves(case: &Case, grid: &Mesh<2>, fem: Option<&Mesh<2>>) -> Result<()> {
+    let basis = case.numerics.basis;
+    if !basis.wants_first_shape() || case.numerics.solver.restore == Restore::Never {
+        return Ok(());
+    }
+    let still = |value: &TimeValue| match value {
+        TimeValue::Constant(value) | TimeValue::Rate(value) => *value == 0.0,
+        TimeValue::Table(table) => table.iter().all(|[_, value]| *value == 0.0),
+    };
+    let of_grid = |curve: &str| {
+        grid.group(curve).is_some_and(|group| {
+            fem.is_none_or(|fem| !carries(fem, group)) && group.nodes.iter().any(|n| grid.cells.nodes.contains(n))
+        })
+    };
+    for phase in &case.phases {
+        if let Some(moved) = phase.prescribed.iter().find(|p| !still(&p.displacement) && of_grid(&p.curve)) {
+            return Err(Error::input(
+                format!("the curve `{}` that phase `{}` moves", moved.curve, phase.name),
+                format!(
+                    "{} needs a grid that keeps its shape, and soil that moves would leave the curve",
+                    basis.name()
+                ),
+                "move the soil by a rigid structure with a contact, set `restore: never` under `numerics`, or choose `gradient: mpm`",
+            ));
+        }
     }
     Ok(())
 }

@@ -209,8 +209,8 @@ pub fn frame<const D: usize>(
 ) -> Frame {
     let nodes = scene.mesh_nodes();
     let displacement = fields.iter().any(|field| field.is_displacement());
-    // A grid that is restored stays where the mesh has it.
-    let grid = if scene.numerics.restore == Restore::EveryStep && scene.fem.is_none() {
+    // A grid that is restored and follows nothing stays where the mesh has it.
+    let grid = if scene.numerics.restore == Restore::EveryStep && scene.fem.is_none() && !scene.moves_curves() {
         Part::default()
     } else {
         let columns = displacement.then(|| Column::new("displacement", "m", 3, padded(&state.displacement[..nodes])));

@@ -66,20 +66,22 @@ impl<const D: usize> Elements<D> {
     }
 }
 
-/// Sets the reference positions of the nodes of elements and rigid bodies to the current ones (eq. 26), before the displacement is set to zero.
+/// Sets the reference positions of the nodes of elements and rigid bodies, and of curves that phases move, to the current ones (eq. 26), before the
+/// displacement is set to zero.
 pub fn keep_shape<const D: usize>(scene: &Scene<D>, state: &mut State<D>) {
-    if scene.fem.is_none() && scene.bodies.is_empty() {
+    let mut keeps = scene.following(state.phase);
+    if scene.fem.is_none() && scene.bodies.is_empty() && !keeps.contains(&true) {
         return;
     }
     if state.nodes.is_empty() {
         state.nodes = (0..scene.displacements() as u32).map(|n| scene.origin(n)).collect();
     }
-    let mut of_elements = vec![false; state.nodes.len()];
+    keeps.resize(state.nodes.len(), false);
     for &n in scene.fem.iter().flat_map(|fem| &fem.mesh.cells.nodes) {
-        of_elements[n as usize] = true;
+        keeps[n as usize] = true;
     }
-    of_elements[scene.mesh_nodes()..].fill(true);
-    for ((x, u), _) in state.nodes.iter_mut().zip(&state.displacement).zip(&of_elements).filter(|(_, of)| **of) {
+    keeps[scene.mesh_nodes()..].fill(true);
+    for ((x, u), _) in state.nodes.iter_mut().zip(&state.displacement).zip(&keeps).filter(|(_, of)| **of) {
         for d in 0..D {
             x[d] += u[d];
         }

@@ -1,8 +1,8 @@
-//! The shape of the grid at a reset where finite elements share nodes with it (docs/theory.md, eq. 27; its reference 1, §2.7). Shared nodes
-//! have the positions of the elements; the other nodes follow them, less and less with the distance.
+//! The shape of the grid at a reset where finite elements share nodes with it, or a curve of it is moved (docs/theory.md, eq. 27; its reference 1,
+//! §2.7). These nodes keep the positions to which the material has brought them; the other nodes follow, less and less with the distance.
 //!
 //! Springs along the edges of the cells join their corners, with a stiffness of one over the square of the length of the edge. Their
-//! loads are the displacements of the shared nodes from the first shape of the grid. Nodes on the boundary of the mesh move along it only.
+//! loads are the displacements of those nodes from the first shape of the grid. Other nodes on the boundary of the mesh move along it only.
 
 use super::scene::Scene;
 use super::state::State;
@@ -27,30 +27,23 @@ pub fn mesh<'a, const D: usize>(scene: &'a Scene<D>, relaxed: Option<&'a Relaxed
     relaxed.map_or((&scene.mesh, &scene.locator), |relaxed| (&relaxed.mesh, &relaxed.locator))
 }
 
-/// Whether each node belongs to the grid and to finite elements.
-fn shared<const D: usize>(scene: &Scene<D>) -> Vec<bool> {
-    let mut of = vec![[false; 2]; scene.mesh.nodes.len()];
-    for (k, mesh) in std::iter::once(&scene.mesh).chain(scene.fem.as_ref().map(|fem| &fem.mesh)).enumerate() {
-        for &n in &mesh.cells.nodes {
-            of[n as usize][k] = true;
-        }
-    }
-    of.into_iter().map(|[grid, fem]| grid && fem).collect()
-}
-
-/// Moves the nodes of the grid in `state` to where the relaxed grid has them. `None` where nothing is shared.
+/// Moves the nodes of the grid in `state` to where the relaxed grid has them. `None` where that is their first position.
 ///
 /// # Errors
-/// An analysis error when the finite elements moved so far that a cell of the grid is folded.
+/// An analysis error when nodes that follow the material moved so far that a cell of the grid is folded.
 pub fn relax<const D: usize>(scene: &Scene<D>, state: &mut State<D>) -> Result<Option<Relaxed<D>>> {
-    let shared = shared(scene);
-    if !shared.contains(&true) {
+    let first = &scene.mesh;
+    let following = scene.following(state.phase);
+    if !following.contains(&true) {
+        if !state.nodes.is_empty() {
+            // Those of a curve may have followed in the phase before.
+            first.cells.nodes.iter().for_each(|&n| state.nodes[n as usize] = first.nodes[n as usize]);
+        }
         return Ok(None);
     }
-    let first = &scene.mesh;
     let way = |n: usize| -> [f64; D] { std::array::from_fn(|d| state.nodes[n][d] - first.nodes[n][d]) };
     let corners = Corners::of(first);
-    let held = corners.held(first, &shared);
+    let held = corners.held(first, &following);
     let mut moved = vec![[0.0; D]; first.nodes.len()];
     let pattern = Pattern::new(&vec![1; corners.node.len()], corners.edges(first), true);
     let places: Vec<_> = corners.node.iter().map(|&n| first.nodes[n as usize]).collect();
@@ -58,7 +51,7 @@ pub fn relax<const D: usize>(scene: &Scene<D>, state: &mut State<D>) -> Result<O
     for d in 0..D {
         let fixed: Vec<bool> = held.iter().map(|held| held[d]).collect();
         let given: Vec<f64> =
-            corners.node.iter().map(|&n| if shared[n as usize] { way(n as usize)[d] } else { 0.0 }).collect();
+            corners.node.iter().map(|&n| if following[n as usize] { way(n as usize)[d] } else { 0.0 }).collect();
         let mut springs = corners.springs(first, &pattern);
         let mut x = vec![0.0; pattern.len()];
         let scale = springs.scale(&pattern);
@@ -80,7 +73,7 @@ pub fn relax<const D: usize>(scene: &Scene<D>, state: &mut State<D>) -> Result<O
     }
     for &n in &first.cells.nodes {
         let n = n as usize;
-        if !shared[n] {
+        if !following[n] {
             state.nodes[n] = std::array::from_fn(|d| first.nodes[n][d] + moved[n][d]);
         }
     }
@@ -89,9 +82,10 @@ pub fn relax<const D: usize>(scene: &Scene<D>, state: &mut State<D>) -> Result<O
     Ok(relaxed)
 }
 
-/// The relaxed grid of a state; `None` where nothing is shared.
+/// The relaxed grid of a state; `None` where its nodes have their first positions.
 pub fn at<const D: usize>(scene: &Scene<D>, state: &State<D>) -> Option<Relaxed<D>> {
-    if state.nodes.is_empty() || !shared(scene).contains(&true) {
+    let moved = |&n: &u32| state.nodes[n as usize] != scene.mesh.nodes[n as usize];
+    if state.nodes.is_empty() || !scene.mesh.cells.nodes.iter().any(moved) {
         return None;
     }
     let mesh = Mesh { nodes: state.coordinates(scene).to_vec(), ..scene.mesh.clone() };
@@ -112,8 +106,8 @@ fn check<const D: usize>(first: &Mesh<D>, mesh: &Mesh<D>) -> Result<()> {
         None => Ok(()),
         Some(c) => Err(Error::analysis(
             format!("grid cell {c} near {:.4?} m", mesh.nodes[mesh.cells.nodes(c)[0] as usize]),
-            "the finite elements beside the grid moved so far that it is folded",
-            "make more of the soil `kind: mpm`, so that the elements move less",
+            "finite elements that share nodes with the grid, or a prescribed curve of it, moved so far that it is folded",
+            "make more of the soil `kind: mpm`, or move it by a rigid structure with a contact in place of a curve",
         )),
     }
 }
@@ -166,16 +160,16 @@ impl Corners {
         matrix
     }
 
-    /// Which components of each corner are prescribed: all at shared nodes; on the rest of the boundary the normal one of sides along an axis,
+    /// Which components of each corner are prescribed: all at nodes that follow the material; on the rest of the boundary the normal one of sides along an axis,
     /// and both on other sides.
-    fn held<const D: usize>(&self, mesh: &Mesh<D>, shared: &[bool]) -> Vec<[bool; D]> {
+    fn held<const D: usize>(&self, mesh: &Mesh<D>, following: &[bool]) -> Vec<[bool; D]> {
         const { assert!(D == 2, "sides are lines in the plane only") };
-        let mut held: Vec<[bool; D]> = self.node.iter().map(|&n| [shared[n as usize]; D]).collect();
+        let mut held: Vec<[bool; D]> = self.node.iter().map(|&n| [following[n as usize]; D]).collect();
         for (cell, side) in Faces::of(mesh).boundary {
             let nodes = mesh.cells.nodes(cell as usize);
             let facet = mesh.cells.kind[cell as usize].facets().1[side as usize];
             let ends = [nodes[facet[0]], nodes[facet[1]]];
-            if facet.iter().all(|&i| shared[nodes[i] as usize]) {
+            if facet.iter().all(|&i| following[nodes[i] as usize]) {
                 continue;
             }
             let [a, b] = ends.map(|n| &mesh.nodes[n as usize]);

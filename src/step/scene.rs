@@ -123,6 +123,32 @@ impl<const D: usize> Scene<D> {
         self.supports.iter().chain(prescribed.iter().map(|p| &p.fixed)).chain(held)
     }
 
+    /// Whether a phase moves curves of the mesh.
+    pub fn moves_curves(&self) -> bool {
+        self.phases.iter().any(|phase| phase.moving(self.mesh.nodes.len()).next().is_some())
+    }
+
+    /// Whether each node of the grid goes with the material through grid resets in a phase: those that finite elements share, and those of curves
+    /// that phases move, until the last phase that prescribes any of their components. A scheme that wants the first shape of the grid has none.
+    pub fn following(&self, phase: usize) -> Vec<bool> {
+        let count = self.mesh.nodes.len();
+        let mut following = vec![false; count];
+        for &n in self.fem.iter().flat_map(|fem| &fem.mesh.cells.nodes) {
+            following[n as usize] = true;
+        }
+        if !self.basis.wants_first_shape() {
+            let yet = self.phases.iter().skip(phase).flat_map(|phase| &phase.prescribed);
+            let mut held = vec![false; count];
+            yet.flat_map(|p| &p.fixed.nodes).filter(|n| (**n as usize) < count).for_each(|&n| held[n as usize] = true);
+            let moving = self.phases.iter().flat_map(|phase| phase.moving(count)).flat_map(|p| &p.fixed.nodes);
+            moving.for_each(|&n| following[n as usize] |= held[n as usize]);
+        }
+        let mut of_grid = vec![false; count];
+        self.mesh.cells.nodes.iter().for_each(|&n| of_grid[n as usize] = true);
+        following.iter_mut().zip(of_grid).for_each(|(following, of_grid)| *following &= of_grid);
+        following
+    }
+
     /// Whether inertia may come in.
     pub fn dynamic(&self) -> bool {
         self.phases.iter().any(|phase| phase.dynamic || phase.auto)
@@ -245,7 +271,13 @@ impl Phase {
 
     /// Whether it prescribes a displacement that is not zero throughout.
     pub fn moves(&self) -> bool {
-        self.prescribed.iter().any(|p| self.times().any(|time| p.displacement.at(time) != 0.0))
+        self.moving(usize::MAX).next().is_some()
+    }
+
+    /// The displacements that it prescribes and that are not zero throughout, of entries below `end` of a field of displacements.
+    fn moving(&self, end: usize) -> impl Iterator<Item = &Prescribed> {
+        let moves = |p: &Prescribed| self.times().any(|time| p.displacement.at(time) != 0.0);
+        self.prescribed.iter().filter(move |p| p.fixed.nodes.iter().all(|&n| (n as usize) < end) && moves(p))
     }
 }
 

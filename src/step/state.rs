@@ -37,7 +37,7 @@ pub struct State<const D: usize> {
     pub fem: Points<D>,
     pub fem_parametric: Vec<[f64; 3]>,
     /// Coordinates (m) of the nodes at the last grid reset and, after them, of the unknowns of rigid bodies, which begin at the reference point;
-    /// empty without finite elements and rigid bodies, which alone change them.
+    /// empty without finite elements, rigid bodies and curves that phases move, which alone change them.
     pub nodes: Vec<[f64; D]>,
     /// Multipliers and history of the contact nodes of each interface.
     pub multipliers: Vec<Multipliers>,
