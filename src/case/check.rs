@@ -323,6 +323,7 @@ impl Checker {
             let problem = format!("the phases would give {frames:e} frames, more than {MOST_FRAMES}");
             self.issue(&root.key("output").key("every"), At::Value, problem, "write them less often");
         }
+        self.contacts_twice(case, file);
         self.pores(case, file);
         self.scheme(case);
         let undrained = case.materials.iter().any(Material::has_pore_pressure);

@@ -1,7 +1,7 @@
 //! The contacts of a case: who touches whom, and by which law.
 
 use super::check::Checker;
-use super::checked::{Contact, ContactChange, Touched, Touching};
+use super::checked::{Case, Contact, ContactChange, Phase, Touched, Touching};
 use super::locate::{At, Path};
 use super::raw::{self, RegionKind};
 use super::structure::suggest;
@@ -93,6 +93,54 @@ impl Checker {
         checked
     }
 
+    /// Refuses a contact that another one has already, in a phase in which both are there: it would act twice.
+    pub(super) fn contacts_twice(&mut self, case: &Case, file: &raw::CaseFile) {
+        // Where one is not sound, the numbers of the entries differ.
+        if case.contacts.len() != file.contacts.len() {
+            return;
+        }
+        let bodies = |contact: &Contact| match (&contact.structure, &contact.on) {
+            (Touching::Structure(a), Touched::Body(b)) => Some([*a.min(b), *a.max(b)]),
+            _ => None,
+        };
+        let is_there = |contact: &Contact, phase: &Phase| {
+            let named = match &contact.structure {
+                Touching::Structure(region) => &case.regions[*region].name,
+                Touching::Wall(curve) => curve,
+            };
+            !phase.absent.iter().any(|absent| absent == named || contact.name.as_ref() == Some(absent))
+        };
+        for (i, contact) in case.contacts.iter().enumerate() {
+            for (j, other) in case.contacts[..i].iter().enumerate() {
+                let name = |region: &usize| format!("`{}`", case.regions[*region].name);
+                let common: Vec<String> = match (&contact.on, &other.on) {
+                    (Touched::Soil(own), Touched::Soil(others)) if contact.structure == other.structure => {
+                        own.iter().filter(|region| others.contains(region)).map(name).collect()
+                    }
+                    (Touched::Body(body), Touched::Body(others)) => {
+                        let same = contact.structure == other.structure && body == others
+                            || bodies(contact).is_some() && bodies(contact) == bodies(other);
+                        if same { vec![name(body)] } else { Vec::new() }
+                    }
+                    _ => Vec::new(),
+                };
+                let together = case.phases.iter().find(|phase| is_there(contact, phase) && is_there(other, phase));
+                let Some(phase) = together.filter(|_| !common.is_empty()) else { continue };
+                let structure = match &contact.structure {
+                    Touching::Structure(region) => name(region),
+                    Touching::Wall(curve) => format!("`{curve}`"),
+                };
+                let problem = format!(
+                    "contacts[{j}] has {structure} on {} already: both would act in phase `{}`, the contact twice",
+                    common.join(" and "),
+                    phase.name
+                );
+                let remedy = "take one out, or deactivate one of them by its `name` in each phase";
+                self.issue(&Path::default().key("contacts").index(i), At::Value, problem, remedy);
+            }
+        }
+    }
+
     /// Whose boundary it is.
     fn touching(&mut self, file: &raw::CaseFile, contact: &raw::Contact, path: &Path) -> Option<Touching> {
         match (&contact.structure, &contact.wall) {
@@ -109,14 +157,18 @@ impl Checker {
         }
     }
 
-    /// What it touches.
+    /// What it touches: all soil where it does not say.
     fn touched(&mut self, file: &raw::CaseFile, contact: &raw::Contact, path: &Path) -> Option<Touched> {
+        let regions = file.regions.values().enumerate();
+        let known_soil =
+            || regions.clone().filter(|(_, region)| region.kind == RegionKind::Mpm).map(|(index, _)| index);
         match (&contact.soil, &contact.against) {
             (Some(soil), None) => {
                 let names = soil.names().iter();
                 let found = names.map(|name| self.region_of(file, name, &[RegionKind::Mpm], &path.key("soil")));
                 found.collect::<Option<_>>().map(Touched::Soil)
             }
+            (None, None) if known_soil().next().is_some() => Some(Touched::Soil(known_soil().collect())),
             (None, Some(name)) => {
                 let path = path.key("against");
                 if contact.structure.as_ref() == Some(name) {

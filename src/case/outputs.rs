@@ -7,9 +7,11 @@ use super::{pores, rigid, water};
 use crate::error::Result;
 use crate::io::provenance::Origin;
 use crate::io::run_folder::RunFolder;
+use crate::mesh::Mesh;
 use crate::run::fields::{self, Field as PointField};
-use crate::run::{InternalVariable, Outputs, Watch, WatchedOn};
+use crate::run::{InternalVariable, Outputs, Quantity, Watch, WatchedOn};
 use crate::step::Scene;
+use std::collections::BTreeSet;
 use std::sync::Arc;
 
 /// The outputs of a case, and the `warnings` that its run begins with.
@@ -65,4 +67,17 @@ pub fn outputs(
     let until = case.phases.iter().map(|phase| phase.until.clone()).collect();
     let surface = if water::needs_surface(case) { Some(water::acting(case, mesh)?) } else { None };
     Ok(Outputs { folder: folder.clone(), ends: Vec::new(), warnings, fields: asked, watches, until, surface, origin })
+}
+
+/// The nodes of the grid `mesh`, and of none of the finite elements, whose displacement the history has.
+pub fn traced(case: &Case, mesh: &Mesh<2>, fem: Option<&Mesh<2>>) -> Vec<u32> {
+    let moves = |entry: &&History| entry.quantities.iter().any(|q| matches!(q, Quantity::Displacement(_)));
+    let groups = case.output.history.iter().filter(moves).filter_map(|entry| mesh.group(&entry.on));
+    let watched: BTreeSet<u32> = groups.flat_map(|group| group.nodes.iter().copied()).collect();
+    if watched.is_empty() {
+        return Vec::new();
+    }
+    let of = |mesh: &Mesh<2>| -> BTreeSet<u32> { mesh.cells.nodes.iter().copied().collect() };
+    let (grid, elements) = (of(mesh), fem.map(of).unwrap_or_default());
+    watched.into_iter().filter(|n| grid.contains(n) && !elements.contains(n)).collect()
 }

@@ -222,7 +222,7 @@ pub struct Contact {
     pub structure: Option<String>,
     /// In place of a structure, the name of a physical curve: a rigid wall.
     pub wall: Option<String>,
-    /// The name of a region of kind mpm, or a list of them.
+    /// The name of a region of kind mpm, or a list of them. Default: all regions of kind mpm.
     pub soil: Option<OneOrMore>,
     /// In place of soil, the name of another region of kind structure, or of one of kind fem.
     pub against: Option<String>,

@@ -8,8 +8,8 @@ use super::raw;
 use super::rigid::{self, Holds};
 use super::start::Start;
 use super::{
-    changes, contact_interfaces, controls, layout, parts, pores, scheme, search, seeded, staged, unconnected, unmeant,
-    wall, water,
+    changes, contact_interfaces, controls, layout, outputs, parts, pores, scheme, search, seeded, staged, unconnected,
+    unmeant, wall, water,
 };
 use crate::error::Result;
 use crate::io::phase_state::End;
@@ -253,6 +253,7 @@ pub fn scene<K: Kinematics<2>>(case: &Case, mut whole: Mesh<2>) -> Result<Scene<
         Ok(Phase { held, changes, ..phase(case, &holds, number, p, search.as_ref())? })
     };
     let phases = case.phases.iter().enumerate().map(staged).collect::<Result<_>>()?;
+    let traced = outputs::traced(case, &mesh, fem.as_ref().map(|fem| &fem.mesh));
     let scene = Scene {
         locator,
         quadrature: quadrature::<K>(case, &mesh)?,
@@ -268,6 +269,7 @@ pub fn scene<K: Kinematics<2>>(case: &Case, mut whole: Mesh<2>) -> Result<Scene<
         fields: Vec::new(),
         supports,
         phases,
+        traced,
         basis,
         numerics: case.numerics.solver.clone(),
         gravity: case.gravity,

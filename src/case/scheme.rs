@@ -1,7 +1,7 @@
 //! What a scheme of the material point method can be used on.
 
 use super::check::Checker;
-use super::checked::{Case, Content, Order, Phase, Restore};
+use super::checked::{Case, Content, Order, Phase, Restore, Touching};
 use super::locate::{At, Path};
 use super::parts::carries;
 use crate::error::{Error, Result};
@@ -109,7 +109,12 @@ pub(super) fn check_moved_curves(case: &Case, grid: &Mesh<2>, fem: Option<&Mesh<
         TimeValue::Constant(value) | TimeValue::Rate(value) => *value == 0.0,
         TimeValue::Table(table) => table.iter().all(|[_, value]| *value == 0.0),
     };
+    let is_wall =
+        |curve: &str| case.contacts.iter().any(|contact| contact.structure == Touching::Wall(curve.to_owned()));
     let of_grid = |curve: &str| {
+        if is_wall(curve) {
+            return false;
+        }
         grid.group(curve).is_some_and(|group| {
             fem.is_none_or(|fem| !carries(fem, group)) && group.nodes.iter().any(|n| grid.cells.nodes.contains(n))
         })

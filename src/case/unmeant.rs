@@ -2,6 +2,9 @@
 //!
 //! Each has a bound that no sound case comes near to; what may be meant is not warned of.
 
+mod contacts;
+mod loads;
+
 use super::checked::{Case, Content, Phase, Touched, Touching};
 use super::layout::{Bounds, bounds, gap, moves};
 use super::unconnected::Place;
@@ -35,7 +38,7 @@ pub fn of_case(case: &Case, places: &[Place]) -> Vec<String> {
              it out (the default is 1e-8), or set {LOOSE:e} at most"
         )
     });
-    loose.into_iter().chain(room(case, places)).collect()
+    loose.into_iter().chain(room(case, places)).chain(loads::of_case(case)).collect()
 }
 
 /// A warning for each structure that is pressed down into soil that has no cells to heave into.
@@ -78,11 +81,18 @@ pub fn looks_at_mesh(case: &Case) -> bool {
     let is_on_soil = |contact: &super::checked::Contact| {
         matches!((&contact.structure, &contact.on), (Touching::Structure(_), Touched::Soil(_)))
     };
-    case.contacts.iter().any(is_on_soil)
+    let is_wall = |contact: &super::checked::Contact| matches!(contact.structure, Touching::Wall(_));
+    let loaded = case.phases.iter().any(|phase| !phase.tractions.is_empty());
+    loaded || case.contacts.iter().any(|contact| is_on_soil(contact) || is_wall(contact))
 }
 
-/// What shows on the mesh: cells and steps that are too coarse for the structures that move in soil.
+/// What shows on the mesh.
 pub fn on_mesh(case: &Case, mesh: &Mesh<2>) -> Vec<String> {
+    [coarse(case, mesh), contacts::on_mesh(case, mesh), loads::on_mesh(case, mesh)].concat()
+}
+
+/// Cells and steps that are too coarse for the structures that move in soil, and ways that lead out of the grid.
+fn coarse(case: &Case, mesh: &Mesh<2>) -> Vec<String> {
     let content = |c: usize| case.content(&mesh.regions[usize::from(mesh.cells.region[c])]);
     let is_grid = |c: &usize| matches!(content(*c), Some(Content::Mpm { .. } | Content::Buffer));
     let Some(grid) = bounds(&mesh.part(|c| is_grid(&c))) else { return Vec::new() };

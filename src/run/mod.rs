@@ -11,6 +11,7 @@
 //! The checkpoint of a step is written while the next one is solved.
 
 mod boundary;
+mod bypassed;
 pub mod checkpoint;
 mod ending;
 pub mod fields;
@@ -42,6 +43,7 @@ use crate::io::run_folder::RunFolder;
 use crate::kinematics::Kinematics;
 use crate::profile::{Activity, timed};
 use crate::step::{Controller, Scene, Simulation, State};
+use bypassed::Bypassed;
 use foreign::{AFRESH, foreign};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
@@ -141,6 +143,7 @@ pub fn run<const D: usize, K: Kinematics<D>>(
         record::of_reset(&simulation.state).try_for_each(|line| files.log.line(&line))?;
     }
     voids::begin(scene, &mut simulation.state);
+    let mut bypassed = Bypassed::default();
     if simulation.state.frames == 0 {
         files.frame(scene, &mut simulation.state)?;
     }
@@ -151,6 +154,7 @@ pub fn run<const D: usize, K: Kinematics<D>>(
         let number = simulation.state.phase;
         let until = outputs.until.get(number).map_or(&[][..], |until| until);
         let mut stays = false;
+        bypassed.begin(scene, &simulation.state, outputs.surface.as_ref());
         if simulation.state.phase_time == 0.0 {
             jump::watch(scene, &mut simulation.state);
             let begun = simulation.notes().and_then(|notes| {
@@ -209,6 +213,10 @@ pub fn run<const D: usize, K: Kinematics<D>>(
             let written = timed(Activity::Output, || {
                 files.step(scene, state, &report)?;
                 if let Some(warning) = jump::found(scene, state) {
+                    tell(state, Some(&warning));
+                    files.log.line(&warning)?;
+                }
+                for warning in bypassed.found(scene, state, &report, outputs.surface.as_ref()) {
                     tell(state, Some(&warning));
                     files.log.line(&warning)?;
                 }

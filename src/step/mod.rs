@@ -39,6 +39,7 @@ mod rigid;
 mod scalars;
 mod scene;
 mod state;
+mod traced;
 mod transfer;
 mod unbalanced;
 mod unknowns;
@@ -115,13 +116,14 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
         let frame = self.grid.frame(&self.scene.mesh, &self.state);
         let loads = self.scene.terms.iter().filter_map(|term| {
             let idle = term.idle_load(&frame, &self.state.displacement, self.state.phase)?;
-            Some(format!("phase {}: {idle}", phase.name))
+            Some(format!("warning: phase `{}`: {idle}", phase.name))
         });
         let notes = idle.filter_map(|p| {
             let place = self.scene.origin(*p.fixed.nodes.first()?);
             let axis = ["x", "y", "z"][p.fixed.component];
             Some(format!(
-                "phase {}: the displacement prescribed in {axis} near {place:.3?} m meets no material: it does nothing until some comes within two cells",
+                "warning: phase `{}`: the displacement prescribed in {axis} near {place:.3?} m meets no material: it does nothing until some comes \
+                 within two cells; move a rigid structure with a contact in place of a curve",
                 phase.name
             ))
         });
@@ -283,6 +285,7 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
             momentum = std::array::from_fn(|d| momentum[d] + impulse[d]);
             transfer::motion_to_points::<D, K>(scene, &self.grid, state, start, &solution.displacement, dt);
         }
+        let traced = traced::increments(scene, state, &solution.displacement);
         state.increment.resize(solution.displacement.len(), [0.0; D]);
         let ends = solution.displacement.iter().zip(&state.displacement);
         for ((travel, increment), (now, before)) in state.travel.iter_mut().zip(&mut state.increment).zip(ends) {
@@ -290,6 +293,10 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
                 increment[d] = now[d] - before[d];
                 travel[d] += increment[d];
             }
+        }
+        for (n, own) in traced {
+            let n = n as usize;
+            state.travel[n] = std::array::from_fn(|d| state.travel[n][d] - state.increment[n][d] + own[d]);
         }
         state.last_step = dt;
         let balanced = start.is_none() && !scene.phases[state.phase].flows;

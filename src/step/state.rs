@@ -64,8 +64,8 @@ pub struct State<const D: usize> {
     pub last_step: f64,
     /// The last step, if it was in equilibrium with its loads without inertia and without flow of water.
     pub balanced: Option<Span>,
-    /// Sum (m) of the increments of displacement of the nodes since the run began. On a grid that is reset, different material passes a node,
-    /// and this is the displacement of none of it.
+    /// Sum (m) of the increments of displacement of the nodes since the run began: at those that [`Scene::traced`] has, of the material that was
+    /// there then. At others of a grid that is reset, different material passes a node, and this is the displacement of none of it.
     pub travel: Vec<[f64; D]>,
     /// Its value when a phase last set displacements to zero (`Phase::reset_displacements`), which the history subtracts; empty before that.
     pub uncounted: Vec<[f64; D]>,

@@ -234,6 +234,7 @@ impl Bench {
             water,
             fields: Vec::new(),
             supports: self.supports,
+            traced: Vec::new(),
             phases: vec![Phase {
                 name: "test".into(),
                 dynamic: self.dynamic,

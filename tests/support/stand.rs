@@ -186,6 +186,7 @@ impl<K: Kinematics<2>> Stand<K> {
             water,
             fields: Vec::new(),
             supports: Vec::new(),
+            traced: Vec::new(),
             phases: vec![phase.clone(), phase],
             basis: scheme,
             numerics: Numerics {

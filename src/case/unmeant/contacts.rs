@@ -1,0 +1,142 @@
+//! Soil that a structure or a wall comes to and that its contacts do not name, and walls along which supports hold the soil.
+
+use crate::case::checked::{Case, Content, Touched, Touching};
+use crate::case::layout::{Bounds, bounds, moves};
+use crate::geometry::box_around;
+use crate::mesh::quality::SAME;
+use crate::mesh::{Group, Mesh};
+use crate::time_value::TimeValue;
+use std::collections::BTreeSet;
+
+/// What shows on the mesh.
+pub fn on_mesh(case: &Case, mesh: &Mesh<2>) -> Vec<String> {
+    let mut told = BTreeSet::new();
+    let mut warnings = Vec::new();
+    let rounding = bounds(mesh).map_or(0.0, |[low, high]| SAME * (high[0] - low[0]).max(high[1] - low[1]));
+    for contact in &case.contacts {
+        let (name, met, meeting) = match &contact.structure {
+            Touching::Structure(region) if matches!(contact.on, Touched::Soil(_)) => {
+                let name = &case.regions[*region].name;
+                (name, on_way(case, mesh, name, rounding), "lies on the way of the structure")
+            }
+            Touching::Wall(curve) => {
+                let Some(group) = mesh.group(curve) else { continue };
+                warnings.extend(held_along(case, mesh, curve, group));
+                (curve, beside(case, mesh, group), "lies at the wall")
+            }
+            Touching::Structure(_) => continue,
+        };
+        let named = case.contacts.iter().filter(|other| other.structure == contact.structure);
+        let named: BTreeSet<usize> = named.flat_map(|other| soils(&other.on)).collect();
+        if named.is_empty() || !told.insert(name.clone()) {
+            continue;
+        }
+        for region in met.difference(&named) {
+            warnings.push(format!(
+                "warning: the soil `{}` {meeting} `{name}`, and no contact of `{name}` names it: it will pass through; add it to the `soil` of the \
+                 contact, or leave `soil` out, which means all",
+                case.regions[*region].name
+            ));
+        }
+    }
+    warnings
+}
+
+fn soils(on: &Touched) -> Vec<usize> {
+    match on {
+        Touched::Soil(soils) => soils.clone(),
+        Touched::Body(_) => Vec::new(),
+    }
+}
+
+/// The region of material points that a cell belongs to, as an index into those of the case.
+fn soil_of(case: &Case, mesh: &Mesh<2>, c: usize) -> Option<usize> {
+    let name = &mesh.regions[usize::from(mesh.cells.region[c])];
+    case.regions.iter().position(|r| r.name == *name && matches!(r.content, Content::Mpm { .. }))
+}
+
+/// The box (m) around a cell.
+fn around(mesh: &Mesh<2>, c: usize) -> Option<Bounds> {
+    box_around(mesh.cells.nodes(c).iter().map(|&n| mesh.nodes[n as usize]))
+}
+
+/// Whether boxes have an area or a part of a side in common; lengths up to `rounding` (m) count for none.
+fn meet(a: &Bounds, b: &Bounds, rounding: f64) -> bool {
+    let common = [0, 1].map(|d| a[1][d].min(b[1][d]) - a[0][d].max(b[0][d]));
+    common.iter().all(|length| *length >= -rounding) && common.iter().any(|length| *length > rounding)
+}
+
+/// The soil that a structure lies in or at, or that the phases move it into.
+fn on_way(case: &Case, mesh: &Mesh<2>, name: &str, rounding: f64) -> BTreeSet<usize> {
+    let body = mesh.part(|c| mesh.regions[usize::from(mesh.cells.region[c])] == name);
+    let Some(all) = bounds(&body) else { return BTreeSet::new() };
+    let [low, high] = way(case, name, &body);
+    let swept = |[from, to]: Bounds| [[0, 1].map(|d| from[d] + low[d]), [0, 1].map(|d| to[d] + high[d])];
+    let cells: Vec<Bounds> = (0..body.cells.len()).filter_map(|c| around(&body, c)).map(swept).collect();
+    let all = swept(all);
+    let mut met = BTreeSet::new();
+    for c in 0..mesh.cells.len() {
+        let Some(soil) = soil_of(case, mesh, c).filter(|soil| !met.contains(soil)) else { continue };
+        let Some(cell) = around(mesh, c).filter(|cell| meet(cell, &all, rounding)) else { continue };
+        if cells.iter().any(|of_body| meet(&cell, of_body, rounding)) {
+            met.insert(soil);
+        }
+    }
+    met
+}
+
+/// How far (m) the phases move a structure at least and at most in each direction, by what they prescribe.
+fn way(case: &Case, name: &str, body: &Mesh<2>) -> Bounds {
+    let (mut at, mut way) = ([0.0f64; 2], [[0.0f64; 2]; 2]);
+    for phase in &case.phases {
+        let mut ends = [0.0; 2];
+        for moved in phase.prescribed.iter().filter(|p| p.component < 2 && moves(name, body, &p.curve)) {
+            let d = moved.component;
+            let kinks: Vec<f64> = match &moved.displacement {
+                TimeValue::Table(table) => table.iter().map(|[time, _]| time.min(phase.duration)).collect(),
+                _ => Vec::new(),
+            };
+            for time in kinks.into_iter().chain([phase.duration]) {
+                let place = at[d] + moved.displacement.at(time);
+                (way[0][d], way[1][d]) = (way[0][d].min(place), way[1][d].max(place));
+            }
+            ends[d] = moved.displacement.at(phase.duration);
+        }
+        at = [0, 1].map(|d| at[d] + ends[d]);
+    }
+    way
+}
+
+/// The soil with a side on a wall at the boundary of the grid. A wall within the grid may have other soil behind it.
+fn beside(case: &Case, mesh: &Mesh<2>, wall: &Group) -> BTreeSet<usize> {
+    let mut soils = BTreeSet::new();
+    for (_, facet) in &wall.facets {
+        let has = |c: &usize| facet[..2].iter().all(|n| mesh.cells.corners(*c).contains(n));
+        let cells: Vec<usize> = (0..mesh.cells.len()).filter(has).collect();
+        if let [cell] = cells[..] {
+            soils.extend(soil_of(case, mesh, cell));
+        }
+    }
+    soils
+}
+
+/// A warning where supports hold all nodes of a side of the wall across it.
+fn held_along(case: &Case, mesh: &Mesh<2>, name: &str, wall: &Group) -> Option<String> {
+    let held = |d: usize| -> BTreeSet<u32> {
+        let supports = case.supports.iter().filter(|s| s.fixed[d] && s.curve != name);
+        supports.filter_map(|s| mesh.group(&s.curve)).flat_map(|group| group.nodes.iter().copied()).collect()
+    };
+    let held = [held(0), held(1)];
+    let is_held = |(_, facet): &&(_, Vec<u32>)| {
+        let [a, b] = [0, 1].map(|i| mesh.nodes[facet[i] as usize]);
+        let length = (b[0] - a[0]).hypot(b[1] - a[1]);
+        // Across a side along an axis, or one at a slant, which both components cross.
+        let crossed = |d: usize| (b[1 - d] - a[1 - d]).abs() > 1e-9 * length;
+        (0..2).all(|d| !crossed(d) || facet.iter().all(|n| held[d].contains(n)))
+    };
+    let place = wall.facets.iter().find(is_held).map(|(_, facet)| mesh.nodes[facet[0] as usize])?;
+    Some(format!(
+        "warning: supports hold the soil along the wall `{name}`, near {place:.3?} m: it neither slides nor parts there, and the contact does \
+         nothing; take that curve out of `supports`"
+    ))
+}

@@ -1,0 +1,201 @@
+//! Loads and tables of which a part, or all, does nothing, or that begin anew where they were to go on.
+
+use crate::case::checked::{Case, Geometry, Phase, SurfaceLoad, Traction};
+use crate::mesh::quality::SAME;
+use crate::mesh::{Group, Mesh};
+use crate::time_value::TimeValue;
+use std::collections::BTreeSet;
+
+const AXES: [&str; 2] = ["x", "y"];
+
+/// What shows without the mesh.
+pub fn of_case(case: &Case) -> Vec<String> {
+    let mut warnings: Vec<String> = (0..case.phases.len()).flat_map(|k| beyond(case, k)).collect();
+    warnings.extend((0..case.phases.len()).flat_map(|k| begin_anew(case, k)));
+    let idle = case.phases.iter().find(|phase| case.gravity == [0.0; 2] && phase.gravity != TimeValue::Constant(1.0));
+    warnings.extend(idle.map(|phase| {
+        format!(
+            "warning: phase `{}` has a factor on gravity, and there is no gravity: add `gravity: {{y: -9.81}}` to the case, or take the factor out",
+            phase.name
+        )
+    }));
+    warnings
+}
+
+/// What shows on the mesh: loads on curves that take up none.
+pub fn on_mesh(case: &Case, mesh: &Mesh<2>) -> Vec<String> {
+    let mut warnings = Vec::new();
+    for phase in &case.phases {
+        for load in &phase.tractions {
+            let Some(curve) = mesh.group(&load.curve) else { continue };
+            if is_axis(case, mesh, curve) {
+                warnings.push(format!(
+                    "warning: phase `{}`: the traction on `{}` does nothing: the curve lies on the axis of symmetry, where a load has no area; \
+                     take it out, or load a curve at a radius above 0",
+                    phase.name, load.curve
+                ));
+                continue;
+            }
+            for d in (0..2).filter(|&d| !is_zero(&load.components[d]) && is_held(case, phase, mesh, curve, d)) {
+                let name = &load.curve;
+                warnings.push(format!(
+                    "warning: phase `{}`: `t{}` of the traction on `{name}` does nothing to the soil: all of the curve is held or moved in that \
+                     direction, and the load goes into that; take one of the two out",
+                    phase.name, AXES[d]
+                ));
+            }
+        }
+    }
+    warnings
+}
+
+/// Whether all of a curve lies on the axis of symmetry.
+fn is_axis(case: &Case, mesh: &Mesh<2>, curve: &Group) -> bool {
+    let widest = mesh.nodes.iter().map(|x| x[0].abs()).fold(0.0, f64::max);
+    case.geometry == Geometry::Axisymmetric && curve.nodes.iter().all(|&n| mesh.nodes[n as usize][0] <= SAME * widest)
+}
+
+/// Whether supports, or what a phase prescribes, give the displacement of all nodes of a curve in a direction.
+fn is_held(case: &Case, phase: &Phase, mesh: &Mesh<2>, curve: &Group, direction: usize) -> bool {
+    let supports = case.supports.iter().filter(|s| s.fixed[direction]).map(|s| &s.curve);
+    let moved = phase.prescribed.iter().filter(|p| p.component == direction).map(|p| &p.curve);
+    let groups = supports.chain(moved).filter_map(|name| mesh.group(name));
+    let held: BTreeSet<u32> = groups.flat_map(|group| group.nodes.iter().copied()).collect();
+    curve.nodes.iter().all(|n| held.contains(n))
+}
+
+/// What varies in the time of phase `k`, with what it is.
+fn values(case: &Case, k: usize) -> Vec<(String, &TimeValue)> {
+    let phase = &case.phases[k];
+    let mut values = vec![("`gravity`".to_owned(), &phase.gravity)];
+    values.extend(phase.prescribed.iter().map(|p| {
+        (format!("`{}` prescribed of `{}`", ["ux", "uy", "rotation"][p.component], p.curve), &p.displacement)
+    }));
+    for load in &phase.tractions {
+        let of = |d: usize| (format!("`t{}` of the traction on `{}`", AXES[d], load.curve), &load.components[d]);
+        values.extend([0, 1].map(of));
+    }
+    for load in &phase.surface_loads {
+        values.extend(of_surface(case, load));
+    }
+    values.extend(phase.reduction.iter().map(|value| ("`strength_reduction`".to_owned(), value)));
+    values.extend(levels(case, k));
+    values
+}
+
+/// The values of a load on the surface.
+fn of_surface<'a>(case: &Case, load: &'a SurfaceLoad) -> Vec<(String, &'a TimeValue)> {
+    let place = load.region.map_or("all", |region| &case.regions[region].name);
+    let name = |key: &str| format!("`{key}` of the load on the surface of `{place}`");
+    let mut values = vec![(name("shear"), &load.shear)];
+    values.extend([0, 1].map(|d| (name(["tx", "ty"][d]), &load.components[d])));
+    if let Some(pressure) = &load.pressure {
+        let largest = if is_zero(&pressure.top) { &pressure.gradient } else { &pressure.top };
+        values.push((name("pressure"), largest));
+    }
+    values
+}
+
+/// The levels of the water in phase `k`.
+fn levels(case: &Case, k: usize) -> Vec<(String, &TimeValue)> {
+    let Some(water) = &case.water else { return Vec::new() };
+    let of = |(name, levels): (&str, &'_ Option<Vec<TimeValue>>)| levels.as_ref().map(|_| name.to_owned());
+    let names = [("the water level", &water.level), ("the phreatic level", &water.phreatic)].map(of);
+    let values = [&water.level, &water.phreatic].map(|levels| levels.as_ref().and_then(|levels| levels.get(k)));
+    names.into_iter().zip(values).filter_map(|(name, value)| Some((name?, value?))).collect()
+}
+
+fn is_zero(value: &TimeValue) -> bool {
+    match value {
+        TimeValue::Constant(value) | TimeValue::Rate(value) => *value == 0.0,
+        TimeValue::Table(table) => table.iter().all(|[_, value]| *value == 0.0),
+    }
+}
+
+/// A warning for each table with times after the end of phase `k`.
+fn beyond(case: &Case, k: usize) -> Vec<String> {
+    let phase = &case.phases[k];
+    let end = phase.duration;
+    let is_after = |time: f64| time > end * (1.0 + 1e-9);
+    let tables = values(case, k).into_iter().filter_map(|(what, value)| match value {
+        TimeValue::Table(table) if table.len() > 1 && is_after(table[table.len() - 1][0]) => Some((what, table, value)),
+        _ => None,
+    });
+    let said = |(what, table, value): (String, &Vec<[f64; 2]>, &TimeValue)| {
+        let [last, of] = table[table.len() - 1];
+        let reaches = if is_after(table[0][0]) || table[0][0] >= end * (1.0 - 1e-9) {
+            format!("all of it is after the end, and the value is {} throughout", table[0][1])
+        } else {
+            format!("at the end the value is {}, and {of} is not reached", value.at(end))
+        };
+        format!(
+            "warning: phase `{}`: the table of {what} goes to {last} s, and the phase ends at {end} s: {reaches}; times are those since the phase \
+             began, so begin at 0, or lengthen the phase",
+            phase.name
+        )
+    };
+    tables.map(said).collect()
+}
+
+/// A warning for each load that varies in phase `k` and begins with another value than the phase before has ended with.
+fn begin_anew(case: &Case, k: usize) -> Vec<String> {
+    let phase = &case.phases[k];
+    let mut warnings = Vec::new();
+    let mut compare = |what: String, ended: f64, now: &TimeValue, before: &str| {
+        let begins = now.at(0.0);
+        let varies = !matches!(now, TimeValue::Constant(_)) && !is_zero(now);
+        let size = ended.abs().max(begins.abs());
+        if varies && ended != 0.0 && (begins - ended).abs() > 1e-9 * size {
+            let to = ended + now.at(phase.duration) - begins;
+            warnings.push(format!(
+                "warning: phase `{}`: {what} begins with {begins}, and {before} {ended}: it changes to {begins} in the first step; values are in the \
+                 time of their phase, so to go on write `{{table: [[0, {ended}], [{}, {to}]]}}`",
+                phase.name, phase.duration
+            ));
+        }
+    };
+    let Some(last) = k.checked_sub(1).map(|k| &case.phases[k]) else {
+        if case.k0.is_some() && case.gravity != [0.0; 2] {
+            compare(
+                "gravity".to_owned(),
+                1.0,
+                &phase.gravity,
+                "the initial stress is that under gravity with the factor",
+            );
+        }
+        return warnings;
+    };
+    let before = format!("phase `{}` has ended with", last.name);
+    if case.gravity != [0.0; 2] {
+        compare("the factor on gravity".to_owned(), last.gravity.at(last.duration), &phase.gravity, &before);
+    }
+    for (what, now) in levels(case, k) {
+        let value = levels(case, k - 1).into_iter().find(|(other, _)| *other == what);
+        if let Some((_, value)) = value {
+            compare(what, value.at(last.duration), now, &before);
+        }
+    }
+    for load in &phase.tractions {
+        let here = |other: &&Traction| other.curve == load.curve;
+        let Some(other) = one(last.tractions.iter().filter(here)) else { continue };
+        for d in 0..2 {
+            let (what, ended) = (format!("`t{}` of the traction on `{}`", AXES[d], load.curve), &other.components[d]);
+            compare(what, ended.at(last.duration), &load.components[d], &before);
+        }
+    }
+    for load in &phase.surface_loads {
+        let here = |other: &&SurfaceLoad| other.region == load.region && other.within == load.within;
+        let Some(other) = one(last.surface_loads.iter().filter(here)) else { continue };
+        for ((what, now), (other, ended)) in of_surface(case, load).into_iter().zip(of_surface(case, other)) {
+            if what == other {
+                compare(what, ended.at(last.duration), now, &before);
+            }
+        }
+    }
+    warnings
+}
+
+/// The only one of some loads.
+fn one<'a, T>(mut loads: impl Iterator<Item = &'a T>) -> Option<&'a T> {
+    loads.next().filter(|_| loads.next().is_none())
+}

@@ -1,0 +1,66 @@
+//! The displacement of the material that was at some nodes of the grid as the run began, which a history of a curve or a point asks for. On a grid
+//! that is reset other material comes to these nodes.
+
+use super::scene::Scene;
+use super::state::State;
+use crate::geometry::box_around;
+use crate::mesh::Mesh;
+use crate::mesh::locate::Locator;
+use crate::mesh::shape::MAX_NODES;
+
+/// How much wider than the box around its nodes, which a curved cell may leave, the cell is looked for (-).
+const WIDER: f64 = 0.25;
+
+/// The increments (m) of the material that was at the nodes of [`Scene::traced`], given the displacement of the nodes at the end of the step, where
+/// they are not those of the nodes themselves. Zero where it has left the grid.
+pub fn increments<const D: usize>(scene: &Scene<D>, state: &State<D>, now: &[[f64; D]]) -> Vec<(u32, [f64; D])> {
+    const { assert!(D == 2, "the cells around a place are found in the plane only") };
+    // Until the first reset after that with which the run begins, and at nodes that go with the material, these are the same.
+    if scene.traced.is_empty() || state.restorations < 2 {
+        return Vec::new();
+    }
+    let following = scene.following(state.phase);
+    let traced: Vec<u32> = scene.traced.iter().copied().filter(|n| !following[*n as usize]).collect();
+    let places: Vec<[f64; D]> = traced.iter().map(|&n| place(scene, state, n)).collect();
+    let plane = |x: &[f64; D]| [x[0], x[1]];
+    let Some([low, high]) = box_around(places.iter().map(plane)) else { return Vec::new() };
+    let coordinates = state.coordinates(scene);
+    let moved = coordinates.iter().zip(&state.displacement).map(|(x, u)| std::array::from_fn(|d| x[d] + u[d]));
+    let nodes: Vec<[f64; D]> = moved.collect();
+    let near = |c: usize| {
+        let Some(cell) = box_around(scene.mesh.cells.nodes(c).iter().map(|&n| plane(&nodes[n as usize]))) else {
+            return false;
+        };
+        let by = [0, 1].map(|d| WIDER * (cell[1][d] - cell[0][d]));
+        let meets = |low: &[f64; 2], high: &[f64; 2]| {
+            (0..2).all(|d| cell[0][d] - by[d] <= high[d] && low[d] <= cell[1][d] + by[d])
+        };
+        meets(&low, &high) && places.iter().any(|x| meets(&plane(x), &plane(x)))
+    };
+    let part = scene.mesh.part(near);
+    let around = Mesh { nodes, ..part };
+    if around.cells.is_empty() {
+        return traced.into_iter().map(|n| (n, [0.0; D])).collect();
+    }
+    let locator = Locator::new(&around);
+    let increment = |x: &[f64; D]| {
+        let mut moved = [0.0; D];
+        let Some((c, xi)) = locator.locate(&around, x, None) else { return moved };
+        let mut share = [0.0; MAX_NODES];
+        around.cells.kind[c as usize].values(&xi, &mut share);
+        for (share, &n) in share.iter().zip(around.cells.nodes(c as usize)) {
+            let (now, before) = (&now[n as usize], &state.displacement[n as usize]);
+            for d in 0..D {
+                moved[d] += share * (now[d] - before[d]);
+            }
+        }
+        moved
+    };
+    traced.into_iter().zip(places.iter().map(increment)).collect()
+}
+
+/// Where (m) the material is that was at a node.
+fn place<const D: usize>(scene: &Scene<D>, state: &State<D>, n: u32) -> [f64; D] {
+    let (from, by) = (scene.mesh.nodes[n as usize], state.travel[n as usize]);
+    std::array::from_fn(|d| from[d] + by[d])
+}
