@@ -5,6 +5,7 @@ use super::issue::{Issue, MOST_FOUND};
 use super::locate::{At, Path};
 use super::raw;
 use super::structure::{list, suggest};
+use super::unlikely;
 use crate::interpolation::{Basis, Mpm, SCHEMES};
 use crate::material::MODELS;
 use crate::step;
@@ -90,6 +91,7 @@ impl Checker {
             phases,
             output: self.output(&file.output, &root.key("output")),
             features,
+            unlikely: unlikely::values(file),
         };
         self.together(&case, file);
         case

@@ -52,6 +52,8 @@ pub struct Case {
     pub output: Output,
     /// The entries that bring terms of their own.
     pub features: Vec<Arc<dyn Feature>>,
+    /// Warnings of values that no soil has ([`super::unlikely`]).
+    pub unlikely: Vec<String>,
 }
 
 impl Case {

@@ -40,6 +40,7 @@ pub mod structure;
 #[cfg(test)]
 mod tests;
 pub mod unconnected;
+mod unlikely;
 pub mod unmeant;
 mod wall;
 mod water;

@@ -8,6 +8,7 @@ mod loads;
 use super::checked::{Case, Content, Phase, Touched, Touching};
 use super::layout::{Bounds, bounds, gap, moves};
 use super::unconnected::Place;
+use super::unlikely;
 use crate::geometry::box_around;
 use crate::mesh::quality::SAME;
 use crate::mesh::{Mesh, cell_size};
@@ -38,7 +39,8 @@ pub fn of_case(case: &Case, places: &[Place]) -> Vec<String> {
              it out (the default is 1e-8), or set {LOOSE:e} at most"
         )
     });
-    loose.into_iter().chain(room(case, places)).chain(loads::of_case(case)).collect()
+    let strange = case.unlikely.iter().cloned().chain(unlikely::extents(case, places));
+    strange.chain(loose).chain(room(case, places)).chain(loads::of_case(case)).collect()
 }
 
 /// A warning for each structure that is pressed down into soil that has no cells to heave into.
