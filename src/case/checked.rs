@@ -132,11 +132,28 @@ impl Surface {
 /// The background mesh.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Mesh {
-    /// The `.geo` file, relative to the working directory or absolute.
-    pub geo: PathBuf,
-    pub order: Order,
+    pub source: Source,
+    /// The order of the cells; `None` for that of a mesh that is given, the first or the second.
+    pub order: Option<Order>,
     /// Values for the parameters of the `.geo`, by name.
     pub parameters: BTreeMap<String, f64>,
+}
+
+/// What a mesh comes from: a file, relative to the working directory or absolute.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Source {
+    /// A `.geo`.
+    Geo(PathBuf),
+    /// The mesh itself, of this or of another program.
+    Mesh(PathBuf),
+}
+
+impl Source {
+    /// The file.
+    pub fn path(&self) -> &std::path::Path {
+        let (Self::Geo(path) | Self::Mesh(path)) = self;
+        path
+    }
 }
 
 /// The order of the cells.

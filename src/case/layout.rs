@@ -1,10 +1,11 @@
 //! Where the regions of a case lie: what no mesh can be right with, and what would not fit into the machine.
 
-use super::checked::{Case, Content, Touched, Touching};
+use super::checked::{Case, Content, Geometry, Touched, Touching};
 use super::find::{region_index, regions};
 use crate::error::{Error, Result};
 use crate::geometry::box_around;
 use crate::mesh::locate::Locator;
+use crate::mesh::quality::SAME;
 use crate::mesh::{Group, Mesh};
 use crate::time_value::TimeValue;
 use std::fs;
@@ -14,10 +15,31 @@ use std::fs;
 /// # Errors
 /// Input: cells of soil or buffer that lie upon each other, a structure that cannot come to the soil it is to touch.
 pub fn check(case: &Case, mesh: &Mesh<2>) -> Result<()> {
+    if case.geometry == Geometry::Axisymmetric {
+        outwards(mesh)?;
+    }
     let structures = regions(case, mesh, Content::is_structure);
     let grid = mesh.part(|c| !structures[mesh.cells.region[c] as usize]);
     apart(&grid)?;
     within_reach(case, mesh, &grid)
+}
+
+/// Refuses cells on the other side of the axis, x = 0.
+fn outwards(mesh: &Mesh<2>) -> Result<()> {
+    let widest = mesh.nodes.iter().fold(0.0f64, |widest, x| widest.max(x[0].abs()));
+    let radius = |n: &u32| mesh.nodes[*n as usize][0];
+    for c in 0..mesh.cells.len() {
+        let least = mesh.cells.corners(c).iter().map(radius).fold(f64::INFINITY, f64::min);
+        if least < -SAME * widest {
+            let [x, y] = mesh.centre(c);
+            return Err(Error::input(
+                format!("region `{}`", mesh.regions[mesh.cells.region[c] as usize]),
+                format!("its cell at [{x:.4}, {y:.4}] m lies at negative radius: in axisymmetry x is the radius"),
+                "draw the half of the section with x ≥ 0, its axis at x = 0, or choose `geometry: plane_strain`",
+            ));
+        }
+    }
+    Ok(())
 }
 
 /// Refuses cells that lie upon each other: a point would be in two of them. Structures lie above the grid, and

@@ -29,7 +29,7 @@ mod pores;
 pub mod raw;
 mod rigid;
 pub mod scene;
-mod scheme;
+pub mod scheme;
 mod search;
 pub mod seeded;
 pub mod seeding;
@@ -153,7 +153,7 @@ impl Keys {
         &self,
         file: &Path,
         overrides: &[String],
-        groups: impl FnOnce(&checked::Mesh) -> error::Result<(Groups, Vec<Place>)>,
+        groups: impl FnOnce(&Case) -> Result<(Groups, Vec<Place>), Vec<Error>>,
     ) -> error::Result<Review> {
         let mut source = Source::read(file, overrides)?;
         let begun = source.go_on();
@@ -162,7 +162,7 @@ impl Keys {
         let mesh = locate::Path::default().key("mesh");
         let sound = !issues.iter().any(|issue| mesh.contains(&issue.path));
         if let Some(case) = case.as_ref().filter(|_| sound) {
-            match groups(&case.mesh) {
+            match groups(case) {
                 Ok((groups, places)) => {
                     issues.extend(names::check(case, &groups));
                     notes.extend(unconnected::structures(case, &places));
@@ -170,7 +170,7 @@ impl Keys {
                 }
                 Err(e) => {
                     let mut mistakes = errors(&source, &issues);
-                    mistakes.push(e);
+                    mistakes.extend(e);
                     return Ok(Review { mistakes, notes, case: None });
                 }
             }

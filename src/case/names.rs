@@ -11,8 +11,28 @@ pub struct Groups {
     pub surfaces: Vec<String>,
     pub curves: Vec<String>,
     pub points: Vec<String>,
-    /// Whether they are those of a `mesh.msh`, which may be older than the `.geo`.
-    pub meshed: bool,
+    pub of: Of,
+}
+
+/// What has physical groups.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Of {
+    #[default]
+    Geo,
+    /// A mesh that is given in place of a `.geo`.
+    Given,
+    /// The `mesh.msh` of an earlier stage, which may be older than that.
+    Made,
+}
+
+impl Of {
+    fn name(self) -> &'static str {
+        match self {
+            Self::Geo => "the .geo",
+            Self::Given => "the mesh",
+            Self::Made => "mesh.msh",
+        }
+    }
 }
 
 /// Every name in `case` that the mesh does not have, and every surface that the case does not fill.
@@ -26,7 +46,7 @@ pub fn check(case: &Case, groups: &Groups) -> Vec<Issue> {
         // A region that is nearly called so has been reported.
         let meant = |name: &str| name == surface || nearest(name, [surface.as_str()]).is_some() && names.lacks(name);
         if !case.regions.iter().any(|region| meant(&region.name)) {
-            let problem = format!("the physical surface `{surface}` of the .geo is not among the regions");
+            let problem = format!("the physical surface `{surface}` of {} is not among the regions", groups.of.name());
             let remedy = format!("add `{surface}: {{kind: buffer}}`, or fill it with `kind: mpm`");
             names.issues.push(Issue::new(&root.key("regions"), At::Key, problem, remedy));
         }
@@ -141,11 +161,10 @@ impl Names<'_> {
             return;
         }
         let mut remedy = suggest(name, known.into_iter().map(String::as_str));
-        let file = if self.groups.meshed { "mesh.msh" } else { "the .geo" };
-        if self.groups.meshed {
+        if self.groups.of == Of::Made {
             remedy.push_str(" (or run `mpm mesh` again, if the .geo has it by now)");
         }
-        let problem = format!("{file} has no {kind} `{name}`");
+        let problem = format!("{} has no {kind} `{name}`", self.groups.of.name());
         self.issues.push(Issue::new(path, at, problem, remedy));
     }
 }

@@ -122,12 +122,13 @@ pub enum Geometry {
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Mesh {
-    /// The .geo file, relative to the case file.
-    pub geo: String,
-    /// Order of the cells: 2 (T6, Q9), 1 (T3, Q4), or 3 (Q16, for cubic B-splines).
-    #[serde(default = "two")]
+    /// The .geo file, relative to the case file. This or `file`.
+    pub geo: Option<String>,
+    /// A mesh of Gmsh (.msh), Abaqus (.inp) or Salome (.med), relative to the case file, in place of a .geo. This or `geo`.
+    pub file: Option<String>,
+    /// Order of the cells: 2 (T6, Q9), 1 (T3, Q4), or 3 (Q16, for cubic B-splines). Default: 2, or with `file` that of its cells.
     #[schemars(range(min = 1, max = 3))]
-    pub order: u8,
+    pub order: Option<u8>,
     /// Whether quadrangles of order 2 have no centre node (Q8 in place of Q9).
     #[serde(default)]
     pub incomplete: bool,
@@ -394,10 +395,6 @@ pub struct StandingWave {
 pub enum Axis {
     X,
     Y,
-}
-
-fn two() -> u8 {
-    2
 }
 
 fn unit_weight_of_water() -> f64 {

@@ -60,8 +60,7 @@ pub fn solve(
     stop: &AtomicBool,
     progress: &mut dyn FnMut(Progress),
 ) -> Result<Ended> {
-    seeded::check(case, &mesh, &points)?;
-    layout::check_solving(&mesh, points.len())?;
+    check(case, &mesh, &points)?;
     let places = unconnected::places(&mesh);
     let warnings =
         [unconnected::structures(case, &places), unmeant::of_case(case, &places), unmeant::on_mesh(case, &mesh)];
@@ -80,6 +79,25 @@ pub fn solve(
         Geometry::Axisymmetric => run::run::<2, Axisymmetric>,
     };
     run(&scene, first, &outputs, begin.resume, stop, progress)
+}
+
+/// Builds what a run has before its first step, and keeps nothing of it.
+///
+/// # Errors
+/// As [`solve`] before the first step.
+pub fn rehearse(case: &Case, mesh: Mesh<2>, points: Points<2>) -> Result<()> {
+    check(case, &mesh, &points)?;
+    let parts = parts::points(case, &mesh, points);
+    let scene = match case.geometry {
+        Geometry::PlaneStrain => scene::<PlaneStrain>(case, mesh)?,
+        Geometry::Axisymmetric => scene::<Axisymmetric>(case, mesh)?,
+    };
+    first(case, &scene, parts).map(drop)
+}
+
+fn check(case: &Case, mesh: &Mesh<2>, points: &Points<2>) -> Result<()> {
+    seeded::check(case, mesh, points)?;
+    layout::check_solving(mesh, points.len())
 }
 
 impl Begin<'_> {

@@ -1,7 +1,7 @@
 //! What a scheme of the material point method can be used on.
 
 use super::check::Checker;
-use super::checked::{Case, Content, Order, Phase, Restore, Touching};
+use super::checked::{self, Case, Content, Order, Phase, Restore, Source, Touching};
 use super::locate::{At, Path};
 use super::parts::carries;
 use crate::error::{Error, Result};
@@ -15,41 +15,8 @@ impl Checker {
     /// Refuses cells of an order that the scheme does not support, and points of which no part of a cell can be the domain.
     pub(super) fn scheme(&mut self, case: &Case) {
         let basis = case.numerics.basis;
-        let (kinds, name, cure) = match case.mesh.order {
-            Order::First => ([CellKind::T3, CellKind::Q4], "first order", "set `order: 2` under"),
-            Order::Second => ([CellKind::T6, CellKind::Q9], "second order", "set `order: 1` under"),
-            Order::SecondIncomplete if basis.takes(CellKind::Q9) => {
-                ([CellKind::T6, CellKind::Q8], "second order without a centre node", "take `incomplete` out of")
-            }
-            Order::SecondIncomplete => ([CellKind::T6, CellKind::Q8], "second order", "set `order: 1` under"),
-            Order::Third => ([CellKind::Q16; 2], "third order", "set `order: 2` under"),
-        };
-        if !kinds.iter().any(|&kind| basis.takes(kind)) {
-            let problem = format!("{} does not support cells of {name}", basis.name());
-            let other = if case.mesh.order == Order::Third { "bspline" } else { "mpm" };
-            let remedy = format!("{cure} `mesh`, or choose `gradient: {other}`");
-            self.issue(&Path::default().key("numerics").key("gradient"), At::Value, problem, remedy);
-        }
-        // The boundaries of structures and finite elements are those of cells of first and second order.
-        for region in case.regions.iter().filter(|_| case.mesh.order == Order::Third) {
-            if matches!(region.content, Content::Fem { .. } | Content::Structure { .. }) {
-                let path = Path::default().key("regions").key(&region.name).key("kind");
-                let problem = "cells of third order hold material points only, and no finite elements or structures";
-                self.issue(&path, At::Value, problem, "set `order: 2` under `mesh`");
-            }
-        }
-        if case.mesh.order == Order::Third && !case.contacts.is_empty() {
-            let problem = "contact is with boundaries of cells of first and second order";
-            self.issue(&Path::default().key("contacts"), At::Value, problem, "set `order: 2` under `mesh`");
-        }
-        let refused = |phase: &Phase| {
-            let loaded = phase.surface_loads.iter().any(|load| !load.is_pressure_all_around());
-            case.mesh.order == Order::Third && loaded
-        };
-        for (k, _) in case.phases.iter().enumerate().filter(|(_, phase)| refused(phase)) {
-            let problem = "on cells of third order the only load on a surface is a `pressure` on `surface: all`";
-            let path = Path::default().key("phases").index(k).key("tractions");
-            self.issue(&path, At::Key, problem, "set `order: 2` under `mesh`");
+        if let Some(order) = case.mesh.order {
+            self.order(case, order);
         }
         for region in case.regions.iter().filter(|_| basis.domain_size() > 0) {
             let Content::Mpm { points_per_cell, .. } = region.content else { continue };
@@ -62,6 +29,71 @@ impl Checker {
                 self.issue(&path, At::Value, problem, "use 4, 9, 16 or 25, or choose `gradient: mpm`");
             }
         }
+    }
+
+    /// Refuses cells of an order that the scheme does not support.
+    fn order(&mut self, case: &Case, order: Order) {
+        let basis = case.numerics.basis;
+        let (kinds, name, cure) = match order {
+            Order::First => ([CellKind::T3, CellKind::Q4], "first order", "set `order: 2` under"),
+            Order::Second => ([CellKind::T6, CellKind::Q9], "second order", "set `order: 1` under"),
+            Order::SecondIncomplete if basis.takes(CellKind::Q9) => {
+                ([CellKind::T6, CellKind::Q8], "second order without a centre node", "take `incomplete` out of")
+            }
+            Order::SecondIncomplete => ([CellKind::T6, CellKind::Q8], "second order", "set `order: 1` under"),
+            Order::Third => ([CellKind::Q16; 2], "third order", "set `order: 2` under"),
+        };
+        if !kinds.iter().any(|&kind| basis.takes(kind)) {
+            let problem = format!("{} does not support cells of {name}", basis.name());
+            let other = if order == Order::Third { "bspline" } else { "mpm" };
+            let remedy = format!("{cure} `mesh`, or choose `gradient: {other}`");
+            self.issue(&Path::default().key("numerics").key("gradient"), At::Value, problem, remedy);
+        }
+        // The boundaries of structures and finite elements are those of cells of first and second order.
+        for region in case.regions.iter().filter(|_| order == Order::Third) {
+            if matches!(region.content, Content::Fem { .. } | Content::Structure { .. }) {
+                let path = Path::default().key("regions").key(&region.name).key("kind");
+                let problem = "cells of third order hold material points only, and no finite elements or structures";
+                self.issue(&path, At::Value, problem, "set `order: 2` under `mesh`");
+            }
+        }
+        if order == Order::Third && !case.contacts.is_empty() {
+            let problem = "contact is with boundaries of cells of first and second order";
+            self.issue(&Path::default().key("contacts"), At::Value, problem, "set `order: 2` under `mesh`");
+        }
+        let refused = |phase: &Phase| {
+            let loaded = phase.surface_loads.iter().any(|load| !load.is_pressure_all_around());
+            order == Order::Third && loaded
+        };
+        for (k, _) in case.phases.iter().enumerate().filter(|(_, phase)| refused(phase)) {
+            let problem = "on cells of third order the only load on a surface is a `pressure` on `surface: all`";
+            let path = Path::default().key("phases").index(k).key("tractions");
+            self.issue(&path, At::Key, problem, "set `order: 2` under `mesh`");
+        }
+    }
+}
+
+/// Refuses a mesh that is given if its cells are of another order than the case has them.
+///
+/// # Errors
+/// `Input`: one of another order, or of the third where the case does not say so.
+pub fn check_order(wanted: &checked::Mesh, mesh: &Mesh<2>) -> Result<()> {
+    let Source::Mesh(file) = &wanted.source else { return Ok(()) };
+    let order = mesh.cells.kind.first().map_or(0, |kind| kind.order());
+    let (fits, remedy) = match wanted.order {
+        None => (order < 3, "set `order: 3` under `mesh`"),
+        Some(Order::First) => (order == 1, "take `order` out of `mesh`"),
+        Some(Order::Second) => (order == 2, "take `order` out of `mesh`"),
+        Some(Order::SecondIncomplete) => {
+            (order == 2 && !mesh.cells.kind.contains(&CellKind::Q9), "take `order` and `incomplete` out of `mesh`")
+        }
+        Some(Order::Third) => (order == 3, "take `order` out of `mesh`"),
+    };
+    let kind = mesh.cells.kind.first().map_or_else(String::new, |kind| format!(" ({kind:?})"));
+    if fits {
+        Ok(())
+    } else {
+        Err(Error::input(file.display(), format!("its cells are of order {order}{kind}"), remedy))
     }
 }
 

@@ -58,7 +58,7 @@ fn case(text: &str, overrides: &[&str]) -> Case {
 fn entries_arrive_where_they_are_meant() {
     let case = case(CASE, &[]);
     assert_eq!(case.geometry, Geometry::Axisymmetric);
-    assert_eq!(case.mesh.order, Order::SecondIncomplete);
+    assert_eq!(case.mesh.order, Some(Order::SecondIncomplete));
     assert_eq!(case.mesh.parameters["h"], 0.5);
     assert_eq!(case.gravity, [0.0, -10.0]);
     assert_eq!(case.k0, Some(0.5));

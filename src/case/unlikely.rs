@@ -115,7 +115,7 @@ pub(super) fn extents(case: &Case, places: &[Place]) -> Option<String> {
         format!(
             "{WARNING}the model of {} is {width} m wide and {height} m high: lengths are in m, and those of a STEP file mostly in mm; put \
              `Geometry.OCCTargetUnit = \"M\";` before its `Merge` in the .geo, or scale what is drawn in mm by 0.001",
-            case.mesh.geo.display()
+            case.mesh.source.path().display()
         )
     })
 }

@@ -1,9 +1,12 @@
-//! `mpm check`: every mistake of a case and its `.geo` in one go, and warnings of what is surely unmeant.
+//! `mpm check`: every mistake of a case and its `.geo` in one go, those that show on the mesh and before the first step too, and warnings of
+//! what is surely unmeant.
 
 use super::args::CaseArgs;
 use super::mesh;
 use super::print::{Outcome, note, print};
-use crate::case::{Keys, Review, unmeant};
+use crate::case::checked::Source;
+use crate::case::names::Of;
+use crate::case::{Keys, Review, scene, seeding, unconnected, unmeant};
 use crate::run::WARNING;
 
 #[derive(clap::Args)]
@@ -17,19 +20,31 @@ pub struct Args {
 
 pub fn run(args: &Args, keys: &Keys) -> Outcome {
     let CaseArgs { case, overrides } = &args.case;
-    let Review { mistakes, notes, case: sound } =
-        keys.review(case, overrides, |mesh| mesh::groups(mesh, &args.limits))?;
+    // A mesh that is given is read once, for its names.
+    let mut given = None;
+    let Review { mistakes, notes, case: sound } = keys.review(case, overrides, |case| match &case.mesh.source {
+        Source::Geo(_) => Ok(mesh::groups(&case.mesh, &args.limits)?),
+        Source::Mesh(_) => {
+            let mesh = mesh::generated(&case.mesh, &args.limits)?;
+            let told = (mesh::names_of(&mesh, Of::Given), unconnected::places(&mesh));
+            given = Some(mesh);
+            Ok(told)
+        }
+    })?;
     let mut warnings = notes.iter().filter(|text| text.starts_with(WARNING)).count();
     notes.iter().for_each(|text| note(text));
     if !mistakes.is_empty() {
         return Err(mistakes);
     }
-    // Only contacts with soil depend on the size of the cells.
-    if let Some(sound) = sound.filter(unmeant::looks_at_mesh) {
-        let mesh = mesh::generated(&sound.mesh, &args.limits)?;
+    if let Some(sound) = sound {
+        let mesh = given.map_or_else(|| mesh::generated(&sound.mesh, &args.limits), Ok)?;
         let found = unmeant::on_mesh(&sound, &mesh);
         warnings += found.len();
         found.iter().for_each(|text| note(text));
+        unconnected::nodes(&sound, &mesh).iter().for_each(|text| note(text));
+        let points = seeding::points(&sound, &mesh)?;
+        seeding::notes(&sound, &mesh, &points)?.iter().for_each(|text| note(text));
+        scene::rehearse(&sound, mesh, points)?;
     }
     let warned = match warnings {
         0 => String::new(),

@@ -1,18 +1,19 @@
-//! `mpm mesh`: from the `.geo` to `mesh.msh`.
+//! `mpm mesh`: from the `.geo`, or a mesh in its place, to `mesh.msh`.
 
 use super::args::StageArgs;
 use super::print::{Outcome, note, print};
 use super::signals;
 use super::stage::{Inputs, Stage};
-use crate::case::names::Groups;
+use crate::case::checked::{Order, Source};
+use crate::case::names::{Groups, Of};
 use crate::case::raw::Product;
 use crate::case::unconnected::{self, Place};
 use crate::case::unmeant;
-use crate::case::{Keys, checked, layout};
+use crate::case::{Keys, checked, layout, scheme};
 use crate::error::{Error, Result};
 use crate::io::atomic;
 use crate::mesh::gmsh::{self, Options, Outline, Worker};
-use crate::mesh::{Mesh, msh, quality};
+use crate::mesh::{Mesh, given, msh, quality};
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -101,13 +102,13 @@ pub fn work(stage: &Stage, gmsh: &Gmsh) -> Outcome {
     let scratch = Scratch::new(stage)?;
     let candidate = scratch.folder.join("mesh.msh");
     let caught = signals::catch()?;
-    worker.mesh(&case.mesh.geo, &options(&case.mesh), &candidate, |groups| {
-        stage.loaded.check_names(&named(groups.clone()))
-    })?;
+    let mesh = make(&case.mesh, &worker, &candidate, |groups| stage.loaded.check_names(&named(groups.clone())))?;
     drop(caught);
+    if matches!(case.mesh.source, Source::Mesh(_)) {
+        stage.loaded.check_names(&names_of(&mesh, Of::Given))?;
+    }
     msh::seal(&candidate).map_err(|e| atomic::unwritable(&candidate, &e))?;
-    let mesh = msh::read(&candidate)?;
-    let summary = quality::check(&mesh, &case.mesh.geo)?;
+    let summary = quality::check(&mesh, case.mesh.source.path())?;
     fs::rename(&candidate, stage.mesh()).map_err(|e| atomic::unwritable(&stage.mesh(), &e))?;
     scratch.keep_folder();
     record.finish(stage.folder(), &[stage.mesh()])?;
@@ -115,6 +116,33 @@ pub fn work(stage: &Stage, gmsh: &Gmsh) -> Outcome {
     print(&format!("{}\n{summary}\n", stage.mesh().display()))?;
     unmeant::on_mesh(case, &mesh).iter().for_each(|warning| note(warning));
     unconnected::nodes(case, &mesh).iter().try_for_each(|note| print(&format!("{note}\n")))
+}
+
+/// Makes the mesh at `out`, once `agree` has nothing against the names of a `.geo`, and reads it.
+///
+/// # Errors
+/// As [`work`].
+fn make(
+    mesh: &checked::Mesh,
+    worker: &Worker,
+    out: &Path,
+    agree: impl FnOnce(&gmsh::Groups) -> std::result::Result<(), Vec<Error>>,
+) -> std::result::Result<Mesh<2>, Vec<Error>> {
+    let unwritable = |e: std::io::Error| atomic::unwritable(out, &e);
+    let file = mesh.source.path();
+    match &mesh.source {
+        Source::Geo(geo) => worker.mesh(geo, &options(mesh), out, agree)?,
+        Source::Mesh(file) => match given::read(file)? {
+            Some((bytes, notes)) => {
+                fs::write(out, bytes).map_err(unwritable)?;
+                notes.iter().for_each(|text| note(text));
+            }
+            None => worker.mesh(file, &options(mesh), out, |_| Ok(()))?,
+        },
+    }
+    let made = msh::parse(&fs::read(out).map_err(unwritable)?, &file.display().to_string())?;
+    scheme::check_order(mesh, &made)?;
+    Ok(made)
 }
 
 /// The only folder that Gmsh writes in, `.gmsh-<process>` in the output folder. It goes away with this, and the output
@@ -172,14 +200,17 @@ pub fn read(stage: &Stage) -> std::result::Result<Mesh<2>, Vec<Error>> {
     }
     let mesh = msh::read(&stage.mesh())?;
     quality::check(&mesh, &stage.mesh())?;
-    let named = |dimension| mesh.groups.iter().filter(move |g| g.dimension == dimension).map(|g| g.name.clone());
-    let (curves, points) = (named(1).collect(), named(0).collect());
-    let groups = Groups { surfaces: mesh.regions.clone(), curves, points, meshed: true };
-    stage.loaded.check_names(&groups)?;
+    stage.loaded.check_names(&names_of(&mesh, Of::Made))?;
     Ok(mesh)
 }
 
-/// The mesh of the `.geo`, checked as that of a run is, and kept nowhere.
+/// The names of the groups of a mesh.
+pub fn names_of(mesh: &Mesh<2>, of: Of) -> Groups {
+    let named = |dimension| mesh.groups.iter().filter(move |g| g.dimension == dimension).map(|g| g.name.clone());
+    Groups { surfaces: mesh.regions.clone(), curves: named(1).collect(), points: named(0).collect(), of }
+}
+
+/// The mesh of a case, checked as that of a run is, and kept nowhere.
 ///
 /// # Errors
 /// Input: a `.geo` that does not mesh or that does what it may not, cells of bad quality; `Machine` where there is no room for it.
@@ -188,10 +219,9 @@ pub fn generated(mesh: &checked::Mesh, limits: &Limits) -> std::result::Result<M
     let path = folder.path().join("mesh.msh");
     let program = program()?;
     let caught = signals::catch()?;
-    limits.worker(&program, MESHING).mesh(&mesh.geo, &options(mesh), &path, |_| Ok(()))?;
+    let generated = make(mesh, &limits.worker(&program, MESHING), &path, |_| Ok(()))?;
     drop(caught);
-    let generated = msh::read(&path)?;
-    quality::check(&generated, &mesh.geo)?;
+    quality::check(&generated, mesh.source.path())?;
     Ok(generated)
 }
 
@@ -200,7 +230,7 @@ pub fn generated(mesh: &checked::Mesh, limits: &Limits) -> std::result::Result<M
 /// # Errors
 /// Input: a `.geo` that Gmsh does not read, that does what it may not, or that lacks a parameter.
 pub fn groups(mesh: &checked::Mesh, limits: &Limits) -> Result<(Groups, Vec<Place>)> {
-    let groups = limits.worker(&program()?, NAMING).groups(&mesh.geo, &options(mesh))?;
+    let groups = limits.worker(&program()?, NAMING).groups(mesh.source.path(), &options(mesh))?;
     let outlines = groups.surfaces.iter().zip(&groups.outlines);
     let place = |(name, Outline { bounds, curves }): (&String, &Outline)| Place {
         name: name.clone(),
@@ -213,24 +243,29 @@ pub fn groups(mesh: &checked::Mesh, limits: &Limits) -> Result<(Groups, Vec<Plac
 
 fn named(groups: gmsh::Groups) -> Groups {
     let gmsh::Groups { surfaces, curves, points, .. } = groups;
-    Groups { surfaces, curves, points, meshed: false }
+    Groups { surfaces, curves, points, of: Of::Geo }
 }
 
 fn options(mesh: &checked::Mesh) -> Options {
     let (order, incomplete) = match mesh.order {
-        checked::Order::First => (1, false),
-        checked::Order::Second => (2, false),
-        checked::Order::SecondIncomplete => (2, true),
-        checked::Order::Third => (3, false),
+        Some(Order::First) => (1, false),
+        Some(Order::Second) | None => (2, false),
+        Some(Order::SecondIncomplete) => (2, true),
+        Some(Order::Third) => (3, false),
     };
     Options { order, incomplete, parameters: mesh.parameters.iter().map(|(name, &v)| (name.clone(), v)).collect() }
 }
 
 fn inputs(stage: &Stage) -> Result<Inputs> {
-    stage.inputs("mesh", Product::Mesh, &gmsh::sources(&stage.loaded.case.mesh.geo)?.files)
+    let file = stage.loaded.case.mesh.source.path();
+    // What is read here names no other file.
+    match &stage.loaded.case.mesh.source {
+        Source::Mesh(file) if given::is_abaqus(file) => unknown_inputs(stage),
+        _ => stage.inputs("mesh", Product::Mesh, &gmsh::sources(file)?.files),
+    }
 }
 
 /// Those of a `.geo` that may read whatever it likes: what is known of them.
 fn unknown_inputs(stage: &Stage) -> Result<Inputs> {
-    stage.inputs("mesh", Product::Mesh, std::slice::from_ref(&stage.loaded.case.mesh.geo))
+    stage.inputs("mesh", Product::Mesh, &[stage.loaded.case.mesh.source.path().to_owned()])
 }

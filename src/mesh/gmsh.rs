@@ -36,7 +36,7 @@ pub struct Options {
     pub parameters: Vec<(String, f64)>,
 }
 
-/// Meshes the plane geometry in `geo` and writes MSH 4.1 with the names of the physical groups to `out`,
+/// Meshes the plane geometry in `geo`, unless that is a mesh in another version or format, and writes MSH 4.1 with the names of the physical groups to `out`,
 /// which must end in `.msh`; it is replaced in one go, and only by a complete file. It does so once `agree` to the names of the
 /// groups, for an analysis that may take `memory` (bytes).
 ///
@@ -71,6 +71,9 @@ pub fn generate(
     ] {
         session.set_option(name, value)?;
     }
+    if is_mesh(geo) {
+        return session.write(out);
+    }
     estimate::check_sizes(&session, geo)?;
     // A script may have meshed already, or hold a mesh of another program.
     if session.elements(1, -1).is_empty() {
@@ -83,6 +86,11 @@ pub fn generate(
     estimate::check_cells(geo, session.elements(2, -1).len() as f64, memory)?;
     session.set_order(geo, options.order)?;
     session.write(out)
+}
+
+/// Whether a file is a mesh, which is written as it is, by the end of its name.
+fn is_mesh(file: &Path) -> bool {
+    file.extension().is_some_and(|end| end == "msh" || end == "med")
 }
 
 /// Where a physical surface lies.
@@ -139,7 +147,7 @@ fn open(geo: &Path, options: &Options) -> Result<Session> {
     check_readable(geo)?;
     let text = fs::read(geo).map_err(|error| Error::input(geo.display(), error, "check the path"))?;
     let last = text.rsplit(|&c| c == b'\n').next().unwrap_or_default();
-    if !last.trim_ascii().is_empty() {
+    if !is_mesh(geo) && !last.trim_ascii().is_empty() {
         return Err(Error::input(
             geo.display(),
             "the last line has no end, and Gmsh would leave its statement out",

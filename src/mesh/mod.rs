@@ -1,10 +1,12 @@
 //! The mesh: nodes, cells of any mixture of kinds, and the named groups of the `.geo`.
 
+pub mod abaqus;
 pub mod bodies;
 pub mod brick;
 pub mod builder;
 pub mod conformity;
 pub mod faces;
+pub mod given;
 pub mod gmsh;
 pub mod locate;
 pub mod msh;

@@ -14,6 +14,7 @@ mod source;
 use super::shape::CellKind;
 use super::{Cells, Group, Mesh};
 use crate::error::{Error, Result};
+use crate::geometry::box_around;
 use sections::{Block, Nodes, Sections};
 use source::{AGAIN, Source};
 use std::collections::{BTreeMap, BTreeSet};
@@ -56,10 +57,21 @@ pub fn parse(bytes: &[u8], place: &str) -> Result<Mesh<2>> {
 /// # Errors
 /// When it cannot be read or written.
 pub fn seal(path: &Path) -> io::Result<()> {
-    let seal = sealed(&fs::read(path)?);
+    let bytes = fs::read(path)?;
+    // That of a mesh that is given may have been made by a stage.
+    if is_seal(&bytes) {
+        return Ok(());
+    }
+    let seal = sealed(&bytes);
     let mut file = OpenOptions::new().append(true).open(path)?;
     file.write_all(format!("$Comments\n{seal}\n$EndComments\n").as_bytes())?;
     file.sync_all()
+}
+
+/// Whether a file is of the version that [`read`] reads, as far as its first section tells.
+pub fn is_of_version(bytes: &[u8]) -> bool {
+    let mut lines = bytes.split(|&c| c == b'\n').map(<[u8]>::trim_ascii);
+    lines.any(|line| line == b"$MeshFormat") && lines.next().is_some_and(|format| format.starts_with(b"4.1 "))
 }
 
 /// The seal of all that stands before it.
@@ -295,11 +307,43 @@ fn number_nodes(cells: &[(CellKind, u16, &[u32])], nodes: &Nodes, mesh: &mut Mes
     for ((_, x), tag) in number.iter().zip(&nodes.x).zip(&nodes.tags).filter(|((n, _), _)| **n != UNUSED) {
         if x[2].abs() > 1e-9 * size {
             let place = format!("{place}, node {tag} at ({}, {}, {})", x[0], x[1], x[2]);
-            return Err(Error::input(place, "it is not in the plane z = 0", "draw the section in the x–y plane, y up"));
+            let used = number.iter().zip(&nodes.x).filter(|(number, _)| **number != UNUSED).map(|(_, x)| *x);
+            let [problem, remedy] = other_plane(used);
+            return Err(Error::input(place, problem, remedy));
         }
     }
     straighten(cells, &number, &mut mesh.nodes);
     Ok(number)
+}
+
+/// What is said of a section, with these nodes, that does not lie in z = 0, and how to turn it into that plane.
+fn other_plane(nodes: impl Iterator<Item = [f64; 3]>) -> [String; 2] {
+    let [low, high] = box_around(nodes).unwrap_or_default();
+    let size = (0..3).map(|d| high[d] - low[d]).fold(0.0, f64::max);
+    let flat = |d: usize| high[d] - low[d] <= 1e-9 * size;
+    let problem = |plane: String| format!("it is not in the plane z = 0: the section lies {plane}");
+    let at = |d: usize| low[d];
+    if flat(1) {
+        let (y, half) = (at(1), 0.5 * at(1));
+        let remedy = format!(
+            "turn it into x–y, with y up: in a .geo, `Rotate {{{{1, 0, 0}}, {{0, {half}, {half}}}, -Pi/2}} {{ Surface{{:}}; }}` after all that is drawn"
+        );
+        return [problem(format!("in x–z, at y = {y}")), remedy];
+    }
+    if flat(0) {
+        let first =
+            if at(0) == 0.0 { String::new() } else { format!("Translate {{{}, 0, 0}} {{ Surface{{:}}; }} ", -at(0)) };
+        let remedy = format!(
+            "turn it into x–y, with y up: in a .geo, `{first}Rotate {{{{1, 1, 1}}, {{0, 0, 0}}, -2*Pi/3}} {{ Surface{{:}}; }}` after all that is drawn"
+        );
+        return [problem(format!("in y–z, at x = {}", at(0))), remedy];
+    }
+    if flat(2) {
+        let remedy =
+            format!("move it: in a .geo, `Translate {{0, 0, {}}} {{ Surface{{:}}; }}` after all that is drawn", -at(2));
+        return [problem(format!("at z = {}", at(2))), remedy];
+    }
+    ["it is not in the plane z = 0".into(), "draw the section in the x–y plane, y up".into()]
 }
 
 /// Puts the nodes within straight edges and cells exactly at their places, from which Gmsh's own are off by

@@ -334,7 +334,7 @@ fn meshed(loaded: &Loaded) -> Mesh<2> {
     let options = Options { order: 2, incomplete: false, parameters: Vec::new() };
     let folder = tempfile::tempdir().unwrap();
     let out = folder.path().join("mesh.msh");
-    worker.mesh(&loaded.case.mesh.geo, &options, &out, |_| Ok(())).unwrap();
+    worker.mesh(loaded.case.mesh.source.path(), &options, &out, |_| Ok(())).unwrap();
     msh::seal(&out).unwrap();
     msh::read(&out).unwrap()
 }

@@ -50,8 +50,8 @@ const COMMANDS: [(&str, &str); 3] =
 
 const ALLOW: &str = "delete the statement, or allow it with --allow-system-calls if you trust the file";
 
-/// Geometry formats that Gmsh recognises by the end of the name, and which hold data alone.
-const GEOMETRIES: [&str; 5] = ["step", "stp", "iges", "igs", "brep"];
+/// Formats of geometries and meshes that Gmsh recognises by the end of the name, and which hold data alone.
+const GEOMETRIES: [&str; 6] = ["step", "stp", "iges", "igs", "brep", "med"];
 
 /// Ends of the names of scripts; for others Gmsh may start a program (`.gz`, `.py`, …).
 const SCRIPTS: [&str; 9] = ["", "geo", "geo_unrolled", "opt", "txt", "inc", "par", "dat", "pos"];

@@ -62,7 +62,8 @@ pub fn names(source: &mut Source) -> Result<BTreeMap<(usize, u32), String>> {
     for _ in 0..source.text_int()? {
         let (dimension, number) = (source.text_int()?, source.text_int()?);
         let dimension = checked_dimension(source, dimension)?;
-        let name = source.quoted()?.to_owned();
+        // Names of MED are filled up with blanks.
+        let name = source.quoted()?.trim_end().to_owned();
         if names.insert((dimension, number.unsigned_abs()), name).is_some() {
             return Err(source.wrong(format!("physical group {number} of dimension {dimension} has two names")));
         }

@@ -1,0 +1,1 @@
+//! What input files of Abaqus and others become.
