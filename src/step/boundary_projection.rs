@@ -13,7 +13,7 @@ use crate::mesh::side::Side;
 use rayon::prelude::*;
 
 /// How far beyond a side a point may be (-), in the diagonal of the cell there.
-const FARTHEST: f64 = 0.1;
+pub const FARTHEST: f64 = 0.1;
 
 /// Projects points onto the sides of supports, but not onto the axis of symmetry, where a point would have no volume. Returns a note on
 /// how many and how far, if there are any.
@@ -48,7 +48,7 @@ pub fn project_onto_boundary<const D: usize, K: Kinematics<D>>(
 }
 
 /// The sides on the boundary whose nodes cannot move across them in a phase.
-fn holding<const D: usize>(scene: &Scene<D>, mesh: &Mesh<D>, phase: usize) -> Vec<Side<D>> {
+pub fn holding<const D: usize>(scene: &Scene<D>, mesh: &Mesh<D>, phase: usize) -> Vec<Side<D>> {
     let mut held = vec![[false; D]; scene.displacements()];
     for fixed in &scene.supports {
         for &n in &fixed.nodes {

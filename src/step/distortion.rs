@@ -48,3 +48,22 @@ pub fn exceeds<const D: usize>(scene: &Scene<D>, state: &State<D>, grid: &Grid<D
         })
     })
 }
+
+/// Whether an active cell without points will be flat or inverted with one more increment like the last one: what moves towards it is about to
+/// pass a support or another body.
+pub fn closes<const D: usize>(scene: &Scene<D>, state: &State<D>, grid: &Grid<D>) -> bool {
+    const { assert!(D == 2, "the quality of cells is known in the plane only") };
+    if state.increment.is_empty() {
+        return false;
+    }
+    let mesh = grid.mesh(scene);
+    let filled = &grid.interpolations.integration;
+    grid.cells.par_iter().filter(|&&c| filled.of_cell(c).is_none()).any(|&c| {
+        let place = |&n: &u32| {
+            let n = n as usize;
+            [0, 1].map(|d| mesh.nodes[n][d] + state.displacement[n][d] + state.increment[n][d])
+        };
+        let corners: Vec<[f64; 2]> = mesh.cells.corners(c as usize).iter().map(place).collect();
+        quality::quality(&corners) <= 0.0
+    })
+}

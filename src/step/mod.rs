@@ -26,6 +26,7 @@ mod materials;
 mod momentum;
 mod newton;
 mod nodal_fit;
+mod obstacles;
 pub mod overlap;
 mod pore_pressure;
 mod predictor;
@@ -197,7 +198,11 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
             Restore::EveryStep => true,
             Restore::Never => false,
             Restore::Quality { least, stretch } => {
-                moved && (forced || distortion::exceeds(scene, state, &self.grid, least, stretch))
+                moved
+                    && (forced
+                        || distortion::exceeds(scene, state, &self.grid, least, stretch)
+                        || distortion::closes(scene, state, &self.grid)
+                        || obstacles::meets::<D, K>(scene, state, &self.grid))
             }
         };
         if restore {
@@ -240,8 +245,12 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
         Ok((start, solution))
     }
 
-    /// In a strength reduction: rejects an equilibrium that is reached only after a large displacement, as failure would be.
+    /// Rejects a solution that takes material across what holds it; and in a strength reduction an equilibrium that is reached only after a
+    /// large displacement, as failure would be.
     fn stands(&self, dt: f64, found: Lagrange<D>) -> Result<Lagrange<D>> {
+        let ends = found.1.displacement.iter().zip(&self.state.displacement);
+        let increment: Vec<[f64; D]> = ends.map(|(now, before)| std::array::from_fn(|d| now[d] - before[d])).collect();
+        obstacles::check::<D, K>(self.scene, &self.state, &self.grid, &increment)?;
         let phase = &self.scene.phases[self.state.phase];
         let Some(search) = &phase.search else { return Ok(found) };
         let from = self.state.phase_time;
