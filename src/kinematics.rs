@@ -61,6 +61,9 @@ pub trait Kinematics<const D: usize>: Copy + Default + Send + Sync + 'static {
     /// The tangent of `A W` from that of `τ`: `A_im (a_mjkl − δ_mk τ_jl) + δ_ik W_jl` (theory, eq. 9).
     fn weight(tangent: &mut Self::Tangent, a: &Tensor, kirchhoff: &Symmetric, w: &Tensor);
 
+    /// Takes the tangent to a geometry that is held: what symmetric strains change of the stress, `½ (b_ijkl + b_ijlk)`, `b_ijkl = a_ijkl + τ_il δ_jk`.
+    fn hold(answer: &mut Spatial<Self::Tangent>);
+
     /// Adds to the tangent that of the stress `π 1` at a fixed `π` (kPa): `−π δ_il δ_jk`.
     fn add_pressure(tangent: &mut Self::Tangent, pressure: f64);
 
@@ -230,6 +233,21 @@ impl<const HOOP: bool> Kinematics<2> for Plane<HOOP> {
             tangent[4][column] = a[(2, 2)] * carried[4][column];
         }
         tangent[4][4] += w[(2, 2)] - a[(2, 2)] * tau[(2, 2)];
+    }
+
+    fn hold(answer: &mut Spatial<Self::Tangent>) {
+        let (first, tau) = (answer.tangent, full(&answer.kirchhoff));
+        let turned = |row: usize, k: usize, l: usize| {
+            let (i, j) = (row / 2, row % 2);
+            first[row][2 * k + l] + if row < 4 && j == k { tau[(i, l)] } else { 0.0 }
+        };
+        for row in 0..5 {
+            for column in 0..4 {
+                let (k, l) = (column / 2, column % 2);
+                answer.tangent[row][column] = 0.5 * (turned(row, k, l) + turned(row, l, k));
+            }
+        }
+        answer.tangent[4][4] += tau[(2, 2)];
     }
 
     fn add_pressure(tangent: &mut Self::Tangent, pressure: f64) {

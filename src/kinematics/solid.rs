@@ -62,6 +62,18 @@ impl Kinematics<3> for ThreeD {
         }
     }
 
+    fn hold(answer: &mut Spatial<Self::Tangent>) {
+        let (first, tau) = (answer.tangent, full(&answer.kirchhoff));
+        let turned = |(i, j): (usize, usize), k: usize, l: usize| {
+            first[3 * i + j][3 * k + l] + if j == k { tau[(i, l)] } else { 0.0 }
+        };
+        for (row, ij) in pairs().enumerate() {
+            for (column, (k, l)) in pairs().enumerate() {
+                answer.tangent[row][column] = 0.5 * (turned(ij, k, l) + turned(ij, l, k));
+            }
+        }
+    }
+
     fn add_pressure(tangent: &mut Self::Tangent, pressure: f64) {
         for (i, j) in pairs() {
             tangent[3 * i + j][3 * j + i] -= pressure;

@@ -43,6 +43,8 @@ pub fn put<const D: usize>(mut store: Store, state: &State<D>) -> Store {
         increment,
         last_step,
         balanced,
+        search_geometry,
+        search_curve,
         travel,
         uncounted,
         pressure,
@@ -75,9 +77,11 @@ pub fn put<const D: usize>(mut store: Store, state: &State<D>) -> Store {
         ("increment", increment),
         ("start_position", start_position),
         ("ramp", &ramp.force),
+        ("search_geometry", search_geometry),
     ] {
         store.put(&format!("state.{name}"), D, field.concat());
     }
+    store.put("state.search_curve", 2, search_curve.concat());
     store.put("state.pressure", 1, pressure.clone());
     store.put("state.active", 1, active.iter().map(|&b| u8::from(b)).collect());
     store.put("state.penalised", 1, penalised.iter().map(|&b| u8::from(b)).collect());
@@ -305,6 +309,7 @@ fn read<const D: usize>(mut store: Store) -> Result<State<D>> {
     let (displacement, travel, increment) = (nodal("displacement")?, nodal("travel")?, nodal("increment")?);
     let (velocity, acceleration, nodes) = (nodal("velocity")?, nodal("acceleration")?, nodal("coordinates")?);
     let (uncounted, force, start_position) = (nodal("uncounted")?, nodal("ramp")?, nodal("start_position")?);
+    let search_geometry = nodal("search_geometry")?;
     let reported = |area: f64| (area != NO_NEWS).then_some(area);
     let state = State {
         phase: usize::try_from(*phase).map_err(|_| foreign("the number of its phase"))?,
@@ -328,6 +333,8 @@ fn read<const D: usize>(mut store: Store) -> Result<State<D>> {
         increment,
         last_step: *last_step,
         balanced: take_balanced(&mut store)?,
+        search_geometry,
+        search_curve: vectors(&store.take::<f64>("state.search_curve", 2)?),
         travel,
         uncounted,
         pressure: store.take::<f64>("state.pressure", 1)?,

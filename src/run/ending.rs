@@ -154,10 +154,9 @@ pub fn switch_to_quasi_static<const D: usize>(
     Some(note)
 }
 
-/// Whether a step that failed is the end of a search for the strength that leaves no equilibrium: where no step of the
-/// phase found any, nothing says that there was one to begin with.
+/// Whether a step that failed is the end of a search for the strength that leaves no equilibrium, which begins with one.
 pub fn found_failure<const D: usize>(phase: &Phase, state: &State<D>, controller: &Controller) -> bool {
-    phase.search.is_some() && controller.exhausted && state.phase_time > 0.0
+    phase.search.is_some() && controller.exhausted && !state.search_curve.is_empty()
 }
 
 /// What a search came to, given the reduction of strength (-) that left no equilibrium, if one was found.

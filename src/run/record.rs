@@ -59,11 +59,17 @@ const AXES: [&str; 3] = ["x", "y", "z"];
 /// The column of the reduction of strength at which the last search found no equilibrium.
 pub const NO_EQUILIBRIUM: &str = "no_equilibrium_at [-]";
 
+/// The column of how far the soil has moved in a search for that.
+const MOVED: &str = "soil_moved [m]";
+
 /// The header of the history.
 pub fn columns<const D: usize>(scene: &Scene<D>, watches: &[Watch]) -> Vec<String> {
     let mut columns = vec!["time [s]".to_string()];
     if reduces(scene) {
         columns.extend(["strength_reduction [-]", NO_EQUILIBRIUM].map(String::from));
+    }
+    if searches(scene) {
+        columns.push(MOVED.to_string());
     }
     for watch in watches {
         for quantity in &watch.quantities {
@@ -92,11 +98,19 @@ fn reduces<const D: usize>(scene: &Scene<D>) -> bool {
     scene.phases.iter().any(|phase| phase.reduction.is_some())
 }
 
+/// Whether a phase searches for the reduction that leaves no equilibrium.
+fn searches<const D: usize>(scene: &Scene<D>) -> bool {
+    scene.phases.iter().any(|phase| phase.search.is_some())
+}
+
 /// A row of the history.
 pub fn row<const D: usize>(scene: &Scene<D>, watches: &[Watch], state: &State<D>, report: &Report<D>) -> Vec<f64> {
     let mut row = vec![state.time];
     if reduces(scene) {
         row.extend([scene.phases[state.phase].reduction_at(state.phase_time), 0.0]);
+    }
+    if searches(scene) {
+        row.push(state.search_curve.last().map_or(0.0, |[_, moved]| *moved));
     }
     for watch in watches {
         row.extend(watch.quantities.iter().map(|quantity| value(&watch.on, *quantity, scene, state, report)));

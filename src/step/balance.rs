@@ -20,7 +20,8 @@ pub fn static_force<const D: usize>(problem: &Problem<D>, grid: &mut Grid<D>) ->
         phase: problem.phase,
         time: problem.from,
         reduction: problem.scene.phases[problem.phase].reduction_at(problem.from),
-        inverse_dt: if problem.to > problem.from { 1.0 / (problem.to - problem.from) } else { 0.0 },
+        inverse_dt: problem.span().rate(),
+        geometry: problem.state.geometry(),
         ..Trial::at_rest(problem.converged(), problem.converged())
     };
     let (mut own, mut sum) = (Vec::new(), Evaluation::default());
@@ -56,6 +57,7 @@ pub fn evaluate<const D: usize>(
         between: if dynamic { between } else { u },
         alpha_f,
         converged: problem.converged(),
+        geometry: problem.state.geometry(),
         pressure: &at.pressure,
         converged_pressure: &problem.state.pressure,
         flow_time: problem.flow_time,
@@ -67,7 +69,7 @@ pub fn evaluate<const D: usize>(
         time: (1.0 - alpha_f) * problem.to + alpha_f * problem.from,
         reduction: problem.scene.phases[problem.phase].reduction_at(problem.to),
         contact_frozen: *contact_frozen,
-        inverse_dt: 1.0 / (problem.to - problem.from),
+        inverse_dt: problem.span().rate(),
     };
     let result = timed(Activity::Assembly, || {
         add_terms(problem, grid, &trial, tangent, &|role| dynamic || role != Role::Inertia, own, state)
@@ -122,8 +124,12 @@ fn add_terms<const D: usize>(
     let mut result = Ok(());
     for (term, frame) in terms.filter(|(term, _)| wanted(term.role())) {
         own.fill(0.0);
-        let mut out = Assembly { force: own, tangent: tangent.then_some(&mut matrix), workspace: &mut workspace };
-        result = term.assemble(frame, trial, &mut out);
+        // Loads on a geometry that is held do not change with the trial state.
+        let held = trial.geometry.filter(|_| term.role() == Role::External);
+        let tangent = (tangent && held.is_none()).then_some(&mut matrix);
+        let mut out = Assembly { force: own, tangent, workspace: &mut workspace };
+        let at = held.map_or(*trial, |geometry| Trial { displacement: geometry, between: geometry, ..*trial });
+        result = term.assemble(frame, &at, &mut out);
         if result.is_err() {
             break;
         }

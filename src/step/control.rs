@@ -48,6 +48,11 @@ impl Controller {
         }
     }
 
+    /// The least step over the first one (-).
+    pub fn finest(&self) -> f64 {
+        self.limits.min / self.limits.initial
+    }
+
     /// Halves the step after a failure.
     ///
     /// # Errors

@@ -39,6 +39,7 @@ mod restore;
 mod rigid;
 mod scalars;
 mod scene;
+mod search;
 mod state;
 mod traced;
 mod transfer;
@@ -156,13 +157,16 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
     /// # Errors
     /// When a point left the grid, the step falls below the least one, or memory does not suffice.
     pub fn advance(&mut self, controller: &mut Controller) -> Result<Report<D>> {
+        if self.begins_search() {
+            return self.begin_search(controller);
+        }
         let before = self.state.restorations;
         let mut begun = timed(Activity::Transfer, || self.initialise(false))?;
         let mut predict = true;
         let (dt, start, solution, answers) = loop {
             let dt = controller.size(self.state.phase_time);
             let predictor = std::mem::take(&mut predict).then(|| predictor::extrapolated(&self.state, dt)).flatten();
-            let found = self.lagrange(dt, predictor.as_deref()).and_then(|found| self.stands(dt, found));
+            let found = self.lagrange(dt, predictor.as_deref()).and_then(|found| self.stays_within(found)).and_then(|found| self.stands(dt, found));
             let complete = found.and_then(|(start, solution)| {
                 let answers = || transfer::answers(self.scene, &self.grid, &self.state, &solution, dt);
                 let answers = timed(Activity::Transfer, answers)?;
@@ -183,6 +187,7 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
                 Err(error) => return Err(error),
             }
         };
+        self.note_search(dt, &solution);
         let mut report = timed(Activity::Transfer, || self.convect(dt, (start, solution), answers))?;
         report.restored = self.state.restorations > before;
         report.unbalanced = begun.unbalanced;
@@ -194,7 +199,9 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
     fn initialise(&mut self, forced: bool) -> Result<Begun> {
         let (scene, state) = (self.scene, &mut self.state);
         let moved = state.displacement.iter().flatten().any(|&u| u != 0.0);
+        let held = !state.search_geometry.is_empty();
         let restore = match scene.numerics.restore {
+            _ if held => false,
             Restore::EveryStep => true,
             Restore::Never => false,
             Restore::Quality { least, stretch } => {
@@ -217,7 +224,7 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
             Some(last) => equilibrate::equilibrate(scene, &mut self.grid, state, last)?,
             None => false,
         };
-        Ok(Begun { fresh: restore || !moved || scene.numerics.restore == Restore::Never, unbalanced })
+        Ok(Begun { fresh: restore || !moved || held || scene.numerics.restore == Restore::Never, unbalanced })
     }
 
     /// Solves the step on the grid (eq. 1; with inertia eq. 6).
@@ -245,36 +252,12 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
         Ok((start, solution))
     }
 
-    /// Rejects a solution that takes material across what holds it; and in a strength reduction an equilibrium that is reached only after a
-    /// large displacement, as failure would be.
-    fn stands(&self, dt: f64, found: Lagrange<D>) -> Result<Lagrange<D>> {
+    /// Rejects a solution that takes material across what holds it.
+    fn stays_within(&self, found: Lagrange<D>) -> Result<Lagrange<D>> {
         let ends = found.1.displacement.iter().zip(&self.state.displacement);
         let increment: Vec<[f64; D]> = ends.map(|(now, before)| std::array::from_fn(|d| now[d] - before[d])).collect();
         obstacles::check::<D, K>(self.scene, &self.state, &self.grid, &increment)?;
-        let phase = &self.scene.phases[self.state.phase];
-        let Some(search) = &phase.search else { return Ok(found) };
-        let from = self.state.phase_time;
-        let more = phase.reduction_at(from + dt) - phase.reduction_at(from);
-        let nodes = self
-            .grid
-            .interpolations
-            .integration
-            .filled
-            .iter()
-            .flat_map(|cell_points| self.scene.mesh.cells.nodes(cell_points.cell as usize));
-        let squared = |&n: &u32| {
-            let (now, before) = (&found.1.displacement[n as usize], &self.state.displacement[n as usize]);
-            now.iter().zip(before).map(|(now, before)| (now - before).powi(2)).sum::<f64>()
-        };
-        let moved = nodes.chain(&search.elements).map(squared).fold(0.0, f64::max).sqrt();
-        if more <= 0.0 || moved <= search.farthest * more {
-            return Ok(found);
-        }
-        Err(Error::analysis(
-            "strength reduction",
-            format!("there is equilibrium only after the soil has moved by {moved:.3e} m"),
-            "the largest factor with equilibrium is the result",
-        ))
+        Ok(found)
     }
 
     /// Grid to points (eq. 12): the converged solution becomes the state.
@@ -307,8 +290,10 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
             let n = n as usize;
             state.travel[n] = std::array::from_fn(|d| state.travel[n][d] - state.increment[n][d] + own[d]);
         }
-        state.last_step = dt;
-        let balanced = start.is_none() && !scene.phases[state.phase].flows;
+        if dt > 0.0 {
+            state.last_step = dt;
+        }
+        let balanced = start.is_none() && !scene.phases[state.phase].flows && dt > 0.0;
         state.balanced =
             balanced.then_some(Span { phase: state.phase, from: state.phase_time, to: state.phase_time + dt });
         state.displacement.clone_from(&solution.displacement);

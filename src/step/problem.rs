@@ -2,7 +2,7 @@
 
 use super::grid::Grid;
 use super::scene::Scene;
-use super::state::State;
+use super::state::{Span, State};
 use super::unknowns::Unknowns;
 use crate::dofs::Dof;
 use crate::system::Method;
@@ -45,6 +45,11 @@ impl<'a, const D: usize> Problem<'a, D> {
             integration: None,
             flow_time: 0.0,
         }
+    }
+
+    /// The step in time.
+    pub fn span(&self) -> Span {
+        Span { phase: self.phase, from: self.from, to: self.to }
     }
 
     /// The displacement (m) of the nodes at the last converged step.

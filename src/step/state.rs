@@ -17,6 +17,13 @@ pub struct Span {
     pub to: f64,
 }
 
+impl Span {
+    /// One over its length (1/s); 0 where it has none.
+    pub fn rate(self) -> f64 {
+        if self.to > self.from { 1.0 / (self.to - self.from) } else { 0.0 }
+    }
+}
+
 /// The state at the last converged step.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct State<const D: usize> {
@@ -64,6 +71,10 @@ pub struct State<const D: usize> {
     pub last_step: f64,
     /// The last step, if it was in equilibrium with its loads without inertia and without flow of water.
     pub balanced: Option<Span>,
+    /// The displacement (m) of the nodes as a search for failure began, whose geometry it keeps; empty in other phases.
+    pub search_geometry: Vec<[f64; D]>,
+    /// The curve of such a search: strengths divided by (-), and how far the soil has moved since it was in equilibrium at the first of these (m).
+    pub search_curve: Vec<[f64; 2]>,
     /// Sum (m) of the increments of displacement of the nodes since the run began: at those that [`Scene::traced`] has, of the material that was
     /// there then. At others of a grid that is reset, different material passes a node, and this is the displacement of none of it.
     pub travel: Vec<[f64; D]>,
@@ -117,6 +128,11 @@ impl<const D: usize> State<D> {
         self.weights.samples.as_mut().map_or(&mut self.points, |samples| &mut samples.points)
     }
 
+    /// The displacement (m) whose geometry the equations are written on, where that is held.
+    pub fn geometry(&self) -> Option<&[[f64; D]]> {
+        (!self.search_geometry.is_empty()).then_some(&self.search_geometry)
+    }
+
     /// Whether the step in hand has inertia.
     pub fn dynamic(&self, scene: &Scene<D>) -> bool {
         self.switched_to_dynamics || scene.phases.get(self.phase).is_some_and(|phase| phase.dynamic)
@@ -129,6 +145,8 @@ impl<const D: usize> State<D> {
         self.phase_time = 0.0;
         (self.switched_to_dynamics, self.peak, self.ramp) = (false, 0.0, UnbalancedRamp::default());
         self.start_position.clear();
+        self.search_geometry.clear();
+        self.search_curve.clear();
         if moved && !self.dynamic(scene) {
             self.rest();
         }

@@ -191,15 +191,17 @@ impl Answers {
         grid: &Grid<D>,
         state: &State<D>,
         solution: &Solution<D>,
-        Span { phase, from, to }: Span,
+        step: Span,
     ) -> Self {
+        let Span { phase, from, to } = step;
         let trial = Trial {
             pressure: &solution.pressure,
             converged_pressure: &state.pressure,
             phase,
             time: from,
             reduction: scene.phases[phase].reduction_at(to),
-            inverse_dt: 1.0 / (to - from),
+            inverse_dt: step.rate(),
+            geometry: state.geometry(),
             ..Trial::at_rest(&solution.displacement, &state.displacement)
         };
         let of = |terms: &[Box<dyn Term<D>>], frame: &Frame<D>| -> Vec<Update> {

@@ -20,14 +20,29 @@ pub fn hold<const D: usize>(scene: &Scene<D>, grid: &mut Grid<D>, state: &mut St
     if looks_for_failure || state.dynamic(scene) || state.phase_time > 0.0 || !state.ramp.force.is_empty() {
         return Ok(());
     }
+    if let Some(force) = to_hold(scene, grid, state, dt)? {
+        state.ramp = UnbalancedRamp { force, until: dt };
+    }
+    Ok(())
+}
+
+/// The forces `−R₀` (kN) that balance the state as a phase begins with a step of the size `dt` (s), by node; `None` where that is in balance.
+///
+/// # Errors
+/// When the state is inadmissible on the restored grid.
+pub fn to_hold<const D: usize>(
+    scene: &Scene<D>,
+    grid: &mut Grid<D>,
+    state: &State<D>,
+    dt: f64,
+) -> Result<Option<Vec<[f64; D]>>> {
     let Unbalanced { force, scale } = unbalanced(&Problem { to: dt, ..Problem::at_rest(scene, state) }, grid)?;
     // Newton's method ignores less.
     if norm(&force) <= scene.numerics.tolerance * scale {
-        return Ok(());
+        return Ok(None);
     }
     let force = grid.dofs.on_nodes(&force);
-    state.ramp = UnbalancedRamp { force: force.into_iter().map(|f| f.map(|f| -f)).collect(), until: dt };
-    Ok(())
+    Ok(Some(force.into_iter().map(|f| f.map(|f| -f)).collect()))
 }
 
 /// The unbalanced force of a state without inertia.

@@ -197,9 +197,11 @@ impl<K, S> Internal<K, S> {
         let before = frame.interpolation.gather(frame.mesh, cell_points, trial.converged);
         // In the first step after a restoration nothing has moved before.
         let moved = before.iter().flatten().any(|&u| u != 0.0);
+        let held = trial.geometry.map(|u| frame.interpolation.gather(frame.mesh, cell_points, u));
         let mut strained = Vec::with_capacity(cell_points.point_count as usize);
         for entries in frame.interpolation.entries::<K>(cell_points) {
-            let mut point = strain::<D, K>(frame.points, &entries, &now, moved.then_some(&before[..]))?;
+            let ends = Ends { now: &now, before: moved.then_some(&before[..]), held: held.as_deref() };
+            let mut point = strain::<D, K>(frame.points, &entries, &ends)?;
             if trial.alpha_f > 0.0 {
                 point.metric_factor = metric_factor(&point.increment, trial.alpha_f)
                     .ok_or_else(|| inadmissible(frame.points, entries.point, "is squeezed flat", &point.increment))?;
@@ -219,19 +221,29 @@ impl<K, S> Internal<K, S> {
     }
 }
 
-/// The deformation of a point whose cell has the nodal displacements `trial` and had `converged`, `None` for
-/// all zero.
+/// The displacements (m) of the functions of a cell.
+struct Ends<'a, const D: usize> {
+    now: &'a [[f64; D]],
+    /// At the last converged step, `None` for all zero.
+    before: Option<&'a [[f64; D]]>,
+    /// Those whose geometry is held, where it is.
+    held: Option<&'a [[f64; D]]>,
+}
+
+/// The deformation of a point.
 #[inline]
 fn strain<const D: usize, K: Kinematics<D>>(
     points: &Points<D>,
     entries: &Entries<D>,
-    trial: &[[f64; D]],
-    converged: Option<&[[f64; D]]>,
+    ends: &Ends<D>,
 ) -> Result<Strained> {
+    if let Some(held) = ends.held {
+        return linear_strain::<D, K>(points, entries, ends, held);
+    }
     let p = entries.point;
-    let now = entries.deformation::<K>(trial);
+    let now = entries.deformation::<K>(ends.now);
     let inverse = now.try_inverse().ok_or_else(|| inadmissible(points, p, "is squeezed flat", &now))?;
-    let increment = match converged {
+    let increment = match ends.before {
         None => now,
         Some(converged) => {
             let before = entries.deformation::<K>(converged);
@@ -246,6 +258,28 @@ fn strain<const D: usize, K: Kinematics<D>>(
             "is turned inside out".into()
         };
         return Err(inadmissible(points, p, &what, &increment));
+    }
+    Ok(Strained { increment, inverse, metric_factor: increment, ratios })
+}
+
+/// The deformation of a point on the geometry of the displacements `held`: the exponential of the symmetric gradient there of what was
+/// displaced in the step (docs/theory.md, section 9, *Strength reduction*).
+fn linear_strain<const D: usize, K: Kinematics<D>>(
+    points: &Points<D>,
+    entries: &Entries<D>,
+    ends: &Ends<D>,
+    held: &[[f64; D]],
+) -> Result<Strained> {
+    let p = entries.point;
+    let [start, now] = [held, ends.now].map(|u| entries.deformation::<K>(u));
+    let before = ends.before.map_or_else(Tensor::identity, |u| entries.deformation::<K>(u));
+    let inverse = start.try_inverse().ok_or_else(|| inadmissible(points, p, "was squeezed flat", &start))?;
+    let strain = full(&symmetric(&((now - before) * inverse)));
+    let since = ((now - start) * inverse).trace();
+    let increment = strain.exp();
+    let ratios = Ratios { step: strain.trace().exp(), grid: start.determinant() * since.exp() };
+    if !(ratios.step > LEAST_VOLUME_RATIO && ratios.grid > 0.0 && increment.iter().all(|f| f.is_finite())) {
+        return Err(inadmissible(points, p, "is strained beyond measure in one step", &increment));
     }
     Ok(Strained { increment, inverse, metric_factor: increment, ratios })
 }
@@ -279,7 +313,9 @@ impl<const D: usize, K: Kinematics<D>, S: Mixed<D, K>> Term<D> for Internal<K, S
             let layout = Layout::new::<D, K>(cell_points);
             // Where strains are taken with other gradients than forces act through, the grid is deformed by each of them.
             let apart = frame.interpolation.strains_apart();
-            let now = apart.then(|| frame.interpolation.gather(frame.mesh, cell_points, trial.displacement));
+            let held = trial.geometry.is_some();
+            let shape = trial.geometry.unwrap_or(trial.displacement);
+            let now = apart.then(|| frame.interpolation.gather(frame.mesh, cell_points, shape));
             let mut buffer = Vec::new();
             Stiffness::with::<D, _>(own, |stiffness| {
                 for (k, ((entries, point), answer)) in
@@ -288,6 +324,9 @@ impl<const D: usize, K: Kinematics<D>, S: Mixed<D, K>> Term<D> for Internal<K, S
                     let at = Point { points: frame.points, entries: &entries, ratios: point.ratios };
                     let add = |answer: &mut _| self.share.add(&cell, &at, answer);
                     let (stress, acts_on) = point.stress::<D, K>(trial.alpha_f, answer, add);
+                    if held && wanted {
+                        K::hold(&mut answer.0);
+                    }
                     let volume = entries.weight;
                     let of_forces = now.as_ref().map(|now| entries.deformation_of_forces::<K>(now));
                     let inverse = match of_forces {
@@ -308,7 +347,7 @@ impl<const D: usize, K: Kinematics<D>, S: Mixed<D, K>> Term<D> for Internal<K, S
                     if wanted {
                         let (tangent, weight) = (&answer.0.tangent, end_weight * volume);
                         stiffness.push::<D, K>(tangent, [&forces[..own], &strains[..own]], weight, local);
-                        if apart {
+                        if apart && !held {
                             add_turning(&stress, [forces, strains], volume, local);
                         }
                         if !kept.is_empty() {
@@ -348,14 +387,18 @@ impl<const D: usize, K: Kinematics<D>, S: Mixed<D, K>> Term<D> for Internal<K, S
         let of_cell = |cell_points: &CellPoints| {
             let now = frame.interpolation.gather(frame.mesh, cell_points, trial.displacement);
             let before = frame.interpolation.gather(frame.mesh, cell_points, trial.converged);
+            let held = trial.geometry.map(|u| frame.interpolation.gather(frame.mesh, cell_points, u));
+            let ends = Ends { now: &now, before: Some(&before), held: held.as_deref() };
             let cell = self.share.over(frame, trial, cell_points);
             let volume = frame.integration.and_then(|(interpolation, points)| {
                 let cell_points = interpolation.of_cell(cell_points.cell)?;
                 let [now, before] =
                     [trial.displacement, trial.converged].map(|u| interpolation.gather(frame.mesh, cell_points, u));
+                let held = trial.geometry.map(|u| interpolation.gather(frame.mesh, cell_points, u));
+                let ends = Ends { now: &now, before: Some(&before), held: held.as_deref() };
                 let fit = |of: fn(Ratios) -> f64| {
                     let value = |entries: Entries<D>| {
-                        let point = strain::<D, K>(points, &entries, &now, Some(&before)).ok()?;
+                        let point = strain::<D, K>(points, &entries, &ends).ok()?;
                         Some((entries.weight, points.position[entries.point], of(point.ratios).ln()))
                     };
                     let values: Vec<_> = interpolation.entries::<K>(cell_points).filter_map(value).collect();
@@ -366,7 +409,7 @@ impl<const D: usize, K: Kinematics<D>, S: Mixed<D, K>> Term<D> for Internal<K, S
             let count = self.internal_count(frame.points);
             let mut out = Histories::with_capacity(cell_points.point_count as usize, count);
             let new = |entries: Entries<D>, internal: &mut [f64]| {
-                let mut point = strain::<D, K>(frame.points, &entries, &now, Some(&before)).ok()?;
+                let mut point = strain::<D, K>(frame.points, &entries, &ends).ok()?;
                 if let Some((of_step, of_grid)) = &volume {
                     let place = &frame.points.position[entries.point];
                     let before = of_grid.at(place).exp();

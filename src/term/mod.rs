@@ -145,6 +145,7 @@ impl<const D: usize> Frame<'_, D> {
 }
 
 /// A trial state of the step.
+#[derive(Clone, Copy)]
 pub struct Trial<'a, const D: usize> {
     /// Displacement of the nodes (m) since the grid was last restored, at the end of the step.
     pub displacement: &'a [[f64; D]],
@@ -154,6 +155,9 @@ pub struct Trial<'a, const D: usize> {
     pub alpha_f: f64,
     /// The displacement at the last converged step.
     pub converged: &'a [[f64; D]],
+    /// The displacement (m) on whose geometry forces act and strains are taken, linear in what follows it; `None` where the geometry follows
+    /// the trial state.
+    pub geometry: Option<&'a [[f64; D]]>,
     /// The pressures (kPa) at the end of the step, as in the state; empty without a field of them.
     pub pressure: &'a [f64],
     /// That at the last converged step, or what the points carry to a restored grid.
@@ -188,6 +192,7 @@ impl<'a, const D: usize> Trial<'a, D> {
             between: displacement,
             alpha_f: 0.0,
             converged,
+            geometry: None,
             pressure: &[],
             converged_pressure: &[],
             flow_time: 0.0,

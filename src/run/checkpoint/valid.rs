@@ -49,7 +49,9 @@ fn check_times<const D: usize>(scene: &Scene<D>, state: &State<D>) -> Result<()>
     let longest = (1.0 + ROUNDING) * (earlier + phase_time);
     ensure(phase_time >= 0.0 && (1.0 - ROUNDING) * phase_time <= time && time <= longest, "its time")?;
     // Steps that the clock does not feel would never end.
-    ensure(last_step > 0.0 && time + last_step > time && last_step <= (1.0 + ROUNDING) * time, "its last step")?;
+    let felt = last_step > 0.0 && time + last_step > time && last_step <= (1.0 + ROUNDING) * time;
+    // A search for failure begins with a step that takes no time.
+    ensure(felt || (time == 0.0 && last_step == 0.0 && !state.search_curve.is_empty()), "its last step")?;
     let of_phase = |last: Span| {
         let latest = scene.phases.get(last.phase).map_or(0.0, |phase| (1.0 + ROUNDING) * phase.duration);
         last.phase <= phase && last.from >= 0.0 && last.from < last.to && last.to <= latest
@@ -77,6 +79,10 @@ fn check_fields<const D: usize>(scene: &Scene<D>, state: &State<D>) -> Result<()
     exact(&state.travel, true, "travel")?;
     exact(&state.increment, true, "increment")?;
     exact(&state.uncounted, begun(scene, state).any(|phase| phase.reset_displacements), "uncounted")?;
+    let searches = scene.phases.get(state.phase).is_some_and(|phase| phase.search.is_some());
+    let begun_search = !state.search_curve.is_empty();
+    exact(&state.search_geometry, begun_search, "search_geometry")?;
+    ensure(searches || !begun_search, "its search for failure")?;
     exact(&state.velocity, state.moving, "velocity")?;
     exact(&state.acceleration, state.moving, "acceleration")?;
     let moved = scene.fem.is_some() || !scene.bodies.is_empty();

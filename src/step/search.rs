@@ -1,0 +1,121 @@
+//! The search for the factor that strengths may be divided by until there is no equilibrium (docs/theory.md, section 9, *Strength reduction*).
+//!
+//! It is one of small displacements: forces act and strains are taken on the geometry of the beginning of the phase. Soil that fails has no
+//! equilibrium then. Where the geometry follows, it may slide into a flatter shape that stands, at each factor another one. The grid is
+//! not reset; the points move as the displacements say.
+
+use super::ramp::UnbalancedRamp;
+use super::unbalanced;
+use super::{Controller, Lagrange, Report, Simulation, Solution, transfer};
+use crate::error::{Error, Kind, Result};
+use crate::kinematics::Kinematics;
+
+impl<const D: usize, K: Kinematics<D>> Simulation<'_, D, K> {
+    /// Whether the next step is the first of a search.
+    pub(super) fn begins_search(&self) -> bool {
+        self.state.search_curve.is_empty() && self.scene.phases[self.state.phase].search.is_some()
+    }
+
+    /// The first step of a search: equilibrium under its loads with the strengths that it begins with, which takes no time. What is out of balance
+    /// is released in parts where it cannot be at once.
+    ///
+    /// # Errors
+    /// Analysis: there is no such equilibrium.
+    pub(super) fn begin_search(&mut self, controller: &Controller) -> Result<Report<D>> {
+        self.initialise(true)?;
+        self.state.search_geometry.clone_from(&self.state.displacement);
+        let (mut held, mut part, mut halvings) = (1.0, 1.0, Vec::new());
+        let mut all: Option<Vec<[f64; D]>> = None;
+        loop {
+            self.initialise(false)?;
+            let next: f64 = held - part;
+            self.state.ramp = match &all {
+                Some(force) if next > 0.0 => {
+                    let share = |f: &[f64; D]| f.map(|f| next * f);
+                    UnbalancedRamp { force: force.iter().map(share).collect(), until: f64::INFINITY }
+                }
+                _ => UnbalancedRamp::default(),
+            };
+            let found = self.lagrange(0.0, None).and_then(|(start, solution)| {
+                let answers = transfer::answers(self.scene, &self.grid, &self.state, &solution, 0.0)?;
+                Ok(((start, solution), answers))
+            });
+            match found {
+                Ok((solution, answers)) => {
+                    let report = self.convect(0.0, solution, answers)?;
+                    // What the soil moved by here says nothing on the next step.
+                    self.state.increment.fill([0.0; D]);
+                    held = next;
+                    if held <= 0.0 {
+                        let factor = self.scene.phases[self.state.phase].reduction_at(0.0);
+                        self.state.search_curve.push([factor, 0.0]);
+                        return Ok(Report { halvings, ..report });
+                    }
+                }
+                Err(error) if error.kind == Kind::Analysis => {
+                    if all.is_none() {
+                        all = unbalanced::to_hold(self.scene, &mut self.grid, &self.state, 0.0)?;
+                    }
+                    part *= 0.5;
+                    if all.is_none() || part < controller.finest() {
+                        return Err(self.unstable(held, &error));
+                    }
+                    halvings.push(format!("{}: {}", error.place, error.problem));
+                }
+                Err(error) => return Err(error),
+            }
+        }
+    }
+
+    fn unstable(&self, held: f64, error: &Error) -> Error {
+        let factor = self.scene.phases[self.state.phase].reduction_at(0.0);
+        let released = 100.0 * (1.0 - held);
+        Error::analysis(
+            "strength reduction",
+            format!(
+                "no equilibrium is found with the strengths divided by {factor}, at which the search begins ({released:.0} % of what is out of balance \
+                 is released): {} {}",
+                error.place, error.problem
+            ),
+            "if the soil fails at that, let the search begin with a smaller factor, such as `strength_reduction: {table: [[0, 0.5], [1, 1.5]]}`",
+        )
+    }
+
+    /// Adds a step of `dt` (s) that has its solution to the curve of a search.
+    pub(super) fn note_search(&mut self, dt: f64, solution: &Solution<D>) {
+        let phase = &self.scene.phases[self.state.phase];
+        let Some(&[_, before]) = self.state.search_curve.last() else { return };
+        let factor = phase.reduction_at(self.state.phase_time + dt);
+        let moved = self.moved(solution);
+        self.state.search_curve.push([factor, before + moved]);
+    }
+
+    /// In a search: rejects an equilibrium that is reached only after a large displacement, as failure would be.
+    pub(super) fn stands(&self, dt: f64, found: Lagrange<D>) -> Result<Lagrange<D>> {
+        let phase = &self.scene.phases[self.state.phase];
+        let Some(search) = &phase.search else { return Ok(found) };
+        let from = self.state.phase_time;
+        let more = phase.reduction_at(from + dt) - phase.reduction_at(from);
+        let moved = self.moved(&found.1);
+        if more <= 0.0 || moved <= search.farthest * more {
+            return Ok(found);
+        }
+        Err(Error::analysis(
+            "strength reduction",
+            format!("there is equilibrium only after the soil has moved by {moved:.3e} m"),
+            "the largest factor with equilibrium is the result",
+        ))
+    }
+
+    /// The largest displacement (m) of soil in a step of a search.
+    fn moved(&self, solution: &Solution<D>) -> f64 {
+        let elements = self.scene.phases[self.state.phase].search.iter().flat_map(|search| &search.elements);
+        let filled = self.grid.interpolations.integration.filled.iter();
+        let nodes = filled.flat_map(|cell_points| self.scene.mesh.cells.nodes(cell_points.cell as usize));
+        let squared = |&n: &u32| {
+            let (now, before) = (&solution.displacement[n as usize], &self.state.displacement[n as usize]);
+            now.iter().zip(before).map(|(now, before)| (now - before).powi(2)).sum::<f64>()
+        };
+        nodes.chain(elements).map(squared).fold(0.0, f64::max).sqrt()
+    }
+}
