@@ -35,6 +35,18 @@ pub fn symmetric(t: &Tensor) -> Symmetric {
     ]
 }
 
+/// Terms of the series of [`exponential`], and the largest norm (-) of what it is summed for: the rest is rounding.
+const TERMS: i32 = 7;
+const SMALL: f64 = 0.02;
+
+/// `exp(t)`: by its series of `t/2ⁿ`, squared `n` times.
+pub fn exponential(t: &Tensor) -> Tensor {
+    let halvings = (t.norm() / SMALL).log2().ceil().clamp(0.0, 60.0) as i32;
+    let part = t * 0.5f64.powi(halvings);
+    let series = (1..=TERMS).rev().fold(Tensor::identity(), |sum, n| Tensor::identity() + part * sum / f64::from(n));
+    (0..halvings).fold(series, |root, _| root * root)
+}
+
 /// Mean of the three normal components.
 pub fn mean(s: &Symmetric) -> f64 {
     (s[0] + s[1] + s[2]) / 3.0
@@ -50,6 +62,20 @@ pub fn deviatoric(s: &Symmetric) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn the_exponential_is_that_of_the_principal_values() {
+        assert_eq!(exponential(&Tensor::zeros()), Tensor::identity());
+        for size in [1e-8, 1e-3, 0.03, 1.0, 20.0] {
+            let t = full(&[0.3, -0.8, 0.1, 0.4, -0.2, 0.05]) * size;
+            let eigen = t.symmetric_eigen();
+            let values = eigen.eigenvalues.map(f64::exp);
+            let wanted = eigen.eigenvectors * Tensor::from_diagonal(&values) * eigen.eigenvectors.transpose();
+            let found = exponential(&t);
+            assert!((found - wanted).norm() < 1e-13 * wanted.norm(), "{size}: {found} {wanted}");
+            assert!((found.determinant().ln() - t.trace()).abs() < 1e-12 * (1.0 + size), "{size}");
+        }
+    }
 
     #[test]
     fn full_and_symmetric_are_inverse() {

@@ -15,6 +15,9 @@ use crate::io::table::{Column, Table};
 /// The column of the time.
 pub const TIME: &str = "time";
 
+/// The columns of a search for the factor of safety: what strengths are divided by, and how far the soil has moved.
+const SEARCH: [&str; 2] = ["strength_reduction", "soil_moved"];
+
 /// Differences of times (s) that are none, by their last digits in the log.
 const SAME_TIME: f64 = 1e-8;
 
@@ -112,17 +115,43 @@ pub fn chosen(runs: &[Run], x: &Shown, ys: &[Shown]) -> Vec<Chart> {
     charts.into_iter().map(|(_, chart)| chart).collect()
 }
 
-/// The charts that show the histories as they are looked at: load over displacement where there is one, else everything over time.
+/// The charts that show the histories as they are looked at: load over displacement where there is one, else everything.
 pub fn usual(runs: &[Run]) -> Vec<Chart> {
     let loads = loads(runs);
-    if loads.is_empty() { over_time(runs, &[]) } else { loads.into_iter().map(|(_, chart)| chart).collect() }
+    if loads.is_empty() { all(runs) } else { loads.into_iter().map(|(_, chart)| chart).collect() }
 }
 
-/// Everything: load over displacement, and what that does not show over time.
+/// Everything: load over displacement, the curves of searches for the factor of safety, and what these do not show over time.
 pub fn all(runs: &[Run]) -> Vec<Chart> {
     let (shown, mut charts): (Vec<[String; 2]>, Vec<Chart>) = loads(runs).into_iter().unzip();
-    charts.extend(over_time(runs, &shown.concat()));
+    charts.extend(searches(runs));
+    let shown: Vec<String> = shown.concat().into_iter().chain([SEARCH[1].to_owned()]).collect();
+    charts.extend(over_time(runs, &shown));
     charts
+}
+
+/// How far the soil has moved over the factor that strengths are divided by, a curve for each search.
+fn searches(runs: &[Run]) -> Option<Chart> {
+    let mut chart: Option<Chart> = None;
+    for run in runs {
+        let [Some(factor), Some(moved)] = SEARCH.map(|name| run.table.column(name)) else { continue };
+        let places = run.places(factor, moved, [1.0, 1.0]);
+        // It has not moved as a search begins, nor in other phases.
+        let begins = |i: &usize| places[*i][1] == 0.0 && places.get(i + 1).is_some_and(|next| next[1] > 0.0);
+        for begin in (0..places.len()).filter(begins) {
+            let goes_on = places[begin + 1..].iter().take_while(|place| place[1] > 0.0);
+            let axis = |column: &Column| Shown { column: column.name.clone(), scale: 1.0 }.title(&column.unit);
+            let chart = chart.get_or_insert_with(|| Chart {
+                title: "How far the soil has moved over what strengths are divided by".to_owned(),
+                axes: [axis(factor), axis(moved)],
+                ..Chart::default()
+            });
+            let colour = colour(chart.series.len());
+            let places = std::iter::once(&places[begin]).chain(goes_on).copied().collect();
+            chart.series.push(Series { name: run.name.clone(), style: Style::Line, colour, places });
+        }
+    }
+    chart
 }
 
 /// Load over displacement for each entry of the history and direction that has both and moves, with the columns that each shows.

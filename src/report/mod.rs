@@ -23,6 +23,8 @@ pub use variants::variants;
 const MANY_CELLS: usize = 4000;
 /// The heading of the curves.
 const HISTORIES: &str = "Histories";
+/// How the result of a search for the factor of safety begins in the log.
+const SAFETY: &str = "factor of safety";
 /// Remarks of a log that are told, first and last.
 const REMARKS: usize = 60;
 
@@ -148,7 +150,9 @@ impl Subject<'_> {
         if charts.is_empty() {
             return Ok(Html::of("p", "The case asks for no histories (`output.history`)."));
         }
-        figures(charts)
+        let found = self.run.log.remarks.iter().filter(|remark| remark.text.starts_with(SAFETY));
+        let found = found.fold(Html::default(), |html, remark| html.and(Html::of("p", &remark.text)));
+        Ok(found.and(figures(charts)?))
     }
 
     fn fields(&self) -> Result<Html> {

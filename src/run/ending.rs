@@ -3,7 +3,7 @@
 use super::record::{self, Quantity, Watch};
 use crate::error::{Error, Kind, Result};
 use crate::kinematics::Kinematics;
-use crate::step::{Controller, Phase, Report, Scene, Simulation, State};
+use crate::step::{Controller, Phase, Report, Scene, Simulation, State, kink};
 use crate::time_value::TimeValue;
 
 /// Part of the largest kinetic energy that counts as rest (-) where dynamics hands back to a quasi-static phase.
@@ -162,7 +162,7 @@ pub fn found_failure<const D: usize>(phase: &Phase, state: &State<D>, controller
 /// What a search came to, given the reduction of strength (-) that left no equilibrium, if one was found.
 pub fn safety<const D: usize>(phase: &Phase, state: &State<D>, failed: Option<f64>) -> String {
     let (name, held) = (&phase.name, phase.reduction_at(state.phase_time));
-    match failed {
+    let found = match failed {
         Some(failed) => format!(
             "factor of safety {held:.4} to {failed:.4} (phase `{name}`): equilibrium was last found at strengths divided by \
              the first, and none at the second"
@@ -170,7 +170,20 @@ pub fn safety<const D: usize>(phase: &Phase, state: &State<D>, failed: Option<f6
         None => format!(
             "factor of safety above {held:.4} (phase `{name}`): equilibrium was found up to the end of the phase"
         ),
+    };
+    let moved = state.search_curve.last().map_or(0.0, |[_, moved]| *moved);
+    match kink(&state.search_curve) {
+        Some(kink) => {
+            format!("{found}; the soil has moved by {moved:.3e} m, and the curve of that has its kink at {kink:.4}")
+        }
+        None => format!("{found}; the soil has moved by {moved:.3e} m"),
     }
+}
+
+/// The curve of a search for the log: how far the soil has moved (m) at each factor.
+pub fn curve<const D: usize>(phase: &Phase, state: &State<D>) -> String {
+    let places: Vec<_> = state.search_curve.iter().map(|[factor, moved]| format!("{factor:.4} {moved:.3e}")).collect();
+    format!("factors of phase `{}`, and how far the soil has moved at each (m): {}", phase.name, places.join(", "))
 }
 
 /// An error of the analysis with the moment it came in, and, where loads grow without inertia, how far they had come:

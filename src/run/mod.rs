@@ -191,6 +191,7 @@ pub fn run<const D: usize, K: Kinematics<D>>(
                     let note = format!("{}; it failed by: {error}", ending::safety(phase, state, Some(failed)));
                     tell(state, Some(&note));
                     timed(Activity::Output, || {
+                        files.log.line(&ending::curve(phase, state))?;
                         files.history.again(record::NO_EQUILIBRIUM, failed)?;
                         files.end_early(scene, state, &note)
                     })?;
@@ -246,6 +247,7 @@ pub fn run<const D: usize, K: Kinematics<D>>(
                     if phase.search.is_some() {
                         let note = ending::safety(phase, state, None);
                         tell(state, Some(&note));
+                        files.log.line(&ending::curve(phase, state))?;
                         files.log.line(&note)?;
                     }
                     files.end_of_phase(state)?;

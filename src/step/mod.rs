@@ -58,10 +58,11 @@ pub use report::Report;
 pub use scene::{
     FARTHEST, Fem, Field, Fixed, Numerics, Phase, Prescribed, Restore, Scalar, Scene, Search, StepSize, Stop, Water,
 };
+pub use search::kink;
 pub use state::{Span, State};
 pub use water::Balance;
 
-use crate::error::{Error, Kind, Result};
+use crate::error::{Kind, Result};
 use crate::kinematics::Kinematics;
 use crate::profile::{Activity, timed};
 use crate::time_integration::GeneralisedAlpha;
@@ -178,7 +179,8 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
                     if !begun.fresh {
                         // Reset a deformed grid before the step is halved.
                         begun = timed(Activity::Transfer, || self.initialise(true))?;
-                    } else if predictor.is_none() {
+                    } else if predictor.is_none() || !self.grid.buffers.predicted {
+                        // The iteration without the predictor has been tried.
                         unbalanced::hold(self.scene, &mut self.grid, &mut self.state, dt)?;
                         controller.halve(dt, error)?;
                     }

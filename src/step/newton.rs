@@ -128,6 +128,7 @@ impl<'a, const D: usize> Newton<'a, D> {
     /// for bodies that start in contact, from the converged one; without contact the better one of these two.
     fn begin(&mut self) -> Result<()> {
         let contact = self.problem.integration.is_none() && !self.grid.constraints.is_empty();
+        self.buffers.predicted = contact && self.problem.predictor.is_some();
         if !contact {
             return self.predict();
         }
@@ -163,6 +164,7 @@ impl<'a, const D: usize> Newton<'a, D> {
             let without = residual(self, self.problem.converged(), false);
             residual(self, predictor, true) < without
         });
+        self.buffers.predicted = predicted;
         if predicted {
             self.buffers.best.clone_from(&self.buffers.now.at);
         } else {

@@ -48,6 +48,8 @@ pub struct Buffers<const D: usize> {
     pub now: Evaluation<D>,
     pub trial: Evaluation<D>,
     pub best: Unknowns<D>,
+    /// Whether the last iteration began with the predicted state.
+    pub predicted: bool,
     pub delta: Vec<f64>,
     /// The right-hand side (kN) of the linear system for `delta`.
     pub wanted: Vec<f64>,

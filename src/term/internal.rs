@@ -29,7 +29,7 @@ use crate::material::{Model, State, VariableKind, internal_count};
 use crate::points::Points;
 use crate::profile::timed_material;
 use crate::system::Local;
-use crate::tensor::{Tensor, full, symmetric};
+use crate::tensor::{Tensor, exponential, full, symmetric};
 use rayon::prelude::*;
 use std::borrow::Cow;
 use std::marker::PhantomData;
@@ -200,7 +200,7 @@ impl<K, S> Internal<K, S> {
         let held = trial.geometry.map(|u| frame.interpolation.gather(frame.mesh, cell_points, u));
         let mut strained = Vec::with_capacity(cell_points.point_count as usize);
         for entries in frame.interpolation.entries::<K>(cell_points) {
-            let ends = Ends { now: &now, before: moved.then_some(&before[..]), held: held.as_deref() };
+            let ends = Ends { now: &now, before: moved.then_some(&before[..]), held: held.as_deref().map(moved_nodes) };
             let mut point = strain::<D, K>(frame.points, &entries, &ends)?;
             if trial.alpha_f > 0.0 {
                 point.metric_factor = metric_factor(&point.increment, trial.alpha_f)
@@ -226,8 +226,13 @@ struct Ends<'a, const D: usize> {
     now: &'a [[f64; D]],
     /// At the last converged step, `None` for all zero.
     before: Option<&'a [[f64; D]]>,
-    /// Those whose geometry is held, where it is.
+    /// Those whose geometry is held, where it is; none where they are all zero.
     held: Option<&'a [[f64; D]]>,
+}
+
+/// The displacements, or none where all are zero.
+fn moved_nodes<const D: usize>(u: &[[f64; D]]) -> &[[f64; D]] {
+    if u.iter().flatten().any(|&u| u != 0.0) { u } else { &[] }
 }
 
 /// The deformation of a point.
@@ -276,7 +281,7 @@ fn linear_strain<const D: usize, K: Kinematics<D>>(
     let inverse = start.try_inverse().ok_or_else(|| inadmissible(points, p, "was squeezed flat", &start))?;
     let strain = full(&symmetric(&((now - before) * inverse)));
     let since = ((now - start) * inverse).trace();
-    let increment = strain.exp();
+    let increment = exponential(&strain);
     let ratios = Ratios { step: strain.trace().exp(), grid: start.determinant() * since.exp() };
     if !(ratios.step > LEAST_VOLUME_RATIO && ratios.grid > 0.0 && increment.iter().all(|f| f.is_finite())) {
         return Err(inadmissible(points, p, "is strained beyond measure in one step", &increment));
@@ -388,14 +393,14 @@ impl<const D: usize, K: Kinematics<D>, S: Mixed<D, K>> Term<D> for Internal<K, S
             let now = frame.interpolation.gather(frame.mesh, cell_points, trial.displacement);
             let before = frame.interpolation.gather(frame.mesh, cell_points, trial.converged);
             let held = trial.geometry.map(|u| frame.interpolation.gather(frame.mesh, cell_points, u));
-            let ends = Ends { now: &now, before: Some(&before), held: held.as_deref() };
+            let ends = Ends { now: &now, before: Some(&before), held: held.as_deref().map(moved_nodes) };
             let cell = self.share.over(frame, trial, cell_points);
             let volume = frame.integration.and_then(|(interpolation, points)| {
                 let cell_points = interpolation.of_cell(cell_points.cell)?;
                 let [now, before] =
                     [trial.displacement, trial.converged].map(|u| interpolation.gather(frame.mesh, cell_points, u));
                 let held = trial.geometry.map(|u| interpolation.gather(frame.mesh, cell_points, u));
-                let ends = Ends { now: &now, before: Some(&before), held: held.as_deref() };
+                let ends = Ends { now: &now, before: Some(&before), held: held.as_deref().map(moved_nodes) };
                 let fit = |of: fn(Ratios) -> f64| {
                     let value = |entries: Entries<D>| {
                         let point = strain::<D, K>(points, &entries, &ends).ok()?;
