@@ -82,11 +82,17 @@ pub fn area(x: &[[f64; 2]]) -> f64 {
     (1..x.len() - 1).map(|i| 0.5 * twice_area(&[x[0], x[i], x[i + 1]])).sum()
 }
 
+/// Twice the signed area (m²) of the triangle of a line and a place, positive where the place is on the left of the line. For the line the
+/// other way it is the opposite number exactly: of two polygons that share a side, a place is never beyond that of both.
+pub fn side([a, b]: &Line<2>, x: &[f64; 2]) -> f64 {
+    cross(&way(x, a), &way(x, b))
+}
+
 /// How many times the polygons that `lines` make run around a place, counter-clockwise.
 pub fn winding(lines: &[Line<2>], x: &[f64; 2]) -> i32 {
-    let around = |[a, b]: &Line<2>| match (a[1] <= x[1], b[1] <= x[1]) {
-        (true, false) if twice_area(&[*a, *b, *x]) > 0.0 => 1,
-        (false, true) if twice_area(&[*a, *b, *x]) < 0.0 => -1,
+    let around = |line: &Line<2>| match line.map(|end| end[1] <= x[1]) {
+        [true, false] if side(line, x) > 0.0 => 1,
+        [false, true] if side(line, x) < 0.0 => -1,
         _ => 0,
     };
     lines.iter().map(around).sum()

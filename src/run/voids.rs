@@ -4,7 +4,7 @@
 
 use super::warning::WARNING;
 use crate::contact::Interface;
-use crate::geometry::{Bins, distance, twice_area};
+use crate::geometry::{Bins, distance, side};
 use crate::mesh::Mesh;
 use crate::step::{Fem, Report, Scene, State};
 use crate::surface::{News, Void, lies_near};
@@ -140,7 +140,7 @@ fn box_of(x: &[[f64; 2]]) -> ([f64; 2], [f64; 2]) {
 
 /// Whether a place (m) is in a convex polygon.
 fn holds(corners: &[[f64; 2]], x: &[f64; 2]) -> bool {
-    corners.iter().zip(corners.iter().cycle().skip(1)).all(|(a, b)| twice_area(&[*a, *b, *x]) >= 0.0)
+    corners.iter().zip(corners.iter().cycle().skip(1)).all(|(a, b)| side(&[*a, *b], x) >= 0.0)
 }
 
 /// Whether some cells reach to the boundary of the grid.

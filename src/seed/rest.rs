@@ -28,7 +28,8 @@ pub fn k0_stress(mesh: &Mesh<2>, soils: &[RegionWeight], k0: f64, points: &Point
     if !k0.is_finite() || k0 < 0.0 {
         return Err(Error::input("initial_stress.k0", format!("{k0} is no earth pressure coefficient"), "use 0.3 … 1"));
     }
-    let boundaries: Vec<Vec<Arc>> = soils.iter().map(|soil| boundary(mesh, soil.region)).collect();
+    let faces = Faces::of(mesh);
+    let boundaries: Vec<Vec<Arc>> = soils.iter().map(|soil| boundary(mesh, &faces, soil.region)).collect();
     let stress = |(x, region): (&[f64; 2], &u16)| {
         if soils.iter().all(|soil| soil.region != *region) {
             return [0.0; 6];
@@ -40,19 +41,20 @@ pub fn k0_stress(mesh: &Mesh<2>, soils: &[RegionWeight], k0: f64, points: &Point
     Ok(points.position.iter().zip(&points.region).map(stress).collect())
 }
 
-/// A piece of a region's boundary, counter-clockwise, on which `x` is monotone: ends at the parameters
-/// `from` and `to` of the quadratic `a + b t + c t²`.
+/// A piece of a region's boundary, counter-clockwise, on which `x` is monotone: the quadratic `a + b t + c t²`
+/// between two parameters.
 struct Arc {
     a: [f64; 2],
     b: [f64; 2],
     c: [f64; 2],
-    from: f64,
-    to: f64,
+    parameters: [f64; 2],
+    /// `x` (m) of its ends. Pieces that meet have the same number there, so that a vertical crosses one of them or both: that of the node,
+    /// from which the quadratic differs by rounding, or of the place where the tangent is vertical.
+    ends: [f64; 2],
 }
 
 /// The boundary of a region, cut where its tangent is vertical.
-fn boundary(mesh: &Mesh<2>, region: u16) -> Vec<Arc> {
-    let faces = Faces::of(mesh);
+fn boundary(mesh: &Mesh<2>, faces: &Faces, region: u16) -> Vec<Arc> {
     let mut arcs = Vec::new();
     for cell in (0..mesh.cells.len()).filter(|&c| mesh.cells.region[c] == region) {
         let facets = mesh.cells.kind[cell].facets().1;
@@ -61,15 +63,16 @@ fn boundary(mesh: &Mesh<2>, region: u16) -> Vec<Arc> {
                 continue;
             }
             let x: Vec<[f64; 2]> = facet.iter().map(|&i| mesh.nodes[mesh.cells.nodes(cell)[i] as usize]).collect();
-            let middle = x.get(2).copied().unwrap_or([0, 1].map(|d| 0.5 * (x[0][d] + x[1][d])));
+            let a = x.get(2).copied().unwrap_or([0, 1].map(|d| 0.5 * (x[0][d] + x[1][d])));
             let b = [0, 1].map(|d| 0.5 * (x[1][d] - x[0][d]));
-            let c = [0, 1].map(|d| 0.5 * (x[0][d] + x[1][d]) - middle[d]);
-            let arc = |from, to| Arc { a: middle, b, c, from, to };
+            let c = [0, 1].map(|d| 0.5 * (x[0][d] + x[1][d]) - a[d]);
+            let arc = |parameters, ends| Arc { a, b, c, parameters, ends };
             let turn = -0.5 * b[0] / c[0];
             if turn > -1.0 && turn < 1.0 {
-                arcs.extend([arc(-1.0, turn), arc(turn, 1.0)]);
+                let there = a[0] + turn * (b[0] + turn * c[0]);
+                arcs.extend([arc([-1.0, turn], [x[0][0], there]), arc([turn, 1.0], [there, x[1][0]])]);
             } else {
-                arcs.push(arc(-1.0, 1.0));
+                arcs.push(arc([-1.0, 1.0], [x[0][0], x[1][0]]));
             }
         }
     }
@@ -77,20 +80,17 @@ fn boundary(mesh: &Mesh<2>, region: u16) -> Vec<Arc> {
 }
 
 impl Arc {
-    fn at(&self, t: f64, d: usize) -> f64 {
-        self.a[d] + t * (self.b[d] + t * self.c[d])
-    }
-
     /// The height at which the piece crosses the vertical at `x`, which lies between its ends.
     fn height(&self, x: f64) -> f64 {
         let (a, b, c) = (self.a[0] - x, self.b[0], self.c[0]);
         // Both roots without cancellation; the one on the piece is wanted.
         let q = -0.5 * (b + (b * b - 4.0 * a * c).max(0.0).sqrt().copysign(b));
-        let (low, high) = (self.from.min(self.to), self.from.max(self.to));
+        let [low, high] = self.parameters;
         let outside = |t: f64| if t.is_nan() { f64::INFINITY } else { (low - t).max(t - high).max(0.0) };
         let (r, s) = (q / c, a / q);
         let t = if outside(r) < outside(s) { r } else { s };
-        self.at(t.clamp(low, high), 1)
+        let t = t.clamp(low, high);
+        self.a[1] + t * (self.b[1] + t * self.c[1])
     }
 }
 
@@ -103,12 +103,11 @@ fn weight_above(boundary: &[Arc], unit_weight: &Profile, x: &[f64; 2]) -> f64 {
     let floor = primitive(x[1]);
     let mut weight = 0.0;
     for arc in boundary {
-        let (from, to) = (arc.at(arc.from, 0), arc.at(arc.to, 0));
         // Counter-clockwise: the region lies below a piece that runs to the left. Half-open intervals count a
         // vertex once.
-        let sign = match (from <= x[0], to <= x[0]) {
-            (true, false) => -1.0,
-            (false, true) => 1.0,
+        let sign = match arc.ends.map(|end| end <= x[0]) {
+            [true, false] => -1.0,
+            [false, true] => 1.0,
             _ => continue,
         };
         let y = arc.height(x[0]);

@@ -1,7 +1,7 @@
 //! The structures that stand in the soil, as triangles.
 
 use super::origin::Outline;
-use crate::geometry::{Bins, Line, box_around, twice_area};
+use crate::geometry::{Bins, Line, box_around, side};
 use std::collections::BTreeMap;
 
 /// Triangles of structures where they are now, and their outline.
@@ -69,7 +69,7 @@ impl Structures {
         if self.triangles.is_empty() {
             return f64::NEG_INFINITY;
         }
-        let holds = |t: &&[[f64; 2]; 3]| (0..3).all(|i| twice_area(&[t[i], t[(i + 1) % 3], *x]) >= 0.0);
+        let holds = |t: &&[[f64; 2]; 3]| (0..3).all(|i| side(&[t[i], t[(i + 1) % 3]], x) >= 0.0);
         let (distance, _) = self.outline.distance(x);
         if self.near(&[*x; 3]).any(|t| holds(&t)) { distance } else { -distance }
     }

@@ -10,7 +10,7 @@ use mpm::mesh::msh::read;
 use mpm::mesh::quality;
 use mpm::mesh::shape::{self, CellKind, MAX_NODES};
 
-fn options(order: u8, parameters: &[(&str, f64)]) -> Options {
+pub fn options(order: u8, parameters: &[(&str, f64)]) -> Options {
     let parameters = parameters.iter().map(|(name, value)| (name.to_string(), *value)).collect();
     Options { order, incomplete: false, parameters }
 }
@@ -24,7 +24,7 @@ fn generate(geo: &Path, options: &Options, out: &Path) -> Result<()> {
 }
 
 /// Meshes a `.geo` given as text in a folder of its own.
-fn mesh_of(text: &str, options: &Options) -> Result<Mesh<2>> {
+pub fn mesh_of(text: &str, options: &Options) -> Result<Mesh<2>> {
     let folder = tempfile::tempdir().unwrap();
     let geo = folder.path().join("scene.geo");
     fs::write(&geo, text).unwrap();

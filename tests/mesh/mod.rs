@@ -1,5 +1,6 @@
 //! Meshes: made by Gmsh, read from files, imported from other programs, and geometries that are refused.
 
+mod at_rest;
 mod gmsh;
 mod hostile_geo;
 mod import;
