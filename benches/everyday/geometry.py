@@ -1,0 +1,202 @@
+"""Sections of straight lines as .geo files: faces that share their edges, structures over them, named curves and points."""
+
+import math
+from dataclasses import dataclass, field, replace
+
+CLOSE = 1e-9  # of the extent: places nearer than that are one
+
+
+@dataclass
+class Face:
+    """A polygon: a region of the grid, or a structure, which shares no edge with others."""
+
+    name: str
+    corners: list  # [(x, y)] [m]
+    h: float  # size of the cells [m]
+    structure: bool = False
+
+
+@dataclass
+class Section:
+    """The faces, with the names of curves, {name: [(start, end)]}, and of points, {name: place}."""
+
+    faces: list
+    curves: dict = field(default_factory=dict)
+    points: dict = field(default_factory=dict)
+    quadrangles: bool = False
+    regular: bool = False  # rows and columns of cells where each face of the grid has four sides
+
+    def moved(self, place, scale=1.0):
+        """The section with each place mapped, and the sizes of cells scaled."""
+        return replace(
+            self,
+            faces=[replace(face, corners=[place(*corner) for corner in face.corners], h=face.h * scale) for face in self.faces],
+            curves={name: [(place(*a), place(*b)) for a, b in lines] for name, lines in self.curves.items()},
+            points={name: place(*point) for name, point in self.points.items()},
+        )
+
+    def extent(self):
+        """The larger side of the box around all faces [m], and the largest coordinate."""
+        places = [corner for face in self.faces for corner in face.corners]
+        xs, ys = zip(*places)
+        return max(max(xs) - min(xs), max(ys) - min(ys))
+
+    def geo(self):
+        """The text of the .geo."""
+        return _Writer(self).text()
+
+
+def area(corners):
+    """Of a polygon, positive where it is anticlockwise [m²].
+
+    >>> area([(0, 0), (2, 0), (2, 1), (0, 1)])
+    2.0
+    """
+    return sum(a[0] * b[1] - b[0] * a[1] for a, b in zip(corners, [*corners[1:], corners[0]])) / 2
+
+
+def clipped(corners, coordinate, limit, above):
+    """The part of a polygon whose coordinate (0: x, 1: y) is above `limit`, or below.
+
+    >>> clipped([(0, 0), (2, 0), (2, 1), (0, 1)], 0, 0.5, False)
+    [(0.5, 1.0), (0, 1), (0, 0), (0.5, 0.0)]
+    """
+    sign = 1 if above else -1
+    part = []
+    for a, b in zip([corners[-1], *corners[:-1]], corners):
+        da, db = sign * (a[coordinate] - limit), sign * (b[coordinate] - limit)
+        if da * db < 0:
+            t = da / (da - db)
+            place = [a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1])]
+            place[coordinate] = limit
+            part.append(tuple(place))
+        if db >= 0:
+            part.append(b)
+    return part
+
+
+class _Writer:
+    """Numbers the vertices and lines of a section."""
+
+    def __init__(self, section):
+        self.section = section
+        self.tolerance = CLOSE * section.extent()
+        self.vertices = []  # (x, y)
+        self.sizes = []
+        self.lines = {}  # (first, second) of vertices, the lower one first: number from 1
+        self.grid = set()  # lines of the grid
+        self.loops = []  # of each face: signed lines, and the vertices of its corners
+
+        grid = [face for face in section.faces if not face.structure]
+        for face in grid:
+            for corner in face.corners:
+                self.vertex(corner, face.h)
+        for place in [end for lines in section.curves.values() for line in lines for end in line] + list(section.points.values()):
+            if any(self.on(place, a, b) for face in grid for a, b in edges(face.corners)):
+                self.vertex(place, math.inf)
+        shared = len(self.vertices)
+        for face in section.faces:
+            if face.structure:
+                first = len(self.vertices)
+                for corner in face.corners:
+                    self.vertices.append(corner)
+                    self.sizes.append(face.h)
+                numbers = list(range(first, len(self.vertices)))
+                corners = numbers
+            else:
+                corners = [self.vertex(corner, face.h) for corner in face.corners]
+                numbers = []
+                for a, b in edges(face.corners):
+                    on = [n for n in range(shared) if self.on(self.vertices[n], a, b)]
+                    on.sort(key=lambda n: math.dist(a, self.vertices[n]))
+                    for n in on:
+                        self.sizes[n] = min(self.sizes[n], face.h)
+                    numbers += on[:-1]
+            if area([self.vertices[n] for n in numbers]) < 0:
+                numbers, corners = numbers[::-1], corners[::-1]
+            loop = [self.line(a, b) for a, b in edges(numbers)]
+            self.loops.append((loop, numbers, corners))
+            if not face.structure:
+                self.grid.update(abs(line) for line in loop)
+
+    def vertex(self, place, size):
+        for n, other in enumerate(self.vertices):
+            if math.dist(place, other) < self.tolerance:
+                self.sizes[n] = min(self.sizes[n], size)
+                return n
+        self.vertices.append(place)
+        self.sizes.append(size)
+        return len(self.vertices) - 1
+
+    def on(self, place, a, b):
+        length = math.dist(a, b)
+        along = ((place[0] - a[0]) * (b[0] - a[0]) + (place[1] - a[1]) * (b[1] - a[1])) / length
+        across = ((place[0] - a[0]) * (b[1] - a[1]) - (place[1] - a[1]) * (b[0] - a[0])) / length
+        return abs(across) < self.tolerance and -self.tolerance < along < length + self.tolerance
+
+    def line(self, a, b):
+        number = self.lines.setdefault((min(a, b), max(a, b)), len(self.lines) + 1)
+        return number if a < b else -number
+
+    def named(self):
+        """The lines of each named curve: those of the grid, or where it has none there, of structures."""
+        for name, parts in self.section.curves.items():
+            on = [
+                number
+                for (a, b), number in self.lines.items()
+                if any(self.on(self.vertices[a], *part) and self.on(self.vertices[b], *part) for part in parts)
+            ]
+            yield name, [number for number in on if number in self.grid] or on
+
+    def text(self):
+        out = [f"Point({n + 1}) = {{{x!r}, {y!r}, 0, {h!r}}};" for n, ((x, y), h) in enumerate(zip(self.vertices, self.sizes))]
+        out += [f"Line({number}) = {{{a + 1}, {b + 1}}};" for (a, b), number in self.lines.items()]
+        for n, (loop, _, _) in enumerate(self.loops, 1):
+            out += [f"Curve Loop({n}) = {{{', '.join(map(str, loop))}}};", f"Plane Surface({n}) = {{{n}}};"]
+        if self.section.regular:
+            out += self.rows()
+        if self.section.quadrangles:
+            out.append("Recombine Surface {:};")
+        names = {}
+        for n, face in enumerate(self.section.faces, 1):
+            names.setdefault(face.name, []).append(n)
+        out += [f'Physical Surface("{name}") = {{{", ".join(map(str, numbers))}}};' for name, numbers in names.items()]
+        out += [f'Physical Curve("{name}") = {{{", ".join(map(str, numbers))}}};' for name, numbers in self.named()]
+        out += [f'Physical Point("{name}") = {{{self.vertex(place, math.inf) + 1}}};' for name, place in self.section.points.items()]
+        return "\n".join(out) + "\n"
+
+    def rows(self):
+        """Transfinite faces; opposite sides have the same numbers of cells."""
+        faces = list(zip(self.section.faces, self.loops))
+        if any(not face.structure and (len(face.corners) != 4 or len(numbers) != 4) for face, (_, numbers, _) in faces):
+            raise ValueError("a face of a regular section has four sides and shares them whole")
+        group = {number: number for number in self.lines.values()}
+
+        def root(number):
+            while group[number] != number:
+                number = group[number]
+            return number
+
+        length = {number: math.dist(self.vertices[a], self.vertices[b]) for (a, b), number in self.lines.items()}
+        wanted = {}
+        for face, (loop, _, _) in faces:
+            if not face.structure:
+                for one, other in [(loop[0], loop[2]), (loop[1], loop[3])]:
+                    group[root(abs(one))] = root(abs(other))
+        for face, (loop, _, _) in faces:
+            if not face.structure:
+                for number in map(abs, loop):
+                    wanted[root(number)] = max(wanted.get(root(number), 1), round(length[number] / face.h))
+        out = [f"Transfinite Curve {{{number}}} = {wanted[root(number)] + 1};" for number in sorted(self.grid)]
+        grid = [str(n) for n, face in enumerate(self.section.faces, 1) if not face.structure]
+        return [*out, f"Transfinite Surface {{{', '.join(grid)}}};"]
+
+
+def edges(corners):
+    """Pairs of neighbours around a polygon."""
+    return list(zip(corners, [*corners[1:], corners[0]]))
+
+
+def box(x0, x1, y0, y1):
+    """The corners of a rectangle, anticlockwise."""
+    return [(x0, y0), (x1, y0), (x1, y1), (x0, y1)]
