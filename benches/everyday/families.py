@@ -1,7 +1,12 @@
 """All families of scenes by name, and the judgement of one of them."""
 
 import column
+import footing
 import ground
+import motion
+import slope
+import walls
+import water
 from scene import Dice, run, verdict
 
 # Functions of a Dice that return a Scene.
@@ -14,6 +19,19 @@ FAMILIES = {
     "oedometer_plate": column.plate,
     "oedometer_curve": column.curve,
     "self_weight": column.self_weight,
+    "consolidation": water.consolidation,
+    "submerged": water.submerged,
+    "sunken": water.sunken,
+    "rankine": walls.rankine,
+    "janssen": walls.janssen,
+    "shaft": walls.shaft,
+    "footing_clay": footing.clay,
+    "footing_friction": footing.friction,
+    "infinite_slope": slope.infinite,
+    "safety": slope.safety,
+    "fall": motion.fall,
+    "impact": motion.impact,
+    "incline": motion.incline,
 }
 
 

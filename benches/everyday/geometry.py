@@ -59,7 +59,7 @@ def clipped(corners, coordinate, limit, above):
     """The part of a polygon whose coordinate (0: x, 1: y) is above `limit`, or below.
 
     >>> clipped([(0, 0), (2, 0), (2, 1), (0, 1)], 0, 0.5, False)
-    [(0.5, 1.0), (0, 1), (0, 0), (0.5, 0.0)]
+    [(0, 0), (0.5, 0.0), (0.5, 1.0), (0, 1)]
     """
     sign = 1 if above else -1
     part = []

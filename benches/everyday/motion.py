@@ -1,0 +1,168 @@
+"""Bodies in motion: free fall and landing, a bar that hits a wall, a block on an incline."""
+
+import math
+
+import numpy as np
+from geometry import Face, Section, box
+from ground import G, oedometer
+from scene import Check, Scene, below, near, typed
+
+
+def fall(dice):
+    """A block falls on a floor: gt²/2 before it lands; then it is above the floor, and no energy has come from nowhere."""
+    width, height = dice.number(0.3, 1, 2), dice.number(0.3, 1, 2)
+    drop = dice.number(0.2, 1.5, 2)
+    h = typed(min(width, height) / dice.choice([3, 4, 5]), 2)
+    room = dice.number(0.3, 1, 2) * width
+    x0, x1 = room, room + width
+    faces = [
+        Face("air", box(0, x0, drop, drop + height), h),
+        Face("block", box(x0, x1, drop, drop + height), h),
+        Face("air", box(x1, x1 + room, drop, drop + height), h),
+        Face("air", [(0, 0), (x1 + room, 0), (x1 + room, drop), (x1, drop), (x0, drop), (0, drop)], h),
+    ]
+    sides = [((x, 0), (x, drop + height)) for x in (0, x1 + room)]
+    section = Section(faces, {"floor": [((0, 0), (x1 + room, 0))], "sides": sides}, quadrangles=dice.chance(0.3))
+    soil = {"model": "linear_elastic", "young": dice.scale(2000, 50000), "poisson": dice.number(0.1, 0.4, 2), "density": dice.number(1.5, 2.2, 2)}
+    if dice.chance(0.4):
+        soil |= {"model": "mohr_coulomb", "cohesion": dice.choice([1, 5, 20]), "friction": 30}
+    elif dice.chance(0.3):
+        soil |= {"model": "tresca", "shear_strength": dice.choice([5, 20]), "poisson": 0.49}
+    landing = math.sqrt(2 * drop / G)
+    step = typed(landing / dice.choice([20, 40]), 2)
+    case = {
+        "geometry": "plane_strain",
+        "regions": {"air": {"kind": "buffer"}, "block": {"kind": "mpm", "material": "soil"}},
+        "materials": {"soil": soil},
+        "supports": {"sides": {"ux": 0}},
+        "gravity": {"y": -G},
+        "phases": [{"name": "fall", "analysis": "dynamic", "duration": typed(1.4 * landing), "step": {"initial": step}}],
+        "output": {"fields": ["stress", "displacement", "velocity"], "history": [{"name": "block", "on": "block", "quantities": ["uy", "vy"]}]},
+    }
+    floor = dice.choice(["support", "support", "wall"])
+    if floor == "support":
+        case["supports"] |= {"floor": dice.choice([{"ux": 0, "uy": 0}, {"uy": 0}])}
+    else:
+        case["contacts"] = [{"wall": "floor", "soil": "block", "friction": dice.choice([0, 0.3])}]
+    weight = width * height * soil["density"] * G
+
+    def answers(result):
+        time, way = result.history["time"], result.history["block.uy"]
+        # A cell before the floor its nodes already hold the body.
+        free = time < math.sqrt(2 * max(drop - 1.5 * h, 0) / G)
+        checks = [
+            below("way of the fall less gt²/2, at most", abs(way[free] + G * time[free] ** 2 / 2).max(initial=0), 1e-5 * drop),
+            below("depth of the lowest point below the floor", -result.soil.place[:, 1].min(), 0.05 * h),
+            # It is stopped by the floor: half of its height at the most goes into its compression.
+            below("depth that its centre fell", -way.min(), drop + height / 2),
+        ]
+        energy = sum(result.energy(name) for name in ("kinetic", "elastic", "potential"))
+        checks.append(below("gain of energy over that of the fall", (energy.max() - energy[0]) / (weight * drop), 0.02))
+        return checks
+
+    return Scene(section, case, answers, f"{soil['model']}, {floor}", 1 if dice.chance(0.3) else 2)
+
+
+def impact(dice):
+    """An elastic bar hits a wall: its force is ρcv until the wave returns, its momentum is gone after L/c."""
+    length, depth = dice.scale(0.5, 20), 1.0
+    h = length / dice.choice([20, 30])
+    depth = typed(h * dice.choice([1, 2, 3]), 3)
+    soil = {"model": "linear_elastic", "young": dice.scale(1e3, 1e7), "poisson": dice.number(0, 0.4, 2), "density": dice.number(1, 8, 2)}
+    speed_of_sound = math.sqrt(oedometer(soil) / soil["density"])
+    speed = typed(speed_of_sound * dice.scale(1e-5, 1e-3))
+    section = Section(
+        [Face("bar", box(0, length, 0, depth), h)],
+        {"wall": [((0, 0), (0, depth))], "sides": [((0, y), (length, y)) for y in (0, depth)]},
+        quadrangles=dice.chance(0.5),
+        regular=dice.chance(0.5),
+    )
+    there = length / speed_of_sound
+    case = {
+        "geometry": "plane_strain",
+        "regions": {"bar": {"kind": dice.choice(["mpm", "fem"]), "material": "steel"}},
+        "materials": {"steel": soil},
+        "supports": {"wall": {"ux": 0}, "sides": {"uy": 0}},
+        "initial_velocity": {"bar": {"velocity": {"x": -speed}}},
+        "phases": [{"name": "impact", "analysis": "dynamic", "duration": typed(1.8 * there, 4), "step": {"initial": typed(0.4 * h / speed_of_sound, 4)}}],
+        "output": {"history": [{"name": "wall", "on": "wall", "quantities": ["reaction_x"]}, {"name": "bar", "on": "bar", "quantities": ["vx"]}]},
+    }
+    force = soil["density"] * speed_of_sound * speed * depth
+    momentum = soil["density"] * length * depth * speed
+
+    def answers(result):
+        time, reaction, velocity = (result.history[name] for name in ("time", "wall.reaction_x", "bar.vx"))
+        plateau = (time > 0.2 * there) & (time < 1.6 * there)
+        # The front spreads over about two cells and steps, which is what the force and the momentum may err by.
+        slack = 2 * h / length
+        energy = result.energy("kinetic") + result.energy("elastic")
+        return [
+            near("mean force of the wall", reaction[plateau].mean(), force, slack / 2 * force),
+            near("momentum after L/c", np.interp(there, time, velocity) * momentum / speed, 0, slack * momentum),
+            below("energy over that before", energy.max() / (momentum * speed / 2), 1.0 + 1e-6),
+        ]
+
+    return Scene(section, case, answers, case["regions"]["bar"]["kind"], dice.choice([1, 2, 2]))
+
+
+def incline(dice):
+    """A block on an incline: it slides by g(sin θ − tan δ cos θ)t²/2, or sticks."""
+    angle = math.radians(dice.number(8, 35, 2))
+    sticks = dice.chance(0.35)
+    friction = typed(math.tan(angle) * (dice.uniform(1.1, 2) if sticks else dice.uniform(0, 0.85)), 2)
+    width, height = dice.number(0.6, 1.5, 2), dice.number(0.2, 0.5, 2)
+    h = typed(dice.uniform(0.2, 0.3), 2)
+    acceleration = 0.0 if sticks else G * (math.sin(angle) - friction * math.cos(angle))
+    duration = 0.5
+    length = width + 2 + G * math.sin(angle) * duration**2 / 2
+    floor = dice.choice(["wall", "soil", "soil wall"])
+    faces = [Face("ground", box(0, length, -0.6, 0), h), Face("air", box(0, length, 0, height + 0.6), h)]
+    body = Face("block", box(1, 1 + width, 0, height), 0.7 * h, structure=True)
+    regions = {"ground": {"kind": "mpm", "material": "rock"}, "air": {"kind": "buffer"}, "block": {"kind": "structure", "material": "timber"}}
+    contact = {"structure": "block", "soil": "ground", "friction": friction}
+    if floor != "soil":
+        # The contact nodes are on the block: the incline is a wall, and there is no ground.
+        contact = {"wall": "slope", "against": "block", "friction": friction}
+    if floor == "soil wall":
+        faces = [
+            Face("block", box(1, 1 + width, 0, height), h),
+            Face("air", [(0, 0), (1, 0), (1, height), (1 + width, height), (1 + width, 0), (length, 0), (length, height + 0.6), (0, height + 0.6)], h),
+        ]
+        regions = {"air": {"kind": "buffer"}, "block": {"kind": "mpm", "material": "timber"}}
+        contact = {"wall": "slope", "soil": "block", "friction": friction}
+    else:
+        faces.append(body)
+    section = Section(faces, {"slope": [((0, 0), (length, 0))], "foot": [((0, -0.6), (length, -0.6)), ((0, -0.6), (0, 0)), ((length, -0.6), (length, 0))]})
+    case = {
+        "geometry": "plane_strain",
+        "regions": regions,
+        "materials": {
+            "rock": {"model": "linear_elastic", "young": 1e5, "poisson": 0.2, "density": 2},
+            "timber": {"model": "linear_elastic", "young": 1e5, "poisson": 0.2, "density": dice.number(0.6, 2.5, 2)},
+        },
+        "contacts": [contact],
+        "supports": {"foot": {"ux": 0, "uy": 0}},
+        "gravity": {"x": G * math.sin(angle), "y": -G * math.cos(angle)},
+        "numerics": {"spectral_radius": 0.6},
+        "phases": [{"name": "slide", "analysis": "dynamic", "duration": duration, "step": {"initial": 0.01}}],
+        "output": {"history": [{"name": "block", "on": "block", "quantities": ["ux", "uy"]}]},
+    }
+    if floor == "soil wall":
+        case.pop("supports")
+        section.curves.pop("foot")
+        case["materials"].pop("rock")
+    down = (1.0, 0.0)
+    if dice.chance(0.5):
+        c, s = math.cos(angle), math.sin(angle)
+        section = section.moved(lambda x, y: (x * c + y * s, -x * s + y * c))
+        case["gravity"] = {"y": -G}
+        down = (c, -s)
+
+    def answers(result):
+        moved = np.array([result.last("block.ux"), result.last("block.uy")])
+        along, across = moved @ down, moved @ (-down[1], down[0])
+        # Friction and the way err by 1 % of what gravity alone does (VERIFICATION of contact: sticking and sliding to 1 %).
+        slack = 0.02 * G * math.sin(angle) * duration**2 / 2
+        return [near("way along the incline", along, acceleration * duration**2 / 2, slack), Check("way off the incline", across, -0.1 * h, 0.1 * h)]
+
+    return Scene(section, case, answers, f"{floor}, {'sticks' if sticks else 'slides'}")
