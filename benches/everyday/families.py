@@ -1,16 +1,17 @@
-"""All families of scenes by name, and the judgement of one of them."""
+"""All kinds of scenes by name, those with answers and those with a relation to another, and the judgement of one of them."""
 
 import column
 import footing
 import ground
 import motion
+import relations
 import slope
 import walls
 import water
-from scene import Dice, run, verdict
+from scene import RIGHT, SAID, SILENT, Dice, run, verdict
 
 # Functions of a Dice that return a Scene.
-FAMILIES = {
+ANSWERS = {
     "rest": ground.rest,
     "gravity": ground.gravity,
     "dipping": ground.dipping,
@@ -33,10 +34,31 @@ FAMILIES = {
     "impact": motion.impact,
     "incline": motion.incline,
 }
+RELATIONS = relations.RELATIONS
+KINDS = {name: make.__doc__ for name, make in ANSWERS.items()} | {name: f"{make.__doc__} Of scenes of other kinds." for name, (make, _) in RELATIONS.items()}
 
 
 def judge(name, seed, folder):
     """What a scene is about, its verdict and remarks; it is run in a folder."""
-    scene = FAMILIES[name](Dice(seed))
-    result = run(scene, folder)
-    return scene.about, *verdict(result, lambda: scene.answers(result))
+    dice = Dice(seed)
+    if name in ANSWERS:
+        scene = ANSWERS[name](dice)
+        result = run(scene, folder)
+        return scene.about, *verdict(result, lambda: scene.answers(result))
+    relate, of = RELATIONS[name]
+    family = dice.choice(of)
+    scene = relations.instrumented(ANSWERS[family](dice))
+    other, tolerance, of_other = relate(dice, scene)
+    about = f"{family}: {scene.about}"
+    results = [run(scene, folder / "one"), run(other, folder / "other", dice.randint(1, 5) if name == "resumed" else None)]
+    endings = [verdict(result, list) for result in results]
+    worst = next((ending for ending in endings if ending[0] not in (RIGHT, SAID)), None) or next((ending for ending in endings if ending[0] == SAID), None)
+    if worst is not None:
+        return about, worst[0], worst[1]
+    wrong = [str(check) for check in relations.compared(*results, tolerance, of_other) if not check.right]
+    if not tolerance and (results[0].out / "history.csv").read_bytes() != (results[1].out / "history.csv").read_bytes():
+        wrong.append("history.csv differs")
+    if not wrong:
+        return about, RIGHT, []
+    said = [f"warning: {line}" for result in results for line in result.warnings]
+    return about, (SAID if said else SILENT), wrong + said

@@ -26,10 +26,10 @@ def _footing(dice, half, wide, deep, h, soil, geometry, sink, roughness, case):
     """Half of a rigid footing, from the axis on, that is pushed into the ground."""
     air = typed(0.5 * half)
     thick = typed(0.4 * half)
-    # Coarser cells beyond the mechanism.
+    near, far = typed(1.4 * half), 3 * h
     faces = [
-        Face("soil", box(0, wide, -deep, 0), h),
-        Face("air", box(0, wide, 0, air), h),
+        Face("soil", [(0, -deep), (wide, -deep), (wide, 0), (near, 0), (0, 0)], [far, far, far, h, h]),
+        Face("air", [(0, 0), (near, 0), (wide, 0), (wide, air), (0, air)], [h, h, far, far, far]),
         Face("footing", box(0, half, 0, thick), h, structure=True),
     ]
     curves = {
@@ -46,7 +46,7 @@ def _footing(dice, half, wide, deep, h, soil, geometry, sink, roughness, case):
         "materials": {"soil": soil, "concrete": {"model": "linear_elastic", "young": 3e7, "poisson": 0.2, "density": 0}},
         "contacts": [{"structure": "footing", "soil": "soil", **roughness}],
         "supports": {"axis": {"ux": 0}, "side": {"ux": 0}, "bottom": {"ux": 0, "uy": 0}},
-        "phases": [{"name": "push", "analysis": "quasi_static", "duration": 1, "step": {"initial": 0.05}, "prescribe": {"footing": motion}}],
+        "phases": [{"name": "push", "analysis": "quasi_static", "duration": 1, "step": {"initial": 0.1}, "prescribe": {"footing": motion}}],
         "output": {"history": [{"name": "footing", "on": "footing", "quantities": ["uy", "contact_y"]}]},
         **case,
     }
@@ -59,18 +59,18 @@ def clay(dice):
     half = dice.scale(0.3, 3)
     strength = dice.scale(2, 100)
     growth = dice.choice([0, 0, 1, 2, 4])
-    cells = dice.choice([4, 5, 6])
+    cells = dice.choice([4, 5])
     h = typed(half / cells)
     soil = {"model": "tresca", "poisson": dice.choice([0.49, 0.495, 0.3]), "density": 0}
-    rigidity = dice.choice([200, 400, 1000])
+    rigidity = dice.choice([500, 1000, 2000])
     if growth:
         gradient = typed(growth * strength / (2 * half))
         soil |= {"shear_strength": {"top": strength, "gradient": gradient}, "young": {"top": rigidity * strength, "gradient": rigidity * gradient}}
     else:
         soil |= {"shear_strength": strength, "young": rigidity * strength}
     factor = FACTORS[geometry, rough][GROWTH.index(growth)]
-    # Half of the load is elastic at a sinking of about q B/E: four times that brings out the limit.
-    sink = typed(4 * factor * 2 * half / rigidity)
+    # An elastic footing sinks by about q B/E: three times that brings out the limit.
+    sink = typed(3 * factor * 2 * half / rigidity)
     case = {}
     if dice.chance(0.5):
         soil.pop("density")
@@ -86,7 +86,7 @@ def clay(dice):
         # Cells smear the edge of the footing over one of them, so that it is up to half a cell wider on a side; strength that grows
         # is that of half a cell deeper. Sunk by w it has the weight of the soil beside it, and the load of its depth (Skempton: a
         # factor 1 + 0.2 w/B, twice that with rough sides), and heaved soil.
-        wider = (1 + 0.5 / cells) ** (2 if geometry == "axisymmetric" else 1) * (1 + growth / 8 / cells)
+        wider = (1 + 0.5 / cells) ** (2 if geometry == "axisymmetric" else 1) * (1 + growth / 4 / cells)
         limit = factor * strength
         deep = 1 + 0.4 * sink / half + growth * sink / half / 2
         return [Check("pressure over the limit", (force / limit), 0.97, (wider * deep * limit + weight * sink) / limit)]
@@ -106,8 +106,8 @@ def friction(dice):
     limit = cohesion * nc + surcharge * nq
     cells = 4
     h = typed(half / cells)
-    modulus = typed(limit * dice.choice([50, 100, 200]))
-    sink = typed(4 * limit * 2 * half / modulus)
+    modulus = typed(limit * dice.choice([100, 200, 400]))
+    sink = typed(3 * limit * 2 * half / modulus)
     soil = {"model": "mohr_coulomb", "young": modulus, "poisson": dice.number(0.2, 0.35, 2), "cohesion": cohesion, "friction": angle, "dilation": angle, "density": 0}
     # Prandtl's mechanism ends at B e^(π/2 tan φ) tan(45° + φ/2) beyond the edge.
     exit = 2 * half * math.exp(math.pi / 2 * tangent) * math.tan(math.radians(45 + angle / 2))

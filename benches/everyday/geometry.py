@@ -12,8 +12,11 @@ class Face:
 
     name: str
     corners: list  # [(x, y)] [m]
-    h: float  # size of the cells [m]
+    h: float  # size of the cells [m], or a list of that at each corner
     structure: bool = False
+
+    def sizes(self):
+        return self.h if isinstance(self.h, list) else [self.h] * len(self.corners)
 
 
 @dataclass
@@ -30,7 +33,7 @@ class Section:
         """The section with each place mapped, and the sizes of cells scaled."""
         return replace(
             self,
-            faces=[replace(face, corners=[place(*corner) for corner in face.corners], h=face.h * scale) for face in self.faces],
+            faces=[replace(face, corners=[place(*corner) for corner in face.corners], h=[h * scale for h in face.sizes()]) for face in self.faces],
             curves={name: [(place(*a), place(*b)) for a, b in lines] for name, lines in self.curves.items()},
             points={name: place(*point) for name, point in self.points.items()},
         )
@@ -89,8 +92,8 @@ class _Writer:
 
         grid = [face for face in section.faces if not face.structure]
         for face in grid:
-            for corner in face.corners:
-                self.vertex(corner, face.h)
+            for corner, h in zip(face.corners, face.sizes()):
+                self.vertex(corner, h)
         for place in [end for lines in section.curves.values() for line in lines for end in line] + list(section.points.values()):
             if any(self.on(place, a, b) for face in grid for a, b in edges(face.corners)):
                 self.vertex(place, math.inf)
@@ -98,19 +101,18 @@ class _Writer:
         for face in section.faces:
             if face.structure:
                 first = len(self.vertices)
-                for corner in face.corners:
-                    self.vertices.append(corner)
-                    self.sizes.append(face.h)
+                self.vertices += face.corners
+                self.sizes += face.sizes()
                 numbers = list(range(first, len(self.vertices)))
                 corners = numbers
             else:
-                corners = [self.vertex(corner, face.h) for corner in face.corners]
+                corners = [self.vertex(corner, math.inf) for corner in face.corners]
                 numbers = []
                 for a, b in edges(face.corners):
                     on = [n for n in range(shared) if self.on(self.vertices[n], a, b)]
                     on.sort(key=lambda n: math.dist(a, self.vertices[n]))
                     for n in on:
-                        self.sizes[n] = min(self.sizes[n], face.h)
+                        self.sizes[n] = min(self.sizes[n], max(face.sizes()))
                     numbers += on[:-1]
             if area([self.vertices[n] for n in numbers]) < 0:
                 numbers, corners = numbers[::-1], corners[::-1]
@@ -186,7 +188,7 @@ class _Writer:
         for face, (loop, _, _) in faces:
             if not face.structure:
                 for number in map(abs, loop):
-                    wanted[root(number)] = max(wanted.get(root(number), 1), round(length[number] / face.h))
+                    wanted[root(number)] = max(wanted.get(root(number), 1), round(length[number] / min(face.sizes())))
         out = [f"Transfinite Curve {{{number}}} = {wanted[root(number)] + 1};" for number in sorted(self.grid)]
         grid = [str(n) for n, face in enumerate(self.section.faces, 1) if not face.structure]
         return [*out, f"Transfinite Surface {{{', '.join(grid)}}};"]

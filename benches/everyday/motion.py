@@ -102,7 +102,7 @@ def impact(dice):
             below("energy over that before", energy.max() / (momentum * speed / 2), 1.0 + 1e-6),
         ]
 
-    return Scene(section, case, answers, case["regions"]["bar"]["kind"], dice.choice([1, 2, 2]))
+    return Scene(section, case, answers, case["regions"]["bar"]["kind"], dice.choice([1, 2, 2]), 2 * h / length)
 
 
 def incline(dice):

@@ -52,7 +52,7 @@ def one(task):
 def tally(rows):
     """Lines of a table: verdicts by family."""
     lines = ["| kind | scenes | " + " | ".join(VERDICTS) + " |", "|---" * (len(VERDICTS) + 2) + "|"]
-    for name in [*families.FAMILIES, "all"]:
+    for name in [*families.KINDS, "all"]:
         of = [row for row in rows if name in (row[1], "all")]
         if of:
             count = Counter(row[3] for row in of)
@@ -91,7 +91,7 @@ def page(rows, seed, seconds):
         "",
         "| kind | what must hold |",
         "|---|---|",
-        *(f"| {name.replace('_', ' ')} | {family.__doc__.strip().splitlines()[0]} |" for name, family in families.FAMILIES.items()),
+        *(f"| {name.replace('_', ' ')} | {what} |" for name, what in families.KINDS.items()),
         "",
     ]
     for verdict in VERDICTS[1:]:
@@ -109,11 +109,11 @@ def main():
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--count", type=int, default=600, help="scenes")
     parser.add_argument("--jobs", type=int, default=min(2, len(os.sched_getaffinity(0))), help="scenes at a time")
-    parser.add_argument("--kinds", nargs="+", choices=list(families.FAMILIES), help="scenes of these kinds only")
+    parser.add_argument("--kinds", nargs="+", choices=list(families.KINDS), help="scenes of these kinds only")
     parser.add_argument("--only", type=int, action="append", help="a scene by its number")
     parser.add_argument("--write", action="store_true", help=f"write {PAGE.relative_to(ROOT)}")
     arguments = parser.parse_args()
-    names = list(families.FAMILIES)
+    names = list(families.KINDS)
     wanted = (number for number in itertools.count() if names[number % len(names)] in (arguments.kinds or names))
     numbers = arguments.only or list(itertools.islice(wanted, arguments.count))
     start = time.perf_counter()

@@ -97,7 +97,7 @@ class Result:
     folder: Path
     status: int
     text: str  # what it printed
-    seconds: float
+    seconds: float  # of the processor, of all its threads
     warnings: list = field(default_factory=list)
 
     @property

@@ -181,12 +181,14 @@ def sunken(dice):
 
     def answers(result):
         # The block sinks a little, and what it sinks is under water, too.
-        sunk = -result.last("block.uy") * WATER * width
-        slack = 0.002 * weight + abs(sunk)
+        sunk = abs(result.last("block.uy")) * WATER * width
+        slack = 0.002 * weight + sunk
+        # The ground is squeezed by block and water, and displaces that much less.
+        squeezed = (weight / width + WATER * level) / case["materials"]["soil"]["young"] * WATER * total * depth
         return [
             near("force of the ground on the block", result.last("block.contact_y"), weight - water, slack),
             # In excess of the water pressure (docs/reference/loads.md): the ground without weight is lifted by its own.
-            near("force of the base", result.last("bottom.reaction_y"), weight - water - WATER * total * depth, slack + EXACT * WATER * total * depth),
+            near("force of the base", result.last("bottom.reaction_y"), weight - water - WATER * total * depth, slack + squeezed),
         ]
 
     return Scene(section, case, answers, f"level at {level / height:.1f} of its height")

@@ -1,0 +1,323 @@
+"""The same scene in another way: shifted, mirrored, turned, in other units, split, on another mesh, resumed, with more threads.
+
+The histories of both must agree. A column may differ by a part of the largest value of its unit, as `SAME` and `spread` say.
+"""
+
+import copy
+import math
+from dataclasses import replace
+
+from geometry import Face, clipped
+from scene import Check, typed
+
+SAME = 1e-6  # on the same mesh, in the same steps: Newton's method ends at 1e-8 of the forces
+EMPTY = 1e-3  # empty cells have 1e-5 of the stiffness of the soil (docs/reference/numerics.md), and some of them are stretched far
+
+
+def instrumented(scene):
+    """The scene with all of its soil, and all that holds it, in its history."""
+    scene = replace(scene, case=copy.deepcopy(scene.case))
+    history = scene.case.setdefault("output", {}).setdefault("history", [])
+    names = {entry["name"] for entry in history}
+    axes = "xy" if scene.case["geometry"] == "plane_strain" else "y"
+    for name, region in scene.case["regions"].items():
+        if region["kind"] in ("mpm", "fem") and f"all of {name}" not in names:
+            history.append({"name": f"all of {name}", "on": name, "quantities": [f"u{axis}" for axis in axes]})
+    for name, held in scene.case.get("supports", {}).items():
+        if name in scene.section.curves:
+            history.append({"name": f"holds {name}", "on": name, "quantities": [f"reaction_{axis}" for axis in "xy" if f"u{axis}" in held]})
+    return scene
+
+
+def compared(result, other, tolerance, column):
+    """Checks of the last row of two histories; `column(name, unit)` has the name in the other one, or none, and the factor from it."""
+    units = {name: unit for name, unit in result.units.items() if name != "time"}
+    largest = {}
+    for name, unit in units.items():
+        largest[unit] = max(largest.get(unit, 0.0), abs(result.history[name]).max())
+    checks = []
+    for name, unit in units.items():
+        theirs, factor = column(name, unit)
+        if theirs is None or largest[unit] < 1e-12:
+            continue
+        found = other.last(theirs) * factor / largest[unit]
+        here = result.last(name) / largest[unit]
+        checks.append(Check(f"{theirs} of the other over the largest of its kind", found, here - tolerance, here + tolerance))
+    return checks
+
+
+def same(name, unit):
+    return name, 1.0
+
+
+def on_same_mesh(scene, tolerance):
+    return tolerance if scene.section.regular else max(scene.spread, tolerance)
+
+
+def scaled(value, factor):
+    """A number, a rate, a table or a profile, times a factor."""
+    if isinstance(value, dict):
+        if "table" in value:
+            return {"table": [[time, entry * factor] for time, entry in value["table"]]}
+        return {key: scaled(entry, factor) if key in ("rate", "top", "least") else entry for key, entry in value.items()}
+    return value * factor
+
+
+def turned(components, source, keys):
+    """Components of a vector in other axes; `source`: {new axis: (old axis, factor)}, `keys`: those of x and y."""
+    old = {axis: components[key] for axis, key in zip("xy", keys) if key in components}
+    new = {key: entry for key, entry in components.items() if key not in keys}
+    for axis, key in zip("xy", keys):
+        there, factor = source[axis]
+        if there in old:
+            new[key] = scaled(old[there], factor)
+    return new
+
+
+def reoriented(scene, place, source, turn):
+    """The scene with all places mapped, and the vectors of its case in new axes; `turn`: sign of rotations."""
+    case = copy.deepcopy(scene.case)
+    case["supports"] = {name: turned(held, source, ("ux", "uy")) for name, held in case.get("supports", {}).items()}
+    if "gravity" in case:
+        case["gravity"] = turned(case["gravity"], source, "xy")
+    for motion in case.get("initial_velocity", {}).values():
+        motion["velocity"] = turned(motion["velocity"], source, "xy")
+    for phase in case["phases"]:
+        phase["tractions"] = [turned(load, source, ("tx", "ty")) for load in phase.get("tractions", [])]
+        for name, motion in phase.get("prescribe", {}).items():
+            motion = turned(motion, source, ("ux", "uy"))
+            if "rotation" in motion:
+                motion["rotation"] = scaled(motion["rotation"], turn)
+            phase["prescribe"][name] = motion
+    # The new axis and the factor of a component of old.
+    back = {there: (axis, factor) for axis, (there, factor) in source.items()}
+
+    def column(name, unit):
+        front, quantity = name.rsplit(".", 1)
+        if quantity[-1] in "xy" and quantity[:-1] in ("u", "v", "reaction_", "contact_"):
+            axis, factor = back[quantity[-1]]
+            return f"{front}.{quantity[:-1]}{axis}", factor
+        return name, turn if quantity in ("rotation", "contact_moment") else 1.0
+
+    for entry in case["output"]["history"]:
+        names = [column(f"a.{quantity}", "")[0].split(".")[1] for quantity in entry["quantities"]]
+        entry["quantities"] = names
+    return replace(scene, section=scene.section.moved(place), case=case), column
+
+
+def shift(dice, scene):
+    """The scene elsewhere."""
+    extent = scene.section.extent()
+    dx = 0.0 if scene.case["geometry"] == "axisymmetric" else typed(extent * dice.uniform(-5, 5))
+    dy = typed(extent * dice.uniform(-5, 5))
+    case = copy.deepcopy(scene.case)
+    for key in ("level", "phreatic_level"):
+        if key in case.get("water", {}):
+            case["water"][key] += dy
+    for load in (load for phase in case["phases"] for load in phase.get("tractions", []) if "where" in load):
+        load["where"] = {axis: [end + by for end in load["where"][axis]] for axis, by in (("x", dx), ("y", dy))}
+    for material in case["materials"].values():
+        for value in material.values():
+            if isinstance(value, dict) and "top" in value:
+                value["datum"] = value.get("datum", 0) + dy
+    other = replace(scene, section=scene.section.moved(lambda x, y: (x + dx, y + dy)), case=case)
+    return other, on_same_mesh(scene, SAME), same
+
+
+def mirror(dice, scene):
+    """The scene from behind."""
+    if scene.case["geometry"] != "plane_strain":
+        return shift(dice, scene)
+    other, column = reoriented(scene, lambda x, y: (-x, y), {"x": ("x", -1.0), "y": ("y", 1.0)}, -1.0)
+    return other, on_same_mesh(scene, SAME), column
+
+
+def turn(dice, scene):
+    """The scene turned by 90°, gravity and all."""
+    case = scene.case
+    if case["geometry"] != "plane_strain" or "initial_stress" in case or "water" in case:
+        return shift(dice, scene)
+    other, column = reoriented(scene, lambda x, y: (-y, x), {"x": ("y", -1.0), "y": ("x", 1.0)}, 1.0)
+    return other, on_same_mesh(scene, SAME), column
+
+
+LENGTHS = {"level", "phreatic_level", "ux", "uy", "datum", "permeability"}
+STRESSES = {"young", "shear_strength", "cohesion", "yield_stress", "tension", "ty", "tx", "pressure", "water_bulk_modulus"}
+
+
+def units(dice, scene):
+    """The scene in other units of length and force, such as mm and N."""
+    length = dice.choice([1000.0, 100.0, 3.28084])
+    force = dice.choice([1000.0, 0.001, 0.224809, 101.972])
+    factors = {name: length for name in LENGTHS} | {name: force / length**2 for name in STRESSES}
+    factors |= {"unit_weight": force / length**3, "water_unit_weight": force / length**3, "density": force / length**4}
+
+    def converted(value, key=None):
+        if isinstance(value, dict):
+            if "gradient" in value:  # of a profile
+                return converted({name: entry for name, entry in value.items() if name != "gradient"}, key) | {"gradient": value["gradient"] * factors[key] / length}
+            return {name: converted(entry, key if name in ("rate", "table", "top", "least") else name) for name, entry in value.items()}
+        if key in factors and isinstance(value, list):
+            return [[time, entry * factors[key]] for time, entry in value]
+        return value * factors[key] if key in factors else value
+
+    case = copy.deepcopy(scene.case)
+    case["materials"] = {name: converted(material) for name, material in case["materials"].items()}
+    for material in case["materials"].values():
+        if "permeability" in material:
+            material["water_unit_weight"] = 9.81 * factors["unit_weight"]
+    if "water" in case:
+        case["water"] = converted({"unit_weight": 9.81} | case["water"])
+    if "gravity" in case:
+        case["gravity"] = {axis: entry * length for axis, entry in case["gravity"].items()}
+    for motion in case.get("initial_velocity", {}).values():
+        motion["velocity"] = {axis: entry * length for axis, entry in motion["velocity"].items()}
+    for phase in case["phases"]:
+        phase["tractions"] = [converted(load) for load in phase.get("tractions", [])]
+        phase["prescribe"] = {name: converted(motion) for name, motion in phase.get("prescribe", {}).items()}
+    other = replace(scene, section=scene.section.moved(lambda x, y: (x * length, y * length), length), case=case)
+    forces = force if case["geometry"] == "axisymmetric" else force / length
+    by_unit = {"m": length, "m/s": length, "kN": forces, "kPa": force / length**2, "rad": 1.0, "-": 1.0}
+    return other, on_same_mesh(scene, SAME), lambda name, unit: (name, 1 / by_unit[unit])
+
+
+def split_region(dice, scene):
+    """A region parted in two of the same soil."""
+    section = scene.section
+    fields = [face for face in section.faces if scene.case["regions"][face.name]["kind"] == "mpm"]
+    face = dice.choice(fields)
+    coordinate = dice.choice([0, 1])
+    ends = [corner[coordinate] for corner in face.corners]
+    limit = typed(min(ends) + dice.uniform(0.35, 0.65) * (max(ends) - min(ends)), 4)
+    name = f"{face.name} b"
+    h = min(face.sizes())
+    parts = [Face(of, clipped(face.corners, coordinate, limit, above), h) for of, above in ((face.name, False), (name, True))]
+    faces = [part for one in section.faces for part in (parts if one is face else [one])]
+    case = copy.deepcopy(scene.case)
+    case["regions"][name] = case["regions"][face.name]
+    for contact in case.get("contacts", []):
+        soils = contact.get("soil", [])
+        soils = [soils] if isinstance(soils, str) else soils
+        if face.name in soils:
+            contact["soil"] = [*soils, name]
+    if face.name in case.get("initial_velocity", {}):
+        case["initial_velocity"][name] = case["initial_velocity"][face.name]
+    if case.get("drained_surface") == face.name:
+        case["drained_surface"] = "all"
+    for load in (load for phase in case["phases"] for load in phase.get("tractions", [])):
+        if load.get("surface") == face.name:
+            load["surface"] = "all"
+    # What is of the region as a whole has no counterpart.
+    of_region = {entry["name"] for entry in case["output"]["history"] if entry["on"] == face.name}
+    other = replace(scene, section=replace(section, faces=faces, regular=False), case=case)
+    return other, scene.spread, lambda column, unit: (None if column.rsplit(".", 1)[0] in of_region else column, 1.0)
+
+
+def later(value, time):
+    """A value in time from a later time on, where it began at 0."""
+    if isinstance(value, dict) and "rate" in value:
+        return {"table": [[0, value["rate"] * time], [1e6, value["rate"] * (time + 1e6)]]}
+    if isinstance(value, dict) and "table" in value:
+        (t0, a), (t1, b) = value["table"]
+        return {"table": [[0, a + (b - a) * (time - t0) / (t1 - t0)], [t1 - time, b]]}
+    return value
+
+
+def split_phase(dice, scene):
+    """The last phase parted in two."""
+    case = copy.deepcopy(scene.case)
+    whole = case["phases"].pop()
+    count = round(whole["duration"] / whole["step"]["initial"])
+    part = max(1, round(count * dice.uniform(0.3, 0.7))) / count * whole["duration"]
+    if count < 2:
+        part = whole["duration"] / 2
+    first, second = copy.deepcopy(whole) | {"duration": part}, copy.deepcopy(whole) | {"duration": whole["duration"] - part, "name": "goes on"}
+    if "gravity" in whole:
+        second["gravity"] = later(whole["gravity"], part)
+    for load in second.get("tractions", []):
+        for key in ("tx", "ty", "pressure"):
+            if key in load:
+                load[key] = later(load[key], part)
+    # Displacements count from the beginning of a phase: a rate goes on. A phase begins without an extrapolation, its first step from
+    # other start values: what differs is the tolerance of Newton's method, and what contact leaves.
+    case["phases"] += [first, second]
+    return replace(scene, case=case), (SAME if "contacts" not in case else 1e-4) if count >= 2 else scene.spread, same
+
+
+def more_air(dice, scene):
+    """More empty cells above."""
+    regions = scene.case["regions"]
+    grid = [face for face in scene.section.faces if not face.structure]
+    if all(regions[face.name]["kind"] != "buffer" for face in grid):
+        return shift(dice, scene)
+    top = max(y for face in grid if regions[face.name]["kind"] != "buffer" for _, y in face.corners)
+    factor = dice.uniform(1.3, 2)
+
+    def raised(x, y):
+        return (x, y if y <= top else top + (y - top) * factor)
+
+    moved = scene.section.moved(raised)
+    faces = [after if not before.structure else before for before, after in zip(scene.section.faces, moved.faces)]
+    return replace(scene, section=replace(moved, faces=faces)), on_same_mesh(scene, EMPTY), same
+
+
+def other_mesh(dice, scene):
+    """Another mesh of about the same size, of the other shape of cells."""
+    section = scene.section.moved(lambda x, y: (x, y), dice.uniform(0.8, 0.95))
+    return replace(scene, section=replace(section, regular=False, quadrangles=not section.quadrangles)), scene.spread, same
+
+
+def elements(dice, scene):
+    """Finite elements in place of material points, where nothing moves far."""
+    case = copy.deepcopy(scene.case)
+    for region in case["regions"].values():
+        if region["kind"] == "mpm":
+            region["kind"] = "fem"
+            region.pop("points_per_cell", None)
+    return replace(scene, case=case), scene.spread, same
+
+
+def smooth_walls(dice, scene):
+    """Smooth walls in place of the supports of the sides."""
+    case = copy.deepcopy(scene.case)
+    section = replace(scene.section, curves=dict(scene.section.curves))
+    case["supports"].pop("sides")
+    soils = [name for name, region in case["regions"].items() if region["kind"] == "mpm"]
+    gone = {entry["name"] for entry in case["output"]["history"] if entry["on"] in ("sides", "held")}
+    for name, line in zip(("left wall", "right wall"), section.curves.pop("sides")):
+        section.curves[name] = [line]
+        case.setdefault("contacts", []).append({"wall": name, "soil": soils})
+    section.curves.pop("held", None)
+    case["output"]["history"] = [entry for entry in case["output"]["history"] if entry["name"] not in gone]
+    return replace(scene, section=section, case=case), scene.spread, lambda name, unit: (None if name.rsplit(".", 1)[0] in gone else name, 1.0)
+
+
+def threads(dice, scene):
+    """Two threads: the same bytes."""
+    return replace(scene, threads=2), 0.0, same
+
+
+def resumed(dice, scene):
+    """Killed in its midst and resumed: the same bytes."""
+    return scene, 0.0, same
+
+
+# Relations, with the families whose scenes they are tried on.
+COLUMNS = ["oedometer_load", "oedometer_plate", "self_weight", "submerged"]
+GROUND = ["gravity", "dipping", "infinite_slope"]
+MOTION = ["impact", "incline"]
+ALL = [*COLUMNS, *GROUND, *MOTION, "rankine", "consolidation", "sunken"]
+RELATIONS = {
+    "shift": (shift, [*ALL, "rest", "shaft"]),
+    "mirror": (mirror, ALL),
+    "turn": (turn, ["oedometer_load", "oedometer_plate", "self_weight", *GROUND, *MOTION]),
+    "units": (units, [*ALL, "shaft"]),
+    "split_region": (split_region, [*COLUMNS[:3], "dipping", "rankine", "consolidation", "janssen"]),
+    "split_phase": (split_phase, ["oedometer_load", "oedometer_plate", "self_weight", *GROUND, "rankine", "shaft"]),
+    "more_air": (more_air, [*COLUMNS, *GROUND, "rankine", "consolidation"]),
+    "other_mesh": (other_mesh, [*COLUMNS, "dipping", "infinite_slope", "rankine", "consolidation", "sunken"]),
+    "elements": (elements, ["dipping", "infinite_slope", "impact", "gravity"]),
+    "smooth_walls": (smooth_walls, ["oedometer_load", "self_weight"]),
+    "threads": (threads, [*ALL, "janssen"]),
+    "resumed": (resumed, ["oedometer_plate", "self_weight", "rankine", "janssen", "impact", "incline", "consolidation"]),
+}
