@@ -11,7 +11,7 @@ use super::pressure;
 use super::relax::{self, Relaxed};
 use super::restore::{begin_anew, fill, take_weights};
 use super::scalars::{Carrier, Scalars};
-use super::scene::{Fixed, Scene};
+use super::scene::{Fixed, Prescribed, Restore, Scene};
 use super::state::State;
 use super::unknowns::Buffers;
 use crate::dofs::DofMap;
@@ -366,12 +366,43 @@ pub fn given_increments<const D: usize>(
         give(fixed, 0.0);
     }
     for prescribed in &scene.phases[state.phase].prescribed {
-        let from = if state.phase_time > 0.0 { prescribed.displacement.at(state.phase_time) } else { 0.0 };
-        give(&prescribed.fixed, prescribed.displacement.at(state.phase_time + dt) - from);
+        give(&prescribed.fixed, increment(prescribed, state, dt));
     }
     for fixed in &scene.phases[state.phase].held {
         give(fixed, 0.0);
     }
     field::give(scene, state, &grid.dofs, dt, &mut given);
     given
+}
+
+/// The increment (m) of a prescribed displacement in a step of size `dt`.
+fn increment<const D: usize>(prescribed: &Prescribed, state: &State<D>, dt: f64) -> f64 {
+    let from = if state.phase_time > 0.0 { prescribed.displacement.at(state.phase_time) } else { 0.0 };
+    prescribed.displacement.at(state.phase_time + dt) - from
+}
+
+/// Moves the nodes far from all material of curves that are moved and reach to it: a curve stays whole.
+pub fn move_whole_curves<const D: usize>(
+    scene: &Scene<D>,
+    state: &State<D>,
+    grid: &Grid<D>,
+    dt: f64,
+    displacement: &mut [[f64; D]],
+) {
+    let is_far = |n: &&u32| !grid.dofs.has(**n);
+    let reaches = |p: &&Prescribed| {
+        let far = p.fixed.nodes.iter().filter(is_far).count();
+        far > 0 && far < p.fixed.nodes.len()
+    };
+    let mut curves = scene.phases[state.phase].prescribed.iter().filter(reaches).peekable();
+    if scene.numerics.restore == Restore::Never || curves.peek().is_none() {
+        return;
+    }
+    let following = scene.following(state.phase);
+    for prescribed in curves {
+        let (by, d) = (increment(prescribed, state, dt), prescribed.fixed.component);
+        for &n in prescribed.fixed.nodes.iter().filter(is_far).filter(|n| following.get(**n as usize) == Some(&true)) {
+            displacement[n as usize][d] = state.displacement[n as usize][d] + by;
+        }
+    }
 }

@@ -266,6 +266,7 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
     fn convect(&mut self, dt: f64, (start, mut solution): Lagrange<D>, answers: Answers) -> Result<Report<D>> {
         let (scene, state) = (self.scene, &mut self.state);
         rigid::follow(scene, state, &mut solution.displacement);
+        grid::move_whole_curves(scene, state, &self.grid, dt, &mut solution.displacement);
         let mut momentum = report::Motion::of(state).linear;
         let content = water::content(scene, state);
         let drained = water::through_surfaces(scene, &self.grid, state, &solution, dt);

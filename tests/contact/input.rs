@@ -52,6 +52,20 @@ fn regions_in_contact_are_there_and_of_the_right_kind() {
     }
 }
 
+/// Two contacts of the same pair would act twice, whether all of what they touch is the same or a part; where phases have one of them at a time,
+/// they are two interfaces.
+#[test]
+fn a_contact_given_twice_is_refused() {
+    let contact = "  - {structure: plate, soil: soil}\n";
+    let twice = "  - {name: a, structure: plate, soil: soil, adhesion: 1}\n  - {name: b, structure: plate}\n";
+    let folder = scene(&[(contact, twice)]);
+    let says = ["contacts[1]", "contacts[0] has `plate` on `soil` already", "in phase `press`", "deactivate one"];
+    refused(folder.path(), &["check"], 2, &says);
+    refused(folder.path(), &["run"], 2, &says);
+    let apart = ("    duration: 1\n", "    duration: 1\n    deactivate: [b]\n");
+    succeeds(&mpm(scene(&[(contact, twice), apart]).path(), &["check"]));
+}
+
 /// A structure in the grid that no contact names passes through the soil: that is told before it does. One that is beside the grid, held
 /// by shared curves or never there does not.
 #[test]

@@ -104,9 +104,10 @@ fn walls_that_cannot_be_are_told() {
     let refused = |overrides: &[&str], words: &[&str]| refused(WALL, overrides, words);
     refused(&["contacts=[{wall: slop, soil: soil}]"], &["no physical curve `slop`", "did you mean `slope`?"]);
     refused(&["contacts=[{soil: soil}]"], &["contacts[0]", "no structure", "wall: …"]);
-    refused(&["contacts=[{wall: slope}]"], &["contacts[0]", "nothing that is touched"]);
     refused(&["contacts=[{wall: slope, structure: soil, soil: soil}]"], &["both a structure and a wall"]);
     refused(&["contacts=[{wall: slope, against: soil}]"], &["of kind mpm, not structure or fem"]);
+    // Without soil there is nothing that a contact could mean by all of it.
+    super::refused(BODY, &["contacts=[{wall: slope}]"], &["contacts[0]", "nothing that is touched"]);
     let both = "regions={soil: {kind: mpm, material: rock}, air: {kind: mpm, material: rock}}";
     refused(
         &[both, "output.history=[]", "contacts=[{wall: side, soil: [soil, air]}]"],

@@ -13,6 +13,7 @@ mod footings;
 mod ghost;
 mod incompressible;
 mod invariance;
+mod moved_curves;
 mod nodal_field;
 mod output_field;
 mod patch;

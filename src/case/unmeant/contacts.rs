@@ -140,3 +140,72 @@ fn held_along(case: &Case, mesh: &Mesh<2>, name: &str, wall: &Group) -> Option<S
          nothing; take that curve out of `supports`"
     ))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::case::{Keys, source::Source};
+    use crate::mesh::builder::rectangle;
+    use crate::mesh::shape::CellKind;
+    use std::path::PathBuf;
+
+    /// What is told of clay 1 m thick on 1 m of sand, 4 m wide, and a footing on it that goes down by `way` (m).
+    fn told(contacts: &str, supports: &str, way: f64) -> Vec<String> {
+        let text = format!(
+            "geometry: plane_strain\nmesh: {{geo: Cargo.toml}}\nregions: {{clay: {{kind: mpm, material: soil}}, sand: {{kind: mpm, material: soil}}, \
+             footing: {{kind: structure, material: soil, rigid: true}}}}\n\
+             materials: {{soil: {{model: linear_elastic, young: 1, poisson: 0, density: 1}}}}\ncontacts: {contacts}\n{supports}\n\
+             phases: [{{name: push, analysis: quasi_static, duration: 1, step: {{initial: 1}}, prescribe: {{footing: {{ux: 0, uy: {{rate: -{way}}}}}}}}}]\n"
+        );
+        let source = Source::parse(PathBuf::from("case.yaml"), text, &[]).unwrap();
+        let (case, issues) = Keys::default().resolve(&source);
+        assert!(issues.is_empty(), "{issues:?}");
+        let mut mesh = rectangle(CellKind::T6, 4.0, 2.0, 8, 4, 0.0, 0);
+        for c in 0..mesh.cells.len() {
+            mesh.cells.region[c] = u16::from(mesh.centre(c)[1] < 1.0);
+        }
+        let body = rectangle(CellKind::T6, 1.0, 0.5, 2, 1, 0.0, 0);
+        let first = mesh.nodes.len() as u32;
+        mesh.nodes.extend(body.nodes.iter().map(|x| [x[0] + 1.0, x[1] + 2.0]));
+        for c in 0..body.cells.len() {
+            let nodes: Vec<u32> = body.cells.nodes(c).iter().map(|n| n + first).collect();
+            mesh.cells.push(CellKind::T6, 2, &nodes);
+        }
+        mesh.regions = ["clay", "sand", "footing"].map(String::from).to_vec();
+        let floor = Group { name: "floor".into(), ..mesh.group("bottom").unwrap().clone() };
+        mesh.groups.push(floor);
+        on_mesh(&case.unwrap(), &mesh)
+    }
+
+    #[test]
+    fn soil_on_the_way_of_a_structure_that_no_contact_names_is_told() {
+        for contacts in ["[{structure: footing}]", "[{structure: footing, soil: [clay, sand]}]"] {
+            assert!(told(contacts, "", 1.5).is_empty(), "{contacts}");
+        }
+        let clay = "[{structure: footing, soil: clay}]";
+        assert!(told(clay, "", 0.5).is_empty());
+        for way in [1.0, 1.5] {
+            let [sand] = told(clay, "", way).try_into().unwrap();
+            assert!(sand.contains("the soil `sand` lies on the way of the structure `footing`"), "{sand}");
+        }
+        assert!(told("[{structure: footing, soil: clay}, {structure: footing, soil: sand}]", "", 1.5).is_empty());
+    }
+
+    #[test]
+    fn soil_at_a_wall_and_supports_along_it_are_told() {
+        let footing = "{structure: footing}";
+        assert!(told(&format!("[{footing}, {{wall: bottom, soil: sand}}]"), "", 0.5).is_empty());
+        let [clay] = told(&format!("[{footing}, {{wall: left, soil: sand}}]"), "", 0.5).try_into().unwrap();
+        assert!(clay.contains("the soil `clay` lies at the wall `left`"), "{clay}");
+        let bottom = format!("[{footing}, {{wall: bottom}}]");
+        assert!(told(&bottom, "supports: {left: {ux: 0}}", 0.5).is_empty());
+        // A support of a wall's own name is one of the wall.
+        assert!(told(&bottom, "supports: {left: {ux: 0}, bottom: {uy: 0}}", 0.5).is_empty());
+        let floor = |held: &str| {
+            told(&format!("[{footing}, {{wall: floor}}]"), &format!("supports: {{bottom: {{{held}}}}}"), 0.5)
+        };
+        assert!(floor("ux: 0").is_empty());
+        let [held] = floor("uy: 0").try_into().unwrap();
+        assert!(held.contains("supports hold the soil along the wall `floor`"), "{held}");
+    }
+}

@@ -199,3 +199,100 @@ fn begin_anew(case: &Case, k: usize) -> Vec<String> {
 fn one<'a, T>(mut loads: impl Iterator<Item = &'a T>) -> Option<&'a T> {
     loads.next().filter(|_| loads.next().is_none())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::case::{Keys, source::Source};
+    use crate::mesh::builder::rectangle;
+    use crate::mesh::shape::CellKind;
+    use std::path::PathBuf;
+
+    /// A case of a block with the entries of a case, and its phases, of a second each.
+    fn case(entries: &str, phases: &[&str]) -> Case {
+        let phase = |(k, more): (usize, &&str)| {
+            format!("  - {{name: p{k}, analysis: quasi_static, duration: 1, step: {{initial: 1}}{more}}}\n")
+        };
+        let phases: String = phases.iter().enumerate().map(phase).collect();
+        let text = format!(
+            "geometry: axisymmetric\nmesh: {{geo: Cargo.toml}}\nregions: {{clay: {{kind: mpm, material: clay}}}}\n\
+             materials: {{clay: {{model: linear_elastic, young: 1, poisson: 0, density: 1}}}}\n{entries}\nphases:\n{phases}"
+        );
+        let source = Source::parse(PathBuf::from("case.yaml"), text, &[]).unwrap();
+        let (case, issues) = Keys::default().resolve(&source);
+        assert!(issues.is_empty(), "{issues:?}");
+        case.unwrap()
+    }
+
+    const GRAVITY: &str = "gravity: {y: -9.81}";
+
+    #[test]
+    fn tables_beyond_the_end_of_their_phase_are_told() {
+        let load = |table: &str| {
+            of_case(&case("", &["", &format!(", tractions: [{{surface: all, ty: {{table: {table}}}}}]")]))
+        };
+        for table in ["[[0, 0], [1, -80]]", "[[0, 0], [0.5, -80]]", "[[0, -80]]"] {
+            assert!(load(table).is_empty(), "{table}");
+        }
+        let [after] = load("[[4, 0], [5, -80]]").try_into().unwrap();
+        assert!(
+            after.contains("phase `p1`: the table of `ty` of the load on the surface of `all` goes to 5 s")
+                && after.contains("the value is 0 throughout"),
+            "{after}"
+        );
+        let [cut] = load("[[0, 0], [2, -80]]").try_into().unwrap();
+        assert!(cut.contains("at the end the value is -40, and -80 is not reached"), "{cut}");
+        let water = case("water: {level: {table: [[0, 4], [3, 1]]}}", &[""]);
+        assert!(of_case(&water)[0].contains("the table of the water level goes to 3 s"), "{:?}", of_case(&water));
+    }
+
+    #[test]
+    fn loads_that_begin_anew_are_told_and_no_others() {
+        let gravity = |first: &str, second: &str| of_case(&case(GRAVITY, &[first, second]));
+        for second in ["", ", gravity: 2", ", gravity: {table: [[0, 1], [1, 2]]}"] {
+            assert!(gravity(", gravity: {rate: 1}", second).is_empty(), "{second}");
+        }
+        let [anew] = gravity(", gravity: {rate: 1}", ", gravity: {rate: 1}").try_into().unwrap();
+        assert!(
+            anew.contains("phase `p1`: the factor on gravity begins with 0, and phase `p0` has ended with 1")
+                && anew.contains("{table: [[0, 1], [1, 2]]}"),
+            "{anew}"
+        );
+        let k0 = case(&format!("{GRAVITY}\ninitial_stress: {{k0: 1}}"), &[", gravity: {rate: 1}"]);
+        assert!(of_case(&k0)[0].contains("the initial stress is that under gravity"), "{:?}", of_case(&k0));
+        let loads = |first: &str, second: &str| {
+            of_case(&case(
+                "",
+                &[first, second]
+                    .map(|load| format!(", tractions: [{{surface: all, {load}}}]"))
+                    .each_ref()
+                    .map(|p| &**p),
+            ))
+        };
+        assert!(loads("ty: {rate: -40}", "ty: -40").is_empty() && loads("ty: {rate: -40}", "tx: {rate: 1}").is_empty());
+        assert!(loads("ty: {rate: -40}, where: {x: [0, 1]}", "ty: {rate: -40}").is_empty());
+        let [anew] = loads("ty: {rate: -40}", "ty: {rate: -10}").try_into().unwrap();
+        assert!(
+            anew.contains("begins with 0") && anew.contains("ended with -40") && anew.contains("[1, -50]"),
+            "{anew}"
+        );
+        let level = case("water: {level: {table: [[0, 4], [1, 1]]}}", &["", ""]);
+        let [anew] = of_case(&level).try_into().unwrap();
+        assert!(anew.contains("the water level begins with 4") && anew.contains("ended with 1"), "{anew}");
+        let [nothing] = of_case(&case("", &[", gravity: {rate: 1}"])).try_into().unwrap();
+        assert!(nothing.contains("there is no gravity"), "{nothing}");
+    }
+
+    #[test]
+    fn loads_on_curves_that_take_up_none_are_told() {
+        let mut mesh = rectangle(CellKind::T6, 1.0, 1.0, 2, 2, 0.0, 0);
+        mesh.regions = vec!["clay".into()];
+        let entries = "supports: {left: {ux: 0}, bottom: {uy: 0}}\nnumerics: {restore: never}";
+        let told = |load: &str| on_mesh(&case(entries, &[&format!(", tractions: [{load}]")]), &mesh);
+        assert!(told("{on: top, ty: -1}").is_empty() && told("{on: bottom, tx: 1}").is_empty());
+        let [axis] = told("{on: left, ty: -1}").try_into().unwrap();
+        assert!(axis.contains("the traction on `left` does nothing") && axis.contains("axis of symmetry"), "{axis}");
+        let [held] = told("{on: bottom, tx: 1, ty: -1}").try_into().unwrap();
+        assert!(held.contains("`ty` of the traction on `bottom` does nothing to the soil"), "{held}");
+    }
+}
