@@ -126,7 +126,7 @@ fn reach(case: &Case, body: &Mesh<2>, name: &str) -> Option<f64> {
 }
 
 /// The largest amount of a value until `end`: it is linear between its kinks.
-fn farthest(value: &TimeValue, end: f64) -> f64 {
+pub(super) fn farthest(value: &TimeValue, end: f64) -> f64 {
     value.kinks().filter(|t| *t < end).chain([0.0, end]).map(|t| value.at(t).abs()).fold(0.0, f64::max)
 }
 

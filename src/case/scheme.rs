@@ -2,13 +2,13 @@
 
 use super::check::Checker;
 use super::checked::{self, Case, Content, Order, Phase, Restore, Source, Touching};
+use super::layout::farthest;
 use super::locate::{At, Path};
 use super::parts::carries;
 use crate::error::{Error, Result};
 use crate::interpolation::Basis;
 use crate::mesh::Mesh;
 use crate::mesh::shape::CellKind;
-use crate::time_value::TimeValue;
 use std::collections::HashSet;
 
 impl Checker {
@@ -128,35 +128,37 @@ pub(super) fn check(basis: &dyn Basis<2>, mesh: &Mesh<2>, fem: Option<&Mesh<2>>)
     Ok(())
 }
 
+/// How far (-) soil may move from a curve that stays in place, in cells: so much of the cells beside it is left.
+const LEFT: f64 = 0.5;
+
 /// Refuses to move a curve of a grid that is reset and that the scheme wants in its first shape: the soil on the curve would leave it.
 ///
 /// # Errors
-/// `Input`: the first such curve.
+/// `Input`: the first such curve that moves farther than half a cell.
 pub(super) fn check_moved_curves(case: &Case, grid: &Mesh<2>, fem: Option<&Mesh<2>>) -> Result<()> {
     let basis = case.numerics.basis;
     if !basis.wants_first_shape() || case.numerics.solver.restore == Restore::Never {
         return Ok(());
     }
-    let still = |value: &TimeValue| match value {
-        TimeValue::Constant(value) | TimeValue::Rate(value) => *value == 0.0,
-        TimeValue::Table(table) => table.iter().all(|[_, value]| *value == 0.0),
-    };
-    let is_wall =
-        |curve: &str| case.contacts.iter().any(|contact| contact.structure == Touching::Wall(curve.to_owned()));
-    let of_grid = |curve: &str| {
-        if is_wall(curve) {
-            return false;
-        }
-        grid.group(curve).is_some_and(|group| {
-            fem.is_none_or(|fem| !carries(fem, group)) && group.nodes.iter().any(|n| grid.cells.nodes.contains(n))
-        })
-    };
-    for phase in &case.phases {
-        if let Some(moved) = phase.prescribed.iter().find(|p| !still(&p.displacement) && of_grid(&p.curve)) {
+    let is_wall = |curve: &str| case.contacts.iter().any(|c| c.structure == Touching::Wall(curve.to_owned()));
+    let moved = case.phases.iter().flat_map(|phase| phase.prescribed.iter().map(move |moved| (phase, moved)));
+    for (phase, moved) in moved.filter(|(_, moved)| moved.component < 2 && !is_wall(&moved.curve)) {
+        let Some(curve) = grid.group(&moved.curve).filter(|curve| fem.is_none_or(|fem| !carries(fem, curve))) else {
+            continue;
+        };
+        let beside = (0..grid.cells.len()).filter(|&c| grid.cells.nodes(c).iter().any(|n| curve.nodes.contains(n)));
+        let length = |c: usize| {
+            let along = grid.cells.corners(c).iter().map(|&n| grid.nodes[n as usize][moved.component]);
+            let [low, high] = along.fold([f64::MAX, f64::MIN], |[low, high], x| [low.min(x), high.max(x)]);
+            high - low
+        };
+        let Some(cell) = beside.map(length).reduce(f64::min) else { continue };
+        let way = farthest(&moved.displacement, phase.duration);
+        if way > LEFT * cell {
             return Err(Error::input(
                 format!("the curve `{}` that phase `{}` moves", moved.curve, phase.name),
                 format!(
-                    "{} needs a grid that keeps its shape, and soil that moves would leave the curve",
+                    "{} needs a grid that keeps its shape, and the soil would leave the curve: it moves by {way:.3} m, in cells of {cell:.3} m",
                     basis.name()
                 ),
                 "move the soil by a rigid structure with a contact, set `restore: never` under `numerics`, or choose `gradient: mpm`",

@@ -138,7 +138,7 @@ fn the_history_of_a_curve_is_that_of_its_soil() {
 
 #[test]
 fn schemes_that_keep_the_grid_refuse_to_move_a_curve_of_it() {
-    let press = "{name: press, analysis: quasi_static, duration: 1, step: {initial: 0.1}, prescribe: {top: {uy: {rate: -0.1}}}}";
+    let press = "{name: press, analysis: quasi_static, duration: 1, step: {initial: 0.1}, prescribe: {top: {uy: {rate: -0.4}}}}";
     let folder = scene(2.0, press);
     let geo = "SetFactory(\"OpenCASCADE\");\nRectangle(1) = {0, 0, 0, 2, 2};\nTransfinite Curve{:} = 5;\nTransfinite Surface{:};\n\
         Recombine Surface{:};\nPhysical Surface(\"soil\") = {1};\nPhysical Curve(\"bottom\") = {1};\nPhysical Curve(\"top\") = {3};\n\

@@ -32,10 +32,14 @@ pub fn on_mesh(case: &Case, mesh: &Mesh<2>) -> Vec<String> {
             continue;
         }
         for region in met.difference(&named) {
+            let soil = &case.regions[*region];
+            let cure = match soil.content {
+                Content::Fem { .. } => format!("add a contact with `against: {}`", soil.name),
+                _ => "add it to the `soil` of the contact, or leave `soil` out, which means all".to_owned(),
+            };
             warnings.push(format!(
-                "warning: the soil `{}` {meeting} `{name}`, and no contact of `{name}` names it: it will pass through; add it to the `soil` of the \
-                 contact, or leave `soil` out, which means all",
-                case.regions[*region].name
+                "warning: the soil `{}` {meeting} `{name}`, and no contact of `{name}` names it: it will pass through; {cure}",
+                soil.name
             ));
         }
     }
@@ -45,14 +49,15 @@ pub fn on_mesh(case: &Case, mesh: &Mesh<2>) -> Vec<String> {
 fn soils(on: &Touched) -> Vec<usize> {
     match on {
         Touched::Soil(soils) => soils.clone(),
-        Touched::Body(_) => Vec::new(),
+        Touched::Body(body) => vec![*body],
     }
 }
 
-/// The region of material points that a cell belongs to, as an index into those of the case.
+/// The region of soil that a cell belongs to, of material points or finite elements, as an index into those of the case.
 fn soil_of(case: &Case, mesh: &Mesh<2>, c: usize) -> Option<usize> {
     let name = &mesh.regions[usize::from(mesh.cells.region[c])];
-    case.regions.iter().position(|r| r.name == *name && matches!(r.content, Content::Mpm { .. }))
+    let is_soil = |content: &Content| matches!(content, Content::Mpm { .. } | Content::Fem { .. });
+    case.regions.iter().position(|r| r.name == *name && is_soil(&r.content))
 }
 
 /// The box (m) around a cell.
@@ -66,7 +71,7 @@ fn meet(a: &Bounds, b: &Bounds, rounding: f64) -> bool {
     common.iter().all(|length| *length >= -rounding) && common.iter().any(|length| *length > rounding)
 }
 
-/// The soil that a structure lies in or at, or that the phases move it into.
+/// The soil that a structure lies in or at, or that the phases move it into, but for that which it shares nodes with.
 fn on_way(case: &Case, mesh: &Mesh<2>, name: &str, rounding: f64) -> BTreeSet<usize> {
     let body = mesh.part(|c| mesh.regions[usize::from(mesh.cells.region[c])] == name);
     let Some(all) = bounds(&body) else { return BTreeSet::new() };
@@ -74,15 +79,19 @@ fn on_way(case: &Case, mesh: &Mesh<2>, name: &str, rounding: f64) -> BTreeSet<us
     let swept = |[from, to]: Bounds| [[0, 1].map(|d| from[d] + low[d]), [0, 1].map(|d| to[d] + high[d])];
     let cells: Vec<Bounds> = (0..body.cells.len()).filter_map(|c| around(&body, c)).map(swept).collect();
     let all = swept(all);
-    let mut met = BTreeSet::new();
+    let own: BTreeSet<u32> = body.cells.nodes.iter().copied().collect();
+    let (mut met, mut joined) = (BTreeSet::new(), BTreeSet::new());
     for c in 0..mesh.cells.len() {
+        if mesh.cells.nodes(c).iter().any(|n| own.contains(n)) {
+            joined.extend(soil_of(case, mesh, c));
+        }
         let Some(soil) = soil_of(case, mesh, c).filter(|soil| !met.contains(soil)) else { continue };
         let Some(cell) = around(mesh, c).filter(|cell| meet(cell, &all, rounding)) else { continue };
         if cells.iter().any(|of_body| meet(&cell, of_body, rounding)) {
             met.insert(soil);
         }
     }
-    met
+    met.difference(&joined).copied().collect()
 }
 
 /// How far (m) the phases move a structure at least and at most in each direction, by what they prescribe.

@@ -12,6 +12,7 @@ const AXES: [&str; 2] = ["x", "y"];
 pub fn of_case(case: &Case) -> Vec<String> {
     let mut warnings: Vec<String> = (0..case.phases.len()).flat_map(|k| beyond(case, k)).collect();
     warnings.extend((0..case.phases.len()).flat_map(|k| begin_anew(case, k)));
+    warnings.extend(case.phases.iter().flat_map(twice));
     let idle = case.phases.iter().find(|phase| case.gravity == [0.0; 2] && phase.gravity != TimeValue::Constant(1.0));
     warnings.extend(idle.map(|phase| {
         format!(
@@ -59,9 +60,28 @@ fn is_axis(case: &Case, mesh: &Mesh<2>, curve: &Group) -> bool {
 fn is_held(case: &Case, phase: &Phase, mesh: &Mesh<2>, curve: &Group, direction: usize) -> bool {
     let supports = case.supports.iter().filter(|s| s.fixed[direction]).map(|s| &s.curve);
     let moved = phase.prescribed.iter().filter(|p| p.component == direction).map(|p| &p.curve);
-    let groups = supports.chain(moved).filter_map(|name| mesh.group(name));
-    let held: BTreeSet<u32> = groups.flat_map(|group| group.nodes.iter().copied()).collect();
+    let mut held = BTreeSet::new();
+    for name in supports.chain(moved) {
+        held.extend(mesh.group(name).iter().flat_map(|group| &group.nodes));
+        if case.content(name).is_some_and(|content| content.is_rigid()) {
+            held.extend(mesh.part(|c| mesh.regions[usize::from(mesh.cells.region[c])] == *name).cells.nodes);
+        }
+    }
     curve.nodes.iter().all(|n| held.contains(n))
+}
+
+/// A warning where a phase has the same load twice.
+fn twice(phase: &Phase) -> Vec<String> {
+    let said = |what: String| {
+        format!(
+            "warning: phase `{}`: {what} is given twice, the same each time, and acts twice; take one out",
+            phase.name
+        )
+    };
+    let curves = phase.tractions.iter().enumerate().filter(|(i, load)| phase.tractions[..*i].contains(load));
+    let surfaces = phase.surface_loads.iter().enumerate().filter(|(i, load)| phase.surface_loads[..*i].contains(load));
+    let curves = curves.map(|(_, load)| said(format!("the traction on `{}`", load.curve)));
+    curves.chain(surfaces.map(|_| said("a load on the surface".to_owned()))).collect()
 }
 
 /// What varies in the time of phase `k`, with what it is.
@@ -279,6 +299,10 @@ mod tests {
         let level = case("water: {level: {table: [[0, 4], [1, 1]]}}", &["", ""]);
         let [anew] = of_case(&level).try_into().unwrap();
         assert!(anew.contains("the water level begins with 4") && anew.contains("ended with 1"), "{anew}");
+        let load = "{surface: all, ty: -40}";
+        let two = |other: &str| of_case(&case("", &[&format!(", tractions: [{load}, {other}]")]));
+        assert!(two("{surface: all, ty: -41}").is_empty());
+        assert!(two(load)[0].contains("is given twice"), "{:?}", two(load));
         let [nothing] = of_case(&case("", &[", gravity: {rate: 1}"])).try_into().unwrap();
         assert!(nothing.contains("there is no gravity"), "{nothing}");
     }
