@@ -1,15 +1,15 @@
 #!/usr/bin/env python3
-"""Brings a plane mesh of another program into the pipeline: whatever meshio reads (Abaqus .inp, Exodus, MED,
-VTU, ...) becomes a Gmsh file whose named physical groups are the sets of the source.
+"""Converts a plane mesh of another program: whatever meshio reads (Exodus, VTU, Nastran, ...) becomes a Gmsh file whose
+named physical groups are the sets of the source. A case takes it as `mesh: {file: mesh.msh}`. Files of Abaqus (.inp) and
+MED (.med) it takes as they are.
 
-    .venv/bin/python pipeline/import_mesh.py SOURCE out/mesh.msh [--surface soil=3 --curve bottom=7 ...]
+    .venv/bin/python pipeline/import_mesh.py SOURCE mesh.msh [--surface soil=3 --curve bottom=7 ...]
 
 Sets of surface cells become physical surfaces, the regions of a case; sets of line cells become physical
 curves. Node sets become the physical curve of the cell edges whose nodes are all in the set. Sources that
 number their parts instead of naming them (VTU, MED without families, Gmsh 2) are named with --surface and
 --curve: NAME=NUMBER of the integer cell data found there. Cells of no set go into the region `domain`.
-Cells kept: triangles and quadrilaterals of first and second order. `mpm seed` and the later stages take it
-from there; `mpm mesh` would replace the file.
+Cells kept: triangles and quadrilaterals of first and second order.
 """
 
 import argparse
@@ -19,7 +19,6 @@ import tempfile
 
 import meshio
 import numpy as np
-from meshio.abaqus import _abaqus
 
 # Cell types of meshio by dimension, with their edges (corner, corner[, middle]).
 TRIANGLE = [(0, 1, 3), (1, 2, 4), (2, 0, 5)]
@@ -34,14 +33,6 @@ SURFACES = {
 LINES = {"line": 2, "line3": 3}
 # Element types of Gmsh.
 GMSH = {"line": 1, "line3": 8, "triangle": 2, "triangle6": 9, "quad": 3, "quad8": 16, "quad9": 10}
-
-
-# meshio knows few of Abaqus's plane and axisymmetric elements.
-PLANE = {"3": "triangle", "4": "quad", "6": "triangle6", "8": "quad8"}
-for family in ("CPE", "CPS", "CAX"):
-    for nodes, kind in PLANE.items():
-        for suffix in ("", "R", "H", "RH", "I", "IH", "M", "MH"):
-            _abaqus.abaqus_to_meshio_type.setdefault(family + nodes + suffix, kind)
 
 
 class Refused(Exception):
@@ -160,8 +151,14 @@ def main():
     parser.add_argument("--curve", action="append", default=[], metavar="NAME=NUMBER")
     arguments = parser.parse_args()
     try:
+        if arguments.source.lower().endswith((".inp", ".med")):
+            name = os.path.basename(arguments.source)
+            raise Refused(f"mpm reads it itself: write `mesh: {{file: {name}}}` in the case.yaml beside it, and run `mpm mesh`")
         try:
             mesh = meshio.read(arguments.source)
+        except ImportError as error:  # h5py, netCDF4
+            package = error.name or str(error)
+            raise Refused(f"meshio needs the package {package} for it: {sys.executable} -m pip install {package}") from None
         except (Exception, SystemExit) as error:  # its readers let anything through
             raise Refused(f"meshio cannot read it: {error}") from None
         points = np.zeros((len(mesh.points), 3))

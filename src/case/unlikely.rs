@@ -17,8 +17,8 @@ const OF_SOIL: f64 = 12.0;
 const UNIT_WEIGHT: RangeInclusive<f64> = 1.0..=250.0;
 /// Young's modulus (kPa) near that of diamond.
 const STIFFEST: f64 = 1e9;
-/// Angle of friction (degrees) that is rather one in radians.
-const RADIANS: f64 = 3.0;
+/// Angles of friction (degrees) that are rather in radians; less is none on purpose.
+const RADIANS: RangeInclusive<f64> = 0.1..=3.0;
 /// Coefficient of friction (-) of a contact that is rather an angle: tan 45°.
 const STEEP: f64 = 1.0;
 /// Permeability (m/s) above that of coarse gravel.
@@ -77,12 +77,9 @@ fn of_material(name: &str, material: &raw::Material, file: &CaseFile, is_soil: b
     if let Some(young) = parameter("young").filter(|young| is_soil && *young > STIFFEST) {
         warn("young", &format!("{young:e} kPa, stiffer than diamond"), "stiffnesses are in kPa: 1 kPa is 1000 Pa");
     }
-    if let Some(friction) = parameter("friction").filter(|friction| 0.0 < *friction && *friction < RADIANS) {
+    if let Some(friction) = parameter("friction").filter(|friction| RADIANS.contains(friction)) {
         let degrees = friction.to_degrees();
-        let remedy = match degrees < 90.0 {
-            true => format!("angles are in degrees: write {degrees:.1} if it is in radians"),
-            false => "angles are in degrees".to_owned(),
-        };
+        let remedy = format!("angles are in degrees: {friction} rad is {degrees:.1}°");
         warn("friction", &format!("{friction}°, less than any soil has"), &remedy);
     }
     if let Some(k) = material.permeability.map(raw::Permeability::by_axis).filter(|k| k.iter().any(|k| *k > PERMEABLE))
@@ -158,7 +155,11 @@ mod tests {
             ),
             ("density: 1.9", "density: 0.05", "is 0.05 t/m³"),
             ("density: 1.9", "density: 18", "is 18 t/m³, which no soil has; write `unit_weight`"),
-            ("friction: 30", "friction: 0.52", "is 0.52°, less than any soil has; angles are in degrees: write 29.8"),
+            (
+                "friction: 30",
+                "friction: 0.52",
+                "is 0.52°, less than any soil has; angles are in degrees: 0.52 rad is 29.8°",
+            ),
             ("young: 3.0e+4", "young: 3.0e+10", "is 3e10 kPa"),
             ("permeability: 1.0e-6", "permeability: {x: 20, y: 0}", "is 20 m/s, more than gravel has"),
             (
@@ -176,6 +177,7 @@ mod tests {
         for [entry, other] in [
             ["density: 1.9", "density: 0"],
             ["friction: 30", "friction: 0"],
+            ["friction: 30", "friction: 0.057"],
             ["friction: 0.36", "friction: 1"],
             ["friction: 0.36", "friction: 0"],
         ] {

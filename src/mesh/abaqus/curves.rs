@@ -54,7 +54,7 @@ pub fn of(model: &mut Model, regions: &Regions) -> Vec<Group> {
     }
     for ((instance, key), set) in &model.element_sets {
         let lines = set.members.iter().map(|&e| &model.elements[e as usize]).filter(|element| !element.is_cell());
-        let facets = lines.map(|line| line.nodes.clone()).collect();
+        let facets = lines.map(|line| edge_of(&edges, &line.nodes)).collect();
         let twice = model.element_sets.keys().any(|(other, name)| other != instance && name == key);
         keep(&mut found, Group { name: called(model, *instance, &set.name, twice), facets });
     }
@@ -113,6 +113,14 @@ fn edges(model: &Model) -> Edges {
         }
     }
     edges
+}
+
+/// The nodes of a line in the order of the edge of a cell that it is, ends first: programs number the middle one second or last.
+fn edge_of(edges: &Edges, line: &[u32]) -> Vec<u32> {
+    let is_same = |edge: &&Edge| line.iter().all(|n| edge.nodes.contains(n));
+    let ends = [[0, 1], [0, line.len() - 1]].map(|[a, b]| ends(&[line[a], line[b]]));
+    let edge = ends.iter().filter_map(|ends| edges.get(ends)).find(is_same);
+    edge.map_or_else(|| line.to_vec(), |edge| edge.nodes.clone())
 }
 
 /// The edges whose nodes are all in a set, those on boundaries of regions first, and inner ones only where nodes of the set are on no other; or
