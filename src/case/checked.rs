@@ -80,6 +80,9 @@ pub trait Feature: fmt::Debug + Send + Sync {
     /// Whether the surface of the material points must be known.
     fn needs_surface(&self) -> bool;
 
+    /// The surface that it drains, if it does.
+    fn drains(&self) -> Option<Surface>;
+
     /// Its terms on the grid.
     ///
     /// # Errors

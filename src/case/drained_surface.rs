@@ -45,6 +45,10 @@ impl Keyed for DrainedSurface {
         true
     }
 
+    fn drains(&self) -> Option<Surface> {
+        Some(self.0)
+    }
+
     fn terms<K: Kinematics<2>>(&self, site: &Site) -> Terms {
         let Some(unit) = site.pressure_unit else { return Ok(Vec::new()) };
         let Site { case, mesh, .. } = site;

@@ -91,6 +91,12 @@ impl Checker {
     }
 }
 
+/// Whether the pores of a material are drained. One that is nearly incompressible in total stress has water in its pores that does not leave.
+pub(super) fn drains(material: &raw::Material, model: &Arc<dyn Model>) -> bool {
+    let drained = || model.elasticity().poisson() < NEARLY_INCOMPRESSIBLE;
+    material.drainage.map_or_else(drained, |drainage| drainage == raw::Drainage::Drained)
+}
+
 /// What of the limit of the mean tension the field bears with a bulk modulus of `ratio` (-), in shear moduli, beside that of the points.
 fn share(values: &BTreeMap<&str, Profile>, ratio: f64) -> Option<Profile> {
     values.get(cavitation::NAME).map(|limit| limit.scaled(ratio / (ratio + KEPT)))

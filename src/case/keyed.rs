@@ -6,7 +6,7 @@
 //! and the scene follow from the list. `tests/terms/keyed.rs` is a whole one, defined outside the crate.
 
 use super::check::Checker;
-use super::checked::{Feature, Geometry, Site};
+use super::checked::{Feature, Geometry, Site, Surface};
 use super::issue::Issue;
 use super::locate::{At, Path, Step};
 use super::raw::{CaseFile, Product};
@@ -57,6 +57,11 @@ pub trait Keyed: fmt::Debug + Send + Sync + Sized + 'static {
         false
     }
 
+    /// The surface that the entry drains, if it does.
+    fn drains(&self) -> Option<Surface> {
+        None
+    }
+
     /// The terms on the background grid. They see its material points, and all nodes, those of finite elements too.
     ///
     /// # Errors
@@ -91,6 +96,10 @@ impl<T: Keyed> Feature for T {
 
     fn needs_surface(&self) -> bool {
         Keyed::needs_surface(self)
+    }
+
+    fn drains(&self) -> Option<Surface> {
+        Keyed::drains(self)
     }
 
     fn terms(&self, site: &Site) -> Terms {

@@ -3,6 +3,7 @@
 
 use super::check::Checker;
 use super::checked::Material;
+use super::incompressible::drains;
 use super::locate::{At, Path};
 use super::raw::{self, InDepth};
 use super::structure::suggest;
@@ -29,8 +30,17 @@ impl Checker {
         let (model, carried) = self.model(material, pressure, path)?;
         let random_strength = self.random_strength(material, path);
         let porous = self.porous(material, &model, path);
-        let model_name = material.model.clone();
-        Some(Material { name: name.to_owned(), model_name, density: density?, model, random_strength, carried, porous })
+        let drains = drains(material, &model);
+        Some(Material {
+            name: name.to_owned(),
+            model_name: material.model.clone(),
+            density: density?,
+            model,
+            random_strength,
+            carried,
+            porous,
+            drains,
+        })
     }
 
     /// The field of strength of a material whose strength varies at random.

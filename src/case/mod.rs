@@ -5,6 +5,7 @@
 //! against the groups of the mesh. An entry with terms of its own is a file that implements [`keyed::Keyed`], and a line in the list
 //! of [`Keys`].
 
+pub mod at_rest;
 mod changes;
 mod check;
 pub mod checked;
@@ -12,6 +13,7 @@ mod contact_interfaces;
 mod contacts;
 mod controls;
 mod drained_surface;
+mod drains;
 mod find;
 mod incompressible;
 pub mod issue;

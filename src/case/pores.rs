@@ -186,7 +186,10 @@ pub(super) fn water(case: &Case, mesh: &Mesh<2>) -> Result<Option<Water>> {
     }
     drained.sort_unstable();
     drained.dedup();
-    Ok(Some(Water { porous, alone: changes::used(case).all(|(_, m)| m.carried.is_none()), drained }))
+    let structures = changes::of_structures(case, mesh);
+    let drains = changes::by_number(case, mesh, |material| material.drains.then_some(()))?;
+    let drains = drains.iter().zip(structures).map(|(drains, structure)| drains.is_some() && !structure).collect();
+    Ok(Some(Water { porous, alone: changes::used(case).all(|(_, m)| m.carried.is_none()), drains, drained }))
 }
 
 /// Whether water flows in a phase.

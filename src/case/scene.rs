@@ -63,7 +63,7 @@ pub fn solve(
     check(case, &mesh, &points)?;
     let places = unconnected::places(&mesh);
     let warnings =
-        [unconnected::structures(case, &places), unmeant::of_case(case, &places), unmeant::on_mesh(case, &mesh)];
+        [unconnected::structures(case, &places), unmeant::of_case(case, &places), unmeant::on_mesh(case, &mesh)?];
     let mut warnings = warnings.concat();
     warnings.extend(begin.start.map(Start::note));
     let parts = parts::points(case, &mesh, points);

@@ -3,12 +3,12 @@
 use super::checked::{Case, Content, Geometry};
 use super::find::region_index;
 use super::over_depth::check_over_depth;
-use super::{changes, layout};
+use super::{at_rest, changes, layout};
 use crate::error::{Error, Result};
-use crate::material::{Profile, State, is_beyond_yield, odd_poisson, on_poisson, spatial};
+use crate::material::{State, is_beyond_yield, odd_poisson, on_poisson, spatial};
 use crate::mesh::Mesh;
 use crate::points::Points;
-use crate::seed::{QUADRATURE, RegionSeed, RegionWeight, k0_stress, seed};
+use crate::seed::{QUADRATURE, RegionSeed, seed};
 
 /// Fills the regions of `case` in `mesh`, whose groups its names have been held against.
 ///
@@ -141,27 +141,9 @@ fn check_random_strength(case: &Case, mesh: &Mesh<2>, points: &Points<2>) -> Res
 /// Gives the points the stress of soil at rest, with the elastic strain that carries it; their shape stays
 /// the one they are seeded with, so that Kirchhoff and Cauchy stress are the same.
 fn rest(case: &Case, mesh: &Mesh<2>, filled: &[Filled], k0: f64, points: &mut Points<2>) -> Result<()> {
-    let g = -case.gravity[1];
-    let soils = || filled.iter().filter(|f| !matches!(case.regions[f.index].content, Content::Structure { .. }));
-    let weights: Vec<_> = soils()
-        .map(|Filled { seed, .. }| RegionWeight { region: seed.region, unit_weight: seed.density.scaled(g) })
-        .collect();
-    points.stress = k0_stress(mesh, &weights, k0, points)?;
-    if let Some(water) = &case.water {
-        // What stands on the ground presses evenly on what is below it.
-        let unit = |f: &RegionWeight| RegionWeight { region: f.region, unit_weight: Profile::constant(1.0) };
-        let above = k0_stress(mesh, &weights.iter().map(unit).collect::<Vec<_>>(), 0.0, points)?;
-        let soil = |r: u16| weights.iter().any(|w| w.region == r);
-        for p in (0..points.len()).filter(|&p| soil(points.region[p])) {
-            let pressure = water.at_first(points.position[p][1] - above[p][1]);
-            points.stress[p][..3].iter_mut().for_each(|s| *s -= pressure);
-            if let Some(pore_pressure) = water.in_pores_at_first(points.position[p][1]) {
-                let effective = points.stress[p][1] + pore_pressure;
-                points.stress[p] = [k0 * effective, effective, k0 * effective, 0.0, 0.0, 0.0];
-            }
-        }
-    }
-    for Filled { material, seed, .. } in soils() {
+    points.stress = at_rest::stress(case, mesh, k0, points)?;
+    let soils = filled.iter().filter(|f| !case.regions[f.index].content.is_structure());
+    for Filled { material, seed, .. } in soils {
         let model = &*case.materials[*material].model;
         for p in (0..points.len()).filter(|&p| points.region[p] == seed.region) {
             points.elastic[p] = spatial::elastic_from_stress(model, points.seeded_height(p), &points.stress[p]);

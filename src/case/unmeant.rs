@@ -8,7 +8,8 @@ mod loads;
 use super::checked::{Case, Content, Phase, Touched, Touching};
 use super::layout::{Bounds, bounds, gap, moves};
 use super::unconnected::Place;
-use super::unlikely;
+use super::{at_rest, drains, unlikely};
+use crate::error::Result;
 use crate::geometry::box_around;
 use crate::mesh::quality::SAME;
 use crate::mesh::{Mesh, cell_size};
@@ -40,7 +41,8 @@ pub fn of_case(case: &Case, places: &[Place]) -> Vec<String> {
         )
     });
     let strange = case.unlikely.iter().cloned().chain(unlikely::extents(case, places));
-    strange.chain(loose).chain(room(case, places)).chain(loads::of_case(case)).collect()
+    let told = strange.chain(loose).chain(room(case, places)).chain(above_water(case, places));
+    told.chain(loads::of_case(case)).collect()
 }
 
 /// A warning for each structure that is pressed down into soil that has no cells to heave into.
@@ -72,25 +74,42 @@ fn room(case: &Case, places: &[Place]) -> Vec<String> {
     pressed.map(warning).collect()
 }
 
+/// A warning for each region of undrained soil that reaches above the level of the water in the pores.
+fn above_water(case: &Case, places: &[Place]) -> Vec<String> {
+    let level = case.water.as_ref().and_then(|water| water.phreatic.as_ref()?.first().map(|level| level.at(0.0)));
+    let Some(level) = level else { return Vec::new() };
+    let reaches = |place: &&Place| place.bounds[1][1] - level > SAME * (place.bounds[1][1] - place.bounds[0][1]);
+    let is_undrained = |place: &&Place| {
+        let soil = case.content(&place.name).filter(|content| !content.is_structure());
+        let material = soil.and_then(|content| content.material());
+        material.is_some_and(|material| case.materials[material].has_pore_pressure())
+    };
+    let warning = |place: &Place| {
+        format!(
+            "warning: the undrained soil `{}` reaches {:.3} m above the `phreatic_level` at y = {level} m: its pores count as full of water there, \
+             too, and take excess pressure; if they are not, make that part a region of its own with a drained material",
+            place.name,
+            place.bounds[1][1] - level
+        )
+    };
+    places.iter().filter(is_undrained).filter(reaches).map(warning).collect()
+}
+
 /// Whether a phase moves the rigid structure `name` downwards.
 fn sinks(phase: &Phase, name: &str) -> bool {
     let motions = phase.prescribed.iter().filter(|p| p.curve == name && p.component == 1);
     motions.into_iter().any(|p| p.displacement.at(phase.duration) < 0.0)
 }
 
-/// Whether a case has anything that [`on_mesh`] looks at.
-pub fn looks_at_mesh(case: &Case) -> bool {
-    let is_on_soil = |contact: &super::checked::Contact| {
-        matches!((&contact.structure, &contact.on), (Touching::Structure(_), Touched::Soil(_)))
-    };
-    let is_wall = |contact: &super::checked::Contact| matches!(contact.structure, Touching::Wall(_));
-    let loaded = case.phases.iter().any(|phase| !phase.tractions.is_empty());
-    loaded || case.contacts.iter().any(|contact| is_on_soil(contact) || is_wall(contact))
-}
-
-/// What shows on the mesh.
-pub fn on_mesh(case: &Case, mesh: &Mesh<2>) -> Vec<String> {
-    [coarse(case, mesh), contacts::on_mesh(case, mesh), loads::on_mesh(case, mesh)].concat()
+/// What shows on the mesh: cells and steps that are too coarse, contacts and loads that act on nothing, an initial stress that is not in
+/// equilibrium, water that cannot leave.
+///
+/// # Errors
+/// Input: a region that the mesh has not.
+pub fn on_mesh(case: &Case, mesh: &Mesh<2>) -> Result<Vec<String>> {
+    let of_rest: Vec<String> = at_rest::imbalance(case, mesh)?.into_iter().collect();
+    let of_water = drains::on_mesh(case, mesh)?;
+    Ok([coarse(case, mesh), contacts::on_mesh(case, mesh), loads::on_mesh(case, mesh), of_rest, of_water].concat())
 }
 
 /// Cells and steps that are too coarse for the structures that move in soil, and ways that lead out of the grid.
@@ -254,7 +273,7 @@ mod tests {
     fn coarse_cells_and_long_steps_are_told_with_numbers_and_cure() {
         let told = |wide, step| {
             let (case, mesh) = footing(wide, "", step);
-            on_mesh(&case, &mesh)
+            on_mesh(&case, &mesh).unwrap()
         };
         assert!(told(8, 0.05).is_empty() && told(4, 0.25).is_empty(), "{:?}", told(4, 0.25));
         let [coarse] = told(3, 0.05).try_into().unwrap();
@@ -270,7 +289,7 @@ mod tests {
     fn a_way_that_leads_out_of_the_grid_is_told() {
         let (mut case, mesh) = footing(8, "", 0.05);
         case.phases[0].duration = 2.5;
-        let [far] = on_mesh(&case, &mesh).try_into().unwrap();
+        let [far] = on_mesh(&case, &mesh).unwrap().try_into().unwrap();
         assert!(far.contains("moves `footing` down to y = -0.500 m, and the grid ends at y = 0.000 m"), "{far}");
     }
 

@@ -38,8 +38,8 @@ pub fn run(args: &Args, keys: &Keys) -> Outcome {
     }
     if let Some(sound) = sound {
         let mesh = given.map_or_else(|| mesh::generated(&sound.mesh, &args.limits), Ok)?;
-        let found = unmeant::on_mesh(&sound, &mesh);
-        warnings += found.len();
+        let found = unmeant::on_mesh(&sound, &mesh)?;
+        warnings += found.iter().filter(|text| text.starts_with(WARNING)).count();
         found.iter().for_each(|text| note(text));
         unconnected::nodes(&sound, &mesh).iter().for_each(|text| note(text));
         let points = seeding::points(&sound, &mesh)?;

@@ -114,7 +114,7 @@ pub fn work(stage: &Stage, gmsh: &Gmsh) -> Outcome {
     record.finish(stage.folder(), &[stage.mesh()])?;
     record.write(stage.folder())?;
     print(&format!("{}\n{summary}\n", stage.mesh().display()))?;
-    unmeant::on_mesh(case, &mesh).iter().for_each(|warning| note(warning));
+    unmeant::on_mesh(case, &mesh)?.iter().for_each(|text| note(text));
     unconnected::nodes(case, &mesh).iter().try_for_each(|note| print(&format!("{note}\n")))
 }
 

@@ -23,12 +23,12 @@ pub fn print(text: &str) -> Outcome {
     }
 }
 
-/// Prints a line on standard error, where progress and notes go; nobody may be listening. A warning is told once by a process: the stages of
-/// `mpm run` look at the same case.
+/// Prints a line on standard error, where progress and notes go; nobody may be listening. Warnings and notes on a case are told once by a
+/// process: the stages of `mpm run` look at the same one.
 pub fn note(text: &str) {
     static TOLD: Mutex<BTreeSet<String>> = Mutex::new(BTreeSet::new());
     let is_new = || TOLD.lock().unwrap_or_else(PoisonError::into_inner).insert(text.to_string());
-    if !text.starts_with(WARNING) || is_new() {
+    if !(text.starts_with(WARNING) || text.starts_with("note: ")) || is_new() {
         let _ = writeln!(io::stderr(), "{}", plain_lines(text));
     }
 }

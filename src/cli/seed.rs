@@ -2,10 +2,10 @@
 
 use super::args::StageArgs;
 use super::mesh;
-use super::print::{Outcome, print};
+use super::print::{Outcome, note, print};
 use super::stage::{Inputs, Stage};
 use crate::case::raw::Product;
-use crate::case::{Keys, seeding};
+use crate::case::{Keys, at_rest, seeding};
 use crate::error::Result;
 use crate::io::hash;
 use crate::io::points_vtu::{self, Source};
@@ -35,6 +35,7 @@ pub fn work(stage: &Stage) -> Outcome {
     for note in seeding::notes(&stage.loaded.case, &mesh, &points)? {
         print(&format!("{note}\n"))?;
     }
+    at_rest::imbalance(&stage.loaded.case, &mesh)?.iter().for_each(|warning| note(warning));
     let mass: f64 = points.mass.iter().sum();
     print(&format!("{}: {} points, {mass} t\n", stage.points().display(), points.len()))
 }

@@ -25,6 +25,8 @@ pub struct Material {
     pub carried: Option<MixedPressure>,
     /// The water in its pores, where that flows or has a stiffness of its own.
     pub porous: Option<Porous>,
+    /// Whether its pores are drained, so that they take the water of undrained soil beside it.
+    pub drains: bool,
 }
 
 impl Material {

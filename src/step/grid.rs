@@ -371,7 +371,7 @@ pub fn given_increments<const D: usize>(
     for fixed in &scene.phases[state.phase].held {
         give(fixed, 0.0);
     }
-    field::give(scene, state, &grid.dofs, dt, &mut given);
+    field::give(scene, state, grid, dt, &mut given);
     given
 }
 

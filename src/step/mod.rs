@@ -12,6 +12,7 @@ mod change;
 mod contact;
 mod control;
 mod distortion;
+mod drainage;
 mod equilibrate;
 mod facing;
 mod family;

@@ -189,7 +189,9 @@ pub struct Water {
     pub porous: Vec<Option<Porous>>,
     /// Whether no pressure field carries a share of the stress beside it.
     pub alone: bool,
-    /// Nodes at which it can leave, ascending: without excess pressure where water flows.
+    /// Whether each material, by number, is drained soil, which takes the water of the soil beside it.
+    pub drains: Vec<bool>,
+    /// Nodes of drained curves, ascending: without excess pressure where water flows.
     pub drained: Vec<u32>,
 }
 

@@ -1,5 +1,6 @@
 //! The volume balance of the pore water in a step, for the log: the sum of the first bracket of eq. 36 of docs/theory.md, and the outflow.
 
+use super::drainage;
 use super::grid::Grid;
 use super::problem::Solution;
 use super::scene::Scene;
@@ -65,7 +66,7 @@ pub fn balance<const D: usize>(
     solution: &Solution<D>,
     drained: f64,
 ) -> Option<Balance> {
-    let water = scene.water.as_ref()?;
+    scene.water.as_ref()?;
     let after = content(scene, state);
     let mut balance = Balance { left: drained, ..Balance::default() };
     for (family, (before, after)) in grid.integrated(scene, state).zip(before.iter().zip(&after)) {
@@ -76,10 +77,11 @@ pub fn balance<const D: usize>(
         }
     }
     if scene.phases[state.phase].flows {
+        let drained_nodes = drainage::nodes(scene, grid, state);
         let alpha_f = if scene.phases[state.phase].dynamic { alpha_f(scene.numerics.spectral_radius) } else { 0.0 };
         let unit = scene.pressure_unit.unwrap_or(1.0) * (1.0 - alpha_f);
         for (equation, node) in grid.dofs.field(PORE_PRESSURE) {
-            if water.drained.binary_search(&node).is_ok() {
+            if drained_nodes.binary_search(&node).is_ok() {
                 balance.left += solution.residual[equation] / unit;
             }
         }

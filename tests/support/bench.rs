@@ -189,7 +189,7 @@ impl Bench {
             let mut drained: Vec<u32> =
                 self.drained.iter().flat_map(|name| self.mesh.group(name).unwrap().nodes.clone()).collect();
             drained.sort_unstable();
-            Water { porous: vec![self.porous.clone()], alone: self.carried.is_none(), drained }
+            Water { porous: vec![self.porous.clone()], alone: self.carried.is_none(), drained, drains: Vec::new() }
         });
         let cells = background.cells.len();
         let field = || PressureField::<K>::new(vec![self.carried.clone()], of_unit);

@@ -38,7 +38,7 @@ fn set<K: Kinematics<2>>(kind: CellKind, beside: bool, alpha_f: f64, flow_time: 
     } else {
         Box::new(Internal::<K, _>::sharing(models, dynamic, water))
     };
-    let water = Some(Water { porous: porous([0.0; 2]), alone: !beside, drained: Vec::new() });
+    let water = Some(Water { porous: porous([0.0; 2]), alone: !beside, ..Water::default() });
     let mut stand = Stand::<K>::with_water(&Mpm, mesh, points, term, false, true, Some(UNIT), water);
     (stand.alpha_f, stand.flow_time) = (alpha_f, flow_time);
     stand.state.points.stress.fill([3.0, -7.0, 2.0, 1.5, 0.0, 0.0]);
@@ -106,7 +106,7 @@ fn the_bond_is_free_for_a_uniform_increment_and_its_tangent_the_derivative() {
         let (nodes, cells) = (mesh.nodes.len(), mesh.cells.len());
         let term: Box<dyn Term<2>> =
             Box::new(PoreStabilisation::<PlaneStrain>::new(porous([0.0; 2]), UNIT, 400.0, cells));
-        let water = Some(Water { porous: porous([0.0; 2]), alone: true, drained: Vec::new() });
+        let water = Some(Water { porous: porous([0.0; 2]), alone: true, ..Water::default() });
         let mut stand = Stand::<PlaneStrain>::with_water(&Mpm, mesh, points, term, false, true, Some(UNIT), water);
         let rest = stand.field(0.0, 1, |_| [0.0; 2]);
         let begin = stand.pressure.len() - nodes;
@@ -131,7 +131,7 @@ fn a_surface_drains<K: Kinematics<2>>() {
         let cells = mesh.cells.len() as u32;
         let soil = porous([3e-5, 1e-5]);
         let term: Box<dyn Term<2>> = Box::new(DrainedSurface::<K>::new(soil.clone(), Some(3), UNIT, vec![true; 2]));
-        let water = Some(Water { porous: soil, alone: true, drained: Vec::new() });
+        let water = Some(Water { porous: soil, alone: true, ..Water::default() });
         let mut stand = Stand::<K>::with_water(&Mpm, mesh, points, term, false, true, Some(UNIT), water);
         let piece = |cell: u32| {
             let in_host = if cell == 0 { [[1.1, -0.2], [0.4, 0.9]] } else { [[0.2, 0.1], [0.3, 0.6]] };

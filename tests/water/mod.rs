@@ -2,6 +2,7 @@
 
 mod boundary_pressure;
 mod covered_surface;
+mod drained_soil;
 mod drained_surface;
 mod phreatic;
 mod pore_water;
