@@ -20,8 +20,8 @@ REST_ERROR = 1e-4  # of the stress at the base: what a residual of that toleranc
 class Ground:
     """Level layers, from the base up, in a section with vertical sides."""
 
-    def __init__(self, dice, level_base=False, layers=None, buffer=None, fem=True):
-        count = layers or dice.randint(1, 3)
+    def __init__(self, dice, level_base=False, cells=(0.12, 0.3)):
+        count = dice.randint(1, 3)
         self.width, self.depth = dice.scale(0.6, 30), dice.scale(0.5, 20)
         self.left = 0.0 if dice.chance(0.5) else dice.number(-20, 20)
         self.top = 0.0 if dice.chance(0.5) else dice.number(-5, 10)
@@ -38,12 +38,12 @@ class Ground:
             if any(b[0] - a[0] < 0.05 * self.width for a, b in zip(base, base[1:])):
                 base = [base[0], base[-1]]
         self.base_line = base
-        self.h = max(dice.uniform(0.12, 0.3) * math.sqrt(self.width * self.depth), max(self.width, self.depth) / 30)
+        self.h = max(dice.uniform(*cells) * math.sqrt(self.width * self.depth), max(self.width, self.depth) / 60)
         faces = [Face("layer1", [*base, (right, self.levels[1]), (self.left, self.levels[1])], self.h)]
         for n in range(1, count):
             faces.append(Face(f"layer{n + 1}", box(self.left, right, self.levels[n], self.levels[n + 1]), self.h))
         self.names = [face.name for face in faces]
-        self.air = dice.chance(0.6) if buffer is None else buffer
+        self.air = dice.chance(0.6)
         roof = self.top
         if self.air:
             roof = self.top + max(self.h, 0.2 * self.depth)
@@ -56,7 +56,7 @@ class Ground:
         self.section.regular = len(base) == 2 and dice.chance(0.4)
         # Finite elements hold what lies on them: the lowest layers.
         self.kinds = ["mpm"] * count
-        if fem and dice.chance(0.3):
+        if dice.chance(0.3):
             for n in range(dice.randint(1, count)):
                 self.kinds[n] = "fem"
         self.weights = [dice.number(14, 22) for _ in range(count)]
@@ -124,7 +124,7 @@ def strong(dice, stress, k0, weight):
 
 def rest(dice):
     """K₀ in level layers over an even or uneven base: the weight above, K₀ times that, and nothing moves."""
-    ground = Ground(dice)
+    ground = Ground(dice, cells=(0.03, 0.2))
     k0 = dice.number(0.4, 1.1, 2)
     materials = {f"soil{n}": strong(dice, ground.scale, k0, weight) for n, weight in enumerate(ground.weights)}
     if ground.section.regular is False and dice.chance(0.4):

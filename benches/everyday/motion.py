@@ -111,7 +111,7 @@ def incline(dice):
     sticks = dice.chance(0.35)
     friction = typed(math.tan(angle) * (dice.uniform(1.1, 2) if sticks else dice.uniform(0, 0.85)), 2)
     width, height = dice.number(0.6, 1.5, 2), dice.number(0.2, 0.5, 2)
-    h = typed(dice.uniform(0.2, 0.3), 2)
+    h = typed(dice.uniform(0.25, 0.35), 2)
     acceleration = 0.0 if sticks else G * (math.sin(angle) - friction * math.cos(angle))
     duration = 0.5
     length = width + 2 + G * math.sin(angle) * duration**2 / 2
@@ -144,7 +144,7 @@ def incline(dice):
         "supports": {"foot": {"ux": 0, "uy": 0}},
         "gravity": {"x": G * math.sin(angle), "y": -G * math.cos(angle)},
         "numerics": {"spectral_radius": 0.6},
-        "phases": [{"name": "slide", "analysis": "dynamic", "duration": duration, "step": {"initial": 0.01}}],
+        "phases": [{"name": "slide", "analysis": "dynamic", "duration": duration, "step": {"initial": 0.0125}}],
         "output": {"history": [{"name": "block", "on": "block", "quantities": ["ux", "uy"]}]},
     }
     if floor == "soil wall":

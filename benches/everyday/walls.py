@@ -23,7 +23,7 @@ def rankine(dice):
         most = weight * height + cohesive
     else:
         angle = dice.number(20, 38, 2)
-        cohesion = dice.choice([0, 0, 1, 5]) if passive else 0
+        cohesion = dice.choice([0, 0.5, 1, 5]) if passive else dice.choice([0, *3 * [typed(0.02 * weight * height, 2)]])
         soil = {"model": "mohr_coulomb", "poisson": dice.number(0.2, 0.35, 2), "cohesion": cohesion, "friction": angle, "dilation": dice.choice([0, typed(angle / 3, 2)])}
         coefficient = math.tan(math.radians(45 + (angle if passive else -angle) / 2)) ** 2
         cohesive = 2 * cohesion * math.sqrt(coefficient)
@@ -67,13 +67,17 @@ def rankine(dice):
     def answers(result):
         # The height follows the strain, the force its square.
         force = coefficient * weight * height**2 / 2 + cohesive * height
+        if not passive:
+            # The wall parts from the soil down to where its pressure would be tension.
+            parted = cohesive / (coefficient * weight)
+            force = coefficient * weight * (height - parted) ** 2 / 2
         return [
             near("force on the wall", -result.last("wall.contact_x"), force, (0.02 + 2 * strain) * force),
             near("force of the base", result.last("bottom.reaction_y"), weight * height * length, 1e-3 * weight * height * length),
         ]
 
     kind = "clay" if clay else "sand"
-    return Scene(section, case, answers, f"{'passive' if passive else 'active'}, {kind}, {'structure' if left else 'wall of the grid'}")
+    return Scene(section, case, answers, f"{'passive' if passive else 'active'}, {kind}, {'structure' if left else 'wall of the grid'}", unique=False)
 
 
 def janssen(dice):
