@@ -172,6 +172,7 @@ mod tests {
         let weight = symmetric(&w);
         agree(|_| {}, |_| {});
         agree(|a| ThreeD::convect(a, &q), |b| PlaneStrain::convect(b, &q));
+        agree(ThreeD::hold, PlaneStrain::hold);
         agree(
             |a| ThreeD::weight(&mut a.tangent, &q, &a.kirchhoff, &w),
             |b| PlaneStrain::weight(&mut b.tangent, &q, &b.kirchhoff, &w),

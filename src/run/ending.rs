@@ -193,7 +193,9 @@ pub fn in_time<const D: usize>(error: Error, scene: &Scene<D>, phase: &Phase, st
         return error;
     }
     let moment = format!("in step {} from t = {:.6} s in phase `{}`", state.step + 1, state.time, phase.name);
-    let loads = if state.dynamic(scene) { Vec::new() } else { loads_reached(scene, phase, state) };
+    // A search that has not begun has found no equilibrium.
+    let none = state.dynamic(scene) || (phase.search.is_some() && state.search_curve.is_empty());
+    let loads = if none { Vec::new() } else { loads_reached(scene, phase, state) };
     if loads.is_empty() {
         return Error { problem: format!("{} ({moment})", error.problem), ..error };
     }

@@ -3,7 +3,7 @@
 //! Added weight, removed walls, sudden loads and lost strength leave unbalanced forces `R₀` on the nodes, which step cutting does not reduce.
 //! Where the first step fails, of the size `Δt₀`, the fraction `1 − t/Δt₀` of them is *held*, that is, balanced by a fictitious force, and
 //! released in proportion to the time `t` in the phase. Halved steps then carry a part of them each, and from `Δt₀` on nothing is held.
-//! Phases that look for failure (`auto`, `strength_reduction`) do not ramp.
+//! Phases `auto` do not ramp. A search for failure (`strength_reduction`) releases them in its first step, which takes no time.
 
 use super::scene::Scene;
 use crate::mesh::Mesh;
@@ -15,7 +15,7 @@ use crate::mesh::shape::MAX_NODES;
 pub struct UnbalancedRamp<const D: usize> {
     /// `−R₀` (kN) on each node, and then on the unknowns of rigid bodies, as the phase begins; empty where nothing is held.
     pub force: Vec<[f64; D]>,
-    /// Time (s) in the phase at which all of it is released.
+    /// Time (s) in the phase at which all of it is released; infinite where `force` is what is left of it.
     pub until: f64,
 }
 

@@ -35,6 +35,7 @@ mod slow {
     mod general_position;
     mod offshore;
     mod population;
+    mod slopes;
     mod splines;
     mod uniform_cells;
     mod voids;

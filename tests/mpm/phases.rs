@@ -103,6 +103,50 @@ fn a_search_begins_with_all_of_its_load() {
     assert!(!done && !found.contains("factor of safety"), "{found}");
 }
 
+/// What an unloading leaves out of balance is not taken for failure: the search begins in equilibrium under its own load. By less load in its first
+/// step it would move farther than soil may by the few per mille that the strength falls in it.
+#[test]
+fn a_search_after_unloading_finds_the_factor_of_what_is_left() {
+    let load = |name: &str, load: f64| {
+        format!(
+            "- {{name: {name}, analysis: quasi_static, duration: 1, step: {{initial: 0.5}}, tractions: [{{on: top, ty: {load}}}]}}\n"
+        )
+    };
+    let folder = solve_text(&format!(
+        "geometry: plane_strain\n\
+         mesh: {{geo: GEO/slump.geo, parameters: {{half_width: 1, height: 1, room: 0, h: 0.5}}}}\n\
+         regions: {{block: {{kind: mpm, material: soil, points_per_cell: 12}}}}\n\
+         materials: {{soil: {{model: tresca, shear_strength: 10, young: 1.0e+4, poisson: 0.3, density: 1}}}}\n\
+         supports: {{bottom: {{uy: 0}}, axis: {{ux: 0}}}}\n\
+         phases:\n{}\
+         - {{name: safety, analysis: strength_reduction, duration: 1, step: {{initial: 0.01, min: 0.001}}, \
+             strength_reduction: {{table: [[0, 1.41], [1, 1.45]]}}, tractions: [{{on: top, ty: -14}}]}}\n\
+         output: {{history: [{{name: top, on: top, quantities: [uy]}}]}}\n",
+        load("load", -18.0)
+    ));
+    let [held, failed] = bracket(&log(folder.path()));
+    let exact = 20.0 / 14.0;
+    println!("{held} to {failed}, exact {exact:.4}");
+    assert!(failed - held < 1e-3 && held < exact * 1.002 && failed > exact * 0.998, "{held} to {failed}");
+}
+
+/// What the soil moves by is of the search alone, and grows as the strengths fall; the log has the same curve.
+#[test]
+fn the_curve_of_a_search_is_in_the_history_and_in_the_log() {
+    let settings = ["mesh.parameters.h=2.5", "phases.safety.step.min=0.02", "phases.failure.duration=0.02"];
+    let folder = solve("cases/slope_safety", &settings);
+    let [factor, moved] = ["strength_reduction [-]", "soil_moved [m]"].map(|name| column(folder.path(), name));
+    let search: Vec<usize> = (1..moved.len()).filter(|&i| moved[i] > 0.0).collect();
+    let (first, last) = (search[0], *search.last().unwrap());
+    assert_eq!([factor[first - 1], moved[first - 1]], [1.0, 0.0], "it begins in equilibrium at the first factor");
+    assert!(search.windows(2).all(|w| moved[w[1]] >= moved[w[0]] && factor[w[1]] >= factor[w[0]]), "{moved:?}");
+    assert!(last + 1 < moved.len() && moved[last + 1] == 0.0, "not in the phase after it");
+    let log = log(folder.path());
+    let curve =
+        log.lines().find(|line| line.starts_with("factors of phase `safety`")).unwrap_or_else(|| panic!("{log}"));
+    assert!(curve.contains(&format!("{:.4} {:.3e}", factor[last], moved[last])), "{curve}");
+}
+
 #[test]
 fn what_bears_more_than_asked_is_told_so() {
     let folder = block("model: tresca, shear_strength: 100", -16.0);

@@ -75,3 +75,51 @@ fn the_force_is_in_balance_with_itself() {
         }
     });
 }
+
+/// Stands with elastic strain on a geometry that is held, a displacement, and one that strains it by another `size`.
+fn for_all_held<K: Kinematics<2>>(size: f64, check: impl Fn(&str, &Stand<K>, &[[f64; 2]], &[[f64; 2]])) {
+    for (scheme, mesh) in all() {
+        let mut points = points(&mesh, |_| true);
+        points.elastic.fill([1.02, 0.99, 1.01, 0.005, 0.0, 0.0]);
+        let kind = mesh.cells.kind[0];
+        let term = Box::new(Internal::<K>::new(vec![Some(elastic() as Arc<dyn Model>)], false));
+        let mut stand = Stand::<K>::with(scheme, mesh.clone(), points, term, false, true, None);
+        stand.state.search_geometry = stand.field(0.02, 3, |[x, y]| [0.1 * y - 0.2 * x, 0.1 * x + 0.1 * y]);
+        let converged = stand.field(0.02, 1, |[x, y]| [0.1 * x - 0.3 * y, 0.2 * x + 0.1 * y]);
+        let more = stand.field(0.02, 2, |[x, y]| [0.2 * x - 0.5 * y, 0.6 * x - 0.2 * y]);
+        let trial: Vec<_> =
+            converged.iter().zip(&more).map(|(c, m)| [c[0] + size * m[0], c[1] + size * m[1]]).collect();
+        check(&format!("{} on {kind:?}", scheme.name()), &stand, &trial, &converged);
+    }
+}
+
+/// But for the strain of the step, which turns the axes of the elastic one.
+fn the_tangent_of_a_held_geometry_is_the_derivative<K: Kinematics<2>>() {
+    for_all_held::<K>(1e-5, |name, stand, trial, converged| {
+        let error = stand.tangent_error(trial, converged);
+        assert!(error < 1e-6, "{name}: {error:.1e}");
+    });
+}
+
+#[test]
+fn the_tangent_of_a_held_geometry_is_the_derivative_in_plane_strain() {
+    the_tangent_of_a_held_geometry_is_the_derivative::<PlaneStrain>();
+}
+
+#[test]
+fn the_tangent_of_a_held_geometry_is_the_derivative_in_axisymmetry() {
+    the_tangent_of_a_held_geometry_is_the_derivative::<Axisymmetric>();
+}
+
+/// Displacements are small on a geometry that is held: what would turn it by any angle strains nothing, and the force stays as it is.
+#[test]
+fn a_turn_on_a_held_geometry_changes_no_force() {
+    for_all_held::<PlaneStrain>(0.0, |name, stand, _, converged| {
+        let places =
+            stand.scene.mesh.nodes.iter().zip(&stand.state.search_geometry).map(|(x, u)| [x[0] + u[0], x[1] + u[1]]);
+        let turned: Vec<_> = places.zip(converged).map(|(x, c)| [c[0] - 0.7 * x[1], c[1] + 0.7 * x[0]]).collect();
+        let [before, after] = [converged, &turned[..]].map(|trial| stand.evaluate(trial, converged, 0, false).0);
+        let change: Vec<_> = before.iter().zip(&after).map(|(a, b)| [a[0] - b[0], a[1] - b[1]]).collect();
+        assert!(size(&change) < 1e-9 * size(&before), "{name}: {:.1e} of {:.1e}", size(&change), size(&before));
+    });
+}

@@ -297,6 +297,7 @@ impl<K: Kinematics<2>> Stand<K> {
             between: &between,
             alpha_f: self.alpha_f,
             converged,
+            geometry: self.state.geometry(),
             pressure,
             converged_pressure: &self.converged_pressure,
             flow_time: self.flow_time,
