@@ -85,7 +85,7 @@ sanitize: build ## The boundary to Gmsh under valgrind, where that is installed:
 	for case in cases/* tests/data/*; do out=$$(mktemp -d); echo "$$case"; \
 	  valgrind -q --trace-children=yes --undef-value-errors=no --error-exitcode=9 $(MPM) mesh $$case -o $$out >/dev/null; rm -rf $$out; done
 
-campaign: setup ## Kills, signals, full disks and pairs of processes in every stage, 25 times as many as in the tests
+campaign: setup ## Kills, signals, full disks and pairs of processes in every stage, hostile folders: 25 times as many as in the tests
 	CAMPAIGN=25 cargo test --release --test all campaign:: -- --nocapture
 
 verification: build ## Run every verification; writes docs/verification.md

@@ -5,44 +5,51 @@
 #   include /path/to/pipeline/mpm.mk
 #
 # gives, for a case in the folder sweep/a, the targets a (all four stages), a-mesh, a-seed, a-solve, a-export
-# and a-clean. A stage runs only where its inputs are newer than its output, so `make -j` rebuilds what is
-# stale and no more, several cases at a time. Results are under <case>/out.
+# and a-clean. `mpm run` finds by the contents of all files which stages are stale, so `make -j` does these and no more,
+# several cases at a time. Results are under <case>/out.
 #
 #   make a RESUME=1       takes up a solve that was stopped at its last checkpoint
 #   make a FRESH=1        gives up a solve that was stopped, and begins anew
 #   make a THREADS=1      threads of a solve (with `make -j4`, let -j and THREADS share the cores)
 #   make a MPM_FLAGS='--set mesh.parameters.h=0.2'
+#
+# What stands in a case is for the program alone: make and the shell see the names of folders and no more.
 
 MPM   ?= mpm
 CASES ?= $(patsubst %/case.yaml,%,$(wildcard cases/*/case.yaml))
 
-# Where the program is a file, or is built by a target MPM_BUILD, a new one makes every result stale.
+# Folders whose names have a character that make or the shell would obey are left out.
+mpm_comma := ,
+mpm_hash := \#
+mpm_obeyed := ! " $(mpm_hash) $$ % & ' ( ) * : ; < = > ? [ \ ] ` { | } ~ $(mpm_comma)
+mpm_is_plain = $(if $(filter -%,$(1)),,$(if $(strip $(foreach c,$(mpm_obeyed),$(findstring $(c),$(1)))),,yes))
+mpm_all := $(CASES)
+override CASES := $(foreach case,$(mpm_all),$(if $(call mpm_is_plain,$(case)),$(case)))
+ifneq ($(words $(CASES)),$(words $(mpm_all)))
+$(warning folders of cases whose names have other characters than letters, digits, `.`, `_`, `+`, `@` and `-` are left out: rename them)
+endif
+
+mpm_names := $(notdir $(CASES))
+# The folder of a target: its name without the stage is the last part of one.
+mpm_folder = '$(firstword $(foreach case,$(CASES),$(if $(filter $(notdir $(case)),$(1)),$(case))))'
+# Where the program is a file, or is built by a target MPM_BUILD, it is there before it is needed.
 mpm_program := $(or $(MPM_BUILD),$(wildcard $(firstword $(MPM))))
 mpm_solve_flags = $(if $(RESUME),--resume) $(if $(FRESH),--fresh) $(if $(THREADS),--threads $(THREADS))
 
-# The .geo that a case names, relative to its folder.
-mpm_geo = $(addprefix $(1)/,$(shell sed -n 's/.*\bgeo: *["'\'']\{0,1\}\([^]["'\'' ,}\#]*\).*/\1/p;/\bgeo:/q' $(1)/case.yaml))
+.PHONY: $(mpm_names) $(foreach stage,mesh seed solve export clean,$(addsuffix -$(stage),$(mpm_names)))
 
-# $(1): name of the case, $(2): its folder.
-define mpm_rules
-.PHONY: $(1) $(1)-mesh $(1)-seed $(1)-solve $(1)-export $(1)-clean
-$(1) $(1)-export: $(2)/out/points.pvd
-$(1)-mesh: $(2)/out/mesh.msh
-$(1)-seed: $(2)/out/points.vtu
-$(1)-solve: $(2)/out/.solved
+# A project may add to what the target of a case does.
+$(mpm_names): %: %-export
 
-$(2)/out/mesh.msh: $(2)/case.yaml $(call mpm_geo,$(2)) $(mpm_program)
-	$(MPM) mesh $(2) $(MPM_FLAGS)
-$(2)/out/points.vtu: $(2)/out/mesh.msh
-	$(MPM) seed $(2) $(MPM_FLAGS)
-# A solve that was stopped has left results, but not this.
-$(2)/out/.solved: $(2)/out/points.vtu
-	$(MPM) solve $(2) $$(mpm_solve_flags) $(MPM_FLAGS)
-	@touch $$@
-$(2)/out/points.pvd: $(2)/out/.solved
-	$(MPM) export $(2) $(MPM_FLAGS)
-$(1)-clean:
-	rm -rf $(2)/out
-endef
+# The stages of a case, one after the other also where several are asked for.
+$(addsuffix -mesh,$(mpm_names)): %-mesh: $(mpm_program)
+	$(MPM) run $(call mpm_folder,$*) --until mesh $(MPM_FLAGS)
+$(addsuffix -seed,$(mpm_names)): %-seed: %-mesh
+	$(MPM) run $(call mpm_folder,$*) --until seed $(MPM_FLAGS)
+$(addsuffix -solve,$(mpm_names)): %-solve: %-seed
+	$(MPM) run $(call mpm_folder,$*) --until solve $(mpm_solve_flags) $(MPM_FLAGS)
+$(addsuffix -export,$(mpm_names)): %-export: %-solve
+	$(MPM) run $(call mpm_folder,$*) --until export $(MPM_FLAGS)
 
-$(foreach case,$(CASES),$(eval $(call mpm_rules,$(notdir $(case)),$(case))))
+$(addsuffix -clean,$(mpm_names)): %-clean:
+	rm -rf $(call mpm_folder,$*)/out

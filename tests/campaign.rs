@@ -1,11 +1,13 @@
 //! Disturbed processes: kills, signals and full disks in every stage, and pairs of processes in one folder. What follows
-//! gives the same bytes as an undisturbed run, or the earlier results are as they were.
+//! gives the same bytes as an undisturbed run, or the earlier results are as they were. And hostile folders: links, pipes and devices in
+//! place of files and folders, and files of others, none of which is read without end, changed or lost.
 //!
 //! The tests disturb a few; `make campaign` disturbs as many as `CAMPAIGN` times that.
 
 use crate::support::{PROGRAM, Random, block, command, in_folder, said, succeeds};
 use std::collections::BTreeMap;
 use std::fs;
+use std::os::unix::fs::symlink;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::sync::OnceLock;
@@ -166,6 +168,96 @@ fn disks_that_fill_in_all_stages_lose_nothing() {
         }
         recovers(folder.path(), stage, with_earlier, &what);
     }
+}
+
+/// All that there is below a folder, links not followed: what each entry is, with the bytes of files.
+fn census(folder: &Path) -> BTreeMap<PathBuf, (String, Vec<u8>)> {
+    let (mut found, mut open) = (BTreeMap::new(), vec![folder.to_owned()]);
+    while let Some(path) = open.pop() {
+        let kind = fs::symlink_metadata(&path).unwrap().file_type();
+        if kind.is_dir() {
+            open.extend(fs::read_dir(&path).unwrap().map(|entry| entry.unwrap().path()));
+        }
+        let bytes = if kind.is_file() { fs::read(&path).unwrap() } else { Vec::new() };
+        found.insert(path.strip_prefix(folder).unwrap().to_owned(), (format!("{kind:?}"), bytes));
+    }
+    found
+}
+
+/// Runs a command to its end, which it reaches by itself with the memory that the case needs; its exit status and what it said.
+fn ends(folder: &Path, arguments: &[&str]) -> (Option<i32>, String) {
+    let script = "ulimit -v 4000000; exec timeout 60 \"$0\" \"$@\"";
+    let mut limited = Command::new("sh");
+    limited.args(["-c", script, PROGRAM]).args(arguments).current_dir(folder).env("RAYON_NUM_THREADS", "1");
+    let output = limited.output().unwrap();
+    (output.status.code(), said(&output))
+}
+
+/// The commands that read or write an output folder.
+const VERBS: [&[&str]; 9] = [
+    &["run", "."],
+    &["mesh", "."],
+    &["seed", "."],
+    &["solve", "."],
+    &["solve", ".", "--resume"],
+    &["export", "."],
+    &["report", "."],
+    &["info", "."],
+    &["plot", ".", "--field", "stress.yy"],
+];
+
+/// A link out of the folder, a device or a pipe takes the place of something in a folder that has been run.
+fn hostile(count: u64, seed: u64) {
+    let folder = block::scene("1", "0.5", "0.5");
+    succeeds(&in_folder(folder.path(), &["run", "."]));
+    let sound = census(folder.path());
+    let hidden = [".exchange", ".replaced", ".vtu-new", ".vtu-old", "unfinished", "unfinished/results", "report.html"];
+    let places: Vec<PathBuf> = sound.keys().filter(|path| path.starts_with("out")).cloned().collect();
+    let places: Vec<PathBuf> = places.into_iter().chain(hidden.map(|name| Path::new("out").join(name))).collect();
+    let mut random = Random(seed);
+    for number in 0..count {
+        let (case, home) = (tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap());
+        for (path, (kind, bytes)) in &sound {
+            let path = case.path().join(path);
+            if kind.contains("is_dir: true") {
+                fs::create_dir_all(path).unwrap()
+            } else {
+                fs::write(path, bytes).unwrap()
+            }
+        }
+        for name in ["frame-000000.mpmf", "frame-000009.mpmf", "points_000000.vtu", "solve.json", "results/thesis.csv"]
+        {
+            let path = home.path().join(name);
+            fs::create_dir_all(path.parent().unwrap()).unwrap();
+            fs::write(path, "years of work").unwrap();
+        }
+        let place = case.path().join(&places[random.below(places.len() as u64) as usize]);
+        fs::create_dir_all(place.parent().unwrap()).unwrap();
+        let _ = fs::remove_dir_all(&place).or_else(|_| fs::remove_file(&place));
+        let target = match random.below(6) {
+            0 => Some(PathBuf::from("/dev/zero")),
+            1 => Some(home.path().join("results/thesis.csv")),
+            2 => Some(PathBuf::from("/proc/self/status")),
+            3 | 4 => Some(home.path().to_owned()),
+            _ => None,
+        };
+        match &target {
+            Some(target) => symlink(target, &place).unwrap(),
+            None => assert!(Command::new("mkfifo").arg(&place).status().unwrap().success()),
+        }
+        let before = census(home.path());
+        let verb = VERBS[random.below(VERBS.len() as u64) as usize];
+        let (status, said) = ends(case.path(), verb);
+        let what =
+            format!("number {number}: {verb:?} with {target:?} in place of {}: {status:?}: {said}", place.display());
+        assert!(matches!(status, Some(0..=3)), "{what}");
+        assert!(census(home.path()) == before, "{what}");
+    }
+}
+
+#[test]
+fn hostile_folders_do_no_harm() {
+    hostile(20 * times(), 7);
 }
 
 /// What takes more than some seconds; `make test-quick` leaves it out.

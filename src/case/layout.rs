@@ -4,11 +4,11 @@ use super::checked::{Case, Content, Geometry, Touched, Touching};
 use super::find::{region_index, regions};
 use crate::error::{Error, Result};
 use crate::geometry::box_around;
+use crate::machine::memory;
 use crate::mesh::locate::Locator;
 use crate::mesh::quality::SAME;
 use crate::mesh::{Group, Mesh};
 use crate::time_value::TimeValue;
-use std::fs;
 
 /// Checks the layout of the regions, in time linear in the cells.
 ///
@@ -177,13 +177,6 @@ fn fits(what: &str, needed: u64, left: u64) -> Result<()> {
         format!("{what} takes about {needed:.1} GB, and the machine has {left:.1} GB left"),
         "coarsen the mesh, lower `points_per_cell`, or take a larger machine",
     ))
-}
-
-/// The memory (B) of a name, such as `MemTotal`, where the system tells (Linux).
-pub fn memory(name: &str) -> Option<u64> {
-    let told = fs::read_to_string("/proc/meminfo").ok()?;
-    let line = told.lines().find_map(|line| line.strip_prefix(name)?.strip_prefix(':'))?;
-    line.trim().strip_suffix("kB")?.trim().parse::<u64>().ok()?.checked_mul(1024)
 }
 
 #[cfg(test)]

@@ -5,8 +5,8 @@ use super::locate::{At, Path, Step};
 use super::start::{self, Start};
 use super::yaml::{self, Node};
 use crate::error::{Error, plain, shown};
+use crate::reading;
 use serde_json::{Map, Value};
-use std::fs::File;
 use std::io::Read;
 use std::path::{Path as FilePath, PathBuf};
 use std::sync::Arc;
@@ -46,7 +46,7 @@ impl Source {
         let file = if case.is_dir() { case.join("case.yaml") } else { case.to_owned() };
         let mut bytes = Vec::new();
         let most = yaml::MOST_BYTES as u64 + 1;
-        File::open(&file).and_then(|f| f.take(most).read_to_end(&mut bytes)).map_err(|e| {
+        reading::open(&file).and_then(|f| f.take(most).read_to_end(&mut bytes)).map_err(|e| {
             let remedy = "name a case.yaml, or a folder that holds one";
             Error::input(file.display(), format!("cannot be read: {e}"), remedy)
         })?;

@@ -9,8 +9,9 @@ use crate::case::raw::Product;
 use crate::case::{Keys, parts};
 use crate::error::{Error, Result};
 use crate::io::export::Exported;
+pub use crate::io::export::STAGE;
 use crate::io::run_folder::{RunFolder, Standing};
-use crate::io::{export, frame, hash, vtu};
+use crate::io::{export, frame, hash, provenance, vtu};
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -64,6 +65,8 @@ fn work(stage: &Stage, run: &RunFolder, folder: &Path) -> Outcome {
     };
     let mut record = inputs(stage, run)?.begin();
     check_run(stage, run)?;
+    provenance::refuse_others(folder, STAGE, export::replaced(folder)?)?;
+    record.write(folder)?;
     let regions = parts::of_series(case, &mesh);
     let Exported { frames, soil } = export::export(&run.results(), &mesh, &regions, folder, &fields, encoding)?;
     record.finish(folder, &series(folder))?;
@@ -135,7 +138,7 @@ pub(super) fn check_run(stage: &Stage, run: &RunFolder) -> Result<()> {
 fn inputs(stage: &Stage, run: &RunFolder) -> Result<Inputs> {
     let mut files = run.outputs()?;
     files.push(stage.mesh());
-    stage.inputs("export", Product::Series, &files)
+    stage.inputs(STAGE, Product::Series, &files)
 }
 
 /// The files of the series that are there.

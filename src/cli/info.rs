@@ -5,8 +5,9 @@ use crate::error::{Error, Result};
 use crate::io::provenance::{Program, Record};
 use crate::io::run_folder::{BESIDE, STAGE};
 use crate::io::{atomic, container, hash, phase_state, points_vtu};
+use crate::reading;
 use std::fmt::Write;
-use std::fs::{self, File};
+use std::fs;
 use std::io::Read;
 use std::path::{Path, PathBuf};
 
@@ -72,14 +73,14 @@ fn within(path: &Path) -> Result<Vec<(String, String)>> {
     let unreadable = |e| atomic::unreadable(path, &e, "name a file");
     let pair = |name: &str, value: &str| (name.to_owned(), value.to_owned());
     let mut head = Vec::new();
-    File::open(path).and_then(|file| file.take(1024).read_to_end(&mut head)).map_err(unreadable)?;
+    reading::open(path).and_then(|file| file.take(1024).read_to_end(&mut head)).map_err(unreadable)?;
     if let Some((kind, texts)) = container::inspect(path) {
         // What a state at the end of a phase has of its case is for the program.
         let texts = texts.iter().filter(|(name, _)| *name != phase_state::CASE).map(|(name, value)| pair(name, value));
         return Ok(std::iter::once(pair("kind", &kind)).chain(texts).collect());
     }
     if path.extension().is_some_and(|kind| kind == "vtu")
-        && let Some((program, source)) = points_vtu::inspect(&fs::read(path).map_err(unreadable)?)
+        && let Some((program, source)) = points_vtu::inspect(&reading::bytes(path).map_err(unreadable)?)
     {
         return Ok(vec![pair("program", &program), pair("mesh", &source.mesh), pair("case", &source.case)]);
     }

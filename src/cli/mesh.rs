@@ -11,17 +11,23 @@ use crate::case::unconnected::{self, Place};
 use crate::case::unmeant;
 use crate::case::{Keys, checked, layout, scheme};
 use crate::error::{Error, Result};
-use crate::io::atomic;
+use crate::io::{atomic, provenance};
+use crate::machine;
 use crate::mesh::gmsh::{self, Options, Outline, Worker};
 use crate::mesh::{Mesh, given, msh, quality};
+use crate::reading;
+use crate::run::WARNING;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// How long `mpm mesh` lets Gmsh work (s).
-const MESHING: u64 = 600;
+/// The name of the stage, in its record.
+pub const STAGE: &str = "mesh";
 
-/// How long Gmsh may take for the names of the groups alone (s).
-const NAMING: u64 = 60;
+/// How long Gmsh may work (s) and how much memory (GiB) it may take for a mesh.
+const MESHING: [u64; 2] = [600, 8];
+
+/// And for the names of the groups alone.
+const NAMING: [u64; 2] = [20, 2];
 
 #[derive(clap::Args)]
 #[group(skip)]
@@ -45,26 +51,27 @@ pub struct Gmsh {
 /// What the user lets Gmsh take.
 #[derive(clap::Args)]
 pub struct Limits {
-    /// The longest time that Gmsh may take [default: 600 for a mesh, 60 for its names alone]
+    /// The longest time that Gmsh may take [default: 600 for a mesh, 20 for its names alone]
     #[arg(long, value_name = "SECONDS", value_parser = clap::value_parser!(u64).range(1..=31_536_000))]
     mesh_timeout: Option<u64>,
-    /// The most memory that Gmsh may take [default: 8, or 3/4 of the machine's where that is less]
+    /// The most memory that Gmsh may take [default: 8 for a mesh, 2 for its names alone, or 3/4 of the machine's where that is less]
     #[arg(long, value_name = "GIB", value_parser = clap::value_parser!(u64).range(1..=65_536))]
     mesh_memory: Option<u64>,
 }
 
 impl Limits {
-    /// How Gmsh is started by the program at `program`, for so many seconds unless the user has said otherwise.
-    fn worker<'a>(&self, program: &'a Path, seconds: u64) -> Worker<'a> {
-        let memory = layout::memory("MemTotal").unwrap_or(u64::MAX);
+    /// How Gmsh is started by the program at `program`, for so many seconds and with so many GiB unless the user has said otherwise.
+    fn worker<'a>(&self, program: &'a Path, [seconds, gib]: [u64; 2]) -> Worker<'a> {
+        let memory = machine::memory("MemTotal").unwrap_or(u64::MAX);
         Worker {
             program,
             seconds: self.mesh_timeout.unwrap_or(seconds),
-            memory: self.mesh_memory.map_or((memory / 4 * 3).min(8 * GIB), |gib| gib * GIB),
+            memory: self.mesh_memory.map_or((memory / 4 * 3).min(gib * GIB), |gib| gib * GIB),
             analysis: memory / 4 * 3,
             filter: true,
             sandbox: true,
             stop: signals::stop(),
+            warn: |text| note(&format!("{WARNING}{text}")),
         }
     }
 }
@@ -98,6 +105,7 @@ pub fn work(stage: &Stage, gmsh: &Gmsh) -> Outcome {
     let allowed = gmsh.allow_system_calls;
     let worker = Worker { filter: !allowed, sandbox: !allowed, ..gmsh.limits.worker(&program, MESHING) };
     stage.lock()?;
+    provenance::refuse_others(stage.folder(), STAGE, [stage.mesh()])?;
     let mut record = if allowed { unknown_inputs(stage)? } else { inputs(stage)? }.begin();
     let scratch = Scratch::new(stage)?;
     let candidate = scratch.folder.join("mesh.msh");
@@ -109,6 +117,7 @@ pub fn work(stage: &Stage, gmsh: &Gmsh) -> Outcome {
     }
     msh::seal(&candidate).map_err(|e| atomic::unwritable(&candidate, &e))?;
     let summary = quality::check(&mesh, case.mesh.source.path())?;
+    record.write(stage.folder())?;
     fs::rename(&candidate, stage.mesh()).map_err(|e| atomic::unwritable(&stage.mesh(), &e))?;
     scratch.keep_folder();
     record.finish(stage.folder(), &[stage.mesh()])?;
@@ -140,7 +149,7 @@ fn make(
             None => worker.mesh(file, &options(mesh), out, |_| Ok(()))?,
         },
     }
-    let made = msh::parse(&fs::read(out).map_err(unwritable)?, &file.display().to_string())?;
+    let made = msh::parse(&reading::bytes(out).map_err(unwritable)?, &file.display().to_string())?;
     scheme::check_order(mesh, &made)?;
     Ok(made)
 }
@@ -261,11 +270,11 @@ fn inputs(stage: &Stage) -> Result<Inputs> {
     // What is read here names no other file.
     match &stage.loaded.case.mesh.source {
         Source::Mesh(file) if given::is_abaqus(file) => unknown_inputs(stage),
-        _ => stage.inputs("mesh", Product::Mesh, &gmsh::sources(file)?.files),
+        _ => stage.inputs(STAGE, Product::Mesh, &gmsh::sources(file)?.files),
     }
 }
 
 /// Those of a `.geo` that may read whatever it likes: what is known of them.
 fn unknown_inputs(stage: &Stage) -> Result<Inputs> {
-    stage.inputs("mesh", Product::Mesh, &[stage.loaded.case.mesh.source.path().to_owned()])
+    stage.inputs(STAGE, Product::Mesh, &[stage.loaded.case.mesh.source.path().to_owned()])
 }

@@ -11,14 +11,13 @@ use crate::error::{Error, Result};
 use crate::io::atomic;
 use crate::io::export::Series;
 use crate::io::frame::Info;
-use crate::io::provenance::Record;
+use crate::io::provenance::{self, Record};
 use crate::io::run_folder::{RunFolder, STAGE, Standing};
 use crate::io::sweep_table::{self, SweepTable};
 use crate::io::table::Table;
 use crate::mesh::Mesh;
 use crate::report::{Html, Subject, variants};
 use std::path::{Path, PathBuf};
-use std::time::SystemTime;
 
 #[derive(clap::Args)]
 #[group(skip)]
@@ -52,6 +51,9 @@ pub fn run(args: &Args, keys: &Keys) -> Outcome {
     if !path.extension().is_some_and(|kind| kind == "html" || kind == "htm") {
         return Err(Error::input(path.display(), "a report is HTML", "let the name end in .html").into());
     }
+    if args.output.is_none() {
+        atomic::refuse_link(stage.folder())?;
+    }
     let Some(folder) = stage.runs().with_history(args.unfinished) else {
         let problem = "there is no run to report on";
         return Err(
@@ -80,7 +82,7 @@ pub fn run(args: &Args, keys: &Keys) -> Outcome {
         cautions.push(text.to_owned());
     }
     let sweep = sweep.map(|sweep| sweep.map(|(variants, _)| variants));
-    let now = humantime::format_rfc3339_seconds(SystemTime::now()).to_string();
+    let now = provenance::now();
     let mesh = match &mesh {
         Ok(mesh) => Ok(mesh),
         Err(errors) => Err(errors.first().map_or_else(String::new, ToString::to_string)),

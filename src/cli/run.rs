@@ -14,6 +14,9 @@ pub struct Args {
     solve: solve::Args,
     #[command(flatten)]
     gmsh: mesh::Gmsh,
+    /// Stop after this stage
+    #[arg(long, value_name = "STAGE", value_parser = [mesh::STAGE, seed::STAGE, STAGE, export::STAGE])]
+    until: Option<String>,
     /// Ends with the process of this number, which has started this one
     #[arg(long, hide = true, value_name = "PROCESS")]
     end_with: Option<u32>,
@@ -27,14 +30,18 @@ pub fn run(args: &Args, keys: &Keys) -> Outcome {
     let stage = Stage::open(&args.solve.stage, keys)?;
     stage.lock()?;
     let stages: [Entry; 4] = [
-        ("mesh", &|stage| mesh::is_current(stage, &args.gmsh), &|stage| mesh::work(stage, &args.gmsh)),
-        ("seed", &seed::is_current, &seed::work),
+        (mesh::STAGE, &|stage| mesh::is_current(stage, &args.gmsh), &|stage| mesh::work(stage, &args.gmsh)),
+        (seed::STAGE, &seed::is_current, &seed::work),
         (STAGE, &solve::is_current, &|stage| solve::work(stage, args.solve.start)),
-        ("export", &export::is_current, &export::results),
+        (export::STAGE, &export::is_current, &export::results),
     ];
     for (name, is_current, work) in stages {
+        let is_last = args.until.as_deref().unwrap_or(export::STAGE) == name;
         if is_current(&stage)? {
-            print(&format!("{name}: nothing has changed\n"))?;
+            // With `--until` a stage is told of by its own command.
+            if is_last || args.until.is_none() {
+                print(&format!("{name}: nothing has changed\n"))?;
+            }
         } else {
             work(&stage).inspect_err(|errors| {
                 if name == STAGE && errors.iter().any(|error| error.kind == Kind::Analysis) {
@@ -43,6 +50,9 @@ pub fn run(args: &Args, keys: &Keys) -> Outcome {
                     shown.unwrap_or_else(|errors| errors.iter().for_each(|error| note(&format!("export: {error}"))));
                 }
             })?;
+        }
+        if is_last {
+            break;
         }
     }
     Ok(())

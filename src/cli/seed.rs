@@ -7,8 +7,11 @@ use super::stage::{Inputs, Stage};
 use crate::case::raw::Product;
 use crate::case::{Keys, at_rest, seeding};
 use crate::error::Result;
-use crate::io::hash;
 use crate::io::points_vtu::{self, Source};
+use crate::io::{hash, provenance};
+
+/// The name of the stage, in its record.
+pub const STAGE: &str = "seed";
 
 pub fn run(args: &StageArgs, keys: &Keys) -> Outcome {
     work(&Stage::open(args, keys)?)
@@ -25,10 +28,12 @@ pub fn is_current(stage: &Stage) -> Result<bool> {
 /// Seeds, and prints a summary, with what does not bear its initial stress. Earlier points stay until the new ones are written.
 pub fn work(stage: &Stage) -> Outcome {
     stage.lock()?;
+    provenance::refuse_others(stage.folder(), STAGE, [stage.points()])?;
     let mesh = mesh::read(stage)?;
     let mut record = inputs(stage)?.begin();
     let points = seeding::points(&stage.loaded.case, &mesh)?;
     stage.prepare()?;
+    record.write(stage.folder())?;
     points_vtu::write(&stage.points(), &points, &mesh.regions, &source(stage)?)?;
     record.finish(stage.folder(), &[stage.points()])?;
     record.write(stage.folder())?;
@@ -50,5 +55,5 @@ pub fn source(stage: &Stage) -> Result<Source> {
 }
 
 fn inputs(stage: &Stage) -> Result<Inputs> {
-    stage.inputs("seed", Product::Points, &[stage.mesh()])
+    stage.inputs(STAGE, Product::Points, &[stage.mesh()])
 }

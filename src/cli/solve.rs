@@ -16,9 +16,9 @@ use crate::io::provenance::{Origin, Record};
 use crate::io::run_folder::{RunFolder, STAGE, Standing};
 use crate::points::Points;
 use crate::profile::{self, Activity};
+use crate::reading;
 use crate::run::{self, Ended, Progress};
 use indicatif::{ProgressBar, ProgressStyle};
-use std::fs;
 use std::io::IsTerminal;
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
@@ -224,7 +224,7 @@ const TOLD: usize = 10;
 
 /// Tells the warnings of the whole run again, which may have gone by, or have been those of a process before.
 fn tell_again(folder: &RunFolder) -> Outcome {
-    let Ok(log) = fs::read_to_string(folder.log()) else { return Ok(()) };
+    let Ok(log) = reading::text(&folder.log()) else { return Ok(()) };
     let warnings: Vec<&str> = log.lines().filter(|line| line.starts_with(run::WARNING)).collect();
     let mut text: String = warnings.iter().take(TOLD).map(|warning| format!("{warning}\n")).collect();
     if warnings.len() > TOLD {

@@ -40,6 +40,8 @@ impl Stage {
         let loaded = keys.load(case, overrides)?;
         loaded.source.notes().iter().for_each(|text| note(text));
         let folder = args.output.clone().unwrap_or_else(|| loaded.source.folder().join("out"));
+        // A slash at its end would lead through a link.
+        let folder: PathBuf = folder.components().collect();
         if loaded.source.start().is_some_and(|start| is_of_run(&start.path, &folder)) {
             let problem = "the output folder is that of the run that the case goes on from, which would be lost";
             return Err(vec![Error::input(folder.display(), problem, "name another one with `-o`")]);
@@ -53,6 +55,7 @@ impl Stage {
     /// # Errors
     /// `Machine` naming the process that works there; `Input` for links in it; what [`Runs::prepare`] gives.
     pub fn lock(&self) -> Result<()> {
+        atomic::refuse_link(&self.folder)?;
         if self.lock.get().is_some() || !self.folder.is_dir() {
             return Ok(());
         }
@@ -66,6 +69,7 @@ impl Stage {
     /// # Errors
     /// `Machine` when it cannot be made, and as [`Stage::lock`].
     pub fn prepare(&self) -> Result<()> {
+        atomic::refuse_link(&self.folder)?;
         atomic::prepare_folder(&self.folder)?;
         self.lock()
     }

@@ -13,11 +13,12 @@ use super::solve;
 use super::stage::Stage;
 use crate::case::Keys;
 use crate::error::{Error, Result};
-use crate::io::{atomic, lock::Lock};
+use crate::io::{atomic, lock::Lock, sweep_table};
+use crate::reading;
 use axes::{Axis, Run};
 use rustix::process::{Pid, Signal, getppid, kill_process, set_parent_process_death_signal};
 use std::collections::HashSet;
-use std::fs::{self, File};
+use std::fs::File;
 use std::os::unix::process::CommandExt;
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, ExitStatus};
@@ -70,12 +71,14 @@ pub fn run(args: &Args, keys: &Keys) -> Outcome {
         let names: Vec<&str> = sweep.runs.iter().map(|run| run.name.as_str()).collect();
         return print(&format!("{}\n", names.join("\n")));
     }
+    atomic::refuse_link(&sweep.folder)?;
     if !args.only.is_empty() {
         return sweep.all(&sweep.named(&args.only)?);
     }
     sweep.check()?;
     atomic::prepare_folder(&sweep.folder)?;
     let _lock = Lock::take(&sweep.folder)?;
+    sweep_table::refuse_others(&sweep.path_of_table())?;
     let outcome = if args.table { Ok(()) } else { sweep.all(&sweep.runs.iter().collect::<Vec<_>>()) };
     match (outcome, sweep.table()) {
         (Err(mut errors), Err(of_table)) => {
@@ -114,6 +117,8 @@ impl<'a> Sweep<'a> {
         let runs = axes::combinations(&axes)?;
         let beside = if args.case.is_dir() { Some(args.case.as_path()) } else { args.case.parent() };
         let folder = args.output.clone().unwrap_or_else(|| beside.unwrap_or(Path::new("")).join("sweep"));
+        // A slash at its end would lead through a link.
+        let folder = folder.components().collect();
         Ok(Self { args, keys, axes, runs, folder })
     }
 
@@ -223,13 +228,17 @@ impl<'a> Sweep<'a> {
         outcome(&run.name, status, &log)
     }
 
+    fn path_of_table(&self) -> PathBuf {
+        self.folder.join(sweep_table::FILE)
+    }
+
     /// Writes the table of all runs.
     fn table(&self) -> Outcome {
         let mut rows = Vec::new();
         for run in &self.runs {
             rows.push(table::Row::read(run, &self.stage(run)?)?);
         }
-        let path = self.folder.join("table.csv");
+        let path = self.path_of_table();
         let text = table::csv(&self.axes, &rows)?;
         atomic::write(&path, |out| out.write_all(&text))?;
         let done = rows.iter().filter(|row| row.is_finished()).count();
@@ -264,7 +273,7 @@ fn outcome(name: &str, status: ExitStatus, log: &Path) -> Outcome {
     if status.success() {
         return Ok(());
     }
-    let text = fs::read_to_string(log).unwrap_or_default();
+    let text = reading::text(log).unwrap_or_default();
     let said = text.lines().rev().find_map(|line| line.strip_prefix("error: "));
     let problem = said.map_or_else(|| format!("it ended with {status}"), str::to_owned);
     let remedy = format!("see {}", log.display());

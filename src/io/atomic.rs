@@ -75,8 +75,7 @@ fn sync_folder(folder: &Path) -> io::Result<()> {
 /// `Machine` when the folder can neither be made nor read.
 pub fn prepare_folder(folder: &Path) -> Result<()> {
     fs::create_dir_all(folder).map_err(|e| unwritable(folder, &e))?;
-    for entry in fs::read_dir(folder).map_err(|e| unwritable(folder, &e))? {
-        let path = entry.map_err(|e| unwritable(folder, &e))?.path();
+    for path in entries(folder)? {
         if let Some(process) = unfinished(&path)
             && process != std::process::id()
             && !Path::new(&format!("/proc/{process}")).exists()
@@ -87,14 +86,21 @@ pub fn prepare_folder(folder: &Path) -> Result<()> {
     Ok(())
 }
 
+/// The number between `start` and `end` in a name.
+pub fn number<N: FromStr>(name: &str, start: &str, end: &str) -> Option<N> {
+    let number = name.strip_prefix(start)?.strip_suffix(end)?;
+    // A sign would parse, too.
+    number.parse().ok().filter(|_| number.bytes().all(|digit| digit.is_ascii_digit()))
+}
+
 /// The numbers of the files in a folder that are named by one between `start` and `end`, in order.
 ///
 /// # Errors
 /// Those of the folder.
 pub fn numbered<N: FromStr + Ord>(folder: &Path, start: &str, end: &str) -> io::Result<Vec<N>> {
-    let number = |name: &str| name.strip_prefix(start)?.strip_suffix(end)?.parse().ok();
     let entries = fs::read_dir(folder)?;
-    let mut numbers: Vec<N> = entries.filter_map(|entry| number(entry.ok()?.file_name().to_str()?)).collect();
+    let mut numbers: Vec<N> =
+        entries.filter_map(|entry| number(entry.ok()?.file_name().to_str()?, start, end)).collect();
     numbers.sort_unstable();
     Ok(numbers)
 }
@@ -115,22 +121,76 @@ pub fn refuse_link(path: &Path) -> Result<()> {
         Ok(metadata) if metadata.is_symlink() => Err(Error::input(
             path.display(),
             "is a symbolic link, and nothing is written outside the output folder",
-            "remove the link, or choose another folder with -o",
+            "remove the link, or name the folder itself with -o",
         )),
         _ => Ok(()),
     }
 }
 
-/// Removes a folder with all that is in it, following no links; one that is not there is as good.
+/// Removes the files of a folder whose names `is_own` takes, with those that killed processes left unfinished, and the folder where
+/// nothing else is in it; one that is not there is as good.
 ///
 /// # Errors
-/// `Machine` when something in it stays.
-pub fn remove_folder(path: &Path) -> Result<()> {
-    match fs::remove_dir_all(path) {
-        Err(e) if e.kind() == io::ErrorKind::NotFound => Ok(()),
-        Err(e) if e.kind() == io::ErrorKind::NotADirectory => remove(path),
-        removed => removed.map_err(|e| unwritable(path, &e)),
+/// `Input` for a link in its place, `Machine` when one of them stays.
+pub fn clear_folder(folder: &Path, is_own: impl Fn(&str) -> bool) -> Result<()> {
+    refuse_link(folder)?;
+    for path in entries(folder)? {
+        if unfinished(&path).is_some() || is_named(&path, &is_own) {
+            remove(&path)?;
+        }
     }
+    remove_empty(folder)
+}
+
+/// Moves what has other names than `is_own` takes from one folder to another.
+///
+/// # Errors
+/// `Input` for a link in place of a folder; `Machine` when something has a name there already or cannot be moved.
+pub fn move_others(from: &Path, to: &Path, is_own: impl Fn(&str) -> bool) -> Result<()> {
+    refuse_link(from)?;
+    refuse_link(to)?;
+    for path in entries(from)? {
+        if unfinished(&path).is_some() || is_named(&path, &is_own) {
+            continue;
+        }
+        fs::create_dir_all(to).map_err(|e| unwritable(to, &e))?;
+        let place = to.join(path.file_name().unwrap_or_default());
+        if fs::symlink_metadata(&place).is_ok() {
+            return Err(unwritable(&place, &io::ErrorKind::AlreadyExists.into()));
+        }
+        rename(&path, &place)?;
+    }
+    Ok(())
+}
+
+/// Removes a folder where nothing is in it.
+///
+/// # Errors
+/// `Machine` when it cannot be removed all the same.
+pub fn remove_empty(folder: &Path) -> Result<()> {
+    use io::ErrorKind::{DirectoryNotEmpty, NotADirectory, NotFound};
+    match fs::remove_dir(folder) {
+        Err(e) if !matches!(e.kind(), NotFound | NotADirectory | DirectoryNotEmpty) => Err(unwritable(folder, &e)),
+        _ => Ok(()),
+    }
+}
+
+/// What is in a folder; nothing where there is none.
+///
+/// # Errors
+/// `Machine` when it cannot be read.
+pub fn entries(folder: &Path) -> Result<Vec<PathBuf>> {
+    match fs::read_dir(folder) {
+        Err(e) if matches!(e.kind(), io::ErrorKind::NotFound | io::ErrorKind::NotADirectory) => Ok(Vec::new()),
+        entries => entries
+            .and_then(|entries| entries.map(|entry| entry.map(|entry| entry.path())).collect())
+            .map_err(|e| unwritable(folder, &e)),
+    }
+}
+
+/// Whether the name of a file is one that `is_own` takes.
+pub fn is_named(path: &Path, is_own: impl Fn(&str) -> bool) -> bool {
+    path.file_name().and_then(|name| name.to_str()).is_some_and(is_own)
 }
 
 /// Renames a file or folder.
@@ -174,6 +234,10 @@ pub fn unwritable(path: &Path, e: &io::Error) -> Error {
 pub fn unreadable(path: &Path, e: &io::Error, remedy: &str) -> Error {
     match e.kind() {
         io::ErrorKind::NotFound => Error::input(path.display(), "there is no such file", remedy),
+        // What `reading` does not open.
+        io::ErrorKind::InvalidInput | io::ErrorKind::FileTooLarge => {
+            Error::input(path.display(), e, "put a regular file in its place")
+        }
         io::ErrorKind::PermissionDenied => {
             Error::machine(path.display(), format!("cannot be read: {e}"), "make it readable")
         }

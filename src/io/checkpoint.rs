@@ -17,6 +17,13 @@ const KIND: &str = "checkpoint";
 const KEPT: usize = 2;
 const AGAIN: &str = "start the analysis afresh, without --resume";
 
+const NAME: [&str; 2] = ["step-", ".mpmc"];
+
+/// Whether a name is that of a checkpoint.
+pub fn is_name(name: &str) -> bool {
+    atomic::number::<u64>(name, NAME[0], NAME[1]).is_some()
+}
+
 /// A number that tells whether a checkpoint belongs to a case: a hash (XXH64) of everything that the result
 /// depends on.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -138,12 +145,12 @@ impl Checkpoints {
     }
 
     fn path(&self, step: u64) -> PathBuf {
-        self.folder.join(format!("step-{step:09}.mpmc"))
+        self.folder.join(format!("{}{step:09}{}", NAME[0], NAME[1]))
     }
 
     /// The steps that have a checkpoint, in order.
     fn steps(&self) -> Result<Vec<u64>> {
-        match atomic::numbered(&self.folder, "step-", ".mpmc") {
+        match atomic::numbered(&self.folder, NAME[0], NAME[1]) {
             Err(e) if e.kind() == std::io::ErrorKind::NotFound => Ok(Vec::new()),
             steps => steps.map_err(|e| atomic::unreadable(&self.folder, &e, AGAIN)),
         }

@@ -21,7 +21,6 @@ mod blocks;
 mod data;
 
 use std::collections::BTreeMap;
-use std::fs;
 use std::hash::Hasher;
 use std::io::{self, Read, Write};
 use std::path::Path;
@@ -36,6 +35,7 @@ pub(super) use data::with_values;
 
 use super::atomic;
 use crate::error::{Error, Result};
+use crate::reading;
 
 const MAGIC: [u8; 8] = *b"\x89MPM\r\n\x1a\n";
 const VERSION: u32 = 1;
@@ -219,7 +219,7 @@ impl Store {
     /// # Errors
     /// `Input` when the file is missing, foreign, cut or changed.
     pub fn read(path: &Path, kind: &str, remedy: &str) -> Result<Self> {
-        let bytes = fs::read(path).map_err(|e| atomic::unreadable(path, &e, remedy))?;
+        let bytes = reading::bytes(path).map_err(|e| atomic::unreadable(path, &e, remedy))?;
         let broken = |problem: String| Error::input(path.display(), problem, remedy);
         let (header, mut rest) = split_header(&bytes, bytes.len() as u64, kind).map_err(broken)?;
         let mut arrays = Vec::with_capacity(header.arrays.len());
@@ -310,7 +310,7 @@ fn decode(entry: Entry, stored: &[u8]) -> std::result::Result<Array, String> {
 
 /// The first [`START`] bytes of a file with the header after them, if it is a container, and the length of the file.
 fn start(path: &Path) -> io::Result<(Vec<u8>, u64)> {
-    let (file, mut bytes) = (fs::File::open(path)?, Vec::new());
+    let (file, mut bytes) = (reading::open(path)?, Vec::new());
     (&file).take(START as u64).read_to_end(&mut bytes)?;
     if let Ok(header) = header_length(&bytes) {
         (&file).take(header as u64).read_to_end(&mut bytes)?;

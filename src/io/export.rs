@@ -7,12 +7,11 @@
 //! Derived here, from the stress: `mean_stress` (tension positive) and `deviatoric_stress`, √(3/2 s:s).
 
 use std::collections::BTreeMap;
-use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use rayon::prelude::*;
 
-use super::provenance::Origin;
+use super::provenance::{self, Origin};
 use super::vtu::{self, Encoding, Grid};
 use super::{atomic, hash, pvd};
 use crate::error::Result;
@@ -27,6 +26,9 @@ mod soil;
 mod surface;
 
 pub use series::{Series, Shown};
+
+/// The name of the stage that writes series, in its record.
+pub const STAGE: &str = "export";
 
 /// The kinds of files, each with a `.pvd`.
 const SERIES: [&str; 6] = ["points", "grid", SOIL, STRUCTURES, CONTACT, SURFACE];
@@ -124,7 +126,7 @@ struct InHand<'a>(&'a Path);
 impl Drop for InHand<'_> {
     fn drop(&mut self) {
         // Only tidiness: the next export does it again, and says where it cannot.
-        let _ = fs::remove_dir_all(self.0);
+        let _ = atomic::clear_folder(self.0, is_of_series);
     }
 }
 
@@ -136,12 +138,18 @@ fn note(origin: Origin) -> String {
 /// Undoes what an export that was killed has left.
 fn prepare(out: &Path) -> Result<()> {
     let [folder, new, old] = [FOLDER, NEW, OLD].map(|name| out.join(name));
-    atomic::refuse_link(&folder)?;
+    [&folder, &new, &old].into_iter().try_for_each(|folder| atomic::refuse_link(folder))?;
     if old.exists() && !folder.exists() {
         atomic::rename(&old, &folder)?;
     }
-    atomic::remove_folder(&new)?;
-    atomic::remove_folder(&old)
+    atomic::clear_folder(&new, is_of_series)?;
+    discard(&old, &folder)
+}
+
+/// Removes a series, once what others keep beside it is in `folder`.
+fn discard(old: &Path, folder: &Path) -> Result<()> {
+    atomic::move_others(old, folder, is_of_series)?;
+    atomic::clear_folder(old, is_of_series)
 }
 
 /// Puts the new series into the place of the earlier ones.
@@ -151,25 +159,34 @@ fn exchange(out: &Path) -> Result<()> {
         atomic::rename(&folder, &old)?;
     }
     atomic::rename(&new, &folder)?;
-    if old.exists() {
-        for entry in fs::read_dir(&old).map_err(|e| atomic::unwritable(&old, &e))? {
-            let path = entry.map_err(|e| atomic::unwritable(&old, &e))?.path();
-            if let Some(name) = path.file_name()
-                && !is_of_series(&path)
-            {
-                atomic::rename(&path, &folder.join(name))?;
-            }
-        }
-    }
-    atomic::remove_folder(&old)
+    discard(&old, &folder)
 }
 
-/// Whether a file is one of a series, or one that was not finished.
-fn is_of_series(path: &Path) -> bool {
-    let name = path.file_name().and_then(|n| n.to_str()).unwrap_or_default();
+/// The files that an export would replace, and are there.
+///
+/// # Errors
+/// `Machine` when a folder cannot be read.
+pub fn replaced(out: &Path) -> Result<Vec<PathBuf>> {
+    let collections = SERIES.map(|name| out.join(format!("{name}.pvd")));
+    let series = atomic::entries(&out.join(FOLDER))?.into_iter().filter(|path| atomic::is_named(path, is_of_series));
+    Ok(collections.into_iter().filter(|path| path.exists()).chain(series).collect())
+}
+
+/// Removes a series and the record of its export.
+///
+/// # Errors
+/// `Input` for a link in place of the folder of the series, `Machine` when something cannot be removed.
+pub fn remove(out: &Path) -> Result<()> {
+    [FOLDER, NEW, OLD].iter().try_for_each(|name| atomic::clear_folder(&out.join(name), is_of_series))?;
+    SERIES.iter().try_for_each(|name| atomic::remove(&out.join(format!("{name}.pvd"))))?;
+    atomic::remove(&provenance::path(out, STAGE))
+}
+
+/// Whether a name is that of a file of a series.
+fn is_of_series(name: &str) -> bool {
     let stem = name.strip_suffix(".vtu").or_else(|| name.strip_suffix(".vtp"));
     let numbered = |(series, index): (&str, &str)| SERIES.contains(&series) && index.parse::<u64>().is_ok();
-    name.starts_with('.') || stem.and_then(|stem| stem.split_once('_')).is_some_and(numbered)
+    stem.and_then(|stem| stem.split_once('_')).is_some_and(numbered)
 }
 
 fn file_name(series: &str, index: usize) -> String {

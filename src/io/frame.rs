@@ -96,6 +96,16 @@ pub const LINE: &str = "line";
 pub const REGION: &str = "region";
 pub const FACES: &str = "faces";
 
+/// The column of [`Frame::points`] and [`Frame::elements`] with how far each has moved (m).
+pub const DISPLACEMENT: &str = "displacement";
+
+/// The column of [`Frame::contact`] with the gap (m).
+pub const GAP: &str = "contact_gap";
+
+/// How many components the columns have that more is made of than their picture.
+const COMPONENTS: [(&str, usize); 8] =
+    [(CELL, 1), (VOLUME, 1), (UNCOUNTED, 3), (LINE, 1), (REGION, 1), (FACES, 1), (DISPLACEMENT, 3), (GAP, 1)];
+
 /// What a listing tells about a frame.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Info {
@@ -112,9 +122,16 @@ pub struct Info {
     pub surface: usize,
 }
 
+const NAME: [&str; 2] = ["frame-", ".mpmf"];
+
+/// Whether a name is that of a frame.
+pub fn is_name(name: &str) -> bool {
+    atomic::number::<usize>(name, NAME[0], NAME[1]).is_some()
+}
+
 /// The file of frame `index`.
 pub fn path(folder: &Path, index: usize) -> PathBuf {
-    folder.join(format!("frame-{index:06}.mpmf"))
+    folder.join(format!("{}{index:06}{}", NAME[0], NAME[1]))
 }
 
 impl Frame {
@@ -157,7 +174,8 @@ impl Frame {
     /// Reads a frame.
     ///
     /// # Errors
-    /// `Input` when the file is missing, cut or damaged, or a number is not finite.
+    /// `Input` when the file is missing, cut or damaged, or a number is not finite; when a column is there twice, has not as many entries as
+    /// the others, or not the components that it must have.
     pub fn read(path: &Path) -> Result<Self> {
         let store = Store::read(path, KIND, AGAIN)?;
         let (time, phase, step, origin) = read_texts(path, |name| store.text(name))?;
@@ -181,6 +199,10 @@ impl Frame {
             match (name, components) {
                 (POSITION, 3) => part.position = values.chunks_exact(3).map(|v| [v[0], v[1], v[2]]).collect(),
                 (POSITION, _) => return Err(broken()),
+                _ if part.columns.iter().any(|column| column.name == name) => return Err(broken()),
+                _ if COMPONENTS.iter().any(|&(known, count)| known == name && count != components) => {
+                    return Err(broken());
+                }
                 _ => part.columns.push(Column { name: name.to_string(), unit, components, values }),
             }
         }
@@ -269,7 +291,7 @@ pub fn paths(folder: &Path) -> Result<Vec<PathBuf>> {
 }
 
 fn indices(folder: &Path) -> Result<Vec<usize>> {
-    atomic::numbered(folder, "frame-", ".mpmf").map_err(|e| atomic::unreadable(folder, &e, "run `mpm solve` first"))
+    atomic::numbered(folder, NAME[0], NAME[1]).map_err(|e| atomic::unreadable(folder, &e, "run `mpm solve` first"))
 }
 
 type Texts = (f64, String, u64, Origin);

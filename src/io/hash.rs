@@ -1,6 +1,5 @@
 //! Hashes of files (XXH64, seed 0): they tell damage and mix-ups, not forgery.
 
-use std::fs::File;
 use std::hash::Hasher;
 use std::io::{self, Read};
 use std::path::Path;
@@ -10,6 +9,7 @@ use twox_hash::XxHash64;
 
 use super::atomic;
 use crate::error::Result;
+use crate::reading;
 
 /// The hash of the bytes at hand.
 pub fn bytes(bytes: &[u8]) -> u64 {
@@ -38,7 +38,9 @@ pub fn text(hash: u64) -> String {
 }
 
 fn read(path: &Path) -> io::Result<u64> {
-    let mut file = File::open(path)?;
+    let file = reading::open(path)?;
+    // One of a run may grow meanwhile.
+    let mut file = (&file).take(file.metadata()?.len());
     let mut hasher = XxHash64::with_seed(0);
     let mut block = vec![0; 1 << 16];
     loop {

@@ -4,7 +4,7 @@
 //! has the [`Mark`] of each file: how many lines there were, and their hash. [`History::resume`] and [`Log::resume`] cut
 //! what came after, and refuse a file whose earlier lines are not those that were written.
 
-use std::fs::{self, File, OpenOptions};
+use std::fs::{File, OpenOptions};
 use std::hash::Hasher;
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -12,7 +12,9 @@ use std::path::{Path, PathBuf};
 use twox_hash::XxHash64;
 
 use super::atomic;
+use super::table::guarded;
 use crate::error::{Error, Result};
+use crate::reading;
 
 const AGAIN: &str = "start the analysis afresh, with --fresh in place of --resume";
 
@@ -52,7 +54,7 @@ impl Log {
     pub fn resume(path: &Path, mark: Mark) -> Result<Self> {
         let Mark { lines, hash } = mark;
         atomic::refuse_link(path)?;
-        let bytes = fs::read(path).map_err(|e| atomic::unreadable(path, &e, AGAIN))?;
+        let bytes = reading::bytes(path).map_err(|e| atomic::unreadable(path, &e, AGAIN))?;
         let ends = bytes.iter().enumerate().filter(|&(_, &b)| b == b'\n').map(|(i, _)| i + 1);
         // The length of the first `lines` lines; the one before the first is empty.
         let length = match lines {
@@ -120,7 +122,7 @@ impl History {
     /// written.
     pub fn resume(path: &Path, columns: &[String], mark: Mark) -> Result<Self> {
         let rows = mark.lines.saturating_sub(1);
-        let text = fs::read(path).map_err(|e| atomic::unreadable(path, &e, AGAIN))?;
+        let text = reading::bytes(path).map_err(|e| atomic::unreadable(path, &e, AGAIN))?;
         let first = text.split(|&b| b == b'\n').next().unwrap_or_default();
         if first != header(columns).as_bytes() {
             let problem = format!("has the columns `{}` of another run", String::from_utf8_lossy(first));
@@ -173,7 +175,8 @@ impl History {
 
 fn header(columns: &[String]) -> String {
     let quoted = |name: &String| {
-        if name.contains([',', '"', '\n']) { format!("\"{}\"", name.replace('"', "\"\"")) } else { name.clone() }
+        let name = guarded(name);
+        if name.contains([',', '"', '\n']) { format!("\"{}\"", name.replace('"', "\"\"")) } else { name.into_owned() }
     };
     columns.iter().map(quoted).collect::<Vec<_>>().join(",").replace('\n', " ")
 }

@@ -72,6 +72,12 @@ fn name(number: usize, phase: &str) -> String {
     format!("{number:02}-{plain}.mpms")
 }
 
+/// Whether a name is one of [`name`]; a copy of a state under another name is its owner's.
+pub fn is_name(name: &str) -> bool {
+    let number = name.strip_suffix(".mpms").and_then(|name| name.split_once('-')).map(|(number, _)| number);
+    number.is_some_and(|number| number.len() >= 2 && number.bytes().all(|digit| digit.is_ascii_digit()))
+}
+
 /// The states in a folder with what they belong to, in the order of their phases; none where there is no folder.
 ///
 /// # Errors
@@ -105,7 +111,7 @@ fn paths(folder: &Path) -> Result<Vec<PathBuf>> {
         Err(e) => return Err(atomic::unreadable(folder, &e, AGAIN)),
     };
     let paths = entries.filter_map(|entry| Some(entry.ok()?.path()));
-    Ok(paths.filter(|path| path.extension().is_some_and(|kind| kind == "mpms")).collect())
+    Ok(paths.filter(|path| path.file_name().and_then(|name| name.to_str()).is_some_and(is_name)).collect())
 }
 
 /// Reads a state, if it is the one of that hash.

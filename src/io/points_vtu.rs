@@ -7,7 +7,6 @@
 
 mod plain;
 
-use std::fs;
 use std::path::Path;
 
 use serde::{Deserialize, Serialize};
@@ -19,6 +18,7 @@ use super::{atomic, columns, hash};
 use crate::error::{Error, Result};
 use crate::points::Points;
 use crate::program;
+use crate::reading;
 use plain::POSITION;
 
 const AGAIN: &str = "run `mpm seed` again";
@@ -94,7 +94,7 @@ pub fn write<const D: usize>(path: &Path, points: &Points<D>, regions: &[String]
 /// # Errors
 /// `Input` when the file is missing, cut, edited, or not one of [`write()`] with this dimension.
 pub fn read<const D: usize>(path: &Path) -> Result<Seeded<D>> {
-    let bytes = fs::read(path).map_err(|e| atomic::unreadable(path, &e, AGAIN))?;
+    let bytes = reading::bytes(path).map_err(|e| atomic::unreadable(path, &e, AGAIN))?;
     let broken = |problem: String| Error::input(path.display(), problem, AGAIN);
     let (xml, trailer) = split_trailer(&bytes)
         .ok_or_else(|| broken("is cut off, edited, or not written by mpm: its last line is not its checksum".into()))?;

@@ -6,9 +6,8 @@
 //! What stands within the files themselves has no times and no command lines: the same inputs give the same bytes.
 
 use std::collections::BTreeMap;
-use std::fs;
 use std::path::{Path, PathBuf};
-use std::time::SystemTime;
+use std::time::{SystemTime, UNIX_EPOCH};
 
 use serde::{Deserialize, Serialize};
 
@@ -17,6 +16,7 @@ use super::checkpoint::Fingerprint;
 use super::hash;
 use crate::error::{Error, Result};
 use crate::program;
+use crate::reading;
 
 /// The folder of the records within an output folder.
 pub const FOLDER: &str = "provenance";
@@ -157,13 +157,28 @@ impl Record {
 
     /// The record of a stage in `folder`; one that is missing or damaged counts for none.
     pub fn read(folder: &Path, stage: &str) -> Option<Self> {
-        serde_json::from_slice(&fs::read(path(folder, stage)).ok()?).ok()
+        serde_json::from_slice(&reading::bytes(&path(folder, stage)).ok()?).ok()
     }
 }
 
 /// The file of the record of a stage.
 pub fn path(folder: &Path, stage: &str) -> PathBuf {
     folder.join(FOLDER).join(format!("{stage}.json"))
+}
+
+/// Refuses to replace `files` that are there where `stage` has left no record in `folder`: they are somebody else's.
+///
+/// # Errors
+/// `Input` naming the first of them.
+pub fn refuse_others(folder: &Path, stage: &str, files: impl IntoIterator<Item = PathBuf>) -> Result<()> {
+    if path(folder, stage).is_file() {
+        return Ok(());
+    }
+    let there = |file: &PathBuf| file.symlink_metadata().is_ok();
+    files.into_iter().find(there).map_or(Ok(()), |file| {
+        let problem = format!("it is there already, and not by `mpm {stage}`, which would replace it");
+        Err(Error::input(file.display(), problem, "move it away, or choose another folder with -o"))
+    })
 }
 
 /// The hashes of files by their names relative to `folder`.
@@ -173,6 +188,32 @@ fn hashes(folder: &Path, files: &[PathBuf]) -> Result<BTreeMap<String, String>> 
     Ok(files.iter().zip(hashes).map(|(path, hash)| (name(path), hash::text(hash))).collect())
 }
 
-fn now() -> String {
-    humantime::format_rfc3339_seconds(SystemTime::now()).to_string()
+/// The time in UTC, RFC 3339.
+pub fn now() -> String {
+    rfc3339(SystemTime::now())
+}
+
+/// RFC 3339 has years of four digits; a clock may be set to none of them, or to before 1970.
+fn rfc3339(time: SystemTime) -> String {
+    const LAST: u64 = 253_402_300_799;
+    match time.duration_since(UNIX_EPOCH) {
+        Ok(since) if since.as_secs() <= LAST => humantime::format_rfc3339_seconds(time).to_string(),
+        Ok(_) => "after the year 9999, by the clock".to_owned(),
+        Err(_) => "before the year 1970, by the clock".to_owned(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::time::Duration;
+
+    #[test]
+    fn any_clock_has_a_text() {
+        let at = |seconds: u64| rfc3339(UNIX_EPOCH + Duration::from_secs(seconds));
+        assert_eq!(at(0), "1970-01-01T00:00:00Z");
+        assert_eq!(at(253_402_300_799), "9999-12-31T23:59:59Z");
+        assert_eq!(at(253_402_300_800), "after the year 9999, by the clock");
+        assert_eq!(rfc3339(UNIX_EPOCH - Duration::from_secs(1)), "before the year 1970, by the clock");
+    }
 }

@@ -4,16 +4,18 @@
 //! `unfinished` beside them, and takes their place when it is finished, or where they are unfinished too and it has
 //! converged at least one step. Until then they stay as they are.
 //!
+//! The folder may be anybody's, and somebody may keep notes beside results. Only files with the names of a run are removed or replaced;
+//! `history.csv` and `solve.log` are names that others give, too: they are those of a run where its record is, which is written before
+//! them and removed after them.
+//!
 //! The exchange is a few renames. A marker is written before the first and removed after the last one: an exchange that a
 //! kill interrupts is completed by the next process.
 
 use std::path::{Path, PathBuf};
 
-use super::atomic;
-use super::checkpoint::Checkpoints;
-use super::frame;
-use super::phase_state;
+use super::checkpoint::{self, Checkpoints};
 use super::provenance::{self, Record};
+use super::{atomic, export, frame, phase_state};
 use crate::error::Result;
 
 /// The name of the stage that writes runs, in its record.
@@ -23,9 +25,10 @@ pub const BESIDE: &str = "unfinished";
 /// The marker of an exchange, and where the earlier results go meanwhile.
 const MARKER: &str = ".exchange";
 const REPLACED: &str = ".replaced";
-/// What a run consists of.
-const PARTS: [&str; 6] =
-    ["results", "checkpoints", phase_state::FOLDER, "history.csv", "solve.log", provenance::FOLDER];
+/// What a run consists of: its folders, with the names of what it has in them, and files.
+const FOLDERS: [(&str, fn(&str) -> bool); 3] =
+    [("results", frame::is_name), ("checkpoints", checkpoint::is_name), (phase_state::FOLDER, phase_state::is_name)];
+const FILES: [&str; 2] = ["history.csv", "solve.log"];
 
 /// The folder that a run writes into.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -125,18 +128,16 @@ impl RunFolder {
     /// Refuses links in place of what is written in place or emptied.
     fn refuse_links(&self) -> Result<()> {
         atomic::refuse_link(&self.path)?;
-        PARTS.iter().try_for_each(|part| atomic::refuse_link(&self.path.join(part)))
+        parts().chain([provenance::FOLDER]).try_for_each(|part| atomic::refuse_link(&self.path.join(part)))
     }
 
-    /// Removes a run.
-    fn remove(&self, outer: bool) -> Result<()> {
-        if outer {
-            // The folder of the other stages, too: of the records only that of the run.
-            atomic::remove(&provenance::path(&self.path, STAGE))?;
-            let own = PARTS.iter().filter(|&&part| part != provenance::FOLDER);
-            return own.into_iter().try_for_each(|part| atomic::remove_folder(&self.path.join(part)));
+    /// Removes what the run has written.
+    fn remove(&self) -> Result<()> {
+        for (name, is_own) in FOLDERS {
+            atomic::clear_folder(&self.path.join(name), is_own)?;
         }
-        atomic::remove_folder(&self.path)
+        FILES.iter().try_for_each(|name| atomic::remove(&self.path.join(name)))?;
+        atomic::remove(&provenance::path(&self.path, STAGE))
     }
 }
 
@@ -158,12 +159,10 @@ impl Runs {
     /// # Errors
     /// `Input` for a link in place of a file or folder of a run, `Machine` when something cannot be renamed or removed.
     pub fn prepare(&self) -> Result<()> {
-        for part in PARTS {
-            atomic::refuse_link(&self.main.path.join(part))?;
+        for run in [&self.main, &self.beside, &self.replaced()] {
+            run.refuse_links()?;
         }
-        self.beside.refuse_links()?;
-        atomic::refuse_link(&self.replaced())?;
-        if self.marker().exists() { self.exchange() } else { atomic::remove_folder(&self.replaced()) }
+        if self.marker().exists() { self.exchange() } else { self.discard_replaced() }
     }
 
     /// The folder of the run that was not finished, if there is one with a converged step.
@@ -185,15 +184,21 @@ impl Runs {
         candidates.into_iter().find(|run| run.history().is_file()).cloned()
     }
 
-    /// An empty folder for a new run: beside the results, where there are any.
+    /// A folder without a run for a new one: beside the results, where there are any.
     ///
     /// # Errors
-    /// `Machine` when what is left of another run cannot be removed.
+    /// `Input` for a file of others that the new run would replace; `Machine` when what is left of another run cannot be removed.
     pub fn start(&self) -> Result<&RunFolder> {
-        let run = if self.main.standing()? == Standing::Nothing { &self.main } else { &self.beside };
-        run.remove(run == &self.main)?;
-        atomic::prepare_folder(&run.path)?;
-        Ok(run)
+        for run in [&self.main, &self.beside] {
+            provenance::refuse_others(&run.path, STAGE, FILES.map(|name| run.path.join(name)))?;
+        }
+        if self.main.standing()? == Standing::Nothing {
+            self.main.remove()?;
+            return Ok(&self.main);
+        }
+        self.discard_beside()?;
+        atomic::prepare_folder(&self.beside.path)?;
+        Ok(&self.beside)
     }
 
     /// Puts a run that ended into its place: whether it is in the main folder then.
@@ -221,19 +226,16 @@ impl Runs {
 
     /// Moves every part of the run beside to the main folder, as far as that has not been done yet.
     fn exchange(&self) -> Result<()> {
-        let replaced = self.replaced();
-        for part in PARTS.iter().filter(|&&part| part != provenance::FOLDER) {
-            self.exchange_part(&replaced, part)?;
-        }
+        parts().try_for_each(|part| self.exchange_part(part))?;
         // The record goes last: with it the results are finished.
-        self.exchange_part(&replaced, &format!("{}/{STAGE}.json", provenance::FOLDER))?;
-        atomic::remove_folder(&self.beside.path)?;
+        self.exchange_part(&format!("{}/{STAGE}.json", provenance::FOLDER))?;
+        self.discard_beside()?;
         atomic::remove(&self.marker())?;
-        atomic::remove_folder(&replaced)
+        self.discard_replaced()
     }
 
-    fn exchange_part(&self, replaced: &Path, part: &str) -> Result<()> {
-        let (new, old, aside) = (self.beside.path.join(part), self.main.path.join(part), replaced.join(part));
+    fn exchange_part(&self, part: &str) -> Result<()> {
+        let [new, old, aside] = [&self.beside, &self.main, &self.replaced()].map(|run| run.path.join(part));
         if !new.exists() {
             return Ok(());
         }
@@ -243,7 +245,6 @@ impl Runs {
             }
         }
         if old.exists() {
-            atomic::remove_folder(&aside)?;
             atomic::rename(&old, &aside)?;
         }
         atomic::rename(&new, &old)
@@ -253,9 +254,34 @@ impl Runs {
         self.main.path.join(MARKER)
     }
 
-    fn replaced(&self) -> PathBuf {
-        self.main.path.join(REPLACED)
+    fn replaced(&self) -> RunFolder {
+        RunFolder::new(self.main.path.join(REPLACED))
     }
+
+    /// Removes the run beside the results, with what was exported of it.
+    fn discard_beside(&self) -> Result<()> {
+        let folder = &self.beside.path;
+        export::remove(folder)?;
+        self.beside.remove()?;
+        atomic::remove_empty(&folder.join(provenance::FOLDER))?;
+        atomic::remove_empty(folder)
+    }
+
+    /// Removes the run that another one took the place of, once what others keep in its folders is back there.
+    fn discard_replaced(&self) -> Result<()> {
+        let replaced = self.replaced();
+        for (name, is_own) in FOLDERS {
+            atomic::move_others(&replaced.path.join(name), &self.main.path.join(name), is_own)?;
+        }
+        replaced.remove()?;
+        atomic::remove_empty(&replaced.path.join(provenance::FOLDER))?;
+        atomic::remove_empty(&replaced.path)
+    }
+}
+
+/// The folders and files of a run, without its record.
+fn parts() -> impl Iterator<Item = &'static str> {
+    FOLDERS.map(|(name, _)| name).into_iter().chain(FILES)
 }
 
 #[cfg(test)]

@@ -4,7 +4,7 @@
 
 use super::atomic;
 use crate::error::Result;
-use std::fs;
+use crate::reading;
 use std::path::Path;
 
 /// A converged step.
@@ -48,7 +48,7 @@ impl SolveLog {
     /// # Errors
     /// `Input` when it is missing, `Machine` when it cannot be read.
     pub fn read(path: &Path) -> Result<Self> {
-        let bytes = fs::read(path).map_err(|e| atomic::unreadable(path, &e, "run `mpm solve` first"))?;
+        let bytes = reading::bytes(path).map_err(|e| atomic::unreadable(path, &e, "run `mpm solve` first"))?;
         Ok(Self::parse(&String::from_utf8_lossy(&bytes)))
     }
 

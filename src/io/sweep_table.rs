@@ -3,7 +3,7 @@
 //! The columns of a sweep are `run`, its parameters, `state`, `time [s]`, and for each quantity of the histories its
 //! `last`, `min` and `max`. A field is empty where a run has no such value.
 
-use super::table::{Column, bytes};
+use super::table::{Column, bytes, unguarded};
 use crate::error::{Error, Result, shown};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
@@ -24,6 +24,18 @@ pub const SUMMARIES: [&str; 3] = ["last", "min", "max"];
 pub fn file(path: &Path) -> PathBuf {
     let is_table = path.extension().is_some_and(|kind| kind.eq_ignore_ascii_case("csv")) && !path.is_dir();
     if is_table { path.to_owned() } else { path.join(FILE) }
+}
+
+/// Refuses to replace a file that is no table of a sweep: it is somebody else's.
+///
+/// # Errors
+/// `Input` for such a file.
+pub fn refuse_others(path: &Path) -> Result<()> {
+    if path.symlink_metadata().is_err() || SweepTable::read(path, "").is_ok_and(|table| table.is_sweep()) {
+        return Ok(());
+    }
+    let problem = "it is there already, and not by `mpm sweep`, which would replace it";
+    Err(Error::input(path.display(), problem, "move it away, or choose another folder with -o"))
 }
 
 /// A value with six significant digits.
@@ -67,11 +79,11 @@ impl SweepTable {
         let parameters =
             headings.iter().position(|heading| heading == STATE).filter(|_| is_sweep).map_or(0..0, |end| 1..end);
         let column = |(k, heading): (usize, &str)| match parameters.contains(&k) {
-            true => Column { name: heading.to_owned(), ..Column::default() },
+            true => Column { name: unguarded(heading).to_owned(), ..Column::default() },
             false => Column::new(heading),
         };
         let columns = headings.iter().enumerate().map(column).collect();
-        let fields = |record: csv::StringRecord| record.iter().map(str::to_owned).collect();
+        let fields = |record: csv::StringRecord| record.iter().map(|field| unguarded(field).to_owned()).collect();
         let rows: csv::Result<Vec<Vec<String>>> = reader.records().map(|record| record.map(fields)).collect();
         Ok(Self { rows: rows.map_err(no_table)?, columns, name: name.clone() })
     }

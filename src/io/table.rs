@@ -2,11 +2,9 @@
 
 use super::atomic;
 use crate::error::{Error, Result, shown};
-use std::fs;
+use crate::reading;
+use std::borrow::Cow;
 use std::path::Path;
-
-/// The largest file that is read as a table (bytes).
-const LARGEST: u64 = 4 << 30;
 
 /// A column: its name and unit from the heading `head.uy [m]`, and its numbers.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -17,9 +15,26 @@ pub struct Column {
     pub values: Vec<f64>,
 }
 
+/// A text as a field: an apostrophe before what a spreadsheet would take for a formula. A number is none.
+pub fn guarded(text: &str) -> Cow<'_, str> {
+    if is_formula(text.trim_start_matches(GUARD)) { Cow::Owned(format!("{GUARD}{text}")) } else { Cow::Borrowed(text) }
+}
+
+/// The text of a field that [`guarded`] made.
+pub fn unguarded(field: &str) -> &str {
+    let is_guarded = |rest: &&str| is_formula(rest.trim_start_matches(GUARD));
+    field.strip_prefix(GUARD).filter(is_guarded).unwrap_or(field)
+}
+
+const GUARD: char = '\'';
+
+fn is_formula(text: &str) -> bool {
+    text.starts_with(['=', '+', '-', '@', '\t', '\r']) && text.parse::<f64>().is_err()
+}
+
 impl Column {
     pub(super) fn new(heading: &str) -> Self {
-        let heading = heading.trim();
+        let heading = unguarded(heading.trim());
         let split = heading.strip_suffix(']').and_then(|rest| rest.rsplit_once('['));
         let (name, unit) = split.map_or((heading, ""), |(name, unit)| (name.trim_end(), unit.trim()));
         Self { name: name.to_owned(), unit: unit.to_owned(), values: Vec::new() }
@@ -36,13 +51,7 @@ impl Column {
 /// # Errors
 /// `Input` when the file is missing or too large, `Machine` when it cannot be read.
 pub(super) fn bytes(path: &Path, remedy: &str) -> Result<Vec<u8>> {
-    let unreadable = |e| atomic::unreadable(path, &e, remedy);
-    let size = fs::metadata(path).map_err(unreadable)?.len();
-    if size > LARGEST {
-        let problem = format!("has {size} bytes, more than the {LARGEST} of a table");
-        return Err(Error::input(path.display(), problem, "name a smaller file"));
-    }
-    fs::read(path).map_err(unreadable)
+    reading::bytes(path).map_err(|e| atomic::unreadable(path, &e, remedy))
 }
 
 /// Columns of one length.
@@ -126,6 +135,20 @@ mod tests {
         assert_eq!((other.heading().as_str(), &other.values[..]), ("a, b", &[-2.0, 3.0][..]));
         assert_eq!(table.column("head.uy"), table.column("head.uy [m]"));
         assert_eq!(table.column("uy"), None);
+    }
+
+    #[test]
+    fn no_text_is_a_formula_and_all_come_back() {
+        let formulas = ["=1+1", "+A1", "-2+cmd|' /C calc'!A0", "@SUM(A1)", "'=1", "''-x"];
+        for text in formulas {
+            let field = guarded(text);
+            assert!(field.starts_with('\''), "{field}");
+            assert_eq!(unguarded(&field), text);
+        }
+        for text in ["-0.3", "+1e-3", "-inf", "head", "'head'", "", "a=b"] {
+            assert_eq!((&*guarded(text), unguarded(text)), (text, text));
+        }
+        assert_eq!(parse("'=head.uy [m],time [s]\n1,2\n").unwrap().columns[0].name, "=head.uy");
     }
 
     #[test]

@@ -16,8 +16,8 @@ mod types;
 mod write;
 
 use crate::error::{Error, Result};
+use crate::reading;
 use model::Model;
-use std::fs;
 use std::path::Path;
 
 /// Reads the file `path` and gives it as the text of an MSH 4.1 file, with notes on what is left out.
@@ -27,7 +27,7 @@ use std::path::Path;
 /// at all; elements that are not plane, or whose region is not clear.
 pub fn to_msh(path: &Path) -> Result<(String, Vec<String>)> {
     let place = path.display().to_string();
-    let bytes = fs::read(path).map_err(|error| Error::input(&place, error, "check the path"))?;
+    let bytes = reading::bytes(path).map_err(|error| Error::input(&place, error, "check the path"))?;
     parse(&bytes, &place)
 }
 

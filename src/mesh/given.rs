@@ -2,7 +2,7 @@
 
 use super::{abaqus, msh};
 use crate::error::{Error, Result};
-use std::fs;
+use crate::reading;
 use std::path::Path;
 
 /// The ends of the names of files that are read.
@@ -34,6 +34,6 @@ pub fn read(file: &Path) -> Result<Option<(Vec<u8>, Vec<String>)>> {
     if ends(file, ".med") {
         return Ok(None);
     }
-    let bytes = fs::read(file).map_err(|error| Error::input(file.display(), error, "check the path"))?;
+    let bytes = reading::bytes(file).map_err(|error| Error::input(file.display(), error, "check the path"))?;
     Ok(msh::is_of_version(&bytes).then_some((bytes, Vec::new())))
 }

@@ -9,6 +9,7 @@
 mod check;
 mod estimate;
 mod files;
+mod ranges;
 mod sandbox;
 mod script;
 mod session;
@@ -18,11 +19,11 @@ pub use script::{Sources, sources};
 pub use worker::{COMMAND, Worker, serve};
 
 use crate::error::{Error, Result};
+use crate::reading;
 use check::{check_parameters, check_surfaces};
 use files::check_readable;
 use serde::{Deserialize, Serialize};
 use session::Session;
-use std::fs;
 use std::path::Path;
 
 /// What the case decides about the mesh.
@@ -145,7 +146,7 @@ fn outline(session: &Session, surfaces: &[i32]) -> Outline {
 /// A session with the geometry in `geo`, its parameters and surfaces checked.
 fn open(geo: &Path, options: &Options) -> Result<Session> {
     check_readable(geo)?;
-    let text = fs::read(geo).map_err(|error| Error::input(geo.display(), error, "check the path"))?;
+    let text = reading::bytes(geo).map_err(|error| Error::input(geo.display(), error, "check the path"))?;
     let last = text.rsplit(|&c| c == b'\n').next().unwrap_or_default();
     if !is_mesh(geo) && !last.trim_ascii().is_empty() {
         return Err(Error::input(

@@ -15,10 +15,11 @@ use super::shape::CellKind;
 use super::{Cells, Group, Mesh};
 use crate::error::{Error, Result};
 use crate::geometry::box_around;
+use crate::reading;
 use sections::{Block, Nodes, Sections};
 use source::{AGAIN, Source};
 use std::collections::{BTreeMap, BTreeSet};
-use std::fs::{self, OpenOptions};
+use std::fs::OpenOptions;
 use std::io::{self, Write};
 use std::path::Path;
 use twox_hash::XxHash64;
@@ -37,11 +38,7 @@ const SEAL: [&str; 2] = ["mpm mesh", "xxh64="];
 /// plane; groups that are empty or that no cell touches. Machine: one that cannot be read.
 pub fn read(path: &Path) -> Result<Mesh<2>> {
     let place = path.display().to_string();
-    let metadata = fs::metadata(path).map_err(|error| Error::input(&place, error, "check the path"))?;
-    if !metadata.is_file() {
-        return Err(Error::input(&place, "it is a folder or a device", "name a file"));
-    }
-    parse(&fs::read(path).map_err(|error| Error::input(&place, error, "check the path"))?, &place)
+    parse(&reading::bytes(path).map_err(|error| Error::input(&place, error, "check the path"))?, &place)
 }
 
 /// As [`read`], from the bytes of the file called `place`.
@@ -57,7 +54,7 @@ pub fn parse(bytes: &[u8], place: &str) -> Result<Mesh<2>> {
 /// # Errors
 /// When it cannot be read or written.
 pub fn seal(path: &Path) -> io::Result<()> {
-    let bytes = fs::read(path)?;
+    let bytes = reading::bytes(path)?;
     // That of a mesh that is given may have been made by a stage.
     if is_seal(&bytes) {
         return Ok(());

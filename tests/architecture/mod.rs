@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 
 /// The modules by layer, lowest first.
 const LAYERS: [&[&str]; 7] = [
-    &["error", "geometry", "profile", "program", "tensor", "time_integration", "time_value"],
+    &["error", "geometry", "machine", "profile", "program", "reading", "tensor", "time_integration", "time_value"],
     &["material", "mesh"],
     &["contact", "dofs", "kinematics", "points", "quadrature", "rigid", "seed", "interpolation", "surface", "system"],
     &["soil", "term"],
@@ -95,6 +95,23 @@ fn factors_alone_name_the_sparse_solver_and_one_file_calls_gmsh() {
     assert_eq!(holds("unsafe"), ["mesh/gmsh/session.rs"]);
     assert_eq!(holds("OUT_DIR"), ["mesh/gmsh/session.rs"], "the bindings that build.rs makes");
     assert_eq!(holds("extern"), [""; 0]);
+}
+
+/// Opening a file elsewhere would follow a link to a device, or wait for a pipe. The system's own files are opened where they are named.
+#[test]
+fn files_are_opened_for_reading_in_one_place() {
+    let of_system = ["cli/signals.rs", "io/lock.rs", "machine.rs", "reading.rs"];
+    for (file, _) in sources().into_iter().filter(|(file, _)| !is_of_tests(file)) {
+        let name = file.strip_prefix(root()).unwrap().display().to_string();
+        let text = fs::read_to_string(&file).unwrap();
+        let opens = ["File::open(", "fs::read(", "fs::read_to_string("]
+            .iter()
+            .flat_map(|call| without_tests(&text).matches(call).collect::<Vec<_>>())
+            .count();
+        // A folder is opened to wait until it is on the disk, and a mesh for the same.
+        let to_sync = usize::from(["io/atomic.rs", "mesh/gmsh/session.rs"].contains(&&*name));
+        assert!(of_system.contains(&&*name) || opens == to_sync, "{name}: use `crate::reading`");
+    }
 }
 
 /// Words of the code that have a standard name, and that name.

@@ -1,114 +1,137 @@
-//! `pipeline/mpm.mk` in a project of its own, with a stand-in for the program that logs its calls: only stale
-//! stages run, in order, also with `make -j`.
+//! `pipeline/mpm.mk` in a project of its own: what is stale is done and no more, in order, also with `make -j`; and nothing
+//! that stands in a case reaches `make` or the shell.
 
-use std::fs::{self, File};
+use crate::support::{PROGRAM, block, project, said};
+use std::fs;
 use std::os::unix::fs::PermissionsExt;
 use std::path::Path;
 use std::process::{Command, Output};
-use std::thread::sleep;
-use std::time::{Duration, SystemTime};
+use tempfile::TempDir;
 
-const PROGRAM: &str = r#"#!/bin/sh
-echo "$@" >> log
-mkdir -p "$2/out/vtu"
-case $1 in
-  mesh) echo > "$2/out/mesh.msh" ;;
-  seed) echo > "$2/out/points.vtu" ;;
-  solve) echo > "$2/out/history.csv"; [ ! -e fail ] ;;
-  export) echo > "$2/out/points.pvd" ;;
-esac
-"#;
-
-fn project() -> tempfile::TempDir {
+/// A project with the cases `slope` and `b`, whose `.geo` they share, and the rules for a program.
+fn scene(program: &str) -> TempDir {
     let folder = tempfile::tempdir().unwrap();
     let root = folder.path();
-    let rules = Path::new(env!("CARGO_MANIFEST_DIR")).join("pipeline/mpm.mk");
-    let makefile = format!("MPM := ./program\nCASES := cases/slope sweep/b\ninclude {}\n", rules.display());
-    fs::write(root.join("Makefile"), makefile).unwrap();
-    fs::write(root.join("scene.geo"), "").unwrap();
-    fs::write(root.join("program"), PROGRAM).unwrap();
-    fs::set_permissions(root.join("program"), fs::Permissions::from_mode(0o755)).unwrap();
-    for (case, mesh) in [
-        ("cases/slope", "mesh:\n  geo: ../../scene.geo  # shared\n"),
-        ("sweep/b", "mesh: {geo: \"b.geo\", order: 2}\n"),
-    ] {
-        fs::create_dir_all(root.join(case)).unwrap();
-        fs::write(root.join(case).join("case.yaml"), mesh).unwrap();
+    let sound = block::scene("1", "0.5", "0.5");
+    let case = fs::read_to_string(sound.path().join("case.yaml")).unwrap();
+    fs::copy(sound.path().join("scene.geo"), root.join("scene.geo")).unwrap();
+    for name in ["cases/slope", "sweep/b"] {
+        fs::create_dir_all(root.join(name)).unwrap();
+        fs::write(root.join(name).join("case.yaml"), case.replace("scene.geo", "../../scene.geo")).unwrap();
     }
-    fs::write(root.join("sweep/b/b.geo"), "").unwrap();
+    let rules = project("pipeline/mpm.mk");
+    let makefile = format!("MPM := {program}\nCASES := cases/slope sweep/b\ninclude {}\n", rules.display());
+    fs::write(root.join("Makefile"), makefile).unwrap();
     folder
 }
 
 fn make(root: &Path, arguments: &[&str]) -> Output {
     // Not the flags of a make that runs these tests.
-    let output = Command::new("make").args(arguments).current_dir(root).env_remove("MAKEFLAGS").output().unwrap();
-    assert!(!String::from_utf8_lossy(&output.stderr).contains("warning"), "{output:?}");
-    output
+    Command::new("make").args(arguments).current_dir(root).env_remove("MAKEFLAGS").output().unwrap()
 }
 
-/// The program's calls since the last look.
-fn calls(root: &Path) -> Vec<String> {
-    let log = fs::read_to_string(root.join("log")).unwrap_or_default();
-    let _ = fs::remove_file(root.join("log"));
-    log.lines().map(str::to_owned).collect()
+/// The stages that were not skipped; each stage ends with a line of its own, that of a skipped one says so.
+fn done(output: &Output) -> Vec<&'static str> {
+    assert!(output.status.success(), "{}", said(output));
+    assert!(!said(output).contains("warning: overriding"), "{}", said(output));
+    let is_done = |stage: &&str| !said(output).contains(&format!("{stage}: nothing has changed"));
+    ["mesh", "seed", "solve", "export"].into_iter().filter(is_done).collect()
 }
-
-fn touch(path: &Path) {
-    // Past the resolution of file times, so that the file is newer than every output.
-    sleep(Duration::from_millis(20));
-    File::options().write(true).open(path).unwrap().set_modified(SystemTime::now()).unwrap();
-    // The clock that files get their times by runs some milliseconds late: outputs made at once would be older.
-    sleep(Duration::from_millis(20));
-}
-
-const ALL: [&str; 4] = ["mesh cases/slope", "seed cases/slope", "solve cases/slope", "export cases/slope"];
 
 #[test]
 fn only_stale_stages_run() {
-    let folder = project();
+    let folder = scene(PROGRAM);
     let root = folder.path();
-    assert!(make(root, &["slope"]).status.success());
-    assert_eq!(calls(root), ALL);
-    make(root, &["slope"]);
-    assert!(calls(root).is_empty());
-    for input in ["cases/slope/case.yaml", "scene.geo", "program"] {
-        touch(&root.join(input));
-        make(root, &["slope"]);
-        assert_eq!(calls(root), ALL, "{input}");
-    }
-    touch(&root.join("cases/slope/out/points.vtu"));
-    make(root, &["slope"]);
-    assert_eq!(calls(root), ALL[2..]);
-    touch(&root.join("sweep/b/b.geo"));
-    make(root, &["slope"]);
-    assert!(calls(root).is_empty());
-    make(root, &["b-mesh"]);
-    assert_eq!(calls(root), ["mesh sweep/b"]);
-    make(root, &["slope-clean"]);
+    assert_eq!(done(&make(root, &["slope"])), ["mesh", "seed", "solve", "export"]);
+    assert!(done(&make(root, &["slope"])).is_empty());
+    let edit = |name: &str, from: &str, to: &str| {
+        let text = fs::read_to_string(root.join(name)).unwrap();
+        assert!(text.contains(from), "{name}");
+        fs::write(root.join(name), text.replace(from, to)).unwrap();
+    };
+    edit("cases/slope/case.yaml", "young: 1000", "young: 2000");
+    assert_eq!(done(&make(root, &["slope"])), ["seed", "solve", "export"]);
+    edit("cases/slope/case.yaml", "y: -10", "y: -9");
+    assert_eq!(done(&make(root, &["slope-solve"])), ["solve", "export"], "and export is not asked for");
+    assert_eq!(done(&make(root, &["slope"])), ["export"]);
+    // The file that both share, and one that it includes.
+    edit("scene.geo", "{1, 2, 0, h}", "{1, 3, 0, h}");
+    assert_eq!(done(&make(root, &["slope-mesh"])), ["mesh", "seed", "solve", "export"]);
+    assert!(!root.join("sweep/b/out").exists());
+    done(&make(root, &["b-mesh"]));
+    assert!(root.join("sweep/b/out/mesh.msh").exists() && !root.join("sweep/b/out/points.vtu").exists());
+    done(&make(root, &["slope-clean"]));
     assert!(!root.join("cases/slope/out").exists());
+}
+
+/// A stand-in for the program, that logs its calls.
+const LOGS: &str = "#!/bin/sh\necho \"$@\" >> log\n[ ! -e fail ] || [ \"$4\" != solve ]\n";
+
+fn logged() -> TempDir {
+    let folder = scene("./program");
+    fs::write(folder.path().join("program"), LOGS).unwrap();
+    fs::set_permissions(folder.path().join("program"), fs::Permissions::from_mode(0o755)).unwrap();
+    folder
+}
+
+/// The stages that were called for a case, with further flags.
+fn calls(root: &Path, case: &str) -> Vec<String> {
+    let log = fs::read_to_string(root.join("log")).unwrap();
+    let start = format!("run {case} --until ");
+    log.lines().filter_map(|call| call.strip_prefix(&start)).map(str::to_owned).collect()
 }
 
 #[test]
 fn a_solve_that_failed_is_taken_up_again() {
-    let folder = project();
+    let folder = logged();
     let root = folder.path();
     fs::write(root.join("fail"), "").unwrap();
     assert!(!make(root, &["slope"]).status.success());
-    assert_eq!(calls(root), ALL[..3]);
+    assert_eq!(calls(root, "cases/slope"), ["mesh", "seed", "solve"]);
     fs::remove_file(root.join("fail")).unwrap();
     make(root, &["slope", "RESUME=1", "THREADS=2"]);
-    assert_eq!(calls(root), ["solve cases/slope --resume --threads 2", "export cases/slope"]);
+    assert_eq!(calls(root, "cases/slope")[3..], ["mesh", "seed", "solve --resume --threads 2", "export"]);
 }
 
 #[test]
 fn parallel_make_keeps_the_order_of_each_case() {
-    let folder = project();
+    let folder = logged();
     let root = folder.path();
     assert!(make(root, &["-j4", "slope", "b", "b-solve", "slope-mesh"]).status.success());
-    let calls = calls(root);
-    assert_eq!(calls.len(), 8, "{calls:?}");
     for case in ["cases/slope", "sweep/b"] {
-        let stages: Vec<_> = calls.iter().filter_map(|c| c.strip_suffix(case)).map(str::trim).collect();
-        assert_eq!(stages, ["mesh", "seed", "solve", "export"]);
+        assert_eq!(calls(root, case), ["mesh", "seed", "solve", "export"]);
     }
+}
+
+#[test]
+fn nothing_in_a_case_is_executed() {
+    let folder = logged();
+    let root = folder.path();
+    fs::write(root.join("Makefile"), format!("MPM := ./program\ninclude {}\n", project("pipeline/mpm.mk").display()))
+        .unwrap();
+    fs::write(root.join("cases/slope/case.yaml"), "# geo: $(shell touch made-by-text)\nmesh: {geo: '`touch made`'}\n")
+        .unwrap();
+    let names = [
+        "$(shell touch made-by-name)",
+        "a;touch made-by-name",
+        "a`touch made-by-name`",
+        "a'touch made-by-name'",
+        "a:slope=$(shell touch made-by-name)",
+        "x=made",
+        "a#b",
+        "%",
+        "a&touch made-by-name",
+    ];
+    for name in names {
+        fs::create_dir(root.join("cases").join(name)).unwrap();
+        fs::write(root.join("cases").join(name).join("case.yaml"), "").unwrap();
+    }
+    for arguments in [&["-n", "slope"][..], &["slope"], &["slope-clean"], &["-n", "made-by-name"]] {
+        let said = said(&make(root, arguments));
+        assert!(said.contains("are left out"), "{said}");
+    }
+    assert_eq!(calls(root, "cases/slope"), ["mesh", "seed", "solve", "export"]);
+    let mut there: Vec<_> = fs::read_dir(root).unwrap().map(|entry| entry.unwrap().file_name()).collect();
+    there.sort();
+    assert_eq!(there, ["Makefile", "cases", "log", "program", "scene.geo", "sweep"]);
 }

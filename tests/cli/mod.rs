@@ -1,6 +1,7 @@
 //! The program from outside: its stages and their output folder, messages, signals, `--resume`, and `make`.
 
 mod broken_input;
+mod files_of_others;
 mod make;
 mod new;
 mod output_folder;

@@ -40,6 +40,11 @@ impl Container {
                 0 => drop(self.arrays.swap_remove(at)),
                 1 => self.arrays.push(self.arrays[at].clone()),
                 2 => self.arrays[at].name.push('x'),
+                4 => {
+                    let Array { data, components, .. } = &mut self.arrays[at];
+                    let fitting = [1, 2, 3, 6, 9].into_iter().filter(|count| data.len() % count == 0);
+                    *components = *random.pick(&fitting.collect::<Vec<_>>());
+                }
                 3 => {
                     let texts = self.header["texts"].as_object_mut().unwrap();
                     if let Some(text) = texts.values_mut().next() {

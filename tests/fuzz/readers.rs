@@ -7,6 +7,7 @@ use crate::scenes::{self, Ready};
 use mpm::case::Keys;
 use mpm::error::Error;
 use mpm::io::checkpoint::{Checkpoints as Kept, Fingerprint};
+use mpm::io::export::Regions;
 use mpm::io::frame::{self, Column, Frame, Part};
 use mpm::io::history::{History, Log, Mark};
 use mpm::io::points_vtu::{Seeded, Source};
@@ -255,7 +256,10 @@ impl Frames {
             phase: "press".to_string(),
             step: 3,
             origin: Origin { run: Fingerprint::of(&[b"fuzz"]), mesh: 5 },
-            points: part(points, vec![column("stress", 6, n), column("displacement", 3, n)]),
+            points: part(
+                points,
+                vec![column("stress", 6, n), column("displacement", 3, n), column(frame::VOLUME, 1, n)],
+            ),
             grid: part(nodes, vec![column("displacement", 3, g), column(frame::UNCOUNTED, 3, g)]),
             elements: part(elements, vec![column("stress", 6, m), column("displacement", 3, m), cell]),
             contact: part(line.clone(), along().into_iter().chain([faces]).collect()),
@@ -298,9 +302,21 @@ impl Reader for Frames {
         let path = frame::path(&results, 0);
         fs::write(&path, bytes).unwrap();
         let meaning = meaning(&Frame::read(&path)?);
-        let regions = mpm::case::parts::of_series(&self.scene.case, &self.scene.mesh);
+        let mut regions = mpm::case::parts::of_series(&self.scene.case, &self.scene.mesh);
         let fields = ["stress", "displacement"].map(String::from);
-        export::export(&results, &self.scene.mesh, &regions, self.folder.path(), &fields, Encoding::Lz4)?;
+        let export = |regions: &Regions| {
+            export::export(&results, &self.scene.mesh, regions, self.folder.path(), &fields, Encoding::Lz4)
+        };
+        frame::prepare(&results, 1).unwrap();
+        let alone = export(&regions);
+        // Between frames of the same run, before a phase that counts displacements from there.
+        let sound = Self::sample(&self.scene);
+        sound.clone().write(&results, 0).unwrap();
+        fs::write(frame::path(&results, 1), bytes).unwrap();
+        Frame { phase: "pull".to_string(), ..sound }.write(&results, 2).unwrap();
+        regions.resets.push("pull".to_string());
+        export(&regions)?;
+        alone?;
         Ok(meaning)
     }
 }

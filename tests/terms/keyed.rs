@@ -330,6 +330,7 @@ fn meshed(loaded: &Loaded) -> Mesh<2> {
         filter: true,
         sandbox: true,
         stop: &AtomicBool::new(false),
+        warn: |_| (),
     };
     let options = Options { order: 2, incomplete: false, parameters: Vec::new() };
     let folder = tempfile::tempdir().unwrap();

@@ -6,6 +6,7 @@ use crate::draw::curves::{Charts, Mark, Series, Style};
 use crate::draw::history::{self, Run, Shown, TIME};
 use crate::draw::{self, Format, INK};
 use crate::error::{Error, Result, shown};
+use crate::io::atomic;
 use crate::io::run_folder::{RunFolder, Runs, Standing};
 use crate::io::table::{Column, Table};
 use std::path::{Path, PathBuf};
@@ -103,6 +104,8 @@ fn find(path: &Path, unfinished: bool, keys: &Keys) -> Result<Found> {
         (false, true) => path.to_owned(),
         (false, false) => return Err(Error::input(path.display(), "there is no such case or folder", "name one")),
     };
+    // The picture goes there, too.
+    atomic::refuse_link(&folder)?;
     let runs = Runs::of(&folder);
     let Some(run) = runs.with_history(unfinished) else {
         let problem = "there is no history.csv of a run";

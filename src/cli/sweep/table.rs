@@ -6,7 +6,7 @@ use crate::cli::stage::Stage;
 use crate::error::{Error, Result};
 use crate::io::run_folder::{RunFolder, Standing};
 use crate::io::sweep_table::{self, FINISHED, RUN, STATE};
-use crate::io::table::{Column, Table};
+use crate::io::table::{Column, Table, guarded};
 
 /// What is told of a quantity of a history: how the heading calls it, and its value.
 type Summary = (&'static str, fn(&[f64]) -> Option<f64>);
@@ -93,7 +93,7 @@ pub fn csv(axes: &[Axis], rows: &[Row]) -> Result<Vec<u8>> {
     let mut writer = csv::Writer::from_writer(Vec::new());
     let unwritable = |e: &dyn std::fmt::Display| Error::machine("table.csv", e, "");
     for line in lines {
-        writer.write_record(line).map_err(|e| unwritable(&e))?;
+        writer.write_record(line.iter().map(|field| guarded(field).into_owned())).map_err(|e| unwritable(&e))?;
     }
     writer.into_inner().map_err(|e| unwritable(&e))
 }

@@ -2,6 +2,7 @@ use proptest::prelude::*;
 
 use super::*;
 use crate::error::Kind;
+use std::fs;
 
 fn sample() -> Store {
     let mut store = Store::new("frame");

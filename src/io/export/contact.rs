@@ -1,7 +1,7 @@
 //! The series of contact: lines along the boundaries of structures with what they and the soil exert on each other.
 
 use super::super::container::Data;
-use super::super::frame::{Column, FACES, LINE, Part, REGION};
+use super::super::frame::{Column, FACES, GAP, LINE, Part, REGION};
 use super::super::vtu::{Array, Grid, Topology};
 
 /// VTK's number of a line between two points (`vtkCellType.h`).
@@ -21,7 +21,7 @@ pub fn grid(part: &Part, time: Option<f64>) -> Option<Grid> {
     }
     let shown = |c: &&Column| ![LINE, REGION, FACES].contains(&c.name.as_str());
     let array = |c: &Column| {
-        let of_gap = c.name == "contact_gap";
+        let of_gap = c.name == GAP;
         let known = |(i, &value): (usize, &f64)| if of_gap && faces[i] == 0.0 { f64::NAN } else { value };
         Array::new(&c.name, &c.unit, c.components, c.values.iter().enumerate().map(known).collect())
     };

@@ -5,7 +5,7 @@
 //! node is averaged. Where a cell has too few points for it their mean takes its place.
 
 use super::super::container::Data;
-use super::super::frame::{CELL, Column, Part};
+use super::super::frame::{CELL, Column, DISPLACEMENT, Part};
 use super::super::vtu::{Array, Grid, Topology};
 use super::fields::select;
 use crate::mesh::Mesh;
@@ -113,7 +113,7 @@ impl Piece {
             }
             columns.push(Column { values, ..column.clone() });
         }
-        if let Some(displacement) = columns.iter_mut().find(|c| c.name == "displacement") {
+        if let Some(displacement) = columns.iter_mut().find(|c| c.name == DISPLACEMENT) {
             let way = |(x, &n): (&[f64; 3], &u32)| [0, 1, 2].map(|d| x[d] - first[n as usize][d]);
             displacement.values = position.iter().zip(nodes).flat_map(way).collect();
         }

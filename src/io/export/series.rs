@@ -84,7 +84,7 @@ impl<'a> Series<'a> {
             return Err(wrong(problem, "the mesh was made again after the run: run `mpm solve` again"));
         };
         let soil = self.bodies.as_ref();
-        let soil = soil.map(|bodies| bodies.grid(i, info, &points, &grid.position, &smooth, fields));
+        let soil = soil.map(|bodies| bodies.grid(i, info, &points, &grid.position, &smooth, fields)).transpose()?;
         let lines = |name: &str, lines: Option<Grid>, what: &str| match lines {
             _ if !self.has(name) => Ok(None),
             None => Err(wrong(

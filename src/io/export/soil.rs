@@ -1,12 +1,12 @@
 //! The series of the soil as a body: that of material points, cut along its surface, and that of finite elements.
 
 use super::super::container::Data;
-use super::super::frame::{self, Frame, Info, Part};
+use super::super::frame::{self, DISPLACEMENT, Frame, Info, Part, VOLUME};
 use super::super::vtu::{self, Array, Grid, Topology};
 use super::Regions;
 use super::fields::select;
 use super::pieces::Piece;
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::mesh::Mesh;
 use crate::mesh::shape::CellKind;
 use crate::soil::{Body, Cloud, Soil, Values};
@@ -14,8 +14,6 @@ use crate::surface::triangles;
 use std::collections::BTreeMap;
 use std::f64::consts::TAU;
 
-/// The column of the displacement (m).
-const DISPLACEMENT: &str = "displacement";
 /// VTK's number of a triangle (`vtkCellType.h`).
 const VTK_TRIANGLE: u8 = 5;
 
@@ -51,8 +49,7 @@ impl<'a> Bodies<'a> {
         let grid = mesh.part(|c| !regions.elements[mesh.cells.region[c] as usize]);
         let seeded: Vec<bool> = regions.soil.iter().zip(&regions.elements).map(|(soil, fem)| *soil && !fem).collect();
         let first = infos.first().map(|info| Frame::read(&info.path)).transpose()?;
-        let known =
-            |points: &Part| points.numbers(DISPLACEMENT, 3).is_some() && points.numbers(frame::VOLUME, 1).is_some();
+        let known = |points: &Part| points.numbers(DISPLACEMENT, 3).is_some() && points.numbers(VOLUME, 1).is_some();
         if !seeded.contains(&true) || first.is_none_or(|frame| !known(&frame.points)) {
             return Ok(None);
         }
@@ -67,18 +64,18 @@ impl<'a> Bodies<'a> {
         for (i, pair) in infos.windows(2).enumerate() {
             if pair[0].phase != pair[1].phase && regions.resets.contains(&pair[1].phase) {
                 let frame = Frame::read(&pair[0].path)?;
-                let traced = bodies.traced(i, &frame.points);
+                let way = needed(&pair[0], &frame.points, DISPLACEMENT, 3)?;
+                let traced = bodies.traced(i, &frame.points, way);
                 bodies.resets.insert(i + 1, traced);
             }
         }
         Ok(Some(bodies))
     }
 
-    /// The points of frame `index` with their origins.
-    fn traced(&self, index: usize, points: &Part) -> Traced {
+    /// The points of frame `index`, which have gone a `way` (m), with their origins.
+    fn traced(&self, index: usize, points: &Part, way: &[f64]) -> Traced {
         let plane = |x: &[f64; 3]| [x[0], x[1]];
         let position: Vec<[f64; 2]> = points.position.iter().map(plane).collect();
-        let way = points.numbers(DISPLACEMENT, 3).unwrap_or_default();
         let mut origin: Vec<[f64; 2]> =
             position.iter().zip(way.chunks_exact(3)).map(|(x, u)| [x[0] - u[0], x[1] - u[1]]).collect();
         if let Some((_, before)) = self.resets.range(..=index).next_back() {
@@ -88,6 +85,9 @@ impl<'a> Bodies<'a> {
     }
 
     /// The soil of frame `index`, with its grid at `nodes` (m) and the finite elements in `smooth`.
+    ///
+    /// # Errors
+    /// `Input` for a frame without the displacement or the volume, which the first one has.
     pub fn grid(
         &self,
         index: usize,
@@ -96,7 +96,9 @@ impl<'a> Bodies<'a> {
         nodes: &[[f64; 3]],
         smooth: &Part,
         fields: &[String],
-    ) -> Grid {
+    ) -> Result<Grid> {
+        let [way, volume] = [(DISPLACEMENT, 3), (VOLUME, 1)].map(|(name, k)| needed(info, points, name, k));
+        let (way, volume) = (way?, volume?);
         let fields = &with_invariants(fields);
         let arrays = select(points, fields);
         let width = arrays.iter().map(|array| array.components).sum();
@@ -107,7 +109,7 @@ impl<'a> Bodies<'a> {
                 .for_each(|array| of.extend_from_slice(&numbers(array)[p * array.components..][..array.components]));
         }
         let plane = |x: &[f64; 3]| [x[0], x[1]];
-        let traced = self.traced(index, points);
+        let traced = self.traced(index, points, way);
         let nodes: Vec<[f64; 2]> = nodes.iter().map(plane).collect();
         let places: Vec<[f64; 2]> = smooth.position.iter().map(plane).collect();
         let absent = self.regions.absent.get(&info.phase);
@@ -120,8 +122,7 @@ impl<'a> Bodies<'a> {
             true => 0.0,
             false => *volume,
         };
-        let area: Vec<f64> =
-            points.numbers(frame::VOLUME, 1).unwrap_or_default().iter().zip(&traced.position).map(area).collect();
+        let area: Vec<f64> = volume.iter().zip(&traced.position).map(area).collect();
         let Traced { position, origin } = &traced;
         let cloud = Cloud { position, origin, area: &area, values: Values { width, of: &of } };
         let body = self.soil.body(&nodes, cloud, (&places, &standing));
@@ -137,8 +138,16 @@ impl<'a> Bodies<'a> {
             let data = Data::U16(of_cell.unwrap_or_default());
             grid.cell_data.push(Array { name: "material [-]".to_owned(), components: 1, data });
         }
-        grid
+        Ok(grid)
     }
+}
+
+/// The numbers of a column that the first frame has.
+fn needed<'a>(info: &Info, points: &'a Part, name: &str, components: usize) -> Result<&'a [f64]> {
+    points.numbers(name, components).ok_or_else(|| {
+        let problem = format!("has not the column `{name}` of the points that the first frame has");
+        Error::input(info.path.display(), problem, "the frames are of several runs: run `mpm solve` again")
+    })
 }
 
 /// The fields with those that are seen together with the stress.

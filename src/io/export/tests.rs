@@ -6,6 +6,7 @@ use crate::error::Kind;
 use crate::io::export::pieces::Piece;
 use crate::mesh::shape::CellKind;
 use crate::tensor::{deviatoric, mean};
+use std::fs;
 
 fn mesh() -> Mesh<2> {
     let mut mesh = Mesh {

@@ -1,5 +1,6 @@
 use super::*;
 use crate::error::Kind;
+use std::fs;
 
 fn columns() -> Vec<String> {
     vec!["time [s]".to_string(), "head, \"left\".uy [m]".to_string()]

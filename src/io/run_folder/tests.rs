@@ -48,7 +48,7 @@ fn a_finished_run_takes_the_place_of_any_and_an_unfinished_one_only_of_an_unfini
         assert_eq!(history(&runs.main), if expected { "new" } else { "old" });
         assert_eq!(runs.main.standing().unwrap() == Standing::Finished, if expected { new } else { old });
         assert_eq!(runs.beside.path().exists(), !expected);
-        assert!(!runs.replaced().exists() && !runs.marker().exists());
+        assert!(!runs.replaced().path().exists() && !runs.marker().exists());
     }
 }
 
@@ -72,11 +72,11 @@ fn an_exchange_that_was_cut_short_is_completed() {
             write_run(&runs.main, "old", true);
             write_run(&runs.beside, "new", true);
             fs::write(runs.marker(), "").unwrap();
-            fs::create_dir(runs.replaced()).unwrap();
+            fs::create_dir(runs.replaced().path()).unwrap();
             for (k, name) in names.iter().enumerate() {
                 let old = runs.main.path().join(name);
                 if k < done || (k == done && half) {
-                    fs::rename(&old, runs.replaced().join(name)).unwrap();
+                    fs::rename(&old, runs.replaced().path().join(name)).unwrap();
                 }
                 if k < done {
                     fs::rename(runs.beside.path().join(name), &old).unwrap();
@@ -85,7 +85,7 @@ fn an_exchange_that_was_cut_short_is_completed() {
             runs.prepare().unwrap();
             assert_eq!((history(&runs.main).as_str(), runs.main.standing().unwrap()), ("new", Standing::Finished));
             assert!(runs.main.record().is_some() && runs.main.changed().unwrap().is_none());
-            assert!(!runs.beside.path().exists() && !runs.replaced().exists() && !runs.marker().exists());
+            assert!(!runs.beside.path().exists() && !runs.replaced().path().exists() && !runs.marker().exists());
         }
     }
 }
@@ -118,4 +118,32 @@ fn results_without_checkpoints_are_results_all_the_same() {
         assert_eq!(runs.start().unwrap(), &runs.beside, "{finished}");
         assert_eq!(history(&runs.main), "old");
     }
+}
+
+#[test]
+fn what_others_keep_in_the_folders_stays_and_what_they_would_lose_is_refused() {
+    let (folder, runs) = runs();
+    let notes = ["results/notes.txt", "phases/copy.mpms", "unfinished/notes.txt", "unfinished/checkpoints/a/b.txt"];
+    let write = |name: &str| {
+        let path = folder.path().join(name);
+        fs::create_dir_all(path.parent().unwrap()).unwrap();
+        fs::write(path, "mine").unwrap();
+    };
+    notes.iter().for_each(|name| write(name));
+    write_run(&runs.main, "old", true);
+    for _ in 0..2 {
+        let run = runs.start().unwrap();
+        assert_eq!(run, &runs.beside);
+        write_run(run, "new", true);
+        assert!(runs.settle(run).unwrap());
+        runs.prepare().unwrap();
+        assert_eq!(history(&runs.main), "new");
+        // What was beside goes with the run to its place.
+        let now = ["results/notes.txt", "phases/copy.mpms", "unfinished/notes.txt", "checkpoints/a/b.txt"];
+        now.iter().for_each(|name| assert_eq!(fs::read(folder.path().join(name)).unwrap(), b"mine", "{name}"));
+        assert!(!runs.replaced().path().exists());
+    }
+    fs::remove_file(provenance::path(folder.path(), STAGE)).unwrap();
+    let refused = runs.start().unwrap_err().to_string();
+    assert!(refused.contains("history.csv: it is there already, and not by `mpm solve`"), "{refused}");
 }

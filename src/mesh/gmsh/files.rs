@@ -1,7 +1,7 @@
 //! Checks of the files that Gmsh reads and writes.
 
 use crate::error::{Error, Result};
-use std::fs;
+use crate::reading;
 use std::io::{Read, Seek, SeekFrom};
 use std::path::{Path, PathBuf};
 
@@ -12,15 +12,7 @@ const AGAIN: &str = "make the file again with `mpm mesh`";
 /// # Errors
 /// Input: one that does not.
 pub fn check_readable(path: &Path) -> Result<()> {
-    // A pipe without a writer would not even open.
-    match fs::metadata(path) {
-        Ok(metadata) if metadata.is_file() => {
-            fs::File::open(path).map(drop).map_err(|error| Error::input(path.display(), error, "check the path"))
-        }
-        Ok(metadata) if metadata.is_dir() => Err(Error::input(path.display(), "it is a folder", "name a file")),
-        Ok(_) => Err(Error::input(path.display(), "it is no regular file", "name a file")),
-        Err(error) => Err(Error::input(path.display(), error, "check the path")),
-    }
+    reading::open(path).map(drop).map_err(|error| Error::input(path.display(), error, "name a file"))
 }
 
 /// The sections an MSH file can end with.
@@ -41,7 +33,7 @@ const LAST_SECTIONS: [&str; 8] = [
 /// Input: such a file, or one that cannot be read.
 pub fn check_complete(path: &Path) -> Result<()> {
     let tail = || -> std::io::Result<Vec<u8>> {
-        let mut file = fs::File::open(path)?;
+        let mut file = reading::open(path)?;
         let length = file.metadata()?.len();
         file.seek(SeekFrom::Start(length.saturating_sub(64)))?;
         let mut tail = Vec::new();

@@ -3,7 +3,7 @@
 
 use landlock::{
     ABI, Access, AccessFs, AccessNet, CompatLevel, Compatible, PathBeneath, PathFd, Ruleset, RulesetAttr,
-    RulesetCreatedAttr, RulesetError, Scope,
+    RulesetCreatedAttr, RulesetError, RulesetStatus, Scope,
 };
 use rustix::process::{Resource, Rlimit, Signal, getppid, set_parent_process_death_signal, setrlimit};
 use std::path::{Path, PathBuf};
@@ -25,11 +25,11 @@ pub fn limit(parent: u32, memory: u64) -> std::io::Result<()> {
 }
 
 /// From here on the process reads `files` only, writes in `folder` only, starts no program and opens no connection, as
-/// far as the kernel can see to it.
+/// far as the kernel can see to it; whether it sees to any of that.
 ///
 /// # Errors
 /// A file that is not there; a kernel that has Landlock and refuses it.
-pub fn enter(files: &[PathBuf], folder: Option<&Path>) -> Result<(), RulesetError> {
+pub fn enter(files: &[PathBuf], folder: Option<&Path>) -> Result<bool, RulesetError> {
     let newest = ABI::V6;
     let mut rules = Ruleset::default()
         .set_compatibility(CompatLevel::BestEffort)
@@ -45,6 +45,5 @@ pub fn enter(files: &[PathBuf], folder: Option<&Path>) -> Result<(), RulesetErro
     if let Some(folder) = folder.and_then(|folder| PathFd::new(folder).ok()) {
         rules = rules.add_rule(PathBeneath::new(folder, AccessFs::from_all(newest) & !AccessFs::Execute))?;
     }
-    rules.restrict_self()?;
-    Ok(())
+    Ok(rules.restrict_self()?.ruleset != RulesetStatus::NotEnforced)
 }

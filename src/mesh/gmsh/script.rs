@@ -8,7 +8,9 @@
 //! `--allow-system-calls` leaves this out; the sandbox of the worker protects beside it.
 
 use super::files::check_readable;
+use super::ranges;
 use crate::error::{Error, Result};
+use crate::reading;
 use std::collections::BTreeSet;
 use std::ffi::OsStr;
 use std::fs;
@@ -123,7 +125,7 @@ impl Scan {
         if usize::try_from(length).map_or(true, |length| length > MOST_BYTES - self.bytes) {
             return Err(too_long());
         }
-        let text = fs::read(path).map_err(unreadable)?;
+        let text = reading::bytes(path).map_err(unreadable)?;
         self.bytes += text.len();
         if self.bytes > MOST_BYTES {
             return Err(too_long());
@@ -131,6 +133,9 @@ impl Scan {
         self.open.push(real);
         let tokens = tokens(&text).map_err(|(line, problem, remedy)| at(path, line, problem, remedy))?;
         check_statements(path, &tokens)?;
+        if let Some((line, count)) = ranges::too_long(&tokens) {
+            return Err(at(path, line, format!("a range of about {count:.1e} numbers"), "use a larger step"));
+        }
         self.follow(path, &tokens)?;
         self.open.pop();
         Ok(())
@@ -195,21 +200,21 @@ fn named(path: &Path, tokens: &[Token], i: usize) -> Result<PathBuf> {
 fn begins_with(path: &Path, header: &[u8; 11]) -> bool {
     use std::io::Read;
     let mut found = [0; 11];
-    fs::File::open(path).and_then(|mut file| file.read_exact(&mut found)).is_ok() && found == *header
+    reading::open(path).and_then(|mut file| file.read_exact(&mut found)).is_ok() && found == *header
 }
 
 /// A word of the language, where it begins.
 #[derive(Clone, Copy, Debug)]
-struct Token<'a> {
-    kind: Kind<'a>,
-    line: usize,
+pub(super) struct Token<'a> {
+    pub kind: Kind<'a>,
+    pub line: usize,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Kind<'a> {
+pub(super) enum Kind<'a> {
     Word(&'a [u8]),
     Text(&'a [u8]),
-    Number,
+    Number(&'a [u8]),
     Symbol(u8),
 }
 
@@ -253,7 +258,7 @@ fn tokens(text: &[u8]) -> std::result::Result<Vec<Token<'_>>, (usize, &'static s
             }
             _ if c.is_ascii_digit() => {
                 i += number_length(&text[i..]);
-                kind = Some(Kind::Number);
+                kind = Some(Kind::Number(&text[start..i]));
             }
             _ => {
                 i += 1;

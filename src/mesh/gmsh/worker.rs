@@ -38,6 +38,8 @@ pub struct Worker<'a> {
     pub sandbox: bool,
     /// Set when the user stops the program.
     pub stop: &'a AtomicBool,
+    /// Tells the user that there is no sandbox though there should be.
+    pub warn: fn(&str),
 }
 
 #[derive(Serialize, Deserialize)]
@@ -55,6 +57,8 @@ struct Request {
 
 #[derive(Serialize, Deserialize)]
 enum Answer {
+    /// The kernel takes no rights from the process.
+    Unconfined,
     Groups(Groups),
     Meshed,
     /// An error: its exit status, place, problem and remedy.
@@ -66,6 +70,8 @@ const MOST_OUTPUT: u64 = 1 << 16;
 
 /// Most bytes of an answer.
 const MOST_ANSWER: u64 = 1 << 26;
+
+const UNCONFINED: &str = "this kernel has no Landlock, so Gmsh reads the .geo with all of your rights; mesh the files of strangers in a container";
 
 /// How often the parent looks whether it is to stop.
 const TICK: Duration = Duration::from_millis(50);
@@ -199,8 +205,16 @@ impl Session<'_> {
         unstartable(self.worker.program, "it is of another version than the one that runs")
     }
 
-    /// The next answer of the process.
+    /// The next answer of the process, after a warning where the kernel takes no rights from it.
     fn answer(&mut self) -> Result<Answer> {
+        match self.next()? {
+            Answer::Unconfined => (self.worker.warn)(UNCONFINED),
+            answer => return Ok(answer),
+        }
+        self.next()
+    }
+
+    fn next(&mut self) -> Result<Answer> {
         let line = loop {
             match self.answers.recv_timeout(TICK) {
                 Ok(line) => break line,
@@ -301,23 +315,32 @@ pub fn serve() -> Result<()> {
         let text = serde_json::to_string(&answer).unwrap_or_default();
         writeln!(answers, "{text}").map_err(|error| broken(error.to_string()))
     };
-    match work(&request, &mut |groups| answer(Answer::Groups(groups)).map(|()| line().is_some())) {
+    match work(&request, &mut answer, &mut || line().is_some()) {
         Ok(()) => answer(Answer::Meshed),
         Err(error) => answer(Answer::Failed(error.exit_status(), error.place, error.problem, error.remedy)),
     }
 }
 
-/// Does what is asked; `agree` sends the names of the groups and waits whether the parent wants the mesh.
-fn work(request: &Request, agree: &mut dyn FnMut(Groups) -> Result<bool>) -> Result<()> {
+/// Does what is asked. It answers with the names of the groups, and waits whether the parent `agrees` to them and wants the mesh.
+fn work(
+    request: &Request,
+    answer: &mut dyn FnMut(Answer) -> Result<()>,
+    agrees: &mut dyn FnMut() -> bool,
+) -> Result<()> {
     let failed =
         |error: &dyn std::fmt::Display| Error::machine("Gmsh", error, "see `ulimit -a` and docs/reference/geo.md");
     sandbox::limit(request.parent, request.memory).map_err(|error| failed(&error))?;
     if request.sandbox {
         let folder = request.out.as_deref().and_then(Path::parent);
-        sandbox::enter(&request.files, folder).map_err(|error| failed(&error))?;
+        if !sandbox::enter(&request.files, folder).map_err(|error| failed(&error))? {
+            answer(Answer::Unconfined)?;
+        }
     }
     match &request.out {
-        None => agree(super::groups(&request.geo, &request.options)?).map(drop),
-        Some(out) => super::generate(&request.geo, &request.options, out, request.analysis, agree),
+        None => answer(Answer::Groups(super::groups(&request.geo, &request.options)?)),
+        Some(out) => {
+            let mut agree = |groups| answer(Answer::Groups(groups)).map(|()| agrees());
+            super::generate(&request.geo, &request.options, out, request.analysis, &mut agree)
+        }
     }
 }
