@@ -165,8 +165,9 @@ fn exchange(out: &Path) -> Result<()> {
 /// The files that an export would replace, and are there.
 ///
 /// # Errors
-/// `Machine` when a folder cannot be read.
+/// `Input` for a link in place of the folder of the series, `Machine` when it cannot be read.
 pub fn replaced(out: &Path) -> Result<Vec<PathBuf>> {
+    atomic::refuse_link(&out.join(FOLDER))?;
     let collections = SERIES.map(|name| out.join(format!("{name}.pvd")));
     let series = atomic::entries(&out.join(FOLDER))?.into_iter().filter(|path| atomic::is_named(path, is_of_series));
     Ok(collections.into_iter().filter(|path| path.exists()).chain(series).collect())

@@ -40,7 +40,7 @@ fn a_folder_is_emptied_only_of_what_mpm_wrote() {
         "work/vtu/other.vtu",
         "work/vtu/.hidden",
         "work/unfinished/notes.txt",
-        "work/unfinished/results/deep/notes.txt",
+        "work/results/deep/notes.txt",
         "work/notes.txt",
     ];
     let scene = scene();
