@@ -111,7 +111,7 @@ pub fn work(stage: &Stage, start: Start) -> Outcome {
         Err(e) if e.kind != Kind::Analysis => Ok(()),
         ended => print(&summary(began.elapsed(), matches!(ended, Ok(Ended::Done)))),
     };
-    let told = told.and(tell_again(&folder));
+    tell_earlier(&folder);
     match &ended {
         Ok(Ended::Done) => record.finish(folder.path(), &folder.outputs()?)?,
         Ok(Ended::Stopped) => record.interrupt("stopped by the user"),
@@ -219,18 +219,10 @@ fn summary(elapsed: Duration, done: bool) -> String {
     )
 }
 
-/// Warnings of the log that are told again.
-const TOLD: usize = 10;
-
-/// Tells the warnings of the whole run again, which may have gone by, or have been those of a process before.
-fn tell_again(folder: &RunFolder) -> Outcome {
-    let Ok(log) = reading::text(&folder.log()) else { return Ok(()) };
-    let warnings: Vec<&str> = log.lines().filter(|line| line.starts_with(run::WARNING)).collect();
-    let mut text: String = warnings.iter().take(TOLD).map(|warning| format!("{warning}\n")).collect();
-    if warnings.len() > TOLD {
-        text.push_str(&format!("and {} more warnings in {}\n", warnings.len() - TOLD, folder.log().display()));
-    }
-    if text.is_empty() { Ok(()) } else { print(&text) }
+/// Tells the warnings of the run that were those of a process before.
+fn tell_earlier(folder: &RunFolder) {
+    let Ok(log) = reading::text(&folder.log()) else { return };
+    log.lines().filter(|line| line.starts_with(run::WARNING)).for_each(note);
 }
 
 /// Seconds between lines where there is no terminal.
@@ -273,7 +265,7 @@ impl Meter {
         let end = end.trim_end_matches('0').trim_end_matches('.');
         let line = format!("step {}, {} t = {:.4} of {end} s{left}", p.step, p.phase, p.time);
         match (&self.bar, p.note) {
-            (Some(bar), Some(note)) => bar.println(&*plain_lines(note)),
+            (Some(bar), Some(line)) => bar.suspend(|| note(line)),
             (Some(bar), None) => {
                 bar.set_position((1000.0 * p.time / p.end) as u64);
                 bar.set_message(plain_lines(&line).into_owned());

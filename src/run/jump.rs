@@ -2,7 +2,7 @@
 //! quasi-static analysis may lead there, and nothing on the way has a meaning.
 //!
 //! It is looked for in phases that do not move the soil themselves, by prescribed displacements or structures in contact, and do not
-//! look for failure.
+//! look for failure. Soil that is elastic does not fail, and a settlement that comes from its compression has a path.
 
 use super::warning::WARNING;
 use crate::mesh::height;
@@ -25,14 +25,18 @@ fn is_watched<const D: usize>(scene: &Scene<D>, state: &State<D>) -> bool {
     !driven && phase.search.is_none() && !state.dynamic(scene)
 }
 
-/// A warning where the soil has moved farther than half its height since then, once.
+/// A warning where soil that yields has moved farther since then than half its height and what its compression explains of that, once.
 pub fn found<const D: usize>(scene: &Scene<D>, state: &mut State<D>) -> Option<String> {
     let heights = state.start_position.iter().map(height);
     let (low, high) = heights.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), y| (low.min(y), high.max(y)));
     let apart = |(a, b): (&[f64; D], &[f64; D])| a.iter().zip(b).map(|(a, b)| (a - b).powi(2)).sum::<f64>().sqrt();
     let moved = state.points.position.iter().zip(&state.start_position).map(apart).enumerate();
     let (p, most) = moved.max_by(|a, b| a.1.total_cmp(&b.1))?;
-    if most <= FARTHEST * (high - low) {
+    let points = &state.points;
+    let yields = points.plastic_strain.iter().any(|&strain| strain > 0.0);
+    let volume: f64 = (0..points.len()).map(|p| points.volume(p)).sum();
+    let compressed = (1.0 - volume / points.initial_volume.iter().sum::<f64>()).max(0.0);
+    if !yields || most <= (FARTHEST + compressed) * (high - low) {
         return None;
     }
     state.start_position.clear();

@@ -1,11 +1,12 @@
 //! Warnings of voids that open within soil, or under a structure that cannot part from it, where the surface of the soil is followed.
 //!
-//! What opens beside a structure that may part from the soil is what its contact says: the log has a line on it, and no warning.
+//! What opens beside a structure that may part from the soil is what its contact says: the log has a line on it, and no warning. What has no soil
+//! above it, and no structure beside it, is open air.
 
 use super::warning::WARNING;
 use crate::contact::Interface;
-use crate::geometry::{Bins, distance, side};
-use crate::mesh::Mesh;
+use crate::geometry::{Bins, box_around, distance, side};
+use crate::mesh::{Mesh, height};
 use crate::step::{Fem, Report, Scene, State};
 use crate::surface::{News, Void, lies_near};
 
@@ -42,14 +43,17 @@ pub fn found<const D: usize>(scene: &Scene<D>, state: &mut State<D>, report: &Re
     }
     let mesh = restored(scene, state);
     let emptiness = emptiness(scene, state, &mesh);
+    let mut voids = std::mem::take(&mut state.voids);
     let structures: Vec<Structure<D>> = scene
         .touching(state.phase)
         .filter(|(_, interface)| !interface.sides().soils.is_empty())
         .map(|(_, interface)| structure(&mesh, interface, state.phase))
         .collect();
     let beside = |cells: &[u32]| structures.iter().filter(|s| lies_near(&mesh, cells, &s.places)).collect::<Vec<_>>();
-    let mut is_news = |cells: &[u32], cut_off: bool| !(cut_off && reaches_boundary(scene, cells));
-    let mut voids = std::mem::take(&mut state.voids);
+    let mut is_news = |cells: &[u32], cut_off: bool| {
+        !(cut_off && reaches_boundary(scene, cells))
+            && (lies_beneath_soil(&mesh, &state.points.position, cells) || !beside(cells).is_empty())
+    };
     let news = voids.look(&mesh, &emptiness, &mut is_news);
     state.voids = voids;
     let phase = scene.phases.get(state.phase).map_or("", |phase| phase.name.as_str());
@@ -146,4 +150,15 @@ fn holds(corners: &[[f64; 2]], x: &[f64; 2]) -> bool {
 /// Whether some cells reach to the boundary of the grid.
 fn reaches_boundary<const D: usize>(scene: &Scene<D>, cells: &[u32]) -> bool {
     scene.locator.faces.boundary.iter().any(|(cell, _)| cells.binary_search(cell).is_ok())
+}
+
+/// Whether there is a point of the `soil` (m) above one of some cells: within its width, and higher than it reaches.
+fn lies_beneath_soil<const D: usize>(mesh: &Mesh<D>, soil: &[[f64; D]], cells: &[u32]) -> bool {
+    cells.iter().any(|&c| {
+        let corners = || mesh.cells.corners(c as usize).iter().map(|&n| &mesh.nodes[n as usize]);
+        let Some([low, high]) = box_around(corners().copied()) else { return false };
+        let top = height(&high);
+        let is_above = |x: &[f64; D]| height(x) > top && (0..D - 1).all(|d| low[d] < x[d] && x[d] < high[d]);
+        soil.iter().any(is_above)
+    })
 }

@@ -1,17 +1,21 @@
-//! The error message for a singular system: which body is free to move.
+//! The error message for a singular system: which body is free to move, or else where the soil has no strength.
 //!
 //! A rigid motion that nothing resists is in the null space of the tangent. Bodies are what shares nodes, rigid
 //! structures, and in the end all of the scene together; the motions of each are the displacements in each direction
 //! and the rotation about its middle, as far as supports leave them.
+//!
+//! Where none of them is free, soil can deform without resistance. A system whose diagonal is raised a little has a solution, which is largest
+//! there (inverse iteration).
 
 use super::grid::Grid;
 use super::scene::Scene;
 use super::state::State;
 use crate::error::Error;
+use crate::interpolation::CellPoints;
 use crate::mesh::Mesh;
 use crate::mesh::bodies::root;
 use crate::rigid::across;
-use crate::system::is_singular;
+use crate::system::{Matrix, is_singular};
 use nalgebra::DMatrix;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -19,6 +23,8 @@ use std::collections::{BTreeMap, BTreeSet};
 const NOTHING: f64 = 1e-9;
 /// Parts of a motion of length 1 that differ by less are the same.
 const SAME: f64 = 1e-4;
+/// The share (-) of its largest entry that the diagonal of a singular system is raised by: more than what counts as rounding.
+const RAISED: f64 = 1e-10;
 /// Bodies that a message names.
 const NAMED: usize = 4;
 
@@ -28,13 +34,34 @@ pub fn name<const D: usize>(
     error: Error,
     scene: &Scene<D>,
     state: &State<D>,
-    grid: &Grid<D>,
+    grid: &mut Grid<D>,
     fixed: &[bool],
     position: &dyn Fn(u32) -> [f64; D],
 ) -> Error {
     if !is_singular(&error) {
         return error;
     }
+    let mut free = free_bodies(scene, state, grid, fixed, position);
+    if free.is_empty() {
+        return match weakest(grid, fixed) {
+            Some(n) => without_strength(error, scene, state, grid, (n, position(n))),
+            None => error,
+        };
+    }
+    let more = free.len().saturating_sub(NAMED);
+    free.truncate(NAMED);
+    let more = if more > 0 { format!(", and {more} bodies more") } else { String::new() };
+    Error { problem: format!("{}: {}{more}", error.problem, free.join(", ")), ..error }
+}
+
+/// What is said of each body that can move freely.
+fn free_bodies<const D: usize>(
+    scene: &Scene<D>,
+    state: &State<D>,
+    grid: &Grid<D>,
+    fixed: &[bool],
+    position: &dyn Fn(u32) -> [f64; D],
+) -> Vec<String> {
     let diagonal = grid.motion.matrix.diagonal(&grid.motion.pattern);
     let position = |n: u32| grid.dofs.value(n, position);
     let system = System { scene, grid, fixed, diagonal, position: &position };
@@ -44,13 +71,42 @@ pub fn name<const D: usize>(
         let all: Vec<u32> = bodies.values().flatten().copied().collect();
         free.extend(system.told("all of it together", &all));
     }
-    if free.is_empty() {
-        return error;
+    free
+}
+
+/// The node that moves farthest under loads on a system whose diagonal is raised by the share [`RAISED`] of its largest entry.
+fn weakest<const D: usize>(grid: &mut Grid<D>, fixed: &[bool]) -> Option<u32> {
+    let (dofs, motion) = (&grid.dofs, &mut grid.motion);
+    let (pattern, scale) = (&motion.pattern, motion.matrix.scale(&motion.pattern));
+    let mut raised = Matrix { values: motion.matrix.values.clone(), ..Matrix::default() };
+    let equations = D * dofs.node.len();
+    (0..equations).for_each(|e| raised.add_diagonal(pattern, e, RAISED * scale));
+    // Loads of either sign, so that none of the motions is without any.
+    let load = |e: usize| if e % 3 == 1 { -scale } else { scale };
+    let mut x: Vec<f64> = (0..pattern.len()).map(|e| if fixed[e] || e >= equations { 0.0 } else { load(e) }).collect();
+    motion.solver.solve(pattern, &raised, &mut x).ok()?;
+    let size = |b: usize| (D * b..D * (b + 1)).map(|e| x[e] * x[e]).sum::<f64>();
+    (0..dofs.node.len()).max_by(|&a, &b| size(a).total_cmp(&size(b))).map(|b| dofs.node[b])
+}
+
+/// Names the soil beside a node that nothing holds in place.
+fn without_strength<const D: usize>(
+    error: Error,
+    scene: &Scene<D>,
+    state: &State<D>,
+    grid: &Grid<D>,
+    (n, place): (u32, [f64; D]),
+) -> Error {
+    let holds = |c: &&CellPoints| scene.mesh.cells.nodes(c.cell as usize).contains(&n);
+    let cell = grid.interpolations.integration.filled.iter().find(holds);
+    let region = cell.map(|c| state.integration().region[grid.interpolations.integration.points(c)[0] as usize]);
+    let name = region.and_then(|region| scene.mesh.regions.get(region as usize)).map_or("a part of it", String::as_str);
+    Error {
+        problem: format!("{}: the soil (`{name}`) has no strength at {place:.3?} m", error.problem),
+        remedy: "soil without cohesion bears nothing where it is without stress: give it a little cohesion, or begin with an initial stress"
+            .to_owned(),
+        ..error
     }
-    let more = free.len().saturating_sub(NAMED);
-    free.truncate(NAMED);
-    let more = if more > 0 { format!(", and {more} bodies more") } else { String::new() };
-    Error { problem: format!("{}: {}{more}", error.problem, free.join(", ")), ..error }
 }
 
 /// The nodes with unknowns of each body, by what it is called.

@@ -30,6 +30,9 @@ use rayon::prelude::*;
 
 /// `ε₁` (-).
 const GRADIENT: f64 = 1e-10;
+/// The same where forces are to be divided by the mass (-): what they are on motions that the points do not see is not small. It makes up the
+/// mass of a right triangle with one point to its consistent one: its variance of place is `l²/18` for legs `l`, and `h² = 2 l²`.
+const GRADIENT_OF_FORCES: f64 = 1.0 / 36.0;
 /// `ε₂` (-).
 const CURVATURE: f64 = 1e-5;
 
@@ -125,9 +128,14 @@ impl<'a> Mass<'a> {
         cells.dedup();
         let few: Vec<u32> =
             cells.iter().copied().filter(|&c| points_in(c) < mesh.cells.nodes(c as usize).len()).collect();
-        let weak = [(&few, [GRADIENT, 0.0]), (&cells, [0.0, CURVATURE])].map(|(cells, shares)| {
-            let factors = shares.map(|share| share * scene.density_scale);
+        let gradient = |cell: u32| match carrier {
+            Carrier::IntegrationPoints if points_in(cell) > 0 => GRADIENT_OF_FORCES,
+            _ => GRADIENT,
+        };
+        let weak = [(&few, true), (&cells, false)].map(|(cells, few)| {
             let of_cell = |&cell: &u32| {
+                let shares = if few { [gradient(cell), 0.0] } else { [0.0, CURVATURE] };
+                let factors = shares.map(|share| share * scene.density_scale);
                 let coupling = coupling[cell as usize] as usize;
                 let form = system.pattern.over_blocks(coupling, weak_form::<D, K>(mesh, cell as usize, factors));
                 Weak { coupling, form }

@@ -191,6 +191,10 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
             }
         };
         self.note_search(dt, &solution);
+        if self.scene.numerics.restore == Restore::Never {
+            // A smaller step would come to the same place.
+            self.keeps_within(&solution)?;
+        }
         let mut report = timed(Activity::Transfer, || self.convect(dt, (start, solution), answers))?;
         report.restored = self.state.restorations > before;
         report.unbalanced = begun.unbalanced;
@@ -255,11 +259,19 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
         Ok((start, solution))
     }
 
-    /// Rejects a solution that takes material across what holds it.
-    fn stays_within(&self, found: Lagrange<D>) -> Result<Lagrange<D>> {
-        let ends = found.1.displacement.iter().zip(&self.state.displacement);
+    /// Rejects a solution that takes material across a side that holds it.
+    fn keeps_within(&self, solution: &Solution<D>) -> Result<()> {
+        let ends = solution.displacement.iter().zip(&self.state.displacement);
         let increment: Vec<[f64; D]> = ends.map(|(now, before)| std::array::from_fn(|d| now[d] - before[d])).collect();
-        obstacles::check::<D, K>(self.scene, &self.state, &self.grid, &increment)?;
+        obstacles::check::<D, K>(self.scene, &self.state, &self.grid, &increment)
+    }
+
+    /// Rejects a solution that takes material across a side that holds it, which smaller steps may find; on a grid that is never reset
+    /// they come to the same place.
+    fn stays_within(&self, found: Lagrange<D>) -> Result<Lagrange<D>> {
+        if self.scene.numerics.restore != Restore::Never {
+            self.keeps_within(&found.1)?;
+        }
         Ok(found)
     }
 
