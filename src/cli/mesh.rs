@@ -9,7 +9,7 @@ use crate::case::names::{Groups, Of};
 use crate::case::raw::Product;
 use crate::case::unconnected::{self, Place};
 use crate::case::unmeant;
-use crate::case::{Keys, checked, layout, scheme};
+use crate::case::{Keys, checked, scheme};
 use crate::error::{Error, Result};
 use crate::io::{atomic, provenance};
 use crate::machine;

@@ -168,7 +168,10 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
         let (dt, start, solution, answers) = loop {
             let dt = controller.size(self.state.phase_time);
             let predictor = std::mem::take(&mut predict).then(|| predictor::extrapolated(&self.state, dt)).flatten();
-            let found = self.lagrange(dt, predictor.as_deref()).and_then(|found| self.stays_within(found)).and_then(|found| self.stands(dt, found));
+            let found = self
+                .lagrange(dt, predictor.as_deref())
+                .and_then(|found| self.stays_within(found))
+                .and_then(|found| self.stands(dt, found));
             let complete = found.and_then(|(start, solution)| {
                 let answers = || transfer::answers(self.scene, &self.grid, &self.state, &solution, dt);
                 let answers = timed(Activity::Transfer, answers)?;

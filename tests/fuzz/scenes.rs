@@ -1,6 +1,6 @@
 //! Small scenes, made without Gmsh, that together use what a checkpoint can hold, and the states of runs in them.
 
-use mpm::case::names::Groups;
+use mpm::case::names::{Groups, Of};
 use mpm::case::{Case, Keys, Loaded, parts, scene, seeded, seeding};
 use mpm::kinematics::{Axisymmetric, Kinematics, PlaneStrain};
 use mpm::mesh::builder::rectangle;
@@ -156,7 +156,7 @@ pub fn on_mesh(mesh: Mesh<2>) -> mpm::error::Result<()> {
     let loaded = LOADED.get_or_init(|| loaded(BLOCK));
     let named = |dimension| mesh.groups.iter().filter(move |g| g.dimension == dimension).map(|g| g.name.clone());
     let (curves, points) = (named(1).collect(), named(0).collect());
-    let groups = Groups { surfaces: mesh.regions.clone(), curves, points, meshed: true };
+    let groups = Groups { surfaces: mesh.regions.clone(), curves, points, of: Of::Made };
     loaded.check_names(&groups).map_err(|mut errors| errors.remove(0))?;
     let case = loaded.case.clone();
     let seeds = seeding::points(&case, &mesh)?;

@@ -393,6 +393,7 @@ fn scene() -> (Scene<2>, Points<2>, Models) {
     };
     let scene = Scene {
         fem: None,
+        traced: Vec::new(),
         bodies: Vec::new(),
         interfaces: Vec::new(),
         levels: None,

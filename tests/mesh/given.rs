@@ -1,6 +1,6 @@
 //! Meshes that a case names in place of a `.geo`: of Abaqus, of Gmsh in every version, of Salome.
 
-use crate::support::history::column;
+use crate::support::column;
 use crate::support::{in_folder, project, python, said, succeeds};
 use std::fs;
 use std::path::Path;

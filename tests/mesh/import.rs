@@ -6,7 +6,6 @@ use std::path::Path;
 use std::process::Output;
 
 use mpm::mesh::msh::read;
-use mpm::mesh::quality;
 use mpm::mesh::shape::CellKind;
 
 fn import(source: &Path, out: &Path, arguments: &[&str]) -> Output {

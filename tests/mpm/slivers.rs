@@ -47,6 +47,7 @@ fn condition(scene: &Scene<2>, points: Points<2>) -> f64 {
         between: &zero,
         alpha_f: 0.0,
         converged: &zero,
+        geometry: None,
         pressure: &[],
         converged_pressure: &[],
         acceleration: &[],

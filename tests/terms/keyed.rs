@@ -13,7 +13,7 @@ use crate::support::{PROGRAM, column, written};
 use mpm::case::checked::Site;
 use mpm::case::keyed::{Key, Keyed, Terms};
 use mpm::case::locate::{At, Path};
-use mpm::case::names::Groups;
+use mpm::case::names::{Groups, Of};
 use mpm::case::parts::material_curve;
 use mpm::case::raw::{CaseFile, InTime, Product, RegionKind, Restore, RestoreName};
 use mpm::case::{Checker, Keys, Loaded, scene, seeding};
@@ -318,7 +318,7 @@ fn loaded(overrides: &[&str]) -> (tempfile::TempDir, std::result::Result<Loaded,
 
 fn groups(mesh: &Mesh<2>) -> Groups {
     let named = |dimension| mesh.groups.iter().filter(move |g| g.dimension == dimension).map(|g| g.name.clone());
-    Groups { surfaces: mesh.regions.clone(), curves: named(1).collect(), points: named(0).collect(), meshed: true }
+    Groups { surfaces: mesh.regions.clone(), curves: named(1).collect(), points: named(0).collect(), of: Of::Made }
 }
 
 fn meshed(loaded: &Loaded) -> Mesh<2> {
