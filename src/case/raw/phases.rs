@@ -12,7 +12,7 @@ pub struct Phase {
     /// The name of the phase, for logs and messages. Each phase has its own.
     pub name: String,
     /// The kind of analysis: quasi_static (no inertia), dynamic, auto (quasi-static; dynamic where there is no equilibrium, until
-    /// rest), strength_reduction (quasi-static until no equilibrium is found) or consolidation (quasi-static with pore water flow).
+    /// rest), strength_reduction (quasi-static with small displacements, until no equilibrium is found) or consolidation (quasi-static with pore water flow).
     pub analysis: Analysis,
     /// Duration of the phase (s). In a quasi_static phase time only orders the loads.
     #[schemars(extend("exclusiveMinimum" = 0))]
