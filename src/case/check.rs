@@ -393,8 +393,9 @@ impl Checker {
         if unused && self.issues.is_empty() {
             let models: Vec<&str> = MODELS.iter().filter(|kind| kind.keeps_volume).map(|kind| kind.name).collect();
             let models = list(&models);
-            let problem =
-                format!("no material has a share for it: the field is for undrained materials, and for {models}");
+            let problem = format!(
+                "no material has a share for it: the field is for undrained materials, for {models}, and for others from Poisson's ratio 0.495 on"
+            );
             self.issue(&root.key("numerics").key("pressure"), At::Value, problem, "take it out");
         }
         if file.regions.values().all(|region| region.kind == raw::RegionKind::Buffer) {

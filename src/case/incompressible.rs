@@ -11,6 +11,9 @@ use std::sync::Arc;
 /// Poisson's ratio from which on a material is left to the pressure field unasked: above it cells of second order
 /// with many points lock.
 const NEARLY_INCOMPRESSIBLE: f64 = 0.45;
+/// The same for soil whose yield knows the mean stress. It need not keep its volume as it flows, and locks less; nearer to one half the displacements
+/// alone leave it so badly conditioned that no equilibrium is found long before its limit load.
+const DILATES: f64 = 0.495;
 /// Bulk modulus that the points keep, over the shear modulus (-). With 16 points a cell it is a bound of its own where
 /// soil flows: on 8 cells a rough strip footing is 1.3 % stronger with that of Poisson's ratio 0.3 than with this
 /// (`general_position::what_the_points_keep…`). With less, single points in cut cells of a moving body have nothing that keeps their volume.
@@ -82,7 +85,13 @@ impl Checker {
             Some(raw::Pressure::Field) => f64::NEG_INFINITY,
             None => NEARLY_INCOMPRESSIBLE,
         };
-        if !kind.keeps_volume || poisson < least || bulk(poisson) <= 2.0 * KEPT {
+        if !kind.keeps_volume {
+            // Yield knows the mean stress: the field has the whole of it, and the points see its volume strain.
+            let model = model.clone();
+            let whole = MixedPressure { model, ratio: 0.0, water: 0.0, bound: Some(KEPT), limit: None };
+            return (poisson >= DILATES).then_some(whole);
+        }
+        if poisson < least || bulk(poisson) <= 2.0 * KEPT {
             return None;
         }
         let model = deviatoric(kind, values, poisson)?;

@@ -2,10 +2,13 @@
 //! `(τ₁ − τ₃) + (τ₁ + τ₃) sin φ ≤ 2 c cos φ` and `τ₁ ≤ σ_t`, tension positive.
 //!
 //! The return, with edges, apex and the cut-off's corners, is that of [`super::polyhedral`]; flow on the
-//! cut-off is associated.
+//! cut-off is associated. Dilation ends with the plastic volume strain that the soil may take up ([`Planes::respond_within`]).
 
 use super::polyhedral::Planes;
-use super::{Elasticity, Kind, Law, Model, Parameter, Parameters, PrincipalModel, Profile, Response, State};
+use super::{
+    Elasticity, Kind, Law, Model, Parameter, Parameters, PrincipalModel, Profile, Response, State, Variable,
+    VariableKind,
+};
 use crate::error::{Error, Result};
 use std::sync::Arc;
 
@@ -59,10 +62,19 @@ pub struct MohrCoulomb {
     cohesion: Profile,
     friction: Friction,
     tension: Option<Profile>,
+    /// Plastic volume strain (-) at which dilation ends, if it does.
+    dilation_cutoff: Option<f64>,
     /// Whether it is derived from another model, with its strengths divided: a `tension` above the apex is then no error of the case, and the apex
     /// is the limit.
     is_derived: bool,
 }
+
+/// The name of the plastic volume strain at which dilation ends among the parameters.
+const CUTOFF: &str = "dilation_cutoff";
+
+/// What soil carries whose dilation ends.
+const VARIABLES: [Variable; 1] =
+    [Variable { name: "plastic_volume_strain", unit: "-", kind: VariableKind::Scalar, initial: 0.0 }];
 
 /// The entry of the model list.
 pub const KIND: Kind = Kind {
@@ -88,6 +100,13 @@ pub const KIND: Kind = Kind {
             varies: true,
             meaning: "largest principal stress in tension, at most c cot φ; default: no cut-off",
         },
+        Parameter {
+            name: CUTOFF,
+            unit: "-",
+            required: false,
+            varies: false,
+            meaning: "plastic volume strain at which dilation ends, ln((1 + e_max)/(1 + e_0)) of the void ratios; default: dilation without end",
+        },
     ],
     build,
     examples: &[
@@ -105,17 +124,25 @@ pub const KIND: Kind = Kind {
             ("tension", 1.0),
         ],
         &[("young", 100.0), ("poisson", 0.495), ("cohesion", 1.0), ("friction", 0.0), ("tension", 0.5)],
+        &[
+            ("young", 1000.0),
+            ("poisson", 0.3),
+            ("cohesion", 1.0),
+            ("friction", 35.0),
+            ("dilation", 20.0),
+            ("dilation_cutoff", 5e-4),
+        ],
     ],
 };
 
 fn build(parameters: &Parameters) -> Result<Arc<dyn Model>> {
     let friction = Friction::degrees(parameters.number("friction")?, parameters.number_or("dilation", 0.0)?)?;
-    Ok(Arc::new(MohrCoulomb::new(
-        parameters.elasticity()?,
-        parameters.profile("cohesion")?,
-        friction,
-        parameters.optional("tension"),
-    )?))
+    let (elasticity, cohesion) = (parameters.elasticity()?, parameters.profile("cohesion")?);
+    let model = MohrCoulomb::new(elasticity, cohesion, friction, parameters.optional("tension"))?;
+    if parameters.optional(CUTOFF).is_none() {
+        return Ok(Arc::new(model));
+    }
+    Ok(Arc::new(model.dilating_until(parameters.number(CUTOFF)?)?))
 }
 
 impl MohrCoulomb {
@@ -129,9 +156,22 @@ impl MohrCoulomb {
         friction: Friction,
         tension: Option<Profile>,
     ) -> Result<Self> {
-        let model = Self { elasticity, cohesion, friction, tension, is_derived: false };
+        let model = Self { elasticity, cohesion, friction, tension, dilation_cutoff: None, is_derived: false };
         model.check(cohesion.datum)?;
         Ok(model)
+    }
+
+    /// The model with dilation until the plastic volume strain is `strain` (-).
+    ///
+    /// # Errors
+    /// Where it is negative.
+    pub fn dilating_until(self, strain: f64) -> Result<Self> {
+        if strain < 0.0 {
+            let remedy =
+                "give the plastic volume strain at which dilation ends, ln((1 + e_max)/(1 + e_0)) of the void ratios";
+            return Err(Error::input(CUTOFF, format!("{strain} is negative"), remedy));
+        }
+        Ok(Self { dilation_cutoff: Some(strain), ..self })
     }
 
     /// The model with its strengths divided by `factor` (-).
@@ -141,6 +181,7 @@ impl MohrCoulomb {
             cohesion: self.cohesion.scaled(1.0 / factor),
             friction: self.friction.reduced(factor),
             tension: self.tension.map(|t| t.scaled(1.0 / factor)),
+            dilation_cutoff: self.dilation_cutoff,
             is_derived: true,
         }
     }
@@ -169,8 +210,15 @@ impl MohrCoulomb {
 }
 
 impl PrincipalModel for MohrCoulomb {
-    fn respond(&self, y: f64, trial: &[f64; 3], state: &State, _: &mut [f64]) -> Response {
-        self.planes(y, state).respond(&self.elasticity.at(y), trial, state)
+    fn respond(&self, y: f64, trial: &[f64; 3], state: &State, internal: &mut [f64]) -> Response {
+        let (planes, moduli) = (self.planes(y, state), self.elasticity.at(y));
+        let Some(cutoff) = self.dilation_cutoff else { return planes.respond(&moduli, trial, state) };
+        let before = state.first_variable();
+        let (response, grown) = planes.respond_within(&moduli, trial, state, cutoff - before);
+        if let Some(strain) = internal.first_mut() {
+            *strain = before + grown;
+        }
+        response
     }
 
     fn yield_excess(&self, y: f64, stress: &[f64; 3], state: &State) -> f64 {
@@ -187,8 +235,13 @@ impl Model for MohrCoulomb {
         &self.elasticity
     }
 
+    fn internal_variables(&self) -> &[Variable] {
+        if self.dilation_cutoff.is_some() { &VARIABLES } else { &[] }
+    }
+
     fn symmetric(&self) -> bool {
-        self.friction.sin_friction == self.friction.sin_dilation
+        let ends = self.dilation_cutoff.is_some() && self.friction.sin_dilation > 0.0;
+        self.friction.sin_friction == self.friction.sin_dilation && !ends
     }
 
     fn shear_strength(&self, y: f64, state: &State) -> f64 {

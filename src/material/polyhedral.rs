@@ -114,6 +114,40 @@ impl Planes {
         response
     }
 
+    /// The response of soil that dilates only until its plastic volume has grown by `left` (-) in the step, and by how much (-) it has grown.
+    ///
+    /// Where the return dilates by more, the plastic strain up to there is a share of it; what is left of the trial strain returns without dilation. Soil
+    /// that opens at the apex or the tension cut-off goes on to do so.
+    pub fn respond_within(&self, moduli: &Moduli, trial: &[f64; 3], state: &State, left: f64) -> (Response, f64) {
+        let sum = |v: &[f64; 3]| v.iter().sum::<f64>();
+        let flow_of =
+            |response: &Response| -> [f64; 3] { std::array::from_fn(|k| trial[k] - response.elastic_strain[k]) };
+        let whole = self.respond(moduli, trial, state);
+        let flow = flow_of(&whole);
+        let grown = sum(&flow);
+        if !whole.yielding || grown <= left {
+            return (whole, grown);
+        }
+        let share = left.max(0.0) / grown;
+        let start = std::array::from_fn(|k| trial[k] - share * flow[k]);
+        let mut response = Self { sin_dilation: 0.0, ..*self }.respond(moduli, &start, state);
+        // Of the flow by the trial strain: I − C⁻¹ ∂τ/∂ε; columns.
+        let by_trial: [[f64; 3]; 3] = std::array::from_fn(|j| {
+            let elastic = moduli.strain(&std::array::from_fn(|i| whole.tangent[i][j]));
+            std::array::from_fn(|i| f64::from(u8::from(i == j)) - elastic[i])
+        });
+        let start_by_trial: [[f64; 3]; 3] = std::array::from_fn(|j| {
+            let growth = sum(&by_trial[j]) / grown;
+            std::array::from_fn(|i| f64::from(u8::from(i == j)) - share * (by_trial[j][i] - flow[i] * growth))
+        });
+        let of_start = response.tangent;
+        response.tangent = std::array::from_fn(|i| std::array::from_fn(|j| dot(&of_start[i], &start_by_trial[j])));
+        let flow = flow_of(&response);
+        response.plastic_strain = state.plastic_strain + equivalent_plastic(&flow);
+        response.yielding = true;
+        (response, sum(&flow))
+    }
+
     /// The return of sorted trial strains that lie outside.
     fn sorted(&self, moduli: &Moduli, trial: &[f64; 3], rounding: f64) -> Candidate {
         let (face, left, right) = (self.shear(0, 2), self.shear(0, 1), self.shear(1, 2));

@@ -21,6 +21,7 @@ mod jump;
 mod outputs;
 mod record;
 mod surface;
+mod swelling;
 mod voids;
 mod warning;
 
@@ -47,6 +48,7 @@ use bypassed::Bypassed;
 use foreign::{AFRESH, foreign};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
+use swelling::Swelling;
 
 /// Jobs that may wait for the writer: the frame and the checkpoint of a step.
 const QUEUE: usize = 2;
@@ -144,6 +146,7 @@ pub fn run<const D: usize, K: Kinematics<D>>(
     }
     voids::begin(scene, &mut simulation.state);
     let mut bypassed = Bypassed::default();
+    let mut swelling = Swelling::default();
     if simulation.state.frames == 0 {
         files.frame(scene, &mut simulation.state)?;
     }
@@ -217,7 +220,8 @@ pub fn run<const D: usize, K: Kinematics<D>>(
                     tell(state, Some(&warning));
                     files.log.line(&warning)?;
                 }
-                for warning in bypassed.found(scene, state, &report, outputs.surface.as_ref()) {
+                let bypassed = bypassed.found(scene, state, &report, outputs.surface.as_ref());
+                for warning in bypassed.into_iter().chain(swelling.found(scene, state)) {
                     tell(state, Some(&warning));
                     files.log.line(&warning)?;
                 }

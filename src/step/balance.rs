@@ -43,7 +43,7 @@ pub fn evaluate<const D: usize>(
     tangent: bool,
 ) -> Result<()> {
     let at = std::mem::take(&mut state.at);
-    let Buffers { own, between, acceleration, ahead, contact_frozen, .. } = buffers;
+    let Buffers { own, between, acceleration, ahead, frozen, .. } = buffers;
     let u = &at.displacement;
     if let Some(integration) = &problem.integration {
         blend(u, problem.converged(), integration.alpha_f, between);
@@ -68,7 +68,7 @@ pub fn evaluate<const D: usize>(
         phase: problem.phase,
         time: (1.0 - alpha_f) * problem.to + alpha_f * problem.from,
         reduction: problem.scene.phases[problem.phase].reduction_at(problem.to),
-        contact_frozen: *contact_frozen,
+        frozen: *frozen,
         inverse_dt: problem.span().rate(),
     };
     let result = timed(Activity::Assembly, || {

@@ -13,6 +13,7 @@ use crate::contact::Sides;
 use crate::error::{Error, Result};
 use crate::mesh::cell_size;
 use crate::system::Method;
+use crate::term::Frozen;
 
 /// Most first iterations, which have a frozen contact status.
 const FROZEN_ITERATIONS: usize = 3;
@@ -26,6 +27,8 @@ const FORCING: f64 = 0.1;
 const NEAR: f64 = 0.1;
 /// Least scale of the residual, relative to the stiffness of a mean cell: below it there are no forces to be in balance.
 const FLOOR: f64 = 1e-6;
+/// A first state of smooth contact in which nodes move this many times as far as in one of stuck contact is that of a body that slides away.
+const SLIDES: f64 = 10.0;
 /// A residual this small relative to the largest term is rounding.
 const ROUNDING: f64 = 1e-12;
 
@@ -177,7 +180,7 @@ impl<'a, const D: usize> Newton<'a, D> {
 
     /// Goes back to the converged state.
     fn restart(&mut self) {
-        self.buffers.contact_frozen = false;
+        self.buffers.frozen = Frozen::Not;
         self.problem.begin(self.grid, &mut self.buffers.now.at, self.problem.converged());
         self.buffers.best.clone_from(&self.buffers.now.at);
         (self.target, self.damping, self.stalled) = (f64::INFINITY, 0.0, 0);
@@ -196,9 +199,9 @@ impl<'a, const D: usize> Newton<'a, D> {
             if self.converged() {
                 break;
             }
-            self.buffers.contact_frozen = true;
+            self.buffers.frozen = Frozen::Stuck;
             self.direction()?;
-            self.buffers.contact_frozen = false;
+            self.buffers.frozen = Frozen::Not;
             // The residual to reduce is the true one, not that with the frozen status.
             self.target = if self.unreached { self.target.max(size) } else { size };
             self.search()?;
@@ -212,15 +215,29 @@ impl<'a, const D: usize> Newton<'a, D> {
         Ok(())
     }
 
-    /// The first iteration of bodies that start in contact: in full, along a direction that keeps all contact nodes closed, and stuck where there is
-    /// friction. The residual is no measure of it: before it nothing supports the bodies, and after it contact nodes pull that will open.
+    /// The first iteration of bodies that start in contact: in full, along a direction that keeps all contact nodes closed. The residual is no measure
+    /// of it: before it nothing supports the bodies, and after it contact nodes pull that will open. Contact is smooth in it, so that nothing hangs on
+    /// a wall beyond its friction and pulls at soil that bears no tension; it is stuck where only friction holds a body, which would slide away.
     fn close_contacts(&mut self) -> Result<()> {
         self.evaluate(false)?;
         self.note();
-        self.problem.gaps(self.grid, &self.buffers.now.at, &mut self.buffers.gap);
-        self.buffers.contact_frozen = true;
-        self.direction()?;
-        self.buffers.contact_frozen = false;
+        let Problem { scene, phase, .. } = *self.problem;
+        let rough = scene.touching(phase).any(|(_, interface)| interface.sides().laws.at(phase).friction > 0.0);
+        let ways: &[Frozen] = if rough { &[Frozen::Stuck, Frozen::Smooth] } else { &[Frozen::Stuck] };
+        let mut chosen: Option<(f64, Vec<f64>)> = None;
+        for &way in ways {
+            self.problem.gaps(self.grid, &self.buffers.now.at, &mut self.buffers.gap);
+            self.buffers.frozen = way;
+            let found = self.direction();
+            self.buffers.frozen = Frozen::Not;
+            let Some(_) = found.ok().and_then(|()| self.attempt(1.0, false)) else { continue };
+            let way = norm(&self.buffers.delta[..self.grid.dofs.displacements()]);
+            if chosen.as_ref().is_none_or(|(stuck, _)| way <= SLIDES * stuck) {
+                chosen = Some((way, self.buffers.delta.clone()));
+            }
+        }
+        let (_, delta) = chosen.ok_or_else(|| self.failure("no first trial state is admissible"))?;
+        self.buffers.delta = delta;
         self.attempt(1.0, true).ok_or_else(|| self.failure("the first trial state is not admissible"))?;
         self.accept(true);
         Ok(())
@@ -261,7 +278,9 @@ impl<'a, const D: usize> Newton<'a, D> {
 
     /// `K δ = −R`, where δ of a prescribed displacement is what is left to it, as the last call of [`Newton::converged`] found.
     fn direction(&mut self) -> Result<()> {
-        if self.history.len() > self.problem.scene.numerics.max_iterations {
+        // An iteration that converges is not cut short: what comes soon is cheaper than another step.
+        let converges = matches!(self.history[..], [.., before, last] if last < NEAR * before);
+        if self.history.len() > self.problem.scene.numerics.max_iterations && !converges {
             return Err(self.failure("too many iterations"));
         }
         if !self.tangent {
@@ -367,6 +386,10 @@ fn floor<const D: usize>(problem: &Problem<D>, grid: &Grid<D>) -> f64 {
     }
     let side = 4.0 * volume / size;
     FLOOR * problem.scene.stiffness_scale * side * (problem.given.len() as f64).sqrt()
+}
+
+fn norm(x: &[f64]) -> f64 {
+    x.iter().map(|x| x * x).sum::<f64>().sqrt()
 }
 
 fn norm_free(x: &[f64], fixed: &[bool]) -> f64 {

@@ -1,5 +1,7 @@
 //! The unknowns of a step, ordered as in the state, and the vectors that the iterations reuse.
 
+use crate::term::Frozen;
+
 /// Displacement of the nodes and, where there is one, the pressure field.
 #[derive(Default)]
 pub struct Unknowns<const D: usize> {
@@ -62,6 +64,6 @@ pub struct Buffers<const D: usize> {
     pub between: Vec<[f64; D]>,
     pub acceleration: Vec<[f64; D]>,
     pub ahead: Vec<[f64; D]>,
-    /// As [`crate::term::Trial::contact_frozen`].
-    pub contact_frozen: bool,
+    /// As [`crate::term::Trial::frozen`].
+    pub frozen: Frozen,
 }

@@ -5,7 +5,7 @@
 //! ends at a fixed set of contact nodes that touch, stick or slide.
 
 use super::water_levels::WaterLevels;
-use super::{Assembly, Frame, PlacedConstraint, Term, Trial};
+use super::{Assembly, Frame, Frozen, PlacedConstraint, Term, Trial};
 use crate::contact::{Answer, Law, Laws, Motion};
 use crate::error::Result;
 use crate::system::Local;
@@ -45,8 +45,16 @@ pub fn answer<const D: usize>(
         levels.zip(constraint.condition.height).map_or(0.0, |(levels, y)| levels.beyond(trial.phase, trial.time, y));
     let penalty = constraint.condition.penalty.in_water(beyond);
     let spots = &constraint.condition.spots;
-    if trial.contact_frozen && (constraint.initially_closed || penalty.pressure > 0.0) {
-        return (law.frozen(&penalty, spots, &motion, constraint.initially_closed && law.friction > 0.0), motion);
+    let first = constraint.initially_closed && law.friction > 0.0;
+    match trial.frozen {
+        Frozen::Not => {}
+        Frozen::Smooth if first => {
+            return (Law { friction: 0.0, ..law }.frozen(&penalty, spots, &motion, false), motion);
+        }
+        _ if constraint.initially_closed || penalty.pressure > 0.0 => {
+            return (law.frozen(&penalty, spots, &motion, first), motion);
+        }
+        _ => {}
     }
     (law.respond_over(&penalty, spots, &motion, trial.ahead_slope), motion)
 }

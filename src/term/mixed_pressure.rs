@@ -30,6 +30,11 @@ impl fmt::Debug for MixedPressure {
 }
 
 impl MixedPressure {
+    /// Whether it carries the mean stress of soil without water: that which the model answers to its volume strain.
+    pub(super) fn is_whole(&self) -> bool {
+        self.bound.is_some() && self.ratio == 0.0
+    }
+
     /// The law of the volume at a point seeded at height `y` (m): with `K_f`, and a limit where it has one.
     pub(super) fn law(&self, y: f64) -> Volumetric {
         let shear = self.model.elasticity().at(y).shear;

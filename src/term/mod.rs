@@ -144,6 +144,18 @@ impl<const D: usize> Frame<'_, D> {
     }
 }
 
+/// Whether the contact status is frozen: contact nodes that were in compression in the step before, or are initially closed, are closed then, whether
+/// they press or pull.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Frozen {
+    #[default]
+    Not,
+    /// Contact nodes that are initially closed slide without friction.
+    Smooth,
+    /// Contact nodes that are initially closed stick where there is friction.
+    Stuck,
+}
+
 /// A trial state of the step.
 #[derive(Clone, Copy)]
 pub struct Trial<'a, const D: usize> {
@@ -178,8 +190,8 @@ pub struct Trial<'a, const D: usize> {
     pub time: f64,
     /// What strengths are divided by (-) at the end of the step.
     pub reduction: f64,
-    /// Whether contact nodes that were in compression in the step before, or are initially closed, are closed here, whether they press or pull.
-    pub contact_frozen: bool,
+    /// Whether contact nodes that were in compression in the step before, or are initially closed, are closed here.
+    pub frozen: Frozen,
     /// One over the size of the step (1/s), for strength that depends on the rate of strain.
     pub inverse_dt: f64,
 }
@@ -203,7 +215,7 @@ impl<'a, const D: usize> Trial<'a, D> {
             phase: 0,
             time: 0.0,
             reduction: 1.0,
-            contact_frozen: false,
+            frozen: Frozen::Not,
             inverse_dt: 0.0,
         }
     }

@@ -26,7 +26,7 @@
 
 use super::mixed::{Answer, Coupling, FieldVolumeStrain, ModelInput, Point};
 use super::mixed_pressure::{MixedPressure, volume_strain};
-use super::volume_measure::{ITERATIONS, Measure};
+use super::volume_measure::Measure;
 use super::{Frame, History, Mixed, Ratios, Trial};
 use crate::geometry::dot;
 use crate::interpolation::{CellPoints, Entries, reach_beyond_cells};
@@ -43,6 +43,8 @@ pub const MOST: usize = 5;
 
 /// Largest error (-) of the volume strain that a model sees.
 const SMALLEST: f64 = 1e-12;
+/// Most iterations for it: two or three where the model is smooth, and where it is not as many as bisections from a strain of one need.
+const LOCAL_ITERATIONS: usize = 60;
 
 /// Values of the functions of the field at a point: corners, then the constant.
 pub type Coefficients = [f64; MOST];
@@ -145,14 +147,16 @@ impl<const D: usize, K: Kinematics<D>> Mixed<D, K> for PressureField<K> {
         };
         let (measure, bound) = (Measure::of(carried, points, p), bound * at.model.elasticity().at(y).shear);
         let (water, grid) = (carried.law(y).bulk, ratios.grid / ratios.step);
-        let (before, slope) = (points.pressure[p], measure.slope(grid));
+        let (strain, slope) = (volume_strain(&points.elastic[p]), measure.slope(grid));
+        let (local, mean_before) = (volume_strain(&at.trial) - strain, at.model.mean_stress(y, strain));
+        let before = if carried.is_whole() { mean_before } else { points.pressure[p] };
         let pressure = at.end_weight * dot(&shapes(cell.kind, entries.shape), &cell.pressure)
             + (1.0 - at.end_weight) * before / slope;
-        let strain = volume_strain(&points.elastic[p]);
-        let (local, mean_before) = (volume_strain(&at.trial) - strain, at.model.mean_stress(y, strain));
         // `gained` is the volume strain of the field in the step; at first as if nothing yields.
         let mut gained = (pressure * slope - before) / (water + at.model.bulk_modulus(y, mean_before));
-        for _ in 0..ITERATIONS {
+        // The stress that is missing falls with it, in soil that yields with slopes that differ by orders of magnitude.
+        let mut bracket = [f64::NEG_INFINITY, f64::INFINITY];
+        for _ in 0..LOCAL_ITERATIONS {
             let stretch = f64::exp(2.0 / 3.0 * (gained - local));
             let mut answer = K::respond(at.model, y, &at.trial.map(|b| stretch * b), &at.state, internal)?;
             let [stress, strain] = K::volumetric(&answer);
@@ -165,7 +169,12 @@ impl<const D: usize, K: Kinematics<D>> Mixed<D, K> for PressureField<K> {
                 return None;
             }
             if change.abs() > SMALLEST {
+                bracket[usize::from(missing < 0.0)] = gained;
+                let [low, high] = bracket;
                 gained += change;
+                if gained <= low || gained >= high {
+                    gained = 0.5 * (low + high);
+                }
                 continue;
             }
             let beside = |of: &Symmetric| std::array::from_fn(|i| of[i] - bulk * IDENTITY[i]);
@@ -191,10 +200,12 @@ impl<const D: usize, K: Kinematics<D>> Mixed<D, K> for PressureField<K> {
         None
     }
 
-    /// By Hencky's law from the change of the field. Soil with a limited tension has no such law beyond the limit.
+    /// By Hencky's law from the change of the field. Soil with a limited tension has no such law beyond the limit, and without water the plastic
+    /// volume strain is beside it.
     fn volume_ratio(&self, cell: &Cell, points: &Points<D>, entries: &Entries<D>, before: f64) -> Option<f64> {
         let p = entries.point;
-        let carried = points.by_material(p, &self.carried).filter(|carried| carried.limit.is_none())?;
+        let carried =
+            points.by_material(p, &self.carried).filter(|carried| carried.limit.is_none() && !carried.is_whole())?;
         let y = points.seeded_height(p);
         let skeleton = match carried.bound {
             Some(_) => carried.model.bulk_modulus(y, carried.model.mean_stress(y, volume_strain(&points.elastic[p]))),
@@ -295,6 +306,9 @@ impl<const D: usize, K: Kinematics<D>> Mixed<D, K> for PressureField<K> {
         let held = if carried.bound.is_some() {
             let of_model =
                 carried.model.mean_stress(points.seeded_height(entries.point), volume_strain(&history.elastic));
+            if carried.is_whole() {
+                history.pressure = of_model;
+            }
             of_model - volume_ratio * mean(&history.stress)
         } else {
             carried.held(points, entries.point) + (1.0 - carried.water) * gained
@@ -305,7 +319,9 @@ impl<const D: usize, K: Kinematics<D>> Mixed<D, K> for PressureField<K> {
     }
 
     fn energy(&self, points: &Points<D>, p: usize) -> f64 {
-        let Some(carried) = points.by_material(p, &self.carried) else { return 0.0 };
+        let Some(carried) = points.by_material(p, &self.carried).filter(|carried| !carried.is_whole()) else {
+            return 0.0;
+        };
         let of_model = if carried.bound.is_some() { carried.held(points, p) } else { 0.0 };
         points.initial_volume[p] * carried.law(points.seeded_height(p)).energy(points.pressure[p] - of_model)
     }

@@ -19,7 +19,7 @@ pub(super) enum Measure {
 
 impl Measure {
     pub fn of<const D: usize>(carried: &MixedPressure, points: &Points<D>, p: usize) -> Self {
-        match points.pressure[p] > 0.0 {
+        match points.pressure[p] > 0.0 && !carried.is_whole() {
             false => Self::Logarithm,
             true if carried.limit.is_some() => Self::Volume,
             true => Self::Square,

@@ -5,6 +5,7 @@ mod changes;
 mod effective_friction;
 mod input;
 mod rigid;
+mod rough;
 mod sliding;
 mod structures;
 mod tube;

@@ -238,3 +238,79 @@ fn ranges_are_checked() {
     assert!(clay.check(-5.0).unwrap_err().to_string().contains("shear_strength"));
     assert!(Tresca::new(e, Profile::constant(0.0)).is_err());
 }
+
+/// Soil that is sheared at constant volume dilates until its plastic volume strain is that of the cut-off, in small steps as in large ones, and not beyond:
+/// then its mean stress stays.
+#[test]
+fn dilation_ends_at_its_cutoff() {
+    let cutoff = 3e-3;
+    let dense = mohr_coulomb(elasticity(1e4, 0.3), 1.0, 35.0, 15.0, None);
+    let ends = dense.dilating_until(cutoff).unwrap();
+    let shear = |model: &MohrCoulomb, steps: usize| {
+        let mut internal = [0.0];
+        let (mut elastic, mut mean) = ([-1e-3; 3], Vec::new());
+        for _ in 0..steps {
+            let by = 0.05 / steps as f64;
+            let trial = [elastic[0] - by, elastic[1] + 0.5 * by, elastic[2] + 0.5 * by];
+            let before = internal;
+            let state = State { internal: &before, ..State::default() };
+            let response = model.respond(0.0, &trial, &state, &mut internal);
+            elastic = response.elastic_strain;
+            mean.push(response.stress.iter().sum::<f64>() / 3.0);
+            assert!(internal[0] <= cutoff + 1e-12, "{internal:?}");
+        }
+        (internal[0], mean)
+    };
+    let bulk = 1e4 / (3.0 * 0.4);
+    for steps in [2, 7, 200] {
+        let (grown, mean) = shear(&ends, steps);
+        let last = mean.last().unwrap();
+        assert!((grown - cutoff).abs() < 1e-12, "{steps} steps: {grown}");
+        // The volume is constant: what has dilated is compressed.
+        assert!((last / (-bulk * (3e-3 + cutoff)) - 1.0).abs() < 1e-9, "{steps} steps: {last}");
+    }
+    // Without a cut-off it goes on.
+    let mut internal = [0.0];
+    let strain = [-0.05 - 1e-3, 0.025 - 1e-3, 0.025 - 1e-3];
+    let response = dense.respond(0.0, &strain, &State::default(), &mut internal);
+    assert!(response.stress.iter().sum::<f64>() / 3.0 < -2.0 * bulk * (3e-3 + cutoff), "{response:?}");
+    assert!(dense.dilating_until(-0.1).is_err());
+}
+
+/// The tangent of soil whose dilation ends is the derivative of its stress: before the cut-off, in the step that comes to it, after it; on faces, edges
+/// and in tension.
+#[test]
+fn the_tangent_where_dilation_ends_is_the_derivative() {
+    let model = mohr_coulomb(elasticity(1e4, 0.3), 1.0, 35.0, 15.0, Some(0.5)).dilating_until(2e-3).unwrap();
+    let step = 1e-9;
+    let mut within = 0;
+    for (a, b, c) in
+        [(5e-3, 1e-3, -8e-3), (5e-3, 4.9e-3, -9e-3), (2e-3, -5e-3, -5.2e-3), (6e-3, 2e-3, -3e-3), (2e-3, 0.0, -4e-3)]
+    {
+        for grown in [0.0, 1e-3, 1.9e-3, 2e-3] {
+            let internal = [grown];
+            let state = State { internal: &internal, ..State::default() };
+            let respond = |trial: &[f64; 3]| {
+                let mut after = internal;
+                let response = model.respond(0.0, trial, &state, &mut after);
+                (response, after[0])
+            };
+            let trial = [a, b, c];
+            let (response, after) = respond(&trial);
+            within += usize::from(grown < 2e-3 && (after - 2e-3).abs() < 1e-12);
+            for j in 0..3 {
+                let [up, down] = [step, -step].map(|by| {
+                    let mut other = trial;
+                    other[j] += by;
+                    respond(&other).0.stress
+                });
+                for i in 0..3 {
+                    let slope = (up[i] - down[i]) / (2.0 * step);
+                    let error = (slope - response.tangent[i][j]).abs();
+                    assert!(error < 1e-4 * 1e4, "{trial:?}, {grown}: {slope} {}", response.tangent[i][j]);
+                }
+            }
+        }
+    }
+    assert!(within >= 4, "{within}");
+}

@@ -33,6 +33,7 @@ mod surface_loads;
 mod slow {
     mod collapse;
     mod general_position;
+    mod nearly_incompressible_sand;
     mod offshore;
     mod population;
     mod slopes;

@@ -11,7 +11,7 @@ use mpm::points::Points;
 use mpm::quadrature::Resampled;
 use mpm::step::{Grid, Restore, Scene, State};
 use mpm::system::{Matrix, Workspace};
-use mpm::term::{Assembly, GhostPenalty, Internal, Trial};
+use mpm::term::{Assembly, Frozen, GhostPenalty, Internal, Trial};
 use nalgebra::{DMatrix, SymmetricEigen};
 use std::sync::Arc;
 
@@ -58,7 +58,7 @@ fn condition(scene: &Scene<2>, points: Points<2>) -> f64 {
         phase: 0,
         time: 1.0,
         reduction: 1.0,
-        contact_frozen: false,
+        frozen: Frozen::Not,
         inverse_dt: 0.0,
     };
     let pattern = &grid.motion.pattern;

@@ -16,7 +16,7 @@ use mpm::quadrature::Volumes;
 use mpm::step::{Grid, Numerics, Phase, Restore, Scene, Simulation, State, StepSize, Stop, Water};
 use mpm::system::{Matrix, Workspace};
 use mpm::tensor::{IDENTITY, Tensor, full, symmetric};
-use mpm::term::{Assembly, Frame, GhostFace, Term, Trial};
+use mpm::term::{Assembly, Frame, Frozen, GhostFace, Term, Trial};
 use std::marker::PhantomData;
 use std::sync::Arc;
 
@@ -308,7 +308,7 @@ impl<K: Kinematics<2>> Stand<K> {
             phase,
             time: 0.5,
             reduction: 1.0,
-            contact_frozen: self.held,
+            frozen: if self.held { Frozen::Stuck } else { Frozen::Not },
             inverse_dt: 0.0,
         };
         let mut force = vec![0.0; frame.pattern.len()];

@@ -105,11 +105,14 @@ fn tangent_where_the_field_tells_the_volume_is_the_derivative<K: Kinematics<2>>(
     let models = [mohr_coulomb(0.0, None), mohr_coulomb(25.0, None), mohr_coulomb(10.0, Some(2.0)), clay];
     for kind in KINDS {
         for (number, model) in models.iter().enumerate() {
-            for (bound, alpha_f) in [(1e-3, 0.0), (0.5, 0.0), (0.5, 0.4)] {
-                let carried =
-                    MixedPressure { model: model.clone(), ratio: 80.0, water: 1.0, bound: Some(bound), limit: None };
+            // With water, and without: the field has the whole mean stress then.
+            for (ratio, bound, alpha_f) in
+                [(80.0, 1e-3, 0.0), (80.0, 0.5, 0.0), (80.0, 0.5, 0.4), (0.0, 0.5, 0.0), (0.0, 0.5, 0.4)]
+            {
+                let water = f64::from(u8::from(ratio > 0.0));
+                let carried = MixedPressure { model: model.clone(), ratio, water, bound: Some(bound), limit: None };
                 let (stand, [trial, converged]) = set::<K>(&Mpm, kind, carried, alpha_f);
-                let name = format!("{kind:?}, model {number}, bound by {bound}, α_f = {alpha_f}");
+                let name = format!("{kind:?}, model {number}, water {ratio}, bound by {bound}, α_f = {alpha_f}");
                 let error = stand.tangent_error(&trial, &converged);
                 assert!(error < 1e-6, "{name}: {error:.1e}");
                 if alpha_f == 0.0 && model.symmetric() {

@@ -16,7 +16,7 @@ pub struct Numerics {
     /// all gradients except mpm and bspline.
     pub quadrature: Option<Quadrature>,
     /// Whether pressure unknowns carry the mean stress of nearly incompressible and undrained materials: field or none. Default: field
-    /// where Poisson's ratio is 0.45 or more (not in drained mohr_coulomb and cam_clay) or a material is undrained, else none.
+    /// where Poisson's ratio is 0.45 or more (in drained mohr_coulomb and cam_clay 0.495 or more) or a material is undrained, else none.
     pub pressure: Option<Pressure>,
     /// When the grid is moved back to its initial shape: every_step, never (updated Lagrangian), or by {min_quality: q, max_stretch: s}; then also where
     /// Newton's method fails.
@@ -28,7 +28,7 @@ pub struct Numerics {
     /// Newton's iteration ends when the residual is this small relative to the forces; results have an error of that size (-).
     #[schemars(extend("exclusiveMinimum" = 0), extend("maximum" = 0.01))]
     pub tolerance: f64,
-    /// Iterations after which a step is halved.
+    /// Iterations after which a step is halved, unless the last of them left less than a tenth of the residual.
     #[schemars(range(min = 1, max = 1000))]
     pub max_iterations: usize,
     /// Stiffness of empty cells over that of the stiffest soil of any phase (-).
