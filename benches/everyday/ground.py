@@ -14,7 +14,7 @@ from scene import Scene, below, near, typed
 G = 9.81
 WATER = 9.81
 EXACT = 1e-5  # of the weight: the tolerance of Newton's method (1e-8 of the forces) with room
-REST_ERROR = 1e-4  # of the stress at the base: what a residual of that tolerance leaves in the pressure of nearly incompressible soil
+SETTLED = 1e-5  # of the stress at the base, the same; over 1 − 2ν, as the pressure of nearly incompressible soil
 
 
 class Ground:
@@ -130,6 +130,7 @@ def rest(dice):
     if ground.section.regular is False and dice.chance(0.4):
         split(dice, ground)
     soft = min(soil["young"] for soil in materials.values())
+    stiffest = max(soil["poisson"] for soil in materials.values())
     supports = {"bottom": {"ux": 0, "uy": 0}, "sides": {"ux": 0}}
     case = {
         "geometry": "axisymmetric" if ground.left == 0 and dice.chance(0.3) else "plane_strain",
@@ -147,9 +148,9 @@ def rest(dice):
         soil = result.soil
         vertical = -ground.weight_above(soil.origin[:, 1]) + water(soil.origin[:, 1])
         # The water pressure has a kink at a table, which cells do not have within them: up to a quarter of γ_w h.
-        slack = REST_ERROR * ground.scale + (WATER * ground.h / 4 if "water" in case and "level" not in case["water"] else 0)
+        slack = SETTLED / (1 - 2 * stiffest) * ground.scale + (WATER * ground.h / 4 if "water" in case and "level" not in case["water"] else 0)
         # A pressure field of first order has a layer of its size at the surface (docs/theory.md, 10).
-        if ground.order == 1 and any(soil["poisson"] >= 0.45 for soil in materials.values()):
+        if ground.order == 1 and stiffest >= 0.45:
             slack += max(ground.weights) * ground.h / 8
         checks = [
             below("vertical stress less the weight above, at most", abs(soil.yy - vertical).max(), slack),

@@ -184,7 +184,7 @@ def units(dice, scene):
 def split_region(dice, scene):
     """A region parted in two of the same soil."""
     section = scene.section
-    fields = [face for face in section.faces if scene.case["regions"][face.name]["kind"] == "mpm"]
+    fields = [face for face in section.faces if scene.case["regions"][face.name]["kind"] in ("mpm", "fem")]
     face = dice.choice(fields)
     coordinate = dice.choice([0, 1])
     ends = [corner[coordinate] for corner in face.corners]
@@ -204,9 +204,9 @@ def split_region(dice, scene):
         case["initial_velocity"][name] = case["initial_velocity"][face.name]
     if case.get("drained_surface") == face.name:
         case["drained_surface"] = "all"
-    for load in (load for phase in case["phases"] for load in phase.get("tractions", [])):
-        if load.get("surface") == face.name:
-            load["surface"] = "all"
+    for phase in case["phases"]:
+        loads = phase.get("tractions", [])
+        phase["tractions"] = [*loads, *({**load, "surface": name} for load in loads if load.get("surface") == face.name)]
     # What is of the region as a whole has no counterpart.
     of_region = {entry["name"] for entry in case["output"]["history"] if entry["on"] == face.name}
     other = replace(scene, section=replace(section, faces=faces, regular=False), case=case)
