@@ -15,7 +15,7 @@ SECONDS := 600
 MDBOOK_VERSION := 0.5.4
 MDBOOK := target/tools/mdbook-$(MDBOOK_VERSION)/bin/mdbook
 
-.PHONY: help setup build wheel wheel-try demo gallery pile pile-variants pile-schemes pipeline pipeline-study test test-quick fuzz sanitize campaign check fmt clean bench bench-block bench-unused constants sbom stress verification book keys
+.PHONY: help setup build wheel wheel-try demo gallery pile pile-variants pile-schemes pipeline pipeline-study test test-quick fuzz sanitize campaign check fmt clean bench bench-block bench-unused constants sbom stress everyday verification book keys
 
 help: ## List the targets
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / {printf "  %-14s %s\n", $$1, $$2}' $(firstword $(MAKEFILE_LIST))
@@ -105,6 +105,9 @@ constants: setup ## Run scenes with each numerical constant of the solver halved
 
 stress: build ## Random scenes, each to end converged or with a statement; writes docs/stress.md
 	$(PYTHON) benches/stress/run.py --write $(ARGS)
+
+everyday: build ## Ordinary random scenes with known answers and relations, some minutes: make everyday SEED=1; writes docs/everyday.md
+	$(PYTHON) benches/everyday/run.py --write --seed $(or $(SEED),1) $(ARGS)
 
 check: setup ## Formatting, lints, documentation and manual, without warnings
 	cargo fmt --check

@@ -110,6 +110,8 @@ def plate(dice):
     contact = {"structure": "plate", "soil": "soil"}
     if column.case["regions"]["soil"]["kind"] == "fem":
         contact = {"structure": "plate", "against": "soil"}
+    elif dice.chance(0.2):
+        contact.pop("soil")
     if dice.chance(0.4):
         contact["friction"] = 0.3
     column.case |= {

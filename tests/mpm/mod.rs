@@ -9,6 +9,7 @@ mod column;
 mod ddmp;
 mod elements;
 mod ending;
+mod everyday;
 mod footings;
 mod ghost;
 mod incompressible;
