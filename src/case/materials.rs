@@ -252,7 +252,8 @@ impl JsonSchema for raw::Material {
         properties.insert("unit_weight".into(), varying(weight.into()));
         properties.insert("density".into(), varying("Density [t/m³], 0 or above. This or `unit_weight`.".into()));
         let drainage = "Whether water can leave the pores. If undrained, the model and its parameters are those of the effective \
-            stress, and the excess pore pressure is found. Default: drained.";
+            stress, and the excess pore pressure is found. Drained soil takes the water of undrained soil beside it; without this entry \
+            one with a Poisson's ratio of 0.45 or more is in total stress and tight. Default: drained.";
         let mut schema = generator.subschema_for::<raw::Drainage>();
         schema.insert("description".into(), drainage.into());
         properties.insert("drainage".into(), schema.to_value());
