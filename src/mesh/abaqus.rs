@@ -38,7 +38,7 @@ pub fn to_msh(path: &Path) -> Result<(String, Vec<String>)> {
 pub fn parse(bytes: &[u8], place: &str) -> Result<(String, Vec<String>)> {
     // Names may be in any encoding.
     let text = String::from_utf8_lossy(bytes);
-    let mut model = Model::of(&text, place)?;
+    let model = Model::of(&text, place)?;
     if !model.elements.iter().any(|element| element.is_cell()) {
         return Err(Error::input(
             place,
@@ -47,8 +47,8 @@ pub fn parse(bytes: &[u8], place: &str) -> Result<(String, Vec<String>)> {
         ));
     }
     let regions = regions::of(&model, place)?;
-    let groups = curves::of(&mut model, &regions);
-    Ok((write::msh(&model, &regions, &groups), model.notes))
+    let (groups, notes) = curves::of(&model, &regions);
+    Ok((write::msh(&model, &regions, &groups), model.notes.into_iter().chain(notes).collect()))
 }
 
 /// The first letters of a name that Abaqus/CAE gives where the user gives none: `Set-1`, `_PickedSet2`.

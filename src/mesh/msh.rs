@@ -19,7 +19,7 @@ use crate::reading;
 use sections::{Block, Nodes, Sections};
 use source::{AGAIN, Source};
 use std::collections::{BTreeMap, BTreeSet};
-use std::fs::OpenOptions;
+use std::fs;
 use std::io::{self, Write};
 use std::path::Path;
 use twox_hash::XxHash64;
@@ -54,15 +54,26 @@ pub fn parse(bytes: &[u8], place: &str) -> Result<Mesh<2>> {
 /// # Errors
 /// When it cannot be read or written.
 pub fn seal(path: &Path) -> io::Result<()> {
-    let bytes = reading::bytes(path)?;
-    // That of a mesh that is given may have been made by a stage.
-    if is_seal(&bytes) {
-        return Ok(());
-    }
-    let seal = sealed(&bytes);
-    let mut file = OpenOptions::new().append(true).open(path)?;
-    file.write_all(format!("$Comments\n{seal}\n$EndComments\n").as_bytes())?;
+    let mut bytes = unsealed(reading::bytes(path)?);
+    bytes.extend(format!("$Comments\n{}\n$EndComments\n", sealed(&bytes)).into_bytes());
+    let mut file = fs::File::create(path)?;
+    file.write_all(&bytes)?;
     file.sync_all()
+}
+
+/// The bytes of a file without the seals in them: a mesh that is given may be that of a stage, and Gmsh copies them when it saves such a file.
+pub fn unsealed(bytes: Vec<u8>) -> Vec<u8> {
+    const END: &[u8] = b"$EndComments";
+    let find =
+        |from: usize, text: &[u8]| bytes[from..].windows(text.len()).position(|part| part == text).map(|at| from + at);
+    let (mut kept, mut from) = (Vec::with_capacity(bytes.len()), 0);
+    while let Some(start) = find(from, b"$Comments") {
+        let Some(end) = find(start, END).map(|at| at + END.len()) else { break };
+        kept.extend(&bytes[from..if is_seal(&bytes[start..end]) { start } else { end }]);
+        from = end;
+    }
+    kept.extend(&bytes[from..]);
+    kept
 }
 
 /// Whether a file is of the version that [`read`] reads, as far as its first section tells.

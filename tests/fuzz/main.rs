@@ -9,13 +9,13 @@ mod readers;
 mod scenes;
 
 use harness::fuzz;
-use readers::{Cases, Checkpoints, Frames, Histories, Meshes, Points};
+use readers::{Abaqus, Cases, Checkpoints, Frames, Histories, Meshes, Points};
 
 #[global_allocator]
 static ALLOCATOR: memory::Counting = memory::Counting;
 
 /// The readers that `FUZZ_SECONDS` is shared among.
-const READERS: u32 = 6;
+const READERS: u32 = 7;
 
 #[test]
 fn cases() {
@@ -25,6 +25,11 @@ fn cases() {
 #[test]
 fn meshes() {
     fuzz(&Meshes::new());
+}
+
+#[test]
+fn abaqus() {
+    fuzz(&Abaqus::new());
 }
 
 #[test]

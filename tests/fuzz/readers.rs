@@ -14,7 +14,7 @@ use mpm::io::points_vtu::{Seeded, Source};
 use mpm::io::provenance::Origin;
 use mpm::io::vtu::Encoding;
 use mpm::io::{columns, export, points_vtu};
-use mpm::mesh::{msh, quality};
+use mpm::mesh::{abaqus, msh, quality};
 use mpm::run::checkpoint;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -146,6 +146,49 @@ impl Reader for Meshes {
         let meaning = meaning(&mesh);
         scenes::on_mesh(mesh)?;
         Ok(meaning)
+    }
+}
+
+/// Input files of Abaqus.
+pub struct Abaqus {
+    corpus: Vec<Vec<u8>>,
+}
+
+impl Abaqus {
+    pub fn new() -> Self {
+        let read = |path: &str| fs::read(Path::new(env!("CARGO_MANIFEST_DIR")).join(path)).unwrap();
+        Self { corpus: vec![read("tests/data/abaqus/ground.inp"), read("tests/fuzz/corpus/abaqus/piles.inp")] }
+    }
+}
+
+impl Reader for Abaqus {
+    fn name(&self) -> &'static str {
+        "abaqus"
+    }
+
+    fn corpus(&self) -> &[Vec<u8>] {
+        &self.corpus
+    }
+
+    fn has_checksums(&self) -> bool {
+        false
+    }
+
+    fn mutate(&self, random: &mut Random, number: usize) -> (Vec<u8>, bool) {
+        let mut file = self.corpus[number].clone();
+        mutate::bytes(random, &mut file, &self.corpus);
+        (file, false)
+    }
+
+    fn fault(&self, text: &[u8]) -> Vec<u8> {
+        text.to_vec()
+    }
+
+    fn read(&self, bytes: &[u8]) -> Read {
+        let (text, _) = abaqus::parse(bytes, "model.inp")?;
+        let mesh = msh::parse(text.as_bytes(), "model.inp")?;
+        quality::check(&mesh, Path::new("model.inp"))?;
+        Ok(meaning(&mesh))
     }
 }
 

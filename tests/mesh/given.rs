@@ -1,7 +1,6 @@
 //! Meshes that a case names in place of a `.geo`: of Abaqus, of Gmsh in every version, of Salome.
 
-use crate::support::column;
-use crate::support::{in_folder, project, python, said, succeeds};
+use crate::support::{column, in_folder, project, python, said, succeeds};
 use std::fs;
 use std::path::Path;
 use tempfile::TempDir;
@@ -26,7 +25,7 @@ fn replace(folder: &Path, file: &str, from: &str, to: &str) {
 fn reaction(folder: &Path) -> f64 {
     let output = in_folder(folder, &["run", ".", "--threads", "1"]);
     succeeds(&output);
-    *column(&folder.join("out"), "bottom.reaction_y").last().unwrap()
+    *column(&folder.join("out"), "bottom.reaction_y [kN]").last().unwrap()
 }
 
 /// Two layers of 4 m² with 18 and 20 kN/m³, and 3 kPa on 4 m, as a part whose instance is moved down by 2 m.

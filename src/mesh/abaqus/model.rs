@@ -5,7 +5,7 @@ use super::place::Shift;
 use super::reader::Reader;
 use crate::error::Result;
 use crate::mesh::shape::CellKind;
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::{BTreeMap, BTreeSet, HashMap};
 
 /// An element that is a cell or a line.
 pub struct Element {
@@ -80,7 +80,7 @@ pub struct Model {
     pub notes: Vec<String>,
 }
 
-/// Members of all sets for each byte of a file, counted as often as they are named.
+/// Nodes, elements and members of all sets for each byte of a file, counted as often as parts and sets are named.
 const MOST_MEMBERS: usize = 16;
 
 impl Model {
@@ -90,8 +90,14 @@ impl Model {
         let blocks = blocks(text, place)?;
         // The file or assembly itself.
         let model = Self { instances: vec![Instance::default()], ..Self::default() };
-        let mut reader =
-            Reader { model, place, shift: Shift::default(), left: MOST_MEMBERS * text.len(), unknown: BTreeMap::new() };
+        let mut reader = Reader {
+            model,
+            place,
+            shift: Shift::default(),
+            left: MOST_MEMBERS * text.len(),
+            named: HashMap::new(),
+            unknown: BTreeMap::new(),
+        };
         let mut parts: BTreeMap<String, Vec<&Block>> = BTreeMap::new();
         let (mut part, mut instance) = (None, 0);
         let placed = blocks.iter().any(|block| block.name == "instance");

@@ -36,7 +36,7 @@ impl Shift {
         };
         let turn = match numbers(1)?[..] {
             [] => None,
-            [a, b, c, d, e, f, angle] => Some(([a, b, c], [d, e, f], angle.to_radians())),
+            [a, b, c, d, e, f, angle] if [a, b, c] != [d, e, f] => Some(([a, b, c], [d, e, f], angle.to_radians())),
             _ => return Err(wrong(block.line)),
         };
         Ok(Self { by, turn })

@@ -5,7 +5,7 @@ use super::model::{Element, Instance, Model, Section, Set, Sets, Surface};
 use super::place::{Shift, number};
 use super::types::{Type, type_of};
 use crate::error::{Error, Result};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashMap};
 
 /// Keywords that make nodes and elements, or read them from elsewhere.
 const REFUSED: [&str; 9] =
@@ -19,6 +19,8 @@ pub struct Reader<'a> {
     pub shift: Shift,
     /// How many members sets may still be given.
     pub left: usize,
+    /// The instances, by their names in small letters.
+    pub named: HashMap<String, usize>,
     /// How many elements of which type are left out.
     pub unknown: BTreeMap<String, usize>,
 }
@@ -34,7 +36,9 @@ impl Reader<'_> {
         self.model
             .instances
             .push(Instance { name: block.get("name").unwrap_or_default().to_owned(), ..Instance::default() });
-        self.model.instances.len() - 1
+        let (number, key) = (self.model.instances.len() - 1, block.get("name").unwrap_or_default().to_lowercase());
+        self.named.insert(key, number);
+        number
     }
 
     /// Takes what a keyword says of an instance.
@@ -79,9 +83,10 @@ impl Reader<'_> {
         let mut added = Vec::new();
         for &(line, data) in &block.data {
             let values: Option<Vec<f64>> = entries(data).map(number).collect();
+            let is_number = |tag: f64| tag >= 0.0 && tag.fract() == 0.0 && tag < 1e15;
             let (tag, x) = match values.as_deref() {
-                Some([tag, x, y]) => (*tag, [*x, *y, 0.0]),
-                Some([tag, x, y, z, ..]) => (*tag, [*x, *y, *z]),
+                Some([tag, x, y]) if is_number(*tag) => (*tag, [*x, *y, 0.0]),
+                Some([tag, x, y, z, ..]) if is_number(*tag) => (*tag, [*x, *y, *z]),
                 _ => return Err(self.wrong(line, "it is no node: a number with x and y", "mend the line")),
             };
             let index = self.model.nodes.len() as u32;
@@ -91,7 +96,8 @@ impl Reader<'_> {
             self.model.nodes.push(self.shift.put(x));
             added.push(index);
         }
-        if let Some(name) = block.get("nset") {
+        self.spend(block.line, added.len())?;
+        if let Some(name) = block.get("nset").filter(|name| !name.is_empty()) {
             add(&mut self.model.node_sets, instance, name).members.extend(added);
         }
         Ok(())
@@ -114,6 +120,7 @@ impl Reader<'_> {
                 return Ok(());
             }
         };
+        let own = block.get("elset").filter(|name| !name.is_empty());
         let mut added = Vec::new();
         let mut numbers: Vec<u64> = Vec::new();
         for &(line, data) in &block.data {
@@ -140,6 +147,10 @@ impl Reader<'_> {
             let nodes = found.map_err(|n| {
                 self.wrong(line, format!("element {tag} has node {n}, which is not there"), "write the nodes first")
             })?;
+            if (1..nodes.len()).any(|i| nodes[..i].contains(&nodes[i])) {
+                let remedy = "give it the type of its corners, such as CPE3";
+                return Err(self.wrong(line, format!("element {tag} has a node twice"), remedy));
+            }
             let index = self.model.elements.len() as u32;
             if self.model.instances[instance].elements.insert(*tag, index).is_some() {
                 return Err(self.wrong(
@@ -148,8 +159,7 @@ impl Reader<'_> {
                     "number the elements of a part once",
                 ));
             }
-            let own = block.get("elset").map(str::to_lowercase);
-            self.model.elements.push(Element { kind, nodes, number: *tag, instance, own });
+            self.model.elements.push(Element { kind, nodes, number: *tag, instance, own: own.map(str::to_lowercase) });
             added.push(index);
             numbers.clear();
         }
@@ -160,7 +170,8 @@ impl Reader<'_> {
                 "mend the lines below",
             ));
         }
-        if let Some(name) = block.get("elset") {
+        self.spend(block.line, added.len())?;
+        if let Some(name) = own {
             add(&mut self.model.element_sets, instance, name).members.extend(added);
         }
         Ok(())
@@ -169,7 +180,7 @@ impl Reader<'_> {
     /// The instance whose numbers a keyword of the assembly uses.
     fn numbers_of(&self, block: &Block, instance: usize) -> Result<usize> {
         let Some(name) = block.get("instance") else { return Ok(instance) };
-        let found = self.model.instances.iter().position(|other| other.name.eq_ignore_ascii_case(name));
+        let found = self.named.get(&name.to_lowercase()).copied();
         found.ok_or_else(|| self.wrong(block.line, format!("there is no instance {name:?}"), "correct the name"))
     }
 
@@ -231,8 +242,8 @@ impl Reader<'_> {
             }
             None => Err(self.wrong(
                 line,
-                "the same nodes or elements are in too many sets",
-                "take sets out that are not needed",
+                "parts or sets stand for the same nodes or elements too often",
+                "take parts or sets out that are not needed",
             )),
         }
     }
@@ -246,12 +257,7 @@ impl Reader<'_> {
         members: &mut Vec<u32>,
     ) -> std::result::Result<(), String> {
         let dotted = entry.split_once('.').and_then(|(instance, rest)| {
-            let found = self
-                .model
-                .instances
-                .iter()
-                .position(|other| !instance.is_empty() && other.name.eq_ignore_ascii_case(instance))?;
-            Some((found, rest))
+            self.named.get(&instance.to_lowercase()).filter(|_| !instance.is_empty()).map(|found| (*found, rest))
         });
         let (from, entry) = dotted.unwrap_or((from, entry));
         let (sets, instance) =

@@ -140,9 +140,7 @@ fn number(model: &Model, names: &[Option<Name>]) -> (Vec<Option<usize>>, Vec<Str
         });
     }
     let of = names.iter().map(|name| name.as_ref().and_then(|name| number.get(name).copied())).collect();
-    let called = |name: &&Name| {
-        let twice = order.iter().any(|other| other.0 != name.0 && other.1.eq_ignore_ascii_case(&name.1));
-        super::curves::called(model, name.0, &name.1, twice)
-    };
+    let count = super::curves::count(order.iter().map(|name| name.1.to_lowercase()));
+    let called = |name: &&Name| super::curves::called(model, name.0, &name.1, count[&name.1.to_lowercase()] > 1);
     (of, order.iter().map(called).collect())
 }

@@ -170,5 +170,5 @@ fn sets_of_sets_do_not_grow_without_bound() {
     let many: String = (1..=2000).map(|n| format!("{n}, {n}, 0\n")).collect();
     let sets: String = (1..=600).map(|i| format!("*Nset, nset=s{i}, generate\n1, 2000\n")).collect();
     let error = said(&format!("*Node\n{many}{sets}"));
-    assert!(error.contains("the same nodes or elements are in too many sets"), "{error}");
+    assert!(error.contains("stand for the same nodes or elements too often"), "{error}");
 }

@@ -4,13 +4,14 @@ use super::curves::Group;
 use super::model::Model;
 use super::regions::Regions;
 use crate::mesh::shape::CellKind;
+use std::collections::BTreeMap;
 use std::fmt::Write;
 
-/// Elements of a group: its dimension and number, Gmsh's number of their type, and their nodes.
-type Block<'a> = (usize, usize, i32, Vec<&'a [u32]>);
+/// The nodes of the elements of each group, by its dimension and number and by Gmsh's number of their type.
+type Blocks<'a> = BTreeMap<(usize, usize, i32), Vec<&'a [u32]>>;
 
 pub fn msh(model: &Model, regions: &Regions, groups: &[Group]) -> String {
-    let mut blocks: Vec<Block> = Vec::new();
+    let mut blocks = Blocks::new();
     let mut names = Vec::new();
     let mut counts = [0; 3];
     for group in groups {
@@ -18,7 +19,7 @@ pub fn msh(model: &Model, regions: &Regions, groups: &[Group]) -> String {
         counts[dimension] += 1;
         names.push((dimension, counts[dimension], group.name.as_str()));
         for facet in &group.facets {
-            push(&mut blocks, dimension, counts[dimension], type_of_edge(facet.len()), facet);
+            blocks.entry((dimension, counts[dimension], type_of_edge(facet.len()))).or_default().push(facet);
         }
     }
     names.sort_unstable();
@@ -28,11 +29,10 @@ pub fn msh(model: &Model, regions: &Regions, groups: &[Group]) -> String {
     counts[2] = regions.names.len();
     for (element, region) in model.elements.iter().zip(&regions.of) {
         let Some(region) = region else { continue };
-        push(&mut blocks, 2, region + 1, type_of_cell(element.kind), &element.nodes);
+        blocks.entry((2, region + 1, type_of_cell(element.kind))).or_default().push(&element.nodes);
     }
-    blocks.sort_by_key(|(dimension, number, kind, _)| (*dimension, *number, *kind));
     let mut used = vec![false; model.nodes.len()];
-    blocks.iter().flat_map(|block| &block.3).copied().flatten().for_each(|&n| used[n as usize] = true);
+    blocks.values().flatten().copied().flatten().for_each(|&n| used[n as usize] = true);
     let used: Vec<usize> = (0..used.len()).filter(|&n| used[n]).collect();
     let mut text = String::from("$MeshFormat\n4.1 0 8\n$EndMeshFormat\n");
     // Writing to a text cannot fail.
@@ -46,7 +46,7 @@ fn written(
     names: &[(usize, usize, &str)],
     counts: [usize; 3],
     used: &[usize],
-    blocks: &[Block],
+    blocks: &Blocks,
 ) -> std::fmt::Result {
     writeln!(text, "$PhysicalNames\n{}", names.len())?;
     for (dimension, number, name) in names {
@@ -67,10 +67,10 @@ fn written(
         let [x, y, z] = model.nodes[n];
         writeln!(text, "{x} {y} {z}")?;
     }
-    let total: usize = blocks.iter().map(|block| block.3.len()).sum();
+    let total: usize = blocks.values().map(Vec::len).sum();
     writeln!(text, "$EndNodes\n$Elements\n{} {total} 1 {total}", blocks.len())?;
     let mut tag = 0;
-    for (dimension, number, kind, elements) in blocks {
+    for ((dimension, number, kind), elements) in blocks {
         writeln!(text, "{dimension} {number} {kind} {}", elements.len())?;
         for element in elements {
             tag += 1;
@@ -80,15 +80,6 @@ fn written(
         }
     }
     writeln!(text, "$EndElements")
-}
-
-/// Adds an element to its block, mostly the last one.
-fn push<'a>(blocks: &mut Vec<Block<'a>>, dimension: usize, number: usize, kind: i32, nodes: &'a [u32]) {
-    let same = |block: &&mut Block| (block.0, block.1, block.2) == (dimension, number, kind);
-    match blocks.iter_mut().rev().find(same) {
-        Some(block) => block.3.push(nodes),
-        None => blocks.push((dimension, number, kind, vec![nodes])),
-    }
 }
 
 fn type_of_edge(nodes: usize) -> i32 {

@@ -16,7 +16,8 @@ pub fn check_readable(path: &Path) -> Result<()> {
 }
 
 /// The sections an MSH file can end with.
-const LAST_SECTIONS: [&str; 8] = [
+const LAST_SECTIONS: [&str; 9] = [
+    "Comments",
     "Elements",
     "Periodic",
     "GhostElements",
