@@ -14,6 +14,8 @@
 //! A [`Mixed`] of the stress may be carried by unknowns of its own; it is a type, so that a scene without one pays
 //! nothing.
 
+mod strain;
+
 use super::extended::{Kept, scatter_functions};
 use super::mixed::{Answer, Coupling, ModelInput, Point};
 use super::smoothed::{self, Layout};
@@ -24,19 +26,16 @@ use super::{Mixed, Ratios};
 use crate::error::{Error, Result};
 use crate::interpolation::{CellPoints, Entries, MAX_FUNCTIONS};
 use crate::kinematics::{Gradient, Kinematics};
-use crate::material::spatial::Spatial;
 use crate::material::{Model, State, VariableKind, internal_count};
 use crate::points::Points;
 use crate::profile::timed_material;
 use crate::system::Local;
-use crate::tensor::{Tensor, exponential, full, symmetric};
+use crate::tensor::{full, symmetric};
 use rayon::prelude::*;
 use std::borrow::Cow;
 use std::marker::PhantomData;
 use std::sync::Arc;
-
-/// Least ratio of volumes in one step that a trial state may have.
-const LEAST_VOLUME_RATIO: f64 = 0.05;
+use strain::{Ends, Strained, inadmissible, metric_factor, moved_nodes, strain};
 
 /// The internal force of all material points.
 pub struct Internal<K, S = ()> {
@@ -55,65 +54,8 @@ pub struct Internal<K, S = ()> {
 /// The model of each material by number.
 type Models = Vec<Option<Arc<dyn Model>>>;
 
-/// The deformation of a point in a trial state.
-struct Strained {
-    /// Deformation since the last converged step.
-    increment: Tensor,
-    /// Inverse of the deformation since the grid was restored.
-    inverse: Tensor,
-    /// `H`: the deformation that the model responds to, [`Strained::increment`] without inertia.
-    metric_factor: Tensor,
-    ratios: Ratios,
-}
-
-impl Strained {
-    /// Stretches the point so that its volume has these ratios.
-    fn take_volume<const D: usize, K: Kinematics<D>>(&mut self, ratios: Ratios) {
-        K::stretch(&mut self.increment, ratios.step / self.ratios.step);
-        self.metric_factor = self.increment;
-        self.ratios = ratios;
-    }
-
-    /// The stress `A W` that acts in the step, and `A`; its tangent takes the place of that of `τ_H` in `answer`. `add` adds
-    /// the share of the stress that unknowns carry at the end of the step and returns that at its beginning (kPa).
-    #[inline]
-    fn stress<const D: usize, K: Kinematics<D>>(
-        &self,
-        alpha_f: f64,
-        (answer, field_strain): &mut Answer<K, D>,
-        add: impl Fn(&mut Spatial<K::Tangent>) -> f64,
-    ) -> (Tensor, Tensor) {
-        if alpha_f == 0.0 {
-            add(answer);
-            return (full(&answer.kirchhoff), Tensor::identity());
-        }
-        let increment = &self.increment;
-        // Both have the determinant of what was found to be admissible.
-        let [back, across] = [increment, &self.metric_factor].map(|f| f.try_inverse().unwrap_or_else(Tensor::identity));
-        let q = increment * across;
-        K::convect(answer, &q);
-        if let Some(field_strain) = field_strain {
-            field_strain.convect(&q);
-        }
-        let of_model = full(&answer.kirchhoff);
-        let before = add(answer);
-        let a = Tensor::identity() * (1.0 - alpha_f) + back * alpha_f;
-        let of_share = (full(&answer.kirchhoff) - of_model) * (1.0 - alpha_f);
-        let w = of_model + of_share + increment * increment.transpose() * (alpha_f * before);
-        K::weight(&mut answer.tangent, &a, &answer.kirchhoff, &w);
-        (a * w, a)
-    }
-}
-
 /// Deformation and answers of the points of a cell, in order.
 type Evaluated<K, const D: usize> = (Vec<Strained>, Vec<Answer<K, D>>);
-
-/// A factor `H` of the metric within the step, `HᵀH = (1 − α_f) ΔFᵀΔF + α_f I`.
-#[inline]
-fn metric_factor(increment: &Tensor, alpha_f: f64) -> Option<Tensor> {
-    let metric = increment.transpose() * increment * (1.0 - alpha_f) + Tensor::from_diagonal_element(alpha_f);
-    metric.cholesky().map(|factor| factor.l().transpose())
-}
 
 impl<K> Internal<K> {
     /// `models[m]` is the model of material `m` ([`Points::model_of`]); `dynamic` where any phase is.
@@ -219,83 +161,6 @@ impl<K, S> Internal<K, S> {
         let answers = timed_material(|| entries.map(answer).collect::<Result<_>>())?;
         Ok((strained, answers))
     }
-}
-
-/// The displacements (m) of the functions of a cell.
-struct Ends<'a, const D: usize> {
-    now: &'a [[f64; D]],
-    /// At the last converged step, `None` for all zero.
-    before: Option<&'a [[f64; D]]>,
-    /// Those whose geometry is held, where it is; none where they are all zero.
-    held: Option<&'a [[f64; D]]>,
-}
-
-/// The displacements, or none where all are zero.
-fn moved_nodes<const D: usize>(u: &[[f64; D]]) -> &[[f64; D]] {
-    if u.iter().flatten().any(|&u| u != 0.0) { u } else { &[] }
-}
-
-/// The deformation of a point.
-#[inline]
-fn strain<const D: usize, K: Kinematics<D>>(
-    points: &Points<D>,
-    entries: &Entries<D>,
-    ends: &Ends<D>,
-) -> Result<Strained> {
-    if let Some(held) = ends.held {
-        return linear_strain::<D, K>(points, entries, ends, held);
-    }
-    let p = entries.point;
-    let now = entries.deformation::<K>(ends.now);
-    let inverse = now.try_inverse().ok_or_else(|| inadmissible(points, p, "is squeezed flat", &now))?;
-    let increment = match ends.before {
-        None => now,
-        Some(converged) => {
-            let before = entries.deformation::<K>(converged);
-            now * before.try_inverse().ok_or_else(|| inadmissible(points, p, "was squeezed flat", &before))?
-        }
-    };
-    let ratios = Ratios { step: increment.determinant(), grid: now.determinant() };
-    if !(ratios.step > LEAST_VOLUME_RATIO && ratios.grid > 0.0) {
-        let what = if ratios.step > 0.0 && ratios.grid > 0.0 {
-            format!("is compressed to {:.1} % of its volume in one step", 100.0 * ratios.step)
-        } else {
-            "is turned inside out".into()
-        };
-        return Err(inadmissible(points, p, &what, &increment));
-    }
-    Ok(Strained { increment, inverse, metric_factor: increment, ratios })
-}
-
-/// The deformation of a point on the geometry of the displacements `held`: the exponential of the symmetric gradient there of what was
-/// displaced in the step (docs/theory.md, section 9, *Strength reduction*).
-fn linear_strain<const D: usize, K: Kinematics<D>>(
-    points: &Points<D>,
-    entries: &Entries<D>,
-    ends: &Ends<D>,
-    held: &[[f64; D]],
-) -> Result<Strained> {
-    let p = entries.point;
-    let [start, now] = [held, ends.now].map(|u| entries.deformation::<K>(u));
-    let before = ends.before.map_or_else(Tensor::identity, |u| entries.deformation::<K>(u));
-    let inverse = start.try_inverse().ok_or_else(|| inadmissible(points, p, "was squeezed flat", &start))?;
-    let strain = full(&symmetric(&((now - before) * inverse)));
-    let since = ((now - start) * inverse).trace();
-    let increment = exponential(&strain);
-    let ratios = Ratios { step: strain.trace().exp(), grid: start.determinant() * since.exp() };
-    if !(ratios.step > LEAST_VOLUME_RATIO && ratios.grid > 0.0 && increment.iter().all(|f| f.is_finite())) {
-        return Err(inadmissible(points, p, "is strained beyond measure in one step", &increment));
-    }
-    Ok(Strained { increment, inverse, metric_factor: increment, ratios })
-}
-
-#[cold]
-fn inadmissible<const D: usize>(points: &Points<D>, p: usize, what: &str, deformation: &Tensor) -> Error {
-    Error::analysis(
-        format!("the material at {:.3?} m", points.position[p]),
-        format!("{what} (det F {:.3})", deformation.determinant()),
-        "take smaller steps; where these do not help, finer cells there do, or a grid that is reset sooner (numerics.restore)",
-    )
 }
 
 impl<const D: usize, K: Kinematics<D>, S: Mixed<D, K>> Term<D> for Internal<K, S> {
