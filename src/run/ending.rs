@@ -16,6 +16,9 @@ const STILL: f64 = 1e-12;
 /// A smaller part (-) of what was out of balance is no more than rounding.
 const TOLD: f64 = 1e-6;
 
+/// Where soil moves this many times as fast at the end of a search as in the mean (-), its displacement has a kink, though equilibrium was found.
+const SUDDEN: f64 = 10.0;
+
 /// What ends a phase before its time.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Until {
@@ -162,21 +165,24 @@ pub fn found_failure<const D: usize>(phase: &Phase, state: &State<D>, controller
 /// What a search came to, given the reduction of strength (-) that left no equilibrium, if one was found.
 pub fn safety<const D: usize>(phase: &Phase, state: &State<D>, failed: Option<f64>) -> String {
     let (name, held) = (&phase.name, phase.reduction_at(state.phase_time));
-    let found = match failed {
-        Some(failed) => format!(
-            "factor of safety {held:.4} to {failed:.4} (phase `{name}`): equilibrium was last found at strengths divided by \
-             the first, and none at the second"
-        ),
-        None => format!(
-            "factor of safety above {held:.4} (phase `{name}`): equilibrium was found up to the end of the phase"
-        ),
-    };
     let moved = state.search_curve.last().map_or(0.0, |[_, moved]| *moved);
-    match kink(&state.search_curve) {
-        Some(kink) => {
-            format!("{found}; the soil has moved by {moved:.3e} m, and the curve of that has its kink at {kink:.4}")
+    let moved = format!("the soil has moved by {moved:.3e} m");
+    let kink = kink(&state.search_curve, if failed.is_some() { 1.0 } else { SUDDEN });
+    match (failed, kink) {
+        (Some(failed), kink) => {
+            let kink = kink.map_or(String::new(), |kink| format!(", and the curve of that has its kink at {kink:.4}"));
+            format!(
+                "factor of safety {held:.4} to {failed:.4} (phase `{name}`): equilibrium was last found at strengths divided by \
+                 the first, and none at the second; {moved}{kink}"
+            )
         }
-        None => format!("{found}; the soil has moved by {moved:.3e} m"),
+        (None, Some(kink)) => format!(
+            "factor of safety near {kink:.4} (phase `{name}`): equilibrium was found up to the end of the phase, at {held:.4}, but {moved}, and the \
+             curve of that has its kink at the first"
+        ),
+        (None, None) => format!(
+            "factor of safety above {held:.4} (phase `{name}`): equilibrium was found up to the end of the phase; {moved}"
+        ),
     }
 }
 

@@ -10,16 +10,14 @@ use super::{Controller, Lagrange, Report, Simulation, Solution, transfer};
 use crate::error::{Error, Kind, Result};
 use crate::kinematics::Kinematics;
 
-/// The soil fails where it moves this many times as fast at the end of the curve of a search as in the mean (-).
-const SUDDEN: f64 = 10.0;
-
-/// The factor at the kink of a curve of displacements (m) over factors, where its first and its last tangent cross; `None` where it has none.
-pub fn kink(curve: &[[f64; 2]]) -> Option<f64> {
+/// The factor at the kink of a curve of displacements (m) over factors, where its first and its last tangent cross; `None` where it does not rise
+/// more than `sudden` times (-) as fast at its end as in the mean.
+pub fn kink(curve: &[[f64; 2]], sudden: f64) -> Option<f64> {
     let [first, second, .., before, last] = curve else { return None };
     let slope = |a: &[f64; 2], b: &[f64; 2]| (b[1] - a[1]) / (b[0] - a[0]);
     let (begin, end) = (slope(first, second), slope(before, last));
-    let sudden = end > begin && end > SUDDEN * slope(first, last);
-    sudden.then(|| last[0] - (last[1] - first[1] - begin * (last[0] - first[0])) / (end - begin))
+    let bends = end > begin && end > sudden * slope(first, last);
+    bends.then(|| last[0] - (last[1] - first[1] - begin * (last[0] - first[0])) / (end - begin))
 }
 
 impl<const D: usize, K: Kinematics<D>> Simulation<'_, D, K> {
@@ -142,9 +140,9 @@ mod tests {
     fn a_kink_is_where_the_tangents_cross() {
         let bent = |f: f64| if f < 1.5 { 0.1 * (f - 1.0) } else { 0.05 + 20.0 * (f - 1.5) };
         let curve = |of: &dyn Fn(f64) -> f64| [1.0, 1.2, 1.4, 1.5, 1.51, 1.52].map(|f| [f, of(f)]);
-        assert!((kink(&curve(&bent)).unwrap() - 1.5).abs() < 1e-12);
-        assert_eq!(kink(&curve(&|f| f - 1.0)), None);
-        assert_eq!(kink(&curve(&|f| (f - 1.0f64).powi(3))), None);
-        assert_eq!(kink(&[[1.0, 0.0]]), None);
+        assert!((kink(&curve(&bent), 10.0).unwrap() - 1.5).abs() < 1e-12);
+        assert_eq!(kink(&curve(&|f| 0.5 * (f - 1.0)), 1.01), None);
+        assert_eq!(kink(&curve(&|f| (f - 1.0f64).powi(3)), 10.0), None);
+        assert_eq!(kink(&[[1.0, 0.0]], 1.0), None);
     }
 }
