@@ -181,3 +181,77 @@ def self_weight(dice):
         ]
 
     return column.scene(answers, f"weight of {ratio:.2g} M")
+
+
+def undrained(dice):
+    """A load on undrained clay that cannot move sideways: the water bears K_w/n over M + K_w/n of it, the volume hardly changes."""
+    column = Column(dice)
+    soil = column.soil
+    soil["drainage"] = "undrained"
+    young, poisson = soil["young"], soil["poisson"]
+    if dice.chance(0.5):
+        soil["undrained_poisson"] = of_both = dice.choice([0.49, 0.495, 0.499])
+        shear = young / (2 * (1 + poisson))
+        water = 2 * shear * ((1 + of_both) / (3 * (1 - 2 * of_both)) - (1 + poisson) / (3 * (1 - 2 * poisson)))
+    else:
+        soil |= {"porosity": dice.number(0.3, 0.6, 2), "water_bulk_modulus": typed(young * dice.scale(20, 300))}
+        water = soil["water_bulk_modulus"] / soil["porosity"]
+    whole = column.modulus + water
+    pressure = typed(column.modulus * dice.scale(0.01, 0.1))
+    column.case["numerics"] = {"restore": dice.choice(["every_step", {"min_quality": 0.5}])}
+    column.case["phases"] = [{"name": "load", "analysis": "quasi_static", "duration": 1, "step": {"initial": 0.2}, "tractions": [{"surface": "all", "ty": {"rate": -pressure}}]}]
+    column.case["output"]["fields"] = ["stress", "displacement", "pore_pressure"]
+
+    def answers(result):
+        soil = result.soil
+        # The strain, of which the closed form is linear; and what is lost on the moving surface.
+        slack = 5 * column.tolerance * pressure
+        strain = pressure / whole
+        settled = strain * column.height / 2
+        return [
+            near("force of the base", result.last("bottom.reaction_y"), pressure * column.area, 0.2 * slack * column.area),
+            below("excess pore pressure, error at most", abs(soil.pore_pressure - water / whole * pressure).max(), slack),
+            below("vertical effective stress, error at most", abs(soil.yy + column.modulus / whole * pressure).max(), slack),
+            near("mean settlement", -result.last("soil.uy"), settled, (0.02 + 2 * strain + column.tolerance) * settled + 1e-5 * column.height),
+        ]
+
+    return column.scene(answers, f"load of {pressure / column.modulus:.2g} M, K_w/n {water / column.modulus:.2g} M")
+
+
+def strip_load(dice):
+    """A load on a part of the surface of elastic ground: the base bears all of it."""
+    width, depth = dice.scale(2, 20), dice.scale(1, 10)
+    h = typed(math.sqrt(width * depth) * dice.uniform(0.08, 0.15))
+    axisymmetric = dice.chance(0.3)
+    left = 0.0 if axisymmetric else dice.number(-5, 5)
+    start = left + (0.0 if axisymmetric else typed(dice.uniform(0.1, 0.5) * width))
+    end = start + typed(dice.uniform(0.1, 0.4) * width)
+    soil = {"model": "linear_elastic", "young": dice.scale(1000, 50000), "poisson": dice.number(0, 0.45, 2), "density": 0}
+    pressure = typed(soil["young"] * dice.scale(0.0003, 0.03))
+    roof = 3 * h
+    section = Section(
+        [Face("soil", box(left, left + width, -depth, 0), h), Face("air", box(left, left + width, 0, roof), h)],
+        {"bottom": [((left, -depth), (left + width, -depth))], "sides": [((x, -depth), (x, roof)) for x in (left, left + width)]},
+        quadrangles=dice.chance(0.3),
+    )
+    load = {"surface": dice.choice(["all", "soil"]), "where": {"x": [start - (1 if axisymmetric else 0), end]}}
+    load |= dice.choice([{"ty": {"rate": -pressure}}, {"pressure": {"rate": pressure}}])
+    # Boxes are drawn around the surface, some of them closely.
+    if dice.chance(0.7):
+        load["where"]["y"] = [-h, h]
+    case = {
+        "geometry": "axisymmetric" if axisymmetric else "plane_strain",
+        "regions": {"soil": {"kind": "mpm", "material": "soil"}, "air": {"kind": "buffer"}},
+        "materials": {"soil": soil},
+        "supports": {"bottom": {"ux": 0, "uy": 0}, "sides": {"ux": 0}},
+        "phases": [{"name": "load", "analysis": "quasi_static", "duration": 1, "step": {"initial": 0.2}, "tractions": [load]}],
+        "output": {"history": [{"name": "bottom", "on": "bottom", "quantities": ["reaction_y"]}]},
+    }
+    area = math.pi * end**2 if axisymmetric else end - start
+
+    def answers(result):
+        # The box is fixed in space: soil beneath its edges moves by some of the settlement, and the surface tilts.
+        slack = 0.01 + 5 * pressure / soil["young"]
+        return [near("force of the base over that of the load", result.last("bottom.reaction_y") / (pressure * area), 1, slack)]
+
+    return Scene(section, case, answers, f"{'circle' if axisymmetric else 'strip'}, q/E {pressure / soil['young']:.2g}", 1 if dice.chance(0.2) else 2)

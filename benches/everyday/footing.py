@@ -2,7 +2,7 @@
 
 Strips: 2 + π (Prandtl 1920, Hill 1950). Circles: 5.689 smooth, 6.048 rough (Shield 1955; Eason & Shield 1960). Strength that grows
 with depth: the method of characteristics (Davis & Booker 1973, Houlsby & Wroth 1983), computed for this program (docs/verification.md).
-N_q = e^(π tan φ) tan²(45° + φ/2), N_c = (N_q − 1) cot φ (Prandtl 1921, Reissner 1924).
+N_q = e^(π tan φ) tan²(45° + φ/2), N_c = (N_q − 1) cot φ (Prandtl 1921, Reissner 1924), N_γ by characteristics (Martin 2005).
 """
 
 import math
@@ -20,6 +20,8 @@ FACTORS = {
     ("axisymmetric", 0): [5.6893, 6.2464, 6.7225, 7.5561, 8.3002, 8.9898],
     ("axisymmetric", 1): [6.0482, 6.9460, 7.6265, 8.7403, 9.6950, 10.560],
 }
+# N_γ of rough strips over φ (Martin 2005), for q = γB N_γ/2.
+WEIGHT = {20: 2.84, 25: 6.49}
 
 
 def _footing(dice, half, wide, deep, h, soil, geometry, sink, roughness, case):
@@ -95,15 +97,18 @@ def clay(dice):
 
 
 def friction(dice):
-    """A strip on soil with cohesion and friction, without weight, beside a surcharge: c N_c + q N_q."""
+    """A strip on soil with cohesion and friction, with a surcharge beside it or with weight: c N_c + q N_q + γB N_γ/2."""
     half = dice.scale(0.3, 3)
-    angle = dice.number(5, 25, 2)
+    angle = dice.choice([*WEIGHT, dice.number(5, 25, 2), dice.number(5, 25, 2)])
     tangent = math.tan(math.radians(angle))
     nq = math.exp(math.pi * tangent) * math.tan(math.radians(45 + angle / 2)) ** 2
     nc = (nq - 1) / tangent
     cohesion = dice.scale(1, 50)
     surcharge = dice.choice([0, typed(cohesion * dice.uniform(0.2, 2))])
-    limit = cohesion * nc + surcharge * nq
+    weight = 0.0
+    if angle in WEIGHT:
+        surcharge, weight = 0, typed(cohesion / half * dice.uniform(0.2, 2))
+    limit = cohesion * nc + surcharge * nq + weight * half * WEIGHT.get(angle, 0)
     cells = 4
     h = typed(half / cells)
     modulus = typed(limit * dice.choice([100, 200, 400]))
@@ -112,7 +117,11 @@ def friction(dice):
     # Prandtl's mechanism ends at B e^(π/2 tan φ) tan(45° + φ/2) beyond the edge.
     exit = 2 * half * math.exp(math.pi / 2 * tangent) * math.tan(math.radians(45 + angle / 2))
     wide, deep = typed(half + 1.3 * exit), typed(0.8 * exit + half)
-    section, case = _footing(dice, half, wide, deep, h, soil, "plane_strain", sink, {"friction": dice.choice([0, typed(tangent, 2)])}, {})
+    section, case = _footing(dice, half, wide, deep, h, soil, "plane_strain", sink, {"friction": typed(tangent, 2) if weight else dice.choice([0, typed(tangent, 2)])}, {})
+    if weight:
+        soil.pop("density")
+        soil["unit_weight"] = weight
+        case |= {"gravity": {"y": -G}, "initial_stress": {"k0": 1}}
     if surcharge:
         edge = half + h / 2
         beside = {"surface": "all", "ty": -surcharge, "where": {"x": [edge, 2 * wide], "y": [-deep, 10 * half]}}
@@ -124,8 +133,10 @@ def friction(dice):
 
     def answers(result):
         pressure = result.last("footing.contact_y") / half
-        # As on clay, and the sunk footing has the heaved soil beside it.
+        # As on clay, and the sunk footing has the heaved soil beside it. The sum of three limits is below that of all together, by
+        # a fifth at the most (Davis & Booker 1971).
         wider = 1 + 0.5 / cells * (1 + tangent * math.pi / 2)
-        return [Check("pressure over the limit", pressure / limit, 0.95, wider * (1 + sink / half * (1 + nq / 5)))]
+        together = 1.2 if weight else 1.0
+        return [Check("pressure over the limit", pressure / limit, 0.95, wider * together * (1 + sink / half * (1 + nq / 5)))]
 
-    return Scene(section, case, answers, f"φ {angle}, q/c {surcharge / cohesion:.2g}")
+    return Scene(section, case, answers, f"φ {angle}, q/c {surcharge / cohesion:.2g}, γB/2c {weight * half / cohesion:.2g}")

@@ -305,3 +305,33 @@ def _dipping(dice, at_rest):
         return checks
 
     return Scene(section, case, answers, "layers that dip", 1 if dice.chance(0.2) else 2)
+
+
+def slope_rest(dice):
+    """K₀ under a slope, which is no equilibrium: right by chance, or said."""
+    height = dice.scale(1, 10)
+    run, h = height * dice.number(1, 4, 2), height / 4
+    weight = dice.number(14, 22)
+    width = run + 4 * height
+    soil = [(0, 0), (width, 0), (width, 2 * height), (2 * height + run, 2 * height), (2 * height, height), (0, height)]
+    section = Section(
+        [Face("soil", soil, h), Face("air", [(0, height), (2 * height, height), (2 * height + run, 2 * height), (width, 2 * height), (width, 2.4 * height), (0, 2.4 * height)], h)],
+        {"bottom": [((0, 0), (width, 0))], "sides": [((x, 0), (x, 2.4 * height)) for x in (0, width)]},
+    )
+    soil = elastic(dice, 2 * height * weight, weight)
+    case = {
+        "geometry": "plane_strain",
+        "regions": {"soil": {"kind": "mpm", "material": "soil"}, "air": {"kind": "buffer"}},
+        "materials": {"soil": soil},
+        "supports": {"bottom": {"ux": 0, "uy": 0}, "sides": {"ux": 0}},
+        "gravity": {"y": -G},
+        "initial_stress": {"k0": dice.number(0.4, 1, 2)},
+        "phases": REST,
+        "output": {"history": [{"name": "bottom", "on": "bottom", "quantities": ["reaction_y"]}]},
+    }
+
+    def answers(result):
+        most = 2 * height * weight
+        return [below("displacement, at most", abs(result.soil.displacement).max(), 1e-3 * most / soil["young"] * height)]
+
+    return Scene(section, case, answers, f"1 in {run / height:.1f}")

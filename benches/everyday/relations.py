@@ -250,6 +250,33 @@ def split_phase(dice, scene):
     return replace(scene, case=case), (SAME if "contacts" not in case else 1e-4) if follows else scene.spread, same
 
 
+def ended(value, time):
+    """The last value of one in time."""
+    if isinstance(value, dict) and "rate" in value:
+        return value["rate"] * time
+    return value["table"][-1][1] if isinstance(value, dict) and "table" in value else value
+
+
+def hold(dice, scene):
+    """A phase more, in which nothing changes."""
+    case = copy.deepcopy(scene.case)
+    last = case["phases"][-1]
+    still = copy.deepcopy(last) | {"name": "hold", "duration": 1, "step": {"initial": 0.5}}
+    if "gravity" in still and dice.chance(0.5):
+        # What one writes who thinks of it as of a value; and what one forgets.
+        still["gravity"] = ended(still["gravity"], last["duration"])
+    else:
+        still.pop("gravity", None)
+    for load in still.get("tractions", []):
+        for key in ("tx", "ty", "pressure"):
+            if key in load:
+                load[key] = ended(load[key], last["duration"])
+    for motion in still.get("prescribe", {}).values():
+        motion.update(dict.fromkeys(motion, 0))
+    case["phases"].append(still)
+    return replace(scene, case=case), (1e-3 if "contacts" in case else 1e-5), same
+
+
 def more_air(dice, scene):
     """More empty cells above."""
     regions = scene.case["regions"]
@@ -309,7 +336,7 @@ def resumed(dice, scene):
 
 
 # Relations, with the families whose scenes they are tried on.
-COLUMNS = ["oedometer_load", "oedometer_plate", "self_weight", "submerged"]
+COLUMNS = ["oedometer_load", "oedometer_plate", "self_weight", "submerged", "undrained", "strip_load"]
 GROUND = ["gravity", "dipping", "infinite_slope"]
 MOTION = ["impact", "incline"]
 ALL = [*COLUMNS, *GROUND, *MOTION, "rankine", "consolidation", "sunken"]
@@ -318,8 +345,9 @@ RELATIONS = {
     "mirror": (mirror, ALL),
     "turn": (turn, ["oedometer_load", "oedometer_plate", "self_weight", *GROUND, *MOTION]),
     "units": (units, [*ALL, "shaft"]),
-    "split_region": (split_region, [*COLUMNS[:3], "dipping", "rankine", "consolidation", "janssen"]),
+    "split_region": (split_region, ["oedometer_load", "oedometer_plate", "self_weight", "undrained", "dipping", "rankine", "consolidation", "janssen"]),
     "split_phase": (split_phase, ["oedometer_load", "oedometer_plate", "self_weight", *GROUND, "rankine", "shaft"]),
+    "hold": (hold, ["oedometer_load", "oedometer_plate", "self_weight", "undrained", *GROUND, "submerged", "shaft"]),
     "more_air": (more_air, [*COLUMNS, *GROUND, "rankine", "consolidation"]),
     "other_mesh": (other_mesh, [*COLUMNS, "dipping", "infinite_slope", "rankine", "consolidation", "sunken"]),
     "elements": (elements, ["dipping", "infinite_slope", "impact", "gravity"]),

@@ -136,7 +136,10 @@ class Result:
 
 
 class Soil:
-    """Places [m], first places, displacements, stresses [kPa] (xx, yy, zz, xy) of the last frame; of finite elements those of some regions."""
+    """Places [m], first places, displacements, stresses (xx, yy, zz, xy) and excess pore pressures [kPa] of the last frame.
+
+    Of finite elements those of some regions.
+    """
 
     def __init__(self, out, regions):
         import pyvista
@@ -151,8 +154,9 @@ class Soil:
                     cells = np.isin(data.cell_data["region [-]"], regions)
                     these[data.cell_connectivity[np.repeat(cells, np.diff(data.cell_offsets))]] = True
                 if these.any():
-                    parts.append((data.points[these], data["displacement [m]"][these], data["stress [kPa]"][these]))
-        place, moved, stress = (np.concatenate([part[n] for part in parts]) for n in range(3))
+                    water = data.point_data.get("pore_pressure [kPa]", np.zeros(data.n_points))
+                    parts.append(tuple(field[these] for field in (data.points, data["displacement [m]"], data["stress [kPa]"], water)))
+        place, moved, stress, self.pore_pressure = (np.concatenate([part[n] for part in parts]) for n in range(4))
         self.place, self.displacement, self.stress = place[:, :2].astype(float), moved[:, :2], stress
         self.origin = self.place - self.displacement
         self.xx, self.yy, self.zz, self.xy = stress[:, :4].T
