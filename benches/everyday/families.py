@@ -1,6 +1,7 @@
 """All kinds of scenes by name, those with answers and those with a relation to another, and the judgement of one of them."""
 
 import column
+import dipping
 import footing
 import ground
 import motion
@@ -14,9 +15,9 @@ from scene import RIGHT, SAID, SILENT, Dice, run, verdict
 ANSWERS = {
     "rest": ground.rest,
     "gravity": ground.gravity,
-    "dipping": ground.dipping,
-    "dipping_rest": ground.dipping_rest,
-    "slope_rest": ground.slope_rest,
+    "dipping": dipping.dipping,
+    "dipping_rest": dipping.dipping_rest,
+    "slope_rest": dipping.slope_rest,
     "oedometer_load": column.load,
     "oedometer_plate": column.plate,
     "oedometer_curve": column.curve,

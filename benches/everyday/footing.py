@@ -7,7 +7,6 @@ N_q = e^(π tan φ) tan²(45° + φ/2), N_c = (N_q − 1) cot φ (Prandtl 1921, 
 
 import math
 
-import numpy as np
 from geometry import Face, Section, box
 from ground import G
 from scene import Check, Scene, typed

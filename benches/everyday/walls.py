@@ -2,7 +2,6 @@
 
 import math
 
-import numpy as np
 from geometry import Face, Section, box
 from ground import G
 from scene import Check, Scene, near, typed

@@ -2,7 +2,6 @@
 
 import math
 
-import numpy as np
 from geometry import Face, Section, box
 from ground import EXACT, G, WATER, oedometer
 from scene import Scene, below, near, typed
