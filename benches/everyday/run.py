@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Ordinary scenes with known answers: each is right, refused, or the program says what is wrong with it.
 
-    .venv/bin/python benches/everyday/run.py [--seed 1] [--count 600] [--write]
+    .venv/bin/python benches/everyday/run.py [--seed 1] [--count 740] [--write]
     .venv/bin/python benches/everyday/run.py --seed 1 --only 17        # one scene again; its folder is printed and kept
 
 Two scenes at a time, each as a user runs it: case.yaml and .geo, `mpm run`, history.csv and the frames. The families of scenes are in
@@ -114,7 +114,7 @@ def page(rows, seed, seconds):
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--count", type=int, default=600, help="scenes")
+    parser.add_argument("--count", type=int, default=740, help="scenes")
     parser.add_argument("--jobs", type=int, default=min(2, len(os.sched_getaffinity(0))), help="scenes at a time")
     parser.add_argument("--kinds", nargs="+", choices=list(families.KINDS), help="scenes of these kinds only")
     parser.add_argument("--only", type=int, action="append", help="a scene by its number")

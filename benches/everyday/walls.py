@@ -12,8 +12,8 @@ def rankine(dice):
     passive = dice.chance(0.5)
     clay = passive and dice.chance(0.4)
     height, weight = dice.scale(0.5, 8), dice.number(14, 21)
-    length = typed(height * dice.uniform(1, 2.5))
-    h = typed(height / dice.choice([4, 5, 6]))
+    length = typed(height * dice.uniform(1, 1.6))
+    h = typed(height / dice.choice([4, 5]))
     strain = 0.01
     if clay:
         strength = typed(weight * height * dice.uniform(0.2, 1))
