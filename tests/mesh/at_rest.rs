@@ -16,11 +16,11 @@ fn rectangles_of_any_size_bear_what_is_above() {
     let (mut geo, mut left, mut tops) = ("SetFactory(\"OpenCASCADE\");\n".to_owned(), -200.0, Vec::new());
     for k in 1..=COUNT {
         // One decimal, as one would draw it.
-        let [wide, deep, top] =
-            [between(1.0, 20.0), between(1.0, 5.0), between(-5.0, 5.0)].map(|x| (10.0 * x).round() / 10.0);
+        let deep = between(1.0, 5.0);
+        let [wide, deep, top] = [deep * between(1.0, 4.0), deep, between(-5.0, 5.0)].map(|x| (10.0 * x).round() / 10.0);
         let bottom = top - deep;
         writeln!(geo, "Rectangle({k}) = {{{left}, {bottom}, 0, {wide}, {deep}}};").unwrap();
-        writeln!(geo, "MeshSize{{PointsOf{{Surface{{{k}}};}}}} = {};", deep / between(3.0, 8.0)).unwrap();
+        writeln!(geo, "MeshSize{{PointsOf{{Surface{{{k}}};}}}} = {};", deep / between(2.0, 5.0)).unwrap();
         writeln!(geo, "Physical Surface(\"r{k}\") = {{{k}}};").unwrap();
         left += wide + 1.0;
         tops.push(top);
