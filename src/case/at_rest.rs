@@ -17,8 +17,9 @@ use crate::seed::{RegionWeight, k0_stress};
 use crate::tensor::Symmetric;
 use std::collections::BTreeSet;
 
-/// Heights at which horizontal stresses are compared, and where in its share of the height each lies: few nodes are there.
+/// Heights at which horizontal stresses are compared.
 const HEIGHTS: u32 = 61;
+/// Where each lies in its share (-) of the height: few nodes are there.
 const SHARE: f64 = 0.437;
 /// The part of the largest horizontal stress (-) up to which a difference is none: level ground has rounding.
 const LEVEL: f64 = 1e-3;

@@ -25,6 +25,12 @@ pub(super) fn bulk(poisson: f64) -> f64 {
 }
 
 impl Checker {
+    /// Whether the pores of a material are drained. One that is nearly incompressible in total stress has water in its pores that does not leave.
+    pub(super) fn drains(material: &raw::Material, model: &Arc<dyn Model>) -> bool {
+        let drained = || model.elasticity().poisson() < NEARLY_INCOMPRESSIBLE;
+        material.drainage.map_or_else(drained, |drainage| drainage == raw::Drainage::Drained)
+    }
+
     /// What the pressure field carries of a material; `build` makes its model with other parameters.
     pub(super) fn carried(
         &mut self,
@@ -98,12 +104,6 @@ impl Checker {
         let ratio = bulk(poisson) - KEPT;
         Some(MixedPressure { model, ratio, water: 0.0, bound: None, limit: share(values, ratio) })
     }
-}
-
-/// Whether the pores of a material are drained. One that is nearly incompressible in total stress has water in its pores that does not leave.
-pub(super) fn drains(material: &raw::Material, model: &Arc<dyn Model>) -> bool {
-    let drained = || model.elasticity().poisson() < NEARLY_INCOMPRESSIBLE;
-    material.drainage.map_or_else(drained, |drainage| drainage == raw::Drainage::Drained)
 }
 
 /// What of the limit of the mean tension the field bears with a bulk modulus of `ratio` (-), in shear moduli, beside that of the points.

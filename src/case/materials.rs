@@ -3,7 +3,6 @@
 
 use super::check::Checker;
 use super::checked::Material;
-use super::incompressible::drains;
 use super::locate::{At, Path};
 use super::raw::{self, InDepth};
 use super::structure::suggest;
@@ -30,7 +29,7 @@ impl Checker {
         let (model, carried) = self.model(material, pressure, path)?;
         let random_strength = self.random_strength(material, path);
         let porous = self.porous(material, &model, path);
-        let drains = drains(material, &model);
+        let drains = Self::drains(material, &model);
         Some(Material {
             name: name.to_owned(),
             model_name: material.model.clone(),

@@ -1,7 +1,7 @@
 //! Where the water in the pores has no excess pressure while it flows (docs/theory.md, section 11, *Drained soil*): on curves that are drained
 //! by name, and in drained soil, which takes the water of the soil beside it.
 
-use super::grid::Grid;
+use super::family::Family;
 use super::scene::Scene;
 use super::state::State;
 
@@ -9,12 +9,16 @@ use super::state::State;
 /// cell, and exact where it is one of the mesh; a layer that is two thirds of a cell thick drains wherever it has moved.
 const PART: f64 = 1.0 / 3.0;
 
-/// The nodes without excess pressure in the next step, ascending; none where no water flows.
-pub fn nodes<const D: usize>(scene: &Scene<D>, grid: &Grid<D>, state: &State<D>) -> Vec<u32> {
+/// The nodes without excess pressure in the next step, ascending, given all that integrals are summed over; none where no water flows.
+pub fn nodes<'a, const D: usize>(
+    scene: &Scene<D>,
+    state: &State<D>,
+    integrated: impl Iterator<Item = Family<'a, D>>,
+) -> Vec<u32> {
     let Some(water) = scene.water.as_ref().filter(|_| scene.phases[state.phase].flows) else { return Vec::new() };
     let mut nodes = water.drained.clone();
     if water.drains.contains(&true) {
-        for family in grid.integrated(scene, state) {
+        for family in integrated {
             let drains = |p: usize| water.drains.get(family.points.model_of(p)) == Some(&true);
             for cell_points in &family.interpolation.filled {
                 let first = cell_points.first_point as usize;

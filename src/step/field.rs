@@ -5,12 +5,11 @@
 //! The unknowns are those of all active cells of the grid, so a term has to contribute to each cell in [`crate::term::Frame::cells`], with points
 //! or without. [`crate::term::Frame::field`] is their place among the unknowns of a cell. Finite elements have the pore pressure only.
 
-use super::drainage;
-use super::grid::Grid;
 use super::nodal_fit::{self, Filled};
 use super::pore_pressure;
 use super::scene::{Scalar, Scene};
 use super::state::State;
+use crate::dofs::DofMap;
 use crate::interpolation::Interpolation;
 use crate::kinematics::Kinematics;
 use crate::mesh::Mesh;
@@ -70,10 +69,17 @@ pub fn to_points<const D: usize, K: Kinematics<D>>(
     }
 }
 
-/// Sets the prescribed increments of the fields in a step of `dt` (s) in `given`, one entry per equation. With `dt = 0` all values that change by
+/// Sets the prescribed increments of the fields in a step of `dt` (s) in `given`, one entry per equation; the water has no excess pressure at the
+/// nodes `drained`, ascending. With `dt = 0` all values that change by
 /// flow alone are fixed.
-pub fn give<const D: usize>(scene: &Scene<D>, state: &State<D>, grid: &Grid<D>, dt: f64, given: &mut [Option<f64>]) {
-    let ([places, _], dofs) = (scene.places(), &grid.dofs);
+pub fn give<const D: usize>(
+    scene: &Scene<D>,
+    state: &State<D>,
+    (dofs, drained): (&DofMap<D>, &[u32]),
+    dt: f64,
+    given: &mut [Option<f64>],
+) {
+    let [places, _] = scene.places();
     for (k, scalar) in scene.scalars().enumerate() {
         let mut give = |nodes: &[u32], value: f64| {
             for (equation, node) in dofs.field(k).filter(|(_, node)| nodes.binary_search(node).is_ok()) {
@@ -81,7 +87,7 @@ pub fn give<const D: usize>(scene: &Scene<D>, state: &State<D>, grid: &Grid<D>, 
             }
         };
         match scalar {
-            Scalar::PorePressure(_) => give(&drainage::nodes(scene, grid, state), 0.0),
+            Scalar::PorePressure(_) => give(drained, 0.0),
             Scalar::Other(..) if dt == 0.0 => dofs.field(k).for_each(|(equation, _)| given[equation] = Some(0.0)),
             Scalar::Other(_, field) => {
                 field.given.iter().for_each(|(nodes, value)| give(nodes, value.at(state.phase_time + dt)));

@@ -1,6 +1,7 @@
 //! The grid of a run: which cells take part, the numbering of the unknowns and the interpolation of the points.
 //! All of it follows from the scene and the state, and is made anew only as far as they changed.
 
+use super::drainage;
 use super::facing;
 use super::family::{Family, Interpolations, System};
 use super::fem::Elements;
@@ -371,7 +372,8 @@ pub fn given_increments<const D: usize>(
     for fixed in &scene.phases[state.phase].held {
         give(fixed, 0.0);
     }
-    field::give(scene, state, grid, dt, &mut given);
+    let drained = drainage::nodes(scene, state, grid.integrated(scene, state));
+    field::give(scene, state, (&grid.dofs, &drained), dt, &mut given);
     given
 }
 

@@ -77,7 +77,7 @@ pub fn balance<const D: usize>(
         }
     }
     if scene.phases[state.phase].flows {
-        let drained_nodes = drainage::nodes(scene, grid, state);
+        let drained_nodes = drainage::nodes(scene, state, grid.integrated(scene, state));
         let alpha_f = if scene.phases[state.phase].dynamic { alpha_f(scene.numerics.spectral_radius) } else { 0.0 };
         let unit = scene.pressure_unit.unwrap_or(1.0) * (1.0 - alpha_f);
         for (equation, node) in grid.dofs.field(PORE_PRESSURE) {
