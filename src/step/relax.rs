@@ -107,7 +107,7 @@ fn check<const D: usize>(first: &Mesh<D>, mesh: &Mesh<D>) -> Result<()> {
         Some(c) => Err(Error::analysis(
             format!("grid cell {c} near {:.4?} m", mesh.nodes[mesh.cells.nodes(c)[0] as usize]),
             "finite elements that share nodes with the grid, or a prescribed curve of it, moved so far that it is folded",
-            "make more of the soil `kind: mpm`, or move it by a rigid structure with a contact in place of a curve",
+            "make more of the soil `kind: mpm`; for a curve, enlarge the buffer before it, or move a rigid structure with a contact",
         )),
     }
 }

@@ -84,7 +84,7 @@ fn a_moved_curve_may_be_held_and_let_go() {
     let phases = "{name: press, analysis: quasi_static, duration: 1, step: {initial: 0.1}, prescribe: {top: {uy: {rate: -0.7}}}}, \
         {name: hold, analysis: quasi_static, duration: 1, step: {initial: 1}, prescribe: {top: {uy: 0}}}, \
         {name: free, analysis: quasi_static, duration: 1, step: {initial: 0.1}}, \
-        {name: pull, analysis: quasi_static, duration: 1, step: {initial: 0.1}, prescribe: {top: {uy: {rate: 0.6}}}}, \
+        {name: pull, analysis: quasi_static, duration: 1, step: {initial: 0.1}, prescribe: {top: {uy: {rate: 0.3}}}}, \
         {name: wave, analysis: dynamic, duration: 0.2, step: {initial: 0.02}, prescribe: {top: {uy: {table: [[0, 0], [0.2, -0.4]]}}}}";
     let folder = scene(2.0, phases);
     let solved = |restore: &str| {
