@@ -79,8 +79,11 @@ impl Bypassed {
     }
 
     fn of_curves<const D: usize>(&mut self, scene: &Scene<D>, state: &State<D>) -> Vec<String> {
-        let filled = filled(scene, state);
         let mut warnings = Vec::new();
+        if self.held.iter().all(Option::is_none) {
+            return warnings;
+        }
+        let filled = filled(scene, state);
         for (curve, known) in held(scene, state.phase).iter().zip(&mut self.held) {
             let Some(first) = *known else { continue };
             let now = curve.nodes.iter().filter(|n| filled[**n as usize]).count();
@@ -107,6 +110,9 @@ impl Bypassed {
             if !sides.soils.is_empty() && fem.mesh.cells.region.contains(&sides.structure) {
                 named.entry(sides.structure).or_default().extend(&sides.soils);
             }
+        }
+        if named.is_empty() {
+            return Vec::new();
         }
         let present: BTreeSet<u16> = state.points.region.iter().copied().collect();
         let name = |region: u16| &scene.mesh.regions[usize::from(region)];
@@ -190,8 +196,9 @@ fn held<const D: usize>(scene: &Scene<D>, phase: usize) -> Vec<Held> {
 /// Whether each node of the mesh is one of a cell with material points, as of the last reset.
 fn filled<const D: usize>(scene: &Scene<D>, state: &State<D>) -> Vec<bool> {
     let mut filled = vec![false; scene.mesh.nodes.len()];
-    let cells: BTreeSet<u32> = state.points.cell.iter().copied().collect();
-    for n in cells.iter().flat_map(|&c| scene.mesh.cells.nodes(c as usize)) {
+    let mut with_points = vec![false; scene.mesh.cells.len()];
+    state.points.cell.iter().for_each(|&c| with_points[c as usize] = true);
+    for n in (0..with_points.len()).filter(|&c| with_points[c]).flat_map(|c| scene.mesh.cells.nodes(c)) {
         filled[*n as usize] = true;
     }
     if let Some(fem) = &scene.fem {
