@@ -22,6 +22,7 @@ pub mod layout;
 mod loads;
 pub mod locate;
 mod materials;
+mod mesh;
 pub mod names;
 mod outputs;
 mod over_depth;

@@ -7,6 +7,7 @@
 mod curves;
 mod keywords;
 mod model;
+mod parts;
 mod place;
 mod reader;
 mod regions;
@@ -17,7 +18,6 @@ mod write;
 
 use crate::error::{Error, Result};
 use crate::reading;
-use model::Model;
 use std::path::Path;
 
 /// Reads the file `path` and gives it as the text of an MSH 4.1 file, with notes on what is left out.
@@ -38,7 +38,7 @@ pub fn to_msh(path: &Path) -> Result<(String, Vec<String>)> {
 pub fn parse(bytes: &[u8], place: &str) -> Result<(String, Vec<String>)> {
     // Names may be in any encoding.
     let text = String::from_utf8_lossy(bytes);
-    let model = Model::of(&text, place)?;
+    let model = parts::read(&text, place)?;
     if !model.elements.iter().any(|element| element.is_cell()) {
         return Err(Error::input(
             place,
@@ -49,10 +49,4 @@ pub fn parse(bytes: &[u8], place: &str) -> Result<(String, Vec<String>)> {
     let regions = regions::of(&model, place)?;
     let (groups, notes) = curves::of(&model, &regions);
     Ok((write::msh(&model, &regions, &groups), model.notes.into_iter().chain(notes).collect()))
-}
-
-/// The first letters of a name that Abaqus/CAE gives where the user gives none: `Set-1`, `_PickedSet2`.
-fn is_automatic(name: &str) -> bool {
-    let number = |rest: &str| !rest.is_empty() && rest.bytes().all(|c| c.is_ascii_digit());
-    name.starts_with('_') || name.get(..4).is_some_and(|set| set.eq_ignore_ascii_case("set-") && number(&name[4..]))
 }

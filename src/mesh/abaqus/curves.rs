@@ -1,6 +1,6 @@
 //! Curves and points of a mesh: from surfaces, sets of line elements and sets of nodes.
 
-use super::model::{Element, Model};
+use super::model::{Element, Model, called, count};
 use super::regions::Regions;
 use std::collections::{BTreeMap, BTreeSet, HashMap, HashSet};
 
@@ -35,19 +35,6 @@ struct Meeting<'a> {
     cells: HashMap<u32, Vec<u32>>,
     /// The nodes in the middle of edges.
     within: HashSet<u32>,
-}
-
-/// How many times each name is there.
-pub fn count(names: impl Iterator<Item = String>) -> HashMap<String, usize> {
-    let mut count = HashMap::new();
-    names.for_each(|name| *count.entry(name).or_default() += 1);
-    count
-}
-
-/// What to call a set of an instance: by both names where several instances have it.
-pub fn called(model: &Model, instance: usize, name: &str, twice: bool) -> String {
-    let instance = &model.instances[instance].name;
-    if twice && !instance.is_empty() { format!("{instance}.{name}") } else { name.to_owned() }
 }
 
 /// All groups, and notes on sets of nodes that become none.

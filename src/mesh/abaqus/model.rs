@@ -1,9 +1,5 @@
 //! Nodes, elements, sets and sections of an input file, with the parts where their instances put them.
 
-use super::keywords::{Block, blocks};
-use super::place::Shift;
-use super::reader::Reader;
-use crate::error::Result;
 use crate::mesh::shape::CellKind;
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
@@ -80,64 +76,15 @@ pub struct Model {
     pub notes: Vec<String>,
 }
 
-/// Nodes, elements and members of all sets for each byte of a file, counted as often as parts and sets are named.
-const MOST_MEMBERS: usize = 16;
+/// How many times each name is there.
+pub fn count(names: impl Iterator<Item = String>) -> HashMap<String, usize> {
+    let mut count = HashMap::new();
+    names.for_each(|name| *count.entry(name).or_default() += 1);
+    count
+}
 
-impl Model {
-    /// # Errors
-    /// Input: as [`super::to_msh`].
-    pub fn of(text: &str, place: &str) -> Result<Self> {
-        let blocks = blocks(text, place)?;
-        // The file or assembly itself.
-        let model = Self { instances: vec![Instance::default()], ..Self::default() };
-        let mut reader = Reader {
-            model,
-            place,
-            shift: Shift::default(),
-            left: MOST_MEMBERS * text.len(),
-            named: HashMap::new(),
-            unknown: BTreeMap::new(),
-        };
-        let mut parts: BTreeMap<String, Vec<&Block>> = BTreeMap::new();
-        let (mut part, mut instance) = (None, 0);
-        let placed = blocks.iter().any(|block| block.name == "instance");
-        for block in &blocks {
-            let named = || block.get("name").unwrap_or_default().to_lowercase();
-            match block.name.as_str() {
-                "part" if placed => part = Some(named()),
-                "part" => instance = reader.instance(block, Shift::default()),
-                "end part" => (part, instance) = (None, 0),
-                "instance" => {
-                    let of = block.get("part").unwrap_or_default();
-                    instance = reader.instance(block, Shift::of(block, place)?);
-                    let Some(blocks) = parts.get(&of.to_lowercase()) else {
-                        return Err(reader.wrong(
-                            block.line,
-                            format!("there is no part {of:?} before it"),
-                            "write the parts first",
-                        ));
-                    };
-                    blocks.iter().try_for_each(|block| reader.take(block, instance))?;
-                }
-                "end instance" => {
-                    instance = 0;
-                    reader.shift = Shift::default();
-                }
-                _ => match &part {
-                    Some(part) => parts.entry(part.clone()).or_default().push(block),
-                    None => reader.take(block, instance)?,
-                },
-            }
-            if let Some(part) = &part {
-                parts.entry(part.clone()).or_default();
-            }
-        }
-        for (kind, count) in reader.unknown {
-            reader
-                .model
-                .notes
-                .push(format!("note: {count} elements of type {kind} are left out: mpm takes plane ones"));
-        }
-        Ok(reader.model)
-    }
+/// What to call a set of an instance: by both names where several instances have it.
+pub fn called(model: &Model, instance: usize, name: &str, twice: bool) -> String {
+    let instance = &model.instances[instance].name;
+    if twice && !instance.is_empty() { format!("{instance}.{name}") } else { name.to_owned() }
 }

@@ -1,7 +1,6 @@
 //! Which region each cell is of: that of its section, or where the file has none, that of a set.
 
-use super::is_automatic;
-use super::model::{Element, Model, Section, Set};
+use super::model::{Element, Model, Section, Set, called, count};
 use crate::error::{Error, Result};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -140,7 +139,13 @@ fn number(model: &Model, names: &[Option<Name>]) -> (Vec<Option<usize>>, Vec<Str
         });
     }
     let of = names.iter().map(|name| name.as_ref().and_then(|name| number.get(name).copied())).collect();
-    let count = super::curves::count(order.iter().map(|name| name.1.to_lowercase()));
-    let called = |name: &&Name| super::curves::called(model, name.0, &name.1, count[&name.1.to_lowercase()] > 1);
+    let count = count(order.iter().map(|name| name.1.to_lowercase()));
+    let called = |name: &&Name| called(model, name.0, &name.1, count[&name.1.to_lowercase()] > 1);
     (of, order.iter().map(called).collect())
+}
+
+/// Whether a name is one that Abaqus/CAE gives where the user gives none: `Set-1`, `_PickedSet2`.
+fn is_automatic(name: &str) -> bool {
+    let number = |rest: &str| !rest.is_empty() && rest.bytes().all(|c| c.is_ascii_digit());
+    name.starts_with('_') || name.get(..4).is_some_and(|set| set.eq_ignore_ascii_case("set-") && number(&name[4..]))
 }
