@@ -41,9 +41,9 @@ pub fn run(args: &Args, keys: &Keys) -> Outcome {
         let found = unmeant::on_mesh(&sound, &mesh)?;
         warnings += found.iter().filter(|text| text.starts_with(WARNING)).count();
         found.iter().for_each(|text| note(text));
-        unconnected::nodes(&sound, &mesh).iter().for_each(|text| note(text));
+        unconnected::nodes(&sound, &mesh).iter().try_for_each(|text| print(&format!("{text}\n")))?;
         let points = seeding::points(&sound, &mesh)?;
-        seeding::notes(&sound, &mesh, &points)?.iter().for_each(|text| note(text));
+        seeding::notes(&sound, &mesh, &points)?.iter().try_for_each(|text| print(&format!("{text}\n")))?;
         scene::rehearse(&sound, mesh, points)?;
     }
     let warned = match warnings {
