@@ -30,8 +30,9 @@ use rayon::prelude::*;
 
 /// `ε₁` (-).
 const GRADIENT: f64 = 1e-10;
-/// The same where forces are to be divided by the mass (-): what they are on motions that the points do not see is not small. It makes up the
-/// mass of a right triangle with one point to its consistent one: its variance of place is `l²/18` for legs `l`, and `h² = 2 l²`.
+/// The same in the first acceleration (-), for cells whose points are fewer than their corners: they do not even see all linear motions, on which the
+/// forces that are divided by the mass may be anything. It makes the mass of a right triangle with one point its consistent one: the variance of its
+/// places is `l²/18` along legs `l`, and `h² = 2 l²`.
 const GRADIENT_OF_FORCES: f64 = 1.0 / 36.0;
 /// `ε₂` (-).
 const CURVATURE: f64 = 1e-5;
@@ -129,7 +130,9 @@ impl<'a> Mass<'a> {
         let few: Vec<u32> =
             cells.iter().copied().filter(|&c| points_in(c) < mesh.cells.nodes(c as usize).len()).collect();
         let gradient = |cell: u32| match carrier {
-            Carrier::IntegrationPoints if points_in(cell) > 0 => GRADIENT_OF_FORCES,
+            Carrier::IntegrationPoints if (1..mesh.cells.corners(cell as usize).len()).contains(&points_in(cell)) => {
+                GRADIENT_OF_FORCES
+            }
             _ => GRADIENT,
         };
         let weak = [(&few, true), (&cells, false)].map(|(cells, few)| {

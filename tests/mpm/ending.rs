@@ -71,6 +71,30 @@ fn a_jump_to_another_equilibrium_is_told() {
     }
 }
 
+/// Soil that settles by half its height because it is compressed has not failed, and what it leaves empty above it is air; elastic or yielding (a
+/// confined column yields where its lateral pressure is less than the active one).
+#[test]
+fn a_column_that_settles_far_has_not_jumped_and_opens_no_void() {
+    let case = |material: &str, restore: &str| {
+        format!(
+            "geometry: plane_strain\nmesh: {{geo: GEO/slump.geo, parameters: {{half_width: 1, height: 5, room: 0, h: 0.5}}}}\n\
+             regions: {{block: {{kind: mpm, material: soft}}}}\nmaterials: {{soft: {{{material}, young: 13, poisson: 0.2, unit_weight: 16}}}}\n\
+             supports: {{bottom: {{ux: 0, uy: 0}}, axis: {{ux: 0}}, face: {{ux: 0}}}}\ngravity: {{y: -9.81}}\nnumerics: {{restore: {restore}}}\n\
+             phases: [{{name: gravity, analysis: quasi_static, duration: 1, step: {{initial: 0.05}}, gravity: {{rate: 1}}}}]\n\
+             output: {{fields: [displacement], history: [{{name: top, on: top, quantities: [uy]}}]}}\n"
+        )
+    };
+    for material in ["model: linear_elastic", "model: mohr_coulomb, cohesion: 0.5, friction: 20"] {
+        for restore in ["every_step", "{min_quality: 0.5}"] {
+            let folder = support::solve_text(&case(material, restore));
+            let log = fs::read_to_string(folder.path().join("solve.log")).unwrap();
+            let settled = column(folder.path(), "top.uy [m]").pop().unwrap();
+            assert!(settled < -2.5, "{settled}");
+            assert!(!log.contains("warning"), "{material}, {restore}: {log}");
+        }
+    }
+}
+
 /// A phase with inertia that waits for equilibrium has nothing to wait for where it begins in equilibrium, and its loads stay. Where a load
 /// comes later, or the soil is out of balance, it goes on.
 #[test]

@@ -16,6 +16,7 @@ mod incompressible;
 mod invariance;
 mod moved_curves;
 mod nodal_field;
+mod obstacles;
 mod output_field;
 mod patch;
 mod phases;

@@ -529,3 +529,25 @@ mod slow {
         }
     }
 }
+
+/// Where the points of a cell do not see all linear motions, as the single one of a triangle of first order, the first acceleration once divided what was
+/// left of Newton's tolerance by next to no mass.
+#[test]
+fn a_block_at_rest_stays_at_rest_as_inertia_comes_in() {
+    for mesh in ["mesh.order=1", "mesh.order=2"] {
+        for lattice in ["mesh.parameters.alternate=0", "mesh.parameters.alternate=1"] {
+            for restore in ["every_step", "{min_quality: 0.5}"] {
+                let settings = [mesh, lattice, &format!("numerics.restore={restore}")];
+                let log = log(solve("tests/data/rest", &settings).path());
+                let energy = |name: &str| {
+                    let words: Vec<&str> = log.split_whitespace().collect();
+                    let values =
+                        words.windows(2).filter(|pair| pair[0] == name).map(|pair| pair[1].parse::<f64>().unwrap());
+                    values.fold(0.0, f64::max)
+                };
+                let (kinetic, elastic) = (energy("kinetic"), energy("elastic"));
+                assert!(kinetic < 0.02 * elastic, "{settings:?}: {kinetic:.1e} kJ beside {elastic:.1e} kJ");
+            }
+        }
+    }
+}

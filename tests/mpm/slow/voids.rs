@@ -40,9 +40,7 @@ fn a_groove_that_soil_closes_over_is_reported_once() {
         let [log, said, summary] = run(overrides);
         assert_eq!(log.matches("void").count(), count, "{overrides:?}: {log}");
         assert_eq!(said.matches(told).count(), count, "{overrides:?}: {said}");
-        // Again at the end.
-        let at_end = summary.split("solved in").nth(1).unwrap();
-        assert_eq!(at_end.matches(told).count(), count, "{overrides:?}: {summary}");
+        assert!(!summary.contains(told), "{overrides:?}: {summary}");
         if let Some(line) = log.lines().find(|line| line.contains(told)) {
             let area: f64 = line.split(" m, of ").nth(1).unwrap().split(' ').next().unwrap().parse().unwrap();
             println!("{line}");
