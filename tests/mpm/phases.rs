@@ -534,20 +534,20 @@ mod slow {
 /// left of Newton's tolerance by next to no mass.
 #[test]
 fn a_block_at_rest_stays_at_rest_as_inertia_comes_in() {
-    for mesh in ["mesh.order=1", "mesh.order=2"] {
-        for lattice in ["mesh.parameters.alternate=0", "mesh.parameters.alternate=1"] {
-            for restore in ["every_step", "{min_quality: 0.5}"] {
-                let settings = [mesh, lattice, &format!("numerics.restore={restore}")];
-                let log = log(solve("tests/data/rest", &settings).path());
-                let energy = |name: &str| {
-                    let words: Vec<&str> = log.split_whitespace().collect();
-                    let values =
-                        words.windows(2).filter(|pair| pair[0] == name).map(|pair| pair[1].parse::<f64>().unwrap());
-                    values.fold(0.0, f64::max)
-                };
-                let (kinetic, elastic) = (energy("kinetic"), energy("elastic"));
-                assert!(kinetic < 0.02 * elastic, "{settings:?}: {kinetic:.1e} kJ beside {elastic:.1e} kJ");
-            }
+    for lattice in ["mesh.parameters.alternate=0", "mesh.parameters.alternate=1"] {
+        for restore in ["every_step", "{min_quality: 0.5}"] {
+            let settings = [lattice, &format!("numerics.restore={restore}")];
+            let log = log(solve("tests/data/rest", &settings).path());
+            let words: Vec<&str> = log.split_whitespace().collect();
+            let most = |name: &str| {
+                let values = words.windows(2).filter(|pair| pair[0] == name).filter_map(|pair| pair[1].parse().ok());
+                values.fold(0.0, f64::max)
+            };
+            let (kinetic, elastic) = (most("kinetic"), most("elastic"));
+            assert!(
+                kinetic > 0.0 && kinetic < 0.01 * elastic,
+                "{settings:?}: {kinetic:.1e} kJ beside {elastic:.1e} kJ"
+            );
         }
     }
 }
