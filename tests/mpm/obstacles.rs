@@ -67,3 +67,13 @@ fn what_passes_a_support_on_a_grid_that_is_never_reset_is_told() {
         assert!(said.contains(part), "`{part}` is not in: {said}");
     }
 }
+
+/// A body that leaves the mesh takes its grid along, too.
+#[test]
+fn what_leaves_the_mesh_is_told() {
+    let folder = tempfile::tempdir().unwrap();
+    let output = mpm("run", "tests/data/drop", folder.path(), &["supports={left: {ux: 0}}"]);
+    let said = errors(&output);
+    assert_eq!(output.status.code(), Some(1), "{said}");
+    assert!(said.contains("it left the grid at [") && said.contains("buffer region"), "{said}");
+}
