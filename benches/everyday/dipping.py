@@ -2,13 +2,14 @@
 
 import math
 
+import numpy as np
 from geometry import Face, Section, box
 from ground import EXACT, G, HISTORY, REST, elastic
 from scene import Scene, below, near, typed
 
 
 def dipping(dice):
-    """Gravity turned on in dipping layers: the reaction is the weight, forces to the sides add up, and the mean vertical stress is ∫γ(y − y₀)dV."""
+    """Gravity turned on in dipping layers: the reaction is the weight, forces to the sides add up, and ∫σ_y dV is −∫γ y dV."""
     return _dipping(dice, False)
 
 
@@ -45,7 +46,7 @@ def _dipping(dice, at_rest):
         "supports": {"bottom": {"ux": 0, "uy": 0}, "sides": {"ux": 0}},
         "gravity": {"y": -G},
         "phases": [phase if at_rest else phase | {"gravity": {"rate": 1}}],
-        "output": {"history": HISTORY},
+        "output": {"fields": ["stress", "displacement", "mass"], "history": HISTORY},
     }
     if at_rest:
         case["initial_stress"] = {"k0": dice.number(0.4, 0.8, 2)}
@@ -56,8 +57,15 @@ def _dipping(dice, at_rest):
             near("reaction of the base", result.last("bottom.reaction_y"), weight, EXACT * weight),
             near("sum of the horizontal reactions", result.last("held.reaction_x"), 0, EXACT * weight),
         ]
+        # With the virtual displacement y: the vertical stress over the volume is the weight times its height above the base.
+        soil = result.soil
+        upper = soil.origin[:, 1] > left + (right - left) * soil.origin[:, 0] / width
+        volume = soil.mass * G / np.where(upper, weights[1], weights[0])
+        moment = (soil.mass * G * soil.origin[:, 1]).sum()
+        strain = scale / min(soil["young"] for soil in materials.values())
+        checks.append(near("vertical stress over the volume, over the moment of the weight", (soil.yy * volume).sum() / moment, -1, 1e-3 + 2 * strain))
         if at_rest:
-            slack = 1e-3 * scale / min(soil["young"] for soil in materials.values()) * depth
+            slack = 1e-3 * strain * depth
             checks.append(below("displacement, at most", abs(result.soil.displacement).max(), slack))
         return checks
 

@@ -39,7 +39,7 @@ ANSWERS = {
     "incline": motion.incline,
 }
 RELATIONS = relations.RELATIONS
-KINDS = {name: make.__doc__ for name, make in ANSWERS.items()} | {name: f"{make.__doc__} Of scenes of other kinds." for name, (make, _) in RELATIONS.items()}
+KINDS = {name: make.__doc__ for name, make in ANSWERS.items()} | {name: f"The same result: {make.__doc__[0].lower()}{make.__doc__[1:]}" for name, (make, _) in RELATIONS.items()}
 
 
 def judge(name, seed, folder):

@@ -136,9 +136,9 @@ class Result:
 
 
 class Soil:
-    """Places [m], first places, displacements, stresses (xx, yy, zz, xy) and excess pore pressures [kPa] of the last frame.
+    """Places [m], first places, displacements, stresses (xx, yy, zz, xy) and excess pore pressures [kPa] of the last frame, masses [t].
 
-    Of finite elements those of some regions.
+    Of finite elements those of some regions. Pressures and masses are 0 where the output has none.
     """
 
     def __init__(self, out, regions):
@@ -154,9 +154,9 @@ class Soil:
                     cells = np.isin(data.cell_data["region [-]"], regions)
                     these[data.cell_connectivity[np.repeat(cells, np.diff(data.cell_offsets))]] = True
                 if these.any():
-                    water = data.point_data.get("pore_pressure [kPa]", np.zeros(data.n_points))
-                    parts.append(tuple(field[these] for field in (data.points, data["displacement [m]"], data["stress [kPa]"], water)))
-        place, moved, stress, self.pore_pressure = (np.concatenate([part[n] for part in parts]) for n in range(4))
+                    water, mass = (data.point_data.get(name, np.zeros(data.n_points)) for name in ("pore_pressure [kPa]", "mass [t]"))
+                    parts.append(tuple(field[these] for field in (data.points, data["displacement [m]"], data["stress [kPa]"], water, mass)))
+        place, moved, stress, self.pore_pressure, self.mass = (np.concatenate([part[n] for part in parts]) for n in range(5))
         self.place, self.displacement, self.stress = place[:, :2].astype(float), moved[:, :2], stress
         self.origin = self.place - self.displacement
         self.xx, self.yy, self.zz, self.xy = stress[:, :4].T
