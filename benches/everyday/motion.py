@@ -84,7 +84,7 @@ def impact(dice):
         "materials": {"steel": soil},
         "supports": {"wall": {"ux": 0}, "sides": {"uy": 0}},
         "initial_velocity": {"bar": {"velocity": {"x": -speed}}},
-        "phases": [{"name": "impact", "analysis": "dynamic", "duration": typed(1.8 * there, 4), "step": {"initial": typed(0.4 * h / speed_of_sound, 4)}}],
+        "phases": [{"name": "impact", "analysis": "dynamic", "duration": typed(1.6 * there, 4), "step": {"initial": typed(0.4 * h / speed_of_sound, 4)}}],
         "output": {"history": [{"name": "wall", "on": "wall", "quantities": ["reaction_x"]}, {"name": "bar", "on": "bar", "quantities": ["vx"]}]},
     }
     force = soil["density"] * speed_of_sound * speed * depth
@@ -92,7 +92,7 @@ def impact(dice):
 
     def answers(result):
         time, reaction, velocity = (result.history[name] for name in ("time", "wall.reaction_x", "bar.vx"))
-        plateau = (time > 0.2 * there) & (time < 1.6 * there)
+        plateau = (time > 0.2 * there) & (time < 1.5 * there)
         # The front spreads over about two cells and steps, which is what the force and the momentum may err by.
         slack = 2 * h / length
         energy = result.energy("kinetic") + result.energy("elastic")
