@@ -17,7 +17,9 @@ def on_same_mesh(scene, tolerance):
 
 
 def scaled(value, factor):
-    """A number, a rate, a table or a profile, times a factor."""
+    """A number, a rate, a table, a profile or a range, times a factor."""
+    if isinstance(value, list):
+        return [entry * factor for entry in value]
     if isinstance(value, dict):
         if "table" in value:
             return {"table": [[time, entry * factor] for time, entry in value["table"]]}
@@ -46,6 +48,10 @@ def reoriented(scene, place, source, turn):
         motion["velocity"] = turned(motion["velocity"], source, "xy")
     for phase in case["phases"]:
         phase["tractions"] = [turned(load, source, ("tx", "ty")) for load in phase.get("tractions", [])]
+        for load in phase["tractions"]:
+            if "where" in load:
+                box = turned(load["where"], {axis: (there, 1.0) for axis, (there, _) in source.items()}, "xy")
+                load["where"] = {axis: sorted(end * source[axis][1] for end in ends) for axis, ends in box.items()}
         for name, motion in phase.get("prescribe", {}).items():
             motion = turned(motion, source, ("ux", "uy"))
             if "rotation" in motion:
@@ -77,7 +83,7 @@ def shift(dice, scene):
         if key in case.get("water", {}):
             case["water"][key] += dy
     for load in (load for phase in case["phases"] for load in phase.get("tractions", []) if "where" in load):
-        load["where"] = {axis: [end + by for end in load["where"][axis]] for axis, by in (("x", dx), ("y", dy))}
+        load["where"] = {axis: [end + {"x": dx, "y": dy}[axis] for end in ends] for axis, ends in load["where"].items()}
     for material in case["materials"].values():
         for value in material.values():
             if isinstance(value, dict) and "top" in value:
@@ -91,7 +97,8 @@ def mirror(dice, scene):
     if scene.case["geometry"] != "plane_strain":
         return shift(dice, scene)
     other, column = reoriented(scene, lambda x, y: (-x, y), {"x": ("x", -1.0), "y": ("y", 1.0)}, -1.0)
-    return other, on_same_mesh(scene, SAME), column
+    # The diagonals of regular triangles are not mirrored.
+    return other, on_same_mesh(scene, SAME) if scene.section.quadrangles else scene.spread, column
 
 
 def turn(dice, scene):
@@ -136,6 +143,9 @@ def units(dice, scene):
         motion["velocity"] = {axis: entry * length for axis, entry in motion["velocity"].items()}
     for phase in case["phases"]:
         phase["tractions"] = [converted(load) for load in phase.get("tractions", [])]
+        for load in phase["tractions"]:
+            if "where" in load:
+                load["where"] = {axis: scaled(ends, length) for axis, ends in load["where"].items()}
         phase["prescribe"] = {name: converted(motion) for name, motion in phase.get("prescribe", {}).items()}
     other = replace(scene, section=scene.section.moved(lambda x, y: (x * length, y * length), length), case=case)
     forces = force if case["geometry"] == "axisymmetric" else force / length

@@ -164,4 +164,4 @@ def infinite(dice):
             below("reactions less the weight", math.hypot(result.last("held.reaction_x") + gx * total / G, result.last("held.reaction_y") + gy * total / G), 1e-5 * total),
         ]
 
-    return Scene(section, case, answers, f"{math.degrees(angle):.0f}°, {'ground' if turned else 'gravity'} inclined")
+    return Scene(section, case, answers, f"{math.degrees(angle):.0f}°, {'ground' if turned else 'gravity'} inclined", spread=0.04)

@@ -76,7 +76,7 @@ def rankine(dice):
         ]
 
     kind = "clay" if clay else "sand"
-    return Scene(section, case, answers, f"{'passive' if passive else 'active'}, {kind}, {'structure' if left else 'wall of the grid'}", unique=False)
+    return Scene(section, case, answers, f"{'passive' if passive else 'active'}, {kind}, {'structure' if left else 'wall of the grid'}", spread=0.02 + 2 * strain, unique=False)
 
 
 def janssen(dice):
