@@ -35,8 +35,9 @@ pub fn symmetric(t: &Tensor) -> Symmetric {
     ]
 }
 
-/// Terms of the series of [`exponential`], and the largest norm (-) of what it is summed for: the rest is rounding.
+/// Terms of the series of [`exponential`]: the rest is rounding.
 const TERMS: i32 = 7;
+/// The largest norm (-) of what it is summed for.
 const SMALL: f64 = 0.02;
 
 /// `exp(t)`: by its series of `t/2ⁿ`, squared `n` times.
@@ -73,7 +74,10 @@ mod tests {
             let wanted = eigen.eigenvectors * Tensor::from_diagonal(&values) * eigen.eigenvectors.transpose();
             let found = exponential(&t);
             assert!((found - wanted).norm() < 1e-13 * wanted.norm(), "{size}: {found} {wanted}");
-            assert!((found.determinant().ln() - t.trace()).abs() < 1e-12 * (1.0 + size), "{size}");
+            // Of values that differ by more orders of magnitude, rounding leaves no determinant.
+            if size <= 1.0 {
+                assert!((found.determinant().ln() - t.trace()).abs() < 1e-12, "{size}");
+            }
         }
     }
 

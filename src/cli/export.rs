@@ -66,7 +66,7 @@ fn work(stage: &Stage, run: &RunFolder, folder: &Path) -> Outcome {
     let mut record = inputs(stage, run)?.begin();
     check_run(stage, run)?;
     provenance::refuse_others(folder, STAGE, export::replaced(folder)?)?;
-    record.write(folder)?;
+    record.claim(folder)?;
     let regions = parts::of_series(case, &mesh);
     let Exported { frames, soil } = export::export(&run.results(), &mesh, &regions, folder, &fields, encoding)?;
     record.finish(folder, &series(folder))?;

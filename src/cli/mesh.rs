@@ -117,7 +117,7 @@ pub fn work(stage: &Stage, gmsh: &Gmsh) -> Outcome {
     }
     msh::seal(&candidate).map_err(|e| atomic::unwritable(&candidate, &e))?;
     let summary = quality::check(&mesh, case.mesh.source.path())?;
-    record.write(stage.folder())?;
+    record.claim(stage.folder())?;
     fs::rename(&candidate, stage.mesh()).map_err(|e| atomic::unwritable(&stage.mesh(), &e))?;
     scratch.keep_folder();
     record.finish(stage.folder(), &[stage.mesh()])?;

@@ -33,7 +33,7 @@ pub fn work(stage: &Stage) -> Outcome {
     let mut record = inputs(stage)?.begin();
     let points = seeding::points(&stage.loaded.case, &mesh)?;
     stage.prepare()?;
-    record.write(stage.folder())?;
+    record.claim(stage.folder())?;
     points_vtu::write(&stage.points(), &points, &mesh.regions, &source(stage)?)?;
     record.finish(stage.folder(), &[stage.points()])?;
     record.write(stage.folder())?;

@@ -155,6 +155,14 @@ impl Record {
         atomic::write(&path, |out| writeln!(out, "{text}"))
     }
 
+    /// Writes it where the stage has no record yet, so that files which an interrupted stage leaves count as the program's own.
+    ///
+    /// # Errors
+    /// As [`Record::write`].
+    pub fn claim(&self, folder: &Path) -> Result<()> {
+        if path(folder, &self.stage).exists() { Ok(()) } else { self.write(folder) }
+    }
+
     /// The record of a stage in `folder`; one that is missing or damaged counts for none.
     pub fn read(folder: &Path, stage: &str) -> Option<Self> {
         serde_json::from_slice(&reading::bytes(&path(folder, stage)).ok()?).ok()

@@ -13,6 +13,7 @@ mod ranges;
 mod sandbox;
 mod script;
 mod session;
+mod token;
 mod worker;
 
 pub use script::{Sources, sources};

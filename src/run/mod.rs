@@ -14,6 +14,7 @@ mod boundary;
 mod bypassed;
 pub mod checkpoint;
 mod ending;
+mod energy;
 pub mod fields;
 mod foreign;
 mod internal_variables;
@@ -45,6 +46,7 @@ use crate::kinematics::Kinematics;
 use crate::profile::{Activity, timed};
 use crate::step::{Controller, Scene, Simulation, State};
 use bypassed::Bypassed;
+use energy::Energy;
 use foreign::{AFRESH, foreign};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
@@ -147,6 +149,7 @@ pub fn run<const D: usize, K: Kinematics<D>>(
     voids::begin(scene, &mut simulation.state);
     let mut bypassed = Bypassed::default();
     let mut swelling = Swelling::default();
+    let mut energy = Energy::default();
     if simulation.state.frames == 0 {
         files.frame(scene, &mut simulation.state)?;
     }
@@ -221,7 +224,9 @@ pub fn run<const D: usize, K: Kinematics<D>>(
                     files.log.line(&warning)?;
                 }
                 let bypassed = bypassed.found(scene, state, &report, outputs.surface.as_ref());
-                for warning in bypassed.into_iter().chain(swelling.found(scene, state)) {
+                for warning in
+                    bypassed.into_iter().chain(swelling.found(scene, state)).chain(energy.found(scene, state, &report))
+                {
                     tell(state, Some(&warning));
                     files.log.line(&warning)?;
                 }

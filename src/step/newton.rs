@@ -278,9 +278,7 @@ impl<'a, const D: usize> Newton<'a, D> {
 
     /// `K δ = −R`, where δ of a prescribed displacement is what is left to it, as the last call of [`Newton::converged`] found.
     fn direction(&mut self) -> Result<()> {
-        // An iteration that converges is not cut short: what comes soon is cheaper than another step.
-        let converges = matches!(self.history[..], [.., before, last] if last < NEAR * before);
-        if self.history.len() > self.problem.scene.numerics.max_iterations && !converges {
+        if self.history.len() > self.problem.scene.numerics.max_iterations {
             return Err(self.failure("too many iterations"));
         }
         if !self.tangent {

@@ -162,7 +162,8 @@ fn begin_anew(case: &Case, k: usize) -> Vec<String> {
     let phase = &case.phases[k];
     let mut warnings = Vec::new();
     let mut compare = |what: String, ended: f64, now: &TimeValue, before: &str| {
-        let begins = now.at(0.0);
+        // Without the sign of a zero.
+        let begins = now.at(0.0) + 0.0;
         let varies = !matches!(now, TimeValue::Constant(_)) && !is_zero(now);
         let size = ended.abs().max(begins.abs());
         if varies && ended != 0.0 && (begins - ended).abs() > 1e-9 * size {

@@ -1,6 +1,6 @@
 //! Ranges of numbers in a script, `{1:10}` or `{0:1:0.1}`, which Gmsh makes a list of or repeats a loop for.
 
-use super::script::{Kind, Token};
+use super::token::{Kind, Token};
 
 /// The most numbers of a range: far more than a geometry can use.
 const MOST: f64 = 1e7;

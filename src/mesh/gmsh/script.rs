@@ -9,6 +9,7 @@
 
 use super::files::check_readable;
 use super::ranges;
+use super::token::{Kind, Token};
 use crate::error::{Error, Result};
 use crate::reading;
 use std::collections::BTreeSet;
@@ -201,21 +202,6 @@ fn begins_with(path: &Path, header: &[u8; 11]) -> bool {
     use std::io::Read;
     let mut found = [0; 11];
     reading::open(path).and_then(|mut file| file.read_exact(&mut found)).is_ok() && found == *header
-}
-
-/// A word of the language, where it begins.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Token<'a> {
-    pub kind: Kind<'a>,
-    pub line: usize,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Kind<'a> {
-    Word(&'a [u8]),
-    Text(&'a [u8]),
-    Number(&'a [u8]),
-    Symbol(u8),
 }
 
 /// The tokens of a script without its comments, or the line, problem and remedy of what Gmsh and this reader might

@@ -169,7 +169,7 @@ fn of_many_mistakes_the_first_are_told_and_the_others_counted() {
 #[test]
 fn large_cases_are_read_in_time_that_grows_with_their_size() {
     let scene = Scene::new();
-    let rows: Vec<String> = (0..100_000).map(|i| format!("[{i}, {i}.5]")).collect();
+    let rows: Vec<String> = (0..100_000).map(|i| format!("[{i}e-5, {i}.5]")).collect();
     scene.replace("case.yaml", "{table: [[0, 0], [1, -0.01]]}", &format!("{{table: [{}]}}", rows.join(", ")));
     let names: String = (0..9_000).map(|i| format!("    - {{name: n{i}, on: surface, quantities: [uy]}}\n")).collect();
     assert_eq!(scene.attach("case.yaml", &names), "");
