@@ -24,8 +24,6 @@ pub struct Bypassed {
     loaded: Vec<Option<f64>>,
     /// The number of nodes in soil of each of the [`held`] curves; `None` where its warning has been given.
     held: Vec<Option<usize>>,
-    /// Structures and soil in them that have been told of, by their regions.
-    entered: BTreeSet<[u16; 2]>,
 }
 
 impl Bypassed {
@@ -101,7 +99,7 @@ impl Bypassed {
         warnings
     }
 
-    fn of_structures<const D: usize>(&mut self, scene: &Scene<D>, state: &State<D>) -> Vec<String> {
+    fn of_structures<const D: usize>(&self, scene: &Scene<D>, state: &State<D>) -> Vec<String> {
         const { assert!(D == 2, "structures have an inside in the plane only") };
         let Some(fem) = &scene.fem else { return Vec::new() };
         let mut named: BTreeMap<u16, BTreeSet<u16>> = BTreeMap::new();
@@ -118,8 +116,7 @@ impl Bypassed {
         let name = |region: u16| &scene.mesh.regions[usize::from(region)];
         let mut warnings = Vec::new();
         for (structure, named) in named {
-            let others = present.difference(&named).filter(|soil| !self.entered.contains(&[structure, **soil]));
-            let others: BTreeSet<u16> = others.copied().collect();
+            let others: BTreeSet<u16> = present.difference(&named).copied().collect();
             if others.is_empty() {
                 continue;
             }
@@ -136,7 +133,6 @@ impl Bypassed {
                 }
             }
             for (soil, (count, x)) in found {
-                self.entered.insert([structure, soil]);
                 let (structure, soil) = (name(structure), name(soil));
                 warnings.push(format!(
                     "the structure `{structure}` is in the soil `{soil}`, which its contacts do not name: {count} points of it have passed into \

@@ -36,6 +36,7 @@ pub fn put<const D: usize>(mut store: Store, state: &State<D>) -> Store {
         moving,
         switched_to_dynamics,
         peak,
+        energies,
         start_position,
         ramp,
         parametric,
@@ -65,6 +66,7 @@ pub fn put<const D: usize>(mut store: Store, state: &State<D>) -> Store {
     store.put("state.times", 1, vec![*time, *phase_time, *step_size, *last_step, *peak, ramp.until]);
     let last = balanced.map_or_else(Vec::new, |last| vec![last.phase as f64, last.from, last.to]);
     store.put("state.balanced", 1, last);
+    store.put("state.energies", 1, energies.clone());
     store.put("state.parametric", 3, parametric.concat());
     store.put("state.fem_parametric", 3, fem_parametric.concat());
     for (name, field) in [
@@ -326,6 +328,7 @@ fn read<const D: usize>(mut store: Store) -> Result<State<D>> {
         moving: flag(*moving, "whether it moves")?,
         switched_to_dynamics: flag(*switched_to_dynamics, "whether it falls")?,
         peak: *peak,
+        energies: store.take::<f64>("state.energies", 1)?,
         start_position,
         ramp: UnbalancedRamp { force, until: *until },
         parametric: vectors(&store.take::<f64>("state.parametric", 3)?),

@@ -44,13 +44,13 @@ use crate::io::phase_state;
 use crate::io::run_folder::RunFolder;
 use crate::kinematics::Kinematics;
 use crate::profile::{Activity, timed};
+use crate::reading;
 use crate::step::{Controller, Scene, Simulation, State};
 use bypassed::Bypassed;
-use energy::Energy;
 use foreign::{AFRESH, foreign};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
-use swelling::Swelling;
+use warning::Told;
 
 /// Jobs that may wait for the writer: the frame and the checkpoint of a step.
 const QUEUE: usize = 2;
@@ -148,8 +148,9 @@ pub fn run<const D: usize, K: Kinematics<D>>(
     }
     voids::begin(scene, &mut simulation.state);
     let mut bypassed = Bypassed::default();
-    let mut swelling = Swelling::default();
-    let mut energy = Energy::default();
+    // Of a run that goes on.
+    let log = if begins { String::new() } else { reading::text(&outputs.folder.log()).unwrap_or_default() };
+    let mut told = Told::of(&log);
     if simulation.state.frames == 0 {
         files.frame(scene, &mut simulation.state)?;
     }
@@ -223,12 +224,12 @@ pub fn run<const D: usize, K: Kinematics<D>>(
                     tell(state, Some(&warning));
                     files.log.line(&warning)?;
                 }
-                let bypassed = bypassed.found(scene, state, &report, outputs.surface.as_ref());
-                for warning in
-                    bypassed.into_iter().chain(swelling.found(scene, state)).chain(energy.found(scene, state, &report))
-                {
-                    tell(state, Some(&warning));
-                    files.log.line(&warning)?;
+                let mut warnings = bypassed.found(scene, state, &report, outputs.surface.as_ref());
+                warnings.extend(swelling::found(scene, state));
+                warnings.extend(energy::found(scene, state, &report));
+                for warning in warnings.iter().filter(|warning| told.is_new(warning)) {
+                    tell(state, Some(warning));
+                    files.log.line(warning)?;
                 }
                 for line in voids::found(scene, state, &report) {
                     if line.starts_with(WARNING) {

@@ -6,38 +6,28 @@ use crate::step::{Scene, State};
 /// The volume over that when seeded (-) beyond which it is told: the loosest sand has half as much again as the densest.
 const MOST: f64 = 1.5;
 
-/// What has been told of it.
-#[derive(Default)]
-pub struct Swelling {
-    /// Phase and region, by their numbers.
-    told: Vec<(usize, u16)>,
-}
-
-impl Swelling {
-    /// Warnings after a step, one a phase and region, at the point that has grown most.
-    pub fn found<const D: usize>(&mut self, scene: &Scene<D>, state: &State<D>) -> Vec<String> {
-        let mut most: Vec<(u16, f64, usize)> = Vec::new();
-        for (p, deformation) in state.points.deformation.iter().enumerate() {
-            let (ratio, region) = (deformation.determinant(), state.points.region[p]);
-            if ratio <= MOST || self.told.contains(&(state.phase, region)) {
-                continue;
-            }
-            match most.iter_mut().find(|of| of.0 == region) {
-                Some(of) if ratio > of.1 => (of.1, of.2) = (ratio, p),
-                Some(_) => {}
-                None => most.push((region, ratio, p)),
-            }
+/// Warnings after a step, one a region, at the point that has grown most.
+pub fn found<const D: usize>(scene: &Scene<D>, state: &State<D>) -> Vec<String> {
+    let mut most: Vec<(u16, f64, usize)> = Vec::new();
+    for (p, deformation) in state.points.deformation.iter().enumerate() {
+        let (ratio, region) = (deformation.determinant(), state.points.region[p]);
+        if ratio <= MOST {
+            continue;
         }
-        let phase = scene.phases.get(state.phase).map_or("", |phase| phase.name.as_str());
-        let warning = |(region, ratio, p): (u16, f64, usize)| {
-            self.told.push((state.phase, region));
-            format!(
-                "{WARNING}phase `{phase}`: soil of region `{}` has grown to {ratio:.2} times its volume near {:.3?} m, which no soil does: \
-                 where it dilates give its material a `dilation_cutoff`; where it is torn apart its stress is meaningless",
-                scene.mesh.regions[usize::from(region)],
-                state.points.position[p]
-            )
-        };
-        most.into_iter().map(warning).collect()
+        match most.iter_mut().find(|of| of.0 == region) {
+            Some(of) if ratio > of.1 => (of.1, of.2) = (ratio, p),
+            Some(_) => {}
+            None => most.push((region, ratio, p)),
+        }
     }
+    let phase = scene.phases.get(state.phase).map_or("", |phase| phase.name.as_str());
+    let warning = |(region, ratio, p): (u16, f64, usize)| {
+        format!(
+            "{WARNING}phase `{phase}`: soil of region `{}` has grown to {ratio:.2} times its volume near {:.3?} m, which no soil does: \
+             where it dilates give its material a `dilation_cutoff`; where it is torn apart its stress is meaningless",
+            scene.mesh.regions[usize::from(region)],
+            state.points.position[p]
+        )
+    };
+    most.into_iter().map(warning).collect()
 }

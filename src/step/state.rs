@@ -55,6 +55,9 @@ pub struct State<const D: usize> {
     pub switched_to_dynamics: bool,
     /// Largest kinetic energy (kJ) since the phase began or inertia came in.
     pub peak: f64,
+    /// In a dynamic phase that is isolated: the sum of the energies and the potential one after its first step, and the most that was moved of
+    /// them, as kinetic energy or change of the potential one (kJ); empty before.
+    pub energies: Vec<f64>,
     /// Where (m) the material points were as the phase, or the part of it without inertia, began; empty where nothing asks how far they
     /// have moved since.
     pub start_position: Vec<[f64; D]>,
@@ -144,6 +147,7 @@ impl<const D: usize> State<D> {
         self.phase += 1;
         self.phase_time = 0.0;
         (self.switched_to_dynamics, self.peak, self.ramp) = (false, 0.0, UnbalancedRamp::default());
+        self.energies.clear();
         self.start_position.clear();
         self.search_geometry.clear();
         self.search_curve.clear();

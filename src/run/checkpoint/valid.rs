@@ -58,6 +58,7 @@ fn check_times<const D: usize>(scene: &Scene<D>, state: &State<D>) -> Result<()>
     };
     ensure(state.balanced.is_none_or(of_phase), "its last step")?;
     ensure(step_size > 0.0 && peak >= 0.0, "the size of its steps")?;
+    ensure(matches!(state.energies.len(), 0 | 3), "its energies")?;
     let Some(next) = scene.phases.get(phase) else {
         return ensure(phase_time == 0.0 && !state.moving && !state.switched_to_dynamics, "its end");
     };
