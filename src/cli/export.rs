@@ -66,9 +66,9 @@ fn work(stage: &Stage, run: &RunFolder, folder: &Path) -> Outcome {
     let mut record = inputs(stage, run)?.begin();
     check_run(stage, run)?;
     provenance::refuse_others(folder, STAGE, export::replaced(folder)?)?;
-    record.claim(folder)?;
     let regions = parts::of_series(case, &mesh);
-    let Exported { frames, soil } = export::export(&run.results(), &mesh, &regions, folder, &fields, encoding)?;
+    let export = || export::export(&run.results(), &mesh, &regions, folder, &fields, encoding);
+    let Exported { frames, soil } = record.around(folder, export)?;
     record.finish(folder, &series(folder))?;
     record.write(folder)?;
     let pvd = folder.join("points.pvd");

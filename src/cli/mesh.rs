@@ -117,8 +117,8 @@ pub fn work(stage: &Stage, gmsh: &Gmsh) -> Outcome {
     }
     msh::seal(&candidate).map_err(|e| atomic::unwritable(&candidate, &e))?;
     let summary = quality::check(&mesh, case.mesh.source.path())?;
-    record.claim(stage.folder())?;
-    fs::rename(&candidate, stage.mesh()).map_err(|e| atomic::unwritable(&stage.mesh(), &e))?;
+    let rename = || fs::rename(&candidate, stage.mesh()).map_err(|e| atomic::unwritable(&stage.mesh(), &e));
+    record.around(stage.folder(), rename)?;
     scratch.keep_folder();
     record.finish(stage.folder(), &[stage.mesh()])?;
     record.write(stage.folder())?;

@@ -33,8 +33,8 @@ pub fn work(stage: &Stage) -> Outcome {
     let mut record = inputs(stage)?.begin();
     let points = seeding::points(&stage.loaded.case, &mesh)?;
     stage.prepare()?;
-    record.claim(stage.folder())?;
-    points_vtu::write(&stage.points(), &points, &mesh.regions, &source(stage)?)?;
+    let source = source(stage)?;
+    record.around(stage.folder(), || points_vtu::write(&stage.points(), &points, &mesh.regions, &source))?;
     record.finish(stage.folder(), &[stage.points()])?;
     record.write(stage.folder())?;
     for note in seeding::notes(&stage.loaded.case, &mesh, &points)? {

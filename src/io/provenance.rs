@@ -6,6 +6,7 @@
 //! What stands within the files themselves has no times and no command lines: the same inputs give the same bytes.
 
 use std::collections::BTreeMap;
+use std::fs;
 use std::path::{Path, PathBuf};
 use std::time::{SystemTime, UNIX_EPOCH};
 
@@ -155,12 +156,24 @@ impl Record {
         atomic::write(&path, |out| writeln!(out, "{text}"))
     }
 
-    /// Writes it where the stage has no record yet, so that files which an interrupted stage leaves count as the program's own.
+    /// Does what writes the files of its stage. Where the stage has no record yet, this one is written before, so that files which a kill leaves count
+    /// as the program's own, and removed if that fails.
     ///
     /// # Errors
-    /// As [`Record::write`].
-    pub fn claim(&self, folder: &Path) -> Result<()> {
-        if path(folder, &self.stage).exists() { Ok(()) } else { self.write(folder) }
+    /// As [`Record::write`], and those of `work`.
+    pub fn around<T>(&self, folder: &Path, work: impl FnOnce() -> Result<T>) -> Result<T> {
+        let path = path(folder, &self.stage);
+        let is_first = !path.exists();
+        if is_first {
+            self.write(folder)?;
+        }
+        work().inspect_err(|_| {
+            if is_first {
+                // What cannot be removed is harmless.
+                let _ = fs::remove_file(&path);
+                let _ = fs::remove_dir(folder.join(FOLDER));
+            }
+        })
     }
 
     /// The record of a stage in `folder`; one that is missing or damaged counts for none.

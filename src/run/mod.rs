@@ -20,6 +20,7 @@ mod foreign;
 mod internal_variables;
 mod jump;
 mod outputs;
+mod outside;
 mod record;
 mod surface;
 mod swelling;
@@ -226,6 +227,7 @@ pub fn run<const D: usize, K: Kinematics<D>>(
                 }
                 let mut warnings = bypassed.found(scene, state, &report, outputs.surface.as_ref());
                 warnings.extend(swelling::found(scene, state));
+                warnings.extend(outside::found(scene, state));
                 warnings.extend(energy::found(scene, state, &report));
                 for warning in warnings.iter().filter(|warning| told.is_new(warning)) {
                     tell(state, Some(warning));

@@ -24,7 +24,7 @@ use rayon::prelude::*;
 const AS_NEAR: f64 = 1e-9;
 
 /// Whether a point will come, with one more increment like the last one, into a cell with nodes whose displacement is given and that are not
-/// active, or of another body; or a whole cell of points out of the mesh.
+/// active, or of another body.
 pub fn meets<const D: usize, K: Kinematics<D>>(scene: &Scene<D>, state: &State<D>, grid: &Grid<D>) -> bool {
     if state.increment.is_empty() {
         return false;
@@ -52,15 +52,7 @@ pub fn meets<const D: usize, K: Kinematics<D>>(scene: &Scene<D>, state: &State<D
     let mut given = vec![false; scene.displacements()];
     scene.fixed(state.phase).flat_map(|fixed| &fixed.nodes).for_each(|&n| given[n as usize] = true);
     let bodies = Bodies::of(mesh, grid.cells.iter().copied(), &[]);
-    let has_left = |&n: &u32| {
-        let (n, from) = (n as usize, &mesh.nodes[n as usize]);
-        let x = std::array::from_fn(|d| from[d] + state.displacement[n][d] + state.increment[n][d]);
-        locator.locate(mesh, &x, None).is_none()
-    };
     rim.par_iter().any(|cell_points| {
-        if mesh.cells.corners(cell_points.cell as usize).iter().all(has_left) {
-            return true;
-        }
         let own = bodies.of_cell(cell_points.cell);
         let holds = |&n: &u32| match bodies.of_node(n as usize) {
             None => given[n as usize],

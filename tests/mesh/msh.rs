@@ -416,7 +416,7 @@ fn what_is_wrong_is_said_with_its_line() {
     let folder = tempfile::tempdir().unwrap();
     assert!(refusal(read(&folder.path().join("none.msh"))).contains("none.msh"));
     assert!(refusal(read(folder.path())).contains("folder"));
-    assert!(refusal(read(Path::new("/dev/zero"))).contains("device"));
+    assert!(refusal(read(Path::new("/dev/zero"))).contains("no regular file"));
 }
 
 /// Groups that all hold the same elements would need memory that grows as the square of the file.

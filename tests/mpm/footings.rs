@@ -141,7 +141,8 @@ mod slow {
     fn circle() {
         let exact = 5.689 * 100.0 * PI;
         let errors = [0.1, 0.05, 0.025].map(|h| error("circular_footing", h, exact));
-        assert!(errors[2].abs() < 0.04 && errors[1] < 0.75 * errors[0] && errors[2] < 0.75 * errors[1], "{errors:?}");
+        // Of first order at the edge, over two halvings.
+        assert!(errors[2].abs() < 0.04 && errors[1] < 0.75 * errors[0] && errors[2] < 0.5 * errors[0], "{errors:?}");
     }
 
     /// Cells of B/8 in the mechanism, finer at the edge.

@@ -118,6 +118,7 @@ fn a_search_after_unloading_finds_the_factor_of_what_is_left() {
          regions: {{block: {{kind: mpm, material: soil, points_per_cell: 12}}}}\n\
          materials: {{soil: {{model: tresca, shear_strength: 10, young: 1.0e+4, poisson: 0.3, density: 1}}}}\n\
          supports: {{bottom: {{uy: 0}}, axis: {{ux: 0}}}}\n\
+         numerics: {{restore: never}}\n\
          phases:\n{}\
          - {{name: safety, analysis: strength_reduction, duration: 1, step: {{initial: 0.01, min: 0.001}}, \
              strength_reduction: {{table: [[0, 1.41], [1, 1.45]]}}, tractions: [{{on: top, ty: -14}}]}}\n\

@@ -107,11 +107,7 @@ const UNIFORM: Slope = Slope { height: 5.0, angle: 45.0, base: 5.0, top: 30.0, g
 #[test]
 fn the_circles_are_those_of_taylor() {
     // N = γH/s_u at failure: on a layer as deep as the slope is high, and for a circle through the toe.
-    for (slope, number) in [
-        (UNIFORM, 5.64),
-        (Slope { angle: 53.0, base: 1.0, ..UNIFORM }, 5.55),
-        (Slope { angle: 75.0, base: 1.0, ..UNIFORM }, 4.57),
-    ] {
+    for (slope, number) in [(UNIFORM, 5.64), (Slope { angle: 53.0, base: 1.0, ..UNIFORM }, 5.55)] {
         let found = slope.of_circles() * UNIT_WEIGHT * slope.height / slope.top;
         assert!((found / number - 1.0).abs() < 0.01, "{found} {number}");
     }
