@@ -12,7 +12,7 @@ use crate::mesh::shape::MAX_NODES;
 const WIDER: f64 = 0.25;
 
 /// The increments (m) of the material that was at the nodes of [`Scene::traced`], given the displacement of the nodes at the end of the step, where
-/// they are not those of the nodes themselves. Zero where it has left the grid.
+/// they are not those of the nodes themselves. Zero where it has left the grid by more than [`WIDER`] of a cell.
 pub fn increments<const D: usize>(scene: &Scene<D>, state: &State<D>, now: &[[f64; D]]) -> Vec<(u32, [f64; D])> {
     const { assert!(D == 2, "the cells around a place are found in the plane only") };
     // Until the first reset after that with which the run begins, and at nodes that go with the material, these are the same.
@@ -27,25 +27,33 @@ pub fn increments<const D: usize>(scene: &Scene<D>, state: &State<D>, now: &[[f6
     let coordinates = state.coordinates(scene);
     let moved = coordinates.iter().zip(&state.displacement).map(|(x, u)| std::array::from_fn(|d| x[d] + u[d]));
     let nodes: Vec<[f64; D]> = moved.collect();
-    let near = |c: usize| {
-        let Some(cell) = box_around(scene.mesh.cells.nodes(c).iter().map(|&n| plane(&nodes[n as usize]))) else {
-            return false;
-        };
-        let by = [0, 1].map(|d| WIDER * (cell[1][d] - cell[0][d]));
-        let meets = |low: &[f64; 2], high: &[f64; 2]| {
+    let meets = |of: &[u32], [low, high]: [&[f64; 2]; 2]| {
+        box_around(of.iter().map(|&n| plane(&nodes[n as usize]))).is_some_and(|cell| {
+            let by = [0, 1].map(|d| WIDER * (cell[1][d] - cell[0][d]));
             (0..2).all(|d| cell[0][d] - by[d] <= high[d] && low[d] <= cell[1][d] + by[d])
-        };
-        meets(&low, &high) && places.iter().any(|x| meets(&plane(x), &plane(x)))
+        })
+    };
+    let at = |of: &[u32], x: &[f64; D]| meets(of, [&plane(x), &plane(x)]);
+    let near = |c: usize| {
+        let of = scene.mesh.cells.nodes(c);
+        meets(of, [&low, &high]) && places.iter().any(|x| at(of, x))
     };
     let part = scene.mesh.part(near);
-    let around = Mesh { nodes, ..part };
+    let around = Mesh { nodes: nodes.clone(), ..part };
     if around.cells.is_empty() {
         return traced.into_iter().map(|n| (n, [0.0; D])).collect();
     }
     let locator = Locator::new(&around);
     let increment = |x: &[f64; D]| {
         let mut moved = [0.0; D];
-        let Some((c, xi)) = locator.locate(&around, x, None) else { return moved };
+        // The surface of soil may lie a little beyond the grid: the nearest cell goes on there.
+        let beyond = || {
+            let cells = (0..around.cells.len()).filter(|&c| at(around.cells.nodes(c), x)).map(|c| c as u32);
+            let places = cells.filter_map(|c| Some((c, locator.extend(&around, c, x)?)));
+            let depth = |(c, xi): &(u32, [f64; 3])| around.cells.kind[*c as usize].depth(xi).0;
+            places.max_by(|a, b| depth(a).total_cmp(&depth(b)))
+        };
+        let Some((c, xi)) = locator.locate(&around, x, None).or_else(beyond) else { return moved };
         let mut share = [0.0; MAX_NODES];
         around.cells.kind[c as usize].values(&xi, &mut share);
         for (share, &n) in share.iter().zip(around.cells.nodes(c as usize)) {

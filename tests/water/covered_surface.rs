@@ -37,7 +37,7 @@ fn plate_over_all(h: f64, more: &[&str]) -> [f64; 2] {
     let parameters = format!("mesh.parameters={{width: 0.4, strip: 0.4, node: 0.2, hs: 0.13, h: {h}}}");
     let folder = run(&[&[parameters.as_str(), &press, held, "phases.wait.step.initial=10"], more].concat());
     let log = fs::read_to_string(folder.path().join("solve.log")).unwrap();
-    assert!(log.contains("phase wait: no free surface of soil"), "{log}");
+    assert!(log.contains("phase `wait`: no free surface of soil"), "{log}");
     let [top, settled] = ["beneath.pore_pressure [kPa]", "strip.uy [m]"].map(|name| column(folder.path(), name));
     let time = column(folder.path(), "time [s]");
     let (mut off, mut off_settlement) = (0.0f64, 0.0f64);
