@@ -71,7 +71,8 @@ pub fn imbalance(case: &Case, mesh: &Mesh<2>) -> Result<Option<String>> {
     let outside = |y: f64| case.water.as_ref().map_or(0.0, |water| water.at_first(y));
     let in_pores = |y: f64| case.water.as_ref().and_then(|water| water.in_pores_at_first(y)).unwrap_or(0.0);
     let mut next = stress.iter().zip(&points.position).map(|(s, x)| (in_pores(x[1]) - s[0], *x));
-    let (mut worst, mut largest, mut force): (Option<[(f64, [f64; 2]); 2]>, f64, f64) = (None, 0.0, 0.0);
+    let mut worst: Option<[(f64, [f64; 2]); 2]> = None;
+    let (mut largest, mut force) = (0.0, 0.0);
     for line in &lines {
         let mut of_line: f64 = 0.0;
         for stretch in line {

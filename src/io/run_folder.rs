@@ -25,8 +25,10 @@ pub const BESIDE: &str = "unfinished";
 /// The marker of an exchange, and where the earlier results go meanwhile.
 const MARKER: &str = ".exchange";
 const REPLACED: &str = ".replaced";
+/// Whether a name is one of those that a run gives.
+type IsName = fn(&str) -> bool;
 /// What a run consists of: its folders, with the names of what it has in them, and files.
-const FOLDERS: [(&str, fn(&str) -> bool); 3] =
+const FOLDERS: [(&str, IsName); 3] =
     [("results", frame::is_name), ("checkpoints", checkpoint::is_name), (phase_state::FOLDER, phase_state::is_name)];
 const FILES: [&str; 2] = ["history.csv", "solve.log"];
 
