@@ -57,7 +57,7 @@ pub(super) fn stress(case: &Case, mesh: &Mesh<2>, k0: f64, points: &Points<2>) -
 /// A warning where the stress at rest of a case is not in equilibrium, with the size of what is out of balance.
 ///
 /// # Errors
-/// As [`stress`].
+/// As `stress`.
 pub fn imbalance(case: &Case, mesh: &Mesh<2>) -> Result<Option<String>> {
     let Some(k0) = case.k0 else { return Ok(None) };
     let ground = Ground::new(case, mesh);

@@ -52,7 +52,7 @@ pub struct Case {
     pub output: Output,
     /// The entries that bring terms of their own.
     pub features: Vec<Arc<dyn Feature>>,
-    /// Warnings of values that no soil has ([`super::unlikely`]).
+    /// Warnings of values that no soil has (`unlikely.rs`).
     pub unlikely: Vec<String>,
 }
 

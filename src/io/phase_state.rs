@@ -72,7 +72,7 @@ fn name(number: usize, phase: &str) -> String {
     format!("{number:02}-{plain}.mpms")
 }
 
-/// Whether a name is one of [`name`]; a copy of a state under another name is its owner's.
+/// Whether a name is one of those that `name` gives; a copy of a state under another name is its owner's.
 pub fn is_name(name: &str) -> bool {
     let number = name.strip_suffix(".mpms").and_then(|name| name.split_once('-')).map(|(number, _)| number);
     number.is_some_and(|number| number.len() >= 2 && number.bytes().all(|digit| digit.is_ascii_digit()))
