@@ -3,13 +3,16 @@
 use super::warning::WARNING;
 use crate::geometry::box_around;
 use crate::mesh::cell_size;
-use crate::step::{Scene, State};
+use crate::step::{Restore, Scene, State};
 
 /// How far out of the box around the mesh a point is (-), over the size of its cell, before it is told of: supports project points back.
 const FAR: f64 = 0.5;
 
-/// A warning after a step.
+/// A warning after a step; none on a grid that is never reset, which goes where the soil does.
 pub fn found<const D: usize>(scene: &Scene<D>, state: &State<D>) -> Option<String> {
+    if scene.numerics.restore == Restore::Never {
+        return None;
+    }
     let [low, high] = box_around(scene.mesh.nodes.iter().copied())?;
     let points = &state.points;
     let beyond = |p: &usize| {
