@@ -120,8 +120,8 @@ fn a_search_after_unloading_finds_the_factor_of_what_is_left() {
          supports: {{bottom: {{uy: 0}}, axis: {{ux: 0}}}}\n\
          numerics: {{restore: never}}\n\
          phases:\n{}\
-         - {{name: safety, analysis: strength_reduction, duration: 1, step: {{initial: 0.01, min: 0.001}}, \
-             strength_reduction: {{table: [[0, 1.41], [1, 1.45]]}}, tractions: [{{on: top, ty: -14}}]}}\n\
+         - {{name: safety, analysis: strength_reduction, duration: 1, step: {{initial: 0.1, min: 0.001}}, \
+             strength_reduction: {{table: [[0, 1], [1, 1.45]]}}, tractions: [{{on: top, ty: -14}}]}}\n\
          output: {{history: [{{name: top, on: top, quantities: [uy]}}]}}\n",
         load("load", -18.0)
     ));
