@@ -15,7 +15,7 @@ pub fn on_mesh(case: &Case, mesh: &Mesh<2>) -> Vec<String> {
     let rounding = bounds(mesh).map_or(0.0, |[low, high]| SAME * (high[0] - low[0]).max(high[1] - low[1]));
     for contact in &case.contacts {
         let (name, met, meeting) = match &contact.structure {
-            Touching::Structure(region) if matches!(contact.on, Touched::Soil(_)) => {
+            Touching::Structure(region) => {
                 let name = &case.regions[*region].name;
                 (name, on_way(case, mesh, name, rounding), "lies on the way of the structure")
             }
@@ -24,7 +24,6 @@ pub fn on_mesh(case: &Case, mesh: &Mesh<2>) -> Vec<String> {
                 warnings.extend(held_along(case, mesh, curve, group));
                 (curve, beside(case, mesh, group), "lies at the wall")
             }
-            Touching::Structure(_) => continue,
         };
         let named = case.contacts.iter().filter(|other| other.structure == contact.structure);
         let named: BTreeSet<usize> = named.flat_map(|other| soils(&other.on)).collect();
@@ -160,8 +159,13 @@ mod tests {
 
     /// What is told of clay 1 m thick on 1 m of sand, 4 m wide, and a footing on it that goes down by `way` (m).
     fn told(contacts: &str, supports: &str, way: f64) -> Vec<String> {
+        told_of("mpm", contacts, supports, way)
+    }
+
+    /// The same with soil of another kind.
+    fn told_of(kind: &str, contacts: &str, supports: &str, way: f64) -> Vec<String> {
         let text = format!(
-            "geometry: plane_strain\nmesh: {{geo: Cargo.toml}}\nregions: {{clay: {{kind: mpm, material: soil}}, sand: {{kind: mpm, material: soil}}, \
+            "geometry: plane_strain\nmesh: {{geo: Cargo.toml}}\nregions: {{clay: {{kind: {kind}, material: soil}}, sand: {{kind: {kind}, material: soil}}, \
              footing: {{kind: structure, material: soil, rigid: true}}}}\n\
              materials: {{soil: {{model: linear_elastic, young: 1, poisson: 0, density: 1}}}}\ncontacts: {contacts}\n{supports}\n\
              phases: [{{name: push, analysis: quasi_static, duration: 1, step: {{initial: 1}}, prescribe: {{footing: {{ux: 0, uy: {{rate: -{way}}}}}}}}}]\n"
@@ -198,6 +202,10 @@ mod tests {
             assert!(sand.contains("the soil `sand` lies on the way of the structure `footing`"), "{sand}");
         }
         assert!(told("[{structure: footing, soil: clay}, {structure: footing, soil: sand}]", "", 1.5).is_empty());
+        // Finite elements that the footing stands on are named, or passed through.
+        assert!(told_of("fem", "[{structure: footing, against: clay}]", "", 0.5).is_empty());
+        let [clay] = told_of("fem", "[{structure: footing, against: sand}]", "", 0.5).try_into().unwrap();
+        assert!(clay.contains("the soil `clay` lies on the way") && clay.contains("`against: clay`"), "{clay}");
     }
 
     #[test]
