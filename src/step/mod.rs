@@ -182,7 +182,15 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
                 Err(error) if error.kind == Kind::Analysis => {
                     if !begun.fresh {
                         // Reset a deformed grid before the step is halved.
-                        begun = timed(Activity::Transfer, || self.initialise(true))?;
+                        let resets = self.state.restorations;
+                        match timed(Activity::Transfer, || self.initialise(true)) {
+                            Ok(anew) => begun = anew,
+                            // The points fit no reset grid, but a smaller step may be found on this one.
+                            Err(left) if left.kind == Kind::Analysis && self.state.restorations == resets => {
+                                controller.halve(dt, left)?;
+                            }
+                            Err(error) => return Err(error),
+                        }
                     } else if predictor.is_none() || !self.grid.buffers.predicted {
                         // The iteration without the predictor has been tried.
                         unbalanced::hold(self.scene, &mut self.grid, &mut self.state, dt)?;

@@ -28,20 +28,24 @@ const RINGS: usize = 2;
 /// another pattern than before.
 ///
 /// # Errors
-/// When a point lies outside the grid.
+/// When a point lies outside the grid; the step then goes on from the grid as it was.
 pub fn begin_anew<const D: usize, K: Kinematics<D>>(
     scene: &Scene<D>,
     state: &mut State<D>,
     interpolations: &mut Interpolations<D>,
     relaxed: &mut Option<Relaxed<D>>,
 ) -> Result<bool> {
-    let nodes = state.nodes.clone();
+    let (nodes, position) = (state.nodes.clone(), state.points.position.clone());
+    let (cell, parametric) = (state.points.cell.clone(), state.parametric.clone());
+    let before = relaxed.take();
     let placed = place::<D, K>(scene, state, relaxed);
-    if placed.is_err() {
+    let Ok(projected) = placed else {
         // The displacement is still that of the last converged step.
-        state.nodes = nodes;
-    }
-    let (before, projected) = placed?;
+        (state.nodes, state.points.position) = (nodes, position);
+        (state.points.cell, state.parametric) = (cell, parametric);
+        *relaxed = before;
+        return placed.map(|_| false);
+    };
     let (mesh, locator) = relax::mesh(scene, relaxed.as_ref());
     let here = relax::mesh(scene, before.as_ref());
     let domains = renew_domains::<D, K>(scene, here, state);
@@ -88,8 +92,8 @@ pub fn begin_anew<const D: usize, K: Kinematics<D>>(
     Ok(ghost_faces::make_room(&scene.locator.faces, state, &chosen) || changed)
 }
 
-/// Moves the nodes to their positions on the reset grid and locates the points. Returns the grid before, and a note on points that
-/// were projected to the boundary.
+/// Moves the nodes to their positions on the reset grid and locates the points. Returns a note on points that were projected to the
+/// boundary.
 ///
 /// # Errors
 /// When a cell of the grid is folded, or a point lies outside it.
@@ -97,9 +101,9 @@ fn place<const D: usize, K: Kinematics<D>>(
     scene: &Scene<D>,
     state: &mut State<D>,
     relaxed: &mut Option<Relaxed<D>>,
-) -> Result<(Option<Relaxed<D>>, Option<String>)> {
+) -> Result<Option<String>> {
     fem::keep_shape(scene, state);
-    let before = std::mem::replace(relaxed, relax::relax(scene, state)?);
+    *relaxed = relax::relax(scene, state)?;
     let (mesh, locator) = relax::mesh(scene, relaxed.as_ref());
     let mut note = None;
     if let Err(lost) = locate_points(mesh, locator, state) {
@@ -109,7 +113,7 @@ fn place<const D: usize, K: Kinematics<D>>(
         }
         locate_points(mesh, locator, state)?;
     }
-    Ok((before, note))
+    Ok(note)
 }
 
 /// Gives the points that integrals are summed over their weights, given the interpolation of the material points.
