@@ -201,6 +201,7 @@ impl Answers {
             time: from,
             reduction: scene.phases[phase].reduction_at(to),
             inverse_dt: step.rate(),
+            alpha_f: state.alpha_f(scene),
             geometry: state.geometry(),
             ..Trial::at_rest(&solution.displacement, &state.displacement)
         };
