@@ -37,6 +37,14 @@ impl GeneralisedAlpha {
         v + self.dt * ((1.0 - self.gamma) * a + self.gamma * next)
     }
 
+    /// What the acceleration of contact alone, `M⁻¹` times its force in the residual, changes of acceleration and velocity at the end of the step:
+    /// contact stops a body within the step and leaves no acceleration behind, while the displacement is that of the residual
+    /// (docs/theory.md, section 5, *Contact*).
+    pub fn released(&self, contact: f64) -> [f64; 2] {
+        let own = contact / (1.0 - self.alpha_m);
+        [-own, self.dt * own * (2.0 * self.beta - self.gamma)]
+    }
+
     /// Acceleration that the inertia sees.
     pub fn weighted(&self, a: f64, next: f64) -> f64 {
         (1.0 - self.alpha_m) * next + self.alpha_m * a
