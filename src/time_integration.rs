@@ -85,6 +85,27 @@ mod tests {
         }
     }
 
+    /// A mass that one step of contact turns around goes on at its new velocity at once.
+    #[test]
+    fn contact_leaves_no_acceleration_behind() {
+        for radius in [1.0, 0.9, 0.5, 0.0] {
+            let m = GeneralisedAlpha::new(radius, 0.1);
+            let (mut v, mut a, force) = (-1.0, 0.0, 20.0);
+            let mut velocities = Vec::new();
+            for contact in [force, 0.0, 0.0] {
+                // M a_α = F for a unit mass.
+                let from_rest = (contact - m.alpha_m * a) / (1.0 - m.alpha_m);
+                let [less, more] = m.released(contact);
+                (v, a) = (m.velocity(v, a, from_rest) + more, from_rest + less);
+                velocities.push(v);
+            }
+            let gained = 2.0 * m.beta / (1.0 - m.alpha_m) * force * m.dt;
+            for v in velocities {
+                assert!((v - (gained - 1.0)).abs() < 1e-12 && a.abs() < 1e-12, "ρ∞ = {radius}: {v} {a}");
+            }
+        }
+    }
+
     #[test]
     fn unit_spectral_radius_is_the_trapezoidal_rule() {
         let m = GeneralisedAlpha::new(1.0, 0.1);

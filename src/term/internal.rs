@@ -9,7 +9,8 @@
 //! `A = (1 − α_f) I + α_f ΔF⁻¹`. The metric within the step is `C = (1 − α_f) ΔFᵀΔF + α_f I = HᵀH`, and the model
 //! responds to `H b_n Hᵀ` with the stress `τ_H`, so that `W = Q τ_H Qᵀ`, `Q = ΔF H⁻¹` (theory, eq. 7 and 8). `A W Aᵀ`
 //! being symmetric, the forces have no moment about the positions within the step; a rotation leaves `C = I`; and
-//! soil that yields dissipates, for the stress within the step is one that it can bear.
+//! soil that yields dissipates, for the stress within the step is one that it can bear. To it is added what makes its work that which the step stores
+//! and dissipates ([`energy`]).
 //!
 //! A [`Mixed`] of the stress may be carried by unknowns of its own; it is a type, so that a scene without one pays
 //! nothing.
@@ -32,11 +33,11 @@ use crate::points::Points;
 use crate::profile::timed_material;
 use crate::system::Local;
 use crate::tensor::{full, symmetric};
+use energy::Work;
 use rayon::prelude::*;
 use std::borrow::Cow;
 use std::marker::PhantomData;
 use std::sync::Arc;
-use energy::Work;
 use strain::{Ends, Strained, inadmissible, metric_factor, moved_nodes, strain};
 
 /// The internal force of all material points.

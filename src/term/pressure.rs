@@ -155,7 +155,8 @@ impl<const D: usize, K: Kinematics<D>> Mixed<D, K> for PressureField<K> {
         let Some((carried, bound)) = bound else {
             return Some((K::respond(at.model, y, &at.trial, &at.state, internal)?, None));
         };
-        let (measure, bound) = (Measure::of(carried, points, p, cell.inertia), bound * at.model.elasticity().at(y).shear);
+        let (measure, bound) =
+            (Measure::of(carried, points, p, cell.inertia), bound * at.model.elasticity().at(y).shear);
         let (water, grid) = (carried.law(y).bulk, ratios.grid / ratios.step);
         let (strain, slope) = (volume_strain(&points.elastic[p]), measure.slope(grid));
         let (local, mean_before) = (volume_strain(&at.trial) - strain, at.model.mean_stress(y, strain));
