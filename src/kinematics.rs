@@ -75,6 +75,12 @@ pub trait Kinematics<const D: usize>: Copy + Default + Send + Sync + 'static {
         Self::add_product(tangent, stress, &IDENTITY, &IDENTITY);
     }
 
+    /// Adds `½ s (b_ik b_jl + b_il b_jk)` to the tangent, `b` symmetric.
+    fn add_metric(tangent: &mut Self::Tangent, s: f64, b: &Tensor);
+
+    /// `l_ij c_ijkl` with the tangent of an answer for the Oldroyd rate of the stress, `c_ijkl = a_ijkl − δ_ik τ_jl`.
+    fn contract(answer: &Spatial<Self::Tangent>, left: &Symmetric) -> Tensor;
+
     /// What the volume strain changes of the stress, `⅓ C_ijkk`, and the strain of the mean stress, `⅓ C_kkij`.
     fn volumetric(answer: &Spatial<Self::Tangent>) -> [Symmetric; 2];
 
@@ -262,6 +268,27 @@ impl<const HOOP: bool> Kinematics<2> for Plane<HOOP> {
                 *entry += s * left[*l] * right[*r];
             }
         }
+    }
+
+    fn add_metric(tangent: &mut Self::Tangent, s: f64, b: &Tensor) {
+        for row in 0..4 {
+            for column in 0..4 {
+                let ((i, j), (k, l)) = ((row / 2, row % 2), (column / 2, column % 2));
+                tangent[row][column] += 0.5 * s * (b[(i, k)] * b[(j, l)] + b[(i, l)] * b[(j, k)]);
+            }
+        }
+        tangent[4][4] += s * b[(2, 2)] * b[(2, 2)];
+    }
+
+    fn contract(answer: &Spatial<Self::Tangent>, left: &Symmetric) -> Tensor {
+        let mut sum = [0.0; 6];
+        for (row, &component) in answer.tangent.iter().zip(&IN_PLANE) {
+            for (entry, &of) in row.iter().zip(&IN_PLANE) {
+                // Both of the places of a component out of the diagonal.
+                sum[of] += left[component] * entry * if of == 3 { 0.5 } else { 1.0 };
+            }
+        }
+        full(&sum) - full(&symmetric(&(full(left) * full(&answer.kirchhoff))))
     }
 
     fn volumetric(answer: &Spatial<Self::Tangent>) -> [Symmetric; 2] {

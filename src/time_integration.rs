@@ -37,6 +37,14 @@ impl GeneralisedAlpha {
         v + self.dt * ((1.0 - self.gamma) * a + self.gamma * next)
     }
 
+    /// What the acceleration of contact alone, `M⁻¹` times its force in the residual, changes of acceleration and velocity at the end of the step:
+    /// contact stops a body within the step and leaves no acceleration behind, while the displacement is that of the residual
+    /// (docs/theory.md, section 5, *Contact*).
+    pub fn released(&self, contact: f64) -> [f64; 2] {
+        let own = contact / (1.0 - self.alpha_m);
+        [-own, self.dt * own * (2.0 * self.beta - self.gamma)]
+    }
+
     /// Acceleration that the inertia sees.
     pub fn weighted(&self, a: f64, next: f64) -> f64 {
         (1.0 - self.alpha_m) * next + self.alpha_m * a
@@ -74,6 +82,27 @@ mod tests {
         for radius in [1.0, 0.9, 0.5, 0.0] {
             let ratio = oscillate(radius, 40) / oscillate(radius, 80);
             assert!((3.6..4.4).contains(&ratio), "ρ∞ = {radius}: ratio {ratio}");
+        }
+    }
+
+    /// A mass that one step of contact turns around goes on at its new velocity at once.
+    #[test]
+    fn contact_leaves_no_acceleration_behind() {
+        for radius in [1.0, 0.9, 0.5, 0.0] {
+            let m = GeneralisedAlpha::new(radius, 0.1);
+            let (mut v, mut a, force) = (-1.0, 0.0, 20.0);
+            let mut velocities = Vec::new();
+            for contact in [force, 0.0, 0.0] {
+                // M a_α = F for a unit mass.
+                let from_rest = (contact - m.alpha_m * a) / (1.0 - m.alpha_m);
+                let [less, more] = m.released(contact);
+                (v, a) = (m.velocity(v, a, from_rest) + more, from_rest + less);
+                velocities.push(v);
+            }
+            let gained = 2.0 * m.beta / (1.0 - m.alpha_m) * force * m.dt;
+            for v in velocities {
+                assert!((v - (gained - 1.0)).abs() < 1e-12 && a.abs() < 1e-12, "ρ∞ = {radius}: {v} {a}");
+            }
         }
     }
 

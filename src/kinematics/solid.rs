@@ -89,6 +89,25 @@ impl Kinematics<3> for ThreeD {
         }
     }
 
+    fn add_metric(tangent: &mut Self::Tangent, s: f64, b: &Tensor) {
+        for (row, (i, j)) in tangent.iter_mut().zip(pairs()) {
+            for (entry, (k, l)) in row.iter_mut().zip(pairs()) {
+                *entry += 0.5 * s * (b[(i, k)] * b[(j, l)] + b[(i, l)] * b[(j, k)]);
+            }
+        }
+    }
+
+    fn contract(answer: &Spatial<Self::Tangent>, left: &Symmetric) -> Tensor {
+        let left = full(left);
+        let mut sum = -left * full(&answer.kirchhoff);
+        for (row, (i, j)) in answer.tangent.iter().zip(pairs()) {
+            for (entry, (k, l)) in row.iter().zip(pairs()) {
+                sum[(k, l)] += left[(i, j)] * entry;
+            }
+        }
+        full(&symmetric(&sum))
+    }
+
     fn volumetric(answer: &Spatial<Self::Tangent>) -> [Symmetric; 2] {
         let a = &answer.tangent;
         let mut sums = [answer.kirchhoff; 2];

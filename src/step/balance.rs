@@ -115,6 +115,7 @@ fn add_terms<const D: usize>(
     let (equations, of_nodes) = (grid.motion.pattern.len(), grid.dofs.displacements());
     sum.force.clear();
     sum.force.resize(equations, 0.0);
+    sum.contact.clear();
     (sum.applied, sum.scale) = ([0.0; D], 0.0);
     own.resize(equations, 0.0);
     let soil = grid.frame(&scene.mesh, problem.state);
@@ -136,6 +137,10 @@ fn add_terms<const D: usize>(
         sum.scale = sum.scale.max(norm(&own[..of_nodes]));
         for (f, o) in sum.force.iter_mut().zip(own.iter()) {
             *f += o;
+        }
+        if term.role() == Role::Contact && own.iter().any(|&f| f != 0.0) {
+            sum.contact.resize(equations, 0.0);
+            sum.contact.iter_mut().zip(own.iter()).for_each(|(sum, own)| *sum += own);
         }
         if term.role() == Role::External {
             for (block, _) in grid.dofs.forces() {

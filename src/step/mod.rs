@@ -289,6 +289,10 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
     /// Grid to points (eq. 12): the converged solution becomes the state.
     fn convect(&mut self, dt: f64, (start, mut solution): Lagrange<D>, answers: Answers) -> Result<Report<D>> {
         let (scene, state) = (self.scene, &mut self.state);
+        let by_contact = match start {
+            Some(_) => transfer::contact_acceleration::<D, K>(scene, &mut self.grid, state, &solution)?,
+            None => Vec::new(),
+        };
         rigid::follow(scene, state, &mut solution.displacement);
         grid::move_whole_curves(scene, state, &self.grid, dt, &mut solution.displacement);
         let mut momentum = report::Motion::of(state).linear;
@@ -302,7 +306,8 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
         if let Some(start) = &start {
             let impulse = start.impulse::<K>(scene, &self.grid, state);
             momentum = std::array::from_fn(|d| momentum[d] + impulse[d]);
-            transfer::motion_to_points::<D, K>(scene, &self.grid, state, start, &solution.displacement, dt);
+            let moved = &solution.displacement;
+            transfer::motion_to_points::<D, K>(scene, &self.grid, state, (start, &by_contact), moved, dt);
         }
         let traced = traced::increments(scene, state, &solution.displacement);
         state.increment.resize(solution.displacement.len(), [0.0; D]);
@@ -337,7 +342,7 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
             state.ramp = UnbalancedRamp::default();
         }
         let report =
-            Report { contacts, water, strained, ..Report::new(scene, state, &self.grid, dt, solution, &momentum) };
+            Report { contacts, water, strained, ..Report::new::<K>(scene, state, &self.grid, dt, solution, &momentum) };
         state.peak = state.peak.max(report.motion.kinetic);
         Ok(report)
     }

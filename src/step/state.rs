@@ -6,6 +6,7 @@ use crate::contact::Multipliers;
 use crate::points::Points;
 use crate::quadrature::Weights;
 use crate::surface::{MarkerFront, Voids};
+use crate::time_integration::GeneralisedAlpha;
 
 /// A step between two times of a phase: its loads are those of the second.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -139,6 +140,11 @@ impl<const D: usize> State<D> {
     /// Whether the step in hand has inertia.
     pub fn dynamic(&self, scene: &Scene<D>) -> bool {
         self.switched_to_dynamics || scene.phases.get(self.phase).is_some_and(|phase| phase.dynamic)
+    }
+
+    /// Weight `α_f` of the beginning of the step in hand, 0 without inertia.
+    pub fn alpha_f(&self, scene: &Scene<D>) -> f64 {
+        if self.dynamic(scene) { GeneralisedAlpha::new(scene.numerics.spectral_radius, 1.0).alpha_f } else { 0.0 }
     }
 
     /// Begins the next phase where this one ended.

@@ -12,6 +12,7 @@ use super::problem::{Problem, Solution};
 use super::rigid;
 use super::scene::Scene;
 use super::state::{Span, State};
+use super::unknowns::Evaluation;
 use crate::dofs::Dof;
 use crate::error::{Error, Result};
 use crate::interpolation::MAX_FUNCTIONS;
@@ -124,13 +125,24 @@ impl<const D: usize> Start<D> {
     }
 }
 
-/// The acceleration at the first dynamic step, `(M + P) a = −f`; zero where the displacement is prescribed.
+/// The acceleration at the first dynamic step, `(M + P) a = −f` without contact; zero where the displacement is prescribed.
 fn first_acceleration<const D: usize, K: Kinematics<D>>(
     scene: &Scene<D>,
     grid: &mut Grid<D>,
     state: &State<D>,
 ) -> Result<Vec<[f64; D]>> {
-    let force = static_force(&Problem::at_rest(scene, state), grid)?.force;
+    let Evaluation { mut force, contact, .. } = static_force(&Problem::at_rest(scene, state), grid)?;
+    force.iter_mut().zip(&contact).for_each(|(force, contact)| *force -= contact);
+    accelerations::<D, K>(scene, grid, state, &force)
+}
+
+/// The acceleration of the nodes (m/s²) by minus a force (kN, one entry an equation), `(M + P) a = −f`; zero where the displacement is prescribed.
+fn accelerations<const D: usize, K: Kinematics<D>>(
+    scene: &Scene<D>,
+    grid: &mut Grid<D>,
+    state: &State<D>,
+    force: &[f64],
+) -> Result<Vec<[f64; D]>> {
     let mut fixed = vec![[false; D]; scene.displacements()];
     for f in scene.fixed(state.phase) {
         for &n in &f.nodes {
@@ -201,6 +213,7 @@ impl Answers {
             time: from,
             reduction: scene.phases[phase].reduction_at(to),
             inverse_dt: step.rate(),
+            alpha_f: state.alpha_f(scene),
             geometry: state.geometry(),
             ..Trial::at_rest(&solution.displacement, &state.displacement)
         };
@@ -298,13 +311,29 @@ fn accelerations_to_points<const D: usize, K: Kinematics<D>>(scene: &Scene<D>, g
         to_points::<D, K>(scene, grid, state, &state.acceleration, &nowhere);
 }
 
-/// Gives the points the motion at the end of the step that began with `start` (eq. 12). The increment is that since the velocity was
+/// The acceleration of the nodes (m/s²) by contact alone in a converged step; empty where nothing touches.
+///
+/// # Errors
+/// As [`Mass::assemble`].
+pub fn contact_acceleration<const D: usize, K: Kinematics<D>>(
+    scene: &Scene<D>,
+    grid: &mut Grid<D>,
+    state: &State<D>,
+    solution: &Solution<D>,
+) -> Result<Vec<[f64; D]>> {
+    if solution.contact.is_empty() {
+        return Ok(Vec::new());
+    }
+    accelerations::<D, K>(scene, grid, state, &solution.contact)
+}
+
+/// Gives the points the motion at the end of the step that began with `start` (eq. 12), `contact` being what contact alone accelerates. The increment is that since the velocity was
 /// mapped to the nodes, so a point at a support stops with it.
 pub fn motion_to_points<const D: usize, K: Kinematics<D>>(
     scene: &Scene<D>,
     grid: &Grid<D>,
     state: &mut State<D>,
-    start: &Start<D>,
+    (start, contact): (&Start<D>, &[[f64; D]]),
     displacement: &[[f64; D]],
     dt: f64,
 ) {
@@ -314,7 +343,8 @@ pub fn motion_to_points<const D: usize, K: Kinematics<D>>(
         for d in 0..D {
             let (v, a) = (start.velocity[n][d], start.acceleration[n][d]);
             let next = integration.acceleration(displacement[n][d] - state.displacement[n][d], v, a);
-            let velocity = integration.velocity(v, a, next);
+            let [less, more] = integration.released(contact.get(n).map_or(0.0, |by_contact| by_contact[d]));
+            let (next, velocity) = (next + less, integration.velocity(v, a, next) + more);
             change[n][d] = velocity - state.velocity[n][d];
             half[n][d] = 0.5 * (displacement[n][d] - state.displacement[n][d]);
             state.velocity[n][d] = velocity;

@@ -7,7 +7,6 @@ use super::scene::Scene;
 use super::state::State;
 use crate::dofs::PORE_PRESSURE;
 use crate::term::Trial;
-use crate::time_integration::GeneralisedAlpha;
 
 /// The water of a step.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -78,8 +77,7 @@ pub fn balance<const D: usize>(
     }
     if scene.phases[state.phase].flows {
         let drained_nodes = drainage::nodes(scene, state, grid.integrated(scene, state));
-        let alpha_f = if scene.phases[state.phase].dynamic { alpha_f(scene.numerics.spectral_radius) } else { 0.0 };
-        let unit = scene.pressure_unit.unwrap_or(1.0) * (1.0 - alpha_f);
+        let unit = scene.pressure_unit.unwrap_or(1.0) * (1.0 - state.alpha_f(scene));
         for (equation, node) in grid.dofs.field(PORE_PRESSURE) {
             if drained_nodes.binary_search(&node).is_ok() {
                 balance.left += solution.residual[equation] / unit;
@@ -87,8 +85,4 @@ pub fn balance<const D: usize>(
         }
     }
     Some(balance)
-}
-
-fn alpha_f(spectral_radius: f64) -> f64 {
-    GeneralisedAlpha::new(spectral_radius, 1.0).alpha_f
 }

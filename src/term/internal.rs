@@ -9,15 +9,17 @@
 //! `A = (1 − α_f) I + α_f ΔF⁻¹`. The metric within the step is `C = (1 − α_f) ΔFᵀΔF + α_f I = HᵀH`, and the model
 //! responds to `H b_n Hᵀ` with the stress `τ_H`, so that `W = Q τ_H Qᵀ`, `Q = ΔF H⁻¹` (theory, eq. 7 and 8). `A W Aᵀ`
 //! being symmetric, the forces have no moment about the positions within the step; a rotation leaves `C = I`; and
-//! soil that yields dissipates, for the stress within the step is one that it can bear.
+//! soil that yields dissipates, for the stress within the step is one that it can bear. To it is added what makes its work that which the step stores
+//! and dissipates ([`energy`]).
 //!
 //! A [`Mixed`] of the stress may be carried by unknowns of its own; it is a type, so that a scene without one pays
 //! nothing.
 
+mod energy;
 mod strain;
 
 use super::extended::{Kept, scatter_functions};
-use super::mixed::{Answer, Coupling, ModelInput, Point};
+use super::mixed::{Acting, Answer, Coupling, ModelInput, Point};
 use super::smoothed::{self, Layout};
 use super::stiffness::{Stiffness, add_turning};
 use super::volume::VolumeFit;
@@ -31,6 +33,7 @@ use crate::points::Points;
 use crate::profile::timed_material;
 use crate::system::Local;
 use crate::tensor::{full, symmetric};
+use energy::Work;
 use rayon::prelude::*;
 use std::borrow::Cow;
 use std::marker::PhantomData;
@@ -54,8 +57,8 @@ pub struct Internal<K, S = ()> {
 /// The model of each material by number.
 type Models = Vec<Option<Arc<dyn Model>>>;
 
-/// Deformation and answers of the points of a cell, in order.
-type Evaluated<K, const D: usize> = (Vec<Strained>, Vec<Answer<K, D>>);
+/// Deformation of a point, the answer of its model, and with inertia the work that this has to do, where that is known.
+type Evaluated<K, const D: usize> = (Strained, Answer<K, D>, Option<Work>);
 
 impl<K> Internal<K> {
     /// `models[m]` is the model of material `m` ([`Points::model_of`]); `dynamic` where any phase is.
@@ -130,7 +133,7 @@ impl<K, S> Internal<K, S> {
         trial: &Trial<D>,
         cell_points: &CellPoints,
         cell: &S::Cell,
-    ) -> Result<Evaluated<K, D>>
+    ) -> Result<Vec<Evaluated<K, D>>>
     where
         K: Kinematics<D>,
         S: Mixed<D, K>,
@@ -153,13 +156,28 @@ impl<K, S> Internal<K, S> {
         let end_weight = 1.0 - trial.alpha_f;
         // What the internal variables become is wanted of converged steps only.
         let mut internal = vec![0.0; self.internal_count(frame.points)];
-        let answer = |(entries, strained): (Entries<D>, &Strained)| {
+        let answer = |(entries, mut strained): (Entries<D>, Strained)| {
             let of_point = (frame.points, &entries);
-            self.answer(models, of_point, cell, strained, (trial.inverse_dt / end_weight, end_weight), &mut internal)
+            let rate = trial.inverse_dt / end_weight;
+            let answer = self.answer(models, of_point, cell, &strained, (rate, end_weight), &mut internal)?;
+            // The model that receives its volume strain from unknowns shares its work with them.
+            let work = (trial.alpha_f > 0.0 && answer.1.is_none()).then(|| {
+                let within = std::mem::replace(&mut strained.metric_factor, strained.increment);
+                let end = self.answer(models, of_point, cell, &strained, (trial.inverse_dt, 1.0), &mut internal);
+                strained.metric_factor = within;
+                let model = frame.points.by_material(entries.point, models);
+                let of_end = |(end, _): Answer<K, D>| {
+                    model.map(|model| {
+                        let model = (entries.point, model.as_ref());
+                        energy::work::<D, K>(frame.points, model, &strained, &end, trial.alpha_f)
+                    })
+                };
+                end.map(of_end)
+            });
+            Ok((strained, answer, work.transpose()?.flatten()))
         };
-        let entries = frame.interpolation.entries::<K>(cell_points).zip(&strained);
-        let answers = timed_material(|| entries.map(answer).collect::<Result<_>>())?;
-        Ok((strained, answers))
+        let entries = frame.interpolation.entries::<K>(cell_points).zip(strained);
+        timed_material(|| entries.map(answer).collect())
     }
 }
 
@@ -175,7 +193,7 @@ impl<const D: usize, K: Kinematics<D>, S: Mixed<D, K>> Term<D> for Internal<K, S
         let models = self.models_in(trial);
         let compute = |cell_points: &CellPoints, local: &mut Local, kept: &mut [f64]| {
             let cell = self.share.over(frame, trial, cell_points);
-            let (strained, mut answers) = self.evaluate(&models, frame, trial, cell_points, &cell)?;
+            let mut evaluated = self.evaluate(&models, frame, trial, cell_points, &cell)?;
             let count = cell_points.function_count as usize;
             let end_weight = 1.0 - trial.alpha_f;
             let mut spatial = [Gradient { g: [0.0; D], hoop: 0.0 }; MAX_FUNCTIONS];
@@ -188,12 +206,19 @@ impl<const D: usize, K: Kinematics<D>, S: Mixed<D, K>> Term<D> for Internal<K, S
             let now = apart.then(|| frame.interpolation.gather(frame.mesh, cell_points, shape));
             let mut buffer = Vec::new();
             Stiffness::with::<D, _>(own, |stiffness| {
-                for (k, ((entries, point), answer)) in
-                    frame.interpolation.entries::<K>(cell_points).zip(&strained).zip(&mut answers).enumerate()
+                for (k, (entries, (point, answer, work))) in
+                    frame.interpolation.entries::<K>(cell_points).zip(&mut evaluated).enumerate()
                 {
                     let at = Point { points: frame.points, entries: &entries, ratios: point.ratios };
-                    let add = |answer: &mut _| self.share.add(&cell, &at, answer);
-                    let (stress, acts_on) = point.stress::<D, K>(trial.alpha_f, answer, add);
+                    let (stress, acting) = if trial.alpha_f > 0.0 {
+                        let within = Point { ratios: point.within(), ..at };
+                        self.share.add(&cell, &within, end_weight, &mut answer.0);
+                        let work = work.as_ref().map(|work| (work, self.share.work(&cell, &at, end_weight)));
+                        energy::stress::<D, K>(point, trial.alpha_f, answer, work)
+                    } else {
+                        self.share.add(&cell, &at, 1.0, &mut answer.0);
+                        (full(&answer.0.kirchhoff), Acting::at_end(point.ratios))
+                    };
                     if held && wanted {
                         K::hold(&mut answer.0);
                     }
@@ -225,7 +250,7 @@ impl<const D: usize, K: Kinematics<D>, S: Mixed<D, K>> Term<D> for Internal<K, S
                         }
                     }
                     let coupling =
-                        Coupling { forces, strains, field_strain: answer.1.as_ref(), acts_on: &acts_on, end_weight };
+                        Coupling { forces, strains, field_strain: answer.1.as_ref(), acting: &acting, end_weight };
                     self.share.couple(&cell, &at, &coupling, local);
                 }
                 if wanted {

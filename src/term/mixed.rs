@@ -60,6 +60,34 @@ impl FieldVolumeStrain {
 /// The answer of a model, and the volume strain that it receives.
 pub type Answer<K, const D: usize> = (Spatial<<K as Kinematics<D>>::Tangent>, Option<FieldVolumeStrain>);
 
+/// How what acts within a step on a point follows from a stress there (theory, eq. 8): the configuration at the end of the step is that of all tensors.
+pub struct Acting {
+    /// `A`: the tensor (-) through which the stress acts; unity without inertia.
+    pub through: Tensor,
+    /// Ratios of volumes by the metric within the step.
+    pub within: Ratios,
+    /// The unit stress of the metric within the step, `Q Qᵀ` (-).
+    pub unit: Tensor,
+    /// The correction of the stress for each unit of work (kPa) that the stress lacks, and the strain of the step `½ (1 − F⁻ᵀF⁻¹)` (-), by which
+    /// the stress does its work.
+    pub correction: Tensor,
+    pub strain: Tensor,
+}
+
+impl Acting {
+    /// Without inertia, at the end of the step.
+    pub fn at_end(ratios: Ratios) -> Self {
+        let (through, unit) = (Tensor::identity(), Tensor::identity());
+        Self { through, within: ratios, unit, correction: Tensor::zeros(), strain: Tensor::zeros() }
+    }
+
+    /// What acts where a share has a stress of `slope` times the unit and has to do the work `work`.
+    pub fn of_unit(&self, slope: f64, work: f64) -> Tensor {
+        let stress = self.unit * slope;
+        self.through * (stress + self.correction * (work - stress.dot(&self.strain)))
+    }
+}
+
 /// What couples the unknowns of a share with the displacements at a point.
 pub struct Coupling<'a, const D: usize> {
     /// The gradients on the deformed grid (1/m) that forces act through, and those that strains are taken with.
@@ -67,8 +95,7 @@ pub struct Coupling<'a, const D: usize> {
     pub strains: &'a [Gradient<D>],
     /// The volume strain that the model receives from the unknowns.
     pub field_strain: Option<&'a FieldVolumeStrain>,
-    /// `A` of (8): the tensor (-) through which the stress acts; unity without inertia.
-    pub acts_on: &'a Tensor,
+    pub acting: &'a Acting,
     /// Weight `1 − α_f` (-) of the end of the step.
     pub end_weight: f64,
 }
@@ -101,8 +128,11 @@ pub trait Mixed<const D: usize, K: Kinematics<D>>: Send + Sync {
         None
     }
 
-    /// Adds the share at the end of the step to the answer of the model, and returns that at its beginning (kPa, Kirchhoff).
-    fn add(&self, cell: &Self::Cell, point: &Point<D>, answer: &mut Spatial<K::Tangent>) -> f64;
+    /// Adds the share within the step to the answer of the model there. The ratios of `point` are those within the step, `end_weight` is `1 − α_f`.
+    fn add(&self, cell: &Self::Cell, point: &Point<D>, end_weight: f64, answer: &mut Spatial<K::Tangent>);
+
+    /// The work (kPa) that the share does in the step, and its derivative by the volume strain at the end of that.
+    fn work(&self, cell: &Self::Cell, point: &Point<D>, end_weight: f64) -> [f64; 2];
 
     /// Adds the equations of the unknowns and what couples them with the displacements to the end of `local`.
     fn couple(&self, cell: &Self::Cell, point: &Point<D>, coupling: &Coupling<D>, local: &mut Local);
@@ -122,8 +152,11 @@ impl<const D: usize, K: Kinematics<D>> Mixed<D, K> for () {
     fn over(&self, _: &Frame<D>, _: &Trial<D>, _: &CellPoints) {}
 
     #[inline]
-    fn add(&self, (): &(), _: &Point<D>, _: &mut Spatial<K::Tangent>) -> f64 {
-        0.0
+    fn add(&self, (): &(), _: &Point<D>, _: f64, _: &mut Spatial<K::Tangent>) {}
+
+    #[inline]
+    fn work(&self, (): &(), _: &Point<D>, _: f64) -> [f64; 2] {
+        [0.0; 2]
     }
 
     #[inline]
@@ -161,8 +194,14 @@ impl<const D: usize, K: Kinematics<D>, A: Mixed<D, K>, B: Mixed<D, K>> Mixed<D, 
         self.0.volume_ratio(&cell.0, points, entries, before).or_else(other)
     }
 
-    fn add(&self, cell: &Self::Cell, point: &Point<D>, answer: &mut Spatial<K::Tangent>) -> f64 {
-        self.0.add(&cell.0, point, answer) + self.1.add(&cell.1, point, answer)
+    fn add(&self, cell: &Self::Cell, point: &Point<D>, end_weight: f64, answer: &mut Spatial<K::Tangent>) {
+        self.0.add(&cell.0, point, end_weight, answer);
+        self.1.add(&cell.1, point, end_weight, answer);
+    }
+
+    fn work(&self, cell: &Self::Cell, point: &Point<D>, end_weight: f64) -> [f64; 2] {
+        let (one, other) = (self.0.work(&cell.0, point, end_weight), self.1.work(&cell.1, point, end_weight));
+        [one[0] + other[0], one[1] + other[1]]
     }
 
     fn couple(&self, cell: &Self::Cell, point: &Point<D>, coupling: &Coupling<D>, local: &mut Local) {

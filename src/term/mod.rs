@@ -382,6 +382,8 @@ pub enum Role {
     External,
     /// Inertia, absent from quasi-static phases.
     Inertia,
+    /// Contact: with inertia it stops bodies at once.
+    Contact,
 }
 
 /// One term of the equations.

@@ -102,10 +102,19 @@ impl<K> PressureField<K> {
 /// The field over a cell.
 pub struct Cell {
     kind: CellKind,
-    /// Its unknowns (kPa).
+    /// Its unknowns (kPa), and those of the last converged step.
     pressure: Coefficients,
+    converged: Coefficients,
     /// Means of the functions over the points, weighted by `1/2G`, for cells of first order.
     mean: Option<Coefficients>,
+    /// Whether the step has inertia.
+    inertia: bool,
+}
+
+/// The field (kPa, for each unit of the measure) within the step where its functions are `shapes`: between the unknowns of both ends, so that
+/// the equations of the field say what work it does.
+fn within(cell: &Cell, shapes: &Coefficients, end_weight: f64) -> f64 {
+    end_weight * dot(shapes, &cell.pressure) + (1.0 - end_weight) * dot(shapes, &cell.converged)
 }
 
 impl<const D: usize, K: Kinematics<D>> Mixed<D, K> for PressureField<K> {
@@ -115,7 +124,8 @@ impl<const D: usize, K: Kinematics<D>> Mixed<D, K> for PressureField<K> {
         let cell = cell_points.cell as usize;
         let kind = frame.mesh.cells.kind[cell];
         let nodes = frame.mesh.cells.nodes(cell);
-        let pressure = gather(kind, nodes, frame.places.constant(cell), trial.pressure);
+        let [pressure, converged] = [trial.pressure, trial.converged_pressure]
+            .map(|pressure| gather(kind, nodes, frame.places.constant(cell), pressure));
         let mean = (kind.order() == 1).then(|| {
             let (mut sum, mut weight) = ([0.0; MOST], 0.0);
             for entries in frame.interpolation.entries::<K>(cell_points) {
@@ -130,7 +140,7 @@ impl<const D: usize, K: Kinematics<D>> Mixed<D, K> for PressureField<K> {
             }
             if weight > 0.0 { sum.map(|s| s / weight) } else { sum }
         });
-        Cell { kind, pressure, mean }
+        Cell { kind, pressure, converged, mean, inertia: trial.alpha_f > 0.0 }
     }
 
     fn respond(
@@ -145,7 +155,8 @@ impl<const D: usize, K: Kinematics<D>> Mixed<D, K> for PressureField<K> {
         let Some((carried, bound)) = bound else {
             return Some((K::respond(at.model, y, &at.trial, &at.state, internal)?, None));
         };
-        let (measure, bound) = (Measure::of(carried, points, p), bound * at.model.elasticity().at(y).shear);
+        let (measure, bound) =
+            (Measure::of(carried, points, p, cell.inertia), bound * at.model.elasticity().at(y).shear);
         let (water, grid) = (carried.law(y).bulk, ratios.grid / ratios.step);
         let (strain, slope) = (volume_strain(&points.elastic[p]), measure.slope(grid));
         let (local, mean_before) = (volume_strain(&at.trial) - strain, at.model.mean_stress(y, strain));
@@ -211,7 +222,7 @@ impl<const D: usize, K: Kinematics<D>> Mixed<D, K> for PressureField<K> {
             Some(_) => carried.model.bulk_modulus(y, carried.model.mean_stress(y, volume_strain(&points.elastic[p]))),
             None => 0.0,
         };
-        let (measure, bulk) = (Measure::of(carried, points, p), carried.law(y).bulk + skeleton);
+        let (measure, bulk) = (Measure::of(carried, points, p, cell.inertia), carried.law(y).bulk + skeleton);
         measure.ratio(
             bulk,
             points.pressure[p],
@@ -220,11 +231,11 @@ impl<const D: usize, K: Kinematics<D>> Mixed<D, K> for PressureField<K> {
         )
     }
 
-    fn add(&self, cell: &Cell, point: &Point<D>, answer: &mut Spatial<K::Tangent>) -> f64 {
+    fn add(&self, cell: &Cell, point: &Point<D>, end_weight: f64, answer: &mut Spatial<K::Tangent>) {
         let &Point { points, entries, ratios } = point;
-        let Some(carried) = points.by_material(entries.point, &self.carried) else { return 0.0 };
-        let measure = Measure::of(carried, points, entries.point);
-        let pressure = measure.slope(ratios.grid) * dot(&shapes(cell.kind, entries.shape), &cell.pressure);
+        let Some(carried) = points.by_material(entries.point, &self.carried) else { return };
+        let measure = Measure::of(carried, points, entries.point, cell.inertia);
+        let pressure = measure.slope(ratios.grid) * within(cell, &shapes(cell.kind, entries.shape), end_weight);
         for normal in &mut answer.kirchhoff[..3] {
             *normal += pressure;
         }
@@ -232,12 +243,19 @@ impl<const D: usize, K: Kinematics<D>> Mixed<D, K> for PressureField<K> {
         if measure.power() > 0 {
             K::add_volumetric(&mut answer.tangent, f64::from(measure.power()) * pressure);
         }
-        points.pressure[entries.point]
+    }
+
+    fn work(&self, cell: &Cell, point: &Point<D>, end_weight: f64) -> [f64; 2] {
+        let &Point { points, entries, ratios } = point;
+        let Some(carried) = points.by_material(entries.point, &self.carried) else { return [0.0; 2] };
+        let measure = Measure::of(carried, points, entries.point, cell.inertia);
+        let pressure = within(cell, &shapes(cell.kind, entries.shape), end_weight);
+        [pressure * measure.strain(ratios), pressure * measure.slope(ratios.grid)]
     }
 
     fn couple(&self, cell: &Cell, point: &Point<D>, coupling: &Coupling<D>, local: &mut Local) {
         let &Point { points, entries, ratios } = point;
-        let &Coupling { forces, strains, field_strain, acts_on, end_weight } = coupling;
+        let &Coupling { forces, strains, field_strain, acting, end_weight } = coupling;
         let p = entries.point;
         let Some(carried) = points.by_material(p, &self.carried) else { return };
         let count = unknowns(cell.kind);
@@ -253,7 +271,7 @@ impl<const D: usize, K: Kinematics<D>> Mixed<D, K> for PressureField<K> {
                 std::array::from_fn(|a| softness * (shapes[a] - mean[a]))
             }
         };
-        let measure = Measure::of(carried, points, p);
+        let measure = Measure::of(carried, points, p, cell.inertia);
         let [slope_before, slope] = [ratios.grid / ratios.step, ratios.grid].map(|ratio| measure.slope(ratio));
         let (before, pressure) = (points.pressure[p], dot(&shapes, &cell.pressure));
         let gained = pressure - before / slope_before;
@@ -270,18 +288,18 @@ impl<const D: usize, K: Kinematics<D>> Mixed<D, K> for PressureField<K> {
             return;
         }
         let size = local.size;
-        let [mut by_strain, mut by_field] = [Tensor::identity() * slope; 2];
+        let mut by_strain = Tensor::identity() * slope;
+        let mut acts = acting.of_unit(measure.slope(acting.within.grid), measure.strain(ratios));
         if let Some(field_strain) = field_strain {
             by_strain += field_strain.taken;
-            by_field += field_strain.stress;
+            acts += acting.through * field_strain.stress;
         }
-        let acting = acts_on * by_field;
         let beyond = reach_beyond_cells(forces.len());
         for (i, (force, strain)) in forces.iter().zip(strains).enumerate() {
             if beyond && force.is_zero() && strain.is_zero() {
                 continue;
             }
-            let (volume, force) = (K::force(&by_strain, strain), K::force(&acting, force));
+            let (volume, force) = (K::force(&by_strain, strain), K::force(&acts, force));
             for (a, shape) in shapes.iter().enumerate().take(count) {
                 for d in 0..D {
                     local.matrix[(begin + a) * size + i * D + d] += weight * shape * volume[d];
@@ -299,7 +317,7 @@ impl<const D: usize, K: Kinematics<D>> Mixed<D, K> for PressureField<K> {
 
     fn commit(&self, cell: &Cell, &Point { points, entries, ratios }: &Point<D>, history: &mut History) {
         let Some(carried) = points.by_material(entries.point, &self.carried) else { return };
-        let slope = Measure::of(carried, points, entries.point).slope(ratios.grid);
+        let slope = Measure::of(carried, points, entries.point, cell.inertia).slope(ratios.grid);
         history.pressure = slope * dot(&shapes(cell.kind, entries.shape), &cell.pressure);
         let gained = history.pressure - points.pressure[entries.point];
         let volume_ratio = history.deformation.determinant();

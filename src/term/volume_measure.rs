@@ -9,7 +9,7 @@ use crate::points::Points;
 pub(super) const ITERATIONS: usize = 20;
 
 /// What the field is conjugate to at a point: `ln j`, or where the field is in tension as the step begins `½ j²`, and `j` where the tension has a
-/// limit. `j` is the volume over that when the grid was restored.
+/// limit or the step inertia: there the measure is the same in all steps, for the energy that a change of it would bring. `j` is the volume over that when the grid was restored.
 #[derive(Clone, Copy)]
 pub(super) enum Measure {
     Logarithm,
@@ -18,8 +18,11 @@ pub(super) enum Measure {
 }
 
 impl Measure {
-    pub fn of<const D: usize>(carried: &MixedPressure, points: &Points<D>, p: usize) -> Self {
-        match points.pressure[p] > 0.0 && !carried.is_whole() {
+    /// That of point `p`; `inertia` says whether the step has it.
+    pub fn of<const D: usize>(carried: &MixedPressure, points: &Points<D>, p: usize, inertia: bool) -> Self {
+        match points.pressure[p] > 0.0 {
+            _ if carried.is_whole() => Self::Logarithm,
+            _ if inertia => Self::Volume,
             false => Self::Logarithm,
             true if carried.limit.is_some() => Self::Volume,
             true => Self::Square,

@@ -127,7 +127,7 @@ pub struct Cell<const D: usize> {
     corners: usize,
     /// The linear shape functions by those of the cell.
     shapes: [[f64; MAX_NODES]; MOST],
-    /// The pressure (kPa) at the corners, and what the step has added to it.
+    /// The pressure (kPa) at the corners, and what the step has added to it there.
     pressure: Corners,
     gained: Corners,
     /// Displacement (m) of the nodes at the beginning of the step.
@@ -140,6 +140,11 @@ pub struct Cell<const D: usize> {
 }
 
 impl<const D: usize> Cell<D> {
+    /// The pressure (kPa) within the step where the functions are `shapes`: between the unknowns of both ends.
+    fn within(&self, shapes: &Corners, end_weight: f64) -> f64 {
+        dot(shapes, &self.pressure) - (1.0 - end_weight) * dot(shapes, &self.gained)
+    }
+
     fn shapes(&self, n: &[f64]) -> Corners {
         self.shapes.map(|of| of.iter().zip(n).map(|(c, n)| c * n).sum())
     }
@@ -188,25 +193,33 @@ impl<const D: usize, K: Kinematics<D>> Mixed<D, K> for PoreWater<K> {
         }
     }
 
-    fn add(&self, cell: &Cell<D>, point: &Point<D>, answer: &mut Spatial<K::Tangent>) -> f64 {
+    fn add(&self, cell: &Cell<D>, point: &Point<D>, end_weight: f64, answer: &mut Spatial<K::Tangent>) {
         let &Point { points, entries, ratios } = point;
-        let p = entries.point;
-        if points.by_material(p, &self.porous).is_none() {
-            return 0.0;
+        if points.by_material(entries.point, &self.porous).is_none() {
+            return;
         }
-        let before = points.deformation[p].determinant();
-        let stress = -before * ratios.step * dot(&cell.shapes(entries.shape), &cell.pressure);
+        let pressure = cell.within(&cell.shapes(entries.shape), end_weight);
+        let stress = -points.deformation[entries.point].determinant() * ratios.step * pressure;
         for normal in &mut answer.kirchhoff[..3] {
             *normal += stress;
         }
         K::add_pressure(&mut answer.tangent, stress);
         K::add_volumetric(&mut answer.tangent, stress);
-        -before * points.pore_pressure[p]
+    }
+
+    fn work(&self, cell: &Cell<D>, point: &Point<D>, end_weight: f64) -> [f64; 2] {
+        let &Point { points, entries, ratios } = point;
+        if points.by_material(entries.point, &self.porous).is_none() {
+            return [0.0; 2];
+        }
+        let pressure = cell.within(&cell.shapes(entries.shape), end_weight);
+        let stress = -points.deformation[entries.point].determinant() * pressure;
+        [stress * (ratios.step - 1.0), stress * ratios.step]
     }
 
     fn couple(&self, cell: &Cell<D>, point: &Point<D>, coupling: &Coupling<D>, local: &mut Local) {
         let &Point { points, entries, ratios } = point;
-        let &Coupling { forces, strains, acts_on, end_weight, .. } = coupling;
+        let &Coupling { forces, strains, acting, end_weight, .. } = coupling;
         let p = entries.point;
         let Some(porous) = points.by_material(p, &self.porous) else { return };
         let begin = D * forces.len();
@@ -244,12 +257,13 @@ impl<const D: usize, K: Kinematics<D>> Mixed<D, K> for PoreWater<K> {
         }
         let (size, one) = (local.size, Tensor::identity());
         let volume = -weight * before * ratios.step;
+        let acts = acting.of_unit(acting.within.step, ratios.step - 1.0) * (-weight * before);
         for (i, (force, strain)) in forces.iter().zip(strains).enumerate() {
-            let (swelling, force) = (K::force(&one, strain), K::force(acts_on, force));
+            let (swelling, force) = (K::force(&one, strain), K::force(&acts, force));
             for (a, shape) in shapes.iter().enumerate().take(cell.corners) {
                 for d in 0..D {
                     local.matrix[(begin + a) * size + i * D + d] += volume * shape * swelling[d];
-                    local.matrix[(i * D + d) * size + begin + a] += volume * shape * force[d];
+                    local.matrix[(i * D + d) * size + begin + a] += shape * force[d];
                 }
             }
         }

@@ -9,6 +9,7 @@ mod column;
 mod ddmp;
 mod elements;
 mod ending;
+mod energy;
 mod everyday;
 mod footings;
 mod ghost;

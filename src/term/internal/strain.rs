@@ -1,13 +1,11 @@
-//! The deformation of a point in a trial state, on the geometry of that or on one that is held, and the stress that acts in the step.
+//! The deformation of a point in a trial state, on the geometry of that or on one that is held.
 
 use crate::error::{Error, Result};
 use crate::interpolation::Entries;
 use crate::kinematics::Kinematics;
-use crate::material::spatial::Spatial;
 use crate::points::Points;
 use crate::tensor::{Tensor, exponential, full, symmetric};
 use crate::term::Ratios;
-use crate::term::mixed::Answer;
 
 /// Least ratio of volumes in one step that a trial state may have.
 const LEAST_VOLUME_RATIO: f64 = 0.05;
@@ -31,34 +29,10 @@ impl Strained {
         self.ratios = ratios;
     }
 
-    /// The stress `A W` that acts in the step, and `A`; its tangent takes the place of that of `τ_H` in `answer`. `add` adds
-    /// the share of the stress that unknowns carry at the end of the step and returns that at its beginning (kPa).
-    #[inline]
-    pub fn stress<const D: usize, K: Kinematics<D>>(
-        &self,
-        alpha_f: f64,
-        (answer, field_strain): &mut Answer<K, D>,
-        add: impl Fn(&mut Spatial<K::Tangent>) -> f64,
-    ) -> (Tensor, Tensor) {
-        if alpha_f == 0.0 {
-            add(answer);
-            return (full(&answer.kirchhoff), Tensor::identity());
-        }
-        let increment = &self.increment;
-        // Both have the determinant of what was found to be admissible.
-        let [back, across] = [increment, &self.metric_factor].map(|f| f.try_inverse().unwrap_or_else(Tensor::identity));
-        let q = increment * across;
-        K::convect(answer, &q);
-        if let Some(field_strain) = field_strain {
-            field_strain.convect(&q);
-        }
-        let of_model = full(&answer.kirchhoff);
-        let before = add(answer);
-        let a = Tensor::identity() * (1.0 - alpha_f) + back * alpha_f;
-        let of_share = (full(&answer.kirchhoff) - of_model) * (1.0 - alpha_f);
-        let w = of_model + of_share + increment * increment.transpose() * (alpha_f * before);
-        K::weight(&mut answer.tangent, &a, &answer.kirchhoff, &w);
-        (a * w, a)
+    /// Ratios of volumes by the metric within the step.
+    pub fn within(&self) -> Ratios {
+        let step = self.metric_factor.determinant();
+        Ratios { step, grid: self.ratios.grid / self.ratios.step * step }
     }
 }
 
