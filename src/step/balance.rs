@@ -63,6 +63,7 @@ pub fn evaluate<const D: usize>(
         flow_time: problem.flow_time,
         acceleration,
         acceleration_slope: problem.integration.map_or(0.0, |i| i.slope()),
+        contact_weight: problem.integration.map_or(1.0, |i| i.impulse()),
         ahead: if dynamic { ahead } else { &[] },
         ahead_slope: problem.integration.map_or(0.0, |i| 0.5 * i.gamma / i.beta),
         phase: problem.phase,
@@ -115,7 +116,6 @@ fn add_terms<const D: usize>(
     let (equations, of_nodes) = (grid.motion.pattern.len(), grid.dofs.displacements());
     sum.force.clear();
     sum.force.resize(equations, 0.0);
-    sum.contact.clear();
     (sum.applied, sum.scale) = ([0.0; D], 0.0);
     own.resize(equations, 0.0);
     let soil = grid.frame(&scene.mesh, problem.state);
@@ -137,10 +137,6 @@ fn add_terms<const D: usize>(
         sum.scale = sum.scale.max(norm(&own[..of_nodes]));
         for (f, o) in sum.force.iter_mut().zip(own.iter()) {
             *f += o;
-        }
-        if term.role() == Role::Contact && own.iter().any(|&f| f != 0.0) {
-            sum.contact.resize(equations, 0.0);
-            sum.contact.iter_mut().zip(own.iter()).for_each(|(sum, own)| *sum += own);
         }
         if term.role() == Role::External {
             for (block, _) in grid.dofs.forces() {

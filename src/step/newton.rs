@@ -121,7 +121,6 @@ impl<'a, const D: usize> Newton<'a, D> {
             displacement: at.displacement,
             pressure: at.pressure,
             residual: std::mem::take(&mut now.force),
-            contact: std::mem::take(&mut now.contact),
             history: std::mem::take(&mut self.history),
             applied: now.applied,
             method: self.method,

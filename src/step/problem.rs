@@ -133,8 +133,6 @@ pub struct Solution<const D: usize> {
     pub pressure: Vec<f64>,
     /// Residual (kN), one entry an equation: zero where free, the force of the support where given.
     pub residual: Vec<f64>,
-    /// What contact adds to it (kN); empty where nothing touches.
-    pub contact: Vec<f64>,
     /// Relative residuals, the first before the first iteration.
     pub history: Vec<f64>,
     /// Resultant (kN) of the applied forces, weighted in time as the step does.

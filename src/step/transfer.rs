@@ -4,6 +4,7 @@
 //! that the nodal field has at the integration points ([`momentum`]).
 
 use super::balance::static_force;
+use super::contact;
 use super::family::{Family, interpolate};
 use super::grid::Grid;
 use super::mass::{Carrier, Mass};
@@ -12,7 +13,6 @@ use super::problem::{Problem, Solution};
 use super::rigid;
 use super::scene::Scene;
 use super::state::{Span, State};
-use super::unknowns::Evaluation;
 use crate::dofs::Dof;
 use crate::error::{Error, Result};
 use crate::interpolation::MAX_FUNCTIONS;
@@ -131,8 +131,11 @@ fn first_acceleration<const D: usize, K: Kinematics<D>>(
     grid: &mut Grid<D>,
     state: &State<D>,
 ) -> Result<Vec<[f64; D]>> {
-    let Evaluation { mut force, contact, .. } = static_force(&Problem::at_rest(scene, state), grid)?;
-    force.iter_mut().zip(&contact).for_each(|(force, contact)| *force -= contact);
+    let mut force = static_force(&Problem::at_rest(scene, state), grid)?.force;
+    let at_rest = Trial { phase: state.phase, ..Trial::at_rest(&state.displacement, &state.displacement) };
+    for (sum, own) in force.iter_mut().zip(contact::impulsive(scene, grid, &at_rest)) {
+        *sum += own;
+    }
     accelerations::<D, K>(scene, grid, state, &force)
 }
 
@@ -311,7 +314,8 @@ fn accelerations_to_points<const D: usize, K: Kinematics<D>>(scene: &Scene<D>, g
         to_points::<D, K>(scene, grid, state, &state.acceleration, &nowhere);
 }
 
-/// The acceleration of the nodes (m/s²) by contact alone in a converged step; empty where nothing touches.
+/// The acceleration of the nodes (m/s²) by the contact of a converged step alone, given its force (kN, one entry an equation); empty where nothing
+/// touches.
 ///
 /// # Errors
 /// As [`Mass::assemble`].
@@ -319,12 +323,13 @@ pub fn contact_acceleration<const D: usize, K: Kinematics<D>>(
     scene: &Scene<D>,
     grid: &mut Grid<D>,
     state: &State<D>,
-    solution: &Solution<D>,
+    force: &[f64],
 ) -> Result<Vec<[f64; D]>> {
-    if solution.contact.is_empty() {
+    if force.is_empty() {
         return Ok(Vec::new());
     }
-    accelerations::<D, K>(scene, grid, state, &solution.contact)
+    let against: Vec<f64> = force.iter().map(|f| -f).collect();
+    accelerations::<D, K>(scene, grid, state, &against)
 }
 
 /// Gives the points the motion at the end of the step that began with `start` (eq. 12), `contact` being what contact alone accelerates. The increment is that since the velocity was

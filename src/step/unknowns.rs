@@ -33,8 +33,6 @@ impl<const D: usize> Unknowns<D> {
 pub struct Evaluation<const D: usize> {
     pub at: Unknowns<D>,
     pub force: Vec<f64>,
-    /// What contact adds to it (kN); empty where nothing touches.
-    pub contact: Vec<f64>,
     pub applied: [f64; D],
     /// Norm (kN) of the largest term in the equations of the displacements: the scale of the residual.
     pub scale: f64,
@@ -42,7 +40,7 @@ pub struct Evaluation<const D: usize> {
 
 impl<const D: usize> Default for Evaluation<D> {
     fn default() -> Self {
-        Self { at: Unknowns::default(), force: Vec::new(), contact: Vec::new(), applied: [0.0; D], scale: 0.0 }
+        Self { at: Unknowns::default(), force: Vec::new(), applied: [0.0; D], scale: 0.0 }
     }
 }
 

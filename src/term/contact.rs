@@ -5,7 +5,7 @@
 //! ends at a fixed set of contact nodes that touch, stick or slide.
 
 use super::water_levels::WaterLevels;
-use super::{Assembly, Frame, Frozen, PlacedConstraint, Role, Term, Trial};
+use super::{Assembly, Frame, Frozen, PlacedConstraint, Term, Trial};
 use crate::contact::{Answer, Law, Laws, Motion};
 use crate::error::Result;
 use crate::system::Local;
@@ -60,10 +60,6 @@ pub fn answer<const D: usize>(
 }
 
 impl<const D: usize> Term<D> for Contact {
-    fn role(&self) -> Role {
-        Role::Contact
-    }
-
     fn symmetric(&self) -> bool {
         self.laws.symmetric()
     }
@@ -76,9 +72,11 @@ impl<const D: usize> Term<D> for Contact {
             }
             let condition = &constraint.condition;
             let (answer, Motion { turn, ahead_turn, .. }) = answer(law, self.levels.as_ref(), constraint, trial);
-            let (pressure, shear) = (condition.area * answer.pressure, condition.area * answer.shear);
-            let ahead_slope = if condition.looks_ahead() { trial.ahead_slope } else { 0.0 };
-            let moment = condition.area * condition.curvature * answer.moment;
+            let [weight, ahead_slope] =
+                if condition.looks_ahead() { [1.0, trial.ahead_slope] } else { [trial.contact_weight, 0.0] };
+            let area = weight * condition.area;
+            let (pressure, shear) = (area * answer.pressure, area * answer.shear);
+            let moment = area * condition.curvature * answer.moment;
             for (k, &at) in constraint.place.iter().enumerate() {
                 let normal = condition.normal(k, turn);
                 for d in 0..D {
@@ -90,8 +88,8 @@ impl<const D: usize> Term<D> for Contact {
                 return Ok(());
             }
             let [nn, tn, tt] =
-                [answer.pressure_by_gap, answer.shear_by_gap, answer.shear_by_slip].map(|slope| condition.area * slope);
-            let bend = |slope: f64| condition.area * condition.curvature * slope;
+                [answer.pressure_by_gap, answer.shear_by_gap, answer.shear_by_slip].map(|slope| area * slope);
+            let bend = |slope: f64| area * condition.curvature * slope;
             let [nc, tc, cn] = [answer.pressure_by_turn, answer.shear_by_turn, answer.moment_by_gap].map(bend);
             let cc = condition.curvature * (bend(answer.moment_by_turn) + pressure);
             for (a, &i) in constraint.place.iter().enumerate() {

@@ -180,6 +180,8 @@ pub struct Trial<'a, const D: usize> {
     pub acceleration: &'a [[f64; D]],
     /// Its derivative by the displacement at the end of the step (1/s²).
     pub acceleration_slope: f64,
+    /// What the force of contact with soil counts for in the residual (-): [`crate::time_integration::GeneralisedAlpha::impulse`], 1 without inertia.
+    pub contact_weight: f64,
     /// How far the nodes go in half a step after its end (m), as fast as they are then; empty without inertia.
     pub ahead: &'a [[f64; D]],
     /// Its derivative by the displacement at the end of the step (-).
@@ -210,6 +212,7 @@ impl<'a, const D: usize> Trial<'a, D> {
             flow_time: 0.0,
             acceleration: &[],
             acceleration_slope: 0.0,
+            contact_weight: 1.0,
             ahead: &[],
             ahead_slope: 0.0,
             phase: 0,
@@ -382,8 +385,6 @@ pub enum Role {
     External,
     /// Inertia, absent from quasi-static phases.
     Inertia,
-    /// Contact: with inertia it stops bodies at once.
-    Contact,
 }
 
 /// One term of the equations.
