@@ -39,9 +39,10 @@ const FARTHEST: f64 = 0.5;
 /// Where along a segment it is seen whether it lies on the boundary of the mesh (-). Two places, for at a node the cell that is found may touch
 /// the boundary in that node alone.
 const ALONG: [f64; 2] = [0.4618, 0.5431];
-/// How far (parametric) from a side that bounds the mesh a segment lies on it: the rise of a chord of a curved side, and the gap and overlap of
-/// soil in contact with a straight one.
-const ON_SIDE: f64 = 1e-2;
+/// Depth (parametric) within a cell up to which a place is on its straight side: rounding.
+const ON_STRAIGHT_SIDE: f64 = 1e-7;
+/// The same of a curved side: the rise of a chord between two markers.
+const ON_CURVED_SIDE: f64 = 1e-2;
 
 /// The loops of markers at the last restoration: part of the state of a run.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -207,6 +208,7 @@ impl MarkerFront {
 /// within the rise of a chord where it is curved.
 fn on_boundary(mesh: &Mesh<2>, geometry: &Geometry, c: usize, xi: &[f64; 3]) -> bool {
     let across = geometry.faces.across(c as u32);
+    let reach = if geometry.affine[c] { ON_STRAIGHT_SIDE } else { ON_CURVED_SIDE };
     let depth = |side: usize| match (mesh.cells.kind[c].is_simplex(), side) {
         (true, 0) => xi[1],
         (true, 1) => 1.0 - xi[0] - xi[1],
@@ -216,7 +218,7 @@ fn on_boundary(mesh: &Mesh<2>, geometry: &Geometry, c: usize, xi: &[f64; 3]) -> 
         (false, 2) => 1.0 - xi[1],
         (false, _) => 1.0 + xi[0],
     };
-    across.iter().enumerate().any(|(side, &other)| other == BOUNDARY && depth(side) <= ON_SIDE)
+    across.iter().enumerate().any(|(side, &other)| other == BOUNDARY && depth(side) <= reach)
 }
 
 #[cfg(test)]
