@@ -53,6 +53,7 @@ fn condition(scene: &Scene<2>, points: Points<2>) -> f64 {
         acceleration: &[],
         flow_time: 0.0,
         acceleration_slope: 0.0,
+        contact_weight: 1.0,
         ahead: &[],
         ahead_slope: 0.0,
         phase: 0,

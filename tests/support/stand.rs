@@ -304,6 +304,7 @@ impl<K: Kinematics<2>> Stand<K> {
             flow_time: self.flow_time,
             acceleration: &acceleration,
             acceleration_slope: SLOPE,
+            contact_weight: 1.0,
             ahead: &[],
             ahead_slope: 0.0,
             phase,
