@@ -4,6 +4,7 @@
 use super::balance::go_ahead;
 use super::facing::position;
 use super::grid::Grid;
+use super::impulse;
 use super::leaving;
 use super::problem::Solution;
 use super::relax;
@@ -174,32 +175,8 @@ fn make_room<const D: usize>(state: &mut State<D>, constraints: &[PlacedConstrai
     }
 }
 
-/// The force (kN, one entry an equation) of contact with soil that acts as an impulse in a step with inertia; empty where nothing touches.
-pub fn impulsive<const D: usize>(scene: &Scene<D>, grid: &Grid<D>, trial: &Trial<D>) -> Vec<f64> {
-    let mut sum = Vec::new();
-    for constraint in grid.constraints.iter().filter(|constraint| !constraint.condition.looks_ahead()) {
-        let condition = &constraint.condition;
-        let law = scene.interfaces[constraint.interface as usize].sides().laws.at(trial.phase);
-        let (answer, Motion { turn, .. }) = contact_answer(law, scene.levels.as_ref(), constraint, trial);
-        if answer.pressure == 0.0 && answer.shear == 0.0 {
-            continue;
-        }
-        sum.resize(grid.motion.pattern.len(), 0.0);
-        for (k, (t, &node)) in condition.by_tangent.iter().zip(&condition.nodes).enumerate() {
-            let (n, lever) = (condition.normal(k, turn), condition.curvature * answer.moment);
-            for d in 0..D {
-                if let Some(equation) = grid.dofs.displacement(node, d) {
-                    let by_arc = lever * condition.by_arc[k][d];
-                    sum[equation] += condition.area * (answer.pressure * n[d] + answer.shear * t[d] + by_arc);
-                }
-            }
-        }
-    }
-    sum
-}
-
 /// Takes pressure, shear, gap and slip of the converged step as multipliers and history of the next one (Uzawa). Returns the resultants, and with
-/// inertia the force of [`impulsive`].
+/// inertia that of [`impulse::force`].
 pub fn commit<const D: usize>(
     scene: &Scene<D>,
     grid: &Grid<D>,
@@ -229,7 +206,7 @@ pub fn commit<const D: usize>(
     let (phase, time) = (state.phase, state.phase_time + (1.0 - alpha_f) * dt);
     let at_rest = Trial::at_rest(&solution.displacement, &state.displacement);
     let trial = Trial { reduction, phase, time, ahead: &ahead, ..at_rest };
-    let force = start.map_or_else(Vec::new, |_| impulsive(scene, grid, &trial));
+    let force = start.map_or_else(Vec::new, |_| impulse::force(scene, grid, &trial));
     for multipliers in &mut state.multipliers {
         let Multipliers { pressure, shear, gap, slip, .. } = multipliers;
         [pressure, shear, gap, slip].into_iter().for_each(|values| values.fill(0.0));

@@ -21,6 +21,7 @@ mod field;
 mod free;
 mod ghost_faces;
 mod grid;
+mod impulse;
 mod leaving;
 mod mass;
 mod materials;

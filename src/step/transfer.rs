@@ -4,9 +4,9 @@
 //! that the nodal field has at the integration points ([`momentum`]).
 
 use super::balance::static_force;
-use super::contact;
 use super::family::{Family, interpolate};
 use super::grid::Grid;
+use super::impulse;
 use super::mass::{Carrier, Mass};
 use super::momentum;
 use super::problem::{Problem, Solution};
@@ -133,7 +133,7 @@ fn first_acceleration<const D: usize, K: Kinematics<D>>(
 ) -> Result<Vec<[f64; D]>> {
     let mut force = static_force(&Problem::at_rest(scene, state), grid)?.force;
     let at_rest = Trial { phase: state.phase, ..Trial::at_rest(&state.displacement, &state.displacement) };
-    for (sum, own) in force.iter_mut().zip(contact::impulsive(scene, grid, &at_rest)) {
+    for (sum, own) in force.iter_mut().zip(impulse::force(scene, grid, &at_rest)) {
         *sum += own;
     }
     accelerations::<D, K>(scene, grid, state, &force)
