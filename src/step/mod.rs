@@ -343,7 +343,7 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
             state.ramp = UnbalancedRamp::default();
         }
         let report =
-            Report { contacts, water, strained, ..Report::new::<K>(scene, state, &self.grid, dt, solution, &momentum) };
+            Report { contacts, water, strained, ..Report::new(scene, state, &self.grid, dt, solution, &momentum) };
         state.peak = state.peak.max(report.motion.kinetic);
         Ok(report)
     }

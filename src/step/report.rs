@@ -1,13 +1,11 @@
 //! What a step reports: for the log, the history and the progress.
 
 use super::contact::Resultant;
-use super::family::{Family, interpolate};
 use super::grid::Grid;
 use super::problem::Solution;
 use super::scene::Scene;
 use super::state::State;
 use super::water::Balance;
-use crate::kinematics::Kinematics;
 use crate::points::Points;
 use crate::system::Method;
 use crate::term::Term;
@@ -51,16 +49,6 @@ impl<const D: usize> Motion<D> {
     }
 }
 
-/// The kinetic energy (kJ) of the soil by the velocity of the nodes, over what integrals are summed over: that of the equations.
-fn of_soil<const D: usize, K: Kinematics<D>>(scene: &Scene<D>, grid: &Grid<D>, state: &State<D>) -> f64 {
-    let of = |family: Family<D>| {
-        let velocity = interpolate::<D, K>(&family, &state.velocity);
-        let one = |(v, m): (&[f64; D], &f64)| 0.5 * m * v.iter().map(|v| v * v).sum::<f64>();
-        velocity.iter().zip(&family.points.mass).map(one).sum::<f64>()
-    };
-    grid.integrated(scene, state).take(1).map(of).sum()
-}
-
 /// A converged step.
 #[derive(Clone, Debug)]
 pub struct Report<const D: usize> {
@@ -78,7 +66,7 @@ pub struct Report<const D: usize> {
     pub motion: Motion<D>,
     /// Change of linear momentum less the impulse of applied forces and supports (t m/s).
     pub imbalance: [f64; D],
-    /// Elastic energy (kJ), as the kinetic one over what integrals are summed over.
+    /// Elastic energy (kJ).
     pub elastic: f64,
     /// Potential energy (kJ) of gravity at its full factor.
     pub potential: f64,
@@ -94,7 +82,7 @@ pub struct Report<const D: usize> {
 
 impl<const D: usize> Report<D> {
     /// `before` is the linear momentum at the beginning of the step, once the supports have stopped their nodes.
-    pub fn new<K: Kinematics<D>>(
+    pub fn new(
         scene: &Scene<D>,
         state: &State<D>,
         grid: &Grid<D>,
@@ -102,12 +90,7 @@ impl<const D: usize> Report<D> {
         solution: Solution<D>,
         before: &[f64; D],
     ) -> Self {
-        let mut motion = Motion::of(state);
-        if state.dynamic(scene) {
-            let mut elements = Motion { kinetic: 0.0, ..motion.clone() };
-            elements.add(&state.fem);
-            motion.kinetic = of_soil::<D, K>(scene, grid, state) + elements.kinetic;
-        }
+        let motion = Motion::of(state);
         let mut reaction = vec![[0.0; D]; scene.displacements()];
         for fixed in scene.fixed(state.phase) {
             for &n in &fixed.nodes {
@@ -131,7 +114,7 @@ impl<const D: usize> Report<D> {
             unbalanced: false,
             halvings: Vec::new(),
             imbalance,
-            elastic: energy(&scene.terms, state.integration())
+            elastic: energy(&scene.terms, &state.points)
                 + scene.fem.as_ref().map_or(0.0, |fem| energy(&fem.terms, &state.fem)),
             potential: [&state.points, &state.fem].iter().flat_map(|p| p.position.iter().zip(&p.mass)).map(fall).sum(),
             motion,

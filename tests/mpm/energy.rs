@@ -22,14 +22,15 @@ fn most(sums: &[f64]) -> f64 {
     sums.iter().copied().fold(0.0, f64::max)
 }
 
-/// A block in full cells that swings in itself by strains of some percent, in steps of several times that of Courant.
+/// A block in full cells that swings in itself by strains of some percent, in steps of several times that of Courant; the energies of the log, of the
+/// material points, are those of the equations here.
 fn flies(poisson: f64, radius: f64) -> Vec<f64> {
     sums(&[
         "supports={}",
         "gravity={y: 0}",
         &format!("materials.clay={{model: linear_elastic, young: 2000, poisson: {poisson}, density: 1.6}}"),
         "initial_velocity={block: {standing_wave: {component: y, along: y, amplitude: 3, wave_number: 12}}}",
-        &format!("numerics={{restore: never, spectral_radius: {radius}}}"),
+        &format!("numerics={{restore: never, quadrature: points, spectral_radius: {radius}}}"),
         "phases=[{name: fly, analysis: dynamic, duration: 0.1, step: {initial: 0.0005, max: 0.0005}}]",
         "output.history=[]",
     ])
@@ -38,7 +39,7 @@ fn flies(poisson: f64, radius: f64) -> Vec<f64> {
 /// Without a pressure field the work of a step is what it stores, to rounding; with one the energy is kept to third order in the step.
 #[test]
 fn an_elastic_block_keeps_its_energy_in_flight() {
-    for (poisson, within) in [(0.3, 1e-7), (0.49, 5e-3), (0.499, 1e-2)] {
+    for (poisson, within) in [(0.3, 1e-7), (0.49, 5e-3), (0.499, 3e-2)] {
         let sums = flies(poisson, 1.0);
         let (most, last) = (most(&sums), sums[sums.len() - 1]);
         assert!(most < 1.0 + within && (last - 1.0).abs() < within, "ν = {poisson}: {most} {last}");

@@ -82,7 +82,9 @@ fn a_uniform_strain_is_exact() {
                 let sign = if restore { -1.0 } else { 1.0 };
                 let gradient = gradient.map(|row: [f64; 2]| row.map(|g| sign * g));
                 let e = patch::<PlaneStrain>(kind, gradient, restore, dynamic);
-                assert!(e[0] < 1e-10 && e[1] < 1e-10, "{kind:?}, {gradient:?}, {restore}, {dynamic}: {e:?}");
+                // With inertia the iteration ends at 1e-8 of the forces.
+                let within = if dynamic { 1e-9 } else { 1e-10 };
+                assert!(e[0] < within && e[1] < within, "{kind:?}, {gradient:?}, {restore}, {dynamic}: {e:?}");
             }
         }
         let e = patch::<Axisymmetric>(kind, [[0.1, 0.0], [0.0, -0.15]], false, false);

@@ -12,12 +12,14 @@ use crate::tensor::{Symmetric, Tensor, full, symmetric};
 use crate::term::mixed::{Acting, Answer};
 
 /// Added to `X:X`, so that the correction of steps that hardly strain is that of their rounding (-).
-const ROUNDING: f64 = 1e-10;
+const ROUNDING: f64 = 1e-12;
 
 /// Work (kPa) that the stress of a model has to do in a step, and its derivative by the strain at the end of that.
 pub struct Work {
     wanted: f64,
     rate: Tensor,
+    /// Soil that yields may dissipate more.
+    yields: bool,
 }
 
 /// The strain of a step, on the configuration as it begins and as it ends.
@@ -64,7 +66,7 @@ pub fn work<const D: usize, K: Kinematics<D>>(
         wanted += share * grown;
         rate += (K::contract(end, &symmetric(&step.end)) + stress - increment * before * increment.transpose()) * share;
     }
-    Work { wanted, rate }
+    Work { wanted, rate, yields: end.yielding }
 }
 
 /// The stress `A W` that acts in a step, and how it acts; its tangent takes the place of that of `τ_H` in `answer`. `share` is the work of the
@@ -88,11 +90,11 @@ pub fn stress<const D: usize, K: Kinematics<D>>(
     let of_metric = answer.kirchhoff;
     let mut w = full(&of_metric);
     let (mut correction, mut strain) = (Tensor::zeros(), Tensor::zeros());
-    if let Some((model, [share, by_volume])) = work {
-        let step = Step::of(increment);
+    let step = Step::of(increment);
+    let lacks = work.map_or(0.0, |(model, [share, _])| model.wanted + share - w.dot(&step.end));
+    if let Some((model, [_, by_volume])) = work.filter(|(model, _)| !model.yields || lacks > 0.0) {
         let forward = increment * step.start * increment.transpose();
         let square = step.start.norm_squared() + ROUNDING;
-        let lacks = model.wanted + share - w.dot(&step.end);
         let rate = model.rate + Tensor::identity() * by_volume
             - K::contract(answer, &symmetric(&step.end)) * end_weight
             - w
