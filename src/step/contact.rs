@@ -176,7 +176,7 @@ fn make_room<const D: usize>(state: &mut State<D>, constraints: &[PlacedConstrai
 }
 
 /// Takes pressure, shear, gap and slip of the converged step as multipliers and history of the next one (Uzawa). Returns the resultants, and with
-/// inertia that of [`impulse::force`].
+/// inertia that of `impulse::force`.
 pub fn commit<const D: usize>(
     scene: &Scene<D>,
     grid: &Grid<D>,

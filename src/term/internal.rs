@@ -10,7 +10,7 @@
 //! responds to `H b_n Hᵀ` with the stress `τ_H`, so that `W = Q τ_H Qᵀ`, `Q = ΔF H⁻¹` (theory, eq. 7 and 8). `A W Aᵀ`
 //! being symmetric, the forces have no moment about the positions within the step; a rotation leaves `C = I`; and
 //! soil that yields dissipates, for the stress within the step is one that it can bear. To it is added what makes its work that which the step stores
-//! and dissipates ([`energy`]).
+//! and dissipates (`internal/energy.rs`).
 //!
 //! A [`Mixed`] of the stress may be carried by unknowns of its own; it is a type, so that a scene without one pays
 //! nothing.
