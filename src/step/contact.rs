@@ -4,7 +4,6 @@
 use super::balance::go_ahead;
 use super::facing::position;
 use super::grid::Grid;
-use super::impulse;
 use super::leaving;
 use super::problem::Solution;
 use super::relax;
@@ -175,15 +174,14 @@ fn make_room<const D: usize>(state: &mut State<D>, constraints: &[PlacedConstrai
     }
 }
 
-/// Takes pressure, shear, gap and slip of the converged step as multipliers and history of the next one (Uzawa). Returns the resultants, and with
-/// inertia that of `impulse::force`.
+/// Takes pressure, shear, gap and slip of the converged step as multipliers and history of the next one (Uzawa).
 pub fn commit<const D: usize>(
     scene: &Scene<D>,
     grid: &Grid<D>,
     state: &mut State<D>,
     (solution, start): (&Solution<D>, Option<&Start<D>>),
     dt: f64,
-) -> (Vec<Resultant<D>>, Vec<f64>) {
+) -> Vec<Resultant<D>> {
     const { assert!(D == 2, "moments are numbers in the plane only") };
     let none = |interface: &dyn Interface<D>| Resultant {
         structure: interface.sides().structure,
@@ -206,7 +204,6 @@ pub fn commit<const D: usize>(
     let (phase, time) = (state.phase, state.phase_time + (1.0 - alpha_f) * dt);
     let at_rest = Trial::at_rest(&solution.displacement, &state.displacement);
     let trial = Trial { reduction, phase, time, ahead: &ahead, ..at_rest };
-    let force = start.map_or_else(Vec::new, |_| impulse::force(scene, grid, &trial));
     for multipliers in &mut state.multipliers {
         let Multipliers { pressure, shear, gap, slip, .. } = multipliers;
         [pressure, shear, gap, slip].into_iter().for_each(|values| values.fill(0.0));
@@ -250,7 +247,7 @@ pub fn commit<const D: usize>(
             }
         }
     }
-    (resultants, force)
+    resultants
 }
 
 /// Contact projection: moves points out of the structures, once nodes and points are at their final positions.

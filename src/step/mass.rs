@@ -216,6 +216,33 @@ impl<'a> Mass<'a> {
     }
 }
 
+/// The acceleration of the nodes (m/s²) by minus a force (kN, one entry an equation), `(M + P) a = −f`; zero where the displacement is prescribed.
+pub fn accelerations<const D: usize, K: Kinematics<D>>(
+    scene: &Scene<D>,
+    grid: &mut Grid<D>,
+    state: &State<D>,
+    force: &[f64],
+) -> Result<Vec<[f64; D]>> {
+    let mut fixed = vec![[false; D]; scene.displacements()];
+    for f in scene.fixed(state.phase) {
+        for &n in &f.nodes {
+            fixed[n as usize][f.component] = true;
+        }
+    }
+    let node = grid.dofs.node.clone();
+    let mut mass = Mass::assemble::<D, K>(scene, grid, state, Carrier::IntegrationPoints)?;
+    let mut solution = Vec::with_capacity(D);
+    for d in 0..D {
+        let held: Vec<bool> = node.iter().map(|&n| fixed[n as usize][d]).collect();
+        let mut x: Vec<f64> = (0..node.len()).map(|b| -force[b * D + d]).collect();
+        mass.solve_held(&held, &mut x)?;
+        solution.push(x);
+    }
+    let mut acceleration = vec![[0.0; D]; scene.displacements()];
+    solution.iter().enumerate().for_each(|(d, x)| grid.dofs.write(x, d, &mut acceleration));
+    Ok(acceleration)
+}
+
 /// The cells among `active` whose nodes all have mass of points, for schemes in which points act beyond their cells: the mass of such a node
 /// may be as little as rounding.
 fn reached<const D: usize, K: Kinematics<D>>(

@@ -290,17 +290,17 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
     /// Grid to points (eq. 12): the converged solution becomes the state.
     fn convect(&mut self, dt: f64, (start, mut solution): Lagrange<D>, answers: Answers) -> Result<Report<D>> {
         let (scene, state) = (self.scene, &mut self.state);
+        let by_contact = match start {
+            Some(_) => impulse::release::<D, K>(scene, &mut self.grid, state, &mut solution, dt)?,
+            None => Vec::new(),
+        };
         rigid::follow(scene, state, &mut solution.displacement);
         grid::move_whole_curves(scene, state, &self.grid, dt, &mut solution.displacement);
         let mut momentum = report::Motion::of(state).linear;
         let content = water::content(scene, state);
         let drained = water::through_surfaces(scene, &self.grid, state, &solution, dt);
-        let (mut contacts, force) =
+        let mut contacts =
             timed(Activity::Contact, || contact::commit(scene, &self.grid, state, (&solution, start.as_ref()), dt));
-        let by_contact = transfer::contact_acceleration::<D, K>(scene, &mut self.grid, state, &force)?;
-        // The residual has the weighted force of contact ([`Trial::contact_weight`]), supports the force itself.
-        let more = GeneralisedAlpha::new(scene.numerics.spectral_radius, dt).impulse() - 1.0;
-        solution.residual.iter_mut().zip(&force).for_each(|(reaction, f)| *reaction += more * f);
         let strained = transfer::commit::<D, K>(state, answers);
         let water = water::balance(scene, &self.grid, state, &content, &solution, drained);
         transfer::move_points::<D, K>(scene, &self.grid, state, &solution.displacement);

@@ -7,7 +7,7 @@ use super::balance::static_force;
 use super::family::{Family, interpolate};
 use super::grid::Grid;
 use super::impulse;
-use super::mass::{Carrier, Mass};
+use super::mass::{Carrier, Mass, accelerations};
 use super::momentum;
 use super::problem::{Problem, Solution};
 use super::rigid;
@@ -137,33 +137,6 @@ fn first_acceleration<const D: usize, K: Kinematics<D>>(
         *sum += own;
     }
     accelerations::<D, K>(scene, grid, state, &force)
-}
-
-/// The acceleration of the nodes (m/s²) by minus a force (kN, one entry an equation), `(M + P) a = −f`; zero where the displacement is prescribed.
-fn accelerations<const D: usize, K: Kinematics<D>>(
-    scene: &Scene<D>,
-    grid: &mut Grid<D>,
-    state: &State<D>,
-    force: &[f64],
-) -> Result<Vec<[f64; D]>> {
-    let mut fixed = vec![[false; D]; scene.displacements()];
-    for f in scene.fixed(state.phase) {
-        for &n in &f.nodes {
-            fixed[n as usize][f.component] = true;
-        }
-    }
-    let node = grid.dofs.node.clone();
-    let mut mass = Mass::assemble::<D, K>(scene, grid, state, Carrier::IntegrationPoints)?;
-    let mut solution = Vec::with_capacity(D);
-    for d in 0..D {
-        let held: Vec<bool> = node.iter().map(|&n| fixed[n as usize][d]).collect();
-        let mut x: Vec<f64> = (0..node.len()).map(|b| -force[b * D + d]).collect();
-        mass.solve_held(&held, &mut x)?;
-        solution.push(x);
-    }
-    let mut acceleration = vec![[0.0; D]; scene.displacements()];
-    solution.iter().enumerate().for_each(|(d, x)| grid.dofs.write(x, d, &mut acceleration));
-    Ok(acceleration)
 }
 
 /// The new values of the points that the terms compute from a converged state.
@@ -312,24 +285,6 @@ fn accelerations_to_points<const D: usize, K: Kinematics<D>>(scene: &Scene<D>, g
     let nowhere = vec![[0.0; D]; state.acceleration.len()];
     [state.points.acceleration, state.fem.acceleration] =
         to_points::<D, K>(scene, grid, state, &state.acceleration, &nowhere);
-}
-
-/// The acceleration of the nodes (m/s²) by the contact of a converged step alone, given its force (kN, one entry an equation); empty where nothing
-/// touches.
-///
-/// # Errors
-/// As [`Mass::assemble`].
-pub fn contact_acceleration<const D: usize, K: Kinematics<D>>(
-    scene: &Scene<D>,
-    grid: &mut Grid<D>,
-    state: &State<D>,
-    force: &[f64],
-) -> Result<Vec<[f64; D]>> {
-    if force.is_empty() {
-        return Ok(Vec::new());
-    }
-    let against: Vec<f64> = force.iter().map(|f| -f).collect();
-    accelerations::<D, K>(scene, grid, state, &against)
 }
 
 /// Gives the points the motion at the end of the step that began with `start` (eq. 12), `contact` being what contact alone accelerates. The increment is that since the velocity was

@@ -9,7 +9,8 @@ use crate::points::Points;
 pub(super) const ITERATIONS: usize = 20;
 
 /// What the field is conjugate to at a point: `ln j`, or where the field is in tension as the step begins `½ j²`, and `j` where the tension has a
-/// limit or the step inertia: there the measure is the same in all steps, for the energy that a change of it would bring. `j` is the volume over that when the grid was restored.
+/// limit. `j` is the volume over that when the grid was restored. In steps with inertia it is `j` everywhere: a change of the measure would bring
+/// energy.
 #[derive(Clone, Copy)]
 pub(super) enum Measure {
     Logarithm,

@@ -127,7 +127,7 @@ pub struct Cell<const D: usize> {
     corners: usize,
     /// The linear shape functions by those of the cell.
     shapes: [[f64; MAX_NODES]; MOST],
-    /// The pressure (kPa) at the corners, and what the step has added to it there.
+    /// The pressure (kPa) at the corners, and what the step has added to it.
     pressure: Corners,
     gained: Corners,
     /// Displacement (m) of the nodes at the beginning of the step.
