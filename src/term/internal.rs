@@ -9,8 +9,8 @@
 //! `A = (1 − α_f) I + α_f ΔF⁻¹`. The metric within the step is `C = (1 − α_f) ΔFᵀΔF + α_f I = HᵀH`, and the model
 //! responds to `H b_n Hᵀ` with the stress `τ_H`, so that `W = Q τ_H Qᵀ`, `Q = ΔF H⁻¹` (theory, eq. 7 and 8). `A W Aᵀ`
 //! being symmetric, the forces have no moment about the positions within the step; a rotation leaves `C = I`; and
-//! soil that yields dissipates, for the stress within the step is one that it can bear. To it is added what makes its work that which the step stores
-//! and dissipates (`internal/energy.rs`).
+//! soil that yields dissipates, for the stress within the step is one that it can bear. Where it does not yield, to it is added
+//! what makes its work that which the step stores (`internal/energy.rs`).
 //!
 //! A [`Mixed`] of the stress may be carried by unknowns of its own; it is a type, so that a scene without one pays
 //! nothing.
@@ -167,7 +167,7 @@ impl<K, S> Internal<K, S> {
                 strained.metric_factor = within;
                 let model = frame.points.by_material(entries.point, models);
                 let of_end = |(end, _): Answer<K, D>| {
-                    model.map(|model| {
+                    model.and_then(|model| {
                         let model = (entries.point, model.as_ref());
                         energy::work::<D, K>(frame.points, model, &strained, &end, trial.alpha_f)
                     })

@@ -1,4 +1,4 @@
-//! The stress of a step with inertia that does the work which the point stores and dissipates (docs/theory.md, section 5).
+//! The stress of a step with inertia that does the work which the point stores (docs/theory.md, section 5).
 //!
 //! The stress of the mean metric does so to third order in the strain of the step. What lacks is added along that strain, as the least change
 //! of the stress (Gonzalez 2000): `S = S_α + X (E − S_α:X)/(X:X)`, `X = ½ (ΔFᵀΔF − 1)`, with the work `E` that is wanted.
@@ -12,14 +12,12 @@ use crate::tensor::{Symmetric, Tensor, full, symmetric};
 use crate::term::mixed::{Acting, Answer};
 
 /// Added to `X:X`, so that the correction of steps that hardly strain is that of their rounding (-).
-const ROUNDING: f64 = 1e-12;
+const ROUNDING: f64 = 1e-10;
 
 /// Work (kPa) that the stress of a model has to do in a step, and its derivative by the strain at the end of that.
 pub struct Work {
     wanted: f64,
     rate: Tensor,
-    /// Soil that yields may dissipate more.
-    yields: bool,
 }
 
 /// The strain of a step, on the configuration as it begins and as it ends.
@@ -36,28 +34,24 @@ impl Step {
     }
 }
 
-/// What the stress of the model of point `p` has to do, given its answer to the whole step: what the step adds to the stored energy, what it
-/// dissipates by plastic strain, and what the time integration dissipates by the weight `1 − α_f` of the end of the step.
+/// What the stress of the model of point `p` has to do, given its answer to the whole step: what the step adds to the stored energy, and what the
+/// time integration dissipates by the weight `1 − α_f` of the end of the step. None of soil that yields: the stress of the mean metric is one that it
+/// bears.
 pub fn work<const D: usize, K: Kinematics<D>>(
     points: &Points<D>,
     (p, model): (usize, &dyn Model),
     strained: &Strained,
     end: &Spatial<K::Tangent>,
     alpha_f: f64,
-) -> Work {
+) -> Option<Work> {
+    if end.yielding {
+        return None;
+    }
     let (y, increment, begin) = (points.seeded_height(p), &strained.increment, &points.elastic[p]);
-    let logarithm = |b: &Symmetric| spectral::map_roots(b, |roots| roots.map(|b| 0.5 * b.ln()));
     let roots = |b: &Symmetric| K::roots(b).map(|b| 0.5 * b.ln());
     let stress = full(&end.kirchhoff);
     let mut wanted = model.elastic_energy(y, &roots(&end.elastic)) - model.elastic_energy(y, &roots(begin));
     let mut rate = stress;
-    if end.yielding {
-        let trial = symmetric(&(increment * full(begin) * increment.transpose()));
-        let plastic = full(&logarithm(&trial)) - full(&logarithm(&end.elastic));
-        wanted += stress.dot(&plastic);
-        let turned = plastic * stress;
-        rate += K::contract(end, &symmetric(&plastic)) + turned + turned.transpose();
-    }
     let step = Step::of(increment);
     let before = full(&spectral::map_roots(begin, |b| model.elastic_stress(y, &b.map(|b| 0.5 * b.ln()))));
     let grown = stress.dot(&step.end) - before.dot(&step.start);
@@ -66,7 +60,7 @@ pub fn work<const D: usize, K: Kinematics<D>>(
         wanted += share * grown;
         rate += (K::contract(end, &symmetric(&step.end)) + stress - increment * before * increment.transpose()) * share;
     }
-    Work { wanted, rate, yields: end.yielding }
+    Some(Work { wanted, rate })
 }
 
 /// The stress `A W` that acts in a step, and how it acts; its tangent takes the place of that of `τ_H` in `answer`. `share` is the work of the
@@ -90,9 +84,9 @@ pub fn stress<const D: usize, K: Kinematics<D>>(
     let of_metric = answer.kirchhoff;
     let mut w = full(&of_metric);
     let (mut correction, mut strain) = (Tensor::zeros(), Tensor::zeros());
-    let step = Step::of(increment);
-    let lacks = work.map_or(0.0, |(model, [share, _])| model.wanted + share - w.dot(&step.end));
-    if let Some((model, [_, by_volume])) = work.filter(|(model, _)| !model.yields || lacks > 0.0) {
+    if let Some((model, [share, by_volume])) = work {
+        let step = Step::of(increment);
+        let lacks = model.wanted + share - w.dot(&step.end);
         let forward = increment * step.start * increment.transpose();
         let square = step.start.norm_squared() + ROUNDING;
         let rate = model.rate + Tensor::identity() * by_volume
