@@ -302,7 +302,7 @@ impl<K: Kinematics<2>> Interface<2> for Boundary<K> {
                 sum.filter(|sum| sum.area > 0.0)?;
             let spacing = spacing / area;
             let curvature = curvature / area;
-            let now = if facing > 0.5 * area { distance / facing } else { open / area };
+            let now = if facing > 0.0 { distance / facing } else { open / area };
             let gaps = if self.yields(ground.points, point as usize) { &smooth } else { &held.gap };
             let measured = Measured { before: gaps[contact_node], now, spacing, curvature };
             let gap = self.begin(&measured, held, contact_node);
