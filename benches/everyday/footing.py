@@ -84,10 +84,11 @@ def clay(dice):
 
     def answers(result):
         force = result.last("footing.contact_y") / area
-        # Cells smear the edge of the footing over one of them, so that it is up to half a cell wider on a side; strength that grows
+        # Cells smear the edge of the footing over one of them, so that it is up to half a cell wider on a side, and below the surface they
+        # are larger than along it, by a quarter in the mean around the footing; strength that grows
         # is that of half a cell deeper. Sunk by w it has the weight of the soil beside it, and the load of its depth (Skempton: a
         # factor 1 + 0.2 w/B, twice that with rough sides), and heaved soil.
-        wider = (1 + 0.5 / cells) ** (2 if geometry == "axisymmetric" else 1) * (1 + growth / 4 / cells)
+        wider = (1 + 0.5 * 1.25 / cells) ** (2 if geometry == "axisymmetric" else 1) * (1 + growth / 4 / cells)
         limit = factor * strength
         deep = 1 + 0.4 * sink / half + growth * sink / half / 2
         return [Check("pressure over the limit", (force / limit), 0.97, (wider * deep * limit + weight * sink) / limit)]

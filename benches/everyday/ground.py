@@ -238,7 +238,7 @@ def gravity(dice):
             sideways = elastic_ratio * vertical[inner]
             if slope is not None:
                 sideways = np.minimum(sideways, slope * vertical[inner] + 2 * cohesion)
-            checks.append(below(f"horizontal stress of layer {n + 1}, error at most", abs(soil.xx[inner] - sideways).max(), tolerance))
+            checks.append(below(f"horizontal stress of layer {n + 1}, error at most", abs(soil.xx[inner] - sideways).max(initial=0), tolerance))
         return checks
 
     return Scene(ground.section, case, answers, f"gravity, {', '.join(soil['model'] for soil in materials.values())}", ground.order)

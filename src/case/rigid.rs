@@ -102,6 +102,9 @@ fn always_fixed(body: &Body<2>) -> impl Iterator<Item = Fixed> {
     unused.chain(held(body).filter(|_| body.is_wall))
 }
 
+/// How far from the axis a node on it may be drawn, as a share of the width of the mesh.
+const ON_AXIS: f64 = 1e-9;
+
 /// What holds the nodes of a mesh, curve by curve, and rigid bodies.
 pub struct Holds<'a> {
     case: &'a Case,
@@ -121,11 +124,20 @@ impl<'a> Holds<'a> {
     pub fn supports(&self) -> Result<Vec<Fixed>> {
         let given = self.supported();
         self.check("supports", &given)?;
-        let mut supports: Vec<Fixed> = self.bodies.iter().flat_map(always_fixed).collect();
+        let mut supports: Vec<Fixed> = self.bodies.iter().flat_map(always_fixed).chain(self.axis()).collect();
         for entry in &given {
             supports.extend(self.resolve(entry)?.into_iter().map(|p| p.fixed));
         }
         Ok(supports)
+    }
+
+    /// The axis of axisymmetry, which stays where it is: material that left it would leave a hole.
+    fn axis(&self) -> Option<Fixed> {
+        let widest = self.mesh.nodes.iter().map(|x| x[0]).fold(0.0, f64::max);
+        let of_body = |n: &u32| self.bodies.iter().any(|body| body.nodes.binary_search(n).is_ok());
+        let on_axis = |n: &u32| self.mesh.nodes[*n as usize][0] <= ON_AXIS * widest && !of_body(n);
+        let nodes = || (0..self.mesh.nodes.len() as u32).filter(on_axis).collect();
+        (self.case.geometry == Geometry::Axisymmetric).then(|| Fixed { nodes: nodes(), component: 0 })
     }
 
     /// What is prescribed in a phase.
