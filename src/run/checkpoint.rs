@@ -112,6 +112,7 @@ fn put_weighing<const D: usize>(store: &mut Store, weights: &Weights<D>) {
         tally,
         lost_front: _,
         notes: _,
+        beyond: _,
         renewed: _,
     } = weights;
     let Tally { linear, constant, taken, point_volume, volume, population: Count { split, merged, starved } } = tally;
@@ -165,7 +166,7 @@ fn take_weighing<const D: usize>(store: &mut Store) -> Result<Weights<D>> {
     let population = Count { split: *split, merged: *merged, starved: *starved };
     let (point_volume, volume) = (*point_volume, *volume);
     let tally = Tally { linear: *linear, constant: *constant, taken: *taken, point_volume, volume, population };
-    let (lost_front, notes, renewed) = (None, Vec::new(), None);
+    let (lost_front, notes, beyond, renewed) = (None, Vec::new(), None, None);
     Ok(Weights {
         samples,
         weight,
@@ -176,6 +177,7 @@ fn take_weighing<const D: usize>(store: &mut Store) -> Result<Weights<D>> {
         tally,
         lost_front,
         notes,
+        beyond,
         renewed,
     })
 }

@@ -2,7 +2,10 @@
 //!
 //! The nodes of a support do not move across it, and so neither does any place on its sides. But a cell beside it that is strongly
 //! compressed or sheared can move a point across. Such a point is projected onto the side; its velocity across the side vanishes with
-//! that of the nodes there. A point that is farther beyond, or leaves the mesh elsewhere, is an error.
+//! that of the nodes there.
+//!
+//! Elsewhere soil that leaves the mesh is an error, but a few points that splash or heave a little beyond its end do not end an analysis: they are
+//! put back onto it too, with a warning. A point that is farther beyond is an error.
 
 use super::scene::Scene;
 use super::state::State;
@@ -15,36 +18,55 @@ use rayon::prelude::*;
 /// How far beyond a side a point may be (-), in the diagonal of the cell there.
 pub const FARTHEST: f64 = 0.1;
 
-/// Projects points onto the sides of supports, but not onto the axis of symmetry, where a point would have no volume. Returns a note on
-/// how many and how far, if there are any.
+/// Part of the material points (-) that may be beyond the end of the mesh where nothing holds them.
+const FEW: f64 = 0.01;
+
+/// Projects points onto the sides of supports, but not onto the axis of symmetry, where a point would have no volume, and a few onto other sides.
+/// Returns a note on the former and a warning of the latter, if there are any.
 pub fn project_onto_boundary<const D: usize, K: Kinematics<D>>(
     scene: &Scene<D>,
     mesh: &Mesh<D>,
     locator: &Locator<D>,
     state: &mut State<D>,
-) -> Option<String> {
+) -> (Option<String>, Option<String>) {
     let points = &state.points;
     let is_lost = |p: &usize| locator.locate(mesh, &points.position[*p], Some(points.cell[*p])).is_none();
     let lost: Vec<usize> = (0..points.len()).into_par_iter().with_min_len(1024).filter(is_lost).collect();
     if lost.is_empty() {
-        return None;
+        return (None, None);
     }
-    let sides = holding(scene, mesh, state.phase);
-    let (mut count, mut most) = (0, 0.0f64);
+    let held = holding(scene, mesh, state.phase);
+    let open: Vec<Side<D>> = scene.locator.faces.boundary.iter().map(|&side| Side::of(mesh, side)).collect();
+    let nearest = |sides: &[Side<D>], x: &[f64; D]| {
+        let near = sides.iter().filter_map(|side| side.nearest(x, FARTHEST));
+        near.filter(|(place, _)| !(K::HOOP && place[0] <= 0.0)).min_by(|a, b| a.1.total_cmp(&b.1))
+    };
+    let (mut count, mut most, mut beyond) = (0, 0.0f64, Vec::new());
     for p in lost {
         let x = &mut state.points.position[p];
-        let near = sides
-            .iter()
-            .filter_map(|side| side.nearest(x, FARTHEST))
-            .filter(|(place, _)| !(K::HOOP && place[0] <= 0.0));
-        if let Some((place, distance)) = near.min_by(|a, b| a.1.total_cmp(&b.1)) {
+        if let Some((place, distance)) = nearest(&held, x) {
             *x = place;
             (count, most) = (count + 1, most.max(distance));
+        } else {
+            beyond.push((p, nearest(&open, x)));
         }
     }
-    (count > 0).then(|| {
+    let of_supports = (count > 0).then(|| {
         format!("{count} points were put back onto the supports that they had got beyond, by {most:.1e} m at most")
-    })
+    });
+    let places: Option<Vec<_>> = beyond.iter().map(|&(p, place)| Some((p, place?))).collect();
+    let few = places.filter(|few| !few.is_empty() && few.len() as f64 <= FEW * state.points.len() as f64);
+    let Some(few) = few else { return (of_supports, None) };
+    few.iter().for_each(|&(p, (place, _))| state.points.position[p] = place);
+    let of_end = format!(
+        "soil gets beyond the end of the mesh near {:.3?} m, {} of {} points by {:.1e} m at most, and is put back onto it; extend the mesh \
+         by a buffer region there",
+        few[0].1.0,
+        few.len(),
+        state.points.len(),
+        few.iter().map(|(_, (_, distance))| *distance).fold(0.0, f64::max)
+    );
+    (of_supports, Some(of_end))
 }
 
 /// The sides on the boundary whose nodes cannot move across them in a phase.

@@ -68,7 +68,8 @@ pub fn begin_anew<const D: usize, K: Kinematics<D>>(
         displacement: (state.restorations > 0).then_some(&state.displacement),
     };
     state.weights = scene.quadrature.weigh(&grid, &mut state.front);
-    state.weights.notes = projected.into_iter().chain(domains).collect();
+    state.weights.notes = projected.0.into_iter().chain(domains).collect();
+    state.weights.beyond = projected.1;
     renew::<D, K>(&mut interpolations.integration, scene, (mesh, locator), state);
     predictor::carry(here, mesh, state);
     state.ramp.carry(scene, (here.0, &state.displacement), (mesh, locator), &state.points.cell);
@@ -92,8 +93,8 @@ pub fn begin_anew<const D: usize, K: Kinematics<D>>(
     Ok(ghost_faces::make_room(&scene.locator.faces, state, &chosen) || changed)
 }
 
-/// Moves the nodes to their positions on the reset grid and locates the points. Returns a note on points that were projected to the
-/// boundary.
+/// Moves the nodes to their positions on the reset grid and locates the points. Returns a note on points that were projected onto
+/// supports, and a warning of those that were onto other sides.
 ///
 /// # Errors
 /// When a cell of the grid is folded, or a point lies outside it.
@@ -101,19 +102,19 @@ fn place<const D: usize, K: Kinematics<D>>(
     scene: &Scene<D>,
     state: &mut State<D>,
     relaxed: &mut Option<Relaxed<D>>,
-) -> Result<Option<String>> {
+) -> Result<(Option<String>, Option<String>)> {
     fem::keep_shape(scene, state);
     *relaxed = relax::relax(scene, state)?;
     let (mesh, locator) = relax::mesh(scene, relaxed.as_ref());
-    let mut note = None;
+    let mut told = (None, None);
     if let Err(lost) = locate_points(mesh, locator, state) {
-        note = project_onto_boundary::<D, K>(scene, mesh, locator, state);
-        if note.is_none() {
+        told = project_onto_boundary::<D, K>(scene, mesh, locator, state);
+        if told == (None, None) {
             return Err(lost);
         }
         locate_points(mesh, locator, state)?;
     }
-    Ok(note)
+    Ok(told)
 }
 
 /// Gives the points that integrals are summed over their weights, given the interpolation of the material points.

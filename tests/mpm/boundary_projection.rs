@@ -75,22 +75,34 @@ fn points_a_little_beyond_a_support_are_put_onto_it() {
 }
 
 #[test]
-fn points_far_beyond_a_support_or_beyond_anything_else_have_left_the_grid() {
+fn points_far_beyond_a_support_and_more_than_a_few_beyond_anything_else_have_left_the_grid() {
+    let beyond = |y: f64| ([1.0, y], [1.0 + 0.02 * H, y]);
     let lost = [
-        ("far below the support", [0.4, 0.0], [0.4, -0.143 * H]),
-        ("beyond the free side", [1.0, 0.4], [1.0 + 0.02 * H, 0.4]),
-        ("beyond the side whose motion across is prescribed", [0.4, 1.0], [0.4, 1.0 + 0.02 * H]),
+        ("far below the support", vec![([0.4, 0.0], [0.4, -0.143 * H])]),
+        ("far beyond the free side", vec![([1.0, 0.4], [1.0 + 0.143 * H, 0.4])]),
+        ("two of 144 beyond the free side", vec![beyond(0.2), beyond(0.6)]),
     ];
-    for (what, from, to) in lost {
-        let error = taken::<PlaneStrain>(true, &[(from, to)]).1.map(|_| ()).expect_err(what).to_string();
+    for (what, mut moves) in lost {
+        let error = taken::<PlaneStrain>(true, &moves).1.map(|_| ()).expect_err(what).to_string();
         assert!(error.contains("left the grid"), "{what}: {error}");
         // One that can be put back does not hide it.
-        let error = taken::<PlaneStrain>(true, &[(from, to), ([0.6, 0.0], [0.6, -0.01 * H])])
-            .1
-            .map(|_| ())
-            .expect_err(what)
-            .to_string();
+        moves.push(([0.6, 0.0], [0.6, -0.01 * H]));
+        let error = taken::<PlaneStrain>(true, &moves).1.map(|_| ()).expect_err(what).to_string();
         assert!(error.contains("left the grid"), "{what}: {error}");
+    }
+}
+
+#[test]
+fn a_single_point_beyond_the_end_of_the_mesh_is_put_back_and_told() {
+    let sides = [([1.0, 0.4], [1.0 + 0.02 * H, 0.4], [1.0, 0.4]), ([0.4, 1.0], [0.4, 1.0 + 0.02 * H], [0.4, 1.0])];
+    for (from, to, end) in sides {
+        let (numbers, state) = taken::<PlaneStrain>(true, &[(from, to)]);
+        let state = state.unwrap_or_else(|error| panic!("{error}"));
+        let x = state.points.position[numbers[0]];
+        assert!((x[0] - end[0]).hypot(x[1] - end[1]) < 1e-9, "{x:?} for {end:?}");
+        let told = state.weights.beyond.unwrap();
+        assert!(told.contains("beyond the end of the mesh") && told.contains("1 of 144 points by 5.0e-3 m"), "{told}");
+        assert!(state.weights.notes.is_empty());
     }
 }
 
