@@ -13,12 +13,12 @@ pub fn found<const D: usize>(scene: &Scene<D>, state: &mut State<D>, report: &Re
     let phase = scene.phases.get(state.phase).filter(|phase| phase.isolated && state.dynamic(scene))?;
     let (kinetic, elastic, potential) = (report.motion.kinetic, report.elastic, report.potential);
     let sum = kinetic + elastic + potential;
-    if state.energies.is_empty() {
-        state.energies = vec![sum, potential, 0.0];
+    if state.isolated.is_empty() {
+        state.isolated = vec![sum, potential, 0.0];
     }
-    let [first, height, moved] = state.energies[..] else { return None };
+    let [first, height, moved] = state.isolated[..] else { return None };
     let (moved, grown) = (moved.max(kinetic).max((potential - height).abs()), sum - first);
-    state.energies[2] = moved;
+    state.isolated[2] = moved;
     (grown > PARTS[0] * moved && grown > PARTS[1] * elastic).then(|| {
         format!(
             "{WARNING}phase `{}`: at t = {:.4} s the sum of kinetic, elastic and potential energy has grown by {grown:.3e} kJ, {:.0} % of the energy \

@@ -10,7 +10,7 @@ use crate::io::provenance::Origin;
 use crate::points::Points;
 use crate::quadrature::Count;
 use crate::rigid::Body;
-use crate::step::{Report, Restore, Scene, State};
+use crate::step::{ITEMS, Report, Restore, Scene, State};
 use std::sync::Arc;
 
 /// A quantity of the history, with its component.
@@ -116,6 +116,17 @@ pub fn row<const D: usize>(scene: &Scene<D>, watches: &[Watch], state: &State<D>
         row.extend(watch.quantities.iter().map(|quantity| value(&watch.on, *quantity, scene, state, report)));
     }
     row
+}
+
+/// The header of the balance of energy.
+pub fn energy_columns() -> Vec<String> {
+    let items = ITEMS.iter().map(|(_, name, _)| format!("{name} [kJ]"));
+    std::iter::once("time [s]".to_string()).chain(items).collect()
+}
+
+/// A row of the balance of energy.
+pub fn energy_row<const D: usize>(state: &State<D>) -> Vec<f64> {
+    std::iter::once(state.time).chain(state.energies.unwrap_or_default().0).collect()
 }
 
 /// The value of a quantity of what is watched, as the converged state of a step and its report have it.

@@ -13,6 +13,7 @@ mod contact;
 mod control;
 mod distortion;
 mod drainage;
+mod energies;
 mod equilibrate;
 mod facing;
 mod family;
@@ -48,10 +49,12 @@ mod transfer;
 mod unbalanced;
 mod unknowns;
 mod water;
+mod work;
 
 pub use change::{Change, Material};
 pub use contact::Resultant;
 pub use control::Controller;
+pub use energies::{Energies, ITEMS, Item, Side};
 pub use ghost_faces::has_room_for_penalties;
 pub use grid::Grid;
 pub use problem::Solution;
@@ -217,6 +220,7 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
     /// Points to grid: resets the grid where that is due or `forced`.
     fn initialise(&mut self, forced: bool) -> Result<Begun> {
         let (scene, state) = (self.scene, &mut self.state);
+        work::begin(scene, &mut self.grid, state)?;
         let moved = state.displacement.iter().flatten().any(|&u| u != 0.0);
         let held = !state.search_geometry.is_empty();
         let restore = match scene.numerics.restore {
@@ -236,13 +240,20 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
         }
         materials::project_pressure::<D, K>(scene, &self.grid, state);
         timed(Activity::Contact, || contact::begin::<D, K>(scene, &mut self.grid, state))?;
+        let begins = state.dynamic(scene) && !state.moving;
         if state.dynamic(scene) && (restore || !state.moving) {
             transfer::motion_to_grid::<D, K>(scene, &mut self.grid, state)?;
         }
-        let unbalanced = match state.balanced.filter(|_| restore && moved) {
-            Some(last) => equilibrate::equilibrate(scene, &mut self.grid, state, last)?,
-            None => false,
-        };
+        match (begins, restore) {
+            (true, _) => work::note_motion(scene, &mut self.grid, state)?,
+            (false, true) => work::note(scene, &mut self.grid, state, Item::Resets)?,
+            (false, false) => {}
+        }
+        let mut unbalanced = false;
+        if let Some(last) = state.balanced.filter(|_| restore && moved) {
+            unbalanced = equilibrate::equilibrate(scene, &mut self.grid, state, last)?;
+            work::note(scene, &mut self.grid, state, Item::Equilibration)?;
+        }
         Ok(Begun { fresh: restore || !moved || held || scene.numerics.restore == Restore::Never, unbalanced })
     }
 
@@ -290,6 +301,8 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
     /// Grid to points (eq. 12): the converged solution becomes the state.
     fn convect(&mut self, dt: f64, (start, mut solution): Lagrange<D>, answers: Answers) -> Result<Report<D>> {
         let (scene, state) = (self.scene, &mut self.state);
+        let found = (&solution, start.as_ref());
+        let done = work::Done::of(scene, &mut self.grid, state, found, answers.dissipated(), dt)?;
         let by_contact = match start {
             Some(_) => impulse::release::<D, K>(scene, &mut self.grid, state, &mut solution, dt)?,
             None => Vec::new(),
@@ -342,8 +355,10 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
         if state.ramp.share(state.phase_time) == 0.0 {
             state.ramp = UnbalancedRamp::default();
         }
+        done.close(scene, &mut self.grid, state, &solution.residual)?;
         let report =
             Report { contacts, water, strained, ..Report::new(scene, state, &self.grid, dt, solution, &momentum) };
+        state.reaction.clone_from(&report.reaction);
         state.peak = state.peak.max(report.motion.kinetic);
         Ok(report)
     }

@@ -18,7 +18,7 @@ use crate::error::{Error, Result};
 use crate::interpolation::MAX_FUNCTIONS;
 use crate::kinematics::Kinematics;
 use crate::points::Points;
-use crate::term::{Frame, Term, Trial, Update};
+use crate::term::{Dissipated, Frame, Term, Trial, Update};
 use crate::time_integration::GeneralisedAlpha;
 
 /// Determines velocity and acceleration of the nodes: from the points (eq. 11), and at the first dynamic step the acceleration from the
@@ -173,6 +173,15 @@ pub fn answers<const D: usize>(
 }
 
 impl Answers {
+    /// What the step dissipates at all that integrals are summed over.
+    pub fn dissipated(&self) -> Dissipated {
+        let updates = self.of_integration.iter().chain(&self.of_elements).map(Update::dissipated);
+        updates.fold(Dissipated::default(), |sum, more| Dissipated {
+            plastic: sum.plastic + more.plastic,
+            seepage: sum.seepage + more.seepage,
+        })
+    }
+
     /// Those to the `solution` of a step.
     fn to<const D: usize>(
         scene: &Scene<D>,
@@ -189,6 +198,7 @@ impl Answers {
             time: from,
             reduction: scene.phases[phase].reduction_at(to),
             inverse_dt: step.rate(),
+            flow_time: if scene.phases[phase].flows { to - from } else { 0.0 },
             alpha_f: state.alpha_f(scene),
             geometry: state.geometry(),
             ..Trial::at_rest(&solution.displacement, &state.displacement)

@@ -15,6 +15,7 @@
 //! A [`Mixed`] of the stress may be carried by unknowns of its own; it is a type, so that a scene without one pays
 //! nothing.
 
+mod dissipation;
 mod energy;
 mod strain;
 
@@ -23,7 +24,7 @@ use super::mixed::{Acting, Answer, Coupling, ModelInput, Point};
 use super::smoothed::{self, Layout};
 use super::stiffness::{Stiffness, add_turning};
 use super::volume::VolumeFit;
-use super::{Assembly, Frame, Histories, History, Term, Trial, Update};
+use super::{Assembly, Dissipated, Frame, Histories, History, Term, Trial, Update};
 use super::{Mixed, Ratios};
 use crate::error::{Error, Result};
 use crate::interpolation::{CellPoints, Entries, MAX_FUNCTIONS};
@@ -314,7 +315,19 @@ impl<const D: usize, K: Kinematics<D>, S: Mixed<D, K>> Term<D> for Internal<K, S
                 }
                 let of_point = (frame.points, &entries);
                 let step = (trial.inverse_dt, 1.0);
-                let (answer, _) = self.answer(&models, of_point, &cell, &point, step, internal).ok()?;
+                let (answer, field_strain) = self.answer(&models, of_point, &cell, &point, step, internal).ok()?;
+                let at = Point { points: frame.points, entries: &entries, ratios: point.ratios };
+                let model = frame.points.by_material(entries.point, &models).filter(|_| answer.yielding);
+                let received = field_strain.map(|field_strain| field_strain.received);
+                let yielded = |model: &Arc<dyn Model>| {
+                    let ends = (&point.increment, received, &answer.elastic);
+                    entries.weight
+                        * dissipation::plastic(frame.points, (entries.point, model.as_ref()), ends, trial.alpha_f)
+                };
+                let dissipated = Dissipated {
+                    plastic: model.map_or(0.0, yielded),
+                    seepage: self.share.seepage(&cell, &at, dissipation::end_weight(trial.alpha_f)),
+                };
                 let deformation = point.increment * frame.points.deformation[entries.point];
                 let volume_ratio = deformation.determinant();
                 let mut history = History {
@@ -325,8 +338,8 @@ impl<const D: usize, K: Kinematics<D>, S: Mixed<D, K>> Term<D> for Internal<K, S
                     plastic_strain: answer.plastic_strain,
                     pressure: 0.0,
                     pore_pressure: 0.0,
+                    dissipated,
                 };
-                let at = Point { points: frame.points, entries: &entries, ratios: point.ratios };
                 self.share.commit(&cell, &at, &mut history);
                 Some(history)
             };
