@@ -35,6 +35,17 @@ pub enum Side {
     Numerical,
 }
 
+impl Side {
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Supplied => "supplied",
+            Self::Held => "held",
+            Self::Dissipated => "dissipated",
+            Self::Numerical => "numerical",
+        }
+    }
+}
+
 /// The entries with their names, in the order of [`Item`].
 pub const ITEMS: [(Item, &str, Side); 18] = [
     (Item::Initial, "initial", Side::Supplied),

@@ -9,28 +9,43 @@ pub fn end_weight(alpha_f: f64) -> f64 {
     if alpha_f > 0.0 { 1.0 - alpha_f } else { 0.5 }
 }
 
-/// What a step dissipates (kPa) as point `p` yields, from its increment of deformation, the volume strain that its model has received in place of that,
-/// and its elastic tensor at the end: the stress times the plastic strain, the stress that of the end with inertia, else the mean of both ends.
-pub fn plastic<const D: usize>(
-    points: &Points<D>,
-    (p, model): (usize, &dyn Model),
-    (increment, received, end): (&Tensor, Option<f64>, &Symmetric),
-    alpha_f: f64,
-) -> f64 {
-    let (y, begin) = (points.seeded_height(p), &points.elastic[p]);
-    let stress = |b: &Symmetric| full(&spectral::map_roots(b, |b| model.elastic_stress(y, &b.map(|b| 0.5 * b.ln()))));
-    let strain = |b: &Symmetric| full(&spectral::map_roots(b, |b| b.map(|b| 0.5 * b.ln())));
-    let trial = strain(&symmetric(&(increment * full(begin) * increment.transpose())));
-    let mut plastic = trial - strain(end);
-    if let Some(received) = received {
-        let own = increment.determinant().ln();
-        plastic += Tensor::identity() * ((received - own) / 3.0);
+/// A step of a point that yields.
+pub struct Yielded<'a> {
+    pub model: &'a dyn Model,
+    /// Increment of deformation (-), and the volume strain that the model has received in place of that of it.
+    pub increment: &'a Tensor,
+    pub received: Option<f64>,
+    /// Elastic left Cauchy–Green tensor (-) at the end.
+    pub end: &'a Symmetric,
+    /// With inertia, the metric factor `H` and that tensor of the stress within the step.
+    pub within: Option<(&'a Tensor, &'a Symmetric)>,
+}
+
+impl Yielded<'_> {
+    /// What point `p` dissipates (kPa): the stress that acts times the plastic strain of the step. With inertia that is the stress within the step,
+    /// else the mean of those at its ends.
+    pub fn dissipates<const D: usize>(&self, points: &Points<D>, p: usize) -> f64 {
+        let Self { model, increment, received, end, within } = *self;
+        let (y, begin) = (points.seeded_height(p), &points.elastic[p]);
+        let hencky = |b: &[f64; 3]| b.map(|b| 0.5 * b.ln());
+        let stress = |b: &Symmetric| full(&spectral::map_roots(b, |b| model.elastic_stress(y, &hencky(b))));
+        let strain = |b: &Symmetric| full(&spectral::map_roots(b, hencky));
+        let trial = symmetric(&(increment * full(begin) * increment.transpose()));
+        let mut plastic = strain(&trial) - strain(end);
+        if let Some(received) = received {
+            plastic += Tensor::identity() * ((received - increment.determinant().ln()) / 3.0);
+        }
+        let acts = match within {
+            Some((factor, elastic)) => {
+                let q = increment * factor.try_inverse().unwrap_or_else(Tensor::identity);
+                q * stress(elastic) * q.transpose()
+            }
+            None => {
+                let metric = symmetric(&(increment.transpose() * increment));
+                let turn = increment * full(&spectral::map_roots(&metric, |c| c.map(|c| 1.0 / c.sqrt())));
+                (stress(end) + turn * stress(begin) * turn.transpose()) * 0.5
+            }
+        };
+        acts.dot(&plastic)
     }
-    let mut acts = stress(end);
-    if alpha_f == 0.0 {
-        let stretch = symmetric(&(increment.transpose() * increment));
-        let turn = increment * full(&spectral::map_roots(&stretch, |c| c.map(|c| 1.0 / c.sqrt())));
-        acts = (acts + turn * stress(begin) * turn.transpose()) * 0.5;
-    }
-    acts.dot(&plastic)
 }
