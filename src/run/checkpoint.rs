@@ -36,7 +36,7 @@ pub fn put<const D: usize>(mut store: Store, state: &State<D>) -> Store {
         moving,
         switched_to_dynamics,
         peak,
-        isolated,
+        in_play,
         energies,
         reaction,
         start_position,
@@ -65,10 +65,9 @@ pub fn put<const D: usize>(mut store: Store, state: &State<D>) -> Store {
         1,
         vec![*phase as u64, *step, *frames, u64::from(*moving), *restorations, u64::from(*switched_to_dynamics)],
     );
-    store.put("state.times", 1, vec![*time, *phase_time, *step_size, *last_step, *peak, ramp.until]);
+    store.put("state.times", 1, vec![*time, *phase_time, *step_size, *last_step, *peak, *in_play, ramp.until]);
     let last = balanced.map_or_else(Vec::new, |last| vec![last.phase as f64, last.from, last.to]);
     store.put("state.balanced", 1, last);
-    store.put("state.isolated", 1, isolated.clone());
     store.put("state.energies", 1, energies.map_or_else(Vec::new, |energies| energies.0.to_vec()));
     store.put("state.parametric", 3, parametric.concat());
     store.put("state.fem_parametric", 3, fem_parametric.concat());
@@ -295,7 +294,7 @@ pub fn after_phase<const D: usize>(store: Store, scene: &Scene<D>, first: &State
     }
     state.next_phase(scene);
     // This run has a balance of its own.
-    state.energies = None;
+    (state.energies, state.in_play) = (None, 0.0);
     state.frames = 0;
     valid::check(scene, first, &state)?;
     Ok(state)
@@ -317,7 +316,7 @@ fn read<const D: usize>(mut store: Store) -> Result<State<D>> {
     let times = store.take::<f64>("state.times", 1)?;
     let (
         [phase, step, frames, moving, restorations, switched_to_dynamics],
-        [time, phase_time, step_size, last_step, peak, until],
+        [time, phase_time, step_size, last_step, peak, in_play, until],
     ) = (&counts[..], &times[..])
     else {
         return Err(foreign("its list of counts"));
@@ -343,7 +342,7 @@ fn read<const D: usize>(mut store: Store) -> Result<State<D>> {
         moving: flag(*moving, "whether it moves")?,
         switched_to_dynamics: flag(*switched_to_dynamics, "whether it falls")?,
         peak: *peak,
-        isolated: store.take::<f64>("state.isolated", 1)?,
+        in_play: *in_play,
         energies: take_energies(&mut store)?,
         reaction,
         start_position,

@@ -90,6 +90,12 @@ impl Energies {
         self.0.iter().zip(&ITEMS).filter(|(_, (_, _, side))| *side == of).map(|(value, _)| value).sum()
     }
 
+    /// The energy in play (kJ): kinetic energy, and what is done from outside.
+    pub fn in_play(&self) -> f64 {
+        let done = [Item::Gravity, Item::Loads, Item::Water, Item::Supports, Item::Kinetic];
+        done.iter().map(|item| self.of(*item).abs()).sum()
+    }
+
     /// Whether nothing has happened since the run began.
     pub fn is_new(&self) -> bool {
         let began = [Item::Initial, Item::Kinetic, Item::Stored];

@@ -57,9 +57,8 @@ pub struct State<const D: usize> {
     pub switched_to_dynamics: bool,
     /// Largest kinetic energy (kJ) since the phase began or inertia came in.
     pub peak: f64,
-    /// In a dynamic phase that is isolated: the sum of the energies and the potential one after its first step, and the most that was moved of
-    /// them, as kinetic energy or change of the potential one (kJ); empty before.
-    pub isolated: Vec<f64>,
+    /// The most energy (kJ) that was in play in the run so far, as kinetic energy and as work from outside.
+    pub in_play: f64,
     /// The balance of energy; absent before the run begins.
     pub energies: Option<Energies>,
     /// Force of the supports (kN) in the last step, as [`super::Report::reaction`]; empty before the first one.
@@ -158,7 +157,6 @@ impl<const D: usize> State<D> {
         self.phase += 1;
         self.phase_time = 0.0;
         (self.switched_to_dynamics, self.peak, self.ramp) = (false, 0.0, UnbalancedRamp::default());
-        self.isolated.clear();
         self.start_position.clear();
         self.search_geometry.clear();
         self.search_curve.clear();

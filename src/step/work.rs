@@ -14,9 +14,14 @@ use super::scene::Scene;
 use super::state::State;
 use super::transfer::Start;
 use crate::dofs::{Dof, PORE_PRESSURE};
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::points::Points;
 use crate::term::{Dissipated, Source, Term, Works};
+
+/// The kinetic energy (kJ) of a mass (t) that falls freely for a time (s).
+pub fn energy_of_fall<const D: usize>(scene: &Scene<D>, mass: f64, time: f64) -> f64 {
+    0.5 * mass * time * time * scene.gravity.iter().map(|g| g * g).sum::<f64>()
+}
 
 /// What is held (kJ): the kinetic energy of the nodes, and what the integration points and finite elements store.
 fn held<const D: usize>(scene: &Scene<D>, grid: &mut Grid<D>, state: &State<D>) -> Result<[f64; 2]> {
@@ -68,6 +73,9 @@ pub fn note_motion<const D: usize>(scene: &Scene<D>, grid: &mut Grid<D>, state: 
     note(scene, grid, state, if new { Item::Initial } else { Item::Changes })
 }
 
+/// How much energy a step may create (-), over that in play, and over the stored one.
+const PARTS: [f64; 2] = [0.1, 0.01];
+
 /// What was done in a converged step, with the sign of [`Works`].
 pub struct Done {
     /// Displacement (m) in the step, and the equations of them that are given.
@@ -84,6 +92,8 @@ pub struct Done {
     dissipated: Dissipated,
     /// What nodes lose as they are stopped at supports, all at once.
     impact: f64,
+    /// What a step with inertia does not resolve (kJ): what gravity gives in it to all that falls freely.
+    unresolved: f64,
     /// Without inertia: the part of the work that the forces at the beginning of the step do, in which all of them are in balance.
     at_start: Option<AtStart>,
 }
@@ -151,8 +161,10 @@ impl Done {
                 ramp: state.ramp.share(state.phase_time) * held_back,
             });
         }
+        let mass: f64 = state.points.mass.iter().chain(&state.fem.mass).sum();
         Ok(Self {
             works: solution.work,
+            unresolved: if start.is_some() { energy_of_fall(scene, mass, dt) } else { 0.0 },
             contact: contact::works(scene, grid, state, (solution, start), dt, false),
             supports,
             ramp: if start.is_some() { 0.0 } else { state.ramp.share(state.phase_time + dt) * held_back },
@@ -165,20 +177,13 @@ impl Done {
         })
     }
 
-    /// Adds it to the balance, the state being that after the step, and `residual` that of the nodes without what numbers of contact its equations have.
+    /// The balance after the step, given that before it, the `residual` of the nodes without what numbers of contact its equations have, and what is held
+    /// `now`, as kinetic and as stored energy (kJ).
     ///
     /// # Errors
-    /// As [`kinetic`].
-    pub fn close<const D: usize>(
-        self,
-        scene: &Scene<D>,
-        grid: &mut Grid<D>,
-        state: &mut State<D>,
-        residual: &[f64],
-    ) -> Result<()> {
-        let now = held(scene, grid, state)?;
-        let Some(energies) = &mut state.energies else { return Ok(()) };
-        let Self { way, given, works, contact, supports, ramp, dissipated, impact, at_start, .. } = self;
+    /// Analysis: the step creates more energy than it may of the most that was `in_play` (kJ).
+    pub fn close(self, before: Energies, residual: &[f64], now: [f64; 2], in_play: f64) -> Result<Energies> {
+        let Self { way, given, works, contact, supports, ramp, dissipated, impact, unresolved, at_start, .. } = self;
         // What the supports bear of contact that counts otherwise in the equations.
         let of_supports = given.iter().map(|&e| way[e] * residual[e]).sum::<f64>();
         let mean =
@@ -189,23 +194,23 @@ impl Done {
         let stress = mean(works.of(Source::Stress), &|at| {
             at.supports - at.works.sum() - at.contact.iter().sum::<f64>() - at.ramp
         });
-        let before = [Item::Kinetic, Item::Stored].map(|item| energies.of(item));
-        let kinetic = now[0] - (before[0] - impact);
+        let kinetic = now[0] - (before.of(Item::Kinetic) - impact);
+        let stored = now[1] - before.of(Item::Stored);
         let weighted = match &at_start {
             None => works.of(Source::Contact) - contact.iter().sum::<f64>() - (supports - of_supports),
             Some(_) => 0.0,
         };
-        let steps = works.of(Source::Inertia) - kinetic + stress
-            - (now[1] - before[1])
-            - dissipated.plastic
-            - dissipated.seepage
+        let steps = works.of(Source::Inertia) - kinetic + stress - stored - dissipated.plastic - dissipated.seepage
             + weighted
             + mean(ramp, &|at| at.ramp);
-        for (item, value) in [
+        let supplied = [
             (Item::Gravity, -of(Source::Gravity)),
             (Item::Loads, -of(Source::Load)),
             (Item::Water, -of(Source::Water)),
             (Item::Supports, mean(of_supports, &|at| at.supports)),
+        ];
+        let mut after = before;
+        for (item, value) in supplied.into_iter().chain([
             (Item::Plastic, dissipated.plastic),
             (Item::Seepage, dissipated.seepage),
             (Item::Contact, contact[0]),
@@ -214,12 +219,22 @@ impl Done {
             (Item::Steps, steps),
             (Item::Penalties, of(Source::Penalty)),
             (Item::Residual, -mean(self.residual, &|_| 0.0)),
-        ] {
-            energies.add(item, value);
+        ]) {
+            after.add(item, value);
         }
-        energies.set(Item::Kinetic, now[0]);
-        energies.set(Item::Stored, now[1]);
-        Ok(())
+        after.set(Item::Kinetic, now[0]);
+        after.set(Item::Stored, now[1]);
+        let created = kinetic + stored - supplied.iter().map(|(_, value)| value).sum::<f64>();
+        let in_play = in_play.max(after.in_play());
+        if created > unresolved.max(PARTS[0] * in_play).max(PARTS[1] * now[1]) {
+            let part = 100.0 * created / in_play;
+            return Err(Error::analysis(
+                "energy",
+                format!("the step creates {created:.3e} kJ, {part:.0} % of the energy in play"),
+                "take smaller steps (step.max), smaller cells, or more numerical damping (numerics: {spectral_radius: 0.6})",
+            ));
+        }
+        Ok(after)
     }
 }
 

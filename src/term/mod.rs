@@ -342,7 +342,7 @@ impl Update {
     }
 
     /// Writes the new values.
-    pub fn apply<const D: usize>(self, points: &mut Points<D>) {
+    pub fn apply<const D: usize>(&self, points: &mut Points<D>) {
         let of_point = self.by_point(points.len());
         let increment = &mut points.plastic_increment;
         increment.par_iter_mut().zip(&points.plastic_strain).zip(&of_point).for_each(|((increment, before), new)| {

@@ -1,5 +1,6 @@
 //! The method on whole problems: the solver against closed forms, and scenes and cases through the program.
 
+mod balance;
 mod bar;
 mod boundary_projection;
 mod bspline;
