@@ -377,7 +377,6 @@ fn phase(
         dynamic: phase.analysis == Analysis::Dynamic,
         auto: phase.analysis == Analysis::Auto,
         flows: pores::flows(case, phase),
-        isolated: is_isolated(case, phase),
         duration: phase.duration,
         step: phase.step,
         prescribed: holds.prescribed(phase)?,
@@ -389,14 +388,6 @@ fn phase(
         reset_displacements: phase.reset_displacements,
         stops: stops(phase.duration, case.output.every, values.flat_map(TimeValue::kinks)),
     })
-}
-
-/// Whether gravity at its full factor is all that acts from outside in a phase, and nothing changes what is stored.
-fn is_isolated(case: &Case, phase: &super::checked::Phase) -> bool {
-    let moved = phase.prescribed.iter().any(|p| p.displacement != TimeValue::Constant(0.0));
-    let loaded = moved || !phase.tractions.is_empty() || !phase.surface_loads.is_empty() || !case.features.is_empty();
-    let changed = !phase.changes.is_empty() || phase.gravity != TimeValue::Constant(1.0);
-    !loaded && !changed && case.water.is_none() && !pores::flows(case, phase)
 }
 
 /// When steps must end: at outputs, where a table bends, and at the end of the phase.

@@ -97,7 +97,8 @@ fn recorded(path: &Path) -> Result<Option<(Record, String)>> {
     for folder in path.ancestors().skip(1).take(3) {
         let name = path.strip_prefix(folder).unwrap_or(&path).display().to_string();
         for record in STAGES.iter().filter_map(|stage| Record::read(folder, stage)) {
-            let of_run = ["results/", "history.csv", "solve.log"].iter().any(|part| name.starts_with(part));
+            let of_run =
+                ["results/", "history.csv", "energy.csv", "solve.log"].iter().any(|part| name.starts_with(part));
             if record.outputs.contains_key(&name) || !record.finished && record.stage == STAGE && of_run {
                 return Ok(Some((record, name)));
             }

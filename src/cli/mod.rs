@@ -46,7 +46,7 @@ enum Command {
     Mesh(mesh::Args),
     /// Fill the regions of the mesh with material points: writes points.vtu
     Seed(StageArgs),
-    /// Solve the equations of motion: writes results/, history.csv, solve.log and checkpoints/
+    /// Solve the equations of motion: writes results/, history.csv, energy.csv, solve.log and checkpoints/
     Solve(solve::Args),
     /// Turn results/ into series for ParaView: writes vtu/ and .pvd
     Export(export::Args),

@@ -14,7 +14,7 @@ pub struct Args {
     /// Cases (a case.yaml or its folder) or output folders, whose curves are drawn together; or the table.csv of a sweep
     #[arg(required = true)]
     cases: Vec<PathBuf>,
-    /// The picture, by its ending an SVG or a PNG [default: history.svg, or the field's name, in the output folder]
+    /// The picture, by its ending an SVG or a PNG [default: history.svg, energy.svg or the field's name, in the output folder]
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
     #[command(flatten)]
@@ -33,12 +33,17 @@ pub fn run(args: &Args, keys: &Keys) -> Outcome {
     let tables: Vec<PathBuf> = args.cases.iter().filter_map(|path| table::of(path)).collect();
     match &tables[..] {
         [] => {}
-        [table] if args.cases.len() == 1 && !args.curves.iterations => {
+        [table] if args.cases.len() == 1 && !args.curves.iterations && !args.curves.energy => {
             return table::run(table, args.output.as_deref(), &args.curves);
         }
         [table, ..] => {
             let problem = "a table of a sweep is drawn alone, and has no steps";
-            return Err(Error::input(table.display(), problem, "name nothing else, and leave --iterations out").into());
+            return Err(Error::input(
+                table.display(),
+                problem,
+                "name nothing else, and leave --iterations and --energy out",
+            )
+            .into());
         }
     }
     if args.curves.distribution {

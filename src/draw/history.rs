@@ -7,7 +7,7 @@
 
 use super::colour;
 use super::curves::{Chart, Mark, Series, Style, of_unit};
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::io::run_folder::{RunFolder, Standing};
 use crate::io::solve_log::{SolveLog, Step};
 use crate::io::table::{Column, Table};
@@ -27,6 +27,8 @@ pub struct Run {
     /// What the legend calls it.
     pub name: String,
     pub table: Table,
+    /// The balance of energy, where there is one.
+    pub energy: Option<Table>,
     pub log: SolveLog,
     /// How far it has come and why it ended, if it is not finished.
     pub unfinished: Option<String>,
@@ -41,6 +43,8 @@ impl Run {
         let table = Table::read(&folder.history(), "run `mpm solve` first")?;
         // A history that has been taken elsewhere comes without a log.
         let log = if folder.log().exists() { SolveLog::read(&folder.log())? } else { SolveLog::default() };
+        let energy = folder.energy();
+        let energy = energy.exists().then(|| Table::read(&energy, "run `mpm solve` first")).transpose()?;
         let record = folder.record();
         let until = table.column(TIME).and_then(|time| time.values.last()).copied().unwrap_or(0.0);
         let unfinished = record.filter(|_| folder.standing().is_ok_and(|standing| standing != Standing::Finished));
@@ -52,7 +56,18 @@ impl Run {
             let until = until.trim_end_matches('0').trim_end_matches('.');
             format!("not finished, up to t = {until} s: {reason}")
         });
-        Ok(Self { name, table, log, unfinished })
+        Ok(Self { name, table, energy, log, unfinished })
+    }
+
+    /// The run with its balance of energy in place of its history.
+    ///
+    /// # Errors
+    /// `Input` where it has none.
+    pub fn of_energy(mut self) -> Result<Self> {
+        let Some(table) = self.energy.take() else {
+            return Err(Error::input(&self.name, "has no balance of energy (energy.csv)", "solve it again"));
+        };
+        Ok(Self { table, ..self })
     }
 
     fn places(&self, x: &Column, y: &Column, scale: [f64; 2]) -> Vec<[f64; 2]> {
@@ -198,6 +213,13 @@ fn over_time(runs: &[Run], shown: &[String]) -> Vec<Chart> {
     }
     let time = Shown { column: TIME.to_owned(), scale: 1.0 };
     groups.iter().flat_map(|(_, columns)| chosen(runs, &time, columns)).collect()
+}
+
+/// The balance of energy over time, of runs whose table it is: what was supplied, what is held and what was dissipated, without what is zero.
+pub fn energy(runs: &[Run]) -> Vec<Chart> {
+    let zero = |name: &String| farthest(runs, name) == 0.0;
+    let zeros = columns(runs).into_iter().map(|column| column.name.clone()).filter(zero).collect::<Vec<_>>();
+    over_time(runs, &zeros)
 }
 
 /// The work of the solver over time: iterations and size of the steps, and how many were halved until then.

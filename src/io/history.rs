@@ -1,4 +1,4 @@
-//! Files that grow by a line a step: `history.csv` (numbers) and `solve.log` (text).
+//! Files that grow by a line a step: `history.csv`, `energy.csv` (numbers) and `solve.log` (text).
 //!
 //! A line is with the operating system when the call returns, so that a kill loses none. A checkpoint
 //! has the [`Mark`] of each file: how many lines there were, and their hash. [`History::resume`] and [`Log::resume`] cut

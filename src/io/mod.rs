@@ -6,7 +6,7 @@
 //! | `results/frame-000123.mpmf` | [`frame`] | compact result frames, bit-exact |
 //! | `phases/00-install.mpms` | [`phase_state`] | the state at the end of a phase, which another run may begin with |
 //! | `checkpoints/step-000000456.mpmc` | [`checkpoint`] | what `--resume` continues from |
-//! | `history.csv`, `solve.log` | [`history`] | one line a step, cut back on a resume |
+//! | `history.csv`, `energy.csv`, `solve.log` | [`history`] | one line a step, cut back on a resume |
 //! | `table.csv` of a sweep | [`sweep_table`] | read again by `mpm plot` and `mpm report` |
 //! | `unfinished/` | [`run_folder`] | a run beside earlier results, which it replaces when it is finished |
 //! | `provenance/*.json` | [`provenance`] | what each stage was made from, by which program and command |

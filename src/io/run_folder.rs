@@ -5,7 +5,7 @@
 //! converged at least one step. Until then they stay as they are.
 //!
 //! The folder may be anybody's, and somebody may keep notes beside results. Only files with the names of a run are removed or replaced;
-//! `history.csv` and `solve.log` are names that others give, too: they are those of a run where its record is, which is written before
+//! `history.csv`, `energy.csv` and `solve.log` are names that others give, too: they are those of a run where its record is, which is written before
 //! them and removed after them.
 //!
 //! The exchange is a few renames. A marker is written before the first and removed after the last one: an exchange that a
@@ -30,7 +30,9 @@ type IsName = fn(&str) -> bool;
 /// What a run consists of: its folders, with the names of what it has in them, and files.
 const FOLDERS: [(&str, IsName); 3] =
     [("results", frame::is_name), ("checkpoints", checkpoint::is_name), (phase_state::FOLDER, phase_state::is_name)];
-const FILES: [&str; 2] = ["history.csv", "solve.log"];
+const FILES: [&str; 3] = ["history.csv", ENERGY, "solve.log"];
+/// The balance of energy.
+const ENERGY: &str = "energy.csv";
 
 /// The folder that a run writes into.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -73,6 +75,11 @@ impl RunFolder {
         self.path.join("history.csv")
     }
 
+    /// The balance of energy.
+    pub fn energy(&self) -> PathBuf {
+        self.path.join(ENERGY)
+    }
+
     pub fn log(&self) -> PathBuf {
         self.path.join("solve.log")
     }
@@ -108,13 +115,13 @@ impl RunFolder {
         frame::path(&self.results(), 0).exists()
     }
 
-    /// The files of a run that is finished: frames, history and log.
+    /// The files of a run that is finished: frames, history, energies and log.
     ///
     /// # Errors
     /// `Machine` when the folder cannot be read.
     pub fn outputs(&self) -> Result<Vec<PathBuf>> {
         let mut files = frame::paths(&self.results())?;
-        files.extend([self.history(), self.log()].into_iter().filter(|path| path.exists()));
+        files.extend([self.history(), self.energy(), self.log()].into_iter().filter(|path| path.exists()));
         Ok(files)
     }
 

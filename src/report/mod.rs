@@ -8,10 +8,11 @@ mod variants;
 use crate::case::{Keys, Loaded};
 use crate::draw::curves::{Chart, Charts};
 use crate::draw::field::Field;
-use crate::draw::history::{self, Run};
+use crate::draw::history::{self, Run, TIME};
 use crate::draw::{self, Picture};
 use crate::error::Result;
 use crate::io::provenance::{Program, Record, Session};
+use crate::io::table::Column;
 use crate::mesh::Mesh;
 use entries::{Kinds, entries, plain};
 use serde_json::Value;
@@ -59,11 +60,12 @@ impl Subject<'_> {
         for caution in self.cautions {
             body = body.and(Html::element("p", Html::of("strong", caution)));
         }
-        let parts: [(&str, Html); 7] = [
+        let parts: [(&str, Html); 8] = [
             ("Scene", self.scene()?),
             ("Entries of the case", self.entries()),
             ("Numerics that differ from the defaults", self.numerics()),
             (HISTORIES, self.histories()?),
+            ("Energy", self.energy()?),
             ("Fields", self.fields()?),
             ("Work of the solver", self.work()?),
             ("Provenance", self.provenance()),
@@ -153,6 +155,19 @@ impl Subject<'_> {
         let found = self.run.log.remarks.iter().filter(|remark| remark.text.starts_with(SAFETY));
         let found = found.fold(Html::default(), |html, remark| html.and(Html::of("p", &remark.text)));
         Ok(found.and(figures(charts)?))
+    }
+
+    fn energy(&self) -> Result<Html> {
+        let Some(run) = self.run.energy.is_some().then(|| self.run.clone().of_energy()).transpose()? else {
+            return Ok(Html::of("p", "The run has no balance of energy (energy.csv)."));
+        };
+        let last = |column: &Column| column.values.last().copied().unwrap_or(0.0);
+        let items = run.table.columns.iter().filter(|column| column.name != TIME && last(column) != 0.0);
+        let rows: Vec<_> =
+            items.map(|column| vec![column.name.replace('.', ": "), format!("{:.4e}", last(column))]).collect();
+        let text = "What was supplied is what is held, what soil and contacts dissipated, and what the method did. At the end of the run:";
+        let table = Html::table(&["", "energy [kJ]"].map(str::to_owned), &rows);
+        Ok(Html::of("p", text).and(table).and(figures(history::energy(std::slice::from_ref(&run)))?))
     }
 
     fn fields(&self) -> Result<Html> {

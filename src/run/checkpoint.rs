@@ -9,7 +9,7 @@ use crate::interpolation::PartlyFilled;
 use crate::io::columns;
 use crate::io::container::Store;
 use crate::quadrature::{Count, Samples, Tally, Weights};
-use crate::step::{Scene, Span, State, UnbalancedRamp};
+use crate::step::{Energies, ITEMS, Scene, Span, State, UnbalancedRamp};
 use crate::surface::{ActiveBoundary, MarkerFront, Piece, Voids};
 
 const POINTS: &str = "points.";
@@ -36,7 +36,9 @@ pub fn put<const D: usize>(mut store: Store, state: &State<D>) -> Store {
         moving,
         switched_to_dynamics,
         peak,
+        in_play,
         energies,
+        reaction,
         start_position,
         ramp,
         parametric,
@@ -63,10 +65,10 @@ pub fn put<const D: usize>(mut store: Store, state: &State<D>) -> Store {
         1,
         vec![*phase as u64, *step, *frames, u64::from(*moving), *restorations, u64::from(*switched_to_dynamics)],
     );
-    store.put("state.times", 1, vec![*time, *phase_time, *step_size, *last_step, *peak, ramp.until]);
+    store.put("state.times", 1, vec![*time, *phase_time, *step_size, *last_step, *peak, *in_play, ramp.until]);
     let last = balanced.map_or_else(Vec::new, |last| vec![last.phase as f64, last.from, last.to]);
     store.put("state.balanced", 1, last);
-    store.put("state.energies", 1, energies.clone());
+    store.put("state.energies", 1, energies.map_or_else(Vec::new, |energies| energies.0.to_vec()));
     store.put("state.parametric", 3, parametric.concat());
     store.put("state.fem_parametric", 3, fem_parametric.concat());
     for (name, field) in [
@@ -80,6 +82,7 @@ pub fn put<const D: usize>(mut store: Store, state: &State<D>) -> Store {
         ("start_position", start_position),
         ("ramp", &ramp.force),
         ("search_geometry", search_geometry),
+        ("reaction", reaction),
     ] {
         store.put(&format!("state.{name}"), D, field.concat());
     }
@@ -258,6 +261,15 @@ fn take_balanced(store: &mut Store) -> Result<Option<Span>> {
     }
 }
 
+fn take_energies(store: &mut Store) -> Result<Option<Energies>> {
+    let values = store.take::<f64>("state.energies", 1)?;
+    match <[f64; ITEMS.len()]>::try_from(&values[..]) {
+        Ok(values) => Ok(Some(Energies(values))),
+        Err(_) if values.is_empty() => Ok(None),
+        Err(_) => Err(foreign("its energies")),
+    }
+}
+
 fn take_front(store: &mut Store) -> Result<Option<MarkerFront>> {
     let position = vectors(&store.take::<f64>("front.position", 2)?);
     let first = store.take::<u32>("front.first", 1)?;
@@ -283,6 +295,8 @@ pub fn after_phase<const D: usize>(store: Store, scene: &Scene<D>, first: &State
         points.check(regions, cells).map_err(|problem| foreign(&problem))?;
     }
     state.next_phase(scene);
+    // This run has a balance of its own.
+    (state.energies, state.in_play) = (None, 0.0);
     state.frames = 0;
     valid::check(scene, first, &state)?;
     Ok(state)
@@ -304,7 +318,7 @@ fn read<const D: usize>(mut store: Store) -> Result<State<D>> {
     let times = store.take::<f64>("state.times", 1)?;
     let (
         [phase, step, frames, moving, restorations, switched_to_dynamics],
-        [time, phase_time, step_size, last_step, peak, until],
+        [time, phase_time, step_size, last_step, peak, in_play, until],
     ) = (&counts[..], &times[..])
     else {
         return Err(foreign("its list of counts"));
@@ -313,7 +327,7 @@ fn read<const D: usize>(mut store: Store) -> Result<State<D>> {
     let (displacement, travel, increment) = (nodal("displacement")?, nodal("travel")?, nodal("increment")?);
     let (velocity, acceleration, nodes) = (nodal("velocity")?, nodal("acceleration")?, nodal("coordinates")?);
     let (uncounted, force, start_position) = (nodal("uncounted")?, nodal("ramp")?, nodal("start_position")?);
-    let search_geometry = nodal("search_geometry")?;
+    let (search_geometry, reaction) = (nodal("search_geometry")?, nodal("reaction")?);
     let reported = |area: f64| (area != NO_NEWS).then_some(area);
     let state = State {
         phase: usize::try_from(*phase).map_err(|_| foreign("the number of its phase"))?,
@@ -330,7 +344,9 @@ fn read<const D: usize>(mut store: Store) -> Result<State<D>> {
         moving: flag(*moving, "whether it moves")?,
         switched_to_dynamics: flag(*switched_to_dynamics, "whether it falls")?,
         peak: *peak,
-        energies: store.take::<f64>("state.energies", 1)?,
+        in_play: *in_play,
+        energies: take_energies(&mut store)?,
+        reaction,
         start_position,
         ramp: UnbalancedRamp { force, until: *until },
         parametric: vectors(&store.take::<f64>("state.parametric", 3)?),

@@ -4,6 +4,7 @@
 //! |---|---|
 //! | `results/frame-000123.mpmf` | the state at the times of output |
 //! | `history.csv` | a row a step |
+//! | `energy.csv` | the balance of energy, a row a step |
 //! | `solve.log` | what every step did |
 //! | `phases/` | the states at the ends of phases, which other runs may begin with |
 //! | `checkpoints/` | what `--resume` continues from, after every step |
@@ -282,6 +283,7 @@ pub fn run<const D: usize, K: Kinematics<D>>(
 /// What a checkpoint knows of the other files of its run.
 struct Written {
     history: Mark,
+    energy: Mark,
     log: Mark,
     /// The hashes of the frames.
     frames: Vec<u64>,
@@ -289,7 +291,7 @@ struct Written {
 
 impl Written {
     fn put(&self, store: &mut Store) {
-        for (name, mark) in [("files.history", self.history), ("files.log", self.log)] {
+        for (name, mark) in [("files.history", self.history), ("files.energy", self.energy), ("files.log", self.log)] {
             store.put(name, 2, vec![mark.lines, mark.hash]);
         }
         store.put("files.frames", 1, self.frames.clone());
@@ -300,7 +302,8 @@ impl Written {
             [lines, hash] => Ok(Mark { lines, hash }),
             _ => Err(foreign(name)),
         };
-        Ok(Self { history: mark("files.history")?, log: mark("files.log")?, frames: store.take("files.frames", 1)? })
+        let [history, energy, log] = ["files.history", "files.energy", "files.log"].map(&mut mark);
+        Ok(Self { history: history?, energy: energy?, log: log?, frames: store.take("files.frames", 1)? })
     }
 }
 
@@ -309,6 +312,7 @@ struct Files<'a, const D: usize> {
     outputs: &'a Outputs<D>,
     checkpoints: Checkpoints,
     history: History,
+    energy: History,
     log: Log,
     writer: Background,
     /// The hashes of the frames that the writer has written.
@@ -327,11 +331,13 @@ impl<'a, const D: usize> Files<'a, D> {
     ) -> Result<Self> {
         let folder = &outputs.folder;
         let columns = record::columns(scene, &outputs.watches);
-        let (history, log) = (folder.history(), folder.log());
-        let (history, log, frames) = match written {
-            Some(Written { history: rows, log: lines, frames }) => {
+        let of_energy = record::energy_columns();
+        let (history, energy, log) = (folder.history(), folder.energy(), folder.log());
+        let (history, energy, log, frames) = match written {
+            Some(Written { history: rows, energy: balances, log: lines, frames }) => {
                 check_frames(folder, &frames, state.frames)?;
-                (History::resume(&history, &columns, rows)?, Log::resume(&log, lines)?, frames)
+                let history = History::resume(&history, &columns, rows)?;
+                (history, History::resume(&energy, &of_energy, balances)?, Log::resume(&log, lines)?, frames)
             }
             None => {
                 checkpoints.clear()?;
@@ -340,14 +346,14 @@ impl<'a, const D: usize> Files<'a, D> {
                 for line in record::heading(scene, &state.points) {
                     log.line(&line)?;
                 }
-                (History::create(&history, &columns)?, log, Vec::new())
+                (History::create(&history, &columns)?, History::create(&energy, &of_energy)?, log, Vec::new())
             }
         };
         frame::prepare(&folder.results(), frames.len())?;
         let last = frames.len().checked_sub(1).map(|last| Frame::read(&frame::path(&folder.results(), last)));
         let framed = last.transpose()?.map(|frame| frame.step);
         let frames = Arc::new(Mutex::new(frames));
-        Ok(Self { outputs, checkpoints, history, log, writer: Background::start(QUEUE)?, frames, framed })
+        Ok(Self { outputs, checkpoints, history, energy, log, writer: Background::start(QUEUE)?, frames, framed })
     }
 
     /// Notes a converged step, once the checkpoint of the step before is written: a kill loses the step in hand,
@@ -357,6 +363,7 @@ impl<'a, const D: usize> Files<'a, D> {
         for line in record::log_lines(scene, state, report) {
             self.log.line(&line)?;
         }
+        self.energy.row(&record::energy_row(state))?;
         self.history.row(&record::row(scene, &self.outputs.watches, state, report))
     }
 
@@ -409,11 +416,12 @@ impl<'a, const D: usize> Files<'a, D> {
     fn checkpoint(&mut self, state: &State<D>) -> Result<()> {
         let (checkpoints, step, mut store) =
             (self.checkpoints.clone(), state.step, checkpoint::put(Checkpoints::store(), state));
-        let (history, log, frames) = (self.history.mark(), self.log.mark(), Arc::clone(&self.frames));
+        let (history, energy, log) = (self.history.mark(), self.energy.mark(), self.log.mark());
+        let frames = Arc::clone(&self.frames);
         self.writer.submit(move || {
             // The frames before it are written by now.
             let frames = frames.lock().unwrap_or_else(PoisonError::into_inner).clone();
-            Written { history, log, frames }.put(&mut store);
+            Written { history, energy, log, frames }.put(&mut store);
             checkpoints.save(step, store)
         })
     }

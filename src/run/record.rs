@@ -10,7 +10,7 @@ use crate::io::provenance::Origin;
 use crate::points::Points;
 use crate::quadrature::Count;
 use crate::rigid::Body;
-use crate::step::{Report, Restore, Scene, State};
+use crate::step::{ITEMS, Report, Restore, Scene, Side, State};
 use std::sync::Arc;
 
 /// A quantity of the history, with its component.
@@ -116,6 +116,17 @@ pub fn row<const D: usize>(scene: &Scene<D>, watches: &[Watch], state: &State<D>
         row.extend(watch.quantities.iter().map(|quantity| value(&watch.on, *quantity, scene, state, report)));
     }
     row
+}
+
+/// The header of the balance of energy.
+pub fn energy_columns() -> Vec<String> {
+    let items = ITEMS.iter().map(|(_, name, side)| format!("{}.{name} [kJ]", side.name()));
+    std::iter::once("time [s]".to_string()).chain(items).collect()
+}
+
+/// A row of the balance of energy.
+pub fn energy_row<const D: usize>(state: &State<D>) -> Vec<f64> {
+    std::iter::once(state.time).chain(state.energies.unwrap_or_default().0).collect()
 }
 
 /// The value of a quantity of what is watched, as the converged state of a step and its report have it.
@@ -273,6 +284,9 @@ pub fn heading<const D: usize>(scene: &Scene<D>, points: &Points<D>) -> Vec<Stri
         ),
         "energies in kJ, momenta in t m/s, the imbalance is the change of momentum less the impulse of the loads"
             .to_string(),
+        "elastic, potential and kinetic energy are those of the material points; the balance is that of the equations: supplied = held + dissipated + \
+         numerical"
+            .to_string(),
     ]
 }
 
@@ -305,6 +319,12 @@ pub fn log_lines<const D: usize>(scene: &Scene<D>, state: &State<D>, report: &Re
             report.motion.angular,
             vector(&report.imbalance)
         ));
+    }
+    if let Some(energies) = &state.energies {
+        line.push_str(" balance");
+        for side in [Side::Supplied, Side::Held, Side::Dissipated, Side::Numerical] {
+            line.push_str(&format!(" {} {:.9e}", side.name(), energies.sum(side)));
+        }
     }
     if let Some(water) = &report.water {
         let (taken_up, left, error) = (water.taken_up, water.left, water.error());

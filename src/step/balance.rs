@@ -3,10 +3,12 @@
 
 use super::grid::Grid;
 use super::problem::Problem;
+use super::scene::Scene;
+use super::state::State;
 use super::unknowns::{Buffers, Evaluation};
 use crate::error::Result;
 use crate::profile::{Activity, timed};
-use crate::term::{Assembly, Role, Trial};
+use crate::term::{Assembly, Role, Source, Trial, Works};
 use crate::time_integration::GeneralisedAlpha;
 
 /// The sum of all terms but inertia at the last converged step, and the norm of the largest of them.
@@ -14,7 +16,16 @@ use crate::time_integration::GeneralisedAlpha;
 /// # Errors
 /// When the converged state is inadmissible on the restored grid.
 pub fn static_force<const D: usize>(problem: &Problem<D>, grid: &mut Grid<D>) -> Result<Evaluation<D>> {
-    let trial = Trial {
+    let (mut own, mut sum) = (Vec::new(), Evaluation::default());
+    timed(Activity::Assembly, || {
+        add_terms(problem, grid, &at_start(problem), false, &|role| role != Role::Inertia, (&mut own, &[]), &mut sum)
+    })?;
+    Ok(sum)
+}
+
+/// The converged state with the loads of the beginning of the step.
+fn at_start<'a, const D: usize>(problem: &Problem<'a, D>) -> Trial<'a, D> {
+    Trial {
         pressure: &problem.state.pressure,
         converged_pressure: &problem.state.pressure,
         phase: problem.phase,
@@ -23,12 +34,47 @@ pub fn static_force<const D: usize>(problem: &Problem<D>, grid: &mut Grid<D>) ->
         inverse_dt: problem.span().rate(),
         geometry: problem.state.geometry(),
         ..Trial::at_rest(problem.converged(), problem.converged())
-    };
+    }
+}
+
+/// The work of the loads of the beginning of a step along `way` (m), one entry an equation.
+///
+/// # Errors
+/// As [`static_force`].
+pub fn works_at_start<const D: usize>(
+    scene: &Scene<D>,
+    grid: &mut Grid<D>,
+    state: &State<D>,
+    way: &[f64],
+) -> Result<Works> {
+    let problem = Problem::at_rest(scene, state);
     let (mut own, mut sum) = (Vec::new(), Evaluation::default());
-    timed(Activity::Assembly, || {
-        add_terms(problem, grid, &trial, false, &|role| role != Role::Inertia, &mut own, &mut sum)
-    })?;
-    Ok(sum)
+    add_terms(&problem, grid, &at_start(&problem), false, &|role| role == Role::External, (&mut own, way), &mut sum)?;
+    Ok(sum.work)
+}
+
+/// The kinetic energy (kJ) of a velocity (m/s) of the nodes, by the mass of the equations of motion.
+///
+/// # Errors
+/// None that a converged state has.
+pub fn kinetic<const D: usize>(
+    scene: &Scene<D>,
+    grid: &mut Grid<D>,
+    state: &State<D>,
+    velocity: &[[f64; D]],
+) -> Result<f64> {
+    let problem = Problem::at_rest(scene, state);
+    let (mut own, mut way, mut sum) = (Vec::new(), Vec::new(), Evaluation::default());
+    by_equation(grid, |n| velocity[n as usize], &mut way);
+    let trial = Trial { acceleration: velocity, ..at_start(&problem) };
+    add_terms(&problem, grid, &trial, false, &|role| role == Role::Inertia, (&mut own, &way), &mut sum)?;
+    Ok(0.5 * sum.work.of(Source::Inertia))
+}
+
+/// A field of displacements or velocities, one entry an equation of these.
+pub fn by_equation<const D: usize>(grid: &Grid<D>, value: impl Fn(u32) -> [f64; D], out: &mut Vec<f64>) {
+    out.clear();
+    out.extend(grid.dofs.node.iter().flat_map(|&n| grid.dofs.value(n, &value)));
 }
 
 /// The residual of a state at the end of the step and, where wanted, the tangent in the matrix of the grid.
@@ -43,8 +89,9 @@ pub fn evaluate<const D: usize>(
     tangent: bool,
 ) -> Result<()> {
     let at = std::mem::take(&mut state.at);
-    let Buffers { own, between, acceleration, ahead, frozen, .. } = buffers;
-    let u = &at.displacement;
+    let Buffers { own, way, between, acceleration, ahead, frozen, .. } = buffers;
+    let (u, before) = (&at.displacement, problem.converged());
+    by_equation(grid, |n| std::array::from_fn(|d| u[n as usize][d] - before[n as usize][d]), way);
     if let Some(integration) = &problem.integration {
         blend(u, problem.converged(), integration.alpha_f, between);
         weighted_acceleration(problem, integration, u, acceleration);
@@ -73,7 +120,7 @@ pub fn evaluate<const D: usize>(
         inverse_dt: problem.span().rate(),
     };
     let result = timed(Activity::Assembly, || {
-        add_terms(problem, grid, &trial, tangent, &|role| dynamic || role != Role::Inertia, own, state)
+        add_terms(problem, grid, &trial, tangent, &|role| dynamic || role != Role::Inertia, (own, way), state)
     });
     state.at = at;
     if !dynamic {
@@ -97,14 +144,14 @@ fn hold_back<const D: usize>(problem: &Problem<D>, grid: &Grid<D>, force: &mut [
     }
 }
 
-/// Adds up the terms of the wanted roles.
+/// Adds up the terms of the wanted roles, and their work along `way` (m), one entry an equation.
 fn add_terms<const D: usize>(
     problem: &Problem<D>,
     grid: &mut Grid<D>,
     trial: &Trial<D>,
     tangent: bool,
     wanted: &dyn Fn(Role) -> bool,
-    own: &mut Vec<f64>,
+    (own, way): (&mut Vec<f64>, &[f64]),
     sum: &mut Evaluation<D>,
 ) -> Result<()> {
     let mut workspace = std::mem::take(&mut grid.workspace);
@@ -116,7 +163,7 @@ fn add_terms<const D: usize>(
     let (equations, of_nodes) = (grid.motion.pattern.len(), grid.dofs.displacements());
     sum.force.clear();
     sum.force.resize(equations, 0.0);
-    (sum.applied, sum.scale) = ([0.0; D], 0.0);
+    (sum.applied, sum.scale, sum.work) = ([0.0; D], 0.0, Works::default());
     own.resize(equations, 0.0);
     let soil = grid.frame(&scene.mesh, problem.state);
     let elements = grid.elements.as_ref().map(|elements| grid.frame_of_elements(scene, elements, problem.state));
@@ -135,6 +182,7 @@ fn add_terms<const D: usize>(
             break;
         }
         sum.scale = sum.scale.max(norm(&own[..of_nodes]));
+        sum.work.add(term.source(), own, way);
         for (f, o) in sum.force.iter_mut().zip(own.iter()) {
             *f += o;
         }

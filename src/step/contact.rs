@@ -174,6 +174,71 @@ fn make_room<const D: usize>(state: &mut State<D>, constraints: &[PlacedConstrai
     }
 }
 
+/// How far the nodes go (m) in half a step after the end of a converged one; empty without inertia.
+fn ahead<const D: usize>(
+    scene: &Scene<D>,
+    state: &State<D>,
+    (solution, start): (&Solution<D>, Option<&Start<D>>),
+    dt: f64,
+) -> Vec<[f64; D]> {
+    let mut ahead = Vec::new();
+    if let Some(Start { velocity, acceleration }) = start {
+        let integration = GeneralisedAlpha::new(scene.numerics.spectral_radius, dt);
+        go_ahead(&integration, (&solution.displacement, &state.displacement), (velocity, acceleration), &mut ahead);
+    }
+    ahead
+}
+
+/// What contact sees of a converged step of `dt` (s) that begins at a time (s) of a phase, between displacements (m), given what [`ahead`] has found.
+fn trial_at_end<'a, const D: usize>(
+    scene: &Scene<D>,
+    (phase, from): (usize, f64),
+    (now, before): (&'a [[f64; D]], &'a [[f64; D]]),
+    ahead: &'a [[f64; D]],
+    dt: f64,
+) -> Trial<'a, D> {
+    let with_inertia = !ahead.is_empty();
+    let alpha_f = if with_inertia { GeneralisedAlpha::new(scene.numerics.spectral_radius, dt).alpha_f } else { 0.0 };
+    let (time, reduction) = (from + (1.0 - alpha_f) * dt, scene.phases[phase].reduction_at(from + dt));
+    Trial { reduction, phase, time, ahead, ..Trial::at_rest(now, before) }
+}
+
+/// The work (kJ) in a step of `dt` (s) that goes into the normal and into the tangential forces of contact, these being as the step ends or as it
+/// `begins`. The state is that before it.
+pub fn works<const D: usize>(
+    scene: &Scene<D>,
+    grid: &Grid<D>,
+    state: &State<D>,
+    (solution, start): (&Solution<D>, Option<&Start<D>>),
+    dt: f64,
+    begins: bool,
+) -> [f64; 2] {
+    let ahead = ahead(scene, state, (solution, start), dt);
+    let ends = (&solution.displacement[..], &state.displacement[..]);
+    let mut trial = trial_at_end(scene, (state.phase, state.phase_time), ends, &ahead, dt);
+    if begins {
+        (trial.displacement, trial.time) = (&state.displacement, state.phase_time);
+        trial.reduction = scene.phases[state.phase].reduction_at(state.phase_time);
+    }
+    let mut works = [0.0; 2];
+    for constraint in &grid.constraints {
+        let condition = &constraint.condition;
+        let law = scene.interfaces[constraint.interface as usize].sides().laws.at(trial.phase);
+        let (answer, Motion { turn, .. }) = contact_answer(law, scene.levels.as_ref(), constraint, &trial);
+        let lever = condition.curvature * answer.moment;
+        for (k, &node) in condition.nodes.iter().enumerate() {
+            let (now, before) = (&solution.displacement[node as usize], &state.displacement[node as usize]);
+            let normal = condition.normal(k, turn);
+            for d in 0..D {
+                let way = condition.area * (now[d] - before[d]);
+                works[0] -= way * (answer.pressure * normal[d] + lever * condition.by_arc[k][d]);
+                works[1] -= way * answer.shear * condition.by_tangent[k][d];
+            }
+        }
+    }
+    works
+}
+
 /// Takes pressure, shear, gap and slip of the converged step as multipliers and history of the next one (Uzawa).
 pub fn commit<const D: usize>(
     scene: &Scene<D>,
@@ -194,16 +259,9 @@ pub fn commit<const D: usize>(
         pushed: Pushed::default(),
     };
     let mut resultants: Vec<_> = scene.interfaces.iter().map(|interface| none(interface.as_ref())).collect();
-    let reduction = scene.phases[state.phase].reduction_at(state.phase_time + dt);
-    let integration = GeneralisedAlpha::new(scene.numerics.spectral_radius, dt);
-    let alpha_f = start.map_or(0.0, |_| integration.alpha_f);
-    let mut ahead = Vec::new();
-    if let Some(Start { velocity, acceleration }) = start {
-        go_ahead(&integration, (&solution.displacement, &state.displacement), (velocity, acceleration), &mut ahead);
-    }
-    let (phase, time) = (state.phase, state.phase_time + (1.0 - alpha_f) * dt);
-    let at_rest = Trial::at_rest(&solution.displacement, &state.displacement);
-    let trial = Trial { reduction, phase, time, ahead: &ahead, ..at_rest };
+    let ahead = ahead(scene, state, (solution, start), dt);
+    let (phase, ends) = (state.phase, (&solution.displacement[..], &state.displacement[..]));
+    let trial = trial_at_end(scene, (phase, state.phase_time), ends, &ahead, dt);
     for multipliers in &mut state.multipliers {
         let Multipliers { pressure, shear, gap, slip, .. } = multipliers;
         [pressure, shear, gap, slip].into_iter().for_each(|values| values.fill(0.0));

@@ -13,6 +13,7 @@ mod contact;
 mod control;
 mod distortion;
 mod drainage;
+mod energies;
 mod equilibrate;
 mod facing;
 mod family;
@@ -48,10 +49,12 @@ mod transfer;
 mod unbalanced;
 mod unknowns;
 mod water;
+mod work;
 
 pub use change::{Change, Material};
 pub use contact::Resultant;
 pub use control::Controller;
+pub use energies::{Energies, ITEMS, Item, Side};
 pub use ghost_faces::has_room_for_penalties;
 pub use grid::Grid;
 pub use problem::Solution;
@@ -63,6 +66,7 @@ pub use scene::{
 pub use search::kink;
 pub use state::{Span, State};
 pub use water::Balance;
+pub use work::energy_of_fall;
 
 use crate::error::{Kind, Result};
 use crate::kinematics::Kinematics;
@@ -74,6 +78,17 @@ use transfer::{Answers, Start};
 
 /// The result of [`Simulation::lagrange`]: with inertia, the velocity and acceleration of the nodes at the start; and the solution.
 type Lagrange<const D: usize> = (Option<Start<D>>, Solution<D>);
+
+/// A step that is found, and what it makes of points and energies.
+struct Complete<const D: usize> {
+    /// As [`Lagrange`].
+    start: Option<Start<D>>,
+    solution: Solution<D>,
+    answers: Answers,
+    /// The acceleration of the nodes by contact alone; empty without.
+    by_contact: Vec<[f64; D]>,
+    energies: Energies,
+}
 
 /// What the beginning of a step came to.
 struct Begun {
@@ -166,20 +181,16 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
         let before = self.state.restorations;
         let mut begun = timed(Activity::Transfer, || self.initialise(false))?;
         let mut predict = true;
-        let (dt, start, solution, answers) = loop {
+        let (dt, complete) = loop {
             let dt = controller.size(self.state.phase_time);
             let predictor = std::mem::take(&mut predict).then(|| predictor::extrapolated(&self.state, dt)).flatten();
             let found = self
                 .lagrange(dt, predictor.as_deref())
                 .and_then(|found| self.stays_within(found))
                 .and_then(|found| self.stands(dt, found));
-            let complete = found.and_then(|(start, solution)| {
-                let answers = || transfer::answers(self.scene, &self.grid, &self.state, &solution, dt);
-                let answers = timed(Activity::Transfer, answers)?;
-                Ok((dt, start, solution, answers))
-            });
+            let complete = found.and_then(|found| timed(Activity::Transfer, || self.complete(dt, found)));
             match complete {
-                Ok(complete) => break complete,
+                Ok(complete) => break (dt, complete),
                 Err(error) if error.kind == Kind::Analysis => {
                     if !begun.fresh {
                         // Reset a deformed grid before the step is halved.
@@ -202,12 +213,12 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
                 Err(error) => return Err(error),
             }
         };
-        self.note_search(dt, &solution);
+        self.note_search(dt, &complete.solution);
         if self.scene.numerics.restore == Restore::Never {
             // A smaller step would come to the same place.
-            self.keeps_within(&solution)?;
+            self.keeps_within(&complete.solution)?;
         }
-        let mut report = timed(Activity::Transfer, || self.convect(dt, (start, solution), answers))?;
+        let mut report = timed(Activity::Transfer, || self.convect(dt, complete));
         report.restored = self.state.restorations > before;
         report.unbalanced = begun.unbalanced;
         report.halvings = controller.accept(dt, report.iterations());
@@ -217,6 +228,7 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
     /// Points to grid: resets the grid where that is due or `forced`.
     fn initialise(&mut self, forced: bool) -> Result<Begun> {
         let (scene, state) = (self.scene, &mut self.state);
+        work::begin(scene, &mut self.grid, state)?;
         let moved = state.displacement.iter().flatten().any(|&u| u != 0.0);
         let held = !state.search_geometry.is_empty();
         let restore = match scene.numerics.restore {
@@ -236,13 +248,20 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
         }
         materials::project_pressure::<D, K>(scene, &self.grid, state);
         timed(Activity::Contact, || contact::begin::<D, K>(scene, &mut self.grid, state))?;
+        let begins = state.dynamic(scene) && !state.moving;
         if state.dynamic(scene) && (restore || !state.moving) {
             transfer::motion_to_grid::<D, K>(scene, &mut self.grid, state)?;
         }
-        let unbalanced = match state.balanced.filter(|_| restore && moved) {
-            Some(last) => equilibrate::equilibrate(scene, &mut self.grid, state, last)?,
-            None => false,
-        };
+        match (begins, restore) {
+            (true, _) => work::note_motion(scene, &mut self.grid, state)?,
+            (false, true) => work::note(scene, &mut self.grid, state, Item::Resets)?,
+            (false, false) => {}
+        }
+        let mut unbalanced = false;
+        if let Some(last) = state.balanced.filter(|_| restore && moved) {
+            unbalanced = equilibrate::equilibrate(scene, &mut self.grid, state, last)?;
+            work::note(scene, &mut self.grid, state, Item::Equilibration)?;
+        }
         Ok(Begun { fresh: restore || !moved || held || scene.numerics.restore == Restore::Never, unbalanced })
     }
 
@@ -287,13 +306,30 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
         Ok(found)
     }
 
+    /// What a solution of a step of `dt` (s) makes of points and energies, which is not yet written.
+    ///
+    /// # Errors
+    /// Analysis: a point has no answer to it, or it creates energy.
+    fn complete(&mut self, dt: f64, (start, mut solution): Lagrange<D>) -> Result<Complete<D>> {
+        let (scene, grid, state) = (self.scene, &mut self.grid, &self.state);
+        let answers = transfer::answers(scene, grid, state, &solution, dt)?;
+        let done = work::Done::of(scene, grid, state, (&solution, start.as_ref()), answers.dissipated(), dt)?;
+        let (mut by_contact, mut kinetic) = (Vec::new(), 0.0);
+        if let Some(start) = &start {
+            by_contact = impulse::release::<D, K>(scene, grid, state, &mut solution, dt)?;
+            let velocity = transfer::end_velocity(scene, state, (start, &by_contact), &solution.displacement, dt);
+            kinetic = balance::kinetic(scene, grid, state, &velocity)?;
+        }
+        let held = [kinetic, transfer::stored_after(scene, state, &answers)];
+        let energies = done.close(state.energies.unwrap_or_default(), &solution.residual, held, state.in_play)?;
+        Ok(Complete { start, solution, answers, by_contact, energies })
+    }
+
     /// Grid to points (eq. 12): the converged solution becomes the state.
-    fn convect(&mut self, dt: f64, (start, mut solution): Lagrange<D>, answers: Answers) -> Result<Report<D>> {
+    fn convect(&mut self, dt: f64, complete: Complete<D>) -> Report<D> {
         let (scene, state) = (self.scene, &mut self.state);
-        let by_contact = match start {
-            Some(_) => impulse::release::<D, K>(scene, &mut self.grid, state, &mut solution, dt)?,
-            None => Vec::new(),
-        };
+        let Complete { start, mut solution, answers, by_contact, energies } = complete;
+        (state.energies, state.in_play) = (Some(energies), state.in_play.max(energies.in_play()));
         rigid::follow(scene, state, &mut solution.displacement);
         grid::move_whole_curves(scene, state, &self.grid, dt, &mut solution.displacement);
         let mut momentum = report::Motion::of(state).linear;
@@ -344,7 +380,8 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
         }
         let report =
             Report { contacts, water, strained, ..Report::new(scene, state, &self.grid, dt, solution, &momentum) };
+        state.reaction.clone_from(&report.reaction);
         state.peak = state.peak.max(report.motion.kinetic);
-        Ok(report)
+        report
     }
 }

@@ -123,6 +123,7 @@ impl<'a, const D: usize> Newton<'a, D> {
             residual: std::mem::take(&mut now.force),
             history: std::mem::take(&mut self.history),
             applied: now.applied,
+            work: now.work,
             method: self.method,
         })
     }

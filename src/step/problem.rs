@@ -6,6 +6,7 @@ use super::state::{Span, State};
 use super::unknowns::Unknowns;
 use crate::dofs::Dof;
 use crate::system::Method;
+use crate::term::Works;
 use crate::time_integration::GeneralisedAlpha;
 
 /// What is to be solved.
@@ -137,5 +138,7 @@ pub struct Solution<const D: usize> {
     pub history: Vec<f64>,
     /// Resultant (kN) of the applied forces, weighted in time as the step does.
     pub applied: [f64; D],
+    /// The work of the terms along the displacement of the step.
+    pub work: Works,
     pub method: Method,
 }

@@ -242,8 +242,6 @@ pub struct Phase {
     pub auto: bool,
     /// Whether water flows through the pores.
     pub flows: bool,
-    /// Whether gravity at its full factor is all that acts from outside.
-    pub isolated: bool,
     /// Duration (s).
     pub duration: f64,
     pub step: StepSize,

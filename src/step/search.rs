@@ -6,7 +6,7 @@
 
 use super::ramp::UnbalancedRamp;
 use super::unbalanced;
-use super::{Controller, Lagrange, Report, Simulation, Solution, transfer};
+use super::{Controller, Lagrange, Report, Simulation, Solution};
 use crate::error::{Error, Kind, Result};
 use crate::kinematics::Kinematics;
 
@@ -46,13 +46,9 @@ impl<const D: usize, K: Kinematics<D>> Simulation<'_, D, K> {
                 }
                 _ => UnbalancedRamp::default(),
             };
-            let found = self.lagrange(0.0, None).and_then(|(start, solution)| {
-                let answers = transfer::answers(self.scene, &self.grid, &self.state, &solution, 0.0)?;
-                Ok(((start, solution), answers))
-            });
-            match found {
-                Ok((solution, answers)) => {
-                    let report = self.convect(0.0, solution, answers)?;
+            match self.lagrange(0.0, None).and_then(|found| self.complete(0.0, found)) {
+                Ok(complete) => {
+                    let report = self.convect(0.0, complete);
                     // What the soil moved by here says nothing on the next step.
                     self.state.increment.fill([0.0; D]);
                     held = next;

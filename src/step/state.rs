@@ -1,5 +1,6 @@
 //! The state of a run: all that a checkpoint holds. Everything else follows from it and the scene.
 
+use super::energies::Energies;
 use super::ramp::UnbalancedRamp;
 use super::scene::Scene;
 use crate::contact::Multipliers;
@@ -56,9 +57,12 @@ pub struct State<const D: usize> {
     pub switched_to_dynamics: bool,
     /// Largest kinetic energy (kJ) since the phase began or inertia came in.
     pub peak: f64,
-    /// In a dynamic phase that is isolated: the sum of the energies and the potential one after its first step, and the most that was moved of
-    /// them, as kinetic energy or change of the potential one (kJ); empty before.
-    pub energies: Vec<f64>,
+    /// The most energy (kJ) that was in play in the run so far, as kinetic energy and as work from outside.
+    pub in_play: f64,
+    /// The balance of energy; absent before the run begins.
+    pub energies: Option<Energies>,
+    /// Force of the supports (kN) in the last step, as [`super::Report::reaction`]; empty before the first one.
+    pub reaction: Vec<[f64; D]>,
     /// Where (m) the material points were as the phase, or the part of it without inertia, began; empty where nothing asks how far they
     /// have moved since.
     pub start_position: Vec<[f64; D]>,
@@ -153,7 +157,6 @@ impl<const D: usize> State<D> {
         self.phase += 1;
         self.phase_time = 0.0;
         (self.switched_to_dynamics, self.peak, self.ramp) = (false, 0.0, UnbalancedRamp::default());
-        self.energies.clear();
         self.start_position.clear();
         self.search_geometry.clear();
         self.search_curve.clear();

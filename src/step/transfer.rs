@@ -18,7 +18,7 @@ use crate::error::{Error, Result};
 use crate::interpolation::MAX_FUNCTIONS;
 use crate::kinematics::Kinematics;
 use crate::points::Points;
-use crate::term::{Frame, Term, Trial, Update};
+use crate::term::{Dissipated, Frame, Term, Trial, Update};
 use crate::time_integration::GeneralisedAlpha;
 
 /// Determines velocity and acceleration of the nodes: from the points (eq. 11), and at the first dynamic step the acceleration from the
@@ -147,6 +147,17 @@ pub struct Answers {
     of_elements: Vec<Update>,
 }
 
+/// The energy (kJ) that points store with their new values.
+pub fn stored_after<const D: usize>(scene: &Scene<D>, state: &State<D>, answers: &Answers) -> f64 {
+    let of = |terms: &[Box<dyn Term<D>>], updates: &[Update], points: &Points<D>| {
+        let mut points = points.clone();
+        updates.iter().for_each(|update| update.apply(&mut points));
+        terms.iter().map(|term| term.energy(&points)).sum::<f64>()
+    };
+    let of_elements = scene.fem.as_ref().map_or(0.0, |fem| of(&fem.terms, &answers.of_elements, &state.fem));
+    of(&scene.terms, &answers.of_integration, state.integration()) + of_elements
+}
+
 /// The new values of all points in a step of `dt` (s).
 ///
 /// # Errors
@@ -173,6 +184,15 @@ pub fn answers<const D: usize>(
 }
 
 impl Answers {
+    /// What the step dissipates at all that integrals are summed over.
+    pub fn dissipated(&self) -> Dissipated {
+        let updates = self.of_integration.iter().chain(&self.of_elements).map(Update::dissipated);
+        updates.fold(Dissipated::default(), |sum, more| Dissipated {
+            plastic: sum.plastic + more.plastic,
+            seepage: sum.seepage + more.seepage,
+        })
+    }
+
     /// Those to the `solution` of a step.
     fn to<const D: usize>(
         scene: &Scene<D>,
@@ -189,6 +209,7 @@ impl Answers {
             time: from,
             reduction: scene.phases[phase].reduction_at(to),
             inverse_dt: step.rate(),
+            flow_time: if scene.phases[phase].flows { to - from } else { 0.0 },
             alpha_f: state.alpha_f(scene),
             geometry: state.geometry(),
             ..Trial::at_rest(&solution.displacement, &state.displacement)
@@ -287,6 +308,34 @@ fn accelerations_to_points<const D: usize, K: Kinematics<D>>(scene: &Scene<D>, g
         to_points::<D, K>(scene, grid, state, &state.acceleration, &nowhere);
 }
 
+/// Acceleration (m/s²) and velocity (m/s) of a component of node `n` at the end of a step, `by` being its displacement in the step (m), `contact` what
+/// contact alone accelerates.
+fn end_motion<const D: usize>(
+    integration: &GeneralisedAlpha,
+    (start, contact): (&Start<D>, &[[f64; D]]),
+    (n, d): (usize, usize),
+    by: f64,
+) -> [f64; 2] {
+    let (v, a) = (start.velocity[n][d], start.acceleration[n][d]);
+    let next = integration.acceleration(by, v, a);
+    let [less, more] = integration.released(contact.get(n).map_or(0.0, |by_contact| by_contact[d]));
+    [next + less, integration.velocity(v, a, next) + more]
+}
+
+/// The velocity (m/s) of the nodes at the end of such a step.
+pub fn end_velocity<const D: usize>(
+    scene: &Scene<D>,
+    state: &State<D>,
+    motion: (&Start<D>, &[[f64; D]]),
+    displacement: &[[f64; D]],
+    dt: f64,
+) -> Vec<[f64; D]> {
+    let integration = GeneralisedAlpha::new(scene.numerics.spectral_radius, dt);
+    let ends = displacement.iter().zip(&state.displacement).enumerate();
+    let velocity = |n, d, by| end_motion(&integration, motion, (n, d), by)[1];
+    ends.map(|(n, (now, before))| std::array::from_fn(|d| velocity(n, d, now[d] - before[d]))).collect()
+}
+
 /// Gives the points the motion at the end of the step that began with `start` (eq. 12), `contact` being what contact alone accelerates. The increment is that since the velocity was
 /// mapped to the nodes, so a point at a support stops with it.
 pub fn motion_to_points<const D: usize, K: Kinematics<D>>(
@@ -301,10 +350,8 @@ pub fn motion_to_points<const D: usize, K: Kinematics<D>>(
     let (mut change, mut half) = (vec![[0.0; D]; displacement.len()], vec![[0.0; D]; displacement.len()]);
     for n in 0..displacement.len() {
         for d in 0..D {
-            let (v, a) = (start.velocity[n][d], start.acceleration[n][d]);
-            let next = integration.acceleration(displacement[n][d] - state.displacement[n][d], v, a);
-            let [less, more] = integration.released(contact.get(n).map_or(0.0, |by_contact| by_contact[d]));
-            let (next, velocity) = (next + less, integration.velocity(v, a, next) + more);
+            let by = displacement[n][d] - state.displacement[n][d];
+            let [next, velocity] = end_motion(&integration, (start, contact), (n, d), by);
             change[n][d] = velocity - state.velocity[n][d];
             half[n][d] = 0.5 * (displacement[n][d] - state.displacement[n][d]);
             state.velocity[n][d] = velocity;

@@ -1,6 +1,6 @@
 //! The unknowns of a step, ordered as in the state, and the vectors that the iterations reuse.
 
-use crate::term::Frozen;
+use crate::term::{Frozen, Works};
 
 /// Displacement of the nodes and, where there is one, the pressure field.
 #[derive(Default)]
@@ -36,11 +36,13 @@ pub struct Evaluation<const D: usize> {
     pub applied: [f64; D],
     /// Norm (kN) of the largest term in the equations of the displacements: the scale of the residual.
     pub scale: f64,
+    /// The work of the terms along the displacement since the last converged step.
+    pub work: Works,
 }
 
 impl<const D: usize> Default for Evaluation<D> {
     fn default() -> Self {
-        Self { at: Unknowns::default(), force: Vec::new(), applied: [0.0; D], scale: 0.0 }
+        Self { at: Unknowns::default(), force: Vec::new(), applied: [0.0; D], scale: 0.0, work: Works::default() }
     }
 }
 
@@ -61,6 +63,8 @@ pub struct Buffers<const D: usize> {
     pub damped: Vec<bool>,
     /// The residual of one term.
     pub own: Vec<f64>,
+    /// The displacement (m) since the last converged step, one entry an equation.
+    pub way: Vec<f64>,
     pub between: Vec<[f64; D]>,
     pub acceleration: Vec<[f64; D]>,
     pub ahead: Vec<[f64; D]>,

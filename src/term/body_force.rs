@@ -2,7 +2,7 @@
 //!
 //! It has the same points and weights as the internal force, so that errors of the quadrature cancel in equilibrium.
 
-use super::{Assembly, Frame, Role, Term, Trial, scatter_cells};
+use super::{Assembly, Frame, Role, Source, Term, Trial, scatter_cells};
 use crate::error::Result;
 use crate::interpolation::CellPoints;
 use crate::kinematics::Kinematics;
@@ -27,6 +27,10 @@ impl<K, const D: usize> BodyForce<K, D> {
 }
 
 impl<const D: usize, K: Kinematics<D>> Term<D> for BodyForce<K, D> {
+    fn source(&self) -> Source {
+        Source::Gravity
+    }
+
     fn role(&self) -> Role {
         Role::External
     }

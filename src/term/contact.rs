@@ -5,7 +5,7 @@
 //! ends at a fixed set of contact nodes that touch, stick or slide.
 
 use super::water_levels::WaterLevels;
-use super::{Assembly, Frame, Frozen, PlacedConstraint, Term, Trial};
+use super::{Assembly, Frame, Frozen, PlacedConstraint, Source, Term, Trial};
 use crate::contact::{Answer, Law, Laws, Motion};
 use crate::error::Result;
 use crate::system::Local;
@@ -60,6 +60,10 @@ pub fn answer<const D: usize>(
 }
 
 impl<const D: usize> Term<D> for Contact {
+    fn source(&self) -> Source {
+        Source::Contact
+    }
+
     fn symmetric(&self) -> bool {
         self.laws.symmetric()
     }

@@ -7,7 +7,7 @@
 //! The small resistance `τ` to rotation is for single points that fly: their mass holds the cells around them, but where
 //! their stress is at the apex of the yield surface, nothing else resists a rotation about them.
 
-use super::{Assembly, Frame, Term, Trial};
+use super::{Assembly, Frame, Source, Term, Trial};
 use crate::error::Result;
 use crate::interpolation::{PartlyFilled, integrate};
 use crate::kinematics::Kinematics;
@@ -59,6 +59,10 @@ fn unit_stiffness<const D: usize, K: Kinematics<D>>(mesh: &Mesh<D>, cell: usize)
 }
 
 impl<const D: usize, K: Kinematics<D>> Term<D> for EmptyCells<K> {
+    fn source(&self) -> Source {
+        Source::Penalty
+    }
+
     fn assemble(&self, frame: &Frame<D>, trial: &Trial<D>, out: &mut Assembly) -> Result<()> {
         let compute = |partly_filled: &PartlyFilled, local: &mut Local| {
             let cell = partly_filled.cell as usize;

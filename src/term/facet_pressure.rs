@@ -5,7 +5,7 @@
 //! pressure has a potential, and the sum of the unsymmetric parts of the tangent is symmetric.
 
 use super::hydrostatic::{Hydrostatic, Momentary};
-use super::{Assembly, Frame, Role, Term, Trial};
+use super::{Assembly, Frame, Role, Source, Term, Trial};
 use crate::error::Result;
 use crate::kinematics::Kinematics;
 use crate::mesh::Mesh;
@@ -110,6 +110,10 @@ fn add<K: Kinematics<2>>(head: &Momentary, x: &[[f64; 2]], at: &[usize], share: 
 }
 
 impl<K: Kinematics<2>> Term<2> for FacetPressure<K> {
+    fn source(&self) -> Source {
+        Source::Water
+    }
+
     fn role(&self) -> Role {
         Role::External
     }

@@ -12,7 +12,7 @@
 //! κ, what yielded in the last step counts with its secant stiffness, `E c τ/(G Δγ)`, from its shear stress `τ` and plastic shear
 //! strain `Δγ`, so that what the penalty resists with is of the order `γ c τ` whatever the step.
 
-use super::{Assembly, Frame, GhostFace, Term, Trial};
+use super::{Assembly, Frame, GhostFace, Source, Term, Trial};
 use crate::error::Result;
 use crate::interpolation::{Jump, Jumps};
 use crate::kinematics::Kinematics;
@@ -125,6 +125,10 @@ fn secant<const D: usize>(points: &Points<D>, p: usize, model: &dyn Model) -> f6
 }
 
 impl<const D: usize, K: Kinematics<D>> Term<D> for GhostPenalty<K> {
+    fn source(&self) -> Source {
+        Source::Penalty
+    }
+
     fn penalises_faces(&self) -> bool {
         true
     }

@@ -15,24 +15,27 @@
 //! A [`Mixed`] of the stress may be carried by unknowns of its own; it is a type, so that a scene without one pays
 //! nothing.
 
+mod dissipation;
 mod energy;
 mod strain;
 
 use super::extended::{Kept, scatter_functions};
-use super::mixed::{Acting, Answer, Coupling, ModelInput, Point};
+use super::mixed::{Acting, Answer, Coupling, FieldVolumeStrain, ModelInput, Point};
 use super::smoothed::{self, Layout};
 use super::stiffness::{Stiffness, add_turning};
 use super::volume::VolumeFit;
-use super::{Assembly, Frame, Histories, History, Term, Trial, Update};
+use super::{Assembly, Dissipated, Frame, Histories, History, Term, Trial, Update};
 use super::{Mixed, Ratios};
 use crate::error::{Error, Result};
 use crate::interpolation::{CellPoints, Entries, MAX_FUNCTIONS};
 use crate::kinematics::{Gradient, Kinematics};
+use crate::material::spatial::Spatial;
 use crate::material::{Model, State, VariableKind, internal_count};
 use crate::points::Points;
 use crate::profile::timed_material;
 use crate::system::Local;
 use crate::tensor::{full, symmetric};
+use dissipation::Yielded;
 use energy::Work;
 use rayon::prelude::*;
 use std::borrow::Cow;
@@ -123,6 +126,36 @@ impl<K, S> Internal<K, S> {
         let point = Point { points, entries, ratios: strained.ratios };
         let answer = self.share.respond(cell, &point, &input, internal);
         answer.ok_or_else(|| inadmissible(points, p, "is strained beyond measure", &strained.increment))
+    }
+
+    /// What a point that yields dissipates in a step (kPa), given the answer of its model to that.
+    fn yielded<const D: usize>(
+        &self,
+        models: &[Option<Arc<dyn Model>>],
+        (points, entries): (&Points<D>, &Entries<D>),
+        cell: &S::Cell,
+        (strained, end, field_strain): (&Strained, &Spatial<K::Tangent>, &Option<FieldVolumeStrain>),
+        trial: &Trial<D>,
+    ) -> f64
+    where
+        K: Kinematics<D>,
+        S: Mixed<D, K>,
+    {
+        let Some(model) = points.by_material(entries.point, models) else { return 0.0 };
+        let end_weight = 1.0 - trial.alpha_f;
+        let within = (trial.alpha_f > 0.0).then(|| {
+            let metric_factor = metric_factor(&strained.increment, trial.alpha_f)?;
+            let within = Strained { metric_factor, ..*strained };
+            let mut internal = vec![0.0; self.internal_count(points)];
+            let rate = (trial.inverse_dt / end_weight, end_weight);
+            let (answer, _) = self.answer(models, (points, entries), cell, &within, rate, &mut internal).ok()?;
+            Some((metric_factor, answer.elastic))
+        });
+        let within = within.flatten();
+        let received = field_strain.as_ref().map(|field_strain| field_strain.received);
+        let within = within.as_ref().map(|(factor, elastic)| (factor, elastic));
+        let (model, increment, end) = (model.as_ref(), &strained.increment, &end.elastic);
+        Yielded { model, increment, received, end, within }.dissipates(points, entries.point)
     }
 
     /// The points of a cell at a trial state.
@@ -314,7 +347,16 @@ impl<const D: usize, K: Kinematics<D>, S: Mixed<D, K>> Term<D> for Internal<K, S
                 }
                 let of_point = (frame.points, &entries);
                 let step = (trial.inverse_dt, 1.0);
-                let (answer, _) = self.answer(&models, of_point, &cell, &point, step, internal).ok()?;
+                let (answer, field_strain) = self.answer(&models, of_point, &cell, &point, step, internal).ok()?;
+                let at = Point { points: frame.points, entries: &entries, ratios: point.ratios };
+                let dissipated = Dissipated {
+                    plastic: if answer.yielding && frame.integration.is_none() {
+                        entries.weight * self.yielded(&models, of_point, &cell, (&point, &answer, &field_strain), trial)
+                    } else {
+                        0.0
+                    },
+                    seepage: self.share.seepage(&cell, &at, dissipation::end_weight(trial.alpha_f)),
+                };
                 let deformation = point.increment * frame.points.deformation[entries.point];
                 let volume_ratio = deformation.determinant();
                 let mut history = History {
@@ -325,8 +367,8 @@ impl<const D: usize, K: Kinematics<D>, S: Mixed<D, K>> Term<D> for Internal<K, S
                     plastic_strain: answer.plastic_strain,
                     pressure: 0.0,
                     pore_pressure: 0.0,
+                    dissipated,
                 };
-                let at = Point { points: frame.points, entries: &entries, ratios: point.ratios };
                 self.share.commit(&cell, &at, &mut history);
                 Some(history)
             };

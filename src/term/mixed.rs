@@ -45,6 +45,8 @@ pub struct FieldVolumeStrain {
     pub compliance: f64,
     /// Derivative (-) of the stress of the model with respect to them.
     pub stress: Tensor,
+    /// The volume strain (-) that the model has received in the step.
+    pub received: f64,
     /// Minus the derivative (-) of that measure with respect to the strain of the point.
     pub taken: Tensor,
 }
@@ -137,6 +139,12 @@ pub trait Mixed<const D: usize, K: Kinematics<D>>: Send + Sync {
     /// Adds the equations of the unknowns and what couples them with the displacements to the end of `local`.
     fn couple(&self, cell: &Self::Cell, point: &Point<D>, coupling: &Coupling<D>, local: &mut Local);
 
+    /// What water that flows through the pores of a point dissipates in the step (kJ), `end_weight` being that of its end in the pressure that does work.
+    #[inline]
+    fn seepage(&self, _: &Self::Cell, _: &Point<D>, _end_weight: f64) -> f64 {
+        0.0
+    }
+
     /// Completes what a point keeps.
     fn commit(&self, cell: &Self::Cell, point: &Point<D>, history: &mut History);
 
@@ -207,6 +215,10 @@ impl<const D: usize, K: Kinematics<D>, A: Mixed<D, K>, B: Mixed<D, K>> Mixed<D, 
     fn couple(&self, cell: &Self::Cell, point: &Point<D>, coupling: &Coupling<D>, local: &mut Local) {
         self.0.couple(&cell.0, point, coupling, local);
         self.1.couple(&cell.1, point, coupling, local);
+    }
+
+    fn seepage(&self, cell: &Self::Cell, point: &Point<D>, end_weight: f64) -> f64 {
+        self.0.seepage(&cell.0, point, end_weight) + self.1.seepage(&cell.1, point, end_weight)
     }
 
     fn commit(&self, cell: &Self::Cell, point: &Point<D>, history: &mut History) {

@@ -23,6 +23,7 @@ mod rigid;
 mod rigid_pressure;
 mod smooth_pressure;
 mod smoothed;
+mod source;
 mod stiffness;
 mod surface_traction;
 mod traction;
@@ -49,6 +50,7 @@ pub use pressure::{PressureField, shapes as pressure_shapes};
 pub use rigid::{RigidInertia, RigidTraction, RigidWeight};
 pub use rigid_pressure::RigidPressure;
 pub use smooth_pressure::SmoothPressure;
+pub use source::{Source, Works};
 pub use surface_traction::{SurfaceLoad, SurfaceTraction};
 pub use traction::Traction;
 pub use virtual_pressure::VirtualPressure;
@@ -273,6 +275,14 @@ pub struct History {
     pub pressure: f64,
     /// The excess pressure (kPa) of the water in the pores; not kept by points without the column.
     pub pore_pressure: f64,
+    pub dissipated: Dissipated,
+}
+
+/// What a step dissipates (kJ): as material yields, and as water flows through its pores.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Dissipated {
+    pub plastic: f64,
+    pub seepage: f64,
 }
 
 /// New values of the history of some points.
@@ -315,6 +325,15 @@ impl Update {
         self.0.iter().flat_map(|list| &list.failed).copied()
     }
 
+    /// What all points dissipate.
+    pub fn dissipated(&self) -> Dissipated {
+        let points = self.0.iter().flat_map(|list| &list.points);
+        points.fold(Dissipated::default(), |sum, History { dissipated, .. }| Dissipated {
+            plastic: sum.plastic + dissipated.plastic,
+            seepage: sum.seepage + dissipated.seepage,
+        })
+    }
+
     /// The new values of each point of some number.
     fn by_point(&self, count: usize) -> Vec<Option<&History>> {
         let mut of_point = vec![None; count];
@@ -323,7 +342,7 @@ impl Update {
     }
 
     /// Writes the new values.
-    pub fn apply<const D: usize>(self, points: &mut Points<D>) {
+    pub fn apply<const D: usize>(&self, points: &mut Points<D>) {
         let of_point = self.by_point(points.len());
         let increment = &mut points.plastic_increment;
         increment.par_iter_mut().zip(&points.plastic_strain).zip(&of_point).for_each(|((increment, before), new)| {
@@ -409,6 +428,15 @@ pub trait Term<const D: usize>: Send + Sync {
     /// What kind of force the term is.
     fn role(&self) -> Role {
         Role::Internal
+    }
+
+    /// Whose work it does.
+    fn source(&self) -> Source {
+        match self.role() {
+            Role::Internal => Source::Stress,
+            Role::External => Source::Load,
+            Role::Inertia => Source::Inertia,
+        }
     }
 
     /// The factor on the load of the term in a phase, if it has one.

@@ -204,6 +204,7 @@ impl<const D: usize, K: Kinematics<D>> Mixed<D, K> for PressureField<K> {
                 strain: measure.strain(Ratios { step: ratio, grid: grid * ratio }) / at.end_weight,
                 compliance: slope * slope / stiffness,
                 stress: coupled(&stress),
+                received: gained,
                 taken: coupled(&strain),
             };
             return Some((answer, Some(field_strain)));

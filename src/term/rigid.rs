@@ -3,7 +3,7 @@
 //! The reference point is the centroid, so that `m a` and `J α` are uncoupled and the weight has no moment. A dead
 //! traction keeps its direction: its moment `Σ (R r) × f` turns with the body.
 
-use super::{Assembly, Frame, Role, Term, Trial};
+use super::{Assembly, Frame, Role, Source, Term, Trial};
 use crate::error::Result;
 use crate::rigid::Body;
 use crate::time_value::TimeValue;
@@ -32,6 +32,10 @@ impl<const D: usize> RigidWeight<D> {
 }
 
 impl<const D: usize> Term<D> for RigidWeight<D> {
+    fn source(&self) -> Source {
+        Source::Gravity
+    }
+
     fn role(&self) -> Role {
         Role::External
     }

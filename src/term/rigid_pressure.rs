@@ -4,7 +4,7 @@
 
 use super::facet_pressure::integrate;
 use super::hydrostatic::Hydrostatic;
-use super::{Assembly, Frame, Role, Term, Trial};
+use super::{Assembly, Frame, Role, Source, Term, Trial};
 use crate::error::Result;
 use crate::geometry::dot;
 use crate::kinematics::Kinematics;
@@ -98,6 +98,10 @@ impl<K: Kinematics<2>> RigidPressure<K> {
 }
 
 impl<K: Kinematics<2>> Term<2> for RigidPressure<K> {
+    fn source(&self) -> Source {
+        Source::Water
+    }
+
     fn role(&self) -> Role {
         Role::External
     }

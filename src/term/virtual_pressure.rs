@@ -17,7 +17,7 @@
 
 use super::extended::{Kept, scatter_functions};
 use super::hydrostatic::{Hydrostatic, Momentary};
-use super::{Assembly, Frame, Role, Term, Trial};
+use super::{Assembly, Frame, Role, Source, Term, Trial};
 use crate::error::{Error, Result};
 use crate::interpolation::{CellPoints, MAX_FUNCTIONS};
 use crate::kinematics::{Gradient, Kinematics};
@@ -307,6 +307,10 @@ impl<K> VirtualPressure<K> {
 }
 
 impl<const D: usize, K: Kinematics<D>> Term<D> for VirtualPressure<K> {
+    fn source(&self) -> Source {
+        Source::Water
+    }
+
     fn role(&self) -> Role {
         Role::External
     }

@@ -274,6 +274,19 @@ impl<const D: usize, K: Kinematics<D>> Mixed<D, K> for PoreWater<K> {
         }
     }
 
+    fn seepage(&self, cell: &Cell<D>, &Point { points, entries, .. }: &Point<D>, end_weight: f64) -> f64 {
+        let Some(porous) = points.by_material(entries.point, &self.porous).filter(|_| cell.flow_time > 0.0) else {
+            return 0.0;
+        };
+        let gradients = cell.gradients::<K>(entries);
+        let slope =
+            |d: usize, value: &dyn Fn(usize) -> f64| (0..cell.corners).map(|a| gradients[a][d] * value(a)).sum::<f64>();
+        let within = |a: usize| cell.pressure[a] - (1.0 - end_weight) * cell.gained[a];
+        let flow = |d: usize| porous.mobility[usize::from(d == D - 1)] * slope(d, &|a| cell.pressure[a]);
+        let sum: f64 = (0..D).map(|d| slope(d, &within) * flow(d)).sum();
+        entries.weight * points.deformation[entries.point].determinant() * cell.flow_time * sum
+    }
+
     fn commit(&self, cell: &Cell<D>, &Point { points, entries, .. }: &Point<D>, history: &mut History) {
         if points.by_material(entries.point, &self.porous).is_some() {
             history.pore_pressure = dot(&cell.shapes(entries.shape), &cell.pressure);

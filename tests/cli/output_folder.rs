@@ -16,7 +16,7 @@ const FAILING: [&str; 4] = ["--set", "numerics.max_iterations=1", "--set", "phas
 /// Arguments of a run long enough to be killed.
 const LONG: [&str; 2] = ["--set", "phases.load.step={initial: 0.001, max: 0.001}"];
 
-const RUN: [&str; 5] = ["results", "checkpoints", "history.csv", "solve.log", "provenance/solve.json"];
+const RUN: [&str; 6] = ["results", "checkpoints", "history.csv", "energy.csv", "solve.log", "provenance/solve.json"];
 
 /// A folder with the case and all of its stages done.
 fn done() -> TempDir {

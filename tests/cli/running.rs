@@ -148,7 +148,7 @@ fn solved() -> TempDir {
 
 fn contents(folder: &Path) -> Vec<Vec<u8>> {
     let mut files: Vec<_> = fs::read_dir(folder.join("results")).unwrap().map(|e| e.unwrap().path()).collect();
-    files.extend(["history.csv", "solve.log"].map(|name| folder.join(name)));
+    files.extend(["history.csv", "energy.csv", "solve.log"].map(|name| folder.join(name)));
     files.sort();
     files.into_iter().map(|file| fs::read(file).unwrap()).collect()
 }

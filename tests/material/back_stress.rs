@@ -389,7 +389,6 @@ fn scene() -> (Scene<2>, Points<2>, Models) {
         apart: Vec::new(),
         changes: Vec::new(),
         reset_displacements: false,
-        isolated: false,
         stops: vec![Stop { time: 0.5, frame: true }, Stop { time: 1.0, frame: true }],
     };
     let scene = Scene {

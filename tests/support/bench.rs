@@ -240,7 +240,6 @@ impl Bench {
                 dynamic: self.dynamic,
                 auto: false,
                 flows: self.porous.is_some(),
-                isolated: false,
                 duration: self.duration,
                 step: StepSize { initial: step, min: step / 2f64.powi(self.halvings), max: step },
                 prescribed: self.prescribed,

@@ -161,7 +161,6 @@ impl<K: Kinematics<2>> Stand<K> {
             dynamic: true,
             auto: false,
             flows: false,
-            isolated: false,
             duration: 1.0,
             step: StepSize { initial: 1.0, min: 1.0, max: 1.0 },
             prescribed: Vec::new(),

@@ -34,6 +34,9 @@ pub struct Args {
     /// Iterations, sizes and halvings of the steps over time, in place of the history
     #[arg(long, conflicts_with_all = ["x", "y", "scale_x", "scale_y", "reference", "line"])]
     pub iterations: bool,
+    /// Columns of the balance of energy (energy.csv) in place of the history [default: all that are not zero, over time]
+    #[arg(long, conflicts_with = "iterations")]
+    pub energy: bool,
     /// The title [default: that of the case]
     #[arg(long, value_name = "TEXT")]
     pub title: Option<String>,
@@ -56,7 +59,7 @@ pub fn run(cases: &[PathBuf], output: Option<&Path>, args: &Args, unfinished: bo
         if let Some(state) = &read.unfinished {
             note(&format!("note: {}: {state}", run.path().display()));
         }
-        runs.push(read);
+        runs.push(if args.energy { read.of_energy()? } else { read });
     }
     if args.list {
         return print(&runs.iter().map(list).collect::<String>());
@@ -82,7 +85,8 @@ pub fn run(cases: &[PathBuf], output: Option<&Path>, args: &Args, unfinished: bo
         }),
     };
     let folder = found.first().map(|found| found.run.path()).unwrap_or(Path::new(""));
-    let path = output.map_or_else(|| folder.join("history.svg"), Path::to_owned);
+    let path =
+        output.map_or_else(|| folder.join(if args.energy { "energy.svg" } else { "history.svg" }), Path::to_owned);
     Format::of(&path)?;
     draw::write(&Charts { title: title.unwrap_or_default(), remark, charts }, &path)?;
     print(&format!("{}\n", path.display()))
@@ -151,7 +155,7 @@ fn charts(runs: &[Run], args: &Args) -> Result<Vec<draw::curves::Chart>> {
             let problem = "the default curves have signs of their own";
             return Err(Error::input("--scale-x, --scale-y", problem, "choose columns with --x and --y"));
         }
-        return Ok(history::usual(runs));
+        return Ok(if args.energy { history::energy(runs) } else { history::usual(runs) });
     }
     let x = column(runs, args.x.as_deref().unwrap_or(TIME))?;
     let ys = match &args.y[..] {

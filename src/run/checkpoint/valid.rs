@@ -58,7 +58,10 @@ fn check_times<const D: usize>(scene: &Scene<D>, state: &State<D>) -> Result<()>
     };
     ensure(state.balanced.is_none_or(of_phase), "its last step")?;
     ensure(step_size > 0.0 && peak >= 0.0, "the size of its steps")?;
-    ensure(matches!(state.energies.len(), 0 | 3), "its energies")?;
+    ensure(
+        state.in_play >= 0.0 && state.energies.is_none_or(|energies| energies.0.iter().all(|e| e.is_finite())),
+        "its energies",
+    )?;
     let Some(next) = scene.phases.get(phase) else {
         return ensure(phase_time == 0.0 && !state.moving && !state.switched_to_dynamics, "its end");
     };
@@ -79,6 +82,7 @@ fn check_fields<const D: usize>(scene: &Scene<D>, state: &State<D>) -> Result<()
     exact(&state.displacement, true, "displacement")?;
     exact(&state.travel, true, "travel")?;
     exact(&state.increment, true, "increment")?;
+    exact(&state.reaction, true, "reaction")?;
     exact(&state.uncounted, begun(scene, state).any(|phase| phase.reset_displacements), "uncounted")?;
     let searches = scene.phases.get(state.phase).is_some_and(|phase| phase.search.is_some());
     let begun_search = !state.search_curve.is_empty();

@@ -44,7 +44,6 @@ fn scene<K: Kinematics<2>>(kind: CellKind) -> Scene<2> {
             apart: Vec::new(),
             changes: Vec::new(),
             reset_displacements: false,
-            isolated: false,
             stops: Vec::new(),
         }],
         basis: &Mpm,
