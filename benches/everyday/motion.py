@@ -56,8 +56,7 @@ def fall(dice):
             # It is stopped by the floor: half of its height at the most goes into its compression.
             below("depth that its centre fell", -way.min(), drop + height / 2),
         ]
-        energy = sum(result.energy(name) for name in ("kinetic", "elastic", "potential"))
-        checks.append(below("gain of energy over that of the fall", (energy.max() - energy[0]) / (weight * drop), 0.02))
+        checks.append(below("gain of energy over that of the fall", result.gain.max() / (weight * drop), 0.02))
         return checks
 
     return Scene(section, case, answers, f"{soil['model']}, {floor}", 1 if dice.chance(0.3) else 2)

@@ -1,5 +1,6 @@
 """A scene, its run by the program as a user runs it, and the verdict on what it left."""
 
+import csv
 import json
 import math
 import os
@@ -121,6 +122,14 @@ class Result:
 
     def last(self, name):
         return self.history[name][-1]
+
+    @property
+    def gain(self):
+        """What is held beyond what was supplied [kJ], after each step, by energy.csv."""
+        with open(self.out / "energy.csv", encoding="utf-8") as file:
+            rows = list(csv.DictReader(file))
+        sums = [{side: sum(float(value) for name, value in row.items() if name.startswith(side)) for side in ("held", "supplied")} for row in rows]
+        return np.array([of["held"] - of["supplied"] for of in sums])
 
     def energy(self, name):
         """A sum of energies or momenta of the log, in each step."""

@@ -254,7 +254,15 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
         }
         match (begins, restore) {
             (true, _) => work::note_motion(scene, &mut self.grid, state)?,
-            (false, true) => work::note(scene, &mut self.grid, state, Item::Resets)?,
+            (false, true) => {
+                if state.dynamic(scene) {
+                    let gained = work::gained(scene, &mut self.grid, state)?;
+                    if gained > 0.0 {
+                        transfer::slow::<D, K>(scene, &mut self.grid, state, gained)?;
+                    }
+                }
+                work::note(scene, &mut self.grid, state, Item::Resets)?;
+            }
             (false, false) => {}
         }
         let mut unbalanced = false;

@@ -64,6 +64,15 @@ pub fn note<const D: usize>(scene: &Scene<D>, grid: &mut Grid<D>, state: &mut St
     Ok(())
 }
 
+/// What is held now less what was when it was last noted (kJ).
+///
+/// # Errors
+/// As [`kinetic`].
+pub fn gained<const D: usize>(scene: &Scene<D>, grid: &mut Grid<D>, state: &State<D>) -> Result<f64> {
+    let before = state.energies.unwrap_or_default();
+    Ok(held(scene, grid, state)?.iter().sum::<f64>() - before.of(Item::Kinetic) - before.of(Item::Stored))
+}
+
 /// Notes the motion as inertia comes in: that which a run begins with, or what a phase is given.
 ///
 /// # Errors
