@@ -76,6 +76,9 @@ pub fn note_motion<const D: usize>(scene: &Scene<D>, grid: &mut Grid<D>, state: 
 /// How much energy a step may create (-), over that in play, and over the stored one.
 const PARTS: [f64; 2] = [0.1, 0.01];
 
+/// Whose work is done from outside.
+const OUTSIDE: [Source; 3] = [Source::Gravity, Source::Load, Source::Water];
+
 /// What was done in a converged step, with the sign of [`Works`].
 pub struct Done {
     /// Displacement (m) in the step, and the equations of them that are given.
@@ -224,8 +227,10 @@ impl Done {
         }
         after.set(Item::Kinetic, now[0]);
         after.set(Item::Stored, now[1]);
-        let created = kinetic + stored - supplied.iter().map(|(_, value)| value).sum::<f64>();
-        let in_play = in_play.max(after.in_play());
+        // By the forces at the end of a step without inertia, whose work is never less than that of the stress on its way there.
+        let from_outside = of_supports - ramp - OUTSIDE.iter().map(|source| works.of(*source)).sum::<f64>();
+        let created = kinetic + stored - from_outside;
+        let in_play = in_play.max(after.in_play()).max(from_outside.abs());
         if created > unresolved.max(PARTS[0] * in_play).max(PARTS[1] * now[1]) {
             let part = 100.0 * created / in_play;
             return Err(Error::analysis(
