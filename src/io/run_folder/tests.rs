@@ -92,7 +92,7 @@ fn an_exchange_that_was_cut_short_is_completed() {
 
 #[test]
 fn links_in_place_of_folders_are_refused_and_not_emptied() {
-    for name in ["results", "checkpoints", "history.csv", "solve.log", BESIDE, provenance::FOLDER] {
+    for name in ["results", "checkpoints", "history.csv", "energy.csv", "solve.log", BESIDE, provenance::FOLDER] {
         let (folder, runs) = runs();
         let elsewhere = tempfile::tempdir().unwrap();
         fs::write(elsewhere.path().join("frame-000000.mpmf"), "precious").unwrap();
