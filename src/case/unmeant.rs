@@ -3,6 +3,7 @@
 //! Each has a bound that no sound case comes near to; what may be meant is not warned of.
 
 mod contacts;
+mod falls;
 mod loads;
 
 use super::checked::{Case, Content, Phase, Touched, Touching};
@@ -109,7 +110,8 @@ fn sinks(phase: &Phase, name: &str) -> bool {
 pub fn on_mesh(case: &Case, mesh: &Mesh<2>) -> Result<Vec<String>> {
     let of_rest: Vec<String> = at_rest::imbalance(case, mesh)?.into_iter().collect();
     let of_water = drains::on_mesh(case, mesh)?;
-    Ok([coarse(case, mesh), contacts::on_mesh(case, mesh), loads::on_mesh(case, mesh), of_rest, of_water].concat())
+    let of_steps = [coarse(case, mesh), falls::on_mesh(case, mesh)].concat();
+    Ok([of_steps, contacts::on_mesh(case, mesh), loads::on_mesh(case, mesh), of_rest, of_water].concat())
 }
 
 /// Cells and steps that are too coarse for the structures that move in soil, and ways that lead out of the grid.
