@@ -12,11 +12,11 @@
 // Cells are of size h around the pipe, and h * coarse far from it.
 DefineConstant[
   diameter = {1,   Min 1e-6, Name "Parameters/diameter"}, // of the pipe [m]
-  gap      = {1,   Min 0,    Name "Parameters/gap"},      // between the pipe and the seabed [m]
+  gap      = {1.5, Min 0,    Name "Parameters/gap"},      // between the pipe and the seabed [m]
   length   = {8,   Min 1e-6, Name "Parameters/length"},   // of the slide [m]
   height   = {4,   Min 1e-6, Name "Parameters/height"},   // of the slide [m]
   ahead    = {0.2, Min 1e-6, Name "Parameters/ahead"},    // of the slide, up to the pipe [m]
-  behind   = {8,   Min 1e-6, Name "Parameters/behind"},   // room behind the pipe [m]
+  behind   = {4,   Min 1e-6, Name "Parameters/behind"},   // room behind the pipe [m]
   above    = {2,   Min 1e-6, Name "Parameters/above"},    // room above the slide [m]
   h        = {0.2, Min 1e-6, Name "Parameters/h"},        // size of the cells around the pipe [m]
   coarse   = {2,   Min 1,    Name "Parameters/coarse"}    // largest size, in h
