@@ -348,6 +348,22 @@ FREE_FALL_CONE = Entry(
 )
 
 
+def hit(out: Path) -> float:
+    """The mean force on the pipe from 0.1 s on."""
+    columns = history(out)
+    steady = columns["time"] > 0.1
+    return np.average(columns["pipe.contact_x"][steady], weights=np.diff(columns["time"], prepend=0)[steady])
+
+
+SLIDE_ON_PIPE = Entry(
+    "slide_on_pipe",
+    "force on the pipe once the flow is steady",
+    "a liquid with a cavity behind the pipe and the bearing resistance of a strip; Randolph & White (2012) for a closed flow",
+    [Row("", "force [kN/m]", hit, (48.6, 77.9), 0.1)],
+    picture=("--window=-4,-0.2,4,5", "--range=0,2"),
+)
+
+
 def surface_at(x: float, height: float) -> Row:
     """The height of the deposit of the column at x."""
 
@@ -382,4 +398,4 @@ PASSIVE_WALL = Entry(
     picture=("--window=-1.5,-0.2,6.2,4.8",),
 )
 
-ENTRIES = [VERTICAL_CUT, TRENCH, JET_TRENCH, MUDMAT, SKIRTED_MAT, SPUDCAN, PLATE_ANCHOR, PUNCH_THROUGH, EMBEDDED_FOOTING, TBAR, SUCTION_ANCHOR, FREE_FALL_CONE, BUI_COLUMN, PASSIVE_WALL]
+ENTRIES = [VERTICAL_CUT, TRENCH, JET_TRENCH, MUDMAT, SKIRTED_MAT, SPUDCAN, PLATE_ANCHOR, PUNCH_THROUGH, EMBEDDED_FOOTING, TBAR, SUCTION_ANCHOR, FREE_FALL_CONE, SLIDE_ON_PIPE, BUI_COLUMN, PASSIVE_WALL]

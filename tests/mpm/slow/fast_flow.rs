@@ -67,6 +67,29 @@ fn a_falling_cone_goes_as_deep_as_its_energy() {
     assert!((deepest / 0.105 - 1.0).abs() < 0.05, "{deepest} m");
 }
 
+/// The impulse on the pipe is the momentum that the slide loses, and the force is between that of a flow with a cavity behind the pipe and that of a closed one.
+#[test]
+fn a_slide_pushes_the_pipe_by_the_momentum_that_it_loses() {
+    let settings =
+        ["mesh.parameters={h: 0.35, length: 5, ahead: 0.1}", "phases.hit.duration=0.1", "phases.hit.step.max=0.006"];
+    let folder = solve("cases/slide_on_pipe", &settings);
+    let names = ["time", "pipe.contact_x", "slide.vx"];
+    let [time, force, speed] = columns(&folder.path().join("history.csv"), names);
+    let (mut impulse, mut steady, mut before) = (0.0, [0.0, 0.0], 0.0);
+    for k in 0..time.len() {
+        impulse += force[k] * (time[k] - before);
+        if time[k] > 0.045 {
+            steady = [steady[0] + force[k] * (time[k] - before), steady[1] + time[k] - before];
+        }
+        before = time[k];
+    }
+    let lost = 1.5 * 5.0 * 4.0 * (8.0 - speed[speed.len() - 1]);
+    let mean = steady[0] / steady[1];
+    println!("impulse over loss of momentum {:.6}, force {mean:.1} kN/m", impulse / lost);
+    assert!((impulse / lost - 1.0).abs() < 1e-3, "{impulse} {lost}");
+    assert!((48.0..78.0).contains(&mean), "{mean} kN/m");
+}
+
 /// Between the forces of Davis and of Rankine, for cells of a quarter of the height.
 #[test]
 fn a_wall_has_the_passive_force_of_sand_without_dilation() {
