@@ -343,7 +343,7 @@ FREE_FALL_CONE = Entry(
     "free_fall_cone",
     "depth of the tip, momentum",
     "its energy and the resistance to a slow cone, with and without drag",
-    [Row("", "depth [m]", deepest, (0.2128, 0.2176), 0.05), Row("", "impulse over change of momentum", momentum, 1.0, 0.001)],
+    [Row("", "depth [m]", deepest, (0.2128, 0.2176), 0.05), Row("", "impulse over change of momentum", momentum, 1.0, 0.01)],
     picture=("--mirror", "--window=-0.25,-0.4,0.25,0.15", "--range=0,1"),
 )
 
@@ -373,7 +373,7 @@ def surface_at(x: float, height: float) -> Row:
         place = reader.read()[0].points
         return place[np.abs(place[:, 0] - x) < 0.005, 1].max()
 
-    return Row("", f"height [m] at {x:g} m", found, height, 0.15)
+    return Row("", f"height [m] at {x:.1f} m", found, height, 0.15)
 
 
 BUI_COLUMN = Entry(
@@ -381,7 +381,7 @@ BUI_COLUMN = Entry(
     "height of the deposit",
     "the experiment of Bui et al. (2008)",
     [surface_at(x, height) for x, height in ((0.1001, 0.0776), (0.2, 0.0474), (0.3022, 0.0215))],
-    picture=("--window=-0.02,-0.02,0.52,0.12", "--range=0,2"),
+    picture=("--window=-0.02,-0.02,0.62,0.12", "--range=0,2"),
 )
 
 

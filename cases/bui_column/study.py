@@ -75,7 +75,7 @@ def main() -> None:
         (drawn,) = axes.plot(1000 * x, 1000 * deposit.surface(x), lw=1, label=out.name)
         x = x[x < 0.19]
         axes.plot(1000 * x, 1000 * deposit.failure(x), "--", lw=1, color=drawn.get_color())
-    axes.set(xlabel="mm", ylabel="mm", aspect="equal", xlim=(0, 520), ylim=(0, 110))
+    axes.set(xlabel="mm", ylabel="mm", aspect="equal", xlim=(0, 620), ylim=(0, 110))
     axes.legend(fontsize=7)
     if given.picture:
         fig.savefig(given.picture, dpi=150)
