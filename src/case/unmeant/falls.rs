@@ -155,4 +155,39 @@ mod tests {
         assert!(fast.contains("4.00 m/s, by 0.400 m in a step, 1.6 times the size of the cells, 0.250 m"), "{fast}");
         assert!(told(0, thrown, &dynamic(1.0, 0.05)).is_empty());
     }
+
+    #[test]
+    fn a_structure_that_falls_on_soil_is_told_unless_it_is_moved() {
+        let told = |prescribe: &str| {
+            let text = format!(
+                "geometry: plane_strain\nmesh: {{geo: Cargo.toml}}\n\
+                 regions: {{clay: {{kind: mpm, material: clay}}, air: {{kind: buffer}}, body: {{kind: structure, material: clay, rigid: true}}}}\n\
+                 materials: {{clay: {{model: linear_elastic, young: 100, poisson: 0, density: 1}}}}\n\
+                 contacts: [{{structure: body, soil: clay}}]\n{GRAVITY}\n\
+                 phases: [{{name: fall, {}{prescribe}}}]\n",
+                dynamic(1.0, 0.1)
+            );
+            let source = Source::parse(PathBuf::from("case.yaml"), text, &[]).unwrap();
+            let (case, issues) = Keys::default().resolve(&source);
+            assert!(issues.is_empty(), "{issues:?}");
+            // Clay up to 0.5 m, air above it, and a body 1 m higher than the clay.
+            let mut mesh = rectangle(CellKind::Q9, 2.0, 2.0, 8, 8, 0.0, 0);
+            for c in 0..mesh.cells.len() {
+                mesh.cells.region[c] = u8::from(mesh.centre(c)[1] < 0.5).into();
+            }
+            let body = rectangle(CellKind::Q9, 0.5, 0.25, 2, 1, 0.0, 0);
+            let first = mesh.nodes.len() as u32;
+            mesh.nodes.extend(body.nodes.iter().map(|x| [x[0] + 1.0, x[1] + 1.5]));
+            for c in 0..body.cells.len() {
+                let nodes: Vec<u32> = body.cells.nodes(c).iter().map(|n| n + first).collect();
+                mesh.cells.push(CellKind::Q9, 2, &nodes);
+            }
+            mesh.regions = vec!["air".into(), "clay".into(), "body".into()];
+            on_mesh(&case.unwrap(), &mesh)
+        };
+        // √(2 · 9.81 · 1) m/s.
+        let [fast] = told("").try_into().unwrap();
+        assert!(fast.contains("`body` may come to move at 4.43 m/s, by 0.443 m in a step, 1.8 times"), "{fast}");
+        assert!(told(", prescribe: {body: {uy: 0}}").is_empty());
+    }
 }

@@ -20,7 +20,7 @@ fn columns<const N: usize>(path: &Path, names: [&str; N]) -> [Vec<f64>; N] {
 /// The deposit and the failure line of the experiment, but for its last 4 cm, which are thinner than a tenth of a cell.
 #[test]
 fn a_column_of_bars_has_the_deposit_of_the_experiment() {
-    let settings = ["mesh.parameters.h=0.025", "phases.collapse.step.max=0.004", "phases.collapse.duration=0.45"];
+    let settings = ["mesh.parameters.h=0.025", "phases.collapse.step.max=0.004", "phases.collapse.duration=0.4"];
     let folder = solve("cases/bui_column", &settings);
     let frames = mpm::io::frame::list(&folder.path().join("results")).unwrap();
     let end = mpm::io::frame::Frame::read(&frames[frames.len() - 1].path).unwrap();
