@@ -6,6 +6,7 @@ mod contacts;
 mod falls;
 mod loads;
 
+use self::falls::{GOOD_STEP, LONG_STEP};
 use super::checked::{Case, Content, Phase, Touched, Touching};
 use super::layout::{Bounds, bounds, gap, moves};
 use super::unconnected::Place;
@@ -27,10 +28,6 @@ const GOOD_CELLS: f64 = 6.0;
 const FEW_CELLS_OF_A_WALL: f64 = 2.0;
 /// How many times (-) as long on its way as it is wide a wall or a pile is.
 const SLENDER: f64 = 4.0;
-/// Part of a cell (-) that a structure moves in a step above which it passes by the soil that it is to meet.
-const LONG_STEP: f64 = 1.0;
-/// The part of a cell that it is told to move, as there; sound cases have a hundredth to four tenths.
-const GOOD_STEP: f64 = 1.0 / 6.0;
 
 /// What shows without the mesh, given where the regions lie.
 pub fn of_case(case: &Case, places: &[Place]) -> Vec<String> {

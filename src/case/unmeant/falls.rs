@@ -1,9 +1,13 @@
 //! Steps of phases with inertia in which soil, or a structure that nothing holds, moves by more than a cell.
 
-use super::{GOOD_STEP, LONG_STEP};
 use crate::case::checked::{Case, Content, Phase, Touched, Touching};
 use crate::case::layout::{Bounds, bounds, moves};
 use crate::mesh::{Mesh, cell_size};
+
+/// Part of a cell (-) that a body moves in a step above which it passes by what it is to meet.
+pub const LONG_STEP: f64 = 1.0;
+/// The part of a cell that it is told to move, as docs/reference/messages.md has it; sound cases have a hundredth to four tenths.
+pub const GOOD_STEP: f64 = 1.0 / 6.0;
 
 /// A warning for each body and phase with inertia whose longest step lets the body pass more than a cell.
 ///
