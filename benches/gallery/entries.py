@@ -9,6 +9,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
+import pyvista
 from cavity import Can
 from pipe import bearing
 from surface import kept
@@ -326,4 +327,75 @@ SUCTION_ANCHOR = Entry(
     picture=("--mirror", "--window=-2,-2,2,0.6", "--range=0,1",),
 )
 
-ENTRIES = [VERTICAL_CUT, TRENCH, JET_TRENCH, MUDMAT, SKIRTED_MAT, SPUDCAN, PLATE_ANCHOR, PUNCH_THROUGH, EMBEDDED_FOOTING, TBAR, SUCTION_ANCHOR]
+def deepest(out: Path) -> float:
+    """How far the tip of the cone went (m)."""
+    return -history(out)["cone.uy"].min()
+
+
+def momentum(out: Path) -> float:
+    """The impulse of the clay and of gravity over the change of the momentum of the cone."""
+    columns = history(out)
+    mass = 3.5 * np.pi * 0.05**2 * (0.36 - 2 / 3 * 0.05 * 3**0.5)
+    return np.sum((columns["cone.contact_y"] - 9.81 * mass) * np.diff(columns["time"], prepend=0)) / (mass * (columns["cone.vy"][-1] + 3))
+
+
+FREE_FALL_CONE = Entry(
+    "free_fall_cone",
+    "depth of the tip, momentum",
+    "its energy and the resistance to a slow cone, with and without drag",
+    [Row("", "depth [m]", deepest, (0.2128, 0.2176), 0.05), Row("", "impulse over change of momentum", momentum, 1.0, 0.01)],
+    picture=("--mirror", "--window=-0.25,-0.4,0.25,0.15", "--range=0,1"),
+)
+
+
+def hit(out: Path) -> float:
+    """The mean force on the pipe from 0.1 s on."""
+    columns = history(out)
+    steady = columns["time"] > 0.1
+    return np.average(columns["pipe.contact_x"][steady], weights=np.diff(columns["time"], prepend=0)[steady])
+
+
+SLIDE_ON_PIPE = Entry(
+    "slide_on_pipe",
+    "force on the pipe once the flow is steady",
+    "a liquid with a cavity behind the pipe and the bearing resistance of a strip; Randolph & White (2012) for a closed flow",
+    [Row("", "force [kN/m]", hit, (48.6, 77.9), 0.1)],
+    picture=("--window=-4,-0.2,4,5", "--range=0,2"),
+)
+
+
+def surface_at(x: float, height: float) -> Row:
+    """The height of the deposit of the column at x."""
+
+    def found(out: Path) -> float:
+        reader = pyvista.get_reader(str(out / "points.pvd"))
+        reader.set_active_time_point(len(reader.time_values) - 1)
+        place = reader.read()[0].points
+        return place[np.abs(place[:, 0] - x) < 0.005, 1].max()
+
+    return Row("", f"height [m] at {x:.1f} m", found, height, 0.15)
+
+
+BUI_COLUMN = Entry(
+    "bui_column",
+    "height of the deposit",
+    "the experiment of Bui et al. (2008)",
+    [surface_at(x, height) for x, height in ((0.1001, 0.0776), (0.2, 0.0474), (0.3022, 0.0215))],
+    picture=("--window=-0.02,-0.02,0.62,0.12", "--range=0,2"),
+)
+
+
+def passive(cohesion: float, bounds: tuple[float, float]) -> Row:
+    settings = {"materials.sand.cohesion": cohesion} if cohesion else {}
+    return Row("c" if cohesion else "", f"force [kN/m], c = {cohesion:g} kPa", mean("wall.contact_x", "wall.ux", 0.055, 0.005), bounds, 0.03, settings)
+
+
+PASSIVE_WALL = Entry(
+    "passive_wall",
+    "force on the wall",
+    "Davis (1968) and Rankine, without dilation",
+    [passive(0, (377.0, 432.0)), passive(5, (433.0, 501.3))],
+    picture=("--window=-1.5,-0.2,6.2,4.8",),
+)
+
+ENTRIES = [VERTICAL_CUT, TRENCH, JET_TRENCH, MUDMAT, SKIRTED_MAT, SPUDCAN, PLATE_ANCHOR, PUNCH_THROUGH, EMBEDDED_FOOTING, TBAR, SUCTION_ANCHOR, FREE_FALL_CONE, SLIDE_ON_PIPE, BUI_COLUMN, PASSIVE_WALL]

@@ -25,7 +25,7 @@ PAGE = ROOT / "docs/gallery.md"
 PICTURES = ROOT / "docs/pictures/gallery"
 INTRODUCTION = """# Gallery
 
-`make gallery` runs the cases and writes this page: offshore problems with published results, with the default `numerics`. *Error* is relative to
+`make gallery` runs the cases and writes this page: problems with published results, most of them offshore, with the default `numerics`. *Error* is relative to
 the reference. If the reference is two bounds, it is relative to the nearer one, and *none* between them. *Within* is the accepted error for the mesh of the run; **no** means that it is exceeded, and the page of the case says why, if that is known.
 Seconds are processor seconds of the solve stage on one thread. Each command also writes the series for ParaView; the page of a case says what to look at.
 """

@@ -3,8 +3,10 @@
 //! Each has a bound that no sound case comes near to; what may be meant is not warned of.
 
 mod contacts;
+mod falls;
 mod loads;
 
+use self::falls::{GOOD_STEP, LONG_STEP};
 use super::checked::{Case, Content, Phase, Touched, Touching};
 use super::layout::{Bounds, bounds, gap, moves};
 use super::unconnected::Place;
@@ -26,10 +28,6 @@ const GOOD_CELLS: f64 = 6.0;
 const FEW_CELLS_OF_A_WALL: f64 = 2.0;
 /// How many times (-) as long on its way as it is wide a wall or a pile is.
 const SLENDER: f64 = 4.0;
-/// Part of a cell (-) that a structure moves in a step above which it passes by the soil that it is to meet.
-const LONG_STEP: f64 = 1.0;
-/// The part of a cell that it is told to move, as there; sound cases have a hundredth to four tenths.
-const GOOD_STEP: f64 = 1.0 / 6.0;
 
 /// What shows without the mesh, given where the regions lie.
 pub fn of_case(case: &Case, places: &[Place]) -> Vec<String> {
@@ -109,7 +107,8 @@ fn sinks(phase: &Phase, name: &str) -> bool {
 pub fn on_mesh(case: &Case, mesh: &Mesh<2>) -> Result<Vec<String>> {
     let of_rest: Vec<String> = at_rest::imbalance(case, mesh)?.into_iter().collect();
     let of_water = drains::on_mesh(case, mesh)?;
-    Ok([coarse(case, mesh), contacts::on_mesh(case, mesh), loads::on_mesh(case, mesh), of_rest, of_water].concat())
+    let of_steps = [coarse(case, mesh), falls::on_mesh(case, mesh)].concat();
+    Ok([of_steps, contacts::on_mesh(case, mesh), loads::on_mesh(case, mesh), of_rest, of_water].concat())
 }
 
 /// Cells and steps that are too coarse for the structures that move in soil, and ways that lead out of the grid.

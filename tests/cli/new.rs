@@ -6,13 +6,14 @@ use std::path::Path;
 use std::process::Command;
 
 /// The templates, and what makes the mesh of each coarse.
-const TEMPLATES: [(&str, &str); 6] = [
+const TEMPLATES: [(&str, &str); 7] = [
     ("anchor", "0.25"),
     ("consolidation", "0.1"),
     ("footing", "0.2"),
     ("penetration", "0.25"),
     ("pipe", "0.2"),
     ("slope", "2.5"),
+    ("wall", "1"),
 ];
 
 /// Runs a command in a folder, which succeeds without a warning; returns what it prints.

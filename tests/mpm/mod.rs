@@ -2,3 +2,48 @@
 
 mod axis;
 mod balance;
+mod bar;
+mod boundary_projection;
+mod bspline;
+mod cantilever;
+mod cases;
+mod column;
+mod ddmp;
+mod elements;
+mod ending;
+mod energy;
+mod everyday;
+mod footings;
+mod ghost;
+mod incompressible;
+mod invariance;
+mod moved_curves;
+mod nodal_field;
+mod obstacles;
+mod output_field;
+mod patch;
+mod phases;
+mod random_scenes;
+mod random_strength;
+mod resampled;
+mod rotation;
+mod scheme;
+mod slivers;
+mod slope;
+mod split_footing;
+mod surface;
+mod surface_loads;
+
+/// What takes more than some seconds; `make test-quick` leaves it out.
+mod slow {
+    mod collapse;
+    mod fast_flow;
+    mod general_position;
+    mod nearly_incompressible_sand;
+    mod offshore;
+    mod population;
+    mod slopes;
+    mod splines;
+    mod uniform_cells;
+    mod voids;
+}

@@ -97,3 +97,17 @@ fn consolidation() {
     is_close(-history(&out, "top.uy [m]").last().unwrap(), 0.018 * (1.0 - 8.0 / (PI * PI) * decay), 0.04);
     is_close(*history(&out, "base.pore_pressure [kPa]").last().unwrap(), 40.0 * 4.0 / PI * decay, 0.04);
 }
+
+/// Passive, in sand and in clay, and active; the heave makes the first two larger by 2 %.
+#[test]
+fn wall() {
+    let force = |settings: &[&str]| {
+        let out = run("wall", &[&["mesh.parameters.h=1"], settings].concat());
+        -history(&out, "wall.contact_x [kN]").last().unwrap()
+    };
+    is_close(force(&[]), 3.0 * 18.0 * 8.0 + 2.0 * 5.0 * 3f64.sqrt() * 4.0, 0.03);
+    let clay = "materials.sand={model: tresca, young: 60000, poisson: 0.49, shear_strength: 40, unit_weight: 18}";
+    is_close(force(&[clay, "initial_stress.k0=1"]), 18.0 * 8.0 + 2.0 * 40.0 * 4.0, 0.03);
+    let active = ["phases.push.prescribe.wall.ux.rate=-0.03", "materials.sand.cohesion=0"];
+    is_close(force(&active), 18.0 * 8.0 / 3.0, 0.05);
+}
