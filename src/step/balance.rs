@@ -43,7 +43,7 @@ pub fn evaluate<const D: usize>(
     tangent: bool,
 ) -> Result<()> {
     let at = std::mem::take(&mut state.at);
-    let Buffers { own, between, acceleration, ahead, frozen, .. } = buffers;
+    let Buffers { own, between, acceleration, ahead, frozen, stiffening, .. } = buffers;
     let u = &at.displacement;
     if let Some(integration) = &problem.integration {
         blend(u, problem.converged(), integration.alpha_f, between);
@@ -71,6 +71,7 @@ pub fn evaluate<const D: usize>(
         reduction: problem.scene.phases[problem.phase].reduction_at(problem.to),
         frozen: *frozen,
         inverse_dt: problem.span().rate(),
+        stiffening: *stiffening,
     };
     let result = timed(Activity::Assembly, || {
         add_terms(problem, grid, &trial, tangent, &|role| dynamic || role != Role::Inertia, own, state)
