@@ -27,6 +27,8 @@ const FORCING: f64 = 0.1;
 const FOLLOWING: f64 = 8.0;
 /// No more stiffening (-) than this then.
 const MOST_FOLLOWING: f64 = 0.3;
+/// How many times as many iterations a step may take then.
+const LONGER: usize = 2;
 /// Where an iteration leaves less than this part (-) of the residual, the factor of the last tangent preconditions the next one.
 const NEAR: f64 = 0.1;
 /// Least scale of the residual, relative to the stiffness of a mean cell: below it there are no forces to be in balance.
@@ -298,7 +300,9 @@ impl<'a, const D: usize> Newton<'a, D> {
 
     /// `K δ = −R`, where δ of a prescribed displacement is what is left to it, as the last call of [`Newton::converged`] found.
     fn direction(&mut self) -> Result<()> {
-        if self.history.len() > self.problem.scene.numerics.max_iterations {
+        // In a smaller step the same tangent would be singular.
+        let longer = if self.singular.is_some() { LONGER } else { 1 };
+        if self.history.len() > longer * self.problem.scene.numerics.max_iterations {
             return Err(self.failure("too many iterations"));
         }
         if !self.tangent {
