@@ -130,7 +130,7 @@ impl<const D: usize> Points<D> {
     #[inline]
     pub fn state(&self, p: usize, inverse_dt: f64) -> State<'_> {
         let (plastic_strain, internal) = (self.plastic_strain[p], self.internal_of(p));
-        State { plastic_strain, internal, inverse_dt, increment: None, strength: self.strength_of(p) }
+        State { plastic_strain, internal, inverse_dt, increment: None, strength: self.strength_of(p), stiffening: 0.0 }
     }
 
     /// The strength of point `p` over that of the parameters of its material (-).

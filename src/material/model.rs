@@ -50,6 +50,9 @@ pub struct State<'a> {
     /// The strength over that of the model's parameters (-): 1, or the value of a field ([`super::RandomStrength`]). A model multiplies those
     /// of its parameters by it that [`Model::reduced`] divides.
     pub strength: f64,
+    /// Part (-) of the elastic tangent that is added to that of a yielding point of a model with friction ([`Model::has_friction`]), for the
+    /// directions of Newton's method; the stress is as without.
+    pub stiffening: f64,
 }
 
 impl State<'_> {
@@ -62,7 +65,7 @@ impl State<'_> {
 /// Nothing has happened yet, and the strength is that of the parameters.
 impl Default for State<'_> {
     fn default() -> Self {
-        Self { plastic_strain: 0.0, internal: &[], inverse_dt: 0.0, increment: None, strength: 1.0 }
+        Self { plastic_strain: 0.0, internal: &[], inverse_dt: 0.0, increment: None, strength: 1.0, stiffening: 0.0 }
     }
 }
 
@@ -195,6 +198,12 @@ pub trait Model: Send + Sync {
     /// The shear strength (kPa) at height `y` in a state, at rest: `s_u`, `σ_y/√3`, `c`, in Modified Cam-Clay that of the
     /// critical state in simple shear without drainage. Infinite without yield.
     fn shear_strength(&self, y: f64, state: &State) -> f64;
+
+    /// Whether the strength grows with the pressure from next to nothing: such soil is far weaker beside its stiffness near a free surface than
+    /// clay, and bears nothing at the apex of its yield surface.
+    fn has_friction(&self) -> bool {
+        false
+    }
 
     /// Whether there is a limit to the stress.
     fn yields(&self) -> bool {

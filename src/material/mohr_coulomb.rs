@@ -244,6 +244,10 @@ impl Model for MohrCoulomb {
         self.friction.sin_friction == self.friction.sin_dilation && !ends
     }
 
+    fn has_friction(&self) -> bool {
+        self.friction.sin_friction > 0.0
+    }
+
     fn shear_strength(&self, y: f64, state: &State) -> f64 {
         self.cohesion.at(y) * state.strength
     }

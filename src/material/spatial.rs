@@ -43,7 +43,7 @@ pub fn plane(
 ) -> Option<Spatial<PlaneTangent>> {
     begin(model, y, state, internal);
     match model.law() {
-        Law::Principal(model) => plane_of_principal(model, y, trial, state, internal),
+        Law::Principal(principal) => plane_of_principal((principal, model), y, trial, state, internal),
         Law::Tensor(tensor) => {
             let solid = tensor_law::respond(tensor, y, trial, state, internal)?;
             // xx, xy, yx, yy and zz among all components.
@@ -69,7 +69,7 @@ fn begin(model: &dyn Model, y: f64, state: &State, internal: &mut [f64]) {
 }
 
 fn plane_of_principal(
-    model: &dyn PrincipalModel,
+    (principal, model): (&dyn PrincipalModel, &dyn Model),
     y: f64,
     trial: &Symmetric,
     state: &State,
@@ -81,11 +81,29 @@ fn plane_of_principal(
         return None;
     }
     let strain = roots.map(|x| 0.5 * x.ln());
-    let r = model.respond(y, &strain, state, internal);
+    let r = principal.respond(y, &strain, state, internal);
     let kirchhoff = b.with_roots(&r.stress);
     let elastic = if r.yielding { b.with_roots(&r.elastic_strain.map(|e| (2.0 * e).exp())) } else { *trial };
-    let tangent = plane_tangent(&b, &strain, &r, &kirchhoff);
+    let tangent = plane_tangent(&b, &strain, &stiffened(model, y, &strain, state, &r), &kirchhoff);
     Some(Spatial { kirchhoff, elastic, tangent, plastic_strain: r.plastic_strain, yielding: r.yielding })
+}
+
+/// A response with the tangents of `τ + θ C ε`, the modulus of turning among them, where the state wants a part `θ` of the elastic stiffness added to what
+/// a point of soil with friction has left as it yields.
+#[inline]
+fn stiffened(model: &dyn Model, y: f64, strain: &[f64; 3], state: &State, r: &Response) -> Response {
+    let mut response = *r;
+    if state.stiffening > 0.0 && r.yielding && model.has_friction() {
+        let moduli = model.elasticity().at(y);
+        let (stress, tangent) = (moduli.stress(strain), moduli.tangent());
+        for i in 0..3 {
+            response.stress[i] += state.stiffening * stress[i];
+            for j in 0..3 {
+                response.tangent[i][j] += state.stiffening * tangent[i][j];
+            }
+        }
+    }
+    response
 }
 
 /// In the plane, with I the identity, S as in [`spectral::Plane`], its quarter turn T = [[-s, c], [c, s]] and
@@ -150,13 +168,13 @@ pub fn solid(
 ) -> Option<Spatial<SolidTangent>> {
     begin(model, y, state, internal);
     match model.law() {
-        Law::Principal(model) => solid_of_principal(model, y, trial, state, internal),
+        Law::Principal(principal) => solid_of_principal((principal, model), y, trial, state, internal),
         Law::Tensor(model) => tensor_law::respond(model, y, trial, state, internal),
     }
 }
 
 fn solid_of_principal(
-    model: &dyn PrincipalModel,
+    (principal, model): (&dyn PrincipalModel, &dyn Model),
     y: f64,
     trial: &Symmetric,
     state: &State,
@@ -170,11 +188,12 @@ fn solid_of_principal(
         return None;
     }
     let strain = roots.map(|x| 0.5 * x.ln());
-    let r = model.respond(y, &strain, state, internal);
+    let r = principal.respond(y, &strain, state, internal);
     let kirchhoff = spectral::compose(&r.stress, &axes);
     let elastic =
         if r.yielding { spectral::compose(&r.elastic_strain.map(|e| (2.0 * e).exp()), &axes) } else { *trial };
 
+    let acting = stiffened(model, y, &strain, state, &r);
     // C in the axes of b, as its non-zero blocks, turned one dyad at a time.
     let dyad = |p: usize, q: usize| -> [f64; 9] { std::array::from_fn(|n| axes[(n / 3, p)] * axes[(n % 3, q)]) };
     let mut tangent = [[0.0; 9]; 9];
@@ -188,13 +207,14 @@ fn solid_of_principal(
     for p in 0..3 {
         for q in 0..3 {
             if p == q {
-                add(r.tangent[p][p], &dyad(p, p), &dyad(p, p));
+                add(acting.tangent[p][p], &dyad(p, p), &dyad(p, p));
                 continue;
             }
-            add(r.tangent[p][q], &dyad(p, p), &dyad(q, q));
+            add(acting.tangent[p][q], &dyad(p, p), &dyad(q, q));
             let (sum, difference) = (roots[p] + roots[q], roots[p] - roots[q]);
-            let kappa =
-                secant(&r, &strain, p, q) * spectral::half_log_ratio(difference / sum, strain[p] - strain[q]) / sum;
+            let kappa = secant(&acting, &strain, p, q)
+                * spectral::half_log_ratio(difference / sum, strain[p] - strain[q])
+                / sum;
             add(kappa * roots[q], &dyad(p, q), &dyad(p, q));
             add(kappa * roots[p], &dyad(p, q), &dyad(q, p));
         }

@@ -193,7 +193,8 @@ pub fn curve<const D: usize>(phase: &Phase, state: &State<D>) -> String {
 }
 
 /// An error of the analysis with the moment it came in, and, where loads grow without inertia, how far they had come:
-/// what stops Newton's method there may be the limit load.
+/// what stops Newton's method there may be the limit load. Of soil with friction the message says so: nothing else is known there, as it may also be
+/// a state that the iteration does not get across.
 pub fn in_time<const D: usize>(error: Error, scene: &Scene<D>, phase: &Phase, state: &State<D>) -> Error {
     if error.kind != Kind::Analysis {
         return error;
@@ -205,7 +206,9 @@ pub fn in_time<const D: usize>(error: Error, scene: &Scene<D>, phase: &Phase, st
     if loads.is_empty() {
         return Error { problem: format!("{} ({moment})", error.problem), ..error };
     }
-    let problem = format!("{} ({moment}; equilibrium was last found at {})", error.problem, loads.join(", "));
+    let frictional = error.place == "Newton" && scene.terms.iter().any(|term| term.has_friction());
+    let meaning = if frictional { "no equilibrium found: the load may be the limit; " } else { "" };
+    let problem = format!("{meaning}{} ({moment}; equilibrium was last found at {})", error.problem, loads.join(", "));
     let remedy = match error.place.as_str() {
         "Newton" => format!("{}; beyond the load that the soil can bear go on with `analysis: dynamic`", error.remedy),
         _ => error.remedy,

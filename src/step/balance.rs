@@ -89,7 +89,7 @@ pub fn evaluate<const D: usize>(
     tangent: bool,
 ) -> Result<()> {
     let at = std::mem::take(&mut state.at);
-    let Buffers { own, way, between, acceleration, ahead, frozen, .. } = buffers;
+    let Buffers { own, way, between, acceleration, ahead, frozen, stiffening, .. } = buffers;
     let (u, before) = (&at.displacement, problem.converged());
     by_equation(grid, |n| std::array::from_fn(|d| u[n as usize][d] - before[n as usize][d]), way);
     if let Some(integration) = &problem.integration {
@@ -118,6 +118,7 @@ pub fn evaluate<const D: usize>(
         reduction: problem.scene.phases[problem.phase].reduction_at(problem.to),
         frozen: *frozen,
         inverse_dt: problem.span().rate(),
+        stiffening: *stiffening,
     };
     let result = timed(Activity::Assembly, || {
         add_terms(problem, grid, &trial, tangent, &|role| dynamic || role != Role::Inertia, (own, way), state)

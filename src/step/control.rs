@@ -17,6 +17,8 @@ pub struct Controller {
     pub wanted: f64,
     /// Halvings since the last accepted step, with the reasons.
     halvings: Vec<String>,
+    /// The least relative residual (-) of each of these steps, in order.
+    residuals: Vec<f64>,
     /// Whether a step failed that could not be halved again.
     pub exhausted: bool,
 }
@@ -24,7 +26,7 @@ pub struct Controller {
 impl Controller {
     /// `stops` ascend and end with the end of the phase.
     pub fn new(limits: StepSize, stops: Vec<Stop>, wanted: f64) -> Self {
-        Self { limits, stops, wanted, halvings: Vec::new(), exhausted: false }
+        Self { limits, stops, wanted, halvings: Vec::new(), residuals: Vec::new(), exhausted: false }
     }
 
     /// The next time a step must end at, after `now`.
@@ -53,11 +55,12 @@ impl Controller {
         self.limits.min / self.limits.initial
     }
 
-    /// Halves the step after a failure.
+    /// Halves the step after a failure, in which the relative residual came down to `residual` (-).
     ///
     /// # Errors
     /// The failure itself, once the step would fall below the least one.
-    pub fn halve(&mut self, dt: f64, error: Error) -> Result<()> {
+    pub fn halve(&mut self, dt: f64, error: Error, residual: f64) -> Result<()> {
+        self.residuals.push(residual);
         let half = 0.5 * dt;
         if half < self.limits.min && !same(half, self.limits.min) {
             self.exhausted = true;
@@ -67,12 +70,23 @@ impl Controller {
                 n => format!("the step was halved {n} times down to {dt:.3e} s and cannot be again"),
             };
             let least = self.limits.min;
-            let problem = format!("{}; {how}: step.min is {least:.3e} s", error.problem);
+            let problem = format!("{}; {how}: step.min is {least:.3e} s{}", error.problem, self.unbalanced());
             return Err(Error { problem, ..error });
         }
         self.wanted = half;
         self.halvings.push(format!("{}: {}", error.place, error.problem));
         Ok(())
+    }
+
+    /// What the failed steps left out of balance, from the first to the last of them.
+    fn unbalanced(&self) -> String {
+        let known: Vec<f64> = self.residuals.iter().copied().filter(|residual| residual.is_finite()).collect();
+        match known[..] {
+            [first, .., last] => format!(
+                "; what stayed out of balance was {first:.1e} of the largest force in the first of these steps, {last:.1e} in the last"
+            ),
+            _ => String::new(),
+        }
     }
 
     /// Takes note of an accepted step: the next one grows where this one was easy. Returns why it was halved.
@@ -81,6 +95,7 @@ impl Controller {
         // A step shortened to meet a stop says nothing about the size that would have converged.
         let base = self.wanted.max(dt);
         self.wanted = if eased { (base * GROWTH).min(self.limits.max) } else { base.min(self.limits.max) };
+        self.residuals.clear();
         std::mem::take(&mut self.halvings)
     }
 }
@@ -111,7 +126,7 @@ mod tests {
     fn steps_shrink_and_recover() {
         let mut c = controller();
         let error = || Error::analysis("Newton", "too many iterations", "");
-        c.halve(0.1, error()).unwrap();
+        c.halve(0.1, error(), 1e-3).unwrap();
         assert_eq!(c.wanted, 0.05);
         c.accept(0.05, 3);
         assert_eq!(c.wanted, 0.05, "no growth right after a halving");
@@ -121,7 +136,12 @@ mod tests {
             c.accept(c.wanted, 3);
         }
         assert_eq!(c.wanted, 0.2);
-        c.halve(0.03 - 0.01, error()).expect("half of it is the least one but for rounding");
-        assert!(c.halve(0.015, error()).unwrap_err().problem.contains("halved"));
+        c.halve(0.03 - 0.01, error(), 1e-3).expect("half of it is the least one but for rounding");
+        let problem = c.halve(0.015, error(), 5e-4).unwrap_err().problem;
+        assert!(
+            problem.contains("halved once") && problem.contains("was 1.0e-3 of the largest force in the first"),
+            "{problem}"
+        );
+        assert!(problem.contains("5.0e-4 in the last"), "{problem}");
     }
 }

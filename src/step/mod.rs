@@ -199,14 +199,15 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
                             Ok(anew) => begun = anew,
                             // The points fit no reset grid, but a smaller step may be found on this one.
                             Err(left) if left.kind == Kind::Analysis && self.state.restorations == resets => {
-                                controller.halve(dt, left)?;
+                                controller.halve(dt, left, self.grid.buffers.least)?;
                             }
                             Err(error) => return Err(error),
                         }
                     } else if predictor.is_none() || !self.grid.buffers.predicted {
                         // The iteration without the predictor has been tried.
+                        let least = self.grid.buffers.least;
                         unbalanced::hold(self.scene, &mut self.grid, &mut self.state, dt)?;
-                        controller.halve(dt, error)?;
+                        controller.halve(dt, error, least)?;
                     }
                 }
                 // Other errors, such as too little memory, do not depend on the size of the step.

@@ -12,7 +12,7 @@ use super::unknowns::{Buffers, Evaluation};
 use crate::contact::Sides;
 use crate::error::{Error, Result};
 use crate::mesh::cell_size;
-use crate::system::Method;
+use crate::system::{Method, is_singular};
 use crate::term::Frozen;
 
 /// Most first iterations, which have a frozen contact status.
@@ -23,6 +23,12 @@ const LOOSEST: f64 = 1e-3;
 const TIGHTEST: f64 = 1e-10;
 /// Part (-) of the square of the last reduction, and of what the tolerance still needs, to which they are solved (Eisenstat & Walker 1996).
 const FORCING: f64 = 0.1;
+/// The stiffening (-) of soil with friction, once a tangent has been singular, over what is left (-) of the residual since.
+const FOLLOWING: f64 = 8.0;
+/// No more stiffening (-) than this then.
+const MOST_FOLLOWING: f64 = 0.3;
+/// How many times as many iterations a step may take then.
+const LONGER: usize = 2;
 /// Where an iteration leaves less than this part (-) of the residual, the factor of the last tangent preconditions the next one.
 const NEAR: f64 = 0.1;
 /// Least scale of the residual, relative to the stiffness of a mean cell: below it there are no forces to be in balance.
@@ -40,8 +46,10 @@ pub fn solve<const D: usize>(problem: &Problem<D>, grid: &mut Grid<D>) -> Result
     let buffers = std::mem::take(&mut grid.buffers);
     let mut newton = Newton::new(problem, grid, buffers);
     let solution = newton.solve();
+    let least = newton.history[newton.before..].iter().copied().fold(f64::NAN, f64::min);
     let Newton { grid, buffers, .. } = newton;
     grid.buffers = buffers;
+    grid.buffers.least = least;
     solution
 }
 
@@ -73,6 +81,8 @@ struct Newton<'a, const D: usize> {
     length: f64,
     /// Fraction (-) by which the diagonal of the tangent is raised (Levenberg).
     damping: f64,
+    /// The relative residual where a tangent was singular: from then on soil with friction is stiffened in proportion to what is left of it.
+    singular: Option<f64>,
     /// The error of the last inadmissible trial state.
     refused: Option<Error>,
 }
@@ -102,6 +112,7 @@ impl<'a, const D: usize> Newton<'a, D> {
             unreached: false,
             length: 0.0,
             damping: 0.0,
+            singular: None,
             refused: None,
         }
     }
@@ -184,7 +195,7 @@ impl<'a, const D: usize> Newton<'a, D> {
         self.buffers.frozen = Frozen::Not;
         self.problem.begin(self.grid, &mut self.buffers.now.at, self.problem.converged());
         self.buffers.best.clone_from(&self.buffers.now.at);
-        (self.target, self.damping, self.stalled) = (f64::INFINITY, 0.0, 0);
+        (self.target, self.damping, self.stalled, self.singular) = (f64::INFINITY, 0.0, 0, None);
         self.before = self.history.len();
     }
 
@@ -244,8 +255,19 @@ impl<'a, const D: usize> Newton<'a, D> {
         Ok(())
     }
 
+    /// The part of its elastic stiffness (-) that soil with friction keeps in the next tangent as it yields: that of the damping, or, once a tangent has
+    /// been singular, in proportion to the residual. Inertia does without.
+    fn stiffening(&self) -> f64 {
+        match self.singular {
+            _ if self.problem.integration.is_some() => 0.0,
+            Some(first) => (FOLLOWING * self.error() / first).min(MOST_FOLLOWING),
+            None => self.damping,
+        }
+    }
+
     /// The residual of the current state, and its tangent where wanted.
     fn evaluate(&mut self, tangent: bool) -> Result<()> {
+        self.buffers.stiffening = self.stiffening();
         let mut now = std::mem::take(&mut self.buffers.now);
         let result = evaluate(self.problem, self.grid, &mut self.buffers, &mut now, tangent);
         self.buffers.now = now;
@@ -279,7 +301,9 @@ impl<'a, const D: usize> Newton<'a, D> {
 
     /// `K δ = −R`, where δ of a prescribed displacement is what is left to it, as the last call of [`Newton::converged`] found.
     fn direction(&mut self) -> Result<()> {
-        if self.history.len() > self.problem.scene.numerics.max_iterations {
+        // In a smaller step the same tangent would be singular.
+        let longer = if self.singular.is_some() { LONGER } else { 1 };
+        if self.history.len() > longer * self.problem.scene.numerics.max_iterations {
             return Err(self.failure("too many iterations"));
         }
         if !self.tangent {
@@ -314,6 +338,11 @@ impl<'a, const D: usize> Newton<'a, D> {
         } else {
             motion.solver.solve(pattern, matrix, delta)
         };
+        // The tangent of soil that flows may resist no motion at all.
+        if method.as_ref().is_err_and(is_singular) && self.singular.is_none() && self.problem.integration.is_none() {
+            self.singular = Some(self.error());
+            return self.direction();
+        }
         let Problem { scene, state, .. } = self.problem;
         let position = |n: u32| {
             let from = state.at_reset(scene, n);

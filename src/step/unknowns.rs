@@ -70,4 +70,8 @@ pub struct Buffers<const D: usize> {
     pub ahead: Vec<[f64; D]>,
     /// As [`crate::term::Trial::frozen`].
     pub frozen: Frozen,
+    /// The least relative residual (-) of the last iteration; not a number where that had none.
+    pub least: f64,
+    /// As [`crate::material::State::stiffening`].
+    pub stiffening: f64,
 }

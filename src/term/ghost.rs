@@ -8,7 +8,9 @@
 //! `E_f` is the harmonic mean of Young's modulus over the points of both cells, by volume: soft material beside
 //! stiff decides. Soil that flows must not be held by more than it bears itself: the penalty is the slope of the energy
 //! `γ E_f j₀² (√(1 + j²/j₀²) − 1)` in the mean jump `j` of the face, quadratic in small jumps and linear in large ones, with
-//! `γ E_f j₀ = κ t`. `t` measures the shear strength: the harmonic mean over the points of `q/√3 + ⟨−f⟩/2`, `f` being the yield function. Without
+//! `γ E_f j₀ = κ t`. `t` measures the shear strength: the harmonic mean over the points of `q/√3 + ⟨−f⟩/2`, `f` being the yield function. Soil with friction
+//! counts in `E_f` with no more than `100 t`, its secant stiffness at a strain of one per cent: near a free surface `t` is a hundred-thousandth of its
+//! stiffness, and a penalty that turns from one to the other within that strain is a kink that Newton's method does not get across. Without
 //! κ, what yielded in the last step counts with its secant stiffness, `E c τ/(G Δγ)`, from its shear stress `τ` and plastic shear
 //! strain `Δγ`, so that what the penalty resists with is of the order `γ c τ` whatever the step.
 
@@ -28,6 +30,9 @@ const SECANT: f64 = 0.005;
 
 /// Least part (-) of its elastic stiffness that a yielding point counts with there, also where it bears no stress.
 const LEAST_SECANT: f64 = 1e-4;
+
+/// The jump (-) at which the penalty beside soil with friction saturates, times `κ/γ`, or more.
+const FLOWING: f64 = 0.01;
 
 /// The least shear stress (-), over Young's modulus, that it is measured by, for soil that has none and bears none.
 const LEAST: f64 = 1e-5;
@@ -93,8 +98,10 @@ impl<K> GhostPenalty<K> {
                 match self.share {
                     None => compliance += v / (young * secant(frame.points, p, model.as_ref())),
                     Some(_) => {
-                        compliance += v / young;
-                        weakness += v / strength(frame.points, p, model.as_ref()).max(LEAST * young);
+                        let strength = strength(frame.points, p, model.as_ref()).max(LEAST * young);
+                        let most = if model.has_friction() { strength / FLOWING } else { young };
+                        compliance += v / young.min(most);
+                        weakness += v / strength;
                     }
                 }
             }

@@ -100,15 +100,15 @@ impl<K, S> Internal<K, S> {
         Cow::Owned(self.models.iter().zip(&self.reduces).map(reduced).collect())
     }
 
-    /// The answer of the model at a point, given the weight of the end of the step, with its internal variables at the end of the
-    /// step in `internal`.
+    /// The answer of the model at a point, given the rate (1/s) of steps, the weight of the end of the step and the stiffening of the tangent, with its
+    /// internal variables at the end of the step in `internal`.
     fn answer<const D: usize>(
         &self,
         models: &[Option<Arc<dyn Model>>],
         (points, entries): (&Points<D>, &Entries<D>),
         cell: &S::Cell,
         strained: &Strained,
-        (inverse_dt, end_weight): (f64, f64),
+        (inverse_dt, end_weight, stiffening): (f64, f64, f64),
         internal: &mut [f64],
     ) -> Result<Answer<K, D>>
     where
@@ -121,7 +121,7 @@ impl<K, S> Internal<K, S> {
         let Some(model) = points.by_material(p, models) else {
             return Err(Error::analysis(format!("material point {p}"), "it has no material", ""));
         };
-        let state = State { increment: Some(metric_factor), ..points.state(p, inverse_dt) };
+        let state = State { increment: Some(metric_factor), stiffening, ..points.state(p, inverse_dt) };
         let input = ModelInput { model: model.as_ref(), trial, state, end_weight };
         let point = Point { points, entries, ratios: strained.ratios };
         let answer = self.share.respond(cell, &point, &input, internal);
@@ -147,7 +147,7 @@ impl<K, S> Internal<K, S> {
             let metric_factor = metric_factor(&strained.increment, trial.alpha_f)?;
             let within = Strained { metric_factor, ..*strained };
             let mut internal = vec![0.0; self.internal_count(points)];
-            let rate = (trial.inverse_dt / end_weight, end_weight);
+            let rate = (trial.inverse_dt / end_weight, end_weight, 0.0);
             let (answer, _) = self.answer(models, (points, entries), cell, &within, rate, &mut internal).ok()?;
             Some((metric_factor, answer.elastic))
         });
@@ -192,11 +192,12 @@ impl<K, S> Internal<K, S> {
         let answer = |(entries, mut strained): (Entries<D>, Strained)| {
             let of_point = (frame.points, &entries);
             let rate = trial.inverse_dt / end_weight;
-            let answer = self.answer(models, of_point, cell, &strained, (rate, end_weight), &mut internal)?;
+            let answer =
+                self.answer(models, of_point, cell, &strained, (rate, end_weight, trial.stiffening), &mut internal)?;
             // The model that receives its volume strain from unknowns shares its work with them.
             let work = (trial.alpha_f > 0.0 && answer.1.is_none()).then(|| {
                 let within = std::mem::replace(&mut strained.metric_factor, strained.increment);
-                let end = self.answer(models, of_point, cell, &strained, (trial.inverse_dt, 1.0), &mut internal);
+                let end = self.answer(models, of_point, cell, &strained, (trial.inverse_dt, 1.0, 0.0), &mut internal);
                 strained.metric_factor = within;
                 let model = frame.points.by_material(entries.point, models);
                 let of_end = |(end, _): Answer<K, D>| {
@@ -299,6 +300,10 @@ impl<const D: usize, K: Kinematics<D>, S: Mixed<D, K>> Term<D> for Internal<K, S
         self.models.iter().flatten().any(|model| model.yields())
     }
 
+    fn has_friction(&self) -> bool {
+        self.models.iter().flatten().any(|model| model.has_friction())
+    }
+
     fn energy(&self, points: &Points<D>) -> f64 {
         let energy = |p: usize| {
             let Some(model) = points.by_material(p, &self.models) else { return 0.0 };
@@ -346,7 +351,7 @@ impl<const D: usize, K: Kinematics<D>, S: Mixed<D, K>> Term<D> for Internal<K, S
                     point.take_volume::<D, K>(Ratios { step, grid: before * step });
                 }
                 let of_point = (frame.points, &entries);
-                let step = (trial.inverse_dt, 1.0);
+                let step = (trial.inverse_dt, 1.0, 0.0);
                 let (answer, field_strain) = self.answer(&models, of_point, &cell, &point, step, internal).ok()?;
                 let at = Point { points: frame.points, entries: &entries, ratios: point.ratios };
                 let dissipated = Dissipated {

@@ -198,6 +198,8 @@ pub struct Trial<'a, const D: usize> {
     pub frozen: Frozen,
     /// One over the size of the step (1/s), for strength that depends on the rate of strain.
     pub inverse_dt: f64,
+    /// As [`crate::material::State::stiffening`].
+    pub stiffening: f64,
 }
 
 impl<'a, const D: usize> Trial<'a, D> {
@@ -222,6 +224,7 @@ impl<'a, const D: usize> Trial<'a, D> {
             reduction: 1.0,
             frozen: Frozen::Not,
             inverse_dt: 0.0,
+            stiffening: 0.0,
         }
     }
 }
@@ -325,6 +328,11 @@ pub trait Term<const D: usize>: Send + Sync {
 
     /// Whether a material of the term can yield.
     fn yields(&self) -> bool {
+        false
+    }
+
+    /// Whether a material of it has friction ([`crate::material::Model::has_friction`]).
+    fn has_friction(&self) -> bool {
         false
     }
 

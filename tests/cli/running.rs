@@ -199,6 +199,18 @@ fn a_damaged_checkpoint_is_passed_over() {
     assert!(before == contents(folder.path()), "the last step is done again, to the same bytes");
 }
 
+/// Where sand finds no equilibrium the message says what that may mean, what was left out of balance, and how far the load came.
+#[test]
+fn sand_that_finds_no_equilibrium_may_be_at_its_limit() {
+    let set = ["materials.soil.cohesion=0.3", "phases.rest.step={initial: 0.1, min: 0.005}"];
+    let parts = [
+        "no equilibrium found: the load may be the limit",
+        "what stayed out of balance was",
+        "equilibrium was last found at the gravity factor 0.",
+    ];
+    fails("tests/data/vertical_cut", &set, &parts);
+}
+
 /// The load factor that a quasi-static analysis came to is what one wants to know of a collapse.
 #[test]
 fn an_analysis_that_meets_the_limit_load_says_how_far_it_came() {

@@ -1,6 +1,6 @@
 //! The spatial stress and tangent against differences of the stress with the deformation gradient, for every model.
 
-use mpm::material::{MODELS, Model, Parameters, State, internal_count, spatial};
+use mpm::material::{LinearElastic, MODELS, Model, Parameters, State, internal_count, spatial};
 use mpm::tensor::{Symmetric, Tensor, full, symmetric};
 use std::sync::Arc;
 
@@ -123,6 +123,41 @@ fn solid_tangent_is_the_derivative() {
             Tensor::from_fn(|i, j| (0..9).map(|kl| a[3 * i + j][kl] * l[(kl / 3, kl % 3)]).sum())
         },
     );
+}
+
+/// Where a model with friction yields, stiffening adds that part of the elastic tangent and changes nothing else; other models do not know it.
+#[test]
+fn stiffening_adds_a_part_of_the_elastic_tangent() {
+    const PART: f64 = 0.3;
+    let stiff = State { stiffening: PART, ..State::default() };
+    let mut yielded = 0;
+    for (name, model) in models() {
+        let elastic = LinearElastic::new(*model.elasticity());
+        let mut random = Random(7);
+        for _ in 0..100 {
+            let b = left(&random.trial(&*model, true));
+            let plane =
+                |model: &dyn Model, state: &State| spatial::plane(model, 0.0, &b, state, &mut room(model)).unwrap();
+            let (without, with) = (plane(&*model, &State::default()), plane(&*model, &stiff));
+            assert_eq!((without.kirchhoff, without.elastic), (with.kirchhoff, with.elastic), "{name}");
+            if !without.yielding || !model.has_friction() {
+                assert_eq!(without.tangent, with.tangent, "{name}");
+                continue;
+            }
+            yielded += 1;
+            // The elastic tangent without the part of the stress, −τ_il δ_jk.
+            let free = plane(&elastic, &State::default());
+            let (stress, scale) = (full(&free.kirchhoff), free.tangent[0][0].abs());
+            for (row, &(i, j)) in PLANE.iter().enumerate() {
+                for (col, &(k, l)) in PLANE.iter().enumerate() {
+                    let own = free.tangent[row][col] + if j == k { stress[(i, l)] } else { 0.0 };
+                    let error = with.tangent[row][col] - without.tangent[row][col] - PART * own;
+                    assert!(error.abs() < 1e-6 * scale, "{name}: {row} {col} {error} of {scale}");
+                }
+            }
+        }
+    }
+    assert!(yielded > 300, "{yielded}");
 }
 
 /// The plane form is the solid form on plane deformations.

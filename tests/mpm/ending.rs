@@ -236,3 +236,26 @@ fn a_failure_that_is_repeated_writes_no_other_frame() {
     assert!(first > 2, "{first}");
     assert_eq!(frames(), first);
 }
+
+/// Sand without cohesion whose elastic lateral pressure is less than the active one, between walls with friction, yields everywhere from the first
+/// step on, and its first tangent is singular. What the floor and the walls bear is its weight.
+#[test]
+fn sand_without_cohesion_fills_a_bin_from_the_first_step() {
+    let case = "geometry: plane_strain\nmesh: {geo: GEO/slump.geo, parameters: {half_width: 5, height: 19.8, room: 0, h: 0.833}}\n\
+        regions: {block: {kind: mpm, material: sand}}\n\
+        materials: {sand: {model: mohr_coulomb, young: 24900, poisson: 0.21, cohesion: 0, friction: 35, unit_weight: 16}}\n\
+        contacts: [{wall: axis, soil: block, friction: 0.2}, {wall: face, soil: block, friction: 0.2}]\n\
+        supports: {bottom: {uy: 0}}\ngravity: {y: -9.81}\n\
+        phases: [{name: fill, analysis: quasi_static, duration: 1, step: {initial: 0.1}, gravity: {rate: 1}}]\n\
+        output: {history: [{name: floor, on: bottom, quantities: [reaction_y]}, {name: left, on: axis, quantities: [contact_y]}, {name: right, on: face, quantities: [contact_y]}]}\n";
+    let folder = support::solve_text(case);
+    let last = |name: &str| column(folder.path(), name).pop().unwrap().abs();
+    let [floor, left, right] = ["floor.reaction_y [kN]", "left.contact_y [kN]", "right.contact_y [kN]"].map(last);
+    let weight = 5.0 * 19.8 * 16.0;
+    assert!(((floor + left + right) / weight - 1.0).abs() < 1e-6, "{floor}, {left}, {right}");
+    // Janssen (1895) with the active pressure; the principal stresses turn beside the walls, which he neglects.
+    let (share, active): (f64, f64) = (0.2, (27.5f64.to_radians().tan()).powi(2));
+    let length = 5.0 / (2.0 * share * active);
+    let janssen = weight - 5.0 * 16.0 * length * (1.0 - (-19.8 / length).exp());
+    assert!(((left + right) / janssen - 1.0).abs() < 0.04, "{left} and {right} of {janssen}");
+}

@@ -61,6 +61,7 @@ fn condition(scene: &Scene<2>, points: Points<2>) -> f64 {
         reduction: 1.0,
         frozen: Frozen::Not,
         inverse_dt: 0.0,
+        stiffening: 0.0,
     };
     let pattern = &grid.motion.pattern;
     let (mut matrix, mut workspace) = (Matrix::new(pattern), Workspace::default());

@@ -311,6 +311,7 @@ impl<K: Kinematics<2>> Stand<K> {
             reduction: 1.0,
             frozen: if self.held { Frozen::Stuck } else { Frozen::Not },
             inverse_dt: 0.0,
+            stiffening: 0.0,
         };
         let mut force = vec![0.0; frame.pattern.len()];
         let mut matrix = Matrix::new(frame.pattern);

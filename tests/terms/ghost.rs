@@ -4,7 +4,7 @@ use crate::support::stand::{KINDS, Stand, elastic, resultant, size};
 use crate::terms::loads::{anywhere, stand};
 use mpm::error::Result;
 use mpm::kinematics::{Axisymmetric, Kinematics, PlaneStrain};
-use mpm::material::{Elasticity, LinearElastic, Model, Profile, Tresca};
+use mpm::material::{Elasticity, Friction, LinearElastic, Model, MohrCoulomb, Profile, Tresca};
 use mpm::mesh::Mesh;
 use mpm::mesh::builder::rectangle;
 use mpm::mesh::faces::Faces;
@@ -218,4 +218,28 @@ fn in_flow_it_resists_independently_of_the_step() {
     assert!(one < 1e-2 * elastic, "{one} of {elastic}");
     // As it was where the flow is too small to tell.
     assert!((flow(1e-5) - 1e-5 * elastic).abs() < 1e-9 * 1e-5 * elastic);
+}
+
+/// Sand without stress is as weak as nothing beside its stiffness. The penalty then saturates at a jump of a hundredth, times κ/γ, not at that of the
+/// elastic stiffness, a thousand times smaller; beside clay it keeps that.
+#[test]
+fn beside_sand_it_is_as_soft_as_sand_that_flows() {
+    const SHARE: f64 = 0.1;
+    let profile = |top: f64| Profile::growing(top, 0.0, 0.0);
+    let elasticity = Elasticity::new(profile(3e4), 0.25).unwrap();
+    let sand = MohrCoulomb::new(elasticity, profile(0.1), Friction::degrees(32.0, 0.0).unwrap(), None).unwrap();
+    let clay = Tresca::new(elasticity, profile(60.0)).unwrap();
+    let stand: Stand<PlaneStrain> = stand(CellKind::T6, penalty::<PlaneStrain>, false);
+    let faces = |model: Arc<dyn Model>| {
+        let penalty = of::<PlaneStrain>(&stand.scene.mesh, vec![Some(model)]).saturating(SHARE);
+        let frame = stand.frame();
+        stand.ghost_faces().iter().map(|face| penalty.of_face(&frame, face).unwrap()).collect::<Vec<_>>()
+    };
+    for face in faces(Arc::new(sand)) {
+        let jump = face.limit / face.stiffness;
+        assert!(jump > 0.999e-2 * SHARE / FACTOR, "{face:?}");
+    }
+    for face in faces(Arc::new(clay)) {
+        assert!((face.stiffness / (FACTOR * 3e4) - 1.0).abs() < 1e-12, "{face:?}");
+    }
 }

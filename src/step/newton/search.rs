@@ -183,6 +183,7 @@ impl<const D: usize> Newton<'_, D> {
         let mut trial = std::mem::take(&mut self.buffers.trial);
         trial.at.clone_from(&self.buffers.now.at);
         self.problem.advance(self.grid, &mut trial.at, &self.buffers.delta, length);
+        self.buffers.stiffening = self.stiffening();
         let done = evaluate(self.problem, self.grid, &mut self.buffers, &mut trial, tangent);
         let size = self.size(&trial);
         self.buffers.trial = trial;
