@@ -37,7 +37,7 @@ pub struct Weights<const D: usize> {
     pub lost_front: Option<String>,
     /// Notes on this restoration: points that were put back onto supports that they had got beyond, domains of points that were replaced.
     pub notes: Vec<String>,
-    /// A warning of points that were put back onto the end of the mesh.
+    /// A warning of points that were projected to the boundary where nothing holds them.
     pub beyond: Option<String>,
     /// The material points as they are to be from this restoration on, where some are split or merged.
     pub renewed: Option<Renewed<D>>,

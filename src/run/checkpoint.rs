@@ -295,8 +295,6 @@ pub fn after_phase<const D: usize>(store: Store, scene: &Scene<D>, first: &State
         points.check(regions, cells).map_err(|problem| foreign(&problem))?;
     }
     state.next_phase(scene);
-    // This run has a balance of its own.
-    (state.energies, state.in_play) = (None, 0.0);
     state.frames = 0;
     valid::check(scene, first, &state)?;
     Ok(state)

@@ -12,8 +12,8 @@ const FAR: f64 = 0.5;
 /// Warnings after a step; none on a grid that is never reset, which goes where the soil does.
 pub fn found<const D: usize>(scene: &Scene<D>, state: &State<D>) -> Vec<String> {
     let phase = scene.phases.get(state.phase).map_or("", |phase| phase.name.as_str());
-    let put_back = state.weights.beyond.iter().map(|told| format!("{WARNING}phase `{phase}`: {told}"));
-    put_back.chain(left(scene, state, phase)).collect()
+    let projected = state.weights.beyond.iter().map(|told| format!("{WARNING}phase `{phase}`: {told}"));
+    projected.chain(left(scene, state, phase)).collect()
 }
 
 fn left<const D: usize>(scene: &Scene<D>, state: &State<D>, phase: &str) -> Option<String> {

@@ -59,7 +59,7 @@ pub fn project_onto_boundary<const D: usize, K: Kinematics<D>>(
     let Some(few) = few else { return (of_supports, None) };
     few.iter().for_each(|&(p, (place, _))| state.points.position[p] = place);
     let of_end = format!(
-        "soil gets beyond the end of the mesh near {:.3?} m, {} of {} points by {:.1e} m at most, and is put back onto it; extend the mesh \
+        "soil gets beyond the end of the mesh near {:.3?} m, {} of {} points by {:.1e} m at most, and is projected to the boundary; extend the mesh \
          by a buffer region there",
         few[0].1.0,
         few.len(),

@@ -83,7 +83,7 @@ impl Controller {
         let known: Vec<f64> = self.residuals.iter().copied().filter(|residual| residual.is_finite()).collect();
         match known[..] {
             [first, .., last] => format!(
-                "; what stayed out of balance was {first:.1e} of the largest force in the first of these steps, {last:.1e} in the last"
+                "; the unbalanced force was {first:.1e} of the largest force in the first of these steps, {last:.1e} in the last"
             ),
             _ => String::new(),
         }

@@ -43,6 +43,7 @@ mod rigid;
 mod scalars;
 mod scene;
 mod search;
+mod slowing;
 mod state;
 mod traced;
 mod transfer;
@@ -256,11 +257,8 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
         match (begins, restore) {
             (true, _) => work::note_motion(scene, &mut self.grid, state)?,
             (false, true) => {
-                if state.dynamic(scene) {
-                    let gained = work::gained(scene, &mut self.grid, state)?;
-                    if gained > 0.0 {
-                        transfer::slow::<D, K>(scene, &mut self.grid, state, gained)?;
-                    }
+                if let Some(gained) = work::gained(scene, &mut self.grid, state)?.filter(|_| state.dynamic(scene)) {
+                    slowing::slow::<D, K>(scene, &mut self.grid, state, gained)?;
                 }
                 work::note(scene, &mut self.grid, state, Item::Resets)?;
             }

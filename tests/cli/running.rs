@@ -205,7 +205,7 @@ fn sand_that_finds_no_equilibrium_may_be_at_its_limit() {
     let set = ["materials.soil.cohesion=0.3", "phases.rest.step={initial: 0.1, min: 0.005}"];
     let parts = [
         "no equilibrium found: the load may be the limit",
-        "what stayed out of balance was",
+        "the unbalanced force was",
         "equilibrium was last found at the gravity factor 0.",
     ];
     fails("tests/data/vertical_cut", &set, &parts);
