@@ -43,7 +43,6 @@ mod rigid;
 mod scalars;
 mod scene;
 mod search;
-mod slowing;
 mod state;
 mod traced;
 mod transfer;
@@ -256,12 +255,7 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
         }
         match (begins, restore) {
             (true, _) => work::note_motion(scene, &mut self.grid, state)?,
-            (false, true) => {
-                if let Some(gained) = work::gained(scene, &mut self.grid, state)?.filter(|_| state.dynamic(scene)) {
-                    slowing::slow::<D, K>(scene, &mut self.grid, state, gained)?;
-                }
-                work::note(scene, &mut self.grid, state, Item::Resets)?;
-            }
+            (false, true) => work::note(scene, &mut self.grid, state, Item::Resets)?,
             (false, false) => {}
         }
         let mut unbalanced = false;

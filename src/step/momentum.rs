@@ -154,26 +154,6 @@ pub fn keep_at_nodes<const D: usize, K: Kinematics<D>>(
     add_to_nodes(scene, grid, state, &bodies, &rigid, field);
 }
 
-/// The part of a nodal `field` that is rigid motion of each body, with the momentum that the field has at the points that integrals are summed over.
-pub fn rigid_part<const D: usize, K: Kinematics<D>>(
-    scene: &Scene<D>,
-    grid: &Grid<D>,
-    state: &State<D>,
-    field: &[[f64; D]],
-) -> Vec<[f64; D]> {
-    let points = state.integration();
-    let outside = state.weights.samples.as_ref().map_or(&[][..], |samples| &samples.outside);
-    let cells = points.cell.iter().chain(&state.points.cell);
-    let bodies = Bodies::of(&scene.mesh, cells.copied(), outside);
-    let (mesh, interpolation, coupling) = (&scene.mesh, &grid.interpolations.integration, &grid.coupling);
-    let seen = interpolate::<D, K>(&Family { mesh, interpolation, coupling, points }, field);
-    let of = |has: &Momentum<D>| Momentum { linear: [0.0; D], angular: 0.0, ..*has }.towards::<K>(has);
-    let rigid: Vec<Rigid<D>> = momentum(&bodies, points, &points.position, &seen).iter().map(of).collect();
-    let mut part = vec![[0.0; D]; field.len()];
-    add_to_nodes(scene, grid, state, &bodies, &rigid, &mut part);
-    part
-}
-
 /// Adds a rigid motion of each body to a nodal `field`.
 fn add_to_nodes<const D: usize>(
     scene: &Scene<D>,

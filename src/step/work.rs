@@ -64,17 +64,6 @@ pub fn note<const D: usize>(scene: &Scene<D>, grid: &mut Grid<D>, state: &mut St
     Ok(())
 }
 
-/// What a reset has added to what is held (kJ), where that is more than a step may create.
-///
-/// # Errors
-/// As [`kinetic`].
-pub fn gained<const D: usize>(scene: &Scene<D>, grid: &mut Grid<D>, state: &State<D>) -> Result<Option<f64>> {
-    let Some(before) = &state.energies else { return Ok(None) };
-    let [kinetic, stored] = held(scene, grid, state)?;
-    let gained = kinetic - before.of(Item::Kinetic) + stored - before.of(Item::Stored);
-    Ok(Some(gained).filter(|gained| *gained > (PARTS[0] * state.in_play).max(PARTS[1] * stored)))
-}
-
 /// Notes the motion as inertia comes in: that which a run begins with, or what a phase is given.
 ///
 /// # Errors
