@@ -19,7 +19,7 @@ mod smooth;
 pub use conform::ContactStatus;
 
 use super::geometry::Geometry;
-use crate::geometry::{Line, distance};
+use crate::geometry::distance;
 use crate::kinematics::Kinematics;
 use crate::mesh::Mesh;
 use crate::mesh::faces::BOUNDARY;
@@ -104,15 +104,6 @@ impl MarkerFront {
             }
         }
         volume
-    }
-
-    /// The lines (m) from each marker to the next.
-    pub fn lines(&self) -> Vec<Line<2>> {
-        let of_loop = |l: usize| {
-            let markers = self.markers(l);
-            (0..markers.len()).map(|i| [markers[i], markers[(i + 1) % markers.len()]]).collect::<Vec<_>>()
-        };
-        (0..self.loops()).flat_map(of_loop).collect()
     }
 
     /// The area (m², per metre or full turn) of the free surface, and the mean size (m) of the cells along it; zeros

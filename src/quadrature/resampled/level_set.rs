@@ -2,7 +2,6 @@
 
 use super::super::Restored;
 use super::super::surface::{follow, largest_offset, smoothed};
-use crate::geometry::winding;
 use crate::kinematics::Kinematics;
 use crate::mesh::Bodies;
 use crate::mesh::shape::MAX_NODES;
@@ -44,29 +43,24 @@ impl Surface {
             distance.level_set
         };
         // Points that neither the surface nor the contour that it smooths reaches are outside. Where structures touch the material,
-        // such points may be in these, by as much as contact lets them: those are not within the markers, as those of a thin toe are.
+        // such points are in these, by as much as contact lets them.
         let apart = apart(mesh.cells.len(), points);
-        let beside = !grid.outlines.is_empty();
-        let outside = |level_set: &[f64], within: &[u32], front: Option<&MarkerFront>| {
+        let outside = |level_set: &[f64], within: &[u32]| {
             let mut outside = vec![false; mesh.cells.len()];
+            if !grid.outlines.is_empty() {
+                return outside;
+            }
             points.cell.iter().for_each(|&c| outside[c as usize] = true);
             let reached = |c: usize| mesh.cells.nodes(c).iter().any(|&n| level_set[n as usize] > 0.0);
             (0..outside.len())
                 .filter(|&c| reached(c))
                 .chain(within.iter().map(|&c| c as usize))
                 .for_each(|c| outside[c] = false);
-            if beside {
-                let (lines, mut found) = (front.map_or(Vec::new(), MarkerFront::lines), vec![false; mesh.cells.len()]);
-                for (x, &c) in points.position.iter().zip(&points.cell).filter(|(_, c)| outside[**c as usize]) {
-                    found[c as usize] |= winding(&lines, x) != 0;
-                }
-                return found;
-            }
             outside.iter_mut().zip(&apart).for_each(|(outside, apart)| *outside |= apart);
             outside
         };
         let at = |front: &MarkerFront, level_set: Vec<f64>, within: &[u32]| {
-            let outside = outside(&level_set, within, Some(front));
+            let outside = outside(&level_set, within);
             let most = largest_offset::<K>(front, geometry, grid);
             let level_set = keep_volume::<K>(geometry, grid, [-most, most], &outside, level_set);
             Self { level_set, outside, lost: lost.clone() }
@@ -80,7 +74,7 @@ impl Surface {
             return at(&front, to(&front, &cells), &cells);
         }
         // A contour encloses the volume of all points that it is made of: those outside are not among them.
-        let (mut out, mut count) = (outside(&contour.level_set, &[], None), points.len());
+        let (mut out, mut count) = (outside(&contour.level_set, &[]), points.len());
         loop {
             let numbers: Vec<usize> = (0..points.len()).filter(|&p| !out[points.cell[p] as usize]).collect();
             if numbers.len() == count {
@@ -91,7 +85,7 @@ impl Surface {
             count = numbers.len();
             let places: Vec<_> = numbers.iter().map(|&p| parametric[p]).collect();
             contour.update::<K>(mesh, geometry, &points.select(&numbers), &places, active);
-            let more = outside(&contour.level_set, &[], None);
+            let more = outside(&contour.level_set, &[]);
             out.iter_mut().zip(more).for_each(|(out, more)| *out |= more);
         }
     }
