@@ -191,7 +191,7 @@ def killed(command, folder, steps):
     start = time.perf_counter()
     process = subprocess.Popen([str(part) for part in command], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, start_new_session=True)
     while process.poll() is None and time.perf_counter() < start + TIMEOUT:
-        logs = [log for log in folder.glob("out/**/solve.log")]
+        logs = list(folder.glob("out/solve.log"))
         if any(log.read_text().count("\nstep ") >= steps for log in logs):
             os.killpg(process.pid, signal.SIGKILL)
             break
