@@ -181,10 +181,11 @@ def shaft(dice):
         "output": {"history": [{"name": "pile", "on": "pile", "quantities": ["uy", "contact_y"]}]},
     }
 
+    # At the tip and at the ground line a contact node has half a cell of the pile at the most that is not in the clay.
+    spread = h / length + 0.01
+
     def answers(result):
         force = factor * strength * 2 * math.pi * radius * length
-        # At the tip and at the ground line a contact node has half a cell of the pile at the most that is not in the clay.
-        slack = (h / length + 0.01) * force
-        return [Check("force on the shaft", -result.last("pile.contact_y"), force - slack, force + slack)]
+        return [Check("force on the shaft", -result.last("pile.contact_y"), (1 - spread) * force, (1 + spread) * force)]
 
-    return Scene(section, case, answers, f"α {factor}, L/R {length / radius:.1f}")
+    return Scene(section, case, answers, f"α {factor}, L/R {length / radius:.1f}", spread=spread)
