@@ -202,15 +202,15 @@ impl<'a> Mass<'a> {
         Ok(())
     }
 
-    /// Solves `M x = b` with `x = 0` at the nodes marked in `fixed`.
+    /// Solves `M x = b` with `x` as in `given` at the nodes marked in `fixed`.
     ///
     /// # Errors
     /// As [`Mass::solve`].
-    pub fn solve_held(&mut self, fixed: &[bool], x: &mut [f64]) -> Result<()> {
+    pub fn solve_given(&mut self, fixed: &[bool], given: &[f64], x: &mut [f64]) -> Result<()> {
         let System { pattern, matrix, solver } = &mut *self.system;
         let mut held = crate::system::Matrix { values: matrix.values.clone(), ..Default::default() };
-        let (zero, scale) = (vec![0.0; x.len()], held.scale(pattern));
-        held.constrain(pattern, fixed, &zero, scale, x);
+        let scale = held.scale(pattern);
+        held.constrain(pattern, fixed, given, scale, x);
         self.factorised = false;
         solver.solve(pattern, &held, x).map(|_| ())
     }
@@ -235,7 +235,7 @@ pub fn accelerations<const D: usize, K: Kinematics<D>>(
     for d in 0..D {
         let held: Vec<bool> = node.iter().map(|&n| fixed[n as usize][d]).collect();
         let mut x: Vec<f64> = (0..node.len()).map(|b| -force[b * D + d]).collect();
-        mass.solve_held(&held, &mut x)?;
+        mass.solve_given(&held, &vec![0.0; node.len()], &mut x)?;
         solution.push(x);
     }
     let mut acceleration = vec![[0.0; D]; scene.displacements()];

@@ -271,7 +271,7 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
         let (scene, state) = (self.scene, &self.state);
         let dynamic = state.dynamic(scene);
         let given = grid::given_increments(scene, state, &self.grid, dt);
-        let start = dynamic.then(|| Start::of(&self.grid, state, &given, dt));
+        let start = if dynamic { Some(Start::of::<K>(scene, &mut self.grid, state, &given, dt)?) } else { None };
         let (velocity, acceleration): (&[_], &[_]) =
             start.as_ref().map_or((&[], &[]), |s| (&s.velocity, &s.acceleration));
         let problem = Problem {
