@@ -119,7 +119,7 @@ fn put_weighing<const D: usize>(store: &mut Store, weights: &Weights<D>) {
         renewed: _,
     } = weights;
     let Tally { linear, constant, taken, point_volume, volume, population: Count { split, merged, starved } } = tally;
-    if let Some(Samples { points, parametric, outside }) = samples {
+    if let Some(Samples { points, parametric, outside, .. }) = samples {
         columns::put(store, SAMPLES, points);
         store.put("samples.parametric", 3, parametric.concat());
         store.put("samples.outside", 1, outside.clone());
@@ -148,6 +148,7 @@ fn take_weighing<const D: usize>(store: &mut Store) -> Result<Weights<D>> {
             points: columns::take(store, SAMPLES)?,
             parametric: vectors(&parametric),
             outside: store.take::<u32>("samples.outside", 1)?,
+            motion: Vec::new(),
         }),
         None => None,
     };

@@ -20,10 +20,11 @@ use super::rigid;
 use super::scene::Scene;
 use super::state::State;
 use crate::error::{Error, Result};
-use crate::interpolation::{Interpolation, Jump};
+use crate::interpolation::{CellPoints, Interpolation, Jump};
 use crate::kinematics::Kinematics;
 use crate::mesh::shape::{MAX_NODES, map_second, rule};
 use crate::mesh::{Mesh, cell_size};
+use crate::quadrature::Samples;
 use crate::system::{Method, scatter};
 use crate::term::MASS_PENALTY;
 use rayon::prelude::*;
@@ -37,6 +38,14 @@ const GRADIENT_OF_FORCES: f64 = 1.0 / 36.0;
 /// `ε₂` (-).
 const CURVATURE: f64 = 1e-5;
 
+/// The weak mass of the integration points (-), over their own.
+pub const SEEN: f64 = 0.1;
+
+/// The integration points, where they know of the motion that is mapped.
+pub fn seen<const D: usize>(state: &State<D>) -> Option<&Samples<D>> {
+    state.weights.samples.as_ref().filter(|samples| !samples.motion.is_empty())
+}
+
 /// The points whose mass it is: material points for the mapping (eq. 11), integration points for the first acceleration.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub enum Carrier {
@@ -48,7 +57,7 @@ pub enum Carrier {
 pub struct Mass<'a> {
     system: &'a mut System,
     factorised: bool,
-    /// The weak penalty on the gradient, cell by cell, and that on the curvature.
+    /// The weak penalty on the gradient, cell by cell, with the weak mass of the integration points, and the penalty on the curvature.
     weak: [Vec<Weak>; 2],
 }
 
@@ -135,7 +144,7 @@ impl<'a> Mass<'a> {
             }
             _ => GRADIENT,
         };
-        let weak = [(&few, true), (&cells, false)].map(|(cells, few)| {
+        let mut weak = [(&few, true), (&cells, false)].map(|(cells, few)| {
             let of_cell = |&cell: &u32| {
                 let shares = if few { [gradient(cell), 0.0] } else { [0.0, CURVATURE] };
                 let factors = shares.map(|share| share * scene.density_scale);
@@ -145,6 +154,22 @@ impl<'a> Mass<'a> {
             };
             cells.par_iter().with_min_len(64).map(of_cell).collect::<Vec<_>>()
         });
+        if let (Carrier::MaterialPoints, Some(samples)) = (carrier, seen(state)) {
+            let interpolation = &grid.interpolations.integration;
+            let of_cell = |cell_points: &CellPoints| {
+                let size = interpolation.nodes(mesh, cell_points.cell).len();
+                let mut form = vec![0.0; size * size];
+                for entries in interpolation.entries::<K>(cell_points) {
+                    let m = SEEN * samples.points.mass[entries.point];
+                    for (row, ni) in form.chunks_exact_mut(size).zip(entries.value) {
+                        row.iter_mut().zip(entries.value).for_each(|(form, nj)| *form += m * ni * nj);
+                    }
+                }
+                let coupling = coupling[cell_points.cell as usize] as usize;
+                Weak { coupling, form: system.pattern.over_blocks(coupling, form) }
+            };
+            weak[0].par_extend(interpolation.filled.par_iter().with_min_len(64).map(of_cell));
+        }
         for Weak { coupling, form } in weak.iter().flatten() {
             // The coupling may hold more nodes, behind those of the cell.
             let size = system.pattern.coupling_size(*coupling);
@@ -166,15 +191,16 @@ impl<'a> Mass<'a> {
         Ok(Self { system, factorised: false, weak })
     }
 
-    /// Solves `M x = b` for one component, `b` given in `x`, one entry for each active node.
+    /// Solves `M x = b` for one component, `b` given in `x` and the momentum of the weak mass in `weak`, one entry for each active node.
     ///
-    /// The first further solution removes the effect of the penalty on the gradient, the second that of both. Otherwise the
+    /// The first further solution removes the effect of the weak mass and of the penalty on the gradient, the second that of all. Otherwise the
     /// effect of the first would remain at nodes that only the penalty on the curvature determines.
     ///
     /// # Errors
     /// An analysis error when the mass is singular.
-    pub fn solve(&mut self, x: &mut [f64]) -> Result<()> {
+    pub fn solve(&mut self, x: &mut [f64], weak: &[f64]) -> Result<()> {
         let given = x.to_vec();
+        x.iter_mut().zip(weak).for_each(|(x, weak)| *x += weak);
         self.solve_once(x)?;
         for parts in [..1, ..2] {
             let mut right = given.clone();

@@ -7,7 +7,7 @@ use super::balance::static_force;
 use super::family::{Family, interpolate};
 use super::grid::Grid;
 use super::impulse;
-use super::mass::{Carrier, Mass, accelerations};
+use super::mass::{Carrier, Mass, SEEN, accelerations, seen};
 use super::momentum;
 use super::problem::{Problem, Solution};
 use super::rigid;
@@ -17,6 +17,7 @@ use crate::error::{Error, Result};
 use crate::interpolation::MAX_FUNCTIONS;
 use crate::kinematics::Kinematics;
 use crate::points::Points;
+use crate::quadrature::Samples;
 use crate::term::{Dissipated, Frame, Term, Trial, Update};
 use crate::time_integration::GeneralisedAlpha;
 
@@ -36,6 +37,9 @@ pub fn motion_to_grid<const D: usize, K: Kinematics<D>>(
         points.acceleration.resize(count, [0.0; D]);
     }
     [state.velocity, state.acceleration] = to_nodes::<D, K>(scene, grid, state)?;
+    if let Some(samples) = &mut state.weights.samples {
+        samples.motion.clear();
+    }
     drop_unrepresented::<D, K>(scene, grid, state);
     if !state.moving {
         state.acceleration = first_acceleration::<D, K>(scene, grid, state)?;
@@ -412,14 +416,31 @@ fn to_nodes<const D: usize, K: Kinematics<D>>(
             }
         }
     }
-    let mut right = right.map(|right| grid.dofs.on_blocks(&right));
+    let mut weak: [Vec<[f64; D]>; 2] = [0, 1].map(|_| vec![[0.0; D]; scene.displacements()]);
+    if let Some(Samples { points, motion, .. }) = seen(state) {
+        let (mesh, interpolation) = (&scene.mesh, &grid.interpolations.integration);
+        for cell_points in &interpolation.filled {
+            let nodes = interpolation.nodes(mesh, cell_points.cell);
+            for entries in interpolation.entries::<K>(cell_points) {
+                for (n, &node) in entries.value.iter().zip(nodes) {
+                    let weight = SEEN * points.mass[entries.point] * n;
+                    for (weak, field) in weak.iter_mut().zip(&motion[entries.point]) {
+                        for d in 0..D {
+                            weak[node as usize][d] += weight * field[d];
+                        }
+                    }
+                }
+            }
+        }
+    }
+    let [mut right, weak] = [right, weak].map(|fields| fields.map(|field| grid.dofs.on_blocks(&field)));
     rigid::momentum(scene, grid, state, &mut right);
     let mut mass = Mass::assemble::<D, K>(scene, grid, state, Carrier::MaterialPoints)?;
     let mut solution = [const { Vec::new() }; 2];
-    for (right, solution) in right.iter().zip(&mut solution) {
+    for ((right, weak), solution) in right.iter().zip(&weak).zip(&mut solution) {
         for d in 0..D {
-            let mut x: Vec<f64> = right.iter().map(|v| v[d]).collect();
-            mass.solve(&mut x)?;
+            let [mut x, weak] = [right, weak].map(|field| field.iter().map(|v| v[d]).collect::<Vec<f64>>());
+            mass.solve(&mut x, &weak)?;
             solution.push(x);
         }
     }

@@ -10,21 +10,23 @@ use std::marker::PhantomData;
 use std::sync::Arc;
 
 /// What is fitted beside the internal variables: stress xx, yy, zz, xy; ln J; density; plastic strain, and what the last step added to it; the
-/// pressure of the field, the mean stress beside that of the model and the pore pressure; the place when seeded.
-pub const FIELDS: usize = 13;
+/// velocity and the acceleration; the pressure of the field, the mean stress beside that of the model and the pore pressure; the place when seeded.
+pub const FIELDS: usize = 17;
 pub type Fields = [f64; FIELDS];
 pub const STRESS: usize = 0;
 pub const VOLUME: usize = 4;
 pub const DENSITY: usize = 5;
 pub const PLASTIC: usize = 6;
 pub const FLOW: usize = 7;
-pub const PRESSURE: usize = 8;
-pub const BESIDE: usize = 9;
-pub const WATER: usize = 10;
-pub const ORIGIN: usize = 11;
+pub const VELOCITY: usize = 8;
+pub const ACCELERATION: usize = 10;
+pub const PRESSURE: usize = 12;
+pub const BESIDE: usize = 13;
+pub const WATER: usize = 14;
+pub const ORIGIN: usize = 15;
 
 /// Those that stay within the range of the points.
-pub const BOUNDED: std::ops::RangeInclusive<usize> = DENSITY..=FLOW;
+pub const BOUNDED: std::ops::Range<usize> = DENSITY..PRESSURE;
 
 /// The model of each material by number.
 pub type Models = Vec<Option<Arc<dyn Model>>>;
@@ -104,6 +106,9 @@ impl<K: Kinematics<2>> Materials<K> {
         fields[PRESSURE] = at(&points.pressure, p);
         fields[WATER] = at(&points.pore_pressure, p);
         fields[ORIGIN..].copy_from_slice(&points.origin[p]);
+        for (first, motion) in [(VELOCITY, &points.velocity), (ACCELERATION, &points.acceleration)] {
+            fields[first..first + 2].copy_from_slice(motion.get(p).unwrap_or(&[0.0; 2]));
+        }
         if let Some(model) = points.by_material(p, &self.models) {
             let y = points.seeded_height(p);
             let stress = |b: &[f64; 3]| model.elastic_stress(y, &b.map(|b| 0.5 * b.ln()));

@@ -33,7 +33,10 @@ use crate::mesh::shape::MAX_NODES;
 use crate::points::Points;
 use crate::surface::{Geometry, MarkerFront};
 use crate::tensor::{Symmetric, Tensor};
-use fields::{BOUNDED, DENSITY, FIELDS, FLOW, Fields, Materials, Models, ORIGIN, PLASTIC, PRESSURE, VOLUME, WATER};
+use fields::{
+    ACCELERATION, BOUNDED, DENSITY, FIELDS, FLOW, Fields, Materials, Models, ORIGIN, PLASTIC, PRESSURE, VELOCITY,
+    VOLUME, WATER,
+};
 pub use fit::{Around, Fit, Held, Rings};
 use internal::Internal;
 use level_set::Surface;
@@ -56,6 +59,11 @@ pub struct Resampled<K> {
     /// The points that a cell of each region was seeded with; empty where their number stays.
     seeded: Vec<u32>,
 }
+
+/// The part (-) of the volume of a cell's material points that is within the surface, below which they are integration points themselves.
+const REACHED: f64 = 0.9;
+/// The same beside structures, where points may be a little within these.
+const REACHED_BY_STRUCTURES: f64 = 0.5;
 
 /// An integration point with its state.
 struct Sample {
@@ -199,7 +207,17 @@ impl<K: Kinematics<2>> Resampled<K> {
 
     fn weigh_on(&self, geometry: &Geometry, grid: &Restored<2>, front: &mut Option<MarkerFront>) -> Weights<2> {
         let Restored { mesh, points, active, .. } = *grid;
-        let Surface { level_set, outside, lost: lost_front } = Surface::of::<K>(geometry, grid, front);
+        let Surface { level_set, mut outside, lost: lost_front } = Surface::of::<K>(geometry, grid, front);
+        if !points.velocity.is_empty() {
+            // With inertia neither is what the surface leaves out of a toe that is thinner than a cell.
+            let least = if grid.outlines.is_empty() { REACHED } else { REACHED_BY_STRUCTURES };
+            let mut held = vec![0.0; mesh.cells.len()];
+            points.cell.iter().enumerate().for_each(|(p, &c)| held[c as usize] += points.volume(p));
+            for c in (0..mesh.cells.len()).filter(|&c| held[c] > 0.0) {
+                let values: Vec<f64> = mesh.cells.nodes(c).iter().map(|&n| level_set[n as usize]).collect();
+                outside[c] |= geometry.filled::<K>(mesh, c, &values) < least * held[c];
+            }
+        }
         let values = |c: usize| -> Vec<f64> { mesh.cells.nodes(c).iter().map(|&n| level_set[n as usize]).collect() };
         let inside = |c: usize| active[c] && mesh.cells.nodes(c).iter().any(|&n| level_set[n as usize] > 0.0);
         // Points in other cells, such as a crumb that a structure carries along, resist nothing, and their state says nothing of the rest.
@@ -336,5 +354,7 @@ fn collect(points: &Points<2>, sampled: &[Sampled]) -> (Samples<2>, Tally) {
         population: Count::default(),
     };
     let outside = sampled.iter().filter_map(|cell| cell.outside).collect();
-    (Samples { points: samples, parametric: all().map(|s| s.place.xi).collect(), outside }, tally)
+    let motion = |s: &Sample| [VELOCITY, ACCELERATION].map(|k| [s.fields[k], s.fields[k + 1]]);
+    let motion = if points.velocity.is_empty() { Vec::new() } else { all().map(motion).collect() };
+    (Samples { points: samples, parametric: all().map(|s| s.place.xi).collect(), motion, outside }, tally)
 }

@@ -11,7 +11,7 @@
 //! Two points that become one are near to each other and alike. Mass, volume, `Σ V σ`, the centre of mass and linear momentum are kept; the spin of the two about
 //! their centre is handed to the points of the cell as a rigid rotation.
 
-use super::fields::{FIELDS, Fields, Materials, PLASTIC, STRESS, VOLUME};
+use super::fields::{Fields, Materials, ORIGIN, PLASTIC, STRESS, VOLUME};
 use super::fit::{Around, Held};
 use super::places::Place;
 use crate::kinematics::Kinematics;
@@ -304,7 +304,7 @@ impl Crowd {
         let internal = points.internal_of(p).iter().zip(points.internal_of(q));
         let internal: Vec<f64> = internal.map(|(x, y)| (a.0 * x + b.0 * y) / (a.0 + b.0)).collect();
         fields[VOLUME] = one.deformation[0].determinant().ln();
-        fields[FIELDS - 2..].copy_from_slice(&one.origin[0]);
+        fields[ORIGIN..].copy_from_slice(&one.origin[0]);
         materials.vary(&mut one, 0);
         let place = ground.room_at(&one.position[0], part.region, part.cell).filter(|(cell, _)| *cell == part.cell);
         let (Some((_, xi)), Some((elastic, stress))) =

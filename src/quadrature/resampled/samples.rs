@@ -9,6 +9,8 @@ pub struct Samples<const D: usize> {
     pub points: Points<D>,
     /// Parametric coordinates in their cells.
     pub parametric: Vec<[f64; 3]>,
+    /// Velocity (m/s) and acceleration (m/s²) as fitted to those of the material points, until these are mapped to the nodes; empty without motion.
+    pub motion: Vec<[[f64; D]; 2]>,
     /// The cells outside the surface, ascending, whose integration points are the material points.
     pub outside: Vec<u32>,
 }

@@ -246,7 +246,7 @@ fn is_inside<const D: usize>(mesh: &Mesh<D>, cell: u32, xi: &[f64; 3]) -> bool {
 
 /// The integration points of the cells.
 fn check_samples<const D: usize>(scene: &Scene<D>, state: &State<D>) -> Result<()> {
-    let Some(Samples { points, parametric, outside }) = &state.weights.samples else { return Ok(()) };
+    let Some(Samples { points, parametric, outside, .. }) = &state.weights.samples else { return Ok(()) };
     points
         .check(scene.mesh.regions.len(), scene.mesh.cells.len())
         .map_err(|problem| Error::input("checkpoint", problem, "start the analysis afresh, without --resume"))?;
