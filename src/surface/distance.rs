@@ -1,7 +1,7 @@
 //! The signed distance of the nodes to the free surface of a front.
 //!
 //! Only free segments count. Where the surface ends at a wall it is continued straight beyond it, so that the level
-//! set of a straight surface is linear up to the wall. What is continued counts for nodes alone whose nearest free segment is of the same
+//! set of a straight surface is linear up to the wall; where soil comes around a corner of the wall, that would be back into the soil, and it goes on within the wall. What is continued counts for nodes alone whose nearest free segment is of the same
 //! run: another run may lie between, as on the outside of a toe whose underside is hollow. The sign comes from the nearest segment; far from all
 //! of them a node is in the material if a cell around it holds points.
 
@@ -114,7 +114,9 @@ fn arcs(x: &[[f64; 2]], wall: &[bool], beyond: f64, mut action: impl FnMut(&[[f6
             arc.push(x[i]);
         } else if !arc.is_empty() {
             arc.push(x[i]);
-            let (first, last) = (beyond_end(&arc[1], &arc[0], beyond), beyond_end(&arc[arc.len() - 2], &x[i], beyond));
+            let before = &x[(i + count - arc.len()) % count];
+            let first = beyond_end([&arc[1], &arc[0], before], -1.0, beyond);
+            let last = beyond_end([&arc[arc.len() - 2], &x[i], &x[(i + 1) % count]], 1.0, beyond);
             arc.insert(0, first);
             arc.push(last);
             action(&arc, false);
@@ -123,11 +125,17 @@ fn arcs(x: &[[f64; 2]], wall: &[bool], beyond: f64, mut action: impl FnMut(&[[f6
     }
 }
 
-/// The place `length` beyond `b` as seen from `a`.
-fn beyond_end(a: &[f64; 2], b: &[f64; 2], length: f64) -> [f64; 2] {
-    let [x, y] = [b[0] - a[0], b[1] - a[1]];
-    let stretch = length / x.hypot(y).max(f64::MIN_POSITIVE);
-    [b[0] + stretch * x, b[1] + stretch * y]
+/// The place `length` (m) beyond the end `b` of a run that comes from `a` and goes on along a wall to `c`, which has the material on its left where
+/// `side` is 1, on its right where it is −1: straight on, or, where that is into the material, as around a corner of the wall, half way between the wall and its normal.
+fn beyond_end([a, b, c]: [&[f64; 2]; 3], side: f64, length: f64) -> [f64; 2] {
+    let (straight, along) = (way(a, b), way(b, c));
+    let onward = if side * (along[0] * straight[1] - along[1] * straight[0]) > 0.0 {
+        [along[0] + side * along[1], along[1] - side * along[0]]
+    } else {
+        straight
+    };
+    let stretch = length / onward[0].hypot(onward[1]).max(f64::MIN_POSITIVE);
+    [b[0] + stretch * onward[0], b[1] + stretch * onward[1]]
 }
 
 /// Adds run `arc`; the first and the last segment of one that is not `closed` are those beyond walls.
