@@ -11,6 +11,7 @@ use crate::geometry::{Bins, foot, way};
 use crate::mesh::Mesh;
 use crate::mesh::locate::Locator;
 use rayon::prelude::*;
+use std::f64::consts::PI;
 
 /// The distance at the last restoration; its buffers are reused.
 #[derive(Clone, Debug, Default)]
@@ -36,6 +37,9 @@ struct Segment {
 
 /// More than the diameter of a cell, over its size: cells are not much longer than they are wide.
 const DIAMETER: f64 = 1.25;
+/// Where ahead of the end of a run, in shares of the reach, and in what turns (rad), the outside of the mesh is sought.
+const AHEAD: [f64; 5] = [0.2, 0.4, 0.6, 0.8, 1.0];
+const TURN: f64 = PI / 12.0;
 /// What a zero is, as a share of the reach.
 const ROUNDING: f64 = 1e-13;
 
@@ -52,11 +56,12 @@ impl Distance {
     ) {
         let wall = front.walls(mesh, geometry, locator);
         let reach = self.reach(mesh, locator, front, &wall);
+        let inside = |x: &[f64; 2]| locator.locate(mesh, x, None).is_some();
         self.segments.clear();
         let mut count = 0;
         for l in 0..front.loops() {
             let range = front.first[l] as usize..front.first[l + 1] as usize;
-            arcs(front.markers(l), &wall[range], 2.0 * reach, |arc, closed| {
+            arcs(front.markers(l), &wall[range], reach, &inside, |arc, closed| {
                 add_arc(&mut self.segments, arc, count, closed);
                 count += 1;
             });
@@ -98,9 +103,15 @@ impl Distance {
     }
 }
 
-/// Calls `action(markers, closed)` for every run of free segments of a loop; a run that ends at a wall is continued by
-/// `beyond` (m) at both ends.
-fn arcs(x: &[[f64; 2]], wall: &[bool], beyond: f64, mut action: impl FnMut(&[[f64; 2]], bool)) {
+/// Calls `action(markers, closed)` for every run of free segments of a loop; a run that ends at a wall is continued beyond it at both ends, farther
+/// than `reach` (m), given what is `inside` the mesh.
+fn arcs(
+    x: &[[f64; 2]],
+    wall: &[bool],
+    reach: f64,
+    inside: &dyn Fn(&[f64; 2]) -> bool,
+    mut action: impl FnMut(&[[f64; 2]], bool),
+) {
     let count = x.len();
     let Some(start) = wall.iter().position(|&wall| wall) else {
         action(x, true);
@@ -114,9 +125,8 @@ fn arcs(x: &[[f64; 2]], wall: &[bool], beyond: f64, mut action: impl FnMut(&[[f6
             arc.push(x[i]);
         } else if !arc.is_empty() {
             arc.push(x[i]);
-            let before = &x[(i + count - arc.len()) % count];
-            let first = beyond_end([&arc[1], &arc[0], before], -1.0, beyond);
-            let last = beyond_end([&arc[arc.len() - 2], &x[i], &x[(i + 1) % count]], 1.0, beyond);
+            let first = beyond_end([&arc[1], &arc[0]], 1.0, reach, inside);
+            let last = beyond_end([&arc[arc.len() - 2], &x[i]], -1.0, reach, inside);
             arc.insert(0, first);
             arc.push(last);
             action(&arc, false);
@@ -125,17 +135,21 @@ fn arcs(x: &[[f64; 2]], wall: &[bool], beyond: f64, mut action: impl FnMut(&[[f6
     }
 }
 
-/// The place `length` (m) beyond the end `b` of a run that comes from `a` and goes on along a wall to `c`, which has the material on its left where
-/// `side` is 1, on its right where it is −1: straight on, or, where that is into the material, as around a corner of the wall, half way between the wall and its normal.
-fn beyond_end([a, b, c]: [&[f64; 2]; 3], side: f64, length: f64) -> [f64; 2] {
-    let (straight, along) = (way(a, b), way(b, c));
-    let onward = if side * (along[0] * straight[1] - along[1] * straight[0]) > 0.0 {
-        [along[0] + side * along[1], along[1] - side * along[0]]
-    } else {
-        straight
+/// A place beyond the end `b` of a run that comes from `a` and goes on along a wall, farther than `reach` (m): straight on, or, where that is back
+/// `inside` the mesh, as around a corner of the wall, in the middle of what is outside it there. The wall is on the left of a way onward of the
+/// run where `side` is 1, on the right of it where it is −1.
+fn beyond_end([a, b]: [&[f64; 2]; 2], side: f64, reach: f64, inside: &dyn Fn(&[f64; 2]) -> bool) -> [f64; 2] {
+    let d = way(a, b);
+    let ahead = |turn: usize, by: f64| {
+        let (sin, cos) = (side * turn as f64 * TURN).sin_cos();
+        let stretch = by / d[0].hypot(d[1]).max(f64::MIN_POSITIVE);
+        [b[0] + stretch * (cos * d[0] - sin * d[1]), b[1] + stretch * (sin * d[0] + cos * d[1])]
     };
-    let stretch = length / onward[0].hypot(onward[1]).max(f64::MIN_POSITIVE);
-    [b[0] + stretch * onward[0], b[1] + stretch * onward[1]]
+    let is_inside = |&turn: &usize| AHEAD.iter().any(|share| inside(&ahead(turn, share * reach)));
+    let turns = (PI / TURN) as usize;
+    let first = (0..turns).find(|turn| !is_inside(turn)).unwrap_or(0);
+    let last = (first..turns).find(is_inside).unwrap_or(turns);
+    ahead(if first == 0 { 0 } else { (first + last) / 2 }, 2.0 * reach)
 }
 
 /// Adds run `arc`; the first and the last segment of one that is not `closed` are those beyond walls.
