@@ -86,7 +86,8 @@ impl<const D: usize> VolumeFit<D> {
             value += weight * sample.value;
             size += weight.abs();
         }
-        if size <= MOST { value } else { self.mean }
+        let (least, largest) = self.samples.iter().fold((0.0f64, 0.0f64), |(a, b), s| (a.min(s.value), b.max(s.value)));
+        if size <= MOST { value.clamp(2.0 * least, 2.0 * largest) } else { self.mean }
     }
 }
 
