@@ -344,7 +344,7 @@ impl<const D: usize, K: Kinematics<D>, S: Mixed<D, K>> Term<D> for Internal<K, S
             let new = |entries: Entries<D>, internal: &mut [f64]| {
                 let mut point = strain::<D, K>(frame.points, &entries, &ends).ok()?;
                 if let Some(None) = &volume {
-                    // What resists nothing is not compressed either.
+                    // What resists nothing stores nothing: it would be pressed without a limit.
                     point.take_volume::<D, K>(Ratios { step: 1.0, ..point.ratios });
                 } else if let Some(Some((of_step, of_grid))) = &volume {
                     let place = &frame.points.position[entries.point];
