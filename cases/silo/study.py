@@ -14,7 +14,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "pipeline"))
 from variants import history
 
 DENSITY, GRAVITY, FRICTION = 1.6, 9.81, 0.364  # of the sand, and at the walls [t/m³, m/s², -]
-HALF, SLOT, HEIGHT = 0.5, 0.15, 2.0  # half of the width of silo and slot, height of the sand [m]
+HALF, SLOT, HEIGHT = 0.5, 0.15, 1.5  # half of the width of silo and slot, height of the sand [m]
 REST = 0.3 / 0.7  # ν/(1 − ν): horizontal over vertical stress of elastic soil that does not widen [-]
 FULL = 1.0  # when the silo is opened [s]
 WITHIN = 0.1  # of a depth, where the stress is averaged [m]
@@ -51,7 +51,7 @@ def main() -> None:
     filled = next(p for t, p in points if abs(t - FULL) < 1e-6)
     y, stress = filled.points[:, 1], -filled["stress [kPa]"][:, 1]
     print("| depth (m) | vertical stress (kPa) | Janssen |\n|---|---|---|")
-    for depth in (0.5, 1.0, 1.5, 1.8):
+    for depth in (0.3, 0.6, 0.9, 1.2):
         near = abs(HEIGHT - y - depth) < WITHIN
         print(f"| {depth} | {stress[near].mean():.2f} | {janssen(depth):.2f} |")
 
@@ -60,7 +60,7 @@ def main() -> None:
     head = mass / (DENSITY * HALF)
     unit = 0.5 * DENSITY * GRAVITY**0.5 * (2 * SLOT) ** 1.5
     print(f"\nBeverloo: C = {BEVERLOO:.2f}, {BEVERLOO * unit:.3f} t/s\n| mean height of the sand (m) | rate (t/s) | C |\n|---|---|---|")
-    for top, bottom in ((1.9, 1.6), (1.6, 1.3), (1.3, 1.0), (1.0, 0.7), (0.7, 0.4)):
+    for top, bottom in ((1.4, 1.15), (1.15, 0.9), (0.9, 0.65), (0.65, 0.4)):
         within = (head <= top) & (head >= bottom)
         if within.sum() > 1:
             rate = -np.polyfit(time[within], mass[within], 1)[0]
