@@ -1,4 +1,4 @@
-//! A silo by the defaults, on cells that are coarser than those of the case: full, opened, and filled by a column that falls into it.
+//! A silo by the defaults, lower than that of the case: full, opened, and filled by a column that falls into it.
 
 use crate::support::solve;
 use std::fs;
@@ -38,18 +38,18 @@ fn above_floor(folder: &Path) -> Vec<[f64; 2]> {
     frames.iter().map(|found| frame(&found.path)).collect()
 }
 
-/// Before it is opened, floor and wall bear the weight, the floor that of Janssen for the horizontal stress of elastic soil at rest.
+/// Before it is opened, floor and wall bear the weight, the floor that of Janssen for the horizontal stress of elastic soil at rest. A slot has the constant
+/// 1.04 by Beverloo, and sand in free fall from an arch 0.87.
 #[test]
 fn a_silo_flows_out_at_a_rate_that_does_not_depend_on_its_height() {
-    let settings =
-        ["mesh.parameters={h: 0.15, height: 1.2, depth: 0.8}", "phases.empty.duration=1.2", "output.every=0.1"];
+    let settings = ["mesh.parameters={h: 0.1, height: 1, room: 1.5, depth: 0.6}", "phases.empty.duration=0.8"];
     let folder = solve("cases/silo", &settings);
     let names = ["time", "floor.contact_y", "gate.contact_y", "wall.contact_y"];
     let rows = columns(&folder.path().join("history.csv"), names);
     let full = rows.iter().find(|row| row[0] > 1.0 - 1e-9).unwrap();
-    let (floor, weight) = (-full[1] - full[2], 1.6 * 9.81 * 0.5 * 1.2);
+    let (floor, weight) = (-full[1] - full[2], 1.6 * 9.81 * 0.5);
     let rise: f64 = 0.364 * 0.3 / 0.7 / 0.5;
-    let janssen = 0.5 * 1.6 * 9.81 / rise * (1.0 - (-rise * 1.2).exp());
+    let janssen = 0.5 * 1.6 * 9.81 / rise * (1.0 - (-rise).exp());
     println!("floor {floor:.3} kN/m, Janssen {janssen:.3}");
     assert!(((floor - full[3]) / weight - 1.0).abs() < 1e-6, "{full:?}");
     assert!((floor / janssen - 1.0).abs() < 0.02, "{floor} {janssen}");
@@ -59,10 +59,11 @@ fn a_silo_flows_out_at_a_rate_that_does_not_depend_on_its_height() {
         let at = |t: f64| mass.iter().min_by(|a, b| (a[0] - t).abs().total_cmp(&(b[0] - t).abs())).unwrap();
         (at(from)[1] - at(to)[1]) / (to - from)
     };
-    let (first, second) = (rate(1.3, 1.7), rate(1.7, 2.2));
+    let (first, second) = (rate(1.3, 1.5), rate(1.5, 1.8));
     let constants = [first, second].map(|rate| 2.0 * rate / (1.6 * (9.81f64 * 0.3f64.powi(3)).sqrt()));
     println!("constants of Beverloo {constants:.3?}, from nowhere {:.1e}", least_numerical(folder.path()));
     assert!((first / second - 1.0).abs() < 0.1, "{constants:?}");
+    assert!(constants.iter().all(|c| (0.87..1.15).contains(c)), "{constants:?}");
     assert!(least_numerical(folder.path()) > -0.01);
 }
 
