@@ -430,7 +430,7 @@ SILO = Entry(
     "rate of discharge and force on the floor",
     "an arch in free fall and Beverloo for a slot; Janssen",
     [emptied(1.4, 0.9), emptied(0.9, 0.4), Row("", "force on the floor over Janssen's", full_silo, 1.0, 0.03)],
-    picture=("--mirror", "--window=-1.5,-1.4,1.5,1.6", "--range=0,2"),
+    picture=("--mirror", "--window=-1.5,-1.45,1.5,1.6", "--range=0,2", "--time=1.9"),
 )
 
 ENTRIES = [VERTICAL_CUT, TRENCH, JET_TRENCH, MUDMAT, SKIRTED_MAT, SPUDCAN, PLATE_ANCHOR, PUNCH_THROUGH, EMBEDDED_FOOTING, TBAR, SUCTION_ANCHOR, FREE_FALL_CONE, SLIDE_ON_PIPE, BUI_COLUMN, SILO, PASSIVE_WALL]

@@ -37,8 +37,9 @@ struct Segment {
 
 /// More than the diameter of a cell, over its size: cells are not much longer than they are wide.
 const DIAMETER: f64 = 1.25;
-/// Where ahead of the end of a run, in shares of the reach, and in what turns (rad), the outside of the mesh is sought.
+/// Where ahead of the end of a run, in shares of the reach (-), the outside of the mesh is sought.
 const AHEAD: [f64; 5] = [0.2, 0.4, 0.6, 0.8, 1.0];
+/// The turns (rad) in which it is sought.
 const TURN: f64 = PI / 12.0;
 /// What a zero is, as a share of the reach.
 const ROUNDING: f64 = 1e-13;
