@@ -398,4 +398,39 @@ PASSIVE_WALL = Entry(
     picture=("--window=-1.5,-0.2,6.2,4.8",),
 )
 
-ENTRIES = [VERTICAL_CUT, TRENCH, JET_TRENCH, MUDMAT, SKIRTED_MAT, SPUDCAN, PLATE_ANCHOR, PUNCH_THROUGH, EMBEDDED_FOOTING, TBAR, SUCTION_ANCHOR, FREE_FALL_CONE, SLIDE_ON_PIPE, BUI_COLUMN, PASSIVE_WALL]
+def emptied(top: float, bottom: float) -> Row:
+    """Beverloo's constant of the slot while the mean height of the sand is between two."""
+
+    def found(out: Path) -> float:
+        reader = pyvista.get_reader(str(out / "points.pvd"))
+        time, mass = [], []
+        for t in (t for t in reader.time_values if t >= 1):
+            reader.set_active_time_value(t)
+            points = reader.read()[0]
+            time.append(t)
+            mass.append(points["mass [t]"][points.points[:, 1] > 0].sum())
+        height = np.array(mass) / (1.6 * 0.5)
+        within = (height <= top) & (height >= bottom)
+        return -np.polyfit(np.array(time)[within], np.array(mass)[within], 1)[0] / (0.5 * 1.6 * 9.81**0.5 * 0.3**1.5)
+
+    return Row("", f"rate over ρ √g w^1.5, heights of {top:g} to {bottom:g} m", found, (0.87, 1.04), 0.1)
+
+
+def full_silo(out: Path) -> float:
+    """The force on the floor and the gate before it is opened, over that of Janssen for ν/(1 − ν)."""
+    columns = history(out)
+    full = np.argmin(np.abs(columns["time"] - 1))
+    rise = 0.364 * 0.3 / 0.7 / 0.5
+    janssen = 0.5 * 1.6 * 9.81 / rise * (1 - np.exp(-rise * 1.5))
+    return -(columns["floor.contact_y"][full] + columns["gate.contact_y"][full]) / janssen
+
+
+SILO = Entry(
+    "silo",
+    "rate of discharge and force on the floor",
+    "an arch in free fall and Beverloo for a slot; Janssen",
+    [emptied(1.4, 0.9), emptied(0.9, 0.4), Row("", "force on the floor over Janssen's", full_silo, 1.0, 0.03)],
+    picture=("--mirror", "--window=-1.5,-1.45,1.5,1.6", "--range=0,2", "--time=1.9"),
+)
+
+ENTRIES = [VERTICAL_CUT, TRENCH, JET_TRENCH, MUDMAT, SKIRTED_MAT, SPUDCAN, PLATE_ANCHOR, PUNCH_THROUGH, EMBEDDED_FOOTING, TBAR, SUCTION_ANCHOR, FREE_FALL_CONE, SLIDE_ON_PIPE, BUI_COLUMN, SILO, PASSIVE_WALL]

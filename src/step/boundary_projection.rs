@@ -1,14 +1,16 @@
 //! Projection of points that are slightly beyond a support (docs/theory.md, section 4, *Points beyond a support*).
 //!
-//! The nodes of a support do not move across it, and so neither does any place on its sides. But a cell beside it that is strongly
+//! The nodes of a support do not move across it, and so neither does any place on its sides; soil does not cross a wall at the boundary of the mesh either. But a cell beside it that is strongly
 //! compressed or sheared can move a point across. Such a point is projected onto the side; its velocity across the side vanishes with
 //! that of the nodes there.
 //!
 //! Elsewhere soil that leaves the mesh is an error, but a few points that splash or heave a little beyond its end do not end an analysis: they are
 //! put back onto it too, with a warning. A point that is farther beyond is an error.
 
+use super::facing::outlines;
 use super::scene::Scene;
 use super::state::State;
+use crate::geometry::{at, nearest as distance_to};
 use crate::kinematics::Kinematics;
 use crate::mesh::Mesh;
 use crate::mesh::locate::Locator;
@@ -17,6 +19,9 @@ use rayon::prelude::*;
 
 /// How far beyond a side a point may be (-), in the diagonal of the cell there.
 pub const FARTHEST: f64 = 0.1;
+
+/// How near (-) to a wall a side of the mesh is that lies on it, in the diagonal of its cell.
+const ON_WALL: f64 = 1e-6;
 
 /// Part of the material points (-) that may be beyond the end of the mesh where nothing holds them.
 const FEW: f64 = 0.01;
@@ -35,7 +40,7 @@ pub fn project_onto_boundary<const D: usize, K: Kinematics<D>>(
     if lost.is_empty() {
         return (None, None);
     }
-    let held = holding(scene, mesh, state.phase);
+    let held = holding(scene, mesh, state);
     let open: Vec<Side<D>> = scene.locator.faces.boundary.iter().map(|&side| Side::of(mesh, side)).collect();
     let nearest = |sides: &[Side<D>], x: &[f64; D]| {
         let near = sides.iter().filter_map(|side| side.nearest(x, FARTHEST));
@@ -69,8 +74,19 @@ pub fn project_onto_boundary<const D: usize, K: Kinematics<D>>(
     (of_supports, Some(of_end))
 }
 
-/// The sides on the boundary whose nodes cannot move across them in a phase.
-pub fn holding<const D: usize>(scene: &Scene<D>, mesh: &Mesh<D>, phase: usize) -> Vec<Side<D>> {
+/// The sides on the boundary that soil cannot cross in a phase: their nodes cannot, or a wall is there.
+pub fn holding<const D: usize>(scene: &Scene<D>, mesh: &Mesh<D>, state: &State<D>) -> Vec<Side<D>> {
+    let phase = state.phase;
+    let walls = outlines(scene, state);
+    let is_near =
+        |x: &[f64; D], line: &[[f64; D]], by: f64| line.windows(2).any(|w| distance_to(x, &[w[0], w[1]]).1 <= by);
+    let is_wall = |Side { ends, size }: &Side<D>| {
+        let middle = at(ends, 0.5);
+        let lies = |wall: &Vec<[f64; D]>| {
+            ends.iter().all(|x| is_near(x, wall, ON_WALL * size)) && is_near(&middle, wall, FARTHEST * size)
+        };
+        walls.iter().any(lies)
+    };
     let mut held = vec![[false; D]; scene.displacements()];
     for fixed in &scene.supports {
         for &n in &fixed.nodes {
@@ -91,7 +107,7 @@ pub fn holding<const D: usize>(scene: &Scene<D>, mesh: &Mesh<D>, phase: usize) -
         // In the plane, a side along one axis is crossed along the other; one at a slant along both.
         let crossed = |d: usize| (ends[1][1 - d] - ends[0][1 - d]).abs() > 1e-9 * size;
         let holds = (0..D).all(|d| !crossed(d) || facet.iter().all(|&i| held[nodes[i] as usize][d]));
-        holds.then_some(side)
+        (holds || is_wall(&side)).then_some(side)
     };
     scene.locator.faces.boundary.iter().filter_map(side).collect()
 }

@@ -86,7 +86,7 @@ pub fn check<const D: usize, K: Kinematics<D>>(
     if outside.is_empty() {
         return Ok(());
     }
-    let holding = holding(scene, mesh, state.phase);
+    let holding = holding(scene, mesh, state);
     let all: Vec<Side<D>> = scene.locator.faces.boundary.iter().map(|&side| Side::of(mesh, side)).collect();
     let nearest = |sides: &[Side<D>], x: &[f64; D]| -> Option<([f64; D], f64, f64)> {
         let of_side = |side: &Side<D>| side.nearest(x, f64::INFINITY).map(|(place, away)| (place, away, side.size));

@@ -1,7 +1,7 @@
 //! The signed distance of the nodes to the free surface of a front.
 //!
 //! Only free segments count. Where the surface ends at a wall it is continued straight beyond it, so that the level
-//! set of a straight surface is linear up to the wall. What is continued counts for nodes alone whose nearest free segment is of the same
+//! set of a straight surface is linear up to the wall; where soil comes around a corner of the wall, that would be back into the soil, and it goes on within the wall. What is continued counts for nodes alone whose nearest free segment is of the same
 //! run: another run may lie between, as on the outside of a toe whose underside is hollow. The sign comes from the nearest segment; far from all
 //! of them a node is in the material if a cell around it holds points.
 
@@ -11,6 +11,7 @@ use crate::geometry::{Bins, foot, way};
 use crate::mesh::Mesh;
 use crate::mesh::locate::Locator;
 use rayon::prelude::*;
+use std::f64::consts::PI;
 
 /// The distance at the last restoration; its buffers are reused.
 #[derive(Clone, Debug, Default)]
@@ -36,6 +37,10 @@ struct Segment {
 
 /// More than the diameter of a cell, over its size: cells are not much longer than they are wide.
 const DIAMETER: f64 = 1.25;
+/// Where ahead of the end of a run, in shares of the reach (-), the outside of the mesh is sought.
+const AHEAD: [f64; 5] = [0.2, 0.4, 0.6, 0.8, 1.0];
+/// The turns (rad) in which it is sought.
+const TURN: f64 = PI / 12.0;
 /// What a zero is, as a share of the reach.
 const ROUNDING: f64 = 1e-13;
 
@@ -52,11 +57,12 @@ impl Distance {
     ) {
         let wall = front.walls(mesh, geometry, locator);
         let reach = self.reach(mesh, locator, front, &wall);
+        let inside = |x: &[f64; 2]| locator.locate(mesh, x, None).is_some();
         self.segments.clear();
         let mut count = 0;
         for l in 0..front.loops() {
             let range = front.first[l] as usize..front.first[l + 1] as usize;
-            arcs(front.markers(l), &wall[range], 2.0 * reach, |arc, closed| {
+            arcs(front.markers(l), &wall[range], reach, &inside, |arc, closed| {
                 add_arc(&mut self.segments, arc, count, closed);
                 count += 1;
             });
@@ -98,9 +104,15 @@ impl Distance {
     }
 }
 
-/// Calls `action(markers, closed)` for every run of free segments of a loop; a run that ends at a wall is continued by
-/// `beyond` (m) at both ends.
-fn arcs(x: &[[f64; 2]], wall: &[bool], beyond: f64, mut action: impl FnMut(&[[f64; 2]], bool)) {
+/// Calls `action(markers, closed)` for every run of free segments of a loop; a run that ends at a wall is continued beyond it at both ends, farther
+/// than `reach` (m), given what is `inside` the mesh.
+fn arcs(
+    x: &[[f64; 2]],
+    wall: &[bool],
+    reach: f64,
+    inside: &dyn Fn(&[f64; 2]) -> bool,
+    mut action: impl FnMut(&[[f64; 2]], bool),
+) {
     let count = x.len();
     let Some(start) = wall.iter().position(|&wall| wall) else {
         action(x, true);
@@ -114,7 +126,8 @@ fn arcs(x: &[[f64; 2]], wall: &[bool], beyond: f64, mut action: impl FnMut(&[[f6
             arc.push(x[i]);
         } else if !arc.is_empty() {
             arc.push(x[i]);
-            let (first, last) = (beyond_end(&arc[1], &arc[0], beyond), beyond_end(&arc[arc.len() - 2], &x[i], beyond));
+            let first = beyond_end([&arc[1], &arc[0]], 1.0, reach, inside);
+            let last = beyond_end([&arc[arc.len() - 2], &x[i]], -1.0, reach, inside);
             arc.insert(0, first);
             arc.push(last);
             action(&arc, false);
@@ -123,11 +136,21 @@ fn arcs(x: &[[f64; 2]], wall: &[bool], beyond: f64, mut action: impl FnMut(&[[f6
     }
 }
 
-/// The place `length` beyond `b` as seen from `a`.
-fn beyond_end(a: &[f64; 2], b: &[f64; 2], length: f64) -> [f64; 2] {
-    let [x, y] = [b[0] - a[0], b[1] - a[1]];
-    let stretch = length / x.hypot(y).max(f64::MIN_POSITIVE);
-    [b[0] + stretch * x, b[1] + stretch * y]
+/// A place beyond the end `b` of a run that comes from `a` and goes on along a wall, farther than `reach` (m): straight on, or, where that is back
+/// `inside` the mesh, as around a corner of the wall, in the middle of what is outside it there. The wall is on the left of a way onward of the
+/// run where `side` is 1, on the right of it where it is −1.
+fn beyond_end([a, b]: [&[f64; 2]; 2], side: f64, reach: f64, inside: &dyn Fn(&[f64; 2]) -> bool) -> [f64; 2] {
+    let d = way(a, b);
+    let ahead = |turn: usize, by: f64| {
+        let (sin, cos) = (side * turn as f64 * TURN).sin_cos();
+        let stretch = by / d[0].hypot(d[1]).max(f64::MIN_POSITIVE);
+        [b[0] + stretch * (cos * d[0] - sin * d[1]), b[1] + stretch * (sin * d[0] + cos * d[1])]
+    };
+    let is_inside = |&turn: &usize| AHEAD.iter().any(|share| inside(&ahead(turn, share * reach)));
+    let turns = (PI / TURN) as usize;
+    let first = (0..turns).find(|turn| !is_inside(turn)).unwrap_or(0);
+    let last = (first..turns).find(is_inside).unwrap_or(turns);
+    ahead(if first == 0 { 0 } else { (first + last) / 2 }, 2.0 * reach)
 }
 
 /// Adds run `arc`; the first and the last segment of one that is not `closed` are those beyond walls.

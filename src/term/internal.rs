@@ -323,7 +323,7 @@ impl<const D: usize, K: Kinematics<D>, S: Mixed<D, K>> Term<D> for Internal<K, S
             let held = trial.geometry.map(|u| frame.interpolation.gather(frame.mesh, cell_points, u));
             let ends = Ends { now: &now, before: Some(&before), held: held.as_deref().map(moved_nodes) };
             let cell = self.share.over(frame, trial, cell_points);
-            let volume = frame.integration.and_then(|(interpolation, points)| {
+            let volume = frame.integration.map(|(interpolation, points)| {
                 let cell_points = interpolation.of_cell(cell_points.cell)?;
                 let [now, before] =
                     [trial.displacement, trial.converged].map(|u| interpolation.gather(frame.mesh, cell_points, u));
@@ -343,7 +343,10 @@ impl<const D: usize, K: Kinematics<D>, S: Mixed<D, K>> Term<D> for Internal<K, S
             let mut out = Histories::with_capacity(cell_points.point_count as usize, count);
             let new = |entries: Entries<D>, internal: &mut [f64]| {
                 let mut point = strain::<D, K>(frame.points, &entries, &ends).ok()?;
-                if let Some((of_step, of_grid)) = &volume {
+                if let Some(None) = &volume {
+                    // What resists nothing stores nothing: it would be pressed without a limit.
+                    point.take_volume::<D, K>(Ratios { step: 1.0, ..point.ratios });
+                } else if let Some(Some((of_step, of_grid))) = &volume {
                     let place = &frame.points.position[entries.point];
                     let before = of_grid.at(place).exp();
                     let by_law = self.share.volume_ratio(&cell, frame.points, &entries, before);

@@ -6,12 +6,13 @@ use std::path::Path;
 use std::process::Command;
 
 /// The templates, and what makes the mesh of each coarse.
-const TEMPLATES: [(&str, &str); 7] = [
+const TEMPLATES: [(&str, &str); 8] = [
     ("anchor", "0.25"),
     ("consolidation", "0.1"),
     ("footing", "0.2"),
     ("penetration", "0.25"),
     ("pipe", "0.2"),
+    ("silo", "0.15"),
     ("slope", "2.5"),
     ("wall", "1"),
 ];

@@ -159,3 +159,32 @@ fn the_underside_of_a_toe_says_nothing_of_its_outside() {
         assert!((*found > 0.0) == within(&[x[0], x[1] + 1e-9]), "{x:?}: {found}");
     }
 }
+
+/// Soil that flows around the edge of an opening: straight on, its surface would go on through the soil above the floor.
+#[test]
+fn soil_around_a_corner_of_the_wall_is_not_cut() {
+    // The last free marker is at the edge, or a chord cuts the edge off.
+    let edges = [[0.4991, 0.4997], [0.4988, 0.4864], [0.4921, 0.4626]];
+    for (mirrored, edge) in edges.into_iter().flat_map(|edge| [(false, edge), (true, edge)]) {
+        let turn = |x: f64| if mirrored { 2.0 - x } else { x };
+        let whole = rectangle(CellKind::T6, 2.0, 1.5, 16, 12, 0.0, 0);
+        let mesh = whole.part(|c| whole.centre(c)[1] > 0.5 || turn(whole.centre(c)[0]) < 0.5);
+        let (geometry, locator) = (Geometry::new::<PlaneStrain>(&mesh), Locator::new(&mesh));
+        // Ahead of the opening, around its edge, along the floor and back.
+        let ahead = [[0.0, 0.47], [0.25, 0.44], [0.42, 0.43], [0.4853, 0.4395], edge, [0.5141, 0.5]];
+        let around = [[0.6, 0.5], [1.0, 0.5], [2.0, 0.5], [2.0, 1.2], [0.0, 1.2]];
+        let mut body: Vec<[f64; 2]> = ahead.iter().chain(&around).map(|x| [turn(x[0]), x[1]]).collect();
+        if mirrored {
+            body.reverse();
+        }
+        let front = MarkerFront { first: vec![0, body.len() as u32], position: body };
+        let holds = |c: &u32| (0.5..1.2).contains(&mesh.centre(*c as usize)[1]);
+        let cell: Vec<u32> = (0..mesh.cells.len() as u32).filter(holds).collect();
+        let mut distance = Distance::default();
+        distance.update(&mesh, &geometry, &locator, &front, &cell, &vec![true; mesh.cells.len()]);
+        for (&[x, y], found) in mesh.nodes.iter().zip(&distance.level_set) {
+            let ahead = turn(x) < 0.51 && (y - 0.45).abs() < 0.06;
+            assert!(ahead || (*found > 0.0) == (y > 0.49 && y < 1.2), "{mirrored} {edge:?} [{x}, {y}]: {found}");
+        }
+    }
+}
