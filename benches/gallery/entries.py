@@ -398,4 +398,35 @@ PASSIVE_WALL = Entry(
     picture=("--window=-1.5,-0.2,6.2,4.8",),
 )
 
-ENTRIES = [VERTICAL_CUT, TRENCH, JET_TRENCH, MUDMAT, SKIRTED_MAT, SPUDCAN, PLATE_ANCHOR, PUNCH_THROUGH, EMBEDDED_FOOTING, TBAR, SUCTION_ANCHOR, FREE_FALL_CONE, SLIDE_ON_PIPE, BUI_COLUMN, PASSIVE_WALL]
+
+def surcharge_factor(angle: float) -> float:
+    """N_q (-) of an angle of friction (degrees)."""
+    tangent = np.tan(np.radians(angle))
+    return np.exp(np.pi * tangent) * np.tan(np.radians(45 + angle / 2)) ** 2
+
+
+def of_surcharge(out: Path) -> float:
+    """N_q of a footing 1 m wide on each side, on soil without weight that bears 10 kPa beneath it, too."""
+    return history(out)["footing.contact_y"][-1] / 10 + 1
+
+
+FOOTING_ON_SAND = Entry(
+    "footing_on_sand",
+    "N_q, φ = 30°",
+    "slip lines (Prandtl 1921, Reissner 1924); without dilation between Davis (1968) and these",
+    [
+        Row("", "N_q, ψ = φ", of_surcharge, surcharge_factor(30), 0.03),
+        Row("no-dilation", "N_q, ψ = 0", of_surcharge, (surcharge_factor(26.565), surcharge_factor(30)), 0.0, {"materials.sand.dilation": 0}),
+    ],
+    picture=("--window=0,-3,7,0.6",),
+)
+
+CPT_SAND = Entry(
+    "cpt_sand",
+    "load on the cone",
+    "the limit pressure of a spherical cavity (Yu & Houlsby 1991)",
+    [Row("", "load [kN], tip at 4 m", mean("cone.contact_y", "cone.uy", 3.9, 0.1), 2560, 0.2)],
+    picture=("--window=0,-6,6,1.5",),
+)
+
+ENTRIES = [VERTICAL_CUT, TRENCH, JET_TRENCH, MUDMAT, SKIRTED_MAT, SPUDCAN, PLATE_ANCHOR, PUNCH_THROUGH, EMBEDDED_FOOTING, TBAR, SUCTION_ANCHOR, FREE_FALL_CONE, SLIDE_ON_PIPE, BUI_COLUMN, PASSIVE_WALL, FOOTING_ON_SAND, CPT_SAND]
