@@ -418,7 +418,7 @@ FOOTING_ON_SAND = Entry(
         Row("", "N_q, ψ = φ", of_surcharge, surcharge_factor(30), 0.03),
         Row("no-dilation", "N_q, ψ = 0", of_surcharge, (surcharge_factor(26.565), surcharge_factor(30)), 0.0, {"materials.sand.dilation": 0}),
     ],
-    picture=("--window=0,-3,7,0.6",),
+    picture=("--window=0,-3,7,0.6", "--range=0,0.004"),
 )
 
 CPT_SAND = Entry(

@@ -307,7 +307,7 @@ impl<'a, const D: usize> Newton<'a, D> {
     /// step is as hard, with all residuals in proportion.
     fn most_iterations(&self) -> usize {
         let Problem { scene, integration, .. } = self.problem;
-        let flows = integration.is_none() && scene.terms.iter().any(|term| term.has_friction());
+        let flows = integration.is_none() && scene.has_friction();
         (if flows { LONGER } else { 1 }) * scene.numerics.max_iterations
     }
 
