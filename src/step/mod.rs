@@ -222,7 +222,7 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
         let mut report = timed(Activity::Transfer, || self.convect(dt, complete));
         report.restored = self.state.restorations > before;
         report.unbalanced = begun.unbalanced;
-        report.halvings = controller.accept(dt, report.iterations(), self.state.flows_by_friction(self.scene));
+        report.halvings = controller.accept(dt, report.iterations());
         Ok(report)
     }
 

@@ -146,11 +146,6 @@ impl<const D: usize> State<D> {
         self.switched_to_dynamics || scene.phases.get(self.phase).is_some_and(|phase| phase.dynamic)
     }
 
-    /// Whether the step in hand is without inertia, and of soil with friction.
-    pub fn flows_by_friction(&self, scene: &Scene<D>) -> bool {
-        !self.dynamic(scene) && scene.has_friction()
-    }
-
     /// Weight `α_f` of the beginning of the step in hand, 0 without inertia.
     pub fn alpha_f(&self, scene: &Scene<D>) -> f64 {
         if self.dynamic(scene) { GeneralisedAlpha::new(scene.numerics.spectral_radius, 1.0).alpha_f } else { 0.0 }
