@@ -425,8 +425,8 @@ CPT_SAND = Entry(
     "cpt_sand",
     "load on the cone",
     "the limit pressure of a spherical cavity (Yu & Houlsby 1991)",
-    [Row("", "load [kN], tip at 4 m", mean("cone.contact_y", "cone.uy", 3.9, 0.1), 2560, 0.2)],
-    picture=("--window=0,-6,6,1.5",),
+    [Row("", "load [kN], tip at 4 m", mean("cone.contact_y", "cone.uy", 4.0, 0.15), 2560, 0.2)],
+    picture=("--window=0,-6,6,1.5", "--range=0,1"),
 )
 
 ENTRIES = [VERTICAL_CUT, TRENCH, JET_TRENCH, MUDMAT, SKIRTED_MAT, SPUDCAN, PLATE_ANCHOR, PUNCH_THROUGH, EMBEDDED_FOOTING, TBAR, SUCTION_ANCHOR, FREE_FALL_CONE, SLIDE_ON_PIPE, BUI_COLUMN, PASSIVE_WALL, FOOTING_ON_SAND, CPT_SAND]
