@@ -12,6 +12,10 @@
 //! solutions remove its effect where the points determine the motion (iterated Tikhonov regularisation). Of a motion that is quadratic in a
 //! square cell of width `l`, evenly spread points determine `1/720 ρ l⁴` times its squared curvature. With `α = 720 ε₂ h⁴/l⁴`, `h = √2 l` being
 //! the diagonal, the fraction `(α/(1 + α))²` of it is lost: 8·10⁻⁴, and three quarters where the points are in a third of the width.
+//!
+//! The inertia of a step has the mass of the integration points, elsewhere in the cells than that of the material points. Motions that these hardly see
+//! might have any energy there. So the integration points take part with [`SEEN`] of their mass and the motion that is fitted at them; the further
+//! solutions remove its effect where the material points determine the motion.
 
 use super::family::{Family, System};
 use super::grid::Grid;

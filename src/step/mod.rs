@@ -43,6 +43,7 @@ mod rigid;
 mod scalars;
 mod scene;
 mod search;
+mod start;
 mod state;
 mod traced;
 mod transfer;
@@ -73,8 +74,9 @@ use crate::kinematics::Kinematics;
 use crate::profile::{Activity, timed};
 use crate::time_integration::GeneralisedAlpha;
 use problem::Problem;
+use start::Start;
 use std::marker::PhantomData;
-use transfer::{Answers, Start};
+use transfer::Answers;
 
 /// The result of [`Simulation::lagrange`]: with inertia, the velocity and acceleration of the nodes at the start; and the solution.
 type Lagrange<const D: usize> = (Option<Start<D>>, Solution<D>);

@@ -27,7 +27,7 @@ const FORCING: f64 = 0.1;
 const FOLLOWING: f64 = 8.0;
 /// No more stiffening (-) than this then.
 const MOST_FOLLOWING: f64 = 0.3;
-/// How many times as many iterations a quasi-static step of soil with friction may take.
+/// How many times as many iterations a step may take then, and a quasi-static one of soil with friction.
 const LONGER: usize = 2;
 /// Where an iteration leaves less than this part (-) of the residual, the factor of the last tangent preconditions the next one.
 const NEAR: f64 = 0.1;
@@ -303,17 +303,16 @@ impl<'a, const D: usize> Newton<'a, D> {
         self.buffers.gap.iter().all(|g| *g == 0.0) && self.error() <= self.tolerance()
     }
 
-    /// The number of iterations after which the step is halved. Soil with friction that yields at corners of its yield surface may take more: the smaller
-    /// step is as hard, with all residuals in proportion.
-    fn most_iterations(&self) -> usize {
-        let Problem { scene, integration, .. } = self.problem;
-        let flows = integration.is_none() && scene.has_friction();
-        (if flows { LONGER } else { 1 }) * scene.numerics.max_iterations
+    /// Whether it is a quasi-static step of soil with friction, which yields at corners of its yield surface.
+    fn has_corners(&self) -> bool {
+        self.problem.integration.is_none() && self.problem.scene.has_friction()
     }
 
     /// `K δ = −R`, where δ of a prescribed displacement is what is left to it, as the last call of [`Newton::converged`] found.
     fn direction(&mut self) -> Result<()> {
-        if self.history.len() > self.most_iterations() {
+        // In a smaller step the same tangent would be singular, and the way from corner to corner as long.
+        let longer = if self.singular.is_some() || self.has_corners() { LONGER } else { 1 };
+        if self.history.len() > longer * self.problem.scene.numerics.max_iterations {
             return Err(self.failure("too many iterations"));
         }
         if !self.tangent {
