@@ -27,7 +27,7 @@ const FORCING: f64 = 0.1;
 const FOLLOWING: f64 = 8.0;
 /// No more stiffening (-) than this then.
 const MOST_FOLLOWING: f64 = 0.3;
-/// How many times as many iterations a step may take then, and a quasi-static one of soil with friction.
+/// How many times as many iterations a step may take then.
 const LONGER: usize = 2;
 /// Where an iteration leaves less than this part (-) of the residual, the factor of the last tangent preconditions the next one.
 const NEAR: f64 = 0.1;
@@ -67,8 +67,6 @@ struct Newton<'a, const D: usize> {
     /// The number of them before the iteration last began: from the predicted state, or anew from the converged one.
     before: usize,
     method: Method,
-    /// Residuals (kN) of the states accepted so far.
-    recent: Vec<f64>,
     /// The residual (kN) on the right of eq. 14, and how many full steps in a row the watchdog has accepted that did not reduce it.
     target: f64,
     relaxed: usize,
@@ -107,7 +105,6 @@ impl<'a, const D: usize> Newton<'a, D> {
             history: Vec::new(),
             before: 0,
             method: Method::Cholesky,
-            recent: Vec::new(),
             target: f64::INFINITY,
             relaxed: 0,
             strict,
@@ -199,7 +196,6 @@ impl<'a, const D: usize> Newton<'a, D> {
         self.problem.begin(self.grid, &mut self.buffers.now.at, self.problem.converged());
         self.buffers.best.clone_from(&self.buffers.now.at);
         (self.target, self.damping, self.stalled, self.singular) = (f64::INFINITY, 0.0, 0, None);
-        self.recent.clear();
         self.before = self.history.len();
     }
 
@@ -303,15 +299,10 @@ impl<'a, const D: usize> Newton<'a, D> {
         self.buffers.gap.iter().all(|g| *g == 0.0) && self.error() <= self.tolerance()
     }
 
-    /// Whether it is a quasi-static step of soil with friction, which yields at corners of its yield surface.
-    fn has_corners(&self) -> bool {
-        self.problem.integration.is_none() && self.problem.scene.has_friction()
-    }
-
     /// `K δ = −R`, where δ of a prescribed displacement is what is left to it, as the last call of [`Newton::converged`] found.
     fn direction(&mut self) -> Result<()> {
-        // In a smaller step the same tangent would be singular, and the way from corner to corner as long.
-        let longer = if self.singular.is_some() || self.has_corners() { LONGER } else { 1 };
+        // In a smaller step the same tangent would be singular.
+        let longer = if self.singular.is_some() { LONGER } else { 1 };
         if self.history.len() > longer * self.problem.scene.numerics.max_iterations {
             return Err(self.failure("too many iterations"));
         }

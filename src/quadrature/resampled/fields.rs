@@ -26,7 +26,7 @@ pub const WATER: usize = 14;
 pub const ORIGIN: usize = 15;
 
 /// Those that stay within the range of the points.
-pub const BOUNDED: std::ops::Range<usize> = DENSITY..PRESSURE;
+pub const BOUNDED: std::ops::Range<usize> = DENSITY..VELOCITY;
 
 /// The model of each material by number.
 pub type Models = Vec<Option<Arc<dyn Model>>>;

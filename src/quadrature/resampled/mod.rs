@@ -60,10 +60,10 @@ pub struct Resampled<K> {
     seeded: Vec<u32>,
 }
 
-/// The part (-) of the volume of a cell's material points that is within the surface, below which they are integration points themselves.
-const REACHED: f64 = 0.9;
-/// The same beside structures, where points may be a little within these.
-const REACHED_BY_STRUCTURES: f64 = 0.5;
+/// The part (-) of the volume of a cell's material points that is within the surface, below which they may be integration points themselves.
+const REACHED: f64 = 0.5;
+/// The least part (-) of the volume of such a cell that the surface leaves out of them.
+const MISSED: f64 = 0.2;
 
 /// An integration point with its state.
 struct Sample {
@@ -209,13 +209,15 @@ impl<K: Kinematics<2>> Resampled<K> {
         let Restored { mesh, points, active, .. } = *grid;
         let Surface { level_set, mut outside, lost: lost_front } = Surface::of::<K>(geometry, grid, front);
         if !points.velocity.is_empty() {
-            // With inertia neither is what the surface leaves out of a toe that is thinner than a cell.
-            let least = if grid.outlines.is_empty() { REACHED } else { REACHED_BY_STRUCTURES };
+            // Nor is what the surface leaves out of a toe on the boundary of the mesh that is thinner than a cell.
             let mut held = vec![0.0; mesh.cells.len()];
             points.cell.iter().enumerate().for_each(|(p, &c)| held[c as usize] += points.volume(p));
-            for c in (0..mesh.cells.len()).filter(|&c| held[c] > 0.0) {
+            let ends = |c: usize| grid.locator.faces.neighbours(c as u32).len() < mesh.cells.corners(c).len();
+            for c in (0..mesh.cells.len()).filter(|&c| held[c] > 0.0 && ends(c)) {
                 let values: Vec<f64> = mesh.cells.nodes(c).iter().map(|&n| level_set[n as usize]).collect();
-                outside[c] |= geometry.filled::<K>(mesh, c, &values) < least * held[c];
+                let (whole, filled) = (geometry.volume(c), geometry.filled::<K>(mesh, c, &values));
+                let holds = held[c].min(whole);
+                outside[c] |= filled < REACHED * holds && holds - filled > MISSED * whole;
             }
         }
         let values = |c: usize| -> Vec<f64> { mesh.cells.nodes(c).iter().map(|&n| level_set[n as usize]).collect() };

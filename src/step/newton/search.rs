@@ -16,10 +16,6 @@ const LEAST_DAMPING: f64 = 1e-4;
 /// No larger fraction (-): 0.1 is the largest power of ten below. Without damping a wall that is pushed into clay stops as it is pulled
 /// (`docs/numerics.md`, *As expected*).
 const MOST_DAMPING: f64 = 0.2;
-/// The residual of an iteration of a quasi-static step of soil with friction is to fall below the largest of this many before it (Grippo, Lampariello & Lucidi 1986).
-const MEMORY: usize = 5;
-/// Only with residuals below this part (-) of the largest force: farther from equilibrium soil is shed into motions from which it does not come back.
-const CLOSE: f64 = 0.1;
 /// The factor by which damping grows where it is too little, and falls after each accepted step.
 const DAMPING_FACTOR: f64 = 10.0;
 /// From this many halvings of an accepted step length on, the diagonal is raised. Else the last equilibrium of a slope is found at a factor of safety
@@ -216,11 +212,6 @@ impl<const D: usize> Newton<'_, D> {
         self.take(tangent);
         let Buffers { now, best, .. } = &mut self.buffers;
         best.clone_from(&now.at);
-        if !self.has_corners() || self.error() > CLOSE {
-            self.recent.clear();
-        }
-        self.recent.push(self.size(&self.buffers.now));
-        let last = &self.recent[self.recent.len().saturating_sub(MEMORY)..];
-        (self.target, self.relaxed, self.stalled) = (last.iter().copied().fold(0.0, f64::max), 0, 0);
+        (self.target, self.relaxed, self.stalled) = (self.size(&self.buffers.now), 0, 0);
     }
 }
