@@ -1,8 +1,8 @@
 //! The signed distance of the nodes to the free surface of a front.
 //!
 //! Only free segments count. Where the surface ends at a wall it is continued straight beyond it, so that the level
-//! set of a straight surface is linear up to the wall; where soil comes around a corner of the wall, that would be back into the soil, and it goes on within the wall. What is continued counts for nodes alone whose nearest free segment is of the same
-//! run: another run may lie between, as on the outside of a toe whose underside is hollow. The sign comes from the nearest segment; far from all
+//! set of a straight surface is linear up to the wall; where soil comes around a corner of the wall, that would be back into the soil, and it
+//! goes on within the wall. What is continued counts for nodes alone whose nearest free segment is of the same run: another run may lie between, as on the outside of a toe whose underside is hollow. The sign comes from the nearest segment; far from all
 //! of them a node is in the material if a cell around it holds points.
 
 use super::front::MarkerFront;
