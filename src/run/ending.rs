@@ -206,7 +206,7 @@ pub fn in_time<const D: usize>(error: Error, scene: &Scene<D>, phase: &Phase, st
     if loads.is_empty() {
         return Error { problem: format!("{} ({moment})", error.problem), ..error };
     }
-    let frictional = error.place == "Newton" && scene.terms.iter().any(|term| term.has_friction());
+    let frictional = error.place == "Newton" && scene.has_friction();
     let meaning = if frictional { "no equilibrium found: the load may be the limit; " } else { "" };
     let problem = format!("{meaning}{} ({moment}; equilibrium was last found at {})", error.problem, loads.join(", "));
     let remedy = match error.place.as_str() {

@@ -27,7 +27,7 @@ const FORCING: f64 = 0.1;
 const FOLLOWING: f64 = 8.0;
 /// No more stiffening (-) than this then.
 const MOST_FOLLOWING: f64 = 0.3;
-/// How many times as many iterations a step may take then.
+/// How many times as many iterations a step may take then, and one in which soil with friction follows a prescribed motion.
 const LONGER: usize = 2;
 /// Where an iteration leaves less than this part (-) of the residual, the factor of the last tangent preconditions the next one.
 const NEAR: f64 = 0.1;
@@ -67,6 +67,11 @@ struct Newton<'a, const D: usize> {
     /// The number of them before the iteration last began: from the predicted state, or anew from the converged one.
     before: usize,
     method: Method,
+    /// Whether soil with friction follows what is prescribed, without inertia: residuals may rise then. Under loads it may be beyond its limit, and the
+    /// iteration would come to another equilibrium.
+    follows: bool,
+    /// Residuals (kN) of the states accepted so far.
+    recent: Vec<f64>,
     /// The residual (kN) on the right of eq. 14, and how many full steps in a row the watchdog has accepted that did not reduce it.
     target: f64,
     relaxed: usize,
@@ -96,6 +101,8 @@ impl<'a, const D: usize> Newton<'a, D> {
         buffers.damped.clear();
         let floor = floor(problem, grid);
         let strict = !problem.scene.interfaces.is_empty() && problem.integration.is_none();
+        let driven = problem.integration.is_none() && problem.scene.phases[problem.phase].moves();
+        let follows = driven && problem.scene.has_friction();
         Self {
             problem,
             grid,
@@ -105,6 +112,8 @@ impl<'a, const D: usize> Newton<'a, D> {
             history: Vec::new(),
             before: 0,
             method: Method::Cholesky,
+            follows,
+            recent: Vec::new(),
             target: f64::INFINITY,
             relaxed: 0,
             strict,
@@ -196,6 +205,7 @@ impl<'a, const D: usize> Newton<'a, D> {
         self.problem.begin(self.grid, &mut self.buffers.now.at, self.problem.converged());
         self.buffers.best.clone_from(&self.buffers.now.at);
         (self.target, self.damping, self.stalled, self.singular) = (f64::INFINITY, 0.0, 0, None);
+        self.recent.clear();
         self.before = self.history.len();
     }
 
@@ -301,8 +311,8 @@ impl<'a, const D: usize> Newton<'a, D> {
 
     /// `K δ = −R`, where δ of a prescribed displacement is what is left to it, as the last call of [`Newton::converged`] found.
     fn direction(&mut self) -> Result<()> {
-        // In a smaller step the same tangent would be singular.
-        let longer = if self.singular.is_some() { LONGER } else { 1 };
+        // Sand that yields everywhere has residuals in proportion to the step: a smaller one is as hard.
+        let longer = if self.follows || self.singular.is_some() { LONGER } else { 1 };
         if self.history.len() > longer * self.problem.scene.numerics.max_iterations {
             return Err(self.failure("too many iterations"));
         }

@@ -156,6 +156,11 @@ impl<const D: usize> Scene<D> {
         self.phases.iter().any(|phase| phase.dynamic || phase.auto)
     }
 
+    /// Whether a material of it has friction.
+    pub fn has_friction(&self) -> bool {
+        self.terms.iter().any(|term| term.has_friction())
+    }
+
     /// The interfaces that are active in a phase, with their numbers.
     pub fn touching(&self, phase: usize) -> impl Iterator<Item = (usize, &dyn Interface<D>)> {
         let apart = self.phases.get(phase).map_or(&[][..], |phase| &phase.apart);

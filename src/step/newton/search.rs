@@ -16,6 +16,9 @@ const LEAST_DAMPING: f64 = 1e-4;
 /// No larger fraction (-): 0.1 is the largest power of ten below. Without damping a wall that is pushed into clay stops as it is pulled
 /// (`docs/numerics.md`, *As expected*).
 const MOST_DAMPING: f64 = 0.2;
+/// Where soil with friction follows a prescribed motion the residual is to fall below the largest of this many before it (Grippo, Lampariello & Lucidi
+/// 1986). Damping grows where it rises.
+const MEMORY: usize = 5;
 /// The factor by which damping grows where it is too little, and falls after each accepted step.
 const DAMPING_FACTOR: f64 = 10.0;
 /// From this many halvings of an accepted step length on, the diagonal is raised. Else the last equilibrium of a slope is found at a factor of safety
@@ -212,6 +215,13 @@ impl<const D: usize> Newton<'_, D> {
         self.take(tangent);
         let Buffers { now, best, .. } = &mut self.buffers;
         best.clone_from(&now.at);
-        (self.target, self.relaxed, self.stalled) = (self.size(&self.buffers.now), 0, 0);
+        let size = self.size(&self.buffers.now);
+        if self.follows && self.recent.last().is_some_and(|last| size > *last) {
+            self.dampen();
+        }
+        self.recent.push(size);
+        let memory = if self.follows { MEMORY } else { 1 };
+        let last = &self.recent[self.recent.len().saturating_sub(memory)..];
+        (self.target, self.relaxed, self.stalled) = (last.iter().copied().fold(0.0, f64::max), 0, 0);
     }
 }
