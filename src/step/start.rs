@@ -40,8 +40,7 @@ impl<const D: usize> Start<D> {
     /// The motion in `state`. Nodes whose displacement is prescribed move at the constant speed of the step instead. Their sudden
     /// change of velocity (an impact, a kink of a table) is part of the increment that [`motion_to_points`](super::transfer::motion_to_points) gives to the points.
     ///
-    /// It is an impulse on these nodes alone: the momentum of all others stays, and as nodes share mass their velocities do not. So what is stopped
-    /// loses energy, the more the larger the mass; were the others left to move as before, it might gain some.
+    /// That never gives energy, see [`Mass::stop`].
     ///
     /// # Errors
     /// As [`Mass::assemble`].
@@ -58,11 +57,13 @@ impl<const D: usize> Start<D> {
         let mut jump = lacks(grid, given, &start.velocity, 1.0 / dt);
         let largest = start.velocity.iter().flatten().fold(0.0, |most: f64, v| most.max(v.abs()));
         if jump.iter().flatten().any(|by| by.abs() > ROUNDING * largest) {
+            let before: Vec<[f64; D]> =
+                grid.dofs.node.iter().map(|&n| grid.dofs.value(n, |m| start.velocity[m as usize])).collect();
             let mut mass = Mass::assemble::<D, K>(scene, grid, state, Carrier::IntegrationPoints)?;
             for (d, jump) in jump.iter_mut().enumerate() {
                 let fixed: Vec<bool> = (0..jump.len()).map(|b| given[b * D + d].is_some()).collect();
-                let by = std::mem::replace(jump, vec![0.0; fixed.len()]);
-                mass.solve_given(&fixed, &by, jump)?;
+                let before: Vec<f64> = before.iter().map(|v| v[d]).collect();
+                *jump = mass.stop(&fixed, jump, &before)?;
             }
         }
         change(grid, &jump, &mut start.velocity);
