@@ -20,7 +20,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 
 from program import PROGRAM, execute  # noqa: E402
 
-TIMEOUT = 120  # [s] for a run
+TIMEOUT = 120  # [s] of the processor for a run
 RIGHT, SAID, ENDED, SILENT = VERDICTS = ["right", "refused or said", "ended with a message", "wrong in silence"]
 
 

@@ -1,7 +1,7 @@
 //! Rigid structures, from the case to the results: forces and motion against closed forms and deformable ones.
 
 use crate::contact::history;
-use crate::support::{errors, mpm, rows, run, succeeds, written};
+use crate::support::{errors, mpm, rows, run};
 use mpm::io::frame::{self, Frame};
 use mpm::io::run_folder::RunFolder;
 
@@ -171,35 +171,7 @@ fn a_plate_floats_as_archimedes_says() {
 /// the soil has the stress `M ln λ/λ` of Hencky's elasticity, also beneath the plate, whose surface cuts the cells at all angles.
 #[test]
 fn soil_in_quadrilaterals_is_pressed_evenly() {
-    const COLUMN: &str = "SetFactory(\"OpenCASCADE\");\n\
-        Mesh.MeshSizeMax = 0.15;\n\
-        Rectangle(1) = {0, 0, 0, 0.569, 1.2};\n\
-        Rectangle(2) = {0, 1.2, 0, 0.569, 0.588};\n\
-        BooleanFragments{ Surface{1}; Delete; }{ Surface{2}; Delete; }\n\
-        Rectangle(3) = {0, 1.2, 0, 0.569, 0.147};\n\
-        Recombine Surface {:};\n\
-        Physical Surface(\"soil\") = {1};\n\
-        Physical Surface(\"air\") = {2};\n\
-        Physical Surface(\"plate\") = {3};\n\
-        Physical Curve(\"bottom\") = Curve In BoundingBox{-1, -0.01, -1, 1, 0.01, 1};\n\
-        Physical Curve(\"left\") = Curve In BoundingBox{-0.01, -1, -1, 0.01, 2, 1};\n\
-        Physical Curve(\"right\") = Curve In BoundingBox{0.56, -1, -1, 0.57, 2, 1};\n";
-    let folder = written(
-        "geometry: plane_strain\n\
-         mesh: {geo: column.geo}\n\
-         regions: {soil: {kind: mpm, material: soil}, air: {kind: buffer}, plate: {kind: structure, material: steel, rigid: true}}\n\
-         materials: {soil: {model: linear_elastic, young: 45000, poisson: 0.36, density: 0}, \
-         steel: {model: linear_elastic, young: 2.0e+8, poisson: 0.3, density: 0}}\n\
-         supports: {bottom: {uy: 0}, left: {ux: 0}, right: {ux: 0}}\n\
-         contacts: [{structure: plate, soil: soil}]\n\
-         numerics: {restore: every_step}\n\
-         phases: [{name: press, analysis: quasi_static, duration: 1, step: {initial: 0.1111111111}, \
-         prescribe: {plate: {ux: 0, uy: {rate: -0.216}, rotation: 0}}}]\n",
-    );
-    std::fs::write(folder.path().join("column.geo"), COLUMN).unwrap();
-    for stage in ["mesh", "seed", "solve"] {
-        succeeds(&mpm(stage, folder.path(), folder.path(), &[]));
-    }
+    let folder = run("tests/data/pressed_column", &[]);
     let modulus = 45000.0 * 0.64 / (1.36 * 0.28);
     let stretch: f64 = 1.0 - 0.216 / 1.2;
     let exact = modulus * stretch.ln() / stretch;
