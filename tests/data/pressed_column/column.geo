@@ -32,4 +32,6 @@ Physical Surface("soil") = {1};
 Physical Surface("air") = {2};
 Physical Surface("plate") = {3};
 Physical Curve("bottom") = {1};
-Physical Curve("sides") = {2, 4, 5, 7};
+Physical Curve("top") = {3};
+Physical Curve("left") = {4, 7};
+Physical Curve("right") = {2, 5};
