@@ -15,13 +15,16 @@ def fall(dice):
     h = typed(min(width, height) / dice.choice([3, 4, 5]), 2)
     room = dice.number(0.3, 1, 2) * width
     x0, x1 = room, room + width
+    # What splashes up the sides is as fast as the fall or faster: it needs room above the block.
+    lid = 2 * (drop + height)
     faces = [
         Face("air", box(0, x0, drop, drop + height), h),
         Face("block", box(x0, x1, drop, drop + height), h),
         Face("air", box(x1, x1 + room, drop, drop + height), h),
         Face("air", [(0, 0), (x1 + room, 0), (x1 + room, drop), (x1, drop), (x0, drop), (0, drop)], h),
+        Face("air", [(0, drop + height), (x0, drop + height), (x1, drop + height), (x1 + room, drop + height), (x1 + room, lid), (0, lid)], h),
     ]
-    sides = [((x, 0), (x, drop + height)) for x in (0, x1 + room)]
+    sides = [((x, 0), (x, lid)) for x in (0, x1 + room)]
     section = Section(faces, {"floor": [((0, 0), (x1 + room, 0))], "sides": sides}, quadrangles=dice.chance(0.3))
     soil = {"model": "linear_elastic", "young": dice.scale(2000, 50000), "poisson": dice.number(0.1, 0.4, 2), "density": dice.number(1.5, 2.2, 2)}
     if dice.chance(0.4):
