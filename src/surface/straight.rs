@@ -8,8 +8,9 @@ use super::split::{Barycentric, corners, triangles};
 use crate::geometry::twice_area;
 use crate::mesh::shape::CellKind;
 
-/// Newton steps to find parametric coordinates; they stop at rounding.
+/// Newton steps to find parametric coordinates.
 const INVERSIONS: usize = 20;
+/// A parametric step that is rounding.
 const ROUNDING: f64 = 1e-15;
 
 /// The triangles of a cell with its nodes in place.
