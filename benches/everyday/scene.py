@@ -131,10 +131,6 @@ class Result:
         sums = [{side: sum(float(value) for name, value in row.items() if name.startswith(side)) for side in ("held", "supplied")} for row in rows]
         return np.array([of["held"] - of["supplied"] for of in sums])
 
-    def energy(self, name):
-        """A sum of energies or momenta of the log, in each step."""
-        return np.array([float(value) for value in re.findall(rf"^step .* {name} (\S+)", self.log, re.MULTILINE)])
-
     @cached_property
     def soil(self):
         """The soil in the last frame: material points, and the nodes of `fem`."""
