@@ -30,11 +30,25 @@ class Section:
     regular: bool = False  # rows and columns of cells where each face of the grid has four sides
 
     def moved(self, place, scale=1.0):
-        """The section with each place mapped, and the sizes of cells scaled."""
+        """The section with each place mapped, and the sizes of cells scaled. Lines of curves that this bends go on along the sides of faces.
+
+        >>> section = Section([Face("soil", box(0, 1, 0, 1), 1), Face("air", box(0, 1, 1, 2), 1)], {"side": [((0, 0), (0, 2))]})
+        >>> section.moved(lambda x, y: (x + max(0, y - 1), y)).curves["side"]
+        [((0, 0), (0, 1)), ((0, 1), (1, 2))]
+        """
+        corners = {corner for face in self.faces for corner in map(tuple, face.corners)}
+        close = CLOSE * self.extent()
+
+        def moved(a, b):
+            """The line between two places once it is mapped, parted at the corners on it that are beside it then."""
+            on = sorted((corner for corner in corners if is_on(corner, a, b, close)), key=lambda corner: math.dist(a, corner))
+            bends = [corner for corner in on if not is_on(place(*corner), place(*a), place(*b), close * scale)]
+            return [(place(*start), place(*end)) for start, end in zip([a, *bends], [*bends, b])]
+
         return replace(
             self,
             faces=[replace(face, corners=[place(*corner) for corner in face.corners], h=[h * scale for h in face.sizes()]) for face in self.faces],
-            curves={name: [(place(*a), place(*b)) for a, b in lines] for name, lines in self.curves.items()},
+            curves={name: [part for line in lines for part in moved(*line)] for name, lines in self.curves.items()},
             points={name: place(*point) for name, point in self.points.items()},
         )
 
@@ -131,10 +145,7 @@ class _Writer:
         return len(self.vertices) - 1
 
     def on(self, place, a, b):
-        length = math.dist(a, b)
-        along = ((place[0] - a[0]) * (b[0] - a[0]) + (place[1] - a[1]) * (b[1] - a[1])) / length
-        across = ((place[0] - a[0]) * (b[1] - a[1]) - (place[1] - a[1]) * (b[0] - a[0])) / length
-        return abs(across) < self.tolerance and -self.tolerance < along < length + self.tolerance
+        return is_on(place, a, b, self.tolerance)
 
     def line(self, a, b):
         number = self.lines.setdefault((min(a, b), max(a, b)), len(self.lines) + 1)
@@ -192,6 +203,14 @@ class _Writer:
         out = [f"Transfinite Curve {{{number}}} = {wanted[root(number)] + 1};" for number in sorted(self.grid)]
         grid = [str(n) for n, face in enumerate(self.section.faces, 1) if not face.structure]
         return [*out, f"Transfinite Surface {{{', '.join(grid)}}};"]
+
+
+def is_on(place, a, b, close):
+    """Whether a place is on the line between two others, to a distance."""
+    length = math.dist(a, b)
+    along = ((place[0] - a[0]) * (b[0] - a[0]) + (place[1] - a[1]) * (b[1] - a[1])) / length
+    across = ((place[0] - a[0]) * (b[1] - a[1]) - (place[1] - a[1]) * (b[0] - a[0])) / length
+    return abs(across) < close and -close < along < length + close
 
 
 def edges(corners):

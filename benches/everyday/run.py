@@ -92,7 +92,7 @@ def page(rows, seed, seconds):
         f"| {RIGHT} | all checks hold |",
         f"| {SAID} | the program refuses the scene, or its result is wrong and `mpm run` or `mpm check` warns |",
         f"| {ENDED} | the analysis ends early, with a message |",
-        f"| {SILENT} | a check does not hold, and nothing is said; or a panic, or more than two minutes |",
+        f"| {SILENT} | a check does not hold, and nothing is said; or a panic, or more than two minutes of the processor |",
         "",
         *tally(rows),
         "",

@@ -20,7 +20,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 
 from program import PROGRAM, execute  # noqa: E402
 
-TIMEOUT = 120  # [s] for a run
+TIMEOUT = 120  # [s] of the processor for a run
 RIGHT, SAID, ENDED, SILENT = VERDICTS = ["right", "refused or said", "ended with a message", "wrong in silence"]
 
 
@@ -130,10 +130,6 @@ class Result:
             rows = list(csv.DictReader(file))
         sums = [{side: sum(float(value) for name, value in row.items() if name.startswith(side)) for side in ("held", "supplied")} for row in rows]
         return np.array([of["held"] - of["supplied"] for of in sums])
-
-    def energy(self, name):
-        """A sum of energies or momenta of the log, in each step."""
-        return np.array([float(value) for value in re.findall(rf"^step .* {name} (\S+)", self.log, re.MULTILINE)])
 
     @cached_property
     def soil(self):

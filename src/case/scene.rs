@@ -206,7 +206,9 @@ pub fn scene<K: Kinematics<2>>(case: &Case, mut whole: Mesh<2>) -> Result<Scene<
         terms.push(Box::new(gravity::<K>(case)));
     }
     if case.numerics.solver.restore != Restore::Never {
-        terms.push(Box::new(EmptyCells::<K>::new(case.numerics.empty_stiffness * young, mesh.cells.len())));
+        let [stiffness, density] =
+            [young, of_soil(|m, y| m.density.at(y))].map(|of| case.numerics.empty_stiffness * of);
+        terms.push(Box::new(EmptyCells::<K>::new(stiffness, mesh.cells.len()).of_density(density)));
         if case.numerics.quadrature != raw::Quadrature::Points {
             let models = self::models(case, &mesh)?;
             let penalty = GhostPenalty::<K>::new(GHOST, models, locator.faces.inner.len());

@@ -46,6 +46,8 @@ pub struct Ground<'a, const D: usize> {
     pub points: &'a Points<D>,
     /// The cell of each point that integrals over the soil are summed over.
     pub integration: &'a [u32],
+    /// Which cells take part.
+    pub active: &'a [bool],
     /// The surface of the soil, where it is followed: loops of markers with the soil on their left.
     pub surface: &'a [Vec<[f64; D]>],
     /// The points of the finite elements.
@@ -175,7 +177,8 @@ fn strength(models: &[Option<Arc<dyn Model>>], points: &Points<2>, p: usize) -> 
 
 impl Ground<'_, 2> {
     /// The nearest cell along the normal of a segment that has integration points, and where in it (parametric) the middle of the segment is: outside it where
-    /// its functions are extended to the segment. The nodes of an empty cell would give way in place of the soil.
+    /// its functions are extended to the segment. The nodes of an empty cell would give way in place of the soil; beyond the cells that take part there
+    /// is no soil to face, as above that on a grid that is never reset.
     fn find(&self, segment: &Placed, spacing: f64, point: u32, integrated: &[bool]) -> Option<(u32, [f64; 3])> {
         let hint = Some(self.points.cell[point as usize]);
         let at = |away: &f64| {
@@ -184,6 +187,9 @@ impl Ground<'_, 2> {
         };
         let (cell, xi) =
             AWAY.iter().filter_map(at).find(|(cell, _)| integrated[*cell as usize]).or_else(|| at(&0.0))?;
+        if !self.active[cell as usize] {
+            return None;
+        }
         Some((cell, self.locator.extend(self.grid, cell, &segment.middle).unwrap_or(xi)))
     }
 }

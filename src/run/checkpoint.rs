@@ -10,7 +10,7 @@ use crate::io::columns;
 use crate::io::container::Store;
 use crate::quadrature::{Count, Samples, Tally, Weights};
 use crate::step::{Energies, ITEMS, Scene, Span, State, UnbalancedRamp};
-use crate::surface::{ActiveBoundary, MarkerFront, Piece, Voids};
+use crate::surface::{ActiveBoundary, MarkerFront, Path, Piece, Voids};
 
 const POINTS: &str = "points.";
 const FEM: &str = "fem.";
@@ -131,10 +131,11 @@ fn put_weighing<const D: usize>(store: &mut Store, weights: &Weights<D>) {
     store.put("weights.level_set", 1, level_set.clone());
     let ActiveBoundary { pieces, first } = boundary;
     store.put("boundary.first", 1, first.clone());
+    let path = |path: &Path| [path.ends, path.rates].concat().concat();
     store.put(
-        "boundary.ends",
+        "boundary.paths",
         2,
-        pieces.iter().flat_map(|piece| [piece.ends, piece.in_host].concat().concat()).collect(),
+        pieces.iter().flat_map(|piece| [path(&piece.path), path(&piece.in_host)].concat()).collect(),
     );
     let numbers = |piece: &Piece| [piece.cell, piece.host, u32::from(piece.region), u32::from(piece.wall)];
     store.put("boundary.numbers", 4, pieces.iter().flat_map(numbers).collect());
@@ -188,17 +189,18 @@ fn take_weighing<const D: usize>(store: &mut Store) -> Result<Weights<D>> {
 
 fn take_boundary(store: &mut Store) -> Result<ActiveBoundary> {
     let first = store.take::<u32>("boundary.first", 1)?;
-    let (ends, numbers) = (store.take::<f64>("boundary.ends", 2)?, store.take::<u32>("boundary.numbers", 4)?);
-    if ends.len() != 2 * numbers.len() {
+    let (paths, numbers) = (store.take::<f64>("boundary.paths", 2)?, store.take::<u32>("boundary.numbers", 4)?);
+    if paths.len() != 4 * numbers.len() {
         return Err(foreign("its boundary"));
     }
-    let piece = |(ends, numbers): (&[f64], &[u32])| {
-        let line = |k: usize| [[ends[k], ends[k + 1]], [ends[k + 2], ends[k + 3]]];
+    let piece = |(paths, numbers): (&[f64], &[u32])| {
+        let two = |k: usize| [[paths[k], paths[k + 1]], [paths[k + 2], paths[k + 3]]];
+        let path = |k: usize| Path { ends: two(k), rates: two(k + 4) };
         let region = u16::try_from(numbers[2]).map_err(|_| foreign("a region of its boundary"))?;
         let wall = flag(numbers[3], "its boundary")?;
-        Ok(Piece { cell: numbers[0], ends: line(0), wall, region, host: numbers[1], in_host: line(4) })
+        Ok(Piece { cell: numbers[0], path: path(0), wall, region, host: numbers[1], in_host: path(8) })
     };
-    let pieces = ends.chunks_exact(8).zip(numbers.chunks_exact(4)).map(piece).collect::<Result<_>>()?;
+    let pieces = paths.chunks_exact(16).zip(numbers.chunks_exact(4)).map(piece).collect::<Result<_>>()?;
     Ok(ActiveBoundary { pieces, first })
 }
 

@@ -9,7 +9,7 @@ use super::structures::Structures;
 use crate::geometry::area;
 use crate::mesh::Mesh;
 use crate::points::Points;
-use crate::surface::{barycentric, triangles};
+use crate::surface::{Triangles, triangles};
 
 /// A node of which structures leave less than this part (-) takes its value from those around.
 const LEAST: f64 = 0.1;
@@ -35,7 +35,8 @@ impl Fullness {
         let (mut sum, mut part) = (vec![0.0; count], vec![vec![0.0; count]; regions.len()]);
         for (p, xi) in parametric.iter().enumerate() {
             let c = points.cell[p] as usize;
-            let (triangle, l) = barycentric(mesh.cells.kind[c], xi);
+            let x = mesh.coordinates(c);
+            let (triangle, l) = Triangles::of(mesh.cells.kind[c], &x).barycentric(xi);
             let own = regions.iter().position(|&r| r == points.region[p]);
             for (&i, l) in triangle.iter().zip(l) {
                 let n = mesh.cells.nodes(c)[i] as usize;

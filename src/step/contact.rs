@@ -82,9 +82,18 @@ pub fn begin<const D: usize, K: Kinematics<D>>(
     let excess = |points: &Points<D>, p: usize| excess_pressure(&scene.carried, points, p);
     let (points, elements) = (&state.points, &state.fem);
     let integration = &state.integration().cell;
-    let phase = state.phase;
-    let ground =
-        Ground { phase, grid: mesh, locator, points, integration, surface: &surface, elements, excess: &excess };
+    let (phase, active) = (state.phase, &state.active);
+    let ground = Ground {
+        phase,
+        grid: mesh,
+        locator,
+        points,
+        integration,
+        active,
+        surface: &surface,
+        elements,
+        excess: &excess,
+    };
     let (mut placed, mut covers) = (Vec::new(), Vec::new());
     let covered = scene.terms.iter().any(|term| term.sees_open_boundary());
     for (number, interface) in scene.touching(state.phase) {

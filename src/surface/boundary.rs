@@ -1,36 +1,36 @@
 //! The active boundary (reference 1 of docs/theory.md, §2.5): where the material ends, as closed, oriented polylines.
 //!
-//! They are the zero of a level set that is linear on the triangles between the nodes of a cell, in the parametric
-//! domain: the surface that cells are cut along, so that integrals over the part inside and
-//! over the boundary agree. Each piece lies within one cell. Loops run with the material on their left:
+//! They are the zero of a level set that is linear on the triangles between the nodes of a cell (see `straight.rs`): the surface that cells are cut
+//! along, so that integrals over the part inside and over the boundary agree. Each piece lies within one cell. Loops run with the material on their left:
 //! counter-clockwise around a body, clockwise around a hole. Where the material lies against the boundary of the mesh
 //! the loop runs along that, in pieces that are *wall* and not free surface.
 
 use super::geometry::Geometry;
 use super::loops::loops;
+use super::path::Path;
 use super::split::triangles;
+use super::straight::Triangles;
 use crate::geometry::way;
 use crate::mesh::Mesh;
 use crate::mesh::faces::BOUNDARY;
-use crate::mesh::shape::{CellKind, MAX_NODES};
+use crate::mesh::shape::MAX_NODES;
 
 /// The region of a piece that no point is near: there is nothing that could bear a load.
 pub const NO_REGION: u16 = u16::MAX;
 
-/// A piece of the boundary: a straight line in the parametric domain of its cell.
+/// A piece of the boundary: a straight line in one of the triangles of its cell.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Piece {
     pub cell: u32,
-    /// Its ends, parametric.
-    pub ends: [[f64; 2]; 2],
+    pub path: Path,
     /// Whether it lies on the boundary of the mesh.
     pub wall: bool,
     /// The region of the material behind it.
     pub region: u16,
-    /// The cell whose points stand for the material behind it, and the ends in the parametric domain of that, continued
+    /// The cell whose points stand for the material behind it, and its path in the parametric domain of that, continued
     /// beyond the cell where it is another one: there the cell of the piece is a sliver without points.
     pub host: u32,
-    pub in_host: [[f64; 2]; 2],
+    pub in_host: Path,
 }
 
 /// What is behind a piece.
@@ -77,7 +77,9 @@ impl ActiveBoundary {
                 if host != piece.cell {
                     let ends = [0.0, 1.0].map(|t| continued(mesh, host as usize, &position(mesh, &piece, t)));
                     if let [Some(a), Some(b)] = ends {
-                        (piece.host, piece.in_host) = (host, [a, b]);
+                        let x = mesh.coordinates(host as usize);
+                        let triangles = Triangles::of(mesh.cells.kind[host as usize], &x);
+                        (piece.host, piece.in_host) = (host, path(&triangles, [a, b], &direction(mesh, &piece)));
                     }
                 }
                 boundary.pieces.push(piece);
@@ -106,7 +108,7 @@ impl ActiveBoundary {
 /// The place (m) on a piece at the share `t` of its way, on a grid with its nodes at `nodes`.
 pub fn place<const D: usize>(mesh: &Mesh<D>, nodes: &[[f64; D]], piece: &Piece, t: f64) -> [f64; D] {
     const { assert!(D == 2, "pieces are lines in plane cells") };
-    let xi = piece.at(t);
+    let xi = piece.path.at(t);
     let mut n = [0.0; MAX_NODES];
     mesh.cells.kind[piece.cell as usize].values(&xi, &mut n);
     let mut x = [0.0; D];
@@ -127,27 +129,16 @@ fn direction(mesh: &Mesh<2>, piece: &Piece) -> [f64; 2] {
 }
 
 impl Piece {
-    /// The parametric coordinates at the share `t` of its way.
-    pub fn at(&self, t: f64) -> [f64; 3] {
-        along(&self.ends, t)
-    }
-
-    /// The same in the domain of the host.
-    pub fn host_at(&self, t: f64) -> [f64; 3] {
-        along(&self.in_host, t)
-    }
-
     /// The part of it between two shares of its way; all of it for 0 and 1.
     pub fn part(&self, from: f64, to: f64) -> Self {
-        let of = |ends: &[[f64; 2]; 2]| {
-            [from, to].map(|t| if t == 1.0 { ends[1] } else { [along(ends, t)[0], along(ends, t)[1]] })
-        };
-        Self { ends: of(&self.ends), in_host: of(&self.in_host), ..*self }
+        Self { path: self.path.part(from, to), in_host: self.in_host.part(from, to), ..*self }
     }
 }
 
-fn along([a, b]: &[[f64; 2]; 2], t: f64) -> [f64; 3] {
-    [a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1]), 0.0]
+/// The path between two places of a cell that are `way` (m) apart: straight in its triangles.
+fn path(triangles: &Triangles, ends: [[f64; 2]; 2], way: &[f64; 2]) -> Path {
+    let [first, last] = ends.map(|xi| triangles.change(&xi, way));
+    first.zip(last).map_or_else(|| Path::straight(ends), |(first, last)| Path { ends, rates: [first, last] })
 }
 
 /// The parametric coordinates of the place `x` (m) by the map of cell `c`, continued beyond it; `None` where it has no
@@ -204,16 +195,20 @@ fn add_cell(mesh: &Mesh<2>, geometry: &Geometry, level_set: &[f64], c: usize, ou
     if nodes.iter().all(|&n| level_set[n as usize] <= 0.0) {
         return;
     }
+    let x = mesh.coordinates(c);
+    let split = Triangles::of(kind, &x);
     let mut add = |from: (Vertex, [f64; 2]), to: (Vertex, [f64; 2]), wall: bool| {
         if from.0 != to.0 {
-            let (cell, ends) = (c as u32, [from.1, to.1]);
-            let piece = Piece { cell, ends, wall, region: NO_REGION, host: cell, in_host: ends };
+            let (cell, straight) = (c as u32, Path::straight([from.1, to.1]));
+            let mut piece = Piece { cell, path: straight, wall, region: NO_REGION, host: cell, in_host: straight };
+            piece.path = path(&split, straight.ends, &direction(mesh, &piece));
+            piece.in_host = piece.path;
             out.push((from.0, to.0, piece));
         }
     };
     let at = |i: usize| ([nodes[i]; 2], [0, 1].map(|d| kind.node_coordinates()[i][d]));
     // Where the level set vanishes between a node within and one that is not.
-    let between = |i: usize, j: usize| crossing(kind, nodes, [i, j], [value(i), value(j)]);
+    let between = |i: usize, j: usize| crossing(&split, nodes, [i, j], [value(i), value(j)]);
     let full = is_full(mesh, level_set, c);
     for triangle in triangles(kind).iter().filter(|_| !full) {
         let inside = triangle.map(|i| value(i) > 0.0);
@@ -258,10 +253,8 @@ fn add_cell(mesh: &Mesh<2>, geometry: &Geometry, level_set: &[f64], c: usize, ou
 
 /// The vertex between two nodes of a cell, the first of them within the material, and its parametric place. It is
 /// the same seen from either cell at an edge.
-fn crossing(kind: CellKind, nodes: &[u32], [i, j]: [usize; 2], [a, b]: [f64; 2]) -> (Vertex, [f64; 2]) {
-    let t = a / (a - b);
-    let (x, y) = (kind.node_coordinates()[i], kind.node_coordinates()[j]);
-    let at = [0, 1].map(|d| x[d] + t * (y[d] - x[d]));
+fn crossing(split: &Triangles, nodes: &[u32], [i, j]: [usize; 2], [a, b]: [f64; 2]) -> (Vertex, [f64; 2]) {
+    let at = split.between([i, j], a / (a - b));
     // A node where the level set is zero is on the boundary itself.
     let vertex = if b == 0.0 { [nodes[j]; 2] } else { [nodes[i].min(nodes[j]), nodes[i].max(nodes[j])] };
     (vertex, at)

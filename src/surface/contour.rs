@@ -5,7 +5,7 @@
 //! the mesh, so that a wall there is no surface. There is no smoothing.
 
 use super::geometry::Geometry;
-use super::split::barycentric;
+use super::straight::Triangles;
 use crate::kinematics::Kinematics;
 use crate::mesh::Mesh;
 use crate::points::Points;
@@ -61,7 +61,8 @@ impl Contour {
     fn fill(&mut self, mesh: &Mesh<2>, geometry: &Geometry, points: &Points<2>, parametric: &[[f64; 3]]) {
         let share = |p: usize| {
             let cell = points.cell[p] as usize;
-            let (triangle, l) = barycentric(mesh.cells.kind[cell], &parametric[p]);
+            let x = mesh.coordinates(cell);
+            let (triangle, l) = Triangles::of(mesh.cells.kind[cell], &x).barycentric(&parametric[p]);
             let nodes = mesh.cells.nodes(cell);
             let volume = points.volume(p);
             (triangle.map(|i| nodes[i]), l.map(|l| l * volume))

@@ -102,14 +102,15 @@ pub fn open<const D: usize>(mesh: &Mesh<D>, pieces: &[Piece], covers: &[Cover<D>
 
 #[cfg(test)]
 mod tests {
+    use super::super::path::Path;
     use super::*;
     use crate::mesh::builder::rectangle;
     use crate::mesh::shape::CellKind;
 
     /// A piece along the top of the square [0, 1]², from right to left; half a cell is 0.5 m.
     fn piece() -> Piece {
-        let ends = [[1.0, 1.0], [-1.0, 1.0]];
-        Piece { cell: 0, ends, wall: false, region: 0, host: 0, in_host: ends }
+        let path = Path::straight([[1.0, 1.0], [-1.0, 1.0]]);
+        Piece { cell: 0, path, wall: false, region: 0, host: 0, in_host: path }
     }
 
     fn mesh() -> Mesh<2> {

@@ -208,7 +208,7 @@ impl MarkerFront {
 /// within the rise of a chord where it is curved.
 fn on_boundary(mesh: &Mesh<2>, geometry: &Geometry, c: usize, xi: &[f64; 3]) -> bool {
     let across = geometry.faces.across(c as u32);
-    let reach = if geometry.affine[c] { ON_STRAIGHT_SIDE } else { ON_CURVED_SIDE };
+    let reach = if geometry.straight[c] { ON_STRAIGHT_SIDE } else { ON_CURVED_SIDE };
     let depth = |side: usize| match (mesh.cells.kind[c].is_simplex(), side) {
         (true, 0) => xi[1],
         (true, 1) => 1.0 - xi[0] - xi[1],

@@ -1,6 +1,6 @@
 //! What the integrals over the cells of a restored grid need and what does not change while its nodes stay.
 
-use super::moments::{Cell, CellFrame, Moments, is_affine};
+use super::moments::{Cell, CellFrame, Moments, is_straight};
 use crate::kinematics::Kinematics;
 use crate::mesh::Mesh;
 use crate::mesh::faces::Faces;
@@ -15,8 +15,8 @@ pub struct Geometry {
     pub frame: Vec<CellFrame>,
     /// The moments (m³) of each whole cell.
     pub whole: Vec<Moments>,
-    /// Whether each cell is the affine image of its parametric domain.
-    pub affine: Vec<bool>,
+    /// Whether each cell has straight edges and its other nodes where the map of its corners has them.
+    pub straight: Vec<bool>,
     /// `V_v = ∫ L_v dV` (m³) of each node: the integral of its linear shape function over the mesh.
     pub nodal_volume: Vec<f64>,
     /// The cells that meet across faces.
@@ -28,11 +28,11 @@ impl Geometry {
     pub fn new<K: Kinematics<2>>(mesh: &Mesh<2>) -> Self {
         let cell = |c: usize| {
             let frame = CellFrame::of(mesh, c);
-            let affine = is_affine(mesh, c);
-            let cell = Cell::new(mesh, c, &frame, affine);
+            let straight = is_straight(mesh, c);
+            let cell = Cell::new(mesh, c, &frame, straight);
             let mut volumes = [0.0; MAX_NODES];
             cell.nodal_volumes::<K>(&mut volumes);
-            (frame, affine, cell.whole::<K>(), volumes)
+            (frame, straight, cell.whole::<K>(), volumes)
         };
         let cells: Vec<_> = (0..mesh.cells.len()).into_par_iter().map(cell).collect();
         let mut nodal_volume = vec![0.0; mesh.nodes.len()];
@@ -43,7 +43,7 @@ impl Geometry {
         }
         Self {
             frame: cells.iter().map(|c| c.0).collect(),
-            affine: cells.iter().map(|c| c.1).collect(),
+            straight: cells.iter().map(|c| c.1).collect(),
             whole: cells.iter().map(|c| c.2).collect(),
             nodal_volume,
             faces: Faces::of(mesh),
@@ -52,7 +52,7 @@ impl Geometry {
 
     /// Cell `c`, its moments to be taken in the frame of cell `owner`.
     pub fn cell(&self, mesh: &Mesh<2>, c: usize, owner: usize) -> Cell<'_> {
-        Cell::new(mesh, c, &self.frame[owner], self.affine[c])
+        Cell::new(mesh, c, &self.frame[owner], self.straight[c])
     }
 
     /// The volume (m³) of cell `c`.

@@ -2,9 +2,10 @@
 //!
 //! The triangles between the nodes of the cell are cut along the level set (see `split.rs`), and along the heights as
 //! far as these are linear on each of them. A function that is a polynomial of the height between them is integrated as
-//! one: exactly where the cell is affine and heights are linear in it.
+//! one: exactly where the cell has straight edges and heights are linear in it.
 
-use super::split::{Barycentric, corners, positive, triangles};
+use super::split::{Barycentric, positive, triangles};
+use super::straight::Triangles;
 use crate::geometry::twice_area;
 use crate::mesh::shape::{CellKind, rule};
 use std::sync::OnceLock;
@@ -15,11 +16,11 @@ const DEGREE: usize = 4;
 
 /// A part of one of the cell's triangles.
 struct Piece {
-    /// The corners, parametric, and the heights there (m).
+    /// The corners, as [`Triangles::corners`], and the heights there (m).
     at: [[f64; 2]; 3],
     height: [f64; 3],
-    /// Its parametric measure.
-    measure: f64,
+    /// Its area.
+    area: f64,
 }
 
 impl Piece {
@@ -29,40 +30,46 @@ impl Piece {
             let mix = |l: &Barycentric, of: [f64; 3]| l[0] * of[0] + l[1] * of[1] + l[2] * of[2];
             let at = corners.map(|l| [0, 1].map(|d| mix(&l, self.at.map(|x| x[d]))));
             let height = corners.map(|l| mix(&l, self.height));
-            part(&Self { at, height, measure: self.measure * fraction });
+            part(&Self { at, height, area: self.area * fraction });
         });
     }
 
     /// Calls `place` for the places of the piece, cut at the ascending `breaks`.
-    fn visit(&self, breaks: &[f64], place: &mut dyn FnMut(&[f64; 3], f64)) {
+    fn visit(&self, breaks: &[f64], place: &mut dyn FnMut(&[f64; 2], f64)) {
         let Some((&level, above)) = breaks.split_first() else { return self.emit(place) };
         self.positive(&self.height.map(|y| level - y), |below| below.emit(place));
         self.positive(&self.height.map(|y| y - level), |rest| rest.visit(above, place));
     }
 
-    fn emit(&self, place: &mut dyn FnMut(&[f64; 3], f64)) {
+    fn emit(&self, place: &mut dyn FnMut(&[f64; 2], f64)) {
         static RULE: OnceLock<Vec<([f64; 3], f64)>> = OnceLock::new();
         let [a, b, c] = self.at;
         for ([s, t, _], weight) in RULE.get_or_init(|| rule(CellKind::T3, DEGREE)) {
             let [x, y] = [0, 1].map(|d| a[d] + s * (b[d] - a[d]) + t * (c[d] - a[d]));
-            place(&[x, y, 0.0], 2.0 * weight * self.measure);
+            place(&[x, y], 2.0 * weight * self.area);
         }
     }
 }
 
-/// Calls `place` with the parametric coordinates and the parametric weight of places that cover the part of a cell
-/// where the level set is positive, given by its nodal values; `height` (m) are those of the nodes, `breaks` ascending.
+/// Calls `place` with the parametric coordinates and the weight of places that cover the part of a cell with its nodes at `x` (m)
+/// where the level set is positive, given by its nodal values; `height` (m) are those of the nodes, `breaks` ascending. The weight is parametric, or
+/// an area (m²) where [`Triangles::in_space`].
 pub fn visit_layers(
-    kind: CellKind,
+    split: &Triangles,
     level_set: &[f64],
     height: &[f64],
     breaks: &[f64],
     mut place: impl FnMut(&[f64; 3], f64),
 ) {
-    for triangle in triangles(kind) {
-        let at = corners(kind, triangle);
-        let whole = Piece { at, height: triangle.map(|i| height[i]), measure: 0.5 * twice_area(&at) };
-        whole.positive(&triangle.map(|i| level_set[i]), |part| part.visit(breaks, &mut place));
+    for triangle in triangles(split.kind()) {
+        let at = split.corners(triangle);
+        let whole = Piece { at, height: triangle.map(|i| height[i]), area: 0.5 * twice_area(&at) };
+        whole.positive(&triangle.map(|i| level_set[i]), |part| {
+            part.visit(breaks, &mut |at, weight| {
+                let [x, y] = split.parametric(at);
+                place(&[x, y, 0.0], weight);
+            });
+        });
     }
 }
 
@@ -87,10 +94,11 @@ mod tests {
         let (kind, nodes) = (mesh.cells.kind[c], mesh.cells.nodes(c));
         let x: Vec<_> = nodes.iter().map(|&n| mesh.nodes[n as usize]).collect();
         let (mut n, mut gradient, mut sum) = ([0.0; MAX_NODES], [[0.0; 2]; MAX_NODES], 0.0);
-        visit_layers(kind, level_set, value, breaks, |xi, weight| {
+        let split = Triangles::of(kind, &x);
+        visit_layers(&split, level_set, value, breaks, |xi, weight| {
             let det = map(kind, &x, xi, &mut n, &mut gradient);
             let there: f64 = n.iter().zip(value).map(|(n, value)| n * value).sum();
-            sum += weight * det * f(there);
+            sum += weight * if split.in_space() { 1.0 } else { det } * f(there);
         });
         sum
     }
@@ -98,7 +106,7 @@ mod tests {
     #[test]
     fn what_bends_at_heights_is_integrated_exactly_in_the_active_part() {
         for kind in CellKind::ALL.into_iter().filter(|kind| kind.dimension() == 2) {
-            let mesh = rectangle(kind, 0.7, 0.6, 1, 1, 0.0, 1);
+            let mesh = rectangle(kind, 0.7, 0.6, 2, 2, 0.2, 1);
             let geometry = Geometry::new::<PlaneStrain>(&mesh);
             for c in 0..mesh.cells.len() {
                 let at = |f: fn(&[f64; 2]) -> f64| -> Vec<f64> {

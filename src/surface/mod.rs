@@ -15,7 +15,9 @@ mod geometry;
 mod layers;
 mod loops;
 pub mod moments;
+mod path;
 mod split;
+mod straight;
 mod voids;
 
 pub use boundary::{ActiveBoundary, Behind, NO_REGION, Piece, place};
@@ -26,5 +28,7 @@ pub use front::{ContactStatus, Lost, MarkerFront};
 pub use geometry::Geometry;
 pub use layers::visit_layers;
 pub use moments::CellFrame;
-pub use split::{barycentric, corners, positive, triangles};
+pub use path::Path;
+pub use split::{positive, triangles};
+pub use straight::Triangles;
 pub use voids::{News, Void, Voids, lies_near};

@@ -1,7 +1,7 @@
 //! Integrals of 1, x, y, x², xy, y² over a cell, or over the part of it where a level set is positive.
 //!
-//! The level set is given at the nodes and linear on the triangles between them (see `split.rs`), in the
-//! parametric domain: curved cells keep their shape. Areas and volumes are per metre in plane strain and per
+//! The level set is given at the nodes and linear on the triangles between them (see `straight.rs`), in space where all edges are straight, else in
+//! the parametric domain: curved cells keep their shape. Areas and volumes are per metre in plane strain and per
 //! full turn (2π) in axisymmetry, by [`Kinematics::measure`].
 
 use super::split::{Barycentric, CORNERS, corners, positive, triangles};
@@ -49,23 +49,23 @@ pub struct Cell<'a> {
     /// The nodes in the local coordinates of the frame in which moments are taken.
     x: [[f64; 2]; MAX_NODES],
     frame: &'a CellFrame,
-    affine: bool,
+    straight: bool,
 }
 
 impl<'a> Cell<'a> {
-    /// Cell `c`, its moments to be taken in `frame`; `affine` as [`is_affine`] has it.
-    pub fn new(mesh: &Mesh<2>, c: usize, frame: &'a CellFrame, affine: bool) -> Self {
+    /// Cell `c`, its moments to be taken in `frame`; `straight` as [`is_straight`] has it.
+    pub fn new(mesh: &Mesh<2>, c: usize, frame: &'a CellFrame, straight: bool) -> Self {
         let mut x = [[0.0; 2]; MAX_NODES];
         for (x, &n) in x.iter_mut().zip(mesh.cells.nodes(c)) {
             *x = frame.local(&mesh.nodes[n as usize]);
         }
-        Self { kind: mesh.cells.kind[c], x, frame, affine }
+        Self { kind: mesh.cells.kind[c], x, frame, straight }
     }
 
     /// The moments of the whole cell, exact for cells up to second order and for straight ones.
     pub fn whole<K: Kinematics<2>>(&self) -> Moments {
         let mut moments = [0.0; 6];
-        if self.affine || self.kind.is_simplex() {
+        if self.straight || self.kind.is_simplex() {
             for triangle in triangles(self.kind) {
                 self.add::<K>(triangle, &CORNERS, 1.0, &mut moments);
             }
@@ -79,7 +79,7 @@ impl<'a> Cell<'a> {
     }
 
     /// The moments of the part where the level set with the nodal `values` is positive: exact where the cell is
-    /// affine or a triangle. Empty parts have exact zeros.
+    /// straight or a triangle. Empty parts have exact zeros.
     pub fn clipped<K: Kinematics<2>>(&self, values: &[f64]) -> Moments {
         let mut moments = [0.0; 6];
         for triangle in triangles(self.kind) {
@@ -90,9 +90,9 @@ impl<'a> Cell<'a> {
         moments
     }
 
-    /// The volume (m³) of that part: `clipped()[0]` to rounding, for less where the cell is affine.
+    /// The volume (m³) of that part: `clipped()[0]` to rounding, for less where the cell is straight.
     pub fn clipped_volume<K: Kinematics<2>>(&self, values: &[f64]) -> f64 {
-        if !self.affine {
+        if !self.straight {
             return self.clipped::<K>(values)[0];
         }
         let mut volume = 0.0;
@@ -111,7 +111,7 @@ impl<'a> Cell<'a> {
     /// entry a node. They sum to the volume of the cell.
     pub fn nodal_volumes<K: Kinematics<2>>(&self, out: &mut [f64]) {
         for triangle in triangles(self.kind) {
-            if self.affine {
+            if self.straight {
                 let x = triangle.map(|i| self.x[i]);
                 let area = 0.5 * self.frame.length * self.frame.length * twice_area(&x);
                 // Shape function times radius is of degree 2: the middles of the sides.
@@ -145,7 +145,7 @@ impl<'a> Cell<'a> {
         moments: &mut Moments,
     ) {
         let mix = |l: &Barycentric| [0, 1, 2].map(|k| (0..3).map(|m| l[m] * piece[m][k]).sum::<f64>());
-        if !self.affine {
+        if !self.straight {
             let xi = corners(self.kind, triangle);
             let area = fraction * twice_area(&xi);
             for (l, weight) in high_rule() {
@@ -192,23 +192,9 @@ impl<'a> Cell<'a> {
     }
 }
 
-/// Whether the cell is the affine image of its parametric domain: straight edges, middle nodes in the middle, and
-/// a parallelogram if it is a quadrilateral.
-pub fn is_affine(mesh: &Mesh<2>, c: usize) -> bool {
-    let kind = mesh.cells.kind[c];
-    let places = kind.node_coordinates();
-    let x = |i: usize| mesh.nodes[mesh.cells.nodes(c)[i] as usize];
-    // Barycentric with respect to three corners that span the cell.
-    let base = if kind.is_simplex() { [0, 1, 2] } else { [0, 1, 3] };
-    let corner = base.map(|i| [places[i][0], places[i][1]]);
-    let whole = twice_area(&corner);
-    let size = CellFrame::of(mesh, c).length;
-    (0..places.len()).all(|i| {
-        let p = [places[i][0], places[i][1]];
-        let (b, c) = (twice_area(&[corner[0], p, corner[2]]) / whole, twice_area(&[corner[0], corner[1], p]) / whole);
-        let image = place(&base.map(x), &[1.0 - b - c, b, c]);
-        (0..2).all(|d| (image[d] - x(i)[d]).abs() <= 1e-13 * size + 4.0 * f64::EPSILON * x(i)[d].abs())
-    })
+/// Whether cell `c` has straight edges and its other nodes where the map of its corners has them.
+pub fn is_straight(mesh: &Mesh<2>, c: usize) -> bool {
+    super::straight::is_straight(mesh.cells.kind[c], &mesh.coordinates(c))
 }
 
 /// The place with barycentric coordinates `l` in the triangle `x`.

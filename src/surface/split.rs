@@ -1,7 +1,6 @@
-//! The straight triangles into which the nodes of a cell split its parametric domain, and the parts of a
+//! The straight triangles into which the nodes of a cell split it, and the parts of a
 //! triangle where a linear function is positive.
 
-use crate::geometry::twice_area;
 use crate::mesh::shape::CellKind;
 
 /// Barycentric coordinates in a triangle.
@@ -51,28 +50,6 @@ pub fn corners(kind: CellKind, triangle: &[usize; 3]) -> [[f64; 2]; 3] {
     })
 }
 
-/// The triangle of a kind that holds the parametric point `xi` (the lowest of several) and the barycentric
-/// coordinates there. A point outside the domain belongs to the nearest triangle, with a negative coordinate.
-pub fn barycentric(kind: CellKind, xi: &[f64; 3]) -> (&'static [usize; 3], Barycentric) {
-    let mut best = (&[0, 0, 0], [0.0; 3]);
-    let mut depth = f64::NEG_INFINITY;
-    for triangle in triangles(kind) {
-        let x = corners(kind, triangle);
-        let whole = twice_area(&x);
-        let p = [xi[0], xi[1]];
-        let (b, c) = (twice_area(&[x[0], p, x[2]]) / whole, twice_area(&[x[0], x[1], p]) / whole);
-        let l = [1.0 - b - c, b, c];
-        let least = l[0].min(b).min(c);
-        if least > depth {
-            (best, depth) = ((triangle, l), least);
-            if least >= 0.0 {
-                break;
-            }
-        }
-    }
-    best
-}
-
 /// Calls `piece(corners, fraction)` for at most two triangles that cover the part of a triangle where the linear
 /// function with the values `v` at its corners is positive. The corners are barycentric and run as those of the
 /// triangle do; `fraction` is the piece's share of the area, positive and with full relative accuracy however
@@ -110,6 +87,7 @@ pub fn positive(v: &[f64; 3], mut piece: impl FnMut(&[Barycentric; 3], f64)) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::geometry::twice_area;
 
     fn plane_kinds() -> impl Iterator<Item = CellKind> {
         CellKind::ALL.into_iter().filter(|k| k.dimension() == 2)
@@ -122,27 +100,6 @@ mod tests {
             assert!((area - if kind.is_simplex() { 0.5 } else { 4.0 }).abs() < 1e-15, "{kind:?}");
             assert!(triangles(kind).iter().all(|t| twice_area(&corners(kind, t)) > 0.0));
             assert!((0..kind.node_count()).all(|i| triangles(kind).iter().any(|t| t.contains(&i))), "{kind:?}");
-        }
-    }
-
-    #[test]
-    fn barycentric_coordinates_are_a_partition_of_unity_and_reproduce_the_place() {
-        for kind in plane_kinds() {
-            for i in 0..500 {
-                let [a, b] = [0.754_877_666, 0.569_840_291].map(|g| (g * f64::from(i)).fract());
-                let xi = match kind.is_simplex() {
-                    true if a + b > 1.0 => [1.0 - a, 1.0 - b, 0.0],
-                    true => [a, b, 0.0],
-                    false => [2.0 * a - 1.0, 2.0 * b - 1.0, 0.0],
-                };
-                let (triangle, l) = barycentric(kind, &xi);
-                assert!(l.iter().all(|&l| l >= -1e-14) && (l.iter().sum::<f64>() - 1.0).abs() < 1e-14);
-                let x = corners(kind, triangle);
-                for d in 0..2 {
-                    let place: f64 = (0..3).map(|k| l[k] * x[k][d]).sum();
-                    assert!((place - xi[d]).abs() < 1e-14, "{kind:?} {xi:?}");
-                }
-            }
         }
     }
 

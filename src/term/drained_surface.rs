@@ -66,7 +66,7 @@ struct Host {
 
 impl Host {
     fn place<K: Kinematics<2>>(&self, piece: &Piece, s: f64) -> Place {
-        let (xi, [a, b]) = (piece.host_at(s), piece.in_host);
+        let (xi, way) = (piece.in_host.at(s), piece.in_host.rate(s));
         let (mut n, mut slopes) = ([0.0; MAX_NODES], [[0.0; 3]; MAX_NODES]);
         self.kind.values(&xi, &mut n);
         self.kind.derivatives(&xi, &mut slopes);
@@ -86,7 +86,6 @@ impl Host {
             let [s, t] = [shapes_by[0][a], shapes_by[1][a]];
             [(by[1][1] * s - by[1][0] * t) / determinant, (by[0][0] * t - by[0][1] * s) / determinant]
         });
-        let way = [b[0] - a[0], b[1] - a[1]];
         let along = [0, 1].map(|d| by[d][0] * way[0] + by[d][1] * way[1]);
         let measure = K::measure(&x);
         let normal = [measure * along[1], -measure * along[0]];

@@ -4,6 +4,9 @@
 //! `ε E (1 − fill) ∫ (∇ˢN_I : ∇ˢ + τ ∇ᵃN_I : ∇ᵃ)(u_α − u_n)`: linear elasticity with Poisson's ratio zero on the increment of
 //! the step. It is free of stress at the beginning of every step, and of order `ε` in its end.
 //!
+//! What moves through empty cells is braked by it. With inertia the soil resists a step with `E` or with its mass, by `ρ h²` times the derivative of the
+//! acceleration by the displacement, whichever is less, and this counts for `E`: else stone would fall through stiff air.
+//!
 //! The small resistance `τ` to rotation is for single points that fly: their mass holds the cells around them, but where
 //! their stress is at the apex of the yield surface, nothing else resists a rotation about them.
 
@@ -11,7 +14,7 @@ use super::{Assembly, Frame, Source, Term, Trial};
 use crate::error::Result;
 use crate::interpolation::{PartlyFilled, integrate};
 use crate::kinematics::Kinematics;
-use crate::mesh::Mesh;
+use crate::mesh::{Mesh, cell_size};
 use crate::system::Local;
 use std::marker::PhantomData;
 use std::sync::OnceLock;
@@ -21,8 +24,9 @@ const TRACE: f64 = 1e-6;
 
 /// The soft stiffness of the cells that are not full.
 pub struct EmptyCells<K> {
-    /// `ε E` (kPa).
+    /// `ε E` (kPa) and `ε ρ` (t/m³).
     stiffness: f64,
+    density: f64,
     /// `∫ ∇ˢN_I : ∇ˢN_J + τ ∇ᵃN_I : ∇ᵃN_J` of each cell, row-major, made when a cell is first not full: a restored grid keeps
     /// its shape, so that it holds for the whole run, unless finite elements move it.
     unit: Vec<OnceLock<Box<[f64]>>>,
@@ -30,9 +34,21 @@ pub struct EmptyCells<K> {
 }
 
 impl<K> EmptyCells<K> {
-    /// `stiffness` is that of an empty cell (kPa), `cells` the number of cells of the mesh.
+    /// `stiffness` is that of an empty cell without inertia (kPa), `cells` the number of cells of the mesh.
     pub fn new(stiffness: f64, cells: usize) -> Self {
-        Self { stiffness, unit: (0..cells).map(|_| OnceLock::new()).collect(), kinematics: PhantomData }
+        Self { stiffness, density: 0.0, unit: (0..cells).map(|_| OnceLock::new()).collect(), kinematics: PhantomData }
+    }
+
+    /// With the density (t/m³) of an empty cell in steps with inertia.
+    #[must_use]
+    pub fn of_density(self, density: f64) -> Self {
+        Self { density, ..self }
+    }
+
+    /// The stiffness (kPa) of an empty cell of `size` (m) whose acceleration has the derivative `slope` (1/s²) by the displacement.
+    fn of_cell(&self, size: f64, slope: f64) -> f64 {
+        let inertia = self.density * size * size * slope;
+        if inertia > 0.0 { self.stiffness.min(inertia) } else { self.stiffness }
     }
 }
 
@@ -70,7 +86,8 @@ impl<const D: usize, K: Kinematics<D>> Term<D> for EmptyCells<K> {
             let unit = fresh
                 .as_ref()
                 .unwrap_or_else(|| self.unit[cell].get_or_init(|| unit_stiffness::<D, K>(frame.mesh, cell)));
-            let stiffness = self.stiffness * partly_filled.emptiness;
+            let of_cell = self.of_cell(cell_size(frame.mesh, cell), trial.acceleration_slope);
+            let stiffness = of_cell * partly_filled.emptiness;
             let size = D * frame.mesh.cells.nodes(cell).len();
             for (row, force) in unit.chunks_exact(size).zip(local.vector.iter_mut()) {
                 for (columns, &n) in row.chunks_exact(D).zip(frame.mesh.cells.nodes(cell)) {

@@ -89,8 +89,7 @@ struct Place {
 impl Place {
     /// That at the share `s` of `piece`, the nodes of whose cell are at `x`.
     fn of(kind: CellKind, piece: &Piece, s: f64, x: &[[f64; 2]]) -> Self {
-        let (xi, [a, b]) = (piece.host_at(s), piece.in_host);
-        let way = [b[0] - a[0], b[1] - a[1]];
+        let (xi, way) = (piece.in_host.at(s), piece.in_host.rate(s));
         let mut place = Self { n: [0.0; MAX_NODES], slope: [0.0; MAX_NODES], x: [0.0; 2], t: [0.0; 2] };
         let mut derivatives = [[0.0; 3]; MAX_NODES];
         kind.values(&xi, &mut place.n);

@@ -23,7 +23,7 @@ use crate::interpolation::{CellPoints, MAX_FUNCTIONS};
 use crate::kinematics::{Gradient, Kinematics};
 use crate::mesh;
 use crate::mesh::shape::{self, MAX_NODES};
-use crate::surface::visit_layers;
+use crate::surface::{Triangles, visit_layers};
 use crate::system::Local;
 use crate::tensor::Tensor;
 use std::marker::PhantomData;
@@ -244,8 +244,11 @@ impl<'a, const D: usize> Layered<'a, D> {
         let count = kind.node_count();
         let (mut n, mut slope) = ([0.0; MAX_NODES], [[0.0; D]; MAX_NODES]);
         let mut gradient = [Gradient { g: [0.0; D], hoop: 0.0 }; MAX_NODES];
-        visit_layers(kind, &self.level_set[..count], &self.height[..count], breaks, |xi, weight| {
+        let nodes = self.x.map(|x| [x[0], x[1]]);
+        let split = Triangles::of(kind, &nodes[..count]);
+        visit_layers(&split, &self.level_set[..count], &self.height[..count], breaks, |xi, weight| {
             let det = shape::map(kind, &self.x[..count], xi, &mut n, &mut slope);
+            let area = if split.in_space() { weight } else { weight * det };
             let mut x = [0.0; D];
             for (n, node) in n.iter().zip(&self.x[..count]) {
                 (0..D).for_each(|d| x[d] += n * node[d]);
@@ -253,7 +256,7 @@ impl<'a, const D: usize> Layered<'a, D> {
             for i in 0..count {
                 gradient[i] = Gradient { g: slope[i], hoop: if K::HOOP { n[i] / x[0] } else { 0.0 } };
             }
-            place(&n[..count], &gradient[..count], weight * det * K::measure(&x));
+            place(&n[..count], &gradient[..count], area * K::measure(&x));
         });
     }
 

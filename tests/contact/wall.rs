@@ -114,3 +114,30 @@ fn walls_that_cannot_be_are_told() {
         &["the wall `side`", "both of its sides"],
     );
 }
+
+/// A column that settles by a tenth between smooth walls on a grid that is never reset: each wall bears `ν/(1 − ν)` of the load over the height
+/// that is left, also beside the soil that was at the top as it begins.
+#[test]
+fn walls_hold_soil_that_settles_on_a_grid_that_is_never_reset() {
+    let press = "phases=[{name: press, analysis: quasi_static, duration: 1, step: {initial: 0.05}, \
+        prescribe: {plate: {ux: 0, uy: 0, rotation: 0}}, tractions: [{on: top, ty: {rate: -8000}}]}]";
+    let rows = history(
+        "tests/data/pressed_column",
+        &[
+            "supports={bottom: {uy: 0}}",
+            "contacts=[{wall: left, soil: soil}, {wall: right, soil: soil}]",
+            "numerics.restore=never",
+            press,
+            "output.history=[{name: soil, on: soil, quantities: [uy]}, {name: left, on: left, quantities: [contact_x]}]",
+        ],
+    );
+    let modulus = 45000.0 * 0.64 / (1.36 * 0.28);
+    // Hencky's elasticity: the Cauchy stress is M ln λ/λ.
+    let mut stretch: f64 = 0.9;
+    (0..50).for_each(|_| stretch = (-8000.0 * stretch / modulus).exp());
+    let force = -0.36 / 0.64 * 8000.0 * 1.2 * stretch;
+    let [_, settled, left] = rows.last().unwrap()[..] else { panic!("columns of the history") };
+    println!("left wall {left:.1} of {force:.1} kN, mean settlement {settled:.5} of {:.5} m", 0.6 * (stretch - 1.0));
+    assert!((left / force - 1.0).abs() < 0.005, "{left} kN, not {force} kN");
+    assert!((settled / (0.6 * (stretch - 1.0)) - 1.0).abs() < 0.01, "{settled} m");
+}

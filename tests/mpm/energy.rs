@@ -1,6 +1,6 @@
 //! The energy of steps with inertia: nothing adds to it, elastic or at yield, in flight and as soil lands.
 
-use crate::support::run;
+use crate::support::{column, run};
 use std::fs;
 
 /// The sums (kJ) of kinetic, elastic and potential energy after each step of the block of `tests/data/drop` with overridden entries, over the first
@@ -52,6 +52,25 @@ fn damping_takes_energy_and_gives_none() {
         let sums = flies(poisson, 0.6);
         let (most, last) = (most(&sums), sums[sums.len() - 1]);
         assert!(most < 1.0 + 5e-3 && last < 0.99, "ν = {poisson}: {most} {last}");
+    }
+}
+
+/// Empty cells between the block and the floor resist what it moves in a step; as stiff as a part of stone they would stop it in the air.
+#[test]
+fn stone_falls_through_a_gap_of_two_cells_as_all_bodies_do() {
+    for y in [0.25, 0.3] {
+        let folder = run(
+            "tests/data/drop",
+            &[
+                "materials.clay.young=3.0e+7",
+                &format!("mesh.parameters={{h: 0.15, y: {y}}}"),
+                "phases=[{name: fall, analysis: dynamic, duration: 0.15, step: {initial: 0.01, max: 0.01}}]",
+            ],
+        );
+        let way = column(folder.path(), "block.uy [m]").pop().unwrap();
+        let exact = -9.81 * 0.15 * 0.15 / 2.0;
+        println!("from {y} m: {way} m, of {exact} m");
+        assert!((way / exact - 1.0).abs() < 1e-4, "from {y} m: {way} m, not {exact} m");
     }
 }
 

@@ -6,7 +6,7 @@ use mpm::interpolation::Ddmp;
 use mpm::kinematics::{Axisymmetric, Kinematics, PlaneStrain};
 use mpm::mesh::Mesh;
 use mpm::mesh::shape::CellKind;
-use mpm::surface::{ActiveBoundary, Piece};
+use mpm::surface::{ActiveBoundary, Path, Piece};
 use mpm::term::{BodyForce, EmptyCells, FacetPressure, Hydrostatic, Inertia, Role, Term, Traction, VirtualPressure};
 use mpm::term::{SurfaceLoad, SurfaceTraction};
 use mpm::time_value::TimeValue;
@@ -353,8 +353,12 @@ fn on_pieces<K: Kinematics<2>>() {
                 let mut stand = Stand::<K>::new(mesh, points, term, true, true);
                 stand.alpha_f = alpha_f;
                 let piece = |cell: u32| {
-                    let in_host = if cell == 0 { [[1.1, -0.2], [0.4, 0.9]] } else { [[0.2, 0.1], [0.3, 0.6]] };
-                    Piece { cell, ends: [[0.2, 0.1], [0.3, 0.6]], wall: false, region: 0, host: cell, in_host }
+                    let in_host = Path {
+                        ends: if cell == 0 { [[1.1, -0.2], [0.4, 0.9]] } else { [[0.2, 0.1], [0.3, 0.6]] },
+                        rates: [[0.1, 0.4], [-0.1, 0.6]],
+                    };
+                    let path = Path::straight([[0.2, 0.1], [0.3, 0.6]]);
+                    Piece { cell, path, wall: false, region: 0, host: cell, in_host }
                 };
                 stand.state.weights.boundary =
                     ActiveBoundary { pieces: (0..cells).map(piece).collect(), first: vec![0, cells] };

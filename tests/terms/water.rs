@@ -7,7 +7,7 @@ use mpm::kinematics::{Axisymmetric, Kinematics, PlaneStrain};
 use mpm::material::Model;
 use mpm::mesh::shape::CellKind;
 use mpm::step::Water;
-use mpm::surface::{ActiveBoundary, Piece};
+use mpm::surface::{ActiveBoundary, Path, Piece};
 use mpm::term::{
     DrainedSurface, Internal, MixedPressure, PoreStabilisation, PoreWater, Porous, PressureField, Term, WaterStiffness,
 };
@@ -134,10 +134,13 @@ fn a_surface_drains<K: Kinematics<2>>() {
         let water = Some(Water { porous: soil, alone: true, ..Water::default() });
         let mut stand = Stand::<K>::with_water(&Mpm, mesh, points, term, false, true, Some(UNIT), water);
         let piece = |cell: u32| {
-            let in_host = if cell == 0 { [[1.1, -0.2], [0.4, 0.9]] } else { [[0.2, 0.1], [0.3, 0.6]] };
+            let in_host = Path {
+                ends: if cell == 0 { [[1.1, -0.2], [0.4, 0.9]] } else { [[0.2, 0.1], [0.3, 0.6]] },
+                rates: [[0.1, 0.4], [-0.1, 0.6]],
+            };
             Piece {
                 cell,
-                ends: [[0.2, 0.1], [0.3, 0.6]],
+                path: Path::straight([[0.2, 0.1], [0.3, 0.6]]),
                 wall: cell == 1,
                 region: 3 + u16::from(cell == 2),
                 host: cell,

@@ -31,7 +31,7 @@ pub struct Numerics {
     /// Iterations after which a step is halved.
     #[schemars(range(min = 1, max = 1000))]
     pub max_iterations: usize,
-    /// Stiffness of empty cells over that of the stiffest soil of any phase (-).
+    /// Stiffness of empty cells over that of the stiffest soil of any phase, or in a step with inertia over that of its mass where this is less (-).
     #[schemars(extend("exclusiveMinimum" = 0), extend("exclusiveMaximum" = 1))]
     pub empty_stiffness: f64,
 }

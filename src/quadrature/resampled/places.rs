@@ -5,7 +5,7 @@ use crate::geometry::twice_area;
 use crate::kinematics::Kinematics;
 use crate::mesh::Mesh;
 use crate::mesh::shape::{self, CellKind, MAX_NODES, rule};
-use crate::surface::{corners, positive, triangles};
+use crate::surface::{Triangles, positive, triangles};
 
 /// A smaller share of a cell is rounding.
 const ROUNDING: f64 = 1e-14;
@@ -66,19 +66,26 @@ impl Places {
     /// The points of the part of a cell in which the level set with the nodal `values` is positive, triangle by triangle.
     pub fn cut<K: Kinematics<2>>(&self, mesh: &Mesh<2>, cell: usize, values: &[f64], out: &mut Vec<Place>) {
         let cell = Shape::new(mesh, cell);
-        let whole: f64 = if cell.kind.is_simplex() { 0.5 } else { 4.0 };
+        let split = Triangles::of(cell.kind, &cell.x);
         let rules = if cell.kind.order() > 2 { &self.fine } else { &self.triangle };
+        let of_triangle = |triangle: &[usize; 3]| twice_area(&split.corners(triangle));
+        let whole: f64 = triangles(cell.kind).iter().map(of_triangle).sum();
         for triangle in triangles(cell.kind) {
-            let at = corners(cell.kind, triangle);
+            let at = split.corners(triangle);
             let twice = twice_area(&at);
             positive(&triangle.map(|i| values[i]), |piece, fraction| {
-                if 0.5 * twice * fraction <= ROUNDING * whole {
+                if twice * fraction <= ROUNDING * whole {
                     return;
                 }
                 let [a, b, c] = piece.map(|l| [0, 1].map(|d| l[0] * at[0][d] + l[1] * at[1][d] + l[2] * at[2][d]));
                 for ([s, t, _], weight) in &rules[usize::from(K::HOOP)] {
-                    let [x, y] = [0, 1].map(|d| a[d] + s * (b[d] - a[d]) + t * (c[d] - a[d]));
-                    out.push(cell.place::<K>([x, y, 0.0], weight * twice * fraction));
+                    let place = [0, 1].map(|d| a[d] + s * (b[d] - a[d]) + t * (c[d] - a[d]));
+                    let ([x, y], weight) = (split.parametric(&place), weight * twice * fraction);
+                    let mut found = cell.place::<K>([x, y, 0.0], weight);
+                    if split.in_space() {
+                        found.weight = weight * K::measure(&found.x);
+                    }
+                    out.push(found);
                 }
             });
         }
@@ -151,10 +158,7 @@ mod tests {
                 // Cells of first order have first moments: their stress is constant, or linear beside the radius.
                 let first = kind == CellKind::T3 || (kind == CellKind::Q4 && K::HOOP);
                 holds(&full, if first { 3 } else { 6 }, "full");
-                // Cells that are not affine are cut along lines that are straight in their own coordinates.
-                if geometry.affine[c] {
-                    holds(&parts, 6, "parts");
-                }
+                holds(&parts, 6, "parts");
             }
         }
     }

@@ -291,7 +291,7 @@ fn check_weighing<const D: usize>(scene: &Scene<D>, state: &State<D>) -> Result<
         let region = piece.region;
         ensure(region == NO_REGION || usize::from(region) < scene.mesh.regions.len(), "a region of its boundary")?;
         let inside = |&[x, y]: &[f64; 2]| is_inside(&scene.mesh, piece.cell, &[x, y, 0.0]);
-        ensure(piece.ends.iter().all(inside), "a place of its boundary")?;
+        ensure(piece.path.ends.iter().all(inside), "a place of its boundary")?;
     }
     Ok(())
 }
