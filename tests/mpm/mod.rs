@@ -43,6 +43,7 @@ mod slow {
     mod nearly_incompressible_sand;
     mod offshore;
     mod population;
+    mod shovel;
     mod silo;
     mod slopes;
     mod splines;
