@@ -9,6 +9,7 @@ mod cantilever;
 mod cases;
 mod column;
 mod ddmp;
+mod driven;
 mod elements;
 mod ending;
 mod energy;
