@@ -433,4 +433,18 @@ SILO = Entry(
     picture=("--mirror", "--window=-1.5,-1.45,1.5,1.6", "--range=0,2", "--time=1.9"),
 )
 
-ENTRIES = [VERTICAL_CUT, TRENCH, JET_TRENCH, MUDMAT, SKIRTED_MAT, SPUDCAN, PLATE_ANCHOR, PUNCH_THROUGH, EMBEDDED_FOOTING, TBAR, SUCTION_ANCHOR, FREE_FALL_CONE, SLIDE_ON_PIPE, BUI_COLUMN, SILO, PASSIVE_WALL]
+def over_wedge(way: float, wedge: float) -> Row:
+    """The force on the blade about a way, over that of the wedge under the surface there (`cases/shovel/study.py`)."""
+    found = mean("blade.contact_x", "blade.ux", way, 0.03, over=wedge)
+    return Row("", f"force over that of a wedge, after {way} m", found, 1.0, 0.15)
+
+
+SHOVEL = Entry(
+    "shovel",
+    "force on the blade",
+    "a wedge of soil, heap included",
+    [over_wedge(0.1, 13.6), over_wedge(0.9, 19.9)],
+    picture=("--window=-0.6,-1,3,0.8",),
+)
+
+ENTRIES = [VERTICAL_CUT, TRENCH, JET_TRENCH, MUDMAT, SKIRTED_MAT, SPUDCAN, PLATE_ANCHOR, PUNCH_THROUGH, EMBEDDED_FOOTING, TBAR, SUCTION_ANCHOR, FREE_FALL_CONE, SLIDE_ON_PIPE, BUI_COLUMN, SILO, PASSIVE_WALL, SHOVEL]

@@ -40,7 +40,7 @@ struct Cli {
 
 #[derive(Subcommand)]
 enum Command {
-    /// Write a folder with a case that runs, from a template: footing, penetration, anchor, slope, pipe, consolidation, silo, wall
+    /// Write a folder with a case that runs, from a template: footing, penetration, anchor, slope, pipe, consolidation, silo, impact, wall
     New(new::Args),
     /// Mesh the .geo of a case: writes mesh.msh
     Mesh(mesh::Args),

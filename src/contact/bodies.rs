@@ -10,7 +10,7 @@ use super::along::{Mark, lines};
 use super::constraint::{Constraint, Entry, FADING, add};
 use super::interface::{Ground, Interface, NORMAL, Pushed, Sides, TANGENTIAL};
 use super::law::Penalty;
-use super::motion::Spot;
+use super::motion::{PARTS, Spot};
 use super::multipliers::Multipliers;
 use super::place::{Placed, Segments};
 use super::surface::{Run, Segment, Surface};
@@ -66,9 +66,6 @@ impl SoilSide {
 
 /// Places of Gauss's rule of two points in [0, 1].
 const GAUSS: [f64; 2] = [0.211_324_865_405_187_1, 0.788_675_134_594_812_9];
-
-/// Places in [0, 1] at which the gap is measured where it may vary under a contact node.
-const PARTS: [f64; 4] = [0.125, 0.375, 0.625, 0.875];
 
 /// A point of the boundary with the contact nodes.
 struct Point {
@@ -184,17 +181,6 @@ fn at(surface: &Surface, facet: &[u32], xi: f64, position: &dyn Fn(u32) -> [f64;
     (x, tangent, values)
 }
 
-/// The length (m) of the piece of each contact node, where that closes.
-fn loops(surface: &Surface, segments: &Segments) -> Vec<Option<f64>> {
-    let mut loops = vec![None; surface.contact_nodes];
-    for ((contact_nodes, is_loop), piece) in surface.runs.iter().zip(&surface.pieces) {
-        if let (true, [first, .., last]) = (*is_loop, &segments.0[piece.clone()]) {
-            loops[contact_nodes.clone()].fill(Some(last.along + first.along));
-        }
-    }
-    loops
-}
-
 /// What is summed up under a contact node: on both sides.
 #[derive(Clone, Default)]
 struct Sum {
@@ -206,22 +192,6 @@ struct Sum {
     /// Of the parts: area, arc length along the boundary, and gap (m).
     spots: Vec<Spot>,
     sides: [Vec<Entry<2, 2>>; 2],
-}
-
-impl Sum {
-    /// The spots about the mean of the contact node, on a loop of so many metres.
-    fn spots(&self, around: Option<f64>) -> Vec<Spot> {
-        let Some(first) = self.spots.first() else { return Vec::new() };
-        let near = |along: f64| match around {
-            Some(whole) => along - whole * ((along - first.along) / whole).round(),
-            None => along,
-        };
-        let area: f64 = self.spots.iter().map(|spot| spot.share).sum();
-        let mean = |of: &dyn Fn(&Spot) -> f64| self.spots.iter().map(|s| s.share * of(s)).sum::<f64>() / area;
-        let (along, open) = (mean(&|spot| near(spot.along)), mean(&|spot| spot.open));
-        let about = |s: &Spot| Spot { share: s.share / area, along: near(s.along) - along, open: s.open - open };
-        self.spots.iter().map(about).collect()
-    }
 }
 
 impl<K: Kinematics<2>> Interface<2> for Bodies<K> {
@@ -249,7 +219,7 @@ impl<K: Kinematics<2>> Interface<2> for Bodies<K> {
         let lines =
             Lines::new(other.0.iter().map(|s| [s.from, s.to]).collect(), REACH * self.surface.spacing + longest);
         let mut sums = vec![Sum::default(); self.surface.contact_nodes];
-        let loops = loops(&self.surface, &segments);
+        let loops = segments.loops(&self.surface);
         // Nothing else depends on it.
         let wet = self.soil.as_ref().filter(|soil| soil.undrained && self.sides.laws.at(ground.phase).friction > 0.0);
         let wet = wet.map(|soil| (soil, soil.points(ground.elements)));
@@ -320,7 +290,8 @@ impl<K: Kinematics<2>> Interface<2> for Bodies<K> {
                 by_tangent: by(1),
                 curvature: 0.0,
                 by_arc: entries().map(|_| [0.0; 2]).collect(),
-                spots: sum.spots(loops.get(contact_node).copied().flatten()),
+                looks_ahead: !sum.spots.is_empty(),
+                spots: Spot::about_mean(&sum.spots, loops[contact_node]),
                 penalty: Penalty {
                     pressure: held.pressure[contact_node],
                     shear: held.shear[contact_node],

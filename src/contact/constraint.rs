@@ -28,17 +28,14 @@ pub struct Constraint<const D: usize> {
     /// seen from the structure without its rotation.
     pub curvature: f64,
     pub by_arc: Vec<[f64; D]>,
-    /// How the gap varies under the contact node as the step begins; empty where only its mean is known.
+    /// How the gap varies under the contact node as the step begins; empty where only its mean counts.
     pub spots: Vec<Spot>,
+    /// Whether with inertia the gap counts half a step ahead: that to material points on a restored grid, whose velocities are mapped, does not.
+    pub looks_ahead: bool,
     pub penalty: Penalty,
 }
 
 impl<const D: usize> Constraint<D> {
-    /// Whether with inertia the gap counts half a step ahead: that to material points on a restored grid, whose velocities are mapped, does not.
-    pub fn looks_ahead(&self) -> bool {
-        !self.spots.is_empty()
-    }
-
     /// Whether the two lie on each other as the step begins, pressed or not.
     pub fn lies(&self) -> bool {
         self.gap < self.penalty.fading

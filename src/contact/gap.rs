@@ -1,5 +1,6 @@
 //! How far the soil is from the segments of a boundary: by the followed surface of the soil, and by its nearest material points.
 
+use super::motion::{PARTS, Spot};
 use super::place::{Placed, Segments};
 use super::surface::Surface;
 use crate::geometry::{Bins, Line, Lines, at, distance, dot, foot, way};
@@ -213,6 +214,20 @@ impl Facing {
         }
         best
     }
+
+    /// How the distance from a segment to the surface that faces it varies along it: nothing of what is farther than `reach` (m).
+    pub fn along(&self, segment: &Placed, spacing: f64, reach: f64) -> Vec<Spot> {
+        let (way, length) = (way(&segment.from, &segment.to), distance(&segment.from, &segment.to));
+        let spot = |part: f64| {
+            // Between its ends the segment bulges.
+            let bulge = 0.5 * segment.curvature * length * length * part * (1.0 - part);
+            let middle = [0, 1].map(|d| segment.from[d] + part * way[d] + bulge * segment.normal[d]);
+            let open = self.distance(&Placed { middle, ..*segment }, spacing).filter(|open| *open < reach)?;
+            let share = segment.area / PARTS.len() as f64;
+            Some(Spot { share, along: segment.along + (part - 0.5) * length, open })
+        };
+        PARTS.into_iter().filter_map(spot).collect()
+    }
 }
 
 /// Moves points that are in the structure, or nearer to it than half their half width, out to there. Each then stands for the
@@ -282,6 +297,35 @@ mod tests {
             value: [0.0; 3],
         };
         assert_eq!(facing.distance(&placed, 0.1), Some(0.0));
+    }
+
+    /// A round segment over level ground is lowest where it touches.
+    #[test]
+    fn parts_of_a_round_segment_have_their_own_gaps() {
+        let (radius, half) = (0.5f64, 0.01f64);
+        let at = |x: f64| [x, radius - (radius * radius - x * x).sqrt()];
+        let placed = Placed {
+            from: at(-half),
+            to: at(half),
+            middle: at(0.0),
+            normal: [0.0, -1.0],
+            area: 2.0 * half,
+            curvature: 1.0 / radius,
+            along: 0.3,
+            ends: [false; 2],
+            value: [0.0; 3],
+        };
+        let facing = Facing::new(&[vec![[-1.0, -1.0], [1.0, -1.0], [1.0, 0.0], [-1.0, 0.0]]], 0.1);
+        let spots = facing.along(&placed, 0.1, 0.1);
+        assert_eq!(spots.len(), PARTS.len());
+        for spot in &spots {
+            let gap = at(spot.along - 0.3)[1];
+            assert!(
+                (spot.open - gap).abs() < 1e-3 * half * half / radius && spot.share == 0.5 * half,
+                "{spot:?} {gap}"
+            );
+        }
+        assert!(facing.along(&placed, 0.1, -1.0).is_empty());
     }
 
     /// A point below a flat boundary that faces up is moved to where a quarter of its width is above it, at most one and a half times that however

@@ -5,6 +5,7 @@ use super::constraint::{Constraint, Entry, FADING, add};
 use super::cover::covers;
 use super::gap::{Facing, Gap, Soil, project_out, raw_gaps};
 use super::law::{Laws, Penalty};
+use super::motion::Spot;
 use super::multipliers::Multipliers;
 use super::place::{Placed, Segments};
 use super::surface::{Run, Segment, Surface};
@@ -33,6 +34,9 @@ const ROUNDING: f64 = 0.1;
 const STILL: f64 = 1e-3;
 /// A boundary that turns by less (rad) from one point to the next is flat.
 const FLAT: f64 = 0.01;
+/// A boundary that turns by more (rad) from one contact node to the next has edges, about which soil slides as about a corner; one that is curved and turns by
+/// less is round.
+const ROUND: f64 = 0.3;
 /// Where soil is looked for from a segment, in spacings of its points.
 const AWAY: [f64; 5] = [0.0, 0.05, 0.15, 0.3, 0.6];
 
@@ -137,7 +141,7 @@ impl<K: Kinematics<2>> Boundary<K> {
         let slip = held.slip[contact_node];
         if held.apart[contact_node] {
             now.max(-STILL * spacing)
-        } else if (curvature * spacing).abs() > FLAT {
+        } else if is_curved(curvature, spacing) {
             now.clamp(before - slip, before + slip)
         } else {
             before + (slip / self.surface.spacing).min(1.0) * (now - before)
@@ -168,6 +172,11 @@ impl<K: Kinematics<2>> Boundary<K> {
             water: 0.0,
         }
     }
+}
+
+/// Whether a boundary of a curvature (1/m) is not flat, where the points are so far (m) apart.
+fn is_curved(curvature: f64, spacing: f64) -> bool {
+    (curvature * spacing).abs() > FLAT
 }
 
 /// The shear strength (kPa) of the soil at a point as the step begins.
@@ -222,6 +231,8 @@ struct Sum {
     height: f64,
     point: u32,
     entries: Vec<Entry<2, 2>>,
+    /// Of its parts, where it was apart: area, arc length along the boundary, and gap (m).
+    spots: Vec<Spot>,
 }
 
 impl<K: Kinematics<2>> Interface<2> for Boundary<K> {
@@ -278,6 +289,10 @@ impl<K: Kinematics<2>> Interface<2> for Boundary<K> {
             let structure = &self.surface.facets[segment.facet as usize];
             let n = placed.normal;
             let t = [-n[1], n[0]];
+            let apart = segment.contact_nodes.map(|(contact_node, _)| held.apart[contact_node as usize]);
+            let round = is_curved(placed.curvature, spacing) && (placed.curvature * self.surface.spacing).abs() < ROUND;
+            let pointwise = round && apart.contains(&true) && !self.yields(ground.points, point as usize);
+            let spots = if pointwise { surface.along(placed, spacing, self.surface.spacing) } else { Vec::new() };
             for (contact_node, share) in segment.contact_nodes {
                 let weight = share * placed.area;
                 let sum = sums[contact_node as usize].get_or_insert_with(|| Sum { point, ..Sum::default() });
@@ -295,6 +310,9 @@ impl<K: Kinematics<2>> Interface<2> for Boundary<K> {
                 }
                 sum.water += weight * water;
                 sum.height += weight * placed.middle[1];
+                if pointwise && held.apart[contact_node as usize] {
+                    sum.spots.extend(spots.iter().map(|spot| Spot { share: share * spot.share, ..*spot }));
+                }
                 for (&node, n_s) in structure.iter().zip(&placed.value) {
                     add(&mut sum.entries, node, &[n, t].map(|along| along.map(|a| -weight * n_s * a)));
                 }
@@ -303,9 +321,11 @@ impl<K: Kinematics<2>> Interface<2> for Boundary<K> {
                 }
             }
         }
+        let loops = segments.loops(&self.surface);
         let constraint = |(contact_node, sum): (usize, Option<Sum>)| {
-            let Sum { area, open, curvature, facing, distance, spacing, strength, water, height, point, mut entries } =
-                sum.filter(|sum| sum.area > 0.0)?;
+            let Sum { area, open, curvature, facing, distance, spacing, strength, water, height, point, .. } =
+                *sum.as_ref().filter(|sum| sum.area > 0.0)?;
+            let Sum { mut entries, spots, .. } = sum?;
             let spacing = spacing / area;
             let curvature = curvature / area;
             let now = if facing > 0.0 { distance / facing } else { open / area };
@@ -325,7 +345,8 @@ impl<K: Kinematics<2>> Interface<2> for Boundary<K> {
                 by_tangent: by(1),
                 curvature,
                 by_arc: by(1),
-                spots: Vec::new(),
+                spots: Spot::about_mean(&spots, loops[contact_node]),
+                looks_ahead: false,
                 penalty: Penalty {
                     bonded: held.bonded(contact_node, law, gap < FADING * self.surface.spacing),
                     strength: strength / area,

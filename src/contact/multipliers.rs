@@ -1,6 +1,6 @@
 //! What contact nodes carry from step to step.
 
-use super::law::Law;
+use super::law::{Answer, Law};
 use super::surface::Run;
 
 /// Share of a multiplier that its neighbours' mean takes the place of in each step.
@@ -105,9 +105,10 @@ impl Multipliers {
         self.pressure[k] != 0.0 || self.shear[k] != 0.0
     }
 
-    /// Whether contact node `k` is apart from the soil: there is a gap and it bears nothing, or vapour in a gap of `wide` (m) or more.
-    pub fn is_apart(&self, k: usize, law: &Law, wide: f64) -> bool {
-        self.gap[k] > 0.0 && !self.touched(k) || law.sealed && self.gap[k] >= wide
+    /// Whether contact node `k` is apart from the soil: there is a gap and it bears nothing, given the answer of its mean gap, or vapour in a gap of
+    /// `wide` (m) or more. A part of its area may bear all the same.
+    pub fn is_apart(&self, k: usize, law: &Law, mean: &Answer, wide: f64) -> bool {
+        self.gap[k] > 0.0 && mean.pressure == 0.0 && mean.shear == 0.0 || law.sealed && self.gap[k] >= wide
     }
 
     /// Whether contact node `k` bears the tension of the `law`: it did not come to its limit in the last step, or keeps it in the gap; or, where it did

@@ -102,6 +102,17 @@ impl Segments {
         }
         Self(placed)
     }
+
+    /// The length (m) of the piece of each contact node of `surface`, where that closes.
+    pub fn loops(&self, surface: &Surface) -> Vec<Option<f64>> {
+        let mut loops = vec![None; surface.contact_nodes];
+        for ((contact_nodes, is_loop), piece) in surface.runs.iter().zip(&surface.pieces) {
+            if let (true, [first, .., last]) = (*is_loop, &self.0[piece.clone()]) {
+                loops[contact_nodes.clone()].fill(Some(last.along + first.along));
+            }
+        }
+        loops
+    }
 }
 
 #[cfg(test)]

@@ -195,6 +195,7 @@ mod tests {
             curvature: 0.0,
             by_arc: vec![[0.3, -0.2], [0.1, -0.4], [-0.4, 0.6]],
             spots: Vec::new(),
+            looks_ahead: false,
             penalty: Penalty {
                 pressure: 0.0,
                 shear: 0.0,

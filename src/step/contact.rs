@@ -287,7 +287,8 @@ pub fn commit<const D: usize>(
         (held.pressure[contact_node], held.shear[contact_node]) = (answer.pressure, answer.shear);
         (held.gap[contact_node], held.slip[contact_node]) = (gap, slip.abs());
         held.faces[contact_node] = true;
-        held.apart[contact_node] = held.is_apart(contact_node, law, condition.penalty.fading);
+        let mean = contact_answer(law, scene.levels.as_ref(), &constraint.in_the_mean(), &trial).0;
+        held.apart[contact_node] = held.is_apart(contact_node, law, &mean, condition.penalty.fading);
         let resultant = &mut resultants[interface];
         if held.touched(contact_node) {
             resultant.contact_nodes += 1;

@@ -14,7 +14,7 @@ use crate::time_integration::GeneralisedAlpha;
 /// The force (kN, one entry an equation) of contact with soil that acts as an impulse in a step with inertia; empty where nothing touches.
 pub fn force<const D: usize>(scene: &Scene<D>, grid: &Grid<D>, trial: &Trial<D>) -> Vec<f64> {
     let mut sum = Vec::new();
-    for constraint in grid.constraints.iter().filter(|constraint| !constraint.condition.looks_ahead()) {
+    for constraint in grid.constraints.iter().filter(|constraint| !constraint.condition.looks_ahead) {
         let condition = &constraint.condition;
         let law = scene.interfaces[constraint.interface as usize].sides().laws.at(trial.phase);
         let (answer, Motion { turn, .. }) = contact_answer(law, scene.levels.as_ref(), constraint, trial);

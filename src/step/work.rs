@@ -100,8 +100,9 @@ pub struct Done {
     /// What Newton's method has left.
     residual: f64,
     dissipated: Dissipated,
-    /// What nodes lose as they are stopped at supports, all at once.
+    /// What is lost as the velocities of supported and prescribed nodes take their values at once, and what those that prescribe them give to it.
     impact: f64,
+    driven: f64,
     /// What a step with inertia does not resolve (kJ): what gravity gives in it to all that falls freely.
     unresolved: f64,
     /// Without inertia: the part of the work that the forces at the beginning of the step do, in which all of them are in balance.
@@ -154,10 +155,19 @@ impl Done {
                 sum(&force) - of_given(&|e| force[e])
             }
         };
-        let (mut impact, mut at_start) = (0.0, None);
+        let (mut impact, mut driven, mut at_start) = (0.0, 0.0, None);
         if let Some(start) = start {
             if start.velocity != state.velocity {
-                impact = kinetic(scene, grid, state, &state.velocity)? - kinetic(scene, grid, state, &start.velocity)?;
+                let jump: Vec<[f64; D]> = start
+                    .velocity
+                    .iter()
+                    .zip(&state.velocity)
+                    .map(|(now, before)| std::array::from_fn(|d| now[d] - before[d]))
+                    .collect();
+                // Their impulse does its work with the velocity that they have from then on.
+                impact = kinetic(scene, grid, state, &jump)?;
+                driven = impact + kinetic(scene, grid, state, &start.velocity)?
+                    - kinetic(scene, grid, state, &state.velocity)?;
             }
         } else {
             let before = |e: usize| match grid.dofs.dof(e) {
@@ -181,6 +191,7 @@ impl Done {
             residual,
             dissipated,
             impact,
+            driven,
             at_start,
             way,
             given,
@@ -193,7 +204,9 @@ impl Done {
     /// # Errors
     /// Analysis: a step with inertia creates more energy than it may of the most that was `in_play` (kJ).
     pub fn close(self, before: Energies, residual: &[f64], now: [f64; 2], in_play: f64) -> Result<Energies> {
-        let Self { way, given, works, contact, supports, ramp, dissipated, impact, unresolved, at_start, .. } = self;
+        let Self {
+            way, given, works, contact, supports, ramp, dissipated, impact, driven, unresolved, at_start, ..
+        } = self;
         // What the supports bear of contact that counts otherwise in the equations.
         let of_supports = given.iter().map(|&e| way[e] * residual[e]).sum::<f64>();
         let mean =
@@ -204,7 +217,7 @@ impl Done {
         let stress = mean(works.of(Source::Stress), &|at| {
             at.supports - at.works.sum() - at.contact.iter().sum::<f64>() - at.ramp
         });
-        let kinetic = now[0] - (before.of(Item::Kinetic) - impact);
+        let kinetic = now[0] - (before.of(Item::Kinetic) - impact + driven);
         let stored = now[1] - before.of(Item::Stored);
         let weighted = match &at_start {
             None => works.of(Source::Contact) - contact.iter().sum::<f64>() - (supports - of_supports),
@@ -226,6 +239,7 @@ impl Done {
             (Item::Contact, contact[0]),
             (Item::Friction, contact[1]),
             (Item::Impact, impact),
+            (Item::Supports, driven),
             (Item::Steps, steps),
             (Item::Penalties, of(Source::Penalty)),
             (Item::Residual, -mean(self.residual, &|_| 0.0)),

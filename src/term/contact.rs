@@ -37,7 +37,7 @@ pub fn answer<const D: usize>(
         std::array::from_fn(|d| now[d] - before[d])
     };
     let mut motion = constraint.condition.measure(since);
-    if !trial.ahead.is_empty() && constraint.condition.looks_ahead() {
+    if !trial.ahead.is_empty() && constraint.condition.looks_ahead {
         motion = constraint.condition.ahead(motion, trial.ahead);
     }
     let law = law.reduced(trial.reduction);
@@ -77,7 +77,7 @@ impl<const D: usize> Term<D> for Contact {
             let condition = &constraint.condition;
             let (answer, Motion { turn, ahead_turn, .. }) = answer(law, self.levels.as_ref(), constraint, trial);
             let [weight, ahead_slope] =
-                if condition.looks_ahead() { [1.0, trial.ahead_slope] } else { [trial.contact_weight, 0.0] };
+                if condition.looks_ahead { [1.0, trial.ahead_slope] } else { [trial.contact_weight, 0.0] };
             let area = weight * condition.area;
             let (pressure, shear) = (area * answer.pressure, area * answer.shear);
             let moment = area * condition.curvature * answer.moment;

@@ -93,6 +93,13 @@ pub struct PlacedConstraint<const D: usize> {
     pub place: Vec<u32>,
 }
 
+impl<const D: usize> PlacedConstraint<D> {
+    /// The same with a mean gap alone, however that varies under the contact node.
+    pub fn in_the_mean(&self) -> Self {
+        Self { condition: Constraint { spots: Vec::new(), ..self.condition.clone() }, ..self.clone() }
+    }
+}
+
 /// What stays fixed while a step is solved.
 pub struct Frame<'a, const D: usize> {
     /// The grid as last restored: the reference configuration.

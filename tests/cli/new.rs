@@ -6,10 +6,11 @@ use std::path::Path;
 use std::process::Command;
 
 /// The templates, and what makes the mesh of each coarse.
-const TEMPLATES: [(&str, &str); 8] = [
+const TEMPLATES: [(&str, &str); 9] = [
     ("anchor", "0.25"),
     ("consolidation", "0.1"),
     ("footing", "0.2"),
+    ("impact", "0.1"),
     ("penetration", "0.25"),
     ("pipe", "0.2"),
     ("silo", "0.15"),
@@ -119,6 +120,8 @@ fn the_variants_that_the_readmes_name_are_sound() {
         ("slope", "materials.soil={model: tresca, young: 20000, poisson: 0.49, shear_strength: {top: 30, gradient: 2, datum: 10}, unit_weight: 18}"),
         ("pipe", "contacts[0].adhesion_factor=1"),
         ("pipe", "phases.pull.prescribe.pipe={ux: {rate: 1}}"),
+        ("impact", "mesh.parameters.tip=0"),
+        ("impact", "geometry=plane_strain"),
         ("consolidation", "supports.bottom={ux: 0, uy: 0, pore_pressure: 0}"),
         ("consolidation", "phases[0].tractions[0].ty={table: [[0, 0], [2.0e+4, -40]]}"),
     ]

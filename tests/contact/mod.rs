@@ -14,6 +14,7 @@ mod wall;
 /// What takes more than some seconds; `make test-quick` leaves it out.
 mod slow {
     mod hertz;
+    mod rolling;
 }
 
 use crate::support::{errors, mpm, rows, run};

@@ -9,6 +9,7 @@ mod cantilever;
 mod cases;
 mod column;
 mod ddmp;
+mod driven;
 mod elements;
 mod ending;
 mod energy;
@@ -43,6 +44,7 @@ mod slow {
     mod nearly_incompressible_sand;
     mod offshore;
     mod population;
+    mod shovel;
     mod silo;
     mod slopes;
     mod splines;

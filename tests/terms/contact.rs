@@ -47,6 +47,7 @@ fn stand_in_water(law: Law, apart: f64, levels: Option<WaterLevels>) -> Stand<Pl
             by_arc: weights.iter().map(|w| [-normal[1] * w, 1.1 * normal[0] * w]).collect(),
             // A part of the contact node may bear while the rest is apart.
             spots: [-1.0, 1.0].map(|side| Spot { share: 0.5, along: 0.02 * side, open: 1e-3 * side }).to_vec(),
+            looks_ahead: contact_node.is_multiple_of(2),
             own: 3,
             nodes,
             penalty: Penalty {

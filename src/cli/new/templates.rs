@@ -30,7 +30,7 @@ macro_rules! template {
 }
 
 /// All of them, as they are listed.
-pub const TEMPLATES: [Template; 8] = [
+pub const TEMPLATES: [Template; 9] = [
     template!("footing", "a strip or circular footing on clay, loaded to its limit"),
     template!("penetration", "a round bar, a flat strip or a thin wall pushed deep into clay"),
     template!("anchor", "a plate anchor pulled up in clay"),
@@ -38,6 +38,7 @@ pub const TEMPLATES: [Template; 8] = [
     template!("pipe", "a pipe pressed into the seabed and moved sideways"),
     template!("consolidation", "a layer of clay that is loaded and drains through its top"),
     template!("silo", "a silo of dry sand: filled, opened and emptied"),
+    template!("impact", "a body that falls on clay: a penetrometer, an anchor or a block"),
     template!("wall", "a wall pushed into sand, or moved away from it"),
 ];
 
