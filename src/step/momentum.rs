@@ -151,11 +151,8 @@ pub fn deformation<const D: usize, K: Kinematics<D>>(
     let has = momentum(&bodies, points, &points.position, &at_samples::<D, K>(scene, grid, samples, field));
     let still = |has: &Momentum<D>| Momentum { linear: [0.0; D], angular: 0.0, ..*has };
     let rigid: Vec<Rigid<D>> = has.iter().map(|has| has.towards::<K>(&still(has))).collect();
-    part.iter_mut()
-        .zip(field)
-        .enumerate()
-        .filter(|(n, _)| bodies.of_node(*n).is_some())
-        .for_each(|(_, (to, v))| *to = *v);
+    let of_soil = (0..grid.mesh(scene).nodes.len()).filter(|n| bodies.of_node(*n).is_some());
+    of_soil.for_each(|n| part[n] = field[n]);
     add_to_nodes(scene, grid, state, &bodies, &rigid, &mut part);
     part
 }

@@ -34,6 +34,8 @@ const ROUNDING: f64 = 1e-12;
 pub struct Start<const D: usize> {
     pub velocity: Vec<[f64; D]>,
     pub acceleration: Vec<[f64; D]>,
+    /// The velocity (m/s) that nodes are prescribed to have, zero where they are free.
+    pub prescribed: Vec<[f64; D]>,
 }
 
 impl<const D: usize> Start<D> {
@@ -51,7 +53,9 @@ impl<const D: usize> Start<D> {
         given: &[Option<f64>],
         dt: f64,
     ) -> Result<Self> {
-        let mut start = Self { velocity: state.velocity.clone(), acceleration: state.acceleration.clone() };
+        let mut prescribed = vec![[0.0; D]; state.velocity.len()];
+        change(grid, &lacks(grid, given, &prescribed, 1.0 / dt), &mut prescribed);
+        let mut start = Self { velocity: state.velocity.clone(), acceleration: state.acceleration.clone(), prescribed };
         let halt = lacks(grid, given, &start.acceleration, 0.0);
         change(grid, &halt, &mut start.acceleration);
         let mut jump = lacks(grid, given, &start.velocity, 1.0 / dt);
