@@ -398,6 +398,29 @@ PASSIVE_WALL = Entry(
     picture=("--window=-1.5,-0.2,6.2,4.8",),
 )
 
+
+def surcharge_factor(angle: float) -> float:
+    """N_q (-) of an angle of friction (degrees)."""
+    tangent = np.tan(np.radians(angle))
+    return np.exp(np.pi * tangent) * np.tan(np.radians(45 + angle / 2)) ** 2
+
+
+def of_surcharge(out: Path) -> float:
+    """N_q of a footing 1 m wide on each side, on soil without weight that bears 10 kPa beneath it, too."""
+    return history(out)["footing.contact_y"][-1] / 10 + 1
+
+
+FOOTING_ON_SAND = Entry(
+    "footing_on_sand",
+    "N_q, φ = 30°",
+    "slip lines (Prandtl 1921, Reissner 1924); without dilation between Davis (1968) and these",
+    [
+        Row("", "N_q, ψ = φ", of_surcharge, surcharge_factor(30), 0.03),
+        Row("no-dilation", "N_q, ψ = 0", of_surcharge, (surcharge_factor(26.565), surcharge_factor(30)), 0.0, {"materials.sand.dilation": 0}),
+    ],
+    picture=("--window=0,-3,7,0.6", "--range=0,0.004"),
+)
+
 def emptied(top: float, bottom: float) -> Row:
     """Beverloo's constant of the slot while the mean height of the sand is between two."""
 
@@ -447,4 +470,4 @@ SHOVEL = Entry(
     picture=("--window=-0.6,-1,3,0.8",),
 )
 
-ENTRIES = [VERTICAL_CUT, TRENCH, JET_TRENCH, MUDMAT, SKIRTED_MAT, SPUDCAN, PLATE_ANCHOR, PUNCH_THROUGH, EMBEDDED_FOOTING, TBAR, SUCTION_ANCHOR, FREE_FALL_CONE, SLIDE_ON_PIPE, BUI_COLUMN, SILO, PASSIVE_WALL, SHOVEL]
+ENTRIES = [VERTICAL_CUT, TRENCH, JET_TRENCH, MUDMAT, SKIRTED_MAT, SPUDCAN, PLATE_ANCHOR, PUNCH_THROUGH, EMBEDDED_FOOTING, TBAR, SUCTION_ANCHOR, FREE_FALL_CONE, SLIDE_ON_PIPE, BUI_COLUMN, SILO, PASSIVE_WALL, FOOTING_ON_SAND, SHOVEL]
