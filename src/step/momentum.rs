@@ -137,26 +137,6 @@ pub fn complete_nodes<const D: usize, K: Kinematics<D>>(
     add_to_nodes(scene, grid, state, &bodies, &rigid, field);
 }
 
-/// The part of a nodal `field` of the soil that is not a rigid motion of a body, by mass at the integration points; zero at other nodes.
-pub fn deformation<const D: usize, K: Kinematics<D>>(
-    scene: &Scene<D>,
-    grid: &Grid<D>,
-    state: &State<D>,
-    field: &[[f64; D]],
-) -> Vec<[f64; D]> {
-    let mut part = vec![[0.0; D]; field.len()];
-    let Some(samples) = &state.weights.samples else { return part };
-    let points = &samples.points;
-    let bodies = Bodies::of(&scene.mesh, points.cell.iter().copied(), &[]);
-    let has = momentum(&bodies, points, &points.position, &at_samples::<D, K>(scene, grid, samples, field));
-    let still = |has: &Momentum<D>| Momentum { linear: [0.0; D], angular: 0.0, ..*has };
-    let rigid: Vec<Rigid<D>> = has.iter().map(|has| has.towards::<K>(&still(has))).collect();
-    let of_soil = (0..grid.mesh(scene).nodes.len()).filter(|n| bodies.of_node(*n).is_some());
-    of_soil.for_each(|n| part[n] = field[n]);
-    add_to_nodes(scene, grid, state, &bodies, &rigid, &mut part);
-    part
-}
-
 /// Corrects a nodal `field`, so that it has at the material points the momentum of `values` there: what the regularisation of the mapping
 /// (eq. 11a) has lost.
 pub fn keep_at_nodes<const D: usize, K: Kinematics<D>>(

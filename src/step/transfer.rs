@@ -3,7 +3,7 @@
 //! To the grid by consistent mass, `(M + P) v = Σ_p m_p N_I v_p` with the regularisation (11a); what that takes of linear and angular momentum is given back. To the points by increments of velocity (FLIP) and values of acceleration, with the momentum
 //! that the nodal field has at the integration points ([`momentum`]).
 
-use super::balance::{self, static_force};
+use super::balance::static_force;
 use super::family::{Family, interpolate};
 use super::grid::Grid;
 use super::impulse;
@@ -14,7 +14,6 @@ use super::rigid;
 use super::scene::Scene;
 use super::start::{Start, add};
 use super::state::{Span, State};
-use super::work;
 use crate::error::{Error, Result};
 use crate::kinematics::Kinematics;
 use crate::points::Points;
@@ -41,9 +40,6 @@ pub fn motion_to_grid<const D: usize, K: Kinematics<D>>(
     if let Some(samples) = &mut state.weights.samples {
         samples.motion.clear();
     }
-    if state.moving {
-        create_nothing::<D, K>(scene, grid, state)?;
-    }
     drop_unrepresented::<D, K>(scene, grid, state);
     if !state.moving {
         state.acceleration = first_acceleration::<D, K>(scene, grid, state)?;
@@ -52,26 +48,6 @@ pub fn motion_to_grid<const D: usize, K: Kinematics<D>>(
         state.moving = true;
         // The last increment without inertia predicts nothing for a step with inertia.
         state.increment.fill([0.0; D]);
-    }
-    Ok(())
-}
-
-/// Slows the deformation of the soil where the reset would create energy: in cut cells the integration points may have mass, and stress, where the
-/// material points have little. Rigid motions of bodies stay, and with them their momentum.
-fn create_nothing<const D: usize, K: Kinematics<D>>(
-    scene: &Scene<D>,
-    grid: &mut Grid<D>,
-    state: &mut State<D>,
-) -> Result<()> {
-    let created = work::created(scene, grid, state)?;
-    if created <= 0.0 {
-        return Ok(());
-    }
-    let part = momentum::deformation::<D, K>(scene, grid, state, &state.velocity);
-    let kinetic = balance::kinetic(scene, grid, state, &part)?;
-    if kinetic > 0.0 {
-        let slower = 1.0 - (1.0 - created / kinetic).max(0.0).sqrt();
-        add(&mut state.velocity, &part.iter().map(|v| v.map(|v| -slower * v)).collect::<Vec<_>>());
     }
     Ok(())
 }

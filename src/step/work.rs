@@ -32,16 +32,6 @@ fn held<const D: usize>(scene: &Scene<D>, grid: &mut Grid<D>, state: &State<D>) 
     Ok([kinetic, of(&scene.terms, state.integration()) + of_elements])
 }
 
-/// What a reset of the grid would create (kJ), with what resets have dissipated before in hand.
-///
-/// # Errors
-/// As [`kinetic`].
-pub fn created<const D: usize>(scene: &Scene<D>, grid: &mut Grid<D>, state: &State<D>) -> Result<f64> {
-    let Some(energies) = state.energies else { return Ok(0.0) };
-    let before = energies.of(Item::Kinetic) + energies.of(Item::Stored) + energies.of(Item::Resets).max(0.0);
-    Ok(held(scene, grid, state)?.iter().sum::<f64>() - before)
-}
-
 /// Notes what is held as a run, a phase, or the part of a phase without inertia begins.
 ///
 /// # Errors
