@@ -244,37 +244,6 @@ impl<'a> Mass<'a> {
         self.factorised = false;
         solver.solve(pattern, &held, x).map(|_| ())
     }
-
-    /// The change of velocity (m/s) of one component by impulses that change it by `by` at the nodes marked in `fixed`, whose velocity is `before` (m/s).
-    ///
-    /// With impulses on these nodes alone it is `Δ` with `M Δ = 0` at all others, which takes energy, but leaves the others in oscillation: as nodes share
-    /// mass those beside are pushed on. So the others keep their velocity as far as that gives no energy: `Δ + α (by − Δ)` with the largest `α ≤ 1`.
-    ///
-    /// # Errors
-    /// As [`Mass::solve`].
-    pub fn stop(&mut self, fixed: &[bool], by: &[f64], before: &[f64]) -> Result<Vec<f64>> {
-        let mut change = vec![0.0; by.len()];
-        self.solve_given(fixed, by, &mut change)?;
-        let System { pattern, matrix, .. } = &*self.system;
-        let kept: Vec<f64> = by.iter().zip(&change).map(|(by, change)| by - change).collect();
-        let momentum = |of: &[f64]| {
-            let mut momentum = vec![0.0; of.len()];
-            matrix.multiply(pattern, of, &mut momentum);
-            momentum
-        };
-        let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
-        let [of_change, of_kept] = [&change, &kept].map(|of| momentum(of));
-        // The energy that is gained: −loss + α linear + α² square. What moves nodes at their given velocity works on them.
-        let loss = 0.5 * dot(&change, &of_change);
-        let at = |b: usize| if fixed[b] { -by[b] } else { before[b] };
-        let linear = of_kept.iter().enumerate().map(|(b, momentum)| momentum * at(b)).sum::<f64>();
-        let square = 0.5 * dot(&kept, &of_kept);
-        if square > 0.0 {
-            let most = ((linear * linear + 4.0 * square * loss).sqrt() - linear) / (2.0 * square);
-            change.iter_mut().zip(&kept).for_each(|(change, kept)| *change += most.min(1.0) * kept);
-        }
-        Ok(change)
-    }
 }
 
 /// The acceleration of the nodes (m/s²) by minus a force (kN, one entry an equation), `(M + P) a = −f`; zero where the displacement is prescribed.

@@ -34,15 +34,14 @@ const ROUNDING: f64 = 1e-12;
 pub struct Start<const D: usize> {
     pub velocity: Vec<[f64; D]>,
     pub acceleration: Vec<[f64; D]>,
-    /// The velocity (m/s) that nodes are prescribed to have, zero where they are free.
-    pub prescribed: Vec<[f64; D]>,
 }
 
 impl<const D: usize> Start<D> {
     /// The motion in `state`. Nodes whose displacement is prescribed move at the constant speed of the step instead. Their sudden
     /// change of velocity (an impact, a kink of a table) is part of the increment that [`motion_to_points`](super::transfer::motion_to_points) gives to the points.
     ///
-    /// That never gives energy, see [`Mass::stop`].
+    /// It is an impulse on these nodes alone: the momentum of all others stays, and as nodes share mass their velocities do not. So what is stopped
+    /// loses energy, the more the larger the mass; were the others left to move as before, it might gain some.
     ///
     /// # Errors
     /// As [`Mass::assemble`].
@@ -53,21 +52,17 @@ impl<const D: usize> Start<D> {
         given: &[Option<f64>],
         dt: f64,
     ) -> Result<Self> {
-        let mut prescribed = vec![[0.0; D]; state.velocity.len()];
-        change(grid, &lacks(grid, given, &prescribed, 1.0 / dt), &mut prescribed);
-        let mut start = Self { velocity: state.velocity.clone(), acceleration: state.acceleration.clone(), prescribed };
+        let mut start = Self { velocity: state.velocity.clone(), acceleration: state.acceleration.clone() };
         let halt = lacks(grid, given, &start.acceleration, 0.0);
         change(grid, &halt, &mut start.acceleration);
         let mut jump = lacks(grid, given, &start.velocity, 1.0 / dt);
         let largest = start.velocity.iter().flatten().fold(0.0, |most: f64, v| most.max(v.abs()));
         if jump.iter().flatten().any(|by| by.abs() > ROUNDING * largest) {
-            let before: Vec<[f64; D]> =
-                grid.dofs.node.iter().map(|&n| grid.dofs.value(n, |m| start.velocity[m as usize])).collect();
             let mut mass = Mass::assemble::<D, K>(scene, grid, state, Carrier::IntegrationPoints)?;
             for (d, jump) in jump.iter_mut().enumerate() {
                 let fixed: Vec<bool> = (0..jump.len()).map(|b| given[b * D + d].is_some()).collect();
-                let before: Vec<f64> = before.iter().map(|v| v[d]).collect();
-                *jump = mass.stop(&fixed, jump, &before)?;
+                let by = std::mem::replace(jump, vec![0.0; fixed.len()]);
+                mass.solve_given(&fixed, &by, jump)?;
             }
         }
         change(grid, &jump, &mut start.velocity);

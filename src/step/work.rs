@@ -148,20 +148,16 @@ impl Done {
         let (mut impact, mut driven, mut at_start) = (0.0, 0.0, None);
         if let Some(start) = start {
             if start.velocity != state.velocity {
-                let mut work = |of: &dyn Fn(usize) -> [f64; D]| {
-                    let velocity: Vec<[f64; D]> = (0..start.velocity.len()).map(of).collect();
-                    kinetic(scene, grid, state, &velocity)
-                };
-                let jump = |n: usize| std::array::from_fn(|d| start.velocity[n][d] - state.velocity[n][d]);
-                let both = |n: usize| {
-                    let jump: [f64; D] = jump(n);
-                    std::array::from_fn(|d| jump[d] + start.prescribed[n][d])
-                };
+                let jump: Vec<[f64; D]> = start
+                    .velocity
+                    .iter()
+                    .zip(&state.velocity)
+                    .map(|(now, before)| std::array::from_fn(|d| now[d] - before[d]))
+                    .collect();
                 // Their impulse does its work with the velocity that they have from then on.
-                if start.prescribed.iter().flatten().any(|&v| v != 0.0) {
-                    driven = work(&both)? - work(&jump)? - work(&|n| start.prescribed[n])?;
-                }
-                impact = driven + work(&|n| state.velocity[n])? - work(&|n| start.velocity[n])?;
+                impact = kinetic(scene, grid, state, &jump)?;
+                driven = impact + kinetic(scene, grid, state, &start.velocity)?
+                    - kinetic(scene, grid, state, &state.velocity)?;
             }
         } else {
             let before = |e: usize| match grid.dofs.dof(e) {
