@@ -365,15 +365,16 @@ fn phase(
     phase: &super::checked::Phase,
     search: Option<&Search>,
 ) -> Result<Phase> {
-    let values = phase
-        .prescribed
+    let loads: Vec<&TimeValue> = phase
+        .tractions
         .iter()
-        .map(|p| &p.displacement)
-        .chain(phase.tractions.iter().flat_map(|t| &t.components))
+        .flat_map(|t| &t.components)
         .chain(water::values(case, number, phase))
         .chain(case.features.iter().flat_map(|feature| feature.values(number)))
         .chain(std::iter::once(&phase.gravity))
-        .chain(&phase.reduction);
+        .chain(&phase.reduction)
+        .collect();
+    let values = phase.prescribed.iter().map(|p| &p.displacement).chain(loads.iter().copied());
     Ok(Phase {
         name: phase.name.clone(),
         dynamic: phase.analysis == Analysis::Dynamic,
@@ -382,6 +383,7 @@ fn phase(
         duration: phase.duration,
         step: phase.step,
         prescribed: holds.prescribed(phase)?,
+        loads_change: loads.iter().any(|value| !matches!(value, TimeValue::Constant(_))),
         reduction: phase.reduction.clone(),
         search: search.filter(|_| phase.analysis == Analysis::StrengthReduction).cloned(),
         held: Vec::new(),

@@ -209,7 +209,7 @@ pub fn on_elements<K: Kinematics<2>>(case: &Case, mesh: &Mesh<2>, size: f64) -> 
         terms.push(Box::new(FacetPressure::<K>::new(mesh, deforms, water.heads(size))));
     }
     if water.phreatic.is_some() {
-        terms.push(Box::new(of_water::<K>(case, water, Vec::new(), mesh, size)));
+        terms.push(Box::new(of_water::<K>(case, water, Vec::new(), mesh, size).in_full_cells()));
     }
     terms
 }

@@ -27,8 +27,11 @@ const SAME: f64 = 1e-4;
 const RAISED: f64 = 1e-10;
 /// Bodies that a message names.
 const NAMED: usize = 4;
+/// What helps where bodies move freely.
+const HOLD: &str =
+    "without inertia a body must not move freely: hold it by supports, prescribe it, or lay it on what it touches";
 
-/// The error of a singular system with the bodies that are free to move in it; another error as it is. `fixed` tells
+/// The error of a singular system without inertia with the bodies that are free to move in it; another error as it is. `fixed` tells
 /// the equations whose displacement is given, `position` where the nodes are (m).
 pub fn name<const D: usize>(
     error: Error,
@@ -45,13 +48,13 @@ pub fn name<const D: usize>(
     if free.is_empty() {
         return match weakest(grid, fixed) {
             Some(n) => without_strength(error, scene, state, grid, (n, position(n))),
-            None => error,
+            None => Error { remedy: HOLD.to_owned(), ..error },
         };
     }
     let more = free.len().saturating_sub(NAMED);
     free.truncate(NAMED);
     let more = if more > 0 { format!(", and {more} bodies more") } else { String::new() };
-    Error { problem: format!("{}: {}{more}", error.problem, free.join(", ")), ..error }
+    Error { problem: format!("{}: {}{more}", error.problem, free.join(", ")), remedy: HOLD.to_owned(), ..error }
 }
 
 /// What is said of each body that can move freely.

@@ -53,6 +53,14 @@ pub fn solve<const D: usize>(problem: &Problem<D>, grid: &mut Grid<D>) -> Result
     solution
 }
 
+/// Whether soil with friction follows what is prescribed, without inertia, under loads that do not change. Under loads that do, and in the first step of a
+/// phase, it may be beyond its limit, and an iteration over larger residuals would come to another equilibrium.
+fn follows<const D: usize>(problem: &Problem<D>) -> bool {
+    let (scene, phase) = (problem.scene, &problem.scene.phases[problem.phase]);
+    let held = problem.integration.is_some() || phase.loads_change || !problem.state.ramp.force.is_empty();
+    !held && problem.from > 0.0 && phase.moves() && scene.has_friction()
+}
+
 /// The iteration.
 struct Newton<'a, const D: usize> {
     problem: &'a Problem<'a, D>,
@@ -67,8 +75,7 @@ struct Newton<'a, const D: usize> {
     /// The number of them before the iteration last began: from the predicted state, or anew from the converged one.
     before: usize,
     method: Method,
-    /// Whether soil with friction follows what is prescribed, without inertia: residuals may rise then. Under loads it may be beyond its limit, and the
-    /// iteration would come to another equilibrium.
+    /// Whether soil with friction follows what is prescribed: residuals may rise then.
     follows: bool,
     /// Residuals (kN) of the states accepted so far.
     recent: Vec<f64>,
@@ -101,8 +108,7 @@ impl<'a, const D: usize> Newton<'a, D> {
         buffers.damped.clear();
         let floor = floor(problem, grid);
         let strict = !problem.scene.interfaces.is_empty() && problem.integration.is_none();
-        let driven = problem.integration.is_none() && problem.scene.phases[problem.phase].moves();
-        let follows = driven && problem.scene.has_friction();
+        let follows = follows(problem);
         Self {
             problem,
             grid,
@@ -353,12 +359,15 @@ impl<'a, const D: usize> Newton<'a, D> {
             self.singular = Some(self.error());
             return self.direction();
         }
-        let Problem { scene, state, .. } = self.problem;
+        let Problem { scene, state, integration, .. } = self.problem;
         let position = |n: u32| {
             let from = state.at_reset(scene, n);
             std::array::from_fn(|d| from[d] + now.at.displacement[n as usize][d])
         };
-        self.method = method.map_err(|e| free::name(e, scene, state, self.grid, fixed, &position))?;
+        self.method = match method {
+            Err(error) if integration.is_none() => Err(free::name(error, scene, state, self.grid, fixed, &position)),
+            method => method,
+        }?;
         Ok(())
     }
 

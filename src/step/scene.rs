@@ -251,6 +251,8 @@ pub struct Phase {
     pub duration: f64,
     pub step: StepSize,
     pub prescribed: Vec<Prescribed>,
+    /// Whether loads, gravity, water levels or strengths change during it.
+    pub loads_change: bool,
     /// What strengths are divided by (-); absent where they are as given.
     pub reduction: Option<TimeValue>,
     /// Present where the phase looks for the reduction of strength that leaves no equilibrium.

@@ -17,11 +17,7 @@ pub fn is_singular(error: &Error) -> bool {
 }
 
 pub(super) fn singular() -> Error {
-    Error::analysis(
-        "linear solver",
-        OF_SINGULAR,
-        "without inertia a body must not move freely: hold it by supports, prescribe it, or lay it on what it touches",
-    )
+    Error::analysis("linear solver", OF_SINGULAR, "take smaller steps")
 }
 
 pub(super) fn dot(a: &[f64], b: &[f64]) -> f64 {

@@ -120,7 +120,7 @@ impl<K: Kinematics<2>> Term<2> for FacetPressure<K> {
 
     fn assemble(&self, frame: &Frame<2>, trial: &Trial<2>, out: &mut Assembly) -> Result<()> {
         let Some(head) = self.heads.get(trial.phase).and_then(Option::as_ref) else { return Ok(()) };
-        let head = head.at(trial.time);
+        let head = head.at(trial.time).sharp();
         let compute = |&(cell, side): &(u32, u8), local: &mut Local| {
             let nodes = frame.mesh.cells.nodes(cell as usize);
             let facet = frame.mesh.cells.kind[cell as usize].facets().1[side as usize];

@@ -3,7 +3,8 @@
 //!
 //! `p = a + γ ⟨y₀ − y⟩`. Where it begins to grow it is rounded over a band, `⟨s⟩ = (s + b)²/4b` for `|s| < b`: the mean
 //! of the sharp function over a window 2b high. Its gradient is continuous, so that the force on points that pass the
-//! water level is, and its integral over a height is that of the sharp one.
+//! water level is, and its integral over a height is that of the sharp one. At the level itself it is `γ b/4`, so integrals that are cut there
+//! whatever moves have the sharp one.
 
 use crate::time_value::TimeValue;
 
@@ -51,6 +52,12 @@ impl Momentary {
         }
     }
 
+    /// The sharp one, for integrals that are cut at its [`Momentary::breaks`]: what lies at the level has none of it.
+    #[must_use]
+    pub fn sharp(self) -> Self {
+        Self { band: 0.0, ..self }
+    }
+
     /// The heights (m) between which it is a polynomial of degree 2 at most.
     pub fn breaks(&self) -> [f64; 2] {
         [self.datum - self.band, self.datum + self.band]
@@ -60,6 +67,15 @@ impl Momentary {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn the_sharp_one_is_nothing_from_its_level_on() {
+        let p = Momentary { top: 3.0, gradient: 9.81, datum: 2.0, band: 0.25 };
+        assert!(p.at(2.0)[0] > 3.5);
+        assert_eq!(p.sharp().at(2.0)[0], 3.0);
+        assert_eq!(p.sharp().at(2.01), [3.0, 0.0, 0.0]);
+        assert_eq!(p.sharp().at(1.0), p.at(1.0));
+    }
 
     #[test]
     fn the_rounding_keeps_slopes_and_the_integral() {

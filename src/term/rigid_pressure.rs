@@ -50,7 +50,7 @@ impl<K> RigidPressure<K> {
 impl<K: Kinematics<2>> RigidPressure<K> {
     /// Adds force and moment, and their tangent: `x = c + R(θ) r` and `n = R(θ) n₀`.
     fn add(&self, head: &Hydrostatic, trial: &Trial<2>, pose: &Pose<2>, local: &mut Local) {
-        let head = head.at(trial.time);
+        let head = head.at(trial.time).sharp();
         let centre = [0, 1].map(|d| self.body.centre[d] + pose.moved[d]);
         let (share, turns) = (1.0 - trial.alpha_f, self.body.dofs.rotation.is_some());
         for (from, count) in &self.facets {

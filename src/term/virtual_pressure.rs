@@ -32,8 +32,9 @@ use std::marker::PhantomData;
 /// sliver, its points stand for material beside it, and it does not tell where they are.
 const LEAST_SHARE: f64 = 0.5;
 
-/// Factor (-) on the band over which the pressure is rounded at the water level, for cells that are integrated in layers.
-const BAND: f64 = 0.25;
+/// Factor (-) on the band over which the pressure is rounded at the water level, for cells that are integrated in layers: what lies at the level has a
+/// quarter of the band too much, and what moves by more than the band in a step has the force of the wrong side until the next one.
+const BAND: f64 = 0.05;
 
 /// A pressure on the boundary of all material points.
 pub struct VirtualPressure<K> {
@@ -42,18 +43,25 @@ pub struct VirtualPressure<K> {
     /// What acts in the pores in each phase, and whether each material by number has such pores; both empty without.
     inside: Vec<Option<Hydrostatic>>,
     porous: Vec<bool>,
+    /// Whether the cells are full of material, as finite elements are.
+    full: bool,
     kinematics: PhantomData<K>,
 }
 
 impl<K> VirtualPressure<K> {
     /// `heads[i]` acts in phase `i`.
     pub fn new(heads: Vec<Option<Hydrostatic>>) -> Self {
-        Self { heads, inside: Vec::new(), porous: Vec::new(), kinematics: PhantomData }
+        Self { heads, inside: Vec::new(), porous: Vec::new(), full: false, kinematics: PhantomData }
     }
 
     /// With water in the pores: `inside[i]` in phase `i`, in material `m` ([`crate::points::Points::model_of`]) where `porous[m]`.
     pub fn with_pores(self, inside: Vec<Option<Hydrostatic>>, porous: Vec<bool>) -> Self {
         Self { inside, porous, ..self }
+    }
+
+    /// In cells that are full of material.
+    pub fn in_full_cells(self) -> Self {
+        Self { full: true, ..self }
     }
 }
 
@@ -183,7 +191,7 @@ impl<'a, const D: usize> Layered<'a, D> {
         cell_points: &CellPoints,
         acting: Acting,
     ) -> Option<Self> {
-        if frame.level_set.is_empty()
+        if (frame.level_set.is_empty() && !term.full)
             || frame.interpolation.extension.is_some()
             || frame.interpolation.support.is_some()
         {
@@ -217,7 +225,7 @@ impl<'a, const D: usize> Layered<'a, D> {
             scale: 1.0,
         };
         for (i, &n) in nodes.iter().enumerate() {
-            layered.level_set[i] = frame.level_set[n as usize];
+            layered.level_set[i] = if term.full { 1.0 } else { frame.level_set[n as usize] };
         }
         if layered.level_set.iter().all(|&value| value >= 0.0) {
             // Full, as [`crate::surface::Filling`] has it: triangles with all corners on the surface belong to it.

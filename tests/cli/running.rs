@@ -211,6 +211,17 @@ fn sand_that_finds_no_equilibrium_may_be_at_its_limit() {
     fails("tests/data/vertical_cut", &set, &parts);
 }
 
+/// A motion that is prescribed elsewhere does not lead the iteration past the limit: the cut fails as it does without it.
+#[test]
+fn sand_that_fails_beside_a_prescribed_motion_finds_no_equilibrium() {
+    let set = [
+        "materials.soil.cohesion=0.3",
+        "phases.rest.step={initial: 0.1, min: 0.005}",
+        "phases.rest.prescribe={sides: {uy: {rate: -1.0e-7}}}",
+    ];
+    fails("tests/data/vertical_cut", &set, &["no equilibrium found: the load may be the limit"]);
+}
+
 /// The load factor that a quasi-static analysis came to is what one wants to know of a collapse.
 #[test]
 fn an_analysis_that_meets_the_limit_load_says_how_far_it_came() {

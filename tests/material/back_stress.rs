@@ -384,6 +384,7 @@ fn scene() -> (Scene<2>, Points<2>, Models) {
         step: StepSize { initial: 1.0 / STEPS as f64, min: 1e-3, max: 1.0 / STEPS as f64 },
         prescribed,
         reduction: None,
+        loads_change: false,
         search: None,
         held: Vec::new(),
         apart: Vec::new(),

@@ -244,6 +244,7 @@ impl Bench {
                 step: StepSize { initial: step, min: step / 2f64.powi(self.halvings), max: step },
                 prescribed: self.prescribed,
                 reduction: None,
+                loads_change: false,
                 search: None,
                 held: Vec::new(),
                 apart: Vec::new(),

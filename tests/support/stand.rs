@@ -165,6 +165,7 @@ impl<K: Kinematics<2>> Stand<K> {
             step: StepSize { initial: 1.0, min: 1.0, max: 1.0 },
             prescribed: Vec::new(),
             reduction: None,
+            loads_change: false,
             search: None,
             held: Vec::new(),
             apart: Vec::new(),

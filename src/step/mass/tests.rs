@@ -39,6 +39,7 @@ fn scene<K: Kinematics<2>>(kind: CellKind) -> Scene<2> {
             step: StepSize { initial: 1.0, min: 1.0, max: 1.0 },
             prescribed: Vec::new(),
             reduction: None,
+            loads_change: false,
             search: None,
             held: Vec::new(),
             apart: Vec::new(),
