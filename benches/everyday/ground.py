@@ -149,9 +149,6 @@ def rest(dice):
         vertical = -ground.weight_above(soil.origin[:, 1]) + water(soil.origin[:, 1])
         # The water pressure has a kink at a table, which cells do not have within them: up to a quarter of γ_w h.
         slack = SETTLED / (1 - 2 * stiffest) * ground.scale + (WATER * ground.h / 4 if "water" in case and "level" not in case["water"] else 0)
-        # A pressure field of first order has a layer of its size at the surface (docs/theory.md, 10).
-        if ground.order == 1 and stiffest >= 0.45:
-            slack += max(ground.weights) * ground.h / 8
         checks = [
             below("vertical stress less the weight above, at most", abs(soil.yy - vertical).max(), slack),
             below("horizontal stress less K0 of it, at most", abs(soil.xx - k0 * vertical).max(), slack),

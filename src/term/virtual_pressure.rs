@@ -32,9 +32,11 @@ use std::marker::PhantomData;
 /// sliver, its points stand for material beside it, and it does not tell where they are.
 const LEAST_SHARE: f64 = 0.5;
 
-/// Factor (-) on the band over which the pressure is rounded at the water level, for cells that are integrated in layers: what lies at the level has a
-/// quarter of the band too much, and what moves by more than the band in a step has the force of the wrong side until the next one.
-const BAND: f64 = 0.05;
+/// The band over which the pressure is rounded at the water level, over the height of a cell (-), where the surface within the cells is known: what
+/// moves by more than the band in a step has the force of the wrong side until the next one.
+const BAND: f64 = 0.005;
+/// Its least value over the largest (-); what of a cell is less than this above or below the level is left out.
+const LEAST_BAND: f64 = 0.25;
 
 /// A pressure on the boundary of all material points.
 pub struct VirtualPressure<K> {
@@ -183,19 +185,19 @@ struct Layered<'a, const D: usize> {
 }
 
 impl<'a, const D: usize> Layered<'a, D> {
-    /// That of a cell; `None` where its points do: where nothing bends, or nothing is known of the surface.
+    /// That of a cell; what acts on its points where they do: where nothing bends, or nothing is known of the surface.
     fn of<K: Kinematics<D>>(
         term: &VirtualPressure<K>,
         frame: &'a Frame<D>,
         trial: &Trial<D>,
         cell_points: &CellPoints,
         acting: Acting,
-    ) -> Option<Self> {
+    ) -> std::result::Result<Self, Acting> {
         if (frame.level_set.is_empty() && !term.full)
             || frame.interpolation.extension.is_some()
             || frame.interpolation.support.is_some()
         {
-            return None;
+            return Err(acting);
         }
         let cell = cell_points.cell as usize;
         let nodes = frame.mesh.cells.nodes(cell);
@@ -206,14 +208,18 @@ impl<'a, const D: usize> Layered<'a, D> {
         let own = &height[..nodes.len()];
         let [low, high] =
             [own.iter().copied().fold(f64::INFINITY, f64::min), own.iter().copied().fold(f64::NEG_INFINITY, f64::max)];
-        let bends = |head: &Momentary| head.gradient != 0.0 && head.breaks()[0] < high && low < head.breaks()[1];
-        if ![acting.outside, acting.inside].iter().flatten().any(bends) {
-            return None;
+        // The band does not leave the cell: one beside it, or air, would not have its part.
+        let most = BAND * (high - low);
+        let within = |head: &Momentary| (high - head.datum).min(head.datum - low);
+        let narrow = acting.map(|head| Momentary { band: within(&head).clamp(LEAST_BAND * most, most), ..head });
+        let bends = |head: &Momentary| head.gradient != 0.0 && within(head) > LEAST_BAND * most;
+        if ![narrow.outside, narrow.inside].iter().flatten().any(bends) {
+            return Err(narrow);
         }
         let mut porous = frame.interpolation.points(cell_points).iter().map(|&p| term.porous_at(frame, p as usize));
-        let first = porous.next()?;
+        let first = porous.next().ok_or(acting)?;
         if porous.any(|other| other != first) {
-            return None;
+            return Err(acting);
         }
         let mut layered = Self {
             level_set: [0.0; MAX_NODES],
@@ -221,7 +227,7 @@ impl<'a, const D: usize> Layered<'a, D> {
             x: frame.mesh.coordinates(cell),
             frame,
             cell,
-            acting: acting.on(first).map(|head| Momentary { band: BAND * head.band, ..head }),
+            acting: narrow.on(first),
             scale: 1.0,
         };
         for (i, &n) in nodes.iter().enumerate() {
@@ -243,7 +249,7 @@ impl<'a, const D: usize> Layered<'a, D> {
         let mut active = 0.0;
         layered.visit::<K>(&[], |_, _, volume| active += volume);
         layered.scale = of_points / active;
-        (LEAST_SHARE..1.0 / LEAST_SHARE).contains(&layered.scale).then_some(layered)
+        (LEAST_SHARE..1.0 / LEAST_SHARE).contains(&layered.scale).then_some(layered).ok_or(acting)
     }
 
     /// Calls `place` with the values, the gradients and the volume (m³) of the places in the configuration of the grid.
@@ -341,13 +347,12 @@ impl<const D: usize, K: Kinematics<D>> Term<D> for VirtualPressure<K> {
             let now = frame.interpolation.gather(frame.mesh, cell_points, trial.between);
             let before = frame.interpolation.gather(frame.mesh, cell_points, trial.converged);
             let nodes = frame.interpolation.nodes(frame.mesh, cell_points.cell);
-            let layered = Layered::of(self, frame, trial, cell_points, acting);
-            let by_points = match &layered {
-                Some(layered) => {
+            let by_points = match Layered::of(self, frame, trial, cell_points, acting) {
+                Ok(layered) => {
                     layered.add::<K>(trial, &now, local)?;
                     acting.map(|head| Momentary { gradient: 0.0, ..head })
                 }
-                None => acting,
+                Err(acting) => acting,
             };
             for entries in frame.interpolation.entries::<K>(cell_points) {
                 let height = |(n, &node): (&f64, &u32)| {

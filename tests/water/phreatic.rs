@@ -47,7 +47,7 @@ fn a_column_moves_as_its_effective_stress_says() {
 /// is rounded over a part of a cell; that of finite elements is not.
 #[test]
 fn water_at_the_surface_of_the_soil_takes_its_buoyancy_alone() {
-    for (kind, off) in [("fem", 1e-5), ("mpm", 1e-3)] {
+    for kind in ["fem", "mpm"] {
         for level in [1.9, 2.0, 2.02, 2.5] {
             let text = format!(
                 "geometry: plane_strain\n\
@@ -65,7 +65,7 @@ fn water_at_the_surface_of_the_soil_takes_its_buoyancy_alone() {
             let reaction = column(folder.path(), "bottom.reaction_y [kN]").pop().unwrap();
             let weight = 0.5 * (20.0 * 2.0 - 10.0 * f64::min(level, 2.0));
             println!("{kind}, level {level}: {reaction} of {weight}");
-            assert!((reaction / weight - 1.0).abs() < off, "{kind}, {level}: {reaction}, not {weight}");
+            assert!((reaction / weight - 1.0).abs() < 1e-5, "{kind}, {level}: {reaction}, not {weight}");
         }
     }
 }

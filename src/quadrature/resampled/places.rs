@@ -25,7 +25,6 @@ pub struct Place {
 /// as exactly as the order of the cell can use.
 fn degree(kind: CellKind) -> usize {
     match kind {
-        CellKind::T3 => 1,
         CellKind::Q8 | CellKind::Q9 => 4,
         CellKind::Q16 => 6,
         _ => 2,
