@@ -173,11 +173,13 @@ def incline(dice):
         case["gravity"] = {"y": -G}
         down = (c, -s)
 
+    # Friction and the way err by 1 % of what gravity alone does (VERIFICATION of contact: sticking and sliding to 1 %).
+    slack = 0.02 * G * math.sin(angle) * duration**2 / 2
+
     def answers(result):
         moved = np.array([result.last("block.ux"), result.last("block.uy")])
         along, across = moved @ down, moved @ (-down[1], down[0])
-        # Friction and the way err by 1 % of what gravity alone does (VERIFICATION of contact: sticking and sliding to 1 %).
-        slack = 0.02 * G * math.sin(angle) * duration**2 / 2
         return [near("way along the incline", along, acceleration * duration**2 / 2, slack), Check("way off the incline", across, -0.1 * h, 0.1 * h)]
 
-    return Scene(section, case, answers, f"{floor}, {'sticks' if sticks else 'slides'}")
+    # A block that sticks swings by far less than the slack, and on another mesh otherwise.
+    return Scene(section, case, answers, f"{floor}, {'sticks' if sticks else 'slides'}", least={"m": slack})

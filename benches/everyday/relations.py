@@ -31,7 +31,7 @@ def instrumented(scene):
 def compared(result, other, tolerance, column):
     """Checks of the last row of two histories; `column(name, unit)` has the name in the other one, or none, and the factor from it."""
     units = {name: unit for name, unit in result.units.items() if name != "time" and (unit == "kN" or result.scene.unique)}
-    largest = {}
+    largest = dict(result.scene.least)
     for name, unit in units.items():
         largest[unit] = max(largest.get(unit, 0.0), abs(result.history[name]).max())
     checks = []

@@ -81,6 +81,7 @@ class Scene:
     about: str = ""  # for the list of scenes
     order: int = 2
     spread: float = 0.02  # by which results may differ on another mesh of the same size, over their largest value
+    least: dict = field(default_factory=dict)  # the least of the largest value that differences are told over, by unit
     threads: int = 1
     unique: bool = True  # whether the motion is: at a limit load forces are alone
 

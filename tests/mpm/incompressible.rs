@@ -3,6 +3,9 @@
 use crate::mpm::patch::stretch_boundary;
 use crate::support::bench::{Bench, constant, quadrature_points, run};
 use crate::support::layout::{at, resample, seeded};
+use crate::support::solve_text;
+use mpm::io::frame::{self, Frame};
+use mpm::io::run_folder::RunFolder;
 use mpm::kinematics::{Axisymmetric, Kinematics, PlaneStrain};
 use mpm::material::{Elasticity, LinearElastic, Model, Tresca};
 use mpm::mesh::builder::rectangle;
@@ -233,4 +236,27 @@ fn points_in_tension_keep_the_stress_of_their_volume() {
     ] {
         assert!(error < 1e-8, "{error:e}");
     }
+}
+
+/// Soil with an initial stress that is in balance keeps it on triangles of first order. With one integration point a cell nothing would hold a pressure that
+/// alternates among the corners.
+#[test]
+fn soil_at_rest_keeps_its_pressure_on_triangles_of_first_order() {
+    let folder = solve_text(
+        "geometry: plane_strain\n\
+         mesh: {geo: GEO/slump.geo, order: 1, parameters: {half_width: 3, height: 1, room: 0, h: 0.6}}\n\
+         regions: {block: {kind: mpm, material: clay}}\n\
+         materials: {clay: {model: linear_elastic, young: 1.0e+4, poisson: 0.495, unit_weight: 20}}\n\
+         supports: {bottom: {ux: 0, uy: 0}, axis: {ux: 0}, face: {ux: 0}}\n\
+         gravity: {y: -9.81}\n\
+         initial_stress: {k0: 0.5}\n\
+         phases: [{name: rest, analysis: quasi_static, duration: 1, step: {initial: 1}}]\n",
+    );
+    let results = RunFolder::new(folder.path()).results();
+    let Frame { points, .. } = Frame::read(&frame::path(&results, 1)).unwrap();
+    let stress = points.columns.iter().find(|column| column.name == "stress").unwrap();
+    let off = |(x, stress): (&[f64; 3], &[f64])| (stress[1] + 20.0 * (1.0 - x[1])).abs();
+    let most = points.position.iter().zip(stress.values.chunks_exact(stress.components)).map(off).fold(0.0, f64::max);
+    println!("{most:.1e} kPa off");
+    assert!(most < 1e-6, "{most:.1e} kPa");
 }
