@@ -34,6 +34,7 @@ ANSWERS = {
     "footing_friction": footing.friction,
     "infinite_slope": slope.infinite,
     "safety": slope.safety,
+    "heap": slope.heap,
     "fall": motion.fall,
     "impact": motion.impact,
     "incline": motion.incline,

@@ -10,7 +10,7 @@ import re
 import numpy as np
 from geometry import Face, Section, box
 from ground import G
-from scene import Check, Scene, below, typed
+from scene import Check, Scene, below, near, typed
 
 
 def bishop(height, angle, base, cohesion, friction, weight):
@@ -112,6 +112,61 @@ def safety(dice):
         return [Check("factor of safety over that of circles", factor / expected, 0.93, 1.05 + h / height)]
 
     return Scene(section, case, answers, f"{angle}°, φ {friction}, circles {expected:.2f}")
+
+
+def heap(dice):
+    """Half of a heap of dry sand that gravity is turned on in: the floor bears its weight, and what holds it at the side what rubs on the floor."""
+    friction = dice.number(28, 42, 2)
+    angle = dice.number(12, friction - 3, 2)
+    height, weight = dice.scale(0.3, 8), dice.number(14, 20)
+    width, h = height / math.tan(math.radians(angle)), height * dice.uniform(0.1, 0.2)
+    room = 0.4 * height
+    right, top = width + room, height + room
+    air = [(width, 0), (right, 0), (right, top), (0, top), (0, height)]
+    section = Section(
+        [Face("sand", [(0, 0), (width, 0), (0, height)], h), Face("air", air, h)],
+        {"floor": [((0, 0), (right, 0))], "side": [((0, 0), (0, top))]},
+    )
+    held = {"floor": {"ux": 0, "uy": 0}, "side": {"ux": 0}}
+    contacts = []
+    floor_is_wall, side_is_wall = dice.chance(0.7), dice.chance(0.5)
+    if floor_is_wall:
+        held.pop("floor")
+        # The thrust of a heap rubs by less than three quarters of the tangent of its angle.
+        contacts.append({"wall": "floor", "friction": dice.number(0.8, 1.6) * math.tan(math.radians(angle))})
+    if side_is_wall:
+        held.pop("side")
+        contacts.append({"wall": "side"})
+    sand = {"model": "mohr_coulomb", "young": typed(weight * height * dice.scale(300, 5000)), "poisson": dice.number(0.2, 0.35, 2)}
+    sand |= {"cohesion": 0, "friction": friction, "dilation": dice.choice([0, 0, 5, 10]), "unit_weight": weight}
+    case = {
+        "geometry": "plane_strain",
+        "regions": {"sand": {"kind": "mpm", "material": "sand"}, "air": {"kind": "buffer"}},
+        "materials": {"sand": sand},
+        "gravity": {"y": -G},
+        "phases": [{"name": "gravity", "analysis": "quasi_static", "duration": 1, "step": {"initial": 0.25, "min": 0.02}, "gravity": {"rate": 1}}],
+    }
+    case |= ({"supports": held} if held else {}) | ({"contacts": contacts} if contacts else {})
+    # Where both are supports a node at the corner belongs to either, and all that is held is told as one.
+    section.curves["held"] = [line for name in held for line in section.curves[name]]
+    walls = [contact["wall"] for contact in contacts]
+    history = [{"name": name, "on": name, "quantities": ["contact_x", "contact_y"]} for name in walls]
+    if held:
+        history.append({"name": "held", "on": "held", "quantities": ["reaction_x"] + (["reaction_y"] if "floor" in held else [])})
+    case["output"] = {"history": history}
+    total = weight * height * width / 2
+
+    def answers(result):
+        # A contact force is that of the soil, a reaction that of the support.
+        forces = {axis: [-result.last(f"{name}.contact_{axis}") for name in walls] for axis in "xy"}
+        forces["x"] += [result.last("held.reaction_x")] if held else []
+        forces["y"] += [result.last("held.reaction_y")] if "floor" in held else []
+        return [
+            near("force upwards over the weight", sum(forces["y"]) / total, 1, 1e-5),
+            near("sum of horizontal forces over the weight", sum(forces["x"]) / total, 0, 1e-5),
+        ]
+
+    return Scene(section, case, answers, f"{angle}°, φ {friction}, {'wall' if floor_is_wall else 'support'} and {'wall' if side_is_wall else 'support'}")
 
 
 def infinite(dice):

@@ -470,4 +470,27 @@ SHOVEL = Entry(
     picture=("--window=-0.6,-1,3,0.8",),
 )
 
-ENTRIES = [VERTICAL_CUT, TRENCH, JET_TRENCH, MUDMAT, SKIRTED_MAT, SPUDCAN, PLATE_ANCHOR, PUNCH_THROUGH, EMBEDDED_FOOTING, TBAR, SUCTION_ANCHOR, FREE_FALL_CONE, SLIDE_ON_PIPE, BUI_COLUMN, SILO, PASSIVE_WALL, FOOTING_ON_SAND, SHOVEL]
+
+
+def rubbing(at: float) -> Callable[[Path], float]:
+    """The force on the blade about a way, on average over time, over μ W."""
+
+    def found(out: Path) -> float:
+        columns = history(out)
+        near = np.abs(columns["blade.ux"] - at) <= 0.05
+        steps = np.diff(columns["time"], prepend=0)
+        weight = 1.6 * 9.81 * 0.6**2 / 2 / np.tan(np.radians(25))
+        return -np.average(columns["blade.contact_x"][near], weights=steps[near]) / (0.3 * weight)
+
+    return found
+
+
+BULLDOZING = Entry(
+    "bulldozing",
+    "force on the blade",
+    "what rubs on the floor, μ W",
+    [Row("", f"force over μ W, after {way} m", rubbing(way), 1.0, 0.02) for way in (0.35, 0.75)],
+    picture=("--range=0,0.6",),
+)
+
+ENTRIES = [VERTICAL_CUT, TRENCH, JET_TRENCH, MUDMAT, SKIRTED_MAT, SPUDCAN, PLATE_ANCHOR, PUNCH_THROUGH, EMBEDDED_FOOTING, TBAR, SUCTION_ANCHOR, FREE_FALL_CONE, SLIDE_ON_PIPE, BUI_COLUMN, SILO, PASSIVE_WALL, FOOTING_ON_SAND, SHOVEL, BULLDOZING]

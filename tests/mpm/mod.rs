@@ -37,6 +37,7 @@ mod surface_loads;
 
 /// What takes more than some seconds; `make test-quick` leaves it out.
 mod slow {
+    mod bulldozing;
     mod collapse;
     mod cone_in_sand;
     mod fast_flow;
