@@ -1,5 +1,7 @@
 //! Newton's method for one step (docs/theory.md, section 14, eq. 14).
 
+mod begin;
+mod near;
 mod search;
 
 use super::balance::evaluate;
@@ -15,8 +17,6 @@ use crate::mesh::cell_size;
 use crate::system::{Method, is_singular};
 use crate::term::Frozen;
 
-/// Most first iterations, which have a frozen contact status.
-const FROZEN_ITERATIONS: usize = 3;
 /// Largest relative residual that the linear systems of an iteration are solved to.
 const LOOSEST: f64 = 1e-3;
 /// Smallest relative residual that they are solved to.
@@ -33,11 +33,6 @@ const LONGER: usize = 2;
 const NEAR: f64 = 0.1;
 /// Least scale of the residual, relative to the stiffness of a mean cell: below it there are no forces to be in balance.
 const FLOOR: f64 = 1e-6;
-/// A first state of smooth contact in which nodes move this many times as far as in one of stuck contact is that of a body that slides away.
-const SLIDES: f64 = 10.0;
-/// A state found over rising residuals that is this many times as far from the last one as an elastic step goes is another equilibrium. Heaps on rough floors
-/// go 1.0 to 1.14 times as far; vertical cuts beyond their limit, 23 to 220 times.
-const FAR: f64 = 2.0;
 /// A residual this small relative to the largest term is rounding.
 const ROUNDING: f64 = 1e-12;
 
@@ -62,13 +57,6 @@ fn follows<const D: usize>(problem: &Problem<D>) -> bool {
     let (scene, phase) = (problem.scene, &problem.scene.phases[problem.phase]);
     let held = problem.integration.is_some() || phase.loads_change || !problem.state.ramp.force.is_empty();
     !held && problem.from > 0.0 && phase.moves() && scene.has_friction()
-}
-
-/// Whether a step that fails may be tried again with residuals that rise: soil with friction, without inertia, and with strengths that are not reduced.
-fn may_rise<const D: usize>(problem: &Problem<D>) -> bool {
-    problem.integration.is_none()
-        && problem.scene.has_friction()
-        && problem.scene.phases[problem.phase].reduction.is_none()
 }
 
 /// The iteration.
@@ -148,7 +136,7 @@ impl<'a, const D: usize> Newton<'a, D> {
     fn solve(&mut self) -> Result<Solution<D>> {
         if let Err(error) = self.iterate() {
             let strict = (std::mem::take(&mut self.history), self.before);
-            if self.follows || !may_rise(self.problem) || !self.iterate_near().unwrap_or(false) {
+            if self.follows || !self.may_rise() || !self.iterate_near().unwrap_or(false) {
                 (self.history, self.before) = strict;
                 return Err(error);
             }
@@ -178,88 +166,6 @@ impl<'a, const D: usize> Newton<'a, D> {
         Ok(())
     }
 
-    /// Iterates once more, over residuals that rise; whether the state found is the equilibrium that the step leads to. Soil beyond its limit may have
-    /// another one, at another geometry, which is far away: many times as far as an elastic step.
-    fn iterate_near(&mut self) -> Result<bool> {
-        let elastic = self.elastic_way()?;
-        self.restart();
-        (self.follows, self.strict) = (true, !self.problem.scene.interfaces.is_empty());
-        self.iterate()?;
-        Ok(self.way() < FAR * elastic)
-    }
-
-    /// The norm (m) of the displacements of an elastic step in which contact is stuck.
-    fn elastic_way(&mut self) -> Result<f64> {
-        self.restart();
-        self.elastic = true;
-        self.buffers.frozen = Frozen::Stuck;
-        let solved = self.evaluate(true).and_then(|()| {
-            self.problem.gaps(self.grid, &self.buffers.now.at, &mut self.buffers.gap);
-            self.direction()
-        });
-        self.elastic = false;
-        self.buffers.frozen = Frozen::Not;
-        solved.map(|()| norm(&self.buffers.delta[..self.grid.dofs.displacements()]))
-    }
-
-    /// The norm (m) of the displacements since the step began.
-    fn way(&self) -> f64 {
-        let (at, converged) = (&self.buffers.now.at.displacement, self.problem.converged());
-        let square = |&n: &u32| (0..D).map(|d| (at[n as usize][d] - converged[n as usize][d]).powi(2)).sum::<f64>();
-        self.grid.dofs.node.iter().map(square).sum::<f64>().sqrt()
-    }
-
-    /// The state that the iteration begins with: where contacts are closed, what the first directions come to from the predicted state, or else,
-    /// for bodies that start in contact, from the converged one; without contact the better one of these two.
-    fn begin(&mut self) -> Result<()> {
-        let contact = self.problem.integration.is_none() && !self.grid.constraints.is_empty();
-        self.buffers.predicted = contact && self.problem.predictor.is_some();
-        if !contact {
-            return self.predict();
-        }
-        if let Some(predictor) = self.problem.predictor {
-            self.problem.begin(self.grid, &mut self.buffers.now.at, predictor);
-            if self.first_iterations().is_ok() {
-                return Ok(());
-            }
-            self.restart();
-        }
-        if self.grid.constraints.iter().any(|constraint| constraint.initially_closed) {
-            if self.close_contacts().is_ok() {
-                return Ok(());
-            }
-            self.restart();
-        }
-        self.evaluate(true)?;
-        self.note();
-        Ok(())
-    }
-
-    /// Begins with the predicted state if its residual is less than that of the converged one, the prescribed displacements being reached
-    /// in both.
-    fn predict(&mut self) -> Result<()> {
-        let residual = |newton: &mut Self, start: &[[f64; D]], tangent: bool| {
-            newton.problem.begin(newton.grid, &mut newton.buffers.now.at, start);
-            newton.problem.gaps(newton.grid, &newton.buffers.now.at, &mut newton.buffers.gap);
-            newton.problem.advance(newton.grid, &mut newton.buffers.now.at, &newton.buffers.gap, 1.0);
-            let found = newton.evaluate(tangent).map(|()| newton.size(&newton.buffers.now));
-            found.ok().filter(|size| size.is_finite()).unwrap_or(f64::INFINITY)
-        };
-        let predicted = self.problem.predictor.is_some_and(|predictor| {
-            let without = residual(self, self.problem.converged(), false);
-            residual(self, predictor, true) < without
-        });
-        self.buffers.predicted = predicted;
-        if predicted {
-            self.buffers.best.clone_from(&self.buffers.now.at);
-        } else {
-            self.restart();
-            self.evaluate(true)?;
-        }
-        self.note();
-        Ok(())
-    }
-
     /// Goes back to the converged state.
     fn restart(&mut self) {
         self.buffers.frozen = Frozen::Not;
@@ -268,62 +174,6 @@ impl<'a, const D: usize> Newton<'a, D> {
         (self.target, self.damping, self.stalled, self.singular) = (f64::INFINITY, 0.0, 0, None);
         self.recent.clear();
         self.before = self.history.len();
-    }
-
-    /// The first iterations from a predictor. The predicted state may open contact nodes that finally close. The soil beneath them, or the
-    /// structure, is then unsupported, and the tangent yields far too large displacements. So the directions keep such contact nodes closed
-    /// (frozen contact status) until one is taken at full length.
-    fn first_iterations(&mut self) -> Result<()> {
-        self.evaluate(false)?;
-        self.note();
-        let mut size = self.size(&self.buffers.now);
-        for _ in 0..FROZEN_ITERATIONS {
-            let noted = self.history.len();
-            if self.converged() {
-                break;
-            }
-            self.buffers.frozen = Frozen::Stuck;
-            self.direction()?;
-            self.buffers.frozen = Frozen::Not;
-            // The residual to reduce is the true one, not that with the frozen status.
-            self.target = if self.unreached { self.target.max(size) } else { size };
-            self.search()?;
-            if self.history.len() > noted {
-                size = self.size(&self.buffers.now);
-            }
-            if self.length == 1.0 {
-                break;
-            }
-        }
-        Ok(())
-    }
-
-    /// The first iteration of bodies that start in contact: in full, along a direction that keeps all contact nodes closed. The residual is no measure
-    /// of it: before it nothing supports the bodies, and after it contact nodes pull that will open. Contact is smooth in it, so that nothing hangs on
-    /// a wall beyond its friction and pulls at soil that bears no tension; it is stuck where only friction holds a body, which would slide away.
-    fn close_contacts(&mut self) -> Result<()> {
-        self.evaluate(false)?;
-        self.note();
-        let Problem { scene, phase, .. } = *self.problem;
-        let rough = scene.touching(phase).any(|(_, interface)| interface.sides().laws.at(phase).friction > 0.0);
-        let ways: &[Frozen] = if rough { &[Frozen::Stuck, Frozen::Smooth] } else { &[Frozen::Stuck] };
-        let mut chosen: Option<(f64, Vec<f64>)> = None;
-        for &way in ways {
-            self.problem.gaps(self.grid, &self.buffers.now.at, &mut self.buffers.gap);
-            self.buffers.frozen = way;
-            let found = self.direction();
-            self.buffers.frozen = Frozen::Not;
-            let Some(_) = found.ok().and_then(|()| self.attempt(1.0, false)) else { continue };
-            let way = norm(&self.buffers.delta[..self.grid.dofs.displacements()]);
-            if chosen.as_ref().is_none_or(|(stuck, _)| way <= SLIDES * stuck) {
-                chosen = Some((way, self.buffers.delta.clone()));
-            }
-        }
-        let (_, delta) = chosen.ok_or_else(|| self.failure("no first trial state is admissible"))?;
-        self.buffers.delta = delta;
-        self.attempt(1.0, true).ok_or_else(|| self.failure("the first trial state is not admissible"))?;
-        self.accept(true);
-        Ok(())
     }
 
     /// The part of its elastic stiffness (-) that soil with friction keeps in the next tangent as it yields: that of the damping, or, once a tangent has

@@ -28,7 +28,7 @@ pub struct Numerics {
     /// Newton's iteration ends when the residual is this small relative to the forces; results have an error of that size (-).
     #[schemars(extend("exclusiveMinimum" = 0), extend("maximum" = 0.01))]
     pub tolerance: f64,
-    /// Iterations after which a step is halved; twice as many where soil with friction follows a prescribed motion without inertia.
+    /// Iterations after which a step is halved; twice as many where residuals of soil with friction may rise.
     #[schemars(range(min = 1, max = 1000))]
     pub max_iterations: usize,
     /// Stiffness of empty cells over that of the stiffest soil of any phase, or in a step with inertia over that of its mass where this is less (-).
