@@ -22,7 +22,7 @@ import numpy as np
 ROOT = Path(__file__).resolve().parents[2]
 ANGLES = [20, 30, 35]
 WIDTH = 2.0
-# Dilating soil without stress heaves beside the edge by forty times the settlement, and heavy heaps make it stronger: so E is large where it has weight.
+# Dilating soil without stress heaves beside the edge by many times the settlement, and heavy heaps make it stronger: so E is large where it has weight.
 YOUNG = {False: 1e6, True: 1e8}
 SURCHARGE, UNIT_WEIGHT = 10.0, 18.0
 # The settlement over q B/E at which the load is read.

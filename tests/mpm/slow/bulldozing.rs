@@ -1,4 +1,4 @@
-//! A blade pushes a heap of dry sand over a rough floor by the defaults, on cells that the heap did not find its first equilibrium on before.
+//! A blade pushes a heap of dry sand over a rough floor by the defaults, on cells coarser than those of the case.
 
 use crate::support::{column, solve};
 
@@ -23,5 +23,20 @@ fn a_blade_bears_what_rubs_on_the_floor() {
         let [force, borne] = [mean(&blade) / (friction * weight), mean(&floor) / weight];
         println!("slope {slope}: force over μ W {force:.4}, force on the floor over W {borne:.4}");
         assert!((force - 1.0).abs() < 0.03 && (borne - 1.0).abs() < 0.02, "{slope}: {force}, {borne}");
+    }
+}
+
+/// The heap finds its equilibrium in the first steps of gravity: where residuals had to fall in each iteration, these ended at any size of steps.
+#[test]
+fn a_heap_without_cohesion_rests_on_a_rough_floor() {
+    for (h, slope, friction) in [(0.08, 25.0, 0.3), (0.07, 25.0, 0.4), (0.08, 28.0, 0.5)] {
+        let mesh = format!("mesh.parameters={{h: {h}, slope: {slope}, way: 2.2}}");
+        let rubs = format!("contacts[1].friction={friction}");
+        let folder = solve("cases/bulldozing", &[&mesh, &rubs, "phases.push.duration=0.002"]);
+        let [time, floor] = ["time [s]", "floor.contact_y [kN]"].map(|name| column(folder.path(), name));
+        let rest = time.iter().position(|t| (t - 1.0).abs() < 1e-9).unwrap();
+        let weight = 1.6 * 9.81 * 0.5 * 0.36 / f64::tan(f64::to_radians(slope));
+        println!("h {h}, slope {slope}: force on the floor over W {:.7}", -floor[rest] / weight);
+        assert!((floor[rest] / weight + 1.0).abs() < 1e-5, "{h}, {slope}: {}", floor[rest]);
     }
 }
