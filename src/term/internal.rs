@@ -60,8 +60,8 @@ pub struct Internal<K, S = ()> {
 /// The model of each material by number.
 type Models = Vec<Option<Arc<dyn Model>>>;
 
-/// Deformation of a point, the answer of its model, and with inertia the work that this has to do, where that is known.
-type Evaluated<K, const D: usize> = (Strained, Answer<K, D>, Option<Work>);
+/// Deformations of the points of a cell and the answers of their models, in order.
+type Evaluated<K, const D: usize> = (Vec<Strained>, Vec<Answer<K, D>>);
 
 impl<K> Internal<K> {
     /// `models[m]` is the model of material `m` ([`Points::model_of`]); `dynamic` where any phase is.
@@ -166,7 +166,7 @@ impl<K, S> Internal<K, S> {
         trial: &Trial<D>,
         cell_points: &CellPoints,
         cell: &S::Cell,
-    ) -> Result<Vec<Evaluated<K, D>>>
+    ) -> Result<Evaluated<K, D>>
     where
         K: Kinematics<D>,
         S: Mixed<D, K>,
@@ -189,29 +189,36 @@ impl<K, S> Internal<K, S> {
         let end_weight = 1.0 - trial.alpha_f;
         // What the internal variables become is wanted of converged steps only.
         let mut internal = vec![0.0; self.internal_count(frame.points)];
-        let answer = |(entries, mut strained): (Entries<D>, Strained)| {
-            let of_point = (frame.points, &entries);
-            let rate = trial.inverse_dt / end_weight;
-            let answer =
-                self.answer(models, of_point, cell, &strained, (rate, end_weight, trial.stiffening), &mut internal)?;
-            // The model that receives its volume strain from unknowns shares its work with them.
-            let work = (trial.alpha_f > 0.0 && answer.1.is_none()).then(|| {
-                let within = std::mem::replace(&mut strained.metric_factor, strained.increment);
-                let end = self.answer(models, of_point, cell, &strained, (trial.inverse_dt, 1.0, 0.0), &mut internal);
-                strained.metric_factor = within;
-                let model = frame.points.by_material(entries.point, models);
-                let of_end = |(end, _): Answer<K, D>| {
-                    model.and_then(|model| {
-                        let model = (entries.point, model.as_ref());
-                        energy::work::<D, K>(frame.points, model, &strained, &end, trial.alpha_f)
-                    })
-                };
-                end.map(of_end)
-            });
-            Ok((strained, answer, work.transpose()?.flatten()))
+        let rate = (trial.inverse_dt / end_weight, end_weight, trial.stiffening);
+        let answer = |(entries, strained): (Entries<D>, &Strained)| {
+            self.answer(models, (frame.points, &entries), cell, strained, rate, &mut internal)
         };
-        let entries = frame.interpolation.entries::<K>(cell_points).zip(strained);
-        timed_material(|| entries.map(answer).collect())
+        let entries = frame.interpolation.entries::<K>(cell_points).zip(&strained);
+        let answers = timed_material(|| entries.map(answer).collect::<Result<_>>())?;
+        Ok((strained, answers))
+    }
+
+    /// With inertia, the work that the model of a point has to do. A model that receives its volume strain from unknowns shares its work with them.
+    fn work<const D: usize>(
+        &self,
+        models: &[Option<Arc<dyn Model>>],
+        (points, entries): (&Points<D>, &Entries<D>),
+        cell: &S::Cell,
+        (strained, answer): (&Strained, &Answer<K, D>),
+        trial: &Trial<D>,
+    ) -> Result<Option<Work>>
+    where
+        K: Kinematics<D>,
+        S: Mixed<D, K>,
+    {
+        let Some(model) = points.by_material(entries.point, models).filter(|_| answer.1.is_none()) else {
+            return Ok(None);
+        };
+        let whole = Strained { metric_factor: strained.increment, ..*strained };
+        let mut internal = vec![0.0; self.internal_count(points)];
+        let rate = (trial.inverse_dt, 1.0, 0.0);
+        let (end, _) = timed_material(|| self.answer(models, (points, entries), cell, &whole, rate, &mut internal))?;
+        Ok(energy::work::<D, K>(points, (entries.point, model.as_ref()), strained, &end, trial.alpha_f))
     }
 }
 
@@ -227,7 +234,7 @@ impl<const D: usize, K: Kinematics<D>, S: Mixed<D, K>> Term<D> for Internal<K, S
         let models = self.models_in(trial);
         let compute = |cell_points: &CellPoints, local: &mut Local, kept: &mut [f64]| {
             let cell = self.share.over(frame, trial, cell_points);
-            let mut evaluated = self.evaluate(&models, frame, trial, cell_points, &cell)?;
+            let (strained, mut answers) = self.evaluate(&models, frame, trial, cell_points, &cell)?;
             let count = cell_points.function_count as usize;
             let end_weight = 1.0 - trial.alpha_f;
             let mut spatial = [Gradient { g: [0.0; D], hoop: 0.0 }; MAX_FUNCTIONS];
@@ -240,12 +247,14 @@ impl<const D: usize, K: Kinematics<D>, S: Mixed<D, K>> Term<D> for Internal<K, S
             let now = apart.then(|| frame.interpolation.gather(frame.mesh, cell_points, shape));
             let mut buffer = Vec::new();
             Stiffness::with::<D, _>(own, |stiffness| {
-                for (k, (entries, (point, answer, work))) in
-                    frame.interpolation.entries::<K>(cell_points).zip(&mut evaluated).enumerate()
+                let evaluated = strained.iter().zip(&mut answers);
+                for (k, (entries, (point, answer))) in
+                    frame.interpolation.entries::<K>(cell_points).zip(evaluated).enumerate()
                 {
                     let at = Point { points: frame.points, entries: &entries, ratios: point.ratios };
                     let (stress, acting) = if trial.alpha_f > 0.0 {
                         let within = Point { ratios: point.within(), ..at };
+                        let work = self.work(&models, (frame.points, &entries), &cell, (point, &*answer), trial)?;
                         self.share.add(&cell, &within, end_weight, &mut answer.0);
                         let work = work.as_ref().map(|work| (work, self.share.work(&cell, &at, end_weight)));
                         energy::stress::<D, K>(point, trial.alpha_f, answer, work)

@@ -164,6 +164,34 @@ fn the_force_in_a_dynamic_step_has_no_moment_about_the_places_between() {
     }
 }
 
+/// With inertia the stress does the work that the soil stores and dissipates, from below yield to beyond it: no force jumps as a point yields.
+#[test]
+fn the_force_in_a_dynamic_step_is_continuous_where_soil_begins_to_yield() {
+    for case in cases().into_iter().filter(|case| case.yields == Some(1)) {
+        let model = case.model.principal().unwrap();
+        let at = |y: f64, part: f64| {
+            let strain = case.strain.map(|e| part * e);
+            (strain, model.respond(y, &strain, &State::default(), &mut []).yielding)
+        };
+        let forces = [-1e-9, 1e-9].map(|beyond| {
+            let Set { mut stand, trial, converged } = set::<PlaneStrain>(&case, CellKind::T6, true, 0.4);
+            let heights: Vec<f64> = stand.state.points.origin.iter().map(|x| x[1]).collect();
+            stand.aim(&trial, &converged, |p| {
+                let (mut below, mut above) = (0.0, 1.0);
+                for _ in 0..60 {
+                    let middle = 0.5 * (below + above);
+                    if at(heights[p], middle).1 { above = middle } else { below = middle }
+                }
+                left_cauchy_green(&at(heights[p], above * (1.0 + beyond)).0, 0.7)
+            });
+            stand.evaluate(&trial, &converged, 0, false).0
+        });
+        let differ =
+            forces[0].iter().zip(&forces[1]).map(|(a, b)| (a[0] - b[0]).hypot(a[1] - b[1])).fold(0.0, f64::max);
+        assert!(differ < 1e-6 * size(&forces[0]), "{}: {differ:.1e}", case.name);
+    }
+}
+
 #[test]
 fn the_tangent_is_symmetric_where_the_term_says_so_and_only_there() {
     symmetric_as_it_says::<PlaneStrain>();
