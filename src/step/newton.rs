@@ -95,6 +95,8 @@ struct Newton<'a, const D: usize> {
     damping: f64,
     /// The relative residual where a tangent was singular: from then on soil with friction is stiffened in proportion to what is left of it.
     singular: Option<f64>,
+    /// Displacements (m) of this norm are those of another equilibrium.
+    farthest: f64,
     /// The error of the last inadmissible trial state.
     refused: Option<Error>,
 }
@@ -129,6 +131,7 @@ impl<'a, const D: usize> Newton<'a, D> {
             length: 0.0,
             damping: 0.0,
             singular: None,
+            farthest: f64::INFINITY,
             refused: None,
         }
     }
@@ -136,7 +139,7 @@ impl<'a, const D: usize> Newton<'a, D> {
     fn solve(&mut self) -> Result<Solution<D>> {
         if let Err(error) = self.iterate() {
             let strict = (std::mem::take(&mut self.history), self.before);
-            if self.follows || !self.may_rise() || !self.iterate_near().unwrap_or(false) {
+            if self.follows || !self.may_rise() || self.iterate_near().is_err() {
                 (self.history, self.before) = strict;
                 return Err(error);
             }
@@ -156,14 +159,19 @@ impl<'a, const D: usize> Newton<'a, D> {
 
     fn iterate(&mut self) -> Result<()> {
         self.begin()?;
-        while !self.converged() {
+        loop {
+            if self.farthest < f64::INFINITY && self.way() > self.farthest {
+                return Err(self.failure("another equilibrium"));
+            }
+            if self.converged() {
+                return Ok(());
+            }
             match self.direction() {
                 // A body that lifted off in a state on trial is free, and the system singular.
                 Err(_) if self.is_on_trial() => self.return_to_best()?,
                 other => other.and_then(|()| self.search())?,
             }
         }
-        Ok(())
     }
 
     /// Goes back to the converged state.

@@ -190,11 +190,13 @@ impl<K, S> Internal<K, S> {
         // What the internal variables become is wanted of converged steps only.
         let mut internal = vec![0.0; self.internal_count(frame.points)];
         let rate = (trial.inverse_dt / end_weight, end_weight, trial.stiffening);
-        let answer = |(entries, strained): (Entries<D>, &Strained)| {
-            self.answer(models, (frame.points, &entries), cell, strained, rate, &mut internal)
-        };
-        let entries = frame.interpolation.entries::<K>(cell_points).zip(&strained);
-        let answers = timed_material(|| entries.map(answer).collect::<Result<_>>())?;
+        let mut answers = Vec::with_capacity(strained.len());
+        timed_material(|| -> Result<()> {
+            for (entries, strained) in frame.interpolation.entries::<K>(cell_points).zip(&strained) {
+                answers.push(self.answer(models, (frame.points, &entries), cell, strained, rate, &mut internal)?);
+            }
+            Ok(())
+        })?;
         Ok((strained, answers))
     }
 

@@ -16,14 +16,13 @@ impl<const D: usize> Newton<'_, D> {
         integration.is_none() && scene.has_friction() && scene.phases[*phase].reduction.is_none()
     }
 
-    /// Iterates once more, over residuals that rise; whether the state found is the equilibrium that the step leads to. Soil beyond its limit may have
-    /// another one, at another geometry, which is far away: many times as far as an elastic step.
-    pub(super) fn iterate_near(&mut self) -> Result<bool> {
-        let elastic = self.elastic_way()?;
+    /// Iterates once more, over residuals that rise, to the equilibrium that the step leads to. Soil beyond its limit may have another one, at another
+    /// geometry, which is far away: many times as far as an elastic step. An iteration that goes there is given up.
+    pub(super) fn iterate_near(&mut self) -> Result<()> {
+        self.farthest = FAR * self.elastic_way()?;
         self.restart();
         (self.follows, self.strict, self.relaxed) = (true, !self.problem.scene.interfaces.is_empty(), 0);
-        self.iterate()?;
-        Ok(self.way() < FAR * elastic)
+        self.iterate()
     }
 
     /// The norm (m) of the displacements of an elastic step in which contact is stuck.
@@ -41,7 +40,7 @@ impl<const D: usize> Newton<'_, D> {
     }
 
     /// The norm (m) of the displacements since the step began.
-    fn way(&self) -> f64 {
+    pub(super) fn way(&self) -> f64 {
         let (at, converged) = (&self.buffers.now.at.displacement, self.problem.converged());
         let square = |&n: &u32| (0..D).map(|d| (at[n as usize][d] - converged[n as usize][d]).powi(2)).sum::<f64>();
         self.grid.dofs.node.iter().map(square).sum::<f64>().sqrt()
