@@ -187,6 +187,9 @@ def smooth_walls(dice, scene):
         section.curves[name] = [line]
         case.setdefault("contacts", []).append({"wall": name, "soil": soils})
     section.curves.pop("held", None)
+    for phase in case["phases"]:
+        # A pressure acts as water does: where it is more than the soil presses on a wall it enters between both, and supports would pull.
+        phase["tractions"] = [{"surface": "all", "ty": {"rate": -t["pressure"]["rate"]}} if "pressure" in t else t for t in phase.get("tractions", [])]
     case["output"]["history"] = [entry for entry in case["output"]["history"] if entry["name"] not in gone]
     return replace(scene, section=section, case=case), scene.spread, lambda name, unit: (None if name.rsplit(".", 1)[0] in gone else name, 1.0)
 

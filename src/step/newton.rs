@@ -95,7 +95,7 @@ struct Newton<'a, const D: usize> {
     damping: f64,
     /// The relative residual where a tangent was singular: from then on soil with friction is stiffened in proportion to what is left of it.
     singular: Option<f64>,
-    /// Displacements (m) of this norm are those of another equilibrium.
+    /// An iteration beyond this norm of the displacements (m) is on its way to another equilibrium.
     farthest: f64,
     /// The error of the last inadmissible trial state.
     refused: Option<Error>,
@@ -160,11 +160,11 @@ impl<'a, const D: usize> Newton<'a, D> {
     fn iterate(&mut self) -> Result<()> {
         self.begin()?;
         loop {
-            if self.farthest < f64::INFINITY && self.way() > self.farthest {
-                return Err(self.failure("another equilibrium"));
-            }
             if self.converged() {
                 return Ok(());
+            }
+            if self.farthest < f64::INFINITY && self.way() > self.farthest {
+                return Err(self.failure("astray"));
             }
             match self.direction() {
                 // A body that lifted off in a state on trial is free, and the system singular.

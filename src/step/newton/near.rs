@@ -8,6 +8,8 @@ use crate::term::Frozen;
 /// A state found over rising residuals that is this many times as far from the last one as an elastic step goes is another equilibrium. Heaps on rough floors
 /// go 1.0 to 1.14 times as far; vertical cuts beyond their limit, 23 to 220 times.
 const FAR: f64 = 2.0;
+/// An iteration that is on the way to one goes this many times as far. On the way to the nearest one it may go beyond that for a while, too.
+const ASTRAY: f64 = 10.0;
 
 impl<const D: usize> Newton<'_, D> {
     /// Whether a step that fails may be tried again: soil with friction, without inertia, and with strengths that are not reduced.
@@ -19,10 +21,12 @@ impl<const D: usize> Newton<'_, D> {
     /// Iterates once more, over residuals that rise, to the equilibrium that the step leads to. Soil beyond its limit may have another one, at another
     /// geometry, which is far away: many times as far as an elastic step. An iteration that goes there is given up.
     pub(super) fn iterate_near(&mut self) -> Result<()> {
-        self.farthest = FAR * self.elastic_way()?;
+        let elastic = self.elastic_way()?;
         self.restart();
+        self.farthest = ASTRAY * elastic;
         (self.follows, self.strict, self.relaxed) = (true, !self.problem.scene.interfaces.is_empty(), 0);
-        self.iterate()
+        self.iterate()?;
+        if self.way() < FAR * elastic { Ok(()) } else { Err(self.failure("another equilibrium")) }
     }
 
     /// The norm (m) of the displacements of an elastic step in which contact is stuck.
