@@ -14,7 +14,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "pipeline"))
 from variants import history
 
 STRENGTH, WEIGHT, CUT = 10.0, 18.0, 0.5  # of the clay, and depth of the trench [kPa, kN/m³, m]
-COHESION, FRICTION = 1.0, np.radians(30)  # of the sand [kPa, -]
+COHESION, FRICTION = 0.0, np.radians(30)  # of the sand [kPa, -]
 WIDE = 0.05  # of a strip in which the highest point tells the surface [m]
 ANGLES = np.radians(np.arange(15, 66, 0.5))  # of the plane under the wedge [-]
 
@@ -28,7 +28,7 @@ def wedge(x: np.ndarray, height: np.ndarray, cohesion: float, friction: float) -
         weight = WEIGHT * np.trapezoid(height[:end] - x[:end] * np.tan(angle), x[:end])
         return weight * np.tan(angle + friction) + cohesion * x[end - 1] / np.cos(angle) * np.cos(friction) / np.cos(angle + friction)
 
-    return min(force(angle) for angle in ANGLES)
+    return min(force(angle) for angle in ANGLES if angle + friction < np.radians(85))
 
 
 def level(height: float, cohesion: float, friction: float) -> float:

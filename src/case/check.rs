@@ -253,6 +253,7 @@ impl Checker {
             restore,
             spectral_radius: numerics.spectral_radius,
             tolerance: numerics.tolerance,
+            acceptable_tolerance: numerics.acceptable_tolerance,
             max_iterations: numerics.max_iterations,
         };
         Numerics { basis, quadrature, empty_stiffness: numerics.empty_stiffness, solver }

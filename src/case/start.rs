@@ -48,7 +48,7 @@ impl Start {
 /// Entries that do not go into the state of a run; what `start_from` brings is in the others.
 const FREE: [&str; 5] = ["title", "mesh", "output", "phases", KEY];
 /// Entries of `numerics` that any run may have its own of.
-const FREE_NUMERICS: [&str; 3] = ["tolerance", "max_iterations", "spectral_radius"];
+const FREE_NUMERICS: [&str; 4] = ["tolerance", "acceptable_tolerance", "max_iterations", "spectral_radius"];
 /// The numbers of a contact.
 const NUMBERS: [&str; 4] = ["friction", "adhesion", "adhesion_factor", "tension"];
 /// Levels of the water, which phases have.

@@ -65,8 +65,12 @@ impl Bins {
     }
 
     fn touched(&self, (a, b): ([f64; 2], [f64; 2])) -> impl Iterator<Item = usize> + use<> {
-        let index = |d: usize, x: f64| (((x - self.low[d]) / self.side) as usize).min(self.count[d] - 1);
-        let range = |d: usize| index(d, a[d].min(b[d]))..index(d, a[d].max(b[d])) + 1;
+        let index = |d: usize, x: f64| ((x - self.low[d]) / self.side) as usize;
+        // Empty where there are no bins.
+        let range = |d: usize| match self.count[d].checked_sub(1) {
+            Some(last) => index(d, a[d].min(b[d])).min(last)..index(d, a[d].max(b[d])).min(last) + 1,
+            None => 0..0,
+        };
         let (columns, rows, width) = (range(0), range(1), self.count[0]);
         rows.flat_map(move |row| columns.clone().map(move |column| row * width + column))
     }
@@ -89,6 +93,7 @@ mod tests {
                 assert!(found || gap[0].hypot(gap[1]) >= bins.side, "{x:?} {number}");
             }
         }
-        assert_eq!(Bins::new(std::iter::empty(), 1.0).around(&[0.0, 0.0]).count(), 0);
+        let none = Bins::new(std::iter::empty(), 1.0);
+        assert_eq!((none.around(&[0.0; 2]).count(), none.beside(([0.0; 2], [1.0; 2])).count()), (0, 0));
     }
 }

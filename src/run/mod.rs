@@ -11,6 +11,7 @@
 //!
 //! The checkpoint of a step is written while the next one is solved.
 
+mod accepted;
 mod boundary;
 mod bypassed;
 pub mod checkpoint;
@@ -230,6 +231,7 @@ pub fn run<const D: usize, K: Kinematics<D>>(
                 warnings.extend(swelling::found(scene, state));
                 warnings.extend(outside::found(scene, state));
                 warnings.extend(energy::found(scene, state, &report));
+                warnings.extend(accepted::found(scene, state, &report));
                 for warning in warnings.iter().filter(|warning| told.is_new(warning)) {
                     tell(state, Some(warning));
                     files.log.line(warning)?;

@@ -1,5 +1,6 @@
 //! What a run writes down: frames, rows of the history, lines of the log.
 
+use super::accepted;
 use super::boundary;
 use super::fields::Field;
 use super::surface::{self, Acting};
@@ -349,6 +350,9 @@ pub fn log_lines<const D: usize>(scene: &Scene<D>, state: &State<D>, report: &Re
     }
     if report.restored && scene.numerics.restore != Restore::EveryStep {
         line.push_str(" restored");
+    }
+    if let Some(residual) = accepted::residual(scene, report) {
+        line.push_str(&format!(" accepted with the residual {residual:.1e}"));
     }
     if report.unbalanced {
         line.push_str(" no balance on the restored grid");

@@ -3,8 +3,8 @@
 use super::scene::{StepSize, Stop};
 use crate::error::{Error, Result};
 
-/// The next step grows after at most this many iterations.
-const EASY: usize = 6;
+/// A step is easy that takes at most this many iterations.
+pub const EASY: usize = 6;
 /// The factor (-) by which it grows: from a tenth of the largest step to it in six steps.
 const GROWTH: f64 = 1.5;
 
@@ -89,9 +89,9 @@ impl Controller {
         }
     }
 
-    /// Takes note of an accepted step: the next one grows where this one was easy. Returns why it was halved.
-    pub fn accept(&mut self, dt: f64, iterations: usize) -> Vec<String> {
-        let eased = iterations <= EASY && self.halvings.is_empty();
+    /// Takes note of an accepted step: the next one grows where this one was `easy`. Returns why it was halved.
+    pub fn accept(&mut self, dt: f64, easy: bool) -> Vec<String> {
+        let eased = easy && self.halvings.is_empty();
         // A step shortened to meet a stop says nothing about the size that would have converged.
         let base = self.wanted.max(dt);
         self.wanted = if eased { (base * GROWTH).min(self.limits.max) } else { base.min(self.limits.max) };
@@ -128,12 +128,12 @@ mod tests {
         let error = || Error::analysis("Newton", "too many iterations", "");
         c.halve(0.1, error(), 1e-3).unwrap();
         assert_eq!(c.wanted, 0.05);
-        c.accept(0.05, 3);
+        c.accept(0.05, true);
         assert_eq!(c.wanted, 0.05, "no growth right after a halving");
-        c.accept(0.05, 3);
+        c.accept(0.05, true);
         assert!((c.wanted - 0.075).abs() < 1e-15);
         for _ in 0..5 {
-            c.accept(c.wanted, 3);
+            c.accept(c.wanted, true);
         }
         assert_eq!(c.wanted, 0.2);
         c.halve(0.03 - 0.01, error(), 1e-3).expect("half of it is the least one but for rounding");

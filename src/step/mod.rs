@@ -221,10 +221,11 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
             // A smaller step would come to the same place.
             self.keeps_within(&complete.solution)?;
         }
+        let easy = if complete.solution.follows { self.scene.numerics.max_iterations } else { control::EASY };
         let mut report = timed(Activity::Transfer, || self.convect(dt, complete));
         report.restored = self.state.restorations > before;
         report.unbalanced = begun.unbalanced;
-        report.halvings = controller.accept(dt, report.iterations());
+        report.halvings = controller.accept(dt, report.iterations() <= easy);
         Ok(report)
     }
 

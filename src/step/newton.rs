@@ -1,9 +1,11 @@
 //! Newton's method for one step (docs/theory.md, section 14, eq. 14).
 
+mod acceptable;
 mod begin;
 mod near;
 mod search;
 
+use self::acceptable::Nearest;
 use super::balance::evaluate;
 use super::family::Family;
 use super::free;
@@ -75,6 +77,9 @@ struct Newton<'a, const D: usize> {
     method: Method,
     /// Whether soil with friction follows what is prescribed: residuals may rise then.
     follows: bool,
+    /// Whether a residual within the acceptable tolerance ends the step where no iteration comes closer, and the least one then.
+    accepts: bool,
+    nearest: Option<Nearest>,
     /// Whether the next direction is that of an elastic step.
     elastic: bool,
     /// Residuals (kN) of the states accepted so far.
@@ -121,6 +126,8 @@ impl<'a, const D: usize> Newton<'a, D> {
             before: 0,
             method: Method::Cholesky,
             follows,
+            accepts: follows,
+            nearest: None,
             elastic: false,
             recent: Vec::new(),
             target: f64::INFINITY,
@@ -138,10 +145,12 @@ impl<'a, const D: usize> Newton<'a, D> {
 
     fn solve(&mut self) -> Result<Solution<D>> {
         if let Err(error) = self.iterate() {
-            let strict = (std::mem::take(&mut self.history), self.before);
-            if self.follows || !self.may_rise() || self.iterate_near().is_err() {
-                (self.history, self.before) = strict;
-                return Err(error);
+            if !self.take_acceptable()? {
+                let strict = (std::mem::take(&mut self.history), self.before);
+                if self.follows || !self.may_rise() || self.iterate_near().is_err() {
+                    (self.history, self.before) = strict;
+                    return Err(error);
+                }
             }
         }
         let now = &mut self.buffers.now;
@@ -151,6 +160,7 @@ impl<'a, const D: usize> Newton<'a, D> {
             pressure: at.pressure,
             residual: std::mem::take(&mut now.force),
             history: std::mem::take(&mut self.history),
+            follows: self.accepts,
             applied: now.applied,
             work: now.work,
             method: self.method,
@@ -233,7 +243,7 @@ impl<'a, const D: usize> Newton<'a, D> {
     fn direction(&mut self) -> Result<()> {
         // Sand that yields everywhere has residuals in proportion to the step: a smaller one is as hard.
         let longer = if self.follows || self.singular.is_some() { LONGER } else { 1 };
-        if self.history.len() > longer * self.problem.scene.numerics.max_iterations {
+        if self.at_rest() || self.history.len() > longer * self.problem.scene.numerics.max_iterations {
             return Err(self.failure("too many iterations"));
         }
         if !self.tangent {

@@ -136,6 +136,8 @@ pub struct Solution<const D: usize> {
     pub residual: Vec<f64>,
     /// Relative residuals, the first before the first iteration.
     pub history: Vec<f64>,
+    /// Whether soil with friction followed prescribed displacements: residuals are in proportion to the step, and a smaller one is as hard.
+    pub follows: bool,
     /// Resultant (kN) of the applied forces, weighted in time as the step does.
     pub applied: [f64; D],
     /// The work of the terms along the displacement of the step.

@@ -347,6 +347,8 @@ pub struct Numerics {
     pub spectral_radius: f64,
     /// Relative residual (-) at which Newton's iteration ends.
     pub tolerance: f64,
+    /// Relative residual (-) that is accepted where soil with friction follows prescribed displacements and no iteration comes closer.
+    pub acceptable_tolerance: f64,
     /// Iterations after which a step is halved.
     pub max_iterations: usize,
 }

@@ -37,8 +37,8 @@ pub fn to_hold<const D: usize>(
     dt: f64,
 ) -> Result<Option<Vec<[f64; D]>>> {
     let Unbalanced { force, scale } = unbalanced(&Problem { to: dt, ..Problem::at_rest(scene, state) }, grid)?;
-    // Newton's method ignores less.
-    if norm(&force) <= scene.numerics.tolerance * scale {
+    // A step may leave less.
+    if norm(&force) <= scene.numerics.tolerance.max(scene.numerics.acceptable_tolerance) * scale {
         return Ok(None);
     }
     let force = grid.dofs.on_nodes(&force);

@@ -257,6 +257,7 @@ impl Bench {
                 restore: self.restore,
                 spectral_radius: self.spectral_radius,
                 tolerance: 1e-10,
+                acceptable_tolerance: 0.0,
                 max_iterations: 25,
             },
             gravity: self.gravity,

@@ -194,6 +194,7 @@ impl<K: Kinematics<2>> Stand<K> {
                 restore: if restored { Restore::EveryStep } else { Restore::Never },
                 spectral_radius: 1.0,
                 tolerance: 1e-10,
+                acceptable_tolerance: 0.0,
                 max_iterations: 25,
             },
             gravity: [0.0; 2],

@@ -28,6 +28,10 @@ pub struct Numerics {
     /// Newton's iteration ends when the residual is this small relative to the forces; results have an error of that size (-).
     #[schemars(extend("exclusiveMinimum" = 0), extend("maximum" = 0.01))]
     pub tolerance: f64,
+    /// Where sand and other soil with friction follows prescribed displacements, without inertia and under constant loads, a step whose iteration comes
+    /// to rest is accepted with a residual this small, and a warning says so; the next steps contain what is left out of balance (-).
+    #[schemars(extend("minimum" = 0), extend("maximum" = 0.01))]
+    pub acceptable_tolerance: f64,
     /// Iterations after which a step is halved; twice as many where residuals of soil with friction may rise.
     #[schemars(range(min = 1, max = 1000))]
     pub max_iterations: usize,
@@ -45,6 +49,7 @@ impl Default for Numerics {
             restore: Restore::Quality(RestoreQuality { min_quality: 0.5, max_stretch: None }),
             spectral_radius: 0.9,
             tolerance: 1e-8,
+            acceptable_tolerance: 1e-3,
             max_iterations: 25,
             empty_stiffness: 1e-5,
         }

@@ -213,6 +213,7 @@ impl<const D: usize> Newton<'_, D> {
 
     pub(super) fn accept(&mut self, tangent: bool) {
         self.take(tangent);
+        self.keep_acceptable();
         let Buffers { now, best, .. } = &mut self.buffers;
         best.clone_from(&now.at);
         let size = self.size(&self.buffers.now);
