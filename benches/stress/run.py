@@ -122,7 +122,7 @@ def page(rows, seed, seconds, unavailable):
         "",
         "Each must end *converged* or with a *message*: what stopped the analysis, where, when, and a remedy, with all results",
         "until then kept. A *fault* is a panic, a signal, a run of more than two minutes, a number that is not finite, mass or points lost,",
-        "det F ≤ 0, time that stands still, a step accepted with a residual above the tolerance, or an end without a message. The campaign",
+        "det F ≤ 0, time that stands still, a step accepted with a residual above the tolerance (or where the log says so, the acceptable one), or an end without a message. The campaign",
         "checks exit status, messages, log, history and every exported frame, but not whether the numbers are accurate. Not all of these",
         "scenes have an equilibrium, and a classical material point method cannot converge in all; the program must then report that.",
         "",

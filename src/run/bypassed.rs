@@ -14,6 +14,8 @@ use std::collections::{BTreeMap, BTreeSet};
 
 /// The part (-) of the surface in its box that a load keeps without a warning.
 const LOADED: f64 = 0.8;
+/// How many times as long it may become before a traction that is no pressure is told of: the sum of a pressure does not depend on the length.
+const GROWN: f64 = 1.25;
 /// The part (-) of its nodes within the grid that a held curve keeps in soil without a warning.
 const HELD: f64 = 0.5;
 
@@ -60,12 +62,18 @@ impl Bypassed {
             let Some(first) = known.filter(|first| *first > 0.0) else { continue };
             let now = length(scene, state, load);
             let least = if load.within.is_some() { LOADED * first } else { 0.0 };
-            if now > least {
+            let (_, shear, fixed) = load.at(&[0.0; 2], state.phase_time);
+            let grown = now > GROWN * first && (shear != 0.0 || fixed != [0.0; 2]);
+            if now > least && !grown {
                 continue;
             }
             *known = None;
             let place = load.within.map_or_else(String::new, |within| format!(" in {}", range(within)));
             let (why, cure) = match load.within {
+                _ if grown => (
+                    "the surface has stretched, or soil has parted from what it lay on, and the traction, which is one per area, acts there, too",
+                    "limit it by `where`, or load the soil by a `pressure`",
+                ),
                 Some(_) => ("soil has moved out of the box, which is fixed in space", "make it larger"),
                 None => ("the surface is gone", "load another surface"),
             };

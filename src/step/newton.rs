@@ -5,7 +5,6 @@ mod begin;
 mod near;
 mod search;
 
-use self::acceptable::Nearest;
 use super::balance::evaluate;
 use super::family::Family;
 use super::free;
@@ -77,9 +76,10 @@ struct Newton<'a, const D: usize> {
     method: Method,
     /// Whether soil with friction follows what is prescribed: residuals may rise then.
     follows: bool,
-    /// Whether a residual within the acceptable tolerance ends the step where no iteration comes closer, and the least one then.
+    /// Whether a residual within the acceptable tolerance ends the step where no iteration comes closer; the least
+    /// one so far, and how many residuals there were when it was found.
     accepts: bool,
-    nearest: Option<Nearest>,
+    nearest: Option<(f64, usize)>,
     /// Whether the next direction is that of an elastic step.
     elastic: bool,
     /// Residuals (kN) of the states accepted so far.

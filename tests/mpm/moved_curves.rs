@@ -178,3 +178,16 @@ fn a_load_and_a_held_curve_that_soil_leaves_are_told() {
         assert!(told.iter().all(|line| line.starts_with("warning: phase `load`: ")), "{text}");
     }
 }
+
+/// A traction is one per area: where the surface becomes longer there is more of it, which is told.
+#[test]
+fn a_load_on_a_surface_that_grows_is_told() {
+    let pull = "{name: pull, analysis: quasi_static, duration: 1, step: {initial: 0.1}, prescribe: {other: {ux: {rate: 0.8}}}, \
+        tractions: [{surface: all, LOAD, where: {y: [1.9, 2.2]}}]}";
+    for (load, tells) in [("ty: -1", true), ("pressure: 1", false)] {
+        let folder = scene(4.0, &pull.replace("LOAD", load));
+        let text = said(&run(folder.path(), &["materials.soil.poisson=0"]));
+        let told: Vec<&str> = text.lines().filter(|line| line.contains("acts there, too")).collect();
+        assert_eq!(!told.is_empty(), tells, "{load}: {text}");
+    }
+}
