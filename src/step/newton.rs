@@ -144,13 +144,13 @@ impl<'a, const D: usize> Newton<'a, D> {
     }
 
     fn solve(&mut self) -> Result<Solution<D>> {
-        if let Err(error) = self.iterate() {
-            if !self.take_acceptable()? {
-                let strict = (std::mem::take(&mut self.history), self.before);
-                if self.follows || !self.may_rise() || self.iterate_near().is_err() {
-                    (self.history, self.before) = strict;
-                    return Err(error);
-                }
+        if let Err(error) = self.iterate()
+            && !self.take_acceptable()?
+        {
+            let strict = (std::mem::take(&mut self.history), self.before);
+            if self.follows || !self.may_rise() || self.iterate_near().is_err() {
+                (self.history, self.before) = strict;
+                return Err(error);
             }
         }
         let now = &mut self.buffers.now;

@@ -169,7 +169,8 @@ mod slow {
         let clay = |poisson| {
             format!("materials.clay={{model: tresca, young: 200, poisson: {poisson}, shear_strength: 2, density: 1.6}}")
         };
-        let sand = "materials.clay={model: mohr_coulomb, young: 200, poisson: 0.3, cohesion: 1, friction: 25, density: 1.6}";
+        let sand =
+            "materials.clay={model: mohr_coulomb, young: 200, poisson: 0.3, cohesion: 1, friction: 25, density: 1.6}";
         let scenes = [(elastic.to_owned(), 0.75), (clay(0.3), 0.75), (clay(0.49), 0.75), (sand.to_owned(), 0.7)];
         for (material, height) in scenes {
             let height = format!("mesh.parameters.y={height}");
