@@ -150,4 +150,6 @@ def units(dice, scene):
     other = replace(scene, section=scene.section.moved(lambda x, y: (x * length, y * length), length), case=case)
     forces = force if case["geometry"] == "axisymmetric" else force / length
     by_unit = {"m": length, "m/s": length, "kN": forces, "kPa": force / length**2, "rad": 1.0, "-": 1.0}
-    return other, on_same_mesh(scene, SAME), lambda name, unit: (name, 1 / by_unit[unit])
+    # Gmsh numbers nodes otherwise in other units, so that cells begin at other corners and have their points elsewhere: forces of two sides that
+    # cancel show that.
+    return other, on_same_mesh(scene, 10 * SAME), lambda name, unit: (name, 1 / by_unit[unit])
