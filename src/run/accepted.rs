@@ -13,9 +13,9 @@ pub fn found<const D: usize>(scene: &Scene<D>, state: &State<D>, report: &Report
     let residual = residual(scene, report)?;
     let phase = scene.phases.get(state.phase)?;
     Some(format!(
-        "{WARNING}phase `{}`: at t = {:.4} s an iteration came no closer to equilibrium than {residual:.1e} of the largest force, and the step was \
-         accepted, as such steps of soil with friction are below `numerics.acceptable_tolerance`, here {:e}: forces have errors of about that size; \
-         solve.log names each of these steps",
+        "{WARNING}phase `{}`: the step to t = {:.4} s was accepted with an unbalanced force of {residual:.1e} of the largest force, as no iteration came \
+         closer to equilibrium; soil with friction that is pushed may have no smooth path, and `numerics.acceptable_tolerance` allows {:e}; solve.log \
+         names each such step",
         phase.name, state.time, scene.numerics.acceptable_tolerance
     ))
 }

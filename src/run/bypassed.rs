@@ -72,7 +72,7 @@ impl Bypassed {
             let (why, cure) = match load.within {
                 _ if grown => (
                     "the surface has stretched, or soil has parted from what it lay on, and the traction, which is one per area, acts there, too",
-                    "limit it by `where`, or load the soil by a `pressure`",
+                    "limit it by `where`",
                 ),
                 Some(_) => ("soil has moved out of the box, which is fixed in space", "make it larger"),
                 None => ("the surface is gone", "load another surface"),

@@ -55,9 +55,8 @@ pub fn solve<const D: usize>(problem: &Problem<D>, grid: &mut Grid<D>) -> Result
 /// Whether soil with friction follows what is prescribed, without inertia, under loads that do not change. Under loads that do, and in the first step of a
 /// phase, it may be beyond its limit, and an iteration over larger residuals would come to another equilibrium.
 fn follows<const D: usize>(problem: &Problem<D>) -> bool {
-    let (scene, phase) = (problem.scene, &problem.scene.phases[problem.phase]);
-    let held = problem.integration.is_some() || phase.loads_change || !problem.state.ramp.force.is_empty();
-    !held && problem.from > 0.0 && phase.moves() && scene.has_friction()
+    let held = problem.integration.is_some() || !problem.state.ramp.force.is_empty();
+    !held && problem.from > 0.0 && problem.scene.follows(problem.phase)
 }
 
 /// The iteration.

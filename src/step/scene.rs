@@ -161,6 +161,12 @@ impl<const D: usize> Scene<D> {
         self.terms.iter().any(|term| term.has_friction())
     }
 
+    /// Whether soil with friction follows prescribed displacements in a phase, under loads that do not change.
+    pub fn follows(&self, phase: usize) -> bool {
+        let phase = &self.phases[phase];
+        phase.moves() && !phase.loads_change && self.has_friction()
+    }
+
     /// The interfaces that are active in a phase, with their numbers.
     pub fn touching(&self, phase: usize) -> impl Iterator<Item = (usize, &dyn Interface<D>)> {
         let apart = self.phases.get(phase).map_or(&[][..], |phase| &phase.apart);

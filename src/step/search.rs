@@ -60,7 +60,12 @@ impl<const D: usize, K: Kinematics<D>> Simulation<'_, D, K> {
                 }
                 Err(error) if error.kind == Kind::Analysis => {
                     if all.is_none() {
-                        all = unbalanced::to_hold(self.scene, &mut self.grid, &self.state, 0.0)?;
+                        all = unbalanced::to_hold(
+                            self.scene,
+                            &mut self.grid,
+                            &self.state,
+                            (0.0, self.scene.numerics.tolerance),
+                        )?;
                     }
                     part *= 0.5;
                     if all.is_none() || part < controller.finest() {

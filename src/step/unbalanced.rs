@@ -20,13 +20,21 @@ pub fn hold<const D: usize>(scene: &Scene<D>, grid: &mut Grid<D>, state: &mut St
     if looks_for_failure || state.dynamic(scene) || state.phase_time > 0.0 || !state.ramp.force.is_empty() {
         return Ok(());
     }
-    if let Some(force) = to_hold(scene, grid, state, dt)? {
+    // What a step may leave is none of the loads that a ramp is for.
+    let numerics = &scene.numerics;
+    let ignored = if scene.follows(state.phase) {
+        numerics.tolerance.max(numerics.acceptable_tolerance)
+    } else {
+        numerics.tolerance
+    };
+    if let Some(force) = to_hold(scene, grid, state, (dt, ignored))? {
         state.ramp = UnbalancedRamp { force, until: dt };
     }
     Ok(())
 }
 
-/// The forces `−R₀` (kN) that balance the state as a phase begins with a step of the size `dt` (s), by node; `None` where that is in balance.
+/// The forces `−R₀` (kN) that balance the state as a phase begins with a step of the size `dt` (s), by node; `None` where they are the part `ignored`
+/// (-) of the largest force at most.
 ///
 /// # Errors
 /// When the state is inadmissible on the restored grid.
@@ -34,11 +42,10 @@ pub fn to_hold<const D: usize>(
     scene: &Scene<D>,
     grid: &mut Grid<D>,
     state: &State<D>,
-    dt: f64,
+    (dt, ignored): (f64, f64),
 ) -> Result<Option<Vec<[f64; D]>>> {
     let Unbalanced { force, scale } = unbalanced(&Problem { to: dt, ..Problem::at_rest(scene, state) }, grid)?;
-    // A step may leave less.
-    if norm(&force) <= scene.numerics.tolerance.max(scene.numerics.acceptable_tolerance) * scale {
+    if norm(&force) <= ignored * scale {
         return Ok(None);
     }
     let force = grid.dofs.on_nodes(&force);

@@ -207,7 +207,7 @@ impl<K, S> Internal<K, S> {
         (points, entries): (&Points<D>, &Entries<D>),
         cell: &S::Cell,
         (strained, answer): (&Strained, &Answer<K, D>),
-        trial: &Trial<D>,
+        (trial, internal): (&Trial<D>, &mut [f64]),
     ) -> Result<Option<Work>>
     where
         K: Kinematics<D>,
@@ -217,9 +217,8 @@ impl<K, S> Internal<K, S> {
             return Ok(None);
         };
         let whole = Strained { metric_factor: strained.increment, ..*strained };
-        let mut internal = vec![0.0; self.internal_count(points)];
         let rate = (trial.inverse_dt, 1.0, 0.0);
-        let (end, _) = timed_material(|| self.answer(models, (points, entries), cell, &whole, rate, &mut internal))?;
+        let (end, _) = timed_material(|| self.answer(models, (points, entries), cell, &whole, rate, internal))?;
         Ok(energy::work::<D, K>(points, (entries.point, model.as_ref()), strained, &end, trial.alpha_f))
     }
 }
@@ -248,6 +247,7 @@ impl<const D: usize, K: Kinematics<D>, S: Mixed<D, K>> Term<D> for Internal<K, S
             let shape = trial.geometry.unwrap_or(trial.displacement);
             let now = apart.then(|| frame.interpolation.gather(frame.mesh, cell_points, shape));
             let mut buffer = Vec::new();
+            let mut internal = vec![0.0; if trial.alpha_f > 0.0 { self.internal_count(frame.points) } else { 0 }];
             Stiffness::with::<D, _>(own, |stiffness| {
                 let evaluated = strained.iter().zip(&mut answers);
                 for (k, (entries, (point, answer))) in
@@ -256,7 +256,13 @@ impl<const D: usize, K: Kinematics<D>, S: Mixed<D, K>> Term<D> for Internal<K, S
                     let at = Point { points: frame.points, entries: &entries, ratios: point.ratios };
                     let (stress, acting) = if trial.alpha_f > 0.0 {
                         let within = Point { ratios: point.within(), ..at };
-                        let work = self.work(&models, (frame.points, &entries), &cell, (point, &*answer), trial)?;
+                        let work = self.work(
+                            &models,
+                            (frame.points, &entries),
+                            &cell,
+                            (point, &*answer),
+                            (trial, &mut internal),
+                        )?;
                         self.share.add(&cell, &within, end_weight, &mut answer.0);
                         let work = work.as_ref().map(|work| (work, self.share.work(&cell, &at, end_weight)));
                         energy::stress::<D, K>(point, trial.alpha_f, answer, work)
