@@ -5,6 +5,8 @@ use crate::error::{Error, Result};
 
 /// A step is easy that takes at most this many iterations.
 pub const EASY: usize = 6;
+/// So many halvings of one step in a row are in vain: its residual does not depend on its size.
+const IN_VAIN: usize = 2;
 /// The factor (-) by which it grows: from a tenth of the largest step to it in six steps.
 const GROWTH: f64 = 1.5;
 
@@ -53,6 +55,11 @@ impl Controller {
     /// The least step over the first one (-).
     pub fn finest(&self) -> f64 {
         self.limits.min / self.limits.initial
+    }
+
+    /// Whether the step was halved in vain.
+    pub fn in_vain(&self) -> bool {
+        self.halvings.len() >= IN_VAIN
     }
 
     /// Halves the step after a failure, in which the relative residual came down to `residual` (-).
@@ -126,6 +133,12 @@ mod tests {
     fn steps_shrink_and_recover() {
         let mut c = controller();
         let error = || Error::analysis("Newton", "too many iterations", "");
+        c.halve(0.1, error(), 1e-3).unwrap();
+        assert!(!c.in_vain());
+        c.halve(0.1, error(), 1e-3).unwrap();
+        assert!(c.in_vain(), "two halvings of one step");
+        c.accept(0.05, true);
+        assert!(!c.in_vain());
         c.halve(0.1, error(), 1e-3).unwrap();
         assert_eq!(c.wanted, 0.05);
         c.accept(0.05, true);

@@ -115,6 +115,7 @@ impl<'a, const D: usize> Newton<'a, D> {
         let floor = floor(problem, grid);
         let strict = !problem.scene.interfaces.is_empty() && problem.integration.is_none();
         let follows = follows(problem);
+        let accepts = follows && buffers.accepts;
         Self {
             problem,
             grid,
@@ -125,7 +126,7 @@ impl<'a, const D: usize> Newton<'a, D> {
             before: 0,
             method: Method::Cholesky,
             follows,
-            accepts: follows,
+            accepts,
             nearest: None,
             elastic: false,
             recent: Vec::new(),
@@ -159,7 +160,7 @@ impl<'a, const D: usize> Newton<'a, D> {
             pressure: at.pressure,
             residual: std::mem::take(&mut now.force),
             history: std::mem::take(&mut self.history),
-            follows: self.accepts,
+            follows: follows(self.problem),
             applied: now.applied,
             work: now.work,
             method: self.method,

@@ -52,7 +52,8 @@ pub struct Buffers<const D: usize> {
     pub now: Evaluation<D>,
     pub trial: Evaluation<D>,
     pub best: Unknowns<D>,
-    /// The state with the least residual within the acceptable tolerance.
+    /// Whether a residual within the acceptable tolerance may end the step; the state with the least one.
+    pub accepts: bool,
     pub nearest: Unknowns<D>,
     /// Whether the last iteration began with the predicted state.
     pub predicted: bool,
