@@ -7,12 +7,16 @@ use crate::step::{Energies, ITEMS, Item, Report, Scene, Side, State, energy_of_f
 /// How much may be added (-), over the energy in play and over the stored one: what a sound run may come to.
 const PARTS: [f64; 2] = [0.02, 0.01];
 
-/// A warning after a step.
-pub fn found<const D: usize>(scene: &Scene<D>, state: &State<D>, report: &Report<D>) -> Option<String> {
+/// A warning after a step with inertia, or where a phase `ends` without: contact that closes on stress at rest is an error of its first step alone.
+pub fn found<const D: usize>(scene: &Scene<D>, state: &State<D>, report: &Report<D>, ends: bool) -> Option<String> {
     let (phase, energies) = (scene.phases.get(state.phase)?, state.energies.as_ref()?);
     let (added, item, name) = added(energies, state.in_play)?;
-    // What a step does not resolve says nothing.
-    if state.dynamic(scene) && added <= energy_of_fall(scene, report.motion.mass, report.dt) {
+    let counts = match state.dynamic(scene) {
+        // What a step does not resolve says nothing.
+        true => added > energy_of_fall(scene, report.motion.mass, report.dt),
+        false => ends,
+    };
+    if !counts {
         return None;
     }
     let cure = match item {

@@ -227,10 +227,14 @@ pub fn run<const D: usize, K: Kinematics<D>>(
                     tell(state, Some(&warning));
                     files.log.line(&warning)?;
                 }
+                let met = ending::met(until, &outputs.watches, scene, state, &report)
+                    .or_else(|| stays.then(|| ending::at_first(phase)))
+                    .or_else(|| still.then(|| ending::at_rest(phase, &report)));
+                let ends = met.is_some() || controller.next_stop(state.phase_time).is_none();
                 let mut warnings = bypassed.found(scene, state, &report, outputs.surface.as_ref());
                 warnings.extend(swelling::found(scene, state));
                 warnings.extend(outside::found(scene, state));
-                warnings.extend(energy::found(scene, state, &report));
+                warnings.extend(energy::found(scene, state, &report, ends));
                 warnings.extend(accepted::found(scene, state, &report));
                 for warning in warnings.iter().filter(|warning| told.is_new(warning)) {
                     tell(state, Some(warning));
@@ -242,9 +246,6 @@ pub fn run<const D: usize, K: Kinematics<D>>(
                     }
                     files.log.line(&line)?;
                 }
-                let met = ending::met(until, &outputs.watches, scene, state, &report)
-                    .or_else(|| stays.then(|| ending::at_first(phase)))
-                    .or_else(|| still.then(|| ending::at_rest(phase, &report)));
                 if let Some(note) = met.filter(|_| controller.next_stop(state.phase_time).is_some()) {
                     tell(state, Some(&note));
                     return files.end_early(scene, state, &note);
