@@ -270,13 +270,13 @@ impl<'a, const D: usize> Newton<'a, D> {
         }
         let (pattern, matrix) = (&motion.pattern, &motion.matrix);
         let near = matches!(self.history[..], [.., before, last] if last < NEAR * before);
+        let tolerance = forcing(&self.history, self.problem.scene.numerics.tolerance);
         let method = if !matrix.matrix_free.is_empty() {
-            let tolerance = forcing(&self.history, self.problem.scene.numerics.tolerance);
             motion.solver.solve_matrix_free(pattern, matrix, tolerance, delta)
         } else if near && self.method == Method::Iterative {
-            motion.solver.solve_near(pattern, matrix, delta)
+            motion.solver.solve_near(pattern, matrix, tolerance, delta)
         } else {
-            motion.solver.solve(pattern, matrix, delta)
+            motion.solver.solve_to(pattern, matrix, tolerance, delta)
         };
         // The tangent of soil that flows may resist no motion at all.
         if method.as_ref().is_err_and(is_singular) && self.singular.is_none() && self.problem.integration.is_none() {

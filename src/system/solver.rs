@@ -62,6 +62,14 @@ impl Solver {
     /// # Errors
     /// An analysis error when no method gives a finite solution with a small residual: the system is singular.
     pub fn solve(&mut self, pattern: &Pattern, matrix: &Matrix, x: &mut [f64]) -> Result<Method> {
+        self.solve_to(pattern, matrix, AIM, x)
+    }
+
+    /// As [`Solver::solve`], where the matrix is not symmetric to the relative residual `tolerance` of the equations that are not taken out.
+    ///
+    /// # Errors
+    /// As there.
+    pub fn solve_to(&mut self, pattern: &Pattern, matrix: &Matrix, tolerance: f64, x: &mut [f64]) -> Result<Method> {
         if !matrix.is_finite() || x.iter().any(|v| !v.is_finite()) {
             return Err(Error::analysis("linear system", "a coefficient is not finite", "take smaller steps"));
         }
@@ -81,7 +89,7 @@ impl Solver {
                 }
             }
         } else if timed(Activity::Factorisation, || self.factorize(matrix, pattern, self.definite))?
-            && timed(Activity::Solution, || self.iterate(pattern, matrix, self.definite, (AIM, PRODUCTS), &b, x))
+            && timed(Activity::Solution, || self.iterate(pattern, matrix, self.definite, (tolerance, PRODUCTS), &b, x))
         {
             return Ok(Method::Iterative);
         }
@@ -92,19 +100,20 @@ impl Solver {
         Ok(Method::Lu)
     }
 
-    /// As [`Solver::solve`]. If the matrix is not symmetric and much the same as the last one, the factor of that is used again.
+    /// As [`Solver::solve_to`]. If the matrix is not symmetric and much the same as the last one, the factor of that is used again.
     ///
     /// # Errors
     /// As there.
-    pub fn solve_near(&mut self, pattern: &Pattern, matrix: &Matrix, x: &mut [f64]) -> Result<Method> {
+    pub fn solve_near(&mut self, pattern: &Pattern, matrix: &Matrix, tolerance: f64, x: &mut [f64]) -> Result<Method> {
         let b = x.to_vec();
+        let ends = (tolerance, FEW_PRODUCTS);
         let found = !pattern.symmetric
-            && timed(Activity::Solution, || self.iterate(pattern, matrix, self.definite, (AIM, FEW_PRODUCTS), &b, x));
+            && timed(Activity::Solution, || self.iterate(pattern, matrix, self.definite, ends, &b, x));
         if found {
             return Ok(Method::Iterative);
         }
         x.copy_from_slice(&b);
-        self.solve(pattern, matrix, x)
+        self.solve_to(pattern, matrix, tolerance, x)
     }
 
     /// Solves `A x = b` where the matrix has parts beyond its pattern: by GMRES, to the relative residual `tolerance`,
@@ -199,7 +208,8 @@ impl Solver {
         x: &mut [f64],
     ) -> bool {
         let Self { factor, gmres, .. } = self;
-        let (size, multiply) = (norm(b), |x: &[f64], y: &mut [f64]| matrix.multiply(pattern, x, y));
-        gmres.solve(&multiply, &mut |r| factor.solve(r, llt), b, x, (aim * size, most)) <= ACCEPTED * size
+        let multiply = |x: &[f64], y: &mut [f64]| matrix.multiply(pattern, x, y);
+        let size = if matrix.norm_free(b) > 0.0 { matrix.norm_free(b) } else { norm(b) };
+        gmres.solve(&multiply, &mut |r| factor.solve(r, llt), b, x, (aim * size, most)) <= ACCEPTED.max(aim) * size
     }
 }
