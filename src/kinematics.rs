@@ -84,6 +84,11 @@ pub trait Kinematics<const D: usize>: Copy + Default + Send + Sync + 'static {
     /// What the volume strain changes of the stress, `⅓ C_ijkk`, and the strain of the mean stress, `⅓ C_kkij`.
     fn volumetric(answer: &Spatial<Self::Tangent>) -> [Symmetric; 2];
 
+    /// What [`Kinematics::stretch`] changes of the stress for each unit of `ln J`.
+    fn stretched(answer: &Spatial<Self::Tangent>) -> Symmetric {
+        Self::volumetric(answer)[0]
+    }
+
     /// `a : (e_k ⊗ ∇N)` for each component `k`.
     fn column(tangent: &Self::Tangent, gradient: &Gradient<D>) -> Self::Column;
 
@@ -299,6 +304,19 @@ impl<const HOOP: bool> Kinematics<2> for Plane<HOOP> {
             sums[1][component] += a[0][k] + a[3][k] + a[4][k];
         }
         sums.map(|sum| sum.map(|s| s / 3.0))
+    }
+
+    fn stretched(answer: &Spatial<Self::Tangent>) -> Symmetric {
+        if HOOP {
+            return Self::volumetric(answer)[0];
+        }
+        let a = &answer.tangent;
+        let mut sum = answer.kirchhoff;
+        sum[2] = 0.0;
+        for (k, component) in IN_PLANE.into_iter().enumerate().filter(|&(k, _)| k != 2) {
+            sum[component] += a[k][0] + a[k][3];
+        }
+        sum.map(|s| s / 2.0)
     }
 
     fn column(tangent: &Self::Tangent, gradient: &Gradient<2>) -> Self::Column {

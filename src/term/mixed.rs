@@ -32,6 +32,8 @@ pub struct ModelInput<'a> {
     pub model: &'a dyn Model,
     /// Elastic trial left Cauchy–Green tensor (-).
     pub trial: Symmetric,
+    /// The same with the volume that the step has given it by then, for models that answer for their volume strain themselves.
+    pub of_volume: Symmetric,
     pub state: State<'a>,
     /// Weight `1 − α_f` (-) of the end of the step.
     pub end_weight: f64,
@@ -120,7 +122,7 @@ pub trait Mixed<const D: usize, K: Kinematics<D>>: Send + Sync {
         internal: &mut [f64],
     ) -> Option<Answer<K, D>> {
         let y = point.points.seeded_height(point.entries.point);
-        Some((K::respond(input.model, y, &input.trial, &input.state, internal)?, None))
+        Some((K::respond(input.model, y, &input.of_volume, &input.state, internal)?, None))
     }
 
     /// The volume (-) at the end of the step over that at its beginning that the unknowns give a point, `before` being that at its beginning over that

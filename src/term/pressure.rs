@@ -153,7 +153,7 @@ impl<const D: usize, K: Kinematics<D>> Mixed<D, K> for PressureField<K> {
         let (p, y) = (entries.point, points.seeded_height(entries.point));
         let bound = points.by_material(p, &self.carried).and_then(|carried| Some((carried, carried.bound?)));
         let Some((carried, bound)) = bound else {
-            return Some((K::respond(at.model, y, &at.trial, &at.state, internal)?, None));
+            return Some((K::respond(at.model, y, &at.of_volume, &at.state, internal)?, None));
         };
         let (measure, bound) =
             (Measure::of(carried, points, p, cell.inertia), bound * at.model.elasticity().at(y).shear);

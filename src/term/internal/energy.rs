@@ -114,12 +114,13 @@ impl Work {
     }
 }
 
-/// The stress `A W` that acts in a step, and how it acts; its tangent takes the place of that of `τ_H` in `answer`. `share` is the work of the
+/// The stress `A W` that acts in a step, and how it acts; its tangent takes the place of that of `τ_H` in `answer`. `of_stretch` is what the volume changes of
+/// the stress of the model alone ([`Kinematics::stretched`]). `share` is the work of the
 /// shares of the stress that unknowns carry, and its derivative by the volume strain.
 pub fn stress<const D: usize, K: Kinematics<D>>(
     strained: &Strained,
     alpha_f: f64,
-    (answer, field_strain): &mut Answer<K, D>,
+    ((answer, field_strain), of_stretch): (&mut Answer<K, D>, &Symmetric),
     work: Option<(&Work, [f64; 2])>,
 ) -> (Tensor, Acting) {
     let increment = &strained.increment;
@@ -127,8 +128,14 @@ pub fn stress<const D: usize, K: Kinematics<D>>(
     let [back, across] = [increment, &strained.metric_factor].map(|f| f.try_inverse().unwrap_or_else(Tensor::identity));
     let q = increment * across;
     K::convect(answer, &q);
-    if let Some(field_strain) = field_strain {
-        field_strain.convect(&q);
+    let unit = q * q.transpose();
+    match field_strain {
+        Some(field_strain) => field_strain.convect(&q),
+        None => {
+            // The volume of the model is that of the step, not that of the metric.
+            let stress = symmetric(&(q * full(of_stretch) * q.transpose()));
+            K::add_product(&mut answer.tangent, 1.0, &stress, &symmetric(&(Tensor::identity() - unit)));
+        }
     }
     let end_weight = 1.0 - alpha_f;
     let through = Tensor::identity() * end_weight + back * alpha_f;
@@ -152,5 +159,5 @@ pub fn stress<const D: usize, K: Kinematics<D>>(
         (correction, strain) = (along * model.part, step.end);
     }
     K::weight(&mut answer.tangent, &through, &of_metric, &w);
-    (through * w, Acting { through, within: strained.within(), unit: q * q.transpose(), correction, strain })
+    (through * w, Acting { through, within: strained.within(), unit, correction, strain })
 }

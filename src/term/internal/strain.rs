@@ -29,6 +29,15 @@ impl Strained {
         self.ratios = ratios;
     }
 
+    /// `H̃`: the metric factor with the volume `ΔJ^w` at the weight `w` of the end of the step. The mean of two metrics has a larger one, by the square
+    /// of the shear between them.
+    pub fn with_volume<const D: usize, K: Kinematics<D>>(&self, end_weight: f64) -> Tensor {
+        let mut factor = self.metric_factor;
+        let ratio = self.ratios.step.powf(end_weight) / factor.determinant();
+        K::stretch(&mut factor, ratio);
+        factor
+    }
+
     /// Ratios of volumes by the metric within the step.
     pub fn within(&self) -> Ratios {
         let step = self.metric_factor.determinant();

@@ -1,7 +1,8 @@
-//! The collapse of a column without cohesion through the program, on cells of a quarter of its height.
+//! The collapse of a column without cohesion through the program, on cells of a quarter of its width.
 
 use crate::support::solve;
 use mpm::io::frame::{self, Frame};
+use std::collections::HashMap;
 use std::fs;
 
 /// Width and height of the column (m), its density (t/m³).
@@ -55,4 +56,91 @@ fn a_column_without_cohesion_runs_out_and_comes_to_rest() {
     println!("run-out {run_out:.2} widths, {wall:.3} m high at the wall");
     assert!((1.3..1.7).contains(&run_out), "{run_out}");
     assert!((0.8 * HEIGHT..HEIGHT).contains(&wall), "{wall}");
+}
+
+/// What a frame shows of the sand: its time, `Σ V σ_yy` (kJ), `Σ m y v_y` (kJ s), `Σ m v_y²` and `Σ m g y` (kJ).
+fn moments(frame: &Frame) -> [f64; 5] {
+    let of = |name: &str, components: usize| frame.points.numbers(name, components).unwrap();
+    let (mass, velocity, stress, f) =
+        (of("mass", 1), of("velocity", 3), of("stress", 6), of("deformation_gradient", 9));
+    let mut sums = [frame.time, 0.0, 0.0, 0.0, 0.0];
+    for (p, x) in frame.points.position.iter().enumerate() {
+        let (v, f) = (velocity[3 * p + 1], &f[9 * p..9 * p + 9]);
+        let volume = mass[p] / DENSITY * (f[0] * f[4] - f[1] * f[3]) * f[8];
+        let of_point = [volume * stress[6 * p + 1], mass[p] * x[1] * v, mass[p] * v * v, mass[p] * 9.81 * x[1]];
+        sums[1..].iter_mut().zip(of_point).for_each(|(sum, value)| *sum += value);
+    }
+    sums
+}
+
+/// What the exported stresses dissipate between two frames (kJ), and the mass (t) of the points that are in both. In plane flow that keeps its volume a
+/// point dissipates `(σ₁ − σ₃) ½ √3` for each unit of its equivalent plastic strain.
+fn plastic_work([before, after]: [&Frame; 2]) -> [f64; 2] {
+    let of = |frame: &Frame, name: &str, components: usize| frame.points.numbers(name, components).unwrap().to_vec();
+    let seeded = |frame: &Frame, u: &[f64], p: usize| -> [i64; 2] {
+        [0, 1].map(|d| ((frame.points.position[p][d] - u[3 * p + d]) * 1e12).round() as i64)
+    };
+    let difference = |s: &[f64]| ((s[0] - s[1]).powi(2) + 4.0 * s[3] * s[3]).sqrt();
+    let [u, v] = [before, after].map(|frame| of(frame, "displacement", 3));
+    let [then, now] = [before, after].map(|frame| of(frame, "stress", 6));
+    let [strain, strained] = [before, after].map(|frame| of(frame, "plastic_strain", 1));
+    let [mass, massed] = [before, after].map(|frame| of(frame, "mass", 1));
+    let places: HashMap<[i64; 2], usize> = (0..mass.len()).map(|p| (seeded(before, &u, p), p)).collect();
+    let mut sums = [0.0; 2];
+    for q in 0..massed.len() {
+        let Some(&p) = places.get(&seeded(after, &v, q)).filter(|&&p| mass[p] == massed[q]) else { continue };
+        let acts = 0.5 * (difference(&then[6 * p..6 * p + 6]) + difference(&now[6 * q..6 * q + 6]));
+        sums[0] += massed[q] / DENSITY * acts * 0.5 * 3f64.sqrt() * (strained[q] - strain[p]);
+        sums[1] += massed[q];
+    }
+    sums
+}
+
+/// While it flows, the exported stresses are those that balance the forces: `∫ Σ V σ_yy dt` is what weight and inertia of the sand need by the virial theorem,
+/// and their plastic work is that of the equations.
+#[test]
+fn the_exported_stress_of_flowing_sand_is_in_balance() {
+    for (name, settings) in
+        [("phi = 31", ["", ""]), ("phi = 24, taller", ["materials.sand.friction=24", "mesh.parameters.height=0.15"])]
+    {
+        let mut set = vec![
+            "output.every=0.002",
+            "output.fields=[displacement, velocity, stress, plastic_strain, mass, deformation_gradient]",
+            "phases.collapse.duration=0.2",
+        ];
+        set.extend(settings.into_iter().filter(|own| !own.is_empty()));
+        let folder = solve("cases/sand_column", &set);
+        let frames: Vec<Frame> = frame::list(&folder.path().join("results"))
+            .unwrap()
+            .iter()
+            .map(|found| Frame::read(&found.path).unwrap())
+            .filter(|frame| frame.phase == "collapse" && frame.time > 1.02)
+            .collect();
+        let all: Vec<[f64; 5]> = frames.iter().map(moments).collect();
+        let [mut exported, mut needed] = [0.0; 2];
+        for pair in all.windows(2) {
+            let dt = pair[1][0] - pair[0][0];
+            let mean = |k: usize| 0.5 * (pair[0][k] + pair[1][k]);
+            exported += dt * mean(1);
+            needed += pair[0][2] - pair[1][2] + dt * (mean(3) - mean(4));
+        }
+        let mass: f64 = frames[0].points.numbers("mass", 1).unwrap().iter().sum();
+        let mut exported_work = 0.0;
+        for pair in frames.windows(2) {
+            let [work, part] = plastic_work([&pair[0], &pair[1]]);
+            exported_work += work * mass / part;
+        }
+        let energy = fs::read_to_string(folder.path().join("energy.csv")).unwrap();
+        let head: Vec<&str> = energy.lines().next().unwrap().split(',').collect();
+        let at = ["time [s]", "dissipated.plastic [kJ]"].map(|name| head.iter().position(|c| *c == name).unwrap());
+        let plastic = |time: f64| -> f64 {
+            let rows =
+                energy.lines().skip(1).map(|line| line.split(',').map(|v| v.parse().unwrap()).collect::<Vec<f64>>());
+            rows.filter(|row| row[at[0]] < time + 1e-9).last().unwrap()[at[1]]
+        };
+        let released = plastic(frames[frames.len() - 1].time) - plastic(frames[0].time);
+        let (balance, work) = (exported / needed - 1.0, exported_work / released - 1.0);
+        println!("{name}: stress {balance:+.4}, plastic work {work:+.4}");
+        assert!(balance.abs() < 0.03 && work.abs() < 0.05);
+    }
 }
