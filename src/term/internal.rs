@@ -119,7 +119,8 @@ impl<K, S> Internal<K, S> {
         let metric_factor = &strained.metric_factor;
         let trial_of = |h: &Tensor| symmetric(&(h * full(&points.elastic[p]) * h.transpose()));
         let trial = trial_of(metric_factor);
-        let of_volume = if end_weight < 1.0 { trial_of(&strained.with_volume::<D, K>(end_weight)) } else { trial };
+        let of_step = S::OF_STEP_VOLUME && end_weight < 1.0;
+        let of_volume = if of_step { trial_of(&strained.with_volume::<D, K>(end_weight)) } else { trial };
         let Some(model) = points.by_material(p, models) else {
             return Err(Error::analysis(format!("material point {p}"), "it has no material", ""));
         };
@@ -265,10 +266,10 @@ impl<const D: usize, K: Kinematics<D>, S: Mixed<D, K>> Term<D> for Internal<K, S
                             (point, &*answer),
                             (trial, &mut internal),
                         )?;
-                        let of_stretch = K::stretched(&answer.0);
+                        let of_stretch = S::OF_STEP_VOLUME.then(|| K::stretched(&answer.0));
                         self.share.add(&cell, &within, end_weight, &mut answer.0);
                         let work = work.as_ref().map(|work| (work, self.share.work(&cell, &at, end_weight)));
-                        energy::stress::<D, K>(point, trial.alpha_f, (answer, &of_stretch), work)
+                        energy::stress::<D, K>(point, trial.alpha_f, (answer, of_stretch), work)
                     } else {
                         self.share.add(&cell, &at, 1.0, &mut answer.0);
                         (full(&answer.0.kirchhoff), Acting::at_end(point.ratios))

@@ -106,6 +106,9 @@ pub struct Coupling<'a, const D: usize> {
 
 /// A share of the stress of the points that unknowns of its own carry.
 pub trait Mixed<const D: usize, K: Kinematics<D>>: Send + Sync {
+    /// Whether models within a step have its volume, not that of the mean metric: where no field bears their mean stress.
+    const OF_STEP_VOLUME: bool = true;
+
     /// Its unknowns over a cell.
     type Cell;
 
@@ -183,6 +186,7 @@ impl<const D: usize, K: Kinematics<D>> Mixed<D, K> for () {
 
 /// Two shares, side by side.
 impl<const D: usize, K: Kinematics<D>, A: Mixed<D, K>, B: Mixed<D, K>> Mixed<D, K> for (A, B) {
+    const OF_STEP_VOLUME: bool = A::OF_STEP_VOLUME && B::OF_STEP_VOLUME;
     type Cell = (A::Cell, B::Cell);
 
     fn over(&self, frame: &Frame<D>, trial: &Trial<D>, cell_points: &CellPoints) -> Self::Cell {

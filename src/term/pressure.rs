@@ -118,6 +118,7 @@ fn within(cell: &Cell, shapes: &Coefficients, end_weight: f64) -> f64 {
 }
 
 impl<const D: usize, K: Kinematics<D>> Mixed<D, K> for PressureField<K> {
+    const OF_STEP_VOLUME: bool = false;
     type Cell = Cell;
 
     fn over(&self, frame: &Frame<D>, trial: &Trial<D>, cell_points: &CellPoints) -> Cell {
@@ -153,7 +154,7 @@ impl<const D: usize, K: Kinematics<D>> Mixed<D, K> for PressureField<K> {
         let (p, y) = (entries.point, points.seeded_height(entries.point));
         let bound = points.by_material(p, &self.carried).and_then(|carried| Some((carried, carried.bound?)));
         let Some((carried, bound)) = bound else {
-            return Some((K::respond(at.model, y, &at.of_volume, &at.state, internal)?, None));
+            return Some((K::respond(at.model, y, &at.trial, &at.state, internal)?, None));
         };
         let (measure, bound) =
             (Measure::of(carried, points, p, cell.inertia), bound * at.model.elasticity().at(y).shear);

@@ -120,7 +120,7 @@ impl Work {
 pub fn stress<const D: usize, K: Kinematics<D>>(
     strained: &Strained,
     alpha_f: f64,
-    ((answer, field_strain), of_stretch): (&mut Answer<K, D>, &Symmetric),
+    ((answer, field_strain), of_stretch): (&mut Answer<K, D>, Option<Symmetric>),
     work: Option<(&Work, [f64; 2])>,
 ) -> (Tensor, Acting) {
     let increment = &strained.increment;
@@ -129,13 +129,12 @@ pub fn stress<const D: usize, K: Kinematics<D>>(
     let q = increment * across;
     K::convect(answer, &q);
     let unit = q * q.transpose();
-    match field_strain {
-        Some(field_strain) => field_strain.convect(&q),
-        None => {
-            // The volume of the model is that of the step, not that of the metric.
-            let stress = symmetric(&(q * full(of_stretch) * q.transpose()));
-            K::add_product(&mut answer.tangent, 1.0, &stress, &symmetric(&(Tensor::identity() - unit)));
-        }
+    if let Some(field_strain) = field_strain {
+        field_strain.convect(&q);
+    } else if let Some(of_stretch) = of_stretch {
+        // The volume of the model is that of the step, not that of the metric.
+        let stress = symmetric(&(q * full(&of_stretch) * q.transpose()));
+        K::add_product(&mut answer.tangent, 1.0, &stress, &symmetric(&(Tensor::identity() - unit)));
     }
     let end_weight = 1.0 - alpha_f;
     let through = Tensor::identity() * end_weight + back * alpha_f;
