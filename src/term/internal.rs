@@ -7,8 +7,8 @@
 //!
 //! With inertia the stress within the step acts on the configuration within it: in place of `τ` stands `A W`,
 //! `A = (1 − α_f) I + α_f ΔF⁻¹`. The metric within the step is `C = (1 − α_f) ΔFᵀΔF + α_f I = HᵀH`, and the model
-//! responds to `H̃ b_n H̃ᵀ`, `H̃` being `H` with the volume of the step, with the stress `τ_H`, so that `W = Q τ_H Qᵀ`, `Q = ΔF H⁻¹` (theory, eq. 7 and 8). `A W Aᵀ`
-//! being symmetric, the forces have no moment about the positions within the step; a rotation leaves `C = I`; and
+//! responds to `H̃ b_n H̃ᵀ`, `H̃` being `H` with the volume of the step, with the stress `τ_H`, so that `W = Q τ_H Qᵀ`,
+//! `Q = ΔF H⁻¹` (theory, eq. 7 and 8). `A W Aᵀ` being symmetric, the forces have no moment about the positions within the step; a rotation leaves `C = I`; and
 //! soil that yields dissipates, for the stress within the step is one that it can bear. Where it does not yield, to it is added
 //! what makes its work that which the step stores (`internal/energy.rs`).
 //!
@@ -34,7 +34,7 @@ use crate::material::{Model, State, VariableKind, internal_count};
 use crate::points::Points;
 use crate::profile::timed_material;
 use crate::system::Local;
-use crate::tensor::{Tensor, full, symmetric};
+use crate::tensor::{full, symmetric};
 use dissipation::Yielded;
 use energy::Work;
 use rayon::prelude::*;
@@ -117,15 +117,14 @@ impl<K, S> Internal<K, S> {
     {
         let p = entries.point;
         let metric_factor = &strained.metric_factor;
-        let trial_of = |h: &Tensor| symmetric(&(h * full(&points.elastic[p]) * h.transpose()));
-        let trial = trial_of(metric_factor);
-        let of_step = S::OF_STEP_VOLUME && end_weight < 1.0;
-        let of_volume = if of_step { trial_of(&strained.with_volume::<D, K>(end_weight)) } else { trial };
+        let of_step = end_weight < 1.0 && self.share.has_step_volume(points, p);
+        let factor = if of_step { strained.with_volume::<D, K>(end_weight) } else { *metric_factor };
+        let trial = symmetric(&(factor * full(&points.elastic[p]) * factor.transpose()));
         let Some(model) = points.by_material(p, models) else {
             return Err(Error::analysis(format!("material point {p}"), "it has no material", ""));
         };
         let state = State { increment: Some(metric_factor), stiffening, ..points.state(p, inverse_dt) };
-        let input = ModelInput { model: model.as_ref(), trial, of_volume, state, end_weight };
+        let input = ModelInput { model: model.as_ref(), trial, state, end_weight };
         let point = Point { points, entries, ratios: strained.ratios };
         let answer = self.share.respond(cell, &point, &input, internal);
         answer.ok_or_else(|| inadmissible(points, p, "is strained beyond measure", &strained.increment))
@@ -266,7 +265,8 @@ impl<const D: usize, K: Kinematics<D>, S: Mixed<D, K>> Term<D> for Internal<K, S
                             (point, &*answer),
                             (trial, &mut internal),
                         )?;
-                        let of_stretch = S::OF_STEP_VOLUME.then(|| K::stretched(&answer.0));
+                        let own = self.share.has_step_volume(frame.points, entries.point);
+                        let of_stretch = own.then(|| K::stretched(&answer.0));
                         self.share.add(&cell, &within, end_weight, &mut answer.0);
                         let work = work.as_ref().map(|work| (work, self.share.work(&cell, &at, end_weight)));
                         energy::stress::<D, K>(point, trial.alpha_f, (answer, of_stretch), work)

@@ -32,8 +32,6 @@ pub struct ModelInput<'a> {
     pub model: &'a dyn Model,
     /// Elastic trial left Cauchy–Green tensor (-).
     pub trial: Symmetric,
-    /// The same with the volume that the step has given it by then, for models that answer for their volume strain themselves.
-    pub of_volume: Symmetric,
     pub state: State<'a>,
     /// Weight `1 − α_f` (-) of the end of the step.
     pub end_weight: f64,
@@ -106,13 +104,15 @@ pub struct Coupling<'a, const D: usize> {
 
 /// A share of the stress of the points that unknowns of its own carry.
 pub trait Mixed<const D: usize, K: Kinematics<D>>: Send + Sync {
-    /// Whether models within a step have its volume, not that of the mean metric: where no field bears their mean stress.
-    const OF_STEP_VOLUME: bool = true;
-
     /// Its unknowns over a cell.
     type Cell;
 
     fn over(&self, frame: &Frame<D>, trial: &Trial<D>, cell_points: &CellPoints) -> Self::Cell;
+
+    /// Whether within a step the model of a point has the volume of the step, not that of the mean metric: where its mean stress is its own.
+    fn has_step_volume(&self, _points: &Points<D>, _p: usize) -> bool {
+        true
+    }
 
     /// The response of the model of a point to an elastic trial left Cauchy–Green tensor within the step, and the volume strain that it receives.
     /// The internal variables at the end of the step go into `internal`. `None` where the tensor is out of the range of the model.
@@ -125,7 +125,7 @@ pub trait Mixed<const D: usize, K: Kinematics<D>>: Send + Sync {
         internal: &mut [f64],
     ) -> Option<Answer<K, D>> {
         let y = point.points.seeded_height(point.entries.point);
-        Some((K::respond(input.model, y, &input.of_volume, &input.state, internal)?, None))
+        Some((K::respond(input.model, y, &input.trial, &input.state, internal)?, None))
     }
 
     /// The volume (-) at the end of the step over that at its beginning that the unknowns give a point, `before` being that at its beginning over that
@@ -186,11 +186,14 @@ impl<const D: usize, K: Kinematics<D>> Mixed<D, K> for () {
 
 /// Two shares, side by side.
 impl<const D: usize, K: Kinematics<D>, A: Mixed<D, K>, B: Mixed<D, K>> Mixed<D, K> for (A, B) {
-    const OF_STEP_VOLUME: bool = A::OF_STEP_VOLUME && B::OF_STEP_VOLUME;
     type Cell = (A::Cell, B::Cell);
 
     fn over(&self, frame: &Frame<D>, trial: &Trial<D>, cell_points: &CellPoints) -> Self::Cell {
         (self.0.over(frame, trial, cell_points), self.1.over(frame, trial, cell_points))
+    }
+
+    fn has_step_volume(&self, points: &Points<D>, p: usize) -> bool {
+        self.0.has_step_volume(points, p) && self.1.has_step_volume(points, p)
     }
 
     fn respond(

@@ -118,7 +118,6 @@ fn within(cell: &Cell, shapes: &Coefficients, end_weight: f64) -> f64 {
 }
 
 impl<const D: usize, K: Kinematics<D>> Mixed<D, K> for PressureField<K> {
-    const OF_STEP_VOLUME: bool = false;
     type Cell = Cell;
 
     fn over(&self, frame: &Frame<D>, trial: &Trial<D>, cell_points: &CellPoints) -> Cell {
@@ -142,6 +141,10 @@ impl<const D: usize, K: Kinematics<D>> Mixed<D, K> for PressureField<K> {
             if weight > 0.0 { sum.map(|s| s / weight) } else { sum }
         });
         Cell { kind, pressure, converged, mean, inertia: trial.alpha_f > 0.0 }
+    }
+
+    fn has_step_volume(&self, points: &Points<D>, p: usize) -> bool {
+        points.by_material(p, &self.carried).is_none()
     }
 
     fn respond(

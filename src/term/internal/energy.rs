@@ -114,9 +114,8 @@ impl Work {
     }
 }
 
-/// The stress `A W` that acts in a step, and how it acts; its tangent takes the place of that of `τ_H` in `answer`. `of_stretch` is what the volume changes of
-/// the stress of the model alone ([`Kinematics::stretched`]). `share` is the work of the
-/// shares of the stress that unknowns carry, and its derivative by the volume strain.
+/// The stress `A W` that acts in a step, and how it acts; its tangent takes the place of that of `τ_H` in `answer`. `of_stretch` is what its
+/// volume changes of the stress of a model that has that of the step ([`Kinematics::stretched`]). `share` is the work of the shares of the stress that unknowns carry, and its derivative by the volume strain.
 pub fn stress<const D: usize, K: Kinematics<D>>(
     strained: &Strained,
     alpha_f: f64,

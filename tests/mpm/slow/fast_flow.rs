@@ -99,6 +99,9 @@ fn a_wall_has_the_passive_force_of_sand_without_dilation() {
         let [force] = columns(&folder.path().join("history.csv"), ["wall.contact_x"]);
         let force = -force[force.len() - 1];
         println!("c = {cohesion} kPa: {force:.1} kN/m, {davis} to {rankine}");
+        // The wall closes on stress at rest: the energy that its first step creates is little of what it does in the phase.
+        let log = fs::read_to_string(folder.path().join("solve.log")).unwrap();
+        assert!(!log.contains("from nowhere"), "{log}");
         assert!(force > davis && force < 1.03 * rankine, "{force}");
     }
 }
