@@ -183,10 +183,11 @@ fn at_samples<const D: usize, K: Kinematics<D>>(
     interpolate::<D, K>(&Family { mesh, interpolation, coupling, points: &samples.points }, field)
 }
 
-/// The bodies within the surface. Material points outside it are integration points themselves, and lack nothing.
+/// The bodies, with the cells outside the surface, in which material points are integration points themselves: nodes that they share with a body are
+/// corrected with it.
 fn bodies<'a, const D: usize>(mesh: &'a Mesh<D>, state: &State<D>, samples: &'a Samples<D>) -> Bodies<'a, D> {
     let cells = samples.points.cell.iter().chain(&state.points.cell);
-    Bodies::of(mesh, cells.copied(), &samples.outside)
+    Bodies::of(mesh, cells.copied(), &[])
 }
 
 /// The momentum of each body in a field given at points, these being at `position`.

@@ -22,7 +22,7 @@ use crate::term::Frozen;
 const LOOSEST: f64 = 1e-3;
 /// Smallest relative residual that they are solved to.
 const TIGHTEST: f64 = 1e-10;
-/// Part (-) of the square of the last reduction, and of what the tolerance still needs, to which they are solved (Eisenstat & Walker 1996).
+/// Part (-) of the square of the last reduction to which they are solved (Eisenstat & Walker 1996).
 const FORCING: f64 = 0.1;
 /// The stiffening (-) of soil with friction, once a tangent has been singular, over what is left (-) of the residual since.
 const FOLLOWING: f64 = 8.0;
@@ -318,16 +318,16 @@ impl<'a, const D: usize> Newton<'a, D> {
     }
 }
 
-/// The relative residual of the linear solution (inexact Newton): a part of the square of the last reduction (Eisenstat & Walker 1996),
-/// which preserves the convergence of Newton's method, but no smaller than the end of the iteration needs.
+/// The relative residual of the linear solution (inexact Newton): a part of the square of the last reduction (Eisenstat & Walker 1996), which preserves
+/// the convergence of Newton's method. Where that would reach the `tolerance`, nothing but rounding is left: what a step leaves the momentum loses.
 fn forcing(history: &[f64], tolerance: f64) -> f64 {
     let last = history.last().copied().unwrap_or(1.0);
-    let enough = FORCING * tolerance / last;
     let quadratic = match history {
         [.., before, last] => FORCING * (last / before).powi(2),
         _ => LOOSEST,
     };
-    quadratic.max(enough).clamp(TIGHTEST, LOOSEST)
+    let part = if quadratic * last <= tolerance { ROUNDING / last } else { quadratic };
+    part.clamp(TIGHTEST, LOOSEST)
 }
 
 /// Which equations of nodes are damped: not those of finite elements in contact. Only soil that flows may support a structure; a fraction of the

@@ -100,15 +100,18 @@ fn plastic_work([before, after]: [&Frame; 2]) -> [f64; 2] {
 /// and their plastic work is that of the equations.
 #[test]
 fn the_exported_stress_of_flowing_sand_is_in_balance() {
-    for (name, settings) in
-        [("phi = 31", ["", ""]), ("phi = 24, taller", ["materials.sand.friction=24", "mesh.parameters.height=0.15"])]
-    {
+    let variants: [(&str, &[&str]); 3] = [
+        ("phi = 31", &[]),
+        ("phi = 24, taller", &["materials.sand.friction=24", "mesh.parameters.height=0.15"]),
+        ("round", &["geometry=axisymmetric"]),
+    ];
+    for (name, settings) in variants {
         let mut set = vec![
             "output.every=0.002",
             "output.fields=[displacement, velocity, stress, plastic_strain, mass, deformation_gradient]",
             "phases.collapse.duration=0.2",
         ];
-        set.extend(settings.into_iter().filter(|own| !own.is_empty()));
+        set.extend(settings);
         let folder = solve("cases/sand_column", &set);
         let frames: Vec<Frame> = frame::list(&folder.path().join("results"))
             .unwrap()
@@ -117,12 +120,19 @@ fn the_exported_stress_of_flowing_sand_is_in_balance() {
             .filter(|frame| frame.phase == "collapse" && frame.time > 1.02)
             .collect();
         let all: Vec<[f64; 5]> = frames.iter().map(moments).collect();
-        let [mut exported, mut needed] = [0.0; 2];
+        let (mut exported, mut needed) = (0.0, 0.0);
         for pair in all.windows(2) {
             let dt = pair[1][0] - pair[0][0];
             let mean = |k: usize| 0.5 * (pair[0][k] + pair[1][k]);
             exported += dt * mean(1);
             needed += pair[0][2] - pair[1][2] + dt * (mean(3) - mean(4));
+        }
+        let balance = exported / needed - 1.0;
+        println!("{name}: stress {balance:+.4}");
+        assert!(balance.abs() < 0.03);
+        // The plastic work by strains is that of plane flow.
+        if name == "round" {
+            continue;
         }
         let mass: f64 = frames[0].points.numbers("mass", 1).unwrap().iter().sum();
         let mut exported_work = 0.0;
@@ -139,8 +149,8 @@ fn the_exported_stress_of_flowing_sand_is_in_balance() {
             rows.filter(|row| row[at[0]] < time + 1e-9).last().unwrap()[at[1]]
         };
         let released = plastic(frames[frames.len() - 1].time) - plastic(frames[0].time);
-        let (balance, work) = (exported / needed - 1.0, exported_work / released - 1.0);
-        println!("{name}: stress {balance:+.4}, plastic work {work:+.4}");
-        assert!(balance.abs() < 0.03 && work.abs() < 0.05);
+        let work = exported_work / released - 1.0;
+        println!("{name}: plastic work {work:+.4}");
+        assert!(work.abs() < 0.05);
     }
 }
