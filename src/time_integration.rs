@@ -48,6 +48,14 @@ impl GeneralisedAlpha {
         [-0.5 * contact / self.beta, self.dt * contact * (1.0 - 0.5 * self.gamma / self.beta)]
     }
 
+    /// The rule whose matrix is that of the mass which resists such contact: `M + (η Δt)² K`, `η = (1 − ρ∞)/(1 + ρ∞)`. Motion of frequencies that
+    /// the rule damps takes no part in it. None where it damps none.
+    pub fn resisting(&self) -> Option<Self> {
+        let damped = 1.0 - 2.0 * self.alpha_f;
+        let beta = damped * damped * (1.0 - self.alpha_m) / (1.0 - self.alpha_f);
+        (damped > 0.0).then_some(Self { beta, ..*self })
+    }
+
     /// Acceleration that the inertia sees.
     pub fn weighted(&self, a: f64, next: f64) -> f64 {
         (1.0 - self.alpha_m) * next + self.alpha_m * a
@@ -105,6 +113,35 @@ mod tests {
             for v in velocities {
                 assert!((v - 1.0).abs() < 1e-12 && a.abs() < 1e-12, "ρ∞ = {radius}: {v} {a}");
             }
+        }
+    }
+
+    /// An oscillator of unit mass that was at rest, at any frequency: neither as the force of contact acts for a step nor later does it hold more than
+    /// the work of that force.
+    #[test]
+    fn contact_gives_no_more_than_its_work() {
+        for (radius, frequency) in [1.0, 0.99, 0.9, 0.6, 0.3, 0.0]
+            .into_iter()
+            .flat_map(|radius| [0.1, 0.3, 1.0, 2.0, 3.0, 10.0, 100.0, 1000.0].map(|frequency| (radius, frequency)))
+        {
+            let m = GeneralisedAlpha::new(radius, 1.0);
+            let stiffness = frequency * frequency;
+            let (mut u, mut v, mut a, mut work, mut most) = (0.0, 0.0, 0.0, 0.0, 0.0f64);
+            for force in std::iter::once(1.0).chain([0.0; 100]) {
+                let residual = |du: f64| {
+                    m.weighted(a, m.acceleration(du, v, a)) + stiffness * (u + (1.0 - m.alpha_f) * du)
+                        - m.impulse() * force
+                };
+                let (r0, r1) = (residual(0.0), residual(1.0));
+                let du = -r0 / (r1 - r0);
+                let resisting = m.resisting().map_or(1.0, |by| 1.0 + stiffness * (1.0 - m.alpha_f) / by.slope());
+                let next = m.acceleration(du, v, a);
+                let [less, more] = m.released(force / resisting);
+                (u, v, a) = (u + du, m.velocity(v, a, next) + more, next + less);
+                work += force * du;
+                most = most.max(0.5 * (v * v + stiffness * u * u));
+            }
+            assert!(most <= work * (1.0 + 1e-9), "ρ∞ = {radius}, ω Δt = {frequency}: {most} of {work}");
         }
     }
 

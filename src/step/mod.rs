@@ -72,7 +72,6 @@ pub use work::energy_of_fall;
 use crate::error::{Kind, Result};
 use crate::kinematics::Kinematics;
 use crate::profile::{Activity, timed};
-use crate::time_integration::GeneralisedAlpha;
 use problem::Problem;
 use start::Start;
 use std::marker::PhantomData;
@@ -276,21 +275,7 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
         let dynamic = state.dynamic(scene);
         let given = grid::given_increments(scene, state, &self.grid, dt);
         let start = if dynamic { Some(Start::of::<K>(scene, &mut self.grid, state, &given, dt)?) } else { None };
-        let (velocity, acceleration): (&[_], &[_]) =
-            start.as_ref().map_or((&[], &[]), |s| (&s.velocity, &s.acceleration));
-        let problem = Problem {
-            scene,
-            state,
-            predictor,
-            velocity,
-            acceleration,
-            phase: state.phase,
-            from: state.phase_time,
-            to: state.phase_time + dt,
-            given: &given,
-            integration: dynamic.then(|| GeneralisedAlpha::new(scene.numerics.spectral_radius, dt)),
-            flow_time: if scene.phases[state.phase].flows { dt } else { 0.0 },
-        };
+        let problem = Problem { predictor, ..Problem::step(scene, state, start.as_ref(), &given, dt) };
         let solution = newton::solve(&problem, &mut self.grid)?;
         Ok((start, solution))
     }
@@ -321,7 +306,9 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
         let done = work::Done::of(scene, grid, state, (&solution, start.as_ref()), answers.dissipated(), dt)?;
         let (mut by_contact, mut kinetic) = (Vec::new(), 0.0);
         if let Some(start) = &start {
-            by_contact = impulse::release::<D, K>(scene, grid, state, &mut solution, dt)?;
+            let given = grid::given_increments(scene, state, grid, dt);
+            let problem = Problem::step(scene, state, Some(start), &given, dt);
+            by_contact = impulse::release::<D, K>(&problem, grid, &mut solution)?;
             let velocity = transfer::end_velocity(scene, state, (start, &by_contact), &solution.displacement, dt);
             kinetic = balance::kinetic(scene, grid, state, &velocity)?;
         }

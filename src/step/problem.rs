@@ -2,6 +2,7 @@
 
 use super::grid::Grid;
 use super::scene::Scene;
+use super::start::Start;
 use super::state::{Span, State};
 use super::unknowns::Unknowns;
 use crate::dofs::Dof;
@@ -45,6 +46,26 @@ impl<'a, const D: usize> Problem<'a, D> {
             given: &[],
             integration: None,
             flow_time: 0.0,
+        }
+    }
+
+    /// That of a step of `dt` (s) from the last converged state, with inertia where it begins with the motion `start`.
+    pub fn step(
+        scene: &'a Scene<D>,
+        state: &'a State<D>,
+        start: Option<&'a Start<D>>,
+        given: &'a [Option<f64>],
+        dt: f64,
+    ) -> Self {
+        let (velocity, acceleration): (&[_], &[_]) = start.map_or((&[], &[]), |s| (&s.velocity, &s.acceleration));
+        Self {
+            velocity,
+            acceleration,
+            to: state.phase_time + dt,
+            given,
+            integration: start.map(|_| GeneralisedAlpha::new(scene.numerics.spectral_radius, dt)),
+            flow_time: if scene.phases[state.phase].flows { dt } else { 0.0 },
+            ..Self::at_rest(scene, state)
         }
     }
 
