@@ -71,6 +71,23 @@ pub fn kinetic<const D: usize>(
     Ok(0.5 * sum.work.of(Source::Inertia))
 }
 
+/// The force (kN, one entry an equation) of inertia against an acceleration (m/s²) of the nodes, by the mass of the equations of motion.
+///
+/// # Errors
+/// None that a converged state has.
+pub fn inertia<const D: usize>(
+    scene: &Scene<D>,
+    grid: &mut Grid<D>,
+    state: &State<D>,
+    acceleration: &[[f64; D]],
+) -> Result<Vec<f64>> {
+    let problem = Problem::at_rest(scene, state);
+    let (mut own, mut sum) = (Vec::new(), Evaluation::default());
+    let trial = Trial { acceleration, ..at_start(&problem) };
+    add_terms(&problem, grid, &trial, false, &|role| role == Role::Inertia, (&mut own, &[]), &mut sum)?;
+    Ok(sum.force)
+}
+
 /// A field of displacements or velocities, one entry an equation of these.
 pub fn by_equation<const D: usize>(grid: &Grid<D>, value: impl Fn(u32) -> [f64; D], out: &mut Vec<f64>) {
     out.clear();
@@ -124,6 +141,10 @@ pub fn evaluate<const D: usize>(
         add_terms(problem, grid, &trial, tangent, &|role| dynamic || role != Role::Inertia, (own, way), state)
     });
     state.at = at;
+    if !problem.unresolved.is_empty() {
+        state.force.iter_mut().zip(problem.unresolved).for_each(|(f, unresolved)| *f += unresolved);
+        state.work.add(Source::Inertia, problem.unresolved, way);
+    }
     if !dynamic {
         hold_back(problem, grid, &mut state.force);
     }

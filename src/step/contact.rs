@@ -191,7 +191,7 @@ fn ahead<const D: usize>(
     dt: f64,
 ) -> Vec<[f64; D]> {
     let mut ahead = Vec::new();
-    if let Some(Start { velocity, acceleration }) = start {
+    if let Some(Start { velocity, acceleration, .. }) = start {
         let integration = GeneralisedAlpha::new(scene.numerics.spectral_radius, dt);
         go_ahead(&integration, (&solution.displacement, &state.displacement), (velocity, acceleration), &mut ahead);
     }

@@ -1,23 +1,40 @@
 //! Contact with soil in steps with inertia: an impulse at the beginning of the step (docs/theory.md, section 5, *Contact*).
 
-use super::balance::evaluate;
+use super::balance::{evaluate, inertia};
 use super::family::System;
 use super::grid::Grid;
 use super::mass::accelerations;
 use super::problem::{Problem, Solution};
 use super::scene::Scene;
-use crate::contact::Motion;
+use crate::contact::{Answer, Penalty};
 use crate::error::Result;
 use crate::kinematics::Kinematics;
-use crate::term::{Trial, contact_answer};
+use crate::term::{PlacedConstraint, Trial, contact_answer};
+use crate::time_integration::GeneralisedAlpha;
 
-/// The force (kN, one entry an equation) of contact with soil that acts as an impulse in a step with inertia; empty where nothing touches.
+/// The force (kN, one entry an equation) of contact with soil that acts as an impulse in a step with inertia, in a state; empty where nothing touches.
 pub fn force<const D: usize>(scene: &Scene<D>, grid: &Grid<D>, trial: &Trial<D>) -> Vec<f64> {
+    sum(grid, |constraint| {
+        let law = scene.interfaces[constraint.interface as usize].sides().laws.at(trial.phase);
+        let (answer, motion) = contact_answer(law, scene.levels.as_ref(), constraint, trial);
+        (answer, motion.turn)
+    })
+}
+
+/// The same as the last step left it, in the constraints of the next one.
+pub fn held<const D: usize>(grid: &Grid<D>) -> Vec<f64> {
+    sum(grid, |constraint| {
+        let Penalty { pressure, shear, .. } = constraint.condition.penalty;
+        (Answer { pressure, shear, ..Answer::default() }, 0.0)
+    })
+}
+
+/// The sum of what contact nodes answer with a turn of their normal (rad).
+fn sum<const D: usize>(grid: &Grid<D>, answer: impl Fn(&PlacedConstraint<D>) -> (Answer, f64)) -> Vec<f64> {
     let mut sum = Vec::new();
     for constraint in grid.constraints.iter().filter(|constraint| !constraint.condition.looks_ahead) {
         let condition = &constraint.condition;
-        let law = scene.interfaces[constraint.interface as usize].sides().laws.at(trial.phase);
-        let (answer, Motion { turn, .. }) = contact_answer(law, scene.levels.as_ref(), constraint, trial);
+        let (answer, turn) = answer(constraint);
         if answer.pressure == 0.0 && answer.shear == 0.0 {
             continue;
         }
@@ -35,12 +52,11 @@ pub fn force<const D: usize>(scene: &Scene<D>, grid: &Grid<D>, trial: &Trial<D>)
     sum
 }
 
-/// The acceleration of the nodes (m/s²) by contact alone in a converged step; empty where nothing touches. It is that of what the body resists an
-/// impulse with ([`crate::time_integration::GeneralisedAlpha::resisting`]). The residual of the `solution` has the force with its weight in the equations
-/// ([`Trial::contact_weight`]) and becomes that of the force itself, as supports bear it.
+/// The acceleration of the nodes (m/s²) by contact alone in a converged step, eq. (6a); empty where nothing touches. The residual of the `solution` has
+/// the force with its weight in the equations ([`Trial::contact_weight`]) and becomes that of the force itself, as supports bear it.
 ///
 /// # Errors
-/// An analysis error when the mass is singular.
+/// An analysis error when the system is singular.
 pub fn release<const D: usize, K: Kinematics<D>>(
     problem: &Problem<D>,
     grid: &mut Grid<D>,
@@ -60,30 +76,80 @@ pub fn release<const D: usize, K: Kinematics<D>>(
     }
     let more = integration.impulse() - 1.0;
     solution.residual.iter_mut().zip(&force).for_each(|(residual, force)| *residual += more * force);
-    let Some(resisting) = integration.resisting() else {
+    let resisting = Problem { integration: integration.resisting(), ..*problem };
+    resolved::<D, K>(&resisting, grid, (&solution.displacement, &solution.pressure), &force)
+}
+
+/// What the contact that a step begins with does in it.
+#[derive(Default)]
+pub struct Begun<const D: usize> {
+    /// The acceleration of the nodes (m/s²) by it alone, eq. (6a); empty where nothing touches.
+    pub acceleration: Vec<[f64; D]>,
+    /// What its weight in (6) gives to motions of frequencies that the step does not resolve (kN, one entry an equation), eq. (6b); empty where nothing
+    /// is damped.
+    pub unresolved: Vec<f64>,
+}
+
+impl<const D: usize> Begun<D> {
+    /// That of a step that begins with the motion of the `problem`.
+    ///
+    /// # Errors
+    /// An analysis error when the system is singular.
+    pub fn of<K: Kinematics<D>>(problem: &Problem<D>, grid: &mut Grid<D>) -> Result<Self> {
+        let Problem { scene, state, .. } = *problem;
+        let Some(integration) = problem.integration else { return Ok(Self::default()) };
+        let resisting = integration.resisting();
+        if state.moving && resisting.is_none() {
+            return Ok(Self::default());
+        }
+        let force = held(grid);
+        if force.is_empty() {
+            return Ok(Self::default());
+        }
+        let at_start = Problem { to: problem.from, integration: resisting, ..*problem };
+        let acceleration = resolved::<D, K>(&at_start, grid, (&state.displacement, &state.pressure), &force)?;
+        let mut unresolved = Vec::new();
+        if resisting.is_some() {
+            let more = integration.impulse() - 1.0;
+            unresolved = inertia(scene, grid, state, &acceleration)?;
+            unresolved.iter_mut().zip(&force).zip(problem.given).for_each(|((inertia, force), given)| {
+                *inertia = if given.is_none() { more * (force - *inertia) } else { 0.0 };
+            });
+        }
+        Ok(Self { acceleration, unresolved })
+    }
+}
+
+/// The acceleration of the nodes (m/s²) by a force (kN, one entry an equation), eq. (6a), `at` a displacement and pressure. The time integration of the
+/// problem is that of what resists; without one it is the mass.
+fn resolved<const D: usize, K: Kinematics<D>>(
+    problem: &Problem<D>,
+    grid: &mut Grid<D>,
+    at: (&[[f64; D]], &[f64]),
+    force: &[f64],
+) -> Result<Vec<[f64; D]>> {
+    let Some(slope) = problem.integration.as_ref().map(GeneralisedAlpha::slope) else {
         let against: Vec<f64> = force.iter().map(|force| -force).collect();
-        return accelerations::<D, K>(scene, grid, state, &against);
+        return accelerations::<D, K>(problem.scene, grid, problem.state, &against);
     };
-    let moved = matrix_without_contact(&Problem { integration: Some(resisting), ..*problem }, grid, solution)
-        .and_then(|()| solve(problem, grid, force))?;
-    let mut acceleration = vec![[0.0; D]; scene.displacements()];
+    let moved = matrix_without_contact(problem, grid, at).and_then(|()| solve(problem, grid, force.to_vec()))?;
+    let mut acceleration = vec![[0.0; D]; problem.scene.displacements()];
     for d in 0..D {
-        let of_nodes: Vec<f64> =
-            (0..grid.dofs.node.len()).map(|block| resisting.slope() * moved[block * D + d]).collect();
+        let of_nodes: Vec<f64> = (0..grid.dofs.node.len()).map(|block| slope * moved[block * D + d]).collect();
         grid.dofs.write(&of_nodes, d, &mut acceleration);
     }
     Ok(acceleration)
 }
 
-/// Makes the matrix of the grid that of a step in its converged state, without what contact resists.
+/// Makes the matrix of the grid that of a step at a displacement and pressure, without what contact resists.
 fn matrix_without_contact<const D: usize>(
     problem: &Problem<D>,
     grid: &mut Grid<D>,
-    solution: &Solution<D>,
+    (displacement, pressure): (&[[f64; D]], &[f64]),
 ) -> Result<()> {
     let mut buffers = std::mem::take(&mut grid.buffers);
     let mut now = std::mem::take(&mut buffers.now);
-    now.at.set(&solution.displacement, &solution.pressure);
+    now.at.set(displacement, pressure);
     let constraints = std::mem::take(&mut grid.constraints);
     let result = evaluate(problem, grid, &mut buffers, &mut now, true);
     grid.constraints = constraints;

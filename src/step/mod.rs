@@ -361,6 +361,7 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
         field::to_points::<D, K>(scene, (&scene.mesh, self.grid.of_material()), state, &solution.pressure);
         state.pressure.clone_from(&solution.pressure);
         if start.is_some() {
+            state.moving = true;
             rigid::motion_to_points(scene, state);
         }
         timed(Activity::Contact, || contact::project_out(scene, state, &mut contacts));

@@ -19,6 +19,8 @@ pub struct Problem<'a, const D: usize> {
     /// Velocity (m/s) and acceleration (m/s²) of the nodes as the step begins; empty without inertia.
     pub velocity: &'a [[f64; D]],
     pub acceleration: &'a [[f64; D]],
+    /// As [`Start::unresolved`].
+    pub unresolved: &'a [f64],
     pub phase: usize,
     /// Time (s) in the phase at the beginning and the end of the step.
     pub from: f64,
@@ -40,6 +42,7 @@ impl<'a, const D: usize> Problem<'a, D> {
             predictor: None,
             velocity: &[],
             acceleration: &[],
+            unresolved: &[],
             phase: state.phase,
             from: state.phase_time,
             to: state.phase_time,
@@ -57,10 +60,12 @@ impl<'a, const D: usize> Problem<'a, D> {
         given: &'a [Option<f64>],
         dt: f64,
     ) -> Self {
-        let (velocity, acceleration): (&[_], &[_]) = start.map_or((&[], &[]), |s| (&s.velocity, &s.acceleration));
+        let (velocity, acceleration, unresolved): (&[_], &[_], &[_]) =
+            start.map_or((&[], &[], &[]), |s| (&s.velocity, &s.acceleration, &s.unresolved));
         Self {
             velocity,
             acceleration,
+            unresolved,
             to: state.phase_time + dt,
             given,
             integration: start.map(|_| GeneralisedAlpha::new(scene.numerics.spectral_radius, dt)),

@@ -3,7 +3,9 @@
 
 use super::family::Family;
 use super::grid::Grid;
+use super::impulse::Begun;
 use super::mass::{Carrier, Mass};
+use super::problem::Problem;
 use super::rigid;
 use super::scene::Scene;
 use super::state::State;
@@ -34,6 +36,8 @@ const ROUNDING: f64 = 1e-12;
 pub struct Start<const D: usize> {
     pub velocity: Vec<[f64; D]>,
     pub acceleration: Vec<[f64; D]>,
+    /// As [`Begun::unresolved`].
+    pub unresolved: Vec<f64>,
 }
 
 impl<const D: usize> Start<D> {
@@ -52,7 +56,8 @@ impl<const D: usize> Start<D> {
         given: &[Option<f64>],
         dt: f64,
     ) -> Result<Self> {
-        let mut start = Self { velocity: state.velocity.clone(), acceleration: state.acceleration.clone() };
+        let mut start =
+            Self { velocity: state.velocity.clone(), acceleration: state.acceleration.clone(), unresolved: Vec::new() };
         let halt = lacks(grid, given, &start.acceleration, 0.0);
         change(grid, &halt, &mut start.acceleration);
         let mut jump = lacks(grid, given, &start.velocity, 1.0 / dt);
@@ -66,6 +71,13 @@ impl<const D: usize> Start<D> {
             }
         }
         change(grid, &jump, &mut start.velocity);
+        let touching = Begun::of::<K>(&Problem::step(scene, state, Some(&start), given, dt), grid)?;
+        if !state.moving {
+            // The first acceleration is that of all forces, that of a step is without contact.
+            let own = start.acceleration.iter_mut().zip(&touching.acceleration);
+            own.for_each(|(own, by)| *own = std::array::from_fn(|d| own[d] - by[d]));
+        }
+        start.unresolved = touching.unresolved;
         Ok(start)
     }
 

@@ -45,7 +45,6 @@ pub fn motion_to_grid<const D: usize, K: Kinematics<D>>(
         state.acceleration = first_acceleration::<D, K>(scene, grid, state)?;
         accelerations_to_points::<D, K>(scene, grid, state);
         rigid::motion_to_points(scene, state);
-        state.moving = true;
         // The last increment without inertia predicts nothing for a step with inertia.
         state.increment.fill([0.0; D]);
     }
@@ -66,7 +65,7 @@ fn drop_unrepresented<const D: usize, K: Kinematics<D>>(scene: &Scene<D>, grid: 
     }
 }
 
-/// The acceleration at the first dynamic step, `(M + P) a = −f` without contact; zero where the displacement is prescribed.
+/// The acceleration at the first dynamic step, `(M + P) a = −f` with the contact that the last step has left; zero where the displacement is prescribed.
 fn first_acceleration<const D: usize, K: Kinematics<D>>(
     scene: &Scene<D>,
     grid: &mut Grid<D>,
@@ -74,9 +73,8 @@ fn first_acceleration<const D: usize, K: Kinematics<D>>(
 ) -> Result<Vec<[f64; D]>> {
     let mut force = static_force(&Problem::at_rest(scene, state), grid)?.force;
     let at_rest = Trial { phase: state.phase, ..Trial::at_rest(&state.displacement, &state.displacement) };
-    for (sum, own) in force.iter_mut().zip(impulse::force(scene, grid, &at_rest)) {
-        *sum += own;
-    }
+    force.iter_mut().zip(impulse::force(scene, grid, &at_rest)).for_each(|(sum, own)| *sum += own);
+    force.iter_mut().zip(impulse::held(grid)).for_each(|(sum, own)| *sum -= own);
     accelerations::<D, K>(scene, grid, state, &force)
 }
 
