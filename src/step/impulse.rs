@@ -6,6 +6,8 @@ use super::grid::Grid;
 use super::mass::accelerations;
 use super::problem::{Problem, Solution};
 use super::scene::Scene;
+use super::start::Start;
+use super::state::State;
 use crate::contact::{Answer, Penalty};
 use crate::error::Result;
 use crate::kinematics::Kinematics;
@@ -80,44 +82,43 @@ pub fn release<const D: usize, K: Kinematics<D>>(
     resolved::<D, K>(&resisting, grid, (&solution.displacement, &solution.pressure), &force)
 }
 
-/// What the contact that a step begins with does in it.
-#[derive(Default)]
-pub struct Begun<const D: usize> {
-    /// The acceleration of the nodes (m/s²) by it alone, eq. (6a); empty where nothing touches.
-    pub acceleration: Vec<[f64; D]>,
-    /// What its weight in (6) gives to motions of frequencies that the step does not resolve (kN, one entry an equation), eq. (6b); empty where nothing
-    /// is damped.
-    pub unresolved: Vec<f64>,
-}
-
-impl<const D: usize> Begun<D> {
-    /// That of a step that begins with the motion of the `problem`.
-    ///
-    /// # Errors
-    /// An analysis error when the system is singular.
-    pub fn of<K: Kinematics<D>>(problem: &Problem<D>, grid: &mut Grid<D>) -> Result<Self> {
-        let Problem { scene, state, .. } = *problem;
-        let Some(integration) = problem.integration else { return Ok(Self::default()) };
-        let resisting = integration.resisting();
-        if state.moving && resisting.is_none() {
-            return Ok(Self::default());
-        }
-        let force = held(grid);
-        if force.is_empty() {
-            return Ok(Self::default());
-        }
-        let at_start = Problem { to: problem.from, integration: resisting, ..*problem };
-        let acceleration = resolved::<D, K>(&at_start, grid, (&state.displacement, &state.pressure), &force)?;
-        let mut unresolved = Vec::new();
-        if resisting.is_some() {
-            let more = integration.impulse() - 1.0;
-            unresolved = inertia(scene, grid, state, &acceleration)?;
-            unresolved.iter_mut().zip(&force).zip(problem.given).for_each(|((inertia, force), given)| {
-                *inertia = if given.is_none() { more * (force - *inertia) } else { 0.0 };
-            });
-        }
-        Ok(Self { acceleration, unresolved })
+/// Adds what contact that is there does to the motion with which a step begins. The first acceleration is that of all forces; that of a step is
+/// without contact.
+///
+/// # Errors
+/// An analysis error when the system is singular.
+pub fn begin<const D: usize, K: Kinematics<D>>(
+    scene: &Scene<D>,
+    grid: &mut Grid<D>,
+    state: &State<D>,
+    (start, given): (&mut Start<D>, &[Option<f64>]),
+    dt: f64,
+) -> Result<()> {
+    let integration = GeneralisedAlpha::new(scene.numerics.spectral_radius, dt);
+    let resisting = integration.resisting();
+    if state.moving && resisting.is_none() {
+        return Ok(());
     }
+    let force = held(grid);
+    if force.is_empty() {
+        return Ok(());
+    }
+    let problem = Problem::step(scene, state, Some(&*start), given, dt);
+    let at_start = Problem { to: problem.from, integration: resisting, ..problem };
+    let by_contact = resolved::<D, K>(&at_start, grid, (&state.displacement, &state.pressure), &force)?;
+    if resisting.is_some() {
+        let more = integration.impulse() - 1.0;
+        let mut unresolved = inertia(scene, grid, state, &by_contact)?;
+        unresolved.iter_mut().zip(&force).zip(given).for_each(|((inertia, force), given)| {
+            *inertia = if given.is_none() { more * (force - *inertia) } else { 0.0 };
+        });
+        start.unresolved = unresolved;
+    }
+    if !state.moving {
+        let own = start.acceleration.iter_mut().zip(&by_contact);
+        own.for_each(|(own, by)| *own = std::array::from_fn(|d| own[d] - by[d]));
+    }
+    Ok(())
 }
 
 /// The acceleration of the nodes (m/s²) by a force (kN, one entry an equation), eq. (6a), `at` a displacement and pressure. The time integration of the

@@ -274,7 +274,10 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
         let (scene, state) = (self.scene, &self.state);
         let dynamic = state.dynamic(scene);
         let given = grid::given_increments(scene, state, &self.grid, dt);
-        let start = if dynamic { Some(Start::of::<K>(scene, &mut self.grid, state, &given, dt)?) } else { None };
+        let mut start = if dynamic { Some(Start::of::<K>(scene, &mut self.grid, state, &given, dt)?) } else { None };
+        if let Some(start) = &mut start {
+            impulse::begin::<D, K>(scene, &mut self.grid, state, (start, &given), dt)?;
+        }
         let problem = Problem { predictor, ..Problem::step(scene, state, start.as_ref(), &given, dt) };
         let solution = newton::solve(&problem, &mut self.grid)?;
         Ok((start, solution))

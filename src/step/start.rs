@@ -3,9 +3,7 @@
 
 use super::family::Family;
 use super::grid::Grid;
-use super::impulse::Begun;
 use super::mass::{Carrier, Mass};
-use super::problem::Problem;
 use super::rigid;
 use super::scene::Scene;
 use super::state::State;
@@ -36,7 +34,8 @@ const ROUNDING: f64 = 1e-12;
 pub struct Start<const D: usize> {
     pub velocity: Vec<[f64; D]>,
     pub acceleration: Vec<[f64; D]>,
-    /// As [`Begun::unresolved`].
+    /// What the weight of contact gives to motions of frequencies that the step does not resolve (kN, one entry an equation; docs/theory.md, eq. 6b);
+    /// empty where there is none.
     pub unresolved: Vec<f64>,
 }
 
@@ -71,13 +70,6 @@ impl<const D: usize> Start<D> {
             }
         }
         change(grid, &jump, &mut start.velocity);
-        let touching = Begun::of::<K>(&Problem::step(scene, state, Some(&start), given, dt), grid)?;
-        if !state.moving {
-            // The first acceleration is that of all forces, that of a step is without contact.
-            let own = start.acceleration.iter_mut().zip(&touching.acceleration);
-            own.for_each(|(own, by)| *own = std::array::from_fn(|d| own[d] - by[d]));
-        }
-        start.unresolved = touching.unresolved;
         Ok(start)
     }
 

@@ -174,7 +174,7 @@ mod slow {
         let scenes = [(elastic.to_owned(), 0.75), (clay(0.3), 0.75), (clay(0.49), 0.75), (sand.to_owned(), 0.7)];
         for (material, height) in scenes {
             let height = format!("mesh.parameters.y={height}");
-            let set = [&height, "numerics={}", "phases.fall.duration=0.55", &material];
+            let set = [&height, "mesh.parameters.top=4", "numerics={}", "phases.fall.duration=0.55", &material];
             let balance = Balance::case(DROP, &set);
             balance.closes();
             let entries = ["impact", "steps", "resets", "penalties"].map(|name| balance.all(name));

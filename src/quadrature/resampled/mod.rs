@@ -14,6 +14,7 @@
 //! the yield surface is returned to it, while the internal variables stay as they are fitted: where these harden in the return, the next step
 //! finds a stress a little outside again.
 
+mod agreement;
 mod fields;
 mod fit;
 mod internal;
@@ -59,11 +60,6 @@ pub struct Resampled<K> {
     /// The points that a cell of each region was seeded with; empty where their number stays.
     seeded: Vec<u32>,
 }
-
-/// The part (-) of the volume of a cell's material points that is within the surface, below which they may be integration points themselves.
-const REACHED: f64 = 0.5;
-/// The least part (-) of the volume of such a cell that the surface leaves out of them.
-const MISSED: f64 = 0.2;
 
 /// An integration point with its state.
 struct Sample {
@@ -208,22 +204,14 @@ impl<K: Kinematics<2>> Resampled<K> {
     fn weigh_on(&self, geometry: &Geometry, grid: &Restored<2>, front: &mut Option<MarkerFront>) -> Weights<2> {
         let Restored { mesh, points, active, .. } = *grid;
         let Surface { level_set, mut outside, lost: lost_front } = Surface::of::<K>(geometry, grid, front);
-        if !points.velocity.is_empty() {
-            // Nor is what the surface leaves out of a toe on the boundary of the mesh that is thinner than a cell.
-            let mut held = vec![0.0; mesh.cells.len()];
-            points.cell.iter().enumerate().for_each(|(p, &c)| held[c as usize] += points.volume(p));
-            let ends = |c: usize| grid.locator.faces.neighbours(c as u32).len() < mesh.cells.corners(c).len();
-            for c in (0..mesh.cells.len()).filter(|&c| held[c] > 0.0 && ends(c)) {
-                let values: Vec<f64> = mesh.cells.nodes(c).iter().map(|&n| level_set[n as usize]).collect();
-                let (whole, filled) = (geometry.volume(c), geometry.filled::<K>(mesh, c, &values));
-                let holds = held[c].min(whole);
-                outside[c] |= filled < REACHED * holds && holds - filled > MISSED * whole;
-            }
-        }
         let values = |c: usize| -> Vec<f64> { mesh.cells.nodes(c).iter().map(|&n| level_set[n as usize]).collect() };
-        let inside = |c: usize| active[c] && mesh.cells.nodes(c).iter().any(|&n| level_set[n as usize] > 0.0);
+        let mut inside: Vec<bool> =
+            (0..mesh.cells.len()).map(|c| active[c] && values(c).iter().any(|&value| value > 0.0)).collect();
+        if !points.velocity.is_empty() {
+            agreement::settle::<K>(geometry, grid, &level_set, [&mut inside, &mut outside]);
+        }
         // Points in other cells, such as a crumb that a structure carries along, resist nothing, and their state says nothing of the rest.
-        let counts: Vec<bool> = (0..mesh.cells.len()).map(|c| outside[c] || inside(c)).collect();
+        let counts: Vec<bool> = (0..mesh.cells.len()).map(|c| outside[c] || inside[c]).collect();
         let held = Held::of(&counts, &points.cell);
         let fields = self.materials.all(points);
         let work = |c: usize| {

@@ -1,0 +1,49 @@
+//! Where soil moves, the mass of the equations is to be where that of the points is (docs/theory.md, section 6, *Points outside the surface*).
+
+use super::super::Restored;
+use crate::kinematics::Kinematics;
+use crate::mesh::shape::MAX_NODES;
+use crate::surface::Geometry;
+use rayon::prelude::*;
+
+/// The part (-) below which what the surface encloses, or leaves out, is not that of the points.
+const AGREES: f64 = 0.5;
+/// The least part (-) of the volume of a cell on the boundary of the mesh that the surface leaves out of its points.
+const MISSED: f64 = 0.2;
+
+/// Brings the cells that are `inside` the surface, and those whose points are `outside`, to what the points say, where these and the level set disagree.
+///
+/// A thin sheet of soil that flies has its points in some of its cells, and the surface encloses others, or leaves points out: in a cell and in those beside
+/// it, one holds less than half of what the other does. There the surface encloses nothing, and the points speak for themselves. So do
+/// those of a toe on the boundary of the mesh that is thinner than a cell, which the level set misses.
+pub fn settle<K: Kinematics<2>>(
+    geometry: &Geometry,
+    grid: &Restored<2>,
+    level_set: &[f64],
+    [inside, outside]: [&mut [bool]; 2],
+) {
+    let Restored { mesh, points, locator, .. } = *grid;
+    let cells = 0..mesh.cells.len();
+    let mut held = vec![0.0; mesh.cells.len()];
+    points.cell.iter().enumerate().for_each(|(p, &c)| held[c as usize] += points.volume(p));
+    let filled_of = |c: usize| {
+        let mut values = [0.0; MAX_NODES];
+        let nodes = mesh.cells.nodes(c);
+        values.iter_mut().zip(nodes).for_each(|(value, &n)| *value = level_set[n as usize]);
+        if inside[c] { geometry.filled::<K>(mesh, c, &values[..nodes.len()]) } else { 0.0 }
+    };
+    let filled: Vec<f64> = cells.clone().into_par_iter().with_min_len(64).map(filled_of).collect();
+    let neighbours = |c: usize| locator.faces.neighbours(c as u32);
+    let around = |of: &[f64], c: usize| of[c] + neighbours(c).iter().map(|&d| of[d as usize]).sum::<f64>();
+    let few = |part: &[f64], of: &[f64], c: usize| part[c] < AGREES * of[c] && around(part, c) < AGREES * around(of, c);
+    for c in cells {
+        let void = inside[c] && !outside[c] && few(&held, &filled, c);
+        inside[c] &= !void;
+        if held[c] > 0.0 {
+            let (whole, ends) = (geometry.volume(c), neighbours(c).len() < mesh.cells.corners(c).len());
+            let holds = held[c].min(whole);
+            let toe = ends && filled[c] < AGREES * holds && holds - filled[c] > MISSED * whole;
+            outside[c] |= void || toe || few(&filled, &held, c);
+        }
+    }
+}
