@@ -6,16 +6,16 @@ use crate::mesh::shape::MAX_NODES;
 use crate::surface::Geometry;
 use rayon::prelude::*;
 
-/// The part (-) below which what the surface encloses, or leaves out, is not that of the points.
+/// The part (-) of what the surface encloses, or of the volume of a cell's points, below which the other does not agree.
 const AGREES: f64 = 0.5;
 /// The least part (-) of the volume of a cell on the boundary of the mesh that the surface leaves out of its points.
 const MISSED: f64 = 0.2;
 
 /// Brings the cells that are `inside` the surface, and those whose points are `outside`, to what the points say, where these and the level set disagree.
 ///
-/// A thin sheet of soil that flies has its points in some of its cells, and the surface encloses others, or leaves points out: in a cell and in those beside
-/// it, one holds less than half of what the other does. There the surface encloses nothing, and the points speak for themselves. So do
-/// those of a toe on the boundary of the mesh that is thinner than a cell, which the level set misses.
+/// A thin sheet of soil that flies has its points in some of its cells, and its surface encloses others. Where the points in a cell, and those in it and
+/// the cells beside it, have less than half of the volume that the surface encloses there, it encloses nothing. Points in such a cell speak for themselves;
+/// so do those of a toe on the boundary of the mesh that is thinner than a cell, which the level set misses.
 pub fn settle<K: Kinematics<2>>(
     geometry: &Geometry,
     grid: &Restored<2>,
@@ -35,15 +35,15 @@ pub fn settle<K: Kinematics<2>>(
     let filled: Vec<f64> = cells.clone().into_par_iter().with_min_len(64).map(filled_of).collect();
     let neighbours = |c: usize| locator.faces.neighbours(c as u32);
     let around = |of: &[f64], c: usize| of[c] + neighbours(c).iter().map(|&d| of[d as usize]).sum::<f64>();
-    let few = |part: &[f64], of: &[f64], c: usize| part[c] < AGREES * of[c] && around(part, c) < AGREES * around(of, c);
     for c in cells {
-        let void = inside[c] && !outside[c] && few(&held, &filled, c);
+        let void =
+            inside[c] && !outside[c] && held[c] < AGREES * filled[c] && around(&held, c) < AGREES * around(&filled, c);
         inside[c] &= !void;
         if held[c] > 0.0 {
             let (whole, ends) = (geometry.volume(c), neighbours(c).len() < mesh.cells.corners(c).len());
             let holds = held[c].min(whole);
             let toe = ends && filled[c] < AGREES * holds && holds - filled[c] > MISSED * whole;
-            outside[c] |= void || toe || few(&filled, &held, c);
+            outside[c] |= void || toe;
         }
     }
 }
