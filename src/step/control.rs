@@ -57,9 +57,15 @@ impl Controller {
         self.limits.min / self.limits.initial
     }
 
-    /// Whether the step was halved in vain.
-    pub fn in_vain(&self) -> bool {
-        self.halvings.len() >= IN_VAIN
+    /// Whether smaller steps than `dt` are in vain: it was halved in vain, or cannot be halved.
+    pub fn in_vain(&self, dt: f64) -> bool {
+        self.halvings.len() >= IN_VAIN || self.is_least(dt)
+    }
+
+    /// Whether half a step of `dt` (s) would be less than the least one.
+    fn is_least(&self, dt: f64) -> bool {
+        let half = 0.5 * dt;
+        half < self.limits.min && !same(half, self.limits.min)
     }
 
     /// Halves the step after a failure, in which the relative residual came down to `residual` (-).
@@ -68,8 +74,7 @@ impl Controller {
     /// The failure itself, once the step would fall below the least one.
     pub fn halve(&mut self, dt: f64, error: Error, residual: f64) -> Result<()> {
         self.residuals.push(residual);
-        let half = 0.5 * dt;
-        if half < self.limits.min && !same(half, self.limits.min) {
+        if self.is_least(dt) {
             self.exhausted = true;
             let how = match self.halvings.len() {
                 0 => format!("the step of {dt:.3e} s cannot be halved"),
@@ -80,7 +85,7 @@ impl Controller {
             let problem = format!("{}; {how}: step.min is {least:.3e} s{}", error.problem, self.unbalanced());
             return Err(Error { problem, ..error });
         }
-        self.wanted = half;
+        self.wanted = 0.5 * dt;
         self.halvings.push(format!("{}: {}", error.place, error.problem));
         Ok(())
     }
@@ -134,11 +139,11 @@ mod tests {
         let mut c = controller();
         let error = || Error::analysis("Newton", "too many iterations", "");
         c.halve(0.1, error(), 1e-3).unwrap();
-        assert!(!c.in_vain());
+        assert!(!c.in_vain(0.1));
         c.halve(0.1, error(), 1e-3).unwrap();
-        assert!(c.in_vain(), "two halvings of one step");
+        assert!(c.in_vain(0.1), "two halvings of one step");
         c.accept(0.05, true);
-        assert!(!c.in_vain());
+        assert!(!c.in_vain(0.1));
         c.halve(0.1, error(), 1e-3).unwrap();
         assert_eq!(c.wanted, 0.05);
         c.accept(0.05, true);

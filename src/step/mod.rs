@@ -184,7 +184,7 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
         let mut predict = true;
         let (dt, complete) = loop {
             let dt = controller.size(self.state.phase_time);
-            self.grid.buffers.accepts = controller.in_vain();
+            self.grid.buffers.in_vain = controller.in_vain(dt);
             let predictor = std::mem::take(&mut predict).then(|| predictor::extrapolated(&self.state, dt)).flatten();
             let found = self
                 .lagrange(dt, predictor.as_deref())

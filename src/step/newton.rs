@@ -115,7 +115,7 @@ impl<'a, const D: usize> Newton<'a, D> {
         let floor = floor(problem, grid);
         let strict = !problem.scene.interfaces.is_empty() && problem.integration.is_none();
         let follows = follows(problem);
-        let accepts = follows && buffers.accepts;
+        let accepts = follows && buffers.in_vain;
         Self {
             problem,
             grid,
@@ -148,7 +148,7 @@ impl<'a, const D: usize> Newton<'a, D> {
             && !self.take_acceptable()?
         {
             let strict = (std::mem::take(&mut self.history), self.before);
-            if self.follows || !self.may_rise() || self.iterate_near().is_err() {
+            if self.follows || !self.buffers.in_vain || !self.may_rise() || self.iterate_near().is_err() {
                 (self.history, self.before) = strict;
                 return Err(error);
             }

@@ -52,8 +52,8 @@ pub struct Buffers<const D: usize> {
     pub now: Evaluation<D>,
     pub trial: Evaluation<D>,
     pub best: Unknowns<D>,
-    /// Whether a residual within the acceptable tolerance may end the step; the state with the least one.
-    pub accepts: bool,
+    /// Whether smaller steps are in vain, so that what is less sure than Newton's method may end the step; the state with the least residual.
+    pub in_vain: bool,
     pub nearest: Unknowns<D>,
     /// Whether the last iteration began with the predicted state.
     pub predicted: bool,
