@@ -5,6 +5,7 @@
 mod contacts;
 mod falls;
 mod loads;
+mod own_weight;
 
 use self::falls::{GOOD_STEP, LONG_STEP};
 use super::checked::{Case, Content, Phase, Touched, Touching};
@@ -40,7 +41,7 @@ pub fn of_case(case: &Case, places: &[Place]) -> Vec<String> {
     });
     let strange = case.unlikely.iter().cloned().chain(unlikely::extents(case, places));
     let told = strange.chain(loose).chain(room(case, places)).chain(above_water(case, places));
-    told.chain(loads::of_case(case)).collect()
+    told.chain(loads::of_case(case)).chain(own_weight::of_case(case, places)).collect()
 }
 
 /// A warning for each structure that is pressed down into soil that has no cells to heave into.

@@ -242,7 +242,7 @@ impl<'a, const D: usize> Newton<'a, D> {
     /// `K δ = −R`, where δ of a prescribed displacement is what is left to it, as the last call of [`Newton::converged`] found.
     fn direction(&mut self) -> Result<()> {
         // Sand that yields everywhere has residuals in proportion to the step: a smaller one is as hard.
-        let longer = if self.follows || self.singular.is_some() { LONGER } else { 1 };
+        let longer = if self.follows || self.buffers.in_vain || self.singular.is_some() { LONGER } else { 1 };
         if self.at_rest() || self.history.len() > longer * self.problem.scene.numerics.max_iterations {
             return Err(self.failure("too many iterations"));
         }

@@ -1,0 +1,110 @@
+//! Soil that yields as its weight comes on, and whose stress is then not unique.
+
+use crate::case::checked::{Analysis, Case, Content, Material};
+use crate::case::unconnected::Place;
+use crate::material::{State, yield_excess};
+use crate::time_value::TimeValue;
+
+/// Horizontal stress of elasticity, over the least that the soil bears, below which shear bands are to be expected: far within the yield surface of
+/// its elastic prediction there are many ways to yield.
+const FAR_BELOW: f64 = 0.75;
+/// Bisections for that least stress: to a millionth.
+const BISECTIONS: usize = 20;
+/// Hundredths (-) that a ratio in hundredths is not rounded up for.
+const ROUNDING: f64 = 1e-3;
+
+/// A warning for each region of soil that dilates less than its friction and yields all over in a phase that turns gravity on.
+pub fn of_case(case: &Case, places: &[Place]) -> Vec<String> {
+    let Some(phase) = case.phases.first() else { return Vec::new() };
+    let comes_on = !matches!(phase.gravity, TimeValue::Constant(_)) && phase.gravity.at(0.0) == 0.0;
+    if case.k0.is_some() || phase.analysis != Analysis::QuasiStatic || !comes_on || case.gravity[1] >= 0.0 {
+        return Vec::new();
+    }
+    let soils = places.iter().filter_map(|place| Some((place, soil(case, &place.name)?)));
+    let surface = soils.clone().map(|(place, _)| place.bounds[1][1]).fold(f64::NEG_INFINITY, f64::max);
+    let told = |(place, material): (&Place, &Material)| {
+        let model = material.model.as_ref();
+        if !model.has_friction() || model.symmetric() || material.has_pore_pressure() {
+            return None;
+        }
+        let y = place.bounds[0][1];
+        let weight = case.gravity[1] * material.density.at(y) * (surface - y);
+        let poisson = model.elasticity().poisson();
+        let elastic = poisson / (1.0 - poisson);
+        let is_borne = |k: f64| {
+            let stress = [k * weight, weight, k * weight, 0.0, 0.0, 0.0];
+            yield_excess(model, y, &stress, &State::default()) <= 0.0
+        };
+        let (mut least, mut most) = (0.0, 1.0);
+        if is_borne(least) || !is_borne(most) {
+            return None;
+        }
+        for _ in 0..BISECTIONS {
+            let middle = f64::midpoint(least, most);
+            *(if is_borne(middle) { &mut most } else { &mut least }) = middle;
+        }
+        let needed = ((100.0 * most / (1.0 + most)) - ROUNDING).ceil() / 100.0;
+        (elastic < FAR_BELOW * most).then(|| {
+            format!(
+                "warning: phase `{}` turns gravity on, and all of `{}` yields: Poisson's ratio {poisson} makes the horizontal stress {elastic:.2} times \
+                 the vertical one, and `{}` bears {most:.2} times or more; with less dilation than friction there are then many equilibria, with \
+                 shear bands; take a ratio of {needed:.2} or more, or `initial_stress` with a `k0`",
+                phase.name,
+                place.name,
+                material.name,
+            )
+        })
+    };
+    soils.filter_map(told).collect()
+}
+
+/// The material of a region of soil.
+fn soil<'a>(case: &'a Case, region: &str) -> Option<&'a Material> {
+    let content = case.content(region)?;
+    let is_soil = matches!(content, Content::Mpm { .. } | Content::Fem { .. });
+    content.material().filter(|_| is_soil).map(|material| &case.materials[material])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::case::{Keys, source::Source};
+    use std::path::PathBuf;
+
+    fn told(sand: &str, entries: &str) -> Vec<String> {
+        let text = format!(
+            "geometry: plane_strain\nmesh: {{geo: Cargo.toml}}\nregions: {{soil: {{kind: mpm, material: sand}}}}\n\
+             materials: {{sand: {{model: mohr_coulomb, young: 3.0e+4, unit_weight: 20, {sand}}}}}\ngravity: {{y: -9.81}}\n{entries}\n"
+        );
+        let source = Source::parse(PathBuf::from("case.yaml"), text, &[]).unwrap();
+        let (case, issues) = Keys::default().resolve(&source);
+        assert!(issues.is_empty(), "{issues:?}");
+        let place = Place { name: "soil".into(), bounds: [[0.0, -10.0], [20.0, 0.0]], parts: Vec::new() };
+        of_case(&case.unwrap(), &[place])
+    }
+
+    #[test]
+    fn soil_that_yields_under_its_own_weight_is_told_with_the_ratio_that_helps() {
+        let rises =
+            "phases: [{name: weight, analysis: quasi_static, duration: 1, step: {initial: 0.25}, gravity: {rate: 1}}]";
+        // K_a of 30° is 1/3, and ν/(1 − ν) is that at 0.25; with c = 40 kPa it is 1/3 − 2 · 40 · tan 30° / 200 kPa at the base.
+        let [warning] = told("poisson: 0.13, friction: 30, cohesion: 0, dilation: 7.5", rises).try_into().unwrap();
+        let said =
+            "ratio 0.13 makes the horizontal stress 0.15 times the vertical one, and `sand` bears 0.33 times or more";
+        assert!(warning.contains(said) && warning.contains("a ratio of 0.25 or more"), "{warning}");
+        for sand in [
+            "poisson: 0.3, friction: 30, cohesion: 0",
+            "poisson: 0.13, friction: 30, cohesion: 0, dilation: 30",
+            "poisson: 0.13, friction: 30, cohesion: 40",
+        ] {
+            assert_eq!(told(sand, rises), [""; 0], "{sand}");
+        }
+        let sand = "poisson: 0.13, friction: 30, cohesion: 0";
+        assert_eq!(told(sand, rises).len(), 1);
+        assert_eq!(
+            told(sand, &format!("initial_stress: {{k0: 0.5}}\n{}", rises.replace("rate: 1", "table: [[0, 1]]"))).len(),
+            0
+        );
+        assert_eq!(told(sand, &rises.replace("quasi_static", "dynamic")).len(), 0);
+    }
+}
