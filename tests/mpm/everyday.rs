@@ -17,6 +17,16 @@ fn the_closed_forms_have_known_values() {
     }
 }
 
+/// A tall bin of dry sand, whose residual does not depend on the step, fills by the default step; ground that yields all over as its weight comes on,
+/// and bears it in shear bands, is told of. The first ended, and the second was wrong in silence.
+#[test]
+fn scenes_that_ended_or_were_wrong_in_silence() {
+    for (seed, number, verdict) in [("58", "509", "): right"), ("59", "457", "): refused or said")] {
+        let (good, text) = python(&["benches/everyday/run.py", "--seed", seed, "--only", number]);
+        assert!(good && text.contains(verdict), "{text}");
+    }
+}
+
 /// What takes more than some seconds; `make test-quick` leaves it out.
 mod slow {
     use super::*;
