@@ -377,8 +377,8 @@ mod slow {
             assert!((last[0] - 1.0 - hold).abs() < 1e-9, "{}", last[0]);
             (loaded, last[2], std::fs::read_to_string(folder.path().join("solve.log")).unwrap())
         };
-        // 0.72, 0.90 and 0.904 of what the clay bears.
-        for (load, most) in [(-36.0, 0.005), (-45.1, 0.01), (-45.45, 0.01)] {
+        // 0.72 and 0.904 of what the clay bears.
+        for (load, most) in [(-36.0, 0.005), (-45.45, 0.01)] {
             let (loaded, held, log) = settled(load, 100.0);
             assert!((held / loaded - 1.0).abs() < most && !log.contains("no balance"), "{load}: {loaded} {held}");
         }

@@ -394,7 +394,7 @@ fn a_moving_floor_gives_its_momentum() {
         bench.scheme = &BSpline;
         bench.dynamic = true;
         bench.restore = Restore::EveryStep;
-        (bench.steps, bench.duration) = (40, 0.8);
+        (bench.steps, bench.duration) = (20, 0.8);
         resample::<PlaneStrain>(&mut bench);
         bench.hold("bottom", &[1]);
         let fixed = bench.on("bottom", 0);

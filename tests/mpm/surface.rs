@@ -426,7 +426,7 @@ fn collapse(resampled: bool, beside: bool) {
         Arc::new(VonMises::new(Elasticity::new(constant(500.0), 0.3).unwrap(), Profile::constant(4.0)).unwrap()),
     );
     (bench.gravity, bench.restore, bench.dynamic) = ([0.0, -10.0], Restore::EveryStep, true);
-    (bench.duration, bench.steps) = if beside { (0.3, 30) } else { (0.5, 50) };
+    (bench.duration, bench.steps) = if beside { (0.3, 18) } else { (0.5, 30) };
     bench.spectral_radius = 0.6;
     if resampled {
         resample::<PlaneStrain>(&mut bench);
@@ -440,7 +440,7 @@ fn collapse(resampled: bool, beside: bool) {
     };
     let ring = |x: &[f64; 2]| within(x, [2.5, 0.5], 0.75) && !within(x, [2.75, 0.75], 0.25);
     let soil = |x: &[f64; 2]| within(x, [0.0, 0.0], 1.0) || beside && ring(x);
-    let block: Vec<_> = seeded(&bench.mesh, 16).into_iter().filter(|(x, _)| soil(x)).collect();
+    let block: Vec<_> = seeded(&bench.mesh, 9).into_iter().filter(|(x, _)| soil(x)).collect();
     let points = at::<PlaneStrain>(&bench.mesh, &block, 1.6);
     let scene = bench.scene::<PlaneStrain>();
     let still = vec![[0.0; 2]; scene.mesh.nodes.len()];

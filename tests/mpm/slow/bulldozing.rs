@@ -8,7 +8,7 @@ fn a_blade_bears_what_rubs_on_the_floor() {
     for (slope, friction) in [(25.0, 0.3), (32.0, 0.4)] {
         let mesh = format!("mesh.parameters={{h: 0.12, slope: {slope}, way: 2.2}}");
         let rubs = format!("contacts[1].friction={friction}");
-        let folder = solve("cases/bulldozing", &[&mesh, &rubs, "phases.push.duration=0.8"]);
+        let folder = solve("cases/bulldozing", &[&mesh, &rubs, "phases.push.duration=0.7"]);
         let [time, way, blade, floor] = ["time [s]", "blade.ux [m]", "blade.contact_x [kN]", "floor.contact_y [kN]"]
             .map(|name| column(folder.path(), name));
         let mean = |of: &[f64]| {
