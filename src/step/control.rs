@@ -94,6 +94,7 @@ impl Controller {
     fn unbalanced(&self) -> String {
         let known: Vec<f64> = self.residuals.iter().copied().filter(|residual| residual.is_finite()).collect();
         match known[..] {
+            [only] => format!("; the unbalanced force was {only:.1e} of the largest force"),
             [first, .., last] => format!(
                 "; the unbalanced force was {first:.1e} of the largest force in the first of these steps, {last:.1e} in the last"
             ),

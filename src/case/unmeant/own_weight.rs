@@ -3,6 +3,7 @@
 use crate::case::checked::{Analysis, Case, Content, Material};
 use crate::case::unconnected::Place;
 use crate::material::{State, yield_excess};
+use crate::mesh::quality::SAME;
 use crate::time_value::TimeValue;
 
 /// Horizontal stress of elasticity, over the least that the soil bears, below which shear bands are to be expected: far within the yield surface of
@@ -13,7 +14,8 @@ const BISECTIONS: usize = 20;
 /// Hundredths (-) that a ratio in hundredths is not rounded up for.
 const ROUNDING: f64 = 1e-3;
 
-/// A warning for each region of soil that dilates less than its friction and yields all over in a phase that turns gravity on.
+/// A warning for each region of soil that dilates less than its friction and, from side to side of the model, yields all over in a phase that turns gravity
+/// on.
 pub fn of_case(case: &Case, places: &[Place]) -> Vec<String> {
     let Some(phase) = case.phases.first() else { return Vec::new() };
     let comes_on = !matches!(phase.gravity, TimeValue::Constant(_)) && phase.gravity.at(0.0) == 0.0;
@@ -21,6 +23,11 @@ pub fn of_case(case: &Case, places: &[Place]) -> Vec<String> {
         return Vec::new();
     }
     let soils = places.iter().filter_map(|place| Some((place, soil(case, &place.name)?)));
+    // Soil that ends beside air is no level ground: it bears nothing sideways there, and yields or stands by its strength.
+    let [soil_ends, model_ends] = [ends(soils.clone().map(|(place, _)| place)), ends(places.iter())];
+    if (0..2).any(|end| (soil_ends[end] - model_ends[end]).abs() > SAME * (model_ends[1] - model_ends[0])) {
+        return Vec::new();
+    }
     let surface = soils.clone().map(|(place, _)| place.bounds[1][1]).fold(f64::NEG_INFINITY, f64::max);
     let told = |(place, material): (&Place, &Material)| {
         let model = material.model.as_ref();
@@ -58,6 +65,12 @@ pub fn of_case(case: &Case, places: &[Place]) -> Vec<String> {
     soils.filter_map(told).collect()
 }
 
+/// Where places end (m) to the left and to the right.
+fn ends<'a>(places: impl Iterator<Item = &'a Place>) -> [f64; 2] {
+    let join = |[low, high]: [f64; 2], place: &Place| [low.min(place.bounds[0][0]), high.max(place.bounds[1][0])];
+    places.fold([f64::INFINITY, f64::NEG_INFINITY], join)
+}
+
 /// The material of a region of soil.
 fn soil<'a>(case: &'a Case, region: &str) -> Option<&'a Material> {
     let content = case.content(region)?;
@@ -71,16 +84,22 @@ mod tests {
     use crate::case::{Keys, source::Source};
     use std::path::PathBuf;
 
-    fn told(sand: &str, entries: &str) -> Vec<String> {
+    /// The warnings of ground 20 m wide in a model of a width (m).
+    fn in_model(width: f64, sand: &str, entries: &str) -> Vec<String> {
         let text = format!(
-            "geometry: plane_strain\nmesh: {{geo: Cargo.toml}}\nregions: {{soil: {{kind: mpm, material: sand}}}}\n\
+            "geometry: plane_strain\nmesh: {{geo: Cargo.toml}}\nregions: {{soil: {{kind: mpm, material: sand}}, air: {{kind: buffer}}}}\n\
              materials: {{sand: {{model: mohr_coulomb, young: 3.0e+4, unit_weight: 20, {sand}}}}}\ngravity: {{y: -9.81}}\n{entries}\n"
         );
         let source = Source::parse(PathBuf::from("case.yaml"), text, &[]).unwrap();
         let (case, issues) = Keys::default().resolve(&source);
         assert!(issues.is_empty(), "{issues:?}");
-        let place = Place { name: "soil".into(), bounds: [[0.0, -10.0], [20.0, 0.0]], parts: Vec::new() };
-        of_case(&case.unwrap(), &[place])
+        let place = |name: &str, bounds| Place { name: name.into(), bounds, parts: Vec::new() };
+        let places = [place("soil", [[0.0, -10.0], [20.0, 0.0]]), place("air", [[0.0, 0.0], [width, 5.0]])];
+        of_case(&case.unwrap(), &places)
+    }
+
+    fn told(sand: &str, entries: &str) -> Vec<String> {
+        in_model(20.0, sand, entries)
     }
 
     #[test]
@@ -101,6 +120,7 @@ mod tests {
         }
         let sand = "poisson: 0.13, friction: 30, cohesion: 0";
         assert_eq!(told(sand, rises).len(), 1);
+        assert_eq!(in_model(30.0, sand, rises).len(), 0, "a bank with a free side");
         assert_eq!(
             told(sand, &format!("initial_stress: {{k0: 0.5}}\n{}", rises.replace("rate: 1", "table: [[0, 1]]"))).len(),
             0
