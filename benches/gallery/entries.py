@@ -421,6 +421,33 @@ FOOTING_ON_SAND = Entry(
     picture=("--window=0,-3,7,0.6", "--range=0,0.004"),
 )
 
+def tip(out: Path) -> float:
+    """The force at the tip of the cone over its area, on average from nine radii on (kPa)."""
+    columns = history(out)
+    return columns["tip.contact_y"][columns["time"] > 10].mean() / (np.pi * 0.018**2)
+
+
+# Spheres (Yu & Houlsby 1991) and N_c (Teh & Houlsby 1991) by `cases/cpt_sand/reference.py`.
+SPHERE, FACTOR = 732.7, 11.97
+IN_CLAY = {
+    "materials.sand": {"model": "tresca", "young": 12500, "poisson": 0.49, "shear_strength": 25, "density": 0},
+    "contacts[0]": {"structure": "tip", "soil": "sand", "adhesion_factor": 0.5},
+    "phases.surcharge.prescribe": {"tip": {"uy": {"rate": -0.0002}}, "sleeve": {"uy": {"rate": -0.0002}}},
+    "phases.push.duration": 10,
+}
+CPT_SAND = Entry(
+    "cpt_sand",
+    "q_c over the limit pressure of a sphere; in clay N_c",
+    "the steps from a sphere to a cone of Ladanyi & Johnston (1974) and Vesic (1977); Teh & Houlsby (1991)",
+    [
+        Row("", "q_c/p_lim in sand", lambda out: tip(out) / SPHERE, (1.52, 4.45), 0.0),
+        Row("fine", "q_c/p_lim in sand, cells of R/3", lambda out: tip(out) / SPHERE, (1.52, 4.45), 0.0, {"mesh.parameters.h": 0.006, "phases.push.duration": 10}),
+        Row("clay", "N_c in clay", lambda out: (tip(out) - 100) / 25, FACTOR, 0.2, IN_CLAY),
+        Row("clay-fine", "N_c in clay, cells of R/3", lambda out: (tip(out) - 100) / 25, FACTOR, 0.1, IN_CLAY | {"mesh.parameters.h": 0.006}),
+    ],
+    picture=("--mirror", "--window=-0.2,-0.6,0.2,0.05", "--range=0,2"),
+)
+
 def emptied(top: float, bottom: float) -> Row:
     """Beverloo's constant of the slot while the mean height of the sand is between two."""
 
@@ -493,4 +520,4 @@ BULLDOZING = Entry(
     picture=("--range=0,0.6",),
 )
 
-ENTRIES = [VERTICAL_CUT, TRENCH, JET_TRENCH, MUDMAT, SKIRTED_MAT, SPUDCAN, PLATE_ANCHOR, PUNCH_THROUGH, EMBEDDED_FOOTING, TBAR, SUCTION_ANCHOR, FREE_FALL_CONE, SLIDE_ON_PIPE, BUI_COLUMN, SILO, PASSIVE_WALL, FOOTING_ON_SAND, SHOVEL, BULLDOZING]
+ENTRIES = [VERTICAL_CUT, TRENCH, JET_TRENCH, MUDMAT, SKIRTED_MAT, SPUDCAN, PLATE_ANCHOR, PUNCH_THROUGH, EMBEDDED_FOOTING, TBAR, SUCTION_ANCHOR, FREE_FALL_CONE, SLIDE_ON_PIPE, BUI_COLUMN, SILO, PASSIVE_WALL, FOOTING_ON_SAND, CPT_SAND, SHOVEL, BULLDOZING]

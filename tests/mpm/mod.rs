@@ -40,6 +40,7 @@ mod slow {
     mod bulldozing;
     mod collapse;
     mod cone_in_sand;
+    mod cpt_sand;
     mod fast_flow;
     mod footing_on_sand;
     mod general_position;
