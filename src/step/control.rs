@@ -7,6 +7,8 @@ use crate::error::{Error, Result};
 pub const EASY: usize = 6;
 /// So many halvings of one step in a row are in vain: its residual does not depend on its size.
 const IN_VAIN: usize = 2;
+/// Relative residuals that differ by less than this part of themselves are the same.
+const ALIKE: f64 = 0.01;
 /// The factor (-) by which it grows: from a tenth of the largest step to it in six steps.
 const GROWTH: f64 = 1.5;
 
@@ -60,6 +62,11 @@ impl Controller {
     /// Whether smaller steps than `dt` are in vain: it was halved in vain, or cannot be halved.
     pub fn in_vain(&self, dt: f64) -> bool {
         self.halvings.len() >= IN_VAIN || self.is_least(dt)
+    }
+
+    /// Whether half the step left the same residual: sand without cohesion has stresses, and residuals, in proportion to the step.
+    pub fn is_alike(&self) -> bool {
+        matches!(self.residuals[..], [.., before, last] if (last - before).abs() < ALIKE * before)
     }
 
     /// Whether half a step of `dt` (s) would be less than the least one.
@@ -141,8 +148,10 @@ mod tests {
         let error = || Error::analysis("Newton", "too many iterations", "");
         c.halve(0.1, error(), 1e-3).unwrap();
         assert!(!c.in_vain(0.1));
-        c.halve(0.1, error(), 1e-3).unwrap();
+        assert!(!c.is_alike());
+        c.halve(0.1, error(), 1.005e-3).unwrap();
         assert!(c.in_vain(0.1), "two halvings of one step");
+        assert!(c.is_alike());
         c.accept(0.05, true);
         assert!(!c.in_vain(0.1));
         c.halve(0.1, error(), 1e-3).unwrap();

@@ -185,6 +185,7 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
         let (dt, complete) = loop {
             let dt = controller.size(self.state.phase_time);
             self.grid.buffers.in_vain = controller.in_vain(dt);
+            self.grid.buffers.is_alike = controller.is_alike();
             let predictor = std::mem::take(&mut predict).then(|| predictor::extrapolated(&self.state, dt)).flatten();
             let found = self
                 .lagrange(dt, predictor.as_deref())

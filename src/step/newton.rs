@@ -28,8 +28,8 @@ const FORCING: f64 = 0.1;
 const FOLLOWING: f64 = 8.0;
 /// No more stiffening (-) than this then.
 const MOST_FOLLOWING: f64 = 0.3;
-/// How many times as many iterations a step may take then, and one of soil with friction that follows a prescribed motion, or where smaller ones are in
-/// vain.
+/// How many times as many iterations a step may take then, and one of soil with friction that follows a prescribed motion, or where half the step
+/// left the same residual.
 const LONGER: usize = 2;
 /// Where an iteration leaves less than this part (-) of the residual, the factor of the last tangent preconditions the next one.
 const NEAR: f64 = 0.1;
@@ -243,8 +243,7 @@ impl<'a, const D: usize> Newton<'a, D> {
     /// `K δ = −R`, where δ of a prescribed displacement is what is left to it, as the last call of [`Newton::converged`] found.
     fn direction(&mut self) -> Result<()> {
         // Sand that yields everywhere has residuals in proportion to the step: a smaller one is as hard.
-        let is_long = self.follows || self.singular.is_some() || self.buffers.in_vain && self.may_rise();
-        let longer = if is_long { LONGER } else { 1 };
+        let longer = if self.follows || self.singular.is_some() || self.buffers.is_alike { LONGER } else { 1 };
         if self.at_rest() || self.history.len() > longer * self.problem.scene.numerics.max_iterations {
             return Err(self.failure("too many iterations"));
         }

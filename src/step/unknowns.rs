@@ -54,6 +54,8 @@ pub struct Buffers<const D: usize> {
     pub best: Unknowns<D>,
     /// Whether smaller steps are in vain, so that what is less sure than Newton's method may end the step; the state with the least residual.
     pub in_vain: bool,
+    /// Whether half the step has left the same residual.
+    pub is_alike: bool,
     pub nearest: Unknowns<D>,
     /// Whether the last iteration began with the predicted state.
     pub predicted: bool,
