@@ -3,6 +3,8 @@
 //! Weights are determined at a grid reset and hold until the next one. The material points keep mass and momentum between resets; the integration points
 //! have masses of their own, which agree with them in sum.
 
+#[cfg(test)]
+mod fixture;
 mod resampled;
 mod surface;
 mod volumes;

@@ -1,29 +1,26 @@
-//! Soil that yields as its weight comes on, and whose stress is then not unique.
+//! Soil that yields under its own weight, and whose stress is then not unique.
 
 use crate::case::checked::{Analysis, Case, Content, Material};
 use crate::case::unconnected::Place;
 use crate::material::{State, yield_excess};
 use crate::mesh::quality::SAME;
-use crate::time_value::TimeValue;
 
-/// Horizontal stress of elasticity, over the least that the soil bears, below which shear bands are to be expected: far within the yield surface of
-/// its elastic prediction there are many ways to yield.
-const FAR_BELOW: f64 = 0.75;
-/// Bisections for that least stress: to a millionth.
+/// Bisections for the least horizontal stress: to a millionth of the vertical one.
 const BISECTIONS: usize = 20;
-/// Hundredths (-) that a ratio in hundredths is not rounded up for.
+/// Ratios (-) that differ by less than this part are the same.
 const ROUNDING: f64 = 1e-3;
 
-/// A warning for each region of soil that dilates less than its friction and, from side to side of the model, yields all over in a phase that turns gravity
-/// on.
+/// A warning for each region of soil whose dilation is less than its friction and whose lower half yields under its own weight, in ground from side
+/// to side of the model, as gravity comes to act without `initial_stress`.
 pub fn of_case(case: &Case, places: &[Place]) -> Vec<String> {
-    let Some(phase) = case.phases.first() else { return Vec::new() };
-    let comes_on = !matches!(phase.gravity, TimeValue::Constant(_)) && phase.gravity.at(0.0) == 0.0;
-    if case.k0.is_some() || phase.analysis != Analysis::QuasiStatic || !comes_on || case.gravity[1] >= 0.0 {
+    let Some(phase) = case.phases.iter().find(|phase| phase.gravity.at(phase.duration) > 0.0) else {
+        return Vec::new();
+    };
+    if case.k0.is_some() || phase.analysis == Analysis::Dynamic || case.gravity[1] >= 0.0 {
         return Vec::new();
     }
     let soils = places.iter().filter_map(|place| Some((place, soil(case, &place.name)?)));
-    // Soil that ends beside air is no level ground: it bears nothing sideways there, and yields or stands by its strength.
+    // Soil that ends beside air is no level ground: nothing holds it there, and it stands or fails by its strength.
     let [soil_ends, model_ends] = [ends(soils.clone().map(|(place, _)| place)), ends(places.iter())];
     if (0..2).any(|end| (soil_ends[end] - model_ends[end]).abs() > SAME * (model_ends[1] - model_ends[0])) {
         return Vec::new();
@@ -34,35 +31,39 @@ pub fn of_case(case: &Case, places: &[Place]) -> Vec<String> {
         if !model.has_friction() || model.symmetric() || material.has_pore_pressure() {
             return None;
         }
-        let y = place.bounds[0][1];
-        let weight = case.gravity[1] * material.density.at(y) * (surface - y);
         let poisson = model.elasticity().poisson();
         let elastic = poisson / (1.0 - poisson);
-        let is_borne = |k: f64| {
-            let stress = [k * weight, weight, k * weight, 0.0, 0.0, 0.0];
-            yield_excess(model, y, &stress, &State::default()) <= 0.0
-        };
-        let (mut least, mut most) = (0.0, 1.0);
-        if is_borne(least) || !is_borne(most) {
-            return None;
-        }
-        for _ in 0..BISECTIONS {
-            let middle = f64::midpoint(least, most);
-            *(if is_borne(middle) { &mut most } else { &mut least }) = middle;
-        }
-        let needed = ((100.0 * most / (1.0 + most)) - ROUNDING).ceil() / 100.0;
-        (elastic < FAR_BELOW * most).then(|| {
+        let y = f64::midpoint(place.bounds[0][1], place.bounds[1][1]);
+        let least = least_ratio(material, y, case.gravity[1] * material.density.at(y) * (surface - y))?;
+        let needed = (100.0 * least / (1.0 + least) - ROUNDING).ceil() / 100.0;
+        (elastic < (1.0 - ROUNDING) * least).then(|| {
             format!(
-                "warning: phase `{}` turns gravity on, and all of `{}` yields: Poisson's ratio {poisson} makes the horizontal stress {elastic:.2} times \
-                 the vertical one, and `{}` bears {most:.2} times or more; with less dilation than friction there are then many equilibria, with \
-                 shear bands; take a ratio of {needed:.2} or more, or `initial_stress` with a `k0`",
-                phase.name,
-                place.name,
-                material.name,
+                "warning: phase `{}`: `{}` yields under its own weight: Poisson's ratio {poisson} gives a horizontal stress of {elastic:.2} times the \
+                 vertical one, and `{}` needs {least:.2} times or more at half its depth; as its dilation is less than its friction, its stress is then not unique, and \
+                 may be that of shear bands; take a ratio of {needed:.2} or more, or `initial_stress` with a `k0`",
+                phase.name, place.name, material.name,
             )
         })
     };
     soils.filter_map(told).collect()
+}
+
+/// The least horizontal stress that a material bears at height `y` (m) beside the vertical stress (kPa, tension positive), over that; `None` where it
+/// bears any, or none up to that.
+fn least_ratio(material: &Material, y: f64, vertical: f64) -> Option<f64> {
+    let is_borne = |k: f64| {
+        let stress = [k * vertical, vertical, k * vertical, 0.0, 0.0, 0.0];
+        yield_excess(material.model.as_ref(), y, &stress, &State::default()) <= 0.0
+    };
+    let (mut low, mut high) = (0.0, 1.0);
+    if is_borne(low) || !is_borne(high) {
+        return None;
+    }
+    for _ in 0..BISECTIONS {
+        let middle = f64::midpoint(low, high);
+        *(if is_borne(middle) { &mut high } else { &mut low }) = middle;
+    }
+    Some(high)
 }
 
 /// Where places end (m) to the left and to the right.
@@ -106,10 +107,9 @@ mod tests {
     fn soil_that_yields_under_its_own_weight_is_told_with_the_ratio_that_helps() {
         let rises =
             "phases: [{name: weight, analysis: quasi_static, duration: 1, step: {initial: 0.25}, gravity: {rate: 1}}]";
-        // K_a of 30° is 1/3, and ν/(1 − ν) is that at 0.25; with c = 40 kPa it is 1/3 − 2 · 40 · tan 30° / 200 kPa at the base.
+        // K_a of 30° is 1/3, and ν/(1 − ν) is that at 0.25; with c = 40 kPa it is 1/3 − 2 · 40 · tan 30° / 100 kPa at half the depth.
         let [warning] = told("poisson: 0.13, friction: 30, cohesion: 0, dilation: 7.5", rises).try_into().unwrap();
-        let said =
-            "ratio 0.13 makes the horizontal stress 0.15 times the vertical one, and `sand` bears 0.33 times or more";
+        let said = "ratio 0.13 gives a horizontal stress of 0.15 times the vertical one, and `sand` needs 0.33 times or more at half its depth";
         assert!(warning.contains(said) && warning.contains("a ratio of 0.25 or more"), "{warning}");
         for sand in [
             "poisson: 0.3, friction: 30, cohesion: 0",
@@ -118,13 +118,20 @@ mod tests {
         ] {
             assert_eq!(told(sand, rises), [""; 0], "{sand}");
         }
-        let sand = "poisson: 0.13, friction: 30, cohesion: 0";
-        assert_eq!(told(sand, rises).len(), 1);
-        assert_eq!(in_model(30.0, sand, rises).len(), 0, "a bank with a free side");
-        assert_eq!(
-            told(sand, &format!("initial_stress: {{k0: 0.5}}\n{}", rises.replace("rate: 1", "table: [[0, 1]]"))).len(),
-            0
+        assert_eq!(told("poisson: 0.25, friction: 30, cohesion: 0", rises), [""; 0], "at the limit");
+        let sand = "poisson: 0.24, friction: 30, cohesion: 0";
+        // However it comes on: in steps, at once, from a part of it, after a phase without.
+        let after = rises.replace(
+            "phases: [",
+            "phases: [{name: rest, analysis: quasi_static, duration: 1, step: {initial: 1}, gravity: 0}, ",
         );
+        let table = rises.replace("rate: 1", "table: [[0, 0.2], [1, 1]]");
+        for phases in [rises, &rises.replace(", gravity: {rate: 1}", ""), &table, &after] {
+            let [warning] = told(sand, phases).try_into().unwrap();
+            assert!(warning.contains("phase `weight`") && warning.contains("ratio of 0.25 or more"), "{warning}");
+        }
+        assert_eq!(in_model(30.0, sand, rises).len(), 0, "a bank with a free side");
+        assert_eq!(told(sand, &format!("initial_stress: {{k0: 0.5}}\n{}", rises.replace("{rate: 1}", "1"))).len(), 0);
         assert_eq!(told(sand, &rises.replace("quasi_static", "dynamic")).len(), 0);
     }
 }

@@ -51,49 +51,27 @@ pub fn settle<K: Kinematics<2>>(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::interpolation::Interpolation;
     use crate::kinematics::PlaneStrain;
     use crate::mesh::builder::rectangle;
-    use crate::mesh::locate::Locator;
     use crate::mesh::shape::CellKind;
-    use crate::points::Points;
-    use crate::tensor::Tensor;
+    use crate::quadrature::fixture::{on_grid, undeformed};
 
     /// A block that fills its cells, and a place far from it that the surface encloses, with one small point in it.
     #[test]
     fn a_surface_encloses_no_cells_that_points_do_not_fill() {
         let mesh = rectangle(CellKind::T6, 6.0, 1.0, 12, 2, 0.0, 1);
-        let (geometry, locator) = (Geometry::new::<PlaneStrain>(&mesh), Locator::new(&mesh));
+        let geometry = Geometry::new::<PlaneStrain>(&mesh);
         let mut position: Vec<[f64; 2]> =
             (0..80).map(|k| [0.05 + 0.1 * (k % 20) as f64, 0.125 + 0.25 * (k / 20) as f64]).collect();
         position.push([4.6, 0.4]);
-        let (cell, parametric): (Vec<u32>, Vec<[f64; 3]>) =
-            position.iter().map(|x| locator.locate(&mesh, x, None).unwrap()).unzip();
-        let points = Points {
-            initial_volume: vec![0.025; position.len()],
-            deformation: vec![Tensor::identity(); position.len()],
-            position,
-            cell,
-            ..Points::default()
-        };
-        let grid = Restored {
-            mesh: &mesh,
-            locator: &locator,
-            points: &points,
-            parametric: &parametric,
-            interpolation: &Interpolation::default(),
-            active: &vec![true; mesh.cells.len()],
-            before: (&mesh, &locator),
-            outlines: &[],
-            contact: &[],
-            relaxed: false,
-            displacement: None,
-        };
+        let points = undeformed(&mesh, position, 0.025);
         let level_set: Vec<f64> = mesh.nodes.iter().map(|x| (2.0 - x[0]).max(1.0 - (x[0] - 4.5).abs())).collect();
         let reached = |c: usize| mesh.cells.nodes(c).iter().any(|&n| level_set[n as usize] > 0.0);
         let first: Vec<bool> = (0..mesh.cells.len()).map(reached).collect();
         let (mut inside, mut outside) = (first.clone(), vec![false; mesh.cells.len()]);
-        settle::<PlaneStrain>(&geometry, &grid, &level_set, [&mut inside, &mut outside]);
+        on_grid(&mesh, &points, |grid| {
+            settle::<PlaneStrain>(&geometry, grid, &level_set, [&mut inside, &mut outside]);
+        });
         let far = |c: usize| mesh.cells.nodes(c).iter().all(|&n| mesh.nodes[n as usize][0] > 3.0);
         assert!((0..inside.len()).any(|c| far(c) && first[c]));
         for c in 0..inside.len() {

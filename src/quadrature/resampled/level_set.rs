@@ -178,48 +178,26 @@ fn apart(cells: usize, points: &Points<2>) -> Vec<bool> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::interpolation::Interpolation;
     use crate::kinematics::PlaneStrain;
     use crate::mesh::builder::rectangle;
-    use crate::mesh::locate::Locator;
     use crate::mesh::shape::CellKind;
-    use crate::tensor::Tensor;
+    use crate::quadrature::fixture::{on_grid, undeformed};
 
     /// A block whose points say that it is a little larger, and a place far from it that the level set encloses without any.
     #[test]
     fn what_has_no_material_point_is_not_material() {
         let mesh = rectangle(CellKind::T6, 6.0, 1.0, 12, 2, 0.0, 1);
-        let (geometry, locator) = (Geometry::new::<PlaneStrain>(&mesh), Locator::new(&mesh));
-        let (position, volume): (Vec<[f64; 2]>, f64) =
-            ((0..80).map(|k| [0.1 + 0.1 * (k % 19) as f64, 0.125 + 0.25 * (k / 20) as f64]).collect(), 2.02 / 80.0);
-        let located = position.iter().map(|x| locator.locate(&mesh, x, None).unwrap());
-        let (cell, parametric): (Vec<u32>, Vec<[f64; 3]>) = located.unzip();
-        let points = Points {
-            initial_volume: vec![volume; position.len()],
-            deformation: vec![Tensor::identity(); position.len()],
-            position,
-            cell,
-            ..Points::default()
-        };
-        let grid = Restored {
-            mesh: &mesh,
-            locator: &locator,
-            points: &points,
-            parametric: &parametric,
-            interpolation: &Interpolation::default(),
-            active: &vec![true; mesh.cells.len()],
-            before: (&mesh, &locator),
-            outlines: &[],
-            contact: &[],
-            relaxed: false,
-            displacement: None,
-        };
+        let geometry = Geometry::new::<PlaneStrain>(&mesh);
+        let position = (0..80).map(|k| [0.1 + 0.1 * (k % 19) as f64, 0.125 + 0.25 * (k / 20) as f64]).collect();
+        let points = undeformed(&mesh, position, 2.02 / 80.0);
         let level_set: Vec<f64> =
             mesh.nodes.iter().map(|x| (2.0 - x[0]).max(0.05 - (x[0] - 5.0).hypot(x[1]))).collect();
         let far = |n: &usize| mesh.nodes[*n][0] > 3.0;
         assert!((0..level_set.len()).filter(far).any(|n| level_set[n] > 0.0));
         let outside = vec![false; mesh.cells.len()];
-        let found = keep_volume::<PlaneStrain>(&geometry, &grid, [-0.03, 0.03], &outside, level_set);
+        let found = on_grid(&mesh, &points, |grid| {
+            keep_volume::<PlaneStrain>(&geometry, grid, [-0.03, 0.03], &outside, level_set)
+        });
         assert!((0..found.len()).filter(far).all(|n| found[n] <= 0.0), "{found:?}");
         let of_cell = |c: usize| {
             let values: Vec<f64> = mesh.cells.nodes(c).iter().map(|&n| found[n as usize]).collect();

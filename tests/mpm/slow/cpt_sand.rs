@@ -18,13 +18,14 @@ fn resistance(settings: &[&str]) -> (f64, usize) {
     (last.iter().sum::<f64>() / last.len() as f64 / (PI * RADIUS.powi(2)), halvings)
 }
 
-/// Sand that does not dilate flows around the cone in steps of 0.08 R, and none of them is halved. The resistance still rises here.
+/// Sand that does not dilate flows around the cone in steps of 0.08 R, and none of them is halved. The resistance still rises here: it is between the
+/// limit pressure of a sphere, 733 kPa, and the 2990 kPa of the steady state (`cases/cpt_sand`).
 #[test]
 fn a_cone_in_sand_under_a_surcharge_goes_on_without_halved_steps() {
     let (resistance, halvings) = resistance(&[]);
     println!("{resistance:.0} kPa, {halvings} halved steps");
     assert!(halvings <= 2, "{halvings}");
-    assert!((2170.0..2550.0).contains(&resistance), "{resistance} kPa");
+    assert!((733.0..2990.0).contains(&resistance), "{resistance} kPa");
 }
 
 /// `N_c` of Teh & Houlsby (1991) is 11.97; cells of 2/3 R are 13 % above it.

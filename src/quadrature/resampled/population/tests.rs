@@ -7,6 +7,7 @@ use crate::mesh::Mesh;
 use crate::mesh::builder::rectangle;
 use crate::mesh::locate::Locator;
 use crate::mesh::shape::CellKind;
+use crate::quadrature::fixture::on_grid;
 use crate::quadrature::{Quadrature, Resampled};
 use crate::seed::{RegionSeed, seed};
 use crate::tensor::Tensor;
@@ -68,26 +69,6 @@ fn renewed<K: Kinematics<2>>(mesh: &Mesh<2>, points: &Points<2>, seeded: u32) ->
             held: &Held::new(cells, &points.cell),
         };
         renew(&ground, &Materials::<K>::new(vec![Some(model())]).varying(vec![Some(strength())]))
-    })
-}
-
-/// What is found on a mesh that has just been restored.
-fn on_grid<T>(mesh: &Mesh<2>, points: &Points<2>, find: impl FnOnce(&Restored<2>) -> T) -> T {
-    let locator = Locator::new(mesh);
-    let places = points.position.iter().zip(&points.cell);
-    let parametric: Vec<[f64; 3]> = places.map(|(x, c)| locator.locate(mesh, x, Some(*c)).unwrap().1).collect();
-    find(&Restored {
-        mesh,
-        locator: &locator,
-        points,
-        parametric: &parametric,
-        interpolation: &crate::interpolation::Interpolation::default(),
-        active: &vec![true; mesh.cells.len()],
-        before: (mesh, &locator),
-        outlines: &[],
-        contact: &[],
-        relaxed: false,
-        displacement: None,
     })
 }
 
