@@ -286,7 +286,6 @@ pub fn scene<K: Kinematics<2>>(case: &Case, mut whole: Mesh<2>) -> Result<Scene<
         pressure_unit,
         carried,
         water,
-        fields: Vec::new(),
         supports,
         phases,
         traced,

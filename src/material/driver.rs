@@ -12,7 +12,7 @@
 //! # Ok::<(), mpm::error::Error>(())
 //! ```
 
-use super::{PrincipalModel, Response, State, Variable};
+use super::{Model, Response, State, Variable};
 use crate::error::{Error, Result};
 use nalgebra::{Matrix3, Vector3};
 
@@ -33,7 +33,7 @@ const ITERATIONS: usize = 50;
 /// # Errors
 /// If the prescribed stresses cannot be reached, beyond the strength for example.
 pub fn drive(
-    model: &dyn PrincipalModel,
+    model: &dyn Model,
     y: f64,
     path: impl IntoIterator<Item = [Control; 3]>,
 ) -> Result<Vec<Response>> {
@@ -45,7 +45,7 @@ pub fn drive(
 /// # Errors
 /// As [`drive`].
 pub fn drive_from(
-    model: &dyn PrincipalModel,
+    model: &dyn Model,
     y: f64,
     mut elastic: [f64; 3],
     path: impl IntoIterator<Item = [Control; 3]>,
@@ -82,7 +82,7 @@ pub fn drive_from(
 
 /// Newton's method for the strains of the axes whose stress is prescribed.
 fn step(
-    model: &dyn PrincipalModel,
+    model: &dyn Model,
     y: f64,
     controls: &[Control; 3],
     elastic: &[f64; 3],

@@ -6,7 +6,7 @@
 
 use super::polyhedral::Planes;
 use super::{
-    Elasticity, Kind, Law, Model, Parameter, Parameters, PrincipalModel, Profile, Response, State, Variable,
+    Elasticity, Kind, Model, Parameter, Parameters, Profile, Response, State, Variable,
     VariableKind,
 };
 use crate::error::{Error, Result};
@@ -209,7 +209,7 @@ impl MohrCoulomb {
     }
 }
 
-impl PrincipalModel for MohrCoulomb {
+impl Model for MohrCoulomb {
     fn respond(&self, y: f64, trial: &[f64; 3], state: &State, internal: &mut [f64]) -> Response {
         let (planes, moduli) = (self.planes(y, state), self.elasticity.at(y));
         let Some(cutoff) = self.dilation_cutoff else { return planes.respond(&moduli, trial, state) };
@@ -223,12 +223,6 @@ impl PrincipalModel for MohrCoulomb {
 
     fn yield_excess(&self, y: f64, stress: &[f64; 3], state: &State) -> f64 {
         self.planes(y, state).excess(stress)
-    }
-}
-
-impl Model for MohrCoulomb {
-    fn law(&self) -> Law<'_> {
-        Law::Principal(self)
     }
 
     fn elasticity(&self) -> &Elasticity {

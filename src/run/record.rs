@@ -4,7 +4,6 @@ use super::accepted;
 use super::boundary;
 use super::fields::Field;
 use super::surface::{self, Acting};
-use crate::dofs::PORE_PRESSURE;
 use crate::io::columns::padded;
 use crate::io::frame::{CELL, Column, Frame, Part, UNCOUNTED, VOLUME, triples};
 use crate::io::provenance::Origin;
@@ -172,7 +171,7 @@ pub fn value<const D: usize>(
         }
         (WatchedOn::Nodes(nodes), Quantity::PorePressure) => {
             let [places, _] = scene.places();
-            let value = |n: u32| state.pressure.get(places.field(PORE_PRESSURE, n)).filter(|_| scene.water.is_some());
+            let value = |n: u32| state.pressure.get(places.pore(n)).filter(|_| scene.water.is_some());
             mean(nodes.iter().map(|&n| value(n).copied().unwrap_or(0.0)))
         }
         (WatchedOn::Region(region), Quantity::PorePressure) => {

@@ -19,7 +19,6 @@ mod ghost;
 mod incompressible;
 mod invariance;
 mod moved_curves;
-mod nodal_field;
 mod obstacles;
 mod output_field;
 mod patch;

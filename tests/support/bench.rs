@@ -232,7 +232,6 @@ impl Bench {
             pressure_unit: unit,
             carried: Vec::new(),
             water,
-            fields: Vec::new(),
             supports: self.supports,
             traced: Vec::new(),
             phases: vec![Phase {

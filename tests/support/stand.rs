@@ -185,7 +185,6 @@ impl<K: Kinematics<2>> Stand<K> {
             pressure_unit,
             carried: Vec::new(),
             water,
-            fields: Vec::new(),
             supports: Vec::new(),
             traced: Vec::new(),
             phases: vec![phase.clone(), phase],

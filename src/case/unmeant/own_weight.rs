@@ -2,7 +2,7 @@
 
 use crate::case::checked::{Analysis, Case, Content, Material};
 use crate::case::unconnected::Place;
-use crate::material::{State, yield_excess};
+use crate::material::{State, spectral};
 use crate::mesh::quality::SAME;
 
 /// Bisections for the least horizontal stress: to a millionth of the vertical one.
@@ -53,7 +53,7 @@ pub fn of_case(case: &Case, places: &[Place]) -> Vec<String> {
 fn least_ratio(material: &Material, y: f64, vertical: f64) -> Option<f64> {
     let is_borne = |k: f64| {
         let stress = [k * vertical, vertical, k * vertical, 0.0, 0.0, 0.0];
-        yield_excess(material.model.as_ref(), y, &stress, &State::default()) <= 0.0
+        material.model.yield_excess(y, &spectral::roots(&stress), &State::default()) <= 0.0
     };
     let (mut low, mut high) = (0.0, 1.0);
     if is_borne(low) || !is_borne(high) {
