@@ -32,11 +32,7 @@ const ITERATIONS: usize = 50;
 ///
 /// # Errors
 /// If the prescribed stresses cannot be reached, beyond the strength for example.
-pub fn drive(
-    model: &dyn Model,
-    y: f64,
-    path: impl IntoIterator<Item = [Control; 3]>,
-) -> Result<Vec<Response>> {
+pub fn drive(model: &dyn Model, y: f64, path: impl IntoIterator<Item = [Control; 3]>) -> Result<Vec<Response>> {
     drive_from(model, y, [0.0; 3], path)
 }
 

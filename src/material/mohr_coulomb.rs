@@ -5,10 +5,7 @@
 //! cut-off is associated. Dilation ends with the plastic volume strain that the soil may take up ([`Planes::respond_within`]).
 
 use super::polyhedral::Planes;
-use super::{
-    Elasticity, Kind, Model, Parameter, Parameters, Profile, Response, State, Variable,
-    VariableKind,
-};
+use super::{Elasticity, Kind, Model, Parameter, Parameters, Profile, Response, State, Variable, VariableKind};
 use crate::error::{Error, Result};
 use std::sync::Arc;
 

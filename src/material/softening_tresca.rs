@@ -20,8 +20,8 @@
 
 use super::polyhedral::Planes;
 use super::{
-    Elasticity, Kind, Model, Moduli, Parameter, Parameters, Profile, Response, State, Variable,
-    VariableKind, cavitation,
+    Elasticity, Kind, Model, Moduli, Parameter, Parameters, Profile, Response, State, Variable, VariableKind,
+    cavitation,
 };
 use crate::error::{Error, Result};
 use std::f64::consts::LN_10;

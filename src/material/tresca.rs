@@ -3,9 +3,7 @@
 //! The return is that of [`super::polyhedral`] without friction.
 
 use super::polyhedral::Planes;
-use super::{
-    Elasticity, Kind, Model, Parameter, Parameters, Profile, Response, State, cavitation,
-};
+use super::{Elasticity, Kind, Model, Parameter, Parameters, Profile, Response, State, cavitation};
 use crate::error::Result;
 use std::sync::Arc;
 

@@ -5,9 +5,7 @@
 //! tension; the strength in simple shear is `yield_stress/√3`. No hardening.
 
 use super::model::equivalent_plastic;
-use super::{
-    Elasticity, Kind, Model, Parameter, Parameters, Profile, Response, State, cavitation,
-};
+use super::{Elasticity, Kind, Model, Parameter, Parameters, Profile, Response, State, cavitation};
 use crate::error::Result;
 use std::sync::Arc;
 

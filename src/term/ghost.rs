@@ -116,7 +116,8 @@ impl<K> GhostPenalty<K> {
 
 /// The measure `q/√3 + ⟨−f⟩/2` (kPa) of the shear strength at point `p`.
 fn strength<const D: usize>(points: &Points<D>, p: usize, model: &dyn Model) -> f64 {
-    let lacks = -model.yield_excess(points.seeded_height(p), &spectral::roots(&points.stress[p]), &points.state(p, 0.0));
+    let lacks =
+        -model.yield_excess(points.seeded_height(p), &spectral::roots(&points.stress[p]), &points.state(p, 0.0));
     deviatoric(&points.stress[p]) / 3f64.sqrt() + 0.5 * lacks.max(0.0)
 }
 

@@ -70,7 +70,6 @@ fn confined(model: &dyn Model, depth: f64, path: impl Iterator<Item = f64>) -> V
     let mut elastic = model.elastic_strain(y, &[-K0 * WEIGHT * depth, -WEIGHT * depth, -K0 * WEIGHT * depth]);
     let (mut strain, mut before) = (0.0, [0.0]);
     let step = |stress: f64| {
-        
         let respond = |by: f64| {
             let mut internal = before;
             let trial = [elastic[0], elastic[1] + by, elastic[2]];

@@ -134,8 +134,7 @@ fn responses_are_isotropic() {
     const ORDERS: [[usize; 3]; 5] = [[0, 2, 1], [1, 0, 2], [1, 2, 0], [2, 0, 1], [2, 1, 0]];
     for (name, model) in models() {
         let mut random = Random(0xA076_1D64_78BD_642F);
-        let respond =
-            |trial: &[f64; 3]| model.respond(0.0, trial, &State::default(), &mut first(&*model));
+        let respond = |trial: &[f64; 3]| model.respond(0.0, trial, &State::default(), &mut first(&*model));
         let mut asymmetric = false;
         for _ in 0..STATES / 10 {
             let trial: [f64; 3] = random.trial(&*model);

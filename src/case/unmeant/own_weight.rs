@@ -82,7 +82,7 @@ fn soil<'a>(case: &'a Case, region: &str) -> Option<&'a Material> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::case::{Keys, source::Source};
+    use crate::case::{resolve, source::Source};
     use std::path::PathBuf;
 
     /// The warnings of ground 20 m wide in a model of a width (m).
@@ -92,7 +92,7 @@ mod tests {
              materials: {{sand: {{model: mohr_coulomb, young: 3.0e+4, unit_weight: 20, {sand}}}}}\ngravity: {{y: -9.81}}\n{entries}\n"
         );
         let source = Source::parse(PathBuf::from("case.yaml"), text, &[]).unwrap();
-        let (case, issues) = Keys::default().resolve(&source);
+        let (case, issues) = resolve(&source);
         assert!(issues.is_empty(), "{issues:?}");
         let place = |name: &str, bounds| Place { name: name.into(), bounds, parts: Vec::new() };
         let places = [place("soil", [[0.0, -10.0], [20.0, 0.0]]), place("air", [[0.0, 0.0], [width, 5.0]])];
