@@ -104,7 +104,7 @@ impl<const D: usize> From<State<D>> for First<D> {
 pub fn run<const D: usize, K: Kinematics<D>>(
     scene: &Scene<D>,
     first: impl Into<First<D>>,
-    outputs: &Outputs<D>,
+    outputs: &Outputs,
     resume: bool,
     stop: &AtomicBool,
     progress: &mut dyn FnMut(Progress),
@@ -312,7 +312,7 @@ impl Written {
 
 /// The open files of a run.
 struct Files<'a, const D: usize> {
-    outputs: &'a Outputs<D>,
+    outputs: &'a Outputs,
     checkpoints: Checkpoints,
     history: History,
     energy: History,
@@ -327,7 +327,7 @@ struct Files<'a, const D: usize> {
 impl<'a, const D: usize> Files<'a, D> {
     fn open(
         scene: &Scene<D>,
-        outputs: &'a Outputs<D>,
+        outputs: &'a Outputs,
         checkpoints: Checkpoints,
         state: &State<D>,
         written: Option<Written>,

@@ -11,7 +11,6 @@ use crate::points::Points;
 use crate::quadrature::Count;
 use crate::rigid::Body;
 use crate::step::{ITEMS, Report, Restore, Scene, Side, State};
-use std::sync::Arc;
 
 /// A quantity of the history, with its component.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -228,12 +227,12 @@ fn mean_over<const D: usize>(state: &State<D>, region: u16, value: impl Fn(&Poin
 pub fn frame<const D: usize>(
     scene: &Scene<D>,
     state: &State<D>,
-    fields: &[Arc<dyn Field<D>>],
+    fields: &[Field],
     origin: Origin,
     acting: Option<&Acting>,
 ) -> Frame {
     let nodes = scene.mesh_nodes();
-    let displacement = fields.iter().any(|field| field.is_displacement());
+    let displacement = fields.iter().any(|field| matches!(field, Field::Displacement));
     // A grid that is restored and follows nothing stays where the mesh has it.
     let grid = if scene.numerics.restore == Restore::EveryStep && scene.fem.is_none() && !scene.moves_curves() {
         Part::default()
@@ -267,8 +266,8 @@ pub fn frame<const D: usize>(
 }
 
 /// The fields of some points.
-fn part<const D: usize>(points: &Points<D>, fields: &[Arc<dyn Field<D>>]) -> Part {
-    let columns = fields.iter().flat_map(|field| field.columns(points)).collect();
+fn part<const D: usize>(points: &Points<D>, fields: &[Field]) -> Part {
+    let columns = fields.iter().filter_map(|field| field.column(points)).collect();
     Part { columns, position: triples(&points.position) }
 }
 

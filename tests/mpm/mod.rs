@@ -20,7 +20,6 @@ mod incompressible;
 mod invariance;
 mod moved_curves;
 mod obstacles;
-mod output_field;
 mod patch;
 mod phases;
 mod random_scenes;
