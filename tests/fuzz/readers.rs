@@ -417,7 +417,7 @@ impl Checkpoints {
         for (number, ready) in scenes.iter().enumerate() {
             for state in &ready.states {
                 // The scene goes along in a text, for the reader to find it.
-                let mut store = checkpoint::put(Kept::store(), state);
+                let mut store = checkpoint::put(Kept::store(), state).unwrap();
                 store.put_text("scene", ready.name);
                 new.kept().save(1, store).unwrap();
                 corpus.push(fs::read(new.path()).unwrap());
