@@ -20,7 +20,7 @@ mod incompressible;
 mod invariance;
 mod moved_curves;
 mod obstacles;
-mod patch;
+pub mod patch;
 mod phases;
 mod random_scenes;
 mod random_strength;
