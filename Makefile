@@ -88,7 +88,7 @@ sanitize: build ## The boundary to Gmsh under valgrind, where that is installed:
 campaign: setup ## Kills, signals, full disks and pairs of processes in every stage, hostile folders: 25 times as many as in the tests
 	CAMPAIGN=25 cargo test --release --test all campaign:: -- --nocapture
 
-verification: build ## Run every verification; writes docs/verification.md
+verification: build ## Run every verification; writes docs/verification.md and the output of the tests beside it
 	$(PYTHON) benches/verification/run.py $(ARGS)
 
 bench: build ## Error against seconds for every scheme, beside Kratos; writes docs/benchmarks.md (ARGS=--quick for a few runs)
