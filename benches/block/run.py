@@ -231,7 +231,8 @@ def main():
             for scheme, settings in SCHEMES.items():
                 ours[scheme].append(run_mpm(folders[scheme], settings))
         peer = None if arguments.alone else run_kratos()
-        lines = table(ours, peer)
+        said = measured([MPM, "--version"])["text"].splitlines()[0]
+        lines = [f"Version: {said}.", "", *table(ours, peer)]
         if arguments.large:
             lines += large(Path(name) / "large", arguments.repeats)
     print("\n".join(lines))

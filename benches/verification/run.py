@@ -21,7 +21,7 @@ sys.path[:0] = [str(HERE.parent), str(HERE.parent / "work_precision"), str(HERE)
 
 import studies  # noqa: E402
 from problems import cantilever, cavity, column, footing, slump  # noqa: E402
-from program import PROGRAM, Failed, Refused, execute, solved  # noqa: E402
+from program import Failed, Refused, execute, solved, version  # noqa: E402
 from schemes import SCHEMES, missing  # noqa: E402
 
 PAGE = ROOT / "docs/verification.md"
@@ -162,8 +162,8 @@ def main():
         for study in (study for study in studies.SMALL + studies.LARGE if study.__name__ in arguments.only):
             print("\n".join(study(arguments.quick)), flush=True)
         return
-    version = execute([str(PROGRAM), "--version"]).out.strip()
-    lines = [INTRODUCTION, f"Version: {version}.", "", "## Closed forms, on a grid that is never restored", ""]
+    made_by = version()
+    lines = [INTRODUCTION, f"Version: {made_by}.", "", "## Closed forms, on a grid that is never restored", ""]
     for study in studies.SMALL:
         lines += study(arguments.quick)
     lines += ["## Water, slopes and collapse", ""]
@@ -176,7 +176,7 @@ def main():
         print("\n".join(lines))
         return
     lines += ["## Tests", "", TESTED]
-    output = [f"Output of the tests. Version: {version}. Written by `make verification`.", ""]
+    output = [f"Output of the tests. Version: {made_by}. Written by `make verification`.", ""]
     for name, (which, what) in TESTS.items():
         row, text = tests(name, which, what)
         lines.append(row)
