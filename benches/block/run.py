@@ -23,7 +23,7 @@ from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parent.parent
-MPM = ROOT / "target/release/mpm"
+MPM = Path(os.environ.get("MPM", ROOT / "target/release/mpm"))
 KRATOS = ROOT / ".venv-kratos"
 REPORT = ROOT / "docs/benchmarks-block.md"
 # What is compared with Kratos, by the entries of the case: aims are for the scheme that a case gets.
