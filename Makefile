@@ -15,7 +15,7 @@ SECONDS := 600
 MDBOOK_VERSION := 0.5.4
 MDBOOK := target/tools/mdbook-$(MDBOOK_VERSION)/bin/mdbook
 
-.PHONY: help setup build wheel wheel-try demo gallery pile pile-variants pile-schemes pipeline pipeline-study test test-quick fuzz sanitize campaign check fmt clean bench bench-block bench-unused constants sbom stress everyday verification book keys
+.PHONY: help setup build wheel wheel-try demo gallery pile pile-variants pile-schemes pipeline pipeline-study test test-quick fuzz sanitize campaign check fmt clean bench bench-block constants sbom stress everyday verification book keys
 
 help: ## List the targets
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / {printf "  %-14s %s\n", $$1, $$2}' $(firstword $(MAKEFILE_LIST))
@@ -88,7 +88,7 @@ sanitize: build ## The boundary to Gmsh under valgrind, where that is installed:
 campaign: setup ## Kills, signals, full disks and pairs of processes in every stage, hostile folders: 25 times as many as in the tests
 	CAMPAIGN=25 cargo test --release --test all campaign:: -- --nocapture
 
-verification: build ## Run every verification; writes docs/verification.md
+verification: build ## Run every verification; writes docs/verification.md and the output of the tests beside it
 	$(PYTHON) benches/verification/run.py $(ARGS)
 
 bench: build ## Error against seconds for every scheme, beside Kratos; writes docs/benchmarks.md (ARGS=--quick for a few runs)
@@ -96,9 +96,6 @@ bench: build ## Error against seconds for every scheme, beside Kratos; writes do
 
 bench-block: build ## Time the block of 102 400 points beside Kratos; writes docs/benchmarks-block.md
 	$(PYTHON) benches/block/run.py --large --write $(ARGS)
-
-bench-unused: build ## Count the instructions that parts cost which a scene does not use; writes docs/unused.md
-	$(PYTHON) benches/unused/run.py $(ARGS)
 
 constants: setup ## Run scenes with each numerical constant of the solver halved and doubled, an hour; writes docs/constants.md
 	$(PYTHON) benches/constants/run.py --write $(ARGS)

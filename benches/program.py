@@ -87,6 +87,11 @@ def execute(command, environment=None, core=None, timeout=None):
     return Process(process.returncode, text, wall, usage.ru_utime + usage.ru_stime, usage.ru_maxrss / 1024)
 
 
+def version():
+    """What the program says of itself: its version, with the commit and the sources that it is built from."""
+    return execute([PROGRAM, "--version"]).out.split("\n")[0].strip()
+
+
 def options(settings):
     """The options `--set` of entries {path: value}."""
     return [part for path, value in settings.items() for part in ("--set", f"{path}={json.dumps(value)}")]

@@ -1,5 +1,5 @@
-//! What the documents say holds: the README's first case runs and its list has every case, every link leads to a file, the sources that
-//! the theory and the tour name exist, the bill of materials is of what is linked. `manual.rs` has the manual.
+//! What the documents say holds: the README's first case runs and its list has every case, every link leads to a file, every script is run, the sources
+//! that the theory and the tour name exist, the bill of materials is of what is linked. `manual.rs` has the manual.
 
 use crate::support::{in_folder, python, succeeds};
 use serde_json::Value;
@@ -44,15 +44,15 @@ fn the_readme_has_every_case() {
     }
 }
 
-/// The Markdown files in `folder` and the folders in it, but for what is built or installed.
-fn pages(folder: &Path, found: &mut Vec<PathBuf>) {
+/// The files in `folder` and the folders in it whose names end so, but for what is built or installed.
+fn files(folder: &Path, end: &str, found: &mut Vec<PathBuf>) {
     for entry in fs::read_dir(folder).unwrap() {
         let path = entry.unwrap().path();
         let name = path.file_name().unwrap().to_string_lossy().into_owned();
         let ours = !name.starts_with('.') && name != "target" && !name.starts_with("out");
         if path.is_dir() && ours {
-            pages(&path, found);
-        } else if name.ends_with(".md") {
+            files(&path, end, found);
+        } else if name.ends_with(end) {
             found.push(path);
         }
     }
@@ -60,15 +60,47 @@ fn pages(folder: &Path, found: &mut Vec<PathBuf>) {
 
 #[test]
 fn every_link_leads_to_a_file() {
-    let mut files = Vec::new();
-    pages(Path::new(env!("CARGO_MANIFEST_DIR")), &mut files);
-    assert!(files.len() > 10, "{files:?}");
-    for file in files {
+    let mut pages = Vec::new();
+    files(Path::new(env!("CARGO_MANIFEST_DIR")), ".md", &mut pages);
+    assert!(pages.len() > 10, "{pages:?}");
+    for file in pages {
         let text = fs::read_to_string(&file).unwrap();
         for link in text.split("](").skip(1).filter_map(|rest| rest.split([')', '#']).next()) {
             let inside = !link.is_empty() && !link.contains("://");
             assert!(!inside || file.with_file_name(link).exists(), "{}: {link} is not there", file.display());
         }
+    }
+}
+
+/// A script that nothing runs is wrong before long: it is named in a test or the Makefile, or another script imports or starts it.
+#[test]
+fn every_script_is_run_by_a_test_or_by_make() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let (mut scripts, mut tests) = (Vec::new(), vec![root.join("Makefile")]);
+    files(&root.join("cases"), ".py", &mut scripts);
+    files(&root.join("benches"), ".py", &mut scripts);
+    files(&root.join("tests"), ".rs", &mut tests);
+    assert!(scripts.len() > 50, "{scripts:?}");
+    let run: String = tests.iter().map(|file| fs::read_to_string(file).unwrap()).collect();
+    let sources: Vec<String> = scripts.iter().map(|script| fs::read_to_string(script).unwrap()).collect();
+    for (number, script) in scripts.iter().enumerate() {
+        let name = script.strip_prefix(root).unwrap().to_str().unwrap();
+        let stem = script.file_stem().unwrap().to_str().unwrap();
+        let folder = script.parent().unwrap().file_name().unwrap().to_str().unwrap();
+        let imports = |line: &str| {
+            let line = line.trim_start();
+            let import = line.starts_with("import ") || line.starts_with("from ");
+            import && line.split(|c: char| !c.is_alphanumeric() && c != '_').any(|word| word == stem)
+        };
+        let used = sources.iter().enumerate().any(|(other, source)| {
+            let named = !["run", "study"].contains(&stem) && source.lines().any(imports);
+            let started = source.contains(&format!("{folder}/{stem}.py\""));
+            let studied = stem == "study" && source.contains(&format!("study(\"{folder}\")"));
+            other != number && (named || started || studied)
+        });
+        // The study of fast flow runs by the folder of its case (`study` of tests/mpm/scripts.rs).
+        let case = stem == "study" && run.contains(&format!("study(\"cases/{folder}\""));
+        assert!(stem == "__init__" || run.contains(name) || used || case, "nothing runs {name}");
     }
 }
 

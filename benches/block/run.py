@@ -23,7 +23,7 @@ from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parent.parent
-MPM = ROOT / "target/release/mpm"
+MPM = Path(os.environ.get("MPM", ROOT / "target/release/mpm"))
 KRATOS = ROOT / ".venv-kratos"
 REPORT = ROOT / "docs/benchmarks-block.md"
 # What is compared with Kratos, by the entries of the case: aims are for the scheme that a case gets.
@@ -231,7 +231,8 @@ def main():
             for scheme, settings in SCHEMES.items():
                 ours[scheme].append(run_mpm(folders[scheme], settings))
         peer = None if arguments.alone else run_kratos()
-        lines = table(ours, peer)
+        said = measured([MPM, "--version"])["text"].splitlines()[0]
+        lines = [f"Version: {said}.", "", *table(ours, peer)]
         if arguments.large:
             lines += large(Path(name) / "large", arguments.repeats)
     print("\n".join(lines))

@@ -1,17 +1,19 @@
 #!/usr/bin/env python3
 """Composite points in one dimension: error and Newton iterations by tangent, and by how full a neighbour must be.
 
-    .venv/bin/python benches/composite/run.py
+    .venv/bin/python benches/composite/run.py [cells …]     # without: 8 16 32 64
 
 The self-weight column of docs/schemes.md (l0 = 50 m, E = 10 kPa, ρ g l0/E = 4, 40 steps with a reset in each, four points a cell), iterated
 to a residual of 1e-8. It prints the two tables of docs/schemes.md, and needs NumPy only.
 """
 
+import sys
+
 import numpy as np
 
 HEIGHT, YOUNG, STEPS, EACH, TOLERANCE = 50.0, 10.0, 40, 4, 1e-8
 WEIGHT = 4 * YOUNG / HEIGHT  # [kPa/m]
-SIZES = (8, 16, 32, 64)
+SIZES = tuple(map(int, sys.argv[1:])) or (8, 16, 32, 64)
 
 
 def hat(t):

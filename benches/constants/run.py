@@ -276,7 +276,8 @@ def page(chosen, found, bases):
     """The page of the manual."""
     begin, scenes = PAGE_BEGIN.split("\n\n| scene")
     version = re.search(r'^version = "(.*)"', (ROOT / "Cargo.toml").read_text(), re.MULTILINE)[1]
-    lines = [begin.replace("{version}", version), "", overview(found), "", "| scene" + scenes.rstrip("\n")]
+    commit = subprocess.run(["git", "rev-parse", "--short=8", "HEAD"], cwd=ROOT, capture_output=True, text=True, check=False).stdout.strip()
+    lines = [begin.replace("{version}", f"{version} (of commit {commit})"), "", overview(found), "", "| scene" + scenes.rstrip("\n")]
     for name, base in bases.items():
         scene = SCENES[name]
         settings = ", ".join(f"`{path}={json.dumps(value)}`" for path, value in scene.settings.items())

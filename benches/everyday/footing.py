@@ -1,7 +1,7 @@
 """Limit loads of footings on clay and on soil with friction.
 
 Strips: 2 + π (Prandtl 1920, Hill 1950). Circles: 5.689 smooth, 6.048 rough (Shield 1955; Eason & Shield 1960). Strength that grows
-with depth: the method of characteristics (Davis & Booker 1973, Houlsby & Wroth 1983), computed for this program (docs/verification.md).
+with depth: the method of characteristics (Davis & Booker 1973, Houlsby & Wroth 1983), computed for this program.
 N_q = e^(π tan φ) tan²(45° + φ/2), N_c = (N_q − 1) cot φ (Prandtl 1921, Reissner 1924), N_γ by characteristics (Martin 2005).
 """
 

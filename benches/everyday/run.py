@@ -26,7 +26,7 @@ HERE = Path(__file__).resolve().parent
 sys.path[:0] = [str(HERE), str(HERE.parent)]
 
 import families  # noqa: E402
-from program import PROGRAM, ROOT, execute  # noqa: E402
+from program import ROOT, version  # noqa: E402
 from scene import ENDED, RIGHT, SAID, SILENT, VERDICTS  # noqa: E402
 
 KEPT = ROOT / "target/everyday"
@@ -77,11 +77,10 @@ def kind(remark):
 
 def page(rows, seed, seconds):
     """docs/everyday.md."""
-    version = execute([PROGRAM, "--version"]).out.split("\n")[0].strip()
     lines = [
         "# Ordinary scenes with known answers",
         "",
-        f"Made by `make everyday SEED={seed}` with {version}: {len(rows)} random scenes in {seconds:.0f} s, two at a time.",
+        f"Made by `make everyday SEED={seed}` with {version()}: {len(rows)} random scenes in {seconds:.0f} s, two at a time.",
         "",
         "Each scene is a `case.yaml` with its `.geo`, as a user writes them, run by `mpm run`. Its answer is known: a closed form, a limit load, a balance,",
         "or another scene that must have the same result. The families and their answers are in `benches/everyday/`, each with its tolerance and why it is",

@@ -19,7 +19,7 @@ HERE = Path(__file__).resolve().parent
 sys.path[:0] = [str(HERE.parent), str(HERE)]
 
 from entries import ENTRIES, Entry, Row  # noqa: E402
-from program import PROGRAM, ROOT, execute  # noqa: E402
+from program import PROGRAM, ROOT, execute, version  # noqa: E402
 
 PAGE = ROOT / "docs/gallery.md"
 PICTURES = ROOT / "docs/pictures/gallery"
@@ -164,7 +164,7 @@ def main() -> None:
         ran.append((entry, failures))
         print(section(entry, failures), flush=True)
     if not chosen.cases:
-        pages = [INTRODUCTION, overview(ran, not chosen.no_pictures), *(section(*pair) for pair in ran)]
+        pages = [INTRODUCTION, f"Made by {version()}.\n", overview(ran, not chosen.no_pictures), *(section(*pair) for pair in ran)]
         PAGE.write_text("\n".join(pages))
 
 

@@ -26,7 +26,7 @@ sys.path[:0] = [str(HERE), str(HERE.parent), str(HERE.parent / "work_precision")
 
 import check  # noqa: E402
 import scenes  # noqa: E402
-from program import PROGRAM, ROOT, execute  # noqa: E402
+from program import PROGRAM, ROOT, execute, version  # noqa: E402
 from schemes import SCHEMES, missing  # noqa: E402
 
 FAILED = HERE / "failed"
@@ -112,7 +112,7 @@ def page(rows, seed, seconds, unavailable):
     lines = [
         "# Stability campaign",
         "",
-        f"Made by `make stress`: {len(rows)} random scenes from the seed {seed}, in {seconds:.0f} s, two at a time.",
+        f"Made by `make stress` with {version()}: {len(rows)} random scenes from the seed {seed}, in {seconds:.0f} s, two at a time.",
         "`benches/stress/scenes.py` generates them: meshes of triangles and quadrangles of both orders, regular and not, all numbers of points, ",
         "plane strain and axisymmetry, every scheme, ν up to 0.4999, steps up to 100 times the Courant step, compression to 30 % of the ",
         "height, several turns, friction from 0 to 45°, points on edges and corners, loads on the moving surface, water around the soil and in ",

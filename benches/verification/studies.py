@@ -39,7 +39,7 @@ SECONDS = "Seconds are those of all stages of the runs of a row."
 def column(quick):
     """Mean errors of stress and displacement over r = w H/E, and their orders."""
     module = study("column")
-    lines = ["### Column under its own weight", "", "`cases/column`: confined, ν = 0, Hencky; closed form with Lambert's W. " + SECONDS, ""]
+    lines = ["### Column under its own weight", "", "`cases/column`: confined, ν = 0, Hencky; closed form with Lambert's W (`tests/analytical/self_weight_column.rs`). " + SECONDS, ""]
     lines += ["| r | cells | stress, mean over w H | order | tolerance | displacement over the settlement | order | seconds |"]
     lines += ["|---" * 8 + "|"]
     for r in [0.01, 0.05, 0.1, 0.2, 0.5, 1.0, 2.0][:: 3 if quick else 1]:
@@ -56,7 +56,7 @@ def column(quick):
 def cantilever(quick):
     """Tip against the elastica over the slenderness, extrapolated to a thin beam."""
     module = study("cantilever")
-    text = "`cases/cantilever`: P L²/EI = 5. The elastica has no shear and axial strain: the difference is due to the thickness h of the beam, of order (h/L)²."
+    text = "`cases/cantilever`: P L²/EI = 5. The elastica (Bisshopp & Drucker 1945) has no shear and axial strain: the difference is due to the thickness h of the beam, of order (h/L)²."
     lines = ["### Cantilever against the elastica", "", text, ""]
     lines += ["| L/h | cells over the depth | deflection | shortening | tolerance | seconds |", "|---" * 6 + "|"]
     tips = []
@@ -76,7 +76,7 @@ def cantilever(quick):
 def bar(quick):
     """Period and energy over 20 periods, and the order in the step."""
     module = study("bar")
-    text = "`cases/bar`: first mode over 20 periods, ρ∞ = 1. The trapezoidal rule lengthens the period by (ωΔt)²/12; *own* is the error relative to that period."
+    text = "`cases/bar`: first mode over 20 periods, ρ∞ = 1; closed form of the wave equation. The trapezoidal rule lengthens the period by (ωΔt)²/12; *own* is the error relative to that period."
     lines = ["### Vibrating bar", "", text, ""]
     lines += ["| steps a period | period | order | own | tolerance of own | energy | seconds |", "|---" * 7 + "|"]
     errors = []
@@ -94,7 +94,7 @@ def bar(quick):
 def footings(quick):
     """Limit loads over the mesh."""
     module = study("strip_footing")
-    lines = ["### Smooth footings", "", "`cases/strip_footing` and `cases/circular_footing`: Tresca, ν = 0.49, at 4 mm of settlement. " + SECONDS, ""]
+    lines = ["### Smooth footings", "", "`cases/strip_footing` and `cases/circular_footing`: Tresca, ν = 0.49, at 4 mm of settlement; Prandtl (1920), and for the circle the method of characteristics (Shield 1955). " + SECONDS, ""]
     lines += ["| footing | exact | h at the edge [m] | error | order | tolerance | seconds |", "|---" * 7 + "|"]
     for case, name, exact in [("strip_footing", "strip", "2 + π"), ("circular_footing", "circle", "5.689")]:
         sizes = [0.1, 0.05] if quick else [0.1, 0.05, 0.025]
@@ -107,7 +107,7 @@ def footings(quick):
 def terzaghi(quick):
     """Largest errors over the times of the table."""
     module = study("terzaghi")
-    text = "`cases/terzaghi`: at T_v = 0.01 … 1 the largest errors of the settlement, over itself, and of the pressure at the base, over p₀."
+    text = "`cases/terzaghi`, the series of Terzaghi & Fröhlich (1936): at T_v = 0.01 … 1 the largest errors of the settlement, over itself, and of the pressure at the base, over p₀."
     lines = ["### Terzaghi's consolidation", "", f"{text} {SECONDS}", "", "| h [m] | settlement | pressure | tolerance | seconds |", "|---" * 5 + "|"]
     for h in [0.04, 0.02] if quick else [0.04, 0.02, 0.01]:
         found, seconds = timed(module.errors, {"mesh.parameters.h": h})
@@ -120,7 +120,7 @@ def terzaghi(quick):
 def mandel(quick):
     """Largest errors over the times of the table."""
     module = study("mandel")
-    text = "`cases/mandel`: at t = 100 s … 10 000 s the largest errors of the pressure in the middle, over p₀, and of the plate's settlement, over itself."
+    text = "`cases/mandel`, the series of Mandel (1953), as Cheng & Detournay (1988) have it: at t = 100 s … 10 000 s the largest errors of the pressure in the middle, over p₀, and of the plate's settlement, over itself."
     lines = ["### Mandel's problem", "", f"{text} {SECONDS}", ""]
     lines += ["| ν | pressure at 1000 s over p₀ | pressure | settlement | tolerance | seconds |", "|---" * 6 + "|"]
     for poisson in [0.2] if quick else [0.2, 0.0]:

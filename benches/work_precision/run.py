@@ -20,7 +20,7 @@ sys.path[:0] = [str(HERE), str(HERE.parent)]
 import peers  # noqa: E402
 import report  # noqa: E402
 from problems import cantilever, cavity, column, footing, slump, thrown  # noqa: E402
-from program import ROOT, Failed, Refused, solved  # noqa: E402
+from program import ROOT, Failed, Refused, solved, version  # noqa: E402
 from schemes import SCHEMES, missing  # noqa: E402
 
 PROBLEMS = {p.PROBLEM.name: p.PROBLEM for p in (column, slump, cantilever, footing, cavity, thrown)}
@@ -63,7 +63,7 @@ def peer(problem, variant):
 def bench(problem, schemes, arguments):
     """All rows of a problem, written as they come."""
     print(f"{problem.title}", flush=True)
-    remark = problem.prepare() if problem.prepare else ""
+    remark = f"Made by {version()}. {problem.prepare() if problem.prepare else ''}".strip()
     print(f"  {remark}", flush=True)
     path = report.DATA / f"{problem.name}.csv"
     path.parent.mkdir(parents=True, exist_ok=True)

@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
 """How far edges may stretch until the grid is restored (`max_stretch`): errors for several limits; prints a table.
 
-    .venv/bin/python benches/work_precision/stretch.py
+    .venv/bin/python benches/work_precision/stretch.py [--quick]
 
 Column: error over that of restoring in every step, mean and largest over meshes of 8 to 64 cells, one and three wide, in 40
 steps and (8, 16 and 32 cells) in 160. Cantilever: errors of the tip, two cells over the depth. Slump: mean errors at
-h = 1/16. Sixteen points a cell. Needs `make build`; about eight minutes.
+h = 1/16. Sixteen points a cell. Needs `make build`; about eight minutes. --quick: columns of 8 cells alone, one limit.
 """
 
 import sys
@@ -47,24 +47,28 @@ def columns(restore):
     }
 
 
-def row(name, restore, every):
+def row(name, restore, every, others):
     found = columns(restore)
     ratios = [found[steps] / every[steps] for steps in MESHES]
     cells = [f"{r.mean():.2f}, {r.max():.2f}" for r in ratios]
-    for module, variant in (cantilever, cantilever.variant(2, 0.5)), (slump, slump.PROBLEM.series[0].variants[1]):
+    for module, variant in others:
         cells.append(", ".join(f"{value:.1e}" for value in errors(module, variant, restore)))
     print(f"| {name} | " + " | ".join(cells) + " |", flush=True)
 
 
 def main():
-    for module in cantilever, slump:
+    limits, others = LIMITS, [(cantilever, cantilever.variant(2, 0.5)), (slump, slump.PROBLEM.series[0].variants[1])]
+    if "--quick" in sys.argv[1:]:
+        limits, others = [1.3], []
+        MESHES.update({steps: [8] for steps in MESHES})
+    for module, _ in others:
         print(module.PROBLEM.prepare())
     print("| max_stretch | column, 40 steps | 160 steps | cantilever | slump |")
     print("|---|---|---|---|---|")
     every = columns("every_step")
-    row("every step", "every_step", every)
-    for limit in LIMITS:
-        row(limit, {"min_quality": 0.5, "max_stretch": limit}, every)
+    row("every step", "every_step", every, others)
+    for limit in limits:
+        row(limit, {"min_quality": 0.5, "max_stretch": limit}, every, others)
 
 
 if __name__ == "__main__":

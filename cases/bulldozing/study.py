@@ -2,7 +2,7 @@
 
     .venv/bin/python cases/bulldozing/study.py OUT [OUT …]
 
-Means over time, over 0.1 m of the way; the floor's force is told over the last of it.
+Means over time, over 0.1 m of the way, nan where a run has not come to; the floor's force is told over the last of it.
 """
 
 import csv
@@ -22,10 +22,10 @@ def main() -> None:
 
         def mean(name: str, begin: float, end: float, columns=columns, steps=steps, way=way) -> float:
             within = (way > begin) & (way <= end)
-            return -np.average(columns[name][within], weights=steps[within])
+            return -np.average(columns[name][within], weights=steps[within]) if within.any() else np.nan
 
         forces = [f"{mean('blade.contact_x', begin, begin + 0.1):.3f}" for begin in (0.3, 0.5, 0.7)]
-        floor = -columns["floor.contact_y"][way > 0.2]
+        floor = -columns["floor.contact_y"][way > min(0.2, 0.9 * way[-1])]
         log = (out / "solve.log").read_text()
         halved, all_steps = log.count("halved:"), sum(line.startswith("step ") for line in log.splitlines())
         print(f"| {out} | {' | '.join(forces)} | {mean('floor.contact_y', 0.2, 1):.2f}, {floor.min():.2f}, {floor.max():.2f} | {halved} of {all_steps} |")

@@ -1,8 +1,8 @@
 """Error of the limit load of the deep pipe over the size of the cells, and how hard Newton's method had to work.
 
-    .venv/bin/python cases/deep_pipe/study.py [--threads N]
+    .venv/bin/python cases/deep_pipe/study.py [size of the cells at the pipe in m …] [--threads N]     # without: 0.2 0.1 0.05 0.025
 
-Prints the table of README.md. Runs the release build; some minutes.
+Prints the table of README.md; some minutes.
 """
 
 import argparse
@@ -43,12 +43,13 @@ def solve(h: float, factor: float, threads: list[str]) -> tuple[float, str]:
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
+    parser.add_argument("sizes", nargs="*", type=float, default=[0.2, 0.1, 0.05, 0.025])
     parser.add_argument("--threads")
     given = parser.parse_args()
     threads = ["--threads", given.threads] if given.threads else []
     factors = [0, 0.5, 1]
     print("| h [m] | " + " | | ".join(f"α = {factor:g}" for factor in factors) + " | |\n|" + "---|" * (1 + 2 * len(factors)))
-    for h in [0.2, 0.1, 0.05, 0.025]:
+    for h in given.sizes:
         cells = []
         for factor in factors:
             load, effort = solve(h, factor, threads)

@@ -1,8 +1,8 @@
 """Limit loads over the angle of friction, with and without dilation, smooth and rough: the tables of the README.
 
-    .venv/bin/python cases/footing_on_sand/study.py [surcharge|weight] [-j JOBS]
+    .venv/bin/python cases/footing_on_sand/study.py [surcharge|weight] [--size H] [--angles DEGREES …] [-j JOBS]
 
-Runs the release build; a minute for each on two processors (-j 2).
+A minute for each on two processors (-j 2).
 
 N_q = e^(π tan φ) tan²(45° + φ/2) (Prandtl 1921, Reissner 1924). N_γ, for a pressure of γ B N_γ/2, by characteristics (Martin, *Exact bearing capacity
 calculations using the method of characteristics*, 2005); between its angles ln N_γ is interpolated. Soil that does not dilate has a lower limit by
@@ -13,13 +13,16 @@ import argparse
 import csv
 import math
 import subprocess
+import sys
 import tempfile
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import numpy as np
 
-ROOT = Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "pipeline"))
+from variants import PROGRAM, ROOT
+
 ANGLES = [20, 30, 35]
 WIDTH = 2.0
 # Dilating soil without stress heaves beside the edge by many times the settlement, and heavy heaps make it stronger: so E is large where it has weight.
@@ -66,7 +69,7 @@ def solve(angle: int, dilation: int, base: str, weight: bool, h: float) -> tuple
         settings += [f"materials.sand.density={UNIT_WEIGHT / 9.81:.6f}", "gravity={y: -9.81}", "initial_stress={k0: 0.5}"]
         settings += ["phases.surcharge.tractions[0].ty.rate=0", "phases.push.tractions[0].ty=0"]
     with tempfile.TemporaryDirectory() as out:
-        command = [ROOT / "target/release/mpm", "run", ROOT / "cases/footing_on_sand", "-o", out, "--threads", "1"]
+        command = [PROGRAM, "run", ROOT / "cases/footing_on_sand", "-o", out, "--threads", "1"]
         for setting in settings:
             command += ["--set", setting]
         done = subprocess.run(command, capture_output=True, text=True)
@@ -85,13 +88,14 @@ def main() -> None:
     arguments.add_argument("which", nargs="*", default=["surcharge", "weight"])
     arguments.add_argument("-j", "--jobs", type=int, default=1)
     arguments.add_argument("--size", type=float, default=0.1)
+    arguments.add_argument("--angles", type=int, nargs="+", default=ANGLES)
     given = arguments.parse_args()
     for which in given.which:
         weight = which == "weight"
         runs = [
             (angle, dilation, base, weight, given.size)
             for base in (["smooth", "rough"] if weight else ["smooth"])
-            for angle in ANGLES
+            for angle in given.angles
             for dilation in ([angle] if weight else [angle, 0])
         ]
         print(f"{which}\n| base | φ | ψ | found | largest | characteristics, φ | φ* | found over that of φ | halved | s |\n|---|---|---|---|---|---|---|---|---|---|")

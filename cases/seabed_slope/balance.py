@@ -2,21 +2,23 @@
 
     .venv/bin/python cases/seabed_slope/balance.py [OUT]
 
-Prints the numbers of the README from the log and the frames in OUT (default: out/ beside the case).
+Prints the numbers of the README from the log, energy.csv and the frames in OUT (default: out/ beside the case).
 """
 
+import csv
 import re
 import sys
 from pathlib import Path
 
 import numpy as np
+import pyvista
 
 CASE = Path(__file__).resolve().parent
 sys.path.insert(0, str(CASE.parents[1] / "paraview"))
 from common import Series, stop
 
-NAMES = ["t", "dt", "mass", "elastic", "potential", "kinetic", "momentum", "imbalance"]
-DENSITY, TOP, GRADIENT, HEIGHT = 1.65, 1.5, 0.3, 5.0  # of case.yaml
+NAMES = ["t", "mass", "kinetic", "momentum", "imbalance"]
+HEIGHT = 5.0  # of case.yaml [m]
 NEAREST = 8  # points to compare one with
 
 
@@ -32,13 +34,28 @@ def steps(log):
     return dict(zip([*NAMES[:-2], "px", "py", "ix", "iy"], np.array(rows).T))
 
 
+def energies(out):
+    """The last row of energy.csv [kJ], by the names without units."""
+    with open(out / "energy.csv", newline="") as file:
+        names, *rows = list(csv.reader(file))
+    return dict(zip((name.split(" [")[0] for name in names), map(float, rows[-1])))
+
+
+def moved(before, after):
+    """The largest way [m] of a point between two frames, of points that are in both: points are split and merged."""
+    first = [pyvista.PolyData(frame.points - frame.point_data["displacement [m]"]) for frame in (before, after)]
+    same = [first[0].find_closest_point(x) for x in first[1].points]
+    both = np.linalg.norm(first[0].points[same] - first[1].points, axis=1) < 1e-5
+    return np.linalg.norm(before.points[same] - after.points, axis=1)[both].max()
+
+
 def main():
     out = Path(sys.argv[1]) if len(sys.argv) > 1 else CASE / "out"
     s, points = steps(out / "solve.log"), Series(out / "points.pvd")
-    first, last = points.frame(0), points.frame(-1)
-    distance = lambda a, b: np.linalg.norm(a.points - b.points, axis=1).max()
+    last = points.frame(-1)
     front = last.points[last.points[:, 1] > 0.1, 0].max()
-    print(f"run-out: farthest point {distance(first, last):.2f} m, front at x = {front:.2f} m, "
+    way = np.linalg.norm(last.point_data["displacement [m]"], axis=1).max()
+    print(f"run-out: farthest point {way:.2f} m, front at x = {front:.2f} m, "
           f"crest line sunk by {HEIGHT - last.points[abs(last.points[:, 0] + 5) < 0.25, 1].max():.2f} m")
 
     peak = s["kinetic"].max()
@@ -48,21 +65,17 @@ def main():
     print(f"rest: kinetic energy {peak:.2f} kJ at its peak at {s['t'][s['kinetic'].argmax()]:.2f} s, at most "
           f"{s['kinetic'][quiet].max() / peak:.1e} of that in the last 5 s, "
           f"mean velocity then at most {100 * mean[quiet].max():.2f} cm/s, no point moved more than "
-          f"{1000 * distance(earlier, last):.1f} mm")
+          f"{1000 * moved(earlier, last):.1f} mm")
     print(f"mass: {s['mass'][0]:.6f} t, changes by {np.ptp(s['mass']) / s['mass'][0]:.1e}")
     largest = abs(s["px"]).max()
     total = max(abs(np.cumsum(s["ix"])).max(), abs(np.cumsum(s["iy"])).max())
     print(f"momentum: largest {largest:.2f} t m/s, imbalances add up to at most {total:.2f} t m/s")
 
-    # Gravity grows over the first second; the log has the potential of the full one.
-    end = s["t"] - 0.5 * s["dt"]
-    work = np.sum(np.minimum(end[1:], 1) * -np.diff(s["potential"]))
-    seeds = points_of(out)
-    strength = TOP + GRADIENT * (HEIGHT - first.points[:, 1])
-    plastic = np.sum(seeds / DENSITY * np.sqrt(3) * strength * last.point_data["plastic_strain [-]"])
-    rest = s["kinetic"][-1] + s["elastic"][-1]
-    print(f"energy: gravity gave {work:.2f} kJ, plastic flow took {plastic:.2f} kJ, kinetic and elastic energy at the end "
-          f"{rest:.2f} kJ; {100 * (work - plastic - rest) / work:.2f} % are missing")
+    found = energies(out)
+    work = found["supplied.gravity"]
+    lost = sum(value for name, value in found.items() if name.startswith("numerical"))
+    print(f"energy: gravity gave {work:.2f} kJ, plastic flow took {found['dissipated.plastic']:.2f} kJ, kinetic and stored energy at the end "
+          f"{found['held.kinetic'] + found['held.stored']:.2f} kJ; {100 * lost / work:.2f} % went to the numerical terms")
 
     around = neighbours(last)
     stress = last.point_data["stress [kPa]"][:, :3].mean(axis=1)
@@ -76,13 +89,6 @@ def main():
 def neighbours(frame):
     """The nearest points of each, by their numbers."""
     return np.array([[n for n in frame.find_closest_point(x, NEAREST + 1) if n != i][:NEAREST] for i, x in enumerate(frame.points)])
-
-
-def points_of(out):
-    """The mass of every point [t]."""
-    import pyvista
-
-    return pyvista.read(out / "points.vtu").point_data["mass [t]"]
 
 
 if __name__ == "__main__":

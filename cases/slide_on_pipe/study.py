@@ -13,7 +13,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "pipeline"))
 from variants import history
 
 STRENGTH, DENSITY, DIAMETER, SPEED = 5.0, 1.5, 1.0, 8.0  # of the clay, the pipe and the slide [kPa, t/m³, m, m/s]
-STEADY = 0.1  # from when on the flow around the pipe is steady [s]
+STEADY = 0.1  # from when on the flow around the pipe is steady [s]; half of a shorter run
 
 
 def relations(v: float) -> dict[str, float]:
@@ -39,7 +39,7 @@ def main() -> None:
         time, force, speed = of["time"], of["pipe.contact_x"], of["slide.vx"]
         touching = time[force > 0]
         tenth = 0.1 * (time[-1] - touching[0])
-        steady = time > STEADY
+        steady = time > min(STEADY, 0.5 * time[-1])
         near = [force[abs(time - t) <= tenth / 2].mean() for t in time[steady]]
         mean = np.sum((force * np.diff(time, prepend=0))[steady]) / np.sum(np.diff(time, prepend=0)[steady])
         mass = DENSITY * 32

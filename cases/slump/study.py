@@ -37,7 +37,7 @@ def quasi_static(h):
 
 def motion(h):
     with variant("slump", {"mesh.parameters.h": h} | MOTION) as out:
-        kinetic = [float(e) for e in re.findall(r" kinetic (\S+)", (out / "solve.log").read_text())]
+        kinetic = [float(e) for e in re.findall(r"^step .* kinetic (\S+)", (out / "solve.log").read_text(), re.MULTILINE)]
         reader = pyvista.get_reader(str(out / "points.pvd"))
         shapes = {}
         for time in (4.0, 8.0):

@@ -2,7 +2,7 @@
 
     .venv/bin/python cases/strip_footing/study.py [strip_footing|circular_footing ...]
 
-Prints the tables of the two README files. Runs the release build; about two minutes.
+Prints the tables of the two README files. About two minutes.
 """
 
 import csv
@@ -12,7 +12,9 @@ import sys
 import tempfile
 from pathlib import Path
 
-ROOT = Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "pipeline"))
+from variants import PROGRAM, ROOT
+
 STRENGTH = 100.0
 EXACT = {"strip_footing": (2 + math.pi) * STRENGTH, "circular_footing": 5.689 * STRENGTH * math.pi}
 
@@ -27,7 +29,7 @@ def solve(case: str, h: float, points: int, settlement: float, poisson: float) -
     ]
     with tempfile.TemporaryDirectory() as out:
         for stage in ["mesh", "seed", "solve"]:
-            command = [ROOT / "target/release/mpm", stage, ROOT / "cases" / case, "-o", out]
+            command = [PROGRAM, stage, ROOT / "cases" / case, "-o", out]
             for setting in settings:
                 command += ["--set", setting]
             subprocess.run(command, check=True, capture_output=True)

@@ -3,7 +3,7 @@
 //! The vertical stress is the weight above, so forces balance vertically. Horizontally they do where the horizontal stress is the same at all
 //! places of one height between two supports: under level ground with level layers.
 
-use super::checked::{Case, Content, Geometry, Touching};
+use super::checked::{Case, Content, EarthPressure, Geometry, Touching};
 use super::find::{filled, region_index, regions};
 use super::layout::{Bounds, bounds};
 use crate::error::Result;
@@ -15,7 +15,7 @@ use crate::mesh::{Mesh, cell_size};
 use crate::points::Points;
 use crate::seed::{RegionWeight, k0_stress};
 use crate::tensor::Symmetric;
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Heights at which horizontal stresses are compared.
 const HEIGHTS: u32 = 61;
@@ -28,19 +28,22 @@ const LEVEL: f64 = 1e-3;
 /// water.
 ///
 /// # Errors
-/// As [`k0_stress`].
-pub(super) fn stress(case: &Case, mesh: &Mesh<2>, k0: f64, points: &Points<2>) -> Result<Vec<Symmetric>> {
+/// Input: a region that the mesh lacks.
+pub(super) fn stress(case: &Case, mesh: &Mesh<2>, k0: &[EarthPressure], points: &Points<2>) -> Result<Vec<Symmetric>> {
     let g = -case.gravity[1];
-    let mut weights = Vec::new();
+    let (mut weights, mut of_region) = (Vec::new(), BTreeMap::new());
     for (region, material) in filled(case).filter(|(region, _)| !region.content.is_structure()) {
+        let number = case.materials.iter().position(|other| other.name == material.name);
         let (region, unit_weight) = (region_index(mesh, &region.name)?, material.density.scaled(g));
         weights.push(RegionWeight { region, unit_weight });
+        of_region.extend(number.and_then(|k| k0.get(k)).map(|k0| (region, k0)));
     }
-    let mut stress = k0_stress(mesh, &weights, k0, points)?;
+    let k0 = |p: usize| of_region.get(&points.region[p]).map_or(0.0, |k0| k0.at(points.position[p][1]));
+    let mut stress = k0_stress(mesh, &weights, k0, points);
     let Some(water) = &case.water else { return Ok(stress) };
     // What stands on the ground presses evenly on what is below it.
     let unit = |w: &RegionWeight| RegionWeight { region: w.region, unit_weight: Profile::constant(1.0) };
-    let above = k0_stress(mesh, &weights.iter().map(unit).collect::<Vec<_>>(), 0.0, points)?;
+    let above = k0_stress(mesh, &weights.iter().map(unit).collect::<Vec<_>>(), |_| 0.0, points);
     let soil = |region: u16| weights.iter().any(|w| w.region == region);
     for (p, stress) in stress.iter_mut().enumerate().filter(|(p, _)| soil(points.region[*p])) {
         let y = points.position[p][1];
@@ -48,7 +51,8 @@ pub(super) fn stress(case: &Case, mesh: &Mesh<2>, k0: f64, points: &Points<2>) -
         stress[..3].iter_mut().for_each(|s| *s -= pressure);
         if let Some(pore_pressure) = water.in_pores_at_first(y) {
             let effective = stress[1] + pore_pressure;
-            *stress = [k0 * effective, effective, k0 * effective, 0.0, 0.0, 0.0];
+            let sideways = k0(p) * effective;
+            *stress = [sideways, effective, sideways, 0.0, 0.0, 0.0];
         }
     }
     Ok(stress)
@@ -59,7 +63,7 @@ pub(super) fn stress(case: &Case, mesh: &Mesh<2>, k0: f64, points: &Points<2>) -
 /// # Errors
 /// As `stress`.
 pub fn imbalance(case: &Case, mesh: &Mesh<2>) -> Result<Option<String>> {
-    let Some(k0) = case.k0 else { return Ok(None) };
+    let Some(k0) = &case.k0 else { return Ok(None) };
     let ground = Ground::new(case, mesh);
     let lines = ground.lines();
     let mut points = Points::default();

@@ -68,6 +68,7 @@ impl Checker {
         let contacts = self.contacts(file, &root.key("contacts"));
         let numerics = self.numerics(file, !contacts.is_empty(), &root.key("numerics"));
         let phases = self.phases(file, &numerics, &root.key("phases"));
+        let k0 = self.earth_pressures(file, &materials, &root.key("initial_stress").key("k0"));
         let case = Case {
             title: file.title.clone(),
             geometry: self.geometry(file.geometry, &root.key("geometry")),
@@ -77,7 +78,7 @@ impl Checker {
             contacts,
             supports: self.supports(file, &root.key("supports")),
             gravity,
-            k0: file.initial_stress.map(|stress| stress.k0),
+            k0,
             water: self.water(file, &root),
             initial_pore_pressure: self.initial_pore_pressure(file, &root.key("initial_pore_pressure")),
             initial_velocity: self.initial_velocity(file, &root.key("initial_velocity")),

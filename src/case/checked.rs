@@ -32,8 +32,8 @@ pub struct Case {
     pub supports: Vec<Support>,
     /// Acceleration of gravity (m/s²).
     pub gravity: [f64; 2],
-    /// Horizontal over vertical stress (-) of the initial stress; `None` for no stress.
-    pub k0: Option<f64>,
+    /// Horizontal over vertical stress of the initial stress, by index into `materials`; `None` for no stress.
+    pub k0: Option<Vec<EarthPressure>>,
     pub water: Option<Water>,
     /// Excess pore pressure (kPa) before the first phase, by index into `regions`.
     pub initial_pore_pressure: Vec<(usize, Profile)>,
@@ -228,6 +228,30 @@ impl InitialVelocity {
             v[wave.component as usize] += wave.amplitude * (wave.wave_number * x[wave.along as usize]).sin();
         }
         v
+    }
+}
+
+/// Horizontal over vertical effective stress (-) of soil at rest.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum EarthPressure {
+    Given(Profile),
+    /// By the angle of friction (°) and the overconsolidation ratio R (-): (1 − sin φ) R^(sin φ), Mayne & Kulhawy (1982).
+    Overconsolidated {
+        friction: Profile,
+        ratio: Profile,
+    },
+}
+
+impl EarthPressure {
+    /// Its value at the height `y` (m).
+    pub fn at(&self, y: f64) -> f64 {
+        match self {
+            Self::Given(value) => value.at(y),
+            Self::Overconsolidated { friction, ratio } => {
+                let sine = friction.at(y).to_radians().sin();
+                (1.0 - sine) * ratio.at(y).powf(sine)
+            }
+        }
     }
 }
 

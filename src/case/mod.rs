@@ -13,6 +13,7 @@ mod contacts;
 mod controls;
 mod drained_surface;
 mod drains;
+mod earth_pressure;
 mod find;
 mod incompressible;
 pub mod issue;

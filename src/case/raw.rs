@@ -337,12 +337,35 @@ pub struct Vector {
 }
 
 /// The stress before the first phase.
-#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct InitialStress {
-    /// Horizontal over vertical stress; the vertical stress is the weight above the point (-).
-    #[schemars(range(min = 0))]
-    pub k0: f64,
+    /// Horizontal over vertical effective stress, of all soil or by the name of a material; the vertical stress is the weight above the point (-).
+    pub k0: EarthPressures,
+}
+
+/// A number or a profile for all soil, or one of each material.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(untagged)]
+pub enum EarthPressures {
+    All(EarthPressure),
+    ByMaterial(BTreeMap<String, EarthPressure>),
+}
+
+/// A number, a profile, or `{overconsolidation_ratio: R}`: (1 − sin φ) R^(sin φ), with the angle of friction φ of the material.
+#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
+#[serde(untagged)]
+pub enum EarthPressure {
+    Given(InDepth),
+    Overconsolidated(Overconsolidated),
+}
+
+/// Soil that bore more in the past.
+#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Overconsolidated {
+    /// Largest vertical effective stress of the past over that of today, 1 for normally consolidated soil (-).
+    pub overconsolidation_ratio: InDepth,
 }
 
 /// Water around the soil and the structures, a load on their boundaries, and in the pores of the soil.

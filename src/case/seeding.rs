@@ -1,6 +1,6 @@
 //! The material points a case starts with: the regions filled, at rest or moving, with their stress.
 
-use super::checked::{Case, Content, Geometry};
+use super::checked::{Case, Content, EarthPressure, Geometry};
 use super::find::region_index;
 use super::over_depth::check_over_depth;
 use super::{at_rest, changes, layout};
@@ -23,7 +23,7 @@ pub fn points(case: &Case, mesh: &Mesh<2>) -> Result<Points<2>> {
     }
     let seeds: Vec<_> = filled.iter().map(|f| f.seed.clone()).collect();
     let mut points = seed(mesh, case.geometry == Geometry::Axisymmetric, &seeds)?;
-    if let Some(k0) = case.k0 {
+    if let Some(k0) = &case.k0 {
         rest(case, mesh, &filled, k0, &mut points)?;
     }
     if !case.initial_pore_pressure.is_empty() {
@@ -140,7 +140,7 @@ fn check_random_strength(case: &Case, mesh: &Mesh<2>, points: &Points<2>) -> Res
 
 /// Gives the points the stress of soil at rest, with the elastic strain that carries it; their shape stays
 /// the one they are seeded with, so that Kirchhoff and Cauchy stress are the same.
-fn rest(case: &Case, mesh: &Mesh<2>, filled: &[Filled], k0: f64, points: &mut Points<2>) -> Result<()> {
+fn rest(case: &Case, mesh: &Mesh<2>, filled: &[Filled], k0: &[EarthPressure], points: &mut Points<2>) -> Result<()> {
     points.stress = at_rest::stress(case, mesh, k0, points)?;
     let soils = filled.iter().filter(|f| !case.regions[f.index].content.is_structure());
     for Filled { material, seed, .. } in soils {
@@ -152,9 +152,11 @@ fn rest(case: &Case, mesh: &Mesh<2>, filled: &[Filled], k0: f64, points: &mut Po
                 return Err(Error::input(
                     "initial_stress.k0",
                     format!(
-                        "with k0 = {k0:e} the soil at [{x:.4}, {y:.4}] m begins with {:.3e} kPa sideways, more than `{}` \
+                        "with k0 = {:e} the soil at [{x:.4}, {y:.4}] m begins with {:.3e} kPa sideways, more than `{}` \
                          can be strained to",
-                        -points.stress[p][0], case.materials[*material].name
+                        points.stress[p][0] / points.stress[p][1],
+                        -points.stress[p][0],
+                        case.materials[*material].name
                     ),
                     "give the k0 of soil, mostly 0.3 to 3, and check `young` and the density",
                 ));

@@ -8,6 +8,9 @@ use super::locate::{At, Path};
 use crate::error::shown;
 use serde_json::{Map, Value};
 
+/// How alike a key is to those of a block that takes any name (-): keys that are more alike to those of another block are meant for it.
+const ANY_NAME: f64 = 0.8;
+
 /// Every mistake in the shape of `tree`, up to [`MOST_FOUND`].
 pub fn check(schema: &Value, tree: &Value) -> Vec<Issue> {
     let mut walk = Walk { root: schema, issues: Vec::new() };
@@ -123,8 +126,11 @@ impl<'a> Walk<'a> {
     }
 
     fn likeness(&self, branch: &'a Value, value: &Value) -> f64 {
-        let properties = self.resolve(branch).get("properties").and_then(Value::as_object);
-        let (Some(properties), Some(map)) = (properties, value.as_object()) else { return 0.0 };
+        let (branch, Some(map)) = (self.resolve(branch), value.as_object()) else { return 0.0 };
+        if branch.get("additionalProperties").is_some_and(Value::is_object) {
+            return ANY_NAME * map.len() as f64;
+        }
+        let Some(properties) = branch.get("properties").and_then(Value::as_object) else { return 0.0 };
         let best = |key: &String| properties.keys().map(|k| strsim::jaro_winkler(&shown(key), k)).fold(0.0, f64::max);
         // Of a block with many keys the first ones tell.
         map.keys().take(properties.len()).map(best).sum()

@@ -1,6 +1,5 @@
 //! The stress of soil at rest: what the weight above each point gives.
 
-use crate::error::{Error, Result};
 use crate::material::Profile;
 use crate::mesh::Mesh;
 use crate::mesh::faces::{BOUNDARY, Faces};
@@ -17,28 +16,28 @@ pub struct RegionWeight {
 }
 
 /// The stress of soil at rest, in kPa: `σ_y = −∫ γ dy` over the soil vertically above the point, `σ_x = σ_z =
-/// k0 σ_y`, one entry a point. Points of regions that are not in `soils` have none.
+/// k0 σ_y`, with `k0` by the number of the point, one entry a point. Points of regions that are not in `soils` have none.
 ///
 /// The integral is exact for layers, for `γ` that grows with depth and for curved boundaries: per region it
 /// is the signed sum of `γ`'s primitive where the vertical crosses the region's boundary.
-///
-/// # Errors
-/// Input: `k0` that is negative or not finite.
-pub fn k0_stress(mesh: &Mesh<2>, soils: &[RegionWeight], k0: f64, points: &Points<2>) -> Result<Vec<Symmetric>> {
-    if !k0.is_finite() || k0 < 0.0 {
-        return Err(Error::input("initial_stress.k0", format!("{k0} is no earth pressure coefficient"), "use 0.3 … 1"));
-    }
+pub fn k0_stress(
+    mesh: &Mesh<2>,
+    soils: &[RegionWeight],
+    k0: impl Fn(usize) -> f64,
+    points: &Points<2>,
+) -> Vec<Symmetric> {
     let faces = Faces::of(mesh);
     let boundaries: Vec<Vec<Arc>> = soils.iter().map(|soil| boundary(mesh, &faces, soil.region)).collect();
-    let stress = |(x, region): (&[f64; 2], &u16)| {
-        if soils.iter().all(|soil| soil.region != *region) {
+    let stress = |(p, x): (usize, &[f64; 2])| {
+        if soils.iter().all(|soil| soil.region != points.region[p]) {
             return [0.0; 6];
         }
+        let k0 = k0(p);
         let layers = soils.iter().zip(&boundaries);
         let weight: f64 = layers.map(|(soil, boundary)| weight_above(boundary, &soil.unit_weight, x)).sum();
         [-k0 * weight, -weight, -k0 * weight, 0.0, 0.0, 0.0]
     };
-    Ok(points.position.iter().zip(&points.region).map(stress).collect())
+    points.position.iter().enumerate().map(stress).collect()
 }
 
 /// A piece of a region's boundary, counter-clockwise, on which `x` is monotone: the quadratic `a + b t + c t²`

@@ -316,7 +316,7 @@ fn at_rest<K: Kinematics<2>>(restore: bool, dynamic: bool, count: u32) -> f64 {
     let soils: Vec<_> =
         (0..2).map(|r| RegionWeight { region: r, unit_weight: constant(10.0 * density[r as usize]) }).collect();
     let mut points = seed(&mesh, K::HOOP, &seeds).unwrap();
-    points.stress = k0_stress(&mesh, &soils, 0.5, &points).unwrap();
+    points.stress = k0_stress(&mesh, &soils, |_| 0.5, &points);
     for p in 0..points.len() {
         points.elastic[p] = spatial::elastic_from_stress(&*model, points.origin[p][1], &points.stress[p]);
         points.region[p] = 0;

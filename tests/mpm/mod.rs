@@ -27,6 +27,7 @@ mod random_strength;
 mod resampled;
 mod rotation;
 mod scheme;
+mod scripts;
 mod slivers;
 mod slope;
 mod split_footing;

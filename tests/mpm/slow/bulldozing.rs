@@ -1,5 +1,6 @@
 //! A blade pushes a heap of dry sand over a rough floor by the defaults, on cells coarser than those of the case.
 
+use crate::mpm::scripts::of_run;
 use crate::support::{column, solve};
 
 /// The blade bears what rubs on the floor, μ W, and the floor the weight, on average over a tenth of a metre.
@@ -21,6 +22,8 @@ fn a_blade_bears_what_rubs_on_the_floor() {
         };
         let weight = 1.6 * 9.81 * 0.5 * 0.36 / f64::tan(f64::to_radians(slope));
         let [force, borne] = [mean(&blade) / (friction * weight), mean(&floor) / weight];
+        let table = of_run("cases/bulldozing/study.py", folder.path(), &[]);
+        assert!(table.contains(&format!("| {} |", folder.path().display())), "{table}");
         println!("slope {slope}: force over μ W {force:.4}, force on the floor over W {borne:.4}");
         assert!((force - 1.0).abs() < 0.03 && (borne - 1.0).abs() < 0.02, "{slope}: {force}, {borne}");
     }

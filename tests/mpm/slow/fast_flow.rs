@@ -1,5 +1,6 @@
 //! Fast flow, impact and passive pressure by the defaults, on cells that are coarser than those of the cases.
 
+use crate::mpm::scripts::study;
 use crate::support::{project, solve};
 use std::f64::consts::PI;
 use std::fs;
@@ -34,6 +35,7 @@ fn a_column_of_bars_has_the_deposit_of_the_experiment() {
     }
     let mean = (squares.iter().sum::<f64>() / squares.len() as f64).sqrt();
     println!("the surface is {mean:.1} mm off, r.m.s.");
+    study("cases/bui_column", folder.path(), &settings, "| run | surface");
     assert!(squares.len() == 20 && mean < 4.0, "{mean} mm");
 }
 
@@ -62,6 +64,7 @@ fn a_falling_cone_goes_as_deep_as_its_energy() {
         assert!((work - energy).abs() < 1e-3 * mass * 2.0, "{} s: work {work}, energy {energy}", time[k]);
     }
     let change = mass * (speed[speed.len() - 1] + 2.0);
+    study("cases/free_fall_cone", folder.path(), &settings, "| bearing alone |");
     println!("depth {deepest:.4} m, impulse over change of momentum {:.6}", impulse / change);
     assert!((impulse / change - 1.0).abs() < 1e-3, "{impulse} {change}");
     assert!((deepest / 0.105 - 1.0).abs() < 0.05, "{deepest} m");
@@ -85,6 +88,7 @@ fn a_slide_pushes_the_pipe_by_the_momentum_that_it_loses() {
     }
     let lost = 1.5 * 5.0 * 4.0 * (8.0 - speed[speed.len() - 1]);
     let mean = steady[0] / steady[1];
+    study("cases/slide_on_pipe", folder.path(), &settings, "cavity: 0.5");
     println!("impulse over loss of momentum {:.6}, force {mean:.1} kN/m", impulse / lost);
     assert!((impulse / lost - 1.0).abs() < 1e-3, "{impulse} {lost}");
     assert!((48.0..78.0).contains(&mean), "{mean} kN/m");

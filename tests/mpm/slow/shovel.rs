@@ -1,5 +1,6 @@
 //! A blade pushed through clay by the defaults, on coarser cells than those of the case and not as far.
 
+use crate::mpm::scripts::study;
 use crate::support::{column, solve};
 use std::fs;
 use std::path::Path;
@@ -14,15 +15,17 @@ fn heap(folder: &Path) -> f64 {
     above.map(|(_, mass)| mass * 9.81 / 18.0).sum()
 }
 
-/// The first 0.2 m on cells of a quarter of the depth.
+/// Cells of a quarter of the depth.
+const COARSE: [&str; 4] = [
+    "mesh.parameters={h: 0.125, length: 2}",
+    "phases.push.duration=0.2",
+    "phases.push.step.max=0.02",
+    "output.every=0.2",
+];
+
+/// The first 0.2 m.
 fn push(others: &[&str]) -> TempDir {
-    let coarse = [
-        "mesh.parameters={h: 0.125, length: 2}",
-        "phases.push.duration=0.2",
-        "phases.push.step.max=0.02",
-        "output.every=0.2",
-    ];
-    solve("cases/shovel", &[&coarse, others].concat())
+    solve("cases/shovel", &[&COARSE, others].concat())
 }
 
 /// On such cells the force is 30 % above that of the wedge under the heap, 13.6 kN/m after 0.1 m: of first order, with cells half as large it is a half
@@ -34,6 +37,7 @@ fn a_blade_pushes_a_heap_of_clay() {
     let near: Vec<usize> = (0..way.len()).filter(|&k| (way[k] - 0.1).abs() < 0.03).collect();
     let force = -near.iter().map(|&k| blade[k]).sum::<f64>() / near.len() as f64;
     let moved = heap(folder.path()) / (0.5 * way.last().unwrap());
+    study("cases/shovel", folder.path(), &COARSE, "| 0.20 |");
     println!("force {force:.2} kN/m, heap over what was pushed {moved:.3}");
     assert!((1.0..1.4).contains(&(force / 13.6)), "{force}");
     assert!((moved - 1.0).abs() < 0.1, "{moved}");

@@ -1,5 +1,6 @@
 //! A silo by the defaults, lower than that of the case: full, opened, and filled by a column that falls into it.
 
+use crate::mpm::scripts::study;
 use crate::support::solve;
 use std::fs;
 use std::path::Path;
@@ -61,6 +62,7 @@ fn a_silo_flows_out_at_a_rate_that_does_not_depend_on_its_height() {
     };
     let (first, second) = (rate(1.3, 1.5), rate(1.5, 1.8));
     let constants = [first, second].map(|rate| 2.0 * rate / (1.6 * (9.81f64 * 0.3f64.powi(3)).sqrt()));
+    study("cases/silo", folder.path(), &settings, "Beverloo: C =");
     println!("constants of Beverloo {constants:.3?}, from nowhere {:.1e}", least_numerical(folder.path()));
     assert!((first / second - 1.0).abs() < 0.1, "{constants:?}");
     assert!(constants.iter().all(|c| (0.87..1.15).contains(c)), "{constants:?}");
