@@ -65,7 +65,11 @@ pub fn put<const D: usize>(mut store: Store, state: &State<D>) -> Store {
         1,
         vec![*phase as u64, *step, *frames, u64::from(*moving), *restorations, u64::from(*switched_to_dynamics)],
     );
-    store.put("state.times", 1, vec![*time, *phase_time, *step_size, *last_step, *peak, *in_play, ramp.until]);
+    store.put(
+        "state.times",
+        1,
+        vec![*time, *phase_time, *step_size, *last_step, *peak, *in_play, ramp.from, ramp.until],
+    );
     let last = balanced.map_or_else(Vec::new, |last| vec![last.phase as f64, last.from, last.to]);
     store.put("state.balanced", 1, last);
     store.put("state.energies", 1, energies.map_or_else(Vec::new, |energies| energies.0.to_vec()));
@@ -319,7 +323,7 @@ fn read<const D: usize>(mut store: Store) -> Result<State<D>> {
     let times = store.take::<f64>("state.times", 1)?;
     let (
         [phase, step, frames, moving, restorations, switched_to_dynamics],
-        [time, phase_time, step_size, last_step, peak, in_play, until],
+        [time, phase_time, step_size, last_step, peak, in_play, from, until],
     ) = (&counts[..], &times[..])
     else {
         return Err(foreign("its list of counts"));
@@ -349,7 +353,7 @@ fn read<const D: usize>(mut store: Store) -> Result<State<D>> {
         energies: take_energies(&mut store)?,
         reaction,
         start_position,
-        ramp: UnbalancedRamp { force, until: *until },
+        ramp: UnbalancedRamp { force, from: *from, until: *until },
         parametric: vectors(&store.take::<f64>("state.parametric", 3)?),
         displacement,
         increment,
