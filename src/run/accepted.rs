@@ -14,7 +14,7 @@ pub fn found<const D: usize>(scene: &Scene<D>, state: &State<D>, report: &Report
     let phase = scene.phases.get(state.phase)?;
     Some(format!(
         "{WARNING}phase `{}`: the step to t = {:.4} s was accepted with an unbalanced force of {residual:.1e} of the largest force, as no iteration came \
-         closer to equilibrium; soil that is pushed may have no smooth path, and `numerics.acceptable_tolerance` allows {:e}; solve.log \
+         closer to equilibrium; soil with friction that is pushed may have no smooth path, and `numerics.acceptable_tolerance` allows {:e}; solve.log \
          names each such step",
         phase.name, state.time, scene.numerics.acceptable_tolerance
     ))

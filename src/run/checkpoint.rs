@@ -123,8 +123,8 @@ fn pass<const D: usize>(archive: &mut Archive, state: &State<D>) -> Result<State
     let s = state;
     let counts = [s.phase as u64, s.step, s.frames, s.moving.into(), s.restorations, s.switched_to_dynamics.into()];
     let [phase, step, frames, moving, restorations, switched_to_dynamics] = archive.array("state.counts", counts)?;
-    let times = [s.time, s.phase_time, s.step_size, s.last_step, s.peak, s.in_play, s.ramp.until];
-    let [time, phase_time, step_size, last_step, peak, in_play, until] = archive.array("state.times", times)?;
+    let times = [s.time, s.phase_time, s.step_size, s.last_step, s.peak, s.in_play, s.ramp.from, s.ramp.until];
+    let [time, phase_time, step_size, last_step, peak, in_play, from, until] = archive.array("state.times", times)?;
     let balanced = s.balanced.map(|last| [last.phase as f64, last.from, last.to]);
     let balanced = archive.option("state.balanced", balanced)?;
     // No `..`: a new field of the state must find its place here.
@@ -147,7 +147,7 @@ fn pass<const D: usize>(archive: &mut Archive, state: &State<D>) -> Result<State
         energies: archive.option("state.energies", s.energies.map(|energies| energies.0))?.map(Energies),
         reaction: archive.list("state.reaction", &s.reaction)?,
         start_position: archive.list("state.start_position", &s.start_position)?,
-        ramp: UnbalancedRamp { force: archive.list("state.ramp", &s.ramp.force)?, until },
+        ramp: UnbalancedRamp { force: archive.list("state.ramp", &s.ramp.force)?, from, until },
         parametric: archive.list("state.parametric", &s.parametric)?,
         displacement: archive.list("state.displacement", &s.displacement)?,
         increment: archive.list("state.increment", &s.increment)?,

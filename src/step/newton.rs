@@ -53,11 +53,11 @@ pub fn solve<const D: usize>(problem: &Problem<D>, grid: &mut Grid<D>) -> Result
     solution
 }
 
-/// Whether soil follows what is prescribed, without inertia, under loads that do not change. Under loads that do, and in the first step of a phase, it may
-/// be beyond its limit, and an iteration over larger residuals would come to another equilibrium.
-fn is_driven<const D: usize>(problem: &Problem<D>) -> bool {
+/// Whether soil with friction follows what is prescribed, without inertia, under loads that do not change. Under loads that do, and in the first step of a
+/// phase, it may be beyond its limit, and an iteration over larger residuals would come to another equilibrium.
+fn follows<const D: usize>(problem: &Problem<D>) -> bool {
     let held = problem.integration.is_some() || !problem.state.ramp.force.is_empty();
-    !held && problem.from > 0.0 && problem.scene.is_driven(problem.phase)
+    !held && problem.from > 0.0 && problem.scene.follows(problem.phase)
 }
 
 /// The iteration.
@@ -115,9 +115,8 @@ impl<'a, const D: usize> Newton<'a, D> {
         buffers.damped.clear();
         let floor = floor(problem, grid);
         let strict = !problem.scene.interfaces.is_empty() && problem.integration.is_none();
-        let is_driven = is_driven(problem);
-        let follows = is_driven && problem.scene.has_friction();
-        let accepts = is_driven && buffers.in_vain;
+        let follows = follows(problem);
+        let accepts = follows && buffers.in_vain;
         Self {
             problem,
             grid,
@@ -162,7 +161,7 @@ impl<'a, const D: usize> Newton<'a, D> {
             pressure: at.pressure,
             residual: std::mem::take(&mut now.force),
             history: std::mem::take(&mut self.history),
-            follows: is_driven(self.problem) && self.problem.scene.has_friction(),
+            follows: follows(self.problem),
             applied: now.applied,
             work: now.work,
             method: self.method,

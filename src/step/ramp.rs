@@ -1,8 +1,9 @@
-//! Ramping of the unbalanced force at the start of a quasi-static phase (docs/theory.md, section 14).
+//! Ramping of unbalanced forces in quasi-static phases (docs/theory.md, section 14).
 //!
-//! Added weight, removed walls, sudden loads and lost strength leave unbalanced forces `R₀` on the nodes, which step cutting does not reduce.
-//! Where the first step fails, of the size `Δt₀`, the fraction `1 − t/Δt₀` of them is *held*, that is, balanced by a fictitious force, and
-//! released in proportion to the time `t` in the phase. Halved steps then carry a part of them each, and from `Δt₀` on nothing is held.
+//! Added weight, removed walls, sudden loads and lost strength leave unbalanced forces `R₀` on the nodes as a phase begins, and a grid reset leaves what
+//! the new cells resolve otherwise. Step cutting reduces neither. Where the first step of a phase or after a reset fails, from `t₀` on and of the size `Δt₀`,
+//! the fraction `1 − (t − t₀)/Δt₀` of them is *held*, that is, balanced by a fictitious force, and released in proportion to the time `t`. Halved steps
+//! then carry a part of them each, and from `t₀ + Δt₀` on nothing is held.
 //! Phases `auto` do not ramp. A search for failure (`strength_reduction`) releases them in its first step, which takes no time.
 
 use super::scene::Scene;
@@ -13,16 +14,17 @@ use crate::mesh::shape::MAX_NODES;
 /// Forces that are held.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct UnbalancedRamp<const D: usize> {
-    /// `−R₀` (kN) on each node, and then on the unknowns of rigid bodies, as the phase begins; empty where nothing is held.
+    /// `−R₀` (kN) on each node, and then on the unknowns of rigid bodies; empty where nothing is held.
     pub force: Vec<[f64; D]>,
-    /// Time (s) in the phase at which all of it is released; infinite where `force` is what is left of it.
+    /// Times (s) in the phase at which all of it was held, and all of it is released, which is infinite where `force` is what is left of it.
+    pub from: f64,
     pub until: f64,
 }
 
 impl<const D: usize> UnbalancedRamp<D> {
     /// The part (-) that is held at a time (s) of the phase.
     pub fn share(&self, time: f64) -> f64 {
-        if self.force.is_empty() { 0.0 } else { (1.0 - time / self.until).max(0.0) }
+        if self.force.is_empty() { 0.0 } else { (1.0 - (time - self.from) / (self.until - self.from)).max(0.0) }
     }
 
     /// The largest force (kN) on a node.
@@ -101,6 +103,15 @@ mod tests {
     use super::*;
     use crate::mesh::builder::rectangle;
     use crate::mesh::shape::CellKind;
+
+    /// All is held as the ramp begins, half of it half way, and nothing at its end and after it.
+    #[test]
+    fn what_is_held_is_released_in_proportion_to_the_time() {
+        let ramp = UnbalancedRamp { force: vec![[1.0, 0.0]], from: 2.0, until: 2.5 };
+        assert_eq!([2.0, 2.25, 2.5, 3.0].map(|time| ramp.share(time)), [1.0, 0.5, 0.0, 0.0]);
+        let kept = UnbalancedRamp { until: f64::INFINITY, ..ramp };
+        assert_eq!(kept.share(9.0), 1.0);
+    }
 
     /// Forces in soil that has moved, some of it out of the filled cells, have the resultant and the moment that they had where they were,
     /// act on nodes of filled cells alone, and are hardly larger; what has no place of its own stays.

@@ -139,15 +139,10 @@ impl<const D: usize> Scene<D> {
         self.terms.iter().any(|term| term.has_friction())
     }
 
-    /// Whether soil follows prescribed displacements in a phase, under loads that do not change.
-    pub fn is_driven(&self, phase: usize) -> bool {
-        let phase = &self.phases[phase];
-        phase.moves() && !phase.loads_change
-    }
-
-    /// Whether that is soil with friction.
+    /// Whether soil with friction follows prescribed displacements in a phase, under loads that do not change.
     pub fn follows(&self, phase: usize) -> bool {
-        self.is_driven(phase) && self.has_friction()
+        let phase = &self.phases[phase];
+        phase.moves() && !phase.loads_change && self.has_friction()
     }
 
     /// The interfaces that are active in a phase, with their numbers.

@@ -42,7 +42,7 @@ impl<const D: usize, K: Kinematics<D>> Simulation<'_, D, K> {
             self.state.ramp = match &all {
                 Some(force) if next > 0.0 => {
                     let share = |f: &[f64; D]| f.map(|f| next * f);
-                    UnbalancedRamp { force: force.iter().map(share).collect(), until: f64::INFINITY }
+                    UnbalancedRamp { force: force.iter().map(share).collect(), from: 0.0, until: f64::INFINITY }
                 }
                 _ => UnbalancedRamp::default(),
             };

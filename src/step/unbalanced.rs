@@ -1,5 +1,5 @@
-//! The unbalanced force at the start of a phase (docs/theory.md, section 14): it is ramped down ([`UnbalancedRamp`]) where the first step
-//! fails.
+//! The unbalanced force at the start of a phase, and on a reset grid (docs/theory.md, section 14): it is ramped down ([`UnbalancedRamp`]) where
+//! the first step fails.
 
 use super::balance::static_force;
 use super::grid::Grid;
@@ -10,14 +10,16 @@ use super::scene::Scene;
 use super::state::State;
 use crate::error::Result;
 
-/// Begins to ramp the unbalanced force, if there is one, after a first step of the size `dt` (s) that failed.
+/// Begins to ramp the unbalanced force, if there is one, after a step of the size `dt` (s) that failed, the first of a phase or on a grid just reset.
 ///
 /// # Errors
 /// When the state is inadmissible on the restored grid.
 pub fn hold<const D: usize>(scene: &Scene<D>, grid: &mut Grid<D>, state: &mut State<D>, dt: f64) -> Result<()> {
     let phase = &scene.phases[state.phase];
     let looks_for_failure = phase.auto || phase.search.is_some();
-    if looks_for_failure || state.dynamic(scene) || state.phase_time > 0.0 || !state.ramp.force.is_empty() {
+    let begins = state.phase_time == 0.0;
+    let deformed = state.displacement.iter().flatten().any(|u| *u != 0.0);
+    if looks_for_failure || state.dynamic(scene) || (deformed && !begins) || !state.ramp.force.is_empty() {
         return Ok(());
     }
     // What a step may leave is none of the loads that a ramp is for.
@@ -27,14 +29,17 @@ pub fn hold<const D: usize>(scene: &Scene<D>, grid: &mut Grid<D>, state: &mut St
     } else {
         numerics.tolerance
     };
-    if let Some(force) = to_hold(scene, grid, state, (dt, ignored))? {
-        state.ramp = UnbalancedRamp { force, until: dt };
+    let from = state.phase_time;
+    // The loads of a phase come with its first step.
+    let loaded = if begins { dt } else { from };
+    if let Some(force) = to_hold(scene, grid, state, (loaded, ignored))? {
+        state.ramp = UnbalancedRamp { force, from, until: from + dt };
     }
     Ok(())
 }
 
-/// The forces `−R₀` (kN) that balance the state as a phase begins with a step of the size `dt` (s), by node; `None` where they are the part `ignored`
-/// (-) of the largest force at most.
+/// The forces `−R₀` (kN) that balance the state under the loads at the time `to` (s) of the phase, by node; `None` where they are the part `ignored` (-) of
+/// the largest force at most.
 ///
 /// # Errors
 /// When the state is inadmissible on the restored grid.
@@ -42,9 +47,9 @@ pub fn to_hold<const D: usize>(
     scene: &Scene<D>,
     grid: &mut Grid<D>,
     state: &State<D>,
-    (dt, ignored): (f64, f64),
+    (to, ignored): (f64, f64),
 ) -> Result<Option<Vec<[f64; D]>>> {
-    let Unbalanced { force, scale } = unbalanced(&Problem { to: dt, ..Problem::at_rest(scene, state) }, grid)?;
+    let Unbalanced { force, scale } = unbalanced(&Problem { to, ..Problem::at_rest(scene, state) }, grid)?;
     if norm(&force) <= ignored * scale {
         return Ok(None);
     }

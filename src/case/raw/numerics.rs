@@ -28,7 +28,7 @@ pub struct Numerics {
     /// Newton's iteration ends when the residual is this small relative to the forces; results have an error of that size (-).
     #[schemars(extend("exclusiveMinimum" = 0), extend("maximum" = 0.01))]
     pub tolerance: f64,
-    /// Where soil follows prescribed displacements, without inertia and under constant loads, a step that was halved
+    /// Where sand and other soil with friction follows prescribed displacements, without inertia and under constant loads, a step that was halved
     /// twice in vain is accepted with a residual this small, and a warning says so; the next steps contain the unbalanced force (-).
     #[schemars(extend("minimum" = 0), extend("maximum" = 0.01))]
     pub acceptable_tolerance: f64,

@@ -63,7 +63,7 @@ impl<const D: usize> Newton<'_, D> {
                     self.relaxed += 1;
                     self.take(with_tangent);
                 } else {
-                    self.damping = if self.damping > LEAST_DAMPING { 1.0 / DAMPING_FACTOR * self.damping } else { 0.0 };
+                    self.relax();
                     self.accept(with_tangent);
                 }
                 return Ok(());
@@ -143,6 +143,11 @@ impl<const D: usize> Newton<'_, D> {
         can
     }
 
+    /// Lowers the diagonal again.
+    fn relax(&mut self) {
+        self.damping = if self.damping > LEAST_DAMPING { self.damping / DAMPING_FACTOR } else { 0.0 };
+    }
+
     /// Halves the step length until the residual falls; takes the least one a few times where it never does.
     fn backtrack(&mut self) -> Result<()> {
         let mut least: Option<(f64, f64)> = None;
@@ -152,6 +157,8 @@ impl<const D: usize> Newton<'_, D> {
                 if self.better(size, length) {
                     if halvings >= DAMPED_FROM {
                         self.dampen();
+                    } else {
+                        self.relax();
                     }
                     self.accept(false);
                     return Ok(());
